@@ -4,8 +4,8 @@
     examples/quickstart.sh                                                # once: installs and builds
     PYTHONPATH=build/lib/python3/dist-packages /usr/bin/python3 examples/01_inside_outside.py [MESH]
 
-The script tests random points against an elephant full of holes (or against MESH), and compares with
-vtkSelectEnclosedPoints, which PyVista's select_enclosed_points calls. Then it shows the other uses of the winding
+The script tests random points against an elephant full of holes (or against MESH). It compares the results with those
+of vtkSelectEnclosedPoints, which PyVista's select_enclosed_points calls. Then it shows the other uses of the winding
 number. It writes a picture and its numbers to --output, and also runs without a display.
 
 PyVista's meshes are VTK datasets: a pyvista.PolyData can be used in place of `surface`, and pyvista.wrap(result)
@@ -181,7 +181,8 @@ def legend(table):
 
 
 def field_on(surface, box, table):
-    """Return the field on a flat box (x0, x1, y0, y1, z0, z1), where it is not about 0."""
+    """Return an actor that shows the winding number on a flat box (x0, x1, y0, y1, z0, z1), except where it is nearly
+    0."""
     samples = [1 if a == b else max(2, round(500 * (b - a) / max(box[1] - box[0], box[3] - box[2], box[5] - box[4])))
                for a, b in zip(box[::2], box[1::2])]
     image = bindpose.winding_number(surface, samples, bounds=box)  # a grid one sample thick
@@ -199,7 +200,8 @@ def field_on(surface, box, table):
 
 
 def write_picture(path, surface, points, ours, theirs):
-    """Left: the surface with a corner cut out and the field on the two cuts. Right: the points with their results."""
+    """Draw, on the left, the surface with a corner cut out and the winding number on the two cut planes. Draw, on the
+    right, the points with their results."""
     x0, x1, y0, y1, z0, z1 = surface.GetBounds()
     size = float(np.linalg.norm([x1 - x0, y1 - y0, z1 - z0]))
     pad = 0.05 * size

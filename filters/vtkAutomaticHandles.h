@@ -9,16 +9,16 @@
  *
  * SKELETON contracts the surface to a curve (mean curvature flow, in the helper executable
  * bindpose-mesher) and simplifies the curve. Ends and junctions are joints. Branches shorter than
- * the thickness of the shape are pruned. The other branches are split where they bend into bones
- * b1, b2, … Bones point away from the joint nearest to the centroid of mass. The `Parent` of a bone
- * is the bone whose tail is its head. Each component has its own bones; a ball-like component gets
- * a point handle instead. Exactly one bone has no parent: among the bones at the root of the
- * largest component, the bone with the largest volume. This bone is the parent of the other bones
- * at that root. The first bone of every other component, and every point, has the nearest bone of
- * the largest component as its parent. A cycle of the curve is cut where it is farthest from the
- * root, with a warning. A surface that is not clean (open, crossing, doubled, flat) or that is very
- * dense is replaced by the boundary of a lattice. The lattice covers the inside of the surface and
- * a layer around its thin parts.
+ * the thickness of the shape are pruned. The other branches are split at their bends, which gives
+ * the bones b1, b2, … Bones point away from the joint nearest to the centroid of mass. The `Parent`
+ * of a bone is the bone that ends at its head. Each component has its own bones; a ball-like
+ * component gets a point handle instead. Exactly one bone has no parent: among the bones at the
+ * root of the largest component, the bone with the largest volume. This bone is the parent of the
+ * other bones at that root. The first bone of every other component, and every point, has the
+ * nearest bone of the largest component as its parent. A cycle of the curve is cut where it is
+ * farthest from the root, with a warning. A very dense surface, or one that is not clean (open,
+ * crossing, doubled, flat), is replaced by the boundary of a lattice of cubes. The lattice covers
+ * the inside of the surface and a layer around its thin parts.
  *
  * POINTS spreads points p1, p2, … over the vertices. Each point is the vertex farthest from all
  * earlier points, measured along edges or through space. The points are then moved into the middle
@@ -36,11 +36,12 @@
  * the surface). seconds.*.
  *
  * Errors: INVALID_INPUT for a surface without 2D cells, with ids out of range or coordinates that
- * are not finite, and for an option out of its range. SKELETON: if no triangle has an area; POINTS:
- * if there are fewer different vertices than NumberOfPoints. UNAVAILABLE: SKELETON without the
- * helper. INTERNAL_ERROR: the helper failed, or exceeded its time or memory limit.
+ * are not finite, and for an option out of its range. Also INVALID_INPUT if no triangle has an area
+ * (SKELETON), or if there are fewer different vertices than NumberOfPoints (POINTS). UNAVAILABLE:
+ * SKELETON without the helper. INTERNAL_ERROR: the helper failed, or exceeded its time or memory
+ * limit.
  * Cost on one core: SKELETON takes 1.2 s for 6,000 clean triangles, 3.5 s for 90,000, and 3.4 s for
- * 4,500 with many holes. POINTS needs one shortest-path pass per point: 0.4 s for 50 points on
+ * 4,500 with many holes. POINTS computes shortest paths once per point: 0.4 s for 50 points on
  * 45,000 vertices.
  *
  * @par Thanks:

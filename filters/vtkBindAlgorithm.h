@@ -8,8 +8,8 @@
  * **Bind and pose.** Bind() does all work that depends only on the rest mesh, the weights and the
  * rest handles. Its result is cached. Moving handles (Transform, Mode, Stretch, Twist) does not run
  * Bind() again. A change of points, cells, the weights array, the handles' rest arrays or a bind
- * parameter of the filter runs it again. Arrays are compared by their own modification times.
- * GetNumberOfBinds() counts the runs.
+ * parameter of the filter runs Bind() again. Arrays are compared by their own modification times.
+ * GetNumberOfBinds() returns the number of runs of Bind().
  *
  * **Errors**: no mesh, no handles, no weights array of the specified name, a weights array whose
  * number of tuples differs from the number of points or whose number of components differs from the
@@ -77,7 +77,8 @@ protected:
 
   /// Mark a bind parameter as modified; setters of bind parameters call this instead of Modified().
   void BindModified();
-  /// Set a bind parameter; the implementation of most setters.
+  /// Set a bind parameter, and mark it as modified if its value changes. Most setters call this
+  /// function.
   template <typename Value>
   void SetBindParameter(Value& parameter, const Value& value)
   {

@@ -74,13 +74,13 @@ public:
   VTK_WRAPEXCLUDE const bindpose::Report& GetReport();
 
   /// Return the report in the field data of a data object as a JSON object, "{}" if there is none.
-  /// Any filter may have written the report. It contains no seconds.
+  /// Any filter may have written the report. The report in field data contains no seconds.
   static std::string GetReportJSONOf(vtkDataObject* data);
 
   ///@{
   /**
-   * Number of threads; 0 (default) means all cores. The results do not depend on it, so changing it
-   * does not execute the filter again.
+   * Number of threads; 0 (default) means all cores. The results do not depend on the number of
+   * threads, so changing it does not execute the filter again.
    */
   void SetNumberOfThreads(int threads) { this->NumberOfThreads = threads < 0 ? 0 : threads; }
   int GetNumberOfThreads() { return this->NumberOfThreads; }
@@ -94,8 +94,8 @@ public:
   vtkDataSet* GetOutput(int port = 0);
   ///@}
 
-  /// Return the modification time. After a failure or cancel it is later than that of any output,
-  /// so that the next Update() executes again.
+  /// Return the modification time. After a failure or cancel, the returned time is later than the
+  /// modification time of any output, so that the next Update() executes again.
   vtkMTimeType GetMTime() override;
 
   vtkTypeBool ProcessRequest(

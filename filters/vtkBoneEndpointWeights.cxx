@@ -1,6 +1,6 @@
 // Connects the kernel bindpose::endpoint_weights() to VTK. The kernel calls a function of this
-// filter to compute bounded biharmonic weights for handles that the kernel defines. Tets are solved
-// directly; surfaces are solved in the domains of the weights filters.
+// filter to compute bounded biharmonic weights for handles that the kernel defines. The weights of
+// tets are solved on the tets; those of surfaces are solved in the domains of the weights filters.
 #include "vtkBoneEndpointWeights.h"
 
 #include "bind_key.h"

@@ -3,8 +3,9 @@
  * @brief   computes the position of every point of a mesh along each bone
  *
  * Stretchable, twistable bones (Jacobson and Sorkine 2011; vtkSkinningDeformation) need a second
- * weight per bone, 0 at its head to 1 at its tail. It determines the fraction of a stretch and the
- * mixture of both twists that apply to a point. The methods are:
+ * weight per bone, which increases from 0 at its head to 1 at its tail. This endpoint weight
+ * determines which fraction of the bone's stretch applies to a point, and how the twists of head
+ * and tail are mixed at the point. The methods are:
  * - **PROJECTION** onto the bone, clamped: immediate, but constant in planes perpendicular to the
  *   bone;
  * - **JOINTS**: W_tail / (W_head + W_tail) of bounded biharmonic weights with all ends of bones as
@@ -16,9 +17,9 @@
  * `EndpointWeights`, with one component per handle, named after the handle; NaN for handles that
  * are not bones. Users may paint over the array before it is used.
  *
- * Surfaces are solved in the Domain of vtkWeightsAlgorithm, default AUTO; tets are solved directly.
- * The result is cached until points, cells, the handles' rest data or this filter's parameters
- * change.
+ * The weights of a surface are solved in one of the domains of vtkWeightsAlgorithm (see SetDomain),
+ * those of tets on the tets. The result is cached until points, cells, the handles' rest data or
+ * this filter's parameters change.
  *
  * Errors: no bone; all input that vtkBoundedBiharmonicWeights rejects. The status is not_converged
  * (with the result) if the optimality certificate of a column exceeds its tolerance. Cost:

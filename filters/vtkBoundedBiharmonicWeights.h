@@ -2,14 +2,14 @@
  * @class   vtkBoundedBiharmonicWeights
  * @brief   smooth, local weights between 0 and 1
  *
- * The weight of a handle is the function of least bending energy (the integral of its squared
- * Laplacian) that is 1 on the handle, 0 on all other handles and between 0 and 1 everywhere. It is
- * smooth, also at handles, shape-aware and local. An active-set method solves the problem until its
- * optimality certificate (duality gap and KKT residual) is within Tolerance. An interior-point
- * method is used for columns where the active-set method does not terminate. All handles share one
- * symbolic analysis and are solved in parallel. Cost: 3 to 6 sparse factorizations per handle, and
- * three to five times as many where the interior-point method is needed. A lattice of 10k vertices
- * takes 0.3 to 0.7 s per handle on one core.
+ * The weight of a handle is 1 on the handle, 0 on all other handles and between 0 and 1 everywhere.
+ * Of all such functions, it is the one of least bending energy, which is the integral of the
+ * squared Laplacian. The weight is shape-aware, local and smooth, even at handles. An active-set
+ * method solves the problem until its optimality certificate (duality gap and KKT residual) is
+ * within Tolerance. An interior-point method is used for columns where the active-set method does
+ * not terminate. All handles share one symbolic analysis and are solved in parallel. Cost: 3 to 6
+ * sparse factorizations per handle, and three to five times as many where the interior-point method
+ * is needed. A lattice of 10k vertices takes 0.3 to 0.7 s per handle on one core.
  *
  * Ports, arrays, certificate, bind cache, report and errors: see vtkWeightsAlgorithm.
  *

@@ -2,20 +2,21 @@
  * @class   vtkCrowdDeformation
  * @brief   poses many instances of a mesh, each as rigidly as its own pose allows
  *
- * A mesh is bound once, as by vtkReducedARAP, and posed once per instance. Each instance has its
- * own pose and placement (Jacobson et al., "Fast Automatic Skinning Transformations", 2012, pose a
- * crowd in this way). Each instance needs memory for its points in single precision and 72 bytes
- * per cluster, a set of vertices that share one fitted rotation.
+ * The filter binds a mesh once, like vtkReducedARAP, and poses the mesh once per instance. Each
+ * instance has its own pose and placement. Jacobson et al., "Fast Automatic Skinning
+ * Transformations", 2012, pose a crowd in this way. Each instance needs memory for its points in
+ * single precision and 72 bytes per cluster, a set of vertices that share one fitted rotation.
  *
  * **Inputs 0 and 1**: the mesh at rest with its weights and the handles (see vtkBindAlgorithm).
  * **Input 2**: the instances, as one of
  * - points (vtkPointSet), one point per instance: the point is added to the positions of the posed
  *   mesh;
- * - a vtkTable, one row per instance. Point (row) arrays, all optional: an array named after a
- *   handle contains its `Transform`. It has 12 components (a 3x4 matrix, row by row, from rest to
- *   posed, applied before the placement) or 3 (a translation). `Mode` has one component per handle.
- *   `Placement` positions the instance, with 12 components (a 3x4 matrix) or 3 (a translation), and
- *   takes precedence over the points. A handle without an array has the pose of input 1;
+ * - a vtkTable, one row per instance. The following arrays of the points or rows are optional. An
+ *   array named after a handle contains its `Transform`, with 12 components (a 3x4 matrix, row by
+ *   row, from rest to posed, applied before the placement) or 3 (a translation). `Mode` has one
+ *   component per handle. `Placement` positions the instance, with 12 components (a 3x4 matrix) or
+ *   3 (a translation), and takes precedence over the points. A handle without an array has the pose
+ *   of input 1;
  * - a composite of vtkPolyData (vtkMultiBlockDataSet, vtkPartitionedDataSetCollection, …), one
  *   block per instance: the handles of input 1 in the pose of the instance, as vtkPoseHandles
  *   returns them. The field data array `Placement` positions the instance.
@@ -58,8 +59,8 @@ public:
   }
 
   ///@{
-  /// Energy, clusters and extra weights; see the setters of the same names in vtkReducedARAP. These
-  /// four are bind parameters: a change runs the bind again.
+  /// Energy, number of clusters, and number and type of extra weights; see the setters of the same
+  /// names in vtkReducedARAP. All four are bind parameters: a change runs the bind again.
   void SetEnergy(int energy);
   vtkGetMacro(Energy, int);
   void SetNumberOfClusters(int clusters);
@@ -71,8 +72,8 @@ public:
   ///@}
 
   ///@{
-  /// Weights up to this value are treated as zero when points are moved, 0 to 1. Default 0. This is
-  /// a bind parameter.
+  /// Weights up to this value are treated as zero when points are moved; at least 0 and less than
+  /// 1. Default 0. This is a bind parameter.
   void SetSmallestWeight(double smallest);
   vtkGetMacro(SmallestWeight, double);
   ///@}

@@ -3,10 +3,10 @@
  * @brief   cuts a planar mesh along bones, so that each side of a bone becomes a separate handle
  *
  * A diffusion curve has one color on its left and another on its right (Orzan et al., "Diffusion
- * Curves", 2008; with biharmonic weights Finch et al., "Freeform Vector Graphics with Controlled
- * Thin-Plate Splines", 2011). Weights reproduce this if the mesh is cut along the curve. This
- * filter duplicates the vertices along each bone and creates a region handle for each side. The
- * usual pipeline is:
+ * Curves", 2008). Finch et al., "Freeform Vector Graphics with Controlled Thin-Plate Splines",
+ * 2011, use biharmonic weights for such curves. Weights can reproduce these two colors if the mesh
+ * is cut along the curve. This filter duplicates the vertices along each bone and creates a region
+ * handle for each side. The usual pipeline is:
  *
  *     vtkPlanarShape (with the bones) - vtkCutAlongBones - a weights filter - vtkWeightedColors
  *

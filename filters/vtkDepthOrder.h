@@ -1,13 +1,13 @@
 /**
  * @class   vtkDepthOrder
- * @brief   computes which part of a planar shape is in front where its pose overlaps itself
+ * @brief   computes which part of a planar shape is in front where parts of the posed shape overlap
  *
  * Each handle j has a layer d_j and each point its weights w_j. The depth of a point is sum_j w_j
- * d_j. It varies smoothly over the shape and is nearly equal to the layer of a handle around that
- * handle. A larger depth is in front for a camera that looks along -z. With Displace on, the points
- * move to z + Scale * depth, so that an ordinary depth buffer shows limbs in the order of their
- * layers. If layers are equal, handles later in the list are in front: the displacement in z grows
- * by up to Tie layers from the first to the last handle.
+ * d_j. The depth varies smoothly over the shape; near a handle it is nearly equal to the layer of
+ * that handle. A larger depth is in front for a camera that looks along -z. With Displace on, the
+ * points move to z + Scale * depth, so that an ordinary depth buffer shows limbs in the order of
+ * their layers. If layers are equal, handles later in the list are in front: the displacement in z
+ * grows by up to Tie layers from the first to the last handle.
  *
  * **Input 0**: a mesh with weights, usually posed and with z = const (any vtkPointSet; see
  * vtkWeightsAlgorithm). **Input 1**: the handles, with the cell array `Layer`, one integer or real

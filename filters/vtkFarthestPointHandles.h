@@ -4,9 +4,9 @@
  *
  * The first handle is the vertex farthest from the vertices' centroid. Each next handle is the
  * vertex farthest in space from all handles before it. Ties go to the smaller point id, so the same
- * surface always gives the same handles. A smaller NumberOfHandles gives the first handles of a
- * larger one. This is useful for a first look at weights on a mesh without a skeleton: the first
- * handles are at tips (fingers, ears, feet).
+ * surface always gives the same handles. With a smaller NumberOfHandles the result is the first
+ * handles of a larger result. The filter is useful for a first look at weights on a mesh without a
+ * skeleton: the first handles are at tips (fingers, ears, feet).
  *
  * Input: a surface (vtkPointSet with 2D cells), or tets, whose boundary is used. Output: a handle
  * dataset in the rest pose.

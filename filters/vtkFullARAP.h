@@ -11,17 +11,18 @@
  * takes milliseconds per ten thousand vertices instead of microseconds. Use it for comparison and
  * for meshes without weights.
  *
- * A handle in mode `full` (0) moves its vertices: a point or cage vertex moves the vertex at its
- * position, a bone the vertices along it, a region the vertices with its label (point array
- * RegionArrayName). In mode `position` (1) the `Transform` gives the target of the pivot; the pivot
- * of a region is the mean of its vertices. In mode `free` (2) the handle constrains nothing. If no
- * vertex is at the position of a handle, the handle constrains the point of the mesh at this
- * position. If the handle is off the mesh, it constrains the nearest point of the mesh, with a
- * warning. Components without constraints do not move.
+ * A handle in mode `full` (0) moves its vertices. For a point or cage vertex this is the vertex at
+ * its position, for a bone the vertices along the bone, and for a region the vertices with its
+ * label (point array RegionArrayName). In mode `position` (1) the `Transform` gives the target of
+ * the pivot; the pivot of a region is the mean of its vertices. In mode `free` (2) the handle
+ * constrains nothing. If no vertex is at the position of a handle, the handle constrains the point
+ * of the mesh at this position. If the handle is off the mesh, it constrains the nearest point of
+ * the mesh, with a warning. Components without constraints do not move.
  *
  * A solve alternates between optimal rotations and optimal positions with Anderson acceleration
  * (Peng et al. 2018). It uses one sparse factorization, which is cached until the mode of a handle
- * changes. An iteration never raises the energy.
+ * changes. In exact arithmetic an iteration never raises the energy. If nearly dependent
+ * constraints cause a rise, the solve ends with the points before that iteration and a warning.
  *
  * Ports, bind cache and errors: see vtkPoseAlgorithm. The mesh needs no weights, and ArrayName is
  * not used. Port 0 is a surface (vtkPolyData, or a grid of 2D cells) or a vtkUnstructuredGrid of
@@ -89,8 +90,8 @@ public:
   ///@{
   /**
    * Convergence tolerance: a solve ends when an iteration lowers the energy by no more than this
-   * fraction of the energy, or of 1e-6 of the rest energy if that is more. Default 1e-6; 0 runs all
-   * iterations.
+   * fraction of the energy. An energy below 1e-6 of the rest energy is replaced by 1e-6 of the rest
+   * energy. Default 1e-6; 0 runs all iterations.
    */
   vtkSetClampMacro(Tolerance, double, 0.0, 1.0);
   vtkGetMacro(Tolerance, double);

@@ -2,9 +2,9 @@
  * @class   vtkGLTFSkinReader
  * @brief   reads a skinned mesh from a glTF 2.0 file: mesh with weights, handles, poses
  *
- * Reads .glb and .gltf files of vtkGLTFSkinWriter, Blender and other programs. It reads the
- * triangles and the first skin that a mesh uses, with all meshes that use this skin. A file without
- * a skin gives its meshes in the positions of their nodes, and no handle.
+ * Reads .glb and .gltf files of vtkGLTFSkinWriter, Blender and other programs. It reads the first
+ * skin that a mesh uses, and the triangles of all meshes that use this skin. If the file has no
+ * skin, it reads all meshes, at the positions of their nodes, and returns no handles.
  *
  * **Output 0**: the mesh (vtkPolyData) with the point array `Weights`, one component per joint.
  * Rows sum to one, except that the weights of vtkGLTFSkinWriter's rest joint are left out. Normals,
@@ -13,23 +13,23 @@
  * handle becomes that handle again, unless another program has changed its bind position. Other
  * joints with children become bones that end at the mean position of the children. Other joints
  * without children become points. The `Ownership` of these bones and points is 1, so that a bind
- * skips helper joints that share all vertices with other joints. The `Ownership` of joints without
- * weights in the file (control bones) is 2. The inverse bind matrices give the rest positions.
- * `Transform` contains the transforms of the nodes, or those of the animation at Frame. Posing the
- * mesh by linear blend skinning therefore gives the shape that a glTF viewer shows.
+ * skips a joint if all its vertices belong to other joints (helper joints). The `Ownership` of
+ * joints without weights in the file (control bones) is 2. The inverse bind matrices give the rest
+ * positions. `Transform` contains the transforms of the nodes, or those of the animation at Frame.
+ * Posing the mesh by linear blend skinning therefore gives the shape that a glTF viewer shows.
  *
  * **Animation**: the first animation that moves a joint is read. It has one frame per key if keys
- * are evenly spaced, otherwise 24 frames per second. It is available as GetPoseJSON(), which
- * vtkPoseHandles takes, or frame by frame with Frame. A pose file cannot store non-uniform scales
- * and shears; one warning counts the handles with such transforms. Differences between scales
- * within the round-off of the file (1e-5 of the matrix) are ignored.
+ * are evenly spaced, otherwise 24 frames per second. The animation is available as a pose file for
+ * vtkPoseHandles (GetPoseJSON()), or frame by frame (Frame). A pose file cannot store non-uniform
+ * scales and shears; one warning counts the handles with such transforms. Differences between
+ * scales within the round-off of the file (1e-5 of the matrix) are ignored.
  *
  * **Time.** With an animation and Frame -1 the reader provides the time steps of the frames. If a
  * time is requested, the output is the frame at that time. The mesh is the same at all times, so
  * downstream filters keep their bind. The file is read again if it has changed.
  *
  * Not read: other animations, materials, textures, morph targets, cameras, lights. One warning
- * lists those that the file contains. Compressed meshes are an error.
+ * lists the items of this list that the file contains. Compressed meshes are an error.
  *
  * A missing, truncated or invalid file gives INVALID_INPUT with one sentence that names it. It
  * never causes a crash or a partial mesh.

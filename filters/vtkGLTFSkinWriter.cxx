@@ -236,7 +236,7 @@ Status take_poses(const std::string& path, const Handles& handles, const Pose& b
   {
     return status;
   }
-  // Warnings of the last frame, which usually are those of all frames.
+  // Warnings of the last frame. Usually all frames have the same warnings.
   std::vector<std::string> made_warnings;
   std::string unused;
   for (const PoseEdits& edits : sequence.frames)

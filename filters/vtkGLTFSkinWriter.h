@@ -2,15 +2,16 @@
  * @class   vtkGLTFSkinWriter
  * @brief   writes a mesh with weights and its handles as a skinned glTF 2.0 file
  *
- * The file can be posed in Blender, game engines and viewers. A skin of glTF is linear blend
- * skinning, so the motion there is that of vtkSkinningDeformation's linear blend.
+ * The file can be posed in Blender, game engines and viewers. A skin of glTF is posed by linear
+ * blend skinning, so the motion in these programs is that of vtkSkinningDeformation's linear blend.
  *
  * **Input 0**: the mesh, any vtkPointSet. Tets are written as their boundary surface, polygons as
  * triangles. Normals, texture coordinates and vertex colors (ColorArrayName) are written too.
  * **Input 1** (optional): the handles for which the point array `Weights` was computed; without
  * handles only the mesh is written. **Input 2** (optional, several connections): the frames of an
- * animation: one output of a subclass of vtkPoseAlgorithm per frame. PoseFileName, a sequence of
- * poses, is an alternative to input 2. **Output 0**: the surface that was written.
+ * animation. Each connection is one frame: the output of a subclass of vtkPoseAlgorithm.
+ * PoseFileName, a sequence of poses, is an alternative to input 2. **Output 0**: the surface that
+ * was written.
  *
  * **Joints**: each handle becomes a joint. Points, regions and cage vertices are joints at their
  * positions; bones are joints at their heads with the y axis along the bone. A joint is a child of
@@ -24,16 +25,17 @@
  * the most weights determines the number of sets. glTF requires rows that sum to one. If the sum of
  * a row is below 1 - 1e-6, an additional joint `rest`, which never moves, gets the remainder. This
  * reproduces exactly how Bindpose's skinning handles such rows. glTF does not allow negative
- * weights or rows above one; they are clamped and divided by their sum, with a warning.
+ * weights or row sums above one. In such rows, negative weights are removed and the other weights
+ * are divided by their sum, with a warning.
  *
  * **Animation**: JOINTS writes translation, rotation and scale of the joints per frame, for linear
  * blend rigs. Joints cannot represent shear, or non-uniform scale along directions other than the
- * joint's axes. They also cannot represent the frames of pose methods other than linear blends of
- * the handles' transforms (field data `HandleTransforms`). animation_error reports the largest
- * distance between a vertex as the file moves it and its correct position, as a fraction of the
- * diagonal. MORPH writes the frames' points as morph targets. This is correct for every method
- * (reduced and full as-rigid-as-possible, dual quaternions) and takes 12 bytes per vertex and
- * frame. The joints are then at rest.
+ * joint's axes. Joints represent only frames of linear blend methods, which are blends of the
+ * handles' transforms (field data `HandleTransforms`). animation_error is the largest distance
+ * between the position of a vertex in the file's animation and its correct position, as a fraction
+ * of the diagonal. MORPH writes the frames' points as morph targets. This is correct for every
+ * method (reduced and full as-rigid-as-possible, dual quaternions) and takes 12 bytes per vertex
+ * and frame. The joints are then at rest.
  *
  * The file is written under a temporary name next to its target and renamed at the end; a failure
  * or cancel leaves no file. An existing file is an error unless Overwrite is on.

@@ -1,6 +1,7 @@
-// Reads handles from files. A .tgf graph is converted in this file: nodes without a bone become the
-// first handles, then the bones follow, with parents derived from shared nodes. vtkMeshFileReader
-// reads .vtp files, and missing arrays are added. gltf_data.h converts the joints of a glTF file.
+// Reads handles from files. This file converts .tgf graphs: nodes without a bone become the first
+// handles, and bones the next ones. The parents of bones follow from shared nodes.
+// vtkMeshFileReader reads .vtp files; this file adds their missing arrays. gltf_data.h converts the
+// joints of a glTF file.
 #include "vtkHandleFileReader.h"
 
 #include "base/execution.h"

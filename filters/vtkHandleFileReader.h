@@ -8,13 +8,13 @@
  *
  * A .tgf file (Jacobson's Trivial Graph Format) has lines "id x y z [text]", a separator line "#",
  * and lines of edges "from to [is_bone is_pseudo is_cage]" with two node ids. Every node that no
- * bone uses is a point handle. Its text is its name; without text it is p1, p2, … by its order
- * among the points. Bones are named b1, b2, … in file order. The columns of the weights are points,
- * then bones. If the head of a bone is the tail of another bone, that bone (the first in file
- * order) is its parent. Nodes of cage edges are cage vertices, and weights are linear along the
- * cage edges. Pseudo-edges between points are lines of HandleKind -2. They are not handles but
- * determine how points rotate (vtkSkinningDeformation). All other edges are left out, and a warning
- * counts them.
+ * bone uses is a point handle. The text of the node is the name of the handle; without text the
+ * name is p1, p2, … by the order of the points. Bones are named b1, b2, … in file order. The
+ * columns of the weights are points, then bones. If the head of a bone is the tail of another bone,
+ * that bone (the first in file order) is its parent. Nodes of cage edges are cage vertices, and
+ * weights are linear along the cage edges. Pseudo-edges between points are lines of HandleKind -2.
+ * They are not handles but determine how points rotate (vtkSkinningDeformation). All other edges
+ * are left out, and a warning counts them.
  *
  * A .vtp file is read cell by cell: vertices are points and lines are bones unless HandleKind
  * states another type. Missing arrays get their defaults; all other arrays are kept.

@@ -1,8 +1,8 @@
 // The file name extension determines the reader. Bindpose's kernels read the formats that VTK does
 // not support or reads with a loss (coordinates as floats, vertices duplicated where normals
-// differ). VTK's readers read all other formats; observers catch their errors, which become the one
-// sentence of the status. The result is checked before it is passed on, because VTK's readers do
-// not check that ids are in range.
+// differ). VTK's readers read all other formats. Observers catch the errors of these readers; the
+// first error becomes the message of the status. The result is checked before it is passed on,
+// because VTK's readers do not check that ids are in range.
 #include "vtkMeshFileReader.h"
 
 #include "base/execution.h"

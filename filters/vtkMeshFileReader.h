@@ -18,9 +18,9 @@
  * lines are read.
  *
  * A missing, empty, truncated or invalid file gives INVALID_INPUT with one sentence that names the
- * file and, for text formats, the line; so do coordinates in text formats that are not finite. Such
- * a file never causes a crash or a partial mesh. See vtkBindposeAlgorithm for the propagation of
- * failures.
+ * file and, for text formats, the line. Coordinates that are not finite give the same error in text
+ * formats. Such a file never causes a crash or a partial mesh. See vtkBindposeAlgorithm for the
+ * propagation of failures.
  *
  * Report: `format`, `counts.vertices`, `counts.cells`, `counts.skipped_cells` (entries with fewer
  * than three corners).

@@ -4,9 +4,9 @@
  *
  * Topological simplification: the filter selects a list of extrema. Among all functions w whose
  * only local extrema are those of the list, it computes the one that minimizes int |k-harmonic
- * derivative of w|^2 + DataWeight int (w - data)^2, i.e. a smooth function near the data. The mesh
- * is scaled to size 1 and the data to a range of 1, so that the result does not depend on their
- * units or on the position and rotation of the mesh.
+ * derivative of w|^2 + DataWeight int (w - data)^2, i.e. a smooth function near the data.
+ * Internally the mesh is scaled to size 1 and the data to a range of 1. Therefore the result does
+ * not depend on units, or on the position and rotation of the mesh.
  *
  * **Input**: tets (of positive volume) or a triangle surface, as for vtkWeightsAlgorithm, with a
  * point array of one component: the active scalars, or the array set by SetInputArrayToProcess(0,
@@ -29,8 +29,8 @@
  * `SmoothedKKTResidual`, the optimality certificate of the quadratic program (duality gap and
  * residual). **Output 1**: the local extrema of the result (vtkPolyData, one vertex per extremum):
  * point arrays `Kind` (1 maximum, -1 minimum), `Value`, `DataValue`, `Persistence` (fraction of the
- * range), `PointId`, `Listed` (1: in the list; 0: not in the list, with a persistence above 1e-3,
- * which the order constraints exclude).
+ * range), `PointId`, `Listed` (1: in the list; 0: not in the list). The order constraints exclude
+ * extrema that are not in the list; if one has a persistence above 1e-3, it is output nevertheless.
  *
  * Points that belong only to cells without area or volume keep their data. Constant data do not
  * change, with a warning.
@@ -45,7 +45,7 @@
  * (KeepValues) that no function with the listed extrema can have. The status is NOT_CONVERGED if
  * the certificate exceeds Tolerance.
  *
- * Cost: 15 to 30 factorizations of the energy's matrix, and as many for each rebuild.
+ * Cost: 15 to 30 factorizations of the energy's matrix, and again 15 to 30 for each rebuild.
  *
  * @par Thanks:
  * Jacobson, Weinkauf, Sorkine, "Smooth Shape-Aware Functions with Controlled Extrema", Computer
@@ -76,10 +76,11 @@ public:
 
   ///@{
   /**
-   * Weight of the data term relative to the smoothness, >= 0. Detail finer than about six times
-   * DataWeight^(-1 / 2 k) of the mesh's size is smoothed away: 0.03 for the default 1e6 and k = 2,
-   * 0.1 for k = 3. The size is sqrt(12) times the root mean square distance from the centroid,
-   * which is the diagonal for a box. For the value 0 see above.
+   * Weight of the data term relative to the smoothness, >= 0. The data length is DataWeight^(-1 /
+   * (2 k)) of the mesh's size: 0.03 for the default 1e6 and k = 2, 0.1 for k = 3. Detail finer than
+   * about six data lengths is smoothed away. The size is sqrt(12) times the root mean square
+   * distance from the centroid, which is the diagonal for a box. For a DataWeight of 0 see the
+   * description of the class.
    */
   vtkSetMacro(DataWeight, double);
   vtkGetMacro(DataWeight, double);
@@ -140,9 +141,9 @@ public:
   ///@}
 
   ///@{
-  /// Minimum difference between each point and a lower neighbor, and between each point and a
-  /// higher neighbor, as a fraction of the data's range, 0 to 1. Default 0; with a value above 0
-  /// extrema are strict.
+  /// Minimum difference between the value of each point and that of a lower neighbor, and likewise
+  /// for a higher neighbor, as a fraction of the data's range, 0 to 1. Default 0; with a value
+  /// above 0 extrema are strict.
   vtkSetMacro(Epsilon, double);
   vtkGetMacro(Epsilon, double);
   ///@}

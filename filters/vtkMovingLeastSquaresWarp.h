@@ -2,11 +2,12 @@
  * @class   vtkMovingLeastSquaresWarp
  * @brief   poses a mesh by rigid motions that fit its handles, weighted by inverse distance
  *
- * The rigid warp of Schaefer, McPhail and Warren, "Image Deformation Using Moving Least Squares",
- * 2006. Each point moves by the rigid motion that best takes the handles to their posed positions.
- * Each handle is weighted by 1 / distance^(2 Exponent). Handles are interpolated, rigid poses are
- * exact, and no weights are needed. The method ignores the shape: a hand next to a hip moves with
- * the hip. Use it for comparison, and for images that are bent as a whole.
+ * This filter is the rigid warp of Schaefer, McPhail and Warren, "Image Deformation Using Moving
+ * Least Squares", 2006. Each point moves by the rigid motion that best takes the handles to their
+ * posed positions. Each handle is weighted by 1 / distance^(2 Exponent). The warp moves handles
+ * exactly to their posed positions, reproduces rigid poses exactly and needs no weights. The method
+ * ignores the shape: a hand next to a hip moves with the hip. Use it for comparison, and for images
+ * that are bent as a whole.
  *
  * Points, cage vertices and regions (their pivots) contribute by their posed positions, bones by
  * their posed segments. The rotation of a point handle, and the rotation of a bone about itself,

@@ -1,17 +1,17 @@
 /**
  * @class   vtkPlanarShape
- * @brief   creates quality triangles of an image's shape, or of the region that planar curves
- *   enclose
+ * @brief   fills the shape of an image, or the region that planar curves enclose, with well-shaped
+ *   triangles
  *
- * The filter meshes shapes for deformation in the plane: the cut-out of an image by its alpha, the
- * whole image, or a line drawing, which may be open and may cross itself.
+ * The filter meshes shapes for deformation in the plane. A shape is the part of an image that its
+ * alpha selects, a whole image, or a line drawing. A line drawing may be open and may cross itself.
  *
  * **Input 0**: one of
  * - a vtkImageData with one layer along z. Its alpha is the point array `Alpha` (one component) or
- *   the last component of scalars with 2 or 4 components. Unsigned integers range from 0 to the
- *   maximum of their type, other types from 0 to 1. The shape is the region where alpha is at least
- *   0.5: a contour between the pixels' centers, simplified by no more than Simplify, with holes.
- *   Without alpha, or with Rectangle on, it is the whole image. An image extends half a spacing
+ *   the last component of scalars with 2 or 4 components. Full alpha is the maximum of an unsigned
+ *   integer type, and 1 for other types. The shape is the region where alpha is at least 0.5: a
+ *   contour between the pixels' centers, simplified by no more than Simplify, with holes. Without
+ *   alpha, or with Rectangle on, the shape is the whole image. An image extends half a spacing
  *   beyond its outer points.
  * - a vtkPolyData with lines or polygons in a plane z = const (other cells are ignored and
  *   counted). The curves run counter-clockwise around the inside and clockwise around holes. The

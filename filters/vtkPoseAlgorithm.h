@@ -14,8 +14,10 @@
  * (stretched or compressed beyond StretchLimit), largest_stretch and smallest_stretch (singular
  * values of the deformation gradient, 1 at rest). Inverted elements cause a warning.
  *
- * Only stretchable bones (vtkSkinningDeformation) use the `Stretch` and `Twist` of bones. For all
- * other methods a pose with such values causes a warning.
+ * Only stretchable bones (vtkSkinningDeformation) use the `Stretch` and `Twist` of bones in all
+ * modes. All other methods use no `Twist`. They use the `Stretch` of bones in mode tail;
+ * as-rigid-as-possible methods also use it in mode ends. A pose with values that the method ignores
+ * causes a warning.
  */
 
 #ifndef vtkPoseAlgorithm_h

@@ -35,8 +35,8 @@ vtkStandardNewMacro(vtkPoseHandles);
 struct vtkPoseHandles::Internals
 {
   GltfFile gltf;
-  /// Source of the last warnings, so that they are issued once: path of the pose file, empty for
-  /// PoseJSON.
+  /// Source of the last warnings, stored so that warnings are issued only once per source: path of
+  /// the pose file, or an empty string for PoseJSON.
   std::optional<std::string> warned_of;
 };
 

@@ -18,10 +18,11 @@
  * twists moves with the cross-section of the bone to which it is attached. `head` and `tail` are
  * world positions. The resulting transform replaces that of the input.
  *
- * **Modes.** A handle without "mode" keeps its mode of the input, or gets mode automatic (5) if
- * there is no array Mode. If the mode is automatic and the pose contains more than a translation,
- * the mode becomes full. As-rigid-as-possible methods therefore compute the rotations of points and
- * of translated bones (see vtkReducedARAP). Skinning applies all transforms unchanged.
+ * **Modes.** A handle without "mode" keeps the mode that it has in the input, or gets mode
+ * automatic (5) if the input has no array Mode. If the mode is automatic and the pose contains more
+ * than a translation, the mode becomes full. As-rigid-as-possible methods therefore compute the
+ * rotations of points and of translated bones (see vtkReducedARAP). Skinning applies all transforms
+ * unchanged.
  *
  * A text without "version" has version 1: the default space is "world", and handles that are not
  * mentioned keep their transform. A warning is issued once if version 2 would give another pose.
@@ -30,10 +31,10 @@
  * time in seconds: "translate": ["0.2 * sin(6.28 * t)", 0, 0]. vtkExprTkFunctionParser defines the
  * functions and constants. In a sequence t is the time of the frame: its index / fps.
  *
- * **Time.** The filter provides time steps to the pipeline: for a sequence or the animation of a
- * glTF file the times of the frames, for expressions the range from 0 to EndTime. If a time is
- * requested, the output is the frame at that time or the values of the expressions. If no time is
- * requested, Frame and Time are used.
+ * **Time.** The filter provides times to the pipeline. For a sequence or the animation of a glTF
+ * file, these are the times of the frames; for expressions, the range from 0 to EndTime. If a time
+ * is requested, the output is the frame at that time or the values of the expressions. If no time
+ * is requested, Frame and Time are used.
  *
  * Errors: an invalid file, an unknown handle, an expression that cannot be parsed or has no finite
  * value at the requested time. Without FileName and PoseJSON the input is passed on.
@@ -41,10 +42,10 @@
  * FileName may also name a .glb or .gltf file. Its animation, or the transforms of its nodes if
  * there is none, is assigned by the names of joints and handles (see vtkGLTFSkinReader). Handles
  * that are not joints follow their parents. FileName may also name a .dmat file of libigl, which
- * poses all handles, points before bones. For m handles in d dimensions (d = 3, or 2 in a plane) it
- * is a matrix of (d + 1) m x d numbers, one transposed transform per handle. For b bones it is a
- * matrix of 4 b x 1 numbers, one quaternion (x, y, z, w) per bone: a rotation about the head,
- * applied before the parent's rotation.
+ * poses all handles, points before bones. For m handles in d dimensions (d = 3, or 2 in a plane)
+ * the file contains a (d + 1) m x d matrix with one transposed transform per handle. Alternatively,
+ * for b bones, it contains a 4 b x 1 matrix with one quaternion (x, y, z, w) per bone. The
+ * quaternion is a rotation about the head, applied before the parent's rotation.
  *
  * All other arrays are the input's own objects, so that downstream filters keep their bind.
  */

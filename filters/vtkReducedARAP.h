@@ -9,25 +9,25 @@
  * - a handle in mode `full` (0) keeps its `Transform`;
  * - a handle in mode `position` (1) has its pivot at the position given by `Transform`; the filter
  *   computes its rotation;
- * - a bone in mode `tail` (3) has its tail, and in mode `ends` (4) both ends, at the positions
- *   given by Transform and Stretch; the filter computes the remaining rotation (about the tail in
- *   mode `tail`, about the bone in mode `ends`);
+ * - a bone in mode `tail` (3) has its tail at the position given by Transform and Stretch, and a
+ *   bone in mode `ends` (4) has both ends at such positions; the filter computes the remaining
+ *   rotation (about the tail in mode `tail`, about the bone in mode `ends`);
  * - the filter computes the whole transform of a handle in mode `free` (2);
- * - a handle in mode `automatic` (5, also without an array Mode) has mode position in two cases,
- *   otherwise mode full: it is a point or a cage vertex that is at rest or only translated (in the
- *   world or relative to its parent), or it is a bone that is translated.
+ * - a handle in mode `automatic` (5, also without an array Mode) gets mode position in two cases,
+ *   otherwise mode full. In the first case, the handle is a point or cage vertex that is at rest or
+ *   only translated (in the world or relative to its parent). In the second case, the handle is a
+ *   bone that is only translated.
  *
  * If every handle is in mode full, the result is linear blend skinning. The energy is the sum of
  * |e' - R e|^2 over the edges e of clusters of vertices with similar weights. A solve alternates
- * between optimal rotations R and optimal transforms and extrapolates between iterations (Anderson
- * acceleration, Peng et al. 2018). It never raises the energy. Its cost does not depend on the size
- * of the mesh.
+ * between optimal rotations R and optimal transforms, with Anderson acceleration (Peng et al.
+ * 2018). A solve never raises the energy. Its cost does not depend on the size of the mesh.
  *
  * Ports, arrays, bind cache and errors: see vtkPoseAlgorithm. Port 0 is a surface (vtkPolyData, or
  * a grid of 2D cells) or a vtkUnstructuredGrid of tets. The energy is that of the input mesh: an
- * energy of tets preserves volume, an energy of a surface only the shape of the skin. The field
- * data array `HandleTransforms` of the output contains the computed transforms, #handles x 12 (3x4,
- * row by row, rest to posed).
+ * energy of tets resists changes of volume, an energy of a surface only changes of the surface. The
+ * field data array `HandleTransforms` of the output contains the computed transforms, #handles x 12
+ * (3x4, row by row, rest to posed).
  *
  * Contradictory positions are satisfied in the least-squares sense. Warnings name handles with
  * contradictory or redundant positions, and handles without any weight. Weight columns may be zero,
@@ -77,7 +77,8 @@ public:
 
   ///@{
   /// Number of clusters, sets of vertices with similar weights; one rotation is fitted per cluster
-  /// and iteration. Default 0: four clusters per handle. This is a bind parameter.
+  /// and iteration. Default 0: four clusters per handle and per additional weight function (see
+  /// NumberOfExtraWeights). This is a bind parameter.
   void SetNumberOfClusters(int clusters);
   vtkGetMacro(NumberOfClusters, int);
   ///@}
@@ -116,8 +117,8 @@ public:
   ///@{
   /**
    * Convergence tolerance: a solve ends when an iteration lowers the energy by no more than this
-   * fraction of the energy, or of 1e-6 of the rest energy if that is more. Default 1e-6; 0 runs all
-   * iterations.
+   * fraction of the energy. An energy below 1e-6 of the rest energy is replaced by 1e-6 of the rest
+   * energy. Default 1e-6; 0 runs all iterations.
    */
   vtkSetClampMacro(Tolerance, double, 0.0, 1.0);
   vtkGetMacro(Tolerance, double);

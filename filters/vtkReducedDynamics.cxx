@@ -3,8 +3,9 @@
 // the handles can be requested at the time of each step.
 //
 // Simulated steps are valid until an input changes. The modification times of the pose arrays
-// cannot detect this, because these arrays change with time. Instead the filter compares the
-// pipeline modification times of everything upstream, which the inputs' executives store.
+// cannot detect such a change, because these arrays are also replaced at every time step. Instead
+// the filter compares the pipeline modification times of everything upstream, which the inputs'
+// executives store.
 #include "vtkReducedDynamics.h"
 
 #include "arap/reduced_dynamics.h"

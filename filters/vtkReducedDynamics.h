@@ -9,10 +9,10 @@
  * `free`, it stops constraining the body, and the body keeps its velocity.
  *
  * **Time.** The filter provides the time steps 0, TimeStep, …, NumberOfSteps * TimeStep to the
- * pipeline, and requests the handles at the time of each step (vtkPoseHandles returns the frame of
- * a sequence, or the value of expressions, at that time). At time 0 the body has the pose of
- * vtkReducedARAP and no velocity. The simulation of a requested time continues from the last
- * simulated step if that is earlier and no input has changed, otherwise it starts at time 0. The
+ * pipeline, and requests the handles at the time of each step. (vtkPoseHandles returns the frame of
+ * a sequence, or the value of expressions, at that time.) At time 0 the body has the pose of
+ * vtkReducedARAP and no velocity. If the last simulated step is earlier than the requested time and
+ * no input has changed, the simulation continues from that step. Otherwise it starts at time 0. The
  * result for a time has the same bits in both cases. If no time is requested, the output is the
  * step with index Step.
  *
@@ -43,8 +43,8 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// Energy, clusters and extra weights; see the setters of the same names in vtkReducedARAP. These
-  /// four are bind parameters: a change runs the bind again.
+  /// Energy, number of clusters, and number and type of extra weights; see the setters of the same
+  /// names in vtkReducedARAP. All four are bind parameters: a change runs the bind again.
   void SetEnergy(int energy);
   vtkGetMacro(Energy, int);
   void SetNumberOfClusters(int clusters);
@@ -110,8 +110,8 @@ public:
   ///@}
 
   ///@{
-  /// Convergence tolerance: the iterations of a step end when one lowers the minimized function by
-  /// no more than this fraction. Default 1e-6; 0 runs all iterations.
+  /// Convergence tolerance: a step ends when an iteration lowers the minimized function by no more
+  /// than this fraction of its value. Default 1e-6; 0 runs all iterations.
   void SetTolerance(double tolerance);
   vtkGetMacro(Tolerance, double);
   ///@}

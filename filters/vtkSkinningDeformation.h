@@ -7,25 +7,26 @@
  * - **linear blend** (Magnenat-Thalmann et al. 1988): v' = sum_j w_j T_j v. Fast and exact for
  *   affine handles; twists by large angles lose volume.
  * - **dual quaternion** (Kavan et al. 2008): blends rigid motions, after scale and shear have been
- *   blended linearly. Twists keep their radius.
+ *   blended linearly. Twists keep the radius of a limb.
  * - **stretchable bones** (Jacobson and Sorkine 2011): linear blend in which each bone also applies
  *   its `Stretch` and `Twist` along its own axis. Points beyond the tail are moved, not scaled, and
- *   a twist keeps the radius. The position of a point along a bone is its endpoint weight, 0 at the
- *   head to 1 at the tail: the component of that handle in the point array `EndpointWeights` (from
- *   vtkBoneEndpointWeights, or painted). If it is missing or NaN, the projection to the bone is
- *   used. Other handles are blended linearly.
+ *   a twist keeps the radius. The position of a point along a bone is its endpoint weight, from 0
+ *   at the head to 1 at the tail. The point array `EndpointWeights` (from vtkBoneEndpointWeights,
+ *   or painted) contains it in the component of the bone. If the weight is missing or NaN, the
+ *   projection of the point onto the bone is used. Other handles are blended linearly.
  * - **centers of rotation** (Le and Hodgins 2016): a point is rotated by the blended rotation about
  *   its center of rotation. This center is the mean position of the parts of the mesh with weights
- *   similar to the point's; it moves by linear blend. Twists and bends keep their radius, without
- *   the bulge of dual quaternions. The centers are computed on first use and cached with the bind.
+ *   similar to the point's; it moves by linear blend. Twists and bends keep the radius of a limb,
+ *   and bent joints do not bulge as with dual quaternions. The centers are computed on first use
+ *   and cached with the bind.
  *
  * **Pseudo-edges** (Jacobson et al. 2011) are lines between point handles (HandleKind -2, or found
  * automatically). They determine the rotations of point handles, so that users only need to
  * translate the points. Pseudo-edges have no weights. For each edge at a point there is a smallest
- * rotation that takes the edge from rest to its posed ends. The point is rotated by the mean of
- * these rotations, in addition to the rotation of its `Transform`. In a plane a rigid motion of all
- * points is reproduced exactly; in space an edge does not determine the rotation about itself.
- * Points without edges keep their own rotation.
+ * rotation from the edge's direction at rest to its direction when posed. The point is rotated by
+ * the mean of these rotations, in addition to the rotation of its `Transform`. In a plane a rigid
+ * motion of all points is reproduced exactly; in space an edge does not determine the rotation
+ * about itself. Points without edges keep their own rotation.
  *
  * Ports, arrays, bind cache and errors: see vtkPoseAlgorithm. Handles in mode position contribute a
  * translation, handles in mode free the identity (with a warning). Skinning does not compute
@@ -77,8 +78,8 @@ public:
   ///@{
   /**
    * Pseudo-edges that rotate points: none, those of the handle dataset (default), or automatic
-   * ones. The automatic ones are the minimum spanning tree of the point handles by distances along
-   * the mesh's edges. They follow the shape and cross no gap. This is a pose parameter.
+   * ones. Automatic pseudo-edges are the minimum spanning tree of the point handles by distances
+   * along the mesh's edges, so they follow the shape and cross no gap. This is a pose parameter.
    */
   vtkSetClampMacro(PseudoEdges, int, NO_PSEUDO_EDGES, AUTOMATIC_PSEUDO_EDGES);
   vtkGetMacro(PseudoEdges, int);
@@ -104,11 +105,11 @@ public:
 
   ///@{
   /**
-   * Limits of the stored weights. Weights up to SmallestWeight are treated as zero, 0 (default:
-   * none) to 1. MaximumInfluences is the maximum number of weights per point; the largest weights
-   * are kept. 0 (default): no limit. Dropped weight is distributed over the remaining weights of
-   * the point. The report contains counts.dropped_weights and dropped_share (the largest dropped
-   * fraction of a point). Both are bind parameters.
+   * Limits of the stored weights. Weights up to SmallestWeight are treated as zero; at least 0 and
+   * less than 1. 0 (default): no weight is dropped. MaximumInfluences is the maximum number of
+   * weights per point; the largest weights are kept. 0 (default): no limit. Dropped weight is
+   * distributed over the remaining weights of the point. The report contains counts.dropped_weights
+   * and dropped_share (the largest dropped fraction of a point). Both are bind parameters.
    */
   void SetSmallestWeight(double smallest);
   vtkGetMacro(SmallestWeight, double);

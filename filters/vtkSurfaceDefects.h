@@ -22,14 +22,14 @@
  * id of the cells that a crossing triangle intersects; -1: none), `Component` (index of the
  * connected component; -1: none) and `InwardComponent` (index of the component that is inside out;
  * -1: none). Point array: `OriginalPointIds`. Edges, components and crossings are those of the
- * surface with equal points merged, so that a file that stores three separate points per triangle
- * (STL) does not have a boundary edge at every edge.
+ * surface after equal points are merged. Otherwise every edge of an STL file, which stores three
+ * separate points per triangle, would be a boundary edge.
  *
  * Report: counts.{vertices, triangles, duplicate_vertices, unreferenced_vertices,
  * degenerate_triangles, duplicate_triangles, boundary_edges, nonmanifold_edges, misoriented_edges,
  * components, inward_components, self_intersections (pairs), crossing_triangles,
  * triangulated_cells, ignored_cells}, closed
- * ("yes" when every edge's directions cancel), seconds.*.
+ * ("yes" if the triangles use every edge equally often in both directions), seconds.*.
  *
  * The status is INVALID_INPUT for a dataset without 2D cells, ids out of range, or coordinates that
  * are not finite.

@@ -8,19 +8,20 @@
  *
  * **Input 0**: a vtkPointSet with 2D cells (polygons and strips are split into triangles; other
  * cells are ignored and counted).
- * **Input 1** (optional): handles (see vtkHandleFileReader). CDT and WRAP make the handles inside
- * of the surface part of the mesh: points, ends of bones and cage vertices become points of the
- * mesh, and points are added along bones and cages at the local edge length. The weights filters
- * split the cells of other methods where handles need it.
+ * **Input 1** (optional): handles (see vtkHandleFileReader). CDT and WRAP add the handles inside of
+ * the surface to the mesh. Points, ends of bones and cage vertices become points of the mesh.
+ * Further points are added along bones and cages, at distances of the local edge length. The
+ * weights filters split the cells of other methods where handles need it.
  * **Output**: a vtkUnstructuredGrid of tets (VTK_TETRA, all of positive volume) with the point
  * array `OriginalPointIds` (id of the input point, ascending, then -1 for new points) and three
  * cell arrays. `WindingNumber` (double) is evaluated at the tets' centers. `Label` (int) is 1 for
  * tets inside and 0 outside. It is 2 for tets that are inside although their winding number is
- * below the threshold, and -1 for tets that are outside although it is not below. Tets outside
- * occur only with KeepOutside and EMBED. `MinDihedralAngle` (double) is the tet's smallest dihedral
- * angle in degrees. The field data array `Method` contains the method (as in the report).
- * **Output 1**: a vtkPolyData with the defects of the surface, as from vtkSurfaceDefects (which
- * also works if the tetrahedralization fails).
+ * below the threshold, and -1 for tets that are outside although their winding number reaches the
+ * threshold. Tets outside occur only with KeepOutside and EMBED. `MinDihedralAngle` (double) is the
+ * tet's smallest dihedral angle in degrees. The field data array `Method` contains the method (as
+ * in the report).
+ * **Output 1**: a vtkPolyData with the defects of the surface, as from vtkSurfaceDefects.
+ * (vtkSurfaceDefects also works if the tetrahedralization fails.)
  * **Output 2**: the surface's points and triangles as a vtkPolyData for EMBED, otherwise empty. Its
  * point arrays are `TetIds` (the cell of output 0 that contains the point; -1 for a point that
  * belongs to no triangle and is in no cell) and `BarycentricCoordinates` (4 components, in the
@@ -34,11 +35,12 @@
  *   with tets. The tets that the segmentation by winding numbers classifies as inside are kept (see
  *   Segmentation). A helper process does the work (bindpose-mesher, built with the packages
  *   libcgal-dev and libtet1.5-dev).
- * - REMESH makes well-shaped tets of the region where the winding number reaches the threshold,
- *   graded by the surface's edges, by Delaunay refinement in the helper process. It keeps points
- *   that are not too close to each other, but not the triangles. If there is no helper or the
- *   refinement fails, it cuts a body-centered cubic lattice: no point is kept, dihedral angles are
- *   above 10 degrees, and parts thinner than a lattice cube are lost.
+ * - REMESH fills the region where the winding number reaches the threshold with well-shaped tets,
+ *   by Delaunay refinement in the helper process. The size of the tets follows the lengths of the
+ *   surface's edges. REMESH keeps points that are not too close to each other, but not the
+ *   triangles. If there is no helper or the refinement fails, REMESH cuts a body-centered cubic
+ *   lattice. In this case no point is kept, dihedral angles are above 10 degrees, and parts thinner
+ *   than a lattice cube are lost.
  * - EMBED creates a body-centered cubic lattice that covers the surface and its inside. Every point
  *   of the surface is in a tet; dihedral angles are 60 and 90 degrees. Parts that are close to each
  *   other but not connected inside share no point, even within one lattice cube.
@@ -47,7 +49,8 @@
  *   whose orientation cannot be repaired, for flat surfaces and for loose triangles. A surface
  *   whose gaps are all narrower than twice WrapAlpha becomes solid. An open surface becomes a
  *   **thin shell**; a warning states its volume and the volume where the winding number reaches the
- *   threshold. The whole surface is in the wrap or on its boundary; no point is kept.
+ *   threshold. The whole input surface is inside the wrap or on its boundary; no point of the input
+ *   is kept.
  * - FTETWILD runs the program fTetWild (https://github.com/wildmeshing/fTetWild). Its executable
  *   FloatTetwild_bin or ftetwild must be on PATH or be named by the environment variable
  *   BINDPOSE_FTETWILD. Its tets are well shaped and within FtetwildEpsilon of the surface; no point
@@ -178,9 +181,9 @@ public:
   ///@{
   /**
    * Number of lattice cubes along the longest side of the surface's box, 4 to 1000 (REMESH, EMBED).
-   * Edges of REMESH are 0.2 to 1.4 cubes long. The number of tets grows with the cube of the
-   * resolution: a solid block has 12 tets per lattice cube. 0 (default): 40 for REMESH, and the
-   * resolution with about 30,000 tets for EMBED.
+   * The edges of REMESH's tets are 0.2 to 1.4 times as long as a cube. The number of tets grows
+   * with the cube of the resolution: a solid block has 12 tets per lattice cube. 0 (default): 40
+   * for REMESH, and the resolution with about 30,000 tets for EMBED.
    */
   vtkSetClampMacro(Resolution, int, 0, 1000);
   vtkGetMacro(Resolution, int);
@@ -204,8 +207,8 @@ public:
   /**
    * Smallest allowed dihedral angle of a tet in degrees, 0 to 20; 0 (default): as large as the
    * surface's triangles allow. If the triangles do not allow the requested angle, AUTO uses a
-   * method that does not keep them. REMESH reaches 10.7 degrees on any surface. A result with a
-   * smaller angle is NOT_CONVERGED.
+   * method that does not keep the triangles. REMESH reaches 10.7 degrees on any surface. A result
+   * with a smaller angle is NOT_CONVERGED.
    */
   vtkSetMacro(Quality, double);
   vtkGetMacro(Quality, double);

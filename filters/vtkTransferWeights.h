@@ -7,8 +7,8 @@
  * 1e-9 of the mesh's diagonal) gets that vertex's row unchanged. If several vertices are at the
  * point, as on a mesh that is cut open, the vertex with the point's own id is used. A point in a
  * tet (or on a triangle) gets the barycentric mean of the corners' weights. A point outside gets
- * the weights at the nearest position of the mesh. If rows of the mesh sum to one, rows of the
- * target do too.
+ * the weights at the nearest position of the mesh. If the rows of the mesh sum to one, the rows of
+ * the target also sum to one.
  *
  * **Input 0**: the target, any vtkPointSet. **Input 1**: the mesh with the point array `Weights`
  * (see vtkWeightsAlgorithm). **Output**: input 0 with a double point array of the same name and

@@ -2,8 +2,8 @@
  * @class   vtkUnconstrainedWeights
  * @brief   weights without bounds, and other fast weights for comparison
  *
- * Each method costs one factorization and one solve per handle, or has a closed form. Rows sum to
- * one.
+ * Each method needs one factorization and one solve per handle, or evaluates a formula directly.
+ * Rows of weights sum to one.
  *
  * | Method | definition | shape-aware | smooth | in [0, 1] |
  * |---|---|---|---|---|
@@ -16,8 +16,8 @@
  * | smoothed-harmonic | harmonic, smoothed over the length Smoothing | yes | yes | nearly |
  * | bone-heat | nearest visible handle, Heat / distance^2 | partly | creases | as harmonic |
  *
- * linear-subspace is designed for points. Its weights are constant along bones, and beyond the
- * bones it overshoots far (-40 on an elephant's ear).
+ * linear-subspace is designed for point handles. Along a bone its weights are constant; beyond the
+ * bones they leave the range 0 to 1 by far (-40 on an elephant's ear).
  *
  * WeightsMinimum, WeightsMaximum and WeightsInteriorExtrema show how far the weights are from the
  * bounds of bounded weights and from the monotonicity of monotone weights. The first five methods

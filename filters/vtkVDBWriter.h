@@ -3,9 +3,9 @@
  * @brief   writes a point array of a volume as an OpenVDB grid of floats (.vdb)
  *
  * Houdini, Blender and other programs can read the file. A typical array is the winding number of a
- * surface, which becomes a fog volume, 0 outside and 1 inside. Voxel centers are the image's
- * points, in the same world coordinates, for any origin, spacing, direction and extent of the
- * vtkImageData.
+ * surface: the grid is then a fog volume with the value 0 outside and 1 inside. Voxel centers are
+ * the image's points, in the same world coordinates, for any origin, spacing, direction and extent
+ * of the vtkImageData.
  *
  * With Band FULL every value that differs from the background is kept. With NARROW only the voxels
  * near the surface (where the values cross Threshold) are kept; all others are replaced by two
@@ -38,7 +38,7 @@ public:
   vtkTypeMacro(vtkVDBWriter, vtkBindposeAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// The band determines which voxels are active.
+  /// Determines which voxels are active.
   enum BandType
   {
     FULL = 0,

@@ -4,16 +4,17 @@
  *
  * Each coordinate of the free points solves the equation Laplacian^Order x = 0 (Order 1, 2 or 3),
  * discretized by mixed finite elements (Jacobson, Tosun, Sorkine, Zorin 2010, Mixed finite elements
- * for variational surface modeling). The filter moves a patch smoothly with its handles. With Fair
- * on, the patch (the region of free points) is computed only from its surroundings, for holes and
- * blends.
+ * for variational surface modeling). The filter moves a patch (the region of free points) smoothly
+ * with its handles. With Fair on, the patch is computed only from its surroundings, for example to
+ * fill a hole or to blend two surfaces.
  *
  * **Ports**: those of vtkPoseAlgorithm. The mesh is a surface of triangles without weights, and the
- * handles are optional. **Fixed points** are the points that handles in mode `full` constrain: a
- * point or cage vertex constrains the point at its position, a bone the points along it, a region
- * the points with its label in RegionArrayName. Points with a nonzero value in the point array
- * FixedArrayName are fixed too, and do not move. A handle in mode `position` constrains the
- * position of its pivot, which may be inside of a triangle. All other points are free.
+ * handles are optional. **Fixed points** are the points that handles in mode `full` constrain. A
+ * point or cage vertex constrains the point at its position, a bone constrains the points along it,
+ * and a region constrains the points with its label in RegionArrayName. Points with a nonzero value
+ * in the point array FixedArrayName are fixed too, and do not move. A handle in mode `position`
+ * constrains the position of its pivot, which may be inside of a triangle. All other points are
+ * free.
  *
  * **Boundary.** REGION: the fixed points are a band of `Order` layers of triangles around the
  * patch. The patch continues the band with its positions for order 1, its tangent planes for 2, its
@@ -22,18 +23,19 @@
  * its border are zero. CURVE: only the positions on the patch's edge are fixed, and its bending
  * there is zero (simply supported). Without a Load this gives the surface of order 1 for any order.
  * TANGENT: the positions on the edge and the derivatives perpendicular to it (from TangentSource)
- * are fixed. Order 3 needs one more condition, which is then the natural condition of its energy,
- * with a warning.
+ * are fixed. Order 3 needs one more condition: the filter uses the natural boundary condition of
+ * the energy and issues a warning.
  *
- * **Parameter domain.** The operator does not change with the pose: its cotangents and areas are
- * those of the mesh at rest, or of the point array ParameterArrayName (2 or 3 components: texture
- * coordinates of a flat patch, positions on a tube). The shape of the result depends on the domain:
- * a round patch needs a domain with about the same lengths.
+ * **Parameter domain.** The operator does not change with the pose. Its cotangents and areas are
+ * those of the mesh at rest, or those of the positions in the point array ParameterArrayName. This
+ * array has 2 or 3 components, for example texture coordinates of a flat patch, or positions on a
+ * tube. The shape of the result depends on the domain: a round patch needs a domain with about the
+ * same lengths.
  *
- * One factorization is cached until the mode of a handle changes; moving a handle only solves with
- * it. The filter factors the condensed matrix (Cholesky) and refines with residuals of the mixed
- * equations. This is as accurate as solving the larger indefinite system of the mixed equations, at
- * a fraction of its cost.
+ * One factorization is cached until the mode of a handle changes. Moving a handle only needs a
+ * solve with this factorization. The filter factors the condensed matrix (Cholesky) and refines
+ * with residuals of the mixed equations. This is as accurate as solving the larger indefinite
+ * system of the mixed equations, at a fraction of its cost.
  *
  * Report: method, order, boundary, counts (vertices, triangles, handles, free, constrained),
  * condition (a lower estimate of the condition number of the factored matrix, scaled to a unit
@@ -97,7 +99,7 @@ public:
    * Source of the derivatives perpendicular to the edge for TANGENT. SURROUNDINGS (default): the
    * triangles beyond the edge, where there are some. GIVEN: the point array TangentArrayName (3
    * components: derivative of the position outwards, per unit of the parameter domain). CLAMPED:
-   * zero; for displacements this keeps the tangents at rest. This is a bind parameter.
+   * zero; displacements then keep the tangents of the rest pose. This is a bind parameter.
    */
   void SetTangentSource(int source);
   vtkGetMacro(TangentSource, int);

@@ -2,10 +2,11 @@
  * @class   vtkWeightedColors
  * @brief   blends the colors of the handles over a mesh by its weights
  *
- * The color of a point is c = sum_j w_j c_j, where w_j is its weight and c_j the color of handle j.
- * With weights between 0 and 1 that sum to one (vtkBoundedBiharmonicWeights, vtkMonotoneWeights)
- * every color is between those of the handles. Unconstrained weights can give colors outside of the
- * gamut (below 0 or above 1) and hues that no handle has. The report counts both cases.
+ * The color of a point is c = sum_j w_j c_j, where w_j is the weight of handle j at the point and
+ * c_j the color of handle j. With weights between 0 and 1 that sum to one
+ * (vtkBoundedBiharmonicWeights, vtkMonotoneWeights) every color is between those of the handles.
+ * Unconstrained weights can give colors outside of the gamut (below 0 or above 1) and hues that no
+ * handle has. The report counts both cases.
  *
  * **Input 0**: a mesh with weights (any vtkPointSet; see vtkWeightsAlgorithm), posed or not.
  * **Input 1**: the handles, with a cell array `Color` of 3 components: numbers from 0 to 1, or

@@ -2,8 +2,8 @@
  * @class   vtkWeightsAlgorithm
  * @brief   base class of the filters that compute weights: ports, arrays and bind cache
  *
- * A weight is the fraction of a handle's motion that a vertex follows. The subclasses compute
- * bounded biharmonic, monotone and unconstrained weights.
+ * The weight of a handle at a vertex is the fraction of the handle's motion that the vertex
+ * follows. The subclasses compute bounded biharmonic, monotone and unconstrained weights.
  *
  * **Input 0**: the mesh, a vtkUnstructuredGrid of tets (of positive volume) or a triangle surface
  * (vtkPolyData or grid with 2D cells; polygons are split for the computation).
@@ -30,23 +30,23 @@
  * **Terms** are additional constraints and energies of bounded and monotone weights. They are point
  * arrays of the mesh with the names below. All are optional; an empty name disables the array.
  * vtkUnconstrainedWeights has no terms.
- * - `Rigidity`, >= 0: weights are nearly constant where it is large. The value 1 stiffens all
- *   features longer than a hundredth of the mesh's diagonal, for any unit and resolution; gradients
- *   decrease with 1 / rigidity. It adds 1/2 int rho |grad w|^2 to the energy, rho = 1e4 /
- *   diagonal^2 times the array.
+ * - `Rigidity`, >= 0: weights are nearly constant where the rigidity is large. The value 1 stiffens
+ *   all features longer than a hundredth of the mesh's diagonal, for any unit and resolution;
+ *   gradients decrease with 1 / rigidity. The term adds 1/2 int rho |grad w|^2 to the energy, where
+ *   rho is 1e4 / diagonal^2 times the rigidity.
  * - `RigidSet`, integers: every weight is exactly constant on the points with the same label > 0. A
  *   set that contains a point of a handle gets the weights of that point.
  * - `WeightsLower`, `WeightsUpper`, one component per handle: smallest and largest weight at each
  *   point. NaN means the bounds of the handle, in the handles' cell array `WeightBounds` (two
  *   components). If that array is missing or NaN, the bounds of SetBounds() are used. All bounds
- *   hold for RawWeights. Dividing rows by their sums can violate them (report:
+ *   apply to RawWeights. Dividing rows by their sums can violate the bounds (report:
  *   normalized_bounds_violation); PartitionOfUnity COUPLED does not violate them.
  * - `PinnedWeights`, one component per handle: prescribed weights; NaN: not prescribed. Prescribed
  *   weights do not change when rows are divided by their sums; only the other weights of the row
  *   are scaled.
  * - `SymmetricPoint`, the id of each point's mirror point, or -1: handles that are mirror images of
- *   each other get weights w_a(v) = w_b(mirror of v). The symmetry is exact, and the energy is
- *   minimized under it. SetMirrorNormal() is an alternative to this array. Points without a mirror
+ *   each other get weights w_a(v) = w_b(mirror of v). The symmetry is exact: it is a constraint of
+ *   the minimization. SetMirrorNormal() is an alternative to this array. Points without a mirror
  *   point, and handles whose mirror image is not a handle, are not affected.
  *
  * If the weights of a surface are solved in tets of its inside, each tet has the rigidity of the
@@ -160,13 +160,13 @@ public:
    * Domain on which the weights of a surface are solved. SURFACE (default): its triangles. VOLUME:
    * conforming tets of its inside. EMBEDDING: a lattice that contains the surface, which takes
    * seconds for any size. CAGE: the closed cage that the handles form around the surface. AUTO
-   * solves a flat shape on its triangles, and a closed, clean surface in its volume if that is
-   * predicted to be well conditioned and cheap. AUTO solves all other surfaces in the embedding. It
-   * also uses the embedding, with a warning, if the first choice fails. AUTO therefore returns
-   * certified weights for every surface that a lattice can represent. Output 0 is the input surface
-   * with Weights at its own points, and output 2 is the mesh on which the weights were solved. The
-   * option has no effect on meshes of tets, which are solved directly. Values out of range are
-   * clamped.
+   * solves a flat shape on its triangles, and a closed, clean surface in its volume if a prediction
+   * finds that this problem is well conditioned and cheap. AUTO solves all other surfaces in the
+   * embedding. If the solve on the triangles or in the volume fails, AUTO also uses the embedding,
+   * with a warning. AUTO therefore returns certified weights for every surface that a lattice can
+   * represent. Output 0 is the input surface with Weights at its own points, and output 2 is the
+   * mesh on which the weights were solved. The option has no effect on meshes of tets, which are
+   * solved directly. Values out of range are clamped.
    */
   void SetDomain(int domain);
   vtkGetMacro(Domain, int);
@@ -195,9 +195,9 @@ public:
   void SetStageToPreview() { this->SetStage(PREVIEW); }
   ///@}
 
-  /// Event that is invoked once while CERTIFIED weights are computed, on the thread that updates
-  /// the filter, if there is an observer. The call data is a vtkDoubleArray of the preview's
-  /// weights at the input's points.
+  /// Event that is invoked once while CERTIFIED weights are computed, if the event has an observer.
+  /// It is invoked on the thread that updates the filter. The call data is a vtkDoubleArray of the
+  /// preview's weights at the input's points.
   enum
   {
     PreviewEvent = vtkCommand::UserEvent + 4201
@@ -248,8 +248,7 @@ public:
   ///@{
   /**
    * Smallest and largest weight of every handle for which no array specifies bounds; default 0 and
-   * 1. Handles themselves have weights 0 and 1, so only a range that contains 0 to 1 can be
-   * satisfied.
+   * 1. At the handles themselves weights are 0 or 1, so the range must contain 0 and 1.
    */
   void SetBounds(double least, double largest);
   vtkGetVector2Macro(Bounds, double);
@@ -311,7 +310,8 @@ protected:
   /// Mark a parameter as modified; called by setters. All parameters of these filters are bind
   /// parameters.
   void BindModified();
-  /// Set a bind parameter; the implementation of most setters.
+  /// Set a bind parameter, and mark it as modified if its value changes. Most setters call this
+  /// function.
   template <typename Value>
   void SetBindParameter(Value& parameter, const Value& value)
   {

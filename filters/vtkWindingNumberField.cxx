@@ -4,8 +4,8 @@
 // surface. Execute() computes the grid again from its input surface. If the result differs from the
 // announced grid, Execute() ignores the requested extent and computes the whole grid.
 //
-// Doubles are evaluated directly into the output arrays, floats block by block through a buffer.
-// The values do not depend on the blocks.
+// Arrays of doubles are filled directly by the kernels; arrays of floats are filled block by block
+// through a buffer. The values do not depend on the blocks.
 #include "vtkWindingNumberField.h"
 
 #include "base/execution.h"
@@ -52,10 +52,10 @@ vtkStandardNewMacro(vtkWindingNumberField);
 
 namespace
 {
-/// Cache of the arrays of the last grid. Weak pointers, so the arrays are available only while an
-/// output uses them. With several processes, ParaView requests the field and then, in a second
-/// request, the boundary with ghost levels, which only unstructured outputs can have. Without this
-/// cache the second request would compute the field again.
+/// Cache of the arrays of the last grid. The cache stores weak pointers, so the arrays are
+/// available only while an output uses them. With several processes, ParaView requests the field
+/// and then, in a second request, the boundary with ghost levels, which only unstructured outputs
+/// can have. Without this cache the second request would compute the field again.
 struct LastGrid
 {
   vtkMTimeType parameters = 0;
@@ -603,7 +603,7 @@ bindpose::Status vtkWindingNumberField::Execute(
     {
       last = { parameters, grid.extent, { arrays.begin(), arrays.end() }, sum, evaluated };
       // The warnings were issued by this execution. Executions that reuse the arrays must not
-      // repeat them.
+      // repeat the warnings.
       last.status.warnings.clear();
     }
   }

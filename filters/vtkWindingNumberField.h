@@ -2,38 +2,40 @@
  * @class   vtkWindingNumberField
  * @brief   generalized winding number of a surface on a grid or at given points
  *
- * The winding number is how many times a surface wraps around a point: 1 inside and 0 outside a
- * closed surface whose triangles are counter-clockwise seen from outside, 2 where two such surfaces
- * overlap, and a smooth number in between near the holes of an open surface. It is defined for any
- * triangles: open, crossing, doubled, non-manifold, or a soup. Only their orientation matters.
+ * The winding number is how many times a surface wraps around a point. For a closed surface whose
+ * triangles are counter-clockwise seen from outside, it is 1 inside and 0 outside. It is 2 where
+ * two such surfaces overlap. Near the holes of an open surface, it changes smoothly between these
+ * values. It is defined for any triangles: open, crossing, doubled, non-manifold, or a soup. Only
+ * their orientation matters.
  *
  * **Input 0**: the surface, a vtkPointSet with 2D cells (polygons and strips are split into
- * triangles; other cells are ignored and counted). If it has no 2D cells, its lines are a curve in
- * a plane perpendicular to x, y or z, counter-clockwise around its inside. The field is then the
- * winding number in that plane, and the grid is one sample thick. If it has no lines either, its
- * points are samples of a surface, with point normals that face outwards and areas (AreaArrayName).
- * Their field is meaningful at distances above about the spacing of the samples (`Report.spacing`).
+ * triangles; other cells are ignored and counted). If the input has no 2D cells, its lines are a
+ * curve in a plane perpendicular to x, y or z, counter-clockwise around its inside. The field is
+ * then the winding number in that plane, and the grid is one sample thick. If the input has no
+ * lines either, its points are samples of a surface, with point normals that face outwards and
+ * areas (AreaArrayName). Their field is meaningful at distances above about the spacing of the
+ * samples (`Report.spacing`).
  * **Input 1** (optional): any vtkDataSet. The field is evaluated at its points, or at its cell
  * centers with SampleCellCenters.
  * **Output 0**: a vtkImageData, or a copy of input 1, with point arrays (or cell arrays)
- * - `WindingNumber`, the active scalars, double or float (OutputPrecision). On the surface it is
- *   the principal value: 1/2 on a smooth face. It is NaN, with a warning, where coordinates are not
- *   finite.
+ * - `WindingNumber`, the active scalars, double or float (OutputPrecision). On the surface the
+ *   value is the principal value: 1/2 on a smooth face. At points whose coordinates are not finite,
+ *   the value is NaN, with a warning.
  * - `OnSurface`, unsigned char: 1 where a triangle touches the point, else 0.
- * - `Inside` with ComputeInside, unsigned char: 1 where the winding number is at least
- * WindingThreshold.
+ * - `Inside` with ComputeInside, unsigned char: 1 where the winding number reaches
+ *   WindingThreshold.
  * - `WindingNumberGradient` with ComputeGradient, three components: the gradient of the smooth
  *   part, without the jump at the surface; it is 0 everywhere for a closed surface. The field of
  *   oriented points has no jump; its gradient is large near the points.
  *
- * **Output 1**: the open boundary of the surface, a vtkPolyData with one line for every edge whose
- * triangles use it more often in one direction than in the other. The line has that direction. Its
- * cell arrays are `Multiplicity` (the excess of triangles in this direction over those in the other
- * direction) and `Component`, its point array is `OriginalPointIds`. Its field data arrays have one
- * tuple per connected component of the surface: `ComponentTriangles`, `ComponentOpenEdges` (with
- * multiplicity, 0: closed) and `ComponentVolume` (holes filled by caps; below 0: inside out). The
- * output is empty for curves and points. Surfaces with the same boundary have winding numbers that
- * differ only by integers.
+ * **Output 1**: the open boundary of the surface, a vtkPolyData with one line for every edge that
+ * the triangles use more often in one direction than in the other. The line has the more frequent
+ * direction. Its cell arrays are `Multiplicity` (the excess of triangles in this direction over
+ * those in the other direction) and `Component`, its point array is `OriginalPointIds`. Its field
+ * data arrays have one tuple per connected component of the surface: `ComponentTriangles`,
+ * `ComponentOpenEdges` (with multiplicity, 0: closed) and `ComponentVolume` (holes filled by caps;
+ * below 0: inside out). The output is empty for curves and points. Surfaces with the same boundary
+ * have winding numbers that differ only by integers.
  *
  * The grid covers either Bounds or the bounds of the points used by the surface's 2D cells, padded
  * by Padding times their diagonal. The first of Dimensions, Spacing, TargetNumberOfSamples and
@@ -52,9 +54,10 @@
  * EXACT it costs 15 ns more per point for every open edge: 20 to 100 us if there are many.
  *
  * The filter builds an acceleration structure for the surface and caches it until the surface,
- * Method, Tolerance or OrientPatches changes. Another grid or other points only need an evaluation.
- * FAST also builds again if the number of samples is in another size class (a power of 4), because
- * the structure with the lowest total time depends on it. GetNumberOfBuilds() counts the builds.
+ * Method, Tolerance or OrientPatches changes. A change of the grid or of the points only needs a
+ * new evaluation. FAST also builds again if the number of samples is in another size class (a power
+ * of 4), because the structure with the lowest total time depends on the number of samples.
+ * GetNumberOfBuilds() counts the builds.
  *
  * Report: method, method_reason, error_bound and measured_error (FAST), builds, counts.{vertices,
  * triangles, boundary_edges, nonmanifold_edges, open_edges, components, merged_vertices,

@@ -1,16 +1,17 @@
 #!/usr/bin/env python3
 """Benchmark weights and tets on 820 real furniture models, whose surfaces have the usual defects of modeled meshes.
 
-The models are the .obj files of the Debian package sweethome3d-furniture, or (--set made, --set hostile) those that
-support/furniture.py makes, with the same defects and with worse ones. Two commands process each model:
+The models are the .obj files of the Debian package sweethome3d-furniture. With --set made, support/furniture.py makes
+models with the same defects. With --set hostile, it makes models with worse defects. Two commands process each model:
 
     bindpose weights MODEL.obj --handles auto:8
     bindpose tetrahedralize MODEL.obj
 
-Each command runs in a separate process with a time limit. Seconds, processor time and peak memory are those of the
-process and its helpers. The results are checked here, by code that does not come from Bindpose. Weights must be finite,
-in [0, 1], sum to one within 1e-9, and have a certificate (relative gap and residual at most 1e-6). Tets must have
-positive volumes. A refusal must be justified. One row per model is written to a .csv file, and a summary to a .md file.
+Each command runs in a separate process with a time limit. The measured seconds, processor time and peak memory are those
+of the process and its helpers. This script checks the results with code that does not come from Bindpose. Weights must
+be finite, in [0, 1], sum to one within 1e-9, and have a certificate (relative gap and residual at most 1e-6). Tets must
+have positive volumes. A refusal must be justified. The script writes one row per model to a .csv file, and a summary to
+a .md file.
 
     real_meshes.py --build build                              everything: hours
     real_meshes.py --build build --sample 40                  40 models of all sizes, the same ones every time
@@ -55,8 +56,8 @@ from limited_process import end_all, run_limited  # noqa: E402
 PACKAGE = "sweethome3d-furniture"
 HANDLES = 8
 SEED = 820
-SMALL = 100_000  # triangles: peak memory is summarized for smaller models
-THIN_SHARE = 0.01  # fraction of tets with angles below 5 degrees above which a file counts as thin
+SMALL = 100_000  # number of triangles; the summary of peak memory covers smaller models
+THIN_SHARE = 0.01  # a file counts as thin if a larger fraction of its tets has angles below 5 degrees
 VERBS = {"weights": "weights", "tets": "tetrahedralize"}  # prefix of the columns: verb of the program
 GOOD = {"weights": ("certified", "refused"), "tets": ("filled", "refused")}
 PERCENTILES = {"median": 50, "90": 90, "95": 95, "99": 99, "max": 100}
@@ -140,8 +141,8 @@ def named_models(options, folder):
 
 def in_other_process(module, name, *arguments):
     """Call a function of result_checks or accuracy_checks in another process. Those modules load VTK and numpy. The
-    peak memory of a child process includes what its parent occupied when it started the child, so this process must
-    stay small.
+    measured peak memory of a child process includes the memory of its parent at the start of the child. Therefore this
+    process must stay small.
     """
     return getattr(importlib.import_module(module), name)(*arguments)
 
@@ -205,7 +206,9 @@ def message_of(prefix, done, wrong):
 
 
 def checked(options, pool, prefix, done, report, model, output):
-    """Return the numbers that were measured on the result, and the list of its errors."""
+    """Check the result of a run. Return the numbers that were measured on the result, and the list of its errors under
+    "wrong".
+    """
     if done.over_limit or done.exit_code not in (0, 2):
         return {"wrong": []}
     if done.exit_code == 2:
@@ -323,7 +326,7 @@ def read_rows(path):
 
 
 def percentile(values, percent):
-    """Return the smallest value for which at least `percent` percent of all values are not larger."""
+    """Return a percentile: at least `percent` percent of the values are less than or equal to the returned value."""
     ordered = sorted(values)
     return ordered[max(0, math.ceil(percent / 100 * len(ordered)) - 1)] if ordered else math.nan
 

@@ -75,7 +75,7 @@ TriangleMesh open_bumpy_sphere(Index triangles)
 TriangleMesh patches(Index triangles)
 {
   const TriangleMesh whole = rings(triangles);
-  // number of consecutive triangles that share corners; triangles of different patches do not
+  // Number of consecutive triangles per patch. Triangles share corners only within a patch.
   constexpr Index patch = 64;
   TriangleMesh mesh;
   std::map<std::pair<Index, Index>, Index> ids;

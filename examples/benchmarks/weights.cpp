@@ -158,7 +158,7 @@ void monotone(benchmark::State& state)
   run<WeightsOptions>(state, monotone_weights);
 }
 
-/// Measure the time of a whole preview in units of F, because it is the time until a user sees
+/// Measure the time of a complete preview in units of F. A user waits this long for the first
 /// weights.
 void preview(benchmark::State& state)
 {

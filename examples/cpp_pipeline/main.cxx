@@ -1,6 +1,6 @@
 // The complete pipeline: a capsule is filled with tets, gets bounded weights for two bones, and is
 // bent at the middle. The program prints the report of each stage and exits with a nonzero code if
-// one fails.
+// a stage fails.
 #include <vtkBoundedBiharmonicWeights.h>
 #include <vtkPoseHandles.h>
 #include <vtkSkinningDeformation.h>

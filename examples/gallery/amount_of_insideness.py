@@ -4,8 +4,9 @@
 Three spheres overlap pairwise and all together, and one tube passes through itself. Parity-based inside tests report
 that the overlap of two spheres is outside; the winding number counts 2 and 3.
 
-Numbers: distance from integers (the largest one); whether all points agree with the number of spheres that contain
-them, determined from the planes of the faces; the tube's values against the plain sum of solid angles.
+Numbers: the largest distance of a value from an integer; whether the value at every point equals the number of spheres
+that contain the point, computed from the planes of the faces; the difference between the tube's values and the plain
+sum of solid angles.
 """
 
 import common

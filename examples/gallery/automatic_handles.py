@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
-"""Automatic rigging: handles are found, weights are bound, and a pose is applied.
+"""Automatic rigging: find handles, compute weights, and apply a pose.
 
-Mean curvature flow contracts the armadillo to a curve, which becomes bones: limbs, hands, ears and tail. Next to it
-is the same shape with bounded biharmonic weights of those bones, bent at every joint. Below are an elephant full of
-holes, whose inside by winding number also has a skeleton, and points that are spread along the surface and moved into
-the middle of the shape.
+Mean curvature flow contracts the armadillo to a curve, which becomes bones: limbs, hands, ears and tail. Next to it is
+the same shape, bent at every joint with bounded biharmonic weights of those bones. Below is an elephant full of holes;
+its skeleton is computed from the inside that the winding number defines. The last picture shows points that are spread
+along the surface and moved into the middle of the shape.
 
 Numbers: bones, junctions, joints that are outside; cut cycles (the elephant's trunk and tusks touch its head);
-processor seconds from mesh to bones; the largest error of a row sum of the weights. For points on the surface that
-are spread by straight distance: the smallest distance between two points divided by the largest distance of a vertex
-from the points, which is at least 1.
+processor seconds from mesh to bones; the largest error of a row sum of the weights. For points that are spread over the
+surface by straight distance: the smallest distance between two points, divided by the largest distance of a vertex from
+its nearest point. This ratio is at least 1.
 """
 
 import os

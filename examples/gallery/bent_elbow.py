@@ -2,9 +2,9 @@
 """A bent elbow: linear blend becomes thin, dual quaternions bulge, centers of rotation have less of both artifacts.
 
 The right half of the cylinder of candy_wrapper.py is bent about the middle by 60 and 120 degrees: linear blend, dual
-quaternions and centers of rotation, from left to right. Where both bones weigh 1/2, linear blend pulls the skin
-toward the joint. Dual quaternions rotate everything about the joint, so that points beside it swing outwards. With
-its own center, in the middle of its slice, a point keeps its distance from the axis.
+quaternions and centers of rotation, from left to right. Where both bones have the weight 1/2, linear blend pulls the
+skin toward the joint. Dual quaternions rotate everything about the joint, so that points beside it swing outwards. With
+centers of rotation, each point has its own center in the middle of its slice, so it keeps its distance from the axis.
 
 Numbers: smallest and largest distance of the skin from the bent axis on the outside of the bend, where both are 1 at
 rest; the volume, relative to rest; inverted tets.

@@ -4,9 +4,10 @@
 Four models of the Debian package sweethome3d-furniture (from BlendSwap, CC0) are bound unchanged, with points spread
 over them as handles. Every handle moves with the bend of the whole piece.
 
-Numbers of each piece: triangles; open edges, edges of three triangles or more, pairs of crossing triangles, and
-duplicate triangles; the largest relative gap of a certificate; and the largest distance after the bend, relative to
-the diagonal, between two vertices of different components that were nearer than 1/500 of the diagonal before.
+Numbers, for each piece: triangles; open edges, edges of three triangles or more, pairs of crossing triangles, and
+duplicate triangles; the largest relative gap of a certificate; and the largest gap after the bend, relative to the
+diagonal. A gap is the distance between two vertices of different components that were nearer than 1/500 of the diagonal
+before the bend.
 """
 
 import math

@@ -3,13 +3,13 @@
 
 Six parts in one mesh: a closed tube through itself, a sphere with holes, a sphere with an inward cap, an inside-out
 sphere, three pages on one spine, and a duplicated bowl. The second output of vtkWindingNumberField (`bindpose winding
---boundary FILE`) has an edge wherever the directions of the triangles do not cancel, with its multiplicity: 1 at a
-hole, 2 around the inward cap and the double bowl, 3 along the spine. It also has a table of the parts: triangles,
-open edges (with multiplicities), volume.
+--boundary FILE`) contains each edge at which the directions of the adjacent triangles do not cancel. Each edge has a
+multiplicity: 1 at a hole, 2 around the inward cap and the double bowl, 3 along the spine. The output also contains a
+table of the parts: triangles, open edges (with multiplicities), volume.
 
-Numbers: the table; the number of points at which the curves do not close (0: a boundary has no boundary); and that
-the field depends only on the curves: the winding numbers of the surface and of a fan of triangles over the curves
-differ by integers (largest distance from an integer).
+Numbers: the table; the number of points at which the curves do not close (always 0, because a boundary has no
+boundary). The last number shows that the field depends only on the curves, apart from integers: the winding number of
+the surface minus that of a fan of triangles over the curves (largest distance of this difference from an integer).
 """
 
 import common

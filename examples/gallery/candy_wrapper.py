@@ -2,9 +2,9 @@
 """Twisting: linear blend closes a joint like a candy wrapper; dual quaternions and centers of rotation do not.
 
 A cylinder of tets has a bone in each half. The right bone rotates about its own axis by 90, 120 and 180 degrees, from
-left to right. Above is linear blend skinning, in the middle dual quaternions, below centers of rotation. Halfway both
-bones weigh 1/2: the mean of a ring and the ring rotated by t has the radius cos(t / 2), while blended rotations keep
-the radius.
+left to right. Above is linear blend skinning, in the middle dual quaternions, below centers of rotation. Halfway, both
+bones have the weight 1/2: the mean of a ring and the ring rotated by t has the radius cos(t / 2), while blended
+rotations keep the radius.
 
 Numbers: the radius of the ring halfway, relative to rest; tets that the pose inverts; the largest stretch.
 """
@@ -32,7 +32,7 @@ def cylinder(along, across):
 
 
 def weighted_cylinder(small):
-    """Return the cylinder with the weights of two bones along its axis that leave the middle free, and the bones."""
+    """Return the cylinder with weights, and its handles: two bones along the axis, with a gap in the middle."""
     handles = bindpose.handles(bones=[[(0, 0, 0), (2.5, 0, 0)], [(3.5, 0, 0), (LENGTH, 0, 0)]])
     mesh = to_dataset(cylinder(24, 6) if small else cylinder(36, 8))
     return bindpose.weights(mesh, handles), handles

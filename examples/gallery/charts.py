@@ -24,7 +24,8 @@ def _column(name, values):
 
 
 def _ticks(axis, lower, upper, logarithmic, names):
-    """Numbers at powers of ten for logarithmic axes; `names` (value to text) replace them if given."""
+    """Set the range of an axis. A logarithmic axis is labeled at powers of ten, or with `names` ({value: text}) if
+    given."""
     if not logarithmic:
         axis.SetBehavior(vtkAxis.FIXED)
         axis.SetRange(lower, upper)

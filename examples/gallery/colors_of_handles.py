@@ -1,15 +1,15 @@
 #!/usr/bin/env python3
 """Colors blended by the weights that bend a shape.
 
-Each bone of a cat has a color; a point's color is the sum of its weights times the handles' colors. Blended in linear
-light, saturated colors stay bright where they meet; blended as sRGB values they darken. On the right is a drawing by
-curves with a color on each side (diffusion curves): the mesh is cut along the curves, and each side is a separate
-handle.
+Each bone of a cat has a color; a point's color is the sum of its weights times the handles' colors. If the colors are
+blended in linear light, saturated colors stay bright where they meet; if they are blended as sRGB values, they darken.
+On the right is a drawing by curves with a color on each side (diffusion curves): the mesh is cut along the curves, and
+each side is a separate handle.
 
-Numbers: points out of the gamut and outside the range of the handles' colors, which bounded weights never produce,
-blended as light and as sRGB values; the difference from a handle's color on the handle; the color halfway between red
-and green, both ways; and for the drawing the difference from each side's color along the curves, which shows that no
-color leaks through.
+Numbers, blended as light and as sRGB values: points out of the gamut, and points outside the range of the handles'
+colors (both 0 for bounded weights); the difference from a handle's color on the handle; the color halfway between red
+and green. For the drawing: the difference from each side's color along the curves, which shows that no color leaks
+through.
 """
 
 import common

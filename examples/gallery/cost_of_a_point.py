@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Cost of the winding number per point, for surfaces of all types, in one run of the benchmarks.
 
-Every row of `bindpose_benchmarks --benchmark_filter=winding` runs on one thread: grids, scattered points, points
-within 1e-4 diagonals of the surface, points 1e6 diagonals from the origin. The unit Y is the cost of one triangle of
-the textbook sum in the same run: compare Y rather than machines. Bars are medians of five repetitions, and the dots
-are one standard deviation higher. Surfaces: refined_elephant.off (closed) and elephant-with-holes.off of the Debian
-package libcgal-demo; bumpy spheres that are closed, open, cut into patches, or disconnected (every triangle moved by
-its own size, and about half of them turned over); and triangles throughout space.
+Every row of `bindpose_benchmarks --benchmark_filter=winding` runs on one thread: grids, scattered points, points within
+1e-4 diagonals of the surface, points 1e6 diagonals from the origin. The unit Y is the cost of one triangle of the
+textbook sum in the same run: Y is comparable between machines. Bars are medians of five repetitions, and the dots are
+one standard deviation higher. Surfaces: refined_elephant.off (closed) and elephant-with-holes.off of the Debian package
+libcgal-demo; bumpy spheres that are closed, open, cut into patches, or disconnected (every triangle moved by its own
+size, and about half of them turned over); and triangles throughout space.
 
 Numbers: Y per row, nanoseconds per row, and the largest error beyond the row's tolerance.
 """

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """A hundred elephants, each in its own pose.
 
-One elephant is bound, so weights, clusters and projected matrices exist once. A hundred instances form a square. In
-each instance the ends of trunk, legs, ears and tail are dragged to individual positions, and the transforms of all
-other handles are computed. Then the crowd moves frame by frame, starting from its last poses.
+One elephant is bound, so all instances share its weights, clusters and projected matrices. A hundred instances form a
+square. In each instance the ends of trunk, legs, ears and tail are dragged to individual positions, and the transforms
+of all other handles are computed. Then the crowd moves frame by frame, starting from its last poses.
 
 Numbers: triangles of an elephant, handles, clusters; seconds of the bind. For a frame of the whole crowd, the fastest
 of twenty on one thread: milliseconds of all solves, and of moving all points; frames per second of both together;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Defects that keep meshers from filling a surface, and tets of the same surfaces.
+"""Surfaces with defects that most meshers reject, and tets of the same surfaces.
 
 Crossing triangles, edges of three and more triangles, open boundaries, several components: a scan with a hole and a
 cone through it, an elephant full of holes, and a generated house with all four defects, whose counts are known in
@@ -38,7 +38,7 @@ def house(around):
 
 
 def to_unit_size(mesh):
-    """Scale to a box around 0 of the same size as the others, so that one camera shows them all."""
+    """Scale the mesh to a box of size 1 around the origin, so that one camera shows all meshes."""
     vertices, triangles = mesh
     lower, upper = vertices.min(axis=0), vertices.max(axis=0)
     return (vertices - (lower + upper) / 2) / (upper - lower).max(), triangles

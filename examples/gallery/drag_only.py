@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Handles that are only translated: reduced as-rigid-as-possible finds the rotations.
 
-Seven points constrain a cat; paw, head and tail are dragged, the others are fixed. No rotations are given. With
-linear blend skinning translated points do not rotate anything, and limbs are sheared. Reduced as-rigid-as-possible
-gets only positions and computes the rotations.
+Seven points constrain a cat; paw, head and tail are dragged, the others are fixed. No rotations are given. With linear
+blend skinning, translated points do not rotate anything, so limbs are sheared. Reduced as-rigid-as-possible gets only
+positions and computes the rotations.
 
-Numbers: the mean stretch or compression over the area (for a triangle the larger of the larger singular value and the
-inverse of the smaller one, minus one), and the value that a hundredth of the area exceeds; the computed rotation at
-each dragged point, in degrees; the largest deviation from the positions, relative to the diagonal; iterations of the
+Numbers: the mean stretch or compression over the area, and the value that a hundredth of the area exceeds. For a
+triangle with the singular values s1 >= s2, this measure is max(s1, 1 / s2) - 1. Further numbers: the computed rotation
+at each dragged point, in degrees; the largest deviation from the positions, relative to the diagonal; iterations of the
 solve, and microseconds per iteration.
 """
 

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 """Effect of extra weights: none, 15 bumps, 15 skinning eigenmodes.
 
-Only the end faces of a bar are moved. Above, it is bent into an S; below, it is compressed. The more deformations the
-weights span, the less the bar has to stretch.
+Only the end faces of a bar are moved. Above, it is bent into an S; below, it is compressed. With more extra weights,
+the bar can deform in more ways and stretches less.
 
-Numbers: the energy without extra weights, with 15 of each type, and with every vertex as an unknown (in the
-compression it buckles into a worse minimum than smooth weights do); the energies with 0 to 15 of each type in the
-compression.
+Numbers: the energy without extra weights, with 15 of each type, and with every vertex as an unknown. (In the
+compression, the bar with every vertex as an unknown buckles into a worse minimum than with smooth weights.) Also the
+energies with 0 to 15 of each type in the compression.
 """
 
 import json

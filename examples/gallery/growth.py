@@ -1,17 +1,17 @@
 #!/usr/bin/env python3
 """Cost per point as a mesh is subdivided: the plain sum grows with the triangles, Bindpose's methods hardly.
 
-Each triangle of a dinosaur is cut into 4, 16 and 64, which does not change the surface and its field. The surface is
-closed, or has a few or many holes; the number of open edges doubles with each step. The points are random. The time
-is processor time of one thread, without the build; medians of repeated measurements, bars from the fastest to the
-slowest.
+Each triangle of a dinosaur is cut into 4, 16 and 64, which changes neither the surface nor its field. The surface is
+closed, or has a few or many holes; the number of open edges doubles with each step. The points are random. The time is
+processor time of one thread, without the build; medians of repeated measurements, bars from the fastest to the slowest.
 
-- The plain sum over all triangles is the package's own compiled code. The triangles are shrunk a little, so that no
-  two share an edge; `exact` then uses the sum ("direct" in its report). They are in blocks of 8,192, which
-  stay in the processor's cache.
-- `exact` chooses between crossings of a ray with a sum over open edges ("crossings") and, if there are many open edges,
-  the tree of Jacobson et al. 2013 ("hierarchical"). The legend contains its choice.
-- `fast` keeps within its tolerance of 1e-3; for closed surfaces it is `exact`.
+- The plain sum over all triangles is the package's own compiled code. The triangles are shrunk a little, so that no two
+  triangles share an edge; the method `exact` then uses the sum ("direct" in its report). The triangles are processed in
+  blocks of 8,192, which fit into the processor's cache.
+- `exact` chooses one of two algorithms. The first counts the crossings of a ray and adds a sum over open edges
+  ("crossings"). If there are many open edges, the second is used: the tree of Jacobson et al. 2013 ("hierarchical").
+  The legend states the chosen algorithm.
+- `fast` keeps within its tolerance of 1e-3; for closed surfaces it equals `exact`.
 
 Numbers: exponents p of time ~ triangles^p, fitted over all sizes; microseconds per point; the largest ratio of
 slowest to fastest; the largest difference of all three methods from the textbook sum in numpy.
@@ -34,7 +34,8 @@ COLORS = {"plain sum": charts.VIOLET, "exact": charts.BLUE, "fast": charts.ORANG
 
 
 class Field:
-    """A surface that is built once and evaluated on one thread. A list of surfaces counts as their union."""
+    """A surface whose search structure is built once and evaluated on one thread. The winding numbers of several
+    surfaces are added."""
 
     def __init__(self, surfaces, method):
         self.filters = []
@@ -72,7 +73,7 @@ def apart(mesh, block=8192):
 
 
 def with_holes(mesh, every):
-    """Cut a hole per `every` vertices, two rings of triangles wide."""
+    """Cut one hole per `every` vertices. Each hole is two rings of triangles wide."""
     marked = np.arange(0, len(mesh[0]), every)
     for _ in range(2):
         gone = np.isin(mesh[1], marked).any(axis=1)

@@ -1,13 +1,14 @@
 #!/usr/bin/env python3
 """Handle modes from fully to partially prescribed transforms: full, position, free.
 
-A bar is constrained by five points along its middle line. On the left each has its whole transform: reduced
-as-rigid-as-possible has no unknowns and is linear blend skinning. To the right the three points in the middle have
-only positions, and then are free. Finally the rotations of the ends are free, too. The unknowns are computed so that
-the bar bends least: the energy decreases with every freedom.
+A bar is constrained by five points along its middle line. In the first picture, the whole transform of each point is
+given, so reduced as-rigid-as-possible has no unknowns and equals linear blend skinning. In the next two pictures, the
+three points in the middle first have only a given position, and then are free. In the last picture, the rotations of
+the end points are also free. The unknowns are computed so that the bar bends least: the energy decreases whenever more
+numbers are free.
 
-Numbers: how many numbers of the transforms are given; the energy; the largest distance of the first from linear blend
-skinning, relative to the diagonal; the largest deviation from given positions.
+Numbers: how many numbers of the transforms are given; the energy; the largest distance of the first result from linear
+blend skinning, relative to the diagonal; the largest deviation from given positions.
 """
 
 import common
@@ -21,7 +22,7 @@ PLACES = (0.0, 1.5, 3.0, 4.5, 6.0)
 
 
 def bent(mode_inside, mode_ends):
-    """Return handles lifted along an arch, with the ends rotated up by 60 degrees."""
+    """Return a pose in which handles are lifted along an arch and the two end handles are rotated by 50 degrees."""
     pose = {}
     for k, x in enumerate(PLACES):
         end = k in (0, len(PLACES) - 1)

@@ -6,8 +6,8 @@ each tet is nearly 1 inside, nearly 0 outside, and in between near the holes. A 
 together, so that the boundary follows the surface and is small across holes.
 
 Numbers: tets of the hull and kept tets; the volume of the kept tets and that of the winding number; the energy of the
-cut and of the plain threshold at one half, both also computed here from their definition (numpy, from the tets
-alone); tets whose label the cut has changed.
+cut and of the plain threshold at one half, as reported and as computed by this script from the definition; tets whose
+label the cut has changed.
 """
 
 import common

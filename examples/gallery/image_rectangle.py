@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """A whole image as a deformable rectangle.
 
-The same filter uses the image's rectangle if it has no alpha, or on request. Points become vertices of the mesh at
-any position. Moved points warp the picture smoothly, and the points at the border fix it. Left: the mesh and its
-points. Right: the warped picture.
+If an image has no alpha, or on request, the filter uses the whole rectangle of the image as the shape. Points become
+vertices of the mesh at any position. Moved points warp the picture smoothly, and the points at the border fix it. Left:
+the mesh and its points. Right: the warped picture.
 
 Numbers: the mesh's area relative to that of the pixels; its smallest angle; points that are not vertices; the largest
 difference between the picture and the unposed mesh drawn pixel on pixel; triangles that the warp turns over.

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """The winding number jumps by 1 across the surface and is harmonic everywhere else.
 
-Left: along a line through a closed and an open sphere. Right: deviation of the field from a harmonic function near
-the surface: the mean over a small sphere against the value at its center, and the discrete Laplacian, which is 0 up
-to h^2 of its step.
+Left: the winding number along a line through a closed and an open sphere. Right: two measures of how much the field
+deviates from a harmonic function. The first is the mean over a small sphere minus the value at its center. The second
+is the discrete Laplacian, which decreases with the square of its step.
 
-Numbers: the largest |jump - 1| over all crossings, found by intersecting the line with each triangle, 1e-13 before
-and after; the largest mean value error; the order at which the discrete Laplacian decreases (2); and that the field
-of two surfaces is the sum of their fields.
+Numbers: the largest |jump - 1| over all crossings of the line with triangles, measured 1e-13 before and after each
+crossing; the largest mean value error; the order at which the discrete Laplacian decreases (2); and the difference
+between the field of two surfaces and the sum of their fields.
 """
 
 import common

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Depth order of limbs by weights.
 
-A cat bends its arm over its face. In the plane the depth is undefined. A layer for each bone, blended by the same
-weights as the pose, defines it: smooth over the shape and different on limbs that cross. On the left is the depth at
-rest, then the arm with its layer in front, behind, and with equal layers, where the later bone is in front.
+A cat bends its arm over its face. In the plane the depth is undefined. Each bone has a layer, and blending the layers
+by the weights of the pose defines a depth. This depth is smooth over the shape, and different on limbs that cross. From
+left to right: the depth at rest; the arm with its layer in front; with its layer behind; with equal layers, where the
+later bone is in front.
 
 Numbers: visible pixels of the arm in front and behind; lowest and highest depth with equal layers; pixels of the
 whole picture that change with the layer. Weights and pose are always the same.

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Weights depend on the shape, not on its mesh.
 
-One square with five points has two meshes: the right half of the second mesh is four times finer. The biharmonic
-energy of the graph of vertices (L'L, without areas) treats the fine half as a larger one and gives other weights. The
-energy of the shape, with each vertex's area (Jacobson, Tosun, Sorkine, Zorin 2010), hardly changes. Right: the
-difference.
+One square with five points has two meshes: the right half of the second mesh is four times finer. The biharmonic energy
+of the graph of vertices (L'L, without areas) treats the fine half as a larger area and therefore gives different
+weights. The energy of the shape, with each vertex's area (Jacobson, Tosun, Sorkine, Zorin 2010), hardly changes. Right:
+the difference.
 
 Numbers: largest and rms difference over the common vertices; and the bar between two handles, where the weight of the
 far handle at a quarter must be 0.15625 for any mesh.

@@ -7,7 +7,7 @@ gap, so the neighboring fingers move too; bounded biharmonic weights measure thr
 displacement of each point, relative to that of the fingertip.
 
 Numbers: displacement of the neighboring finger halfway up, relative to that of the pulled fingertip. For the slit
-square of the literature, where it is known: the weight of a point on one side of the slit at a probe on the other
+square of the literature, whose result is known: the weight of a point on one side of the slit, at a probe on the other
 side.
 """
 

@@ -3,12 +3,12 @@
 
 Five points of a square have a color each, and weights blend the colors. Unconstrained biharmonic weights (the
 thin-plate splines of Finch et al. 2011) go below 0 and above 1: their blend leaves the gamut and contains colors that
-no point has. Bounded biharmonic weights stay within the points' colors and are equally smooth; monotone ones do not
-have a bump between the points either. Hatched: out of the gamut.
+no point has. Bounded biharmonic weights stay within the points' colors and are equally smooth; monotone weights also
+have no bump between the points. Hatched: out of the gamut.
 
-Numbers: lowest and highest weight; fraction of the square outside the gamut, and the largest violation; fraction with
-more or less of a primary than any point, and the largest excess; and the black and white bar of three handles, where
-the unconstrained blend must reach -1/9 at two thirds.
+Numbers: lowest and highest weight; fraction of the square outside the gamut, and the largest violation; fraction where
+a primary color is stronger or weaker than at all points, and the largest excess; and the black and white bar of three
+handles, where the unconstrained blend must reach -1/9 at two thirds.
 """
 
 import common

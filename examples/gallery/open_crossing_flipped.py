@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """One field for surfaces that are open, cross themselves, or are partly inside out.
 
-The winding number of a point is the sum of all triangles' signed solid angles over 4 pi. Where a surface is clean it
-is 1 or 0. Where triangles are missing it decreases smoothly. Where surfaces overlap it counts them. Triangles with
-the wrong orientation subtract, until `orient_patches` turns them. Above are the surfaces, below slices of their
-fields in the same colors.
+The winding number of a point is the sum of all triangles' signed solid angles over 4 pi. For a clean surface the
+winding number is 1 or 0. Near missing triangles it decreases smoothly. Where surfaces overlap, it counts them.
+Triangles with the wrong orientation are subtracted, unless `orient_patches` flips them. Above are the surfaces, below
+slices of their fields in the same colors.
 
-Number: at the middle of each shape, the distance from the expected value. A hole reduces it by the solid angle of the
-triangles that once filled it, an inverted patch by twice its own.
+Number: at the middle of each shape, the distance from the expected value. A hole reduces the winding number by the
+solid angle of the missing triangles. An inverted patch reduces it by twice the solid angle of the patch.
 """
 
 import common

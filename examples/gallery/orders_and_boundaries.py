@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 """Smoothness of a patch, by its order and boundary condition.
 
-The middle of a disc is lifted. From left to right the patch between is a membrane (Laplacian = 0), a thin plate (its
-square) and of order 3. Above, the rim and the middle are regions, bands of three layers that the patch continues:
-with its position, then with its slope, then with its curvature. Below, the middle is a ring of single points, with a
-patch on both sides. Then only the edges' positions are fixed, which does not distinguish the orders: each is the
-membrane. At the bottom the rim's tangents are given as well, down at 45°, which a membrane cannot satisfy.
+The middle of a disc is lifted. The patch between the rim and the middle is, from left to right, a membrane (Laplacian =
+0), a thin plate (squared Laplacian = 0) and a surface of order 3. First row: the rim and the middle are regions, i.e.
+bands of three layers. The patch continues their position, with order 2 also their slope, and with order 3 also their
+curvature. Second row: the middle is a ring of single points, with a patch on both sides. Third row: only the positions
+of the edges are fixed, so all orders give the membrane. Last row: the tangents at the rim are given as well, down at
+45°, which a membrane cannot satisfy.
 
-Numbers, by order: the patch's slope and curvature directly at the rim, from its own rings: a flat region continues
-with zero, and the slope given at the bottom is -1; the largest difference of the edges' surfaces from the membrane.
+Numbers, by order: the patch's slope and curvature directly at the rim, from its own rings: a flat region continues with
+zero, and the slope given at the bottom is -1; the largest difference from the membrane of the surfaces for which only
+edge positions are fixed.
 """
 
 import warnings
@@ -23,7 +25,8 @@ INNER, OUTER, HEIGHT = 0.25, 1.0, 0.6
 
 
 def disc(rings):
-    """Return the unit disc and a band of three rings beyond it, as rings of equally many vertices; #V radii."""
+    """Return points, triangles and the radius of each point: the unit disc with a band of three rings around it. All
+    rings have the same number of vertices."""
     around = 6 * rings
     radii = np.arange(1, rings + 4) / rings
     angle = 2 * np.pi * (np.arange(around)[None] + 0.5 * (np.arange(len(radii)) % 2)[:, None]) / around

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Partition of unity by constraint (original) and by division of rows (faster): difference of the weights.
+"""Partition of unity as a constraint (original) or by dividing each row by its sum (faster): difference of the weights.
 
 Bounded biharmonic weights of points on a square. Original: all handles form one quadratic program, with a row sum as
-constraint at every vertex. Faster: one program per handle, then a division. Left: a weight of the original. Middle:
-the faster one. Right: the difference of both, on the scale of the largest difference of all weights.
+constraint at every vertex. Faster: one program per handle, then a division. Left: one column of the original weights.
+Middle: the same column of the faster weights. Right: their difference, on the scale of the largest difference of all
+weights.
 
 Numbers: largest and rms difference over all weights; deviation of the row sums from one before the division; the gaps
 that certify both; the seconds of both.

@@ -2,7 +2,7 @@
 """Children follow their parents.
 
 An arm of three bones, upper arm, forearm and hand: at rest; with the forearm rotated, which the hand follows; the same
-with the hand in world space, which smears the skin; with the upper arm stretched, which moves forearm and hand.
+pose with the hand in world space, which distorts the skin; with the upper arm stretched, which moves forearm and hand.
 
 Numbers: the distance of the tip of the hand from its expected position, in lengths of the arm; the largest area of a
 triangle, divided by its area at rest.
@@ -21,7 +21,7 @@ STRETCH = 1.5
 
 
 def arm(around, along):
-    """Points and triangles of a closed round arm along x, 1 thick at the shoulder, half of that at the tip."""
+    """Return points and triangles of a closed round arm along x, 1 thick at the shoulder, half of that at the tip."""
     turn = np.linspace(0, np.pi, along)
     x = 2.5 - 2.75 * np.cos(turn)
     radius = np.sqrt(np.sin(turn)) * np.linspace(0.55, 0.3, along)

@@ -1,4 +1,4 @@
-"""A generated cartoon, and tiles that show pictures as meshes in the plane."""
+"""Create a cartoon, and draw tiles that show pictures as meshes in the plane."""
 
 import bindpose
 import numpy as np

@@ -2,7 +2,7 @@
 """Run the examples and the whole gallery, and update the pictures and numbers of the README.
 
 Pictures are written to examples/pictures, shrunk to less than 200 kB each. Numbers replace the text in
-gallery/README.md between `<!-- NAME -->` and `<!-- end -->`. Needs the Debian package sweethome3d-furniture.
+gallery/README.md between `<!-- NAME -->` and `<!-- end -->`. The script needs the Debian package sweethome3d-furniture.
 """
 
 import argparse

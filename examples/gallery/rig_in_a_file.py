@@ -6,8 +6,8 @@ the file: mesh, joints, weights and poses, all from one .glb. Below each frame i
 largest weights of each vertex, which many programs require: the largest distance of a vertex from its position with
 all weights, as a fraction of the diagonal.
 
-Numbers: bytes of the files; sets of four weights; the largest fraction of a vertex's weights that four leave out; the
-largest error of both files over all frames, as measured by the writer and as read back.
+Numbers: bytes of the files; sets of four weights; the largest fraction of a vertex's weights that is lost if only four
+weights are stored; the largest error of both files over all frames, as measured by the writer and as read back.
 """
 
 import common

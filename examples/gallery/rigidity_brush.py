@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
 """Painted rigidity: in painted areas weights hardly vary and the shape hardly stretches.
 
-Three points pull a bar apart and up. Two blocks of it are painted; from top to bottom with nothing, 0.1 and 1.
-Weights of points blend translations, so a part with constant weights moves as one.
+Three points pull a bar apart and up. Two blocks of the bar are painted, from top to bottom with the value 0 (not
+painted), 0.1 and 1. Weights of points blend translations, so a part with constant weights moves as one.
 
-Numbers: the largest stretch of a painted triangle's edges, which decreases with 1 / the painted value; the same with
-both blocks as rigid sets, where it is round-off; the largest of the relative gaps that certify the weights.
+Numbers: the largest stretch of a painted triangle's edges, which decreases with 1 / the painted value; the same stretch
+with both blocks as rigid sets, where it is only round-off; the largest relative gap of a certificate of the weights.
 """
 
 import common

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Extrema of weights distort small features; monotone weights preserve them.
 
-A plate has two antennas and three points, none on an antenna; the point in the middle is pulled. Along an antenna
-unconstrained weights continue with their slope on the plate, above 1, or with bounds up to 1. The tip is an extremum
-and moves more than its foot, so the antenna stretches. If only handles may be extrema, weights cannot change along a
-dead end: monotone weights are nearly constant there, and the antenna keeps its shape.
+A plate has two antennas and three points, none on an antenna; the point in the middle is pulled. Along an antenna,
+weights continue with the slope that they have on the plate: unconstrained weights rise above 1, bounded weights rise to
+at most 1. The tip of the antenna is then an extremum and moves more than the foot, so the antenna stretches. If only
+handles may be extrema, weights cannot change along a dead end: monotone weights are nearly constant there, and the
+antenna keeps its shape.
 
 Numbers: weight of the middle point at the foot and the tip of the left antenna; displacement of the tip relative to
 the foot, as a fraction of the pull; the largest stretch of an antenna's edge; extrema of the middle column away from

@@ -2,11 +2,11 @@
 """Spurious extrema: unconstrained, bounded and monotone weights.
 
 Five points of a square; the picture shows the solved column of one of them. Unconstrained weights have minima and
-maxima away from handles, so a pose there moves untouched parts. Bounds remove those of the thin-plate energy here,
-but not those of the next smoother energy (triharmonic), which oscillates within the bounds and whose extrema jump
-when a handle moves a little. Monotone weights (Jacobson, Weinkauf, Sorkine 2012) have no such extrema with either
-energy. Only certified weights count: the script stops if a column misses the tolerance (finer squares than these 40 x
-40 need more than the default number of iterations for the bounded triharmonic energy).
+maxima away from handles, so a pose there moves untouched parts. Here, bounds remove the extrema of the thin-plate
+energy, but not the extrema of the next smoother energy (triharmonic). Triharmonic weights oscillate within the bounds,
+and their extrema jump when a handle moves a little. Monotone weights (Jacobson, Weinkauf, Sorkine 2012) have no such
+extrema with either energy. Only certified weights count: the script stops if a column misses the tolerance (finer
+squares than these 40 x 40 need more than the default number of iterations for the bounded triharmonic energy).
 
 Numbers: extrema away from handles of all five columns, with a persistence above 1e-3 of the column's range, counted
 by the program's picture and by the filter's certificate; the certificate's relative gap; lowest and highest value;

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Bones that stretch and twist along themselves.
 
-Above is a mallet with one bone in its shaft, which becomes twice as long. A scale along the bone (linear blend)
-deforms the head to an egg and moves it away; a stretchable bone translates it. A twist rotates the tail by 180
-degrees, and the shaft winds. Below is a cat's arm that points at the viewer: its bone is drawn half as long, and the
-hand follows. Linear blend only has rigid bones and folds the skin; stretchable bones foreshorten it.
+Above is a mallet with one bone in its shaft, which becomes twice as long. A scale along the bone (linear blend) deforms
+the head to an egg and moves it away; a stretchable bone translates it. A twist rotates the tail by 180 degrees, and the
+shaft winds. Below is a cat's arm that points at the viewer: its bone is drawn half as long, and the hand follows.
+Linear blend has only rigid bones and folds the skin; stretchable bones shorten it smoothly.
 
 Numbers: position of the middle of the mallet's head, 1.3 at rest, and length of the head, 0.6 at rest; the twist's
 angle at the middle of the shaft, and the change of radii; the arm's length, relative to rest, and inverted triangles.

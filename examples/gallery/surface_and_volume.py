@@ -5,8 +5,9 @@ A bar is bent by 180 degrees and twisted by 170. Left: the energy of its surface
 handles, their weights and the number of unknowns are the same; only the precomputed matrix differs. The surface
 flattens where it bends, as a hose does; the volume preserves its cross-section better.
 
-Numbers: the energies; the area of the cross-section at the middle of the bar, relative to rest; the smallest along
-the bar; the volume, relative to rest; the distance between surface and volume, relative to the diagonal.
+Numbers: the energies; the area of the cross-section at the middle of the bar, relative to rest; the smallest area of a
+cross-section along the bar; the volume, relative to rest; the distance between surface and volume, relative to the
+diagonal.
 """
 
 import common

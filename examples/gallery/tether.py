@@ -5,8 +5,9 @@ A string of balls, each a closed surface, has weights from one volume around all
 moves them together although no edge joins them, because of its subspace. Full as-rigid-as-possible on the same mesh
 moves only the balls that a handle constrains.
 
-Numbers: parts; gaps between neighboring balls, relative to rest: smallest and largest, reduced and full; the largest
-distance between two balls at the same position, relative to the diagonal, if both are moved by the same weights.
+Numbers: parts; gaps between neighboring balls, relative to rest: the smallest and largest gap, for the reduced and the
+full method; the largest distance between two balls at the same position, relative to the diagonal, if both are moved by
+the same weights.
 """
 
 import warnings

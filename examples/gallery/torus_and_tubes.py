@@ -2,10 +2,10 @@
 """A piece of a torus, recomputed between its ends: from rings of the torus, or from straight tubes.
 
 A quarter of a torus is removed and solved for, coordinate by coordinate, on a straight tube as parameter domain: with
-order 1, 2 and 3 from left to right. Above, the rings at its ends are those of the torus itself. In the middle the
-patch begins at straight tubes. Below, the domain is only half as long, so the same rings give weaker tangents, but
-the tube stays rounder. The membrane necks. The plate continues the tangents, order 3 also the curvature, and comes
-nearest to the torus if its rings are those of a torus.
+order 1, 2 and 3 from left to right. Above, the rings at its ends are those of the torus itself. In the middle the patch
+begins at straight tubes. Below, the domain is only half as long, so the same rings give weaker tangents, but the tube
+stays rounder. The membrane becomes narrow in the middle. The plate continues the tangents. Order 3 also continues the
+curvature, and is nearest to the torus if the rings at its ends are those of the torus.
 
 Numbers, by order: the largest distance of the patch's vertices from the torus, relative to its tube's radius; the
 smallest radius of the patch's rings, likewise; the angle between the patch's middle line and the tube at its end, in

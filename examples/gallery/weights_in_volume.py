@@ -19,7 +19,8 @@ from bindpose.meshes import point_array, tets_of
 
 
 def stray(tets, owner):
-    """Return the fraction of tets that are not connected by faces to the largest part of their territory."""
+    """Return the fraction of tets that are not connected by faces to the largest part of their territory. A territory
+    consists of the tets with the same strongest handle."""
     sides = np.sort(np.concatenate([np.delete(tets, k, axis=1) for k in range(4)]), axis=1)
     of_tet = np.tile(np.arange(len(tets)), 4)
     order = np.lexsort(sides.T)

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Play tours for the documentation: the tutorial of the window with its pictures, and the film of README.md.
 
-From the tour picture.json it also uses the weights over the picture, and from rotations.json the clusters and angles.
+The script also copies pictures of two other tours: from picture.json the weights over the picture, and from
+rotations.json the clusters and angles.
 
 usage: make_pictures.py PROGRAM [--film]    (the program bindpose; the film needs ffmpeg)
 

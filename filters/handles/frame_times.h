@@ -17,8 +17,8 @@ void offer_times(vtkInformation* output, const std::vector<double>& times);
 /// fewer than two frames, remove the time steps.
 void offer_frames(vtkInformation* output, int frames, double frames_per_second);
 
-/// Report whether a time is requested from a port with time steps; `time` is then the requested
-/// time in seconds.
+/// Report whether the pipeline requests a time from a port with time steps. If so, set `time` to
+/// the requested time in seconds.
 bool asked_time(vtkInformation* output, double& time);
 
 /// Return the frame that is shown at a time in seconds: the last frame whose time is not later,

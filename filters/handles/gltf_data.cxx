@@ -1,6 +1,7 @@
 // Conversion between handles and glTF joints. A glTF joint has a frame and a parent, but no tail
-// and no handle type. Bindpose stores both in the extras of the joint: `joint.note`, the record of
-// the handle. For files of other programs the children of a joint determine the end of its bone.
+// and no handle type. Bindpose stores these properties in the extras of the joint (`joint.note`),
+// as the record of the handle. For files of other programs the children of a joint determine the
+// end of its bone.
 #include "gltf_data.h"
 
 #include "pose/pose_file.h"

@@ -27,8 +27,8 @@ using HandleListEdit = std::function<Status(const Handles& before, EditedHandles
 /// color and zeros in the other arrays. A pseudo-edge is kept if both its points are kept. A
 /// rejected edit changes nothing.
 ///
-/// In the dataset all points come before all bones, so adding a point changes the cell ids of the
-/// bones.
+/// In the dataset the cells of points are before the cells of bones, so adding a point changes the
+/// cell ids of the bones.
 /// @param cell_of  for each cell before the edit, its id after the edit, or -1
 /// @param added  ids of the new cells
 BINDPOSEFILTERS_EXPORT Status edit_handles(vtkPolyData* data, const HandleListEdit& edit,

@@ -15,7 +15,7 @@ class vtkPolyData;
 namespace bindpose
 {
 
-/// Points and elements of a handle dataset, for meshers that make them part of the mesh.
+/// Points and elements of a handle dataset, for meshers whose meshes must contain the handles.
 struct HandleGeometry
 {
   std::vector<Vec3> points;

@@ -8,9 +8,9 @@
 namespace bindpose
 {
 
-/// Return the pseudo-edges of a handle dataset without duplicates. Their ends must be the points of
-/// point handles, or have the same positions. Otherwise return invalid_input, with the index of the
-/// cell in the message.
+/// Return the pseudo-edges of a handle dataset without duplicates. Each end of a pseudo-edge must
+/// be the point of a point handle, or have the same position as such a point. Otherwise return
+/// invalid_input, with the index of the cell in the message.
 /// @param cells  the cells of the handles, from to_handles()
 BINDPOSEFILTERS_EXPORT Status to_pseudo_edges(
   vtkPolyData* data, const Handles& handles, const std::vector<Index>& cells, PseudoEdges& edges);

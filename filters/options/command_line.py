@@ -23,7 +23,7 @@ def is_required(option):
 
 
 def placeholder(option):
-    """The word for the value in --help: DEGREES, N, METHOD."""
+    """Return the placeholder of the value in --help: DEGREES, N, METHOD."""
     if option.type == "flag" or is_positional(option):
         return ""
     by_name = option.name.replace("_", "-").split("-")[-1].upper()
@@ -39,7 +39,7 @@ def typed_name(option):
 
 
 def quoted(text):
-    """A C++ string literal, split where the formatter would split it."""
+    """Return a C++ string literal, split into lines in the same way as the code formatter does."""
     lines = textwrap.wrap(text, 84, drop_whitespace=False, break_long_words=False) or [""]
     return "\n      ".join(json.dumps(line, ensure_ascii=False) for line in lines)
 
@@ -49,7 +49,8 @@ def listed(words):
 
 
 def help_text(option):
-    """The sentences of --help, with names as they are typed there, and the methods that use the option."""
+    """Return the sentences of --help, with option names as typed on the command line, and the methods that use the
+    option."""
     names = {other.name: f"--{cli_name(other)}" for other in (option.owner.options if option.owner else [])}
     text = MENTION.sub(lambda found: names[found[1]], option.help)
     if option.type == "flag" and option.default:
@@ -96,7 +97,8 @@ def table(verbs, common):
 
 
 def argument(option):
-    """The C++ expression of the typed value; `numbers` are the typed numbers of an option with several."""
+    """Return the C++ expression of the typed value. In it, `numbers` is a list: the typed numbers of an option with
+    several numbers."""
     key = json.dumps(cli_name(option))
     if option.type == "flag":
         return "false" if option.default else "true"
@@ -115,7 +117,8 @@ def argument(option):
 
 
 def setters(sets, verbs):
-    """One function per set that a verb uses: it passes to a filter what was typed, and leaves the rest as it is."""
+    """Return one C++ function per set that a verb uses. The function passes the typed options to a filter; all other
+    parameters of the filter keep their values."""
     text = NOTE + "#ifndef bindpose_cli_set_options_h\n#define bindpose_cli_set_options_h\n\n"
     text += '#include "cli/arguments.h"\n\nnamespace bindpose::cli\n{\n\n'
     used = {group.name for verb in verbs for group in verb.sets}

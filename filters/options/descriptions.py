@@ -22,7 +22,7 @@ UNITS = {"diagonals": "bounding-box diagonals"}
 
 
 class DescriptionError(Exception):
-    """A description is not valid; the text names the file and the option."""
+    """A description is not valid; the message names the file and the option."""
 
 
 def plain(number):
@@ -53,7 +53,7 @@ class Option:
         return self.fields.get("labels", {}).get(word, word.replace("-", " ").capitalize())
 
     def methods(self):
-        """Words of the methods that use the option; empty if all do."""
+        """Return the names of the methods that use the option; empty if all methods use it."""
         return self.fields.get("methods") or (self.owner.methods if self.owner else [])
 
     def default_of(self, layer):
@@ -129,7 +129,7 @@ def require(condition, where, sentence):
 
 
 def check_default(option, default):
-    """A default has the option's type and lies in its range."""
+    """Check that a default has the option's type and is in the option's range."""
     where = option.where
     if option.type in ("choice", "word"):
         require(default in option.words, where, f"default {default!r} is not one of {', '.join(option.words)}")
@@ -170,7 +170,8 @@ def check_option(option, allowed_fields, types):
 
 
 def check_references(sets):
-    """Methods are choices of the method option that they refer to; options in the help are options of the set."""
+    """Check that the methods of each option are choices of the option `method`, and that its help mentions only options
+    of the same set."""
     known = {}
     for group in sets.values():
         for option in group.options:
@@ -216,7 +217,7 @@ def read_sets(source=SOURCE):
 
 
 class Verb:
-    """A verb of the command line: its own options and those of sets, in the order of --help."""
+    """A verb of the command line: its own options and the options of its sets, in the order of --help."""
 
     def __init__(self, fields, sets, where):
         self.name = fields["name"]

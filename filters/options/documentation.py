@@ -23,7 +23,7 @@ def tables(verbs, common):
 
 
 def page(text, verbs, common):
-    """The page with the tables between its marks."""
+    """Return the text of the page, with the new tables between the marks BEGIN and END."""
     before, _, rest = text.partition(BEGIN)
     _, _, after = rest.partition(END)
     return before + BEGIN + tables(verbs, common) + END + after

@@ -45,7 +45,8 @@ def domain(option, filter_name):
 
 
 def hints(option):
-    """An option that only some methods use is shown for these methods; a set's methods are those of its filter."""
+    """Return the XML that shows an option only for the methods that use it. No XML is needed if the whole set belongs
+    to one method."""
     words = option.fields.get("methods", [])
     method = next((other for other in option.owner.options if other.name == "method"), None)
     if not words or not method:
@@ -71,7 +72,7 @@ def property_lines(option, filter_name):
 
 
 def fill(template, sets):
-    """The template with its marks replaced. A mark may name the filter whose defaults count."""
+    """Return the template with its marks replaced. A mark may name the filter whose defaults are used."""
     def properties(found):
         group = sets[found[2]]
         filter_name = found[3] or group.filter

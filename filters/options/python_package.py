@@ -11,12 +11,13 @@ TYPES = {"flag": "bool", "integer": "int", "id": "int", "number": "float", "inte
 
 
 def python_word(word):
-    """The Python value of a choice: the order of an energy is a number."""
+    """Return the Python value of a choice: an integer for digits (such as the order of an energy), otherwise the
+    word."""
     return int(word) if word.isdigit() else word
 
 
 def entry(option):
-    """What the package needs of an option at run time."""
+    """Return the fields of an option that the package needs at run time."""
     fields = option.fields
     default = option.default_of("python")
     if option.type == "choice":
@@ -24,7 +25,7 @@ def entry(option):
     if option.type == "number":
         default = float(default)
     if option.defaults or option.type == "point_array":
-        default = None  # the filter's own
+        default = None  # the default of the filter itself
     return {"name": option.name, "setter": f"Set{vtk_name(option)}", "type": option.type,
             "default": tuple(default) if isinstance(default, list) else default,
             "choices": {python_word(word): value for word, value in option.choices.items()}, "length": option.length, "help": option.help, "values": option.values_text(),
@@ -49,7 +50,8 @@ def option_type(option):
 
 
 def described_options(function, sets):
-    """The options that @with_options("NAME", …, only=…, without=…) gives to a function; None without it."""
+    """Return the options that the decorator @with_options("NAME", …, only=…, without=…) gives to a function; None
+    without the decorator."""
     for decorator in function.decorator_list:
         if isinstance(decorator, ast.Call) and getattr(decorator.func, "id", "") == "with_options":
             names = [argument.value for argument in decorator.args]
@@ -70,7 +72,7 @@ def replace_argument(function, options):
 
 
 def stub(source, sets):
-    """A stub of a module: its public functions and classes with the options of their sets."""
+    """Return a stub of a module: its public functions and classes, with the options of their sets as parameters."""
     tree = ast.parse(source)
     body = [ast.parse(line).body[0] for line in
             ("from collections.abc import Sequence", "from typing import Literal", "from numpy.typing import ArrayLike")]

@@ -10,9 +10,9 @@ namespace bindpose
 
 /// Cache key of a bind, the computation that does not depend on the pose. It contains the addresses
 /// and modification times of all objects that the bind reads. If two keys are equal, the bind is
-/// still valid. The key contains arrays instead of datasets, because a dataset's own modification
-/// time also changes when the bind stays valid: when a transform is edited, or when an upstream
-/// filter executes again.
+/// still valid. The key contains arrays instead of datasets, because the modification time of a
+/// dataset also changes in cases in which the bind stays valid: a transform is edited, or an
+/// upstream filter executes again.
 class BindKey
 {
 public:

@@ -79,7 +79,7 @@ private:
   Matrix owned_;
 };
 
-/// Return the points of any dataset; shared if they are contiguous doubles.
+/// Return the points of any dataset. The memory is shared if the points are contiguous doubles.
 BINDPOSEFILTERS_EXPORT SharedMatrix<Points> to_points(vtkDataSet* data);
 
 struct SurfaceInput
@@ -108,7 +108,8 @@ struct TetInput
 /// such cell.
 BINDPOSEFILTERS_EXPORT Status to_tets(vtkDataSet* data, TetInput& tets);
 
-/// Return a point or cell array as #tuples x #components doubles; shared if it is a vtkDoubleArray.
+/// Return a point or cell array as #tuples x #components doubles. The memory is shared if the array
+/// is a vtkDoubleArray.
 BINDPOSEFILTERS_EXPORT SharedMatrix<Weights> to_matrix(vtkDataArray* array);
 
 BINDPOSEFILTERS_EXPORT vtkSmartPointer<vtkPoints> to_vtk_points(PointsView points);
@@ -156,7 +157,8 @@ BINDPOSEFILTERS_EXPORT void set_pose(
 /// Return the objects of a handle dataset on which a bind depends: points, cells and all handle
 /// arrays except those of the pose.
 BINDPOSEFILTERS_EXPORT std::vector<vtkObject*> bind_objects(vtkPolyData* handles);
-/// Return the objects of a mesh: points, cells and the named point arrays (null if absent).
+/// Return the objects of a mesh on which a bind depends: points, cells and the named point arrays
+/// (null if absent).
 BINDPOSEFILTERS_EXPORT std::vector<vtkObject*> bind_objects(
   vtkPointSet* mesh, const std::vector<std::string>& array_names);
 

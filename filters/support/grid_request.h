@@ -20,7 +20,7 @@ struct GridRequest
   double bounds[6] = { 0.0, -1.0, 0.0, -1.0, 0.0, -1.0 };
   /// Distance added on each side of `around`, as a fraction of its diagonal; not used with bounds.
   double padding = 0.1;
-  int flat = -1; ///< axis along which there is neither padding nor more than one sample; -1: none
+  int flat = -1; ///< axis with one sample and without padding; -1: no such axis
 };
 
 /// Compute the grid that covers `request.bounds`, or the padded box `around` if there are no

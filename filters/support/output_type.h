@@ -11,8 +11,9 @@
 namespace bindpose
 {
 
-/// Make an output port's object an empty object of the class of `like`; keep the current object if
-/// it has this class. Call this in RequestDataObject. Do nothing if `like` is null.
+/// Replace the data object of an output port by an empty object of the class of `like`. Keep the
+/// current object if it already has this class. Do nothing if `like` is null. Call this function in
+/// RequestDataObject.
 inline void match_output_type(vtkDataObject* like, vtkInformationVector* output, int port = 0)
 {
   vtkInformation* info = output->GetInformationObject(port);

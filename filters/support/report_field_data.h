@@ -16,7 +16,7 @@ namespace bindpose
 
 class ExecutionContext;
 
-/// Report whether an entry of a report measures the run rather than its result: seconds,
+/// Report whether an entry of a report is a property of one run and not of the result: seconds,
 /// microseconds, or bytes of memory. All other entries are the same for every run with the same
 /// input.
 BINDPOSEFILTERS_EXPORT bool measures_run(const std::string& key);
@@ -30,7 +30,7 @@ BINDPOSEFILTERS_EXPORT void attach_report(vtkDataObject* data, const Report& rep
 BINDPOSEFILTERS_EXPORT Report read_report(vtkDataObject* data);
 
 /// If the report of a data object contains a failure, return a status with this failure. Return ok
-/// if the data is null or has a result.
+/// if the data is null or its report contains no failure.
 BINDPOSEFILTERS_EXPORT Status upstream_failure(vtkDataObject* data);
 
 /// Complete the status's report with the entries that all reports have. Status, message and

@@ -13,9 +13,9 @@ class vtkPolyData;
 namespace bindpose
 {
 
-/// Names of the mesh's point arrays with the terms of weights. Terms are optional constraints and
-/// energies that a user adds to the weights problem: rigidity, rigid sets, bounds, pinned weights
-/// and mirror symmetry (see vtkWeightsAlgorithm). An empty name disables the array.
+/// Names of the mesh's point arrays that contain terms. Terms are optional constraints and energies
+/// that a user adds to the optimization problem of weights: rigidity, rigid sets, bounds, pinned
+/// weights and mirror symmetry (see vtkWeightsAlgorithm). An empty name disables the array.
 struct TermArrayNames
 {
   std::string rigidity = "Rigidity";
@@ -38,8 +38,9 @@ Status to_terms(
 /// (two components).
 constexpr const char* handle_bounds_name = "WeightBounds";
 
-/// Read the bounds of the handles' weights. NaN is replaced by the default `everywhere` (lower,
-/// upper). If there is no array and `everywhere` is (0, 1), the terms have no bounds.
+/// Read the bounds of the handles' weights from the array handle_bounds_name. NaN, or a missing
+/// array, is replaced by the default `everywhere` (lower, upper). If there is no array and
+/// `everywhere` is (0, 1), the terms have no bounds.
 /// @param cells  cells of the dataset, one per handle
 Status to_handle_bounds(vtkPolyData* handles, const std::vector<Index>& cells,
   const double (&everywhere)[2], WeightTerms& terms);

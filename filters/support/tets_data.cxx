@@ -51,7 +51,7 @@ vtkSmartPointer<vtkUnstructuredGrid> to_unstructured_grid(
   {
     grid->GetCellData()->AddArray(to_array("InsideFraction", result.inside_fractions));
   }
-  // A reader replaces the report when the tets are written to a file and read again, but keeps this
+  // If the tets are written to a file and read again, the reader replaces the report but keeps this
   // array.
   vtkNew<vtkStringArray> name;
   name->SetName("Method");

@@ -27,9 +27,9 @@ struct WeightsInput
   std::vector<Index> cells; ///< cells of the handle dataset, one per handle
 };
 
-/// Convert weights and handles. Return invalid_input if there is no mesh or no handle, if the mesh
-/// has no array of that name (the message lists the existing arrays), or if the weights belong to
-/// other handles.
+/// Convert weights and handles. Return invalid_input if there is no mesh or no handle, or if the
+/// weights belong to other handles. Also return it if the mesh has no array of that name; the
+/// message then lists the existing arrays.
 Status to_weights_input(
   vtkPointSet* mesh, const std::string& array_name, vtkPolyData* handles, WeightsInput& input);
 

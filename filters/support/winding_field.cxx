@@ -134,7 +134,7 @@ enum class Kind
 };
 
 /// Return the type of an input. An input that is neither a curve nor a set of oriented points is
-/// treated as a surface, and rejected if it is not one.
+/// treated as a surface. The surface code rejects the input if it has no 2D cells.
 Kind kind_of(vtkPointSet* input)
 {
   if (!input || has_cells_of_dimension(input, 2))

@@ -18,8 +18,8 @@ namespace bindpose
 class ExecutionContext;
 
 /// Return the expected fraction of the total time that the build of the acceleration structure
-/// takes, in [0, 1). The constants were measured on clean surfaces of figures and on triangle soups
-/// of leaves.
+/// takes, in [0, 1). The function's constants were measured on clean surfaces (characters) and on
+/// triangle soups (foliage).
 double winding_build_fraction(Index triangles, Index queries);
 
 /// The points of an evaluation: a grid or a list of points. Both can be split into layers. A layer
@@ -77,9 +77,9 @@ public:
   WindingField(WindingField&&) noexcept;
   WindingField& operator=(WindingField&&) noexcept;
 
-  /// Compute the bounding box of the input without building anything. `flat` is the axis
-  /// perpendicular to a curve's plane, -1 for other inputs. Return invalid_input in the same cases
-  /// as build().
+  /// Compute the bounding box of the input without building an acceleration structure. `flat` is
+  /// the axis perpendicular to a curve's plane, -1 for other inputs. Return invalid_input in the
+  /// same cases as build().
   static Status extent(vtkPointSet* input, Box& box, int& flat);
 
   Status build(vtkPointSet* input, const Options& options, ExecutionContext& context);
@@ -90,8 +90,8 @@ public:
   /// Compute the gradients: 3 x samples.count() derivatives.
   Status evaluate_gradient(const Samples& samples, ExecutionContext& context, double* out) const;
 
-  /// Report whether Options::expected_queries changes the computed values, by no more than the
-  /// tolerance. If so, another number of queries needs a new build.
+  /// Report whether the computed values depend on Options::expected_queries (within the tolerance).
+  /// If they do, another number of queries needs a new build.
   bool depends_on_expected_queries() const;
 
   /// Return the open boundary of a surface; empty for curves and points.

@@ -14,7 +14,7 @@ Every filter is also available as a VTK class (``bindpose.vtkWindingNumberField`
 ``bindpose.run`` turns a filter's status into an exception.
 
 The output has the type of the input: arrays for arrays, a VTK dataset for a VTK dataset. ``bindpose.report(result)``
-returns the numbers of both.
+returns the report of either.
 """
 
 import vtkmodules.vtkCommonCore  # noqa: F401  import VTK first, because Bindpose's libraries use its symbols

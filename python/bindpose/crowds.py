@@ -28,7 +28,8 @@ def _placement(place):
 def crowd(mesh, handles, poses, *, placements=None, weights=None, appended=False, options, threads=0, progress=None):
     """Bend many instances of a mesh, each to its own pose, by reduced as-rigid-as-possible.
 
-    The mesh is bound once. Each instance costs its iterations, and its points in single precision.
+    The mesh is bound once. Each instance takes the time of its own iterations and the memory of its points in single
+    precision.
 
     Parameters
     ----------
@@ -47,12 +48,13 @@ def crowd(mesh, handles, poses, *, placements=None, weights=None, appended=False
     Returns
     -------
     list of Array or of vtkDataSet, or vtkDataSet
-        One per instance, as `deform` returns; the datasets share cells and arrays. One dataset with `appended`.
+        One result per instance, of the type that `deform` returns; the datasets share cells and arrays. With
+        `appended`, one dataset.
 
     Raises
     ------
     InvalidInput
-        As in `deform`, with the instance; numbers of placements and poses that differ.
+        As in `deform`; the message names the instance. Also, the numbers of placements and poses differ.
 
     Notes
     -----

@@ -12,22 +12,22 @@ from .running import run
 def fair(mesh, fixed=None, *, tangents=None, parameters=None, load=None, options, threads=0, progress=None):
     """Recompute the free points of a surface smoothly between the fixed ones: for holes and blends.
 
-    Each coordinate solves Laplace's equation of an order (mixed finite elements, Jacobson et al. 2010).
+    Each coordinate x solves (-Laplacian)^order x = load by mixed finite elements (Jacobson et al. 2010).
 
     Parameters
     ----------
     mesh : vtkDataSet or (vertices, triangles)
-        A surface. The positions of the free points matter only without `parameters`: they determine cotangents and
-        areas.
+        A surface. Without `parameters`, the positions of the free points determine cotangents and areas; otherwise
+        these positions have no effect.
     fixed : (#V,) array of bool or ids, optional
         The fixed vertices; default: the dataset's point array ``Fixed``.
     tangents : (#V, 3) array, optional
-        Derivatives of the position outward, per unit of the parameter domain. Sets `tangent_source` to "given".
-        Default: the point array ``Tangents``.
+        Derivatives of the position in the outward direction, per unit length of the parameter domain. Sets
+        `tangent_source` to "given". Default: the point array ``Tangents``.
     parameters : (#V, 2) or (#V, 3) array, optional
         Positions in the parameter domain; default: the point array ``Parameterization``, or the mesh itself.
     load : (#V, 3) array, optional
-        Right side of (-Laplacian)^order; default: zero.
+        Right side of the equation; default: zero.
     {options}
     threads, progress
         See `winding_number`.
@@ -35,13 +35,13 @@ def fair(mesh, fixed=None, *, tangents=None, parameters=None, load=None, options
     Returns
     -------
     Array or vtkDataSet
-        Coordinates (#V, 3) for arrays, a copy for a dataset.
+        For arrays: coordinates (#V, 3). For a dataset: a copy with the new coordinates.
 
     Raises
     ------
     InvalidInput
-        A connected component without fixed points, triangles of the patch without area, edges of three triangles or
-        more.
+        A connected component has no fixed points, a triangle of the patch has no area, or an edge has three or more
+        triangles.
     Unavailable
         The system is too ill-conditioned for double precision.
     """

@@ -53,7 +53,7 @@ def read(path):
     Raises
     ------
     InvalidInput
-        Missing, empty, truncated or invalid file; the message names it, and the line of text formats.
+        Missing, empty, truncated or invalid file; the message names the file and, for text formats, the line.
     """
     reader = vtkMeshFileReader()
     reader.SetFileName(os.fspath(path))
@@ -93,8 +93,8 @@ def write(mesh, path, *, overwrite=False):
     mesh : vtkDataSet or (vertices, elements)
     path : str or path-like
         vtp, vtu, vti, vtk, ply, stl, obj, off, mesh; dmat for the array ``Weights`` alone; glb or gltf without a skin
-        (`write_rig` writes a skin); vdb (OpenVDB) for a volume's active scalars, for which ``bindpose.vtkVDBWriter``
-        has more options.
+        (`write_rig` writes a skin); vdb (OpenVDB) for the active scalars of a volume. ``bindpose.vtkVDBWriter`` has
+        more options for .vdb files.
     overwrite : bool
         Replace an existing file.
 
@@ -126,8 +126,8 @@ def read_rig(path):
     Returns
     -------
     Rig
-        Mesh with weights, handles and animation. The handles are at rest in the bind pose; their ``Transform`` is
-        that of the nodes.
+        Mesh with weights, handles and animation. The rest pose of the handles is the bind pose; their array
+        ``Transform`` contains the transforms of the file's nodes.
 
     Raises
     ------
@@ -159,16 +159,16 @@ def write_rig(mesh, handles, path, *, frames=(), fps=24.0, animation="joints", m
     animation : {"joints", "morph"}
         Frames are stored as transforms of the joints (linear blends), or as morph targets (all methods).
     maximum_influences : int
-        Maximum number of weights written per vertex, the largest; 0: all.
+        Maximum number of weights per vertex that are written; the largest weights are kept. 0: all.
     overwrite : bool
         Replace an existing file.
 
     Returns
     -------
     dict
-        The writer's report: ``sets`` of four weights, ``dropped_share``, ``pose_error`` and ``animation_error``
-        (largest distance of a vertex in the file from its correct position, as a fraction of the diagonal),
-        ``file_bytes``, …
+        The writer's report: ``sets`` (number of sets of four weights), ``dropped_share``, ``pose_error`` and
+        ``animation_error`` (both: largest distance of a vertex in the file from its correct position, as a fraction of
+        the diagonal), ``file_bytes``, …
 
     Raises
     ------

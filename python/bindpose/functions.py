@@ -44,9 +44,8 @@ def winding_number(surface, points_or_grid=None, *, options, threads=0, progress
         A dataset without polygons is a curve in a plane (lines), or samples of a surface (points with normals, and
         areas in a point array ``Area``).
     points_or_grid : optional
-        Points of the evaluation: an array of points (#P, 3); a VTK dataset, whose points are used; the number of
-        samples along the longest side of a grid of cubic voxels; or three numbers, the dimensions of a grid. Default:
-        64 samples.
+        Where to evaluate: an array of points (#P, 3); a VTK dataset, whose points are used; the number of samples along
+        the longest side of a grid of cubic voxels; or three numbers, the dimensions of a grid. Default: 64 samples.
     {options}
     threads : int
         0 for all cores; the result does not depend on it.
@@ -56,9 +55,10 @@ def winding_number(surface, points_or_grid=None, *, options, threads=0, progress
     Returns
     -------
     Array, vtkImageData or vtkDataSet
-        (#P,) values for points, with `compute_gradient` a pair of these and (#P, 3) gradients; an image for a grid; a copy
-        for a dataset. Datasets have the point arrays ``WindingNumber``, ``OnSurface`` (1 where a triangle touches the
-        point) and, with `compute_gradient`, ``WindingNumberGradient``.
+        For an array of points: (#P,) values, or with `compute_gradient` a pair of (#P,) values and (#P, 3) gradients.
+        For a grid: a vtkImageData. For a dataset: a copy of it. Images and datasets have the point arrays
+        ``WindingNumber``, ``OnSurface`` (1 where a triangle touches the point) and, with `compute_gradient`,
+        ``WindingNumberGradient``.
 
     Raises
     ------
@@ -151,8 +151,8 @@ def tetrahedralize(surface, *, handles=None, options, threads=0, progress=None):
     -------
     Tets or vtkUnstructuredGrid
         Arrays for arrays. A dataset has the point array ``OriginalPointIds`` and the cell arrays ``WindingNumber``,
-        ``Label`` (1 inside, 2 inside although the winding number is below the threshold, 0 outside, -1 outside
-        although it is not below) and ``MinDihedralAngle`` (degrees).
+        ``Label`` (1 inside, 2 inside although the winding number is below the threshold, 0 outside, -1 outside although
+        the winding number is not below the threshold) and ``MinDihedralAngle`` (degrees).
 
     Raises
     ------
@@ -182,11 +182,11 @@ def planar_shape(image_or_curves, *, handles=None, options, threads=0, progress=
     Parameters
     ----------
     image_or_curves : vtkImageData, vtkPolyData, array, pair of arrays, str or path-like
-        An image is a dataset, a png, jpg, tif or bmp file, or an array whose first row is at the top, #rows x
-        #columns of alpha (0 to 1, bool, or unsigned integers) or x 4 with alpha as the last component. The shape is
-        the part where alpha is at least 0.5; without alpha it is the whole image. Curves are a dataset or mesh file
-        with lines or polygons in a plane z = const, or arrays (points #V x 2 or x 3, segments #E x 2),
-        counter-clockwise around the inside.
+        An image is a dataset, a png, jpg, tif or bmp file, or an array whose first row is at the top. The array has the
+        shape #rows x #columns for alpha alone (0 to 1, bool, or unsigned integers), or #rows x #columns x 4 with alpha
+        as the last component. The shape is the part where alpha is at least 0.5; without alpha it is the whole image.
+        Curves are a dataset or mesh file with lines or polygons in a plane z = const, or arrays (points #V x 2 or x 3,
+        segments #E x 2), counter-clockwise around the inside.
     handles : vtkPolyData, str or path-like, optional
         Handle dataset or file: points become points of the mesh, bones become chains of edges.
     {options}
@@ -244,7 +244,8 @@ def _make_weights(method):
 
 
 def _set_arrays(solver, data, options, mirror):
-    """Set the array options of a solver. Return a copy of the mesh with the arrays that are given as values."""
+    """Set the array options of a solver. Return a copy of the mesh; arrays that the caller passed as values are added
+    to it."""
     named = shallow_copy(data)
     if isinstance(mirror, str) and mirror in ("x", "y", "z"):
         low, high = np.reshape(data.GetBounds(), (3, 2)).T
@@ -279,11 +280,12 @@ def weights(mesh, handles, *, bounds=(0, 1), mirror=None, options, threads=0, pr
         A handle dataset (see `bindpose.handles`), a .tgf or .vtp file, "auto:N" for N points
         spread over the surface, or "skeleton:N" for at most N bones in it (`automatic_handles`).
     bounds : (float, float) or dict of handle name to (float, float)
-        Smallest and largest weight, of all handles or of single ones; only a wider range than 0 to 1 can be
-        satisfied. Without a dict the handles' cell array ``WeightBounds`` is used, if they have it.
+        Smallest and largest weight, either for all handles or per handle. The range must include 0 to 1. Without a
+        dict, the cell array ``WeightBounds`` of the handles is used, if it exists.
     mirror : {"x", "y", "z"}, str or array_like (#V,) of int, optional
-        Handles that are mirror images get mirrored weights. The mirror is the middle plane across an axis, or ids of
-        mirror points, -1 for none.
+        Handles that are mirror images get mirrored weights. "x", "y" and "z" mean the plane through the middle of the
+        bounding box, perpendicular to this axis. Otherwise, an array (or the name of a point array) that contains the
+        id of the mirror image of each point; -1: none.
     {options}
     threads, progress
         See `winding_number`.
@@ -291,8 +293,8 @@ def weights(mesh, handles, *, bounds=(0, 1), mirror=None, options, threads=0, pr
     Returns
     -------
     Array or vtkDataSet
-        (#V, #handles) with ``names`` of the columns for arrays. For a dataset a copy of the mesh with the point array
-        ``Weights``, one component per handle. Rows sum to one.
+        For arrays: (#V, #handles), with the handle of each column in ``names``. For a dataset: a copy of the mesh with
+        the point array ``Weights``, one component per handle. Rows sum to one.
 
     Raises
     ------
@@ -335,7 +337,7 @@ def weights(mesh, handles, *, bounds=(0, 1), mirror=None, options, threads=0, pr
     solver.SetNumberOfThreads(threads)
     report = run(solver, progress)
     result = solver.GetOutput()
-    # handles may have added points, so transfer to the points of the input
+    # The solver may have added points at handles, so transfer the weights to the points of the input.
     if is_tets(data) or options.domain == "surface":
         transfer = filters.vtkTransferWeights()
         transfer.SetInputData(0, data)
@@ -425,8 +427,8 @@ def deform(mesh, handles, pose, *, weights=None, times=None, options, threads=0,
     Returns
     -------
     Array or vtkDataSet, or a list of them
-        Posed coordinates (#V, 3) for arrays, a posed copy for a dataset; a list with one entry per frame for a
-        sequence.
+        For arrays: posed coordinates (#V, 3). For a dataset: a posed copy. For a sequence: a list with one entry per
+        frame.
 
     Raises
     ------
@@ -463,8 +465,9 @@ def dynamics(mesh, handles, pose, *, frames, weights=None, options, threads=0, p
     mesh, handles, weights
         See `deform`.
     pose : dict, str or path-like
-        See `deform`: a sequence, whose frames prescribe the motion at their times, a pose with expressions in ``t``,
-        or a constant pose. A handle that changes to mode ``free`` stops constraining the body.
+        See `deform`. A sequence prescribes the motion at the times of its frames. A pose with expressions in ``t``
+        prescribes the motion at all times. Any other pose is constant. A handle that changes to mode ``free`` stops
+        constraining the body.
     frames : int
         Number of time steps to return; the first is the pose at time 0 without velocity.
     {options}
@@ -474,7 +477,7 @@ def dynamics(mesh, handles, pose, *, frames, weights=None, options, threads=0, p
     Returns
     -------
     list of Array or of vtkDataSet
-        One per step, as `deform` returns.
+        One result per step, of the type that `deform` returns.
 
     Raises
     ------

@@ -97,7 +97,7 @@ def _parent(bones, bone, first):
 
 
 def farthest_point_handles(surface, count=8):
-    """Spread point handles p1, p2, … evenly over a surface; the first are at tips.
+    """Spread point handles p1, p2, … evenly over a surface; the first handles are at tips of the shape.
 
     Parameters
     ----------
@@ -133,12 +133,12 @@ def automatic_handles(mesh, *, options, threads=0, progress=None):
     Returns
     -------
     vtkPolyData
-        A handle dataset, as `weights` takes it; `report` contains the details of its computation.
+        A handle dataset, as `weights` takes it; `report` returns the details of the computation.
 
     Raises
     ------
     InvalidInput
-        Bones: a flat surface, or one that encloses nothing. Points: more points than vertices.
+        For bones: the surface is flat or encloses nothing. For points: there are more points than vertices.
     Unavailable
         The helper program is missing, or an unclean surface is too thin to be filled.
     """
@@ -175,7 +175,8 @@ def _names(handles):
 def with_cell_values(handles, array_name, values, components, missing=None):
     """Return a copy of the handle dataset with a value for each cell: a sequence, or {name: value}.
 
-    ``missing`` is the value of handles without a name in the dict. None: 0 for one component, an error for several.
+    ``missing`` is the value of handles whose name is not in the dict. If ``missing`` is None, the value is 0 for arrays
+    of one component; for arrays of several components, a missing name is an error.
     """
     count = handles.GetNumberOfCells()
     shape = (count, components) if components > 1 else (count,)

@@ -154,7 +154,7 @@ def to_curves(curves):
 
 
 def is_tets(data):
-    """Report whether the first cell is a tet; filters check the other cells."""
+    """Report whether the first cell is a tet; the filters check all other cells."""
     return data.GetNumberOfCells() > 0 and data.GetCellType(0) == VTK_TETRA
 
 
@@ -199,7 +199,8 @@ def shallow_copy(data):
 
 
 def remember_run(data, report):
-    """Store a filter's whole report with its output; the dataset's own arrays have no seconds."""
+    """Store a filter's whole report with its output. (The report in the field data of the output contains no
+    seconds.)"""
     with contextlib.suppress(AttributeError):  # objects of other classes may not allow new attributes
         data._bindpose_run = report  # pylint: disable=protected-access
 

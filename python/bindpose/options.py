@@ -1,4 +1,4 @@
-"""Options of the stages: signatures, documentation and checks of a function, made from the descriptions of options."""
+"""Create signatures, documentation and checks of functions from the descriptions of options."""
 
 import functools
 import inspect
@@ -116,7 +116,7 @@ class Options:
             getattr(algorithm, option["setter"])(*arguments)
 
     def arrays(self):
-        """Descriptions and values of the options that name or contain arrays, if they are given."""
+        """Yield (description, value) of each given option that names or contains an array."""
         for name, option in self._described.items():
             value = getattr(self, name)
             if option["type"] in _ARRAYS and value is not None:
@@ -124,10 +124,10 @@ class Options:
 
 
 def with_options(*sets, only=None, without=()):
-    """Give a function the options of some sets.
+    """Return a decorator that gives a function the options of some sets.
 
     The function has a keyword-only parameter ``options``, and a line ``{options}`` in the parameters of its docstring.
-    Both are replaced by the described options; the function gets them as an `Options`.
+    The described options replace both; the function gets their values as an `Options` object.
 
     Parameters
     ----------

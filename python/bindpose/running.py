@@ -14,7 +14,8 @@ _ERRORS = {error.status: error for error in (InvalidInput, Canceled, Unavailable
 
 
 def _caller_level():
-    """Return the stacklevel with which a warning of the calling function names the user's line."""
+    """Return the `stacklevel` with which warnings.warn(), called by the calling function, names the line of the
+    user."""
     frame, level = sys._getframe(1), 1
     while frame.f_back and frame.f_globals.get("__name__", "").startswith("bindpose."):
         frame, level = frame.f_back, level + 1
@@ -59,7 +60,7 @@ def run(algorithm, progress=None):
     Raises
     ------
     InvalidInput, Canceled, Unavailable, BindposeError
-        The exception of the filter's status, with its message.
+        The exception that corresponds to the filter's status, with the filter's message.
     KeyboardInterrupt
         After Ctrl-C, which cancels the filter.
 
@@ -116,9 +117,9 @@ def report(result):
     Returns
     -------
     dict
-        Nested by the dots of the keys (``report(w)["seconds"]["solve"]``); empty for data without a report. Files and
-        outputs of filters that you updated yourself have no seconds and no memory, so that equal results give equal
-        files; the filter itself has them.
+        Keys with dots become nested dicts (``report(w)["seconds"]["solve"]``); empty for data without a report. The
+        reports of files, and of outputs of filters that you updated yourself, contain no seconds and no memory, so that
+        equal results give equal files. The report of the filter itself contains both.
     """
     if hasattr(result, "report"):
         return result.report

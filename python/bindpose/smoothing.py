@@ -36,7 +36,7 @@ def monotone_smoothing(mesh, data=None, *, maxima=None, minima=None, options, th
     """Smooth data on a mesh and keep only the requested extrema (topological simplification).
 
     The result is the smooth function nearest to the data among all functions whose only local extrema are the listed
-    ones. Without a list they are the most persistent extrema of the data.
+    ones. Without a list, the most persistent extrema of the data are used.
 
     Parameters
     ----------
@@ -45,7 +45,8 @@ def monotone_smoothing(mesh, data=None, *, maxima=None, minima=None, options, th
     data : (#V,) array or str, optional
         Values at the vertices, or the name of a point array of the dataset; default: its active scalars.
     maxima, minima : sequence of int, optional
-        Vertices that may be extrema. A connected component needs both, or neither: then it becomes constant.
+        Vertices that may be extrema. A connected component needs at least one maximum and one minimum, or no extrema at
+        all. Without extrema, it becomes constant.
     {options}
     threads, progress
         See `winding_number`.

@@ -67,7 +67,8 @@ def weighted_colors(mesh, handles, colors=None, *, weights=None, array_name="Wei
 
 @with_options("endpoint_weights")
 def endpoint_weights(mesh, handles, *, options, threads=0, progress=None):
-    """Return the position of every point along each bone, 0 at its head to 1 at its tail: to stretch and twist bones.
+    """Return the position of every point along each bone, from 0 at the head to 1 at the tail, to stretch and twist
+    bones.
 
     Parameters
     ----------
@@ -82,7 +83,7 @@ def endpoint_weights(mesh, handles, *, options, threads=0, progress=None):
     Returns
     -------
     Array or vtkDataSet
-        (#V, #handles), NaN for handles that are not bones. For a dataset a copy with the point array
+        For arrays: (#V, #handles), NaN for handles that are not bones. For a dataset: a copy with the point array
         ``EndpointWeights``, which ``deform(…, method="stbs")`` uses.
 
     Raises
@@ -117,8 +118,8 @@ def depth_order(mesh, handles, layers=None, *, weights=None, array_name="Weights
     handles : vtkPolyData, str or path-like
         The handles for which the weights were computed.
     layers : sequence or dict, optional
-        One number per handle; larger is in front. Handles that are not in a dict have 0. Default: the handles' cell
-        array ``Layer``, else all 0.
+        One number per handle; larger is in front. Handles whose name is not in the dict have layer 0. Default: the
+        handles' cell array ``Layer``, else all 0.
     weights, array_name
         See `weighted_colors`.
     {options}
@@ -170,9 +171,8 @@ def cut_along_bones(shape, handles, left=None, right=None, *, curves=None, progr
     Returns
     -------
     shape, handles : vtkPolyData
-        The cut mesh, with the label ``RegionId`` of each side, and regions ``NAME left`` and
-        ``NAME right`` with their ``Color``: what `weights` (``domain="surface"``) and
-        `weighted_colors` take.
+        The cut mesh, whose array ``RegionId`` labels each side, and the region handles ``NAME left`` and ``NAME right``
+        with their ``Color``. Both can be passed to `weights` (``domain="surface"``) and `weighted_colors`.
 
     Raises
     ------

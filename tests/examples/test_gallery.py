@@ -83,7 +83,7 @@ def test_drag_only(tmp_path):
 def test_disjoint_skeleton(tmp_path):
     numbers = numbers_of("gallery/disjoint_skeleton.py", tmp_path)
     assert numbers["free bones"] == 5
-    # The displacement is that of the hand itself, because skinning does not move the arm.
+    # Skinning does not move the arm, so the distance between arm and hand is the displacement of the hand.
     assert numbers["skinned: arm to hand"] == pytest.approx(np.hypot(0.02, 0.24), abs=1e-9)
     assert numbers["found: arm to hand"] < 0.02 and numbers["found: flipped triangles"] == 0
     assert abs(numbers["rotation of the arm, degrees"]) > 20
@@ -404,7 +404,7 @@ def test_spurious_extrema(tmp_path):
             assert kind == "unconstrained" or 0 <= lowest <= highest <= 1
     assert numbers["bounded biharmonic: extrema by column"] == [0] * 5
     assert min(numbers["bounded triharmonic: extrema by column"]) > 2
-    # An extremum jumps by four squares when the handle moves by one square.
+    # When the handle moves by one square, an extremum jumps by four squares.
     assert numbers["bounded triharmonic: farthest jump of an extremum"] > 0.1
     assert max(value for name, value in numbers.items() if name.endswith("relative gap")) <= 1e-6
 
@@ -495,8 +495,9 @@ def test_bent_furniture(tmp_path):
 
 
 def test_cost_of_weights(tmp_path):
-    """Check times with loose bounds, because other processes may run on the machine. The certificates must hold, and
-    the memory must match the estimate."""
+    """Check times with loose bounds, because other processes may run on the machine. The certificates must be valid,
+    and the memory must match the estimate.
+    """
     numbers = numbers_of("gallery/cost_of_weights.py", tmp_path)
     assert max(numbers["worst relative gap"], numbers["worst natural residual"]) <= 1e-6
     assert 0 < numbers["4 handles, whole: exponent"] < 4

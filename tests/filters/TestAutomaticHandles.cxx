@@ -1,5 +1,5 @@
-// vtkAutomaticHandles computes handles from a surface. Its output is a handle dataset that weights
-// can be bound to.
+// vtkAutomaticHandles computes handles from a surface. The weights filters accept its output as
+// handles.
 #include "vtkAutomaticHandles.h"
 
 #include "conversion.h"
@@ -69,7 +69,7 @@ TEST_F(AutomaticBones, BindWithoutAHand)
   ASSERT_EQ(filter->GetStatus(), vtkAutomaticHandles::OK) << filter->GetStatusMessage();
   ASSERT_EQ(weights->GetStatus(), vtkAutomaticHandles::OK) << weights->GetStatusMessage();
   const Handles handles = handles_of(filter);
-  ASSERT_EQ(handles.size(), 4u); // the bone of length 7 (of the diagonal 8.12) is halved twice
+  ASSERT_EQ(handles.size(), 4u); // the bone of length 7 is halved twice to be below 0.3 * 8.12
   vtkDataArray* array = weights->GetOutput()->GetPointData()->GetArray("Weights");
   ASSERT_NE(array, nullptr);
   ASSERT_EQ(array->GetNumberOfComponents(), 4);
@@ -129,7 +129,7 @@ TEST_F(AutomaticBones, SurviveATgfFile)
     EXPECT_EQ(read[i].name, made[i].name);
     EXPECT_EQ(read[i].head, made[i].head);
     EXPECT_EQ(read[i].tail, made[i].tail);
-    // If both bones begin at the root, the file cannot store that one is the parent of the other.
+    // If a child bone does not begin at its parent's tail, the file cannot store its parent.
     const bool beside = made[i].parent >= 0 && made[made[i].parent].tail != made[i].head;
     EXPECT_EQ(read[i].parent, beside ? -1 : made[i].parent);
     ASSERT_EQ(status.warnings.size(), 1u);

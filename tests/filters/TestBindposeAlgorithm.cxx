@@ -1,5 +1,5 @@
-// The contract that vtkBindposeAlgorithm gives all filters: report, failure, cancel, repeated
-// execution.
+// The behavior that all filters inherit from vtkBindposeAlgorithm: report, failure, cancel,
+// repeated execution.
 #include "TestFilter.h"
 #include "data_of.h"
 
@@ -186,7 +186,8 @@ TEST(BindposeAlgorithm, FailureEmptiesOutputsAndPassesOn)
     second->Update();
     EXPECT_EQ(first->Executions, 2);
   }
-  // After a success, no trace of the failure remains.
+  // After a successful execution, the status, the error code and the report no longer show the
+  // failure.
   first->Work = nullptr;
   second->Update();
   EXPECT_EQ(first->GetStatus(), vtkBindposeAlgorithm::OK);

@@ -50,7 +50,8 @@ protected:
   vtkNew<test::Listener> listener;
 };
 
-/// Return a U: two legs of width 1/3 along y, joined below y = 1/4.
+/// Return a U-shaped surface. Its two legs have width 1/3, extend along y and are joined below y =
+/// 1/4.
 vtkSmartPointer<vtkPolyData> u_shape()
 {
   TriangleMesh mesh = test::grid(12, 12);

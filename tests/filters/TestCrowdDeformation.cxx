@@ -80,8 +80,8 @@ protected:
     set_pose(result, cells, this->pose(i));
     return result;
   }
-  /// Add the same poses as arrays with one row per instance: the translations of the right handle,
-  /// and the modes of all handles.
+  /// Add arrays with one row per instance, which describe the poses that pose() returns: the
+  /// translations of the right handle, and the modes of all handles.
   template <typename Attributes>
   void add_rows(Attributes* arrays, int rows) const
   {
@@ -190,8 +190,8 @@ TEST_F(CrowdDeformationFilter, PlacesInstances)
     const Points expected = this->alone(i).rowwise() + Eigen::RowVector3d(5.0 * i, 1.0, -i);
     EXPECT_LT((this->instance(i) - expected).cwiseAbs().maxCoeff(), 1e-5) << i;
   }
-  // The array Placement takes precedence over the points. It rotates by 90 degrees and doubles the
-  // size.
+  // The array Placement takes precedence over the points. Each placement rotates by 90 degrees and
+  // doubles the size.
   vtkNew<vtkDoubleArray> places;
   places->SetName("Placement");
   places->SetNumberOfComponents(12);

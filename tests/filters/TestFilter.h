@@ -1,8 +1,8 @@
 #ifndef TestFilter_h
 #define TestFilter_h
 
-// A filter whose work the test defines and whose executions are counted, and a listener that
-// records the events of a filter.
+// TestFilter runs a function that the test provides, and counts its executions. Listener records
+// the events of a filter.
 
 #include "vtkBindposeAlgorithm.h"
 
@@ -22,8 +22,8 @@
 namespace bindpose::test
 {
 
-/// A filter from vtkDataSet to vtkPolyData. It copies the input if this is a polydata, then calls
-/// the function that the test provides.
+/// A filter from vtkDataSet to vtkPolyData. The filter makes a shallow copy of the input if the
+/// input is a vtkPolyData. It then calls the function that the test provides.
 class TestFilter : public vtkBindposeAlgorithm
 {
 public:

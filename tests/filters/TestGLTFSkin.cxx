@@ -1,6 +1,6 @@
-// vtkGLTFSkinWriter and vtkGLTFSkinReader: a rig is written and read back, with weights as floats,
-// equal handles, and poses of linear blend skinning. The content of the file itself is tested in
-// tests/core/io.
+// vtkGLTFSkinWriter and vtkGLTFSkinReader: a rig that is written and read back has equal handles,
+// weights in single precision, and the same poses of linear blend skinning. The content of the file
+// itself is tested in tests/core/io.
 #include "TestFilter.h"
 
 #include "conversion.h"
@@ -238,8 +238,9 @@ TEST_F(GLTFSkin, TetsAreTheirBoundary)
   }
 }
 
-/// Request the frames at times in any order. The poses are those of the reader's output, and those
-/// that vtkPoseHandles reads from the same file. The file has 12 frames per second.
+/// Request times in arbitrary order and compare the posed meshes with `expected`. One pipeline uses
+/// the poses of the reader's output. The other pipeline uses vtkPoseHandles, which reads the same
+/// file. The file has 12 frames per second.
 void GLTFSkin::ExpectTheTimesOfTheFrames(const std::vector<Points>& expected)
 {
   vtkNew<vtkPoseHandles> posed;
@@ -430,7 +431,7 @@ TEST_F(GLTFSkin, JointsOfOtherProgramsBecomeHandles)
   EXPECT_EQ(handles[2].name, "j1");
   EXPECT_EQ(handles[2].kind, HandleKind::bone);
   EXPECT_LT((handles[2].tail - Vec3(1.0 / 3.0, 2.5 / 3.0, 0)).norm(), 1e-6);
-  // A point handle already has this position, so the joint becomes a short bone.
+  // The point handle j0 already has the position of the joint j2, so j2 becomes a short bone.
   EXPECT_EQ(handles[3].name, "j2");
   EXPECT_EQ(handles[3].kind, HandleKind::bone);
   EXPECT_EQ(handles[0].parent, 2);

@@ -86,7 +86,7 @@ TEST_F(HandleFiles, TgfPseudoEdgesJoinPoints)
   EXPECT_TRUE(pseudo_edges_of(path, edges).ok());
   ASSERT_EQ(this->Reader->GetStatusMessage(), "");
   EXPECT_EQ(edges, (PseudoEdges{ { 0, 1 } })) << "each once";
-  // The format that stores all kinds of handles also stores pseudo-edges.
+  // The format .vtp stores all kinds of handles and also pseudo-edges.
   vtkNew<vtkPolyData> copy;
   copy->DeepCopy(this->Reader->GetOutput());
   vtkNew<vtkMeshFileWriter> writer;

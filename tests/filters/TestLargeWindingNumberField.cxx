@@ -68,7 +68,7 @@ TEST(LargeWindingNumberField, ABillionSamplesInTheMemoryOfOneBlock)
   EXPECT_NEAR(std::cbrt(inside), along, 1.0);
   EXPECT_EQ(other, 0.0);
 #if !defined(__SANITIZE_ADDRESS__) // the sanitizer delays the release of freed memory
-  // One double and one byte (array OnSurface) per sample of a block.
+  // The memory for one block: each sample needs one double and one byte (array OnSurface).
   const double block = (8.0 + 1.0) * samples * samples * layers;
   EXPECT_LT(peak_memory() - before, block + 8e6);
 #endif
@@ -85,7 +85,7 @@ TEST(LargeWindingNumberField, StopsWithinAFifthOfASecond)
   using Clock = std::chrono::steady_clock;
   for (const double when : { 0.02, 0.1, 0.3, 0.6, 0.9 })
   {
-    // The minimum of three attempts, because other processes may use the processor.
+    // Take the minimum of at most three attempts, because other processes may use the processor.
     double shortest = 1e9;
     for (int attempt = 0; attempt < 3 && shortest > 0.2; ++attempt)
     {
@@ -108,7 +108,7 @@ TEST(LargeWindingNumberField, StopsWithinAFifthOfASecond)
       shortest = std::min(shortest, std::chrono::duration<double>(Clock::now() - asked).count());
     }
     std::printf("  asked at %.0f %%, stopped after %.0f ms\n", 100.0 * when, 1e3 * shortest);
-    // With sanitizers, 1.0 s was measured on a slow machine.
+    // The limits are in seconds. With sanitizers, a slow machine needed 1.0 s.
     EXPECT_LT(shortest, test::sanitized ? 3.0 : 0.2) << when;
   }
 }

@@ -1,6 +1,6 @@
-// vtkMeshFileReader and vtkMeshFileWriter: every format is read back as it was written. A file that
-// cannot be read or written gives one sentence in the status and in the report of the empty output,
-// and never a crash.
+// vtkMeshFileReader and vtkMeshFileWriter: data that is written and read back is unchanged in every
+// format. A file that cannot be read or written gives one error sentence in the status and in the
+// report of the empty output. It never causes a crash.
 #include "data_of.h"
 
 #include "conversion.h"
@@ -231,7 +231,7 @@ TEST_F(MeshFiles, AFileThatIsMendedIsReadAgain)
 {
   EXPECT_THAT(this->ReadError(this->Folder / "late.off"), HasSubstr("No such file"));
   this->Write(cube_data(), this->Folder / "late.off");
-  // No parameter has changed. The failure alone makes the reader execute again.
+  // No parameter has changed. The reader executes again because its last execution failed.
   this->Reader->Update();
   EXPECT_EQ(this->Reader->GetOutput()->GetNumberOfCells(), 12);
 }

@@ -150,8 +150,8 @@ TEST_F(MonotoneSmoothing, TakesTheListOfTheMeshAndItsOwn)
   EXPECT_EQ(range[0], data->GetTuple1(40));
   EXPECT_EQ(range[1], data->GetTuple1(200));
   EXPECT_EQ(read_report(this->smoothing->GetOutput()).text("extrema_from"), "list");
-  // The filter writes the list of extrema that it used as an array. A second filter accepts this
-  // array as input.
+  // The output has an array with the list of extrema that the filter used. A second filter accepts
+  // this array as input.
   vtkNew<vtkMonotoneSmoothing> again;
   again->SetInputConnection(this->smoothing->GetOutputPort());
   again->SetInputArrayToProcess(0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Height");

@@ -159,7 +159,8 @@ TEST_F(PlanarShapeFilter, WholeImage)
   EXPECT_EQ(range[0], 0.0);
   EXPECT_EQ(range[1], 1.0);
   EXPECT_EQ(read_report(filter->GetOutput()).text("domain"), "rectangle");
-  // An image without an alpha channel gives the same rectangle.
+  // An image without an alpha channel gives a rectangle even if the option Rectangle is off. The
+  // spacing of this image is 1.
   vtkNew<vtkImageData> gray;
   gray->SetDimensions(80, 60, 1);
   gray->AllocateScalars(VTK_UNSIGNED_CHAR, 1);

@@ -203,7 +203,7 @@ TEST_F(ReducedARAPFilter, ModesAreRespected)
     }
     if ((rest - Eigen::RowVector3d(2, 0.5, 0.5)).norm() < 1e-9)
     {
-      // Mode free: the handle moves in the same direction, but less far.
+      // Mode free: the middle handle moves in the same direction as the right handle, but less far.
       middle = bent(v, 1) - rest.y();
     }
   }
@@ -274,8 +274,8 @@ TEST_F(ReducedARAPFilter, RotationArraysTellWhatEachVertexIsTurnedBy)
     EXPECT_EQ(*seen.begin(), 0);
     EXPECT_LE(*seen.rbegin(), this->report("counts.clusters") - 1);
     EXPECT_GT(seen.size(), 4u);
-    // The output keeps the array object if only the pose changes, and gets a new one after another
-    // bind.
+    // If only the pose changes, the output keeps the array object. After another bind, the output
+    // has a new array object.
     this->pose->SetPoseJSON(drag_right(0.5));
     this->filter->Update();
     EXPECT_EQ(this->filter->GetOutput()->GetPointData()->GetArray("RotationCluster"), clusters);
@@ -307,7 +307,7 @@ TEST_F(ReducedARAPFilter, SurfacesBendToo)
   this->fails_with("needs a surface");
 }
 
-// The filter, the kernel and any number of threads give the same bits.
+// The filter gives the same bits as the kernel, for any number of threads.
 TEST_F(ReducedARAPFilter, ThreadsAndTheKernelAgreeToTheBit)
 {
   this->pose->SetPoseJSON(drag_right(0.5));

@@ -7,7 +7,7 @@
 // - It is right on spheres, cubes, rings and single thin plates, also near the surface, and on a
 // sphere with a small hole if CheckSurface is off.
 // - It is wrong at 46 and 5762 of 20000 points among 200 closed plates of thickness 2e-3 and 2e-4,
-// respectively. There, 52 of 10000 answers depend on the other points of the query.
+// respectively. At thickness 2e-3, 52 of 10000 results depend on the other points of the query.
 // - It is wrong at all points that are inside two components.
 // - It refuses open surfaces if CheckSurface is on.
 // With PyVista's tolerance of 1e-3 it is wrong at 3 of 23822 points around closed real surfaces
@@ -47,7 +47,7 @@ enum Truth
 {
   outside,
   inside,
-  unknown ///< too near to the surface for a ground truth
+  unknown ///< the point is too close to the surface for a ground truth
 };
 
 /// Return the query points as the input dataset of both filters.
@@ -73,7 +73,7 @@ vtkSmartPointer<vtkDataArray> inside_by_bindpose(
 }
 
 /// Return the result of VTK's filter for each point (1 inside, 0 outside), or null if the filter
-/// refuses the surface. The tolerance is in bounding-box diagonals; its default is VTK's, and
+/// refuses the surface. The tolerance is in bounding-box diagonals. Its default equals that of VTK;
 /// PyVista uses 1e-3.
 vtkSmartPointer<vtkDataArray> inside_by_vtk(
   const TriangleMesh& mesh, const Points& points, bool check_surface, double tolerance = 1e-4)
@@ -187,8 +187,8 @@ Truth in_plates(double thickness, const Vec3& p)
   return std::abs(height) < 1e-6 ? unknown : height < 0.0 ? inside : outside;
 }
 
-/// Remove the triangles around a direction. `cosine` limits the angle between the direction and a
-/// triangle's center.
+/// Remove the triangles whose centers are close to a direction from the origin. `cosine` is the
+/// cosine of the largest angle between this direction and a removed center.
 TriangleMesh with_hole(TriangleMesh mesh, const Vec3& direction, double cosine)
 {
   Index kept = 0;
@@ -252,8 +252,8 @@ TEST(SelectEnclosedPoints, ClosedManifoldSurfaces)
 
 TEST(SelectEnclosedPoints, StacksOfPlates)
 {
-  // Rays cross hundreds of plates. The distances between their faces are close to the tolerance of
-  // VTK's filter.
+  // Rays cross hundreds of plates. The distances between the faces of the plates are close to the
+  // tolerance of VTK's filter.
   for (const double thickness : { 2e-3, 2e-4 })
   {
     std::ostringstream name;
@@ -328,8 +328,8 @@ TEST(SelectEnclosedPoints, PointsNearTheSurface)
 
 TEST(SelectEnclosedPoints, ThinPlate)
 {
-  // The plate is 2 x 2 x 2e-5: the distance of its two large faces is below the tolerance of VTK's
-  // filter.
+  // The plate is 2 x 2 x 2e-5. The distance between its two large faces is below the tolerance of
+  // VTK's filter.
   TriangleMesh plate = test::cube();
   plate.points.col(2) *= 1e-5;
   Points points = anywhere(20000, 1.2);
@@ -369,7 +369,8 @@ TEST(SelectEnclosedPoints, OverlappingComponents)
   EXPECT_EQ(overlap.bindpose, 0);
   EXPECT_GT(2 * overlap.vtk, overlap.points);
 
-  // A cavity is a component of opposite orientation. Both filters report its inside as outside.
+  // A cavity is a component of opposite orientation. Both filters report the inside of the cavity
+  // as outside.
   const TriangleMesh hollow = test::join(ball, test::flipped(test::sphere(4, 0.5)));
   const auto in_shell = [&](const Vec3& p)
   {
@@ -407,7 +408,8 @@ TEST(SelectEnclosedPoints, FlippedSurfaces)
 
 TEST(SelectEnclosedPoints, OpenSurfaces)
 {
-  // The hole has a radius of a tenth of the sphere's. There is no ground truth for points near it.
+  // The radius of the hole is a tenth of the radius of the sphere. There is no ground truth for
+  // points near the hole.
   const Vec3 up(0.0, 0.0, 1.0);
   const TriangleMesh open = with_hole(test::sphere(4), up, 0.995);
   const auto truth = [&](const Vec3& p)
@@ -420,8 +422,8 @@ TEST(SelectEnclosedPoints, OpenSurfaces)
 
 TEST(SelectEnclosedPoints, AnotherBatch)
 {
-  // The same points are part of another query. Bindpose's result for a point does not depend on the
-  // other points.
+  // The second query contains half of the points of the first query. Bindpose's result for a point
+  // does not depend on the other points.
   const TriangleMesh stack = stack_of_plates(2e-3);
   const Points points = anywhere(20000, 1.1);
   const Points second = points.bottomRows(10000);

@@ -1,5 +1,5 @@
-// vtkSkinningDeformation: identity, rigid motion and joints as the kernel documents them, one bind
-// for many poses, and clear errors.
+// vtkSkinningDeformation: the identity, rigid motions and joints give the results that the kernel
+// documents. Many poses need one bind, and errors are clear.
 #include "vtkSkinningDeformation.h"
 
 #include "conversion.h"
@@ -480,8 +480,8 @@ TEST_F(SkinningDeformation, ReportsWhatIsInsideOutAndStretched)
   this->pose->SetPoseJSON(R"({"handles": {"upper": {"translate": [0, 0, -3]}}})");
   this->filter->StretchArrayOn();
   this->filter->Update();
-  // For z between -1/2 and 1/2, z becomes z - 3 (z + 1/2). These are half of the tets, scaled by -2
-  // along z.
+  // Between z = -1/2 and 1/2, the pose maps z to z - 3 (z + 1/2), which is a scale of -2 along z.
+  // Half of the tets are in this range.
   report = read_report(this->filter->GetOutput());
   EXPECT_EQ(report.number("counts.inverted_elements", 0), 96);
   EXPECT_EQ(report.number("counts.stretched_elements", -1), 0) << "not beyond twice";

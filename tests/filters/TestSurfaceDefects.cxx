@@ -53,12 +53,12 @@ Array* cell_array(vtkDataSet* data, const char* name)
 
 TEST(SurfaceDefectsFilter, CellsAndArrays)
 {
-  // The surface is an open cube and, at a distance, a cube inside out, with a duplicate triangle
-  // and an unused point.
+  // The surface consists of an open cube and a distant second cube, which is inside out. It also
+  // has a duplicate triangle and an unused point.
   TriangleMesh mesh = join(open_cube(), translated(flipped(cube()), Vec3(5.0, 0.0, 0.0)));
   const Index t = mesh.triangles.rows();
   mesh.triangles.conservativeResize(t + 1, 3);
-  mesh.triangles.row(t) = mesh.triangles.row(8); // this triangle is away from the rim
+  mesh.triangles.row(t) = mesh.triangles.row(8); // the duplicated triangle is not at the rim
   const Index v = mesh.points.rows();
   mesh.points.conservativeResize(v + 1, 3);
   mesh.points.row(v) << 1.0, 2.0, 9.0;

@@ -177,7 +177,7 @@ TEST_F(TetrahedralizeSurfaceByHelper, WrapHoldsASheet)
   filter->SetWrapOffset(0.01);
   filter->Update();
   ASSERT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::OK) << filter->GetStatusMessage();
-  // The tets are two offsets thick, and rounded at the rim of the sheet.
+  // The tets fill a shell around the sheet. The shell is two offsets thick and rounded at the rim.
   const double diagonal = bounding_box(sheet.points).diagonal();
   const double offset = 0.01 * diagonal;
   const double area = surface_area(sheet.points, sheet.triangles);
@@ -383,8 +383,8 @@ TEST_F(TetrahedralizeSurfaceByHelper, HandlesArePartOfTheMesh)
     ASSERT_GE(vertices[h], 0);
     EXPECT_EQ(Vec3(filter->GetOutput()->GetPoint(vertices[h])), handle->head);
   }
-  // The vertices of the tets include the handles. The weights therefore insert no vertices for
-  // handles inside.
+  // The tets already have vertices at the handles that are inside. The weights filter therefore
+  // inserts no vertices.
   handles.pop_back();
   vtkNew<vtkBoundedBiharmonicWeights> weights;
   weights->SetInputData(0, filter->GetOutput());

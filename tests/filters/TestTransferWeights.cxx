@@ -93,7 +93,8 @@ TEST_F(TransferWeights, SharedVerticesAreExactAndCertificatesTravel)
 
 TEST_F(TransferWeights, OfVerticesAtOnePlaceEachKeepsItsOwn)
 {
-  // Two adjacent squares, as after a cut: the seam has two vertices at each point.
+  // The mesh consists of two adjacent squares that share no vertices, as after a cut. Each point of
+  // the seam has two vertices.
   const TriangleMesh left = test::grid(2, 2);
   const TriangleMesh both = test::join(left, test::translated(left, Vec3(1, 0, 0)));
   const auto mesh = to_polydata(both.points, both.triangles);

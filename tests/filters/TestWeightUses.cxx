@@ -47,8 +47,8 @@ void set_cells(vtkPolyData* handles, const char* name, const std::vector<double>
   handles->GetCellData()->AddArray(array);
 }
 
-/// Return a U of unit squares with 8 cells each: two limbs, 0 < x < 1 and 2 < x < 3, on a base 0 <
-/// y < 1.
+/// Return a U-shaped surface with 8 x 8 cells per unit square. The base is at 0 < y < 1. The two
+/// limbs are at 0 < x < 1 and at 2 < x < 3.
 vtkSmartPointer<vtkPolyData> two_limbs()
 {
   const TriangleMesh all = test::grid(24, 24, 3.0, 3.0);
@@ -88,8 +88,8 @@ vtkSmartPointer<vtkPolyData> two_limbs()
   return to_polydata(points, triangles);
 }
 
-/// Return the z coordinate of the posed shape at (x, y) on one of the limbs, or NaN if this limb is
-/// not there. Every triangle is tested.
+/// Return the z coordinate of the posed shape at (x, y) on one of the limbs, or NaN if this limb
+/// does not cover (x, y). The function tests every triangle.
 double height_of(vtkPolyData* rest, vtkPolyData* posed, bool right_limb, double x, double y)
 {
   SurfaceInput surface;

@@ -244,8 +244,8 @@ TEST(WeightsFilters, SurfacesOfAnyPolygonsWork)
   ASSERT_EQ(split.filter->GetStatus(), vtkBindposeAlgorithm::OK);
   EXPECT_EQ(split.output()->GetNumberOfPoints(), 169 + 2);
   EXPECT_EQ(split.report().number("counts.inserted_vertices", 0), 2);
-  // Cell arrays stay with their cells: every triangle is in the row of squares that its array
-  // states.
+  // Cell arrays stay with their cells: the value of `Row` of each triangle is the row of squares
+  // that contains the triangle.
   vtkDataArray* rows = split.output()->GetCellData()->GetArray("Row");
   for (vtkIdType cell = 0; cell < split.output()->GetNumberOfCells(); ++cell)
   {

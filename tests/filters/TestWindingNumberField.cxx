@@ -228,8 +228,8 @@ TEST(WindingNumberField, TakesAllOfASurfaceThatOthersTakeInPieces)
   const vtkIdType edges = field->GetBoundaryOutput()->GetNumberOfCells();
   EXPECT_GT(edges, 0);
 
-  // Another consumer, such as a renderer, has requested a piece of the sphere. This piece has other
-  // bounds.
+  // Another consumer, such as a renderer, has requested a piece of the sphere. The bounds of this
+  // piece differ from those of the whole sphere.
   vtkNew<vtkWindingNumberField> again;
   again->SetInputConnection(sphere->GetOutputPort());
   again->SetResolution(12);
@@ -255,8 +255,8 @@ TEST(WindingNumberField, TakesAllOfASurfaceThatOthersTakeInPieces)
     }
   }
 
-  // The output of boundary edges is not split into pieces: the first piece contains all of them. If
-  // it is requested with ghost levels, as ParaView does, the filter executes once more but outputs
+  // The output of boundary edges is not split into pieces: the first piece contains all edges.
+  // ParaView requests this output with ghost levels. The filter then executes once more but outputs
   // the existing field array.
   for (int piece = 0; piece < 2; ++piece)
   {
@@ -696,7 +696,7 @@ TEST(WindingNumberField, SpacingAndTargetCount)
   field->SetSpacing(1e-300, 1, 1);
   field->Update();
   EXPECT_THAT(field->GetStatusMessage(), HasSubstr("samples"));
-  // This grid can be described, but needs 8 TB of memory.
+  // The filter can describe this grid, but the samples would need 8 TB of memory.
   field->SetSpacing(0, 0, 0);
   field->SetTargetNumberOfSamples(1000000000000);
   field->Update();
@@ -778,8 +778,8 @@ TEST(WindingNumberField, PatchesAreTurnedOnDemand)
 
 TEST(WindingNumberField, LinesAreACurveInTheirPlane)
 {
-  // A square in each of the three coordinate planes, as one closed polyline. Viewed from the
-  // positive end of the perpendicular axis, it is counter-clockwise.
+  // The input is a square parallel to one of the three coordinate planes, as one closed polyline.
+  // Viewed from the positive end of the perpendicular axis, the polyline is counter-clockwise.
   for (int across = 0; across < 3; ++across)
   {
     SCOPED_TRACE(across);
@@ -817,7 +817,8 @@ TEST(WindingNumberField, LinesAreACurveInTheirPlane)
     EXPECT_EQ(field->GetBoundaryOutput()->GetNumberOfCells(), 0);
     EXPECT_NEAR(read_report(image).number("area", 0), 4.0, 1e-12);
 
-    // Without its last side, the winding number decreases by the angle of that side.
+    // If the last side of the square is missing, the winding number decreases by the angle that
+    // this side subtends, divided by 2 pi.
     const vtkIdType open[4] = { 0, 1, 2, 3 };
     vtkNew<vtkCellArray> three_sides;
     three_sides->InsertNextCell(4, open);
@@ -844,8 +845,8 @@ TEST(WindingNumberField, LinesAreACurveInTheirPlane)
       EXPECT_NEAR(winding_array(field->GetOutput())->GetValue(i), 0.75, 1e-14);
       EXPECT_EQ(flags->GetTuple1(i), 0);
       EXPECT_EQ(flags->GetTuple1(i + 1), 1);
-      // The angle of the missing side, which is at u = -1, is 2 atan(1 / (1 + u)), with the slope
-      // -1 at u = 0.
+      // The missing side is at u = -1. It subtends the angle 2 atan(1 / (1 + u)), whose derivative
+      // at u = 0 is -1.
       EXPECT_NEAR(gradient->GetComponent(i, u), 1.0 / 6.283185307179586, 1e-12);
       EXPECT_NEAR(gradient->GetComponent(i, v), 0.0, 1e-12);
       EXPECT_EQ(gradient->GetComponent(i, across), 0.0);

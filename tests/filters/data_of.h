@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_filters_data_of_h
 #define bindpose_tests_filters_data_of_h
 
-// Meshes as datasets.
+// Conversion of meshes to VTK datasets.
 
 #include "conversion.h"
 

@@ -12,8 +12,8 @@
 namespace bindpose::test
 {
 
-/// Return handles at rest with mode full: methods that find rotations must keep the whole transform
-/// of such handles.
+/// Return a handle dataset at rest in which every handle has mode full. Methods that compute
+/// rotations must keep the whole transform of a handle with mode full.
 inline vtkSmartPointer<vtkPolyData> to_held_polydata(const Handles& handles)
 {
   const vtkSmartPointer<vtkPolyData> data = to_polydata(handles);

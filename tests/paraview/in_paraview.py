@@ -51,7 +51,7 @@ with open(f"{folder}/{name}.{rank}.json", "w") as file:
 
 
 def fetch(proxy, port=0):
-    """Return an unchanged output of a proxy, gathered from all ranks."""
+    """Update a proxy and return one of its outputs, gathered from all ranks."""
     proxy.UpdatePipeline()
     return servermanager.Fetch(proxy, idx=port)
 

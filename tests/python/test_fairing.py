@@ -72,8 +72,8 @@ def test_as_a_way_to_deform():
 
 
 def test_whatever_is_asked_of_any_mesh_is_finite_or_refused():
-    """Fair random meshes with random fixed vertices and conditions. The result keeps the fixed vertices, or the input
-    is refused with a sentence."""
+    """Apply fairing to random meshes with random fixed vertices and conditions. The result keeps the fixed vertices, or
+    the input is refused with a sentence."""
     random = np.random.default_rng(3)
     good = 0
     for _ in range(120):

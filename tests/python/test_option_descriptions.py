@@ -46,8 +46,8 @@ def test_defaults_are_those_of_the_description(group, name, option):
 
 @pytest.mark.parametrize("group, name, option", CASES, ids=lambda case: getattr(case, "name", str(case)))
 def test_ranges_are_those_of_the_description(group, name, option):
-    """Check that every allowed end of a range is accepted. A setter that clamps does so at the ends; for the other
-    setters the kernel checks the range.
+    """Check that every allowed end of a range is accepted. Some setters clamp to these ends. For the other setters, the
+    kernel checks the range.
     """
     set_, get = accessors(instance(name), option)
     if option.type == "choice":

@@ -39,7 +39,7 @@ def test_seconds_are_in_the_report_and_not_in_the_data(tmp_path):
     assert bindpose.report(filter_) == bindpose.report(data) == report
     bindpose.write(data, tmp_path / "w.vti")
     assert b"econds" not in (tmp_path / "w.vti").read_bytes()
-    # The report of a returned dataset includes the run that made it, also in copies that the package makes.
+    # The report of a returned dataset contains the times of the run, also if the package has copied the dataset.
     grid = bindpose.winding_number(shapes.cube(), 8)
     assert bindpose.report(grid)["seconds"]["evaluate"] > 0
     # After the filter updates itself, the report describes the new data. It contains no times.

@@ -19,8 +19,8 @@ struct Drawing
 
   Pixel at(const Vec3& point, std::size_t tile = 0) const;
   long long count(const std::function<bool(const Pixel&)>& which) const;
-  /// Return the smallest rectangle that contains the selected pixels. Its coordinates are pixels
-  /// from the lower left corner.
+  /// Return the smallest rectangle that contains all pixels for which `which` returns true. Its
+  /// coordinates are in pixels from the lower left corner.
   Eigen::AlignedBox2d extent(const std::function<bool(const Pixel&)>& which) const;
 };
 
@@ -30,9 +30,9 @@ bool is_paper(const Pixel& p);
 double lightness(const Pixel& p);
 /// Return the largest difference of a channel between pixel and color, from 0 to 255.
 double distance(const Pixel& p, const Rgb& color);
-/// Return the distance in hue between a lit pixel and a color: the largest difference of the
-/// fractions of red, green and blue. Lighting changes the sum of the channels, but almost does not
-/// change the fractions.
+/// Return the distance in hue between a lit pixel and a color: the largest difference between their
+/// fractions of red, green and blue. Lighting changes the sum of the channels but hardly changes
+/// these fractions.
 double hue_distance(const Pixel& p, const Rgb& color);
 
 } // namespace bindpose::test

@@ -39,12 +39,13 @@ bool passes(const Difference& difference);
 /// earlier assertion has failed.
 void expect_baseline(vtkImageData* actual);
 
-/// A color with channels from 0 to 255. The position for pixel_at() is in pixels from the lower
-/// left corner.
+/// A color with channels from 0 to 255.
 struct Pixel
 {
   int r = 0, g = 0, b = 0, a = 255;
 };
+/// Return the color at a position in pixels from the lower left corner. For a position outside of
+/// the image, return the color of the nearest pixel.
 Pixel pixel_at(vtkImageData* image, double x, double y);
 
 } // namespace bindpose::test

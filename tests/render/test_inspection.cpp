@@ -69,8 +69,8 @@ vtkSmartPointer<vtkPolyData> square()
   return to_polydata(points, triangles);
 }
 
-/// Return a function on the square with five maxima (corners and center) and four minima (midpoints
-/// of the sides).
+/// Return the value at p of a function on the square. The function has five maxima (corners and
+/// center) and four minima (midpoints of the sides).
 double waves(const Vec3& p)
 {
   return std::cos(2.0 * pi * p[0]) * std::cos(2.0 * pi * p[1]);
@@ -140,7 +140,8 @@ TEST(Render, handles_of_tets)
   const double places[] = { 0.2, 0.8, 1.4 };
   for (int k = 0; k < 3; ++k)
   {
-    // Edges are drawn over the face, so only most of the pixels around a point have its color.
+    // Edges are drawn over the face, so some pixels around a point do not have the color of the
+    // handle.
     int close = 0;
     for (int dx = -3; dx <= 3; ++dx)
     {
@@ -209,8 +210,8 @@ TEST(Render, tets_slice)
       }
     }
   }
-  // The tets in front of the plane are removed. At the position of their lower edge the paper is
-  // visible. At the lower edge of the slice it is not.
+  // The tets in front of the plane are removed. The background is therefore visible where their
+  // lower edge was, but not at the lower edge of the slice.
   EXPECT_TRUE(is_paper(drawing.at(Vec3(1.0, 0.02, 0.98))));
   EXPECT_FALSE(is_paper(drawing.at(on_plane(1.0, 0.02))));
   // The slice contains exactly the tets with vertices on both sides of the plane.
@@ -279,8 +280,8 @@ TEST(Render, extrema)
   {
     EXPECT_LT(hue_distance(drawing.at(place), kinds[0].color), 0.06) << place;
   }
-  // The function "Waves" is 1 at all its maxima. The array "Weights" therefore identifies which
-  // maximum is the handle.
+  // The function "Waves" is 1 at all its maxima. Only the array "Weights" identifies which maximum
+  // is at the handle.
   options.array = "Waves";
   draw_with_report({ surface, nullptr, "" }, options, report);
   EXPECT_EQ(counts(report, "maxima"), Counts{ 4 });
@@ -293,7 +294,7 @@ TEST(Render, extrema)
 
 TEST(Render, extrema_of_tets)
 {
-  // The waves grow toward the camera, so all extrema are on the side that faces it.
+  // The waves grow toward the camera, so all extrema are on the side that faces the camera.
   const TetMesh mesh = tet_box(16, 16, 8, Vec3::Zero(), Vec3(1, 1, 0.5));
   const auto grid = to_unstructured_grid(mesh.points, mesh.tets);
   add_array(grid, "Waves", { [](const Vec3& p) { return waves(p) * (1.0 + p[2]); } });
@@ -377,8 +378,8 @@ TEST(Render, difference)
 
 TEST(Render, handle_names)
 {
-  // There are more handles than fit into the legend. It shows handles from top to bottom in their
-  // order.
+  // There are more handles than fit into the legend. The legend lists handles from top to bottom in
+  // their order.
   const auto surface = finger();
   std::vector<Column> columns;
   constexpr int many = 40;

@@ -24,8 +24,8 @@ TEST(Render, surface)
 {
   const auto surface = sphere_and_cube();
   const Drawing drawing = draw({ { surface, nullptr, "" } }, small_picture());
-  // The painted rectangle equals the rectangle of the projected vertices. In one direction it fills
-  // the picture up to the margin.
+  // The rectangle of the painted pixels equals the rectangle of the projected vertices.
+  // Horizontally, this rectangle fills the picture up to the margin.
   Eigen::AlignedBox2d expected;
   for (vtkIdType v = 0; v < surface->GetNumberOfPoints(); ++v)
   {

@@ -40,7 +40,7 @@ TEST(Render, tets_shrunk)
   options.shrink = 0.5;
   const Drawing drawing = draw({ { tet_brick(), nullptr, "" } }, options);
   // Nothing is drawn outside of the pixels that the unshrunk tets cover, and the gaps between the
-  // tets show paper.
+  // tets show the background.
   long long gaps = 0;
   for (int y = 0; y < 300; ++y)
   {

@@ -57,8 +57,8 @@ def read_grid(path):
 
 
 def write_without_doubles(model, path):
-    """Write an .obj model as .vtp without triangles that occur twice. Two coincident sheets that face each other
-    enclose no volume, but their winding numbers would cancel.
+    """Write an .obj model as .vtp with only one copy of each triangle. Otherwise the winding numbers of coincident copies
+    with opposite orientations would cancel.
     """
     points, triangles, _ = weld(*read_obj(model))
     _, first = np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)
@@ -133,8 +133,8 @@ def rms(gap):
 
 
 def difference(surface, reference, coarse):
-    """Compare the weights of a .vtp file with those of the reference (a .vtu file), and the reference with the coarse
-    reference."""
+    """Compare the weights of a surface (.vtp file) with those of the reference (.vtu file). Also compare the reference
+    with the coarse reference."""
     points, triangles, weights = read_weights(surface)
     chosen = chosen_vertices(points, triangles)
     expected, distances = carried(reference, points[chosen])

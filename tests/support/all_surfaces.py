@@ -1,17 +1,18 @@
 #!/usr/bin/env python3
-"""Run `bindpose tetrahedralize` on every surface of the Debian package libcgal-demo and on every horror of horrors.py.
+"""Run `bindpose tetrahedralize` on every surface of the Debian package libcgal-demo and on the synthetic surfaces of
+horrors.py.
 
-Prints a table and summary lines for each requested method, and writes them as markdown if requested. Fails if a result
-is wrong:
+The script prints a table and summary lines for each requested method, and writes them as markdown if requested. It
+fails if a result is wrong:
 - the program crashes or hangs, or takes more than 120 s for up to 100,000 triangles;
 - a tet is flat, inverted or duplicated, or the boundary is not closed;
 - the volume is wrong and no warning reports it;
 - the program refuses a surface that encloses a volume;
-- a point of the surface is outside of the tets (embed).
+- a point of the surface is outside of the tets (method embed only).
 Only remesh may refuse a surface because the enclosed volume is too thin for its tets.
 
-This script reads the tets back and checks them with its own code. To check a refusal, it evaluates `bindpose winding`
-at four million points.
+The script reads the tets from the output file and checks them with its own code. To check a refusal, the script
+evaluates `bindpose winding` at four million points.
 """
 
 import argparse
@@ -61,7 +62,7 @@ class Row:
 
     @property
     def tries(self):
-        """Number of attempts that failed before the one that succeeded."""
+        """Number of meshing attempts that failed before an attempt succeeded."""
         return sum(rung["outcome"] != "ok" and not rung["name"].startswith(("vertices inside", "graph cut"))
                    for rung in self.report.get("rungs", []))
 
@@ -71,7 +72,7 @@ class Row:
 
     @property
     def too_thin(self):
-        """True if one method refuses the surface as too thin, so that another method may succeed."""
+        """True if the method refused the surface as too thin. Another method may still succeed."""
         return self.code == 2 and "too thin" in self.sentence
 
     @property
@@ -161,8 +162,8 @@ def open_edges(tets):
 
 
 def read_off(mesh):
-    """Read vertices and faces, and split each face into a fan of triangles. Each vertex or face is one line, on which
-    colors and normals may follow."""
+    """Read vertices and faces, and split each face into a fan of triangles. Each vertex or face is one line of the file.
+    Colors and normals at the end of a line are ignored."""
     lines = [words for words in (line.split("#")[0].split() for line in mesh.read_text(errors="replace").splitlines()) if words]
     head = lines[0][1:] or lines.pop(1)
     vertices, faces = int(head[0]), int(head[1])
@@ -236,7 +237,8 @@ def broken_volume(row):
 
 
 def enclosed_share(program, mesh, folder):
-    """Return the fraction of the bounding box that the winding number encloses, from four million sample points."""
+    """Return the fraction of four million sample points in the bounding box whose winding number is at least 0.5. If more
+    points have a winding number of at most -0.5, return the fraction of those points."""
     points = used_points(mesh)
     lower, size = points.min(axis=0), np.ptp(points, axis=0)
     if not size.min() > 0:
@@ -294,8 +296,8 @@ def run(program, surface, method, folder):
 
 
 def broken_refusal(program, row, method, folder):
-    """Check a refusal. Methods cdt and remesh may fail (exit code 5), and remesh may report that the volume is too
-    thin. Any other refusal is justified only if the surface encloses nothing; method embed must never refuse.
+    """Check a refusal. Methods cdt and remesh may fail (exit code 5), and method remesh may report that the volume is too
+    thin. Method embed must never refuse. Any other refusal is justified only if the surface encloses nothing.
     """
     broken = []
     if "\n" in row.sentence or not row.sentence or row.code not in (2, 5):

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Check the weights of real surfaces that `bindpose weights` computes: every column must meet its certificate.
+"""Check the weights that `bindpose weights` computes for real surfaces.
 
-Twenty surfaces of the Debian package libcgal-demo, fifteen handles spread over each surface, bounded biharmonic and
-monotone weights in tets, the default certificate and, for some surfaces, the tight one. The script checks the report
-(its certificate is computed from the data of the problem alone) and the content of the file. Exits with 1 if a check
-fails.
+The script uses twenty surfaces of the Debian package libcgal-demo, with fifteen handles spread over each surface. It
+computes bounded biharmonic weights with a default and with a tight tolerance, and monotone weights with the default
+tolerance. The certificate in the report, which is computed only from the data of the problem, must be within the
+tolerance. The script also checks the content of the output file. It exits with 1 if a check fails.
 """
 
 import argparse

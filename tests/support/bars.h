@@ -25,8 +25,8 @@ Weights biharmonic(
 /// Each handle constrains the whole cross section at x = 0, 2 or 4.
 Rig bar(int cells = 8);
 
-/// Return the unit cube with point handles at four corners that span it, and one handle in the
-/// middle.
+/// Return the unit cube with five point handles: the origin, the three corners next to the origin
+/// on the axes, and the center of the cube.
 Rig box(int cells = 4);
 
 } // namespace bindpose::test

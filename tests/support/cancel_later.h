@@ -33,7 +33,7 @@ public:
   CancelLater(const CancelLater&) = delete;
   CancelLater& operator=(const CancelLater&) = delete;
 
-  /// Return the seconds from the cancel request until now. Call this function when the work has
+  /// Return the time in seconds since the cancel request. Call this function after the work has
   /// ended. The result is negative if the work ended before the request.
   double waited()
   {

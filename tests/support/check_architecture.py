@@ -45,7 +45,7 @@ CORE_ARROWS = {
     "mesher": {"base", "helper", "segmentation", "inside", "mesher"},
 }
 
-# The same for the folders of viewer/app.
+# The folders of viewer/app from which each folder of viewer/app may include.
 APP_ARROWS = {
     "parts": {"parts"},
     "view": {"parts", "view"},
@@ -63,7 +63,8 @@ LARGEST_FOLDER = 30
 
 
 def without_proxy():
-    """Return the filters that the plugin's XML does not mention, and the names in the XML that are not filters."""
+    """Return one sentence for each filter that the plugin's XML does not mention, and for each name in the XML that is not
+    a filter."""
     filters = {path.stem for path in (ROOT / "filters").glob("vtk*.h") if f"static {path.stem}* New()" in path.read_text()}
     proxies = re.compile(r'<(?:SourceProxy|WriterProxy)\b[^>]*\bclass="(\w+)"')
     # Base proxies refer to abstract classes.
@@ -79,7 +80,7 @@ def sources(folder):
 
 
 def mutual_includes():
-    """Return the pairs of units that include each other, as sorted pairs of paths without endings."""
+    """Return the pairs of units that include each other. A unit is a path without its extension."""
     roots = [ROOT / folder for folder in ("filters/core", "filters", "filters/handles", "filters/support", "viewer",
                                           "viewer/widgets", "viewer/widgets/handles")]
     used = {}
@@ -95,8 +96,10 @@ def mutual_includes():
 
 
 def against_arrows(folder, prefix, arrows):
-    """Return sentences for the includes that the arrows do not allow. Headers of the folder are included by `prefix`, the
-    name of the room and the name of the file.
+    """Return one sentence for each include that `arrows` does not allow.
+
+    `folder` has subfolders. An include of their headers consists of `prefix`, the subfolder and the file name. `arrows`
+    lists, for each subfolder, the subfolders from which it may include.
     """
     wrong = []
     for path, includes in sources(folder):
@@ -111,7 +114,7 @@ def against_arrows(folder, prefix, arrows):
 
 
 def large_folders():
-    """Return sentences for the folders with too many source files."""
+    """Return one sentence for each folder with too many source files."""
     counts = {}
     for folder in ("filters", "viewer", "python", "tests", "examples"):
         for path, _ in sources(folder):

@@ -17,8 +17,8 @@ FOLDERS = ("filters", "viewer", "python", "tests", "examples")
 
 
 def changed_files():
-    """Return the names of the files that the last commit changed or that have uncommitted changes. A shallow clone has
-    no parent commit, so only its uncommitted changes count. A copy of the sources without git gives an empty set."""
+    """Return the names of the files that the last commit changed or that have uncommitted changes. In a shallow clone, the
+    last commit has no parent, so only uncommitted changes are found. Without git the set is empty."""
     names = set()
     for revisions in (["HEAD~1", "HEAD"], ["HEAD"]):
         # In containers the checkout may belong to another user, which git must accept here.

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 """Write synthetic furniture with the defects of real models, and hostile models with worse defects.
 
-`furniture.py FOLDER [--hostile]` writes the models as .obj files, always the same ones. They replace the Debian package
-sweethome3d-furniture if that is too large: see real_meshes.py, --set made and --set hostile.
+`furniture.py FOLDER` writes the furniture as .obj files, and `furniture.py FOLDER --hostile` writes the hostile models
+instead. The files are always the same. They replace the Debian package sweethome3d-furniture if the package is too
+large: see real_meshes.py, --set made and --set hostile.
 
 A part is a pair of points (#V x 3) and faces, which are lists of three or more point ids.
 """
@@ -70,7 +71,7 @@ def join(*parts):
 
 
 def doubled(part, reverse=False):
-    """Repeat each face on the same points, optionally reversed."""
+    """Add a copy of each face on the same points. If `reverse` is true, the copies are reversed."""
     return part[0], part[1] + [face[::-1] if reverse else list(face) for face in part[1]]
 
 
@@ -96,7 +97,7 @@ def welded(part):
 
 
 def table():
-    """Return boxes with doubled faces. The legs end inside the top, and the aprons share planes with the legs."""
+    """Return a table. The faces of its top and legs are doubled. Legs end inside the top and are coplanar with aprons."""
     legs = [box((x, y, 0), (x + 0.08, y + 0.08, 0.74)) for x in (0, 1.52) for y in (0, 0.82)]
     aprons = [box((0, y, 0.6), (1.6, y + 0.03, 0.72)) for y in (0, 0.87)]
     top = doubled(box((-0.05, -0.05, 0.72), (1.65, 0.95, 0.76)), reverse=True)
@@ -104,7 +105,7 @@ def table():
 
 
 def open_shelf():
-    """Return sheets without thickness that share non-manifold edges."""
+    """Return a shelf of sheets without thickness. The sheets meet at non-manifold edges."""
     uprights = [sheet(5, (x, 0, 0), (0, 0.3, 0), (0, 0, 2)) for x in (0, 0.5, 1)]
     boards = [sheet(5, (x, 0, z), (0.5, 0, 0), (0, 0.3, 0)) for x in (0, 0.5) for z in np.linspace(0, 2, 6)]
     return welded(join(*uprights, *boards, sheet(5, (0, 0.3, 0), (1, 0, 0), (0, 0, 2))))
@@ -128,7 +129,8 @@ def tube_chair():
 
 
 def leaf_plant():
-    """Return a pot and 300 loose leaves of two quads each. Every third leaf occurs twice, with opposite orientations.
+    """Return a pot and 300 loose leaves of two quads and two triangles each. Every third leaf occurs twice, with opposite
+    orientations.
     """
     draw = np.random.RandomState(21)
     leaves = []
@@ -144,7 +146,7 @@ def leaf_plant():
 
 
 def keys():
-    """Return twelve plates, 50 times as wide as thick, with small plates on them. A ring passes through all plates."""
+    """Return twelve keys on a ring. A key is made of plates whose width is 60 times their thickness or less."""
     ring = horrors.torus(24, 8, 0.3, 0.015)
     plates = []
     for k in range(12):
@@ -251,7 +253,7 @@ def sheets_a_billionth_apart():
 
 
 def a_millionth_of_the_size():
-    """Return a sphere next to one that is a million times smaller."""
+    """Return a sphere of radius 1, and a second sphere of radius 1e-6 next to it."""
     return join(triangles(horrors.sphere(3)), triangles(horrors.sphere(2, 1e-6, (1.5, 0, 0))))
 
 

@@ -4,7 +4,7 @@
 // Support for fuzz tests, which try many random cases. The case of a round depends only on its
 // seed, so that a failure can be repeated alone. Environment variables control the rounds:
 // BINDPOSE_FUZZ_FACTOR=8   runs 8 times as many rounds (nightly)
-// BINDPOSE_FUZZ_NIGHT=3    uses the seeds after those of nights 0 to 2 (nightly: the date)
+// BINDPOSE_FUZZ_NIGHT=3    skips the seeds of nights 0 to 2 (nightly.sh passes the day number)
 // BINDPOSE_FUZZ_SEED=7     runs only the round with this seed
 // BINDPOSE_FUZZ_TRACE=1    prints each seed before its round, because a crash prints no seed
 
@@ -26,7 +26,7 @@
 namespace bindpose::test
 {
 
-/// Return the positive integer in an environment variable, or `fallback` if the variable has none.
+/// Return the positive integer in an environment variable, or `fallback` if it is unset or invalid.
 inline Index whole_number_of(const char* variable, Index fallback)
 {
   const char* text = std::getenv(variable);
@@ -77,7 +77,7 @@ void fuzz(const char* what, Index base, const Body& body)
   std::cout << "[ fuzz ] " << seed - first << " " << what << "\n";
 }
 
-/// Return true for a random fraction `share` of all calls.
+/// Return true with probability `share`.
 inline bool chance(Random& random, double share)
 {
   return random.uniform() < share;
@@ -106,7 +106,7 @@ inline void expect_sentence(const std::string& text)
   }
 }
 
-/// Expect that a failure has a message of one line, and that each warning is one line.
+/// Expect that the message of a failed status and each warning are one line of text.
 inline void expect_spoken(const Status& status)
 {
   if (status.code != StatusCode::ok)
@@ -119,9 +119,9 @@ inline void expect_spoken(const Status& status)
   }
 }
 
-/// Limits the memory of this process during the lifetime of the object, so that an allocation that
-/// a small input cannot need throws bad_alloc. It has no effect with sanitizers, which reserve
-/// terabytes of address space.
+/// Limits the additional memory of this process during the lifetime of the object. An allocation
+/// above the limit, which no small input needs, throws bad_alloc. The class has no effect with
+/// sanitizers, because they reserve terabytes of address space.
 class MemoryLimit
 {
 public:

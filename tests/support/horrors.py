@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Surfaces that are hard for a mesher, each with known facts about its inside.
+"""Surfaces that are difficult for a mesher ("horrors"), each with known facts about its inside.
 
-`horrors.py FOLDER` writes all of them as .off files. Random parts have fixed seeds, so the files are always the same.
-Used by all_surfaces.py and by tests of the program.
+`horrors.py FOLDER` writes all surfaces as .off files. Random parts have fixed seeds, so the files are always the same.
+The script all_surfaces.py and tests of the program use this module.
 """
 
 import dataclasses
@@ -21,7 +21,7 @@ class Horror:
     triangles: np.ndarray  # vertex ids, #F x 3
     volume: float = None  # volume of the inside, None if no formula gives it
     tolerance: float = 1e-9  # relative tolerance of the volume
-    encloses: bool = True  # False: the surface encloses nothing and must be refused with a sentence; None: unknown
+    encloses: bool = True  # False: the surface encloses no volume, so the program must refuse it; None: unknown
 
 
 # ---- Clean parts -----------------------------------------------------------------------------------
@@ -38,10 +38,11 @@ def cube(lower=(-1.0, -1.0, -1.0), upper=(1.0, 1.0, 1.0)):
 
 
 def wrapped_grid(rows, columns, place, close_rows=True, reverse_from=None):
-    """Return squares of two triangles each between the rows x columns points place(s, t), with s and t in [0, 1).
+    """Return a grid with the points place(s, t). Each square of the grid is split into two triangles.
 
-    The grid is closed along the columns. If `close_rows` is true, the last row is joined to the first one; with
-    `reverse_from`, it is joined in reverse order, starting from that column.
+    The grid has `rows` values of s and `columns` values of t, both in [0, 1). In each row, the last column is joined to the
+    first one. If `close_rows` is true, the last row is joined to the first row; otherwise s ranges over [0, 1]. If
+    `reverse_from` is a column, the first row is joined in reverse order, starting at this column.
     """
     points = [place(i / rows if close_rows else i / (rows - 1), j / columns) for i in range(rows) for j in range(columns)]
     faces = []
@@ -262,7 +263,7 @@ def quantised():
 
 
 def needle():
-    """Return a bipyramid of 40 sides, a thousand times as long as wide."""
+    """Return a bipyramid with 40 sides whose length is 1000 times its width."""
     around = [[math.cos(math.pi * k / 20), math.sin(math.pi * k / 20), 0] for k in range(40)]
     points = np.array(around + [[0, 0, 1000], [0, 0, -1000]])
     faces = [[k, (k + 1) % 40, 40] for k in range(40)] + [[(k + 1) % 40, k, 41] for k in range(40)]
@@ -270,19 +271,19 @@ def needle():
 
 
 def plate():
-    """Return a box a hundred-thousandth as high as wide."""
+    """Return a box whose height is 1e-5 of its width."""
     return Horror(*cube((0, 0, 0), (1, 1, 1e-5)), 1e-5)
 
 
 def fan():
-    """Return a thousand triangles around one edge, like the pages of a book. They enclose nothing."""
+    """Return a thousand triangles that share one edge, like the pages of a book. They enclose no volume."""
     points = [[0, 0, 0], [0, 0, 1]] + [[math.cos(2 * math.pi * k / 1000), math.sin(2 * math.pi * k / 1000), 0.5]
                                      for k in range(1000)]
     return Horror(np.array(points), np.array([[0, 1, k + 2] for k in range(1000)]), encloses=False)
 
 
 def wedges_around_an_edge():
-    """Return 100 tets around one edge: every second one of 200."""
+    """Return 100 tets that share one edge, with equal gaps between them."""
     ring = [[math.cos(math.pi * k / 100), math.sin(math.pi * k / 100), 0.5] for k in range(200)]
     faces = []
     for k in range(0, 200, 2):
@@ -303,7 +304,7 @@ def cones_tip_to_tip():
 
 
 def checkerboard():
-    """Return every second cube of 4 x 4 x 4. The cubes touch at edges and vertices."""
+    """Return every second cube of a 4 x 4 x 4 lattice. The cubes touch at edges and vertices."""
     cubes = [cube((x, y, z), (x + 1, y + 1, z + 1)) for x in range(4) for y in range(4) for z in range(4)
              if (x + y + z) % 2 == 0]
     return Horror(*join(*cubes), 32.0)
@@ -316,7 +317,7 @@ def cubes_side_by_side():
 
 
 def hanging_vertices():
-    """Return a cube with one face tessellated differently, so that vertices are in the middle of edges."""
+    """Return a cube with one finer face, so that vertices of this face are inside of edges of the other faces."""
     parts = [unwelded((cube()[0], cube()[1][:10])), sheet(7, (-1.0, -1.0), (1.0, 1.0), 1.0)]
     return Horror(*join(*parts), 8.0)
 
@@ -396,7 +397,7 @@ def heap_of_triangles():
 
 
 def heap_of_cubes():
-    """Return 40 cubes of different size and orientation, some of them inside out."""
+    """Return 40 rotated cubes of different sizes, some of them inside out."""
     random = np.random.RandomState(11)
     parts = []
     for k in range(40):
@@ -476,7 +477,7 @@ def far_away():
 
 
 def two_scales():
-    """Return a solid, and a second solid of a hundred-thousandth of its size that crosses the wall of the first one."""
+    """Return a sphere, and a second sphere of 1e-5 of its size that crosses the surface of the first one."""
     return Horror(*join(sphere(), sphere(2, 1e-5, (1.0, 0, 0))), volume(sphere()))
 
 
@@ -495,7 +496,7 @@ def wavy_sheet():
 
 
 def there_and_back():
-    """Return every triangle together with its reverse, so that the winding number is 0 everywhere."""
+    """Return a sphere and its reversed copy, so that the winding number is 0 everywhere."""
     return Horror(*join(sphere(), flipped(sphere())), encloses=False)
 
 

@@ -27,7 +27,7 @@ class Finished:
 
 
 def stop(group, over_limit, ended):
-    """Ask a process group to end, which allows the program to write its report. After GRACE seconds, kill it."""
+    """Ask a process group to end, so that the program can still write its report. Kill the group after GRACE seconds."""
     over_limit.set()
     with contextlib.suppress(ProcessLookupError):
         os.killpg(group, signal.SIGTERM)

@@ -1,14 +1,19 @@
 #!/usr/bin/env python3
-"""Measure seconds and memory of `bindpose` on surfaces of one and of four million triangles, closed and open.
+"""Measure the time and memory of the verbs of `bindpose` (its subcommands) on closed and open surfaces of one and of four
+million triangles.
 
-The surfaces are those of scale_surfaces.py. Each verb runs in a separate process on a terminal, from which its progress
-is read. The table reports the elapsed seconds, the peak memory of the process or of its largest helper, and the longest
-time during which neither the percentage nor the name of the phase changed. --cancel N also interrupts each verb except
-view N times, spread over its run, and reports the longest time from an interrupt to the end. Fails if a verb fails or
-takes more than 12 GiB.
+The script scale_surfaces.py writes the surfaces. Each verb runs in a separate process on a pseudo-terminal, and this
+script reads the progress that the verb prints. The table reports:
+- the elapsed time in seconds;
+- the peak memory of the process or of its largest helper process;
+- the longest time in seconds during which the percentage and the name of the phase stayed the same.
+
+With --cancel N, each verb runs N more times and is interrupted, each time at a later point of the run. The table then
+also reports the longest time from an interrupt to the end of the process. The verb view is not interrupted. The script
+fails if a verb fails or needs more than 12 GiB.
 
     measure_scale.py --build build                           four surfaces
-    measure_scale.py --build build --millions 1 --cancel 4   how fast work on a million triangles can be canceled
+    measure_scale.py --build build --millions 1 --cancel 4   time to cancel work on a million triangles
 """
 
 import argparse
@@ -123,7 +128,7 @@ def commands(program, surface, folder):
 
 
 def counts_of(program, surface, folder):
-    """Return the number of triangles. Also write the handles that the verb deform moves."""
+    """Return the number of triangles. Also write the handles for the verb deform to a file."""
     done = subprocess.run([program, "info", surface, "--report", "-", "--quiet"], capture_output=True, text=True, check=True)
     subprocess.run([program, "handles", surface, "--method", "points", "--number-of-points", "8", "-o", folder / "handles.vtp", "--overwrite", "--quiet"],
                    check=True)

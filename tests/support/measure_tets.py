@@ -1,14 +1,16 @@
 #!/usr/bin/env python3
 """Compare the time of `bindpose tetrahedralize` with TetGen alone (plain_tetgen.cpp, compiled here).
 
-The script prints four tables. The first compares clean closed surfaces with TetGen and the same switches, and their
-volume with that of the divergence theorem. The second has unclean surfaces of about 50,000 triangles, the third
-embeddings of surfaces of about 100,000 triangles, and the fourth two surfaces of a million triangles. The script fails
-if the program fails.
+The script prints four tables:
+1. clean closed surfaces, with the time of TetGen for the same switches. The volume of the tets is compared with the
+   volume that the divergence theorem gives for the surface;
+2. unclean surfaces of about 50,000 triangles;
+3. embeddings of surfaces of about 100,000 triangles;
+4. two surfaces of a million triangles.
 
-Seconds of Bindpose are those of its report (diagnosis, winding numbers, meshing, checks), without reading and writing.
-Seconds of TetGen are those of its call. Runs of the two programs alternate, so that other load on the machine affects
-them equally, and medians are compared.
+The script fails if the program fails. The time of Bindpose in seconds is that of its report (diagnosis, winding numbers,
+meshing, checks), without reading and writing. The time of TetGen is that of the call. Runs of the two programs alternate,
+so that other load on the machine affects them equally. The script compares medians.
 """
 
 import argparse

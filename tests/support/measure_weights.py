@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Compare three ways of `bindpose weights` by their time and their weights: tets of the volume, an embedding, and the
+"""Compare the time and the results of `bindpose weights` for three settings: tets of the volume, an embedding, and the
 preview.
 
-Seconds are those of the whole work as reported, tets included. Differences are root mean square and largest, over the
-weights of all handles at the points of the surface. Runs on one surface alternate between the three ways, so that other
-load on the machine affects them equally.
+The time is the reported total time in seconds, tets included. The root mean square and the largest difference are over
+the weights of all handles at the points of the surface. Runs on one surface alternate between the three settings, so that
+other load on the machine affects them equally.
 """
 
 import argparse

@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_support_meshes_h
 #define bindpose_tests_support_meshes_h
 
-// Meshes with known winding numbers, volumes and weights, on which tests can assert facts.
+// Meshes with known winding numbers, volumes and weights, which tests compare with results.
 
 #include "geometry/mesh.h"
 

@@ -8,8 +8,8 @@
 namespace bindpose::test
 {
 
-/// Fixture of tests that run the helper program bindpose-mesher. They are skipped if it was not
-/// built.
+/// Fixture of tests that run the helper program bindpose-mesher. If the program was not built, the
+/// tests are skipped.
 class NeedsMesher : public testing::Test
 {
 protected:

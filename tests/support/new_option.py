@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
-"""Add an option to a scratch copy of the project by three edits, build the program and the Python package, and use it.
+"""Test that three edits are enough to add an option to the project.
 
-The edits are the description, the VTK setter with its use in the filter, and the use in the kernel. The option then must
-be in `bindpose tetrahedralize --help`, in the Python signature and stub, in the ParaView properties and in the table of
-viewer/command_line.md, and its value must arrive in the kernel from the command line and from Python.
+The script edits a scratch copy of the project: the description of the option, the VTK setter with its use in the filter,
+and the use in the kernel. Then the script builds the program and the Python package. The option must be in `bindpose
+tetrahedralize --help`, in the Python signature and stub, in the ParaView properties, and in the table of
+viewer/command_line.md. Its value must arrive in the kernel from the command line and from Python.
 
 usage: new_option.py FOLDER [CMAKE_OPTION…]      FOLDER gets the copy and its build; it must not exist
 """

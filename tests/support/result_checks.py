@@ -17,7 +17,7 @@ from separate_parts import largest_leak, weld
 CERTIFICATE = 1e-6  # a column is certified if its relative gap and residual are at most this large
 ROW_SUM = 1e-9
 SAMPLES = 1_000_000  # sample points at which the winding number of a refused model is evaluated
-LOOKED_AT = 2000  # maximum number of sample points inside that are examined more closely
+LOOKED_AT = 2000  # maximum number of inside points around which more points are sampled
 SPECK = 1e-5  # fraction of the bounding box; a volume below this may be missed
 EDGES = [(0, 1), (0, 2), (0, 3), (1, 2), (1, 3), (2, 3)]
 THIN = 5.0  # degrees; a tet with a dihedral angle below this is thin
@@ -53,7 +53,7 @@ def is_flat(points):
 
 
 def model_facts(path, handles):
-    """Return facts about the model that justify a refusal to compute weights or tets."""
+    """Return facts about the model that can justify a refusal to compute weights or tets."""
     points, triangles = read_obj(path)
     used = np.unique(points[np.unique(triangles)], axis=0) if len(triangles) else np.empty((0, 3))
     has_area = len(triangles) > 0 and areas(points, triangles).max() > 0
@@ -204,9 +204,10 @@ def enclosed_fraction(program, model, folder):
     """Return the fraction of the bounding box where the winding number is at least 0.5, or at most -0.5 if that
     fraction is larger.
 
-    The result is 0 for loose triangles (nine of ten edges belong to one triangle only) that enclose only tiny volumes.
-    Their enclosed volume counts as tiny if fewer than half of the examined points inside have other inside points in
-    all directions, at a distance of 1/1000 of the diagonal.
+    Triangles are loose if at least nine of ten edges belong to only one triangle. For loose triangles, tiny volumes are
+    ignored. To detect tiny volumes, up to LOOKED_AT points inside are examined. Around each of them, six points are
+    sampled along the axes, at a distance of 1/1000 of the bounding-box diagonal. The result is 0 if fewer than half of
+    the examined points have all six points inside.
     """
     points, triangles = read_obj(model)
     surface = points[np.unique(triangles)]

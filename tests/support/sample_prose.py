@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Draw comments, messages and identifiers of the project at random. A reader who has not seen the code counts the
+"""Draw comments, messages and identifiers of the project at random. A reader who has not seen the code then counts the
 samples that need a second reading.
 
-The same seed draws the same samples from the same sources. A sample is always a whole comment, because a single line of
-a comment cannot be judged. Use three seeds.
+The same seed draws the same samples from the same sources. A sample is a whole comment, because a single line of a
+comment cannot be judged. Draw samples with three different seeds.
 
 usage: sample_prose.py [--seed N] [--comments 100] [--messages 20] [--identifiers 20]
 """
@@ -16,7 +16,7 @@ import re
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 FOLDERS = ("filters", "viewer", "python", "tests", "examples")
 CPP = {".h", ".cpp", ".cxx"}
-LONGEST = 12  # maximum number of lines; a longer comment is shortened
+LONGEST = 12  # maximum number of lines of a sample; a longer comment is cut off
 WORD = re.compile(r"[A-Za-z]{2,}")
 STRING = re.compile(r'"((?:[^"\\\n]|\\.)*)"')
 DECLARED = re.compile(r"\b(?:class|struct|enum class|enum)\s+([A-Za-z_]\w+)|"
@@ -52,7 +52,7 @@ def is_prose(text):
 
 
 def messages_of(path, text):
-    """Yield string literals that are sentences, outside of tests. Adjacent literals are joined."""
+    """Yield the string literals that are sentences. Tests are ignored, and adjacent literals are joined."""
     if path.parts[len(ROOT.parts)] == "tests":
         return
     joined = re.sub(r'"\s*\n\s*"', "", text)

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Write surfaces of one and of four million triangles, closed and open.
 
-`scale_surfaces.py FOLDER MILLIONS` writes closed.ply and open.ply. The surface is a camel of the Debian package
-libcgal-demo. It is decimated to 15,625 triangles, then subdivided (Loop) three times for one million triangles or four
-times for four million. The open surface lacks the triangles inside of forty balls. measure_scale.py uses this script.
+`scale_surfaces.py FOLDER MILLIONS` writes closed.ply and open.ply. MILLIONS is 1 or 4. The surface is a camel of the
+Debian package libcgal-demo. The script decimates it to 15,625 triangles. Loop subdivision, applied three or four times,
+then gives one or four million triangles. The open surface lacks the triangles inside of forty balls. The script
+measure_scale.py uses this script.
 """
 
 import pathlib

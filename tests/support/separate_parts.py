@@ -1,9 +1,10 @@
 """Find the separate parts of a surface, and measure how much the weights of one part leak into another part.
 
-Components that share no vertex still belong together if they touch, cross, or contain each other. Two components touch
-if they have points in the same cube of a grid. This is always true if they are nearer than 1/500 of the bounding-box
-diagonal, and never true if they are farther apart than 1/144 of it. Open components, such as a bottle with an open neck
-and its cap, also belong together if the inside connects them: a straight line between them is completely inside.
+Components that share no vertex belong to the same part if they touch, cross, or contain each other. Two components
+touch if they have points in the same cube of a grid. Components nearer than 1/500 of the bounding-box diagonal always
+touch, and components farther apart than 1/144 of the diagonal never touch. Open components, such as a bottle with an open
+neck and its cap, can also be connected through the inside of the surface. In this case a straight line between them is
+completely inside, and they belong to the same part.
 """
 
 import numpy as np
@@ -14,7 +15,7 @@ from weights_accuracy import LEAK
 
 NEAR = 1 / 500  # in bounding-box diagonals: the spacing of sample points on the surface, and half the size of the cubes
 MOST_SAMPLES = 2_000_000
-LINES = 300  # straight lines that are tested from one part to another
+LINES = 300  # number of straight lines that are tested between two parts
 SEED = 11
 
 
@@ -74,8 +75,8 @@ class Groups:
 
 
 def turned(corners):
-    """Rotate the corners of each triangle so that its longest edge is the first one. Also return the lengths of these
-    edges and the heights above them."""
+    """Reorder the corners of each triangle cyclically, so that its longest edge comes first. Also return the length of
+    the longest edge and the height of the triangle above this edge."""
     edges = np.stack([corners[:, (k + 1) % 3] - corners[:, k] for k in range(3)], axis=1)
     lengths = np.linalg.norm(edges, axis=2)
     first = lengths.argmax(axis=1)
@@ -103,7 +104,7 @@ def sample_triangles(points, triangles, spacing):
 
 
 def spacing_of(points, triangles):
-    """Return NEAR times the diagonal, or a larger spacing if that gives too many points."""
+    """Return a spacing of NEAR bounding-box diagonals, or a larger spacing that limits the points to MOST_SAMPLES."""
     size = np.linalg.norm(np.ptp(points, axis=0))
     _, longest, height = turned(points[triangles])
     spacing = NEAR * size
@@ -133,7 +134,7 @@ def touching_pairs(points, triangles, component):
 
 
 def winding_numbers(queries, points, triangles):
-    """Return the winding number of all triangles around each query."""
+    """Return the winding number of the surface at each query point."""
     corners = [points[triangles[:, k]] for k in range(3)]
     found = np.empty(len(queries))
     for number, query in enumerate(queries):
@@ -222,10 +223,10 @@ def farthest_points(points, triangles, count):
 
 
 def largest_leak(points, triangles, weights):
-    """Return the largest weight that a handle on one part has at a point of another part, over all parts that have
-    handles.
+    """Return the largest weight that a handle on one part has at a point of another part. Only parts with handles count.
 
-    Return None if fewer than two parts have handles, or if the handles are not at the expected vertices.
+    Two parts with a large leak between them are merged first if they are connected through the inside of the surface.
+    Return None if fewer than two parts with handles remain, or if the handles are not at the expected vertices.
     """
     handles = farthest_points(points, triangles, weights.shape[1])
     if not all(weights[vertex, k] > 0.99 for k, vertex in enumerate(handles)):

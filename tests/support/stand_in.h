@@ -11,8 +11,8 @@
 namespace bindpose::test
 {
 
-/// Replaces a program by a shell script for the lifetime of the object. An environment variable
-/// contains the path of the program.
+/// Replaces a program by a shell script for the lifetime of the object. The constructor sets the
+/// environment variable that contains the path of the program to the path of the script.
 class StandIn
 {
 public:

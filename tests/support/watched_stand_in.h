@@ -16,8 +16,8 @@
 namespace bindpose::test
 {
 
-/// A script that replaces a program (StandIn). The destructor expects that no file descriptor is
-/// open and no temporary file is left.
+/// A script that replaces a program (StandIn). The destructor expects that the test has closed all
+/// file descriptors that it opened, and that no temporary file remains.
 class WatchedStandIn : public StandIn
 {
 public:

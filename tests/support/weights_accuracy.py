@@ -2,8 +2,8 @@
 
 The reference weights are solved for the same handles on tets of `bindpose tetrahedralize --method remesh`, and
 interpolated at the surface's vertices by this script's own code. The reference is also compared with a coarse
-reference, from which the tets that bridge gaps are removed. Where the two references differ, they are not accurate
-enough to measure with. Models are drawn in a seeded order until enough are measured. A model is skipped
+reference, from which the tets that bridge gaps are removed. If the two references differ, the reference is not accurate
+enough for a comparison. Models are drawn in a seeded random order until enough models are measured. A model is skipped
 - if its reference tets have angles below GOOD_ANGLE;
 - if the reference tets miss a part of the surface (remesh has no tets for open sheets);
 - if the reference tets and the default tets have different numbers of connected parts;

@@ -1,5 +1,5 @@
-// Test environment for tests that draw. Without a display they fail instead of being skipped, and
-// VTK must not terminate the process.
+// Test environment for tests that draw. Without a display these tests fail instead of being
+// skipped, and VTK must not terminate the process.
 #include "pictures/display.h"
 
 #include <gtest/gtest.h>

@@ -184,7 +184,8 @@ std::string unknown_option(const Verb& verb, const std::vector<std::string>& wor
 }
 
 /// Return the error message for unexpected arguments.
-/// @param rest  arguments that neither an option nor a file of the verb uses; not empty
+/// @param rest  typed arguments that are neither options nor positional arguments of the verb; not
+/// empty
 std::string unexpected_argument(const Verb& verb, const std::vector<std::string>& rest)
 {
   std::string files;
@@ -199,11 +200,12 @@ std::string unexpected_argument(const Verb& verb, const std::vector<std::string>
 }
 
 /// Check that the selected method uses all options that were typed.
-/// @return the error sentence for the first option that it does not use; empty if there is none
+/// @return the error sentence for the first typed option that the method does not use; empty if
+/// there is none
 std::string unused_option(const Verb& verb, const Arguments& arguments)
 {
-  // A dynamic body uses options of as-rigid-as-possible, whatever the method is, so they cannot be
-  // checked.
+  // A dynamic body uses options of as-rigid-as-possible, whatever the method is, so these options
+  // cannot be checked.
   if (!arguments.has("method") || arguments.has("dynamics"))
   {
     return {};

@@ -9,8 +9,8 @@
 namespace bindpose::cli
 {
 
-/// The values of the command line as words, with the keys of the option table. Defaults are filled
-/// in.
+/// The parsed command line: the values of the options as text, by option key (see Option::key()).
+/// An option that was not typed has its default value, if it has one.
 class Arguments
 {
 public:
@@ -29,10 +29,10 @@ public:
   const std::vector<std::string>& list(const std::string& key) const;
   int integer(const std::string& key) const { return std::stoi(this->text(key)); }
   double number(const std::string& key) const { return std::stod(this->text(key)); }
-  /// Return the numbers of an option "X,Y,Z".
+  /// Return the numbers in the value of an option such as "X,Y,Z".
   std::vector<double> numbers(const std::string& key) const;
-  /// Return the integer that `values_of_words` assigns to the typed word. The parser has checked
-  /// that the word is allowed.
+  /// Return the integer that `values_of_words` assigns to the value of the option. The parser has
+  /// checked that the value is an allowed word.
   int choice(const std::string& key, const std::map<std::string, int>& values_of_words) const
   {
     return values_of_words.at(this->text(key));

@@ -1,7 +1,7 @@
 // Handles SIGINT and SIGTERM. All threads block these signals, and one thread waits for them, so
-// this thread can run any code. A signal handler would not be sufficient: METIS replaces the
-// handler of SIGTERM while it orders a matrix, ends the ordering and loses the signal. Child
-// processes get an empty signal mask.
+// this thread can run any code. A signal handler would not be sufficient: while METIS orders a
+// matrix, it installs its own handler of SIGTERM. That handler ends the ordering and discards the
+// signal. Child processes get an empty signal mask.
 #include "cli/interrupt.h"
 
 #include "io/atomic_file.h"

@@ -14,17 +14,17 @@ enum class OptionKind
   choice, ///< one of the words in `choices`
   integer,
   number,
-  integers, ///< `length` integers with commas between
-  numbers ///< `length` numbers with commas between
+  integers, ///< `length` integers, separated by commas
+  numbers ///< `length` numbers, separated by commas
 };
 
 /// The range of a number.
 struct Range
 {
   double lowest;
-  bool above; ///< the lowest value itself is not allowed
+  bool above; ///< true: `lowest` itself is not allowed
   double highest;
-  bool below; ///< the highest value itself is not allowed
+  bool below; ///< true: `highest` itself is not allowed
 
   bool contains(double value) const
   {
@@ -48,7 +48,7 @@ struct Option
   const char* methods;
   bool required;
   bool repeated; ///< true: the option takes one or more values
-  const char* unless; ///< flag that makes a required option optional
+  const char* unless; ///< key of the flag that makes this required option optional
   Range range;
   int length; ///< number of values in a list of integers or numbers
 
@@ -66,11 +66,11 @@ struct Verb
 {
   const char* name;
   const char* summary;
-  std::vector<Option> options; ///< options of this verb, without those that all verbs have
+  std::vector<Option> options; ///< options of this verb, without the common options
 };
 
-/// Return every verb with its options. Parsing, --help and the documentation use this table. It is
-/// generated from the descriptions of options, see filters/options/README.md.
+/// Return every verb with its options. Parsing, --help and the documentation use this table. The
+/// table is generated from the descriptions of options; see filters/options/README.md.
 const std::vector<Verb>& verbs();
 /// Return the options that every verb has.
 const std::vector<Option>& common_options();

@@ -24,13 +24,13 @@ int exit_code(StatusCode code);
 enum class Merge
 {
   nothing, ///< only the warnings, and the total time as seconds.STAGE
-  numbers, ///< the same, and all other entries except the times of phases
+  numbers, ///< as `nothing`, and all other entries except the times of phases
   all ///< the warnings and all other entries, including the times of phases
 };
 
-/// One run of a verb (a subcommand such as `weights`). It runs algorithms with progress and
-/// cancellation, collects their reports, and ends with the report file, one line for an error, and
-/// the exit code.
+/// One run of a verb (a subcommand such as `weights`). The session runs algorithms, shows their
+/// progress, lets signals cancel them, and merges their reports. At the end it writes the report
+/// file, prints one line if there is an error, and returns the exit code.
 ///
 /// Methods that do part of the work return false if the verb cannot continue; the session then
 /// stores the reason.
@@ -53,9 +53,9 @@ public:
     this->bar_.show(this->of_whole(fraction), what);
   }
 
-  /// Update the algorithm as the part [begin, end] of the verb's main work, which is everything
-  /// between reading and writing. Its warnings and errors are added to the session; VTK prints
-  /// nothing.
+  /// Update the algorithm. Its progress covers the part [begin, end] of the verb's main work, as
+  /// fractions in [0, 1]. The main work is everything between reading and writing. The session
+  /// stores the algorithm's warnings and errors; VTK prints nothing.
   bool run(vtkBindposeAlgorithm* algorithm, const std::string& stage, double begin, double end,
     Merge merge);
   /// Run the algorithm like run(), but return a failure instead of storing it, for callers with a
@@ -63,7 +63,7 @@ public:
   Status try_run(vtkBindposeAlgorithm* algorithm, const std::string& stage, double begin,
     double end, Merge merge);
 
-  /// Read a mesh, volume or handle file; return null on failure.
+  /// Read a mesh, volume or handle file other than .tgf; return null on failure.
   vtkSmartPointer<vtkDataSet> read(const std::string& path);
   /// Read like read(), including .tgf handle files.
   vtkSmartPointer<vtkDataSet> read_any(const std::string& path);
@@ -76,11 +76,13 @@ public:
   /// Check, before the work, that the output's extension is allowed and the file can be written.
   bool check_output(const std::string& path, const std::string& endings);
   bool write(vtkDataSet* data, const std::string& path);
-  /// Write to the temporary file of `file`, which commit() renames. This is for groups of files of
-  /// which either all or none are written.
+  /// Write to the temporary file of `file`, which commit() renames. Use it for a group of files, so
+  /// that either all or none of them are written.
   bool write_uncommitted(vtkDataSet* data, const std::string& path, AtomicFile& file);
   bool commit(AtomicFile& file);
-  /// Write a rig as glTF: mesh with weights, its handles (null: none), and frames of an animation.
+  /// Write a rig as glTF: a mesh with weights, its handles (null: none), and the frames of an
+  /// animation. If `morph` is true, the frames are stored as morph targets, otherwise as transforms
+  /// of joints.
   bool write_rig(vtkDataSet* mesh, vtkPolyData* handles,
     const std::vector<vtkSmartPointer<vtkDataSet>>& frames, double frames_per_second, bool morph,
     const std::string& path);

@@ -47,8 +47,7 @@ vtkSmartPointer<vtkWeightsAlgorithm> make_method(const Arguments& arguments)
   return weights;
 }
 
-/// Set the terms, the additional constraints and energies that the weights must satisfy besides
-/// smoothness.
+/// Set the terms: the constraints and energies in addition to smoothness.
 /// @param mesh  the input, before it is filled with tets
 bool set_terms(Session& session, vtkDataSet* mesh, vtkWeightsAlgorithm* weights)
 {
@@ -79,8 +78,8 @@ bool is_tets(vtkDataSet* data)
   return data->GetNumberOfCells() > 0 && data->GetCellType(0) == VTK_TETRA;
 }
 
-/// Append a region handle for each label above 0 without a handle. The handle is named after its
-/// label; its pivot is the centroid of the labeled points.
+/// Append a region handle for each label above 0 that has no handle. The name of the new handle
+/// contains the label, and its pivot is the centroid of the labeled points.
 bool add_region_handles(Session& session, vtkDataSet* mesh, const std::string& array_name,
   vtkSmartPointer<vtkPolyData>& data)
 {

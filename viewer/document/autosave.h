@@ -15,8 +15,8 @@
 class QLockFile;
 
 /// Saves copies of the work to a folder of this process, for recovery after a crash. A copy is
-/// written a minute after a change at the latest, and immediately on request. The folder is removed
-/// when the process ends normally. Without changes nothing is written.
+/// written at most interval() seconds after a change, and immediately on request. The folder is
+/// removed when the process ends normally. Without changes nothing is written.
 ///
 /// Files are written on a separate thread from shared datasets that nothing modifies. Only one copy
 /// is written at a time; if another copy is requested meanwhile, it is written afterward. The
@@ -78,7 +78,8 @@ private:
   // The session that is being written, and the session to write next. Both must be destroyed on the
   // window's thread.
   std::shared_ptr<const SessionFile::Prepared> writing_, next_;
-  // Status of the running writer, which sets it; read only after the writer has ended.
+  // Status of the running writer. The writer sets it; the window reads it only after the writer has
+  // ended.
   bindpose::Status written_;
   bindpose::Status status_; // status of the last copy that was written
 };

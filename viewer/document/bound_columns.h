@@ -26,14 +26,15 @@ public:
 
   /// Report whether at least one handle has a column, so that posing is possible.
   bool any() const;
-  /// Report whether the columns are exactly those of the current handles, in the same order.
+  /// Report whether the current handles are the bound handles in the same order, and no handle was
+  /// added, moved or removed. Names may differ.
   bool exact() const { return this->exact_; }
   /// Return one sentence that counts the handles that are new, moved or removed; empty if there are
   /// none.
   QString reason() const;
-  /// Return the dataset with its columns in the order of the handles and named after them. Return
-  /// the dataset itself if its columns have this order and these names. Certificates are removed
-  /// unless the columns are exact.
+  /// Return a copy of the dataset in which the columns of weights have the order and the names of
+  /// the handles. Return the dataset itself if the columns are exact and already have these names.
+  /// Certificates are removed unless the columns are exact.
   vtkSmartPointer<vtkPointSet> arranged(vtkPointSet* data) const;
 
 private:

@@ -68,8 +68,8 @@ public:
   int number(const QString& key) const { return this->option(key).toInt(); }
 
   // ---- Opening files ----
-  /// Open a surface, or tets and their boundary surface. On invalid_input (the dataset is not a
-  /// surface) nothing changes.
+  /// Open a surface, or tets and their boundary surface. On invalid_input (the dataset is neither a
+  /// surface nor tets), nothing changes.
   bindpose::Status set_mesh(vtkDataSet* mesh, const QString& name, const Source& source = {});
   /// Open handles with the pose that is in their arrays.
   bindpose::Status set_handles(
@@ -99,8 +99,8 @@ public:
   /// Rename a handle, also in the stored poses. Return invalid_input, with one sentence, if the
   /// name is empty or belongs to another handle.
   bindpose::Status rename_handle(int handle, const QString& name);
-  /// Record the changes of the pose arrays of handle_data() as one step, if nothing else has
-  /// changed there.
+  /// Record the changes of the pose arrays of handle_data() as one step. All other data of
+  /// handle_data() must be unchanged.
   void commit_pose(const QString& step, const QString& merge = {});
   /// Restore the handles of the last step, bit for bit.
   void revert_handles();
@@ -119,8 +119,8 @@ public:
   /// Return the handles of the bind in progress.
   const bindpose::Handles& bound_handles() const { return this->binding_.handles; }
   /// Set the result of the bind: the surface with weights for its handles, and the tets on which
-  /// they were solved (or null). Return false, and change nothing, if that surface is no longer
-  /// open.
+  /// they were solved (or null). Preliminary weights are removed in all cases. If that surface is
+  /// no longer open, return false and change nothing else.
   bool set_bound(vtkPolyData* surface, vtkUnstructuredGrid* tets);
   /// Set preliminary weights that are used for posing until the bind ends. No undo step is
   /// recorded; drop_preview() and set_bound() remove the preliminary weights.

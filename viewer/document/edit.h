@@ -11,11 +11,12 @@
 class Edit : public QUndoCommand
 {
 public:
-  /// Changes the parts of the current work that differ between the two works. The last argument is
-  /// false at the first call, which is that of push.
+  /// A function that applies the difference between two works to the current work. `in_history` is
+  /// true for undo and redo, and false for the first call, when the step is pushed.
   using Apply = std::function<void(const Work& before, const Work& after, bool in_history)>;
 
-  /// @param merge  steps in a row with the same text are merged to one; empty: never merged
+  /// @param merge  consecutive steps with the same `merge` become one step; empty: the step is
+  /// never merged
   Edit(const QString& name, Work before, Work after, const QString& merge, Apply apply);
 
   void undo() override;

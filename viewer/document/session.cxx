@@ -407,7 +407,7 @@ Status SessionFile::write_companion(
   {
     return status;
   }
-  // a view, because the window may be using the data
+  // Write a view of the data, because the window may use the data at the same time.
   const vtkSmartPointer<vtkDataSet> view = view_of(data);
   if (!view)
   {

@@ -63,7 +63,8 @@ enum WorkPart : int
   volume_part = 64,
   curves_part = 128,
   sources_part = 256,
-  /// Only layers, colors and locks of the handles at rest; they do not affect the shape.
+  /// Handles that differ only in layers, colors, locks or pose arrays. These do not affect the
+  /// shape.
   handle_looks_part = 512
 };
 int differences(const Work& a, const Work& b);

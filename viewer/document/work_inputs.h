@@ -14,15 +14,15 @@ class vtkPolyData;
 /// Use a surface, or tets and their boundary surface. If the mesh has weights that fit the handles,
 /// use them too. Return invalid_input for other data.
 bindpose::Status use_mesh(vtkDataSet* mesh, const QString& name, const Source& source, Work& work);
-/// Use handles with the pose that is in their arrays. Existing weights stay in use for handles of
-/// the bind (BoundColumns). If no weights are in use, those of the mesh are used if they fit the
-/// handles.
+/// Use handles with the pose that is in their arrays. If weights are bound, they stay in use for
+/// the handles of the bind (BoundColumns). Otherwise the weights of the mesh are used if they fit
+/// the handles.
 bindpose::Status use_handles(vtkPolyData* handles, const Source& source, Work& work);
 /// Use weights from a separate file for the surface. Return invalid_input, with one sentence, if
 /// their size does not match the surface's points and the handles.
 bindpose::Status use_weights(const bindpose::Weights& weights, const QString& name, Work& work);
 
-/// Return the array of weights; null if there is none or no surface.
+/// Return the array of weights. Return null if the surface is null or has no weights.
 vtkDataArray* weights_of(vtkPolyData* surface);
 
 /// Return the SHA-256 of a file in hex; empty if the file cannot be read.

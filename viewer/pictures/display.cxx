@@ -1,9 +1,9 @@
 // Detects whether an X server accepts connections. libX11 is looked up at run time, because nothing
 // else in this library uses it; VTK loads it if necessary.
 //
-// Xvfb restarts when its last client disconnects, and refuses connections meanwhile. Therefore the
-// connection that proves the display is kept until the process ends, and a refused connection is
-// retried for one second.
+// Xvfb restarts when its last client disconnects, and refuses connections meanwhile. Therefore a
+// successful connection is kept open until the process ends. A refused connection is retried for
+// one second.
 #include "pictures/display.h"
 
 #include "vtkRenderingOpenGLConfigure.h"

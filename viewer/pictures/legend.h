@@ -29,8 +29,8 @@ enum class TextAlign
 void add_text(vtkRenderer* renderer, const std::string& text, double x, double y, int size,
   TextAlign align, bool bold = false, const Rgb& ink = palette::text);
 
-/// Add a vertical bar with the map's colors that fills the box, its ticks on the right and the name
-/// above. If the map has no ticks, only the name is drawn.
+/// Add a legend that fills the box: a vertical bar with the map's colors, the ticks on its right,
+/// and the name above it. If the map has no ticks, only the name is drawn.
 void add_legend(vtkRenderer* renderer, const ColorMap& map, const std::string& name,
   const PixelBox& box, int font_size, const Rgb& ink = palette::text);
 

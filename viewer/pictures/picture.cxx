@@ -1,7 +1,7 @@
 // Renders datasets to a picture. A picture has three layers: the background over the whole window;
 // one renderer per tile (dataset), all with the same camera; text and legend on top. The picture is
-// drawn larger than requested, in parts, and averaged down, because the driver's antialiasing
-// smooths neither isolines nor color bands.
+// drawn in parts, larger than requested, and then averaged down to its size, because the driver's
+// antialiasing smooths neither isolines nor color bands.
 #include "pictures/picture.h"
 
 #include "base/number_text.h"

@@ -14,7 +14,7 @@ class vtkImageData;
 namespace bindpose
 {
 
-/// The positions of the tiles in a finished picture, with which tests compare values with pixels.
+/// The positions of the tiles in a finished picture. Tests use them to find the pixel of a point.
 struct PictureGeometry
 {
   struct TileView
@@ -40,7 +40,7 @@ struct PictureGeometry
 /// - isosurfaces or a volume rendering of data that check_volume() refuses;
 /// - a section that leaves no tet;
 /// - a color quantity of tets (label, quality, method) if there are no tets;
-/// - differences of unequal datasets;
+/// - differences of datasets that do not match (see PictureOptions::minus);
 /// - extrema of an array that is not a point array of a mesh;
 /// - a slice of tets that are shrunk or have no section.
 ///

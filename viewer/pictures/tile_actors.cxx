@@ -568,8 +568,8 @@ Points shown_points(
 
 namespace
 {
-// Return the radius of the tubes of curves. Tubes of 0.25 % of the picture's diagonal are readable,
-// like lines in a drawing.
+// Return the radius of the tubes of curves: 0.25 % of the diagonal of the bounding box of all shown
+// points. Such tubes are as readable as lines in a drawing.
 double tube_radius(const Tile& tile, const PictureOptions& options, const Coloring& coloring)
 {
   return 0.0025 * bounding_box(shown_points(tile, options, coloring)).diagonal();
@@ -659,7 +659,7 @@ Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& o
     const auto actor = add_surface(renderer, surface, options, coloring, scale);
     if (actor && tile.defects)
     {
-      // See-through, because most defects are inside or behind the surface.
+      // Draw the surface see-through, because most defects are inside or behind it.
       actor->GetProperty()->SetOpacity(0.4);
       sort_by_depth(renderer);
     }

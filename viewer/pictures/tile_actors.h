@@ -32,7 +32,7 @@ struct Drawn
 /// Add a tile's actors to its renderer.
 /// @param extrema  extrema of the tile's data
 /// @param scale  window pixels per picture pixel, for line widths and handle sizes
-/// @param shown  counts, increased by the drawn elements
+/// @param shown  counts of drawn elements, to which the counts of this tile are added
 /// @return invalid_input if the section plane removes all of a tile's tets
 Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& options,
   const Coloring& coloring, const std::vector<Extremum>& extrema, const Frame& frame, double scale,

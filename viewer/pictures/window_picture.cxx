@@ -35,8 +35,8 @@ namespace bindpose
 {
 namespace
 {
-/// Size of a tile with its margins, which any graphics card can draw, and width of a margin, in
-/// samples.
+/// Side length of a tile with its margins, and width of a margin, in samples. Any graphics card can
+/// draw a tile of this size.
 constexpr int tile_size = 3072;
 constexpr int tile_margin = 160;
 
@@ -335,7 +335,7 @@ Status draw_in_tiles(
     }
   }
   renderers.clear();
-  // Restore the size, except for a window that was never shown, which has none.
+  // Restore the size of the window. A window that was never shown has no size to restore.
   if (size[0] > 0 && size[1] > 0)
   {
     window->SetSize(size[0], size[1]);

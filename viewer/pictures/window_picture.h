@@ -39,9 +39,9 @@ struct WindowPicture
 /// every renderer's view. Sizes that actors specify in pixels (line widths, text) are drawn in
 /// samples instead; see ScaledLines.
 ///
-/// On return, the window's size, cameras and viewports are restored; the window is not drawn again
-/// with them. Return internal_error if the driver returns no pixels. Perspective and parallel
-/// cameras are supported. Positions of 2D actors must be in viewport coordinates.
+/// On return, the window's size, cameras and viewports are restored, but the window is not redrawn.
+/// Return internal_error if the driver returns no pixels. Perspective and parallel cameras are
+/// supported. Positions of 2D actors must be in viewport coordinates.
 Status draw_in_tiles(
   vtkRenderWindow* window, const WindowPicture& picture, vtkSmartPointer<vtkImageData>& image);
 

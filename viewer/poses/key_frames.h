@@ -6,9 +6,9 @@
 namespace bindpose
 {
 
-/// Interpolation of pivots between keys. All other values do not depend on this choice: rotations
-/// are interpolated along the shorter arc (slerp), scale, shear, stretch and twist linearly, and
-/// modes change at the key.
+/// Interpolation of pivots between keys. All other values do not depend on this choice. Rotations
+/// are interpolated along the shorter arc (slerp). Scale, shear, stretch and twist are interpolated
+/// linearly. Modes change at the key.
 enum class KeyInterpolation : int
 {
   linear = 0,
@@ -30,10 +30,11 @@ public:
   };
   /// Return the keys in ascending order of their times.
   const std::vector<Key>& keys() const { return this->keys_; }
-  /// Set the pose at a time and return the index of the key. A key that is less than 0.5
-  /// milliseconds away is replaced.
+  /// Set the pose at a time and return the index of the key. If a key is less than 0.5 milliseconds
+  /// away, its pose is replaced and its time is kept.
   std::size_t set(double time, NamedPose pose);
-  /// Move a key to another time and return its new index. Another key at that time is replaced.
+  /// Move a key to another time and return its new index. If another key is at that time, as in
+  /// set(), the pose of that key is replaced.
   std::size_t move(std::size_t key, double time);
   void remove(std::size_t key);
   void clear() { this->keys_.clear(); }

@@ -39,8 +39,8 @@ struct BodyRun
 
 /// Simulates the shape as a body with mass by reduced as-rigid-as-possible dynamics
 /// (ReducedDynamics; Jacobson et al. 2012), on the surface or in its tets, and records the run. A
-/// handle in mode free is constrained to the pose during a drag, and keeps its velocity when it is
-/// released.
+/// drag constrains a handle in mode free to the pose. When the drag ends, the handle keeps its
+/// velocity.
 class Body
 {
 public:
@@ -51,8 +51,8 @@ public:
   explicit Body(std::shared_ptr<const PoseSource> source) : source_(std::move(source)) {}
 
   bool is_bound(const PoseOptions& options) const;
-  /// @param options  uses only the options of reduced as-rigid-as-possible: energy, tets, extra
-  /// weights
+  /// @param options  only the options of reduced as-rigid-as-possible are used: energy, tets and
+  /// extra weights
   Status bind(ExecutionContext& context, const PoseOptions& options);
   Index binds() const { return this->binds_; }
 

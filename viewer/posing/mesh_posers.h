@@ -12,8 +12,8 @@ namespace bindpose
 {
 
 /// Poses by full as-rigid-as-possible (Sorkine and Alexa 2007): every vertex of the surface, or of
-/// the tets, is an unknown. With tets the surface moves with them. A solve starts from the result
-/// of the last solve.
+/// the tets, is an unknown. With tets, the surface moves with the tets. A solve starts from the
+/// result of the last solve.
 class FullPoser : public Poser
 {
 public:

@@ -10,7 +10,7 @@ namespace
 std::vector<Index> groups_on_surface(
   const PoseSource& source, const RotationGroups& groups, bool in_tets)
 {
-  // Empty: full ARAP may group elements instead of vertices.
+  // groups.of_vertex is empty if full ARAP groups elements instead of vertices.
   if (!in_tets || groups.of_vertex.empty())
   {
     return groups.of_vertex;

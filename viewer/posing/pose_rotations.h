@@ -20,8 +20,9 @@ struct PoseRotations
 };
 
 /// Set `taken` to the rotations of the surface's points. A surface point follows the rotation of
-/// its own group; in tets it follows the group of the nearest vertex of the tet that contains it.
-/// If `taken` already has groups, they must be of the same bind and are kept.
+/// its own group; with tets, it follows the group of the vertex that has the largest barycentric
+/// coordinate in its tet. If `taken` already has groups, these groups are kept; they must come from
+/// the same bind.
 void take_rotations(const PoseSource& source, const RotationGroups& groups,
   const std::vector<Eigen::Matrix3d>& rotations, bool in_tets, PoseRotations& taken);
 

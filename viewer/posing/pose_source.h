@@ -37,10 +37,11 @@ struct PoseSource
   bool has_tets() const { return this->tets.rows() > 0 && this->tet_weights.rows() > 0; }
 };
 
-/// Create the source from datasets. Return invalid_input for all input that the filters reject: an
-/// invalid surface, invalid handles, weights that do not match the handles, endpoint weights
-/// outside [0, 1].
-/// @param tets  tets with the point array Weights; may be null
+/// Create the source from datasets. Return invalid_input for a surface, handles or weights that the
+/// filters reject: an invalid surface, invalid handles, weights that do not match the handles,
+/// endpoint weights outside [0, 1].
+/// @param tets  tets with the point array Weights; may be null. Invalid tets, and tets whose
+/// weights do not match the handles, are ignored.
 Status to_pose_source(
   vtkPolyData* surface, vtkUnstructuredGrid* tets, vtkPolyData* handles, PoseSource& source);
 

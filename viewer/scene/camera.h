@@ -59,7 +59,8 @@ void keep_in_view(vtkCamera* camera, PointsView points, double aspect_before, do
 
 /// Report whether all points are in one plane, within a millionth of the diagonal of their bounding
 /// box. If they are, set the unit normal, oriented toward the viewer of the default view: toward
-/// +z, or +x if its z component is 0, or -y if both are. Points on a line do not define a plane.
+/// +z; toward +x if its z component is 0; toward -y if its z and x components are 0. Points on a
+/// line do not define a plane.
 bool find_plane(PointsView points, Vec3& normal);
 
 /// Set a parallel view of a plane. The camera looks against the normal, with y up (z if the plane

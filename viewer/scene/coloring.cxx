@@ -154,8 +154,7 @@ std::string component_words(vtkDataArray* array)
 
 namespace
 {
-// The dihedral angle of the regular tet in degrees. The smallest dihedral angle of a tet is at most
-// this.
+// The dihedral angle of the regular tet, in degrees. No tet has a larger smallest dihedral angle.
 constexpr double regular_angle = 70.52877936550931;
 
 bool names_tets(ColorBy by)

@@ -149,12 +149,12 @@ ColorMap sequential_map(double lower, double upper, int bands)
 ColorMap diverging_map(double lower, double upper, double center)
 {
   ColorMap map;
-  // Half the width of the range if all values equal the center.
+  // Half the width of the range that is used if all values equal the center.
   const double least = std::max(1e-12, 1e-9 * std::abs(center));
   const bool constant = !(upper - lower > 2.0 * least);
   map.lower = constant ? center - least : lower;
   map.upper = constant ? center + least : upper;
-  // An odd number of entries, so that the center of a symmetric range has its own entry.
+  // Use an odd number of entries, so that the center of a symmetric range has its own entry.
   constexpr int count = 257;
   map.table = make_table(map.lower, map.upper, count);
   const double reach = std::max(map.upper - center, center - map.lower);

@@ -46,10 +46,10 @@ constexpr Rgb missing{ 0.62, 0.58, 0.60 }; ///< not a number
 /// that color-blind viewers and gray prints show the same order of values.
 Rgb sequential_color(double t);
 
-/// Return the color of a winding number: blue at 0, white at 0.5, orange at 1. Below -0.02 it jumps
-/// to violet (deep at -1) and above 1.02 to brown (deep at 2), both darker. Inside-out and doubly
-/// covered regions are therefore conspicuous. 0.02 is the tolerance for rounding and for open
-/// surfaces far away.
+/// Return the color of a winding number: blue at 0, white at 0.5, orange at 1. Below -0.02 the
+/// color jumps to a darker violet, which is deepest at -1. Above 1.02 the color jumps to a darker
+/// brown, which is deepest at 2. Inside-out and doubly covered regions therefore stand out. The
+/// tolerance of 0.02 allows for rounding and for the effect of distant open surfaces.
 Rgb winding_color(double winding_number);
 
 /// Return the color of the diverging map at t in [-1, 1] (clamped): white at 0, increasingly dark
@@ -82,8 +82,8 @@ ColorMap winding_map();
 
 /// Return the map's color of a value. Values outside get the color of the nearest end.
 Rgb color_of(const ColorMap& map, double value);
-/// Return a legend of single values: one field per level, with the lowest at the bottom, in the
-/// map's color of the level.
+/// Return a legend of single values. It has one field per level, in the color that the map gives to
+/// the level; the lowest level is at the bottom.
 ColorMap level_map(const ColorMap& map, const std::vector<double>& levels);
 /// Add the levels to the ticks of the map. Ticks whose texts would overlap the text of a level are
 /// removed.

@@ -21,10 +21,11 @@ class vtkRenderer;
 namespace bindpose
 {
 
-/// Find the local extrema of the displayed array on each tile's mesh, along the edges of its
-/// triangles or tets, with a persistence above notable_persistence; see interior_extrema(). A tile
-/// is one dataset of the picture. Points with a 1 in `Weights` or `RawWeights` are handles; extrema
-/// at these points are intended and left out. Tiles without the array have no extrema.
+/// Find the local extrema of the displayed array on each tile's mesh. A tile is one dataset of the
+/// picture. Two points are neighbors if an edge of a triangle or tet joins them. Extrema with a
+/// persistence of at most notable_persistence are left out; see interior_extrema(). Points with a 1
+/// in `Weights` or `RawWeights` are handles; extrema at these points are intended and left out.
+/// Tiles without the array have no extrema.
 ///
 /// If a surface is shown without its interior, handles inside it are not among its points. The
 /// largest weight near such a handle is then counted as an extremum.

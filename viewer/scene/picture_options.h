@@ -119,8 +119,8 @@ struct PictureOptions
   /// Size factor of each tet about its center, in (0, 1]. Below 1 there are gaps between tets.
   double shrink = 1.0;
   /// Levels of the isosurfaces that image volumes show instead of a slice, each in the map's color.
-  /// The innermost surfaces are opaque: that of the highest level, and that of the lowest level if
-  /// it is below 0. All other surfaces are see-through.
+  /// The surface of the highest level is opaque. The surface of the lowest level is also opaque if
+  /// this level is below 0. All other surfaces are see-through.
   std::vector<double> isosurfaces;
   /// Show image volumes of winding numbers by volume rendering instead of slices; see
   /// make_winding_volume().

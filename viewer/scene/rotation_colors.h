@@ -19,8 +19,8 @@ namespace bindpose
 Status check_clusters(const std::vector<vtkDataSet*>& datasets);
 
 /// Return for each cell the cluster of most of its points (the lowest if several are equally
-/// frequent), or -1 if no point has a cluster. Return null without the point array RotationCluster.
-/// The data must have passed check_clusters().
+/// frequent), or -1 if no point has a cluster. Return null if there is no point array
+/// RotationCluster. The data must have passed check_clusters().
 vtkSmartPointer<vtkDoubleArray> clusters_of_cells(vtkDataSet* data);
 
 /// Return the clusters of all datasets in ascending order, each with the number of its cells. The

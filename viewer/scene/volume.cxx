@@ -1,6 +1,6 @@
 // Isosurfaces and slices of image volumes. They use VTK's flying edges filters, which process the
-// sample grid row by row. The computation takes as long as reading the samples, so that a user can
-// drag a level.
+// sample grid row by row. The computation takes about as long as reading the samples from memory,
+// so a user can drag a level interactively.
 #include "scene/volume.h"
 
 #include "vtkCellArray.h"

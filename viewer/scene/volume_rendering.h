@@ -13,9 +13,10 @@ namespace bindpose
 
 /// Return the opacity, in [0, 1], that a winding number adds to a ray between two samples. The
 /// opacity is 0 for |w| <= 0.02, the tolerance of winding_color(), so that the outside is clear.
-/// From 0.42 to 0.58, at the border of the inside, it is 0.6. Inside it is 3 % per unit of length,
-/// and it increases to 24 % toward -1 and toward 2.
-/// @param step  distance of samples, in hundredths of the volume's diagonal
+/// From 0.42 to 0.58, at the border of the inside, it is 0.6. Inside, from 0.75 to 1.02, the
+/// opacity is 3 % per hundredth of the volume's diagonal. It increases to 24 % per hundredth toward
+/// -1 and toward 2.
+/// @param step  distance between samples, in hundredths of the volume's diagonal
 double winding_opacity(double winding_number, double step);
 
 /// Return a volume rendering of a winding number, shaded by its gradient, in the colors of
@@ -25,8 +26,8 @@ double winding_opacity(double winding_number, double step);
 ///
 /// Rays are cast on the CPU. With a software graphics driver, as on servers, that is several times
 /// faster than VTK's GPU mapper, and it gives the same picture on every machine.
-/// @param pixels  distance of neighboring rays in pixels; 0: adapted to the time available for a
-/// picture
+/// @param pixels  distance between neighboring rays in pixels; 0: adapted to the time available for
+/// a picture
 vtkSmartPointer<vtkVolume> make_winding_volume(
   vtkImageData* image, const std::string& array, double pixels);
 

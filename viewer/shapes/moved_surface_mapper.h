@@ -11,8 +11,9 @@ namespace bindpose
 {
 
 /// A mapper for a surface whose points move in every frame while its triangles do not change. If
-/// only points and point normals have changed, it uploads only these to the graphics card. VTK's
-/// own mapper also rebuilds the list of triangles, which takes most of the time.
+/// only points and point normals have changed, the mapper uploads only these two arrays to the
+/// graphics card. VTK's own mapper also rebuilds the list of triangles, which takes most of the
+/// time.
 ///
 /// VTK also shifts and scales the points for the upload unless the diagonal of their bounding box
 /// is near 1. This mapper shifts points only if they are so far from the origin that rounding to
@@ -40,8 +41,8 @@ private:
   bool upload_moved();
   void choose_shift();
 
-  /// Addresses and modification times of all inputs of the last upload, except times of points and
-  /// normals.
+  /// Addresses and modification times of all inputs of the last upload, except the modification
+  /// times of points and normals.
   std::vector<vtkMTimeType> drawn_;
   vtkNew<vtkFloatArray> places_; ///< positions of the points, as uploaded to the graphics card
   vtkMTimeType bounds_time_ = 0; ///< modification time of the points that Bounds was computed from

@@ -1,7 +1,7 @@
 // Finds the first triangle or tet that a ray through a pixel intersects. In the coordinates of the
 // ray, a triangle is hit if it contains the origin. The signs of three areas decide this. Triangles
 // that share an edge compute the area for this edge from the same coordinates with opposite signs,
-// so that at least one of them is hit.
+// so that a ray through the edge hits at least one of them.
 #include "shapes/ray_cast.h"
 
 #include <algorithm>

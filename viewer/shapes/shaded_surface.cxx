@@ -29,7 +29,7 @@ namespace bindpose
 
 namespace
 {
-/// The triangles of a polydata, and the cell of each.
+/// The triangles of a polydata, and the cell that each triangle comes from.
 struct DrawnTriangles
 {
   Triangles triangles;
@@ -140,7 +140,7 @@ void ShadedSurface::take(vtkPolyData* surface)
   vtkPointData* data = this->display_->GetPointData();
   gather(surface->GetPointData(), this->input_points_, data);
   gather(surface->GetCellData(), this->input_cells_, this->display_->GetCellData());
-  // normals of the file would not follow the moved shape; they are replaced
+  // Replace the input's own normals, because they would not follow the moved shape.
   data->SetNormals(nullptr);
   data->SetNormals(this->normals_);
   this->move(to_points(surface).view());

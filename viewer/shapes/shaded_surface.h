@@ -26,7 +26,7 @@ class ShadedSurface
 {
 public:
   /// @param feature_angle  angle between the normals of two adjacent triangles, in degrees, in (0,
-  /// 180]. At or above it, their common edge is drawn sharp.
+  /// 180]. At or above this angle, the common edge of the two triangles is drawn sharp.
   explicit ShadedSurface(vtkPolyData* surface, double feature_angle = 50.0);
 
   /// Report whether another surface has the same points and cells as the input, so that take() can

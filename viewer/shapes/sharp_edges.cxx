@@ -95,7 +95,7 @@ private:
   const Triangles& triangles_;
   const Points& normals_;
   double cosine_;
-  /// The far end of an edge at the vertex, and a corner at this edge.
+  /// For each edge at the vertex: the vertex at its other end, and a corner that touches the edge.
   std::vector<std::pair<Index, Id>> edges_;
   DisjointSets<Id> joined_; ///< groups of corners
 };

@@ -27,7 +27,7 @@ public:
   /// surface is split along sharp edges. The cost is a sort of the points and of the triangle
   /// edges.
   /// @param points     #V x 3, at rest
-  /// @param triangles  #F x 3, of these points
+  /// @param triangles  #F x 3, ids of these points
   Silhouette(PointsView points, TrianglesView triangles);
 
   using Edge = std::array<Index, 2>; ///< point ids

@@ -1,6 +1,6 @@
-// Selects the tets on one side of a plane and their visible faces. A face is visible if one of its
-// two tets is kept and the other is not. Faces of neighboring tets are matched once, by sorting
-// them by their vertices. A new plane then costs one pass over tet centers and one over faces.
+// Selects the tets on one side of a plane and their visible faces. A face is visible if exactly one
+// of its one or two tets is kept. Faces of neighboring tets are matched once, by sorting them by
+// their vertices. A new plane then costs one pass over tet centers and one over faces.
 #include "shapes/tet_cut.h"
 
 #include <algorithm>

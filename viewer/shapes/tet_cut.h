@@ -26,8 +26,9 @@ public:
   /// Build the faces and match them. The cost is O(#T log #T): 100,000 tets take 0.1 seconds.
   explicit TetCut(PointsView points, TetsView tets);
 
-  /// Remove the tets whose center is on the side of the plane that the normal points to. keep_all()
-  /// keeps all tets, which is the initial state. The cost is 1 microsecond per 1000 tets.
+  /// Keep exactly the tets whose center is not on the side of the plane that the normal points to.
+  /// Earlier calls have no effect. keep_all() keeps all tets, which is the initial state. The cost
+  /// is 1 microsecond per 1000 tets.
   void keep_behind(const Vec3& origin, const Vec3& normal);
   void keep_all();
 

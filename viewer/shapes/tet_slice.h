@@ -21,8 +21,8 @@ struct TetInput;
 vtkSmartPointer<vtkPolyData> slice_tets(
   vtkUnstructuredGrid* tets, const Vec3& origin, const Vec3& normal);
 
-/// Return the tets that the plane intersects: tets with corners on both sides of it, or with
-/// corners on it and the others behind it.
+/// Return the tets that the plane intersects: tets with at least one corner behind the plane and at
+/// least one corner on the plane or in front of it. The normal points to the front.
 std::vector<Index> tets_at_plane(const TetInput& tets, const Vec3& origin, const Vec3& normal);
 
 /// Return the part of a surface on the side that the normal does not point to. The plane cuts

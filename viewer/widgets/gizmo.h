@@ -67,7 +67,7 @@ struct GizmoSetup
   std::optional<Eigen::Vector3d> tail; ///< tail of a bone, whose head is the origin
   /// True: two twist rings, at head and tail; false: one ring in the middle.
   bool twists_apart = true;
-  double pixels = 80.0; ///< length of the axes of a gizmo that only moves
+  double pixels = 80.0; ///< size in window pixels: distance of a scale box from the origin
   /// Red, green and blue by convention, in shades that viewers with any type of color blindness can
   /// distinguish.
   Color axes[3] = { { 0.80, 0.15, 0.25 }, { 0.50, 0.80, 0.25 }, { 0.18, 0.43, 0.93 } };

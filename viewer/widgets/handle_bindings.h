@@ -50,8 +50,8 @@ template <typename Action>
 struct InputBinding
 {
   Action action;
-  /// The condition of the row: "pose", "drag" (in any mode), "move rest", "add points", "add
-  /// bones", "add cage", "paint regions".
+  /// The mode or state in which the row applies: "pose", "drag" (in any mode), "move rest", "add
+  /// points", "add bones", "add cage", "paint regions".
   const char* when;
   const char* input; ///< the key or button, in the form shown to users
   const char* keys; ///< key names (KeySym of vtkRenderWindowInteractor), each between blanks; or ""

@@ -5,11 +5,11 @@
 //   the plane through the line that faces the camera most, and the distance along the line.
 // - A rotation is the angle between the intersections at the start and now, in the plane of the
 //   ring. Angles are summed move by move, so that several turns are counted. For a ring seen
-//   edge-on, these intersections are unusable. Instead, the angle follows from the distance that
-//   the mouse moves along the near side of the ring, as if a finger rolled the ring.
+//   edge-on, these intersections are unusable. Instead, the angle is proportional to the distance
+//   that the mouse moves along the near side of the ring.
 // - A scale is the ratio of distances from the pivot, on the screen or along an axis.
-// - An arm (from the pivot to the tail of a bone) uses the smallest rotation toward the mouse, in
-//   the plane that faces the camera.
+// - An arm (the vector from the pivot to the tail of a bone) is rotated toward the mouse by the
+//   smallest rotation. The mouse position is in the plane that faces the camera.
 #include "handle_drag.h"
 
 #include "motion_about.h"
@@ -36,7 +36,7 @@ constexpr double seen_from_side = 0.12;
 constexpr double smallest_factor = 0.01;
 // a scale uses a ratio of distances only if it starts farther than this from the pivot
 constexpr double near_pixels = 8.0;
-// Mouse motion for a factor of two if no ratio of distances is used.
+// Mouse motion in pixels that doubles the size, if no ratio of distances is used.
 constexpr double double_pixels = 80.0;
 
 int count_bits(int axes)

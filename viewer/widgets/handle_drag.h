@@ -49,7 +49,8 @@ struct DragMotion
   /// Motion in world coordinates since the start of the drag.
   Eigen::Affine3d motion = Eigen::Affine3d::Identity();
   double amount = 0.0; ///< length of a move, degrees of a rotation, factor of a scale or stretch
-  /// Kinds stretch and reach: factor on the arm's length, which `motion` does not contain.
+  /// Factor on the arm's length for the kinds stretch and reach. `motion` does not include this
+  /// factor.
   double factor = 1.0;
 };
 

@@ -79,7 +79,7 @@ private:
   vtkNew<vtkActor> Solid;
 };
 
-/// Handles, their actors and what the mouse does with them.
+/// Handles, their actors, and the state of the interaction with the mouse.
 struct HandleSetState
 {
   HandleData Data;

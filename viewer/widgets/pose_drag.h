@@ -37,8 +37,9 @@ class PoseDrag
 {
 public:
   /// @param part      HandlePart or GizmoPart
-  /// @param grabbed   cells of the handles to drag, the one under the mouse first; none of them may
-  /// be in mode free or locked
+  /// @param grabbed   cells of the handles to drag; the handle under the mouse comes first. The
+  /// caller must leave out handles that cannot be dragged (locked, or in mode free unless DragFree
+  /// is on).
   PoseDrag(const ScreenView& view, std::vector<HandlePlace> places, int part,
     const std::vector<vtkIdType>& grabbed, const Eigen::Vector2d& mouse,
     const DragSettings& settings);

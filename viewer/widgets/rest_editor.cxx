@@ -1,8 +1,9 @@
 // Creates and moves handles at rest with the mouse. A click gets the first of these positions that
-// exists: the end of a handle under the mouse; the intersection of the ray with the surface, or the
-// position halfway to the exit of the ray; the intersection of the ray with the plane that faces
-// the camera through the previously placed position. A cage surrounds a shape, so only its first
-// vertex is on the surface; its other vertices are placed in that plane.
+// exists: (1) the end of a handle under the mouse; (2) the intersection of the ray with the
+// surface, or the position halfway to the exit of the ray; (3) the intersection of the ray with a
+// plane that faces the camera. That plane goes through the previously placed position, if there is
+// one. A cage surrounds a shape, so only its first vertex can be on the surface; its other vertices
+// are placed in the plane of (3).
 //
 // Every edit renumbers cells, so an unfinished cage is identified by the names of its vertices.
 #include "rest_editor.h"

@@ -33,12 +33,13 @@
  *   position. A handle with a nonzero value in the cell array `Locked` cannot be dragged either; it
  *   only follows its parent. See GetDragRefusal().
  *
- * CancelWidgetInteraction() restores all poses bit by bit.
+ * CancelWidgetInteraction() restores all poses bit for bit.
  *
  * **Stretch and twist** are read by the stretchable bones of vtkSkinningDeformation: `Stretch`, the
  * posed length divided by the rest length, and `Twist`, the angles in degrees at head and tail. For
  * methods that do not read these arrays, set StretchableBones off. Then a stretch scales the
- * transform along the bone. A twist has only one ring and rotates the transform about the bone.
+ * transform along the bone. The gizmo has only one twist ring, which rotates the transform about
+ * the bone.
  *
  * **Scale** along an axis is exact in the 3x4 transform. Scaling a rotated handle along the world's
  * axes causes a shear, which pose files cannot store.
@@ -61,17 +62,18 @@
  * - ADD_POINTS adds a point where the button is released, on the surface (SetSurface()) under the
  *   mouse. With PlaceInside, the point is halfway between this position and the position where the
  *   line of sight leaves the inside again. The winding number determines the inside: overlapping
- *   and nested components are one inside, and a cavity is outside. On an open surface, the point is
- *   halfway to the second intersection of the line of sight, or on the only intersection. Outside
- *   the surface, mouse events go to the camera.
+ *   and nested components form one common inside, and a cavity is outside. On an open surface, the
+ *   point is halfway to the second intersection of the line of sight, or on the only intersection.
+ *   Outside the surface, mouse events go to the camera.
  * - ADD_BONES draws a bone from the position of the press to that of the release, at the same
  *   depths as in ADD_POINTS. Outside the surface, its tail is in the plane through its head that
  *   faces the camera. A bone that begins at the end of another bone is a child of that bone, so
  *   that the next drag continues the chain.
- * - ADD_CAGE adds a cage vertex with every click, joined to the last one by a cage edge. A click on
- *   the first vertex closes the cage; a click on another cage vertex adds an edge to it. The first
- *   vertex is on the surface under the mouse, if there is any. The other vertices are in the plane
- *   through the first vertex that faces the camera. FinishCage() ends the cage without closing it.
+ * - ADD_CAGE adds a cage vertex with every click. A cage edge joins it to the last vertex. A click
+ *   on the first vertex closes the cage; a click on another cage vertex adds an edge to it. The
+ *   first vertex is on the surface under the mouse, if there is any. Every other vertex is in the
+ *   plane that goes through the previous vertex and faces the camera. FinishCage() ends the cage
+ *   without closing it.
  * - Snap moves positions to ends of other handles and to vertices of the surface. If none is near,
  *   moved rest positions snap to multiples of LengthStep.
  *
@@ -230,7 +232,8 @@ public:
   vtkGetMacro(Space, int);
   ///@}
   ///@{
-  /// Length of the arrows of a gizmo that only moves, in pixels. Default 80, range 20 to 400.
+  /// Size of the gizmo in pixels: the distance of the boxes of GIZMO_SCALE from the handle. All
+  /// other parts are scaled by the same factor. Default 80, range 20 to 400.
   vtkSetClampMacro(GizmoSize, double, 20.0, 400.0);
   vtkGetMacro(GizmoSize, double);
   ///@}

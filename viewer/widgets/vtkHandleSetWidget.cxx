@@ -310,7 +310,7 @@ void vtkHandleSetWidget::EndSelectAction(vtkAbstractWidget* widget)
   const bool click = !self->Moved && representation->GetNumberOfSelectedHandles() > 1 &&
     representation->GetInteractionState() < vtkHandleSetRepresentation::MOVE_X;
   self->EndDrag();
-  if (click) // handle a click on one of several selected handles, without a drag
+  if (click) // a click without a drag on one of several selected handles
   {
     representation->SetSelectedHandle(handle);
     self->InvokeEvent(vtkCommand::SelectionChangedEvent, nullptr);

@@ -23,7 +23,7 @@
  *     Shift + X, Y, Z         constrain it to the plane perpendicular to the axis
  *     0-9 . - Backspace       type the length, degrees or factor in place of the mouse
  *     Enter                   end the drag
- *     Escape                  cancel the drag: every pose is restored bit by bit
+ *     Escape                  cancel the drag: every pose is restored bit for bit
  *     in edit modes (see vtkHandleSetRepresentation::SetEditMode()):
  *     Enter, double click     end a cage without closing it
  *     Escape                  cancel the current interaction; else remove a cage's last vertex;

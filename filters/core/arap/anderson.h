@@ -14,16 +14,16 @@ namespace bindpose
 constexpr Index largest_anderson_window = 50;
 
 /// Anderson acceleration of a fixed-point iteration x <- g(x). The next x is g(x) minus a linear
-/// combination of the last differences between successive values of g. The coefficients minimize
-/// the distance between the residual g(x) - x and the same combination of the differences of the
-/// residual. The next x is thus a linear combination of values of g whose coefficients sum to one.
-/// Therefore it satisfies all linear constraints that these values satisfy. The caller decides
-/// whether an extrapolated x is acceptable, for example by an energy that must not rise. If it is
-/// not acceptable, the caller continues from g(x) and calls forget(). Method: Peng et al. 2018,
+/// combination of the last differences between successive values of g. The coefficients are those
+/// for which the same combination of residual differences is nearest to the residual g(x) - x. The
+/// next x is thus a linear combination of values of g whose coefficients sum to one. Therefore it
+/// satisfies all linear constraints that these values satisfy. The caller decides whether an
+/// extrapolated x is acceptable, for example by an energy that must not rise. If it is not
+/// acceptable, the caller continues from g(x) and calls forget(). Method: Peng et al. 2018,
 /// Anderson acceleration for geometry optimization and physics simulation.
 ///
-/// Values that are linear functions of x (such as a gradient) can be carried along: they are stored
-/// behind x in memory and combined like x, but they are not part of the residual.
+/// The caller can add carried values, which are linear functions of x (such as a gradient). They
+/// are stored behind x in memory and combined like x, but they are not part of the residual.
 ///
 /// Scalar: float or double.
 ///
@@ -51,8 +51,8 @@ public:
   /// not finite.
   bool next(const Scalar* g, Scalar* x);
 
-  /// Sum of the absolute values of the last coefficients. In an extrapolated iterate, the round-off
-  /// of the carried values may be larger than in g(x) by this factor.
+  /// Sum of the absolute values of the last coefficients. The round-off of the carried values in an
+  /// extrapolated iterate is at most about this factor times their round-off in g(x).
   double reach() const { return this->reach_; }
 
 private:
@@ -69,8 +69,8 @@ private:
   std::vector<double> factor_; ///< Cholesky factor, in rows of largest_anderson_window
 };
 
-/// Return the sum of a_i b_i. It uses 16 running sums (32 for floats) in a fixed order on every
-/// processor, so the bits are the same everywhere.
+/// Return the sum of a_i b_i. The function adds in 16 running sums (32 for floats) in a fixed order
+/// on every processor, so the bits of the result are the same everywhere.
 double packed_dot(Index count, const double* a, const double* b);
 double packed_dot(Index count, const float* a, const float* b);
 

@@ -45,17 +45,17 @@ const char* to_string(ArapEnergy energy, bool tets);
 /// Return the energy that `automatic` selects; return any other energy unchanged.
 ArapEnergy resolved(ArapEnergy energy, bool tets);
 
-/// Return the matrix L of 1/2 tr(V'^T L V'), the quadratic part of the energy, #V x #V. L does not
-/// depend on the groups. L is the stiffness matrix; for `spokes`, edges with negative weights are
-/// excluded.
+/// Return the matrix L (#V x #V) of the quadratic part 1/2 tr(V'^T L V') of the energy. L does not
+/// depend on the groups. L is the stiffness matrix of the mesh; for `spokes`, edges with negative
+/// weights are excluded.
 /// @param left_out receives the number of excluded edges.
 SparseMatrix arap_stiffness(
   PointsView rest, TrianglesView triangles, ArapEnergy energy, Index* left_out = nullptr);
 SparseMatrix arap_stiffness(
   PointsView rest, TetsView tets, ArapEnergy energy, Index* left_out = nullptr);
 
-/// Return a one-sentence warning about the edges that the energy `spokes` omits; empty if there are
-/// none.
+/// Return a one-sentence warning about the edges that the energy `spokes` omits; empty if no edge
+/// is omitted.
 std::string left_out_warning(Index left_out);
 
 /// Assignment of vertices or elements to groups that share a rotation. The energy `elements`
@@ -80,15 +80,15 @@ RotationGroups rotation_groups(
   ArapEnergy energy, TetsView tets, Index count, std::vector<Index> vertex_labels);
 
 /// Return the matrix (3 #groups x #V) that computes the covariances S_k = sum c e e'^T of all
-/// groups from posed vertices. Row i * #groups + k of (matrix * V') is row i of S_k. The edges are
-/// e = v_i - v_j in the rest pose and e' in the posed shape.
+/// groups from posed vertices. Row i * #groups + k of (matrix * V') is row i of S_k. An edge is e =
+/// v_i - v_j in the rest pose and e' in the posed shape; c is its weight in the group.
 SparseMatrix covariance_matrix(
   PointsView rest, TrianglesView triangles, const RotationGroups& groups);
 SparseMatrix covariance_matrix(PointsView rest, TetsView tets, const RotationGroups& groups);
 
-/// Return 1/2 sum_k sum c |e' - R_k e|^2, summed edge by edge. The sum is accurate even if the
-/// energy is near zero, because no large numbers are subtracted. Cost: one term for each edge of
-/// each element, and for each group of the element.
+/// Return the energy 1/2 sum_k sum c |e' - R_k e|^2 (notation of covariance_matrix()), summed edge
+/// by edge. The sum is accurate even if the energy is near zero, because no large numbers are
+/// subtracted. Cost: one term for each edge of each element, and for each group of the element.
 double arap_energy(PointsView rest, TrianglesView triangles, const RotationGroups& groups,
   PointsView posed, const std::vector<Eigen::Matrix3d>& rotations);
 double arap_energy(PointsView rest, TetsView tets, const RotationGroups& groups, PointsView posed,

@@ -290,7 +290,7 @@ void ConstrainedStiffness::solve(
     }
     // One step of iterative refinement. If held points are close to each other, the inverse has few
     // correct digits. The resulting violation of a constraint could lower the energy, so the caller
-    // could take it for an improvement.
+    // could mistake the violation for an improvement.
     Eigen::MatrixXd answer = this->multipliers_ * small;
     answer += this->multipliers_ * (small - this->held_system_ * answer);
     inner.noalias() -= this->response_ * answer.topRows(kept);

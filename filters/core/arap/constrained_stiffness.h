@@ -21,9 +21,9 @@ using MeshPoint = std::vector<std::pair<Index, double>>;
 /// choice of given vertices and held points. Then it can be solved for any prescribed values.
 ///
 /// L may be singular, because a connected part without a given vertex can translate freely. Held
-/// points in such a part determine its translation. If there are none, the mean of x over the part
-/// is zero. Held points that depend linearly on other held points are detected and left out.
-/// Contradictory held points are satisfied in the least-squares sense.
+/// points in such a part determine its translation. If the part has no held point, the mean of x
+/// over the part is zero. Held points that depend linearly on other held points are detected and
+/// left out. Contradictory held points are satisfied in the least-squares sense.
 class ConstrainedStiffness
 {
 public:
@@ -56,21 +56,22 @@ private:
   SparseMatrix border_;
   SparseSolver solver_;
 
-  // Per held point: factor that scales its row of A to unit length. The row contains the weights of
-  // the vertices that are not given.
+  // A is the matrix of the held points' constraints. The row of a held point contains its
+  // barycentric weights at the vertices that are not given. Per held point: factor that scales this
+  // row to unit length.
   std::vector<double> scale_;
   std::vector<Index> kept_; ///< indices of linearly independent held points
   std::vector<Index> redundant_;
   /// #kept x #held: maps the targets of all held points to the targets of the kept points.
   Eigen::MatrixXd least_squares_;
   Eigen::MatrixXd response_; ///< #unknowns x #kept: L^-1 A^T
-  Eigen::MatrixXd held_system_; ///< A L^-1 A^T, bordered by the columns of the shifts
+  Eigen::MatrixXd held_system_; ///< A L^-1 A^T, bordered by one column per shift (below)
   Eigen::MatrixXd multipliers_; ///< inverse of held_system_
 
   /// #V: index of the vertex's part among the parts without a given vertex, or -1.
   std::vector<Index> floating_;
-  /// Per part without a given vertex: index of its shift among the shifts in held_system_; -1 if no
-  /// held point is in the part.
+  /// Per part without a given vertex: index of its shift (an unknown translation of the part) among
+  /// the shifts in held_system_; -1 if no held point is in the part.
   std::vector<Index> shift_;
   std::vector<double> size_; ///< per part without a given vertex: number of vertices
 };

@@ -9,18 +9,18 @@ namespace bindpose
 
 /// Many instances of one shape, each with its own pose, deformed by reduced as-rigid-as-possible.
 /// The bind-time data of ReducedArap is stored once; each instance stores the rotations of its last
-/// pose. Application in Jacobson et al. 2012, Fast automatic skinning transformations.
+/// pose. Jacobson et al. 2012, Fast automatic skinning transformations, describe this application.
 ///
 ///     Crowd crowd;
 ///     crowd.bind(context, points, triangles, weights, handles, options);
 ///     crowd.solve(context, poses);               // one pose per instance
 ///     crowd.deform(context, points, posed);      // all instances, in single precision
 ///
-/// Cost: a solve takes as long as one ReducedArap solve per instance, one after another. If the
-/// modes of an instance differ from the modes of the previous instance, the cost of a change of
-/// modes is added. deform() reads weights and points once for all instances. Memory: 72 bytes per
-/// cluster and instance. The result has the same bits for any number of threads. For the same
-/// sequence of poses, the result of an instance is bit-identical to that of ReducedArap.
+/// Cost: a solve takes as long as one ReducedArap solve per instance, one after another. An
+/// instance whose modes differ from those of the previous instance also costs a change of modes.
+/// deform() reads weights and points once for all instances. Memory: 72 bytes per cluster and
+/// instance. The result has the same bits for any number of threads. For the same sequence of
+/// poses, the result of an instance is bit-identical to that of ReducedArap.
 class Crowd
 {
 public:
@@ -34,8 +34,8 @@ public:
   /// rotations of its previous pose, if it has one. Return not_converged if any instance did not
   /// converge; in this case all results are usable. If an instance fails, return its status at
   /// once; the message contains the instance. The report contains counts.instances,
-  /// counts.not_converged and iterations (sum over all instances). The warnings are those of the
-  /// first instance with warnings.
+  /// counts.not_converged, and iterations and single_precision_iterations (sums over all
+  /// instances). The warnings are those of the first instance with warnings.
   Status solve(ExecutionContext& context, const std::vector<Pose>& poses,
     const ReducedSolveOptions& options = {});
 

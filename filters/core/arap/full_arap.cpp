@@ -9,14 +9,15 @@
 // minimum. S0 + K D are the covariances, K^T Q is the force on the vertices. The local step fits R
 // to the covariances. The global step solves L D = K^T Q under the handles' constraints.
 //
-// Anderson acceleration treats a local and a global step together as one function g of D and
-// searches its fixed point. All iterates satisfy the constraints, so extrapolated iterates also
-// satisfy them. An extrapolated iterate is accepted if its energy, with the best rotations for it,
-// is at most the energy of the plain iterate g(D).
+// Anderson acceleration treats a local and a global step together as one function g of D, and
+// accelerates the iteration to the fixed point of g. All iterates satisfy the constraints, so
+// extrapolated iterates also satisfy them. An extrapolated iterate is accepted if its energy, with
+// the best rotations for it, is at most the energy of the plain iterate g(D).
 //
 // In exact arithmetic no step raises the energy. If the handles' constraints are nearly dependent,
-// their condition limits the accuracy of the global step. If a global step raises the energy by
-// more than round-off, the points before this step are kept and the iterations end.
+// the condition number of the constraints limits the accuracy of the global step. If a global step
+// raises the energy by more than round-off, the points before this step are kept and the iterations
+// end.
 #include "arap/full_arap.h"
 
 #include "arap/anderson.h"

@@ -78,9 +78,9 @@ public:
   };
   struct SolveOptions
   {
-    /// The solve ends if an iteration lowers the energy by at most this fraction of the energy. If
-    /// the energy is below 1e-6 of the rest energy (a strain of a few 1e-6), 1e-6 of the rest
-    /// energy is used in its place. 0: run all iterations; the result is never not_converged.
+    /// The solve ends if an iteration lowers the energy by at most this fraction of the energy. An
+    /// energy below 1e-6 of the rest energy (a strain of a few 1e-6) is replaced by 1e-6 of the
+    /// rest energy. 0: run all iterations; the result is never not_converged.
     double tolerance = 1e-6;
     Index max_iterations = 500;
     Start start = Start::last;
@@ -90,9 +90,9 @@ public:
 
   /// Compute the vertices for a pose, which has one entry per handle. Return not_converged if
   /// max_iterations were not enough, or if an iteration raised the energy by more than the
-  /// tolerance. The energy can rise if the handles' constraints are nearly dependent; the points
-  /// before that iteration are kept, and a warning is added. After not_converged the vertices are
-  /// usable. The report contains energy, iterations, microseconds_per_iteration,
+  /// tolerance. The energy can rise if the handles' constraints are nearly dependent. In this case
+  /// the points of the previous iteration are kept, and a warning is added. After not_converged the
+  /// vertices are usable. The report contains energy, iterations, microseconds_per_iteration,
   /// constraint_residual (largest violation of a constraint, in bounding-box diagonals) and
   /// counts.constrained (number of constrained vertices and points). Warnings contain the names of
   /// redundant position handles and of contradictory handles.
@@ -113,8 +113,8 @@ public:
   /// Energy after each local and global step of the last solve: start, local, global, local,
   /// global, …
   const std::vector<double>& energies() const { return this->energies_; }
-  /// Quadratic form 1/2 tr(V^T L V) of the rest positions V. It is the scale of round-off in
-  /// energies.
+  /// Quadratic form 1/2 tr(V^T L V) of the rest positions V. The round-off of energies is
+  /// proportional to this value.
   double rest_energy() const { return this->rest_energy_; }
   /// Number of factorizations: one for each choice of modes.
   Index factorizations() const { return this->factorizations_; }
@@ -145,8 +145,8 @@ private:
   Handles handles_;
   Points rest_;
   RotationGroups groups_;
-  /// Per group: ids of its vertices, padded with -1. The initial rotation is the rotation nearest
-  /// to the mean of their initial values.
+  /// Per group: ids of its vertices, padded with -1. The initial rotation of a group is the
+  /// rotation nearest to the mean of the initial matrices at these vertices.
   std::vector<std::array<int, 4>> group_vertices_;
   SparseMatrix stiffness_;
   Terms of_group_, of_vertex_;

@@ -11,8 +11,8 @@ namespace bindpose
 
 namespace
 {
-/// An element is flat if its largest cotangent exceeds this value. It has no energy, because its
-/// energy would be round-off.
+/// An element is flat if its largest cotangent exceeds this value. Flat elements are left out of
+/// the energy, because their energy would be round-off.
 constexpr double largest_cotangent = 1e7;
 
 /// Return the unit of an element's cotangent weights: 1 for a triangle, the length of the longest

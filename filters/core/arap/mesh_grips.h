@@ -49,12 +49,12 @@ public:
   Status find(PointsView points, TetsView elements, const Components& parts, const Handles& handles,
     const std::vector<Index>& region_ids);
 
-  /// Select the constraints of a pose's modes.
+  /// Select the constraints that the modes of a pose require.
   /// @param staying additional given vertices. They stay at rest unless a handle constrains them.
   void choose(const Pose& pose, const std::vector<Index>& staying = {});
 
-  /// given(): ids of constrained vertices, ascending. held(): constrained points that are not
-  /// vertices.
+  /// given() returns the ids of constrained vertices, ascending. held() returns the constrained
+  /// points that are not vertices.
   const std::vector<Index>& given() const { return this->given_; }
   const std::vector<MeshPoint>& held() const { return this->held_; }
   const std::vector<Hold>& holds() const { return this->holds_; }

@@ -28,8 +28,8 @@ namespace bindpose
 /// The unknowns are displacements from rest, so the rest pose is reproduced exactly, even for
 /// ill-conditioned, duplicate or empty weight columns. Displacements that affect neither the energy
 /// nor a constraint remain zero. If a pivot is on a vertex or inside an element, that point of the
-/// mesh is constrained. Otherwise, and for a region, the pivot is treated as a point that moves
-/// with the handle's own transform.
+/// mesh is constrained. A pivot off the mesh, and the pivot of a region, is treated as a point that
+/// moves with the handle's own transform.
 ///
 /// Cost: bind O(#V (4 m)^2), where m is the number of handles and extra weights. The first solve is
 /// O((4 m)^3). A solve after a change of modes is O((4 m + 3 r) 4 m c) for c constrained positions
@@ -81,8 +81,8 @@ public:
   /// Energy after each local and global step of the last solve: start, local, global, local,
   /// global, …
   const std::vector<double>& energies() const { return this->solver_.energies(); }
-  /// Quadratic form 1/2 tr(V^T L V) of the rest positions V. It is the scale of round-off in
-  /// energies.
+  /// Quadratic form 1/2 tr(V^T L V) of the rest positions V. The round-off of energies is
+  /// proportional to this value.
   double rest_energy() const { return this->space_.rest_energy; }
 
 private:

@@ -10,12 +10,12 @@
 // Quick method. H does not depend on the modes. It is factored once for all unknowns: L L^T = H, D
 // = E z with E = L^-T, and the energy is |z|^2 / 2. A choice of modes then affects only its
 // constraints G z = g, with G = A E, where A has one more row for each unknown that a full handle
-// prescribes. The last columns Z of the orthogonal factor of G^T give B = E Z and C = (K E) Z,
-// which is computed by applying reflections to K E. A translation u of the whole shape has no
-// energy: H u = 0 and K u = 0. Therefore H is factored without one of the unknowns, and D = u t + E
-// z with an additional unknown t. Because t has no energy, the constraints determine it: a
-// reflection of the constraints removes t from all constraints except the first one, and the others
-// are constraints of z.
+// prescribes. The last columns Z of the orthogonal factor of G^T give B = E Z and C = (K E) Z. C is
+// computed by applying reflections to K E. A translation u of the whole shape has no energy: H u =
+// 0 and K u = 0. Therefore H is factored without one of the unknowns, and D = u t + E z with an
+// additional unknown t. Because t has no energy, the constraints determine it: a reflection of the
+// constraints removes t from all constraints except the first one. All other constraints then
+// contain only z.
 //
 // If one of the following conditions does not hold, the quick method returns false and the robust
 // method is used.

@@ -129,9 +129,10 @@ private:
   Eigen::MatrixXd basis_; ///< B, open x coordinates
   Eigen::MatrixXd covariance_; ///< covariance C = K B; empty after take_covariance()
 
-  // ---- quick method. The constraints are A D = g, positions first. A reflection removes t from
-  // all constraints except the first one. The constraints are then rho t + lever z = g_0 and R^T
-  // (Q^T z) = the other entries of g.
+  // ---- quick method. The constraints are A D = g, positions first. A reflection of the
+  // constraints removes the translation t from all constraints except the first one. Then the first
+  // constraint is rho t + lever z = g_0. The others are R^T (Q^T z) = h, where h contains the g_i
+  // with i > 0.
   Whole whole_;
   std::vector<Index> reached_; ///< indices of the open unknowns in whole_.rows
   Index constraints_ = 0;

@@ -5,9 +5,9 @@
 //
 // where u = density / stiffness, h is the time step, c is the damping and g is the gravity.
 // Therefore the quadratic form L of the energy is replaced by L + u (1 / h^2 + c / h) M, and the
-// other terms are a load. A constant is added to the energies of the solver. Without it, they would
-// contain the square of the distance that the body has moved since the start. With it, they contain
-// only the deformation energy and small terms.
+// other terms are a load. A constant is added to the energies of the solver. Without the constant,
+// the energies would contain the square of the distance that the body has moved since the start.
+// With the constant, they contain only the deformation energy and small terms.
 #include "arap/reduced_dynamics.h"
 
 #include "pose/rotation_fit.h"

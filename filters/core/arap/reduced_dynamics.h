@@ -70,7 +70,8 @@ public:
   /// option is out of range.
   Status step(ExecutionContext& context, const Pose& pose, const ReducedDynamicsOptions& options);
 
-  /// State of the body. The next step depends only on this state and on the arguments of step().
+  /// State of the body. The result of the next step depends only on this state and on the arguments
+  /// of step().
   struct State
   {
     double time = 0.0;
@@ -90,8 +91,8 @@ public:
   const std::vector<Affine>& transforms() const { return this->state_.transforms; }
   std::vector<Eigen::Matrix3d> rotations() const;
 
-  /// Return the elastic energy for stiffness 1. The next functions return the kinetic energy and
-  /// the momentum for density 1.
+  /// Return the elastic energy for stiffness 1. The next two functions return the kinetic energy
+  /// and the momentum for density 1.
   double elastic_energy() const;
   double kinetic_energy() const;
   Vec3 momentum() const;

@@ -1,10 +1,11 @@
 // The alternation of local and global steps, in single or double precision (notation:
 // reduced_solver.cpp).
 //
-// Y and S are computed in one pass over C. While a group of four columns is in the first-level
-// cache, it is multiplied by Q, which gives four rows of Y, and these rows are multiplied by the
-// group and added to S. Iterates consist of Y and S, so an extrapolated iterate needs no product.
-// The exception is an extrapolation that is so large that S would be mostly round-off.
+// Y and S are computed in one pass over C. C is read in groups of four columns that fit into the
+// first-level cache. The product of a group with Q gives four rows of Y. Then the product of the
+// group with these rows is added to S. Iterates consist of Y and S, so an extrapolated iterate
+// needs no product. The exception is an extrapolation that is so large that S would be mostly
+// round-off.
 //
 // Let E* be the terms that do not depend on Q. The energies are
 //

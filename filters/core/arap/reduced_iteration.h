@@ -69,9 +69,9 @@ public:
   /// at (3 i + j) stride + k.
   void begin(Index stride, const std::vector<double>& star, const std::vector<double>& rotations);
 
-  /// Continue from the last iterate of another iteration that began with the same values. Call this
-  /// after begin(). If the covariances do not determine a rotation, the rotation of begin() is
-  /// kept.
+  /// Continue from the last iterate of another ReducedIteration object whose begin() had the same
+  /// arguments. Call this after begin(). If the covariances do not determine a rotation, the
+  /// rotation of begin() is kept.
   template <typename Other>
   void go_on(const ReducedIteration<Other>& from);
 

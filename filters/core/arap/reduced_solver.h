@@ -25,9 +25,9 @@ enum class ReducedStart
 /// Options of ReducedSolver::solve().
 struct ReducedSolveOptions
 {
-  /// The solve ends if an iteration lowers the energy by at most this fraction of the energy. If
-  /// the energy is below 1e-6 of the rest energy (a strain of a few 1e-6), 1e-6 of the rest energy
-  /// is used in its place. 0: run all iterations; the result is never not_converged.
+  /// The solve ends if an iteration lowers the energy by at most this fraction of the energy. An
+  /// energy below 1e-6 of the rest energy (a strain of a few 1e-6) is replaced by 1e-6 of the rest
+  /// energy. 0: run all iterations; the result is never not_converged.
   double tolerance = 1e-6;
   Index max_iterations = 100;
   ReducedStart start = ReducedStart::last;

@@ -1,8 +1,8 @@
 // Bind time of reduced as-rigid-as-possible: the mesh's stiffness L and covariance sums K are
 // projected once on the skinning space V' = V + M D. Column block j of M is w_j ((x - c_j) / s_j,
-// 1), with a separate coordinate frame per column of weights. In a shared frame, the coordinates
-// would be nearly constant over the vertices of a handle that moves a small part of the mesh, and
-// the matrices would be ill-conditioned.
+// 1), with a separate coordinate frame per column of weights. With one frame for all columns, the
+// matrices would be ill-conditioned: the coordinates would be nearly constant over the vertices of
+// a handle that moves a small part of the mesh.
 #include "arap/reduced_space.h"
 
 #include "arap/skinning_eigenmodes.h"

@@ -16,10 +16,10 @@ struct Eigenmodes
   Eigen::VectorXd eigenvalues; ///< eigenvalue of each mode, ascending, in 1 / length^2
 };
 
-/// Compute skinning eigenmodes: weights w of minimum energy for their norm, L w = lambda M w, that
-/// are zero at the vertices `zero`. As weights of additional transforms, they span smooth
-/// deformations of low energy that do not move these vertices. Method: Benchekroun et al. 2023,
-/// Fast complementary dynamics via skinning eigenmodes.
+/// Compute skinning eigenmodes: the solutions w of L w = lambda M w with the smallest eigenvalues
+/// lambda that are zero at the vertices `zero`. Used as weights of additional transforms, the modes
+/// span smooth deformations of low energy that do not move these vertices. Method: Benchekroun et
+/// al. 2023, Fast complementary dynamics via skinning eigenmodes.
 ///
 /// In the paper, modes are orthogonal to the deformations of the rig. Here they are zero at
 /// handles, like all extra weights. Therefore the transforms of handles in mode full are exact. If

@@ -20,8 +20,9 @@ const char* to_string(AutomaticMethod method)
 
 namespace
 {
-/// Used vertices sorted by coordinates, without duplicates, and triangles sorted by vertices. Each
-/// triangle begins with its lowest vertex.
+/// A surface in an order that depends only on its geometry. Unused and duplicate vertices are
+/// removed, and vertices are sorted by coordinates. Each triangle begins with its lowest vertex id,
+/// and triangles are sorted by their ids.
 struct SortedSurface
 {
   Points points;

@@ -39,11 +39,11 @@ struct AutomaticHandlesOptions
 ///   counts.junctions, counts.cut_cycles, counts.pruned_branches, counts.merged_branches
 /// - counts.joints_outside: number of joints at which the winding number of the closed surface is
 ///   below 0.5, with a warning if it is not 0
-/// - counts.bones_outside: number of bones with at least one of 15 test points between their ends
-///   outside of the closed surface
+/// - counts.bones_outside: number of bones that leave the closed surface; a bone is counted if at
+///   least one of 15 test points between its ends is outside
 /// - for method points: counts.components, counts.served_components, counts.points_inside,
-///   distance, and handles[].vertex, the input vertex at which each point was chosen
-/// Errors and cost are those of curve_skeleton(), skeleton_bones() or spread_points().
+///   distance, and handles[].vertex, the input vertex from which each point was made
+/// For errors and cost, see curve_skeleton(), skeleton_bones() and spread_points().
 Status automatic_handles(PointsView points, TrianglesView triangles,
   const AutomaticHandlesOptions& options, Handles& handles, ExecutionContext& context);
 

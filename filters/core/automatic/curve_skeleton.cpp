@@ -36,13 +36,13 @@ Status check_options(const CurveSkeletonOptions& options)
   return check_limits(options.time_limit, options.memory_limit);
 }
 
-/// If the number of triangles of a clean surface is more than this factor times the number of
-/// triangles to contract, decimating the surface would take longer than making a closed surface
-/// from a lattice.
+/// A clean surface is replaced by a closed surface from a lattice if it has more than this factor
+/// times the number of triangles to contract. For such surfaces the lattice is faster than
+/// decimation.
 constexpr Index dense = 10;
 
-/// Compute a closed surface of the volume that the given surface encloses. Hollows are not filled
-/// here.
+/// Compute a closed surface around the volume that the given surface encloses. Hollows are not
+/// filled here.
 Status close_surface(PointsView points, TrianglesView triangles,
   const CurveSkeletonOptions& options, TriangleMesh& solid, ExecutionContext& context)
 {
@@ -109,7 +109,8 @@ Vec3 centroid_of_mass(PointsView points, TrianglesView triangles)
   return volume != 0.0 ? Vec3(apex + moment / volume) : apex;
 }
 
-/// Return the components that enclose a positive volume; hollows have a negative volume.
+/// Return the components that enclose a positive volume. Hollows have a negative volume and are
+/// omitted.
 std::vector<Solid> solids_of(const TriangleMesh& surface)
 {
   const Components components =

@@ -16,11 +16,13 @@ struct CurveSkeletonOptions
   /// A point is inside if its winding number is at least this, > 0. Used only if the surface is
   /// replaced by a closed surface (see curve_skeleton).
   double winding_threshold = 0.5;
-  /// Approximate number of triangles of uniform size that are contracted, for all components
-  /// together, 100 … 1000000. Parts thinner than the edges of these triangles may be lost. The time
-  /// grows slightly faster than this number.
+  /// The surface is remeshed to about this number of triangles of uniform size, for all components
+  /// together, before it is contracted; 100 … 1000000. Parts thinner than the edges of these
+  /// triangles may be lost. The time grows slightly faster than this number.
   Index triangles = 10000;
-  double time_limit = 120.0; ///< time limit for all work of the helper process in seconds, > 0
+  /// Time limit in seconds, > 0. The helper process may use the time that remains after the closed
+  /// surface is computed, but at least 1 second.
+  double time_limit = 120.0;
   Index memory_limit = 0; ///< largest address space of the helper process in MiB, 0: no limit
 };
 
@@ -30,35 +32,35 @@ struct CurveSkeleton
   Points points; ///< #P x 3
   Segments segments; ///< #S x 2: ids of two points; each pair occurs at most once
   Eigen::VectorXd radii; ///< #P: distance to the closed surface, which is half of the thickness
-  /// #P: component of each point, as an index into centroids. A component with one point is a ball
-  /// or almost a ball.
+  /// #P: component of each point, as an index into centroids. If a component has one point, its
+  /// part of the shape is a ball or almost a ball.
   std::vector<Index> part_of;
-  std::vector<Vec3> centroids; ///< center of mass of each component
+  std::vector<Vec3> centroids; ///< for each component, the center of mass of its part of the shape
 };
 
 /// Compute the curve skeleton of the volume that a surface encloses, by mean curvature flow
 /// (Tagliasacchi, Alhashim, Olson, Zhang, Mean Curvature Skeletons, 2012). The helper executable
-/// bindpose-mesher contracts the surface.
+/// bindpose-mesher runs the flow in a separate process.
 ///
-/// A clean surface (closed, manifold, without crossings) with at most 10 times `triangles` is
-/// contracted directly. Any other surface (open, crossing, doubled, partly inside out, flat) is
-/// replaced by a closed surface of the enclosed volume and of a layer around thin parts
+/// A clean surface (closed, manifold, without crossings) with at most 10 times `triangles`
+/// triangles is used as it is. Any other surface (open, crossing, doubled, partly inside out, flat)
+/// is replaced by a closed surface of the enclosed volume and of a layer around thin parts
 /// (thick_solid.h). If the surface has defects, its parts that touch or almost touch are joined.
-/// The surface is first remeshed to about `triangles` triangles of uniform size. Hollows are
-/// filled. Components with less than a 1000th of the largest component's volume are omitted, with a
-/// warning.
+/// Then the helper fills hollows, remeshes the surface to about `triangles` triangles of uniform
+/// size and contracts it. Components with less than a 1000th of the largest component's volume are
+/// omitted, with a warning.
 ///
 /// @param solid  set to the closed surface before remeshing
 ///
 /// Report: surface ("clean" or "lattice"), counts.parts, counts.contracted_triangles,
-/// counts.iterations, counts.left_out_parts, the counts of prepare_surface; for a lattice, the
-/// report of thick_solid.
+/// counts.iterations, counts.left_out_parts (omitted components); for a lattice, also the counts of
+/// prepare_surface and the report of thick_solid.
 /// Return one of these errors:
 /// - invalid_input: coordinates not finite, ids out of range, no triangle with an area, or an
 ///   option out of range;
 /// - unavailable: the helper executable is missing;
 /// - internal_error: the helper failed or exceeded the time limit;
-/// - canceled: within 20 ms during the flow.
+/// - canceled: the flow ends within 20 ms after a cancel.
 /// Cost: some seconds for 10,000 contracted triangles, almost independent of the number of
 /// triangles of the surface.
 Status curve_skeleton(PointsView points, TrianglesView triangles,

@@ -94,8 +94,8 @@ public:
     return best;
   }
 
-  /// If the component has cycles, choose a root, mark it as held, and reduce the component to a
-  /// tree of shortest paths from the root. A held vertex is always a joint, and it is not moved.
+  /// If the component has cycles, choose a root, mark the root as held, and reduce the component to
+  /// the tree of shortest paths from the root. A held vertex is always a joint and never moves.
   /// @return the number of cycles.
   Index cut_cycles(Index part)
   {
@@ -192,7 +192,7 @@ public:
     return all;
   }
 
-  /// Remove a branch except its junction, which is path.back() or path.front().
+  /// Remove all vertices of a branch except the junction at path.front() or path.back().
   void prune(const Branch& branch)
   {
     const bool keep_front = this->degree(branch.path.front()) > 1;
@@ -223,7 +223,9 @@ public:
     }
   }
 
-  /// Contract a branch between junctions to one point in its middle.
+  /// Contract a branch between two junctions to one point. If possible, this is the middle of the
+  /// straight line between the junctions. If that point is outside the shape, it is the middle of
+  /// the path.
   void contract(const Branch& branch)
   {
     // A held root does not move.
@@ -304,9 +306,9 @@ private:
   const std::function<bool(const Vec3&)>& inside_;
 };
 
-/// Return the length of a branch divided by the radius at its junction (between two junctions: by
-/// the larger radius), or infinity if the branch must be kept. If the value is below 1, the branch
-/// is within the ball of this radius around the junction.
+/// Return the length of a branch divided by the radius at its junction. For a branch between two
+/// junctions, the larger radius is used. Return infinity if the branch must be kept. If the value
+/// is below 1, the branch is inside the ball of this radius around the junction.
 /// @param inner set to true if the branch is between two junctions.
 double reach(const Graph& graph, const Branch& branch, bool& inner)
 {
@@ -331,8 +333,8 @@ double reach(const Graph& graph, const Branch& branch, bool& inner)
   return thickness > 0.0 ? branch.length / thickness : infinite;
 }
 
-/// Collapse components that are balls: the total length of their curve is at most `prune` times
-/// their largest radius.
+/// Collapse components that are balls to one point. A component is a ball if the total length of
+/// its curve is at most `prune` times its largest radius.
 void collapse_balls(Graph& graph, Index parts, double prune)
 {
   std::vector<double> length(static_cast<std::size_t>(parts), 0.0);
@@ -355,7 +357,8 @@ void collapse_balls(Graph& graph, Index parts, double prune)
   }
 }
 
-/// Prune and contract short branches, then prune branches beyond maximum_bones.
+/// Prune and contract short branches. Then prune branches until their number is at most
+/// maximum_bones.
 void simplify(Graph& graph, const SkeletonBonesOptions& options, SkeletonBones& result)
 {
   for (;;)
@@ -412,9 +415,9 @@ void simplify(Graph& graph, const SkeletonBonesOptions& options, SkeletonBones& 
 struct Piece
 {
   std::vector<Index> path;
-  /// Above 1 if the piece must be split: its distance from the bone divided by the tolerance, or
-  /// its length divided by the maximum length. If the distance is within the tolerance but the bone
-  /// leaves the shape, 1 is added.
+  /// The larger of two values: the distance of the piece from its bone divided by the tolerance,
+  /// and the length of the piece divided by the maximum length. The piece must be split if this is
+  /// above 1. If the distance is within the tolerance but the bone leaves the shape, 1 is added.
   double need = 0.0;
   std::size_t at = 0; ///< index in the path at which the piece would be split
 };
@@ -439,7 +442,7 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
     const double t =
       squared > 0.0 ? std::min(std::max((p - head).dot(chord) / squared, 0.0), 1.0) : 0.0;
     const double distance = (p - head - t * chord).norm();
-    // A joint must be inside the shape.
+    // The piece may only be split at a point inside the shape, because this point becomes a joint.
     if (distance > farthest && graph.holds(p))
     {
       farthest = distance;
@@ -475,8 +478,8 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
   return piece;
 }
 
-/// Return a branch without the points in the balls of its junctions. There the curve turns from one
-/// limb to another, which is not a bend.
+/// Return the path without the points within the radius of the junctions at its ends. Near a
+/// junction the curve turns from one limb to another, and this turn must not count as a bend.
 std::vector<Index> outside_of_junctions(const Graph& graph, const std::vector<Index>& path)
 {
   std::vector<Index> kept{ path.front() };
@@ -550,8 +553,9 @@ public:
     }
   }
 
-  /// Create bones that lead away from the roots, parents first. The component with the largest
-  /// volume comes first, because its bones are parents of the other components.
+  /// Create bones that are directed away from the roots, parents before children. The component
+  /// with the largest volume comes first, because the first bones of the other components get their
+  /// parents from it.
   void run(Index parts)
   {
     std::vector<double> volumes(static_cast<std::size_t>(parts), 0.0);
@@ -575,7 +579,7 @@ public:
           last_bone > first_bone ? last_bone : static_cast<Index>(this->result_.handles.size());
       }
     }
-    for (Index h = 0; h < first_bone; ++h) // for all handles that are points
+    for (Index h = 0; h < first_bone; ++h) // all point handles come before the first bone
     {
       this->result_.handles[h].parent =
         this->nearest(this->result_.handles[h].head, first_bone, last_bone);
@@ -650,7 +654,7 @@ private:
     const auto trunk = static_cast<Index>(this->result_.handles.size());
     this->result_.roots.push_back(static_cast<Index>(this->joints_.size()));
     this->add_joint(root);
-    std::queue<std::pair<Index, Index>> open; // a joint and the bone whose tail it is
+    std::queue<std::pair<Index, Index>> open; // a joint, and the bone that ends at this joint
     open.push({ root, trunk });
     while (!open.empty())
     {

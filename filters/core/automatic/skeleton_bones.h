@@ -12,21 +12,21 @@ namespace bindpose
 /// Options of skeleton_bones().
 struct SkeletonBonesOptions
 {
-  /// Largest distance of the curve from its bones, in diagonals of the shape's bounding box, 0.001
-  /// … 1.
+  /// Largest distance of the curve from its bones, 0.001 … 1, in bounding-box diagonals of the
+  /// shape.
   double tolerance = 0.03;
-  /// Maximum length of a bone, in bounding-box diagonals, >= 0.01. Longer bones are split. 0: no
-  /// maximum; straight bones are not split.
+  /// Maximum length of a bone, in bounding-box diagonals, >= 0.01. Longer bones are split, even if
+  /// they are straight. 0: no maximum.
   double longest_bone = 0.0;
   /// Maximum number of bones, >= 0; 0: no limit. A component keeps at least one bone.
   Index maximum_bones = 0;
   /// A branch is pruned if it is shorter than this factor times the radius at its junction, 0 … 10.
-  /// The radius is half of the shape's thickness. Junctions are merged if the branch between them
-  /// is shorter than that.
+  /// The radius is half of the shape's thickness. Two junctions are merged if the branch between
+  /// them is shorter than this factor times the larger radius of the two.
   double prune = 1.0;
-  /// Callback that reports whether a point is inside the shape; must be thread-safe. If given,
-  /// bones that leave the shape are split if they deviate from the curve by a quarter of the
-  /// tolerance or more. Joints are placed inside the shape if possible.
+  /// Callback that reports whether a point is inside the shape; must be thread-safe. If given, a
+  /// bone that leaves the shape is split if the curve deviates from the bone by more than a quarter
+  /// of the tolerance. Joints are placed inside the shape if possible.
   std::function<bool(const Vec3&)> inside;
 };
 
@@ -46,29 +46,32 @@ struct SkeletonBones
 /// Simplify a curve skeleton to bones. Ends and junctions are joints, and the branches between them
 /// are split where they bend.
 ///
-/// 1. A component with cycles gets a root: the junction nearest to its center of mass, or for a
-///    ring, the nearest point. Each cycle is cut at the point farthest from the root along the
-///    curve, because a bone can have only one parent.
-/// 2. The branch that is shortest relative to the radius is pruned or, if it is between two
-///    junctions, contracted to one point. This is repeated until no branch is shorter than `prune`
-///    times the radius. If there are more branches than maximum_bones, the limbs that are shortest
-///    relative to the radius are pruned too.
+/// 1. A component with cycles gets a root: the end or junction nearest to its center of mass. If
+///    the component has no end or junction (a ring), the root is the nearest point. Each cycle is
+///    cut at the point farthest from the root along the curve, because a bone can have only one
+///    parent.
+/// 2. Let the relative length of a branch be its length divided by the radius at its junction. The
+///    branch with the smallest relative length is pruned. If this branch is between two junctions,
+///    it is contracted to one point instead. This is repeated until all relative lengths are at
+///    least `prune`. While there are more branches than maximum_bones, the branch with a free end
+///    and the smallest relative length is pruned.
 /// 3. Branches are divided into pieces, one per bone. The piece that is farthest from its bone, or
 ///    longest, is split until tolerance and longest_bone are satisfied or there are maximum_bones
-///    pieces (Douglas and Peucker, 1973, worst piece first). Points within the ball of a junction
-///    are not bends. A bone that leaves the shape is also split if that can help. Pieces are split
-///    only at points inside the shape.
+///    pieces (Douglas and Peucker, 1973, worst piece first). Points within the radius of a junction
+///    are ignored, because the curve turns there from one limb to another. A bone that leaves the
+///    shape is also split (see SkeletonBonesOptions::inside). Pieces are split only at points
+///    inside the shape.
 /// 4. The root of a component without cycles is the joint nearest to the centroid. Bones are
 ///    directed away from the root: the parent of a bone is the bone whose tail is the head of this
 ///    bone. If several bones begin at a root, the bone with the largest volume is the parent of the
 ///    other bones.
 /// 5. The parent of the first bone of every other component, and of every point, is the nearest
-///    bone of the component with the largest volume. Exactly one bone has no parent. Parents
-///    precede their children, except for points, which come first.
+///    bone of the component with the largest volume. If there are bones, exactly one bone has no
+///    parent. Points come first in the list. Each bone comes after its parent.
 ///
 /// @param diagonal  diagonal of the shape's bounding box, the unit of the options
-/// @return invalid_input if an option is out of range. There is a warning if cycles are cut, and if
-/// maximum_bones is exceeded. Cost: O(#P x branches).
+/// @return invalid_input if an option is out of range. Otherwise ok, with a warning if cycles are
+/// cut and a warning if maximum_bones is exceeded. Cost: O(#P x #branches).
 Status skeleton_bones(const CurveSkeleton& skeleton, double diagonal,
   const SkeletonBonesOptions& options, SkeletonBones& bones);
 

@@ -1,8 +1,8 @@
 // Farthest-point sampling of a surface (see spread_points.h). For each vertex, the distance to the
 // nearest chosen point of its component is stored. The next point is the vertex with the largest
-// distance. With distances along edges, a new point only changes the vertices that are nearer to it
-// than to all other points. Dijkstra's algorithm, started at the new point, stops at vertices whose
-// distance it does not reduce.
+// distance. With distances along edges, a new point only changes the distances of vertices that are
+// nearer to this point than to all other points. Therefore Dijkstra's algorithm starts at the new
+// point and does not continue from vertices whose distance it cannot reduce.
 #include "automatic/spread_points.h"
 
 #include "base/constants.h"
@@ -109,7 +109,7 @@ public:
 private:
   void find_components()
   {
-    // Weld equal vertices with finite coordinates, used or not.
+    // Weld vertices with equal, finite coordinates. This includes vertices in no triangle.
     std::vector<char> finite(static_cast<std::size_t>(this->points_.rows()));
     for (Index v = 0; v < this->points_.rows(); ++v)
     {
@@ -171,8 +171,8 @@ private:
     }
   }
 
-  /// Return the component of the next point: first each component that is not tiny gets one point,
-  /// then points are assigned by area. Return null if all components are full.
+  /// Return the component that gets the next point. First, each component that is not tiny gets one
+  /// point. Then points are assigned by area. Return null if all components are full.
   Component* next_component()
   {
     constexpr double crumb = 0.01;
@@ -197,8 +197,9 @@ private:
     return best;
   }
 
-  /// Return the vertex of a component that is farthest from the component's points, or -1 if all
-  /// vertices are chosen.
+  /// Return the vertex of a component that is farthest from the component's points. If there are no
+  /// points yet, return the vertex farthest from the centroid. Return -1 if all vertices are
+  /// chosen.
   Index farthest(const Component& component) const
   {
     Vec3 centroid = Vec3::Zero();
@@ -231,13 +232,14 @@ private:
     return this->winding_.evaluate_at(p) >= this->options_.winding_threshold;
   }
 
-  /// Move a point to the middle of the shape, unless another point is already there. Return whether
-  /// the point was moved.
+  /// Move a point from its vertex into the middle of the shape, unless another point is already at
+  /// the new position. Return whether the point was moved.
   /// @param depth set to the distance of the moved point from the surface.
   bool move_inside(const SurfaceProbe& probe, Index vertex, const std::vector<Vec3>& taken,
     Vec3& place, double& depth) const
   {
-    // Distance of the tested points from the vertex, in bounding-box diagonals.
+    // The inside is tested at one point on each side of the surface. This is the distance of these
+    // points from the vertex, in bounding-box diagonals.
     constexpr double near = 1e-5;
     const Vec3 from = place;
     Vec3 way = -this->normals_.row(vertex).transpose();

@@ -13,7 +13,7 @@ namespace bindpose
 enum class PointDistance
 {
   along_edges, ///< distance along edges of the surface: neighboring limbs are far from each other
-  straight ///< through space
+  straight ///< straight-line distance in space
 };
 
 /// Return "along-edges" or "straight".
@@ -24,8 +24,8 @@ struct SpreadPointsOptions
 {
   Index count = 8; ///< number of points, >= 1
   PointDistance distance = PointDistance::along_edges;
-  /// Move each point from its vertex to the middle of the shape, if one side of the surface is
-  /// inside at the vertex.
+  /// Move each point from its vertex into the middle of the shape. A point is not moved if both
+  /// sides of the surface are outside at the vertex.
   bool inside = true;
   double winding_threshold = 0.5; ///< a point is inside if its winding number is at least this, > 0
 };
@@ -42,30 +42,31 @@ struct SpreadPoints
 
 /// Spread points over a surface's vertices (farthest-point sampling). Each point is as far as
 /// possible from all earlier points of its component. The first point is the vertex farthest
-/// (straight) from the centroid of the component's vertices. The method is that of T. Gonzalez,
-/// "Clustering to minimize the maximum intercluster distance", 1985: on the surface, no vertex is
-/// farther from its nearest point than the points are from each other, and the largest distance of
-/// a vertex from its nearest point is at most twice the optimum.
+/// (straight) from the centroid of the component's vertices. The method is from T. Gonzalez,
+/// "Clustering to minimize the maximum intercluster distance", 1985. Let d be the largest distance
+/// of a vertex from its nearest point, before points are moved inside. Then the distance between
+/// any two points is at least d, and d is at most twice the smallest possible value.
 ///
-/// - **Components** are connected by welded vertices and get points in proportion to their area:
-///   the next point is placed in the component with the largest area / (points + 1). Before that,
-///   each component with at least a 100th of the largest component's area gets one point. Distances
-///   are only measured within a component.
-/// - **Inside**: a point moves from the vertex in the direction opposite to its normal, or in the
-///   direction of the normal if the inside is there. It moves as long as its depth (the distance to
-///   the surface) grows by at least 3/10 of the distance that it moves, and at most half of the way
-///   to the opposite side of the shape. A point at the tip of a limb therefore remains in the tip,
-///   and a point at a corner moves to where the middle surfaces of the faces intersect. All
-///   vertices within twice the depth of a chosen point count as near this point, so that the two
-///   sides of a plate do not both get points.
-/// - **The first n points do not depend on `count`.** If several vertices are equally far, the one
-///   with the lowest id is chosen. Vertices with equal positions count as one vertex, with the
-///   lowest id.
+/// - **Components** are found after vertices with equal positions are welded. First, each component
+///   with at least a 100th of the largest component's area gets one point. Each further point is
+///   placed in the component with the largest area / (points + 1), so that numbers of points are in
+///   proportion to areas. Distances are only measured within a component.
+/// - **Inside**: a point moves from its vertex against the direction of the normal, or along the
+///   normal if the inside is on that side. Its depth is its distance to the surface. The point
+///   moves as long as the depth grows by at least 3/10 of the distance that the point moves. It
+///   moves at most half of the way to the opposite side of the shape. A point at the tip of a limb
+///   therefore remains in the tip, and a point at a corner moves to where the middle surfaces of
+///   the faces intersect. The vertices within twice the depth of a chosen point are treated as near
+///   this point, even on the opposite side. Therefore a plate does not get two points, one from
+///   each side.
+/// - **The first n points do not depend on `count`.** If several vertices have the same distance,
+///   the vertex with the lowest id is chosen. Vertices with equal positions count as one vertex,
+///   with the lowest id.
 ///
 /// Return invalid_input if coordinates are not finite, ids are out of range, count < 1, or there
 /// are fewer different vertices than count.
-/// Cost: count shortest-path searches of at most O(#V log #V), each one smaller than the previous;
-/// if `inside`, also 64 distances per point.
+/// Cost: `count` shortest-path searches of at most O(#V log #V); later searches visit fewer
+/// vertices. If `inside` is true, also at most 64 distances to the surface per point.
 Status spread_points(PointsView points, TrianglesView triangles, const SpreadPointsOptions& options,
   SpreadPoints& result, ExecutionContext& context);
 

@@ -58,8 +58,8 @@ void ExecutionContext::emit(double fraction_of_whole, bool force)
     return;
   }
   this->last_emit_ = now;
-  // If a kernel repeats a part of its work, its progress starts again; the reported progress must
-  // not decrease.
+  // If a kernel repeats a part of its work, the progress of that part starts again. The reported
+  // progress must not decrease.
   this->furthest_ = std::max(this->furthest_, fraction_of_whole);
   this->progress_(this->furthest_, this->phase_);
 }

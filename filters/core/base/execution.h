@@ -32,7 +32,7 @@ public:
   ExecutionContext& operator=(const ExecutionContext&) = delete;
 
   /// Set the number of threads that a kernel may use; 0 (default): all cores. Results never depend
-  /// on it.
+  /// on the number of threads.
   void set_threads(int threads) { this->threads_ = threads; }
   int threads() const { return this->threads_; }
 

@@ -14,7 +14,7 @@ using Index = std::int64_t;
 
 /// One position, direction or displacement.
 using Vec3 = Eigen::Vector3d;
-/// The same in a plane.
+/// One position, direction or displacement in a plane.
 using Vec2 = Eigen::Vector2d;
 
 /// #V x 3 coordinates, row-major (the layout of vtkPoints).

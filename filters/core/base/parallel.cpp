@@ -64,13 +64,13 @@ bool parallel_for(ExecutionContext& context, Index count, Index block_size,
     const int threads = thread_count(context.threads());
     if (threads == thread_count(0))
     {
-      // The existing arena is used. A new arena per call would exist until its worker threads have
-      // left it, and such arenas would accumulate on a busy machine.
+      // Use the existing arena. A new arena per call would exist until its worker threads have left
+      // the arena. Such arenas would accumulate on a busy machine.
       share();
     }
     else
     {
-      // The arenas are kept between calls, because a new arena per call would accumulate.
+      // The arenas are kept between calls, because new arenas per call would accumulate.
       thread_local std::map<int, tbb::task_arena> arenas;
       arenas.try_emplace(threads, threads).first->second.execute(share);
     }

@@ -8,10 +8,10 @@
 namespace bindpose
 {
 
-/// Sort on the context's threads: sort blocks, then merge pairs of blocks until one is left. The
-/// sort is stable, so the result is the same for any number of threads. A cancel request is checked
-/// before each block and each merge; therefore kernels with many items call this function instead
-/// of std::sort.
+/// Sort on the context's threads: sort blocks, then merge pairs of blocks until one block is left.
+/// The sort is stable, so the result is the same for any number of threads. A cancel request is
+/// checked before each block and each merge; therefore kernels with many items call this function
+/// instead of std::sort.
 /// @return false if canceled; the items are then complete, in unspecified order.
 template <typename Items, typename Less>
 bool parallel_sort(ExecutionContext& context, Items& items, const Less& less)

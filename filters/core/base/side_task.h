@@ -19,8 +19,8 @@ namespace bindpose
 class SideTask
 {
 public:
-  /// The work runs on one thread. Its context is canceled when the owner's context is canceled, and
-  /// by the destructor.
+  /// The work runs on one thread. The context that the work receives is canceled when the owner's
+  /// context is canceled, and by the destructor.
   using Work = std::function<void(ExecutionContext& context)>;
 
   /// Start the work after `delay` seconds. If the context has only one thread, finish() does the

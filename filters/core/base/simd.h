@@ -8,9 +8,10 @@
 /// BindposeCompiler.cmake). Functions called in the loop must be BINDPOSE_ALWAYS_INLINE, because
 /// other functions use the baseline instruction set.
 ///
-/// BINDPOSE_SIMD_WIDTHS(define, Scalar) is for loops over packs (base/packs.h) whose size is that
-/// of a register. It expands define(version, bytes, Scalar) once for each instruction set. `define`
-/// is a macro for a function that begins with `version` and works on packs of `bytes` bytes.
+/// BINDPOSE_SIMD_WIDTHS(define, Scalar) is for loops over packs (base/packs.h). Each pack fills one
+/// register. The macro expands define(version, bytes, Scalar) once for each instruction set.
+/// `define` is a macro for a function that begins with `version` and works on packs of `bytes`
+/// bytes.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) && \
   !defined(__SANITIZE_ADDRESS__)
 #define BINDPOSE_SIMD_CLONES \

@@ -30,10 +30,11 @@ const char* to_string(StatusCode code);
 
 /// Measured values by key, in the order in which they were first set.
 ///
-/// A key is one of the report's documented names. A dot makes an object ("seconds.factor"). "[]."
-/// makes a list of objects: the values of all keys with the same prefix are vectors of equal
-/// length, with one entry per object ("handles[].name"). A key that does not apply is absent. Field
-/// data, JSON and Python use the same keys.
+/// A key is one of the report's documented names. A dot separates the name of an object from the
+/// name of its member ("seconds.factor"). "[]." separates the name of a list of objects from the
+/// name of a member ("handles[].name"). The values of all keys with the same list name are vectors
+/// of equal length, with one entry per object. A key that does not apply is absent. Field data,
+/// JSON and Python use the same keys.
 class Report
 {
 public:

@@ -1,8 +1,9 @@
 // This file duplicates the vertices along bones (see bone_cut.h). The triangles around a vertex on
 // a bone form groups. Two triangles are in one group if they share an edge that ends at the vertex
-// and is on no bone. The first group keeps the vertex; every other group gets a copy. The copy
-// belongs to the side of the bone that its group touches. A group that touches both sides of one
-// bone surrounds the tip of the bone.
+// and is on no bone. The first group keeps the vertex; every other group gets a copy of it. The
+// vertex or copy belongs to the side of the bone on which the triangles of its group are. If a
+// group has triangles on both sides of one bone, it surrounds the tip of the bone, and its vertex
+// belongs to no side.
 #include "domain/bone_cut.h"
 
 #include <algorithm>
@@ -29,8 +30,8 @@ EdgeKey key_of(Index a, Index b)
 /// The first bone along each mesh edge; -1: no bone.
 using BoneEdges = std::map<EdgeKey, Index>;
 
-/// Return the mesh's vertices on the bone, from head to tail; empty if they do not include both
-/// ends.
+/// Return the mesh's vertices on the bone, from head to tail. If no vertex is at the head or at the
+/// tail, return an empty list.
 std::vector<Index> vertices_along(PointsView points, const Handle& bone, double tolerance)
 {
   const Eigen::Vector2d head = bone.head.head<2>();

@@ -15,23 +15,26 @@ struct BoneCut
   Points points; ///< the mesh's vertices with their ids, then the duplicates
   Triangles triangles; ///< the mesh's triangles, in the same order
   std::vector<Index> original; ///< #points: original vertex of each point
-  /// #points: the side of a curve on which the point is, or 0 if it is on no side. 2 b + 1 is the
-  /// left side of the curve whose first bone is handle b, and 2 b + 2 is its right side, as seen
-  /// from +z, looking from head to tail.
+  /// #points: the side of a curve to which the point belongs; 0: no side. Let handle b be the first
+  /// bone of a curve. Then 2 b + 1 is the left side of the curve and 2 b + 2 is its right side.
+  /// Left and right are as seen from +z, looking from head to tail.
   std::vector<Index> side;
 };
 
 /// Cut a flat mesh (z = const) along every bone of the handles. Every bone must coincide with a
-/// chain of mesh edges. Each side of a bone gets its own vertices, so that constraints on its left
-/// side end at the bone, as diffusion curves require (Orzan et al., Diffusion Curves, 2008). At a
-/// tip inside the mesh the last vertex is not duplicated and is on neither side. A vertex on
-/// several curves is on the side of the first of these curves in the list.
+/// chain of mesh edges. Each side of a bone gets its own vertices, so that values given on one side
+/// do not affect the other side, as diffusion curves require (Orzan et al., Diffusion Curves,
+/// 2008). If a curve ends inside the mesh, its last vertex is not duplicated and belongs to neither
+/// side. A vertex on several curves belongs to a side of the curve that is first in the list.
 ///
-/// Report: counts.doubled_vertices. A warning names each bone whose only vertices are those that it
-/// shares with its neighbors in the curve; the bone uses the sides of these neighbors.
-/// @param curves #handles: for each bone the first bone of its curve; empty: each bone is a curve.
-/// @return invalid_input, naming the bone, if the bone is not a chain of edges, or if it is a
-/// single edge in the interior, which cannot be opened.
+/// Report: counts.doubled_vertices. A warning names each bone that has no vertex except its ends,
+/// which it has in common with the neighboring bones of the curve. Such a bone uses the sides of
+/// its neighbors.
+/// @param curves #handles: for each bone, the index of the first bone of its curve; empty: each
+/// bone is a curve of its own.
+/// @return invalid_input, naming the bone, if a bone is not a chain of edges. Also invalid_input if
+/// a bone is a single edge inside the mesh whose ends are on no other bone, because no vertex could
+/// be duplicated.
 Status cut_along_bones(PointsView points, TrianglesView triangles, const Handles& handles,
   const std::vector<Index>& curves, ExecutionContext& context, BoneCut& result);
 

@@ -11,9 +11,9 @@ namespace bindpose
 
 namespace
 {
-/// Orient the edges of a cage, whose given directions are arbitrary. The edges are followed from
-/// end to end, and each edge is reversed if necessary, so that it begins where the previous one
-/// ends. Then all edges are reversed if they enclose a negative area.
+/// Orient the edges of a cage, whose given directions are arbitrary. Each edge is reversed if
+/// necessary, so that it begins where the previous edge ends. Then all edges are reversed if they
+/// enclose a negative area.
 void run_around(PlanePointsView points, Segments& edges)
 {
   std::vector<std::vector<Index>> at(static_cast<std::size_t>(points.rows()));
@@ -160,12 +160,12 @@ Status fill_edges(const std::vector<CageElement>& edges, PointsView points, Tria
   }
   if (status.report.number("counts.outside_handles", 0.0) > 0.0)
   {
-    // Drop the last warning, because other functions report the same facts: the transfer reports
-    // points outside, and the weights problem reports handles outside.
+    // Drop the last warning (handles outside), because other functions report the same: the
+    // transfer warns about points outside, and the weights problem warns about handles outside.
     status.warnings.pop_back();
   }
-  // Keep only the angle and the area, because the weights problem counts vertices and triangles
-  // again.
+  // Report only the angle and the area, because the weights problem reports the numbers of vertices
+  // and triangles.
   Report report;
   report.set("cage.min_angle", status.report.number("min_angle", 0.0));
   report.set("cage.area", status.report.number("area", 0.0));

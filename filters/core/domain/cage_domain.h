@@ -11,11 +11,13 @@ namespace bindpose
 /// Options of fill_cage(), which makes the domain of the weights from a cage among the handles.
 struct CageOptions
 {
-  /// Points with at least this winding number are inside the cage, > 0.
+  /// Points with at least this winding number are inside the cage, > 0. Used only for a cage of
+  /// edges.
   double winding_threshold = 0.5;
-  HandlePlaces places; ///< handle geometry that becomes part of the tets, such as bones
-  /// The points of the surface become vertices if there are at most this many of them, else none
-  /// does.
+  /// The points of this handle geometry become vertices of the tets. Used only for a cage of faces.
+  HandlePlaces places;
+  /// The points of the surface become vertices of the domain if their number is at most this limit;
+  /// otherwise none of them becomes a vertex.
   Index most_points = 20000;
 };
 

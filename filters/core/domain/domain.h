@@ -15,12 +15,13 @@ struct Domain
   Points points;
   Tets tets;
   Triangles triangles; ///< triangles of a surface, used if there are no tets
-  /// #T: fraction of each tet that is inside the surface, > 0, for a lattice that contains a
-  /// surface; empty: 1 for all tets. Energies are integrated over this fraction.
+  /// #T: for a lattice that contains a surface, the fraction of each tet that is inside the
+  /// surface, > 0; empty: 1 for all tets. Energies of a tet are multiplied by this fraction.
   Eigen::VectorXd shares;
   /// For a lattice that contains a surface: the points of the surface, and for each point one
-  /// corner of the tet that contains it (-1: no tet does). Distances of components from handles are
-  /// measured from these points, or from the vertices if there are no such points.
+  /// corner of the tet that contains it (-1: no tet does). The distance between a component and a
+  /// handle is measured from these points. If there are no such points, it is measured from the
+  /// vertices.
   Points held_points;
   std::vector<Index> held_corners;
 
@@ -57,10 +58,11 @@ Triangles measurable_triangles(const Domain& domain);
 /// Return the connected components of the elements that have an area or a volume.
 Components connected_components(const Domain& domain);
 
-/// Return the mean edge length of an element; it is used as local mesh size.
+/// Return the mean edge length of an element, which is used as the local mesh size.
 double mean_edge_length(const Domain& domain, Index element);
 
-/// Report whether all points are in a plane, within 1e-9 of the diagonal, and return its normal.
+/// Report whether all points are in one plane, within 1e-9 times the diagonal. Set `normal` to the
+/// unit normal of the plane that fits the points best.
 bool is_flat(PointsView points, double diagonal, Vec3& normal);
 
 /// The neighbors of every vertex along edges, ascending, without duplicates.

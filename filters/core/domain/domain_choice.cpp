@@ -14,17 +14,18 @@ namespace bindpose
 
 namespace
 {
-/// Maximum number of triangles for conforming tets. For a larger surface, a lattice of about 30,000
-/// tets is coarser and therefore cheaper.
+/// Maximum number of triangles for conforming tets. For surfaces with more triangles, a lattice of
+/// about 30,000 tets is cheaper.
 constexpr Index most_triangles = 20000;
-/// A triangle with an angle below this makes its tets at least as badly shaped.
+/// A triangle with an angle below this counts as badly shaped. A tet at such a triangle is badly
+/// shaped, too.
 constexpr double bad_angle = 2.0; // degrees
-/// Maximum fractions of badly shaped triangles and of badly shaped tets. On real furniture models,
-/// all conforming tets whose solves failed exceeded these fractions.
+/// Maximum fractions of badly shaped triangles and of badly shaped tets. Measured on real furniture
+/// models: all tet meshes on which solves failed exceeded these fractions.
 constexpr double most_bad_triangles = 0.02;
 constexpr double most_bad_tets = 0.03;
-/// Approximate number of vertices of a lattice, and the time of solving on two lattices (the guard)
-/// divided by the time of one solve.
+/// Approximate number of vertices of a lattice, and the factor by which solving on two lattices
+/// (the guard) takes longer than solving on the finer lattice alone.
 constexpr Index lattice_vertices = 9000;
 constexpr double both_resolutions = 1.3;
 
@@ -67,8 +68,8 @@ std::string reason_against_tets(const TetMesh& tets, Index handle_count)
   }
   const double in_tets = predicted_seconds(tets.points.rows(), handle_count);
   const double in_lattice = both_resolutions * predicted_seconds(lattice_vertices, handle_count);
-  // Conforming tets may take up to this factor times the predicted time of lattices, because they
-  // preserve the surface.
+  // Conforming tets are preferred up to this multiple of the predicted time of lattices, because
+  // such tets preserve the surface.
   constexpr double worth = 2.0;
   return in_tets > worth * in_lattice ? std::to_string(count) + " tets would take about " +
       short_number(in_tets, 2) + " s, a lattice " + short_number(in_lattice, 2) + " s"

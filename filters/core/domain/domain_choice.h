@@ -10,19 +10,19 @@ namespace bindpose
 
 /// Predict whether solving weights in conforming tets of the inside will be well conditioned and
 /// cheap. The prediction uses only the surface, before any tet is made.
-/// @return empty if the prediction is positive: the surface is closed and clean, and has few,
-/// well-shaped triangles. Otherwise the reason against the volume, for the report.
+/// @return an empty string if the prediction is positive: the surface is closed and clean, and has
+/// few, well-shaped triangles. Otherwise, the reason against the volume, for the report.
 std::string reason_against_volume(const RepairedSurface& surface);
 
-/// Make the same prediction from the tets, before any weight is solved. The dihedral angles of the
-/// tets bound the conditioning; the number of vertices and the number of handles determine the
-/// time.
+/// Make the same prediction from the tets, before any weight is solved. The conditioning is judged
+/// by the dihedral angles of the tets. The time is predicted from the number of vertices and the
+/// number of handles. Return the reason against the tets, or an empty string.
 std::string reason_against_tets(const TetMesh& tets, Index handle_count);
 
 /// Return the predicted time in seconds, on one thread, for bounded weights in a mesh. One
 /// factorization of the biharmonic energy in single precision takes about 0.1 s at 12,000 vertices,
-/// and its time grows with the square of the number of vertices. A column takes about six
-/// factorizations.
+/// and its time grows with the square of the number of vertices. The prediction is the time of six
+/// factorizations per column and of two further factorizations.
 double predicted_seconds(Index vertices, Index handle_count);
 
 } // namespace bindpose

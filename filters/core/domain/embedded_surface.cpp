@@ -1,13 +1,14 @@
 // The transfer of weights from a lattice to its surface (see embedded_surface.h). Copies of a tet
-// have the same position, so they are found by their common center. The correct copy for a point is
-// the copy that is connected with the nearest point of the surface, because the segment from a
-// point inside to its nearest surface point crosses no surface. A breadth-first search over tets
+// have the same position, so they are found by their common center. For a given point, the correct
+// copy is the copy that is connected with the surface point nearest to the given point. The reason
+// is that the segment between these two points crosses no surface. A breadth-first search over tets
 // with common vertices starts at the tet that contains this surface point and ends at the first
 // copy of the tet at the given point.
 //
-// On a tet with values w_i and gradients g_i at its corners x_i, the value at p is
+// Let w_i and g_i be the values and gradients at the corners x_i of a tet. The interpolated value
+// at p is
 //   sum l_i (w_i + g_i.(p - x_i) / 2), where l_i are the barycentric coordinates of p.
-// It is continuous, and exact for quadratic functions if the gradients are exact.
+// This interpolation is continuous. It is exact for quadratic functions if the gradients are exact.
 #include "domain/embedded_surface.h"
 
 #include "base/parallel.h"
@@ -27,8 +28,9 @@ namespace
 {
 constexpr double least_share = 0.03;
 
-/// Return the gradients of the columns at the vertices, #V x (3 #columns): x of all columns, then
-/// y, then z. The gradient at a vertex is the mean over its tets, weighted by their volume inside.
+/// Return the gradients of the columns at the vertices, #V x (3 #columns): the x components of all
+/// columns, then the y components, then the z components. The gradient at a vertex is the mean over
+/// its tets, weighted by their volume inside.
 Eigen::MatrixXd corner_gradients(const Domain& domain, WeightsView values)
 {
   const Index n = domain.points.rows();
@@ -68,7 +70,7 @@ Eigen::MatrixXd corner_gradients(const Domain& domain, WeightsView values)
   return gradients;
 }
 
-/// Group the indices of items by the keys 0 … count - 1 of the items. Items with key k are
+/// Group items by their keys, which are 0 … count - 1. The indices of the items with key k are
 /// grouped[first[k]] to grouped[first[k + 1] - 1].
 template <typename KeyOf>
 void group_by_key(Index count, Index items, const KeyOf& key_of, std::vector<Index>& first,
@@ -201,7 +203,7 @@ Status EmbeddedSurface::interpolate(
   const Domain& domain = mesh.domain;
   const Index m = values.cols();
   const Eigen::MatrixXd gradients = corner_gradients(domain, values);
-  // The elements into which handle insertion split each tet of the lattice.
+  // For each tet of the lattice, the elements into which handle insertion has split it.
   std::vector<Index> first, parts;
   group_by_key(
     this->lattice_.tets.rows(), domain.tets.rows(), [&](Index e) { return mesh.parent_element[e]; },
@@ -349,7 +351,8 @@ Status EmbeddedSurface::carry(const HandleInsertion& mesh, const Handles& handle
   {
     return status;
   }
-  // Points on handles get the values of the handle's vertex, which may be a small distance away.
+  // Points on handles get the values of the handle's vertex, even if this vertex is a small
+  // distance away.
   std::vector<Index> fixed;
   for (std::size_t j = 0; j < mesh.handles.size(); ++j)
   {

@@ -14,25 +14,26 @@ namespace bindpose
 {
 
 /// A surface in the tets of its embedding, a lattice that contains the surface. This class
-/// transfers weights from the coarse tets to the surface. Several tets, called copies, may have the
-/// same position, because the lattice keeps parts separate that are near each other but not
-/// connected.
+/// transfers weights from the coarse tets to the surface. Two parts of a surface can be near each
+/// other without being connected. The lattice keeps such parts separate, so several tets may have
+/// the same position. These tets are called copies.
 class EmbeddedSurface
 {
 public:
-  /// The constructor keeps references: all arguments must outlive this object.
+  /// The constructor stores references, so all arguments must outlive this object.
   /// @param surface locator of the points and triangles; shared by the lattices of all resolutions.
   /// @param lattice,binding a lattice that contains the points (embed_surface).
   EmbeddedSurface(PointsView points, TrianglesView triangles, const SimplexLocator& surface,
     const TetMesh& lattice, const PointBinding& binding);
 
   /// Return the lattice's tets as a domain, with the surface's points and the fraction of each tet
-  /// that is inside. Fractions are raised to at least 0.03, because even a tet that is almost empty
+  /// that is inside. Fractions below 0.03 are set to 0.03, so that a tet that is almost empty still
   /// connects its corners.
   Domain domain(const Eigen::VectorXd& inside_fractions) const;
 
-  /// Return the tet that contains a point, or the nearest tet. If the tet has copies, return the
-  /// copy that is connected with the surface point nearest to the given point. Thread-safe.
+  /// Return the tet that contains a point. If no tet contains the point, return the nearest tet. If
+  /// this tet has copies, return the copy that is connected to the surface point nearest to the
+  /// given point. Thread-safe.
   Index tet_of(const Vec3& place) const;
 
   /// Whether transferred values are smoothed along the surface. Interpolated values are good enough
@@ -45,11 +46,11 @@ public:
   };
 
   /// Compute values at the surface's points (#V x #columns) from values at the vertices of the
-  /// lattice in which the handles were inserted. Linear interpolation would make every tet visible.
-  /// Therefore each corner also contributes its gradient times half of the vector from the corner
-  /// to the point, and the sum is clamped to the column's range. Smoothed values are smoothed along
-  /// the surface over 0.3 times the lattice spacing (smooth_on_surface), except at points on
-  /// handles.
+  /// lattice in which the handles were inserted. Linear interpolation would make the edges of the
+  /// tets visible on the surface. Therefore each corner contributes its value plus its gradient
+  /// times half of the vector from the corner to the point. The sum is clamped to the column's
+  /// range. Smoothed values are smoothed along the surface over 0.3 times the lattice spacing
+  /// (smooth_on_surface), except at points on handles.
   Status carry(const HandleInsertion& mesh, const Handles& handles, WeightsView values,
     Smoothness smoothness, ExecutionContext& context, Weights& result) const;
 
@@ -74,7 +75,7 @@ private:
   SimplexLocator tets_;
   const SimplexLocator& surface_;
   double spacing_ = 0.0; ///< edge length of a lattice cube, which is the longest edge of a tet
-  /// For each center that several tets have in common, the ids of these tets (copies).
+  /// For each center that several tets have in common: the ids of these tets (copies).
   std::unordered_map<Place, std::vector<Index>, PlaceHash> copies_;
   std::vector<Index> first_corner_, corners_at_; ///< corners grouped by vertex, as 4 * tet + corner
 };

@@ -15,7 +15,8 @@ namespace bindpose
 
 namespace
 {
-/// Return the distance from p to a bone's segment or to a handle's point.
+/// Return the distance from p to the handle: to the segment of a bone, or to the head of another
+/// handle.
 double handle_distance(const Handle& handle, const Vec3& p)
 {
   return nearest_in_triangle(p, handle.head, handle.tail, handle.tail).distance;
@@ -149,8 +150,8 @@ void tether_components(const Domain& domain, const Handles& handles,
       }
     }
   }
-  // A lattice component that contains no point of the surface does not affect the result. It copies
-  // the weights of the first handle that has vertices.
+  // If a lattice component contains no point of the surface, its weights do not affect the result.
+  // Such a component copies the weights of the first handle that has vertices.
   const auto first =
     std::find_if(result.counts.begin(), result.counts.end(), [](Index owned) { return owned > 0; });
   for (Index c = 0; c < count; ++c)
@@ -201,10 +202,11 @@ std::string advice_about(const Handle& handle, const Box& box)
                      : "move it, or refine the mesh there";
 }
 
-/// Give every handle a vertex of its own. A handle that shares all of its vertices (a point on a
-/// bone) would not have a weight of one anywhere. It gets, for itself alone, the first of its
-/// vertices at which all other handles have vertices of their own. If there is no such vertex and
-/// the handle is optional, its vertices are left to the other handles.
+/// Give every handle a vertex of its own, which is a vertex on no other handle. Without such a
+/// vertex (for example a point handle on a bone), the handle would not have the weight one
+/// anywhere. In this case one of its vertices is assigned to this handle alone: the first vertex at
+/// which all other handles already have vertices of their own. If there is no such vertex and the
+/// handle is optional, the handle is removed from all its vertices.
 Status give_every_handle_a_vertex(const Handles& handles, const Box& box,
   std::map<Index, std::vector<Index>>& owners, HandleConstraints& result)
 {
@@ -393,7 +395,8 @@ Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
   };
   for (const CageVertex& on_cage : mesh.cage)
   {
-    // Handles take precedence over cages. Where cage elements meet, their values agree.
+    // Handles take precedence over edges and faces of cages. Cage elements that meet at a vertex
+    // give it the same weights.
     if (result.components.of_vertex[on_cage.vertex] >= 0 &&
       handles_of_vertex.count(on_cage.vertex) == 0)
     {

@@ -10,7 +10,7 @@ namespace bindpose
 enum class VertexRole : unsigned char
 {
   solved, ///< a vertex whose row is the result of the minimization
-  handle, ///< a vertex on a handle, which determines the row
+  handle, ///< a vertex on a handle; its row is given by the handle
   /// A vertex in a component without handles; it copies the weights of the nearest handle.
   tethered,
   follower, ///< a vertex that is only in elements without area; it copies the weights of a neighbor
@@ -27,28 +27,28 @@ struct HandleConstraints
   /// Connected components of the elements of positive measure; -1 for followers and unreferenced
   /// vertices.
   Components components;
-  /// Handle whose weights each component copies; -1 if the component has handles.
+  /// For each component, the handle whose weights it copies; -1: the component has handles.
   std::vector<Index> tether;
-  /// #V: vertex whose weights a follower copies; -1 for vertices that are no followers.
+  /// #V: for a follower, the vertex whose weights it copies; -1: not a follower.
   std::vector<Index> leader;
   std::vector<std::string> warnings;
 };
 
-/// Find the fixed vertices and their rows (the discrete boundary conditions) from the positions of
-/// the handles.
+/// Find the vertices on the handles and the given weights of these vertices, which are the boundary
+/// conditions of all weights.
 ///
 /// A vertex on an edge or face of a cage gets weights that are linear along the edge or face.
 ///
 /// A vertex on several handles gets equal weights (a joint of two bones: 1/2, 1/2). If the handles
-/// do not touch, a warning names them. If a handle shares all of its vertices with other handles,
-/// one of these vertices is assigned to that handle alone, so that every column contains a one. A
+/// do not touch, a warning names them. If every vertex of a handle is also on other handles, one of
+/// these vertices is assigned to that handle alone. Therefore every column contains a one. A
 /// component without any handle copies the weights of the handle nearest to it, with a warning. A
-/// handle whose vertices are optional (see Ownership) is skipped if it has none: its column is
-/// zero, and one warning names all skipped handles.
+/// handle with Ownership::optional is skipped if no vertex can be assigned to it alone. The column
+/// of a skipped handle is zero, and one warning names all skipped handles.
 ///
 /// @param region_ids region label of every original vertex, or empty if there are no regions.
-/// @param joined label of every vertex, or empty. Components that contain the same label > 0 count
-/// as one component.
+/// @param joined label of every vertex, or empty. Components that contain vertices with the same
+/// label > 0 count as one component.
 /// @return invalid_input in the cases of check_regions(), and, naming the handle, if a required
 /// handle constrains no vertex or cannot have a vertex of its own.
 Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,

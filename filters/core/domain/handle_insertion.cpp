@@ -1,11 +1,12 @@
 // This file splits elements so that samples of handles become vertices (see handle_insertion.h).
-// Samples in the interior of a tet, of a face and of an edge are treated alike. Let S be the
-// corners of the smallest simplex that contains the sample. Every element that has all corners in S
-// is replaced by one child for each corner s in S, with s replaced by the new vertex. Children keep
-// the orientation of their parent and fill it exactly.
+// The same method is used for samples inside a tet, a face or an edge. Let S be the corners of the
+// smallest simplex that contains the sample. Every element that has all corners in S is replaced by
+// one child for each corner s in S, with s replaced by the new vertex. Children keep the
+// orientation of their parent and fill it exactly.
 //
-// A later sample is located by descending from the original element through its children, so the
-// search tree is built only once.
+// To locate a later sample, the original element that contains it is found in a search tree, then
+// the child that contains it, and so on. The search tree of the original elements is built only
+// once.
 #include "domain/handle_insertion.h"
 
 #include "base/sort_unique.h"
@@ -110,7 +111,7 @@ private:
   // Elements at every vertex, including elements that were split.
   std::vector<std::vector<Index>> incident_;
   std::vector<PlacedElement> cage_;
-  HandlePlacement on_cage_; // placement of all samples on elements of the cage
+  HandlePlacement on_cage_; // common placement of all samples on edges and faces of cages
   Index cage_samples_outside_ = 0;
 };
 
@@ -142,7 +143,8 @@ SimplexLocation Inserter::nearest(const Element& element, const Vec3& p) const
                              : nearest_in_triangle(p, at(0), at(1), at(2));
 }
 
-/// Return the original element that contains p, or the nearest one.
+/// Return the original element that contains p. If no element contains p, return the nearest
+/// element.
 SimplexLocation Inserter::root(const Vec3& p) const
 {
   const Index known = this->options_.element_of ? this->options_.element_of(p) : -1;
@@ -155,8 +157,9 @@ SimplexLocation Inserter::root(const Vec3& p) const
   return at;
 }
 
-/// Report whether the original vertex v is a corner of the element that root() returns for its
-/// position. Of several copies of a vertex, in overlapping elements, only one is such a corner.
+/// Report whether the original vertex v is a corner of the element that root() returns for the
+/// position of v. Overlapping elements have copies of a vertex at the same position. Only one of
+/// these copies is such a corner.
 bool Inserter::is_held(Index v) const
 {
   if (!this->options_.element_of)
@@ -168,7 +171,7 @@ bool Inserter::is_held(Index v) const
 }
 
 /// Return the element of the current mesh that contains p, or the nearest element.
-/// @param place set to the point of the original element nearest to p.
+/// @param place set to the point nearest to p in the original element.
 SimplexLocation Inserter::locate(const Vec3& p, Vec3& place) const
 {
   SimplexLocation at = this->root(p);
@@ -220,7 +223,7 @@ void Inserter::add_bone_samples(
     stops.push_back(std::clamp(t, 0.0, 1.0));
   }
   std::sort(stops.begin(), stops.end());
-  // A bone without a vertex between its ends gets at least one sample there.
+  // A bone without a vertex between its ends gets at least one sample between its ends.
   const bool bare = std::none_of(stops.begin(), stops.end(),
     [&](double t) { return t * length > on && (1.0 - t) * length > on; });
   for (std::size_t i = 0; i + 1 < stops.size(); ++i)
@@ -309,7 +312,7 @@ void Inserter::add_cage_samples(std::vector<Sample>& on_vertices, std::vector<Sa
     for (Index k = samples.chosen; k < samples.points.rows(); ++k)
     {
       const Vec3 place = samples.points.row(k);
-      // No new sample is needed if the element has a vertex within this distance.
+      // No new sample is needed if a vertex on the cage element is within this distance.
       const double near = 0.75 * length(place);
       if (std::any_of(on_vertices.begin() + static_cast<std::ptrdiff_t>(first), on_vertices.end(),
             [&](const Sample& other) { return (other.place - place).norm() <= near; }))
@@ -328,7 +331,8 @@ void Inserter::add_cage_samples(std::vector<Sample>& on_vertices, std::vector<Sa
   }
 }
 
-/// Constrain the corners with a nonzero barycentric coordinate (option keep_mesh).
+/// For option keep_mesh: assign to the handle those corners of the sample's element at which the
+/// sample has a nonzero barycentric coordinate.
 void Inserter::take_corners(Sample& sample)
 {
   Vec3 place;
@@ -356,7 +360,7 @@ void Inserter::insert(Sample& sample, const std::vector<Sample>& earlier)
   Vec3 place;
   const SimplexLocation at = this->locate(sample.place, place);
   placement.outside = std::max(placement.outside, at.distance);
-  // Samples at the same position (after moving to the mesh) share one vertex.
+  // Samples that have the same position before they are moved get the same vertex.
   for (const Sample& other : earlier)
   {
     if ((other.place - sample.place).norm() <= 1e-9 * this->diagonal_ && other.vertex >= 0)
@@ -526,11 +530,12 @@ void Inserter::finish()
 Status Inserter::run(ExecutionContext& context)
 {
   this->copy_mesh();
-  // Insert positions that the user chose before samples whose position along a bone is arbitrary.
+  // Insert samples whose positions the user has chosen (points, cage vertices, bone ends) before
+  // samples whose positions along a bone or cage are arbitrary.
   std::vector<Sample> samples;
   std::vector<Sample> ends;
   std::vector<Sample> between;
-  std::vector<Sample> earlier; // samples that have become vertices
+  std::vector<Sample> earlier; // samples that already have a vertex
   for (std::size_t i = 0; i < this->handles_.size(); ++i)
   {
     const Handle& handle = this->handles_[i];
@@ -557,8 +562,8 @@ Status Inserter::run(ExecutionContext& context)
   this->add_cage_samples(earlier, between);
   samples.insert(samples.end(), ends.begin(), ends.end());
   samples.insert(samples.end(), between.begin(), between.end());
-  // Samples that are exactly at a vertex come first, so that no sample of another handle nearby can
-  // snap to that vertex.
+  // Samples that are exactly at a vertex come first. Otherwise a nearby sample of another handle
+  // could snap to that vertex first.
   std::stable_partition(samples.begin(), samples.end(),
     [&](const Sample& sample)
     {

@@ -11,21 +11,21 @@
 namespace bindpose
 {
 
-/// Options of insert_handles(), which makes handles vertices of the mesh.
+/// Options of insert_handles(), which adds vertices to the mesh at the positions of the handles.
 struct HandleInsertionOptions
 {
-  /// Snapping range as a barycentric coordinate, range (0, 0.25). A sample (a point of a handle)
-  /// moves to an existing vertex, edge or face if this sets only coordinates below `snap` to zero.
-  /// Smaller values keep handles closer to their specified positions; larger values give better
-  /// shaped elements. No sample moves by more than 3 * snap edge lengths.
+  /// Snapping range as a barycentric coordinate, range (0, 0.25). A sample is a point of a handle.
+  /// Its barycentric coordinates below `snap` are set to zero, which moves the sample to a vertex,
+  /// edge or face of the element. Smaller values keep handles closer to their specified positions;
+  /// larger values give better shaped elements. No sample moves by more than 3 * snap edge lengths.
   double snap = 0.1;
   /// Do not change the mesh; instead, constrain the corners of the element that contains a sample.
   bool keep_mesh = false;
   /// Distance between the samples of a bone, in local edge lengths, range (0, 1].
   double spacing = 1.0;
-  /// Callback that returns the element that contains a point. It is needed where elements overlap
-  /// (the copies of an embedding), because the position alone is ambiguous there. If empty, the
-  /// first element found is used.
+  /// Callback that returns the element that contains a point. It is required if elements overlap
+  /// (the copies of an embedding), because several elements then contain the same point. If empty,
+  /// the first element found is used.
   std::function<Index(const Vec3&)> element_of;
 };
 
@@ -33,7 +33,7 @@ struct HandleInsertionOptions
 struct HandlePlacement
 {
   std::vector<Index> vertices; ///< the vertices on the handle, ascending; empty for regions
-  double outside = 0.0; ///< largest distance between the mesh and a sample outside of the mesh
+  double outside = 0.0; ///< largest distance of a sample from the mesh; 0 for samples in the mesh
   double snap = 0.0; ///< largest distance that a sample moved within the mesh
 };
 
@@ -57,8 +57,8 @@ struct CageVertex
 /// The mesh with handles as vertices.
 struct HandleInsertion
 {
-  /// Original vertices come first, with their ids, then the inserted ones. Elements that were not
-  /// split come first, in the order of the original mesh.
+  /// The original vertices come first and keep their ids. The inserted vertices follow. Elements
+  /// that were not split come first, in the order of the original mesh.
   Domain domain;
   std::vector<HandlePlacement> handles; ///< placements of all handles
   std::vector<CageVertex> cage; ///< mesh vertices on edges and faces of the cage
@@ -73,19 +73,19 @@ struct HandleInsertion
 /// original element if they all have the same label, else 0.
 std::vector<Index> extend_labels(const HandleInsertion& mesh, const std::vector<Index>& labels);
 
-/// Make handles vertices of the mesh. Without this, a weight of one at a point inside an element
-/// would require a weight of one at all corners of the element.
+/// Add vertices to the mesh at the positions of the handles. Without such a vertex, a weight of one
+/// at a point inside an element would require a weight of one at all corners of the element.
 ///
-/// Samples are points, cage vertices, and points along bones. The samples of a bone are spaced by
-/// the local edge length between the vertices that are already on the bone. A sample outside of the
-/// mesh is moved to the nearest element, with a warning that names handles and distances. Each
-/// sample then splits the elements that contain it. The union of the mesh, its volume or area and
-/// all orientations do not change. Two different handles share a vertex only if they coincide, even
-/// if separate vertices make small elements.
+/// Samples are point handles, cage vertices, and points along bones. Mesh vertices that are already
+/// on a bone divide it into sections. Each section gets samples whose distance is about `spacing`
+/// times the local edge length. A sample outside of the mesh is moved to the nearest element, with
+/// a warning that names handles and distances. Each sample then splits the elements that contain
+/// it. The union of the mesh, its volume or area and all orientations do not change. Two different
+/// handles get a common vertex only where they coincide. Elsewhere they get separate vertices, even
+/// if this makes small elements.
 ///
-/// Edges and faces of cages are sampled like bones, but their samples outside of the mesh are
-/// dropped.
-/// Cost: O(#elements log #elements), no more than building a search tree.
+/// Edges and faces of cages are sampled like bones, but samples outside of the mesh are ignored.
+/// Cost: O(#elements log #elements), the cost of building a search tree.
 Status insert_handles(const Domain& domain, const Handles& handles,
   const HandleInsertionOptions& options, ExecutionContext& context, HandleInsertion& result);
 

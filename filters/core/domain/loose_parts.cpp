@@ -78,8 +78,8 @@ Status find_loose_parts(PointsView points, TrianglesView triangles,
   {
     return {};
   }
-  // Link components individually instead of parts, because a finer lattice may separate the
-  // components of one part.
+  // Links connect surface components and not parts of the lattice, because one part may contain
+  // several components that a finer lattice separates.
   std::vector<Index> of_triangle;
   const Components components = welded_components(triangles, lowest_equal, of_triangle);
   std::vector<char> is_held(static_cast<std::size_t>(components.count), 0);

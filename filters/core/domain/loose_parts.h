@@ -14,16 +14,16 @@ namespace bindpose
 struct LooseParts
 {
   Index count = 0; ///< number of connected parts of the lattice without a handle
-  /// Empty if no surface component is in a part without a handle, if all components are in such
-  /// parts, or if more than 20,000 are.
+  /// Links of the surface components that are in parts without a handle. Empty if there are no such
+  /// components, if there are more than 20,000, or if all components are in such parts.
   std::vector<PartLink> links;
 };
 
 /// Find parts of the lattice that no handle controls. Link every surface component in such a part
 /// to the components that it touches (within 1/500 of the diagonal), or else to the nearest
-/// component (link_parts). The caller must then embed the surface again with these links.
+/// component (link_parts). If there are links, the caller must embed the surface again with them.
 /// @param surface the surface of the points and triangles, embedded in `lattice`
-/// @param lowest_equal #V: the smallest id of all points with the same position
+/// @param lowest_equal #V: for each point, the smallest id of all points with the same position
 Status find_loose_parts(PointsView points, TrianglesView triangles,
   const std::vector<Index>& lowest_equal, const EmbeddingTets& lattice,
   const EmbeddedSurface& surface, const Handles& handles, const HandleInsertionOptions& insertion,

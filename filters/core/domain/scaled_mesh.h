@@ -19,7 +19,7 @@ struct ScaledMesh
 };
 
 /// Scale the mesh and assemble its matrices.
-/// @param used #V: 1 for vertices that count for the bounding box.
+/// @param used #V: 1 for vertices that are included in the bounding box.
 ScaledMesh scale_mesh(const Domain& domain, const std::vector<char>& used);
 
 } // namespace bindpose

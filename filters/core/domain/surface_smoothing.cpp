@@ -20,7 +20,7 @@ namespace
 using Eigen::VectorXd;
 /// Number of columns that are smoothed together, so that the matrix is read once for all of them.
 constexpr int lanes = 4;
-/// Progress as fractions of the time: at the end of the factorization, and before the first
+/// Progress as a fraction of the total time: at the end of the factorization, and before the first
 /// iteration.
 constexpr double factored = 0.4;
 constexpr double preparation_end = 0.5;
@@ -40,7 +40,8 @@ public:
     const Points scaled = (points.rowwise() - points.row(0)) / length;
     this->stiffness_ = stiffness_matrix(scaled, triangles, shares_of(scaled, triangles));
     this->mass_ = lumped_mass(scaled, triangles);
-    // Raise tiny masses: points of needle triangles would increase the number of iterations.
+    // Raise tiny masses, because points of needle triangles would otherwise increase the number of
+    // iterations.
     constexpr double least_mass = 1e-3;
     this->mass_ = this->mass_.cwiseMax(least_mass * this->mass_.mean());
     for (const Index v : fixed)
@@ -77,8 +78,8 @@ public:
     p = z;
     const Lanes first = now;
     const Lanes enough = reduction * reduction * first;
-    // Columns that have converged, or that do not improve because of round-off, do not change any
-    // more.
+    // A column no longer changes after it has converged, or after round-off prevents an
+    // improvement.
     Eigen::Array<bool, 1, lanes> goes_on = now > enough;
     for (int i = 0; i < most_iterations && goes_on.any() && !context.canceled(); ++i)
     {
@@ -119,10 +120,10 @@ private:
     Eigen::MatrixXd once, twice;
   };
 
-  /// Return the weights of the triangles. The matrix entries between the points of triangles with
-  /// almost no height are up to 1e16, and their round-off would exceed the values. The weights of
-  /// these triangles are reduced so that no entry is larger than at an angle of 2 degrees; the
-  /// matrix stays positive semi-definite.
+  /// Return the factors by which the triangles' matrix entries are multiplied. In triangles with
+  /// almost no height, entries are up to 1e16, and their round-off would exceed the smoothed
+  /// values. The factors limit all entries to the entries at an angle of 2 degrees. The matrix
+  /// stays positive semi-definite.
   static VectorXd shares_of(const Points& points, TrianglesView triangles)
   {
     // Limit of the matrix entries: half of the cotangent of 2 degrees, rounded up.
@@ -187,7 +188,8 @@ private:
     return this->factor_.factor(a, 0.0, context).ok();
   }
 
-  /// Add a correction to the preconditioner for the energy of the curvature at fixed points.
+  /// Correct the preconditioner: add the terms of the energy that belong to the curvature at fixed
+  /// points.
   void count_fixed(const std::vector<Index>& fixed, ExecutionContext& context)
   {
     const ProgressRange range(context, factored, preparation_end);
@@ -222,15 +224,15 @@ private:
     this->small_.compute(0.5 * (small + small.transpose()));
     if (this->small_.info() != Eigen::Success)
     {
-      // Single precision is not accurate enough for the corrections. Omit them; more iterations
-      // follow.
+      // Single precision is not accurate enough for the corrections. Without them, more iterations
+      // are needed.
       this->counted_.clear();
     }
   }
 
   /// Call visit(v, value) for the nonzero entries of the vector u of one fixed point. The dot
-  /// product of u and w is the curvature at the fixed point, times the square root of its mass, as
-  /// a function of the points that are not fixed.
+  /// product of u and w is the contribution of the points that are not fixed to the curvature at
+  /// the fixed point, times the square root of the fixed point's mass.
   template <typename Visit>
   void for_each_of_term(Index c, const Visit& visit) const
   {
@@ -310,17 +312,17 @@ private:
   SparseMatrix stiffness_;
   VectorXd mass_;
   VectorXd free_; // 0 for fixed points, 1 for all others
-  // The preconditioner. Without fixed points, M + K M⁻¹ K is at most (M + K) M⁻¹ (M + K) and at
-  // least half of it, so few iterations are needed. Each fixed point adds a term u uᵀ to the
-  // energy, which would cost several more iterations. The preconditioner includes these terms by
-  // the Sherman-Morrison-Woodbury formula.
+  // The preconditioner. Let P = (M + K) M⁻¹ (M + K). Without fixed points, the matrix M + K M⁻¹ K
+  // is between P / 2 and P, so few iterations are needed. Each fixed point adds a term u uᵀ to the
+  // energy. Without these terms in the preconditioner, several more iterations would be needed per
+  // fixed point. The terms are included by the Sherman-Morrison-Woodbury formula.
   FloatCholesky factor_; // factor of M + K, if available
   std::vector<Index> counted_; // fixed points whose terms u uᵀ are in the preconditioner
   Eigen::MatrixXd responses_; // #V x #counted: (M + K)⁻¹ M (M + K)⁻¹ u for each of these points
   // Factor of 1 + Uᵀ (M + K)⁻¹ M (M + K)⁻¹ U, where the columns of U are the vectors u.
   Eigen::LLT<Eigen::MatrixXd> small_;
-  // The preconditioner if there is no factor: inverse diagonal of the energy's matrix; 0 for fixed
-  // points.
+  // The preconditioner if there is no factor: the inverse of the diagonal of the energy's matrix; 0
+  // for fixed points.
   VectorXd inverse_diagonal_;
 };
 } // namespace

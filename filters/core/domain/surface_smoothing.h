@@ -14,17 +14,17 @@ namespace bindpose
 /// times `length` are damped.
 ///
 /// Each column is solved separately by conjugate gradients, starting from the input values, until
-/// the residual is reduced to 1e-6 of its initial value or for 200 iterations. Every iterate has a
-/// lower energy than the one before. The preconditioner is a factorization of a second-order
-/// matrix, with a correction for each fixed point; with it, 7 or 8 iterations suffice. A build
-/// without CHOLMOD uses the diagonal as preconditioner and usually takes all 200 iterations. The
-/// weight of triangles with an angle below 2 degrees is reduced, so that the matrix entries between
-/// their points do not cause large round-off. Needle triangles and triangle soups are therefore
-/// valid input. Constants do not change.
+/// the residual is reduced to 1e-6 of its initial value or for 200 iterations. Every iteration
+/// lowers the energy. The preconditioner is a factorization of a second-order matrix, with a
+/// correction for each fixed point. With this preconditioner, 7 or 8 iterations suffice. A build
+/// without CHOLMOD uses the diagonal as preconditioner and usually takes all 200 iterations.
+/// Triangles with an angle below 2 degrees get smaller weights in the matrix, because their large
+/// matrix entries would cause large round-off. Needle triangles and triangle soups are therefore
+/// valid input. Constant functions do not change.
 ///
-/// Cost: analysis and factorization, about 6 us per point; then about 1 us per point and column.
-/// Memory: at most 320 MB for corrections.
-/// @param points,triangles any surface whose equal points are merged; triangles without area are
+/// Cost: about 6 microseconds per point for analysis and factorization, then about 1 microsecond
+/// per point and column. Memory: at most 320 MB for the corrections.
+/// @param points,triangles any surface. Equal points must be merged. Triangles without area are
 /// ignored.
 /// @param fixed ids of points whose values do not change, ascending.
 /// @param length smoothing length, in the unit of the points.

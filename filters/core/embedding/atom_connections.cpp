@@ -109,7 +109,8 @@ private:
   Status connect_crossings()
   {
     const auto& list = this->crossings_;
-    // Intervals between two crossings on one line, by the index of the first crossing.
+    // Intervals between two crossings on one line. Each interval is represented by the index of its
+    // first crossing.
     std::vector<Index> stretches;
     for (std::size_t i = 0; i + 1 < list.size(); ++i)
     {
@@ -205,8 +206,9 @@ private:
     }
   }
 
-  /// Add the length of an interval that is inside to the share of an atom. Each half of the line
-  /// counts for the cell of the nearer sample.
+  /// Add the interval from `from` to `to` (0 … 1) of a line, which is inside, to the volume of an
+  /// atom. Each half of the line counts for the cell of the nearer sample. `lower` and `upper` are
+  /// the samples at the ends of the line.
   void measure(Id lower, Id upper, double from, double to, Id atom)
   {
     if (atom < 0)
@@ -230,8 +232,8 @@ private:
   }
 
   /// Connect samples along lines that are not cut, and measure their cells. The inside fraction of
-  /// a sample's cell is the mean of the fractions along those axes on which lines at the sample are
-  /// cut; it is 1 if no line is cut.
+  /// a sample's cell is the mean of the fractions along those axes that have a cut line at the
+  /// sample. The fraction is 1 if no line is cut.
   bool connect_samples()
   {
     for (Id cube = 0; cube < static_cast<Id>(this->atoms_.sampled.size()); ++cube)

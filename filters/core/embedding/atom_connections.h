@@ -14,14 +14,14 @@ namespace bindpose
 {
 
 /// Connections between atoms, the indivisible pieces of a surface and its inside (see
-/// EmbeddingAtoms). They are found by lines between samples and by triangles.
+/// EmbeddingAtoms). Connections are found along lines between samples and along triangles.
 struct AtomConnections
 {
   using Id = EmbeddingAtoms::Id;
 
-  DisjointSets<Id> within; ///< classes of atoms that are in the same tet and connected
+  DisjointSets<Id> within; ///< classes of connected atoms in the same tet
   std::vector<std::pair<Id, Id>> across; ///< connected atoms of different tets
-  /// #atoms: amount of the inside that the atom represents, in cells of the sub-grid.
+  /// #atoms: inside volume that the atom represents, in units of one cell of the sub-grid.
   std::vector<float> shares;
   /// One atom at each vertex of the surface; -1: no triangle uses the vertex.
   std::vector<Id> of_vertex;

@@ -23,7 +23,7 @@ struct CubeSamples
   /// Offset of the first sample, in units of the sample distance.
   static constexpr double shift[3] = { 0.62, 0.41, 0.53 };
 
-  /// Return the integer coordinates within its cube of the sample with index s.
+  /// Return the integer coordinates of sample s within its cube.
   static Sample position_of(int s) { return { s % along, s / along % along, s / (along * along) }; }
   static Sample next_of(Sample s, int axis)
   {

@@ -64,12 +64,14 @@ public:
   Vec3 node_point(Key node) const;
 
   /// The face between two cubes divides each tet into two halves, one in each cube. A cube contains
-  /// 24 halves. Half 2k + 1 of a cube belongs to tet k of its own upper faces; half 2k belongs to
-  /// tet k of the lower neighbor's upper faces (see number_of).
+  /// 24 halves. The upper faces of a cube are the three faces toward larger coordinates. Half 2k of
+  /// a cube belongs to tet k of the upper faces of a lower neighbor; half 2k + 1 belongs to tet k
+  /// of the cube's own upper faces (see number_of).
   static constexpr int halves = 24;
   static Key tet_of_half(const Cube& cube, int half);
   /// Return the index n of a tet, 0 … 11, among the tets around the three upper faces of its lower
-  /// cube. Its halves are 2n + 1 of the lower cube and 2n of the upper cube.
+  /// cube. The two halves of the tet are half 2n + 1 of its lower cube and half 2n of its upper
+  /// cube.
   static int number_of(Key tet) { return static_cast<int>(tet & 15U); }
   /// Return the index of the half that contains a position, among the 24 halves of the position's
   /// cube.

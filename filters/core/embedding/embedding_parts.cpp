@@ -69,9 +69,8 @@ private:
     return true;
   }
 
-  /// Join the atoms of a convex piece of material, because they are connected: at every node that
-  /// the tets of two of these atoms have in common, the parts in these tets get the same copy of
-  /// the node.
+  /// Connect all atoms of a convex piece of material. Wherever the tets of two of these atoms have
+  /// a node in common, the parts of the two atoms get the same copy of the node.
   template <typename AtomAt>
   void join_convex(Index count, const AtomAt& atom_at)
   {
@@ -329,9 +328,9 @@ private:
       result.inside_fractions[t] = std::min(1.0, result.inside_fractions[t] / samples);
     }
     // A tet contains 10 to 28 samples, depending on its position in the sub-grid. The fractions
-    // above are relative to these numbers. They are correct for whole tets, but plates aligned with
-    // the sub-grid would become too thick or too thin. The total number of inside samples has no
-    // such bias, so the fractions of cut tets are scaled to match it.
+    // above are relative to these numbers. The fractions are correct for whole tets, but plates
+    // aligned with the sub-grid would become too thick or too thin. The total number of inside
+    // samples has no such bias, so the fractions of cut tets are scaled to match it.
     constexpr double samples_of_tet = CubeSamples::of_cube / 12.0;
     const double whole = (result.inside_fractions.array() >= 1.0).count();
     const double cut = result.inside_fractions.sum() - whole;

@@ -24,9 +24,10 @@ struct EmbeddingTets
   /// Tets with dihedral angles of 60 and 90 degrees and positive volumes; no unused vertices.
   TetMesh mesh;
   /// #T: fraction of the tet's volume that is inside and belongs to the part of the surface that
-  /// this copy of the tet contains, 0 … 1. The fractions are measured on lines a sixth of a cube
-  /// apart. Their sum times the volume of a tet is accurate to 1 % at 16 cubes along the longest
-  /// side. The fraction of a single tet that the surface passes through is accurate to about 0.1.
+  /// this copy of the tet contains, 0 … 1. The fractions are measured on lines that are a sixth of
+  /// a cube apart. The total volume (sum of the fractions times the volume of a tet) is accurate to
+  /// 1 % if there are 16 cubes along the longest side. The fraction of a single tet at the surface
+  /// is accurate to about 0.1.
   Eigen::VectorXd inside_fractions;
   PointBinding binding; ///< tets and coordinates of all input points
   double spacing = 0.0; ///< edge length of a lattice cube = longest edge of a tet

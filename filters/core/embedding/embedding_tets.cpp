@@ -1,17 +1,18 @@
 // The method of embed_surface(). The material is the surface and the region that it encloses. It is
 // divided into atoms, each in one lattice tet: a piece of a triangle, or a sample of the inside.
-// Two atoms are connected if the straight segment between them is completely in the material. They
-// then belong to the same copy of each node that their tets have in common, because the tets around
-// a node fill a convex body (a rhombic dodecahedron), which contains the whole segment.
+// Two atoms are connected if the straight segment between them is completely in the material.
+// Connected atoms belong to the same copy of each node that their tets have in common. This is
+// valid because the tets around a node fill a convex body (a rhombic dodecahedron), which contains
+// the whole segment.
 //
 // 1. Choose the lattice's spacing; find the tets and cubes that triangles pass through, and the
 //    cubes that are completely inside (lattice_cover.h).
 // 2. Sample the other cubes at the surface on a sub-grid (cube_samples.h, embedding_atoms.h).
 // 3. Cut lines between neighboring samples where triangles cross them. The winding number at the
 //    middle of the interval between two crossings determines whether the interval is inside. An
-//    inside interval connects the atoms at its ends. Therefore a wall is never missed, however thin
-//    the gap behind it. Connections thinner than the sample distance are found by the triangles
-//    around them (line_crossings.h, atom_connections.h).
+//    inside interval connects the atoms at its ends. Therefore no wall is missed, even if the gap
+//    behind the wall is very thin. Connections thinner than the sample distance are found by the
+//    triangles around them (line_crossings.h, atom_connections.h).
 // 4. Connect triangles by shared vertices, and by shared edges in the tets that the edge passes
 //    through. Within the tets around a node, all pieces of one triangle are connected, because a
 //    triangle is convex.

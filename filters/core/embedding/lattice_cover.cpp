@@ -1,8 +1,8 @@
 // Find the tets and cubes that a surface passes through or encloses (see lattice_cover.h).
 // Triangles are cut by the planes of the lattice. Cubes without triangles are completely inside or
-// outside. They are found by flooding from cube to cube, starting at the surface. This finds all
-// inside cubes, because winding numbers are harmonic: a region without triangles whose winding
-// number reaches the threshold has triangles at its border.
+// outside. Inside cubes are found by flooding from cube to cube, starting at the surface. The flood
+// reaches all inside cubes, because winding numbers are harmonic: a region without triangles whose
+// winding number reaches the threshold has triangles at its border.
 #include "embedding/lattice_cover.h"
 
 #include "base/gather.h"

@@ -38,9 +38,9 @@ namespace
 {
 /// A triangle is flat if one of its cotangents exceeds this value.
 constexpr double flat_cotangent = 1e7;
-/// Refinement ends if a correction is at most this fraction of the solution, or does not get
-/// smaller. The relative size of a correction is about the ratio by which the error decreases per
-/// step.
+/// Maximum number of refinement steps. Refinement ends earlier if a correction is at most the
+/// fraction `enough` of the solution, or is not smaller than the previous correction. The relative
+/// size of a correction is about the ratio by which the error decreases per step.
 constexpr int most_refinements = 8;
 constexpr double enough = 1e-9;
 /// Number of power iterations for the estimate of the condition number.

@@ -10,8 +10,8 @@
 namespace bindpose
 {
 
-/// Conditions on the solution at the edge of its patch, in addition to its values. The integers are
-/// those of vtkVariationalSurface.
+/// Conditions on the solution at the edge of its patch, in addition to the prescribed values. The
+/// integers are those of vtkVariationalSurface.
 enum class PatchBoundary : int
 {
   /// The mesh continues beyond the edge. Values are given in a band of `order` one-ring layers, and
@@ -28,10 +28,10 @@ enum class PatchBoundary : int
 /// Return "region", "curve" or "tangent".
 const char* to_string(PatchBoundary boundary);
 
-/// Solves (-Laplacian)^k u = load, k = 1, 2, 3, at the free vertices of a triangle mesh, by mixed
-/// finite elements. u is prescribed at the other vertices ("given"), and optionally at other mesh
-/// points ("held"). Method: Jacobson, Tosun, Sorkine, Zorin 2010, Mixed finite elements for
-/// variational surface modeling.
+/// Solves (-Laplacian)^k u = load for k = 1, 2 or 3 at the free vertices of a triangle mesh. The
+/// method is mixed finite elements. u is prescribed at the other vertices ("given"), and optionally
+/// at other mesh points ("held"). Method: Jacobson, Tosun, Sorkine, Zorin 2010, Mixed finite
+/// elements for variational surface modeling.
 ///
 /// The matrix is factored once for a choice of given vertices. Then the system can be solved for
 /// any values, #V x m.
@@ -57,8 +57,8 @@ public:
     const std::vector<Index>& given, const std::vector<MeshPoint>& held);
 
   /// Solve for u, and store it in x.
-  /// @param flux integrals of phi_i du/dn along the edge of the patch, from one of the functions
-  /// below; empty: zero.
+  /// @param flux integrals of phi_i du/dn along the edge of the patch, where phi_i is the hat
+  /// function of vertex i, #V x m. One of the flux functions below computes them; empty: zero.
   /// @param load #V x m; empty: zero.
   /// @return the last correction of the iterative refinement, relative to x (ratio of the largest
   /// absolute entries).
@@ -68,10 +68,11 @@ public:
   /// Return the flux that corresponds to derivatives du/dn (#V x m) at the vertices of the patch's
   /// edge.
   Rows flux_of_derivatives(const Rows& derivatives) const;
-  /// Return the flux of values on the triangles outside of the patch at its edge; zero where there
-  /// is no such triangle.
+  /// Return the flux of values (#V x m) across the patch's edge, computed on the triangles outside
+  /// of the patch; zero where there is no such triangle.
   Rows flux_of_surroundings(const Rows& values) const;
-  /// Return the flux of values on the triangles of the patch at its edge.
+  /// Return the flux of values (#V x m) across the patch's edge, computed on the triangles of the
+  /// patch.
   Rows flux_of_patch(const Rows& values) const;
 
   /// Return the number of one-ring layers between the free vertices and the border of the mesh, at

@@ -26,8 +26,9 @@ struct VariationalSurfaceOptions
   int order = 2;
   PatchBoundary boundary = PatchBoundary::region;
   PatchTangents tangent_source = PatchTangents::surroundings;
-  /// Type of the unknowns. false: displacements from rest, so that details are kept. true:
-  /// positions, so that the patch is replaced by a smooth surface that continues its surroundings.
+  /// Type of the unknowns. false: displacements from rest, which keep the details of the rest
+  /// shape. true: positions, which replace the patch by a smooth surface that continues its
+  /// surroundings.
   bool fair = false;
   /// #V x 3 positions of the vertices in the parameter domain; empty: the rest positions.
   Points parameters;

@@ -1,5 +1,6 @@
-// Spatial sort of points. The box of the points is divided into 16 or 32 cells along each axis. The
-// cells are numbered in Morton order. A counting sort distributes the points to the cells.
+// Spatial sort of points. The bounding box of a sample of the points is divided into 16 or 32 cells
+// along each axis. The cells are numbered in Morton order. A counting sort distributes the points
+// to the cells.
 #include "geometry/point_order.h"
 
 #include <algorithm>

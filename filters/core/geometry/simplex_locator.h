@@ -11,12 +11,12 @@
 namespace bindpose
 {
 
-/// Location of a point in a mesh: an element, and the barycentric coordinates of the element's
-/// point that is nearest to the query point (for a triangle the fourth is 0).
+/// Location of a query point in a mesh: an element, and the barycentric coordinates of the point of
+/// this element that is nearest to the query point.
 struct SimplexLocation
 {
   Index element = -1; ///< element id; -1: the mesh has no element or the point is not finite
-  std::array<double, 4> barycentric{ 0.0, 0.0, 0.0, 0.0 };
+  std::array<double, 4> barycentric{ 0.0, 0.0, 0.0, 0.0 }; ///< the fourth is 0 for a triangle
   double distance = 0.0; ///< distance from the query point to the element, 0 inside
 };
 
@@ -26,9 +26,9 @@ SimplexLocation nearest_in_triangle(const Vec3& p, const Vec3& a, const Vec3& b,
 SimplexLocation nearest_in_tet(
   const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d);
 
-/// Finds the element that contains a point, or the nearest element, by a tree of boxes. Building
-/// costs O(n log n), a query near the mesh O(log n). If several elements are equally near, the one
-/// with the lowest id is returned.
+/// Finds the element that contains a point, or else the nearest element, by a tree of boxes.
+/// Building costs O(n log n), a query near the mesh O(log n). If several elements are equally near,
+/// the one with the lowest id is returned.
 class SimplexLocator
 {
 public:

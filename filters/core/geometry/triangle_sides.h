@@ -8,7 +8,8 @@
 namespace bindpose
 {
 
-/// A side of a triangle and the edge that it belongs to.
+/// A side of one triangle. An edge consists of the sides of all triangles that share its two
+/// vertices.
 struct TriangleSide
 {
   Index a, b; ///< end vertices of the edge, a <= b

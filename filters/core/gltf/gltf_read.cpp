@@ -27,7 +27,8 @@ constexpr double frames_per_second = 24.0; // frame rate if the keys are not eve
 
 using Transforms = std::vector<Eigen::Affine3d>;
 
-/// Exception for an error in the file. The message is the file's path followed by this sentence.
+/// Exception for an error in the file. The message of the status is the file's path followed by
+/// `sentence`.
 struct Broken : std::exception
 {
   explicit Broken(std::string text) : sentence(std::move(text)) {}

@@ -83,18 +83,17 @@ struct GltfOptions
 
 /// Write a skinned mesh as glTF 2.0.
 ///
-/// Weights: all nonzero weights are written. A weight counts as zero if it is at most 2^-24,
-/// because it then has no effect next to a float of value one. Weights are stored in pairs of
-/// attributes JOINTS_n and WEIGHTS_n with four weights per vertex (sets); the vertex with the most
-/// weights determines the number of sets. glTF requires rows that sum to one and no negative
-/// weights. If the sum of a row is below one by more than 1e-6, the missing part becomes the weight
-/// of an additional joint "rest". This joint does not move, so that skinning gives the same result.
-/// Negative weights are removed; then rows whose sum is above one are divided by their sum. Both
-/// cause a warning.
+/// Weights: all nonzero weights are written. A weight of at most 2^-24 counts as zero, because its
+/// sum with a float of value one is one. Weights are stored in pairs of attributes JOINTS_n and
+/// WEIGHTS_n with four weights per vertex (sets); the vertex with the most weights determines the
+/// number of sets. glTF requires rows that sum to one and no negative weights. If the sum of a row
+/// is below one by more than 1e-6, the missing part becomes the weight of an additional joint
+/// "rest". This joint does not move, so that skinning gives the same result. Negative weights are
+/// removed; then rows whose sum is above one are divided by their sum. Both cause a warning.
 ///
 /// Joints: each joint is a node below its parent's node and moves with it. The nodes of joints
 /// without a parent are below one node that is not a joint. Nodes contain translation, rotation and
-/// scale. Any other matrix is replaced by the rotation of its polar decomposition and the scales
+/// scale. A matrix with shear is replaced by the rotation of its polar decomposition and the scales
 /// along the joint's axes. Each replacement is computed relative to the replaced parents, so that
 /// errors do not accumulate.
 ///
@@ -111,16 +110,17 @@ struct GltfOptions
 /// 65534 joints, cyclic parents, names that are not UTF-8, and more than 4 GB.
 Status write_gltf_skin(
   const std::string& path, const GltfSkin& skin, const GltfOptions& options = {});
-/// Write the same file, with progress and cancel per frame. No file is written after a cancel.
+/// Write the same file. Progress is reported and a cancel request is checked once per frame. No
+/// file is written after a cancel.
 Status write_gltf_skin(const std::string& path, const GltfSkin& skin, const GltfOptions& options,
   ExecutionContext& context);
 
-/// Read the triangles of a .gltf or .glb file. If a mesh uses a skin, read the first such skin and
-/// all meshes that use it. Without a skin, read all meshes, transformed by their nodes. Rows of
-/// weights are divided by their sums, and the joint "rest" that write_gltf_skin() adds is removed.
-/// The first animation that moves a joint is read. It is sampled at its keys if these are evenly
-/// spaced, else at 24 frames per second. Buffers may be binary chunks, base64 in the file, or
-/// separate files in its folder. Images are not read.
+/// Read the triangles of a .gltf or .glb file. If meshes use skins, read the skin of the first such
+/// mesh and all meshes that use this skin. If no mesh uses a skin, read all meshes, transformed by
+/// their nodes. Rows of weights are divided by their sums, and the joint "rest" that
+/// write_gltf_skin() adds is removed. The first animation that moves a joint is read. The animation
+/// is sampled at its keys if they are evenly spaced, otherwise at 24 frames per second. Buffers may
+/// be binary chunks, base64 in the file, or separate files in its folder. Images are not read.
 ///
 /// Report: counts.vertices, counts.triangles, counts.joints, counts.frames, counts.skins,
 /// counts.animations, counts.materials, counts.unweighted_vertices, counts.skipped_primitives
@@ -129,8 +129,9 @@ Status write_gltf_skin(const std::string& path, const GltfSkin& skin, const Gltf
 /// …). One warning lists the content of not_kept.
 ///
 /// Return invalid_input, with one sentence that contains the file name, for every defect: invalid
-/// JSON, another version, buffers and accessors that do not match, coordinates and matrices that
-/// are not finite, joints out of range, cyclic nodes, required extensions (compressed meshes).
+/// JSON, a glTF version other than 2.0, buffers and accessors that do not match, coordinates and
+/// matrices that are not finite, joints out of range, cyclic nodes, required extensions (compressed
+/// meshes).
 Status read_gltf_skin(const std::string& path, GltfSkin& skin);
 
 } // namespace bindpose

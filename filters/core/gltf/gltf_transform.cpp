@@ -24,7 +24,8 @@ Trs nearest_trs(const Eigen::Affine3d& map)
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
     sign * linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Matrix3d rotation = svd.matrixU() * svd.matrixV().transpose();
-  // The linear part is singular, and the sign of its smallest axis is arbitrary.
+  // The determinant is negative only if the linear part is singular. The sign of the axis with the
+  // smallest singular value is then arbitrary.
   if (rotation.determinant() < 0.0)
   {
     Eigen::Matrix3d u = svd.matrixU();

@@ -17,8 +17,8 @@ struct Trs
 };
 
 /// Approximate an affine map by the translation, the rotation of the polar decomposition M = R P of
-/// its linear part, and the diagonal of P. The result is exact if P is diagonal, so that the map
-/// has no shear relative to its own axes. If the map mirrors, the scales are negative.
+/// its linear part, and the diagonal of P. The result is exact if P is diagonal; the map then has
+/// no shear relative to its own axes. If the map mirrors, the scales are negative.
 Trs nearest_trs(const Eigen::Affine3d& map);
 
 } // namespace bindpose

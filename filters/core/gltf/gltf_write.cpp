@@ -1,8 +1,8 @@
 // Writer of skinned meshes as glTF files (see gltf_skin.h). This file fills a tinygltf model:
 // weights are packed into sets of four, arrays become accessors of one buffer, joints become nodes,
-// and frames become an animation. Rounding to floats, dropped weights, and nodes that contain only
-// translation, rotation and scale change the pose. This error is measured by moving the vertices
-// both according to the file and exactly.
+// and frames become an animation. The pose in the file has an error. The causes are rounding to
+// floats, dropped weights, and nodes that contain only translation, rotation and scale. To measure
+// the error, the vertices are moved twice: according to the file, and exactly.
 #include "gltf/gltf_skin.h"
 
 #include "gltf/gltf_transform.h"
@@ -22,7 +22,7 @@ namespace
 {
 // Maximum size of a file in bytes; a .glb file stores its size in 32 bits.
 constexpr std::size_t largest_file = 0xf0000000;
-// Smaller weights have no effect next to a float of value 1.
+// Adding a weight of at most this size to a float of value 1 does not change the float.
 constexpr float smallest_weight = 0x1p-24F;
 constexpr double exact_row = 1e-6; // tolerance of the row sums of weights
 
@@ -92,7 +92,7 @@ std::vector<Influence> influences_of(
   {
     sum += influence.weight;
   }
-  if (row.empty()) // all weights of the row are tiny or negative
+  if (row.empty()) // the row sums to one, but no weight exceeds smallest_weight
   {
     return { { 1.0, joints } };
   }
@@ -213,8 +213,8 @@ std::vector<Index> parents_first(const std::vector<GltfJoint>& joints)
   return order;
 }
 
-/// Return local transforms that move the joints to `wanted`, as far as nodes can represent these
-/// maps. `held` is set to the joint-to-scene maps that result.
+/// Return local transforms that move the joints to the joint-to-scene maps `wanted`, as closely as
+/// nodes can represent these maps. Set `held` to the resulting joint-to-scene maps.
 std::vector<Trs> local_maps(const GltfSkin& skin, const Transforms& wanted, Transforms& held)
 {
   std::vector<Trs> locals(skin.joints.size());
@@ -507,8 +507,8 @@ void add_channel(tinygltf::Animation& animation, int times, int values, int node
   animation.channels.push_back(channel);
 }
 
-/// Add three animation tracks per joint. A rotation has two quaternions; the one nearer to the
-/// previous key is used, because programs interpolate between keys.
+/// Add three animation tracks per joint. Two quaternions represent each rotation. The quaternion
+/// nearer to the previous key is used, because programs interpolate between keys.
 void animate_joints(Builder& builder, const GltfSkin& skin, std::vector<std::vector<Trs>>& frames)
 {
   const int times = add_times(builder, skin);

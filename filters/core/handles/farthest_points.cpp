@@ -61,7 +61,8 @@ Status farthest_points(PointsView points, TrianglesView triangles, Index count,
     for (std::size_t i = 0; i < vertices.size(); ++i)
     {
       const double squared = (points.row(vertices[i]).transpose() - from).squaredNorm();
-      // The centroid only starts the search; it is not a chosen point.
+      // The first pass measures distances to the centroid. The centroid is not a chosen point, so
+      // the second pass overwrites these distances.
       distance[i] = n <= 1 ? squared : std::min(distance[i], squared);
       best = distance[i] > distance[best] ? i : best;
     }

@@ -401,7 +401,7 @@ Status mirror_handles(const Handles& before, const std::vector<Index>& which, co
   }
   const std::vector<Index> list = all_or(before, which);
   EditedHandles edited = unedited(before);
-  std::vector<Index> image(before.size(), -1); // indices of the mirror images, -1: none
+  std::vector<Index> image(before.size(), -1); // index of each handle's mirror image; -1: none
   for (const Index h : list)
   {
     if (!is_number(before, h))
@@ -434,7 +434,8 @@ Status mirror_handles(const Handles& before, const std::vector<Index>& which, co
       }
       continue;
     }
-    // A handle that is already at the mirrored position is the image, whatever its name.
+    // A handle of the same kind that is already at the mirrored position is the image. Its name
+    // does not matter.
     const auto there = std::find_if(before.begin(), before.end(),
       [&](const Handle& other)
       {

@@ -11,31 +11,33 @@
 namespace bindpose
 {
 
-/// Handles after an edit, and the original index of each handle, so that other per-handle data can
-/// be reordered.
+/// Handles after an edit, and the index of each handle before the edit. Callers use these indices
+/// to reorder other data that they store per handle.
 struct EditedHandles
 {
   Handles handles;
   std::vector<Index> source; ///< index before the edit; -1: new handle
-  /// For a copy, the index of the copied handle before the edit, else the source; -1: neither.
+  /// For a copy: the index of the copied handle before the edit. For other handles: equal to
+  /// `source`. -1: the handle is new and not a copy.
   std::vector<Index> model;
 };
 
-// Every edit below takes handles that pass check_handles(), or an empty list, and returns such
-// handles. On invalid_input, the message is one sentence that names the handle, and `after` equals
-// the handles before the edit. Names of handles that are not edited do not change. `before` and
-// `after.handles` must not be the same object.
+// Every edit below takes handles that pass check_handles(), or an empty list. The handles after the
+// edit pass check_handles(), too, or the list is empty. On invalid_input, the message is one
+// sentence that names the handle, and `after` equals the handles before the edit. Names of handles
+// that are not edited do not change. `before` and `after.handles` must not be the same object.
 
-/// Return the wanted name, with a suffix .001, .002, … if another handle has it. If the wanted name
-/// is empty, return the first free name of the form p1, b1, c1 or r1, by kind.
+/// Return the wanted name. If another handle has this name, append a suffix .001, .002, …. If the
+/// wanted name is empty, return a letter for the kind (p, b, c or r) with the first free number,
+/// for example p1.
 std::string free_name(const Handles& handles, const std::string& wanted, HandleKind kind);
 
-/// Append a handle; its name becomes free_name(). Its cage elements may refer to the new handle by
-/// its future index, which is the size of the list before the edit.
+/// Append a handle. The new name is free_name(handle.name). The cage elements of the handle may
+/// refer to the new handle by its future index, which is the size of the list before the edit.
 Status add_handle(const Handles& before, Handle handle, EditedHandles& after);
 
 /// Remove handles. Children of a removed handle are attached to their nearest remaining ancestor.
-/// Edges and faces of a cage that lose a corner are removed.
+/// Edges and faces of a cage are removed if one of their corners is removed.
 Status remove_handles(const Handles& before, const std::vector<Index>& which, EditedHandles& after);
 
 /// Rename a handle. Return invalid_input if the name is empty or belongs to another handle.
@@ -59,7 +61,7 @@ struct HandleEnd
 /// handles' extent), with `end` first. If the handle is not a bone, return `end` alone.
 std::vector<HandleEnd> joint_of(const Handles& handles, const HandleEnd& end);
 
-/// Move each end to its new position, together with all bone ends of its joint.
+/// Move each end to its new position. All bone ends of the same joint (see joint_of) move, too.
 Status move_ends(const Handles& before, const std::vector<HandleEnd>& ends,
   const std::vector<Vec3>& places, EditedHandles& after);
 
@@ -73,16 +75,17 @@ Status move_ends(const Handles& before, const std::vector<HandleEnd>& ends,
 std::string mirrored_name(const std::string& name);
 
 /// Mirror handles at the plane through `place` with the given `normal` (of any nonzero length). The
-/// copy of a handle is named by mirrored_name(). If a handle of the same kind has that name
-/// already, it is moved to the mirrored position and no copy is made. If that handle is itself to
-/// be mirrored, neither of the two is moved.
+/// copy of a handle is named by mirrored_name(). If a handle of the same kind already has this
+/// name, that handle is moved to the mirrored position and no copy is made. If both handles are
+/// among the handles to mirror, neither of them is moved.
 ///
 /// Three kinds of handles are not copied: handles that are their own mirror images, handles whose
 /// mirror image exists already, and regions, because regions need labels on the mesh.
 ///
-/// The parent of a copy is the mirror image of the original's parent, or that parent itself if it
-/// has no image. Edges and faces of cages are copied if all of their corners have images. The
-/// orientation of copied faces is reversed, so that their outer sides stay outside.
+/// The parent of a copy is the mirror image of the original's parent, or the original's parent
+/// itself if this parent has no image. Edges and faces of cages are copied if all of their corners
+/// have images. The corners of copied faces are in reversed order, so that their outer sides stay
+/// outside.
 /// @param which  indices of the handles to mirror; empty: all
 Status mirror_handles(const Handles& before, const std::vector<Index>& which, const Vec3& place,
   const Vec3& normal, EditedHandles& after);

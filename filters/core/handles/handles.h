@@ -31,15 +31,16 @@ enum class Ownership : int
   /// The handle is skipped with a warning if all its vertices belong to other handles. Used for
   /// joints of a rig that was read from a file.
   optional = 1,
-  /// The handle is always skipped. Used for joints of such a rig that move nothing (control bones).
+  /// The handle is always skipped. Used for joints of a rig from a file that move no vertices
+  /// (control bones).
   none = 2
 };
 
 /// The handles at the corners of an edge or face of a cage. The third index of an edge is -1.
 using CageElement = std::array<Index, 3>;
 
-/// One handle: one cell of the handle dataset. Except for cage elements, each handle is one column
-/// of the weights, in the order of the cells.
+/// One handle: one cell of the handle dataset. Each handle, except cage elements, has one column in
+/// the weights. The columns are in the order of the cells.
 struct Handle
 {
   std::string name;
@@ -74,8 +75,8 @@ std::string first_names(const Handles& handles, const std::vector<Index>& list);
 /// - a name is empty or occurs twice;
 /// - a coordinate is not finite;
 /// - a bone has length zero;
-/// - two handles of the same kind coincide (closer than 1e-9 of the handles' extent, or exactly
-///   equal if the extent is zero);
+/// - two points, two bones or two cage vertices coincide: their positions differ by at most 1e-9 of
+///   the diagonal of all handles' bounding box. The direction of a bone does not matter;
 /// - a parent is out of range or part of a cycle;
 /// - the corners of a cage element are not two or three different cage vertices.
 Status check_handles(const Handles& handles);

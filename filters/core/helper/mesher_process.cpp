@@ -119,8 +119,8 @@ std::string find_mesher()
   {
     folders.push_back(folder_of(std::string(self, static_cast<std::size_t>(length))));
   }
-  // Find the library that contains this function. It is in a plugin's folder, or is lib/libX.so or
-  // lib/ARCHITECTURE/libX.so.
+  // Find the library that contains this function. The library is either in a plugin's folder or in
+  // lib/ or lib/ARCHITECTURE/ of the installation.
   Dl_info info{};
   if (::dladdr(reinterpret_cast<void*>(&find_mesher), &info) && info.dli_fname)
   {
@@ -172,8 +172,8 @@ Status run_mesher(const MesherRequest& request, const MesherData& input, MesherA
   ChildRequest child;
   child.path = path;
   child.arguments = request.arguments;
-  // The helper requests a notification for the case that this process dies. From the parent's id,
-  // the helper detects whether this process died before the request.
+  // The helper asks the system to kill the helper when this process dies. The parent's id allows
+  // the helper to detect that this process died even earlier.
   child.arguments.insert(child.arguments.end(), { "--parent", std::to_string(::getpid()) });
   child.input = input_file.get();
   child.output = output_file.get();

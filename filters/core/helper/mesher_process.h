@@ -34,7 +34,8 @@ struct MesherAnswer
 /// Return the path of bindpose-mesher, or an empty string if it is not found. If the environment
 /// variable BINDPOSE_MESHER is set, only this path is used. Otherwise the searched folders are, in
 /// this order: the folder of the running executable, the folder of the library, the bin folder next
-/// to the library's folder, and the build tree.
+/// to the library's folder, the bin folder next to the parent of the library's folder, and the
+/// build tree.
 std::string find_mesher();
 
 /// Run one job in a separate process and wait for its end. CGAL and TetGen may crash, hang or use

@@ -12,7 +12,8 @@
 // two sets are tried. Then both sets are tried with vertices rounded to a coarser grid, which welds
 // nearly coincident vertices, and with slightly displaced vertices, which separates the triangles
 // of soups. The last attempt is a plain Delaunay triangulation of the refined vertices, or of the
-// surface's vertices if too many triangles cross. Its tets need not respect the triangles.
+// surface's vertices if too many triangles cross. The tets of this triangulation need not respect
+// the triangles.
 //
 // cdt_tets_fill.cpp then inserts vertices into the tets that are kept, and improves these tets.
 #include "inside/cdt_tets.h"
@@ -149,7 +150,7 @@ Status CdtTets::build(double seconds)
     }
     if (this->too_many_crossings_ || this->out_of_patience())
     {
-      break; // small displacements of the vertices do not reduce the number of crossings
+      break; // moving vertices would not remove crossings, or the time budget is used up
     }
   }
   if (this->too_many_crossings_ && first_refined.points.rows() == 0)
@@ -165,8 +166,8 @@ Status CdtTets::build(double seconds)
   return status;
 }
 
-/// Report whether the refinements and TetGen runs have used the time budget. The last attempt, a
-/// Delaunay triangulation, takes a tenth of the budget.
+/// Report whether the refinements and TetGen runs have used up their time budget. The last attempt,
+/// a Delaunay triangulation, does not count; it takes about a tenth of the budget.
 bool CdtTets::out_of_patience() const
 {
   constexpr double patience = 8.0; // seconds
@@ -176,10 +177,10 @@ bool CdtTets::out_of_patience() const
 }
 
 /// Run TetGen on refined triangles with each set of switches in turn. If the surface has wide
-/// openings, small tets are tried first, because tets between the triangles alone are too coarse to
-/// follow the winding number, which may reach the threshold outside the convex hull. Small tets are
-/// not tried first if doubtful_share() is very large, as for a sheet with a sliver in front of it,
-/// because they miss the sliver, too.
+/// openings, small tets are tried first. There, tets between the triangles alone are too coarse to
+/// follow the winding number, which may reach the threshold even outside the convex hull. If
+/// doubtful_share() is very large, as for a sheet with a thin sliver in front of the sheet, small
+/// tets are not tried first, because they would miss the sliver, too.
 Status CdtTets::try_switches(const Move& move, const MesherData& refined)
 {
   const Phase phase(this->context_, "tetgen", 0.4, 1.0);
@@ -237,7 +238,7 @@ Status CdtTets::try_switches(const Move& move, const MesherData& refined)
     }
     if (this->timed_out_ || (!status.ok() && this->out_of_patience()))
     {
-      break; // with other switches, TetGen reaches the time limit on the same triangles as well
+      break; // other switches would reach the time limit too, or the time budget is used up
     }
     if (!done() && this->wrong_volume_ && !fine_tried)
     {
@@ -433,7 +434,8 @@ Status CdtTets::run_job(const std::vector<std::string>& arguments, const MesherD
   request.time_limit = std::min(left, slack * seconds);
   if (arguments.front() == "refine")
   {
-    // The helper ends a little before the limit and reports its progress.
+    // The helper uses this limit, which is a little lower, to stop by itself and to report
+    // progress.
     constexpr double earlier = 0.9;
     request.arguments.insert(
       request.arguments.end(), { "--time", std::to_string(earlier * std::min(left, seconds)) });

@@ -50,7 +50,8 @@ struct CdtOptions
   HandlePlaces handles;
 };
 
-/// Return a failure such as "the tets hold 3.9, but the winding number encloses 8".
+/// Return the failure for tets whose volume differs from that of the enclosed region. The message
+/// contains both volumes.
 Status wrong_volume(double volume, const EnclosedRegion& inside);
 
 /// Constrained Delaunay tets of the convex hull of a surface, reduced to the tets in which the
@@ -70,7 +71,7 @@ public:
   double misfit() const { return this->misfit_; }
   /// Return the volume of the tets inside.
   double volume() const { return this->volume_; }
-  /// Insert vertices inside (at the points of handles first), improve flat tets, and renumber the
+  /// Insert vertices inside (first at the points of handles), improve flat tets, and renumber the
   /// vertices so that the input's vertices come first. The only failure is canceled; any other
   /// problem becomes a warning.
   Status complete();
@@ -78,8 +79,8 @@ public:
   TetMesh& mesh() { return this->mesh_; }
   std::vector<Index>& original_vertices() { return this->mesh_original_; }
   const std::vector<std::string>& warnings() const { return this->warnings_; }
-  /// With `keep_outside` only, else empty: winding numbers from which the segmentation was
-  /// computed, #T, and flags that are 1 for the tets inside, #T.
+  /// Winding numbers from which the segmentation was computed, #T, and flags, #T: 1 for tets
+  /// inside, else 0. Both arrays are empty unless `keep_outside` is set.
   const Eigen::VectorXd& winding_numbers() const { return this->winding_numbers_; }
   const std::vector<char>& inside() const { return this->kept_; }
   /// Report of the kept tets: segmentation and, if the labels are from a graph cut, energy,

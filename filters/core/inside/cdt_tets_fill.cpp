@@ -1,7 +1,8 @@
 // Vertices inside the tets of method cdt. Weights can vary inside a volume only if the tets have
 // vertices there. The points of an octree that becomes coarser away from the boundary
 // (inner_points.h) are inserted as vertices (tet_insertion.h). Then flat tets are improved
-// (tet_improvement.h). The boundary is not changed, except for the edges of coplanar triangles.
+// (tet_improvement.h). The boundary changes only where long edges are split (find_places) and where
+// the shared edge of two coplanar triangles is swapped (improve).
 #include "inside/cdt_tets.h"
 
 #include "base/number_text.h"
@@ -48,7 +49,8 @@ Index most_inner_vertices(Index surface_triangles, Index boundary_triangles)
   return static_cast<Index>(std::max(least * triangles, tets / tets_per_vertex));
 }
 
-/// Remove the places whose distance to one of `others` is less than half of the local edge length.
+/// Remove the positions in `places` whose distance to one of `others` is less than half of the
+/// local edge length.
 void remove_near(Points& places, const Points& others, const SizingField& sizes)
 {
   if (others.rows() == 0)
@@ -179,9 +181,9 @@ Status CdtTets::find_inner_places(Index most, Inside& inside)
 }
 
 /// Set the target edge lengths inside. At a boundary vertex, the length is that of the shortest
-/// boundary edge at the vertex. It increases with the distance from the boundary at a rate of 0.75,
-/// up to `longest`. (With the mean instead of the shortest edge, tets are too coarse for small
-/// details between long triangles.)
+/// boundary edge at the vertex. The length increases with the distance from the boundary at a rate
+/// of 0.75, up to `longest`. (With the mean instead of the shortest edge, tets are too coarse for
+/// small details between long triangles.)
 Status CdtTets::look_inside(double longest, Inside& inside)
 {
   const Points& points = this->mesh_.points;

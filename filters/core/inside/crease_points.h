@@ -7,7 +7,7 @@
 namespace bindpose
 {
 
-/// Points from which a mesher recovers the sharp edges of a surface.
+/// Points at which a mesher needs vertices in order to reproduce the sharp edges of a surface.
 struct CreasePoints
 {
   std::vector<Index> corners; ///< input vertices at which creases end, branch or change direction

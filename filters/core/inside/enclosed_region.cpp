@@ -23,11 +23,11 @@ constexpr double smallest_volume_ratio = 0.9;
 constexpr double largest_volume_ratio = 1.1;
 /// Winding numbers in the openings of a surface differ from the threshold by less than this. The
 /// winding numbers on the two sides of a wall, and in all regions of a closed surface, differ from
-/// it by more.
+/// the threshold by more.
 constexpr double undecided_margin = 0.25;
 
-/// Return points spread evenly over a box. They are the same in every run: an additive recurrence
-/// with the powers of 1 / x, where x is the positive root of x^4 = x + 1.
+/// Return points spread evenly over a box, by an additive recurrence with the powers of 1 / x,
+/// where x is the positive root of x^4 = x + 1. The points are the same in every run.
 Points spread_points(const Box& box, Index count)
 {
   const Vec3 step(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);

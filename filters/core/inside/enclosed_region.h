@@ -15,10 +15,10 @@ class EnclosedRegion
 {
 public:
   /// Build the winding number and estimate the volume. If the surface encloses more volume with the
-  /// negative orientation than with the positive one, all its triangles are flipped. (Closed
-  /// components are already oriented outwards; open components may not be.) The volume is estimated
-  /// from sample points in the box. Points are added until 20,000 of them are inside, or until more
-  /// would take longer than about two seconds.
+  /// negative orientation than with the positive one, all its triangles are flipped and `turned` is
+  /// set. (Closed components are already oriented outwards; open components may not be.) The volume
+  /// is estimated from sample points in the box. Points are added until 20,000 of them are inside,
+  /// or until more would take longer than about two seconds.
   Status build(RepairedSurface& surface, double threshold, bool& turned, ExecutionContext& context);
 
   const WindingNumber& winding() const { return this->winding_; }
@@ -45,15 +45,17 @@ public:
   /// surface encloses a volume that is too thin for the tets of the method.
   Status no_tets() const;
 
-  /// Return an error if the surface consists of thousands of loose triangles that enclose only
-  /// specks: volumes between neighboring triangles, thinner than a tenth of a triangle's size. Tets
-  /// of specks represent no shape and take minutes. Otherwise return ok.
+  /// Return an error if the surface consists of at least 10,000 mostly disconnected triangles that
+  /// enclose only specks: tiny volumes between neighboring triangles, thinner than a tenth of a
+  /// triangle's size. Meshing specks takes minutes, and the tets represent no shape. Otherwise
+  /// return ok.
   Status only_specks(const RepairedSurface& surface) const;
 
   /// Compute the winding number of each tet. If the surface is closed, the winding number of a
-  /// region's largest tet is assigned to all tets of the region. Otherwise the value is that at the
-  /// tet's center or, if the tet is large and the value is near the threshold, the mean of four
-  /// points. The value is 0 if the center is outside the surface's box.
+  /// region's largest tet is assigned to all tets of the region. Otherwise the winding number is
+  /// evaluated at the tet's center. If the tet is large and this value is near the threshold, the
+  /// mean of four points is used instead. The winding number is 0 if the center is outside the
+  /// surface's bounding box.
   Status label(const MesherData& data, Eigen::VectorXd& w, ExecutionContext& context);
 
 private:

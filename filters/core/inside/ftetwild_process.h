@@ -29,14 +29,14 @@ std::string find_ftetwild();
 
 /// Compute tets of the volume that a surface encloses by fTetWild (Hu, Schneider, Wang, Zorin,
 /// Panozzo, Fast Tetrahedral Meshing in the Wild, 2020), a separate program that must be installed.
-/// It accepts any triangles, moves them within epsilon and keeps none of their vertices. A tet is
-/// inside if the winding number of the moved surface is above 0.5.
+/// fTetWild accepts any triangles, moves them by at most epsilon and keeps none of their vertices.
+/// A tet is inside if the winding number of the moved surface is above 0.5.
 ///
 /// `mesh` has positive tets and no unused vertices. It is empty if the surface encloses no volume.
 ///
-/// The surface and the result are stored in a temporary folder, which is always removed. A guarding
-/// shell process (ScratchFolder) removes it if this process is killed. fTetWild runs in a separate
-/// process group, with context.threads() threads.
+/// The surface and the result are stored in a temporary folder, which is always removed. If this
+/// process is killed, a guarding shell process (ScratchFolder) removes the folder. fTetWild runs in
+/// a separate process group, with context.threads() threads.
 ///
 /// Status codes:
 /// - invalid_input: a coordinate is not finite or larger than 1e100, an id is out of range, there

@@ -23,9 +23,10 @@ public:
   /// Report whether every point of the surface is at least `distance` away from p.
   bool is_clear(const Vec3& p, double distance) const;
   const Box& box() const { return this->box_; }
-  /// Estimate the number of octree cells in the layer at the surface for these edge lengths: A / (2
-  /// growth size^2) for an area A of the surface. The estimate is correct up to a factor that
-  /// depends little on the edge lengths. Cost: at most 2,047 evaluations of the sizing field.
+  /// Estimate the number of octree cells in the layer at the surface, up to a factor that depends
+  /// little on the edge lengths. A part of the surface with area A contributes A / (2 growth
+  /// size^2), where size is the edge length there. Cost: at most 2,047 evaluations of the sizing
+  /// field.
   double layer(const SizingField& sizes) const;
 
 private:
@@ -37,10 +38,10 @@ private:
 };
 
 /// Find points inside. The distance between neighboring points is about the local edge length of
-/// `sizes`, and their distance from the surface is at least about half of it. The points are
-/// corners and centers of the cells of an octree, whose Delaunay tets are well shaped. If there are
-/// more than `most` points, the edge lengths are increased, by a scale and by a higher growth rate,
-/// until there are about `most` points. Cost: some microseconds per cell, for two or three
+/// `sizes`, and their distance from the surface is at least about half of this length. The points
+/// are corners and centers of the cells of an octree, whose Delaunay tets are well shaped. If there
+/// are more than `most` points, the edge lengths are increased, by a scale and by a higher growth
+/// rate, until there are about `most` points. Cost: some microseconds per cell, for two or three
 /// attempts.
 /// @return false if canceled.
 bool inner_points(const Interior& interior, SizingField& sizes, Index most,

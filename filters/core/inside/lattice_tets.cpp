@@ -10,10 +10,9 @@
 // 3. If a cut point is nearer to a vertex than alpha times the edge length, move the vertex to the
 //    cut point and label it 0.
 // 4. Keep each tet with a + vertex and no - vertex. If a tet has both + and - vertices, keep the
-// part
-//    at the + vertices, with cut points instead of the - vertices. If this part has a quadrilateral
-//    on a face, both tets at the face must divide the quadrilateral along the same diagonal: see
-//    diagonal_at_first().
+//    part at the + vertices, with cut points instead of the - vertices. If this part has a
+//    quadrilateral on a face, both tets at the face must divide the quadrilateral along the same
+//    diagonal: see diagonal_at_first().
 #include "inside/lattice_tets.h"
 
 #include "base/parallel.h"
@@ -361,12 +360,12 @@ private:
     return this->cut_vertex_[static_cast<std::size_t>(at - this->edges_.begin())];
   }
 
-  /// Select the diagonal of the quadrilateral a, b, bc, ac. It is the remaining part of a face
-  /// whose vertices a and b are + and whose vertex c is -; ac and bc are cut points. Return true if
-  /// the diagonal starts at a, false if it starts at b. The face has one long edge. If the long
-  /// edge is a-b, the diagonal starts at the even one of these two vertices. Otherwise it starts at
-  /// the + vertex that is not on the long edge, so that it ends at the long edge's cut point. The
-  /// result is the same for both tets of the face.
+  /// Select the diagonal of the quadrilateral a, b, bc, ac. The quadrilateral is the remaining part
+  /// of a face whose vertices a and b are + and whose vertex c is -; ac and bc are cut points.
+  /// Return true if the diagonal starts at a, false if it starts at b. The face has one long edge.
+  /// If the long edge is a-b, the diagonal starts at the even one of these two vertices. Otherwise
+  /// it starts at the + vertex that is not on the long edge, so that it ends at the long edge's cut
+  /// point. The result is the same for both tets of the face.
   bool diagonal_at_first(Index a, Index b, Index c) const
   {
     if (this->numbering_.is_long(a, b))

@@ -16,10 +16,10 @@ struct SurfaceDistance
 };
 
 /// Measure the distances between the boundary of tets and the part of the surface that bounds the
-/// region. They are measured from the vertices and triangle centers of the surface to the boundary,
-/// and vice versa. Parts of the boundary that close a hole of the surface are excluded. They are
-/// recognized because the region ends there without a triangle. Parts of the region without tets,
-/// and tets outside the region, increase the distances. Cost: about 10 us per sample.
+/// region. Distances are measured from the vertices and triangle centers of the surface to the
+/// boundary, and vice versa. Parts of the boundary that close a hole of the surface are excluded;
+/// there, the region ends without a triangle. Parts of the region without tets, and tets outside
+/// the region, increase the distances. Cost: about 10 us per sample.
 /// @return false if canceled.
 bool measure_distance(const TetMesh& mesh, const RegionBoundary& region, SurfaceDistance& distance,
   ExecutionContext& context);

@@ -112,8 +112,7 @@ private:
       : Status();
   }
 
-  // ---- Rungs: the attempts of the methods
-  // --------------------------------------------------------
+  // ---- Attempts ("rungs") of the methods ----
 
   Status climb()
   {
@@ -264,8 +263,8 @@ private:
     return this->options_.quality == 0.0 || this->angle() >= this->options_.quality;
   }
 
-  /// Run another attempt. Keep its tets only if their smallest dihedral angle is larger than the
-  /// smallest angle of the present tets.
+  /// Run another attempt. Keep the tets of this attempt only if their smallest dihedral angle is
+  /// larger than that of the present tets.
   /// @return ok or canceled.
   template <typename Rung>
   Status improve_by(const Rung& rung)
@@ -617,8 +616,7 @@ private:
     return {};
   }
 
-  // ---- Check and result
-  // --------------------------------------------------------------------------
+  // ---- Check and result ----
 
   Status check()
   {

@@ -32,9 +32,9 @@ enum class TetMethod
 const char* to_string(TetMethod method);
 
 /// Return the value of `interior_edge` that smooth weights need in a surface with this volume and
-/// this bounding-box diagonal. It is at most 0.04, and small enough for about 10,000 tets. With
-/// fewer tets, the weights differ by more than 0.015 (root mean square) from the weights on much
-/// finer tets.
+/// this bounding-box diagonal. The value is at most 0.04, and small enough for about 10,000 tets.
+/// With fewer tets, the weights differ by more than 0.015 (root mean square) from the weights on
+/// much finer tets.
 double interior_edge_of_weights(double volume, double diagonal);
 
 /// Options of tetrahedralize().
@@ -66,20 +66,20 @@ struct TetrahedralizeOptions
   /// reaches 10.7 degrees on any surface. The status is not_converged if a tet of the result has a
   /// smaller angle. 0: as large as the surface's triangles allow.
   double quality = 0.0;
-  /// For cdt and wrap only: if true, no vertices are inserted inside and flat tets are not
-  /// improved. Then `interior_edge` and `quality` must be 0.
+  /// For cdt and wrap only: if true, no vertices are inserted inside, except for handles, and flat
+  /// tets are not improved. Then `interior_edge` and `quality` must be 0.
   bool bare = false;
   /// For cdt and wrap: maximum length of edges inside, in bounding-box diagonals, >= 0. Edges of
   /// the surface that are more than three times as long are split. 0: automatic. In this case,
   /// edges inside are as long as the surface's edges near them, and their length increases with the
-  /// distance to the surface. Vertices are inserted until there are about 4.5 tets per triangle. A
-  /// surface with few triangles is filled with about 1,500 tets, and its long edges are split for
-  /// this purpose. Smooth weights need vertices inside, in addition to those on the surface. For
+  /// distance to the surface. Vertices are inserted until there are about 4.2 tets per triangle. A
+  /// surface with few triangles is filled with about 1,500 tets; for this purpose, its long edges
+  /// are split. Smooth weights need vertices inside, in addition to those on the surface. For
   /// ftetwild, `interior_edge` is the target edge length everywhere; 0: fTetWild's default 0.05.
   double interior_edge = 0.0;
   /// For cdt only: keep all segmented tets of the surface's convex hull (or of a box around it, if
-  /// that was necessary). labels reports which tets are inside. No vertices are added, not even for
-  /// handles.
+  /// that was necessary). See TetrahedralizeResult::labels for the tets that are inside. No
+  /// vertices are added, not even for handles.
   bool keep_outside = false;
   /// For wrap only, in bounding-box diagonals: radius of the carving ball (0.0001 … 1) and distance
   /// of the wrap's vertices from the surface (0.000001 … 1). See WrapOptions.
@@ -88,13 +88,13 @@ struct TetrahedralizeOptions
   /// For ftetwild only: maximum distance of the tets' boundary from the surface, in bounding-box
   /// diagonals, 0.00001 … 0.1.
   double ftetwild_epsilon = 1e-3;
-  /// For cdt and wrap: each handle point that is inside becomes a vertex. Segments and triangles of
-  /// handles get vertices at the distance of the local edge length. (insert_handles() splits the
-  /// tets of the other methods.)
+  /// For cdt and wrap: each handle point that is inside becomes a vertex. Along segments and
+  /// triangles of handles, vertices are inserted at intervals of the local edge length.
+  /// (insert_handles() splits the tets of the other methods.)
   HandlePlaces handles;
 };
 
-/// Label of a tet. The values are those of the array `Label`: a tet is inside if the value is above
+/// Label of a tet. The values are those of the array `Label`: a tet is inside if its value is above
 /// 0.
 enum class TetLabel
 {
@@ -118,7 +118,7 @@ struct TetrahedralizeResult
   std::vector<TetLabel> labels;
   Eigen::VectorXd min_dihedral_angles; ///< #T, degrees
   std::vector<DefectPlace> defects; ///< defects of the surface with their locations
-  std::vector<Index> handle_vertices; ///< for cdt, #H: vertex at the handle's point, or -1
+  std::vector<Index> handle_vertices; ///< for cdt and wrap, #H: vertex at the handle point, or -1
   /// For embed only, otherwise empty: the fraction of each tet that is inside, #T, and the
   /// positions of the input points in the tets.
   Eigen::VectorXd inside_fractions;
@@ -168,14 +168,16 @@ struct TetrahedralizeResult
 ///   the surface's triangles are kept.
 /// - quality[].dihedral_angle, quality[].tets: number of tets whose smallest dihedral angle is
 ///   between dihedral_angle (degrees) and the next value of the list
-/// - counts.handle_points, counts.handle_vertices: for cdt with handles, the number of handle
-///   points and the number of these that are vertices of the mesh
-/// - segmentation: for cdt; if the volume of a graph cut is wrong, the threshold is used instead
+/// - counts.handle_points, counts.handle_vertices: for cdt and wrap with handles, the number of
+///   handle points and the number of handle points that are vertices of the mesh
+/// - segmentation: for cdt and wrap, the method in use; if the volume of a graph cut is wrong, the
+///   threshold is used instead
 /// - energy, threshold_energy, counts.changed_by_cut: see Segmentation
 /// - resolution: for remesh and embed
 /// - the report of embed_surface: for embed
-/// - distance_max, distance_mean: for remesh by refinement, wrap and ftetwild, between the tets'
-///   boundary and the part of the surface that bounds the inside, percent of its diagonal
+/// - distance_max, distance_mean: for remesh by refinement, wrap and ftetwild, distances between
+///   the tets' boundary and the part of the surface that bounds the inside, percent of the
+///   bounding-box diagonal
 /// - counts.wrap_triangles: for wrap
 ///
 /// Status codes:

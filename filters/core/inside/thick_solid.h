@@ -16,7 +16,7 @@ struct ThickSolidOptions
   /// A point is inside if its winding number is at least this value, > 0.
   double winding_threshold = 0.5;
   /// Approximate number of triangles of the result, 100 … 10000000. The edges of the triangles are
-  /// about as long as a lattice cube. Gaps narrower than 1.2 edges close.
+  /// about as long as a lattice cube. Gaps narrower than 1.2 edge lengths are closed.
   Index triangles = 20000;
   /// If true, the layer is added around all triangles, instead of only the triangles that the
   /// lattice would miss. Parts that touch or are nearer to each other than 1.2 cubes are joined.

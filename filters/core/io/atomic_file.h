@@ -40,8 +40,8 @@ public:
   /// Rename the temporary file to the target.
   Status commit();
 
-  /// Commit the file. On return, its contents and its name are on the disk. Even a power failure
-  /// leaves no partial file.
+  /// Commit the file. On return, the contents and the name of the file are on the disk. Even a
+  /// power failure leaves no partial file.
   Status commit_synced();
 
   /// Commit the file like commit_synced(), but under the name `target` in the same folder. This is

@@ -1,6 +1,7 @@
-// Reader and writer of MEDIT files (see medit.h). A file consists of keywords; each is followed by
-// a count and as many lines of numbers. The last number of a line is a reference number, which is
-// not used. An unknown keyword and its numbers are skipped up to the next keyword.
+// Reader and writer of MEDIT files (see medit.h). A file consists of keywords. A keyword is
+// followed by a count and by this number of lines, which contain numbers. The last number of a line
+// is a reference number, which is not used. An unknown keyword and its numbers are skipped up to
+// the next keyword.
 #include "io/medit.h"
 
 #include "io/text_scanner.h"

@@ -25,7 +25,7 @@ Status read_vertex(TextScanner& scanner, std::vector<Vec3>& points)
   return {};
 }
 
-/// Read the vertex ids of a face or a polyline. Skip entries with less than `fewest` vertices.
+/// Read the vertex ids of a face or a polyline. Skip entries with fewer than `fewest` vertices.
 Status read_entry(TextScanner& scanner, Index vertices, const std::string& what, std::size_t fewest,
   std::vector<Index>& corners, std::vector<Index>& offsets, Index& skipped)
 {

@@ -8,10 +8,10 @@ namespace bindpose
 
 /// Read an ASCII OFF file (Geomview's Object File Format).
 ///
-/// Accepted are comments, element counts on the line of the word OFF, the variants COFF, NOFF,
-/// STOFF and their combinations (colors, normals and texture coordinates are skipped), colors after
-/// a face, and any text after the last face. Each vertex and each face is on a separate line. Faces
-/// of one or two corners are skipped and counted.
+/// The file may contain comments, colors after a face, and any text after the last face. The
+/// element counts may be on the line of the word OFF. The variants COFF, NOFF, STOFF and their
+/// combinations are supported; their colors, normals and texture coordinates are skipped. Each
+/// vertex and each face is on a separate line. Faces of one or two corners are skipped and counted.
 /// @return invalid_input, naming file and line, if there is no OFF header, the format is binary or
 /// four-dimensional OFF, a count is negative, the file is truncated, a word is not a number, a
 /// coordinate is not finite, or a vertex id is out of range.

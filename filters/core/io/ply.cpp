@@ -232,7 +232,7 @@ private:
   Encoding encoding_;
 };
 
-/// The use that the reader makes of a property's values.
+/// How the reader uses the values of a property.
 enum class Role
 {
   skipped,

@@ -22,7 +22,8 @@ bool has_json_form(const T& value)
   return true;
 }
 
-/// Return the JSON object for the part of the key before the last dot, creating objects as needed.
+/// Return the JSON object for the part of the key before the last dot. Create objects that do not
+/// exist.
 /// @param last set to the rest of the key.
 Json& object_of(Json& root, const std::string& key, std::string& last)
 {

@@ -1,7 +1,7 @@
 // Reader and writer of STL files, which contain a triangle soup (see stl.h). A binary file contains
 // 80 bytes, a count, and 50 bytes per triangle. A text file contains the words "vertex x y z"
-// between other words. A binary file may begin with "solid" as well, so the format is determined
-// from the file size.
+// between other words. A binary file may also begin with the word "solid", so the format is
+// determined from the file size.
 #include "io/stl.h"
 
 #include "io/text_scanner.h"
@@ -52,7 +52,7 @@ private:
       return hash ^ (hash >> 32);
     }
   };
-  // Only for lookups; never iterated, because its order is not deterministic.
+  // Used for lookups only. The map is never iterated, because its order is not deterministic.
   std::unordered_map<Key, Index, Hash> ids_;
   std::vector<Vec3> points_;
 };

@@ -24,8 +24,8 @@ constexpr bool is_blank(char c)
 }
 
 /// Return the index of the first blank if `blank` is true, else of the first other character, or
-/// text.size() if there is none. This is several times as fast as find_first_of() with a list of
-/// blanks.
+/// text.size() if there is none. This function is several times faster than find_first_of() with a
+/// list of blanks.
 template <bool blank>
 std::size_t find_first(std::string_view text)
 {
@@ -144,8 +144,9 @@ bool parse_number(std::string_view text, double& value)
   }
   if (result.ec == std::errc::result_out_of_range)
   {
-    // The absolute value is too small for a double (1e-400) or too large. A number without exponent
-    // whose first nonzero digit follows the decimal point is too small.
+    // The absolute value is too small for a double (1e-400) or too large (1e400). A number with a
+    // negative exponent is too small. A number without exponent is too small if its first nonzero
+    // digit follows the decimal point.
     const std::size_t exponent = text.find_first_of("eE");
     const bool tiny = exponent == std::string_view::npos
       ? text.find_first_of("123456789") > text.find('.')

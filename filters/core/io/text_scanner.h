@@ -48,9 +48,9 @@ public:
   /// comment.
   std::string_view rest_of_line();
 
-  /// Read the next word of the text, which must be an index in [0, limit) or a finite number.
-  /// Otherwise the status contains `what`, the expected item ("a vertex id"), and the word that was
-  /// found.
+  /// Read the next word of the text. The word must be an index in [0, limit) for read_index(), or a
+  /// finite number for read_number(). Otherwise return invalid_input with a message that contains
+  /// `what`, the expected item ("a vertex id"), and the word that was found.
   Status read_index(const char* what, Index limit, Index& value);
   Status read_number(const char* what, double& value);
 

@@ -36,7 +36,7 @@ struct Tgf
 /// node with itself.
 Status read_tgf(const std::string& path, Tgf& graph);
 
-/// Write a skeleton in this format.
+/// Write a skeleton as a TGF file.
 Status write_tgf(const std::string& path, const Tgf& graph);
 
 } // namespace bindpose

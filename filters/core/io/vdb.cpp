@@ -6,7 +6,8 @@
 // full disk, which OpenVDB's file class ignores.
 //
 // A voxel is in the narrow band if both sides of the threshold occur in the box of (2 N + 1)^3
-// voxels around it, where N is the band width. This is computed one axis after the other.
+// voxels around the voxel, where N is the band width. The search runs along one axis after the
+// other.
 //
 // This is the only file that includes OpenVDB.
 #include "io/vdb.h"
@@ -199,7 +200,7 @@ constexpr unsigned char below = 1;
 constexpr unsigned char above = 2;
 
 /// Set every entry of a line to the union of the sides of the threshold (below, above) that occur
-/// within `width` entries of it.
+/// within a distance of `width` entries.
 /// @param outside the sides beyond the ends of the line.
 /// @param found memory for the result.
 void spread_along_line(

@@ -27,8 +27,8 @@ struct VdbOptions
   /// Unit vectors along the grid's axes, in the columns, as in vtkImageData. The spacing is
   /// measured along these vectors.
   Eigen::Matrix3d direction = Eigen::Matrix3d::Identity();
-  /// Value outside the extent: 0 for winding numbers, 1 for a field that is 1 outside, for example
-  /// for 1 - winding number.
+  /// Value outside the extent: 0 for winding numbers; 1 for a field that is 1 outside, for example
+  /// 1 - winding number.
   double background = 0.0;
   VdbBand band = VdbBand::full;
   /// Narrow band only: half of the band's width, in voxels along each axis, 1 … 2^30. 3 is usual
@@ -58,9 +58,10 @@ Status check_vdb_available();
 ///   background 0.
 /// - **Narrow**: a voxel is active if a voxel on the other side of `threshold` is at most
 ///   `band_width` away along each axis. Points outside the extent have the background value. All
-///   other voxels are inactive and have one value per side of the threshold: the background, or its
-///   mirror image at the threshold (0 and 1 by default). The isosurface at the threshold is
-///   therefore equal to that of the full grid, in a much smaller file. The grid class is "unknown":
+///   other voxels are inactive. On the side of the threshold that contains the background, they
+///   have the background value. On the other side, they have the value 2 x threshold - background.
+///   By default these two values are 0 and 1. The isosurface at the threshold is therefore equal to
+///   the isosurface of the full grid, and the file is much smaller. The grid class is "unknown":
 ///   the grid is not a density, because the inside is inactive, and not a level set, because the
 ///   values are not distances. Programs must extract the surface at isovalue `threshold`.
 ///

@@ -21,10 +21,10 @@ struct StridedMatrix
 /// only entries (i, j) with j <= i are guaranteed to be added, which halves the time. This is
 /// sufficient if the product is known to be symmetric.
 ///
-/// Eigen is not used, because release builds of Eigen use only SSE2. BLAS is not used, because its
-/// results depend on the machine and its speed depends on whether it supports the processor. This
-/// function is compiled for several register sizes. It computes the same bits with all instruction
-/// sets that have fused multiply-add operations. It runs on one thread.
+/// Eigen is not used, because release builds of Eigen use only SSE2. BLAS is not used, because the
+/// results of BLAS depend on the machine, and a BLAS library is slow on processors that it does not
+/// support. This function is compiled for several register sizes. It computes the same bits with
+/// all instruction sets that have fused multiply-add operations. It runs on one thread.
 void add_product(
   const StridedMatrix& a, const StridedMatrix& b, double* c, Index c_stride, bool lower = false);
 

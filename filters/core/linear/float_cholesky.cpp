@@ -2,8 +2,8 @@
 //
 // Supernodes are groups of consecutive columns with the same pattern. They are eliminated one after
 // another, children before parents. Each supernode has a dense matrix called the front. The front
-// consists of the block of the supernode's own columns, which becomes part of the factor, and of
-// the update matrix of the rows below, which is passed to the parent. Each supernode takes three
+// consists of two parts. The block of the supernode's own columns becomes part of the factor. The
+// update matrix of the rows below the block is passed to the parent. Each supernode takes three
 // steps:
 // 1. The supernode's columns of the matrix and the columns of its children's update matrices are
 //    added up.
@@ -54,8 +54,8 @@ struct Plan
   std::shared_ptr<const Supernodes> nodes;
   std::vector<int> parent; // parent of each supernode; -1: no parent
   std::vector<int> position; // per stored entry of the matrix: its index in the factor's values
-  // Depth of each supernode below its root, modulo 2, which is the index of the stack for its
-  // update matrix.
+  // Depth of each supernode below its root, modulo 2. This is the index of the stack that stores
+  // the supernode's update matrix.
   std::vector<unsigned char> depth;
   std::size_t stack_size[2] = { 0, 0 }; // capacity of the two stacks, in floats
   std::atomic<Index> factorizations{ 0 };

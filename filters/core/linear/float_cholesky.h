@@ -42,14 +42,15 @@ public:
   /// the message contains the unknown whose pivot failed. A cancel request is checked between dense
   /// blocks.
   Status factor(const SparseMatrix& matrix, double shift, const ExecutionContext& context);
-  /// Solve approximately with the last factorization. Several threads may call it concurrently.
+  /// Solve approximately with the last factorization. Several threads may call this function
+  /// concurrently.
   void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const;
   /// Solve for many columns, which takes several times less time per column.
   void solve(const Eigen::MatrixXd& rhs, Eigen::MatrixXd& x) const;
 
   /// Free the memory that only factor() needs; the factor is kept.
   void release_workspace();
-  /// Return the memory of this object's factor in bytes. The second function returns the additional
+  /// Return the memory of this object's factor in bytes. workspace_bytes() returns the additional
   /// bytes that factor() needs.
   double factor_bytes() const;
   double workspace_bytes() const;

@@ -1,6 +1,6 @@
 // Conjugate gradients for many right-hand sides. Each column has its own step lengths and search
-// directions. All columns that have not converged are multiplied and preconditioned in one call,
-// which is several times faster per column than separate calls.
+// directions. One call multiplies, and one call preconditions, all columns that have not converged.
+// This is several times faster per column than separate calls.
 #include "linear/refined_solve.h"
 
 #include <algorithm>
@@ -48,7 +48,7 @@ double refined_solve(const FloatCholesky& factor,
     last = now;
     const MatrixXd product = multiply(p);
     const VectorXd curvature = p.cwiseProduct(product).colwise().sum();
-    std::vector<Index> kept; // indices of the columns that stay open, as columns of r
+    std::vector<Index> kept; // columns of r that stay open
     for (Index k = 0; k < static_cast<Index>(open.size()); ++k)
     {
       bool ends = !(curvature[k] > 0.0) || !std::isfinite(now[k]);

@@ -1,9 +1,9 @@
 // Sparse Cholesky factorization with one interface and two backends, CHOLMOD and Eigen.
 //
-// CHOLMOD: cholmod_analyze returns a symbolic factor, which clones share. Each clone copies it when
-// it first factors and has its own workspace (cholmod_common), so that clones can factor
-// concurrently. The factor is always supernodal LL', because a simplicial LDL' would accept
-// negative pivots silently.
+// CHOLMOD: cholmod_analyze returns a symbolic factor, which clones share. Each clone copies the
+// symbolic factor at the first factorization. Each clone also has its own workspace
+// (cholmod_common), so that clones can factor concurrently. The factor is always supernodal LL',
+// because a simplicial LDL' would accept negative pivots silently.
 //
 // A factorization is serial: the caller solves for several handles in parallel, and a threaded BLAS
 // would make results depend on the number of threads. CHOLMOD also assembles supernodes in OpenMP

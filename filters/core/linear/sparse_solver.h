@@ -87,13 +87,13 @@ public:
 
   /// Return the memory of this object's factor in bytes, which is known after analyze().
   double factor_bytes() const;
-  /// Return the number of unknowns. The next two functions return the number of nonzeros of the
-  /// factor and the number of floating-point operations of one factorization.
+  /// Return the number of unknowns. factor_nonzeros() returns the number of nonzeros of the factor,
+  /// and factor_operations() the number of floating-point operations of one factorization.
   Index size() const;
   double factor_nonzeros() const;
   double factor_operations() const;
-  /// Return the total number of analyses by this solver and all its clones. The next function
-  /// returns the number of factorizations.
+  /// Return the total number of analyses by this solver and all its clones. factorizations()
+  /// returns the total number of their factorizations.
   Index analyses() const;
   Index factorizations() const;
 

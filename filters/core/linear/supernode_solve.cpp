@@ -1,8 +1,8 @@
 // Triangular solves with a supernodal Cholesky factor in single precision. The solve processes one
 // supernode after the other. The entries of the supernode's own unknowns and of the rows below are
 // copied to a small contiguous array, so that products with the columns of the block use contiguous
-// memory. Four columns are processed per pass, so that the small array is read and written a
-// quarter as often.
+// memory. Four columns are processed per pass, so that the small array is read and written four
+// times less often.
 #include "linear/supernode_solve.h"
 
 #include "base/simd.h"

@@ -11,9 +11,9 @@ namespace bindpose
 /// A matrix with one column per coordinate.
 using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-/// Return A X and A^T X for three columns. A general matrix product of a library would spend more
-/// time on rearranging A than on the product. This function reads each entry of A once. The bits
-/// are the same on every processor.
+/// Return A X (thin_product) or A^T X (transposed_thin_product), where X has three columns. A
+/// general matrix product of a library would spend more time on rearranging A than on the product.
+/// These functions read each entry of A once. The bits are the same on every processor.
 Coordinates thin_product(const Eigen::MatrixXd& a, const Coordinates& x);
 Coordinates transposed_thin_product(const Eigen::MatrixXd& a, const Coordinates& x);
 

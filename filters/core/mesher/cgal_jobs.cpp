@@ -422,7 +422,7 @@ std::string refine(MesherData& data, const RefineOptions& options)
   const Stopwatch clock;
   Soup soup = soup_of(data);
   // A few hundred large triangles can be cut into tens of thousands of pieces and still be meshed.
-  // Therefore the limit is at least a multiple of this number.
+  // Therefore face_limit is at least growth_limit times this number of faces.
   constexpr std::size_t small = 10000;
   const auto face_limit = static_cast<std::size_t>(
     options.growth_limit * static_cast<double>(std::max(soup.faces.size(), small)));

@@ -39,7 +39,7 @@ public:
 
 private:
   /// Report whether the center is accurate enough: near the cell, a segment that ends at the center
-  /// deviates from the exact one by less than a millionth of an edge.
+  /// deviates from the exact segment by less than a millionth of an edge length.
   static bool good(const Point& center, const WeightedPoint& p, const WeightedPoint& q,
     const WeightedPoint& r, const WeightedPoint& s)
   {

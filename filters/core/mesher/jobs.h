@@ -20,7 +20,7 @@ void tell_report(const char* key, double number);
 struct RefineOptions
 {
   double time_limit = 25.0; ///< seconds
-  double growth_limit = 10.0; ///< maximum number of faces, in units of the number of input faces
+  double growth_limit = 10.0; ///< maximum number of faces divided by the number of input faces
   int round_limit = 30;
 };
 
@@ -50,7 +50,8 @@ struct FillOptions
 {
   double min_angle = 30.0; ///< degrees
   double longest_edge = 0.0; ///< maximum edge length; 0: no bound
-  double floor = 0.0; ///< triangles with a side shorter than this are not refined for their angles
+  /// triangles with a side shorter than this length are not refined for their angles
+  double floor = 0.0;
   double time_limit = 120.0; ///< seconds after which refinement stops
 };
 
@@ -85,7 +86,8 @@ struct RemeshJobOptions
   /// Smallest edge length, > 0; increased if there would be more tets than tet_limit.
   double smallest_edge = 0.0;
   double largest_edge = 0.0; ///< largest edge length, >= smallest_edge
-  /// Maximum of the difference of two edge lengths divided by the distance of their sites.
+  /// Maximum growth rate: the difference of two edge lengths divided by the distance of their
+  /// sites.
   double growth = 0.3;
   double tet_limit = 5e5; ///< approximate maximum number of tets
 };

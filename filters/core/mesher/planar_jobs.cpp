@@ -3,10 +3,10 @@
 // Arrangement: all points and segments are inserted into a constrained Delaunay triangulation with
 // exact coordinates, which splits segments where they cross, overlap or contain a point. New
 // vertices are rounded to doubles. Rounding moves vertices by a unit in the last place, so that the
-// parts of segments may cross again. Therefore they are inserted again until no new vertex appears.
-// Curves that almost touch leave gaps that are too narrow for refinement. In this case points are
-// rounded to a coarser grid in the same rounds, and an edge that passes close to a point is
-// replaced by two edges through the point (snap rounding: Hobby; Guibas and Marimont).
+// parts of segments may cross again. Therefore the parts are inserted again until no new vertex
+// appears. Curves that almost touch leave gaps that are too narrow for refinement. In this case
+// points are rounded to a coarser grid in the same rounds, and an edge that passes close to a point
+// is replaced by two edges through the point (snap rounding: Hobby; Guibas and Marimont).
 //
 // Filling: Delaunay refinement (Ruppert, Shewchuk; CGAL's Delaunay_mesher_2), one point at a time,
 // with a limit on the number of points. A minimum angle of up to 20.6 degrees can always be

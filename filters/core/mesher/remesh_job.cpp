@@ -325,8 +325,8 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
   }
   tell_report("seconds.start", clock.seconds());
 
-  // There are about five tets per vertex. If there are far more vertices than expected, the
-  // refinement would not end by itself.
+  // A mesh has about five tets per vertex, so this limit is far above the expected number of
+  // vertices. The limit stops refinements that would not end by themselves.
   const auto most_vertices =
     static_cast<std::size_t>(options.tet_limit) + 2 * complex.triangulation().number_of_vertices();
   CGAL::Mesh_error_code code = CGAL::CGAL_MESH_3_NO_ERROR;

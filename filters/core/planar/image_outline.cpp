@@ -10,7 +10,7 @@
 // halves the number of vertices, so each chain of contour points is tested only about log(length)
 // times. After these passes, each vertex in turn searches ahead. It is connected to the farthest
 // vertex for which the straight line is within the tolerance. On staircases of pixels, the lines to
-// nearer vertices often exceed the tolerance; the search continues beyond them.
+// nearer vertices often exceed the tolerance; the search continues beyond these vertices.
 #include "planar/image_outline.h"
 
 #include <algorithm>
@@ -149,8 +149,8 @@ private:
   /// Link the vertices on the edges of a cell. Corners are counter-clockwise from the lower left;
   /// edge k is between corners k and k + 1. For each run of consecutive inside corners, the vertex
   /// on the edge after the run is linked to the vertex on the edge where this run begins. In a
-  /// saddle cell whose two inside corners are connected, it is linked to the vertex where the other
-  /// run begins.
+  /// saddle cell whose two inside corners are connected, the vertex after the run is linked to the
+  /// vertex where the other run begins.
   void link_cell(const std::array<bool, 4>& in, const std::array<Index, 4>& sides,
     const std::array<float, 4>& values, Contour& contour) const
   {
@@ -274,7 +274,7 @@ public:
         const Vec2& a = corners[k];
         const Vec2& b = corners[(k + 1) % 3];
         const double rise = b.y() - a.y();
-        // The part of the triangle's edge that is within this row of cells.
+        // Range (in 0 … 1) of the part of the triangle's edge that is within this row of cells.
         double from = 0.0;
         double to = 1.0;
         if (rise != 0.0)
@@ -434,9 +434,9 @@ private:
     return fewer;
   }
 
-  /// Search ahead from p: remove the vertices after p one by one as long as a line within the
-  /// tolerance may still be found. Then restore the vertices after the last one for which the line
-  /// from p was within the tolerance.
+  /// Connect p to the farthest vertex found by a search ahead. The vertices after p are removed one
+  /// by one until the line from p exceeds a multiple of the tolerance. Then the vertices after the
+  /// last line within the tolerance are restored. Return true if a vertex was removed.
   bool leap_from(std::size_t loop, Index p, double tolerance)
   {
     constexpr std::size_t farthest = 256; // maximum number of vertices that are removed at a time
@@ -490,7 +490,7 @@ private:
     return std::sqrt(largest);
   }
 
-  /// Return the next point of the original contour, whether removed or not.
+  /// Return the next point of the original contour. The point may have been removed.
   Index after(std::size_t loop, Index v) const
   {
     return v + 1 < this->loops_.starts[loop + 1] ? v + 1 : this->loops_.starts[loop];

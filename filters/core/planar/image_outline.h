@@ -40,9 +40,9 @@ struct ImageOutline
 ///   image is half a pixel outside of its outer pixel centers. If two inside pixels touch only at a
 ///   corner, the saddle point of the bilinear interpolation decides whether they are connected.
 /// - **Simplification**: a vertex is removed under two conditions. All contour points between its
-///   neighbors must be within the tolerance of the line between the neighbors, and the triangle of
-///   the three must contain no other vertex. Loops therefore never cross or touch themselves or
-///   each other, and no loop is removed.
+///   two neighbors must be within the tolerance of the line between the neighbors. The triangle of
+///   the vertex and its neighbors must contain no other vertex. Loops therefore never cross or
+///   touch themselves or each other, and no loop is removed.
 ///
 /// Report: counts.pixels, counts.inside_pixels, counts.contour_points, counts.outline_points,
 /// counts.loops. Return invalid_input if there are no pixels or no inside pixels, if the threshold

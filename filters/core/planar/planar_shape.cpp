@@ -4,9 +4,10 @@
 //    operation rounds.
 // 2. The helper process splits curves and bones where they intersect, and triangulates their convex
 //    hull.
-// 3. Keep the triangles whose mean winding number reaches the threshold. For closed curves it is
-//    constant on each triangle. If curves are closer to each other than refinement can handle,
-//    repeat steps 1 to 3 on a grid of 1e-12 of the size, which merges nearer points.
+// 3. Keep the triangles whose mean winding number reaches the threshold. For closed curves the
+//    winding number is constant on each triangle. If curves are closer to each other than
+//    refinement can handle, repeat steps 1 to 3 with points rounded to a grid, which merges nearby
+//    points. The spacing of the grid is about 1e-12 of the size.
 // 4. The helper refines the kept triangles. Curves and bones in these triangles, and the outline,
 //    remain edges.
 // 5. Number the vertices, with the vertices of the input first.
@@ -186,15 +187,17 @@ Status Builder::scale()
   {
     return Status::invalid_input("the curves are too far from the origin for their size");
   }
-  // The shift must not round. Differences of numbers within a factor of two are exact (Sterbenz).
+  // Subtracting the shift must not cause rounding. The difference of two numbers is exact if they
+  // differ by at most a factor of two (Sterbenz).
   for (int k = 0; k < 2; ++k)
   {
     const double size = 2.0 * half[k];
     this->shift_[k] = lower[k] > size ? lower[k] : upper[k] < -size ? upper[k] : 0.0;
   }
   this->rounding_ = 0x1p-49 * farthest;
-  // The larger of two limits, rounded up to a power of two: a fraction of the size that is smaller
-  // than any intended detail, and the accuracy of the coordinates.
+  // The larger of two lengths, rounded up to a power of two. The first length is a fraction of the
+  // size and smaller than any intended detail; the second length is the accuracy of the
+  // coordinates.
   int exponent = 0;
   std::frexp(std::max(0x1p-40 * this->diagonal_, this->rounding_), &exponent);
   this->finest_allowed_ = std::ldexp(1.0, exponent);
@@ -453,8 +456,8 @@ Status Builder::try_fill(double angle, double seconds, MesherAnswer& answer)
     seconds, answer);
 }
 
-/// Report whether all triangles keep a positive area in input coordinates, to which new points are
-/// rounded.
+/// Report whether all triangles have a positive area in input coordinates, after their points were
+/// rounded to doubles.
 /// @param exact use the exact input coordinates of input points instead of their positions on the
 /// grid.
 bool Builder::fits(bool exact) const

@@ -26,7 +26,8 @@ struct PlanarShapeOptions
   Index memory_limit = 0; ///< limit of the helper process's address space in MiB, 0: no limit
 };
 
-/// Constraints of the mesh in addition to the curves. They do not contribute to the winding number.
+/// Constraints of the mesh in addition to the curves. Handles do not contribute to the winding
+/// number.
 struct PlanarHandles
 {
   PlanePoints points; ///< #H x 2; each point that is inside becomes a vertex
@@ -41,16 +42,17 @@ struct PlanarShape
   PlanePoints points; ///< #V x 2: positions of the vertices; no vertex is unused
   Triangles triangles; ///< #F x 3, counter-clockwise
   Eigen::VectorXd winding_numbers; ///< #F: winding numbers at the triangles' centers
-  /// #V: input id of each vertex of the curves, in ascending order, then -1 for new vertices.
+  /// #V: input ids of the vertices. Vertices of the curves come first, in ascending order of their
+  /// ids; all other vertices have -1.
   std::vector<Index> original_vertices;
-  /// #H: vertex at the handle's point; -1: the point is outside.
+  /// #H: vertex at each handle point; -1: the point is outside.
   std::vector<Index> handle_vertices;
 };
 
 /// Triangulate the region that is enclosed by curves in the plane, with good angles. A constrained
-/// Delaunay triangulation contains all segments and their crossings. Triangles with a generalized
-/// winding number of at least the threshold are kept (Jacobson, Kavan, Sorkine-Hornung, 2013) and
-/// subdivided by Delaunay refinement (Ruppert; Shewchuk).
+/// Delaunay triangulation contains all segments and their crossings. Triangles whose mean
+/// generalized winding number (Jacobson, Kavan, Sorkine-Hornung, 2013) is at least the threshold
+/// are kept, and subdivided by Delaunay refinement (Ruppert; Shewchuk).
 ///
 /// Curves may be open, cross, overlap or branch; they are split exactly where they intersect. Their
 /// direction is counter-clockwise around the inside and clockwise around holes. If curves enclose a

@@ -6,7 +6,8 @@
 namespace bindpose
 {
 
-/// Stretch and twist of a bone at rest, applied before the bone's transform.
+/// A stretch and a twist of a bone. They are applied to the rest position, before the bone's
+/// transform.
 struct BoneChange
 {
   Vec3 head = Vec3::Zero();

@@ -26,9 +26,9 @@ namespace bindpose
 namespace
 {
 constexpr Index elements_per_block = 4096;
-/// An element is degenerate if its volume (area) at rest is at most about this fraction of the
-/// volume of a cube (area of a square) on its longest edge. The shape of such an element is
-/// round-off.
+/// A tet is degenerate if its volume at rest is at most about this fraction of the volume of a cube
+/// on its longest edge. For triangles, the area and a square are compared. Only round-off
+/// determines the shape of such an element.
 constexpr double degenerate_share = 1e-12;
 /// A shape is flat if its thickness in z is at most this fraction of the bounding-box diagonal.
 constexpr double flat_tolerance = 1e-9;
@@ -37,8 +37,8 @@ constexpr Index elements_per_tile = 8;
 /// Number of values stored per element at rest. The last value is a sign. All values of a
 /// degenerate element are zero.
 constexpr Index triangle_numbers = 4, tet_numbers = 10;
-/// Jacobi sweeps are repeated while the squared cosine between two columns exceeds this. Each sweep
-/// squares the remaining cosine.
+/// Jacobi sweeps are repeated while the squared cosine of the angle between two columns exceeds
+/// this value. Each sweep squares the remaining cosine.
 constexpr double right_angle = 1e-16;
 constexpr int most_sweeps = 12;
 

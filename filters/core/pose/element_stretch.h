@@ -12,15 +12,16 @@ namespace bindpose
 /// Options of RestElements::stretch().
 struct ElementStretchOptions
 {
-  /// An element is badly stretched if the length of some direction in it is multiplied by more than
-  /// `limit` or by less than 1 / limit. At least 1; 2 by default.
+  /// An element counts as stretched if the pose multiplies the length of some line segment in it by
+  /// more than `limit` or by less than 1 / limit. At least 1; 2 by default.
   double limit = 2.0;
   /// Whether to fill ElementStretch::largest and smallest. If false, only the report is computed.
   bool values = false;
 };
 
-/// Largest and smallest factor by which a pose changes the length of a direction in each element. 1
-/// at rest; NaN for an element that is degenerate at rest.
+/// Largest and smallest stretch of each element: the factors by which a pose multiplies the lengths
+/// of line segments in the element, over all directions. 1 at rest; NaN for an element that is
+/// degenerate at rest.
 struct ElementStretch
 {
   std::vector<double> largest;
@@ -30,8 +31,8 @@ struct ElementStretch
 /// Computes the singular values of the deformation gradient of each element, from rest to posed.
 ///
 /// A tet whose gradient has a negative determinant is inverted (inside out), which is impossible
-/// for a solid. Triangles in space have no such sign. Triangles of a flat shape (z = const at rest
-/// and posed) are inverted if their orientation changes.
+/// for a solid. A triangle in space has no such sign and is never inverted. Triangles of a flat
+/// shape (z = const at rest and posed) are inverted if their orientation changes.
 ///
 /// The report contains counts.elements, counts.inverted_elements, counts.stretched_elements, and
 /// largest_stretch and smallest_stretch (singular values, never negative). Degenerate elements,

@@ -6,10 +6,10 @@
 namespace bindpose
 {
 
-/// Return the pose for a method that computes rotations itself (as-rigid-as-possible). Only handles
-/// in mode `automatic` change their mode. A handle counts as translated if its transform, in the
-/// world or relative to the parent, is a translation. It counts as at rest if one of these
-/// transforms is the identity.
+/// Return a copy of the pose for a method that computes rotations itself (as-rigid-as-possible).
+/// Only the modes of handles in mode `automatic` are changed. A handle counts as translated if its
+/// transform, in the world or relative to the parent, is a translation. It counts as at rest if one
+/// of these transforms is the identity.
 /// - A point, a cage vertex or a bone that is only translated gets mode `position`, so that the
 ///   method computes its rotation. A point or cage vertex at rest also gets mode `position`.
 /// - A handle that is rotated, scaled, stretched or twisted gets mode `full`. A region and a bone

@@ -57,8 +57,8 @@ inline bool holds_transform(HandleMode mode)
 {
   return mode == HandleMode::full || mode == HandleMode::automatic;
 }
-/// Report whether the mode constrains the pivot but not the whole transform. The next function
-/// reports the same for the tail.
+/// Report whether the mode constrains the position of the pivot but not the whole transform. The
+/// next function reports this for the tail.
 inline bool holds_pivot(HandleMode mode)
 {
   return mode == HandleMode::position || mode == HandleMode::ends;
@@ -73,7 +73,7 @@ inline bool holds_tail(HandleMode mode)
 Vec3 posed_pivot(const Handle& handle, const HandlePose& pose);
 Vec3 posed_tail(const Handle& handle, const HandlePose& pose);
 
-/// One HandlePose for each handle, in the order of the columns.
+/// One HandlePose for each handle, in the order of the handles.
 using Pose = std::vector<HandlePose>;
 
 /// Return invalid_input if the numbers of entries and handles differ or are zero. Return
@@ -86,8 +86,8 @@ Status check_pose(const Handles& handles, const Pose& pose);
 Status check_bendable(PointsView points, TrianglesView triangles, const Handles& handles);
 Status check_bendable(PointsView points, TetsView tets, const Handles& handles);
 
-/// Values of a bone's stretch and twist that a method uses. Every method uses the stretch in mode
-/// tail.
+/// Specifies in which modes a method uses the stretch and twist of a bone. Every method uses the
+/// stretch of bones in mode tail.
 enum class StretchUse : int
 {
   tails, ///< only the stretch in mode tail: skinning with one transform per bone

@@ -548,8 +548,8 @@ void place_handle(const HandleEdit& edit, const Handle& rest, const Affine& up, 
   const Vec3 carried = carried_tail - carried_head;
   const Vec3 head = edit.head.value_or(carried_head);
   const Vec3 bone = edit.tail.value_or(carried_tail) - head;
-  // Both ends may coincide up to round-off, because one of them moves with the parent. Then the
-  // bone has no direction and keeps the inherited direction.
+  // Both ends may coincide up to round-off, because one of them moves with the parent. In this case
+  // the ends define no direction, and the bone keeps the direction that it inherits.
   constexpr double round_off = 1e-13;
   const double least =
     edit.head && edit.tail ? 0.0 : round_off * (head.stableNorm() + carried.stableNorm());

@@ -91,15 +91,15 @@ bool read_pose_times(const std::string& text, PoseTimes& times);
 
 /// Return the pose that a frame describes.
 ///
-/// Version 2: a handle with pivot c (point, bone head, cage vertex, region pivot) is transformed by
-/// x -> c + translate + R * scale * (x - c), then by the transform that it inherits from its parent
-/// (transform_for_child()), as in glTF. "space": "world" disables the inheritance. This transform
-/// replaces the transform of the base pose. `head` and `tail` are world positions. An end without a
-/// key moves with the parent, or is at rest if the space is "world". The bone is rotated by the
-/// minimal arc from its old direction to its new direction. Its stretch is the value of `stretch`
-/// or, without this key, the ratio of the lengths. If a handle has none of the keys translate,
-/// rotate, scale, head and tail, or is not in the frame, its transform relative to the parent
-/// remains that of the base pose.
+/// Version 2: a handle with pivot c (point, bone head, cage vertex, region pivot) is first
+/// transformed by x -> c + translate + R * scale * (x - c). Then the transform that the handle
+/// inherits from its parent is applied (transform_for_child()), as in glTF. "space": "world"
+/// disables the inheritance. The combined transform replaces the transform of the base pose. `head`
+/// and `tail` are world positions. An end without a key moves with the parent, or is at rest if the
+/// space is "world". The bone is rotated by the minimal arc from its old direction to its new
+/// direction. Its stretch is the value of `stretch` or, without this key, the ratio of the lengths.
+/// A handle keeps its parent-relative transform of the base pose if it is not in the frame, or has
+/// none of the keys translate, rotate, scale, head and tail.
 ///
 /// A handle without "mode" keeps its mode of the base pose. If this mode is automatic and the frame
 /// has one of the keys rotate, scale, head, tail, stretch and twist for the handle, its mode
@@ -119,9 +119,9 @@ Pose apply_edits(const PoseEdits& edits, const Handles& handles, const Pose& bas
 /// are edited. "space": "world" is written for a handle whose relative transform is not a rotation
 /// and a uniform scale. A shear, a non-uniform scale or a reflection cannot be written: the nearest
 /// rotation and scale are written instead. One warning contains the numbers of such handles and
-/// poses, and the names of the first handles. There is no warning for a transform whose difference
-/// from the nearest rotation and scale is at most 1e-5 of the matrix (Frobenius norms), because
-/// this is the round-off of single-precision files.
+/// poses, and the names of the first handles. A difference from the nearest rotation and scale of
+/// at most 1e-5 of the matrix (Frobenius norms) causes no warning, because it is the round-off of
+/// single-precision files.
 ///
 /// Return invalid_input if a value is not finite or a name is not UTF-8.
 Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second,

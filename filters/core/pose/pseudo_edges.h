@@ -24,11 +24,11 @@ using PseudoEdges = std::vector<PseudoEdge>;
 Status check_pseudo_edges(const Handles& handles, const PseudoEdges& edges);
 
 /// Compute the minimum spanning tree of all point handles by their distances along the mesh's
-/// edges. Users expect this tree: it joins each point to its nearest neighbors inside the shape,
-/// for example in a row along an arm, and never across a gap between two arms. Edges chosen by
-/// straight distances, and Delaunay edges, would cross such gaps. The tree avoids long edges, whose
-/// rotation is a poor estimate of the rotation at their ends. Each connected part of the mesh has a
-/// separate tree.
+/// edges. Users expect this tree. It joins each point to its nearest neighbors inside the shape,
+/// for example in a row along an arm. It never joins points across a gap, for example between two
+/// arms. Edges chosen by straight distances, and Delaunay edges, would cross such gaps. The tree
+/// avoids long edges, whose rotation is a poor estimate of the rotation at their ends. Each
+/// connected part of the mesh has a separate tree.
 ///
 /// Each vertex belongs to the nearest point handle (one Dijkstra run from all handles). Mesh edges
 /// between vertices of two handles give paths between these handles, and the shortest paths form a
@@ -48,16 +48,17 @@ Status automatic_pseudo_edges(ExecutionContext& context, PointsView points, Tria
 /// length zero.
 Eigen::Quaterniond least_rotation(const Vec3& from, const Vec3& to);
 
-/// Add to each handle with pseudo-edges the rotation that the posed positions of the handles imply.
-/// This is the mean of the smallest rotations that take the handle's edges from rest to their posed
-/// directions (the quaternions are aligned in sign to the first one, added and normalized). The new
-/// linear part of the handle's transform is the rotation times the old linear part, about the posed
-/// pivot. The handle's mode becomes full. If the mode was position, the old linear part is ignored.
-/// A free handle stays at rest. Handles without edges keep their transforms.
+/// Rotate each handle that has pseudo-edges. For each of its edges, there is a smallest rotation
+/// from the rest direction to the posed direction. The handle is rotated by the mean of these
+/// rotations. (For the mean, the quaternions are aligned in sign to the first one, added and
+/// normalized.) The new linear part of the handle's transform is the rotation times the old linear
+/// part, about the posed pivot. The handle's mode becomes full. If the mode was position, the old
+/// linear part is ignored. A free handle stays at rest. Handles without edges keep their
+/// transforms.
 ///
-/// If a rigid motion moves all pivots, the result is exact if the handles are in a plane and the
-/// rotation is within that plane. In space, a rotation about an edge does not change the edge and
-/// cannot be detected.
+/// If a rigid motion moves all pivots, the computed rotation is exact under one condition: the
+/// handles are in a plane, and the rotation is within that plane. In space, a rotation about an
+/// edge does not change the edge and cannot be detected.
 ///
 /// @param stretch whether to also scale handles by the mean ratio of their edges' lengths.
 void turn_by_pseudo_edges(

@@ -1,8 +1,8 @@
 // Best rotations of many 3 x 3 matrices by Horn's quaternion method.
 //
 // For the rotation R with the unit quaternion q, tr(R S) = q^T N q, where N is a symmetric
-// traceless 4x4 matrix of S. The best rotation is therefore the eigenvector of N's largest
-// eigenvalue.
+// traceless 4x4 matrix that is a linear function of S. The best rotation is therefore the
+// eigenvector of N's largest eigenvalue.
 //
 // The fast path has no branches, so that several matrices are processed in parallel. The largest
 // eigenvalue is the largest root of N's characteristic quartic, whose roots are all real.
@@ -308,7 +308,7 @@ BINDPOSE_ALWAYS_INLINE int put_rotations(
     {
       const int k = g * lanes + i;
       block.slope[k] = i < block.skipped[g] ? Scalar(1) : block.slope[k];
-      // NaN compares as not trusted
+      // a comparison with NaN is false, so NaN is not trusted
       careful += block.slope[k] > Fast<Scalar>::slope ? 0 : 1;
       take[i] = i >= block.skipped[g] && block.slope[k] > Fast<Scalar>::slope;
     }

@@ -19,11 +19,11 @@ namespace bindpose
 /// previous rotation exactly. S must be finite; its scale does not affect the result.
 void fit_rotation(const Eigen::Matrix3d& s, Eigen::Matrix3d& rotation);
 
-/// Fit many rotations. Matrices are stored in planes: entry (row i, column j) of matrix k is
-/// s[(3 * i + j) * stride + k], and rotations[(3 * i + j) * stride + k] likewise; stride >= count.
-/// The fits are vectorized if the processor supports it; the bits of a result do not depend on the
-/// position of its matrix. Cost: about 36 ns per matrix with AVX2, 26 ns with AVX-512, 1 µs for the
-/// rare matrices near rank 1.
+/// Fit many rotations. Matrices are stored in planes: entry (row i, column j) of matrix k is s[(3 *
+/// i + j) * stride + k], with stride >= count. `rotations` has the same layout. The fits are
+/// vectorized if the processor supports it; the bits of a result do not depend on the position of
+/// its matrix. Cost: about 36 ns per matrix with AVX2, 26 ns with AVX-512, 1 µs for the rare
+/// matrices near rank 1.
 void fit_rotations(Index count, Index stride, const double* s, double* rotations);
 
 /// Matrices stored in planes: entry (i, j) of matrix k is planes[i * by_row + j * by_column + k].

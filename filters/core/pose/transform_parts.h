@@ -24,8 +24,8 @@ TransformParts parts_of(const Affine& transform, const Vec3& pivot);
 Affine affine_of(const TransformParts& parts, const Vec3& pivot);
 
 /// Return the rotation with the smallest angle that turns the direction `from` to the direction
-/// `to`. Neither may be zero. (Its Eigen code takes five seconds to compile, so it is compiled here
-/// only.)
+/// `to`. Both vectors must be nonzero. (Eigen's template takes five seconds to compile, so only
+/// transform_parts.cpp instantiates it.)
 Eigen::Quaterniond rotation_between(const Vec3& from, const Vec3& to);
 
 /// Return the rotation axis times the rotation angle in degrees, 0 to 180.

@@ -1,8 +1,8 @@
-// The active-set method of BoxQp (see active_set.h). A vertex is held while its weight is
-// constrained to a bound. The factor of A, with the held vertices decoupled, gives exact solutions
-// while the set of held vertices does not change, and is a good preconditioner while few vertices
-// enter or leave this set. If projected_newton() does not converge with a factor, the next factor
-// is computed for the vertices that are held at that time.
+// The active-set method of BoxQp (see active_set.h). A vertex is held if its weight is kept at a
+// bound. The held vertices are decoupled in A before A is factored. The factor gives exact
+// solutions while the set of held vertices does not change. It is a good preconditioner if only few
+// vertices enter or leave this set. If projected_newton() does not converge with a factor, the next
+// factor is computed for the vertices that are held at that time.
 #include "qp/active_set.h"
 
 #include "base/stopwatch.h"
@@ -18,8 +18,8 @@ namespace
 using Eigen::VectorXd;
 
 /// Compute the certificate of a column's weights w.
-/// @param inverse A^-1, called only if round-off makes the first bound of the certificate too
-/// large.
+/// @param inverse multiplies by A^-1. It is called only if round-off makes the first bound of the
+/// certificate too large.
 Certificate certify_column(const SplitForm& matrices, const BoxQpColumn& column,
   const ColumnProblem& problem, double tolerance, const InverseForm& inverse, const VectorXd& w)
 {
@@ -38,8 +38,8 @@ BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
   const Stopwatch watch;
   constexpr int most_factorizations = 10;
   constexpr int sure = 2; // number of factorizations that are exempt from the test for stalling
-  // With each later factorization, the largest change of a weight in the last Newton round must be
-  // below this factor times the smallest such change so far.
+  // After each later factorization, the largest change of a weight in the last Newton round must be
+  // below this factor times the smallest such change after any earlier factorization.
   constexpr double nearer = 0.5;
   constexpr int rounds = 6; // maximum number of Newton rounds per factorization
   const double tolerance = options.tolerance;
@@ -91,8 +91,8 @@ BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
       rounds, enough, context, x);
     solution.iterations += 1;
   }
-  // If the iterations are used up, a certified iterate is a valid result even if the weights still
-  // move.
+  // After the maximum number of iterations, a certified iterate is a valid result even if the
+  // weights still change.
   if (!solution.status.ok() && certified() && solution.iterations >= options.maximum_iterations)
   {
     solution.status = Status();

@@ -8,16 +8,17 @@
 namespace bindpose
 {
 
-/// Solve one column of bounded weights without ordered pairs, starting from a good guess of the
-/// vertices whose weight is at a bound. The method is a projected Newton method. Its systems are
-/// solved with a factor of A, the block of the free vertices in the quadratic form, where the
-/// vertices at a bound are decoupled. One to three factorizations are usual, each with 5 to 20
-/// solves.
+/// Solve one column of bounded weights without ordered pairs. The start must be a good guess of the
+/// vertices whose weight is at a bound. The method is a projected Newton method. Let A be the block
+/// of the free vertices in the quadratic form. The linear systems are solved with a factor of A in
+/// which the vertices at a bound are decoupled from all others. One to three factorizations are
+/// usual, each with 5 to 20 solves.
 ///
 /// Hintermueller, Ito and Kunisch 2003, The primal-dual active set strategy as a semismooth Newton
 /// method; Bertsekas 1982.
-/// @param inverse A^-1 for the certificate, called rarely.
-/// @return not_converged, with the last iterate, if the guess was not good enough.
+/// @param inverse multiplies a vector by A^-1, for the certificate; called rarely.
+/// @return the solution. If the guess was not good enough, the status is not_converged, and the
+/// weights are those of the last iteration.
 BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
   const BoxQpColumn& column, const ColumnStart& start, const InverseForm& inverse,
   BoxQpWorkspace& workspace, ExecutionContext& context);

@@ -1,11 +1,11 @@
 // The solver of the quadratic programs of all columns (see box_qp.h). A, the block of free vertices
 // in Q, is analyzed and factored once. The factor is in single precision if conjugate gradients
-// reach the limit of double precision with it, else in double precision. (Single precision usually
-// suffices for biharmonic energies of meshes, rarely for triharmonic ones.) Then the starts of all
-// columns are computed together (splitting_start.cpp). Each column is solved from its start
-// (active_set.cpp), in a workspace that the next column reuses. The interior-point method
-// (interior_point.cpp) solves columns without a start, and columns whose start does not lead to the
-// minimizer.
+// with this factor as preconditioner reach the limit of double precision. Otherwise it is in double
+// precision. (Single precision usually suffices for biharmonic energies and rarely for triharmonic
+// energies.) Then the starts of all columns are computed together (splitting_start.cpp). Each
+// column is solved from its start (active_set.cpp), in a workspace that the next column reuses. The
+// interior-point method (interior_point.cpp) solves columns without a start, and columns whose
+// start does not lead to the minimizer.
 #include "qp/box_qp.h"
 
 #include "base/memory.h"
@@ -76,8 +76,8 @@ struct BoxQp::Impl : SplitForm
   mutable std::mutex solver_mutex;
   mutable PerThread<BoxQpWorkspace> of_threads;
 
-  /// Estimate the memory of the factors and set the number of threads: one workspace per thread, at
-  /// least one. Return an error if the memory does not suffice for one workspace.
+  /// Estimate the memory of the factors and limit the number of threads, because each thread needs
+  /// a workspace. Return an error if the memory does not suffice for one workspace.
   /// @param in_single_precision whether A is factored in single precision.
   Status plan_memory(const std::vector<BoxQpColumn>& columns, int threads, bool in_single_precision)
   {
@@ -116,8 +116,8 @@ struct BoxQp::Impl : SplitForm
   }
   /// Compute A^-1 b for all columns of b, to the limit of double precision. The result depends only
   /// on the right-hand sides, not on earlier solves.
-  /// @return false if this accuracy is not reached because the memory does not suffice for a factor
-  /// in double precision or because the context is canceled.
+  /// @return false if this accuracy is not reached. Possible reasons: the memory does not suffice
+  /// for a factor in double precision, or the context is canceled.
   bool solve_a(
     const Eigen::MatrixXd& rhs, const ExecutionContext* context, Eigen::MatrixXd& x) const
   {
@@ -159,7 +159,7 @@ struct BoxQp::Impl : SplitForm
       [this](const Eigen::MatrixXd& p) { return Eigen::MatrixXd(this->a.transpose() * p); },
       this->inverse_diagonal, rhs, { wanted_accuracy, most_steps, context }, x);
   }
-  /// Factor A in single precision. The factor is kept if it is accurate enough for a typical
+  /// Factor A in single precision. Discard the factor if it is not accurate enough for a typical
   /// right-hand side.
   Status factor_single(const ExecutionContext& context)
   {
@@ -187,8 +187,8 @@ struct BoxQp::Impl : SplitForm
     return this->whole(this->inverse_of_a(this->free_rows(r)),
       Eigen::MatrixXd::Zero(static_cast<Index>(this->fixed.size()), 1));
   }
-  /// Return the minimizers without bounds (#V x m). They are used even if solve_a() fails, because
-  /// the results that are derived from them have their own certificates.
+  /// Return the minimizers without bounds (#V x m). The minimizers are used even if solve_a()
+  /// fails, because every final result has its own certificate.
   Eigen::MatrixXd minimizers(
     const Eigen::MatrixXd& fixed_values, const ExecutionContext* context) const
   {
@@ -198,8 +198,8 @@ struct BoxQp::Impl : SplitForm
   }
 };
 
-/// Solve all columns: first those with a start by the active-set method, then the remaining columns
-/// by the interior-point method.
+/// Solve all columns. The active-set method solves the columns that have a start. The
+/// interior-point method then solves all columns that have no start or did not converge.
 class BoxQp::Impl::ColumnsSolve
 {
 public:
@@ -236,7 +236,7 @@ public:
         if (this->solutions_[j].status.code == StatusCode::not_converged &&
           this->solutions_[j].iterations < this->qp_.options.maximum_iterations)
         {
-          // The status is canceled until the interior-point method solves this column.
+          // The interior-point method replaces this status, unless a cancel prevents it.
           this->solutions_[j].status = Status::canceled();
           left.push_back(j);
         }

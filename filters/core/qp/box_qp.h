@@ -15,9 +15,9 @@ namespace bindpose
 /// guesses the solutions and the active bounds of all columns together. An active-set method then
 /// solves each column, starting from its guess. A primal-dual interior-point method solves the
 /// columns with ordered pairs and the columns that the active-set method does not solve.
-/// The only convergence criterion is the optimality certificate (see Certificate). If the
-/// certificate does not reach the tolerance within maximum_iterations, the status is not_converged,
-/// and the result is the best iterate with its certificate.
+/// A column has converged if its optimality certificate (see Certificate) is within the tolerance.
+/// If it has not converged after maximum_iterations, the status is not_converged, and the result is
+/// the best iterate with its certificate.
 ///
 /// Cost per column with CHOLMOD and eight columns, in units of F, the time of one factorization of
 /// Q in double precision:
@@ -27,9 +27,9 @@ namespace bindpose
 /// - 10 to 25 F with Eigen's solver.
 ///
 /// Memory, in units of one factor of Q in single precision: one for the common factor, one per
-/// thread for the thread's own factor, and one third per thread for its workspace (63k vertices:
-/// 1.4 GB in total with one thread). With ordered pairs, or if single precision fails, each thread
-/// also stores a factor in double precision.
+/// thread for the factor of that thread, and one third per thread for the workspace of that thread
+/// (63k vertices: 1.4 GB in total with one thread). With ordered pairs, or if single precision
+/// fails, each thread also stores a factor in double precision.
 ///
 /// Hintermueller, Ito and Kunisch 2003; Mehrotra 1992; Gondzio 1996; Jacobson et al. 2011 and 2012
 /// for the problems.
@@ -43,16 +43,17 @@ public:
   BoxQp(const BoxQp&) = delete;
   BoxQp& operator=(const BoxQp&) = delete;
 
-  /// Analyze and factor Q once. This call must succeed before any other call. It reports progress
-  /// as phase "analyze". Return internal_error, before any factorization, if the memory is
-  /// insufficient for these columns.
+  /// Analyze and factor Q once. This function must succeed before any other member function is
+  /// called. It reports progress as phase "analyze". If the memory is insufficient for these
+  /// columns, return internal_error before any factorization.
   /// @param columns the columns that solve_all() will receive. If the memory does not suffice for
   /// one factor per thread, solve_all() uses fewer threads.
   Status prepare(ExecutionContext& context, const std::vector<BoxQpColumn>& columns = {});
 
-  /// Return the minimizers without bounds (#V x m) for m columns of fixed values (#fixed x m).
+  /// Return the weights (#V x m) that minimize the energy without bounds, for m columns of fixed
+  /// values (#fixed x m).
   Eigen::MatrixXd unconstrained(const Eigen::MatrixXd& fixed_values) const;
-  /// Return the inverse of Q's block of free vertices times m columns (#free x m); NaN if the
+  /// Multiply the inverse of Q's block of free vertices by m columns (#free x m). Return NaN if the
   /// memory is insufficient.
   Eigen::MatrixXd inverse(const Eigen::MatrixXd& rhs) const;
 
@@ -73,7 +74,7 @@ public:
   Index free_count() const;
   Index analyses() const;
   Index factorizations() const;
-  /// Return the estimate of the process's peak memory in bytes, which prepare() makes after the
+  /// Return the estimated peak memory of the process in bytes. prepare() computes it after the
   /// analysis.
   double memory_estimate() const;
   /// Return the solver that has analyzed the pattern of Q's block of free vertices.
@@ -84,7 +85,7 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
-/// Return the status of the first column that has no usable result; ok if all columns have one.
+/// Return the status of the first column without a usable result; ok if all results are usable.
 Status worst_of(const std::vector<BoxQpSolution>& solutions);
 
 } // namespace bindpose

@@ -12,11 +12,11 @@ namespace bindpose
 /// Options of BoxQp, the solver of the quadratic programs of bounded weights.
 struct BoxQpOptions
 {
-  /// Upper limit of the relative duality gap and of the natural residual. 1e-6 by default; 1e-9 is
-  /// "tight" and near the limit of double precision on fine meshes. Range (0, 1).
+  /// Upper limit of the relative duality gap and of the natural residual, range (0, 1). 1e-9 is
+  /// near the limit of double precision on fine meshes.
   double tolerance = 1e-6;
-  /// Largest number of iterations per column; each is one factorization. 1 to 3 are usual, 5 to 20
-  /// if the guess of the active bounds is poor, 25 with ordered pairs.
+  /// Largest number of iterations per column, each with one factorization. Usual numbers are 1 to
+  /// 3, or 5 to 20 if the guess of the active bounds is poor, or 25 with ordered pairs.
   int maximum_iterations = 100;
   SparseSolver::Options solver;
 };
@@ -25,16 +25,17 @@ struct BoxQpOptions
 struct BoxQpColumn
 {
   Eigen::VectorXd fixed_values; ///< values at the fixed vertices, in their order
-  /// Vertices that only this column fixes, in addition to the fixed vertices, and their values.
+  /// Vertices that have given values in this column only, in addition to the fixed vertices, and
+  /// these values.
   std::vector<Index> pinned;
   Eigen::VectorXd pinned_values;
   /// Bounds of the vertices that are neither fixed nor pinned, [0, 1] by default. lower < upper is
-  /// required; a vertex with equal bounds must be pinned instead. Both bounds of a vertex are
-  /// finite or both are infinite.
+  /// required, so a vertex with equal bounds must be pinned instead. Either both bounds of a vertex
+  /// are finite or both are infinite.
   Bounds bounds;
   /// Pairs of vertices whose values must be in a given order, optionally with a minimum difference.
-  /// The pairs must have no cycle, and Q must have an entry for every pair. Pairs in which both
-  /// values are given are ignored.
+  /// The pairs must not form a cycle, and Q must store an entry for every pair. Pairs of two
+  /// vertices with given values are ignored.
   std::vector<OrderedPair> pairs;
   Eigen::VectorXd start; ///< #V, initial guess; empty: the minimizer without bounds
   double energy = 0.0; ///< estimate of the minimum energy; 0: use the minimum without bounds

@@ -19,12 +19,13 @@ struct BoxQpWorkspace
   SparseMatrix matrix; ///< the matrix to factor, with the same pattern
 };
 
-/// The map r -> A^-1 r for vectors over all vertices (see certify).
+/// The map r -> A^-1 r. Vectors have one entry per vertex (see certify).
 using InverseForm = std::function<Eigen::VectorXd(const Eigen::VectorXd& r)>;
 
 /// Return the largest change of a weight in one iteration that counts as converged. The certificate
-/// alone is not enough: the gap is quadratic in the error of the weights, so a certified iterate
-/// can be a thousand tolerances away from the minimizer.
+/// alone is not a sufficient criterion, because the gap is quadratic in the error of the weights.
+/// The weights of a certified iterate can differ from the minimizer by a thousand times the
+/// tolerance.
 inline double settled_move(double tolerance)
 {
   return std::max(tolerance, std::min(5.0 * tolerance, 1.5e-6));

@@ -12,7 +12,7 @@ Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
   const std::vector<OrderedPair>& pairs, const Eigen::VectorXd& multipliers,
   const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& inverse)
 {
-  // Q is symmetric. The product with its transpose is faster, because it reads each stored column
+  // Q is symmetric. The product with the transpose is faster, because it reads each stored column
   // once.
   Eigen::VectorXd g = problem.q.transpose() * w;
   Certificate certificate;

@@ -18,8 +18,8 @@ struct OrderedPair
   double least = 0.0;
 };
 
-/// An optimality certificate: a bound on the difference between a column's energy and the minimum,
-/// and the column's residual.
+/// An optimality certificate of a column w: the residual of w, and an upper bound (the gap) on the
+/// difference between the energy of w and the minimum energy.
 ///
 /// Let g = Q w be the gradient. With ordered pairs G w >= h and their multipliers lambda >= 0, let
 /// g' = Q w - G' lambda, else g' = g. The dual of the quadratic program bounds the minimum from
@@ -28,24 +28,24 @@ struct OrderedPair
 /// is a rigorous bound on E(w) - min E, independent of the method that computed w and lambda.
 ///
 /// On needle-shaped elements, and for triharmonic energies, the round-off of Q w (1e-16 of Q's
-/// entries) makes that sum large even if w is optimal. A second bound is equally rigorous, and its
-/// error is the square of the round-off. For any set R of vertices, with r = g' in R and 0
+/// entries) makes this sum large even if w is optimal. A second bound is equally rigorous, but its
+/// error is only the square of the round-off. For any set R of vertices, with r = g' in R and 0
 /// elsewhere,
 ///   gap = lambda' (G w - h) + (the sum above over all vertices not in R) + 1/2 r' A^-1 r
 /// where A is Q's block of free vertices. If A^-1 is given, the smaller of the two bounds is used.
-/// Without bounds on w only the second bound is finite.
+/// If w has no bounds, only the second bound is finite.
 struct Certificate
 {
-  double relative_gap = 0.0; ///< gap / E
+  double relative_gap = 0.0; ///< gap / E (see certify for E = 0)
   /// Natural residual: max over free vertices of |w - clip(w - g' / diag Q, l, u)|.
   double kkt_residual = 0.0;
   double energy = 0.0; ///< E = 1/2 w' Q w
   /// Largest w[low] + least - w[high] over the ordered pairs, at least 0.
   double order_violation = 0.0;
-  double bounds_violation = 0.0; ///< largest distance of w from [l, u]
+  double bounds_violation = 0.0; ///< largest distance of an entry of w from [l, u]
 };
 
-/// Bounds l <= w <= u with one value per vertex. Both may be infinite if there are no bounds.
+/// Bounds l <= w <= u with one value per vertex. Infinite values mean that there is no bound.
 struct Bounds
 {
   Eigen::VectorXd lower; ///< #V; empty: 0 everywhere
@@ -64,8 +64,8 @@ struct BoundedEnergy
   Bounds bounds = {};
 };
 
-/// Compute the certificate of w (#V) from the problem's data alone. The gap is divided by max(E,
-/// 1e-12 * mean diagonal of Q / 2), because E is zero for a column that is constant.
+/// Compute the certificate of w (#V) from the problem's data alone. The relative gap is gap /
+/// max(E, 1e-12 * mean diagonal of Q / 2), because E is zero for a constant column.
 /// @param pairs, multipliers the ordered pairs and their lambda >= 0, of equal length.
 /// @param inverse r -> A^-1 r for vectors over all vertices, zero at vertices with given values.
 Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
@@ -73,7 +73,7 @@ Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
   const Eigen::VectorXd& multipliers = Eigen::VectorXd(),
   const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& inverse = {});
 
-/// Return "are not certified (relative gap …, residual …, asked for …)", for use in a message.
+/// Return "are not certified (relative gap …, residual …, tolerance …)", for use in a message.
 std::string not_certified(double relative_gap, double kkt_residual, double tolerance);
 
 } // namespace bindpose

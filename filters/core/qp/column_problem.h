@@ -9,8 +9,8 @@
 namespace bindpose
 {
 
-/// The problem of one column over the n free vertices: min 1/2 x'Ax + c'x subject to l <= x <= u,
-/// where x is given at pinned vertices.
+/// The problem of one column: min 1/2 x'Ax + c'x subject to l <= x <= u, where x has one entry for
+/// each of the n free vertices. The entries of pinned vertices are given.
 struct ColumnProblem
 {
   ColumnProblem(const SplitForm& matrices, const BoxQpColumn& column);
@@ -26,9 +26,10 @@ struct ColumnProblem
   /// @param all one entry per vertex, #V.
   /// @return one entry per free vertex, n.
   Eigen::VectorXd nearest(const SplitForm& matrices, const Eigen::VectorXd& all) const;
-  /// Extend a vector from the free vertices to all vertices; x is clamped to the bounds.
+  /// Extend a vector from the free vertices to all vertices. The entries of x are clamped to the
+  /// bounds.
   /// @param x one entry per free vertex, n.
-  /// @return #V: x, and the given values.
+  /// @return #V: the entries of x at vertices to solve for, and the given values elsewhere.
   Eigen::VectorXd whole(const SplitForm& matrices, const Eigen::VectorXd& x) const;
 };
 

@@ -3,8 +3,8 @@
 // multipliers of the row sums. The optimality conditions are, for every column j over the free
 // vertices,
 //   A w_j + c_j - z_j + r_j + y = 0,   sum_j w_j = 1,   s z = 0,   t r = 0.
-// Newton's step eliminates s, t, z, r. With H_j = A + diag(z_j / s_j + r_j / t_j), the remaining
-// system is
+// The Newton step eliminates s, t, z and r. With H_j = A + diag(z_j / s_j + r_j / t_j), the
+// remaining system is
 //   H_j dw_j + dy = b_j,   sum_j dw_j = p,   so that   S dy = sum_j H_j^-1 b_j - p
 // with S = sum_j H_j^-1. Here b_j is the right-hand side after the elimination, and p is the
 // residual 1 - sum_j w_j. Every H_j is factored; S is not formed. S has the form of an additive
@@ -12,17 +12,18 @@
 // A, weighted by 1 / k, preconditions conjugate gradients for S. One step of conjugate gradients
 // takes one solve with every H_j and one product with A.
 //
-// Some upper bounds follow from the lower bounds of the other columns and the sum; for example,
-// w <= 1 if all weights are >= 0. They are omitted, because their multipliers would not be unique.
+// Some upper bounds follow from the row sum and the lower bounds of the other columns; for example,
+// w <= 1 if all weights are >= 0. Such bounds are omitted, because their multipliers would not be
+// unique.
 //
-// The certificate is computed for the projection of the iterate to rows that sum to one within the
-// bounds. For any such rows w and q_j = Q w_j,
+// The certificate is computed for the projection of the iterate to rows that sum to one and are
+// within the bounds. For any such rows w and q_j = Q w_j, the value
 //   gap = sum over vertices of q . w - min { q . x : x sums to one, l <= x <= u }
 // bounds E(w) - min E from above, independent of the method that computed w. The minimum over x is
 // found by raising the entries of x to their upper bounds in the order of ascending q. The
 // multiplier -y is the q of the entry that is raised only in part. The second bound of
-// certificate.h, which is less sensitive to round-off, holds for q + y too. The residual is that of
-// the projection:
+// certificate.h, which is less sensitive to round-off, is also valid with q + y as gradient. The
+// residual is
 //   max |w - project(w - q / diag Q)|.
 #include "qp/coupled_qp.h"
 
@@ -58,8 +59,8 @@ struct Row
   }
 };
 
-/// Project the values to the nearest values within the bounds that have the required sum: add the
-/// same shift to all values, then clip them.
+/// Replace the values by the nearest values that are within the bounds and have the required sum:
+/// add the same shift to all values, then clip them to the bounds.
 void project(Row& row)
 {
   const std::size_t count = row.value.size();
@@ -101,8 +102,8 @@ void project(Row& row)
   }
 }
 
-/// Minimize gradient . x over all rows x within the bounds that have the required sum: raise the
-/// entries in the order of ascending gradients.
+/// Minimize gradient . x over all rows x that are within the bounds and have the required sum:
+/// raise the entries from their lower bounds, in the order of ascending gradients.
 /// @return the gradient of the entry that is raised only in part.
 double fill_up(const Row& row, std::vector<std::size_t>& order, std::vector<double>& x)
 {
@@ -179,7 +180,7 @@ private:
   MatrixXd rd_, rs_, rt_; // residuals
   VectorXd rp_;
   MatrixXd d_; // n x m: terms added to A's diagonal
-  // n: the diagonal scaling and the smallest d_ per vertex, for the preconditioner.
+  // n: for the preconditioner, the diagonal scaling and the smallest entry of d_ per vertex.
   VectorXd share_, least_d_;
   std::vector<SparseSolver> solvers_;
   CoupledSolution result_, best_;
@@ -310,8 +311,8 @@ void CoupledQp::set_start(const MatrixXd& start)
   {
     energy += 0.5 * this->x_.col(j).dot(gradient.col(j));
   }
-  // mu is computed from the whole energy. With a tenth or a hundredth of the energy, the number of
-  // iterations is larger by half (measured).
+  // The barrier weight mu is computed from the whole energy. With a tenth or a hundredth of the
+  // energy, 1.5 times as many iterations are needed (measured).
   constexpr double least = 1e-2;
   constexpr double of_energy = 1.0;
   const double mu = of_energy * std::abs(energy) / std::max(1.0, this->solved_.sum());
@@ -375,8 +376,8 @@ Status CoupledQp::factor()
       return status;
     }
   }
-  // For each vertex, the preconditioner needs the effective number of columns that are solved for,
-  // and the smallest entry of d_ in these columns.
+  // For the preconditioner, compute for each vertex the smallest entry of d_ and the effective
+  // number of columns, both over the columns in which the vertex is solved for.
   const VectorXd diagonal = this->matrices_.a.diagonal();
   this->share_ = VectorXd::Zero(this->n_);
   this->least_d_ = VectorXd::Zero(this->n_);

@@ -11,8 +11,9 @@ struct CoupledSolution
 {
   /// See BoxQpSolution; invalid_input if bounds and pins admit no row that sums to one.
   Status status;
-  /// One solution per column. Its certificate contains the gap and the residual of the whole
-  /// problem and the energy of the column. Rows sum to one, within the bounds.
+  /// One solution per column. The certificate of a column contains the gap and the residual of the
+  /// whole problem, but the energy of that column. Rows sum to one, and weights are within the
+  /// bounds.
   std::vector<BoxQpSolution> columns;
   Certificate certificate; ///< certificate of the whole problem, as described in coupled_qp.cpp
   Eigen::VectorXd multipliers; ///< #V, Lagrange multipliers of the row sums
@@ -22,17 +23,17 @@ struct CoupledSolution
   int inner_iterations = 0; ///< iterations of conjugate gradients
 };
 
-/// Solve min sum of 1/2 w_j' Q w_j over all columns j, subject to l <= w <= u, the columns' fixed
-/// and pinned values, and rows that sum to one.
+/// Solve min sum of 1/2 w_j' Q w_j over all columns j, such that l <= w <= u, fixed and pinned
+/// values are kept, and rows sum to one.
 ///
 /// The method is a primal-dual interior-point method that starts from nearly optimal rows. Each
-/// iteration factors Q once per column, as BoxQp does, and computes the multipliers of the row sums
-/// by conjugate gradients. Each step of conjugate gradients takes one solve per column. The factors
-/// of all columns are in memory at the same time, in double precision. Cost and size:
+/// iteration computes one factorization per column, as in BoxQp, and finds the multipliers of the
+/// row sums by conjugate gradients. Each step of conjugate gradients takes one solve per column.
+/// The factors of all columns are in memory at the same time, in double precision. Cost and size:
 /// filters/README.md.
-/// @param q, fixed, columns see BoxQp; ordered pairs and starts of columns are ignored.
+/// @param q, fixed, columns see BoxQp. The members `pairs` and `start` of the columns are ignored.
 /// @param start #V x #columns, weights whose rows nearly sum to one.
-/// @param prepared a solver of the same q and fixed vertices.
+/// @param prepared a BoxQp for the same q and fixed vertices, after prepare().
 CoupledSolution solve_coupled_qp(const SparseMatrix& q, const std::vector<Index>& fixed,
   const std::vector<BoxQpColumn>& columns, const Eigen::MatrixXd& start, const BoxQp& prepared,
   const BoxQpOptions& options, ExecutionContext& context);

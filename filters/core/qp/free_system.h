@@ -8,8 +8,8 @@
 namespace bindpose
 {
 
-/// Linear systems with given values at the fixed vertices. The block of a symmetric matrix that
-/// belongs to the free vertices is factored in double precision.
+/// A solver of linear systems with given values at the fixed vertices. It factors the block of the
+/// free vertices of a symmetric matrix, in double precision.
 class FreeSystem
 {
 public:
@@ -20,15 +20,15 @@ public:
   /// Factor the matrix. This must succeed before any solve.
   Status factor(const SparseSolver::Options& options, ExecutionContext& context);
 
-  /// Return the minimizers (#V x m) of 1/2 w' A w with these values at the fixed vertices, where A
-  /// is the matrix. If all off-diagonal entries of A are <= 0, the relative errors are small even
-  /// for tiny values.
+  /// Let A be the matrix. Return the minimizers w (#V x m) of 1/2 w' A w with the given values at
+  /// the fixed vertices. If all off-diagonal entries of A are <= 0, the relative errors are small
+  /// even for tiny values.
   /// @param fixed_values #fixed x m.
   Eigen::MatrixXd minimizers(const Eigen::MatrixXd& fixed_values) const;
 
   /// Solve A w = rhs for the free rows of w, given rhs (#V x m) and the fixed rows of w.
-  /// @return for each column the largest residual divided by the diagonal entry, which is the
-  /// change of a single vertex that would make its residual zero.
+  /// @return for each column, the largest quotient of residual and diagonal entry. The quotient of
+  /// a vertex is the change of its value that would make its residual zero.
   Eigen::VectorXd solve(const Eigen::MatrixXd& rhs, Eigen::MatrixXd& w) const;
 
 private:

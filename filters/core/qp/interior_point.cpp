@@ -11,22 +11,23 @@
 // mesh, which the pattern of A includes. So one ordering and one symbolic analysis serve all
 // iterations.
 //
-// If available, the factorization is in single precision. It is the preconditioner of one or two
-// steps of conjugate gradients in double precision (float_cholesky.cpp). Matrices for which these
-// steps are not accurate enough are factored in double precision. This always happens with ordered
-// pairs, because their multipliers span too many orders of magnitude.
+// If available, the factorization is in single precision. The factor is the preconditioner of one
+// or two steps of conjugate gradients in double precision (float_cholesky.cpp). If these steps are
+// not accurate enough, the matrix is factored in double precision. With ordered pairs this always
+// happens, because their multipliers span too many orders of magnitude.
 //
 // Slacks are separate variables: Bx + h = s holds only in the limit. An iterate may therefore
-// violate the bounds temporarily. Compared with slacks that are computed from x, this saves about a
-// third of the iterations. Each factorization is used for a predictor, Mehrotra's corrector and a
-// few of Gondzio's centrality correctors. Primal and dual step lengths differ without pairs and are
-// equal with pairs (measured to be best in both cases).
+// violate the bounds temporarily. Separate slacks save about a third of the iterations, compared
+// with slacks that are computed from x. Each factorization is used for a predictor, Mehrotra's
+// corrector and a few of Gondzio's centrality correctors. Without pairs, the primal and the dual
+// step have different lengths; with pairs, the lengths are equal. In both cases the choice was
+// measured to be best.
 //
-// Near the minimum the central path converges slowly: a tiny weight that is not at a bound
-// approaches its value like the square root of mu, the mean of the products s z. So once the
-// weights change little, a projected Newton method is tried, which solves with the last factor
-// (projected_newton.cpp). If it does not converge, the interior-point method continues from the
-// unchanged iterate.
+// Near the minimum the central path converges slowly. Let mu be the mean of the products s z. The
+// error of a tiny weight that is not at a bound decreases only like the square root of mu. So when
+// the weights change little, a projected Newton method with the last factor is tried
+// (projected_newton.cpp). If it does not converge, the interior-point method continues from its
+// last iterate, which the attempt does not change.
 //
 // The result is never the interior iterate but its projection to the bounds (and to the order of
 // the pairs). The certificate is computed for that projection.
@@ -60,8 +61,8 @@ struct PairRow
   Index pair = 0; // index of the pair in the column's list
 };
 
-/// The solve of one column. Vectors over constraints contain an entry of x >= l for each bounded
-/// unknown, then an entry of x <= u for each, then one entry for each pair.
+/// The solve of one column. Vectors over constraints have one entry per constraint: first x >= l
+/// for each bounded vertex, then x <= u for each bounded vertex, then each pair.
 class InteriorPoint
 {
 public:
@@ -111,10 +112,10 @@ private:
 
   const ColumnProblem problem_;
   std::vector<Index> unpinned_; // free indices of vertices that are not pinned
-  std::vector<Index> bounded_; // the indices of unpinned_ that have bounds
+  std::vector<Index> bounded_; // the entries of unpinned_ whose vertices have bounds
   std::vector<PairRow> rows_;
   std::vector<OrderedPair> upwards_; // the column's pairs, sorted by upward_pairs()
-  VectorXd h_; // constant terms of the constraints
+  VectorXd h_; // constant terms h of the constraints
   VectorXd x_, s_, z_;
   VectorXd rd_, rp_; // residuals of the first two optimality conditions
   VectorXd quotient_; // z / s
@@ -283,9 +284,9 @@ Status InteriorPoint::factor(const VectorXd& d)
     {
       this->inverse_diagonal_[i] = 1.0 / values[matrices.diagonal[i]];
     }
-    // If factorization fails in single precision because a matrix pivot is not positive, a shift of
-    // the diagonal makes it succeed, and conjugate gradients correct the effect of the shift. The
-    // next iteration starts with the same shift.
+    // The factorization fails in single precision if a pivot of the matrix is not positive. A shift
+    // of the diagonal then makes it succeed, and conjugate gradients correct the effect of the
+    // shift. The next iteration starts with the same shift.
     constexpr double least_shift = 1e-6;
     constexpr double largest_shift = 1e-3;
     do
@@ -480,7 +481,8 @@ InteriorPoint::Direction InteriorPoint::find_direction()
 }
 
 /// Set the initial x, s and z.
-/// @param central use the start that was computed for all columns together, if there is one.
+/// @param central if true, use the start that was computed for all columns together (see
+/// ColumnStart), if there is one.
 void InteriorPoint::set_start(bool central)
 {
   const auto& matrices = this->matrices_;
@@ -500,8 +502,8 @@ void InteriorPoint::set_start(bool central)
   const double energy_within = 0.5 * within.dot(matrices.q.transpose() * within);
   if (!(energy > 1e-9 * energy_within))
   {
-    // Without its own bounds and pins the column would be constant, and its minimum energy would be
-    // zero.
+    // The minimum energy without bounds is zero, because the minimizer is constant. Use the energy
+    // of the start, which satisfies bounds and pins.
     energy = energy_within;
   }
   // The values of `least` and of the factor 10 below were measured on boxes and on real shapes.
@@ -513,9 +515,9 @@ void InteriorPoint::set_start(bool central)
   this->z_ = mu * this->s_.cwiseInverse();
 }
 
-/// Correct a start that is far from the central path. If a column had not converged after all
-/// splitting steps (splitting_start.h), its multipliers are too small, and the following step
-/// lengths are short. Larger multipliers and slacks halve the number of iterations.
+/// Correct a start that is far from the central path. If the start of a column did not converge in
+/// splitting_start(), its multipliers are too small, and the following step lengths are short.
+/// Larger multipliers and slacks halve the number of iterations.
 void InteriorPoint::balance_start()
 {
   const double gap = this->result_.certificate.relative_gap;
@@ -643,21 +645,21 @@ BoxQpSolution InteriorPoint::run()
     this->best_ = this->result_;
     this->balance_start();
   }
-  // After certification, a few more iterations let the weights converge. They do not affect the
-  // status.
+  // After an iterate is certified, a few more iterations let the weights converge. These iterations
+  // do not affect the status.
   constexpr int most_settling = 6;
   const double settled = settled_move(tolerance);
   int settling = 0;
   // The projected Newton method is tried if no weight changed by more than `near` in the last
   // iteration. It converges many times faster than the central path and requires only solves with
-  // the current factor. For larger changes it fails too often (measured). It is also tried once for
-  // the first certified iterate.
+  // the current factor. After larger changes it fails too often (measured). It is also tried once
+  // when the first iterate is certified.
   double near = 4e-5;
   int tries = 0;
   // 5 to 15 iterations are usual. If the form is very ill-conditioned (triharmonic energies of fine
-  // meshes), all step lengths can be too short if the iteration begins at the start that was
-  // computed for all columns together. Then the solve is restarted without that start, and later
-  // switches to double precision if it still has not converged.
+  // meshes), all step lengths can be too short after the start that was computed for all columns
+  // together. Then the solve begins again without this start after begin_anew_after iterations. If
+  // it still has not converged after double_after iterations, it continues in double precision.
   constexpr int begin_anew_after = 25;
   constexpr int double_after = 60;
   // With ordered pairs, the method stalls near the end if its factors are in single precision.

@@ -53,8 +53,8 @@ void sort_pairs(std::vector<OrderedPair>& pairs)
 std::vector<Index> upward_order(const std::vector<OrderedPair>& pairs, Index count)
 {
   std::vector<std::vector<Index>> above(static_cast<std::size_t>(count));
-  // For each vertex, the number of pairs of which it is the `high` vertex and whose `low` vertex is
-  // not in the order yet.
+  // For each vertex, the number of pairs in which this vertex is `high` and whose `low` vertex is
+  // not yet in the order.
   std::vector<Index> open(static_cast<std::size_t>(count), 0);
   for (const OrderedPair& pair : pairs)
   {
@@ -100,8 +100,8 @@ std::vector<OrderedPair> upward_pairs(
 void order_values(const std::vector<OrderedPair>& upwards, const std::vector<char>& is_free,
   const Eigen::VectorXd& highest, Eigen::VectorXd& values)
 {
-  // The upper limit of each vertex: the smallest of its own limit and the limits of all vertices
-  // that must be above it, each reduced by the minimum differences of the pairs between them.
+  // Upper limits of the values that also satisfy the pairs. The limit of a vertex is at most the
+  // limit of each vertex that must be above it, minus the minimum difference of that pair.
   Eigen::VectorXd cap = highest;
   for (Index v = 0; v < values.size(); ++v)
   {

@@ -13,7 +13,7 @@ using Eigen::VectorXd;
 
 namespace
 {
-/// Return the value of vertex i at which the energy is least if all other values stay the same.
+/// Return the value of vertex i that minimizes the energy while all other values stay the same.
 /// Bounds are ignored.
 double newton_step(const SplitForm& matrices, const VectorXd& gradient, const VectorXd& x, Index i)
 {
@@ -55,7 +55,8 @@ double projected_newton(const SplitForm& matrices, const ColumnProblem& problem,
   VectorXd r, z, p, ap;
   double moved = 1.0;
   double before = 1e300;
-  // Stop if the changes do not decrease, because then the set of held vertices is still wrong.
+  // Stop if the largest change does not decrease, because then the set of held vertices is still
+  // wrong.
   for (int round = 0;
        round < rounds && moved > enough && moved < 0.9 * before && !context.canceled(); ++round)
   {

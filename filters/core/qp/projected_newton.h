@@ -10,7 +10,8 @@
 namespace bindpose
 {
 
-/// The map r -> z, where z approximates A^-1 r. It is symmetric and positive definite.
+/// A map r -> z, where z approximates A^-1 r. The map must be linear, symmetric and positive
+/// definite.
 using Preconditioner = std::function<void(const Eigen::VectorXd& r, Eigen::VectorXd& z)>;
 
 /// Return the held vertices: vertices whose value is kept at a bound during a Newton step. A vertex
@@ -21,14 +22,14 @@ using Preconditioner = std::function<void(const Eigen::VectorXd& r, Eigen::Vecto
 std::vector<char> held_vertices(const SplitForm& matrices, const ColumnProblem& problem,
   const Eigen::VectorXd& gradient, const Eigen::VectorXd& x);
 
-/// Improve a point that is already close to the minimizer of 1/2 x'Ax + c'x, l <= x <= u, by a
-/// projected Newton method. Its linear systems are solved by a few iterations of conjugate
-/// gradients. No factorization is computed: the cost is 5 to 20 calls of the preconditioner.
-/// Optimality is not tested; the caller computes the certificate for that purpose.
+/// Improve a point that is already close to the minimizer of 1/2 x'Ax + c'x subject to l <= x <= u,
+/// by a projected Newton method. The linear systems are solved by a few iterations of conjugate
+/// gradients. No factorization is computed, so the cost is 5 to 20 calls of the preconditioner.
+/// This function does not test whether x is optimal; the caller must compute the certificate.
 ///
 /// Bertsekas 1982, Projected Newton methods for optimization problems with simple constraints.
 /// @param rounds maximum number of Newton rounds.
-/// @param enough stop if no entry changes by more than this in a round.
+/// @param enough the method stops after a round in which no entry changes by more than this.
 /// @param x one entry per free vertex, within the bounds before and after.
 /// @return the largest change of an entry in the last round.
 double projected_newton(const SplitForm& matrices, const ColumnProblem& problem,

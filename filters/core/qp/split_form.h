@@ -9,8 +9,8 @@
 namespace bindpose
 {
 
-/// A quadratic form, split into blocks of free vertices, which are solved for, and of fixed
-/// vertices, whose values are given.
+/// A quadratic form, split into blocks. Free vertices are solved for; fixed vertices have given
+/// values.
 struct SplitForm
 {
   SplitForm() = default;
@@ -47,7 +47,7 @@ struct SplitForm
   int position(Index i, Index j) const;
 };
 
-/// Replace the message of a factorization that failed with invalid_input: the block of free
+/// Change the message if a factorization failed with invalid_input. In this case the block of free
 /// vertices is not positive definite, so the form has no unique minimum. Return any other status
 /// unchanged.
 Status without_minimum(Status of_factor);

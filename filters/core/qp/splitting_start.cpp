@@ -1,15 +1,15 @@
 // Starts of all columns by Douglas-Rachford splitting (see splitting_start.h). The objective is the
-// sum of a quadratic function and of a function that keeps each vertex within its bounds: the
-// bounds themselves, or barriers. The splitting minimizes the two alternately, in the metric P, a
-// small multiple of A's diagonal:
+// sum of two functions: a quadratic function, and a function that keeps each vertex within its
+// bounds (infinite outside of the bounds, or a barrier). The splitting minimizes the two functions
+// alternately, in the metric P, which is a small multiple of A's diagonal:
 //   y = the point within the bounds nearest to z, or
 //       argmin barrier(y) + 1/2 |y - z|_P^2      (one scalar equation per vertex)
 //   x = argmin quadratic(x) + 1/2 |x - (2y - z)|_P^2 = (A + P)^-1 (P (2y - z) - c)
 //   z = z + relaxation (x - y)
-// In the limit y is the minimizer. Without barriers, z is beyond the bound of a vertex if that
-// bound is active. The matrix A + P is the same for all columns and iterations, so the solves of
-// all columns use the same factor and run as dense products. Anderson acceleration replaces z by
-// the combination of the last few iterates for which x - y would be smallest if the iteration were
+// In the limit y is the minimizer. Without barriers, a bound of a vertex is active if z is beyond
+// this bound. The matrix A + P is the same for all columns and iterations, so the solves of all
+// columns use the same factor and run as dense products. Anderson acceleration replaces z by the
+// combination of the last few iterates for which x - y would be smallest if the iteration were
 // linear.
 //
 // The constants were measured on boxes and on real shapes with 5k to 70k vertices.
@@ -39,13 +39,15 @@ constexpr double relative_mu = 1e-4; // target of the relative gap with barriers
 constexpr double metric = 1e-2; // P as a fraction of A's diagonal
 constexpr double relaxation = 1.7;
 constexpr int steps = 80;
-// A column has converged if the square of its last step is at most this fraction of its energy.
+// A column has converged if the squared length of its last step x - y, in the metric P, is at most
+// this fraction of its energy.
 constexpr double settled_change = 1e-7;
 constexpr int memory = 8; // number of past iterations for Anderson acceleration
 constexpr Index largest_block = 4; // number of columns that are solved together
 
-/// Return the y in (0, 1) with p (y - z) = mu / y - mu / (1 - y), by Newton's method that starts
-/// near the bound that is closer to z.
+/// Return the solution y in (0, 1) of y - z = mu_per_p / y - mu_per_p / (1 - y), where mu_per_p is
+/// mu divided by the vertex's entry of P. Newton's method starts near the bound that is closer to
+/// z.
 double barrier_step(double z, double mu_per_p)
 {
   // Without the barrier of the farther bound the equation is quadratic. Start from the root of this
@@ -80,7 +82,7 @@ public:
 
   /// Replace z by the next iterate.
   /// @param z point where the iteration was evaluated; replaced by the next point.
-  /// @param change result of the iteration minus z
+  /// @param change result of the iteration minus z.
   void accelerate(VectorXd& z, const VectorXd& change, const VectorXd& weights)
   {
     const VectorXf f = change.cwiseProduct(weights).cast<float>();

@@ -15,9 +15,9 @@ struct ColumnStart
 {
   Eigen::VectorXd x; ///< the guess, one entry per free vertex, within the bounds; empty: no guess
   std::vector<char> held; ///< per free vertex: 1 if x is given or expected to be at a bound
-  /// If above 0, x is a point of the central path: it is near the minimizer of the problem in which
-  /// the bounds of each vertex are replaced by the barrier mu (-log(x - l) - log(u - x)). `held` is
-  /// then empty.
+  /// If above 0, x is near a point of the central path, and `held` is empty. A point of the central
+  /// path is the minimizer if the bounds of each vertex are replaced by the barrier
+  ///   -mu (log(x - l) + log(u - x)).
   double mu = 0.0;
 };
 
@@ -25,17 +25,18 @@ struct ColumnStart
 /// Anderson acceleration. One factorization in single precision serves all columns and iterations;
 /// each iteration is one solve for all columns together. The result is bitwise the same for any
 /// number of threads. Every iteration checks for cancel.
-/// Cost per column: 0.5 to 1 factorization in double precision for eight columns, about 2 for a
-/// single column.
+/// Cost per column, in factorizations in double precision: 0.5 to 1 for eight columns, about 2 for
+/// a single column.
 ///
 /// Douglas and Rachford 1956; Eckstein and Bertsekas 1992; Walker and Ni 2011 for Anderson
 /// acceleration.
-/// @param barriers compute points of the central path, with a relative gap of about 1e-4, instead
-/// of minimizers within the bounds.
+/// @param barriers if true, compute points of the central path with a relative gap of about 1e-4.
+/// If false, compute minimizers within the bounds.
 /// @param unconstrained #V x #columns, the minimizers without bounds.
-/// @param single a solver that has analyzed matrices.lower; this function factors with it.
-/// @return one start per column. It is empty if the factorization fails, if the call is canceled,
-/// or if barriers are requested and the energy is zero.
+/// @param single a solver that has analyzed matrices.lower. This function uses the solver for its
+/// factorization.
+/// @return one start per column. A start is empty if the factorization fails, if the call is
+/// canceled, or if barriers are requested and the column's energy without bounds is zero.
 std::vector<ColumnStart> splitting_start(const SplitForm& matrices,
   const std::vector<BoxQpColumn>& columns, bool barriers, const Eigen::MatrixXd& unconstrained,
   FloatCholesky& single, ExecutionContext& context);

@@ -115,8 +115,8 @@ void spread(const RegionBoundary& region, Index f, double spacing, const Found& 
   const double area = 0.5 * a.cross(b).norm();
   for (double row = 0.0; row < rows; ++row)
   {
-    // The row's point is at the middle of the row's area. The point of a single row is the center
-    // of the triangle.
+    // Points are on the center line of the row. If there is only one row, they are at two thirds of
+    // the triangle's height, so that a single point is the triangle's centroid.
     const double t = rows > 1.0 ? (row + 0.5) / rows : 2.0 / 3.0;
     const double columns = std::clamp(std::ceil(t * least / spacing), 1.0, most);
     const double share = area * (2.0 * row + 1.0) / (rows * rows * columns);

@@ -30,13 +30,14 @@ public:
   bool bounded_at(Index f, const Vec3& p) const;
   /// Report whether the region is on exactly one side of triangle f near its corner k.
   bool bounded_at_corner(Index f, int k) const;
-  /// Return the thickness of the region at p, where triangle f bounds it, along the normal. The gap
-  /// on the other side of the triangle is measured too, and the smaller value is returned. The
-  /// search starts at the distance `smallest` and ends at `largest`, which is the maximum result.
+  /// Return the thickness of the region at p along the normal of triangle f, which bounds the
+  /// region at p, or the width of the gap on the other side of f if the gap is narrower. The result
+  /// is approximate: distances from `smallest` to `largest` are tested, each 1.5 times the previous
+  /// one. The result is `largest` if no test finds the other side.
   double thickness(Index f, const Vec3& p, double smallest, double largest) const;
   /// Move p along the unit vector n onto the boundary of the region, by at most `reach` in either
-  /// direction. The error is 2^-20 times `reach`. n points outwards. @return true if the search
-  /// line starts inside and ends outside, otherwise false.
+  /// direction. The error is 2^-20 times `reach`. n points outwards. @return true if p - reach n is
+  /// inside and p + reach n is outside; otherwise p does not change.
   bool onto_boundary(Vec3& p, const Vec3& n, double reach) const;
   /// Return the unit normal, or zero for a triangle without area.
   Vec3 normal(Index f) const;
@@ -60,7 +61,8 @@ struct BoundarySampling
 {
   double smallest = 0.0; ///< length of the shortest requested edges, > 0
   double largest = 0.0; ///< length of the longest requested edges, >= smallest
-  /// Maximum of the difference of two edge lengths divided by the distance of their sites.
+  /// Maximum growth rate: the difference of two edge lengths divided by the distance of their
+  /// sites.
   double growth = 0.3;
 };
 
@@ -68,15 +70,17 @@ struct BoundarySampling
 struct BoundarySites
 {
   Points points; ///< #S x 3: input vertices on the boundary, then points inside triangles
-  /// Requested lengths, #S: for a vertex the mean of the shortest edges of its triangles, for a
-  /// point the shortest edge of its triangle. A length is at most the thickness of the region (or
-  /// of the gap next to it) and within the bounds.
+  /// Requested edge lengths, #S, from `smallest` to `largest`. The length at a point inside a
+  /// triangle is that of the triangle's shortest edge, but at most the thickness of the region (or
+  /// of the gap next to it). The length at a vertex is the mean of the shortest edges of its
+  /// triangles.
   Eigen::VectorXd lengths;
   Eigen::VectorXd areas; ///< #S: area that the site represents, 0 for vertices
   std::vector<Index> vertices; ///< input ids of the sites that are vertices; these sites come first
 };
 
-/// Compute sites on every triangle, about `largest` apart. Cost: about 5 us per triangle.
+/// Compute sites on the triangles that bound the region, about `largest` apart. Cost: about 5 us
+/// per triangle.
 /// @return false when canceled.
 bool sample_boundary(const RegionBoundary& region, const BoundarySampling& options,
   BoundarySites& sites, ExecutionContext& context);

@@ -47,13 +47,14 @@ struct Segmentation
 };
 
 /// Label tets as inside or outside from their winding numbers, by one optimization over all tets.
-/// With w' = w - winding_threshold + 1/2, the energy has two terms. The first is the sum over tets
-/// of max(w', 0) for tets outside and max(1 - w', 0) for tets inside. The second is the sum, over
-/// facets between a tet inside and one outside, of cut_smoothness * area / mean area * exp(-(w_i -
-/// w_j)^2 / (2 cut_sigma^2)) (Jacobson, Kavan, Sorkine-Hornung, Robust Inside-Outside Segmentation
-/// using Generalized Winding Numbers, 2013, equation 10 with its misprint corrected). The boundary
-/// of the tets inside then follows the surface, where the winding number jumps. In openings its
-/// area is small, whereas the boundary that results from a threshold is ragged.
+/// With w' = w - winding_threshold + 1/2, the energy has two terms. The first term is the sum of
+/// max(w', 0) over all tets outside and max(1 - w', 0) over all tets inside. The second term is the
+/// sum, over all facets between a tet inside and a tet outside, of cut_smoothness * area / mean
+/// area * exp(-(w_i - w_j)^2 / (2 cut_sigma^2)) (Jacobson, Kavan, Sorkine-Hornung, Robust
+/// Inside-Outside Segmentation using Generalized Winding Numbers, 2013, equation 10 with its
+/// misprint corrected). The boundary of the tets inside then follows the surface, where the winding
+/// number jumps. In openings the area of this boundary is small, whereas a threshold gives a ragged
+/// boundary there.
 /// @return invalid_input if an option is out of range; canceled; or ok. Cost: 3 us per tet.
 Status segment_tets(PointsView points, TetsView tets, const Eigen::VectorXd& winding_numbers,
   const SegmentationOptions& options, Segmentation& result, ExecutionContext& context);

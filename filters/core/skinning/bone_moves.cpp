@@ -1,9 +1,9 @@
 // Displacements by stretchable, twistable bones (Jacobson and Sorkine 2011), for a tile of
 // vertices.
 //
-// At a point (x, y, z) of a bone's frame the endpoint weight is e = z / length, clamped to [0, 1],
-// and the angle of the twist is a = (1 - e) head + e tail, where `head` and `tail` are the twists
-// at the ends. `vector` points from the head to the tail. Twist and stretch add to the point
+// At a point (x, y, z) of a bone's frame the endpoint weight is e = z / length, clamped to [0, 1].
+// The angle of the twist is a = (1 - e) head + e tail, where `head` and `tail` are the twists at
+// the ends. `vector` points from the head to the tail. Twist and stretch add to the point
 //
 //     ( -sin a y - (1 - cos a) x,  sin a x - (1 - cos a) y,  0 )  and  e (stretch - 1) vector.
 //

@@ -10,14 +10,15 @@
 namespace bindpose
 {
 
-/// A bone that stretches or twists, and the map to its own frame: the z axis points from the head
-/// along the bone, x and y are perpendicular to the bone.
+/// A bone that stretches or twists, and the map to the bone's own frame. The z axis of this frame
+/// points from the head along the bone; x and y are perpendicular to the bone.
 template <typename Scalar>
 struct BoneFrame
 {
   Scalar coordinates[3][4]; ///< rows that map (point, 1) to x, y and z
   /// Directions in space after the bone's transform: four times the x axis, four times the y axis,
-  /// and the displacement of the tail by the stretch.
+  /// and the displacement of the tail by the stretch. The factor four cancels the factor 1/4 of the
+  /// computed sine and cosine terms.
   Scalar directions[3][3];
   Scalar per_length; ///< the endpoint weight is z times this factor, clamped to [0, 1]
   /// Twist at the head, and the difference between the twists at tail and head, in turns.

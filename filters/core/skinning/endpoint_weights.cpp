@@ -45,7 +45,7 @@ void add_words(const Status& step, Status& status)
   }
 }
 
-/// The ends of all bones without duplicate positions.
+/// The ends of all bones as point handles, one per position.
 struct Joints
 {
   Handles handles;

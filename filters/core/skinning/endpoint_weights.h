@@ -35,8 +35,8 @@ const char* to_string(EndpointMethod method);
 using BoundedSolve = std::function<Status(const Handles&, ExecutionContext&, Weights&)>;
 
 /// Compute endpoint weights of stretchable, twistable bones (Jacobson and Sorkine 2011), see
-/// Skinning. In the method `joints`, the projection is blended in with a weight of 1e-4. Therefore
-/// the result changes continuously to the projection where the weights of both ends vanish.
+/// Skinning. The method `joints` adds the projection with a weight of 1e-4. Therefore the result
+/// changes continuously to the projection where the weights of both ends vanish.
 /// @param endpoints #V x #handles, values from 0 to 1; NaN in the columns of handles that are not
 /// bones.
 /// @return invalid_input if there is no bone; otherwise the status of `solve`, with each warning

@@ -29,12 +29,12 @@ struct MovingLeastSquaresOptions
 ///
 /// Points, cage vertices and pivots of regions contribute with their positions; their rotations are
 /// ignored. Bones contribute as line segments (section 3 of the paper). The weight of a bone is an
-/// integral over the bone, scaled so that a bone as long as the handles' extent (the largest
-/// distance between two ends) has the same weight as a point. A rotation about the bone itself has
-/// no effect. A handle in mode free has no effect. If a pose moves all handles by one rigid motion,
-/// all points move by this motion, provided that the handles determine it: two points in a plane,
-/// or three points in space that are not on a line. Otherwise the smallest of the possible
-/// rotations is used.
+/// integral over the bone. It is scaled so that a bone as long as the handles' extent has the same
+/// weight as a point. (The extent is the largest distance between two ends.) A rotation about the
+/// bone itself has no effect. A handle in mode free has no effect. If a pose moves all handles by
+/// one rigid motion, all points move by this motion, provided that the handles determine it. Two
+/// points determine a motion in a plane; three points that are not on a line determine a motion in
+/// space. Otherwise the smallest of the possible rotations is used.
 ///
 /// If the rest shape, the handles at rest and the posed handles are each in a plane z = const, the
 /// rotation is within the plane. Otherwise the rotation is in space.
@@ -55,8 +55,9 @@ public:
   Status warp(
     ExecutionContext& context, const Handles& handles, const Pose& pose, Points& posed) const;
 
-  /// Weight of a handle at a vertex: its amount (1 for the nearest handle if it is a point), the
-  /// weighted mean of the positions along the bone (0 head, 1 tail), and their variance.
+  /// Weight of a handle at a vertex. The amount is the total weight (1 for the nearest handle if
+  /// that handle is a point). For a bone, `mean` and `variance` are those of the weighted positions
+  /// along the bone (0 head, 1 tail).
   struct Share
   {
     double amount = 0.0, mean = 0.0, variance = 0.0;

@@ -2,11 +2,11 @@
 //
 // The similarity of weights is a sum over pairs of handles. The term of a pair is a smooth function
 // of only two weights. Therefore, for each pair, elements that have nearly the same two weights are
-// grouped, whatever their other weights are. Each group contributes one term. Groups are formed in
-// the plane of the two weights: a set of elements is halved along the weight with the larger range,
-// until both ranges are at most the group size. With twenty handles of global influence, almost no
-// two elements have similar rows of weights, but hundreds of elements have similar pairs of
-// weights.
+// grouped, whatever their other weights are. Each group contributes one term. A pair of weights is
+// a point in a plane. A set of elements is split in two along the weight with the larger range,
+// until the ranges of both weights are at most the group size. With twenty handles of global
+// influence, almost no two elements have similar rows of weights, but hundreds of elements have
+// similar pairs of weights.
 //
 // The groups of each pair are contiguous. The groups of a pair are computed from all elements in
 // which both handles have a weight. A vertex at which both handles have a weight loops over the

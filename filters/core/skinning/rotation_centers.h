@@ -13,12 +13,12 @@ struct RotationCentersOptions
 {
   /// Width of the similarity function (sigma in the paper), above 0; 0.1 by default.
   double width = 0.1;
-  /// Weights below this value count as zero, 0 to 1. 1e-4 by default: the effect of such a weight
-  /// is invisible, and most weights in dense rows are below it.
+  /// Weights below this value count as zero, 0 to 1. 1e-4 by default: smaller weights have no
+  /// visible effect, and most weights in dense rows are smaller.
   double smallest_weight = 1e-4;
-  /// A pair of a vertex's handles is ignored if its product of weights is less than this fraction
-  /// of the largest product of the vertex, 0 to 1. 1e-3 by default; if there are many handles, most
-  /// pairs are below this value.
+  /// A vertex ignores a pair of handles if the product of their two weights is less than this
+  /// fraction of its largest product, 0 to 1. 1e-3 by default. If there are many handles, most
+  /// pairs are ignored.
   double smallest_pair = 1e-3;
   /// Elements whose weights for a pair of handles differ by at most this value form one group for
   /// that pair. The group has the mean of these weights. 0: only equal weights are grouped, which
@@ -34,8 +34,8 @@ struct RotationCentersOptions
 ///     s(a, b) = sum over pairs j < k of a_j a_k b_j b_k exp(-((a_j b_k - a_k b_j) / width)^2).
 ///
 /// The integral is a sum over the elements, with the mean weights of the corners at the centroid. A
-/// vertex with fewer than two weights has no similar element and is its own center; its motion does
-/// not depend on the center.
+/// vertex with fewer than two nonzero weights has no similar element. The center of such a vertex
+/// is the vertex itself; its motion does not depend on the center.
 ///
 /// Cost: each vertex loops over the groups of each pair of its handles, typically hundreds of
 /// groups, at about 2 ns per group with AVX2. Memory: 48 bytes per group; per element, 8 bytes for

@@ -23,7 +23,8 @@ struct SkinningOptions
   /// error of a point is about 1e-7 of its displacement. Points that do not move are bit-identical
   /// to the rest pose.
   bool single_precision = false;
-  /// Weights whose absolute value is at most this count as zero; 0: no nonzero weight is dropped.
+  /// Weights whose absolute value is at most this count as zero; at least 0 and less than 1. 0: no
+  /// nonzero weight is dropped.
   double smallest_weight = 0.0;
   /// Maximum number of weights per row. The largest ones are kept; if several are equal, those in
   /// the first columns. 0: all weights are kept.
@@ -50,15 +51,16 @@ class Skinning
 {
 public:
   /// Copy the nonzero weights, #V x #handles. Weights that the options drop are distributed over
-  /// the other weights of the row, in proportion to these weights. Return invalid_input if an
+  /// the other weights of the row, in proportion to these weights. (In a row with a sum of at most
+  /// zero, before or after the drop, the other weights do not change.) Return invalid_input if an
   /// option is out of range or a weight is not finite; the message contains the vertex and the
   /// handle column.
   ///
   /// The report has row_sum_error, the largest |row sum - 1|; if it is above 1e-6, a warning
   /// contains it. If the options can drop weights, the report also has counts.dropped_weights and
-  /// dropped_share, the largest sum of |weights| that was dropped from a row. For weights of at
-  /// least 0, the error of a point is at most dropped_share times the largest distance between two
-  /// of its positions under the transforms of single handles.
+  /// dropped_share, the largest sum of |weights| that was dropped from a row. If no weight is
+  /// negative, the error of a point is at most dropped_share times d. Here d is the largest
+  /// distance between two positions to which single handles transform the point.
   Status bind(ExecutionContext& context, WeightsView weights, const SkinningOptions& options = {});
 
   /// Compute v' = sum_j w_j T_j v (Magnenat-Thalmann et al. 1988). `transforms` has one entry per
@@ -67,9 +69,9 @@ public:
   Status linear_blend(ExecutionContext& context, PointsView rest,
     const std::vector<Affine>& transforms, Points& posed) const;
 
-  /// Blend many instances of the shape in one call. Each instance has its own transforms. Weights
-  /// and points are read once for all instances. The weights must be bound in single precision;
-  /// otherwise the status is invalid_input.
+  /// Apply linear_blend() to many instances of the shape in one call. Each instance has its own
+  /// transforms. Weights and points are read once for all instances. The weights must be bound in
+  /// single precision; otherwise the status is invalid_input.
   /// @param posed #V x 3 for each instance, row by row.
   /// @param placements one affine map per instance, applied after the blend; empty: none.
   Status linear_blend_many(ExecutionContext& context, PointsView rest,

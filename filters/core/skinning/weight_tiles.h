@@ -12,8 +12,9 @@ namespace bindpose
 
 /// Weights in tiles of consecutive vertices. A tile stores the columns in which at least one of its
 /// vertices has a weight. For each of these columns it stores the weights of all its vertices,
-/// including zeros. A tile is as wide as the widest registers, so a blend multiplies whole
-/// registers by the few values of a handle. Scalar: float (tiles of 16) or double (tiles of 8).
+/// including zeros. The weights of a column in a tile fill one 64-byte register, so a blend
+/// multiplies whole registers by the values of a handle. Scalar: float (tiles of 16) or double
+/// (tiles of 8).
 template <typename Scalar>
 struct WeightTiles
 {

@@ -1,7 +1,7 @@
 // Evaluation of the expansion of a cell along a row of points. The coefficients of the expansion
 // are multiplied by the harmonics in the plane x = 0, for eight coefficients of the polynomial in
-// parallel. If the length of a row of coefficients is not a multiple of eight, values beyond its
-// end are read; their products are not added.
+// parallel. If the length of a row of coefficients is not a multiple of eight, values beyond the
+// end of the row are read. The products of these values are not added.
 #include "solid_angle/local_polynomial.h"
 
 #include "base/simd.h"

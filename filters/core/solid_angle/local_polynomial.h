@@ -11,7 +11,8 @@
 //
 // The coefficients of an expansion are stored for l = 0 … order: first the real parts of (k, l), k
 // = l … order, then for l > 0 their imaginary parts. All coefficients with l > 0 are doubled. The
-// functions read up to polynomial_lanes values beyond the end of the array.
+// functions read up to polynomial_lanes values beyond the end of the array, so the array must be
+// padded.
 
 #include "geometry/mesh.h"
 

@@ -10,9 +10,9 @@ namespace bindpose
 namespace
 {
 /// Error bound of the volumes, relative to the cube of the largest coordinate. A tighter bound
-/// applies to volumes of tetrahedra that have the segment as an edge; it is relative to the squared
-/// largest coordinate times the length of the segment. In units of 2^-53, subtractions contribute
-/// 1, cross products 28 and volumes 90. The bound is rounded up.
+/// applies to tetrahedra that have the segment as an edge. The tighter bound is relative to the
+/// squared largest coordinate times the length of the segment. In units of 2^-53, subtractions
+/// contribute 1, cross products 28 and volumes 90. The bound is rounded up.
 constexpr double double_error = 0x1p-53 * 256.0;
 } // namespace
 

@@ -6,15 +6,16 @@
 // computes the angle of the product.
 //
 // Near the triangle, cancellation occurs in the real and the imaginary part. Next to a sliver both
-// parts are as small as its squared width, so that even double-double arithmetic would lose all
-// digits. Let u = |a|b + |b|a and v = |a|c + |c|a, which bisect the angles between a and b and
-// between a and c. The angle of the complex number above equals the angle from u to v around a,
-// which is the angle of the complex number |a| u.v + i a.(u x v). If b and c are on the other side
-// of the point than a, u and v are small. Both vectors are then exact to double-double precision,
-// and their products lose no more digits.
+// parts have the size of the squared width of the sliver. Even double-double arithmetic would then
+// lose all digits. Let u = |a|b + |b|a and v = |a|c + |c|a, which bisect the angles between a and b
+// and between a and c. The angle of the complex number above equals the angle from u to v around a,
+// which is the angle of the complex number |a| u.v + i a.(u x v). If a is on one side of the point
+// and b and c are on the opposite side, u and v are small. Both vectors are still exact to
+// double-double precision, and their products lose no more digits.
 //
-// The solid angle of a triangle that touches the point is undefined, because it jumps there. Such a
-// triangle contributes 0, the mean of the values on its two sides.
+// The solid angle of a triangle jumps where the point crosses the triangle, so it is undefined for
+// a point that touches the triangle. Such a triangle contributes 0, the mean of the values on its
+// two sides.
 #include "solid_angle/solid_angle.h"
 
 #include "geometry/exact.h"
@@ -77,7 +78,7 @@ bool touches_triangle(
   {
     return true;
   }
-  // The point is not near an edge, so its projection is clearly inside or outside.
+  // The point is not near an edge, so round-off does not decide whether its projection is inside.
   const Vec3 normal = (b - a).cross(c - a);
   if (normal.dot(a.cross(b)) <= 0.0 || normal.dot(b.cross(c)) <= 0.0 ||
     normal.dot(c.cross(a)) <= 0.0)

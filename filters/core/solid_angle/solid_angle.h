@@ -13,9 +13,10 @@ namespace bindpose
 bool touches_triangle(
   const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c, double tolerance);
 
-/// Return six times the signed volume of the tetrahedron a, b, c, point. It is positive if the
-/// point is on the inner side of the triangle, that is, if the triangle's normal points away from
-/// it. The sign is reliable to about 1e-30 of the size.
+/// Return six times the signed volume of the tetrahedron a, b, c, point. The volume is positive if
+/// the triangle's normal points away from the point, that is, if the point is on the inner side of
+/// the triangle. The sign is reliable unless the result is smaller than about 1e-30 times the
+/// product of the distances of a, b and c from the point.
 double side_of_triangle(const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// Sum of the solid angles of triangles at one point, about 20 ns per triangle.
@@ -60,9 +61,9 @@ inline void SolidAngleSum::add(const Vec3& a0, const Vec3& b0, const Vec3& c0, i
   const double lengths = la * lb * lc;
   const double real = lengths + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
   const double imaginary = a.dot(b.cross(c));
-  // The half angle is below 45 degrees, so four of them sum to less than a half turn. This
-  // condition also excludes triangles that touch the point: for them, real / lengths is at most
-  // 0.63 if the vertices are more than 4 tolerances away.
+  // If this condition is true, the half angle is below 45 degrees, so four half angles sum to less
+  // than a half turn. The condition also excludes triangles that touch the point: real / lengths is
+  // at most 0.63 for a touching triangle whose vertices are more than 4 tolerances away.
   const double reach = 4.0 * this->tolerance_;
   if (real > lengths && la > reach && lb > reach && lc > reach &&
     (multiplicity == 1 || multiplicity == -1))

@@ -2,9 +2,9 @@
 // a triangle is the angle of a complex number. For blocks far from the point, the complex numbers
 // of four blocks are multiplied lane by lane before the angle is computed. For near blocks the
 // angle of each triangle is computed, by a polynomial arc tangent (fitted at Chebyshev nodes). The
-// angle of a triangle would lose digits if the point is next to an edge or a vertex. Its sign is
-// uncertain if the point is almost in the plane of the triangle. The lanes of such triangles
-// contribute 0 and are passed to the CarefulSum.
+// angle of a triangle loses digits if the point is next to an edge or a vertex. The sign of the
+// angle is uncertain if the point is almost in the plane of the triangle. The lanes of such
+// triangles contribute 0 and are passed to the CarefulSum.
 #include "solid_angle/triangle_block.h"
 
 #include "base/constants.h"
@@ -32,8 +32,8 @@ struct Precision<float>
   /// Smallest accepted squared distance of a vertex from the point, relative to the squared block
   /// size.
   static constexpr float reach = 1e-4f;
-  /// A block is far if the squared distance of its center, relative to the squared block size, is
-  /// larger than this.
+  /// A block is far if the squared distance of its center from the point, relative to the squared
+  /// block size, is larger than this number.
   static constexpr float apart = 2.5f;
   /// Beyond this squared distance, relative to the squared block size, products of four complex
   /// numbers would overflow.
@@ -81,7 +81,7 @@ struct Precision<double>
   }
 };
 
-/// A block and the position of the point relative to it, in block sizes.
+/// A block, and the position of the point relative to the center of the block, in block sizes.
 template <typename Real>
 struct SeenBlock
 {
@@ -199,8 +199,8 @@ BINDPOSE_ALWAYS_INLINE void add_block(const TriangleBlock<Real>* blocks,
     const Real least = aa < bb ? aa : bb;
     const Real nearest = least < cc ? least : cc;
     const bool far_off = re > Real(0.7) * lengths;
-    // Upper bound for the volume with a touching triangle: the volume of a slab whose thickness is
-    // the tolerance.
+    // Upper bound for the volume if the point touches the triangle: the volume of a slab whose
+    // thickness is the tolerance.
     const Real slab = 2 * touching * (la * lb + lb * lc + lc * la);
     const bool off_plane = im_size > P::flat * lengths + slab;
     const bool kept =

@@ -12,11 +12,11 @@ namespace bindpose
 /// often contain every triangle twice, with opposite orientations. Their winding number is 0
 /// everywhere, even inside.
 ///
-/// The function examines triangles whose copies have canceling orientations, in patches that are
-/// connected by edges with exactly two such triangles. A patch is closed if the norm of the sum of
-/// its area vectors is at most a quarter of its area. In a closed patch, one copy of each triangle
-/// is kept, namely a copy that faces outward; all other copies are back sides. Flat patches, like
-/// leaves, enclose nothing and are not changed. Cost: O(n log n).
+/// A triangle is canceling if it occurs equally often in both orientations. Edges with exactly two
+/// canceling triangles connect these triangles to patches. A patch is closed if the norm of the sum
+/// of its area vectors is at most a quarter of its area. In a closed patch, one outward-facing copy
+/// of each triangle is kept; all other copies are back sides. Flat patches, like leaves, enclose
+/// nothing and are not changed. Cost: O(n log n).
 /// @param triangles triangles of a surface whose equal points are welded
 /// @return the ids of the back sides, ascending
 std::vector<Index> back_sides(PointsView points, TrianglesView triangles);

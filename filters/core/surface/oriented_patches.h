@@ -19,8 +19,8 @@ struct OrientedPatch
   bool orientable = true; ///< false: one-sided, like a Moebius strip; `turned` is then not unique
 };
 
-/// Return the patches of a surface. They are sorted by their smallest triangle id, which is the
-/// first in each patch. Every triangle is in exactly one patch. Cost: O(n log n).
+/// Return the patches of a surface. The patches are sorted by their smallest triangle id, which is
+/// the first id in each patch. Every triangle is in exactly one patch. Cost: O(n log n).
 std::vector<OrientedPatch> oriented_patches(TrianglesView triangles);
 
 } // namespace bindpose

@@ -21,8 +21,8 @@ struct PartLink
 /// Options of link_parts().
 struct PartLinkOptions
 {
-  double touching = 0.0; ///< parts touch if their distance is at most this, >= 0
-  /// Approximate distance between neighboring links where two parts touch, > 0.
+  double touching = 0.0; ///< parts touch if their distance is at most this length, >= 0
+  /// Approximate distance (a length > 0) between neighboring links where two parts touch.
   double spacing = 0.0;
 };
 
@@ -30,10 +30,11 @@ struct PartLinkOptions
 /// other parts. In this file, a part is held if the caller marks it (for example because it has a
 /// handle); all other parts are loose.
 ///
-/// Each loose part is linked to the nearest part, at the nearest points of the two. Linked parts
-/// form a group, which is linked in the same way until it contains a held part (a minimum spanning
-/// forest by the rounds of O. Borůvka, 1926). A loose part is also linked to every part that it
-/// touches, held or loose: a seat, for example, is linked to each of the legs below it.
+/// Each loose part is linked to the nearest other part, at the nearest points of the two parts.
+/// Linked parts form a group. The group is linked in the same way until it contains a held part (a
+/// minimum spanning forest by the rounds of O. Borůvka, 1926). A loose part is also linked to every
+/// part that it touches, held or loose: a seat, for example, is linked to each of the legs below
+/// it.
 ///
 /// The links are the same for any number of threads. Cost: O(log #parts) rounds; each round takes
 /// about 5 us per triangle of a loose part.

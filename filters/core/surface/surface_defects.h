@@ -34,7 +34,8 @@ struct DefectPlace
   Defect defect;
   std::vector<Index> vertices; ///< 1, 2 or 3 vertex ids of the input
   Index triangle = -1; ///< input id of the triangle, if the defect is a triangle
-  Index crossed = -1; ///< for self_intersection: the lowest id of the triangles that it intersects
+  /// for self_intersection: lowest id of the triangles that `triangle` intersects
+  Index crossed = -1;
   Index component = -1; ///< index of the component; -1 if the defect belongs to no component
   Index inward = -1; ///< for inward_component: index among the inside-out components
 };

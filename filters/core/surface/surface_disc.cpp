@@ -1,10 +1,11 @@
 // Approximate geodesic distances around a point (see surface_disc.h). Vertices are processed in the
 // order of Dijkstra's algorithm. The distance of a vertex c is the minimum of two values: along an
-// edge, and through a triangle a b c whose vertices a and b have distances. In the triangle's plane
-// the source is at the intersection of two circles, whose centers are a and b and whose radii are
-// the distances of a and b, on the side of ab that does not contain c. If the straight line from
-// the source to c crosses ab, its length is the distance through the triangle. (M. Novotni and R.
-// Klein, "Computing geodesic distances on triangular meshes", 2002.)
+// edge, and through a triangle a b c whose vertices a and b have distances. For the second value,
+// the source is mapped to the triangle's plane, on the side of ab that does not contain c. It is an
+// intersection of two circles, whose centers are a and b and whose radii are the distances of a and
+// b. If the straight line from the mapped source to c crosses ab, the length of the line is the
+// distance through the triangle. (M. Novotni and R. Klein, "Computing geodesic distances on
+// triangular meshes", 2002.)
 #include "surface/surface_disc.h"
 
 #include <algorithm>
@@ -63,7 +64,8 @@ double SurfaceDisc::carried(Index a, Index b, Index c) const
   {
     return along_edge;
   }
-  // Coordinates in the triangle's plane: a is at 0, b at (length, 0), c above, the source below.
+  // Coordinates in the triangle's plane: a is the origin and b is (length, 0). c is above the line
+  // ab, and the source is below the line.
   const Vec3 u = (pb - pa) / length;
   const double cx = u.dot(pc - pa);
   const double cy = (pc - pa - cx * u).norm();

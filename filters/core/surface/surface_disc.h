@@ -21,13 +21,14 @@ public:
   using Found = std::pair<Index, double>;
   /// Find the vertices within `radius` of `place`, a point on triangle `triangle`. Distances are
   /// propagated from triangle to triangle, as if the surface were unfolded into the plane of each
-  /// triangle. They are exact if the surface is flat around the point, and never less than the
-  /// straight distance. They do not propagate across gaps of the surface.
+  /// triangle. The distances are exact if the surface is flat around the point, and never less than
+  /// the straight-line distance. Distances do not propagate across gaps of the surface.
   /// @return vertices and distances, sorted by distance
   std::vector<Found> within(const Vec3& place, Index triangle, double radius) const;
 
 private:
-  /// Return the distance of c, computed from the distances of a and b in the triangle a b c.
+  /// Return the geodesic distance of vertex c of the triangle a b c, computed from the distances of
+  /// a and b.
   double carried(Index a, Index b, Index c) const;
 
   PointsView points_;

@@ -32,17 +32,18 @@ public:
   {
     double distance = 0.0; ///< distance from the origin, in units of the direction vector's length
     Index triangle = -1;
-    bool enters = true; ///< whether the direction is opposite to the triangle's normal
+    bool enters = true; ///< whether the ray goes against the triangle's normal
   };
   /// Return all intersections of a ray with the surface, sorted by distance.
   std::vector<Hit> hits(const Vec3& origin, const Vec3& direction) const;
 
-  /// Find the first interval of a ray inside the surface, by winding number. It begins at the first
-  /// hit. It ends at the first later hit at which the ray has left the surface as often as it has
-  /// entered it. (Exits and entries are exchanged if the surface is inside out.) Overlapping or
-  /// nested parts therefore give one interval, and a cavity ends the interval. If there is no such
-  /// hit, because the surface is open there, the interval ends at the second hit. If there is only
-  /// one hit, the interval is that point. Return false if the ray hits nothing.
+  /// Find the first interval of a ray inside the surface, by counting entries and exits. The
+  /// interval begins at the first hit and ends at the first later hit at which the numbers of
+  /// entries and exits are equal. Empty intervals, as at a silhouette edge, are skipped.
+  /// Overlapping or nested parts therefore give one interval, and a cavity ends the interval. The
+  /// result is the same if the surface is inside out. If the numbers are never equal, because the
+  /// surface is open, the interval lies between the first two hits. If there is only one hit, the
+  /// interval is that point. Return false if the ray hits nothing.
   bool first_inside(const Vec3& origin, const Vec3& direction, LineSpan& span) const;
 
   /// Find the point on the surface nearest to p. Return false if the surface has no triangles.

@@ -6,8 +6,9 @@
 // triangles of a patch into two classes of opposite orientation, and the class with the smaller
 // area is flipped. The second stage works on whole shells: components, or patches that are closed
 // by themselves (solids that touch in an edge or a vertex). A closed shell with negative volume
-// that is in no other shell is inside out. It is flipped together with everything inside it. A
-// cavity (an inner shell oriented opposite to the outer one) therefore remains a cavity.
+// that is in no other shell is inside out. Such a shell is flipped together with everything inside
+// the shell. A cavity (an inner shell whose orientation is opposite to that of the outer shell)
+// therefore remains a cavity.
 #include "surface/surface_repair.h"
 
 #include "base/constants.h"
@@ -253,8 +254,8 @@ double winding_of_shell(
 }
 
 /// Return test points of a shell: the centers of some of its triangles. The shell is inside another
-/// shell if most of these points are inside. Several points are needed because winding numbers are
-/// not integers where shells touch.
+/// shell if most of these points are inside the other shell. Several points are needed because
+/// winding numbers are not integers where shells touch.
 std::vector<Vec3> looks_of(const Points& points, const Triangles& triangles, const Shell& shell)
 {
   constexpr std::size_t looks = 5;

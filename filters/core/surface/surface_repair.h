@@ -20,7 +20,8 @@ struct SurfaceDiagnosis
   /// Number of used vertices with the coordinates of a vertex of lower id.
   Index duplicate_vertices = 0;
   Index unreferenced_vertices = 0;
-  Index degenerate_triangles = 0; ///< number of triangles with three collinear points (exact test)
+  /// number of triangles whose three points are collinear (exact test)
+  Index degenerate_triangles = 0;
   /// Number of triangles with the vertices of a triangle of lower id, in any order.
   Index duplicate_triangles = 0;
   Index boundary_edges = 0; ///< number of edges used by one triangle
@@ -32,7 +33,8 @@ struct SurfaceDiagnosis
   /// Number of pairs of triangles that intersect outside of their shared vertices and edges.
   Index self_intersections = 0;
   Index crossing_triangles = 0; ///< number of triangles in these pairs
-  /// True if opposite directions cancel at every edge. Winding numbers are then integers.
+  /// True if, at every edge, equally many triangles use the edge in both directions. Winding
+  /// numbers are then integers.
   bool closed = false;
   bool flat = false; ///< true if all points are coplanar (exact test)
 };
@@ -65,8 +67,8 @@ struct RepairedSurface
   std::vector<Index> original_triangles; ///< #F: input ids of the triangles
   /// #V of the input: the lowest id of the input vertices welded with this one, usually its own id.
   std::vector<Index> lowest_equal;
-  /// Pairs of a triangle and its component, for all triangles of closed components that are inside
-  /// out, ascending. These components have the indices 0 to found.inward_components - 1.
+  /// Pairs (triangle, component) for all triangles of closed components that are inside out,
+  /// ascending. Components are numbered from 0 to found.inward_components - 1.
   std::vector<std::pair<Index, Index>> inward_triangles;
   SurfaceDiagnosis found; ///< defects of the input, before any triangle was flipped
   Index turned_triangles = 0; ///< number of triangles flipped to agree with their neighbors

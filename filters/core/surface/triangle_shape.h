@@ -9,7 +9,8 @@ namespace bindpose
 /// Return the smallest angle of a triangle, in degrees.
 double smallest_corner(const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Count the badly shaped triangles, with an angle of less than `angle` degrees: needles and caps.
+/// Count the triangles whose smallest angle is below `angle` degrees: needles (one short edge) and
+/// caps (one angle near 180 degrees).
 Index count_needles(PointsView points, TrianglesView triangles, double angle);
 
 } // namespace bindpose

@@ -32,8 +32,8 @@ public:
   /// Return the number of leaves. Each leaf contains a few triangles.
   Index leaf_count() const { return static_cast<Index>(this->leaves_.size()); }
   /// Call found(f, g) for pairs of triangles whose boxes overlap, where f is in this leaf, and g
-  /// comes after f in this leaf or is in a later leaf. Calls for all leaves together visit every
-  /// pair once. If found() returns false, no more pairs of f follow. Thread-safe.
+  /// comes after f in this leaf or is in a later leaf. One call per leaf visits every pair of the
+  /// tree once. If found() returns false, the remaining pairs of f are skipped. Thread-safe.
   void pairs_of_leaf(Index leaf, const std::function<bool(Index, Index)>& found) const;
 
   /// A node, for searches by the caller. The root is the first node, and children follow their
@@ -69,8 +69,8 @@ private:
 };
 
 /// Find the pairs (f, g), f < g, of triangles that intersect outside of their shared vertices and
-/// edges (triangles_cross), sorted. At most 1000 pairs are listed per triangle, which limits the
-/// list if the surface contains a thousand copies of one solid.
+/// edges (triangles_cross), sorted. At most 1000 pairs are listed per triangle, so that the list
+/// remains short enough if the surface contains a thousand copies of one solid.
 /// @return false if canceled.
 bool crossing_pairs(PointsView points, TrianglesView triangles,
   std::vector<std::pair<Index, Index>>& pairs, ExecutionContext& context);

@@ -7,8 +7,8 @@ namespace bindpose
 {
 
 /// Transforms a surface so that its bounding box is centered at the origin and has a diagonal from
-/// 1 to 2. This is used for programs that have absolute tolerances or lose digits far from the
-/// origin. The scale is a power of two, so that scaling causes no rounding.
+/// 1 to 2. The transformation is used for programs that have absolute tolerances or lose digits far
+/// from the origin. The scale is a power of two, so that scaling causes no rounding.
 class UnitFrame
 {
 public:

@@ -13,7 +13,8 @@ struct ImproveOptions
 {
   /// Tets whose smallest dihedral angle is below this are improved, degrees.
   double angle = 12.0;
-  /// Held (constrained) vertices may move if a tet at them remains below this angle, degrees.
+  /// A held (constrained) vertex may move if a tet at the vertex remains below this angle, degrees.
+  /// 0: held vertices never move.
   double least_angle = 8.5;
   Index passes = 20; ///< maximum number of passes over the tets that are too flat
   /// Whether boundary triangles stay unchanged, except as `coplanar` allows.
@@ -33,9 +34,9 @@ struct ImproveOptions
   double effort = 2000.0;
 };
 
-/// Move p along the unit vector n, at most `reach` in either direction, onto the surface that must
-/// contain the boundary. Called from several threads. @return false if the line does not cross the
-/// surface there.
+/// Move p along the unit vector n, at most `reach` in either direction, onto the surface on which
+/// the boundary of the tets must lie. Called from several threads. @return false if p cannot reach
+/// the surface in this way.
 using OntoSurface = std::function<bool(Vec3& p, const Vec3& n, double reach)>;
 
 } // namespace bindpose

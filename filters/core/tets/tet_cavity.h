@@ -1,7 +1,8 @@
 #ifndef bindpose_tets_tet_cavity_h
 #define bindpose_tets_tet_cavity_h
 
-// Cavities: sets of tets that a new vertex replaces, bounded by facets that the vertex can see.
+// Cavities: sets of tets that a new vertex replaces. All facets that bound a cavity are visible
+// from the new vertex.
 
 #include "geometry/mesh.h"
 #include "tets/tet_complex.h"
@@ -31,9 +32,9 @@ class CavitySearch
 public:
   explicit CavitySearch(const TetComplex& tets) : tets_(tets) {}
 
-  /// Find the tets around tet `start`, connected by facets, whose circumspheres contain p. A tet is
-  /// removed from the cavity if p cannot be joined to one of its facets by a tet of quality
-  /// `least`. p must be inside `start`.
+  /// Find the tets around tet `start`, connected by facets, whose circumspheres contain p. Tets of
+  /// the cavity are removed until every new tet, between p and a facet that bounds the cavity, has
+  /// at least the quality `least`. p must be inside `start`.
   /// @return false if no cavity remains.
   bool find(const Vec3& p, Index start, double least, TetCavity& cavity);
   /// Return the work so far: number of computed tet qualities plus number of collected tets.

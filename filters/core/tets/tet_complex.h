@@ -61,7 +61,7 @@ public:
   double volume(const Tet& tet) const;
   /// Return the value of changes() at the last change of a tet that uses the vertex.
   std::uint64_t stamp(Index v) const { return this->stamp_[v]; }
-  /// Return a counter that increases with each change of the mesh, and equals the newest stamp of
+  /// Return a counter that increases with each change of the mesh. It equals the largest stamp of
   /// all vertices.
   std::uint64_t changes() const { return this->changes_; }
 

@@ -5,8 +5,9 @@
 // mesh does not change. Then they are applied in order. A step is searched again if an earlier step
 // changed a tet that it uses. The result does not depend on the number of threads.
 //
-// In the last passes, held (constrained) vertices of tets that are still too flat may move. Tets
-// that are still too flat after these passes and have no neighbor are removed.
+// In the last passes, held (constrained) vertices of tets that are still too flat may move, unless
+// least_angle is 0. Tets that are still too flat after these passes and have no neighbor are
+// removed, unless keep_boundary is set.
 #include "tets/tet_improvement.h"
 
 #include "base/parallel.h"

@@ -38,9 +38,9 @@ struct Improvement
 /// - Boundary edges may be contracted if this rotates the normals of the triangles by at most 15
 ///   degrees.
 ///
-/// Vertices at creases of more than 40 degrees do not move. They are contracted along the crease
-/// only; the ends and corners of a crease are never contracted. Held vertices neither move nor
-/// disappear, except as least_angle allows.
+/// Vertices at creases of more than 40 degrees do not move. Such vertices are contracted along the
+/// crease only; the ends and corners of a crease are never contracted. Held vertices neither move
+/// nor disappear, except as least_angle allows.
 ///
 /// The tets must be positive and conforming. held: #V, 1 for held (constrained) vertices. Points
 /// keep their ids and are not removed if they become unused; new points are appended. The result is

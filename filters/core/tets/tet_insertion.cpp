@@ -51,20 +51,21 @@ std::vector<Vec3> as_vectors(const Points& points)
   return vectors;
 }
 
-constexpr Index first_round = 64; // number of places in the first round
+constexpr Index first_round = 64; // number of positions in the first round
 
-/// Return the order in which places (positions of new vertices) are inserted. The order consists of
-/// rounds. Each round is twice as long as the previous one and samples all places, so that cavities
-/// soon become small (Amenta, Choi, Rote, Incremental Constructions con BRIO, 2003). `near` is an
-/// order in which consecutive places are near each other. Each round is divided into `tracks`
-/// pieces of this order and takes one place of each piece in turn. Therefore places that are
-/// inserted in parallel are far apart. Each place is also near a place that was inserted shortly
-/// before, so that the tets there are still in the processor's caches.
+/// Return the order in which new vertices are inserted, as indices of their positions. The order
+/// consists of rounds. Each round is twice as long as the previous one and samples all positions,
+/// so that cavities soon become small (Amenta, Choi, Rote, Incremental Constructions con BRIO,
+/// 2003). `near` is an order in which consecutive positions are near each other. Each round is
+/// divided into `tracks` pieces of this order and takes one position of each piece in turn.
+/// Therefore vertices that are inserted in parallel are far apart. Each vertex is also near a
+/// vertex that was inserted shortly before, so that the tets there are still in the processor's
+/// caches.
 std::vector<Index> order_of_insertion(const std::vector<std::int32_t>& near, Index tracks)
 {
   const auto count = static_cast<Index>(near.size());
-  // Every second place is in the last round, every second one of the remaining places in the round
-  // before, and so on.
+  // The last round contains every second position, the round before contains every second of the
+  // remaining positions, and so on.
   std::vector<std::vector<Index>> rounds(1);
   for (Index size = first_round; size < count; size *= 2)
   {
@@ -96,8 +97,8 @@ std::vector<Index> order_of_insertion(const std::vector<std::int32_t>& near, Ind
   return order;
 }
 
-/// Return the fraction of the total work for the first `done` of `count` places. About half of the
-/// work is the same for every round, because the few places of the first rounds have large
+/// Return the fraction of the total work for the first `done` of `count` positions. About half of
+/// the work is the same for every round, because the few vertices of the first rounds have large
 /// cavities.
 double share_of_insertion(std::size_t done, std::size_t count)
 {
@@ -107,16 +108,17 @@ double share_of_insertion(std::size_t done, std::size_t count)
     (static_cast<double>(done) / static_cast<double>(count) + rounds(done) / rounds(count));
 }
 
-/// Finds the tets that contain places while tets are being replaced. The search starts in a tree
-/// over the initial tets, continues with the tets that replaced the one found, and then walks from
-/// tet to tet.
+/// Finds the tets that contain the positions of new vertices while tets are being replaced. The
+/// search starts in a tree over the initial tets, continues with the tets that replaced the tet
+/// found there, and then walks from tet to tet.
 class PlaceFinder
 {
 public:
   explicit PlaceFinder(const TetComplex& tets) : tets_(tets) {}
 
-  /// Locate all places in the current tets. Must be called before all other functions. `near`: an
-  /// order in which consecutive places are usually near each other. @return false if canceled.
+  /// Locate all positions in the current tets. Must be called before all other functions. `near`:
+  /// an order in which consecutive positions are usually near each other. @return false if
+  /// canceled.
   bool look_for(const TetMesh& mesh, const Points& places, const std::vector<std::int32_t>& near,
     ExecutionContext& context)
   {
@@ -137,7 +139,8 @@ public:
       });
   }
 
-  /// Return the tet that contains the position p of place i, or -1 if no tet is found. Thread-safe.
+  /// Return the tet that contains p, the position with index i, or -1 if no tet is found.
+  /// Thread-safe.
   Index find(Index i, const Vec3& p) const
   {
     Index t = this->first_[i];
@@ -165,8 +168,8 @@ public:
     return this->walk(t, p, few); // because of rounding, the tet may be a neighbor of the right one
   }
 
-  /// Locate the pending places in the current tets, so that the ids of replaced tets are no longer
-  /// needed. After that the tets get new ids: see renumber(). @return false if canceled.
+  /// Locate the pending positions in the current tets, so that the ids of replaced tets are no
+  /// longer needed. After that the tets get new ids: see renumber(). @return false if canceled.
   bool find_again(
     const Points& places, const std::vector<Index>& pending, ExecutionContext& context)
   {
@@ -210,8 +213,8 @@ private:
     Index end = 0;
   };
 
-  /// Return the side of tet t that separates it from p, as an index into facet_corners, or -1 if p
-  /// is in the tet.
+  /// Return the side of tet t that separates the tet from p, as an index into facet_corners, or -1
+  /// if p is in the tet.
   int side_toward(Index t, const Vec3& p, int first = 0) const
   {
     const Tet& tet = this->tets_.tet(t);
@@ -255,13 +258,14 @@ private:
   }
 
   const TetComplex& tets_;
-  std::vector<Index> first_; ///< per place: the initial tet that contained it, or the nearest tet
+  /// per position: the initial tet that contained it, or the nearest tet
+  std::vector<Index> first_;
   std::vector<Range> replaced_; ///< per replaced tet: the range of the new tet ids
 };
 
-/// Inserts vertices. Cavities for up to 64 places are searched in parallel while the mesh does not
-/// change. Then they are filled in order. A place is searched again if a tet of its cavity has been
-/// replaced.
+/// Inserts vertices. Cavities for up to 64 positions are searched in parallel while the mesh does
+/// not change. Then the cavities are filled in order. A cavity is searched again if one of its tets
+/// has been replaced.
 class Inserter
 {
 public:
@@ -272,11 +276,11 @@ public:
     this->quiet_.set_threads(context.threads());
   }
 
-  /// Insert vertices at the places. `mesh` contains the current tets.
+  /// Insert vertices at the positions `places`. `mesh` contains the current tets.
   bool insert(const TetMesh& mesh, const Points& places, std::vector<Index>& vertices)
   {
     const std::vector<std::int32_t> near = order_by_place(as_vectors(places));
-    constexpr double looked = 0.2; // fraction of the total time for locating the places
+    constexpr double looked = 0.2; // fraction of the total time for locating the positions
     {
       const ProgressRange range(this->context_, 0.0, looked);
       if (!this->finder_.look_for(mesh, places, near, this->context_))
@@ -289,7 +293,7 @@ public:
     std::vector<Index> now;
     std::vector<Index> later;
     // If all vertices are on one sphere, the first cavities are large and overlap. Therefore the
-    // number of places that are searched in parallel is adapted.
+    // number of cavities that are searched in parallel is adapted.
     std::size_t at_once = 1;
     for (std::size_t next = 0; next < order.size() || !later.empty();)
     {
@@ -328,8 +332,8 @@ public:
           later.push_back(now[i]);
         }
       }
-      // The number of places that are searched in parallel is reduced if more than one in four
-      // places must be searched again.
+      // The number of cavities that are searched in parallel is reduced if more than one in four
+      // cavities must be searched again.
       constexpr std::size_t seldom = 4;
       const bool overlap = seldom * (later.size() - waiting) > now.size();
       at_once =
@@ -363,8 +367,8 @@ private:
     }
   };
 
-  /// Remove replaced tets to free memory. pending: the places that are not yet inserted. @return
-  /// false if canceled.
+  /// Remove replaced tets to free memory. pending: the positions at which no vertex has been
+  /// inserted yet. @return false if canceled.
   bool drop_replaced(const Points& places, const std::vector<Index>& pending)
   {
     if (!this->finder_.find_again(places, pending, this->quiet_))
@@ -385,7 +389,7 @@ private:
     return few + tets + tets / 2;
   }
 
-  /// Search the sites of these places in parallel. @return false if canceled.
+  /// Search the sites of these positions in parallel. @return false if canceled.
   bool look_at(const Points& places, const std::vector<Index>& now)
   {
     return parallel_for(this->quiet_, static_cast<Index>(now.size()), per_task,
@@ -402,9 +406,10 @@ private:
       });
   }
 
-  /// Search the tets that the vertex of place i at p replaces. The first try is a cavity with tets
-  /// of at least 1 degree. The second try is a split of an edge that contains p up to rounding
-  /// (points of a bone are collinear). The last try is a cavity with any positive tets.
+  /// Find the tets that a new vertex at p, the position with index i, would replace. The first
+  /// attempt is a cavity whose new tets have dihedral angles of at least 1 degree. The second
+  /// attempt splits an edge that contains p up to rounding (points of a bone are collinear). The
+  /// last attempt is a cavity with any positive new tets.
   void look_at(Index i, const Vec3& p, CavitySearch& search, Site& site) const
   {
     site.kind = Site::Kind::none;

@@ -20,10 +20,10 @@ bool split_long_edges(TetMesh& mesh, double longest, Index most_tets, ExecutionC
 /// Insert vertices at #P x 3 positions inside. Each vertex replaces the tets whose circumspheres
 /// contain it, except tets that are not visible from the vertex (Shewchuk, Constrained Delaunay
 /// Tetrahedralizations and Provably Good Boundary Recovery, 2002). The boundary does not change.
-/// The requirements are those of split_long_edges(). vertices: #P, the id of the new vertex, or -1
-/// if it could not be inserted. The result is the same for any number of threads. Cost: about 1 us
-/// per tet, and 30 us of one thread per vertex; many times that if all vertices are on one sphere
-/// or ellipsoid.
+/// The tets must be positive and conforming. vertices: #P, the id of the new vertex at each
+/// position, or -1 if no vertex could be inserted there. The result is the same for any number of
+/// threads. Cost: about 1 us per tet, and 30 us of one thread per vertex. The cost is many times
+/// higher if all vertices are on one sphere or ellipsoid.
 /// @return false if canceled; the mesh is also valid in this case.
 bool insert_vertices(
   TetMesh& mesh, const Points& places, std::vector<Index>& vertices, ExecutionContext& context);

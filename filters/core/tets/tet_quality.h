@@ -44,12 +44,13 @@ struct TetQuality
 
 TetQuality measure_tets(PointsView points, TetsView tets);
 
-/// Count the tets with a smallest dihedral angle (angles: #T, degrees) below `angle` of which at
-/// least one edge is forced by the boundary:
-/// - an edge of a boundary triangle in which a corner is less than `angle`,
-/// - an edge of a boundary triangle with another boundary triangle so close in front of it that
-///   every tet on it has an angle below `angle`, or
-/// - an edge at which two boundary triangles meet at less than `angle`, measured inside.
+/// Count the tets whose smallest dihedral angle (angles: #T, degrees) is below `angle` and that
+/// have at least one forced edge. At a forced edge, the boundary does not allow larger angles.
+/// Forced edges are
+/// - the edges of a boundary triangle that has a corner of less than `angle`,
+/// - the edges of a boundary triangle, if another boundary triangle is so near to its inner side
+///   that every tet at the triangle has an angle below `angle`, and
+/// - edges at which two boundary triangles form an angle of less than `angle`, measured inside.
 /// If canceled, the count is too small.
 Index count_forced_tets(PointsView points, TetsView tets, const Eigen::VectorXd& angles,
   double angle, ExecutionContext& context);
@@ -64,9 +65,9 @@ Status check_tets(PointsView points, TetsView tets, bool may_branch = false);
 Status check_tets(
   PointsView points, TetsView tets, const std::vector<TetFacet>& facets, bool may_branch = false);
 
-/// Remove groups of tets, connected by facets, whose volume is less than 1e-8 of the total. They
-/// result from rounding. Also remove tets without a neighbor that have less than `lone` of the
-/// volume. `facets` contains the tet_facets() of the tets and is updated. @return the number of
+/// Remove groups of tets, connected by facets, whose volume is less than 1e-8 of the total. Such
+/// groups result from rounding. Also remove tets without a neighbor that have less than `lone` of
+/// the volume. `facets` contains the tet_facets() of the tets and is updated. @return the number of
 /// removed tets.
 Index drop_crumbs(
   const Points& points, Tets& tets, std::vector<TetFacet>& facets, double lone = 1e-8);

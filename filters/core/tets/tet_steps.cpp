@@ -1,12 +1,13 @@
 // Search for local modifications that improve a tet. A tet is improved by the first of these steps
 // that lowers the cost:
-// 1. Remove one of its edges: the tets around the edge are replaced by tets between its two ends
-//    and a triangulation of the ring of their other vertices. The best triangulation is found by
-//    dynamic programming. A boundary edge that is nearly flat can also be removed; if it has a
-//    single tet, that tet is removed.
+// 1. Remove one of its edges. The other vertices of the tets around the edge form a ring, which is
+//    triangulated. New tets connect the triangles of the ring with the two ends of the edge. The
+//    best triangulation is found by dynamic programming. A boundary edge that is nearly flat can
+//    also be removed; if it has a single tet, that tet is removed.
 // 2. Remove one of its facets: two tets are replaced by three tets around a new edge.
-// 3. Move one of its vertices: the position is searched in a few directions with decreasing step
-//    length.
+// 3. Move one of its vertices: the new position is searched in a few directions with decreasing
+//    step length. Before this step, an edge that is shorter than 1 % of the tet's longest edge is
+//    contracted, because moving a vertex cannot improve such a tet.
 // 4. Contract one of its edges into one of its ends, if no vertex could be moved.
 // 5. Insert a vertex in the middle of the tet or of one of its edges, if insertion is allowed.
 #include "tets/tet_steps.h"
@@ -23,8 +24,7 @@ namespace bindpose
 
 namespace
 {
-// Minimum decrease of the cost. It corresponds to an increase of one tet's smallest angle by a
-// fiftieth.
+// Minimum decrease of the cost. It corresponds to an increase of one tet's smallest angle by 2 %.
 constexpr double better = 0.02;
 constexpr double never = std::numeric_limits<double>::infinity();
 // Cosines of limits for the angle between the normals of boundary triangles.
@@ -237,8 +237,8 @@ bool TetStepSearch::remove_edge(Index a, Index b, TetStep& step)
   return true;
 }
 
-/// Report whether the boundary is flat enough at the edge a-b, and whether the new edge does not
-/// make the boundary touch itself.
+/// Report whether the boundary edge a-b may be swapped: the boundary must be flat enough at the
+/// edge, and the new edge must not make the boundary touch itself.
 bool TetStepSearch::may_swap_boundary(Index a, Index b, const Ring& ring) const
 {
   if (this->rules_.options.keep_boundary && !(this->rules_.options.coplanar > 0.0))
@@ -449,9 +449,9 @@ double TetStepSearch::sum_of_star(Index v, const Vec3& p, double least, double m
 
 // ---- New vertices ------------------------------------------------------------------------------
 
-/// Find a step that inserts a vertex in the middle of the tet or of one of its edges. It replaces
-/// the tets around it whose circumspheres contain it, and is then moved to the position of least
-/// cost.
+/// Find a step that inserts a vertex in the middle of the tet or of one of its edges. The new
+/// vertex replaces the tets around it whose circumspheres contain the vertex. Then the vertex is
+/// moved to the position of least cost.
 bool TetStepSearch::insert_near(Index t, TetStep& step)
 {
   const Tet& tet = this->tets_.tet(t);
@@ -606,7 +606,7 @@ bool TetStepSearch::contract(Index a, Index b, TetStep& step)
   const auto has_b = [b](const Facet& f) { return std::find(f.begin(), f.end(), b) != f.end(); };
   if (on_boundary && std::none_of(skin.begin(), skin.end(), has_b))
   {
-    return false; // otherwise the boundary would move inwards
+    return false; // a-b is an inner edge, so the boundary would move inwards
   }
   if (fresh.empty() || !this->keeps_shape(skin, a, b) || !this->keeps_topology(skin, a, b))
   {
@@ -622,7 +622,7 @@ bool TetStepSearch::contract(Index a, Index b, TetStep& step)
 /// meet or end must not be contracted. skin: the boundary triangles at a.
 bool TetStepSearch::keeps_shape(const std::vector<Facet>& skin, Index a, Index b) const
 {
-  // Pairs of the other end of an edge at a and the normal of a triangle at that edge.
+  // Pairs (other end of an edge at a, normal of a triangle at this edge).
   std::vector<std::pair<Index, Vec3>> sides;
   for (const auto& f : skin)
   {

@@ -50,16 +50,17 @@ struct TetStepRules
   /// #V: value of TetComplex::stamp() for each vertex at the last search that found no better
   /// position for the vertex. 0: no such search.
   std::vector<std::uint64_t> stays;
-  bool release = false; ///< whether held vertices may move
-  bool insert = false; ///< whether vertices may be inserted
+  bool release = false; ///< true if held vertices may move
+  bool insert = false; ///< true if vertices may be inserted
 };
 
-/// Report whether a better position for vertex v may be searched, which requires that a tet at v is
-/// too flat.
+/// Report whether a better position for vertex v may be searched. Held vertices may move only if
+/// `release` is set, and boundary vertices only if there is a surface. The tets at v must have
+/// changed since the last search that found no better position.
 bool may_move(const TetComplex& tets, const TetStepRules& rules, Index v);
 
-/// Searches steps. Each thread needs a separate object. The tets and the rules may change between
-/// two searches.
+/// Finds steps that improve a tet. Each thread needs a separate object. The tets and the rules may
+/// change between two searches.
 class TetStepSearch
 {
 public:
@@ -87,7 +88,8 @@ private:
     bool smooth = true;
     Vec3 normal = Vec3::Zero();
   };
-  /// The link of a vertex. The vertices of each simplex are sorted, and so are the lists of
+  /// The link of a vertex: the facets, opposite to the vertex, of the tets at the vertex, with
+  /// their edges and vertices. The vertices of each simplex are sorted, and so are the lists of
   /// simplices.
   struct Link
   {

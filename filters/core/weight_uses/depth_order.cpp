@@ -1,5 +1,5 @@
 // Depth is measured relative to the first handle's layer (see depth_order.h). If all layers are
-// equal, the relative depth is zero, so the depth is constant to the last bit.
+// equal, the relative depth is exactly zero, so all depths are exactly equal.
 #include "weight_uses/depth_order.h"
 
 #include "base/parallel.h"

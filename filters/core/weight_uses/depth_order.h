@@ -10,9 +10,9 @@ namespace bindpose
 /// Options of depth_order().
 struct DepthOrderOptions
 {
-  /// The difference in `front`, in layers, between the first and the last handle of the list if all
-  /// layers are equal, >= 0. It puts handles later in the list in front of earlier ones. Does not
-  /// affect `depth`.
+  /// If all layers are equal, the difference of `front` between the last and the first handle of
+  /// the list, in layers, >= 0. Because of this difference, later handles are in front of earlier
+  /// handles. Does not affect `depth`.
   double tie = 1e-3;
 };
 
@@ -22,14 +22,15 @@ struct DepthOrder
   /// #V: the depth sum_j w_j d_j of each vertex, where d_j is the layer of handle j. If all layers
   /// are equal, the depth is exactly this layer.
   Eigen::VectorXd depth;
-  Eigen::VectorXd front; ///< #V: depth with ties broken; larger values are in front
+  Eigen::VectorXd front; ///< #V: depth plus the effect of `tie`; larger values are in front
 };
 
-/// Compute which part of a planar shape is drawn in front where a pose makes parts overlap. Each
-/// handle has a layer (any real number), and the weights interpolate the layers over the shape. Two
-/// parts that are near each other but not connected get the depths of their own handles. Rows that
-/// do not sum to one are divided by their sum, so that their depth is not biased toward zero. A row
-/// of zeros gets the depth 0. Report: least_depth, largest_depth.
+/// Compute the order in which parts of a planar shape are drawn if they overlap in a pose. Each
+/// handle has a layer (any real number), and the weights interpolate the layers over the shape. If
+/// two parts are near each other but not connected, each part gets the depths of its own handles.
+/// Rows that do not sum to one are divided by their sum, so that the size of the sum does not
+/// affect the depth. A row of zeros gets the depth 0. Report: least_depth, largest_depth (smallest
+/// and largest entry of `depth`).
 /// @param weights #V x #handles, finite
 /// @param layers one per handle, finite
 Status depth_order(WeightsView weights, const Eigen::VectorXd& layers,

@@ -16,7 +16,8 @@ namespace bindpose
 namespace
 {
 constexpr Index colors_per_block = 4096;
-/// Solvers return weights with errors of about 1e-9; the eye can distinguish about 1 / 255.
+/// Colors outside of [0, 1] by more than this count as out of gamut. It is above the errors of
+/// weights (about 1e-9) and far below visible differences (about 1 / 255).
 constexpr double gamut_tolerance = 1e-6;
 
 /// Results of one block of vertices.
@@ -27,7 +28,7 @@ struct Tally
   double gamut_violation = 0.0;
   double overshoot = 0.0;
   double row_sum_error = 0.0;
-  Index not_finite = -1; ///< the first vertex whose weights are not finite
+  Index not_finite = -1; ///< the first vertex whose blended color is not finite; -1: none
 };
 
 double beyond(const Vec3& color, const Vec3& lower, const Vec3& upper)
@@ -58,7 +59,7 @@ Colors categorical_colors(Index count)
   Colors colors(count, 3);
   for (Index j = 0; j < count; ++j)
   {
-    // Every further round of eight colors halves the distance to white.
+    // Each further group of eight colors has half the distance to white of the previous group.
     const double full = std::ldexp(1.0, -static_cast<int>(std::min<Index>(j / 8, 30)));
     for (int k = 0; k < 3; ++k)
     {

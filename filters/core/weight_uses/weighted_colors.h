@@ -17,9 +17,9 @@ using ColorsView = PointsView;
 /// Options of weighted_colors(), which blends one color per handle with the weights.
 struct WeightedColorsOptions
 {
-  /// Blend linear light instead of encoded sRGB values. Mixtures of saturated colors then are not
-  /// darkened (red and green make yellow, not brown), and the middle between black and white is
-  /// lighter.
+  /// If true, blend linear light; if false, blend encoded sRGB values. In linear light, mixtures of
+  /// saturated colors are not darkened (red and green make yellow, not brown), and the middle
+  /// between black and white is lighter.
   bool linear_light = true;
   /// Clamp the result to [0, 1].
   bool clamp = true;
@@ -34,24 +34,25 @@ struct WeightedColors
 };
 
 /// Compute the blended colors c_i = sum_j w_ij c_j, and two measures of the quality of the weights:
-/// the number of vertices whose color cannot be displayed, and the number of vertices at which a
-/// primary is larger or smaller than in all handle colors (a new hue). Both numbers are zero if
-/// weights are at least 0 and sum to one.
+/// the number of vertices whose color cannot be displayed, and the number of vertices at which red,
+/// green or blue is outside the range of this component over all handle colors. Both numbers are
+/// zero if all weights are >= 0 and all rows sum to one.
 /// Report: counts.out_of_gamut and largest_gamut_violation (distance of the blended values from [0,
-/// 1], before clamping), counts.beyond_handles and largest_overshoot (distance from the range of
-/// each primary over the handles), row_sum_error.
+/// 1], before clamping), counts.beyond_handles and largest_overshoot (distance of red, green or
+/// blue from its range over all handle colors), row_sum_error (largest |1 - row sum|).
 /// @param weights #V x #handles, finite
 /// @param handle_colors #handles x 3, each 0 to 1
 Status weighted_colors(WeightsView weights, ColorsView handle_colors,
   const WeightedColorsOptions& options, ExecutionContext& context, WeightedColors& result);
 
-/// Convert an sRGB value to linear light (IEC 61966-2-1), or back. Both functions are odd, so
-/// negative values stay negative.
+/// Convert an sRGB value to linear light (IEC 61966-2-1), or back. Both functions are odd: a
+/// negative argument changes only the sign of the result.
 double to_linear_light(double encoded);
 double from_linear_light(double linear);
 
 /// Return default colors for handles: eight colors that color-blind people can distinguish (Okabe
-/// and Ito), then the same colors again, lighter.
+/// and Ito). Each further group of eight handles gets the same colors, but lighter than in the
+/// group before.
 Colors categorical_colors(Index count);
 
 } // namespace bindpose

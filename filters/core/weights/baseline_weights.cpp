@@ -5,8 +5,9 @@
 //                       form; w is h for length 0 and approaches the biharmonic weights for a large
 //                       length
 //   bone heat           (K + M H) w_j = M H p_j, where H = heat / d^2 for the distance d of the
-//                       nearest handle if the straight line to it is free, else 0; p_j is 1 for
-//                       this handle j and 0 for all others (equally near handles share the 1)
+//                       nearest handle if nothing blocks the straight line to this handle, else 0;
+//                       p_j is 1 if handle j is the nearest handle, else 0 (if n handles that
+//                       nothing blocks are equally near, p_j is 1 / n for each of them)
 // where K is the cotangent stiffness and M the mass matrix of the mesh scaled to diagonal 1, so
 // that the result does not depend on units.
 #include "weights/baseline_weights.h"
@@ -133,7 +134,7 @@ Status inverse_distances(
         {
           d[j] = distances.from(j, p);
         }
-        // Divide by the smallest distance, so that the powers do not overflow.
+        // Divide all distances by the smallest distance, so that the powers do not overflow.
         const double least = d.minCoeff();
         for (Index j = 0; j < m; ++j)
         {
@@ -186,8 +187,9 @@ Status smoothed_harmonic(const WeightsProblem& problem, const WeightsOptions& op
   return {};
 }
 
-/// Triangles that hide handles from vertices: the boundary of a volume, or a surface itself. For a
-/// flat shape, they are vertical walls through the edges of its outline.
+/// Triangles that can block the line of sight from a vertex to a handle: the boundary of a volume,
+/// or a surface itself. For a flat shape, the triangles are perpendicular to the shape and contain
+/// the edges of its outline.
 struct Walls
 {
   Points points;
@@ -235,8 +237,8 @@ Walls walls_of(const WeightsProblem& problem)
   return walls;
 }
 
-/// Compute for every vertex H (0 if no nearest handle is visible) and the fractions p of the
-/// handles that are nearest to it.
+/// Compute H and p (see the top of this file) for every vertex. H is 0 if none of the nearest
+/// handles is visible.
 Status heat_sources(const WeightsProblem& problem, double heat, ExecutionContext& context,
   VectorXd& h, MatrixXd& p, Index& heated)
 {
@@ -270,8 +272,8 @@ Status heat_sources(const WeightsProblem& problem, double heat, ExecutionContext
             continue;
           }
           const Vec3 to = distances.nearest(static_cast<std::size_t>(j), at);
-          // Shorten the segment at both ends, because a vertex or a handle on the surface touches a
-          // wall.
+          // Shorten the segment at both ends, because its ends touch a wall if they are on the
+          // surface.
           constexpr double short_of = 1e-3;
           const Vec3 from = at + short_of * (to - at);
           const Vec3 until = to + short_of * (at - to);

@@ -7,8 +7,8 @@ namespace bindpose
 {
 
 /// Compute bounded biharmonic weights. The weights of a handle minimize the k-harmonic energy
-/// subject to 0 <= w <= 1. They are 1 on the handle and 0 on all other handles. Afterward each row
-/// is divided by its sum. Every column has an optimality certificate (see Certificate).
+/// subject to 0 <= w <= 1. The weights are 1 on the handle and 0 on all other handles. Afterward
+/// each row is divided by its sum. Every column has an optimality certificate (see Certificate).
 /// Cost: see BoxQp.
 /// Jacobson et al. 2011, Bounded biharmonic weights for real-time deformation.
 Status bounded_biharmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,

@@ -1,7 +1,7 @@
 // This file converts vertices and terms to the unknowns and columns of the solver (see
-// column_groups.h). Unknowns are the classes of a union-find over (copy, vertex). A class must
-// satisfy the requirements of all its members in every column: their bounds are intersected, and
-// two members with different given values are a contradiction.
+// column_groups.h). Unknowns are the classes of a union-find over (copy, vertex). In every column,
+// a class must satisfy the requirements of all its members. The bounds of the members are
+// intersected. Two members with different given values are a contradiction.
 #include "weights/column_groups.h"
 
 #include "base/disjoint_sets.h"
@@ -219,7 +219,7 @@ private:
         given[u] = value;
         from = member;
       }
-      // Set an excluded weight to 0 if neither a handle nor a term gives it a value.
+      // An excluded weight is 0 unless a handle or a term gives it another value.
       for (const Index member : this->members_[u])
       {
         const Index at =
@@ -240,7 +240,8 @@ private:
       }
       if (bounded && (this->part_[u] < 0 || !std::isnan(given[u])))
       {
-        // These bounds are unused. Make them finite and consistent with the given value.
+        // The bounds of this unknown are unused. Make them finite and consistent with the given
+        // value.
         column.bounds.lower[u] = std::isnan(given[u]) ? 0.0 : std::min(0.0, given[u]);
         column.bounds.upper[u] = std::isnan(given[u]) ? 1.0 : std::max(1.0, given[u]);
       }
@@ -309,8 +310,8 @@ private:
       std::to_string(w) + ", but a rigid set or the mirror requires equal weights");
   }
 
-  /// Set the column's constant in each component whose given values are all equal and within all
-  /// bounds; the whole component then has this value.
+  /// Find the components in which the column is constant: all given values are equal, and this
+  /// value is within all bounds of the component. Store this value for each such component.
   void find_constants(const BoxQpColumn& column)
   {
     const std::vector<double>& given = this->given_.back();

@@ -37,8 +37,8 @@ void sweep(const VertexGraph& graph, const Eigen::VectorXd& values, const std::v
   std::sort(order.begin(), order.end(), before);
   std::vector<Index> rank(static_cast<std::size_t>(count), -1);
   std::vector<Index> parent(static_cast<std::size_t>(count));
-  // A part is a connected set of vertices that have been visited. For each part, its minimum,
-  // indexed by the part's root in the union-find.
+  // The minimum of each part, stored at the index of the part's root in the union-find. A part is a
+  // connected set of vertices that have been visited.
   std::vector<Index> birth(static_cast<std::size_t>(count));
   std::iota(parent.begin(), parent.end(), Index(0));
   std::iota(birth.begin(), birth.end(), Index(0));
@@ -76,8 +76,8 @@ void sweep(const VertexGraph& graph, const Eigen::VectorXd& values, const std::v
         continue;
       }
       // The merged part keeps one of the two minima: the minimum on a handle, or else the lower
-      // one. Let a be the part with this minimum. The minimum of the other part b ends here. If
-      // part b consists of the vertex v alone, v joins its first part and is no minimum.
+      // one. Let a be the part with this minimum. The minimum of the other part b ends at vertex v.
+      // If b contains only v, then v is not a minimum, and no minimum ends.
       const bool handle_a = exempt[birth[a]] != 0;
       const bool handle_b = exempt[birth[b]] != 0;
       if (handle_a != handle_b ? handle_b : rank[birth[b]] < rank[birth[a]])

@@ -12,28 +12,31 @@ struct Extremum
   Index vertex = 0;
   bool maximum = false;
   double value = 0.0;
-  /// The climb that a path from this minimum needs to reach a lower minimum or an exempt vertex
-  /// (for a maximum: the descent to a higher maximum or an exempt vertex), as a fraction of the
-  /// function's range; 1 if neither can be reached.
+  /// Let the climb of a path be the highest value on the path minus the value at this minimum. The
+  /// persistence is the smallest climb of all paths to a lower minimum or to an exempt vertex (see
+  /// interior_extrema), as a fraction of the function's range. If there is no such path, it is 1.
+  /// The persistence of a maximum is that of a minimum of the negated function.
   double persistence = 0.0;
 };
 
-/// An extremum whose persistence is below this fraction of the range counts as a ripple.
+/// Extrema whose persistence is not above this fraction of the range are ignored by default.
 constexpr double notable_persistence = 1e-3;
 
-/// Find the local extrema at vertices that are not exempt. They are returned in the order of
-/// descending persistence, then by vertex.
+/// Find the local extrema at vertices that are not exempt. The extrema are sorted by descending
+/// persistence. Extrema with equal persistence are sorted by vertex.
 ///
 /// The method builds merge trees. Vertices are added in the order of their values. The vertices
 /// that have been added form connected parts; each added vertex joins the parts that contain its
-/// neighbors. Where two parts merge, the less extreme of their two extrema ends, which determines
-/// its persistence. Exempt vertices (vertices on handles) never end and are not listed.
+/// neighbors. When two parts merge, the less extreme of their two extrema ends: its persistence is
+/// the difference between its value and the value of the added vertex. Extrema at exempt vertices
+/// (vertices on handles) are not returned. If one of the two extrema is at an exempt vertex, the
+/// other extremum ends.
 /// Cost: O(#E log #V).
 ///
 /// @param values #V, finite.
-/// @param exempt #V, 1 for vertices on handles; vertices without neighbors are ignored.
-/// @param least_persistence only extrema with a larger persistence are returned, as a fraction of
-/// the range.
+/// @param exempt #V, 1 for vertices on handles. Vertices without neighbors are ignored.
+/// @param least_persistence only extrema whose persistence is above this fraction of the range are
+/// returned.
 std::vector<Extremum> interior_extrema(const VertexGraph& graph, const Eigen::VectorXd& values,
   const std::vector<char>& exempt, double least_persistence = notable_persistence);
 

@@ -1,11 +1,12 @@
 // Orders of vertices with prescribed extrema, by flooding (see extrema_order.h). Upward flooding
 // begins with the listed minima and then repeatedly takes the lowest vertex that is a neighbor of a
 // vertex already taken. So each vertex except the listed minima comes after one of its neighbors.
-// If the values have a minimum that is not listed, the vertices around it are taken when the flood
-// reaches the lowest pass to it. Downward flooding from the maxima does the same for maxima, but
-// may create new minima on the slopes of the maxima that it cuts off. Therefore both alternate
-// until neither changes the order. Each flood only moves vertices within the plateaus that the
-// previous flood created, and these shrink.
+// If the values have a minimum that is not listed, the vertices around this minimum are taken when
+// the flood reaches the lowest pass to it. Downward flooding from the listed maxima removes maxima
+// that are not listed in the same way, but may create new minima near the removed maxima. Therefore
+// upward and downward floods alternate until the order has exactly the listed extrema. Each flood
+// only moves vertices within the plateaus that the previous flood created, and these plateaus
+// become smaller.
 #include "weights/extrema_order.h"
 
 #include "qp/ordered_pairs.h"
@@ -34,8 +35,9 @@ bool has_neighbors(const VertexGraph& graph, const ExtremaList& list,
     });
 }
 
-/// Compute the order in which a flood from the minima (from = -1) or maxima (from = 1) takes the
-/// vertices. Extrema of the opposite kind come last.
+/// Replace the order by the order in which a flood from the minima (from = -1) or maxima (from = 1)
+/// takes the vertices. The flood takes extrema of the opposite kind last. The result is ascending
+/// in both cases: the order of a flood from the maxima is reversed.
 void flood(const VertexGraph& graph, const ExtremaList& list, int from, std::vector<Index>& rank,
   std::vector<Index>& order)
 {

@@ -1,18 +1,19 @@
 // Topological simplification as a quadratic program with ordered pairs (see monotone_smoothing.h).
 // The linear part of the data term is stored as a row of the quadratic form: Q gets an additional
-// unknown whose value is 1, so that 1/2 (w, 1)' Q (w, 1) is the whole energy, smoothness and
+// unknown whose value is 1, so that 1/2 (w, 1)' Q (w, 1) is the whole energy: smoothness plus
 // distance to the data. Solver and certificate are therefore the same as for weights. There are no
-// bounds. The data term or the kept values make the minimum unique.
+// bounds. The minimum is unique because of the data term or the kept values.
 //
 // The ordered pairs that exclude unlisted extrema are computed from an order of the vertices. This
 // order has exactly the listed extrema (extrema_order.cpp) and is as close as possible to the order
 // of the minimizer without pairs. If that minimizer already has the listed extrema, it is the
-// result. The larger the data weight, the closer the order is to the order of the data. Instead of
-// that minimizer, the harmonic function with the listed extrema as boundary values can determine
-// the order (SmoothingGuide::harmonic); it ignores the data between the extrema.
+// result. If the data weight is large, the order is close to the order of the data. With
+// SmoothingGuide::harmonic, the order is determined by a harmonic function instead. Its boundary
+// values are given at the listed extrema, and it ignores the data elsewhere.
 //
-// A result also satisfies the pairs that belong to the order of its own values, where equal values
-// keep their earlier order. Solving again for that order can therefore only lower the energy.
+// A result also satisfies the pairs of the order of its own values, where vertices with equal
+// values keep their earlier order. Solving again for that order can therefore only lower the
+// energy.
 #include "weights/monotone_smoothing.h"
 
 #include "domain/scaled_mesh.h"
@@ -74,7 +75,7 @@ private:
   std::vector<char> taking_part_; // #V: 1 for used vertices in parts that are not constant
   VertexGraph graph_;
   double middle_ = 0.0, range_ = 0.0; // center and range of the data
-  VectorXd f_; // data scaled to -1/2 to 1/2; 0 for unused vertices
+  VectorXd f_; // data scaled to the range -1/2 … 1/2; 0 at unused vertices
   ScaledMesh scaled_; // the mesh scaled to size 1
   std::vector<Index> fixed_; // fixed vertices, then the additional unknown, whose index is #V
   VectorXd fixed_values_;
@@ -174,9 +175,10 @@ bool Smoothing::scale_data()
   return this->range_ > 0.0;
 }
 
-/// Choose the data's most persistent extrema. If listed maxima separate a region from the rest of
-/// the mesh (for example a single vertex that connects two regions), this region also needs a
-/// minimum: its lowest vertex. The same applies to minima.
+/// Choose the data's most persistent extrema. Listed maxima can separate a region from the rest of
+/// the mesh, for example if a listed vertex is the only connection. Such a region also needs a
+/// minimum, so its lowest vertex is added to the list. The same applies to regions that listed
+/// minima separate.
 void Smoothing::choose_list()
 {
   ExtremaList& list = this->result_.list;
@@ -210,7 +212,8 @@ void Smoothing::choose_list()
   }
 }
 
-/// Check that every part that is not constant has a maximum and a minimum.
+/// Check that the list has a maximum and a minimum in every part that is not constant (see
+/// parts_without).
 Status Smoothing::check_list()
 {
   const ExtremaList& list = this->result_.list;
@@ -318,8 +321,8 @@ void Smoothing::assemble()
   const Index n = this->data_.size();
   const int k = this->options_.order;
   this->scale_to_size();
-  // The quadratic form is the scaled mesh's energy times mass_unit^(k - 1), so the data term has
-  // the same factor.
+  // The quadratic form is the scaled mesh's energy times mass_unit^(k - 1), so the data term is
+  // multiplied by the same factor.
   this->pull_ =
     this->options_.data_weight * std::pow(this->scaled_.mass_unit, k) * this->scaled_.mass;
   const SparseMatrix q = harmonic_energy(this->scaled_.stiffness, this->scaled_.mass, k);
@@ -377,8 +380,8 @@ void Smoothing::assemble()
 }
 
 /// Estimate the minimum energy: the energy without pairs, plus the increase of the data term that
-/// results from satisfying the pairs. (The energy without pairs alone is far too small if the
-/// minimizer without pairs is close to the data.)
+/// results from satisfying the pairs. (If the minimizer without pairs is close to the data, the
+/// energy without pairs would be a far too small estimate.)
 double Smoothing::expected_energy(
   const BoxQpColumn& column, const BoxQpSolution& unconstrained) const
 {
@@ -392,8 +395,8 @@ double Smoothing::expected_energy(
   return unconstrained.certificate.energy + 0.5 * this->pull_.dot(moved.cwiseAbs2());
 }
 
-/// Compute the values of the guide (see SmoothingGuide). The result keeps their order as far as the
-/// list of extrema allows.
+/// Compute the values of the guide (see SmoothingGuide). The result has the same order as these
+/// values, as far as the list of extrema allows.
 Status Smoothing::guide_values(const VectorXd& unconstrained, VectorXd& values)
 {
   values = unconstrained.head(this->data_.size());
@@ -425,7 +428,8 @@ Status Smoothing::guide_values(const VectorXd& unconstrained, VectorXd& values)
   return status;
 }
 
-/// Solve again for the order of the last result (rebuild), as long as the energy decreases.
+/// Solve again for the order of the last result (rebuild), until the energy decreases by less than
+/// a fraction of 1e-4.
 void Smoothing::rebuild(BoxQpColumn& column, BoxQpSolution& best)
 {
   for (int round = 0; round < this->options_.rebuilds && best.status.ok(); ++round)
@@ -567,8 +571,8 @@ void Smoothing::finish(Status& status)
       mass += this->scaled_.mass[v];
     }
   }
-  // The values at kept extrema are exact, all other values are rounded. No neighbor may exceed a
-  // kept maximum because of rounding.
+  // The values at kept extrema are exact; all other values are rounded. Restore the order, because
+  // a rounded neighbor could be above a kept maximum or below a kept minimum.
   if (this->keep_values_)
   {
     std::vector<char> is_free(static_cast<std::size_t>(n));
@@ -581,7 +585,7 @@ void Smoothing::finish(Status& status)
     order_values(upward_pairs(pairs, upward_order(pairs, n)), is_free,
       VectorXd::Constant(n, std::numeric_limits<double>::infinity()), result.values);
   }
-  // Vertices in constant parts are not counted as extrema.
+  // Listed extrema and vertices in constant parts do not count as spurious extrema.
   std::vector<char> exempt(static_cast<std::size_t>(n));
   // Equal values are ordered by rank, so that a listed vertex is the extremum of its plateau.
   VectorXd strict = w;

@@ -11,8 +11,8 @@ namespace bindpose
 /// The guide: a function whose order of neighboring vertices is used for the result.
 enum class SmoothingGuide
 {
-  /// The minimizer without ordered pairs, after flooding removes its unlisted extrema. Of the two
-  /// guides, it is closer to the data.
+  /// The minimizer without ordered pairs. Flooding then removes the unlisted extrema from its
+  /// order. This guide is closer to the data than the harmonic guide.
   unconstrained,
   /// The function that is harmonic for positive edge weights, with the maxima and minima as
   /// boundary values.
@@ -24,10 +24,10 @@ struct MonotoneSmoothingOptions
 {
   /// Order k of the energy: 2 biharmonic, 3 triharmonic.
   int order = 2;
-  /// Weight lambda >= 0 of the data term, in units of (mesh size)^(-2 k). Detail finer than about
-  /// 6 s mesh sizes is smoothed away, where s = lambda^(-1 / (2 k)). For lambda = 1e6, s is 0.03
-  /// for k = 2 and 0.1 for k = 3. If lambda is 0, only the data's values at the extrema are used,
-  /// and these values are kept.
+  /// Weight lambda >= 0 of the data term, in units of (mesh size)^(-2 k). Let s be lambda to the
+  /// power of -1 / (2 k). Details smaller than about 6 s mesh sizes are smoothed away. For lambda =
+  /// 1e6, s is 0.03 for k = 2 and 0.1 for k = 3. If lambda is 0, only the data's values at the
+  /// extrema are used, and the result keeps these values.
   double data_weight = 1e6;
   /// The extrema that the result may have, #V. If empty, they are chosen from the extrema of the
   /// data by the next two options.
@@ -38,14 +38,16 @@ struct MonotoneSmoothingOptions
   /// If above 0, choose this number of the most persistent extrema instead. Every connected part
   /// gets at least one maximum and one minimum.
   Index extrema_count = 0;
-  /// Whether listed extrema keep the data's values. Otherwise their values are solved for, too.
+  /// If true, the result has the data's values at the listed extrema. If false, these values are
+  /// solved for, too.
   bool keep_values = false;
   SmoothingGuide guide = SmoothingGuide::unconstrained;
   /// Maximum number of rebuilds, >= 0. A rebuild takes the order from the last result and solves
-  /// again. Rebuilding ends early if the energy decreases no more; the energy never increases.
+  /// again. There are no further rebuilds if the energy decreases by less than a fraction of 1e-4.
+  /// The energy never increases.
   int rebuilds = 1;
-  /// Minimum difference of each vertex from its lower and from its higher neighbor in the order, as
-  /// a fraction of the data's range, >= 0. If above 0, the order is strict.
+  /// Minimum difference of the values in every ordered pair (see pairs_of_order), as a fraction of
+  /// the data's range, 0 … 1. If above 0, neighbors in a pair cannot have equal values.
   double epsilon = 0.0;
   /// See WeightsOptions.
   double tolerance = 1e-6;
@@ -57,11 +59,10 @@ struct MonotoneSmoothingOptions
 struct MonotoneSmoothingResult
 {
   Eigen::VectorXd values; ///< #V: the values of the function, in the unit of the data
-  /// The listed extrema, sorted by vertex, with the values and the persistence that they have in
-  /// the result.
+  /// The listed extrema, sorted by vertex. Values and persistence are those of the result.
   std::vector<Extremum> extrema;
-  /// Unlisted extrema of the result with a notable persistence. They occur only if the list is
-  /// empty.
+  /// Unlisted extrema of the result whose persistence is above notable_persistence. Empty for a
+  /// correct result, because the ordered pairs exclude unlisted extrema.
   std::vector<Extremum> spurious;
   ExtremaList list; ///< #V: the listed extrema, as given or chosen
   /// Certificate for data scaled to a range of 1. Its energy is half of the last entry of
@@ -77,18 +78,21 @@ struct MonotoneSmoothingResult
 /// simplification). The result w minimizes
 ///   integral of |k-harmonic derivative of w|^2 + lambda integral of (w - f)^2
 /// on the mesh scaled to size 1, where f is the data scaled to a range of 1. Every vertex that is
-/// not listed is above one of its neighbors and below another. The result does not depend on the
-/// units, position and orientation of data and mesh, except for rounding errors. It has the
-/// certificate of this quadratic program. The mesh size is sqrt(12) times the root mean square
-/// distance from the centroid: for a box this is the diagonal.
+/// not listed is above one of its neighbors and below another. Except for rounding errors, the
+/// result does not depend on the units of the data or on the units, position and orientation of the
+/// mesh. The certificate is the certificate of this quadratic program. The mesh size is sqrt(12)
+/// times the root mean square distance from the centroid: for a box this is the diagonal.
 ///
-/// Every connected part needs a maximum and a minimum, or no extremum at all. A part without
-/// extrema becomes constant, with the mean of its data. Vertices in no element of positive measure
-/// keep their data. Constant data do not change. Return invalid_input in these cases:
-/// - data are not finite, or their number is not #V;
+/// Every connected part must have at least one maximum and one minimum in the list, or no extremum
+/// at all. A part without listed extrema becomes constant, with the mean of its data. Vertices that
+/// are in no element of positive measure keep their data. Constant data do not change. Return
+/// invalid_input in these cases:
+/// - a data value is not finite at a vertex of an element of positive measure, or the number of
+///   values is not #V;
 /// - the list contains a vertex in no element of positive measure;
-/// - a part lacks a maximum or a minimum;
-/// - no such function has the kept values at the extrema.
+/// - a part has listed extrema but no maximum or no minimum;
+/// - the values at the listed extrema are kept, but every function with these values has additional
+///   extrema.
 ///
 /// Cost: 15 to 30 factorizations of the energy for the first solve and for each rebuild.
 /// Jacobson, Weinkauf, Sorkine 2012, Smooth shape-aware functions with controlled extrema.

@@ -1,17 +1,17 @@
 // The ordered pairs of monotone weights (see monotone_weights.h). The guide of a handle (see
 // MonotoneGuide) is harmonic for the cotangent Laplacian with negative edge weights raised to small
 // positive ones. Unlike the cotangent Laplacian of most tet meshes, this matrix satisfies the
-// maximum principle. The guide therefore has no extremum between handles that the weights would
-// inherit. (Uniform edge weights have this property, too, but a guide closer to the mesh's geometry
-// results in less energy.)
+// maximum principle. Therefore the guide, and with it the weights, have no extremum between
+// handles. (A matrix with uniform edge weights also satisfies the principle. However, weights have
+// a lower energy if the guide is closer to the geometry of the mesh.)
 //
-// Far from its handle a guide u is tiny; where its handle dominates, 1 - u is tiny. Both values are
-// computed without cancellation: guides for positive right-hand sides have small relative errors,
-// and 1 - u is the sum of the other handles' guides. Two vertices are compared by u where u is
-// small and by 1 - u where 1 - u is small. Ties are broken by index, so the pairs have no cycle.
+// Far from its handle a guide u is tiny; near its handle 1 - u is tiny. Both values are computed
+// without cancellation: guides for positive right-hand sides have small relative errors, and 1 - u
+// is the sum of the other handles' guides. If u > 1/2 at both vertices,
+// they are compared by 1 - u, else by u. Ties are broken by index, so the pairs have no cycle.
 //
-// An extremum on a handle has the value 0 or 1, so the bounds alone determine the order of all
-// edges at this vertex.
+// At a vertex on a handle, the value is 0 or 1. The bounds then already guarantee the order of all
+// edges at this vertex, so no pairs are needed.
 //
 // If a column has its own pinned vertices, its guide takes their values, too. The guide then
 // satisfies pins and order, which proves that the problem is feasible. The vertices of one unknown
@@ -29,7 +29,7 @@ namespace bindpose
 
 namespace
 {
-/// Compute the guide u of a column with its own pins, and 1 - u. Each is the solution for
+/// Compute the guide u of a column with its own pins, and 1 - u. Each of the two is solved from
 /// nonnegative boundary values, so that no cancellation occurs.
 Status pinned_guide(const SparseMatrix& laplacian, const std::vector<Index>& fixed,
   const BoxQpColumn& column, const SparseSolver::Options& options, ExecutionContext& context,
@@ -105,9 +105,9 @@ Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
     fixed_values.col(j) = group.columns[j].fixed_values;
   }
   result.guide = solver.minimizers(fixed_values);
-  // Column j of `behind` is the sum of the guides after j; `before` accumulates the guides before j
-  // in the loop. Both together are 1 - u only if the group contains all columns, because only all
-  // guides together sum to one.
+  // If the group contains all columns, all guides together sum to one. Then column j of `behind` is
+  // the sum of the guides after j, `before` is the sum of the guides before j, and both together
+  // are 1 - u. Otherwise, `before` is zero, and `behind` is 1 - u.
   const bool whole = m == problem.handle_count();
   Eigen::MatrixXd behind = Eigen::MatrixXd::Zero(n, m);
   for (Index j = m - 1; j-- > 0 && whole;)

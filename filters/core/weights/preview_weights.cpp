@@ -1,5 +1,5 @@
-// Biharmonic weights from a factor of the Laplacian K (see preview_weights.h). Let f be the free
-// and b the fixed vertices, D = M^-1 and Q = K D K:
+// Biharmonic weights from a factor of the Laplacian K (see preview_weights.h). Subscript f is for
+// free vertices, b for fixed vertices. With D = M^-1 and Q = K D K:
 //
 //   Q_ff = K_ff D_f K_ff + U D_b U',  U = K_fb        Q_fb = K_ff D_f U + U D_b K_bb
 //
@@ -95,7 +95,7 @@ public:
         u.col(static_cast<int>(i)) = this->form_.to_fixed.col(active[i]);
       }
     }
-    // Typical number of solves per column for conjugate gradients.
+    // Typical number of solves per column that conjugate gradients need.
     constexpr Index solves_of_gradients = 16;
     const Eigen::MatrixXd start = this->form_.free_rows(harmonic);
     Eigen::MatrixXd x;

@@ -11,17 +11,17 @@ namespace bindpose
 /// fixed as in the final weights.
 ///
 /// Let K be the cotangent stiffness and M the lumped mass. The energy K M^-1 K does not need a
-/// factorization: except in the rows of the fixed vertices it is a product of matrices, whose
-/// inverse needs only a factor of K. The rows of the fixed vertices change the inverse by a
+/// factorization: it is a product of matrices, except for a term of the fixed vertices. The inverse
+/// of the product needs only a factor of K. The term of the fixed vertices changes the inverse by a
 /// low-rank matrix (Woodbury).
 /// Cost: one factorization of K (in volumes a fraction of the cost of factoring the energy), and
 /// two solves per handle vertex that has a free neighbor. If there are many such vertices,
-/// conjugate gradients with the product as preconditioner are used instead, until an iteration
-/// changes no weight by 1e-3 or more.
+/// conjugate gradients with the product as preconditioner are used instead. They end when an
+/// iteration changes no weight by 1e-3 or more, at the latest after 60 iterations.
 ///
-/// The certificate bounds the distance of the clamped columns to bounded biharmonic weights. The
-/// tolerance of the options is ignored.
-/// Report in addition to the keys of WeightsResult: stage ("preview").
+/// The certificate bounds the difference between the energy of the clamped columns and the energy
+/// of bounded biharmonic weights. The tolerance of the options is ignored.
+/// Report: the keys of finish_weights(), and stage ("preview").
 Status preview_weights(const WeightsProblem& problem, const WeightsOptions& options,
   ExecutionContext& context, WeightsResult& result);
 

@@ -1,7 +1,8 @@
 // Solve the weights of a surface in a domain of its inside (see surface_weights.h). There is one
 // path for the volume (tets, handles, method, transfer), one path for the embedding (the same
-// operations on a lattice, with a smoothed transfer), and the choice between them. If a result is
-// replaced by another one, the status of the replaced result is reported as the reason.
+// operations on a lattice, with a smoothed transfer), and the choice between them. If a domain
+// fails and another domain replaces it, the report contains the status of the failed domain as the
+// reason.
 #include "weights/surface_weights.h"
 
 #include "domain/cage_domain.h"
@@ -23,21 +24,22 @@ namespace bindpose
 
 namespace
 {
-/// Weights of two lattices that differ by at most this rms difference are trusted. Measured on
-/// figures and furniture: the finer lattice is then within 0.012 rms of the weights of much finer
-/// lattices.
+/// The weights of two lattices are trusted if their rms difference is at most this. Measured on
+/// figures and furniture: the weights of the finer lattice are then within 0.012 rms of the weights
+/// of much finer lattices.
 constexpr double largest_rms = 0.016;
-/// Number of tets of the first lattice. The second has 3/2 of its resolution and about three times
-/// as many tets.
+/// Approximate number of tets of the first lattice. The second lattice has 3/2 times its resolution
+/// and about three times as many tets.
 constexpr Index first_tets = 4500;
-/// Target number of tets of the third lattice, whose resolution is limited to 5/4 to 3/2 of the
-/// second one's.
+/// Target number of tets of the third lattice. Its resolution is limited to 5/4 … 3/2 times the
+/// resolution of the second lattice.
 constexpr double third_tets = 36000.0;
 /// Number of tets of the only lattice if the guard is off.
 constexpr Index unguarded_tets = 12000;
 constexpr int most_lattices = 3;
-/// Progress at the end of each lattice, as a fraction of all work. A lattice takes about four times
-/// as long as the one before. Measured on furniture with 8 point handles and with 14 to 38 bones.
+/// Progress after the work on each lattice, as a fraction of all work. Each lattice takes about
+/// four times as long as the previous lattice. Measured on furniture with 8 point handles and with
+/// 14 to 38 bones.
 constexpr double lattice_ends[most_lattices] = { 0.06, 0.22, 1.0 };
 /// Progress at the end of meshing and at the end of solving, as fractions of one domain's work.
 constexpr double meshing_end = 0.2;
@@ -48,7 +50,7 @@ constexpr double most_seconds = 20.0;
 /// One lattice that contains the surface, and its solution.
 struct Lattice
 {
-  /// The solution; its weights at the surface are interpolated, not smoothed.
+  /// The solution. Its weights at the surface are interpolated but not smoothed.
   SurfaceWeights result;
   Status status;
   Index resolution = 0;
@@ -66,8 +68,8 @@ struct Lattice
 
 using LatticePtr = std::unique_ptr<Lattice>;
 
-/// Exponent of the resolution in the estimated number of tets and vertices. It is between 2
-/// (sheets) and 3 (solids).
+/// The numbers of tets and vertices are estimated to be proportional to resolution^power_of_tets.
+/// The exponent is between 2 (sheets) and 3 (solids).
 constexpr double power_of_tets = 2.5;
 
 /// Return the resolution of the third lattice, divided by the resolution of the second lattice.
@@ -152,7 +154,8 @@ void normalize(Weights& weights)
   }
 }
 
-/// Report NAME.rms_difference and NAME.max_difference. Return the rms difference.
+/// Set the report keys NAME.rms_difference and NAME.max_difference, where NAME is `name`. Return
+/// the rms difference.
 double report_difference(
   const Weights& a, const Weights& b, const std::string& name, Report& report)
 {
@@ -223,8 +226,8 @@ Status Solver::fill(TetrahedralizeResult& tets)
   return status;
 }
 
-/// Return an error if an optional term applies to individual points, which are not vertices of this
-/// domain.
+/// Return an error if an optional term applies to individual points, because these points are not
+/// vertices of this domain.
 Status Solver::refuse_single_points(const char* domain) const
 {
   return asks_of_vertices(this->weights_options_.terms)
@@ -460,8 +463,8 @@ LatticePtr Solver::embed(Index resolution, Index tets)
   return lattice;
 }
 
-/// Make a lattice in which every part of the surface has a handle or is linked to other parts.
-/// Links that are added for one lattice are also used for all later lattices.
+/// Make a lattice in which every part has a handle or is linked to other parts. The links of one
+/// lattice are also used for all later lattices.
 Status Solver::hold_surface(EmbeddingOptions options, Lattice& lattice)
 {
   const Phase phase(this->context_, "tetrahedralize", 0.0, meshing_end);
@@ -474,9 +477,9 @@ Status Solver::hold_surface(EmbeddingOptions options, Lattice& lattice)
   {
     return prepared;
   }
-  // A finer lattice may separate parts that are connected on a coarser one, so links are added in
-  // rounds. Real models took at most three rounds. Parts without a handle that remain after the
-  // last round copy the weights of the nearest handle.
+  // After links are added, a new lattice is made and checked again, because it may still have parts
+  // without a handle. Real models took at most three rounds. Parts without a handle that remain
+  // after the last round copy the weights of the nearest handle.
   constexpr int most_rounds = 4;
   const ProgressRange range(this->context_, 0.3, 1.0);
   Status status;
@@ -589,12 +592,13 @@ Status Solver::in_embedding(SurfaceWeights& result)
   return best->status.usable() ? this->finish(*best, result) : best->status;
 }
 
-/// Return the estimated fraction of the time that the smoothed transfer to the surface takes. For a
-/// dense surface and ten handles, this is about half. Measured on surfaces with one and four
-/// million triangles.
+/// Return the estimated time of the smoothed transfer to the surface, as a fraction of the total
+/// time. For a dense surface and ten handles, the fraction is about half. Measured on surfaces with
+/// one and four million triangles.
 double Solver::share_of_transfer() const
 {
-  // Times in seconds on two threads, for the transfer and for the solves on all lattices.
+  // Times in seconds on two threads: two constants for the transfer, then two constants for the
+  // solves on all lattices.
   constexpr double per_point = 6e-6;
   constexpr double per_point_and_column = 1.5e-6;
   constexpr double lattices_per_point = 20e-6;
@@ -606,13 +610,13 @@ double Solver::share_of_transfer() const
 }
 
 /// Solve on lattices of increasing resolution until two agree (the guard).
-/// @return the finest lattice that converged; if none converged, the finest that has a result; if
-/// none has a result, a lattice whose status contains the reason.
+/// @return the finest lattice that converged. If no lattice converged, the finest lattice that has
+/// a result. If no lattice has a result, a lattice whose status contains the reason.
 LatticePtr Solver::best_lattice()
 {
   const Index asked = this->options_.resolution;
   bool trusted = false;
-  // Keep the finer lattice unless only the coarser one converged.
+  // Use the finer lattice as `best`, unless only the coarser lattice converged or has a result.
   const auto compare = [&](LatticePtr& best, LatticePtr finer)
   {
     if (best->status.usable() && finer->status.usable())
@@ -641,7 +645,7 @@ LatticePtr Solver::best_lattice()
   {
     return best;
   }
-  // Resolution of the last lattice, whose solve may have failed.
+  // Resolution of the last lattice. The solve on this lattice may have failed.
   Index resolution = best->resolution;
   for (int level = 1; level < most_lattices && !trusted; ++level)
   {
@@ -725,8 +729,7 @@ Status with_reason(Status status, const std::string& reason)
   return status;
 }
 
-/// Solve on the shape itself if it is flat, in the volume if that is predicted to be well
-/// conditioned and cheap, and in the embedding otherwise.
+/// Choose the domain automatically (see WeightsDomain::automatic) and solve in this domain.
 Status Solver::automatic(SurfaceWeights& result)
 {
   Vec3 normal;
@@ -759,7 +762,8 @@ Status Solver::automatic(SurfaceWeights& result)
   return with_reason(this->in_embedding(result), reason);
 }
 
-/// Solve in the volume, or in the embedding if the tets are badly shaped or expensive.
+/// Solve in the volume. If the tets are badly shaped or expensive, or if the volume fails, solve in
+/// the embedding.
 Status Solver::automatic_volume(SurfaceWeights& result)
 {
   result.domain = WeightsDomain::volume;

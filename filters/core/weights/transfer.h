@@ -10,22 +10,25 @@ namespace bindpose
 /// Options of transfer().
 struct TransferOptions
 {
-  /// A point that is closer to a vertex than this fraction of the mesh's diagonal takes the
-  /// vertex's row.
+  /// A point gets a copy of a vertex's row if its distance from the vertex is at most this fraction
+  /// of the mesh's diagonal.
   double coincident = 1e-9;
-  /// A point whose distance from the mesh is more than this fraction of the mesh's diagonal counts
-  /// as a miss. It still gets the weights of the nearest point of the mesh.
+  /// A point counts as a miss if its distance from the mesh is more than this fraction of the
+  /// mesh's diagonal. A miss still gets the weights of the nearest point of the mesh.
   double reach = 0.05;
 };
 
-/// Numbers of points by the way in which their weights were computed.
+/// Numbers of points, classified by how their weights were computed.
 struct TransferCounts
 {
   Index exact = 0; ///< points on a vertex, which get a bitwise copy of the row of the vertex
   Index barycentric = 0; ///< points in an element, whose weights are interpolated
-  /// Points outside, within reach; they get the weights of the nearest point of the mesh.
+  /// Points outside of the mesh but within TransferOptions::reach. They get the weights of the
+  /// nearest point of the mesh.
   Index nearest = 0;
-  Index misses = 0; ///< points beyond reach, and points that are not finite (the latter get zeros)
+  /// Points beyond TransferOptions::reach, and points with a coordinate that is not finite. Points
+  /// that are not finite get zero weights.
+  Index misses = 0;
   double largest_distance = 0.0; ///< largest distance of a point from the mesh
 };
 

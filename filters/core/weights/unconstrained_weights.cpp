@@ -13,8 +13,8 @@ namespace bindpose
 
 namespace
 {
-/// Report whether the fixed vertices of every connected part span space (or the plane, for a flat
-/// part). Otherwise their values do not determine a linear function.
+/// Report whether the fixed vertices of every connected part span space (for a flat part: the
+/// plane). If they do not, their values do not determine a linear function.
 bool fixed_vertices_span(const WeightsProblem& problem)
 {
   const Components& components = problem.constraints.components;
@@ -48,8 +48,8 @@ bool fixed_vertices_span(const WeightsProblem& problem)
       all[components.of_vertex[v]].push_back(v);
     }
   }
-  // The vertices are flat in a direction if their extent in this direction is below this fraction
-  // of the mesh's diagonal.
+  // Vertices count as flat in a direction if their extent in this direction is at most this
+  // fraction of the mesh's diagonal.
   constexpr double flat = 1e-6;
   for (std::size_t c = 0; c < fixed.size(); ++c)
   {

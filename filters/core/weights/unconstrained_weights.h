@@ -7,17 +7,17 @@ namespace bindpose
 {
 
 /// Weights that minimize an energy with no constraint except the values at the handles. Rows sum to
-/// one without normalization. The certificate contains the distance of the energy from its minimum
-/// and the largest Newton step of one vertex, both relative. Cost: one factorization, and one solve
-/// per handle. invalid_input: the problem has optional terms (see WeightTerms), or the energy has
-/// no unique minimum.
+/// one without normalization. The certificate contains the relative difference between the energy
+/// and its minimum, and the largest change of a weight by a Newton step of a single vertex. Cost:
+/// one factorization, and one solve per handle. All functions return invalid_input if the problem
+/// has optional terms (see WeightTerms) or if the energy has no unique minimum.
 
 /// Minimize int |grad w|^2. The weights are in [0, 1] if cotangents are positive, and have peaks at
 /// point handles.
 Status harmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,
   ExecutionContext& context, WeightsResult& result);
-/// Minimize int (Laplacian w)^2. The weights are smooth and independent of the mesh, but leave
-/// [0, 1].
+/// Minimize int (Laplacian w)^2. The weights are smooth and nearly independent of the resolution of
+/// the mesh, but leave [0, 1].
 Status biharmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,
   ExecutionContext& context, WeightsResult& result);
 /// Minimize int |grad Laplacian w|^2. The weights are smoother than biharmonic weights, but leave
@@ -31,10 +31,10 @@ Status graph_biharmonic_weights(const WeightsProblem& problem, const WeightsOpti
 /// Minimize the biharmonic energy with boundary conditions that a linear function satisfies as well
 /// (Wang, Jacobson, Barbic, Kavan, Linear Subspace Design for Real-Time Shape Deformation, 2015).
 /// Point handles then reproduce affine maps exactly: sum w_j p_j = p. This requires four points
-/// that are not in a plane (three not in a line for flat shapes). With fewer, a millionth of the
-/// biharmonic energy is added, with a warning. The method is intended for point handles. Bones,
-/// along which weights are constant, fit no linear function, and the extrapolation beyond them
-/// overshoots far.
+/// that are not in a plane, or for flat shapes three points that are not on a line. If there are
+/// too few points, 1e-6 times the biharmonic energy is added, with a warning. The method is
+/// intended for point handles. Weights are constant along a bone, which is not compatible with
+/// linear functions, so weights beyond a bone are far outside of [0, 1].
 Status linear_subspace_weights(const WeightsProblem& problem, const WeightsOptions& options,
   ExecutionContext& context, WeightsResult& result);
 

@@ -14,14 +14,14 @@ using WeightsKernel = Status (*)(
 
 /// A method that computes weights. To add a method, write its kernel and add one row to
 /// weight_methods(). The filter vtkUnconstrainedWeights, the window of the viewer and the command
-/// line find it there.
+/// line read this list.
 struct WeightMethod
 {
   const char* word; ///< name on the command line, in Python, in reports and in session files
-  const char* label; ///< name in lists of the window
-  const char* short_label; ///< name in narrow lines of the window
-  /// Whether the method supports bounds, optional terms and a limit on influences. The other
-  /// methods are for comparison.
+  const char* label; ///< name in lists of the viewer's window
+  const char* short_label; ///< name in narrow rows of the viewer's window
+  /// Whether the method supports bounds, optional terms and a limit on influences. Methods without
+  /// this support are for comparison.
   bool constrained;
   WeightsKernel kernel;
 };
@@ -31,7 +31,7 @@ const std::vector<WeightMethod>& weight_methods();
 /// Return the method with the given `word`; null if there is none.
 const WeightMethod* find_weight_method(std::string_view word);
 /// Return the `word` of each method, separated by commas, for error messages.
-/// @param constrained  whether constrained methods are included
+/// @param constrained whether methods with `constrained` == true are included
 std::string weight_method_words(bool constrained);
 
 } // namespace bindpose

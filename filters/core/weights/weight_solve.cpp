@@ -3,8 +3,8 @@
 //
 // A limit k on influences keeps the k largest weights of each normalized row. The other weights are
 // fixed at 0 and all columns are solved again, so that the result is a minimizer among weights with
-// these nonzero entries. The choice is greedy. The entries for a smaller k are a subset of the
-// entries for a larger k, so the energy decreases with k.
+// these nonzero entries. The choice is greedy. The nonzero entries for a smaller k are a subset of
+// the nonzero entries for a larger k, so a larger k never has a higher energy.
 #include "weights/weight_solve.h"
 
 #include "qp/coupled_qp.h"
@@ -18,7 +18,7 @@ namespace bindpose
 
 namespace
 {
-/// The quadratic form of one group and its solver, which all passes use.
+/// The quadratic form of one group, and the solver of this form. All passes use the same solver.
 struct GroupSolver
 {
   SparseMatrix q; // the quadratic form; stored only if columns are coupled
@@ -221,9 +221,9 @@ Weights normalized(const WeightsProblem& problem, const Round& round, const Excl
   return weights;
 }
 
-/// Exclude the smallest weights, so that each vertex has at most `most` weights above 0. Weights
-/// that a pin or a bound keeps above 0 are never excluded.
-/// @param capped set to the number of vertices at which weights are excluded.
+/// Exclude the smallest weights, so that each vertex has at most `most` nonzero weights. Weights
+/// are never excluded if they are pinned to a nonzero value or have a lower bound above 0.
+/// @param capped set to the number of vertices at which a weight above 0 is excluded.
 Status exclude_smallest(const WeightsProblem& problem, const Weights& weights, int most,
   Exclusions& excluded, Index& capped)
 {
@@ -277,7 +277,7 @@ Status exclude_smallest(const WeightsProblem& problem, const Weights& weights, i
   return {};
 }
 
-/// Return the largest violation of the bounds by normalized weights, over vertices that are solved
+/// Return the largest violation of the bounds by normalized weights, at vertices that are solved
 /// for.
 double normalized_violation(const WeightsProblem& problem, const Weights& weights)
 {
@@ -316,8 +316,8 @@ void report_mirror(const WeightsProblem& problem, Status& status)
   }
 }
 
-/// Report the largest and the root mean square difference of two weights, over vertices that have
-/// weights.
+/// Report the largest and the root mean square difference between weights a and b, over all
+/// vertices that have weights.
 void report_difference(const WeightsProblem& problem, const Weights& a, const Weights& b,
   const std::string& key, Report& report)
 {
@@ -355,8 +355,8 @@ Status solve_weights(const WeightsProblem& problem, int order, const std::string
   Index capped = 0;
   for (int pass = 0; pass < (limited ? 2 : 1); ++pass)
   {
-    // The passes divide the progress evenly. Within a pass, the coupled program takes most of the
-    // time.
+    // All passes have the same part of the progress range. Within a pass, the coupled program takes
+    // most of the time.
     const double length = 0.85 / (limited ? 2 : 1);
     const double begin = 0.1 + pass * length;
     const double middle = begin + (coupled ? 0.3 : 1.0) * length;

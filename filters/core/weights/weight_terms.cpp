@@ -99,7 +99,7 @@ Status check_mirror(const std::vector<Index>& mirror, Index vertex_count)
   return {};
 }
 
-/// Find the pairs of vertices that are each other's mirror images in the plane.
+/// Find the mirror vertices for a mirror plane (see WeightTerms::mirror_normal).
 std::vector<Index> mirror_of_plane(const Points& points, const Vec3& origin, const Vec3& normal)
 {
   const double diagonal = bounding_box(points).diagonal();
@@ -150,8 +150,9 @@ std::vector<Index> mirror_of_plane(const Points& points, const Vec3& origin, con
   return mirror;
 }
 
-/// Append mirror entries for inserted vertices. Two inserted vertices are mirror vertices if their
-/// corners are mirror vertices and have the same barycentric coordinates.
+/// Append mirror entries for inserted vertices. Two inserted vertices are mirror vertices if the
+/// corners of their elements are mirror vertices and the barycentric coordinates at these corners
+/// are equal.
 void extend_mirror(const HandleInsertion& mesh, std::vector<Index>& mirror)
 {
   constexpr double tolerance = 1e-9;
@@ -413,7 +414,8 @@ std::vector<Index> mirrored_handles(
   {
     row_of[constraints.vertices[i]] = static_cast<Index>(i);
   }
-  // Report whether the mirror maps the nonzero given values of column a to the values of column b.
+  // Report whether every nonzero given value of column a equals the value of column b at the mirror
+  // vertex.
   const auto image = [&](Index a, Index b)
   {
     bool any = false;

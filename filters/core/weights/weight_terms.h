@@ -9,20 +9,23 @@ namespace bindpose
 {
 
 /// Optional terms of bounded and monotone weights: painted rigidity, rigid sets, bounds, prescribed
-/// weights and symmetry. An empty member is off. Vertices are those of the original mesh. At a
-/// vertex that handle insertion adds, values are interpolated (NaN if a corner is NaN), and a label
-/// applies if all corners have it.
+/// weights and symmetry. An empty member is off. Vertices are those of the original mesh. Handle
+/// insertion adds vertices in elements. Values at such a vertex are interpolated from the corners
+/// of the element (NaN if a corner is NaN). It gets a label if all these corners have the same
+/// label.
 struct WeightTerms
 {
-  /// Painted rigidity, #V, >= 0. It adds 1/2 int rho |grad w|^2 to the energy 1/2 int (lap w)^2, so
-  /// that weights are nearly constant where rho is large. rho is 1e4 / diagonal^2 times the painted
-  /// value, averaged over the corners of an element (triharmonic energy: 1e8 / diagonal^4). The
-  /// painted value 1 makes weights nearly constant over lengths above a hundredth of the mesh's
-  /// diagonal, for any unit and resolution. Gradients decrease in proportion to 1 / painted value.
+  /// Painted rigidity, #V, 0 … 1e12. It adds 1/2 int rho |grad w|^2 to the energy 1/2 int (lap
+  /// w)^2, so that weights are nearly constant where rho is large. rho is 1e4 / diagonal^2 times
+  /// the painted value, averaged over the corners of an element. For the triharmonic energy, the
+  /// factor is 1e8 / diagonal^4. The painted value 1 makes weights nearly constant over lengths
+  /// above a hundredth of the mesh's diagonal, independent of unit and resolution. Gradients are
+  /// proportional to 1 / painted value.
   Eigen::VectorXd rigidity;
-  /// Labels of rigid sets, #V. Each column is exactly constant on all vertices with the same label
-  /// > 0, because they are one unknown. A set that contains a vertex of a handle has the row of
-  /// that vertex. Components that contain vertices of one set count as connected.
+  /// Labels of rigid sets, #V. All vertices with the same label > 0 form a set. They are one
+  /// unknown of the solver, so each column is exactly constant on the set. If a set contains a
+  /// vertex on a handle, the whole set gets the weights of that vertex. Components that contain
+  /// vertices of the same set count as connected.
   std::vector<Index> rigid_sets;
   /// Smallest and largest weight per vertex and handle, #V x #handles; NaN: use the handle's bound.
   Eigen::MatrixXd lower;
@@ -35,13 +38,14 @@ struct WeightTerms
   /// Mirror vertex of each vertex, #V; -1: none. The relation is symmetric: mirror[mirror[v]] == v.
   std::vector<Index> mirror;
   /// Alternative to `mirror`: the normal of a symmetry plane through mirror_origin; zero: no plane.
-  /// Two vertices are mirror vertices if the distance of each vertex from the mirror image of the
-  /// other one is at most 1e-5 of the mesh's diagonal.
+  /// Vertices a and b are mirror vertices if b is the vertex nearest to the mirror image of a, a is
+  /// the vertex nearest to the mirror image of b, and both distances are below 1e-5 of the mesh's
+  /// diagonal.
   Vec3 mirror_normal = Vec3::Zero();
   Vec3 mirror_origin = Vec3::Zero();
 
   bool has_bounds() const;
-  /// Return the smallest and largest weight of a handle, in general or at one vertex.
+  /// Return the bounds of a handle's weight: at all vertices (first function), or at one vertex.
   std::pair<double, double> bounds_of(Index handle) const;
   std::pair<double, double> bounds_of(Index handle, Index vertex) const;
   bool has_mirror() const { return !this->mirror.empty() || !this->mirror_normal.isZero(); }
@@ -55,28 +59,31 @@ double rigidity_unit(int order);
 
 /// Check the terms. Return invalid_input, naming the vertex or the handle, if
 /// - an array has the wrong length;
-/// - a rigidity is below 0;
-/// - bounds are infinite or in the wrong order;
-/// - a mirror entry is no vertex, or its own entry does not refer back;
-/// - the prescribed weights of a vertex sum to more than 1.
+/// - a rigidity is not in 0 … 1e12;
+/// - a value is infinite, or the lower bound of a handle is above its upper bound;
+/// - a mirror entry is not a vertex or -1, or mirror[mirror[v]] is not v;
+/// - the prescribed weights of a vertex sum to more than 1 and none of them is negative, or the
+///   weights of all handles are prescribed and do not sum to 1.
 Status check_terms(const WeightTerms& terms, Index vertex_count, const Handles& handles);
 
 /// Extend the terms to inserted vertices. A mirror plane is replaced by mirror vertices.
 WeightTerms extend_terms(const WeightTerms& terms, const HandleInsertion& mesh);
 
-/// Report whether a term applies to individual vertices, which the mesh must then contain.
+/// Report whether a term applies to individual vertices. If so, the mesh must contain these
+/// vertices.
 bool asks_of_vertices(const WeightTerms& terms);
 
 /// Transfer the terms from a surface to a mesh that contains some of its vertices. The rigidity of
 /// a mesh vertex is the rigidity at the nearest point of the surface.
-/// @param original surface vertex of every vertex of the mesh; -1: no surface vertex.
-/// @param lost number of surface vertices that have terms but are not in the mesh.
+/// @param original for every vertex of the mesh, the surface vertex at its position; -1: none.
+/// @param lost set to the number of surface vertices that have terms for individual vertices but
+/// are not in the mesh.
 Status carry_terms(const WeightTerms& terms, const Domain& surface, const Points& points,
   const std::vector<Index>& original, ExecutionContext& context, WeightTerms& carried, Index& lost);
 
-/// For each handle, return its mirror image: the handle whose constrained vertices are the mirror
-/// vertices of this handle's constrained vertices; -1: no such handle. A handle on the plane is its
-/// own image.
+/// Return the mirror image of each handle; -1: none. Handle b is the mirror image of handle a if
+/// the vertices on b are the mirror vertices of the vertices on a. A handle on the mirror plane is
+/// its own image.
 std::vector<Index> mirrored_handles(
   const WeightTerms& terms, const HandleConstraints& constraints, Index handle_count);
 

@@ -192,8 +192,8 @@ SparseMatrix WeightsProblem::energy(int order) const
   SparseMatrix q = harmonic_energy(this->stiffness, this->mass, order);
   if (this->rigid_stiffness.size() > 0)
   {
-    // Q is the energy of the scaled mesh times mass_unit^(order - 1), so rigidity has the same
-    // factor.
+    // Q is the energy of the scaled mesh times mass_unit^(order - 1), so the rigidity is multiplied
+    // by the same factor.
     q += rigidity_unit(order) * std::pow(this->mass_unit, order - 1) * this->rigid_stiffness;
   }
   return q;

@@ -28,16 +28,16 @@ struct WeightsOptions
   int maximum_iterations = 100;
   /// How rows are made to sum to one, for bounded weights only.
   PartitionOfUnity partition = PartitionOfUnity::normalize;
-  /// Maximum number of handles with a weight above 0 at a vertex; 0: no limit. The handles with the
+  /// Maximum number of handles with a weight above 0 at a vertex; 0: no limit. At each vertex, the
   /// largest weights are kept. Columns of bounded and monotone weights are then solved again, with
-  /// the other weights fixed at 0. Rows of vertices on handles do not change.
+  /// all other weights fixed at 0. Weights of vertices on handles do not change.
   int maximum_influences = 0;
   /// Optional terms of bounded and monotone weights; read by make_weights_problem().
   WeightTerms terms;
   HandleInsertionOptions insertion;
   SparseSolver::Options solver;
-  /// Bounded and monotone weights: order of the energy, 2 biharmonic, 3 triharmonic (which
-  /// oscillates within the bounds).
+  /// Bounded and monotone weights: order of the energy, 2 biharmonic, 3 triharmonic. Triharmonic
+  /// weights oscillate within the bounds.
   int order = 2;
   double power = 2.0; ///< inverse-distance weights: exponent of the distance, > 0
   /// Smoothed harmonic weights: smoothing length as a fraction of the diagonal, >= 0.
@@ -47,8 +47,8 @@ struct WeightsOptions
   double heat = 1.0;
 };
 
-/// A mesh with the handles inserted as vertices, and the matrices of its energies. It is the common
-/// input of all weight methods: built once, it can be solved any number of times.
+/// A mesh with the handles inserted as vertices, and the matrices of its energies. It is the input
+/// of all weight methods. The same problem can be solved any number of times.
 struct WeightsProblem
 {
   Handles handles;
@@ -65,8 +65,8 @@ struct WeightsProblem
   /// Stiffness weighted by each element's painted rigidity; empty if no rigidity is painted.
   SparseMatrix rigid_stiffness;
   VertexGraph graph;
-  /// All vertices whose rows are given (roles `handle`, `tethered`, `follower`, `unreferenced` of
-  /// VertexRole), and these rows, #fixed x #handles.
+  /// Fixed vertices: all vertices whose rows are given (roles `handle`, `tethered`, `follower`,
+  /// `unreferenced` of VertexRole). Their rows are in `fixed_values`, #fixed x #handles.
   std::vector<Index> fixed;
   Eigen::MatrixXd fixed_values;
   Status status; ///< counts and warnings of make_weights_problem()
@@ -92,8 +92,8 @@ struct WeightsColumn
   double maximum = 0.0;
   int iterations = 0;
   int factorizations = 0;
-  /// Fraction of the vertices where the column before normalization is exactly 0; measures its
-  /// locality.
+  /// Fraction of the vertices where the column before normalization is exactly 0. It is large if
+  /// the handle affects a small part of the mesh.
   double zeros = 0.0;
   /// Fraction of the vertices where the column before normalization is exactly 1.
   double ones = 0.0;
@@ -107,7 +107,7 @@ struct WeightsResult
 {
   /// #V x #handles, rows sum to one (rows of unreferenced vertices are zero).
   Weights weights;
-  /// Weights before normalization; the certificates refer to them.
+  /// #V x #handles, weights before normalization. The certificates are for these weights.
   Weights raw;
   std::vector<WeightsColumn> columns;
   double row_sum_error = 0.0; ///< max |1 - row sum| of the rows before normalization
@@ -118,18 +118,19 @@ struct WeightsResult
 /// monotone weights support.
 Status check_no_terms(const WeightsProblem& problem);
 
-/// Divide rows by their sums. Pinned weights do not change; only the other weights of the row are
-/// scaled.
-/// @param fallback #V x #handles, rows that are used if the sum of the scaled weights is below
-/// 1e-3.
+/// Scale rows so that they sum to one. Pinned weights do not change; only the other weights of the
+/// row are scaled.
+/// @param fallback #V x #handles. If the absolute value of the sum of the scaled weights is below
+/// 1e-3, they are replaced by the positive weights of this row, divided by their sum.
 /// @param excluded #V * #handles, row by row: 1 for weights that must stay 0; empty: no such
 /// weight.
 /// @return number of rows for which `fallback` was used
 Index normalize_rows(const WeightsProblem& problem, const Eigen::MatrixXd& fallback,
   const std::vector<char>& excluded, Weights& weights);
 
-/// Compute the final weights from solved columns: rows of followers, normalization, extrema,
-/// report. Return the status of the problem, or not_converged if a column is not certified.
+/// Compute the final weights from solved columns: normalize rows, copy rows to followers, find
+/// extrema and fill the report. Return not_converged if a certificate exceeds the tolerance;
+/// otherwise the status of the problem.
 /// @param fallback, excluded see normalize_rows.
 Status finish_weights(const WeightsProblem& problem, const std::string& method, double tolerance,
   const std::vector<BoxQpSolution>& solutions, const Eigen::MatrixXd& fallback,

@@ -1,6 +1,7 @@
-// An open edge is one whose directions do not cancel. As many open edges enter a vertex as leave
-// it, so a walk along open edges always returns. When the walk reaches a vertex for the second
-// time, the loop since the first visit is removed from the walk and capped.
+// An edge is open if different numbers of triangles use the edge in its two directions. Equal
+// numbers of open edges enter and leave each vertex, so a walk along open edges always returns to a
+// visited vertex. When the walk reaches a vertex for the second time, the loop since the first
+// visit is removed from the walk and capped.
 //
 // A loop is capped by bisection: the chord between its ends and the middle vertex of the loop form
 // a triangle. Then both halves of the loop are capped in the same way. Most triangles are then as

@@ -18,8 +18,8 @@ Triangles boundary_caps(const std::vector<Edge>& edges);
 
 /// Return the smaller closure of each connected component: its caps from `boundary_caps`, or the
 /// component itself with reversed orientation. The smaller closure is better for sums whose cost
-/// grows with the size of the triangles: the caps of a long strip or of a leaf can be larger than
-/// the component itself.
+/// grows with the size of the triangles. The caps of a long strip or of a leaf-shaped surface can
+/// be larger than the component itself.
 /// @param points #V x 3
 /// @param triangles #F x 3; the caps close the open edges of these triangles
 /// @param caps #C x 3

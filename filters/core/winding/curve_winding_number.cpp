@@ -16,12 +16,13 @@
 // twice.
 //
 // Crossings are counted in a tree over the pieces of the loop. If the point is outside a piece's
-// box, the piece crosses the ray as often as the straight line between its ends, because the piece
-// and the line together do not wind around the point. The loops are also sorted into a tree of
-// boxes; outside its box a loop has the winding number 0.
+// box, the straight line between the ends of the piece has the same signed number of crossings as
+// the piece. The reason is that the piece and the line together do not wind around the point. The
+// loops are also sorted into a tree of boxes. A loop has the winding number 0 outside its box.
 //
 // If the point touches a segment, the angles of the other segments are summed instead, in the same
-// tree. Outside its box, a piece has the angle of the straight line between its ends.
+// tree. If the point is outside the box of a piece, the angle of the piece is the angle of the
+// straight line between its ends.
 #include "winding/curve_winding_number.h"
 
 #include "base/constants.h"
@@ -53,8 +54,8 @@ bool is_above(const Vec2& a, const Vec2& p)
   return a.y() >= p.y();
 }
 
-/// Return how often the segment a, b crosses the ray from p toward -x: +1 downwards, -1 upwards. A
-/// segment through p counts as crossing the ray.
+/// Return the signed crossing of the segment a, b and the ray from p toward -x: +1 downwards, -1
+/// upwards, 0 if they do not cross. A segment through p counts as crossing the ray.
 int crossing(const Vec2& a, const Vec2& b, const Vec2& p)
 {
   const int downwards = static_cast<int>(is_above(a, p)) - static_cast<int>(is_above(b, p));
@@ -470,8 +471,8 @@ private:
   bool stopped_ = false;
 };
 
-/// Return the area of the inside, multiplied by the winding number. It is computed by the shoelace
-/// formula, with the first point of each loop as the origin.
+/// Return the sum of (area of a region) x (winding number in the region), over all regions of the
+/// plane. The shoelace formula is used, with the first point of each loop as the origin.
 double area_of(const std::vector<Vec2>& path, const std::vector<Loop>& loops)
 {
   double two_areas = 0.0;
@@ -696,7 +697,8 @@ double CurveWindingNumber::Parts::at_touching(const Vec2& p) const
     }
     ++n;
   }
-  // Cancel the chords in the sum. They belong to leaves that were not summed segment by segment.
+  // Cancel the chords that are part of the sum. These chords are in leaves that were not summed
+  // segment by segment.
   for (const Chord& chord : this->chords)
   {
     if (outside(this->nodes[chord.leaf]))

@@ -11,7 +11,6 @@
 namespace bindpose
 {
 
-/// A position or direction in the plane.
 /// #V x 2 coordinates, row-major.
 using PlanePoints = Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor>;
 /// #E x 2 vertex ids: from, to.
@@ -30,7 +29,8 @@ using SegmentsView = MatrixView<Segments>;
 ///
 /// - **On the curve**: segments that touch the point contribute 0 (the principal value). For
 ///   example, the value is 1/2 on an edge of a square and 1/4 at its corner. A segment touches a
-///   point within a few units in the last place of the largest coordinate (2^-49 of it).
+///   point if their distance is at most 2^-49 times the largest coordinate, that is, a few units in
+///   the last place.
 /// - **Segments without length** contribute 0; their number is reported. Equal vertices are merged.
 /// - **Precision**: double. Coordinates are shifted and scaled without rounding. Values of closed
 ///   curves are exact; the error is about 1e-16 per pair of open ends.
@@ -60,8 +60,8 @@ public:
   ///   .duplicate_segments,
   /// - counts.open_ends: vertices with different numbers of incoming and outgoing segments, which
   ///   make the winding number fractional,
-  /// - area: the area of the inside, multiplied by the winding number. Open curves are closed by
-  ///   straight lines between their ends.
+  /// - area: the sum of (area of a region) x (winding number in the region), over all regions of
+  ///   the plane. Open curves are closed by straight lines between their ends.
   Status build(PlanePointsView points, SegmentsView segments, ExecutionContext& context);
 
   /// Return the status of the last build.
@@ -72,15 +72,15 @@ public:
   /// Write the winding numbers of #Q x 2 points to `out`, which the caller allocates. If `on_curve`
   /// is not null, set its entries to 1 for points that touch a segment, otherwise to 0. A point
   /// that is not finite gets NaN and causes a warning. The status reports counts.queries,
-  /// counts.on_surface and, if it is not 0, counts.not_finite. If the result is canceled, `out` is
-  /// incomplete.
+  /// counts.on_surface and, if it is not 0, counts.not_finite. If the returned status is canceled,
+  /// `out` is incomplete.
   Status evaluate(PlanePointsView queries, ExecutionContext& context, double* out,
     unsigned char* on_curve = nullptr) const;
   Status evaluate(PlanePointsView queries, ExecutionContext& context, Eigen::VectorXd& out) const;
   /// Compute the derivatives of the winding number along x and y, #Q x 2. The jump across the curve
   /// is excluded, so the derivatives of closed curves are 0. The derivatives have no limit at an
-  /// open end; an open end that touches the point contributes 0. If the result is canceled, `out`
-  /// is incomplete.
+  /// open end; an open end that touches the point contributes 0. If the returned status is
+  /// canceled, `out` is incomplete.
   Status evaluate_gradient(PlanePointsView queries, ExecutionContext& context, double* out) const;
 
   /// Return the winding number at one point, or NaN if the point is not finite. Thread-safe, does
@@ -92,9 +92,10 @@ private:
   std::unique_ptr<Parts> parts_;
 };
 
-/// Return the plain sum of angles over all segments, without a build and with the same value on the
-/// curve. This is the reference implementation. Ids must be in range and coordinates finite; the
-/// result is 0 without segments. Cost: ~25 ns x #E.
+/// Return the winding number as the plain sum of angles over all segments, without a build. For a
+/// point on the curve, the value is the same as that of CurveWindingNumber. This is the reference
+/// implementation. Ids must be in range and coordinates finite; the result is 0 without segments.
+/// Cost: ~25 ns x #E.
 double curve_winding_number_direct(
   PlanePointsView points, SegmentsView segments, const Vec2& point, bool* on_curve = nullptr);
 

@@ -51,8 +51,9 @@ public:
   /// Build the field. Points must be centered and scaled to a size of about 1, with ids below 2^31,
   /// and must outlive the field. There is one multiplicity per triangle. A triangle touches a point
   /// within touch_tolerance. Cost: O(#F log #F); on one thread 20 us per triangle at a tolerance of
-  /// 1e-3, and 50 us per triangle for the caps of a few patches. Memory: 0.8 to 3 kB per triangle;
-  /// fields of few triangles need the most, because their cells are finer.
+  /// 1e-3, and 50 us per triangle if the triangles are the caps of a few surface patches. Memory:
+  /// 0.8 to 3 kB per triangle. Fields of few triangles need the most memory per triangle, because
+  /// their cells are finer.
   /// @return false if canceled; the field is then empty.
   bool build(const Points& points, const Triangles& triangles,
     const std::vector<int>& multiplicities, double touch_tolerance, const Options& options,
@@ -61,9 +62,9 @@ public:
   /// Return the value at a finite point. It is a pure function of the point. Thread-safe, does not
   /// allocate.
   double evaluate(const Vec3& point, bool* on_surface = nullptr) const;
-  /// Compute the values of many points, bit-identical to the single evaluations. This is faster,
-  /// because the memory accesses of several points overlap, and fastest if consecutive points are
-  /// near each other.
+  /// Compute the values of many points, bit-identical to the single evaluations. One call for many
+  /// points is faster, because the memory accesses of several points overlap. It is fastest if
+  /// consecutive points are near each other.
   void evaluate(const Vec3* points, Index count, double* out, bool* on_surface) const;
 
   /// Compute the values of a row of points with equal y and z, bit-identical to the single
@@ -109,8 +110,8 @@ private:
   struct Leaf
   {
     Id id;
-    /// Number of bits. A Place in the leaf, shifted right by this number, gives the coordinates of
-    /// the leaf among the cells of its level.
+    /// Number of bits by which the coordinates of a Place in the leaf are shifted right. The result
+    /// is the coordinates of the leaf among the cells of its level.
     int shift;
     double inverse; ///< 2 divided by the edge length of the leaf
     Vec3 center;
@@ -128,7 +129,7 @@ private:
   auto with_numbers(Id leaf, const Use& use) const;
   void contract(const Leaf& leaf, double y, double z, double* polynomial) const;
   double near_sum(const BlockRun* runs, Index count, const Vec3& point, bool& on_surface) const;
-  /// Return the sum over all triangles, each as exact as possible.
+  /// Return the sum of the solid angles of all triangles, each computed as exactly as possible.
   double exact_sum(const Vec3& point) const;
   double outer_sum(const Vec3& point, bool& on_surface) const;
   /// Call see(moments, offset) for nodes that are far from the point, and all(run) for the
@@ -152,8 +153,8 @@ private:
   std::vector<float> float_locals_;
   std::vector<double> double_locals_;
 
-  // Octree below a lattice of top cells. The entry of a cell is the index of its first child or,
-  // for a leaf, ~(index of the leaf).
+  // Octree below a lattice of top cells. The entry of a cell is the index of the first child of the
+  // cell. The entry of a leaf is ~(index of the leaf).
   Vec3 lower_ = Vec3::Zero();
   double size_ = 0.0;
   int top_level_ = 0;

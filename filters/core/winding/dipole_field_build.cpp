@@ -7,10 +7,10 @@
 //
 // Cells: an octree over a cube around the triangles and the region. From the top down, each cell
 // tests the nodes that are not yet part of its parent's expansion. A node that is far enough away
-// is added to the local expansion of the cell, which consists of harmonic polynomials. A large node
-// is replaced by its two children. The remaining nodes are passed to the children of the cell. A
-// cell is not split further if few blocks remain or if the cell is small compared with them. The
-// remaining blocks are its near list. Only leaves are stored.
+// is added to the local expansion of the cell, which consists of harmonic polynomials. Any other
+// node that is large is replaced by its two children. The remaining nodes are passed to the
+// children of the cell. A cell is not split further if few blocks remain or if the cell is small
+// compared with them. The remaining blocks are its near list. Only leaves are stored.
 //
 // "Far enough" means: the sum of the omitted terms is estimated from the powers of the node's
 // multipoles (Dehnen 2014, equation 15), and the estimate is below a threshold. The finished field
@@ -46,20 +46,21 @@ struct Tuning
 /// the same cost.
 constexpr Tuning tunings[] = { { 1e-2, 4, 0.8 }, { 2e-3, 6, 0.8 }, { 1e-3, 7, 0.8 },
   { 1e-4, 7, 0.8 }, { 1e-5, 9, 0.8 }, { 1e-6, 11, 0.8 }, { 0.0, 13, 1.0 } };
-/// Cells that are smaller by the factor `finer` take 1.2 times less time and twice the memory. They
-/// are used for fields with up to `small_field` blocks.
+/// With cells that are smaller by the factor `finer`, an evaluation takes 1.2 times less time, and
+/// the field takes twice the memory. These cells are used for fields with up to `small_field`
+/// blocks.
 constexpr Index small_field = 2048;
 constexpr double finer = 0.75;
 /// First threshold for the error estimate of an interaction, in units of the tolerance. The
-/// estimates are upper bounds, and the errors of many interactions rarely add up. If they do add
-/// up, the comparison on the sample points detects it.
+/// estimates are upper bounds, and the errors of many interactions rarely add up. If the errors do
+/// add up, the comparison on the sample points detects this case.
 constexpr double first_threshold = 1.2;
-/// Threshold outside the cells, relative to the current threshold. It is smaller, because each
-/// point has few interactions and their estimates are tighter: they do not contain the radius of a
-/// cell.
+/// Threshold outside the cells, relative to the current threshold. This threshold is smaller,
+/// because each point has few interactions. In addition, the estimates are tighter, because they do
+/// not contain the radius of a cell.
 constexpr double outer_share = 0.2;
-/// Largest accepted error on the sample, in units of the tolerance. This is half of the tolerance;
-/// the other half is a margin for points not in the sample.
+/// Largest accepted error on the sample points, in units of the tolerance. The rest of the
+/// tolerance is a margin for all other points.
 constexpr double wanted_error = 0.5;
 /// Measured nanoseconds to sum a block, to make a cell, and to test one inherited node in a cell.
 /// The last two costs apply to order 7 and grow with the cube of the order. Splitting a cell halves
@@ -70,8 +71,8 @@ constexpr double node_cost = 150.0;
 /// Up to this many expected points, every value is the sum over all triangles, because building the
 /// multipoles alone would cost about as much.
 constexpr Index few_points = 3000;
-/// Number of expected points per sample point of the comparison with the plain sum, and minimum
-/// number of sample points.
+/// The finished field is compared with the plain sum on sample points. These are the number of
+/// expected points per sample point, and the minimum number of sample points.
 constexpr Index points_per_sample = 512;
 constexpr Index fewest_samples = 48;
 /// At or above this tolerance single precision is accurate enough, unless the errors of float sums
@@ -250,9 +251,10 @@ void DipoleField::Build::take(const Triangles& triangles, const std::vector<int>
   }
 }
 
-// Cut long slivers among short triangles. A sliver is near all cells along it; its two halves are
-// each near fewer cells and have the same sum. The longest triangles are cut first, as long as this
-// adds few triangles.
+// Cut long slivers among short triangles. A sliver is near all cells along its length. Each half of
+// the sliver is near fewer cells, and the solid angles of both halves sum to that of the sliver.
+// All triangles with an edge longer than `limit` are cut. `limit` is chosen so that the cuts add
+// few triangles.
 void DipoleField::Build::cut_long_triangles()
 {
   const std::size_t count = this->ids.size();
@@ -275,7 +277,7 @@ void DipoleField::Build::cut_long_triangles()
     : this->options.expected_points < 500000                    ? 2
                                                                 : 4;
   const std::size_t most = std::max(2 * count, std::min<std::size_t>(factor * count, 8192));
-  // A triangle whose longest edge has length x is cut into about x / limit pieces.
+  // A triangle whose longest edge has length x is cut into about 1.5 x / limit pieces.
   double limit = *std::max_element(longest.begin(), longest.end());
   const auto pieces = [&](double length)
   {
@@ -374,8 +376,8 @@ bool DipoleField::Build::sort_triangles()
           (a.center - node.center).norm() + a.radius, (b.center - node.center).norm() + b.radius));
     }
   }
-  // A child almost as large as its parent causes an error similar to the error of the parent. The
-  // errors of two such children add up, so the allowed error is divided between them.
+  // A child that is almost as large as its parent causes an error of similar size. The errors of
+  // two such children add up, so the allowed error is divided between them.
   for (const Node& node : this->nodes)
   {
     for (const Id id : { node.left, node.right })
@@ -391,8 +393,8 @@ bool DipoleField::Build::sort_triangles()
   return true;
 }
 
-// Split the node where the two groups become small: minimize the sum over both groups of (number of
-// blocks x squared size).
+// Split the node into two small groups: minimize the sum over both groups of (number of blocks x
+// squared size).
 std::int32_t DipoleField::Build::split(Id first, Id count)
 {
   Box box, box_of_centers;
@@ -799,7 +801,8 @@ void DipoleField::Build::place_cells()
   {
     const int level = expected < 2e4 ? 0 : expected < 2e5 ? 1 : 2;
     this->field.top_level_ = std::min(this->field.top_level_, level);
-    // Thicken a flat region, because its points can be anywhere in the cells that it crosses.
+    // Thicken a flat region, because the expected points can be anywhere in the cells that the
+    // region crosses.
     this->region = box;
     for (int k = 0; k < 3; ++k)
     {
@@ -1182,7 +1185,7 @@ bool DipoleField::Build::fill_cells()
     tree = Subtree();
   }
   f.first_run_.push_back(run);
-  // Padding, because contract_local() reads beyond the end of the last row.
+  // Add padding, because contract_local() reads beyond the end of the last row.
   f.fine_ ? f.double_locals_.resize(coefficients + polynomial_lanes)
           : f.float_locals_.resize(coefficients + polynomial_lanes);
   return true;

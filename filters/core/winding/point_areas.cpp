@@ -1,7 +1,7 @@
 // Area of the Voronoi cell of each sample, clipped to a disc. A cell starts as the square around
 // the disc and is cut by the bisector of each neighbor. Then the area of the intersection of the
-// polygon and the disc is computed. It is a sum over the edges of the polygon: the part of an edge
-// inside the disc contributes the triangle with the center of the disc, a part outside the disc
+// polygon and the disc is computed as a sum over the edges of the polygon. The part of an edge
+// inside the disc contributes its triangle with the center of the disc. A part outside the disc
 // contributes a circular sector.
 #include "winding/point_areas.h"
 
@@ -15,7 +15,8 @@ namespace bindpose
 
 namespace
 {
-/// Keep the part of a convex polygon whose points p satisfy p . `toward` <= `limit`.
+/// Keep the part of a convex polygon whose points p satisfy p . `toward` <= `limit`. `room` is
+/// working memory.
 void cut(std::vector<Vec2>& polygon, const Vec2& toward, double limit, std::vector<Vec2>& room)
 {
   room.clear();

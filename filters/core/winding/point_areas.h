@@ -10,11 +10,12 @@ namespace bindpose
 /// tangent plane, among its nearest neighbors (after Barill, Dickson, Schmidt, Levin, Jacobson
 /// 2018).
 ///
-/// Neighbors are mapped into the plane in the direction of their projection, and keep their
-/// distance from the sample. Neighbors with an opposite normal (the other side of a thin sheet) do
-/// not bound the cell. The cell is clipped to the disc of half the farthest neighbor's distance,
-/// because a point beyond this radius could be nearer to a sample that is not among the neighbors.
-/// The area of a cell is divided among the samples at the same position.
+/// Each neighbor is mapped into the tangent plane. The mapped neighbor has the direction of the
+/// projection and the original distance from the sample. Neighbors with an opposite normal (the
+/// other side of a thin sheet) do not bound the cell. The cell is clipped to a disc around the
+/// sample, because a point outside the disc could be nearer to a sample that is not among the
+/// neighbors. The radius of the disc is half the distance of the farthest neighbor. The area of a
+/// cell is divided among the samples at the same position.
 ///
 /// Measured on a sphere of 20,000 samples: for evenly spread samples the sum of the areas is
 /// accurate to 1e-4 with 8 neighbors or more. For random samples it is too small by 10 % with 8

@@ -8,10 +8,10 @@
 // multipoles; the points of near leaves are summed one by one.
 //
 // "Far enough" is defined as follows. Consider the harmonics of degree n of a dipole m at the
-// offset y from the center of the box. At distance r they are at most n |m| |y|^(n-1) / r^(n+1),
-// because the slope of a zonal harmonic |y|^n P_n is at most n |y|^(n-1) (inequality of Bernstein
-// and Szego). Let A = sum |m| |y|^order, let R be the largest |y|, and let u = R / r < 1. Then the
-// terms omitted after degree `order` are at most
+// offset y from the center of the box. At distance r their sum is at most n |m| |y|^(n-1) /
+// r^(n+1), because the slope of a zonal harmonic |y|^n P_n is at most n |y|^(n-1) (inequality of
+// Bernstein and Szego). Let A = sum |m| |y|^order, let R be the largest |y|, and let u = R / r < 1.
+// Then the terms omitted after degree `order` are at most
 //
 //   A / r^(order+2) (order + 1 + u / (1 - u)) / (1 - u)
 //
@@ -465,8 +465,8 @@ void PointCloudWindingNumber::Parts::within_tolerance(const Try& attempt) const
     {
       return;
     }
-    // The bound of a box decreases at least with this power of the distance. The bounds of its
-    // children are smaller.
+    // The bound of a box decreases at least with the power order + 2 of the distance. The bounds of
+    // the children of the box are smaller.
     constexpr double margin = 1.05;
     squared_stretch *= margin * std::pow(error_bound / this->tolerance, 2.0 / (this->order + 2));
   }
@@ -556,8 +556,8 @@ void PointCloudWindingNumber::Parts::find_multipole(
     each(
       [&](const Vec3& at, double weight)
       {
-        // The radius includes points without a moment, because a query point that touches such a
-        // point must descend to it.
+        // The radius includes points without a moment, because a query point may touch such a
+        // point. The descent must then reach the leaf that contains the touched point.
         const double distance = (at - center).norm();
         extent.radius = std::max(extent.radius, distance);
         extent.power += weight * std::pow(distance, this->order);
@@ -682,8 +682,8 @@ Points PointCloudWindingNumber::Parts::sample(const PointTree& tree) const
   return result;
 }
 
-/// Find the largest threshold, within a few percent, such that the sums of the error bounds at
-/// `places` are within the tolerance. Return false if canceled.
+/// Find a threshold such that the largest sum of the error bounds at `places` is about 90 % of the
+/// tolerance. Return false if canceled.
 bool PointCloudWindingNumber::Parts::find_threshold(const Points& places, ExecutionContext& context)
 {
   // The error bound of each box is proportional to the threshold. The number of boxes decreases

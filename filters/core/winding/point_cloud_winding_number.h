@@ -20,9 +20,9 @@ using NumbersView = MatrixView<Eigen::VectorXd>;
 /// area that p represents.
 ///
 /// - **Near the samples** the sum is singular, and the values are not corrected. Within about one
-///   spacing of the samples (reported) the values are meaningless, and they grow without bound
-///   toward each sample. Largest errors, measured on a sphere: for evenly spread samples 0.1 at
-///   half a spacing, 2e-2 at one and 2e-3 at two spacings; for random samples 0.4 at one, 0.2 at
+///   spacing of the samples (`spacing` in the report) the values are meaningless. They grow without
+///   bound toward each sample. Largest errors, measured on a sphere: for evenly spread samples 0.1
+///   at half a spacing, 2e-2 at one and 2e-3 at two spacings; for random samples 0.4 at one, 0.2 at
 ///   two and 0.05 at eight spacings.
 /// - **On a sample**: the value at the position of a sample (within 2^-49 of the largest
 ///   coordinate) is the sum over all other samples. Such a query point is flagged.
@@ -57,16 +57,16 @@ public:
   PointCloudWindingNumber& operator=(PointCloudWindingNumber&&) noexcept;
   ~PointCloudWindingNumber();
 
-  /// Build from copies of #P x 3 points, #P x 3 normals and #P areas. Without areas they are
-  /// estimated, see estimate_point_areas(). Return invalid_input if a value is not finite, an area
-  /// is negative, the three arrays have different lengths, the cloud is a single point without a
-  /// specified area, the areas are far too large for the distances between the points, an option is
-  /// out of its range, or there are 2^29 points or more. An empty cloud is valid and has the
+  /// Build from copies of #P x 3 points, #P x 3 normals and #P areas. If `areas` is empty, areas
+  /// are estimated, see estimate_point_areas(). Return invalid_input if a value is not finite, an
+  /// area is negative, the three arrays have different lengths, the cloud is a single point without
+  /// a specified area, the areas are far too large for the distances between the points, an option
+  /// is out of its range, or there are 2^29 points or more. An empty cloud is valid and has the
   /// winding number 0 everywhere; a warning reports it. The status reports method, method_reason,
   /// counts.points, .zero_normals, .zero_areas, area (of all points), spacing (square root of the
   /// mean area) and volume (by the divergence theorem). For the fast method it also reports
   /// error_bound (the tolerance) and measured_error, the largest difference from the plain sum at
-  /// sample points that the build chooses near the cloud and around it.
+  /// test points that the build chooses near the cloud and around it.
   Status build(PointsView points, PointsView normals, NumbersView areas, ExecutionContext& context,
     const Options& options);
   Status build(PointsView points, PointsView normals, NumbersView areas, ExecutionContext& context)
@@ -86,8 +86,8 @@ public:
   /// Write the winding numbers of #Q x 3 points to `out`, which the caller allocates. If
   /// `on_surface` is not null, set its entries to 1 for query points on a sample, otherwise to 0. A
   /// point that is not finite gets NaN and causes a warning. The status reports counts.queries,
-  /// counts.on_surface and, if it is not 0, counts.not_finite. If the result is canceled, `out` is
-  /// incomplete.
+  /// counts.on_surface and, if it is not 0, counts.not_finite. If the returned status is canceled,
+  /// `out` is incomplete.
   Status evaluate(PointsView queries, ExecutionContext& context, double* out,
     unsigned char* on_surface = nullptr) const;
   Status evaluate(PointsView queries, ExecutionContext& context, Eigen::VectorXd& out) const;
@@ -99,8 +99,8 @@ public:
   /// They are NaN at points that are not finite. Near a sample they grow with the third power of
   /// the inverse distance, faster than the value. Samples at the position of the query point
   /// contribute 0. The measured error of the fast method is at most 10 x tolerance / (distance to
-  /// the nearest sample). If the result is canceled, `out` is incomplete. Cost: about twice that of
-  /// a value.
+  /// the nearest sample). If the returned status is canceled, `out` is incomplete. Cost: about
+  /// twice the cost of a value.
   Status evaluate_gradient(PointsView queries, ExecutionContext& context, double* out) const;
   Status evaluate_gradient(const SampleGrid& grid, ExecutionContext& context, double* out) const;
 

@@ -25,7 +25,7 @@ Status point_values(ExecutionContext& context, Index count, double nanoseconds_a
   const std::function<void(Index begin, Index end, unsigned char* flags)>& body);
 
 /// Compute the derivatives at many points on all threads. body(i) must write the derivatives at
-/// point i. If the result is canceled, the derivatives are incomplete.
+/// point i. If the returned status is canceled, the derivatives are incomplete.
 Status point_gradients(ExecutionContext& context, Index count, double nanoseconds_a_point,
   const std::function<void(Index i)>& body);
 

@@ -101,14 +101,14 @@ struct RayCrossings::Facet
   int axis;
   double x[3], y[3], z[3];
   double lower[3], upper[3]; ///< box of the triangle, enlarged by the tolerance
-  /// If the absolute value of an orientation is larger than this, the computed sign is right.
+  /// If the absolute value of an orientation is larger than this bound, the computed sign is right.
   double edge_bound;
   /// A point does not touch the triangle if one of its orientations is below -`outside` and another
   /// one is above `outside`.
   double outside;
   double normal[3]; ///< normal vector, not normalized
-  /// If the absolute value of the volume is larger than this, the computed sign is right and the
-  /// point does not touch the triangle.
+  /// If the absolute value of height() is larger than this bound, the computed sign is right and
+  /// the point does not touch the triangle.
   double plane_bound;
 
   /// Return six times the signed volume of the tetrahedron of the triangle and the point. It is the
@@ -401,8 +401,8 @@ bool RayCrossings::count(const Vec3* points, Index number, ExecutionContext& con
           return;
         }
         const Index face = slabs > 1 ? faces[face_begin[slab] + i] : i;
-        // If there are few points, the projected boxes of most triangles contain no point, and
-        // these triangles need no other test.
+        // If there are few points, the projected boxes of most triangles contain no point. These
+        // triangles need no other test than the test of the cells.
         const std::array<Vec3, 3> c = this->corners(face);
         const Index u0 = u_of(std::min({ c[0][u], c[1][u], c[2][u] }) - this->tolerance_);
         const Index u1 = u_of(std::max({ c[0][u], c[1][u], c[2][u] }) + this->tolerance_);
@@ -620,7 +620,7 @@ void RayCrossings::count_slab(const Grid& grid, const Layers& layers, Index slab
         }
         const Index row = (k - first_layer) * rows + j;
         const bool certain = least > f.edge_bound || most < -f.edge_bound;
-        // Samples with coordinates from `x` to `y` are tested one by one. If the triangle is
+        // Samples with x coordinates from `x` to `y` are tested one by one. If the triangle is
         // parallel to the rows, `center` is NaN and the comparisons select the ends of the box.
         const double center = f.x[0] + (f.normal[1] * ay + f.normal[2] * az) * per_normal;
         const double x =

@@ -1,9 +1,9 @@
 // Boundary edges, components and volumes of a welded surface.
 //
-// Surface and caps together are closed. Each component and its caps are closed, too, because a
-// boundary loop belongs to one component. Therefore the volume of a component does not depend on
-// the origin of the sum. The origin is a vertex of the component, which reduces round-off if a
-// small component is far from the coordinate origin.
+// The surface and the caps together are closed. Each component together with its caps is also
+// closed, because a boundary loop belongs to one component. Therefore the volume of a component
+// does not depend on the origin of the sum. The origin is a vertex of the component, which reduces
+// round-off if a small component is far from the coordinate origin.
 #include "winding/surface_boundary.h"
 
 #include <cstdlib>

@@ -120,8 +120,8 @@ std::uint64_t packed(Index first, Index second)
 }
 
 /// Group items by a vertex: the items of vertex v are items[begin[v] … begin[v + 1]), ascending.
-/// `visit(see)` must call see(vertex, item) for all items; it is called twice. Return false if
-/// canceled.
+/// `visit(see)` must call see(vertex, item) for all items. lay_out() calls `visit` twice. Return
+/// false if canceled.
 template <typename Visit>
 bool lay_out(ExecutionContext& context, Index vertices, const Visit& visit,
   std::vector<Index>& begin, std::vector<std::uint64_t>& items)

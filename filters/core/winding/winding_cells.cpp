@@ -4,13 +4,14 @@
 // points. A cell is convex, so the segment from a point to the cell's reference can cross only the
 // few triangles of the cell.
 //
-// A segment from p to the reference r crosses the triangle a, b, c if p and r are on different
-// sides of its plane, and p is on the same side of the three planes through r and an edge. These
-// four planes are stored as unit normals with 16 bits per coordinate. Their signs are computed for
-// eight triangles in parallel, in a few operations each. The error bound depends only on the
-// distance between p and r. An undecided sign is computed again in doubles, from volumes of the
-// corners themselves. If the sign is still undecided, the point touches the triangle or the segment
-// touches an edge. Then the point is unresolved.
+// A segment from p to the reference r crosses the triangle a, b, c if two conditions are true.
+// First, p and r are on different sides of the plane of the triangle. Second, p is on the same side
+// of all three planes that contain r and an edge of the triangle. These four planes are stored as
+// unit normals with 16 bits per coordinate. Their signs are computed for eight triangles in
+// parallel, in a few operations each. The error bound depends only on the distance between p and r.
+// An undecided sign is computed again in doubles, from volumes of tetrahedra of p, r and the exact
+// corners. If the sign is still undecided, the point touches the triangle or the segment touches an
+// edge. Then the point is unresolved.
 #include "winding/winding_cells.h"
 
 #include "base/simd.h"

@@ -31,7 +31,7 @@ public:
   /// Compute the winding numbers of up to `most_at_once` points. Several points per call are
   /// faster, because memory for the next point is prefetched while the current one is processed.
   /// resolved[i] is false if point i touches a triangle or a cap, and for about one in 1e12 other
-  /// points; the caller must use another method for it. Thread-safe.
+  /// points. The caller must use another method for unresolved points. Thread-safe.
   static constexpr Index most_at_once = 32;
   void evaluate(const Vec3* points, Index number, int* counts, bool* resolved) const;
 
@@ -48,8 +48,8 @@ private:
   using Id = std::int32_t;
   static constexpr int lanes = 8;
   /// Planes of up to eight triangles relative to the reference of a leaf. The first three normals
-  /// belong to the planes through the reference and an edge. The fourth normal belongs to the
-  /// triangle itself and is followed by the distance of its plane. The layout is a structure of
+  /// belong to the planes through the reference and an edge. The fourth normal belongs to the plane
+  /// of the triangle; the next number is the distance of this plane. The layout is a structure of
   /// arrays: each coordinate is stored for all triangles before the next coordinate.
   struct Block
   {
@@ -62,7 +62,7 @@ private:
   struct Leaf
   {
     Vec3 reference;
-    float per_length; ///< stored plane distances are lengths multiplied by this
+    float per_length; ///< factor from lengths to stored plane distances
     int count; ///< winding number at the reference
     Id begin, end; ///< range of the leaf's blocks
   };

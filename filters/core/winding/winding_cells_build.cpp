@@ -31,11 +31,11 @@ constexpr int most_cells_along = 32;
 /// a few large triangles are in cells without triangles.
 constexpr double fewest_cells_along = 8.0;
 constexpr int deepest = 12;
-/// Stored distance of a plane at the distance of one cell size: slightly less than the range of 16
-/// bits.
+/// Stored number for a plane distance of one cell size. It is slightly less than the largest number
+/// of 16 bits.
 constexpr double distance_units = 32000.0;
-/// A cross product shorter than this, relative to the lengths of its factors (doubles around 1),
-/// has no reliable direction.
+/// A cross product has no reliable direction if its length is less than this number times the
+/// length of its longer factor. The coordinates are doubles of about 1.
 constexpr double shortest_product = 1e-9;
 
 /// Report whether a triangle and a box intersect, by separating axes (Akenine-Moeller). Return true
@@ -227,8 +227,8 @@ bool WindingCells::Builder::build()
   }
   if (!bounds.empty())
   {
-    // The margin keeps triangles away from the sides of the box. Its irregular ratios keep the
-    // sides of cells off the planes of axis-aligned surfaces.
+    // The margin keeps triangles away from the sides of the box. The irregular ratios of the margin
+    // ensure that the sides of cells are not in the planes of axis-aligned surfaces.
     const double room = 1e-3 * bounds.diagonal() + 16.0 * this->owner_.tolerance_;
     all.lower = bounds.lower - Vec3(1.0137, 1.0719, 1.0431) * room;
     all.size = bounds.upper + Vec3(1.0311, 1.0173, 1.0597) * room - all.lower;
@@ -605,8 +605,8 @@ bool WindingCells::Builder::fill(
 {
   const auto number = static_cast<std::size_t>(grid.number(c));
   const List faces(grid.faces.data() + grid.begin[c], grid.faces.data() + grid.begin[c + 1]);
-  // Divide the cell only if this reduces the number of faces per cell: a vertex of many triangles
-  // is in one cell of any size, so dividing does not help.
+  // Divide the cell only if this reduces the number of faces per cell. If a vertex belongs to many
+  // triangles, one cell of any size contains the vertex, so dividing does not help.
   const bool shrinks = box.depth < 3 || 10 * number < 7 * grid.faces_before;
   const bool large_enough = grid.cell > 1e6 * this->owner_.tolerance_;
   if (number > few && shrinks && large_enough && box.depth < deepest && entries > number)
@@ -705,7 +705,7 @@ WindingCells::Id WindingCells::Builder::add_leaf(
           direction(product, shortest_product * longest * std::max(1.0, reach / cell), one);
         const double distance =
           static_cast<double>(leaf.per_length) * product.dot(seen[0]) / product.norm();
-        // This is true for most faces, because they overlap the cell.
+        // The condition is true for most faces, because they overlap the cell.
         const bool is_near = std::abs(distance) < one;
         std::copy(normal.begin(), normal.end(), plane.begin() + 9);
         plane[12] = is_near && normal != std::array<double, 3>{} ? distance : 0.0;

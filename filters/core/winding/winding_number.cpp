@@ -41,9 +41,9 @@ namespace
 /// Up to this many triangles the plain sum takes no more time than a data structure.
 constexpr Index few_triangles = 24;
 /// Up to this many open edges (edges whose directions do not cancel), the sum over the caps takes
-/// less time than a descent of the tree. The tree is also slower if most edges are open. Measured:
-/// 14-20 ns per open edge, 20 ns per triangle, 20 to 600 us for the tree (more on rougher
-/// surfaces).
+/// less time than a descent of the tree. The tree is also slower if the number of open edges is at
+/// least half the number of triangles. Measured: 14-20 ns per open edge, 20 ns per triangle, 20 to
+/// 600 us for the tree (more on rougher surfaces).
 constexpr Index few_open_edges = 15000;
 /// Up to this many open edges, the exact sum over the caps takes about as much time as the
 /// DipoleField of the caps.
@@ -106,8 +106,8 @@ struct WindingNumber::Parts
   mutable WindingTree tree;
   mutable std::mutex tree_mutex;
   mutable std::atomic<bool> tree_built{ false };
-  // The cells are built during the build, or later when building them saves time. Counting
-  // crossings by rays gives the same values.
+  // The cells are built during the build, or later when they save time. Until then, crossings are
+  // counted by rays, which gives the same values.
   mutable WindingCells cells;
   mutable std::mutex cells_mutex;
   mutable std::atomic<bool> cells_built{ false };
@@ -319,7 +319,7 @@ Status WindingNumber::build(
     field.region.lower.array() -= pad;
     field.region.upper.array() += pad;
     // The field cuts long caps at rounded positions. Points for which this rounding matters count
-    // as touching, and the exact sum is used for them.
+    // as touching a cap. The exact sum is used for these points.
     const double shows = parts.frame.tolerance / options.tolerance;
     done = parts.field.build(parts.points, parts.caps,
       std::vector<int>(static_cast<std::size_t>(parts.caps.rows()), 1), shows, field, context);
@@ -357,9 +357,9 @@ Index WindingNumber::memory() const
     this->parts_->tree.memory() + this->parts_->cells.memory() + this->parts_->field.memory();
 }
 
-/// Report whether counting crossings by rays is faster than by cells. ray_cost is the predicted
-/// time for rays in nanoseconds. The cells are built at the latest when the total time of rays
-/// would exceed the time to build the cells.
+/// Report whether counting crossings by rays is faster than by cells. `ray_cost` and `cell_cost`
+/// are the predicted times of this evaluation in nanoseconds. Cells that do not exist count as
+/// slower until the total time of rays would exceed the time to build the cells.
 bool WindingNumber::Parts::rays_pay(double ray_cost, double cell_cost) const
 {
   if (this->cells_built)
@@ -456,7 +456,7 @@ void WindingNumber::Parts::caps_at(
   }
 }
 
-/// Build the tree if it does not exist. It is built when the first point needs it.
+/// Build the tree if it does not exist. Called when the first point needs the tree.
 bool WindingNumber::Parts::build_tree(ExecutionContext& context) const
 {
   const std::lock_guard<std::mutex> lock(this->tree_mutex);
@@ -560,7 +560,7 @@ Status WindingNumber::evaluate_points(Index count, const PointAt& point_at,
     }
   }
   const ProgressRange range(context, by_rays ? 0.5 : 0.0, 1.0);
-  // The estimate for the tree is its worst case, in which it works like a list.
+  // The estimate for the tree is the worst case, in which the tree takes the time of the plain sum.
   const double nanoseconds = parts.method == WindingMethod::fast ? 500.0
     : parts.method == WindingMethod::crossings
     ? 100.0 + 20.0 * static_cast<double>(parts.caps.rows())

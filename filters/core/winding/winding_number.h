@@ -44,14 +44,15 @@ const char* to_string(WindingMethod method);
 ///
 /// - **On the surface**: triangles that touch the point contribute 0 (the principal value). For
 ///   example, the value is 1/2 on a face of a cube, 1/4 on an edge and 1/8 at a vertex. A triangle
-///   touches a point within a few units in the last place of the largest coordinate (2^-49 of it).
+///   touches a point if their distance is at most 2^-49 times the largest coordinate, that is, a
+///   few units in the last place.
 /// - **Degenerate triangles** contribute 0; their number is reported. Equal vertices are merged.
 /// - **Precision**: double. Coordinates are shifted and scaled without rounding. The error is about
 ///   1e-14 plus 1e-16 times the sum of the absolute winding numbers of the single triangles. The
 ///   error of the fast method is at most the tolerance.
 /// - **Cost**: build O(#F log #F), 0.07 s for 86k triangles, about 130 bytes per triangle.
-///   WindingMethod lists the cost per point. On a grid a closed surface costs some nanoseconds per
-///   sample.
+///   WindingMethod lists the cost per point. On a grid, one sample of the winding number of a
+///   closed surface takes some nanoseconds.
 ///
 /// Build once, evaluate often; evaluation is thread-safe and deterministic for any thread count.
 class WindingNumber
@@ -62,12 +63,14 @@ public:
     WindingMethod method = WindingMethod::automatic;
     /// Largest error of the fast method, 1e-8 … 0.1.
     double tolerance = 1e-3;
-    /// Nodes with at most this many triangles are not split further, 1 … 10000.
+    /// Nodes of the tree of boxes with at most this many triangles are not split further, 1 …
+    /// 10000.
     Index max_leaf_size = 64;
     /// Total number of points that will be evaluated, 0 … 2^62. 0 means unknown and is treated as
-    /// very many. The build uses it to minimize the total time of build and evaluation. A wrong
-    /// value costs time but no accuracy. The values of the fast method depend on it within the
-    /// tolerance; for parts of a grid, always use the number of samples of the whole grid.
+    /// very many. The build uses this number to minimize the total time of build and evaluation. A
+    /// wrong number costs time but no accuracy. The values of the fast method change with this
+    /// number, within the tolerance. For parts of a grid, always use the number of samples of the
+    /// whole grid.
     Index expected_queries = 0;
   };
 
@@ -106,7 +109,7 @@ public:
 
   /// Compute the winding numbers of #Q x 3 points. A point that is not finite gets NaN and causes a
   /// warning. The status reports counts.queries, counts.on_surface and, if it is not 0,
-  /// counts.not_finite. If the result is canceled, `out` is incomplete.
+  /// counts.not_finite. If the returned status is canceled, `out` is incomplete.
   Status evaluate(PointsView queries, ExecutionContext& context, Eigen::VectorXd& out) const;
   /// Compute the winding numbers at the samples of a grid; x varies fastest.
   Status evaluate(const SampleGrid& grid, ExecutionContext& context, Eigen::VectorXd& out) const;
@@ -121,8 +124,8 @@ public:
   /// The jump across the surface is excluded, so the derivatives of closed surfaces are 0. The
   /// derivatives are unbounded near a boundary edge; an edge that touches the point contributes 0.
   /// The error of the fast method is about 10 x tolerance / (distance to the boundary). If the
-  /// result is canceled, `out` is incomplete. Cost: 10 ns x #open edges per point; for the fast
-  /// method about the cost of a value.
+  /// returned status is canceled, `out` is incomplete. Cost: 10 ns x #open edges per point; the
+  /// fast method takes about the time of a value.
   Status evaluate_gradient(PointsView queries, ExecutionContext& context, double* out) const;
   Status evaluate_gradient(const SampleGrid& grid, ExecutionContext& context, double* out) const;
 
@@ -148,9 +151,10 @@ private:
   std::unique_ptr<Parts> parts_;
 };
 
-/// Return the plain sum over all triangles, without a build and with the same value on the surface.
-/// This is the reference implementation. The mesh must be valid (check_mesh); the result is 0
-/// without triangles. Cost: ~25 ns x #F.
+/// Return the winding number as the plain sum over all triangles, without a build. For a point on
+/// the surface, the value is the same as that of WindingNumber. This is the reference
+/// implementation. The mesh must be valid (check_mesh); the result is 0 without triangles. Cost:
+/// ~25 ns x #F.
 double winding_number_direct(
   PointsView points, TrianglesView triangles, const Vec3& point, bool* on_surface = nullptr);
 

@@ -2,9 +2,9 @@
 //
 // Nodes are split at the median of the triangles' centers along the longest axis. Boundaries are
 // computed from the leaves upwards: edges that the two children use in opposite directions cancel.
-// The cap of a boundary is the fan from one of its vertices to all its edges. As many boundary
-// edges enter a vertex as leave it, so the triangles and the reversed fan together are closed.
-// Outside the box their total winding number is constant; it is zero.
+// The cap of a boundary is the fan from one of its vertices to all its edges. Equal numbers of
+// boundary edges enter and leave each vertex, so the triangles and the reversed fan together are
+// closed. Outside the box the winding number of this closed surface is zero.
 #include "winding/winding_tree.h"
 
 #include <algorithm>
@@ -134,8 +134,8 @@ bool WindingTree::build_node(Id id, ExecutionContext& context, std::vector<NetEd
     combine(boundary);
   }
 
-  // The apex of the fan is the vertex that is the end `a` of the most boundary edges, because edges
-  // at the apex need no triangle.
+  // Edges at the apex of the fan need no triangle. Therefore the apex is the vertex that is the end
+  // `a` of the largest number of boundary edges.
   Id apex = -1;
   std::size_t most = 0;
   for (std::size_t i = 0; i < boundary.size();)

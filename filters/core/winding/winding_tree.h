@@ -35,7 +35,8 @@ public:
 
 private:
   using Id = std::int32_t;
-  /// An edge that is used `net` times more often as a -> b than as b -> a; a < b, net is not 0.
+  /// An edge with a < b. `net` is the number of uses as a -> b minus the number of uses as b -> a,
+  /// and is not 0.
   struct NetEdge
   {
     Id a, b, net;

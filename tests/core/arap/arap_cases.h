@@ -78,8 +78,7 @@ inline Status expect_that_extra_weights_help(ExtraWeights kind)
     EXPECT_TRUE(plain.solve(context, bend(middle), iterations(300)).ok());
     EXPECT_TRUE(wide.solve(context, bend(middle), iterations(300)).ok());
     EXPECT_LT(wide.energies().back(), plain.energies().back());
-    // Extra weights are zero at the handles, so vertices on which one handle has the weight 1 do
-    // not move.
+    // The left end is fixed. The extra weights are zero there, so its vertices must not move.
     EXPECT_TRUE(wide.deform(context, rig.mesh.points, result).ok());
     for (Index v = 0; v < rig.mesh.points.rows(); ++v)
     {

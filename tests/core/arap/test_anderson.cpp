@@ -10,7 +10,7 @@ using namespace bindpose;
 
 namespace
 {
-/// The map x <- A x + b with spectral radius 0.98, and two dependent values C x.
+/// The map x <- A x + b with spectral radius 0.98, and two values C x that depend on x.
 struct Problem
 {
   Eigen::Matrix4d a = Eigen::Vector4d(0.98, 0.9, -0.5, 0.3).asDiagonal();
@@ -60,7 +60,7 @@ TEST(Anderson, FindsALinearFixedPointInAboutAsManyStepsAsItHasUnknowns)
     {
       x = g;
     }
-    // The dependent values remain the same linear function of x.
+    // The dependent values must still equal C x.
     EXPECT_LT((x.tail<2>() - problem.c * x.head<4>()).norm(), 1e-9 * (1.0 + x.norm()));
   }
   const Eigen::Vector4d goal = problem.fixed_point();

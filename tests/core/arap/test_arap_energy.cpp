@@ -56,7 +56,7 @@ TEST(ArapEnergy, AffineMapsCostHalfTheIntegralOfTheDifferenceToTheirRotation)
   TriangleMesh square = test::grid(5, 4);
   TetMesh cube = test::tet_box(3, 2, 2);
   test::Random random(3);
-  // Avoid special angles; the cotangents have both signs.
+  // Move the inner vertices, so that angles have no special values and cotangents have both signs.
   for (Index v = 0; v < square.points.rows(); ++v)
   {
     const Vec3 p = square.points.row(v);
@@ -100,8 +100,8 @@ TEST(ArapEnergy, SpokesCostTheSameForACommonRotationAndForSimilarities)
   const Eigen::Matrix3d stretch = turn * Vec3(1.5, 1, 1).asDiagonal();
   EXPECT_NEAR(energy_of(square, ArapEnergy::spokes, stretch), 0.125, 1e-12);
   EXPECT_NEAR(energy_of(cube, ArapEnergy::spokes, stretch), 0.125, 1e-12);
-  // Compute the energy of an affine map with one rotation for all groups. Optimal rotations per
-  // group can only lower it.
+  // Compute the energy of an affine map if all groups have the same rotation. With an optimal
+  // rotation per group the energy can only be lower.
   Eigen::Matrix3d map;
   map << 1.5, 0.2, 0.1, -0.3, 0.8, 0.4, 0.2, 0.1, 1.1;
   const RotationGroups groups =

@@ -1,4 +1,5 @@
-// A crowd poses many instances of one shape. Each instance equals the result of ReducedArap.
+// A crowd poses many instances of one shape. Each instance must have the same result as
+// ReducedArap.
 #include "arap/crowd.h"
 
 #include "core/arap/arap_cases.h"
@@ -108,7 +109,8 @@ TEST(Crowd, ComesAndGoesAndSaysWhichPoseIsBad)
 
 TEST(Crowd, StandsWhereItIsPlaced)
 {
-  // A placement transforms the posed points, for any row sum of the weights.
+  // A placement transforms the posed points. This must also be true if the rows of the weights do
+  // not sum to 1.
   for (const double share : { 1.0, 0.7 })
   {
     Rig rig = bar();

@@ -95,7 +95,7 @@ TEST(FullArap, RigidHandlesMoveTheMeshRigidly)
   const Held bar = held_bar(6);
   const TriangleMesh ball = test::sphere(3);
   Handles poles;
-  for (const Index v : { 0, 1, 2, 3 }) // these are vertices of the icosahedron
+  for (const Index v : { 0, 1, 2, 3 }) // four of the 12 vertices of the icosahedron
   {
     poles.push_back(point_handle("p" + std::to_string(v), ball.points.row(v)));
   }
@@ -125,8 +125,8 @@ TEST(FullArap, RigidHandlesMoveTheMeshRigidly)
   }
 }
 
-// Neither the local nor the global step raises the energy. The last energy equals the sum over the
-// edges.
+// Neither a local nor a global step raises the energy. The last reported energy equals the energy
+// that is computed as a sum over the edges.
 TEST(FullArap, NoHalfStepRaisesTheEnergyAndTheLastIsTheEdgeSum)
 {
   const Held bar = held_bar(6);
@@ -168,7 +168,7 @@ TEST(FullArap, AtTheEndNoFreeVertexIsPulled)
     options.tolerance = 0.0;
     options.max_iterations = 600;
     ASSERT_TRUE(arap.solve(context, bend(HandleMode::free), options).ok());
-    // Perform one more local step, which makes the rotations optimal for these points.
+    // Perform one more iteration, which makes the rotations optimal for these points.
     const Points last = arap.posed();
     options.max_iterations = 1;
     options.anderson_window = 0;

@@ -25,7 +25,7 @@ struct Cloth
 };
 } // namespace
 
-// A pivot inside of an element constrains the point of the mesh at this position.
+// A pivot inside of an element constrains the point of the mesh that is at the pivot at rest.
 TEST(FullArapRobustness, APivotInsideAnElementIsThatPointOfTheMesh)
 {
   Held bar = held_bar(8);
@@ -42,8 +42,8 @@ TEST(FullArapRobustness, APivotInsideAnElementIsThatPointOfTheMesh)
   {
     FullArap arap;
     ASSERT_TRUE(bind(arap, bar, energy).usable());
-    // In the last round the ends of the bar are free. Then the two point handles determine the pose
-    // of the bar.
+    // In the last round of the loop the ends of the bar are free. Then only the two point handles
+    // determine the pose of the bar.
     for (const HandleMode ends : { HandleMode::full, HandleMode::position, HandleMode::free })
     {
       for (const HandleMode mode : { HandleMode::full, HandleMode::position })
@@ -122,7 +122,7 @@ TEST(FullArapRobustness, PointsThatNearlyMeetAndArePulledApartNeverRaiseTheEnerg
       {
         ASSERT_LE(energies[i], energies[i - 1] * (1.0 + 1e-9)) << apart << " " << i;
       }
-      // The final points are those for which the last energy was computed.
+      // The last energy must be that of the final points.
       EXPECT_NEAR(arap_energy(cloth.mesh.points, cloth.mesh.triangles, arap.groups(), arap.posed(),
                     arap.rotations()),
         energies.back(), 1e-6 * energies.back());
@@ -204,9 +204,8 @@ TEST(FullArapRobustness, ABoneTakesTheVerticesAlongIt)
 TEST(FullArapRobustness, RedundantAndContradictingHandlesAreNamed)
 {
   Cloth cloth;
-  // All three points are in the triangle of (0, 0), (1/6, 0) and a third corner. With the handle at
-  // (0, 0), the triangle has four constrained positions, but only three can be chosen
-  // independently.
+  // The points e, f and g are in one triangle, which has a corner at the handle at (0, 0). The
+  // triangle therefore has four constrained positions. Only three of them are independent.
   cloth.handles.push_back(point_handle("e", Vec3(0.06, 0.01, 0)));
   cloth.handles.push_back(point_handle("f", Vec3(0.10, 0.02, 0)));
   cloth.handles.push_back(point_handle("g", Vec3(0.12, 0.01, 0)));
@@ -262,8 +261,9 @@ TEST(FullArapRobustness, WhatNothingHoldsStays)
     // No handle is constrained.
     ASSERT_TRUE(arap.solve(context, posed(handles, HandleMode::free)).ok());
     EXPECT_LT((arap.posed() - two.points).cwiseAbs().maxCoeff(), 1e-12);
-    // Pose the handles and return them to rest. Two points do not determine the rotation around the
-    // line between them; the guess takes this rotation from the transforms of the points.
+    // Pose the handles, then return them to rest. Two points do not determine the rotation around
+    // the line between them. The initial guess takes this rotation from the transforms of the
+    // points.
     arap.forget();
     Pose pose = posed(handles, HandleMode::full, rigid(90, Vec3(0, 0, 1), Vec3(1, 1, 1)));
     ASSERT_TRUE(arap.solve(context, pose).ok());

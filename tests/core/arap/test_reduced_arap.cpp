@@ -227,8 +227,8 @@ TEST(ReducedArap, TheWholeSpaceIsFullArapIterateByIterate)
   }
 }
 
-// Neither the local nor the global step raises the energy. The last energy equals the sum over the
-// edges.
+// Neither a local nor a global step raises the energy. The last reported energy equals the energy
+// that is computed as a sum over the edges.
 TEST(ReducedArap, NoHalfStepRaisesTheEnergyAndTheLastIsTheEdgeSum)
 {
   const test::Rig rig = test::bar();
@@ -367,8 +367,8 @@ TEST(ReducedArap, ReductionCostsEnergy)
   EXPECT_EQ(own, energy_of(10 * rig.mesh.points.rows()));
   EXPECT_LT(own, energy_of(6));
   EXPECT_LT(energy_of(6), energy_of(1));
-  // Compare with the full method. It fixes the handles' vertices at the positions that the reduced
-  // method found, and all other vertices are free.
+  // Compare with the full method. The full method fixes the vertices of the handles at the
+  // positions that the reduced method computed. All other vertices are free.
   ReducedArap arap;
   ASSERT_TRUE(arap
                 .bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles,

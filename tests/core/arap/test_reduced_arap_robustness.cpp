@@ -72,7 +72,7 @@ TEST(ReducedArapRobustness, APivotInsideATetIsThatPointOfTheMesh)
   }
 }
 
-// Redundant constraints are reported, and contradictory ones are satisfied in the sense of least
+// Redundant constraints are reported. Contradictory constraints are reported and solved by least
 // squares.
 TEST(ReducedArapRobustness, RedundantAndContradictingPositionsAreNamed)
 {
@@ -103,7 +103,7 @@ TEST(ReducedArapRobustness, RedundantAndContradictingPositionsAreNamed)
   EXPECT_THAT(status.warnings[1], HasSubstr("'right', 'tail bone'"));
   Points result;
   ASSERT_TRUE(arap.deform(context, rig.mesh.points, result).ok());
-  // In the sense of least squares, the result is the mean of the two targets.
+  // Least squares places the vertex at the mean of the two targets.
   EXPECT_LT((result.rowwise() - Eigen::RowVector3d(4, 2.0, 0.5)).rowwise().norm().minCoeff(), 1e-9);
 }
 
@@ -153,7 +153,7 @@ TEST(ReducedArapRobustness, RestStaysAtRestWhateverTheWeights)
       ASSERT_TRUE(arap.deform(context, rig.mesh.points, result).ok());
       EXPECT_LT((result - rig.mesh.points).cwiseAbs().maxCoeff(), 1e-9);
     }
-    // Vertices move by about as much as the dragged handle.
+    // The mesh must not move much farther than the dragged handle.
     Pose pose = posed(rig.handles, HandleMode::position);
     pose[1].transform.col(3) << 0.3, 0.2, 0.1;
     pose[2].mode = HandleMode::free;
@@ -498,7 +498,8 @@ TEST(ReducedArapRobustness, CancelEndsTheBindAndTheSolve)
 
 namespace
 {
-/// The bar, with a middle handle that is a bone between two vertices.
+/// The bar of test::bar(), whose middle handle is replaced by a bone from one vertex to another
+/// vertex.
 struct BoneInABar
 {
   test::Rig rig = test::bar();
@@ -568,7 +569,8 @@ TEST(ReducedArapRobustness, EndsOfBonesAreHeldOneByOne)
 
 TEST(ReducedArapRobustness, RigidTargetsOfEndsAreReached)
 {
-  // Bones with constrained ends determine a rigid motion if they are not collinear.
+  // Bones whose ends are both constrained determine a rigid motion, unless all ends are on one
+  // line.
   BoneInABar bar;
   test::Rig& rig = bar.rig;
   rig.handles[2].kind = HandleKind::bone;

@@ -1,5 +1,6 @@
-// Basis of the reduced space that satisfies the constraints. A fast and a robust construction give
-// the same space. The fast construction fails if the rank of the constraints is in doubt.
+// Basis of the reduced space that satisfies the constraints. The basis has a fast and a robust
+// construction, which give the same space. The fast construction fails if the rank of the
+// constraints is uncertain.
 #include "arap/reduced_basis.h"
 
 #include "support/bars.h"
@@ -50,8 +51,8 @@ struct BasisCase
     this->choose({}, {});
   }
 
-  /// Choose which handles have mode full, and which ends of handles are constrained (rows of
-  /// pivot_rows).
+  /// Choose the handles of mode full, and the constrained ends of handles. The ends are given as
+  /// row indices of pivot_rows.
   void choose(const std::vector<Index>& full, const std::vector<Index>& held_rows)
   {
     this->given = Coordinates::Zero(4 * this->space.columns, 3);
@@ -191,7 +192,7 @@ TEST(ReducedBasis, BothWaysLeadToTheSame)
       one.compare(one.space.stiffness, nothing);
       one.compare(with_mass, load);
     }
-    // Without constraints the system is nonsingular only if it contains the mass.
+    // Without constraints the stiffness matrix is singular. Adding the mass makes it nonsingular.
     one.choose({}, {});
     one.compare(with_mass, load);
     ReducedBasis basis;
@@ -226,7 +227,7 @@ TEST(ReducedBasis, TheQuickWayDeclinesWhatIsInDoubt)
   EXPECT_TRUE(same.quickly(basis));
   EXPECT_TRUE(basis.redundant().empty());
 
-  // There are too many constraints for the fast construction.
+  // The fast construction fails if there are too many constraints.
   BasisCase many(rig);
   many.choose({ 0, 1, 2, 3, 4 }, { 5, 6, 7, 8, 9 });
   ReducedBasis few;

@@ -12,7 +12,7 @@ using testing::HasSubstr;
 
 namespace
 {
-/// A body of the bar's tets, with masses from lumped_mass.
+/// A body made of the tets of the bar, with the masses that lumped_mass computes.
 class Body
 {
 public:
@@ -118,8 +118,8 @@ TEST(ReducedDynamics, WithoutGravityMomentumStays)
   ReducedDynamicsOptions options;
   options.time_step = 0.01;
   options.stiffness = 50.0;
-  // The bar is fixed at one end and swings. Then it is released and moves away, rotating and
-  // vibrating.
+  // The bar swings with one end fixed. Then this end is released, and the bar moves away while it
+  // rotates and vibrates.
   ASSERT_TRUE(body.dynamics.start(body.context, drawn()).usable());
   for (int n = 0; n < 20; ++n)
   {

@@ -85,8 +85,7 @@ TEST(SkinningEigenmodes, SolveTheProblemAndAreOrthogonal)
   }
   const Eigen::MatrixXd gram = unit.transpose() * box.mass.asDiagonal() * unit;
   EXPECT_LT((gram - Eigen::MatrixXd::Identity(15, 15)).cwiseAbs().maxCoeff(), 1e-8);
-  // The dense solver gives the same result. The function uses it because the number of modes is
-  // large.
+  // For a large number of modes the function uses the dense solver. The result must be the same.
   Eigenmodes dense;
   ASSERT_TRUE(skinning_eigenmodes(
     context, box.stiffness, box.mass, box.zero, box.mesh.points.rows() / 2, dense)

@@ -73,7 +73,7 @@ TEST(WeightClusters, NoRowHasANearerMean)
     (means.rowwise() - rig.weights.row(v)).rowwise().squaredNorm().minCoeff(&nearest);
     wrong += nearest != clusters.of_row[static_cast<std::size_t>(v)] ? 1 : 0;
   }
-  EXPECT_EQ(wrong, 0); // Lloyd's iteration has converged
+  EXPECT_EQ(wrong, 0); // each row is in the nearest cluster: Lloyd's iteration has converged
 }
 
 TEST(WeightClusters, EqualRowsAreOneCluster)
@@ -99,7 +99,7 @@ TEST(WeightClusters, FarthestPointsSpread)
   std::vector<Index> seeds;
   farthest_rows(context, line, 3, seeds);
   EXPECT_EQ(seeds, (std::vector<Index>{ 10, 0, 5 }));
-  farthest_rows(context, line, 100, seeds); // all rows are returned once
+  farthest_rows(context, line, 100, seeds); // all 11 rows are returned once
   EXPECT_EQ(seeds.size(), 11u);
   EXPECT_EQ(std::set<Index>(seeds.begin(), seeds.end()).size(), 11u);
 }
@@ -121,7 +121,7 @@ TEST(WeightClusters, BumpsAreSplinesThatVanishAtTheHandles)
   {
     EXPECT_LT(bumps.row(v).maxCoeff(), 1e-12);
   }
-  // Neighboring bumps overlap, except where the distance to a handle limits their radius.
+  // Bumps of neighboring seeds overlap, unless a handle is so close that it limits their radius.
   Index overlaps = 0;
   for (Index e = 0; e < bumps.cols(); ++e)
   {

@@ -67,7 +67,8 @@ inline TriangleMesh blocks(const std::set<Block>& cubes)
   return mesh;
 }
 
-/// Return arms of `length` cubes from the cube at the origin along the given directions.
+/// Return arms that begin at the cube at the origin and consist of `length` cubes along each
+/// direction.
 inline TriangleMesh star(const std::vector<Block>& directions, int length)
 {
   std::set<Block> cubes{ { 0, 0, 0 } };

@@ -71,8 +71,8 @@ TEST_F(CurveSkeletonTest, OfABarIsItsAxis)
 {
   const CurveSkeleton skeleton = run_curve_skeleton(bar_of_cubes(8));
   const std::vector<Index> degree = degrees(skeleton);
-  // The skeleton is a single path. In a build with sanitizers, round-off leaves short branches of
-  // one segment, which are also on the axis.
+  // The skeleton is a single path along the axis. In a build with sanitizers, round-off adds short
+  // branches of one segment.
   const auto inner = std::count(degree.begin(), degree.end(), 2);
   const std::ptrdiff_t spurs = test::sanitized ? 2 : 0;
   EXPECT_GE(inner, static_cast<std::ptrdiff_t>(degree.size()) - 2 - 2 * spurs);

@@ -14,8 +14,8 @@ using testing::HasSubstr;
 
 namespace
 {
-/// A curve skeleton under construction, with the radii and centroids of the shape around its
-/// curves.
+/// A curve skeleton that a test builds step by step. It contains the radius of the shape at each
+/// point, and the centroid of each component.
 struct Drawing
 {
   std::vector<Vec3> points;
@@ -31,8 +31,8 @@ struct Drawing
     this->parts.push_back(static_cast<Index>(this->centroids.size()) - 1);
     return static_cast<Index>(this->points.size()) - 1;
   }
-  /// Draw a line of `pieces` segments from the point with index `from` to p. @return The last
-  /// point.
+  /// Draw a line of `pieces` segments from the point with index `from` to p. @return The index of
+  /// the last point.
   Index line(Index from, const Vec3& p, int pieces = 10)
   {
     const Vec3 head = this->points[from];
@@ -138,7 +138,7 @@ Drawing half_circle()
   return drawing;
 }
 
-/// Return arms in the plane that begin at the origin.
+/// Return arms that begin at the origin and end at the given points.
 Drawing arms(const std::vector<Vec3>& ends, double radius = 0.05)
 {
   Drawing drawing;
@@ -221,8 +221,8 @@ TEST(SkeletonBones, AreWithinTheToleranceOfTheCurve)
 
 TEST(SkeletonBones, StayWithinTheShape)
 {
-  // The curve has a knee of height 0.1, which is below the tolerance. The shape is a narrow band
-  // around the curve.
+  // The curve has a corner of height 0.1, which is below the tolerance. One straight bone would
+  // leave the shape, which is a narrow band around the curve.
   Drawing drawing;
   drawing.centroids = { Vec3::Zero() };
   drawing.line(drawing.line(drawing.point(Vec3::Zero()), Vec3(1.0, 0.1, 0.0)), Vec3(2.0, 0.0, 0.0));
@@ -295,7 +295,7 @@ TEST(SkeletonBones, ACrossHasOneJunction)
 
 TEST(SkeletonBones, TheBoneWithTheLargestVolumeIsTheRoot)
 {
-  // A thick vertical trunk and two thin limbs. One limb has a second bone.
+  // The shape has a thick vertical trunk and two thin limbs. One limb bends, so it has two bones.
   Drawing drawing;
   drawing.centroids = { Vec3::Zero() };
   const Index center = drawing.point(Vec3::Zero(), 0.1);
@@ -338,7 +338,7 @@ TEST(SkeletonBones, JunctionsWithinTheThicknessAreOne)
     EXPECT_LT(bone.head.norm(), 1e-15);
   }
   SkeletonBonesOptions options;
-  options.prune = 0.3; // 0.3 radii are 0.03, and the branch points are 0.04 apart
+  options.prune = 0.3; // the branch points are 0.04 apart, and 0.3 times the radius is 0.03
   EXPECT_EQ(run_skeleton_bones(drawing, options).junctions, 2);
 }
 
@@ -373,10 +373,10 @@ TEST(SkeletonBones, ARingIsCutOnceOppositeItsRoot)
   ASSERT_EQ(bones.roots.size(), 1u);
   EXPECT_EQ(Vec3(bones.joints.row(bones.roots[0])), Vec3(1.0, 0.0, 0.0));
   expect_tree(bones);
-  // A tree of bones has one more joint than bones.
+  // The bones form one tree, so there is one more joint than there are bones.
   EXPECT_EQ(bones.joints.rows(), static_cast<Index>(bones.handles.size()) + 1);
   EXPECT_EQ(bones.junctions, 0);
-  // The loop is cut at (-1, 0, 0). Two bones end there, one segment apart from each other.
+  // The loop is cut at (-1, 0, 0). Two bones end at the cut, at most one segment from this point.
   int ends = 0;
   for (const Handle& bone : bones.handles)
   {
@@ -433,7 +433,7 @@ TEST(SkeletonBones, BallsArePointsAndComponentsHaveRootsOfTheirOwn)
   EXPECT_EQ(bones.handles[3].name, "b2");
   EXPECT_EQ(bones.roots.size(), 2u);
   expect_tree(bones);
-  // The points above and below are both nearest to the bone between them.
+  // For both point handles, above and below the bones, the nearest bone is the middle one.
   EXPECT_EQ(bones.handles[0].parent, 2);
   EXPECT_EQ(bones.handles[1].parent, 2);
   EXPECT_EQ(bones.handles[2].parent, -1);

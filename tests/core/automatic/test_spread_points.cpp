@@ -144,8 +144,8 @@ TEST(SpreadPoints, FewerAreTheFirstOfMore)
 
 TEST(SpreadPoints, EveryComponentHasItsShare)
 {
-  // Two concentric spheres, a smaller sphere, and a tiny one. The areas of the first three have the
-  // ratio 4 : 4 : 1; the tiny sphere gets no point.
+  // The mesh has two concentric spheres, a smaller sphere, and a tiny one. The areas of the first
+  // three spheres have the ratio 4 : 4 : 1. The tiny sphere gets no point.
   TriangleMesh mesh = test::join(test::sphere(2), test::sphere(3, 1.001)); // no vertices coincide
   mesh = test::join(mesh, test::sphere(2, 0.5, Vec3(9.0, 0.0, 0.0)));
   const Index crumb = mesh.points.rows();
@@ -171,7 +171,8 @@ TEST(SpreadPoints, EveryComponentHasItsShare)
 
 TEST(SpreadPoints, WeldEqualVertices)
 {
-  // Distances along edges also continue across the edges of unwelded triangles.
+  // Triangles with separate vertices at equal positions are connected, so distances along edges are
+  // the same as for the welded mesh.
   const TriangleMesh mesh = test::sphere(2);
   const TriangleMesh loose = test::unwelded(mesh);
   const SpreadPoints a = run_spread_points(mesh, on_surface(12, PointDistance::along_edges));
@@ -196,7 +197,7 @@ TEST(SpreadPoints, LieInTheMiddleOfTheShape)
   double least = infinite, most = -infinite;
   for (Index i = 0; i < 6; ++i)
   {
-    // The points are on the axis, up to the length of the last step of their motion.
+    // The points are near the axis. The error is at most the last step of their motion.
     EXPECT_NEAR(points.places(i, 1), 0.5, 0.15) << i;
     EXPECT_NEAR(points.places(i, 2), 0.5, 0.15) << i;
     least = std::min(least, points.places(i, 0));
@@ -209,7 +210,8 @@ TEST(SpreadPoints, LieInTheMiddleOfTheShape)
 
 TEST(SpreadPoints, StayInTheTips)
 {
-  // The normal at the tip of a long ellipsoid is its axis.
+  // At the tips of a long ellipsoid the normal is parallel to the long axis. Points there must not
+  // move along the whole axis.
   TriangleMesh mesh = test::sphere(4);
   mesh.points.col(0) *= 5.0;
   SpreadPointsOptions options;
@@ -242,7 +244,7 @@ TEST(SpreadPoints, AreInsideWhicheverWayTrianglesTurn)
   SpreadPointsOptions options;
   options.count = 5;
   const SpreadPoints right = run_spread_points(mesh, options);
-  // One end is open: the winding number still exceeds 0.5 in most of the inside.
+  // One end of the bar is open. The winding number still exceeds 0.5 in most of the inside.
   TriangleMesh open = mesh;
   open.triangles.conservativeResize(mesh.triangles.rows() - 8, 3);
   const SpreadPoints points = run_spread_points(open, options);

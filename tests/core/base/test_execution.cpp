@@ -12,8 +12,8 @@ TEST(ExecutionContext, ProgressNeverGoesBack)
   std::vector<double> told;
   ExecutionContext context(
     [&](double fraction, const std::string&) { told.push_back(fraction); }, [] { return false; });
-  // A phase reports the fraction at which it begins. If a larger fraction was reported before, the
-  // phase reports that fraction again.
+  // Each phase begins at the given fraction. If a larger fraction was reported before, the phase
+  // reports the larger fraction again, so that the progress never decreases.
   for (const double begin : { 0.0, 0.4, 0.1, 0.0, 0.7 })
   {
     const Phase phase(context, "again", begin, 0.9);

@@ -1,4 +1,4 @@
-// SideTask: work in the background that begins after a delay, on finish(), or never.
+// SideTask: work in the background. It begins after a delay or when finish() is called, or never.
 #include "base/side_task.h"
 
 #include <gtest/gtest.h>

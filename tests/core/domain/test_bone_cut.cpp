@@ -62,7 +62,7 @@ TEST(BoneCut, ASlitInsideIsAHole)
   const TriangleMesh mesh = square_of_cells();
   const Handles bones{ test::bone_handle("b", Vec3(0.25, 0.5, 0), Vec3(0.75, 0.5, 0)) };
   const BoneCut result = cut(mesh, bones);
-  // Five vertices are on the bone, two of them are its ends.
+  // Five vertices are on the bone. The three inner ones are duplicated, the two ends are not.
   EXPECT_EQ(result.points.rows() - mesh.points.rows(), 3);
   EXPECT_EQ(euler(mesh.triangles), 1);
   EXPECT_EQ(euler(result.triangles), 0);
@@ -102,8 +102,8 @@ TEST(BoneCut, ABoneFromEdgeToEdgeMakesTwoPieces)
 TEST(BoneCut, BonesThatMeetAndCross)
 {
   const TriangleMesh mesh = square_of_cells();
-  // The cross touches no boundary, so it makes one hole. The vertex in its middle becomes four
-  // points.
+  // The cross does not touch the boundary, so it opens one hole. The vertex in the middle of the
+  // cross becomes four points.
   const Handles cross{ test::bone_handle("a", Vec3(0.25, 0.5, 0), Vec3(0.75, 0.5, 0)),
     test::bone_handle("b", Vec3(0.5, 0.25, 0), Vec3(0.5, 0.75, 0)) };
   const BoneCut crossed = cut(mesh, cross);
@@ -143,8 +143,8 @@ TEST(BoneCut, BonesOfOneEdgeEachOpenTogether)
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(result.points.rows() - mesh.points.rows(), 4);
   EXPECT_EQ(connected_components(result.points.rows(), result.triangles).count, 2);
-  // Each of the four corners belongs to the first of its two bones, so the last bone has no
-  // vertices.
+  // Each of the four corners is a vertex of two bones and is assigned to the first of them. No
+  // corner remains for the last bone.
   ASSERT_EQ(status.warnings.size(), 1u);
   EXPECT_NE(status.warnings[0].find("'r3'"), std::string::npos);
   // If the bones are treated as one curve, the curve has four vertices on each side.
@@ -189,8 +189,8 @@ TEST(BoneCut, WhatCannotBeCutIsOneSentence)
   };
   const auto bone = [](const Vec3& head, const Vec3& tail)
   { return Handles{ test::bone_handle("oblique", head, tail) }; };
-  // The bones cross cells, pass through vertices that have no common edge, are outside of the mesh,
-  // or are too short to open a slit.
+  // These bones cross cells, pass through vertices that have no common edge, are outside of the
+  // mesh, or are too short to open a slit.
   EXPECT_NE(
     message(mesh, bone(Vec3(0.1, 0.2, 0), Vec3(0.8, 0.7, 0))).find("'oblique'"), std::string::npos);
   EXPECT_NE(message(mesh, bone(Vec3(0, 1, 0), Vec3(0.5, 0, 0))).find("must consist of edges"),

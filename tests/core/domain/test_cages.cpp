@@ -1,5 +1,5 @@
-// Cages as handles: weights are linear along cage edges and faces, for any energy inside of the
-// cage.
+// Cages as handles. Weights are linear along the edges and faces of a cage, for any energy that
+// determines the weights inside of the cage.
 #include "geometry/simplex_locator.h"
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/monotone_weights.h"
@@ -151,7 +151,8 @@ TEST(Cages, AreLinearOnFacesInSpace)
 
 TEST(Cages, ThatAreTheWholeBoundaryAddNothing)
 {
-  // All boundary vertices of the mesh are already on the cage.
+  // The cage is the boundary of the box, and every boundary vertex of the mesh is already on the
+  // cage. Nothing must be inserted.
   const TetMesh box = test::tet_box(4, 4, 4, Vec3::Constant(-1.0), Vec3::Constant(1.0));
   const WeightsProblem problem = problem_of(test::to_domain(box), cube_cage(1.0));
   EXPECT_TRUE(problem.mesh.inserted.empty());
@@ -177,8 +178,9 @@ TEST_F(CagesInTets, AroundASurfaceAreItsDomain)
   EXPECT_EQ(status.report.text("transfer"), "exact") << "the points are vertices of the tets";
   EXPECT_TRUE(status.warnings.empty()) << status.warnings.front();
   EXPECT_LT((result.weights.rowwise().sum().array() - 1.0).abs().maxCoeff(), 1e-12);
-  // The weights are linear on the faces, so inside they are almost generalized barycentric
-  // coordinates. The cage corners approximately reproduce the ball's points.
+  // The weights are linear on the faces of the cage. Inside of the cage they are approximately
+  // generalized barycentric coordinates: the weighted sum of the cage corners is close to each
+  // point.
   const Handles cage = cube_cage(1.0);
   double farthest = 0.0;
   for (Index v = 0; v < ball.points.rows(); ++v)
@@ -237,7 +239,7 @@ TEST_F(CagesInTets, OfEdgesAroundAFlatShapeAreItsDomain)
     EXPECT_NEAR(status.report.number("cage.area", 0.0), 1.0, 1e-12);
     EXPECT_LT((result.weights.rowwise().sum().array() - 1.0).abs().maxCoeff(), 1e-12);
     EXPECT_GE(result.weights.minCoeff(), 0.0);
-    // The weights of all corners are equal in the middle.
+    // At the center of the cage, the weights of all four corners are equal.
     const Index middle = 60;
     ASSERT_LT((Vec3(shape.points.row(middle)) - Vec3(0.5, 0.5, 0.0)).norm(), 1e-12);
     EXPECT_LT((result.weights.row(middle).array() - 0.25).abs().maxCoeff(), 5e-3);

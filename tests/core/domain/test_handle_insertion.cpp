@@ -1,5 +1,6 @@
-// Handles become vertices of the domain. Volumes, orientations and original vertex ids are kept,
-// new vertices are at the handles, and every degenerate position has a defined result.
+// Handles become vertices of the domain. The insertion keeps volumes, orientations and the ids of
+// original vertices. New vertices are at the handles, and every degenerate position has a defined
+// result.
 #include "domain/handle_constraints.h"
 
 #include "weights_shapes.h"
@@ -212,8 +213,8 @@ TEST(HandleInsertion, KeepMeshTakesTheCorners)
   EXPECT_EQ(same.code, StatusCode::invalid_input) << "all corners shared: nothing is p1's own";
   EXPECT_NE(same.message.find("'p1'"), std::string::npos);
 
-  // The handles are now joints of a rig. The first joint has no vertex and is skipped. The corners
-  // belong to the second joint.
+  // The handles are now joints of a rig. The first joint is skipped, because it would have no
+  // vertex of its own: the corners belong to the second joint.
   Handles joints = handles;
   joints.push_back(test::point_handle("p3", Vec3(0.6, 0.2, 0.1)));
   for (Handle& joint : joints)

@@ -81,7 +81,7 @@ TEST(SurfaceSmoothing, SurvivesNeedleTriangles)
   const Eigen::MatrixXd w = smoothed(sheet, {}, 0.2, given);
   ASSERT_TRUE(w.allFinite());
   EXPECT_GT((w - given).norm(), 0.0);
-  // The overshoot at a step function is bounded for any triangles.
+  // The values of a step function may overshoot, but the overshoot is bounded for any triangles.
   EXPECT_GT(w.minCoeff(), -0.5);
   EXPECT_LT(w.maxCoeff(), 1.5);
   const Eigen::MatrixXd constant = Eigen::MatrixXd::Constant(given.rows(), 1, 0.25);

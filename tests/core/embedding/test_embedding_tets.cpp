@@ -100,7 +100,7 @@ void expect_valid_embedding(const TriangleMesh& surface, const EmbeddingTets& re
   const TetMesh& mesh = result.mesh;
   ASSERT_GT(mesh.tets.rows(), 0);
   ASSERT_TRUE(check_mesh(mesh.points, mesh.tets).ok());
-  // The boundary may be non-manifold where parts of the surface touch.
+  // Where parts of the surface touch, the boundary may be non-manifold.
   constexpr bool may_branch = true;
   const Status status = check_tets(mesh.points, mesh.tets, may_branch);
   EXPECT_TRUE(status.ok()) << status.message;
@@ -187,8 +187,8 @@ void expect_held(const TriangleMesh& surface, const EmbeddingTets& result, int s
   }
 }
 
-/// Return a palm with four fingers, cut from a grid of cells as a closed surface. The fingers are
-/// 0.2 wide, `gap` apart and 2 long from y = 0; the palm is below.
+/// Return a palm with four fingers as a closed surface, made of the cells of a grid. The fingers
+/// are 0.2 wide, `gap` apart, and extend from y = 0 to y = 2. The palm is below y = 0.
 TriangleMesh fork(double gap)
 {
   std::vector<double> xs;
@@ -298,7 +298,7 @@ TEST(EmbeddingTets, TopologyIsTheSurfaces)
   EXPECT_EQ(test::euler_characteristic(embedded(torus).mesh), 0);
   const TriangleMesh shell = test::join(test::sphere(3), test::flipped(test::sphere(3, 0.5)));
   EXPECT_EQ(test::euler_characteristic(embedded(shell).mesh), 2) << "a ball with a cavity";
-  // A ring that is thin compared with a lattice cube has the same topology.
+  // The ring is thin compared with a lattice cube. Its tets must still have the topology of a ring.
   TriangleMesh ring = test::torus(48, 24, 1.0, 0.2);
   const EmbeddingTets whole = embedded(ring, 20);
   EXPECT_EQ(test::euler_characteristic(whole.mesh), 0);
@@ -663,9 +663,9 @@ TEST(EmbeddingTets, CancelEndsSoon)
 
 TEST(EmbeddingTets, ALinkConnectsWhatIsAtItsEnds)
 {
-  // In mesh `apart`, the distance of two boxes is 3, and the link leads from the middle of a side
-  // of one box to a corner of the other box. In mesh `near`, the gap of 0.01 between the boxes is
-  // much smaller than a tet, and the link connects them at one point of the gap.
+  // The mesh `apart` has two boxes at a distance of 3. The link leads from the middle of a side of
+  // one box to a corner of the other box. In the mesh `near`, the gap between the boxes is 0.01,
+  // much smaller than a tet. The link connects the boxes at one point of the gap.
   const TriangleMesh apart =
     test::join(box(Vec3(0, 0, 0), Vec3(1, 1, 1)), box(Vec3(4, 0, 0), Vec3(5, 1, 1)));
   const TriangleMesh near =

@@ -1,6 +1,6 @@
-// Mixed finite elements for the equations Laplacian^k u = 0 with k = 1, 2 and 3. They are compared
-// with polynomial solutions, plates with known deflections, and the complete mixed system solved by
-// LU.
+// Mixed finite elements for the equations Laplacian^k u = 0 with k = 1, 2 and 3. The solutions are
+// compared with polynomials, with plates whose deflection is known, and with a solution of the
+// complete mixed system by LU factorization.
 #include "fairing/polyharmonic.h"
 
 #include "support/meshes.h"
@@ -22,7 +22,7 @@ namespace
 using Rows = Polyharmonic::Rows;
 using Function = std::function<double(double, double)>;
 
-/// A square of n x n cells. The values are given at the vertices of the first `layers` layers from
+/// A square of n x n cells. Values are given at all vertices that are less than `layers` cells from
 /// the border.
 struct Square
 {
@@ -210,8 +210,8 @@ TEST(Polyharmonic, DerivativesAcrossTheEdgeAreMet)
     Polyharmonic system;
     system.bind(square.mesh.points, square.mesh.triangles, 2, PatchBoundary::tangent);
     ASSERT_TRUE(system.prepare(context, square.parts, square.given, {}).ok());
-    // At a corner the integrals along two sides of the square add up, so each side is tested
-    // separately.
+    // At a corner the integrals along two sides of the square are added. Each side is therefore
+    // tested separately.
     const Index size = square.mesh.points.rows();
     const auto side = [&](int axis, double sign)
     {

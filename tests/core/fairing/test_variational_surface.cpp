@@ -22,7 +22,7 @@ constexpr int squares = 12;
 constexpr PatchBoundary every_boundary[] = { PatchBoundary::region, PatchBoundary::curve,
   PatchBoundary::tangent };
 
-/// Return the number of layers between a vertex of a square and its border.
+/// Return the number of layers of cells between a vertex of the square and the border.
 Index depth(const TriangleMesh& square, Index v)
 {
   const double x = square.points(v, 0), y = square.points(v, 1);
@@ -136,9 +136,9 @@ TEST(VariationalSurface, AMotionOfAllThatIsHeldMovesAll)
   struct Case
   {
     bool bent, fair;
-    // Angle of the tested rotation in radians. On a bent mesh, the displacements of a rotation are
-    // only as smooth as the mesh. If displacements are smoothed there, the test therefore uses the
-    // angle 0.
+    // Angle of the tested rotation in radians. The displacements of a rotation are linear in the
+    // positions, so on a bent mesh they are only as smooth as the mesh. Tests that smooth
+    // displacements on a bent mesh therefore use the angle 0.
     double angle;
   };
   for (const Case& c :
@@ -250,8 +250,8 @@ TEST(VariationalSurface, AFlatPatchFairedOnItsOwnPlaneIsItself)
 
 TEST(VariationalSurface, TangentsGivenAreThoseThatTheSurroundingsHave)
 {
-  // Fair the flat square. The tangents at the border are those of the flat surroundings: the
-  // derivatives dx/dn of the positions x.
+  // Fair the flat square. The given tangents at the border are those of the flat surroundings: the
+  // normal derivatives dx/dn of the positions x.
   Bump bump;
   bump.handles.clear();
   bump.pose.clear();
@@ -262,7 +262,8 @@ TEST(VariationalSurface, TangentsGivenAreThoseThatTheSurroundingsHave)
   bump.options.tangent_source = PatchTangents::clamped;
   ASSERT_TRUE(bump.solve().ok());
   EXPECT_GT(largest_difference(bump.surface.posed(), around), 1e-3); // clamped tangents make a cusp
-  // If displacements are smoothed, clamped tangents keep those of the rest shape.
+  // If displacements instead of positions are smoothed, clamped tangents keep the tangents of the
+  // rest shape.
   bump.options.fair = false;
   bump.handles = { point_handle("p", Vec3(0.5, 0.5, 0.0)) };
   bump.pose = { HandlePose() };

@@ -202,7 +202,8 @@ TriangleMesh tets(Random& random, Index count, Index vertices, const Place& plac
   return mesh;
 }
 
-/// Return a sphere or a ring that is flattened, or so bumpy that it crosses itself.
+/// Return a sphere or a torus. It may be flattened, have tiny bumps, or have bumps so large that it
+/// crosses itself.
 TriangleMesh blob(Random& random, Index most)
 {
   int levels = 0;
@@ -325,7 +326,7 @@ Vec3 any_point(Random& random, const TriangleMesh& mesh)
         chance(random, 0.5) ? other[axis] : box.center()[axis] + size * random.uniform(-1.5, 1.5);
       return p;
     }
-    case 6: // the coordinates of three different vertices, mixed
+    case 6: // coordinates of three different vertices
       return Vec3(any_vertex().x(), any_vertex().y(), any_vertex().z());
     case 7:
     case 8: // near a face, edge or vertex

@@ -91,13 +91,13 @@ void make_bones(Random& random, const TetMesh& mesh, Handles& handles)
       [&](const Handle& other) { return other.head == handle.tail && other.tail == handle.head; });
     if (twice)
     {
-      handle.tail += Vec3(0.1, 0.2, 0.3); // bone of length zero, or the reverse of another bone
+      handle.tail += Vec3(0.1, 0.2, 0.3); // the bone had length zero or reversed another bone
     }
   }
 }
 
-/// Set a random mode that the handle supports, a random transform, and for bones a random stretch
-/// and twist.
+/// Set a random mode that the handle supports and a random transform. For bones, also set a random
+/// stretch and twist.
 void pose_anyhow(Random& random, double exponent, const Handle& handle, HandlePose& pose)
 {
   const bool bone = handle.kind == HandleKind::bone;
@@ -114,7 +114,7 @@ void pose_anyhow(Random& random, double exponent, const Handle& handle, HandlePo
   }
 }
 
-/// Return the largest scale of the pose relative to the rest pose, at least 1.
+/// Return the largest scale factor of the pose relative to the rest pose, but at least 1.
 double size_of_pose(const Pose& pose)
 {
   double size = 1.0;
@@ -126,7 +126,7 @@ double size_of_pose(const Pose& pose)
   return size;
 }
 
-/// Return valid or spoiled weights.
+/// Return the given weights, unchanged or damaged at random.
 Weights spoilt_weights(Random& random, const Weights& good)
 {
   Weights weights = good;
@@ -503,9 +503,9 @@ TEST(FuzzPoses, FullArap)
           ASSERT_GT(r.determinant(), 0.0);
         }
         // If only vertices are constrained, the energy never increases. Point handles inside of
-        // elements add linear constraints. If two of them are close and are dragged apart, the
-        // condition number reaches 1e8, and the energy is only as accurate as the constraints. In
-        // this case only the total decrease is checked.
+        // elements add linear constraints. Two close handles that are dragged apart raise the
+        // condition number to 1e8. The energy is then only as accurate as the constraints, so only
+        // the total decrease is checked.
         const double size = size_of_pose(pose);
         const double unit = 1e-12 * arap.rest_energy() * size * size;
         for (std::size_t i = 1; shape.vertices_alone && i < arap.energies().size(); ++i)

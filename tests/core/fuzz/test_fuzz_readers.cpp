@@ -1,6 +1,6 @@
-// Fuzz test of the file readers. Valid files of every format that the core library reads are
-// damaged: bits are flipped, lines moved, numbers replaced, ends cut off. A reader must return
-// usable data or one sentence.
+// Fuzz test of the file readers. The test damages valid files of every format that the core library
+// reads: bits are flipped, lines moved, numbers replaced, and ends cut off. A reader must return
+// usable data or an error message of one sentence.
 #include "gltf/gltf_skin.h"
 #include "io/dmat.h"
 #include "io/medit.h"
@@ -247,8 +247,8 @@ void append_raw(std::string& text, T value, bool swap)
   text.append(raw, sizeof(T));
 }
 
-/// Return a square with typical extra data of a scanner: colors, quality, and lists that the reader
-/// ignores.
+/// Return a square in binary PLY with typical extra data of a scanner: colors, quality, and lists.
+/// The reader ignores the extra data.
 std::string binary_ply(bool big_endian)
 {
   std::string text = std::string("ply\nformat binary_") + (big_endian ? "big" : "little") +
@@ -376,7 +376,7 @@ TEST(FuzzReaders, Dmat)
         expect_refused(status);
         EXPECT_EQ(back.size(), 0);
       }
-      // An empty matrix may have rows or columns, but not a huge number of them.
+      // A matrix without entries may still have rows or columns, but not a huge number of them.
       EXPECT_LE(std::max(back.rows(), back.cols()), Index(1) << 20);
       EXPECT_LE(back.size(), static_cast<Index>(std::filesystem::file_size(path)));
     });
@@ -384,7 +384,7 @@ TEST(FuzzReaders, Dmat)
 
 namespace
 {
-/// Return the file of a rig with an animation of joints or of shapes.
+/// Return the glTF file of a rig. The animation moves the joints, or it blends between shapes.
 std::string gltf(bool binary, GltfAnimation animation)
 {
   const test::Folder folder;
@@ -461,7 +461,8 @@ TEST(FuzzReaders, Gltf)
         ASSERT_EQ(static_cast<Index>(frame.posed.size()), joints);
       }
       EXPECT_GT(skin.frames_per_second, 0.0);
-      // A skin that was read can be written, unless its values exceed the range of float.
+      // A skin that was read successfully can be written again, unless its values exceed the range
+      // of float.
       const Status again = write_gltf_skin(path + ".glb", skin);
       test::expect_spoken(again);
     });
@@ -563,7 +564,7 @@ TEST(FuzzReaders, Poses)
           EXPECT_TRUE(!moderate || (handle.transform.allFinite() && handle.stretch > 0.0));
         }
       }
-      // Poses that were read can be written and read again.
+      // Poses that were read successfully can be written and read again.
       std::string again;
       const Status formatted = format_pose_file(poses, sequence.frames_per_second, handles, again);
       test::expect_spoken(formatted);

@@ -1,5 +1,5 @@
-// Fuzz test of the tetrahedralization with small damaged surfaces. Each run must give valid tets or
-// one sentence.
+// Fuzz test of the tetrahedralization with small damaged surfaces. Each run must return valid tets
+// or an error message of one sentence.
 #include "inside/tetrahedralize.h"
 
 #include "core/fuzz/hostile_surfaces.h"
@@ -153,8 +153,9 @@ TriangleMesh abused(test::Random& random)
   return mesh;
 }
 
-/// Estimate the volume of {winding number >= threshold} in the surface's bounding box from random
-/// points. At each point the winding number is the plain sum over the triangles.
+/// Estimate the volume inside of the surface's bounding box where the winding number is at least
+/// `threshold`. The estimate uses random points. At each point the winding number is the plain sum
+/// over the triangles.
 double sampled_volume(
   test::Random& random, const TriangleMesh& mesh, double threshold, Index samples)
 {
@@ -187,8 +188,8 @@ std::vector<std::pair<std::string, std::string>> rungs(const Status& status)
 }
 
 /// Return the largest permitted displacement of input vertices, as a fraction of the bounding-box
-/// diagonal. Some meshing attempts round the vertices or move them by a fixed amount, which the
-/// name of the attempt states.
+/// diagonal. Some meshing attempts round the vertices or move them by a fixed amount. The name of
+/// the attempt contains this amount.
 double allowed_move(const Status& status)
 {
   double allowed = 1e-12;
@@ -300,8 +301,8 @@ void expect_embedding(const TriangleMesh& surface, Index resolution)
   }
 }
 
-/// Expect the same bits in a second run with another number of threads, unless a time limit changed
-/// the result.
+/// Run again with another number of threads, and expect the same bits. The results may differ if a
+/// time limit ended a meshing attempt.
 void expect_repeatable(const TriangleMesh& surface, const TetrahedralizeOptions& options,
   const TetrahedralizeResult& result, const Status& status)
 {
@@ -348,8 +349,8 @@ void expect_volume(test::Random& random, const TriangleMesh& surface,
     const bool warned = std::any_of(status.warnings.begin(), status.warnings.end(),
       [](const std::string& text)
       { return text.find("but the enclosed volume by winding number") != std::string::npos; });
-    // The volume `winding` is estimated from 20,000 samples inside of the surface, or from fewer
-    // samples if these take too long.
+    // The report estimates `winding` from 20,000 samples inside of the surface, or from fewer
+    // samples if the sampling takes too long.
     EXPECT_TRUE(warned || std::abs(volume / winding - 1.0) < 0.15)
       << volume << " instead of " << winding << " without a warning";
   }
@@ -362,8 +363,8 @@ void expect_volume(test::Random& random, const TriangleMesh& surface,
     });
   if (!changed)
   {
-    // Both volumes are estimated from samples. The tolerance is six standard deviations of the
-    // difference between the estimates.
+    // Both numbers are estimates from samples. The tolerance is six standard deviations of their
+    // difference.
     constexpr Index samples = 2000;
     const double expected = sampled_volume(random, surface, options.winding_threshold, samples);
     EXPECT_NEAR(winding, expected, 0.1 * box);
@@ -420,8 +421,8 @@ TEST(FuzzTetrahedralize, AbusedSurfaces)
   std::cout << "[ fuzz ] " << filled << " of them were filled\n";
 }
 
-/// This test runs without the helper program, as in a build without it. It covers many more cases
-/// of the code around the program.
+/// This test hides the helper program, as in a build that does not contain it. It runs only the
+/// methods remesh and embed, which do not need the program.
 TEST(FuzzTetrahedralize, LatticesOfAbusedSurfaces)
 {
   const test::Environment no_helper("BINDPOSE_MESHER", "/nowhere");

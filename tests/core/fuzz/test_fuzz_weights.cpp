@@ -1,5 +1,6 @@
-// Handles at random positions: on, in and outside of the mesh, and touching each other. The weights
-// satisfy their definition, or the problem is refused with one sentence.
+// Fuzz test of weights for handles at random positions: on, in and outside of the mesh, and
+// touching each other. Each problem is refused with one sentence, or its weights satisfy their
+// definition.
 #include "weights/weight_methods.h"
 
 #include "core/weights/weights_shapes.h"
@@ -120,8 +121,8 @@ double size_of_domain(const Domain& domain)
                             : surface_area(domain.points, domain.triangles);
 }
 
-/// Return the smallest height of all elements, in units of the bounding-box diagonal. It is tiny if
-/// two handles almost touch.
+/// Return the smallest height of an element, as a fraction of the bounding-box diagonal. The height
+/// is tiny if two handles almost touch.
 double smallest_height(const Domain& domain)
 {
   const double size = bounding_box(domain.points).diagonal();
@@ -144,7 +145,7 @@ double smallest_height(const Domain& domain)
   return smallest;
 }
 
-/// Expect that the insertion of handles only splits elements.
+/// Expect that the insertion of handles only splits elements and does not change the shape.
 void expect_same_shape(const Domain& before, const HandleInsertion& after)
 {
   const Domain& domain = after.domain;
@@ -183,7 +184,8 @@ void expect_weights_of_method(const WeightsProblem& problem, const WeightMethod&
   for (Index v = 0; v < problem.vertex_count(); ++v)
   {
     const bool empty = problem.constraints.roles[v] == VertexRole::unreferenced;
-    // Without bounds, large weights of both signs increase the round-off of the sum of a row.
+    // Without bounds, a row may have large weights of both signs. Then the sum of the row has more
+    // round-off.
     const double size = std::max(1.0, result.weights.row(v).cwiseAbs().sum());
     ASSERT_NEAR(result.weights.row(v).sum(), empty ? 0.0 : 1.0, 1e-12 * size) << v;
   }

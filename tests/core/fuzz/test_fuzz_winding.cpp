@@ -1,10 +1,11 @@
-// Fuzz test of winding numbers of hostile surfaces, curves and point clouds. All methods are
+// Fuzz test of winding numbers of difficult surfaces, curves and point clouds. All methods are
 // compared with plain sums over the input, at points on, near and far from the input.
 //
-// The tolerances are those of the documentation. Exact methods have an error of 1e-14 plus the
-// round-off of the sum of unsigned contributions, and integers are exact. Fast methods satisfy
-// their tolerance. All methods agree on which points are on the input. Rows of grids and batches of
-// points have the same bits as single points.
+// The tolerances are those of the documentation. Exact methods have an error of at most 1e-14 plus
+// the round-off of the sum of absolute contributions. If the winding number is an integer, its
+// value is exact. Fast methods satisfy their tolerance. All methods agree on which points are on
+// the input. Evaluation in rows of grids or in batches gives the same bits as evaluation of single
+// points.
 #include "solid_angle/solid_angle.h"
 #include "surface/triangle_predicates.h"
 #include "winding/curve_winding_number.h"
@@ -62,9 +63,9 @@ WindingNumber random_winding(Random& random, const TriangleMesh& mesh, const Way
   return winding;
 }
 
-/// Report whether the distance between the point and a triangle is about the tolerance for
-/// touching. Whether such a point touches the triangle depends on rounding, and on the order of the
-/// triangle's corners.
+/// Report whether the distance between the point and a triangle is close to the tolerance for
+/// touching. In this case rounding and the order of the triangle's corners decide whether the point
+/// touches the triangle.
 bool is_borderline(const TriangleMesh& mesh, const Vec3& point)
 {
   const ExactFrame frame(bounding_box(mesh.points, mesh.triangles));
@@ -277,7 +278,8 @@ TriangleMesh scattered(Random& random, const TriangleMesh& part, Index most)
 } // namespace
 
 // Integer winding numbers of method `crossings`, on grids and at points. They are compared with
-// method `hierarchical`, which shares no code with it, and sometimes with the plain sum.
+// those of method `hierarchical`, because the two methods share no code. Some are also compared
+// with the plain sum.
 TEST(FuzzWinding, CellsOfLargeClosedSurfaces)
 {
   Index queries = 0, compared = 0, touching = 0, plain = 0, largest = 0;
@@ -354,8 +356,8 @@ TEST(FuzzWinding, CellsOfLargeClosedSurfaces)
             << largest << " triangles\n";
 }
 
-// The surface is made of cubes of a lattice. The winding number in the middle of each cube is
-// known.
+// The surface is made of cubes of a lattice. The winding number is known at the centers of cubes,
+// walls and edges, and at corners.
 TEST(FuzzWinding, CubesHoldTheirMiddles)
 {
   Index queries = 0;
@@ -375,7 +377,7 @@ TEST(FuzzWinding, CubesHoldTheirMiddles)
         return Vec3(static_cast<double>(i % n), static_cast<double>(i / n % n),
           static_cast<double>(i / n / n));
       };
-      // Adjacent cubes have doubled walls between them, in opposite orientations.
+      // The wall between two adjacent cubes occurs twice, with opposite orientations.
       const TriangleMesh one = cube(0.0, 1.0);
       const auto count = static_cast<Index>(std::count(filled.begin(), filled.end(), 1));
       mesh.points.resize(8 * count, 3);
@@ -408,7 +410,8 @@ TEST(FuzzWinding, CubesHoldTheirMiddles)
       };
       for (Index i = 0; i < grid.count(); ++i)
       {
-        // A sample in the middle of a cube, wall, edge or corner belongs to 1, 2, 4 or 8 cubes.
+        // A sample at the center of a cube, wall or edge, or at a corner, has 1, 2, 4 or 8 adjacent
+        // cells.
         const std::array<Index, 3> place{ i % grid.size(0), i / grid.size(0) % grid.size(1),
           i / grid.size(0) / grid.size(1) };
         double expected = 0.0;
@@ -466,7 +469,7 @@ TEST(FuzzWinding, GradientIsThatOfThePlainSum)
         {
           const auto corner = [&](int k) { return Vec3(mesh.points.row(mesh.triangles(t, k))); };
           off = std::min(off, (closest_point(p, corner(0), corner(1), corner(2)) - p).norm());
-          // Degenerate triangles have no normal, so also measure their edges.
+          // Degenerate triangles have no normal, so also measure the distance from the edges.
           for (int k = 0; k < 3; ++k)
           {
             off = std::min(off, distance_from_segment(p, corner(k), corner((k + 1) % 3)));
@@ -692,7 +695,7 @@ Cloud hostile_cloud(Random& random)
 }
 
 /// Evaluate the formula of the winding number, and the sum of the absolute values of its terms.
-/// Samples of the cloud within the tolerance of the point contribute nothing.
+/// Samples of the cloud that are within the tolerance of the point are skipped.
 void plain_sum_in_long_double(const Cloud& cloud, const Vec3& p, double tolerance, double& sum,
   double& unsigned_sum, bool& touches)
 {

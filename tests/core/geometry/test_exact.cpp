@@ -33,9 +33,9 @@ TEST(Exact, OrientationSeesTheLastBit)
 {
   EXPECT_EQ(orientation_2d(0, 0, 1, 0, 0, 1), 1);
   EXPECT_EQ(orientation_2d(0, 0, 0, 1, 1, 0), -1);
-  // The points are next to a diagonal, at distances of single units in the last place. Naive
-  // floating point fails here (the textbook example). Multiplied by 2^53, the coordinates are
-  // integers, whose determinant fits into 128-bit integers.
+  // The points are next to a diagonal. Their distances from it are a few units in the last place,
+  // for which naive floating point gives wrong signs (a textbook example). Multiplied by 2^53, the
+  // coordinates are integers, and the determinant fits into a 128-bit integer.
   for (int i = 0; i < 32; ++i)
   {
     for (int j = 0; j < 32; ++j)

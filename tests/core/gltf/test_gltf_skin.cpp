@@ -1,5 +1,5 @@
-// Skins as glTF: round trips, files of other programs that follow the standard, and one sentence
-// for each defect.
+// Skins as glTF: round trips, files that other programs could write, and an error message of one
+// sentence for each defect.
 #include "gltf/gltf_skin.h"
 #include "gltf/gltf_transform.h"
 
@@ -32,7 +32,7 @@ Eigen::Affine3d motion(const Vec3& axis, double degrees, const Vec3& to, double 
   return map;
 }
 
-/// Return a sphere on a chain of joints, stored with the last joint first, with random weights.
+/// Return a sphere with random weights on a chain of joints. Each joint precedes its parent.
 GltfSkin example(int joints, double row_sum = 1.0)
 {
   GltfSkin skin;
@@ -100,8 +100,8 @@ json json_of(const std::string& glb)
   return json::parse(glb.substr(20, length));
 }
 
-/// Return a small file as another program would write it: a triangle on two joints, as JSON with
-/// the binary data in base64.
+/// Return a small file in the style of another program: a triangle on two joints, as JSON with the
+/// binary data in base64.
 json foreign()
 {
   return json::parse(R"({"asset": {"version": "2.0"}, "scene": 0, "scenes": [{"nodes": [0, 1]}],
@@ -136,7 +136,7 @@ TEST(GltfTransform, AMapWithoutShearInItsAxesIsKept)
     }
     EXPECT_LT(difference_of_affines(nearest_trs(trs.affine()).affine(), trs.affine()), 1e-13);
   }
-  // A mirror image is a rotation by 180 degrees and a point reflection.
+  // A mirror image equals a rotation by 180 degrees combined with a point reflection (scale -1).
   Eigen::Affine3d mirror = Eigen::Affine3d::Identity();
   mirror(0, 0) = -1.0;
   EXPECT_LT(difference_of_affines(nearest_trs(mirror).affine(), mirror), 1e-13);
@@ -215,7 +215,7 @@ TEST(GltfSkin, RowsInTheFileSumToOne)
   const json written = json_of(folder.read("rig.glb"));
   // The skin in the file has an additional joint that stays at rest.
   EXPECT_EQ(written["skins"][0]["joints"].size(), 7u);
-  // Read the sums of the weights of each vertex from the bytes of the file.
+  // Compute the sum of the weights of each vertex from the bytes of the file.
   const std::string glb = folder.read("rig.glb");
   std::uint32_t length = 0;
   std::memcpy(&length, glb.data() + 12, 4);
@@ -238,7 +238,8 @@ TEST(GltfSkin, RowsInTheFileSumToOne)
   {
     EXPECT_NEAR(sum, 1.0, float_step);
   }
-  // Reading removes the additional joint. The sums of the rows are below 1 again, as before.
+  // Reading removes the additional joint. The weights of the original joints are unchanged, so rows
+  // sum to less than 1 again.
   GltfSkin back;
   ASSERT_TRUE(read_gltf_skin(folder / "rig.glb", back).ok());
   ASSERT_EQ(back.joints.size(), 6u);
@@ -276,7 +277,7 @@ TEST(GltfSkin, TheLargestWeightsAndWhatThatCosts)
     posed.push_back(joint.posed);
   }
   EXPECT_NEAR(status.report.number("dropped_share", 0), share, 1e-12);
-  // The reported error equals the error that the weights in the file produce.
+  // The reported error is that of posing with the weights in the file.
   GltfSkin cut = skin;
   cut.weights = back.weights;
   const double error = (skinned(cut, posed) - skinned(skin, posed)).rowwise().norm().maxCoeff() /
@@ -514,7 +515,7 @@ TEST(GltfSkin, ErrorsAreNamed)
   EXPECT_THAT(error([](json& f) { f["extensionsRequired"] = { "KHR_draco_mesh_compression" }; }),
     HasSubstr("KHR_draco"));
   json deep = "x";
-  // With sanitizers, the JSON writer that this test uses overflows the stack for deeper nesting.
+  // With sanitizers, deeper nesting makes the JSON writer of this test overflow the stack.
   for (int k = 0; k < (test::sanitized ? 500 : 5000); ++k)
   {
     deep = json::array({ deep });

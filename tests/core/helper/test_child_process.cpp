@@ -1,4 +1,5 @@
-// Child processes: how their end is reported, and that no process of their group survives.
+// Child processes. Tests check how the end of a process is reported, and that no process of its
+// group survives.
 #include "helper/child_process.h"
 
 #include "support/cancel_later.h"

@@ -226,8 +226,9 @@ TEST_F(RealHelper, RefinesUntilNothingCrosses)
     const MesherData& refined = answer.data;
     EXPECT_GT(refined.triangles.rows(), mesh.triangles.rows());
     EXPECT_EQ(refined.points.topRows(mesh.points.rows()), mesh.points) << "vertices keep their ids";
-    // Check with the exact predicates of Bindpose. After the refinement no triangles cross. Before
-    // the refinement as many pairs of triangles cross as CGAL reports.
+    // Check the results with the exact predicates of Bindpose. Before the refinement, the number of
+    // crossing pairs of triangles equals the number that CGAL reports. After the refinement no
+    // triangles cross.
     ExecutionContext context;
     std::vector<std::pair<Index, Index>> pairs;
     ASSERT_TRUE(crossing_pairs(refined.points, refined.triangles, pairs, context));
@@ -280,8 +281,8 @@ TEST_F(RealHelper, AFewTrianglesMayFallIntoManyPieces)
 
 TEST_F(RealHelper, SheetsThatNearlyCoincideAreRounded)
 {
-  // The second surface is a copy of the sphere that was rotated and rotated back. Some vertices
-  // differ by one ulp, and triangles cross at angles of the size of rounding errors.
+  // The second surface is a copy of the sphere that was rotated and then rotated back. Some
+  // vertices differ from the original by one ulp, so triangles cross at tiny angles.
   const TriangleMesh sphere = test::sphere(4);
   TriangleMesh twin = sphere;
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).matrix();

@@ -1,5 +1,5 @@
-// The adapter to the program fTetWild. A script with the same arguments replaces the program; the
-// program itself is also tested if it is installed.
+// The adapter to the program fTetWild. The tests replace fTetWild by a script that takes the same
+// arguments. If fTetWild is installed, one test runs it.
 #include "inside/ftetwild_process.h"
 
 #include "helper/child_process.h"
@@ -279,8 +279,8 @@ TEST(Ftetwild, TheRealOneFillsASphere)
 {
   if (find_ftetwild().empty())
   {
-    // No Debian package contains fTetWild. The test is therefore not skipped, because a skipped
-    // test counts as a failure if all packages are installed.
+    // No Debian package contains fTetWild, so it may be missing although all packages are
+    // installed. A skipped test would then count as a failure, so the test only prints a message.
     std::cout << "fTetWild is not installed: not tried\n";
     return;
   }

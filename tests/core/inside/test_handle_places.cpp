@@ -33,8 +33,8 @@ TEST(HandlePlaces, ALineIsCutIntoPiecesOfTheLocalLength)
   {
     EXPECT_NEAR(even.points(3 + i, 0), 0.1 * static_cast<double>(i + 1), 1e-9);
   }
-  // If the requested length grows from one end, the segments grow too. No segment is longer than
-  // the length requested at its end.
+  // The requested length grows along the bone, so the segments must become longer. No segment may
+  // be longer than the length requested at its end.
   const auto growing = [](const Vec3& p) { return 0.05 + 0.3 * p.x(); };
   const HandleSamples graded = sample_places(places, growing);
   double last = 0.0;

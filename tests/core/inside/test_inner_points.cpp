@@ -51,7 +51,8 @@ TEST(InnerPoints, AreInsideAndAsFarApartAsTheSizesSay)
   for (Index i = 0; i < inner.rows(); ++i)
   {
     EXPECT_LE(inner.row(i).norm(), 1.0 - 0.5 * length + 1e-3);
-    // Cells are repeatedly halved, so their size is 0.55 to 1.1 of the requested length.
+    // Cells are halved until they are small enough, so their size is 0.55 to 1.1 times the
+    // requested length.
     EXPECT_GE(spacing(inner, i), 0.47 * length);
     EXPECT_LE(spacing(inner, i), 1.1 * length);
   }
@@ -88,8 +89,8 @@ TEST(InnerPoints, AreNotManyMoreThanAskedFor)
 
 TEST(InnerPoints, EvenGridsGiveSomePointsAndNotTooMany)
 {
-  // All cells at the surface are subdivided at the same size. The number of points therefore
-  // changes abruptly with the size.
+  // All cells at the surface are subdivided at the same requested length. The number of points
+  // therefore changes abruptly with this length.
   for (const double height : { 1.0, 0.2, 0.05 })
   {
     const TetMesh box = test::tet_box(20, 20, 4, Vec3::Zero(), Vec3(1.0, 1.0, height));

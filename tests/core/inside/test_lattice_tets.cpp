@@ -66,8 +66,9 @@ TEST(LatticeTets, StuffingBoundaryLiesOnTheSurface)
   const Triangles skin = boundary_triangles(mesh.tets);
   for (Index k = 0; k < skin.size(); ++k)
   {
-    // Bisection places a boundary vertex with an accuracy of 1/256 of a lattice edge. The
-    // subdivided sphere itself is up to 1e-3 inside of the round sphere.
+    // A boundary vertex is found by bisection, with an error of up to 1/256 of a lattice edge. The
+    // vertices of the subdivided sphere are on the unit sphere, its triangles up to 1e-3 inside of
+    // it.
     EXPECT_NEAR(mesh.points.row(skin.data()[k]).norm(), 1.0, cube / 256.0 + 3e-3);
   }
 }

@@ -119,7 +119,7 @@ void expect_valid_remesh(
   }
 }
 
-/// Return the mean edge length of the tets whose first corner is within `reach` of p.
+/// Return the mean edge length of the tets whose first corner is at most `reach` away from p.
 double edge_length_near(const TetMesh& mesh, const Vec3& p, double reach)
 {
   double sum = 0.0;
@@ -198,12 +198,12 @@ TEST_F(Remesh, OpenCubeGetsALid)
   const TriangleMesh cube = test::open_cube();
   const RemeshOutcome outcome = run_remesh(cube);
   expect_valid_remesh(outcome, cube, 11.0);
-  // The winding number exceeds 0.5 up to the rim of the opening, so the bounding box clips the
-  // region there.
+  // The winding number exceeds 0.5 up to the rim of the opening and also above it. The region is
+  // therefore cut off at the bounding box.
   EXPECT_NEAR(outcome.volume(), 8.0, 0.01);
   EXPECT_EQ(outcome.kept(), 8);
   EXPECT_LT(outcome.status.report.number("distance_max", 100.0), 0.5) << "the lid does not count";
-  // A higher threshold moves the boundary of the tets across the opening inwards.
+  // With a higher threshold, the boundary of the tets across the opening is farther inside.
   RemeshOptions high;
   high.winding_threshold = 0.9;
   const RemeshOutcome lower = run_remesh(cube, high);
@@ -219,7 +219,7 @@ TEST_F(Remesh, CrossingSolidsAreOne)
   expect_valid_remesh(outcome, spheres);
   const double balls = 8.0 / 3.0 * pi - pi * (4.0 + d) * (2.0 - d) * (2.0 - d) / 12.0;
   EXPECT_NEAR(outcome.volume(), balls, 0.01 * balls);
-  // Vertices of one sphere inside of the other are not on the boundary.
+  // Only vertices that are outside of the other sphere are on the boundary.
   Index outside = 0;
   for (Index v = 0; v < spheres.points.rows(); ++v)
   {
@@ -242,8 +242,9 @@ TEST_F(Remesh, ASoupThatCrosses)
 
 TEST_F(Remesh, SquaresOfFourPointsOnACircleLeaveNoClusters)
 {
-  // The four corners of a square are on a circle, so tets on them are flat. Rounding can move the
-  // circumcenters of flat tets anywhere, which used to make the refinement continue around them.
+  // The four corners of a square are on a circle, so a tet with these corners is flat. Rounding can
+  // move the circumcenter of a flat tet anywhere. Without special treatment the refinement would
+  // not end near such tets.
   const TriangleMesh torus = test::torus(48, 24, 1.0, 0.4);
   const TriangleMesh loose = test::unwelded(torus);
   TriangleMesh turned = torus;
@@ -353,7 +354,7 @@ TEST_F(Remesh, ASheetBesideASolidEnds)
   {
     EXPECT_NEAR(outcome.volume(), 4.0 / 3.0 * pi, 0.05 * 4.0 / 3.0 * pi);
   }
-  // tetrahedralize() returns a result, or a status with one sentence.
+  // Through tetrahedralize(), the method must also succeed.
   ExecutionContext context;
   TetrahedralizeOptions ladder;
   ladder.method = TetMethod::remesh;

@@ -34,8 +34,8 @@ TEST(SurfaceDistance, OfBoxesIsKnown)
   EXPECT_NEAR(none.maximum, 0.0, 1e-12);
   EXPECT_NEAR(none.mean, 0.0, 1e-12);
   EXPECT_GT(none.samples, 12);
-  // The top of the tets is too low by 0.25. The top is a sixth of the surface, and a slightly
-  // larger fraction of the boundary of the tets.
+  // The top of the tets is too low by 0.25. The top has a sixth of the surface's area, and a
+  // slightly larger fraction of the area of the tets' boundary.
   const SurfaceDistance low = distance_of(box_of_tets(Vec3(-1, -1, -1), Vec3(1, 1, 0.75)), cube);
   EXPECT_NEAR(low.maximum, 0.25, 1e-12);
   EXPECT_GT(low.mean, 0.25 / 7.0);
@@ -67,7 +67,8 @@ TEST(SurfaceDistance, LidsDoNotCount)
 
 TEST(SurfaceDistance, InnerPartsDoNotCount)
 {
-  // The winding number inside of both cubes is 2, so the inner surface does not bound the tets.
+  // The winding number is 1 between the cubes and 2 in the inner cube. The inner surface is
+  // therefore not on the boundary of the tets.
   const TriangleMesh nested = test::join(test::cube(), test::cube(-0.4, 0.4));
   const SurfaceDistance distance =
     distance_of(box_of_tets(Vec3(-1, -1, -1), Vec3(1, 1, 1)), nested);

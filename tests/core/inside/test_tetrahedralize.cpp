@@ -187,7 +187,7 @@ TEST(Tetrahedralize, FtetwildIsJudgedLikeAnyOther)
   const Outcome wrong = run(thin, TetMethod::ftetwild);
   EXPECT_EQ(wrong.status.code, StatusCode::internal_error);
   EXPECT_EQ(wrong.result.mesh.tets.rows(), 0);
-  // fTetWild itself separates inside from outside, so the threshold cannot be set.
+  // fTetWild uses its own criterion for inside and outside, so the threshold cannot be set.
   TetrahedralizeOptions options;
   options.method = TetMethod::ftetwild;
   options.winding_threshold = 0.7;

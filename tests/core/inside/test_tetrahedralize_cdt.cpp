@@ -1,5 +1,5 @@
-// Method cdt: a constrained Delaunay tetrahedralization. It fills closed surfaces exactly, and
-// other surfaces up to the boundary of their inside.
+// Method cdt: a constrained Delaunay tetrahedralization. For closed surfaces, the tets fill the
+// enclosed volume exactly. For other surfaces, the tets fill the region with a high winding number.
 #include "inside/tetrahedralize.h"
 
 #include "surface/triangle_tree.h"
@@ -148,7 +148,7 @@ TEST_F(Cdt, TheSurfaceIsLeftForAnAngleThatItDoesNotAllow)
   EXPECT_GE(left.number("min_dihedral_angle"), 10.0);
   ASSERT_FALSE(left.status.warnings.empty());
   EXPECT_THAT(left.status.warnings.back(), testing::HasSubstr("replaced method cdt"));
-  // The result contains no data of the rejected tets.
+  // The result must contain no data of the tets of method cdt, which were rejected.
   options.handles = places_of({ Vec3(0.9, 0.5, 0.02) });
   const Outcome with_handle = run(wedge, options);
   EXPECT_EQ(with_handle.method(), "remesh");
@@ -227,8 +227,8 @@ TEST_F(Cdt, UncleanCubesHoldTheirVolume)
     EXPECT_EQ(outcome.method(), "cdt");
     EXPECT_NEAR(outcome.volume(), c.volume, c.tolerance);
   }
-  // The reversed top is detected and reversed again. Otherwise the winding number would be 0 next
-  // to it and 2/3 at the center.
+  // The reversed top is detected and flipped. Without the flip, the winding number would be 0 next
+  // to the top and 2/3 at the center.
   const Outcome outcome = run(flipped_top);
   EXPECT_EQ(outcome.number("counts.turned_triangles"), 2);
   ASSERT_EQ(outcome.status.warnings.size(), 1u);
@@ -285,8 +285,8 @@ TEST_F(Cdt, CrossingSurfacesKeepTheirVerticesAndTriangles)
   const double shrink = signed_volume(spheres.points, spheres.triangles) / (8.0 / 3.0 * pi);
   EXPECT_NEAR(outcome.volume(), balls * shrink, 0.003 * balls);
   EXPECT_EQ(test::euler_characteristic(outcome.result.mesh), 1);
-  // The winding number is 2 in the overlap, so a threshold of 1.5 keeps only the overlap, which is
-  // a lens.
+  // The winding number is 2 where the balls overlap. A threshold of 1.5 therefore keeps only this
+  // region, which has the shape of a lens.
   EXPECT_NEAR(outcome.result.winding_numbers.maxCoeff(), 2.0, 1e-9);
   TetrahedralizeOptions lens;
   lens.winding_threshold = 1.5;

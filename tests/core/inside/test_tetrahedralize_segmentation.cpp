@@ -52,7 +52,8 @@ TEST_F(Cdt, AnOpenSurfaceIsCutWithLessEnergy)
   ASSERT_TRUE(plain.status.ok()) << plain.status.message;
   EXPECT_EQ(plain.status.report.text("segmentation"), "threshold");
   EXPECT_EQ(plain.status.report.find("energy"), nullptr);
-  // The boundary of the graph cut has a smaller area, because it is not ragged across the holes.
+  // The boundary is straight across the holes with the graph cut, and ragged with the threshold.
+  // The graph cut therefore gives the smaller area.
   const auto skin = [](const Outcome& outcome) {
     return surface_area(outcome.result.mesh.points, boundary_triangles(outcome.result.mesh.tets));
   };
@@ -93,7 +94,7 @@ TEST_F(Cdt, TheWholeHullCanBeKept)
     EXPECT_NEAR(outcome.number("volume"), inside, 1e-12);
     EXPECT_EQ(outcome.number("counts.tets_inside"), count);
     EXPECT_EQ(outcome.number("counts.tets"), volumes.size());
-    // The points are the corners of the boxes; no vertex is added.
+    // No vertex is added: all points are corners of the boxes.
     EXPECT_EQ(result.mesh.points.rows(), mesh.points.rows());
   }
   TetrahedralizeOptions options;
@@ -110,7 +111,8 @@ TEST_F(Cdt, ACutThatLosesTheVolumeIsLeftForTheThreshold)
   const Outcome plain = run(mesh, options);
   ASSERT_TRUE(plain.status.ok()) << plain.status.message;
   options.segmentation = SegmentationMethod::graph_cut;
-  // With this large smoothness, either all tets of the hull or none are inside.
+  // With such a large smoothness, the graph cut labels all tets of the hull as inside, or all as
+  // outside.
   options.cut_smoothness = 1e6;
   options.cut_sigma = 10.0;
   const Outcome smooth = run(mesh, options);

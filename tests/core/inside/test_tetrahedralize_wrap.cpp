@@ -1,5 +1,5 @@
-// Method wrap: tets of an alpha wrap, which contain the surface even if it is open or crosses
-// itself.
+// Method wrap: tets that fill an alpha wrap. They contain the surface, even if the surface is open
+// or crosses itself.
 #include "inside/tetrahedralize.h"
 
 #include "surface/triangle_tree.h"
@@ -94,9 +94,8 @@ TEST_F(Wrap, HoldsAnySurface)
     EXPECT_EQ(outcome.number("counts.kept_vertices"), 0.0);
     EXPECT_EQ(outcome.result.original_vertices.front(), -1);
     EXPECT_NEAR(outcome.number("winding_volume"), c.enclosed, 0.01 * c.enclosed);
-    // Every boundary point is at least the offset away from the surface, and some are exactly at
-    // the offset. In concave corners the distance is larger, because the alpha ball does not fit
-    // into them.
+    // Points of the boundary are at least one offset away from the surface. In concave corners the
+    // distance is larger, because the alpha ball does not fit into the corner.
     EXPECT_GE(outcome.number("distance_max"), 100.0 * options.wrap_offset * 0.99);
     EXPECT_LE(outcome.number("distance_max"), 100.0 * (options.wrap_alpha + options.wrap_offset));
     const auto& warnings = outcome.status.warnings;
@@ -122,8 +121,8 @@ TEST_F(Wrap, AnOpenSurfaceIsWarnedOfWithBothVolumes)
   EXPECT_THAT(warning, HasSubstr("4 boundary edges"));
   EXPECT_THAT(warning, HasSubstr("the enclosed volume by winding number is 8"));
   // The open cube has five faces of area 4, wrapped in a shell that is two offsets thick. The alpha
-  // ball does not reach into the eight inner edges of length 2. The cross section that remains
-  // filled at each edge is smaller than the square of the ball's radius.
+  // ball does not fit into the eight inner edges of length 2, so these edges are filled. The cross
+  // section of a filled edge is smaller than the square of the ball's radius.
   const double diagonal = std::sqrt(12.0);
   const double shell = 20.0 * 2.0 * options.wrap_offset * diagonal;
   const double fillets = 16.0 * std::pow((options.wrap_alpha + options.wrap_offset) * diagonal, 2);

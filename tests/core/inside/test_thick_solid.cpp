@@ -33,7 +33,8 @@ Made make_solid(const TriangleMesh& mesh, const ThickSolidOptions& options, int 
   return made;
 }
 
-/// Return the size of a lattice cube if the longest side of the mesh's bounding box is `longest`.
+/// Return the size of a lattice cube of the solid. `longest` is the longest side of the mesh's
+/// bounding box.
 double cube_of(const Made& made, double longest)
 {
   return longest / made.status.report.number("resolution", 0.0);
@@ -57,8 +58,8 @@ TEST(ThickSolid, ASheetBecomesAPlateOfTwiceTheLayer)
   const Made made = make_solid(sheet, {});
   EXPECT_EQ(made.parts, 1);
   const double layer = 0.6 * cube_of(made, 1.0);
-  // The expected solid is a plate with a half cylinder at each of its four edges and a quarter ball
-  // at each corner.
+  // The solid should be a plate with a half cylinder at each of its four edges, and a quarter of a
+  // ball at each corner.
   const double pi = std::acos(-1.0);
   const double expected =
     2.0 * layer + 2.0 * pi * layer * layer + 4.0 / 3.0 * pi * layer * layer * layer;
@@ -94,7 +95,7 @@ TEST(ThickSolid, AnOpenCubeIsFilled)
 {
   const Made made = make_solid(test::open_cube(), {});
   EXPECT_EQ(made.parts, 1);
-  // The walls next to the opening are thickened by a layer.
+  // Next to the opening, the walls are thicker by one layer.
   EXPECT_NEAR(made.volume, 8.0, 0.8);
 }
 

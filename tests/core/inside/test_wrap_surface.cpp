@@ -73,8 +73,9 @@ void expect_clean(const TriangleMesh& wrap)
   EXPECT_GT(signed_volume(wrap.points, wrap.triangles), 0.0);
 }
 
-/// Expect that every vertex and triangle center of the surface is inside of the wrap or, at
-/// corners, on it. Expect that the vertices of the wrap are at the offset from the surface.
+/// Expect that every vertex and triangle center of the surface is inside of the wrap. At corners
+/// they may be on the wrap. Expect that the distance of the wrap's vertices from the surface is the
+/// offset.
 void expect_around(const TriangleMesh& wrap, const TriangleMesh& mesh, double offset)
 {
   ExecutionContext context;
@@ -150,8 +151,8 @@ TEST_F(WrapSurface, IsClosedAndAroundWhateverItIsGiven)
 
 TEST_F(WrapSurface, VolumesAreWhatAlphaAndOffsetSay)
 {
-  // The volume of the wrap of a convex body is larger than that of the body. It is smaller than
-  // that of all points within the offset from the body.
+  // The wrap of a convex body has a larger volume than the body. Its volume is smaller than that of
+  // the region of all points within the offset of the body.
   const WrapOptions options{ 0.05, 0.004, 60.0, 0 };
   TriangleMesh wrap;
   ASSERT_TRUE(run_wrap(test::cube(), options, wrap).ok());

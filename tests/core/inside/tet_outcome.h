@@ -1,7 +1,8 @@
 #ifndef bindpose_tests_core_inside_tet_outcome_h
 #define bindpose_tests_core_inside_tet_outcome_h
 
-// Functions that the tests of tetrahedralize() share: a run, and the invariants of every result.
+// Shared functions of the tests of tetrahedralize(): run it, and check the invariants of its
+// result.
 
 #include "inside/tetrahedralize.h"
 
@@ -28,13 +29,13 @@ struct TetOutcome
 TetOutcome run(const TriangleMesh& mesh, TetrahedralizeOptions options = {}, int threads = 0);
 TetOutcome run(const TriangleMesh& mesh, TetMethod method);
 
-/// Expect the invariants that the results of all methods have.
+/// Expect the properties that the result of every method must have.
 void expect_valid(const TetOutcome& outcome, const TriangleMesh& surface);
 
 /// Return the given points as point handles.
 HandlePlaces places_of(const std::vector<Vec3>& points);
 
-/// Tests of method cdt.
+/// Fixture of the tests of method cdt (constrained Delaunay tetrahedralization).
 class Cdt : public NeedsMesher
 {
 };

@@ -1,5 +1,6 @@
-// The mesh formats OFF, OBJ, PLY and MEDIT. Round trips preserve all bits, and variants of other
-// programs are accepted. Any other input gives one sentence with the line, and never a crash.
+// The mesh formats OFF, OBJ, PLY and MEDIT. Round trips preserve all bits, and the dialects of
+// other programs are accepted. For any other input, the reader returns one sentence with the line
+// number and never crashes.
 #include "io/medit.h"
 #include "io/obj.h"
 #include "io/off.h"
@@ -39,7 +40,7 @@ protected:
   test::Folder folder;
 };
 
-/// Return a mesh with coordinates that are exact only if the writer prints enough digits.
+/// Return a mesh whose coordinates survive a round trip only if the writer prints enough digits.
 PolygonMesh awkward_mesh()
 {
   PolygonMesh mesh = to_polygons(
@@ -234,7 +235,7 @@ TEST_F(TextFiles, PlyAsciiAndBigEndian)
               this->mesh)
               .message,
     "");
-  EXPECT_EQ(this->mesh.points(2, 2), 0.1); // text is parsed as double for every declared type
+  EXPECT_EQ(this->mesh.points(2, 2), 0.1); // text is parsed as double, whatever type is declared
   EXPECT_EQ(this->mesh.corners, (std::vector<Index>{ 0, 1, 2 }));
 
   std::string text = "ply\nformat binary_big_endian 1.0\nelement vertex 3\nproperty float x\n"
@@ -260,8 +261,8 @@ TEST_F(TextFiles, PlyHeadersThatContradictThemselves)
   {
     numbers += "1 2 3\n";
   }
-  // The second element count must not overwrite the size of the arrays that were allocated for the
-  // first one.
+  // The arrays are allocated for the count of the first element. The count of the second element
+  // must not replace it.
   EXPECT_THAT(read_ply(this->folder.write("t.ply",
                          "ply\nformat ascii 1.0\nelement vertex 90" + vertex + "element vertex 2" +
                            vertex + face + numbers),

@@ -1,6 +1,6 @@
 // Sampled fields written as OpenVDB files. OpenVDB reads the files back. Every voxel is compared
-// with its sample, the narrow band with its brute-force definition, and the isosurface of a narrow
-// band with that of the full grid.
+// with its sample, and the narrow band with its definition, evaluated by brute force. The
+// isosurface of a narrow band must equal that of the full grid.
 #include "io/vdb.h"
 
 #include "support/files.h"
@@ -64,8 +64,8 @@ openvdb::Coord coord(Index i, Index j, Index k)
   return openvdb::Coord(static_cast<int>(i), static_cast<int>(j), static_cast<int>(k));
 }
 
-/// Return a function that is 1 in a ball and 0 outside, and linear across its boundary over a third
-/// of the radius.
+/// Return a function that is 1 in a ball and 0 outside. Between the two regions it decreases
+/// linearly, over a third of the radius.
 std::function<double(const Vec3&)> soft_ball(const Vec3& center, double radius)
 {
   return [=](const Vec3& p)
@@ -142,7 +142,8 @@ TEST_F(Vdb, FloatsAndDoublesGiveTheSameFile)
 {
   const Field field = ball();
   const std::vector<float> floats(field.values.begin(), field.values.end());
-  // A positive tolerance would be applied to doubles before the conversion to float.
+  // Set the tolerance to 0, because a positive tolerance is applied to doubles before the
+  // conversion to float.
   this->options.tolerance = 0.0;
   ASSERT_TRUE(this->write(field).ok());
   ExecutionContext context;
@@ -193,7 +194,7 @@ TEST_F(Vdb, RegionsOfOneValueAreTiles)
   EXPECT_EQ(grid->activeVoxelCount(), 128u * 128u * 128u);
 
   this->options.overwrite = true;
-  // The field has one layer of voxels in addition to the tile.
+  // The field is one layer of voxels larger than the tile.
   ASSERT_TRUE(this->write(Field({ 0, 8, 0, 7, 0, 7 }, one)).ok());
   grid = this->read();
   EXPECT_EQ(grid->tree().leafCount(), 1u);
@@ -238,8 +239,8 @@ TEST_F(Vdb, TheBackgroundMayBeTheInside)
   this->options.overwrite = true;
   ASSERT_TRUE(this->write(field).ok());
   grid = this->read();
-  // Voxels outside of the band that are on the other side of the threshold have the value 1 -
-  // background.
+  // The background marks one side of the threshold. Voxels on the other side that are outside of
+  // the band have the value 1 - background.
   EXPECT_EQ(grid->tree().getValue(coord(2, 4, 31)), 0.0f);
   EXPECT_EQ(grid->tree().getValue(coord(-21, -5, 3)), 1.0f);
   EXPECT_FALSE(grid->tree().isValueOn(coord(2, 4, 31)));
@@ -325,7 +326,7 @@ TEST_F(Vdb, ANarrowBandHasTheSameIsosurface)
       std::vector<openvdb::Vec3s> points;
       std::vector<openvdb::Vec4I> quads;
       openvdb::tools::volumeToMesh(grid, points, quads, 0.5);
-      // A sorted set of quads does not depend on their order.
+      // A sorted set of quads is independent of the order in which the quads are generated.
       std::multiset<std::array<float, 12>> corners;
       double volume = 0.0;
       for (const openvdb::Vec4I& quad : quads)
@@ -346,8 +347,8 @@ TEST_F(Vdb, ANarrowBandHasTheSameIsosurface)
     EXPECT_TRUE(surface(*narrow) == expected);
     if (center == frame.grid.point(10, 15, 46))
     {
-      // The linear ramp has the value 1/2 at the radius of the ball. OpenVDB orients the quads
-      // inwards here.
+      // At the radius of the ball the linear ramp has the value 1/2. The sign of the volume is
+      // ignored, because OpenVDB orients the quads inwards here.
       EXPECT_NEAR(std::abs(expected.second), 4.0 / 3.0 * M_PI * std::pow(2.4, 3), 0.6);
     }
   }

@@ -7,7 +7,7 @@
 namespace bindpose::test
 {
 
-/// Return the biharmonic matrix of a box of tets, shifted to be positive definite.
+/// Return the biharmonic matrix of a box of n^3 cells of tets. `shift` makes it positive definite.
 inline SparseMatrix definite_matrix(int n, double shift)
 {
   const TetMesh box = tet_box(n, n, n);

@@ -1,5 +1,6 @@
-// Dense Cholesky factorization A = L L^T. The columns of L^-T are orthonormal in the inner product
-// of A, and the reciprocal condition number of a diagonal matrix is exact.
+// Dense Cholesky factorization A = L L^T. The tests check that the columns of L^-T are orthonormal
+// in the inner product of A, and that the reciprocal condition number is exact for a diagonal
+// matrix.
 #include "linear/dense_cholesky.h"
 
 #include "support/meshes.h"

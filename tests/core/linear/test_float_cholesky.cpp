@@ -1,6 +1,6 @@
-// Sparse Cholesky factorization in single precision, compared with a dense and a double-precision
-// factorization. Failing pivots are reported, and clones give the same bits on any number of
-// threads.
+// Sparse Cholesky factorization in single precision, compared with a dense factorization and with
+// one in double precision. A pivot that fails is reported. Clones give the same bits on any number
+// of threads.
 #include "linear/float_cholesky.h"
 
 #include "core/linear/definite_matrix.h"
@@ -37,7 +37,7 @@ protected:
     }
   }
 
-  /// Analyze the matrix with both solvers. The double-precision factorization remains available in
+  /// Analyze the matrix with both solvers. The double-precision factorization is stored in
   /// `solver`.
   FloatCholesky analyzed(const SparseMatrix& matrix, SparseSolver& solver)
   {

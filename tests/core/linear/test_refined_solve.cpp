@@ -1,5 +1,6 @@
-// Iterative refinement: a single-precision factor gives double-precision solutions. They are
-// compared with a dense factorization, and the reported residual with the actual one.
+// Iterative refinement: a single-precision factor gives solutions with double precision. The
+// solutions are compared with a dense factorization, and the reported residual with the true
+// residual.
 #include "linear/refined_solve.h"
 
 #include "support/meshes.h"
@@ -81,7 +82,7 @@ protected:
 
 TEST_F(RefinedSolve, IsAsGoodAsADenseFactorization)
 {
-  // Keep the entries of this column moderate, because the norms below square them.
+  // Scale this column down, because the norms below would overflow when they square its entries.
   this->rhs.col(3) *= 1e-100;
   Eigen::MatrixXd x;
   EXPECT_LE(this->solve({}, x), 1e-14);

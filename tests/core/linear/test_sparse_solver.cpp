@@ -1,6 +1,6 @@
-// Both backends of the sparse solver, compared with a dense factorization. Concurrent clones give
-// equal bits, one analysis serves many factorizations, and a failure names the pivot entry of the
-// matrix.
+// Both backends of the sparse solver, compared with a dense factorization. Clones that run
+// concurrently give equal bits. One analysis is used for many factorizations. A failure reports the
+// matrix entry of the pivot.
 #include "linear/sparse_solver.h"
 
 #include "core/linear/definite_matrix.h"
@@ -150,8 +150,8 @@ TEST_P(SparseSolverTest, NamesThePivotThatIsNotPositive)
   SparseMatrix a = definite_matrix(3, 0.1);
   SparseSolver solver({ GetParam(), SparseSolver::Ordering::automatic });
   ASSERT_TRUE(solver.analyze(a).ok());
-  // A large negative diagonal entry makes the pivot of its own row fail, at any position in the
-  // elimination order.
+  // A large negative diagonal entry makes the pivot of the same row fail, wherever the row is in
+  // the elimination order.
   a.coeffRef(17, 17) = -1e6;
   const Status status = solver.factor(a);
   EXPECT_EQ(status.code, StatusCode::invalid_input);

@@ -1,5 +1,5 @@
-// Outlines traced around the pixels of an image are closed, never cross, and are within a pixel of
-// the depicted shape.
+// Outlines around the shape in an image. The outlines are closed, do not cross each other, and are
+// at most one pixel away from the shape.
 #include "planar/image_outline.h"
 
 #include "support/sanitized.h"
@@ -55,8 +55,8 @@ Picture noise_picture(Index columns, Index rows, unsigned seed, bool binary)
     columns, rows, [&](double, double) { return binary ? std::round(any(random)) : any(random); });
 }
 
-/// Return the signed area of an outline. Expect that every vertex is the end of one segment and the
-/// start of another one.
+/// Return the signed area of an outline. Expect that each vertex is the end of exactly one segment
+/// and the start of exactly one.
 double outline_area(const ImageOutline& outline)
 {
   std::vector<int> balance(outline.points.rows(), 0);
@@ -79,7 +79,8 @@ double turn(const Vec2& a, const Vec2& b, const Vec2& c)
   return cross(b - a, c - a);
 }
 
-/// Count the pairs of segments that cross or touch without a common vertex, by brute force.
+/// Count the pairs of segments that cross, or that touch although they share no vertex, by brute
+/// force.
 int crossings(const ImageOutline& outline)
 {
   int count = 0;
@@ -175,7 +176,8 @@ TEST(ImageOutline, DiscWithinAPixel)
           largest = std::max(largest, std::abs((p - center).norm() - radius));
         }
       }
-      // Pixels with only the values 0 and 1 determine the boundary to an accuracy of half a pixel.
+      // If pixels have only the values 0 and 1, the position of the boundary is known only to half
+      // the diagonal of a pixel.
       const double of_contour = smooth ? 0.15 : 0.71;
       EXPECT_LE(largest, of_contour + simplify);
       if (simplify <= 0.5)
@@ -218,7 +220,8 @@ TEST(ImageOutline, StaysWithinTheToleranceAndNeverCrosses)
 
 TEST(ImageOutline, OneComponentALoop)
 {
-  // The winding number of the contour at a pixel's center is 1 inside and 0 outside.
+  // At a pixel's center, the winding number of the contour is 1 for pixels inside and 0 for pixels
+  // outside.
   const Picture picture = noise_picture(40, 33, 5, false);
   ImageOutline outline;
   ASSERT_TRUE(outline_of(picture, outline, 0.0).ok());

@@ -74,8 +74,8 @@ double shape_area(const PlanarShape& shape)
   return area;
 }
 
-/// Return the smallest angle in degrees of all triangles without a corner at one of the given
-/// points.
+/// Return the smallest angle in degrees of the triangles. Triangles with a corner at one of the
+/// points `except` are ignored.
 double smallest_angle(const PlanarShape& shape, const std::vector<Vec2>& except = {})
 {
   double smallest = 180.0;
@@ -184,7 +184,7 @@ protected:
   Status status;
 };
 
-/// Return the five tips of the star {5/2} in the order in which one closed line visits them.
+/// Return the five tips of a pentagram (the star polygon {5/2}), in the order of its closed line.
 std::vector<Vec2> pentagram()
 {
   return polygon_on_circle(5, 1.0, 2.0);
@@ -277,7 +277,8 @@ TEST_F(PlanarShapeTest, OpenSquareGetsItsFourthSide)
 
 TEST_F(PlanarShapeTest, FigureEight)
 {
-  // One loop is counter-clockwise and one clockwise: their winding numbers are 1 and -1.
+  // The curve has the shape of an eight. One loop is counter-clockwise and the other one clockwise,
+  // so their winding numbers are 1 and -1.
   const Curves eight = Curves().add({ { 0, 0 }, { 3, 3 }, { 3, 0 }, { 0, 3 } });
   const Curves larger = Curves().add({ { 0, 0 }, { 4, 4 }, { 4, 0 }, { 0, 2 } });
   // The lines y = x and y = 2 - x / 2 intersect at x = 4/3.
@@ -311,7 +312,7 @@ TEST_F(PlanarShapeTest, OverlapsAndDoubledCurves)
   const Curves doubled = Curves().add(unit_square).add(unit_square);
   EXPECT_NEAR(area(doubled), 1.0, 1e-14);
   EXPECT_TRUE((shape.winding_numbers.array() == 2.0).all());
-  EXPECT_EQ(shape.original_vertices[3], 3); // of equal vertices the first one is kept
+  EXPECT_EQ(shape.original_vertices[3], 3); // of two equal vertices, only the first is used
   EXPECT_EQ(shape.original_vertices[4], -1);
 }
 
@@ -421,8 +422,8 @@ TEST_F(PlanarShapeTest, ScaleAndPlaceDoNotMatter)
 
 TEST_F(PlanarShapeTest, CurvesThatAlmostTouch)
 {
-  // The corners are points of a coarse lattice with errors of up to 1e-14. Curves with such small
-  // gaps cannot be refined: the new points would be between adjacent doubles.
+  // The corners are points of a coarse lattice plus errors of up to 1e-14, so some gaps are tiny.
+  // Such curves cannot be refined, because a new point would be between two adjacent doubles.
   std::mt19937 random(11);
   std::uniform_real_distribution<double> any(0.0, 1.0);
   std::vector<Vec2> corners;
@@ -490,7 +491,7 @@ TEST_F(PlanarShapeTest, Refuses)
   Curves wrong = Curves().add(unit_square);
   wrong.segments(2, 1) = 4;
   refuses(wrong, "segment 2 references vertex 4");
-  // The winding number between the two arms is below 1/2.
+  // Between the two arms the winding number is below 1/2.
   Curves arms;
   arms.add({ { 0, 0 }, { 1, 0 } }, false).add({ { 1, 2 }, { 0, 2 } }, false);
   refuses(arms, "enclose nothing");

@@ -135,8 +135,8 @@ TEST(ElementStretch, OneReflectedTetIsFoundAndNamed)
   EXPECT_NEAR(stretch.smallest[0], 1.0, 1e-15);
   EXPECT_NEAR(stretch.smallest[1], -1.0, 1e-15);
   EXPECT_NEAR(stretch.largest[1], 1.0, 1e-15);
-  // A mirror image inverts all tets. A tet that is inside out at rest counts as inverted if its
-  // orientation changes.
+  // A mirror image inverts all tets. A tet with negative volume at rest counts as inverted if its
+  // volume becomes positive.
   EXPECT_EQ(report_of(rest, Points(-rest), tets).number("counts.inverted_elements", 0), 2);
   Tets other = tets;
   std::swap(other(1, 0), other(1, 1));
@@ -166,7 +166,7 @@ TEST(ElementStretch, TrianglesFlipInAPlaneOnly)
   const Points turned = mapped(square.points, rotation(180, Vec3(0, 0, 1)));
   EXPECT_EQ(
     report_of(square.points, turned, square.triangles).number("counts.inverted_elements", -1), 0);
-  // No common plane defines an orientation for the triangles of a closed surface.
+  // The triangles of a closed surface have no common plane, so no orientation is defined for them.
   const TriangleMesh ball = test::sphere(1);
   EXPECT_EQ(report_of(ball.points, Points(-ball.points), ball.triangles)
               .number("counts.inverted_elements", -1),
@@ -216,7 +216,7 @@ TEST(ElementStretch, AreThoseOfEigenForRandomTriangles)
   measure_stretch(ball.points, posed, ball.triangles, stretch);
   for (Index t = 0; t < ball.triangles.rows(); ++t)
   {
-    // Extend the gradient by the normal: it is mapped to the posed normal with a stretch of 1.
+    // Extend the gradient: it maps the normal at rest to the posed normal with a stretch of 1.
     Eigen::Matrix3d rest_edges, posed_edges;
     for (int k = 0; k < 2; ++k)
     {

@@ -1,4 +1,5 @@
-// Modes for methods that find rotations: handles that are only translated get mode `position`.
+// Modes for methods that compute rotations themselves. A handle that is only translated gets the
+// mode `position`.
 #include "pose/found_rotations.h"
 
 #include "pose/handle_hierarchy.h"

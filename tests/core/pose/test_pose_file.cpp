@@ -105,15 +105,15 @@ TEST(PoseFile, InVersionOneParentsComposeOnlyWhenAsked)
 {
   const std::string upper = R"("upper": {"rotate": {"axis": [0, 0, 1], "degrees": 90}})";
   const std::string fore = R"("fore": {"rotate": {"axis": [0, 0, 1], "degrees": 90})";
-  // In world space, the bone rotates around its own head at rest.
+  // In world space, the bone rotates around the rest position of its own head.
   Pose pose = read("{\"handles\": {" + fore + "}, " + upper + "}}");
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(1, 1, 0)).norm(), 1e-15);
-  // In parent space, the rotation of the parent around the origin is applied after that of the
-  // bone.
+  // In parent space, the bone's own rotation is applied first. Then the rotation of the parent
+  // around the origin is applied.
   pose = read("{\"handles\": {" + fore + ", \"space\": \"parent\"}, " + upper + "}}");
   EXPECT_LT((apply(pose[1].transform, Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm(), 1e-15);
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(-1, 1, 0)).norm(), 1e-15);
-  // A handle without a parent has the world as its parent.
+  // For a handle without a parent, parent space is the same as world space.
   pose = read(R"({"handles": {"upper": {"space": "parent", "translate": [1, 1, 1]}}})");
   EXPECT_EQ(pose[2].transform.col(3), Vec3(1, 1, 1));
   // A handle that the file does not mention keeps its transform.
@@ -130,14 +130,15 @@ TEST(PoseFile, AMissingVersionWarnsIfChildrenWouldFollow)
     return status.warnings;
   };
   const std::string upper = R"("upper": {"scale": 2})";
-  // There is one warning, also for a sequence of poses.
+  // A sequence of poses also causes only one warning.
   ASSERT_EQ(warnings("{\"handles\": {" + upper + "}}").size(), 1u);
   EXPECT_THAT(warnings("{\"handles\": {" + upper + "}}")[0], HasSubstr("\"version\": 2"));
   EXPECT_EQ(
     warnings("{\"frames\": [{\"handles\": {" + upper + "}}, {\"handles\": {" + upper + "}}]}")
       .size(),
     1u);
-  // There is no warning if the file has the same meaning in both versions of the format.
+  // There is no warning if the file contains its version, or if it has the same meaning in both
+  // versions of the format.
   EXPECT_EQ(warnings("{\"version\": 1, \"handles\": {" + upper + "}}").size(), 0u);
   EXPECT_EQ(warnings("{\"version\": 2, \"handles\": {" + upper + "}}").size(), 0u);
   EXPECT_EQ(warnings(R"({"handles": {"fore": {"scale": 2}, "p": {"scale": 2}}})").size(), 0u);
@@ -164,12 +165,13 @@ TEST(PoseFile, ChildrenFollowTheirParents)
   pose = read_new(upper + R"(, "fore": {"space": "world", "mode": "free"})");
   EXPECT_EQ(pose[1].transform, identity_affine());
   EXPECT_EQ(pose[1].mode, HandleMode::free);
-  // A child at the tail of a bone moves with the stretch, and rotates with the twist at the tail.
+  // A child at the tail of a bone moves with the stretched tail and rotates with the twist there.
   pose = read_new(R"("upper": {"rotate": {"axis": [0, 0, 1], "degrees": 90}, "stretch": 3})");
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(0, 4, 0)).norm(), 1e-15);
   pose = read_new(R"("upper": {"twist": [0, 90]})");
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 1, 0)) - Vec3(2, 0, 1)).norm(), 1e-15);
-  // An end that the file specifies is a world position. The other end follows the parent.
+  // If the file specifies one end of the bone, this end is a world position. The other end follows
+  // the parent.
   pose = read_new(upper + R"(, "fore": {"tail": [2, 1, 0]})");
   EXPECT_LT((apply(pose[1].transform, Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm(), 1e-15);
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(1, 1, 0)).norm(), 1e-15);
@@ -208,7 +210,7 @@ TEST(PoseFile, FollowersKeepTheirPlaceRelativeToTheParent)
                 .cwiseAbs()
                 .maxCoeff(),
       1e-13);
-    // If the parent does not move, the child's transform keeps its bits.
+    // If the parent does not move, the bits of the child's transform do not change.
     EXPECT_EQ(
       read(R"({"version": 2, "handles": {"p": {"translate": [0, 2, 0]}}})", base)[1].transform,
       base[1].transform);
@@ -220,7 +222,7 @@ TEST(PoseFile, FollowersKeepTheirPlaceRelativeToTheParent)
     flat[1].transform);
 }
 
-// A child moves like the skin at the point where it is attached to its parent.
+// A child moves with the posed skin at the point where the child is attached to its parent.
 TEST(HandleHierarchy, ChildrenGoWithTheSkinWhereTheyAreAttached)
 {
   test::Random random(6);
@@ -275,8 +277,8 @@ TEST(PoseFile, BonesGoWhereTheirEndsAreSent)
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(5, 5, 6)).norm(), 1e-14);
   EXPECT_DOUBLE_EQ(pose[1].stretch, 3.0);
   EXPECT_EQ(pose[1].twist, Eigen::Vector2d(10, 20));
-  // The bone's rotation is the minimal one, which keeps vectors perpendicular to the old and the
-  // new direction.
+  // The bone's rotation is the smallest one. Its axis is perpendicular to the old and the new
+  // direction, so a vector along the axis does not change.
   EXPECT_LT((apply(pose[1].transform, Vec3(1, 1, 0)) - Vec3(5, 6, 5)).norm(), 1e-14);
   EXPECT_EQ(read(R"({"handles": {"fore": {"tail": [1, 2, 0], "stretch": 1}}})")[1].stretch, 1.0);
   // If the file specifies one end, the other end stays at its rest position.
@@ -313,8 +315,8 @@ TEST(PoseFile, SequencesHaveFramesAndARate)
   EXPECT_EQ(apply_edits(sequence.frames[1], point_and_chain(), Pose(3))[0].transform(0, 3), 1.0);
 }
 
-// The caller evaluates the expressions. The expressions of this test are 't', 'twice t' and
-// 'never'.
+// The caller evaluates expressions. The function of this test knows the expressions 't', 'twice t'
+// and 'never'.
 TEST(PoseFile, TextsAreExpressionsInTime)
 {
   const PoseExpression expression = [](const std::string& text, double t, double& value)
@@ -352,7 +354,8 @@ TEST(PoseFile, TextsAreExpressionsInTime)
     HasSubstr("handle 'p'.scale is 'never', which is not a finite number at t = 0.5"));
   EXPECT_THAT(wrong(R"("mode": "t")"), HasSubstr("must be one of full, position, free"));
   EXPECT_THAT(wrong(R"("rotate": "t")"), HasSubstr("it must be an object"));
-  // Without a function that evaluates expressions, a text is an error.
+  // If the caller provides no function that evaluates expressions, a text instead of a number is an
+  // error.
   EXPECT_THAT(message(text), HasSubstr("it must be a number"));
 }
 
@@ -509,7 +512,8 @@ TEST(PoseFile, WhatIsWrittenCanBeRead)
   EXPECT_TRUE(format_pose_file({ pose }, 24.0, point_and_chain(), text).ok());
   pose[0].transform(1, 1) = 1e308; // this moves the pivot of the handle to 2e308
   EXPECT_THAT(format_pose_file({ pose }, 24.0, point_and_chain(), text).message, HasSubstr("'p'"));
-  // The squares of these lengths overflow or underflow, but their ratio is representable.
+  // The squares of these lengths overflow or underflow, but the ratio of the lengths is
+  // representable.
   EXPECT_EQ(
     read(R"({"handles": {"fore": {"head": [0, 0, 0], "tail": [0, 1e200, 0]}}})")[1].stretch, 1e200);
   EXPECT_EQ(
@@ -519,8 +523,8 @@ TEST(PoseFile, WhatIsWrittenCanBeRead)
 
 TEST(PoseFile, ScalesUnevenByRoundoffAreEven)
 {
-  // Rotations with uniform scale that were rounded to single precision are recognized, for matrices
-  // of any scale.
+  // A rotation with uniform scale is recognized even if the matrix was rounded to single precision.
+  // This is true for any scale.
   for (const double scale : { 0.01, 1.0, 100.0 })
   {
     Pose pose(3);
@@ -533,7 +537,7 @@ TEST(PoseFile, ScalesUnevenByRoundoffAreEven)
     ASSERT_TRUE(status.ok());
     EXPECT_TRUE(status.warnings.empty()) << status.warnings[0];
     EXPECT_LT((read(text)[0].transform - pose[0].transform).cwiseAbs().maxCoeff(), 1e-5 * scale);
-    // A scale that is intentionally non-uniform by a factor of 1.001 is not recognized as uniform.
+    // A scale of 1.001 along one axis is intended, so it must not be treated as uniform.
     pose[0].transform.leftCols<3>() = turn * Vec3(scale, scale, 1.001 * scale).asDiagonal();
     status = format_pose_file({ pose }, 24.0, point_and_chain(), text);
     EXPECT_EQ(status.warnings.size(), 1u);
@@ -551,7 +555,7 @@ TEST(PoseFile, WhatAFileCannotHoldIsSaid)
   EXPECT_THAT(status.warnings[0], HasSubstr("'p'"));
   EXPECT_FALSE(read(text).empty());
 
-  // There is one warning for all handles and poses.
+  // There is only one warning, which is about all handles and poses.
   Pose sheared = pose;
   sheared[1].transform(1, 1) = 1.5;
   Status grouped =

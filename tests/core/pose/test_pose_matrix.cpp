@@ -1,4 +1,5 @@
-// Poses from libigl's matrices: the formulas of libigl's transforms and of its forward kinematics.
+// Poses from libigl's matrices. The results are compared with the formulas of libigl for transforms
+// and for forward kinematics.
 #include "pose/pose_matrix.h"
 
 #include <Eigen/Geometry>
@@ -63,7 +64,7 @@ TEST(PoseMatrix, RotationsAddUpAlongAChain)
     Handles handles = chain();
     for (Handle& handle : handles)
     {
-      // If no parents are given, the hierarchy follows from the joints that bones share.
+      // If no parents are given, bones that share a joint form the hierarchy.
       handle.parent = known ? handle.parent : -1;
     }
     // Each bone rotates by 90 degrees about z, so the chain becomes three sides of a square.

@@ -1,5 +1,6 @@
-// Pseudo-edges connect neighboring handles. Rotations of handles are computed from the translations
-// of these edges: common motions, degenerate edges, and trees of edges along the shape.
+// Pseudo-edges connect neighboring handles. The translations at both ends of an edge determine
+// rotations of the handles. The tests use common motions, degenerate edges, and trees of edges
+// along the shape.
 #include "pose/pseudo_edges.h"
 
 #include "base/constants.h"
@@ -24,7 +25,8 @@ using test::rotation;
 
 namespace
 {
-/// Return a pose that translates each pivot as the rigid motion would, but rotates no handle.
+/// Return a pose that translates the handles. Each pivot moves as under the rigid motion, but no
+/// handle rotates.
 Pose translations(
   const Handles& handles, const Eigen::Matrix3d& turn, const Vec3& by = Vec3::Zero())
 {
@@ -147,8 +149,8 @@ TEST(PseudoEdges, OppositeDirectionsTurnAboutAFixedAxis)
 
 TEST(PseudoEdges, EdgesOfAHandleCountAlike)
 {
-  // The two edges of the middle handle rotate by 0 and by 60 degrees, so the handle rotates by 30
-  // degrees. Each neighbor has one edge and rotates with it.
+  // The two edges at the middle handle rotate by 0 and by 60 degrees. The handle rotates by the
+  // mean, 30 degrees. Each neighbor has only one edge and rotates with it.
   const Handles row =
     point_handles({ Vec3(-1, 0, 0), Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(5, 5, 5) });
   Pose pose(4);

@@ -124,8 +124,9 @@ TEST(RotationFit, ReflectionsGiveTheBestRotation)
     Eigen::Matrix3d r = Eigen::Matrix3d::Identity();
     fit_rotation(s, r);
     expect_best(s, r);
-    // If two singular values have equal magnitude, the optimal rotations form a circle. If all
-    // three have equal magnitude, the optimal rotations form a sphere.
+    // The determinant is negative. If the two smallest singular values are equal, the optimal
+    // rotations form a one-parameter family. If all three are equal, they form a two-parameter
+    // family.
     s = random_rotation(random) * Vec3(3, 1, -1).asDiagonal();
     fit_rotation(s, r);
     expect_best(s, r);
@@ -158,8 +159,8 @@ TEST(RotationFit, RankOneTakesTheNearestOfTheBest)
     Eigen::Matrix3d r = before;
     fit_rotation(rest * (before * rest).transpose(), r);
     ASSERT_LT((r - before).cwiseAbs().maxCoeff(), 1e-12);
-    // If the previous rotation is not optimal, the nearest optimum is this rotation, followed by
-    // the minimal rotation to the posed edge.
+    // Otherwise the result is the optimal rotation nearest to the previous one. It equals the
+    // previous rotation, followed by the smallest rotation that aligns it with the posed edge.
     const Vec3 posed = random.in_box(-Vec3::Ones(), Vec3::Ones());
     fit_rotation(rest * posed.transpose(), r);
     expect_best(rest * posed.transpose(), r);
@@ -168,8 +169,8 @@ TEST(RotationFit, RankOneTakesTheNearestOfTheBest)
   }
 }
 
-// Some counts fill whole groups of SIMD lanes, others do not. Every third matrix has rank one. Its
-// result depends on the previous rotation.
+// Some counts are multiples of the number of SIMD lanes, others are not. Every third matrix has
+// rank one, so that its result depends on the previous rotation.
 TEST(RotationFit, BatchesAndSinglesAgreeToTheBit)
 {
   test::Random random(13);

@@ -1,7 +1,7 @@
-// Quadratic programs with bounds, by an interior-point method. They are compared with projected
-// Gauss-Seidel. The optimality certificate (duality gap and residual) is compared with its
-// definition and is the stopping criterion. Results do not depend on the start, and their bits do
-// not depend on the number of threads.
+// Quadratic programs with bounds, solved by an interior-point method. The solutions are compared
+// with projected Gauss-Seidel. The optimality certificate (duality gap and residual) is compared
+// with its definition, and must be the stopping criterion. Results must not depend on the start,
+// and their bits must not depend on the number of threads.
 #include "qp/box_qp.h"
 
 #include "base/memory.h"
@@ -57,7 +57,8 @@ BoxQpColumn column_of(std::initializer_list<double> values)
   return column;
 }
 
-/// Compute the minimizer by sweeps over single vertices: a slow but simple and independent method.
+/// Compute the minimizer by Gauss-Seidel, one vertex after the other. The method is slow, simple
+/// and independent of the tested code.
 Eigen::VectorXd gauss_seidel(
   const SparseMatrix& q, const std::vector<Index>& fixed, const Eigen::VectorXd& values, int sweeps)
 {
@@ -130,8 +131,8 @@ TEST(BoxQp, MinimizersWithoutBoundsHaveNoGradient)
       }
     }
     EXPECT_LE((w.rowwise().sum().array() - 1.0).abs().maxCoeff(), 1e-7);
-    // Multiply by the block of Q for the free vertices, then by its inverse. The result must be
-    // unchanged.
+    // Multiply some columns by the block of Q for the free vertices, then by the inverse of this
+    // block. The columns must not change.
     SplitForm form(q, fixed);
     Eigen::MatrixXd some = Eigen::MatrixXd::Zero(form.a.rows(), 2);
     some(5, 0) = some(100, 1) = 1.0;
@@ -171,8 +172,8 @@ TEST(BoxQp, CertificateBoundsTheTrueGap)
 
 TEST(BoxQp, OrderedPairsHoldAndTheirMultipliersProveIt)
 {
-  // The values on a strip are ordered along x. The unconstrained minimizer overshoots; the ordered
-  // one must not.
+  // The values on a strip must increase along x. The unconstrained minimizer overshoots, and the
+  // minimizer with ordered values must not.
   const int n = 24;
   const TriangleMesh mesh = test::grid(n, 1, 1.0, 1.0 / n);
   const SparseMatrix q = energy(mesh, 2);
@@ -197,7 +198,7 @@ TEST(BoxQp, OrderedPairsHoldAndTheirMultipliersProveIt)
   }
   EXPECT_GE(least, 0.0) << "exactly";
   EXPECT_GE(ordered.multipliers.minCoeff(), 0.0);
-  // With fewer constraints the energy is lower.
+  // Without the order constraints the energy is lower.
   column.pairs.clear();
   const BoxQpSolution bounded = qp.solve(column, context);
   EXPECT_GT(ordered.certificate.energy, bounded.certificate.energy * (1.0 + 1e-6));
@@ -223,7 +224,7 @@ TEST(BoxQp, NeedsNoBoundsAndKeepsDistances)
   const Eigen::VectorXd minimizer = qp.unconstrained(column.fixed_values);
   EXPECT_GT(minimizer.maxCoeff(), 0.8);
   EXPECT_LT((free.w - minimizer).cwiseAbs().maxCoeff(), 1e-9);
-  // Only a part of the vertices has bounds.
+  // Now only some of the vertices have bounds.
   BoxQpColumn some = unbounded;
   some.bounds.lower.head(n).setZero();
   some.bounds.upper.head(n).setConstant(0.8);
@@ -231,7 +232,7 @@ TEST(BoxQp, NeedsNoBoundsAndKeepsDistances)
   ASSERT_TRUE(half.status.ok());
   EXPECT_LE(half.w.head(n).maxCoeff(), 0.8);
   EXPECT_GT(half.w.maxCoeff(), 0.8);
-  // If the values at both ends are given, an order between them has the effect of bounds.
+  // If the values at both ends are fixed, an order between the ends has the same effect as bounds.
   for (Index row = 0; row < 2; ++row)
   {
     for (Index i = 0; i < n; ++i)
@@ -285,8 +286,8 @@ TEST(BoxQp, EveryStartEndsAtTheSameWeights)
 namespace
 {
 /// Return two boxes of tets with perturbed vertices.
-/// @param slivers Insert a layer of almost flat tets into the first box. Its height is 1e-3 of the
-/// height of the other layers.
+/// @param slivers If true, the first box contains a layer of almost flat tets. The height of this
+/// layer is 1e-3 of the height of the other layers.
 TetMesh two_boxes(bool slivers)
 {
   TetMesh first = test::tet_box(7, 6, 5);
@@ -324,7 +325,7 @@ TEST_P(BoxQpStarts, FoundTogetherEndWhereOthersEnd)
 {
   const TetMesh mesh = two_boxes(GetParam());
   const SparseMatrix q = energy(mesh, 2);
-  // There are more columns than are solved together. The last handles are in the second box.
+  // There are more columns than the solver solves together. The last handles are in the second box.
   std::vector<Index> fixed;
   for (Index j = 0; j < 11; ++j)
   {
@@ -345,10 +346,10 @@ TEST_P(BoxQpStarts, FoundTogetherEndWhereOthersEnd)
   for (const double scale : { 1.0, 1e6, 1e-6 })
   {
     const SparseMatrix scaled = scale * q;
-    // Each of the two solutions of a column has an error of 1.5e-6 for the tolerance 1e-6, and of
-    // 5e-9 for the tolerance 1e-9 (box_qp_workspace.h), on any processor. Columns with a given
-    // start are solved by the interior-point method, other columns are not. Slivers alone cause
-    // round-off errors of 1e-7.
+    // The test compares two solutions of each column. On any processor, each of them has an error
+    // of up to 1.5e-6 for the tolerance 1e-6, and of up to 5e-9 for the tolerance 1e-9
+    // (box_qp_workspace.h). The interior-point method solves columns with a given start. Columns
+    // without a start are solved by another method. Slivers alone cause round-off errors of 1e-7.
     for (const auto& [tolerance, same] :
       { std::pair{ 1e-6, 3e-6 }, std::pair{ 1e-9, GetParam() ? 1e-6 : 1e-8 } })
     {
@@ -407,8 +408,8 @@ TEST(BoxQp, ThreadsDoNotChangeABit)
     ASSERT_TRUE(qp.prepare(context).ok());
     const std::vector<BoxQpSolution> solutions = qp.solve_all(columns, context);
     EXPECT_EQ(qp.analyses(), 1);
-    // Q is factored once. The starts of all columns together need one factorization. The columns
-    // report the other factorizations.
+    // Q is factored once. One more factorization gives the starts of all columns together. Each
+    // column reports its other factorizations.
     Index factorizations = SparseSolver::has_cholmod() ? 2 : 1;
     for (const BoxQpSolution& solution : solutions)
     {
@@ -432,7 +433,7 @@ TEST(BoxQp, TheEstimateOfItsMemoryIsThePeak)
 {
   if (test::sanitized)
   {
-    return; // the memory of the sanitizer is a multiple of the measured memory
+    return; // the memory of the sanitizer is several times the measured memory
   }
   const TetMesh box = test::tet_box(20, 20, 20);
   const SparseMatrix q = energy(box, 2);
@@ -463,7 +464,7 @@ TEST(BoxQp, TakesFewerThreadsOrRefusesWhereMemoryEnds)
   const std::vector<BoxQpColumn> columns = unit_columns(3);
   ExecutionContext context;
   BoxQpOptions options;
-  // This limit is less than the memory that the process already uses.
+  // The process already uses more memory than this limit.
   options.solver.memory_limit = 1;
   BoxQp none(q, fixed, options);
   const Status refused = none.prepare(context, columns);

@@ -21,7 +21,7 @@ CutEnergy random_energy(Index nodes, Index edges, Random& random)
   CutEnergy energy;
   for (Index i = 0; i < nodes; ++i)
   {
-    // Some nodes have equal costs on both sides, and some strongly prefer one side.
+    // Some nodes have equal costs inside and outside. Others have a much lower cost on one side.
     const Index kind = random.below(5);
     energy.inside_costs.push_back(kind == 0 ? 0.0 : kind == 1 ? 100.0 : random.uniform());
     energy.outside_costs.push_back(kind == 0 ? 0.0 : random.uniform());
@@ -59,7 +59,7 @@ Status minimized(const CutEnergy& energy, std::vector<char>& inside)
   return minimize(energy, inside, context);
 }
 
-/// Return a grid of n^3 nodes with random costs. Its energy is slow to minimize.
+/// Return a grid of n^3 nodes with random costs. The minimization of this energy is slow.
 CutEnergy noise_energy(Index n)
 {
   Random random(7);

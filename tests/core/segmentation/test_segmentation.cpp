@@ -26,7 +26,7 @@ Segmentation segmented(
   return result;
 }
 
-/// Evaluate the energy that segmentation.h defines directly, over all pairs of tets.
+/// Evaluate the energy as segmentation.h defines it, with a loop over all pairs of tets.
 double stated_energy(const TetMesh& mesh, const Eigen::VectorXd& w, const SegmentationOptions& o,
   const std::vector<char>& inside)
 {
@@ -89,7 +89,7 @@ TEST(Segmentation, EqualsBruteForce)
   Random random(3);
   for (int instance = 0; instance < 240; ++instance)
   {
-    // The boxes have 6, 12 or 18 tets and are not cubes.
+    // The boxes have 6, 12 or 18 tets and random side lengths.
     TetMesh mesh = tet_box(1 + static_cast<int>(random.below(3)), 1, 1, Vec3::Zero(),
       random.in_box(Vec3::Constant(0.2), Vec3::Constant(3.0)));
     if (mesh.tets.rows() > 12 && instance % 4 != 0)
@@ -102,8 +102,8 @@ TEST(Segmentation, EqualsBruteForce)
     options.cut_smoothness = random.uniform(0.0, 2.0);
     options.cut_sigma = random.uniform(0.05, 1.0);
     const Segmentation found = segmented(mesh, w, options);
-    // The costs of single tets and of facets are computed once, so that the energies of all
-    // labelings are fast to evaluate.
+    // Compute the costs of single tets and of facets only once. The energy of each labeling is then
+    // a sum of these costs.
     CutEnergy energy;
     const auto nodes = static_cast<std::size_t>(mesh.tets.rows());
     std::vector<char> labels(nodes, 0);
@@ -114,7 +114,7 @@ TEST(Segmentation, EqualsBruteForce)
       energy.inside_costs.push_back(std::max(1.0 - shifted, 0.0));
       energy.outside_costs.push_back(std::max(shifted, 0.0));
     }
-    std::vector<double> alone; // energy of the facets of a single tet, if only this tet is inside
+    std::vector<double> alone; // energy of the facets if only this tet is inside
     for (std::size_t t = 0; t < nodes; ++t)
     {
       labels.assign(nodes, 0);

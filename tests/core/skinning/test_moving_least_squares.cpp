@@ -1,6 +1,6 @@
 // Deformation by moving least squares (Schaefer, McPhail, Warren 2006). Rigid poses are exact,
-// handles are interpolated, and results are invariant. Results are compared with the paper's
-// formulas evaluated directly, and with known integrals.
+// handles are interpolated, and results are invariant under similarities. Results are compared with
+// a direct evaluation of the paper's formulas, and with known integrals.
 #include "skinning/moving_least_squares.h"
 
 #include "support/affines.h"
@@ -84,8 +84,9 @@ Points warped(const Points& rest, const Handles& handles, const Pose& pose, doub
   return posed;
 }
 
-/// Evaluate the paper's formulas for one point. A bone is replaced by very many points. The weight
-/// of each point is the length of its part of the bone, in units of the extent of all handles.
+/// Evaluate the paper's formulas for one point. Each bone is replaced by very many points. The
+/// weight of such a point is the length of its part of the bone, divided by the extent of all
+/// handles.
 Vec3 plain_warp(const Vec3& v, const Handles& handles, const Pose& pose, double exponent, bool flat)
 {
   double extent = 0.0;
@@ -235,7 +236,8 @@ TEST(MovingLeastSquares, MotionsAndScalesGoThrough)
     const Handles handles = mixed_handles(flat);
     const Pose pose = mixed_pose(flat);
     const Points posed = warped(rest, handles, pose);
-    // A similarity of both rest shape and pose transforms the result by the same similarity.
+    // If the same similarity is applied to the rest shape and to the pose, it is also applied to
+    // the result.
     const Affine change = affine(
       1000.0 * rotation(40, flat ? Vec3(0, 0, 1) : Vec3(1, 0, 1)), Vec3(70, -20, flat ? 0 : 9));
     Handles changed = handles;
@@ -267,7 +269,7 @@ TEST(MovingLeastSquares, OneHandleTellsOnlyWhatItCan)
 {
   const Points rest = random_rest(50, false);
   const Affine motion = affine(rotation(60, Vec3(0, 0, 1)), Vec3(1, 2, 3));
-  // The translation of a single point handle translates all points.
+  // If the only handle is a point handle, its translation translates all points.
   const Handles one{ numbered_point(Vec3(0.3, 0.2, 0.1), 0) };
   const Vec3 step = motion.leftCols<3>() * one[0].head + motion.col(3) - one[0].head;
   EXPECT_LT(largest_distance(warped(rest, one, pose_of({ motion })),
@@ -279,8 +281,8 @@ TEST(MovingLeastSquares, OneHandleTellsOnlyWhatItCan)
   const Affine in_plane = affine(rotation(60, Vec3(0, 0, 1)), Vec3(1, 2, 0));
   EXPECT_LT(
     largest_distance(warped(flat, stick, pose_of({ in_plane })), moved(flat, in_plane)), 1e-12);
-  // In space, the smallest rotation is used. It reproduces a rotation of the bone's direction, and
-  // ignores a rotation around the bone.
+  // In space, one bone determines the smallest rotation of its direction. A rotation around the
+  // bone has no effect.
   EXPECT_LT(
     largest_distance(warped(rest, stick, pose_of({ in_plane })), moved(rest, in_plane)), 1e-12);
   const Affine roll = affine(rotation(70, Vec3(1, 0, 0)), Vec3::Zero());
@@ -305,9 +307,9 @@ TEST(MovingLeastSquares, ModesPositionAndFree)
   const Points rest = random_rest(100, false);
   const Handles handles = mixed_handles(false);
   Pose pose = mixed_pose(false);
-  // A handle of mode free has no effect, even on a point at its position. This handle is between
-  // the others, so the extent of the handles, which is the unit of length of bones, does not
-  // change.
+  // A handle of mode free has no effect, even on a point at its position. The additional handle is
+  // between the others, so it does not change the extent of the handles. This extent is the unit of
+  // length for bones.
   Handles more = handles;
   more.push_back(numbered_point(Vec3(0.1, 0, 0), 4));
   Pose with_free = pose;
@@ -316,7 +318,7 @@ TEST(MovingLeastSquares, ModesPositionAndFree)
   Points on = rest;
   on.row(0) << 0.1, 0, 0;
   EXPECT_LT(largest_distance(warped(on, more, with_free), warped(on, handles, pose)), 1e-12);
-  // Mode position uses only the translation of the handle's pivot.
+  // Mode position uses only the translation of the pivot.
   Pose position = pose;
   position[2].mode = HandleMode::position;
   const Vec3 head = handles[2].head;
@@ -341,8 +343,8 @@ TEST(MovingLeastSquares, ModesPositionAndFree)
 TEST(MovingLeastSquares, SharesOfABoneAreTheIntegrals)
 {
   // The bone is the unit interval of the x axis. The point is at (`a`, `d`, 0), and the exponent is
-  // 1. The integral of 1 / (d^2 + s^2) for s from -a to 1 - a is (atan((1 - a) / d) + atan(a / d))
-  // / d. The first moment of this function is 1/2 log((d^2 + (1 - a)^2) / (d^2 + a^2)). Its second
+  // 1. The integral of 1 / (d^2 + s^2) over s from -a to 1 - a is (atan((1 - a) / d) + atan(a / d))
+  // / d. The first moment of the integrand is 1/2 log((d^2 + (1 - a)^2) / (d^2 + a^2)). The second
   // moment is 1 - d^2 times the integral.
   ExecutionContext context;
   for (const double d : { 1e-9, 1e-4, 0.1, 1.0, 50.0 })

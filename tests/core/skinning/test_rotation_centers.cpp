@@ -1,5 +1,6 @@
-// Optimized centers of rotation (Le, Hodgins 2016), compared with the paper's sums. Skinning with
-// these centers reproduces rigid motions exactly, and twisted joints keep their width.
+// Optimized centers of rotation (Le, Hodgins 2016), compared with the sums in the paper. Skinning
+// with these centers reproduces rigid motions exactly, and joints that are twisted do not become
+// thinner.
 #include "skinning/rotation_centers.h"
 
 #include "base/constants.h"

@@ -166,15 +166,15 @@ TEST(Skinning, ARotationAndItsFullTurnsAreOne)
   const Points pivots = Points::Zero(2, 3);
   for (const double degrees : { 10.0, 170.0, -170.0, 190.0 })
   {
-    // The quaternions are q and -q: the angles differ by a full turn, and the matrices are equal up
-    // to round-off.
+    // The two quaternions are q and -q, because the angles differ by a full turn. The matrices are
+    // equal up to round-off.
     const Posed a = pose_with(ring_of_points(), half, { base, turn_about(degrees, axis) }, pivots);
     const Posed b =
       pose_with(ring_of_points(), half, { base, turn_about(degrees + 360.0, axis) }, pivots);
     EXPECT_LT((a.dual - b.dual).cwiseAbs().maxCoeff(), 1e-12);
     for (Index i = 0; i < 16; ++i)
     {
-      // The blend along the shorter path is also a rotation, so it keeps the radius.
+      // Blending along the shorter path gives a rotation, so each point keeps its radius.
       EXPECT_NEAR(a.dual.row(i).norm(), 1.0, 1e-13);
     }
   }
@@ -217,7 +217,8 @@ TEST(Skinning, DualQuaternionsCommuteWithMovesOfTheWorld)
 
 TEST(Skinning, NormalsStayNormalToPosedPlanes)
 {
-  // A common affine map moves a plane. The transformed normals must remain normal to it.
+  // A common affine map moves a plane and its normals. The transformed normals must be
+  // perpendicular to the moved plane.
   const Weights ones = Weights::Ones(3, 1);
   Affine affine = turn_about(35, Vec3(3, 1, 2), Vec3::Zero(), Vec3(1, 2, 3));
   affine.leftCols<3>() *= Vec3(3.0, 0.5, 1.0).asDiagonal();
@@ -325,8 +326,8 @@ TEST(Skinning, ModesReadAsTranslationsAndIdentity)
   ASSERT_EQ(status.warnings.size(), 1u);
   EXPECT_THAT(status.warnings[0], HasSubstr("'c'"));
 
-  // The bones have constrained ends. With mode tail the bone is translated with its tail; with mode
-  // ends it has its own transform.
+  // The next two handles are bones with constrained ends. In mode tail, a bone is translated with
+  // its tail. In mode ends, a bone has its own transform.
   handles[1].kind = handles[2].kind = HandleKind::bone;
   handles[1].tail = Vec3(3, 0, 0);
   pose[1].mode = HandleMode::tail;
@@ -381,7 +382,8 @@ TEST(StretchableBones, ATwistTurnsByTheEndpointWeightAndKeepsTheRadius)
   Points quarter = moved(points, turn_about(90.0, Vec3::UnitX()));
   Points posed = stretched(points, ones, { identity_affine() }, { bone });
   EXPECT_LT((posed - quarter).cwiseAbs().maxCoeff(), 1e-15);
-  // A painted endpoint weight replaces the computed weight. NaN means not painted.
+  // If an endpoint weight is painted, it replaces the computed weight. NaN means that the weight is
+  // not painted.
   Weights painted = Weights::Constant(16, 1, 0.25);
   painted(3, 0) = std::numeric_limits<double>::quiet_NaN();
   posed = stretched(points, ones, { identity_affine() }, { bone }, painted);
@@ -458,7 +460,7 @@ TEST(StretchableBones, AreTheirDefinitionInBothPrecisions)
   const auto between = [&](double lower, double upper) { return random.uniform(lower, upper); };
   for (int trial = 0; trial < 60; ++trial)
   {
-    // Some numbers of vertices do not fill the last tile.
+    // Most of these vertex counts do not fill the last tile of vertices.
     const Index vertices = 1 + random.below(70), handles = 1 + random.below(6);
     Points points(vertices, 3);
     Weights weights(vertices, handles), painted(vertices, handles);
@@ -508,7 +510,7 @@ TEST(StretchableBones, AreTheirDefinitionInBothPrecisions)
     ASSERT_TRUE(floats.bind(context, weights, options).ok());
     Points posed;
     ASSERT_TRUE(floats.stretchable_bones(context, points, transforms, bones, painted, posed).ok());
-    // Ten turns are resolved to 2^-24 turns in single precision.
+    // In single precision, a twist of ten turns has an error of about 2^-24 times ten turns.
     EXPECT_LT((posed - expected).cwiseAbs().maxCoeff(), 2e-4);
   }
 }
@@ -593,8 +595,8 @@ TEST(StretchableBones, SizesThatDoNotFitAreNamed)
 
 namespace
 {
-/// Return random transforms of the box's five handles with any angle, so that quaternions change
-/// their sign.
+/// Return random transforms of the five handles of the box. The angles are arbitrary, so some
+/// quaternions have opposite signs.
 std::vector<Affine> wild_transforms(test::Random& random, bool shears)
 {
   std::vector<Affine> transforms;
@@ -661,7 +663,8 @@ TEST(Skinning, SinglePrecisionIsRightToAMillionthOfTheDiagonal)
       std::vector<Affine> transforms = wild_transforms(random, shears);
       for (Affine& t : transforms)
       {
-        // The points are translated by `place`. Translate the effect of the transform with them.
+        // All points are translated by `place`. Adapt the transform, so that its effect on the
+        // translated points is the same.
         t.col(3) += place - t.leftCols<3>() * place;
       }
       const Blends exact = blends_of(points, rig.weights, transforms, centers, {});
@@ -741,7 +744,7 @@ TEST(Skinning, DroppedWeightsAreCountedAndTheirErrorIsBounded)
     Index dropped = 0;
     double share = 0.0;
     Points twin(rig.mesh.points.rows(), 3);
-    double reach = 0.0; // largest distance between the images of a point under two handles
+    double reach = 0.0; // largest distance between two images of a point, each under one handle
     for (Index v = 0; v < twin.rows(); ++v)
     {
       std::vector<std::pair<double, Index>> row;
@@ -791,8 +794,8 @@ TEST(Skinning, DroppedWeightsAreCountedAndTheirErrorIsBounded)
 
 TEST(Skinning, SignsOfQuaternionsAreEachVertexsOwn)
 {
-  // The vertices of a tile have different reference quaternions. A vertex that is posed alone must
-  // give the same result.
+  // The vertices of a tile have different reference quaternions. Posing a vertex alone must give
+  // the same result as posing the whole tile.
   const test::Rig rig = test::box();
   const Points pivots = handle_pivots(rig.handles);
   test::Random random(13);

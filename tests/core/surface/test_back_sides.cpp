@@ -1,5 +1,5 @@
-// Back sides of triangles: copies with the opposite orientation. They are found on patches that
-// enclose a volume, for any order and orientation of the copies, and only there.
+// Back sides of triangles: copies with the opposite orientation. They are reported only on patches
+// that enclose a volume, for any order and orientation of the copies.
 #include "surface/back_sides.h"
 
 #include "surface/surface_repair.h"
@@ -61,7 +61,7 @@ TEST(BackSides, AreTheInnerCopiesOfWhatEnclosesSomething)
     const std::vector<Index> backs = back_sides(twice.points, twice.triangles);
     EXPECT_EQ(backs.size(), static_cast<std::size_t>(ball.triangles.rows()));
     EXPECT_NEAR(volume_without(twice, backs), volume, 1e-12);
-    // Every triangle occurs twice in each orientation, so all but one are back sides.
+    // Every triangle occurs twice in each orientation. Three of the four copies are back sides.
     const TriangleMesh four = shuffled(welded(test::join(twice, twice)), seed);
     const std::vector<Index> three = back_sides(four.points, four.triangles);
     EXPECT_EQ(three.size(), static_cast<std::size_t>(3 * ball.triangles.rows()));
@@ -92,7 +92,7 @@ TEST(BackSides, AreNotThereWhereNothingIsEnclosed)
 
 TEST(BackSides, AreFoundPatchByPatch)
 {
-  // A two-sided ball, a two-sided leaf, and a one-sided ball.
+  // The surface has a two-sided ball, a two-sided leaf, and a one-sided ball.
   const TriangleMesh ball = test::sphere(2);
   const TriangleMesh leaf = test::translated(test::grid(4, 4), Vec3(5, 0, 0));
   TriangleMesh all =

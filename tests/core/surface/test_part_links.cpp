@@ -57,8 +57,8 @@ std::vector<PartLink> links_of(
   return links;
 }
 
-/// Return the total length of the shortest links that connect every part to a fixed part (`held`),
-/// computed from all pairs of triangles.
+/// Return the total length of the shortest links that connect every part to a fixed part (`held`).
+/// The links are found among all pairs of triangles.
 double shortest_forest(const Shape& shape, const std::vector<char>& held)
 {
   struct Edge
@@ -194,7 +194,7 @@ TEST(PartLinks, AreTheShortestForestOfAllPairs)
 
 TEST(PartLinks, LeadToEverythingThatALoosePartTouches)
 {
-  // A plate 0.01 above four legs, and a shorter leg.
+  // A plate is 0.01 above four legs. A fifth, shorter leg is 0.11 below the plate.
   Shape shape;
   shape.add(box(Vec3(0, 0, 1.01), Vec3(4, 4, 1.1)));
   for (const Vec3& at : { Vec3(0, 0, 0), Vec3(3, 0, 0), Vec3(0, 3, 0), Vec3(3, 3, 0) })

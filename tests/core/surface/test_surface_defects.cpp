@@ -155,7 +155,8 @@ TEST(SurfaceDefects, CrossingTrianglesNameEachOther)
   {
     EXPECT_EQ(met.count(t), 1u);
   }
-  // The pairs of crossing triangles contain as many different triangles as the list of crossings.
+  // The list of pairs and the list of crossings must contain the same number of different
+  // triangles.
   std::map<Index, int> in_pairs;
   for (const auto& [s, t] : found.repaired.crossings)
   {

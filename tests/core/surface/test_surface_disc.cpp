@@ -49,7 +49,7 @@ TEST(SurfaceDisc, OnAFlatGridDistancesAreThoseOfThePlane)
     }
   }
   EXPECT_GT(found.size(), 400u);
-  // A call does not depend on the calls before it.
+  // The result of a call must not depend on previous calls.
   EXPECT_EQ(disc.within(place, triangle, radius).size(), found.size());
 }
 
@@ -66,8 +66,8 @@ TEST(SurfaceDisc, OnASphereDistancesAreArcs)
     EXPECT_NEAR(distance, arc, 0.02 * arc + 0.01);
     ++count;
   }
-  // The fraction of the points that are found equals the area of the spherical cap divided by that
-  // of the sphere.
+  // The points are evenly distributed. The fraction of the points that are found therefore equals
+  // the area of the spherical cap divided by the area of the sphere.
   EXPECT_NEAR(static_cast<double>(count) / static_cast<double>(ball.points.rows()),
     0.5 * (1.0 - std::cos(2.0)), 0.02);
 }

@@ -24,7 +24,8 @@ TEST(SurfaceProbe, MidThicknessOfASphereIsItsCenterPlane)
   test::Random random(3);
   for (int i = 0; i < 200; ++i)
   {
-    // The polyhedron is symmetric about its center, so all chords are exactly symmetric.
+    // The polyhedron is symmetric about its center, so the midpoints of chords through the center
+    // are exact.
     const Vec3 direction = random.in_box(Vec3(-1, -1, -1), Vec3(1, 1, 1)).normalized();
     const Vec3 aside = 0.4 * direction.cross(random.in_box(Vec3(-1, -1, -1), Vec3(1, 1, 1)));
     LineSpan through;

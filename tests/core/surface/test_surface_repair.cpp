@@ -1,5 +1,5 @@
-// Repair of surfaces: welding, orientation, duplicates, crossings, and the exact predicates behind
-// them.
+// Repair of surfaces: welding, orientation, duplicates and crossings. The exact predicates that the
+// repair uses are tested too.
 #include "surface/surface_repair.h"
 
 #include "surface/triangle_predicates.h"
@@ -204,7 +204,8 @@ TEST(SurfaceRepair, SolidsThatTouchAreTurnedOneByOne)
 
 TEST(SurfaceRepair, ACavityThatTouchesStaysACavity)
 {
-  // A tet is inside of a cube. It touches the cube's surface at a vertex, then at an edge.
+  // A tet inside of a cube touches the surface of the cube. In the first case it touches at a
+  // vertex, in the second case at an edge.
   for (const double top : { 0.0, 1.0 })
   {
     TriangleMesh tet;
@@ -244,8 +245,9 @@ TEST(SurfaceRepair, SnappingWeldsWhatNearlyCoincides)
 
 TEST(SurfaceRepair, CountsCrossingsOfCubes)
 {
-  // A corner of each cube is inside of the other cube, so three squares cross three squares in six
-  // pairs. Brute force over all pairs of triangles finds the same crossings.
+  // A corner of each cube is inside of the other cube. Three faces of each cube therefore cross
+  // faces of the other cube, in at least six pairs of triangles. Brute force over all pairs of
+  // triangles finds the same crossings.
   const TriangleMesh two =
     test::join(test::cube(), test::translated(test::cube(), Vec3(1.03, 0.9, 0.85)));
   Index pairs = 0;
@@ -258,8 +260,8 @@ TEST(SurfaceRepair, CountsCrossingsOfCubes)
   }
   EXPECT_GE(pairs, 6);
   EXPECT_EQ(diagnose(two).self_intersections, pairs);
-  // The cubes touch in a square without shared vertices. Each triangle of one square touches both
-  // triangles of the other square.
+  // The cubes touch: a face of one cube overlaps a face of the other cube, without shared vertices.
+  // Each triangle of one face touches both triangles of the other face.
   TriangleMesh touching =
     test::join(test::cube(), test::translated(test::cube(), Vec3(2.0, 0.25, 0.25)));
   EXPECT_GE(diagnose(touching).self_intersections, 4);
@@ -326,7 +328,8 @@ TEST(SurfaceRepair, SharedVerticesAndEdgesAreNoCrossing)
 
 TEST(SurfaceRepair, ExactSigns)
 {
-  // The fourth point is exactly on the plane, or off it by the last bit.
+  // The fourth point is in the plane of a, b and c, or the last bit of a coordinate moves it out of
+  // the plane.
   const Vec3 a(0.1, 0.2, 0.3), b(1.1, 0.2, 0.3), c(0.1, 1.2, 0.3);
   const double z = 0.3;
   EXPECT_EQ(orientation_3d(a, b, c, Vec3(0.7, 0.6, z)), 0);
@@ -371,7 +374,8 @@ TEST(SurfaceRepair, TreeDistancesAreBruteForce)
       const Vec3 b = mesh.points.row(mesh.triangles(t, 1));
       const Vec3 c = mesh.points.row(mesh.triangles(t, 2));
       nearest = std::min(nearest, (closest_point(p, a, b, c) - p).norm());
-      // No sample of the triangle is nearer than its closest point.
+      // No sample of the triangle is nearer to the point than the closest point that the function
+      // returned.
       const double s = random.uniform(), r = random.uniform();
       const Vec3 q = s + r < 1 ? Vec3(a + s * (b - a) + r * (c - a)) : a;
       EXPECT_GE((q - p).norm() + 1e-12, (closest_point(p, a, b, c) - p).norm());
@@ -415,8 +419,9 @@ TEST(SurfaceRepair, SegmentsMeetTrianglesAsBruteForceSays)
   }
   EXPECT_GT(met, 400);
   EXPECT_LT(met, 1600);
-  // A segment that touches a triangle intersects it. A segment that misses it by an ulp does not,
-  // and triangles without area intersect no segment.
+  // A segment that only touches a triangle intersects the triangle. A segment that passes the
+  // triangle at a distance of one ulp does not intersect it. Triangles without area intersect no
+  // segment.
   const Vec3 p(0, 0, 0), q(1, 0, 0), r(0, 1, 0);
   EXPECT_TRUE(segment_meets_triangle(Vec3(0.25, 0.25, 1), Vec3(0.25, 0.25, 0), p, q, r));
   EXPECT_TRUE(segment_meets_triangle(Vec3(0.5, 0.5, 1), Vec3(0.5, 0.5, -1), p, q, r));
@@ -469,8 +474,8 @@ TEST(SurfaceRepair, SameForAnyNumberOfThreads)
 
 TEST(SurfaceRepair, ClosestPointOfTrianglesThatAreLines)
 {
-  // The three corners are on a line in any order, or two or three corners are equal. The result is
-  // the nearest point of the longest edge, which contains all corners.
+  // The three corners are on a line in any order, and two or three of them may be equal. The
+  // longest edge contains all corners, so the expected result is the nearest point of this edge.
   test::Random random(11);
   const auto anywhere = [&] { return random.in_box(Vec3::Constant(-1.0), Vec3::Constant(1.0)); };
   for (int round = 0; round < 3000; ++round)

@@ -1,6 +1,6 @@
-// Orientation of nested shells. The shells that are reversed are compared with a reference that
-// uses the known solids. The growth of the time is measured on surfaces with many non-manifold
-// edges and duplicate triangles.
+// Orientation of nested shells. The reversed shells are compared with a reference computed from the
+// known solids. Another test measures how the time grows with the number of triangles, on surfaces
+// with many non-manifold edges and duplicate triangles.
 #include "surface/surface_repair.h"
 
 #include "support/meshes.h"
@@ -36,7 +36,7 @@ bool contains(const Cube& outer, const Cube& inner)
   return in;
 }
 
-/// Return cubes with separate vertices, of twelve triangles or of a finer grid on each face.
+/// Return cubes of twelve triangles each. The cubes share no vertices.
 TriangleMesh mesh_of(const std::vector<Cube>& cubes)
 {
   TriangleMesh mesh;
@@ -55,9 +55,8 @@ TriangleMesh mesh_of(const std::vector<Cube>& cubes)
   return mesh;
 }
 
-/// Return the triangles of random unit voxels with shared vertices. Voxels may share edges and
-/// vertices, and the faces that they share occur twice. A fraction `doubled` of the triangles is
-/// repeated.
+/// Return the triangles of random unit voxels. Adjacent voxels share vertices, and a face between
+/// two voxels occurs twice. In addition, a fraction `doubled` of the triangles is repeated.
 TriangleMesh voxels(int along, double fill, double doubled)
 {
   test::Random random(17);
@@ -103,7 +102,7 @@ TriangleMesh voxels(int along, double fill, double doubled)
   return mesh;
 }
 
-/// Return the CPU seconds of a repair without the search for crossings: the minimum of three runs.
+/// Return the CPU time of a repair in seconds: the minimum of three runs.
 double seconds_of(const TriangleMesh& mesh)
 {
   double best = 1e300;
@@ -161,8 +160,8 @@ TEST(SurfaceShells, TurnedShellsAreThoseOfATwinThatKnowsTheSolids)
     {
       std::swap(cubes[i - 1], cubes[static_cast<std::size_t>(random.below(static_cast<Index>(i)))]);
     }
-    // Compute the reference: an outermost cube with inward orientation is reversed together with
-    // all cubes inside of it. Cubes that cross the large cube are not inside of it.
+    // Compute the reference. If an outermost cube has inward orientation, this cube and all cubes
+    // inside of it are reversed. Cubes that cross the large cube are not inside of it.
     std::vector<bool> turned(cubes.size(), false);
     for (std::size_t i = 0; i < cubes.size(); ++i)
     {
@@ -201,8 +200,8 @@ TEST(SurfaceShells, TurnedShellsAreThoseOfATwinThatKnowsTheSolids)
 
 TEST(SurfaceShells, AFineShellAroundManySolids)
 {
-  // There are enough triangles and solids that the winding numbers of the container are computed by
-  // ray crossings.
+  // The numbers of triangles and solids are so large that ray crossings are used to compute the
+  // winding numbers of the container.
   TriangleMesh mesh = test::flipped(test::sphere(6, 10.0));
   const Index outer = mesh.triangles.rows();
   std::vector<Cube> cubes;
@@ -219,7 +218,7 @@ TEST(SurfaceShells, AFineShellAroundManySolids)
   ASSERT_TRUE(repair_surface(mesh.points, mesh.triangles, {}, repaired, context).ok());
   EXPECT_EQ(repaired.found.inward_components, 1);
   EXPECT_EQ(static_cast<Index>(repaired.inward_triangles.size()), outer);
-  // All cubes except the last one are reversed.
+  // All triangles are reversed, except the 12 triangles of the last cube.
   Index kept = 0;
   for (Index t = 0; t < mesh.triangles.rows(); ++t)
   {

@@ -12,8 +12,8 @@ using namespace bindpose;
 
 namespace
 {
-/// Return each cube of the list as six tets. Adjacent cubes share vertices, and the tets on both
-/// sides of a shared face match.
+/// Return six tets for each cube of the list. Adjacent cubes share vertices, and the facets of the
+/// tets match at a common face.
 TetMesh tets_of_cubes(const std::vector<std::array<int, 3>>& list)
 {
   std::map<std::array<int, 3>, Index> ids;
@@ -127,8 +127,8 @@ TEST(ManifoldBoundary, CubesThatShareAnEdgeArePartedThere)
 
 TEST(ManifoldBoundary, ARingOfCubesThatCloseAtAnEdgeIsOneSurface)
 {
-  // The first and the last cube touch only at an edge. They are separated at this edge and
-  // connected along the ring.
+  // The cubes form a ring in which the first and the last cube touch only at an edge. The boundary
+  // must be separated at this edge, and stay connected along the ring.
   const TetMesh mesh =
     tets_of_cubes({ { 0, 0, 0 }, { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 1, 1, 0 } });
   const TriangleMesh surface = manifold_boundary(mesh);

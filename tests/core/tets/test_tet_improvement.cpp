@@ -37,7 +37,7 @@ double angle(const TetMesh& mesh)
   return measure_tets(mesh.points, mesh.tets).min_dihedral_angle;
 }
 
-/// Insert a vertex on an edge and split all tets at the edge. @return The new vertex.
+/// Insert a vertex on an edge and split all tets at the edge. @return The id of the new vertex.
 Index split_edge(TetMesh& mesh, Index a, Index b, double where)
 {
   const Index fresh = mesh.points.rows();
@@ -164,8 +164,9 @@ TEST(TetImprovement, AFlatTetOnTheBoundaryGoes)
 
 TEST(TetImprovement, OfTwoFlatTetsOnOneEdgeOnlyOneGoes)
 {
-  // The edge 0-1 has two thick tets. Outside of them are two flat tets, on opposite sides of the
-  // edge. If both flat tets were removed, the boundary would touch itself along the edge.
+  // Four thin tets share the edge 0-1. Two of them are wedges with a tiny dihedral angle at the
+  // edge. The other two are flat, with a dihedral angle near 180 degrees at the edge, on opposite
+  // sides of it. If both flat tets were removed, the boundary would touch itself along the edge.
   TetMesh mesh;
   mesh.points.resize(6, 3);
   constexpr double thin = 1e-4;
@@ -236,7 +237,7 @@ TEST(TetImprovement, ThreadsMakeNoDifference)
 
 TEST(TetImprovement, KeepsTheBoundaryWhenAsked)
 {
-  // Vertices on the top also move within its plane, so there are flat tets on the boundary.
+  // Vertices on the top move within the plane of the top, so some tets on the boundary are flat.
   TetMesh mesh = shaken_box(0.05);
   test::Random random(5);
   for (Index v = 0; v < mesh.points.rows(); ++v)

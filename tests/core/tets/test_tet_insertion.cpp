@@ -99,8 +99,8 @@ TEST(TetInsertion, ManyPlacesAreInserted)
 
 TEST(TetInsertion, PlacesAreFoundAgainWhenReplacedTetsAreDropped)
 {
-  // Each insertion replaces about 20 tets by new ones with new ids. The number of ids becomes
-  // several times the number of tets.
+  // Each insertion replaces about 20 tets by new tets with new ids. After all insertions, there are
+  // several times as many ids as tets.
   TetMesh mesh = test::tet_box(3, 3, 3);
   test::Random random(23);
   Points places(20000, 3);
@@ -121,8 +121,8 @@ TEST(TetInsertion, PlacesAreFoundAgainWhenReplacedTetsAreDropped)
 
 TEST(TetInsertion, ThreadsMakeNoDifference)
 {
-  // There are ten times as many points as tets. Most points are in tets that have been replaced
-  // before, and many points of one batch need the same tets.
+  // There are ten points per tet of the box. Most points are in tets that earlier insertions
+  // created, and many points of one batch need the same tets.
   const TetMesh box = test::tet_box(3, 3, 3);
   test::Random random(17);
   Points places(10 * box.tets.rows(), 3);
@@ -181,8 +181,8 @@ TEST_F(Cdt, NumbersOfTetsGrowWithTheSurfaceNotWithTheVolume)
 
 TEST_F(Cdt, AnEllipsoidIsFilledWithoutSlivers)
 {
-  // All vertices are on one quadric, so a mesh without additional vertices consists of slivers that
-  // cross the whole shape.
+  // All vertices are on one quadric. Without additional vertices, all tets would be slivers that
+  // extend through the whole shape.
   TriangleMesh spindle = test::sphere(5);
   spindle.points.leftCols(2) *= 0.45;
   const Outcome outcome = run(spindle, TetMethod::cdt);

@@ -59,7 +59,8 @@ TEST(TetQuality, AnglesOfVeryFlatTetsAreNotZero)
   for (const double height : { 1e-3, 1e-7, 1e-10, 1e-13 })
   {
     SCOPED_TRACE(height);
-    // The foot of the apex is at the distances 0.3, 0.3 and 0.2 sqrt(2) from the edges of the base.
+    // The projection of the apex onto the base has the distances 0.3, 0.3 and 0.2 sqrt(2) from the
+    // edges of the base.
     const double degrees = 57.295779513082320877;
     const double angle =
       min_dihedral_angle(Vec3(0, 0, 0), Vec3(0, 1, 0), Vec3(1, 0, 0), Vec3(0.3, 0.3, -height));
@@ -117,9 +118,9 @@ TEST(TetQuality, CrumbsAndLoneTetsGo)
 TEST(TetQuality, TrianglesInFrontOfOthersForceFlatTets)
 {
   // The mesh is a plate of 6 x 6 cells. The inscribed circles of its large triangles have the
-  // radius 0.0488. A tet on such a triangle is higher than 0.00427 if all its dihedral angles are
-  // at least 5 degrees. In a thinner plate all tets are therefore forced to be flat. In a thicker
-  // plate only the tets next to the needles at the rim are forced to be flat.
+  // radius 0.0488. If all dihedral angles of a tet on such a triangle are at least 5 degrees, the
+  // tet is higher than 0.00427. In a thinner plate all tets must therefore be flat. In a thicker
+  // plate only the tets next to the needles at the rim must be flat.
   for (const double height : { 0.004, 0.005 })
   {
     TetMesh plate = test::tet_box(6, 6, 1);

@@ -1,6 +1,6 @@
-// Depth order of overlapping parts. The depth is the weighted mean of the handles' layers: constant
-// if all layers are equal, and the handle's own layer at a handle. If depths are equal, the part of
-// the later handle is in front.
+// Depth order of overlapping parts. The depth of a point is the weighted mean of the handles'
+// layers. The depth is constant if all layers are equal. At a handle the depth is the layer of this
+// handle. If depths are equal, the part of the later handle is in front.
 #include "weight_uses/depth_order.h"
 
 #include "weights_shapes.h"

@@ -1,5 +1,5 @@
-// Baseline weights (simple methods for comparisons): closed forms, limits in which two methods
-// agree, and differences between the methods.
+// Baseline weights (simple methods for comparisons). They are compared with closed forms and with
+// each other, in limits in which two methods must agree and where methods must differ.
 #include "weights/baseline_weights.h"
 #include "weights/weight_methods.h"
 
@@ -46,8 +46,8 @@ WeightsResult baseline(
   return result;
 }
 
-/// Return the largest |sum over j of w_j p_j - p| of all vertices p with the weights w_j. Here p_j
-/// is the vertex of point handle j.
+/// Return the largest coordinate of |sum over j of w_j p_j - p| over all vertices p. Here w_j is
+/// the weight of point handle j at p, and p_j is the position of this handle's vertex.
 double affine_error(const WeightsProblem& problem, const WeightsResult& result)
 {
   Points handles(problem.handle_count(), 3);
@@ -136,7 +136,7 @@ TEST(LinearSubspace, HandlesThatDoNotSpanAreAWarning)
   const WeightsResult weights = solve_by_word(two, "linear-subspace", {}, &status);
   ASSERT_EQ(status.warnings.size(), 1u);
   EXPECT_THAT(status.warnings[0], HasSubstr("do not span"));
-  // The result is nearly linear along the line through the two handles.
+  // The weights are almost linear along x, the direction of the line through the two handles.
   for (Index v = 0; v < two.vertex_count(); ++v)
   {
     EXPECT_NEAR(weights.raw(v, 1), (two.mesh.domain.points(v, 0) - 0.2) / 0.6, 1e-2);

@@ -1,5 +1,5 @@
-// Local extrema and their persistence, on a path with known values and on a grid compared with
-// brute force.
+// Local extrema and their persistence. They are compared with known values on a path, and with
+// brute force on a grid.
 #include "weights/extrema.h"
 
 #include "weights_shapes.h"
@@ -31,8 +31,8 @@ VertexGraph path(Index count)
   return graph;
 }
 
-/// Return the climb on the lowest path from vertex `from` to a lower or exempt vertex: the largest
-/// height on the path minus the height of `from`. The path is found with a queue that is ordered by
+/// Return how far the lowest path climbs from vertex `from` to a lower or exempt vertex: the
+/// largest height on the path minus the height of `from`. The search uses a queue ordered by
 /// height.
 double climb(
   const VertexGraph& graph, const Eigen::VectorXd& f, const std::vector<char>& exempt, Index from)
@@ -72,10 +72,11 @@ TEST(Extrema, PersistenceOnAPathCanBeReadOff)
   f << 0.0, 0.5, 0.3, 0.9, 0.85, 1.0, 0.2, 0.4, 0.4;
   std::vector<char> exempt{ 1, 0, 0, 0, 0, 1, 0, 0, 0 };
   const auto found = interior_extrema(path(9), f, exempt);
-  // The lowest path from a minimum to a lower vertex or a handle climbs from 0.2 (vertex 6) to 1 at
-  // the handle, from 0.3 (vertex 2) to 0.5, and from 0.85 (vertex 4) to 0.9. The highest path from
-  // a maximum to a higher vertex or a handle descends from 0.4 (vertices 7 and 8) to 0.2, from 0.9
-  // (vertex 3) to 0.85, and from 0.5 (vertex 1) to 0.3.
+  // Minima: the lowest path to a lower vertex or a handle climbs from 0.2 (vertex 6) to 1 at the
+  // handle. The paths of the other minima climb from 0.3 (vertex 2) to 0.5, and from 0.85 (vertex
+  // 4) to 0.9. Maxima: the highest path to a higher vertex or a handle descends from 0.4 (vertices
+  // 7 and 8) to 0.2. The paths of the other maxima descend from 0.9 (vertex 3) to 0.85, and from
+  // 0.5 (vertex 1) to 0.3.
   ASSERT_EQ(found.size(), 6u);
   EXPECT_EQ(found[0].vertex, 6);
   EXPECT_FALSE(found[0].maximum);
@@ -95,12 +96,12 @@ TEST(Extrema, HandlesWinTiesAndPlateausAreOne)
   Eigen::VectorXd f(7);
   f << 0.0, 0.0, 0.0, 0.5, 1.0, 1.0, 1.0;
   EXPECT_TRUE(interior_extrema(path(7), f, { 0, 1, 0, 0, 0, 0, 1 }).empty());
-  // A minimum of round-off size next to a handle is ignored. It is not reported as the global
-  // minimum.
+  // A minimum next to a handle that is as small as round-off is ignored. It is not reported,
+  // although it is the global minimum.
   f[0] = -1e-10;
   EXPECT_TRUE(interior_extrema(path(7), f, { 0, 1, 0, 0, 0, 0, 1 }).empty());
   EXPECT_EQ(interior_extrema(path(7), f, { 0, 1, 0, 0, 0, 0, 1 }, 0.0).size(), 1u);
-  // Without handles each of the two ends of the path counts once, with its full persistence.
+  // Without handles, each end of the path is one extremum with the full persistence.
   const auto all = interior_extrema(path(7), f, std::vector<char>(7, 0));
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].persistence, 1.0);

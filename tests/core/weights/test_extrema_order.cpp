@@ -1,4 +1,5 @@
-// Orders of vertices that have exactly the listed extrema, computed from arbitrary values.
+// Orders of vertices that have exactly the listed extrema. The orders are computed from arbitrary
+// values.
 #include "weights/extrema_order.h"
 
 #include "weights_shapes.h"
@@ -12,8 +13,8 @@ using Eigen::VectorXd;
 
 namespace
 {
-/// Expect that an unlisted vertex has neighbors before and after it in the order. Expect that the
-/// unlisted neighbors of a listed vertex are either all before it or all after it.
+/// Expect that each unlisted vertex has neighbors before and after it in the order. Expect that all
+/// unlisted neighbors of a listed minimum are after it, and those of a listed maximum before it.
 void expect_order(const VertexGraph& graph, const ExtremaList& list, const std::vector<Index>& rank)
 {
   for (std::size_t v = 0; v < list.size(); ++v)

@@ -131,9 +131,10 @@ std::vector<double> isotonic(const std::vector<double>& f, const std::vector<dou
 }
 } // namespace
 
-// The strip has the triangles (i, i + 1, i + 2). In an order along the strip, the value of vertex i
-// is between the values of vertices i - 2 and i + 2. If the energy contains only the fit to the
-// data, the problem is isotonic regression of the even and of the odd vertices.
+// The strip has the triangles (i, i + 1, i + 2). If the order follows the strip, the value of
+// vertex i must be between those of vertices i - 2 and i + 2. If the energy contains only the fit
+// to the data, the problem is isotonic regression, separately for the even and for the odd
+// vertices.
 TEST(MonotoneSmoothing, IsIsotonicRegressionAlongAStrip)
 {
   constexpr Index n = 41;
@@ -203,8 +204,8 @@ TEST(MonotoneSmoothing, AgreesWithADenseTwin)
       const Smoothed result = smooth(domain, f, options);
       expect_only_listed(domain, result, 1e-9);
 
-      // Compute the reference with the same program in dense form, solved by Hildreth's coordinate
-      // ascent in the multipliers.
+      // Compute the reference: the same quadratic program in dense form, solved by Hildreth's
+      // method (coordinate ascent in the multipliers).
       const ScaledMesh scaled = scale_mesh(domain, std::vector<char>(std::size_t(n), 1));
       const double unit = scaled.mass_unit;
       const Eigen::RowVector3d centroid =
@@ -332,7 +333,8 @@ TEST(MonotoneSmoothing, KeepsDataThatNeedNoChange)
   EXPECT_EQ(result.iterations, 0);
 }
 
-// Without data, with one maximum of 1 and minima of 0, the result is a column of monotone weights.
+// If there are no data, and the listed extrema are one maximum with the value 1 and minima with the
+// value 0, the result equals a column of monotone weights.
 TEST(MonotoneSmoothing, WithoutDataItIsMonotoneWeights)
 {
   const Domain domain = test::to_domain(test::grid(40, 40));
@@ -397,7 +399,7 @@ TEST(MonotoneSmoothing, UnitsDoNotMatter)
     kind = static_cast<signed char>(-kind);
   }
   EXPECT_LE((smooth(domain, upside_down, turned).values + plain).cwiseAbs().maxCoeff(),
-    2e-2 * range); // ties of the order are broken in the opposite direction
+    2e-2 * range); // the order breaks ties in the opposite direction
   Domain moved = domain;
   const Eigen::Matrix3d rotation =
     Eigen::AngleAxisd(0.7, Vec3(1.0, 2.0, -0.5).normalized()).toRotationMatrix();
@@ -485,8 +487,8 @@ TEST(MonotoneSmoothing, PartsAreSmoothedEachForItself)
   MonotoneSmoothingOptions options;
   options.extrema = hills_list(alone);
   options.extrema.resize(static_cast<std::size_t>(2 * n + 2), 0);
-  // The second part of the mesh has no listed extremum, so its result is constant: the mean of the
-  // data.
+  // The second part of the mesh has no listed extremum. Its result is therefore constant and equals
+  // the mean of the data.
   const Smoothed half = smooth(both, twice, options);
   ASSERT_TRUE(half.status.ok()) << half.status.message;
   EXPECT_EQ(half.status.warnings.size(), 2u);
@@ -516,7 +518,7 @@ TEST(MonotoneSmoothing, PartsAreSmoothedEachForItself)
   EXPECT_NEAR(flat.values[n + 5], 0.125, 1e-12);
 }
 
-// Two squares share one corner, so an extremum at this corner separates the squares.
+// Two squares share one corner. If this corner is an extremum, it separates the squares.
 TEST(MonotoneSmoothing, WhatAnExtremumClosesOffNeedsOneOfTheOtherKind)
 {
   TriangleMesh mesh = test::grid(6, 6);

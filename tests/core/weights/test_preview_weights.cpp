@@ -1,5 +1,6 @@
-// Preview weights (clamped biharmonic weights, shown while better ones are computed). They are
-// compared with biharmonic weights from a separate factorization, and their certificate is checked.
+// Preview weights: clamped biharmonic weights, which are shown while better weights are computed.
+// They are compared with biharmonic weights from a separate factorization. Their certificate is
+// checked too.
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/preview_weights.h"
 #include "weights/unconstrained_weights.h"
@@ -95,8 +96,8 @@ TEST(PreviewWeights, CertificateBoundsTheDistanceFromBoundedWeights)
 
 TEST(PreviewWeights, OfPartsAndOfVerticesThatAreAllFixed)
 {
-  // A second box without a handle gets the weights of the nearest handle. If all vertices belong to
-  // handles, the weights are the given values.
+  // A second box has no handle, so it gets the weights of the nearest handle. If all vertices
+  // belong to handles, the weights equal the given values.
   TetMesh two = test::tet_box(3, 3, 3);
   const TetMesh other = test::tet_box(2, 2, 2, Vec3(3, 0, 0), Vec3(4, 1, 1));
   const Index n = two.points.rows(), t = two.tets.rows();

@@ -1,6 +1,6 @@
-// Weights of surfaces, computed on tets of their volume or on an embedding lattice. They are
-// compared with the separate stages and with each other. Other tests check parts that are close but
-// not connected, and the automatic choice of the domain.
+// Weights of surfaces, computed on tets of the enclosed volume or on an embedding lattice. The
+// results are compared with a run of the separate stages, and between both domains. Other tests
+// check parts that are close but not connected, and the automatic choice of the domain.
 #include "domain/embedded_surface.h"
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/surface_weights.h"
@@ -135,8 +135,8 @@ TEST(SurfaceWeights, OfTheEmbeddingAreNearThoseOfAFineVolume)
 
 TEST(SurfaceWeights, ProngsThatAreNearButNotConnectedDoNotShareWeights)
 {
-  // The shape is a fork with two prongs, 1/20 apart, in a lattice with cubes of 1/3. The prongs are
-  // joined only at their base.
+  // The shape is a fork with two prongs at a distance of 1/20. The prongs are connected only at
+  // their base. A cube of the lattice has the size 1/3.
   TriangleMesh fork =
     test::join(TriangleMesh{ test::tet_box(32, 4, 4, Vec3::Zero(), Vec3(4, 0.5, 0.5)).points,
                  boundary_triangles(test::tet_box(32, 4, 4).tets) },
@@ -165,7 +165,7 @@ TEST(SurfaceWeights, ProngsThatAreNearButNotConnectedDoNotShareWeights)
 
 TEST(SurfaceWeights, BonesInPartsThatShareTetsFindTheirOwn)
 {
-  // Two slabs with one bone each are in the same tets of the lattice.
+  // The lattice is so coarse that two slabs are in the same tets. Each slab has its own bone.
   const TriangleMesh below{ test::tet_box(16, 16, 1, Vec3::Zero(), Vec3(4, 4, 0.1)).points,
     boundary_triangles(test::tet_box(16, 16, 1).tets) };
   const TriangleMesh slabs = test::join(below, test::translated(below, Vec3(0, 0, 0.15)));
@@ -182,8 +182,8 @@ TEST(SurfaceWeights, BonesInPartsThatShareTetsFindTheirOwn)
 
 TEST(SurfaceWeights, APartWithoutAHandleFollowsTheHandleNearestToItsSurface)
 {
-  // A knob is between two bars with one handle each. The knob is nearer to the handle of the right
-  // bar by 3 %, which is less than the lattices of this test resolve.
+  // A knob is between two bars, each of which has one handle. The knob is 3 % nearer to the right
+  // bar's handle. The lattices of this test are too coarse to resolve this difference.
   const auto box = [](const Vec3& lower, const Vec3& upper)
   {
     const TetMesh tets = test::tet_box(4, 4, 4, lower, upper);
@@ -212,8 +212,8 @@ TEST(SurfaceWeights, APartWithoutAHandleFollowsTheHandleNearestToItsSurface)
 
 TEST(SurfaceWeights, APartWithoutAHandleFollowsWhatItTouches)
 {
-  // A bar has a handle at each end. A knob 0.004 above the bar is nearest to the left handle. A
-  // seat spans the gap between this bar and a second bar, which has another handle.
+  // A bar has a left and a right handle. A knob is 0.004 above the bar, nearest to the left handle.
+  // A second bar has another handle. A seat spans the gap between the two bars.
   const auto box = [](int n, const Vec3& lower, const Vec3& upper)
   {
     const TetMesh tets = test::tet_box(n, 4, 4, lower, upper);
@@ -242,7 +242,7 @@ TEST(SurfaceWeights, APartWithoutAHandleFollowsWhatItTouches)
     for (Index v = bar.points.rows(); v < end_of_knob; ++v)
     {
       const Vec3 p = shape.points.row(v);
-      // Find the weights of the bar below the knob.
+      // Find the vertex of the bar below the knob.
       double nearest = 1e300;
       Index below = 0;
       for (Index u = 0; u < bar.points.rows(); ++u)
@@ -257,7 +257,7 @@ TEST(SurfaceWeights, APartWithoutAHandleFollowsWhatItTouches)
     for (Index v = end_of_knob; v < end_of_seat; ++v)
     {
       const double y = shape.points(v, 1);
-      if (y < 0.5 || y > 1.5) // next to a bar the seat has the weights of this bar
+      if (y < 0.5 || y > 1.5) // near a bar, the seat has the weights of the bar
       {
         EXPECT_GT(result.weights(v, y < 0.5 ? 1 : 2), 0.6) << y << " at " << resolution;
       }
@@ -334,8 +334,8 @@ TEST_F(SurfaceWeightsInTets, AutomaticallyChoosesTheDomain)
 
   status =
     solve_surface_weights(sheet, { handles[0], handles[1] }, in(WeightsDomain::volume), result);
-  // The status may be a failure. Then the tets do not fill enough of the region where the sheet's
-  // winding number is high.
+  // The status may also be a failure, if the tets do not fill enough of the region where the
+  // sheet's winding number is high.
   if (status.usable())
   {
     expect_weights(result.weights, sheet.points.rows(), 2);

@@ -1,6 +1,6 @@
-// Transfer of weights from a mesh to points. It is exact at vertices, reproduces linear functions
-// inside, and uses the nearest point of the mesh for points outside. The search agrees with brute
-// force over all elements.
+// Transfer of weights from a mesh to points. The transfer is exact at vertices and reproduces
+// linear functions inside of the mesh. Points outside get the weights of the nearest point of the
+// mesh. The search agrees with brute force over all elements.
 #include "geometry/simplex_locator.h"
 #include "weights/transfer.h"
 

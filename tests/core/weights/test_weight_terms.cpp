@@ -1,7 +1,7 @@
-// Additional terms of bounded and monotone weights (bounds and pins, rigidity, rigid sets, mirror
-// symmetry, few influences, columns that sum to 1). They are compared with dense solvers without
-// interior points, convergence rates, exact equalities, and certificates recomputed from the
-// quadratic form and the weights.
+// Additional terms of bounded and monotone weights: bounds and pins, rigidity, rigid sets, mirror
+// symmetry, few influences, and columns that sum to 1. The references are dense solvers that are
+// not interior-point methods, convergence rates, exact equalities, and certificates. The
+// certificates are recomputed from the quadratic form and the weights.
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/monotone_weights.h"
 #include "weights/unconstrained_weights.h"
@@ -62,8 +62,8 @@ Eigen::MatrixXd no_values(const Domain& domain, const Handles& handles)
     domain.points.rows(), static_cast<Index>(handles.size()), std::nan(""));
 }
 
-/// Minimize 1/2 w'Qw within bounds by coordinate descent, which converges to the minimizer. At
-/// given values, lower = upper.
+/// Minimize 1/2 w'Qw within bounds by coordinate descent, which converges to the minimizer. A given
+/// value is expressed by lower = upper.
 Eigen::VectorXd coordinate_descent(const Eigen::MatrixXd& q, const Eigen::VectorXd& lower,
   const Eigen::VectorXd& upper, Eigen::VectorXd w)
 {
@@ -90,8 +90,8 @@ Eigen::VectorXd coordinate_descent(const Eigen::MatrixXd& q, const Eigen::Vector
   return w;
 }
 
-/// Return the relative duality gap of one column, from its gradient, values and bounds. At given
-/// values, lower = upper.
+/// Return the relative duality gap of one column, from its gradient, values and bounds. A given
+/// value is expressed by lower = upper.
 double relative_gap(const SparseMatrix& q, const Eigen::VectorXd& w, const Eigen::VectorXd& lower,
   const Eigen::VectorXd& upper)
 {
@@ -124,8 +124,8 @@ void expect_error(const Status& status, const std::vector<std::string>& words)
   }
 }
 
-/// Return the mirror image of each vertex of a square grid if left and right are exchanged. The
-/// diagonals of the grid are not symmetric.
+/// Return the mirror image of each vertex of a square grid, with left and right exchanged. The
+/// diagonals of the grid's cells are not symmetric.
 std::vector<Index> mirrored(int n)
 {
   std::vector<Index> mirror;
@@ -399,11 +399,11 @@ TEST(WeightTerms, RigidSetsAreOneUnknown)
       }
     }
     gap += std::max(total * value, -total * (1.0 - value));
-    // The bound computed here is weaker than the certified gap, which is 1e-9.
+    // The gap is an upper bound that is weaker than that of the certificate, so it may exceed 1e-9.
     EXPECT_LE(gap / (0.5 * w.dot(g)), 5e-8);
   }
-  // A rigid set may contain vertices of a part without a handle. It then connects this part to one
-  // with handles.
+  // A rigid set may contain vertices of a part that has no handle. The set then connects this part
+  // to a part with handles.
   TriangleMesh two = test::grid(4, 4);
   const Index count = two.points.rows();
   Points points(2 * count, 3);
@@ -492,8 +492,8 @@ TEST(WeightTerms, MirroredHandlesHaveMirroredWeights)
     EXPECT_NEAR(solved.result.raw(v, 3), free.result.raw(v, 3), 1e-5);
   }
   EXPECT_GT(free_difference, 1e-3) << "the fourth handle and the diagonals are not symmetric";
-  // The energy is at least that without the symmetry constraint. It is at most that of the mean of
-  // the solution and its mirror image, because the mean satisfies the constraint.
+  // The energy is at least the energy without the symmetry constraint. The mean of a solution and
+  // its mirror image satisfies the constraint, so the energy of the mean is an upper bound.
   const SparseMatrix q = solved.problem.energy(2);
   const auto energy = [&](const Eigen::VectorXd& a) { return 0.5 * a.dot(q * a); };
   const double pair = energy(solved.result.raw.col(0)) + energy(solved.result.raw.col(1));
@@ -501,7 +501,7 @@ TEST(WeightTerms, MirroredHandlesHaveMirroredWeights)
   EXPECT_LE(solved.result.columns[0].certificate.relative_gap, 1e-9);
   EXPECT_NEAR(solved.result.columns[0].certificate.energy, pair, 1e-9 * pair);
 
-  // A mirror plane gives the same result.
+  // A mirror plane must give the same result as the list of mirror images.
   WeightsOptions plane;
   plane.tolerance = 1e-9;
   plane.terms.mirror_origin = Vec3(0.5, 0, 0);
@@ -547,8 +547,8 @@ TEST(WeightTerms, CoupledColumnsAreTheDenseMinimizer)
   options.partition = PartitionOfUnity::coupled;
   const Solved solved = solve_with_terms(domain, handles, options);
   ASSERT_TRUE(solved.status.ok()) << solved.status.message;
-  // Compute the reference by descent steps that shift weight between two columns of one vertex, for
-  // all pairs of columns in turn.
+  // Compute the reference by coordinate descent. A step moves weight from one column to another at
+  // one vertex. Each sweep visits all vertices and all pairs of columns.
   const Eigen::MatrixXd q = Eigen::MatrixXd(solved.problem.energy(2));
   const Index count = domain.points.rows();
   Eigen::MatrixXd w = Eigen::MatrixXd::Constant(count, 4, 0.25);
@@ -608,9 +608,9 @@ TEST(WeightTerms, CoupledColumnsSumToOne)
   EXPECT_GT(alone.result.row_sum_error, 0.01);
   EXPECT_LE((w - solved.result.weights).cwiseAbs().maxCoeff(), 1e-12);
   // Compute the second bound of the certificate (certificate.h) from the gradients alone. The bound
-  // is valid for any multipliers. Here a multiplier is minus the mean gradient of its row, averaged
-  // with the weights of the row. Weights inside of their bounds contribute 1/2 r' A^-1 r, and all
-  // other weights contribute the linear bound.
+  // is valid for any multipliers. Here the multiplier of a row is minus the mean of its gradients,
+  // averaged with the weights of the row. Weights that are not at a bound contribute 1/2 r' A^-1 r.
+  // All other weights contribute the linear bound.
   const Eigen::MatrixXd g = q * w;
   std::vector<Index> free;
   for (Index v = 0; v < w.rows(); ++v)
@@ -716,8 +716,8 @@ TEST(WeightTerms, CoupledIsTheSameForAnyThreadsAndStopsWhenTold)
     first = threads == 1 ? result.weights : first;
     EXPECT_EQ((result.weights - first).cwiseAbs().maxCoeff(), 0.0);
   }
-  // With too few iterations, the result contains the best rows that were found. They sum to 1, and
-  // the report contains their duality gap.
+  // If the iterations end too early, the result contains the best rows of weights so far. The rows
+  // sum to 1, and the report contains the duality gap of these weights.
   options.maximum_iterations = 3;
   ExecutionContext context;
   WeightsResult result;

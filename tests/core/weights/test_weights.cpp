@@ -76,12 +76,12 @@ void expect_certified(
   EXPECT_EQ(result.analyses, 1);
 }
 
-/// Return the integral of (w'')^2 on a bar of length 1 and width 1. It is computed from the
-/// certificate of the strip, which has the width 2 / n. The certificate contains 1/2 w'Qw, where
-/// the mass is divided by its maximum.
+/// Return the integral of (w'')^2 on a bar of length 1 and width 1. The strip of the test has the
+/// width 2 / n. Its certificate contains the energy 1/2 w'Qw, for which the mass was divided by its
+/// maximum.
 double bar_energy(const Certificate& certificate, int n)
 {
-  const double width = 4.0 / n * 0.5; // the strip has two rows of height 1/n
+  const double width = 4.0 / n * 0.5; // two rows of squares of height 1/n
   const double largest_mass = 1.0 / (double(n) * n);
   return 2.0 * certificate.energy / largest_mass / width;
 }
@@ -204,8 +204,8 @@ TEST(Weights, FivePointsOnASquareHaveTheKnownExtrema)
 
 TEST(Weights, EnergiesOnTheFineSquareAreTheKnownOnes)
 {
-  // Weights of one of five handles on 160 x 160 cells. Energies are compared as ratios to the
-  // energy without bounds.
+  // Compute the weights of one of five handles on 160 x 160 cells. Energies are divided by the
+  // energy of weights without bounds.
   const WeightsProblem problem =
     problem_of(test::to_domain(test::grid(160, 160)), test::five_points());
   ExecutionContext context;
@@ -221,10 +221,10 @@ TEST(Weights, EnergiesOnTheFineSquareAreTheKnownOnes)
   ASSERT_TRUE(monotone_guide(problem, group, {}, context, guide).ok());
   const BoxQpSolution mono = solver.solve(group.columns[2], context);
   ASSERT_TRUE(box.status.ok() && mono.status.ok());
-  // The ratios for the other handles are the same, except for monotone weights of the last handle.
-  // There the ratio is 1.8634, because the guide function, which defines the order of the vertices,
-  // uses edge weights of at least 1e-3 on the grid's diagonals. With their cotangent of 0 the ratio
-  // would be 1.8643.
+  // The ratios of the other handles also equal the known values, with one exception: the monotone
+  // weights of the last handle have the ratio 1.8634 instead of 1.8643. The order of the vertices
+  // comes from a guide function, which uses edge weights of at least 1e-3. The diagonals of the
+  // grid would have the cotangent weight 0, which gives the ratio 1.8643.
   EXPECT_NEAR(box.certificate.energy / free, 1.2611, 2e-4);
   EXPECT_NEAR(mono.certificate.energy / free, 1.2645, 2e-4);
   EXPECT_EQ(solver.analyses(), 1) << "bounds and monotone rows share one analysis";
@@ -298,8 +298,8 @@ TEST(Weights, VolumesWithHandlesAnywhereAreCertified)
   {
     EXPECT_EQ(column.extrema.size(), 0u);
   }
-  // Bounded weights are local: they are nearly zero far away from their handle. Harmonic weights
-  // are not.
+  // Bounded weights are local: far away from their handle they are almost zero. Harmonic weights
+  // are not local.
   const WeightsResult harmonic = unconstrained(problem, 1);
   EXPECT_GT((result.raw.array() < 1e-6).count(), 2 * (harmonic.raw.array().abs() < 1e-6).count());
   for (const int threads : { 1, 2 })
@@ -355,7 +355,8 @@ TEST(Weights, SliversOfAThousandthOfADegree)
   TetMesh box = test::tet_box(6, 6, 6);
   for (Index v = 0; v < box.points.rows(); ++v)
   {
-    // The distance of the middle layer from the layer below it is 1e-5 of the height of a cell.
+    // The middle layer is so close to the layer below it that the distance is 1e-5 of the height of
+    // a cell.
     box.points(v, 2) -= std::abs(box.points(v, 2) - 0.5) < 1e-9 ? (1.0 - 1e-5) / 6.0 : 0.0;
   }
   TriangleMesh square = test::grid(12, 12);
@@ -493,8 +494,8 @@ TEST(Weights, BudgetCancelAndBadOptions)
               .code,
     StatusCode::invalid_input);
 
-  // Cancel after various numbers of checks of the cancel flag. Both methods must return the status
-  // canceled.
+  // Cancel when the flag has been checked a given number of times. Both methods must return the
+  // status canceled.
   for (const int looks : { 0, 1, 3, 10, 40 })
   {
     int asked = 0;
@@ -512,7 +513,8 @@ TEST(Weights, BudgetCancelAndBadOptions)
 
 TEST(Weights, AHelperJointWithoutAVertexHasNoWeights)
 {
-  // Two joints of a rig have the same nearest vertex. The first one, a helper joint, is skipped.
+  // Two joints of a rig have the same nearest vertex. The helper joint, which is the first one, is
+  // skipped.
   Handles joints{ test::point_handle("helper", Vec3(-0.2, -0.2, -0.2)),
     test::point_handle("hip", Vec3(-0.1, -0.1, -0.1)),
     test::bone_handle("spine", Vec3(0.5, 0.5, 0.1), Vec3(0.5, 0.5, 0.8)) };
@@ -534,7 +536,8 @@ TEST(Weights, AHelperJointWithoutAVertexHasNoWeights)
   const WeightsResult harmonic = unconstrained(problem, 1);
   EXPECT_EQ(harmonic.weights.col(0).cwiseAbs().maxCoeff(), 0.0);
 
-  // A control bone is skipped even if vertices are on it, and no vertices are inserted for it.
+  // A handle that only controls a pose is skipped, even if there are vertices at its position. No
+  // vertices are inserted for it.
   joints[0].head = joints[0].tail = Vec3(0.9, 0.1, 0.3);
   joints[0].ownership = Ownership::none;
   const WeightsProblem controlled = problem_of(box, joints);

@@ -68,8 +68,8 @@ inline Handles five_points()
     Vec3(0.25, 0.8, 0.0), Vec3(0.8, 0.75, 0.0) });
 }
 
-/// A strip on [0, 1] with n squares along x and two rows, so thin that weights depend only on x.
-/// The columns of vertices at the given positions have the labels 1, 2, …
+/// A strip [0, 1] x [0, 2 / n] with n x 2 squares. Handle regions cover whole columns of vertices,
+/// so weights depend only on x. The columns at the given positions x have the labels 1, 2, …
 struct Bar
 {
   Domain domain;

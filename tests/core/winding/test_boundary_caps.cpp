@@ -1,4 +1,5 @@
-// Caps are triangles that close an open surface along its boundary. They are as small as necessary.
+// Caps are triangles that close an open surface along its boundary. Smaller caps are used where
+// possible.
 #include "winding/boundary_caps.h"
 
 #include "support/meshes.h"
@@ -56,7 +57,8 @@ TEST(BoundaryCaps, CloseAllOfSeveralParts)
   EXPECT_TRUE(open_edges(stacked(both.triangles, caps)).empty());
   EXPECT_EQ(caps.rows(), (130 - 2) + 2);
 
-  // The caps of the strip cover all of it, and those of the open cube are its missing face.
+  // The smaller caps of the strip are its own triangles, reversed. Those of the open cube are its
+  // missing face.
   const Triangles smaller = smaller_caps(both.points, both.triangles, caps);
   EXPECT_TRUE(open_edges(stacked(both.triangles, smaller)).empty());
   EXPECT_EQ(smaller.rows(), strip.triangles.rows() + 2);

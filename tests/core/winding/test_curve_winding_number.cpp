@@ -1,5 +1,5 @@
-// Winding numbers of plane curves: known integers, angles and symmetries. The plain sum of angles
-// is the reference.
+// Winding numbers of plane curves. They are compared with known integers, angles and symmetries,
+// and with the plain sum of angles.
 #include "winding/curve_winding_number.h"
 
 #include "base/constants.h"
@@ -99,8 +99,8 @@ TEST(CurveWindingNumber, SegmentSeenUnderARightAngleIsAQuarter)
   const Curve segment = curve_of({ { 1, -1 }, { 1, 1 } }, false);
   expect_curve_winding(segment, Vec2::Zero(), 0.25);
   expect_curve_winding(segment, Vec2(2, 0), -0.25);
-  // The angle is the same for a segment behind the point. Such a segment crosses the negative x
-  // axis.
+  // A segment on the other side of the point subtends the same angle, although it crosses the
+  // negative x axis.
   expect_curve_winding(curve_of({ { -1, 1 }, { -1, -1 } }, false), Vec2::Zero(), 0.25);
   // At the third corner of an equilateral triangle, the opposite side subtends an angle of 60
   // degrees.
@@ -160,8 +160,8 @@ TEST(CurveWindingNumber, PrincipalValueOnTheCurve)
     winding.evaluate_at(p + Vec2(1e-6, 2e-6), &on_curve);
     EXPECT_FALSE(on_curve) << p.transpose();
   }
-  // At a corner of a regular polygon with n corners the winding number is (n - 2) / (2 n), also far
-  // from the origin.
+  // At a corner of a regular polygon with n corners, the winding number is (n - 2) / (2 n). This is
+  // also true far from the origin.
   std::vector<Vec2> vertices;
   for (int i = 0; i < 7; ++i)
   {
@@ -172,7 +172,8 @@ TEST(CurveWindingNumber, PrincipalValueOnTheCurve)
   expect_curve_winding(heptagon, vertices[3], 5.0 / 14.0, 1e-10);
   expect_curve_winding(heptagon, 0.5 * (vertices[1] + vertices[2]), 0.5, 1e-10);
   expect_curve_winding(heptagon, 0.3 * vertices[6] + 0.7 * vertices[0], 0.5, 1e-10);
-  // The points are at an open end, and on a segment that is repeated in the opposite direction.
+  // The first point is at an open end. The second point is on a segment that is repeated in the
+  // opposite direction.
   expect_curve_winding(curve_of({ { 0, 0 }, { 1, 0 }, { 1, 1 } }, false), Vec2(0, 0), 0.125);
   expect_curve_winding(curve_of({ { 0, 0 }, { 1, 0 }, { 0, 0 } }, false), Vec2(0.5, 0), 0.0);
 }
@@ -339,7 +340,8 @@ TEST(CurveWindingNumber, GradientIsThatOfTheField)
       }
     }
   }
-  // The gradient is zero inside of a closed curve, finite at an open end, and zero far away.
+  // The gradient must be zero inside of a closed curve, finite at an open end, and zero far away
+  // from the curve.
   const Curve closed = curve_of(square_corners());
   ASSERT_TRUE(CurveWindingNumber(closed.points, closed.segments)
                 .evaluate_gradient(query, context, gradient.data())
@@ -351,8 +353,8 @@ TEST(CurveWindingNumber, GradientIsThatOfTheField)
   ASSERT_TRUE(CurveWindingNumber(segment.points, segment.segments)
                 .evaluate_gradient(special, context, at.data())
                 .ok());
-  // The point (1, 1) is one end of the curve, so only the other end contributes. That end is 2
-  // below.
+  // The point (1, 1) is one end of the curve. Only the other end contributes, which is at a
+  // distance of 2 below the point.
   EXPECT_NEAR(at[0], 0.25 / pi, 1e-15);
   EXPECT_NEAR(at[1], 0.0, 1e-15);
   EXPECT_EQ(at[2], 0.0);
@@ -413,8 +415,8 @@ TEST(CurveWindingNumber, HugeAndTinyCurvesAreNoExceptions)
 
 TEST(CurveWindingNumber, ReportTellsWhatTheCurveIs)
 {
-  // Each side of the square has its own vertices at its ends. Later a side is repeated, and two
-  // segments have length zero: one with equal ids, one with equal positions.
+  // Each side of the square has its own two vertices. Later a side is repeated, and two segments of
+  // length zero are added. One of them has equal vertex ids, the other one has equal positions.
   Curve curve;
   const std::vector<Vec2> corners = square_corners();
   for (int i = 0; i < 4; ++i)

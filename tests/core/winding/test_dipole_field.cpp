@@ -1,6 +1,5 @@
-// Dipole fields approximate the winding number of many small triangles. They are accurate to their
-// tolerance for all triangles and points, and their bits do not depend on how the field is
-// evaluated.
+// Dipole fields approximate the winding number of many small triangles. The error must be below the
+// tolerance for all triangles and points. The bits must not depend on how the field is evaluated.
 #include "winding/dipole_field.h"
 
 #include "winding/winding_number.h"
@@ -42,7 +41,8 @@ TriangleMesh bumpy(int levels)
   return mesh;
 }
 
-/// Return fans of triangles over small scattered loops on a sphere, and over one large loop.
+/// Return disks on a sphere: many small ones at random positions and a large one. Each disk is a
+/// fan of triangles.
 TriangleMesh caps(int loops)
 {
   test::Random random(17);
@@ -129,7 +129,7 @@ std::vector<FieldCase> all_cases()
   return cases;
 }
 
-/// Return the plain sum over the triangles. Triangles with multiplicities other than 1 are
+/// Return the plain sum over the triangles. If any multiplicity is not 1, the triangles are
 /// evaluated one by one.
 double expected_at(const FieldCase& c, const Vec3& p)
 {
@@ -315,8 +315,8 @@ TEST(DipoleField, GradientIsTheSlope)
     for (int i = 0; i < 200; ++i)
     {
       const Vec3 p = (i % 4 ? 1.0 : 6.0) * random.in_box(Vec3::Constant(-1), Vec3::Constant(1));
-      // Compute finite differences of the exact sum, which does not use cells. Points with steep
-      // slopes are skipped.
+      // Compute finite differences of the exact sum, which uses no cells. Points at which the sum
+      // changes too fast for finite differences are skipped.
       const double step = 1e-5;
       Vec3 slope, second;
       for (int k = 0; k < 3; ++k)
@@ -345,7 +345,7 @@ TEST(DipoleField, NothingGivesNothing)
   FieldCase uncounted = once("uncounted", test::cube());
   std::fill(uncounted.multiplicities.begin(), uncounted.multiplicities.end(), 0);
   EXPECT_EQ(field_of(uncounted, 1e-3).evaluate(Vec3(0.1, 0.2, 0.3)), 0.0);
-  // All triangles have no area and are at one position.
+  // All corners of all triangles are at one position, so the triangles have no area.
   FieldCase flat = once("flat", random_soup(50));
   flat.mesh.points.setConstant(0.25);
   const DipoleField field = field_of(flat, 1e-3);
@@ -353,8 +353,8 @@ TEST(DipoleField, NothingGivesNothing)
   EXPECT_EQ(field.evaluate(Vec3::Constant(0.25)), 0.0);
 }
 
-// Errors from coincident triangles and from sums in single precision accumulate. They must not
-// exceed the tolerance.
+// The round-off of coincident triangles and of sums in single precision accumulates. The total
+// error must not exceed the tolerance.
 TEST(DipoleField, ManyTrianglesAtOnePlace)
 {
   for (const Index count : { 200, 1000 })

@@ -1,5 +1,5 @@
-// Areas of oriented point samples, computed from local Voronoi cells. The cells of these samples
-// are known.
+// Areas of oriented point samples, computed from local Voronoi cells. The tests use samples whose
+// cells are known.
 #include "winding/point_areas.h"
 
 #include "base/constants.h"
@@ -49,7 +49,8 @@ TEST(PointAreas, LatticesHaveTheirCells)
       EXPECT_NEAR(areas[12 * y + x], 0.25, 1e-14);
     }
   }
-  // The samples are a rotated lattice of rhombi. Their cells are hexagons of area sqrt(3) / 2.
+  // The samples are a rotated lattice of rhombi. The cells of the inner samples are hexagons of
+  // area sqrt(3) / 2.
   square_lattice(12, 1.0, points, normals);
   for (Index i = 0; i < points.rows(); ++i)
   {
@@ -65,13 +66,13 @@ TEST(PointAreas, LatticesHaveTheirCells)
 
 TEST(PointAreas, CellsAreClippedToTheDiscOfHalfTheFarthestNeighbor)
 {
-  // The samples are collinear. Their cells are strips, clipped by a disc around each sample.
+  // The samples are on one line. Each cell is a strip, clipped by a disc around the sample.
   Points points(3, 3), normals(3, 3);
   points << -1, 0, 0, 0, 0, 0, 1, 0, 0;
   normals << 0, 0, 1, 0, 0, 1, 0, 0, 1;
   const Eigen::VectorXd areas = areas_of(points, normals);
   EXPECT_NEAR(areas[1], 0.25 * pi, 1e-14); // the bisectors touch the disc of radius 1/2
-  // The cell is a disc of radius 1, cut by a line at the distance 1/2. This removes a circular
+  // The disc has the radius 1. A line at the distance 1/2 from its center cuts off a circular
   // segment of 120 degrees.
   EXPECT_NEAR(areas[0], pi - (pi / 3.0 - std::sqrt(3.0) / 4.0), 1e-14);
   // For two samples, the cells are discs whose radius is half of the distance between the samples.
@@ -83,8 +84,8 @@ TEST(PointAreas, SharedPlacesAndSidesOfASheet)
   Points points, normals;
   square_lattice(9, 1.0, points, normals);
   const Index n = points.rows();
-  // If each sample occurs twice, each copy has half of the area. Samples with opposite normals, at
-  // the same position or nearby, have no effect.
+  // If each sample occurs twice, each copy has half of the area. Samples with opposite normals do
+  // not reduce the area, at the same position or nearby.
   Points twice(2 * n, 3), same(2 * n, 3), other(2 * n, 3), below(2 * n, 3);
   twice << points, points;
   same << normals, normals;
@@ -116,7 +117,8 @@ TEST(PointAreas, SpheresHaveTheirArea)
       const double r = std::sqrt(1.0 - z * z);
       points.row(i) << r * std::cos(angle), r * std::sin(angle), z;
     }
-    // The cells of random samples may extend beyond their 12 nearest neighbors.
+    // The cell of a random sample may be bounded by samples that are not among the 12 nearest
+    // neighbors.
     const auto error = [&](Index neighbors)
     { return std::abs(areas_of(points, points, neighbors).sum() / (4.0 * pi) - 1.0); };
     EXPECT_LT(error(12), even ? 1e-3 : 0.05);

@@ -40,8 +40,8 @@ Cloud sphere_cloud(Index count, bool even = true, std::uint64_t seed = 5)
   return cloud;
 }
 
-/// Return scattered points with random normals and areas, so that contributions do not cancel
-/// systematically.
+/// Return scattered points with random normals and areas. The contributions of the points have
+/// random signs, so they do not cancel systematically.
 Cloud scattered_cloud(Index count, std::uint64_t seed)
 {
   test::Random random(seed);
@@ -92,7 +92,8 @@ PointCloudWindingNumber built(const Cloud& cloud, WindingMethod method = Winding
   return winding;
 }
 
-/// Return query points in and around the box, at samples, and some spacings away from samples.
+/// Return query points in and around the box, at samples, and at distances of some spacings from
+/// samples.
 Points queries_around(const Cloud& cloud, Index count, std::uint64_t seed)
 {
   test::Random random(seed);
@@ -128,8 +129,8 @@ TEST(PointCloudWindingNumber, OneDipoleIsItsFormula)
       EXPECT_NEAR(winding.evaluate_exactly_at(q), expected, 1e-14 * std::abs(expected));
     }
   }
-  // At distance d on the axis of a single sample, the value is area / (4 pi d^2). Normals may have
-  // any length.
+  // The query point is on the axis of a single sample, at the distance d. The value is area / (4 pi
+  // d^2). Normals may have any length.
   cloud.points << 0, 0, 1;
   cloud.normals << 0, 0, 1e-200;
   EXPECT_NEAR(built(cloud).evaluate_exactly_at(Vec3(0, 0, -1)), 2.5 / (16.0 * pi), 1e-16);
@@ -172,15 +173,16 @@ TEST(PointCloudWindingNumber, HalfASphereIsItsSolidAngle)
   const Index half = 20000; // these are the points with z > 0
   cloud = { cloud.points.topRows(half), cloud.normals.topRows(half), cloud.areas.head(half) };
   const PointCloudWindingNumber winding = built(cloud, WindingMethod::fast, 1e-6);
-  // On the axis below its rim, the half sphere has the same winding number as the disc that its rim
-  // bounds. It is (1 - c) / 2, where c is the cosine of the angle between the axis and the rim.
+  // On the axis below the rim, the half sphere has the same winding number as the disc that the rim
+  // bounds. This number is (1 - c) / 2, where c is the cosine of the angle between the axis and a
+  // line from the point to the rim.
   for (const double z : { 0.0, -0.3, -1.0, -4.0 })
   {
     const double expected = 0.5 * (1.0 + z / std::sqrt(1.0 + z * z));
     EXPECT_NEAR(winding.evaluate_at(Vec3(0, 0, z)), expected, 5e-5) << z;
   }
-  // At a point inside of the sphere and above the plane of the rim, the value is that of the whole
-  // sphere minus that of the disc.
+  // Inside of the sphere and above the plane of the rim, the value is that of the whole sphere
+  // minus that of the disc.
   EXPECT_NEAR(winding.evaluate_at(Vec3(0, 0, 0.5)), 0.5 * (1.0 + 0.5 / std::sqrt(1.25)), 5e-5);
   // This point is in the plane of the rim.
   EXPECT_NEAR(winding.evaluate_at(Vec3(0.6, 0, 0)), 0.5, 5e-4);
@@ -190,7 +192,7 @@ TEST(PointCloudWindingNumber, FastKeepsItsTolerance)
 {
   std::vector<Cloud> clouds{ sphere_cloud(20000), sphere_cloud(6000, false),
     scattered_cloud(8000, 3) };
-  // The clouds are a flat square, whose boxes have no thickness, and a line.
+  // One cloud is a flat square, so its bounding boxes have no thickness. Another cloud is a line.
   Cloud flat = scattered_cloud(5000, 4);
   flat.points.col(2).setZero();
   clouds.push_back(flat);
@@ -226,7 +228,8 @@ TEST(PointCloudWindingNumber, FastKeepsItsTolerance)
 
 TEST(PointCloudWindingNumber, FastKeepsItsToleranceWhereErrorsAddUp)
 {
-  // At the center of a sphere all boxes have the same distance, so their errors have the same sign.
+  // At the center of a sphere all boxes of the tree have the same distance, so their errors have
+  // the same sign and add up.
   const Cloud cloud = sphere_cloud(100000);
   const PointCloudWindingNumber winding = built(cloud, WindingMethod::fast, 1e-4);
   test::Random random(3);
@@ -301,8 +304,8 @@ TEST(PointCloudWindingNumber, ShiftsAndScalesDoNotMatter)
     {
       Cloud moved = cloud;
       moved.points.array() += shift;
-      // The tolerance for touching a sample is larger far from the origin. Except at samples, the
-      // values are the same.
+      // Far from the origin, the tolerance for touching a sample is larger. The values must be the
+      // same, except at samples.
       const Eigen::VectorXd there = values(moved, queries.array() + shift, method);
       const double tolerance = method == WindingMethod::fast ? 2e-6 : 1e-11;
       for (Index i = 0; i < queries.rows(); ++i)

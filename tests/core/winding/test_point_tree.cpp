@@ -1,4 +1,5 @@
-// Search tree of points: it contains every point once, and its searches agree with brute force.
+// Search tree of points. The tree contains every point once, and its searches agree with brute
+// force.
 #include "winding/point_tree.h"
 
 #include "support/meshes.h"
@@ -12,7 +13,7 @@ using namespace bindpose;
 
 namespace
 {
-/// Return random points. On a lattice there are many equal points and equal distances.
+/// Return random points. If they are on a lattice, many points and distances are equal.
 Points tree_points(Index count, std::uint64_t seed, bool on_lattice)
 {
   const Points points = test::random_points(count, 1.0, seed);

@@ -1,6 +1,6 @@
-// Integer winding numbers of closed surfaces by ray crossings. They agree with known values for
-// surfaces whose vertices, edges and faces are on the rays, and they do not depend on the expected
-// number of points.
+// Integer winding numbers of closed surfaces by ray crossings. They are compared with known values,
+// also for surfaces whose vertices, edges and faces are on the rays. They must not depend on the
+// expected number of points.
 #include "winding/ray_crossings.h"
 
 #include "winding/exact_frame.h"
@@ -93,7 +93,8 @@ TEST(RayCrossings, RaysThroughVerticesEdgesAndFaces)
     SCOPED_TRACE(tets);
     const TriangleMesh mesh = lattice_tets(random, tets);
     const ExactFrame frame(bounding_box(mesh.points, mesh.triangles));
-    // The frame scales by a power of two and does not move the box, so coordinates remain exact.
+    // The frame scales by a power of two and does not translate the box. The coordinates therefore
+    // remain exact.
     Points framed = mesh.points;
     for (Index v = 0; v < framed.rows(); ++v)
     {
@@ -114,8 +115,8 @@ TEST(RayCrossings, RaysThroughVerticesEdgesAndFaces)
     {
       bool touches = false;
       const double sum = winding_number_direct(mesh.points, mesh.triangles, points[i], &touches);
-      // Degenerate triangles may also be reported as touched. They do not contribute to the
-      // surface, and the rays may ignore them.
+      // The plain sum may also report contact with degenerate triangles. These triangles do not
+      // contribute to the surface, and the rays may ignore them.
       if (touches)
       {
         EXPECT_FALSE(resolved[i]) << points[i].transpose();

@@ -18,7 +18,7 @@ namespace
 constexpr WindingMethod methods[] = { WindingMethod::exact, WindingMethod::direct,
   WindingMethod::hierarchical, WindingMethod::crossings };
 
-/// Return the winding number by each method, with small leaves so that the trees have several
+/// Return the winding number by each method. Leaves are small, so that the trees have several
 /// levels.
 std::vector<WindingNumber> all_ways(const TriangleMesh& mesh)
 {
@@ -131,8 +131,8 @@ TEST(WindingNumber, GradientIsTheKnownOneAndThatOfTheField)
 
 TEST(WindingNumber, FlagsTellWhatTouchesTheSurface)
 {
-  // The samples are on the faces of the cube and of the open cube, and on both sides of the missing
-  // face.
+  // The samples are on the faces of the cube and of the open cube, and on both sides of the face
+  // that the open cube lacks.
   for (const TriangleMesh& mesh : { test::cube(), test::open_cube() })
   {
     for (const WindingMethod method : { WindingMethod::direct, WindingMethod::crossings,
@@ -230,8 +230,8 @@ TEST(WindingNumber, DiscsConvergeToTheirCap)
   EXPECT_NEAR(cap, 0.146446609407, 1e-12);
   expect_winding(disc(32), Vec3::Zero(), cap - 5.685e-4, 5e-8);
   expect_winding(disc(64), Vec3::Zero(), cap - 1.420e-4, 5e-8);
-  // At the origin, on the axis of the disc, dw/dz is 1/4 sqrt(1/2). The polygon differs from the
-  // disc by less than 1e-5.
+  // The origin is on the axis of the disc. For a disc, dw/dz is 1/4 sqrt(1/2) there. The polygon
+  // differs from the disc by less than 1e-5.
   const TriangleMesh fine = disc(512);
   const double h = 1e-5;
   const double up = winding_number_direct(fine.points, fine.triangles, Vec3(0, 0, h));
@@ -265,7 +265,7 @@ TEST(WindingNumber, JumpsByOneAcrossTheSurface)
     EXPECT_NEAR(jump(1e-3), 0.9999000826, 1e-10) << to_string(way.method());
     EXPECT_NEAR(jump(1e-6), 0.9999999001, 1e-10) << to_string(way.method());
     EXPECT_NEAR(jump(1e-9), 0.9999999999, 1e-10) << to_string(way.method());
-    // At a tolerance below about 1e-12, the jump is still exact and not noise.
+    // Even for a tolerance below about 1e-12, the jump is exact and not noise.
     EXPECT_NEAR(jump(1e-14), 1.0, 1e-12) << to_string(way.method());
   }
 }
@@ -418,8 +418,8 @@ TEST(WindingNumber, FlatTrianglesCountNothing)
 
 TEST(WindingNumber, ReportTellsWhatTheSurfaceIs)
 {
-  // Each side of the cube has its own vertices. There are six components until equal vertices are
-  // merged.
+  // Each triangle of the cube has its own vertices. Before equal vertices are merged, there are
+  // twelve components.
   const TriangleMesh cube = test::cube();
   std::vector<Vec3> corners;
   for (Index t = 0; t < 12; ++t)
@@ -451,8 +451,8 @@ TEST(WindingNumber, ReportTellsWhatTheSurfaceIs)
 
 TEST(WindingNumber, BoundaryTellsEdgesAndComponents)
 {
-  // The mesh has a cube without its top, a flipped copy far away, a closed cube inside out, and two
-  // copies of one triangle whose edges have multiplicity 2.
+  // The mesh consists of a cube without its top, a flipped copy of it far away, a closed cube that
+  // is inside out, and two copies of one triangle. The edges of these copies have multiplicity 2.
   TriangleMesh twice;
   twice.points.resize(3, 3);
   twice.points << 0, 0, 50, 1, 0, 50, 0, 1, 50;
@@ -487,8 +487,8 @@ TEST(WindingNumber, BoundaryTellsEdgesAndComponents)
     EXPECT_EQ(part.open_edges, 4);
     const bool flipped = from[0] > 1e5;
     EXPECT_NEAR(part.volume, flipped ? -8.0 : 8.0, 1e-9);
-    // Viewed from above, the directed edges of the walls run clockwise around the hole. Triangles
-    // that close the hole would run counter-clockwise.
+    // Viewed from above, the directed boundary edges of the walls run clockwise around the hole.
+    // The edges of triangles that close the hole would run counter-clockwise.
     const Vec3 middle = flipped ? far_away : Vec3::Zero();
     EXPECT_EQ(from[2], 1.0);
     EXPECT_NEAR((from - middle).cross(to - middle)[2], flipped ? 2.0 : -2.0, 1e-9);

@@ -35,9 +35,9 @@ WindingNumber winding_by_method(const TriangleMesh& mesh, WindingMethod method, 
 
 using LatticeVector = Eigen::Matrix<std::int64_t, 3, 1>;
 
-/// Evaluate the winding number at a point on the lattice of spacing 1/8. Exact integers decide on
-/// which side of a triangle's plane the point is. The sum in long double contains the triangles
-/// whose plane does not contain the point.
+/// Return the winding number at a point on the lattice of spacing 1/8. Integer arithmetic decides
+/// exactly on which side of each triangle's plane the point is. A triangle whose plane contains the
+/// point contributes nothing. The other contributions are added in long double.
 double lattice_twin(const TriangleMesh& mesh, const Vec3& p)
 {
   using Long3 = Eigen::Matrix<long double, 3, 1>;
@@ -240,7 +240,7 @@ TEST(WindingMethods, RaysThroughVerticesAndEdgesOfClosedSurfaces)
   TriangleMesh mesh = test::sphere(2);
   for (int turn = 0; turn < 3; ++turn)
   {
-    mesh.points.col(turn) *= 0.5; // flatten the sphere along one more axis
+    mesh.points.col(turn) *= 0.5; // flatten the sphere along one axis
     const WindingNumber winding = winding_by_method(mesh, WindingMethod::crossings);
     for (Index t = 0; t < mesh.triangles.rows(); ++t)
     {
@@ -265,8 +265,8 @@ TEST(WindingMethods, RaysThroughVerticesAndEdgesOfClosedSurfaces)
 
 TEST(WindingMethods, ThinTrianglesDoNotFlip)
 {
-  // The shape is a box of thickness 1e-7. Its long, narrow faces consist of slivers, and the point
-  // is nearer to them than their width.
+  // The shape is a box of thickness 1e-7. Its long, narrow faces consist of slivers. The distance
+  // of the points from a sliver is less than the width of the sliver.
   TriangleMesh mesh = test::cube();
   mesh.points.col(0) *= 1e-7;
   mesh.points.col(1) *= 1e-4;
@@ -287,11 +287,10 @@ TEST(WindingMethods, ThinTrianglesDoNotFlip)
 
 TEST(WindingMethods, SliversAreSeenUnderTheAngleOfTheirRectangle)
 {
-  // Consider a point at height h above a corner of a rectangle with sides x and y. The rectangle
-  // subtends the solid angle atan(x y / (h sqrt(x^2 + y^2 + h^2))). A rectangle below any other
-  // point consists of four such rectangles. If h is about the width of the rectangle, the angle is
-  // a large fraction of the full solid angle, for any width. A width of 1e-14 is five tolerances
-  // for touching.
+  // A rectangle with sides x and y subtends the solid angle atan(x y / (h sqrt(x^2 + y^2 + h^2)))
+  // at a point at height h above one of its corners. For other points, divide the rectangle into
+  // four rectangles. If h is about the width of the rectangle, the angle is a large fraction of the
+  // full solid angle, for any width. A width of 1e-14 is five times the tolerance for touching.
   const double xs[2] = { -0.7, 1.3 };
   for (const double width : { 1e-3, 1e-8, 1e-12, 1e-13, 1e-14 })
   {
@@ -339,9 +338,9 @@ TEST(WindingMethods, WhatIsNoTriangleCannotBeTouched)
 
 TEST(WindingMethods, FarFromTheOriginTouchingReachesAsFar)
 {
-  // At coordinates of 1e9 the tolerance for touching, 2^-49 of the coordinates, is 2e-6, while
-  // single precision resolves 1e-7 here. The closed sphere exercises the search cells, the loose
-  // triangles exercise the blocks of triangles.
+  // The tolerance for touching is 2^-49 times the coordinates: 2e-6 for coordinates of 1e9. Single
+  // precision would resolve 1e-7 on this sphere. The closed sphere tests the search cells, and the
+  // loose triangles test the blocks of triangles.
   const TriangleMesh sphere = test::sphere(2);
   TriangleMesh loose{ Points(3 * sphere.triangles.rows(), 3), sphere.triangles };
   for (Index t = 0; t < sphere.triangles.rows(); ++t)
@@ -380,9 +379,9 @@ TEST(WindingMethods, FarFromTheOriginTouchingReachesAsFar)
 
 TEST(WindingMethods, AsSmallAsDoublesGet)
 {
-  // A sphere on an integer lattice is scaled so that the smallest positive double is its unit. The
-  // results are the same. Products of three such lengths underflow to 0 in single precision, even
-  // if scaled.
+  // The vertices of a sphere have integer coordinates. The sphere is scaled so that the unit is the
+  // smallest positive double. The results must be the same. In single precision, products of three
+  // such lengths underflow to 0, even if the lengths are scaled first.
   constexpr double unit = std::numeric_limits<double>::denorm_min();
   const TriangleMesh sphere = test::sphere(2);
   TriangleMesh mesh = sphere, tiny = sphere;
@@ -412,9 +411,10 @@ TEST(WindingMethods, AsSmallAsDoublesGet)
 
 TEST(WindingMethods, FastNextToALongTriangleThatIsCut)
 {
-  // One triangle is as long as the box, among many small ones. It is bisected to their size, at
-  // points that are rounded by about 1e-17. At a distance of a few 1e-15 from the edge of the
-  // triangle, this error is a large fraction of the angle.
+  // One triangle is as long as the box, and the others are small. The method bisects the long
+  // triangle until its parts are small too. The new vertices have rounding errors of about 1e-17.
+  // At a few 1e-15 from an edge of the triangle, such an error changes the angle by a large
+  // fraction.
   TriangleMesh mesh;
   test::Random random(3);
   for (int i = 0; i < 80; ++i)
@@ -461,8 +461,9 @@ TEST(WindingMethods, AutomaticChoosesByCounts)
     WindingMethod::crossings);
   EXPECT_EQ(
     winding_by_method(test::sphere(3), WindingMethod::fast).method(), WindingMethod::crossings);
-  // Groups of triangles get separate corners and are moved apart. With one triangle per group the
-  // result is a soup, with 256 a set of patches.
+  // Groups of triangles get separate vertices and are moved apart by about 1e-9 per group. With one
+  // triangle per group the result is a triangle soup. With 256 triangles per group it is a set of
+  // patches.
   for (const Index group : { 1, 256 })
   {
     const TriangleMesh sphere = test::sphere(group == 1 ? 5 : 6);
@@ -490,7 +491,8 @@ TEST(WindingMethods, AutomaticChoosesByCounts)
 
 TEST(WindingMethods, TrianglesAsLargeAsTheSurfaceTakeLittleMemory)
 {
-  // Each tet spans the whole box, so its faces would be in hundreds of cells.
+  // Each tet is almost as large as the whole box. Without a limit, its faces would be entries of
+  // hundreds of cells.
   test::Random random(19);
   constexpr Index tets = 3000;
   TriangleMesh heap{ Points(4 * tets, 3), Triangles(4 * tets, 3) };
@@ -508,8 +510,8 @@ TEST(WindingMethods, TrianglesAsLargeAsTheSurfaceTakeLittleMemory)
   }
   const WindingNumber winding = winding_by_method(heap, WindingMethod::automatic);
   EXPECT_EQ(winding.method(), WindingMethod::crossings);
-  // The memory contains at most 16 entries per triangle and 100,000 additional ones, of 30 bytes
-  // each. They are in blocks that may be half empty.
+  // The data structure has at most 16 entries per triangle and 100,000 additional entries. An entry
+  // has 30 bytes. The entries are stored in blocks that may be half empty.
   EXPECT_LT(static_cast<double>(winding.memory()), 64.0 * (16.0 * 4 * tets + 1e5));
   for (int i = 0; i < 20; ++i)
   {

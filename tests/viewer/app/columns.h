@@ -25,8 +25,8 @@ inline TriangleMesh column(int levels)
   return mesh;
 }
 
-/// Add the array Weights to a shape from z = -1 to 1. The first weight is 1 at the lower end, the
-/// second weight is 1 at the upper end.
+/// Add the array Weights to a shape that extends from z = -1 to 1. The first weight is 1 at the
+/// lower end, the second weight is 1 at the upper end.
 inline void add_linear_weights(vtkDataSet* data)
 {
   vtkNew<vtkDoubleArray> weights;

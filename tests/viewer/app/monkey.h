@@ -12,10 +12,10 @@
 namespace bindpose::test
 {
 
-/// Monkey test of a window: sends random clicks, drags, keys, wheel events, menu entries, options,
-/// panels, buttons, binds, cancels, undo, redo, sizes and files. It does not quit the program, and
-/// it closes dialogs. The same seed gives the same events, except if their effect depends on
-/// timing.
+/// Monkey test of a window. It sends random mouse, wheel and key events, and uses random menu
+/// entries, options, panels and buttons. It also starts and cancels binds, undoes and redoes steps,
+/// resizes the window and opens files. It does not quit the program, and it closes dialogs. The
+/// same seed gives the same events, except if their effect depends on timing.
 class Monkey
 {
 public:
@@ -30,7 +30,7 @@ public:
   long long events() const { return this->events_; }
   /// Return the number of events of each kind.
   const std::map<std::string, long long>& counts() const { return this->counts_; }
-  /// Return a text that lists the last events, the latest at the end.
+  /// Return a text that lists the most recent events in the order in which they were sent.
   std::string story() const;
 
 private:

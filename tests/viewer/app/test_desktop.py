@@ -103,7 +103,7 @@ class Desktop:
 
     def close(self, window, process):
         """Close the window by the key of the window manager, and wait until the program ends. If it does not end within
-        five seconds, press the key again: a window manager ignores a key that arrives before it learns of the new focus.
+        five seconds, press the key again: a window manager ignores a key that arrives before the new focus is active.
         """
         for _ in range(SECONDS // 5):
             self.tool("windowactivate", window, check=False)

@@ -307,7 +307,7 @@ TEST_F(HandleWindow, AutoRigMakesBonesAndBindsThem)
   EXPECT_TRUE(this->document()->handles().empty());
   EXPECT_FALSE(this->window.is_bound());
 
-  // A ball has no bones, so it gets points.
+  // The automatic method finds no bones in a ball, so the ball gets point handles.
   const TriangleMesh ball = test::sphere(3);
   ASSERT_TRUE(this->window.set_mesh(to_polydata(ball.points, ball.triangles), "ball"));
   makes->auto_rig_action()->trigger();

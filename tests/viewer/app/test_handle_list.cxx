@@ -376,7 +376,7 @@ TEST_F(HandleTreeWindow, TheSearchShowsMatchesBelowTheirParents)
 
 TEST_F(HandleTreeWindow, ALargeScreenShowsADozenRowsAndTheHeightCanBeDragged)
 {
-  // The space for a window on a desktop with a screen of 1920 x 1080.
+  // A desktop leaves this space for a window on a screen of 1920 x 1080 pixels.
   this->resize(QSize(1920, 1040));
   EXPECT_GE(this->seen().size(), 12);
   this->resize(QSize(1280, 760));

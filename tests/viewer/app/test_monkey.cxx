@@ -65,8 +65,8 @@ Pose fixed(Pose pose)
   return pose;
 }
 
-/// Options that the program also sets by itself. A change of such an option is not an undo step,
-/// and undo keeps it.
+/// Options that the program also sets by itself. A change of such an option is not an undo step, so
+/// undo does not revert it.
 const char* const chosen_by_the_program[] = { "show.column", "weights.column", "weights.what",
   "weights.raw", "tets.shown", "tets.colors", "defects.shown", "volume.level",
   "volume.isosurface" };

@@ -70,8 +70,9 @@ double share_apart(const QImage& a, const QImage& b, int level)
   return static_cast<double>(apart) / (a.width() * a.height());
 }
 
-/// Return how much darker than the background the letters and lines of the scalar bar are, summed
-/// over all pixels. The sum is proportional to the thickness of letters and lines.
+/// Return the difference in lightness between the background and the letters and lines of the
+/// scalar bar, summed over all pixels. The sum is proportional to the thickness of letters and
+/// lines.
 double ink(const QImage& image)
 {
   double sum = 0.0;
@@ -180,7 +181,7 @@ TEST_F(PictureWindow, OfEveryScaleIsWhatIsSeenOnlyFiner)
   {
     const QImage taken = image_of(this->take(scale, false));
     const QImage small = taken.scaled(seen.size(), Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
-    // Letters and lines have edges that cover other pixels. Everything else is the same.
+    // Only the pixels at the edges of letters and lines may differ.
     EXPECT_LT(share_apart(small, seen, 24), 0.02) << scale;
     EXPECT_LT(share_apart(small, seen, 80), 0.004) << scale;
     EXPECT_NEAR(ink(taken) / (scale * scale), ink(seen), 0.15 * ink(seen)) << scale;

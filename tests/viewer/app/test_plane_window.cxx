@@ -63,7 +63,7 @@ vtkSmartPointer<vtkUnstructuredGrid> box_with_weights()
   return grid;
 }
 
-/// Return a sampled volume in the same box.
+/// Return a volume that is sampled in the box from -1 to 1.
 vtkSmartPointer<vtkImageData> samples()
 {
   auto image = vtkSmartPointer<vtkImageData>::New();
@@ -127,7 +127,8 @@ protected:
   void undo() { this->hand.trigger("edit.undo"); }
   void redo() { this->hand.trigger("edit.redo"); }
 
-  /// Begin to drag a plane perpendicular to z. The drag is not ended.
+  /// Begin to drag a plane perpendicular to z between two z coordinates. The mouse button stays
+  /// down.
   void begin_drag(double from, double to)
   {
     const QPoint start = this->pixel(Vec3(0.4, 0.3, from));
@@ -147,7 +148,7 @@ protected:
     this->hand.release(this->last, Qt::LeftButton);
     this->render();
   }
-  /// Rotate a free plane: drag its arrow by this many pixels.
+  /// Rotate a free plane: drag the tip of its arrow by this vector in pixels.
   void turn(const QPoint& by)
   {
     const Vec3 tip = this->plane()->origin() + 0.3 * std::sqrt(12.0) * this->plane()->normal();

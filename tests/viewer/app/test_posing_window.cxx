@@ -285,7 +285,7 @@ TEST_F(PosingWindow, FullArapFollowsTheMouseAndStartsAgainWhenItMovesOn)
     clock.start();
     this->put(this->bent(0.05 * move));
     longest = std::max(longest, 1e-6 * static_cast<double>(clock.nsecsElapsed()));
-    // Pause, so that the slices become larger, then continue to move.
+    // Pause after every second move, so that the slices of the solve become larger.
     const Points before = deformation->points();
     EXPECT_TRUE(wait_for([&] { return deformation->points() != before; }, 20));
     if (move % 2 == 0)
@@ -302,7 +302,7 @@ TEST_F(PosingWindow, FullArapFollowsTheMouseAndStartsAgainWhenItMovesOn)
   EXPECT_GT(deformation->restarts(), 0);
   ASSERT_TRUE(this->settle());
   EXPECT_TRUE(deformation->status().usable());
-  // For any start, the solve ends near the result of a solve from rest.
+  // A solve that has been started again ends near the result of a solve from rest.
   auto source = std::make_shared<PoseSource>();
   ASSERT_TRUE(to_pose_source(this->surface, nullptr, this->handles, *source).ok());
   ExecutionContext context;
@@ -450,8 +450,8 @@ TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
   EXPECT_EQ(on_points()->GetComponent(7, 0), 0.0);
   this->posing()->look_at_rest(false);
 
-  // Other panels use their own coloring. Methods without rotations have no coloring by rotation.
-  // Undo restores it.
+  // Other panels use their own coloring. Methods without rotations have no coloring by rotation. If
+  // the change of the method is undone, the coloring by rotation is shown again.
   this->window.panels()->show_panel(PanelColumn::weights);
   this->render();
   EXPECT_FALSE(viewport->shows(vtkDoubleArray::SafeDownCast(angles)));
@@ -934,7 +934,8 @@ TEST_F(PosingWindow, PosesAreStoredNamedAppliedAndBlended)
   slider->setValue(100);
   EXPECT_EQ(this->points(), posed);
   slider->setValue(50);
-  // The result depends on the starting pose, not on the path of the slider.
+  // The result depends only on the starting pose and the position of the slider. Earlier positions
+  // of the slider have no effect.
   EXPECT_EQ(this->points(), half);
   Q_EMIT slider->sliderReleased();
   EXPECT_EQ(slider->value(), 0);

@@ -1,5 +1,5 @@
-// The reading: a text with the data under the mouse. Every number is checked against the data at
-// the reported position.
+// The reading is a text that shows the data under the mouse. The tests compare every number in the
+// text with the data at the reported position.
 #include "window_test.h"
 
 #include "app/posing/deformation.h"
@@ -62,7 +62,7 @@ protected:
       this->window.set_mesh(to_polydata(this->ball.points, this->ball.triangles), "ball"));
     this->resize({ 1000, 700 });
   }
-  /// Set weights of two handles that are linear along z.
+  /// Add two handles and set their weights, which are linear along z.
   void weigh()
   {
     ASSERT_TRUE(this->window.set_handles(test::two_points(), "points"));
@@ -142,7 +142,8 @@ TEST(RayCast, FindsWhatATwinThatTestsEveryTriangleFinds)
   SightHit hit;
   EXPECT_FALSE(first_triangle({ Vec3(0, 0, 3), Vec3::UnitZ() }, ball.points, ball.triangles, hit))
     << "it lies behind";
-  // At a vertex, gaps between triangles must not hide the surface.
+  // A ray through a vertex must hit the surface. Round-off must not let the ray pass between
+  // triangles.
   for (Index v = 0; v < 40; ++v)
   {
     const Vec3 p = ball.points.row(v);

@@ -183,7 +183,7 @@ TEST_F(Screens, ABackupAfterABindDoesNotHoldTheWindow)
   ASSERT_TRUE(this->window.set_handles(to_polydata(handles), "points"));
   ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
   this->window.document()->begin_bind();
-  // This is the same mesh, with arrays as a bind returns them.
+  // The bound surface is the same mesh, with arrays as a bind returns them.
   const auto bound = vtkSmartPointer<vtkPolyData>::New();
   bound->ShallowCopy(surface);
   bound->GetPointData()->AddArray(

@@ -106,8 +106,8 @@ protected:
       EXPECT_LT(depths.maxCoeff(), range[1]) << when;
     }
   }
-  /// Count the pixels that differ from the background between two columns, which are fractions of
-  /// the width.
+  /// Count the pixels between the columns `from` and `to` that differ from the background. The
+  /// columns are fractions of the width.
   int drawn(double from, double to)
   {
     const QImage image = this->picture();
@@ -184,7 +184,7 @@ TEST_F(SplitWindow, AnotherSizeAndAnotherViewKeepBothInTheirHalves)
 
 TEST_F(SplitWindow, AZoomStaysAndAShiftedShapeComesBack)
 {
-  // If the view was enlarged to show a detail, it still shows the detail side by side.
+  // If the view shows an enlarged detail, the halves also show this detail after the view is split.
   this->compare();
   this->camera()->Dolly(3.0);
   const double detail = this->extent_left();
@@ -192,8 +192,8 @@ TEST_F(SplitWindow, AZoomStaysAndAShiftedShapeComesBack)
   EXPECT_GT(this->extent_left(), 0.6 * detail);
   this->choose("pose.ghost", 0);
   EXPECT_NEAR(this->extent_left(), detail, 1e-6 * detail);
-  // If the shape is not centered but completely visible, it is also completely visible side by
-  // side.
+  // A shape that is completely visible but not centered is still completely visible after the view
+  // is split.
   this->window.viewport()->reset_view();
   this->camera()->Dolly(0.5);
   vtkCamera* camera = this->camera();

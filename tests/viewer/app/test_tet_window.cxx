@@ -139,8 +139,8 @@ TEST_F(TetWindow, TetsAreOpenedCutOpen)
   this->find<QCheckBox>("Cut the tets")->setChecked(false);
   EXPECT_EQ(this->view()->shown_count(), mesh.tets.rows());
   EXPECT_LT(count(this->picture(), is_cut), 20);
-  // The tets on the two sides of the plane are together all tets. Tets with their center on the
-  // plane belong to both sides.
+  // Each tet is on at least one side of the plane. Tets with their center on the plane belong to
+  // both sides.
   this->find<QCheckBox>("Cut the tets")->setChecked(true);
   const Index behind = this->view()->shown_count();
   this->find<QCheckBox>("Keep the other side")->setChecked(true);
@@ -149,8 +149,8 @@ TEST_F(TetWindow, TetsAreOpenedCutOpen)
     count_behind(mesh, this->view()->plane()->origin(), -this->view()->plane()->normal()));
 }
 
-/// The first cut depends on the view. If the shape is viewed along x, a cut perpendicular to z
-/// would show only its back.
+/// The first cut faces the camera. If the shape is viewed along x, a cut perpendicular to z would
+/// not show the inside.
 TEST_F(TetWindow, TheFirstCutShowsTheInside)
 {
   for (const Vec3& size : { Vec3(0.5, 1, 1), Vec3(1, 1, 0.5), Vec3(0.3, 1, 0.6) })
@@ -236,7 +236,7 @@ TEST_F(TetWindow, NothingIsPosedAroundTetsAtRest)
   expect(true, "T");
   this->window.posing()->look_at_rest(false);
   expect(false, "T again");
-  // Exports and the history use the pose, for any inspected data.
+  // Exports and the undo history use the posed shape, even while tets or defects are shown at rest.
   this->window.panels()->show_panel(PanelColumn::tets);
   double bounds[6];
   this->window.shown()->GetBounds(bounds);

@@ -24,7 +24,8 @@ namespace
 using Json = nlohmann::json;
 
 constexpr int small_width = 200;
-// Levels of 255 in a channel; antialiasing differs by less between drivers.
+// Two pixels differ if a channel differs by more than this many of the 255 levels. Antialiasing
+// differs by less between drivers.
 constexpr int level = 24;
 constexpr double most_different = 0.01; // fraction of the pixels that may differ
 
@@ -204,8 +205,8 @@ INSTANTIATE_TEST_SUITE_P(Examples, Tours,
     TourCase{ "tutorial", {}, "elephant-with-holes.off" }),
   [](const testing::TestParamInfo<TourCase>& tour) { return std::string(tour.param.name); });
 
-/// At twice the pixels, all details are finer, but the legend and its text have the same relative
-/// size.
+/// If the picture has twice as many pixels in each direction, the legend and its text keep their
+/// size relative to the picture.
 TEST(Scaled, ALegendIsAsLargeAtTwiceThePixels)
 {
   const test::Folder folder;

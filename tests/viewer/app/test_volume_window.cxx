@@ -167,7 +167,7 @@ TEST_F(VolumeWindow, TheMouseDragsTheSliceAndTheStatusBarReadsTheField)
   const QPoint grip = this->pixel(Vec3(0.5, 0.4, 0));
   const QPoint there = this->pixel(Vec3(0.5, 0.4, 0.6));
   this->drag(grip, there);
-  // The slice has moved with the mouse along its normal. The panel shows its position.
+  // The drag has moved the slice along its normal. The panel shows the position of the slice.
   EXPECT_NEAR(this->view()->position(), 0.6, 0.08);
   EXPECT_EQ(this->view()->slice_normal(), Vec3(0, 0, 1));
   EXPECT_NEAR(this->row(0)->value(), this->view()->position(), 0.01);
@@ -337,8 +337,8 @@ TEST_F(VolumeWindow, NoSliceLiesInAPosedShape)
   EXPECT_NEAR(top(), 1.2, 1e-3);
   EXPECT_NEAR(handles->GetBounds()[3], 0.0, 1e-9);
   EXPECT_EQ(this->window.viewport()->state_name(), "Rest shape: winding numbers are shown at rest");
-  // The pose returns if nothing of the volume is shown. It also returns in the other panel, which
-  // shows neither the slice nor its legend.
+  // The shape is posed again if nothing of the volume is shown. It is also posed in the other
+  // panel, which shows neither the slice nor its legend.
   this->find<QCheckBox>("Show the slice")->setChecked(false);
   EXPECT_NEAR(top(), 2.2, 1e-3);
   this->find<QCheckBox>("Show the slice")->setChecked(true);

@@ -284,7 +284,8 @@ TEST_F(WeightWindow, ExtremaAreCountedAndSeen)
       found || (extremum.maximum && (Vec3(mesh->GetPoint(extremum.vertex)) - bump).norm() < 0.1);
   }
   EXPECT_TRUE(found);
-  // The ball that marks the extremum is visible at its position. It disappears with its check box.
+  // The ball that marks the extremum is visible at the position of the extremum. Clearing the check
+  // box hides the ball.
   const Rgb red = extremum_categories()[1].color;
   const auto reds = [&]
   {
@@ -411,7 +412,8 @@ TEST_F(WeightWindow, TheOtherMethodIsSolvedBesideTheWindow)
   EXPECT_NEAR(numbers.number("picture.difference.largest", 0.0), largest, 1e-6);
   EXPECT_NEAR(numbers.number("picture.difference.rms", 0.0), std::sqrt(squares), 1e-6);
   EXPECT_TRUE(this->says(QString("largest %1").arg(largest, 0, 'g', 2)));
-  // Another column has another difference between the methods. The slice is disabled.
+  // After another column is chosen, the difference between the methods is shown for this column.
+  // The slice is disabled.
   this->choose("bottom");
   EXPECT_TRUE(this->view()->is_shown());
   EXPECT_FALSE(this->find<QCheckBox>("Slice through the volume")->isEnabled());

@@ -67,7 +67,7 @@ protected:
   WindowHand hand{ &this->window };
 };
 
-/// Return the names of the parts that extend beyond the window.
+/// Return the class names of the parts that are hidden or extend beyond the window.
 QStringList outside(const QWidget& window, const QList<const QWidget*>& parts)
 {
   QStringList names;
@@ -109,7 +109,7 @@ TEST_F(WindowRoom, BarsNeitherMoveNorResizeThePicture)
   this->window.show_error("Something has gone wrong.");
   expect_still("an error came");
   EXPECT_EQ(bars, 4);
-  // The bars do not overlap. They are below the title of the edit mode.
+  // The bars overlap neither each other nor the title of the edit mode.
   EXPECT_EQ(this->hand.press_key("A"), QString());
   expect_still("a mode began");
   QList<QRect> places;
@@ -187,7 +187,7 @@ TEST_F(WindowRoom, AScreenOf1280By800FitsAllOfIt)
 {
   this->open_figure();
   EXPECT_EQ(this->hand.press_key("K"), QString());
-  // This is the space for a window that a desktop leaves on a small screen.
+  // A desktop leaves this space for a window on a screen of 1280 x 800 pixels.
   const QSize room(1280, 720);
   for (int panel = 0; panel < 4; ++panel)
   {

@@ -50,7 +50,7 @@ void write_with(vtkDataSet* data, const std::string& path)
   ASSERT_EQ(writer->Write(), 1) << path;
 }
 
-/// Return two handles near the ends of a shape along z from -1 to 1.
+/// Return two point handles near the ends of a shape that extends from z = -1 to 1.
 inline vtkSmartPointer<vtkPolyData> two_points()
 {
   Handles handles(2);
@@ -61,7 +61,8 @@ inline vtkSmartPointer<vtkPolyData> two_points()
   return to_polydata(handles);
 }
 
-/// Discards what the X server reports of its own pointer: another test's window may appear under it.
+/// Discards enter, leave and move events that come from the X server's own pointer. A window of
+/// another test may appear under this pointer.
 class PointerFilter : public QObject
 {
 public:
@@ -83,7 +84,7 @@ protected:
     QApplication::processEvents();
   }
 
-  /// Return the widget with this text. If there are several, return the visible one.
+  /// Return the widget with this text. If several widgets have this text, return a visible one.
   template <typename Widget>
   Widget* find(const QString& text)
   {

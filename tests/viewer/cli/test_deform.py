@@ -118,7 +118,8 @@ def test_sequences(bar, method):
     collection = (bar / "out.pvd").read_text()
     assert 'timestep="0.25" file="out_0001.vtp"' in collection
     assert json.loads((bar / "r.json").read_text())["counts"]["frames"] == 3
-    # Each frame equals the result of its pose alone, up to the tolerance: the solves have different starts.
+    # Each frame equals the result of its pose alone up to a tolerance, because the two solves have different starting
+    # points.
     deform(bar, frames[2], method=method, output="single.vtp").is_good()
     assert points_of(bindpose.read(bar / "single.vtp")) == pytest.approx(
         points_of(bindpose.read(bar / "out_0002.vtp")), abs={"reduced-arap": 5e-4, "full-arap": 1e-3}.get(method, 1e-12))
@@ -144,7 +145,7 @@ def test_a_variational_surface_needs_no_weights(folder):
         posed = points_of(bindpose.read(folder / "out.vtp"))
         assert posed[middle] == pytest.approx([0.5, 0.5, 1]) and np.array_equal(posed[depth < 2], points[depth < 2])
         heights[words[1] if len(words) > 1 else ""] = posed[middle + 1, 2]
-    assert heights["1"] < heights["tangent"] and heights["1"] < heights["3"]  # order 1 is a membrane, which sags
+    assert heights["1"] < heights["tangent"] and heights["1"] < heights["3"]  # order 1 gives a membrane, which sags
     deform(folder, pose, "--order", "4", method="variational").is_refused("4", code=1)
 
     # Fairing needs no handles. The patch between the fixed points becomes flat, for any initial shape.
@@ -299,7 +300,7 @@ def test_dynamics_falls_and_replays(bar):
 
 def test_a_time_budget_is_repeated_by_its_iterations(bar):
     first = deform(bar, shapes.BENT, "--time-budget", "1", "--tolerance", "1e-15", "--report", "-", method="reduced-arap")
-    assert first.code == 3 and first.report["iterations"] == 2  # one iteration per precision
+    assert first.code == 3 and first.report["iterations"] == 2  # one iteration in single and one in double precision
     expected = points_of(bindpose.read(bar / "out.vtp"))
     deform(bar, shapes.BENT, "--maximum-iterations", "2", "--tolerance", "0", "--overwrite", method="reduced-arap").is_good()
     assert np.array_equal(points_of(bindpose.read(bar / "out.vtp")), expected)
@@ -333,7 +334,7 @@ def test_pseudo_edges_turn_dragged_points(folder):
 
 
 def test_what_is_stretched_is_in_the_report_and_a_cell_array(bar):
-    longer = {"handles": {"b2": {"translate": [18, 0, 0]}}}  # x becomes 4 x at the end
+    longer = {"handles": {"b2": {"translate": [18, 0, 0]}}}  # the end of the bar moves from x = 6 to x = 24
     report = deform(bar, longer, "--report", "-", "--stretch-array").is_good().report
     assert report["counts"]["inverted_elements"] == 0
     # Some elements are stretched, but not all.

@@ -233,8 +233,8 @@ def test_cancel_kills_the_helper_at_once(folder, number):
 @needs_helper
 @pytest.mark.parametrize("age", [0.0, 0.001, 0.01, 0.3])
 def test_no_helper_outlives_the_program(folder, age):
-    """Kill the program just after it has started the helper, before the helper's first line has run, and while it
-    works.
+    """Kill the program `age` seconds after it has started the helper: before the first line of the helper runs, and
+    while the helper works.
     """
     folder.off("s.off", shapes.sphere(400, 240))
     process = start(folder, "s.off", "-o", "s.vtu")

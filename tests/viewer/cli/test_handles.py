@@ -39,7 +39,7 @@ def test_skeleton(folder, missing):
     assert len(places) == 3  # the two bones share a joint
     assert min(x for x, _, _ in places) < 1 and max(x for x, _, _ in places) > 7 - missing
     assert all(abs(y - 0.5) < 0.15 and abs(z - 0.5) < 0.15 for _, y, z in places)
-    # Other verbs read the file.
+    # Other verbs can read the file.
     text = folder.run("info", "bones.tgf").is_good().out
     assert "b2" in text
 

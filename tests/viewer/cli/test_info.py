@@ -41,8 +41,8 @@ def test_where_a_surface_is_unclean(folder):
 
 
 def test_numbers_are_those_of_the_legend(folder):
-    """Check the units of the counts: inward components count as components, intersections as pairs and as triangles of
-    these pairs.
+    """Check the units of the counts. Inward components are counted as components. Intersections are counted as pairs of
+    triangles, and also as triangles that are part of a pair.
     """
     vertices, faces = [], []
     for k in range(3):

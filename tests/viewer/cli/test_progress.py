@@ -13,7 +13,7 @@ from driver import PROGRAM
 
 def progress_of(folder, *words):
     """Return the seconds since the start, the percentage and the text of every progress line on a terminal. The last
-    row is the end.
+    row contains the end of the run.
     """
     master, slave = pty.openpty()
     start = time.monotonic()

@@ -143,7 +143,7 @@ def test_volumes_that_have_no_isosurface(folder, values, size, sentence):
 
 
 def open_sphere():
-    """Return a sphere without its cap: 24 open edges."""
+    """Return a sphere without one cap, so that it has 24 open edges."""
     vertices, faces = shapes.sphere()
     return vertices, [face for face in faces if 0 not in face]
 
@@ -182,8 +182,8 @@ def test_defects_are_counted(tets):
     found = [{"name": "unreferenced vertex", "count": 1}, {"name": "boundary edge", "count": 24}]
     run = tets.run("render", "open.off", "--defects", *small, "d.png").is_good()
     assert run.report["picture"]["defects"] == found
-    # Draw the defects over tets. They are those of the context surface, or come from a file. Two tiles show the defects
-    # twice, but count them once.
+    # Draw the defects over tets. The defects are those of the context surface, or come from a file. Two tiles show the
+    # defects twice, but the report counts them once.
     run = tets.run("render", "tets.vtu", "tets.mesh", "--context", "open.off", "--defects", *small, "t.png").is_good()
     assert run.report["picture"]["defects"] == found
     tets.run("info", "open.off", "--defects", "d.vtp", "--quiet").is_good()
@@ -277,8 +277,8 @@ def test_cells_by_handle(weighted):
     assert sum(c["count"] for c in colors) == len(shapes.sphere()[1])
     weighted.write("two.vtp", square([("Weights", ["left", "right"], "1 0 0 1 0 1 0.7 0.3")]))
     run = weighted.run("render", "two.vtp", "--color", "handle", "-o", "t.png", "--report", "-").is_good()
-    # The sums over the corners of each triangle determine its handle: 1 and 2 on the first triangle, 1.7 and 1.3 on the
-    # second.
+    # The handle of a triangle has the largest sum of weights over the corners. The two sums are 1 and 2 on the first
+    # triangle, and 1.7 and 1.3 on the second.
     assert run.report["picture"]["colors"] == [{"name": "left", "count": 1}, {"name": "right", "count": 1}]
 
 

@@ -1,6 +1,4 @@
-"""Equal results give equal files: every verb is run twice with different numbers of threads and must write the same
-bytes.
-"""
+"""Every verb is run twice with one thread and once with two threads. All runs must write the same bytes."""
 
 import json
 import math
@@ -22,8 +20,8 @@ BEND = {"frames": [{"handles": {"b2": {"rotate": {"axis": [0, 0, 1], "degrees": 
 
 
 def expect_same_bytes(folder, verb, *words, outputs):
-    """Run a verb twice and compare its files. `outputs` are the names after -o, or None if `words` contain the output
-    files.
+    """For each output, run a verb twice with one thread and once with two threads, and compare the files. `outputs` is
+    a list of the names after -o.
     """
     for output in outputs:
         files = []
@@ -32,7 +30,7 @@ def expect_same_bytes(folder, verb, *words, outputs):
             assert run.code in (0, 3), run.err
             written = {name: (folder / name).read_bytes() for name in run.new_files if name != "r.json"}
             report = json.loads((folder / "r.json").read_text())
-            # These entries of the report are not in the files.
+            # Times and memory are only in the report, because they differ between runs.
             assert report["seconds"]["total"] > 0 and report["peak_memory_bytes"] > 0
             for name in run.new_files:
                 (folder / name).unlink()
@@ -123,7 +121,9 @@ def test_render(bar):
 
 @needs_helper
 def test_the_helper_is_not_linked_with_fast_algebra():
-    """If CHOLMOD, OpenBLAS and METIS are in the process of the helper, skeletons have other last bits."""
+    """Check the libraries of the helper. If it used CHOLMOD, OpenBLAS and METIS, the last bits of skeletons would
+    differ.
+    """
     libraries = subprocess.run(["ldd", HELPER], capture_output=True, text=True, check=True).stdout
     assert "libgmp" in libraries
     assert not [name for name in ("cholmod", "blas", "metis") if name in libraries], libraries

@@ -128,7 +128,7 @@ def test_helper_joints_that_share_vertices_are_skipped(folder):
     assert len(skips) == 1 and "'target.L'" in skips[0]
     weights = point_array(bindpose.read(folder / "w.vtp"), "Weights")
     assert weights.sum(axis=1) == pytest.approx(np.ones(len(weights)))
-    # The same handles without the mark that they are joints of a rig are refused.
+    # The array Ownership marks handles as joints of a rig. Without this array, the same handles are refused.
     handles = bindpose.read_handles(folder / "c.gltf")
     handles.GetCellData().RemoveArray("Ownership")
     bindpose.write(handles, folder / "h.vtp")

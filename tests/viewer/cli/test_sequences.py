@@ -60,7 +60,8 @@ def test_without_ffmpeg_there_is_one_sentence(frames, tmp_path):
     run.is_refused("apt-get install ffmpeg")
 
 
-# This script replaces ffmpeg, so that the tests do not need the real program. It writes its arguments and input files.
+# This script replaces ffmpeg, so that the tests do not need the real program. It writes its arguments and the names of
+# its input files to the output file.
 FAKE = """#!/bin/sh
 for last; do :; done
 folder=$(dirname "$(echo "$*" | sed 's/.*-i \\([^ ]*\\) .*/\\1/')")
@@ -111,7 +112,7 @@ def test_cancel_leaves_nothing(frames):
 @pytest.mark.parametrize("ending", ["gif", "webm", "mp4", "apng"])
 def test_the_real_ffmpeg(frames, ending):
     if not shutil.which("ffmpeg"):
-        return  # the script instead of ffmpeg was used; its output shows the arguments
+        return  # without ffmpeg, only the tests with the script FAKE check the call
     frames.run("render", "bar.pvd", "--size", "161x121", "-o", f"bar.{ending}").is_good()
     probe = ["ffprobe", "-v", "error", "-count_frames", "-select_streams", "v", "-show_entries",
              "stream=nb_read_frames,r_frame_rate", "-of", "json", f"bar.{ending}"]

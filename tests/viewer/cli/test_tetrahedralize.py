@@ -157,8 +157,8 @@ cp "$(dirname "$0")/tets.mesh" "$2"
 
 
 def test_ftetwild_is_run_where_it_is(folder):
-    """Check the call of fTetWild. A script replaces the program. It returns a cube in the frame of fTetWild, which is
-    centered at the origin with a diagonal from 1 to 2.
+    """Check the call of fTetWild. A script replaces the program. It returns a cube in the coordinates of
+    fTetWild: the center is at the origin, and the length of the bounding-box diagonal is between 1 and 2.
     """
     folder.off("unit.off", shapes.cube(-0.5, 0.5))
     folder.run("tetrahedralize", "unit.off", "-o", "tets.mesh").is_good()

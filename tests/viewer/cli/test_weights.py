@@ -164,7 +164,8 @@ def test_regions(bar):
         names = [array.GetComponentName(i) for i in range(array.GetNumberOfComponents())]
         assert names == ["p1", "r1", "r2"]
         check(weights, x)
-        # The bar's end has a point handle. Only this handle overlaps with the regions.
+        # The point handle p1 is in one of the regions r1 and r2. These regions do not overlap, so the weight of each is
+        # 0 in the other.
         assert (weights[x > 5][:, 1] < 1e-9).all() and (weights[x < 1][:, 2] < 1e-9).all()
     bar.run("weights", "painted.vtp", "--handles", "auto:1", "--regions", "Nope", "-o", "w2.vtp").is_refused("'Nope'")
 
@@ -239,7 +240,7 @@ def test_embedding_and_preview(bar):
     weights = weights_of(bar / "w.vtp")
     embedded = weights_of(bar / "e.vtp")
     check(embedded, shapes.bar()[0])
-    # A large tolerance, because the bar's own tets are coarse.
+    # The tolerance is large, because the bar's own tets are coarse.
     assert np.sqrt(((weights - embedded) ** 2).mean()) <= 0.03
     bar.run("weights", "bar.off", "--handles", "bones.tgf", "--domain", "embedding", "--embedding-resolution", "12", "-o",
             "e.vtu").is_good()

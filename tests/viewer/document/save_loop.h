@@ -66,8 +66,8 @@ inline double seconds_now()
   return 1e-3 * static_cast<double>(QDateTime::currentMSecsSinceEpoch() % (1LL << 40));
 }
 
-/// Change the work every 20 ms, with an autosave in the folder, until the process is killed. One
-/// value of the work is the current time.
+/// Change the work every 20 ms, with an autosave in the folder, until the process is killed. The
+/// stretch of the first handle is the current time in seconds.
 inline int change_for_ever(const char* root)
 {
   Session session;

@@ -57,7 +57,7 @@ TEST(Saving, AKillAtAnyMomentLeavesAWholeSession)
     ASSERT_TRUE(is == states[0] || is == states[1]);
     ++found[is == states[1]];
   }
-  EXPECT_GT(found[0], 5); // the processes were killed after saving either state
+  EXPECT_GT(found[0], 5); // each state was found after several kills
   EXPECT_GT(found[1], 5);
   // The next complete save removes the files that the killed processes left behind.
   Session session;
@@ -102,7 +102,8 @@ TEST(Autosaving, WhatAKilledProcessHadIsFoundOnce)
     EXPECT_LT(found->time().secsTo(QDateTime::currentDateTime()), 60);
     EXPECT_EQ(RecoveredWork::find(root), nullptr) << "somebody else has it already";
   }
-  // Work that no process has claimed is found again. After it is removed, it is not found.
+  // The claim on the work has ended, so the work is found again. After the work is removed, nothing
+  // is found.
   auto found = RecoveredWork::find(root);
   ASSERT_NE(found, nullptr);
   found->remove();
@@ -206,8 +207,8 @@ void listen(Autosave& autosave, QString& message)
 }
 } // namespace
 
-/// Measures the numbers in the README: the window's thread is blocked for a small fraction of the
-/// writing time.
+/// Measures the times that the README states. The window's thread is blocked for a small fraction
+/// of the writing time.
 TEST(Autosaving, IsNotFelt)
 {
   const test::Folder folder;
@@ -252,8 +253,8 @@ TEST(Autosaving, WhatIsAskedForDuringACopyFollowsItAndTheLastStateIsKept)
   Session found;
   ASSERT_TRUE(read_session(autosave.path(), found).ok());
   EXPECT_EQ(test::fingerprint(found.work), test::fingerprint(session.work));
-  // The test has already waited for these writers. Their late events must not affect another
-  // writer.
+  // The earlier writers have finished, but their events have not been processed. These events must
+  // not affect the next writer.
   autosave.begin_save();
   QCoreApplication::processEvents();
   EXPECT_TRUE(autosave.wait().ok());

@@ -401,7 +401,7 @@ TEST_F(Editing, LayersColorsAndLocksAreHowHandlesLook)
   expect_looks("undo of all");
   EXPECT_EQ(fingerprint(this->document.work()), fingerprint(before));
   EXPECT_FALSE(this->document.handle_data()->GetCellData()->HasArray("Layer"));
-  // A new name changes a handle itself, not only its appearance. So does a new position.
+  // A new name or a new position changes a handle itself, not only its appearance.
   this->rename(0, "foot");
   ASSERT_TRUE(this->document.commit_handles("rename").ok());
   EXPECT_TRUE(parts & handles_part);

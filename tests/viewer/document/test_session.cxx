@@ -124,7 +124,8 @@ TEST(Sessions, ComeBackToTheLastBit)
   EXPECT_EQ(back.view.camera->position, session.view.camera->position);
   EXPECT_EQ(back.view.camera->angle, 22.5);
   EXPECT_TRUE(back.view.camera->parallel);
-  // The documents before and after are equal: both are bound, with the same reason to bind again.
+  // The documents before and after are equal. Both are bound and give the same reason to bind
+  // again.
   Document before;
   before.replace(session.work);
   Document after;
@@ -198,7 +199,7 @@ TEST(Sessions, AnotherFolderOpensTheSameWork)
   EXPECT_EQ(back.work.mesh_source.path, text(folder / "far/away/meshes/corner.off"));
   EXPECT_EQ(back.work.mesh_source.checksum, session.work.mesh_source.checksum);
 
-  // The companion files of a session are moved with it.
+  // If the folder of a session is moved, the session still finds its companion files.
   Session bound;
   bound.work = full_work();
   std::filesystem::create_directories(folder / "one");
@@ -352,7 +353,7 @@ TEST(Sessions, KeepEveryMode)
   }
 }
 
-/// This text represents all files of version 1. Later versions must be able to read it.
+/// This text is an example of a file of version 1. All later versions must be able to read it.
 TEST(Sessions, SchemaOneIsRead)
 {
   const test::Folder folder;
@@ -435,7 +436,7 @@ TEST(Sessions, BrokenOnesGiveOneSentence)
       Session result;
       const Status status = read_session(text(folder / "maybe.bindpose"), result);
       ++tried;
-      // Some replacements are valid. The work that is then read must be usable.
+      // Some replacements are valid. The work that is read from a valid file must be usable.
       if (status.ok())
       {
         Document document;

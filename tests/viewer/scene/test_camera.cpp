@@ -66,8 +66,8 @@ TEST(Camera, FitsTightlyFromEverywhereWithoutClipping)
         const Points seen = project(camera, aspect, points);
         const Eigen::Vector2d upper = seen.leftCols<2>().colwise().maxCoeff();
         const Eigen::Vector2d lower = seen.leftCols<2>().colwise().minCoeff();
-        // In one direction both margins are exact. In the other direction the margins are at least
-        // as large.
+        // In one direction both margins have exactly the requested size. In the other direction
+        // they are at least this large.
         const double tightest = std::max(upper[0] - lower[0], upper[1] - lower[1]);
         EXPECT_NEAR(tightest, 1.8, 1e-6);
         EXPECT_LE(upper.maxCoeff(), 0.9 + 1e-6);
@@ -161,7 +161,7 @@ TEST(Camera, WhoLooksAtAPartGoesOnLookingAtIt)
   fit_camera(camera, points, choose_frame(bounding_box(points), "auto"), View(), 2.0);
   const Vec3 focus(0.2, 0.3, 0.4);
   camera->SetFocalPoint(focus.data());
-  // This position is within the extent of the shape.
+  // This camera position is within the extent of the shape.
   camera->SetPosition(Vec3(focus + Vec3(0.5, -0.6, 0.3)).data());
   keep_in_view(camera, points, 2.0, 1.0);
   EXPECT_EQ(Vec3(camera->GetFocalPoint()), focus);
@@ -187,7 +187,7 @@ TEST(Plane, IsFoundWhateverItIs)
   EXPECT_LT((normal - Vec3(0, -1, 0)).norm(), 1e-9);
   ASSERT_TRUE(find_plane(Points(square * tilted.transpose()), normal));
   EXPECT_LT((normal - tilted.col(2)).norm(), 1e-9);
-  Points lopsided = square; // the center of the shape's bounding box is not in its plane
+  Points lopsided = square; // its bounding-box center is not in its plane
   lopsided.col(1) += square.col(0).cwiseAbs2();
   ASSERT_TRUE(find_plane(Points(lopsided * tilted.transpose()), normal));
   EXPECT_LT((normal - tilted.col(2)).norm(), 1e-9);

@@ -184,7 +184,7 @@ TEST(MovedSurfaceMapper, AShapeMayBeMovedFarAwayAndBack)
 
 TEST(MovedSurfaceMapper, ShapesFarFromTheOriginKeepTheirPlaces)
 {
-  // At this position, adjacent floats differ by about 0.06.
+  // At x = 1e6, adjacent single-precision numbers differ by about 0.06.
   const TriangleMesh mesh = test::sphere(3);
   Points far = mesh.points;
   far.rowwise() += Eigen::RowVector3d(1e6, 0, 0);
@@ -206,7 +206,7 @@ TEST(MovedSurfaceMapper, ShapesFarFromTheOriginKeepTheirPlaces)
 
 TEST(MovedSurfaceMapper, BoundsAreThoseOfWhatIsDrawn)
 {
-  TriangleMesh mesh = test::sphere(5, 2.0); // there are more points than in a block of one thread
+  TriangleMesh mesh = test::sphere(5, 2.0); // more points than one thread processes per block
   const Index count = mesh.points.rows();
   mesh.points.conservativeResize(count + 1, 3);
   mesh.points.row(count) << 100.0, 100.0, 100.0; // no triangle uses this point

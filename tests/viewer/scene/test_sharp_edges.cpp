@@ -1,4 +1,4 @@
-// Vertices are doubled along the same edges as by vtkPolyDataNormals.
+// split_sharp_edges() duplicates vertices along the same edges as vtkPolyDataNormals.
 #include "conversion.h"
 #include "shapes/sharp_edges.h"
 #include "support/meshes.h"
@@ -17,7 +17,8 @@ using namespace bindpose;
 
 namespace
 {
-/// Return the new vertices of all corners by vtkPolyDataNormals.
+/// Return the triangles after vtkPolyDataNormals has split the vertices along edges that are
+/// sharper than `angle` degrees.
 Triangles split_by_vtk(const TriangleMesh& mesh, double angle)
 {
   vtkNew<vtkPolyDataNormals> normals;
@@ -62,7 +63,7 @@ TEST(SharpEdges, SplitsLikeVtk)
   {
     std::swap(soup.triangles(t, 0), soup.triangles(t, 1));
   }
-  TriangleMesh fins = test::torus(24, 12, 1.0, 0.4); // three triangles at many edges
+  TriangleMesh fins = test::torus(24, 12, 1.0, 0.4); // many edges will have three triangles
   const Index count = fins.triangles.rows();
   fins.points.conservativeResize(fins.points.rows() + 1, 3);
   fins.points.row(fins.points.rows() - 1) << 0.0, 0.0, 2.0;
@@ -72,7 +73,7 @@ TEST(SharpEdges, SplitsLikeVtk)
     fins.triangles.row(count + t) << fins.triangles(5 * t, 0), fins.triangles(5 * t, 1),
       fins.points.rows() - 1;
   }
-  TriangleMesh flat = test::grid(6, 5); // doubled and degenerate triangles, an unused vertex
+  TriangleMesh flat = test::grid(6, 5); // gets two bad triangles and an unused vertex
   const Index flat_count = flat.triangles.rows();
   flat.points.conservativeResize(flat.points.rows() + 1, 3);
   flat.points.row(flat.points.rows() - 1).setZero();

@@ -1,5 +1,5 @@
-// Silhouettes are compared with the known results for convex shapes, and with a brute-force twin
-// that tests every pair of triangles.
+// Silhouettes are compared with the known results for convex shapes, and with a brute-force
+// computation that tests both triangles of every edge.
 #include "shapes/silhouette.h"
 
 #include "shapes/outline.h"
@@ -97,7 +97,7 @@ TEST(Silhouette, OfASphereIsTheCircleThatTheEyeSees)
   {
     for (const Index end : edge)
     {
-      // Expect the height at which tangents pass through the eye.
+      // The silhouette is at the height z at which tangents of the sphere pass through the eye.
       EXPECT_NEAR(ball.points(end, 2), 1.0 / distance, 0.05);
     }
     length += (ball.points.row(edge[0]) - ball.points.row(edge[1])).norm();
@@ -143,7 +143,7 @@ TEST(Silhouette, OpenEdgesAreAlwaysThere)
 {
   const TriangleMesh sheet = test::grid(4, 3);
   const auto edges = found(sheet, from(Vec3(0.3, 0.2, 5.0)));
-  // These are all edges around the sheet; inside of the sheet there are none.
+  // The silhouette consists of all boundary edges of the sheet.
   EXPECT_EQ(edges.size(), 14u);
   Silhouette nothing(Points(0, 3), Triangles(0, 3));
   std::vector<Silhouette::Edge> none = edges;

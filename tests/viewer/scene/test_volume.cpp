@@ -184,7 +184,7 @@ TEST(Volume, TheOutsideIsClearAndWhatIsWrongIsNot)
       EXPECT_EQ(winding_opacity(outside, step), 0.0);
     }
     const double inside = winding_opacity(1.0, step);
-    // Along a unit of length, 3 % of the light is absorbed, for any spacing of the grid.
+    // 3 % of the light is absorbed per unit of length, for any spacing of the grid.
     EXPECT_NEAR(std::pow(1.0 - inside, 1.0 / step), 0.97, 1e-12);
     EXPECT_NEAR(winding_opacity(0.5, step), 0.6, 1e-12);
     for (const double wrong : { -1.0, 2.0 })

@@ -1,5 +1,5 @@
-// Edit modes of the handle widget: what a click does, and at which position. The dataset must be
-// valid after every step.
+// Edit modes of the handle widget: the effect of clicks and drags, and the resulting positions. The
+// dataset must be valid after every step.
 #include "widget_stage.h"
 
 #include "support/meshes.h"
@@ -59,8 +59,8 @@ TEST(HandleEditing, PointsGoToMidThickness)
   ASSERT_EQ(handles.size(), 1u);
   EXPECT_EQ(handles[0].name, "p1");
   EXPECT_EQ(handles[0].kind, HandleKind::point);
-  // The point is in the middle of the chord through the ball. This is the point of the view ray
-  // that is nearest to the center.
+  // The view ray through the mouse intersects the ball in a chord. The new point is the middle of
+  // this chord, which is the point of the ray that is nearest to the center.
   const Vec3 sight = (handles[0].head - Vec3(0, 0, 10)).normalized();
   EXPECT_LT(std::abs(handles[0].head.dot(sight)), 0.02) << "in the center plane across the ray";
   EXPECT_LT((stage.display(handles[0].head) - stage.display(Vec3(0.3, 0.2, 0))).norm(), 1.0);
@@ -188,7 +188,7 @@ TEST(HandleEditing, ATailSnapsToOtherEndsWithCtrl)
 
 TEST(HandleEditing, PosesColorsAndSelectionFollowTheirHandles)
 {
-  // In the order of the cells, the point precedes the bone.
+  // A new point precedes the bone in the order of the cells, so the index of the bone changes.
   EditStage stage(Widget::ADD_POINTS, { bone("b", Vec3(-0.5, 0, 0), Vec3(0.2, 0, 0)) });
   const double t[3] = { 0.5, 0.25, 0 };
   stage.representation()->SetHandleTranslation(0, t);

@@ -1,6 +1,6 @@
 // Posing with the gizmo (arrows, plates, rings and boxes around the selected handle), with keys and
-// with typed numbers. The tests check the exact positions of the handles afterward, and what does
-// not change.
+// with typed numbers. The tests check the exact positions of the handles afterward, and that
+// nothing else changes.
 #include "widget_stage.h"
 
 #include "support/sanitized.h"
@@ -121,13 +121,13 @@ TEST(HandleGizmo, AnArrowMovesAlongItsAxisOnly)
   {
     GizmoStage stage({ point("a", Vec3(0.2, 0.1, 0)) }, Widget::GIZMO_MOVE);
     const Vec3 axis = Vec3::Unit(k);
-    // The mouse moves along the axis on the screen, with deviations.
+    // The mouse moves by the projection of 0.8 units along the axis.
     const Eigen::Vector2d way = 0.8 * stage.on_screen(axis);
     stage.pull(Widget::MOVE_X + k, way);
     const Vec3 moved = stage.head(0) - Vec3(0.2, 0.1, 0);
     EXPECT_EQ(moved[(k + 1) % 3], 0.0);
     EXPECT_EQ(moved[(k + 2) % 3], 0.0);
-    // Because of the perspective, 0.8 units at a larger distance have a different length in pixels.
+    // Because of the perspective, the length of 0.8 units in pixels depends on the depth.
     EXPECT_NEAR(moved[k], 0.8, 0.12);
     EXPECT_EQ(linear(stage.transform(0)), Eigen::Matrix3d::Identity());
     EXPECT_EQ(stage.representation()->GetInteractionName(), "move");

@@ -84,7 +84,7 @@ TEST(HandleSetWidget, DraggingATailTurnsTheBoneAboutItsHead)
 {
   Stage stage({ bone("b", Vec3(0.2, 0.1, 0), Vec3(1.2, 0.1, 0)) });
   stage.drag(Vec3(1.2, 0.1, 0), Vec3(0.2, 1.6, 0), 10);
-  // The handle has rotated by 90 degrees, for any length of the mouse's path.
+  // The handle has rotated by 90 degrees. The length of the mouse's path has no effect.
   EXPECT_LT((stage.head(0) - Vec3(0.2, 0.1, 0)).norm(), 1e-12);
   EXPECT_NEAR((stage.tail(0) - stage.head(0)).norm(), 1.0, 1e-12);
   EXPECT_LT((stage.tail(0) - Vec3(0.2, 1.1, 0)).norm(), pixel);
@@ -147,7 +147,7 @@ TEST(HandleSetWidget, EscapeRestoresEveryBit)
   EXPECT_EQ(stage.transform(1), before[1]);
   EXPECT_EQ(stage.events[vtkCommand::InteractionEvent], 2) << "one move, one restoring";
   EXPECT_EQ(stage.events[vtkCommand::EndInteractionEvent], 1);
-  // The mouse button is still down. Its moves and its release have no effect any more.
+  // The mouse button is still down. Further mouse moves and the release have no effect.
   stage.move(tail + Vec3(0.8, 0.8, 0));
   stage.release(tail + Vec3(0.8, 0.8, 0));
   EXPECT_EQ(stage.transform(0), before[0]);
@@ -277,8 +277,8 @@ TEST(HandleSetWidget, HundredsOfHandlesAreEachFound)
 
 TEST(HandleSetWidget, TakesPlainPolydataAndOddFiles)
 {
-  // The dataset first has no arrays. Later it has a cage element, and a parent that is its own
-  // ancestor.
+  // The dataset first has no arrays. Later the dataset has a cage element, and two handles that are
+  // parents of each other.
   vtkNew<vtkPoints> points;
   points->InsertNextPoint(0, 0, 0);
   points->InsertNextPoint(1, 0, 0);

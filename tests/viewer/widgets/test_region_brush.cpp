@@ -1,5 +1,5 @@
-// The brush that paints region labels, on surfaces with known distances: the labels that a stroke
-// changes, and those that it keeps.
+// The brush that paints region labels. On surfaces with known distances, the tests check which
+// labels a stroke changes and which labels it keeps.
 #include "conversion.h"
 #include "offscreen_stage.h"
 #include "support/meshes.h"
@@ -143,8 +143,8 @@ TEST(RegionBrush, CtrlErasesAndEscapeGivesEveryLabelBack)
 
 TEST(RegionBrush, TheGeodesicBrushDoesNotReachThroughWalls)
 {
-  // The shape is a thin plate of two sheets that are not connected. Only the sheet toward the eye
-  // is painted.
+  // The shape is a thin plate of two sheets that are not connected. Only the sheet toward the
+  // camera is painted.
   const TriangleMesh sheet = flat();
   const TriangleMesh both =
     test::join(sheet, test::flipped(test::translated(sheet, Vec3(0, 0, -0.05))));

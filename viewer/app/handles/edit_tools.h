@@ -12,7 +12,8 @@ class QSlider;
 class QToolButton;
 
 /// The row of tools above the 3D view: groups of buttons, one button per action. If the row is too
-/// narrow, only the buttons of the first group have text; if it is still too narrow, none have.
+/// narrow for all texts, only the buttons of the first group have text. If the row is too narrow
+/// for these texts, too, all buttons show only their icons.
 class EditTools : public QFrame
 {
   Q_OBJECT

@@ -403,7 +403,7 @@ void HandleCommands::fix(HandleMode mode)
   {
     this->document_->set_pose(pose, this->selection_->named(tr("mode of"), selected));
   }
-  this->update(); // show the state again: a click on a checked entry has unchecked it
+  this->update(); // check the entry again, because a click on a checked entry unchecks it
 }
 
 void HandleCommands::reset()

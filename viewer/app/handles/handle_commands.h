@@ -19,9 +19,9 @@ class QMenu;
 class QString;
 class QWidget;
 
-/// Commands for the selected handles, as menu entries, keys and functions; drags are handled
-/// elsewhere. Each command makes one undo step of the document. If it cannot be applied, it makes
-/// no step, and HandleSelection::refused() is emitted with one sentence.
+/// Commands for the selected handles, available as menu entries, keys and functions. Drags with the
+/// mouse are not part of this class. Each command makes one undo step of the document. A command
+/// that cannot be applied makes no step, and HandleSelection::refused() is emitted with the reason.
 class HandleCommands : public QObject
 {
   Q_OBJECT
@@ -34,19 +34,21 @@ public:
   /// Return the context menu of handles.
   QMenu* menu() const { return this->menu_; }
   void fill(QMenu* menu);
-  /// Return an action by its name in window_keys.h, or "fixes.tail", "fixes.ends", "mirror.y",
-  /// "mirror.z", "no_color"; null if there is none.
+  /// Return the action with this name; null if there is none. Most names are listed in
+  /// window_keys.h. The others are "fixes.tail", "fixes.ends", "mirror.y", "mirror.z" and
+  /// "no_color".
   QAction* action(const std::string& name) const;
   /// Enable the actions that apply to the selection.
   void update();
 
   bool rename(int handle, const QString& name);
-  /// Set the color of the selected handles; empty: the color of their mode.
+  /// Set the color of the selected handles. An empty value restores the color of their mode.
   void set_color(const std::optional<QColor>& color);
   void set_locked(bool locked);
   void remove();
-  /// Mirror the selected handles at the plane perpendicular to an axis, through the center of the
-  /// shape. A center coordinate near 0 is treated as 0.
+  /// Mirror the selected handles at a plane through the center of the shape's bounding box. `axis`
+  /// (0 to 2) is the normal of the plane. The center's coordinate along the axis is treated as 0 if
+  /// its absolute value is at most 2 % of the box's extent.
   void mirror(int axis);
   void snap();
   /// Set the parent of the selected handles; -1: no parent.

@@ -102,9 +102,8 @@ HandleEditing::HandleEditing(
         this->commands_->menu()->popup(list->viewport()->mapToGlobal(at));
       }
     });
-  // Poses that are typed or played must be visible, so leave the edit mode. A drag that was started
-  // by a key may be in progress. It is stopped, because canceling the drag later would restore the
-  // old pose.
+  // Leave the edit mode, so that poses that are typed or played are visible. Also stop a drag that
+  // was started by a key: if the user canceled the drag later, the old pose would be restored.
   QObject::connect(posing, &Posing::pose_changed, this,
     [this]
     {
@@ -547,7 +546,7 @@ QString HandleEditing::mode_sentence() const
 
 // ---- Keys and the right button -----------------------------------------------------------------
 
-/// Report whether the current interaction in the 3D view uses a key, so that it must not trigger a
+/// Report whether the current interaction in the 3D view uses a key. Such a key must not trigger a
 /// shortcut of the window.
 bool HandleEditing::takes_key(const QKeyEvent* event) const
 {
@@ -617,7 +616,7 @@ bool HandleEditing::eventFilter(QObject* watched, QEvent* event)
         this->commands_->menu()->popup(
           this->viewport_->mapToGlobal(this->viewport_->rect().center()));
       }
-      return true; // the press of the mouse button has already shown the menu
+      return true; // for the right mouse button, the press event has already shown the menu
     }
     default:
       break;

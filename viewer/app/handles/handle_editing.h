@@ -58,7 +58,8 @@ public:
 
   int mode() const { return this->mode_; }
   void set_mode(int mode);
-  /// Draw handles at rest in the mode `pose`. They can then be selected but not dragged.
+  /// Set whether the mode `pose` draws the handles at rest. They can then be selected but not
+  /// dragged.
   void show_rest(bool shown);
   /// Handle Esc by the first of these actions that is possible: cancel a drag or a stroke, remove
   /// the last vertex of an unfinished cage, leave the edit mode.
@@ -68,19 +69,19 @@ public:
   /// none.
   bool show_menu(const QPoint& at);
 
-  /// Update after changes of the document.
+  /// Update after changes of the document. `parts` combines the flags of the changed parts.
   void document_changed(int parts);
   /// Cancel the interaction that the mouse or a key has begun.
   void stop();
-  /// Return the sentence for the status line, or an empty string. Warnings are about the last
-  /// refused action.
+  /// Return the sentence for the status line, or an empty string. It is a warning if the last
+  /// action was refused.
   QString sentence() const;
   bool is_warning() const { return !this->warning_.isEmpty(); }
 
   bool eventFilter(QObject* watched, QEvent* event) override;
 
 Q_SIGNALS:
-  /// Emitted when the mode has changed, before anything of the new mode is shown.
+  /// Emitted when the mode has changed, before the 3D view and the tools show the new mode.
   void mode_changed(int mode);
   void sentence_changed();
   /// Emitted during a drag when poses or rest positions have changed.

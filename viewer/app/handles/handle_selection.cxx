@@ -1,4 +1,4 @@
-// Edits change the indices of handles, so between edits the selection is stored as a list of names.
+// The selection is stored as a list of names, because edits change the indices of handles.
 #include "app/handles/handle_selection.h"
 
 #include "app/parts/panel_parts.h"
@@ -156,7 +156,7 @@ bool HandleSelection::rename(int handle, const QString& name)
   this->is_committing_ = false;
   if (status.ok() && this->drawn()->IsSelected(this->document_->handle_cells()[handle]))
   {
-    // keep the old name, too: the handle stays selected after an undo
+    // keep the old name in the list, too, so that the handle stays selected after an undo
     this->names_.push_back(before);
   }
   if (!status.ok())

@@ -15,8 +15,8 @@ class vtkDataArray;
 class vtkHandleSetRepresentation;
 
 /// The selected handles and edits of them. Each edit is one undo step of the document. Handles are
-/// selected in the 3D view or in the list. The selection is stored by name, so handles stay
-/// selected if an edit changes their indices.
+/// selected in the 3D view or in the list. This class stores the names of the selected handles, so
+/// handles stay selected if an edit changes their indices.
 class HandleSelection : public QObject
 {
   Q_OBJECT
@@ -35,22 +35,23 @@ public:
   /// the same step.
   bool edit(
     const QString& step, const bindpose::HandleListEdit& edit, vtkDataArray* labels = nullptr);
-  /// Commit, as one undo step, changes that are already in the cells of the document's handles.
+  /// Make one undo step of changes that were already written to the handle dataset
+  /// (Document::editable_handles()). `labels` has the same meaning as in edit().
   bool commit(const QString& step, vtkDataArray* labels = nullptr);
   /// Rename a handle. Return false, and emit refused(), if the name is empty or belongs to another
   /// handle.
   bool rename(int handle, const QString& name);
-  /// Return the name of an undo step for these handles: it contains the name of the only handle, or
-  /// the number of handles.
+  /// Return the name of an undo step for these handles: `step`, followed by the handle's name if
+  /// there is one handle, otherwise by the number of handles.
   QString named(const QString& step, const std::vector<int>& handles) const;
 
   /// Update after the document's handles have changed.
   void handles_changed();
-  /// Store the selection of the 3D view, which the user has changed.
+  /// Store the selection of the 3D view after the user has changed it.
   void read_view();
 
 Q_SIGNALS:
-  /// Emitted before an edit. Interactions with the mouse must end.
+  /// Emitted before an edit. Connected objects must then end all interactions with the mouse.
   void about_to_edit();
   void changed();
   void refused(const QString& sentence);

@@ -26,7 +26,8 @@ namespace
 constexpr int handle_role = Qt::UserRole;
 constexpr int indentation = 14; // pixels
 constexpr int icon_size = 14;
-// Minimum width for the deepest row, in pixels; if the tree is narrower it scrolls horizontally.
+// Minimum width of the name in the deepest row, in pixels. If the tree is too narrow for it, the
+// tree scrolls horizontally.
 constexpr int name_width = 150;
 
 /// Return an icon for a type of handle, in the color of secondary text.
@@ -69,8 +70,8 @@ QIcon kind_icon(HandleKind kind)
   return icon;
 }
 
-/// Return the parents without cycles. Datasets may contain any parents; if the parents of a row
-/// form a cycle, the row gets no parent.
+/// Return the parent of each row; -1: no parent. The parents in a dataset may form a cycle. A row
+/// whose ancestors form a cycle gets no parent.
 std::vector<int> checked_parents(const std::vector<HandleTree::Row>& rows)
 {
   const int count = static_cast<int>(rows.size());
@@ -145,7 +146,7 @@ HandleTree::HandleTree(QWidget* parent)
       if (item && this->tree_->selectedItems().isEmpty() &&
         QApplication::mouseButtons() == Qt::NoButton)
       {
-        // the first arrow key moves to the first row without selecting it, so select the row here
+        // Qt moves to the first row at the first arrow key, but does not select the row
         item->setSelected(true);
       }
     });

@@ -145,7 +145,7 @@ void RegionPainting::document_changed()
     this->painted_ = vtkSmartPointer<vtkPolyData>::New();
     this->painted_->ShallowCopy(surface);
   }
-  // Copy the labels to a separate int array, whatever their type in the file.
+  // Copy the labels to a separate int array. In the file they may have another type.
   vtkDataArray* labels = surface->GetPointData()->GetArray("RegionId");
   vtkNew<vtkIntArray> own;
   own->SetName("RegionId");
@@ -190,8 +190,8 @@ void RegionPainting::radius_changed()
 
 // ---- Strokes -----------------------------------------------------------------------------------
 
-/// Set the label to paint: that of the selected region, or the first unused label. The widget reads
-/// the label after this event, so it can still be set.
+/// Set the label to paint: the label of the selected region, or a new label that is larger than all
+/// used labels. The widget reads the label after this event, so the new label is used.
 void RegionPainting::stroke_began()
 {
   const std::set<int> used = labels_in(this->labels());

@@ -30,8 +30,8 @@ public:
   void cancel();
   /// Update after a change of the document's surface, handles or labels.
   void document_changed();
-  /// Let the next stroke paint the label of this handle. If the handle is not a region, or is -1,
-  /// the stroke begins a new region.
+  /// Let the next stroke paint the label of this handle. If the handle is not a region, or if
+  /// `handle` is -1, the stroke begins a new region.
   void choose(int handle);
   bool has_region() const { return !this->region_.empty(); }
   QString region() const { return QString::fromStdString(this->region_); }
@@ -59,7 +59,7 @@ private:
   Document* document_;
   Viewport* viewport_;
   bool active_ = false;
-  vtkSmartPointer<vtkPolyData> painted_; ///< the document's surface, with separate labels
+  vtkSmartPointer<vtkPolyData> painted_; ///< shallow copy of the surface with its own labels
   std::string region_; ///< name of the region's handle
 };
 

@@ -32,7 +32,8 @@ public:
   /// rigged().
   void auto_rig();
   /// Create handles.
-  /// @param count  number of points, or maximum number of bones; 0: the shape determines the number
+  /// @param count  number of points, or maximum number of bones. If it is 0 for bones, the shape
+  /// determines their number.
   void start(bindpose::AutomaticMethod method, bindpose::Index count);
   void cancel() { this->job_.cancel(); }
   bool is_running() const { return this->job_.is_running(); }

@@ -182,7 +182,7 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
   parts->addWidget(poses);
   parts->addStretch(1);
   scroll->setWidget(content);
-  // Use the minimum width instead of the width that long sentences prefer.
+  // Use the minimum width of the contents, because long texts have a large preferred width.
   scroll->setMinimumWidth(
     std::max(content->minimumSizeHint().width(), 36 * this->fontMetrics().horizontalAdvance('0')));
   scroll->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Expanding);
@@ -296,9 +296,9 @@ void SidePanel::select_handles(const std::vector<int>& handles)
 void SidePanel::set_state(bool ready, bool binding, bool bound)
 {
   this->stopping_ = false;
-  // After Bind was pressed with the keyboard, the focus moves to Cancel, and after the bind back to
-  // Bind. Other widgets lose the keyboard focus before they are disabled. Otherwise Qt would move
-  // the focus to the list, which would select a handle.
+  // If the button Bind has the keyboard focus when a bind begins, move the focus to Cancel, and
+  // after the bind back to Bind. Other widgets lose the focus before they are disabled. Otherwise
+  // Qt would move the focus to the list, which would select a handle.
   const bool keyboard = this->bind_->hasFocus() || this->cancel_->hasFocus();
   const auto enable = [](QWidget* widget, bool on)
   {

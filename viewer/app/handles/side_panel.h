@@ -18,9 +18,9 @@ class HandleFields;
 class PoseList;
 class PosePanel;
 
-/// The panel to the right of the 3D view for binding and posing, and for the displayed weight. It
-/// contains no state of the work. It emits signals when the user requests something, and the window
-/// sets the displayed values.
+/// The panel to the right of the 3D view for binding and posing, and for selecting the displayed
+/// weight. The panel stores no data of the document. It emits signals when the user requests
+/// something, and the window sets the displayed values.
 class SidePanel : public QFrame
 {
   Q_OBJECT
@@ -29,7 +29,7 @@ public:
   /// @param handles  the list in which handles are selected; it is outside this panel
   explicit SidePanel(HandleTree* handles, QWidget* parent = nullptr);
 
-  /// Set the handles. The displayed column is kept by name.
+  /// Set the handles. The displayed column is still the column of the handle with the same name.
   void set_handles(const std::vector<HandleTree::Row>& handles);
   void set_mode(int handle, int mode);
   /// Select only this handle; -1: none.
@@ -44,8 +44,8 @@ public:
   }
   HandleTree* handle_list() const { return this->handles_; }
 
-  /// Enable widgets for a state. `ready`: a surface and handles are open. `bound`: the surface has
-  /// weights.
+  /// Enable the widgets that apply. `ready`: a surface and handles are open. `binding`: a bind is
+  /// running. `bound`: the surface has weights.
   void set_state(bool ready, bool binding, bool bound);
   void set_progress(double fraction, const QString& phase);
   /// Set the one or two lines under the bind button: the accuracy of the weights (certificate), or
@@ -61,7 +61,7 @@ public:
   const bindpose::WeightMethod& method() const;
   /// Return the domain on which weights are solved.
   bindpose::WeightsDomain domain() const;
-  /// Return the column of the weights that is displayed; -1: none, the surface has its plain color.
+  /// Return the displayed column of the weights. If it is -1, the surface has its plain color.
   int shown_column() const;
   void show_column(int column);
 

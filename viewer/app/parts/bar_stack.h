@@ -14,7 +14,7 @@ public:
 
   /// Add a bar below the existing ones. A hidden bar takes no space.
   void add(QWidget* bar);
-  /// Set a child widget of the 3D view; while the child is visible, the stack begins below it.
+  /// Let the stack begin below a child widget of the 3D view while the child is visible.
   void begin_below(QWidget* widget);
 
 protected:

@@ -10,8 +10,8 @@ ErrorBar::ErrorBar(QWidget* parent) : QFrame(parent), text_(new QLabel(this))
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(14, 8, 8, 8);
   this->text_->setWordWrap(true);
-  // Let the text be narrower than a long word such as a path, which would otherwise make the window
-  // wider.
+  // Allow a width that is smaller than a long word, for example a path. Otherwise such a word would
+  // make the window wider.
   this->text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   this->text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   auto* close = new QPushButton(tr("Close"), this);

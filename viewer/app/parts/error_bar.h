@@ -28,7 +28,8 @@ public:
   /// Replace the current sentence.
   void show_sentence(const QString& sentence, ErrorKind kind = ErrorKind::other,
     const QString& tool_tip = QString());
-  /// Hide an error of this kind, because an operation of the same kind has succeeded.
+  /// Hide the bar if it shows an error of this kind. Call this function when an operation of the
+  /// same kind has succeeded.
   void succeeded(ErrorKind kind);
   /// Return the sentence; empty if the bar is hidden.
   QString sentence() const;

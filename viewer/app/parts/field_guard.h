@@ -16,8 +16,8 @@ class QWidget;
 class FieldGuard : public QObject
 {
 public:
-  /// Install the filter for the events of all widgets of the application; it is removed with the
-  /// parent.
+  /// Install the filter for the events of all widgets of the application. The filter is removed
+  /// when the parent is destroyed.
   /// @param entered  called after Enter in a number field of the parent, but not of a dialog
   FieldGuard(QWidget* parent, std::function<void()> entered);
 

@@ -17,8 +17,8 @@ class KernelJob : public QObject
   Q_OBJECT
 
 public:
-  /// The function that runs on the thread. It owns copies of its input, and uses shared pointers to
-  /// its output.
+  /// The function that runs on the thread. It must own copies of its input, and write its output to
+  /// objects that it shares by shared pointers.
   using Work = std::function<bindpose::Status(bindpose::ExecutionContext&)>;
 
   explicit KernelJob(QObject* parent = nullptr);
@@ -29,7 +29,8 @@ public:
   /// Request cancellation of the job. finished() is still emitted, with the status canceled.
   void cancel();
   bool is_running() const { return this->running_; }
-  /// Return the status of the last job, with seconds.* in its report; valid after finished().
+  /// Return the status of the last job; valid after finished(). Its report contains durations, in
+  /// entries whose names begin with "seconds.".
   const bindpose::Status& status() const { return this->status_; }
 
 Q_SIGNALS:

@@ -10,8 +10,8 @@ NoticeBar::NoticeBar(QWidget* parent)
   this->setObjectName("notice");
   this->row_->setContentsMargins(14, 6, 8, 6);
   this->text_->setWordWrap(true);
-  // Let the text be narrower than a long word such as a path, which would otherwise make the window
-  // wider.
+  // Allow a width that is smaller than a long word, for example a path. Otherwise such a word would
+  // make the window wider.
   this->text_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Preferred);
   this->text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   this->row_->addWidget(this->text_, 1);

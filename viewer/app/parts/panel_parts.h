@@ -29,7 +29,7 @@ QString capital(const QString& text);
 QString shortened(const QString& text, int longest);
 /// Return a line of text about a running job: the phase in words, and the percentage.
 QString progress_note(double fraction, const QString& phase);
-/// Return a description of a kernel phase in words.
+/// Return a text for users that describes a phase of a kernel.
 QString sentence_of(const QString& phase);
 
 #endif

@@ -187,8 +187,8 @@ const char* const appearance_key = "appearance";
 const char* const appearance_words[] = { "system", "light", "dark" };
 bool dark_now = false;
 
-/// Report whether the desktop is dark, from the palette that the application had before this
-/// program set its own.
+/// Report whether the desktop is dark. The first call must precede changes of the palette, because
+/// the result is computed from the palette that the application has at this time.
 bool system_is_dark(const QApplication& application)
 {
   static const bool dark = application.palette().color(QPalette::Window).lightness() < 128;
@@ -254,7 +254,7 @@ void apply_style(QApplication& application)
   font.setPointSizeF(10.0);
   application.setFont(font);
   QString text = sheet;
-  // Sort the names by descending length, because one name may be the beginning of another.
+  // Sort the names by descending length, because one name may be a prefix of another name.
   std::vector<Shade> by_length(std::begin(shades), std::end(shades));
   std::sort(by_length.begin(), by_length.end(),
     [](const Shade& a, const Shade& b)

@@ -13,8 +13,8 @@ void apply_style(QApplication& application);
 QColor shade(const char* name);
 bool is_dark();
 
-/// The appearance of the window: light, dark, or like the desktop. It is kept between runs of the
-/// program.
+/// The appearance of the window: light, dark, or the same as the desktop. The user's choice is
+/// stored and also used in later runs of the program.
 enum class Appearance
 {
   system,

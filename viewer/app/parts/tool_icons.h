@@ -3,8 +3,8 @@
 
 #include <QIcon>
 
-/// Return the icon of a tool or edit mode, by its action's name in window_keys.h. It is drawn in
-/// the colors of its button, and is sharp on every screen.
+/// Return the icon of a tool or edit mode. `action` is the name of its action in window_keys.h. The
+/// icon is drawn in the colors of its button, and is sharp on every screen.
 QIcon tool_icon(const char* action);
 
 #endif

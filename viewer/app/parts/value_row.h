@@ -18,9 +18,10 @@ public:
   /// Set the value without emitting value_chosen().
   void set_value(double value);
   double value() const;
-  /// Let the row's option store the fraction of the range, from 0 to 1, instead of the value.
+  /// Let the argument of choose() be a fraction of the range, from 0 to 1, instead of a value.
   void tell_shares() { this->tells_shares_ = true; }
-  /// Set the value of the option and emit value_chosen(), as if a user had chosen it.
+  /// Set the value and emit value_chosen(), as if a user had chosen the value. `option` is the
+  /// value, or a fraction of the range after tell_shares().
   void choose(double option);
   QSlider* slider() const { return this->slider_; }
   QDoubleSpinBox* field() const { return this->field_; }

@@ -9,8 +9,9 @@
 #include <vector>
 
 // All keys and mouse buttons of the window in one table. Actions read their shortcuts from the
-// table. The shortcut sheet and `bindpose key-table` show it together with the bindings of the
-// widgets. This header does not use Qt, because the program without the window contains it, too.
+// table. The shortcut sheet and `bindpose key-table` show the table together with the bindings of
+// the widgets. This header does not use Qt, because the program also uses it when the program is
+// built without the window.
 
 namespace bindpose
 {

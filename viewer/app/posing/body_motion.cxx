@@ -17,7 +17,7 @@ constexpr int frame_interval = 16; // milliseconds
 /// skipped.
 constexpr int most_steps = 4;
 /// A body is bound immediately, not in the background, if its number of vertices times its number
-/// of weight columns is at most this value.
+/// of handles is less than this value and the body is not simulated in tets.
 constexpr Index bound_at_once = 20000;
 } // namespace
 
@@ -139,7 +139,7 @@ void BodyMotion::play(bool play)
   }
   else
   {
-    this->playing_.stop(); // an idle window has no running timer
+    this->playing_.stop(); // no timer runs while the window is idle
   }
   this->panel_->set_playing(this->is_playing());
 }

@@ -14,15 +14,15 @@
 
 class PosePanel;
 
-/// Moves the shape as a body with mass, with the options of the panel. The body is bound in the
-/// background if that takes long. Its time steps are computed in real time.
+/// Moves the shape as a simulated body with mass, with the options of the panel. If the bind of the
+/// body takes long, it runs in the background. The time steps are computed in real time.
 class BodyMotion : public QObject
 {
   Q_OBJECT
 
 public:
-  /// @param pose  returns the pose of the handles. If `for_step` is true it returns the pose that
-  /// constrains the body, in which a handle in mode free is constrained only while it is dragged.
+  /// @param pose  returns the pose of the handles. If `for_step` is true, the function returns the
+  /// pose that constrains the body: handles in mode free constrain the body only during a drag.
   BodyMotion(
     PosePanel* panel, std::function<bindpose::Pose(bool for_step)> pose, QObject* parent = nullptr);
 
@@ -31,7 +31,7 @@ public:
   /// Create a new body with the panel's options, at rest in the pose of the handles.
   void begin();
   void end();
-  /// Apply changed options of the panel. If they need another bind, create a new body.
+  /// Apply changed options of the panel. If the new options need another bind, create a new body.
   void options_changed();
   void cancel_bind() { this->job_.cancel(); }
 
@@ -72,7 +72,7 @@ private:
   bindpose::Status status_;
   QTimer playing_;
   QElapsedTimer clock_;
-  double due_ = 0.0; ///< seconds of clock_ up to which time steps were computed
+  double due_ = 0.0; ///< time of clock_, in seconds, up to which time steps were computed
   KernelJob job_; // last member, so that the job ends before the data that it uses is destroyed
 };
 

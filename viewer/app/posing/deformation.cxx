@@ -13,8 +13,8 @@ using namespace bindpose;
 namespace
 {
 /// A slow method solves in slices of a few iterations. The constants are the number of iterations
-/// of the first slice for a pose, of the longest slice, and of all slices for one pose. The last
-/// value is the maximum of vtkFullARAP.
+/// of the first slice for a pose, the maximum for a slice, and the maximum for one pose.
+/// vtkFullARAP has the same maximum for one pose.
 constexpr Index first_slice = 2;
 constexpr Index longest_slice = 64;
 constexpr Index most_iterations = 500;

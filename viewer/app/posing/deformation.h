@@ -33,32 +33,34 @@ public:
   /// Report whether there is a source, and weights if the method needs them.
   bool can_pose() const;
 
-  /// Request the surface in this pose. It is computed immediately if the method is fast and its
-  /// bind has ended.
+  /// Request the surface in this pose. The surface is computed immediately if the method is fast
+  /// and its bind has ended or is short. Otherwise it is computed in the background.
   void set_pose(const bindpose::Pose& pose);
-  /// Cancel a running bind. A change of source or options, or bind(), starts the bind again.
+  /// Cancel a running bind or solve. It starts again after bind() or after a change of the source
+  /// or the options.
   void cancel();
   bool is_canceled() const { return this->canceled_; }
-  /// Start a bind again that cancel() has stopped.
+  /// Continue after cancel(): start the canceled bind or solve again.
   void bind();
 
-  /// Return the newest points: those of the last computed pose, or the source at rest before any
-  /// pose.
+  /// Return the points of the last computed pose. Before a pose was computed, return the points of
+  /// the source at rest.
   const bindpose::Points& points() const { return this->points_; }
   /// Return the status of points(), with the kernel's report.
   const bindpose::Status& status() const { return this->status_; }
-  /// Return the transforms that a fast method computed for points(); null if it computes none.
+  /// Return the transforms of the handles that a fast method computed for points(). Return null if
+  /// the method is slow or computes no transforms.
   const std::vector<bindpose::Affine>* found();
-  /// Return the rotations that the method fitted for points().
+  /// Return the rotations that the method fitted for points(); null if it fits none.
   const bindpose::PoseRotations* rotations();
   bool is_binding() const { return this->binding_; }
   /// Report whether points() are final: the solve for the current pose has ended.
   bool is_settled() const { return this->settled_; }
   /// Return the reason why the current pose could not be computed: one sentence, or empty.
   const QString& error() const { return this->error_; }
-  /// Return the number of binds for the source.
+  /// Return the number of binds that were made for the source, with all methods.
   bindpose::Index binds() const;
-  /// Return how often a running solve was canceled because a handle had moved again.
+  /// Return how many running solves were canceled because a handle had moved again.
   int restarts() const { return this->restarts_; }
 
 Q_SIGNALS:

@@ -1,5 +1,5 @@
-// Shows the distances between two methods' shapes as colors. The distances for a pose are written
-// into the array that is already drawn; they cost one norm per point.
+// Shows the distances between the shapes of two methods as colors. For every pose the distances are
+// written into the array that is already drawn. The cost is one vector norm per point.
 #include "app/posing/distance_view.h"
 
 #include "app/posing/posing.h"

@@ -29,8 +29,8 @@ private:
 };
 
 /// Return the upper end of a color scale that contains this value: 1, 2 or 5 times a power of ten,
-/// at least 0.01. The scale therefore changes rarely while a shape is bent, and coincident shapes
-/// have a single color.
+/// at least 0.01. Because of these steps, the scale changes rarely while a shape is bent. Because
+/// of the minimum, shapes that differ only by round-off have a single color.
 double distance_scale(double largest);
 
 #endif

@@ -26,8 +26,8 @@ public:
   /// @param handle  null: no handle is selected
   /// @param free  true: the handle is in mode free, so the solver computes its position
   void show_values(const bindpose::Handle* handle, const bindpose::HandleValues& values, bool free);
-  /// Show the layer of a handle in a planar shape. Empty: the shape is not planar, or no handle is
-  /// selected.
+  /// Show the layer of the selected handle. In a planar shape that overlaps itself, the layers
+  /// determine which part is in front. Empty: the shape is not planar, or no handle is selected.
   void show_layer(const std::optional<double>& layer);
   /// Show the number of selected handles, and the name of the handle whose values are displayed.
   /// The line is visible only if several handles are selected.
@@ -39,8 +39,8 @@ public:
   QDoubleSpinBox* layer() const { return this->layer_; }
 
 Q_SIGNALS:
-  /// Emitted when the value of a field has changed. A wheel or an arrow key emits it once per
-  /// increment.
+  /// Emitted when the value of a field has changed. The mouse wheel and the arrow keys cause one
+  /// signal per increment.
   void values_chosen(int field);
   /// Emitted when an edit is complete: the field has lost the focus, or Enter was pressed.
   void edit_ended();

@@ -150,7 +150,8 @@ QSize KeyTrack::sizeHint() const
   return { 300, 2 * this->fontMetrics().lineSpacing() + 6 };
 }
 
-/// Return the seconds that the track shows. After the last key there is space for another key.
+/// Return the length of the track in seconds. The track has space for another key after the last
+/// key.
 double KeyTrack::length() const
 {
   return std::max(2.0, std::ceil(this->keys_.duration() + 0.5));

@@ -10,9 +10,9 @@ class QLabel;
 class QPushButton;
 class KeyTrack;
 
-/// The strip of key frames below the 3D view: a track with one mark per key, and buttons that play
-/// and set keys. On the track users drag the mouse to change the displayed time (scrub) and to move
-/// keys. The window sets the contents.
+/// The strip of key frames below the 3D view: a track with one mark per key frame (key), and
+/// buttons that play the keys and set a key. Users drag the mouse on the track to change the
+/// displayed time (scrub) or to move a key. The window sets the contents.
 class KeyStrip : public QFrame
 {
   Q_OBJECT
@@ -65,7 +65,7 @@ public:
 
   void set_keys(const bindpose::KeyFrames& keys);
   void set_time(double seconds);
-  /// Return the position of a time in pixels from the left.
+  /// Return the position at which a time is drawn, in pixels from the left.
   int pixel(double seconds) const;
   QSize sizeHint() const override;
 

@@ -47,8 +47,8 @@ PoseGhost::PoseGhost(Viewport* viewport) : viewport_(viewport)
       k, ghost_color[0], ghost_color[1], ghost_color[2], k / (steps - 1.0));
   }
   this->mapper_->SetLookupTable(this->fading_);
-  // Both shapes coincide if points slide within an unchanged surface, although the distances are
-  // not zero. The first shape is then drawn in front.
+  // If two poses differ only by points that have moved within the same surface, both shapes
+  // coincide, although the distances of the points are not zero. Draw the first shape in front.
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
   this->mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 2.0);
   this->distances_->SetName(distance_name);
@@ -139,8 +139,8 @@ void PoseGhost::fade(bindpose::PointsView points, bindpose::PointsView first)
   this->shaded_->polydata()->GetPointData()->AddArray(this->distances_);
 }
 
-/// In the right half of a split view, draw the ghost like the first shape: with outlines, or with
-/// the same texture.
+/// Give a ghost in the right half of a split view the look of the first shape: the same outlines,
+/// or the same texture.
 void PoseGhost::look_as_beside()
 {
   vtkTexture* picture = this->viewport_->surface_actor()->GetTexture();

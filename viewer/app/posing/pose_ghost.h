@@ -21,9 +21,9 @@ class Viewport;
 class vtkActor;
 class vtkRenderer;
 
-/// The ghost is the viewport's surface in a second pose, for comparison. It is drawn
-/// semitransparent over the first shape where both differ, or in the right half of a split view
-/// with the same camera.
+/// The ghost is the viewport's surface as posed by a second method, for comparison. It is drawn
+/// semitransparent over the first shape where both shapes differ, or in the right half of a split
+/// view with the same camera.
 class PoseGhost
 {
 public:
@@ -39,10 +39,10 @@ public:
   explicit PoseGhost(Viewport* viewport);
   ~PoseGhost();
 
-  /// Set the surface that the ghost shows in another pose; null: no ghost.
+  /// Set the surface at rest of which the ghost shows a pose; null: no ghost.
   void set_surface(vtkPolyData* surface);
-  /// Set where the ghost is drawn, the points of the ghost, and the points of the viewport's shape.
-  /// If `points` is empty, the ghost keeps its points.
+  /// Set where the ghost is drawn. `points` are the points of the ghost, and `first` the points of
+  /// the viewport's shape. If `points` is empty, the ghost keeps its points.
   void set_place(Place place, bindpose::PointsView points, bindpose::PointsView first);
   Place place() const { return this->place_; }
   void move(bindpose::PointsView points, bindpose::PointsView first);
@@ -72,7 +72,7 @@ private:
   /// Outline of the ghost in the right half of the split view.
   std::unique_ptr<bindpose::Outline> outline_;
   bool in_window_ = false;
-  bool clips_ = false; // true while clipped() sets the range of both halves
+  bool clips_ = false; // true while clipped() sets the clipping range of both halves
 };
 
 #endif

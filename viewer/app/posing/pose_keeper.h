@@ -13,9 +13,9 @@
 class KeyStrip;
 class PoseList;
 
-/// Manages the stored poses: named poses in a list, and key frames, which it can play. The list of
-/// poses and the strip of key frames request changes of the shelf (all stored poses). This class
-/// does not set the pose of the handles; it requests a pose by signals.
+/// Manages the shelf, which contains all stored poses: named poses and key frames. It changes the
+/// shelf when the list of poses or the strip of key frames requests a change, and it plays the key
+/// frames. This class does not set the pose of the handles; it requests a pose by signals.
 class PoseKeeper : public QObject
 {
   Q_OBJECT
@@ -34,8 +34,8 @@ public:
   void play(bool play);
 
 Q_SIGNALS:
-  /// Emitted to request this pose of the handles. `step` is the name of the undo step. It is empty
-  /// during an interaction, which pose_done() ends.
+  /// Emitted to request this pose of the handles. `step` is the name of the undo step. During
+  /// playback, scrubbing or blending `step` is empty, and pose_done() is emitted at the end.
   void pose_wanted(const bindpose::Pose& pose, const QString& step);
   void pose_done(const QString& step);
   void shelf_changed(const QString& step);

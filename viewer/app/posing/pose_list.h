@@ -26,8 +26,9 @@ Q_SIGNALS:
   void apply_wanted(int entry);
   void remove_wanted(int entry);
   void renamed(int entry, const QString& name);
-  /// Emitted when the slider was moved between the current pose (0) and the selected pose (1), or
-  /// was released.
+  /// Emitted when the user has moved the slider. `share` is its position, from 0 (the current pose)
+  /// to 1 (the selected pose, whose index is `entry`). blend_ended() is emitted when the slider is
+  /// released.
   void blended(int entry, double share);
   void blend_ended();
 

@@ -388,7 +388,8 @@ void PosePanel::add_motion(QVBoxLayout* column)
   for (QPushButton* each : { this->play_, this->step_, this->restart_ })
   {
     buttons->addWidget(each, 1);
-    // The layout takes the height that a note with line breaks lacks from widgets that can shrink.
+    // Fix the minimum height. If a note with line breaks needs more height than is available, the
+    // layout would otherwise reduce the height of the buttons.
     each->ensurePolished();
     each->setMinimumHeight(each->sizeHint().height());
   }

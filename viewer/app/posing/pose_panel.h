@@ -20,8 +20,8 @@ class Section;
 class ValueRow;
 
 /// The panel for posing: the method with its options, a second method for comparison, and the
-/// simulated body. Widgets that choose options have the options' keys as object names. The panel
-/// only stores the choices; other classes use them.
+/// simulated body. The object name of a widget that sets an option is the key of the option. The
+/// panel only stores the choices; other classes use them.
 class PosePanel : public QWidget
 {
   Q_OBJECT

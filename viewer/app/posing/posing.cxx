@@ -217,15 +217,16 @@ void Posing::options_changed()
   Q_EMIT this->moved();
 }
 
-/// Show in the 3D view how the method treats the modes of handles.
+/// Update how the 3D view draws handles in mode automatic. It depends on whether the method
+/// computes the rotations of handles that are only translated.
 void Posing::show_what_is_held()
 {
   const bool finds = finds_rotations(this->panels_.pose->options().method);
   this->viewport_->handle_widget()->GetHandleSetRepresentation()->SetFindsRotations(finds);
 }
 
-/// Return the options for the compared method: the options of the current method, with only the
-/// method replaced.
+/// Return the options for the compared method. They are the options of the current method, except
+/// for the method.
 PoseOptions Posing::compared_options() const
 {
   PoseOptions options = this->panels_.pose->options();
@@ -654,7 +655,7 @@ Pose Posing::holding_pose() const
       }
       else
       {
-        // the transform was computed by the method, so it must not constrain
+        // the method has computed this transform, so the transform must not constrain the body
         pose[k].transform = identity_affine();
       }
     }

@@ -25,9 +25,9 @@ class Viewport;
 /// Posing in the window: the current method and the method for comparison, the simulated body,
 /// playback of key frames, the stored poses, and the texts of the panels about them.
 ///
-/// This class reads the pose from the handle dataset, which the widget edits in place. It changes
-/// the pose only by pose_changed() and pose_done(), so that the owner of the undo history receives
-/// every change.
+/// This class reads the pose from the handle dataset, which the handle widget edits in place. To
+/// change the pose, it emits pose_changed() and pose_done(), so that the owner of the undo history
+/// receives every change.
 class Posing : public QObject
 {
   Q_OBJECT
@@ -48,9 +48,9 @@ public:
   void set_data(
     vtkPolyData* surface, vtkUnstructuredGrid* tets, vtkPolyData* handles, bool use_weights);
   bool has_weights() const;
-  /// Set the normal, toward the eye, of a planar surface; empty: the surface is not planar. Where a
-  /// pose makes a planar surface overlap itself, the layers of its handles determine which part is
-  /// in front. Must be called before set_data().
+  /// Set the unit normal of a planar surface, which points to the eye; empty: the surface is not
+  /// planar. If a planar surface overlaps itself in a pose, the layers of the handles determine
+  /// which part is in front. This function must be called before set_data().
   void set_plane(const std::optional<bindpose::Vec3>& normal) { this->plane_ = normal; }
   /// Report whether the method has all data that it needs.
   bool can_pose() const { return this->main_->can_pose(); }
@@ -66,28 +66,30 @@ public:
 
   /// Return the surface at rest, from set_data().
   vtkPolyData* surface() const { return this->surface_; }
-  /// Return the visible shape, posed or at rest. The object is the same until another surface is
-  /// set.
+  /// Return the current shape: posed, or the surface at rest. All posed shapes of a surface are
+  /// returned in the same object, whose points change.
   vtkPolyData* shape();
-  /// Return the shape that draw() draws: shape(), or the surface at rest while data that belongs to
-  /// it is inspected.
+  /// Return the shape that draw() draws: normally shape(), but the surface at rest while
+  /// inspect_at_rest() is in effect.
   vtkPolyData* seen() { return this->inspected_ ? this->surface_.Get() : this->shape(); }
   /// Update the viewport's surface and its ghost to seen().
   void draw();
   /// Set whether the 3D view shows data that belongs to the shape at rest (tets, slices). draw()
-  /// then draws the shape at rest, without a comparison. Posing continues.
+  /// then draws the shape at rest, without the shape of the compared method. The pose is still
+  /// computed.
   void inspect_at_rest(bool inspects);
   /// Report whether the 3D view shows the shape at rest, regardless of the pose.
   bool shows_rest() const { return this->inspected_ || this->at_rest_ || this->edits_at_rest_; }
   /// Report whether the pose moves a handle, or the simulated body moves.
   bool is_posed() const;
-  /// Show the shape at rest, regardless of the pose. The next drag ends this.
+  /// Set whether the shape is shown at rest, regardless of the pose. The posed shape is shown again
+  /// when this class changes the pose, or when edit_at_rest() is called.
   void look_at_rest(bool rest);
   bool looks_at_rest() const { return this->at_rest_; }
   bool edits_at_rest() const { return this->edits_at_rest_; }
-  /// Show the shape at rest while handles are edited at rest, so that the mouse can drag them.
+  /// Set whether handles are edited at rest. The shape is then shown at rest, too.
   void edit_at_rest(bool edits);
-  /// Return a line about the last pose: its computing time and its result.
+  /// Return a line of text about the last pose: its computing time and its result.
   QString reading() const;
 
   Deformation* deformation() const { return this->main_; }
@@ -118,9 +120,10 @@ Q_SIGNALS:
   void pose_done(const QString& step, const QString& merge = {});
   void edit_ended();
   void shelf_changed(const QString& step);
-  /// Emitted when the cell arrays of the handles have changed, to make an undo step.
+  /// Emitted when the cell arrays of the handles have changed, to request an undo step named
+  /// `step`.
   void handles_changed(const QString& step);
-  /// Emitted when the shape or the text about it has changed; the window must call draw().
+  /// Emitted when the shape or the text of reading() has changed. The window must then call draw().
   void moved();
   void failed(const QString& sentence);
   /// Emitted when a pose was applied without errors.
@@ -164,7 +167,7 @@ private:
   bool at_rest_ = false;
   bool edits_at_rest_ = false;
   bool inspected_ = false; ///< true: data that belongs to the shape at rest is inspected
-  /// The way of comparison that the panel requested at the last update.
+  /// The display of the compared method that the panel requested at the last update.
   PoseGhost::Place chosen_ = PoseGhost::hidden;
   double drawing_microseconds_ = 0.0; ///< time that draw() took for points and normals
 };

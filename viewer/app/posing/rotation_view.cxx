@@ -1,6 +1,6 @@
-// Shows the rotations of as-rigid-as-possible methods as colors. The colors of clusters are valid
-// until the next bind. For every pose, angles are written into the array that is already drawn,
-// with one look-up per point.
+// Shows the rotations of as-rigid-as-possible methods as colors. The colors of clusters change only
+// with the next bind. The angles change with every pose: they are written into the array that is
+// already drawn, with one look-up per point.
 #include "app/posing/rotation_view.h"
 
 #include "app/posing/pose_panel.h"

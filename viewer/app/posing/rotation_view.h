@@ -18,8 +18,9 @@ class PosePanel;
 class Posing;
 class Viewport;
 
-/// Shows the rotations of as-rigid-as-possible methods as colors on the shape: the clusters that
-/// share a rotation, or the angle of each rotation, as selected in the panel.
+/// Shows the rotations of as-rigid-as-possible methods as colors on the shape. The panel selects
+/// what the colors show: the clusters of points with the same rotation, or the angle of each
+/// rotation.
 class RotationView
 {
 public:

@@ -215,7 +215,7 @@ Status SequenceExport::write_datasets(const std::string& path)
 Status SequenceExport::write_rig(const std::string& path)
 {
   vtkNew<vtkGLTFSkinWriter> writer;
-  // keeps VTK from printing the errors, which the writer's status also contains
+  // Add observers, so that VTK does not print the errors. The writer's status contains them, too.
   vtkNew<vtkCallbackCommand> nothing;
   nothing->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
   writer->AddObserver(vtkCommand::ErrorEvent, nothing);
@@ -249,7 +249,7 @@ Status SequenceExport::write_strip(const std::string& path)
 {
   vtkHandleSetWidget* handles = this->viewport_->handle_widget();
   const bool shown = handles->GetEnabled();
-  // hide the handles: they have the current pose, which is not the pose of the frame
+  // hide the handles, because their pose is not the pose of the frame
   handles->SetEnabled(false);
   QImage strip;
   const std::vector<std::size_t> taken = evenly(this->frames_->points.size(), most_tiles);

@@ -15,9 +15,9 @@ class Viewport;
 /// Writes an animation in the format of the file name's extension. The extension .json gives a pose
 /// file; extensions of mesh files give numbered datasets with a .pvd file; .glb and .gltf give one
 /// animated file; .png gives one image with several frames; .gif, .webm, .mp4 and .apng give films,
-/// which ffmpeg encodes. Frames are posed and films are encoded in the background. Images are
-/// rendered by the viewport. Files are written completely or not at all. They replace existing
-/// files, because the file dialog has asked for confirmation.
+/// which ffmpeg encodes. A background thread poses the frames and encodes films. The viewport
+/// renders images. Files are written completely or not at all. They replace existing files, because
+/// the file dialog has asked for confirmation.
 class SequenceExport : public QObject
 {
   Q_OBJECT
@@ -41,7 +41,7 @@ public:
   void start(const Input& input, const QString& path);
   void cancel();
   bool is_running() const { return this->job_.is_running() || this->encoder_.is_running(); }
-  /// Return the error: one sentence, or empty.
+  /// Return the error of the last export: one sentence, or empty.
   const QString& error() const { return this->error_; }
   /// Return a description of the written data, such as "24 frames"; empty after a cancel.
   const QString& said() const { return this->said_; }
@@ -50,7 +50,8 @@ public:
 
 Q_SIGNALS:
   void progress(double fraction);
-  /// Emitted when all images were rendered. The window must then draw its own shape again.
+  /// Emitted when the viewport is no longer used for the export. The window must then draw the
+  /// current shape again, because the viewport may still show the last frame.
   void pictures_taken();
   void finished();
 

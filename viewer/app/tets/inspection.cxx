@@ -67,8 +67,8 @@ qlonglong count_all(vtkPolyData* defects)
   return sum;
 }
 
-/// Return a text with the counts per type, like "boundary 12, fold 3"; empty if there are no
-/// defects.
+/// Return a text with the number of defects per type, like "boundary: 12, fold: 3"; empty if there
+/// are no defects.
 QString counts_of(vtkPolyData* defects)
 {
   std::vector<Category> categories = defect_categories();
@@ -302,8 +302,7 @@ void Inspection::show_defects()
   this->panel_->show_defects(true);
 }
 
-/// Search for defects once per surface. The result is shown, or only reported if the user has not
-/// requested defects.
+/// Search for defects in the background. The search runs once per surface.
 void Inspection::start_looking()
 {
   SurfaceInput surface;

@@ -12,8 +12,8 @@
 class TetPanel;
 class Viewport;
 
-/// Inspection of a surface's tets and defects. Tets and defects are computed in the background.
-/// While the panel is visible, the class shows them as the panel requests.
+/// Inspection of a surface's tets and defects, which are computed in the background. While the
+/// panel is visible, this class shows the tets and defects as the panel requests.
 class Inspection : public QObject
 {
   Q_OBJECT
@@ -21,14 +21,15 @@ class Inspection : public QObject
 public:
   Inspection(Viewport* viewport, TetPanel* panel);
 
-  /// Set the surface at rest, and the tets whose boundary it is (null: no tets yet).
+  /// Set the surface at rest, and the tets inside it that were opened from a file (null: no tets).
   void set_surface(vtkPolyData* surface, vtkUnstructuredGrid* tets);
-  /// Set whether the panel is visible. If not, the surface has its normal look.
+  /// Set whether the panel is visible. If it is not, the surface is drawn normally, without tets
+  /// and defects.
   void set_active(bool active);
   void make_tets(int method); ///< compute tets with a meshing method, one of TetPanel::Method
   void cancel();
-  /// Look for defects in the background after the surface was drawn, and emit defects_found() if
-  /// there are any.
+  /// Search for defects in the background after the surface was drawn. Emit defects_found() if the
+  /// surface has defects.
   void look_for_defects();
   void show_defects();
   bool is_busy() const
@@ -44,7 +45,7 @@ public:
 
 Q_SIGNALS:
   void surface_look_changed();
-  /// Emitted when the first tets of the surface were computed, before they are shown.
+  /// Emitted when the first tets of the surface were computed, before the tets are shown.
   void tets_made();
   /// Emitted when the search of look_for_defects() has found defects. `counts` is a text with the
   /// counts per type.
@@ -52,7 +53,7 @@ Q_SIGNALS:
   /// Emitted with one sentence if tets or their colors cannot be computed; the display is
   /// unchanged.
   void failed(const QString& sentence);
-  /// Emitted when tets were computed, or are shown as requested.
+  /// Emitted when the tets are shown with the requested colors.
   void succeeded();
   /// Emitted with a message for the user after tets were computed.
   void noticed(const QString& sentence);

@@ -11,9 +11,9 @@ class QProgressBar;
 class QPushButton;
 class ValueRow;
 
-/// The panel to the right of the 3D view for tets and defects of a surface: compute tets, cut them
-/// open, inspect them. Like SidePanel it emits signals when the user requests something, and has no
-/// state of the work.
+/// The panel to the right of the 3D view for tets and defects of a surface. In it the user computes
+/// tets, cuts them open and inspects them. Like SidePanel, it emits signals when the user requests
+/// something, and stores no data of the document.
 class TetPanel : public QFrame
 {
   Q_OBJECT

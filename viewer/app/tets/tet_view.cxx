@@ -1,6 +1,6 @@
-// Draws tets that are cut open. Faces of tets are drawn with flat shading, so that a new plane
-// needs no normals. TetCut computes the visible faces. They become the triangles of two actors,
-// which use the tets' own points.
+// Draws tets that are cut open. TetCut computes the visible faces. These become the triangles of
+// two actors, which use the points of the tets without a copy. Faces are drawn with flat shading,
+// so that no normals are computed when the plane moves.
 #include "app/tets/tet_view.h"
 
 #include "app/view/viewport.h"
@@ -167,7 +167,7 @@ void TetView::draw(
 }
 
 /// Draw the tets with gaps between them. All kept tets are drawn, which is slow. During a drag,
-/// only tets are drawn that would have a visible face without gaps.
+/// tets are drawn only if they have a face on the boundary of the kept tets.
 void TetView::draw_shrunk()
 {
   const bool dragging = QApplication::mouseButtons() != Qt::NoButton;

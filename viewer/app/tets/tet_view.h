@@ -22,8 +22,8 @@
 
 class Viewport;
 
-/// Shows tets in the 3D view: cut open by a plane that the mouse drags, shrunk, colored. The cut
-/// removes whole tets; tets whose center is behind the plane are kept.
+/// Shows tets in the 3D view. They can be cut open by a plane that the mouse drags, shrunk, and
+/// colored by values. The cut removes whole tets and keeps those whose center is behind the plane.
 class TetView : public QObject
 {
   Q_OBJECT
@@ -31,8 +31,8 @@ class TetView : public QObject
 public:
   explicit TetView(Viewport* viewport);
 
-  /// Set the tets, which bindpose::to_tets() must accept; null: no tets. The plane keeps its
-  /// relative position.
+  /// Set the tets; null: no tets. If bindpose::to_tets() cannot convert them, return its error. The
+  /// plane keeps its relative position in the bounding box.
   bindpose::Status set_tets(vtkUnstructuredGrid* tets);
   vtkUnstructuredGrid* tets() const { return this->grid_; }
 
@@ -44,8 +44,8 @@ public:
   PlaneHandle* plane() const { return this->plane_; }
   /// Set the drawn size of each tet relative to its own size, in (0, 1].
   void set_shrink(double factor);
-  /// Set the values that are displayed as colors; empty: plain tets. Return an error, and keep the
-  /// colors, if the tets have no such values.
+  /// Set the values that are displayed as colors; empty: all tets have the same color. If the tets
+  /// do not have these values, return an error and keep the colors.
   bindpose::Status set_colors(std::optional<bindpose::ColorBy> by);
 
   /// Return the tets. The next two functions return which tets the cut keeps, and the drawn size of
@@ -53,7 +53,7 @@ public:
   const bindpose::TetInput& input() const { return this->input_; }
   const std::vector<char>& kept() const { return this->cut_.kept(); }
   double shrink() const { return this->shrink_; }
-  /// Return the displayed values, one per tet; null if the tets are plain.
+  /// Return the displayed values, one per tet; null if no values are displayed.
   vtkDoubleArray* values() const { return this->values_; }
   const bindpose::Coloring& coloring() const { return this->coloring_; }
 
@@ -78,7 +78,7 @@ private:
   bindpose::TetInput input_;
   bindpose::TetCut cut_;
   bindpose::Coloring coloring_;
-  vtkSmartPointer<vtkDoubleArray> values_; // the displayed values, #T; null if the tets are plain
+  vtkSmartPointer<vtkDoubleArray> values_; // the displayed values, #T; null: no values
   bool shown_ = false;
   bool cut_open_ = true;
   bool other_side_ = false;

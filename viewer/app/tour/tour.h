@@ -10,13 +10,14 @@
 namespace bindpose
 {
 
-/// A position of the mouse in the 3D view. It is computed when the step is played.
+/// A description of a mouse position in the 3D view. The position in pixels is computed when the
+/// step is played.
 struct TourPlace
 {
   std::string handle; ///< name of a handle; empty: the position is relative to the view
   double along = 0.0; ///< position on a bone, from its head (0) to its tail (1)
-  /// A part of the selected handle's gizmo, one of bindpose::GizmoPart, at the position where it is
-  /// best grabbed; 0: no part.
+  /// A part of the selected handle's gizmo, one of bindpose::GizmoPart; 0: no part. The position is
+  /// the point at which the mouse can best grab the part.
   int gizmo_part = 0;
   /// For the view: the position from its upper left corner, as fractions of its width and height.
   /// For a handle or a gizmo: an offset to the right and down, in pixels.
@@ -33,7 +34,7 @@ enum class TourVerb
   panel, ///< show a panel to the right of the 3D view: pose, weights, tets or volume
   select, ///< select a handle in the list
   type, ///< type a text into a field, as with the keyboard
-  mode, ///< set the mode of the selected handle: full, position, free, tail or ends
+  mode, ///< set the mode of the selected handles: full, position, free, tail, ends or auto
   click,
   double_click,
   press,
@@ -41,7 +42,7 @@ enum class TourVerb
   release,
   drag,
   wheel,
-  scrub, ///< drag the time of the key frames with the mouse; the argument is in seconds
+  scrub, ///< click on the track of the key frames at a time in seconds
   key, ///< press a key, in the notation of menus: "Ctrl+Z", "Esc"
   resize,
   wait, ///< wait for "bind", "idle", or a number of seconds
@@ -78,10 +79,10 @@ enum class TourPart
 struct TourStep
 {
   TourVerb verb = TourVerb::wait;
-  std::string text; ///< file, name, key or sentence, depending on the verb
+  std::string text; ///< argument of the verb: a file, a name, a key or a text
   std::string field; ///< accessible name of the field to type into
-  /// Name of a file in the folder of screenshots, for the file dialog that the step opens. With an
-  /// empty name, the step fails if it opens any dialog.
+  /// Name of a file in the folder of screenshots, which is entered in the file dialog that the step
+  /// opens. If the name is empty, the step fails when it opens a modal dialog.
   std::string answer;
   std::string say; ///< text about the step for a tutorial
 
@@ -96,7 +97,7 @@ struct TourStep
   std::array<int, 2> size{ 0, 0 }; ///< window size to resize to
   TourPart part = TourPart::window; ///< the part that a screenshot shows
   int width = 0; ///< maximum width of a screenshot in pixels; 0: no limit
-  int scale = 1; ///< Pixels of a screenshot of the view per pixel of the window, in each direction.
+  int scale = 1; ///< pixels of a screenshot of the view per pixel of the window, in each direction
   bool transparent = false; ///< true: a screenshot of the view has a transparent background
 
   TourRelation relation = TourRelation::is;
@@ -115,13 +116,13 @@ struct Tour
   /// Size of the 3D view in pixels. The window is resized until the view has this size, for any
   /// font; 0: no fixed size.
   std::array<int, 2> view{ 0, 0 };
-  double seconds = 300.0; ///< maximum duration
+  double seconds = 300.0; ///< maximum duration of the tour
   std::vector<TourStep> steps;
 };
 
 /// Read a tour from JSON: {"tour": {"schema": 1, …}, "steps": [{"open": "a.off"}, …]}.
-/// viewer/sessions_and_tours.md documents the format. Return invalid_input, with one sentence that
-/// names the step, for anything that is not part of the format, including unknown fields.
+/// viewer/sessions_and_tours.md documents the format. If the text does not follow the format, for
+/// example because of an unknown field, return invalid_input with a sentence that names the step.
 Status parse_tour(const std::string& text, Tour& tour);
 /// Read a tour from a file. Messages begin with the name of the file.
 Status read_tour(const std::string& path, Tour& tour);

@@ -33,8 +33,9 @@ using Json = nlohmann::ordered_json;
 
 // frames per second that are recorded while the shape moves without user input
 constexpr double film_rate = 20.0;
-// A pixel belongs to the background if its color differs by at most this value, from 0 to 255, from
-// the background color of its row. Within a row the background itself differs by less.
+// A pixel belongs to the background if no color component differs by more than this value from the
+// background color of its row. Components are from 0 to 255. Within a row, the background color
+// varies by less than this value.
 constexpr int drawn_level = 12;
 
 Qt::MouseButton button_of(const TourStep& step)
@@ -71,8 +72,8 @@ QImage at_most(const QImage& picture, int width)
     : picture;
 }
 
-/// Return the fraction of pixels that differ from the background. The background has one color per
-/// row.
+/// Return the fraction of pixels that differ from the background. The last pixel of each row
+/// determines the background color of the row.
 double drawn_share(const QImage& picture)
 {
   long long drawn = 0;
@@ -95,8 +96,8 @@ QString json_text(const Json& value)
   return QString::fromStdString(value.dump());
 }
 
-/// Ignores the display's own mouse and keyboard events, because the real mouse may be over the
-/// window.
+/// Discards events of the real mouse and keyboard, because the real mouse may be over the window.
+/// Qt reports such events as spontaneous.
 class HandsOff : public QObject
 {
 public:
@@ -253,9 +254,9 @@ void TourPlayer::let_draw()
   }
 }
 
-/// Run a part of a step and answer the dialogs that it opens. If `answer` is not empty, a file
-/// dialog gets it as the name of its file, and every dialog except a message box is accepted once.
-/// All other dialogs are closed, and a sentence about them is returned.
+/// Run `what`, a part of a step, and answer the dialogs that it opens. If `answer` is not empty, it
+/// is entered as the file name in a file dialog, and every dialog except a message box is accepted
+/// once. All other dialogs are closed, and the returned sentence reports them.
 QString TourPlayer::answer_dialogs(const std::function<QString()>& what, const std::string& answer)
 {
   const QString file =
@@ -468,8 +469,8 @@ QString TourPlayer::wait(const TourStep& step)
       ? QString()
       : QString("the window was still busy at the time limit of the tour");
   }
-  // The timeout of the tour may shorten a wait. Report the timeout here, because timers may end a
-  // millisecond too early.
+  // The timeout of the tour may shorten a wait. Report the timeout here: play() might not detect
+  // it, because timers may end a millisecond too early.
   const double left = std::max(0.0, this->left());
   const double seconds = std::min(step.seconds, left);
   const QString sentence = step.seconds > left ? this->out_of_time() : QString();

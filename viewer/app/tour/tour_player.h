@@ -21,13 +21,14 @@ struct TourRequest
 {
   std::string path; ///< path of the tour
   std::string folder; ///< folder for screenshots and tour.json; empty: only the checks are run
-  double seconds = 0.0; ///< maximum duration; 0: the duration that the tour specifies
+  double seconds = 0.0; ///< maximum duration; 0: the maximum duration that the tour specifies
   bool overwrite = false;
 };
 
-/// Plays a tour in a window, as a user would, and reports the first failure: a step that is
-/// impossible, an empty screenshot, a check that fails, a dialog without an answer, or a timeout.
-/// Everything runs in the window's own event loop. The mouse and the keyboard of the display are
+/// Plays a tour in a window with simulated user input, and reports the first failure. Failures are:
+/// a step that is impossible, an empty screenshot, a failed check, a dialog without an answer, or a
+/// timeout.
+/// Everything runs in the window's own event loop. Events of the real mouse and keyboard are
 /// ignored, but the window can be closed.
 class TourPlayer
 {
@@ -36,8 +37,8 @@ public:
   /// working directory.
   TourPlayer(MainWindow* window, const bindpose::Tour& tour, const std::string& folder);
 
-  /// Play the tour. Return invalid_input, with one sentence that names the step, on the first
-  /// failure. Files that were already written are kept, and so is tour.json.
+  /// Play the tour. At the first failure, stop and return invalid_input with a sentence that names
+  /// the step. Screenshots that were already written are kept, and tour.json is written.
   bindpose::Status play(const TourRequest& request);
 
   /// Return the contents of tour.json.
@@ -79,7 +80,7 @@ private:
   int frames_ = 0;
   nlohmann::ordered_json record_;
   QObject context_; ///< context of connections
-  std::unique_ptr<QObject> hands_off_; ///< filters events of the display's own mouse and keyboard
+  std::unique_ptr<QObject> hands_off_; ///< filters out events of the real mouse and keyboard
 };
 
 #endif

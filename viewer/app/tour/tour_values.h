@@ -13,9 +13,9 @@ namespace bindpose
 /// viewer/sessions_and_tours.md documents the names. Values that do not apply are absent.
 nlohmann::ordered_json tour_values(MainWindow* window);
 
-/// Return the distance between two values: the largest absolute difference of a component. For
-/// words it is 0 if they are equal, otherwise infinite. For values of different types it is
-/// infinite.
+/// Return the distance between two values. For numbers it is the largest absolute difference of a
+/// component. For words it is 0 if they are equal, otherwise infinite. For values of different
+/// types it is infinite.
 double distance(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b);
 
 /// Return the seconds since this process was started; negative if unknown.

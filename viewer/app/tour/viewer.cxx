@@ -19,7 +19,7 @@ class Application
 public:
   Application()
   {
-    QApplication::setApplicationName("bindpose"); // the name is part of the path of recovered work
+    QApplication::setApplicationName("bindpose"); // part of the path of recovered work
     QApplication::setApplicationDisplayName("Bindpose");
     apply_style(this->application_);
   }
@@ -42,7 +42,7 @@ private:
 
 void open_first_files(MainWindow& window, const std::vector<FirstFile>& files)
 {
-  // collected here, because a file that is opened without error hides the previous error
+  // Collect the errors, because opening a file without an error hides the previous error.
   QStringList errors;
   for (const FirstFile& file : files)
   {

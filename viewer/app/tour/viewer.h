@@ -11,7 +11,8 @@
 
 class MainWindow;
 
-/// A file to open at the start. If it has neither data nor an error, the window reads it.
+/// A file to open when the program starts. If this struct has neither data nor an error, the window
+/// reads the file.
 struct FirstFile
 {
   std::string path;
@@ -24,11 +25,11 @@ struct FirstFile
 /// @param auto_rig  create bones along the mesh and bind it
 int run_viewer(const std::vector<FirstFile>& files, bool auto_rig);
 
-/// Open all files that can be opened. The error bar shows the errors of all others.
+/// Open all files that can be opened. The error bar shows the errors of the other files.
 void open_first_files(MainWindow& window, const std::vector<FirstFile>& files);
 
-/// Run `bindpose view --play`: like run_viewer(), with a tour instead of a user. The user's recent
-/// files and recovered work are neither read nor changed.
+/// Run `bindpose view --play`: like run_viewer(), but a tour is played instead of user input. The
+/// user's list of recent files and recovered work are not read or changed.
 bindpose::Status play_tour(
   const std::vector<FirstFile>& files, bool auto_rig, const TourRequest& request);
 

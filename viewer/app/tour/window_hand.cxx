@@ -174,7 +174,7 @@ void WindowHand::wheel(const QPoint& at, double turns, Qt::KeyboardModifiers hel
 
 void WindowHand::leave()
 {
-  // while a button is pressed, the 3D view keeps the mouse, so that no leave event occurs
+  // While a button is pressed, the 3D view grabs the mouse, so Qt would send no leave event.
   if (this->buttons_ == Qt::NoButton)
   {
     QEvent event(QEvent::Leave);
@@ -265,8 +265,8 @@ QString WindowHand::press_key(const QString& keys)
   const QString text = letter
     ? (held & Qt::ShiftModifier ? QString(QChar(key)) : QString(QChar(key)).toLower())
     : QString();
-  // Send the key to the focused field first. In Qt, a field in which the user is typing receives a
-  // key before the shortcuts of the menus.
+  // Offer the key to the widget with the focus first. In Qt, this widget receives a key before the
+  // shortcuts of the menus.
   QKeyEvent first(QEvent::ShortcutOverride, key, held, text);
   first.ignore();
   QApplication::sendEvent(focus, &first);
@@ -508,7 +508,7 @@ bool wait_until(const std::function<bool()>& condition, double seconds)
 {
   QElapsedTimer clock;
   clock.start();
-  QTimer wake; // wakes the event loop, because the condition may become true without an event
+  QTimer wake; // Wakes the event loop, because the condition may become true without an event.
   wake.start(5);
   while (!condition())
   {

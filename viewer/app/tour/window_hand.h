@@ -27,8 +27,8 @@ public:
   /// Find the screen position of a posed handle, between its head (`along` is 0) and its tail (1).
   /// Return a sentence if there is no such handle.
   QString place_of(const QString& handle, double along, QPoint& at) const;
-  /// Find the position where a part of the selected handle's gizmo is best grabbed. Return a
-  /// sentence if it is not visible.
+  /// Find the position at which the mouse can best grab a part of the selected handle's gizmo.
+  /// Return a sentence if the part is not visible.
   QString place_of_gizmo(int part, QPoint& at) const;
   void press(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held = {});
   void move(const QPoint& at, Qt::KeyboardModifiers held = {});
@@ -37,7 +37,7 @@ public:
   void wheel(const QPoint& at, double turns, Qt::KeyboardModifiers held = {});
   /// Move the mouse off the 3D view, as a user does before using another widget.
   void leave();
-  /// Drag the mouse on the track of the key frames to this time.
+  /// Click on the track of the key frames at this time.
   void scrub(double seconds);
   /// Return the buttons that are pressed.
   Qt::MouseButtons buttons() const { return this->buttons_; }
@@ -47,13 +47,13 @@ public:
   QString drop(const QString& file);
   /// Replace the text of the visible field that has this accessible name.
   QString type(const QString& text, const QString& field);
-  /// Send the key to the widget with the keyboard focus, or trigger the menu entry with that
-  /// shortcut.
+  /// Press a key: trigger the menu entry with this shortcut or, if there is none, send the key to
+  /// the widget with the keyboard focus.
   QString press_key(const QString& keys);
   /// Trigger an action by its object name.
   QString trigger(const QString& action);
-  /// Click a visible button by its text, without the ampersands of menus and the marks in front of
-  /// section names.
+  /// Click a visible button by its text. Ampersands of the text, and the marks in front of section
+  /// names, must be omitted.
   QString push(const QString& text);
   /// Choose a value of an option with the widget whose object name is the option's key.
   QString choose(const QString& option, const QVariant& value);

@@ -229,10 +229,10 @@ void PlaneHandle::widget_caught()
     : this->state_.origin;
 }
 
-/// Compute the plane from the mouse. The widget would move the plane by the mouse's motion along
-/// the projected normal. This projection is short if the view direction is nearly the normal.
-/// Instead, the grabbed point moves along the plane's normal to the point that is nearest to the
-/// mouse's ray.
+/// Compute the plane from the mouse. VTK's widget moves the plane by the motion of the mouse along
+/// the projected normal, which is inaccurate if the normal is nearly parallel to the view
+/// direction. Instead, this function moves the grabbed point along the normal to the point that is
+/// nearest to the ray through the mouse.
 void PlaneHandle::widget_moved()
 {
   const bool pushed =
@@ -253,7 +253,7 @@ void PlaneHandle::widget_moved()
     this->mouse_ray(from, along);
     const double slope = along.dot(normal);
     const double steep = 1.0 - slope * slope;
-    // If the view direction is too near to the normal, keep the widget's result.
+    // If the view direction is nearly parallel to the normal, keep the widget's result.
     if (steep > 0.01)
     {
       const Vec3 gap = from - this->grip_;
@@ -287,7 +287,7 @@ void PlaneHandle::cancel()
   {
     this->dragged_ = false;
     this->state_ = this->before_;
-    // The widget has no other function to end a drag.
+    // Simulate the release of the button, because the widget has no function to end a drag.
     this->viewport_->interactor()->LeftButtonReleaseEvent();
     this->place_widget();
     Q_EMIT this->moved();

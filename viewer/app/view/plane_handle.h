@@ -13,9 +13,9 @@ class Viewport;
 class vtkImplicitPlaneRepresentation;
 class vtkImplicitPlaneWidget2;
 
-/// A plane in the 3D view that the mouse moves along its normal. If the plane is free (not bound to
-/// an axis), the mouse also rotates it. This class draws only the outline of the plane; its owner
-/// draws the cut.
+/// A plane in the 3D view that the user moves along its normal with the mouse. If the plane is free
+/// (not perpendicular to an axis), the user can also rotate it. This class draws only the outline
+/// of the plane; the owner of the object draws the cut.
 ///
 /// Three values determine the plane, independently of the box: its orientation, its normal when it
 /// is free, and its relative position in the box, a fraction from 0 to 1.
@@ -44,8 +44,8 @@ public:
   /// Show or hide the plane. The mouse can drag a visible plane.
   void show(bool shown);
 
-  /// Set the orientation and keep the relative position. If the plane becomes free, its normal is
-  /// that of the last axis.
+  /// Set the orientation and keep the relative position. If the plane becomes free, it keeps its
+  /// current normal.
   void set_orientation(int orientation);
   int orientation() const { return this->state_.orientation; }
   /// Set the unit normal that is used when the plane is free.
@@ -61,8 +61,8 @@ public:
   std::pair<double, double> positions() const;
   bindpose::Vec3 origin() const { return this->state_.origin; }
   bindpose::Vec3 normal() const;
-  /// Return the current free normal and relative position; during a drag, return the values before
-  /// the drag.
+  /// Return the free normal (kept_free_normal) or the relative position (kept_place). During a drag
+  /// both functions return the values before the drag.
   bindpose::Vec3 kept_free_normal() const { return this->kept().free_normal; }
   double kept_place() const { return this->kept().place; }
 
@@ -75,7 +75,7 @@ public:
 Q_SIGNALS:
   /// Emitted when the plane has moved, for any reason.
   void moved();
-  /// Emitted when a drag has ended with another position or another normal. `turned`: the normal
+  /// Emitted when a drag has ended and has changed the position or the normal. `turned`: the normal
   /// has changed.
   void dragged(bool turned);
 

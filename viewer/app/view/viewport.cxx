@@ -220,8 +220,8 @@ void Viewport::set_picture(vtkImageData* picture)
     texture->SetColorModeToDirectScalars();
   }
   this->actor_->SetTexture(texture);
-  // Treat a textured shape as opaque, because it contains only the opaque part of the image. A
-  // translucent shape would need sorting by depth.
+  // The textured shape covers only the opaque part of the image. Treat it as opaque even if the
+  // image has alpha, because VTK would otherwise sort its triangles by depth.
   this->actor_->SetForceOpaque(picture != nullptr);
   this->mapper_->ScalarVisibilityOff();
   this->tint_mapper_->ScalarVisibilityOff();
@@ -251,8 +251,8 @@ void Viewport::show_tint()
 {
   this->tint_actor_->SetVisibility(this->picture_ && this->shaded_ && this->look_ == solid &&
     this->tint_ > 0.0 && this->tint_mapper_->GetScalarVisibility());
-  // Sorting by depth is not necessary, because the opaque textured surface hides everything behind
-  // it.
+  // The translucent tint needs no sorting by depth, because the opaque textured surface hides all
+  // parts of the tint behind it.
   this->tint_actor_->GetProperty()->SetOpacity(this->tint_);
 }
 
@@ -591,7 +591,7 @@ void Viewport::draw_legend()
   }
   if (this->beside_)
   {
-    // at the lower edge, where the names cover no shape
+    // draw the names at the lower edge, where they do not cover a shape
     this->add_name(0.25, 14.0, this->left_name_);
     this->add_name(0.75, 14.0, this->right_name_);
   }
@@ -644,8 +644,8 @@ void Viewport::initializeGL()
     renderer.contains("Software") || renderer.contains("SWR");
 }
 
-/// Qt paints during every resize, and the layout of a new window resizes the view several times.
-/// Only the last size is painted, together with the window.
+/// Paint only if the view is not being resized. Qt paints during every resize, and the layout of a
+/// new window resizes the view several times. The last size is painted together with the window.
 void Viewport::paintGL()
 {
   if (!this->resizing_)
@@ -668,7 +668,7 @@ void Viewport::render_wanted()
 /// Return points of everything that the view must contain.
 std::vector<bindpose::Vec3> Viewport::places_to_see() const
 {
-  // The handles are included only if there is nothing else to show.
+  // Include the handles only if there is no other data.
   std::vector<vtkPolyData*> shown;
   for (vtkPolyData* candidate : { this->shaded_ ? this->shaded_->polydata() : nullptr,
          this->curve_data_.Get(), this->beside_ ? this->shape_beside_.Get() : nullptr })
@@ -814,7 +814,7 @@ bindpose::Status Viewport::take_picture(
   wanted.transparent = transparent;
   this->window_->Render(); // apply all changes since the last rendering
   const bool smoothed = this->renderer_->GetUseFXAA();
-  // switch off the driver's antialiasing, because samples are averaged instead
+  // Disable FXAA (antialiasing by filtering), because draw_in_tiles() averages several samples.
   this->renderer_->UseFXAAOff();
   this->picture_scale_ = scale * wanted.samples;
   this->set_pixel_scale();

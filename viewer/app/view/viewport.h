@@ -35,8 +35,8 @@ class vtkRegionBrushWidget;
 class vtkRenderer;
 
 /// The 3D view of the window. It shows one surface, shaded or colored by a column of its weights.
-/// Handles, which the mouse drags, are drawn on top. It also shows curves; VolumeView adds the
-/// parts of a volume.
+/// Handles, which the mouse drags, are drawn on top. The view also shows curves. Other classes, for
+/// example VolumeView, add their own actors.
 class Viewport : public QVTKOpenGLNativeWidget
 {
   Q_OBJECT
@@ -60,9 +60,9 @@ public:
   void move_surface(bindpose::PointsView points);
   /// Move the points of another drawn shape with the same points and cells, for example the ghost.
   void move_shape(bindpose::ShadedSurface& shape, bindpose::PointsView points) const;
-  /// Set the offset of each point along a unit vector toward the eye. In a planar shape the offsets
-  /// determine which parts are in front. They are valid until the next set_surface(); an empty
-  /// vector removes them.
+  /// Set the offset of each point (#V, world units) along the unit vector `toward`, which points to
+  /// the eye. In a planar shape the offsets determine which parts are in front. An empty vector or
+  /// set_surface() removes the offsets.
   void set_depths(const Eigen::VectorXd& depths, const bindpose::Vec3& toward)
   {
     this->depths_ = depths;
@@ -71,38 +71,38 @@ public:
   /// Set whether a translucent shape is drawn over the surface. Both shapes are then sorted by
   /// depth.
   void set_ghosted(bool ghosted);
-  /// Draw the surface only in the left half of the view. The renderer `beside` has the right half
-  /// and the same camera; `shape`, which it shows, is kept in view too. Null, null: use the whole
-  /// view. Everything that was visible in the whole view is visible in the half.
+  /// Split the view: the surface is drawn in the left half, and the renderer `beside` draws `shape`
+  /// in the right half, with the same camera. If both are null, the surface uses the whole view
+  /// again. The camera is moved so that all visible data stays visible in the narrower half.
   void set_split(vtkRenderer* beside, vtkPolyData* shape);
   bool is_split() const { return this->beside_ != nullptr; }
-  /// Show a text at the top of the view that names the displayed shape, if it is not the posed
-  /// shape; empty: no text.
+  /// Show a text at the top of the view. The window uses the text to state that the shape at rest
+  /// is shown instead of the posed shape. Empty: no text.
   void name_state(const QString& state);
   QString state_name() const { return this->state_name_; }
   /// Set the names below the halves.
   void name_halves(const QString& left, const QString& right);
-  /// Return the microseconds that it took to upload the last drawn change of points to the graphics
-  /// card.
+  /// Return the time in microseconds of the last upload of moved points to the graphics card.
   double upload_microseconds() const;
-  /// Return the frames per second if the last two frames were drawn within half a second; otherwise
-  /// 0.
+  /// Return the smoothed number of frames per second. Return 0 if more than half a second has
+  /// passed between the last two frames.
   double frames_per_second() const;
   /// Set the handles that the mouse moves and edits. The widget is enabled if `used` is true.
   void set_handles(vtkPolyData* handles, bool used);
   /// Color the surface by a column of the array Weights, with its name on the scalar bar; -1: plain
   /// shading.
   void show_column(int column, const QString& name);
-  /// Color by values of the points or cells of drawn() instead of a column, with a name on the
-  /// scalar bar. With null values only the scalar bar is shown. Without a name the column is shown
-  /// again. set_surface() removes the colors.
+  /// Color the surface by values of the points or cells of drawn() instead of a column. `name` is
+  /// the title of the scalar bar. If `values` is null, only the scalar bar is shown. If `name` is
+  /// empty, the column is shown again. set_surface() removes the colors.
   void show_values(vtkDoubleArray* values, bool on_points, const QString& name = QString(),
     const bindpose::ColorMap& map = {});
   /// Report whether the surface is colored by these values.
   bool shows(vtkDoubleArray* values) const;
   /// Return the displayed column; -1: none.
   int shown_column() const { return this->column_; }
-  /// Return the surface as drawn, with the arrays of set_surface(); null without a surface.
+  /// Return the surface as drawn, with the arrays of the input surface; null: no surface. Several
+  /// drawn points can belong to the same point of the surface, see drawn_points().
   vtkPolyData* drawn() const;
   const bindpose::ShadedSurface* shaded() const { return this->shaded_.get(); }
   /// Return the index of the surface's point for each point of drawn().
@@ -129,8 +129,8 @@ public:
   void set_curves(vtkPolyData* curves);
   /// Show or hide the curves, which belong to the shape at rest.
   void show_curves(bool shown);
-  /// The positions of the legends that are shown in addition to that of the column. An empty name
-  /// removes a legend.
+  /// The legends that are shown in addition to the legend of the column, from left to right. An
+  /// empty name removes a legend.
   enum LegendPlace
   {
     weight_legend,
@@ -140,19 +140,20 @@ public:
     defect_legend
   };
   void show_legend(LegendPlace place, const QString& name, const bindpose::ColorMap& map = {});
-  /// Return the name of the legend at that position; empty: no legend.
+  /// Return the name of a legend; empty: the legend is not shown.
   QString legend(LegendPlace place) const;
   /// Set a box that reset_view() shows in addition to surface and curves; an empty box removes it.
   void set_also_shown(const bindpose::Box& box);
   /// Reset the camera: show everything, seen from the direction in which it appears largest.
   void reset_view();
-  /// Request that the view is drawn again; several requests result in one rendering. With software
-  /// rendering, moving shapes and new surfaces are drawn without antialiasing, in a fifth of the
-  /// time. A quarter of a second later they are drawn again with antialiasing.
+  /// Request that the view is drawn again. Several requests during one event result in one
+  /// rendering. With software rendering, the first frame of a surface and all frames during a drag
+  /// are drawn without antialiasing, which takes a fifth of the time. A quarter of a second later
+  /// the view is drawn again with antialiasing.
   void refresh();
-  /// Render an image of the view with `scale` times the number of pixels in each direction, 1 to 8.
-  /// Lines, points, text and scalar bars are scaled, too. A transparent background has no color
-  /// where nothing is drawn.
+  /// Render an image of the view. Each pixel of the view becomes `scale` by `scale` pixels, with
+  /// `scale` from 1 to 8. Lines, points, text and scalar bars are scaled, too. If `transparent` is
+  /// true, pixels of the background have the alpha value 0.
   bindpose::Status take_picture(
     int scale, bool transparent, vtkSmartPointer<vtkImageData>& picture);
   /// Return the size in pixels of the image that take_picture() returns.
@@ -194,7 +195,7 @@ private:
   vtkNew<bindpose::MovedSurfaceMapper> mapper_;
   vtkNew<vtkActor> actor_;
   vtkNew<vtkRenderer> legend_; // renderer of the color scale, in front and on the left
-  // cameras before and after the view was split into halves
+  // copies of the camera from before and after the view was split into halves
   vtkNew<vtkCamera> whole_camera_, split_camera_;
   vtkNew<vtkHandleSetWidget> handles_;
   vtkNew<vtkRegionBrushWidget> brush_;
@@ -224,7 +225,7 @@ private:
   QElapsedTimer since_start_;
   // time of the last frame and smoothed time between frames, in seconds
   double last_drawn_ = -1e9, frame_seconds_ = 0.0;
-  // Pixels per pixel of the window while take_picture() renders an image; otherwise 1.
+  // Rendered pixels per pixel of the window while take_picture() renders an image; otherwise 1.
   double picture_scale_ = 1.0;
   bool refresh_pending_ = false;
   bool resizing_ = false;

@@ -13,8 +13,8 @@ class ValueRow;
 
 /// The panel to the right of the 3D view for a volume of winding numbers. With it the user computes
 /// the volume of a surface, and shows the volume as a slice, an isosurface and a cloud (volume
-/// rendering). It also determines how the surface is drawn. Like SidePanel it emits signals when
-/// the user requests something, and has no state of the work.
+/// rendering). It also determines how the surface is drawn. Like SidePanel, it emits signals when
+/// the user requests something, and stores no data of the document.
 class VolumePanel : public QFrame
 {
   Q_OBJECT

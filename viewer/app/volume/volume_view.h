@@ -26,11 +26,11 @@ class VolumeView : public QObject
 public:
   explicit VolumeView(Viewport* viewport);
 
-  /// Set an image that bindpose::check_volume() accepts, with its smallest and largest value; null:
-  /// no volume. The slice keeps its relative position.
+  /// Set the volume, and its smallest and largest value. bindpose::check_volume() must accept the
+  /// image. Null: no volume. The slice keeps its relative position.
   void set_volume(vtkImageData* image, double lowest, double highest);
   vtkImageData* volume() const { return this->image_; }
-  /// Set whether the panel is visible. If not, nothing of the volume is drawn.
+  /// Set whether the panel is visible. If it is not, no part of the volume is drawn.
   void set_active(bool active);
   bool is_active() const { return this->image_ && this->active_; }
   /// Report whether any part of the volume is drawn.
@@ -64,7 +64,7 @@ Q_SIGNALS:
   void slice_moved();
   /// Emitted with the area of the displayed isosurface; 0 if the volume does not reach the level.
   void area_changed(double area);
-  /// Emitted when other parts of the volume are drawn, or none.
+  /// Emitted when the displayed parts of the volume may have changed.
   void shown_changed();
 
 private:

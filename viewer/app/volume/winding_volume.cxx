@@ -111,7 +111,7 @@ void WindingVolume::finish()
     Q_EMIT this->failed(
       tr("Cannot compute winding numbers: %1.").arg(QString::fromStdString(status.message)));
   }
-  // skipped if another surface was opened meanwhile
+  // discard the volume if another surface was opened during the computation
   else if (this->surface_ == this->document_->work().surface)
   {
     const int* size = volume->GetDimensions();
@@ -121,7 +121,7 @@ void WindingVolume::finish()
     this->document_->set_volume(volume, tr("winding numbers"), {}, tr("compute winding numbers"));
     const double seconds = status.report.number("seconds.total", 0.0);
     this->panel_->set_note(range[1] - range[0] < noise
-        // Each triangle also exists with the opposite orientation.
+        // In this case each triangle exists twice, with opposite orientations.
         ? tr("w is 0 everywhere: triangles cancel.")
         : tr("%1 × %2 × %3 samples in %4.")
             .arg(size[0])

@@ -11,7 +11,7 @@
 
 #include <QObject>
 
-/// Input of a bind. It consists of copies, so that the bind shares nothing with the window.
+/// Input of a bind. It consists of copies, so that the bind and the window share no data.
 struct BindInput
 {
   bindpose::TriangleMesh surface;
@@ -26,15 +26,15 @@ struct BindInput
   bool preview = true;
 };
 
-/// Result of a bind: weights at the surface's own vertices and at the vertices of the domain on
-/// which they were solved.
+/// Result of a bind: weights at the vertices of the surface, and at the vertices of the domain on
+/// which the weights were solved.
 struct BindResult
 {
   bindpose::Status status;
   bindpose::Weights weights; ///< #V x #handles
   bindpose::Weights raw; ///< the weights before rows are divided by their sums
   bindpose::WeightsDomain domain = bindpose::WeightsDomain::surface;
-  /// The domain on which the weights were solved. It contains tets unless it is the surface itself.
+  /// The domain on which the weights were solved: the surface, or a mesh of tets.
   bindpose::Domain mesh;
   /// Weights at the vertices of `mesh`, with one certificate per column.
   bindpose::WeightsResult solved;

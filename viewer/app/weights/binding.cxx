@@ -73,7 +73,8 @@ bool Binding::make_input(BindInput& input)
   return true;
 }
 
-/// Offer another bind. It is optional, because the existing weights remain usable (BoundColumns).
+/// Offer another bind. The bind is optional, because the existing weights remain usable, see
+/// BoundColumns.
 void Binding::offer_again()
 {
   const QString reason = this->is_running() ? QString() : this->document_->rebind_reason();

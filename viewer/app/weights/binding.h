@@ -12,9 +12,10 @@ class Document;
 class NoticeBar;
 class SidePanel;
 
-/// Binds the document's surface to its handles in the background. The bind first returns preview
-/// weights, then certified weights, which become an undo step of the document. After changes of
-/// handles another bind is offered to the user, but never started automatically.
+/// Binds the document's surface to its handles in the background. The bind first computes
+/// preliminary weights (the preview), then certified weights, which become an undo step of the
+/// document. After changes of handles this class offers another bind to the user, but never starts
+/// one automatically.
 class Binding : public QObject
 {
   Q_OBJECT
@@ -29,10 +30,11 @@ public:
   void cancel() { this->job_->cancel(); }
   bool is_running() const { return this->job_->is_running(); }
 
-  /// Convert surface and handles to the kernels' input. If these are invalid, emit failed() and
-  /// return false.
+  /// Convert the surface and the handles to the kernels' input. If the surface or the handles are
+  /// invalid, emit failed() and return false.
   bool make_input(BindInput& input);
-  /// Offer another bind if the handles have changed since the last bind, once for each reason.
+  /// Offer another bind if the handles have changed since the last bind. An offer for the same
+  /// reason is not repeated.
   void offer_again();
 
 Q_SIGNALS:

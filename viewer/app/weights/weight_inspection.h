@@ -12,20 +12,23 @@
 class Viewport;
 class WeightPanel;
 
-/// Inspection of a surface's weights. While the panel is visible, the class shows the data that the
-/// panel requests. It also computes weights with another method in the background, for comparison.
+/// Inspection of a surface's weights. While the panel is visible, this class shows the data that
+/// the panel requests. It also computes weights with another method in the background, for
+/// comparison.
 class WeightInspection : public QObject
 {
   Q_OBJECT
 
 public:
-  /// Sets the input of another bind of the same surface; returns false if handles are missing.
+  /// Sets the input of another bind of the same surface. Returns false if that is impossible, for
+  /// example without handles.
   using MakeInput = std::function<bool(BindInput&)>;
 
   WeightInspection(Viewport* viewport, WeightPanel* panel, MakeInput make_input);
 
-  /// Set the data to inspect: the surface at rest (the array Weights is optional), the tets with
-  /// the same weights (null: no tets), and whether the handles of the columns are open.
+  /// Set the data to inspect. `surface` is the surface at rest; its array Weights is optional.
+  /// `volume` are tets with weights of the same bind (null: no tets). `has_handles`: the handles to
+  /// which the columns belong are open.
   void set_data(vtkPolyData* surface, vtkUnstructuredGrid* volume, bool has_handles);
   void move_surface(vtkPolyData* shape) { this->view_->move_surface(shape); }
   void set_active(bool active);
@@ -36,15 +39,18 @@ public:
   void cancel() { this->job_.cancel(); }
   bool is_busy() const { return this->job_.is_running(); }
 
-  /// Return how the surface is drawn (Viewport::SurfaceLook): see-through around a slice.
+  /// Return how the surface is drawn (Viewport::SurfaceLook): see-through if a slice is shown,
+  /// otherwise solid.
   int surface_look() const;
-  /// Report whether the shape must be at rest, because a slice belongs to it.
+  /// Report whether the shape must be shown at rest, because a slice through the rest shape is
+  /// shown.
   bool wants_rest() const { return this->view_->is_sliced(); }
   WeightView* view() const { return this->view_; }
 
 Q_SIGNALS:
   void surface_look_changed();
-  /// Emitted with one sentence if the requested data cannot be shown; the display is unchanged.
+  /// Emitted with one sentence if the requested data cannot be shown. The surface is then drawn
+  /// without its values.
   void failed(const QString& sentence);
   /// Emitted when the requested data is shown.
   void succeeded();

@@ -21,9 +21,10 @@ class vtkDataSet;
 /// The result is an index of bindpose::weight_methods(); -1: unknown.
 int method_of_weights(vtkDataSet* surface);
 
-/// The panel to the right of the 3D view for inspecting weights. It chooses the displayed quantity,
-/// the type of display, the other method for comparison, and a slice through the volume. Like
-/// SidePanel it emits signals when the user requests something, and has no state of the work.
+/// The panel to the right of the 3D view for inspecting weights. In it the user chooses the
+/// displayed quantity, the type of display, another method for comparison, and a slice through the
+/// volume. Like SidePanel, it emits signals when the user requests something, and stores no data of
+/// the document.
 class WeightPanel : public QFrame
 {
   Q_OBJECT
@@ -39,14 +40,14 @@ public:
 
   explicit WeightPanel(QWidget* parent = nullptr);
 
-  /// Set the names of the columns. The chosen column is kept by name.
+  /// Set the names of the columns. The column with the name of the chosen column stays chosen.
   void set_columns(const QStringList& names);
   /// The state that determines which widgets are enabled.
   struct Facts
   {
     bool has_weights = false;
     bool has_raw = false;
-    /// The handles of the columns are open, so that another method can compute weights.
+    /// The handles to which the columns belong are open, so another method can compute weights.
     bool has_handles = false;
     bool has_volume = false;
     bool has_picture = false; ///< the surface has a texture, over which the colors are drawn

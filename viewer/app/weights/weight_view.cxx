@@ -1,6 +1,6 @@
-// Draws weights. Values are computed on the surface at rest and copied to its drawn points, because
-// vertices on sharp edges have several drawn points. When the pose changes, only the isolines and
-// the balls at extrema are moved. The slice belongs to the tets at rest.
+// Draws weights. Values are computed at the vertices of the surface at rest, and copied to the
+// drawn points: a vertex on a sharp edge has several drawn points. When the pose changes, only the
+// isolines and the balls at extrema are moved. The slice belongs to the tets at rest.
 #include "app/weights/weight_view.h"
 
 #include "app/view/viewport.h"
@@ -153,7 +153,7 @@ void WeightView::show_surface()
   if (this->options_.slice)
   {
     this->viewport_->show_values(nullptr, true, name, this->coloring_.map);
-    return; // no colors on the surface, because they would be mistaken for those of the slice
+    return; // show no colors on the surface: users would mistake them for colors of the slice
   }
   vtkPolyData* drawn = this->viewport_->drawn();
   bool on_points = true;

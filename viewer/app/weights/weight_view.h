@@ -20,9 +20,9 @@
 
 class Viewport;
 
-/// Shows weights in the 3D view. They are shown on the surface, posed or at rest, in bands with
-/// isolines and with balls at their extrema. They are also shown on a plane through the inside that
-/// the mouse drags. PictureOptions determine the display, as in `bindpose render`.
+/// Shows weights in the 3D view as colors, isolines and balls at their extrema. The weights are
+/// shown on the surface, posed or at rest, or on a slice through the tets that the mouse drags.
+/// PictureOptions determine the display, as in `bindpose render`.
 class WeightView : public QObject
 {
   Q_OBJECT
@@ -30,8 +30,8 @@ class WeightView : public QObject
 public:
   explicit WeightView(Viewport* viewport);
 
-  /// Set the surface at rest, which must be the surface of the viewport, and the tets on which the
-  /// weights were solved, both with weights; null: no data.
+  /// Set the data, both with weights; null: no data. `surface` is the surface at rest, and must be
+  /// the surface of the viewport. `volume` are the tets on which the weights were solved.
   void set_data(vtkPolyData* surface, vtkUnstructuredGrid* volume);
   /// Move the points to those of `shape`, a pose of the surface.
   void move_surface(vtkPolyData* shape);
@@ -49,8 +49,8 @@ public:
   const bindpose::Coloring& coloring() const { return this->coloring_; }
   /// Return statistics of the displayed data; see render_to_png().
   const bindpose::Report& numbers() const { return this->coloring_.numbers; }
-  /// Return the extrema on the surface. While the tets are sliced, return those of all tets; the
-  /// surface then has no colors.
+  /// Return the displayed extrema: the extrema on the surface or, while a slice is shown, the
+  /// extrema in the tets.
   const std::vector<bindpose::Extremum>& extrema() const { return this->extrema_; }
   vtkPolyData* slice() const { return this->slice_; }
   /// Return the isolines on the surface.
@@ -72,7 +72,7 @@ private:
   vtkSmartPointer<vtkPolyData> surface_; // the surface at rest
   vtkSmartPointer<vtkPolyData> shape_; // posed
   vtkSmartPointer<vtkUnstructuredGrid> volume_;
-  // its only array contains the displayed values
+  // copy of the tets whose only array contains the displayed values
   vtkSmartPointer<vtkUnstructuredGrid> volume_values_;
   bindpose::PictureOptions options_;
   bindpose::Coloring coloring_;

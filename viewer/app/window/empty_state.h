@@ -3,7 +3,8 @@
 
 #include <QWidget>
 
-/// Instructions for the first step, in the middle of the 3D view while no file is open.
+/// A widget with instructions for the first step. It is shown in the middle of the 3D view while no
+/// file is open.
 class EmptyState : public QWidget
 {
   Q_OBJECT

@@ -41,7 +41,7 @@ QString short_path(const QString& path)
 Status write_rig(vtkPolyData* surface, vtkPolyData* handles, const QString& path)
 {
   vtkNew<vtkGLTFSkinWriter> writer;
-  // keeps VTK from printing the errors, which the writer's status also contains
+  // Add observers, so that VTK does not print the errors. The writer's status contains them, too.
   vtkNew<vtkCallbackCommand> nothing;
   nothing->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
   writer->AddObserver(vtkCommand::ErrorEvent, nothing);

@@ -21,12 +21,12 @@ struct ExportParts
   Posing* posing;
   const WindowSessions* sessions; ///< name of the open data
   ErrorBar* errors;
-  NoticeBar* bar; ///< shows what was written
+  NoticeBar* bar; ///< shows the path of the written file
 };
 
-/// The exports of the menu File, except sessions: the visible shape, the rig (mesh, weights and
-/// handles), the pose, an image of the 3D view, and key frames as a film or another animation. A
-/// bar shows what was written and to which path, and can open the folder.
+/// The exports of the menu File: the visible shape, the rig (mesh, weights and handles), the pose,
+/// an image of the 3D view, and key frames as a film or another animation. After an export, a bar
+/// shows the path of the file and a button that opens its folder.
 class Exports : public QObject
 {
   Q_OBJECT

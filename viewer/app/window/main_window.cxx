@@ -82,7 +82,7 @@ QString method_words(const WeightMethod& method)
 }
 /// Return a sentence with the method and, if known, the accuracy of the bound weights. The panel of
 /// weights shows the accuracy per column.
-/// @param chosen  the method of the next bind; the certificate is about the bound method
+/// @param chosen  the method of the next bind, which can differ from the method of the weights
 QString certificate_note(vtkPolyData* surface, const WeightMethod& chosen)
 {
   vtkDataArray* gaps = surface->GetFieldData()->GetArray("WeightsRelativeGap");
@@ -145,8 +145,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), document_(new Doc
 
 MainWindow::~MainWindow()
 {
-  // The document and its history are destroyed after the views. Disconnect them, because they emit
-  // signals until then.
+  // Disconnect the document and its history. They are destroyed after the views, and would send
+  // signals to destroyed objects.
   this->document_->disconnect(this);
   this->history()->disconnect(this);
 }
@@ -485,7 +485,7 @@ void MainWindow::document_changed(int parts)
   }
 }
 
-/// Show the timeline when the first key is set. After that only the user hides it.
+/// Show the timeline when the first key is set. Only the user can hide it again.
 void MainWindow::keys_changed()
 {
   const bool has_keys = !this->posing_->shelf().keys.keys().empty();
@@ -530,7 +530,7 @@ void MainWindow::show_mesh()
   this->posing_->set_plane(this->plane_);
   if (work.surface && !planar)
   {
-    // for planar shapes the border is not a defect, so do not search
+    // not for planar shapes: their boundary would be reported as a defect
     this->inspection_->look_for_defects();
   }
   if (!work.curves)
@@ -664,7 +664,8 @@ bool MainWindow::say(const QString& name, const Status& status)
 
 bool MainWindow::open(const QString& path, const OpenedFile* read)
 {
-  // If the user has only opened a file, nothing can be lost by opening another one.
+  // If the user has changed nothing since opening a file, the work is still unchanged after opening
+  // another file.
   const bool unchanged = !this->document_->is_changed(true) && this->sessions_->path().isEmpty();
   const bool done = this->open_file(path, read);
   if (done)
@@ -852,7 +853,7 @@ void MainWindow::closeEvent(QCloseEvent* event)
 void MainWindow::set_method(int method)
 {
   this->document_->set_option("pose.method", method);
-  // also if the method is already selected, because the user expects to see the pose
+  // update even if the method was already selected, because the user expects to see the pose
   this->update_pose();
 }
 
@@ -981,7 +982,8 @@ void MainWindow::face_planes()
   }
 }
 
-/// A text about the current interaction has priority over the text about the last pose.
+/// Update the status line. A text about the current interaction has priority over the text about
+/// the last pose.
 void MainWindow::update_hint()
 {
   const QString said = this->editing_->sentence();

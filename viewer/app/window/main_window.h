@@ -42,9 +42,8 @@ class WindingVolume;
 class vtkDataSet;
 class vtkImageData;
 
-/// The window of `bindpose view`. In it users bind a surface to handles and pose it. They can also
-/// inspect volumes of winding numbers, weights, tets and defects of a surface, and the inside of
-/// tets.
+/// The window of `bindpose view`. In it users bind a surface to handles and pose the surface. They
+/// can also inspect volumes of winding numbers, and the weights, tets and defects of a surface.
 ///
 /// The Document contains the state that is saved. The window arranges views and panels and connects
 /// them to the document.
@@ -81,7 +80,7 @@ public:
   /// Report whether no file is open.
   bool is_empty() const;
 
-  /// Return the drawn surface: posed, or at rest if there are no weights.
+  /// Return the current shape, see Posing::shape(): posed, or at rest if it cannot be posed.
   vtkPolyData* shown() const;
   Viewport* viewport() const { return this->viewport_; }
   SidePanel* panel() const { return this->panel_; }
@@ -138,8 +137,8 @@ private:
   void connect_weights();
   void connect_errors();
   void keys_changed();
-  /// Switch the 2D mode on or off. Planar shapes are first shown in 2D. With the mode off the view
-  /// can be rotated. The camera is unchanged.
+  /// Switch the 2D mode on or off. When a planar shape is opened, the mode is on. If the mode is
+  /// off, the view can be rotated. The camera is unchanged.
   void set_flat_view(bool flat);
   void update_plane();
   void update_surface_look();
@@ -169,8 +168,8 @@ private:
   Probe* probe_ = nullptr;
   std::optional<bindpose::Vec3> plane_; // normal of a planar shape at rest; empty: not planar
   bool flat_wanted_ = true;
-  /// Last orientation that the program has chosen for each cutting plane. The key is the name of
-  /// the plane's options.
+  /// Last orientation that the program has chosen for each cutting plane. The key is the prefix of
+  /// the plane's options: "volume", "tets" or "weights".
   std::map<QString, int> faced_;
   Posing* posing_ = nullptr;
   HandleEditing* editing_ = nullptr;
@@ -195,7 +194,7 @@ private:
   ElidedLabel* hint_ = nullptr;
   EmptyState* empty_ = nullptr; // in the middle of the 3D view while no file is open
   vtkSmartPointer<vtkPolyData> drawn_; // the surface that the viewport shows
-  bool timeline_ = false; // the timeline is shown after the first key frame was set, or on request
+  bool timeline_ = false; // true: show the timeline, after the first key frame or on request
   bool has_keys_ = false;
   QString read_notice_; // warnings about data of the opened file that was not read
   QString hint_text_; // shown in the status line when there is no interaction

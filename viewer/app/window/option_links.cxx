@@ -1,6 +1,6 @@
-// Connects widgets to the options of the document. Only signals that a user causes make undo steps:
-// clicked, activated, value_chosen. Widgets also emit signals when they are set from the document;
-// these are not used.
+// Connects widgets to the options of the document. Undo steps are made for signals that a user
+// causes: clicked, activated, idClicked, value_chosen. If such a signal is emitted because a widget
+// is set from the document, the signal is ignored.
 #include "app/window/option_links.h"
 
 #include "app/parts/value_row.h"

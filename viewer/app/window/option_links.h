@@ -11,10 +11,11 @@
 class Document;
 class QWidget;
 
-/// Connects widgets with the document's options (document/options.h) by their object names. A
-/// choice of the user becomes an undo step. Undo, redo and sessions set the widgets, whose signals
-/// then update the views. Supported widgets are check boxes, combo boxes (by index), button groups
-/// (by id) and value rows. Other options are connected by two functions, see tie().
+/// Connects widgets with the document's options (document/options.h). The object name of a widget
+/// is the key of its option. A choice of the user becomes an undo step. Undo, redo and sessions set
+/// the widgets, whose signals then update the views. Supported widgets are check boxes, combo boxes
+/// (the value is the index), button groups (the value is the id) and value rows. Other options are
+/// connected by two functions, see tie().
 class OptionLinks : public QObject
 {
   Q_OBJECT
@@ -29,12 +30,11 @@ public:
     const std::function<void(const QVariant&)>& set);
   /// Group options: the undo step of one option stores all options of its group.
   void join(const QStringList& keys);
-  /// Make an undo step, because the user has chosen the option. The step has the name of the
-  /// option.
+  /// Make an undo step after the user has changed the option. The step has the name of the option.
   void chosen(const QString& key);
 
-  /// Set an option that the program itself has chosen. The widget shows it and a session stores it,
-  /// but it is not an undo step.
+  /// Set an option to a value that the program has chosen. The widget shows the value and a session
+  /// stores it, but no undo step is made.
   void note(const QString& key, const QVariant& value);
   /// Store the current values of all options in the document without an undo step, so that a
   /// session contains them.

@@ -92,8 +92,8 @@ QWidget* PanelColumn::scrolled(QFrame* panel, int width)
   return scroll;
 }
 
-/// Give the list of handles the height that the panel does not need. Do nothing after the user has
-/// dragged the border.
+/// Give the list of handles the height that the panel does not need, but at most half of the total
+/// height. Do nothing after the user has dragged the border.
 void PanelColumn::share_height()
 {
   constexpr int panel_height = 540;
@@ -129,8 +129,8 @@ void PanelColumn::set_open(bool volume, bool shape, bool surface)
   }
   for (int k = 0; k < row.size(); ++k)
   {
-    // Adjacent buttons are separated by one line. The last button has no left border, so only the
-    // button before it has a right border.
+    // Draw one line between adjacent buttons. In the style sheet the last button has no left
+    // border, so the button before it needs a right border.
     row[k]->setProperty("place",
       k == 0                  ? "first"
         : k + 1 == row.size() ? "last"

@@ -15,8 +15,8 @@ class WeightPanel;
 
 /// The column to the right of the 3D view. Its panels are: bind and pose, weights, tets and
 /// defects, and volumes. If several panels apply, buttons at the top select one. The list of
-/// handles is above the panels that are about handles; the mouse can drag the border between list
-/// and panel.
+/// handles is shown above the panels for posing and for weights. The mouse can drag the border
+/// between the list and the panel.
 class PanelColumn : public QWidget
 {
   Q_OBJECT
@@ -37,7 +37,8 @@ public:
   TetPanel* tet() const { return this->tet_; }
   VolumePanel* volume() const { return this->volume_; }
   HandleTree* handles() const { return this->handles_; }
-  /// Set which data is open, which determines the panels that can be selected.
+  /// Set which types of data are open. They determine the panels that can be selected. `shape`: a
+  /// surface or handles are open.
   void set_open(bool volume, bool shape, bool surface);
   void show_panel(int panel);
   int shown_panel() const;

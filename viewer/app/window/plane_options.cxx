@@ -10,7 +10,7 @@ void tie_plane(OptionLinks* links, Document* document, const QString& name, Plan
 {
   const QString place = name + ".place";
   const QString normal = name + ".normal";
-  // Store the values before a drag, because a session may be saved during a drag.
+  // During a drag, store the values from before the drag, because a session may be saved then.
   links->tie(
     place, [plane] { return plane->kept_place(); },
     [plane](const QVariant& value) { plane->set_place(value.toDouble()); });

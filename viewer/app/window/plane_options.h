@@ -7,8 +7,8 @@ class Document;
 class OptionLinks;
 class PlaneHandle;
 
-/// Connect a plane with the options NAME.orientation, NAME.place and NAME.normal. A drag is one
-/// undo step; undo during the drag cancels the drag.
+/// Connect a plane with the options NAME.orientation, NAME.place and NAME.normal, where NAME is the
+/// parameter `name`. A drag is one undo step; undo during a drag cancels the drag.
 void tie_plane(OptionLinks* links, Document* document, const QString& name, PlaneHandle* plane);
 
 #endif

@@ -75,7 +75,7 @@ QString value_words(const Coloring& coloring, double value)
 QString named_value(const Coloring& coloring, double value)
 {
   const QString name = QString::fromStdString(coloring.legend_name());
-  // no text here, because the text of every tet contains the smallest angle
+  // omit the smallest angle, because the text of every tet already contains it
   return name == "Min. angle (°)" ? QString()
                                   : Probe::tr("%1: %2").arg(name, value_words(coloring, value));
 }
@@ -124,8 +124,8 @@ Vec3 at(const SightRay& ray, double distance)
   return ray.origin + distance * ray.direction;
 }
 
-/// Call `what` with distance and value at points along a ray through a volume, two points per
-/// sample of the longest side, until `what` returns false.
+/// Call `what` with the distance and the value at points along a ray through a volume, until `what`
+/// returns false. The number of points is twice the number of samples along the longest side.
 template <typename What>
 void walk(const SightRay& ray, vtkImageData* image, const What& what)
 {
@@ -293,8 +293,8 @@ Probe::Maybe Probe::surface(const SightRay& ray, bool other) const
   }
   Found found;
   found.distance = hit.distance;
-  // Show the coordinates of the surface's own points. The offsets with which the view draws layers
-  // are not included.
+  // Show coordinates of the shape itself. The drawn points can differ from them, because the view
+  // adds offsets to the layers of a planar shape.
   const Vec3 seen = at(ray, hit.distance);
   Vec3 place = Vec3::Zero();
   Index nearest = -1;
@@ -464,8 +464,8 @@ Probe::Maybe Probe::winding_slice(const SightRay& ray) const
   return found;
 }
 
-/// Search along the ray through the volume: the first position where the field crosses the level is
-/// the point that is drawn.
+/// Find the point of the isosurface under the mouse: the first point of the ray at which the
+/// winding number crosses the level.
 Probe::Maybe Probe::isosurface(const SightRay& ray) const
 {
   const VolumeView* view = this->views_.volume;
@@ -521,8 +521,8 @@ Probe::Maybe Probe::cloud(const SightRay& ray) const
   return found;
 }
 
-/// Return the text about a dot or edge within a few pixels; if there is none, about the face under
-/// the mouse. Among several, the nearest is used.
+/// Return the text about the defect under the mouse. Dots and edges within a few pixels have
+/// priority over faces. Among several candidates, the candidate nearest to the eye is used.
 QString Probe::defect(const SightRay& ray) const
 {
   vtkPolyData* defects = this->views_.defects->defects();
@@ -542,7 +542,7 @@ QString Probe::defect(const SightRay& ray) const
   const Points seen = seen_along(ray, to_points(defects).view());
   const auto reach = [&](double depth) { return parallel ? slope : slope * (eye + depth); };
   Index best = -1;
-  int best_kind = 4; // number of corners of the best candidate; fewer corners have priority
+  int best_kind = 4; // kind of the best candidate: 1 for a dot or edge, 3 for a face, 4 for none
   double best_depth = 1e300;
   Index cell = 0;
   vtkNew<vtkIdList> ids;

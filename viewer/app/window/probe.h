@@ -26,8 +26,9 @@ class vtkPolyData;
 ///   the largest weight, a defect, and the distance from the shape of another method.
 /// - For tets, slices, isosurfaces and clouds (volume renderings): the displayed values.
 ///
-/// The nearest solid object is used. Translucent objects are used only where there is no solid
-/// object. Values are computed only when the mouse moves, and not while a button is pressed.
+/// The label describes the nearest opaque object under the mouse. If there is none, it describes a
+/// translucent object. Values are computed only when the mouse moves, and not while a button is
+/// pressed.
 class Probe : public QObject
 {
   Q_OBJECT

@@ -49,8 +49,8 @@ QString word_of(QString text)
   return text.endsWith('_') ? text.chopped(1) : text;
 }
 
-/// Set object names of the menu entries, for tours and tests. A name consists of the texts of the
-/// menus and of the entry: "edit.bind", "view.appearance.dark".
+/// Set object names of the menu entries, for tours and tests. A name is made from the texts of the
+/// menus and of the entry, for example "edit.bind" or "view.appearance.dark".
 void name_actions(const QList<QAction*>& entries, const QString& menu)
 {
   for (QAction* entry : entries)

@@ -18,7 +18,7 @@ class ShapeHandles;
 class Viewport;
 class WindowSessions;
 
-/// The window and those of its parts that have entries in the menus.
+/// The window, and the parts of the window whose commands are in the menus.
 struct MenuParts
 {
   QMainWindow* window;
@@ -42,7 +42,7 @@ class WindowMenus : public QObject
 public:
   explicit WindowMenus(const MenuParts& parts);
 
-  /// What the menus show of the window.
+  /// The state of the window that determines which entries are enabled or checked.
   struct State
   {
     bool is_empty; ///< no file is open
@@ -54,7 +54,7 @@ public:
   void show_method(int method);
 
 Q_SIGNALS:
-  // What the user has chosen in a menu.
+  // Emitted when the user has chosen a menu entry.
   void open_wanted();
   void flat_view_wanted(bool flat);
   void outlines_wanted(bool shown);

@@ -42,30 +42,31 @@ public:
   explicit WindowSessions(const SessionParts& parts);
   ~WindowSessions() override;
 
-  /// Open a session in place of the current work. Return false, and show a sentence, if it cannot
-  /// be read. Also return false if the user decides to keep the current work.
+  /// Replace the current work by the session in a file. If the session cannot be read, show an
+  /// error and return false. Also return false if the user decides to keep the current work.
   bool open(const QString& path);
   /// Save the session; ask for a name if it has none yet. Return false if nothing was written.
   bool save();
   bool save_as();
   bool write(const QString& path);
-  /// Report whether the work can be closed: it has no unsaved changes, or the user agrees to lose
-  /// them.
+  /// Report whether the work can be closed. If there are unsaved changes, ask the user whether to
+  /// save or discard them. Return false if the user cancels, or if saving fails.
   bool may_go();
   /// Return the path of the session file; empty if there is none.
   QString path() const { return this->path_; }
-  /// Show the recovery bar if a crashed process has left work.
+  /// Show the recovery bar if a crashed process has left work in the folder `root`; empty: the
+  /// default folder.
   void offer_recovery(const QString& root = QString());
   Autosave* autosave() { return &this->autosave_; }
-  /// Return the name for the window title: that of the session, or that of the open data if there
-  /// is no session.
+  /// Return the name for the window title: the name of the session file or, if there is none, the
+  /// name of the open data.
   QString name() const;
   void fill_recent(QMenu* menu);
 
 Q_SIGNALS:
   /// Emitted when the user chooses a recent file or locates a missing one.
   void open_wanted(const QString& path);
-  /// Emitted when name(), path() or the unsaved changes may be different.
+  /// Emitted when name(), path() or the presence of unsaved changes may be different.
   void changed();
   /// Emitted if the opened session shows a planar shape with perspective.
   void perspective_wanted();

@@ -16,7 +16,8 @@ struct HandleLook
 {
   Color modes[3];
   Color outline;
-  /// Outline color of selected handles. A second outline in the color `outline` surrounds this one.
+  /// Outline color of selected handles. A second outline in the color `outline` surrounds this
+  /// outline.
   Color selected;
   double pixel_scale = 1.0; ///< factor on the width of outlines
 };

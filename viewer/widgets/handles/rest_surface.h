@@ -41,7 +41,7 @@ public:
 
 private:
   vtkSmartPointer<vtkPolyData> data_;
-  // The objects from which the probe was built, and their modification times then.
+  // The objects from which the probe was built, and their modification times at that moment.
   std::vector<std::pair<const void*, vtkMTimeType>> read_;
   SurfaceInput input_;
   int builds_ = 0;

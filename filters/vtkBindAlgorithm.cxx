@@ -56,7 +56,7 @@ std::vector<std::string> warnings_of(const Handles& handles, const Pose& pose)
   {
     const Eigen::Matrix3d linear = pose[h].transform.leftCols<3>();
     const double volume = linear.determinant(), size = linear.norm();
-    if (!holds_transform(pose[h].mode))
+    if (!constrains_transform(pose[h].mode))
     {
       continue;
     }

@@ -54,7 +54,7 @@ int vtkGLTFSkinReader::RequestInformation(
   }
   for (int port = 0; port < 2; ++port)
   {
-    offer_frames(
+    set_frame_times(
       output->GetInformationObject(port), frames, this->Internal->file.data().frames_per_second);
   }
   return 1;
@@ -108,7 +108,7 @@ Status vtkGLTFSkinReader::Execute(
   for (int port = 0; port < 2; ++port)
   {
     double time = 0.0;
-    if (asked_time(output->GetInformationObject(port), time))
+    if (requested_time(output->GetInformationObject(port), time))
     {
       frame = frame_at(time, frames, data.frames_per_second);
       vtkDataObject* result = port == 0 ? mesh : handles;

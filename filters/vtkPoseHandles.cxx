@@ -98,14 +98,14 @@ int vtkPoseHandles::RequestInformation(
   vtkInformation*, vtkInformationVector**, vtkInformationVector* output)
 {
   vtkInformation* info = output->GetInformationObject(0);
-  offer_times(info, {});
+  set_time_steps(info, {});
   // Ignore errors of the file or the text here; Execute() reports them.
   if (this->IsFrom("glb gltf"))
   {
     if (this->Internal->gltf.read(this->FileName, this->GetMTime()).ok())
     {
       const GltfData& data = this->Internal->gltf.data();
-      offer_frames(info, static_cast<int>(data.poses.size()), data.frames_per_second);
+      set_frame_times(info, static_cast<int>(data.poses.size()), data.frames_per_second);
     }
     return 1;
   }
@@ -115,7 +115,7 @@ int vtkPoseHandles::RequestInformation(
   {
     return 1;
   }
-  offer_frames(info, static_cast<int>(times.frames), times.frames_per_second);
+  set_frame_times(info, static_cast<int>(times.frames), times.frames_per_second);
   if (times.frames < 2 && times.has_expressions)
   {
     const double range[2] = { 0.0, this->EndTime };
@@ -145,7 +145,7 @@ Status vtkPoseHandles::Execute(
 
   vtkInformation* info = output->GetInformationObject(0);
   double time = this->Time;
-  const bool timed = asked_time(info, time);
+  const bool timed = requested_time(info, time);
   this->NumberOfFrames = 1;
   this->Sequence = false;
   this->FramesPerSecond = PoseSequence().frames_per_second;

@@ -141,7 +141,7 @@ int vtkReducedDynamics::RequestInformation(
   {
     times.push_back(step * this->TimeStep);
   }
-  offer_times(info, times);
+  set_time_steps(info, times);
   return 1;
 }
 

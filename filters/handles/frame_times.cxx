@@ -13,7 +13,7 @@ namespace bindpose
 
 using SDDP = vtkStreamingDemandDrivenPipeline;
 
-void offer_times(vtkInformation* output, const std::vector<double>& times)
+void set_time_steps(vtkInformation* output, const std::vector<double>& times)
 {
   output->Remove(SDDP::TIME_STEPS());
   output->Remove(SDDP::TIME_RANGE());
@@ -25,17 +25,17 @@ void offer_times(vtkInformation* output, const std::vector<double>& times)
   }
 }
 
-void offer_frames(vtkInformation* output, int frames, double frames_per_second)
+void set_frame_times(vtkInformation* output, int frames, double frames_per_second)
 {
   std::vector<double> times;
   for (int frame = 0; frames > 1 && frame < frames; ++frame)
   {
     times.push_back(static_cast<double>(frame) / frames_per_second);
   }
-  offer_times(output, times);
+  set_time_steps(output, times);
 }
 
-bool asked_time(vtkInformation* output, double& time)
+bool requested_time(vtkInformation* output, double& time)
 {
   const bool asked = output->Has(SDDP::UPDATE_TIME_STEP()) && output->Has(SDDP::TIME_RANGE());
   if (asked)

@@ -11,15 +11,15 @@ namespace bindpose
 // Frames of a sequence as time steps of a VTK pipeline: frame k is at the time k / fps.
 
 /// Set the time steps of an output port, in ascending order; an empty list removes them.
-void offer_times(vtkInformation* output, const std::vector<double>& times);
+void set_time_steps(vtkInformation* output, const std::vector<double>& times);
 
 /// Set the time steps of an output port to the times of the frames, the first at 0 s. If there are
 /// fewer than two frames, remove the time steps.
-void offer_frames(vtkInformation* output, int frames, double frames_per_second);
+void set_frame_times(vtkInformation* output, int frames, double frames_per_second);
 
 /// Report whether the pipeline requests a time from a port with time steps. If so, set `time` to
 /// the requested time in seconds.
-bool asked_time(vtkInformation* output, double& time);
+bool requested_time(vtkInformation* output, double& time);
 
 /// Return the frame that is shown at a time in seconds: the last frame whose time is not later,
 /// clamped to the first and last frames.

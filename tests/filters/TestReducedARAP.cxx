@@ -62,7 +62,7 @@ protected:
     this->tets->GetPointData()->AddArray(weights_array(this->rig.weights, this->rig.handles));
     this->surface = to_polydata(this->rig.mesh.points, boundary_triangles(this->rig.mesh.tets));
     this->surface->GetPointData()->AddArray(weights_array(this->rig.weights, this->rig.handles));
-    this->handles = test::to_held_polydata(this->rig.handles);
+    this->handles = test::to_polydata_with_mode_full(this->rig.handles);
     this->pose->SetInputData(this->handles);
     this->filter->SetInputData(0, this->tets);
     this->filter->SetInputConnection(1, this->pose->GetOutputPort());

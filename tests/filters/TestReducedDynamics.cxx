@@ -51,7 +51,7 @@ protected:
       weights->SetComponentName(h, this->rig.handles[h].name.c_str());
     }
     this->tets->GetPointData()->AddArray(weights);
-    this->handles = test::to_held_polydata(this->rig.handles);
+    this->handles = test::to_polydata_with_mode_full(this->rig.handles);
     this->pose->SetInputData(this->handles);
     this->pose->SetPoseJSON(drawn_and_let_go);
     this->connect(this->filter);

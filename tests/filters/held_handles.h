@@ -14,7 +14,7 @@ namespace bindpose::test
 
 /// Return a handle dataset at rest in which every handle has mode full. Methods that compute
 /// rotations must keep the whole transform of a handle with mode full.
-inline vtkSmartPointer<vtkPolyData> to_held_polydata(const Handles& handles)
+inline vtkSmartPointer<vtkPolyData> to_polydata_with_mode_full(const Handles& handles)
 {
   const vtkSmartPointer<vtkPolyData> data = to_polydata(handles);
   Handles list;

@@ -107,7 +107,7 @@ inline void expect_sentence(const std::string& text)
 }
 
 /// Expect that the message of a failed status and each warning are one line of text.
-inline void expect_spoken(const Status& status)
+inline void expect_valid_messages(const Status& status)
 {
   if (status.code != StatusCode::ok)
   {

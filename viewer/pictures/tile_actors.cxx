@@ -317,7 +317,7 @@ Status add_tets(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput
     add_shrunk(renderer, grid, input, cut.kept(), options.shrink, coloring, scale);
     return {};
   }
-  for (const TetCut::Sides* sides : { &cut.outside(), &cut.laid_open() })
+  for (const TetCut::Sides* sides : { &cut.outside(), &cut.exposed_faces() })
   {
     for (Index i = 0; i < sides->triangles.size(); ++i)
     {
@@ -326,8 +326,8 @@ Status add_tets(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput
   }
   const auto outside = face_polydata(grid, cut.outside().triangles, cut.outside().tets);
   add_surface(renderer, outside, options, coloring, scale);
-  add_flat(renderer, face_polydata(grid, cut.laid_open().triangles, cut.laid_open().tets), coloring,
-    scale);
+  add_flat(renderer, face_polydata(grid, cut.exposed_faces().triangles, cut.exposed_faces().tets),
+    coloring, scale);
   return {};
 }
 

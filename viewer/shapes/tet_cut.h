@@ -37,7 +37,7 @@ public:
   const std::vector<char>& kept() const { return this->kept_; }
   /// Faces of kept tets on the boundary of the whole mesh, and faces that the cut exposes.
   const Sides& outside() const { return this->outside_; }
-  const Sides& laid_open() const { return this->laid_open_; }
+  const Sides& exposed_faces() const { return this->laid_open_; }
   /// Return the smallest and largest coordinate of the tet centers along a direction.
   std::array<double, 2> reach(const Vec3& direction) const;
 

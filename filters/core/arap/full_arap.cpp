@@ -79,7 +79,8 @@ void FullArap::start_rotations(const Pose& pose)
   {
     const HandlePose& handle = pose[hold.handle];
     const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> turn =
-      (holds_transform(handle.mode) ? Eigen::Matrix3d(handle.transform.leftCols<3>()) : common) -
+      (constrains_transform(handle.mode) ? Eigen::Matrix3d(handle.transform.leftCols<3>())
+                                         : common) -
       Eigen::Matrix3d::Identity();
     const Eigen::Map<const Eigen::Matrix<double, 1, 9>> row(turn.data());
     if (hold.given >= 0)

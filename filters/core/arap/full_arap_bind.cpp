@@ -143,7 +143,7 @@ Status FullArap::bind_any(ExecutionContext& context, PointsView points, const El
   const Handles& handles, const FullArapOptions& options)
 {
   *this = FullArap();
-  Status status = check_bendable(points, elements, handles);
+  Status status = check_mesh_and_handles(points, elements, handles);
   if (!status.ok())
   {
     return status;

@@ -202,7 +202,7 @@ Vec3 MeshGrips::wanted(const Hold& hold, const HandlePose& pose) const
   {
     return posed_tail(handle, pose) - handle.tail;
   }
-  const bool by_pivot = holds_pivot(pose.mode) && handle.kind != HandleKind::region;
+  const bool by_pivot = constrains_pivot(pose.mode) && handle.kind != HandleKind::region;
   return linear * (by_pivot ? handle.head : this->at_rest(hold.point)) + pose.transform.col(3);
 }
 
@@ -218,7 +218,7 @@ void MeshGrips::choose(const Pose& pose, const std::vector<Index>& staying)
     for (std::size_t h = 0; h < pose.size(); ++h)
     {
       const auto handle = static_cast<Index>(h);
-      if (full != holds_transform(pose[h].mode))
+      if (full != constrains_transform(pose[h].mode))
       {
         continue;
       }
@@ -226,11 +226,11 @@ void MeshGrips::choose(const Pose& pose, const std::vector<Index>& staying)
       {
         this->holds_.push_back({ handle, this->grips_[h].points[k] });
       }
-      if (holds_pivot(pose[h].mode))
+      if (constrains_pivot(pose[h].mode))
       {
         this->holds_.push_back({ handle, this->grips_[h].pivot });
       }
-      if (holds_tail(pose[h].mode))
+      if (constrains_tail(pose[h].mode))
       {
         this->holds_.push_back({ handle, this->grips_[h].tail, -1, -1, true });
       }
@@ -244,7 +244,7 @@ void MeshGrips::choose(const Pose& pose, const std::vector<Index>& staying)
   {
     if (hold.point.size() == 1)
     {
-      given.insert({ hold.point[0].first, holds_transform(pose[hold.handle].mode) });
+      given.insert({ hold.point[0].first, constrains_transform(pose[hold.handle].mode) });
     }
   }
   for (const Index v : staying)
@@ -260,7 +260,7 @@ void MeshGrips::choose(const Pose& pose, const std::vector<Index>& staying)
   std::vector<char> taken(this->given_.size(), 0);
   for (Hold& hold : this->holds_)
   {
-    const bool full = holds_transform(pose[hold.handle].mode);
+    const bool full = constrains_transform(pose[hold.handle].mode);
     if (hold.point.size() > 1)
     {
       hold.held = static_cast<Index>(this->held_.size());
@@ -312,7 +312,7 @@ std::vector<std::string> MeshGrips::redundancy(
   for (const Index point : points)
   {
     const Index handle = this->holder_[point];
-    if (!holds_transform(pose[handle].mode))
+    if (!constrains_transform(pose[handle].mode))
     {
       redundant.push_back(handle);
     }

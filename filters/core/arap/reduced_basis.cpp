@@ -370,14 +370,14 @@ void ReducedBasis::add_open(const Coordinates& change, Coordinates& d) const
   }
 }
 
-ReducedBasis::Unturned ReducedBasis::unturned_sturdily(const ReducedSpace& space,
+ReducedBasis::UnrotatedMinimizer ReducedBasis::unturned_sturdily(const ReducedSpace& space,
   const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given,
   const Coordinates& missing) const
 {
   // First compute a displacement that contains the given blocks and satisfies the constrained
   // positions. Then add the response to its force and to the load: the combination of columns of B
   // that minimizes the energy.
-  Unturned result;
+  UnrotatedMinimizer result;
   result.given = given;
   Coordinates& star = result.given;
   this->add_open(thin_product(this->particular_, missing), star);
@@ -399,7 +399,7 @@ Eigen::RowVector3d ReducedBasis::shift_of(
   return (first - this->lever_.transpose() * z) / this->rho_;
 }
 
-ReducedBasis::Unturned ReducedBasis::unturned(const ReducedSpace& space,
+ReducedBasis::UnrotatedMinimizer ReducedBasis::unrotated_minimizer(const ReducedSpace& space,
   const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given,
   const Coordinates& missing) const
 {
@@ -413,7 +413,7 @@ ReducedBasis::Unturned ReducedBasis::unturned(const ReducedSpace& space,
   const Whole& whole = this->whole_;
   const Index unknowns = whole.directions.rows(), rank = this->reflections_.rank();
   const bool shifts = rank < this->constraints_;
-  Unturned result;
+  UnrotatedMinimizer result;
   result.given = given;
   Coordinates wanted = Coordinates::Zero(this->constraints_, 3);
   wanted.topRows(missing.rows()) = missing;
@@ -466,7 +466,7 @@ ReducedBasis::Unturned ReducedBasis::unturned(const ReducedSpace& space,
   return result;
 }
 
-Coordinates ReducedBasis::displacement(const Unturned& from, const Coordinates& y) const
+Coordinates ReducedBasis::displacement(const UnrotatedMinimizer& from, const Coordinates& y) const
 {
   Coordinates d = from.given;
   if (!this->quick_)

@@ -78,7 +78,7 @@ public:
 
   /// D* for one pose: the minimizer of 1/2 <D, H D> - <P, D> among all D that contain the given
   /// blocks and satisfy the constrained positions in the least-squares sense.
-  struct Unturned
+  struct UnrotatedMinimizer
   {
     double energy = 0.0; ///< value of the minimized expression at D*
     Coordinates covariance; ///< covariances K D*
@@ -91,10 +91,11 @@ public:
   /// @param given contains the given blocks of D; 0 in all other rows.
   /// @param missing differences between the targets of the constrained positions and those of
   /// `given`.
-  Unturned unturned(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
-    const Coordinates& load, const Coordinates& given, const Coordinates& missing) const;
+  UnrotatedMinimizer unrotated_minimizer(const ReducedSpace& space,
+    const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given,
+    const Coordinates& missing) const;
   /// Return D* + B Y.
-  Coordinates displacement(const Unturned& from, const Coordinates& y) const;
+  Coordinates displacement(const UnrotatedMinimizer& from, const Coordinates& y) const;
 
 private:
   /// Factorization H = L L^T for the unknowns that affect the energy, scaled so that each column of
@@ -111,7 +112,7 @@ private:
     Eigen::MatrixXd covariance; ///< covariances K E
   };
   void factor_whole(const ReducedSpace& space, const Eigen::MatrixXd& stiffness);
-  Unturned unturned_sturdily(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
+  UnrotatedMinimizer unturned_sturdily(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
     const Coordinates& load, const Coordinates& given, const Coordinates& missing) const;
   /// Return the translation t for z and the target of the first constraint.
   Eigen::RowVector3d shift_of(const Coordinates& z, const Eigen::RowVector3d& first) const;

@@ -71,18 +71,18 @@ void ReducedSolver::factor(
   for (Index h = 0; h < handles; ++h)
   {
     const HandleMode mode = this->modes_[static_cast<std::size_t>(h)];
-    if (holds_pivot(mode))
+    if (constrains_pivot(mode))
     {
       this->positions_.push_back(h);
     }
-    if (holds_tail(mode))
+    if (constrains_tail(mode))
     {
       this->positions_.push_back(h + handles);
     }
   }
   for (Index j = 0; j < space.columns; ++j)
   {
-    if (j >= handles || !holds_transform(this->modes_[static_cast<std::size_t>(j)]))
+    if (j >= handles || !constrains_transform(this->modes_[static_cast<std::size_t>(j)]))
     {
       for (Index a = 0; a < 4; ++a)
       {
@@ -122,7 +122,8 @@ void ReducedSolver::start_rotations(const ReducedSpace& space, const Pose& pose)
     {
       const double w = space.cluster_weights(k, static_cast<Index>(h));
       blend += w *
-        (holds_transform(pose[h].mode) ? Eigen::Matrix3d(pose[h].transform.leftCols<3>()) : common);
+        (constrains_transform(pose[h].mode) ? Eigen::Matrix3d(pose[h].transform.leftCols<3>())
+                                            : common);
     }
     Eigen::Matrix3d rotation = common;
     fit_rotation(blend.transpose(), rotation);
@@ -157,7 +158,7 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
   d = Rows::Zero(4 * space.columns, 3);
   for (std::size_t h = 0; h < pose.size(); ++h)
   {
-    if (holds_transform(pose[h].mode))
+    if (constrains_transform(pose[h].mode))
     {
       const auto j = static_cast<Index>(h);
       d.middleRows<4>(4 * j) = space.block_of(pose[h].transform, j);
@@ -175,7 +176,7 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
       : posed_tail(rest, pose[handle]) - rest.tail;
     wanted.row(r) = move.transpose();
   }
-  const ReducedBasis::Unturned star = this->basis_.unturned(
+  const ReducedBasis::UnrotatedMinimizer star = this->basis_.unrotated_minimizer(
     space, quadratic.stiffness, quadratic.load, d, wanted - thin_product(this->position_rows_, d));
   const double star_energy = quadratic.constant + star.energy;
   std::vector<double> star_covariance = space.rest_covariance;

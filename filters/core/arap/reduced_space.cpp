@@ -295,7 +295,7 @@ Status ReducedSpace::bind(ExecutionContext& context, PointsView points, const El
   WeightsView weights, const Handles& their_handles, const ReducedArapOptions& options)
 {
   *this = ReducedSpace();
-  Status status = check_bendable(points, elements, their_handles);
+  Status status = check_mesh_and_handles(points, elements, their_handles);
   if (!status.ok())
   {
     return status;
@@ -477,7 +477,7 @@ std::vector<Affine> ReducedSpace::transforms_of(const Rows& d, const Pose& pose)
   for (Index j = 0; j < this->columns; ++j)
   {
     const auto h = static_cast<std::size_t>(j);
-    transforms.push_back(h < pose.size() && holds_transform(pose[h].mode)
+    transforms.push_back(h < pose.size() && constrains_transform(pose[h].mode)
         ? pose[h].transform
         : this->affine_of(d.middleRows<4>(4 * j), j));
   }

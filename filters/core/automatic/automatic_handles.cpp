@@ -37,7 +37,7 @@ SortedSurface sorted(PointsView points, TrianglesView triangles)
   {
     used[triangles.data()[k]] = 1;
   }
-  const std::vector<Index> order = order_by_place(points, used);
+  const std::vector<Index> order = spatial_sort(points, used);
   SortedSurface surface;
   std::vector<Index> number(static_cast<std::size_t>(points.rows()), -1);
   for (std::size_t i = 0; i < order.size(); ++i)

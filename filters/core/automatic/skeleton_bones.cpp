@@ -622,7 +622,7 @@ private:
     {
       const Handle& bone = this->result_.handles[h];
       const Vec3 vector = bone.tail - bone.head;
-      const double along = projected_endpoint(place, bone.head, vector);
+      const double along = fraction_along_bone(place, bone.head, vector);
       const double distance = (bone.head + along * vector - place).norm();
       if (distance < least)
       {

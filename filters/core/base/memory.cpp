@@ -55,7 +55,7 @@ double read_kibibytes(const char* path, const std::string& key, double otherwise
   return otherwise;
 }
 
-double address_space_leaves()
+double unused_address_space()
 {
   rlimit limit{};
   if (::getrlimit(RLIMIT_AS, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
@@ -65,7 +65,7 @@ double address_space_leaves()
   return static_cast<double>(limit.rlim_cur) - own_pages().address_space;
 }
 
-double group_leaves()
+double unused_group_memory()
 {
   // In the unified hierarchy of control groups, the line of the process has the form "0::/path".
   std::string group;
@@ -118,8 +118,8 @@ double available_memory()
 {
 #ifdef __linux__
   return std::max(0.0,
-    std::min({ read_kibibytes("/proc/meminfo", "MemAvailable:", unknown), address_space_leaves(),
-      group_leaves() }));
+    std::min({ read_kibibytes("/proc/meminfo", "MemAvailable:", unknown), unused_address_space(),
+      unused_group_memory() }));
 #else
   return unknown;
 #endif

@@ -10,7 +10,7 @@
 namespace bindpose
 {
 
-std::vector<std::int32_t> order_by_place(const std::vector<Vec3>& points)
+std::vector<std::int32_t> spatial_sort(const std::vector<Vec3>& points)
 {
   // The cells divide the bounding box of every 16th point. Points outside of this box are assigned
   // to the nearest cells.

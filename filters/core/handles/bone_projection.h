@@ -10,7 +10,7 @@ namespace bindpose
 
 /// Return the position of a point along a bone: its projection onto the bone, 0 at the head and 1
 /// at the tail, clamped to [0, 1]. Return 0 for a bone without length.
-inline double projected_endpoint(const Vec3& point, const Vec3& head, const Vec3& vector)
+inline double fraction_along_bone(const Vec3& point, const Vec3& head, const Vec3& vector)
 {
   const double length = vector.stableNorm();
   return length > 0.0 ? std::clamp((point - head).dot(vector / length) / length, 0.0, 1.0) : 0.0;

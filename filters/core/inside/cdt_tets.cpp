@@ -179,14 +179,14 @@ bool CdtTets::out_of_patience() const
 /// Run TetGen on refined triangles with each set of switches in turn. If the surface has wide
 /// openings, small tets are tried first. There, tets between the triangles alone are too coarse to
 /// follow the winding number, which may reach the threshold even outside the convex hull. If
-/// doubtful_share() is very large, as for a sheet with a thin sliver in front of the sheet, small
-/// tets are not tried first, because they would miss the sliver, too.
+/// near_threshold_fraction() is very large, as for a sheet with a thin sliver in front of the
+/// sheet, small tets are not tried first, because they would miss the sliver, too.
 Status CdtTets::try_switches(const Move& move, const MesherData& refined)
 {
   const Phase phase(this->context_, "tetgen", 0.4, 1.0);
   constexpr double wide_open = 1.5;
   constexpr double sheet = 14.0;
-  const double doubt = this->inside_.doubtful_share();
+  const double doubt = this->inside_.near_threshold_fraction();
   const bool fine_first = doubt > wide_open && doubt < sheet;
   bool fine_tried = false;
   bool fine_is_wrong = false;

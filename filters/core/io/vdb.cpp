@@ -502,7 +502,8 @@ std::string uuid_of(std::uint64_t first, std::uint64_t second)
 /// Replace the random UUID in the file's header by a UUID that is computed from the rest of the
 /// file. Programs use the UUID to detect changes of a file.
 /// @return false if the file cannot be read or written.
-bool settle_tag(const std::string& path, const std::string& tag, ExecutionContext& context)
+bool replace_uuid_by_hash(
+  const std::string& path, const std::string& tag, ExecutionContext& context)
 {
   std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
   std::vector<char> chunk(1 << 20);
@@ -574,7 +575,7 @@ Status write_file(const std::string& path, const openvdb::FloatGrid::Ptr& grid,
     written = false;
   }
   written = buffer.close() && written;
-  written = written && settle_tag(file.temporary(), archive.getUniqueTag(), context);
+  written = written && replace_uuid_by_hash(file.temporary(), archive.getUniqueTag(), context);
   if (context.canceled())
   {
     return Status::canceled();

@@ -58,7 +58,7 @@ Affine transform_for_child(const Handle& parent, const HandlePose& posed, const 
   {
     return posed.transform;
   }
-  const double along = projected_endpoint(place, parent.head, bone);
+  const double along = fraction_along_bone(place, parent.head, bone);
   const double degrees = (1.0 - along) * posed.twist[0] + along * posed.twist[1];
   const Eigen::AngleAxisd turn(degrees * (EIGEN_PI / 180.0), bone.stableNormalized());
   return composed(posed.transform,

@@ -16,19 +16,19 @@ Eigen::Matrix3d pivot_rotation(const Handles& handles, const Pose& pose, double 
   Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
   for (std::size_t h = 0; h < pose.size(); ++h)
   {
-    if (holds_transform(pose[h].mode) || holds_pivot(pose[h].mode))
+    if (constrains_transform(pose[h].mode) || constrains_pivot(pose[h].mode))
     {
       pivots.emplace_back(handles[h].head, posed_pivot(handles[h], pose[h]));
       rest_mean += pivots.back().first;
       posed_mean += pivots.back().second;
     }
-    if (holds_tail(pose[h].mode))
+    if (constrains_tail(pose[h].mode))
     {
       pivots.emplace_back(handles[h].tail, posed_tail(handles[h], pose[h]));
       rest_mean += pivots.back().first;
       posed_mean += pivots.back().second;
     }
-    if (holds_transform(pose[h].mode))
+    if (constrains_transform(pose[h].mode))
     {
       s += reach * reach * pose[h].transform.leftCols<3>().transpose();
     }

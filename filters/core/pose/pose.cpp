@@ -40,7 +40,7 @@ Status check_pose(const Handles& handles, const Pose& pose)
       return Status::invalid_input("the transform, stretch or twist of handle '" + handles[h].name +
         "' contains a value that is not finite");
     }
-    if (holds_tail(pose[h].mode) && handles[h].kind != HandleKind::bone)
+    if (constrains_tail(pose[h].mode) && handles[h].kind != HandleKind::bone)
     {
       return Status::invalid_input("the mode " + std::string(to_string(pose[h].mode)) +
         " of handle '" + handles[h].name + "' can only be used for bones");
@@ -72,12 +72,12 @@ Status check_elements(PointsView points, const Elements& elements, const Handles
 }
 } // namespace
 
-Status check_bendable(PointsView points, TrianglesView triangles, const Handles& handles)
+Status check_mesh_and_handles(PointsView points, TrianglesView triangles, const Handles& handles)
 {
   return check_elements(points, triangles, handles);
 }
 
-Status check_bendable(PointsView points, TetsView tets, const Handles& handles)
+Status check_mesh_and_handles(PointsView points, TetsView tets, const Handles& handles)
 {
   return check_elements(points, tets, handles);
 }
@@ -91,9 +91,9 @@ std::string unused_stretch(const Pose& pose, StretchUse use)
     {
       const bool ends = posed.mode == HandleMode::ends;
       const bool stretches = std::abs(posed.stretch - 1.0) > same_length &&
-        (holds_transform(posed.mode) || (ends && use != StretchUse::ends));
+        (constrains_transform(posed.mode) || (ends && use != StretchUse::ends));
       const bool twists = posed.twist.cwiseAbs().maxCoeff() > same_angle &&
-        (holds_transform(posed.mode) || holds_tail(posed.mode));
+        (constrains_transform(posed.mode) || constrains_tail(posed.mode));
       return stretches || twists;
     });
   return unused && use != StretchUse::all ? "the pose stretches or twists bones, which this method "

@@ -53,17 +53,17 @@ struct HandlePose
 };
 
 /// Report whether a mode constrains the whole transform.
-inline bool holds_transform(HandleMode mode)
+inline bool constrains_transform(HandleMode mode)
 {
   return mode == HandleMode::full || mode == HandleMode::automatic;
 }
 /// Report whether the mode constrains the position of the pivot but not the whole transform. The
 /// next function reports this for the tail.
-inline bool holds_pivot(HandleMode mode)
+inline bool constrains_pivot(HandleMode mode)
 {
   return mode == HandleMode::position || mode == HandleMode::ends;
 }
-inline bool holds_tail(HandleMode mode)
+inline bool constrains_tail(HandleMode mode)
 {
   return mode == HandleMode::tail || mode == HandleMode::ends;
 }
@@ -83,8 +83,8 @@ Status check_pose(const Handles& handles, const Pose& pose);
 
 /// Check whether a mesh and its handles can be bound. Return invalid_input if check_mesh() or
 /// check_handles() fails, if a point is not finite, or if there is no element.
-Status check_bendable(PointsView points, TrianglesView triangles, const Handles& handles);
-Status check_bendable(PointsView points, TetsView tets, const Handles& handles);
+Status check_mesh_and_handles(PointsView points, TrianglesView triangles, const Handles& handles);
+Status check_mesh_and_handles(PointsView points, TetsView tets, const Handles& handles);
 
 /// Specifies in which modes a method uses the stretch and twist of a bone. Every method uses the
 /// stretch of bones in mode tail.

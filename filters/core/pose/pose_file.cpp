@@ -176,7 +176,7 @@ HandleEdit read_handle(
     if (key == "mode")
     {
       edit.mode = static_cast<HandleMode>(word(entry, at, handle_mode_words));
-      if (holds_tail(*edit.mode) && rest.kind != HandleKind::bone)
+      if (constrains_tail(*edit.mode) && rest.kind != HandleKind::bone)
       {
         fail(at,
           " is '" + std::string(to_string(*edit.mode)) +

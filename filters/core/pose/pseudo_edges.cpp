@@ -306,7 +306,7 @@ void turn_by_pseudo_edges(
     const Eigen::Quaterniond q(Eigen::Vector4d(turn.quaternion.normalized()));
     Eigen::Matrix3d linear = q.toRotationMatrix();
     linear *= stretch ? turn.ratio / static_cast<double>(turn.edges) : 1.0;
-    if (holds_transform(pose[h].mode))
+    if (constrains_transform(pose[h].mode))
     {
       linear *= Eigen::Matrix3d(pose[h].transform.leftCols<3>());
     }

@@ -124,7 +124,8 @@ void order_values(const std::vector<OrderedPair>& upwards, const std::vector<cha
   }
 }
 
-Index without_room(const BoxQpColumn& column, const std::vector<Index>& fixed, Index count)
+Index find_infeasible_vertex(
+  const BoxQpColumn& column, const std::vector<Index>& fixed, Index count)
 {
   std::vector<double> least(static_cast<std::size_t>(count));
   std::vector<double> most(static_cast<std::size_t>(count));

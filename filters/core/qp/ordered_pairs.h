@@ -30,7 +30,8 @@ std::vector<OrderedPair> upward_pairs(
 /// Test whether bounds and given values are compatible with the column's pairs, by propagating
 /// lower bounds along the pairs.
 /// @return a vertex that has no feasible value; -1: there is no such vertex.
-Index without_room(const BoxQpColumn& column, const std::vector<Index>& fixed, Index count);
+Index find_infeasible_vertex(
+  const BoxQpColumn& column, const std::vector<Index>& fixed, Index count);
 
 /// Change values as little as necessary to satisfy every ordered pair. Given values do not change.
 /// @param upwards all ordered pairs, sorted by upward_pairs().

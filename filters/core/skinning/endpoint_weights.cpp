@@ -85,7 +85,7 @@ Status endpoint_weights(PointsView points, const Handles& handles, EndpointMetho
       for (Index v = 0; v < points.rows(); ++v)
       {
         endpoints(v, static_cast<Index>(j)) =
-          projected_endpoint(points.row(v), handles[j].head, handles[j].tail - handles[j].head);
+          fraction_along_bone(points.row(v), handles[j].head, handles[j].tail - handles[j].head);
       }
     }
   }

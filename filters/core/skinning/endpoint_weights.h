@@ -16,7 +16,7 @@ namespace bindpose
 /// The integers are those of vtkBoneEndpointWeights.
 enum class EndpointMethod : int
 {
-  /// Projection onto the bone, clamped (projected_endpoint); independent of the shape.
+  /// Projection onto the bone, clamped (fraction_along_bone); independent of the shape.
   projection = 0,
   /// W_tail / (W_head + W_tail), where W are bounded biharmonic weights of point handles at the
   /// ends of all bones. One problem is solved for all bones.

@@ -878,7 +878,7 @@ Status skinning_transforms(
   std::vector<Index> free;
   for (std::size_t h = 0; h < handles.size(); ++h)
   {
-    if (holds_transform(pose[h].mode) || pose[h].mode == HandleMode::ends)
+    if (constrains_transform(pose[h].mode) || pose[h].mode == HandleMode::ends)
     {
       transforms[h] = pose[h].transform;
     }
@@ -910,7 +910,7 @@ std::vector<BoneChange> bone_changes(const Handles& handles, const Pose& pose)
   for (std::size_t h = 0; h < handles.size(); ++h)
   {
     if (handles[h].kind == HandleKind::bone &&
-      (holds_transform(pose[h].mode) || pose[h].mode == HandleMode::ends))
+      (constrains_transform(pose[h].mode) || pose[h].mode == HandleMode::ends))
     {
       changes[h] = { handles[h].head, handles[h].tail - handles[h].head, pose[h].stretch,
         pose[h].twist };

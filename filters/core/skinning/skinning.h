@@ -121,7 +121,7 @@ public:
   /// bit-identical to linear_blend.
   /// @param bones one per handle; handles without stretch and twist are blended as in linear_blend.
   /// @param endpoints #V x #handles, 0 to 1 in the bones' columns. A NaN, or a matrix of size 0,
-  /// selects the position of the point along the bone (projected_endpoint).
+  /// selects the position of the point along the bone (fraction_along_bone).
   Status stretchable_bones(ExecutionContext& context, PointsView rest,
     const std::vector<Affine>& transforms, const std::vector<BoneChange>& bones,
     WeightsView endpoints, Points& posed) const;

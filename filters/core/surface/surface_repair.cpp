@@ -152,7 +152,7 @@ std::vector<Index> patches_of(const std::vector<TriangleSide>& sides, Index tria
 /// in edges or vertices have one shell each.
 /// @param shell_of set to the index of each triangle's shell.
 /// @return the shells.
-std::vector<Shell> told_apart(
+std::vector<Shell> find_shells(
   const Triangles& triangles, const Components& components, std::vector<Index>& shell_of)
 {
   const std::vector<TriangleSide> sides = sides_by_edge(triangles);
@@ -214,7 +214,7 @@ std::vector<Shell> shells_of(
   const Points& points, const Triangles& triangles, const Components& components)
 {
   std::vector<Index> shell_of;
-  std::vector<Shell> shells = told_apart(triangles, components, shell_of);
+  std::vector<Shell> shells = find_shells(triangles, components, shell_of);
   for (Index t = 0; t < triangles.rows(); ++t)
   {
     Shell& shell = shells[shell_of[t]];
@@ -256,7 +256,8 @@ double winding_of_shell(
 /// Return test points of a shell: the centers of some of its triangles. The shell is inside another
 /// shell if most of these points are inside the other shell. Several points are needed because
 /// winding numbers are not integers where shells touch.
-std::vector<Vec3> looks_of(const Points& points, const Triangles& triangles, const Shell& shell)
+std::vector<Vec3> test_points_of(
+  const Points& points, const Triangles& triangles, const Shell& shell)
 {
   constexpr std::size_t looks = 5;
   const std::size_t step = (shell.triangles.size() + looks - 1) / looks;
@@ -461,7 +462,7 @@ bool inward_shells(const Points& points, const Triangles& triangles,
       std::vector<std::size_t> begin{ 0 };
       for (const Index t : inner)
       {
-        const std::vector<Vec3> looks = looks_of(points, triangles, shells[t]);
+        const std::vector<Vec3> looks = test_points_of(points, triangles, shells[t]);
         places.insert(places.end(), looks.begin(), looks.end());
         begin.push_back(places.size());
       }

@@ -29,7 +29,7 @@ bool same_place(const PointsView& points, Index a, Index b)
   return compare(points, a, b) == 0;
 }
 
-std::vector<Index> order_by_place(const PointsView& points, const std::vector<char>& used)
+std::vector<Index> spatial_sort(const PointsView& points, const std::vector<char>& used)
 {
   struct Entry
   {
@@ -65,7 +65,7 @@ std::vector<Index> order_by_place(const PointsView& points, const std::vector<ch
 
 std::vector<Index> lowest_at_place(const PointsView& points, const std::vector<char>& used)
 {
-  const std::vector<Index> order = order_by_place(points, used);
+  const std::vector<Index> order = spatial_sort(points, used);
   std::vector<Index> lowest(static_cast<std::size_t>(points.rows()));
   std::iota(lowest.begin(), lowest.end(), Index(0));
   for (std::size_t i = 1; i < order.size(); ++i)

@@ -13,7 +13,7 @@ bool same_place(const PointsView& points, Index a, Index b);
 
 /// Return the used vertices sorted lexicographically by coordinates. Equal vertices are sorted by
 /// id.
-std::vector<Index> order_by_place(const PointsView& points, const std::vector<char>& used);
+std::vector<Index> spatial_sort(const PointsView& points, const std::vector<char>& used);
 
 /// For every vertex, return the lowest id of the used vertices with the same coordinates. An unused
 /// vertex gets its own id.

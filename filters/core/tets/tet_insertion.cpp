@@ -279,7 +279,7 @@ public:
   /// Insert vertices at the positions `places`. `mesh` contains the current tets.
   bool insert(const TetMesh& mesh, const Points& places, std::vector<Index>& vertices)
   {
-    const std::vector<std::int32_t> near = order_by_place(as_vectors(places));
+    const std::vector<std::int32_t> near = spatial_sort(as_vectors(places));
     constexpr double looked = 0.2; // fraction of the total time for locating the positions
     {
       const ProgressRange range(this->context_, 0.0, looked);

@@ -513,7 +513,7 @@ Status Smoothing::solve()
   }
   column.pairs =
     pairs_of_order(this->graph_, this->result_.list, this->rank_, this->options_.epsilon);
-  const Index tight = without_room(column, this->fixed_, n + 1);
+  const Index tight = find_infeasible_vertex(column, this->fixed_, n + 1);
   if (tight >= 0)
   {
     return Status::invalid_input(

@@ -207,8 +207,9 @@ Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
     }
     sort_pairs(pairs);
     column.pairs = pairs;
-    const Index tight =
-      own_pins || column.bounds.lower.size() > 0 ? without_room(column, group.fixed, n) : Index(-1);
+    const Index tight = own_pins || column.bounds.lower.size() > 0
+      ? find_infeasible_vertex(column, group.fixed, n)
+      : Index(-1);
     if (tight >= 0)
     {
       return Status::invalid_input("the bounds and pins of " + place_of(problem, group, j, tight) +

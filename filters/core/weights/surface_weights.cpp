@@ -230,7 +230,7 @@ Status Solver::fill(TetrahedralizeResult& tets)
 /// vertices of this domain.
 Status Solver::refuse_single_points(const char* domain) const
 {
-  return asks_of_vertices(this->weights_options_.terms)
+  return has_vertex_terms(this->weights_options_.terms)
     ? Status::invalid_input("rigid sets, bounds, pins and mirrors of points need tets that "
                             "preserve the surface's points; use domain volume instead of " +
         std::string(domain))
@@ -241,7 +241,7 @@ Status Solver::carry_terms_to(const Points& points, const std::vector<Index>& or
   WeightTerms& terms, Status& status) const
 {
   terms = this->weights_options_.terms;
-  if (terms.rigidity.size() == 0 && !asks_of_vertices(terms))
+  if (terms.rigidity.size() == 0 && !has_vertex_terms(terms))
   {
     return {};
   }
@@ -739,7 +739,7 @@ Status Solver::automatic(SurfaceWeights& result)
     const Status status = with_reason(this->on_mesh(result), "the shape is flat");
     return status.ok() ? status : this->take_over(status, result);
   }
-  const bool asked = asks_of_vertices(this->weights_options_.terms);
+  const bool asked = has_vertex_terms(this->weights_options_.terms);
   if (asked || !this->region_ids_.empty())
   {
     return with_reason(this->in_volume(result),

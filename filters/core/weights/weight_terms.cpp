@@ -325,7 +325,7 @@ WeightTerms extend_terms(const WeightTerms& terms, const HandleInsertion& mesh)
   return result;
 }
 
-bool asks_of_vertices(const WeightTerms& terms)
+bool has_vertex_terms(const WeightTerms& terms)
 {
   return !terms.rigid_sets.empty() || terms.lower.size() > 0 || terms.upper.size() > 0 ||
     terms.pinned.size() > 0 || !terms.mirror.empty();

@@ -71,7 +71,7 @@ WeightTerms extend_terms(const WeightTerms& terms, const HandleInsertion& mesh);
 
 /// Report whether a term applies to individual vertices. If so, the mesh must contain these
 /// vertices.
-bool asks_of_vertices(const WeightTerms& terms);
+bool has_vertex_terms(const WeightTerms& terms);
 
 /// Transfer the terms from a surface to a mesh that contains some of its vertices. The rigidity of
 /// a mesh vertex is the rigidity at the nearest point of the surface.

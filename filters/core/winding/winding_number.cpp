@@ -576,7 +576,7 @@ Status WindingNumber::evaluate_points(Index count, const PointAt& point_at,
       {
         points[i] = point_at(begin + i);
       }
-      const std::vector<std::int32_t> order = order_by_place(points);
+      const std::vector<std::int32_t> order = spatial_sort(points);
       constexpr Index at_once = WindingCells::most_at_once;
       std::array<Vec3, at_once> some;
       std::array<double, at_once> values;

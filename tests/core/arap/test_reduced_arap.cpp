@@ -43,7 +43,7 @@ Points dense_twin(const test::Rig& rig, const RotationGroups& groups, const Pose
   for (Index h = 0; h < m; ++h)
   {
     const HandlePose& handle = pose[static_cast<std::size_t>(h)];
-    if (holds_transform(handle.mode))
+    if (constrains_transform(handle.mode))
     {
       for (Index a = 0; a < 4; ++a)
       {

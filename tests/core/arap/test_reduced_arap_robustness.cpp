@@ -550,15 +550,15 @@ TEST(ReducedArapRobustness, EndsOfBonesAreHeldOneByOne)
     energies.push_back(status.report.number("energy", -1.0));
     Points result;
     ASSERT_TRUE(arap.deform(context, rig.mesh.points, result).ok());
-    EXPECT_EQ((result.row(bar.head).transpose() - head).norm() < 1e-11, holds_pivot(mode));
-    EXPECT_EQ((result.row(bar.tail).transpose() - tail).norm() < 1e-11, holds_tail(mode));
+    EXPECT_EQ((result.row(bar.head).transpose() - head).norm() < 1e-11, constrains_pivot(mode));
+    EXPECT_EQ((result.row(bar.tail).transpose() - tail).norm() < 1e-11, constrains_tail(mode));
 
     const Status full = whole.solve(context, pose);
     ASSERT_TRUE(full.usable()) << full.message;
     ASSERT_LT(full.report.number("constraint_residual", 0.0), 1e-9);
     const Points& without = whole.posed();
-    EXPECT_EQ((without.row(bar.head).transpose() - head).norm() < 1e-9, holds_pivot(mode));
-    EXPECT_EQ((without.row(bar.tail).transpose() - tail).norm() < 1e-9, holds_tail(mode));
+    EXPECT_EQ((without.row(bar.head).transpose() - head).norm() < 1e-9, constrains_pivot(mode));
+    EXPECT_EQ((without.row(bar.tail).transpose() - tail).norm() < 1e-9, constrains_tail(mode));
   }
   // Each constraint raises the energy. The energy is highest if both ends are constrained.
   EXPECT_LT(energies[0], energies[1]);

@@ -106,7 +106,7 @@ struct BasisCase
   Eigen::MatrixXd columns(const Eigen::MatrixXd& stiffness, const ReducedBasis& basis) const
   {
     const Coordinates nothing = Coordinates::Zero(4 * this->space.columns, 3);
-    const ReducedBasis::Unturned rest = basis.unturned(
+    const ReducedBasis::UnrotatedMinimizer rest = basis.unrotated_minimizer(
       this->space, stiffness, nothing, nothing, Coordinates::Zero(this->held.rows(), 3));
     Eigen::MatrixXd b(4 * this->space.columns, basis.coordinates());
     for (Index c = 0; c < b.cols(); ++c)
@@ -146,8 +146,8 @@ struct BasisCase
     EXPECT_LT((a * a.transpose() - b * b.transpose()).norm(), 1e-10 * (a * a.transpose()).norm());
 
     const auto still = [&](const ReducedBasis& basis)
-    { return basis.unturned(this->space, stiffness, load, this->given, this->missing); };
-    const ReducedBasis::Unturned first = still(quick), second = still(sturdy);
+    { return basis.unrotated_minimizer(this->space, stiffness, load, this->given, this->missing); };
+    const ReducedBasis::UnrotatedMinimizer first = still(quick), second = still(sturdy);
     const Coordinates zero = Coordinates::Zero(quick.coordinates(), 3);
     const Coordinates d = quick.displacement(first, zero), e = sturdy.displacement(second, zero);
     EXPECT_LT((d - e).norm(), 1e-9 * e.norm());

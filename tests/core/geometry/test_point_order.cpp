@@ -36,7 +36,7 @@ TEST(PointOrder, EveryPointOnceAndTheWayIsShort)
       points[i] = random.in_box(Vec3(-1, 5, 1e3), Vec3(1, 6, 1e3 + 4));
       as_they_come[i] = static_cast<std::int32_t>(i);
     }
-    std::vector<std::int32_t> order = order_by_place(points);
+    std::vector<std::int32_t> order = spatial_sort(points);
     ASSERT_EQ(order.size(), count);
     if (count >= 3000)
     {
@@ -56,7 +56,7 @@ TEST(PointOrder, PlacesThatAreNone)
   {
     points.insert(points.end(), 20, Vec3(x, 1.0, -x));
   }
-  std::vector<std::int32_t> order = order_by_place(points);
+  std::vector<std::int32_t> order = spatial_sort(points);
   std::sort(order.begin(), order.end());
   for (std::size_t i = 0; i < points.size(); ++i)
   {

@@ -435,7 +435,7 @@ Points stretched_one_by_one(const Points& points, const Weights& weights,
     {
       const BoneChange& bone = bones[static_cast<std::size_t>(j)];
       double e = endpoints.size() > 0 ? endpoints(v, j) : std::nan("");
-      e = std::isnan(e) ? projected_endpoint(p, bone.head, bone.vector) : e;
+      e = std::isnan(e) ? fraction_along_bone(p, bone.head, bone.vector) : e;
       const double angle = (1.0 - e) * bone.twist[0] + e * bone.twist[1];
       Vec3 at = p;
       if (bone.vector.norm() > 0.0)

@@ -158,7 +158,9 @@ protected:
   {
     EXPECT_NEAR(this->plane()->position(), position, 1e-9) << when;
     EXPECT_NEAR(this->row()->value(), position, 0.002) << when;
-    EXPECT_NEAR(this->option("place").toDouble(), this->plane()->kept_place(), 0.0) << when;
+    EXPECT_NEAR(
+      this->option("place").toDouble(), this->plane()->relative_position_before_drag(), 0.0)
+      << when;
   }
 
   test::Folder folder;
@@ -193,10 +195,10 @@ TEST(PlaneShare, IsNotWornAwayByPositionsGivenBack)
     const double place = 0.1 * (k % 11);
     plane->set_place(place);
     plane->set_position(plane->position());
-    EXPECT_EQ(plane->kept_place(), place) << k;
+    EXPECT_EQ(plane->relative_position_before_drag(), place) << k;
     const auto [first, last] = plane->positions();
     plane->set_position(first + 0.3 * (last - first));
-    EXPECT_NEAR(plane->kept_place(), 0.3, 1e-12);
+    EXPECT_NEAR(plane->relative_position_before_drag(), 0.3, 1e-12);
   }
 }
 

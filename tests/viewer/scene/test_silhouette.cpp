@@ -56,7 +56,7 @@ bool faces(const TriangleMesh& mesh, Index t, const Eye& eye)
 
 /// Return the silhouette of a consistently oriented surface with two triangles per edge, by brute
 /// force.
-std::set<std::pair<Index, Index>> by_twin(const TriangleMesh& mesh, const Eye& eye)
+std::set<std::pair<Index, Index>> brute_force_silhouette(const TriangleMesh& mesh, const Eye& eye)
 {
   std::map<std::pair<Index, Index>, std::set<bool>> facing;
   for (Index t = 0; t < mesh.triangles.rows(); ++t)
@@ -113,13 +113,13 @@ TEST(Silhouette, IsThatOfATwin)
   for (int k = 0; k < 20; ++k)
   {
     const Eye eye = from(Vec3(3.0 * std::cos(k), 2.0 * std::sin(2.0 * k), 0.3 * k - 3.0));
-    EXPECT_EQ(as_set(found(ring, eye)), by_twin(ring, eye)) << k;
+    EXPECT_EQ(as_set(found(ring, eye)), brute_force_silhouette(ring, eye)) << k;
   }
   Eye along;
   along.parallel = true;
   along.direction = Vec3(0.3, -0.5, -0.8).normalized();
   const auto edges = as_set(found(ring, along));
-  EXPECT_EQ(edges, by_twin(ring, along));
+  EXPECT_EQ(edges, brute_force_silhouette(ring, along));
   along.place = Vec3(100, 100, 100); // in a parallel view the position has no effect
   EXPECT_EQ(as_set(found(ring, along)), edges);
 }

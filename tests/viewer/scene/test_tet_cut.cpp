@@ -72,15 +72,15 @@ TEST(TetCut, SidesAreTheBoundaryOfTheKeptTets)
     kept.conservativeResize(count, 4);
     // The outside facets and the exposed facets together are exactly the boundary of the remaining
     // tets, oriented outward.
-    Triangles all(cut.outside().triangles.rows() + cut.laid_open().triangles.rows(), 3);
-    all << cut.outside().triangles, cut.laid_open().triangles;
+    Triangles all(cut.outside().triangles.rows() + cut.exposed_faces().triangles.rows(), 3);
+    all << cut.outside().triangles, cut.exposed_faces().triangles;
     EXPECT_EQ(sorted(all), sorted(boundary_triangles(kept)));
     const auto whole = sorted(boundary_triangles(mesh.tets));
     for (const auto& side : sorted(cut.outside().triangles))
     {
       EXPECT_TRUE(std::binary_search(whole.begin(), whole.end(), side));
     }
-    for (const auto* sides : { &cut.outside(), &cut.laid_open() })
+    for (const auto* sides : { &cut.outside(), &cut.exposed_faces() })
     {
       for (Index s = 0; s < sides->triangles.rows(); ++s)
       {
@@ -95,7 +95,7 @@ TEST(TetCut, SidesAreTheBoundaryOfTheKeptTets)
   }
   cut.keep_all();
   EXPECT_EQ(cut.kept_count(), mesh.tets.rows());
-  EXPECT_EQ(cut.laid_open().triangles.rows(), 0);
+  EXPECT_EQ(cut.exposed_faces().triangles.rows(), 0);
 }
 
 TEST(TetCut, NothingIsLeftBeforeTheFirstCenter)
@@ -105,7 +105,7 @@ TEST(TetCut, NothingIsLeftBeforeTheFirstCenter)
   const auto [first, last] = cut.reach(Vec3::UnitX());
   cut.keep_behind(Vec3(first - 1e-9, 0, 0), Vec3::UnitX());
   EXPECT_EQ(cut.kept_count(), 0);
-  EXPECT_EQ(cut.outside().triangles.rows() + cut.laid_open().triangles.rows(), 0);
+  EXPECT_EQ(cut.outside().triangles.rows() + cut.exposed_faces().triangles.rows(), 0);
   cut.keep_behind(Vec3(last + 1e-9, 0, 0), Vec3::UnitX());
   EXPECT_EQ(cut.kept_count(), mesh.tets.rows());
 }

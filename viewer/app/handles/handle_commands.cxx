@@ -157,7 +157,7 @@ void HandleCommands::update()
   for (const HandleMode mode : all_modes)
   {
     QAction* action = this->action(name_of(mode));
-    action->setEnabled(some && (!holds_tail(mode) || all(HandleKind::bone)));
+    action->setEnabled(some && (!constrains_tail(mode) || all(HandleKind::bone)));
     action->setChecked(some &&
       std::all_of(selected.begin(), selected.end(),
         [&](int k) { return pose[static_cast<std::size_t>(k)].mode == mode; }));

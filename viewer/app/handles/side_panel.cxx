@@ -269,7 +269,7 @@ void SidePanel::show_mode()
   for (int entry = 0; entry < this->mode_->count(); ++entry)
   {
     const auto of_entry = static_cast<bindpose::HandleMode>(this->mode_->itemData(entry).toInt());
-    const bool of_bones = bindpose::holds_tail(of_entry);
+    const bool of_bones = bindpose::constrains_tail(of_entry);
     items->item(entry)->setEnabled(!of_bones || (handle >= 0 && bones));
   }
 }

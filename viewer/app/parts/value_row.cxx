@@ -78,6 +78,6 @@ double ValueRow::value() const
 void ValueRow::choose(double option)
 {
   const double span = this->field_->maximum() - this->field_->minimum();
-  this->set_value(this->tells_shares_ ? this->field_->minimum() + option * span : option);
+  this->set_value(this->option_is_fraction_ ? this->field_->minimum() + option * span : option);
   Q_EMIT this->value_chosen(this->value());
 }

@@ -19,9 +19,9 @@ public:
   void set_value(double value);
   double value() const;
   /// Let the argument of choose() be a fraction of the range, from 0 to 1, instead of a value.
-  void tell_shares() { this->tells_shares_ = true; }
+  void set_option_is_fraction() { this->option_is_fraction_ = true; }
   /// Set the value and emit value_chosen(), as if a user had chosen the value. `option` is the
-  /// value, or a fraction of the range after tell_shares().
+  /// value, or a fraction of the range after set_option_is_fraction().
   void choose(double option);
   QSlider* slider() const { return this->slider_; }
   QDoubleSpinBox* field() const { return this->field_; }
@@ -33,7 +33,7 @@ Q_SIGNALS:
 private:
   QSlider* slider_;
   QDoubleSpinBox* field_;
-  bool tells_shares_ = false;
+  bool option_is_fraction_ = false;
 };
 
 #endif

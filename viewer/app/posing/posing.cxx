@@ -135,7 +135,7 @@ void Posing::set_data(
   this->motion_->set_source(this->source_);
   this->main_->set_options(this->panels_.pose->options());
   this->show_state();
-  this->show_what_is_held();
+  this->update_automatic_modes();
   this->show_comparison();
   this->moves_changed();
   this->show_values();
@@ -212,14 +212,14 @@ void Posing::options_changed()
   this->main_->bind(); // starts a bind again that the user has canceled
   this->show_comparison();
   this->motion_->options_changed();
-  this->show_what_is_held();
+  this->update_automatic_modes();
   this->handles_moved();
   Q_EMIT this->moved();
 }
 
 /// Update how the 3D view draws handles in mode automatic. It depends on whether the method
 /// computes the rotations of handles that are only translated.
-void Posing::show_what_is_held()
+void Posing::update_automatic_modes()
 {
   const bool finds = finds_rotations(this->panels_.pose->options().method);
   this->viewport_->handle_widget()->GetHandleSetRepresentation()->SetFindsRotations(finds);

@@ -133,7 +133,7 @@ private:
   void connect_panel();
   void connect_keeper();
   bindpose::Pose pose() const;
-  void show_what_is_held();
+  void update_automatic_modes();
   bindpose::PoseOptions compared_options() const;
   void options_changed();
   void comparison_changed();

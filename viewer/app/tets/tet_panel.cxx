@@ -100,7 +100,7 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   this->orientations_->setObjectName("tets.orientation");
   this->position_ = new ValueRow(this);
   this->position_->setObjectName("tets.place");
-  this->position_->tell_shares();
+  this->position_->set_option_is_fraction();
   this->position_->setToolTip(
     tr("Position of the plane along its normal; the mouse can also drag the plane"));
   column->addWidget(this->position_);

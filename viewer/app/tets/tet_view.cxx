@@ -175,7 +175,7 @@ void TetView::draw_shrunk()
   if (dragging)
   {
     wanted.assign(wanted.size(), 0);
-    for (const auto* sides : { &this->cut_.outside(), &this->cut_.laid_open() })
+    for (const auto* sides : { &this->cut_.outside(), &this->cut_.exposed_faces() })
     {
       for (const Index t : sides->tets)
       {
@@ -226,8 +226,8 @@ void TetView::update()
   {
     this->draw(
       0, this->cut_.outside().triangles, this->cut_.outside().tets, this->grid_->GetPoints());
-    this->draw(
-      1, this->cut_.laid_open().triangles, this->cut_.laid_open().tets, this->grid_->GetPoints());
+    this->draw(1, this->cut_.exposed_faces().triangles, this->cut_.exposed_faces().tets,
+      this->grid_->GetPoints());
   }
   const std::chrono::duration<double, std::milli> elapsed =
     std::chrono::steady_clock::now() - start;

@@ -468,7 +468,7 @@ QString WindowHand::set_mode(const QString& mode)
   const Handles& handles = this->window_->document()->handles();
   const bool bones = std::all_of(selected.begin(), selected.end(),
     [&](int handle) { return handles[static_cast<std::size_t>(handle)].kind == HandleKind::bone; });
-  if (found == std::end(words) || (holds_tail(static_cast<HandleMode>(number)) && !bones))
+  if (found == std::end(words) || (constrains_tail(static_cast<HandleMode>(number)) && !bones))
   {
     return selected.size() > 1
       ? QObject::tr("the mode '%1' is not available for these handles").arg(mode)

@@ -61,10 +61,11 @@ public:
   std::pair<double, double> positions() const;
   bindpose::Vec3 origin() const { return this->state_.origin; }
   bindpose::Vec3 normal() const;
-  /// Return the free normal (kept_free_normal) or the relative position (kept_place). During a drag
-  /// both functions return the values before the drag.
+  /// Return the free normal (kept_free_normal) or the relative position
+  /// (relative_position_before_drag). During a drag both functions return the values before the
+  /// drag.
   bindpose::Vec3 kept_free_normal() const { return this->kept().free_normal; }
-  double kept_place() const { return this->kept().place; }
+  double relative_position_before_drag() const { return this->kept().place; }
 
   /// Cancel a drag with the mouse, as Esc does.
   void cancel();

@@ -87,7 +87,7 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   this->orientations_->setObjectName("volume.orientation");
   this->position_ = new ValueRow(this);
   this->position_->setObjectName("volume.place");
-  this->position_->tell_shares();
+  this->position_->set_option_is_fraction();
   this->position_->setToolTip(
     tr("Position of the slice along its normal; the mouse can also drag the slice"));
   column->addWidget(this->position_);

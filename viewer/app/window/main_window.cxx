@@ -845,7 +845,7 @@ void MainWindow::dropEvent(QDropEvent* event)
 
 void MainWindow::closeEvent(QCloseEvent* event)
 {
-  event->setAccepted(this->sessions_->may_go());
+  event->setAccepted(this->sessions_->confirm_close());
 }
 
 // ---- Posing ------------------------------------------------------------------------------------

@@ -12,7 +12,7 @@ void tie_plane(OptionLinks* links, Document* document, const QString& name, Plan
   const QString normal = name + ".normal";
   // During a drag, store the values from before the drag, because a session may be saved then.
   links->tie(
-    place, [plane] { return plane->kept_place(); },
+    place, [plane] { return plane->relative_position_before_drag(); },
     [plane](const QVariant& value) { plane->set_place(value.toDouble()); });
   links->tie(
     normal,

@@ -131,7 +131,7 @@ bool WindowSessions::open(const QString& path)
     this->parts_.errors->show_sentence(QString::fromStdString(status.message));
     return false;
   }
-  if (!this->may_go())
+  if (!this->confirm_close())
   {
     return false;
   }
@@ -176,7 +176,7 @@ bool WindowSessions::save_as()
   return dialog.exec() == QDialog::Accepted && this->write(dialog.selectedFiles().front());
 }
 
-bool WindowSessions::may_go()
+bool WindowSessions::confirm_close()
 {
   if (!this->parts_.document->is_changed(!this->path_.isEmpty()))
   {
@@ -264,7 +264,7 @@ void WindowSessions::recover()
     this->parts_.errors->show_sentence(QString::fromStdString(status.message));
     return;
   }
-  if (!this->may_go())
+  if (!this->confirm_close())
   {
     this->offer_recovery(
       QFileInfo(QFileInfo(this->recovered_->path()).absolutePath()).absolutePath());

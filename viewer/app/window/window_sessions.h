@@ -51,7 +51,7 @@ public:
   bool write(const QString& path);
   /// Report whether the work can be closed. If there are unsaved changes, ask the user whether to
   /// save or discard them. Return false if the user cancels, or if saving fails.
-  bool may_go();
+  bool confirm_close();
   /// Return the path of the session file; empty if there is none.
   QString path() const { return this->path_; }
   /// Show the recovery bar if a crashed process has left work in the folder `root`; empty: the

@@ -220,7 +220,7 @@ void HandleData::resolve_modes(std::vector<HandlePlace>& places, bool finds_rota
   for (std::size_t k = 0; k < places.size(); ++k)
   {
     const HandleMode mode = resolved[k].mode;
-    places[k].mode = static_cast<int>(holds_transform(mode) ? HandleMode::full : mode);
+    places[k].mode = static_cast<int>(constrains_transform(mode) ? HandleMode::full : mode);
   }
 }
 

@@ -39,7 +39,7 @@ double attachment(const std::vector<HandlePlace>& places, const HandleGroup& gro
     }
     child = parent;
   }
-  return projected_endpoint(places[static_cast<std::size_t>(child)].rest_head, bone.rest_head,
+  return fraction_along_bone(places[static_cast<std::size_t>(child)].rest_head, bone.rest_head,
     bone.rest_tail - bone.rest_head);
 }
 

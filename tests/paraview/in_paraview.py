@@ -126,7 +126,7 @@ def deformation():
     numbers["volume"] = data.GetFieldData().GetArray("Report.volume").GetTuple1(0)
     # The volume of the ball is 0.524; without the missing slice it is 0.465.
     assert 0.3 < numbers["volume"] < 0.53, numbers["volume"]
-    assert fetch(TetrahedralizeSurface(Input=surface, Method="Remesh", Resolution=10)).GetNumberOfCells() > 100
+    assert fetch(TetrahedralizeSurface(Input=surface, Method="Remeshed", Resolution=10)).GetNumberOfCells() > 100
 
     handles = FarthestPointHandles(Input=tets, NumberOfHandles=5)
     assert fetch(handles).GetNumberOfCells() == 5

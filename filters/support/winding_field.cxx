@@ -301,10 +301,29 @@ struct WindingField::Kernel
   virtual bool depends_on_expected_queries() const { return false; }
 };
 
-struct WindingField::Surface : Kernel
+/// A kernel that evaluates on a grid or at points.
+template <typename Winding>
+struct WindingField::GridKernel : Kernel
 {
-  WindingNumber winding;
+  Winding winding;
 
+  Status evaluate(const Samples& samples, ExecutionContext& context, double* out,
+    unsigned char* on_surface) const override
+  {
+    return samples.grid() ? this->winding.evaluate(*samples.grid(), context, out, on_surface)
+                          : this->winding.evaluate(samples.points(), context, out, on_surface);
+  }
+
+  Status evaluate_gradient(
+    const Samples& samples, ExecutionContext& context, double* out) const override
+  {
+    return samples.grid() ? this->winding.evaluate_gradient(*samples.grid(), context, out)
+                          : this->winding.evaluate_gradient(samples.points(), context, out);
+  }
+};
+
+struct WindingField::Surface : GridKernel<WindingNumber>
+{
   Status build(vtkPointSet* input, const Options& options, ExecutionContext& context,
     vtkPolyData* boundary) override
   {
@@ -360,20 +379,6 @@ struct WindingField::Surface : Kernel
     return status;
   }
 
-  Status evaluate(const Samples& samples, ExecutionContext& context, double* out,
-    unsigned char* on_surface) const override
-  {
-    return samples.grid() ? this->winding.evaluate(*samples.grid(), context, out, on_surface)
-                          : this->winding.evaluate(samples.points(), context, out, on_surface);
-  }
-
-  Status evaluate_gradient(
-    const Samples& samples, ExecutionContext& context, double* out) const override
-  {
-    return samples.grid() ? this->winding.evaluate_gradient(*samples.grid(), context, out)
-                          : this->winding.evaluate_gradient(samples.points(), context, out);
-  }
-
   bool depends_on_expected_queries() const override
   {
     return this->winding.method() == WindingMethod::fast;
@@ -422,10 +427,8 @@ struct WindingField::Curve : Kernel
   }
 };
 
-struct WindingField::Cloud : Kernel
+struct WindingField::Cloud : GridKernel<PointCloudWindingNumber>
 {
-  PointCloudWindingNumber winding;
-
   Status build(
     vtkPointSet* input, const Options& options, ExecutionContext& context, vtkPolyData*) override
   {
@@ -452,20 +455,6 @@ struct WindingField::Cloud : Kernel
       status.report.set("areas", areas ? "given" : "estimated");
     }
     return status;
-  }
-
-  Status evaluate(const Samples& samples, ExecutionContext& context, double* out,
-    unsigned char* on_surface) const override
-  {
-    return samples.grid() ? this->winding.evaluate(*samples.grid(), context, out, on_surface)
-                          : this->winding.evaluate(samples.points(), context, out, on_surface);
-  }
-
-  Status evaluate_gradient(
-    const Samples& samples, ExecutionContext& context, double* out) const override
-  {
-    return samples.grid() ? this->winding.evaluate_gradient(*samples.grid(), context, out)
-                          : this->winding.evaluate_gradient(samples.points(), context, out);
   }
 };
 

@@ -99,6 +99,8 @@ public:
 
 private:
   struct Kernel;
+  template <typename Winding>
+  struct GridKernel;
   struct Surface;
   struct Curve;
   struct Cloud;

@@ -77,7 +77,7 @@ public:
   bool check_output(const std::string& path, const std::string& endings);
   bool write(vtkDataSet* data, const std::string& path);
   /// Write to the temporary file of `file`, which commit() renames. Use it for a group of files, so
-  /// that either all or none of them are written.
+  /// that either all files of the group are written or no file.
   bool write_uncommitted(vtkDataSet* data, const std::string& path, AtomicFile& file);
   bool commit(AtomicFile& file);
   /// Write a rig as glTF: a mesh with weights, its handles (null: none), and the frames of an

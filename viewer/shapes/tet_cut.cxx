@@ -86,7 +86,7 @@ void TetCut::keep_behind(const Vec3& origin, const Vec3& normal)
 void TetCut::find_sides()
 {
   std::vector<Index> corners[2];
-  Sides* const parts[2] = { &this->outside_, &this->laid_open_ };
+  Sides* const parts[2] = { &this->outside_, &this->exposed_faces_ };
   for (Sides* part : parts)
   {
     part->tets.clear();

@@ -37,7 +37,7 @@ public:
   const std::vector<char>& kept() const { return this->kept_; }
   /// Faces of kept tets on the boundary of the whole mesh, and faces that the cut exposes.
   const Sides& outside() const { return this->outside_; }
-  const Sides& exposed_faces() const { return this->laid_open_; }
+  const Sides& exposed_faces() const { return this->exposed_faces_; }
   /// Return the smallest and largest coordinate of the tet centers along a direction.
   std::array<double, 2> reach(const Vec3& direction) const;
 
@@ -56,7 +56,7 @@ private:
   std::vector<char> kept_;
   Index kept_count_ = 0;
   Sides outside_;
-  Sides laid_open_;
+  Sides exposed_faces_;
 };
 
 /// Tets with gaps between them: each tet has its own four points, moved toward the tet's center.

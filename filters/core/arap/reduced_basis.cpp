@@ -370,7 +370,7 @@ void ReducedBasis::add_open(const Coordinates& change, Coordinates& d) const
   }
 }
 
-ReducedBasis::UnrotatedMinimizer ReducedBasis::unturned_sturdily(const ReducedSpace& space,
+ReducedBasis::UnrotatedMinimizer ReducedBasis::robust_unrotated_minimizer(const ReducedSpace& space,
   const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given,
   const Coordinates& missing) const
 {
@@ -405,7 +405,7 @@ ReducedBasis::UnrotatedMinimizer ReducedBasis::unrotated_minimizer(const Reduced
 {
   if (!this->quick_)
   {
-    return this->unturned_sturdily(space, stiffness, load, given, missing);
+    return this->robust_unrotated_minimizer(space, stiffness, load, given, missing);
   }
   // z is Q times a vector with two parts. The first part satisfies the constraints; the second part
   // is the response to the given blocks and the load. The first part is orthogonal to the

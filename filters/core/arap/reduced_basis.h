@@ -112,8 +112,9 @@ private:
     Eigen::MatrixXd covariance; ///< covariances K E
   };
   void factor_whole(const ReducedSpace& space, const Eigen::MatrixXd& stiffness);
-  UnrotatedMinimizer unturned_sturdily(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
-    const Coordinates& load, const Coordinates& given, const Coordinates& missing) const;
+  UnrotatedMinimizer robust_unrotated_minimizer(const ReducedSpace& space,
+    const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given,
+    const Coordinates& missing) const;
   /// Return the translation t for z and the target of the first constraint.
   Eigen::RowVector3d shift_of(const Coordinates& z, const Eigen::RowVector3d& first) const;
   /// Add `change` to the rows of d that no full handle prescribes.

@@ -17,7 +17,7 @@ struct CageOptions
   /// The points of this handle geometry become vertices of the tets. Used only for a cage of faces.
   HandlePlaces places;
   /// The points of the surface become vertices of the domain if their number is at most this limit;
-  /// otherwise none of them becomes a vertex.
+  /// otherwise no point of the surface does.
   Index most_points = 20000;
 };
 

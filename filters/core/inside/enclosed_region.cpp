@@ -113,7 +113,7 @@ Status EnclosedRegion::sample(
     negative = cell * static_cast<double>((w.array() <= -threshold).count());
     this->volume_ = cell * hits;
     this->volume_error_ = hits > 0.0 ? 1.0 / std::sqrt(hits) : 1.0;
-    this->doubtful_share_ =
+    this->near_threshold_fraction_ =
       static_cast<double>(((w.array() - threshold).abs() < undecided_margin).count()) /
       std::max(hits, 1.0);
     this->largest_winding_ = std::max(this->largest_winding_, w.maxCoeff());

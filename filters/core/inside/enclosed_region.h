@@ -29,7 +29,7 @@ public:
   /// Return the volume in which the winding number is within 0.25 of the threshold, as a multiple
   /// of volume(). It is near 0 if triangles form the boundary of the region, and over 1 if openings
   /// of the surface form most of the boundary.
-  double near_threshold_fraction() const { return this->doubtful_share_; }
+  double near_threshold_fraction() const { return this->near_threshold_fraction_; }
   /// Report whether a volume matches volume() within 10 % plus the sampling error.
   bool fits(double volume) const;
   /// Return |log(volume / volume())|. The misfit is 0 for equal volumes, log 2 for a volume that is
@@ -69,7 +69,7 @@ private:
   bool closed_ = false;
   double volume_ = 0.0;
   double volume_error_ = 1.0; ///< relative standard error of volume_
-  double doubtful_share_ = 0.0;
+  double near_threshold_fraction_ = 0.0;
   double largest_winding_ = 0.0;
 };
 

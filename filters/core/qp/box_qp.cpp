@@ -187,6 +187,17 @@ struct BoxQp::Impl : SplitForm
     return this->whole(this->inverse_of_a(this->free_rows(r)),
       Eigen::MatrixXd::Zero(static_cast<Index>(this->fixed.size()), 1));
   }
+  /// Return the values of the fixed vertices, one column per problem.
+  Eigen::MatrixXd fixed_values_of(const std::vector<BoxQpColumn>& columns) const
+  {
+    Eigen::MatrixXd values(
+      static_cast<Index>(this->fixed.size()), static_cast<Index>(columns.size()));
+    for (std::size_t j = 0; j < columns.size(); ++j)
+    {
+      values.col(static_cast<Index>(j)) = columns[j].fixed_values;
+    }
+    return values;
+  }
   /// Return the minimizers without bounds (#V x m). The minimizers are used even if solve_a()
   /// fails, because every final result has its own certificate.
   Eigen::MatrixXd minimizers(
@@ -406,14 +417,8 @@ std::vector<BoxQpSolution> BoxQp::solve_unbounded(
 {
   const Impl& impl = *this->impl_;
   std::vector<BoxQpSolution> solutions(columns.size());
-  Eigen::MatrixXd fixed_values(
-    static_cast<Index>(impl.fixed.size()), static_cast<Index>(columns.size()));
-  for (std::size_t j = 0; j < columns.size(); ++j)
-  {
-    fixed_values.col(static_cast<Index>(j)) = columns[j].fixed_values;
-  }
   const Stopwatch watch;
-  const Eigen::MatrixXd w = impl.minimizers(fixed_values, &context);
+  const Eigen::MatrixXd w = impl.minimizers(impl.fixed_values_of(columns), &context);
   const double seconds = watch.seconds() / std::max<double>(1.0, double(columns.size()));
   for (std::size_t j = 0; j < columns.size() && !context.canceled(); ++j)
   {
@@ -458,15 +463,12 @@ std::vector<BoxQpSolution> BoxQp::solve_all(
 {
   const Impl& impl = *this->impl_;
   std::vector<BoxQpSolution> solutions(columns.size());
-  Eigen::MatrixXd fixed_values(
-    static_cast<Index>(impl.fixed.size()), static_cast<Index>(columns.size()));
   for (std::size_t j = 0; j < columns.size(); ++j)
   {
-    fixed_values.col(static_cast<Index>(j)) = columns[j].fixed_values;
     solutions[j].status = Status::canceled();
     solutions[j].w = VectorXd::Zero(impl.q.rows());
   }
-  Eigen::MatrixXd free_of_bounds = impl.minimizers(fixed_values, &context);
+  Eigen::MatrixXd free_of_bounds = impl.minimizers(impl.fixed_values_of(columns), &context);
   if (!context.canceled())
   {
     const FewerThreads fewer(context, impl.most_threads);

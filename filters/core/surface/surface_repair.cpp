@@ -259,8 +259,8 @@ double winding_of_shell(
 std::vector<Vec3> test_points_of(
   const Points& points, const Triangles& triangles, const Shell& shell)
 {
-  constexpr std::size_t looks = 5;
-  const std::size_t step = (shell.triangles.size() + looks - 1) / looks;
+  constexpr std::size_t test_points = 5;
+  const std::size_t step = (shell.triangles.size() + test_points - 1) / test_points;
   std::vector<Vec3> centers;
   for (std::size_t i = 0; i < shell.triangles.size(); i += step)
   {
@@ -462,8 +462,8 @@ bool inward_shells(const Points& points, const Triangles& triangles,
       std::vector<std::size_t> begin{ 0 };
       for (const Index t : inner)
       {
-        const std::vector<Vec3> looks = test_points_of(points, triangles, shells[t]);
-        places.insert(places.end(), looks.begin(), looks.end());
+        const std::vector<Vec3> test_points = test_points_of(points, triangles, shells[t]);
+        places.insert(places.end(), test_points.begin(), test_points.end());
         begin.push_back(places.size());
       }
       Eigen::VectorXd numbers;

@@ -1,14 +1,9 @@
-// Connects the kernel bindpose::endpoint_weights() to VTK. The kernel calls a function of this
-// filter to compute bounded biharmonic weights for handles that the kernel defines. The weights of
-// tets are solved on the tets; those of surfaces are solved in the domains of the weights filters.
+// Connects the kernel bindpose::solve_endpoint_weights() to VTK.
 #include "vtkBoneEndpointWeights.h"
 
 #include "bind_key.h"
 #include "conversion.h"
-#include "handle_geometry.h"
-#include "skinning/endpoint_weights.h"
-#include "weights/bounded_biharmonic_weights.h"
-#include "weights/surface_weights.h"
+#include "poser/bone_endpoints.h"
 #include "weights_arrays.h"
 
 #include "vtkDoubleArray.h"
@@ -28,46 +23,6 @@ static_assert(vtkBoneEndpointWeights::BOUNDED == static_cast<int>(EndpointMethod
 namespace
 {
 constexpr const char* endpoint_array_name = "EndpointWeights";
-
-/// Compute bounded biharmonic weights. Return the weights at the points of the domain, without
-/// points that the solver adds.
-Status solve_bounded(const bindpose::Domain& domain, WeightsDomain where, const Handles& handles,
-  ExecutionContext& context, Weights& weights)
-{
-  const WeightsMethod method =
-    [](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& result)
-  { return bounded_biharmonic_weights(problem, {}, of_method, result); };
-  if (!domain.is_volume())
-  {
-    HandleGeometry geometry;
-    Status status = to_handle_geometry(to_polydata(handles), geometry);
-    if (!status.ok())
-    {
-      return status;
-    }
-    SurfaceWeightsOptions options;
-    options.domain = where;
-    options.places = to_handle_places(geometry);
-    SurfaceWeights result;
-    status = surface_weights(
-      domain.points, domain.triangles, {}, handles, options, {}, method, context, result);
-    weights = std::move(result.weights);
-    return status;
-  }
-  WeightsProblem problem;
-  WeightsResult result;
-  Status status = make_weights_problem(domain, {}, handles, {}, context, problem);
-  if (status.usable())
-  {
-    status = method(problem, context, result);
-  }
-  if (status.usable())
-  {
-    // The first points are those of the domain.
-    weights = result.weights.topRows(domain.points.rows());
-  }
-  return status;
-}
 } // namespace
 
 struct vtkBoneEndpointWeights::Cache
@@ -120,15 +75,10 @@ Status vtkBoneEndpointWeights::Execute(
     {
       return status;
     }
-    const BoundedSolve solve = [&](
-                                 const Handles& ends, ExecutionContext& of_solve, Weights& weights)
-    {
-      return solve_bounded(
-        domain, static_cast<WeightsDomain>(this->Domain), ends, of_solve, weights);
-    };
     Weights endpoints;
-    status = endpoint_weights(
-      domain.points, handles, static_cast<EndpointMethod>(this->Method), solve, context, endpoints);
+    status =
+      solve_endpoint_weights(context, domain, handles, static_cast<EndpointMethod>(this->Method),
+        static_cast<WeightsDomain>(this->Domain), endpoints);
     if (!status.usable())
     {
       return status;

@@ -10,7 +10,7 @@
 #include "output_type.h"
 #include "pose/found_rotations.h"
 #include "pose_input.h"
-#include "vtkReducedARAP.h"
+#include "vtkReducedPoseAlgorithm.h"
 
 #include "vtkAppendFilter.h"
 #include "vtkAppendPolyData.h"
@@ -120,7 +120,7 @@ int vtkCrowdDeformation::RequestDataObject(
 
 void vtkCrowdDeformation::SetEnergy(int energy)
 {
-  energy = std::clamp<int>(energy, vtkReducedARAP::AUTO, vtkReducedARAP::SPOKES);
+  energy = std::clamp<int>(energy, vtkReducedPoseAlgorithm::AUTO, vtkReducedPoseAlgorithm::SPOKES);
   this->SetBindParameter(this->Energy, energy);
 }
 
@@ -138,7 +138,7 @@ void vtkCrowdDeformation::SetNumberOfExtraWeights(int extra)
 
 void vtkCrowdDeformation::SetExtraWeightsKind(int kind)
 {
-  kind = std::clamp<int>(kind, vtkReducedARAP::BUMPS, vtkReducedARAP::EIGENMODES);
+  kind = std::clamp<int>(kind, vtkReducedPoseAlgorithm::BUMPS, vtkReducedPoseAlgorithm::EIGENMODES);
   this->SetBindParameter(this->ExtraWeightsKind, kind);
 }
 
@@ -284,7 +284,8 @@ void vtkCrowdDeformation::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfClusters: " << this->NumberOfClusters << "\n";
   os << indent << "NumberOfExtraWeights: " << this->NumberOfExtraWeights << "\n";
   os << indent << "ExtraWeightsKind: "
-     << (this->ExtraWeightsKind == vtkReducedARAP::EIGENMODES ? "eigenmodes" : "bumps") << "\n";
+     << (this->ExtraWeightsKind == vtkReducedPoseAlgorithm::EIGENMODES ? "eigenmodes" : "bumps")
+     << "\n";
   os << indent << "SmallestWeight: " << this->SmallestWeight << "\n";
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";

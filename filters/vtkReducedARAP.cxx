@@ -11,8 +11,6 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 
-#include <algorithm>
-
 using namespace bindpose;
 
 vtkStandardNewMacro(vtkReducedARAP);
@@ -25,30 +23,6 @@ struct vtkReducedARAP::Internals
 vtkReducedARAP::vtkReducedARAP() : Internal(new Internals) {}
 
 vtkReducedARAP::~vtkReducedARAP() = default;
-
-void vtkReducedARAP::SetEnergy(int energy)
-{
-  energy = std::clamp<int>(energy, AUTO, SPOKES);
-  this->SetBindParameter(this->Energy, energy);
-}
-
-void vtkReducedARAP::SetNumberOfClusters(int clusters)
-{
-  clusters = std::max(clusters, 0);
-  this->SetBindParameter(this->NumberOfClusters, clusters);
-}
-
-void vtkReducedARAP::SetNumberOfExtraWeights(int extra)
-{
-  extra = std::max(extra, 0);
-  this->SetBindParameter(this->NumberOfExtraWeights, extra);
-}
-
-void vtkReducedARAP::SetExtraWeightsKind(int kind)
-{
-  kind = std::clamp<int>(kind, BUMPS, EIGENMODES);
-  this->SetBindParameter(this->ExtraWeightsKind, kind);
-}
 
 Status vtkReducedARAP::Bind(const PoseInput& input, ExecutionContext& context)
 {
@@ -78,7 +52,7 @@ Status vtkReducedARAP::Deform(const PoseInput& input, ExecutionContext& context,
   const Status moved = arap.deform(context, input.points, posed.points);
   posed.transforms.assign(
     arap.transforms().begin(), arap.transforms().begin() + input.weights.cols());
-  if (this->RotationArrays)
+  if (this->GetRotationArrays())
   {
     posed.groups = &arap.groups();
     posed.rotations = arap.rotations();
@@ -97,17 +71,10 @@ Status vtkReducedARAP::DeformNormals(
 void vtkReducedARAP::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Energy: " << arap_energy_name(this->Energy) << "\n";
-  os << indent << "NumberOfClusters: " << this->NumberOfClusters << "\n";
-  os << indent << "NumberOfExtraWeights: " << this->NumberOfExtraWeights << "\n";
-  os << indent
-     << "ExtraWeightsKind: " << (this->ExtraWeightsKind == EIGENMODES ? "eigenmodes" : "bumps")
-     << "\n";
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "TimeBudget: " << this->TimeBudget << "\n";
   os << indent << "AndersonWindow: " << this->AndersonWindow << "\n";
   os << indent << "WarmStart: " << (this->WarmStart ? "on" : "off") << "\n";
   os << indent << "MixedPrecision: " << (this->MixedPrecision ? "on" : "off") << "\n";
-  os << indent << "RotationArrays: " << (this->RotationArrays ? "on" : "off") << "\n";
 }

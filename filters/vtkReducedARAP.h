@@ -44,69 +44,14 @@
 #define vtkReducedARAP_h
 
 #include "BindposeFiltersModule.h" // for export macro
-#include "vtkArapEnergy.h"
-#include "vtkPoseAlgorithm.h"
+#include "vtkReducedPoseAlgorithm.h"
 
-class BINDPOSEFILTERS_EXPORT vtkReducedARAP : public vtkPoseAlgorithm
+class BINDPOSEFILTERS_EXPORT vtkReducedARAP : public vtkReducedPoseAlgorithm
 {
 public:
   static vtkReducedARAP* New();
-  vtkTypeMacro(vtkReducedARAP, vtkPoseAlgorithm);
+  vtkTypeMacro(vtkReducedARAP, vtkReducedPoseAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  enum EnergyType
-  {
-    AUTO = vtkArapEnergy::AUTO,
-    SPOKES_AND_RIMS = vtkArapEnergy::SPOKES_AND_RIMS,
-    TETRAHEDRA = vtkArapEnergy::TETRAHEDRA,
-    TRIANGLES = vtkArapEnergy::TRIANGLES,
-    SPOKES = vtkArapEnergy::SPOKES
-  };
-
-  ///@{
-  /**
-   * Sets of edges that share a rotation. SPOKES_AND_RIMS: the edges of the elements around a
-   * vertex. SPOKES: the edges that end at a vertex, without edges of negative cotangent weight.
-   * TETRAHEDRA: the edges of a tet. TRIANGLES: the edges of a triangle. AUTO (default): TETRAHEDRA
-   * on tets, SPOKES_AND_RIMS on surfaces. TETRAHEDRA on a surface and TRIANGLES on tets are errors.
-   * This is a bind parameter: a change runs the bind again.
-   */
-  void SetEnergy(int energy);
-  vtkGetMacro(Energy, int);
-  ///@}
-
-  ///@{
-  /// Number of clusters, sets of vertices with similar weights; one rotation is fitted per cluster
-  /// and iteration. Default 0: four clusters per handle and per additional weight function (see
-  /// NumberOfExtraWeights). This is a bind parameter.
-  void SetNumberOfClusters(int clusters);
-  vtkGetMacro(NumberOfClusters, int);
-  ///@}
-
-  ///@{
-  /**
-   * Number of additional weight functions, which let the mesh bend away from the handles. Default
-   * 0; 15 is a good value. This is a bind parameter.
-   */
-  void SetNumberOfExtraWeights(int extra);
-  vtkGetMacro(NumberOfExtraWeights, int);
-  ///@}
-
-  enum ExtraWeightsType
-  {
-    BUMPS = 0,
-    EIGENMODES = 1
-  };
-
-  ///@{
-  /**
-   * Type of the extra weight functions: smooth bumps around vertices with very different weights
-   * (BUMPS, default), or skinning eigenmodes (EIGENMODES; Benchekroun et al. 2023), the smoothest
-   * functions that vanish at the handles. This is a bind parameter.
-   */
-  void SetExtraWeightsKind(int kind);
-  vtkGetMacro(ExtraWeightsKind, int);
-  ///@}
 
   ///@{
   /// Maximum number of iterations per solve, 0 to 1e6. Default 100.
@@ -163,25 +108,12 @@ public:
   vtkBooleanMacro(MixedPrecision, bool);
   ///@}
 
-  ///@{
-  /**
-   * Add two point arrays to the output: `RotationCluster`, the index of the rotation that a vertex
-   * follows, and `Rotation`, its axis times its angle in degrees, 0 to 180. If rotations belong to
-   * elements, a vertex follows the rotation of most of its elements; a vertex without elements gets
-   * the index -1 and the rotation 0. Default off.
-   */
-  vtkSetMacro(RotationArrays, bool);
-  vtkGetMacro(RotationArrays, bool);
-  vtkBooleanMacro(RotationArrays, bool);
-  ///@}
-
 protected:
   vtkReducedARAP();
   ~vtkReducedARAP() override;
 
   bindpose::Status Bind(
     const bindpose::PoseInput& input, bindpose::ExecutionContext& context) override;
-  bool FindsRotations() override { return true; }
   bindpose::Status Deform(const bindpose::PoseInput& input, bindpose::ExecutionContext& context,
     bindpose::PosedPoints& posed) override;
   bindpose::Status DeformNormals(const bindpose::PoseInput& input,
@@ -192,17 +124,12 @@ private:
   vtkReducedARAP(const vtkReducedARAP&) = delete;
   void operator=(const vtkReducedARAP&) = delete;
 
-  int Energy = AUTO;
-  int NumberOfClusters = 0;
-  int NumberOfExtraWeights = 0;
-  int ExtraWeightsKind = BUMPS;
   int MaximumIterations = 100;
   double Tolerance = 1e-6;
   double TimeBudget = 0.0;
   int AndersonWindow = 5;
   bool WarmStart = true;
   bool MixedPrecision = true;
-  bool RotationArrays = false;
   struct Internals;
   std::unique_ptr<Internals> Internal;
 };

@@ -12,7 +12,6 @@
 #include "arap_input.h"
 #include "frame_times.h"
 #include "pose_input.h"
-#include "vtkReducedARAP.h"
 
 #include "vtkDataArray.h"
 #include "vtkDemandDrivenPipeline.h"
@@ -45,30 +44,6 @@ struct vtkReducedDynamics::Internals
 vtkReducedDynamics::vtkReducedDynamics() : Internal(new Internals) {}
 
 vtkReducedDynamics::~vtkReducedDynamics() = default;
-
-void vtkReducedDynamics::SetEnergy(int energy)
-{
-  energy = std::clamp<int>(energy, vtkReducedARAP::AUTO, vtkReducedARAP::SPOKES);
-  this->SetBindParameter(this->Energy, energy);
-}
-
-void vtkReducedDynamics::SetNumberOfClusters(int clusters)
-{
-  clusters = std::max(clusters, 0);
-  this->SetBindParameter(this->NumberOfClusters, clusters);
-}
-
-void vtkReducedDynamics::SetNumberOfExtraWeights(int extra)
-{
-  extra = std::max(extra, 0);
-  this->SetBindParameter(this->NumberOfExtraWeights, extra);
-}
-
-void vtkReducedDynamics::SetExtraWeightsKind(int kind)
-{
-  kind = std::clamp<int>(kind, vtkReducedARAP::BUMPS, vtkReducedARAP::EIGENMODES);
-  this->SetBindParameter(this->ExtraWeightsKind, kind);
-}
 
 void vtkReducedDynamics::SetTimeStep(double seconds)
 {
@@ -261,7 +236,7 @@ Status vtkReducedDynamics::Deform(
   const Status moved = state.body.deform(context, input.points, posed.points);
   posed.transforms.assign(
     state.body.transforms().begin(), state.body.transforms().begin() + input.weights.cols());
-  if (this->RotationArrays)
+  if (this->GetRotationArrays())
   {
     posed.groups = &state.body.groups();
     posed.rotations = state.body.rotations();
@@ -280,11 +255,6 @@ Status vtkReducedDynamics::DeformNormals(
 void vtkReducedDynamics::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Energy: " << arap_energy_name(this->Energy) << "\n";
-  os << indent << "NumberOfClusters: " << this->NumberOfClusters << "\n";
-  os << indent << "NumberOfExtraWeights: " << this->NumberOfExtraWeights << "\n";
-  os << indent << "ExtraWeightsKind: "
-     << (this->ExtraWeightsKind == vtkReducedARAP::EIGENMODES ? "eigenmodes" : "bumps") << "\n";
   os << indent << "TimeStep: " << this->TimeStep << "\n";
   os << indent << "NumberOfSteps: " << this->NumberOfSteps << "\n";
   os << indent << "Step: " << this->Step << "\n";
@@ -297,5 +267,4 @@ void vtkReducedDynamics::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "MixedPrecision: " << (this->MixedPrecision ? "on" : "off") << "\n";
   os << indent << "Interactive: " << (this->Interactive ? "on" : "off") << "\n";
-  os << indent << "RotationArrays: " << (this->RotationArrays ? "on" : "off") << "\n";
 }

@@ -33,27 +33,14 @@
 #define vtkReducedDynamics_h
 
 #include "BindposeFiltersModule.h" // for export macro
-#include "vtkPoseAlgorithm.h"
+#include "vtkReducedPoseAlgorithm.h"
 
-class BINDPOSEFILTERS_EXPORT vtkReducedDynamics : public vtkPoseAlgorithm
+class BINDPOSEFILTERS_EXPORT vtkReducedDynamics : public vtkReducedPoseAlgorithm
 {
 public:
   static vtkReducedDynamics* New();
-  vtkTypeMacro(vtkReducedDynamics, vtkPoseAlgorithm);
+  vtkTypeMacro(vtkReducedDynamics, vtkReducedPoseAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  ///@{
-  /// Energy, number of clusters, and number and type of extra weights; see the setters of the same
-  /// names in vtkReducedARAP. All four are bind parameters: a change runs the bind again.
-  void SetEnergy(int energy);
-  vtkGetMacro(Energy, int);
-  void SetNumberOfClusters(int clusters);
-  vtkGetMacro(NumberOfClusters, int);
-  void SetNumberOfExtraWeights(int extra);
-  vtkGetMacro(NumberOfExtraWeights, int);
-  void SetExtraWeightsKind(int kind);
-  vtkGetMacro(ExtraWeightsKind, int);
-  ///@}
 
   ///@{
   /// Length of a time step in seconds, above 0. Default 1/24.
@@ -130,17 +117,6 @@ public:
   vtkBooleanMacro(Interactive, bool);
   ///@}
 
-  ///@{
-  /**
-   * Add two point arrays to the output: `RotationCluster`, the index of the rotation that a vertex
-   * follows, and `Rotation`, its axis times its angle in degrees, 0 to 180. See vtkReducedARAP.
-   * Default off.
-   */
-  vtkSetMacro(RotationArrays, bool);
-  vtkGetMacro(RotationArrays, bool);
-  vtkBooleanMacro(RotationArrays, bool);
-  ///@}
-
   /// Make the next execution start at time 0.
   void Restart();
 
@@ -157,7 +133,6 @@ protected:
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   bindpose::Status Bind(
     const bindpose::PoseInput& input, bindpose::ExecutionContext& context) override;
-  bool FindsRotations() override { return true; }
   bindpose::Status Deform(const bindpose::PoseInput& input, bindpose::ExecutionContext& context,
     bindpose::PosedPoints& posed) override;
   bindpose::Status DeformNormals(const bindpose::PoseInput& input,
@@ -178,10 +153,6 @@ private:
     }
   }
 
-  int Energy = 0;
-  int NumberOfClusters = 0;
-  int NumberOfExtraWeights = 0;
-  int ExtraWeightsKind = 0;
   double TimeStep = 1.0 / 24.0;
   int NumberOfSteps = 100;
   int Step = 0;
@@ -193,7 +164,6 @@ private:
   double Tolerance = 1e-6;
   bool MixedPrecision = true;
   bool Interactive = false;
-  bool RotationArrays = false;
   struct Internals;
   std::unique_ptr<Internals> Internal;
 };

@@ -1,11 +1,10 @@
-// Connects the kernel bindpose::Skinning to VTK: the bind stores its sparse weights.
+// Connects the kernel bindpose::SkinningMethods to VTK.
 #include "vtkSkinningDeformation.h"
 
 #include "pose_elements.h"
 #include "pose_input.h"
+#include "poser/skinning_methods.h"
 #include "pseudo_edge_cells.h"
-#include "skinning/rotation_centers.h"
-#include "skinning/skinning.h"
 #include "weights_input.h"
 
 #include "vtkDataArray.h"
@@ -13,45 +12,33 @@
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 
-#include <optional>
-
 using namespace bindpose;
 
 vtkStandardNewMacro(vtkSkinningDeformation);
+
+static_assert(vtkSkinningDeformation::CENTERS_OF_ROTATION ==
+  static_cast<int>(SkinningMethod::rotation_centers));
+static_assert(
+  vtkSkinningDeformation::STRETCHABLE_BONES == static_cast<int>(SkinningMethod::stretchable_bones));
+static_assert(
+  vtkSkinningDeformation::AUTOMATIC_PSEUDO_EDGES == static_cast<int>(PseudoEdgeChoice::automatic));
 
 namespace
 {
 constexpr const char* method_names[] = { "linear_blend", "dual_quaternion", "stretchable_bones",
   "centers_of_rotation" };
 constexpr const char* pseudo_edges_names[] = { "none", "given", "automatic" };
-
-Status check_endpoints(WeightsView endpoints, const Handles& handles, const std::string& name)
-{
-  for (Index v = 0; v < endpoints.rows(); ++v)
-  {
-    for (Index j = 0; j < endpoints.cols(); ++j)
-    {
-      const double e = endpoints(v, j);
-      if (e < 0.0 || e > 1.0)
-      {
-        return Status::invalid_input("the array '" + name + "' has " + std::to_string(e) +
-          " for handle '" + handles[static_cast<std::size_t>(j)].name + "' at point " +
-          std::to_string(v) + "; expected a value from 0 (the bone's head) to 1 (its tail)");
-      }
-    }
-  }
-  return {};
-}
 } // namespace
 
 struct vtkSkinningDeformation::Internals
 {
-  Skinning skinning;
-  SharedMatrix<Weights> endpoints; // endpoint weights; no columns if the mesh has none
-  Points centers; // centers of rotation at rest, computed on first use
-  Status of_centers;
-  std::optional<bindpose::PseudoEdges> edges; // the automatic pseudo-edges, computed on first use
-  std::vector<Affine> transforms;
+  SkinningMethods methods;
+  SharedMatrix<Weights> endpoints; // endpoint weights; no rows if the mesh has none
+  /// Return the shape, with endpoint weights.
+  SkinnedShape shape(const PoseInput& input) const
+  {
+    return { input.points, input.weights, input.handles, this->endpoints.view() };
+  }
 };
 
 vtkSkinningDeformation::vtkSkinningDeformation() : Internal(new Internals) {}
@@ -85,12 +72,23 @@ std::vector<std::string> vtkSkinningDeformation::BindArrays()
   return names;
 }
 
+SkinningMethodOptions vtkSkinningDeformation::MakeOptions() const
+{
+  SkinningMethodOptions options;
+  options.method = static_cast<SkinningMethod>(this->Method);
+  options.weights.single_precision = this->SinglePrecision;
+  options.weights.smallest_weight = this->SmallestWeight;
+  options.weights.influences = this->MaximumInfluences;
+  options.pseudo_edges = static_cast<PseudoEdgeChoice>(this->PseudoEdges);
+  options.pseudo_edge_stretch = this->PseudoEdgeStretch;
+  return options;
+}
+
 Status vtkSkinningDeformation::Bind(const PoseInput& input, ExecutionContext& context)
 {
   Internals& internal = *this->Internal;
+  internal.methods.reset();
   internal.endpoints = {};
-  internal.edges.reset();
-  internal.centers.resize(0, 3);
   vtkDataArray* endpoints = this->EndpointArrayName.empty()
     ? nullptr
     : input.mesh->GetPointData()->GetArray(this->EndpointArrayName.c_str());
@@ -100,90 +98,30 @@ Status vtkSkinningDeformation::Bind(const PoseInput& input, ExecutionContext& co
     if (status.ok())
     {
       internal.endpoints = to_matrix(endpoints);
-      status = check_endpoints(internal.endpoints.view(), input.handles, this->EndpointArrayName);
+      status =
+        check_endpoint_weights(internal.endpoints.view(), input.handles, this->EndpointArrayName);
     }
     if (!status.ok())
     {
       return status;
     }
   }
-  SkinningOptions options;
-  options.single_precision = this->SinglePrecision;
-  options.smallest_weight = this->SmallestWeight;
-  options.influences = this->MaximumInfluences;
-  const bool centers = this->Method == CENTERS_OF_ROTATION;
-  Status status;
-  {
-    const ProgressRange range(context, 0.0, centers ? 0.01 : 1.0);
-    status = internal.skinning.bind(context, input.weights, options);
-  }
-  if (!status.usable() || !centers)
-  {
-    return status;
-  }
-  const Status found = this->FindCenters(input, context, 0.01, 1.0);
-  return found.ok() ? status : found;
+  return this->BindMissing(input, context);
 }
 
-Status vtkSkinningDeformation::FindCenters(
-  const PoseInput& input, ExecutionContext& context, double begin, double end)
+/// Compute what the method needs and the bind does not contain.
+Status vtkSkinningDeformation::BindMissing(const PoseInput& input, ExecutionContext& context)
 {
-  Phase phase(context, "centers", begin, end);
   Internals& internal = *this->Internal;
+  const SkinnedShape shape = internal.shape(input);
+  const SkinningMethodOptions options = this->MakeOptions();
+  if (internal.methods.is_bound(shape, options))
+  {
+    return {};
+  }
   const PoseElements elements = to_pose_elements(input.mesh);
-  Points centers;
-  internal.of_centers = elements.volume
-    ? rotation_centers(context, {}, input.points, elements.tets.view(), input.weights, centers)
-    : rotation_centers(
-        context, {}, input.points, elements.triangles.view(), input.weights, centers);
-  if (internal.of_centers.ok())
-  {
-    internal.centers = std::move(centers);
-  }
-  return internal.of_centers;
-}
-
-/// Compute the transforms of the pose, including the rotations from pseudo-edges.
-Status vtkSkinningDeformation::FindTransforms(const PoseInput& input, ExecutionContext& context)
-{
-  Internals& internal = *this->Internal;
-  Status status;
-  bindpose::PseudoEdges edges;
-  if (this->PseudoEdges == AUTOMATIC_PSEUDO_EDGES)
-  {
-    if (!internal.edges)
-    {
-      const PoseElements elements = to_pose_elements(input.mesh);
-      bindpose::PseudoEdges found;
-      status = elements.volume
-        ? automatic_pseudo_edges(context, input.points, elements.tets.view(), input.handles, found)
-        : automatic_pseudo_edges(
-            context, input.points, elements.triangles.view(), input.handles, found);
-      if (!status.ok())
-      {
-        return status;
-      }
-      internal.edges = std::move(found);
-    }
-    edges = *internal.edges;
-  }
-  else if (this->PseudoEdges == GIVEN_PSEUDO_EDGES)
-  {
-    status = to_pseudo_edges(input.handle_data, input.handles, input.cells, edges);
-    if (!status.ok())
-    {
-      return status;
-    }
-  }
-  Pose pose = input.pose;
-  turn_by_pseudo_edges(input.handles, edges, this->PseudoEdgeStretch, pose);
-  const Status found = skinning_transforms(input.handles, pose, internal.transforms);
-  status.warnings.insert(status.warnings.end(), found.warnings.begin(), found.warnings.end());
-  if (!edges.empty())
-  {
-    status.report.set("counts.pseudo_edges", static_cast<Index>(edges.size()));
-  }
-  return status;
+  return internal.methods.bind(
+    context, shape, elements.tets.view(), elements.triangles.view(), options);
 }
 
 StretchUse vtkSkinningDeformation::GetStretchUse()
@@ -195,69 +133,42 @@ Status vtkSkinningDeformation::Deform(
   const PoseInput& input, ExecutionContext& context, PosedPoints& posed)
 {
   Internals& internal = *this->Internal;
-  if (this->Method == CENTERS_OF_ROTATION && internal.centers.rows() != input.points.rows())
+  Status bound;
   {
-    const Status found = this->FindCenters(input, context, 0.0, 0.8);
-    if (!found.ok())
-    {
-      return found;
-    }
+    // The method may have changed since the bind.
+    const ProgressRange range(context, 0.0, 0.8);
+    bound = this->BindMissing(input, context);
   }
   Phase phase(context, "skin", 0.8, 1.0);
-  const Status status = this->FindTransforms(input, context);
-  if (!status.usable())
+  bindpose::PseudoEdges edges;
+  if (bound.usable() && this->PseudoEdges == GIVEN_PSEUDO_EDGES)
   {
-    return status;
+    const Status converted = to_pseudo_edges(input.handle_data, input.handles, input.cells, edges);
+    bound = converted.ok() ? bound : converted;
   }
-  Status moved;
-  switch (this->Method)
+  if (!bound.usable())
   {
-    case DUAL_QUATERNION:
-      moved = internal.skinning.dual_quaternion(
-        context, input.points, internal.transforms, handle_pivots(input.handles), posed.points);
-      break;
-    case STRETCHABLE_BONES:
-      moved = internal.skinning.stretchable_bones(context, input.points, internal.transforms,
-        bone_changes(input.handles, input.pose), internal.endpoints.view(), posed.points);
-      break;
-    case CENTERS_OF_ROTATION:
-      moved = internal.skinning.about_centers(
-        context, input.points, internal.transforms, internal.centers, posed.points);
-      moved.report.merge(internal.of_centers.report);
-      break;
-    default:
-      moved =
-        internal.skinning.linear_blend(context, input.points, internal.transforms, posed.points);
-      break;
+    return bound;
   }
-  posed.transforms = internal.transforms;
-  moved.warnings.insert(moved.warnings.end(), status.warnings.begin(), status.warnings.end());
-  moved.report.merge(status.report);
-  moved.report.set("method", method_names[this->Method]);
-  return moved;
+  Status status = internal.methods.pose(
+    context, internal.shape(input), input.pose, edges, this->MakeOptions(), posed.points);
+  posed.transforms = internal.methods.transforms();
+  status.warnings.insert(status.warnings.end(), bound.warnings.begin(), bound.warnings.end());
+  status.report.set("method", method_names[this->Method]);
+  return status;
 }
 
 Status vtkSkinningDeformation::DeformNormals(
   const PoseInput& input, ExecutionContext& context, const PosedPoints& posed, PosedPoints& normals)
 {
-  if (this->Method == STRETCHABLE_BONES)
+  const auto method = static_cast<SkinningMethod>(this->Method);
+  if (!SkinningMethods::poses_normals(method))
   {
-    // With a stretch the endpoint weights also change the slope of the surface, so the skinned
-    // normals are wrong. Use the normals of the posed polygons.
     return this->Superclass::DeformNormals(input, context, posed, normals);
   }
   const SharedMatrix<Weights> rest = to_matrix(input.mesh->GetPointData()->GetNormals());
   const Eigen::Map<const Points> directions(rest.view().data(), rest.view().rows(), 3);
-  if (this->Method == CENTERS_OF_ROTATION)
-  {
-    return this->Internal->skinning.about_centers_normals(
-      context, directions, this->Internal->transforms, normals.points);
-  }
-  return this->Method == DUAL_QUATERNION
-    ? this->Internal->skinning.dual_quaternion_normals(context, directions,
-        this->Internal->transforms, handle_pivots(input.handles), normals.points)
-    : this->Internal->skinning.linear_blend_normals(
-        context, directions, this->Internal->transforms, normals.points);
+  return this->Internal->methods.pose_normals(context, directions, method, normals.points);
 }
 
 void vtkSkinningDeformation::PrintSelf(ostream& os, vtkIndent indent)

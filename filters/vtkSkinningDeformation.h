@@ -42,6 +42,11 @@
 #include "BindposeFiltersModule.h" // for export macro
 #include "vtkPoseAlgorithm.h"
 
+namespace bindpose
+{
+struct SkinningMethodOptions;
+} // namespace bindpose
+
 class BINDPOSEFILTERS_EXPORT vtkSkinningDeformation : public vtkPoseAlgorithm
 {
 public:
@@ -144,9 +149,8 @@ private:
   vtkSkinningDeformation(const vtkSkinningDeformation&) = delete;
   void operator=(const vtkSkinningDeformation&) = delete;
 
-  bindpose::Status FindCenters(const bindpose::PoseInput& input,
-    bindpose::ExecutionContext& context, double begin, double end);
-  bindpose::Status FindTransforms(
+  bindpose::SkinningMethodOptions MakeOptions() const;
+  bindpose::Status BindMissing(
     const bindpose::PoseInput& input, bindpose::ExecutionContext& context);
 
   int Method = LINEAR_BLEND;

@@ -41,12 +41,12 @@ under_xvfb()
 
 asan()
 ( # its environment is its own
-  cmake --preset asan -S "$root" && ninja -C "$root/build-asan" bindpose_core_tests bindpose_filter_tests bindpose_posing_tests \
+  cmake --preset asan -S "$root" && ninja -C "$root/build-asan" bindpose_core_tests bindpose_filter_tests bindpose_poses_tests \
     bindpose_document_tests bindpose_widget_tests || return 1
   # VTK's and Mesa's one-time allocations are not ours to free.
   export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 BINDPOSE_FUZZ_FACTOR=${BINDPOSE_FUZZ_FACTOR:-1}
   under_xvfb ctest --test-dir "$root/build-asan" --no-tests=error --output-on-failure -j "$(nproc)" \
-    -R '^(core|filters|posing|document|widgets)\.'
+    -R '^(core|filters|poses|document|widgets)\.'
 )
 
 permissive()

@@ -31,9 +31,9 @@ function(bindpose_unity_groups target)
   target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
 endfunction()
 
-foreach(target IN ITEMS Filters Widgets bindpose_scene bindpose_document bindpose_posing bindpose_app bindpose_tour bindpose
+foreach(target IN ITEMS Filters Widgets bindpose_scene bindpose_document bindpose_poses bindpose_app bindpose_tour bindpose
     bindpose_benchmarks bindpose_test_support bindpose_core_tests bindpose_filter_tests bindpose_render_tests
-    bindpose_scene_tests bindpose_widget_tests bindpose_posing_tests bindpose_document_tests bindpose_app_tests)
+    bindpose_scene_tests bindpose_widget_tests bindpose_poses_tests bindpose_document_tests bindpose_app_tests)
   if(TARGET ${target})
     bindpose_unity_groups(${target})
   endif()

@@ -71,6 +71,25 @@ const char* to_string(EndpointMethod method)
   return names[static_cast<int>(method)];
 }
 
+Status check_endpoint_weights(
+  WeightsView endpoints, const Handles& handles, const std::string& array)
+{
+  for (Index v = 0; v < endpoints.rows(); ++v)
+  {
+    for (Index j = 0; j < endpoints.cols(); ++j)
+    {
+      const double e = endpoints(v, j);
+      if (e < 0.0 || e > 1.0)
+      {
+        return Status::invalid_input("the array '" + array + "' has " + std::to_string(e) +
+          " for handle '" + handles[static_cast<std::size_t>(j)].name + "' at point " +
+          std::to_string(v) + "; expected a value from 0 (the bone's head) to 1 (its tail)");
+      }
+    }
+  }
+  return {};
+}
+
 Status endpoint_weights(PointsView points, const Handles& handles, EndpointMethod method,
   const BoundedSolve& solve, ExecutionContext& context, Weights& endpoints)
 {

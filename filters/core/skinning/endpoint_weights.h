@@ -30,6 +30,12 @@ enum class EndpointMethod : int
 /// Return "projection", "joints" or "bounded".
 const char* to_string(EndpointMethod method);
 
+/// Return invalid_input for an endpoint weight outside [0, 1], with its handle and point. NaN is
+/// valid.
+/// @param array  name of the array, for the message
+Status check_endpoint_weights(
+  WeightsView endpoints, const Handles& handles, const std::string& array);
+
 /// Function that computes bounded biharmonic weights of handles at the points. The rows must sum to
 /// one.
 using BoundedSolve = std::function<Status(const Handles&, ExecutionContext&, Weights&)>;

@@ -16,7 +16,7 @@
 #include "app/posing/sequence_export.h"
 #include "document/document.h"
 #include "poses/pose_blend.h"
-#include "posing/make_poser.h"
+#include "poser/make_poser.h"
 
 #include "support/handles.h"
 #include "support/meshes.h"

@@ -3,7 +3,7 @@
 
 #include "app/parts/kernel_job.h"
 
-#include "posing/body.h"
+#include "poser/body.h"
 
 #include <QElapsedTimer>
 #include <QObject>

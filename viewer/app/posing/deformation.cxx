@@ -3,7 +3,7 @@
 // uses that poser until the end of the job is reported.
 #include "app/posing/deformation.h"
 
-#include "posing/make_poser.h"
+#include "poser/make_poser.h"
 
 #include <algorithm>
 #include <thread>

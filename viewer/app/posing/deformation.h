@@ -2,7 +2,7 @@
 #define app_posing_deformation_h
 
 #include "app/parts/kernel_job.h"
-#include "posing/poser.h"
+#include "poser/poser.h"
 
 #include <QObject>
 

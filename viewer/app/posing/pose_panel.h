@@ -2,8 +2,8 @@
 #define app_posing_pose_panel_h
 
 #include "app/posing/pose_ghost.h"
-#include "posing/body.h"
-#include "posing/pose_options.h"
+#include "poser/body.h"
+#include "poser/pose_options.h"
 
 #include <QWidget>
 

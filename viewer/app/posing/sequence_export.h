@@ -2,7 +2,7 @@
 #define app_posing_sequence_export_h
 
 #include "app/parts/kernel_job.h"
-#include "posing/sequence_maker.h"
+#include "poser/sequence_maker.h"
 
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"

@@ -1,0 +1,208 @@
+#include "poser/body.h"
+
+#include "pose/found_rotations.h"
+#include "poser/reduced_poser.h"
+
+#include <tuple>
+
+namespace bindpose
+{
+
+namespace
+{
+auto tied(const BodyOptions& o)
+{
+  return std::tie(o.gravity, o.down, o.stiffness, o.damping, o.steps_per_second);
+}
+
+bool same_pose(const Pose& a, const Pose& b)
+{
+  bool same = a.size() == b.size();
+  for (std::size_t k = 0; same && k < a.size(); ++k)
+  {
+    same = a[k].mode == b[k].mode && a[k].transform == b[k].transform &&
+      a[k].stretch == b[k].stretch && a[k].twist == b[k].twist;
+  }
+  return same;
+}
+
+/// Return `before` if it equals `value`; otherwise return a shared copy of `value`.
+template <typename Value, typename Same>
+std::shared_ptr<const Value> shared_with(
+  const std::shared_ptr<const Value>& before, const Value& value, const Same& same)
+{
+  return before && same(*before, value) ? before : std::make_shared<const Value>(value);
+}
+
+ReducedDynamicsOptions kernel_options(const BodyOptions& options, double diagonal)
+{
+  ReducedDynamicsOptions result;
+  result.time_step = 1.0 / options.steps_per_second;
+  result.gravity[options.down] = -options.gravity * diagonal;
+  result.stiffness = options.stiffness * diagonal * diagonal;
+  result.damping = options.damping;
+  result.solve.max_iterations = 50;
+  return result;
+}
+} // namespace
+
+bool operator==(const BodyOptions& a, const BodyOptions& b)
+{
+  return tied(a) == tied(b);
+}
+
+bool Body::is_bound(const PoseOptions& options) const
+{
+  PoseOptions reduced = options;
+  reduced.method = PoseMethod::reduced_arap;
+  return this->bound_ && same_bind(*this->bound_, reduced);
+}
+
+Status Body::bind(ExecutionContext& context, const PoseOptions& options)
+{
+  if (this->is_bound(options))
+  {
+    return {};
+  }
+  const PoseSource& source = *this->source_;
+  this->bound_.reset();
+  this->rotations_ = PoseRotations();
+  this->run_ = BodyRun();
+  if (!source.has_weights())
+  {
+    return Status::invalid_input("dynamics needs weights: bind first");
+  }
+  Status status = check_tets(source, options);
+  if (!status.ok())
+  {
+    return status;
+  }
+  const ReducedArapOptions reduced = reduced_options(options);
+  status = options.in_tets ? this->body_.bind(context, source.tet_points, source.tets,
+                               source.tet_weights, source.handles, reduced)
+                           : this->body_.bind(context, source.points, source.triangles,
+                               source.weights, source.handles, reduced);
+  if (status.usable() && options.in_tets)
+  {
+    // The surface and the tets get the same extra weights as in posing, because both are computed
+    // from the same columns.
+    ReducedArap arap;
+    Weights columns, weights;
+    Status carried = arap.bind(
+      context, source.tet_points, source.tets, source.tet_weights, source.handles, reduced);
+    carried = carried.usable() ? arap.weights(context, columns) : carried;
+    carried = carried.usable() ? weights_on_surface(context, source, columns, weights) : carried;
+    carried = carried.usable() ? this->on_surface_.bind(context, weights) : carried;
+    status = carried.usable() ? status : carried;
+  }
+  if (status.usable())
+  {
+    this->diagonal_ = bounding_box(source.points, source.triangles).diagonal();
+    this->bound_ = options;
+    this->bound_->method = PoseMethod::reduced_arap;
+    this->binds_ += 1;
+  }
+  return status;
+}
+
+const PoseRotations* Body::rotations()
+{
+  if (!this->bound_ || !this->has_started())
+  {
+    return nullptr;
+  }
+  take_rotations(*this->source_, this->body_.groups(), this->body_.rotations(),
+    this->bound_->in_tets, this->rotations_);
+  return &this->rotations_;
+}
+
+Status Body::move_surface(ExecutionContext& context, Points& posed) const
+{
+  Phase phase(context, "skin", 0.5, 1.0);
+  return this->bound_->in_tets ? this->on_surface_.linear_blend(
+                                   context, this->source_->points, this->body_.transforms(), posed)
+                               : this->body_.deform(context, this->source_->points, posed);
+}
+
+Status Body::restart(ExecutionContext& context, const Pose& pose, Points& posed)
+{
+  if (!this->bound_)
+  {
+    return Status::invalid_input("the mesh is not bound: bind first");
+  }
+  ReducedSolveOptions still;
+  still.max_iterations = 1000;
+  const Pose start = with_found_rotations(this->source_->handles, pose);
+  const Status status = this->body_.start(context, start, still);
+  if (!status.usable())
+  {
+    return status;
+  }
+  this->run_ = BodyRun();
+  this->run_.start = std::make_shared<const Pose>(pose);
+  this->whole_ = true;
+  const Status moved = this->move_surface(context, posed);
+  return moved.ok() ? status : moved;
+}
+
+Status Body::step(
+  ExecutionContext& context, const Pose& pose, const BodyOptions& options, Points& posed)
+{
+  if (!this->bound_ || !this->run_.start)
+  {
+    return Status::invalid_input("the simulation has not been started");
+  }
+  Status status;
+  {
+    Phase phase(context, "solve", 0.0, 0.5);
+    const Pose resolved = with_found_rotations(this->source_->handles, pose);
+    status = this->body_.step(context, resolved, kernel_options(options, this->diagonal_));
+    if (!status.usable())
+    {
+      return status;
+    }
+    const std::string unused = unused_stretch(resolved, stretch_use(this->bound_->method));
+    if (!unused.empty())
+    {
+      status.warnings.push_back(unused);
+    }
+    status.report.set("seconds.solve", phase.seconds());
+  }
+  if (this->run_.steps.size() < longest_run)
+  {
+    const BodyRun::Step before = this->run_.steps.empty()
+      ? BodyRun::Step{ this->run_.start, nullptr }
+      : this->run_.steps.back();
+    this->run_.steps.push_back({ shared_with(before.pose, pose, same_pose),
+      shared_with(before.options, options,
+        [](const BodyOptions& a, const BodyOptions& b) { return a == b; }) });
+  }
+  else
+  {
+    this->whole_ = false;
+  }
+  const Status moved = this->move_surface(context, posed);
+  return moved.ok() ? status : moved;
+}
+
+Status Body::play(ExecutionContext& context, const BodyRun& given,
+  const std::function<bool(std::size_t step, const Points& posed)>& seen)
+{
+  if (!given.start)
+  {
+    return Status::invalid_input("no recorded simulation is available for playback");
+  }
+  // Copy the run, because `given` may be a reference to the body's own run, which restart() clears.
+  const BodyRun run = given;
+  Points posed;
+  Status status = this->restart(context, *run.start, posed);
+  bool more = status.usable() && seen(0, posed);
+  for (std::size_t k = 0; more && k < run.steps.size(); ++k)
+  {
+    status = this->step(context, *run.steps[k].pose, *run.steps[k].options, posed);
+    more = status.usable() && seen(k + 1, posed);
+  }
+  return status;
+}
+
+} // namespace bindpose

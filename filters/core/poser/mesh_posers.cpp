@@ -1,0 +1,111 @@
+#include "poser/mesh_posers.h"
+
+namespace bindpose
+{
+
+bool FullPoser::is_bound(const PoseOptions& options) const
+{
+  return this->bound_ && same_bind(*this->bound_, options);
+}
+
+const PoseRotations* FullPoser::rotations()
+{
+  if (!this->bound_)
+  {
+    return nullptr;
+  }
+  take_rotations(this->source(), this->arap_.groups(), this->arap_.rotations(),
+    this->bound_->in_tets, this->rotations_);
+  return &this->rotations_;
+}
+
+Status FullPoser::bind_missing(ExecutionContext& context, const PoseOptions& options)
+{
+  const PoseSource& source = this->source();
+  this->bound_.reset();
+  this->rotations_ = PoseRotations();
+  Status status = check_tets(source, options);
+  if (!status.ok())
+  {
+    return status;
+  }
+  Phase phase(context, "bind");
+  FullArapOptions full;
+  full.energy = options.energy;
+  if (options.in_tets)
+  {
+    status = this->arap_.bind(context, source.tet_points, source.tets, source.handles, full);
+    this->anchors_ = TetAnchors(source.points, source.tet_points, source.tets);
+  }
+  else
+  {
+    full.region_ids = source.arrays.region_ids;
+    status = this->arap_.bind(context, source.points, source.triangles, source.handles, full);
+  }
+  if (status.usable())
+  {
+    this->bound_ = options;
+  }
+  return status;
+}
+
+Status FullPoser::pose(ExecutionContext& context, const Pose& pose, const PoseOptions& options,
+  Index most_iterations, Points& posed)
+{
+  Phase phase(context, "solve");
+  FullArap::SolveOptions solve;
+  solve.max_iterations = most_iterations > 0 ? most_iterations : solve.max_iterations;
+  Status status = this->arap_.solve(context, pose, solve);
+  if (!status.usable())
+  {
+    return status;
+  }
+  if (options.in_tets)
+  {
+    this->anchors_.move(
+      this->source().points, this->source().tet_points, this->arap_.posed(), posed);
+  }
+  else
+  {
+    posed = this->arap_.posed();
+  }
+  status.report.set("seconds.solve", phase.seconds());
+  return status;
+}
+
+bool VariationalPoser::is_bound(const PoseOptions& options) const
+{
+  return this->bound_ && same_bind(*this->bound_, options);
+}
+
+Status VariationalPoser::bind_missing(ExecutionContext& context, const PoseOptions& options)
+{
+  const PoseSource& source = this->source();
+  this->bound_.reset();
+  Phase phase(context, "bind");
+  VariationalSurfaceOptions variational = source.arrays;
+  variational.order = options.order;
+  variational.boundary = options.boundary;
+  const Status status =
+    this->surface_.bind(context, source.points, source.triangles, source.handles, variational);
+  if (status.usable())
+  {
+    this->bound_ = options;
+  }
+  return status;
+}
+
+Status VariationalPoser::pose(ExecutionContext& context, const Pose& pose,
+  const PoseOptions& /*options*/, Index /*most_iterations*/, Points& posed)
+{
+  Phase phase(context, "solve");
+  Status status = this->surface_.solve(context, pose);
+  if (status.usable())
+  {
+    posed = this->surface_.posed();
+    status.report.set("seconds.solve", phase.seconds());
+  }
+  return status;
+}
+
+} // namespace bindpose

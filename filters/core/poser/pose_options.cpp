@@ -1,0 +1,104 @@
+#include "poser/pose_options.h"
+
+#include <tuple>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr const char* method_words[] = { "lbs", "dqs", "reduced-arap", "stbs", "cor", "full-arap",
+  "variational" };
+
+auto tied(const PoseOptions& o)
+{
+  return std::tie(o.method, o.single_precision, o.pseudo_edges, o.pseudo_edge_stretch, o.endpoints,
+    o.energy, o.in_tets, o.extra_weights, o.extra_kind, o.iterations, o.budget_microseconds,
+    o.order, o.boundary);
+}
+} // namespace
+
+const char* to_string(PoseMethod method)
+{
+  return method_words[static_cast<int>(method)];
+}
+
+bool needs_weights(PoseMethod method)
+{
+  return !is_slow(method);
+}
+
+bool is_skinning(PoseMethod method)
+{
+  return needs_weights(method) && method != PoseMethod::reduced_arap;
+}
+
+SkinningMethod to_skinning(PoseMethod method)
+{
+  switch (method)
+  {
+    case PoseMethod::dual_quaternion:
+      return SkinningMethod::dual_quaternion;
+    case PoseMethod::stretchable_bones:
+      return SkinningMethod::stretchable_bones;
+    case PoseMethod::rotation_centers:
+      return SkinningMethod::rotation_centers;
+    default:
+      return SkinningMethod::linear_blend;
+  }
+}
+
+bool finds_rotations(PoseMethod method)
+{
+  return method == PoseMethod::reduced_arap || method == PoseMethod::full_arap;
+}
+
+StretchUse stretch_use(PoseMethod method)
+{
+  return method == PoseMethod::stretchable_bones ? StretchUse::all
+    : is_skinning(method)                        ? StretchUse::tails
+                                                 : StretchUse::ends;
+}
+
+bool is_slow(PoseMethod method)
+{
+  return method == PoseMethod::full_arap || method == PoseMethod::variational;
+}
+
+bool same_bind(const PoseOptions& a, const PoseOptions& b)
+{
+  if (is_skinning(a.method) && is_skinning(b.method))
+  {
+    // All four skinning methods use the same bind, apart from two additions: centers of rotation
+    // and endpoint weights.
+    const auto extra = [](const PoseOptions& o)
+    {
+      return std::make_tuple(o.method == PoseMethod::rotation_centers,
+        o.method == PoseMethod::stretchable_bones ? static_cast<int>(o.endpoints) : -1);
+    };
+    return a.single_precision == b.single_precision && extra(a) == extra(b) &&
+      (a.pseudo_edges == PseudoEdgeChoice::automatic) ==
+      (b.pseudo_edges == PseudoEdgeChoice::automatic);
+  }
+  if (a.method != b.method)
+  {
+    return false;
+  }
+  switch (a.method)
+  {
+    case PoseMethod::reduced_arap:
+      return std::tie(a.energy, a.in_tets, a.extra_weights, a.extra_kind) ==
+        std::tie(b.energy, b.in_tets, b.extra_weights, b.extra_kind);
+    case PoseMethod::full_arap:
+      return std::tie(a.energy, a.in_tets) == std::tie(b.energy, b.in_tets);
+    default:
+      return std::tie(a.order, a.boundary) == std::tie(b.order, b.boundary);
+  }
+}
+
+bool operator==(const PoseOptions& a, const PoseOptions& b)
+{
+  return tied(a) == tied(b);
+}
+
+} // namespace bindpose

@@ -1,0 +1,207 @@
+#include "poser/skinning_methods.h"
+
+#include "poser/bone_endpoints.h"
+#include "skinning/rotation_centers.h"
+
+#include <algorithm>
+#include <tuple>
+
+namespace bindpose
+{
+
+namespace
+{
+bool has_bones(const Handles& handles)
+{
+  return std::any_of(handles.begin(), handles.end(),
+    [](const Handle& handle) { return handle.kind == HandleKind::bone; });
+}
+
+bool same_weights(const SkinningOptions& a, const SkinningOptions& b)
+{
+  return std::tie(a.single_precision, a.smallest_weight, a.influences) ==
+    std::tie(b.single_precision, b.smallest_weight, b.influences);
+}
+
+void add_warnings(const Status& step, Status& status)
+{
+  status.warnings.insert(status.warnings.end(), step.warnings.begin(), step.warnings.end());
+}
+} // namespace
+
+bool SkinningMethods::has_endpoints(
+  const SkinnedShape& shape, const SkinningMethodOptions& options) const
+{
+  return options.method != SkinningMethod::stretchable_bones ||
+    options.endpoints == EndpointMethod::projection || shape.endpoints.rows() > 0 ||
+    !has_bones(shape.handles) || this->endpoint_method_ == options.endpoints;
+}
+
+bool SkinningMethods::is_bound(
+  const SkinnedShape& shape, const SkinningMethodOptions& options) const
+{
+  return this->bound_ && same_weights(*this->bound_, options.weights) &&
+    this->has_endpoints(shape, options) &&
+    (options.method != SkinningMethod::rotation_centers || this->centers_.rows() > 0) &&
+    (options.pseudo_edges != PseudoEdgeChoice::automatic || this->automatic_edges_);
+}
+
+Status SkinningMethods::bind(ExecutionContext& context, const SkinnedShape& shape, TetsView tets,
+  TrianglesView triangles, const SkinningMethodOptions& options)
+{
+  Status status;
+  if (!this->bound_ || !same_weights(*this->bound_, options.weights))
+  {
+    Phase phase(context, "bind", 0.0, 0.05);
+    this->bound_.reset();
+    status = this->skinning_.bind(context, shape.weights, options.weights);
+    if (!status.usable())
+    {
+      return status;
+    }
+    this->bound_ = options.weights;
+    this->pivots_ = handle_pivots(shape.handles);
+  }
+  if (options.pseudo_edges == PseudoEdgeChoice::automatic && !this->automatic_edges_)
+  {
+    Phase phase(context, "edges", 0.05, 0.1);
+    PseudoEdges edges;
+    const Status found = tets.rows() > 0
+      ? automatic_pseudo_edges(context, shape.points, tets, shape.handles, edges)
+      : automatic_pseudo_edges(context, shape.points, triangles, shape.handles, edges);
+    if (!found.ok())
+    {
+      return found;
+    }
+    add_warnings(found, status);
+    this->automatic_edges_ = std::move(edges);
+  }
+  if (options.method == SkinningMethod::rotation_centers && this->centers_.rows() == 0)
+  {
+    const Status found = this->bind_centers(context, shape, tets, triangles);
+    if (!found.ok())
+    {
+      return found;
+    }
+  }
+  if (!this->has_endpoints(shape, options))
+  {
+    const Status found = this->bind_endpoints(context, shape, tets, triangles, options.endpoints);
+    if (!found.usable())
+    {
+      return found;
+    }
+    add_warnings(found, status);
+  }
+  return status;
+}
+
+Status SkinningMethods::bind_centers(
+  ExecutionContext& context, const SkinnedShape& shape, TetsView tets, TrianglesView triangles)
+{
+  Phase phase(context, "centers", 0.1, 1.0);
+  Points centers;
+  Status status = tets.rows() > 0
+    ? rotation_centers(context, {}, shape.points, tets, shape.weights, centers)
+    : rotation_centers(context, {}, shape.points, triangles, shape.weights, centers);
+  if (status.ok())
+  {
+    this->centers_ = std::move(centers);
+    this->centers_report_ = status.report;
+  }
+  return status;
+}
+
+Status SkinningMethods::bind_endpoints(ExecutionContext& context, const SkinnedShape& shape,
+  TetsView tets, TrianglesView triangles, EndpointMethod method)
+{
+  Phase phase(context, "endpoints", 0.1, 1.0);
+  Domain domain;
+  domain.points = shape.points;
+  domain.tets = tets;
+  domain.triangles = triangles;
+  Weights endpoints;
+  Status status = solve_endpoint_weights(
+    context, domain, shape.handles, method, WeightsDomain::automatic, endpoints);
+  if (status.usable())
+  {
+    this->endpoints_ = std::move(endpoints);
+    this->endpoint_method_ = method;
+  }
+  return status;
+}
+
+WeightsView SkinningMethods::endpoints(const SkinnedShape& shape, EndpointMethod method) const
+{
+  // If the shape has no endpoint weights, its view has size 0, which selects the projection.
+  return shape.endpoints.rows() == 0 && this->endpoint_method_ == method
+    ? WeightsView(this->endpoints_)
+    : shape.endpoints;
+}
+
+Status SkinningMethods::pose(ExecutionContext& context, const SkinnedShape& shape,
+  const Pose& given, const PseudoEdges& given_edges, const SkinningMethodOptions& options,
+  Points& posed)
+{
+  Pose pose = given;
+  const PseudoEdges& edges =
+    options.pseudo_edges == PseudoEdgeChoice::automatic ? *this->automatic_edges_ : given_edges;
+  const bool turned = options.pseudo_edges != PseudoEdgeChoice::none && !edges.empty();
+  if (turned)
+  {
+    turn_by_pseudo_edges(shape.handles, edges, options.pseudo_edge_stretch, pose);
+  }
+  const Status found = skinning_transforms(shape.handles, pose, this->transforms_);
+  if (!found.usable())
+  {
+    return found;
+  }
+  Status status;
+  switch (options.method)
+  {
+    case SkinningMethod::dual_quaternion:
+      status = this->skinning_.dual_quaternion(
+        context, shape.points, this->transforms_, this->pivots_, posed);
+      break;
+    case SkinningMethod::stretchable_bones:
+      status = this->skinning_.stretchable_bones(context, shape.points, this->transforms_,
+        bone_changes(shape.handles, given), this->endpoints(shape, options.endpoints), posed);
+      if (!has_bones(shape.handles))
+      {
+        status.warnings.emplace_back("no handle is a bone that can stretch or twist, so the result "
+                                     "equals linear blend skinning");
+      }
+      break;
+    case SkinningMethod::rotation_centers:
+      status = this->skinning_.about_centers(
+        context, shape.points, this->transforms_, this->centers_, posed);
+      status.report.merge(this->centers_report_);
+      break;
+    default:
+      status = this->skinning_.linear_blend(context, shape.points, this->transforms_, posed);
+      break;
+  }
+  add_warnings(found, status);
+  if (turned)
+  {
+    status.report.set("counts.pseudo_edges", static_cast<Index>(edges.size()));
+  }
+  return status;
+}
+
+Status SkinningMethods::pose_normals(
+  ExecutionContext& context, PointsView rest, SkinningMethod method, Points& posed) const
+{
+  switch (method)
+  {
+    case SkinningMethod::dual_quaternion:
+      return this->skinning_.dual_quaternion_normals(
+        context, rest, this->transforms_, this->pivots_, posed);
+    case SkinningMethod::rotation_centers:
+      return this->skinning_.about_centers_normals(context, rest, this->transforms_, posed);
+    default:
+      return this->skinning_.linear_blend_normals(context, rest, this->transforms_, posed);
+  }
+}
+
+} // namespace bindpose

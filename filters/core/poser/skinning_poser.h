@@ -1,0 +1,32 @@
+#ifndef bindpose_poser_skinning_poser_h
+#define bindpose_poser_skinning_poser_h
+
+#include "poser/poser.h"
+#include "poser/skinning_methods.h"
+
+namespace bindpose
+{
+
+/// Poses by one of four skinning methods: linear blend, dual quaternions, stretchable bones and
+/// centers of rotation. Centers, endpoint weights and automatic pseudo-edges are computed by the
+/// first bind that needs them.
+class SkinningPoser : public Poser
+{
+public:
+  explicit SkinningPoser(std::shared_ptr<const PoseSource> source) : Poser(std::move(source)) {}
+  bool is_bound(const PoseOptions& options) const override;
+
+protected:
+  Status bind_missing(ExecutionContext& context, const PoseOptions& options) override;
+  Status pose(ExecutionContext& context, const Pose& pose, const PoseOptions& options,
+    Index most_iterations, Points& posed) override;
+
+private:
+  SkinnedShape shape() const;
+
+  SkinningMethods methods_;
+};
+
+} // namespace bindpose
+
+#endif

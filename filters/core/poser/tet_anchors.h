@@ -1,0 +1,38 @@
+#ifndef bindpose_poser_tet_anchors_h
+#define bindpose_poser_tet_anchors_h
+
+#include "geometry/mesh.h"
+
+#include <array>
+#include <vector>
+
+namespace bindpose
+{
+
+/// Positions of a surface's points relative to tets, so that the surface can move with the tets. A
+/// point that is identical to a tet's vertex moves with that vertex, bit for bit. Any other point
+/// moves with the tet that contains it or is nearest to it.
+class TetAnchors
+{
+public:
+  TetAnchors() = default;
+  TetAnchors(PointsView surface, PointsView tet_points, TetsView tets);
+
+  /// Return, for each surface point, the vertex of its tet with the largest barycentric coordinate.
+  std::vector<Index> nearest_vertices() const;
+
+  /// Compute the surface's points for moved tet points.
+  void move(PointsView surface, PointsView tet_points, PointsView moved, Points& posed) const;
+
+private:
+  struct Anchor
+  {
+    std::array<Index, 4> vertices;
+    std::array<double, 4> shares; ///< barycentric coordinates; 1, 0, 0, 0 on a vertex
+  };
+  std::vector<Anchor> anchors_;
+};
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,104 @@
+#ifndef bindpose_tests_viewer_posing_rigs_h
+#define bindpose_tests_viewer_posing_rigs_h
+
+// Shapes with artificial weights. They are datasets for the filters, and sources (PoseSource) for
+// the posers of the window.
+
+#include "poser/pose_source.h"
+
+#include "support/handles.h"
+#include "support/meshes.h"
+
+#include "conversion.h"
+#include "weights_arrays.h"
+
+#include "vtkDoubleArray.h"
+#include "vtkNew.h"
+#include "vtkPointData.h"
+#include "vtkPolyData.h"
+#include "vtkUnstructuredGrid.h"
+
+#include <memory>
+
+namespace bindpose::test
+{
+
+/// Return weights that decrease with the distance from the centers of the handles.
+inline Weights made_up_weights(const Points& points, const Handles& handles)
+{
+  Weights weights(points.rows(), static_cast<Index>(handles.size()));
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    for (Index j = 0; j < weights.cols(); ++j)
+    {
+      const Handle& handle = handles[static_cast<std::size_t>(j)];
+      const Vec3 middle = 0.5 * (handle.head + handle.tail);
+      weights(v, j) = 1.0 / (1e-3 + (points.row(v).transpose() - middle).squaredNorm());
+    }
+    weights.row(v) /= weights.row(v).sum();
+  }
+  return weights;
+}
+
+struct Rig
+{
+  vtkSmartPointer<vtkPolyData> surface; ///< surface with the array Weights
+  vtkSmartPointer<vtkUnstructuredGrid> tets; ///< tets with the array Weights
+  vtkSmartPointer<vtkPolyData> handles;
+  Handles list;
+  std::vector<Index> cells;
+
+  std::shared_ptr<const PoseSource> source() const
+  {
+    auto made = std::make_shared<PoseSource>();
+    to_pose_source(this->surface, this->tets, this->handles, *made);
+    return made;
+  }
+};
+
+/// Return a beam of tets along x, with its boundary as the surface. It has two points next to it
+/// and two bones along it.
+inline Rig beam()
+{
+  Rig rig;
+  const TetMesh mesh = tet_box(12, 3, 3, Vec3(0, 0, 0), Vec3(4, 1, 1));
+  rig.list = { point_handle("left", Vec3(1, 0, 0)), point_handle("right", Vec3(3, 1, 1)),
+    bone_handle("upper", Vec3(0, 0.5, 0.5), Vec3(2, 0.5, 0.5)),
+    bone_handle("lower", Vec3(2.05, 0.5, 0.5), Vec3(4, 0.5, 0.5)) };
+  rig.handles = to_polydata(rig.list);
+  to_handles(rig.handles, rig.list, &rig.cells);
+  rig.surface = to_polydata(mesh.points, boundary_triangles(mesh.tets));
+  rig.tets = to_unstructured_grid(mesh.points, mesh.tets);
+  const Weights weights = made_up_weights(mesh.points, rig.list);
+  for (vtkDataSet* data :
+    { static_cast<vtkDataSet*>(rig.surface), static_cast<vtkDataSet*>(rig.tets) })
+  {
+    data->GetPointData()->AddArray(to_weights_array("Weights", weights, rig.list));
+  }
+  return rig;
+}
+
+/// Return a pose that bends, rotates, stretches and twists the shape.
+inline Pose some_pose(const Handles& handles, double amount = 1.0)
+{
+  Pose pose(handles.size());
+  for (std::size_t k = 0; k < pose.size(); ++k)
+  {
+    const Eigen::Matrix3d turn =
+      Eigen::AngleAxisd(0.4 * amount * static_cast<double>(k + 1), Vec3(0.3, 1, 0.2).normalized())
+        .toRotationMatrix();
+    pose[k].transform.leftCols<3>() = turn;
+    pose[k].transform.col(3) = handles[k].head - turn * handles[k].head +
+      amount * Vec3(0.1, 0.2 * static_cast<double>(k), 0);
+    if (handles[k].kind == HandleKind::bone)
+    {
+      pose[k].stretch = 1.0 + 0.2 * amount;
+      pose[k].twist = Eigen::Vector2d(0, 40.0 * amount);
+    }
+  }
+  return pose;
+}
+
+} // namespace bindpose::test
+
+#endif

@@ -27,7 +27,7 @@ int vtkAutomaticHandles::FillOutputPortInformation(int, vtkInformation* info)
 }
 
 bindpose::Status vtkAutomaticHandles::Execute(
-  vtkInformationVector** input, vtkInformationVector* output, bindpose::ExecutionContext& context)
+  bindpose::ExecutionContext& context, vtkInformationVector** input, vtkInformationVector* output)
 {
   bindpose::SurfaceInput surface;
   bindpose::Status status = bindpose::to_outer_surface(vtkDataSet::GetData(input[0]), surface);
@@ -51,7 +51,7 @@ bindpose::Status vtkAutomaticHandles::Execute(
   options.points.winding_threshold = this->WindingThreshold;
   bindpose::Handles handles;
   status = bindpose::automatic_handles(
-    surface.points.view(), surface.triangles.view(), options, handles, context);
+    context, surface.points.view(), surface.triangles.view(), options, handles);
   if (status.ok())
   {
     vtkDataObject::GetData(output)->ShallowCopy(bindpose::to_polydata(handles));

@@ -132,7 +132,7 @@ int vtkBindAlgorithm::RequestInformation(
   return 1;
 }
 
-Status vtkBindAlgorithm::Prepare(vtkInformationVector** input, ExecutionContext& context)
+Status vtkBindAlgorithm::Prepare(ExecutionContext& context, vtkInformationVector** input)
 {
   auto* mesh = vtkPointSet::GetData(input[0], 0);
   auto* handle_data = vtkPolyData::GetData(input[1], 0);
@@ -216,7 +216,7 @@ Status vtkBindAlgorithm::Prepare(vtkInformationVector** input, ExecutionContext&
   if (bind)
   {
     Phase phase(context, "bind", 0.0, 0.8);
-    const Status made = this->Bind(*bound.input, context);
+    const Status made = this->Bind(context, *bound.input);
     if (!made.usable())
     {
       return made;

@@ -69,7 +69,7 @@ protected:
    * output until the next bind.
    */
   virtual bindpose::Status Bind(
-    const bindpose::PoseInput& input, bindpose::ExecutionContext& context) = 0;
+    bindpose::ExecutionContext& context, const bindpose::PoseInput& input) = 0;
 
   /// Report whether the method computes the rotations that a pose does not prescribe. If true,
   /// handles in mode automatic that are only translated get mode position.
@@ -99,7 +99,7 @@ protected:
    * Convert the inputs, and run Bind() unless the last bind is still valid. Subclasses call this in
    * Execute(). If the status is usable, GetPoseInput() is valid until Execute() returns.
    */
-  bindpose::Status Prepare(vtkInformationVector** input, bindpose::ExecutionContext& context);
+  bindpose::Status Prepare(bindpose::ExecutionContext& context, vtkInformationVector** input);
   const bindpose::PoseInput& GetPoseInput() const;
   ///@}
 

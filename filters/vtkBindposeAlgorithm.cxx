@@ -208,7 +208,7 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
   {
     try
     {
-      status = this->Execute(input, output, context);
+      status = this->Execute(context, input, output);
     }
     catch (const std::bad_alloc&)
     {
@@ -225,7 +225,7 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
     }
   }
 
-  bindpose::complete_report(status, context);
+  bindpose::complete_report(context, status);
   const bool canceled = status.code == bindpose::StatusCode::canceled;
   for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
   {

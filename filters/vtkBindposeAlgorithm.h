@@ -131,8 +131,8 @@ protected:
    * The report of the returned status is attached to every output. An exception becomes
    * INTERNAL_ERROR.
    */
-  virtual bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
-    bindpose::ExecutionContext& context) = 0;
+  virtual bindpose::Status Execute(bindpose::ExecutionContext& context,
+    vtkInformationVector** input, vtkInformationVector* output) = 0;
 
 private:
   vtkBindposeAlgorithm(const vtkBindposeAlgorithm&) = delete;

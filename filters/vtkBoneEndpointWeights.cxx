@@ -38,7 +38,7 @@ vtkBoneEndpointWeights::vtkBoneEndpointWeights() : Bound(new Cache) {}
 vtkBoneEndpointWeights::~vtkBoneEndpointWeights() = default;
 
 Status vtkBoneEndpointWeights::Execute(
-  vtkInformationVector** input, vtkInformationVector* output, ExecutionContext& context)
+  ExecutionContext& context, vtkInformationVector** input, vtkInformationVector* output)
 {
   vtkPointSet* mesh = vtkPointSet::GetData(input[0]);
   vtkPolyData* handle_data = vtkPolyData::GetData(input[1]);

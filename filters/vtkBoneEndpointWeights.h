@@ -73,8 +73,8 @@ protected:
   vtkBoneEndpointWeights();
   ~vtkBoneEndpointWeights() override;
 
-  bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
-    bindpose::ExecutionContext& context) override;
+  bindpose::Status Execute(bindpose::ExecutionContext& context, vtkInformationVector** input,
+    vtkInformationVector* output) override;
 
 private:
   vtkBoneEndpointWeights(const vtkBoneEndpointWeights&) = delete;

@@ -21,12 +21,12 @@ void vtkBoundedBiharmonicWeights::SetOrder(int value)
   this->SetBindParameter(this->Order, value);
 }
 
-Status vtkBoundedBiharmonicWeights::Solve(const WeightsProblem& problem,
-  const WeightsOptions& options, ExecutionContext& context, WeightsResult& result)
+Status vtkBoundedBiharmonicWeights::Solve(ExecutionContext& context, const WeightsProblem& problem,
+  const WeightsOptions& options, WeightsResult& result)
 {
   WeightsOptions own = options;
   own.order = this->Order;
-  return bounded_biharmonic_weights(problem, own, context, result);
+  return bounded_biharmonic_weights(context, problem, own, result);
 }
 
 void vtkBoundedBiharmonicWeights::PrintSelf(ostream& os, vtkIndent indent)

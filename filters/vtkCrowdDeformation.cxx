@@ -148,17 +148,17 @@ void vtkCrowdDeformation::SetSmallestWeight(double smallest)
   this->SetBindParameter(this->SmallestWeight, smallest);
 }
 
-Status vtkCrowdDeformation::Bind(const PoseInput& input, ExecutionContext& context)
+Status vtkCrowdDeformation::Bind(ExecutionContext& context, const PoseInput& input)
 {
   ReducedArapOptions options;
   options.skinning.smallest_weight = this->SmallestWeight;
-  return bind_reduced(*this, this->Internal->crowd, input, context, options);
+  return bind_reduced(context, *this, this->Internal->crowd, input, options);
 }
 
 Status vtkCrowdDeformation::Execute(
-  vtkInformationVector** input, vtkInformationVector* output, ExecutionContext& context)
+  ExecutionContext& context, vtkInformationVector** input, vtkInformationVector* output)
 {
-  const Status prepared = this->Prepare(input, context);
+  const Status prepared = this->Prepare(context, input);
   if (!prepared.usable())
   {
     return prepared;

@@ -137,9 +137,9 @@ protected:
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   bindpose::Status Bind(
-    const bindpose::PoseInput& input, bindpose::ExecutionContext& context) override;
-  bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
-    bindpose::ExecutionContext& context) override;
+    bindpose::ExecutionContext& context, const bindpose::PoseInput& input) override;
+  bindpose::Status Execute(bindpose::ExecutionContext& context, vtkInformationVector** input,
+    vtkInformationVector* output) override;
 
 private:
   vtkCrowdDeformation(const vtkCrowdDeformation&) = delete;

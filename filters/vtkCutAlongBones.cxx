@@ -125,7 +125,7 @@ int vtkCutAlongBones::FillOutputPortInformation(int, vtkInformation* info)
 }
 
 Status vtkCutAlongBones::Execute(
-  vtkInformationVector** input, vtkInformationVector* output, ExecutionContext& context)
+  ExecutionContext& context, vtkInformationVector** input, vtkInformationVector* output)
 {
   const Phase phase(context, "cut");
   vtkPolyData* mesh = vtkPolyData::GetData(input[0]);
@@ -154,7 +154,7 @@ Status vtkCutAlongBones::Execute(
   }
   BoneCut cut;
   status =
-    cut_along_bones(surface.points.view(), surface.triangles.view(), handles, curves, context, cut);
+    cut_along_bones(context, surface.points.view(), surface.triangles.view(), handles, curves, cut);
   if (!status.usable())
   {
     return status;

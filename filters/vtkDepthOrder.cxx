@@ -41,7 +41,7 @@ void vtkDepthOrder::SetLayerArrayName(const std::string& name)
 }
 
 Status vtkDepthOrder::Execute(
-  vtkInformationVector** input, vtkInformationVector* output, ExecutionContext& context)
+  ExecutionContext& context, vtkInformationVector** input, vtkInformationVector* output)
 {
   const Phase phase(context, "order");
   vtkPointSet* mesh = vtkPointSet::GetData(input[0]);
@@ -62,7 +62,7 @@ Status vtkDepthOrder::Execute(
   DepthOrderOptions options;
   options.tie = this->Tie;
   DepthOrder order;
-  status = depth_order(weights.weights.view(), layers, options, context, order);
+  status = depth_order(context, weights.weights.view(), layers, options, order);
   if (!status.usable())
   {
     return status;

@@ -71,8 +71,8 @@ protected:
   vtkDepthOrder() = default;
   ~vtkDepthOrder() override = default;
 
-  bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
-    bindpose::ExecutionContext& context) override;
+  bindpose::Status Execute(bindpose::ExecutionContext& context, vtkInformationVector** input,
+    vtkInformationVector* output) override;
 
 private:
   vtkDepthOrder(const vtkDepthOrder&) = delete;

@@ -26,7 +26,7 @@ int vtkFarthestPointHandles::FillOutputPortInformation(int, vtkInformation* info
 }
 
 bindpose::Status vtkFarthestPointHandles::Execute(
-  vtkInformationVector** input, vtkInformationVector* output, bindpose::ExecutionContext& context)
+  bindpose::ExecutionContext& context, vtkInformationVector** input, vtkInformationVector* output)
 {
   bindpose::Phase phase(context, "choose");
   bindpose::SurfaceInput surface;
@@ -35,7 +35,7 @@ bindpose::Status vtkFarthestPointHandles::Execute(
   if (status.ok())
   {
     status = bindpose::farthest_points(
-      surface.points.view(), surface.triangles.view(), this->NumberOfHandles, context, chosen);
+      context, surface.points.view(), surface.triangles.view(), this->NumberOfHandles, chosen);
   }
   if (!status.ok())
   {

@@ -41,7 +41,7 @@ std::vector<std::string> vtkFullARAP::BindArrays()
   return { this->RegionArrayName };
 }
 
-Status vtkFullARAP::Bind(const PoseInput& input, ExecutionContext& context)
+Status vtkFullARAP::Bind(ExecutionContext& context, const PoseInput& input)
 {
   FullArapOptions options;
   ArapElements elements;
@@ -62,7 +62,7 @@ Status vtkFullARAP::Bind(const PoseInput& input, ExecutionContext& context)
     : arap.bind(context, input.points, elements.surface.triangles.view(), input.handles, options);
 }
 
-Status vtkFullARAP::Deform(const PoseInput& input, ExecutionContext& context, PosedPoints& posed)
+Status vtkFullARAP::Deform(ExecutionContext& context, const PoseInput& input, PosedPoints& posed)
 {
   Phase phase(context, "solve", 0.8, 1.0);
   FullArap::SolveOptions options;

@@ -132,9 +132,9 @@ protected:
   bool NeedsWeights() const override { return false; }
   std::vector<std::string> BindArrays() override;
   bindpose::Status Bind(
-    const bindpose::PoseInput& input, bindpose::ExecutionContext& context) override;
+    bindpose::ExecutionContext& context, const bindpose::PoseInput& input) override;
   bool FindsRotations() override { return true; }
-  bindpose::Status Deform(const bindpose::PoseInput& input, bindpose::ExecutionContext& context,
+  bindpose::Status Deform(bindpose::ExecutionContext& context, const bindpose::PoseInput& input,
     bindpose::PosedPoints& posed) override;
 
 private:

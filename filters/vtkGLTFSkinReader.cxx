@@ -61,7 +61,7 @@ int vtkGLTFSkinReader::RequestInformation(
 }
 
 Status vtkGLTFSkinReader::Execute(
-  vtkInformationVector**, vtkInformationVector* output, ExecutionContext& context)
+  ExecutionContext& context, vtkInformationVector**, vtkInformationVector* output)
 {
   const Phase phase(context, "read");
   const std::string path = this->FileName ? this->FileName : "";

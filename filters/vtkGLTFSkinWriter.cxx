@@ -296,7 +296,7 @@ int vtkGLTFSkinWriter::FillOutputPortInformation(int, vtkInformation* info)
 }
 
 Status vtkGLTFSkinWriter::Execute(
-  vtkInformationVector** input, vtkInformationVector* output, ExecutionContext& context)
+  ExecutionContext& context, vtkInformationVector** input, vtkInformationVector* output)
 {
   const Phase phase(context, "write");
   const std::string path = this->FileName ? this->FileName : "";
@@ -364,7 +364,7 @@ Status vtkGLTFSkinWriter::Execute(
   Status written = file.open(path, this->Overwrite);
   if (written.ok())
   {
-    written = write_gltf_skin(file.temporary(), skin, options, context);
+    written = write_gltf_skin(context, file.temporary(), skin, options);
     const std::size_t at = written.message.find(file.temporary());
     if (at != std::string::npos)
     {

@@ -230,7 +230,7 @@ int vtkHandleFileReader::FillOutputPortInformation(int, vtkInformation* info)
 }
 
 bindpose::Status vtkHandleFileReader::Execute(
-  vtkInformationVector**, vtkInformationVector* output, bindpose::ExecutionContext& context)
+  bindpose::ExecutionContext& context, vtkInformationVector**, vtkInformationVector* output)
 {
   bindpose::Phase phase(context, "read");
   const std::string path = this->FileName ? this->FileName : "";

@@ -55,8 +55,8 @@ protected:
   ~vtkHandleFileReader() override;
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
-  bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
-    bindpose::ExecutionContext& context) override;
+  bindpose::Status Execute(bindpose::ExecutionContext& context, vtkInformationVector** input,
+    vtkInformationVector* output) override;
 
 private:
   vtkHandleFileReader(const vtkHandleFileReader&) = delete;

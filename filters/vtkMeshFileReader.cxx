@@ -348,7 +348,7 @@ int vtkMeshFileReader::RequestInformation(
 }
 
 bindpose::Status vtkMeshFileReader::Execute(
-  vtkInformationVector**, vtkInformationVector* output, bindpose::ExecutionContext& context)
+  bindpose::ExecutionContext& context, vtkInformationVector**, vtkInformationVector* output)
 {
   const std::string path = this->FileName ? this->FileName : "";
   vtkDataObject* data = vtkDataObject::GetData(output);

@@ -201,7 +201,7 @@ int vtkMeshFileWriter::FillInputPortInformation(int, vtkInformation* info)
 }
 
 bindpose::Status vtkMeshFileWriter::Execute(
-  vtkInformationVector** input, vtkInformationVector*, bindpose::ExecutionContext& context)
+  bindpose::ExecutionContext& context, vtkInformationVector** input, vtkInformationVector*)
 {
   bindpose::Phase phase(context, "write");
   const std::string path = this->FileName ? this->FileName : "";

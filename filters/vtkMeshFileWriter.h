@@ -67,8 +67,8 @@ protected:
   ~vtkMeshFileWriter() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
-    bindpose::ExecutionContext& context) override;
+  bindpose::Status Execute(bindpose::ExecutionContext& context, vtkInformationVector** input,
+    vtkInformationVector* output) override;
 
 private:
   vtkMeshFileWriter(const vtkMeshFileWriter&) = delete;

@@ -190,7 +190,7 @@ int vtkMonotoneSmoothing::RequestDataObject(
 }
 
 Status vtkMonotoneSmoothing::Execute(
-  vtkInformationVector** input, vtkInformationVector* output, ExecutionContext& context)
+  ExecutionContext& context, vtkInformationVector** input, vtkInformationVector* output)
 {
   vtkPointSet* mesh = vtkPointSet::GetData(input[0]);
   vtkPointSet* result = vtkPointSet::GetData(output);
@@ -228,7 +228,7 @@ Status vtkMonotoneSmoothing::Execute(
   options.maximum_iterations = this->MaximumIterations;
   options.solver.memory_limit = this->MemoryLimit;
   MonotoneSmoothingResult smoothed;
-  status = monotone_smoothing(domain, data, options, context, smoothed);
+  status = monotone_smoothing(context, domain, data, options, smoothed);
   if (!status.usable())
   {
     return status;

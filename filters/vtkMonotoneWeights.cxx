@@ -21,12 +21,12 @@ void vtkMonotoneWeights::SetOrder(int value)
   this->SetBindParameter(this->Order, value);
 }
 
-Status vtkMonotoneWeights::Solve(const WeightsProblem& problem, const WeightsOptions& options,
-  ExecutionContext& context, WeightsResult& result)
+Status vtkMonotoneWeights::Solve(ExecutionContext& context, const WeightsProblem& problem,
+  const WeightsOptions& options, WeightsResult& result)
 {
   WeightsOptions own = options;
   own.order = this->Order;
-  return monotone_weights(problem, own, context, result);
+  return monotone_weights(context, problem, own, result);
 }
 
 void vtkMonotoneWeights::PrintSelf(ostream& os, vtkIndent indent)

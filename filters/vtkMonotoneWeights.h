@@ -43,8 +43,8 @@ protected:
   ~vtkMonotoneWeights() override;
 
   bool TakesTerms() const override { return true; }
-  bindpose::Status Solve(const bindpose::WeightsProblem& problem,
-    const bindpose::WeightsOptions& options, bindpose::ExecutionContext& context,
+  bindpose::Status Solve(bindpose::ExecutionContext& context,
+    const bindpose::WeightsProblem& problem, const bindpose::WeightsOptions& options,
     bindpose::WeightsResult& result) override;
 
 private:

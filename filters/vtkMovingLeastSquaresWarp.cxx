@@ -24,7 +24,7 @@ void vtkMovingLeastSquaresWarp::SetExponent(double exponent)
   this->SetBindParameter(this->Exponent, exponent);
 }
 
-Status vtkMovingLeastSquaresWarp::Bind(const PoseInput& input, ExecutionContext& context)
+Status vtkMovingLeastSquaresWarp::Bind(ExecutionContext& context, const PoseInput& input)
 {
   MovingLeastSquaresOptions options;
   options.exponent = this->Exponent;
@@ -37,7 +37,7 @@ StretchUse vtkMovingLeastSquaresWarp::GetStretchUse()
 }
 
 Status vtkMovingLeastSquaresWarp::Deform(
-  const PoseInput& input, ExecutionContext& context, PosedPoints& posed)
+  ExecutionContext& context, const PoseInput& input, PosedPoints& posed)
 {
   Phase phase(context, "warp", 0.8, 1.0);
   Status status = this->Internal->warp.warp(context, input.handles, input.pose, posed.points);

@@ -52,9 +52,9 @@ protected:
 
   bool NeedsWeights() const override { return false; }
   bindpose::Status Bind(
-    const bindpose::PoseInput& input, bindpose::ExecutionContext& context) override;
+    bindpose::ExecutionContext& context, const bindpose::PoseInput& input) override;
   bindpose::StretchUse GetStretchUse() override;
-  bindpose::Status Deform(const bindpose::PoseInput& input, bindpose::ExecutionContext& context,
+  bindpose::Status Deform(bindpose::ExecutionContext& context, const bindpose::PoseInput& input,
     bindpose::PosedPoints& posed) override;
 
 private:

@@ -78,7 +78,7 @@ void add_point_arrays(
 } // namespace
 
 bindpose::Status vtkPlanarShape::Execute(
-  vtkInformationVector** input, vtkInformationVector* output, bindpose::ExecutionContext& context)
+  bindpose::ExecutionContext& context, vtkInformationVector** input, vtkInformationVector* output)
 {
   vtkPolyData* out = vtkPolyData::GetData(output);
   out->Initialize();
@@ -89,7 +89,7 @@ bindpose::Status vtkPlanarShape::Execute(
   {
     bindpose::ImageOutlineOptions options;
     options.simplify = this->Simplify;
-    status = bindpose::to_planar_input(image, this->Rectangle, options, planar, context);
+    status = bindpose::to_planar_input(context, image, this->Rectangle, options, planar);
   }
   else
   {
@@ -117,7 +117,7 @@ bindpose::Status vtkPlanarShape::Execute(
   options.memory_limit = this->MemoryLimit;
   bindpose::PlanarShape shape;
   status = bindpose::planar_shape(
-    planar.points, planar.segments, bindpose::to_planar_handles(handles), options, shape, context);
+    context, planar.points, planar.segments, bindpose::to_planar_handles(handles), options, shape);
   bindpose::Report report = planar.report;
   report.merge(status.report);
   status.report = report;

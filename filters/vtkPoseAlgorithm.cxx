@@ -60,11 +60,11 @@ vtkPoseAlgorithm::vtkPoseAlgorithm() : OfBind(new BindParts) {}
 vtkPoseAlgorithm::~vtkPoseAlgorithm() = default;
 
 Status vtkPoseAlgorithm::Execute(
-  vtkInformationVector** input, vtkInformationVector* output, ExecutionContext& context)
+  ExecutionContext& context, vtkInformationVector** input, vtkInformationVector* output)
 {
   auto* result = vtkPointSet::GetData(output, 0);
   const int binds = this->GetNumberOfBinds();
-  const Status prepared = this->Prepare(input, context);
+  const Status prepared = this->Prepare(context, input);
   if (!prepared.usable())
   {
     return prepared;
@@ -77,7 +77,7 @@ Status vtkPoseAlgorithm::Execute(
   vtkPointSet* mesh = pose_input.mesh;
 
   PosedPoints posed;
-  Status deformed = this->Deform(pose_input, context, posed);
+  Status deformed = this->Deform(context, pose_input, posed);
   if (!deformed.usable())
   {
     return deformed;
@@ -96,7 +96,7 @@ Status vtkPoseAlgorithm::Execute(
   if (vtkDataArray* rest = polydata ? polydata->GetPointData()->GetNormals() : nullptr)
   {
     PosedPoints normals;
-    const Status turned = this->DeformNormals(pose_input, context, posed, normals);
+    const Status turned = this->DeformNormals(context, pose_input, posed, normals);
     if (!turned.usable())
     {
       return turned;
@@ -138,7 +138,7 @@ StretchUse vtkPoseAlgorithm::GetStretchUse()
 }
 
 Status vtkPoseAlgorithm::DeformNormals(
-  const PoseInput& input, ExecutionContext&, const PosedPoints& posed, PosedPoints& normals)
+  ExecutionContext&, const PoseInput& input, const PosedPoints& posed, PosedPoints& normals)
 {
   SurfaceInput surface;
   const Status status = to_surface(input.mesh, surface);

@@ -65,13 +65,13 @@ protected:
   ~vtkPoseAlgorithm() override;
 
   /// Compute the posed points.
-  virtual bindpose::Status Deform(const bindpose::PoseInput& input,
-    bindpose::ExecutionContext& context, bindpose::PosedPoints& posed) = 0;
+  virtual bindpose::Status Deform(bindpose::ExecutionContext& context,
+    const bindpose::PoseInput& input, bindpose::PosedPoints& posed) = 0;
 
   /// Compute the posed normals of a vtkPolyData with normals, after Deform(). The default
   /// implementation computes area-weighted normals of the posed polygons.
-  virtual bindpose::Status DeformNormals(const bindpose::PoseInput& input,
-    bindpose::ExecutionContext& context, const bindpose::PosedPoints& posed,
+  virtual bindpose::Status DeformNormals(bindpose::ExecutionContext& context,
+    const bindpose::PoseInput& input, const bindpose::PosedPoints& posed,
     bindpose::PosedPoints& normals);
 
   /// Return how the method uses the `Stretch` and `Twist` of bones. A warning is issued if the pose
@@ -79,8 +79,8 @@ protected:
   /// value for methods that compute the transforms of handles (as-rigid-as-possible).
   virtual bindpose::StretchUse GetStretchUse();
 
-  bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
-    bindpose::ExecutionContext& context) override;
+  bindpose::Status Execute(bindpose::ExecutionContext& context, vtkInformationVector** input,
+    vtkInformationVector* output) override;
 
 private:
   vtkPoseAlgorithm(const vtkPoseAlgorithm&) = delete;

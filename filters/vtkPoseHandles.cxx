@@ -125,7 +125,7 @@ int vtkPoseHandles::RequestInformation(
 }
 
 Status vtkPoseHandles::Execute(
-  vtkInformationVector** input, vtkInformationVector* output, ExecutionContext&)
+  ExecutionContext&, vtkInformationVector** input, vtkInformationVector* output)
 {
   auto* data = vtkPolyData::GetData(input[0], 0);
   auto* result = vtkPolyData::GetData(output, 0);

@@ -123,8 +123,8 @@ protected:
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestInformation(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
-  bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
-    bindpose::ExecutionContext& context) override;
+  bindpose::Status Execute(bindpose::ExecutionContext& context, vtkInformationVector** input,
+    vtkInformationVector* output) override;
 
 private:
   vtkPoseHandles(const vtkPoseHandles&) = delete;

@@ -24,12 +24,12 @@ vtkReducedARAP::vtkReducedARAP() : Internal(new Internals) {}
 
 vtkReducedARAP::~vtkReducedARAP() = default;
 
-Status vtkReducedARAP::Bind(const PoseInput& input, ExecutionContext& context)
+Status vtkReducedARAP::Bind(ExecutionContext& context, const PoseInput& input)
 {
-  return bind_reduced(*this, this->Internal->arap, input, context);
+  return bind_reduced(context, *this, this->Internal->arap, input);
 }
 
-Status vtkReducedARAP::Deform(const PoseInput& input, ExecutionContext& context, PosedPoints& posed)
+Status vtkReducedARAP::Deform(ExecutionContext& context, const PoseInput& input, PosedPoints& posed)
 {
   ReducedArap& arap = this->Internal->arap;
   Status status;
@@ -61,7 +61,7 @@ Status vtkReducedARAP::Deform(const PoseInput& input, ExecutionContext& context,
 }
 
 Status vtkReducedARAP::DeformNormals(
-  const PoseInput& input, ExecutionContext& context, const PosedPoints&, PosedPoints& normals)
+  ExecutionContext& context, const PoseInput& input, const PosedPoints&, PosedPoints& normals)
 {
   const SharedMatrix<Weights> rest = to_matrix(input.mesh->GetPointData()->GetNormals());
   const Eigen::Map<const Points> directions(rest.view().data(), rest.view().rows(), 3);

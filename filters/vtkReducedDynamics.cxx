@@ -181,14 +181,14 @@ vtkTypeBool vtkReducedDynamics::ProcessRequest(
   return result;
 }
 
-Status vtkReducedDynamics::Bind(const PoseInput& input, ExecutionContext& context)
+Status vtkReducedDynamics::Bind(ExecutionContext& context, const PoseInput& input)
 {
   this->Internal->started = false;
-  return bind_reduced(*this, this->Internal->body, input, context);
+  return bind_reduced(context, *this, this->Internal->body, input);
 }
 
 Status vtkReducedDynamics::Deform(
-  const PoseInput& input, ExecutionContext& context, PosedPoints& posed)
+  ExecutionContext& context, const PoseInput& input, PosedPoints& posed)
 {
   Internals& state = *this->Internal;
   Status status;
@@ -245,7 +245,7 @@ Status vtkReducedDynamics::Deform(
 }
 
 Status vtkReducedDynamics::DeformNormals(
-  const PoseInput& input, ExecutionContext& context, const PosedPoints&, PosedPoints& normals)
+  ExecutionContext& context, const PoseInput& input, const PosedPoints&, PosedPoints& normals)
 {
   const SharedMatrix<Weights> rest = to_matrix(input.mesh->GetPointData()->GetNormals());
   const Eigen::Map<const Points> directions(rest.view().data(), rest.view().rows(), 3);

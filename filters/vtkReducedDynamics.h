@@ -132,11 +132,11 @@ protected:
   int RequestUpdateExtent(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   bindpose::Status Bind(
-    const bindpose::PoseInput& input, bindpose::ExecutionContext& context) override;
-  bindpose::Status Deform(const bindpose::PoseInput& input, bindpose::ExecutionContext& context,
+    bindpose::ExecutionContext& context, const bindpose::PoseInput& input) override;
+  bindpose::Status Deform(bindpose::ExecutionContext& context, const bindpose::PoseInput& input,
     bindpose::PosedPoints& posed) override;
-  bindpose::Status DeformNormals(const bindpose::PoseInput& input,
-    bindpose::ExecutionContext& context, const bindpose::PosedPoints& posed,
+  bindpose::Status DeformNormals(bindpose::ExecutionContext& context,
+    const bindpose::PoseInput& input, const bindpose::PosedPoints& posed,
     bindpose::PosedPoints& normals) override;
 
 private:

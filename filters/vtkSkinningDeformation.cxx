@@ -84,7 +84,7 @@ SkinningMethodOptions vtkSkinningDeformation::MakeOptions() const
   return options;
 }
 
-Status vtkSkinningDeformation::Bind(const PoseInput& input, ExecutionContext& context)
+Status vtkSkinningDeformation::Bind(ExecutionContext& context, const PoseInput& input)
 {
   Internals& internal = *this->Internal;
   internal.methods.reset();
@@ -106,11 +106,11 @@ Status vtkSkinningDeformation::Bind(const PoseInput& input, ExecutionContext& co
       return status;
     }
   }
-  return this->BindMissing(input, context);
+  return this->BindMissing(context, input);
 }
 
 /// Compute what the method needs and the bind does not contain.
-Status vtkSkinningDeformation::BindMissing(const PoseInput& input, ExecutionContext& context)
+Status vtkSkinningDeformation::BindMissing(ExecutionContext& context, const PoseInput& input)
 {
   Internals& internal = *this->Internal;
   const SkinnedShape shape = internal.shape(input);
@@ -130,14 +130,14 @@ StretchUse vtkSkinningDeformation::GetStretchUse()
 }
 
 Status vtkSkinningDeformation::Deform(
-  const PoseInput& input, ExecutionContext& context, PosedPoints& posed)
+  ExecutionContext& context, const PoseInput& input, PosedPoints& posed)
 {
   Internals& internal = *this->Internal;
   Status bound;
   {
     // The method may have changed since the bind.
     const ProgressRange range(context, 0.0, 0.8);
-    bound = this->BindMissing(input, context);
+    bound = this->BindMissing(context, input);
   }
   Phase phase(context, "skin", 0.8, 1.0);
   bindpose::PseudoEdges edges;
@@ -159,12 +159,12 @@ Status vtkSkinningDeformation::Deform(
 }
 
 Status vtkSkinningDeformation::DeformNormals(
-  const PoseInput& input, ExecutionContext& context, const PosedPoints& posed, PosedPoints& normals)
+  ExecutionContext& context, const PoseInput& input, const PosedPoints& posed, PosedPoints& normals)
 {
   const auto method = static_cast<SkinningMethod>(this->Method);
   if (!SkinningMethods::poses_normals(method))
   {
-    return this->Superclass::DeformNormals(input, context, posed, normals);
+    return this->Superclass::DeformNormals(context, input, posed, normals);
   }
   const SharedMatrix<Weights> rest = to_matrix(input.mesh->GetPointData()->GetNormals());
   const Eigen::Map<const Points> directions(rest.view().data(), rest.view().rows(), 3);

@@ -137,12 +137,12 @@ protected:
 
   std::vector<std::string> BindArrays() override;
   bindpose::Status Bind(
-    const bindpose::PoseInput& input, bindpose::ExecutionContext& context) override;
+    bindpose::ExecutionContext& context, const bindpose::PoseInput& input) override;
   bindpose::StretchUse GetStretchUse() override;
-  bindpose::Status Deform(const bindpose::PoseInput& input, bindpose::ExecutionContext& context,
+  bindpose::Status Deform(bindpose::ExecutionContext& context, const bindpose::PoseInput& input,
     bindpose::PosedPoints& posed) override;
-  bindpose::Status DeformNormals(const bindpose::PoseInput& input,
-    bindpose::ExecutionContext& context, const bindpose::PosedPoints& posed,
+  bindpose::Status DeformNormals(bindpose::ExecutionContext& context,
+    const bindpose::PoseInput& input, const bindpose::PosedPoints& posed,
     bindpose::PosedPoints& normals) override;
 
 private:
@@ -151,7 +151,7 @@ private:
 
   bindpose::SkinningMethodOptions MakeOptions() const;
   bindpose::Status BindMissing(
-    const bindpose::PoseInput& input, bindpose::ExecutionContext& context);
+    bindpose::ExecutionContext& context, const bindpose::PoseInput& input);
 
   int Method = LINEAR_BLEND;
   int PseudoEdges = GIVEN_PSEUDO_EDGES;

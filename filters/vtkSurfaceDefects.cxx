@@ -27,7 +27,7 @@ int vtkSurfaceDefects::FillOutputPortInformation(int, vtkInformation* info)
 }
 
 bindpose::Status vtkSurfaceDefects::Execute(
-  vtkInformationVector** input, vtkInformationVector* output, bindpose::ExecutionContext& context)
+  bindpose::ExecutionContext& context, vtkInformationVector** input, vtkInformationVector* output)
 {
   bindpose::SurfaceInput surface;
   bindpose::Status status = bindpose::to_surface(vtkDataSet::GetData(input[0]), surface);
@@ -41,7 +41,7 @@ bindpose::Status vtkSurfaceDefects::Execute(
   bindpose::RepairOptions options;
   options.orient = false;
   bindpose::RepairedSurface repaired;
-  status = bindpose::repair_surface(points, triangles, options, repaired, context);
+  status = bindpose::repair_surface(context, points, triangles, options, repaired);
   if (!status.ok())
   {
     return status;

@@ -76,7 +76,7 @@ vtkSmartPointer<vtkPolyData> to_bound_surface(
 } // namespace
 
 bindpose::Status vtkTetrahedralizeSurface::Execute(
-  vtkInformationVector** input, vtkInformationVector* output, bindpose::ExecutionContext& context)
+  bindpose::ExecutionContext& context, vtkInformationVector** input, vtkInformationVector* output)
 {
   vtkUnstructuredGrid* out = vtkUnstructuredGrid::GetData(output);
   vtkPolyData* defects = vtkPolyData::GetData(output, 1);
@@ -120,7 +120,7 @@ bindpose::Status vtkTetrahedralizeSurface::Execute(
   options.handles = bindpose::to_handle_places(handles);
   bindpose::TetrahedralizeResult result;
   status = bindpose::tetrahedralize(
-    surface.points.view(), surface.triangles.view(), options, result, context);
+    context, surface.points.view(), surface.triangles.view(), options, result);
   if (surface.triangulated_cells > 0)
   {
     status.report.set("counts.triangulated_cells", surface.triangulated_cells);

@@ -66,7 +66,7 @@ int vtkTransferWeights::RequestDataObject(
 }
 
 Status vtkTransferWeights::Execute(
-  vtkInformationVector** input, vtkInformationVector* output, ExecutionContext& context)
+  ExecutionContext& context, vtkInformationVector** input, vtkInformationVector* output)
 {
   vtkPointSet* target = vtkPointSet::GetData(input[0]);
   vtkPointSet* mesh = vtkPointSet::GetData(input[1]);
@@ -101,8 +101,8 @@ Status vtkTransferWeights::Execute(
     }
     Weights values;
     TransferCounts counts;
-    status = transfer(domain, to_matrix(weights).view(), to_points(target).view(),
-      TransferOptions(), context, values, counts);
+    status = transfer(context, domain, to_matrix(weights).view(), to_points(target).view(),
+      TransferOptions(), values, counts);
     if (!status.usable())
     {
       return status;

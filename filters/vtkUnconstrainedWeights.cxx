@@ -33,8 +33,8 @@ void vtkUnconstrainedWeights::SetHeat(double value)
   this->SetBindParameter(this->Heat, value);
 }
 
-Status vtkUnconstrainedWeights::Solve(const WeightsProblem& problem, const WeightsOptions& options,
-  ExecutionContext& context, WeightsResult& result)
+Status vtkUnconstrainedWeights::Solve(ExecutionContext& context, const WeightsProblem& problem,
+  const WeightsOptions& options, WeightsResult& result)
 {
   const WeightMethod* method = find_weight_method(this->Method);
   if (!method || method->constrained)
@@ -46,7 +46,7 @@ Status vtkUnconstrainedWeights::Solve(const WeightsProblem& problem, const Weigh
   own.power = this->Power;
   own.smoothing = this->Smoothing;
   own.heat = this->Heat;
-  return method->kernel(problem, own, context, result);
+  return method->kernel(context, problem, own, result);
 }
 
 void vtkUnconstrainedWeights::PrintSelf(ostream& os, vtkIndent indent)

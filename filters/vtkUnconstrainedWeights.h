@@ -81,8 +81,8 @@ protected:
   vtkUnconstrainedWeights();
   ~vtkUnconstrainedWeights() override;
 
-  bindpose::Status Solve(const bindpose::WeightsProblem& problem,
-    const bindpose::WeightsOptions& options, bindpose::ExecutionContext& context,
+  bindpose::Status Solve(bindpose::ExecutionContext& context,
+    const bindpose::WeightsProblem& problem, const bindpose::WeightsOptions& options,
     bindpose::WeightsResult& result) override;
 
 private:

@@ -97,7 +97,7 @@ int vtkVDBWriter::FillInputPortInformation(int, vtkInformation* info)
 }
 
 bindpose::Status vtkVDBWriter::Execute(
-  vtkInformationVector** input, vtkInformationVector*, bindpose::ExecutionContext& context)
+  bindpose::ExecutionContext& context, vtkInformationVector** input, vtkInformationVector*)
 {
   const std::string path = this->FileName ? this->FileName : "";
   Status status = bindpose::check_extension(path, GetFileExtensions());
@@ -137,7 +137,7 @@ bindpose::Status vtkVDBWriter::Execute(
 
   if (auto* floats = vtkFloatArray::SafeDownCast(array))
   {
-    return bindpose::write_vdb(path, grid_of(image), floats->GetPointer(0), options, context);
+    return bindpose::write_vdb(context, path, grid_of(image), floats->GetPointer(0), options);
   }
   vtkNew<vtkDoubleArray> copy;
   auto* doubles = vtkDoubleArray::SafeDownCast(array);
@@ -146,7 +146,7 @@ bindpose::Status vtkVDBWriter::Execute(
     copy->DeepCopy(array);
     doubles = copy;
   }
-  return bindpose::write_vdb(path, grid_of(image), doubles->GetPointer(0), options, context);
+  return bindpose::write_vdb(context, path, grid_of(image), doubles->GetPointer(0), options);
 }
 
 void vtkVDBWriter::PrintSelf(ostream& os, vtkIndent indent)

@@ -108,8 +108,8 @@ protected:
   ~vtkVDBWriter() override;
 
   int FillInputPortInformation(int port, vtkInformation* info) override;
-  bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
-    bindpose::ExecutionContext& context) override;
+  bindpose::Status Execute(bindpose::ExecutionContext& context, vtkInformationVector** input,
+    vtkInformationVector* output) override;
 
 private:
   vtkVDBWriter(const vtkVDBWriter&) = delete;

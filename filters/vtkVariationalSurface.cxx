@@ -130,7 +130,7 @@ std::vector<std::string> vtkVariationalSurface::BindArrays()
     this->TangentArrayName, this->LoadArrayName };
 }
 
-Status vtkVariationalSurface::Bind(const PoseInput& input, ExecutionContext& context)
+Status vtkVariationalSurface::Bind(ExecutionContext& context, const PoseInput& input)
 {
   VariationalSurfaceOptions options;
   options.order = this->Order;
@@ -173,7 +173,7 @@ Status vtkVariationalSurface::Bind(const PoseInput& input, ExecutionContext& con
 }
 
 Status vtkVariationalSurface::Deform(
-  const PoseInput& input, ExecutionContext& context, PosedPoints& posed)
+  ExecutionContext& context, const PoseInput& input, PosedPoints& posed)
 {
   const Status status = this->Internal->surface.solve(context, input.pose);
   posed.points = this->Internal->surface.posed();

@@ -157,8 +157,8 @@ protected:
   bool NeedsHandles() const override { return false; }
   std::vector<std::string> BindArrays() override;
   bindpose::Status Bind(
-    const bindpose::PoseInput& input, bindpose::ExecutionContext& context) override;
-  bindpose::Status Deform(const bindpose::PoseInput& input, bindpose::ExecutionContext& context,
+    bindpose::ExecutionContext& context, const bindpose::PoseInput& input) override;
+  bindpose::Status Deform(bindpose::ExecutionContext& context, const bindpose::PoseInput& input,
     bindpose::PosedPoints& posed) override;
 
 private:

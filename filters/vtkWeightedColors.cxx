@@ -86,7 +86,7 @@ void vtkWeightedColors::SetColorArrayName(const std::string& name)
 }
 
 Status vtkWeightedColors::Execute(
-  vtkInformationVector** input, vtkInformationVector* output, ExecutionContext& context)
+  ExecutionContext& context, vtkInformationVector** input, vtkInformationVector* output)
 {
   const Phase phase(context, "blend");
   vtkPointSet* mesh = vtkPointSet::GetData(input[0]);
@@ -113,7 +113,7 @@ Status vtkWeightedColors::Execute(
   options.linear_light = this->LinearLight;
   options.clamp = this->Clamp;
   WeightedColors blend;
-  status = weighted_colors(weights.weights.view(), handle_colors, options, context, blend);
+  status = weighted_colors(context, weights.weights.view(), handle_colors, options, blend);
   if (!status.usable())
   {
     return status;

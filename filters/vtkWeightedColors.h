@@ -71,8 +71,8 @@ protected:
   vtkWeightedColors() = default;
   ~vtkWeightedColors() override = default;
 
-  bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
-    bindpose::ExecutionContext& context) override;
+  bindpose::Status Execute(bindpose::ExecutionContext& context, vtkInformationVector** input,
+    vtkInformationVector* output) override;
 
 private:
   vtkWeightedColors(const vtkWeightedColors&) = delete;

@@ -413,7 +413,7 @@ int vtkWeightsAlgorithm::FillOutputPortInformation(int port, vtkInformation* inf
 }
 
 Status vtkWeightsAlgorithm::Bind(
-  vtkDataSet* mesh, vtkDataObject* handle_data, ExecutionContext& context, Cache& bound)
+  ExecutionContext& context, vtkDataSet* mesh, vtkDataObject* handle_data, Cache& bound)
 {
   Handles handles;
   bindpose::Domain domain;
@@ -459,10 +459,10 @@ Status vtkWeightsAlgorithm::Bind(
   options.solver.memory_limit = this->MemoryLimit;
   options.insertion.keep_mesh = this->KeepMesh;
   const WeightsMethod method =
-    [&](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& result)
+    [&](ExecutionContext& of_method, const WeightsProblem& problem, WeightsResult& result)
   {
-    return this->Stage == PREVIEW ? preview_weights(problem, options, of_method, result)
-                                  : this->Solve(problem, options, of_method, result);
+    return this->Stage == PREVIEW ? preview_weights(of_method, problem, options, result)
+                                  : this->Solve(of_method, problem, options, result);
   };
   const auto tell_preview = [&](const Weights& weights)
   { this->InvokeEvent(PreviewEvent, to_weights_array(array_name, weights, handles)); };
@@ -475,10 +475,10 @@ Status vtkWeightsAlgorithm::Bind(
   {
     WeightsProblem problem;
     WeightsResult result;
-    status = make_weights_problem(domain, region_ids, handles, options, context, problem);
+    status = make_weights_problem(context, domain, region_ids, handles, options, problem);
     if (status.ok() && wants_preview)
     {
-      status = preview_weights(problem, options, context, result);
+      status = preview_weights(context, problem, options, result);
       if (status.usable())
       {
         tell_preview(result.weights.topRows(domain.points.rows()));
@@ -486,7 +486,7 @@ Status vtkWeightsAlgorithm::Bind(
     }
     if (status.usable())
     {
-      status = method(problem, context, result);
+      status = method(context, problem, result);
     }
     if (status.usable())
     {
@@ -518,8 +518,8 @@ Status vtkWeightsAlgorithm::Bind(
     surface.preview = tell_preview;
   }
   SurfaceWeights result;
-  status = surface_weights(domain.points, domain.triangles, region_ids, handles, surface, options,
-    method, context, result);
+  status = surface_weights(context, domain.points, domain.triangles, region_ids, handles, surface,
+    options, method, result);
   if (status.usable())
   {
     bound.mesh.take_weights(
@@ -542,7 +542,7 @@ Status vtkWeightsAlgorithm::Bind(
 }
 
 Status vtkWeightsAlgorithm::Execute(
-  vtkInformationVector** input, vtkInformationVector* output, ExecutionContext& context)
+  ExecutionContext& context, vtkInformationVector** input, vtkInformationVector* output)
 {
   vtkPointSet* mesh = vtkPointSet::GetData(input[0]);
   vtkPolyData* handles = vtkPolyData::GetData(input[1]);
@@ -576,7 +576,7 @@ Status vtkWeightsAlgorithm::Execute(
   if (bind)
   {
     Cache made;
-    const Status status = this->Bind(mesh, handles, context, made);
+    const Status status = this->Bind(context, mesh, handles, made);
     if (!status.usable())
     {
       return status;

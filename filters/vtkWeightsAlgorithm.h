@@ -299,8 +299,8 @@ protected:
   ~vtkWeightsAlgorithm() override;
 
   /// Compute the weights on a mesh in which the handles are vertices.
-  virtual bindpose::Status Solve(const bindpose::WeightsProblem& problem,
-    const bindpose::WeightsOptions& options, bindpose::ExecutionContext& context,
+  virtual bindpose::Status Solve(bindpose::ExecutionContext& context,
+    const bindpose::WeightsProblem& problem, const bindpose::WeightsOptions& options,
     bindpose::WeightsResult& result) = 0;
 
   /// Report whether the method supports terms, i.e. the optional constraints and energies of
@@ -323,8 +323,8 @@ protected:
   }
 
   int FillOutputPortInformation(int port, vtkInformation* info) override;
-  bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
-    bindpose::ExecutionContext& context) override;
+  bindpose::Status Execute(bindpose::ExecutionContext& context, vtkInformationVector** input,
+    vtkInformationVector* output) override;
 
 private:
   vtkWeightsAlgorithm(const vtkWeightsAlgorithm&) = delete;
@@ -332,7 +332,7 @@ private:
 
   struct Cache;
   bindpose::Status Bind(
-    vtkDataSet* mesh, vtkDataObject* handles, bindpose::ExecutionContext& context, Cache& bound);
+    bindpose::ExecutionContext& context, vtkDataSet* mesh, vtkDataObject* handles, Cache& bound);
 
   double Tolerance = 1e-6;
   int MaximumIterations = 100;

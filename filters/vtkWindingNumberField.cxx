@@ -229,7 +229,7 @@ void put(const double* from, vtkDataArray* array, Index first, Index count)
 
 /// Evaluate all samples into the outputs. The reports of the blocks are added up. `sum` is the sum
 /// of all winding numbers.
-Status evaluate(const WindingField& winding, const Samples& samples, ExecutionContext& context,
+Status evaluate(ExecutionContext& context, const WindingField& winding, const Samples& samples,
   Outputs& outputs, double& sum)
 {
   const Index layer = samples.layer();
@@ -256,7 +256,7 @@ Status evaluate(const WindingField& winding, const Samples& samples, ExecutionCo
     Status status;
     {
       const bindpose::ProgressRange part(context, 0.0, share);
-      status = winding.evaluate(samples.layers(begin, end), context, values, flags);
+      status = winding.evaluate(context, samples.layers(begin, end), values, flags);
     }
     if (!status.ok())
     {
@@ -285,7 +285,7 @@ Status evaluate(const WindingField& winding, const Samples& samples, ExecutionCo
       const bindpose::ProgressRange part(context, share, 1.0);
       double* const gradients = place_for(outputs.gradient, 3 * first, 3 * number, buffer);
       const Status gradient =
-        winding.evaluate_gradient(samples.layers(begin, end), context, gradients);
+        winding.evaluate_gradient(context, samples.layers(begin, end), gradients);
       if (!gradient.ok())
       {
         return gradient;
@@ -479,7 +479,7 @@ bindpose::Index size_class(bindpose::Index points)
 } // namespace
 
 bindpose::Status vtkWindingNumberField::Build(
-  vtkPointSet* input, long long queries, bindpose::ExecutionContext& context)
+  bindpose::ExecutionContext& context, vtkPointSet* input, long long queries)
 {
   WindingField::Options options;
   options.method = this->Method;
@@ -505,7 +505,7 @@ bindpose::Status vtkWindingNumberField::Build(
     return again;
   }
   std::unique_ptr<Cache> made(new Cache);
-  Status status = made->field.build(input, options, context);
+  Status status = made->field.build(context, input, options);
   if (!status.ok())
   {
     return status;
@@ -521,7 +521,7 @@ bindpose::Status vtkWindingNumberField::Build(
 }
 
 bindpose::Status vtkWindingNumberField::Execute(
-  vtkInformationVector** input, vtkInformationVector* output, bindpose::ExecutionContext& context)
+  bindpose::ExecutionContext& context, vtkInformationVector** input, vtkInformationVector* output)
 {
   auto* surface = vtkPointSet::GetData(input[0]);
   vtkDataSet* points = vtkDataSet::GetData(input[1]);
@@ -544,7 +544,7 @@ bindpose::Status vtkWindingNumberField::Execute(
   Status status;
   {
     const bindpose::Phase phase(context, "build", 0.0, built);
-    status = this->Build(surface, queries, context);
+    status = this->Build(context, surface, queries);
   }
   if (!status.ok())
   {
@@ -593,7 +593,7 @@ bindpose::Status vtkWindingNumberField::Execute(
   {
     Outputs outputs(samples.count(), single, this->ComputeGradient, this->ComputeInside);
     outputs.threshold = this->WindingThreshold;
-    evaluated = evaluate(this->Built->field, samples, context, outputs, sum);
+    evaluated = evaluate(context, this->Built->field, samples, outputs, sum);
     if (!evaluated.ok())
     {
       return evaluated;

@@ -252,8 +252,8 @@ protected:
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   int RequestUpdateExtent(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
-  bindpose::Status Execute(vtkInformationVector** input, vtkInformationVector* output,
-    bindpose::ExecutionContext& context) override;
+  bindpose::Status Execute(bindpose::ExecutionContext& context, vtkInformationVector** input,
+    vtkInformationVector* output) override;
 
 private:
   vtkWindingNumberField(const vtkWindingNumberField&) = delete;
@@ -263,7 +263,7 @@ private:
   bindpose::Status Grid(vtkPointSet* input, bindpose::SampleGrid& grid);
   /// Compute the contents of Built unless they are still valid.
   bindpose::Status Build(
-    vtkPointSet* input, long long queries, bindpose::ExecutionContext& context);
+    bindpose::ExecutionContext& context, vtkPointSet* input, long long queries);
 
   int Method = AUTO;
   double Tolerance = 1e-3;

@@ -64,7 +64,7 @@ Rig make_bare_rig(Index triangles, Index count)
   rig.mesh = benchmarks::bumpy_sphere(triangles);
   ExecutionContext context;
   std::vector<Index> at;
-  farthest_points(rig.mesh.points, rig.mesh.triangles, count, context, at);
+  farthest_points(context, rig.mesh.points, rig.mesh.triangles, count, at);
   for (Index h = 0; h < count; ++h)
   {
     Handle handle;
@@ -89,11 +89,11 @@ Status add_bounded_weights(Rig& rig)
   SurfaceWeightsOptions where;
   where.domain = WeightsDomain::embedding;
   const WeightsMethod method =
-    [](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& result)
-  { return bounded_biharmonic_weights(problem, {}, of_method, result); };
+    [](ExecutionContext& of_method, const WeightsProblem& problem, WeightsResult& result)
+  { return bounded_biharmonic_weights(of_method, problem, {}, result); };
   SurfaceWeights weights;
   const Status status = surface_weights(
-    rig.mesh.points, rig.mesh.triangles, {}, rig.handles, where, {}, method, context, weights);
+    context, rig.mesh.points, rig.mesh.triangles, {}, rig.handles, where, {}, method, weights);
   rig.weights = std::move(weights.weights);
   return status;
 }

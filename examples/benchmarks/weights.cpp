@@ -86,7 +86,7 @@ WeightsProblem problem_of(Index cells, int handles)
   ExecutionContext context;
   WeightsProblem problem;
   const Domain domain = tet_box(cells);
-  make_weights_problem(domain, {}, spread_handles(domain, handles), {}, context, problem);
+  make_weights_problem(context, domain, {}, spread_handles(domain, handles), {}, problem);
   return problem;
 }
 
@@ -116,7 +116,7 @@ void run(benchmark::State& state, Solve solve)
   {
     ExecutionContext context;
     context.set_threads(1);
-    const Status status = solve(problem, Options(), context, result);
+    const Status status = solve(context, problem, Options(), result);
     if (!status.ok())
     {
       state.SkipWithError(status.message.c_str());
@@ -169,7 +169,7 @@ void preview(benchmark::State& state)
   {
     ExecutionContext context;
     context.set_threads(1);
-    const Status status = preview_weights(problem, {}, context, result);
+    const Status status = preview_weights(context, problem, {}, result);
     if (!status.ok())
     {
       state.SkipWithError(status.message.c_str());
@@ -195,7 +195,7 @@ void transfer_weights(benchmark::State& state)
   context.set_threads(1);
   for (auto _ : state)
   {
-    transfer(coarse, values, fine.points, {}, context, result, counts);
+    transfer(context, coarse, values, fine.points, {}, result, counts);
   }
   state.SetItemsProcessed(state.iterations() * fine.points.rows());
 }

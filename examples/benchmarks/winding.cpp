@@ -257,7 +257,7 @@ void evaluate(benchmark::State& state, const Row& row)
   options.method = row.method;
   options.tolerance = row.tolerance;
   WindingNumber winding;
-  winding.build(mesh.points, mesh.triangles, context, options);
+  winding.build(context, mesh.points, mesh.triangles, options);
   const SampleGrid cells = grid_for(std::max<Index>(row.samples, 2), box);
   const Points queries = queries_for(row, mesh, box);
   const Index count = row.where == grid ? cells.count() : queries.rows();
@@ -267,8 +267,8 @@ void evaluate(benchmark::State& state, const Row& row)
   for (auto _ : state)
   {
     const auto start = std::chrono::steady_clock::now();
-    row.where == grid ? winding.evaluate(cells, context, values.data())
-                      : winding.evaluate(queries, context, values.data());
+    row.where == grid ? winding.evaluate(context, cells, values.data())
+                      : winding.evaluate(context, queries, values.data());
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     state.SetIterationTime(spent.count());
     seconds += spent.count();
@@ -308,7 +308,7 @@ void build(benchmark::State& state, const std::string& name, Index triangles, in
     context.set_threads(threads);
     WindingNumber winding;
     const auto start = std::chrono::steady_clock::now();
-    winding.build(mesh.points, mesh.triangles, context);
+    winding.build(context, mesh.points, mesh.triangles);
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     state.SetIterationTime(spent.count());
     bytes = static_cast<double>(winding.memory());

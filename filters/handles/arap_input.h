@@ -28,7 +28,7 @@ Status to_arap(vtkPointSet* mesh, int energy, ArapElements& elements, ArapEnergy
 /// @param input  the input of vtkBindAlgorithm::Bind()
 /// @param options  all other options of the filter
 template <typename Filter, typename Kernel, typename Input>
-Status bind_reduced(Filter& filter, Kernel& kernel, const Input& input, ExecutionContext& context,
+Status bind_reduced(ExecutionContext& context, Filter& filter, Kernel& kernel, const Input& input,
   ReducedArapOptions options = {})
 {
   options.clusters = filter.GetNumberOfClusters();

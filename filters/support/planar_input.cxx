@@ -114,8 +114,8 @@ bool is_polygon(int type)
 }
 } // namespace
 
-Status to_planar_input(vtkImageData* image, bool rectangle, const ImageOutlineOptions& options,
-  PlanarInput& input, ExecutionContext& context)
+Status to_planar_input(ExecutionContext& context, vtkImageData* image, bool rectangle,
+  const ImageOutlineOptions& options, PlanarInput& input)
 {
   Status status = check_image(image);
   if (!status.ok())
@@ -133,7 +133,7 @@ Status to_planar_input(vtkImageData* image, bool rectangle, const ImageOutlineOp
   else
   {
     status = image_outline(
-      dimensions[0], dimensions[1], rows_of(alpha, dimensions[0]), options, outline, context);
+      context, dimensions[0], dimensions[1], rows_of(alpha, dimensions[0]), options, outline);
     if (!status.ok())
     {
       return status;

@@ -28,8 +28,8 @@ struct PlanarInput
 
 /// Return the outline of an image. This is the contour of its alpha, or the border of the image if
 /// it has no alpha or if `rectangle` is true.
-Status to_planar_input(vtkImageData* image, bool rectangle, const ImageOutlineOptions& options,
-  PlanarInput& input, ExecutionContext& context);
+Status to_planar_input(ExecutionContext& context, vtkImageData* image, bool rectangle,
+  const ImageOutlineOptions& options, PlanarInput& input);
 
 /// Return the lines and the edges of the polygons of a polydata in a plane z = const.
 Status to_planar_input(vtkPolyData* curves, PlanarInput& input);

@@ -171,7 +171,7 @@ Status upstream_failure(vtkDataObject* data)
   return status;
 }
 
-void complete_report(Status& status, const ExecutionContext& context)
+void complete_report(const ExecutionContext& context, Status& status)
 {
   Report report;
   report.set("status", to_string(status.code));

@@ -36,7 +36,7 @@ BINDPOSEFILTERS_EXPORT Status upstream_failure(vtkDataObject* data);
 /// Complete the status's report with the entries that all reports have. Status, message and
 /// warnings are inserted at the beginning; seconds per phase, their total and the peak memory are
 /// added at the end.
-BINDPOSEFILTERS_EXPORT void complete_report(Status& status, const ExecutionContext& context);
+BINDPOSEFILTERS_EXPORT void complete_report(const ExecutionContext& context, Status& status);
 
 } // namespace bindpose
 

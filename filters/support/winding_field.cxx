@@ -292,12 +292,12 @@ void to_polydata(const SurfaceBoundary& boundary, PointsView points,
 struct WindingField::Kernel
 {
   virtual ~Kernel() = default;
-  virtual Status build(vtkPointSet* input, const Options& options, ExecutionContext& context,
+  virtual Status build(ExecutionContext& context, vtkPointSet* input, const Options& options,
     vtkPolyData* boundary) = 0;
-  virtual Status evaluate(const Samples& samples, ExecutionContext& context, double* out,
+  virtual Status evaluate(ExecutionContext& context, const Samples& samples, double* out,
     unsigned char* on_surface) const = 0;
   virtual Status evaluate_gradient(
-    const Samples& samples, ExecutionContext& context, double* out) const = 0;
+    ExecutionContext& context, const Samples& samples, double* out) const = 0;
   virtual bool depends_on_expected_queries() const { return false; }
 };
 
@@ -307,24 +307,24 @@ struct WindingField::GridKernel : Kernel
 {
   Winding winding;
 
-  Status evaluate(const Samples& samples, ExecutionContext& context, double* out,
+  Status evaluate(ExecutionContext& context, const Samples& samples, double* out,
     unsigned char* on_surface) const override
   {
-    return samples.grid() ? this->winding.evaluate(*samples.grid(), context, out, on_surface)
-                          : this->winding.evaluate(samples.points(), context, out, on_surface);
+    return samples.grid() ? this->winding.evaluate(context, *samples.grid(), out, on_surface)
+                          : this->winding.evaluate(context, samples.points(), out, on_surface);
   }
 
   Status evaluate_gradient(
-    const Samples& samples, ExecutionContext& context, double* out) const override
+    ExecutionContext& context, const Samples& samples, double* out) const override
   {
-    return samples.grid() ? this->winding.evaluate_gradient(*samples.grid(), context, out)
-                          : this->winding.evaluate_gradient(samples.points(), context, out);
+    return samples.grid() ? this->winding.evaluate_gradient(context, *samples.grid(), out)
+                          : this->winding.evaluate_gradient(context, samples.points(), out);
   }
 };
 
 struct WindingField::Surface : GridKernel<WindingNumber>
 {
-  Status build(vtkPointSet* input, const Options& options, ExecutionContext& context,
+  Status build(ExecutionContext& context, vtkPointSet* input, const Options& options,
     vtkPolyData* boundary) override
   {
     SurfaceInput surface;
@@ -341,7 +341,7 @@ struct WindingField::Surface : GridKernel<WindingNumber>
       RepairOptions repair;
       repair.count_self_intersections = false;
       status =
-        repair_surface(surface.points.view(), surface.triangles.view(), repair, repaired, context);
+        repair_surface(context, surface.points.view(), surface.triangles.view(), repair, repaired);
       if (!status.ok())
       {
         return status;
@@ -356,7 +356,7 @@ struct WindingField::Surface : GridKernel<WindingNumber>
     wanted.expected_queries = options.expected_queries;
     {
       const ProgressRange range(context, share, 1.0);
-      status = this->winding.build(points, triangles, context, wanted);
+      status = this->winding.build(context, points, triangles, wanted);
     }
     if (!status.ok())
     {
@@ -390,7 +390,7 @@ struct WindingField::Curve : Kernel
   CurveWindingNumber winding;
   int across = 2;
 
-  Status build(vtkPointSet* input, const Options&, ExecutionContext& context, vtkPolyData*) override
+  Status build(ExecutionContext& context, vtkPointSet* input, const Options&, vtkPolyData*) override
   {
     CurveInput curve;
     const Status status = to_curve(input, curve);
@@ -400,23 +400,23 @@ struct WindingField::Curve : Kernel
     }
     this->across = curve.across;
     return this->winding.build(
-      in_plane(curve.points.view(), this->across), curve.segments, context);
+      context, in_plane(curve.points.view(), this->across), curve.segments);
   }
 
-  Status evaluate(const Samples& samples, ExecutionContext& context, double* out,
+  Status evaluate(ExecutionContext& context, const Samples& samples, double* out,
     unsigned char* on_surface) const override
   {
     return this->winding.evaluate(
-      in_plane(points_of(samples), this->across), context, out, on_surface);
+      context, in_plane(points_of(samples), this->across), out, on_surface);
   }
 
   Status evaluate_gradient(
-    const Samples& samples, ExecutionContext& context, double* out) const override
+    ExecutionContext& context, const Samples& samples, double* out) const override
   {
     const Index count = samples.count();
     PlanePoints flat(count, 2);
     const Status status = this->winding.evaluate_gradient(
-      in_plane(points_of(samples), this->across), context, flat.data());
+      context, in_plane(points_of(samples), this->across), flat.data());
     for (Index i = 0; i < count; ++i)
     {
       out[3 * i + (this->across + 1) % 3] = flat(i, 0);
@@ -430,7 +430,7 @@ struct WindingField::Curve : Kernel
 struct WindingField::Cloud : GridKernel<PointCloudWindingNumber>
 {
   Status build(
-    vtkPointSet* input, const Options& options, ExecutionContext& context, vtkPolyData*) override
+    ExecutionContext& context, vtkPointSet* input, const Options& options, vtkPolyData*) override
   {
     const SharedMatrix<Points> points = to_points(input);
     const SharedMatrix<Weights> normals = to_matrix(normals_of(input));
@@ -449,7 +449,7 @@ struct WindingField::Cloud : GridKernel<PointCloudWindingNumber>
     wanted.method = method_of(options.method);
     wanted.tolerance = options.tolerance;
     const Points directions = normals.view();
-    Status status = this->winding.build(points.view(), directions, numbers, context, wanted);
+    Status status = this->winding.build(context, points.view(), directions, numbers, wanted);
     if (status.ok())
     {
       status.report.set("areas", areas ? "given" : "estimated");
@@ -496,7 +496,7 @@ Status WindingField::extent(vtkPointSet* input, Box& box, int& flat)
   return status;
 }
 
-Status WindingField::build(vtkPointSet* input, const Options& options, ExecutionContext& context)
+Status WindingField::build(ExecutionContext& context, vtkPointSet* input, const Options& options)
 {
   const Kind kind = kind_of(input);
   if (kind == Kind::curve)
@@ -511,19 +511,19 @@ Status WindingField::build(vtkPointSet* input, const Options& options, Execution
   {
     this->kernel_.reset(new Surface);
   }
-  return this->kernel_->build(input, options, context, this->boundary_);
+  return this->kernel_->build(context, input, options, this->boundary_);
 }
 
 Status WindingField::evaluate(
-  const Samples& samples, ExecutionContext& context, double* out, unsigned char* on_surface) const
+  ExecutionContext& context, const Samples& samples, double* out, unsigned char* on_surface) const
 {
-  return this->kernel_->evaluate(samples, context, out, on_surface);
+  return this->kernel_->evaluate(context, samples, out, on_surface);
 }
 
 Status WindingField::evaluate_gradient(
-  const Samples& samples, ExecutionContext& context, double* out) const
+  ExecutionContext& context, const Samples& samples, double* out) const
 {
-  return this->kernel_->evaluate_gradient(samples, context, out);
+  return this->kernel_->evaluate_gradient(context, samples, out);
 }
 
 bool WindingField::depends_on_expected_queries() const

@@ -82,13 +82,13 @@ public:
   /// same cases as build().
   static Status extent(vtkPointSet* input, Box& box, int& flat);
 
-  Status build(vtkPointSet* input, const Options& options, ExecutionContext& context);
+  Status build(ExecutionContext& context, vtkPointSet* input, const Options& options);
 
   /// Compute the winding numbers of all samples, and flags for samples that are on the surface.
-  Status evaluate(const Samples& samples, ExecutionContext& context, double* out,
+  Status evaluate(ExecutionContext& context, const Samples& samples, double* out,
     unsigned char* on_surface) const;
   /// Compute the gradients: 3 x samples.count() derivatives.
-  Status evaluate_gradient(const Samples& samples, ExecutionContext& context, double* out) const;
+  Status evaluate_gradient(ExecutionContext& context, const Samples& samples, double* out) const;
 
   /// Report whether the computed values depend on Options::expected_queries (within the tolerance).
   /// If they do, another number of queries needs a new build.

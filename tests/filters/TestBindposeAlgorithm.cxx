@@ -44,7 +44,7 @@ TEST(BindposeAlgorithm, ReportsOnTheOutput)
   listener->listen(filter);
   filter->SetInputData(data_of(test::cube()));
   EXPECT_EQ(filter->GetReportJSON(), "{}");
-  filter->Work = [](vtkPolyData*, ExecutionContext& context)
+  filter->Work = [](ExecutionContext& context, vtkPolyData*)
   {
     const Phase phase(context, "solve");
     Status status;
@@ -133,7 +133,7 @@ TEST(BindposeAlgorithm, NotConvergedIsAResult)
   vtkNew<Listener> listener;
   listener->listen(filter);
   filter->SetInputData(data_of(test::cube()));
-  filter->Work = [](vtkPolyData*, ExecutionContext&) { return fail(StatusCode::not_converged); };
+  filter->Work = [](ExecutionContext&, vtkPolyData*) { return fail(StatusCode::not_converged); };
   filter->Update();
   filter->Update();
   EXPECT_EQ(filter->Executions, 1);
@@ -162,7 +162,7 @@ TEST(BindposeAlgorithm, FailureEmptiesOutputsAndPassesOn)
     listener->errors.clear();
     downstream->errors.clear();
     first->Executions = second->Executions = 0;
-    first->Work = [code](vtkPolyData*, ExecutionContext&) { return fail(code); };
+    first->Work = [code](ExecutionContext&, vtkPolyData*) { return fail(code); };
     first->Modified();
     second->Update();
     EXPECT_EQ(first->Executions, 1);
@@ -206,15 +206,15 @@ TEST(BindposeAlgorithm, ExceptionsAreInternalErrors)
   vtkNew<Listener> listener;
   listener->listen(filter);
   filter->SetInputData(data_of(test::cube()));
-  filter->Work = [](vtkPolyData*, ExecutionContext&) -> Status
+  filter->Work = [](ExecutionContext&, vtkPolyData*) -> Status
   { throw std::runtime_error("bad luck"); };
   filter->Update();
   EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::INTERNAL_ERROR);
   EXPECT_EQ(filter->GetStatusMessage(), "bad luck");
-  filter->Work = [](vtkPolyData*, ExecutionContext&) -> Status { throw std::bad_alloc(); };
+  filter->Work = [](ExecutionContext&, vtkPolyData*) -> Status { throw std::bad_alloc(); };
   filter->Update();
   EXPECT_EQ(filter->GetStatusMessage(), "out of memory");
-  filter->Work = [](vtkPolyData*, ExecutionContext&) -> Status { throw 5; };
+  filter->Work = [](ExecutionContext&, vtkPolyData*) -> Status { throw 5; };
   filter->Update();
   EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::INTERNAL_ERROR);
   EXPECT_FALSE(filter->GetStatusMessage().empty());
@@ -232,7 +232,7 @@ TEST(BindposeAlgorithm, ObserverCancelsAndTheNextUpdateExecutesAgain)
   downstream->listen(second);
   first->SetInputData(data_of(test::cube()));
   second->SetInputConnection(first->GetOutputPort());
-  first->Work = [](vtkPolyData*, ExecutionContext& context)
+  first->Work = [](ExecutionContext& context, vtkPolyData*)
   {
     const Phase phase(context, "count");
     for (int i = 0; i < 500; ++i)
@@ -277,7 +277,7 @@ TEST(BindposeAlgorithm, AnotherThreadCancelsInTime)
   vtkNew<TestFilter> filter;
   filter->SetInputData(data_of(test::cube()));
   std::atomic<bool> running{ false };
-  filter->Work = [&](vtkPolyData*, ExecutionContext& context)
+  filter->Work = [&](ExecutionContext& context, vtkPolyData*)
   {
     running = true;
     const auto start = std::chrono::steady_clock::now();
@@ -313,7 +313,7 @@ TEST(BindposeAlgorithm, ReportsOfEarlierStagesAreReplaced)
   vtkNew<TestFilter> first;
   vtkNew<TestFilter> second;
   first->SetInputData(data_of(test::cube()));
-  first->Work = [](vtkPolyData*, ExecutionContext&)
+  first->Work = [](ExecutionContext&, vtkPolyData*)
   {
     Status status;
     status.report.set("iterations", 7);
@@ -354,7 +354,7 @@ TEST(BindposeAlgorithm, BlocksOfACompositeInput)
   // The second block fails. Its output is empty and has a report, the other outputs are complete,
   // and the filter has failed.
   filter->Executions = 0;
-  filter->Work = [&](vtkPolyData*, ExecutionContext&)
+  filter->Work = [&](ExecutionContext&, vtkPolyData*)
   { return filter->Executions == 2 ? fail(StatusCode::invalid_input) : Status(); };
   filter->Modified();
   filter->Update();
@@ -373,7 +373,7 @@ TEST(BindposeAlgorithm, BlocksOfACompositeInput)
   // The second block is canceled. The third is not started, and the next Update() executes all
   // blocks.
   filter->Executions = 0;
-  filter->Work = [&](vtkPolyData*, ExecutionContext& context)
+  filter->Work = [&](ExecutionContext& context, vtkPolyData*)
   {
     if (filter->Executions == 2)
     {
@@ -404,7 +404,7 @@ TEST(BindposeAlgorithm, CanceledCompositesPassOn)
   downstream->listen(second);
   first->SetInputDataObject(0, blocks);
   second->SetInputConnection(first->GetOutputPort());
-  first->Work = [](vtkPolyData*, ExecutionContext&) { return fail(StatusCode::invalid_input); };
+  first->Work = [](ExecutionContext&, vtkPolyData*) { return fail(StatusCode::invalid_input); };
   second->Update();
   EXPECT_EQ(first->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
   EXPECT_EQ(second->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);

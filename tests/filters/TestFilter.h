@@ -35,7 +35,7 @@ public:
   }
   vtkTypeMacro(TestFilter, vtkBindposeAlgorithm);
 
-  std::function<Status(vtkPolyData* output, ExecutionContext& context)> Work;
+  std::function<Status(ExecutionContext& context, vtkPolyData* output)> Work;
   int Executions = 0;
 
 protected:
@@ -50,7 +50,7 @@ protected:
     return 1;
   }
   Status Execute(
-    vtkInformationVector** input, vtkInformationVector* output, ExecutionContext& context) override
+    ExecutionContext& context, vtkInformationVector** input, vtkInformationVector* output) override
   {
     this->Executions += 1;
     vtkPolyData* out = vtkPolyData::GetData(output);
@@ -59,7 +59,7 @@ protected:
     {
       out->ShallowCopy(in);
     }
-    return this->Work ? this->Work(out, context) : Status();
+    return this->Work ? this->Work(context, out) : Status();
   }
 };
 

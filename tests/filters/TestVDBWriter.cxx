@@ -58,7 +58,7 @@ protected:
     VdbOptions replacing = options;
     replacing.overwrite = true;
     EXPECT_TRUE(
-      write_vdb(this->Folder / "expected.vdb", this->Grid, this->Values.data(), replacing, context)
+      write_vdb(context, this->Folder / "expected.vdb", this->Grid, this->Values.data(), replacing)
         .ok());
     return this->Folder.read("expected.vdb");
   }

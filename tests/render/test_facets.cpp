@@ -119,10 +119,10 @@ TEST(Render, no_facets_of_the_embedding)
     options.guard = false;
     ExecutionContext context;
     const Status status = surface_weights(
-      mesh.points, mesh.triangles, {}, three_along(), options, {},
-      [](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
-      { return bounded_biharmonic_weights(problem, {}, of_method, weights); },
-      context, result);
+      context, mesh.points, mesh.triangles, {}, three_along(), options, {},
+      [](ExecutionContext& of_method, const WeightsProblem& problem, WeightsResult& weights)
+      { return bounded_biharmonic_weights(of_method, problem, {}, weights); },
+      result);
     ASSERT_TRUE(status.usable()) << status.message;
     EXPECT_EQ(status.report.text("tetrahedralize.method"),
       domain == WeightsDomain::volume ? "cdt" : "embed");
@@ -136,7 +136,7 @@ TEST(Render, no_facets_of_the_embedding)
   ExecutionContext context;
   TransferCounts counts;
   ASSERT_TRUE(transfer(
-    embedded.problem.mesh.domain, embedded.solved.weights, mesh.points, {}, context, linear, counts)
+    context, embedded.problem.mesh.domain, embedded.solved.weights, mesh.points, {}, linear, counts)
                 .ok());
   const double smooth = roughness(draw_bent(mesh, conforming.weights));
   const double shown = roughness(draw_bent(mesh, embedded.weights));

@@ -4,7 +4,7 @@
 The library core includes no VTK header. A folder of core or of the window includes only from itself and from the
 folders that CORE_ARROWS or APP_ARROWS list for it; there are no cycles. Filters include nothing from the viewer. Nothing
 outside of the tests includes a header of the tests. The ParaView plugin has no sources, and has a proxy for every filter
-that can be instantiated. No two units (a header and its source) include each other. No folder has more than 30 source
+that can be instantiated. A parameter ExecutionContext is the first one. No two units (a header and its source) include each other. No folder has more than 30 source
 files, except the flat list of VTK classes in filters.
 """
 
@@ -13,6 +13,7 @@ import re
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
+LATE_CONTEXT = re.compile(r"[(,][^();{}]*,\s*(?:const )?(?:bindpose::)?ExecutionContext\s*&\s*\w*\s*[,)]")
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 
 # The folders of core from which each folder of core may include.
@@ -114,6 +115,13 @@ def against_arrows(folder, prefix, arrows):
     return wrong
 
 
+def late_contexts():
+    """Return one sentence for each function whose parameter ExecutionContext is not the first one."""
+    return [f"{path.relative_to(ROOT)}:{text.count(chr(10), 0, found.start()) + 1} has an ExecutionContext after another parameter"
+            for folder in ("filters", "viewer", "tests") for path, _ in sources(folder) for text in [path.read_text()]
+            for found in LATE_CONTEXT.finditer(text)]
+
+
 def large_folders():
     """Return one sentence for each folder with too many source files."""
     counts = {}
@@ -131,6 +139,7 @@ def main():
              if pathlib.PurePath(include).name.startswith("vtk")]
     wrong += against_arrows("filters/core", "", CORE_ARROWS)
     wrong += against_arrows("viewer/app", "app/", APP_ARROWS)
+    wrong += late_contexts()
     wrong += large_folders()
     for folder, forbidden in (
         ("filters", ("viewer/", "scene/", "shapes/", "pictures/", "poses/", "document/", "app/", "cli/", "widgets/",

@@ -81,7 +81,7 @@ Status tell_surface(vtkDataSet* data, Facts& facts)
   const TrianglesView triangles = surface.triangles.view();
   ExecutionContext context({}, interrupted);
   SurfaceDiagnosis found;
-  status = diagnose_surface(points, triangles, found, context);
+  status = diagnose_surface(context, points, triangles, found);
   if (!status.ok())
   {
     return status;

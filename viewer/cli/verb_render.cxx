@@ -303,7 +303,7 @@ Status render_video(Session& session, std::vector<Tile> tiles, const PictureOpti
   {
     session.show(0.9, "ffmpeg");
     ExecutionContext context({}, interrupted);
-    written = write_video(folder.path(), rate, file.temporary(), context);
+    written = write_video(context, folder.path(), rate, file.temporary());
   }
   if (written.ok())
   {

@@ -51,8 +51,8 @@ std::string frame_file(const std::string& folder, int frame)
   return folder + name;
 }
 
-Status write_video(const std::string& folder, double frames_per_second, const std::string& path,
-  ExecutionContext& context)
+Status write_video(ExecutionContext& context, const std::string& folder, double frames_per_second,
+  const std::string& path)
 {
   char rate[40];
   std::snprintf(rate, sizeof(rate), "%.9g", frames_per_second);
@@ -68,7 +68,7 @@ Status write_video(const std::string& folder, double frames_per_second, const st
   std::string said;
   ChildEnd end;
   Status status = run_child(
-    request, [&said](const std::string& line) { said = said.empty() ? line : said; }, end, context);
+    context, request, [&said](const std::string& line) { said = said.empty() ? line : said; }, end);
   if (status.ok() && !end.failure.empty())
   {
     status = Status::failure(StatusCode::unavailable,

@@ -20,8 +20,8 @@ std::string frame_file(const std::string& folder, int frame);
 
 /// Write an animation of the image files of a folder, which are named as by frame_file(). ffmpeg
 /// writes directly to `path`, whose extension determines the format.
-Status write_video(const std::string& folder, double frames_per_second, const std::string& path,
-  ExecutionContext& context);
+Status write_video(ExecutionContext& context, const std::string& folder, double frames_per_second,
+  const std::string& path);
 
 } // namespace bindpose
 

@@ -19,7 +19,7 @@ namespace
 using Id = std::int32_t;
 
 /// Unit normals, #F x 3; zero for triangles without area.
-Points unit_normals(PointsView points, const Triangles& triangles, ExecutionContext& context)
+Points unit_normals(ExecutionContext& context, PointsView points, const Triangles& triangles)
 {
   Points normals(triangles.rows(), 3);
   parallel_for(context, triangles.rows(), 4096,
@@ -104,7 +104,7 @@ private:
 std::vector<Index> split_sharp_edges(PointsView points, double feature_angle, Triangles& triangles)
 {
   ExecutionContext context;
-  const Points normals = unit_normals(points, triangles, context);
+  const Points normals = unit_normals(context, points, triangles);
   const auto vertices = static_cast<std::size_t>(points.rows());
   std::vector<Id> first(vertices + 1, 0);
   for (Index k = 0; k < triangles.size(); ++k)

@@ -70,11 +70,11 @@ SortedSurface sorted(PointsView points, TrianglesView triangles)
   return surface;
 }
 
-Status make_points(const SortedSurface& surface, const SpreadPointsOptions& options,
-  Handles& handles, ExecutionContext& context)
+Status make_points(ExecutionContext& context, const SortedSurface& surface,
+  const SpreadPointsOptions& options, Handles& handles)
 {
   SpreadPoints spread;
-  Status status = spread_points(surface.points, surface.triangles, options, spread, context);
+  Status status = spread_points(context, surface.points, surface.triangles, options, spread);
   if (!status.ok())
   {
     return status;
@@ -129,8 +129,8 @@ void look_inside(
   }
 }
 
-Status make_bones(const SortedSurface& surface, const AutomaticHandlesOptions& options,
-  Handles& handles, ExecutionContext& context)
+Status make_bones(ExecutionContext& context, const SortedSurface& surface,
+  const AutomaticHandlesOptions& options, Handles& handles)
 {
   CurveSkeleton skeleton;
   TriangleMesh solid;
@@ -138,7 +138,7 @@ Status make_bones(const SortedSurface& surface, const AutomaticHandlesOptions& o
   {
     const Phase phase(context, "skeleton", 0.0, 0.98);
     status =
-      curve_skeleton(surface.points, surface.triangles, options.skeleton, skeleton, solid, context);
+      curve_skeleton(context, surface.points, surface.triangles, options.skeleton, skeleton, solid);
   }
   if (!status.ok())
   {
@@ -146,7 +146,7 @@ Status make_bones(const SortedSurface& surface, const AutomaticHandlesOptions& o
   }
   const Phase phase(context, "bones", 0.98, 1.0);
   WindingNumber winding;
-  Status built = winding.build(solid.points, solid.triangles, context);
+  Status built = winding.build(context, solid.points, solid.triangles);
   if (!built.ok())
   {
     return built;
@@ -175,8 +175,8 @@ Status make_bones(const SortedSurface& surface, const AutomaticHandlesOptions& o
 }
 } // namespace
 
-Status automatic_handles(PointsView points, TrianglesView triangles,
-  const AutomaticHandlesOptions& options, Handles& handles, ExecutionContext& context)
+Status automatic_handles(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const AutomaticHandlesOptions& options, Handles& handles)
 {
   handles.clear();
   Status status = check_mesh(points, triangles);
@@ -190,8 +190,8 @@ Status automatic_handles(PointsView points, TrianglesView triangles,
   }
   const SortedSurface surface = sorted(points, triangles);
   status = options.method == AutomaticMethod::points
-    ? make_points(surface, options.points, handles, context)
-    : make_bones(surface, options, handles, context);
+    ? make_points(context, surface, options.points, handles)
+    : make_bones(context, surface, options, handles);
   if (status.ok())
   {
     const Status checked = check_handles(handles);

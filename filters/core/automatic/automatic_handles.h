@@ -44,8 +44,8 @@ struct AutomaticHandlesOptions
 /// - for method points: counts.components, counts.served_components, counts.points_inside,
 ///   distance, and handles[].vertex, the input vertex from which each point was made
 /// For errors and cost, see curve_skeleton(), skeleton_bones() and spread_points().
-Status automatic_handles(PointsView points, TrianglesView triangles,
-  const AutomaticHandlesOptions& options, Handles& handles, ExecutionContext& context);
+Status automatic_handles(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const AutomaticHandlesOptions& options, Handles& handles);
 
 } // namespace bindpose
 

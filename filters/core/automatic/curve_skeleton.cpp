@@ -43,14 +43,14 @@ constexpr Index dense = 10;
 
 /// Compute a closed surface around the volume that the given surface encloses. Hollows are not
 /// filled here.
-Status close_surface(PointsView points, TrianglesView triangles,
-  const CurveSkeletonOptions& options, TriangleMesh& solid, ExecutionContext& context)
+Status close_surface(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const CurveSkeletonOptions& options, TriangleMesh& solid)
 {
   PreparedSurface prepared;
   Status status;
   {
     const ProgressRange range(context, 0.0, 0.6);
-    status = prepare_surface(points, triangles, options.winding_threshold, prepared, context);
+    status = prepare_surface(context, points, triangles, options.winding_threshold, prepared);
   }
   if (!status.ok())
   {
@@ -76,7 +76,7 @@ Status close_surface(PointsView points, TrianglesView triangles,
   thick.triangles = (clean ? 4 : 2) * options.triangles;
   const ProgressRange range(context, 0.6, 1.0);
   Status made = thick_solid(
-    surface.points, surface.triangles, prepared.inside.winding(), thick, solid, context);
+    context, surface.points, surface.triangles, prepared.inside.winding(), thick, solid);
   status.report.merge(made.report);
   status.code = made.code;
   status.message = made.message;
@@ -234,9 +234,8 @@ Segments tidy(const Segments& segments)
 }
 } // namespace
 
-Status curve_skeleton(PointsView points, TrianglesView triangles,
-  const CurveSkeletonOptions& options, CurveSkeleton& skeleton, TriangleMesh& solid,
-  ExecutionContext& context)
+Status curve_skeleton(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const CurveSkeletonOptions& options, CurveSkeleton& skeleton, TriangleMesh& solid)
 {
   skeleton = CurveSkeleton();
   solid = TriangleMesh();
@@ -252,7 +251,7 @@ Status curve_skeleton(PointsView points, TrianglesView triangles,
   const double start = context.elapsed_seconds();
   {
     const Phase phase(context, "close", 0.0, 0.25);
-    status = close_surface(points, triangles, options, solid, context);
+    status = close_surface(context, points, triangles, options, solid);
   }
   if (!status.ok())
   {
@@ -272,7 +271,7 @@ Status curve_skeleton(PointsView points, TrianglesView triangles,
     MesherData data;
     data.points = frame.into(solid.points);
     data.triangles = solid.triangles;
-    contracted = run_mesher(request, data, answer, context);
+    contracted = run_mesher(context, request, data, answer);
   }
   if (!contracted.ok())
   {

@@ -63,9 +63,8 @@ struct CurveSkeleton
 /// - canceled: the flow ends within 20 ms after a cancel.
 /// Cost: some seconds for 10,000 contracted triangles, almost independent of the number of
 /// triangles of the surface.
-Status curve_skeleton(PointsView points, TrianglesView triangles,
-  const CurveSkeletonOptions& options, CurveSkeleton& skeleton, TriangleMesh& solid,
-  ExecutionContext& context);
+Status curve_skeleton(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const CurveSkeletonOptions& options, CurveSkeleton& skeleton, TriangleMesh& solid);
 
 } // namespace bindpose
 

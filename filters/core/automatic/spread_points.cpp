@@ -36,8 +36,8 @@ struct Component
 class Spread
 {
 public:
-  Spread(PointsView points, TrianglesView triangles, const SpreadPointsOptions& options,
-    ExecutionContext& context)
+  Spread(ExecutionContext& context, PointsView points, TrianglesView triangles,
+    const SpreadPointsOptions& options)
     : points_(points), triangles_(triangles), options_(options), context_(context)
   {
   }
@@ -56,7 +56,7 @@ public:
     }
     this->find_normals();
     this->diagonal_ = bounding_box(this->points_, this->triangles_).diagonal();
-    return this->winding_.build(this->points_, this->triangles_, this->context_);
+    return this->winding_.build(this->context_, this->points_, this->triangles_);
   }
 
   Status choose(SpreadPoints& result)
@@ -381,8 +381,8 @@ private:
 };
 } // namespace
 
-Status spread_points(PointsView points, TrianglesView triangles, const SpreadPointsOptions& options,
-  SpreadPoints& result, ExecutionContext& context)
+Status spread_points(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const SpreadPointsOptions& options, SpreadPoints& result)
 {
   result = SpreadPoints();
   if (options.count < 1)
@@ -400,7 +400,7 @@ Status spread_points(PointsView points, TrianglesView triangles, const SpreadPoi
   {
     return status;
   }
-  Spread spread(points, triangles, options, context);
+  Spread spread(context, points, triangles, options);
   {
     const Phase phase(context, "build", 0.0, 0.3);
     status = spread.build();

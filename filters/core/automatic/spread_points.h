@@ -67,8 +67,8 @@ struct SpreadPoints
 /// are fewer different vertices than count.
 /// Cost: `count` shortest-path searches of at most O(#V log #V); later searches visit fewer
 /// vertices. If `inside` is true, also at most 64 distances to the surface per point.
-Status spread_points(PointsView points, TrianglesView triangles, const SpreadPointsOptions& options,
-  SpreadPoints& result, ExecutionContext& context);
+Status spread_points(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const SpreadPointsOptions& options, SpreadPoints& result);
 
 } // namespace bindpose
 

@@ -8,7 +8,7 @@
 namespace bindpose
 {
 
-SideTask::SideTask(double delay, ExecutionContext& context, Work work)
+SideTask::SideTask(ExecutionContext& context, double delay, Work work)
   : delay_(delay), context_(context), work_(std::move(work))
 {
   const bool one_thread = context.threads() == 1 || std::thread::hardware_concurrency() == 1;

@@ -25,7 +25,7 @@ public:
 
   /// Start the work after `delay` seconds. If the context has only one thread, finish() does the
   /// work instead. The context must outlive the task.
-  SideTask(double delay, ExecutionContext& context, Work work);
+  SideTask(ExecutionContext& context, double delay, Work work);
   /// Cancel the work and wait for its thread.
   ~SideTask();
   SideTask(const SideTask&) = delete;

@@ -147,8 +147,8 @@ Index side_of(Index vertex, const std::vector<Index>& group, PointsView points,
 }
 } // namespace
 
-Status cut_along_bones(PointsView points, TrianglesView triangles, const Handles& handles,
-  const std::vector<Index>& curves, ExecutionContext& context, BoneCut& result)
+Status cut_along_bones(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const Handles& handles, const std::vector<Index>& curves, BoneCut& result)
 {
   Status status = check_mesh(points, triangles);
   if (!status.ok())

@@ -35,8 +35,8 @@ struct BoneCut
 /// @return invalid_input, naming the bone, if a bone is not a chain of edges. Also invalid_input if
 /// a bone is a single edge inside the mesh whose ends are on no other bone, because no vertex could
 /// be duplicated.
-Status cut_along_bones(PointsView points, TrianglesView triangles, const Handles& handles,
-  const std::vector<Index>& curves, ExecutionContext& context, BoneCut& result);
+Status cut_along_bones(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const Handles& handles, const std::vector<Index>& curves, BoneCut& result);
 
 } // namespace bindpose
 

@@ -56,8 +56,8 @@ void run_around(PlanePointsView points, Segments& edges)
 }
 
 /// Fill the region that is enclosed by the cage's faces with tets.
-Status fill_faces(const std::vector<CageElement>& faces, PointsView points, const Handles& handles,
-  const CageOptions& cage, CageDomain& result, ExecutionContext& context)
+Status fill_faces(ExecutionContext& context, const std::vector<CageElement>& faces,
+  PointsView points, const Handles& handles, const CageOptions& cage, CageDomain& result)
 {
   Points corners(static_cast<Index>(handles.size()), 3);
   for (Index i = 0; i < corners.rows(); ++i)
@@ -80,7 +80,7 @@ Status fill_faces(const std::vector<CageElement>& faces, PointsView points, cons
     options.handles.points.bottomRows(points.rows()) = points;
   }
   const Phase phase(context, "tetrahedralize");
-  Status status = tetrahedralize(corners, triangles, options, result.tets, context);
+  Status status = tetrahedralize(context, corners, triangles, options, result.tets);
   if (!status.usable())
   {
     status.message = "the cage cannot be filled: " + status.message;
@@ -92,8 +92,9 @@ Status fill_faces(const std::vector<CageElement>& faces, PointsView points, cons
 
 /// Fill the region that is enclosed by the cage's edges, in the plane of a flat shape, with
 /// triangles.
-Status fill_edges(const std::vector<CageElement>& edges, PointsView points, TrianglesView triangles,
-  const Handles& handles, const CageOptions& cage, CageDomain& result, ExecutionContext& context)
+Status fill_edges(ExecutionContext& context, const std::vector<CageElement>& edges,
+  PointsView points, TrianglesView triangles, const Handles& handles, const CageOptions& cage,
+  CageDomain& result)
 {
   const char* needs = "domain cage needs handles with a closed cage of faces, or of edges in "
                       "the plane of a flat shape";
@@ -152,7 +153,7 @@ Status fill_edges(const std::vector<CageElement>& edges, PointsView points, Tria
   options.winding_threshold = cage.winding_threshold;
   PlanarShape shape;
   const Phase phase(context, "triangulate");
-  Status status = planar_shape(corners, outline, inside, options, shape, context);
+  Status status = planar_shape(context, corners, outline, inside, options, shape);
   if (!status.usable())
   {
     status.message = "the cage cannot be filled: " + status.message;
@@ -187,8 +188,8 @@ Status fill_edges(const std::vector<CageElement>& edges, PointsView points, Tria
 }
 } // namespace
 
-Status fill_cage(PointsView points, TrianglesView triangles, const Handles& handles,
-  const CageOptions& options, CageDomain& result, ExecutionContext& context)
+Status fill_cage(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const Handles& handles, const CageOptions& options, CageDomain& result)
 {
   result = CageDomain();
   std::vector<CageElement> faces;
@@ -200,8 +201,8 @@ Status fill_cage(PointsView points, TrianglesView triangles, const Handles& hand
       (element[2] >= 0 ? faces : edges).push_back(element);
     }
   }
-  return faces.empty() ? fill_edges(edges, points, triangles, handles, options, result, context)
-                       : fill_faces(faces, points, handles, options, result, context);
+  return faces.empty() ? fill_edges(context, edges, points, triangles, handles, options, result)
+                       : fill_faces(context, faces, points, handles, options, result);
 }
 
 } // namespace bindpose

@@ -37,8 +37,8 @@ struct CageDomain
 /// Report: for a cage of faces, the report of tetrahedralize(); for a cage of edges, cage.area and
 /// cage.min_angle (degrees). Return an error if the handles have no closed cage, if a cage of edges
 /// is not flat, or if tetrahedralize() or planar_shape() fails.
-Status fill_cage(PointsView points, TrianglesView triangles, const Handles& handles,
-  const CageOptions& options, CageDomain& result, ExecutionContext& context);
+Status fill_cage(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const Handles& handles, const CageOptions& options, CageDomain& result);
 
 } // namespace bindpose
 

@@ -198,7 +198,7 @@ Index EmbeddedSurface::tet_of(const Vec3& place) const
 }
 
 Status EmbeddedSurface::interpolate(
-  const HandleInsertion& mesh, WeightsView values, ExecutionContext& context, Weights& result) const
+  ExecutionContext& context, const HandleInsertion& mesh, WeightsView values, Weights& result) const
 {
   const Domain& domain = mesh.domain;
   const Index m = values.cols();
@@ -277,14 +277,14 @@ Index EmbeddedSurface::point_at(const Vec3& place) const
   return -1;
 }
 
-Status EmbeddedSurface::smooth(const std::vector<Index>& fixed_points, double length,
-  ExecutionContext& context, Weights& result) const
+Status EmbeddedSurface::smooth(ExecutionContext& context, const std::vector<Index>& fixed_points,
+  double length, Weights& result) const
 {
   constexpr double built = 0.03; // progress when equal points are merged
   LatticeSurface welded;
   {
     const ProgressRange range(context, 0.0, built);
-    if (!welded.build(this->points_, this->triangles_, {}, context))
+    if (!welded.build(context, this->points_, this->triangles_, {}))
     {
       return Status::canceled();
     }
@@ -319,7 +319,7 @@ Status EmbeddedSurface::smooth(const std::vector<Index>& fixed_points, double le
       smooth.row(welded.of_point[i]) = result.row(i);
     }
   }
-  if (!smooth_on_surface(points, triangles, fixed, length, smooth, context))
+  if (!smooth_on_surface(context, points, triangles, fixed, length, smooth))
   {
     return Status::canceled();
   }
@@ -336,8 +336,8 @@ Status EmbeddedSurface::smooth(const std::vector<Index>& fixed_points, double le
   return {};
 }
 
-Status EmbeddedSurface::carry(const HandleInsertion& mesh, const Handles& handles,
-  WeightsView values, Smoothness smoothness, ExecutionContext& context, Weights& result) const
+Status EmbeddedSurface::carry(ExecutionContext& context, const HandleInsertion& mesh,
+  const Handles& handles, WeightsView values, Smoothness smoothness, Weights& result) const
 {
   constexpr double smoothing = 0.3;
   const bool smoothed = smoothness == Smoothness::smoothed;
@@ -345,7 +345,7 @@ Status EmbeddedSurface::carry(const HandleInsertion& mesh, const Handles& handle
   Status status;
   {
     const ProgressRange range(context, 0.0, interpolation);
-    status = this->interpolate(mesh, values, context, result);
+    status = this->interpolate(context, mesh, values, result);
   }
   if (!status.ok())
   {
@@ -373,7 +373,7 @@ Status EmbeddedSurface::carry(const HandleInsertion& mesh, const Handles& handle
   }
   fixed.erase(std::remove(fixed.begin(), fixed.end(), -1), fixed.end());
   const ProgressRange range(context, interpolation, 1.0);
-  return smoothed ? this->smooth(fixed, smoothing * this->spacing_, context, result) : Status();
+  return smoothed ? this->smooth(context, fixed, smoothing * this->spacing_, result) : Status();
 }
 
 } // namespace bindpose

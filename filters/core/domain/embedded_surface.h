@@ -51,8 +51,8 @@ public:
   /// times half of the vector from the corner to the point. The sum is clamped to the column's
   /// range. Smoothed values are smoothed along the surface over 0.3 times the lattice spacing
   /// (smooth_on_surface), except at points on handles.
-  Status carry(const HandleInsertion& mesh, const Handles& handles, WeightsView values,
-    Smoothness smoothness, ExecutionContext& context, Weights& result) const;
+  Status carry(ExecutionContext& context, const HandleInsertion& mesh, const Handles& handles,
+    WeightsView values, Smoothness smoothness, Weights& result) const;
 
 private:
   using Place = std::array<Index, 3>;
@@ -61,10 +61,10 @@ private:
     std::size_t operator()(const Place& place) const;
   };
   Place center_of(Index tet) const;
-  Status interpolate(const HandleInsertion& mesh, WeightsView values, ExecutionContext& context,
+  Status interpolate(ExecutionContext& context, const HandleInsertion& mesh, WeightsView values,
     Weights& result) const;
   /// @param fixed_points ids of points whose values do not change.
-  Status smooth(const std::vector<Index>& fixed_points, double length, ExecutionContext& context,
+  Status smooth(ExecutionContext& context, const std::vector<Index>& fixed_points, double length,
     Weights& result) const;
   Index point_at(const Vec3& place) const;
 

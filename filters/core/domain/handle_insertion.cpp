@@ -619,8 +619,8 @@ std::vector<Index> extend_labels(const HandleInsertion& mesh, const std::vector<
   return result;
 }
 
-Status insert_handles(const Domain& domain, const Handles& handles,
-  const HandleInsertionOptions& options, ExecutionContext& context, HandleInsertion& result)
+Status insert_handles(ExecutionContext& context, const Domain& domain, const Handles& handles,
+  const HandleInsertionOptions& options, HandleInsertion& result)
 {
   result = {};
   if (!(options.snap > 0.0 && options.snap < 0.25))

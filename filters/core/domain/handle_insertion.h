@@ -86,8 +86,8 @@ std::vector<Index> extend_labels(const HandleInsertion& mesh, const std::vector<
 ///
 /// Edges and faces of cages are sampled like bones, but samples outside of the mesh are ignored.
 /// Cost: O(#elements log #elements), the cost of building a search tree.
-Status insert_handles(const Domain& domain, const Handles& handles,
-  const HandleInsertionOptions& options, ExecutionContext& context, HandleInsertion& result);
+Status insert_handles(ExecutionContext& context, const Domain& domain, const Handles& handles,
+  const HandleInsertionOptions& options, HandleInsertion& result);
 
 } // namespace bindpose
 

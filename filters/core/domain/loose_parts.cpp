@@ -53,10 +53,10 @@ Components welded_components(
 }
 } // namespace
 
-Status find_loose_parts(PointsView points, TrianglesView triangles,
+Status find_loose_parts(ExecutionContext& context, PointsView points, TrianglesView triangles,
   const std::vector<Index>& lowest_equal, const EmbeddingTets& lattice,
   const EmbeddedSurface& surface, const Handles& handles, const HandleInsertionOptions& insertion,
-  LooseParts& result, ExecutionContext& context)
+  LooseParts& result)
 {
   result = LooseParts();
   const TetMesh& tets = lattice.mesh;
@@ -66,7 +66,7 @@ Status find_loose_parts(PointsView points, TrianglesView triangles,
   }
   HandleInsertion inserted;
   const Status status =
-    insert_handles(surface.domain(lattice.inside_fractions), handles, insertion, context, inserted);
+    insert_handles(context, surface.domain(lattice.inside_fractions), handles, insertion, inserted);
   if (!status.ok())
   {
     return status;
@@ -96,7 +96,7 @@ Status find_loose_parts(PointsView points, TrianglesView triangles,
   PartLinkOptions options;
   options.touching = touching * bounding_box(points, triangles).diagonal();
   options.spacing = lattice.spacing;
-  return link_parts(points, triangles, of_triangle, is_held, options, result.links, context);
+  return link_parts(context, points, triangles, of_triangle, is_held, options, result.links);
 }
 
 } // namespace bindpose

@@ -33,8 +33,8 @@ using Columns = Eigen::Array<double, Eigen::Dynamic, lanes, Eigen::RowMajor>;
 class SmoothingEnergy
 {
 public:
-  SmoothingEnergy(PointsView points, TrianglesView triangles, const std::vector<Index>& fixed,
-    double length, ExecutionContext& context)
+  SmoothingEnergy(ExecutionContext& context, PointsView points, TrianglesView triangles,
+    const std::vector<Index>& fixed, double length)
     : free_(VectorXd::Ones(points.rows()))
   {
     const Points scaled = (points.rowwise() - points.row(0)) / length;
@@ -50,7 +50,7 @@ public:
     }
     if (this->factor(context))
     {
-      this->count_fixed(fixed, context);
+      this->count_fixed(context, fixed);
     }
     else
     {
@@ -60,7 +60,7 @@ public:
 
   /// Minimize the energy by conjugate gradients; each column has its own step lengths. After each
   /// iteration, `advance` is called with the estimated fraction of the work that is done.
-  void minimize(Columns& w, const ExecutionContext& context,
+  void minimize(const ExecutionContext& context, Columns& w,
     const std::function<void(double share)>& advance) const
   {
     constexpr double reduction = 1e-6;
@@ -185,12 +185,12 @@ private:
       return false;
     }
     context.progress(analyzed);
-    return this->factor_.factor(a, 0.0, context).ok();
+    return this->factor_.factor(context, a, 0.0).ok();
   }
 
   /// Correct the preconditioner: add the terms of the energy that belong to the curvature at fixed
   /// points.
-  void count_fixed(const std::vector<Index>& fixed, ExecutionContext& context)
+  void count_fixed(ExecutionContext& context, const std::vector<Index>& fixed)
   {
     const ProgressRange range(context, factored, preparation_end);
     constexpr Index most_numbers = 40'000'000; // 320 MB
@@ -327,14 +327,14 @@ private:
 };
 } // namespace
 
-bool smooth_on_surface(PointsView points, TrianglesView triangles, const std::vector<Index>& fixed,
-  double length, Eigen::MatrixXd& values, ExecutionContext& context)
+bool smooth_on_surface(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const std::vector<Index>& fixed, double length, Eigen::MatrixXd& values)
 {
   if (points.rows() == 0 || values.cols() == 0)
   {
     return !context.canceled();
   }
-  const SmoothingEnergy energy(points, triangles, fixed, length, context);
+  const SmoothingEnergy energy(context, points, triangles, fixed, length);
   const ProgressRange range(context, preparation_end, 1.0);
   const Index blocks = (values.cols() + lanes - 1) / lanes;
   std::vector<std::atomic<double>> gone(static_cast<std::size_t>(blocks));
@@ -343,7 +343,7 @@ bool smooth_on_surface(PointsView points, TrianglesView triangles, const std::ve
     {
       Columns w = Columns::Zero(values.rows(), lanes);
       w.leftCols(end - begin) = values.middleCols(begin, end - begin);
-      energy.minimize(w, context,
+      energy.minimize(context, w,
         [&](double share)
         {
           gone[begin / lanes] = share;

@@ -30,8 +30,8 @@ namespace bindpose
 /// @param length smoothing length, in the unit of the points.
 /// @param values #V x #columns, in and out.
 /// @return false if canceled.
-bool smooth_on_surface(PointsView points, TrianglesView triangles, const std::vector<Index>& fixed,
-  double length, Eigen::MatrixXd& values, ExecutionContext& context);
+bool smooth_on_surface(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const std::vector<Index>& fixed, double length, Eigen::MatrixXd& values);
 
 } // namespace bindpose
 

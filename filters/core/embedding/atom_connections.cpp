@@ -31,9 +31,9 @@ Cube moved(Cube cube, int axis, int by)
 class Connector
 {
 public:
-  Connector(const LatticeSurface& surface, const WindingNumber& winding, double threshold,
-    const LatticeCover& cover, const EmbeddingAtoms& atoms, AtomConnections& result,
-    ExecutionContext& context)
+  Connector(ExecutionContext& context, const LatticeSurface& surface, const WindingNumber& winding,
+    double threshold, const LatticeCover& cover, const EmbeddingAtoms& atoms,
+    AtomConnections& result)
     : surface_(surface), winding_(winding), threshold_(threshold), cover_(cover), atoms_(atoms),
       result_(result), context_(context)
   {
@@ -129,7 +129,7 @@ private:
           crossing.place(0.5 * (crossing.at + list[stretches[i] + 1].at)));
       }
       Eigen::VectorXd w;
-      const Status status = this->winding_.evaluate(middles, this->context_, w);
+      const Status status = this->winding_.evaluate(this->context_, middles, w);
       if (!status.ok())
       {
         return status;
@@ -420,11 +420,11 @@ private:
 };
 } // namespace
 
-Status connect_atoms(const LatticeSurface& surface, const WindingNumber& winding, double threshold,
-  const LatticeCover& cover, const EmbeddingAtoms& atoms, AtomConnections& result,
-  ExecutionContext& context)
+Status connect_atoms(ExecutionContext& context, const LatticeSurface& surface,
+  const WindingNumber& winding, double threshold, const LatticeCover& cover,
+  const EmbeddingAtoms& atoms, AtomConnections& result)
 {
-  return Connector(surface, winding, threshold, cover, atoms, result, context).run();
+  return Connector(context, surface, winding, threshold, cover, atoms, result).run();
 }
 
 } // namespace bindpose

@@ -29,9 +29,9 @@ struct AtomConnections
 
 /// Find the connections of all atoms.
 /// Cost: one winding number per interval between two crossings of a line with triangles.
-Status connect_atoms(const LatticeSurface& surface, const WindingNumber& winding, double threshold,
-  const LatticeCover& cover, const EmbeddingAtoms& atoms, AtomConnections& result,
-  ExecutionContext& context);
+Status connect_atoms(ExecutionContext& context, const LatticeSurface& surface,
+  const WindingNumber& winding, double threshold, const LatticeCover& cover,
+  const EmbeddingAtoms& atoms, AtomConnections& result);
 
 } // namespace bindpose
 

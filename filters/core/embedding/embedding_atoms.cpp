@@ -91,7 +91,7 @@ Status EmbeddingAtoms::number(ExecutionContext& context)
 }
 
 Status EmbeddingAtoms::find_inside(
-  const WindingNumber& winding, double threshold, ExecutionContext& context)
+  ExecutionContext& context, const WindingNumber& winding, double threshold)
 {
   constexpr Index cubes_at_once = 4096;
   const auto count = static_cast<Index>(this->sampled.size());
@@ -108,7 +108,7 @@ Status EmbeddingAtoms::find_inside(
       points.row(i) = this->cover_.lattice.point_at(CubeSamples::place_of(at));
     }
     Eigen::VectorXd w;
-    const Status status = winding.evaluate(points, context, w);
+    const Status status = winding.evaluate(context, points, w);
     if (!status.ok())
     {
       return status;

@@ -37,7 +37,7 @@ public:
   /// Number the atoms. Return invalid_input if there are more than a million cubes at the surface.
   Status number(ExecutionContext& context);
   /// Find the samples that are inside. Cost: one winding number per sample.
-  Status find_inside(const WindingNumber& winding, double threshold, ExecutionContext& context);
+  Status find_inside(ExecutionContext& context, const WindingNumber& winding, double threshold);
 
   Id count() const { return this->first_piece + static_cast<Id>(this->piece_tets_.size()); }
   /// Return the integer coordinates, over all cubes, of sample s in cube `sampled[sampled_cube]`.

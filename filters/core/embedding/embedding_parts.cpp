@@ -24,9 +24,9 @@ using Id = EmbeddingAtoms::Id;
 class Parts
 {
 public:
-  Parts(PointsView points, const LatticeSurface& surface, const LatticeCover& cover,
-    const EmbeddingAtoms& atoms, AtomConnections& connections, const MaterialProbes& probes,
-    ExecutionContext& context)
+  Parts(ExecutionContext& context, PointsView points, const LatticeSurface& surface,
+    const LatticeCover& cover, const EmbeddingAtoms& atoms, AtomConnections& connections,
+    const MaterialProbes& probes)
     : points_(points), surface_(surface), cover_(cover), atoms_(atoms), connections_(connections),
       probes_(probes), context_(context)
   {
@@ -407,11 +407,11 @@ private:
 };
 } // namespace
 
-bool make_embedding(PointsView points, const LatticeSurface& surface, const LatticeCover& cover,
-  const EmbeddingAtoms& atoms, AtomConnections connections, const MaterialProbes& probes,
-  EmbeddingTets& result, ExecutionContext& context)
+bool make_embedding(ExecutionContext& context, PointsView points, const LatticeSurface& surface,
+  const LatticeCover& cover, const EmbeddingAtoms& atoms, AtomConnections connections,
+  const MaterialProbes& probes, EmbeddingTets& result)
 {
-  return Parts(points, surface, cover, atoms, connections, probes, context).run(result);
+  return Parts(context, points, surface, cover, atoms, connections, probes).run(result);
 }
 
 } // namespace bindpose

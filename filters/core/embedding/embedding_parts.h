@@ -15,9 +15,9 @@ namespace bindpose
 /// Make tets from connected atoms, and bind the points of the surface to the tets. This sets mesh,
 /// inside_fractions, binding, lattice_tets and duplicated_nodes of an empty result.
 /// @return false if canceled.
-bool make_embedding(PointsView points, const LatticeSurface& surface, const LatticeCover& cover,
-  const EmbeddingAtoms& atoms, AtomConnections connections, const MaterialProbes& probes,
-  EmbeddingTets& result, ExecutionContext& context);
+bool make_embedding(ExecutionContext& context, PointsView points, const LatticeSurface& surface,
+  const LatticeCover& cover, const EmbeddingAtoms& atoms, AtomConnections connections,
+  const MaterialProbes& probes, EmbeddingTets& result);
 
 } // namespace bindpose
 

@@ -45,8 +45,8 @@ namespace bindpose
 
 namespace
 {
-Status embed(PointsView points, const LatticeSurface& surface, const WindingNumber& winding,
-  double threshold, const LatticeCover& cover, EmbeddingTets& result, ExecutionContext& context)
+Status embed(ExecutionContext& context, PointsView points, const LatticeSurface& surface,
+  const WindingNumber& winding, double threshold, const LatticeCover& cover, EmbeddingTets& result)
 {
   EmbeddingAtoms atoms(cover);
   {
@@ -54,7 +54,7 @@ Status embed(PointsView points, const LatticeSurface& surface, const WindingNumb
     Status status = atoms.number(context);
     if (status.ok())
     {
-      status = atoms.find_inside(winding, threshold, context);
+      status = atoms.find_inside(context, winding, threshold);
     }
     if (!status.ok())
     {
@@ -63,14 +63,14 @@ Status embed(PointsView points, const LatticeSurface& surface, const WindingNumb
   }
   const Phase phase(context, "connect", 0.6, 1.0);
   AtomConnections connections;
-  Status status = connect_atoms(surface, winding, threshold, cover, atoms, connections, context);
+  Status status = connect_atoms(context, surface, winding, threshold, cover, atoms, connections);
   if (!status.ok())
   {
     return status;
   }
   const MaterialProbes probes(cover, winding, threshold);
   const bool made =
-    make_embedding(points, surface, cover, atoms, std::move(connections), probes, result, context);
+    make_embedding(context, points, surface, cover, atoms, std::move(connections), probes, result);
   return made && !context.canceled() ? Status() : Status::canceled();
 }
 
@@ -147,8 +147,8 @@ Status check(PointsView points, TrianglesView triangles, const EmbeddingOptions&
 }
 } // namespace
 
-Status embed_surface(PointsView points, TrianglesView triangles, const WindingNumber& winding,
-  const EmbeddingOptions& options, EmbeddingTets& result, ExecutionContext& context)
+Status embed_surface(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const WindingNumber& winding, const EmbeddingOptions& options, EmbeddingTets& result)
 {
   result = EmbeddingTets();
   Status status = check(points, triangles, options);
@@ -167,8 +167,8 @@ Status embed_surface(PointsView points, TrianglesView triangles, const WindingNu
   LatticeCover cover(surface, winding, options.winding_threshold, box);
   {
     const Phase phase(context, "lattice", 0.0, 0.4);
-    status = surface.build(points, triangles, options.links, context)
-      ? cover.choose(options.resolution, options.tets, context)
+    status = surface.build(context, points, triangles, options.links)
+      ? cover.choose(context, options.resolution, options.tets)
       : Status::canceled();
     if (!status.ok())
     {
@@ -177,7 +177,7 @@ Status embed_surface(PointsView points, TrianglesView triangles, const WindingNu
   }
   {
     const Phase phase(context, "parts", 0.4, 1.0);
-    status = embed(points, surface, winding, options.winding_threshold, cover, result, context);
+    status = embed(context, points, surface, winding, options.winding_threshold, cover, result);
   }
   if (!status.ok())
   {

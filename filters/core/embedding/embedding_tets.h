@@ -50,8 +50,8 @@ struct EmbeddingOptions
 /// of range, no triangles, options (including links) out of range, or a resolution that needs too
 /// much memory (above 4 million cubes).
 /// Cost: about 2 us per triangle and 5 us per tet.
-Status embed_surface(PointsView points, TrianglesView triangles, const WindingNumber& winding,
-  const EmbeddingOptions& options, EmbeddingTets& result, ExecutionContext& context);
+Status embed_surface(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const WindingNumber& winding, const EmbeddingOptions& options, EmbeddingTets& result);
 
 } // namespace bindpose
 

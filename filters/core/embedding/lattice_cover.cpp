@@ -93,8 +93,8 @@ struct Measures
 
 } // namespace
 
-bool LatticeSurface::build(PointsView all, TrianglesView faces, const std::vector<PartLink>& links,
-  ExecutionContext& context)
+bool LatticeSurface::build(ExecutionContext& context, PointsView all, TrianglesView faces,
+  const std::vector<PartLink>& links)
 {
   std::vector<Id> order;
   this->of_point.assign(static_cast<std::size_t>(all.rows()), -1);
@@ -148,7 +148,7 @@ bool LatticeSurface::build(PointsView all, TrianglesView faces, const std::vecto
   return true;
 }
 
-Status LatticeCover::build(double spacing, ExecutionContext& context)
+Status LatticeCover::build(ExecutionContext& context, double spacing)
 {
   this->pieces.clear();
   this->kinds.clear();
@@ -308,7 +308,7 @@ Status LatticeCover::find_cubes(ExecutionContext& context)
         this->lattice.point_at(Vec3(cube[0] + 0.5, cube[1] + 0.5, cube[2] + 0.5));
     }
     Eigen::VectorXd w;
-    const Status status = this->winding_.evaluate(centers, context, w);
+    const Status status = this->winding_.evaluate(context, centers, w);
     if (!status.ok())
     {
       return status;
@@ -385,7 +385,7 @@ double LatticeCover::count_tets() const
   return static_cast<double>(tets.size());
 }
 
-Status LatticeCover::choose(Index resolution, Index wanted, ExecutionContext& context)
+Status LatticeCover::choose(ExecutionContext& context, Index resolution, Index wanted)
 {
   const auto wanted_tets = static_cast<double>(wanted);
   const Measures measures(this->surface_, this->box_);
@@ -398,7 +398,7 @@ Status LatticeCover::choose(Index resolution, Index wanted, ExecutionContext& co
     const auto cubes = static_cast<double>(std::max<Index>(1, resolution));
     return measures.pieces(cubes) > most_pieces
       ? too_many_cubes()
-      : this->build(std::max(measures.longest / cubes, least_spacing), context);
+      : this->build(context, std::max(measures.longest / cubes, least_spacing));
   }
   const double most =
     std::min(Measures::most_cubes_along(measures.triangles + most_pieces_of_choice,
@@ -412,7 +412,7 @@ Status LatticeCover::choose(Index resolution, Index wanted, ExecutionContext& co
   for (int round = 0;; ++round)
   {
     const ProgressRange range(context, 1.0 - std::pow(0.5, round), 1.0 - std::pow(0.5, round + 1));
-    const Status status = this->build(std::max(measures.longest / cubes, least_spacing), context);
+    const Status status = this->build(context, std::max(measures.longest / cubes, least_spacing));
     const double tets = status.ok() ? this->count_tets() : 0.0;
     if (!status.ok() || (tets >= fewest_tets * wanted_tets && tets <= most_tets * wanted_tets) ||
       round + 1 == rounds)

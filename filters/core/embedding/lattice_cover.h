@@ -33,8 +33,8 @@ struct LatticeSurface
   std::vector<End> ends; ///< ends of the links
 
   /// @return false if canceled.
-  bool build(PointsView all, TrianglesView faces, const std::vector<PartLink>& links,
-    ExecutionContext& context);
+  bool build(ExecutionContext& context, PointsView all, TrianglesView faces,
+    const std::vector<PartLink>& links);
 };
 
 /// The cover of a surface: the tets and cubes of a lattice that the surface passes through, and the
@@ -76,8 +76,8 @@ public:
   /// pieces.
   /// @return invalid_input if the lattice would have more than most_cubes cubes. Cost: 1 us per
   /// piece of a triangle.
-  Status choose(Index resolution, Index tets, ExecutionContext& context);
-  Status build(double spacing, ExecutionContext& context);
+  Status choose(ExecutionContext& context, Index resolution, Index tets);
+  Status build(ExecutionContext& context, double spacing);
 
   std::array<Vec3, 3> corners_of(Index triangle) const
   {

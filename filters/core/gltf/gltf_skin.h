@@ -112,8 +112,8 @@ Status write_gltf_skin(
   const std::string& path, const GltfSkin& skin, const GltfOptions& options = {});
 /// Write the same file. Progress is reported and a cancel request is checked once per frame. No
 /// file is written after a cancel.
-Status write_gltf_skin(const std::string& path, const GltfSkin& skin, const GltfOptions& options,
-  ExecutionContext& context);
+Status write_gltf_skin(ExecutionContext& context, const std::string& path, const GltfSkin& skin,
+  const GltfOptions& options);
 
 /// Read the triangles of a .gltf or .glb file. If meshes use skins, read the skin of the first such
 /// mesh and all meshes that use this skin. If no mesh uses a skin, read all meshes, transformed by

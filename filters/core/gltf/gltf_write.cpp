@@ -693,11 +693,11 @@ Status write_model(const std::string& path, const tinygltf::Model& model, bool b
 Status write_gltf_skin(const std::string& path, const GltfSkin& skin, const GltfOptions& options)
 {
   ExecutionContext context;
-  return write_gltf_skin(path, skin, options, context);
+  return write_gltf_skin(context, path, skin, options);
 }
 
-Status write_gltf_skin(const std::string& path, const GltfSkin& skin, const GltfOptions& options,
-  ExecutionContext& context)
+Status write_gltf_skin(ExecutionContext& context, const std::string& path, const GltfSkin& skin,
+  const GltfOptions& options)
 {
   Status status = check(skin, options);
   if (!status.ok())

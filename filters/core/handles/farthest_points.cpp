@@ -28,8 +28,8 @@ std::vector<Index> used_vertices(Index vertex_count, TrianglesView triangles)
 }
 } // namespace
 
-Status farthest_points(PointsView points, TrianglesView triangles, Index count,
-  ExecutionContext& context, std::vector<Index>& chosen)
+Status farthest_points(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  Index count, std::vector<Index>& chosen)
 {
   chosen.clear();
   if (count < 1)

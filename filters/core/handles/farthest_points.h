@@ -20,8 +20,8 @@ namespace bindpose
 /// @param chosen  vertex ids in the order of choice
 /// @return invalid_input if count < 1, or if the vertices have fewer than `count` different
 /// positions
-Status farthest_points(PointsView points, TrianglesView triangles, Index count,
-  ExecutionContext& context, std::vector<Index>& chosen);
+Status farthest_points(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  Index count, std::vector<Index>& chosen);
 
 } // namespace bindpose
 

@@ -290,9 +290,8 @@ std::string memory_words(Index memory_limit)
                           : std::string();
 }
 
-Status run_child(const ChildRequest& request,
-  const std::function<void(const std::string&)>& take_line, ChildEnd& end,
-  ExecutionContext& context)
+Status run_child(ExecutionContext& context, const ChildRequest& request,
+  const std::function<void(const std::string&)>& take_line, ChildEnd& end)
 {
   using Clock = std::chrono::steady_clock;
   end = ChildEnd();

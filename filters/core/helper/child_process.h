@@ -51,9 +51,8 @@ struct ChildEnd
 /// - unavailable: the program could not be started;
 /// - canceled: the context was canceled (the group is killed within 20 ms);
 /// - internal_error: the program was stopped at a time limit, or no pipe could be created.
-Status run_child(const ChildRequest& request,
-  const std::function<void(const std::string&)>& take_line, ChildEnd& end,
-  ExecutionContext& context);
+Status run_child(ExecutionContext& context, const ChildRequest& request,
+  const std::function<void(const std::string&)>& take_line, ChildEnd& end);
 
 /// Return invalid_input if the time limit (seconds) is not positive or the memory limit (MiB) is
 /// below 0.

@@ -48,7 +48,7 @@ std::string folder_of(const std::string& path)
 class HelperOutput
 {
 public:
-  void take(const std::string& line, ExecutionContext& context, Report& report)
+  void take(ExecutionContext& context, const std::string& line, Report& report)
   {
     std::istringstream words(line);
     std::string kind, key;
@@ -143,8 +143,8 @@ std::string find_mesher()
   return {};
 }
 
-Status run_mesher(const MesherRequest& request, const MesherData& input, MesherAnswer& answer,
-  ExecutionContext& context)
+Status run_mesher(ExecutionContext& context, const MesherRequest& request, const MesherData& input,
+  MesherAnswer& answer)
 {
   answer = MesherAnswer();
   if (context.canceled())
@@ -190,8 +190,8 @@ Status run_mesher(const MesherRequest& request, const MesherData& input, MesherA
   HelperOutput lines;
   ChildEnd end;
   Status status = run_child(
-    child, [&](const std::string& line) { lines.take(line, context, answer.report); }, end,
-    context);
+    context, child, [&](const std::string& line) { lines.take(context, line, answer.report); },
+    end);
   answer.seconds = end.seconds;
   answer.at_limit = end.at_limit;
   if (status.ok())

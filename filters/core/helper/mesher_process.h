@@ -48,8 +48,8 @@ std::string find_mesher();
 ///
 /// Input and output are anonymous memory files, so no file remains even if either process is
 /// killed. Progress lines of the helper become progress of the current phase.
-Status run_mesher(const MesherRequest& request, const MesherData& input, MesherAnswer& answer,
-  ExecutionContext& context);
+Status run_mesher(ExecutionContext& context, const MesherRequest& request, const MesherData& input,
+  MesherAnswer& answer);
 
 } // namespace bindpose
 

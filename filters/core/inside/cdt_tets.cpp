@@ -94,8 +94,8 @@ Status wrong_volume(double volume, const EnclosedRegion& inside)
       ", but the enclosed volume by winding number is " + short_number(inside.volume()));
 }
 
-CdtTets::CdtTets(const RepairedSurface& surface, EnclosedRegion& inside, const CdtOptions& options,
-  RungLog& log, ExecutionContext& context)
+CdtTets::CdtTets(ExecutionContext& context, const RepairedSurface& surface, EnclosedRegion& inside,
+  const CdtOptions& options, RungLog& log)
   : surface_(surface), inside_(inside), options_(options), log_(log), context_(context),
     diagonal_(bounding_box(surface.points).diagonal()), start_(context.elapsed_seconds())
 {
@@ -223,8 +223,8 @@ Status CdtTets::try_switches(const Move& move, const MesherData& refined)
   const bool large = refined.triangles.rows() > most_triangles || this->options_.memory_limit > 0;
   const double delay = large ? never : long_time;
   TetgenRun last_run;
-  SideTask last(delay, this->context_,
-    [&](ExecutionContext& side) { last_run = this->run_tetgen(ways.back(), refined, side); });
+  SideTask last(this->context_, delay,
+    [&](ExecutionContext& side) { last_run = this->run_tetgen(side, ways.back(), refined); });
   for (std::size_t i = 0; i < ways.size(); ++i)
   {
     if (i + 1 < ways.size())
@@ -276,18 +276,19 @@ Status CdtTets::try_fine_tets(const Move& move, const MesherData& refined)
 
 Status CdtTets::try_tetgen(const Way& way, const Move& move, const MesherData& input)
 {
-  return this->judge(way, move, this->run_tetgen(way, input, this->context_));
+  return this->judge(way, move, this->run_tetgen(this->context_, way, input));
 }
 
 /// Run TetGen with a time limit of twice the longest time that successful runs need for surfaces of
 /// this size. Typical runs take 20 to 60 us per triangle. Thread-safe.
 CdtTets::TetgenRun CdtTets::run_tetgen(
-  const Way& way, const MesherData& input, ExecutionContext& context) const
+  ExecutionContext& context, const Way& way, const MesherData& input) const
 {
   const double seconds = 1.5 + 1e-4 * static_cast<double>(input.triangles.rows());
   TetgenRun run;
-  run.status = this->run_job({ "tetgen", "--switches", way.switches, "--box", way.box ? "1" : "0" },
-    input, seconds, run.answer, context);
+  run.status =
+    this->run_job(context, { "tetgen", "--switches", way.switches, "--box", way.box ? "1" : "0" },
+      input, seconds, run.answer);
   return run;
 }
 
@@ -337,7 +338,7 @@ Status CdtTets::try_delaunay(const MesherData& refined)
   this->original_.resize(static_cast<std::size_t>(originals));
   MesherAnswer answer;
   const double seconds = 5.0 + 2e-4 * static_cast<double>(input.points.rows());
-  Status status = this->run_job({ "delaunay" }, input, seconds, answer, this->context_);
+  Status status = this->run_job(this->context_, { "delaunay" }, input, seconds, answer);
   if (status.ok())
   {
     status = this->keep_inside(answer.data);
@@ -367,7 +368,7 @@ Status CdtTets::refine(const Move& move, MesherData& refined)
     input.points = std::move(moved.points);
     input.triangles = std::move(moved.triangles);
     const double size = static_cast<double>(input.triangles.rows());
-    status = this->run_job({ "refine" }, input, 5.0 + 1e-4 * size, answer, this->context_);
+    status = this->run_job(this->context_, { "refine" }, input, 5.0 + 1e-4 * size, answer);
     this->job_seconds_ += answer.seconds;
     this->too_many_crossings_ = answer.at_limit || answer.report.number("too_many", 0.0) > 0.0;
     rounded = answer.report.number("rounded", 0.0) > 0.0;
@@ -392,7 +393,7 @@ Status CdtTets::move_vertices(const Move& move, RepairedSurface& moved)
     repair.count_self_intersections = false;
     repair.snap = move.snap;
     Status status = repair_surface(
-      this->surface_.points, this->surface_.triangles, repair, moved, this->context_);
+      this->context_, this->surface_.points, this->surface_.triangles, repair, moved);
     if (status.ok() && moved.triangles.rows() == 0)
     {
       status = Status::failure(
@@ -417,8 +418,8 @@ Status CdtTets::move_vertices(const Move& move, RepairedSurface& moved)
 
 /// Run one job of the helper executable bindpose-mesher. The job ends after `seconds` of processor
 /// time or at the deadline.
-Status CdtTets::run_job(const std::vector<std::string>& arguments, const MesherData& input,
-  double seconds, MesherAnswer& answer, ExecutionContext& context) const
+Status CdtTets::run_job(ExecutionContext& context, const std::vector<std::string>& arguments,
+  const MesherData& input, double seconds, MesherAnswer& answer) const
 {
   const double left = this->deadline_ - this->context_.elapsed_seconds();
   if (left <= 0.0)
@@ -440,7 +441,7 @@ Status CdtTets::run_job(const std::vector<std::string>& arguments, const MesherD
     request.arguments.insert(
       request.arguments.end(), { "--time", std::to_string(earlier * std::min(left, seconds)) });
   }
-  return run_mesher(request, input, answer, context);
+  return run_mesher(context, request, input, answer);
 }
 
 /// Report whether no other attempt can succeed after this status.
@@ -458,7 +459,7 @@ Status CdtTets::keep_inside(const MesherData& data)
   const Phase phase(this->context_, "label", 0.9, 1.0);
   this->wrong_volume_ = false;
   Eigen::VectorXd w;
-  Status status = this->inside_.label(data, w, this->context_);
+  Status status = this->inside_.label(this->context_, data, w);
   if (!status.ok())
   {
     return status;
@@ -485,7 +486,7 @@ Status CdtTets::take_inside(
   SegmentationOptions options = this->options_.segmentation;
   options.method = method;
   Segmentation segmentation;
-  Status status = segment_tets(data.points, data.tets, w, options, segmentation, this->context_);
+  Status status = segment_tets(this->context_, data.points, data.tets, w, options, segmentation);
   if (!status.ok())
   {
     return status;
@@ -573,8 +574,8 @@ Status CdtTets::swap_flat(const Points& points, Tets& tets, std::vector<TetFacet
   options.least_angle = 0.0; // held (constrained) vertices do not move
   options.keep_boundary = true;
   Improvement done;
-  if (!improve_tets(mesh, std::vector<char>(static_cast<std::size_t>(points.rows()), 1), {},
-        options, done, this->context_))
+  if (!improve_tets(this->context_, mesh,
+        std::vector<char>(static_cast<std::size_t>(points.rows()), 1), {}, options, done))
   {
     return Status::canceled();
   }

@@ -61,8 +61,8 @@ Status wrong_volume(double volume, const EnclosedRegion& inside);
 class CdtTets
 {
 public:
-  CdtTets(const RepairedSurface& surface, EnclosedRegion& inside, const CdtOptions& options,
-    RungLog& log, ExecutionContext& context);
+  CdtTets(ExecutionContext& context, const RepairedSurface& surface, EnclosedRegion& inside,
+    const CdtOptions& options, RungLog& log);
 
   /// Try one set of TetGen arguments after the other, for at most `seconds`, until the tets inside
   /// have the right volume. On failure, the tets with the smallest misfit() are kept.
@@ -99,13 +99,13 @@ private:
   Status try_switches(const Move& move, const MesherData& refined);
   Status try_fine_tets(const Move& move, const MesherData& refined);
   Status try_tetgen(const Way& way, const Move& move, const MesherData& input);
-  TetgenRun run_tetgen(const Way& way, const MesherData& input, ExecutionContext& context) const;
+  TetgenRun run_tetgen(ExecutionContext& context, const Way& way, const MesherData& input) const;
   Status judge(const Way& way, const Move& move, const TetgenRun& run);
   Status try_delaunay(const MesherData& refined);
   Status refine(const Move& move, MesherData& refined);
   Status move_vertices(const Move& move, RepairedSurface& moved);
-  Status run_job(const std::vector<std::string>& arguments, const MesherData& input, double seconds,
-    MesherAnswer& answer, ExecutionContext& context) const;
+  Status run_job(ExecutionContext& context, const std::vector<std::string>& arguments,
+    const MesherData& input, double seconds, MesherAnswer& answer) const;
   bool final(const Status& status) const;
   bool out_of_patience() const;
   Status keep_inside(const MesherData& data);

@@ -165,7 +165,7 @@ Status CdtTets::find_places(Inside& inside)
 Status CdtTets::find_even_places(
   double length, double long_edge, Index most_tets, Index most, Inside& inside)
 {
-  if (!split_long_edges(this->mesh_, long_edge, most_tets, this->context_))
+  if (!split_long_edges(this->context_, this->mesh_, long_edge, most_tets))
   {
     return Status::canceled();
   }
@@ -175,7 +175,7 @@ Status CdtTets::find_even_places(
 
 Status CdtTets::find_inner_places(Index most, Inside& inside)
 {
-  return inner_points(inside.interior, *inside.sizes, most, this->context_, inside.places)
+  return inner_points(this->context_, inside.interior, *inside.sizes, most, inside.places)
     ? Status()
     : Status::canceled();
 }
@@ -215,7 +215,7 @@ Status CdtTets::look_inside(double longest, Inside& inside)
   inside.sizes = std::make_unique<SizingField>(sites, lengths, growth, longest);
   inside.places.resize(0, 3);
   inside.boundary_triangles = boundary.rows();
-  return inside.interior.build(points, boundary, this->context_);
+  return inside.interior.build(this->context_, points, boundary);
 }
 
 /// Return the points of the handles that are inside, and samples of the handles' segments and
@@ -251,7 +251,7 @@ Status CdtTets::insert(const Points& places, std::vector<Index>& vertices)
 {
   const double start = this->context_.elapsed_seconds();
   TetMesh mesh = this->mesh_;
-  if (!insert_vertices(mesh, places, vertices, this->context_))
+  if (!insert_vertices(this->context_, mesh, places, vertices))
   {
     return Status::canceled();
   }
@@ -298,7 +298,7 @@ Status CdtTets::improve()
   options.insert = true;
   options.slack = 0.7;
   Improvement done;
-  if (!improve_tets(mesh, std::move(held), {}, options, done, this->context_))
+  if (!improve_tets(this->context_, mesh, std::move(held), {}, options, done))
   {
     return Status::canceled();
   }

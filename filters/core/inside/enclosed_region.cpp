@@ -46,19 +46,19 @@ Points spread_points(const Box& box, Index count)
 } // namespace
 
 Status EnclosedRegion::build(
-  RepairedSurface& surface, double threshold, bool& turned, ExecutionContext& context)
+  ExecutionContext& context, RepairedSurface& surface, double threshold, bool& turned)
 {
   this->threshold_ = threshold;
   this->closed_ = surface.closed;
   this->box_ = bounding_box(surface.points);
   double negative = 0.0;
-  Status status = this->sample(surface, negative, context);
+  Status status = this->sample(context, surface, negative);
   turned = status.ok() && negative > this->volume_ && !surface.clean();
   if (turned)
   {
     surface.triangles.col(1).swap(surface.triangles.col(2));
     this->largest_winding_ = 0.0;
-    status = this->sample(surface, negative, context);
+    status = this->sample(context, surface, negative);
   }
   if (surface.clean() && surface.found.components == 1)
   {
@@ -71,12 +71,12 @@ Status EnclosedRegion::build(
 }
 
 Status EnclosedRegion::sample(
-  const RepairedSurface& surface, double& negative, ExecutionContext& context)
+  ExecutionContext& context, const RepairedSurface& surface, double& negative)
 {
   // The expected queries are the samples below and, later, the centers of tets.
   WindingNumber::Options winding;
   winding.expected_queries = 500000;
-  Status status = this->winding_.build(surface.points, surface.triangles, context, winding);
+  Status status = this->winding_.build(context, surface.points, surface.triangles, winding);
   if (surface.found.flat)
   {
     this->volume_ = 0.0;
@@ -102,7 +102,7 @@ Status EnclosedRegion::sample(
   {
     const Points points = spread_points(this->box_, samples);
     Eigen::VectorXd w;
-    status = this->winding_.evaluate(points, context, w);
+    status = this->winding_.evaluate(context, points, w);
     if (!status.ok())
     {
       break;
@@ -188,10 +188,10 @@ bool EnclosedRegion::fits(double volume) const
         volume <= (largest_volume_ratio + slack) * this->volume_));
 }
 
-Status EnclosedRegion::label(const MesherData& data, Eigen::VectorXd& w, ExecutionContext& context)
+Status EnclosedRegion::label(ExecutionContext& context, const MesherData& data, Eigen::VectorXd& w)
 {
-  Status status = this->closed_ && !data.regions.empty() ? this->label_regions(data, w, context)
-                                                         : this->label_tets(data, w, context);
+  Status status = this->closed_ && !data.regions.empty() ? this->label_regions(context, data, w)
+                                                         : this->label_tets(context, data, w);
   if (status.ok() && w.size() > 0)
   {
     this->largest_winding_ = std::max(this->largest_winding_, w.maxCoeff());
@@ -202,7 +202,7 @@ Status EnclosedRegion::label(const MesherData& data, Eigen::VectorXd& w, Executi
 /// Compute the winding numbers of the tets of a closed surface: the value is constant in a region
 /// between triangles.
 Status EnclosedRegion::label_regions(
-  const MesherData& data, Eigen::VectorXd& w, ExecutionContext& context) const
+  ExecutionContext& context, const MesherData& data, Eigen::VectorXd& w) const
 {
   const Eigen::VectorXd volumes = tet_volumes(data.points, data.tets);
   std::map<Index, Index> largest; // index of the largest tet of each region
@@ -235,10 +235,10 @@ Status EnclosedRegion::label_regions(
 /// Compute the winding numbers of the tets of an open surface: the value at the center or, for
 /// large tets near the threshold, the mean of four points.
 Status EnclosedRegion::label_tets(
-  const MesherData& data, Eigen::VectorXd& w, ExecutionContext& context) const
+  ExecutionContext& context, const MesherData& data, Eigen::VectorXd& w) const
 {
   const Points centers = centers_of(data.points, data.tets);
-  Status status = this->winding_.evaluate(centers, context, w);
+  Status status = this->winding_.evaluate(context, centers, w);
   if (!status.usable())
   {
     return status;
@@ -291,7 +291,7 @@ Status EnclosedRegion::label_tets(
     }
   }
   Eigen::VectorXd values;
-  status = this->winding_.evaluate(more, context, values);
+  status = this->winding_.evaluate(context, more, values);
   for (std::size_t i = 0; i < tets.size() && status.usable(); ++i)
   {
     w[tets[i]] = 0.25 * values.segment(4 * static_cast<Index>(i), 4).sum();

@@ -19,7 +19,7 @@ public:
   /// set. (Closed components are already oriented outwards; open components may not be.) The volume
   /// is estimated from sample points in the box. Points are added until 20,000 of them are inside,
   /// or until more would take longer than about two seconds.
-  Status build(RepairedSurface& surface, double threshold, bool& turned, ExecutionContext& context);
+  Status build(ExecutionContext& context, RepairedSurface& surface, double threshold, bool& turned);
 
   const WindingNumber& winding() const { return this->winding_; }
   /// Return the volume: exact for a clean surface of one component, sampled otherwise.
@@ -56,12 +56,12 @@ public:
   /// evaluated at the tet's center. If the tet is large and this value is near the threshold, the
   /// mean of four points is used instead. The winding number is 0 if the center is outside the
   /// surface's bounding box.
-  Status label(const MesherData& data, Eigen::VectorXd& w, ExecutionContext& context);
+  Status label(ExecutionContext& context, const MesherData& data, Eigen::VectorXd& w);
 
 private:
-  Status sample(const RepairedSurface& surface, double& negative, ExecutionContext& context);
-  Status label_regions(const MesherData& data, Eigen::VectorXd& w, ExecutionContext& context) const;
-  Status label_tets(const MesherData& data, Eigen::VectorXd& w, ExecutionContext& context) const;
+  Status sample(ExecutionContext& context, const RepairedSurface& surface, double& negative);
+  Status label_regions(ExecutionContext& context, const MesherData& data, Eigen::VectorXd& w) const;
+  Status label_tets(ExecutionContext& context, const MesherData& data, Eigen::VectorXd& w) const;
 
   WindingNumber winding_;
   Box box_;

@@ -47,7 +47,7 @@ Status check_options(const FtetwildOptions& options)
 class Lines
 {
 public:
-  void take(const std::string& line, ExecutionContext& context)
+  void take(ExecutionContext& context, const std::string& line)
   {
     struct Stage
     {
@@ -114,8 +114,8 @@ std::string find_ftetwild()
   return installed.empty() ? find_on_path("ftetwild") : installed;
 }
 
-Status run_ftetwild(PointsView points, TrianglesView triangles, const FtetwildOptions& options,
-  TetMesh& mesh, ExecutionContext& context)
+Status run_ftetwild(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const FtetwildOptions& options, TetMesh& mesh)
 {
   mesh = TetMesh();
   Status status = check_options(options);
@@ -171,7 +171,7 @@ Status run_ftetwild(PointsView points, TrianglesView triangles, const FtetwildOp
   Lines lines;
   ChildEnd end;
   status = run_child(
-    request, [&](const std::string& line) { lines.take(line, context); }, end, context);
+    context, request, [&](const std::string& line) { lines.take(context, line); }, end);
   if (!status.ok())
   {
     return status;

@@ -47,8 +47,8 @@ std::string find_ftetwild();
 ///   or the temporary folder cannot be created.
 ///
 /// Cost: seconds to minutes.
-Status run_ftetwild(PointsView points, TrianglesView triangles, const FtetwildOptions& options,
-  TetMesh& mesh, ExecutionContext& context);
+Status run_ftetwild(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const FtetwildOptions& options, TetMesh& mesh);
 
 } // namespace bindpose
 

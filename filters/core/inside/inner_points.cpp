@@ -32,7 +32,7 @@ using Place = std::array<std::uint64_t, 3>;
 class PointLattice
 {
 public:
-  PointLattice(const Interior& interior, const SizingField& sizes, ExecutionContext& context)
+  PointLattice(ExecutionContext& context, const Interior& interior, const SizingField& sizes)
     : interior_(interior), sizes_(sizes), context_(context)
   {
     // The side of the root is a power of two times the side of the largest cells allowed.
@@ -218,7 +218,7 @@ private:
 };
 } // namespace
 
-Status Interior::build(Points points, Triangles boundary, ExecutionContext& context)
+Status Interior::build(ExecutionContext& context, Points points, Triangles boundary)
 {
   this->points_ = std::move(points);
   this->boundary_ = std::move(boundary);
@@ -227,7 +227,7 @@ Status Interior::build(Points points, Triangles boundary, ExecutionContext& cont
   WindingNumber::Options options;
   // An estimate of the number of queries.
   options.expected_queries = std::max<Index>(1, this->boundary_.rows());
-  return this->winding_.build(this->points_, this->boundary_, context, options);
+  return this->winding_.build(context, this->points_, this->boundary_, options);
 }
 
 bool Interior::contains(const Vec3& p) const
@@ -352,8 +352,8 @@ Points thinned(const Points& points, Index wanted)
 }
 } // namespace
 
-bool inner_points(const Interior& interior, SizingField& sizes, Index most,
-  ExecutionContext& context, Points& inner)
+bool inner_points(ExecutionContext& context, const Interior& interior, SizingField& sizes,
+  Index most, Points& inner)
 {
   // An attempt ends if more cells are inside than this factor times the maximum number of points.
   constexpr double too_many = 5.0;
@@ -398,7 +398,7 @@ bool inner_points(const Interior& interior, SizingField& sizes, Index most,
     const double end = begin + share * (1.0 - begin);
     const ProgressRange range(context, begin, end);
     begin = end;
-    PointLattice lattice(interior, sizes, context);
+    PointLattice lattice(context, interior, sizes);
     const bool whole =
       lattice.build(static_cast<Index>(std::max(few_cells, too_many * wanted)) + 1);
     if (context.canceled())

@@ -18,7 +18,7 @@ namespace bindpose
 class Interior
 {
 public:
-  Status build(Points points, Triangles boundary, ExecutionContext& context);
+  Status build(ExecutionContext& context, Points points, Triangles boundary);
   bool contains(const Vec3& p) const;
   /// Report whether every point of the surface is at least `distance` away from p.
   bool is_clear(const Vec3& p, double distance) const;
@@ -44,8 +44,8 @@ private:
 /// rate, until there are about `most` points. Cost: some microseconds per cell, for two or three
 /// attempts.
 /// @return false if canceled.
-bool inner_points(const Interior& interior, SizingField& sizes, Index most,
-  ExecutionContext& context, Points& inner);
+bool inner_points(ExecutionContext& context, const Interior& interior, SizingField& sizes,
+  Index most, Points& inner);
 
 } // namespace bindpose
 

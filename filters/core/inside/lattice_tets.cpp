@@ -216,7 +216,7 @@ public:
   {
   }
 
-  Status run(TetMesh& mesh, ExecutionContext& context)
+  Status run(ExecutionContext& context, TetMesh& mesh)
   {
     const Index count = this->numbering_.vertices();
     this->sign_.resize(static_cast<std::size_t>(count));
@@ -230,7 +230,7 @@ public:
     std::vector<Tet> tets;
     const auto any_inside = [&](const Tet& tet)
     { return std::any_of(tet.begin(), tet.end(), [&](Index v) { return this->sign_[v] > 0; }); };
-    if (!this->numbering_.collect(context, any_inside, tets) || !this->find_cuts(tets, context))
+    if (!this->numbering_.collect(context, any_inside, tets) || !this->find_cuts(context, tets))
     {
       return Status::canceled();
     }
@@ -245,7 +245,7 @@ public:
   }
 
 private:
-  bool find_cuts(const std::vector<Tet>& tets, ExecutionContext& context)
+  bool find_cuts(ExecutionContext& context, const std::vector<Tet>& tets)
   {
     for (const Tet& tet : tets)
     {
@@ -550,35 +550,35 @@ Points lattice_points(const Lattice& lattice)
   return points;
 }
 
-Status sample_lattice(const WindingNumber& winding, const Lattice& lattice,
-  Eigen::VectorXd& winding_numbers, ExecutionContext& context)
+Status sample_lattice(ExecutionContext& context, const WindingNumber& winding,
+  const Lattice& lattice, Eigen::VectorXd& winding_numbers)
 {
   const Numbering numbering(lattice);
   winding_numbers.resize(numbering.vertices());
-  Status status = winding.evaluate(grid_of(lattice, false), context, winding_numbers.data());
+  Status status = winding.evaluate(context, grid_of(lattice, false), winding_numbers.data());
   if (status.ok())
   {
     status = winding.evaluate(
-      grid_of(lattice, true), context, winding_numbers.data() + numbering.corners());
+      context, grid_of(lattice, true), winding_numbers.data() + numbering.corners());
   }
   return status;
 }
 
 Status stuff_lattice(
-  const Lattice& lattice, const LatticeRegion& region, TetMesh& mesh, ExecutionContext& context)
+  ExecutionContext& context, const Lattice& lattice, const LatticeRegion& region, TetMesh& mesh)
 {
   mesh = TetMesh();
-  return Stuffing(lattice, region).run(mesh, context);
+  return Stuffing(lattice, region).run(context, mesh);
 }
 
-Status stuff_lattice(const WindingNumber& winding, const Lattice& lattice, const Box& box,
-  double threshold, TetMesh& mesh, ExecutionContext& context)
+Status stuff_lattice(ExecutionContext& context, const WindingNumber& winding,
+  const Lattice& lattice, const Box& box, double threshold, TetMesh& mesh)
 {
   mesh = TetMesh();
   Eigen::VectorXd w;
   {
     const Phase phase(context, "sample", 0.0, 0.4);
-    Status status = sample_lattice(winding, lattice, w, context);
+    Status status = sample_lattice(context, winding, lattice, w);
     if (!status.ok())
     {
       return status;
@@ -601,7 +601,7 @@ Status stuff_lattice(const WindingNumber& winding, const Lattice& lattice, const
     return in_box(p) && winding.evaluate_at(p) >= threshold;
   };
   const ProgressRange range(context, 0.4, 1.0);
-  return stuff_lattice(lattice, region, mesh, context);
+  return stuff_lattice(context, lattice, region, mesh);
 }
 
 } // namespace bindpose

@@ -33,8 +33,8 @@ Points lattice_points(const Lattice& lattice);
 
 /// Compute the winding numbers at the vertices of a lattice, #N, in the order of lattice_points().
 /// @return canceled or ok.
-Status sample_lattice(const WindingNumber& winding, const Lattice& lattice,
-  Eigen::VectorXd& winding_numbers, ExecutionContext& context);
+Status sample_lattice(ExecutionContext& context, const WindingNumber& winding,
+  const Lattice& lattice, Eigen::VectorXd& winding_numbers);
 
 /// A region of space as the input of stuff_lattice().
 struct LatticeRegion
@@ -51,7 +51,7 @@ struct LatticeRegion
 /// Compute tets of a region by isosurface stuffing, as described at the overload below.
 /// @return canceled or ok.
 Status stuff_lattice(
-  const Lattice& lattice, const LatticeRegion& region, TetMesh& mesh, ExecutionContext& context);
+  ExecutionContext& context, const Lattice& lattice, const LatticeRegion& region, TetMesh& mesh);
 
 /// Compute tets of the part of {w >= threshold} in the box by isosurface stuffing (Labelle and
 /// Shewchuk, Isosurface Stuffing: Fast Tetrahedral Meshes with Good Dihedral Angles, 2007). Lattice
@@ -61,8 +61,8 @@ Status stuff_lattice(
 /// winding numbers are evaluated: about 2 per cube and 8 per cut edge. The mesh is empty if w is
 /// below the threshold everywhere in the box.
 /// @return canceled or ok.
-Status stuff_lattice(const WindingNumber& winding, const Lattice& lattice, const Box& box,
-  double threshold, TetMesh& mesh, ExecutionContext& context);
+Status stuff_lattice(ExecutionContext& context, const WindingNumber& winding,
+  const Lattice& lattice, const Box& box, double threshold, TetMesh& mesh);
 
 } // namespace bindpose
 

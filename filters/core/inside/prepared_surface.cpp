@@ -36,7 +36,7 @@ void report_turned(PreparedSurface& prepared)
 /// If there are back-side triangles, repair the surface again without them. The diagnosis in the
 /// report remains that of the whole surface.
 Status leave_out_backs(
-  PointsView points, TrianglesView triangles, PreparedSurface& prepared, ExecutionContext& context)
+  ExecutionContext& context, PointsView points, TrianglesView triangles, PreparedSurface& prepared)
 {
   const std::vector<Index> backs = back_sides(prepared.surface.points, prepared.surface.triangles);
   if (backs.empty())
@@ -58,7 +58,7 @@ Status leave_out_backs(
     }
   }
   const Triangles fronts = triangles(ids, Eigen::all);
-  const Status status = repair_surface(points, fronts, RepairOptions(), prepared.surface, context);
+  const Status status = repair_surface(context, points, fronts, RepairOptions(), prepared.surface);
   for (Index& id : prepared.surface.original_triangles)
   {
     id = ids[id];
@@ -71,15 +71,15 @@ Status leave_out_backs(
 }
 } // namespace
 
-Status prepare_surface(PointsView points, TrianglesView triangles, double winding_threshold,
-  PreparedSurface& prepared, ExecutionContext& context)
+Status prepare_surface(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  double winding_threshold, PreparedSurface& prepared)
 {
   prepared = PreparedSurface();
   prepared.winding_threshold = winding_threshold;
   {
     const Phase phase(context, "repair", 0.0, 0.2);
     const Status status =
-      repair_surface(points, triangles, RepairOptions(), prepared.surface, context);
+      repair_surface(context, points, triangles, RepairOptions(), prepared.surface);
     if (!status.ok())
     {
       return status;
@@ -95,7 +95,7 @@ Status prepare_surface(PointsView points, TrianglesView triangles, double windin
   }
   {
     const Phase phase(context, "repair", 0.2, 0.3);
-    const Status status = leave_out_backs(points, triangles, prepared, context);
+    const Status status = leave_out_backs(context, points, triangles, prepared);
     if (!status.ok())
     {
       return status;
@@ -104,7 +104,7 @@ Status prepare_surface(PointsView points, TrianglesView triangles, double windin
   report_turned(prepared);
   const Phase phase(context, "winding", 0.3, 1.0);
   bool turned = false;
-  const Status status = prepared.inside.build(prepared.surface, winding_threshold, turned, context);
+  const Status status = prepared.inside.build(context, prepared.surface, winding_threshold, turned);
   if (turned)
   {
     prepared.warnings.emplace_back("the surface was flipped because its normals pointed inward");

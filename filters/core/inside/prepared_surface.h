@@ -28,8 +28,8 @@ struct PreparedSurface
 /// Repair the surface (repair_surface), remove back-side triangles (back_sides) and build the
 /// winding number (EnclosedRegion). Return invalid_input if an id is out of range, a coordinate is
 /// not finite, or no triangle has an area. Cost: about 5 us per triangle.
-Status prepare_surface(PointsView points, TrianglesView triangles, double winding_threshold,
-  PreparedSurface& prepared, ExecutionContext& context);
+Status prepare_surface(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  double winding_threshold, PreparedSurface& prepared);
 
 } // namespace bindpose
 

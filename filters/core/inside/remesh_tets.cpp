@@ -82,7 +82,7 @@ Ids ids_of(PointsView points, TrianglesView triangles)
 }
 
 bool improve(
-  const Ids& ids, const RegionBoundary& region, MesherAnswer& answer, ExecutionContext& context)
+  ExecutionContext& context, const Ids& ids, const RegionBoundary& region, MesherAnswer& answer)
 {
   MesherData& data = answer.data;
   for (Index t = 0; t < data.tets.rows(); ++t)
@@ -102,9 +102,9 @@ bool improve(
   TetMesh mesh{ std::move(data.points), std::move(data.tets) };
   Improvement done;
   const bool whole = improve_tets(
-    mesh, std::move(held),
+    context, mesh, std::move(held),
     [&](Vec3& p, const Vec3& n, double reach) { return region.onto_boundary(p, n, reach); },
-    ImproveOptions(), done, context);
+    ImproveOptions(), done);
   data.points = std::move(mesh.points);
   data.tets = std::move(mesh.tets);
   return whole;
@@ -150,8 +150,8 @@ void number_vertices(const Ids& ids, const MesherData& data, RemeshResult& resul
 }
 } // namespace
 
-Status remesh_tets(PointsView points, TrianglesView triangles, const WindingNumber& winding,
-  const RemeshOptions& options, RemeshResult& result, ExecutionContext& context)
+Status remesh_tets(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const WindingNumber& winding, const RemeshOptions& options, RemeshResult& result)
 {
   result = RemeshResult();
   Status status = check_input(points, triangles, options);
@@ -173,7 +173,7 @@ Status remesh_tets(PointsView points, TrianglesView triangles, const WindingNumb
     MesherData data;
     data.points = points;
     data.triangles = triangles;
-    status = run_mesher(request, data, answer, context);
+    status = run_mesher(context, request, data, answer);
   }
   if (!status.ok())
   {
@@ -187,7 +187,7 @@ Status remesh_tets(PointsView points, TrianglesView triangles, const WindingNumb
       short_number(options.winding_threshold) + " on both sides of every triangle");
   }
   const Ids ids = ids_of(points, triangles);
-  if (!improve(ids, region, answer, context))
+  if (!improve(context, ids, region, answer))
   {
     return Status::canceled();
   }
@@ -203,7 +203,7 @@ Status remesh_tets(PointsView points, TrianglesView triangles, const WindingNumb
     static_cast<Index>(answer.report.number("counts.boundary_vertices", 0.0));
   status.report.set("counts.boundary_vertices", Report::Value(result.boundary_vertices));
   const Phase phase(context, "distance", 0.9, 1.0);
-  if (!measure_distance(result.mesh, region, result.distance, context))
+  if (!measure_distance(context, result.mesh, region, result.distance))
   {
     result = RemeshResult();
     return Status::canceled();

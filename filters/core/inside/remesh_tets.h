@@ -53,8 +53,8 @@ struct RemeshResult
 /// Return invalid_input if a coordinate is not finite, an id is out of range, the surface is flat,
 /// an option is out of range, or the surface encloses no volume; unavailable if there is no helper;
 /// internal_error if the helper failed or exceeded its time limit. Cost: 50 us per tet.
-Status remesh_tets(PointsView points, TrianglesView triangles, const WindingNumber& winding,
-  const RemeshOptions& options, RemeshResult& result, ExecutionContext& context);
+Status remesh_tets(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const WindingNumber& winding, const RemeshOptions& options, RemeshResult& result);
 
 } // namespace bindpose
 

@@ -25,8 +25,8 @@ struct Sample
 /// Collect the center and the corners of each triangle as samples. The center represents two thirds
 /// of the triangle's area, and the three corners together represent one third.
 template <typename AtCenter, typename AtCorner>
-bool collect(PointsView points, TrianglesView triangles, const AtCenter& at_center,
-  const AtCorner& at_corner, std::vector<Sample>& samples, ExecutionContext& context)
+bool collect(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const AtCenter& at_center, const AtCorner& at_corner, std::vector<Sample>& samples)
 {
   const Index n = triangles.rows();
   samples.assign(static_cast<std::size_t>(n + points.rows()), Sample());
@@ -64,8 +64,8 @@ bool collect(PointsView points, TrianglesView triangles, const AtCenter& at_cent
   return whole;
 }
 
-bool measure(const std::vector<Sample>& samples, const TriangleTree& tree,
-  SurfaceDistance& distance, ExecutionContext& context)
+bool measure(ExecutionContext& context, const std::vector<Sample>& samples,
+  const TriangleTree& tree, SurfaceDistance& distance)
 {
   std::vector<double> distances(samples.size(), 0.0);
   constexpr Index block = 64;
@@ -118,8 +118,8 @@ private:
 };
 } // namespace
 
-bool measure_distance(const TetMesh& mesh, const RegionBoundary& region, SurfaceDistance& distance,
-  ExecutionContext& context)
+bool measure_distance(ExecutionContext& context, const TetMesh& mesh, const RegionBoundary& region,
+  SurfaceDistance& distance)
 {
   distance = SurfaceDistance();
   const Triangles skin = boundary_triangles(mesh.tets);
@@ -134,10 +134,10 @@ bool measure_distance(const TetMesh& mesh, const RegionBoundary& region, Surface
   {
     const ProgressRange range(context, 0.0, 0.5);
     if (!collect(
-          region.points(), region.triangles(),
+          context, region.points(), region.triangles(),
           [&](Index f, const Vec3& center) { return region.bounded_at(f, center); },
-          [&](Index f, int k, bool) { return region.bounded_at_corner(f, k); }, samples, context) ||
-      !measure(samples, skin_tree, distance, context))
+          [&](Index f, int k, bool) { return region.bounded_at_corner(f, k); }, samples) ||
+      !measure(context, samples, skin_tree, distance))
     {
       return false;
     }
@@ -160,9 +160,9 @@ bool measure_distance(const TetMesh& mesh, const RegionBoundary& region, Surface
   // A vertex is a sample if one of its triangles is not part of a lid. This includes the vertices
   // at the border of a lid, which is acceptable because the surface is near them.
   return collect(
-           mesh.points, skin, on_surface, [](Index, int, bool counts) { return counts; }, samples,
-           context) &&
-    measure(samples, surface_tree, distance, context);
+           context, mesh.points, skin, on_surface, [](Index, int, bool counts) { return counts; },
+           samples) &&
+    measure(context, samples, surface_tree, distance);
 }
 
 } // namespace bindpose

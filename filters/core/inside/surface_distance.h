@@ -21,8 +21,8 @@ struct SurfaceDistance
 /// there, the region ends without a triangle. Parts of the region without tets, and tets outside
 /// the region, increase the distances. Cost: about 10 us per sample.
 /// @return false if canceled.
-bool measure_distance(const TetMesh& mesh, const RegionBoundary& region, SurfaceDistance& distance,
-  ExecutionContext& context);
+bool measure_distance(ExecutionContext& context, const TetMesh& mesh, const RegionBoundary& region,
+  SurfaceDistance& distance);
 
 } // namespace bindpose
 

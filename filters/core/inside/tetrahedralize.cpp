@@ -51,8 +51,8 @@ Status no_method_fits(Status status)
 class Ladder
 {
 public:
-  Ladder(PointsView points, TrianglesView triangles, PreparedSurface& prepared,
-    const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context)
+  Ladder(ExecutionContext& context, PointsView points, TrianglesView triangles,
+    PreparedSurface& prepared, const TetrahedralizeOptions& options, TetrahedralizeResult& result)
     : points_(points), triangles_(triangles), options_(options), result_(result), context_(context),
       surface_(prepared.surface), inside_(prepared.inside),
       box_(bounding_box(prepared.surface.points)),
@@ -147,7 +147,7 @@ private:
       return no_method_fits(specks);
     }
     const CdtOptions options = this->cdt_options();
-    CdtTets cdt(this->surface_, this->inside_, options, this->log_, this->context_);
+    CdtTets cdt(this->context_, this->surface_, this->inside_, options, this->log_);
     Status status;
     {
       const Phase phase(this->context_, "cdt", 0.0, cdt_built);
@@ -325,8 +325,8 @@ private:
       const Phase phase(this->context_, "lattice", 0.0, 1.0);
       const Lattice lattice = Lattice::around(this->box_, resolution);
       TetMesh& mesh = this->result_.mesh;
-      Status status = stuff_lattice(this->inside_.winding(), lattice, this->box_,
-        this->options_.winding_threshold, mesh, this->context_);
+      Status status = stuff_lattice(this->context_, this->inside_.winding(), lattice, this->box_,
+        this->options_.winding_threshold, mesh);
       if (!status.ok())
       {
         return status;
@@ -403,8 +403,8 @@ private:
         patience + per_triangle * static_cast<double>(this->surface_.triangles.rows()) });
     }
     RemeshResult result;
-    Status status = remesh_tets(this->surface_.points, this->surface_.triangles,
-      this->inside_.winding(), options, result, this->context_);
+    Status status = remesh_tets(this->context_, this->surface_.points, this->surface_.triangles,
+      this->inside_.winding(), options, result);
     if (status.ok())
     {
       const double volume = tet_volumes(result.mesh.points, result.mesh.tets).sum();
@@ -443,7 +443,7 @@ private:
     options.tets = this->options_.lattice_tets;
     EmbeddingTets embedding;
     const Status status = embed_surface(
-      this->points_, this->triangles_, this->inside_.winding(), options, embedding, this->context_);
+      this->context_, this->points_, this->triangles_, this->inside_.winding(), options, embedding);
     this->log("lattice of " + std::to_string(embedding.resolution) + " cubes", start, status);
     if (!status.ok())
     {
@@ -478,7 +478,7 @@ private:
     CdtOptions options = this->cdt_options();
     options.segmentation.winding_threshold = wrap_threshold;
     options.time_limit = std::max(this->time_left(), 1.0);
-    CdtTets cdt(wrap, around, options, this->log_, this->context_);
+    CdtTets cdt(this->context_, wrap, around, options, this->log_);
     {
       const Phase phase(this->context_, "cdt", 0.5, 0.7);
       // Fraction of the time limit for build(); the rest is for inserting vertices inside.
@@ -522,8 +522,8 @@ private:
     Status status;
     {
       const ProgressRange range(this->context_, 0.0, 0.8);
-      status = wrap_surface(this->surface_.points, this->surface_.triangles, options, points,
-        triangles, this->context_);
+      status = wrap_surface(this->context_, this->surface_.points, this->surface_.triangles,
+        options, points, triangles);
     }
     this->log("alpha wrap", start, status);
     const ProgressRange range(this->context_, 0.8, 1.0);
@@ -531,10 +531,10 @@ private:
     {
       RepairOptions as_it_is;
       as_it_is.orient = false;
-      status = repair_surface(points, triangles, as_it_is, wrap, this->context_);
+      status = repair_surface(this->context_, points, triangles, as_it_is, wrap);
     }
     bool turned = false;
-    return status.ok() ? around.build(wrap, wrap_threshold, turned, this->context_) : status;
+    return status.ok() ? around.build(this->context_, wrap, wrap_threshold, turned) : status;
   }
 
   Status ftetwild()
@@ -548,8 +548,8 @@ private:
     Status status;
     {
       const Phase phase(this->context_, "ftetwild", 0.0, 0.9);
-      status = run_ftetwild(this->surface_.points, this->surface_.triangles, options,
-        this->result_.mesh, this->context_);
+      status = run_ftetwild(this->context_, this->surface_.points, this->surface_.triangles,
+        options, this->result_.mesh);
     }
     if (status.ok())
     {
@@ -593,7 +593,7 @@ private:
     const RegionBoundary region(this->surface_.points, this->surface_.triangles,
       this->inside_.winding(), this->options_.winding_threshold);
     SurfaceDistance distance;
-    if (!measure_distance(this->result_.mesh, region, distance, this->context_))
+    if (!measure_distance(this->context_, this->result_.mesh, region, distance))
     {
       return Status::canceled();
     }
@@ -636,7 +636,7 @@ private:
     {
       const Points centers = centers_of(mesh.points, mesh.tets);
       status =
-        this->inside_.winding().evaluate(centers, this->context_, this->result_.winding_numbers);
+        this->inside_.winding().evaluate(this->context_, centers, this->result_.winding_numbers);
       if (!status.usable())
       {
         return status;
@@ -654,8 +654,8 @@ private:
     this->report_.set("counts.tets_below_5_degrees_forced",
       Report::Value(quality.below_5_degrees == 0
           ? Index(0)
-          : count_forced_tets(mesh.points, mesh.tets, this->result_.min_dihedral_angles,
-              sliver_angle, this->context_)));
+          : count_forced_tets(this->context_, mesh.points, mesh.tets,
+              this->result_.min_dihedral_angles, sliver_angle)));
     if (this->inside_tets_.empty())
     {
       this->report_.set("volume", Report::Value(quality.volume));
@@ -854,8 +854,8 @@ Status failed(Status status, const PreparedSurface& prepared)
 }
 } // namespace
 
-Status tetrahedralize(PointsView points, TrianglesView triangles,
-  const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context)
+Status tetrahedralize(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const TetrahedralizeOptions& options, TetrahedralizeResult& result)
 {
   result = TetrahedralizeResult();
   Status status = check_options(options);
@@ -866,18 +866,18 @@ Status tetrahedralize(PointsView points, TrianglesView triangles,
   PreparedSurface prepared;
   {
     const ProgressRange range(context, 0.0, 0.15);
-    status = prepare_surface(points, triangles, options.winding_threshold, prepared, context);
+    status = prepare_surface(context, points, triangles, options.winding_threshold, prepared);
   }
   if (!status.ok())
   {
     return failed(std::move(status), prepared);
   }
   const ProgressRange range(context, 0.15, 1.0);
-  return tetrahedralize(points, triangles, prepared, options, result, context);
+  return tetrahedralize(context, points, triangles, prepared, options, result);
 }
 
-Status tetrahedralize(PointsView points, TrianglesView triangles, PreparedSurface& prepared,
-  const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context)
+Status tetrahedralize(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  PreparedSurface& prepared, const TetrahedralizeOptions& options, TetrahedralizeResult& result)
 {
   result = TetrahedralizeResult();
   Status status = check_options(options);
@@ -888,17 +888,17 @@ Status tetrahedralize(PointsView points, TrianglesView triangles, PreparedSurfac
         ", but the surface was prepared with a winding_threshold of " +
         short_number(prepared.winding_threshold));
   }
-  return status.ok() ? Ladder(points, triangles, prepared, options, result, context).run() : status;
+  return status.ok() ? Ladder(context, points, triangles, prepared, options, result).run() : status;
 }
 
-Status take_embedding(PointsView points, TrianglesView triangles, PreparedSurface& prepared,
-  EmbeddingTets embedding, TetrahedralizeResult& result, ExecutionContext& context)
+Status take_embedding(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  PreparedSurface& prepared, EmbeddingTets embedding, TetrahedralizeResult& result)
 {
   result = TetrahedralizeResult();
   TetrahedralizeOptions options;
   options.method = TetMethod::embed;
   options.winding_threshold = prepared.winding_threshold;
-  return Ladder(points, triangles, prepared, options, result, context).run(std::move(embedding));
+  return Ladder(context, points, triangles, prepared, options, result).run(std::move(embedding));
 }
 
 } // namespace bindpose

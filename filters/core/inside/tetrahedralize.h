@@ -192,19 +192,19 @@ struct TetrahedralizeResult
 /// - internal_error: the requested method gave no valid mesh.
 ///
 /// Cost: about 0.1 ms per triangle, and up to 1 ms if many triangles are needles or cross.
-Status tetrahedralize(PointsView points, TrianglesView triangles,
-  const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context);
+Status tetrahedralize(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const TetrahedralizeOptions& options, TetrahedralizeResult& result);
 
 /// Compute the tets as above for a surface from prepare_surface(). The points, triangles and
 /// winding threshold must be the same as in the preparation; a different threshold gives
 /// invalid_input.
-Status tetrahedralize(PointsView points, TrianglesView triangles, PreparedSurface& prepared,
-  const TetrahedralizeOptions& options, TetrahedralizeResult& result, ExecutionContext& context);
+Status tetrahedralize(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  PreparedSurface& prepared, const TetrahedralizeOptions& options, TetrahedralizeResult& result);
 
 /// Complete method embed from tets that embed_surface() has computed for the prepared surface: set
 /// winding numbers, labels, angles and the report. Cost: one winding number per tet.
-Status take_embedding(PointsView points, TrianglesView triangles, PreparedSurface& prepared,
-  EmbeddingTets embedding, TetrahedralizeResult& result, ExecutionContext& context);
+Status take_embedding(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  PreparedSurface& prepared, EmbeddingTets embedding, TetrahedralizeResult& result);
 
 } // namespace bindpose
 

@@ -98,8 +98,8 @@ Triangles missed_triangles(PointsView points, TrianglesView triangles, const Lat
 }
 } // namespace
 
-Status thick_solid(PointsView points, TrianglesView triangles, const WindingNumber& winding,
-  const ThickSolidOptions& options, TriangleMesh& solid, ExecutionContext& context)
+Status thick_solid(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const WindingNumber& winding, const ThickSolidOptions& options, TriangleMesh& solid)
 {
   solid = TriangleMesh();
   const Box box = bounding_box(points, triangles);
@@ -112,7 +112,7 @@ Status thick_solid(PointsView points, TrianglesView triangles, const WindingNumb
   {
     const Phase phase(context, "sample", 0.0, 0.4);
     Eigen::VectorXd w;
-    status = sample_lattice(winding, lattice, w, context);
+    status = sample_lattice(context, winding, lattice, w);
     if (!status.ok())
     {
       return status;
@@ -159,7 +159,7 @@ Status thick_solid(PointsView points, TrianglesView triangles, const WindingNumb
   region.bisections = 4;
   const ProgressRange range(context, 0.6, 1.0);
   TetMesh tets;
-  status = stuff_lattice(lattice, region, tets, context);
+  status = stuff_lattice(context, lattice, region, tets);
   if (!status.ok())
   {
     return status;

@@ -37,8 +37,8 @@ struct ThickSolidOptions
 /// @return canceled or ok. The surface must have a diagonal above 0 (check_frame). Cost: about 1 us
 /// per triangle, 1 us per lattice vertex and 10 us per triangle of the result, in addition to the
 /// winding numbers of the lattice vertices.
-Status thick_solid(PointsView points, TrianglesView triangles, const WindingNumber& winding,
-  const ThickSolidOptions& options, TriangleMesh& solid, ExecutionContext& context);
+Status thick_solid(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const WindingNumber& winding, const ThickSolidOptions& options, TriangleMesh& solid);
 
 } // namespace bindpose
 

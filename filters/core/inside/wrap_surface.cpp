@@ -31,8 +31,8 @@ Status check_options(const WrapOptions& options)
 }
 } // namespace
 
-Status wrap_surface(PointsView points, TrianglesView triangles, const WrapOptions& options,
-  Points& wrap_points, Triangles& wrap_triangles, ExecutionContext& context)
+Status wrap_surface(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const WrapOptions& options, Points& wrap_points, Triangles& wrap_triangles)
 {
   wrap_points.resize(0, 3);
   wrap_triangles.resize(0, 3);
@@ -57,7 +57,7 @@ Status wrap_surface(PointsView points, TrianglesView triangles, const WrapOption
   input.points = frame.into(points);
   input.triangles = triangles;
   MesherAnswer answer;
-  status = run_mesher(request, input, answer, context);
+  status = run_mesher(context, request, input, answer);
   if (!status.ok())
   {
     return status;

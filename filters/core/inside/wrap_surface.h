@@ -43,8 +43,8 @@ struct WrapOptions
 /// is no helper; internal_error if the helper failed or exceeded its time or memory limit. Cost:
 /// about 0.13 ms per triangle of the wrap. With the defaults the wrap of an elephant has 5,000
 /// triangles, with half the alpha 12,000.
-Status wrap_surface(PointsView points, TrianglesView triangles, const WrapOptions& options,
-  Points& wrap_points, Triangles& wrap_triangles, ExecutionContext& context);
+Status wrap_surface(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const WrapOptions& options, Points& wrap_points, Triangles& wrap_triangles);
 
 } // namespace bindpose
 

@@ -46,13 +46,13 @@ Status check_vdb_available()
 }
 
 Status write_vdb(
-  const std::string&, const SampleGrid&, const float*, const VdbOptions&, ExecutionContext&)
+  ExecutionContext&, const std::string&, const SampleGrid&, const float*, const VdbOptions&)
 {
   return check_vdb_available();
 }
 
 Status write_vdb(
-  const std::string&, const SampleGrid&, const double*, const VdbOptions&, ExecutionContext&)
+  ExecutionContext&, const std::string&, const SampleGrid&, const double*, const VdbOptions&)
 {
   return check_vdb_available();
 }
@@ -233,8 +233,8 @@ void spread_along_line(
 /// axis.
 /// @return false if canceled.
 template <typename Value>
-bool find_sides(const SampleGrid& grid, const Value* values, const VdbOptions& options,
-  ExecutionContext& context, Sides& sides)
+bool find_sides(ExecutionContext& context, const SampleGrid& grid, const Value* values,
+  const VdbOptions& options, Sides& sides)
 {
   const Phase phase(context, "band", 0.0, 0.3);
   const auto threshold = static_cast<float>(options.threshold);
@@ -337,8 +337,8 @@ struct Block
 /// @param not_finite set to the first sample that is not a finite float, or -1.
 /// @return false if canceled.
 template <typename Value>
-bool make_tree(const SampleGrid& grid, const Value* values, const Sides& sides,
-  const VdbOptions& options, ExecutionContext& context, openvdb::FloatTree& tree, Index& not_finite)
+bool make_tree(ExecutionContext& context, const SampleGrid& grid, const Value* values,
+  const Sides& sides, const VdbOptions& options, openvdb::FloatTree& tree, Index& not_finite)
 {
   const Phase phase(context, "grid", options.band == VdbBand::narrow ? 0.3 : 0.0, 0.6);
   const Blocks blocks(grid);
@@ -503,7 +503,7 @@ std::string uuid_of(std::uint64_t first, std::uint64_t second)
 /// file. Programs use the UUID to detect changes of a file.
 /// @return false if the file cannot be read or written.
 bool replace_uuid_by_hash(
-  const std::string& path, const std::string& tag, ExecutionContext& context)
+  ExecutionContext& context, const std::string& path, const std::string& tag)
 {
   std::fstream file(path, std::ios::in | std::ios::out | std::ios::binary);
   std::vector<char> chunk(1 << 20);
@@ -535,8 +535,8 @@ bool replace_uuid_by_hash(
   return !file.fail();
 }
 
-Status write_file(const std::string& path, const openvdb::FloatGrid::Ptr& grid,
-  const VdbOptions& options, ExecutionContext& context, std::streamoff& bytes)
+Status write_file(ExecutionContext& context, const std::string& path,
+  const openvdb::FloatGrid::Ptr& grid, const VdbOptions& options, std::streamoff& bytes)
 {
   const Phase phase(context, "write", 0.6, 1.0);
   AtomicFile file;
@@ -575,7 +575,7 @@ Status write_file(const std::string& path, const openvdb::FloatGrid::Ptr& grid,
     written = false;
   }
   written = buffer.close() && written;
-  written = written && replace_uuid_by_hash(file.temporary(), archive.getUniqueTag(), context);
+  written = written && replace_uuid_by_hash(context, file.temporary(), archive.getUniqueTag());
   if (context.canceled())
   {
     return Status::canceled();
@@ -584,8 +584,8 @@ Status write_file(const std::string& path, const openvdb::FloatGrid::Ptr& grid,
 }
 
 template <typename Value>
-Status write_any(const std::string& path, const SampleGrid& samples, const Value* values,
-  const VdbOptions& options, ExecutionContext& context)
+Status write_any(ExecutionContext& context, const std::string& path, const SampleGrid& samples,
+  const Value* values, const VdbOptions& options)
 {
   Status status = check(samples, options);
   if (status.ok())
@@ -598,7 +598,7 @@ Status write_any(const std::string& path, const SampleGrid& samples, const Value
   }
   openvdb::initialize(); // this function may be called repeatedly and from any thread
   Sides sides;
-  if (options.band == VdbBand::narrow && !find_sides(samples, values, options, context, sides))
+  if (options.band == VdbBand::narrow && !find_sides(context, samples, values, options, sides))
   {
     return Status::canceled();
   }
@@ -610,7 +610,7 @@ Status write_any(const std::string& path, const SampleGrid& samples, const Value
       : openvdb::GRID_UNKNOWN);
   grid->setTransform(make_transform(samples, options));
   Index not_finite = -1;
-  if (!make_tree(samples, values, sides, options, context, grid->tree(), not_finite))
+  if (!make_tree(context, samples, values, sides, options, grid->tree(), not_finite))
   {
     return Status::canceled();
   }
@@ -620,7 +620,7 @@ Status write_any(const std::string& path, const SampleGrid& samples, const Value
       "the value of sample " + std::to_string(not_finite) + " must be a finite float");
   }
   std::streamoff bytes = 0;
-  status = write_file(path, grid, options, context, bytes);
+  status = write_file(context, path, grid, options, bytes);
   if (!status.ok())
   {
     return status;
@@ -645,16 +645,16 @@ Status check_vdb_available()
   return {};
 }
 
-Status write_vdb(const std::string& path, const SampleGrid& grid, const float* values,
-  const VdbOptions& options, ExecutionContext& context)
+Status write_vdb(ExecutionContext& context, const std::string& path, const SampleGrid& grid,
+  const float* values, const VdbOptions& options)
 {
-  return write_any(path, grid, values, options, context);
+  return write_any(context, path, grid, values, options);
 }
 
-Status write_vdb(const std::string& path, const SampleGrid& grid, const double* values,
-  const VdbOptions& options, ExecutionContext& context)
+Status write_vdb(ExecutionContext& context, const std::string& path, const SampleGrid& grid,
+  const double* values, const VdbOptions& options)
 {
-  return write_any(path, grid, values, options, context);
+  return write_any(context, path, grid, values, options);
 }
 
 #endif

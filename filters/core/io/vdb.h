@@ -78,10 +78,10 @@ Status check_vdb_available();
 /// per voxel in leaf nodes. Cost on one core: 11 ns per sample (narrow: 33 ns), plus 30 ns per
 /// voxel in leaf nodes for compression. Memory: 5 bytes per voxel in leaf nodes (narrow: plus one
 /// byte per sample).
-Status write_vdb(const std::string& path, const SampleGrid& grid, const float* values,
-  const VdbOptions& options, ExecutionContext& context);
-Status write_vdb(const std::string& path, const SampleGrid& grid, const double* values,
-  const VdbOptions& options, ExecutionContext& context);
+Status write_vdb(ExecutionContext& context, const std::string& path, const SampleGrid& grid,
+  const float* values, const VdbOptions& options);
+Status write_vdb(ExecutionContext& context, const std::string& path, const SampleGrid& grid,
+  const double* values, const VdbOptions& options);
 
 } // namespace bindpose
 

@@ -384,7 +384,7 @@ int FloatCholesky::Impl::eliminate(int s)
 }
 
 Status FloatCholesky::factor(
-  const SparseMatrix& matrix, double shift, const ExecutionContext& context)
+  const ExecutionContext& context, const SparseMatrix& matrix, double shift)
 {
   Impl& impl = *this->impl_;
   if (!impl.plan || matrix.rows() != impl.plan->size() ||
@@ -429,7 +429,7 @@ int FloatCholesky::Impl::eliminate(int)
   return 0;
 }
 void FloatCholesky::Impl::find_runs(int, int) {}
-Status FloatCholesky::factor(const SparseMatrix&, double, const ExecutionContext&)
+Status FloatCholesky::factor(const ExecutionContext&, const SparseMatrix&, double)
 {
   return Status::failure(StatusCode::unavailable, "this build has no BLAS");
 }

@@ -41,7 +41,7 @@ public:
   /// matrix. The status is invalid_input if the sum is not positive definite in single precision;
   /// the message contains the unknown whose pivot failed. A cancel request is checked between dense
   /// blocks.
-  Status factor(const SparseMatrix& matrix, double shift, const ExecutionContext& context);
+  Status factor(const ExecutionContext& context, const SparseMatrix& matrix, double shift);
   /// Solve approximately with the last factorization. Several threads may call this function
   /// concurrently.
   void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const;

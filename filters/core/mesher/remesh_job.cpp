@@ -253,7 +253,7 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
   const Stopwatch clock;
   ExecutionContext context;
   WindingNumber winding;
-  const Status status = winding.build(data.points, data.triangles, context);
+  const Status status = winding.build(context, data.points, data.triangles);
   if (!status.usable())
   {
     return status.message;
@@ -263,7 +263,7 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
   sampling.smallest = options.smallest_edge;
   sampling.largest = options.largest_edge;
   BoundarySites sites;
-  sample_boundary(region, sampling, sites, context);
+  sample_boundary(context, region, sampling, sites);
   tell_report("counts.boundary_vertices", static_cast<double>(sites.vertices.size()));
   if (sites.points.rows() == 0)
   {

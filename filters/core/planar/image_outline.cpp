@@ -48,7 +48,7 @@ public:
   {
   }
 
-  Status run(Contour& contour, Index& inside, ExecutionContext& context)
+  Status run(ExecutionContext& context, Contour& contour, Index& inside)
   {
     inside = 0;
     for (Index row = -1; row < this->rows_; ++row) // cells between row and row + 1
@@ -350,7 +350,7 @@ public:
     }
   }
 
-  Status run(double tolerance, ExecutionContext& context)
+  Status run(ExecutionContext& context, double tolerance)
   {
     constexpr double first = 0.25;
     for (bool fewer = true; fewer;)
@@ -539,8 +539,8 @@ private:
 };
 } // namespace
 
-Status image_outline(Index columns, Index rows, const AlphaRow& alpha,
-  const ImageOutlineOptions& options, ImageOutline& outline, ExecutionContext& context)
+Status image_outline(ExecutionContext& context, Index columns, Index rows, const AlphaRow& alpha,
+  const ImageOutlineOptions& options, ImageOutline& outline)
 {
   outline = ImageOutline();
   const Phase phase(context, "outline");
@@ -561,7 +561,7 @@ Status image_outline(Index columns, Index rows, const AlphaRow& alpha,
   Status status;
   {
     const ProgressRange range(context, 0.0, 0.7);
-    status = MarchingSquares(columns, rows, alpha, options.threshold).run(contour, inside, context);
+    status = MarchingSquares(columns, rows, alpha, options.threshold).run(context, contour, inside);
   }
   if (status.ok() && inside == 0)
   {
@@ -581,7 +581,7 @@ Status image_outline(Index columns, Index rows, const AlphaRow& alpha,
   if (options.simplify > 0.0)
   {
     const ProgressRange range(context, 0.7, 1.0);
-    const Status simplified = simplifier.run(options.simplify, context);
+    const Status simplified = simplifier.run(context, options.simplify);
     if (!simplified.ok())
     {
       return simplified;

@@ -48,8 +48,8 @@ struct ImageOutline
 /// counts.loops. Return invalid_input if there are no pixels or no inside pixels, if the threshold
 /// or the tolerance is out of range, or if the outline has more than 2^25 contour points.
 /// Cost: 5 ns per pixel and 1 us per contour point.
-Status image_outline(Index columns, Index rows, const AlphaRow& alpha,
-  const ImageOutlineOptions& options, ImageOutline& outline, ExecutionContext& context);
+Status image_outline(ExecutionContext& context, Index columns, Index rows, const AlphaRow& alpha,
+  const ImageOutlineOptions& options, ImageOutline& outline);
 
 } // namespace bindpose
 

@@ -106,8 +106,8 @@ private:
 class Builder
 {
 public:
-  Builder(PlanePointsView points, SegmentsView segments, const PlanarHandles& handles,
-    const PlanarShapeOptions& options, ExecutionContext& context)
+  Builder(ExecutionContext& context, PlanePointsView points, SegmentsView segments,
+    const PlanarHandles& handles, const PlanarShapeOptions& options)
     : points_(points), segments_(segments), input_handles_(handles), options_(options),
       context_(context)
   {
@@ -267,7 +267,7 @@ Status Builder::run_job(
       "the time limit of " + short_number(this->options_.time_limit) +
         " s was reached before the step " + arguments.front());
   }
-  return run_mesher(request, this->data_, answer, this->context_);
+  return run_mesher(this->context_, request, this->data_, answer);
 }
 
 Status Builder::arrange()
@@ -336,12 +336,12 @@ double Builder::smallest_height() const
 Status Builder::keep()
 {
   const Phase phase(this->context_, "winding", 0.4, 0.5);
-  Status status = this->winding_.build(this->curve_points_, this->curves_, this->context_);
+  Status status = this->winding_.build(this->context_, this->curve_points_, this->curves_);
   if (status.ok() && status.report.number("area", 0.0) < 0.0)
   {
     this->turned_ = true;
     this->curves_.col(0).swap(this->curves_.col(1));
-    status = this->winding_.build(this->curve_points_, this->curves_, this->context_);
+    status = this->winding_.build(this->context_, this->curve_points_, this->curves_);
   }
   if (!status.ok())
   {
@@ -612,8 +612,8 @@ Status Builder::run(PlanarShape& shape)
 }
 } // namespace
 
-Status planar_shape(PlanePointsView points, SegmentsView segments, const PlanarHandles& handles,
-  const PlanarShapeOptions& options, PlanarShape& shape, ExecutionContext& context)
+Status planar_shape(ExecutionContext& context, PlanePointsView points, SegmentsView segments,
+  const PlanarHandles& handles, const PlanarShapeOptions& options, PlanarShape& shape)
 {
   shape = PlanarShape();
   Status status = check_options(options);
@@ -641,7 +641,7 @@ Status planar_shape(PlanePointsView points, SegmentsView segments, const PlanarH
   {
     return Status::canceled();
   }
-  return Builder(points, segments, handles, options, context).run(shape);
+  return Builder(context, points, segments, handles, options).run(shape);
 }
 
 } // namespace bindpose

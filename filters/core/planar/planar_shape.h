@@ -73,8 +73,8 @@ struct PlanarShape
 /// - unavailable: the helper executable bindpose-mesher is missing;
 /// - internal_error: the helper failed, or the curves cross too often.
 /// Cost: about 20 us per segment and 4 us per triangle, plus 20 ms for starting the helper.
-Status planar_shape(PlanePointsView points, SegmentsView segments, const PlanarHandles& handles,
-  const PlanarShapeOptions& options, PlanarShape& shape, ExecutionContext& context);
+Status planar_shape(ExecutionContext& context, PlanePointsView points, SegmentsView segments,
+  const PlanarHandles& handles, const PlanarShapeOptions& options, PlanarShape& shape);
 
 } // namespace bindpose
 

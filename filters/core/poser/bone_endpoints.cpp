@@ -73,7 +73,7 @@ Status solve_on_surface(ExecutionContext& context, const Domain& shape, const Ha
   options.places = places_of(handles);
   SurfaceWeights result;
   Status status = surface_weights(
-    shape.points, shape.triangles, {}, handles, options, {}, method, context, result);
+    context, shape.points, shape.triangles, {}, handles, options, {}, method, result);
   weights = std::move(result.weights);
   return status;
 }
@@ -83,10 +83,10 @@ Status solve_in_tets(ExecutionContext& context, const Domain& shape, const Handl
 {
   WeightsProblem problem;
   WeightsResult result;
-  Status status = make_weights_problem(shape, {}, handles, {}, context, problem);
+  Status status = make_weights_problem(context, shape, {}, handles, {}, problem);
   if (status.usable())
   {
-    status = method(problem, context, result);
+    status = method(context, problem, result);
   }
   if (status.usable())
   {
@@ -101,15 +101,15 @@ Status solve_endpoint_weights(ExecutionContext& context, const Domain& shape,
   const Handles& handles, EndpointMethod method, WeightsDomain domain, Weights& endpoints)
 {
   const WeightsMethod bounded =
-    [](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& result)
-  { return bounded_biharmonic_weights(problem, {}, of_method, result); };
-  const BoundedSolve solve = [&](const Handles& ends, ExecutionContext& of_solve,
+    [](ExecutionContext& of_method, const WeightsProblem& problem, WeightsResult& result)
+  { return bounded_biharmonic_weights(of_method, problem, {}, result); };
+  const BoundedSolve solve = [&](ExecutionContext& of_solve, const Handles& ends,
                                Weights& weights) -> Status
   {
     return shape.is_volume() ? solve_in_tets(of_solve, shape, ends, bounded, weights)
                              : solve_on_surface(of_solve, shape, ends, domain, bounded, weights);
   };
-  return endpoint_weights(shape.points, handles, method, solve, context, endpoints);
+  return endpoint_weights(context, shape.points, handles, method, solve, endpoints);
 }
 
 } // namespace bindpose

@@ -21,7 +21,7 @@ Status weights_on_surface(
   domain.points = source.tet_points;
   domain.tets = source.tets;
   TransferCounts counts;
-  const Status status = transfer(domain, in_tets, source.points, {}, context, weights, counts);
+  const Status status = transfer(context, domain, in_tets, source.points, {}, weights, counts);
   if (status.usable())
   {
     weights.leftCols(source.weights.cols()) = source.weights;

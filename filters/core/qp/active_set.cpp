@@ -31,9 +31,9 @@ Certificate certify_column(const SplitForm& matrices, const BoxQpColumn& column,
 }
 } // namespace
 
-BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
-  const BoxQpColumn& column, const ColumnStart& start, const InverseForm& inverse,
-  BoxQpWorkspace& workspace, ExecutionContext& context)
+BoxQpSolution active_set(ExecutionContext& context, const SplitForm& matrices,
+  const BoxQpOptions& options, const BoxQpColumn& column, const ColumnStart& start,
+  const InverseForm& inverse, BoxQpWorkspace& workspace)
 {
   const Stopwatch watch;
   constexpr int most_factorizations = 10;
@@ -78,7 +78,7 @@ BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
     std::copy(matrices.lower.valuePtr(), matrices.lower.valuePtr() + matrices.lower.nonZeros(),
       workspace.matrix.valuePtr());
     SplitForm::decouple(held, workspace.matrix);
-    const Status factored = workspace.single.factor(workspace.matrix, 0.0, context);
+    const Status factored = workspace.single.factor(context, workspace.matrix, 0.0);
     solution.factorizations += 1;
     solution.factor_seconds += factor_watch.seconds();
     if (!factored.ok())
@@ -87,8 +87,8 @@ BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
       break;
     }
     moved = projected_newton(
-      matrices, problem, [&](const VectorXd& r, VectorXd& z) { workspace.single.solve(r, z); },
-      rounds, enough, context, x);
+      context, matrices, problem,
+      [&](const VectorXd& r, VectorXd& z) { workspace.single.solve(r, z); }, rounds, enough, x);
     solution.iterations += 1;
   }
   // After the maximum number of iterations, a certified iterate is a valid result even if the

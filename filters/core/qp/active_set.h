@@ -19,9 +19,9 @@ namespace bindpose
 /// @param inverse multiplies a vector by A^-1, for the certificate; called rarely.
 /// @return the solution. If the guess was not good enough, the status is not_converged, and the
 /// weights are those of the last iteration.
-BoxQpSolution active_set(const SplitForm& matrices, const BoxQpOptions& options,
-  const BoxQpColumn& column, const ColumnStart& start, const InverseForm& inverse,
-  BoxQpWorkspace& workspace, ExecutionContext& context);
+BoxQpSolution active_set(ExecutionContext& context, const SplitForm& matrices,
+  const BoxQpOptions& options, const BoxQpColumn& column, const ColumnStart& start,
+  const InverseForm& inverse, BoxQpWorkspace& workspace);
 
 } // namespace bindpose
 

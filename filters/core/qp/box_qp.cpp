@@ -119,10 +119,10 @@ struct BoxQp::Impl : SplitForm
   /// @return false if this accuracy is not reached. Possible reasons: the memory does not suffice
   /// for a factor in double precision, or the context is canceled.
   bool solve_a(
-    const Eigen::MatrixXd& rhs, const ExecutionContext* context, Eigen::MatrixXd& x) const
+    const ExecutionContext* context, const Eigen::MatrixXd& rhs, Eigen::MatrixXd& x) const
   {
     x = Eigen::MatrixXd::Zero(rhs.rows(), rhs.cols());
-    if (rhs.size() == 0 || (this->in_single && this->refined(rhs, context, x) <= good_accuracy))
+    if (rhs.size() == 0 || (this->in_single && this->refined(context, rhs, x) <= good_accuracy))
     {
       return true;
     }
@@ -142,7 +142,7 @@ struct BoxQp::Impl : SplitForm
   Eigen::MatrixXd inverse_of_a(const Eigen::MatrixXd& rhs) const
   {
     Eigen::MatrixXd x;
-    if (!this->solve_a(rhs, nullptr, x))
+    if (!this->solve_a(nullptr, rhs, x))
     {
       x.setConstant(std::numeric_limits<double>::quiet_NaN());
     }
@@ -151,7 +151,7 @@ struct BoxQp::Impl : SplitForm
   /// Solve with the factor in single precision and refinement.
   /// @return the relative residual that was reached.
   double refined(
-    const Eigen::MatrixXd& rhs, const ExecutionContext* context, Eigen::MatrixXd& x) const
+    const ExecutionContext* context, const Eigen::MatrixXd& rhs, Eigen::MatrixXd& x) const
   {
     constexpr int most_steps = 40;
     return refined_solve(
@@ -169,12 +169,12 @@ struct BoxQp::Impl : SplitForm
       this->inverse_diagonal[i] = 1.0 / this->lower.valuePtr()[this->diagonal[i]];
     }
     this->single_of_a = this->single.clone();
-    const Status status = this->single_of_a.factor(this->lower, 0.0, context);
+    const Status status = this->single_of_a.factor(context, this->lower, 0.0);
     this->single_of_a.release_workspace();
     Eigen::MatrixXd x;
     const VectorXd ones = VectorXd::Ones(this->to_fixed.cols());
     this->in_single =
-      status.ok() && this->refined(this->to_fixed * ones, &context, x) <= good_accuracy;
+      status.ok() && this->refined(&context, this->to_fixed * ones, x) <= good_accuracy;
     if (!this->in_single)
     {
       this->single_of_a = FloatCholesky();
@@ -201,10 +201,10 @@ struct BoxQp::Impl : SplitForm
   /// Return the minimizers without bounds (#V x m). The minimizers are used even if solve_a()
   /// fails, because every final result has its own certificate.
   Eigen::MatrixXd minimizers(
-    const Eigen::MatrixXd& fixed_values, const ExecutionContext* context) const
+    const ExecutionContext* context, const Eigen::MatrixXd& fixed_values) const
   {
     Eigen::MatrixXd x;
-    this->solve_a(-(this->to_fixed * fixed_values), context, x);
+    this->solve_a(context, -(this->to_fixed * fixed_values), x);
     return this->whole(x, fixed_values);
   }
 };
@@ -214,8 +214,9 @@ struct BoxQp::Impl : SplitForm
 class BoxQp::Impl::ColumnsSolve
 {
 public:
-  ColumnsSolve(const BoxQp::Impl& qp, const std::vector<BoxQpColumn>& columns,
-    Eigen::MatrixXd unconstrained, std::vector<BoxQpSolution>& solutions, ExecutionContext& context)
+  ColumnsSolve(ExecutionContext& context, const BoxQp::Impl& qp,
+    const std::vector<BoxQpColumn>& columns, Eigen::MatrixXd unconstrained,
+    std::vector<BoxQpSolution>& solutions)
     : qp_(qp), columns_(columns), unconstrained_(std::move(unconstrained)), solutions_(solutions),
       context_(context), inverse_([&qp](const VectorXd& r) { return qp.inverse(r); })
   {
@@ -239,8 +240,8 @@ public:
       this->solve_each(started,
         [&](std::size_t j, BoxQpWorkspace& workspace)
         {
-          return active_set(this->qp_, this->qp_.options, this->columns_[j], starts[j],
-            this->inverse_, workspace, this->context_);
+          return active_set(this->context_, this->qp_, this->qp_.options, this->columns_[j],
+            starts[j], this->inverse_, workspace);
         });
       for (const std::size_t j : started)
       {
@@ -266,8 +267,8 @@ public:
         const VectorXd unconstrained = this->unconstrained_.col(static_cast<Index>(j));
         BoxQpOptions options = this->qp_.options;
         options.maximum_iterations -= this->solutions_[j].iterations;
-        return interior_point(this->qp_, options, this->columns_[j], unconstrained, starts[j],
-          this->inverse_, workspace, this->context_);
+        return interior_point(this->context_, this->qp_, options, this->columns_[j], unconstrained,
+          starts[j], this->inverse_, workspace);
       });
   }
 
@@ -312,7 +313,7 @@ private:
     const ProgressRange range(this->context_, 0.0, start_share);
     FloatCholesky own = this->qp_.single.clone();
     std::vector<ColumnStart> found =
-      splitting_start(this->qp_, some, barriers, unconstrained, own, this->context_);
+      splitting_start(this->context_, this->qp_, some, barriers, unconstrained, own);
     const double seconds = watch.seconds() / static_cast<double>(chosen.size());
     for (std::size_t k = 0; k < chosen.size(); ++k)
     {
@@ -404,7 +405,7 @@ Status BoxQp::prepare(ExecutionContext& context, const std::vector<BoxQpColumn>&
 
 Eigen::MatrixXd BoxQp::unconstrained(const Eigen::MatrixXd& fixed_values) const
 {
-  return this->impl_->minimizers(fixed_values, nullptr);
+  return this->impl_->minimizers(nullptr, fixed_values);
 }
 
 Eigen::MatrixXd BoxQp::inverse(const Eigen::MatrixXd& rhs) const
@@ -413,12 +414,12 @@ Eigen::MatrixXd BoxQp::inverse(const Eigen::MatrixXd& rhs) const
 }
 
 std::vector<BoxQpSolution> BoxQp::solve_unbounded(
-  const std::vector<BoxQpColumn>& columns, ExecutionContext& context) const
+  ExecutionContext& context, const std::vector<BoxQpColumn>& columns) const
 {
   const Impl& impl = *this->impl_;
   std::vector<BoxQpSolution> solutions(columns.size());
   const Stopwatch watch;
-  const Eigen::MatrixXd w = impl.minimizers(impl.fixed_values_of(columns), &context);
+  const Eigen::MatrixXd w = impl.minimizers(&context, impl.fixed_values_of(columns));
   const double seconds = watch.seconds() / std::max<double>(1.0, double(columns.size()));
   for (std::size_t j = 0; j < columns.size() && !context.canceled(); ++j)
   {
@@ -453,13 +454,13 @@ std::vector<BoxQpSolution> BoxQp::solve_unbounded(
   return solutions;
 }
 
-BoxQpSolution BoxQp::solve(const BoxQpColumn& column, ExecutionContext& context) const
+BoxQpSolution BoxQp::solve(ExecutionContext& context, const BoxQpColumn& column) const
 {
-  return std::move(this->solve_all({ column }, context).front());
+  return std::move(this->solve_all(context, { column }).front());
 }
 
 std::vector<BoxQpSolution> BoxQp::solve_all(
-  const std::vector<BoxQpColumn>& columns, ExecutionContext& context) const
+  ExecutionContext& context, const std::vector<BoxQpColumn>& columns) const
 {
   const Impl& impl = *this->impl_;
   std::vector<BoxQpSolution> solutions(columns.size());
@@ -468,11 +469,11 @@ std::vector<BoxQpSolution> BoxQp::solve_all(
     solutions[j].status = Status::canceled();
     solutions[j].w = VectorXd::Zero(impl.q.rows());
   }
-  Eigen::MatrixXd free_of_bounds = impl.minimizers(impl.fixed_values_of(columns), &context);
+  Eigen::MatrixXd free_of_bounds = impl.minimizers(&context, impl.fixed_values_of(columns));
   if (!context.canceled())
   {
     const FewerThreads fewer(context, impl.most_threads);
-    Impl::ColumnsSolve(impl, columns, std::move(free_of_bounds), solutions, context).run();
+    Impl::ColumnsSolve(context, impl, columns, std::move(free_of_bounds), solutions).run();
   }
   return solutions;
 }

@@ -61,15 +61,15 @@ public:
   /// problem without bounds, where g is the gradient and A is Q's block of free vertices:
   ///   gap = 1/2 g' A^-1 g = E(w) - min E exactly,   residual = max |g / diag Q|.
   std::vector<BoxQpSolution> solve_unbounded(
-    const std::vector<BoxQpColumn>& columns, ExecutionContext& context) const;
+    ExecutionContext& context, const std::vector<BoxQpColumn>& columns) const;
 
   /// Solve one column.
-  BoxQpSolution solve(const BoxQpColumn& column, ExecutionContext& context) const;
+  BoxQpSolution solve(ExecutionContext& context, const BoxQpColumn& column) const;
 
   /// Solve all columns on the context's threads. The result is bitwise the same for any number of
   /// threads. After a cancel, columns that were not solved have the status canceled.
   std::vector<BoxQpSolution> solve_all(
-    const std::vector<BoxQpColumn>& columns, ExecutionContext& context) const;
+    ExecutionContext& context, const std::vector<BoxQpColumn>& columns) const;
 
   Index free_count() const;
   Index analyses() const;

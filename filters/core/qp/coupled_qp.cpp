@@ -131,9 +131,8 @@ double fill_up(const Row& row, std::vector<std::size_t>& order, std::vector<doub
 class CoupledQp
 {
 public:
-  CoupledQp(const SparseMatrix& q, const std::vector<Index>& fixed,
-    const std::vector<BoxQpColumn>& columns, const BoxQp& prepared, const BoxQpOptions& options,
-    ExecutionContext& context)
+  CoupledQp(ExecutionContext& context, const SparseMatrix& q, const std::vector<Index>& fixed,
+    const std::vector<BoxQpColumn>& columns, const BoxQp& prepared, const BoxQpOptions& options)
     : matrices_(q, fixed), columns_(columns), prepared_(prepared), options_(options),
       context_(context), n_(static_cast<Index>(this->matrices_.free_vertices.size())),
       m_(static_cast<Index>(columns.size()))
@@ -738,11 +737,11 @@ CoupledSolution CoupledQp::run(const MatrixXd& start)
 }
 } // namespace
 
-CoupledSolution solve_coupled_qp(const SparseMatrix& q, const std::vector<Index>& fixed,
-  const std::vector<BoxQpColumn>& columns, const MatrixXd& start, const BoxQp& prepared,
-  const BoxQpOptions& options, ExecutionContext& context)
+CoupledSolution solve_coupled_qp(ExecutionContext& context, const SparseMatrix& q,
+  const std::vector<Index>& fixed, const std::vector<BoxQpColumn>& columns, const MatrixXd& start,
+  const BoxQp& prepared, const BoxQpOptions& options)
 {
-  return CoupledQp(q, fixed, columns, prepared, options, context).run(start);
+  return CoupledQp(context, q, fixed, columns, prepared, options).run(start);
 }
 
 } // namespace bindpose

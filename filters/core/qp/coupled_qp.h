@@ -34,9 +34,9 @@ struct CoupledSolution
 /// @param q, fixed, columns see BoxQp. The members `pairs` and `start` of the columns are ignored.
 /// @param start #V x #columns, weights whose rows nearly sum to one.
 /// @param prepared a BoxQp for the same q and fixed vertices, after prepare().
-CoupledSolution solve_coupled_qp(const SparseMatrix& q, const std::vector<Index>& fixed,
-  const std::vector<BoxQpColumn>& columns, const Eigen::MatrixXd& start, const BoxQp& prepared,
-  const BoxQpOptions& options, ExecutionContext& context);
+CoupledSolution solve_coupled_qp(ExecutionContext& context, const SparseMatrix& q,
+  const std::vector<Index>& fixed, const std::vector<BoxQpColumn>& columns,
+  const Eigen::MatrixXd& start, const BoxQp& prepared, const BoxQpOptions& options);
 
 } // namespace bindpose
 

@@ -12,7 +12,7 @@ FreeSystem::FreeSystem(const SparseMatrix& matrix, const std::vector<Index>& fix
 {
 }
 
-Status FreeSystem::factor(const SparseSolver::Options& options, ExecutionContext& context)
+Status FreeSystem::factor(ExecutionContext& context, const SparseSolver::Options& options)
 {
   if (this->form_.free_vertices.empty())
   {

@@ -18,7 +18,7 @@ public:
   FreeSystem(const SparseMatrix& matrix, const std::vector<Index>& fixed);
 
   /// Factor the matrix. This must succeed before any solve.
-  Status factor(const SparseSolver::Options& options, ExecutionContext& context);
+  Status factor(ExecutionContext& context, const SparseSolver::Options& options);
 
   /// Let A be the matrix. Return the minimizers w (#V x m) of 1/2 w' A w with the given values at
   /// the fixed vertices. If all off-diagonal entries of A are <= 0, the relative errors are small

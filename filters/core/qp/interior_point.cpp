@@ -67,9 +67,9 @@ class InteriorPoint
 {
 public:
   /// @param in_single whether factors in single precision may be used.
-  InteriorPoint(const SplitForm& matrices, const BoxQpOptions& options, const BoxQpColumn& column,
-    const VectorXd& unconstrained, const ColumnStart& start, const InverseForm& inverse,
-    BoxQpWorkspace& workspace, ExecutionContext& context, bool in_single)
+  InteriorPoint(ExecutionContext& context, const SplitForm& matrices, const BoxQpOptions& options,
+    const BoxQpColumn& column, const VectorXd& unconstrained, const ColumnStart& start,
+    const InverseForm& inverse, BoxQpWorkspace& workspace, bool in_single)
     : matrices_(matrices), options_(options), column_(column), unconstrained_(unconstrained),
       start_(start), inverse_(inverse), workspace_(workspace), context_(context),
       problem_(matrices, column), single_is_enough_(in_single)
@@ -291,7 +291,7 @@ Status InteriorPoint::factor(const VectorXd& d)
     constexpr double largest_shift = 1e-3;
     do
     {
-      status = this->workspace_.single.factor(matrix, this->shift_, this->context_);
+      status = this->workspace_.single.factor(this->context_, matrix, this->shift_);
       this->result_.factorizations += 1;
     } while (status.code == StatusCode::invalid_input &&
       (this->shift_ = std::max(least_shift, 10.0 * this->shift_)) < 1.5 * largest_shift);
@@ -610,7 +610,7 @@ double InteriorPoint::finish(double enough)
     x[i] = std::clamp(x[i], this->problem_.lower[i], this->problem_.upper[i]);
   }
   const double moved = projected_newton(
-    this->matrices_, this->problem_,
+    this->context_, this->matrices_, this->problem_,
     [this](const VectorXd& r, VectorXd& z)
     {
       if (this->in_single_)
@@ -622,7 +622,7 @@ double InteriorPoint::finish(double enough)
         this->workspace_.solver.solve(r, z);
       }
     },
-    rounds, enough, this->context_, x);
+    rounds, enough, x);
   if (moved <= enough)
   {
     std::swap(x, this->x_);
@@ -755,14 +755,14 @@ BoxQpSolution InteriorPoint::run()
 }
 } // namespace
 
-BoxQpSolution interior_point(const SplitForm& matrices, const BoxQpOptions& options,
-  const BoxQpColumn& column, const VectorXd& unconstrained, const ColumnStart& start,
-  const InverseForm& inverse, BoxQpWorkspace& workspace, ExecutionContext& context)
+BoxQpSolution interior_point(ExecutionContext& context, const SplitForm& matrices,
+  const BoxQpOptions& options, const BoxQpColumn& column, const VectorXd& unconstrained,
+  const ColumnStart& start, const InverseForm& inverse, BoxQpWorkspace& workspace)
 {
   const auto run = [&](bool in_single)
   {
     return InteriorPoint(
-      matrices, options, column, unconstrained, start, inverse, workspace, context, in_single)
+      context, matrices, options, column, unconstrained, start, inverse, workspace, in_single)
       .run();
   };
   BoxQpSolution solution = run(true);

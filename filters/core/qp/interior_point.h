@@ -12,9 +12,9 @@ namespace bindpose
 /// @param unconstrained #V, the minimizer without bounds.
 /// @param start a point near the central path; ignored if start.mu (see ColumnStart) is 0.
 /// @param inverse multiplies a vector by A^-1, for the certificate; called rarely.
-BoxQpSolution interior_point(const SplitForm& matrices, const BoxQpOptions& options,
-  const BoxQpColumn& column, const Eigen::VectorXd& unconstrained, const ColumnStart& start,
-  const InverseForm& inverse, BoxQpWorkspace& workspace, ExecutionContext& context);
+BoxQpSolution interior_point(ExecutionContext& context, const SplitForm& matrices,
+  const BoxQpOptions& options, const BoxQpColumn& column, const Eigen::VectorXd& unconstrained,
+  const ColumnStart& start, const InverseForm& inverse, BoxQpWorkspace& workspace);
 
 } // namespace bindpose
 

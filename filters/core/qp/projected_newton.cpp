@@ -33,8 +33,8 @@ std::vector<char> held_vertices(const SplitForm& matrices, const ColumnProblem& 
   return held;
 }
 
-double projected_newton(const SplitForm& matrices, const ColumnProblem& problem,
-  const Preconditioner& preconditioner, int rounds, double enough, const ExecutionContext& context,
+double projected_newton(const ExecutionContext& context, const SplitForm& matrices,
+  const ColumnProblem& problem, const Preconditioner& preconditioner, int rounds, double enough,
   VectorXd& x)
 {
   constexpr int steps = 4; // maximum iterations of conjugate gradients per round

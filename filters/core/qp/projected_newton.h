@@ -32,8 +32,8 @@ std::vector<char> held_vertices(const SplitForm& matrices, const ColumnProblem& 
 /// @param enough the method stops after a round in which no entry changes by more than this.
 /// @param x one entry per free vertex, within the bounds before and after.
 /// @return the largest change of an entry in the last round.
-double projected_newton(const SplitForm& matrices, const ColumnProblem& problem,
-  const Preconditioner& preconditioner, int rounds, double enough, const ExecutionContext& context,
+double projected_newton(const ExecutionContext& context, const SplitForm& matrices,
+  const ColumnProblem& problem, const Preconditioner& preconditioner, int rounds, double enough,
   Eigen::VectorXd& x);
 
 } // namespace bindpose

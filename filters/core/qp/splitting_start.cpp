@@ -142,9 +142,9 @@ private:
 };
 } // namespace
 
-std::vector<ColumnStart> splitting_start(const SplitForm& matrices,
+std::vector<ColumnStart> splitting_start(ExecutionContext& context, const SplitForm& matrices,
   const std::vector<BoxQpColumn>& columns, bool barriers, const MatrixXd& unconstrained,
-  FloatCholesky& single, ExecutionContext& context)
+  FloatCholesky& single)
 {
   const auto n = static_cast<Index>(matrices.free_vertices.size());
   const auto count = static_cast<Index>(columns.size());
@@ -157,7 +157,7 @@ std::vector<ColumnStart> splitting_start(const SplitForm& matrices,
     p[i] = metric * diagonal;
     diagonal += p[i];
   }
-  if (!single.factor(shifted, 0.0, context).ok())
+  if (!single.factor(context, shifted, 0.0).ok())
   {
     return starts;
   }

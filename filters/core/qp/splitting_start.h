@@ -37,9 +37,9 @@ struct ColumnStart
 /// factorization.
 /// @return one start per column. A start is empty if the factorization fails, if the call is
 /// canceled, or if barriers are requested and the column's energy without bounds is zero.
-std::vector<ColumnStart> splitting_start(const SplitForm& matrices,
+std::vector<ColumnStart> splitting_start(ExecutionContext& context, const SplitForm& matrices,
   const std::vector<BoxQpColumn>& columns, bool barriers, const Eigen::MatrixXd& unconstrained,
-  FloatCholesky& single, ExecutionContext& context);
+  FloatCholesky& single);
 
 } // namespace bindpose
 

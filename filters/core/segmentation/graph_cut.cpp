@@ -228,7 +228,7 @@ private:
 };
 
 /// Compute the labels by maximum flow.
-Status cut(const CutEnergy& energy, std::vector<char>& inside, ExecutionContext& context)
+Status cut(ExecutionContext& context, const CutEnergy& energy, std::vector<char>& inside)
 {
   const auto nodes = static_cast<Index>(energy.inside_costs.size());
   const Index source = nodes;
@@ -348,7 +348,7 @@ Status cut(const CutEnergy& energy, std::vector<char>& inside, ExecutionContext&
 }
 } // namespace
 
-Status minimize(const CutEnergy& energy, std::vector<char>& inside, ExecutionContext& context)
+Status minimize(ExecutionContext& context, const CutEnergy& energy, std::vector<char>& inside)
 {
   Status status = check(energy);
   if (!status.ok())
@@ -358,7 +358,7 @@ Status minimize(const CutEnergy& energy, std::vector<char>& inside, ExecutionCon
   Labels labels(energy);
   labels.decide();
   std::vector<char> rest;
-  status = cut(labels.rest(), rest, context);
+  status = cut(context, labels.rest(), rest);
   if (status.ok())
   {
     inside = labels.with(rest);

@@ -36,7 +36,7 @@ struct CutEnergy
 /// costs are almost equal.
 /// @return invalid_input for costs that are negative or not finite and for nodes out of range;
 /// canceled.
-Status minimize(const CutEnergy& energy, std::vector<char>& inside, ExecutionContext& context);
+Status minimize(ExecutionContext& context, const CutEnergy& energy, std::vector<char>& inside);
 
 } // namespace bindpose
 

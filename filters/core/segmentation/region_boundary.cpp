@@ -129,8 +129,8 @@ void spread(const RegionBoundary& region, Index f, double spacing, const Found& 
 }
 } // namespace
 
-bool sample_boundary(const RegionBoundary& region, const BoundarySampling& options,
-  BoundarySites& sites, ExecutionContext& context)
+bool sample_boundary(ExecutionContext& context, const RegionBoundary& region,
+  const BoundarySampling& options, BoundarySites& sites)
 {
   const TrianglesView triangles = region.triangles();
   const Index block = 64;

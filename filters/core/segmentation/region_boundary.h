@@ -82,8 +82,8 @@ struct BoundarySites
 /// Compute sites on the triangles that bound the region, about `largest` apart. Cost: about 5 us
 /// per triangle.
 /// @return false when canceled.
-bool sample_boundary(const RegionBoundary& region, const BoundarySampling& options,
-  BoundarySites& sites, ExecutionContext& context);
+bool sample_boundary(ExecutionContext& context, const RegionBoundary& region,
+  const BoundarySampling& options, BoundarySites& sites);
 
 } // namespace bindpose
 

@@ -60,8 +60,8 @@ const char* to_string(SegmentationMethod method)
   return method == SegmentationMethod::graph_cut ? "graph-cut" : "threshold";
 }
 
-Status segment_tets(PointsView points, TetsView tets, const Eigen::VectorXd& winding_numbers,
-  const SegmentationOptions& options, Segmentation& result, ExecutionContext& context)
+Status segment_tets(ExecutionContext& context, PointsView points, TetsView tets,
+  const Eigen::VectorXd& winding_numbers, const SegmentationOptions& options, Segmentation& result)
 {
   result = Segmentation();
   if (!(options.cut_smoothness >= 0.0) || !std::isfinite(options.cut_smoothness))
@@ -83,7 +83,7 @@ Status segment_tets(PointsView points, TetsView tets, const Eigen::VectorXd& win
     return {};
   }
   const CutEnergy energy = energy_of(points, tets, winding_numbers, options);
-  Status status = minimize(energy, result.inside, context);
+  Status status = minimize(context, energy, result.inside);
   if (!status.ok())
   {
     return status;

@@ -56,8 +56,8 @@ struct Segmentation
 /// number jumps. In openings the area of this boundary is small, whereas a threshold gives a ragged
 /// boundary there.
 /// @return invalid_input if an option is out of range; canceled; or ok. Cost: 3 us per tet.
-Status segment_tets(PointsView points, TetsView tets, const Eigen::VectorXd& winding_numbers,
-  const SegmentationOptions& options, Segmentation& result, ExecutionContext& context);
+Status segment_tets(ExecutionContext& context, PointsView points, TetsView tets,
+  const Eigen::VectorXd& winding_numbers, const SegmentationOptions& options, Segmentation& result);
 
 } // namespace bindpose
 

@@ -90,8 +90,8 @@ Status check_endpoint_weights(
   return {};
 }
 
-Status endpoint_weights(PointsView points, const Handles& handles, EndpointMethod method,
-  const BoundedSolve& solve, ExecutionContext& context, Weights& endpoints)
+Status endpoint_weights(ExecutionContext& context, PointsView points, const Handles& handles,
+  EndpointMethod method, const BoundedSolve& solve, Weights& endpoints)
 {
   endpoints = Weights::Constant(
     points.rows(), static_cast<Index>(handles.size()), std::numeric_limits<double>::quiet_NaN());
@@ -124,7 +124,7 @@ Status endpoint_weights(PointsView points, const Handles& handles, EndpointMetho
       ends.push_back({ joints.add(bone.head), joints.add(bone.tail) });
     }
     Weights w;
-    const Status solved = solve(joints.handles, context, w);
+    const Status solved = solve(context, joints.handles, w);
     if (!solved.usable())
     {
       return solved;
@@ -151,7 +151,7 @@ Status endpoint_weights(PointsView points, const Handles& handles, EndpointMetho
       const ProgressRange range(
         context, static_cast<double>(i) * step, static_cast<double>(i + 1) * step);
       Weights w;
-      const Status solved = solve(ends, context, w);
+      const Status solved = solve(context, ends, w);
       if (!solved.usable())
       {
         return solved;

@@ -38,7 +38,7 @@ Status check_endpoint_weights(
 
 /// Function that computes bounded biharmonic weights of handles at the points. The rows must sum to
 /// one.
-using BoundedSolve = std::function<Status(const Handles&, ExecutionContext&, Weights&)>;
+using BoundedSolve = std::function<Status(ExecutionContext&, const Handles&, Weights&)>;
 
 /// Compute endpoint weights of stretchable, twistable bones (Jacobson and Sorkine 2011), see
 /// Skinning. The method `joints` adds the projection with a weight of 1e-4. Therefore the result
@@ -47,8 +47,8 @@ using BoundedSolve = std::function<Status(const Handles&, ExecutionContext&, Wei
 /// bones.
 /// @return invalid_input if there is no bone; otherwise the status of `solve`, with each warning
 /// once. The report contains method, counts.bones and counts.problems (number of solved problems).
-Status endpoint_weights(PointsView points, const Handles& handles, EndpointMethod method,
-  const BoundedSolve& solve, ExecutionContext& context, Weights& endpoints);
+Status endpoint_weights(ExecutionContext& context, PointsView points, const Handles& handles,
+  EndpointMethod method, const BoundedSolve& solve, Weights& endpoints);
 
 } // namespace bindpose
 

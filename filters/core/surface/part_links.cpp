@@ -84,8 +84,8 @@ double distance(const Box& a, const Box& b)
 class Linker
 {
 public:
-  Linker(PointsView points, TrianglesView triangles, const std::vector<Index>& parts,
-    const std::vector<char>& held, const PartLinkOptions& options, ExecutionContext& context)
+  Linker(ExecutionContext& context, PointsView points, TrianglesView triangles,
+    const std::vector<Index>& parts, const std::vector<char>& held, const PartLinkOptions& options)
     : points_(points), triangles_(triangles), parts_(parts), held_(held), options_(options),
       context_(context), tree_(points, triangles), groups_(held.size())
   {
@@ -414,9 +414,9 @@ double nearest_places(
   return best;
 }
 
-Status link_parts(PointsView points, TrianglesView triangles, const std::vector<Index>& parts,
-  const std::vector<char>& held, const PartLinkOptions& options, std::vector<PartLink>& links,
-  ExecutionContext& context)
+Status link_parts(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const std::vector<Index>& parts, const std::vector<char>& held, const PartLinkOptions& options,
+  std::vector<PartLink>& links)
 {
   links.clear();
   if (std::none_of(held.begin(), held.end(), [](char is_held) { return is_held != 0; }))
@@ -428,7 +428,7 @@ Status link_parts(PointsView points, TrianglesView triangles, const std::vector<
     return Status::invalid_input(
       "the spacing of links must be greater than 0 and the contact distance at least 0");
   }
-  return Linker(points, triangles, parts, held, options, context).run(links) ? Status()
+  return Linker(context, points, triangles, parts, held, options).run(links) ? Status()
                                                                              : Status::canceled();
 }
 

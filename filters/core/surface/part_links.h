@@ -40,9 +40,9 @@ struct PartLinkOptions
 /// about 5 us per triangle of a loose part.
 /// @param parts #F: part of each triangle, 0 … #parts - 1; triangles with -1 are ignored
 /// @param held #parts: nonzero for held parts. Return invalid_input if no part is held.
-Status link_parts(PointsView points, TrianglesView triangles, const std::vector<Index>& parts,
-  const std::vector<char>& held, const PartLinkOptions& options, std::vector<PartLink>& links,
-  ExecutionContext& context);
+Status link_parts(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const std::vector<Index>& parts, const std::vector<char>& held, const PartLinkOptions& options,
+  std::vector<PartLink>& links);
 
 /// Return the distance of two triangles, 0 if they intersect.
 /// @param places set to the nearest points, the first one on triangle a

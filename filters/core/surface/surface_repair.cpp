@@ -273,8 +273,8 @@ std::vector<Vec3> test_points_of(
 /// Compute the winding numbers of one closed shell at some points: by direct sums if the number of
 /// points times the number of triangles is small, else by counting crossings. Return false if
 /// canceled.
-bool winding_numbers(const Points& points, const Triangles& triangles, const Shell& shell,
-  const std::vector<Vec3>& places, ExecutionContext& context, Eigen::VectorXd& numbers)
+bool winding_numbers(ExecutionContext& context, const Points& points, const Triangles& triangles,
+  const Shell& shell, const std::vector<Vec3>& places, Eigen::VectorXd& numbers)
 {
   constexpr std::size_t few_angles = 100000;
   numbers.resize(static_cast<Index>(places.size()));
@@ -323,8 +323,8 @@ bool winding_numbers(const Points& points, const Triangles& triangles, const She
   options.method = WindingMethod::exact;
   options.expected_queries = queries.rows();
   WindingNumber winding;
-  Status status = winding.build(own_points, own, quiet, options);
-  status = status.ok() ? winding.evaluate(queries, quiet, numbers.data()) : status;
+  Status status = winding.build(quiet, own_points, own, options);
+  status = status.ok() ? winding.evaluate(quiet, queries, numbers.data()) : status;
   return status.ok();
 }
 
@@ -405,8 +405,8 @@ struct InwardShells
 };
 
 /// Find the shells that are inside out. Return false if canceled.
-bool inward_shells(const Points& points, const Triangles& triangles,
-  const std::vector<Shell>& shells, ExecutionContext& context, InwardShells& result)
+bool inward_shells(ExecutionContext& context, const Points& points, const Triangles& triangles,
+  const std::vector<Shell>& shells, InwardShells& result)
 {
   std::vector<Index> order;
   for (std::size_t s = 0; s < shells.size(); ++s)
@@ -468,7 +468,7 @@ bool inward_shells(const Points& points, const Triangles& triangles,
       }
       Eigen::VectorXd numbers;
       if (!places.empty() &&
-        !winding_numbers(points, triangles, shells[s], places, context, numbers))
+        !winding_numbers(context, points, triangles, shells[s], places, numbers))
       {
         return false;
       }
@@ -582,8 +582,8 @@ void add_to_report(const SurfaceDiagnosis& d, Report& report)
   set("counts.crossing_triangles", d.crossing_triangles);
 }
 
-Status repair_surface(PointsView points, TrianglesView triangles, const RepairOptions& options,
-  RepairedSurface& repaired, ExecutionContext& context)
+Status repair_surface(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const RepairOptions& options, RepairedSurface& repaired)
 {
   repaired = RepairedSurface();
   Status status = check_mesh(points, triangles);
@@ -613,7 +613,7 @@ Status repair_surface(PointsView points, TrianglesView triangles, const RepairOp
   const Components components = connected_components(repaired.points.rows(), repaired.triangles);
   const std::vector<Shell> shells = shells_of(repaired.points, repaired.triangles, components);
   InwardShells inward;
-  if (!inward_shells(repaired.points, repaired.triangles, shells, context, inward))
+  if (!inward_shells(context, repaired.points, repaired.triangles, shells, inward))
   {
     return Status::canceled();
   }
@@ -642,7 +642,7 @@ Status repair_surface(PointsView points, TrianglesView triangles, const RepairOp
     repaired.turned_triangles == 0 ? found.closed : count_edges(repaired.triangles).closed;
   if (options.count_self_intersections)
   {
-    if (!crossing_pairs(repaired.points, repaired.triangles, repaired.crossings, context))
+    if (!crossing_pairs(context, repaired.points, repaired.triangles, repaired.crossings))
     {
       return Status::canceled();
     }
@@ -657,13 +657,13 @@ Status repair_surface(PointsView points, TrianglesView triangles, const RepairOp
   return context.canceled() ? Status::canceled() : Status();
 }
 
-Status diagnose_surface(PointsView points, TrianglesView triangles, SurfaceDiagnosis& diagnosis,
-  ExecutionContext& context)
+Status diagnose_surface(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  SurfaceDiagnosis& diagnosis)
 {
   RepairOptions options;
   options.orient = false;
   RepairedSurface repaired;
-  Status status = repair_surface(points, triangles, options, repaired, context);
+  Status status = repair_surface(context, points, triangles, options, repaired);
   diagnosis = repaired.found;
   return status;
 }

@@ -88,12 +88,12 @@ struct RepairedSurface
 /// Diagnose and clean up a surface. Return invalid_input if an id is out of range or a coordinate
 /// is not finite, naming the first such id or coordinate. Vertices are never added, and they are
 /// moved only by the option `snap`. Cost: O(n log n).
-Status repair_surface(PointsView points, TrianglesView triangles, const RepairOptions& options,
-  RepairedSurface& repaired, ExecutionContext& context);
+Status repair_surface(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const RepairOptions& options, RepairedSurface& repaired);
 
 /// Compute only the diagnosis, as printed by `bindpose info`.
-Status diagnose_surface(PointsView points, TrianglesView triangles, SurfaceDiagnosis& diagnosis,
-  ExecutionContext& context);
+Status diagnose_surface(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  SurfaceDiagnosis& diagnosis);
 
 } // namespace bindpose
 

@@ -253,8 +253,8 @@ void TriangleTree::pairs_of_leaf(Index leaf, const std::function<bool(Index, Ind
     });
 }
 
-bool crossing_pairs(PointsView points, TrianglesView triangles,
-  std::vector<std::pair<Index, Index>>& pairs, ExecutionContext& context)
+bool crossing_pairs(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  std::vector<std::pair<Index, Index>>& pairs)
 {
   const TriangleTree tree(points, triangles);
   const Index block = 64;

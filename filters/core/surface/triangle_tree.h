@@ -72,8 +72,8 @@ private:
 /// edges (triangles_cross), sorted. At most 1000 pairs are listed per triangle, so that the list
 /// remains short enough if the surface contains a thousand copies of one solid.
 /// @return false if canceled.
-bool crossing_pairs(PointsView points, TrianglesView triangles,
-  std::vector<std::pair<Index, Index>>& pairs, ExecutionContext& context);
+bool crossing_pairs(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  std::vector<std::pair<Index, Index>>& pairs);
 
 } // namespace bindpose
 

@@ -31,8 +31,8 @@ using Tet = TetComplex::Tet;
 class Improver
 {
 public:
-  Improver(TetMesh& mesh, std::vector<char> held, const OntoSurface& surface,
-    const ImproveOptions& options, Improvement& done, ExecutionContext& context)
+  Improver(ExecutionContext& context, TetMesh& mesh, std::vector<char> held,
+    const OntoSurface& surface, const ImproveOptions& options, Improvement& done)
     : mesh_(mesh), tets_(mesh), options_(options), rules_(options, surface), done_(done),
       context_(context), quiet_({}, [&context] { return context.canceled(); }),
       moved_(static_cast<std::size_t>(mesh.points.rows()), 0)
@@ -338,11 +338,11 @@ private:
 };
 } // namespace
 
-bool improve_tets(TetMesh& mesh, std::vector<char> held, const OntoSurface& surface,
-  const ImproveOptions& options, Improvement& done, ExecutionContext& context)
+bool improve_tets(ExecutionContext& context, TetMesh& mesh, std::vector<char> held,
+  const OntoSurface& surface, const ImproveOptions& options, Improvement& done)
 {
   done = Improvement();
-  return Improver(mesh, std::move(held), surface, options, done, context).run();
+  return Improver(context, mesh, std::move(held), surface, options, done).run();
 }
 
 } // namespace bindpose

@@ -119,8 +119,8 @@ public:
   /// Locate all positions in the current tets. Must be called before all other functions. `near`:
   /// an order in which consecutive positions are usually near each other. @return false if
   /// canceled.
-  bool look_for(const TetMesh& mesh, const Points& places, const std::vector<std::int32_t>& near,
-    ExecutionContext& context)
+  bool look_for(ExecutionContext& context, const TetMesh& mesh, const Points& places,
+    const std::vector<std::int32_t>& near)
   {
     const SimplexLocator locator(mesh.points, mesh.tets);
     this->first_.resize(static_cast<std::size_t>(places.rows()));
@@ -171,7 +171,7 @@ public:
   /// Locate the pending positions in the current tets, so that the ids of replaced tets are no
   /// longer needed. After that the tets get new ids: see renumber(). @return false if canceled.
   bool find_again(
-    const Points& places, const std::vector<Index>& pending, ExecutionContext& context)
+    ExecutionContext& context, const Points& places, const std::vector<Index>& pending)
   {
     constexpr Index block = 64;
     return parallel_for(context, static_cast<Index>(pending.size()), block,
@@ -269,7 +269,7 @@ private:
 class Inserter
 {
 public:
-  Inserter(TetComplex& tets, ExecutionContext& context)
+  Inserter(ExecutionContext& context, TetComplex& tets)
     : tets_(tets), finder_(tets), context_(context),
       quiet_({}, [&context] { return context.canceled(); })
   {
@@ -283,7 +283,7 @@ public:
     constexpr double looked = 0.2; // fraction of the total time for locating the positions
     {
       const ProgressRange range(this->context_, 0.0, looked);
-      if (!this->finder_.look_for(mesh, places, near, this->context_))
+      if (!this->finder_.look_for(this->context_, mesh, places, near))
       {
         return false;
       }
@@ -371,7 +371,7 @@ private:
   /// inserted yet. @return false if canceled.
   bool drop_replaced(const Points& places, const std::vector<Index>& pending)
   {
-    if (!this->finder_.find_again(places, pending, this->quiet_))
+    if (!this->finder_.find_again(this->quiet_, places, pending))
     {
       return false;
     }
@@ -492,7 +492,7 @@ private:
 };
 } // namespace
 
-bool split_long_edges(TetMesh& mesh, double longest, Index most_tets, ExecutionContext& context)
+bool split_long_edges(ExecutionContext& context, TetMesh& mesh, double longest, Index most_tets)
 {
   TetComplex tets(mesh);
   std::priority_queue<LongEdge> queue;
@@ -539,11 +539,11 @@ bool split_long_edges(TetMesh& mesh, double longest, Index most_tets, ExecutionC
 }
 
 bool insert_vertices(
-  TetMesh& mesh, const Points& places, std::vector<Index>& vertices, ExecutionContext& context)
+  ExecutionContext& context, TetMesh& mesh, const Points& places, std::vector<Index>& vertices)
 {
   TetComplex tets(mesh);
   vertices.assign(static_cast<std::size_t>(places.rows()), -1);
-  const bool whole = Inserter(tets, context).insert(mesh, places, vertices);
+  const bool whole = Inserter(context, tets).insert(mesh, places, vertices);
   tets.write(mesh);
   return whole;
 }

@@ -15,7 +15,7 @@ namespace bindpose
 /// longest first, until there are `most_tets` tets. The tets must be positive and conforming.
 /// Vertices keep their ids; new vertices are appended.
 /// @return false if canceled; the mesh is also valid in this case.
-bool split_long_edges(TetMesh& mesh, double longest, Index most_tets, ExecutionContext& context);
+bool split_long_edges(ExecutionContext& context, TetMesh& mesh, double longest, Index most_tets);
 
 /// Insert vertices at #P x 3 positions inside. Each vertex replaces the tets whose circumspheres
 /// contain it, except tets that are not visible from the vertex (Shewchuk, Constrained Delaunay
@@ -26,7 +26,7 @@ bool split_long_edges(TetMesh& mesh, double longest, Index most_tets, ExecutionC
 /// higher if all vertices are on one sphere or ellipsoid.
 /// @return false if canceled; the mesh is also valid in this case.
 bool insert_vertices(
-  TetMesh& mesh, const Points& places, std::vector<Index>& vertices, ExecutionContext& context);
+  ExecutionContext& context, TetMesh& mesh, const Points& places, std::vector<Index>& vertices);
 
 } // namespace bindpose
 

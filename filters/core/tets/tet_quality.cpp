@@ -166,8 +166,8 @@ std::vector<EdgeKey> edges_of_flat(TetsView tets, const Eigen::VectorXd& angles,
 }
 
 /// Evaluate is_blocked() for the triangles that have one of the edges.
-std::vector<char> blocked_triangles(PointsView points, const Triangles& boundary,
-  const std::vector<EdgeKey>& edges, double angle, ExecutionContext& context)
+std::vector<char> blocked_triangles(ExecutionContext& context, PointsView points,
+  const Triangles& boundary, const std::vector<EdgeKey>& edges, double angle)
 {
   std::vector<char> blocked(static_cast<std::size_t>(boundary.rows()), 0);
   const TriangleTree tree(points, boundary);
@@ -221,12 +221,12 @@ std::vector<EdgeKey> forced_edges(
 }
 } // namespace
 
-Index count_forced_tets(PointsView points, TetsView tets, const Eigen::VectorXd& angles,
-  double angle, ExecutionContext& context)
+Index count_forced_tets(ExecutionContext& context, PointsView points, TetsView tets,
+  const Eigen::VectorXd& angles, double angle)
 {
   const Triangles boundary = boundary_triangles(tets);
   const std::vector<char> blocked =
-    blocked_triangles(points, boundary, edges_of_flat(tets, angles, angle), angle, context);
+    blocked_triangles(context, points, boundary, edges_of_flat(tets, angles, angle), angle);
   const std::vector<EdgeKey> forced = forced_edges(points, boundary, blocked, angle);
   Index count = 0;
   for (Index t = 0; t < tets.rows(); ++t)

@@ -52,8 +52,8 @@ TetQuality measure_tets(PointsView points, TetsView tets);
 ///   that every tet at the triangle has an angle below `angle`, and
 /// - edges at which two boundary triangles form an angle of less than `angle`, measured inside.
 /// If canceled, the count is too small.
-Index count_forced_tets(PointsView points, TetsView tets, const Eigen::VectorXd& angles,
-  double angle, ExecutionContext& context);
+Index count_forced_tets(ExecutionContext& context, PointsView points, TetsView tets,
+  const Eigen::VectorXd& angles, double angle);
 
 /// Check that tets are valid. Return internal_error with the id of the first tet that is flat,
 /// inverted or duplicated, or that shares a facet with two other tets or with a tet on the same

@@ -15,8 +15,8 @@ namespace
 constexpr Index samples_per_block = 4096;
 }
 
-Status depth_order(WeightsView weights, const Eigen::VectorXd& layers,
-  const DepthOrderOptions& options, ExecutionContext& context, DepthOrder& result)
+Status depth_order(ExecutionContext& context, WeightsView weights, const Eigen::VectorXd& layers,
+  const DepthOrderOptions& options, DepthOrder& result)
 {
   const Index rows = weights.rows(), handles = weights.cols();
   if (handles != layers.size() || handles == 0)

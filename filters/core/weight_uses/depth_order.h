@@ -33,8 +33,8 @@ struct DepthOrder
 /// and largest entry of `depth`).
 /// @param weights #V x #handles, finite
 /// @param layers one per handle, finite
-Status depth_order(WeightsView weights, const Eigen::VectorXd& layers,
-  const DepthOrderOptions& options, ExecutionContext& context, DepthOrder& result);
+Status depth_order(ExecutionContext& context, WeightsView weights, const Eigen::VectorXd& layers,
+  const DepthOrderOptions& options, DepthOrder& result);
 
 } // namespace bindpose
 

@@ -69,8 +69,8 @@ Colors categorical_colors(Index count)
   return colors;
 }
 
-Status weighted_colors(WeightsView weights, ColorsView handle_colors,
-  const WeightedColorsOptions& options, ExecutionContext& context, WeightedColors& result)
+Status weighted_colors(ExecutionContext& context, WeightsView weights, ColorsView handle_colors,
+  const WeightedColorsOptions& options, WeightedColors& result)
 {
   const Index rows = weights.rows();
   if (weights.cols() != handle_colors.rows() || weights.cols() == 0)

@@ -42,8 +42,8 @@ struct WeightedColors
 /// blue from its range over all handle colors), row_sum_error (largest |1 - row sum|).
 /// @param weights #V x #handles, finite
 /// @param handle_colors #handles x 3, each 0 to 1
-Status weighted_colors(WeightsView weights, ColorsView handle_colors,
-  const WeightedColorsOptions& options, ExecutionContext& context, WeightedColors& result);
+Status weighted_colors(ExecutionContext& context, WeightsView weights, ColorsView handle_colors,
+  const WeightedColorsOptions& options, WeightedColors& result);
 
 /// Convert an sRGB value to linear light (IEC 61966-2-1), or back. Both functions are odd: a
 /// negative argument changes only the sign of the result.

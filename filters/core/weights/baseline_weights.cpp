@@ -115,7 +115,7 @@ MatrixXd with_fixed_rows(const WeightsProblem& problem)
 }
 
 Status inverse_distances(
-  const WeightsProblem& problem, double power, ExecutionContext& context, MatrixXd& w)
+  ExecutionContext& context, const WeightsProblem& problem, double power, MatrixXd& w)
 {
   const HandleDistances distances(problem);
   const Index m = problem.handle_count();
@@ -158,12 +158,12 @@ SparseMatrix with_diagonal(const SparseMatrix& matrix, double factor, const Vect
   return SparseMatrix(sum + d);
 }
 
-Status smoothed_harmonic(const WeightsProblem& problem, const WeightsOptions& options,
-  ExecutionContext& context, MatrixXd& w, VectorXd& residuals)
+Status smoothed_harmonic(ExecutionContext& context, const WeightsProblem& problem,
+  const WeightsOptions& options, MatrixXd& w, VectorXd& residuals)
 {
   const MatrixXd zero = MatrixXd::Zero(w.rows(), w.cols());
   FreeSystem harmonic(problem.stiffness, problem.fixed);
-  Status status = harmonic.factor(options.solver, context);
+  Status status = harmonic.factor(context, options.solver);
   if (!status.ok())
   {
     return status;
@@ -177,7 +177,7 @@ Status smoothed_harmonic(const WeightsProblem& problem, const WeightsOptions& op
   const SparseMatrix matrix = with_diagonal(
     harmonic_energy(problem.stiffness, mass, 2), std::pow(options.smoothing, 4.0), mass);
   FreeSystem system(matrix, problem.fixed);
-  status = system.factor(options.solver, context);
+  status = system.factor(context, options.solver);
   if (!status.ok())
   {
     return status;
@@ -239,7 +239,7 @@ Walls walls_of(const WeightsProblem& problem)
 
 /// Compute H and p (see the top of this file) for every vertex. H is 0 if none of the nearest
 /// handles is visible.
-Status heat_sources(const WeightsProblem& problem, double heat, ExecutionContext& context,
+Status heat_sources(ExecutionContext& context, const WeightsProblem& problem, double heat,
   VectorXd& h, MatrixXd& p, Index& heated)
 {
   const Walls walls = walls_of(problem);
@@ -298,12 +298,12 @@ Status heat_sources(const WeightsProblem& problem, double heat, ExecutionContext
   return whole ? Status() : Status::canceled();
 }
 
-Status bone_heat(const WeightsProblem& problem, const WeightsOptions& options,
-  ExecutionContext& context, MatrixXd& w, VectorXd& residuals, Index& heated)
+Status bone_heat(ExecutionContext& context, const WeightsProblem& problem,
+  const WeightsOptions& options, MatrixXd& w, VectorXd& residuals, Index& heated)
 {
   VectorXd h;
   MatrixXd p;
-  Status status = heat_sources(problem, options.heat, context, h, p, heated);
+  Status status = heat_sources(context, problem, options.heat, h, p, heated);
   if (!status.ok())
   {
     return status;
@@ -312,7 +312,7 @@ Status bone_heat(const WeightsProblem& problem, const WeightsOptions& options,
   const SparseMatrix matrix = with_diagonal(problem.stiffness, 1.0, sources);
   const MatrixXd rhs = sources.asDiagonal() * p;
   FreeSystem system(matrix, problem.fixed);
-  status = system.factor(options.solver, context);
+  status = system.factor(context, options.solver);
   if (!status.ok())
   {
     return status;
@@ -343,8 +343,9 @@ Status begin(
   return {};
 }
 
-Status finish(const WeightsProblem& problem, const char* method, const WeightsOptions& options,
-  const MatrixXd& w, const VectorXd& residuals, ExecutionContext& context, WeightsResult& result)
+Status finish(ExecutionContext& context, const WeightsProblem& problem, const char* method,
+  const WeightsOptions& options, const MatrixXd& w, const VectorXd& residuals,
+  WeightsResult& result)
 {
   std::vector<BoxQpSolution> solutions(static_cast<std::size_t>(w.cols()));
   for (Index j = 0; j < w.cols(); ++j)
@@ -352,27 +353,27 @@ Status finish(const WeightsProblem& problem, const char* method, const WeightsOp
     solutions[j].w = w.col(j);
     solutions[j].certificate.kkt_residual = residuals[j];
   }
-  return finish_weights(problem, method, options.tolerance, solutions, w, context, result);
+  return finish_weights(context, problem, method, options.tolerance, solutions, w, result);
 }
 } // namespace
 
-Status inverse_distance_weights(const WeightsProblem& problem, const WeightsOptions& options,
-  ExecutionContext& context, WeightsResult& result)
+Status inverse_distance_weights(ExecutionContext& context, const WeightsProblem& problem,
+  const WeightsOptions& options, WeightsResult& result)
 {
   MatrixXd w;
   Status status = begin(problem, options, result, w);
   if (status.ok())
   {
     const Phase phase(context, "weights", 0.1, 0.95);
-    status = inverse_distances(problem, options.power, context, w);
+    status = inverse_distances(context, problem, options.power, w);
   }
-  return status.ok() ? finish(problem, "inverse-distance", options, w,
-                         VectorXd::Zero(problem.handle_count()), context, result)
+  return status.ok() ? finish(context, problem, "inverse-distance", options, w,
+                         VectorXd::Zero(problem.handle_count()), result)
                      : status;
 }
 
-Status smoothed_harmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,
-  ExecutionContext& context, WeightsResult& result)
+Status smoothed_harmonic_weights(ExecutionContext& context, const WeightsProblem& problem,
+  const WeightsOptions& options, WeightsResult& result)
 {
   MatrixXd w;
   VectorXd residuals = VectorXd::Zero(problem.handle_count());
@@ -380,14 +381,14 @@ Status smoothed_harmonic_weights(const WeightsProblem& problem, const WeightsOpt
   if (status.ok())
   {
     const Phase phase(context, "weights", 0.1, 0.95);
-    status = smoothed_harmonic(problem, options, context, w, residuals);
+    status = smoothed_harmonic(context, problem, options, w, residuals);
   }
-  return status.ok() ? finish(problem, "smoothed-harmonic", options, w, residuals, context, result)
+  return status.ok() ? finish(context, problem, "smoothed-harmonic", options, w, residuals, result)
                      : status;
 }
 
-Status bone_heat_weights(const WeightsProblem& problem, const WeightsOptions& options,
-  ExecutionContext& context, WeightsResult& result)
+Status bone_heat_weights(ExecutionContext& context, const WeightsProblem& problem,
+  const WeightsOptions& options, WeightsResult& result)
 {
   MatrixXd w;
   VectorXd residuals = VectorXd::Zero(problem.handle_count());
@@ -396,11 +397,11 @@ Status bone_heat_weights(const WeightsProblem& problem, const WeightsOptions& op
   if (status.ok())
   {
     const Phase phase(context, "weights", 0.1, 0.95);
-    status = bone_heat(problem, options, context, w, residuals, heated);
+    status = bone_heat(context, problem, options, w, residuals, heated);
   }
   if (status.ok())
   {
-    status = finish(problem, "bone-heat", options, w, residuals, context, result);
+    status = finish(context, problem, "bone-heat", options, w, residuals, result);
   }
   if (heated >= 0 && status.usable())
   {

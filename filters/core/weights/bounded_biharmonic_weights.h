@@ -11,8 +11,8 @@ namespace bindpose
 /// each row is divided by its sum. Every column has an optimality certificate (see Certificate).
 /// Cost: see BoxQp.
 /// Jacobson et al. 2011, Bounded biharmonic weights for real-time deformation.
-Status bounded_biharmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,
-  ExecutionContext& context, WeightsResult& result);
+Status bounded_biharmonic_weights(ExecutionContext& context, const WeightsProblem& problem,
+  const WeightsOptions& options, WeightsResult& result);
 
 } // namespace bindpose
 

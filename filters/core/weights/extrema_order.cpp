@@ -146,8 +146,8 @@ std::vector<std::vector<Index>> parts_without(
   return parts;
 }
 
-int order_with_extrema(const VertexGraph& graph, const std::vector<char>& taking_part,
-  const ExtremaList& list, const Eigen::VectorXd& values, const ExecutionContext& context,
+int order_with_extrema(const ExecutionContext& context, const VertexGraph& graph,
+  const std::vector<char>& taking_part, const ExtremaList& list, const Eigen::VectorXd& values,
   std::vector<Index>& rank)
 {
   constexpr int most_floods = 1000;

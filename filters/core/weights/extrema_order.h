@@ -32,8 +32,8 @@ std::vector<std::vector<Index>> parts_without(const VertexGraph& graph,
 /// @param list parts_without() must return no parts for this list, for both kinds.
 /// @param rank position of each vertex in the order; -1 for vertices that do not take part.
 /// @return the number of floods; 0 if no order was found.
-int order_with_extrema(const VertexGraph& graph, const std::vector<char>& taking_part,
-  const ExtremaList& list, const Eigen::VectorXd& values, const ExecutionContext& context,
+int order_with_extrema(const ExecutionContext& context, const VertexGraph& graph,
+  const std::vector<char>& taking_part, const ExtremaList& list, const Eigen::VectorXd& values,
   std::vector<Index>& rank);
 
 /// Replace the order by the order of the values; vertices with equal values keep their old order.

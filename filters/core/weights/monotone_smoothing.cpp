@@ -39,8 +39,8 @@ std::string places(std::size_t count, const char* of)
 class Smoothing
 {
 public:
-  Smoothing(const Domain& domain, const VectorXd& data, const MonotoneSmoothingOptions& options,
-    ExecutionContext& context, MonotoneSmoothingResult& result)
+  Smoothing(ExecutionContext& context, const Domain& domain, const VectorXd& data,
+    const MonotoneSmoothingOptions& options, MonotoneSmoothingResult& result)
     : domain_(domain), data_(data), options_(options), context_(context), result_(result)
   {
   }
@@ -418,7 +418,7 @@ Status Smoothing::guide_values(const VectorXd& unconstrained, VectorXd& values)
   }
   FreeSystem harmonic(
     positive_stiffness(this->scaled_.stiffness, this->graph_, this->taking_part_), given);
-  Status status = harmonic.factor(this->options_.solver, this->context_);
+  Status status = harmonic.factor(this->context_, this->options_.solver);
   if (status.ok())
   {
     const Eigen::MatrixXd boundary =
@@ -451,7 +451,7 @@ void Smoothing::rebuild(BoxQpColumn& column, BoxQpSolution& best)
     column.pairs = std::move(pairs);
     column.start = best.w;
     column.energy = best.certificate.energy;
-    const BoxQpSolution next = this->solver_->solve(column, this->context_);
+    const BoxQpSolution next = this->solver_->solve(this->context_, column);
     this->result_.iterations += next.iterations;
     this->context_.add_seconds("factor", next.factor_seconds);
     this->context_.add_seconds("solve", next.solve_seconds);
@@ -488,7 +488,7 @@ Status Smoothing::solve()
   column.bounds.lower = VectorXd::Constant(n + 1, -infinity);
   column.bounds.upper = VectorXd::Constant(n + 1, infinity);
   std::vector<BoxQpSolution> unconstrained =
-    this->solver_->solve_unbounded({ column }, this->context_);
+    this->solver_->solve_unbounded(this->context_, { column });
   if (this->context_.canceled())
   {
     return Status::canceled();
@@ -501,7 +501,7 @@ Status Smoothing::solve()
     return status;
   }
   this->floods_ = order_with_extrema(
-    this->graph_, this->taking_part_, this->result_.list, values, this->context_, this->rank_);
+    this->context_, this->graph_, this->taking_part_, this->result_.list, values, this->rank_);
   if (this->context_.canceled())
   {
     return Status::canceled();
@@ -526,7 +526,7 @@ Status Smoothing::solve()
   {
     const ProgressRange range(this->context_, 0.1, this->options_.rebuilds > 0 ? 0.4 : 1.0);
     column.energy = this->expected_energy(column, best);
-    best = this->solver_->solve(column, this->context_);
+    best = this->solver_->solve(this->context_, column);
     this->result_.iterations = best.iterations;
     this->context_.add_seconds("factor", best.factor_seconds);
     this->context_.add_seconds("solve", best.solve_seconds);
@@ -736,11 +736,10 @@ Status Smoothing::run()
 }
 } // namespace
 
-Status monotone_smoothing(const Domain& domain, const VectorXd& data,
-  const MonotoneSmoothingOptions& options, ExecutionContext& context,
-  MonotoneSmoothingResult& result)
+Status monotone_smoothing(ExecutionContext& context, const Domain& domain, const VectorXd& data,
+  const MonotoneSmoothingOptions& options, MonotoneSmoothingResult& result)
 {
-  return Smoothing(domain, data, options, context, result).run();
+  return Smoothing(context, domain, data, options, result).run();
 }
 
 } // namespace bindpose

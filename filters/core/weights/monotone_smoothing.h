@@ -96,8 +96,8 @@ struct MonotoneSmoothingResult
 ///
 /// Cost: 15 to 30 factorizations of the energy for the first solve and for each rebuild.
 /// Jacobson, Weinkauf, Sorkine 2012, Smooth shape-aware functions with controlled extrema.
-Status monotone_smoothing(const Domain& domain, const Eigen::VectorXd& data,
-  const MonotoneSmoothingOptions& options, ExecutionContext& context,
+Status monotone_smoothing(ExecutionContext& context, const Domain& domain,
+  const Eigen::VectorXd& data, const MonotoneSmoothingOptions& options,
   MonotoneSmoothingResult& result);
 
 } // namespace bindpose

@@ -31,8 +31,8 @@ namespace
 {
 /// Compute the guide u of a column with its own pins, and 1 - u. Each of the two is solved from
 /// nonnegative boundary values, so that no cancellation occurs.
-Status pinned_guide(const SparseMatrix& laplacian, const std::vector<Index>& fixed,
-  const BoxQpColumn& column, const SparseSolver::Options& options, ExecutionContext& context,
+Status pinned_guide(ExecutionContext& context, const SparseMatrix& laplacian,
+  const std::vector<Index>& fixed, const BoxQpColumn& column, const SparseSolver::Options& options,
   Eigen::VectorXd& u, Eigen::VectorXd& rest)
 {
   std::vector<Index> given = fixed;
@@ -41,7 +41,7 @@ Status pinned_guide(const SparseMatrix& laplacian, const std::vector<Index>& fix
   values.col(0) << column.fixed_values, column.pinned_values;
   values.col(1) = 1.0 - values.col(0).array();
   FreeSystem solver(laplacian, given);
-  const Status status = solver.factor(options, context);
+  const Status status = solver.factor(context, options);
   if (status.ok())
   {
     const Eigen::MatrixXd both = solver.minimizers(values);
@@ -69,8 +69,8 @@ std::string place_of(const WeightsProblem& problem, const ColumnGroup& group, In
 }
 } // namespace
 
-Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
-  const SparseSolver::Options& solver_options, ExecutionContext& context, MonotoneGuide& result)
+Status monotone_guide(ExecutionContext& context, const WeightsProblem& problem, ColumnGroup& group,
+  const SparseSolver::Options& solver_options, MonotoneGuide& result)
 {
   const Index n = group.count;
   const auto m = static_cast<Index>(group.columns.size());
@@ -94,7 +94,7 @@ Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
   const SparseMatrix laplacian =
     merge_form(group, positive_stiffness(problem.stiffness, problem.graph, pulls));
   FreeSystem solver(laplacian, group.fixed);
-  Status status = solver.factor(solver_options, context);
+  Status status = solver.factor(context, solver_options);
   if (!status.ok())
   {
     return status;
@@ -132,7 +132,7 @@ Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
     const bool own_pins = group.own_pins[static_cast<std::size_t>(j)];
     if (own_pins)
     {
-      status = pinned_guide(laplacian, group.fixed, column, solver_options, context, u, rest);
+      status = pinned_guide(context, laplacian, group.fixed, column, solver_options, u, rest);
       if (!status.ok())
       {
         return status;
@@ -223,8 +223,8 @@ Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
   return {};
 }
 
-Status monotone_weights(const WeightsProblem& problem, const WeightsOptions& options,
-  ExecutionContext& context, WeightsResult& result)
+Status monotone_weights(ExecutionContext& context, const WeightsProblem& problem,
+  const WeightsOptions& options, WeightsResult& result)
 {
   result = {};
   if (options.order != 2 && options.order != 3)
@@ -238,10 +238,10 @@ Status monotone_weights(const WeightsProblem& problem, const WeightsOptions& opt
   const auto guide = [&](ColumnGroup& group)
   {
     MonotoneGuide made;
-    return monotone_guide(problem, group, options.solver, context, made);
+    return monotone_guide(context, problem, group, options.solver, made);
   };
-  return solve_weights(problem, options.order,
-    options.order == 2 ? "monotone" : "monotone-triharmonic", options, guide, context, result);
+  return solve_weights(context, problem, options.order,
+    options.order == 2 ? "monotone" : "monotone-triharmonic", options, guide, result);
 }
 
 } // namespace bindpose

@@ -17,16 +17,16 @@ struct MonotoneGuide
   Eigen::MatrixXd guide; ///< #unknowns x #columns: guides, harmonic for positive edge weights
   std::vector<std::vector<OrderedPair>> pairs;
 };
-Status monotone_guide(const WeightsProblem& problem, ColumnGroup& group,
-  const SparseSolver::Options& solver, ExecutionContext& context, MonotoneGuide& result);
+Status monotone_guide(ExecutionContext& context, const WeightsProblem& problem, ColumnGroup& group,
+  const SparseSolver::Options& solver, MonotoneGuide& result);
 
 /// Compute monotone weights: bounded k-harmonic weights whose only extrema are on the handles. A
 /// guide (see MonotoneGuide) determines one neighbor above and one neighbor below each vertex, so
 /// no vertex between handles can be an extremum. The certificate is defined as for bounded weights.
 /// Cost: 10 to 25 factorizations per handle.
 /// Jacobson, Weinkauf, Sorkine 2012, Smooth shape-aware functions with controlled extrema.
-Status monotone_weights(const WeightsProblem& problem, const WeightsOptions& options,
-  ExecutionContext& context, WeightsResult& result);
+Status monotone_weights(ExecutionContext& context, const WeightsProblem& problem,
+  const WeightsOptions& options, WeightsResult& result);
 
 } // namespace bindpose
 

@@ -61,7 +61,7 @@ public:
   /// Compute the biharmonic weights by the cheaper of the two methods.
   /// @return false if canceled.
   bool biharmonic(
-    const Eigen::MatrixXd& harmonic, ExecutionContext& context, Eigen::MatrixXd& w) const
+    ExecutionContext& context, const Eigen::MatrixXd& harmonic, Eigen::MatrixXd& w) const
   {
     // Find the fixed vertices with a free neighbor.
     std::vector<int> active;
@@ -100,8 +100,8 @@ public:
     const Eigen::MatrixXd start = this->form_.free_rows(harmonic);
     Eigen::MatrixXd x;
     const bool done = rank <= solves_of_gradients * m
-      ? this->by_rank(u, mass, flow, start, context, x)
-      : this->by_gradients(u, mass, flow, start, context, x);
+      ? this->by_rank(context, u, mass, flow, start, x)
+      : this->by_gradients(context, u, mass, flow, start, x);
     w = done ? this->form_.whole(x, this->problem_.fixed_values) : Eigen::MatrixXd();
     return done;
   }
@@ -119,8 +119,8 @@ private:
 
   /// Solve by a low-rank update (Woodbury).
   /// @param start -K_ff^-1 U e, the harmonic weights.
-  bool by_rank(const SparseMatrix& u, const Eigen::VectorXd& mass, const Eigen::MatrixXd& flow,
-    const Eigen::MatrixXd& start, ExecutionContext& context, Eigen::MatrixXd& x) const
+  bool by_rank(ExecutionContext& context, const SparseMatrix& u, const Eigen::VectorXd& mass,
+    const Eigen::MatrixXd& flow, const Eigen::MatrixXd& start, Eigen::MatrixXd& x) const
   {
     const Index rank = u.cols();
     Eigen::MatrixXd g(u.rows(), rank);
@@ -142,8 +142,8 @@ private:
     return true;
   }
 
-  bool by_gradients(const SparseMatrix& u, const Eigen::VectorXd& mass, const Eigen::MatrixXd& flow,
-    const Eigen::MatrixXd& start, ExecutionContext& context, Eigen::MatrixXd& x) const
+  bool by_gradients(ExecutionContext& context, const SparseMatrix& u, const Eigen::VectorXd& mass,
+    const Eigen::MatrixXd& flow, const Eigen::MatrixXd& start, Eigen::MatrixXd& x) const
   {
     const SparseMatrix& k = this->form_.a;
     const Eigen::VectorXd inverse = this->mass_.cwiseInverse();
@@ -194,8 +194,8 @@ private:
 };
 } // namespace
 
-Status preview_weights(const WeightsProblem& problem, const WeightsOptions& options,
-  ExecutionContext& context, WeightsResult& result)
+Status preview_weights(ExecutionContext& context, const WeightsProblem& problem,
+  const WeightsOptions& options, WeightsResult& result)
 {
   result = {};
   const Phase phase(context, "preview", 0.0, 1.0);
@@ -207,7 +207,7 @@ Status preview_weights(const WeightsProblem& problem, const WeightsOptions& opti
   }
   const Eigen::MatrixXd harmonic = preview.harmonic();
   Eigen::MatrixXd w;
-  if (!preview.biharmonic(harmonic, context, w))
+  if (!preview.biharmonic(context, harmonic, w))
   {
     return Status::canceled();
   }
@@ -237,8 +237,8 @@ Status preview_weights(const WeightsProblem& problem, const WeightsOptions& opti
     return Status::canceled();
   }
   result.analyses = 1;
-  status = finish_weights(problem, "bounded-biharmonic", std::numeric_limits<double>::infinity(),
-    solutions, harmonic, context, result);
+  status = finish_weights(context, problem, "bounded-biharmonic",
+    std::numeric_limits<double>::infinity(), solutions, harmonic, result);
   status.report.set("stage", "preview");
   return status;
 }

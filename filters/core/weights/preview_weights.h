@@ -22,8 +22,8 @@ namespace bindpose
 /// The certificate bounds the difference between the energy of the clamped columns and the energy
 /// of bounded biharmonic weights. The tolerance of the options is ignored.
 /// Report: the keys of finish_weights(), and stage ("preview").
-Status preview_weights(const WeightsProblem& problem, const WeightsOptions& options,
-  ExecutionContext& context, WeightsResult& result);
+Status preview_weights(ExecutionContext& context, const WeightsProblem& problem,
+  const WeightsOptions& options, WeightsResult& result);
 
 } // namespace bindpose
 

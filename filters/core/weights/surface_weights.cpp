@@ -58,11 +58,11 @@ struct Lattice
   /// Transfers values to the surface; refers to the member `tets`.
   std::unique_ptr<EmbeddedSurface> surface;
 
-  Status carry(const Weights& solved, const Handles& handles,
-    EmbeddedSurface::Smoothness smoothness, ExecutionContext& context, Weights& at_points) const
+  Status carry(ExecutionContext& context, const Weights& solved, const Handles& handles,
+    EmbeddedSurface::Smoothness smoothness, Weights& at_points) const
   {
     return this->surface->carry(
-      this->result.problem.mesh, handles, solved, smoothness, context, at_points);
+      context, this->result.problem.mesh, handles, solved, smoothness, at_points);
   }
 };
 
@@ -82,9 +82,10 @@ double growth_to_third(const Lattice& second)
 class Solver
 {
 public:
-  Solver(PointsView points, TrianglesView triangles, const std::vector<Index>& region_ids,
-    const Handles& handles, const SurfaceWeightsOptions& options,
-    const WeightsOptions& weights_options, const WeightsMethod& method, ExecutionContext& context)
+  Solver(ExecutionContext& context, PointsView points, TrianglesView triangles,
+    const std::vector<Index>& region_ids, const Handles& handles,
+    const SurfaceWeightsOptions& options, const WeightsOptions& weights_options,
+    const WeightsMethod& method)
     : points_(points), triangles_(triangles), region_ids_(region_ids), handles_(handles),
       options_(options), weights_options_(weights_options), method_(method), context_(context)
   {
@@ -193,7 +194,7 @@ Status Solver::prepare()
   }
   auto prepared = std::make_unique<PreparedSurface>();
   Status status = prepare_surface(
-    this->points_, this->triangles_, this->options_.winding_threshold, *prepared, this->context_);
+    this->context_, this->points_, this->triangles_, this->options_.winding_threshold, *prepared);
   if (status.ok())
   {
     this->prepared_ = std::move(prepared);
@@ -221,7 +222,7 @@ Status Solver::fill(TetrahedralizeResult& tets)
   options.handles = this->options_.places;
   const ProgressRange range(this->context_, 0.3, 1.0);
   status = tetrahedralize(
-    this->points_, this->triangles_, *this->prepared_, options, tets, this->context_);
+    this->context_, this->points_, this->triangles_, *this->prepared_, options, tets);
   rename_tet_method(status.report);
   return status;
 }
@@ -255,7 +256,7 @@ Status Solver::carry_terms_to(const Points& points, const std::vector<Index>& or
   }
   Index lost = 0;
   const Status carried = carry_terms(
-    this->weights_options_.terms, surface, points, original, this->context_, terms, lost);
+    this->context_, this->weights_options_.terms, surface, points, original, terms, lost);
   if (lost > 0)
   {
     status.warnings.push_back(std::to_string(lost) +
@@ -277,11 +278,11 @@ Status Solver::solve(const Domain& domain, const std::vector<Index>& region_ids,
     options.insertion = insertion;
     options.terms = terms;
     status = make_weights_problem(
-      domain, region_ids, this->handles_, options, this->context_, result.problem);
+      this->context_, domain, region_ids, this->handles_, options, result.problem);
     if (status.usable() && this->options_.preview && this->preview_.size() == 0)
     {
       const ProgressRange before(this->context_, 0.04, 0.1);
-      status = preview_weights(result.problem, options, this->context_, result.solved);
+      status = preview_weights(this->context_, result.problem, options, result.solved);
       if (status.usable() && carry_preview(result.solved.weights, this->preview_).usable())
       {
         normalize(this->preview_);
@@ -290,7 +291,7 @@ Status Solver::solve(const Domain& domain, const std::vector<Index>& region_ids,
     }
     if (status.usable())
     {
-      status = this->method_(result.problem, this->context_, result.solved);
+      status = this->method_(this->context_, result.problem, result.solved);
     }
     if (!status.usable())
     {
@@ -389,7 +390,7 @@ Status Solver::solve_volume(Status mesh_status, SurfaceWeights& result)
   {
     TransferCounts counts;
     return transfer(
-      result.problem.mesh.domain, solved, this->points_, {}, this->context_, at_points, counts);
+      this->context_, result.problem.mesh.domain, solved, this->points_, {}, at_points, counts);
   };
   return this->joined(mesh_status,
     this->solve(volume_of(result.tets.mesh), labels, terms, this->weights_options_.insertion, carry,
@@ -410,7 +411,7 @@ Status Solver::in_cage(SurfaceWeights& result)
   {
     const ProgressRange range(this->context_, 0.0, meshing_end);
     status =
-      fill_cage(this->points_, this->triangles_, this->handles_, options, cage, this->context_);
+      fill_cage(this->context_, this->points_, this->triangles_, this->handles_, options, cage);
   }
   if (!status.usable())
   {
@@ -432,7 +433,7 @@ Status Solver::in_cage(SurfaceWeights& result)
   {
     TransferCounts counts;
     Status carried = transfer(
-      result.problem.mesh.domain, solved, this->points_, {}, this->context_, at_points, counts);
+      this->context_, result.problem.mesh.domain, solved, this->points_, {}, at_points, counts);
     if (counts.nearest + counts.misses > 0)
     {
       carried.warnings = { std::to_string(counts.nearest + counts.misses) +
@@ -486,17 +487,17 @@ Status Solver::hold_surface(EmbeddingOptions options, Lattice& lattice)
   for (int round = 0; round < most_rounds; ++round)
   {
     options.links = this->links_;
-    status = embed_surface(this->points_, this->triangles_, this->prepared_->inside.winding(),
-      options, lattice.tets, this->context_);
+    status = embed_surface(this->context_, this->points_, this->triangles_,
+      this->prepared_->inside.winding(), options, lattice.tets);
     if (!status.ok())
     {
       return status;
     }
     this->put_surface_in(lattice);
     LooseParts loose;
-    const Status found = find_loose_parts(this->points_, this->triangles_,
+    const Status found = find_loose_parts(this->context_, this->points_, this->triangles_,
       this->prepared_->surface.lowest_equal, lattice.tets, *lattice.surface, this->handles_,
-      this->insertion_in(lattice), loose, this->context_);
+      this->insertion_in(lattice), loose);
     if (!found.ok())
     {
       return found;
@@ -562,7 +563,7 @@ Status Solver::solve_on(Lattice& lattice, Status mesh_status)
   const auto carry = [&](Smoothness smoothness)
   {
     return [&, smoothness](const Weights& solved, Weights& at_points)
-    { return lattice.carry(solved, this->handles_, smoothness, this->context_, at_points); };
+    { return lattice.carry(this->context_, solved, this->handles_, smoothness, at_points); };
   };
   return this->joined(std::move(mesh_status),
     this->solve(domain, {}, terms, this->insertion_in(lattice), carry(Smoothness::as_interpolated),
@@ -698,15 +699,15 @@ Status Solver::finish(Lattice& lattice, SurfaceWeights& result)
     [&](const Weights& solved, Weights& at_points)
     {
       return lattice.carry(
-        solved, this->handles_, EmbeddedSurface::Smoothness::smoothed, this->context_, at_points);
+        this->context_, solved, this->handles_, EmbeddedSurface::Smoothness::smoothed, at_points);
     },
     lattice.result);
   if (!carried.usable())
   {
     return carried;
   }
-  Status described = take_embedding(this->points_, this->triangles_, *this->prepared_,
-    std::move(lattice.tets), lattice.result.tets, this->context_);
+  Status described = take_embedding(this->context_, this->points_, this->triangles_,
+    *this->prepared_, std::move(lattice.tets), lattice.result.tets);
   if (!described.usable())
   {
     return described;
@@ -845,10 +846,10 @@ const char* to_string(WeightsDomain domain)
   return names[static_cast<int>(domain)];
 }
 
-Status surface_weights(PointsView points, TrianglesView triangles,
+Status surface_weights(ExecutionContext& context, PointsView points, TrianglesView triangles,
   const std::vector<Index>& region_ids, const Handles& handles,
   const SurfaceWeightsOptions& options, const WeightsOptions& weights_options,
-  const WeightsMethod& method, ExecutionContext& context, SurfaceWeights& result)
+  const WeightsMethod& method, SurfaceWeights& result)
 {
   result = SurfaceWeights();
   if (!(options.winding_threshold > 0.0))
@@ -867,7 +868,7 @@ Status surface_weights(PointsView points, TrianglesView triangles,
     valid = check_regions(handles, region_ids, points.rows());
   }
   return valid.ok()
-    ? Solver(points, triangles, region_ids, handles, options, weights_options, method, context)
+    ? Solver(context, points, triangles, region_ids, handles, options, weights_options, method)
         .run(result)
     : valid;
 }

@@ -34,7 +34,7 @@ const char* to_string(WeightsDomain domain);
 /// A weight method (bounded_biharmonic_weights, monotone_weights, …) as a function that already
 /// contains its options.
 using WeightsMethod =
-  std::function<Status(const WeightsProblem&, ExecutionContext&, WeightsResult&)>;
+  std::function<Status(ExecutionContext&, const WeightsProblem&, WeightsResult&)>;
 
 /// The result of surface_weights().
 struct SurfaceWeights
@@ -121,10 +121,10 @@ struct SurfaceWeightsOptions
 /// surface. Errors of meshing, handle insertion, method and transfer are returned. Return
 /// invalid_input for regions with domain embedding.
 /// @param region_ids label of every vertex, or empty.
-Status surface_weights(PointsView points, TrianglesView triangles,
+Status surface_weights(ExecutionContext& context, PointsView points, TrianglesView triangles,
   const std::vector<Index>& region_ids, const Handles& handles,
   const SurfaceWeightsOptions& options, const WeightsOptions& weights_options,
-  const WeightsMethod& method, ExecutionContext& context, SurfaceWeights& result);
+  const WeightsMethod& method, SurfaceWeights& result);
 
 } // namespace bindpose
 

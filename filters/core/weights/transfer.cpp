@@ -9,9 +9,8 @@
 namespace bindpose
 {
 
-Status transfer(const Domain& mesh, WeightsView values, PointsView points,
-  const TransferOptions& options, ExecutionContext& context, Weights& result,
-  TransferCounts& counts)
+Status transfer(ExecutionContext& context, const Domain& mesh, WeightsView values,
+  PointsView points, const TransferOptions& options, Weights& result, TransferCounts& counts)
 {
   counts = {};
   if (mesh.element_count() == 0)

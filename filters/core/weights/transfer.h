@@ -37,9 +37,8 @@ struct TransferCounts
 /// #elements) per point.
 /// @param values #V x #columns at the mesh's vertices.
 /// @param result #points x #columns.
-Status transfer(const Domain& mesh, WeightsView values, PointsView points,
-  const TransferOptions& options, ExecutionContext& context, Weights& result,
-  TransferCounts& counts);
+Status transfer(ExecutionContext& context, const Domain& mesh, WeightsView values,
+  PointsView points, const TransferOptions& options, Weights& result, TransferCounts& counts);
 
 /// Return "exact" if all points are on vertices, "barycentric" if no point is, else "mixed".
 const char* transfer_word(const TransferCounts& counts);

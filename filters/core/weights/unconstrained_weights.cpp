@@ -84,8 +84,8 @@ SparseMatrix linear_subspace_energy(const WeightsProblem& problem, bool spanned)
 }
 
 /// Minimize 1/2 w' Q w for every handle.
-Status minimize(const WeightsProblem& problem, const char* method, const SparseMatrix& q,
-  const WeightsOptions& options, ExecutionContext& context, WeightsResult& result)
+Status minimize(ExecutionContext& context, const WeightsProblem& problem, const char* method,
+  const SparseMatrix& q, const WeightsOptions& options, WeightsResult& result)
 {
   BoxQp solver(q, problem.fixed, { options.tolerance, options.maximum_iterations, options.solver });
   Status status = solver.prepare(context);
@@ -94,7 +94,7 @@ Status minimize(const WeightsProblem& problem, const char* method, const SparseM
     return status;
   }
   const std::vector<BoxQpSolution> solutions =
-    solver.solve_unbounded(plain_columns(problem), context);
+    solver.solve_unbounded(context, plain_columns(problem));
   if (context.canceled())
   {
     return Status::canceled();
@@ -105,49 +105,48 @@ Status minimize(const WeightsProblem& problem, const char* method, const SparseM
   {
     fallback.col(static_cast<Index>(j)) = solutions[j].w;
   }
-  return finish_weights(problem, method, options.tolerance, solutions, fallback, context, result);
+  return finish_weights(context, problem, method, options.tolerance, solutions, fallback, result);
 }
 
 /// Minimize the k-harmonic energy of the given order k, computed with the given masses.
-Status minimize_order(const WeightsProblem& problem, const char* method, int order,
-  const Eigen::VectorXd& mass, const WeightsOptions& options, ExecutionContext& context,
-  WeightsResult& result)
+Status minimize_order(ExecutionContext& context, const WeightsProblem& problem, const char* method,
+  int order, const Eigen::VectorXd& mass, const WeightsOptions& options, WeightsResult& result)
 {
   result = {};
   const Status status = check_no_terms(problem);
-  return status.ok() ? minimize(problem, method, harmonic_energy(problem.stiffness, mass, order),
-                         options, context, result)
+  return status.ok() ? minimize(context, problem, method,
+                         harmonic_energy(problem.stiffness, mass, order), options, result)
                      : status;
 }
 } // namespace
 
-Status harmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,
-  ExecutionContext& context, WeightsResult& result)
+Status harmonic_weights(ExecutionContext& context, const WeightsProblem& problem,
+  const WeightsOptions& options, WeightsResult& result)
 {
-  return minimize_order(problem, "harmonic", 1, problem.mass, options, context, result);
+  return minimize_order(context, problem, "harmonic", 1, problem.mass, options, result);
 }
 
-Status biharmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,
-  ExecutionContext& context, WeightsResult& result)
+Status biharmonic_weights(ExecutionContext& context, const WeightsProblem& problem,
+  const WeightsOptions& options, WeightsResult& result)
 {
-  return minimize_order(problem, "biharmonic", 2, problem.mass, options, context, result);
+  return minimize_order(context, problem, "biharmonic", 2, problem.mass, options, result);
 }
 
-Status triharmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,
-  ExecutionContext& context, WeightsResult& result)
+Status triharmonic_weights(ExecutionContext& context, const WeightsProblem& problem,
+  const WeightsOptions& options, WeightsResult& result)
 {
-  return minimize_order(problem, "triharmonic", 3, problem.mass, options, context, result);
+  return minimize_order(context, problem, "triharmonic", 3, problem.mass, options, result);
 }
 
-Status graph_biharmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,
-  ExecutionContext& context, WeightsResult& result)
+Status graph_biharmonic_weights(ExecutionContext& context, const WeightsProblem& problem,
+  const WeightsOptions& options, WeightsResult& result)
 {
-  return minimize_order(problem, "graph-biharmonic", 2,
-    Eigen::VectorXd::Ones(problem.vertex_count()), options, context, result);
+  return minimize_order(context, problem, "graph-biharmonic", 2,
+    Eigen::VectorXd::Ones(problem.vertex_count()), options, result);
 }
 
-Status linear_subspace_weights(const WeightsProblem& problem, const WeightsOptions& options,
-  ExecutionContext& context, WeightsResult& result)
+Status linear_subspace_weights(ExecutionContext& context, const WeightsProblem& problem,
+  const WeightsOptions& options, WeightsResult& result)
 {
   result = {};
   Status status = check_no_terms(problem);
@@ -157,7 +156,7 @@ Status linear_subspace_weights(const WeightsProblem& problem, const WeightsOptio
   }
   const bool spanned = fixed_vertices_span(problem);
   status = minimize(
-    problem, "linear-subspace", linear_subspace_energy(problem, spanned), options, context, result);
+    context, problem, "linear-subspace", linear_subspace_energy(problem, spanned), options, result);
   if (!spanned && status.usable())
   {
     status.warnings.emplace_back("the handles do not span the shape, so a millionth of the "

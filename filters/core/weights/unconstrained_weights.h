@@ -14,20 +14,20 @@ namespace bindpose
 
 /// Minimize int |grad w|^2. The weights are in [0, 1] if cotangents are positive, and have peaks at
 /// point handles.
-Status harmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,
-  ExecutionContext& context, WeightsResult& result);
+Status harmonic_weights(ExecutionContext& context, const WeightsProblem& problem,
+  const WeightsOptions& options, WeightsResult& result);
 /// Minimize int (Laplacian w)^2. The weights are smooth and nearly independent of the resolution of
 /// the mesh, but leave [0, 1].
-Status biharmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,
-  ExecutionContext& context, WeightsResult& result);
+Status biharmonic_weights(ExecutionContext& context, const WeightsProblem& problem,
+  const WeightsOptions& options, WeightsResult& result);
 /// Minimize int |grad Laplacian w|^2. The weights are smoother than biharmonic weights, but leave
 /// [0, 1] further.
-Status triharmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,
-  ExecutionContext& context, WeightsResult& result);
+Status triharmonic_weights(ExecutionContext& context, const WeightsProblem& problem,
+  const WeightsOptions& options, WeightsResult& result);
 /// Minimize |K w|^2 without masses (Botsch and Kobbelt 2004), for comparison. The weights depend on
 /// the density of the mesh.
-Status graph_biharmonic_weights(const WeightsProblem& problem, const WeightsOptions& options,
-  ExecutionContext& context, WeightsResult& result);
+Status graph_biharmonic_weights(ExecutionContext& context, const WeightsProblem& problem,
+  const WeightsOptions& options, WeightsResult& result);
 /// Minimize the biharmonic energy with boundary conditions that a linear function satisfies as well
 /// (Wang, Jacobson, Barbic, Kavan, Linear Subspace Design for Real-Time Shape Deformation, 2015).
 /// Point handles then reproduce affine maps exactly: sum w_j p_j = p. This requires four points
@@ -35,8 +35,8 @@ Status graph_biharmonic_weights(const WeightsProblem& problem, const WeightsOpti
 /// too few points, 1e-6 times the biharmonic energy is added, with a warning. The method is
 /// intended for point handles. Weights are constant along a bone, which is not compatible with
 /// linear functions, so weights beyond a bone are far outside of [0, 1].
-Status linear_subspace_weights(const WeightsProblem& problem, const WeightsOptions& options,
-  ExecutionContext& context, WeightsResult& result);
+Status linear_subspace_weights(ExecutionContext& context, const WeightsProblem& problem,
+  const WeightsOptions& options, WeightsResult& result);
 
 } // namespace bindpose
 

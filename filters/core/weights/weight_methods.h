@@ -10,7 +10,7 @@ namespace bindpose
 
 /// A kernel that computes weights.
 using WeightsKernel = Status (*)(
-  const WeightsProblem&, const WeightsOptions&, ExecutionContext&, WeightsResult&);
+  ExecutionContext&, const WeightsProblem&, const WeightsOptions&, WeightsResult&);
 
 /// A method that computes weights. To add a method, write its kernel and add one row to
 /// weight_methods(). The filter vtkUnconstrainedWeights, the window of the viewer and the command

@@ -36,8 +36,8 @@ struct Round
 class WeightSolver
 {
 public:
-  WeightSolver(const WeightsProblem& problem, int order, const WeightsOptions& options,
-    const std::function<Status(ColumnGroup&)>& guide, ExecutionContext& context)
+  WeightSolver(ExecutionContext& context, const WeightsProblem& problem, int order,
+    const WeightsOptions& options, const std::function<Status(ColumnGroup&)>& guide)
     : problem_(problem), order_(order), options_(options), guide_(guide), context_(context)
   {
   }
@@ -101,7 +101,7 @@ public:
       const ColumnGroup& group = this->groups_[g];
       const BoxQp& solver = *this->solvers_[g].solver;
       const ProgressRange range(this->context_, g / count, (g + 1) / count);
-      std::vector<BoxQpSolution> solved = solver.solve_all(group.columns, this->context_);
+      std::vector<BoxQpSolution> solved = solver.solve_all(this->context_, group.columns);
       const Status status = worst_of(solved);
       if (!status.usable())
       {
@@ -130,10 +130,9 @@ public:
     {
       start.row(group.unknown(v, 0, normalized.rows())) = normalized.row(v);
     }
-    CoupledSolution solved = solve_coupled_qp(this->solvers_.front().q, group.fixed, group.columns,
-      start, *this->solvers_.front().solver,
-      { this->options_.tolerance, this->options_.maximum_iterations, this->options_.solver },
-      this->context_);
+    CoupledSolution solved = solve_coupled_qp(this->context_, this->solvers_.front().q, group.fixed,
+      group.columns, start, *this->solvers_.front().solver,
+      { this->options_.tolerance, this->options_.maximum_iterations, this->options_.solver });
     outcome = solved.status;
     if (outcome.code == StatusCode::invalid_input && solved.vertex >= 0)
     {
@@ -338,15 +337,15 @@ void report_difference(const WeightsProblem& problem, const Weights& a, const We
 }
 } // namespace
 
-Status solve_weights(const WeightsProblem& problem, int order, const std::string& method,
-  const WeightsOptions& options, const std::function<Status(ColumnGroup&)>& guide,
-  ExecutionContext& context, WeightsResult& result)
+Status solve_weights(ExecutionContext& context, const WeightsProblem& problem, int order,
+  const std::string& method, const WeightsOptions& options,
+  const std::function<Status(ColumnGroup&)>& guide, WeightsResult& result)
 {
   result = {};
   const bool coupled = options.partition == PartitionOfUnity::coupled;
   const bool limited =
     options.maximum_influences > 0 && options.maximum_influences < problem.handle_count();
-  WeightSolver solver(problem, order, options, guide, context);
+  WeightSolver solver(context, problem, order, options, guide);
   Exclusions excluded;
   Round round;
   Status outcome; // status of the coupled quadratic program
@@ -379,7 +378,7 @@ Status solve_weights(const WeightsProblem& problem, int order, const std::string
   }
   result.analyses = solver.analyses();
   Status status = finish_weights(
-    problem, method, options.tolerance, round.solutions, round.fallback, context, result, excluded);
+    context, problem, method, options.tolerance, round.solutions, round.fallback, result, excluded);
   if (!status.usable())
   {
     return status;

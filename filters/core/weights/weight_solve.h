@@ -13,9 +13,9 @@ namespace bindpose
 /// influences is limited, they are solved a second time.
 /// @param guide called for each group before its columns are solved, to add the ordered pairs of
 /// monotone weights; may be empty. Progress phase "guide".
-Status solve_weights(const WeightsProblem& problem, int order, const std::string& method,
-  const WeightsOptions& options, const std::function<Status(ColumnGroup&)>& guide,
-  ExecutionContext& context, WeightsResult& result);
+Status solve_weights(ExecutionContext& context, const WeightsProblem& problem, int order,
+  const std::string& method, const WeightsOptions& options,
+  const std::function<Status(ColumnGroup&)>& guide, WeightsResult& result);
 
 } // namespace bindpose
 

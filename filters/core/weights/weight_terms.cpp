@@ -331,8 +331,8 @@ bool has_vertex_terms(const WeightTerms& terms)
     terms.pinned.size() > 0 || !terms.mirror.empty();
 }
 
-Status carry_terms(const WeightTerms& terms, const Domain& surface, const Points& points,
-  const std::vector<Index>& original, ExecutionContext& context, WeightTerms& carried, Index& lost)
+Status carry_terms(ExecutionContext& context, const WeightTerms& terms, const Domain& surface,
+  const Points& points, const std::vector<Index>& original, WeightTerms& carried, Index& lost)
 {
   carried = terms;
   if (terms.rigidity.size() > 0)
@@ -340,7 +340,7 @@ Status carry_terms(const WeightTerms& terms, const Domain& surface, const Points
     const Weights painted = terms.rigidity;
     Weights there;
     TransferCounts counts;
-    const Status status = transfer(surface, painted, points, {}, context, there, counts);
+    const Status status = transfer(context, surface, painted, points, {}, there, counts);
     if (!status.ok())
     {
       return status;

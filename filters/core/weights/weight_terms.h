@@ -78,8 +78,8 @@ bool has_vertex_terms(const WeightTerms& terms);
 /// @param original for every vertex of the mesh, the surface vertex at its position; -1: none.
 /// @param lost set to the number of surface vertices that have terms for individual vertices but
 /// are not in the mesh.
-Status carry_terms(const WeightTerms& terms, const Domain& surface, const Points& points,
-  const std::vector<Index>& original, ExecutionContext& context, WeightTerms& carried, Index& lost);
+Status carry_terms(ExecutionContext& context, const WeightTerms& terms, const Domain& surface,
+  const Points& points, const std::vector<Index>& original, WeightTerms& carried, Index& lost);
 
 /// Return the mirror image of each handle; -1: none. Handle b is the mirror image of handle a if
 /// the vertices on b are the mirror vertices of the vertices on a. A handle on the mirror plane is

@@ -110,8 +110,8 @@ void report_problem(const WeightsProblem& problem, Status& status)
 }
 } // namespace
 
-Status make_weights_problem(const Domain& domain, const std::vector<Index>& region_ids,
-  const Handles& handles, const WeightsOptions& options, ExecutionContext& context,
+Status make_weights_problem(ExecutionContext& context, const Domain& domain,
+  const std::vector<Index>& region_ids, const Handles& handles, const WeightsOptions& options,
   WeightsProblem& problem)
 {
   problem = WeightsProblem();
@@ -126,7 +126,7 @@ Status make_weights_problem(const Domain& domain, const std::vector<Index>& regi
     return Status::invalid_input("the number of influences must be 0 or more");
   }
   problem.handles = handles;
-  Status status = insert_handles(domain, handles, options.insertion, context, problem.mesh);
+  Status status = insert_handles(context, domain, handles, options.insertion, problem.mesh);
   if (status.ok())
   {
     status = check_terms(options.terms, domain.points.rows(), handles);
@@ -261,9 +261,9 @@ Index normalize_rows(const WeightsProblem& problem, const Eigen::MatrixXd& fallb
   return thin_rows;
 }
 
-Status finish_weights(const WeightsProblem& problem, const std::string& method, double tolerance,
-  const std::vector<BoxQpSolution>& solutions, const Eigen::MatrixXd& fallback,
-  ExecutionContext& context, WeightsResult& result, const std::vector<char>& excluded)
+Status finish_weights(ExecutionContext& context, const WeightsProblem& problem,
+  const std::string& method, double tolerance, const std::vector<BoxQpSolution>& solutions,
+  const Eigen::MatrixXd& fallback, WeightsResult& result, const std::vector<char>& excluded)
 {
   const Index n = problem.vertex_count();
   const Index m = problem.handle_count();

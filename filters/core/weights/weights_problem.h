@@ -80,8 +80,8 @@ struct WeightsProblem
 /// Insert the handles, find the constraints, and assemble stiffness and mass. Progress phase
 /// "insert".
 /// @param region_ids label of every vertex, or empty.
-Status make_weights_problem(const Domain& domain, const std::vector<Index>& region_ids,
-  const Handles& handles, const WeightsOptions& options, ExecutionContext& context,
+Status make_weights_problem(ExecutionContext& context, const Domain& domain,
+  const std::vector<Index>& region_ids, const Handles& handles, const WeightsOptions& options,
   WeightsProblem& problem);
 
 /// One column of the weights before normalization, with its certificate.
@@ -132,9 +132,9 @@ Index normalize_rows(const WeightsProblem& problem, const Eigen::MatrixXd& fallb
 /// extrema and fill the report. Return not_converged if a certificate exceeds the tolerance;
 /// otherwise the status of the problem.
 /// @param fallback, excluded see normalize_rows.
-Status finish_weights(const WeightsProblem& problem, const std::string& method, double tolerance,
-  const std::vector<BoxQpSolution>& solutions, const Eigen::MatrixXd& fallback,
-  ExecutionContext& context, WeightsResult& result, const std::vector<char>& excluded = {});
+Status finish_weights(ExecutionContext& context, const WeightsProblem& problem,
+  const std::string& method, double tolerance, const std::vector<BoxQpSolution>& solutions,
+  const Eigen::MatrixXd& fallback, WeightsResult& result, const std::vector<char>& excluded = {});
 
 } // namespace bindpose
 

@@ -170,8 +170,8 @@ struct Welded
   Index merged_vertices = 0;
 };
 
-bool weld(PlanePointsView points, SegmentsView segments, const ExactFrame& frame,
-  ExecutionContext& context, Welded& welded)
+bool weld(ExecutionContext& context, PlanePointsView points, SegmentsView segments,
+  const ExactFrame& frame, Welded& welded)
 {
   std::vector<char> used(static_cast<std::size_t>(points.rows()), 0);
   for (Index k = 0; k < segments.size(); ++k)
@@ -221,7 +221,7 @@ bool weld(PlanePointsView points, SegmentsView segments, const ExactFrame& frame
 /// Count the segments that join the same two vertices as an earlier segment, in either direction.
 /// Return false if canceled.
 bool count_duplicates(
-  const std::vector<Segment>& segments, ExecutionContext& context, Index& duplicates)
+  ExecutionContext& context, const std::vector<Segment>& segments, Index& duplicates)
 {
   std::vector<std::array<Id, 2>> ends;
   ends.reserve(segments.size());
@@ -328,8 +328,9 @@ struct Node
 class TreeBuilder
 {
 public:
-  TreeBuilder(const std::vector<Vec2>& path, const std::vector<Loop>& loops, double margin,
-    ExecutionContext& context, std::vector<Node>& nodes, std::vector<Chord>& chords)
+  TreeBuilder(ExecutionContext& context, const std::vector<Vec2>& path,
+    const std::vector<Loop>& loops, double margin, std::vector<Node>& nodes,
+    std::vector<Chord>& chords)
     : path_(path), loops_(loops), margin_(margin), context_(context), nodes_(nodes), chords_(chords)
   {
   }
@@ -508,14 +509,14 @@ CurveWindingNumber::CurveWindingNumber(PlanePointsView points, SegmentsView segm
   : parts_(new Parts)
 {
   ExecutionContext context;
-  this->build(points, segments, context);
+  this->build(context, points, segments);
 }
 CurveWindingNumber::~CurveWindingNumber() = default;
 CurveWindingNumber::CurveWindingNumber(CurveWindingNumber&&) noexcept = default;
 CurveWindingNumber& CurveWindingNumber::operator=(CurveWindingNumber&&) noexcept = default;
 
 Status CurveWindingNumber::build(
-  PlanePointsView points, SegmentsView segments, ExecutionContext& context)
+  ExecutionContext& context, PlanePointsView points, SegmentsView segments)
 {
   this->parts_.reset(new Parts);
   Parts& parts = *this->parts_;
@@ -531,12 +532,12 @@ Status CurveWindingNumber::build(
   bool done = true;
   {
     const ProgressRange range(context, 0.0, 0.4);
-    done = weld(points, segments, parts.frame, context, welded);
+    done = weld(context, points, segments, parts.frame, welded);
   }
   if (done)
   {
     const ProgressRange range(context, 0.4, 0.7);
-    done = count_duplicates(welded.segments, context, duplicates);
+    done = count_duplicates(context, welded.segments, duplicates);
   }
   if (done)
   {
@@ -589,7 +590,7 @@ Status CurveWindingNumber::build(
     const ProgressRange range(context, 0.7, 1.0);
     // The boxes are enlarged by twice the tolerance, because their coordinates are rounded.
     done = TreeBuilder(
-      parts.path, loops, 2.0 * parts.frame.tolerance, context, parts.nodes, parts.chords)
+      context, parts.path, loops, 2.0 * parts.frame.tolerance, parts.nodes, parts.chords)
              .run();
   }
   if (!done)
@@ -762,7 +763,7 @@ double nanoseconds_a_point(std::size_t chords)
 } // namespace
 
 Status CurveWindingNumber::evaluate(
-  PlanePointsView queries, ExecutionContext& context, double* out, unsigned char* on_curve) const
+  ExecutionContext& context, PlanePointsView queries, double* out, unsigned char* on_curve) const
 {
   const Parts& parts = *this->parts_;
   if (!parts.status.ok())
@@ -783,14 +784,14 @@ Status CurveWindingNumber::evaluate(
 }
 
 Status CurveWindingNumber::evaluate(
-  PlanePointsView queries, ExecutionContext& context, Eigen::VectorXd& out) const
+  ExecutionContext& context, PlanePointsView queries, Eigen::VectorXd& out) const
 {
   out.resize(queries.rows());
-  return this->evaluate(queries, context, out.data());
+  return this->evaluate(context, queries, out.data());
 }
 
 Status CurveWindingNumber::evaluate_gradient(
-  PlanePointsView queries, ExecutionContext& context, double* out) const
+  ExecutionContext& context, PlanePointsView queries, double* out) const
 {
   const Parts& parts = *this->parts_;
   if (!parts.status.ok())

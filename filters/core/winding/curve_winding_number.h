@@ -62,7 +62,7 @@ public:
   ///   make the winding number fractional,
   /// - area: the sum of (area of a region) x (winding number in the region), over all regions of
   ///   the plane. Open curves are closed by straight lines between their ends.
-  Status build(PlanePointsView points, SegmentsView segments, ExecutionContext& context);
+  Status build(ExecutionContext& context, PlanePointsView points, SegmentsView segments);
 
   /// Return the status of the last build.
   const Status& status() const;
@@ -74,14 +74,14 @@ public:
   /// that is not finite gets NaN and causes a warning. The status reports counts.queries,
   /// counts.on_surface and, if it is not 0, counts.not_finite. If the returned status is canceled,
   /// `out` is incomplete.
-  Status evaluate(PlanePointsView queries, ExecutionContext& context, double* out,
+  Status evaluate(ExecutionContext& context, PlanePointsView queries, double* out,
     unsigned char* on_curve = nullptr) const;
-  Status evaluate(PlanePointsView queries, ExecutionContext& context, Eigen::VectorXd& out) const;
+  Status evaluate(ExecutionContext& context, PlanePointsView queries, Eigen::VectorXd& out) const;
   /// Compute the derivatives of the winding number along x and y, #Q x 2. The jump across the curve
   /// is excluded, so the derivatives of closed curves are 0. The derivatives have no limit at an
   /// open end; an open end that touches the point contributes 0. If the returned status is
   /// canceled, `out` is incomplete.
-  Status evaluate_gradient(PlanePointsView queries, ExecutionContext& context, double* out) const;
+  Status evaluate_gradient(ExecutionContext& context, PlanePointsView queries, double* out) const;
 
   /// Return the winding number at one point, or NaN if the point is not finite. Thread-safe, does
   /// not allocate.

@@ -55,9 +55,8 @@ public:
   /// 0.8 to 3 kB per triangle. Fields of few triangles need the most memory per triangle, because
   /// their cells are finer.
   /// @return false if canceled; the field is then empty.
-  bool build(const Points& points, const Triangles& triangles,
-    const std::vector<int>& multiplicities, double touch_tolerance, const Options& options,
-    ExecutionContext& context);
+  bool build(ExecutionContext& context, const Points& points, const Triangles& triangles,
+    const std::vector<int>& multiplicities, double touch_tolerance, const Options& options);
 
   /// Return the value at a finite point. It is a pure function of the point. Thread-safe, does not
   /// allocate.

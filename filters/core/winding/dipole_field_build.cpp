@@ -173,7 +173,7 @@ struct DipoleField::Build
     std::vector<std::vector<double>> locals; ///< expansions of the eight children, per level
   };
 
-  Build(DipoleField& owner, ExecutionContext& run, const Options& wanted)
+  Build(ExecutionContext& run, DipoleField& owner, const Options& wanted)
     : field(owner), context(run), options(wanted)
   {
   }
@@ -1356,14 +1356,13 @@ bool DipoleField::sums_all(Index expected_points)
   return expected_points > 0 && expected_points <= few_points;
 }
 
-bool DipoleField::build(const Points& points, const Triangles& triangles,
-  const std::vector<int>& multiplicities, double touch_tolerance, const Options& options,
-  ExecutionContext& context)
+bool DipoleField::build(ExecutionContext& context, const Points& points, const Triangles& triangles,
+  const std::vector<int>& multiplicities, double touch_tolerance, const Options& options)
 {
   *this = DipoleField();
   this->points_ = &points;
   this->touch_tolerance_ = touch_tolerance;
-  Build build(*this, context, options);
+  Build build(context, *this, options);
   const bool done = build.run(triangles, multiplicities);
   if (!done)
   {

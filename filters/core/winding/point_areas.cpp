@@ -119,8 +119,8 @@ double area_of(const Points& points, const Points& normals, PointTree::Id point,
 }
 } // namespace
 
-bool estimate_point_areas(const Points& points, const Points& normals, const PointTree& tree,
-  Index neighbors, double tolerance, ExecutionContext& context, Eigen::VectorXd& areas)
+bool estimate_point_areas(ExecutionContext& context, const Points& points, const Points& normals,
+  const PointTree& tree, Index neighbors, double tolerance, Eigen::VectorXd& areas)
 {
   areas.setZero(points.rows());
   constexpr Index block = 512;

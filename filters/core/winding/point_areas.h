@@ -26,8 +26,8 @@ namespace bindpose
 /// @param neighbors number of neighbors, at least 3
 /// @param tolerance distance within which points coincide
 /// @return false if canceled. Cost: about 3 us per point with 12 neighbors.
-bool estimate_point_areas(const Points& points, const Points& normals, const PointTree& tree,
-  Index neighbors, double tolerance, ExecutionContext& context, Eigen::VectorXd& areas);
+bool estimate_point_areas(ExecutionContext& context, const Points& points, const Points& normals,
+  const PointTree& tree, Index neighbors, double tolerance, Eigen::VectorXd& areas);
 
 } // namespace bindpose
 

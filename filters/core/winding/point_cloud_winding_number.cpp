@@ -382,11 +382,11 @@ struct PointCloudWindingNumber::Parts
   std::vector<Extent> extents; ///< eight extents per group; used by the build only
 
   void take_dipoles(const Points& points, const Points& moments_of, const PointTree& tree);
-  bool find_multipoles(const PointTree& tree, ExecutionContext& context);
+  bool find_multipoles(ExecutionContext& context, const PointTree& tree);
   void find_multipole(const PointTree::Group& group, Index number, Harmonics (&room)[2]);
-  bool find_reaches(double threshold, ExecutionContext& context);
-  bool find_threshold(const Points& places, ExecutionContext& context);
-  double measured_error(const Points& places, ExecutionContext& context) const;
+  bool find_reaches(ExecutionContext& context, double threshold);
+  bool find_threshold(ExecutionContext& context, const Points& places);
+  double measured_error(ExecutionContext& context, const Points& places) const;
   Points sample(const PointTree& tree) const;
 
   bool winds_around(const Vec3& framed) const;
@@ -490,7 +490,7 @@ void PointCloudWindingNumber::Parts::take_dipoles(
 }
 
 bool PointCloudWindingNumber::Parts::find_multipoles(
-  const PointTree& tree, ExecutionContext& context)
+  ExecutionContext& context, const PointTree& tree)
 {
   const std::size_t groups = tree.groups().size();
   this->boxes.resize(groups);
@@ -599,7 +599,7 @@ void PointCloudWindingNumber::Parts::find_multipole(
   }
 }
 
-bool PointCloudWindingNumber::Parts::find_reaches(double threshold, ExecutionContext& context)
+bool PointCloudWindingNumber::Parts::find_reaches(ExecutionContext& context, double threshold)
 {
   constexpr Index block = 64;
   return parallel_for(context, static_cast<Index>(this->boxes.size()), block,
@@ -684,7 +684,7 @@ Points PointCloudWindingNumber::Parts::sample(const PointTree& tree) const
 
 /// Find a threshold such that the largest sum of the error bounds at `places` is about 90 % of the
 /// tolerance. Return false if canceled.
-bool PointCloudWindingNumber::Parts::find_threshold(const Points& places, ExecutionContext& context)
+bool PointCloudWindingNumber::Parts::find_threshold(ExecutionContext& context, const Points& places)
 {
   // The error bound of each box is proportional to the threshold. The number of boxes decreases
   // slightly if the threshold increases.
@@ -693,7 +693,7 @@ bool PointCloudWindingNumber::Parts::find_threshold(const Points& places, Execut
   for (int round = 0; round < rounds; ++round)
   {
     const ProgressRange range(context, round / (rounds + 1.0), (round + 1) / (rounds + 1.0));
-    if (!this->find_reaches(threshold, context))
+    if (!this->find_reaches(context, threshold))
     {
       return false;
     }
@@ -717,12 +717,12 @@ bool PointCloudWindingNumber::Parts::find_threshold(const Points& places, Execut
       0.9 * this->tolerance / std::max(largest, 1e-300), 1.0 / most_at_once, most_at_once);
   }
   const ProgressRange range(context, rounds / (rounds + 1.0), 1.0);
-  return this->find_reaches(threshold, context);
+  return this->find_reaches(context, threshold);
 }
 
 /// Return the largest difference from the plain sum at `places`, or a negative number if canceled.
 double PointCloudWindingNumber::Parts::measured_error(
-  const Points& places, ExecutionContext& context) const
+  ExecutionContext& context, const Points& places) const
 {
   std::vector<double> errors(static_cast<std::size_t>(places.rows()));
   const bool done = parallel_for(context, places.rows(), 1,
@@ -735,8 +735,8 @@ double PointCloudWindingNumber::Parts::measured_error(
   return done ? *std::max_element(errors.begin(), errors.end()) : -1.0;
 }
 
-Status PointCloudWindingNumber::build(PointsView points, PointsView normals, NumbersView areas,
-  ExecutionContext& context, const Options& options)
+Status PointCloudWindingNumber::build(ExecutionContext& context, PointsView points,
+  PointsView normals, NumbersView areas, const Options& options)
 {
   this->parts_.reset(new Parts);
   Parts& parts = *this->parts_;
@@ -769,14 +769,14 @@ Status PointCloudWindingNumber::build(PointsView points, PointsView normals, Num
   bool done = true;
   {
     const ProgressRange range(context, 0.0, 0.2);
-    done = tree.build(framed, leaf_size, context);
+    done = tree.build(context, framed, leaf_size);
   }
   Eigen::VectorXd framed_areas;
   if (done && areas.size() == 0)
   {
     const ProgressRange range(context, 0.2, 0.6);
     done = estimate_point_areas(
-      framed, moments, tree, options.area_neighbors, parts.frame.tolerance, context, framed_areas);
+      context, framed, moments, tree, options.area_neighbors, parts.frame.tolerance, framed_areas);
     parts.areas = framed_areas / scale / scale;
   }
   else if (done)
@@ -850,18 +850,18 @@ Status PointCloudWindingNumber::build(PointsView points, PointsView normals, Num
     }
     {
       const ProgressRange range(context, 0.6, 0.8);
-      done = parts.find_multipoles(tree, context);
+      done = parts.find_multipoles(context, tree);
     }
     const Points places = done ? parts.sample(tree) : Points(0, 3);
     if (done)
     {
       const ProgressRange range(context, 0.8, 0.9);
-      done = parts.find_threshold(places, context);
+      done = parts.find_threshold(context, places);
     }
     if (done)
     {
       const ProgressRange range(context, 0.9, 1.0);
-      const double error = parts.measured_error(places, context);
+      const double error = parts.measured_error(context, places);
       done = error >= 0.0;
       report.set("error_bound", options.tolerance);
       report.set("measured_error", error);
@@ -1029,8 +1029,8 @@ double PointCloudWindingNumber::evaluate_exactly_at(const Vec3& point, bool* on_
 }
 
 template <typename PointAt>
-Status PointCloudWindingNumber::evaluate_points(Index count, const PointAt& point_at,
-  ExecutionContext& context, double* out, unsigned char* on_surface) const
+Status PointCloudWindingNumber::evaluate_points(ExecutionContext& context, Index count,
+  const PointAt& point_at, double* out, unsigned char* on_surface) const
 {
   const Parts& parts = *this->parts_;
   if (!parts.status.ok())
@@ -1053,30 +1053,30 @@ Status PointCloudWindingNumber::evaluate_points(Index count, const PointAt& poin
 }
 
 Status PointCloudWindingNumber::evaluate(
-  PointsView queries, ExecutionContext& context, double* out, unsigned char* on_surface) const
+  ExecutionContext& context, PointsView queries, double* out, unsigned char* on_surface) const
 {
   return this->evaluate_points(
-    queries.rows(), [queries](Index i) -> Vec3 { return queries.row(i); }, context, out,
+    context, queries.rows(), [queries](Index i) -> Vec3 { return queries.row(i); }, out,
     on_surface);
 }
 
 Status PointCloudWindingNumber::evaluate(
-  PointsView queries, ExecutionContext& context, Eigen::VectorXd& out) const
+  ExecutionContext& context, PointsView queries, Eigen::VectorXd& out) const
 {
   out.resize(queries.rows());
-  return this->evaluate(queries, context, out.data());
+  return this->evaluate(context, queries, out.data());
 }
 
 Status PointCloudWindingNumber::evaluate(
-  const SampleGrid& grid, ExecutionContext& context, double* out, unsigned char* on_surface) const
+  ExecutionContext& context, const SampleGrid& grid, double* out, unsigned char* on_surface) const
 {
   return this->evaluate_points(
-    grid.count(), [&grid](Index i) { return grid.point(i); }, context, out, on_surface);
+    context, grid.count(), [&grid](Index i) { return grid.point(i); }, out, on_surface);
 }
 
 template <typename PointAt>
 Status PointCloudWindingNumber::evaluate_gradients(
-  Index count, const PointAt& point_at, ExecutionContext& context, double* out) const
+  ExecutionContext& context, Index count, const PointAt& point_at, double* out) const
 {
   const Parts& parts = *this->parts_;
   if (!parts.status.ok())
@@ -1091,17 +1091,17 @@ Status PointCloudWindingNumber::evaluate_gradients(
 }
 
 Status PointCloudWindingNumber::evaluate_gradient(
-  PointsView queries, ExecutionContext& context, double* out) const
+  ExecutionContext& context, PointsView queries, double* out) const
 {
   return this->evaluate_gradients(
-    queries.rows(), [queries](Index i) -> Vec3 { return queries.row(i); }, context, out);
+    context, queries.rows(), [queries](Index i) -> Vec3 { return queries.row(i); }, out);
 }
 
 Status PointCloudWindingNumber::evaluate_gradient(
-  const SampleGrid& grid, ExecutionContext& context, double* out) const
+  ExecutionContext& context, const SampleGrid& grid, double* out) const
 {
   return this->evaluate_gradients(
-    grid.count(), [&grid](Index i) { return grid.point(i); }, context, out);
+    context, grid.count(), [&grid](Index i) { return grid.point(i); }, out);
 }
 
 } // namespace bindpose

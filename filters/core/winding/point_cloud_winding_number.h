@@ -67,11 +67,11 @@ public:
   /// mean area) and volume (by the divergence theorem). For the fast method it also reports
   /// error_bound (the tolerance) and measured_error, the largest difference from the plain sum at
   /// test points that the build chooses near the cloud and around it.
-  Status build(PointsView points, PointsView normals, NumbersView areas, ExecutionContext& context,
+  Status build(ExecutionContext& context, PointsView points, PointsView normals, NumbersView areas,
     const Options& options);
-  Status build(PointsView points, PointsView normals, NumbersView areas, ExecutionContext& context)
+  Status build(ExecutionContext& context, PointsView points, PointsView normals, NumbersView areas)
   {
-    return this->build(points, normals, areas, context, Options());
+    return this->build(context, points, normals, areas, Options());
   }
 
   /// Return the status of the last build.
@@ -88,11 +88,11 @@ public:
   /// point that is not finite gets NaN and causes a warning. The status reports counts.queries,
   /// counts.on_surface and, if it is not 0, counts.not_finite. If the returned status is canceled,
   /// `out` is incomplete.
-  Status evaluate(PointsView queries, ExecutionContext& context, double* out,
+  Status evaluate(ExecutionContext& context, PointsView queries, double* out,
     unsigned char* on_surface = nullptr) const;
-  Status evaluate(PointsView queries, ExecutionContext& context, Eigen::VectorXd& out) const;
+  Status evaluate(ExecutionContext& context, PointsView queries, Eigen::VectorXd& out) const;
   /// Compute the winding numbers at the samples of a grid; x varies fastest.
-  Status evaluate(const SampleGrid& grid, ExecutionContext& context, double* out,
+  Status evaluate(ExecutionContext& context, const SampleGrid& grid, double* out,
     unsigned char* on_surface = nullptr) const;
 
   /// Compute the derivatives of the winding number along x, y and z, #Q x 3 or grid.count() x 3.
@@ -101,8 +101,8 @@ public:
   /// contribute 0. The measured error of the fast method is at most 10 x tolerance / (distance to
   /// the nearest sample). If the returned status is canceled, `out` is incomplete. Cost: about
   /// twice the cost of a value.
-  Status evaluate_gradient(PointsView queries, ExecutionContext& context, double* out) const;
-  Status evaluate_gradient(const SampleGrid& grid, ExecutionContext& context, double* out) const;
+  Status evaluate_gradient(ExecutionContext& context, PointsView queries, double* out) const;
+  Status evaluate_gradient(ExecutionContext& context, const SampleGrid& grid, double* out) const;
 
   /// Return the winding number at one point, or NaN if the point is not finite. Thread-safe, does
   /// not allocate.
@@ -113,11 +113,11 @@ public:
 private:
   struct Parts;
   template <typename PointAt>
-  Status evaluate_points(Index count, const PointAt& point_at, ExecutionContext& context,
+  Status evaluate_points(ExecutionContext& context, Index count, const PointAt& point_at,
     double* out, unsigned char* on_surface) const;
   template <typename PointAt>
   Status evaluate_gradients(
-    Index count, const PointAt& point_at, ExecutionContext& context, double* out) const;
+    ExecutionContext& context, Index count, const PointAt& point_at, double* out) const;
 
   std::unique_ptr<Parts> parts_;
 };

@@ -24,7 +24,7 @@ bool is_nearer(const PointTree::Neighbor& x, const PointTree::Neighbor& y)
 }
 } // namespace
 
-bool PointTree::build(const Points& points, Id leaf_size, ExecutionContext& context)
+bool PointTree::build(ExecutionContext& context, const Points& points, Id leaf_size)
 {
   this->order_.clear();
   this->groups_.clear();
@@ -42,7 +42,7 @@ bool PointTree::build(const Points& points, Id leaf_size, ExecutionContext& cont
     items.push_back({ points.row(i), i });
   }
   this->groups_.emplace_back();
-  this->divide(items, 0, 0, count, context);
+  this->divide(context, items, 0, 0, count);
   for (const Item& item : items)
   {
     this->order_.push_back(item.id);
@@ -51,7 +51,7 @@ bool PointTree::build(const Points& points, Id leaf_size, ExecutionContext& cont
 }
 
 void PointTree::divide(
-  std::vector<Item>& items, Id group, Id first, Id count, ExecutionContext& context)
+  ExecutionContext& context, std::vector<Item>& items, Id group, Id first, Id count)
 {
   this->stopped_ = this->stopped_ || (count >= large && context.canceled());
   if (this->stopped_)
@@ -67,7 +67,7 @@ void PointTree::divide(
     {
       child.group = static_cast<Id>(this->groups_.size());
       this->groups_.emplace_back();
-      this->divide(items, child.group, child.first, child.count, context);
+      this->divide(context, items, child.group, child.first, child.count);
     }
     if (child.count >= large)
     {

@@ -41,7 +41,7 @@ public:
   /// Build the tree from #P x 3 finite points, fewer than 2^31. `leaf_size` is the largest number
   /// of points in a leaf and must be divisible by 8. Cost: O(#P log #P), about 0.2 us per point.
   /// @return false if canceled.
-  bool build(const Points& points, Id leaf_size, ExecutionContext& context);
+  bool build(ExecutionContext& context, const Points& points, Id leaf_size);
 
   /// Return the ids of the points in the order of the leaves.
   const std::vector<Id>& order() const { return this->order_; }
@@ -60,7 +60,7 @@ private:
     Vec3 at;
     Id id;
   };
-  void divide(std::vector<Item>& items, Id group, Id first, Id count, ExecutionContext& context);
+  void divide(ExecutionContext& context, std::vector<Item>& items, Id group, Id first, Id count);
   void add_children(std::vector<Item>& items, Group& group, Id first, Id count, int halvings);
 
   Id leaf_size_ = 16;

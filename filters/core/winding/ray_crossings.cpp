@@ -280,7 +280,7 @@ BINDPOSE_SIMD_CLONES bool add_crossings(const FacetBounds& f, const double* x, c
 }
 } // namespace
 
-bool RayCrossings::count(const Vec3* points, Index number, ExecutionContext& context, int* counts,
+bool RayCrossings::count(ExecutionContext& context, const Vec3* points, Index number, int* counts,
   unsigned char* resolved) const
 {
   std::fill(counts, counts + number, 0);

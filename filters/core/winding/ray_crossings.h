@@ -38,7 +38,7 @@ public:
   /// Compute the winding numbers and the resolved flags of `number` finite points, fewer than 2^31.
   /// Cost: O(#F + number + pairs of a point and a triangle whose projections overlap).
   /// @return false if canceled.
-  bool count(const Vec3* points, Index number, ExecutionContext& context, int* counts,
+  bool count(ExecutionContext& context, const Vec3* points, Index number, int* counts,
     unsigned char* resolved) const;
 
   /// Coordinates of a grid's samples along each axis, ascending.

@@ -147,8 +147,8 @@ bool lay_out(ExecutionContext& context, Index vertices, const Visit& visit,
     });
 }
 
-bool weld(PointsView points, TrianglesView triangles, const ExactFrame& frame,
-  ExecutionContext& context, WeldedSurface& welded)
+bool weld(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const ExactFrame& frame, WeldedSurface& welded)
 {
   std::vector<char> used(static_cast<std::size_t>(points.rows()), 0);
   for (Index k = 0; k < triangles.size(); ++k)
@@ -208,7 +208,7 @@ bool weld(PointsView points, TrianglesView triangles, const ExactFrame& frame,
 
 /// Count the triangles with the same corners as an earlier triangle. Return false if canceled.
 bool count_duplicates(
-  const Triangles& triangles, Index vertices, ExecutionContext& context, Index& duplicates)
+  ExecutionContext& context, const Triangles& triangles, Index vertices, Index& duplicates)
 {
   std::vector<Index> begin;
   // The two larger corner ids of each triangle, packed in ascending order.
@@ -239,7 +239,7 @@ bool count_duplicates(
 /// Count the edges and find the open edges, whose directions do not cancel. Return false if
 /// canceled.
 bool find_edges(
-  const Triangles& triangles, Index vertices, ExecutionContext& context, WeldedSurface& welded)
+  ExecutionContext& context, const Triangles& triangles, Index vertices, WeldedSurface& welded)
 {
   std::vector<Index> begin;
   // For each triangle side: the larger vertex id, and 1 if the side points to that vertex.
@@ -284,12 +284,12 @@ bool find_edges(
 }
 } // namespace
 
-bool weld_surface(PointsView points, TrianglesView triangles, const ExactFrame& frame,
-  ExecutionContext& context, WeldedSurface& welded)
+bool weld_surface(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const ExactFrame& frame, WeldedSurface& welded)
 {
   {
     const ProgressRange range(context, 0.0, 0.5);
-    if (!weld(points, triangles, frame, context, welded))
+    if (!weld(context, points, triangles, frame, welded))
     {
       return false;
     }
@@ -297,13 +297,13 @@ bool weld_surface(PointsView points, TrianglesView triangles, const ExactFrame& 
   const Index vertices = welded.points.rows();
   {
     const ProgressRange range(context, 0.5, 0.65);
-    if (!count_duplicates(welded.triangles, vertices, context, welded.duplicate_triangles))
+    if (!count_duplicates(context, welded.triangles, vertices, welded.duplicate_triangles))
     {
       return false;
     }
   }
   const ProgressRange range(context, 0.65, 1.0);
-  return find_edges(welded.triangles, vertices, context, welded);
+  return find_edges(context, welded.triangles, vertices, welded);
 }
 
 } // namespace bindpose

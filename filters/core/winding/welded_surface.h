@@ -30,8 +30,8 @@ struct WeldedSurface
 
 /// Weld a valid mesh (check_mesh) of fewer than 2^31 points. O(#F log #F), on all threads.
 /// @return false if canceled.
-bool weld_surface(PointsView points, TrianglesView triangles, const ExactFrame& frame,
-  ExecutionContext& context, WeldedSurface& welded);
+bool weld_surface(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const ExactFrame& frame, WeldedSurface& welded);
 
 } // namespace bindpose
 

@@ -25,8 +25,8 @@ public:
   /// together must use every edge equally often in both directions. Points must be centered and
   /// scaled (ExactFrame), ids below 2^29. All three arguments are referenced, not copied.
   /// @return false if canceled.
-  bool build(const Points& points, const Triangles& triangles, const Triangles& caps,
-    double tolerance, ExecutionContext& context);
+  bool build(ExecutionContext& context, const Points& points, const Triangles& triangles,
+    const Triangles& caps, double tolerance);
 
   /// Compute the winding numbers of up to `most_at_once` points. Several points per call are
   /// faster, because memory for the next point is prefetched while the current one is processed.

@@ -142,7 +142,7 @@ std::vector<std::int32_t> without_opposites(const Triangles& triangles, const Tr
 class WindingCells::Builder
 {
 public:
-  Builder(WindingCells& owner, ExecutionContext& context) : owner_(owner), context_(context) {}
+  Builder(ExecutionContext& context, WindingCells& owner) : owner_(owner), context_(context) {}
 
   bool build();
 
@@ -201,14 +201,14 @@ private:
   std::vector<Id> faces_; // ids of all triangles and caps
 };
 
-bool WindingCells::build(const Points& points, const Triangles& triangles, const Triangles& caps,
-  double tolerance, ExecutionContext& context)
+bool WindingCells::build(ExecutionContext& context, const Points& points,
+  const Triangles& triangles, const Triangles& caps, double tolerance)
 {
   this->points_ = &points;
   this->triangles_ = &triangles;
   this->caps_ = &caps;
   this->tolerance_ = tolerance;
-  return Builder(*this, context).build();
+  return Builder(context, *this).build();
 }
 
 bool WindingCells::Builder::build()

@@ -147,7 +147,7 @@ WindingNumber::WindingNumber() : parts_(new Parts) {}
 WindingNumber::WindingNumber(PointsView points, TrianglesView triangles) : parts_(new Parts)
 {
   ExecutionContext context;
-  this->build(points, triangles, context);
+  this->build(context, points, triangles);
 }
 WindingNumber::~WindingNumber() = default;
 WindingNumber::WindingNumber(WindingNumber&&) noexcept = default;
@@ -201,7 +201,7 @@ void WindingNumber::Parts::choose(WindingMethod wanted, Index open_edges)
 }
 
 Status WindingNumber::build(
-  PointsView points, TrianglesView triangles, ExecutionContext& context, const Options& options)
+  ExecutionContext& context, PointsView points, TrianglesView triangles, const Options& options)
 {
   this->parts_.reset(new Parts);
   Parts& parts = *this->parts_;
@@ -244,7 +244,7 @@ Status WindingNumber::build(
   bool done = true;
   {
     const ProgressRange range(context, 0.0, 0.4);
-    done = weld_surface(points, triangles, parts.frame, context, welded);
+    done = weld_surface(context, points, triangles, parts.frame, welded);
   }
   parts.points = std::move(welded.points);
   parts.triangles = std::move(welded.triangles);
@@ -321,8 +321,8 @@ Status WindingNumber::build(
     // The field cuts long caps at rounded positions. Points for which this rounding matters count
     // as touching a cap. The exact sum is used for these points.
     const double shows = parts.frame.tolerance / options.tolerance;
-    done = parts.field.build(parts.points, parts.caps,
-      std::vector<int>(static_cast<std::size_t>(parts.caps.rows()), 1), shows, field, context);
+    done = parts.field.build(context, parts.points, parts.caps,
+      std::vector<int>(static_cast<std::size_t>(parts.caps.rows()), 1), shows, field);
     report.set("error_bound", options.tolerance);
     report.set("measured_error", parts.field.measured_error());
   }
@@ -375,7 +375,7 @@ bool WindingNumber::Parts::build_cells(ExecutionContext& context) const
 {
   const std::lock_guard<std::mutex> lock(this->cells_mutex);
   this->cells_built = this->cells_built ||
-    this->cells.build(this->points, this->triangles, this->caps, this->frame.tolerance, context);
+    this->cells.build(context, this->points, this->triangles, this->caps, this->frame.tolerance);
   return this->cells_built;
 }
 
@@ -462,7 +462,7 @@ bool WindingNumber::Parts::build_tree(ExecutionContext& context) const
   const std::lock_guard<std::mutex> lock(this->tree_mutex);
   this->tree_built = this->tree_built ||
     this->tree.build(
-      this->points, this->triangles, this->frame.tolerance, this->max_leaf_size, context);
+      context, this->points, this->triangles, this->frame.tolerance, this->max_leaf_size);
   return this->tree_built;
 }
 
@@ -521,8 +521,8 @@ double WindingNumber::evaluate_at(const Vec3& point, bool* on_surface) const
 }
 
 template <typename PointAt>
-Status WindingNumber::evaluate_points(Index count, const PointAt& point_at,
-  ExecutionContext& context, double* out, unsigned char* on_surface) const
+Status WindingNumber::evaluate_points(ExecutionContext& context, Index count,
+  const PointAt& point_at, double* out, unsigned char* on_surface) const
 {
   const Parts& parts = *this->parts_;
   if (!parts.status.ok())
@@ -549,7 +549,7 @@ Status WindingNumber::evaluate_points(Index count, const PointAt& point_at,
       }
       counts.resize(static_cast<std::size_t>(count));
       resolved.resize(static_cast<std::size_t>(count));
-      if (!parts.rays->count(framed.data(), count, context, counts.data(), resolved.data()))
+      if (!parts.rays->count(context, framed.data(), count, counts.data(), resolved.data()))
       {
         return Status::canceled();
       }
@@ -620,24 +620,24 @@ auto points_of(PointsView queries)
 } // namespace
 
 Status WindingNumber::evaluate(
-  PointsView queries, ExecutionContext& context, double* out, unsigned char* on_surface) const
+  ExecutionContext& context, PointsView queries, double* out, unsigned char* on_surface) const
 {
-  return this->evaluate_points(queries.rows(), points_of(queries), context, out, on_surface);
+  return this->evaluate_points(context, queries.rows(), points_of(queries), out, on_surface);
 }
 
 Status WindingNumber::evaluate(
-  const SampleGrid& grid, ExecutionContext& context, double* out, unsigned char* on_surface) const
+  ExecutionContext& context, const SampleGrid& grid, double* out, unsigned char* on_surface) const
 {
   if (this->parts_->status.ok() && this->parts_->by_crossings() && this->parts_->reaches(grid))
   {
-    return this->evaluate_rows(grid, context, out, on_surface);
+    return this->evaluate_rows(context, grid, out, on_surface);
   }
-  return this->evaluate_points(grid.count(), points_of(grid), context, out, on_surface);
+  return this->evaluate_points(context, grid.count(), points_of(grid), out, on_surface);
 }
 
 template <typename PointAt>
 Status WindingNumber::evaluate_gradients(
-  Index count, const PointAt& point_at, ExecutionContext& context, double* out) const
+  ExecutionContext& context, Index count, const PointAt& point_at, double* out) const
 {
   const Parts& parts = *this->parts_;
   if (!parts.status.ok())
@@ -652,15 +652,15 @@ Status WindingNumber::evaluate_gradients(
 }
 
 Status WindingNumber::evaluate_gradient(
-  PointsView queries, ExecutionContext& context, double* out) const
+  ExecutionContext& context, PointsView queries, double* out) const
 {
-  return this->evaluate_gradients(queries.rows(), points_of(queries), context, out);
+  return this->evaluate_gradients(context, queries.rows(), points_of(queries), out);
 }
 
 Status WindingNumber::evaluate_gradient(
-  const SampleGrid& grid, ExecutionContext& context, double* out) const
+  ExecutionContext& context, const SampleGrid& grid, double* out) const
 {
-  return this->evaluate_gradients(grid.count(), points_of(grid), context, out);
+  return this->evaluate_gradients(context, grid.count(), points_of(grid), out);
 }
 
 /// Return the sum over the boundary edges (the field of an electric current along them). The result
@@ -708,7 +708,7 @@ bool WindingNumber::Parts::reaches(const SampleGrid& grid) const
 
 /// Evaluate the grid by rows along x. Samples of a row in one cell share the descent to the cell.
 Status WindingNumber::evaluate_rows(
-  const SampleGrid& grid, ExecutionContext& context, double* out, unsigned char* on_surface) const
+  ExecutionContext& context, const SampleGrid& grid, double* out, unsigned char* on_surface) const
 {
   const Parts& parts = *this->parts_;
   const Index length = grid.size(0);
@@ -835,17 +835,17 @@ Status WindingNumber::evaluate_rows(
 }
 
 Status WindingNumber::evaluate(
-  PointsView queries, ExecutionContext& context, Eigen::VectorXd& out) const
+  ExecutionContext& context, PointsView queries, Eigen::VectorXd& out) const
 {
   out.resize(queries.rows());
-  return this->evaluate(queries, context, out.data());
+  return this->evaluate(context, queries, out.data());
 }
 
 Status WindingNumber::evaluate(
-  const SampleGrid& grid, ExecutionContext& context, Eigen::VectorXd& out) const
+  ExecutionContext& context, const SampleGrid& grid, Eigen::VectorXd& out) const
 {
   out.resize(grid.count());
-  return this->evaluate(grid, context, out.data());
+  return this->evaluate(context, grid, out.data());
 }
 
 double winding_number_direct(

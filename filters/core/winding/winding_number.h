@@ -91,10 +91,10 @@ public:
   /// theorem, with holes closed by caps). For the fast method it also reports error_bound (the
   /// tolerance) and measured_error (the largest error at sample points that the build chooses).
   Status build(
-    PointsView points, TrianglesView triangles, ExecutionContext& context, const Options& options);
-  Status build(PointsView points, TrianglesView triangles, ExecutionContext& context)
+    ExecutionContext& context, PointsView points, TrianglesView triangles, const Options& options);
+  Status build(ExecutionContext& context, PointsView points, TrianglesView triangles)
   {
-    return this->build(points, triangles, context, Options());
+    return this->build(context, points, triangles, Options());
   }
 
   /// Return the status of the last build.
@@ -110,15 +110,15 @@ public:
   /// Compute the winding numbers of #Q x 3 points. A point that is not finite gets NaN and causes a
   /// warning. The status reports counts.queries, counts.on_surface and, if it is not 0,
   /// counts.not_finite. If the returned status is canceled, `out` is incomplete.
-  Status evaluate(PointsView queries, ExecutionContext& context, Eigen::VectorXd& out) const;
+  Status evaluate(ExecutionContext& context, PointsView queries, Eigen::VectorXd& out) const;
   /// Compute the winding numbers at the samples of a grid; x varies fastest.
-  Status evaluate(const SampleGrid& grid, ExecutionContext& context, Eigen::VectorXd& out) const;
+  Status evaluate(ExecutionContext& context, const SampleGrid& grid, Eigen::VectorXd& out) const;
   /// Write the winding numbers to `out`, which the caller allocates for #Q or grid.count() values.
   /// If `on_surface` is not null, set its entries to 1 for points that touch a triangle, otherwise
   /// to 0.
-  Status evaluate(PointsView queries, ExecutionContext& context, double* out,
+  Status evaluate(ExecutionContext& context, PointsView queries, double* out,
     unsigned char* on_surface = nullptr) const;
-  Status evaluate(const SampleGrid& grid, ExecutionContext& context, double* out,
+  Status evaluate(ExecutionContext& context, const SampleGrid& grid, double* out,
     unsigned char* on_surface = nullptr) const;
   /// Compute the derivatives of the winding number along x, y and z, #Q x 3 or grid.count() x 3.
   /// The jump across the surface is excluded, so the derivatives of closed surfaces are 0. The
@@ -126,8 +126,8 @@ public:
   /// The error of the fast method is about 10 x tolerance / (distance to the boundary). If the
   /// returned status is canceled, `out` is incomplete. Cost: 10 ns x #open edges per point; the
   /// fast method takes about the time of a value.
-  Status evaluate_gradient(PointsView queries, ExecutionContext& context, double* out) const;
-  Status evaluate_gradient(const SampleGrid& grid, ExecutionContext& context, double* out) const;
+  Status evaluate_gradient(ExecutionContext& context, PointsView queries, double* out) const;
+  Status evaluate_gradient(ExecutionContext& context, const SampleGrid& grid, double* out) const;
 
   /// Return the winding number at one point, or NaN if the point is not finite. Thread-safe, does
   /// not allocate.
@@ -139,13 +139,13 @@ public:
 private:
   struct Parts;
   template <typename PointAt>
-  Status evaluate_points(Index count, const PointAt& point_at, ExecutionContext& context,
+  Status evaluate_points(ExecutionContext& context, Index count, const PointAt& point_at,
     double* out, unsigned char* on_surface) const;
   template <typename PointAt>
   Status evaluate_gradients(
-    Index count, const PointAt& point_at, ExecutionContext& context, double* out) const;
+    ExecutionContext& context, Index count, const PointAt& point_at, double* out) const;
 
-  Status evaluate_rows(const SampleGrid& grid, ExecutionContext& context, double* out,
+  Status evaluate_rows(ExecutionContext& context, const SampleGrid& grid, double* out,
     unsigned char* on_surface) const;
 
   std::unique_ptr<Parts> parts_;

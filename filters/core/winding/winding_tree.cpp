@@ -40,8 +40,8 @@ constexpr auto by_ends = [](const auto& x, const auto& y)
 { return x.a != y.a ? x.a < y.a : x.b < y.b; };
 } // namespace
 
-bool WindingTree::build(const Points& points, const Triangles& triangles, double tolerance,
-  Index max_leaf_size, ExecutionContext& context)
+bool WindingTree::build(ExecutionContext& context, const Points& points, const Triangles& triangles,
+  double tolerance, Index max_leaf_size)
 {
   this->points_ = &points;
   this->triangles_ = &triangles;
@@ -64,7 +64,7 @@ bool WindingTree::build(const Points& points, const Triangles& triangles, double
     this->nodes_.emplace_back();
     this->nodes_.back().count = static_cast<Id>(count);
     std::vector<NetEdge> boundary;
-    done = this->build_node(0, context, boundary);
+    done = this->build_node(context, 0, boundary);
   }
   this->centers_ = {};
   this->nodes_.shrink_to_fit();
@@ -72,7 +72,7 @@ bool WindingTree::build(const Points& points, const Triangles& triangles, double
   return done;
 }
 
-bool WindingTree::build_node(Id id, ExecutionContext& context, std::vector<NetEdge>& boundary)
+bool WindingTree::build_node(ExecutionContext& context, Id id, std::vector<NetEdge>& boundary)
 {
   const Id first = this->nodes_[id].first;
   const Id count = this->nodes_[id].count;
@@ -123,8 +123,8 @@ bool WindingTree::build_node(Id id, ExecutionContext& context, std::vector<NetEd
     this->nodes_[left + 1].first = first + count / 2;
     this->nodes_[left + 1].count = count - count / 2;
     std::vector<NetEdge> of_right;
-    if (!this->build_node(left, context, boundary) ||
-      !this->build_node(left + 1, context, of_right))
+    if (!this->build_node(context, left, boundary) ||
+      !this->build_node(context, left + 1, of_right))
     {
       return false;
     }

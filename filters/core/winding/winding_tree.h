@@ -24,8 +24,8 @@ public:
   /// and ids must be below 2^31. Both matrices must outlive the tree. A node of at most
   /// max_leaf_size triangles is not split.
   /// @return false if canceled.
-  bool build(const Points& points, const Triangles& triangles, double tolerance,
-    Index max_leaf_size, ExecutionContext& context);
+  bool build(ExecutionContext& context, const Points& points, const Triangles& triangles,
+    double tolerance, Index max_leaf_size);
 
   /// Add the solid angle of all triangles, seen from the point of `sum`. Thread-safe.
   void add_to(SolidAngleSum& sum, const Vec3& point) const;
@@ -56,7 +56,7 @@ private:
     Id cap_count = -1;
   };
 
-  bool build_node(Id node, ExecutionContext& context, std::vector<NetEdge>& boundary);
+  bool build_node(ExecutionContext& context, Id node, std::vector<NetEdge>& boundary);
   std::vector<NetEdge> boundary_of_triangles(Id first, Id count) const;
   void add_triangles(SolidAngleSum& sum, const Node& node) const;
 

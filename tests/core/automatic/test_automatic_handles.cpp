@@ -26,7 +26,7 @@ Status run_automatic_handles(const TriangleMesh& mesh, const AutomaticHandlesOpt
 {
   ExecutionContext context;
   context.set_threads(threads);
-  return automatic_handles(mesh.points, mesh.triangles, options, handles, context);
+  return automatic_handles(context, mesh.points, mesh.triangles, options, handles);
 }
 
 double number(const Status& status, const char* key)

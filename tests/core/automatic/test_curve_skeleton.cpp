@@ -29,7 +29,7 @@ Status run_curve_skeleton(const TriangleMesh& mesh, CurveSkeleton& skeleton, Tri
 {
   ExecutionContext context;
   return curve_skeleton(
-    mesh.points, mesh.triangles, CurveSkeletonOptions(), skeleton, solid, context);
+    context, mesh.points, mesh.triangles, CurveSkeletonOptions(), skeleton, solid);
 }
 
 CurveSkeleton run_curve_skeleton(const TriangleMesh& mesh, const std::string& surface = "clean")
@@ -186,7 +186,7 @@ TEST_F(CurveSkeletonTest, OfADenseCleanSurfaceIsThatOfACoarseOne)
   TriangleMesh solid;
   ExecutionContext context;
   const Status status =
-    curve_skeleton(dense.points, dense.triangles, options, skeleton, solid, context);
+    curve_skeleton(context, dense.points, dense.triangles, options, skeleton, solid);
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(status.report.text("surface"), "lattice");
   EXPECT_EQ(cycles(skeleton), 1);
@@ -262,7 +262,7 @@ TEST_F(CurveSkeletonTest, BadInputIsOneSentence)
   options.triangles = 10;
   mesh = bar_of_cubes(4);
   EXPECT_THAT(
-    curve_skeleton(mesh.points, mesh.triangles, options, skeleton, solid, context).message,
+    curve_skeleton(context, mesh.points, mesh.triangles, options, skeleton, solid).message,
     HasSubstr("skeleton_triangles"));
 }
 
@@ -276,7 +276,7 @@ TEST_F(CurveSkeletonTest, CanBeCanceledWhileItContracts)
   ExecutionContext context;
   test::CancelLater user(context, 1500);
   const Status status =
-    curve_skeleton(mesh.points, mesh.triangles, options, skeleton, solid, context);
+    curve_skeleton(context, mesh.points, mesh.triangles, options, skeleton, solid);
   EXPECT_LT(user.waited(), 0.5);
   EXPECT_EQ(status.code, StatusCode::canceled);
 }

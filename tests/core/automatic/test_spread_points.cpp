@@ -25,7 +25,7 @@ SpreadPoints run_spread_points(
   ExecutionContext context;
   context.set_threads(threads);
   SpreadPoints result;
-  const Status status = spread_points(mesh.points, mesh.triangles, options, result, context);
+  const Status status = spread_points(context, mesh.points, mesh.triangles, options, result);
   EXPECT_TRUE(status.ok()) << status.message;
   return result;
 }
@@ -34,7 +34,7 @@ Status fail(const TriangleMesh& mesh, const SpreadPointsOptions& options)
 {
   ExecutionContext context;
   SpreadPoints result;
-  return spread_points(mesh.points, mesh.triangles, options, result, context);
+  return spread_points(context, mesh.points, mesh.triangles, options, result);
 }
 
 SpreadPointsOptions on_surface(Index count, PointDistance distance)
@@ -296,6 +296,6 @@ TEST(SpreadPoints, CanBeCanceled)
   context.request_cancel();
   SpreadPoints result;
   const TriangleMesh mesh = test::sphere(3);
-  EXPECT_EQ(spread_points(mesh.points, mesh.triangles, SpreadPointsOptions(), result, context).code,
+  EXPECT_EQ(spread_points(context, mesh.points, mesh.triangles, SpreadPointsOptions(), result).code,
     StatusCode::canceled);
 }

@@ -24,7 +24,7 @@ TEST(SideTask, BeginsByItselfAfterItsDelay)
   ExecutionContext context;
   context.set_threads(2);
   std::atomic<bool> begun{ false };
-  SideTask task(0.01, context, [&](ExecutionContext&) { begun = true; });
+  SideTask task(context, 0.01, [&](ExecutionContext&) { begun = true; });
   for (int i = 0; i < 1000 && !begun; ++i)
   {
     sleep_for(0.01);
@@ -39,7 +39,7 @@ TEST(SideTask, FinishBeginsItAtOnceAndWaitsForItsEnd)
     ExecutionContext context;
     context.set_threads(threads);
     int runs = 0;
-    SideTask task(never, context,
+    SideTask task(context, never,
       [&](ExecutionContext&)
       {
         sleep_for(0.05);
@@ -58,7 +58,7 @@ TEST(SideTask, WithOneThreadItWaitsForFinish)
   context.set_threads(1);
   const std::thread::id here = std::this_thread::get_id();
   std::thread::id there;
-  SideTask task(0.0, context, [&](ExecutionContext&) { there = std::this_thread::get_id(); });
+  SideTask task(context, 0.0, [&](ExecutionContext&) { there = std::this_thread::get_id(); });
   sleep_for(0.05);
   EXPECT_EQ(there, std::thread::id());
   task.finish();
@@ -74,7 +74,7 @@ TEST(SideTask, IsCanceledWithItsMakerAndWhenItIsDropped)
     std::atomic<bool> begun{ false };
     std::atomic<bool> canceled{ false };
     {
-      SideTask task(0.0, context,
+      SideTask task(context, 0.0,
         [&](ExecutionContext& side)
         {
           begun = true;
@@ -105,7 +105,7 @@ TEST(SideTask, DroppedBeforeItBeginsItNeverRuns)
   context.set_threads(2);
   bool ran = false;
   {
-    SideTask task(never, context, [&](ExecutionContext&) { ran = true; });
+    SideTask task(context, never, [&](ExecutionContext&) { ran = true; });
   }
   EXPECT_FALSE(ran);
 }
@@ -116,7 +116,7 @@ TEST(SideTask, FinishThrowsWhatTheWorkThrew)
   {
     ExecutionContext context;
     context.set_threads(threads);
-    SideTask task(0.0, context, [](ExecutionContext&) { throw std::bad_alloc(); });
+    SideTask task(context, 0.0, [](ExecutionContext&) { throw std::bad_alloc(); });
     EXPECT_THROW(task.finish(), std::bad_alloc);
   }
 }
@@ -127,7 +127,7 @@ TEST(SideTask, DroppedNothingIsThrown)
   context.set_threads(2);
   std::atomic<bool> begun{ false };
   {
-    SideTask task(0.0, context,
+    SideTask task(context, 0.0,
       [&](ExecutionContext&)
       {
         begun = true;

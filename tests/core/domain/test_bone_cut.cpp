@@ -33,7 +33,7 @@ BoneCut cut(const TriangleMesh& mesh, const Handles& bones)
 {
   ExecutionContext context;
   BoneCut result;
-  const Status status = cut_along_bones(mesh.points, mesh.triangles, bones, {}, context, result);
+  const Status status = cut_along_bones(context, mesh.points, mesh.triangles, bones, {}, result);
   EXPECT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(
     status.report.number("counts.doubled_vertices", -1), result.points.rows() - mesh.points.rows());
@@ -139,7 +139,7 @@ TEST(BoneCut, BonesOfOneEdgeEachOpenTogether)
   }
   ExecutionContext context;
   BoneCut result;
-  const Status status = cut_along_bones(mesh.points, mesh.triangles, ring, {}, context, result);
+  const Status status = cut_along_bones(context, mesh.points, mesh.triangles, ring, {}, result);
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(result.points.rows() - mesh.points.rows(), 4);
   EXPECT_EQ(connected_components(result.points.rows(), result.triangles).count, 2);
@@ -149,7 +149,7 @@ TEST(BoneCut, BonesOfOneEdgeEachOpenTogether)
   EXPECT_NE(status.warnings[0].find("'r3'"), std::string::npos);
   // If the bones are treated as one curve, the curve has four vertices on each side.
   const Status whole =
-    cut_along_bones(mesh.points, mesh.triangles, ring, { 0, 0, 0, 0 }, context, result);
+    cut_along_bones(context, mesh.points, mesh.triangles, ring, { 0, 0, 0, 0 }, result);
   EXPECT_TRUE(whole.ok() && whole.warnings.empty());
   EXPECT_EQ(count(result, 1), 4);
   EXPECT_EQ(count(result, 2), 4);
@@ -183,7 +183,7 @@ TEST(BoneCut, WhatCannotBeCutIsOneSentence)
   const TriangleMesh mesh = square_of_cells();
   const auto message = [&](const TriangleMesh& m, const Handles& handles)
   {
-    const Status status = cut_along_bones(m.points, m.triangles, handles, {}, context, result);
+    const Status status = cut_along_bones(context, m.points, m.triangles, handles, {}, result);
     EXPECT_EQ(status.code, StatusCode::invalid_input);
     return status.message;
   };
@@ -204,7 +204,7 @@ TEST(BoneCut, WhatCannotBeCutIsOneSentence)
     message(test::cube(), bone(Vec3(0, 0, 0), Vec3(1, 0, 0))).find("plane"), std::string::npos);
   context.request_cancel();
   EXPECT_EQ(cut_along_bones(
-              mesh.points, mesh.triangles, bone(Vec3(0, 0, 0), Vec3(1, 0, 0)), {}, context, result)
+              context, mesh.points, mesh.triangles, bone(Vec3(0, 0, 0), Vec3(1, 0, 0)), {}, result)
               .code,
     StatusCode::canceled);
 }

@@ -99,14 +99,14 @@ TEST(Cages, AreLinearAlongEdgesInThePlane)
          {
            ExecutionContext context;
            WeightsResult result;
-           EXPECT_TRUE(monotone_weights(problem, {}, context, result).ok());
+           EXPECT_TRUE(monotone_weights(context, problem, {}, result).ok());
            return result.weights;
          }(),
          [&]
          {
            ExecutionContext context;
            WeightsResult result;
-           EXPECT_TRUE(preview_weights(problem, {}, context, result).ok());
+           EXPECT_TRUE(preview_weights(context, problem, {}, result).ok());
            return result.weights;
          }() })
   {
@@ -169,10 +169,10 @@ TEST_F(CagesInTets, AroundASurfaceAreItsDomain)
   options.domain = WeightsDomain::cage;
   SurfaceWeights result;
   const auto method =
-    [](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
-  { return bounded_biharmonic_weights(problem, {}, of_method, weights); };
+    [](ExecutionContext& of_method, const WeightsProblem& problem, WeightsResult& weights)
+  { return bounded_biharmonic_weights(of_method, problem, {}, weights); };
   Status status = surface_weights(
-    ball.points, ball.triangles, {}, cube_cage(1.0), options, {}, method, context, result);
+    context, ball.points, ball.triangles, {}, cube_cage(1.0), options, {}, method, result);
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(status.report.text("domain"), "cage");
   EXPECT_EQ(status.report.text("transfer"), "exact") << "the points are vertices of the tets";
@@ -195,13 +195,13 @@ TEST_F(CagesInTets, AroundASurfaceAreItsDomain)
   EXPECT_LT(farthest, 0.16) << "nothing is said of slopes at the cage";
 
   status = surface_weights(
-    ball.points, ball.triangles, {}, cube_cage(0.4), options, {}, method, context, result);
+    context, ball.points, ball.triangles, {}, cube_cage(0.4), options, {}, method, result);
   ASSERT_TRUE(status.usable()) << status.message;
   ASSERT_FALSE(status.warnings.empty());
   EXPECT_THAT(status.warnings.back(), HasSubstr("outside the cage"));
 
-  status = surface_weights(ball.points, ball.triangles, {},
-    { test::point_handle("p", { 0, 0, 0 }) }, options, {}, method, context, result);
+  status = surface_weights(context, ball.points, ball.triangles, {},
+    { test::point_handle("p", { 0, 0, 0 }) }, options, {}, method, result);
   EXPECT_THAT(status.message, HasSubstr("needs handles with a closed cage"));
 }
 
@@ -211,8 +211,8 @@ TEST_F(CagesInTets, OfEdgesAroundAFlatShapeAreItsDomain)
   SurfaceWeightsOptions options;
   options.domain = WeightsDomain::cage;
   const auto method =
-    [](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
-  { return bounded_biharmonic_weights(problem, {}, of_method, weights); };
+    [](ExecutionContext& of_method, const WeightsProblem& problem, WeightsResult& weights)
+  { return bounded_biharmonic_weights(of_method, problem, {}, weights); };
   TriangleMesh shape = test::grid(10, 10, 0.8, 0.8);
   shape.points.leftCols(2).array() += 0.1; // the shape is inside of a cage of size one
   Handles cage = polyline({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } }, true);
@@ -231,7 +231,7 @@ TEST_F(CagesInTets, OfEdgesAroundAFlatShapeAreItsDomain)
     }
     SurfaceWeights result;
     const Status status =
-      surface_weights(points, shape.triangles, {}, handles, options, {}, method, context, result);
+      surface_weights(context, points, shape.triangles, {}, handles, options, {}, method, result);
     ASSERT_TRUE(status.ok()) << status.message;
     EXPECT_TRUE(status.warnings.empty()) << status.warnings.front();
     EXPECT_EQ(status.report.text("domain"), "cage");
@@ -258,14 +258,14 @@ TEST_F(CagesInTets, OfEdgesAroundAFlatShapeAreItsDomain)
   Points shifted = shape.points;
   shifted.col(0).array() += 0.5;
   Status status =
-    surface_weights(shifted, shape.triangles, {}, cage, options, {}, method, context, result);
+    surface_weights(context, shifted, shape.triangles, {}, cage, options, {}, method, result);
   ASSERT_TRUE(status.usable()) << status.message;
   ASSERT_EQ(status.warnings.size(), 1u);
   EXPECT_THAT(status.warnings.front(), HasSubstr("55 points of the surface are outside the cage"));
 
   shifted(0, 2) = 0.1;
   status =
-    surface_weights(shifted, shape.triangles, {}, cage, options, {}, method, context, result);
+    surface_weights(context, shifted, shape.triangles, {}, cage, options, {}, method, result);
   EXPECT_THAT(status.message, HasSubstr("are not flat"));
 }
 

@@ -19,7 +19,7 @@ HandleInsertion inserted(
 {
   ExecutionContext context;
   HandleInsertion result;
-  const Status status = insert_handles(domain, handles, options, context, result);
+  const Status status = insert_handles(context, domain, handles, options, result);
   EXPECT_TRUE(status.ok()) << status.message;
   return result;
 }
@@ -375,7 +375,7 @@ TEST(HandleInsertion, BadInputsAreNamed)
   HandleInsertion result;
   const auto message = [&](const Domain& domain, const Handles& handles)
   {
-    const Status status = insert_handles(domain, handles, {}, context, result);
+    const Status status = insert_handles(context, domain, handles, {}, result);
     EXPECT_EQ(status.code, StatusCode::invalid_input);
     return status.message;
   };

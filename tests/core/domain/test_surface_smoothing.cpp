@@ -18,7 +18,7 @@ Eigen::MatrixXd smoothed(
   const TriangleMesh& mesh, const std::vector<Index>& fixed, double length, Eigen::MatrixXd values)
 {
   ExecutionContext context;
-  EXPECT_TRUE(smooth_on_surface(mesh.points, mesh.triangles, fixed, length, values, context));
+  EXPECT_TRUE(smooth_on_surface(context, mesh.points, mesh.triangles, fixed, length, values));
   return values;
 }
 } // namespace
@@ -120,9 +120,9 @@ TEST(SurfaceSmoothing, IsTheSameForAnyNumberOfThreadsAndStopsWhenCanceled)
   ExecutionContext single, several;
   single.set_threads(1);
   several.set_threads(4);
-  ASSERT_TRUE(smooth_on_surface(ball.points, ball.triangles, {}, 0.3, one, single));
-  ASSERT_TRUE(smooth_on_surface(ball.points, ball.triangles, {}, 0.3, many, several));
+  ASSERT_TRUE(smooth_on_surface(single, ball.points, ball.triangles, {}, 0.3, one));
+  ASSERT_TRUE(smooth_on_surface(several, ball.points, ball.triangles, {}, 0.3, many));
   EXPECT_TRUE((one.array() == many.array()).all());
   single.request_cancel();
-  EXPECT_FALSE(smooth_on_surface(ball.points, ball.triangles, {}, 0.3, one, single));
+  EXPECT_FALSE(smooth_on_surface(single, ball.points, ball.triangles, {}, 0.3, one));
 }

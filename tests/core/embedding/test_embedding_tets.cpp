@@ -33,7 +33,7 @@ EmbeddingTets embedded(const TriangleMesh& mesh, Index resolution = 0, int threa
   options.resolution = resolution;
   EmbeddingTets result;
   const Status status =
-    embed_surface(mesh.points, mesh.triangles, winding, options, result, context);
+    embed_surface(context, mesh.points, mesh.triangles, winding, options, result);
   EXPECT_TRUE(status.ok()) << status.message;
   return result;
 }
@@ -546,7 +546,7 @@ TEST(EmbeddingTets, HostilePlaces)
     EmbeddingTets result;
     const WindingNumber winding(mesh.points, mesh.triangles);
     const Status status =
-      embed_surface(mesh.points, mesh.triangles, winding, EmbeddingOptions(), result, context);
+      embed_surface(context, mesh.points, mesh.triangles, winding, EmbeddingOptions(), result);
     EXPECT_TRUE(status.ok() || status.code == StatusCode::invalid_input);
     EXPECT_EQ(status.ok(), result.mesh.tets.rows() > 0);
   }
@@ -620,7 +620,7 @@ TEST(EmbeddingTets, BadInputIsNamed)
     options.winding_threshold = threshold;
     EmbeddingTets result;
     const Status status =
-      embed_surface(surface.points, surface.triangles, winding, options, result, context);
+      embed_surface(context, surface.points, surface.triangles, winding, options, result);
     EXPECT_EQ(status.code, StatusCode::invalid_input);
     EXPECT_EQ(result.mesh.tets.rows(), 0);
     return status.message;
@@ -654,7 +654,7 @@ TEST(EmbeddingTets, CancelEndsSoon)
     options.resolution = 40;
     EmbeddingTets result;
     const Status status =
-      embed_surface(mesh.points, mesh.triangles, winding, options, result, context);
+      embed_surface(context, mesh.points, mesh.triangles, winding, options, result);
     EXPECT_TRUE(status.ok() || status.code == StatusCode::canceled);
     EXPECT_EQ(status.ok(), !stop) << after;
     EXPECT_EQ(status.ok(), result.mesh.tets.rows() > 0);
@@ -703,7 +703,7 @@ TEST(EmbeddingTets, ALinkConnectsWhatIsAtItsEnds)
       options.links = { link };
       EmbeddingTets result;
       const Status status =
-        embed_surface(mesh.points, mesh.triangles, winding, options, result, context);
+        embed_surface(context, mesh.points, mesh.triangles, winding, options, result);
       ASSERT_TRUE(status.ok()) << status.message;
       EXPECT_EQ(result.components, 1);
       expect_valid_embedding(mesh, result);
@@ -725,7 +725,7 @@ TEST(EmbeddingTets, ALinkConnectsWhatIsAtItsEnds)
     options.links[0].triangles[1] = mesh.triangles.rows();
     EmbeddingTets result;
     const Status status =
-      embed_surface(mesh.points, mesh.triangles, winding, options, result, context);
+      embed_surface(context, mesh.points, mesh.triangles, winding, options, result);
     EXPECT_EQ(status.code, StatusCode::invalid_input);
   }
 }

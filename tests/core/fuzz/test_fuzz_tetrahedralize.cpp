@@ -275,7 +275,7 @@ Status fill(const TriangleMesh& surface, const TetrahedralizeOptions& options,
 {
   ExecutionContext context;
   context.set_threads(threads);
-  Status status = tetrahedralize(surface.points, surface.triangles, options, result, context);
+  Status status = tetrahedralize(context, surface.points, surface.triangles, options, result);
   test::expect_valid_messages(status);
   return status;
 }

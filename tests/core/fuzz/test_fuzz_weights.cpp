@@ -164,7 +164,7 @@ Status solve_with_random_options(
   options.smoothing = random.below(2) == 0 ? 0.0 : random.uniform(1e-3, 1.0);
   options.power = random.uniform(0.1, 9.0);
   options.heat = std::exp(random.uniform(-7.0, 7.0));
-  return method.kernel(problem, options, context, result);
+  return method.kernel(context, problem, options, result);
 }
 
 void expect_weights_of_method(const WeightsProblem& problem, const WeightMethod& method,
@@ -221,7 +221,7 @@ TEST(FuzzWeights, HandlesAnywhere)
       WeightsProblem problem;
       ExecutionContext context;
       context.set_threads(1);
-      const Status made = make_weights_problem(domain, {}, handles, options, context, problem);
+      const Status made = make_weights_problem(context, domain, {}, handles, options, problem);
       expect_valid_messages(made);
       if (!made.ok())
       {

@@ -57,7 +57,7 @@ WindingNumber random_winding(Random& random, const TriangleMesh& mesh, const Way
   options.max_leaf_size = chance(random, 0.5) ? 64 : 1 + random.below(8);
   OneThread context;
   WindingNumber winding;
-  const Status status = winding.build(mesh.points, mesh.triangles, context, options);
+  const Status status = winding.build(context, mesh.points, mesh.triangles, options);
   EXPECT_TRUE(status.ok()) << status.message;
   expect_valid_messages(status);
   return winding;
@@ -205,8 +205,8 @@ void compare(Random& random, const TriangleMesh& mesh, const Way& way, const Tru
     const auto count = static_cast<Index>(truth->values.size());
     std::vector<double> values(truth->values.size());
     std::vector<unsigned char> flags(values.size());
-    ASSERT_TRUE((on_grid ? winding.evaluate(grid, context, values.data(), flags.data())
-                         : winding.evaluate(truth->points, context, values.data(), flags.data()))
+    ASSERT_TRUE((on_grid ? winding.evaluate(context, grid, values.data(), flags.data())
+                         : winding.evaluate(context, truth->points, values.data(), flags.data()))
                   .ok());
     for (Index i = 0; i < count; ++i)
     {
@@ -330,7 +330,7 @@ TEST(FuzzWinding, CellsOfLargeClosedSurfaces)
       }
       std::vector<double> values(static_cast<std::size_t>(points.rows()));
       std::vector<unsigned char> flags(values.size());
-      ASSERT_TRUE(cells.evaluate(points, context, values.data(), flags.data()).ok());
+      ASSERT_TRUE(cells.evaluate(context, points, values.data(), flags.data()).ok());
       for (Index i = 0; i < points.rows() && !testing::Test::HasFatalFailure(); ++i)
       {
         expect_same(points.row(i), values[i], flags[i] != 0);
@@ -340,7 +340,7 @@ TEST(FuzzWinding, CellsOfLargeClosedSurfaces)
         const SampleGrid grid = hostile_grid(random, mesh);
         values.resize(static_cast<std::size_t>(grid.count()));
         flags.resize(values.size());
-        ASSERT_TRUE(cells.evaluate(grid, context, values.data(), flags.data()).ok());
+        ASSERT_TRUE(cells.evaluate(context, grid, values.data(), flags.data()).ok());
         for (Index i = 0; i < grid.count() && !testing::Test::HasFatalFailure(); ++i)
         {
           const Vec3 p = points_of(grid)(i);
@@ -402,7 +402,7 @@ TEST(FuzzWinding, CubesHoldTheirMiddles)
       grid.extent = { 0, 2 * n + 4, 0, 2 * n + 4, 0, 2 * n + 4 };
       Eigen::VectorXd values;
       OneThread context;
-      ASSERT_TRUE(winding.evaluate(grid, context, values).ok());
+      ASSERT_TRUE(winding.evaluate(context, grid, values).ok());
       const auto is_filled = [&](Index x, Index y, Index z)
       {
         return x >= 0 && y >= 0 && z >= 0 && x < n && y < n && z < n &&
@@ -502,8 +502,8 @@ TEST(FuzzWinding, GradientIsThatOfThePlainSum)
         Vec3 gradient, fast_gradient;
         const Points point = p.transpose();
         OneThread context;
-        ASSERT_TRUE(exact.evaluate_gradient(point, context, gradient.data()).ok());
-        ASSERT_TRUE(fast.evaluate_gradient(point, context, fast_gradient.data()).ok());
+        ASSERT_TRUE(exact.evaluate_gradient(context, point, gradient.data()).ok());
+        ASSERT_TRUE(fast.evaluate_gradient(context, point, fast_gradient.data()).ok());
         const double error = (gradient - expected).norm() * off;
         ASSERT_LE(error, 1e-7 * (1.0 + weights)) << std::setprecision(17) << p.transpose();
         worst = std::max(worst, error / (1.0 + weights));
@@ -613,7 +613,7 @@ TEST(FuzzWinding, CurvesAgainstThePlainSum)
       const Curve curve = hostile_curve(random);
       OneThread context;
       CurveWindingNumber winding;
-      const Status status = winding.build(curve.points, curve.segments, context);
+      const Status status = winding.build(context, curve.points, curve.segments);
       ASSERT_TRUE(status.ok()) << status.message;
       const bool closed = status.report.number("counts.open_ends", -1.0) == 0.0;
       PlanePoints points(60, 2);
@@ -627,7 +627,7 @@ TEST(FuzzWinding, CurvesAgainstThePlainSum)
       }
       std::vector<double> values(static_cast<std::size_t>(points.rows()));
       std::vector<unsigned char> flags(values.size());
-      ASSERT_TRUE(winding.evaluate(points, context, values.data(), flags.data()).ok());
+      ASSERT_TRUE(winding.evaluate(context, points, values.data(), flags.data()).ok());
       for (Index i = 0; i < points.rows(); ++i)
       {
         const Vec2 p = points.row(i);
@@ -759,7 +759,7 @@ TEST(FuzzWinding, CloudsAgainstThePlainSum)
         OneThread context;
         PointCloudWindingNumber winding;
         const Status status =
-          winding.build(cloud.points, cloud.normals, cloud.areas, context, options);
+          winding.build(context, cloud.points, cloud.normals, cloud.areas, options);
         expect_valid_messages(status);
         if (!status.ok())
         {
@@ -768,7 +768,7 @@ TEST(FuzzWinding, CloudsAgainstThePlainSum)
         }
         std::vector<double> values(static_cast<std::size_t>(points.rows()));
         std::vector<unsigned char> flags(values.size());
-        ASSERT_TRUE(winding.evaluate(points, context, values.data(), flags.data()).ok());
+        ASSERT_TRUE(winding.evaluate(context, points, values.data(), flags.data()).ok());
         for (Index i = 0; i < points.rows(); ++i)
         {
           const Vec3 p = points.row(i);

@@ -536,7 +536,7 @@ TEST(GltfSkin, ACancelLeavesNoFile)
   }
   int asked = 0;
   ExecutionContext context({}, [&asked] { return ++asked > 10; });
-  const Status status = write_gltf_skin(folder / "rig.glb", skin, GltfOptions(), context);
+  const Status status = write_gltf_skin(context, folder / "rig.glb", skin, GltfOptions());
   EXPECT_EQ(status.code, StatusCode::canceled);
   EXPECT_EQ(folder.number_of_files(), 0u);
   EXPECT_LT(asked, 20);

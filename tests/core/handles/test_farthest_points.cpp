@@ -12,7 +12,7 @@ TEST(FarthestPoints, EachIsTheFarthestFromAllBefore)
   const TriangleMesh mesh = test::join(test::sphere(3), test::cube(2.0, 3.0));
   ExecutionContext context;
   std::vector<Index> chosen;
-  ASSERT_TRUE(farthest_points(mesh.points, mesh.triangles, 20, context, chosen).ok());
+  ASSERT_TRUE(farthest_points(context, mesh.points, mesh.triangles, 20, chosen).ok());
   ASSERT_EQ(chosen.size(), 20u);
   const auto distance_to_first = [&](Index v, std::size_t count)
   {
@@ -32,7 +32,7 @@ TEST(FarthestPoints, EachIsTheFarthestFromAllBefore)
     }
   }
   std::vector<Index> fewer;
-  ASSERT_TRUE(farthest_points(mesh.points, mesh.triangles, 5, context, fewer).ok());
+  ASSERT_TRUE(farthest_points(context, mesh.points, mesh.triangles, 5, fewer).ok());
   EXPECT_TRUE(std::equal(fewer.begin(), fewer.end(), chosen.begin()));
 }
 
@@ -41,7 +41,7 @@ TEST(FarthestPoints, BoxCornersComeFirst)
   const TriangleMesh mesh = test::cube();
   ExecutionContext context;
   std::vector<Index> chosen;
-  ASSERT_TRUE(farthest_points(mesh.points, mesh.triangles, 8, context, chosen).ok());
+  ASSERT_TRUE(farthest_points(context, mesh.points, mesh.triangles, 8, chosen).ok());
   EXPECT_EQ(chosen[0], 0); // of corners equally far from the centroid, the smallest id is chosen
   EXPECT_EQ(chosen[1], 7); // this is the opposite corner
   std::sort(chosen.begin(), chosen.end());
@@ -55,14 +55,14 @@ TEST(FarthestPoints, TooFewPlacesAndCancel)
   mesh.points.row(8) << 100, 100, 100; // no triangle uses this vertex
   ExecutionContext context;
   std::vector<Index> chosen;
-  const Status few = farthest_points(mesh.points, mesh.triangles, 9, context, chosen);
+  const Status few = farthest_points(context, mesh.points, mesh.triangles, 9, chosen);
   EXPECT_EQ(few.code, StatusCode::invalid_input);
   EXPECT_NE(few.message.find("only 8"), std::string::npos);
-  EXPECT_EQ(farthest_points(mesh.points, mesh.triangles, 0, context, chosen).code,
+  EXPECT_EQ(farthest_points(context, mesh.points, mesh.triangles, 0, chosen).code,
     StatusCode::invalid_input);
-  EXPECT_EQ(farthest_points(mesh.points, Triangles(0, 3), 1, context, chosen).code,
+  EXPECT_EQ(farthest_points(context, mesh.points, Triangles(0, 3), 1, chosen).code,
     StatusCode::invalid_input);
   context.request_cancel();
   EXPECT_EQ(
-    farthest_points(mesh.points, mesh.triangles, 8, context, chosen).code, StatusCode::canceled);
+    farthest_points(context, mesh.points, mesh.triangles, 8, chosen).code, StatusCode::canceled);
 }

@@ -31,8 +31,8 @@ public:
   {
     ExecutionContext own;
     return run_child(
-      this->request, [&](const std::string& line) { this->lines.push_back(line); }, this->end,
-      context ? *context : own);
+      context ? *context : own, this->request,
+      [&](const std::string& line) { this->lines.push_back(line); }, this->end);
   }
 
   ChildRequest request;

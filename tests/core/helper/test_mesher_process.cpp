@@ -42,7 +42,7 @@ public:
     MesherData input;
     input.points = test::cube().points;
     input.triangles = test::cube().triangles;
-    return run_mesher(request, input, this->answer, context ? *context : own);
+    return run_mesher(context ? *context : own, request, input, this->answer);
   }
 
   MesherAnswer answer;
@@ -62,7 +62,7 @@ Status run_real(
   MesherData input;
   input.points = mesh.points;
   input.triangles = mesh.triangles;
-  return run_mesher({ arguments, 60.0, 0 }, input, answer, context);
+  return run_mesher(context, { arguments, 60.0, 0 }, input, answer);
 }
 } // namespace
 
@@ -73,13 +73,13 @@ TEST(MesherProcess, MissingHelperNamesItsPackages)
   {
     const Environment helper("BINDPOSE_MESHER", "/nowhere/bindpose-mesher");
     EXPECT_TRUE(find_mesher().empty());
-    const Status status = run_mesher({ { "refine" }, 1.0, 0 }, {}, answer, context);
+    const Status status = run_mesher(context, { { "refine" }, 1.0, 0 }, {}, answer);
     EXPECT_EQ(status.code, StatusCode::unavailable);
     EXPECT_THAT(status.message, HasSubstr("/nowhere/bindpose-mesher"));
   }
   if (find_mesher().empty())
   {
-    const Status status = run_mesher({ { "refine" }, 1.0, 0 }, {}, answer, context);
+    const Status status = run_mesher(context, { { "refine" }, 1.0, 0 }, {}, answer);
     EXPECT_EQ(status.code, StatusCode::unavailable);
     EXPECT_THAT(status.message, HasSubstr("libcgal-dev"));
     EXPECT_THAT(status.message, HasSubstr("libtet1.5-dev"));
@@ -231,9 +231,9 @@ TEST_F(RealHelper, RefinesUntilNothingCrosses)
     // triangles cross.
     ExecutionContext context;
     std::vector<std::pair<Index, Index>> pairs;
-    ASSERT_TRUE(crossing_pairs(refined.points, refined.triangles, pairs, context));
+    ASSERT_TRUE(crossing_pairs(context, refined.points, refined.triangles, pairs));
     EXPECT_EQ(pairs.size(), 0u);
-    ASSERT_TRUE(crossing_pairs(mesh.points, mesh.triangles, pairs, context));
+    ASSERT_TRUE(crossing_pairs(context, mesh.points, mesh.triangles, pairs));
     EXPECT_EQ(answer.report.number("counts.self_intersections", -1), pairs.size());
     EXPECT_FALSE(
       count_edges(refined.triangles).boundary > count_edges(mesh.triangles).boundary + 60);
@@ -275,7 +275,7 @@ TEST_F(RealHelper, AFewTrianglesMayFallIntoManyPieces)
   EXPECT_NEAR(surface_area(refined.points, refined.triangles), 3.0 * count, 1e-9);
   ExecutionContext context;
   std::vector<std::pair<Index, Index>> pairs;
-  ASSERT_TRUE(crossing_pairs(refined.points, refined.triangles, pairs, context));
+  ASSERT_TRUE(crossing_pairs(context, refined.points, refined.triangles, pairs));
   EXPECT_EQ(pairs.size(), 0u);
 }
 
@@ -297,7 +297,7 @@ TEST_F(RealHelper, SheetsThatNearlyCoincideAreRounded)
     (answer.data.points.topRows(both.points.rows()) - both.points).cwiseAbs().maxCoeff(), 1e-12);
   ExecutionContext context;
   std::vector<std::pair<Index, Index>> pairs;
-  ASSERT_TRUE(crossing_pairs(answer.data.points, answer.data.triangles, pairs, context));
+  ASSERT_TRUE(crossing_pairs(context, answer.data.points, answer.data.triangles, pairs));
   EXPECT_TRUE(pairs.empty());
 }
 
@@ -344,7 +344,7 @@ TEST_F(RealHelper, MemoryLimitIsKept)
   input.points = mesh.points;
   input.triangles = mesh.triangles;
   MesherAnswer answer;
-  const Status status = run_mesher({ { "refine" }, 60.0, 24 }, input, answer, context);
+  const Status status = run_mesher(context, { { "refine" }, 60.0, 24 }, input, answer);
   EXPECT_EQ(status.code, StatusCode::internal_error);
   EXPECT_THAT(status.message, HasSubstr("memory limit of 24 MiB"));
 }

@@ -95,7 +95,7 @@ public:
   {
     ExecutionContext own;
     return run_ftetwild(
-      surface.points, surface.triangles, options, this->mesh, context ? *context : own);
+      context ? *context : own, surface.points, surface.triangles, options, this->mesh);
   }
   std::string file(const std::string& name) const { return this->folder() / name; }
   std::string arguments() const { return this->folder().read("arguments"); }
@@ -158,7 +158,7 @@ TEST(Ftetwild, IsFoundOnThePath)
   const TriangleMesh cube = test::cube();
   std::filesystem::create_directory(folder / "FloatTetwild_bin"); // a folder is not a program
   EXPECT_EQ(find_ftetwild(), "");
-  const Status status = run_ftetwild(cube.points, cube.triangles, {}, mesh, context);
+  const Status status = run_ftetwild(context, cube.points, cube.triangles, {}, mesh);
   EXPECT_EQ(status.code, StatusCode::unavailable);
   EXPECT_THAT(status.message, HasSubstr("FloatTetwild_bin"));
   EXPECT_THAT(status.message, HasSubstr("https://github.com/wildmeshing/fTetWild"));
@@ -168,7 +168,7 @@ TEST(Ftetwild, IsFoundOnThePath)
   EXPECT_EQ(find_ftetwild(), folder / "ftetwild");
   const Environment chosen("BINDPOSE_FTETWILD", "/nowhere/ftetwild");
   EXPECT_EQ(find_ftetwild(), "") << "the variable alone counts";
-  EXPECT_THAT(run_ftetwild(cube.points, cube.triangles, {}, mesh, context).message,
+  EXPECT_THAT(run_ftetwild(context, cube.points, cube.triangles, {}, mesh).message,
     HasSubstr("/nowhere/ftetwild"));
 }
 
@@ -287,7 +287,7 @@ TEST(Ftetwild, TheRealOneFillsASphere)
   ExecutionContext context;
   const TriangleMesh sphere = test::sphere(3);
   TetMesh mesh;
-  const Status status = run_ftetwild(sphere.points, sphere.triangles, {}, mesh, context);
+  const Status status = run_ftetwild(context, sphere.points, sphere.triangles, {}, mesh);
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_TRUE(check_tets(mesh.points, mesh.tets).ok());
   EXPECT_NEAR(

@@ -25,9 +25,9 @@ Points points_in(const TriangleMesh& mesh, SizingField sizes, Index most, int th
   ExecutionContext context;
   context.set_threads(threads);
   Interior interior;
-  EXPECT_TRUE(interior.build(mesh.points, mesh.triangles, context).ok());
+  EXPECT_TRUE(interior.build(context, mesh.points, mesh.triangles).ok());
   Points inner;
-  EXPECT_TRUE(inner_points(interior, sizes, most, context, inner));
+  EXPECT_TRUE(inner_points(context, interior, sizes, most, inner));
   return inner;
 }
 
@@ -135,9 +135,9 @@ TEST(InnerPoints, CancelEndsTheSearch)
   const TriangleMesh sphere = test::sphere(3);
   ExecutionContext context;
   Interior interior;
-  ASSERT_TRUE(interior.build(sphere.points, sphere.triangles, context).ok());
+  ASSERT_TRUE(interior.build(context, sphere.points, sphere.triangles).ok());
   context.request_cancel();
   SizingField sizes = everywhere(0.01);
   Points inner;
-  EXPECT_FALSE(inner_points(interior, sizes, 1000000, context, inner));
+  EXPECT_FALSE(inner_points(context, interior, sizes, 1000000, inner));
 }

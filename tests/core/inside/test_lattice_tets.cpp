@@ -21,7 +21,7 @@ TetMesh stuffed(const TriangleMesh& mesh, Index resolution, int threads = 0)
   const Box box = bounding_box(mesh.points, mesh.triangles);
   TetMesh tets;
   const Status status =
-    stuff_lattice(winding, Lattice::around(box, resolution), box, 0.5, tets, context);
+    stuff_lattice(context, winding, Lattice::around(box, resolution), box, 0.5, tets);
   EXPECT_TRUE(status.ok()) << status.message;
   return tets;
 }
@@ -112,6 +112,6 @@ TEST(LatticeTets, CancelEndsSoon)
   ExecutionContext context;
   context.request_cancel();
   TetMesh tets;
-  EXPECT_EQ(stuff_lattice(winding, Lattice::around(box, 60), box, 0.5, tets, context).code,
+  EXPECT_EQ(stuff_lattice(context, winding, Lattice::around(box, 60), box, 0.5, tets).code,
     StatusCode::canceled);
 }

@@ -55,7 +55,7 @@ RemeshOutcome run_remesh(
   const WindingNumber winding(mesh.points, mesh.triangles);
   RemeshOutcome outcome;
   outcome.status =
-    remesh_tets(mesh.points, mesh.triangles, winding, options, outcome.result, context);
+    remesh_tets(context, mesh.points, mesh.triangles, winding, options, outcome.result);
   return outcome;
 }
 
@@ -264,7 +264,7 @@ TEST_F(Remesh, SquaresOfFourPointsOnACircleLeaveNoClusters)
     TetrahedralizeOptions options;
     options.method = TetMethod::remesh;
     TetrahedralizeResult result;
-    const Status status = tetrahedralize(mesh.points, mesh.triangles, options, result, context);
+    const Status status = tetrahedralize(context, mesh.points, mesh.triangles, options, result);
     ASSERT_TRUE(status.ok()) << status.message;
     EXPECT_GE(status.report.number("min_dihedral_angle", 0.0), 8.0);
     const double volume = signed_volume(torus.points, torus.triangles);
@@ -360,7 +360,7 @@ TEST_F(Remesh, ASheetBesideASolidEnds)
   ladder.method = TetMethod::remesh;
   ladder.time_limit = 20.0;
   TetrahedralizeResult result;
-  const Status status = tetrahedralize(mesh.points, mesh.triangles, ladder, result, context);
+  const Status status = tetrahedralize(context, mesh.points, mesh.triangles, ladder, result);
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(status.report.text("method"), "remesh");
   EXPECT_NEAR(
@@ -374,7 +374,7 @@ TEST_F(Remesh, TheLadderKeepsVerticesAndReportsDistances)
   TetrahedralizeOptions options;
   options.method = TetMethod::remesh;
   TetrahedralizeResult result;
-  const Status status = tetrahedralize(mesh.points, mesh.triangles, options, result, context);
+  const Status status = tetrahedralize(context, mesh.points, mesh.triangles, options, result);
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_GT(status.report.number("counts.kept_vertices", 0.0), 0.99 * mesh.points.rows());
   EXPECT_GE(status.report.number("min_dihedral_angle", 0.0), 8.0);
@@ -394,7 +394,7 @@ TEST(RemeshTets, WithoutHelperTheLadderCutsALattice)
   options.method = TetMethod::remesh;
   options.resolution = 16;
   TetrahedralizeResult result;
-  const Status status = tetrahedralize(mesh.points, mesh.triangles, options, result, context);
+  const Status status = tetrahedralize(context, mesh.points, mesh.triangles, options, result);
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(status.report.number("counts.kept_vertices", -1.0), 0.0);
   EXPECT_GE(status.report.number("min_dihedral_angle", 0.0), 10.7);
@@ -425,7 +425,7 @@ TEST(RemeshTets, CancelKillsTheHelper)
   ExecutionContext context;
   test::CancelLater user(context, 300);
   RemeshResult result;
-  const Status status = remesh_tets(mesh.points, mesh.triangles, winding, {}, result, context);
+  const Status status = remesh_tets(context, mesh.points, mesh.triangles, winding, {}, result);
   const double waited = user.waited();
   EXPECT_EQ(status.code, StatusCode::canceled);
   EXPECT_LT(waited, 0.2);

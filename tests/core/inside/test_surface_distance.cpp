@@ -17,7 +17,7 @@ SurfaceDistance distance_of(const TetMesh& mesh, const TriangleMesh& surface)
   const RegionBoundary region(surface.points, surface.triangles, winding, 0.5);
   ExecutionContext context;
   SurfaceDistance distance;
-  EXPECT_TRUE(measure_distance(mesh, region, distance, context));
+  EXPECT_TRUE(measure_distance(context, mesh, region, distance));
   return distance;
 }
 

@@ -150,7 +150,7 @@ TEST(Tetrahedralize, CancelEndsAtOnce)
   ExecutionContext context;
   test::CancelLater user(context, 500);
   TetrahedralizeResult result;
-  const Status status = tetrahedralize(mesh.points, mesh.triangles, {}, result, context);
+  const Status status = tetrahedralize(context, mesh.points, mesh.triangles, {}, result);
   const double waited = user.waited();
   EXPECT_EQ(status.code, StatusCode::canceled);
   EXPECT_LT(waited, 0.2);

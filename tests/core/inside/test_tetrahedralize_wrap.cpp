@@ -37,7 +37,7 @@ void expect_to_hold(const TetMesh& mesh, const TriangleMesh& surface)
   ExecutionContext context;
   WindingNumber winding;
   const Triangles skin = boundary_triangles(mesh.tets);
-  ASSERT_TRUE(winding.build(mesh.points, skin, context).ok());
+  ASSERT_TRUE(winding.build(context, mesh.points, skin).ok());
   const TriangleTree tree(mesh.points, skin);
   const double near = 1e-14 * bounding_box(surface.points, surface.triangles).diagonal();
   const auto held = [&](const Vec3& p)

@@ -25,7 +25,7 @@ Made make_solid(const TriangleMesh& mesh, const ThickSolidOptions& options, int 
   context.set_threads(threads);
   const WindingNumber winding(mesh.points, mesh.triangles);
   Made made;
-  made.status = thick_solid(mesh.points, mesh.triangles, winding, options, made.solid, context);
+  made.status = thick_solid(context, mesh.points, mesh.triangles, winding, options, made.solid);
   EXPECT_TRUE(made.status.ok()) << made.status.message;
   EXPECT_TRUE(count_edges(made.solid.triangles).closed);
   made.parts = connected_components(made.solid.points.rows(), made.solid.triangles).count;
@@ -118,6 +118,6 @@ TEST(ThickSolid, CancelEndsSoon)
   ExecutionContext context;
   context.request_cancel();
   TriangleMesh solid;
-  EXPECT_EQ(thick_solid(mesh.points, mesh.triangles, winding, {}, solid, context).code,
+  EXPECT_EQ(thick_solid(context, mesh.points, mesh.triangles, winding, {}, solid).code,
     StatusCode::canceled);
 }

@@ -26,7 +26,7 @@ namespace
 Status run_wrap(const TriangleMesh& mesh, const WrapOptions& options, TriangleMesh& wrap)
 {
   ExecutionContext context;
-  return wrap_surface(mesh.points, mesh.triangles, options, wrap.points, wrap.triangles, context);
+  return wrap_surface(context, mesh.points, mesh.triangles, options, wrap.points, wrap.triangles);
 }
 
 TriangleMesh one_triangle()
@@ -68,7 +68,7 @@ void expect_clean(const TriangleMesh& wrap)
   }
   ExecutionContext context;
   std::vector<std::pair<Index, Index>> pairs;
-  ASSERT_TRUE(crossing_pairs(wrap.points, wrap.triangles, pairs, context));
+  ASSERT_TRUE(crossing_pairs(context, wrap.points, wrap.triangles, pairs));
   EXPECT_EQ(pairs.size(), 0u);
   EXPECT_GT(signed_volume(wrap.points, wrap.triangles), 0.0);
 }
@@ -80,7 +80,7 @@ void expect_around(const TriangleMesh& wrap, const TriangleMesh& mesh, double of
 {
   ExecutionContext context;
   WindingNumber winding;
-  ASSERT_TRUE(winding.build(wrap.points, wrap.triangles, context).ok());
+  ASSERT_TRUE(winding.build(context, wrap.points, wrap.triangles).ok());
   const double diagonal = bounding_box(mesh.points, mesh.triangles).diagonal();
   const TriangleTree wrap_tree(wrap.points, wrap.triangles);
   const auto held = [&](const Vec3& p)
@@ -222,7 +222,7 @@ TEST_F(WrapSurface, TimeMemoryAndCancelEndIt)
     [&] { return !seen.empty() && seen.back() > 0.0; });
   const TriangleMesh sphere = test::sphere(3);
   status =
-    wrap_surface(sphere.points, sphere.triangles, options, wrap.points, wrap.triangles, context);
+    wrap_surface(context, sphere.points, sphere.triangles, options, wrap.points, wrap.triangles);
   EXPECT_EQ(status.code, StatusCode::canceled) << "at the first sign of progress";
   EXPECT_FALSE(seen.empty());
   EXPECT_LT(seconds(), 30.0);

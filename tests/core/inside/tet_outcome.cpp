@@ -15,7 +15,7 @@ TetOutcome run(const TriangleMesh& mesh, TetrahedralizeOptions options, int thre
   ExecutionContext context;
   context.set_threads(threads);
   TetOutcome outcome;
-  outcome.status = tetrahedralize(mesh.points, mesh.triangles, options, outcome.result, context);
+  outcome.status = tetrahedralize(context, mesh.points, mesh.triangles, options, outcome.result);
   return outcome;
 }
 

@@ -87,7 +87,7 @@ protected:
   {
     ExecutionContext context;
     context.set_threads(threads);
-    return write_vdb(this->folder / name, field.grid, field.values.data(), this->options, context);
+    return write_vdb(context, this->folder / name, field.grid, field.values.data(), this->options);
   }
   openvdb::FloatGrid::Ptr read(const std::string& name = "field.vdb")
   {
@@ -148,7 +148,7 @@ TEST_F(Vdb, FloatsAndDoublesGiveTheSameFile)
   ASSERT_TRUE(this->write(field).ok());
   ExecutionContext context;
   ASSERT_TRUE(
-    write_vdb(this->folder / "floats.vdb", field.grid, floats.data(), this->options, context).ok());
+    write_vdb(context, this->folder / "floats.vdb", field.grid, floats.data(), this->options).ok());
   EXPECT_EQ(this->folder.read("field.vdb"), this->folder.read("floats.vdb"));
 }
 
@@ -501,7 +501,7 @@ TEST_F(Vdb, CancelsAndTellsHowFarItIs)
       [&] { return ++asked < 0; });
     counted.set_threads(1);
     ASSERT_TRUE(
-      write_vdb(this->folder / "f.vdb", field.grid, field.values.data(), this->options, counted)
+      write_vdb(counted, this->folder / "f.vdb", field.grid, field.values.data(), this->options)
         .ok());
     EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
     EXPECT_GT(fractions.back(), 0.55);
@@ -514,7 +514,7 @@ TEST_F(Vdb, CancelsAndTellsHowFarItIs)
       ExecutionContext context({}, [&] { return ++count >= last; });
       context.set_threads(1);
       const Status status =
-        write_vdb(this->folder / "f.vdb", field.grid, field.values.data(), this->options, context);
+        write_vdb(context, this->folder / "f.vdb", field.grid, field.values.data(), this->options);
       EXPECT_EQ(status.code, StatusCode::canceled) << last << " of " << all;
       EXPECT_EQ(this->folder.number_of_files(), 0u);
     }

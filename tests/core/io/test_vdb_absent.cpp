@@ -16,7 +16,7 @@ TEST(VdbAbsent, NamesThePackage)
   grid.extent = { 0, 1, 0, 1, 0, 1 };
   const std::vector<double> values(8, 1.0);
   ExecutionContext context;
-  const Status status = write_vdb(folder / "field.vdb", grid, values.data(), VdbOptions(), context);
+  const Status status = write_vdb(context, folder / "field.vdb", grid, values.data(), VdbOptions());
   EXPECT_EQ(status.code, StatusCode::unavailable);
   EXPECT_THAT(status.message, HasSubstr("libopenvdb-dev"));
   EXPECT_EQ(check_vdb_available().message, status.message);

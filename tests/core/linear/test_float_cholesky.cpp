@@ -66,7 +66,7 @@ TEST_F(FloatCholeskyTest, SolvesAsADenseFactorizationDoes)
       const Eigen::MatrixXd expected = dense.ldlt().solve(rhs);
       SparseSolver solver({ SparseSolver::Backend::cholmod, ordering });
       FloatCholesky single = analyzed(a, solver);
-      ASSERT_TRUE(single.factor(a, 0.0, context_).ok());
+      ASSERT_TRUE(single.factor(context_, a, 0.0).ok());
       Eigen::MatrixXd x;
       single.solve(rhs, x);
       EXPECT_LT((x - expected).norm(), 1e-4 * expected.norm());
@@ -74,7 +74,7 @@ TEST_F(FloatCholeskyTest, SolvesAsADenseFactorizationDoes)
       single.solve(Eigen::VectorXd(rhs.col(1)), one);
       EXPECT_LT((one - expected.col(1)).norm(), 1e-4 * expected.col(1).norm());
       // Factor the matrix plus 0.5 times its diagonal.
-      ASSERT_TRUE(single.factor(a, 0.5, context_).ok());
+      ASSERT_TRUE(single.factor(context_, a, 0.5).ok());
       single.solve(rhs, x);
       Eigen::MatrixXd shifted = dense;
       shifted.diagonal() *= 1.5;
@@ -90,7 +90,7 @@ TEST_F(FloatCholeskyTest, SolvesAnyNumberOfColumnsAsItSolvesOne)
   const SparseMatrix a = lower_triangle(9, 0.1);
   SparseSolver solver;
   FloatCholesky single = analyzed(a, solver);
-  ASSERT_TRUE(single.factor(a, 0.0, context_).ok());
+  ASSERT_TRUE(single.factor(context_, a, 0.0).ok());
   for (const int columns : { 1, 2, 4, 5, 8, 9, 10, 13, 16 })
   {
     Eigen::MatrixXd rhs =
@@ -128,7 +128,7 @@ TEST_F(FloatCholeskyTest, ResidualsAreThoseOfSinglePrecisionAtAnyScale)
       rows[i] = std::sqrt(scale) * std::pow(10.0, static_cast<double>(i % 13) - 6.0);
     }
     const SparseMatrix scaled = rows.asDiagonal() * a * rows.asDiagonal();
-    ASSERT_TRUE(single.factor(scaled, 0.0, context_).ok());
+    ASSERT_TRUE(single.factor(context_, scaled, 0.0).ok());
     Eigen::VectorXd x;
     single.solve(Eigen::VectorXd(rows.cwiseProduct(rhs)), x);
     const Eigen::VectorXd back = rows.cwiseProduct(x);
@@ -150,14 +150,14 @@ TEST_F(FloatCholeskyTest, NamesThePivotThatIsNotPositive)
   {
     SparseMatrix b = a;
     b.coeffRef(17, 17) = bad;
-    const Status status = single.factor(b, 0.0, context_);
+    const Status status = single.factor(context_, b, 0.0);
     EXPECT_EQ(status.code, StatusCode::invalid_input) << bad;
     if (bad < 0.0)
     {
       EXPECT_NE(status.message.find("unknown 17 "), std::string::npos) << status.message;
     }
   }
-  EXPECT_TRUE(single.factor(a, 0.0, context_).ok()) << "still good for another matrix";
+  EXPECT_TRUE(single.factor(context_, a, 0.0).ok()) << "still good for another matrix";
   EXPECT_EQ(single.factorizations(), 4);
 }
 
@@ -167,7 +167,7 @@ TEST_F(FloatCholeskyTest, ClonesAndThreadsGiveTheSameBits)
   const SparseMatrix a = lower_triangle(9, 0.01);
   SparseSolver solver;
   FloatCholesky single = analyzed(a, solver);
-  ASSERT_TRUE(single.factor(a, 0.0, context_).ok());
+  ASSERT_TRUE(single.factor(context_, a, 0.0).ok());
   const Eigen::VectorXd rhs = Eigen::VectorXd::LinSpaced(a.rows(), -1.0, 1.0);
   Eigen::VectorXd alone;
   single.solve(rhs, alone);
@@ -187,7 +187,7 @@ TEST_F(FloatCholeskyTest, ClonesAndThreadsGiveTheSameBits)
         ExecutionContext context;
         for (int again = 0; again < 3; ++again)
         {
-          clones[i].factor(a, 0.0, context);
+          clones[i].factor(context, a, 0.0);
           clones[i].solve(rhs, together[i]);
           single.solve(rhs, shared[i]);
         }
@@ -213,9 +213,9 @@ TEST_F(FloatCholeskyTest, CancelEndsItAndOtherPatternsAreRefused)
   FloatCholesky single = analyzed(a, solver);
   int asked = 0;
   const ExecutionContext stopped(nullptr, [&] { return ++asked > 3; });
-  EXPECT_EQ(single.factor(a, 0.0, stopped).code, StatusCode::canceled);
-  EXPECT_FALSE(single.factor(lower_triangle(3, 0.1), 0.0, context_).ok());
-  EXPECT_FALSE(FloatCholesky().factor(a, 0.0, context_).ok());
+  EXPECT_EQ(single.factor(stopped, a, 0.0).code, StatusCode::canceled);
+  EXPECT_FALSE(single.factor(context_, lower_triangle(3, 0.1), 0.0).ok());
+  EXPECT_FALSE(FloatCholesky().factor(context_, a, 0.0).ok());
   EXPECT_FALSE(FloatCholesky().analyze(solver, lower_triangle(3, 0.1)).ok());
 }
 

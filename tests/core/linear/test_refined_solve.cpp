@@ -39,7 +39,7 @@ protected:
     SparseSolver solver;
     ASSERT_TRUE(solver.analyze(this->lower).ok());
     ASSERT_TRUE(this->factor.analyze(solver, this->lower).ok());
-    ASSERT_TRUE(this->factor.factor(this->lower, 0.0, {}).ok());
+    ASSERT_TRUE(this->factor.factor({}, this->lower, 0.0).ok());
     this->inverse_diagonal = this->a.diagonal().cwiseInverse();
     test::Random random;
     this->rhs.resize(this->a.rows(), 11);

@@ -28,9 +28,9 @@ Status outline_of(const Picture& picture, ImageOutline& outline, double simplify
   const auto rows = static_cast<Index>(picture.size());
   const Index columns = rows == 0 ? 0 : static_cast<Index>(picture[0].size());
   return image_outline(
-    columns, rows,
+    context, columns, rows,
     [&](Index row, float* values) { std::copy(picture[row].begin(), picture[row].end(), values); },
-    options, outline, context);
+    options, outline);
 }
 
 template <typename Function>
@@ -306,7 +306,7 @@ TEST(ImageOutline, Refuses)
   const AlphaRow never = [](Index, float*) { FAIL(); };
   for (const auto& [columns, rows] : { std::pair<Index, Index>(0, 5), { 5, 0 }, { -1, 2 } })
   {
-    const Status status = image_outline(columns, rows, never, {}, outline, context);
+    const Status status = image_outline(context, columns, rows, never, {}, outline);
     EXPECT_EQ(status.code, StatusCode::invalid_input);
     EXPECT_THAT(status.message, HasSubstr("no pixels"));
   }
@@ -316,7 +316,7 @@ TEST(ImageOutline, Refuses)
       outline_of({ { 1.0f } }, outline, simplify).message, HasSubstr("from 0 to 1 pixel"));
   }
   EXPECT_THAT(
-    image_outline(1, 1, never, { 0.0, 0.5 }, outline, context).message, HasSubstr("threshold"));
+    image_outline(context, 1, 1, never, { 0.0, 0.5 }, outline).message, HasSubstr("threshold"));
   Status status = outline_of({ { 0.0f, 0.4f }, { 0.1f, 0.0f } }, outline);
   EXPECT_EQ(status.code, StatusCode::invalid_input);
   EXPECT_THAT(status.message, HasSubstr("transparent"));
@@ -324,7 +324,7 @@ TEST(ImageOutline, Refuses)
   EXPECT_THAT(status.message, HasSubstr("transparent"));
   context.request_cancel();
   EXPECT_EQ(image_outline(
-              1, 1, [](Index, float* value) { *value = 1.0f; }, {}, outline, context)
+              context, 1, 1, [](Index, float* value) { *value = 1.0f; }, {}, outline)
               .code,
     StatusCode::canceled);
 }
@@ -336,7 +336,7 @@ TEST(ImageOutline, HugeImageInSeconds)
   ImageOutline outline;
   const auto start = std::chrono::steady_clock::now();
   const Status status = image_outline(
-    size, size,
+    context, size, size,
     [](Index row, float* values)
     {
       for (Index x = 0; x < size; ++x)
@@ -346,7 +346,7 @@ TEST(ImageOutline, HugeImageInSeconds)
         values[x] = dx * dx + dy * dy < 3900.0 * 3900.0 ? 1.0f : 0.0f;
       }
     },
-    {}, outline, context);
+    {}, outline);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   ASSERT_TRUE(status.ok());
   EXPECT_NEAR(outline_area(outline) / (M_PI * 3900.0 * 3900.0), 1.0, 1e-3);

@@ -157,7 +157,7 @@ protected:
   Status run(const Curves& curves)
   {
     ExecutionContext context;
-    return planar_shape(curves.points, curves.segments, handles, options, shape, context);
+    return planar_shape(context, curves.points, curves.segments, handles, options, shape);
   }
   double area(const Curves& curves)
   {
@@ -475,7 +475,7 @@ TEST_F(PlanarShapeTest, SameForAnyNumberOfThreads)
   const PlanarShape first = shape;
   ExecutionContext one;
   one.set_threads(1);
-  ASSERT_TRUE(planar_shape(star.points, star.segments, handles, options, shape, one).ok());
+  ASSERT_TRUE(planar_shape(one, star.points, star.segments, handles, options, shape).ok());
   EXPECT_EQ(first.points, shape.points);
   EXPECT_EQ(first.triangles, shape.triangles);
   EXPECT_EQ(first.winding_numbers, shape.winding_numbers);
@@ -532,7 +532,7 @@ TEST_F(PlanarShapeTest, Cancel)
   const Curves curves = Curves().add(unit_square);
   ExecutionContext context;
   context.request_cancel();
-  EXPECT_EQ(planar_shape(curves.points, curves.segments, handles, options, shape, context).code,
+  EXPECT_EQ(planar_shape(context, curves.points, curves.segments, handles, options, shape).code,
     StatusCode::canceled);
   EXPECT_EQ(shape.triangles.rows(), 0);
 }
@@ -543,8 +543,8 @@ TEST(PlanarShape, WithoutHelperItIsUnavailable)
   const Curves curves = Curves().add(unit_square);
   ExecutionContext context;
   PlanarShape shape;
-  const Status status = planar_shape(curves.points, curves.segments,
-    { PlanePoints(0, 2), Segments(0, 2) }, PlanarShapeOptions(), shape, context);
+  const Status status = planar_shape(context, curves.points, curves.segments,
+    { PlanePoints(0, 2), Segments(0, 2) }, PlanarShapeOptions(), shape);
   EXPECT_EQ(status.code, StatusCode::unavailable);
   EXPECT_THAT(status.message, HasSubstr("BINDPOSE_MESHER"));
 }

@@ -96,7 +96,7 @@ TEST(BoxQp, AgreesWithProjectedGaussSeidel)
   for (const auto& values :
     { column_of({ 1, 0, 0 }), column_of({ 0, 1, 0 }), column_of({ 0, 0.5, 1 }) })
   {
-    const BoxQpSolution solution = qp.solve(values, context);
+    const BoxQpSolution solution = qp.solve(context, values);
     ASSERT_TRUE(solution.status.ok());
     const Eigen::VectorXd twin = gauss_seidel(q, three_fixed, values.fixed_values, 40000);
     EXPECT_LT((solution.w - twin).cwiseAbs().maxCoeff(), 1e-6);
@@ -148,7 +148,7 @@ TEST(BoxQp, CertificateBoundsTheTrueGap)
   BoxQp qp(q, three_fixed, { 1e-9, 100, {} });
   ExecutionContext context;
   ASSERT_TRUE(qp.prepare(context).ok());
-  const BoxQpSolution best = qp.solve(column_of({ 1, 0, 0 }), context);
+  const BoxQpSolution best = qp.solve(context, column_of({ 1, 0, 0 }));
   std::vector<char> free(static_cast<std::size_t>(q.rows()), 1);
   for (const Index v : three_fixed)
   {
@@ -189,7 +189,7 @@ TEST(BoxQp, OrderedPairsHoldAndTheirMultipliersProveIt)
   BoxQp qp(q, fixed, { 1e-9, 100, {} });
   ExecutionContext context;
   ASSERT_TRUE(qp.prepare(context).ok());
-  const BoxQpSolution ordered = qp.solve(column, context);
+  const BoxQpSolution ordered = qp.solve(context, column);
   ASSERT_TRUE(ordered.status.ok()) << ordered.certificate.relative_gap;
   double least = 1.0;
   for (const OrderedPair& pair : column.pairs)
@@ -200,7 +200,7 @@ TEST(BoxQp, OrderedPairsHoldAndTheirMultipliersProveIt)
   EXPECT_GE(ordered.multipliers.minCoeff(), 0.0);
   // Without the order constraints the energy is lower.
   column.pairs.clear();
-  const BoxQpSolution bounded = qp.solve(column, context);
+  const BoxQpSolution bounded = qp.solve(context, column);
   EXPECT_GT(ordered.certificate.energy, bounded.certificate.energy * (1.0 + 1e-6));
   EXPECT_EQ(qp.analyses(), 1);
 }
@@ -218,7 +218,7 @@ TEST(BoxQp, NeedsNoBoundsAndKeepsDistances)
   unbounded.bounds.lower = Eigen::VectorXd::Constant(q.rows(), -HUGE_VAL);
   unbounded.bounds.upper = Eigen::VectorXd::Constant(q.rows(), HUGE_VAL);
   // Without bounds the result is the unconstrained minimizer, which overshoots.
-  const BoxQpSolution free = qp.solve(unbounded, context);
+  const BoxQpSolution free = qp.solve(context, unbounded);
   ASSERT_TRUE(free.status.ok());
   EXPECT_EQ(free.iterations, 0);
   const Eigen::VectorXd minimizer = qp.unconstrained(column.fixed_values);
@@ -228,7 +228,7 @@ TEST(BoxQp, NeedsNoBoundsAndKeepsDistances)
   BoxQpColumn some = unbounded;
   some.bounds.lower.head(n).setZero();
   some.bounds.upper.head(n).setConstant(0.8);
-  const BoxQpSolution half = qp.solve(some, context);
+  const BoxQpSolution half = qp.solve(context, some);
   ASSERT_TRUE(half.status.ok());
   EXPECT_LE(half.w.head(n).maxCoeff(), 0.8);
   EXPECT_GT(half.w.maxCoeff(), 0.8);
@@ -241,8 +241,8 @@ TEST(BoxQp, NeedsNoBoundsAndKeepsDistances)
     }
   }
   unbounded.pairs = column.pairs;
-  const BoxQpSolution bounded = qp.solve(column, context);
-  const BoxQpSolution ordered = qp.solve(unbounded, context);
+  const BoxQpSolution bounded = qp.solve(context, column);
+  const BoxQpSolution ordered = qp.solve(context, unbounded);
   ASSERT_TRUE(bounded.status.ok());
   ASSERT_TRUE(ordered.status.ok());
   EXPECT_LT((ordered.w - bounded.w).cwiseAbs().maxCoeff(), 1e-5);
@@ -250,7 +250,7 @@ TEST(BoxQp, NeedsNoBoundsAndKeepsDistances)
   {
     pair.least = 1e-3;
   }
-  const BoxQpSolution apart = qp.solve(unbounded, context);
+  const BoxQpSolution apart = qp.solve(context, unbounded);
   ASSERT_TRUE(apart.status.ok());
   for (const OrderedPair& pair : unbounded.pairs)
   {
@@ -270,13 +270,13 @@ TEST(BoxQp, EveryStartEndsAtTheSameWeights)
     BoxQp qp(q, fixed, { tolerance, 100, {} });
     ASSERT_TRUE(qp.prepare(context).ok());
     BoxQpColumn column = column_of({ 1, 0, 0 });
-    const Eigen::VectorXd usual = qp.solve(column, context).w;
+    const Eigen::VectorXd usual = qp.solve(context, column).w;
     test::Random random(5);
     for (int start = 0; start < 3; ++start)
     {
       column.start = Eigen::VectorXd::NullaryExpr(
         q.rows(), [&] { return start == 2 ? random.uniform() : double(start); });
-      const BoxQpSolution solution = qp.solve(column, context);
+      const BoxQpSolution solution = qp.solve(context, column);
       ASSERT_TRUE(solution.status.ok());
       EXPECT_LT((solution.w - usual).cwiseAbs().maxCoeff(), same);
     }
@@ -356,13 +356,13 @@ TEST_P(BoxQpStarts, FoundTogetherEndWhereOthersEnd)
       BoxQp qp(scaled, fixed, { tolerance, 100, {} });
       ExecutionContext context;
       ASSERT_TRUE(qp.prepare(context).ok());
-      const std::vector<BoxQpSolution> together = qp.solve_all(columns, context);
+      const std::vector<BoxQpSolution> together = qp.solve_all(context, columns);
       for (std::size_t j = 0; j < columns.size(); ++j)
       {
         ASSERT_TRUE(together[j].status.ok()) << together[j].certificate.relative_gap;
         BoxQpColumn column = columns[j];
         column.start = Eigen::VectorXd::Constant(q.rows(), 0.5);
-        const BoxQpSolution alone = qp.solve(column, context);
+        const BoxQpSolution alone = qp.solve(context, column);
         ASSERT_TRUE(alone.status.ok());
         EXPECT_LT((together[j].w - alone.w).cwiseAbs().maxCoeff(), same) << j;
         std::vector<char> free_here = free;
@@ -406,7 +406,7 @@ TEST(BoxQp, ThreadsDoNotChangeABit)
     context.set_threads(threads);
     BoxQp qp(q, fixed, {});
     ASSERT_TRUE(qp.prepare(context).ok());
-    const std::vector<BoxQpSolution> solutions = qp.solve_all(columns, context);
+    const std::vector<BoxQpSolution> solutions = qp.solve_all(context, columns);
     EXPECT_EQ(qp.analyses(), 1);
     // Q is factored once. One more factorization gives the starts of all columns together. Each
     // column reports its other factorizations.
@@ -448,7 +448,7 @@ TEST(BoxQp, TheEstimateOfItsMemoryIsThePeak)
     ExecutionContext context;
     context.set_threads(threads);
     ASSERT_TRUE(qp.prepare(context, columns).ok());
-    ASSERT_TRUE(worst_of(qp.solve_all(columns, context)).ok());
+    ASSERT_TRUE(worst_of(qp.solve_all(context, columns)).ok());
     const double peak = peak_memory();
     ASSERT_GT(peak, before + 50 * mebibyte);
     EXPECT_GT(qp.memory_estimate() - before, 0.8 * (peak - before)) << threads;
@@ -485,7 +485,7 @@ TEST(BoxQp, TakesFewerThreadsOrRefusesWhereMemoryEnds)
     BoxQp qp(q, fixed, {});
     ASSERT_TRUE(qp.prepare(some, columns).ok());
     needed[threads - 1] = qp.memory_estimate() - before;
-    reference = qp.solve_all(columns, some);
+    reference = qp.solve_all(some, columns);
   }
   // The limit is too small for two threads.
   ASSERT_GT(needed[1], needed[0] + 8 * mebibyte);
@@ -495,7 +495,7 @@ TEST(BoxQp, TakesFewerThreadsOrRefusesWhereMemoryEnds)
   context.set_threads(2);
   ASSERT_TRUE(narrow.prepare(context, columns).ok());
   EXPECT_LE(narrow.memory_estimate(), options.solver.memory_limit * mebibyte);
-  const std::vector<BoxQpSolution> solutions = narrow.solve_all(columns, context);
+  const std::vector<BoxQpSolution> solutions = narrow.solve_all(context, columns);
   for (std::size_t j = 0; j < columns.size(); ++j)
   {
     ASSERT_TRUE(solutions[j].status.ok());
@@ -513,7 +513,7 @@ TEST(BoxQp, TooFewIterationsAreSaidAndCancelEndsIt)
   ASSERT_TRUE(qp.prepare(context).ok());
   BoxQpColumn far = column_of({ 1, 0, 0 });
   far.start = Eigen::VectorXd::Zero(q.rows());
-  const BoxQpSolution early = qp.solve(far, context);
+  const BoxQpSolution early = qp.solve(context, far);
   EXPECT_EQ(early.status.code, StatusCode::not_converged);
   EXPECT_EQ(early.iterations, 3);
   EXPECT_GT(std::max(early.certificate.relative_gap, early.certificate.kkt_residual), 1e-9);
@@ -527,7 +527,7 @@ TEST(BoxQp, TooFewIterationsAreSaidAndCancelEndsIt)
   const Status status = other.prepare(stopped);
   ASSERT_TRUE(status.ok());
   prepared = true;
-  const BoxQpSolution solution = other.solve(column_of({ 1, 0, 0 }), stopped);
+  const BoxQpSolution solution = other.solve(stopped, column_of({ 1, 0, 0 }));
   EXPECT_EQ(solution.status.code, StatusCode::canceled);
   EXPECT_LT(solution.iterations, 4);
 }
@@ -547,7 +547,7 @@ TEST(BoxQp, ConstantColumnsCostNothing)
     ones.push_back(1.0);
   }
   column.pinned_values = Eigen::Map<Eigen::VectorXd>(ones.data(), q.rows());
-  const BoxQpSolution solution = qp.solve(column, context);
+  const BoxQpSolution solution = qp.solve(context, column);
   EXPECT_TRUE(solution.status.ok());
   EXPECT_EQ(solution.w, Eigen::VectorXd::Ones(q.rows()));
   EXPECT_EQ(solution.certificate.energy, 0.0);

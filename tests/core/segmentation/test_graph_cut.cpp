@@ -56,7 +56,7 @@ double brute_force(const CutEnergy& energy)
 Status minimized(const CutEnergy& energy, std::vector<char>& inside)
 {
   ExecutionContext context;
-  return minimize(energy, inside, context);
+  return minimize(context, energy, inside);
 }
 
 /// Return a grid of n^3 nodes with random costs. The minimization of this energy is slow.
@@ -165,7 +165,7 @@ TEST(GraphCut, CancelStopsIt)
   ExecutionContext context;
   test::CancelLater user(context, 500);
   std::vector<char> inside;
-  const Status status = minimize(energy, inside, context);
+  const Status status = minimize(context, energy, inside);
   const double waited = user.waited();
   if (status.code == StatusCode::canceled)
   {

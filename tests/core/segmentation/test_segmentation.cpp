@@ -21,7 +21,7 @@ Segmentation segmented(
 {
   ExecutionContext context;
   Segmentation result;
-  const Status status = segment_tets(mesh.points, mesh.tets, w, options, result, context);
+  const Status status = segment_tets(context, mesh.points, mesh.tets, w, options, result);
   EXPECT_TRUE(status.ok()) << status.message;
   return result;
 }
@@ -236,11 +236,11 @@ TEST(Segmentation, OptionsOutOfRange)
   SegmentationOptions options;
   options.cut_sigma = 0.0;
   EXPECT_EQ(
-    segment_tets(mesh.points, mesh.tets, Eigen::VectorXd::Ones(6), options, result, context).code,
+    segment_tets(context, mesh.points, mesh.tets, Eigen::VectorXd::Ones(6), options, result).code,
     StatusCode::invalid_input);
   options.cut_sigma = 0.1;
   options.cut_smoothness = -1.0;
   EXPECT_EQ(
-    segment_tets(mesh.points, mesh.tets, Eigen::VectorXd::Ones(6), options, result, context).code,
+    segment_tets(context, mesh.points, mesh.tets, Eigen::VectorXd::Ones(6), options, result).code,
     StatusCode::invalid_input);
 }

@@ -22,7 +22,7 @@ TriangleMesh welded(const TriangleMesh& mesh)
   RepairOptions options;
   options.orient = false;
   RepairedSurface repaired;
-  EXPECT_TRUE(repair_surface(mesh.points, mesh.triangles, options, repaired, context).ok());
+  EXPECT_TRUE(repair_surface(context, mesh.points, mesh.triangles, options, repaired).ok());
   return { repaired.points, repaired.triangles };
 }
 

@@ -52,7 +52,7 @@ std::vector<PartLink> links_of(
   ExecutionContext context;
   std::vector<PartLink> links;
   const Status status =
-    link_parts(shape.mesh.points, shape.mesh.triangles, shape.parts, held, options, links, context);
+    link_parts(context, shape.mesh.points, shape.mesh.triangles, shape.parts, held, options, links);
   EXPECT_TRUE(status.ok()) << status.message;
   return links;
 }
@@ -238,7 +238,7 @@ TEST(PartLinks, RefusesWhatItCannotUse)
   const auto code = [&](const std::vector<char>& held, const PartLinkOptions& options)
   {
     return link_parts(
-      shape.mesh.points, shape.mesh.triangles, shape.parts, held, options, links, context)
+      context, shape.mesh.points, shape.mesh.triangles, shape.parts, held, options, links)
       .code;
   };
   EXPECT_EQ(code({ 0 }, { 0.0, 1.0 }), StatusCode::invalid_input);

@@ -38,7 +38,7 @@ Listed listed(const TriangleMesh& mesh, bool orient = true)
   ExecutionContext context;
   RepairOptions options;
   options.orient = orient;
-  EXPECT_TRUE(repair_surface(mesh.points, mesh.triangles, options, result.repaired, context).ok());
+  EXPECT_TRUE(repair_surface(context, mesh.points, mesh.triangles, options, result.repaired).ok());
   result.places = list_defects(mesh.points, mesh.triangles, result.repaired);
   return result;
 }

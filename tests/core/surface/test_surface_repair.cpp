@@ -23,7 +23,7 @@ SurfaceDiagnosis diagnose(const TriangleMesh& mesh)
 {
   ExecutionContext context;
   SurfaceDiagnosis diagnosis;
-  const Status status = diagnose_surface(mesh.points, mesh.triangles, diagnosis, context);
+  const Status status = diagnose_surface(context, mesh.points, mesh.triangles, diagnosis);
   EXPECT_TRUE(status.ok()) << status.message;
   return diagnosis;
 }
@@ -32,7 +32,7 @@ RepairedSurface repair(const TriangleMesh& mesh, const RepairOptions& options = 
 {
   ExecutionContext context;
   RepairedSurface repaired;
-  const Status status = repair_surface(mesh.points, mesh.triangles, options, repaired, context);
+  const Status status = repair_surface(context, mesh.points, mesh.triangles, options, repaired);
   EXPECT_TRUE(status.ok()) << status.message;
   return repaired;
 }
@@ -439,7 +439,7 @@ TEST(SurfaceRepair, BadInputIsNamed)
   RepairedSurface repaired;
   TriangleMesh mesh = test::cube();
   mesh.points(3, 1) = std::numeric_limits<double>::infinity();
-  Status status = repair_surface(mesh.points, mesh.triangles, {}, repaired, context);
+  Status status = repair_surface(context, mesh.points, mesh.triangles, {}, repaired);
   EXPECT_EQ(status.code, StatusCode::invalid_input);
   EXPECT_NE(status.message.find("vertex 3"), std::string::npos) << status.message;
   const SurfaceDiagnosis empty = diagnose(TriangleMesh{ Points(0, 3), Triangles(0, 3) });
@@ -466,8 +466,8 @@ TEST(SurfaceRepair, SameForAnyNumberOfThreads)
   one.set_threads(1);
   many.set_threads(4);
   RepairedSurface a, b;
-  ASSERT_TRUE(repair_surface(mesh.points, mesh.triangles, {}, a, one).ok());
-  ASSERT_TRUE(repair_surface(mesh.points, mesh.triangles, {}, b, many).ok());
+  ASSERT_TRUE(repair_surface(one, mesh.points, mesh.triangles, {}, a).ok());
+  ASSERT_TRUE(repair_surface(many, mesh.points, mesh.triangles, {}, b).ok());
   EXPECT_EQ(a.crossings, b.crossings);
   EXPECT_GT(a.crossings.size(), 0u);
 }

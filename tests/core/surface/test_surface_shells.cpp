@@ -112,7 +112,7 @@ double seconds_of(const TriangleMesh& mesh)
     context.set_threads(1);
     RepairedSurface repaired;
     const std::clock_t start = std::clock();
-    EXPECT_TRUE(repair_surface(mesh.points, mesh.triangles, {}, repaired, context).ok());
+    EXPECT_TRUE(repair_surface(context, mesh.points, mesh.triangles, {}, repaired).ok());
     best = std::min(
       best, static_cast<double>(std::clock() - start) / static_cast<double>(CLOCKS_PER_SEC));
   }
@@ -180,7 +180,7 @@ TEST(SurfaceShells, TurnedShellsAreThoseOfATwinThatKnowsTheSolids)
     RepairedSurface repaired;
     RepairOptions options;
     options.count_self_intersections = false;
-    ASSERT_TRUE(repair_surface(mesh.points, mesh.triangles, options, repaired, context).ok());
+    ASSERT_TRUE(repair_surface(context, mesh.points, mesh.triangles, options, repaired).ok());
     ASSERT_EQ(repaired.triangles.rows(), mesh.triangles.rows());
     for (std::size_t i = 0; i < cubes.size(); ++i)
     {
@@ -215,7 +215,7 @@ TEST(SurfaceShells, AFineShellAroundManySolids)
   mesh = test::join(mesh, mesh_of(cubes));
   ExecutionContext context;
   RepairedSurface repaired;
-  ASSERT_TRUE(repair_surface(mesh.points, mesh.triangles, {}, repaired, context).ok());
+  ASSERT_TRUE(repair_surface(context, mesh.points, mesh.triangles, {}, repaired).ok());
   EXPECT_EQ(repaired.found.inward_components, 1);
   EXPECT_EQ(static_cast<Index>(repaired.inward_triangles.size()), outer);
   // All triangles are reversed, except the 12 triangles of the last cube.

@@ -100,7 +100,7 @@ Index unused_vertices(const TetMesh& mesh)
 bool improve(TetMesh& mesh, const std::vector<char>& held, Improvement& done)
 {
   ExecutionContext context;
-  return improve_tets(mesh, held, {}, ImproveOptions(), done, context);
+  return improve_tets(context, mesh, held, {}, ImproveOptions(), done);
 }
 } // namespace
 
@@ -194,7 +194,7 @@ TEST(TetImprovement, CanceledAtOnceIsStillAMesh)
   ExecutionContext context;
   context.request_cancel();
   Improvement done;
-  EXPECT_FALSE(improve_tets(mesh, std::vector<char>(mesh.points.rows(), 0), {}, {}, done, context));
+  EXPECT_FALSE(improve_tets(context, mesh, std::vector<char>(mesh.points.rows(), 0), {}, {}, done));
   EXPECT_TRUE(check_tets(mesh.points, mesh.tets).ok());
   EXPECT_NEAR(tet_volumes(mesh.points, mesh.tets).sum(), 1.0, 1e-12);
 }
@@ -221,7 +221,7 @@ TEST(TetImprovement, ThreadsMakeNoDifference)
       context.set_threads(threads);
       Improvement done;
       ASSERT_TRUE(
-        improve_tets(mesh, std::vector<char>(mesh.points.rows(), 0), {}, options, done, context));
+        improve_tets(context, mesh, std::vector<char>(mesh.points.rows(), 0), {}, options, done));
       EXPECT_GT(done.moved_vertices, 100);
       EXPECT_TRUE(check_tets(mesh.points, mesh.tets).ok());
       EXPECT_NEAR(tet_volumes(mesh.points, mesh.tets).sum(), 1.0, 1e-12);
@@ -270,7 +270,7 @@ TEST(TetImprovement, KeepsTheBoundaryWhenAsked)
   ExecutionContext context;
   Improvement done;
   ASSERT_TRUE(
-    improve_tets(mesh, std::vector<char>(mesh.points.rows(), 0), {}, options, done, context));
+    improve_tets(context, mesh, std::vector<char>(mesh.points.rows(), 0), {}, options, done));
   EXPECT_GT(angle(mesh), angle_before);
   EXPECT_EQ(sorted(boundary_triangles(mesh.tets)), before);
   for (const auto& triangle : before)
@@ -328,7 +328,7 @@ TEST(TetImprovement, HeldVerticesNeverGo)
     TetMesh better = mesh;
     std::vector<char> held(mesh.points.rows(), 1);
     held[inside] = both;
-    ASSERT_TRUE(improve_tets(better, held, {}, options, done, context));
+    ASSERT_TRUE(improve_tets(context, better, held, {}, options, done));
     EXPECT_TRUE(uses(better, fresh));
     EXPECT_EQ(uses(better, inside), both);
     EXPECT_EQ(better.points, mesh.points);
@@ -350,7 +350,7 @@ TEST(TetImprovement, BoundaryVerticesStayWhenTheBoundaryIsKept)
   ExecutionContext context;
   Improvement done;
   const Points points = mesh.points;
-  ASSERT_TRUE(improve_tets(mesh, std::vector<char>(points.rows(), 0), {}, options, done, context));
+  ASSERT_TRUE(improve_tets(context, mesh, std::vector<char>(points.rows(), 0), {}, options, done));
   EXPECT_TRUE(uses(mesh, side));
   EXPECT_TRUE(uses(mesh, on_side));
   EXPECT_EQ(mesh.points.row(on_side), points.row(on_side));

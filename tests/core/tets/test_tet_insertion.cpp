@@ -45,7 +45,7 @@ TEST(TetInsertion, LongEdgesOfTheBoundaryAreSplit)
   TetMesh mesh = test::tet_box(1, 1, 1);
   const Points before = mesh.points;
   ExecutionContext context;
-  ASSERT_TRUE(split_long_edges(mesh, 0.3, 1000000, context));
+  ASSERT_TRUE(split_long_edges(context, mesh, 0.3, 1000000));
   expect_cube(mesh);
   EXPECT_EQ(mesh.points.topRows(8), before);
   EXPECT_LE(longest_boundary_edge(mesh), 0.3);
@@ -56,7 +56,7 @@ TEST(TetInsertion, SplittingEndsAtTheNumberOfTets)
 {
   TetMesh mesh = test::tet_box(2, 2, 2);
   ExecutionContext context;
-  ASSERT_TRUE(split_long_edges(mesh, 0.01, 500, context));
+  ASSERT_TRUE(split_long_edges(context, mesh, 0.01, 500));
   EXPECT_GE(mesh.tets.rows(), 500);
   EXPECT_LT(mesh.tets.rows(), 520);
 }
@@ -69,7 +69,7 @@ TEST(TetInsertion, PlacesBecomeVertices)
   places << 0.3, 0.41, 0.2, 0.5, 0.5, 0.5, 0.0, 0.31, 0.4, 1.5, 0.5, 0.5;
   std::vector<Index> vertices;
   ExecutionContext context;
-  ASSERT_TRUE(insert_vertices(mesh, places, vertices, context));
+  ASSERT_TRUE(insert_vertices(context, mesh, places, vertices));
   ASSERT_EQ(vertices.size(), 4u);
   for (const int i : { 0, 1 })
   {
@@ -92,7 +92,7 @@ TEST(TetInsertion, ManyPlacesAreInserted)
   std::generate_n(places.data(), places.size(), [&] { return within(random); });
   std::vector<Index> vertices;
   ExecutionContext context;
-  ASSERT_TRUE(insert_vertices(mesh, places, vertices, context));
+  ASSERT_TRUE(insert_vertices(context, mesh, places, vertices));
   EXPECT_EQ(std::count(vertices.begin(), vertices.end(), -1), 0);
   expect_cube(mesh);
 }
@@ -110,7 +110,7 @@ TEST(TetInsertion, PlacesAreFoundAgainWhenReplacedTetsAreDropped)
   }
   std::vector<Index> vertices;
   ExecutionContext context;
-  ASSERT_TRUE(insert_vertices(mesh, places, vertices, context));
+  ASSERT_TRUE(insert_vertices(context, mesh, places, vertices));
   EXPECT_EQ(std::count(vertices.begin(), vertices.end(), -1), 0);
   for (Index i = 0; i < places.rows(); ++i)
   {
@@ -138,7 +138,7 @@ TEST(TetInsertion, ThreadsMakeNoDifference)
     ExecutionContext context;
     context.set_threads(threads);
     std::vector<Index> vertices;
-    ASSERT_TRUE(insert_vertices(mesh, places, vertices, context));
+    ASSERT_TRUE(insert_vertices(context, mesh, places, vertices));
     expect_cube(mesh);
     for (Index i = 0; i < places.rows(); ++i)
     {
@@ -159,9 +159,9 @@ TEST(TetInsertion, CancelLeavesAMesh)
   TetMesh mesh = test::tet_box(1, 1, 1);
   ExecutionContext context;
   context.request_cancel();
-  EXPECT_FALSE(split_long_edges(mesh, 0.01, 1000000, context));
+  EXPECT_FALSE(split_long_edges(context, mesh, 0.01, 1000000));
   std::vector<Index> vertices;
-  EXPECT_FALSE(insert_vertices(mesh, Points::Constant(9, 3, 0.4), vertices, context));
+  EXPECT_FALSE(insert_vertices(context, mesh, Points::Constant(9, 3, 0.4), vertices));
   expect_cube(mesh);
 }
 

@@ -134,7 +134,7 @@ TEST(TetQuality, TrianglesInFrontOfOthersForceFlatTets)
     }
     ASSERT_LT(angles.maxCoeff(), 5.0);
     ExecutionContext context;
-    const Index forced = count_forced_tets(plate.points, plate.tets, angles, 5.0, context);
+    const Index forced = count_forced_tets(context, plate.points, plate.tets, angles, 5.0);
     if (height < 0.00427)
     {
       EXPECT_EQ(forced, plate.tets.rows());

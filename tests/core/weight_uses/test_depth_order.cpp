@@ -33,7 +33,7 @@ DepthOrder order_of(const Weights& weights, const Eigen::VectorXd& layers, doubl
 {
   ExecutionContext context;
   DepthOrder order;
-  EXPECT_TRUE(depth_order(weights, layers, { tie }, context, order).ok());
+  EXPECT_TRUE(depth_order(context, weights, layers, { tie }, order).ok());
   return order;
 }
 } // namespace
@@ -87,7 +87,7 @@ TEST(DepthOrder, WhatCannotBeUsedIsOneSentence)
   const Weights weights = Weights::Constant(3, 2, 0.5);
   const auto message = [&](const Weights& w, const Eigen::VectorXd& layers, double tie = 1e-3)
   {
-    const Status status = depth_order(w, layers, { tie }, context, order);
+    const Status status = depth_order(context, w, layers, { tie }, order);
     EXPECT_EQ(status.code, StatusCode::invalid_input);
     return status.message;
   };
@@ -100,5 +100,5 @@ TEST(DepthOrder, WhatCannotBeUsedIsOneSentence)
   EXPECT_NE(message(bad, Eigen::Vector2d::Zero()).find("vertex 1"), std::string::npos);
   context.request_cancel();
   EXPECT_EQ(
-    depth_order(weights, Eigen::Vector2d::Zero(), {}, context, order).code, StatusCode::canceled);
+    depth_order(context, weights, Eigen::Vector2d::Zero(), {}, order).code, StatusCode::canceled);
 }

@@ -22,7 +22,7 @@ WeightedColors blend(const Weights& weights, const Colors& colors, bool linear_l
 {
   ExecutionContext context;
   WeightedColors result;
-  const Status status = weighted_colors(weights, colors, { linear_light, clamp }, context, result);
+  const Status status = weighted_colors(context, weights, colors, { linear_light, clamp }, result);
   EXPECT_TRUE(status.ok()) << status.message;
   if (report)
   {
@@ -43,7 +43,7 @@ struct BlackAndWhite
   {
     ExecutionContext context;
     EXPECT_TRUE(make_weights_problem(
-      this->bar.domain, this->bar.region_ids, this->bar.handles, {}, context, this->problem)
+      context, this->bar.domain, this->bar.region_ids, this->bar.handles, {}, this->problem)
                   .ok());
     this->colors.row(0).setOnes();
   }
@@ -55,7 +55,7 @@ TEST(WeightedColors, UnconstrainedWeightsLeaveTheGamutByANinth)
   BlackAndWhite test;
   ExecutionContext context;
   WeightsResult solved;
-  ASSERT_TRUE(biharmonic_weights(test.problem, {}, context, solved).ok());
+  ASSERT_TRUE(biharmonic_weights(context, test.problem, {}, solved).ok());
   for (const bool linear_light : { false, true })
   {
     Report report;
@@ -90,8 +90,8 @@ TEST(WeightedColors, BoundedAndMonotoneWeightsStayWithinTheHandlesColors)
   test.colors << 0.9, 0.3, 0.1, 0.2, 0.4, 0.1, 0.5, 0.7, 0.1;
   ExecutionContext context;
   WeightsResult results[2];
-  ASSERT_TRUE(bounded_biharmonic_weights(test.problem, {}, context, results[0]).ok());
-  ASSERT_TRUE(monotone_weights(test.problem, {}, context, results[1]).ok());
+  ASSERT_TRUE(bounded_biharmonic_weights(context, test.problem, {}, results[0]).ok());
+  ASSERT_TRUE(monotone_weights(context, test.problem, {}, results[1]).ok());
   for (const WeightsResult& solved : results)
   {
     Report report;
@@ -171,7 +171,7 @@ TEST(WeightedColors, EqualColorsAreThatColorEverywhere)
   BlackAndWhite test;
   ExecutionContext context;
   WeightsResult solved;
-  ASSERT_TRUE(biharmonic_weights(test.problem, {}, context, solved).ok());
+  ASSERT_TRUE(biharmonic_weights(context, test.problem, {}, solved).ok());
   test.colors.rowwise() = Eigen::RowVector3d(0.25, 0.5, 0.75);
   Report report;
   const WeightedColors result = blend(solved.weights, test.colors, true, false, &report);
@@ -198,7 +198,7 @@ TEST(WeightedColors, WhatCannotBeUsedIsOneSentence)
   WeightedColors result;
   const auto message = [&](const Weights& weights, const Colors& colors)
   {
-    const Status status = weighted_colors(weights, colors, {}, context, result);
+    const Status status = weighted_colors(context, weights, colors, {}, result);
     EXPECT_EQ(status.code, StatusCode::invalid_input);
     return status.message;
   };
@@ -215,5 +215,5 @@ TEST(WeightedColors, WhatCannotBeUsedIsOneSentence)
   EXPECT_NE(message(bad, Colors::Zero(2, 3)).find("vertex 2"), std::string::npos);
   context.request_cancel();
   const Colors black = Colors::Zero(2, 3);
-  EXPECT_EQ(weighted_colors(weights, black, {}, context, result).code, StatusCode::canceled);
+  EXPECT_EQ(weighted_colors(context, weights, black, {}, result).code, StatusCode::canceled);
 }

@@ -28,7 +28,7 @@ WeightsResult solve_by_word(const WeightsProblem& problem, const char* word,
     ADD_FAILURE() << word;
     return result;
   }
-  const Status done = method->kernel(problem, options, context, result);
+  const Status done = method->kernel(context, problem, options, result);
   EXPECT_TRUE(done.ok()) << done.message;
   EXPECT_EQ(done.report.text("method"), word);
   if (status)
@@ -345,21 +345,21 @@ TEST(BaselineWeights, BadOptionsAreOneSentence)
     WeightsOptions options;
     options.power = bad;
     EXPECT_EQ(
-      inverse_distance_weights(problem, options, context, result).code, StatusCode::invalid_input);
+      inverse_distance_weights(context, problem, options, result).code, StatusCode::invalid_input);
     options = {};
     options.heat = bad;
     EXPECT_EQ(
-      inverse_distance_weights(problem, options, context, result).code, StatusCode::invalid_input);
+      inverse_distance_weights(context, problem, options, result).code, StatusCode::invalid_input);
   }
   WeightsOptions options;
   options.smoothing = -1.0;
   EXPECT_EQ(
-    inverse_distance_weights(problem, options, context, result).code, StatusCode::invalid_input);
+    inverse_distance_weights(context, problem, options, result).code, StatusCode::invalid_input);
   ExecutionContext stopped(nullptr, [] { return true; });
   for (const char* word : { "inverse-distance", "smoothed-harmonic", "bone-heat" })
   {
     EXPECT_EQ(
-      find_weight_method(word)->kernel(problem, {}, stopped, result).code, StatusCode::canceled);
+      find_weight_method(word)->kernel(stopped, problem, {}, result).code, StatusCode::canceled);
   }
 }
 

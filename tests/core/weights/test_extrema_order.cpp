@@ -61,7 +61,7 @@ TEST(ExtremaOrder, HasTheListedExtremaWhateverTheValues)
       }
       ExecutionContext context;
       std::vector<Index> rank;
-      const int floods = order_with_extrema(graph, all, list, values, context, rank);
+      const int floods = order_with_extrema(context, graph, all, list, values, rank);
       EXPECT_GT(floods, 0);
       EXPECT_LE(floods, 50);
       expect_order(graph, list, rank);
@@ -79,7 +79,7 @@ TEST(ExtremaOrder, KeepsValuesThatNeedNoChange)
   list[168] = 1;
   ExecutionContext context;
   std::vector<Index> rank;
-  EXPECT_EQ(order_with_extrema(graph, std::vector<char>(169, 1), list, values, context, rank), 1);
+  EXPECT_EQ(order_with_extrema(context, graph, std::vector<char>(169, 1), list, values, rank), 1);
   for (Index a = 0; a < 169; ++a)
   {
     for (Index k = graph.begin[a]; k < graph.begin[a + 1]; ++k)

@@ -33,7 +33,7 @@ Smoothed smooth(const Domain& domain, const VectorXd& data,
   ExecutionContext context;
   context.set_threads(threads);
   Smoothed result;
-  result.status = monotone_smoothing(domain, data, options, context, result);
+  result.status = monotone_smoothing(context, domain, data, options, result);
   return result;
 }
 
@@ -222,7 +222,7 @@ TEST(MonotoneSmoothing, AgreesWithADenseTwin)
       ExecutionContext context;
       std::vector<Index> rank;
       ASSERT_GT(order_with_extrema(
-                  graph, std::vector<char>(std::size_t(n), 1), options.extrema, w, context, rank),
+                  context, graph, std::vector<char>(std::size_t(n), 1), options.extrema, w, rank),
         0);
       const double least = epsilon * (f.maxCoeff() - f.minCoeff());
       const auto pairs = pairs_of_order(graph, options.extrema, rank, least);
@@ -345,7 +345,7 @@ TEST(MonotoneSmoothing, WithoutDataItIsMonotoneWeights)
     weights_options.order = order;
     ExecutionContext context;
     WeightsResult weights;
-    ASSERT_TRUE(monotone_weights(problem, weights_options, context, weights).ok());
+    ASSERT_TRUE(monotone_weights(context, problem, weights_options, weights).ok());
     ASSERT_EQ(problem.vertex_count(), domain.points.rows());
     const HandleConstraints& constraints = problem.constraints;
     for (const Index handle : { 0, 2 })
@@ -633,7 +633,7 @@ TEST(MonotoneSmoothing, TooFewIterationsAreSaidAndCancelEndsIt)
   ExecutionContext before;
   before.request_cancel();
   MonotoneSmoothingResult nothing;
-  EXPECT_EQ(monotone_smoothing(domain, f, MonotoneSmoothingOptions(), before, nothing).code,
+  EXPECT_EQ(monotone_smoothing(before, domain, f, MonotoneSmoothingOptions(), nothing).code,
     StatusCode::canceled);
   ExecutionContext context;
   options.maximum_iterations = 100;
@@ -641,7 +641,7 @@ TEST(MonotoneSmoothing, TooFewIterationsAreSaidAndCancelEndsIt)
   const Domain fine = test::to_domain(test::grid(120, 120));
   options.extrema = hills_list(fine);
   test::CancelLater later(context, 300);
-  EXPECT_EQ(monotone_smoothing(fine, noisy_hills(fine, 0.3), options, context, nothing).code,
+  EXPECT_EQ(monotone_smoothing(context, fine, noisy_hills(fine, 0.3), options, nothing).code,
     StatusCode::canceled);
   EXPECT_LT(later.waited(), 1.0);
 }

@@ -18,7 +18,7 @@ WeightsResult preview(const WeightsProblem& problem)
 {
   ExecutionContext context;
   WeightsResult result;
-  const Status status = preview_weights(problem, {}, context, result);
+  const Status status = preview_weights(context, problem, {}, result);
   EXPECT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(status.report.text("stage"), "preview");
   for (Index v = 0; v < result.weights.rows(); ++v)
@@ -38,7 +38,7 @@ Weights clamped_biharmonic(const WeightsProblem& problem)
 {
   ExecutionContext context;
   WeightsResult result;
-  EXPECT_TRUE(biharmonic_weights(problem, {}, context, result).ok());
+  EXPECT_TRUE(biharmonic_weights(context, problem, {}, result).ok());
   return result.raw.cwiseMax(0.0).cwiseMin(1.0);
 }
 
@@ -83,7 +83,7 @@ TEST(PreviewWeights, CertificateBoundsTheDistanceFromBoundedWeights)
   const WeightsResult soon = preview(problem);
   ExecutionContext context;
   WeightsResult exact;
-  ASSERT_TRUE(bounded_biharmonic_weights(problem, {}, context, exact).ok());
+  ASSERT_TRUE(bounded_biharmonic_weights(context, problem, {}, exact).ok());
   for (std::size_t j = 0; j < soon.columns.size(); ++j)
   {
     const Certificate& of_preview = soon.columns[j].certificate;
@@ -127,5 +127,5 @@ TEST(PreviewWeights, StopWhenCanceled)
   ExecutionContext context;
   context.request_cancel();
   WeightsResult result;
-  EXPECT_EQ(preview_weights(problem, {}, context, result).code, StatusCode::canceled);
+  EXPECT_EQ(preview_weights(context, problem, {}, result).code, StatusCode::canceled);
 }

@@ -23,9 +23,9 @@ namespace
 using SurfaceWeightsInTets = test::NeedsMesher;
 
 Status bounded_method(
-  const WeightsProblem& problem, ExecutionContext& context, WeightsResult& result)
+  ExecutionContext& context, const WeightsProblem& problem, WeightsResult& result)
 {
-  return bounded_biharmonic_weights(problem, {}, context, result);
+  return bounded_biharmonic_weights(context, problem, {}, result);
 }
 
 Status solve_surface_weights(const TriangleMesh& mesh, const Handles& handles,
@@ -34,7 +34,7 @@ Status solve_surface_weights(const TriangleMesh& mesh, const Handles& handles,
   ExecutionContext context;
   context.set_threads(threads);
   return surface_weights(
-    mesh.points, mesh.triangles, {}, handles, options, {}, bounded_method, context, result);
+    context, mesh.points, mesh.triangles, {}, handles, options, {}, bounded_method, result);
 }
 
 SurfaceWeightsOptions in(WeightsDomain domain, Index resolution = 0)
@@ -89,16 +89,16 @@ TEST_F(SurfaceWeightsInTets, OfTheVolumeAreTheStagesByHand)
   options.interior_edge = interior_edge_of_weights(
     signed_volume(mesh.points, mesh.triangles), bounding_box(mesh.points).diagonal());
   TetrahedralizeResult tets;
-  ASSERT_TRUE(tetrahedralize(mesh.points, mesh.triangles, options, tets, context).ok());
+  ASSERT_TRUE(tetrahedralize(context, mesh.points, mesh.triangles, options, tets).ok());
   WeightsProblem problem;
   ASSERT_TRUE(
-    make_weights_problem(test::to_domain(tets.mesh), {}, three_along(), {}, context, problem).ok());
+    make_weights_problem(context, test::to_domain(tets.mesh), {}, three_along(), {}, problem).ok());
   WeightsResult solved;
-  ASSERT_TRUE(bounded_method(problem, context, solved).ok());
+  ASSERT_TRUE(bounded_method(context, problem, solved).ok());
   Weights carried;
   TransferCounts counts;
   ASSERT_TRUE(
-    transfer(problem.mesh.domain, solved.weights, mesh.points, {}, context, carried, counts).ok());
+    transfer(context, problem.mesh.domain, solved.weights, mesh.points, {}, carried, counts).ok());
   EXPECT_TRUE((carried.array() == result.weights.array()).all());
 }
 
@@ -109,13 +109,13 @@ TEST(SurfaceWeights, OfTheEmbeddingAreNearThoseOfAFineVolume)
   ExecutionContext context;
   WeightsProblem problem;
   ASSERT_TRUE(
-    make_weights_problem(test::to_domain(fine), {}, three_along(), {}, context, problem).ok());
+    make_weights_problem(context, test::to_domain(fine), {}, three_along(), {}, problem).ok());
   WeightsResult solved;
-  ASSERT_TRUE(bounded_method(problem, context, solved).ok());
+  ASSERT_TRUE(bounded_method(context, problem, solved).ok());
   Weights truth;
   TransferCounts counts;
   ASSERT_TRUE(
-    transfer(problem.mesh.domain, solved.weights, mesh.points, {}, context, truth, counts).ok());
+    transfer(context, problem.mesh.domain, solved.weights, mesh.points, {}, truth, counts).ok());
 
   SurfaceWeights result;
   const Status status =
@@ -273,13 +273,13 @@ TEST(SurfaceWeights, CarriesSmoothFunctionsBetterThanTetsDo)
   EmbeddingTets lattice;
   EmbeddingOptions options;
   options.resolution = 8;
-  ASSERT_TRUE(embed_surface(ball.points, ball.triangles, winding, options, lattice, context).ok());
+  ASSERT_TRUE(embed_surface(context, ball.points, ball.triangles, winding, options, lattice).ok());
   const SimplexLocator surface(ball.points, ball.triangles);
   const EmbeddedSurface embedded(
     ball.points, ball.triangles, surface, lattice.mesh, lattice.binding);
   HandleInsertion mesh;
-  ASSERT_TRUE(insert_handles(embedded.domain(lattice.inside_fractions),
-    { test::point_handle("p", Vec3::Zero()) }, {}, context, mesh)
+  ASSERT_TRUE(insert_handles(context, embedded.domain(lattice.inside_fractions),
+    { test::point_handle("p", Vec3::Zero()) }, {}, mesh)
                 .ok());
   const auto f = [](const Vec3& p) { return 0.5 + 0.4 * std::sin(2.0 * p[0] + p[1]); };
   Weights values(mesh.domain.points.rows(), 2);
@@ -289,8 +289,8 @@ TEST(SurfaceWeights, CarriesSmoothFunctionsBetterThanTetsDo)
   }
   Weights carried;
   ASSERT_TRUE(embedded
-                .carry(mesh, { test::point_handle("p", Vec3::Zero()) }, values,
-                  EmbeddedSurface::Smoothness::smoothed, context, carried)
+                .carry(context, mesh, { test::point_handle("p", Vec3::Zero()) }, values,
+                  EmbeddedSurface::Smoothness::smoothed, carried)
                 .ok());
   double linear = 0.0, smooth = 0.0;
   for (Index i = 0; i < ball.points.rows(); ++i)
@@ -356,17 +356,17 @@ TEST_F(SurfaceWeightsInTets, TheEmbeddingTakesOverWhereTheVolumeFails)
          Status::invalid_input("the matrix is not positive definite") })
   {
     const WeightsMethod fails_in_volumes =
-      [&](const WeightsProblem& problem, ExecutionContext& context, WeightsResult& result)
+      [&](ExecutionContext& context, const WeightsProblem& problem, WeightsResult& result)
     {
       const bool lattice = problem.mesh.domain.shares.size() > 0;
-      const Status status = bounded_method(problem, context, result);
+      const Status status = bounded_method(context, problem, result);
       return lattice ? status : failure;
     };
     const auto run = [&](WeightsDomain domain, SurfaceWeights& result)
     {
       ExecutionContext context;
-      return surface_weights(box.points, box.triangles, {}, three_along(), in(domain), {},
-        fails_in_volumes, context, result);
+      return surface_weights(context, box.points, box.triangles, {}, three_along(), in(domain), {},
+        fails_in_volumes, result);
     };
     SurfaceWeights result;
     const Status status = run(WeightsDomain::automatic, result);
@@ -396,14 +396,14 @@ TEST_F(SurfaceWeightsInTets, ACoarserLatticeServesWhereTheFinerOneDoesNotConverg
   SurfaceWeights result;
   int calls = 0;
   const Status status = surface_weights(
-    box.points, box.triangles, {}, three_along(), in(WeightsDomain::embedding), {},
-    [&](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
+    context, box.points, box.triangles, {}, three_along(), in(WeightsDomain::embedding), {},
+    [&](ExecutionContext& of_method, const WeightsProblem& problem, WeightsResult& weights)
     {
-      Status solved = bounded_method(problem, of_method, weights);
+      Status solved = bounded_method(of_method, problem, weights);
       solved.code = ++calls == 2 ? StatusCode::not_converged : solved.code;
       return solved;
     },
-    context, result);
+    result);
   EXPECT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(calls, 2);
   EXPECT_LT(status.report.number("embedding.resolution", 0.0),
@@ -427,13 +427,13 @@ TEST(SurfaceWeights, PreviewComesFirstAndItsDifferenceIsReported)
   ExecutionContext context;
   SurfaceWeights result;
   const Status status = surface_weights(
-    mesh.points, mesh.triangles, {}, three_along(), options, {},
-    [&](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
+    context, mesh.points, mesh.triangles, {}, three_along(), options, {},
+    [&](ExecutionContext& of_method, const WeightsProblem& problem, WeightsResult& weights)
     {
       solved = true;
-      return bounded_method(problem, of_method, weights);
+      return bounded_method(of_method, problem, weights);
     },
-    context, result);
+    result);
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(calls, 1);
   EXPECT_FALSE(solved_before);
@@ -505,10 +505,10 @@ TEST(SurfaceWeights, UnboundedMethodsAreNotClamped)
   SurfaceWeightsOptions options = in(WeightsDomain::embedding, 24);
   options.guard = false;
   const Status status = surface_weights(
-    mesh.points, mesh.triangles, {}, handles, options, {},
-    [](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
-    { return biharmonic_weights(problem, {}, of_method, weights); },
-    context, result);
+    context, mesh.points, mesh.triangles, {}, handles, options, {},
+    [](ExecutionContext& of_method, const WeightsProblem& problem, WeightsResult& weights)
+    { return biharmonic_weights(of_method, problem, {}, weights); },
+    result);
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_LT(result.weights.col(0).minCoeff(), -0.05) << "-1/9 on a thin bar";
   EXPECT_EQ(status.report.find("guard.resolution"), nullptr);
@@ -524,18 +524,17 @@ TEST(SurfaceWeights, RefusesWhatItCannotUse)
   EXPECT_EQ(solve_surface_weights(mesh, {}, {}, result).code, StatusCode::invalid_input);
   ExecutionContext context;
   const std::vector<Index> regions(static_cast<std::size_t>(mesh.points.rows()), 1);
-  Status status =
-    surface_weights(mesh.points, mesh.triangles, regions, { test::region_handle("r", 1) },
-      in(WeightsDomain::embedding), {}, bounded_method, context, result);
+  Status status = surface_weights(context, mesh.points, mesh.triangles, regions,
+    { test::region_handle("r", 1) }, in(WeightsDomain::embedding), {}, bounded_method, result);
   EXPECT_THAT(status.message, HasSubstr("regions need tets"));
   status = surface_weights(
-    mesh.points, mesh.triangles, { 1, 2 }, handles, {}, {}, bounded_method, context, result);
+    context, mesh.points, mesh.triangles, { 1, 2 }, handles, {}, {}, bounded_method, result);
   EXPECT_THAT(status.message, HasSubstr("2 region labels"));
   SurfaceWeightsOptions canceled = in(WeightsDomain::embedding);
   ExecutionContext stopped;
   stopped.request_cancel();
-  EXPECT_EQ(surface_weights(mesh.points, mesh.triangles, {}, handles, canceled, {}, bounded_method,
-              stopped, result)
+  EXPECT_EQ(surface_weights(stopped, mesh.points, mesh.triangles, {}, handles, canceled, {},
+              bounded_method, result)
               .code,
     StatusCode::canceled);
 }

@@ -35,7 +35,7 @@ TEST(Transfer, VerticesAreExactAndLinearFunctionsSurvive)
   ExecutionContext context;
   Weights result;
   TransferCounts counts;
-  ASSERT_TRUE(transfer(box, values, box.points, {}, context, result, counts).ok());
+  ASSERT_TRUE(transfer(context, box, values, box.points, {}, result, counts).ok());
   EXPECT_EQ(result, values) << "bit by bit";
   EXPECT_EQ(counts.exact, box.points.rows());
   EXPECT_STREQ(transfer_word(counts), "exact");
@@ -45,7 +45,7 @@ TEST(Transfer, VerticesAreExactAndLinearFunctionsSurvive)
   {
     inside.row(i) = random.in_box(Vec3::Zero(), Vec3::Ones());
   }
-  ASSERT_TRUE(transfer(box, linear_values(box.points), inside, {}, context, result, counts).ok());
+  ASSERT_TRUE(transfer(context, box, linear_values(box.points), inside, {}, result, counts).ok());
   EXPECT_LT((result - linear_values(inside)).cwiseAbs().maxCoeff(), 1e-13);
   EXPECT_EQ(counts.barycentric, 500);
   EXPECT_STREQ(transfer_word(counts), "barycentric");
@@ -64,7 +64,7 @@ TEST(Transfer, OutsideTakesTheNearestPlaceAndMissesAreCounted)
   Weights result;
   TransferCounts counts;
   const Status status =
-    transfer(box, linear_values(box.points), points, {}, context, result, counts);
+    transfer(context, box, linear_values(box.points), points, {}, result, counts);
   ASSERT_TRUE(status.ok());
   EXPECT_EQ(counts.nearest, 1);
   EXPECT_EQ(counts.misses, 2);
@@ -127,11 +127,11 @@ TEST(Transfer, BadInputsAndCancel)
   Weights result;
   TransferCounts counts;
   const Weights values = linear_values(box.points);
-  EXPECT_EQ(transfer(Domain(), values, box.points, {}, context, result, counts).code,
+  EXPECT_EQ(transfer(context, Domain(), values, box.points, {}, result, counts).code,
     StatusCode::invalid_input);
-  EXPECT_EQ(transfer(box, Weights(values.topRows(3)), box.points, {}, context, result, counts).code,
+  EXPECT_EQ(transfer(context, box, Weights(values.topRows(3)), box.points, {}, result, counts).code,
     StatusCode::invalid_input);
   context.request_cancel();
   EXPECT_EQ(
-    transfer(box, values, box.points, {}, context, result, counts).code, StatusCode::canceled);
+    transfer(context, box, values, box.points, {}, result, counts).code, StatusCode::canceled);
 }

@@ -42,10 +42,10 @@ Solved solve_with_terms(const Domain& domain, const Handles& handles, const Weig
 {
   Solved solved;
   ExecutionContext context;
-  solved.status = make_weights_problem(domain, regions, handles, options, context, solved.problem);
+  solved.status = make_weights_problem(context, domain, regions, handles, options, solved.problem);
   if (solved.status.ok())
   {
-    solved.status = kernel(solved.problem, options, context, solved.result);
+    solved.status = kernel(context, solved.problem, options, solved.result);
   }
   return solved;
 }
@@ -222,7 +222,7 @@ TEST(WeightTerms, BoundsOfHandlesWidenTheBox)
   WeightsResult free;
   WeightsProblem plain = wide.problem;
   plain.terms = {};
-  ASSERT_TRUE(biharmonic_weights(plain, WeightsOptions(), context, free).ok());
+  ASSERT_TRUE(biharmonic_weights(context, plain, WeightsOptions(), free).ok());
   EXPECT_LT(free.raw.minCoeff(), -0.01);
   EXPECT_LE((wide.result.raw - free.raw).cwiseAbs().maxCoeff(), 1e-6);
   // The weight of a single handle is 1 everywhere if no bound or pin prevents it.
@@ -289,7 +289,7 @@ TEST(WeightTerms, WhatContradictsIsNamed)
   WeightsOptions painted;
   painted.terms.rigidity = Eigen::VectorXd::Ones(81);
   const WeightsProblem problem = solve_with_terms(domain, handles, painted).problem;
-  expect_error(biharmonic_weights(problem, {}, context, result), { "bounded and monotone" });
+  expect_error(biharmonic_weights(context, problem, {}, result), { "bounded and monotone" });
 }
 
 TEST(WeightTerms, GradientsFallWithRigidity)
@@ -712,7 +712,7 @@ TEST(WeightTerms, CoupledIsTheSameForAnyThreadsAndStopsWhenTold)
     ExecutionContext context;
     context.set_threads(threads);
     WeightsResult result;
-    ASSERT_TRUE(bounded_biharmonic_weights(problem, options, context, result).ok());
+    ASSERT_TRUE(bounded_biharmonic_weights(context, problem, options, result).ok());
     first = threads == 1 ? result.weights : first;
     EXPECT_EQ((result.weights - first).cwiseAbs().maxCoeff(), 0.0);
   }
@@ -721,7 +721,7 @@ TEST(WeightTerms, CoupledIsTheSameForAnyThreadsAndStopsWhenTold)
   options.maximum_iterations = 3;
   ExecutionContext context;
   WeightsResult result;
-  const Status late = bounded_biharmonic_weights(problem, options, context, result);
+  const Status late = bounded_biharmonic_weights(context, problem, options, result);
   EXPECT_EQ(late.code, StatusCode::not_converged);
   EXPECT_NE(late.message.find("not certified"), std::string::npos) << late.message;
   EXPECT_LE(result.row_sum_error, 1e-12);
@@ -733,5 +733,5 @@ TEST(WeightTerms, CoupledIsTheSameForAnyThreadsAndStopsWhenTold)
     { stop = stop || phase == "coupled"; },
     [&] { return stop.load(); });
   EXPECT_EQ(
-    bounded_biharmonic_weights(problem, options, canceled, result).code, StatusCode::canceled);
+    bounded_biharmonic_weights(canceled, problem, options, result).code, StatusCode::canceled);
 }

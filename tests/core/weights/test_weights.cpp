@@ -26,7 +26,7 @@ WeightsResult monotone(const WeightsProblem& problem, int order = 2)
   WeightsOptions options;
   options.order = order;
   WeightsResult result;
-  const Status status = monotone_weights(problem, options, context, result);
+  const Status status = monotone_weights(context, problem, options, result);
   EXPECT_TRUE(status.ok()) << status.message;
   return result;
 }
@@ -36,7 +36,7 @@ WeightsResult unconstrained(const WeightsProblem& problem, int order)
   ExecutionContext context;
   const WeightsKernel kernels[] = { harmonic_weights, biharmonic_weights, triharmonic_weights };
   WeightsResult result;
-  const Status status = kernels[order - 1](problem, {}, context, result);
+  const Status status = kernels[order - 1](context, problem, {}, result);
   EXPECT_TRUE(status.ok()) << status.message;
   return result;
 }
@@ -215,11 +215,11 @@ TEST(Weights, EnergiesOnTheFineSquareAreTheKnownOnes)
   ASSERT_TRUE(make_column_groups(problem, {}, false, groups).ok());
   ColumnGroup& group = groups.front();
   const double free =
-    solver.solve_unbounded({ group.columns[2] }, context).at(0).certificate.energy;
-  const BoxQpSolution box = solver.solve(group.columns[2], context);
+    solver.solve_unbounded(context, { group.columns[2] }).at(0).certificate.energy;
+  const BoxQpSolution box = solver.solve(context, group.columns[2]);
   MonotoneGuide guide;
-  ASSERT_TRUE(monotone_guide(problem, group, {}, context, guide).ok());
-  const BoxQpSolution mono = solver.solve(group.columns[2], context);
+  ASSERT_TRUE(monotone_guide(context, problem, group, {}, guide).ok());
+  const BoxQpSolution mono = solver.solve(context, group.columns[2]);
   ASSERT_TRUE(box.status.ok() && mono.status.ok());
   // The ratios of the other handles also equal the known values, with one exception: the monotone
   // weights of the last handle have the ratio 1.8634 instead of 1.8643. The order of the vertices
@@ -462,7 +462,7 @@ TEST(Weights, WithoutCholmodTheyAreTheSame)
   options.tolerance = 1e-9;
   options.solver.backend = SparseSolver::Backend::eigen;
   WeightsResult other;
-  ASSERT_TRUE(bounded_biharmonic_weights(problem, options, context, other).ok());
+  ASSERT_TRUE(bounded_biharmonic_weights(context, problem, options, other).ok());
   EXPECT_LT((usual.weights - other.weights).cwiseAbs().maxCoeff(), 1e-8);
 }
 
@@ -475,7 +475,7 @@ TEST(Weights, BudgetCancelAndBadOptions)
   options.order = 3;
   options.maximum_iterations = 1;
   WeightsResult result;
-  Status status = bounded_biharmonic_weights(problem, options, context, result);
+  Status status = bounded_biharmonic_weights(context, problem, options, result);
   EXPECT_EQ(status.code, StatusCode::not_converged);
   EXPECT_NE(status.message.find("'p1'"), std::string::npos) << status.message;
   EXPECT_NE(status.message.find("relative gap"), std::string::npos);
@@ -485,12 +485,12 @@ TEST(Weights, BudgetCancelAndBadOptions)
   options = {};
   options.order = 4;
   EXPECT_EQ(
-    bounded_biharmonic_weights(problem, options, context, result).code, StatusCode::invalid_input);
+    bounded_biharmonic_weights(context, problem, options, result).code, StatusCode::invalid_input);
   WeightsOptions loose;
   loose.tolerance = 0.0;
   WeightsProblem other;
   EXPECT_EQ(make_weights_problem(
-              test::to_domain(test::grid(3, 3)), {}, test::five_points(), loose, context, other)
+              context, test::to_domain(test::grid(3, 3)), {}, test::five_points(), loose, other)
               .code,
     StatusCode::invalid_input);
 
@@ -503,11 +503,11 @@ TEST(Weights, BudgetCancelAndBadOptions)
     stopped.set_threads(1);
     options = {};
     EXPECT_EQ(
-      bounded_biharmonic_weights(problem, options, stopped, result).code, StatusCode::canceled);
+      bounded_biharmonic_weights(stopped, problem, options, result).code, StatusCode::canceled);
     asked = 0;
     ExecutionContext stopped_too(nullptr, [&] { return ++asked > looks; });
     stopped_too.set_threads(1);
-    EXPECT_EQ(monotone_weights(problem, {}, stopped_too, result).code, StatusCode::canceled);
+    EXPECT_EQ(monotone_weights(stopped_too, problem, {}, result).code, StatusCode::canceled);
   }
 }
 
@@ -554,7 +554,7 @@ TEST(Weights, TheReportTellsWhatWasDone)
       test::bone_handle("spine", Vec3(0.5, 0.5, 0.1), Vec3(0.5, 0.5, 0.8)) });
   ExecutionContext context;
   WeightsResult result;
-  const Status status = bounded_biharmonic_weights(problem, {}, context, result);
+  const Status status = bounded_biharmonic_weights(context, problem, {}, result);
   const Report& report = status.report;
   EXPECT_EQ(report.text("method"), "bounded-biharmonic");
   EXPECT_EQ(report.number("counts.vertices", 0), problem.vertex_count());

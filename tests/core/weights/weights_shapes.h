@@ -40,7 +40,7 @@ inline WeightsProblem problem_of(const Domain& domain, const Handles& handles,
 {
   ExecutionContext context;
   WeightsProblem problem;
-  const Status status = make_weights_problem(domain, regions, handles, options, context, problem);
+  const Status status = make_weights_problem(context, domain, regions, handles, options, problem);
   EXPECT_TRUE(status.ok()) << status.message;
   return problem;
 }
@@ -55,7 +55,7 @@ inline WeightsResult bounded(
   options.order = order;
   options.tolerance = tolerance;
   WeightsResult result;
-  const Status status = bounded_biharmonic_weights(problem, options, context, result);
+  const Status status = bounded_biharmonic_weights(context, problem, options, result);
   EXPECT_TRUE(status.ok()) << status.message;
   return result;
 }

@@ -273,7 +273,7 @@ TEST(CurveWindingNumber, SameAsTheSumOfAnglesOnLongCurves)
   }
   ExecutionContext context;
   Eigen::VectorXd values;
-  const Status status = winding.evaluate(queries, context, values);
+  const Status status = winding.evaluate(context, queries, values);
   ASSERT_TRUE(status.ok());
   EXPECT_GE(status.report.number("counts.on_surface", -1), 200);
   for (Index i = 0; i < queries.rows(); ++i)
@@ -312,7 +312,7 @@ TEST(CurveWindingNumber, GradientIsThatOfTheField)
   query << 0, 0;
   Vec2 gradient;
   ASSERT_TRUE(CurveWindingNumber(segment.points, segment.segments)
-                .evaluate_gradient(query, context, gradient.data())
+                .evaluate_gradient(context, query, gradient.data())
                 .ok());
   EXPECT_NEAR(gradient.x(), 0.5 / pi, 1e-15);
   EXPECT_NEAR(gradient.y(), 0.0, 1e-15);
@@ -325,7 +325,7 @@ TEST(CurveWindingNumber, GradientIsThatOfTheField)
     const CurveWindingNumber winding(PlanePoints(unit * curve.points), curve.segments);
     PlanePoints queries = unit * random_plane_points(200, 1.4, 3);
     Eigen::VectorXd gradients(2 * queries.rows());
-    ASSERT_TRUE(winding.evaluate_gradient(queries, context, gradients.data()).ok());
+    ASSERT_TRUE(winding.evaluate_gradient(context, queries, gradients.data()).ok());
     for (Index i = 0; i < queries.rows(); ++i)
     {
       const Vec2 p = queries.row(i);
@@ -344,14 +344,14 @@ TEST(CurveWindingNumber, GradientIsThatOfTheField)
   // from the curve.
   const Curve closed = curve_of(square_corners());
   ASSERT_TRUE(CurveWindingNumber(closed.points, closed.segments)
-                .evaluate_gradient(query, context, gradient.data())
+                .evaluate_gradient(context, query, gradient.data())
                 .ok());
   EXPECT_EQ(gradient, Vec2(0, 0));
   PlanePoints special(3, 2);
   special << 1, 1, 1e200, 0, std::numeric_limits<double>::quiet_NaN(), 0;
   Eigen::VectorXd at(6);
   ASSERT_TRUE(CurveWindingNumber(segment.points, segment.segments)
-                .evaluate_gradient(special, context, at.data())
+                .evaluate_gradient(context, special, at.data())
                 .ok());
   // The point (1, 1) is one end of the curve. Only the other end contributes, which is at a
   // distance of 2 below the point.
@@ -373,7 +373,7 @@ TEST(CurveWindingNumber, ShiftsScalesAndOrderDoNotMatter)
   {
     Eigen::VectorXd w;
     ExecutionContext context;
-    EXPECT_TRUE(CurveWindingNumber(points, segments).evaluate(at, context, w).ok());
+    EXPECT_TRUE(CurveWindingNumber(points, segments).evaluate(context, at, w).ok());
     return w;
   };
   const Eigen::VectorXd expected = values(curve.points, curve.segments, queries);
@@ -425,7 +425,7 @@ TEST(CurveWindingNumber, ReportTellsWhatTheCurveIs)
   }
   ExecutionContext context;
   CurveWindingNumber winding;
-  Report report = winding.build(curve.points, curve.segments, context).report;
+  Report report = winding.build(context, curve.points, curve.segments).report;
   EXPECT_EQ(report.number("counts.vertices", -1), 8);
   EXPECT_EQ(report.number("counts.segments", -1), 4);
   EXPECT_EQ(report.number("counts.merged_vertices", -1), 4);
@@ -440,7 +440,7 @@ TEST(CurveWindingNumber, ReportTellsWhatTheCurveIs)
   curve.add_segment(2, 2);
   curve.add_segment(0, 7); // the vertices have different ids but equal coordinates
   curve.add({ { 5, 5 }, { 6, 5 } }, false);
-  report = winding.build(curve.points, curve.segments, context).report;
+  report = winding.build(context, curve.points, curve.segments).report;
   EXPECT_EQ(report.number("counts.duplicate_segments", -1), 1);
   EXPECT_EQ(report.number("counts.degenerate_segments", -1), 2);
   EXPECT_EQ(report.number("counts.boundary_vertices", -1), 2);
@@ -471,19 +471,19 @@ TEST(CurveWindingNumber, BadInputIsNamed)
   CurveWindingNumber winding;
   Curve curve = curve_of(square_corners());
   curve.segments(2, 1) = 4;
-  Status status = winding.build(curve.points, curve.segments, context);
+  Status status = winding.build(context, curve.points, curve.segments);
   EXPECT_EQ(status.code, StatusCode::invalid_input);
   EXPECT_NE(status.message.find("segment 2 references vertex 4"), std::string::npos);
   Eigen::VectorXd w;
-  EXPECT_EQ(winding.evaluate(curve.points, context, w).code, StatusCode::invalid_input);
+  EXPECT_EQ(winding.evaluate(context, curve.points, w).code, StatusCode::invalid_input);
   curve.segments(2, 1) = -1;
-  EXPECT_EQ(winding.build(curve.points, curve.segments, context).code, StatusCode::invalid_input);
+  EXPECT_EQ(winding.build(context, curve.points, curve.segments).code, StatusCode::invalid_input);
   curve = curve_of(square_corners());
   for (const double bad :
     { std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() })
   {
     curve.points(3, 1) = bad;
-    status = winding.build(curve.points, curve.segments, context);
+    status = winding.build(context, curve.points, curve.segments);
     EXPECT_EQ(status.code, StatusCode::invalid_input);
     EXPECT_NE(status.message.find("vertex 3"), std::string::npos);
   }
@@ -491,7 +491,7 @@ TEST(CurveWindingNumber, BadInputIsNamed)
   curve.points.row(3).setZero();
   curve.points.conservativeResize(5, 2);
   curve.points.row(4).setConstant(std::numeric_limits<double>::quiet_NaN());
-  EXPECT_TRUE(winding.build(curve.points, curve.segments, context).ok());
+  EXPECT_TRUE(winding.build(context, curve.points, curve.segments).ok());
 }
 
 TEST(CurveWindingNumber, PointsThatAreNoneGiveNaN)
@@ -504,7 +504,7 @@ TEST(CurveWindingNumber, PointsThatAreNoneGiveNaN)
   std::vector<double> values(5);
   std::vector<unsigned char> flags(5, 7);
   const Status status = CurveWindingNumber(curve.points, curve.segments)
-                          .evaluate(queries, context, values.data(), flags.data());
+                          .evaluate(context, queries, values.data(), flags.data());
   EXPECT_TRUE(status.ok());
   EXPECT_EQ(status.report.number("counts.queries", -1), 5);
   EXPECT_EQ(status.report.number("counts.not_finite", -1), 2);
@@ -528,9 +528,9 @@ TEST(CurveWindingNumber, SameBitsOnAnyNumberOfThreads)
     ExecutionContext context;
     context.set_threads(threads);
     CurveWindingNumber winding;
-    ASSERT_TRUE(winding.build(curve.points, curve.segments, context).ok());
+    ASSERT_TRUE(winding.build(context, curve.points, curve.segments).ok());
     values.emplace_back();
-    ASSERT_TRUE(winding.evaluate(queries, context, values.back()).ok());
+    ASSERT_TRUE(winding.evaluate(context, queries, values.back()).ok());
   }
   EXPECT_EQ(values[0], values[1]);
   EXPECT_EQ(values[0], values[2]);
@@ -550,10 +550,10 @@ TEST(CurveWindingNumber, CancelsMidwayAndRunsAgain)
     });
   probe.set_threads(1);
   CurveWindingNumber winding;
-  ASSERT_TRUE(winding.build(curve.points, curve.segments, probe).ok());
+  ASSERT_TRUE(winding.build(probe, curve.points, curve.segments).ok());
   const int in_build = asked;
   Eigen::VectorXd w;
-  ASSERT_TRUE(winding.evaluate(queries, probe, w).ok());
+  ASSERT_TRUE(winding.evaluate(probe, queries, w).ok());
   const int in_all = asked;
   ASSERT_GT(in_build, 10);
   ASSERT_GT(in_all, in_build + 5);
@@ -562,22 +562,22 @@ TEST(CurveWindingNumber, CancelsMidwayAndRunsAgain)
     allowed = in_build * share / 4;
     ExecutionContext context({}, [&] { return --allowed < 0; });
     context.set_threads(1);
-    EXPECT_EQ(winding.build(curve.points, curve.segments, context).code, StatusCode::canceled);
+    EXPECT_EQ(winding.build(context, curve.points, curve.segments).code, StatusCode::canceled);
     EXPECT_EQ(winding.status().code, StatusCode::canceled);
   }
   ExecutionContext quiet;
-  ASSERT_TRUE(winding.build(curve.points, curve.segments, quiet).ok());
+  ASSERT_TRUE(winding.build(quiet, curve.points, curve.segments).ok());
   allowed = 4;
   ExecutionContext context({}, [&] { return --allowed < 0; });
   context.set_threads(1);
-  EXPECT_EQ(winding.evaluate(queries, context, w).code, StatusCode::canceled);
+  EXPECT_EQ(winding.evaluate(context, queries, w).code, StatusCode::canceled);
   Eigen::VectorXd again;
-  EXPECT_TRUE(winding.evaluate(queries, quiet, again).ok());
+  EXPECT_TRUE(winding.evaluate(quiet, queries, again).ok());
   double largest = 0.0;
   std::vector<double> fractions;
   ExecutionContext watched(
     [&](double fraction, const std::string&) { fractions.push_back(fraction); }, {});
-  EXPECT_TRUE(winding.build(curve.points, curve.segments, watched).ok());
+  EXPECT_TRUE(winding.build(watched, curve.points, curve.segments).ok());
   for (const double fraction : fractions)
   {
     EXPECT_GE(fraction, largest);

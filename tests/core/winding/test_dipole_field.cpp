@@ -154,7 +154,7 @@ DipoleField field_of(const FieldCase& c, double tolerance, int threads = 1)
   options.tolerance = tolerance;
   DipoleField field;
   EXPECT_TRUE(field.build(
-    c.mesh.points, c.mesh.triangles, c.multiplicities, touch_tolerance, options, context));
+    context, c.mesh.points, c.mesh.triangles, c.multiplicities, touch_tolerance, options));
   return field;
 }
 
@@ -397,7 +397,7 @@ TEST(DipoleField, CanBeCanceledAnywhere)
     context.set_threads(1);
     DipoleField field;
     ASSERT_TRUE(field.build(
-      c.mesh.points, c.mesh.triangles, c.multiplicities, touch_tolerance, options, context));
+      context, c.mesh.points, c.mesh.triangles, c.multiplicities, touch_tolerance, options));
   }
   ASSERT_GT(asked_in_all, 10);
   for (int stop = 1; stop <= asked_in_all; stop += 1 + asked_in_all / 20)
@@ -407,7 +407,7 @@ TEST(DipoleField, CanBeCanceledAnywhere)
     context.set_threads(1);
     DipoleField field;
     EXPECT_FALSE(field.build(
-      c.mesh.points, c.mesh.triangles, c.multiplicities, touch_tolerance, options, context));
+      context, c.mesh.points, c.mesh.triangles, c.multiplicities, touch_tolerance, options));
     EXPECT_EQ(field.evaluate(Vec3::Zero()), 0.0);
   }
 }

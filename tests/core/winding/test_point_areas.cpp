@@ -18,9 +18,9 @@ Eigen::VectorXd areas_of(const Points& points, const Points& normals, Index neig
 {
   ExecutionContext context;
   PointTree tree;
-  EXPECT_TRUE(tree.build(points, 32, context));
+  EXPECT_TRUE(tree.build(context, points, 32));
   Eigen::VectorXd areas;
-  EXPECT_TRUE(estimate_point_areas(points, normals, tree, neighbors, 0x1p-49, context, areas));
+  EXPECT_TRUE(estimate_point_areas(context, points, normals, tree, neighbors, 0x1p-49, areas));
   return areas;
 }
 

@@ -87,7 +87,7 @@ PointCloudWindingNumber built(const Cloud& cloud, WindingMethod method = Winding
   ExecutionContext context;
   PointCloudWindingNumber winding;
   const Status status =
-    winding.build(cloud.points, cloud.normals, areas ? *areas : cloud.areas, context, options);
+    winding.build(context, cloud.points, cloud.normals, areas ? *areas : cloud.areas, options);
   EXPECT_TRUE(status.ok()) << status.message;
   return winding;
 }
@@ -262,7 +262,7 @@ TEST(PointCloudWindingNumber, PointsOnSamplesCountTheOthers)
     std::vector<double> values(5000);
     std::vector<unsigned char> flags(5000, 7);
     ExecutionContext context;
-    const Status status = winding.evaluate(cloud.points, context, values.data(), flags.data());
+    const Status status = winding.evaluate(context, cloud.points, values.data(), flags.data());
     EXPECT_EQ(status.report.number("counts.on_surface", -1), 5000);
     for (Index i = 0; i < 5000; i += 7)
     {
@@ -287,7 +287,7 @@ TEST(PointCloudWindingNumber, ShiftsAndScalesDoNotMatter)
   {
     ExecutionContext context;
     Eigen::VectorXd w;
-    EXPECT_TRUE(built(c, method, 1e-6).evaluate(at, context, w).ok());
+    EXPECT_TRUE(built(c, method, 1e-6).evaluate(context, at, w).ok());
     return w;
   };
   for (const WindingMethod method : { WindingMethod::direct, WindingMethod::fast })
@@ -389,11 +389,11 @@ TEST(PointCloudWindingNumber, BadInputIsNamed)
   PointCloudWindingNumber::Options options;
   const auto expect_refused = [&](const Cloud& cloud, const std::string& word)
   {
-    const Status status = winding.build(cloud.points, cloud.normals, cloud.areas, context, options);
+    const Status status = winding.build(context, cloud.points, cloud.normals, cloud.areas, options);
     EXPECT_EQ(status.code, StatusCode::invalid_input) << word;
     EXPECT_NE(status.message.find(word), std::string::npos) << status.message;
     Eigen::VectorXd w;
-    EXPECT_EQ(winding.evaluate(cloud.points, context, w).code, StatusCode::invalid_input);
+    EXPECT_EQ(winding.evaluate(context, cloud.points, w).code, StatusCode::invalid_input);
   };
   const Cloud good = sphere_cloud(50);
   Cloud cloud = good;
@@ -472,7 +472,7 @@ TEST(PointCloudWindingNumber, PointsThatAreNoneGiveNaN)
   queries << 0, 0, 0, nan, 0, 0, 0, std::numeric_limits<double>::infinity(), 0, 1e300, 0, 0;
   ExecutionContext context;
   Eigen::VectorXd w;
-  const Status status = winding.evaluate(queries, context, w);
+  const Status status = winding.evaluate(context, queries, w);
   EXPECT_TRUE(status.ok());
   EXPECT_EQ(status.report.number("counts.queries", -1), 4);
   EXPECT_EQ(status.report.number("counts.not_finite", -1), 2);
@@ -509,11 +509,11 @@ TEST(PointCloudWindingNumber, GridsAndPointsAgreeOnAnyNumberOfThreads)
     ExecutionContext context;
     context.set_threads(threads);
     PointCloudWindingNumber winding;
-    ASSERT_TRUE(winding.build(cloud.points, cloud.normals, no_areas, context).ok());
+    ASSERT_TRUE(winding.build(context, cloud.points, cloud.normals, no_areas).ok());
     areas.push_back(winding.areas());
     Eigen::VectorXd on_grid(grid.count()), at_points;
-    ASSERT_TRUE(winding.evaluate(grid, context, on_grid.data()).ok());
-    ASSERT_TRUE(winding.evaluate(queries, context, at_points).ok());
+    ASSERT_TRUE(winding.evaluate(context, grid, on_grid.data()).ok());
+    ASSERT_TRUE(winding.evaluate(context, queries, at_points).ok());
     EXPECT_EQ(on_grid, at_points);
     values.push_back(on_grid);
   }
@@ -531,7 +531,7 @@ TEST(PointCloudWindingNumber, GradientIsTheDefinitions)
     const Points queries = queries_around(cloud, 200, 12);
     Points gradients(queries.rows(), 3);
     ExecutionContext context;
-    ASSERT_TRUE(winding.evaluate_gradient(queries, context, gradients.data()).ok());
+    ASSERT_TRUE(winding.evaluate_gradient(context, queries, gradients.data()).ok());
     for (Index i = 0; i < queries.rows(); ++i)
     {
       Vec3 sum = Vec3::Zero();
@@ -562,7 +562,7 @@ TEST(PointCloudWindingNumber, GradientIsTheSlope)
   const Points queries = queries_around(cloud, 300, 13);
   Points gradients(queries.rows(), 3);
   ExecutionContext context;
-  ASSERT_TRUE(winding.evaluate_gradient(queries, context, gradients.data()).ok());
+  ASSERT_TRUE(winding.evaluate_gradient(context, queries, gradients.data()).ok());
   int compared = 0;
   for (Index i = 0; i < queries.rows(); ++i)
   {
@@ -598,11 +598,11 @@ TEST(PointCloudWindingNumber, FastGradientsAreWithinTheirTolerance)
     Points queries = queries_around(cloud, 300, 14);
     Points expected(queries.rows(), 3), gradients(queries.rows(), 3);
     ExecutionContext context;
-    ASSERT_TRUE(plain.evaluate_gradient(queries, context, expected.data()).ok());
+    ASSERT_TRUE(plain.evaluate_gradient(context, queries, expected.data()).ok());
     for (const double tolerance : { 1e-2, 1e-3, 1e-5 })
     {
       const PointCloudWindingNumber winding = built(cloud, WindingMethod::fast, tolerance);
-      ASSERT_TRUE(winding.evaluate_gradient(queries, context, gradients.data()).ok());
+      ASSERT_TRUE(winding.evaluate_gradient(context, queries, gradients.data()).ok());
       for (Index i = 0; i < queries.rows(); ++i)
       {
         const Vec3 q = queries.row(i);
@@ -631,16 +631,16 @@ TEST(PointCloudWindingNumber, GradientsOfGridsAndOddPoints)
     context.set_threads(threads);
     const PointCloudWindingNumber winding = built(cloud);
     Points gradients(grid.count(), 3);
-    ASSERT_TRUE(winding.evaluate_gradient(grid, context, gradients.data()).ok());
+    ASSERT_TRUE(winding.evaluate_gradient(context, grid, gradients.data()).ok());
     values.push_back(gradients);
     Points one(1, 3);
     const Points first = grid.point(0, 1, -1).transpose();
-    ASSERT_TRUE(winding.evaluate_gradient(first, context, one.data()).ok());
+    ASSERT_TRUE(winding.evaluate_gradient(context, first, one.data()).ok());
     EXPECT_EQ(one, Points(gradients.topRows(1)));
     Points odd(3, 3);
     odd << 1e300, 0, 0, std::numeric_limits<double>::quiet_NaN(), 0, 0, 0, 0, 0;
     Points at_odd(3, 3);
-    ASSERT_TRUE(winding.evaluate_gradient(odd, context, at_odd.data()).ok());
+    ASSERT_TRUE(winding.evaluate_gradient(context, odd, at_odd.data()).ok());
     EXPECT_EQ(Points(at_odd.topRows(1)), Points(Points::Zero(1, 3)));
     EXPECT_TRUE(at_odd.row(1).array().isNaN().all());
     EXPECT_LE(at_odd.row(2).norm(), 1e-3); // the point is at the center of the sphere
@@ -649,7 +649,7 @@ TEST(PointCloudWindingNumber, GradientsOfGridsAndOddPoints)
   const PointCloudWindingNumber winding = built(cloud);
   ExecutionContext canceled(nullptr, [] { return true; });
   Points gradients(grid.count(), 3);
-  EXPECT_EQ(winding.evaluate_gradient(grid, canceled, gradients.data()).code, StatusCode::canceled);
+  EXPECT_EQ(winding.evaluate_gradient(canceled, grid, gradients.data()).code, StatusCode::canceled);
   // If the cloud is eight times as large, the gradient is an eighth.
   Cloud larger = cloud;
   larger.points *= 8.0;
@@ -659,7 +659,7 @@ TEST(PointCloudWindingNumber, GradientsOfGridsAndOddPoints)
   larger_grid.spacing *= 8.0;
   Points of_larger(grid.count(), 3);
   ExecutionContext context;
-  ASSERT_TRUE(built(larger).evaluate_gradient(larger_grid, context, of_larger.data()).ok());
+  ASSERT_TRUE(built(larger).evaluate_gradient(context, larger_grid, of_larger.data()).ok());
   EXPECT_LE((8.0 * of_larger - values[0]).cwiseAbs().maxCoeff(), 1e-9);
 }
 
@@ -675,7 +675,7 @@ TEST(PointCloudWindingNumber, CancelsMidwayAndRunsAgain)
       return false;
     });
   probe.set_threads(1);
-  ASSERT_TRUE(winding.build(cloud.points, cloud.normals, no_areas, probe).ok());
+  ASSERT_TRUE(winding.build(probe, cloud.points, cloud.normals, no_areas).ok());
   const int in_build = asked;
   ASSERT_GT(in_build, 50);
   Eigen::VectorXd w;
@@ -686,17 +686,17 @@ TEST(PointCloudWindingNumber, CancelsMidwayAndRunsAgain)
     ExecutionContext context({}, [&] { return --allowed < 0; });
     context.set_threads(1);
     EXPECT_EQ(
-      winding.build(cloud.points, cloud.normals, no_areas, context).code, StatusCode::canceled);
-    EXPECT_EQ(winding.evaluate(cloud.points, context, w).code, StatusCode::canceled);
+      winding.build(context, cloud.points, cloud.normals, no_areas).code, StatusCode::canceled);
+    EXPECT_EQ(winding.evaluate(context, cloud.points, w).code, StatusCode::canceled);
   }
   std::vector<double> fractions;
   ExecutionContext watched(
     [&](double fraction, const std::string&) { fractions.push_back(fraction); }, {});
-  ASSERT_TRUE(winding.build(cloud.points, cloud.normals, no_areas, watched).ok());
+  ASSERT_TRUE(winding.build(watched, cloud.points, cloud.normals, no_areas).ok());
   EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
   allowed = 3;
   ExecutionContext context({}, [&] { return --allowed < 0; });
   context.set_threads(1);
-  EXPECT_EQ(winding.evaluate(cloud.points, context, w).code, StatusCode::canceled);
-  EXPECT_TRUE(winding.evaluate(cloud.points, watched, w).ok());
+  EXPECT_EQ(winding.evaluate(context, cloud.points, w).code, StatusCode::canceled);
+  EXPECT_TRUE(winding.evaluate(watched, cloud.points, w).ok());
 }

@@ -28,7 +28,7 @@ TEST(PointTree, HoldsEveryPointOnceInBoxesThatHoldThem)
     const Points points = tree_points(count, 3, false);
     ExecutionContext context;
     PointTree tree;
-    ASSERT_TRUE(tree.build(points, 16, context));
+    ASSERT_TRUE(tree.build(context, points, 16));
     const std::set<PointTree::Id> ids(tree.order().begin(), tree.order().end());
     EXPECT_EQ(static_cast<Index>(tree.order().size()), count);
     EXPECT_EQ(static_cast<Index>(ids.size()), count);
@@ -61,7 +61,7 @@ TEST(PointTree, NearestAreThoseOfASearchOfAll)
     const Points points = tree_points(700, 5, on_lattice);
     ExecutionContext context;
     PointTree tree;
-    ASSERT_TRUE(tree.build(points, 16, context));
+    ASSERT_TRUE(tree.build(context, points, 16));
     std::vector<PointTree::Neighbor> found;
     for (PointTree::Id point = 0; point < 700; point += 13)
     {
@@ -92,9 +92,9 @@ TEST(PointTree, NoPointsAndCancel)
 {
   ExecutionContext context;
   PointTree tree;
-  EXPECT_TRUE(tree.build(Points(0, 3), 16, context));
+  EXPECT_TRUE(tree.build(context, Points(0, 3), 16));
   EXPECT_TRUE(tree.groups().empty());
   ExecutionContext stopped;
   stopped.request_cancel();
-  EXPECT_FALSE(tree.build(tree_points(50000, 1, false), 16, stopped));
+  EXPECT_FALSE(tree.build(stopped, tree_points(50000, 1, false), 16));
 }

@@ -73,7 +73,7 @@ WindingNumber winding_for_queries(const TriangleMesh& mesh, WindingMethod method
   options.method = method;
   options.expected_queries = expected;
   WindingNumber winding;
-  EXPECT_TRUE(winding.build(mesh.points, mesh.triangles, context, options).ok());
+  EXPECT_TRUE(winding.build(context, mesh.points, mesh.triangles, options).ok());
   return winding;
 }
 } // namespace
@@ -109,7 +109,7 @@ TEST(RayCrossings, RaysThroughVerticesEdgesAndFaces)
     std::vector<int> counts(points.size());
     std::vector<unsigned char> resolved(points.size());
     ExecutionContext context;
-    ASSERT_TRUE(rays.count(framed_points.data(), static_cast<Index>(points.size()), context,
+    ASSERT_TRUE(rays.count(context, framed_points.data(), static_cast<Index>(points.size()),
       counts.data(), resolved.data()));
     for (std::size_t i = 0; i < points.size(); ++i)
     {
@@ -184,7 +184,7 @@ TEST(RayCrossings, FewAndManyPointsOfACurvedSurface)
     std::vector<int> counts(queries.size());
     std::vector<unsigned char> resolved(queries.size());
     ExecutionContext context;
-    ASSERT_TRUE(rays.count(queries.data(), count, context, counts.data(), resolved.data()));
+    ASSERT_TRUE(rays.count(context, queries.data(), count, counts.data(), resolved.data()));
     const Index step = std::max<Index>(1, count / 200);
     for (Index i = 0; i < count; i += step)
     {
@@ -228,7 +228,7 @@ TEST(RayCrossings, CancelStopsThem)
   std::vector<unsigned char> resolved(points.size());
   ExecutionContext context;
   context.request_cancel();
-  EXPECT_FALSE(rays.count(points.data(), 1000, context, counts.data(), resolved.data()));
+  EXPECT_FALSE(rays.count(context, points.data(), 1000, counts.data(), resolved.data()));
 }
 
 TEST(WindingExpectedQueries, ExactValuesDoNotDependOnThem)
@@ -243,15 +243,15 @@ TEST(WindingExpectedQueries, ExactValuesDoNotDependOnThem)
     ExecutionContext context;
     const WindingNumber many = winding_for_queries(mesh, WindingMethod::exact, 0);
     Eigen::VectorXd on_grid, at_points;
-    ASSERT_TRUE(many.evaluate(grid, context, on_grid).ok());
-    ASSERT_TRUE(many.evaluate(points, context, at_points).ok());
+    ASSERT_TRUE(many.evaluate(context, grid, on_grid).ok());
+    ASSERT_TRUE(many.evaluate(context, points, at_points).ok());
     for (const Index expected : { 1, 1000, 100000, 100000000 })
     {
       const WindingNumber few = winding_for_queries(mesh, WindingMethod::exact, expected);
       Eigen::VectorXd values;
-      ASSERT_TRUE(few.evaluate(points, context, values).ok());
+      ASSERT_TRUE(few.evaluate(context, points, values).ok());
       EXPECT_EQ(values, at_points);
-      ASSERT_TRUE(few.evaluate(grid, context, values).ok());
+      ASSERT_TRUE(few.evaluate(context, grid, values).ok());
       EXPECT_EQ(values, on_grid);
       EXPECT_EQ(few.evaluate_at(points.row(5)), at_points[5]);
     }
@@ -273,12 +273,12 @@ TEST(WindingExpectedQueries, FastKeepsItsToleranceForAnyNumber)
       options.tolerance = tolerance;
       options.expected_queries = expected;
       WindingNumber winding;
-      const Status status = winding.build(mesh.points, mesh.triangles, context, options);
+      const Status status = winding.build(context, mesh.points, mesh.triangles, options);
       ASSERT_TRUE(status.ok());
       EXPECT_EQ(status.report.number("error_bound", -1.0), tolerance);
       EXPECT_LE(status.report.number("measured_error", 1.0), tolerance);
       Eigen::VectorXd values;
-      ASSERT_TRUE(winding.evaluate(points, context, values).ok());
+      ASSERT_TRUE(winding.evaluate(context, points, values).ok());
       double worst = 0.0;
       for (Index i = 0; i < points.rows(); ++i)
       {
@@ -291,9 +291,9 @@ TEST(WindingExpectedQueries, FastKeepsItsToleranceForAnyNumber)
       ExecutionContext one;
       one.set_threads(1);
       WindingNumber again;
-      ASSERT_TRUE(again.build(mesh.points, mesh.triangles, one, options).ok());
+      ASSERT_TRUE(again.build(one, mesh.points, mesh.triangles, options).ok());
       Eigen::VectorXd other;
-      ASSERT_TRUE(again.evaluate(points, one, other).ok());
+      ASSERT_TRUE(again.evaluate(one, points, other).ok());
       EXPECT_EQ(std::memcmp(other.data(), values.data(), sizeof(double) * values.size()), 0);
     }
   }
@@ -319,12 +319,12 @@ TEST(WindingExpectedQueries, ManySmallEvaluationsBuildCellsInTheEnd)
   const Points points = random_points(10, 1.2, 11);
   ExecutionContext context;
   Eigen::VectorXd first;
-  ASSERT_TRUE(winding.evaluate(points, context, first).ok());
+  ASSERT_TRUE(winding.evaluate(context, points, first).ok());
   EXPECT_EQ(winding.memory(), before);
   for (int i = 0; i < 1000; ++i)
   {
     Eigen::VectorXd values;
-    ASSERT_TRUE(winding.evaluate(points, context, values).ok());
+    ASSERT_TRUE(winding.evaluate(context, points, values).ok());
     ASSERT_EQ(values, first);
   }
   EXPECT_GT(winding.memory(), before);
@@ -337,7 +337,7 @@ TEST(WindingExpectedQueries, NegativeNumbersAreRefused)
   WindingNumber::Options options;
   options.expected_queries = -1;
   WindingNumber winding;
-  const Status status = winding.build(mesh.points, mesh.triangles, context, options);
+  const Status status = winding.build(context, mesh.points, mesh.triangles, options);
   EXPECT_EQ(status.code, StatusCode::invalid_input);
   EXPECT_NE(status.message.find("expected_queries"), std::string::npos);
 }

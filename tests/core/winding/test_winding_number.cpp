@@ -30,7 +30,7 @@ std::vector<WindingNumber> all_ways(const TriangleMesh& mesh)
     options.method = method;
     options.max_leaf_size = 4;
     ways.emplace_back();
-    const Status status = ways.back().build(mesh.points, mesh.triangles, context, options);
+    const Status status = ways.back().build(context, mesh.points, mesh.triangles, options);
     EXPECT_TRUE(status.ok()) << status.message;
   }
   return ways;
@@ -109,11 +109,11 @@ TEST(WindingNumber, GradientIsTheKnownOneAndThatOfTheField)
     options.tolerance = 1e-6;
     ExecutionContext context;
     WindingNumber winding;
-    ASSERT_TRUE(winding.build(mesh.points, mesh.triangles, context, options).ok());
+    ASSERT_TRUE(winding.build(context, mesh.points, mesh.triangles, options).ok());
     Points query(1, 3);
     query.row(0) = point.transpose();
     Vec3 gradient;
-    ASSERT_TRUE(winding.evaluate_gradient(query, context, gradient.data()).ok());
+    ASSERT_TRUE(winding.evaluate_gradient(context, query, gradient.data()).ok());
     const double error = method == WindingMethod::fast ? 1e-5 : 5e-9;
     EXPECT_NEAR(gradient.x(), 0.05503676, error);
     EXPECT_NEAR(gradient.y(), 0.03449705, error);
@@ -125,7 +125,7 @@ TEST(WindingNumber, GradientIsTheKnownOneAndThatOfTheField)
   Points query(1, 3);
   query.row(0) = 1000.0 * point.transpose();
   Vec3 gradient;
-  ASSERT_TRUE(large.evaluate_gradient(query, context, gradient.data()).ok());
+  ASSERT_TRUE(large.evaluate_gradient(context, query, gradient.data()).ok());
   EXPECT_NEAR(1000.0 * gradient.z(), -0.30037298, 5e-9);
 }
 
@@ -143,14 +143,14 @@ TEST(WindingNumber, FlagsTellWhatTouchesTheSurface)
       options.method = method;
       ExecutionContext context;
       WindingNumber winding;
-      ASSERT_TRUE(winding.build(mesh.points, mesh.triangles, context, options).ok());
+      ASSERT_TRUE(winding.build(context, mesh.points, mesh.triangles, options).ok());
       SampleGrid grid;
       grid.origin = Vec3::Constant(-1.5);
       grid.spacing = Vec3::Constant(0.5);
       grid.extent = { 0, 6, 0, 6, 0, 6 };
       std::vector<double> values(static_cast<std::size_t>(grid.count()));
       std::vector<unsigned char> flags(values.size(), 7);
-      ASSERT_TRUE(winding.evaluate(grid, context, values.data(), flags.data()).ok());
+      ASSERT_TRUE(winding.evaluate(context, grid, values.data(), flags.data()).ok());
       for (Index i = 0; i < grid.count(); ++i)
       {
         const Vec3 p = grid.point(i % 7, i / 7 % 7, i / 49);
@@ -350,7 +350,7 @@ TEST(WindingNumber, ShiftsScalesAndOrderDoNotMatter)
   {
     Eigen::VectorXd w;
     ExecutionContext context;
-    EXPECT_TRUE(WindingNumber(m.points, m.triangles).evaluate(at, context, w).ok());
+    EXPECT_TRUE(WindingNumber(m.points, m.triangles).evaluate(context, at, w).ok());
     return w;
   };
   const Eigen::VectorXd expected = values(mesh, queries);
@@ -432,7 +432,7 @@ TEST(WindingNumber, ReportTellsWhatTheSurfaceIs)
   const TriangleMesh soup = triangles_of(corners);
   ExecutionContext context;
   WindingNumber winding;
-  Report report = winding.build(soup.points, soup.triangles, context).report;
+  Report report = winding.build(context, soup.points, soup.triangles).report;
   EXPECT_EQ(report.number("counts.boundary_edges", -1), 0);
   EXPECT_EQ(report.number("counts.open_edges", -1), 0);
   EXPECT_EQ(report.number("counts.components", -1), 1);
@@ -442,7 +442,7 @@ TEST(WindingNumber, ReportTellsWhatTheSurfaceIs)
   EXPECT_FALSE(report.text("method_reason").empty());
 
   const TriangleMesh doubled = test::join(test::open_cube(), test::open_cube());
-  report = winding.build(doubled.points, doubled.triangles, context).report;
+  report = winding.build(context, doubled.points, doubled.triangles).report;
   EXPECT_EQ(report.number("counts.duplicate_triangles", -1), 10);
   EXPECT_EQ(report.number("counts.boundary_edges", -1), 0);
   EXPECT_EQ(report.number("counts.open_edges", -1), 4);
@@ -522,21 +522,21 @@ TEST(WindingNumber, BadInputIsNamed)
   WindingNumber winding;
   TriangleMesh mesh = test::cube();
   mesh.triangles(3, 1) = 8;
-  Status status = winding.build(mesh.points, mesh.triangles, context);
+  Status status = winding.build(context, mesh.points, mesh.triangles);
   EXPECT_EQ(status.code, StatusCode::invalid_input);
   EXPECT_NE(status.message.find("vertex 8"), std::string::npos);
   Eigen::VectorXd w;
-  EXPECT_EQ(winding.evaluate(mesh.points, context, w).code, StatusCode::invalid_input);
+  EXPECT_EQ(winding.evaluate(context, mesh.points, w).code, StatusCode::invalid_input);
 
   mesh = test::cube();
   mesh.points(5, 2) = std::numeric_limits<double>::quiet_NaN();
-  status = winding.build(mesh.points, mesh.triangles, context);
+  status = winding.build(context, mesh.points, mesh.triangles);
   EXPECT_EQ(status.code, StatusCode::invalid_input);
   EXPECT_NE(status.message.find("vertex 5"), std::string::npos);
 
   WindingNumber::Options options;
   options.max_leaf_size = 0;
-  status = winding.build(test::cube().points, test::cube().triangles, context, options);
+  status = winding.build(context, test::cube().points, test::cube().triangles, options);
   EXPECT_EQ(status.code, StatusCode::invalid_input);
   EXPECT_NE(status.message.find("max_leaf_size"), std::string::npos);
 }
@@ -552,7 +552,7 @@ TEST(WindingNumber, PointsThatAreNoneGiveNaN)
   {
     ExecutionContext context;
     Eigen::VectorXd w;
-    const Status status = way.evaluate(queries, context, w);
+    const Status status = way.evaluate(context, queries, w);
     EXPECT_TRUE(status.ok());
     EXPECT_EQ(status.report.number("counts.not_finite", -1), 2);
     EXPECT_EQ(status.report.number("counts.on_surface", -1), 1);

@@ -28,7 +28,7 @@ WindingNumber winding_by_method(const TriangleMesh& mesh, WindingMethod method, 
   options.method = method;
   options.max_leaf_size = leaf;
   WindingNumber winding;
-  const Status status = winding.build(mesh.points, mesh.triangles, context, options);
+  const Status status = winding.build(context, mesh.points, mesh.triangles, options);
   EXPECT_TRUE(status.ok()) << status.message;
   return winding;
 }
@@ -439,7 +439,7 @@ TEST(WindingMethods, FastNextToALongTriangleThatIsCut)
   options.tolerance = 1e-5;
   ExecutionContext context;
   WindingNumber winding;
-  ASSERT_TRUE(winding.build(mesh.points, mesh.triangles, context, options).ok());
+  ASSERT_TRUE(winding.build(context, mesh.points, mesh.triangles, options).ok());
   for (int i = 0; i < 2000; ++i)
   {
     const Vec3 foot = a + random.uniform(0.1, 0.9) * (b - a);
@@ -548,7 +548,7 @@ TEST(WindingMethods, FastKeepsItsTolerance)
       options.tolerance = tolerance;
       ExecutionContext context;
       WindingNumber winding;
-      const Status status = winding.build(mesh.points, mesh.triangles, context, options);
+      const Status status = winding.build(context, mesh.points, mesh.triangles, options);
       ASSERT_TRUE(status.ok());
       EXPECT_EQ(winding.method(), WindingMethod::fast);
       EXPECT_EQ(status.report.number("error_bound", -1.0), tolerance);
@@ -557,7 +557,7 @@ TEST(WindingMethods, FastKeepsItsTolerance)
       test::Random random(7);
       std::generate_n(queries.data(), queries.size(), [&] { return 5.0 * random.uniform() - 2.5; });
       Eigen::VectorXd values;
-      ASSERT_TRUE(winding.evaluate(queries, context, values).ok());
+      ASSERT_TRUE(winding.evaluate(context, queries, values).ok());
       double worst = 0.0;
       for (Index i = 0; i < queries.rows(); ++i)
       {
@@ -592,14 +592,14 @@ TEST(WindingMethods, SameBitsForAnyThreadsAndExtent)
     ExecutionContext one;
     one.set_threads(1);
     Eigen::VectorXd expected;
-    ASSERT_TRUE(winding.evaluate(grid, one, expected).ok());
+    ASSERT_TRUE(winding.evaluate(one, grid, expected).ok());
     ASSERT_EQ(expected.size(), 23 * 20 * 18);
     for (const int threads : { 0, 2, 5 })
     {
       ExecutionContext many;
       many.set_threads(threads);
       Eigen::VectorXd values;
-      ASSERT_TRUE(winding.evaluate(grid, many, values).ok());
+      ASSERT_TRUE(winding.evaluate(many, grid, values).ok());
       EXPECT_EQ(std::memcmp(values.data(), expected.data(), sizeof(double) * values.size()), 0);
       // A build with another number of threads gives the same structure.
       ExecutionContext again;
@@ -607,13 +607,13 @@ TEST(WindingMethods, SameBitsForAnyThreadsAndExtent)
       WindingNumber::Options options;
       options.method = method;
       WindingNumber rebuilt;
-      ASSERT_TRUE(rebuilt.build(mesh.points, mesh.triangles, again, options).ok());
-      ASSERT_TRUE(rebuilt.evaluate(grid, again, values).ok());
+      ASSERT_TRUE(rebuilt.build(again, mesh.points, mesh.triangles, options).ok());
+      ASSERT_TRUE(rebuilt.evaluate(again, grid, values).ok());
       EXPECT_EQ(std::memcmp(values.data(), expected.data(), sizeof(double) * values.size()), 0);
     }
     ExecutionContext context;
     Eigen::VectorXd values;
-    ASSERT_TRUE(winding.evaluate(part, context, values).ok());
+    ASSERT_TRUE(winding.evaluate(context, part, values).ok());
     Index at = 0;
     for (Index k = 7; k <= 8; ++k)
     {
@@ -661,7 +661,7 @@ TEST(WindingMethods, FineSurfacesOnRowsAndAtPoints)
   grid.extent = { 0, 79, 0, 79, 0, 30 };
   ExecutionContext context;
   Eigen::VectorXd rows;
-  ASSERT_TRUE(winding.evaluate(grid, context, rows).ok());
+  ASSERT_TRUE(winding.evaluate(context, grid, rows).ok());
   for (Index i = 0; i < grid.count(); ++i)
   {
     const Vec3 p = grid.point(i % 80, i / 80 % 80, i / 6400);
@@ -722,7 +722,7 @@ TEST(WindingMethods, ProgressGoesForwardAndCancelStops)
     WindingNumber::Options options;
     options.method = method;
     WindingNumber winding;
-    ASSERT_TRUE(winding.build(mesh.points, mesh.triangles, watched, options).ok());
+    ASSERT_TRUE(winding.build(watched, mesh.points, mesh.triangles, options).ok());
     EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
 
     using Clock = std::chrono::steady_clock;
@@ -738,7 +738,7 @@ TEST(WindingMethods, ProgressGoesForwardAndCancelStops)
       },
       nullptr);
     Eigen::VectorXd w;
-    const Status status = winding.evaluate(queries, context, w);
+    const Status status = winding.evaluate(context, queries, w);
     EXPECT_EQ(status.code, StatusCode::canceled) << to_string(method);
     ASSERT_NE(asked, Clock::time_point());
     EXPECT_LT(
@@ -754,7 +754,7 @@ TEST(WindingMethods, BuildCanBeCanceledAnywhere)
     ExecutionContext context(nullptr, [&] { return ++asked_in_all < 0; });
     context.set_threads(1);
     WindingNumber winding;
-    ASSERT_TRUE(winding.build(mesh.points, mesh.triangles, context).ok());
+    ASSERT_TRUE(winding.build(context, mesh.points, mesh.triangles).ok());
   }
   ASSERT_GT(asked_in_all, 10);
   for (int stop = 1; stop <= asked_in_all; stop += 1 + asked_in_all / 20)
@@ -763,10 +763,10 @@ TEST(WindingMethods, BuildCanBeCanceledAnywhere)
     ExecutionContext context(nullptr, [&] { return ++asked >= stop; });
     context.set_threads(1);
     WindingNumber winding;
-    EXPECT_EQ(winding.build(mesh.points, mesh.triangles, context).code, StatusCode::canceled);
+    EXPECT_EQ(winding.build(context, mesh.points, mesh.triangles).code, StatusCode::canceled);
     EXPECT_EQ(winding.evaluate_at(Vec3::Zero()), 0.0);
     Eigen::VectorXd w;
     ExecutionContext fresh;
-    EXPECT_EQ(winding.evaluate(mesh.points, fresh, w).code, StatusCode::canceled);
+    EXPECT_EQ(winding.evaluate(fresh, mesh.points, w).code, StatusCode::canceled);
   }
 }

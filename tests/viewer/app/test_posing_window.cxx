@@ -16,6 +16,7 @@
 #include "app/posing/sequence_export.h"
 #include "document/document.h"
 #include "poses/pose_blend.h"
+#include "poses/pose_source_data.h"
 #include "poser/make_poser.h"
 
 #include "support/handles.h"

@@ -394,10 +394,10 @@ TEST_F(WeightWindow, TheOtherMethodIsSolvedBesideTheWindow)
   places.points << 0, 0, -0.9, 0, 0, 0.9;
   options.places = places;
   ASSERT_TRUE(surface_weights(
-    mesh.points, mesh.triangles, {}, handles, options, {},
-    [](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
-    { return harmonic_weights(problem, {}, of_method, weights); },
-    context, other)
+    context, mesh.points, mesh.triangles, {}, handles, options, {},
+    [](ExecutionContext& of_method, const WeightsProblem& problem, WeightsResult& weights)
+    { return harmonic_weights(of_method, problem, {}, weights); },
+    other)
                 .usable());
   double largest = 0.0;
   double squares = 0.0;

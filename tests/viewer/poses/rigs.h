@@ -4,7 +4,7 @@
 // Shapes with artificial weights. They are datasets for the filters, and sources (PoseSource) for
 // the posers of the window.
 
-#include "poser/pose_source.h"
+#include "poses/pose_source_data.h"
 
 #include "support/handles.h"
 #include "support/meshes.h"

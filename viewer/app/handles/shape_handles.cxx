@@ -121,7 +121,7 @@ void ShapeHandles::make(AutomaticHandlesOptions options)
     [surface, options, made = this->made_](ExecutionContext& context)
     {
       return automatic_handles(
-        surface->points.view(), surface->triangles.view(), options, *made, context);
+        context, surface->points.view(), surface->triangles.view(), options, *made);
     });
   this->update();
 }

@@ -12,6 +12,7 @@
 #include "conversion.h"
 #include "handle_edit_cells.h"
 #include "poses/pose_blend.h"
+#include "poses/pose_source_data.h"
 #include "weight_uses/depth_order.h"
 
 #include "vtkCellData.h"
@@ -603,7 +604,7 @@ void Posing::order_layers()
       to_layers(this->handles_, this->source_->handles, this->cells_, "Layer", layers);
     if (status.ok())
     {
-      status = depth_order(this->source_->weights, layers, {}, context, order);
+      status = depth_order(context, this->source_->weights, layers, {}, order);
     }
     if (status.usable())
     {

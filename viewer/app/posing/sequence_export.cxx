@@ -307,7 +307,7 @@ Status SequenceExport::write_moving(const std::string& path)
       Status status = file.open(path, true);
       if (status.ok())
       {
-        status = write_video(folder->path(), frames_per_second, file.temporary(), context);
+        status = write_video(context, folder->path(), frames_per_second, file.temporary());
       }
       return status.ok() ? file.commit() : status;
     });

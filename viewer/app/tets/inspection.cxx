@@ -41,12 +41,12 @@ TriangleMesh copy_of(const SurfaceInput& surface)
 }
 
 Status find_defects(
-  const TriangleMesh& mesh, vtkSmartPointer<vtkPolyData>& defects, ExecutionContext& context)
+  ExecutionContext& context, const TriangleMesh& mesh, vtkSmartPointer<vtkPolyData>& defects)
 {
   RepairOptions options;
   options.orient = false;
   RepairedSurface repaired;
-  Status status = repair_surface(mesh.points, mesh.triangles, options, repaired, context);
+  Status status = repair_surface(context, mesh.points, mesh.triangles, options, repaired);
   if (status.ok())
   {
     defects = to_polydata(list_defects(mesh.points, mesh.triangles, repaired), mesh.points, {});
@@ -178,7 +178,7 @@ void Inspection::make_tets(int method)
       ExecutionContext& context)
     {
       TetrahedralizeResult result;
-      Status done = tetrahedralize(mesh.points, mesh.triangles, options, result, context);
+      Status done = tetrahedralize(context, mesh.points, mesh.triangles, options, result);
       if (done.usable())
       {
         *made = to_unstructured_grid(result, done.report.text("method"));
@@ -312,7 +312,7 @@ void Inspection::start_looking()
     this->made_defects_ = std::make_shared<vtkSmartPointer<vtkPolyData>>();
     this->defect_job_.start(
       [made = this->made_defects_, mesh = copy_of(surface)](ExecutionContext& context)
-      { return find_defects(mesh, *made, context); });
+      { return find_defects(context, mesh, *made); });
   }
 }
 

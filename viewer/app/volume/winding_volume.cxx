@@ -17,8 +17,8 @@ using namespace bindpose;
 
 namespace
 {
-Status compute(const TriangleMesh& mesh, int samples, vtkSmartPointer<vtkImageData>& volume,
-  ExecutionContext& context)
+Status compute(ExecutionContext& context, const TriangleMesh& mesh, int samples,
+  vtkSmartPointer<vtkImageData>& volume)
 {
   GridRequest request;
   request.samples_along_longest_side = samples;
@@ -31,7 +31,7 @@ Status compute(const TriangleMesh& mesh, int samples, vtkSmartPointer<vtkImageDa
     const Phase phase(context, "build", 0.0, built);
     WindingNumber::Options options;
     options.expected_queries = grid.count();
-    status = field.build(mesh.points, mesh.triangles, context, options);
+    status = field.build(context, mesh.points, mesh.triangles, options);
   }
   if (!status.ok())
   {
@@ -41,7 +41,7 @@ Status compute(const TriangleMesh& mesh, int samples, vtkSmartPointer<vtkImageDa
   vtkNew<vtkDoubleArray> values;
   values->SetName("WindingNumber");
   values->SetNumberOfTuples(grid.count());
-  status = field.evaluate(grid, context, values->GetPointer(0));
+  status = field.evaluate(context, grid, values->GetPointer(0));
   if (status.ok())
   {
     volume = vtkSmartPointer<vtkImageData>::New();
@@ -90,7 +90,7 @@ void WindingVolume::start()
   this->surface_ = this->document_->work().surface;
   this->made_ = std::make_shared<vtkSmartPointer<vtkImageData>>();
   this->job_.start([made = this->made_, mesh = std::move(mesh), samples = this->panel_->samples()](
-                     ExecutionContext& context) { return compute(mesh, samples, *made, context); });
+                     ExecutionContext& context) { return compute(context, mesh, samples, *made); });
   this->panel_->set_note(tr("Starting …"));
   this->update();
 }

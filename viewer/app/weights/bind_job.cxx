@@ -11,8 +11,8 @@ using namespace bindpose;
 
 namespace
 {
-void run_bind(const BindInput& input, const std::function<void(const Weights&)>& preview,
-  ExecutionContext& context, BindResult& result)
+void run_bind(ExecutionContext& context, const BindInput& input,
+  const std::function<void(const Weights&)>& preview, BindResult& result)
 {
   SurfaceWeightsOptions options;
   options.keep_raw = true; // the weight panel shows row sums, which need the raw weights
@@ -23,11 +23,11 @@ void run_bind(const BindInput& input, const std::function<void(const Weights&)>&
     options.preview = preview;
   }
   const WeightsMethod method =
-    [&](const WeightsProblem& problem, ExecutionContext& of_method, WeightsResult& weights)
-  { return input.method->kernel(problem, {}, of_method, weights); };
+    [&](ExecutionContext& of_method, const WeightsProblem& problem, WeightsResult& weights)
+  { return input.method->kernel(of_method, problem, {}, weights); };
   SurfaceWeights weights;
-  result.status = surface_weights(input.surface.points, input.surface.triangles,
-    input.region_of_vertex, input.handles, options, {}, method, context, weights);
+  result.status = surface_weights(context, input.surface.points, input.surface.triangles,
+    input.region_of_vertex, input.handles, options, {}, method, weights);
   result.weights = std::move(weights.weights);
   result.raw = std::move(weights.raw);
   result.domain = weights.domain;
@@ -64,14 +64,14 @@ void BindJob::start(BindInput input)
     [this, made, input = std::move(input)](ExecutionContext& context)
     {
       run_bind(
-        input,
+        context, input,
         [this](const Weights& weights)
         {
           const auto copy = std::make_shared<const Weights>(weights);
           QMetaObject::invokeMethod(
             this, [this, copy] { Q_EMIT this->preview(*copy); }, Qt::QueuedConnection);
         },
-        context, *made);
+        *made);
       return made->status;
     });
 }

@@ -1,6 +1,7 @@
 // Smoothing of transferred weights along a surface (see surface_smoothing.h).
 #include "domain/surface_smoothing.h"
 
+#include "base/flush_denormals.h"
 #include "base/parallel.h"
 #include "geometry/laplacian.h"
 #include "linear/float_cholesky.h"
@@ -27,6 +28,8 @@ constexpr double preparation_end = 0.5;
 using Lanes = Eigen::Array<double, 1, lanes>;
 /// Values of one block of columns, #V x lanes.
 using Columns = Eigen::Array<double, Eigen::Dynamic, lanes, Eigen::RowMajor>;
+/// One row per point, in single precision.
+using Responses = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// The matrix M + K M⁻¹ K of the energy at the points that are not fixed, with lengths in units of
 /// `length`. K is the cotangent stiffness and M the lumped mass.
@@ -193,7 +196,7 @@ private:
   void count_fixed(ExecutionContext& context, const std::vector<Index>& fixed)
   {
     const ProgressRange range(context, factored, preparation_end);
-    constexpr Index most_numbers = 40'000'000; // 320 MB
+    constexpr Index most_numbers = 80'000'000; // 320 MB
     const Index n = this->mass_.size();
     const Index most = std::min(static_cast<Index>(fixed.size()), most_numbers / n);
     this->counted_.assign(fixed.begin(), fixed.begin() + most);
@@ -208,7 +211,8 @@ private:
           this->for_each_of_term(c, [&](Index v, double value) { terms(v, c - begin) = value; });
         }
         this->solve_with_factor(terms, found, work);
-        this->responses_.middleCols(begin, end - begin) = found.leftCols(end - begin);
+        this->responses_.middleCols(begin, end - begin) =
+          found.leftCols(end - begin).matrix().cast<float>();
       });
     if (!whole)
     {
@@ -218,8 +222,9 @@ private:
     Eigen::MatrixXd small = Eigen::MatrixXd::Identity(most, most);
     for (Index c = 0; c < most; ++c)
     {
-      this->for_each_of_term(
-        c, [&](Index v, double value) { small.row(c) += value * this->responses_.row(v); });
+      this->for_each_of_term(c,
+        [&](Index v, double value)
+        { small.row(c) += value * this->responses_.row(v).cast<double>(); });
     }
     this->small_.compute(0.5 * (small + small.transpose()));
     if (this->small_.info() != Eigen::Success)
@@ -285,7 +290,19 @@ private:
       this->for_each_of_term(
         c, [&](Index v, double value) { at_fixed.row(c) += value * z.row(v).matrix(); });
     }
-    z.matrix() -= this->responses_ * this->small_.solve(at_fixed);
+    const FlushDenormals flush; // responses decay with the distance
+    const Responses factors = this->small_.solve(at_fixed).cast<float>();
+    // A general matrix product would spend most of its time on rearranging the responses.
+    for (Index v = 0; v < z.rows(); ++v)
+    {
+      const float* response = this->responses_.data() + v * factors.rows();
+      Eigen::Array<float, 1, lanes> sum = Eigen::Array<float, 1, lanes>::Zero();
+      for (Index c = 0; c < factors.rows(); ++c)
+      {
+        sum += response[c] * factors.row(c).array();
+      }
+      z.row(v) -= sum.cast<double>();
+    }
   }
 
   /// Apply the preconditioner P: compute z = P⁻¹ r at the free points; z = 0 at the others.
@@ -318,7 +335,8 @@ private:
   // fixed point. The terms are included by the Sherman-Morrison-Woodbury formula.
   FloatCholesky factor_; // factor of M + K, if available
   std::vector<Index> counted_; // fixed points whose terms u uᵀ are in the preconditioner
-  Eigen::MatrixXd responses_; // #V x #counted: (M + K)⁻¹ M (M + K)⁻¹ u for each of these points
+  // #V x #counted: (M + K)⁻¹ M (M + K)⁻¹ u for each of these points
+  Responses responses_;
   // Factor of 1 + Uᵀ (M + K)⁻¹ M (M + K)⁻¹ U, where the columns of U are the vectors u.
   Eigen::LLT<Eigen::MatrixXd> small_;
   // The preconditioner if there is no factor: the inverse of the diagonal of the energy's matrix; 0

@@ -17,9 +17,11 @@
 //
 // Compared with CHOLMOD's own method (left-looking, double precision), there are fewer and larger
 // products, and the factor takes half the memory. The matrix is scaled to a unit diagonal, because
-// otherwise rows with small entries would lose their digits in single precision.
+// otherwise rows with small entries would lose their digits in single precision. Most entries of a
+// factor are tiny: without FlushDenormals a factorization would take five times as long.
 #include "linear/float_cholesky.h"
 
+#include "base/flush_denormals.h"
 #include "linear/supernode_solve.h"
 
 #include <algorithm>
@@ -27,6 +29,7 @@
 #include <atomic>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 
 #ifdef BINDPOSE_HAS_CHOLMOD
 #include "linear/serial_blas.h"
@@ -48,31 +51,194 @@ namespace bindpose
 
 namespace
 {
-/// The analysis, which all clones share.
-struct Plan
+/// The supernodes of a factor and the tree of their fronts.
+struct Fronts
 {
-  std::shared_ptr<const Supernodes> nodes;
+  Supernodes nodes;
   std::vector<int> parent; // parent of each supernode; -1: no parent
-  std::vector<int> position; // per stored entry of the matrix: its index in the factor's values
   // Depth of each supernode below its root, modulo 2. This is the index of the stack that stores
   // the supernode's update matrix.
   std::vector<unsigned char> depth;
   std::size_t stack_size[2] = { 0, 0 }; // capacity of the two stacks, in floats
-  std::atomic<Index> factorizations{ 0 };
 
   int count() const { return static_cast<int>(this->parent.size()); }
-  int size() const { return static_cast<int>(this->nodes->order.size()); }
-  int columns(int s) const
-  {
-    return this->nodes->first_column[s + 1] - this->nodes->first_column[s];
-  }
-  int rows(int s) const { return this->nodes->first_row[s + 1] - this->nodes->first_row[s]; }
+  int size() const { return static_cast<int>(this->nodes.order.size()); }
+  int columns(int s) const { return this->nodes.first_column[s + 1] - this->nodes.first_column[s]; }
+  int rows(int s) const { return this->nodes.first_row[s + 1] - this->nodes.first_row[s]; }
   int below(int s) const { return this->rows(s) - this->columns(s); }
   std::size_t update_size(int s) const
   {
     return static_cast<std::size_t>(this->below(s)) * static_cast<std::size_t>(this->below(s));
   }
+  void measure_stacks();
 };
+
+/// Set the depths and the sizes of the stacks. `nodes` and `parent` are given.
+void Fronts::measure_stacks()
+{
+  const int count = this->count();
+  this->depth.assign(static_cast<std::size_t>(count), 0);
+  for (int s = count; s-- > 0;)
+  {
+    this->depth[s] = this->parent[s] < 0 ? 0 : !this->depth[this->parent[s]];
+  }
+  this->stack_size[0] = this->stack_size[1] = 0;
+  std::size_t top[2] = { 0, 0 };
+  // Number of floats in the update matrices of each supernode's children.
+  std::vector<std::size_t> stored(static_cast<std::size_t>(count), 0);
+  for (int s = 0; s < count; ++s)
+  {
+    const int mine = this->depth[s];
+    top[mine] += this->update_size(s);
+    this->stack_size[mine] = std::max(this->stack_size[mine], top[mine]);
+    top[!mine] -= stored[s];
+    if (this->parent[s] >= 0)
+    {
+      stored[this->parent[s]] += this->update_size(s);
+    }
+  }
+}
+
+/// The analysis, which all clones share.
+struct Plan
+{
+  Fronts fronts; // of the whole matrix
+  std::vector<int> node_of_column;
+  // Stored entries of the matrix by the step that eliminates their column: index of the entry, and
+  // its row as a position in the order of elimination.
+  std::vector<int> first_entry;
+  std::vector<int> entry;
+  std::vector<int> entry_row;
+  Index stored_entries = 0; // of the matrix
+  std::atomic<Index> factorizations{ 0 };
+
+  int size() const { return this->fronts.size(); }
+};
+
+/// The supernodes of a block of the matrix, with the order of elimination of the whole matrix.
+struct BlockFronts
+{
+  Fronts fronts;
+  std::vector<int> step_in_block; // per step of the whole order: step in the block's order, or -1
+  std::vector<int> step_in_whole; // the inverse map
+};
+
+/// Return the children of each node and, as the last entry, the roots; in ascending order.
+std::vector<std::vector<int>> children_of(const std::vector<int>& parent)
+{
+  std::vector<std::vector<int>> children(parent.size() + 1);
+  for (std::size_t s = 0; s < parent.size(); ++s)
+  {
+    children[parent[s] < 0 ? parent.size() : static_cast<std::size_t>(parent[s])].push_back(
+      static_cast<int>(s));
+  }
+  return children;
+}
+
+/// Return the nodes of a forest in postorder.
+std::vector<int> postorder(const std::vector<int>& parent)
+{
+  const std::vector<std::vector<int>> children = children_of(parent);
+  std::vector<int> reversed;
+  std::vector<int> stack = children.back();
+  while (!stack.empty())
+  {
+    const int s = stack.back();
+    stack.pop_back();
+    reversed.push_back(s);
+    stack.insert(stack.end(), children[s].begin(), children[s].end());
+  }
+  return { reversed.rbegin(), reversed.rend() };
+}
+
+/// Restrict the supernodes to the unknowns of a block. If row i is in column j of the factor, each
+/// later row of column j is also in column i. So the parent of a restricted supernode is the
+/// supernode of its first remaining row below, even if the former parent has no column left. The
+/// remaining supernodes are sorted into a postorder of the new tree.
+void restrict_fronts(const Plan& plan, const std::vector<char>& left_out, BlockFronts& block)
+{
+  const Fronts& whole = plan.fronts;
+  const Supernodes& nodes = whole.nodes;
+  const auto kept = [&](int step) { return !left_out[nodes.order[step]]; };
+  std::vector<int> kept_nodes, parent;
+  std::vector<int> kept_of_node(static_cast<std::size_t>(whole.count()), -1);
+  for (int s = 0; s < whole.count(); ++s)
+  {
+    bool any = false;
+    for (int j = nodes.first_column[s]; j < nodes.first_column[s + 1] && !any; ++j)
+    {
+      any = kept(j);
+    }
+    if (any)
+    {
+      kept_of_node[s] = static_cast<int>(kept_nodes.size());
+      kept_nodes.push_back(s);
+    }
+  }
+  for (const int s : kept_nodes)
+  {
+    int above = -1;
+    for (int r = nodes.first_row[s] + whole.columns(s); r < nodes.first_row[s + 1] && above < 0;
+         ++r)
+    {
+      above = kept(nodes.rows[r]) ? kept_of_node[plan.node_of_column[nodes.rows[r]]] : -1;
+    }
+    parent.push_back(above);
+  }
+  const std::vector<int> sorted = postorder(parent);
+  std::vector<int> rank(sorted.size());
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+  {
+    rank[sorted[i]] = static_cast<int>(i);
+  }
+
+  Supernodes& mine = block.fronts.nodes;
+  mine = Supernodes();
+  block.fronts.parent.clear();
+  block.step_in_whole.clear();
+  block.step_in_block.assign(static_cast<std::size_t>(plan.size()), -1);
+  mine.first_column.push_back(0);
+  for (const int k : sorted)
+  {
+    const int s = kept_nodes[k];
+    for (int j = nodes.first_column[s]; j < nodes.first_column[s + 1]; ++j)
+    {
+      if (kept(j))
+      {
+        block.step_in_block[j] = static_cast<int>(mine.order.size());
+        block.step_in_whole.push_back(j);
+        mine.order.push_back(nodes.order[j]);
+      }
+    }
+    mine.first_column.push_back(static_cast<int>(mine.order.size()));
+    block.fronts.parent.push_back(parent[k] < 0 ? -1 : rank[parent[k]]);
+  }
+  mine.first_row.push_back(0);
+  mine.first_value.push_back(0);
+  for (std::size_t i = 0; i < sorted.size(); ++i)
+  {
+    const int s = kept_nodes[sorted[i]];
+    for (int r = nodes.first_row[s]; r < nodes.first_row[s + 1]; ++r)
+    {
+      const int row = block.step_in_block[nodes.rows[r]];
+      if (row >= 0)
+      {
+        mine.rows.push_back(row);
+      }
+    }
+    mine.first_row.push_back(static_cast<int>(mine.rows.size()));
+    const int columns = mine.first_column[i + 1] - mine.first_column[i];
+    mine.first_value.push_back(
+      mine.first_value.back() + columns * (mine.first_row[i + 1] - mine.first_row[i]));
+  }
+  block.fronts.measure_stacks();
+}
+
+Status wrong_pattern()
+{
+  return Status::failure(StatusCode::internal_error,
+    "the sparsity pattern of the matrix to factor differs from the analyzed pattern");
+}
 
 /// Consecutive rows of an update matrix that are also consecutive in the parent's front.
 struct Run
@@ -86,17 +252,21 @@ struct Run
 struct FloatCholesky::Impl
 {
   std::shared_ptr<Plan> plan;
+  BlockFronts block; // of the last factor_block()
+  bool is_block = false; // true: the factor is that of a block
   std::vector<float> values;
   std::vector<float> stack[2];
   std::size_t top[2] = { 0, 0 };
   std::vector<int> waiting[2]; // supernodes whose update matrices are on the stacks
-  // Per row of the matrix: its index in the front that is being assembled.
+  // Per step of elimination: its index in the front that is being assembled.
   std::vector<int> row_in_front;
   std::vector<Run> runs;
   Eigen::VectorXd scale; // 1 / sqrt(diagonal entry), per unknown
 
-  void scatter(const SparseMatrix& matrix, double shift);
-  int eliminate(int s);
+  const Fronts& fronts() const { return this->is_block ? this->block.fronts : this->plan->fronts; }
+  Status factor(const ExecutionContext& context, const SparseMatrix& matrix, double shift);
+  void scatter(const SparseMatrix& matrix, double shift, int s);
+  int eliminate(const SparseMatrix& matrix, double shift, int s);
   void find_runs(int child, int columns);
   void solve(const double* rhs, int columns, double* x) const;
 };
@@ -129,14 +299,15 @@ void FloatCholesky::release_workspace()
 double FloatCholesky::factor_bytes() const
 {
   const Plan* plan = this->impl_->plan.get();
-  return plan ? sizeof(float) * static_cast<double>(plan->nodes->first_value.back()) : 0.0;
+  return plan ? sizeof(float) * static_cast<double>(plan->fronts.nodes.first_value.back()) : 0.0;
 }
 
 double FloatCholesky::workspace_bytes() const
 {
   const Plan* plan = this->impl_->plan.get();
-  return plan ? sizeof(float) * static_cast<double>(plan->stack_size[0] + plan->stack_size[1])
-              : 0.0;
+  return plan
+    ? sizeof(float) * static_cast<double>(plan->fronts.stack_size[0] + plan->fronts.stack_size[1])
+    : 0.0;
 }
 
 Index FloatCholesky::factorizations() const
@@ -147,63 +318,47 @@ Index FloatCholesky::factorizations() const
 Status FloatCholesky::analyze(const SparseSolver& solver, const SparseMatrix& matrix)
 {
   this->impl_ = std::make_unique<Impl>();
-  auto plan = std::make_shared<Plan>();
-  plan->nodes = solver.supernodes();
-  if (!plan->nodes)
+  const std::shared_ptr<const Supernodes> found = solver.supernodes();
+  if (!found)
   {
     return Status::failure(StatusCode::unavailable,
       "the factorization in single precision needs a supernodal factor of CHOLMOD");
   }
-  const Supernodes& nodes = *plan->nodes;
+  auto plan = std::make_shared<Plan>();
+  plan->fronts.nodes = *found;
+  const Supernodes& nodes = plan->fronts.nodes;
   const int n = plan->size();
   if (matrix.rows() != n || matrix.cols() != n || !matrix.isCompressed())
   {
-    return Status::failure(StatusCode::internal_error,
-      "the sparsity pattern of the matrix to factor differs from the analyzed pattern");
+    return wrong_pattern();
   }
   const auto count = static_cast<int>(nodes.first_column.size()) - 1;
-  std::vector<int> node_of_column(static_cast<std::size_t>(n));
+  plan->node_of_column.resize(static_cast<std::size_t>(n));
   for (int s = 0; s < count; ++s)
   {
     for (int j = nodes.first_column[s]; j < nodes.first_column[s + 1]; ++j)
     {
-      node_of_column[j] = s;
+      plan->node_of_column[j] = s;
     }
   }
-  plan->parent.assign(static_cast<std::size_t>(count), -1);
+  plan->fronts.parent.assign(static_cast<std::size_t>(count), -1);
   for (int s = 0; s < count; ++s)
   {
-    if (plan->rows(s) > plan->columns(s))
+    const int below = nodes.first_row[s] + nodes.first_column[s + 1] - nodes.first_column[s];
+    if (below < nodes.first_row[s + 1])
     {
-      plan->parent[s] = node_of_column[nodes.rows[nodes.first_row[s] + plan->columns(s)]];
+      plan->fronts.parent[s] = plan->node_of_column[nodes.rows[below]];
     }
   }
-  plan->depth.assign(static_cast<std::size_t>(count), 0);
-  for (int s = count; s-- > 0;)
-  {
-    plan->depth[s] = plan->parent[s] < 0 ? 0 : !plan->depth[plan->parent[s]];
-  }
-  std::size_t top[2] = { 0, 0 };
-  // Number of floats in the update matrices of each supernode's children.
-  std::vector<std::size_t> held(static_cast<std::size_t>(count), 0);
-  for (int s = 0; s < count; ++s)
-  {
-    const int mine = plan->depth[s];
-    top[mine] += plan->update_size(s);
-    plan->stack_size[mine] = std::max(plan->stack_size[mine], top[mine]);
-    top[!mine] -= held[s];
-    if (plan->parent[s] >= 0)
-    {
-      held[plan->parent[s]] += plan->update_size(s);
-    }
-  }
+  plan->fronts.measure_stacks();
 
-  std::vector<int> elimination(static_cast<std::size_t>(n));
+  std::vector<int> step_of(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i)
   {
-    elimination[nodes.order[i]] = i;
+    step_of[nodes.order[i]] = i;
   }
-  plan->position.assign(static_cast<std::size_t>(matrix.nonZeros()), -1);
+  plan->first_entry.assign(static_cast<std::size_t>(n) + 1, 0);
+  std::vector<int> column_of_entry(static_cast<std::size_t>(matrix.nonZeros()), -1);
   for (int j = 0; j < n; ++j)
   {
     for (int k = matrix.outerIndexPtr()[j]; k < matrix.outerIndexPtr()[j + 1]; ++k)
@@ -213,49 +368,68 @@ Status FloatCholesky::analyze(const SparseSolver& solver, const SparseMatrix& ma
       {
         continue;
       }
-      const int column = std::min(elimination[i], elimination[j]);
-      const int row = std::max(elimination[i], elimination[j]);
-      const int s = node_of_column[column];
+      const int column = std::min(step_of[i], step_of[j]);
+      const int row = std::max(step_of[i], step_of[j]);
+      const int s = plan->node_of_column[column];
       const int* begin = nodes.rows.data() + nodes.first_row[s];
       const int* end = nodes.rows.data() + nodes.first_row[s + 1];
-      const int* at = std::lower_bound(begin, end, row);
-      if (at == end || *at != row)
+      if (!std::binary_search(begin, end, row))
       {
-        return Status::failure(StatusCode::internal_error,
-          "the sparsity pattern of the matrix to factor differs from the analyzed pattern");
+        return wrong_pattern();
       }
-      plan->position[k] = nodes.first_value[s] + (column - nodes.first_column[s]) * plan->rows(s) +
-        static_cast<int>(at - begin);
+      column_of_entry[k] = column;
+      plan->first_entry[column + 1] += 1;
     }
   }
+  std::partial_sum(plan->first_entry.begin(), plan->first_entry.end(), plan->first_entry.begin());
+  plan->entry.resize(static_cast<std::size_t>(plan->first_entry.back()));
+  plan->entry_row.resize(plan->entry.size());
+  std::vector<int> next(plan->first_entry.begin(), plan->first_entry.end() - 1);
+  for (int j = 0; j < n; ++j)
+  {
+    for (int k = matrix.outerIndexPtr()[j]; k < matrix.outerIndexPtr()[j + 1]; ++k)
+    {
+      if (column_of_entry[k] >= 0)
+      {
+        const int at = next[column_of_entry[k]]++;
+        plan->entry[at] = k;
+        plan->entry_row[at] = std::max(step_of[matrix.innerIndexPtr()[k]], step_of[j]);
+      }
+    }
+  }
+  plan->stored_entries = matrix.nonZeros();
   this->impl_->plan = std::move(plan);
   return {};
 }
 
 #ifdef BINDPOSE_HAS_CHOLMOD
-/// Write the entries of the scaled matrix to the blocks of the factor.
-void FloatCholesky::Impl::scatter(const SparseMatrix& matrix, double shift)
+/// Write the entries of the scaled matrix to the block of a supernode's columns. row_in_front
+/// contains the rows of this supernode.
+void FloatCholesky::Impl::scatter(const SparseMatrix& matrix, double shift, int s)
 {
-  const int n = this->plan->size();
-  this->scale.resize(n);
-  for (int j = 0; j < n; ++j)
+  const Plan& shared = *this->plan;
+  const std::vector<int>& order = shared.fronts.nodes.order;
+  const Fronts& fronts = this->fronts();
+  const auto rows = static_cast<std::size_t>(fronts.rows(s));
+  float* block = this->values.data() + fronts.nodes.first_value[s];
+  std::fill(block, block + rows * static_cast<std::size_t>(fronts.columns(s)), 0.0F);
+  for (int c = 0; c < fronts.columns(s); ++c)
   {
-    const double diagonal = matrix.coeff(j, j);
-    // If a diagonal entry is not positive, the factorization fails at its pivot.
-    this->scale[j] = diagonal > 0.0 ? 1.0 / std::sqrt(diagonal) : 1.0;
-  }
-  std::fill(this->values.begin(), this->values.end(), 0.0F);
-  for (int j = 0; j < n; ++j)
-  {
-    for (int k = matrix.outerIndexPtr()[j]; k < matrix.outerIndexPtr()[j + 1]; ++k)
+    const int step = fronts.nodes.first_column[s] + c;
+    const int column = this->is_block ? this->block.step_in_whole[step] : step;
+    for (int e = shared.first_entry[column]; e < shared.first_entry[column + 1]; ++e)
     {
-      const int i = matrix.innerIndexPtr()[k];
-      const double value = matrix.valuePtr()[k] * this->scale[i] * this->scale[j];
-      if (i >= j)
+      const int in_whole = shared.entry_row[e];
+      const int row = this->is_block ? this->block.step_in_block[in_whole] : in_whole;
+      if (row < 0)
       {
-        this->values[this->plan->position[k]] =
-          static_cast<float>(i == j ? value + shift * std::abs(value) : value);
+        continue;
       }
+      const double value = matrix.valuePtr()[shared.entry[e]] * this->scale[order[in_whole]] *
+        this->scale[order[column]];
+      block[static_cast<std::size_t>(c) * rows +
+        static_cast<std::size_t>(this->row_in_front[row])] =
+        static_cast<float>(in_whole == column ? value + shift * std::abs(value) : value);
     }
   }
 }
@@ -264,10 +438,10 @@ void FloatCholesky::Impl::scatter(const SparseMatrix& matrix, double shift)
 /// columns of the block or within the rows below.
 void FloatCholesky::Impl::find_runs(int child, int columns)
 {
-  const int* row = this->plan->nodes->rows.data() + this->plan->nodes->first_row[child] +
-    this->plan->columns(child);
+  const Fronts& fronts = this->fronts();
+  const int* row = fronts.nodes.rows.data() + fronts.nodes.first_row[child] + fronts.columns(child);
   this->runs.clear();
-  for (int i = 0; i < this->plan->below(child); ++i)
+  for (int i = 0; i < fronts.below(child); ++i)
   {
     const int to = this->row_in_front[row[i]];
     if (this->runs.empty() || to != this->runs.back().to + this->runs.back().length ||
@@ -281,10 +455,10 @@ void FloatCholesky::Impl::find_runs(int child, int columns)
 
 /// Eliminate one supernode.
 /// @return 0, or the 1-based column of the block whose pivot is not positive.
-int FloatCholesky::Impl::eliminate(int s)
+int FloatCholesky::Impl::eliminate(const SparseMatrix& matrix, double shift, int s)
 {
-  const Plan& shared = *this->plan;
-  const Supernodes& nodes = *shared.nodes;
+  const Fronts& shared = this->fronts();
+  const Supernodes& nodes = shared.nodes;
   const int columns = shared.columns(s);
   const int rows = shared.rows(s);
   const int below_count = shared.below(s);
@@ -294,6 +468,7 @@ int FloatCholesky::Impl::eliminate(int s)
   {
     this->row_in_front[row[i]] = i;
   }
+  this->scatter(matrix, shift, s);
   const int stack_of_mine = shared.depth[s];
   float* mine = this->stack[stack_of_mine].data() + this->top[stack_of_mine];
   std::vector<int>& children = this->waiting[!stack_of_mine];
@@ -383,38 +558,38 @@ int FloatCholesky::Impl::eliminate(int s)
   return 0;
 }
 
-Status FloatCholesky::factor(
+Status FloatCholesky::Impl::factor(
   const ExecutionContext& context, const SparseMatrix& matrix, double shift)
 {
-  Impl& impl = *this->impl_;
-  if (!impl.plan || matrix.rows() != impl.plan->size() ||
-    matrix.nonZeros() != static_cast<Index>(impl.plan->position.size()))
-  {
-    return Status::failure(StatusCode::internal_error,
-      "the sparsity pattern of the matrix to factor differs from the analyzed pattern");
-  }
-  Plan& plan = *impl.plan;
-  plan.factorizations += 1;
-  impl.values.resize(static_cast<std::size_t>(plan.nodes->first_value.back()));
+  const Fronts& fronts = this->fronts();
+  this->plan->factorizations += 1;
+  this->values.resize(static_cast<std::size_t>(fronts.nodes.first_value.back()));
   for (const int k : { 0, 1 })
   {
-    impl.stack[k].resize(plan.stack_size[k]);
-    impl.top[k] = 0;
-    impl.waiting[k].clear();
+    this->stack[k].resize(std::max(this->stack[k].size(), fronts.stack_size[k]));
+    this->top[k] = 0;
+    this->waiting[k].clear();
   }
-  impl.row_in_front.resize(static_cast<std::size_t>(plan.size()));
-  impl.scatter(matrix, shift);
+  this->row_in_front.resize(static_cast<std::size_t>(this->plan->size()));
+  this->scale.resize(this->plan->size());
+  for (int j = 0; j < this->plan->size(); ++j)
+  {
+    const double diagonal = matrix.coeff(j, j);
+    // If a diagonal entry is not positive, the factorization fails at its pivot.
+    this->scale[j] = diagonal > 0.0 ? 1.0 / std::sqrt(diagonal) : 1.0;
+  }
   const SerialBlas serial;
-  for (int s = 0; s < plan.count(); ++s)
+  const FlushDenormals flush;
+  for (int s = 0; s < fronts.count(); ++s)
   {
     if (context.canceled())
     {
       return Status::canceled();
     }
-    const int failed = impl.eliminate(s);
+    const int failed = this->eliminate(matrix, shift, s);
     if (failed)
     {
-      const int unknown = plan.nodes->order[plan.nodes->first_column[s] + failed - 1];
+      const int unknown = fronts.nodes.order[fronts.nodes.first_column[s] + failed - 1];
       return Status::invalid_input(
         "the matrix is not positive definite in single precision: the pivot of unknown " +
         std::to_string(unknown) + " is not positive");
@@ -423,23 +598,56 @@ Status FloatCholesky::factor(
   return {};
 }
 #else
-void FloatCholesky::Impl::scatter(const SparseMatrix&, double) {}
-int FloatCholesky::Impl::eliminate(int)
+void FloatCholesky::Impl::scatter(const SparseMatrix&, double, int) {}
+int FloatCholesky::Impl::eliminate(const SparseMatrix&, double, int)
 {
   return 0;
 }
 void FloatCholesky::Impl::find_runs(int, int) {}
-Status FloatCholesky::factor(const ExecutionContext&, const SparseMatrix&, double)
+Status FloatCholesky::Impl::factor(const ExecutionContext&, const SparseMatrix&, double)
 {
   return Status::failure(StatusCode::unavailable, "this build has no BLAS");
 }
 #endif
 
+bool FloatCholesky::has_pattern_of(const SparseMatrix& matrix) const
+{
+  const Plan* plan = this->impl_->plan.get();
+  return plan && matrix.rows() == plan->size() && matrix.nonZeros() == plan->stored_entries;
+}
+
+Status FloatCholesky::factor(
+  const ExecutionContext& context, const SparseMatrix& matrix, double shift)
+{
+  if (!this->has_pattern_of(matrix))
+  {
+    return wrong_pattern();
+  }
+  this->impl_->is_block = false;
+  return this->impl_->factor(context, matrix, shift);
+}
+
+Status FloatCholesky::factor_block(
+  const ExecutionContext& context, const SparseMatrix& matrix, const std::vector<char>& left_out)
+{
+  if (!this->has_pattern_of(matrix) || static_cast<Index>(left_out.size()) != matrix.rows())
+  {
+    return wrong_pattern();
+  }
+  restrict_fronts(*this->impl_->plan, left_out, this->impl_->block);
+  this->impl_->is_block = true;
+  return this->impl_->factor(context, matrix, 0.0);
+}
+
 /// Solve for several columns. rhs and x are #unknowns x columns, column-major.
 void FloatCholesky::Impl::solve(const double* rhs, int columns, double* x) const
 {
-  const std::vector<int>& order = this->plan->nodes->order;
-  const std::size_t n = order.size();
+  const FlushDenormals flush;
+  const Supernodes& nodes = this->fronts().nodes;
+  const std::vector<int>& order = nodes.order;
+  const std::size_t count = order.size();
+  const auto n = static_cast<std::size_t>(this->plan->size());
+  std::fill(x, x + n * static_cast<std::size_t>(columns), 0.0);
   std::vector<float> scaled;
   std::array<double, most_solve_columns> factor{};
   for (int done = 0; done < columns;)
@@ -448,15 +656,15 @@ void FloatCholesky::Impl::solve(const double* rhs, int columns, double* x) const
     const int width = left == 1 ? 1 : left <= 4 ? 4 : most_solve_columns;
     const int wanted = std::min(left, width);
     const auto stride = static_cast<std::size_t>(width);
-    scaled.assign(n * stride, 0.0F);
+    scaled.assign(count * stride, 0.0F);
     for (int c = 0; c < wanted; ++c)
     {
       const double* from = rhs + static_cast<std::size_t>(done + c) * n;
       double size = 0.0;
       bool finite = true;
-      for (std::size_t i = 0; i < n; ++i)
+      for (const int i : order)
       {
-        const double value = std::abs(from[i] * this->scale[static_cast<Eigen::Index>(i)]);
+        const double value = std::abs(from[i] * this->scale[i]);
         size = std::max(size, value);
         finite = finite && std::isfinite(value);
       }
@@ -464,17 +672,17 @@ void FloatCholesky::Impl::solve(const double* rhs, int columns, double* x) const
       // the range of floats.
       factor[c] = size > 0.0 && finite ? size : 1.0;
       float* into = scaled.data() + c;
-      for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t i = 0; i < count; ++i)
       {
         into[i * stride] = static_cast<float>(from[order[i]] * this->scale[order[i]] / factor[c]);
       }
     }
-    solve_with_supernodes(*this->plan->nodes, this->values.data(), scaled.data(), width);
+    solve_with_supernodes(nodes, this->values.data(), scaled.data(), width);
     for (int c = 0; c < wanted; ++c)
     {
       const float* from = scaled.data() + c;
       double* into = x + static_cast<std::size_t>(done + c) * n;
-      for (std::size_t i = 0; i < n; ++i)
+      for (std::size_t i = 0; i < count; ++i)
       {
         into[order[i]] = factor[c] * static_cast<double>(from[i * stride]) * this->scale[order[i]];
       }

@@ -5,6 +5,7 @@
 #include "linear/sparse_solver.h"
 
 #include <memory>
+#include <vector>
 
 namespace bindpose
 {
@@ -42,6 +43,12 @@ public:
   /// the message contains the unknown whose pivot failed. A cancel request is checked between dense
   /// blocks.
   Status factor(const ExecutionContext& context, const SparseMatrix& matrix, double shift);
+  /// Factor the block of the unknowns that are not left out. solve() then ignores the rows of the
+  /// right-hand side that are left out, and returns 0 for these unknowns. Time and memory are those
+  /// of a matrix of the block's size with the same order of elimination.
+  /// @param left_out  one entry per unknown
+  Status factor_block(
+    const ExecutionContext& context, const SparseMatrix& matrix, const std::vector<char>& left_out);
   /// Solve approximately with the last factorization. Several threads may call this function
   /// concurrently.
   void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const;
@@ -58,6 +65,8 @@ public:
   Index factorizations() const;
 
 private:
+  bool has_pattern_of(const SparseMatrix& matrix) const;
+
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

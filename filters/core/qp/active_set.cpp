@@ -1,5 +1,5 @@
 // The active-set method of BoxQp (see active_set.h). A vertex is held if its weight is kept at a
-// bound. The held vertices are decoupled in A before A is factored. The factor gives exact
+// bound. Only the block of A without the held vertices is factored. The factor gives exact
 // solutions while the set of held vertices does not change. It is a good preconditioner if only few
 // vertices enter or leave this set. If projected_newton() does not converge with a factor, the next
 // factor is computed for the vertices that are held at that time.
@@ -75,10 +75,7 @@ BoxQpSolution active_set(ExecutionContext& context, const SplitForm& matrices,
       held = held_vertices(matrices, problem, matrices.a.transpose() * x + problem.c, x);
     }
     const Stopwatch factor_watch;
-    std::copy(matrices.lower.valuePtr(), matrices.lower.valuePtr() + matrices.lower.nonZeros(),
-      workspace.matrix.valuePtr());
-    SplitForm::decouple(held, workspace.matrix);
-    const Status factored = workspace.single.factor(context, workspace.matrix, 0.0);
+    const Status factored = workspace.single.factor_block(context, matrices.lower, held);
     solution.factorizations += 1;
     solution.factor_seconds += factor_watch.seconds();
     if (!factored.ok())
@@ -88,7 +85,16 @@ BoxQpSolution active_set(ExecutionContext& context, const SplitForm& matrices,
     }
     moved = projected_newton(
       context, matrices, problem,
-      [&](const VectorXd& r, VectorXd& z) { workspace.single.solve(r, z); }, rounds, enough, x);
+      [&](const VectorXd& r, VectorXd& z)
+      {
+        workspace.single.solve(r, z);
+        for (Index i = 0; i < r.size(); ++i)
+        {
+          // Vertices that are no longer held are not in the factor.
+          z[i] = held[i] ? r[i] / matrices.lower.valuePtr()[matrices.diagonal[i]] : z[i];
+        }
+      },
+      rounds, enough, x);
     solution.iterations += 1;
   }
   // After the maximum number of iterations, a certified iterate is a valid result even if the

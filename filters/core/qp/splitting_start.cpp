@@ -15,6 +15,7 @@
 // The constants were measured on boxes and on real shapes with 5k to 70k vertices.
 #include "qp/splitting_start.h"
 
+#include "base/flush_denormals.h"
 #include "base/parallel.h"
 #include "qp/column_problem.h"
 
@@ -43,7 +44,7 @@ constexpr int steps = 80;
 // this fraction of its energy.
 constexpr double settled_change = 1e-7;
 constexpr int memory = 8; // number of past iterations for Anderson acceleration
-constexpr Index largest_block = 4; // number of columns that are solved together
+constexpr Index largest_block = 8; // number of columns that are solved together
 
 /// Return the solution y in (0, 1) of y - z = mu_per_p / y - mu_per_p / (1 - y), where mu_per_p is
 /// mu divided by the vertex's entry of P. Newton's method starts near the bound that is closer to
@@ -167,6 +168,7 @@ std::vector<ColumnStart> splitting_start(ExecutionContext& context, const SplitF
   parallel_for(context, blocks, 1,
     [&](Index begin, Index)
     {
+      const FlushDenormals flush; // for the floats of Anderson acceleration
       const Index first = std::min(begin * block, count);
       const Index width = std::min(block, count - first);
       MatrixXd z(n, width), y(n, width), rhs, x;

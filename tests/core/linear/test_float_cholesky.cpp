@@ -84,6 +84,58 @@ TEST_F(FloatCholeskyTest, SolvesAsADenseFactorizationDoes)
   }
 }
 
+TEST_F(FloatCholeskyTest, FactorsTheBlockOfAnyUnknowns)
+{
+  test::Random random(3);
+  for (const int n : { 1, 3, 6, 9 })
+  {
+    const SparseMatrix a = lower_triangle(n, 0.1);
+    const Eigen::MatrixXd dense =
+      Eigen::MatrixXd(Eigen::MatrixXd(a).selfadjointView<Eigen::Lower>());
+    SparseSolver solver;
+    FloatCholesky single = analyzed(a, solver);
+    for (const double fraction : { 0.0, 0.05, 0.3, 0.6, 0.9, 0.97, 1.0 })
+    {
+      std::vector<char> left_out;
+      std::vector<int> block;
+      for (int i = 0; i < a.rows(); ++i)
+      {
+        left_out.push_back(random.uniform(0.0, 1.0) < fraction ? 1 : 0);
+        if (!left_out.back())
+        {
+          block.push_back(i);
+        }
+      }
+      ASSERT_TRUE(single.factor_block(context_, a, left_out).ok());
+      const Eigen::MatrixXd rhs =
+        Eigen::MatrixXd::NullaryExpr(a.rows(), 3, [&] { return random.uniform(-1.0, 1.0); });
+      Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(a.rows(), 3);
+      if (!block.empty())
+      {
+        const Eigen::MatrixXd inner = dense(block, block);
+        const Eigen::MatrixXd inner_rhs = rhs(block, Eigen::all);
+        expected(block, Eigen::all) = Eigen::MatrixXd(inner.ldlt().solve(inner_rhs));
+      }
+      Eigen::MatrixXd x;
+      single.solve(rhs, x);
+      EXPECT_LE((x - expected).norm(), 1e-4 * expected.norm()) << n << " " << fraction;
+      for (int i = 0; i < a.rows(); ++i)
+      {
+        EXPECT_TRUE(!left_out[i] || x.row(i).isZero(0.0));
+      }
+    }
+    // A factorization of the whole matrix after that of a block has the bits of a first one.
+    FloatCholesky fresh = single.clone();
+    ASSERT_TRUE(single.factor(context_, a, 0.0).ok());
+    ASSERT_TRUE(fresh.factor(context_, a, 0.0).ok());
+    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(a.rows());
+    Eigen::VectorXd x, y;
+    single.solve(ones, x);
+    fresh.solve(ones, y);
+    EXPECT_EQ(x, y);
+  }
+}
+
 TEST_F(FloatCholeskyTest, SolvesAnyNumberOfColumnsAsItSolvesOne)
 {
   test::Random random(2);

@@ -45,11 +45,11 @@ struct vtkBindAlgorithm::Cache
 namespace
 {
 /// Threshold below which a transform is singular: determinant / (norm of the linear part)^3.
-constexpr double no_volume = 1e-12;
+constexpr double volume_tolerance = 1e-12;
 
 /// Return warnings that name the handles in mode full whose transform is a reflection or is
 /// singular.
-std::vector<std::string> warnings_of(const Handles& handles, const Pose& pose)
+std::vector<std::string> transform_warnings(const Handles& handles, const Pose& pose)
 {
   std::vector<Index> mirrored, collapsed;
   for (std::size_t h = 0; h < pose.size(); ++h)
@@ -60,7 +60,7 @@ std::vector<std::string> warnings_of(const Handles& handles, const Pose& pose)
     {
       continue;
     }
-    if (!(std::abs(volume) > no_volume * size * size * size))
+    if (!(std::abs(volume) > volume_tolerance * size * size * size))
     {
       collapsed.push_back(static_cast<Index>(h));
     }
@@ -85,7 +85,7 @@ std::vector<std::string> warnings_of(const Handles& handles, const Pose& pose)
 }
 } // namespace
 
-vtkBindAlgorithm::vtkBindAlgorithm() : Bound(new Cache)
+vtkBindAlgorithm::vtkBindAlgorithm() : BindCache(new Cache)
 {
   this->BindTime.Modified();
 }
@@ -144,7 +144,7 @@ Status vtkBindAlgorithm::Prepare(ExecutionContext& context, vtkInformationVector
     this->NeedsWeights() ? mesh->GetPointData()->GetArray(this->ArrayName.c_str()) : nullptr;
   if (!weights && this->NeedsWeights())
   {
-    return no_weights(mesh, this->ArrayName);
+    return missing_weights_error(mesh, this->ArrayName);
   }
   if (!handle_data && this->NeedsHandles())
   {
@@ -164,12 +164,12 @@ Status vtkBindAlgorithm::Prepare(ExecutionContext& context, vtkInformationVector
       key.add(object);
     }
   }
-  const bool bind = !this->Bound->valid || this->Bound->key != key;
+  const bool bind = !this->BindCache->valid || this->BindCache->key != key;
   if (bind)
   {
-    this->Bound.reset(new Cache);
+    this->BindCache.reset(new Cache);
   }
-  Cache& bound = *this->Bound;
+  Cache& bound = *this->BindCache;
   if (bind)
   {
     Status status;
@@ -202,28 +202,28 @@ Status vtkBindAlgorithm::Prepare(ExecutionContext& context, vtkInformationVector
     status = to_pose(handle_data, bound.handles, bound.cells, bound.pose);
     if (status.ok() && this->FindsRotations())
     {
-      bound.pose = with_found_rotations(bound.handles, bound.pose);
+      bound.pose = resolve_automatic_modes(bound.handles, bound.pose);
     }
   }
   if (!status.ok())
   {
     return status;
   }
-  bound.pose_warnings = warnings_of(bound.handles, bound.pose);
+  bound.pose_warnings = transform_warnings(bound.handles, bound.pose);
   bound.input.emplace(PoseInput{ mesh, bound.points.view(), bound.weights.view(), bound.handles,
     bound.pose, handle_data, bound.cells });
   bound.bound_now = bind;
   if (bind)
   {
     Phase phase(context, "bind", 0.0, 0.8);
-    const Status made = this->Bind(context, *bound.input);
-    if (!made.usable())
+    const Status bind_status = this->Bind(context, *bound.input);
+    if (!bind_status.usable())
     {
-      return made;
+      return bind_status;
     }
-    bound.status.report.merge(made.report);
+    bound.status.report.merge(bind_status.report);
     bound.status.warnings.insert(
-      bound.status.warnings.end(), made.warnings.begin(), made.warnings.end());
+      bound.status.warnings.end(), bind_status.warnings.begin(), bind_status.warnings.end());
     bound.key = key;
     bound.valid = true;
     this->NumberOfBinds += 1;
@@ -233,12 +233,12 @@ Status vtkBindAlgorithm::Prepare(ExecutionContext& context, vtkInformationVector
 
 const PoseInput& vtkBindAlgorithm::GetPoseInput() const
 {
-  return *this->Bound->input;
+  return *this->BindCache->input;
 }
 
 Status vtkBindAlgorithm::WithBindReport(const Status& posed) const
 {
-  const Cache& bound = *this->Bound;
+  const Cache& bound = *this->BindCache;
   Status total = posed;
   Report report;
   report.set("counts.vertices", static_cast<int>(bound.points.view().rows()));

@@ -133,13 +133,13 @@ int vtkBindposeAlgorithm::RequestUpdateExtent(
   {
     for (int i = 0; i < input[port]->GetNumberOfInformationObjects(); ++i)
     {
-      AskForAll(input[port]->GetInformationObject(i));
+      RequestWholeInput(input[port]->GetInformationObject(i));
     }
   }
   return 1;
 }
 
-void vtkBindposeAlgorithm::AskForAll(vtkInformation* input)
+void vtkBindposeAlgorithm::RequestWholeInput(vtkInformation* input)
 {
   using SDDP = vtkStreamingDemandDrivenPipeline;
   input->Set(SDDP::UPDATE_PIECE_NUMBER(), 0);
@@ -190,9 +190,9 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
   // With a composite input the executive calls this function once per block. The first failure is
   // the status of all blocks, and a cancel stops all of them.
   const bool later_block = this->GetProgressShift() > 0.0;
-  const bool failed_before = later_block && !this->LastStatus->usable();
+  const bool earlier_block_failed = later_block && !this->LastStatus->usable();
   bindpose::Status status;
-  if (failed_before && this->LastStatus->code == bindpose::StatusCode::canceled)
+  if (earlier_block_failed && this->LastStatus->code == bindpose::StatusCode::canceled)
   {
     status = bindpose::Status::canceled();
   }
@@ -240,7 +240,7 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
     }
     bindpose::attach_report(data, status.report);
   }
-  if (!failed_before)
+  if (!earlier_block_failed)
   {
     *this->LastStatus = status;
     this->ExecuteAgain = !status.usable();

@@ -121,7 +121,7 @@ protected:
   virtual bool MakesPieces() { return false; }
 
   /// Request the whole input, not a piece. Call this in RequestUpdateExtent().
-  static void AskForAll(vtkInformation* input);
+  static void RequestWholeInput(vtkInformation* input);
 
   /// Return the requested piece of an output.
   static int GetPiece(vtkInformation* output);

@@ -33,7 +33,7 @@ struct vtkBoneEndpointWeights::Cache
   vtkSmartPointer<vtkDoubleArray> weights;
 };
 
-vtkBoneEndpointWeights::vtkBoneEndpointWeights() : Bound(new Cache) {}
+vtkBoneEndpointWeights::vtkBoneEndpointWeights() : BindCache(new Cache) {}
 
 vtkBoneEndpointWeights::~vtkBoneEndpointWeights() = default;
 
@@ -62,7 +62,7 @@ Status vtkBoneEndpointWeights::Execute(
   {
     key.add(object);
   }
-  const bool bind = !this->Bound->valid || this->Bound->key != key;
+  const bool bind = !this->BindCache->valid || this->BindCache->key != key;
   if (bind)
   {
     const Phase phase(context, "endpoints");
@@ -83,18 +83,18 @@ Status vtkBoneEndpointWeights::Execute(
     {
       return status;
     }
-    Cache made;
-    made.weights = to_weights_array(endpoint_array_name, endpoints, handles);
+    Cache new_cache;
+    new_cache.weights = to_weights_array(endpoint_array_name, endpoints, handles);
     status.report.set("counts.handles", static_cast<Index>(handles.size()));
-    made.status = status;
-    made.key = key;
-    made.valid = true;
-    *this->Bound = std::move(made);
+    new_cache.status = status;
+    new_cache.key = key;
+    new_cache.valid = true;
+    *this->BindCache = std::move(new_cache);
     this->NumberOfBinds += 1;
   }
   result->ShallowCopy(mesh);
-  result->GetPointData()->AddArray(this->Bound->weights);
-  Status status = this->Bound->status;
+  result->GetPointData()->AddArray(this->BindCache->weights);
+  Status status = this->BindCache->status;
   status.report.set("counts.vertices", Report::Value(std::int64_t(mesh->GetNumberOfPoints())));
   status.report.set("binds", this->NumberOfBinds);
   if (!bind && !status.warnings.empty())

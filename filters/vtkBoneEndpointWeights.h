@@ -81,7 +81,7 @@ private:
   void operator=(const vtkBoneEndpointWeights&) = delete;
 
   struct Cache;
-  std::unique_ptr<Cache> Bound;
+  std::unique_ptr<Cache> BindCache;
   int Method = JOINTS;
   int Domain = 1;
   int NumberOfBinds = 0;

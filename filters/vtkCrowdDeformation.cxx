@@ -174,7 +174,7 @@ Status vtkCrowdDeformation::Execute(
 
   for (Pose& pose : instances.poses)
   {
-    pose = with_found_rotations(bound.handles, pose);
+    pose = resolve_automatic_modes(bound.handles, pose);
   }
 
   Crowd& crowd = this->Internal->crowd;

@@ -34,7 +34,7 @@ struct Surface
   Triangles triangles; ///< corners of the triangles, as indices into `points`
   std::vector<Index> points; ///< the written points, as ids of points of the mesh
 
-  Points take(PointsView all) const
+  Points select_rows(PointsView all) const
   {
     Points rows(static_cast<Index>(this->points.size()), 3);
     for (Index v = 0; v < rows.rows(); ++v)
@@ -67,22 +67,22 @@ Status to_written_surface(vtkDataSet* mesh, Surface& surface)
     return status;
   }
   surface.triangles = boundary_triangles(domain.tets);
-  std::vector<Index> place(static_cast<std::size_t>(count), -1);
+  std::vector<Index> new_index(static_cast<std::size_t>(count), -1);
   for (Index k = 0; k < surface.triangles.size(); ++k)
   {
-    place[surface.triangles.data()[k]] = 0;
+    new_index[surface.triangles.data()[k]] = 0;
   }
   for (Index v = 0; v < count; ++v)
   {
-    if (place[v] == 0)
+    if (new_index[v] == 0)
     {
-      place[v] = static_cast<Index>(surface.points.size());
+      new_index[v] = static_cast<Index>(surface.points.size());
       surface.points.push_back(v);
     }
   }
   for (Index k = 0; k < surface.triangles.size(); ++k)
   {
-    surface.triangles.data()[k] = place[surface.triangles.data()[k]];
+    surface.triangles.data()[k] = new_index[surface.triangles.data()[k]];
   }
   return status;
 }
@@ -90,7 +90,7 @@ Status to_written_surface(vtkDataSet* mesh, Surface& surface)
 /// Return the rows of an array with as many columns as the matrix; no rows if there is no such
 /// array.
 template <typename Matrix>
-void take_rows(vtkDataArray* array, const Surface& surface, Matrix& rows)
+void read_rows(vtkDataArray* array, const Surface& surface, Matrix& rows)
 {
   if (!array || array->GetNumberOfComponents() < rows.cols())
   {
@@ -106,7 +106,7 @@ void take_rows(vtkDataArray* array, const Surface& surface, Matrix& rows)
   }
 }
 
-Status take_colors(vtkPointData* data, const char* name, const Surface& surface, GltfSkin& skin)
+Status read_colors(vtkPointData* data, const char* name, const Surface& surface, GltfSkin& skin)
 {
   const bool named = name && name[0];
   auto* array =
@@ -131,7 +131,7 @@ Status take_colors(vtkPointData* data, const char* name, const Surface& surface,
 
 /// Return the transforms that a pose filter stored with a posed mesh (field data
 /// `HandleTransforms`).
-Status take_transforms(vtkDataSet* frame, const Handles& handles, std::vector<Affine>& transforms)
+Status read_transforms(vtkDataSet* frame, const Handles& handles, std::vector<Affine>& transforms)
 {
   vtkDataArray* array = frame->GetFieldData()->GetArray("HandleTransforms");
   if (!array || array->GetNumberOfComponents() != 12 ||
@@ -165,7 +165,7 @@ void add_warnings(const Status& from, Status& to)
 }
 
 /// Convert weights, handles and pose to the kernel's weights, joints and posed joints.
-Status take_skin(vtkPointSet* mesh, const std::string& array_name, vtkPolyData* handle_data,
+Status read_skin(vtkPointSet* mesh, const std::string& array_name, vtkPolyData* handle_data,
   const Surface& surface, Handles& handles, Pose& pose, GltfSkin& skin)
 {
   WeightsInput input;
@@ -192,7 +192,7 @@ Status take_skin(vtkPointSet* mesh, const std::string& array_name, vtkPolyData* 
   return status;
 }
 
-Status take_frames(vtkInformationVector* input, const Surface& surface, vtkIdType points,
+Status read_frames(vtkInformationVector* input, const Surface& surface, vtkIdType points,
   const Handles& handles, bool morph, GltfSkin& skin)
 {
   for (int k = 0; k < input->GetNumberOfInformationObjects(); ++k)
@@ -205,12 +205,12 @@ Status take_frames(vtkInformationVector* input, const Surface& surface, vtkIdTyp
         std::to_string(points));
     }
     GltfFrame frame;
-    frame.points = surface.take(to_points(data).view());
-    take_rows(data->GetPointData()->GetNormals(), surface, frame.normals);
+    frame.points = surface.select_rows(to_points(data).view());
+    read_rows(data->GetPointData()->GetNormals(), surface, frame.normals);
     if (!morph && !handles.empty())
     {
       std::vector<Affine> transforms;
-      const Status status = take_transforms(data, handles, transforms);
+      const Status status = read_transforms(data, handles, transforms);
       if (!status.ok())
       {
         return status;
@@ -222,7 +222,7 @@ Status take_frames(vtkInformationVector* input, const Surface& surface, vtkIdTyp
   return {};
 }
 
-Status take_poses(const std::string& path, const Handles& handles, const Pose& base, GltfSkin& skin)
+Status read_poses(const std::string& path, const Handles& handles, const Pose& base, GltfSkin& skin)
 {
   std::string text;
   Status status = read_file(path, text);
@@ -313,20 +313,20 @@ Status vtkGLTFSkinWriter::Execute(
     return status;
   }
   GltfSkin skin;
-  skin.points = surface.take(to_points(mesh).view());
+  skin.points = surface.select_rows(to_points(mesh).view());
   skin.triangles = surface.triangles;
-  take_rows(mesh->GetPointData()->GetNormals(), surface, skin.normals);
-  take_rows(mesh->GetPointData()->GetTCoords(), surface, skin.texture);
-  status = take_colors(mesh->GetPointData(), this->ColorArrayName, surface, skin);
+  read_rows(mesh->GetPointData()->GetNormals(), surface, skin.normals);
+  read_rows(mesh->GetPointData()->GetTCoords(), surface, skin.texture);
+  status = read_colors(mesh->GetPointData(), this->ColorArrayName, surface, skin);
   Handles handles;
   Pose pose;
-  Status of_handles;
+  Status skin_status;
   if (status.ok() && handle_data)
   {
-    of_handles = take_skin(
+    skin_status = read_skin(
       mesh, this->ArrayName ? this->ArrayName : "", handle_data, surface, handles, pose, skin);
-    status.code = of_handles.code;
-    status.message = of_handles.message;
+    status.code = skin_status.code;
+    status.message = skin_status.message;
   }
   GltfOptions options;
   options.binary = file_extension(path) == "glb";
@@ -336,7 +336,7 @@ Status vtkGLTFSkinWriter::Execute(
   if (status.ok() && input[2]->GetNumberOfInformationObjects() > 0)
   {
     const bool morph = this->Animation == MORPH;
-    status = take_frames(input[2], surface, mesh->GetNumberOfPoints(), handles, morph, skin);
+    status = read_frames(input[2], surface, mesh->GetNumberOfPoints(), handles, morph, skin);
     for (GltfJoint& joint : skin.joints)
     {
       // The morph targets contain the motion already, so the joints are at rest.
@@ -350,7 +350,7 @@ Status vtkGLTFSkinWriter::Execute(
       : this->Animation == MORPH
       ? Status::invalid_input(
           "an animation with morph targets needs input frames instead of a pose file")
-      : take_poses(this->PoseFileName, handles, pose, skin);
+      : read_poses(this->PoseFileName, handles, pose, skin);
   }
   else if (const std::string unused = unused_stretch(pose, StretchUse::tails); !unused.empty())
   {
@@ -371,7 +371,7 @@ Status vtkGLTFSkinWriter::Execute(
       written.message.replace(at, file.temporary().size(), path);
     }
   }
-  add_warnings(of_handles, written);
+  add_warnings(skin_status, written);
   add_warnings(status, written);
   if (!written.ok())
   {

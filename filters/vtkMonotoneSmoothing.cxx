@@ -100,7 +100,7 @@ Status to_list(vtkDataSet* mesh, const std::string& name, ExtremaList& list)
   return {};
 }
 
-void write_extrema(const Eigen::VectorXd& data, const PointsView& places,
+void write_extrema(const Eigen::VectorXd& data, const PointsView& positions,
   const MonotoneSmoothingResult& result, vtkPolyData* output)
 {
   vtkNew<vtkPoints> points;
@@ -111,8 +111,8 @@ void write_extrema(const Eigen::VectorXd& data, const PointsView& places,
   vtkNew<vtkDoubleArray> values, data_values, persistences;
   const auto add = [&](const Extremum& extremum, bool in_list)
   {
-    const Vec3 place = places.row(extremum.vertex);
-    const vtkIdType id = points->InsertNextPoint(place.data());
+    const Vec3 position = positions.row(extremum.vertex);
+    const vtkIdType id = points->InsertNextPoint(position.data());
     vertices->InsertNextCell(1, &id);
     kinds->InsertNextValue(extremum.maximum ? 1 : -1);
     values->InsertNextValue(result.values[extremum.vertex]);

@@ -66,9 +66,9 @@ void add_point_arrays(
   {
     for (int k = 0; k < 2; ++k)
     {
-      const double share = (shape.points(v, k) - input.lower[k]) / size[k];
+      const double coordinate = (shape.points(v, k) - input.lower[k]) / size[k];
       // Rounding may give texture coordinates slightly outside of 0 to 1.
-      texture->SetComponent(v, k, std::clamp(share, 0.0, 1.0));
+      texture->SetComponent(v, k, std::clamp(coordinate, 0.0, 1.0));
     }
     ids->SetValue(v, shape.original_vertices[v]);
   }

@@ -19,7 +19,7 @@
 
 using namespace bindpose;
 
-struct vtkPoseAlgorithm::BindParts
+struct vtkPoseAlgorithm::RestData
 {
   std::optional<PoseElements> elements;
   RestElements rest;
@@ -55,7 +55,7 @@ vtkSmartPointer<vtkDataArray> to_normals(const Points& normals, vtkDataArray* li
 }
 } // namespace
 
-vtkPoseAlgorithm::vtkPoseAlgorithm() : OfBind(new BindParts) {}
+vtkPoseAlgorithm::vtkPoseAlgorithm() : RestCache(new RestData) {}
 
 vtkPoseAlgorithm::~vtkPoseAlgorithm() = default;
 
@@ -71,7 +71,7 @@ Status vtkPoseAlgorithm::Execute(
   }
   if (this->GetNumberOfBinds() != binds)
   {
-    *this->OfBind = BindParts();
+    *this->RestCache = RestData();
   }
   const PoseInput& pose_input = this->GetPoseInput();
   vtkPointSet* mesh = pose_input.mesh;
@@ -90,7 +90,8 @@ Status vtkPoseAlgorithm::Execute(
   }
   if (!posed.rotations.empty())
   {
-    add_rotations(*posed.groups, posed.rotations, this->OfBind->clusters, result->GetPointData());
+    add_rotations(
+      *posed.groups, posed.rotations, this->RestCache->clusters, result->GetPointData());
   }
   auto* polydata = vtkPolyData::SafeDownCast(result);
   if (vtkDataArray* rest = polydata ? polydata->GetPointData()->GetNormals() : nullptr)
@@ -108,13 +109,13 @@ Status vtkPoseAlgorithm::Execute(
   if (this->StretchLimit != 0.0)
   {
     Phase phase(context, "stretch", 1.0, 1.0);
-    if (!this->OfBind->elements)
+    if (!this->RestCache->elements)
     {
-      this->OfBind->elements = to_pose_elements(mesh);
-      this->OfBind->rest = to_rest_elements(*this->OfBind->elements, pose_input.points);
+      this->RestCache->elements = to_pose_elements(mesh);
+      this->RestCache->rest = to_rest_elements(*this->RestCache->elements, pose_input.points);
     }
     stretch = measure_stretch(context, { this->StretchLimit, this->StretchArray },
-      *this->OfBind->elements, this->OfBind->rest, posed.points, result);
+      *this->RestCache->elements, this->RestCache->rest, posed.points, result);
     if (!stretch.ok())
     {
       return stretch;

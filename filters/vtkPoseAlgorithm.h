@@ -88,8 +88,9 @@ private:
 
   double StretchLimit = 2.0;
   bool StretchArray = false;
-  struct BindParts;
-  std::unique_ptr<BindParts> OfBind; ///< data shared by all poses of a bind; computed on first use
+  struct RestData;
+  std::unique_ptr<RestData>
+    RestCache; ///< data shared by all poses of a bind; computed on first use
 };
 
 #endif

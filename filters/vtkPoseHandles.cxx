@@ -37,7 +37,7 @@ struct vtkPoseHandles::Internals
   GltfFile gltf;
   /// Source of the last warnings, stored so that warnings are issued only once per source: path of
   /// the pose file, or an empty string for PoseJSON.
-  std::optional<std::string> warned_of;
+  std::optional<std::string> warned_source;
 };
 
 vtkPoseHandles::vtkPoseHandles() : Internal(std::make_unique<Internals>()) {}
@@ -68,9 +68,9 @@ int vtkPoseHandles::FillOutputPortInformation(int, vtkInformation* info)
   return 1;
 }
 
-bool vtkPoseHandles::IsFrom(const char* endings) const
+bool vtkPoseHandles::HasExtension(const char* extensions) const
 {
-  return this->FileName && is_listed(file_extension(this->FileName), endings);
+  return this->FileName && is_listed(file_extension(this->FileName), extensions);
 }
 
 /// Return the text of the pose. `source` becomes the beginning of messages: the file name, empty
@@ -100,7 +100,7 @@ int vtkPoseHandles::RequestInformation(
   vtkInformation* info = output->GetInformationObject(0);
   set_time_steps(info, {});
   // Ignore errors of the file or the text here; Execute() reports them.
-  if (this->IsFrom("glb gltf"))
+  if (this->HasExtension("glb gltf"))
   {
     if (this->Internal->gltf.read(this->FileName, this->GetMTime()).ok())
     {
@@ -111,7 +111,8 @@ int vtkPoseHandles::RequestInformation(
   }
   std::string text, source;
   PoseTimes times;
-  if (this->IsFrom("dmat") || !this->ReadText(text, source).ok() || !read_pose_times(text, times))
+  if (this->HasExtension("dmat") || !this->ReadText(text, source).ok() ||
+    !read_pose_times(text, times))
   {
     return 1;
   }
@@ -150,11 +151,11 @@ Status vtkPoseHandles::Execute(
   this->Sequence = false;
   this->FramesPerSecond = PoseSequence().frames_per_second;
   this->HasExpressions = false;
-  const bool from_text = !this->IsFrom("glb gltf dmat");
+  const bool from_text = !this->HasExtension("glb gltf dmat");
   std::string text, source;
-  status = from_text       ? this->ReadText(text, source)
-    : this->IsFrom("dmat") ? this->TakeDMAT(handles, pose)
-                           : this->TakeGLTF(handles, timed ? &time : nullptr, pose);
+  status = from_text             ? this->ReadText(text, source)
+    : this->HasExtension("dmat") ? this->ReadDMAT(handles, pose)
+                                 : this->ReadGLTF(handles, timed ? &time : nullptr, pose);
   if (!status.ok())
   {
     return status;
@@ -173,13 +174,13 @@ Status vtkPoseHandles::Execute(
       status.message = source + status.message;
       return status;
     }
-    if (this->Internal->warned_of == source)
+    if (this->Internal->warned_source == source)
     {
       status.warnings.clear();
     }
     if (!status.warnings.empty())
     {
-      this->Internal->warned_of = source;
+      this->Internal->warned_source = source;
     }
     for (std::string& warning : status.warnings)
     {
@@ -211,7 +212,7 @@ Status vtkPoseHandles::Execute(
 }
 
 /// Set the pose of all handles from the matrix of a .dmat file.
-Status vtkPoseHandles::TakeDMAT(const Handles& handles, Pose& pose)
+Status vtkPoseHandles::ReadDMAT(const Handles& handles, Pose& pose)
 {
   Weights matrix;
   Status status = read_dmat(this->FileName, matrix);
@@ -233,7 +234,7 @@ Status vtkPoseHandles::TakeDMAT(const Handles& handles, Pose& pose)
 
 /// Assign the transforms of the frame at `time`, or of Frame, to the handles by name. Handles that
 /// are not joints follow their parents.
-Status vtkPoseHandles::TakeGLTF(const Handles& handles, const double* time, Pose& pose)
+Status vtkPoseHandles::ReadGLTF(const Handles& handles, const double* time, Pose& pose)
 {
   const std::string path = this->FileName;
   Status status = this->Internal->gltf.read(path, this->GetMTime());
@@ -244,23 +245,23 @@ Status vtkPoseHandles::TakeGLTF(const Handles& handles, const double* time, Pose
   const std::vector<std::string> warnings = status.warnings;
   const GltfData& data = this->Internal->gltf.data();
   // The pose from the transforms of the nodes; empty if there is an animation.
-  std::vector<Pose> standing;
+  std::vector<Pose> single_frame;
   if (data.poses.empty())
   {
     std::vector<Index> cells;
     Handles joints;
-    standing.resize(1);
+    single_frame.resize(1);
     status = to_handles(data.handles, joints, &cells);
     if (status.ok())
     {
-      status = to_pose(data.handles, joints, cells, standing[0]);
+      status = to_pose(data.handles, joints, cells, single_frame[0]);
     }
     if (!status.ok())
     {
       return Status::invalid_input(path + " has no skin and therefore no pose");
     }
   }
-  const std::vector<Pose>& frames = data.poses.empty() ? standing : data.poses;
+  const std::vector<Pose>& frames = data.poses.empty() ? single_frame : data.poses;
   this->NumberOfFrames = static_cast<int>(frames.size());
   this->Sequence = !data.poses.empty();
   this->FramesPerSecond = data.frames_per_second;
@@ -292,13 +293,13 @@ Status vtkPoseHandles::TakeGLTF(const Handles& handles, const double* time, Pose
   {
     return Status::invalid_input(path + ": none of its joints has the name of a handle");
   }
-  Status taken;
-  if (this->Internal->warned_of != path)
+  Status read_status;
+  if (this->Internal->warned_source != path)
   {
-    taken.warnings = warnings;
-    this->Internal->warned_of = path;
+    read_status.warnings = warnings;
+    this->Internal->warned_source = path;
   }
-  return taken;
+  return read_status;
 }
 
 void vtkPoseHandles::PrintSelf(ostream& os, vtkIndent indent)

@@ -132,11 +132,11 @@ private:
 
   struct Internals;
 
-  bindpose::Status TakeGLTF(const std::vector<bindpose::Handle>& handles, const double* time,
+  bindpose::Status ReadGLTF(const std::vector<bindpose::Handle>& handles, const double* time,
     std::vector<bindpose::HandlePose>& pose);
-  bindpose::Status TakeDMAT(
+  bindpose::Status ReadDMAT(
     const std::vector<bindpose::Handle>& handles, std::vector<bindpose::HandlePose>& pose);
-  bool IsFrom(const char* endings) const;
+  bool HasExtension(const char* extensions) const;
   bindpose::Status ReadText(std::string& text, std::string& source);
 
   const std::unique_ptr<Internals> Internal;

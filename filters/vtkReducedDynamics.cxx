@@ -36,7 +36,7 @@ struct vtkReducedDynamics::Internals
   bool started = false;
   Index target = 0; ///< time step that is requested
   Index next = 0; ///< time step for which the handles are requested; 0 starts the simulation
-  bool more = false; ///< more time steps are needed after this one
+  bool must_continue = false; ///< more time steps are needed after this one
   /// Pipeline modification times of everything upstream when the time steps were simulated.
   std::vector<vtkMTimeType> upstream;
 };
@@ -162,9 +162,9 @@ vtkTypeBool vtkReducedDynamics::ProcessRequest(
   vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
   const bool data = request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()) != 0;
-  this->Internal->more = false;
+  this->Internal->must_continue = false;
   const vtkTypeBool result = this->Superclass::ProcessRequest(request, input, output);
-  if (data && this->Internal->more)
+  if (data && this->Internal->must_continue)
   {
     request->Set(SDDP::CONTINUE_EXECUTING(), 1);
   }
@@ -205,17 +205,17 @@ Status vtkReducedDynamics::Deform(
   {
     // A new bind restarts the simulation at time 0, but the handles of this request are those of a
     // later time.
-    state.more = true;
+    state.must_continue = true;
   }
   else
   {
     Phase phase(context, "step", 0.8, 0.9);
     if (state.next == 0)
     {
-      ReducedSolveOptions still;
-      still.max_iterations = 1000;
-      still.mixed_precision = this->MixedPrecision;
-      status = state.body.start(context, input.pose, still);
+      ReducedSolveOptions rest_options;
+      rest_options.max_iterations = 1000;
+      rest_options.mixed_precision = this->MixedPrecision;
+      status = state.body.start(context, input.pose, rest_options);
       const Status checked = check_options(options);
       status = checked.ok() ? status : checked;
     }
@@ -228,7 +228,7 @@ Status vtkReducedDynamics::Deform(
     {
       return status;
     }
-    state.more = state.body.state().steps < state.target;
+    state.must_continue = state.body.state().steps < state.target;
   }
   status.report.set("time", Report::Value(state.body.state().time));
   status.report.set("steps", Report::Value(std::int64_t(state.body.state().steps)));

@@ -1,9 +1,9 @@
-// Connects the kernel bindpose::SkinningMethods to VTK.
+// Connects the kernel bindpose::SkinningBind to VTK.
 #include "vtkSkinningDeformation.h"
 
 #include "pose_elements.h"
 #include "pose_input.h"
-#include "poser/skinning_methods.h"
+#include "poser/skinning_bind.h"
 #include "pseudo_edge_cells.h"
 #include "weights_input.h"
 
@@ -16,6 +16,10 @@ using namespace bindpose;
 
 vtkStandardNewMacro(vtkSkinningDeformation);
 
+static_assert(
+  vtkSkinningDeformation::DUAL_QUATERNION == static_cast<int>(SkinningMethod::dual_quaternion));
+static_assert(
+  vtkSkinningDeformation::GIVEN_PSEUDO_EDGES == static_cast<int>(PseudoEdgeChoice::given));
 static_assert(vtkSkinningDeformation::CENTERS_OF_ROTATION ==
   static_cast<int>(SkinningMethod::rotation_centers));
 static_assert(
@@ -32,7 +36,7 @@ constexpr const char* pseudo_edges_names[] = { "none", "given", "automatic" };
 
 struct vtkSkinningDeformation::Internals
 {
-  SkinningMethods methods;
+  SkinningBind bind;
   SharedMatrix<Weights> endpoints; // endpoint weights; no rows if the mesh has none
   /// Return the shape, with endpoint weights.
   SkinnedShape shape(const PoseInput& input) const
@@ -72,6 +76,7 @@ std::vector<std::string> vtkSkinningDeformation::BindArrays()
   return names;
 }
 
+/// Return the options of the filter in the types of the kernel.
 SkinningMethodOptions vtkSkinningDeformation::MakeOptions() const
 {
   SkinningMethodOptions options;
@@ -87,7 +92,7 @@ SkinningMethodOptions vtkSkinningDeformation::MakeOptions() const
 Status vtkSkinningDeformation::Bind(ExecutionContext& context, const PoseInput& input)
 {
   Internals& internal = *this->Internal;
-  internal.methods.reset();
+  internal.bind.reset();
   internal.endpoints = {};
   vtkDataArray* endpoints = this->EndpointArrayName.empty()
     ? nullptr
@@ -115,12 +120,13 @@ Status vtkSkinningDeformation::BindMissing(ExecutionContext& context, const Pose
   Internals& internal = *this->Internal;
   const SkinnedShape shape = internal.shape(input);
   const SkinningMethodOptions options = this->MakeOptions();
-  if (internal.methods.is_bound(shape, options))
+  if (internal.bind.is_bound(shape, options))
   {
     return {};
   }
-  const PoseElements elements = to_pose_elements(input.mesh);
-  return internal.methods.bind(
+  const PoseElements elements =
+    internal.bind.needs_elements(shape, options) ? to_pose_elements(input.mesh) : PoseElements();
+  return internal.bind.bind(
     context, shape, elements.tets.view(), elements.triangles.view(), options);
 }
 
@@ -150,9 +156,9 @@ Status vtkSkinningDeformation::Deform(
   {
     return bound;
   }
-  Status status = internal.methods.pose(
+  Status status = internal.bind.pose(
     context, internal.shape(input), input.pose, edges, this->MakeOptions(), posed.points);
-  posed.transforms = internal.methods.transforms();
+  posed.transforms = internal.bind.transforms();
   status.warnings.insert(status.warnings.end(), bound.warnings.begin(), bound.warnings.end());
   status.report.set("method", method_names[this->Method]);
   return status;
@@ -162,13 +168,13 @@ Status vtkSkinningDeformation::DeformNormals(
   ExecutionContext& context, const PoseInput& input, const PosedPoints& posed, PosedPoints& normals)
 {
   const auto method = static_cast<SkinningMethod>(this->Method);
-  if (!SkinningMethods::poses_normals(method))
+  if (!SkinningBind::poses_normals(method))
   {
     return this->Superclass::DeformNormals(context, input, posed, normals);
   }
   const SharedMatrix<Weights> rest = to_matrix(input.mesh->GetPointData()->GetNormals());
   const Eigen::Map<const Points> directions(rest.view().data(), rest.view().rows(), 3);
-  return this->Internal->methods.pose_normals(context, directions, method, normals.points);
+  return this->Internal->bind.pose_normals(context, directions, method, normals.points);
 }
 
 void vtkSkinningDeformation::PrintSelf(ostream& os, vtkIndent indent)

@@ -32,8 +32,8 @@
  * translation, handles in mode free the identity (with a warning). Skinning does not compute
  * transforms; see vtkReducedARAP for that. The filter accepts any vtkPointSet, including FE meshes.
  *
- * Report: method, seconds.bind, seconds.skin, counts (including pseudo_edges and centers),
- * row_sum_error.
+ * Report: method, seconds.bind, seconds.centers, seconds.edges (automatic pseudo-edges),
+ * seconds.skin, counts (including pseudo_edges and centers), row_sum_error.
  */
 
 #ifndef vtkSkinningDeformation_h

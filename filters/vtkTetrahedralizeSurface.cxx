@@ -117,7 +117,7 @@ bindpose::Status vtkTetrahedralizeSurface::Execute(
   options.wrap_alpha = this->WrapAlpha;
   options.wrap_offset = this->WrapOffset;
   options.ftetwild_epsilon = this->FtetwildEpsilon;
-  options.handles = bindpose::to_handle_places(handles);
+  options.handles = bindpose::to_handle_elements(handles);
   bindpose::TetrahedralizeResult result;
   status = bindpose::tetrahedralize(
     context, surface.points.view(), surface.triangles.view(), options, result);

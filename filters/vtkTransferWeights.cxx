@@ -29,7 +29,7 @@ struct vtkTransferWeights::Cache
   vtkSmartPointer<vtkDoubleArray> weights;
 };
 
-vtkTransferWeights::vtkTransferWeights() : Bound(new Cache)
+vtkTransferWeights::vtkTransferWeights() : BindCache(new Cache)
 {
   this->SetNumberOfInputPorts(2);
 }
@@ -87,11 +87,11 @@ Status vtkTransferWeights::Execute(
   {
     key.add(object);
   }
-  const bool bind = !this->Bound->valid || this->Bound->key != key;
+  const bool bind = !this->BindCache->valid || this->BindCache->key != key;
   if (bind)
   {
     const Phase phase(context, "transfer");
-    Cache made;
+    Cache new_cache;
     Domain domain;
     std::vector<Index> cells;
     Status status = to_domain(mesh, domain, cells);
@@ -118,23 +118,23 @@ Status vtkTransferWeights::Execute(
         values.row(v) = rows.view().row(v);
       }
     }
-    made.weights = vtkSmartPointer<vtkDoubleArray>::New();
-    made.weights->SetName(this->ArrayName.c_str());
-    made.weights->SetNumberOfComponents(static_cast<int>(values.cols()));
-    made.weights->CopyComponentNames(weights);
-    made.weights->SetNumberOfTuples(values.rows());
-    std::copy(values.data(), values.data() + values.size(), made.weights->GetPointer(0));
-    made.status = status;
-    made.key = key;
-    made.valid = true;
-    *this->Bound = std::move(made);
+    new_cache.weights = vtkSmartPointer<vtkDoubleArray>::New();
+    new_cache.weights->SetName(this->ArrayName.c_str());
+    new_cache.weights->SetNumberOfComponents(static_cast<int>(values.cols()));
+    new_cache.weights->CopyComponentNames(weights);
+    new_cache.weights->SetNumberOfTuples(values.rows());
+    std::copy(values.data(), values.data() + values.size(), new_cache.weights->GetPointer(0));
+    new_cache.status = status;
+    new_cache.key = key;
+    new_cache.valid = true;
+    *this->BindCache = std::move(new_cache);
     this->NumberOfBinds += 1;
   }
   result->ShallowCopy(target);
-  result->GetPointData()->AddArray(this->Bound->weights);
+  result->GetPointData()->AddArray(this->BindCache->weights);
   pass_certificates(mesh->GetFieldData(), result->GetFieldData(), this->ArrayName);
 
-  Status status = this->Bound->status;
+  Status status = this->BindCache->status;
   status.report.set("counts.vertices", Report::Value(std::int64_t(target->GetNumberOfPoints())));
   status.report.set(
     "counts.handles", Report::Value(std::int64_t(weights->GetNumberOfComponents())));

@@ -72,7 +72,7 @@ private:
   int NumberOfBinds = 0;
   vtkTimeStamp BindTime;
   struct Cache;
-  std::unique_ptr<Cache> Bound;
+  std::unique_ptr<Cache> BindCache;
 };
 
 #endif

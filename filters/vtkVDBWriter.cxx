@@ -47,11 +47,11 @@ vtkDataArray* find_array(vtkImageData* image, const char* name, Status& status)
   return array;
 }
 
-std::string name_of_grid(const char* wanted, vtkDataArray* array)
+std::string name_of_grid(const char* requested_name, vtkDataArray* array)
 {
-  if (wanted && wanted[0])
+  if (requested_name && requested_name[0])
   {
-    return wanted;
+    return requested_name;
   }
   const std::string name = array->GetName() ? array->GetName() : "";
   // Return the default name of the grid; OpenVDB names are in lower case: "density",

@@ -24,9 +24,9 @@ struct vtkVariationalSurface::Internals
 
 namespace
 {
-/// Return the rows of a point array with at least `fewest` components, padded with zeros to three.
-/// Return no rows if there is no array of that name.
-Status to_rows(vtkPointSet* mesh, const std::string& name, int fewest, Points& rows)
+/// Return the rows of a point array with at least `minimum_components` components, padded with
+/// zeros to three. Return no rows if there is no array of that name.
+Status to_rows(vtkPointSet* mesh, const std::string& name, int minimum_components, Points& rows)
 {
   vtkAbstractArray* found = mesh->GetPointData()->GetAbstractArray(name.c_str());
   if (!found)
@@ -34,10 +34,11 @@ Status to_rows(vtkPointSet* mesh, const std::string& name, int fewest, Points& r
     return {};
   }
   auto* array = vtkDataArray::SafeDownCast(found);
-  if (!array || array->GetNumberOfComponents() < fewest || array->GetNumberOfComponents() > 3)
+  if (!array || array->GetNumberOfComponents() < minimum_components ||
+    array->GetNumberOfComponents() > 3)
   {
-    return Status::invalid_input(
-      "the point array '" + name + "' must have " + (fewest == 2 ? "2 or " : "") + "3 components");
+    return Status::invalid_input("the point array '" + name + "' must have " +
+      (minimum_components == 2 ? "2 or " : "") + "3 components");
   }
   const SharedMatrix<Weights> values = to_matrix(array);
   rows = Points::Zero(values.view().rows(), 3);
@@ -154,7 +155,7 @@ Status vtkVariationalSurface::Bind(ExecutionContext& context, const PoseInput& i
     status = to_rows(input.mesh, this->ParameterArrayName, 2, options.parameters);
   }
   if (status.ok() && options.boundary == PatchBoundary::tangent &&
-    options.tangent_source == PatchTangents::given)
+    options.tangent_source == PatchTangents::prescribed)
   {
     status = to_rows(input.mesh, this->TangentArrayName, 3, options.tangents);
     if (status.ok() && options.tangents.rows() == 0)

@@ -40,7 +40,7 @@ using namespace bindpose;
 namespace
 {
 constexpr char array_name[] = "Weights";
-constexpr char raw_name[] = "RawWeights";
+constexpr char raw_array_name[] = "RawWeights";
 constexpr char mask_name[] = "WeightsMask";
 constexpr char original_ids_name[] = "OriginalPointIds";
 
@@ -50,7 +50,7 @@ bool is_integral(vtkDataArray* array)
 }
 
 /// Return a copy of an array that also has values at the inserted points.
-vtkSmartPointer<vtkAbstractArray> extended(
+vtkSmartPointer<vtkAbstractArray> extend_array(
   vtkAbstractArray* array, vtkIdType count, const std::vector<InsertedVertex>& inserted)
 {
   vtkSmartPointer<vtkAbstractArray> result;
@@ -66,18 +66,18 @@ vtkSmartPointer<vtkAbstractArray> extended(
   {
     const vtkIdType at = count + static_cast<vtkIdType>(i);
     parents->Reset();
-    std::vector<double> shares;
+    std::vector<double> coordinates;
     for (int k = 0; k < 4; ++k)
     {
       if (inserted[i].barycentric[k] > 1e-12)
       {
         parents->InsertNextId(inserted[i].parents[k]);
-        shares.push_back(inserted[i].barycentric[k]);
+        coordinates.push_back(inserted[i].barycentric[k]);
       }
     }
     if (!labels)
     {
-      result->InterpolateTuple(at, parents, array, shares.data());
+      result->InterpolateTuple(at, parents, array, coordinates.data());
       continue;
     }
     for (int c = 0; c < numbers->GetNumberOfComponents(); ++c)
@@ -110,27 +110,27 @@ struct SolvedMesh
   std::vector<InsertedVertex> inserted;
   std::vector<Index> parent_cell;
 
-  void take_weights(const Weights& normalized, const Weights* raw_weights, const Handles& handles,
+  void set_weights(const Weights& normalized, const Weights* raw_weights, const Handles& handles,
     const WeightsResult& result);
-  void take_mesh(const WeightsProblem& problem, const std::vector<Index>& cell_of_element);
+  void set_mesh(const WeightsProblem& problem, const std::vector<Index>& cell_of_element);
   void write(vtkPointSet* mesh, vtkPointSet* output) const;
 
 private:
   void refine(vtkPointSet* mesh, vtkPointSet* output) const;
 };
 
-void SolvedMesh::take_weights(const Weights& normalized, const Weights* raw_weights,
+void SolvedMesh::set_weights(const Weights& normalized, const Weights* raw_weights,
   const Handles& handles, const WeightsResult& result)
 {
   this->weights = to_weights_array(array_name, normalized, handles);
   if (raw_weights)
   {
-    this->raw = to_weights_array(raw_name, *raw_weights, handles);
+    this->raw = to_weights_array(raw_array_name, *raw_weights, handles);
   }
   this->certificates = to_certificate_arrays(array_name, result);
 }
 
-void SolvedMesh::take_mesh(const WeightsProblem& problem, const std::vector<Index>& cell_of_element)
+void SolvedMesh::set_mesh(const WeightsProblem& problem, const std::vector<Index>& cell_of_element)
 {
   const std::vector<VertexRole>& roles = problem.constraints.roles;
   if (std::count(roles.begin(), roles.end(), VertexRole::unreferenced) > 0)
@@ -176,7 +176,7 @@ void SolvedMesh::write(vtkPointSet* mesh, vtkPointSet* output) const
     output->ShallowCopy(mesh);
   }
   output->GetPointData()->AddArray(this->weights);
-  output->GetPointData()->RemoveArray(raw_name);
+  output->GetPointData()->RemoveArray(raw_array_name);
   if (this->raw)
   {
     output->GetPointData()->AddArray(this->raw);
@@ -213,7 +213,7 @@ void SolvedMesh::refine(vtkPointSet* mesh, vtkPointSet* output) const
     vtkAbstractArray* array = from->GetAbstractArray(a);
     if (array->GetName() && std::string(array->GetName()) != array_name)
     {
-      to->AddArray(extended(array, mesh->GetNumberOfPoints(), this->inserted));
+      to->AddArray(extend_array(array, mesh->GetNumberOfPoints(), this->inserted));
     }
   }
   for (int type = 0; type < vtkDataSetAttributes::NUM_ATTRIBUTES; ++type)
@@ -247,7 +247,7 @@ struct vtkWeightsAlgorithm::Cache
   vtkSmartPointer<vtkUnstructuredGrid> volume;
 };
 
-vtkWeightsAlgorithm::vtkWeightsAlgorithm() : TermNames(new TermArrayNames), Bound(new Cache)
+vtkWeightsAlgorithm::vtkWeightsAlgorithm() : TermNames(new TermArrayNames), BindCache(new Cache)
 {
   this->SetNumberOfOutputPorts(3);
 }
@@ -362,11 +362,11 @@ std::string vtkWeightsAlgorithm::GetMirrorArrayName()
   return this->TermNames->mirror;
 }
 
-void vtkWeightsAlgorithm::SetBounds(double least, double largest)
+void vtkWeightsAlgorithm::SetBounds(double smallest, double largest)
 {
-  if (this->Bounds[0] != least || this->Bounds[1] != largest)
+  if (this->Bounds[0] != smallest || this->Bounds[1] != largest)
   {
-    this->Bounds[0] = least;
+    this->Bounds[0] = smallest;
     this->Bounds[1] = largest;
     this->BindModified();
   }
@@ -459,12 +459,12 @@ Status vtkWeightsAlgorithm::Bind(
   options.solver.memory_limit = this->MemoryLimit;
   options.insertion.keep_mesh = this->KeepMesh;
   const WeightsMethod method =
-    [&](ExecutionContext& of_method, const WeightsProblem& problem, WeightsResult& result)
+    [&](ExecutionContext& method_context, const WeightsProblem& problem, WeightsResult& result)
   {
-    return this->Stage == PREVIEW ? preview_weights(of_method, problem, options, result)
-                                  : this->Solve(of_method, problem, options, result);
+    return this->Stage == PREVIEW ? preview_weights(method_context, problem, options, result)
+                                  : this->Solve(method_context, problem, options, result);
   };
-  const auto tell_preview = [&](const Weights& weights)
+  const auto send_preview = [&](const Weights& weights)
   { this->InvokeEvent(PreviewEvent, to_weights_array(array_name, weights, handles)); };
   // The energy may be definite only because rigid sets join components without handles to other
   // components. The preview ignores rigid sets, so its energy would be singular; then there is no
@@ -481,7 +481,7 @@ Status vtkWeightsAlgorithm::Bind(
       status = preview_weights(context, problem, options, result);
       if (status.usable())
       {
-        tell_preview(result.weights.topRows(domain.points.rows()));
+        send_preview(result.weights.topRows(domain.points.rows()));
       }
     }
     if (status.usable())
@@ -494,9 +494,9 @@ Status vtkWeightsAlgorithm::Bind(
       {
         status.report.set("domain", to_string(WeightsDomain::surface));
       }
-      bound.mesh.take_weights(
+      bound.mesh.set_weights(
         result.weights, this->KeepRaw ? &result.raw : nullptr, handles, result);
-      bound.mesh.take_mesh(problem, cell_of_element);
+      bound.mesh.set_mesh(problem, cell_of_element);
       bound.extrema = to_extrema(problem, result);
     }
     return status;
@@ -512,25 +512,25 @@ Status vtkWeightsAlgorithm::Bind(
   surface.resolution = this->EmbeddingResolution;
   surface.guard = this->Stage == CERTIFIED;
   surface.keep_raw = this->KeepRaw;
-  surface.places = to_handle_places(geometry);
+  surface.handle_elements = to_handle_elements(geometry);
   if (wants_preview)
   {
-    surface.preview = tell_preview;
+    surface.preview = send_preview;
   }
   SurfaceWeights result;
   status = surface_weights(context, domain.points, domain.triangles, region_ids, handles, surface,
     options, method, result);
   if (status.usable())
   {
-    bound.mesh.take_weights(
+    bound.mesh.set_weights(
       result.weights, this->KeepRaw ? &result.raw : nullptr, handles, result.solved);
     bound.extrema = to_extrema(result.problem, result.solved);
     if (result.domain != WeightsDomain::surface)
     {
       SolvedMesh solved;
-      solved.take_weights(result.solved.weights, this->KeepRaw ? &result.solved.raw : nullptr,
+      solved.set_weights(result.solved.weights, this->KeepRaw ? &result.solved.raw : nullptr,
         handles, result.solved);
-      solved.take_mesh(result.problem, {});
+      solved.set_mesh(result.problem, {});
       bound.volume = vtkSmartPointer<vtkUnstructuredGrid>::New();
       solved.write(result.plane_cage.triangles.rows() > 0
           ? to_unstructured_grid(result.plane_cage.points, result.plane_cage.triangles)
@@ -572,33 +572,33 @@ Status vtkWeightsAlgorithm::Execute(
     key.add(object);
   }
   key.add(this->TakesTerms() ? handles->GetCellData()->GetArray(handle_bounds_name) : nullptr);
-  const bool bind = !this->Bound->valid || this->Bound->key != key;
+  const bool bind = !this->BindCache->valid || this->BindCache->key != key;
   if (bind)
   {
-    Cache made;
-    const Status status = this->Bind(context, mesh, handles, made);
+    Cache new_cache;
+    const Status status = this->Bind(context, mesh, handles, new_cache);
     if (!status.usable())
     {
       return status;
     }
-    made.status = status;
+    new_cache.status = status;
     // The bind's report keeps the seconds of the bind as long as the bind is valid.
-    made.status.report.merge(context.seconds());
-    made.key = key;
-    made.valid = true;
-    *this->Bound = std::move(made);
+    new_cache.status.report.merge(context.seconds());
+    new_cache.key = key;
+    new_cache.valid = true;
+    *this->BindCache = std::move(new_cache);
     this->NumberOfBinds += 1;
   }
-  this->Bound->mesh.write(mesh, result);
-  vtkDataObject::GetData(output, 1)->ShallowCopy(this->Bound->extrema);
+  this->BindCache->mesh.write(mesh, result);
+  vtkDataObject::GetData(output, 1)->ShallowCopy(this->BindCache->extrema);
   vtkDataObject* volume = vtkDataObject::GetData(output, 2);
   volume->Initialize();
-  if (this->Bound->volume)
+  if (this->BindCache->volume)
   {
-    volume->ShallowCopy(this->Bound->volume);
+    volume->ShallowCopy(this->BindCache->volume);
   }
 
-  Status status = this->Bound->status;
+  Status status = this->BindCache->status;
   status.report.set("binds", this->NumberOfBinds);
   if (!bind && !status.warnings.empty())
   {

@@ -250,7 +250,7 @@ public:
    * Smallest and largest weight of every handle for which no array specifies bounds; default 0 and
    * 1. At the handles themselves weights are 0 or 1, so the range must contain 0 and 1.
    */
-  void SetBounds(double least, double largest);
+  void SetBounds(double smallest, double largest);
   vtkGetVector2Macro(Bounds, double);
   ///@}
 
@@ -351,7 +351,7 @@ private:
   std::unique_ptr<bindpose::TermArrayNames> TermNames;
   int NumberOfBinds = 0;
   vtkTimeStamp BindTime;
-  std::unique_ptr<Cache> Bound;
+  std::unique_ptr<Cache> BindCache;
 };
 
 #endif

@@ -72,7 +72,7 @@ struct vtkWindingNumberField::Cache
   bindpose::BindKey key;
   bindpose::WindingField::Options options;
   bindpose::Box box;
-  int flat = -1; // axis perpendicular to a curve's plane; -1: no curve
+  int flat_axis = -1; // axis perpendicular to a curve's plane; -1: no curve
   bindpose::WindingField field;
   bindpose::Status status;
   LastGrid last;
@@ -90,7 +90,7 @@ using bindpose::WindingField;
 using SDDP = vtkStreamingDemandDrivenPipeline;
 
 /// Number of samples per block for floats: 32 MiB of values.
-constexpr Index block_samples = Index(1) << 22;
+constexpr Index samples_per_block = Index(1) << 22;
 
 bindpose::BindKey key_of(vtkPointSet* surface, const std::string& area_array)
 {
@@ -122,7 +122,7 @@ vtkSmartPointer<Array> make_large_array(const char* name, int components, Index 
   const auto values = static_cast<std::size_t>(array->GetNumberOfValues());
   if (values > 0)
   {
-    bindpose::ask_for_large_pages(array->GetPointer(0), values * sizeof(*array->GetPointer(0)));
+    bindpose::request_large_pages(array->GetPointer(0), values * sizeof(*array->GetPointer(0)));
   }
   return array;
 }
@@ -166,16 +166,16 @@ struct Outputs
   /// Return the requested arrays; the winding numbers are first.
   Arrays arrays() const
   {
-    Arrays wanted{ this->values, this->on_surface };
+    Arrays requested{ this->values, this->on_surface };
     if (this->inside)
     {
-      wanted.emplace_back(this->inside);
+      requested.emplace_back(this->inside);
     }
     if (this->gradient)
     {
-      wanted.emplace_back(this->gradient);
+      requested.emplace_back(this->gradient);
     }
-    return wanted;
+    return requested;
   }
 };
 
@@ -191,7 +191,7 @@ void attach(const Arrays& arrays, vtkDataSetAttributes* attributes)
 
 /// Return the arrays of the last grid if the parameters and the extent are the same and the arrays
 /// still exist. Otherwise return no arrays.
-Arrays again(const LastGrid& last, vtkMTimeType parameters, const SampleGrid& grid)
+Arrays cached(const LastGrid& last, vtkMTimeType parameters, const SampleGrid& grid)
 {
   const bool same = last.parameters == parameters && last.extent == grid.extent;
   Arrays arrays;
@@ -208,7 +208,7 @@ Arrays again(const LastGrid& last, vtkMTimeType parameters, const SampleGrid& gr
 
 /// Return the memory into which the kernel writes values: the array's memory if it stores doubles,
 /// otherwise a buffer.
-double* place_for(vtkDataArray* array, Index first, Index count, std::vector<double>& buffer)
+double* output_buffer(vtkDataArray* array, Index first, Index count, std::vector<double>& buffer)
 {
   if (auto* doubles = vtkDoubleArray::SafeDownCast(array))
   {
@@ -218,7 +218,7 @@ double* place_for(vtkDataArray* array, Index first, Index count, std::vector<dou
   return buffer.data();
 }
 
-void put(const double* from, vtkDataArray* array, Index first, Index count)
+void store_values(const double* from, vtkDataArray* array, Index first, Index count)
 {
   if (auto* floats = vtkFloatArray::SafeDownCast(array))
   {
@@ -232,12 +232,12 @@ void put(const double* from, vtkDataArray* array, Index first, Index count)
 Status evaluate(ExecutionContext& context, const WindingField& winding, const Samples& samples,
   Outputs& outputs, double& sum)
 {
-  const Index layer = samples.layer();
-  const Index layers = samples.count() / layer;
+  const Index layer_size = samples.layer_size();
+  const Index layers = samples.count() / layer_size;
   const bool in_blocks = vtkFloatArray::SafeDownCast(outputs.values) != nullptr;
   const Index step =
-    in_blocks ? std::max<Index>(block_samples / layer, 1) : std::max<Index>(layers, 1);
-  const double share = outputs.gradient ? 0.5 : 1.0;
+    in_blocks ? std::max<Index>(samples_per_block / layer_size, 1) : std::max<Index>(layers, 1);
+  const double value_fraction = outputs.gradient ? 0.5 : 1.0;
   std::vector<double> buffer;
   std::map<std::string, std::int64_t> counts;
   Status total;
@@ -246,16 +246,16 @@ Status evaluate(ExecutionContext& context, const WindingField& winding, const Sa
   for (Index begin = 0; begin < layers || begin == 0; begin += step)
   {
     const Index end = std::min(begin + step, layers);
-    const Index first = begin * layer;
-    const Index number = (end - begin) * layer;
+    const Index first = begin * layer_size;
+    const Index number = (end - begin) * layer_size;
     const double done = layers ? static_cast<double>(begin) / static_cast<double>(layers) : 0.0;
     const double then = layers ? static_cast<double>(end) / static_cast<double>(layers) : 1.0;
     const bindpose::ProgressRange range(context, done, then);
     unsigned char* const flags = outputs.on_surface->GetPointer(first);
-    double* const values = place_for(outputs.values, first, number, buffer);
+    double* const values = output_buffer(outputs.values, first, number, buffer);
     Status status;
     {
-      const bindpose::ProgressRange part(context, 0.0, share);
+      const bindpose::ProgressRange part(context, 0.0, value_fraction);
       status = winding.evaluate(context, samples.layers(begin, end), values, flags);
     }
     if (!status.ok())
@@ -279,18 +279,18 @@ Status evaluate(ExecutionContext& context, const WindingField& winding, const Sa
         }
         return partial;
       });
-    put(values, outputs.values, first, number);
+    store_values(values, outputs.values, first, number);
     if (outputs.gradient)
     {
-      const bindpose::ProgressRange part(context, share, 1.0);
-      double* const gradients = place_for(outputs.gradient, 3 * first, 3 * number, buffer);
+      const bindpose::ProgressRange part(context, value_fraction, 1.0);
+      double* const gradients = output_buffer(outputs.gradient, 3 * first, 3 * number, buffer);
       const Status gradient =
         winding.evaluate_gradient(context, samples.layers(begin, end), gradients);
       if (!gradient.ok())
       {
         return gradient;
       }
-      put(gradients, outputs.gradient, 3 * first, 3 * number);
+      store_values(gradients, outputs.gradient, 3 * first, 3 * number);
     }
     for (const char* key : { "counts.queries", "counts.on_surface", "counts.not_finite" })
     {
@@ -319,24 +319,24 @@ bool is_flat(const SampleGrid& grid)
 
 /// Return invalid_input if the arrays would be larger than the machine's memory. Otherwise the
 /// system might kill the process.
-Status check_memory(Index samples, std::size_t bytes_a_sample)
+Status check_memory(Index samples, std::size_t bytes_per_sample)
 {
-  const double needed = static_cast<double>(samples) * static_cast<double>(bytes_a_sample);
-  const double there =
+  const double needed = static_cast<double>(samples) * static_cast<double>(bytes_per_sample);
+  const double available =
     static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-  if (needed <= there)
+  if (needed <= available)
   {
     return {};
   }
   std::ostringstream text;
   text.precision(3);
   text << samples << " samples need " << needed / 0x1p30 << " GiB of memory, but this computer has "
-       << there / 0x1p30 << " GiB; request a part of the grid or a coarser grid";
+       << available / 0x1p30 << " GiB; request a part of the grid or a coarser grid";
   return Status::invalid_input(text.str());
 }
 } // namespace
 
-vtkWindingNumberField::vtkWindingNumberField() : Built(new Cache)
+vtkWindingNumberField::vtkWindingNumberField() : BuildCache(new Cache)
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
@@ -411,7 +411,7 @@ int vtkWindingNumberField::RequestInformation(
   if (producer && !is_block)
   {
     // Request the whole surface, because another consumer may have requested only a piece.
-    AskForAll(surface_info);
+    RequestWholeInput(surface_info);
     producer->Update(vtkExecutive::PRODUCER()->GetPort(surface_info));
     data = vtkDataObject::GetData(surface_info);
   }
@@ -435,22 +435,23 @@ int vtkWindingNumberField::RequestInformation(
 int vtkWindingNumberField::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** input, vtkInformationVector*)
 {
-  AskForAll(input[0]->GetInformationObject(0)); // every sample depends on the whole surface
+  RequestWholeInput(input[0]->GetInformationObject(0)); // every sample depends on the whole surface
   return 1;
 }
 
 bindpose::Status vtkWindingNumberField::Grid(vtkPointSet* input, bindpose::SampleGrid& grid)
 {
   bindpose::Box box;
-  int flat = -1;
-  if (input && this->Built->valid && this->Built->key == key_of(input, this->AreaArrayName))
+  int flat_axis = -1;
+  if (input && this->BuildCache->valid &&
+    this->BuildCache->key == key_of(input, this->AreaArrayName))
   {
-    box = this->Built->box;
-    flat = this->Built->flat;
+    box = this->BuildCache->box;
+    flat_axis = this->BuildCache->flat_axis;
   }
   else
   {
-    const Status status = WindingField::extent(input, box, flat);
+    const Status status = WindingField::extent(input, box, flat_axis);
     if (!status.ok())
     {
       return status;
@@ -463,7 +464,7 @@ bindpose::Status vtkWindingNumberField::Grid(vtkPointSet* input, bindpose::Sampl
   request.count = this->TargetNumberOfSamples;
   request.samples_along_longest_side = this->Resolution;
   request.padding = this->Padding;
-  request.flat = flat;
+  request.flat_axis = flat_axis;
   return bindpose::make_grid(request, box, grid);
 }
 
@@ -489,33 +490,33 @@ bindpose::Status vtkWindingNumberField::Build(
   // A gradient takes several times as long as a value.
   options.expected_queries = size_class(queries * (this->ComputeGradient ? 9 : 1));
   // Exact methods extend their structure when necessary, so they accept more queries.
-  const bool fits = this->Built->valid &&
-    (this->Built->options.expected_queries == options.expected_queries ||
-      !this->Built->field.depends_on_expected_queries());
-  if (input && fits && this->Built->options == options &&
-    this->Built->key == key_of(input, this->AreaArrayName))
+  const bool fits = this->BuildCache->valid &&
+    (this->BuildCache->options.expected_queries == options.expected_queries ||
+      !this->BuildCache->field.depends_on_expected_queries());
+  if (input && fits && this->BuildCache->options == options &&
+    this->BuildCache->key == key_of(input, this->AreaArrayName))
   {
     // Warnings are issued only by the update that builds the structure.
-    Status again = this->Built->status;
-    if (!again.warnings.empty())
+    Status cached = this->BuildCache->status;
+    if (!cached.warnings.empty())
     {
-      again.report.set("warnings[]", again.warnings);
-      again.warnings.clear();
+      cached.report.set("warnings[]", cached.warnings);
+      cached.warnings.clear();
     }
-    return again;
+    return cached;
   }
-  std::unique_ptr<Cache> made(new Cache);
-  Status status = made->field.build(context, input, options);
+  std::unique_ptr<Cache> new_cache(new Cache);
+  Status status = new_cache->field.build(context, input, options);
   if (!status.ok())
   {
     return status;
   }
-  made->key = key_of(input, this->AreaArrayName);
-  made->options = options;
-  WindingField::extent(input, made->box, made->flat);
-  made->status = status;
-  made->valid = true;
-  this->Built = std::move(made);
+  new_cache->key = key_of(input, this->AreaArrayName);
+  new_cache->options = options;
+  WindingField::extent(input, new_cache->box, new_cache->flat_axis);
+  new_cache->status = status;
+  new_cache->valid = true;
+  this->BuildCache = std::move(new_cache);
   this->NumberOfBuilds += 1;
   return status;
 }
@@ -555,23 +556,23 @@ bindpose::Status vtkWindingNumberField::Execute(
   boundary->Initialize();
   if (GetPiece(output->GetInformationObject(1)) == 0)
   {
-    boundary->ShallowCopy(this->Built->field.boundary());
+    boundary->ShallowCopy(this->BuildCache->field.boundary());
   }
 
   const bindpose::Phase phase(context, "evaluate", built, 1.0);
   SampleGrid grid = whole;
   if (!points)
   {
-    int announced[6] = { 0, -1, 0, -1, 0, -1 };
-    int wanted[6] = { 0, -1, 0, -1, 0, -1 };
-    info->Get(SDDP::WHOLE_EXTENT(), announced);
-    info->Get(SDDP::UPDATE_EXTENT(), wanted);
-    if (std::equal(whole.extent.begin(), whole.extent.end(), announced))
+    int whole_extent[6] = { 0, -1, 0, -1, 0, -1 };
+    int requested[6] = { 0, -1, 0, -1, 0, -1 };
+    info->Get(SDDP::WHOLE_EXTENT(), whole_extent);
+    info->Get(SDDP::UPDATE_EXTENT(), requested);
+    if (std::equal(whole.extent.begin(), whole.extent.end(), whole_extent))
     {
       for (int k = 0; k < 3; ++k)
       {
-        grid.extent[2 * k] = std::max<Index>(wanted[2 * k], announced[2 * k]);
-        grid.extent[2 * k + 1] = std::min<Index>(wanted[2 * k + 1], announced[2 * k + 1]);
+        grid.extent[2 * k] = std::max<Index>(requested[2 * k], whole_extent[2 * k]);
+        grid.extent[2 * k + 1] = std::min<Index>(requested[2 * k + 1], whole_extent[2 * k + 1]);
       }
     }
   }
@@ -584,8 +585,8 @@ bindpose::Status vtkWindingNumberField::Execute(
     return fits;
   }
   const vtkMTimeType parameters = this->MTime.GetMTime();
-  LastGrid& last = this->Built->last;
-  Arrays arrays = points ? Arrays() : again(last, parameters, grid);
+  LastGrid& last = this->BuildCache->last;
+  Arrays arrays = points ? Arrays() : cached(last, parameters, grid);
   Status evaluated = last.status;
   double sum = last.sum;
   result->Initialize(); // when streaming, frees the last block before the next one is allocated
@@ -593,7 +594,7 @@ bindpose::Status vtkWindingNumberField::Execute(
   {
     Outputs outputs(samples.count(), single, this->ComputeGradient, this->ComputeInside);
     outputs.threshold = this->WindingThreshold;
-    evaluated = evaluate(context, this->Built->field, samples, outputs, sum);
+    evaluated = evaluate(context, this->BuildCache->field, samples, outputs, sum);
     if (!evaluated.ok())
     {
       return evaluated;

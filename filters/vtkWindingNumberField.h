@@ -261,7 +261,7 @@ private:
 
   /// Compute the whole grid from the options and the input.
   bindpose::Status Grid(vtkPointSet* input, bindpose::SampleGrid& grid);
-  /// Compute the contents of Built unless they are still valid.
+  /// Compute the contents of BuildCache unless they are still valid.
   bindpose::Status Build(
     bindpose::ExecutionContext& context, vtkPointSet* input, long long queries);
 
@@ -283,7 +283,7 @@ private:
   int NumberOfBuilds = 0;
   vtkTimeStamp CompositeTime; // time of the last check of a composite input
   struct Cache;
-  std::unique_ptr<Cache> Built;
+  std::unique_ptr<Cache> BuildCache;
 };
 
 #endif

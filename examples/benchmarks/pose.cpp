@@ -89,8 +89,8 @@ Status add_bounded_weights(Rig& rig)
   SurfaceWeightsOptions where;
   where.domain = WeightsDomain::embedding;
   const WeightsMethod method =
-    [](ExecutionContext& of_method, const WeightsProblem& problem, WeightsResult& result)
-  { return bounded_biharmonic_weights(of_method, problem, {}, result); };
+    [](ExecutionContext& method_context, const WeightsProblem& problem, WeightsResult& result)
+  { return bounded_biharmonic_weights(method_context, problem, {}, result); };
   SurfaceWeights weights;
   const Status status = surface_weights(
     context, rig.mesh.points, rig.mesh.triangles, {}, rig.handles, where, {}, method, weights);

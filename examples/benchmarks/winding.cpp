@@ -34,7 +34,7 @@ using namespace bindpose;
 using benchmarks::Random;
 
 /// Return the yardstick: the nanoseconds per triangle of the plain sum, measured once.
-double yardstick()
+double direct_nanoseconds()
 {
   static const double nanoseconds = []
   {
@@ -72,7 +72,7 @@ double yardstick()
 
 /// Return `count` triangles at random positions and orientations. Their edge length is that of a
 /// surface with this number of triangles.
-TriangleMesh orderless(Index count)
+TriangleMesh random_triangles(Index count)
 {
   Random random(3);
   const double length = 3.0 / std::sqrt(static_cast<double>(count));
@@ -145,7 +145,7 @@ const TriangleMesh& surface(const std::string& name, Index triangles)
     }
     else if (name == "orderless")
     {
-      entry->second = orderless(triangles);
+      entry->second = random_triangles(triangles);
     }
     else if (const char* folder = std::getenv("BINDPOSE_BENCHMARK_MESHES"))
     {
@@ -160,7 +160,7 @@ const TriangleMesh& surface(const std::string& name, Index triangles)
   return entry->second;
 }
 
-enum Where
+enum QueryKind
 {
   grid,
   scattered,
@@ -172,7 +172,7 @@ struct Row
 {
   const char* surface;
   Index triangles; ///< number of triangles; 0: as in the file
-  Where where;
+  QueryKind query_kind;
   Index samples; ///< number of samples along the grid's longest side
   WindingMethod method;
   double tolerance;
@@ -191,7 +191,7 @@ Points queries_for(const Row& row, const TriangleMesh& mesh, const Box& box)
     {
       p[k] = random.uniform(box.lower[k], box.upper[k]);
     }
-    if (row.where == near)
+    if (row.query_kind == near)
     {
       const Index t = random.below(mesh.triangles.rows());
       const Vec3 a = mesh.points.row(mesh.triangles(t, 0));
@@ -245,7 +245,7 @@ double largest_error(Index count, Index triangles, const std::function<double(In
 void evaluate(benchmark::State& state, const Row& row)
 {
   TriangleMesh mesh = surface(row.surface, row.triangles);
-  if (row.where == far_from_origin)
+  if (row.query_kind == far_from_origin)
   {
     const double away = 1e6 * bounding_box(mesh.points).diagonal();
     mesh.points.rowwise() += Vec3(away, -away, away).transpose();
@@ -260,15 +260,15 @@ void evaluate(benchmark::State& state, const Row& row)
   winding.build(context, mesh.points, mesh.triangles, options);
   const SampleGrid cells = grid_for(std::max<Index>(row.samples, 2), box);
   const Points queries = queries_for(row, mesh, box);
-  const Index count = row.where == grid ? cells.count() : queries.rows();
+  const Index count = row.query_kind == grid ? cells.count() : queries.rows();
   // Initialize with a constant, so that the memory is allocated before the timing.
   Eigen::VectorXd values = Eigen::VectorXd::Constant(count, -1.0);
   double seconds = 0.0;
   for (auto _ : state)
   {
     const auto start = std::chrono::steady_clock::now();
-    row.where == grid ? winding.evaluate(context, cells, values.data())
-                      : winding.evaluate(context, queries, values.data());
+    row.query_kind == grid ? winding.evaluate(context, cells, values.data())
+                           : winding.evaluate(context, queries, values.data());
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start;
     state.SetIterationTime(spent.count());
     seconds += spent.count();
@@ -281,7 +281,7 @@ void evaluate(benchmark::State& state, const Row& row)
     found->second = largest_error(count, mesh.triangles.rows(),
       [&](Index i)
       {
-        const Vec3 p = row.where == grid
+        const Vec3 p = row.query_kind == grid
           ? cells.point(i % cells.size(0), i / cells.size(0) % cells.size(1),
               i / cells.size(0) / cells.size(1))
           : Vec3(queries.row(i));
@@ -292,7 +292,7 @@ void evaluate(benchmark::State& state, const Row& row)
     1e9 * seconds / static_cast<double>(state.iterations()) / static_cast<double>(count);
   state.SetLabel(to_string(winding.method()));
   state.counters["ns"] = nanoseconds;
-  state.counters["Y"] = nanoseconds / yardstick();
+  state.counters["Y"] = nanoseconds / direct_nanoseconds();
   state.counters["error"] = found->second;
   state.counters["triangles"] = static_cast<double>(mesh.triangles.rows());
   state.counters["open_edges"] = winding.status().report.number("counts.open_edges", 0.0);
@@ -372,12 +372,12 @@ const bool registered = []
     {
       continue;
     }
-    std::string name = std::string("winding/") + places[row.where] + "/" + row.surface;
+    std::string name = std::string("winding/") + places[row.query_kind] + "/" + row.surface;
     if (row.triangles > 0)
     {
       name += ":" + std::to_string(row.triangles);
     }
-    if (row.where == grid)
+    if (row.query_kind == grid)
     {
       name += "/samples:" + std::to_string(row.samples);
     }

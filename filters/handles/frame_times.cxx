@@ -37,12 +37,13 @@ void set_frame_times(vtkInformation* output, int frames, double frames_per_secon
 
 bool requested_time(vtkInformation* output, double& time)
 {
-  const bool asked = output->Has(SDDP::UPDATE_TIME_STEP()) && output->Has(SDDP::TIME_RANGE());
-  if (asked)
+  const bool is_requested =
+    output->Has(SDDP::UPDATE_TIME_STEP()) && output->Has(SDDP::TIME_RANGE());
+  if (is_requested)
   {
     time = output->Get(SDDP::UPDATE_TIME_STEP());
   }
-  return asked;
+  return is_requested;
 }
 
 int frame_at(double time, int frames, double frames_per_second)

@@ -49,8 +49,8 @@ std::vector<GltfJoint> to_joints(const Handles& handles, const std::vector<Affin
     joint.parent = handle.parent;
     joint.rest = joint_frame(handle);
     joint.posed = to_affine(transforms[h]) * joint.rest;
-    joint.note =
-      GltfNote{ to_string(handle.kind), handle.head, handle.tail, handle.region_id, handle.cage };
+    joint.note = GltfHandleExtras{ to_string(handle.kind), handle.head, handle.tail,
+      handle.region_id, handle.cage };
     joints.push_back(joint);
   }
   return joints;
@@ -62,12 +62,12 @@ constexpr double float_error = 2e-6; // relative error of lengths that were stor
 
 bool kind_of(const std::string& word, HandleKind& kind)
 {
-  for (const HandleKind one :
+  for (const HandleKind candidate :
     { HandleKind::point, HandleKind::bone, HandleKind::cage_vertex, HandleKind::region })
   {
-    if (word == to_string(one))
+    if (word == to_string(candidate))
     {
-      kind = one;
+      kind = candidate;
       return true;
     }
   }
@@ -97,7 +97,7 @@ public:
       }
     }
     this->extent_ = box.diagonal() > 0.0 ? box.diagonal() : 1.0;
-    this->largest_ = skin.weights.colwise().maxCoeff();
+    this->largest_weights_ = skin.weights.colwise().maxCoeff();
   }
 
   double extent() const { return this->extent_; }
@@ -111,8 +111,8 @@ public:
       Handle handle = this->handle_of(j);
       handle.name = this->skin_.joints[j].name;
       handle.parent = this->skin_.joints[j].parent;
-      handle.ownership = this->moves_nothing(j) ? Ownership::none : Ownership::optional;
-      for (int k = 1; this->taken(handles, handle); ++k)
+      handle.ownership = this->has_no_influence(j) ? Ownership::none : Ownership::optional;
+      for (int k = 1; this->is_duplicate(handles, handle); ++k)
       {
         const Vec3 along = this->skin_.joints[j].rest.linear().col(1).stableNormalized();
         handle.kind = HandleKind::bone;
@@ -127,10 +127,10 @@ public:
 private:
   /// Report whether the joint is a control bone, i.e. it has no weights although other joints have.
   /// If one joint has all weights of a skin, the weights are a placeholder and the result is false.
-  bool moves_nothing(std::size_t j) const
+  bool has_no_influence(std::size_t j) const
   {
-    return (this->largest_.array() > 0.0).count() > 1 &&
-      !(this->largest_[static_cast<Index>(j)] > 0.0);
+    return (this->largest_weights_.array() > 0.0).count() > 1 &&
+      !(this->largest_weights_[static_cast<Index>(j)] > 0.0);
   }
 
   Handle handle_of(std::size_t j) const
@@ -169,7 +169,7 @@ private:
     return handle;
   }
 
-  bool taken(const Handles& others, const Handle& handle) const
+  bool is_duplicate(const Handles& others, const Handle& handle) const
   {
     const double same = 1e-8 * this->extent_;
     return handle.kind != HandleKind::region &&
@@ -187,20 +187,20 @@ private:
   const GltfSkin& skin_;
   std::vector<std::vector<Index>> children_;
   double extent_ = 1.0;
-  Eigen::RowVectorXd largest_; ///< largest weight of each joint
+  Eigen::RowVectorXd largest_weights_; ///< largest weight of each joint
 };
 
 /// Sort handles so that bones are last, as in handle datasets. order[i] is the joint of handle i.
 void sort_handles(Handles& handles, std::vector<Index>& order)
 {
-  std::vector<Index> place(handles.size());
+  std::vector<Index> new_index(handles.size());
   for (const bool bones : { false, true })
   {
     for (std::size_t j = 0; j < handles.size(); ++j)
     {
       if ((handles[j].kind == HandleKind::bone) == bones)
       {
-        place[j] = static_cast<Index>(order.size());
+        new_index[j] = static_cast<Index>(order.size());
         order.push_back(static_cast<Index>(j));
       }
     }
@@ -209,12 +209,12 @@ void sort_handles(Handles& handles, std::vector<Index>& order)
   for (const Index j : order)
   {
     Handle handle = handles[j];
-    handle.parent = handle.parent < 0 ? -1 : place[handle.parent];
+    handle.parent = handle.parent < 0 ? -1 : new_index[handle.parent];
     for (CageElement& element : handle.cage)
     {
       for (Index& corner : element)
       {
-        corner = corner < 0 ? -1 : place[corner];
+        corner = corner < 0 ? -1 : new_index[corner];
       }
     }
     sorted.push_back(handle);

@@ -40,27 +40,27 @@ vtkDataArray* colors_of(vtkPolyData* data)
   {
     return before;
   }
-  vtkNew<vtkDoubleArray> fresh;
-  fresh->SetName("Color");
-  fresh->SetNumberOfComponents(3);
-  fresh->SetNumberOfTuples(count);
+  vtkNew<vtkDoubleArray> new_array;
+  new_array->SetName("Color");
+  new_array->SetNumberOfComponents(3);
+  new_array->SetNumberOfTuples(count);
   const double unit = fits && before->GetDataType() == VTK_UNSIGNED_CHAR ? 255.0 : 1.0;
   for (vtkIdType cell = 0; cell < count; ++cell)
   {
     for (int k = 0; k < 3; ++k)
     {
       const bool known = fits && cell < before->GetNumberOfTuples();
-      fresh->SetComponent(cell, k, known ? before->GetComponent(cell, k) / unit : none);
+      new_array->SetComponent(cell, k, known ? before->GetComponent(cell, k) / unit : none);
     }
   }
-  data->GetCellData()->AddArray(fresh);
+  data->GetCellData()->AddArray(new_array);
   return data->GetCellData()->GetArray("Color");
 }
 
 /// Copy the arrays of `before` that `now` lacks. Also copy the values of the pose arrays, so that
 /// each handle keeps its values.
 void carry_arrays(vtkPolyData* before, vtkPolyData* now, const std::vector<Index>& source,
-  const std::vector<Index>& model)
+  const std::vector<Index>& copied_from)
 {
   vtkCellData* from = before->GetCellData();
   if (from->GetArray("Color"))
@@ -79,21 +79,21 @@ void carry_arrays(vtkPolyData* before, vtkPolyData* now, const std::vector<Index
     }
     if (!target || target->GetNumberOfComponents() != array->GetNumberOfComponents())
     {
-      vtkSmartPointer<vtkAbstractArray> fresh;
-      fresh.TakeReference(array->NewInstance());
-      fresh->SetName(name.c_str());
-      fresh->SetNumberOfComponents(array->GetNumberOfComponents());
-      fresh->SetNumberOfTuples(now->GetNumberOfCells());
-      if (auto* numbers = vtkDataArray::SafeDownCast(fresh))
+      vtkSmartPointer<vtkAbstractArray> new_array;
+      new_array.TakeReference(array->NewInstance());
+      new_array->SetName(name.c_str());
+      new_array->SetNumberOfComponents(array->GetNumberOfComponents());
+      new_array->SetNumberOfTuples(now->GetNumberOfCells());
+      if (auto* numbers = vtkDataArray::SafeDownCast(new_array))
       {
         numbers->Fill(name == "Color" ? none : 0.0);
       }
-      now->GetCellData()->AddArray(fresh);
-      target = fresh;
+      now->GetCellData()->AddArray(new_array);
+      target = new_array;
     }
     for (vtkIdType cell = 0; cell < now->GetNumberOfCells(); ++cell)
     {
-      const Index other = (pose ? source : model)[static_cast<std::size_t>(cell)];
+      const Index other = (pose ? source : copied_from)[static_cast<std::size_t>(cell)];
       if (other >= 0 && other < array->GetNumberOfTuples())
       {
         target->SetTuple(cell, other, array);
@@ -110,7 +110,7 @@ Status to_editable(vtkPolyData* data, Handles& handles, std::vector<Index>& cell
   return data && data->GetNumberOfCells() > 0 ? to_handles(data, handles, &cells) : Status();
 }
 
-Status edit_handles(vtkPolyData* data, const HandleListEdit& edit, std::vector<Index>* cell_of,
+Status edit_handles(vtkPolyData* data, const HandleListEdit& edit, std::vector<Index>* new_cell,
   std::vector<Index>* added)
 {
   Handles before;
@@ -144,9 +144,9 @@ Status edit_handles(vtkPolyData* data, const HandleListEdit& edit, std::vector<I
       }
     }
   }
-  if (cell_of)
+  if (new_cell)
   {
-    cell_of->assign(static_cast<std::size_t>(data->GetNumberOfCells()), -1);
+    new_cell->assign(static_cast<std::size_t>(data->GetNumberOfCells()), -1);
   }
   if (added)
   {
@@ -154,22 +154,22 @@ Status edit_handles(vtkPolyData* data, const HandleListEdit& edit, std::vector<I
   }
   std::vector<Index> handle_now(before.size(), -1);
   std::vector<Index> source(static_cast<std::size_t>(now->GetNumberOfCells()), -1);
-  std::vector<Index> model = source;
+  std::vector<Index> copied_from = source;
   for (std::size_t i = 0; i < after.handles.size(); ++i)
   {
     const auto cell = static_cast<std::size_t>(cell_of_handle[i]);
-    if (after.model[i] >= 0)
+    if (after.copied_from[i] >= 0)
     {
-      model[cell] = cells[static_cast<std::size_t>(after.model[i])];
+      copied_from[cell] = cells[static_cast<std::size_t>(after.copied_from[i])];
     }
     if (after.source[i] >= 0)
     {
       const Index old = cells[static_cast<std::size_t>(after.source[i])];
       source[cell] = old;
       handle_now[static_cast<std::size_t>(after.source[i])] = static_cast<Index>(i);
-      if (cell_of)
+      if (new_cell)
       {
-        (*cell_of)[static_cast<std::size_t>(old)] = static_cast<Index>(cell);
+        (*new_cell)[static_cast<std::size_t>(old)] = static_cast<Index>(cell);
       }
     }
     else if (added)
@@ -177,7 +177,7 @@ Status edit_handles(vtkPolyData* data, const HandleListEdit& edit, std::vector<I
       added->push_back(static_cast<Index>(cell));
     }
   }
-  carry_arrays(data, now, source, model);
+  carry_arrays(data, now, source, copied_from);
   PseudoEdges kept;
   for (const PseudoEdge& edge : edges)
   {
@@ -209,11 +209,11 @@ void set_number(vtkPolyData* data, const char* name, Index cell, double value)
   const vtkIdType count = data->GetNumberOfCells();
   if (!array || array->GetNumberOfTuples() != count)
   {
-    vtkNew<Array> fresh;
-    fresh->SetName(name);
-    fresh->SetNumberOfTuples(count);
-    fresh->Fill(0.0);
-    data->GetCellData()->AddArray(fresh);
+    vtkNew<Array> new_array;
+    new_array->SetName(name);
+    new_array->SetNumberOfTuples(count);
+    new_array->Fill(0.0);
+    data->GetCellData()->AddArray(new_array);
     array = data->GetCellData()->GetArray(name);
   }
   if (cell >= 0 && cell < count)

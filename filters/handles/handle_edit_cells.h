@@ -29,10 +29,10 @@ using HandleListEdit = std::function<Status(const Handles& before, EditedHandles
 ///
 /// In the dataset the cells of points are before the cells of bones, so adding a point changes the
 /// cell ids of the bones.
-/// @param cell_of  for each cell before the edit, its id after the edit, or -1
+/// @param new_cell  for each cell before the edit, its id after the edit, or -1
 /// @param added  ids of the new cells
 BINDPOSEFILTERS_EXPORT Status edit_handles(vtkPolyData* data, const HandleListEdit& edit,
-  std::vector<Index>* cell_of = nullptr, std::vector<Index>* added = nullptr);
+  std::vector<Index>* new_cell = nullptr, std::vector<Index>* added = nullptr);
 
 /// Set the cell array `Color` of one handle: red, green and blue from 0 to 1. Without `color` the
 /// cell gets three NaN: the handle is then drawn in the color of its mode. The array is created if

@@ -48,18 +48,18 @@ Status to_handle_geometry(vtkPolyData* data, HandleGeometry& geometry)
   {
     return status;
   }
-  const auto add = [&](const Vec3& place)
+  const auto add = [&](const Vec3& position)
   {
-    geometry.points.push_back(place);
+    geometry.points.push_back(position);
     return static_cast<Index>(geometry.points.size()) - 1;
   };
   for (const Handle& handle : list)
   {
     geometry.names.push_back(handle.name);
-    geometry.point_of.push_back(handle.kind == HandleKind::region ? -1 : add(handle.head));
+    geometry.point_of_handle.push_back(handle.kind == HandleKind::region ? -1 : add(handle.head));
     if (handle.kind == HandleKind::bone)
     {
-      geometry.bones.push_back({ geometry.point_of.back(), add(handle.tail) });
+      geometry.bones.push_back({ geometry.point_of_handle.back(), add(handle.tail) });
     }
   }
   // Edges and faces of cages are not handles, but weights are linear along them.
@@ -82,15 +82,15 @@ Status to_handle_geometry(vtkPolyData* data, HandleGeometry& geometry)
   return {};
 }
 
-HandlePlaces to_handle_places(const HandleGeometry& geometry)
+HandleElements to_handle_elements(const HandleGeometry& geometry)
 {
-  HandlePlaces places;
-  places.points.resize(static_cast<Index>(geometry.points.size()), 3);
+  HandleElements handle_elements;
+  handle_elements.points.resize(static_cast<Index>(geometry.points.size()), 3);
   for (std::size_t i = 0; i < geometry.points.size(); ++i)
   {
-    places.points.row(static_cast<Index>(i)) = geometry.points[i];
+    handle_elements.points.row(static_cast<Index>(i)) = geometry.points[i];
   }
-  places.segments = to_segments(segments_of(geometry));
+  handle_elements.segments = to_segments(segments_of(geometry));
   std::vector<std::array<Index, 3>> triangles;
   for (const std::vector<Index>& element : geometry.cage_elements)
   {
@@ -99,13 +99,13 @@ HandlePlaces to_handle_places(const HandleGeometry& geometry)
       triangles.push_back({ element[0], element[k - 1], element[k] });
     }
   }
-  places.triangles.resize(static_cast<Index>(triangles.size()), 3);
+  handle_elements.triangles.resize(static_cast<Index>(triangles.size()), 3);
   for (std::size_t i = 0; i < triangles.size(); ++i)
   {
-    places.triangles.row(static_cast<Index>(i)) << triangles[i][0], triangles[i][1],
+    handle_elements.triangles.row(static_cast<Index>(i)) << triangles[i][0], triangles[i][1],
       triangles[i][2];
   }
-  return places;
+  return handle_elements;
 }
 
 PlanarHandles to_planar_handles(const HandleGeometry& geometry)
@@ -124,7 +124,7 @@ void report_handles(
   const HandleGeometry& geometry, const std::vector<Index>& vertex_of_point, Report& report)
 {
   std::vector<Index> vertices;
-  for (const Index point : geometry.point_of)
+  for (const Index point : geometry.point_of_handle)
   {
     vertices.push_back(point < 0 ? -1 : vertex_of_point[point]);
   }

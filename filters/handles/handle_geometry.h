@@ -3,7 +3,7 @@
 
 #include "BindposeFiltersModule.h" // for export macro
 #include "base/status.h"
-#include "inside/handle_places.h"
+#include "inside/handle_elements.h"
 #include "planar/planar_shape.h"
 
 #include <array>
@@ -22,7 +22,8 @@ struct HandleGeometry
   std::vector<std::array<Index, 2>> bones; ///< head and tail of each bone, as ids of points
   std::vector<std::vector<Index>> cage_elements; ///< edges and faces of cages, as ids of points
   std::vector<std::string> names; ///< names of all handles
-  std::vector<Index> point_of; ///< the point of each handle, for a bone its head; -1 for regions
+  std::vector<Index>
+    point_of_handle; ///< the point of each handle, for a bone its head; -1 for regions
 };
 
 /// Convert all handles (see vtkHandleFileReader) and the edges and faces of cages, which are not
@@ -30,7 +31,7 @@ struct HandleGeometry
 BINDPOSEFILTERS_EXPORT Status to_handle_geometry(vtkPolyData* data, HandleGeometry& geometry);
 
 /// Return the faces of cages as triangles, and the edges of the faces and the bones as segments.
-BINDPOSEFILTERS_EXPORT HandlePlaces to_handle_places(const HandleGeometry& geometry);
+BINDPOSEFILTERS_EXPORT HandleElements to_handle_elements(const HandleGeometry& geometry);
 
 /// Return the handles projected to the xy plane. Bones, and the edges of cages and of cage faces,
 /// become segments.

@@ -30,10 +30,10 @@ Status to_tgf(const Handles& handles, Tgf& graph)
 {
   graph = Tgf();
   std::vector<Index> node_of(handles.size(), -1);
-  const auto add_node = [&](const Vec3& place, const std::string& text)
+  const auto add_node = [&](const Vec3& position, const std::string& text)
   {
     Tgf::Node node;
-    node.position = place;
+    node.position = position;
     node.text = text;
     graph.nodes.push_back(node);
     return static_cast<Index>(graph.nodes.size()) - 1;
@@ -51,11 +51,11 @@ Status to_tgf(const Handles& handles, Tgf& graph)
     }
   }
   std::map<std::array<double, 3>, Index> joints;
-  const auto joint = [&](const Vec3& place)
+  const auto joint = [&](const Vec3& position)
   {
     const auto [entry, fresh] = joints.emplace(
-      std::array<double, 3>{ place.x(), place.y(), place.z() }, Index(graph.nodes.size()));
-    return fresh ? add_node(place, "") : entry->second;
+      std::array<double, 3>{ position.x(), position.y(), position.z() }, Index(graph.nodes.size()));
+    return fresh ? add_node(position, "") : entry->second;
   };
   for (const Handle& handle : handles)
   {
@@ -81,20 +81,20 @@ Status to_tgf(const Handles& handles, Tgf& graph)
       graph.edges.push_back(edge);
     }
   }
-  std::vector<Index> lost;
+  std::vector<Index> lost_parents;
   for (std::size_t i = 0; i < handles.size(); ++i)
   {
     if (handles[i].parent != parent_by_joint(handles, handles[i]))
     {
-      lost.push_back(static_cast<Index>(i));
+      lost_parents.push_back(static_cast<Index>(i));
     }
   }
   Status status;
-  if (!lost.empty())
+  if (!lost_parents.empty())
   {
     status.warnings.push_back("a .tgf file stores parents only as shared joints of bones; the "
                               "parents of " +
-      quoted_names(handles, lost) + " are not stored (use a .vtp file)");
+      quoted_names(handles, lost_parents) + " are not stored (use a .vtp file)");
   }
   return status;
 }

@@ -24,7 +24,7 @@ namespace
 const char* const placement_name = "Placement";
 const char* const mode_name = "Mode";
 
-std::string of_instance(std::size_t i)
+std::string instance_prefix(std::size_t i)
 {
   return "instance " + std::to_string(i) + ": ";
 }
@@ -62,7 +62,8 @@ Status from_handles(vtkCompositeDataSet* data, const Handles& handles, InstanceP
     auto* polydata = vtkPolyData::SafeDownCast(block->GetCurrentDataObject());
     if (!polydata)
     {
-      return Status::invalid_input(of_instance(i) + "expected a vtkPolyData with handles, got a " +
+      return Status::invalid_input(instance_prefix(i) +
+        "expected a vtkPolyData with handles, got a " +
         block->GetCurrentDataObject()->GetClassName());
     }
     Handles own;
@@ -77,10 +78,10 @@ Status from_handles(vtkCompositeDataSet* data, const Handles& handles, InstanceP
     {
       status = to_pose(polydata, own, cells, pose);
     }
-    vtkDataArray* place = polydata->GetFieldData()->GetArray(placement_name);
-    if (status.ok() && place &&
-      (place->GetNumberOfTuples() != 1 ||
-        (place->GetNumberOfComponents() != 12 && place->GetNumberOfComponents() != 3)))
+    vtkDataArray* placement = polydata->GetFieldData()->GetArray(placement_name);
+    if (status.ok() && placement &&
+      (placement->GetNumberOfTuples() != 1 ||
+        (placement->GetNumberOfComponents() != 12 && placement->GetNumberOfComponents() != 3)))
     {
       status =
         Status::invalid_input("its field data array Placement must have one tuple of 12 components "
@@ -88,12 +89,12 @@ Status from_handles(vtkCompositeDataSet* data, const Handles& handles, InstanceP
     }
     if (!status.ok())
     {
-      status.message = of_instance(i) + status.message;
+      status.message = instance_prefix(i) + status.message;
       return status;
     }
-    placed = placed || place;
+    placed = placed || placement;
     instances.poses.push_back(std::move(pose));
-    instances.placements.push_back(place ? affine_of(place, 0) : identity_affine());
+    instances.placements.push_back(placement ? affine_of(placement, 0) : identity_affine());
   }
   if (!placed)
   {
@@ -144,7 +145,7 @@ Status from_rows(vtkDataSetAttributes* arrays, vtkIdType rows, vtkPointSet* poin
         if (!(mode >= 0.0 && mode <= static_cast<double>(HandleMode::automatic)) ||
           mode != std::floor(mode))
         {
-          return Status::invalid_input(of_instance(static_cast<std::size_t>(i)) + "handle '" +
+          return Status::invalid_input(instance_prefix(static_cast<std::size_t>(i)) + "handle '" +
             handles[h].name + "' has an unknown Mode");
         }
         instances.poses[static_cast<std::size_t>(i)][h].mode = static_cast<HandleMode>(int(mode));
@@ -156,25 +157,26 @@ Status from_rows(vtkDataSetAttributes* arrays, vtkIdType rows, vtkPointSet* poin
     status.warnings.emplace_back("no array of the instances has the name of a handle: all "
                                  "instances use the pose of the handles");
   }
-  vtkDataArray* places = arrays->GetArray(placement_name);
-  if (places && places->GetNumberOfComponents() != 12 && places->GetNumberOfComponents() != 3)
+  vtkDataArray* placements = arrays->GetArray(placement_name);
+  if (placements && placements->GetNumberOfComponents() != 12 &&
+    placements->GetNumberOfComponents() != 3)
   {
     return Status::invalid_input("the array Placement of the instances has " +
-      std::to_string(places->GetNumberOfComponents()) +
+      std::to_string(placements->GetNumberOfComponents()) +
       " components; expected 12 (3x4, row-major) or 3 (a translation)");
   }
-  for (vtkIdType i = 0; i < rows && (places || points); ++i)
+  for (vtkIdType i = 0; i < rows && (placements || points); ++i)
   {
-    Affine place = identity_affine();
-    if (places)
+    Affine placement = identity_affine();
+    if (placements)
     {
-      place = affine_of(places, i);
+      placement = affine_of(placements, i);
     }
     else
     {
-      place.col(3) = Vec3(points->GetPoint(i));
+      placement.col(3) = Vec3(points->GetPoint(i));
     }
-    instances.placements.push_back(place);
+    instances.placements.push_back(placement);
   }
   return status;
 }
@@ -212,7 +214,7 @@ Status to_instance_poses(
     if (!instances.placements[i].allFinite())
     {
       return Status::invalid_input(
-        of_instance(i) + "its placement contains a value that is not finite");
+        instance_prefix(i) + "its placement contains a value that is not finite");
     }
   }
   return status;

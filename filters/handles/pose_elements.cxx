@@ -101,9 +101,9 @@ Status measure_stretch(ExecutionContext& context, const ElementStretchOptions& o
   {
     const Index cell =
       elements.cell_of_element.empty() ? static_cast<Index>(e) : elements.cell_of_element[e];
-    double* of_cell = array->GetPointer(2 * cell);
-    of_cell[0] = std::fmax(of_cell[0], stretch.largest[e]); // fmax ignores NaN
-    of_cell[1] = std::fmin(of_cell[1], stretch.smallest[e]);
+    double* cell_stretch = array->GetPointer(2 * cell);
+    cell_stretch[0] = std::fmax(cell_stretch[0], stretch.largest[e]); // fmax ignores NaN
+    cell_stretch[1] = std::fmin(cell_stretch[1], stretch.smallest[e]);
   }
   result->GetCellData()->AddArray(array);
   return status;

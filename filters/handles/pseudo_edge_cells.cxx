@@ -23,17 +23,17 @@ Status to_pseudo_edges(
 {
   edges.clear();
   vtkDataArray* kinds = data->GetCellData()->GetArray("HandleKind");
-  std::map<vtkIdType, Index> by_point;
-  std::map<std::array<double, 3>, Index> by_place;
+  std::map<vtkIdType, Index> handle_at_point;
+  std::map<std::array<double, 3>, Index> handle_at_position;
   vtkNew<vtkIdList> ids;
   for (std::size_t h = 0; kinds && h < handles.size(); ++h)
   {
     if (handles[h].kind == HandleKind::point)
     {
       data->GetCellPoints(static_cast<vtkIdType>(cells[h]), ids);
-      const Vec3& at = handles[h].head;
-      by_point[ids->GetId(0)] = static_cast<Index>(h);
-      by_place[{ at[0], at[1], at[2] }] = static_cast<Index>(h);
+      const Vec3& position = handles[h].head;
+      handle_at_point[ids->GetId(0)] = static_cast<Index>(h);
+      handle_at_position[{ position[0], position[1], position[2] }] = static_cast<Index>(h);
     }
   }
   for (vtkIdType cell = 0; kinds && cell < kinds->GetNumberOfTuples(); ++cell)
@@ -47,13 +47,13 @@ Status to_pseudo_edges(
     for (vtkIdType k = 0; k < 2 && ids->GetNumberOfIds() == 2; ++k)
     {
       const vtkIdType point = ids->GetId(k);
-      std::array<double, 3> at{};
-      data->GetPoint(point, at.data());
-      const auto own = by_point.find(point);
-      const auto same = by_place.find(at);
-      edge[static_cast<std::size_t>(k)] = own != by_point.end() ? own->second
-        : same != by_place.end()                                ? same->second
-                                                                : -1;
+      std::array<double, 3> position{};
+      data->GetPoint(point, position.data());
+      const auto own = handle_at_point.find(point);
+      const auto same = handle_at_position.find(position);
+      edge[static_cast<std::size_t>(k)] = own != handle_at_point.end() ? own->second
+        : same != handle_at_position.end()                             ? same->second
+                                                                       : -1;
     }
     if (edge[0] < 0 || edge[1] < 0 || edge[0] == edge[1])
     {

@@ -11,7 +11,7 @@ namespace bindpose
 void add_rotations(const RotationGroups& groups, const std::vector<Eigen::Matrix3d>& rotations,
   vtkSmartPointer<vtkIntArray>& clusters, vtkPointData* data)
 {
-  const auto points = static_cast<vtkIdType>(groups.of_vertex.size());
+  const auto points = static_cast<vtkIdType>(groups.group_of_vertex.size());
   if (!clusters)
   {
     clusters = vtkSmartPointer<vtkIntArray>::New();
@@ -19,7 +19,7 @@ void add_rotations(const RotationGroups& groups, const std::vector<Eigen::Matrix
     clusters->SetNumberOfValues(points);
     for (vtkIdType v = 0; v < points; ++v)
     {
-      clusters->SetValue(v, static_cast<int>(groups.of_vertex[static_cast<std::size_t>(v)]));
+      clusters->SetValue(v, static_cast<int>(groups.group_of_vertex[static_cast<std::size_t>(v)]));
     }
   }
   std::vector<Vec3> vectors;
@@ -27,18 +27,19 @@ void add_rotations(const RotationGroups& groups, const std::vector<Eigen::Matrix
   {
     vectors.push_back(rotation_vector(rotation));
   }
-  auto turns = vtkSmartPointer<vtkDoubleArray>::New();
-  turns->SetName("Rotation");
-  turns->SetNumberOfComponents(3);
-  turns->SetNumberOfTuples(points);
+  auto rotation_vectors = vtkSmartPointer<vtkDoubleArray>::New();
+  rotation_vectors->SetName("Rotation");
+  rotation_vectors->SetNumberOfComponents(3);
+  rotation_vectors->SetNumberOfTuples(points);
   const Vec3 none = Vec3::Zero();
   for (vtkIdType v = 0; v < points; ++v)
   {
     const int cluster = clusters->GetValue(v);
-    turns->SetTuple(v, (cluster < 0 ? none : vectors[static_cast<std::size_t>(cluster)]).data());
+    rotation_vectors->SetTuple(
+      v, (cluster < 0 ? none : vectors[static_cast<std::size_t>(cluster)]).data());
   }
   data->AddArray(clusters);
-  data->AddArray(turns);
+  data->AddArray(rotation_vectors);
 }
 
 } // namespace bindpose

@@ -67,12 +67,13 @@ void triangulate_polygon(vtkIdType count, const vtkIdType* ids, vtkPoints* point
       polygon->GetPointIds()->SetId(k, k);
       polygon->GetPoints()->SetPoint(k, points->GetPoint(ids[k]));
     }
-    vtkNew<vtkIdList> cut;
-    if (polygon->Triangulate(cut) && cut->GetNumberOfIds() == 3 * (count - 2))
+    vtkNew<vtkIdList> triangle_ids;
+    if (polygon->Triangulate(triangle_ids) && triangle_ids->GetNumberOfIds() == 3 * (count - 2))
     {
-      for (vtkIdType t = 0; t + 2 < cut->GetNumberOfIds(); t += 3)
+      for (vtkIdType t = 0; t + 2 < triangle_ids->GetNumberOfIds(); t += 3)
       {
-        triangles.push_back({ ids[cut->GetId(t)], ids[cut->GetId(t + 1)], ids[cut->GetId(t + 2)] });
+        triangles.push_back({ ids[triangle_ids->GetId(t)], ids[triangle_ids->GetId(t + 1)],
+          ids[triangle_ids->GetId(t + 2)] });
       }
       return;
     }
@@ -384,8 +385,8 @@ double cell_value(vtkPolyData* data, const char* name, vtkIdType cell, double fa
 /// must be the points of cage vertices or have the same positions.
 Status add_cages(vtkPolyData* data, const std::vector<Index>& handle_of_cell, Handles& handles)
 {
-  std::map<vtkIdType, Index> by_point;
-  std::map<std::array<double, 3>, Index> by_place;
+  std::map<vtkIdType, Index> handle_at_point;
+  std::map<std::array<double, 3>, Index> handle_at_position;
   vtkNew<vtkIdList> ids;
   for (std::size_t cell = 0; cell < handle_of_cell.size(); ++cell)
   {
@@ -393,9 +394,9 @@ Status add_cages(vtkPolyData* data, const std::vector<Index>& handle_of_cell, Ha
     if (handle >= 0 && handles[handle].kind == HandleKind::cage_vertex)
     {
       data->GetCellPoints(static_cast<vtkIdType>(cell), ids);
-      const Vec3& at = handles[handle].head;
-      by_point[ids->GetId(0)] = handle;
-      by_place[{ at[0], at[1], at[2] }] = handle;
+      const Vec3& position = handles[handle].head;
+      handle_at_point[ids->GetId(0)] = handle;
+      handle_at_position[{ position[0], position[1], position[2] }] = handle;
     }
   }
   for (std::size_t cell = 0; cell < handle_of_cell.size(); ++cell)
@@ -416,16 +417,16 @@ Status add_cages(vtkPolyData* data, const std::vector<Index>& handle_of_cell, Ha
           std::to_string(point) + ", but there are " + std::to_string(data->GetNumberOfPoints()) +
           " points");
       }
-      std::array<double, 3> at;
-      data->GetPoint(point, at.data());
-      const auto own = by_point.find(point);
-      const auto same = by_place.find(at);
-      if (own == by_point.end() && same == by_place.end())
+      std::array<double, 3> position;
+      data->GetPoint(point, position.data());
+      const auto own = handle_at_point.find(point);
+      const auto same = handle_at_position.find(position);
+      if (own == handle_at_point.end() && same == handle_at_position.end())
       {
         return Status::invalid_input("point " + std::to_string(point) + " of cage element " +
           std::to_string(cell) + " must be a cage vertex");
       }
-      corners.push_back(own != by_point.end() ? own->second : same->second);
+      corners.push_back(own != handle_at_point.end() ? own->second : same->second);
     }
     if (corners.size() < 2)
     {
@@ -561,17 +562,17 @@ vtkSmartPointer<vtkPolyData> to_polydata(const Handles& handles)
       }
     }
   }
-  std::vector<Index> cell_of(handles.size());
-  std::vector<vtkIdType> point_of(handles.size());
+  std::vector<Index> cell_of_handle(handles.size());
+  std::vector<vtkIdType> point_of_handle(handles.size());
   for (std::size_t cell = 0; cell < order.size(); ++cell)
   {
-    cell_of[order[cell]] = static_cast<Index>(cell);
+    cell_of_handle[order[cell]] = static_cast<Index>(cell);
   }
   for (const Index i : order)
   {
     const Handle& handle = handles[i];
     const vtkIdType head = points->InsertNextPoint(handle.head.data());
-    point_of[i] = head;
+    point_of_handle[i] = head;
     if (handle.kind == HandleKind::bone)
     {
       const vtkIdType ends[2] = { head, points->InsertNextPoint(handle.tail.data()) };
@@ -583,7 +584,7 @@ vtkSmartPointer<vtkPolyData> to_polydata(const Handles& handles)
     }
     names->InsertNextValue(handle.name);
     kinds->InsertNextValue(static_cast<int>(handle.kind));
-    parents->InsertNextValue(handle.parent < 0 ? -1 : cell_of[handle.parent]);
+    parents->InsertNextValue(handle.parent < 0 ? -1 : cell_of_handle[handle.parent]);
     regions->InsertNextValue(handle.region_id);
     ownerships->InsertNextValue(static_cast<int>(handle.ownership));
   }
@@ -599,8 +600,8 @@ vtkSmartPointer<vtkPolyData> to_polydata(const Handles& handles)
         {
           continue;
         }
-        const vtkIdType corners[3] = { point_of[element[0]], point_of[element[1]],
-          face ? point_of[element[2]] : -1 };
+        const vtkIdType corners[3] = { point_of_handle[element[0]], point_of_handle[element[1]],
+          face ? point_of_handle[element[2]] : -1 };
         (face ? faces : lines)->InsertNextCell(face ? 3 : 2, corners);
         names->InsertNextValue("");
         kinds->InsertNextValue(static_cast<int>(HandleKind::cage_element));
@@ -715,17 +716,17 @@ void set_pose(vtkPolyData* data, const std::vector<Index>& cells, const Pose& po
   transforms->SetNumberOfTuples(count);
   stretches->SetNumberOfTuples(count);
   twists->SetNumberOfTuples(count);
-  Pose of_cell(static_cast<std::size_t>(count));
+  Pose cell_poses(static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < cells.size(); ++i)
   {
-    of_cell[cells[i]] = pose[i];
+    cell_poses[cells[i]] = pose[i];
   }
   for (vtkIdType cell = 0; cell < count; ++cell)
   {
-    modes->SetValue(cell, static_cast<int>(of_cell[cell].mode));
-    transforms->SetTuple(cell, of_cell[cell].transform.data());
-    stretches->SetValue(cell, of_cell[cell].stretch);
-    twists->SetTuple(cell, of_cell[cell].twist.data());
+    modes->SetValue(cell, static_cast<int>(cell_poses[cell].mode));
+    transforms->SetTuple(cell, cell_poses[cell].transform.data());
+    stretches->SetValue(cell, cell_poses[cell].stretch);
+    twists->SetTuple(cell, cell_poses[cell].twist.data());
   }
   data->GetCellData()->AddArray(modes);
   data->GetCellData()->AddArray(transforms);

@@ -36,23 +36,23 @@ public:
   using View = MatrixView<Matrix>;
 
   void share(
-    vtkSmartPointer<vtkObject> keep, const typename Matrix::Scalar* data, Index rows, Index cols)
+    vtkSmartPointer<vtkObject> owner, const typename Matrix::Scalar* data, Index rows, Index cols)
   {
-    this->keep_ = std::move(keep);
+    this->owner_ = std::move(owner);
     this->data_ = data;
     this->rows_ = rows;
     this->cols_ = cols;
   }
   void own(Matrix matrix)
   {
-    this->keep_ = nullptr;
-    this->owned_ = std::move(matrix);
+    this->owner_ = nullptr;
+    this->matrix_ = std::move(matrix);
   }
   View view() const
   {
-    return this->keep_ || this->is_part_
+    return this->owner_ || this->is_row_range_
       ? View(Eigen::Map<const Matrix>(this->data_, this->rows_, this->cols_))
-      : View(this->owned_);
+      : View(this->matrix_);
   }
   /// Return rows [begin, end) as a matrix that shares memory with this matrix. If this matrix owns
   /// a copy, this matrix must outlive the result.
@@ -60,23 +60,23 @@ public:
   {
     SharedMatrix part;
     const View all = this->view();
-    part.keep_ = this->keep_;
+    part.owner_ = this->owner_;
     part.data_ = all.data() + begin * all.cols();
     part.rows_ = end - begin;
     part.cols_ = all.cols();
-    part.is_part_ = true;
+    part.is_row_range_ = true;
     return part;
   }
   /// Report whether the matrix refers to VTK's memory.
-  bool shared() const { return this->keep_ != nullptr; }
+  bool shared() const { return this->owner_ != nullptr; }
 
 private:
-  vtkSmartPointer<vtkObject> keep_;
-  bool is_part_ = false; // true: the matrix is a range of rows of another matrix
+  vtkSmartPointer<vtkObject> owner_;
+  bool is_row_range_ = false; // true: the matrix is a range of rows of another matrix
   const typename Matrix::Scalar* data_ = nullptr;
   Index rows_ = 0;
   Index cols_ = 0;
-  Matrix owned_;
+  Matrix matrix_;
 };
 
 /// Return the points of any dataset. The memory is shared if the points are contiguous doubles.

@@ -33,9 +33,9 @@ std::string message_of(const std::string& event)
 
 ExpressionParser::ExpressionParser()
 {
-  vtkNew<vtkCallbackCommand> keep;
-  keep->SetClientData(&this->error_);
-  keep->SetCallback(
+  vtkNew<vtkCallbackCommand> callback;
+  callback->SetClientData(&this->error_);
+  callback->SetCallback(
     [](vtkObject*, unsigned long, void* client, void* data)
     {
       auto& error = *static_cast<std::string*>(client);
@@ -44,8 +44,8 @@ ExpressionParser::ExpressionParser()
         error = message_of(static_cast<const char*>(data));
       }
     });
-  this->parser_->AddObserver(vtkCommand::ErrorEvent, keep);
-  this->parser_->AddObserver(vtkCommand::WarningEvent, keep);
+  this->parser_->AddObserver(vtkCommand::ErrorEvent, callback);
+  this->parser_->AddObserver(vtkCommand::WarningEvent, callback);
   // Without this option the parser would report a value that is not finite as an ordinary error.
   this->parser_->ReplaceInvalidValuesOn();
   this->parser_->SetReplacementValue(std::numeric_limits<double>::quiet_NaN());

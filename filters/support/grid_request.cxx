@@ -13,11 +13,11 @@ namespace
 {
 /// Upper limit of the number of samples. A larger request (8 TB of doubles) is probably a typing
 /// error.
-constexpr double most_samples = 1e12;
+constexpr double maximum_samples = 1e12;
 
 /// Return the number of samples along each side of a box for a distance between samples. The 1e-9
 /// keeps rounding from adding a sample to a side that is a whole number of distances long.
-Vec3 counts_at(const Vec3& size, const Vec3& step)
+Vec3 sample_counts(const Vec3& size, const Vec3& step)
 {
   return (size.cwiseQuotient(step).array() - 1e-9).ceil().max(0.0) + 1.0;
 }
@@ -30,14 +30,14 @@ double step_for_count(const Vec3& size, double count)
   for (int i = 0; i < 100; ++i)
   {
     const double middle = 0.5 * (fine + coarse);
-    const bool fits = middle > 0.0 && counts_at(size, Vec3::Constant(middle)).prod() <= count;
+    const bool fits = middle > 0.0 && sample_counts(size, Vec3::Constant(middle)).prod() <= count;
     (fits ? coarse : fine) = middle;
   }
   return coarse;
 }
 } // namespace
 
-Status make_grid(const GridRequest& request, const Box& around, SampleGrid& grid)
+Status make_grid(const GridRequest& request, const Box& data_bounds, SampleGrid& grid)
 {
   const double* b = request.bounds;
   const int* n = request.dimensions;
@@ -57,7 +57,7 @@ Status make_grid(const GridRequest& request, const Box& around, SampleGrid& grid
   {
     return Status::invalid_input("the grid must have at least 8 samples");
   }
-  Box box = around;
+  Box box = data_bounds;
   if (has_bounds)
   {
     box.lower = Vec3(b[0], b[2], b[4]);
@@ -69,13 +69,14 @@ Status make_grid(const GridRequest& request, const Box& around, SampleGrid& grid
   }
   else
   {
-    const double padding = request.padding * around.diagonal();
+    const double padding = request.padding * data_bounds.diagonal();
     box.lower.array() -= padding;
     box.upper.array() += padding;
   }
-  if (request.flat >= 0)
+  if (request.flat_axis >= 0)
   {
-    box.lower[request.flat] = box.upper[request.flat] = around.center()[request.flat];
+    box.lower[request.flat_axis] = box.upper[request.flat_axis] =
+      data_bounds.center()[request.flat_axis];
   }
 
   const Vec3 size = box.size();
@@ -100,13 +101,13 @@ Status make_grid(const GridRequest& request, const Box& around, SampleGrid& grid
       ? step_for_count(size, static_cast<double>(request.count))
       : longest / static_cast<double>(request.samples_along_longest_side - 1);
     grid.spacing = has_spacing ? Vec3(spacing) : Vec3::Constant(longest > 0.0 ? side : 1.0);
-    count = counts_at(size, grid.spacing);
+    count = sample_counts(size, grid.spacing);
   }
-  if (request.flat >= 0)
+  if (request.flat_axis >= 0)
   {
-    count[request.flat] = 1.0;
+    count[request.flat_axis] = 1.0;
   }
-  if (!(count.prod() <= most_samples && count.maxCoeff() <= std::numeric_limits<int>::max()))
+  if (!(count.prod() <= maximum_samples && count.maxCoeff() <= std::numeric_limits<int>::max()))
   {
     std::ostringstream text;
     text << "the grid would have " << count.prod()

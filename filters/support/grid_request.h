@@ -18,16 +18,17 @@ struct GridRequest
   int samples_along_longest_side = 64;
   /// Lower and upper bound along x, y, z; lower > upper: not specified.
   double bounds[6] = { 0.0, -1.0, 0.0, -1.0, 0.0, -1.0 };
-  /// Distance added on each side of `around`, as a fraction of its diagonal; not used with bounds.
+  /// Distance added on each side of `data_bounds`, as a fraction of its diagonal; not used with
+  /// bounds.
   double padding = 0.1;
-  int flat = -1; ///< axis with one sample and without padding; -1: no such axis
+  int flat_axis = -1; ///< axis with one sample and without padding; -1: no such axis
 };
 
-/// Compute the grid that covers `request.bounds`, or the padded box `around` if there are no
+/// Compute the grid that covers `request.bounds`, or the padded box `data_bounds` if there are no
 /// bounds. The extent of the grid starts at 0. Voxels are cubes unless spacing is specified, or
 /// both bounds and dimensions are. Return invalid_input for invalid requests and for more than 1e12
 /// samples.
-Status make_grid(const GridRequest& request, const Box& around, SampleGrid& grid);
+Status make_grid(const GridRequest& request, const Box& data_bounds, SampleGrid& grid);
 
 } // namespace bindpose
 

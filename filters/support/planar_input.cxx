@@ -124,9 +124,9 @@ Status to_planar_input(ExecutionContext& context, vtkImageData* image, bool rect
   }
   const int* dimensions = image->GetDimensions();
   const Alpha alpha = alpha_of(image);
-  const bool whole = rectangle || !alpha.array;
+  const bool use_rectangle = rectangle || !alpha.array;
   ImageOutline outline;
-  if (whole)
+  if (use_rectangle)
   {
     rectangle_outline(dimensions[0], dimensions[1], outline);
   }
@@ -140,7 +140,7 @@ Status to_planar_input(ExecutionContext& context, vtkImageData* image, bool rect
     }
   }
   input.report = status.report;
-  input.report.set("domain", whole ? "rectangle" : "alpha");
+  input.report.set("domain", use_rectangle ? "rectangle" : "alpha");
   const int* extent = image->GetExtent();
   const Vec2 spacing(image->GetSpacing()[0], image->GetSpacing()[1]);
   const Vec2 first(image->GetOrigin()[0] + extent[0] * spacing.x(),

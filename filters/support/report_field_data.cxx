@@ -83,7 +83,7 @@ Report::Value values_of(const std::string& key, Array* array)
 }
 } // namespace
 
-bool measures_run(const std::string& key)
+bool is_run_measurement(const std::string& key)
 {
   const std::string name = key.substr(key.rfind('.') + 1);
   const auto ends_in = [&name](const std::string& end)
@@ -115,7 +115,7 @@ void attach_report(vtkDataObject* data, const Report& report)
   }
   for (const auto& [key, value] : report.entries())
   {
-    if (!measures_run(key))
+    if (!is_run_measurement(key))
     {
       vtkSmartPointer<vtkAbstractArray> array = make_array(value);
       array->SetName((prefix + key).c_str());

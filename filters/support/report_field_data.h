@@ -19,7 +19,7 @@ class ExecutionContext;
 /// Report whether an entry of a report is a property of one run and not of the result: seconds,
 /// microseconds, or bytes of memory. All other entries are the same for every run with the same
 /// input.
-BINDPOSEFILTERS_EXPORT bool measures_run(const std::string& key);
+BINDPOSEFILTERS_EXPORT bool is_run_measurement(const std::string& key);
 
 /// Replace all `Report.*` field data arrays of the data by the report's entries: integers as
 /// vtkIdTypeArray, floating-point values as vtkDoubleArray, texts as vtkStringArray, one tuple per

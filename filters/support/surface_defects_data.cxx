@@ -16,8 +16,8 @@
 namespace bindpose
 {
 
-vtkSmartPointer<vtkPolyData> to_polydata(const std::vector<DefectPlace>& places, PointsView points,
-  const std::vector<Index>& cell_of_triangle)
+vtkSmartPointer<vtkPolyData> to_polydata(const std::vector<DefectOccurrence>& places,
+  PointsView points, const std::vector<Index>& cell_of_triangle)
 {
   vtkNew<vtkPoints> used;
   used->SetDataTypeToDouble();
@@ -35,7 +35,7 @@ vtkSmartPointer<vtkPolyData> to_polydata(const std::vector<DefectPlace>& places,
   std::unordered_map<Index, vtkIdType> id_of;
   const auto cell_of = [&](Index triangle)
   { return triangle < 0 || cell_of_triangle.empty() ? triangle : cell_of_triangle[triangle]; };
-  for (const DefectPlace& place : places)
+  for (const DefectOccurrence& place : places)
   {
     std::array<vtkIdType, 3> ids{};
     for (std::size_t k = 0; k < place.vertices.size(); ++k)

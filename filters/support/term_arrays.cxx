@@ -19,13 +19,13 @@ vtkDataArray* find(vtkDataSet* mesh, const std::string& name)
   return name.empty() ? nullptr : mesh->GetPointData()->GetArray(name.c_str());
 }
 
-Status check_components(vtkDataArray* array, const std::string& name, Index wanted)
+Status check_components(vtkDataArray* array, const std::string& name, Index component_count)
 {
-  if (array && array->GetNumberOfComponents() != wanted)
+  if (array && array->GetNumberOfComponents() != component_count)
   {
     return Status::invalid_input("the point array '" + name + "' must have " +
-      (wanted == 1 ? std::string("one component")
-                   : std::to_string(wanted) + " components (one per handle)") +
+      (component_count == 1 ? std::string("one component")
+                            : std::to_string(component_count) + " components (one per handle)") +
       ", not " + std::to_string(array->GetNumberOfComponents()));
   }
   return {};

@@ -40,7 +40,7 @@ Status check_weights(vtkDataArray* weights, vtkIdType points, const Handles& han
   return {};
 }
 
-Status no_weights(vtkPointSet* mesh, const std::string& array_name)
+Status missing_weights_error(vtkPointSet* mesh, const std::string& array_name)
 {
   std::string names;
   for (int i = 0; i < mesh->GetPointData()->GetNumberOfArrays(); ++i)
@@ -62,7 +62,7 @@ Status to_weights_input(
   vtkDataArray* weights = mesh->GetPointData()->GetArray(array_name.c_str());
   if (!weights)
   {
-    return no_weights(mesh, array_name);
+    return missing_weights_error(mesh, array_name);
   }
   if (!handles)
   {

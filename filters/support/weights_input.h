@@ -39,7 +39,7 @@ BINDPOSEFILTERS_EXPORT Status to_region_ids(
   vtkPointSet* mesh, const std::string& name, std::vector<Index>& region_ids);
 
 /// Return the error "the mesh has no point array 'W' with weights (its point arrays: A, B)".
-Status no_weights(vtkPointSet* mesh, const std::string& array_name);
+Status missing_weights_error(vtkPointSet* mesh, const std::string& array_name);
 
 } // namespace bindpose
 

@@ -71,7 +71,7 @@ Index Samples::count() const
   return this->grid_ ? this->grid_->count() : this->points_.view().rows();
 }
 
-Index Samples::layer() const
+Index Samples::layer_size() const
 {
   return this->grid_ ? std::max<Index>(1, this->grid_->size(0) * this->grid_->size(1)) : 1;
 }
@@ -151,7 +151,7 @@ struct CurveInput
   SharedMatrix<Points> points;
   Segments segments;
   Box box;
-  int across = 2; ///< axis perpendicular to the plane
+  int normal_axis = 2; ///< axis perpendicular to the plane
 };
 
 Status to_curve(vtkPointSet* input, CurveInput& curve)
@@ -189,8 +189,8 @@ Status to_curve(vtkPointSet* input, CurveInput& curve)
     curve.box.add(points.row(v));
   }
   const Vec3 size = curve.box.size();
-  curve.across = size.z() == 0.0 ? 2 : size.x() == 0.0 ? 0 : size.y() == 0.0 ? 1 : -1;
-  if (curve.across < 0)
+  curve.normal_axis = size.z() == 0.0 ? 2 : size.x() == 0.0 ? 0 : size.y() == 0.0 ? 1 : -1;
+  if (curve.normal_axis < 0)
   {
     return Status::invalid_input("the input has no triangles or polygons, and its lines are not in "
                                  "a plane perpendicular to the x, y or z axis");
@@ -200,11 +200,11 @@ Status to_curve(vtkPointSet* input, CurveInput& curve)
 
 /// Return 2D coordinates in the plane perpendicular to an axis, counter-clockwise seen from the
 /// positive end of the axis.
-PlanePoints in_plane(PointsView points, int across)
+PlanePoints in_plane(PointsView points, int normal_axis)
 {
   PlanePoints flat(points.rows(), 2);
-  flat.col(0) = points.col((across + 1) % 3);
-  flat.col(1) = points.col((across + 2) % 3);
+  flat.col(0) = points.col((normal_axis + 1) % 3);
+  flat.col(1) = points.col((normal_axis + 2) % 3);
   return flat;
 }
 
@@ -350,13 +350,13 @@ struct WindingField::Surface : GridKernel<WindingNumber>
     const PointsView points = options.orient ? PointsView(repaired.points) : surface.points.view();
     const TrianglesView triangles =
       options.orient ? TrianglesView(repaired.triangles) : surface.triangles.view();
-    WindingNumber::Options wanted;
-    wanted.method = method_of(options.method);
-    wanted.tolerance = options.tolerance;
-    wanted.expected_queries = options.expected_queries;
+    WindingNumber::Options winding_options;
+    winding_options.method = method_of(options.method);
+    winding_options.tolerance = options.tolerance;
+    winding_options.expected_queries = options.expected_queries;
     {
       const ProgressRange range(context, share, 1.0);
-      status = this->winding.build(context, points, triangles, wanted);
+      status = this->winding.build(context, points, triangles, winding_options);
     }
     if (!status.ok())
     {
@@ -365,8 +365,8 @@ struct WindingField::Surface : GridKernel<WindingNumber>
     to_polydata(this->winding.boundary(), points, repaired.original_vertices, boundary);
     if (options.orient)
     {
-      status.report.set("counts.turned_triangles", repaired.turned_triangles);
-      status.report.set("counts.turned_components", repaired.turned_components);
+      status.report.set("counts.turned_triangles", repaired.flipped_triangles);
+      status.report.set("counts.turned_components", repaired.flipped_components);
     }
     if (surface.triangulated_cells > 0)
     {
@@ -388,7 +388,7 @@ struct WindingField::Surface : GridKernel<WindingNumber>
 struct WindingField::Curve : Kernel
 {
   CurveWindingNumber winding;
-  int across = 2;
+  int normal_axis = 2;
 
   Status build(ExecutionContext& context, vtkPointSet* input, const Options&, vtkPolyData*) override
   {
@@ -398,16 +398,16 @@ struct WindingField::Curve : Kernel
     {
       return status;
     }
-    this->across = curve.across;
+    this->normal_axis = curve.normal_axis;
     return this->winding.build(
-      context, in_plane(curve.points.view(), this->across), curve.segments);
+      context, in_plane(curve.points.view(), this->normal_axis), curve.segments);
   }
 
   Status evaluate(ExecutionContext& context, const Samples& samples, double* out,
     unsigned char* on_surface) const override
   {
     return this->winding.evaluate(
-      context, in_plane(points_of(samples), this->across), out, on_surface);
+      context, in_plane(points_of(samples), this->normal_axis), out, on_surface);
   }
 
   Status evaluate_gradient(
@@ -416,12 +416,12 @@ struct WindingField::Curve : Kernel
     const Index count = samples.count();
     PlanePoints flat(count, 2);
     const Status status = this->winding.evaluate_gradient(
-      context, in_plane(points_of(samples), this->across), flat.data());
+      context, in_plane(points_of(samples), this->normal_axis), flat.data());
     for (Index i = 0; i < count; ++i)
     {
-      out[3 * i + (this->across + 1) % 3] = flat(i, 0);
-      out[3 * i + (this->across + 2) % 3] = flat(i, 1);
-      out[3 * i + this->across] = 0.0;
+      out[3 * i + (this->normal_axis + 1) % 3] = flat(i, 0);
+      out[3 * i + (this->normal_axis + 2) % 3] = flat(i, 1);
+      out[3 * i + this->normal_axis] = 0.0;
     }
     return status;
   }
@@ -445,11 +445,12 @@ struct WindingField::Cloud : GridKernel<PointCloudWindingNumber>
     {
       numbers[i] = areas->GetTuple1(i);
     }
-    PointCloudWindingNumber::Options wanted;
-    wanted.method = method_of(options.method);
-    wanted.tolerance = options.tolerance;
+    PointCloudWindingNumber::Options winding_options;
+    winding_options.method = method_of(options.method);
+    winding_options.tolerance = options.tolerance;
     const Points directions = normals.view();
-    Status status = this->winding.build(context, points.view(), directions, numbers, wanted);
+    Status status =
+      this->winding.build(context, points.view(), directions, numbers, winding_options);
     if (status.ok())
     {
       status.report.set("areas", areas ? "given" : "estimated");
@@ -476,7 +477,7 @@ Status WindingField::extent(vtkPointSet* input, Box& box, int& flat)
       CurveInput curve;
       const Status status = to_curve(input, curve);
       box = curve.box;
-      flat = curve.across;
+      flat = curve.normal_axis;
       return status;
     }
     case Kind::cloud:

@@ -37,7 +37,7 @@ public:
   PointsView points() const { return this->points_.view(); }
   Index count() const;
   /// Return the number of samples in one layer.
-  Index layer() const;
+  Index layer_size() const;
   Samples layers(Index begin, Index end) const;
 
 private:

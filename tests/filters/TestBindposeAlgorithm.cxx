@@ -68,7 +68,8 @@ TEST(BindposeAlgorithm, ReportsOnTheOutput)
   EXPECT_EQ(in_data.number("iterations", 0), 7);
   for (const auto& entry : in_data.entries())
   {
-    EXPECT_FALSE(measures_run(entry.first)) << entry.first << ": equal results are equal files";
+    EXPECT_FALSE(is_run_measurement(entry.first))
+      << entry.first << ": equal results are equal files";
   }
   ASSERT_EQ(listener->warnings.size(), 1u);
   EXPECT_THAT(listener->warnings[0], HasSubstr("the input is old"));
@@ -290,7 +291,7 @@ TEST(BindposeAlgorithm, AnotherThreadCancelsInTime)
     }
     return Status();
   };
-  std::chrono::steady_clock::time_point asked;
+  std::chrono::steady_clock::time_point cancel_time;
   std::thread user(
     [&]
     {
@@ -298,14 +299,14 @@ TEST(BindposeAlgorithm, AnotherThreadCancelsInTime)
       {
         std::this_thread::yield();
       }
-      asked = std::chrono::steady_clock::now();
+      cancel_time = std::chrono::steady_clock::now();
       filter->SetAbortExecute(1);
     });
   filter->Update();
   const auto ended = std::chrono::steady_clock::now();
   user.join();
   EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::CANCELED);
-  EXPECT_LT(std::chrono::duration<double>(ended - asked).count(), 0.2);
+  EXPECT_LT(std::chrono::duration<double>(ended - cancel_time).count(), 0.2);
 }
 
 TEST(BindposeAlgorithm, ReportsOfEarlierStagesAreReplaced)

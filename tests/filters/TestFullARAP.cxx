@@ -32,7 +32,7 @@ class FullARAPFilter : public testing::Test
 protected:
   FullARAPFilter()
   {
-    this->bar = test::held_bar(8);
+    this->bar = test::labeled_bar(8);
     this->tets = to_unstructured_grid(this->bar.mesh.points, this->bar.mesh.tets);
     this->surface = to_polydata(this->bar.mesh.points, boundary_triangles(this->bar.mesh.tets));
     this->labels->SetName("RegionId");
@@ -55,7 +55,7 @@ protected:
     return Vec3(p[0], p[1], p[2]);
   }
 
-  test::Held bar;
+  test::LabeledBar bar;
   vtkSmartPointer<vtkUnstructuredGrid> tets;
   vtkSmartPointer<vtkPolyData> surface;
   vtkNew<vtkIntArray> labels;
@@ -151,7 +151,7 @@ TEST_F(FullARAPFilter, DragsBindOnceAndBindParametersBindAgain)
 TEST_F(FullARAPFilter, WhatCannotBeIsOneSentence)
 {
   this->pose->SetPoseJSON(lifted(1.0));
-  const auto refused = [&](const char* sentence)
+  const auto expect_error = [&](const char* sentence)
   {
     this->listener->errors.clear();
     this->filter->Update();
@@ -160,10 +160,10 @@ TEST_F(FullARAPFilter, WhatCannotBeIsOneSentence)
     EXPECT_THAT(this->listener->errors[0], HasSubstr(sentence));
   };
   this->filter->SetEnergy(vtkFullARAP::TRIANGLES);
-  refused("energy triangles needs a surface");
+  expect_error("energy triangles needs a surface");
   this->filter->SetEnergy(vtkFullARAP::AUTO);
   this->filter->SetRegionArrayName("Nowhere");
-  refused("region 'left' needs a point array of labels");
+  expect_error("region 'left' needs a point array of labels");
   this->filter->SetRegionArrayName("RegionId");
   this->filter->SetMaximumIterations(1);
   this->filter->Update();

@@ -103,7 +103,7 @@ protected:
       this->Weights.row(v) /= this->Weights.row(v).sum();
     }
     this->Mesh->GetPointData()->AddArray(to_weights_array("Weights", this->Weights, this->List));
-    for (test::Listener* listener : { this->Said.Get() })
+    for (test::Listener* listener : { this->ErrorListener.Get() })
     {
       listener->listen(this->Writer);
       listener->listen(this->Reader);
@@ -121,11 +121,14 @@ protected:
     this->Reader->Update();
     ASSERT_EQ(this->Reader->GetStatus(), vtkGLTFSkinReader::OK) << this->Reader->GetStatusMessage();
   }
-  vtkPolyData* Mine(int port) { return vtkPolyData::SafeDownCast(this->Reader->GetOutput(port)); }
+  vtkPolyData* ReaderOutput(int port)
+  {
+    return vtkPolyData::SafeDownCast(this->Reader->GetOutput(port));
+  }
   bindpose::Handles HandlesRead()
   {
     bindpose::Handles handles;
-    EXPECT_TRUE(to_handles(this->Mine(1), handles).ok());
+    EXPECT_TRUE(to_handles(this->ReaderOutput(1), handles).ok());
     return handles;
   }
   Pose PoseRead()
@@ -133,12 +136,12 @@ protected:
     bindpose::Handles handles;
     std::vector<Index> cells;
     Pose pose;
-    EXPECT_TRUE(to_handles(this->Mine(1), handles, &cells).ok());
-    EXPECT_TRUE(to_pose(this->Mine(1), handles, cells, pose).ok());
+    EXPECT_TRUE(to_handles(this->ReaderOutput(1), handles, &cells).ok());
+    EXPECT_TRUE(to_pose(this->ReaderOutput(1), handles, cells, pose).ok());
     return pose;
   }
   void ExpectTheTimesOfTheFrames(const std::vector<Points>& expected);
-  void Refuses(const char* word)
+  void ExpectError(const char* word)
   {
     EXPECT_EQ(this->Writer->Write(), 0);
     EXPECT_THAT(this->Writer->GetStatusMessage(), HasSubstr(word));
@@ -146,7 +149,7 @@ protected:
   }
 
   test::Folder Folder;
-  vtkNew<test::Listener> Said;
+  vtkNew<test::Listener> ErrorListener;
   vtkNew<vtkGLTFSkinWriter> Writer;
   vtkNew<vtkGLTFSkinReader> Reader;
   vtkSmartPointer<vtkPolyData> Mesh, Handles;
@@ -163,7 +166,7 @@ TEST_F(GLTFSkin, AllKindsOfHandlesComeBackEqual)
     this->Reader->SetFileName((this->Folder / name).c_str());
     this->WriteAndRead();
     expect_equal(this->HandlesRead(), this->List);
-    auto* weights = this->Mine(0)->GetPointData()->GetArray("Weights");
+    auto* weights = this->ReaderOutput(0)->GetPointData()->GetArray("Weights");
     ASSERT_NE(weights, nullptr);
     EXPECT_STREQ(weights->GetComponentName(3), "h3");
     EXPECT_LT((to_matrix(weights).view() - this->Weights).cwiseAbs().maxCoeff(), 1.2e-7);
@@ -205,7 +208,7 @@ TEST_F(GLTFSkin, AttributesGoAlong)
   this->Mesh->GetPointData()->AddArray(colors);
   this->Writer->SetColorArrayName("Paint");
   this->WriteAndRead();
-  vtkPointData* back = this->Mine(0)->GetPointData();
+  vtkPointData* back = this->ReaderOutput(0)->GetPointData();
   ASSERT_TRUE(back->GetNormals() && back->GetTCoords() && back->GetArray("Colors"));
   for (vtkIdType v = 0; v < this->Mesh->GetNumberOfPoints(); ++v)
   {
@@ -228,7 +231,7 @@ TEST_F(GLTFSkin, TetsAreTheirBoundary)
   grid->GetPointData()->AddArray(to_weights_array("Weights", weights, this->List));
   this->Writer->SetInputData(0, grid);
   this->WriteAndRead();
-  vtkPolyData* back = this->Mine(0);
+  vtkPolyData* back = this->ReaderOutput(0);
   EXPECT_EQ(back->GetNumberOfPoints(), 64 - 8); // the inner points of the tets are missing
   EXPECT_EQ(back->GetNumberOfCells(), 6 * 9 * 2);
   for (vtkIdType v = 0; v < back->GetNumberOfPoints(); ++v)
@@ -369,7 +372,7 @@ TEST_F(GLTFSkin, FramesOfOtherMethodsAreMorphTargets)
     frame->GetPoints()->SetPoint(3, 5.0 + k, 0, 0);
     this->Writer->AddFrameData(frame);
   }
-  this->Refuses("HandleTransforms");
+  this->ExpectError("HandleTransforms");
   this->Writer->SetAnimation(vtkGLTFSkinWriter::MORPH);
   vtkNew<vtkPoseHandles> posed;
   posed->SetInputData(0, this->Handles);
@@ -435,15 +438,16 @@ TEST_F(GLTFSkin, JointsOfOtherProgramsBecomeHandles)
   EXPECT_EQ(handles[3].name, "j2");
   EXPECT_EQ(handles[3].kind, HandleKind::bone);
   EXPECT_EQ(handles[0].parent, 2);
-  EXPECT_NEAR(this->Mine(0)->GetPointData()->GetArray("Weights")->GetComponent(0, 2), 0.7, 1e-6);
+  EXPECT_NEAR(
+    this->ReaderOutput(0)->GetPointData()->GetArray("Weights")->GetComponent(0, 2), 0.7, 1e-6);
 }
 
 TEST_F(GLTFSkin, AMeshWithoutHandles)
 {
   this->Writer->RemoveAllInputConnections(1);
   this->WriteAndRead();
-  EXPECT_EQ(this->Mine(1)->GetNumberOfCells(), 0);
-  EXPECT_EQ(this->Mine(0)->GetPointData()->GetArray("Weights"), nullptr);
+  EXPECT_EQ(this->ReaderOutput(1)->GetNumberOfCells(), 0);
+  EXPECT_EQ(this->ReaderOutput(0)->GetPointData()->GetArray("Weights"), nullptr);
   vtkNew<vtkHandleFileReader> handles;
   vtkNew<test::Listener> listener;
   listener->listen(handles);
@@ -455,24 +459,24 @@ TEST_F(GLTFSkin, AMeshWithoutHandles)
 TEST_F(GLTFSkin, Errors)
 {
   this->Writer->SetFileName(nullptr);
-  this->Refuses("file name is empty");
+  this->ExpectError("file name is empty");
   this->Writer->SetFileName((this->Folder / "rig.obj").c_str());
-  this->Refuses("file name extension");
+  this->ExpectError("file name extension");
   this->Writer->SetFileName((this->Folder / "rig.glb").c_str());
   this->Writer->SetArrayName("Other");
-  this->Refuses("Other");
+  this->ExpectError("Other");
   this->Writer->SetArrayName("Weights");
   this->Writer->AddFrameData(this->Handles);
-  this->Refuses("frame 0");
+  this->ExpectError("frame 0");
   this->Writer->RemoveFrames();
   this->Writer->SetPoseFileName("/none.json");
-  this->Refuses("none.json");
+  this->ExpectError("none.json");
   this->Writer->SetPoseFileName(nullptr);
   this->List.pop_back();
   this->List[6].parent = -1;
   this->Writer->SetHandlesData(to_polydata(this->List));
-  this->Refuses("7 handles");
-  EXPECT_FALSE(this->Said->errors.empty());
+  this->ExpectError("7 handles");
+  EXPECT_FALSE(this->ErrorListener->errors.empty());
   this->Folder.write("rig.glb", "glTF");
   this->Reader->Update();
   EXPECT_THAT(this->Reader->GetStatusMessage(), HasSubstr("rig.glb"));

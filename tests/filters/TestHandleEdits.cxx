@@ -75,17 +75,17 @@ TEST(HandleEditCells, ArraysFollowTheirHandles)
   set_handle_color(data, 2, std::array<double, 3>{ 1.0, 0.5, 0.0 });
   set_handle_locked(data, 1, true);
   set_handle_layer(data, 2, -1.5);
-  std::vector<Index> cell_of;
+  std::vector<Index> new_cell;
   std::vector<Index> added;
   ASSERT_TRUE(edit_handles(
     data,
     [](const Handles& before, EditedHandles& after) {
       return add_handle(before, make("", HandleKind::point, Vec3(9, 9, 9), Vec3(9, 9, 9)), after);
     },
-    &cell_of, &added)
+    &new_cell, &added)
                 .ok());
   EXPECT_THAT(names(data), ElementsAre("p", "q.L", "p1", "b")) << "bones come last";
-  EXPECT_THAT(cell_of, ElementsAre(0, 1, 3));
+  EXPECT_THAT(new_cell, ElementsAre(0, 1, 3));
   EXPECT_THAT(added, ElementsAre(2));
   EXPECT_EQ(number(data, "Stretch", 0), 2.0);
   EXPECT_EQ(number(data, "Layer", 3), -1.5);

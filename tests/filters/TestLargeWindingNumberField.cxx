@@ -92,20 +92,21 @@ TEST(LargeWindingNumberField, StopsWithinAFifthOfASecond)
       // A new input causes a new build.
       field->SetInputData(to_polydata(sphere.points, sphere.triangles));
       field->SetResolution(512);
-      Clock::time_point asked{};
+      Clock::time_point cancel_time{};
       listener->on_progress = [&](vtkAlgorithm* algorithm)
       {
-        if (algorithm->GetProgress() >= when && asked == Clock::time_point())
+        if (algorithm->GetProgress() >= when && cancel_time == Clock::time_point())
         {
-          asked = Clock::now();
+          cancel_time = Clock::now();
           algorithm->SetAbortExecute(1);
         }
       };
       field->Update();
-      ASSERT_NE(asked, Clock::time_point());
+      ASSERT_NE(cancel_time, Clock::time_point());
       EXPECT_EQ(field->GetStatus(), vtkBindposeAlgorithm::CANCELED) << when;
       EXPECT_EQ(field->GetOutput()->GetNumberOfPoints(), 0);
-      shortest = std::min(shortest, std::chrono::duration<double>(Clock::now() - asked).count());
+      shortest =
+        std::min(shortest, std::chrono::duration<double>(Clock::now() - cancel_time).count());
     }
     std::printf("  asked at %.0f %%, stopped after %.0f ms\n", 100.0 * when, 1e3 * shortest);
     // The limits are in seconds. With sanitizers, a slow machine needed 1.0 s.

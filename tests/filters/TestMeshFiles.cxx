@@ -94,10 +94,10 @@ void add_weights(vtkDataSet* data)
 TEST_F(MeshFiles, SurfacesComeBackInEveryFormat)
 {
   const auto surface = cube_data();
-  for (const std::string ending : { "off", "obj", "ply", "stl", "vtp", "vtk", "mesh", "OFF" })
+  for (const std::string extension : { "off", "obj", "ply", "stl", "vtp", "vtk", "mesh", "OFF" })
   {
-    SCOPED_TRACE(ending);
-    const std::string path = this->Folder / ("cube." + ending);
+    SCOPED_TRACE(extension);
+    const std::string path = this->Folder / ("cube." + extension);
     ASSERT_EQ(this->Write(surface, path), "");
     auto* back = vtkPolyData::SafeDownCast(this->Read(path));
     ASSERT_NE(back, nullptr);
@@ -108,7 +108,7 @@ TEST_F(MeshFiles, SurfacesComeBackInEveryFormat)
     EXPECT_EQ(input.points.view().rows(), 8);
     EXPECT_TRUE(count_edges(input.triangles.view()).closed);
     const double exactly = signed_volume(input.points.view(), input.triangles.view());
-    EXPECT_NEAR(exactly, 1.0 / 27.0, ending == "stl" ? 1e-8 : 1e-16);
+    EXPECT_NEAR(exactly, 1.0 / 27.0, extension == "stl" ? 1e-8 : 1e-16);
     EXPECT_EQ(read_report(back).number("counts.vertices", 0), 8);
   }
 }
@@ -118,13 +118,13 @@ TEST_F(MeshFiles, PolygonsStayPolygons)
   vtkNew<vtkPlaneSource> plane;
   plane->SetResolution(3, 2);
   plane->Update();
-  for (const std::string ending : { "off", "obj", "ply", "vtp" })
+  for (const std::string extension : { "off", "obj", "ply", "vtp" })
   {
-    const std::string path = this->Folder / ("plane." + ending);
+    const std::string path = this->Folder / ("plane." + extension);
     ASSERT_EQ(this->Write(plane->GetOutput(), path), "");
     auto* back = this->Read(path);
-    EXPECT_EQ(back->GetNumberOfCells(), 6) << ending;
-    EXPECT_EQ(back->GetCellType(0), VTK_QUAD) << ending;
+    EXPECT_EQ(back->GetNumberOfCells(), 6) << extension;
+    EXPECT_EQ(back->GetCellType(0), VTK_QUAD) << extension;
   }
 }
 
@@ -132,10 +132,10 @@ TEST_F(MeshFiles, TetsComeBackInEveryFormat)
 {
   const auto tets = tet_data();
   add_weights(tets);
-  for (const std::string ending : { "vtu", "vtk", "mesh" })
+  for (const std::string extension : { "vtu", "vtk", "mesh" })
   {
-    SCOPED_TRACE(ending);
-    const std::string path = this->Folder / ("box." + ending);
+    SCOPED_TRACE(extension);
+    const std::string path = this->Folder / ("box." + extension);
     ASSERT_EQ(this->Write(tets, path), "");
     auto* back = vtkUnstructuredGrid::SafeDownCast(this->Read(path));
     ASSERT_NE(back, nullptr);
@@ -143,7 +143,7 @@ TEST_F(MeshFiles, TetsComeBackInEveryFormat)
     const Status status = to_tets(back, input);
     ASSERT_TRUE(status.ok()) << status.message;
     EXPECT_NEAR(tet_volumes(input.points.view(), input.tets.view()).sum(), 1.0, 1e-15);
-    if (ending != "mesh")
+    if (extension != "mesh")
     {
       vtkDataArray* weights = back->GetPointData()->GetArray("Weights");
       ASSERT_NE(weights, nullptr);
@@ -238,17 +238,17 @@ TEST_F(MeshFiles, AFileThatIsMendedIsReadAgain)
 
 TEST_F(MeshFiles, UnreadableFilesAreOneSentence)
 {
-  for (const std::string ending :
+  for (const std::string extension :
     { "off", "obj", "ply", "stl", "vtp", "vtu", "vti", "vtk", "mesh" })
   {
-    SCOPED_TRACE(ending);
-    EXPECT_THAT(this->ReadError(this->Folder / ("none." + ending)), HasSubstr("No such file"));
-    EXPECT_THAT(this->ReadError(this->Folder.write("e." + ending, "")), HasSubstr("is empty"));
+    SCOPED_TRACE(extension);
+    EXPECT_THAT(this->ReadError(this->Folder / ("none." + extension)), HasSubstr("No such file"));
+    EXPECT_THAT(this->ReadError(this->Folder.write("e." + extension, "")), HasSubstr("is empty"));
     for (const std::string& text : { std::string("this is no mesh at all\nreally\n"),
            std::string(300, '\xff'), std::string("\n") })
     {
-      const std::string message = this->ReadError(this->Folder.write("wrong." + ending, text));
-      EXPECT_THAT(message, HasSubstr("wrong." + ending)) << text;
+      const std::string message = this->ReadError(this->Folder.write("wrong." + extension, text));
+      EXPECT_THAT(message, HasSubstr("wrong." + extension)) << text;
       EXPECT_EQ(message.find('\n'), std::string::npos);
       EXPECT_EQ(this->Reader->GetOutput()->GetNumberOfPoints(), 0);
       EXPECT_EQ(read_report(this->Reader->GetOutput()).text("status"), "invalid_input");
@@ -268,12 +268,12 @@ TEST_F(MeshFiles, TruncatedAndGarbledFilesNeverCrash)
   add_weights(surface);
   add_weights(tets);
   test::Random random(3);
-  for (const std::string ending : { "stl", "vtp", "vtu", "vtk" })
+  for (const std::string extension : { "stl", "vtp", "vtu", "vtk" })
   {
-    SCOPED_TRACE(ending);
-    const std::string name = "whole." + ending;
+    SCOPED_TRACE(extension);
+    const std::string name = "whole." + extension;
     vtkDataSet* data = surface;
-    if (ending == "vtu")
+    if (extension == "vtu")
     {
       data = tets;
     }
@@ -290,7 +290,7 @@ TEST_F(MeshFiles, TruncatedAndGarbledFilesNeverCrash)
       {
         text[random.below(static_cast<Index>(text.size()))] = static_cast<char>(random.below(256));
       }
-      auto* back = this->Read(this->Folder.write("part." + ending, text));
+      auto* back = this->Read(this->Folder.write("part." + extension, text));
       if (this->Reader->GetStatus() == vtkMeshFileReader::OK)
       {
         SurfaceInput input;
@@ -299,7 +299,7 @@ TEST_F(MeshFiles, TruncatedAndGarbledFilesNeverCrash)
       else
       {
         EXPECT_EQ(back->GetNumberOfPoints(), 0);
-        EXPECT_THAT(this->Reader->GetStatusMessage(), HasSubstr("part." + ending));
+        EXPECT_THAT(this->Reader->GetStatusMessage(), HasSubstr("part." + extension));
       }
     }
   }

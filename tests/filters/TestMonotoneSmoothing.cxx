@@ -67,7 +67,7 @@ protected:
     list->SetValue(minimum, -1);
     this->mesh->GetPointData()->AddArray(list);
   }
-  void expect_refusal(const std::string& words)
+  void expect_error(const std::string& words)
   {
     this->listener->errors.clear();
     this->smoothing->Update();
@@ -202,7 +202,7 @@ TEST_F(MonotoneSmoothing, RefusesWhatItCannotUseAndGoesOn)
 {
   this->smoothing->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Depth");
-  this->expect_refusal("'Depth'");
+  this->expect_error("'Depth'");
   EXPECT_THAT(this->smoothing->GetStatusMessage(), HasSubstr("Height"));
   vtkNew<vtkDoubleArray> vectors;
   vectors->SetName("Depth");
@@ -210,7 +210,7 @@ TEST_F(MonotoneSmoothing, RefusesWhatItCannotUseAndGoesOn)
   vectors->SetNumberOfTuples(this->mesh->GetNumberOfPoints());
   vectors->FillValue(1.0);
   this->mesh->GetPointData()->AddArray(vectors);
-  this->expect_refusal("3 components");
+  this->expect_error("3 components");
   this->mesh->GetPointData()->SetActiveScalars("");
   vtkNew<vtkMonotoneSmoothing> without;
   vtkNew<Listener> heard;
@@ -221,32 +221,32 @@ TEST_F(MonotoneSmoothing, RefusesWhatItCannotUseAndGoesOn)
   this->smoothing->SetInputArrayToProcess(
     0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, "Height");
   this->smoothing->SetExtremaArrayName("Nowhere");
-  this->expect_refusal("'Nowhere'");
+  this->expect_error("'Nowhere'");
   vtkNew<vtkStringArray> words;
   words->SetName("Words");
   words->SetNumberOfValues(this->mesh->GetNumberOfPoints());
   this->mesh->GetPointData()->AddArray(words);
   this->smoothing->SetExtremaArrayName("Words");
-  this->expect_refusal("must have one component");
+  this->expect_error("must have one component");
   this->add_list(40, 200, "List");
   auto* list = vtkIntArray::SafeDownCast(this->mesh->GetPointData()->GetArray("List"));
   list->SetValue(200, 0);
   this->smoothing->SetExtremaArrayName("List");
-  this->expect_refusal("no minimum");
+  this->expect_error("no minimum");
   list->SetValue(40, 0);
   list->Modified();
   this->mesh->Modified();
-  this->expect_refusal("empty");
+  this->expect_error("empty");
   this->smoothing->SetExtremaArrayName("");
   this->smoothing->SetPersistence(2.0);
-  this->expect_refusal("persistence");
+  this->expect_error("persistence");
   this->smoothing->SetPersistence(0.3);
   auto* data = vtkDoubleArray::SafeDownCast(this->mesh->GetPointData()->GetArray("Height"));
   const double kept = data->GetValue(7);
   data->SetValue(7, std::nan(""));
   data->Modified();
   this->mesh->Modified();
-  this->expect_refusal("vertex 7");
+  this->expect_error("vertex 7");
   data->SetValue(7, kept);
   data->Modified();
   this->mesh->Modified();

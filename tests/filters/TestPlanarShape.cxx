@@ -97,7 +97,7 @@ protected:
     filter->Update();
     ASSERT_EQ(filter->GetStatus(), expected) << filter->GetStatusMessage();
   }
-  void refuses(vtkDataObject* input, const std::string& words)
+  void expect_error(vtkDataObject* input, const std::string& words)
   {
     vtkNew<vtkPlanarShape> strict;
     vtkNew<Listener> listener;
@@ -269,29 +269,29 @@ TEST_F(PlanarShapeFilter, NoWorkTwiceAndAgainAfterAChange)
 
 TEST_F(PlanarShapeFilter, Refuses)
 {
-  refuses(vtkNew<vtkImageData>(), "no pixels");
-  refuses(vtkNew<vtkPolyData>(), "no lines");
+  expect_error(vtkNew<vtkImageData>(), "no pixels");
+  expect_error(vtkNew<vtkPolyData>(), "no lines");
   auto image = disc();
   image->SetDimensions(80, 30, 2);
-  refuses(image, "2 layers");
+  expect_error(image, "2 layers");
   image = disc();
   image->GetDirectionMatrix()->SetElement(0, 0, -1.0);
-  refuses(image, "direction matrix");
+  expect_error(image, "direction matrix");
   image = disc();
   image->SetSpacing(0.0, 1.0, 1.0);
-  refuses(image, "spacing");
+  expect_error(image, "spacing");
   image = disc();
   image->GetPointData()->GetScalars()->FillComponent(3, 0.0);
-  refuses(image, "transparent");
-  refuses(polyline({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0.1 } }, true), "z = const");
-  refuses(polyline({ { 0, 0, 0 }, { 1, NAN, 0 }, { 1, 1, 0 } }, true), "point 1");
-  refuses(polyline({ { 0, 0, 0 }, { 1, 1, 0 }, { 2, 2, 0 } }, true), "one line");
-  refuses(polyline({ { 1, 2, 0 }, { 1, 2, 0 } }, false), "coincide");
+  expect_error(image, "transparent");
+  expect_error(polyline({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0.1 } }, true), "z = const");
+  expect_error(polyline({ { 0, 0, 0 }, { 1, NAN, 0 }, { 1, 1, 0 } }, true), "point 1");
+  expect_error(polyline({ { 0, 0, 0 }, { 1, 1, 0 }, { 2, 2, 0 } }, true), "one line");
+  expect_error(polyline({ { 1, 2, 0 }, { 1, 2, 0 } }, false), "coincide");
   auto wrong = polyline(square_corners, true);
   vtkNew<vtkCellArray> lines;
   lines->InsertNextCell({ 0, 1, 9 });
   wrong->SetLines(lines);
-  refuses(wrong, "point 9");
+  expect_error(wrong, "point 9");
 }
 
 TEST(PlanarShapeWithoutHelper, SaysWhatIsMissing)

@@ -74,7 +74,7 @@ protected:
   {
     return this->filter->GetReport().number(key, std::numeric_limits<double>::quiet_NaN());
   }
-  void fails_with(const std::string& words)
+  void expect_error(const std::string& words)
   {
     this->listener->errors.clear();
     this->filter->Update();
@@ -301,10 +301,10 @@ TEST_F(ReducedARAPFilter, SurfacesBendToo)
     EXPECT_EQ(this->filter->GetOutput()->GetNumberOfCells(), this->surface->GetNumberOfCells());
   }
   this->filter->SetEnergy(vtkReducedARAP::TETRAHEDRA);
-  this->fails_with("needs a tet mesh");
+  this->expect_error("needs a tet mesh");
   this->filter->SetInputData(0, this->tets);
   this->filter->SetEnergy(vtkReducedARAP::TRIANGLES);
-  this->fails_with("needs a surface");
+  this->expect_error("needs a surface");
 }
 
 // The filter gives the same bits as the kernel, for any number of threads.
@@ -364,29 +364,29 @@ TEST_F(ReducedARAPFilter, TooFewIterationsAreNotConverged)
 TEST_F(ReducedARAPFilter, WhatDoesNotFitIsNamed)
 {
   this->filter->SetArrayName("Wrong");
-  this->fails_with("no point array 'Wrong'");
+  this->expect_error("no point array 'Wrong'");
   this->filter->SetArrayName("Weights");
 
   // The weights are those of another mesh and have too many tuples.
   auto array = weights_array(this->rig.weights, this->rig.handles);
   array->InsertNextTuple3(1, 0, 0);
   this->tets->GetPointData()->AddArray(array);
-  this->fails_with("use the mesh for which the weights were computed");
+  this->expect_error("use the mesh for which the weights were computed");
 
   // The weights are those of other handles: one component has another name.
   array = weights_array(this->rig.weights, this->rig.handles);
   array->SetComponentName(1, "elbow");
   this->tets->GetPointData()->AddArray(array);
-  this->fails_with("'elbow'");
+  this->expect_error("'elbow'");
 
   array = weights_array(Weights(this->rig.weights.leftCols(2)), Handles(2));
   this->tets->GetPointData()->AddArray(array);
-  this->fails_with("2 components, but there are 3 handles");
+  this->expect_error("2 components, but there are 3 handles");
 
   Weights bad = this->rig.weights;
   bad(5, 2) = std::numeric_limits<double>::infinity();
   this->tets->GetPointData()->AddArray(weights_array(bad, this->rig.handles));
-  this->fails_with("vertex 5");
+  this->expect_error("vertex 5");
 
   // If rows do not sum to 1, there is a warning with the number of rows, and a result.
   this->tets->GetPointData()->AddArray(
@@ -403,7 +403,7 @@ TEST_F(ReducedARAPFilter, WhatDoesNotFitIsNamed)
   this->pose->SetPoseJSON(R"({"handles": {"elbow": {}}})");
   vtkNew<test::Listener> quiet;
   quiet->listen(this->pose);
-  this->fails_with("'elbow'");
+  this->expect_error("'elbow'");
   this->pose->SetPoseJSON("");
   this->filter->Update();
   EXPECT_EQ(this->filter->GetStatus(), vtkBindposeAlgorithm::OK);

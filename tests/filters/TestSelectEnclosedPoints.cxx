@@ -90,31 +90,32 @@ vtkSmartPointer<vtkDataArray> inside_by_vtk(
   return select->GetOutput()->GetPointData()->GetArray("SelectedPoints");
 }
 
-struct Wrong
+struct Mismatches
 {
   Index bindpose = 0, vtk = 0, points = 0;
 };
 
 /// Compare both filters with the ground truth.
-Wrong compare(const std::string& name, const TriangleMesh& mesh, const Points& points,
+Mismatches compare(const std::string& name, const TriangleMesh& mesh, const Points& points,
   const std::function<Truth(const Vec3&)>& truth, bool orient = false, double tolerance = 1e-4)
 {
-  const auto ours = inside_by_bindpose(mesh, points, orient);
-  const auto theirs = inside_by_vtk(mesh, points, false, tolerance);
-  Wrong wrong;
+  const auto by_bindpose = inside_by_bindpose(mesh, points, orient);
+  const auto by_vtk = inside_by_vtk(mesh, points, false, tolerance);
+  Mismatches mismatches;
   for (Index i = 0; i < points.rows(); ++i)
   {
     const Truth expected = truth(points.row(i));
     if (expected != unknown)
     {
-      ++wrong.points;
-      wrong.bindpose += ours->GetTuple1(i) != (expected == inside ? 1.0 : 0.0);
-      wrong.vtk += !theirs || theirs->GetTuple1(i) != (expected == inside ? 1.0 : 0.0);
+      ++mismatches.points;
+      mismatches.bindpose += by_bindpose->GetTuple1(i) != (expected == inside ? 1.0 : 0.0);
+      mismatches.vtk += !by_vtk || by_vtk->GetTuple1(i) != (expected == inside ? 1.0 : 0.0);
     }
   }
-  std::cout << "[ facts ] " << name << ", " << wrong.points << " points: " << wrong.bindpose
-            << " wrong by vtkWindingNumberField, " << wrong.vtk << " by vtkSelectEnclosedPoints\n";
-  return wrong;
+  std::cout << "[ facts ] " << name << ", " << mismatches.points
+            << " points: " << mismatches.bindpose << " wrong by vtkWindingNumberField, "
+            << mismatches.vtk << " by vtkSelectEnclosedPoints\n";
+  return mismatches;
 }
 
 /// Return a lattice of n^3 points on [lower, upper]^3.
@@ -130,7 +131,7 @@ Points lattice(Index n, double lower, double upper)
   return points;
 }
 
-Points anywhere(Index count, double size)
+Points random_queries(Index count, double size)
 {
   test::Random random(17);
   Points points(count, 3);
@@ -210,7 +211,8 @@ TEST(SelectEnclosedPoints, ClosedManifoldSurfaces)
 {
   const TriangleMesh ball = test::sphere(3);
   const auto in_sphere = behind_all_planes(ball);
-  EXPECT_EQ(compare("sphere, random points", ball, anywhere(30000, 1.2), in_sphere).bindpose, 0);
+  EXPECT_EQ(
+    compare("sphere, random points", ball, random_queries(30000, 1.2), in_sphere).bindpose, 0);
   EXPECT_EQ(compare("sphere, lattice", ball, lattice(33, -1.2, 1.2), in_sphere).bindpose, 0);
 
   // Rays through a cube made of small squares hit many edges and vertices.
@@ -236,7 +238,7 @@ TEST(SelectEnclosedPoints, ClosedManifoldSurfaces)
     const double height = p.cwiseAbs().maxCoeff() - 1.0;
     return std::abs(height) < 1e-9 ? unknown : height < 0.0 ? inside : outside;
   };
-  EXPECT_EQ(compare("cube, random points", box, anywhere(60000, 1.2), in_box).bindpose, 0);
+  EXPECT_EQ(compare("cube, random points", box, random_queries(60000, 1.2), in_box).bindpose, 0);
   EXPECT_EQ(compare("cube, lattice", box, lattice(41, -1.2, 1.2), in_box).bindpose, 0);
 
   // The torus is made of polygons, which deviate from its circles by at most 1 - cos(pi / n).
@@ -246,7 +248,7 @@ TEST(SelectEnclosedPoints, ClosedManifoldSurfaces)
     const double height = std::hypot(std::hypot(p.x(), p.y()) - 1.0, p.z()) - 0.4;
     return std::abs(height) < 2e-3 ? unknown : height < 0.0 ? inside : outside;
   };
-  EXPECT_EQ(compare("ring, random points", ring, anywhere(60000, 1.5), in_ring).bindpose, 0);
+  EXPECT_EQ(compare("ring, random points", ring, random_queries(60000, 1.5), in_ring).bindpose, 0);
   EXPECT_EQ(compare("ring, lattice", ring, lattice(41, -1.5, 1.5), in_ring).bindpose, 0);
 }
 
@@ -258,7 +260,7 @@ TEST(SelectEnclosedPoints, StacksOfPlates)
   {
     std::ostringstream name;
     name << plates << " plates of " << thickness;
-    EXPECT_EQ(compare(name.str(), stack_of_plates(thickness), anywhere(20000, 1.1),
+    EXPECT_EQ(compare(name.str(), stack_of_plates(thickness), random_queries(20000, 1.1),
                 [=](const Vec3& p) { return in_plates(thickness, p); })
                 .bindpose,
       0);
@@ -296,8 +298,8 @@ TEST(SelectEnclosedPoints, ScannedAndModeledSurfaces)
       return winding > 0.5 ? inside : outside;
     };
     constexpr double of_pyvista = 1e-3;
-    const Wrong wrong = compare(name, mesh, points, truth, false, of_pyvista);
-    EXPECT_EQ(wrong.bindpose, 0);
+    const Mismatches mismatches = compare(name, mesh, points, truth, false, of_pyvista);
+    EXPECT_EQ(mismatches.bindpose, 0);
   }
 }
 
@@ -332,7 +334,7 @@ TEST(SelectEnclosedPoints, ThinPlate)
   // VTK's filter.
   TriangleMesh plate = test::cube();
   plate.points.col(2) *= 1e-5;
-  Points points = anywhere(20000, 1.2);
+  Points points = random_queries(20000, 1.2);
   for (Index i = 0; i < points.rows(); ++i)
   {
     points(i, 2) *= i % 2 == 0 ? 2e-5 : 1.0;
@@ -362,10 +364,11 @@ TEST(SelectEnclosedPoints, OverlappingComponents)
       : left == unknown || right == unknown  ? unknown
                                              : outside;
   };
-  EXPECT_EQ(compare("two balls", both, anywhere(30000, 1.6), in_union).bindpose, 0);
+  EXPECT_EQ(compare("two balls", both, random_queries(30000, 1.6), in_union).bindpose, 0);
   const auto in_both = [&](const Vec3& p)
   { return one(p, -1.0) == inside && one(p, 1.0) == inside ? inside : unknown; };
-  const Wrong overlap = compare("two balls, what they share", both, anywhere(30000, 1.6), in_both);
+  const Mismatches overlap =
+    compare("two balls, what they share", both, random_queries(30000, 1.6), in_both);
   EXPECT_EQ(overlap.bindpose, 0);
   EXPECT_GT(2 * overlap.vtk, overlap.points);
 
@@ -380,7 +383,8 @@ TEST(SelectEnclosedPoints, OverlappingComponents)
       : large == inside && small == outside     ? inside
                                                 : outside;
   };
-  EXPECT_EQ(compare("ball with a cavity", hollow, anywhere(30000, 1.2), in_shell).bindpose, 0);
+  EXPECT_EQ(
+    compare("ball with a cavity", hollow, random_queries(30000, 1.2), in_shell).bindpose, 0);
 }
 
 TEST(SelectEnclosedPoints, FlippedSurfaces)
@@ -388,7 +392,7 @@ TEST(SelectEnclosedPoints, FlippedSurfaces)
   // VTK's filter ignores orientations. The winding number inside of a flipped surface is -1.
   // Bindpose counts this as inside only if patches are oriented first.
   const TriangleMesh ball = test::sphere(3);
-  const Points points = anywhere(20000, 1.2);
+  const Points points = random_queries(20000, 1.2);
   const auto truth = behind_all_planes(ball);
   EXPECT_EQ(
     compare("sphere inside out, turned", test::flipped(ball), points, truth, true).bindpose, 0);
@@ -414,7 +418,7 @@ TEST(SelectEnclosedPoints, OpenSurfaces)
   const TriangleMesh open = with_hole(test::sphere(4), up, 0.995);
   const auto truth = [&](const Vec3& p)
   { return (p - up).norm() < 0.3 ? unknown : in_ball(p, Vec3::Zero(), 1.0, 5e-3); };
-  const Points points = anywhere(30000, 1.2);
+  const Points points = random_queries(30000, 1.2);
   EXPECT_EQ(compare("sphere with a hole", open, points, truth).bindpose, 0);
   EXPECT_NE(inside_by_vtk(test::sphere(4), points, true), nullptr);
   EXPECT_EQ(inside_by_vtk(open, points, true), nullptr) << "it no longer refuses open surfaces";
@@ -425,17 +429,17 @@ TEST(SelectEnclosedPoints, AnotherBatch)
   // The second query contains half of the points of the first query. Bindpose's result for a point
   // does not depend on the other points.
   const TriangleMesh stack = stack_of_plates(2e-3);
-  const Points points = anywhere(20000, 1.1);
+  const Points points = random_queries(20000, 1.1);
   const Points second = points.bottomRows(10000);
-  const auto ours = inside_by_bindpose(stack, points),
-             ours_again = inside_by_bindpose(stack, second);
-  const auto theirs = inside_by_vtk(stack, points, false);
-  const auto theirs_again = inside_by_vtk(stack, second, false);
+  const auto by_bindpose = inside_by_bindpose(stack, points),
+             by_bindpose_again = inside_by_bindpose(stack, second);
+  const auto by_vtk = inside_by_vtk(stack, points, false);
+  const auto by_vtk_again = inside_by_vtk(stack, second, false);
   Index changed = 0;
   for (Index i = 0; i < 10000; ++i)
   {
-    ASSERT_EQ(ours->GetTuple1(10000 + i), ours_again->GetTuple1(i));
-    changed += theirs->GetTuple1(10000 + i) != theirs_again->GetTuple1(i);
+    ASSERT_EQ(by_bindpose->GetTuple1(10000 + i), by_bindpose_again->GetTuple1(i));
+    changed += by_vtk->GetTuple1(10000 + i) != by_vtk_again->GetTuple1(i);
   }
   std::cout << "[ facts ] plates, asked in another batch: " << changed
             << " of 10000 answers of vtkSelectEnclosedPoints changed\n";

@@ -248,7 +248,7 @@ TEST_F(SkinningDeformation, TetsArePosedToo)
 
 TEST_F(SkinningDeformation, WhatDoesNotFitIsNamed)
 {
-  const auto fails_with = [this](const std::string& words)
+  const auto expect_error = [this](const std::string& words)
   {
     this->error.clear();
     this->filter->Update();
@@ -257,21 +257,21 @@ TEST_F(SkinningDeformation, WhatDoesNotFitIsNamed)
     EXPECT_EQ(this->filter->GetOutput()->GetNumberOfPoints(), 0);
   };
   this->filter->SetArrayName("W");
-  fails_with("no point array 'W'");
+  expect_error("no point array 'W'");
   this->filter->SetArrayName("Weights");
 
   Handles one(1);
   one[0].name = "only";
   const auto single = to_polydata(one);
   this->filter->SetInputData(1, single);
-  fails_with("2 components, but there are 1 handles");
+  expect_error("2 components, but there are 1 handles");
   this->filter->SetInputConnection(1, this->pose->GetOutputPort());
 
   vtkDataArray* weights = this->mesh->GetPointData()->GetArray("Weights");
   weights->SetComponent(3, 0, std::nan(""));
   weights->Modified();
   this->mesh->Modified();
-  fails_with("vertex 3");
+  expect_error("vertex 3");
   weights->SetComponent(3, 0, 5.0);
   weights->Modified();
   this->mesh->Modified();

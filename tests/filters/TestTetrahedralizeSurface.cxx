@@ -323,24 +323,24 @@ TEST(TetrahedralizeSurface, AbortKillsTheHelper)
   const TriangleMesh cube = test::cube();
   vtkNew<vtkTetrahedralizeSurface> filter;
   vtkNew<Listener> listener;
-  std::chrono::steady_clock::time_point asked;
+  std::chrono::steady_clock::time_point cancel_time;
   listener->on_progress = [&](vtkAlgorithm* algorithm)
   {
     if (!algorithm->GetAbortExecute() && listener->phases.back() == "tetgen")
     {
       algorithm->SetAbortExecute(1);
-      asked = std::chrono::steady_clock::now();
+      cancel_time = std::chrono::steady_clock::now();
     }
   };
   listener->listen(filter);
   filter->SetInputData(to_polydata(cube.points, cube.triangles));
   filter->Update();
-  const double waited =
-    std::chrono::duration<double>(std::chrono::steady_clock::now() - asked).count();
+  const double seconds_since_cancel =
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - cancel_time).count();
   helper.reset();
   EXPECT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::CANCELED);
   EXPECT_TRUE(listener->errors.empty());
-  EXPECT_LT(waited, 0.2);
+  EXPECT_LT(seconds_since_cancel, 0.2);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
   // The next update executes again, with the real helper program or with a lattice.
   filter->SetAbortExecute(0);

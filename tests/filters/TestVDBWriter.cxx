@@ -67,7 +67,7 @@ protected:
     EXPECT_EQ(this->Writer->Write(), 1) << this->Writer->GetStatusMessage();
     return this->Folder.read("f.vdb");
   }
-  void Refuses(const char* word)
+  void ExpectError(const char* word)
   {
     EXPECT_EQ(this->Writer->Write(), 0);
     EXPECT_EQ(this->Writer->GetStatus(), vtkVDBWriter::INVALID_INPUT) << word;
@@ -154,34 +154,34 @@ TEST_F(VDBWriter, WritesAgainOnlyWhenAllowed)
 TEST_F(VDBWriter, WhatCannotBeWrittenIsOneSentence)
 {
   this->Writer->SetArrayName("Density");
-  this->Refuses("no point array 'Density'");
+  this->ExpectError("no point array 'Density'");
   vtkNew<vtkDoubleArray> vectors;
   vectors->SetName("Density");
   vectors->SetNumberOfComponents(3);
   vectors->SetNumberOfTuples(this->Image->GetNumberOfPoints());
   this->Image->GetPointData()->AddArray(vectors);
-  this->Refuses("3 components");
+  this->ExpectError("3 components");
   this->Writer->SetArrayName(nullptr);
   this->Writer->SetFileName((this->Folder / "f.vti").c_str());
-  this->Refuses("unknown file name extension");
+  this->ExpectError("unknown file name extension");
   this->Writer->SetFileName(nullptr);
-  this->Refuses("file name is empty");
+  this->ExpectError("file name is empty");
   this->Writer->SetFileName((this->Folder / "no/f.vdb").c_str());
-  this->Refuses("No such file");
+  this->ExpectError("No such file");
   this->Writer->SetFileName((this->Folder / "f.vdb").c_str());
   this->Image->SetSpacing(0.1, 0.0, 0.1);
-  this->Refuses("spacing");
+  this->ExpectError("spacing");
 
   vtkNew<vtkImageData> bare;
   bare->SetDimensions(2, 2, 2);
   this->Writer->SetInputData(bare);
-  this->Refuses("no active scalars");
+  this->ExpectError("no active scalars");
   vtkNew<vtkImageData> empty;
   this->Writer->SetInputData(empty);
-  this->Refuses("nothing to write");
+  this->ExpectError("nothing to write");
   const TriangleMesh mesh = test::cube();
   this->Writer->SetInputData(to_polydata(mesh.points, mesh.triangles));
-  this->Refuses("vtkPolyData");
+  this->ExpectError("vtkPolyData");
 }
 
 TEST_F(VDBWriter, AnAbortLeavesNothing)

@@ -66,7 +66,7 @@ protected:
     return this->filter->GetOutput()->GetPoint(v + std::lround(x * squares))[2];
   }
 
-  void refused(const char* sentence)
+  void expect_error(const char* sentence)
   {
     this->listener->errors.clear();
     this->filter->Update();
@@ -184,16 +184,16 @@ TEST_F(VariationalSurfaceFilter, WhatCannotBeIsOneSentence)
   this->pose_middle(0.5);
   this->filter->SetBoundary(vtkVariationalSurface::TANGENT);
   this->filter->SetTangentSource(vtkVariationalSurface::GIVEN);
-  this->refused("no point array 'Tangents'");
+  this->expect_error("no point array 'Tangents'");
   this->filter->SetBoundary(vtkVariationalSurface::REGION);
   this->filter->SetParameterArrayName("Fixed");
-  this->refused("'Fixed' must have 2 or 3 components");
+  this->expect_error("'Fixed' must have 2 or 3 components");
   this->filter->SetParameterArrayName("");
   this->filter->SetRegionArrayName("Nowhere");
-  this->refused("region 'middle' needs a point array of labels");
+  this->expect_error("region 'middle' needs a point array of labels");
   this->filter->SetRegionArrayName("RegionId");
   this->filter->FairOn();
   this->filter->SetFixedArrayName("Nowhere");
   this->pose->SetPoseJSON(R"({"handles": {"middle": {"mode": "free"}}})");
-  this->refused("must have at least one fixed point");
+  this->expect_error("must have at least one fixed point");
 }

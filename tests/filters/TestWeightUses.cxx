@@ -114,10 +114,11 @@ double height_of(vtkPolyData* rest, vtkPolyData* posed, bool right_limb, double 
     {
       continue;
     }
-    const Vec3 shares = corners.inverse() * Vec3(x, y, 1.0);
-    if (shares.minCoeff() >= 0.0)
+    const Vec3 coordinates = corners.inverse() * Vec3(x, y, 1.0);
+    if (coordinates.minCoeff() >= 0.0)
     {
-      height = shares[0] * p(v[0], 2) + shares[1] * p(v[1], 2) + shares[2] * p(v[2], 2);
+      height =
+        coordinates[0] * p(v[0], 2) + coordinates[1] * p(v[1], 2) + coordinates[2] * p(v[2], 2);
     }
   }
   return height;
@@ -326,7 +327,7 @@ TEST_F(WeightUses, WithoutColorsHandlesGetTheirOwn)
 
 TEST_F(WeightUses, WhatDoesNotFitIsNamed)
 {
-  const auto fails_with = [this](vtkBindposeAlgorithm* filter, const std::string& words)
+  const auto expect_error = [this](vtkBindposeAlgorithm* filter, const std::string& words)
   {
     this->listener->errors.clear();
     filter->Update();
@@ -336,22 +337,22 @@ TEST_F(WeightUses, WhatDoesNotFitIsNamed)
     EXPECT_EQ(filter->GetOutput()->GetNumberOfPoints(), 0);
   };
   set_cells(this->handles, "Color", { 1, 0, 0, 0, 2, 0, 0, 0, 1 });
-  fails_with(this->colors, "'left'");
+  expect_error(this->colors, "'left'");
   set_cells(this->handles, "Color", { 1, 0, 0 });
-  fails_with(this->colors, "1 components");
+  expect_error(this->colors, "1 components");
   set_cells(this->handles, "Layer", { 0, std::nan(""), 0 });
-  fails_with(this->depth, "'left'");
+  expect_error(this->depth, "'left'");
   set_cells(this->handles, "Layer", { 0, 1, 0, 1, 0, 1 });
-  fails_with(this->depth, "2 components");
+  expect_error(this->depth, "2 components");
   this->depth->SetArrayName("W");
-  fails_with(this->depth, "no point array 'W'");
+  expect_error(this->depth, "no point array 'W'");
   this->colors->SetArrayName("W");
-  fails_with(this->colors, "no point array 'W'");
+  expect_error(this->colors, "no point array 'W'");
   this->handles->GetCellData()->RemoveArray("Color");
   this->colors->SetArrayName("Weights");
   this->colors->SetInputData(
     1, to_polydata(Handles{ test::bone_handle("b", Vec3(0, 0, 0), Vec3(1, 0, 0)) }));
-  fails_with(this->colors, "3 components, but there are 1 handles");
+  expect_error(this->colors, "3 components, but there are 1 handles");
 }
 
 TEST(CutAlongBones, SidesAreRegionsThatWeightsTake)

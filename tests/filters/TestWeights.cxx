@@ -403,19 +403,19 @@ TEST(WeightsFilters, MetersAndMillimetersGiveTheSameWeights)
 TEST(WeightsFilters, CanceledOnceTheNextUpdateSolves)
 {
   Pipeline<vtkBoundedBiharmonicWeights> run(box_data(14), three_handles());
-  std::chrono::steady_clock::time_point asked;
+  std::chrono::steady_clock::time_point cancel_time;
   run.listener->on_progress = [&](vtkAlgorithm* algorithm)
   {
     const char* phase = algorithm->GetProgressText();
     if (phase && std::string(phase) == "weights" && !algorithm->GetAbortExecute())
     {
-      asked = std::chrono::steady_clock::now();
+      cancel_time = std::chrono::steady_clock::now();
       algorithm->SetAbortExecute(1);
     }
   };
   run.filter->Update();
   const double late =
-    std::chrono::duration<double>(std::chrono::steady_clock::now() - asked).count();
+    std::chrono::duration<double>(std::chrono::steady_clock::now() - cancel_time).count();
   EXPECT_EQ(run.filter->GetStatus(), vtkBindposeAlgorithm::CANCELED);
   EXPECT_LT(late, 2.0) << "200 ms, and what the machine's other work takes";
   EXPECT_TRUE(run.listener->errors.empty());

@@ -951,18 +951,18 @@ TEST(WindingNumberField, AbortFromAnObserverThenAgain)
   field->SetResolution(200);
   field->SetNumberOfThreads(1);
   using Clock = std::chrono::steady_clock;
-  Clock::time_point asked{};
+  Clock::time_point cancel_time{};
   listener->on_progress = [&](vtkAlgorithm* algorithm)
   {
-    if (algorithm->GetProgress() > 0.25 && asked == Clock::time_point())
+    if (algorithm->GetProgress() > 0.25 && cancel_time == Clock::time_point())
     {
-      asked = Clock::now();
+      cancel_time = Clock::now();
       algorithm->SetAbortExecute(1);
     }
   };
   field->Update();
-  ASSERT_NE(asked, Clock::time_point()) << "it was faster than its progress";
-  EXPECT_LT(std::chrono::duration<double>(Clock::now() - asked).count(), 0.2);
+  ASSERT_NE(cancel_time, Clock::time_point()) << "it was faster than its progress";
+  EXPECT_LT(std::chrono::duration<double>(Clock::now() - cancel_time).count(), 0.2);
   EXPECT_EQ(field->GetStatus(), vtkBindposeAlgorithm::CANCELED);
   EXPECT_EQ(field->GetOutput()->GetNumberOfPoints(), 0);
   EXPECT_EQ(winding_array(field->GetOutput()), nullptr);

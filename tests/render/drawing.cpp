@@ -13,11 +13,11 @@ namespace bindpose::test
 
 Pixel Drawing::at(const Vec3& point, std::size_t tile) const
 {
-  const Eigen::Vector2d place = this->geometry.project(tile, point);
-  return pixel_at(this->image, place[0], place[1]);
+  const Eigen::Vector2d position = this->geometry.project(tile, point);
+  return pixel_at(this->image, position[0], position[1]);
 }
 
-long long Drawing::count(const std::function<bool(const Pixel&)>& which) const
+long long Drawing::count(const std::function<bool(const Pixel&)>& predicate) const
 {
   int size[3];
   this->image->GetDimensions(size);
@@ -26,13 +26,13 @@ long long Drawing::count(const std::function<bool(const Pixel&)>& which) const
   {
     for (int x = 0; x < size[0]; ++x)
     {
-      result += which(pixel_at(this->image, x, y));
+      result += predicate(pixel_at(this->image, x, y));
     }
   }
   return result;
 }
 
-Eigen::AlignedBox2d Drawing::extent(const std::function<bool(const Pixel&)>& which) const
+Eigen::AlignedBox2d Drawing::extent(const std::function<bool(const Pixel&)>& predicate) const
 {
   int size[3];
   this->image->GetDimensions(size);
@@ -41,7 +41,7 @@ Eigen::AlignedBox2d Drawing::extent(const std::function<bool(const Pixel&)>& whi
   {
     for (int x = 0; x < size[0]; ++x)
     {
-      if (which(pixel_at(this->image, x, y)))
+      if (predicate(pixel_at(this->image, x, y)))
       {
         box.extend(Eigen::Vector2d(x, y)).extend(Eigen::Vector2d(x + 1, y + 1));
       }
@@ -58,7 +58,7 @@ Drawing draw(const std::vector<Tile>& tiles, const PictureOptions& options)
   return drawing;
 }
 
-bool is_paper(const Pixel& p)
+bool is_background(const Pixel& p)
 {
   return p.r == 255 && p.g == 255 && p.b == 255;
 }
@@ -76,10 +76,10 @@ double distance(const Pixel& p, const Rgb& color)
 
 double hue_distance(const Pixel& p, const Rgb& color)
 {
-  const double its = std::max(1, p.r + p.g + p.b);
+  const double pixel_sum = std::max(1, p.r + p.g + p.b);
   const double sum = color[0] + color[1] + color[2];
-  return std::max({ std::abs(p.r / its - color[0] / sum), std::abs(p.g / its - color[1] / sum),
-    std::abs(p.b / its - color[2] / sum) });
+  return std::max({ std::abs(p.r / pixel_sum - color[0] / sum),
+    std::abs(p.g / pixel_sum - color[1] / sum), std::abs(p.b / pixel_sum - color[2] / sum) });
 }
 
 } // namespace bindpose::test

@@ -18,15 +18,15 @@ struct Drawing
   PictureGeometry geometry;
 
   Pixel at(const Vec3& point, std::size_t tile = 0) const;
-  long long count(const std::function<bool(const Pixel&)>& which) const;
-  /// Return the smallest rectangle that contains all pixels for which `which` returns true. Its
+  long long count(const std::function<bool(const Pixel&)>& predicate) const;
+  /// Return the smallest rectangle that contains all pixels for which `predicate` returns true. Its
   /// coordinates are in pixels from the lower left corner.
-  Eigen::AlignedBox2d extent(const std::function<bool(const Pixel&)>& which) const;
+  Eigen::AlignedBox2d extent(const std::function<bool(const Pixel&)>& predicate) const;
 };
 
 Drawing draw(const std::vector<Tile>& tiles, const PictureOptions& options);
 
-bool is_paper(const Pixel& p);
+bool is_background(const Pixel& p);
 double lightness(const Pixel& p);
 /// Return the largest difference of a channel between pixel and color, from 0 to 255.
 double distance(const Pixel& p, const Rgb& color);

@@ -25,7 +25,7 @@ namespace bindpose::test
 namespace
 {
 std::string test_name;
-long long differing_pixels = 0;
+long long allowed_differing_pixels = 0;
 bool bless = false;
 
 const unsigned char* pixel_pointer(vtkImageData* image, int x, int y)
@@ -56,7 +56,7 @@ vtkSmartPointer<vtkImageData> difference_image(vtkImageData* a, vtkImageData* b)
       auto* to = static_cast<unsigned char*>(image->GetScalarPointer(x, y, 0));
       const auto pale = static_cast<unsigned char>(200 + p[1] / 5);
       to[0] = largest > 0 ? 255 : pale;
-      to[1] = to[2] = largest > pixel_level ? 0 : largest > 0 ? 200 : pale;
+      to[1] = to[2] = largest > channel_tolerance ? 0 : largest > 0 ? 200 : pale;
     }
   }
   return image;
@@ -93,7 +93,7 @@ Difference compare(vtkImageData* a, vtkImageData* b)
       {
         largest = std::max(largest, std::abs(p[k] - q[k]));
       }
-      difference.pixels += largest > pixel_level;
+      difference.pixels += largest > channel_tolerance;
       difference.largest = std::max(difference.largest, largest);
     }
   }
@@ -102,12 +102,12 @@ Difference compare(vtkImageData* a, vtkImageData* b)
 
 long long allowed_pixels()
 {
-  return differing_pixels;
+  return allowed_differing_pixels;
 }
 
 bool passes(const Difference& difference)
 {
-  return difference.same_size && difference.pixels <= differing_pixels;
+  return difference.same_size && difference.pixels <= allowed_differing_pixels;
 }
 
 void expect_baseline(vtkImageData* actual)
@@ -139,7 +139,8 @@ void expect_baseline(vtkImageData* actual)
   vtkImageData* baseline = reader->GetOutput();
   const Difference difference = compare(baseline, actual);
   std::printf("%s: %lld pixels differ by more than %d levels (%lld allowed), the most by %d\n",
-    test_name.c_str(), difference.pixels, pixel_level, differing_pixels, difference.largest);
+    test_name.c_str(), difference.pixels, channel_tolerance, allowed_differing_pixels,
+    difference.largest);
   if (!passes(difference))
   {
     write_png(actual, output + ".actual.png", true);
@@ -182,7 +183,7 @@ int main(int argc, char** argv)
     }
     else if (std::strcmp(argv[i], "--differing-pixels") == 0 && i + 1 < argc)
     {
-      differing_pixels = std::atoll(argv[++i]);
+      allowed_differing_pixels = std::atoll(argv[++i]);
     }
     else
     {

@@ -16,12 +16,12 @@ namespace bindpose::test
 
 /// Two pixels differ if a channel differs by more than this many of the 255 levels. Rounding on
 /// other processors and driver versions differs by one or two levels.
-constexpr int pixel_level = 8;
+constexpr int channel_tolerance = 8;
 
 struct Difference
 {
   bool same_size = false; ///< width, height and channels are equal
-  long long pixels = 0; ///< number of pixels that differ by more than pixel_level
+  long long pixels = 0; ///< number of pixels that differ by more than channel_tolerance
   int largest = 0; ///< largest difference of any channel
 };
 Difference compare(vtkImageData* a, vtkImageData* b);

@@ -35,7 +35,7 @@ TriangleMesh spindle()
   return mesh;
 }
 
-Handles three_along()
+Handles three_handles_on_axis()
 {
   Handles handles(3);
   const char* const names[] = { "bottom", "middle", "top" };
@@ -49,18 +49,18 @@ Handles three_along()
 
 /// Bend the shape by linear blend skinning: the end handles are rotated by -40 and 40 degrees about
 /// the y axis.
-Points bent(const Points& rest, const Weights& weights)
+Points bent_points(const Points& rest, const Weights& weights)
 {
   Points posed(rest.rows(), 3);
   for (Index v = 0; v < rest.rows(); ++v)
   {
-    Vec3 place = Vec3::Zero();
+    Vec3 position = Vec3::Zero();
     for (int k = 0; k < 3; ++k)
     {
-      const Eigen::AngleAxisd turn((k - 1) * 40.0 * M_PI / 180.0, Vec3::UnitY());
-      place += weights(v, k) * (turn * Vec3(rest.row(v)));
+      const Eigen::AngleAxisd rotation((k - 1) * 40.0 * M_PI / 180.0, Vec3::UnitY());
+      position += weights(v, k) * (rotation * Vec3(rest.row(v)));
     }
-    posed.row(v) = place.transpose();
+    posed.row(v) = position.transpose();
   }
   return posed;
 }
@@ -70,7 +70,7 @@ Drawing draw_bent(const TriangleMesh& mesh, const Weights& weights)
   PictureOptions options = small_picture();
   options.width = 600;
   options.height = 600;
-  const Points posed = bent(mesh.points, weights);
+  const Points posed = bent_points(mesh.points, weights);
   return draw({ { to_polydata(posed, mesh.triangles), nullptr, "" } }, options);
 }
 
@@ -83,8 +83,8 @@ double roughness(const Drawing& drawing)
   drawing.image->GetDimensions(size);
   constexpr int h = 4;
   constexpr int outline = 24;
-  const auto inside = [&](int x, int y) { return !is_paper(pixel_at(drawing.image, x, y)); };
-  const auto light = [&](int x, int y) { return lightness(pixel_at(drawing.image, x, y)); };
+  const auto inside = [&](int x, int y) { return !is_background(pixel_at(drawing.image, x, y)); };
+  const auto lightness_at = [&](int x, int y) { return lightness(pixel_at(drawing.image, x, y)); };
   double sum = 0.0;
   long long count = 0;
   for (int y = outline; y + outline < size[1]; ++y)
@@ -94,9 +94,9 @@ double roughness(const Drawing& drawing)
       if (inside(x - outline, y) && inside(x + outline, y) && inside(x, y - outline) &&
         inside(x, y + outline))
       {
-        const double here = 2.0 * light(x, y);
-        const double across = light(x - h, y) + light(x + h, y) - here;
-        const double along = light(x, y - h) + light(x, y + h) - here;
+        const double here = 2.0 * lightness_at(x, y);
+        const double across = lightness_at(x - h, y) + lightness_at(x + h, y) - here;
+        const double along = lightness_at(x, y - h) + lightness_at(x, y + h) - here;
         sum += across * across + along * along;
         count += 2;
       }
@@ -119,9 +119,9 @@ TEST(Render, no_facets_of_the_embedding)
     options.guard = false;
     ExecutionContext context;
     const Status status = surface_weights(
-      context, mesh.points, mesh.triangles, {}, three_along(), options, {},
-      [](ExecutionContext& of_method, const WeightsProblem& problem, WeightsResult& weights)
-      { return bounded_biharmonic_weights(of_method, problem, {}, weights); },
+      context, mesh.points, mesh.triangles, {}, three_handles_on_axis(), options, {},
+      [](ExecutionContext& method_context, const WeightsProblem& problem, WeightsResult& weights)
+      { return bounded_biharmonic_weights(method_context, problem, {}, weights); },
       result);
     ASSERT_TRUE(status.usable()) << status.message;
     EXPECT_EQ(status.report.text("tetrahedralize.method"),
@@ -138,14 +138,15 @@ TEST(Render, no_facets_of_the_embedding)
   ASSERT_TRUE(transfer(
     context, embedded.problem.mesh.domain, embedded.solved.weights, mesh.points, {}, linear, counts)
                 .ok());
-  const double smooth = roughness(draw_bent(mesh, conforming.weights));
-  const double shown = roughness(draw_bent(mesh, embedded.weights));
-  const double faceted = roughness(draw_bent(mesh, linear));
-  RecordProperty("conforming", std::to_string(smooth));
-  RecordProperty("embedded", std::to_string(shown));
-  RecordProperty("linear", std::to_string(faceted));
+  const double conforming_roughness = roughness(draw_bent(mesh, conforming.weights));
+  const double embedded_roughness = roughness(draw_bent(mesh, embedded.weights));
+  const double linear_roughness = roughness(draw_bent(mesh, linear));
+  RecordProperty("conforming", std::to_string(conforming_roughness));
+  RecordProperty("embedded", std::to_string(embedded_roughness));
+  RecordProperty("linear", std::to_string(linear_roughness));
   // The measured roughness is 0.778 levels for conforming tets, 0.782 for the embedding and 1.172
   // for linear interpolation. Without smoothing along the surface, the embedding gives 0.834.
-  EXPECT_LT(shown, 1.03 * smooth) << "facets are seen";
-  EXPECT_GT(faceted, 1.3 * smooth) << "what is looked for is not there to be found";
+  EXPECT_LT(embedded_roughness, 1.03 * conforming_roughness) << "facets are seen";
+  EXPECT_GT(linear_roughness, 1.3 * conforming_roughness)
+    << "what is looked for is not there to be found";
 }

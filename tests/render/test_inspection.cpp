@@ -114,8 +114,9 @@ TEST(Render, handles_of_surface)
   const std::vector<Category> handles = handle_categories({ "left", "right" });
   for (const double x : { -1.7, -0.9, -0.2, 0.2, 0.9, 1.7 })
   {
-    const double round = std::sqrt(1.0 - x * x / 4.0);
-    const Vec3 ridge(x, 0.2 * round + 0.5 * std::cos(0.8 * x), 0.7 * round * 0.968);
+    const double section_radius = std::sqrt(1.0 - x * x / 4.0);
+    const Vec3 ridge(
+      x, 0.2 * section_radius + 0.5 * std::cos(0.8 * x), 0.7 * section_radius * 0.968);
     EXPECT_LT(hue_distance(drawing.at(ridge), handles[x < 0 ? 0 : 1].color), 0.06) << x;
     EXPECT_GT(hue_distance(drawing.at(ridge), handles[x < 0 ? 1 : 0].color), 0.15) << x;
   }
@@ -137,7 +138,7 @@ TEST(Render, handles_of_tets)
   const Drawing drawing = draw_with_report({ brick, nullptr, "" }, options, report);
   const std::vector<Category> handles = handle_categories({ "a", "b", "c" });
   // These points are on the cut face, which faces the camera.
-  const double places[] = { 0.2, 0.8, 1.4 };
+  const double x_values[] = { 0.2, 0.8, 1.4 };
   for (int k = 0; k < 3; ++k)
   {
     // Edges are drawn over the face, so some pixels around a point do not have the color of the
@@ -147,8 +148,8 @@ TEST(Render, handles_of_tets)
     {
       for (int dy = -3; dy <= 3; ++dy)
       {
-        const Vec3 place(places[k] + 0.02 * dx, 0.5 + 0.02 * dy, 0.6);
-        close += hue_distance(drawing.at(place), handles[k].color) < 0.06;
+        const Vec3 position(x_values[k] + 0.02 * dx, 0.5 + 0.02 * dy, 0.6);
+        close += hue_distance(drawing.at(position), handles[k].color) < 0.06;
       }
     }
     EXPECT_GT(close, 30) << k;
@@ -212,26 +213,28 @@ TEST(Render, tets_slice)
   }
   // The tets in front of the plane are removed. The background is therefore visible where their
   // lower edge was, but not at the lower edge of the slice.
-  EXPECT_TRUE(is_paper(drawing.at(Vec3(1.0, 0.02, 0.98))));
-  EXPECT_FALSE(is_paper(drawing.at(on_plane(1.0, 0.02))));
+  EXPECT_TRUE(is_background(drawing.at(Vec3(1.0, 0.02, 0.98))));
+  EXPECT_FALSE(is_background(drawing.at(on_plane(1.0, 0.02))));
   // The slice contains exactly the tets with vertices on both sides of the plane.
-  Index met = 0;
+  Index expected_tets = 0;
   for (Index t = 0; t < mesh.tets.rows(); ++t)
   {
-    int before = 0;
+    int corners_in_front = 0;
     for (int k = 0; k < 4; ++k)
     {
       const Vec3 corner = mesh.points.row(mesh.tets(t, k));
-      before += (corner - plane.origin).dot(plane.normal) >= 0.0;
+      corners_in_front += (corner - plane.origin).dot(plane.normal) >= 0.0;
     }
-    met += before > 0 && before < 4;
+    expected_tets += corners_in_front > 0 && corners_in_front < 4;
   }
-  EXPECT_EQ(report.number("picture.tets", 0), met);
+  EXPECT_EQ(report.number("picture.tets", 0), expected_tets);
   // Without isolines no band has a dark border.
   options.isolines = false;
-  const Drawing plain = draw({ { box, nullptr, "" } }, options);
-  EXPECT_LE(distance(plain.at(on_plane(0.21, 0.5)), color_of(map, left(Vec3(0.21, 0.5, 0)))), 2.0);
-  EXPECT_GT(lightness(plain.at(on_plane(0.8, 0.5))), lightness_at(0.8, 0.5) + 10);
+  const Drawing without_isolines = draw({ { box, nullptr, "" } }, options);
+  EXPECT_LE(
+    distance(without_isolines.at(on_plane(0.21, 0.5)), color_of(map, left(Vec3(0.21, 0.5, 0)))),
+    2.0);
+  EXPECT_GT(lightness(without_isolines.at(on_plane(0.8, 0.5))), lightness_at(0.8, 0.5) + 10);
   expect_baseline(drawing.image);
 }
 
@@ -271,14 +274,14 @@ TEST(Render, extrema)
   EXPECT_EQ(counts(report, "minima"), Counts{ 4 });
   EXPECT_EQ(counts(report, "drawn"), Counts{ 8 });
   const std::vector<Category>& kinds = extremum_categories();
-  for (const Vec3& place : maxima(0.0))
+  for (const Vec3& position : maxima(0.0))
   {
-    const bool handle = place[0] == 0.5;
-    EXPECT_EQ(hue_distance(drawing.at(place), kinds[1].color) < 0.08, !handle) << place;
+    const bool handle = position[0] == 0.5;
+    EXPECT_EQ(hue_distance(drawing.at(position), kinds[1].color) < 0.08, !handle) << position;
   }
-  for (const Vec3& place : minima(0.0))
+  for (const Vec3& position : minima(0.0))
   {
-    EXPECT_LT(hue_distance(drawing.at(place), kinds[0].color), 0.06) << place;
+    EXPECT_LT(hue_distance(drawing.at(position), kinds[0].color), 0.06) << position;
   }
   // The function "Waves" is 1 at all its maxima. Only the array "Weights" identifies which maximum
   // is at the handle.
@@ -307,9 +310,9 @@ TEST(Render, extrema_of_tets)
   EXPECT_EQ(counts(report, "maxima"), Counts{ 5 });
   EXPECT_EQ(counts(report, "minima"), Counts{ 4 });
   EXPECT_EQ(counts(report, "drawn"), Counts{ 9 });
-  for (const Vec3& place : maxima(0.5))
+  for (const Vec3& position : maxima(0.5))
   {
-    EXPECT_LT(hue_distance(drawing.at(place), extremum_categories()[1].color), 0.08) << place;
+    EXPECT_LT(hue_distance(drawing.at(position), extremum_categories()[1].color), 0.08) << position;
   }
   // The cut removes the side that shows the extrema.
   options.cut = true;
@@ -333,8 +336,9 @@ TEST(Render, row_sum)
   EXPECT_NEAR(report.number("picture.row_sum.maximum", 0), 1.2, 1e-12);
   for (const double x : { -1.6, 0.0, 1.6 })
   {
-    const double round = std::sqrt(1.0 - x * x / 4.0);
-    const Vec3 ridge(x, 0.2 * round + 0.5 * std::cos(0.8 * x), 0.7 * round * 0.968);
+    const double section_radius = std::sqrt(1.0 - x * x / 4.0);
+    const Vec3 ridge(
+      x, 0.2 * section_radius + 0.5 * std::cos(0.8 * x), 0.7 * section_radius * 0.968);
     EXPECT_LT(hue_distance(drawing.at(ridge), diverging_color(x / 2.0)), 0.06) << x;
   }
   expect_baseline(drawing.image);
@@ -343,14 +347,14 @@ TEST(Render, row_sum)
 TEST(Render, difference)
 {
   // The dataset has two linear functions of x, whose difference is -0.25 x.
-  const auto other = vtkSmartPointer<vtkPolyData>::New();
+  const auto subtracted = vtkSmartPointer<vtkPolyData>::New();
   const auto surface = finger();
-  other->DeepCopy(surface);
+  subtracted->DeepCopy(surface);
   add_array(surface, "Shown", { [](const Vec3& p) { return 0.25 * p[0]; } });
-  add_array(other, "Shown", { [](const Vec3& p) { return 0.5 * p[0]; } });
+  add_array(subtracted, "Shown", { [](const Vec3& p) { return 0.5 * p[0]; } });
   PictureOptions options = small_picture();
   options.array = "Shown";
-  options.minus = other;
+  options.subtracted_data = subtracted;
   Report report;
   const Drawing drawing = draw_with_report({ surface, nullptr, "" }, options, report);
   double squares = 0.0;
@@ -364,15 +368,16 @@ TEST(Render, difference)
   // difference is positive.
   for (const double x : { -1.6, 0.0, 1.6 })
   {
-    const double round = std::sqrt(1.0 - x * x / 4.0);
-    const Vec3 ridge(x, 0.2 * round + 0.5 * std::cos(0.8 * x), 0.7 * round * 0.968);
+    const double section_radius = std::sqrt(1.0 - x * x / 4.0);
+    const Vec3 ridge(
+      x, 0.2 * section_radius + 0.5 * std::cos(0.8 * x), 0.7 * section_radius * 0.968);
     EXPECT_LT(hue_distance(drawing.at(ridge), diverging_color(-x / 2.0)), 0.06) << x;
   }
   // The difference between a dataset and itself is zero.
-  options.minus = surface;
-  const Drawing nothing = draw_with_report({ surface, nullptr, "" }, options, report);
+  options.subtracted_data = surface;
+  const Drawing zero_difference = draw_with_report({ surface, nullptr, "" }, options, report);
   EXPECT_EQ(report.number("picture.difference.largest", -1), 0.0);
-  EXPECT_EQ(nothing.count([](const Pixel& p) { return std::abs(p.r - p.b) > 30; }), 0);
+  EXPECT_EQ(zero_difference.count([](const Pixel& p) { return std::abs(p.r - p.b) > 30; }), 0);
   expect_baseline(drawing.image);
 }
 
@@ -382,11 +387,11 @@ TEST(Render, handle_names)
   // their order.
   const auto surface = finger();
   std::vector<Column> columns;
-  constexpr int many = 40;
-  for (int j = 0; j < many; ++j)
+  constexpr int handle_count = 40;
+  for (int j = 0; j < handle_count; ++j)
   {
     columns.emplace_back([j](const Vec3& p)
-      { return std::max(0.0, 1.0 - std::abs((p[0] + 2.0) / 4.0 * (many - 1) - j)); });
+      { return std::max(0.0, 1.0 - std::abs((p[0] + 2.0) / 4.0 * (handle_count - 1) - j)); });
   }
   add_array(surface, "Weights", columns);
   PictureOptions options = small_picture();
@@ -396,7 +401,7 @@ TEST(Render, handle_names)
   const std::vector<Category> handles = handle_categories({ "a", "b", "c" });
   // These are the pixels of the legend, which is drawn without lighting.
   const int right = drawing.geometry.tiles[0].x + drawing.geometry.tiles[0].width;
-  int above = 300;
+  int previous_lowest = 300;
   for (const Category& handle : handles)
   {
     int lowest = 300;
@@ -413,8 +418,8 @@ TEST(Render, handle_names)
       }
     }
     EXPECT_GE(highest, lowest) << handle.name;
-    EXPECT_LT(highest, above) << handle.name;
-    above = lowest;
+    EXPECT_LT(highest, previous_lowest) << handle.name;
+    previous_lowest = lowest;
   }
   expect_baseline(drawing.image);
 }

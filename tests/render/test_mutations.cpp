@@ -31,9 +31,9 @@ TEST(Render, mutations)
   options.component = "right";
   options.range = { 0.0, 1.0 };
   const auto original = picture_of_finger(options);
-  const Difference again = compare(original, picture_of_finger(options));
-  EXPECT_TRUE(passes(again));
-  EXPECT_EQ(again.largest, 0) << "the same scene drawn twice";
+  const Difference redrawn = compare(original, picture_of_finger(options));
+  EXPECT_TRUE(passes(redrawn));
+  EXPECT_EQ(redrawn.largest, 0) << "the same scene drawn twice";
 
   const auto expect_caught = [&](const char* what, const PictureOptions& mutated)
   {
@@ -44,22 +44,22 @@ TEST(Render, mutations)
     // Each change must be detected even if the tolerance is ten times larger.
     EXPECT_GT(difference.pixels, 10 * allowed_pixels()) << what;
   };
-  PictureOptions turned = options;
-  turned.view.azimuth = 1.0;
-  expect_caught("camera 1 degree to the right", turned);
-  PictureOptions raised = options;
-  raised.view.elevation = 1.0;
-  expect_caught("camera 1 degree up", raised);
-  PictureOptions recolored = options;
-  recolored.range = { 0.0, 1.02 };
-  expect_caught("color range 2 % wider", recolored);
-  PictureOptions plain = options;
-  plain.isolines = false;
-  expect_caught("no isolines", plain);
-  PictureOptions zoomed = options;
-  zoomed.view.zoom = 1.01;
-  expect_caught("1 % larger", zoomed);
-  PictureOptions wider = options;
-  wider.width = 401;
-  EXPECT_FALSE(passes(compare(original, picture_of_finger(wider)))) << "another size";
+  PictureOptions rotated_options = options;
+  rotated_options.view.azimuth = 1.0;
+  expect_caught("camera 1 degree to the right", rotated_options);
+  PictureOptions raised_options = options;
+  raised_options.view.elevation = 1.0;
+  expect_caught("camera 1 degree up", raised_options);
+  PictureOptions recolored_options = options;
+  recolored_options.range = { 0.0, 1.02 };
+  expect_caught("color range 2 % wider", recolored_options);
+  PictureOptions options_without_isolines = options;
+  options_without_isolines.isolines = false;
+  expect_caught("no isolines", options_without_isolines);
+  PictureOptions zoomed_options = options;
+  zoomed_options.view.zoom = 1.01;
+  expect_caught("1 % larger", zoomed_options);
+  PictureOptions wider_options = options;
+  wider_options.width = 401;
+  EXPECT_FALSE(passes(compare(original, picture_of_finger(wider_options)))) << "another size";
 }

@@ -31,7 +31,8 @@ TEST(Render, surface)
   {
     expected.extend(drawing.geometry.project(0, Vec3(surface->GetPoint(v))));
   }
-  const Eigen::AlignedBox2d painted = drawing.extent([](const Pixel& p) { return !is_paper(p); });
+  const Eigen::AlignedBox2d painted =
+    drawing.extent([](const Pixel& p) { return !is_background(p); });
   EXPECT_LT((painted.min() - expected.min()).cwiseAbs().maxCoeff(), 1.5);
   EXPECT_LT((painted.max() - expected.max()).cwiseAbs().maxCoeff(), 1.5);
   EXPECT_NEAR(expected.min().x(), 0.04 * 400, 0.01);
@@ -59,9 +60,9 @@ TEST(Render, weights)
   for (int band = 0; band < 10; ++band)
   {
     const double x = -2.0 + 4.0 * (band + 0.5) / 10.0;
-    const double round = std::sqrt(std::max(0.0, 1.0 - x * x / 4.0));
-    bands.push_back(
-      lightness(drawing.at(Vec3(x, 0.2 * round + 0.5 * std::cos(0.8 * x), 0.7 * round * 0.968))));
+    const double section_radius = std::sqrt(std::max(0.0, 1.0 - x * x / 4.0));
+    bands.push_back(lightness(drawing.at(
+      Vec3(x, 0.2 * section_radius + 0.5 * std::cos(0.8 * x), 0.7 * section_radius * 0.968))));
   }
   for (int band = 1; band < 9; ++band)
   {
@@ -75,14 +76,14 @@ TEST(Render, weights)
   // The nine isolines are dark closed curves of some hundred pixels each.
   options.component = "right";
   options.isolines = false;
-  const Drawing plain = draw({ { surface, nullptr, "" } }, options);
+  const Drawing without_isolines = draw({ { surface, nullptr, "" } }, options);
   long long darker = 0;
   for (int y = 0; y < 300; ++y)
   {
     for (int x = 0; x < 400; ++x)
     {
-      darker +=
-        lightness(pixel_at(drawing.image, x, y)) < lightness(pixel_at(plain.image, x, y)) - 20.0;
+      darker += lightness(pixel_at(drawing.image, x, y)) <
+        lightness(pixel_at(without_isolines.image, x, y)) - 20.0;
     }
   }
   EXPECT_GT(darker, 500);
@@ -98,15 +99,15 @@ TEST(Render, winding_slice)
   // exactly the colors of the color map.
   EXPECT_LT(distance(drawing.at(Vec3(-1.8, 1.2, 0.0)), winding_color(0.0)), 3.0);
   const Vec3 overlap = 0.5 * (sphere_centers[0] + sphere_centers[1]);
-  const Pixel one = drawing.at(sphere_centers[0] - Vec3(0.25, 0, 0));
-  const Pixel two = drawing.at(overlap);
-  const Pixel negative = drawing.at(sphere_centers[2]);
+  const Pixel winding_one = drawing.at(sphere_centers[0] - Vec3(0.25, 0, 0));
+  const Pixel winding_two = drawing.at(overlap);
+  const Pixel winding_minus_one = drawing.at(sphere_centers[2]);
   // This point is behind the translucent isosurface.
-  EXPECT_LT(distance(one, winding_color(1.0)), 60.0);
-  EXPECT_GT(one.r, one.b + 50) << "inside is orange";
-  EXPECT_LT(lightness(two), lightness(one) - 60.0) << "twice inside is darker";
-  EXPECT_LT(lightness(negative), lightness(one) - 60.0) << "inside out is dark";
-  EXPECT_LT(distance(negative, winding_color(-1.0)), 3.0) << "and has no glass before it";
+  EXPECT_LT(distance(winding_one, winding_color(1.0)), 60.0);
+  EXPECT_GT(winding_one.r, winding_one.b + 50) << "inside is orange";
+  EXPECT_LT(lightness(winding_two), lightness(winding_one) - 60.0) << "twice inside is darker";
+  EXPECT_LT(lightness(winding_minus_one), lightness(winding_one) - 60.0) << "inside out is dark";
+  EXPECT_LT(distance(winding_minus_one, winding_color(-1.0)), 3.0) << "and has no glass before it";
   expect_baseline(drawing.image);
 }
 
@@ -124,8 +125,8 @@ TEST(Render, tets_cut)
   options.cut = false;
   const Drawing whole = draw({ { tet_brick(), nullptr, "" } }, options);
   EXPECT_EQ(whole.count(is_cut), 0);
-  EXPECT_GT(whole.count([](const Pixel& p) { return !is_paper(p); }),
-    cut.count([](const Pixel& p) { return !is_paper(p); }));
+  EXPECT_GT(whole.count([](const Pixel& p) { return !is_background(p); }),
+    cut.count([](const Pixel& p) { return !is_background(p); }));
   expect_baseline(cut.image);
 }
 
@@ -164,7 +165,7 @@ TEST(Render, tiles)
     {
       const Pixel first = pixel_at(drawing.image, x, y + 150);
       const Pixel last = pixel_at(drawing.image, x + 200, y);
-      differing += std::abs(first.r - last.r) > pixel_level;
+      differing += std::abs(first.r - last.r) > channel_tolerance;
     }
   }
   EXPECT_LE(differing, allowed_pixels());
@@ -198,7 +199,7 @@ TEST(Render, transparent)
     {
       const Pixel p = pixel_at(drawing.image, x, y);
       const Pixel q = pixel_at(white.image, x, y);
-      differing += std::abs((p.r * p.a + 255 * (255 - p.a)) / 255 - q.r) > pixel_level;
+      differing += std::abs((p.r * p.a + 255 * (255 - p.a)) / 255 - q.r) > channel_tolerance;
     }
   }
   EXPECT_LE(differing, allowed_pixels());
@@ -222,8 +223,8 @@ TEST(Render, legend)
       << "band " << band;
   }
   // The top lines contain the title: dark pixels, but not at the ends of the lines.
-  EXPECT_TRUE(is_paper(pixel_at(drawing.image, 2, 297)));
-  EXPECT_TRUE(is_paper(pixel_at(drawing.image, 397, 297)));
+  EXPECT_TRUE(is_background(pixel_at(drawing.image, 2, 297)));
+  EXPECT_TRUE(is_background(pixel_at(drawing.image, 397, 297)));
   long long dark = 0;
   for (int y = 270; y < 300; ++y)
   {

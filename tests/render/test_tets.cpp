@@ -28,7 +28,7 @@ namespace
 {
 long long painted_pixels(const Drawing& drawing)
 {
-  return drawing.count([](const Pixel& p) { return !is_paper(p); });
+  return drawing.count([](const Pixel& p) { return !is_background(p); });
 }
 } // namespace
 
@@ -46,8 +46,8 @@ TEST(Render, tets_shrunk)
   {
     for (int x = 0; x < 400; ++x)
     {
-      const bool before = !is_paper(pixel_at(whole.image, x, y));
-      const bool after = !is_paper(pixel_at(drawing.image, x, y));
+      const bool before = !is_background(pixel_at(whole.image, x, y));
+      const bool after = !is_background(pixel_at(drawing.image, x, y));
       EXPECT_FALSE(after && !before) << x << " " << y;
       gaps += before && !after;
     }
@@ -88,8 +88,8 @@ TEST(Render, tets_labels)
   const Drawing drawing = draw({ { grid, nullptr, "" } }, options);
   for (const Category& category : label_categories())
   {
-    const Pixel seen = drawing.at(Vec3(0.25 + 0.5 * (category.value + 1), 0.4, 1.0));
-    EXPECT_LT(hue_distance(seen, category.color), 0.06) << category.name;
+    const Pixel pixel = drawing.at(Vec3(0.25 + 0.5 * (category.value + 1), 0.4, 1.0));
+    EXPECT_LT(hue_distance(pixel, category.color), 0.06) << category.name;
   }
   expect_baseline(drawing.image);
 }
@@ -104,9 +104,9 @@ TEST(Render, tets_quality)
   const Drawing drawing =
     draw({ { to_unstructured_grid(mesh.points, mesh.tets), nullptr, "" } }, options);
   const Rgb expected = sequential_color(45.0 / 70.528779);
-  for (const Vec3& place : { Vec3(0.31, 0.4, 1.0), Vec3(0.71, 0.83, 1.0), Vec3(1.0, 0.3, 0.6) })
+  for (const Vec3& position : { Vec3(0.31, 0.4, 1.0), Vec3(0.71, 0.83, 1.0), Vec3(1.0, 0.3, 0.6) })
   {
-    EXPECT_LT(hue_distance(drawing.at(place), expected), 0.06) << place.transpose();
+    EXPECT_LT(hue_distance(drawing.at(position), expected), 0.06) << position.transpose();
   }
   expect_baseline(drawing.image);
 }

@@ -32,7 +32,7 @@ Eigen::AlignedBox2d sphere_on_paper(const Drawing& drawing, double radius)
 
 bool is_painted(const Pixel& p)
 {
-  return !is_paper(p);
+  return !is_background(p);
 }
 
 bool is_green(const Pixel& p)
@@ -48,9 +48,9 @@ TEST(Render, isosurface)
   const Drawing drawing = draw({ { cone_field(), nullptr, "" } }, options);
   // The isosurface has the size of the analytic sphere, within one pixel.
   const Eigen::AlignedBox2d expected = sphere_on_paper(drawing, 0.75);
-  const Eigen::AlignedBox2d found = drawing.extent(is_painted);
-  EXPECT_LT((found.min() - expected.min()).cwiseAbs().maxCoeff(), 1.0);
-  EXPECT_LT((found.max() - expected.max()).cwiseAbs().maxCoeff(), 1.0);
+  const Eigen::AlignedBox2d painted_box = drawing.extent(is_painted);
+  EXPECT_LT((painted_box.min() - expected.min()).cwiseAbs().maxCoeff(), 1.0);
+  EXPECT_LT((painted_box.max() - expected.max()).cwiseAbs().maxCoeff(), 1.0);
   // The isosurface is lit: its upper side is lighter. It is smooth: the lightness of neighboring
   // pixels along the middle differs little.
   EXPECT_GT(lightness(drawing.at(Vec3(0, 0.65, 0.3))), lightness(drawing.at(Vec3(0, -0.65, 0.3))));
@@ -81,14 +81,14 @@ TEST(Render, isosurfaces_nested)
   const Drawing drawing = draw({ { cone_field(), nullptr, "" } }, options);
   // The legend has one field per level, in the color and in the order of the levels.
   const ColorMap map = winding_map();
-  double below = 0.0;
+  double previous_height = 0.0;
   for (const double level : { 0.25, 0.75, 0.9 })
   {
     const auto field = [&](const Pixel& p) { return distance(p, color_of(map, level)) <= 1.0; };
     EXPECT_GT(drawing.count(field), 60) << level;
     const double height = drawing.extent(field).center().y();
-    EXPECT_GT(height, below) << level;
-    below = height;
+    EXPECT_GT(height, previous_height) << level;
+    previous_height = height;
   }
   // The inner isosurfaces are visible through the outer ones. The innermost isosurface is opaque,
   // so the color at its middle does not depend on anything behind it.
@@ -113,8 +113,8 @@ TEST(Render, winding_cloud)
   const Drawing drawing = draw({ { volume, nullptr, "" } }, options);
   // The cloud is transparent where the winding number is 0: between the spheres and outside of
   // their outlines.
-  EXPECT_TRUE(is_paper(drawing.at(Vec3(1.0, 0.9, 0.0))));
-  EXPECT_TRUE(is_paper(drawing.at(Vec3(-0.3, 1.1, 0.0))));
+  EXPECT_TRUE(is_background(drawing.at(Vec3(1.0, 0.9, 0.0))));
+  EXPECT_TRUE(is_background(drawing.at(Vec3(-0.3, 1.1, 0.0))));
   const double radius = (drawing.geometry.project(0, Vec3(-0.8, sphere_radius, 0)) -
     drawing.geometry.project(0, Vec3(-0.8, 0, 0)))
                           .norm();
@@ -123,14 +123,14 @@ TEST(Render, winding_cloud)
   EXPECT_LT(covered, 1.25 * lens_and_discs);
   EXPECT_GT(covered, 0.75 * lens_and_discs);
   // Winding number 1 is pale orange, 2 is deep orange, and -1 is violet.
-  const Pixel one = drawing.at(sphere_centers[0] - Vec3(0.3, 0, 0));
-  const Pixel two = drawing.at(0.5 * (sphere_centers[0] + sphere_centers[1]));
-  const Pixel negative = drawing.at(sphere_centers[2]);
-  EXPECT_GT(one.r, one.b + 8);
-  EXPECT_GT(lightness(one), 150.0);
-  EXPECT_LT(lightness(two), lightness(one) - 60.0);
-  EXPECT_GT(two.r, two.b + 20);
-  EXPECT_GT(negative.b, negative.r + 20);
+  const Pixel winding_one = drawing.at(sphere_centers[0] - Vec3(0.3, 0, 0));
+  const Pixel winding_two = drawing.at(0.5 * (sphere_centers[0] + sphere_centers[1]));
+  const Pixel winding_minus_one = drawing.at(sphere_centers[2]);
+  EXPECT_GT(winding_one.r, winding_one.b + 8);
+  EXPECT_GT(lightness(winding_one), 150.0);
+  EXPECT_LT(lightness(winding_two), lightness(winding_one) - 60.0);
+  EXPECT_GT(winding_two.r, winding_two.b + 20);
+  EXPECT_GT(winding_minus_one.b, winding_minus_one.r + 20);
   // Rotate the camera by one degree; the comparison must fail.
   options.view.azimuth = 1.0;
   const Difference turned =
@@ -149,19 +149,19 @@ TEST(Render, boundary_curves)
   const Drawing drawing = draw({ tile }, options);
   // The curves are drawn at their projected positions. They are opaque in front, and faint where
   // the isosurface covers them.
-  Tile without = tile;
-  without.context.pop_back();
-  const Drawing bare = draw({ without }, options);
+  Tile tile_without_curves = tile;
+  tile_without_curves.context.pop_back();
+  const Drawing without_curves = draw({ tile_without_curves }, options);
   const Vec3 toward_camera(0.45, 0.28, 0.85);
   for (int i = 0; i < 24; ++i)
   {
     const double angle = 2.0 * 3.14159265358979 * i / 24;
     for (const double y : { -0.5, 0.5 })
     {
-      const Vec3 place(std::cos(angle), y, std::sin(angle));
-      const Pixel with_curve = drawing.at(place);
-      EXPECT_LT(with_curve.r, bare.at(place).r - 20) << i << " at " << y;
-      if (Vec3(place.x(), 0.0, place.z()).dot(toward_camera) > 0.0)
+      const Vec3 position(std::cos(angle), y, std::sin(angle));
+      const Pixel with_curve = drawing.at(position);
+      EXPECT_LT(with_curve.r, without_curves.at(position).r - 20) << i << " at " << y;
+      if (Vec3(position.x(), 0.0, position.z()).dot(toward_camera) > 0.0)
       {
         EXPECT_TRUE(is_green(with_curve)) << i << " at " << y;
       }

@@ -18,7 +18,7 @@ public:
         [this, &context, milliseconds]
         {
           std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
-          this->asked_ = Clock::now();
+          this->cancel_time_ = Clock::now();
           context.request_cancel();
         })
   {
@@ -35,17 +35,17 @@ public:
 
   /// Return the time in seconds since the cancel request. Call this function after the work has
   /// ended. The result is negative if the work ended before the request.
-  double waited()
+  double seconds_since_cancel()
   {
     const auto now = Clock::now();
     this->user_.join();
-    return std::chrono::duration<double>(now - this->asked_).count();
+    return std::chrono::duration<double>(now - this->cancel_time_).count();
   }
 
 private:
   using Clock = std::chrono::steady_clock;
 
-  Clock::time_point asked_; // must be declared before the thread that writes it
+  Clock::time_point cancel_time_; // must be declared before the thread that writes it
   std::thread user_;
 };
 

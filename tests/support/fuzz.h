@@ -27,7 +27,7 @@ namespace bindpose::test
 {
 
 /// Return the positive integer in an environment variable, or `fallback` if it is unset or invalid.
-inline Index whole_number_of(const char* variable, Index fallback)
+inline Index read_integer(const char* variable, Index fallback)
 {
   const char* text = std::getenv(variable);
   const Index value = text ? std::strtoll(text, nullptr, 10) : 0;
@@ -37,7 +37,7 @@ inline Index whole_number_of(const char* variable, Index fallback)
 /// Return the number of rounds: base times BINDPOSE_FUZZ_FACTOR.
 inline Index fuzz_rounds(Index base)
 {
-  return base * whole_number_of("BINDPOSE_FUZZ_FACTOR", 1);
+  return base * read_integer("BINDPOSE_FUZZ_FACTOR", 1);
 }
 
 /// Call body(random) for the requested number of seeds until one fails, and print the number of
@@ -46,10 +46,10 @@ inline Index fuzz_rounds(Index base)
 template <typename Body>
 void fuzz(const char* what, Index base, const Body& body)
 {
-  const Index only = whole_number_of("BINDPOSE_FUZZ_SEED", 0);
-  const Index rounds = only > 0 ? 1 : fuzz_rounds(base);
-  const Index night = whole_number_of("BINDPOSE_FUZZ_NIGHT", 0);
-  const Index first = only > 0 ? only : night * rounds + 1;
+  const Index single_seed = read_integer("BINDPOSE_FUZZ_SEED", 0);
+  const Index rounds = single_seed > 0 ? 1 : fuzz_rounds(base);
+  const Index night = read_integer("BINDPOSE_FUZZ_NIGHT", 0);
+  const Index first = single_seed > 0 ? single_seed : night * rounds + 1;
   const Index last = first + rounds - 1;
   const bool trace = std::getenv("BINDPOSE_FUZZ_TRACE") != nullptr;
   constexpr double longest = sanitized ? 400.0 : 120.0;
@@ -71,16 +71,16 @@ void fuzz(const char* what, Index base, const Body& body)
     {
       ADD_FAILURE() << "an exception escaped: " << error.what();
     }
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
-    EXPECT_LT(taken.count(), longest);
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    EXPECT_LT(elapsed.count(), longest);
   }
   std::cout << "[ fuzz ] " << seed - first << " " << what << "\n";
 }
 
-/// Return true with probability `share`.
-inline bool chance(Random& random, double share)
+/// Return true with probability `probability`.
+inline bool chance(Random& random, double probability)
 {
-  return random.uniform() < share;
+  return random.uniform() < probability;
 }
 
 /// Expect that a text fits into one line of a log or a window: UTF-8, not empty, and without

@@ -20,12 +20,12 @@ inline Handle point_handle(const std::string& name, const Vec3& at)
 }
 
 /// Return point handles with the names p1, p2, …
-inline Handles point_handles(const std::vector<Vec3>& places)
+inline Handles point_handles(const std::vector<Vec3>& positions)
 {
   Handles handles;
-  for (const Vec3& place : places)
+  for (const Vec3& position : positions)
   {
-    handles.push_back(point_handle("p" + std::to_string(handles.size() + 1), place));
+    handles.push_back(point_handle("p" + std::to_string(handles.size() + 1), position));
   }
   return handles;
 }

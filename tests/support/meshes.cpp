@@ -158,9 +158,9 @@ TriangleMesh join(const TriangleMesh& a, const TriangleMesh& b)
   return mesh;
 }
 
-TriangleMesh translated(TriangleMesh mesh, const Vec3& by)
+TriangleMesh translated(TriangleMesh mesh, const Vec3& translation)
 {
-  mesh.points.rowwise() += by.transpose();
+  mesh.points.rowwise() += translation.transpose();
   return mesh;
 }
 

@@ -26,7 +26,7 @@ TriangleMesh torus(int around, int across, double radius, double tube);
 TriangleMesh grid(int nx, int ny, double sx = 1.0, double sy = 1.0);
 /// Combine two meshes. The vertex ids of the second mesh are shifted.
 TriangleMesh join(const TriangleMesh& a, const TriangleMesh& b);
-TriangleMesh translated(TriangleMesh mesh, const Vec3& by);
+TriangleMesh translated(TriangleMesh mesh, const Vec3& translation);
 /// Reverse the orientation of all triangles.
 TriangleMesh flipped(TriangleMesh mesh);
 /// Give each triangle its own corners, as in an STL file.

@@ -30,7 +30,7 @@ int main(int argc, char* argv[])
   {
     return 3;
   }
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   double volume = 0.0;
   for (int t = 0; t < out.numberoftetrahedra; ++t)
   {
@@ -52,7 +52,8 @@ int main(int argc, char* argv[])
                 e[0][2] * (e[1][0] * e[2][1] - e[1][1] * e[2][0])) /
       6.0;
   }
-  std::printf("seconds %.6f tets %d volume %.17g\n", taken.count(), out.numberoftetrahedra, volume);
+  std::printf(
+    "seconds %.6f tets %d volume %.17g\n", elapsed.count(), out.numberoftetrahedra, volume);
   std::fflush(stdout);
   std::_Exit(0); // avoid TetGen's destructors, which are not reliable
 }

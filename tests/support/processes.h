@@ -23,7 +23,7 @@ inline std::size_t open_descriptors()
 
 /// Report whether a process has ended: it does not exist, or it is a zombie that its parent has not
 /// reaped yet.
-inline bool gone(pid_t process)
+inline bool has_exited(pid_t process)
 {
   if (::kill(process, 0) != 0)
   {
@@ -36,13 +36,13 @@ inline bool gone(pid_t process)
 }
 
 /// Wait until the condition is true, for at most 5 s. Return whether it is true.
-inline bool soon(const std::function<bool()>& holds)
+inline bool becomes_true(const std::function<bool()>& condition)
 {
-  for (int i = 0; i < 500 && !holds(); ++i)
+  for (int i = 0; i < 500 && !condition(); ++i)
   {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
-  return holds();
+  return condition();
 }
 
 } // namespace bindpose::test

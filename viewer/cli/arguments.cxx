@@ -110,9 +110,9 @@ void add_option(CLI::App& app, const Option& option, Arguments& arguments)
   {
     help += std::string(" [") + option.values + "]";
   }
-  if (option.fallback[0])
+  if (option.default_value[0])
   {
-    help += std::string(" (default: ") + option.fallback + ")";
+    help += std::string(" (default: ") + option.default_value + ")";
   }
   CLI::Option* parsed = nullptr;
   if (option.repeated)
@@ -131,7 +131,7 @@ void add_option(CLI::App& app, const Option& option, Arguments& arguments)
       help);
     parsed->multi_option_policy(CLI::MultiOptionPolicy::Throw);
   }
-  parsed->type_name(option.value)->required(option.required && !option.unless[0]);
+  parsed->type_name(option.value)->required(option.required && !option.optional_if[0]);
   add_check(parsed, option);
 }
 
@@ -141,7 +141,7 @@ std::string missing_option(const std::vector<Option>& options, const Arguments& 
   for (const Option& option : options)
   {
     if (option.required && !arguments.has(option.key()) &&
-      !(option.unless[0] && arguments.has(option.unless)))
+      !(option.optional_if[0] && arguments.has(option.optional_if)))
     {
       return option.name;
     }
@@ -184,9 +184,9 @@ std::string unknown_option(const Verb& verb, const std::vector<std::string>& wor
 }
 
 /// Return the error message for unexpected arguments.
-/// @param rest  typed arguments that are neither options nor positional arguments of the verb; not
-/// empty
-std::string unexpected_argument(const Verb& verb, const std::vector<std::string>& rest)
+/// @param unexpected  typed arguments that are neither options nor positional arguments of the
+/// verb; not empty
+std::string unexpected_argument(const Verb& verb, const std::vector<std::string>& unexpected)
 {
   std::string files;
   for (const Option& option : verb.options)
@@ -196,7 +196,8 @@ std::string unexpected_argument(const Verb& verb, const std::vector<std::string>
       files += (files.empty() ? "" : " and ") + std::string(option.name);
     }
   }
-  return "unexpected argument '" + rest.front() + "'; expected positional arguments: " + files;
+  return "unexpected argument '" + unexpected.front() +
+    "'; expected positional arguments: " + files;
 }
 
 /// Check that the selected method uses all options that were typed.
@@ -213,9 +214,9 @@ std::string unused_option(const Verb& verb, const Arguments& arguments)
   const std::string method = arguments.text("method");
   for (const Option& option : verb.options)
   {
-    const std::vector<std::string> users = split(option.methods, '|');
-    if (arguments.typed(option.key()) && !users.empty() &&
-      std::find(users.begin(), users.end(), method) == users.end())
+    const std::vector<std::string> using_methods = split(option.methods, '|');
+    if (arguments.typed(option.key()) && !using_methods.empty() &&
+      std::find(using_methods.begin(), using_methods.end(), method) == using_methods.end())
     {
       return std::string(option.name) + " is not used by --method " + method + "; it is used by " +
         option.methods;
@@ -232,9 +233,9 @@ void fill_defaults(const std::vector<Option>& options, Arguments& arguments)
     {
       arguments.typed_keys.insert(option.key());
     }
-    if (option.fallback[0] && !arguments.has(option.key()))
+    if (option.default_value[0] && !arguments.has(option.key()))
     {
-      arguments.values[option.key()] = { option.fallback };
+      arguments.values[option.key()] = { option.default_value };
     }
   }
 }
@@ -305,32 +306,32 @@ int parse_arguments(int argc, char** argv, Arguments& arguments)
   {
     app.parse(argc, argv);
   }
-  catch (const CLI::Success& wish) // --help or --version was typed
+  catch (const CLI::Success& success) // --help or --version was typed
   {
-    return app.exit(wish);
+    return app.exit(success);
   }
   catch (const CLI::ParseError& error)
   {
-    std::string who = "bindpose";
+    std::string command_name = "bindpose";
     for (const CLI::App* sub : app.get_subcommands())
     {
-      who += " " + sub->get_name();
+      command_name += " " + sub->get_name();
     }
     std::string sentence = error.what();
     for (const Verb& verb : verbs())
     {
       if (argv[1] == std::string(verb.name))
       {
-        std::string better = unknown_option(verb, arguments.words);
-        if (better.empty() && dynamic_cast<const CLI::ExtrasError*>(&error))
+        std::string better_message = unknown_option(verb, arguments.words);
+        if (better_message.empty() && dynamic_cast<const CLI::ExtrasError*>(&error))
         {
-          better = unexpected_argument(verb, app.remaining(true));
+          better_message = unexpected_argument(verb, app.remaining(true));
         }
-        sentence = better.empty() ? sentence : better;
+        sentence = better_message.empty() ? sentence : better_message;
       }
     }
     std::replace(sentence.begin(), sentence.end(), '\n', ' ');
-    std::cerr << who << ": " << sentence << " (see " << who << " --help)\n";
+    std::cerr << command_name << ": " << sentence << " (see " << command_name << " --help)\n";
     return 1;
   }
   for (const Verb& verb : verbs())

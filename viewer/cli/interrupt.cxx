@@ -23,10 +23,10 @@ namespace
 {
 constexpr int exit_canceled = 4;
 
-std::atomic<bool> signal_came{ false };
-std::atomic<bool> released{ false };
+std::atomic<bool> signal_arrived{ false };
+std::atomic<bool> signals_released{ false };
 std::mutex running_mutex;
-vtkAlgorithm* running = nullptr;
+vtkAlgorithm* running_algorithm = nullptr;
 
 sigset_t signals()
 {
@@ -48,7 +48,7 @@ void block(int, char**, char**)
 __attribute__((section(".preinit_array"), used)) void (*const block_first)(
   int, char**, char**) = block;
 
-void watch()
+void wait_for_signals()
 {
   pthread_setname_np(pthread_self(), "signals");
   for (;;)
@@ -59,7 +59,7 @@ void watch()
     {
       return;
     }
-    if (released)
+    if (signals_released)
     {
       // Restore the default action of the signal.
       std::signal(number, SIG_DFL);
@@ -67,15 +67,15 @@ void watch()
       kill(getpid(), number);
       return;
     }
-    if (signal_came.exchange(true))
+    if (signal_arrived.exchange(true))
     {
       AtomicFile::discard_all();
       _exit(exit_canceled);
     }
     const std::lock_guard<std::mutex> lock(running_mutex);
-    if (running)
+    if (running_algorithm)
     {
-      running->SetAbortExecute(1);
+      running_algorithm->SetAbortExecute(1);
     }
   }
 }
@@ -83,30 +83,30 @@ void watch()
 
 void catch_interrupts()
 {
-  std::thread(watch).detach();
+  std::thread(wait_for_signals).detach();
 }
 
 void release_interrupts()
 {
-  released = true;
+  signals_released = true;
 }
 
 bool interrupted()
 {
-  return signal_came.load();
+  return signal_arrived.load();
 }
 
 AbortOnInterrupt::AbortOnInterrupt(vtkAlgorithm* algorithm)
 {
   const std::lock_guard<std::mutex> lock(running_mutex);
-  this->outer_ = running;
-  running = algorithm;
+  this->outer_algorithm_ = running_algorithm;
+  running_algorithm = algorithm;
 }
 
 AbortOnInterrupt::~AbortOnInterrupt()
 {
   const std::lock_guard<std::mutex> lock(running_mutex);
-  running = this->outer_;
+  running_algorithm = this->outer_algorithm_;
 }
 
 } // namespace bindpose::cli

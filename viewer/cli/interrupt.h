@@ -30,7 +30,7 @@ public:
   AbortOnInterrupt& operator=(const AbortOnInterrupt&) = delete;
 
 private:
-  vtkAlgorithm* outer_;
+  vtkAlgorithm* outer_algorithm_;
 };
 
 } // namespace bindpose::cli

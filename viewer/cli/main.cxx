@@ -68,10 +68,10 @@ int main(int argc, char** argv)
   // the logger does not use the output window
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   Arguments arguments;
-  const int early = parse_arguments(argc, argv, arguments);
-  if (early >= 0)
+  const int early_exit_code = parse_arguments(argc, argv, arguments);
+  if (early_exit_code >= 0)
   {
-    return early;
+    return early_exit_code;
   }
   if (arguments.verb == "key-table")
   {

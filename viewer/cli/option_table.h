@@ -22,14 +22,14 @@ enum class OptionKind
 struct Range
 {
   double lowest;
-  bool above; ///< true: `lowest` itself is not allowed
+  bool excludes_lowest; ///< true: `lowest` itself is not allowed
   double highest;
-  bool below; ///< true: `highest` itself is not allowed
+  bool excludes_highest; ///< true: `highest` itself is not allowed
 
   bool contains(double value) const
   {
-    return (this->above ? value > this->lowest : value >= this->lowest) &&
-      (this->below ? value < this->highest : value <= this->highest);
+    return (this->excludes_lowest ? value > this->lowest : value >= this->lowest) &&
+      (this->excludes_highest ? value < this->highest : value <= this->highest);
   }
 };
 
@@ -40,7 +40,7 @@ struct Option
   /// Placeholder of the value in --help. Empty for flags and positional arguments.
   const char* value;
   OptionKind kind;
-  const char* fallback; ///< default value, as typed; empty if there is none
+  const char* default_value; ///< default value, as typed; empty if there is none
   const char* choices; ///< allowed words, such as "auto|exact"
   const char* help;
   const char* values; ///< unit and range, such as "degrees, 0 to 20"
@@ -48,7 +48,7 @@ struct Option
   const char* methods;
   bool required;
   bool repeated; ///< true: the option takes one or more values
-  const char* unless; ///< key of the flag that makes this required option optional
+  const char* optional_if; ///< key of the flag that makes this required option optional
   Range range;
   int length; ///< number of values in a list of integers or numbers
 

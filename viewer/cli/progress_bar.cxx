@@ -8,22 +8,22 @@
 namespace bindpose::cli
 {
 
-ProgressBar::ProgressBar(bool wanted) : visible_(wanted && isatty(STDERR_FILENO)) {}
+ProgressBar::ProgressBar(bool enabled) : visible_(enabled && isatty(STDERR_FILENO)) {}
 
 void ProgressBar::show(double fraction, const std::string& phase)
 {
   const auto now = std::chrono::steady_clock::now();
   if (!this->visible_ ||
-    (phase == this->phase_ && now - this->last_ < std::chrono::milliseconds(80)))
+    (phase == this->phase_ && now - this->last_draw_time_ < std::chrono::milliseconds(80)))
   {
     return;
   }
-  this->last_ = now;
+  this->last_draw_time_ = now;
   this->phase_ = phase;
   this->drawn_ = true;
   constexpr int width = 30;
-  this->furthest_ = std::max(this->furthest_, std::clamp(fraction, 0.0, 1.0));
-  const double f = this->furthest_;
+  this->maximum_fraction_ = std::max(this->maximum_fraction_, std::clamp(fraction, 0.0, 1.0));
+  const double f = this->maximum_fraction_;
   const int full = static_cast<int>(f * width);
   const std::string bar =
     std::string(static_cast<std::size_t>(full), '#') + std::string(width - full, '-');

@@ -12,7 +12,7 @@ namespace bindpose::cli
 class ProgressBar
 {
 public:
-  explicit ProgressBar(bool wanted);
+  explicit ProgressBar(bool enabled);
   ~ProgressBar() { this->clear(); }
   ProgressBar(const ProgressBar&) = delete;
   ProgressBar& operator=(const ProgressBar&) = delete;
@@ -25,9 +25,9 @@ public:
 private:
   bool visible_ = false;
   bool drawn_ = false;
-  double furthest_ = 0.0;
+  double maximum_fraction_ = 0.0;
   std::string phase_;
-  std::chrono::steady_clock::time_point last_{};
+  std::chrono::steady_clock::time_point last_draw_time_{};
 };
 
 } // namespace bindpose::cli

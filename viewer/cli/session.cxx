@@ -72,10 +72,10 @@ void on_progress(vtkObject* caller, unsigned long, void* stage_data, void*)
 }
 
 // Expected fractions of a run's total time.
-constexpr double reading = 0.02;
-constexpr double choosing_points = 0.01;
-constexpr double finding_bones = 0.2;
-constexpr double main_end = 0.97; ///< fraction at which the results begin to be written
+constexpr double reading_fraction = 0.02;
+constexpr double choosing_points_fraction = 0.01;
+constexpr double finding_bones_fraction = 0.2;
+constexpr double main_end_fraction = 0.97; ///< fraction at which the results begin to be written
 /// Upper limit of the fraction at which the main work begins, for any number of input files.
 constexpr double latest_main_begin = 0.5;
 
@@ -111,19 +111,20 @@ void Session::warn(const std::string& sentence)
   if (!this->arguments_.has("quiet"))
   {
     this->bar_.clear();
-    std::cerr << this->who() << ": warning: " << sentence << "\n";
+    std::cerr << this->command_name() << ": warning: " << sentence << "\n";
   }
 }
 
-double Session::of_whole(double fraction) const
+double Session::overall_fraction(double fraction) const
 {
-  return this->main_begin_ + fraction * (main_end - this->main_begin_);
+  return this->main_begin_ + fraction * (main_end_fraction - this->main_begin_);
 }
 
 Status Session::try_run(vtkBindposeAlgorithm* algorithm, const std::string& stage_name,
   double begin, double end, Merge merge)
 {
-  return this->try_stage(algorithm, stage_name, this->of_whole(begin), this->of_whole(end), merge);
+  return this->try_stage(
+    algorithm, stage_name, this->overall_fraction(begin), this->overall_fraction(end), merge);
 }
 
 Status Session::try_stage(vtkBindposeAlgorithm* algorithm, const std::string& stage_name,
@@ -230,10 +231,10 @@ bool Session::run_stage(
   return status.usable() || this->fail(status);
 }
 
-bool Session::run_before(vtkBindposeAlgorithm* algorithm, const std::string& stage, double share)
+bool Session::run_before(vtkBindposeAlgorithm* algorithm, const std::string& stage, double fraction)
 {
   const double begin = this->main_begin_;
-  this->main_begin_ = std::min(begin + share, std::max(begin, latest_main_begin));
+  this->main_begin_ = std::min(begin + fraction, std::max(begin, latest_main_begin));
   return this->run_stage(algorithm, stage, begin, this->main_begin_, Merge::nothing);
 }
 
@@ -241,7 +242,7 @@ vtkSmartPointer<vtkDataSet> Session::read(const std::string& path)
 {
   vtkNew<vtkMeshFileReader> reader;
   reader->SetFileName(path.c_str());
-  if (!this->run_before(reader, "read", reading))
+  if (!this->run_before(reader, "read", reading_fraction))
   {
     return nullptr;
   }
@@ -272,7 +273,7 @@ vtkSmartPointer<vtkPolyData> Session::read_handles(const std::string& value, vtk
     }
     vtkNew<vtkHandleFileReader> reader;
     reader->SetFileName(value.c_str());
-    return this->run_before(reader, "read", reading)
+    return this->run_before(reader, "read", reading_fraction)
       ? vtkPolyData::SafeDownCast(reader->GetOutput())
       : nullptr;
   }
@@ -289,14 +290,14 @@ vtkSmartPointer<vtkPolyData> Session::read_handles(const std::string& value, vtk
     vtkNew<vtkAutomaticHandles> bones;
     bones->SetInputData(surface);
     bones->SetMaximumBones(static_cast<int>(count));
-    return this->run_before(bones, "handles", finding_bones)
+    return this->run_before(bones, "handles", finding_bones_fraction)
       ? vtkPolyData::SafeDownCast(bones->GetOutput())
       : nullptr;
   }
   vtkNew<vtkFarthestPointHandles> handles;
   handles->SetInputData(surface);
   handles->SetNumberOfHandles(static_cast<int>(count));
-  return this->run_before(handles, "handles", choosing_points)
+  return this->run_before(handles, "handles", choosing_points_fraction)
     ? vtkPolyData::SafeDownCast(handles->GetOutput())
     : nullptr;
 }
@@ -317,9 +318,9 @@ bool Session::check_report()
   return true;
 }
 
-bool Session::check_output(const std::string& path, const std::string& endings)
+bool Session::check_output(const std::string& path, const std::string& extensions)
 {
-  Status status = check_extension(path, endings);
+  Status status = check_extension(path, extensions);
   if (status.ok())
   {
     status = AtomicFile::check(path, this->arguments_.has("overwrite"));
@@ -333,7 +334,7 @@ bool Session::write(vtkDataSet* data, const std::string& path)
   writer->SetInputData(data);
   writer->SetFileName(path.c_str());
   writer->SetOverwrite(this->arguments_.has("overwrite"));
-  return this->run_stage(writer, "write", main_end, 1.0, Merge::nothing);
+  return this->run_stage(writer, "write", main_end_fraction, 1.0, Merge::nothing);
 }
 
 bool Session::write_rig(vtkDataSet* mesh, vtkPolyData* handles,
@@ -358,7 +359,7 @@ bool Session::write_rig(vtkDataSet* mesh, vtkPolyData* handles,
   // The entries of the writer's report are kept apart from those of the verb.
   const Report own = this->report_;
   this->report_ = Report();
-  const bool written = this->run_stage(writer, "write", main_end, 1.0, Merge::numbers);
+  const bool written = this->run_stage(writer, "write", main_end_fraction, 1.0, Merge::numbers);
   Report report = own;
   for (const auto& [key, value] : this->report_.entries())
   {
@@ -380,10 +381,10 @@ bool Session::write_uncommitted(vtkDataSet* data, const std::string& path, Atomi
   writer->SetFileName(file.temporary().c_str());
   writer->SetOverwrite(true);
   status = this->try_run(writer, "write", 1.0, 1.0, Merge::nothing);
-  const std::size_t at = status.message.find(file.temporary());
-  if (at != std::string::npos)
+  const std::size_t offset = status.message.find(file.temporary());
+  if (offset != std::string::npos)
   {
-    status.message.replace(at, file.temporary().size(), path);
+    status.message.replace(offset, file.temporary().size(), path);
   }
   return status.usable() || this->fail(status);
 }
@@ -396,7 +397,7 @@ bool Session::commit(AtomicFile& file)
 
 bool Session::write_text(const std::string& text, const std::string& path)
 {
-  const Status status = write_whole_file(path, text, this->arguments_.has("overwrite"));
+  const Status status = write_file_atomically(path, text, this->arguments_.has("overwrite"));
   return status.ok() || this->fail(status);
 }
 
@@ -439,7 +440,7 @@ int Session::finish()
   this->write_report();
   if (!this->status_.ok())
   {
-    std::cerr << this->who() << ": "
+    std::cerr << this->command_name() << ": "
               << (this->status_.message.empty() ? to_string(this->status_.code)
                                                 : this->status_.message.c_str())
               << "\n";

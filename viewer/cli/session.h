@@ -50,7 +50,7 @@ public:
   /// Show the progress of work outside of algorithms, as a fraction of the verb's main work.
   void show(double fraction, const std::string& what)
   {
-    this->bar_.show(this->of_whole(fraction), what);
+    this->bar_.show(this->overall_fraction(fraction), what);
   }
 
   /// Update the algorithm. Its progress covers the part [begin, end] of the verb's main work, as
@@ -74,7 +74,7 @@ public:
   /// Check that the report file can be written.
   bool check_report();
   /// Check, before the work, that the output's extension is allowed and the file can be written.
-  bool check_output(const std::string& path, const std::string& endings);
+  bool check_output(const std::string& path, const std::string& extensions);
   bool write(vtkDataSet* data, const std::string& path);
   /// Write to the temporary file of `file`, which commit() renames. Use it for a group of files, so
   /// that either all files of the group are written or no file.
@@ -97,12 +97,12 @@ private:
     double end, Merge merge);
   bool run_stage(vtkBindposeAlgorithm* algorithm, const std::string& stage, double begin,
     double end, Merge merge);
-  /// Run an algorithm before the main work, and reserve the fraction `share` of the whole run for
-  /// it.
-  bool run_before(vtkBindposeAlgorithm* algorithm, const std::string& stage, double share);
-  double of_whole(double fraction) const;
+  /// Run an algorithm before the main work, and reserve the fraction `fraction` of the whole run
+  /// for it.
+  bool run_before(vtkBindposeAlgorithm* algorithm, const std::string& stage, double fraction);
+  double overall_fraction(double fraction) const;
 
-  std::string who() const { return "bindpose " + this->arguments_.verb; }
+  std::string command_name() const { return "bindpose " + this->arguments_.verb; }
   void write_report();
 
   Arguments arguments_;

@@ -36,14 +36,14 @@ std::size_t edit_distance(const std::string& a, const std::string& b)
 std::string most_similar(const std::string& word, const std::vector<std::string>& known)
 {
   std::string best;
-  std::size_t least = std::max<std::size_t>(1, word.size() / 3) + 1;
-  for (const std::string& each : known)
+  std::size_t minimum_distance = std::max<std::size_t>(1, word.size() / 3) + 1;
+  for (const std::string& candidate : known)
   {
-    const std::size_t distance = edit_distance(word, each);
-    if (distance < least)
+    const std::size_t distance = edit_distance(word, candidate);
+    if (distance < minimum_distance)
     {
-      least = distance;
-      best = each;
+      minimum_distance = distance;
+      best = candidate;
     }
   }
   return best;

@@ -125,9 +125,9 @@ void write_rig(Session& session, vtkDataSet* mesh, vtkPolyData* handles, vtkPose
                     "use --gltf-animation morph");
     return;
   }
-  const bool stands = linear && !morph && !frames.sequence;
+  const bool is_static = linear && !morph && !frames.sequence;
   std::vector<vtkSmartPointer<vtkDataSet>> posed_meshes;
-  for (int k = 0; k < frames.count && !stands; ++k)
+  for (int k = 0; k < frames.count && !is_static; ++k)
   {
     if (!frames.deform(k))
     {
@@ -139,9 +139,9 @@ void write_rig(Session& session, vtkDataSet* mesh, vtkPolyData* handles, vtkPose
   }
   auto* posed = vtkPolyData::SafeDownCast(pose->GetOutput());
   if (session.write_rig(mesh,
-        !skinned   ? nullptr
-          : stands ? posed
-                   : handles,
+        !skinned      ? nullptr
+          : is_static ? posed
+                      : handles,
         posed_meshes, frames.per_second, morph, output))
   {
     session.report().set("counts.frames", frames.count);
@@ -150,7 +150,7 @@ void write_rig(Session& session, vtkDataSet* mesh, vtkPolyData* handles, vtkPose
 
 /// Compute a fair surface (vtkVariationalSurface with Fair on): the points that the mesh's array
 /// Fixed constrains are kept.
-void run_fairing(Session& session, const std::string& output, const std::string& endings)
+void run_fairing(Session& session, const std::string& output, const std::string& extensions)
 {
   const Arguments& arguments = session.arguments();
   if (is_rig(output))
@@ -159,7 +159,7 @@ void run_fairing(Session& session, const std::string& output, const std::string&
     return;
   }
   const auto mesh = session.read(arguments.text("MESH_WITH_WEIGHTS"));
-  if (!mesh || !session.check_output(output, endings))
+  if (!mesh || !session.check_output(output, extensions))
   {
     return;
   }
@@ -177,24 +177,24 @@ void run_deform(Session& session)
 {
   const Arguments& arguments = session.arguments();
   const std::string output = arguments.text("output");
-  const std::string endings = "vtp vtu vtk ply stl obj off mesh glb gltf";
-  const Status ending = check_extension(output, endings);
-  if (!ending.ok())
+  const std::string extensions = "vtp vtu vtk ply stl obj off mesh glb gltf";
+  const Status extension_status = check_extension(output, extensions);
+  if (!extension_status.ok())
   {
-    session.fail(ending);
+    session.fail(extension_status);
     return;
   }
   const bool fair = arguments.text("method") == "variational" && arguments.has("fair");
   if (fair && !arguments.has("handles") && !arguments.has("pose") && !arguments.has("dynamics"))
   {
-    run_fairing(session, output, endings);
+    run_fairing(session, output, extensions);
     return;
   }
-  for (const char* needed : { "handles", "pose" })
+  for (const char* option : { "handles", "pose" })
   {
-    if (!arguments.has(needed))
+    if (!arguments.has(option))
     {
-      session.invalid(std::string("--") + needed +
+      session.invalid(std::string("--") + option +
         " is required (only --method variational --fair works without --handles and --pose)");
       return;
     }
@@ -215,21 +215,21 @@ void run_deform(Session& session)
   // The number of frames of a sequence is in its file. For expressions and dynamic bodies, the
   // option --frames specifies the number.
   const bool dynamic = arguments.has("dynamics");
-  const int given = pose->GetNumberOfFrames(), asked = arguments.integer("frames");
-  const bool moves = dynamic || (given == 1 && pose->GetHasExpressions());
-  if (asked > 0 && !moves)
+  const int file_frames = pose->GetNumberOfFrames(), requested_frames = arguments.integer("frames");
+  const bool has_motion = dynamic || (file_frames == 1 && pose->GetHasExpressions());
+  if (requested_frames > 0 && !has_motion)
   {
     session.invalid("--frames needs a pose with expressions in t, or --dynamics");
     return;
   }
   const double time_step = arguments.number("time-step");
   Frames frames;
-  frames.count = asked > 0 ? asked : given;
-  frames.per_second = moves ? 1.0 / time_step : pose->GetFramesPerSecond();
-  frames.sequence = pose->GetSequence() || asked > 0;
-  const bool numbers = frames.sequence && !is_rig(output);
+  frames.count = requested_frames > 0 ? requested_frames : file_frames;
+  frames.per_second = has_motion ? 1.0 / time_step : pose->GetFramesPerSecond();
+  frames.sequence = pose->GetSequence() || requested_frames > 0;
+  const bool is_numbered = frames.sequence && !is_rig(output);
   std::vector<std::string> files{ output };
-  if (numbers)
+  if (is_numbered)
   {
     files.clear();
     for (int frame = 0; frame < frames.count; ++frame)
@@ -240,12 +240,12 @@ void run_deform(Session& session)
   const std::string pvd = collection_file(output);
   for (const std::string& file : files)
   {
-    if (!session.check_output(file, endings))
+    if (!session.check_output(file, extensions))
     {
       return;
     }
   }
-  if (numbers && !session.check_output(pvd, "pvd"))
+  if (is_numbered && !session.check_output(pvd, "pvd"))
   {
     return;
   }
@@ -269,7 +269,7 @@ void run_deform(Session& session)
     {
       body->SetStep(frame); // the body requests the poses of all time steps up to this frame
     }
-    else if (moves)
+    else if (has_motion)
     {
       pose->SetTime(frame * time_step);
     }
@@ -288,23 +288,23 @@ void run_deform(Session& session)
     return;
   }
   std::int64_t iterations = 0;
-  std::vector<AtomicFile> written(files.size());
+  std::vector<AtomicFile> written_files(files.size());
   for (std::size_t i = 0; i < files.size() && !session.failed(); ++i)
   {
     if (frames.deform(static_cast<int>(i)))
     {
       iterations += static_cast<std::int64_t>(session.report().number("iterations", 0));
-      session.write_uncommitted(deformation->GetOutput(), files[i], written[i]);
+      session.write_uncommitted(deformation->GetOutput(), files[i], written_files[i]);
     }
   }
   // Commit the files of a sequence together, so that it is written completely or not at all. Until
   // then the files that it replaces are kept.
-  for (std::size_t i = 0; i < written.size() && !session.failed(); ++i)
+  for (std::size_t i = 0; i < written_files.size() && !session.failed(); ++i)
   {
-    session.commit(written[i]);
+    session.commit(written_files[i]);
   }
   if (session.failed() ||
-    (numbers && !session.write_text(format_collection(files, frames.per_second), pvd)))
+    (is_numbered && !session.write_text(format_collection(files, frames.per_second), pvd)))
   {
     return;
   }

@@ -69,7 +69,7 @@ struct Facts
   }
 };
 
-Status tell_surface(vtkDataSet* data, Facts& facts)
+Status describe_surface(vtkDataSet* data, Facts& facts)
 {
   SurfaceInput surface;
   Status status = to_surface(data, surface);
@@ -80,13 +80,13 @@ Status tell_surface(vtkDataSet* data, Facts& facts)
   const PointsView points = surface.points.view();
   const TrianglesView triangles = surface.triangles.view();
   ExecutionContext context({}, interrupted);
-  SurfaceDiagnosis found;
-  status = diagnose_surface(context, points, triangles, found);
+  SurfaceDiagnosis diagnosis;
+  status = diagnose_surface(context, points, triangles, diagnosis);
   if (!status.ok())
   {
     return status;
   }
-  facts.count("triangles", "triangles", found.triangles);
+  facts.count("triangles", "triangles", diagnosis.triangles);
   if (surface.triangulated_cells > 0)
   {
     facts.count("  from polygons", "triangulated_cells", surface.triangulated_cells);
@@ -95,31 +95,31 @@ Status tell_surface(vtkDataSet* data, Facts& facts)
   {
     facts.count("other cells", "ignored_cells", surface.ignored_cells);
   }
-  facts.table.add("components", found.components);
-  facts.table.add("boundary edges", found.boundary_edges);
-  facts.table.add("non-manifold edges", found.nonmanifold_edges);
-  facts.table.add("misoriented edges", found.misoriented_edges);
-  facts.table.add("inward components", found.inward_components);
+  facts.table.add("components", diagnosis.components);
+  facts.table.add("boundary edges", diagnosis.boundary_edges);
+  facts.table.add("non-manifold edges", diagnosis.nonmanifold_edges);
+  facts.table.add("misoriented edges", diagnosis.misoriented_edges);
+  facts.table.add("inward components", diagnosis.inward_components);
   facts.table.add("self-intersections",
-    std::to_string(found.self_intersections) + " pairs, " +
-      std::to_string(found.crossing_triangles) + " intersecting triangles");
+    std::to_string(diagnosis.self_intersections) + " pairs, " +
+      std::to_string(diagnosis.crossing_triangles) + " intersecting triangles");
   facts.table.add("duplicates",
-    std::to_string(found.duplicate_vertices) + " vertices, " +
-      std::to_string(found.duplicate_triangles) + " triangles");
-  facts.table.add("degenerate", found.degenerate_triangles);
-  facts.table.add("unused points", found.unreferenced_vertices);
-  facts.table.add("closed", found.closed ? "yes" : "no");
-  add_to_report(found, facts.report);
-  facts.report.set("closed", found.closed ? "yes" : "no");
+    std::to_string(diagnosis.duplicate_vertices) + " vertices, " +
+      std::to_string(diagnosis.duplicate_triangles) + " triangles");
+  facts.table.add("degenerate", diagnosis.degenerate_triangles);
+  facts.table.add("unused points", diagnosis.unreferenced_vertices);
+  facts.table.add("closed", diagnosis.closed ? "yes" : "no");
+  add_to_report(diagnosis, facts.report);
+  facts.report.set("closed", diagnosis.closed ? "yes" : "no");
   facts.measure("area", surface_area(points, triangles));
-  if (found.closed)
+  if (diagnosis.closed)
   {
     facts.measure("volume", signed_volume(points, triangles));
   }
   return {};
 }
 
-Status tell_tets(vtkDataSet* data, Facts& facts)
+Status describe_tets(vtkDataSet* data, Facts& facts)
 {
   TetInput tets;
   Status status = to_tets(data, tets);
@@ -138,7 +138,7 @@ Status tell_tets(vtkDataSet* data, Facts& facts)
   return {};
 }
 
-void tell_bounds(vtkDataSet* data, Facts& facts)
+void describe_bounds(vtkDataSet* data, Facts& facts)
 {
   const Box box = bounding_box(to_points(data).view());
   const char* axes[3] = { "x", "y", "z" };
@@ -155,25 +155,25 @@ void tell_bounds(vtkDataSet* data, Facts& facts)
   facts.measure("diagonal", box.diagonal());
 }
 
-void tell_arrays(vtkDataSet* data, Facts& facts)
+void describe_arrays(vtkDataSet* data, Facts& facts)
 {
   std::vector<std::string> names;
-  std::vector<std::string> places;
+  std::vector<std::string> associations;
   std::vector<std::string> types;
   std::vector<std::int64_t> components;
   const std::pair<const char*, vtkFieldData*> attributes[] = { { "point", data->GetPointData() },
     { "cell", data->GetCellData() } };
-  for (const auto& [place, fields] : attributes)
+  for (const auto& [association, fields] : attributes)
   {
     for (int i = 0; i < fields->GetNumberOfArrays(); ++i)
     {
       vtkAbstractArray* array = fields->GetAbstractArray(i);
       const int count = array->GetNumberOfComponents();
       names.emplace_back(array->GetName() ? array->GetName() : "");
-      places.emplace_back(place);
+      associations.emplace_back(association);
       types.emplace_back(array->GetDataTypeAsString());
       components.push_back(count);
-      std::string text = std::string(place) + "  " + names.back() + "  " +
+      std::string text = std::string(association) + "  " + names.back() + "  " +
         (count > 1 ? std::to_string(count) + " x " : "") + types.back();
       auto* numbers = vtkDataArray::SafeDownCast(array);
       if (numbers && count == 1 && numbers->GetNumberOfTuples() > 0)
@@ -192,13 +192,13 @@ void tell_arrays(vtkDataSet* data, Facts& facts)
   if (!names.empty())
   {
     facts.report.set("arrays[].name", names);
-    facts.report.set("arrays[].place", places);
+    facts.report.set("arrays[].place", associations);
     facts.report.set("arrays[].type", types);
     facts.report.set("arrays[].components", components);
   }
 }
 
-void tell_handles(const Handles& handles, Facts& facts)
+void describe_handles(const Handles& handles, Facts& facts)
 {
   facts.count("handles", "handles", static_cast<Index>(handles.size()));
   std::vector<std::string> names;
@@ -218,7 +218,7 @@ void tell_handles(const Handles& handles, Facts& facts)
   facts.report.set("handles[].kind", kinds);
 }
 
-void tell_image(vtkImageData* image, Facts& facts)
+void describe_image(vtkImageData* image, Facts& facts)
 {
   int dimensions[3];
   image->GetDimensions(dimensions);
@@ -244,7 +244,7 @@ bool looks_like_handles(vtkDataSet* data)
 
 /// Report the rig of a glTF file: its joints as handles, the number of weight sets, and the
 /// animation.
-bool tell_rig(Session& session, const std::string& path, Facts& facts)
+bool describe_rig(Session& session, const std::string& path, Facts& facts)
 {
   vtkNew<vtkGLTFSkinReader> reader;
   reader->SetFileName(path.c_str());
@@ -258,7 +258,7 @@ bool tell_rig(Session& session, const std::string& path, Facts& facts)
   {
     facts.table.add(
       "weights per vertex", "up to " + Table::number(4.0 * session.report().number("sets", 0.0)));
-    tell_handles(handles, facts);
+    describe_handles(handles, facts);
   }
   if (reader->GetNumberOfFrames() > 0)
   {
@@ -269,7 +269,7 @@ bool tell_rig(Session& session, const std::string& path, Facts& facts)
   return true;
 }
 
-Status tell(vtkDataSet* data, Facts& facts)
+Status describe(vtkDataSet* data, Facts& facts)
 {
   facts.count("points", "vertices", data->GetNumberOfPoints());
   Status status;
@@ -277,28 +277,28 @@ Status tell(vtkDataSet* data, Facts& facts)
   TetInput tets;
   if (auto* image = vtkImageData::SafeDownCast(data))
   {
-    tell_image(image, facts);
+    describe_image(image, facts);
   }
   else if (looks_like_handles(data))
   {
     status = to_handles(vtkPolyData::SafeDownCast(data), handles);
     if (status.ok())
     {
-      tell_handles(handles, facts);
+      describe_handles(handles, facts);
     }
   }
   else if (to_tets(data, tets).ok())
   {
-    status = tell_tets(data, facts);
+    status = describe_tets(data, facts);
   }
   else if (vtkPointSet::SafeDownCast(data))
   {
-    status = tell_surface(data, facts);
+    status = describe_surface(data, facts);
   }
   if (status.ok())
   {
-    tell_bounds(data, facts);
-    tell_arrays(data, facts);
+    describe_bounds(data, facts);
+    describe_arrays(data, facts);
   }
   return status;
 }
@@ -319,14 +319,15 @@ void run_info(Session& session)
     return;
   }
   Facts facts;
-  Status status = tell(data, facts);
+  Status status = describe(data, facts);
   if (!status.ok())
   {
     status.message = path + ": " + status.message;
     session.fail(status);
     return;
   }
-  if (is_listed(format, vtkGLTFSkinReader::GetFileExtensions()) && !tell_rig(session, path, facts))
+  if (is_listed(format, vtkGLTFSkinReader::GetFileExtensions()) &&
+    !describe_rig(session, path, facts))
   {
     return;
   }

@@ -52,9 +52,10 @@ std::vector<std::string> split_at_commas(const std::string& text)
 /// Parse two numbers with a separator between them, such as "AxB".
 bool parse_pair(const std::string& text, char separator, double& first, double& second)
 {
-  const std::size_t at = text.find(separator);
-  return at != std::string::npos && parse_number(text.substr(0, at), first) &&
-    parse_number(text.substr(at + 1), second);
+  const std::size_t separator_offset = text.find(separator);
+  return separator_offset != std::string::npos &&
+    parse_number(text.substr(0, separator_offset), first) &&
+    parse_number(text.substr(separator_offset + 1), second);
 }
 
 bool parse_vector(const std::string& text, Vec3& vector)
@@ -79,16 +80,17 @@ bool read_section(Session& session, PictureOptions& options)
     return true;
   }
   Plane plane;
-  const std::size_t at = text.find('@');
-  double place = 0.0;
+  const std::size_t separator_offset = text.find('@');
+  double coordinate = 0.0;
   if (text.size() > 2 && text[0] >= 'x' && text[0] <= 'z' && text[1] == '=' &&
-    parse_number(text.substr(2), place))
+    parse_number(text.substr(2), coordinate))
   {
     plane.normal = Vec3::Unit(text[0] - 'x');
-    plane.origin = place * plane.normal;
+    plane.origin = coordinate * plane.normal;
   }
-  else if (at == std::string::npos || !parse_vector(text.substr(0, at), plane.normal) ||
-    !parse_vector(text.substr(at + 1), plane.origin))
+  else if (separator_offset == std::string::npos ||
+    !parse_vector(text.substr(0, separator_offset), plane.normal) ||
+    !parse_vector(text.substr(separator_offset + 1), plane.origin))
   {
     return session.invalid("--section '" + text +
       "' is not valid: expected a number from 0 to 1, a plane such as x=0.2 or 1,0,0@0.2,0,0, or "
@@ -103,7 +105,7 @@ ColorBy color_by(const std::string& word)
   return word == "winding-number" ? ColorBy::winding_number
     : word == "label"             ? ColorBy::label
     : word == "quality"           ? ColorBy::quality
-    : word == "rung"              ? ColorBy::rung
+    : word == "rung"              ? ColorBy::method
     : word == "handle"            ? ColorBy::handle
     : word == "row-sum"           ? ColorBy::row_sum
     : word == "rotation-cluster"  ? ColorBy::rotation_cluster
@@ -139,8 +141,9 @@ bool read_options(Session& session, PictureOptions& options)
       "--color " + arguments.text("color") + " cannot be combined with --array or --component");
   }
   options.extrema = arguments.has("extrema");
-  const bool of_weights = !options.component.empty() || options.extrema || arguments.has("minus");
-  if (options.array.empty() && options.color_by == ColorBy::array && of_weights)
+  const bool needs_weights =
+    !options.component.empty() || options.extrema || arguments.has("minus");
+  if (options.array.empty() && options.color_by == ColorBy::array && needs_weights)
   {
     options.array = "Weights"; // these options apply to weights by default
   }
@@ -192,13 +195,13 @@ bool add_defects(Session& session, std::vector<Tile>& tiles)
       !is_defect_data(data);
   };
   // defects of the context datasets, which all tiles share
-  std::vector<vtkSmartPointer<vtkDataSet>> found;
+  std::vector<vtkSmartPointer<vtkDataSet>> context_defects;
   for (const auto& data : tiles.front().context)
   {
     if (is_surface(data))
     {
-      found.push_back(defects_of(session, data));
-      if (!found.back())
+      context_defects.push_back(defects_of(session, data));
+      if (!context_defects.back())
       {
         return false;
       }
@@ -206,7 +209,7 @@ bool add_defects(Session& session, std::vector<Tile>& tiles)
   }
   for (Tile& tile : tiles)
   {
-    tile.context.insert(tile.context.end(), found.begin(), found.end());
+    tile.context.insert(tile.context.end(), context_defects.begin(), context_defects.end());
     if (is_surface(tile.data))
     {
       any = true;
@@ -217,19 +220,19 @@ bool add_defects(Session& session, std::vector<Tile>& tiles)
       }
     }
   }
-  return any || !found.empty() ||
+  return any || !context_defects.empty() ||
     session.invalid("--defects needs a surface; add one with --context SURFACE");
 }
 
 /// List the files to draw; a collection is replaced by its files. For a single image of a sequence,
 /// a limited number of evenly spaced frames is chosen.
-bool list_files(Session& session, bool moving, std::vector<std::string>& files,
+bool list_files(Session& session, bool is_video, std::vector<std::string>& files,
   std::vector<std::string>& labels, double& rate)
 {
   const Arguments& arguments = session.arguments();
-  const std::vector<std::string>& named = arguments.list("FILE");
-  const auto most = static_cast<std::size_t>(arguments.integer("frames"));
-  for (const std::string& file : named)
+  const std::vector<std::string>& named_files = arguments.list("FILE");
+  const auto maximum_frames = static_cast<std::size_t>(arguments.integer("frames"));
+  for (const std::string& file : named_files)
   {
     if (file_extension(file) != "pvd")
     {
@@ -237,7 +240,7 @@ bool list_files(Session& session, bool moving, std::vector<std::string>& files,
       labels.emplace_back();
       continue;
     }
-    if (named.size() > 1)
+    if (named_files.size() > 1)
     {
       return session.invalid(file + " is a sequence and must be the only FILE");
     }
@@ -249,7 +252,10 @@ bool list_files(Session& session, bool moving, std::vector<std::string>& files,
     }
     rate = frames_per_second(sequence);
     const std::size_t count = sequence.files.size();
-    for (const std::size_t k : evenly(count, most > 0 ? most : moving ? count : 12))
+    for (const std::size_t k : evenly_spaced(count,
+           maximum_frames > 0 ? maximum_frames
+             : is_video       ? count
+                              : 12))
     {
       char label[40];
       std::snprintf(label, sizeof(label), "%.4g s", sequence.times[k]);
@@ -268,7 +274,7 @@ bool list_files(Session& session, bool moving, std::vector<std::string>& files,
 
 /// Render one image per tile, all with the same view and color range, then run ffmpeg. The images
 /// are in a temporary folder, which is removed in all cases.
-Status render_video(Session& session, std::vector<Tile> tiles, const PictureOptions& wanted,
+Status render_video(Session& session, std::vector<Tile> tiles, const PictureOptions& base_options,
   double rate, const std::string& output)
 {
   const ScratchFolder folder("frames");
@@ -276,12 +282,12 @@ Status render_video(Session& session, std::vector<Tile> tiles, const PictureOpti
   {
     return Status::failure(StatusCode::unavailable, folder.error());
   }
-  PictureOptions options = wanted;
+  PictureOptions options = base_options;
   for (Tile& tile : tiles)
   {
     tile.label.clear(); // the label contains the time, which differs in each image
   }
-  options.around = tiles;
+  options.undrawn_tiles = tiles;
   Status status;
   for (std::size_t k = 0; k < tiles.size(); ++k)
   {
@@ -324,25 +330,25 @@ void run_render(Session& session)
   const Arguments& arguments = session.arguments();
   const std::string output = arguments.text("output");
   PictureOptions options;
-  const bool moving = is_listed(file_extension(output), video_extensions);
+  const bool is_video = is_listed(file_extension(output), video_extensions);
   std::vector<std::string> files;
   std::vector<std::string> times;
   double rate = 24.0;
   if (!session.check_output(output, "png " + std::string(video_extensions)) ||
-    !read_options(session, options) || !list_files(session, moving, files, times, rate))
+    !read_options(session, options) || !list_files(session, is_video, files, times, rate))
   {
     return;
   }
   if (arguments.has("transparent"))
   {
-    if (moving)
+    if (is_video)
     {
       session.invalid("--transparent needs a .png output");
       return;
     }
     options.background = Background::transparent;
   }
-  if (const Status status = check_ffmpeg(); moving && !status.ok())
+  if (const Status status = check_ffmpeg(); is_video && !status.ok())
   {
     session.fail(status); // fail now, before the expensive work
     return;
@@ -388,8 +394,8 @@ void run_render(Session& session)
   }
   if (arguments.has("minus"))
   {
-    options.minus = session.read(arguments.text("minus"));
-    if (!options.minus)
+    options.subtracted_data = session.read(arguments.text("minus"));
+    if (!options.subtracted_data)
     {
       return;
     }
@@ -421,8 +427,8 @@ void run_render(Session& session)
     session.fail(Status::canceled());
     return;
   }
-  Status status = moving ? render_video(session, tiles, options, rate, output)
-                         : render_to_png(tiles, options, output, arguments.has("overwrite"));
+  Status status = is_video ? render_video(session, tiles, options, rate, output)
+                           : render_to_png(tiles, options, output, arguments.has("overwrite"));
   session.report().merge(status.report);
   for (const std::string& warning : status.warnings)
   {

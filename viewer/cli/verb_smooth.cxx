@@ -35,12 +35,12 @@ void run_smooth(Session& session)
     session.invalid(arguments.text("MESH") + " must contain a surface or tets");
     return;
   }
-  const std::string ending = file_extension(output);
-  if (ending != "vtk" && (ending == "vtp") != bool(mesh->IsA("vtkPolyData")))
+  const std::string extension = file_extension(output);
+  if (extension != "vtk" && (extension == "vtp") != bool(mesh->IsA("vtkPolyData")))
   {
     session.invalid(arguments.text("MESH") + " is " +
-      (ending == "vtp" ? "not a polygon dataset; the output must be .vtu"
-                       : "a polygon dataset; the output must be .vtp") +
+      (extension == "vtp" ? "not a polygon dataset; the output must be .vtu"
+                          : "a polygon dataset; the output must be .vtp") +
       " or .vtk");
     return;
   }
@@ -52,10 +52,10 @@ void run_smooth(Session& session)
     smoothing->SetInputArrayToProcess(
       0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, array.c_str());
   }
-  const std::string list = arguments.text("extrema");
-  if (arguments.typed("extrema") && !mesh->GetPointData()->GetArray(list.c_str()))
+  const std::string extrema_array = arguments.text("extrema");
+  if (arguments.typed("extrema") && !mesh->GetPointData()->GetArray(extrema_array.c_str()))
   {
-    session.invalid("--extrema: the mesh has no point array '" + list + "'");
+    session.invalid("--extrema: the mesh has no point array '" + extrema_array + "'");
     return;
   }
   if (arguments.typed("number-of-extrema") || arguments.typed("persistence"))

@@ -40,9 +40,9 @@ bool tour_request(Session& session, TourRequest& request)
 /// Read the files before the window opens, with progress on a terminal. A program that is started
 /// from a desktop has no visible terminal, so the window shows errors of files; they are also
 /// printed to the standard error. Only a tour, which has no user, ends with an error.
-bool read_files(Session& session, std::vector<FirstFile>& files)
+bool read_files(Session& session, std::vector<InitialFile>& files)
 {
-  const bool ends = session.arguments().has("play");
+  const bool is_tour = session.arguments().has("play");
   for (const std::string& path : session.arguments().list("FILE"))
   {
     files.push_back({ path, std::nullopt, {} });
@@ -58,7 +58,7 @@ bool read_files(Session& session, std::vector<FirstFile>& files)
     {
       continue;
     }
-    if (ends || session.failed()) // session.failed() is also true after an interrupt
+    if (is_tour || session.failed()) // session.failed() is also true after an interrupt
     {
       return session.fail(status);
     }
@@ -90,7 +90,7 @@ void run_view(Session& session)
       "use bindpose render to draw pictures without a window"));
     return;
   }
-  std::vector<FirstFile> files;
+  std::vector<InitialFile> files;
   if (!read_files(session, files))
   {
     return;

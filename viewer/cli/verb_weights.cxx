@@ -136,7 +136,7 @@ bool add_region_handles(Session& session, vtkDataSet* mesh, const std::string& a
 }
 
 /// Return a shallow copy of the mesh to which arrays can be added.
-vtkSmartPointer<vtkDataSet> own_copy(vtkDataSet* data)
+vtkSmartPointer<vtkDataSet> shallow_copy(vtkDataSet* data)
 {
   auto copy = vtk::TakeSmartPointer(data->NewInstance());
   copy->ShallowCopy(data);
@@ -153,8 +153,8 @@ void write_with_endpoints(
     { "joints", vtkBoneEndpointWeights::JOINTS },
     { "bounded", vtkBoneEndpointWeights::BOUNDED },
   };
-  const std::string ending = file_extension(output);
-  if (ending == "glb" || ending == "gltf")
+  const std::string extension = file_extension(output);
+  if (extension == "glb" || extension == "gltf")
   {
     session.write_rig(mesh, handles, {}, 24.0, false, output);
     return;
@@ -177,7 +177,7 @@ void write_with_endpoints(
   if (session.run(endpoints, "endpoints", 0.98, 1.0, Merge::nothing))
   {
     session.report().set("endpoints.method", method->first);
-    auto result = own_copy(endpoints->GetOutput());
+    auto result = shallow_copy(endpoints->GetOutput());
     attach_report(result, read_report(mesh));
     session.write(result, output);
   }
@@ -199,16 +199,16 @@ void run_weights(Session& session)
   {
     return;
   }
-  const std::string ending = file_extension(output);
-  const bool tets_given = is_tets(mesh);
+  const std::string extension = file_extension(output);
+  const bool input_is_tets = is_tets(mesh);
   const bool solve_on_surface = domain == "surface";
-  if (tets_given && (solve_on_surface || ending == "vtp"))
+  if (input_is_tets && (solve_on_surface || extension == "vtp"))
   {
     session.invalid(arguments.text("MESH") + " contains tets; " +
       (solve_on_surface ? "--domain surface needs a surface" : "write .vtu or .dmat, not .vtp"));
     return;
   }
-  if (solve_on_surface && ending == "vtu")
+  if (solve_on_surface && extension == "vtu")
   {
     session.invalid("--domain surface creates no tets; write .vtp or .dmat, not .vtu");
     return;
@@ -231,20 +231,20 @@ void run_weights(Session& session)
   {
     weights->SetRegionArrayName(regions.c_str());
   }
-  const bool on_mesh = tets_given || solve_on_surface;
+  const bool solved_on_input = input_is_tets || solve_on_surface;
   if (!session.run(weights, "weights", 0.0, 0.98, Merge::all))
   {
     return;
   }
-  if (tets_given)
+  if (input_is_tets)
   {
     session.report().set("domain", "volume");
   }
-  const bool tets_asked = ending == "vtu";
-  if (tets_asked || !on_mesh)
+  const bool writes_tets = extension == "vtu";
+  if (writes_tets || !solved_on_input)
   {
     // output port of the solved mesh (2) or of the input mesh (0)
-    const int port = tets_asked && !on_mesh ? 2 : 0;
+    const int port = writes_tets && !solved_on_input ? 2 : 0;
     auto* data = vtkDataSet::SafeDownCast(weights->GetOutputDataObject(port));
     if (data->GetNumberOfPoints() == 0)
     {
@@ -259,28 +259,28 @@ void run_weights(Session& session)
   vtkNew<vtkTransferWeights> transfer;
   transfer->SetInputData(0, mesh);
   transfer->SetInputData(1, weights->GetOutput());
-  const Report of_weights = session.report();
+  const Report weights_report = session.report();
   if (!session.run(transfer, "transfer", 0.98, 1.0, Merge::numbers))
   {
     return;
   }
-  session.report().merge(of_weights); // keep entries that only the transfer has reported
-  auto result = own_copy(transfer->GetOutput());
-  vtkNew<vtkTransferWeights> raw;
+  session.report().merge(weights_report); // keep entries that only the transfer has reported
+  auto result = shallow_copy(transfer->GetOutput());
+  vtkNew<vtkTransferWeights> raw_transfer;
   if (arguments.has("keep-raw"))
   {
-    raw->SetArrayName("RawWeights");
-    raw->SetInputData(0, result);
-    raw->SetInputData(1, weights->GetOutput());
-    if (!session.run(raw, "transfer_raw", 0.98, 1.0, Merge::nothing))
+    raw_transfer->SetArrayName("RawWeights");
+    raw_transfer->SetInputData(0, result);
+    raw_transfer->SetInputData(1, weights->GetOutput());
+    if (!session.run(raw_transfer, "transfer_raw", 0.98, 1.0, Merge::nothing))
     {
       return;
     }
-    result = own_copy(raw->GetOutput());
+    result = shallow_copy(raw_transfer->GetOutput());
   }
-  Report in_file = read_report(transfer->GetOutput());
-  in_file.merge(read_report(weights->GetOutput()));
-  attach_report(result, in_file);
+  Report stored_report = read_report(transfer->GetOutput());
+  stored_report.merge(read_report(weights->GetOutput()));
+  attach_report(result, stored_report);
   write_with_endpoints(session, result, handles, output);
 }
 

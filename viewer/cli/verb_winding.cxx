@@ -18,7 +18,7 @@ namespace bindpose::cli
 namespace
 {
 /// Return the file name extensions for a dataset of this type.
-std::string endings_for(vtkDataSet* data)
+std::string extensions_for(vtkDataSet* data)
 {
   if (data->IsA("vtkPolyData"))
   {
@@ -80,7 +80,7 @@ void run_winding(Session& session)
   if (arguments.has("points"))
   {
     const auto points = session.read(arguments.text("points"));
-    if (!points || !session.check_output(output, endings_for(points)))
+    if (!points || !session.check_output(output, extensions_for(points)))
     {
       return;
     }

@@ -17,8 +17,8 @@ using namespace bindpose;
 
 namespace
 {
-constexpr double usual_interval = 60.0; // seconds
-const char* const session_name = "work.bindpose";
+constexpr double default_interval = 60.0; // seconds
+const char* const session_file_name = "work.bindpose";
 
 std::unique_ptr<QLockFile> lock_of(const QString& folder)
 {
@@ -39,7 +39,7 @@ Autosave::Autosave(MakeSession make_session, const QString& root, QObject* paren
 
 Autosave::~Autosave()
 {
-  this->next_ = nullptr; // discard the pending copy, because the folder is removed next
+  this->next_session_ = nullptr; // discard the pending copy, because the folder is removed next
   if (this->is_saving())
   {
     this->writer_.join();
@@ -58,9 +58,9 @@ QString Autosave::default_root()
 
 double Autosave::interval()
 {
-  bool given = false;
-  const double seconds = qEnvironmentVariable("BINDPOSE_AUTOSAVE_SECONDS").toDouble(&given);
-  return given && seconds >= 0.0 ? std::min(seconds, 86400.0) : usual_interval;
+  bool is_number = false;
+  const double seconds = qEnvironmentVariable("BINDPOSE_AUTOSAVE_SECONDS").toDouble(&is_number);
+  return is_number && seconds >= 0.0 ? std::min(seconds, 86400.0) : default_interval;
 }
 
 void Autosave::note_change()
@@ -73,7 +73,7 @@ void Autosave::note_change()
 
 QString Autosave::path() const
 {
-  return this->folder_.isEmpty() ? QString() : this->folder_ + '/' + session_name;
+  return this->folder_.isEmpty() ? QString() : this->folder_ + '/' + session_file_name;
 }
 
 /// Create the folder of this process before the first save.
@@ -105,7 +105,7 @@ void Autosave::begin_save()
   this->timer_.stop();
   if (this->make_folder())
   {
-    this->next_ = SessionFile::prepare(this->path(), this->make_session_());
+    this->next_session_ = SessionFile::prepare(this->path(), this->make_session_());
     if (!this->is_saving())
     {
       this->start_writer();
@@ -113,34 +113,34 @@ void Autosave::begin_save()
   }
   else
   {
-    this->end_with(Status::invalid_input("cannot write to " + this->root_.toStdString()));
+    this->report_status(Status::invalid_input("cannot write to " + this->root_.toStdString()));
   }
   this->milliseconds_ = 1e-6 * static_cast<double>(clock.nsecsElapsed());
 }
 
 void Autosave::start_writer()
 {
-  this->writing_ = std::move(this->next_);
+  this->current_session_ = std::move(this->next_session_);
   this->writer_ = std::thread(
-    [this, round = ++this->round_]
+    [this, writer_number = ++this->writer_count_]
     {
       QElapsedTimer clock;
       clock.start();
       try
       {
-        this->written_ = this->file_.write(*this->writing_);
+        this->writer_status_ = this->file_.write(*this->current_session_);
       }
       catch (const std::exception& error)
       {
-        this->written_ = Status::failure(StatusCode::internal_error, error.what());
+        this->writer_status_ = Status::failure(StatusCode::internal_error, error.what());
       }
       this->writing_milliseconds_ = 1e-6 * static_cast<double>(clock.nsecsElapsed());
       QMetaObject::invokeMethod(
         this,
-        [this, round]
+        [this, writer_number]
         {
           // If wait() has already ended this writer, there is nothing to do.
-          if (this->is_saving() && round == this->round_)
+          if (this->is_saving() && writer_number == this->writer_count_)
           {
             this->end_writer();
           }
@@ -152,16 +152,16 @@ void Autosave::start_writer()
 void Autosave::end_writer()
 {
   this->writer_.join();
-  this->writing_ = nullptr;
-  const Status status = this->written_;
-  if (this->next_)
+  this->current_session_ = nullptr;
+  const Status status = this->writer_status_;
+  if (this->next_session_)
   {
     this->start_writer();
   }
-  this->end_with(status);
+  this->report_status(status);
 }
 
-void Autosave::end_with(const Status& status)
+void Autosave::report_status(const Status& status)
 {
   this->status_ = status;
   if (!status.ok())
@@ -198,7 +198,7 @@ std::unique_ptr<RecoveredWork> RecoveredWork::find(const QString& root)
     {
       continue; // the process of this folder is running
     }
-    const QFileInfo session(folder.filePath() + '/' + session_name);
+    const QFileInfo session(folder.filePath() + '/' + session_file_name);
     if (!session.exists())
     {
       lock->unlock();
@@ -222,7 +222,7 @@ RecoveredWork::~RecoveredWork() = default;
 
 QString RecoveredWork::path() const
 {
-  return this->folder_ + '/' + session_name;
+  return this->folder_ + '/' + session_file_name;
 }
 
 void RecoveredWork::remove()

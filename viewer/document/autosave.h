@@ -63,7 +63,7 @@ private:
   bool make_folder();
   void start_writer();
   void end_writer();
-  void end_with(const bindpose::Status& status);
+  void report_status(const bindpose::Status& status);
 
   MakeSession make_session_;
   QString root_;
@@ -74,13 +74,13 @@ private:
   double milliseconds_ = 0.0;
   double writing_milliseconds_ = 0.0;
   std::thread writer_;
-  int round_ = 0; // number of writers that were started
+  int writer_count_ = 0; // number of writers that were started
   // The session that is being written, and the session to write next. Both must be destroyed on the
   // window's thread.
-  std::shared_ptr<const SessionFile::Prepared> writing_, next_;
+  std::shared_ptr<const SessionFile::Prepared> current_session_, next_session_;
   // Status of the running writer. The writer sets it; the window reads it only after the writer has
   // ended.
-  bindpose::Status written_;
+  bindpose::Status writer_status_;
   bindpose::Status status_; // status of the last copy that was written
 };
 

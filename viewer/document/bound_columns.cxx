@@ -18,19 +18,20 @@ using namespace bindpose;
 
 namespace
 {
-bool same_place(const Handle& a, const Handle& b)
+bool same_rest_position(const Handle& a, const Handle& b)
 {
   return a.kind == b.kind && a.head == b.head && a.tail == b.tail && a.region_id == b.region_id &&
     a.cage == b.cage;
 }
 
-QString counted(int count, const char* one, const char* many)
+QString count_phrase(int count, const char* singular, const char* plural)
 {
-  return count == 0 ? QString()
-                    : QCoreApplication::translate("Document", count == 1 ? one : many).arg(count);
+  return count == 0
+    ? QString()
+    : QCoreApplication::translate("Document", count == 1 ? singular : plural).arg(count);
 }
 
-vtkSmartPointer<vtkDoubleArray> arranged_array(
+vtkSmartPointer<vtkDoubleArray> reordered_array(
   vtkDataArray* array, const std::vector<int>& columns, const std::vector<std::string>& names)
 {
   auto result = vtkSmartPointer<vtkDoubleArray>::New();
@@ -50,66 +51,67 @@ vtkSmartPointer<vtkDoubleArray> arranged_array(
 }
 } // namespace
 
-BoundColumns::BoundColumns(const Handles& bound, const Handles& now)
-  : column_of_(now.size(), -1), columns_(static_cast<int>(bound.size()))
+BoundColumns::BoundColumns(const Handles& bound, const Handles& current)
+  : column_of_handle_(current.size(), -1), column_count_(static_cast<int>(bound.size()))
 {
-  std::vector<bool> taken(bound.size(), false);
+  std::vector<bool> is_assigned(bound.size(), false);
   const auto assign = [&](const auto& fits)
   {
-    for (std::size_t k = 0; k < now.size(); ++k)
+    for (std::size_t k = 0; k < current.size(); ++k)
     {
-      for (std::size_t c = 0; c < bound.size() && this->column_of_[k] < 0; ++c)
+      for (std::size_t c = 0; c < bound.size() && this->column_of_handle_[k] < 0; ++c)
       {
-        if (!taken[c] && fits(bound[c], now[k]))
+        if (!is_assigned[c] && fits(bound[c], current[k]))
         {
-          taken[c] = true;
-          this->column_of_[k] = static_cast<int>(c);
+          is_assigned[c] = true;
+          this->column_of_handle_[k] = static_cast<int>(c);
         }
       }
     }
   };
   assign([](const Handle& a, const Handle& b) { return a.name == b.name && a.kind == b.kind; });
-  assign(same_place);
-  bool in_order = now.size() == bound.size();
-  for (std::size_t k = 0; k < now.size(); ++k)
+  assign(same_rest_position);
+  bool in_order = current.size() == bound.size();
+  for (std::size_t k = 0; k < current.size(); ++k)
   {
-    const int column = this->column_of_[k];
-    this->names_.push_back(now[k].name);
-    this->new_ += column < 0;
-    this->moved_ += column >= 0 && !same_place(bound[column], now[k]);
-    this->same_names_ = this->same_names_ && column >= 0 && bound[column].name == now[k].name;
+    const int column = this->column_of_handle_[k];
+    this->names_.push_back(current[k].name);
+    this->added_count_ += column < 0;
+    this->moved_count_ += column >= 0 && !same_rest_position(bound[column], current[k]);
+    this->same_names_ = this->same_names_ && column >= 0 && bound[column].name == current[k].name;
     in_order = in_order && column == static_cast<int>(k);
   }
-  this->gone_ = static_cast<int>(std::count(taken.begin(), taken.end(), false));
-  this->exact_ = in_order && this->new_ + this->moved_ + this->gone_ == 0;
+  this->removed_count_ =
+    static_cast<int>(std::count(is_assigned.begin(), is_assigned.end(), false));
+  this->exact_ = in_order && this->added_count_ + this->moved_count_ + this->removed_count_ == 0;
 }
 
 bool BoundColumns::any() const
 {
-  return this->new_ < static_cast<int>(this->column_of_.size());
+  return this->added_count_ < static_cast<int>(this->column_of_handle_.size());
 }
 
 QString BoundColumns::reason() const
 {
-  if (this->new_ + this->moved_ + this->gone_ == 0)
+  if (this->added_count_ + this->moved_count_ + this->removed_count_ == 0)
   {
     return {};
   }
-  QStringList parts{
-    counted(this->new_, QT_TRANSLATE_NOOP("Document", "%1 handle was added and has no weights yet"),
-      QT_TRANSLATE_NOOP("Document", "%1 handles were added and have no weights yet")),
-    counted(this->moved_, QT_TRANSLATE_NOOP("Document", "%1 handle was moved"),
+  QStringList parts{ count_phrase(this->added_count_,
+                       QT_TRANSLATE_NOOP("Document", "%1 handle was added and has no weights yet"),
+                       QT_TRANSLATE_NOOP(
+                         "Document", "%1 handles were added and have no weights yet")),
+    count_phrase(this->moved_count_, QT_TRANSLATE_NOOP("Document", "%1 handle was moved"),
       QT_TRANSLATE_NOOP("Document", "%1 handles were moved")),
-    counted(this->gone_,
+    count_phrase(this->removed_count_,
       QT_TRANSLATE_NOOP("Document", "%1 handle was removed and its part of the mesh stays at rest"),
       QT_TRANSLATE_NOOP(
-        "Document", "%1 handles were removed and their parts of the mesh stay at rest"))
-  };
+        "Document", "%1 handles were removed and their parts of the mesh stay at rest")) };
   parts.removeAll(QString());
   return QCoreApplication::translate("Document", "Since the last bind, %1.").arg(parts.join(", "));
 }
 
-vtkSmartPointer<vtkPointSet> BoundColumns::arranged(vtkPointSet* data) const
+vtkSmartPointer<vtkPointSet> BoundColumns::reordered(vtkPointSet* data) const
 {
   if (!data || (this->exact_ && this->same_names_))
   {
@@ -120,9 +122,10 @@ vtkSmartPointer<vtkPointSet> BoundColumns::arranged(vtkPointSet* data) const
   for (const char* name : { "Weights", "RawWeights" })
   {
     vtkDataArray* array = data->GetPointData()->GetArray(name);
-    if (array && array->GetNumberOfComponents() == this->columns_)
+    if (array && array->GetNumberOfComponents() == this->column_count_)
     {
-      result->GetPointData()->AddArray(arranged_array(array, this->column_of_, this->names_));
+      result->GetPointData()->AddArray(
+        reordered_array(array, this->column_of_handle_, this->names_));
     }
   }
   if (!this->exact_)
@@ -138,7 +141,7 @@ vtkSmartPointer<vtkPointSet> BoundColumns::arranged(vtkPointSet* data) const
   return result;
 }
 
-bool weights_are_of(vtkDataArray* weights, const Handles& handles, QString* why_not)
+bool weights_fit(vtkDataArray* weights, const Handles& handles, QString* mismatch)
 {
   const int columns = weights->GetNumberOfComponents();
   QString reason;
@@ -158,9 +161,9 @@ bool weights_are_of(vtkDataArray* weights, const Handles& handles, QString* why_
         "Document", "The mesh has weights for handles with other names: bind again.");
     }
   }
-  if (why_not)
+  if (mismatch)
   {
-    *why_not = reason;
+    *mismatch = reason;
   }
   return reason.isEmpty();
 }

@@ -22,7 +22,7 @@ class BoundColumns
 {
 public:
   BoundColumns() = default;
-  BoundColumns(const bindpose::Handles& bound, const bindpose::Handles& now);
+  BoundColumns(const bindpose::Handles& bound, const bindpose::Handles& current);
 
   /// Report whether at least one handle has a column, so that posing is possible.
   bool any() const;
@@ -35,22 +35,22 @@ public:
   /// Return a copy of the dataset in which the columns of weights have the order and the names of
   /// the handles. Return the dataset itself if the columns are exact and already have these names.
   /// Certificates are removed unless the columns are exact.
-  vtkSmartPointer<vtkPointSet> arranged(vtkPointSet* data) const;
+  vtkSmartPointer<vtkPointSet> reordered(vtkPointSet* data) const;
 
 private:
-  std::vector<int> column_of_; // column of each handle; -1: none
+  std::vector<int> column_of_handle_; // column of each handle; -1: none
   std::vector<std::string> names_;
-  int columns_ = 0;
-  int new_ = 0;
-  int moved_ = 0;
-  int gone_ = 0;
+  int column_count_ = 0;
+  int added_count_ = 0;
+  int moved_count_ = 0;
+  int removed_count_ = 0;
   bool same_names_ = true;
   bool exact_ = false;
 };
 
 /// Report whether the weights of a mesh file fit the handles: one column per handle, with equal
-/// names if the columns are named. Otherwise set `why_not` to one sentence.
-bool weights_are_of(
-  vtkDataArray* weights, const bindpose::Handles& handles, QString* why_not = nullptr);
+/// names if the columns are named. Otherwise set `mismatch` to one sentence.
+bool weights_fit(
+  vtkDataArray* weights, const bindpose::Handles& handles, QString* mismatch = nullptr);
 
 #endif

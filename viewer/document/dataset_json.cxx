@@ -17,7 +17,7 @@ using nlohmann::json;
 
 namespace
 {
-constexpr int most_components = 1000000;
+constexpr int maximum_components = 1000000;
 
 /// Names of array types in the file. Arrays of other types are written as doubles.
 const struct
@@ -79,8 +79,8 @@ vtkSmartPointer<vtkAbstractArray> array_from_json(const json& value, vtkIdType t
 {
   const std::string name = json_text(json_at(value, "name"), "the name of a handle array");
   const std::string type = json_text(json_at(value, "type"), "the type of a handle array");
-  const int components = json_integer(
-    json_at(value, "components"), "the number of components of a handle array", 1, most_components);
+  const int components = json_integer(json_at(value, "components"),
+    "the number of components of a handle array", 1, maximum_components);
   const json& values = json_at(value, "values");
   if (!values.is_array() || values.size() != static_cast<std::size_t>(tuples) * components)
   {
@@ -110,9 +110,9 @@ vtkSmartPointer<vtkAbstractArray> array_from_json(const json& value, vtkIdType t
     numbers->SetNumberOfTuples(tuples);
     for (std::size_t i = 0; i < values.size(); ++i)
     {
-      const bool nothing = values[i].is_null() && is_real(known.type);
-      const double number = nothing ? std::numeric_limits<double>::quiet_NaN()
-                                    : json_number(values[i], "a value of a handle array");
+      const bool is_nan = values[i].is_null() && is_real(known.type);
+      const double number = is_nan ? std::numeric_limits<double>::quiet_NaN()
+                                   : json_number(values[i], "a value of a handle array");
       if (number < numbers->GetDataTypeMin() || number > numbers->GetDataTypeMax())
       {
         throw SessionError("a value of the handle array '" + name + "' is out of range");
@@ -162,7 +162,7 @@ vtkSmartPointer<vtkCellArray> cells_from_json(const json& list, vtkIdType points
   return cells;
 }
 
-const char* const kinds_of_cells[] = { "vertices", "lines", "polygons" };
+const char* const cell_kinds[] = { "vertices", "lines", "polygons" };
 } // namespace
 
 const json& json_at(const json& object, const char* key)
@@ -215,12 +215,12 @@ json handles_to_json(vtkPolyData* handles)
   json result;
   vtkPoints* points = handles->GetPoints();
   result["points_type"] = points && points->GetDataType() == VTK_FLOAT ? "float" : "double";
-  json& places = result["points"] = json::array();
+  json& point_list = result["points"] = json::array();
   for (vtkIdType v = 0; v < handles->GetNumberOfPoints(); ++v)
   {
     double p[3];
     handles->GetPoint(v, p);
-    places.push_back({ p[0], p[1], p[2] });
+    point_list.push_back({ p[0], p[1], p[2] });
   }
   result["vertices"] = cells_to_json(handles->GetVerts());
   result["lines"] = cells_to_json(handles->GetLines());
@@ -243,23 +243,23 @@ vtkSmartPointer<vtkPolyData> handles_from_json(const json& value)
   auto handles = vtkSmartPointer<vtkPolyData>::New();
   const std::string type =
     json_text(json_at(value, "points_type"), "the type of the handle points");
-  const json& places = json_at(value, "points");
-  if (!places.is_array() || (type != "float" && type != "double"))
+  const json& point_list = json_at(value, "points");
+  if (!point_list.is_array() || (type != "float" && type != "double"))
   {
     throw SessionError("the handle points must be a list with points_type 'float' or 'double'");
   }
   vtkNew<vtkPoints> points;
   points->SetDataType(type == "float" ? VTK_FLOAT : VTK_DOUBLE);
-  for (const json& place : places)
+  for (const json& coordinates : point_list)
   {
-    if (!place.is_array() || place.size() != 3)
+    if (!coordinates.is_array() || coordinates.size() != 3)
     {
       throw SessionError("a handle point must have three coordinates");
     }
     double p[3];
     for (int k = 0; k < 3; ++k)
     {
-      p[k] = json_number(place[k], "a coordinate of a handle point");
+      p[k] = json_number(coordinates[k], "a coordinate of a handle point");
     }
     points->InsertNextPoint(p);
   }
@@ -267,8 +267,7 @@ vtkSmartPointer<vtkPolyData> handles_from_json(const json& value)
   vtkSmartPointer<vtkCellArray> cells[3];
   for (int kind = 0; kind < 3; ++kind)
   {
-    cells[kind] =
-      cells_from_json(json_at(value, kinds_of_cells[kind]), points->GetNumberOfPoints());
+    cells[kind] = cells_from_json(json_at(value, cell_kinds[kind]), points->GetNumberOfPoints());
   }
   handles->SetVerts(cells[0]);
   handles->SetLines(cells[1]);
@@ -322,14 +321,14 @@ bindpose::HandlePose pose_from_json(const json& value)
   return pose;
 }
 
-json key_poses_to_json(const bindpose::PoseShelf& poses)
+json stored_poses_to_json(const bindpose::StoredPoses& poses)
 {
   return json(bindpose::to_json(poses));
 }
 
-bindpose::PoseShelf key_poses_from_json(const json& value)
+bindpose::StoredPoses stored_poses_from_json(const json& value)
 {
-  bindpose::PoseShelf result;
+  bindpose::StoredPoses result;
   const bindpose::Status status = bindpose::from_json(nlohmann::ordered_json(value), result);
   if (!status.ok())
   {

@@ -31,8 +31,8 @@ vtkSmartPointer<vtkPolyData> handles_from_json(const nlohmann::json& json);
 nlohmann::json pose_to_json(const bindpose::HandlePose& pose);
 bindpose::HandlePose pose_from_json(const nlohmann::json& json);
 
-nlohmann::json key_poses_to_json(const bindpose::PoseShelf& poses);
-bindpose::PoseShelf key_poses_from_json(const nlohmann::json& json);
+nlohmann::json stored_poses_to_json(const bindpose::StoredPoses& poses);
+bindpose::StoredPoses stored_poses_from_json(const nlohmann::json& json);
 
 nlohmann::json options_to_json(const Options& options);
 /// Read options. A missing option gets its initial value; unknown options are ignored.

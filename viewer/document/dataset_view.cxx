@@ -27,9 +27,9 @@ vtkSmartPointer<vtkAbstractArray> view_of_array(vtkAbstractArray* array)
     view->DeepCopy(array);
     return view;
   }
-  constexpr int not_ours = 1; // VTK must not free the memory
+  constexpr int memory_is_shared = 1; // VTK must not free the memory
   view->SetNumberOfComponents(array->GetNumberOfComponents());
-  view->SetVoidArray(array->GetVoidPointer(0), array->GetNumberOfValues(), not_ours);
+  view->SetVoidArray(array->GetVoidPointer(0), array->GetNumberOfValues(), memory_is_shared);
   view->SetName(array->GetName());
   for (int k = 0; array->HasAComponentName() && k < array->GetNumberOfComponents(); ++k)
   {
@@ -99,9 +99,9 @@ vtkSmartPointer<vtkDataSet> view_of(vtkDataSet* data)
   auto view = vtkSmartPointer<vtkPointSet>::Take(vtkPointSet::SafeDownCast(data)->NewInstance());
   if (vtkPoints* points = vtkPointSet::SafeDownCast(data)->GetPoints())
   {
-    vtkNew<vtkPoints> places;
-    places->SetData(view_of_numbers(points->GetData()));
-    view->SetPoints(places);
+    vtkNew<vtkPoints> view_points;
+    view_points->SetData(view_of_numbers(points->GetData()));
+    view->SetPoints(view_points);
   }
   if (polydata)
   {

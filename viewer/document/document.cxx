@@ -20,7 +20,7 @@ using namespace bindpose;
 
 namespace
 {
-constexpr int longest_history = 1000;
+constexpr int maximum_undo_steps = 1000;
 
 vtkSmartPointer<vtkPolyData> copy_of(vtkPolyData* data)
 {
@@ -31,7 +31,7 @@ vtkSmartPointer<vtkPolyData> copy_of(vtkPolyData* data)
 
 /// Name of the array of region labels for which the weights were solved; used if regions were
 /// painted after the solve.
-const char* const bound_labels = "BoundRegionId";
+const char* const bound_labels_name = "BoundRegionId";
 
 vtkDataArray* labels_of(vtkPolyData* surface)
 {
@@ -39,18 +39,18 @@ vtkDataArray* labels_of(vtkPolyData* surface)
 }
 
 /// Return a copy of the labels under another name. If there are no labels, return one zero per
-/// tuple of `like`.
+/// tuple of `model_array`.
 vtkSmartPointer<vtkDataArray> copy_of_labels(
-  vtkDataArray* labels, vtkDataArray* like, const char* name)
+  vtkDataArray* labels, vtkDataArray* model_array, const char* name)
 {
-  auto copy = vtkSmartPointer<vtkDataArray>::Take(like->NewInstance());
+  auto copy = vtkSmartPointer<vtkDataArray>::Take(model_array->NewInstance());
   if (labels)
   {
     copy->DeepCopy(labels);
   }
   else
   {
-    copy->SetNumberOfTuples(like->GetNumberOfTuples());
+    copy->SetNumberOfTuples(model_array->GetNumberOfTuples());
     copy->Fill(0.0);
   }
   copy->SetName(name);
@@ -72,9 +72,10 @@ bool same_labels(vtkDataArray* a, vtkDataArray* b)
 } // namespace
 
 Document::Document(QObject* parent)
-  : QObject(parent), history_(new QUndoStack(this)), live_(vtkSmartPointer<vtkPolyData>::New())
+  : QObject(parent), history_(new QUndoStack(this)),
+    edited_handles_(vtkSmartPointer<vtkPolyData>::New())
 {
-  this->history_->setUndoLimit(longest_history);
+  this->history_->setUndoLimit(maximum_undo_steps);
   this->work_.options = initial_options();
   this->saved_ = this->work_;
 }
@@ -90,11 +91,11 @@ void Document::set_saved()
   this->history_->setClean();
 }
 
-bool Document::is_changed(bool looks) const
+bool Document::is_changed(bool include_options) const
 {
   const bool recovered = this->history_->cleanIndex() < 0;
   return !this->history_->isClean() &&
-    (looks || recovered || (differences(this->saved_, this->work_) & ~options_part));
+    (include_options || recovered || (differences(this->saved_, this->work_) & ~options_part));
 }
 
 vtkPolyData* Document::surface() const
@@ -109,7 +110,7 @@ vtkUnstructuredGrid* Document::weighted_tets() const
 
 vtkPolyData* Document::handle_data() const
 {
-  return this->work_.handles ? this->live_.Get() : nullptr;
+  return this->work_.handles ? this->edited_handles_.Get() : nullptr;
 }
 
 int Document::handle_of_cell(vtkIdType cell) const
@@ -123,7 +124,7 @@ Pose Document::pose() const
   Pose pose;
   if (this->work_.handles)
   {
-    to_pose(this->live_, this->handles_, this->cells_, pose);
+    to_pose(this->edited_handles_, this->handles_, this->cells_, pose);
   }
   return pose;
 }
@@ -144,14 +145,15 @@ QString Document::rebind_reason() const
     return tr("This mesh is not the one that was bound.");
   }
   const QString reason = this->columns_.reason();
-  vtkDataArray* solved = this->work_.surface->GetPointData()->GetArray(bound_labels);
+  vtkDataArray* solved = this->work_.surface->GetPointData()->GetArray(bound_labels_name);
   const bool painted = solved && !same_labels(solved, labels_of(this->work_.surface));
   return reason.isEmpty() && painted ? tr("Regions were painted since the bind.") : reason;
 }
 
 // ---- Steps -------------------------------------------------------------------------------------
 
-void Document::push(const QString& step, const Work& after, const QString& merge, Live live)
+void Document::push(
+  const QString& step, const Work& after, const QString& merge, HandleDataState handle_state)
 {
   // Changes that views make during undo or redo are not pushed as steps. A pushed step would delete
   // the step that is being redone.
@@ -159,13 +161,15 @@ void Document::push(const QString& step, const Work& after, const QString& merge
   {
     return;
   }
-  const QString key = merge.isEmpty() ? QString() : merge + '#' + QString::number(this->merges_);
-  const auto apply = [this, live](const Work& from, const Work& to, bool in_history)
-  { this->apply(from, to, in_history ? Live::to_be_written : live, in_history); };
+  const QString key =
+    merge.isEmpty() ? QString() : merge + '#' + QString::number(this->merge_group_);
+  const auto apply = [this, handle_state](const Work& from, const Work& to, bool in_history)
+  { this->apply(from, to, in_history ? HandleDataState::outdated : handle_state, in_history); };
   this->history_->push(new Edit(step, this->work_, after, key, apply));
 }
 
-void Document::apply(const Work& before, const Work& after, Live live, bool in_history)
+void Document::apply(
+  const Work& before, const Work& after, HandleDataState handle_state, bool in_history)
 {
   if (in_history)
   {
@@ -174,11 +178,11 @@ void Document::apply(const Work& before, const Work& after, Live live, bool in_h
   Work work = this->work_;
   apply_edit(before, after, work);
   this->in_history_ = in_history;
-  this->become(work, live);
+  this->set_work(work, handle_state);
   this->in_history_ = false;
 }
 
-void Document::become(const Work& work, Live live)
+void Document::set_work(const Work& work, HandleDataState handle_state)
 {
   const Work before = this->work_;
   const int parts = differences(before, work);
@@ -189,15 +193,15 @@ void Document::become(const Work& work, Live live)
   }
   if (parts & (handles_part | handle_looks_part))
   {
-    if (live == Live::to_be_written)
+    if (handle_state == HandleDataState::outdated)
     {
       if (work.handles)
       {
-        this->live_->DeepCopy(work.handles);
+        this->edited_handles_->DeepCopy(work.handles);
       }
       else
       {
-        this->live_->Initialize();
+        this->edited_handles_->Initialize();
       }
     }
     this->handles_.clear();
@@ -208,13 +212,13 @@ void Document::become(const Work& work, Live live)
     }
   }
   if (parts & (handles_part | handle_looks_part | pose_part) && work.handles &&
-    live == Live::to_be_written)
+    handle_state == HandleDataState::outdated)
   {
-    bindpose::set_pose(this->live_, this->cells_, work.pose);
+    bindpose::set_pose(this->edited_handles_, this->cells_, work.pose);
   }
   if (parts & (mesh_part | weights_part | handles_part))
   {
-    this->arrange();
+    this->update_columns();
   }
   Q_EMIT this->changed(parts);
   if (parts & options_part)
@@ -230,14 +234,14 @@ void Document::become(const Work& work, Live live)
 }
 
 /// Put the columns of the weights into the order of the handles.
-void Document::arrange()
+void Document::update_columns()
 {
   vtkPolyData* surface = this->preview_ ? this->preview_ : this->work_.surface;
   vtkDataArray* weights = weights_of(surface);
   this->surface_ = surface;
   this->tets_ = this->preview_ ? nullptr : this->work_.weighted_tets;
   this->columns_ = BoundColumns();
-  this->unused_weights_.clear();
+  this->unused_weights_reason_.clear();
   vtkPolyData* bound = this->preview_ ? this->binding_.handle_data : this->work_.bound_handles;
   if (!weights || !this->work_.handles)
   {
@@ -245,7 +249,7 @@ void Document::arrange()
   }
   if (!bound)
   {
-    weights_are_of(weights, this->handles_, &this->unused_weights_);
+    weights_fit(weights, this->handles_, &this->unused_weights_reason_);
     return;
   }
   Handles handles;
@@ -256,11 +260,11 @@ void Document::arrange()
   }
   if (this->columns_.any())
   {
-    this->surface_ = vtkPolyData::SafeDownCast(this->columns_.arranged(surface));
-    this->tets_ = vtkUnstructuredGrid::SafeDownCast(this->columns_.arranged(this->tets_));
+    this->surface_ = vtkPolyData::SafeDownCast(this->columns_.reordered(surface));
+    this->tets_ = vtkUnstructuredGrid::SafeDownCast(this->columns_.reordered(this->tets_));
     return;
   }
-  weights_are_of(weights, this->handles_, &this->unused_weights_);
+  weights_fit(weights, this->handles_, &this->unused_weights_reason_);
 }
 
 void Document::replace(const Work& work)
@@ -269,7 +273,7 @@ void Document::replace(const Work& work)
   this->history_->clear();
   this->preview_ = nullptr;
   this->binding_ = Binding();
-  this->become(work, Live::to_be_written);
+  this->set_work(work, HandleDataState::outdated);
   this->set_saved();
 }
 
@@ -346,25 +350,25 @@ void Document::set_curves(vtkPolyData* curves, const QString& name, const Source
 // ---- Handles and pose --------------------------------------------------------------------------
 
 /// Set handles and pose of a work from handle_data(). Revert handle_data() if it is invalid.
-Status Document::take_live(Work& work)
+Status Document::read_edited_handles(Work& work)
 {
   work.handles = nullptr;
   work.pose.clear();
-  if (this->live_->GetNumberOfCells() > 0)
+  if (this->edited_handles_->GetNumberOfCells() > 0)
   {
     Handles handles;
     std::vector<Index> cells;
-    Status status = to_handles(this->live_, handles, &cells);
+    Status status = to_handles(this->edited_handles_, handles, &cells);
     if (status.ok())
     {
-      status = to_pose(this->live_, handles, cells, work.pose);
+      status = to_pose(this->edited_handles_, handles, cells, work.pose);
     }
     if (!status.ok())
     {
       this->revert_handles();
       return status;
     }
-    work.handles = copy_of(this->live_);
+    work.handles = copy_of(this->edited_handles_);
   }
   return {};
 }
@@ -372,10 +376,10 @@ Status Document::take_live(Work& work)
 Status Document::commit_handles(const QString& step, const QString& merge)
 {
   Work after = this->work_;
-  Status status = this->take_live(after);
+  Status status = this->read_edited_handles(after);
   if (status.ok())
   {
-    this->push(step, after, merge, Live::is_there);
+    this->push(step, after, merge, HandleDataState::up_to_date);
   }
   return status;
 }
@@ -389,19 +393,19 @@ Status Document::commit_regions(vtkDataArray* labels, const QString& step)
     return Status::invalid_input("region labels must have one value per vertex of the mesh");
   }
   Work after = this->work_;
-  Status status = this->take_live(after);
+  Status status = this->read_edited_handles(after);
   if (status.ok())
   {
     after.surface = vtkSmartPointer<vtkPolyData>::New();
     after.surface->ShallowCopy(this->work_.surface);
     vtkPointData* arrays = after.surface->GetPointData();
-    if (arrays->GetArray("Weights") && !arrays->GetArray(bound_labels))
+    if (arrays->GetArray("Weights") && !arrays->GetArray(bound_labels_name))
     {
-      arrays->AddArray(copy_of_labels(labels_of(this->work_.surface), labels, bound_labels));
+      arrays->AddArray(copy_of_labels(labels_of(this->work_.surface), labels, bound_labels_name));
     }
     arrays->AddArray(copy_of_labels(labels, labels, "RegionId"));
-    after.made_here = true;
-    this->push(step, after, {}, Live::is_there);
+    after.differs_from_file = true;
+    this->push(step, after, {}, HandleDataState::up_to_date);
   }
   return status;
 }
@@ -411,26 +415,27 @@ Status Document::rename_handle(int handle, const QString& name)
   Q_EMIT this->about_to_change();
   const std::string from = this->handles_[handle].name;
   const std::string to = name.toStdString();
-  Status status = edit_handles(this->live_,
+  Status status = edit_handles(this->edited_handles_,
     [&](const Handles& before, EditedHandles& after)
     { return bindpose::rename_handle(before, handle, to, after); });
   Work after = this->work_;
   if (status.ok())
   {
-    status = this->take_live(after);
+    status = this->read_edited_handles(after);
   }
   if (!status.ok() || from == to)
   {
     return status;
   }
-  if (after.key_poses)
+  if (after.stored_poses)
   {
-    PoseShelf poses = *after.key_poses;
+    StoredPoses poses = *after.stored_poses;
     poses.library.rename_handle(from, to);
     poses.keys.rename_handle(from, to);
-    after.key_poses = std::make_shared<const PoseShelf>(std::move(poses));
+    after.stored_poses = std::make_shared<const StoredPoses>(std::move(poses));
   }
-  this->push(tr("rename %1").arg(QString::fromStdString(from)), after, {}, Live::is_there);
+  this->push(
+    tr("rename %1").arg(QString::fromStdString(from)), after, {}, HandleDataState::up_to_date);
   return status;
 }
 
@@ -438,19 +443,19 @@ void Document::commit_pose(const QString& step, const QString& merge)
 {
   Work after = this->work_;
   after.pose = this->pose();
-  this->push(step, after, merge, Live::is_there);
+  this->push(step, after, merge, HandleDataState::up_to_date);
 }
 
 void Document::revert_handles()
 {
   if (this->work_.handles)
   {
-    this->live_->DeepCopy(this->work_.handles);
-    bindpose::set_pose(this->live_, this->cells_, this->work_.pose);
+    this->edited_handles_->DeepCopy(this->work_.handles);
+    bindpose::set_pose(this->edited_handles_, this->cells_, this->work_.pose);
   }
   else
   {
-    this->live_->Initialize();
+    this->edited_handles_->Initialize();
   }
   Q_EMIT this->changed(handles_part | pose_part);
 }
@@ -486,10 +491,10 @@ void Document::back_to_rest()
   this->set_pose(rest, tr("back to rest"));
 }
 
-void Document::set_key_poses(PoseShelf poses, const QString& step, const QString& merge)
+void Document::set_stored_poses(StoredPoses poses, const QString& step, const QString& merge)
 {
   Work after = this->work_;
-  after.key_poses = std::make_shared<const PoseShelf>(std::move(poses));
+  after.stored_poses = std::make_shared<const StoredPoses>(std::move(poses));
   this->push(step, after, merge);
 }
 
@@ -511,16 +516,16 @@ bool Document::set_bound(vtkPolyData* surface, vtkUnstructuredGrid* tets)
   }
   Work after = this->work_;
   after.surface = surface;
-  surface->GetPointData()->RemoveArray(bound_labels);
+  surface->GetPointData()->RemoveArray(bound_labels_name);
   // The bind does not include regions that were painted while it was running.
   vtkDataArray* now = labels_of(this->work_.surface);
   if (now && !same_labels(now, labels_of(surface)))
   {
-    surface->GetPointData()->AddArray(copy_of_labels(labels_of(surface), now, bound_labels));
+    surface->GetPointData()->AddArray(copy_of_labels(labels_of(surface), now, bound_labels_name));
     surface->GetPointData()->AddArray(now);
   }
   after.weighted_tets = tets;
-  after.made_here = true;
+  after.differs_from_file = true;
   after.bound_handles = this->binding_.handle_data;
   this->push(tr("bind"), after);
   return true;
@@ -533,7 +538,7 @@ bool Document::set_preview(vtkPolyData* surface)
     return false;
   }
   this->preview_ = surface;
-  this->arrange();
+  this->update_columns();
   Q_EMIT this->changed(weights_part);
   return true;
 }
@@ -543,7 +548,7 @@ void Document::drop_preview()
   if (this->preview_)
   {
     this->preview_ = nullptr;
-    this->arrange();
+    this->update_columns();
     Q_EMIT this->changed(weights_part);
   }
 }
@@ -569,8 +574,8 @@ void Document::set_options(const Options& values, const QString& key)
   }
   if (const OptionInfo* named = find_option(key))
   {
-    const bool moves = named->initial.type() == QVariant::Double;
-    this->push(tr(named->step), after, moves ? key : QString());
+    const bool is_continuous = named->initial.type() == QVariant::Double;
+    this->push(tr(named->step), after, is_continuous ? key : QString());
   }
 }
 

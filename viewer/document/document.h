@@ -40,9 +40,9 @@ public:
   /// Mark the current state as unsaved although the history is empty, for work recovered after a
   /// crash.
   void set_unsaved() { this->history_->resetClean(); }
-  /// Report whether the work has changed since set_saved(). `looks` states whether a change of
-  /// options alone counts as a change.
-  bool is_changed(bool looks) const;
+  /// Report whether the work has changed since set_saved(). `include_options` states whether a
+  /// change of options alone counts as a change.
+  bool is_changed(bool include_options) const;
 
   // ---- State ----
   /// Return the surface at rest; null without a mesh. Its weights have one column per handle, in
@@ -61,7 +61,7 @@ public:
   bindpose::Pose pose() const;
   bool is_bound() const;
   /// Return the reason why the mesh's own weights are not used: one sentence, or empty.
-  QString unused_weights() const { return this->unused_weights_; }
+  QString unused_weights_reason() const { return this->unused_weights_reason_; }
   /// Return the reason why another bind is useful: one sentence, or empty.
   QString rebind_reason() const;
   QVariant option(const QString& key) const { return this->work_.options.value(key); }
@@ -106,11 +106,12 @@ public:
   void revert_handles();
   /// Return the dataset to which the first handles are added; commit_handles() makes them part of
   /// the work.
-  vtkPolyData* editable_handles() { return this->live_; }
+  vtkPolyData* editable_handles() { return this->edited_handles_; }
   void set_pose(const bindpose::Pose& pose, const QString& step, const QString& merge = {});
   void set_mode(int handle, int mode);
   void back_to_rest();
-  void set_key_poses(bindpose::PoseShelf poses, const QString& step, const QString& merge = {});
+  void set_stored_poses(
+    bindpose::StoredPoses poses, const QString& step, const QString& merge = {});
 
   // ---- Weights ----
   /// Record the current surface and handles as those of the bind that begins. The next set_bound()
@@ -137,7 +138,7 @@ public:
   /// Set an option that the program itself has chosen, without an undo step.
   void note_option(const QString& key, const QVariant& value);
   /// Prevent the next step from merging with the previous one.
-  void end_merge() { ++this->merges_; }
+  void end_merge() { ++this->merge_group_; }
 
   /// Replace the work and begin a new history.
   void replace(const Work& work);
@@ -152,30 +153,30 @@ Q_SIGNALS:
 
 private:
   /// States whether handle_data() already contains the changes of a step.
-  enum class Live
+  enum class HandleDataState
   {
-    to_be_written,
-    is_there
+    outdated,
+    up_to_date
   };
   void push(const QString& step, const Work& after, const QString& merge = {},
-    Live live = Live::to_be_written);
+    HandleDataState handle_state = HandleDataState::outdated);
   /// Apply an edit, its undo or its redo to the work.
-  void apply(const Work& before, const Work& after, Live live, bool in_history);
-  void become(const Work& work, Live live);
-  void arrange();
-  bindpose::Status take_live(Work& work);
+  void apply(const Work& before, const Work& after, HandleDataState handle_state, bool in_history);
+  void set_work(const Work& work, HandleDataState handle_state);
+  void update_columns();
+  bindpose::Status read_edited_handles(Work& work);
 
   Work work_;
   Work saved_;
   QUndoStack* history_;
-  vtkSmartPointer<vtkPolyData> live_; // the handles, edited in place
+  vtkSmartPointer<vtkPolyData> edited_handles_; // the handles, edited in place
   bindpose::Handles handles_; // live_ as handles of the kernels
   std::vector<bindpose::Index> cells_;
   // surface whose weights have one column per handle, in the order of the handles
   vtkSmartPointer<vtkPolyData> surface_;
   vtkSmartPointer<vtkUnstructuredGrid> tets_;
   BoundColumns columns_;
-  QString unused_weights_;
+  QString unused_weights_reason_;
   vtkSmartPointer<vtkPolyData> preview_;
   struct Binding
   {
@@ -184,7 +185,7 @@ private:
     bindpose::Handles handles;
   };
   Binding binding_;
-  int merges_ = 0;
+  int merge_group_ = 0;
   bool in_history_ = false; ///< true during undo or redo
 };
 

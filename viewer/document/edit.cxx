@@ -13,8 +13,8 @@ void Edit::undo()
 
 void Edit::redo()
 {
-  this->apply_(this->before_, this->after_, this->done_);
-  this->done_ = true;
+  this->apply_(this->before_, this->after_, this->was_applied_);
+  this->was_applied_ = true;
 }
 
 bool Edit::mergeWith(const QUndoCommand* next)

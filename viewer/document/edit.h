@@ -29,7 +29,7 @@ private:
   Work after_;
   QString merge_;
   Apply apply_;
-  bool done_ = false;
+  bool was_applied_ = false;
 };
 
 #endif

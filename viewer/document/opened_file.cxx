@@ -31,7 +31,7 @@ namespace
 {
 /// Silence an object's error and warning events, because readers and writers report by their
 /// status.
-void quiet(vtkObject* object)
+void silence_events(vtkObject* object)
 {
   vtkNew<vtkCallbackCommand> nothing;
   nothing->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
@@ -56,7 +56,7 @@ Status update(vtkBindposeAlgorithm* reader)
 template <typename Reader>
 Status read_with(Reader* reader, const std::string& path, const RunReader& run, OpenedFile& file)
 {
-  quiet(reader);
+  silence_events(reader);
   reader->SetFileName(path.c_str());
   Status status = run ? run(reader) : update(reader);
   if (status.ok())
@@ -131,10 +131,10 @@ Status read_file(const std::string& path, OpenedFile& file, const RunReader& run
 }
 
 Status make_shape(
-  vtkImageData* picture, bool whole, vtkSmartPointer<vtkPolyData>& shape, bool& cut_out)
+  vtkImageData* picture, bool whole, vtkSmartPointer<vtkPolyData>& shape, bool& is_cut_out)
 {
   vtkNew<vtkPlanarShape> planar;
-  quiet(planar);
+  silence_events(planar);
   planar->SetInputData(0, picture);
   planar->SetRectangle(whole);
   planar->Update();
@@ -143,14 +143,14 @@ Status make_shape(
     return Status::invalid_input(planar->GetStatusMessage());
   }
   shape = vtkPolyData::SafeDownCast(planar->GetOutput());
-  cut_out = read_report(shape).text("domain") == "alpha";
+  is_cut_out = read_report(shape).text("domain") == "alpha";
   return {};
 }
 
 Status write_shape(vtkPolyData* shape, const std::string& path)
 {
   vtkNew<vtkMeshFileWriter> writer;
-  quiet(writer);
+  silence_events(writer);
   writer->SetInputData(shape);
   writer->SetFileName(path.c_str());
   writer->OverwriteOn();
@@ -167,7 +167,7 @@ Status write_poses(const std::vector<Pose>& poses, const Handles& handles, const
   Status status = format_pose_file(poses, frames_per_second, handles, text);
   if (status.usable())
   {
-    const Status written = write_whole_file(path, text, true);
+    const Status written = write_file_atomically(path, text, true);
     if (!written.ok())
     {
       return written;

@@ -53,7 +53,7 @@ bindpose::Status read_file(
 /// image's alpha determines the shape. If the image is opaque or `whole` is true, the shape is the
 /// whole rectangle.
 bindpose::Status make_shape(
-  vtkImageData* picture, bool whole, vtkSmartPointer<vtkPolyData>& shape, bool& cut_out);
+  vtkImageData* picture, bool whole, vtkSmartPointer<vtkPolyData>& shape, bool& is_cut_out);
 
 /// Write the shape. An existing file is replaced, because the file dialog has asked for
 /// confirmation.

@@ -9,32 +9,34 @@
 
 namespace
 {
-constexpr double any = std::numeric_limits<double>::max();
-constexpr double columns = 1e6;
+constexpr double unlimited = std::numeric_limits<double>::max();
+constexpr double column_limit = 1e6;
 const QVariant z_axis = QVariantList{ 0.0, 0.0, 1.0 };
 
 /// Return a direction if it consists of three numbers with norm one; otherwise an invalid variant.
 /// The norm may deviate slightly, because users round the numbers.
 QVariant checked_direction(const QVariant& value)
 {
-  const QVariantList given = value.toList();
+  const QVariantList components = value.toList();
   QVariantList direction;
-  double square = 0.0;
-  for (const QVariant& each : given)
+  double squared_norm = 0.0;
+  for (const QVariant& component : components)
   {
     bool is_number = false;
-    const bool has_other_type = each.type() == QVariant::Bool || each.type() == QVariant::String;
-    const double number = has_other_type ? 0.0 : each.toDouble(&is_number);
+    const bool has_other_type =
+      component.type() == QVariant::Bool || component.type() == QVariant::String;
+    const double number = has_other_type ? 0.0 : component.toDouble(&is_number);
     if (!is_number)
     {
       return {};
     }
-    square += number * number;
+    squared_norm += number * number;
     direction << number;
   }
-  constexpr double least_digits = 1e-6;
-  return direction.size() == 3 && std::abs(square - 1.0) <= least_digits ? QVariant(direction)
-                                                                         : QVariant();
+  constexpr double norm_tolerance = 1e-6;
+  return direction.size() == 3 && std::abs(squared_norm - 1.0) <= norm_tolerance
+    ? QVariant(direction)
+    : QVariant();
 }
 
 /// Return the words of the weight methods, in the order of the registry.
@@ -56,7 +58,7 @@ std::vector<const char*> method_words(bool constrained)
 std::vector<OptionInfo> make_option_table()
 {
   std::vector<OptionInfo> table = {
-    { "bind.method", QT_TRANSLATE_NOOP("Document", "type of weights"), 0, 0, any,
+    { "bind.method", QT_TRANSLATE_NOOP("Document", "type of weights"), 0, 0, unlimited,
       method_words(true) },
     { "bind.domain", QT_TRANSLATE_NOOP("Document", "domain of weights"), 0, 0, 4,
       { "auto", "volume", "embedding", "cage", "surface" } },
@@ -92,9 +94,9 @@ std::vector<OptionInfo> make_option_table()
       { "x", "y", "z" } },
     { "motion.stiffness", QT_TRANSLATE_NOOP("Document", "stiffness"), 2.0, 0.0, 5.0 },
     { "motion.damping", QT_TRANSLATE_NOOP("Document", "damping"), 0.5, 0.0, 20.0 },
-    { "show.column", QT_TRANSLATE_NOOP("Document", "displayed weights"), 0, 0, columns },
+    { "show.column", QT_TRANSLATE_NOOP("Document", "displayed weights"), 0, 0, column_limit },
     { "show.outlines", QT_TRANSLATE_NOOP("Document", "outlines"), true },
-    { "weights.column", QT_TRANSLATE_NOOP("Document", "inspected handle"), 0, 0, columns },
+    { "weights.column", QT_TRANSLATE_NOOP("Document", "inspected handle"), 0, 0, column_limit },
     { "weights.bands", QT_TRANSLATE_NOOP("Document", "bands"), true },
     { "weights.isolines", QT_TRANSLATE_NOOP("Document", "isolines"), true },
     { "weights.extrema", QT_TRANSLATE_NOOP("Document", "extrema"), false },
@@ -102,8 +104,8 @@ std::vector<OptionInfo> make_option_table()
       { "weights", "row-sums", "difference" } },
     { "weights.raw", QT_TRANSLATE_NOOP("Document", "raw weights"), 0, 0, 1,
       { "normalized", "raw" } },
-    { "weights.compare_with", QT_TRANSLATE_NOOP("Document", "method to compare with"), 1, 0, any,
-      method_words(false) },
+    { "weights.compare_with", QT_TRANSLATE_NOOP("Document", "method to compare with"), 1, 0,
+      unlimited, method_words(false) },
     { "weights.slice", QT_TRANSLATE_NOOP("Document", "slice of weights"), false },
     { "weights.orientation", QT_TRANSLATE_NOOP("Document", "orientation of the slice of weights"),
       2, 0, 3, { "x", "y", "z", "free" } },
@@ -132,7 +134,8 @@ std::vector<OptionInfo> make_option_table()
     { "volume.place", QT_TRANSLATE_NOOP("Document", "move the slice"), 0.5, 0.0, 1.0 },
     { "volume.normal", QT_TRANSLATE_NOOP("Document", "turn the slice"), z_axis },
     { "volume.isosurface", QT_TRANSLATE_NOOP("Document", "isosurface"), false },
-    { "volume.level", QT_TRANSLATE_NOOP("Document", "level of the isosurface"), 0.5, -any, any },
+    { "volume.level", QT_TRANSLATE_NOOP("Document", "level of the isosurface"), 0.5, -unlimited,
+      unlimited },
     { "volume.cloud", QT_TRANSLATE_NOOP("Document", "cloud"), false },
     { "volume.surface_look", QT_TRANSLATE_NOOP("Document", "surface style"), 1, 0, 3,
       { "solid", "see-through", "edges", "hidden" } },

@@ -12,7 +12,7 @@ const char* const key = "recent_files";
 
 QStringList RecentFiles::list()
 {
-  return user_settings()->value(key).toStringList().mid(0, most);
+  return user_settings()->value(key).toStringList().mid(0, maximum_count);
 }
 
 void RecentFiles::add(const QString& path)
@@ -21,7 +21,7 @@ void RecentFiles::add(const QString& path)
   QStringList paths = list();
   paths.removeAll(absolute);
   paths.prepend(absolute);
-  user_settings()->setValue(key, QStringList(paths.mid(0, most)));
+  user_settings()->setValue(key, QStringList(paths.mid(0, maximum_count)));
 }
 
 void RecentFiles::clear()

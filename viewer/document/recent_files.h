@@ -8,7 +8,7 @@
 class RecentFiles
 {
 public:
-  static constexpr int most = 10;
+  static constexpr int maximum_count = 10;
 
   static QStringList list();
   static void add(const QString& path);

@@ -35,7 +35,7 @@ using nlohmann::json;
 
 namespace
 {
-constexpr qint64 largest_session = 256LL << 20;
+constexpr qint64 maximum_session_bytes = 256LL << 20;
 constexpr int hash_digits = 12;
 
 // ---- Writing -----------------------------------------------------------------------------------
@@ -61,22 +61,23 @@ QString companion_stem(const QString& session)
 
 /// Remove companions that only the last saved session used, and unfinished files of killed
 /// processes.
-void remove_stale_companions(const QString& session, const QStringList& named)
+void remove_stale_companions(const QString& session, const QStringList& referenced_names)
 {
   QDir folder(QFileInfo(session).absolutePath());
   const QString stem = QRegularExpression::escape(companion_stem(session));
   const auto anchored = [](const QString& pattern)
   { return QRegularExpression(QRegularExpression::anchoredPattern(pattern)); };
-  const QRegularExpression ours = anchored(stem +
+  const QRegularExpression companion_pattern = anchored(stem +
     QString("(surface-[0-9a-f]{%1}\\.vtp|tets-[0-9a-f]{%1}\\.vtu|volume-[0-9a-f]{%1}\\.vti)")
       .arg(hash_digits));
-  const QRegularExpression half =
+  const QRegularExpression unfinished =
     anchored(stem + R"(((surface|tets|volume)\.)?part-(\d+)-\d+\.(vtp|vtu|vti|bindpose))");
   for (const QString& name : folder.entryList(QDir::Files))
   {
-    const auto left = half.match(name);
-    const bool is_dead = left.hasMatch() && ::kill(left.captured(3).toInt(), 0) != 0;
-    if (is_dead || (ours.match(name).hasMatch() && !named.contains(name)))
+    const auto left = unfinished.match(name);
+    const bool is_orphaned = left.hasMatch() && ::kill(left.captured(3).toInt(), 0) != 0;
+    if (is_orphaned ||
+      (companion_pattern.match(name).hasMatch() && !referenced_names.contains(name)))
     {
       folder.remove(name);
     }
@@ -107,7 +108,7 @@ vtkSmartPointer<vtkDataSet> read_xml(const QString& path)
   return reader->GetOutput();
 }
 
-std::array<double, 3> triple(const json& value, const char* what)
+std::array<double, 3> read_triple(const json& value, const char* what)
 {
   std::array<double, 3> result{};
   if (!value.is_array() || value.size() != 3)
@@ -129,9 +130,10 @@ SessionView view_from_json(const json& value)
   if (!camera.is_null())
   {
     view.camera.emplace();
-    view.camera->position = triple(json_at(camera, "position"), "the camera's position");
-    view.camera->focal_point = triple(json_at(camera, "focal_point"), "the camera's focal point");
-    view.camera->up = triple(json_at(camera, "up"), "the camera's up direction");
+    view.camera->position = read_triple(json_at(camera, "position"), "the camera's position");
+    view.camera->focal_point =
+      read_triple(json_at(camera, "focal_point"), "the camera's focal point");
+    view.camera->up = read_triple(json_at(camera, "up"), "the camera's up direction");
     view.camera->angle = json_number(json_at(camera, "angle"), "the camera's angle");
     view.camera->scale = json_number(json_at(camera, "scale"), "the camera's scale");
     const json& parallel = json_at(camera, "parallel");
@@ -160,8 +162,8 @@ public:
     Work& work = session.work;
     this->read_handles(work);
     work.options = options_from_json(json_at(this->text_, "options"));
-    work.key_poses =
-      std::make_shared<const PoseShelf>(key_poses_from_json(json_at(this->text_, "poses")));
+    work.stored_poses =
+      std::make_shared<const StoredPoses>(stored_poses_from_json(json_at(this->text_, "poses")));
     session.view = view_from_json(json_at(this->text_, "view"));
     const json& inputs = json_at(this->text_, "inputs");
     const json& companions = json_at(this->text_, "companions");
@@ -177,7 +179,7 @@ public:
     const QString name =
       QString::fromStdString(json_text(json_at(this->text_, "name"), "the session name"));
     this->read_mesh(inputs, companions, name, session);
-    this->read_others(inputs, companions, session);
+    this->read_other_inputs(inputs, companions, session);
   }
 
 private:
@@ -203,9 +205,9 @@ private:
         throw SessionError("the pose has " + std::to_string(pose.size()) + " entries; expected " +
           std::to_string(list.size()) + ", one per handle");
       }
-      for (const json& of_handle : pose)
+      for (const json& handle_pose : pose)
       {
-        work.pose.push_back(pose_from_json(of_handle));
+        work.pose.push_back(pose_from_json(handle_pose));
       }
     }
     const json& bound = json_at(this->text_, "bound_handles");
@@ -236,7 +238,8 @@ private:
 
   /// Read and return a companion. If it is missing or has changed, return null and set `lost`.
   template <typename Reader>
-  vtkSmartPointer<vtkDataSet> companion(const json& companions, const char* role, bool& lost) const
+  vtkSmartPointer<vtkDataSet> companion(
+    const json& companions, const char* role, bool& is_damaged) const
   {
     if (!companions.contains(role))
     {
@@ -245,7 +248,7 @@ private:
     const Source file = this->source(companions[role]);
     if (file.checksum.isEmpty() || checksum_of(file.path) != file.checksum)
     {
-      lost = true;
+      is_damaged = true;
       return nullptr;
     }
     return read_xml<Reader>(file.path);
@@ -256,9 +259,9 @@ private:
   {
     Work& work = session.work;
     const auto bound_handles = work.bound_handles;
-    bool lost = false;
-    const auto surface = this->companion<vtkXMLPolyDataReader>(companions, "surface", lost);
-    const auto tets = this->companion<vtkXMLUnstructuredGridReader>(companions, "tets", lost);
+    bool is_damaged = false;
+    const auto surface = this->companion<vtkXMLPolyDataReader>(companions, "surface", is_damaged);
+    const auto tets = this->companion<vtkXMLUnstructuredGridReader>(companions, "tets", is_damaged);
     const bool has_input = inputs.contains("mesh");
     const Source source = has_input ? this->source(inputs["mesh"]) : Source();
     const QByteArray now = has_input ? checksum_of(source.path) : QByteArray();
@@ -270,7 +273,7 @@ private:
       {
         throw SessionError("the surface is not valid: " + status.message);
       }
-      work.made_here = true;
+      work.differs_from_file = true;
       work.weighted_tets = vtkUnstructuredGrid::SafeDownCast(tets);
       if (has_input && now != source.checksum)
       {
@@ -288,7 +291,7 @@ private:
         use_mesh(opened.data, name, Source{ source.path, now }, work).ok();
       if (!read)
       {
-        session.lost.push_back({ "mesh", source.path, source.checksum });
+        session.missing_inputs.push_back({ "mesh", source.path, source.checksum });
         session.notes << (now.isEmpty()
             ? tr("%1 is missing; the session was opened without it.")
             : tr("%1 cannot be read; the session was opened without it."))
@@ -299,7 +302,7 @@ private:
         session.notes << tr("%1 has changed since the session was saved.").arg(file);
       }
     }
-    if (lost)
+    if (is_damaged)
     {
       session.notes << tr(
         "A file with results next to the session file is missing or damaged: bind again.");
@@ -307,35 +310,35 @@ private:
     // Use the stored handles of the bind instead of those that use_mesh() has set; they are correct
     // for any surface.
     work.bound_handles = bound_handles;
-    if (!surface && lost)
+    if (!surface && is_damaged)
     {
       work.bound_handles = nullptr;
     }
   }
 
-  void read_others(const json& inputs, const json& companions, Session& session) const
+  void read_other_inputs(const json& inputs, const json& companions, Session& session) const
   {
     Work& work = session.work;
-    bool lost = false;
+    bool is_damaged = false;
     work.volume = vtkImageData::SafeDownCast(
-      this->companion<vtkXMLImageDataReader>(companions, "volume", lost));
+      this->companion<vtkXMLImageDataReader>(companions, "volume", is_damaged));
     if (work.volume && !check_volume(work.volume, "WindingNumber").ok())
     {
       work.volume = nullptr;
-      lost = true;
+      is_damaged = true;
     }
     if (work.volume)
     {
       work.volume_name = tr("winding numbers");
     }
-    if (lost)
+    if (is_damaged)
     {
       session.notes << tr(
         "The volume file next to the session file is missing or damaged: compute it again.");
     }
-    const auto lose = [&](const char* role, const Source& source)
+    const auto add_missing_input = [&](const char* role, const Source& source)
     {
-      session.lost.push_back({ role, source.path, source.checksum });
+      session.missing_inputs.push_back({ role, source.path, source.checksum });
       session.notes << tr("%1 is missing; the session was opened without it.")
                          .arg(QFileInfo(source.path).fileName());
     };
@@ -350,7 +353,7 @@ private:
       if (!read_picture(work.picture_source.path.toStdString(), work.picture).ok())
       {
         work.picture = nullptr;
-        lose("picture", work.picture_source);
+        add_missing_input("picture", work.picture_source);
       }
     }
     for (const char* role : { "volume", "curves" })
@@ -366,7 +369,7 @@ private:
         opened.kind == (is_volume ? OpenedFile::Kind::volume : OpenedFile::Kind::curves);
       if (!read)
       {
-        lose(role, source);
+        add_missing_input(role, source);
       }
       else if (is_volume)
       {
@@ -399,10 +402,11 @@ Status SessionFile::write_companion(
   }
   const bool is_tets = role == "tets";
   const bool is_volume = role == "volume";
-  const QString ending = is_tets ? "vtu" : is_volume ? "vti" : "vtp";
+  const QString extension = is_tets ? "vtu" : is_volume ? "vti" : "vtp";
   AtomicFile file;
-  const QString unnamed = folder.filePath(companion_stem(session) + role + '.' + ending);
-  Status status = file.open(unnamed.toStdString(), true);
+  const QString path_without_hash =
+    folder.filePath(companion_stem(session) + role + '.' + extension);
+  Status status = file.open(path_without_hash.toStdString(), true);
   if (!status.ok())
   {
     return status;
@@ -412,7 +416,7 @@ Status SessionFile::write_companion(
   if (!view)
   {
     return Status::invalid_input(
-      "cannot write " + unnamed.toStdString() + ": expected a surface, tets or a volume");
+      "cannot write " + path_without_hash.toStdString() + ": expected a surface, tets or a volume");
   }
   const bool written = is_tets ? write_xml<vtkXMLUnstructuredGridWriter>(view, file.temporary())
     : is_volume                ? write_xml<vtkXMLImageDataWriter>(view, file.temporary())
@@ -421,11 +425,12 @@ Status SessionFile::write_companion(
   const QByteArray checksum = written ? checksum_of(temporary) : QByteArray();
   if (checksum.isEmpty())
   {
-    return Status::invalid_input("cannot write " + unnamed.toStdString() + ": the disk is full");
+    return Status::invalid_input(
+      "cannot write " + path_without_hash.toStdString() + ": the disk is full");
   }
-  const QString name =
-    QString("%1%2-%3.%4")
-      .arg(companion_stem(session), role, QString::fromLatin1(checksum.left(hash_digits)), ending);
+  const QString name = QString("%1%2-%3.%4")
+                         .arg(companion_stem(session), role,
+                           QString::fromLatin1(checksum.left(hash_digits)), extension);
   if (!folder.exists(name) || checksum_of(folder.filePath(name)) != checksum)
   {
     status = file.commit_synced_as(folder.filePath(name).toStdString());
@@ -466,7 +471,7 @@ std::shared_ptr<const SessionFile::Prepared> SessionFile::prepare(
       inputs[role] = source_to_json(*source, folder);
     }
   }
-  if (work.surface && work.made_here)
+  if (work.surface && work.differs_from_file)
   {
     prepared->surface = work.surface;
     prepared->tets = work.weighted_tets;
@@ -480,11 +485,11 @@ std::shared_ptr<const SessionFile::Prepared> SessionFile::prepare(
     : work.bound_handles == work.handles      ? json("handles")
                                               : handles_to_json(work.bound_handles);
   json& pose = text["pose"] = json::array();
-  for (const HandlePose& of_handle : work.pose)
+  for (const HandlePose& handle_pose : work.pose)
   {
-    pose.push_back(pose_to_json(of_handle));
+    pose.push_back(pose_to_json(handle_pose));
   }
-  text["poses"] = work.key_poses ? key_poses_to_json(*work.key_poses) : json::object();
+  text["poses"] = work.stored_poses ? stored_poses_to_json(*work.stored_poses) : json::object();
   text["options"] = options_to_json(work.options);
   text["view"] = { { "panel", session.view.panel },
     { "camera", session.view.camera ? camera_to_json(*session.view.camera) : json() } };
@@ -504,13 +509,13 @@ Status SessionFile::write(const Prepared& prepared)
 {
   json text = prepared.text;
   json& companions = text["companions"] = json::object();
-  QStringList named;
+  QStringList referenced_names;
   const auto add = [&](const char* role, vtkDataSet* data, Companion& companion)
   {
     Status status = this->write_companion(prepared.path, role, data, companion);
     if (status.ok())
     {
-      named << companion.name;
+      referenced_names << companion.name;
       companions[role] = { { "path", companion.name.toStdString() },
         { "sha256", companion.checksum.toStdString() } };
     }
@@ -547,7 +552,7 @@ Status SessionFile::write(const Prepared& prepared)
   }
   if (status.ok())
   {
-    remove_stale_companions(prepared.path, named);
+    remove_stale_companions(prepared.path, referenced_names);
   }
   return status;
 }
@@ -562,7 +567,7 @@ Status read_session(const QString& path, Session& session)
   {
     return broken("the file does not exist or is not readable");
   }
-  if (file.size() > largest_session)
+  if (file.size() > maximum_session_bytes)
   {
     return broken("the file is too large for a session");
   }

@@ -25,7 +25,7 @@ struct SessionView
 };
 
 /// An input file of a session that is missing or cannot be read.
-struct LostInput
+struct MissingInput
 {
   QString role; ///< role of the input: "mesh", "handles", "picture", "volume" or "curves"
   QString path; ///< the path at which the file was expected
@@ -37,7 +37,7 @@ struct Session
   Work work;
   SessionView view;
   QString saved_as; ///< for recovered work: the session file that an earlier state was saved to
-  std::vector<LostInput> lost; ///< missing inputs for which no stored copy exists
+  std::vector<MissingInput> missing_inputs; ///< missing inputs for which no stored copy exists
   QStringList notes; ///< messages about missing or changed files
 };
 
@@ -82,7 +82,7 @@ private:
 /// errors; Session lists them.
 bindpose::Status read_session(const QString& path, Session& session);
 
-constexpr const char* session_ending = "bindpose";
+constexpr const char* session_extension = "bindpose";
 constexpr int session_schema = 1;
 
 #endif

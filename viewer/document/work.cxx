@@ -16,19 +16,19 @@ bool same_source(const Source& a, const Source& b)
 }
 
 template <typename Part>
-void take(const Part& before, const Part& after, Part& now)
+void apply_change(const Part& before, const Part& after, Part& current)
 {
   if (!(before == after))
   {
-    now = after;
+    current = after;
   }
 }
 
-void take(const Source& before, const Source& after, Source& now)
+void apply_change(const Source& before, const Source& after, Source& current)
 {
   if (!same_source(before, after))
   {
-    now = after;
+    current = after;
   }
 }
 
@@ -52,11 +52,11 @@ bool same_cells(vtkCellArray* a, vtkCellArray* b)
 
 /// Report whether a handle array contains only looks (layer, color, lock) or a pose, so that it
 /// affects no bind.
-bool is_look(const char* array)
+bool is_appearance_array(const char* array)
 {
-  static const char* const looks[] = { "Layer", "Color", "Locked", "Transform", "Mode", "Stretch",
-    "Twist" };
-  return std::any_of(std::begin(looks), std::end(looks),
+  static const char* const appearance_arrays[] = { "Layer", "Color", "Locked", "Transform", "Mode",
+    "Stretch", "Twist" };
+  return std::any_of(std::begin(appearance_arrays), std::end(appearance_arrays),
     [array](const char* look) { return std::string(look) == array; });
 }
 
@@ -68,7 +68,7 @@ bool has_arrays_of(vtkPolyData* a, vtkPolyData* b)
   {
     const char* name = arrays->GetArrayName(k);
     if (!name ||
-      (!is_look(name) &&
+      (!is_appearance_array(name) &&
         !same_values(a->GetCellData()->GetAbstractArray(name), arrays->GetAbstractArray(k))))
     {
       return false;
@@ -78,7 +78,7 @@ bool has_arrays_of(vtkPolyData* a, vtkPolyData* b)
 }
 
 /// Report whether handles differ only in their looks.
-bool only_look_different(vtkPolyData* a, vtkPolyData* b)
+bool differ_only_in_looks(vtkPolyData* a, vtkPolyData* b)
 {
   return a && b && a->GetPoints() && b->GetPoints() &&
     same_values(a->GetPoints()->GetData(), b->GetPoints()->GetData()) &&
@@ -115,33 +115,33 @@ int differences(const Work& a, const Work& b)
   const bool weights = a.surface == b.surface && a.weighted_tets == b.weighted_tets &&
     a.bound_handles == b.bound_handles;
   return (mesh ? 0 : mesh_part) | (weights ? 0 : weights_part) |
-    (a.handles == b.handles                         ? 0
-        : only_look_different(a.handles, b.handles) ? handle_looks_part
-                                                    : handles_part) |
+    (a.handles == b.handles                          ? 0
+        : differ_only_in_looks(a.handles, b.handles) ? handle_looks_part
+                                                     : handles_part) |
     (same_pose(a.pose, b.pose) ? 0 : pose_part) |
-    (a.key_poses == b.key_poses ? 0 : key_poses_part) |
+    (a.stored_poses == b.stored_poses ? 0 : stored_poses_part) |
     (a.options == b.options ? 0 : options_part) | (a.volume == b.volume ? 0 : volume_part) |
     (a.curves == b.curves ? 0 : curves_part) | (same_sources ? 0 : sources_part);
 }
 
 void apply_edit(const Work& before, const Work& after, Work& work)
 {
-  take(before.name, after.name, work.name);
-  take(before.surface, after.surface, work.surface);
-  take(before.made_here, after.made_here, work.made_here);
-  take(before.mesh_tets, after.mesh_tets, work.mesh_tets);
-  take(before.weighted_tets, after.weighted_tets, work.weighted_tets);
-  take(before.handles, after.handles, work.handles);
-  take(before.bound_handles, after.bound_handles, work.bound_handles);
+  apply_change(before.name, after.name, work.name);
+  apply_change(before.surface, after.surface, work.surface);
+  apply_change(before.differs_from_file, after.differs_from_file, work.differs_from_file);
+  apply_change(before.mesh_tets, after.mesh_tets, work.mesh_tets);
+  apply_change(before.weighted_tets, after.weighted_tets, work.weighted_tets);
+  apply_change(before.handles, after.handles, work.handles);
+  apply_change(before.bound_handles, after.bound_handles, work.bound_handles);
   if (!same_pose(before.pose, after.pose))
   {
     work.pose = after.pose;
   }
-  take(before.key_poses, after.key_poses, work.key_poses);
-  take(before.picture, after.picture, work.picture);
-  take(before.volume, after.volume, work.volume);
-  take(before.volume_name, after.volume_name, work.volume_name);
-  take(before.curves, after.curves, work.curves);
+  apply_change(before.stored_poses, after.stored_poses, work.stored_poses);
+  apply_change(before.picture, after.picture, work.picture);
+  apply_change(before.volume, after.volume, work.volume);
+  apply_change(before.volume_name, after.volume_name, work.volume_name);
+  apply_change(before.curves, after.curves, work.curves);
   for (auto option = after.options.begin(); option != after.options.end(); ++option)
   {
     if (before.options.value(option.key()) != option.value())
@@ -149,9 +149,9 @@ void apply_edit(const Work& before, const Work& after, Work& work)
       work.options[option.key()] = option.value();
     }
   }
-  take(before.mesh_source, after.mesh_source, work.mesh_source);
-  take(before.handle_source, after.handle_source, work.handle_source);
-  take(before.picture_source, after.picture_source, work.picture_source);
-  take(before.volume_source, after.volume_source, work.volume_source);
-  take(before.curve_source, after.curve_source, work.curve_source);
+  apply_change(before.mesh_source, after.mesh_source, work.mesh_source);
+  apply_change(before.handle_source, after.handle_source, work.handle_source);
+  apply_change(before.picture_source, after.picture_source, work.picture_source);
+  apply_change(before.volume_source, after.volume_source, work.volume_source);
+  apply_change(before.curve_source, after.curve_source, work.curve_source);
 }

@@ -32,7 +32,7 @@ struct Work
 {
   QString name; ///< name of the mesh, for the window title
   vtkSmartPointer<vtkPolyData> surface; ///< surface at rest; the array Weights is optional
-  bool made_here = true; ///< true if the surface or its weights differ from the mesh's file
+  bool differs_from_file = true; ///< true if the surface or its weights differ from the mesh's file
   /// The tets whose boundary is the surface; or null.
   vtkSmartPointer<vtkUnstructuredGrid> mesh_tets;
   /// The tets on which the weights were solved; or null.
@@ -41,7 +41,7 @@ struct Work
   /// The handles for which the weights were computed, one per column; null before a bind.
   vtkSmartPointer<vtkPolyData> bound_handles;
   bindpose::Pose pose; ///< current pose, one entry per handle
-  std::shared_ptr<const bindpose::PoseShelf> key_poses;
+  std::shared_ptr<const bindpose::StoredPoses> stored_poses;
   /// The image from which the surface was cut out; or null.
   vtkSmartPointer<vtkImageData> picture;
   vtkSmartPointer<vtkImageData> volume;
@@ -58,7 +58,7 @@ enum WorkPart : int
   weights_part = 2, ///< the weights of the surface, with their tets and handles
   handles_part = 4, ///< the handles at rest
   pose_part = 8,
-  key_poses_part = 16,
+  stored_poses_part = 16,
   options_part = 32,
   volume_part = 64,
   curves_part = 128,

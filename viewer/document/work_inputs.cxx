@@ -19,7 +19,7 @@ using namespace bindpose;
 namespace
 {
 /// Return the surface of a mesh. For tets it is their boundary, with the weights of the tets.
-vtkSmartPointer<vtkPolyData> skin_of(vtkDataSet* mesh)
+vtkSmartPointer<vtkPolyData> surface_of(vtkDataSet* mesh)
 {
   auto result = vtkSmartPointer<vtkPolyData>::New();
   if (auto* surface = vtkPolyData::SafeDownCast(mesh))
@@ -48,7 +48,7 @@ Handles handles_of(vtkPolyData* data)
 void adopt_weights(Work& work)
 {
   if (!work.bound_handles && work.handles && weights_of(work.surface) &&
-    weights_are_of(weights_of(work.surface), handles_of(work.handles)))
+    weights_fit(weights_of(work.surface), handles_of(work.handles)))
   {
     work.bound_handles = work.handles;
   }
@@ -64,7 +64,7 @@ Status use_mesh(vtkDataSet* mesh, const QString& name, const Source& source, Wor
 {
   SurfaceInput surface;
   const vtkSmartPointer<vtkPolyData> skin =
-    vtkPointSet::SafeDownCast(mesh) ? skin_of(mesh) : nullptr;
+    vtkPointSet::SafeDownCast(mesh) ? surface_of(mesh) : nullptr;
   Status status = to_surface(skin ? skin.Get() : mesh, surface);
   if (!status.ok())
   {
@@ -77,7 +77,7 @@ Status use_mesh(vtkDataSet* mesh, const QString& name, const Source& source, Wor
   work.surface = skin;
   work.mesh_tets = has_tets ? grid : nullptr;
   work.weighted_tets = work.mesh_tets;
-  work.made_here = source.path.isEmpty();
+  work.differs_from_file = source.path.isEmpty();
   work.picture = nullptr;
   work.mesh_source = source;
   work.picture_source = Source();
@@ -145,7 +145,7 @@ Status use_weights(const Weights& weights, const QString& name, Work& work)
   work.surface = surface;
   work.weighted_tets = nullptr;
   work.bound_handles = work.handles;
-  work.made_here = true;
+  work.differs_from_file = true;
   return {};
 }
 

@@ -52,9 +52,9 @@ double text_width(const std::string& text, int font_size)
 // between the widths of letters average out.
 double words_width(const std::string& text, int font_size)
 {
-  constexpr std::size_t many = 8;
-  return text.size() > many ? 0.54 * font_size * static_cast<double>(text.size())
-                            : text_width(text, font_size);
+  constexpr std::size_t long_text_size = 8;
+  return text.size() > long_text_size ? 0.54 * font_size * static_cast<double>(text.size())
+                                      : text_width(text, font_size);
 }
 
 int bar_width(int font_size)
@@ -101,7 +101,7 @@ private:
 } // namespace
 
 void add_text(vtkRenderer* renderer, const std::string& text, double x, double y, int size,
-  TextAlign align, bool bold, const Rgb& ink)
+  TextAlign align, bool bold, const Rgb& text_color)
 {
   if (text.empty())
   {
@@ -113,7 +113,7 @@ void add_text(vtkRenderer* renderer, const std::string& text, double x, double y
   property->SetFontFamilyToArial();
   property->SetFontSize(size);
   property->SetBold(bold);
-  property->SetColor(ink[0], ink[1], ink[2]);
+  property->SetColor(text_color[0], text_color[1], text_color[2]);
   property->SetVerticalJustificationToCentered();
   property->SetJustification(align == TextAlign::left ? VTK_TEXT_LEFT
       : align == TextAlign::center                    ? VTK_TEXT_CENTERED
@@ -135,7 +135,7 @@ int legend_width(const ColorMap& map, const std::string& name, int font_size)
 }
 
 void add_legend(vtkRenderer* renderer, const ColorMap& map, const std::string& name,
-  const PixelBox& box, int font_size, const Rgb& ink)
+  const PixelBox& box, int font_size, const Rgb& text_color)
 {
   const double name_height = 2.0 * font_size;
   // half the height of a tick's text extends below the bar
@@ -145,13 +145,13 @@ void add_legend(vtkRenderer* renderer, const ColorMap& map, const std::string& n
   const double right = box.x + bar_width(font_size);
   const double line = std::max(1.0, std::round(font_size / 14.0));
   add_text(renderer, name, left, box.y + box.height - 0.5 * font_size, font_size, TextAlign::left,
-    true, ink);
+    true, text_color);
   if (map.ticks.empty())
   {
     return; // without ticks only the name is drawn
   }
   FlatShapes shapes;
-  shapes.add_box(left - line, bottom - line, right + line, top + line, ink);
+  shapes.add_box(left - line, bottom - line, right + line, top + line, text_color);
   const int count = static_cast<int>(map.table->GetNumberOfTableValues());
   for (int i = 0; i < count; ++i)
   {
@@ -159,17 +159,17 @@ void add_legend(vtkRenderer* renderer, const ColorMap& map, const std::string& n
     double rgba[4];
     map.table->GetTableValue(i, rgba);
     std::copy_n(rgba, 3, color.begin());
-    const int place = map.downwards ? count - 1 - i : i;
-    shapes.add_box(left, bottom + (top - bottom) * place / count, right,
-      bottom + (top - bottom) * (place + 1) / count, color);
+    const int row = map.first_at_top ? count - 1 - i : i;
+    shapes.add_box(left, bottom + (top - bottom) * row / count, right,
+      bottom + (top - bottom) * (row + 1) / count, color);
   }
   for (std::size_t i = 0; i < map.ticks.size(); ++i)
   {
-    const double tick = map.downwards ? map.lower + map.upper - map.ticks[i] : map.ticks[i];
+    const double tick = map.first_at_top ? map.lower + map.upper - map.ticks[i] : map.ticks[i];
     const double y = bottom + (top - bottom) * (tick - map.lower) / (map.upper - map.lower);
-    shapes.add_box(right, y - 0.5 * line, right + 0.3 * font_size, y + 0.5 * line, ink);
+    shapes.add_box(right, y - 0.5 * line, right + 0.3 * font_size, y + 0.5 * line, text_color);
     add_text(renderer, tick_text(map, i), right + 0.6 * font_size, y, font_size, TextAlign::left,
-      false, ink);
+      false, text_color);
   }
   shapes.add_to(renderer);
 }

@@ -27,12 +27,12 @@ enum class TextAlign
 /// text, as `align` states. Vertically, `y` is the middle of the text.
 /// @param size  font size in pixels
 void add_text(vtkRenderer* renderer, const std::string& text, double x, double y, int size,
-  TextAlign align, bool bold = false, const Rgb& ink = palette::text);
+  TextAlign align, bool bold = false, const Rgb& text_color = palette::text);
 
 /// Add a legend that fills the box: a vertical bar with the map's colors, the ticks on its right,
 /// and the name above it. If the map has no ticks, only the name is drawn.
 void add_legend(vtkRenderer* renderer, const ColorMap& map, const std::string& name,
-  const PixelBox& box, int font_size, const Rgb& ink = palette::text);
+  const PixelBox& box, int font_size, const Rgb& text_color = palette::text);
 
 /// Return the width in pixels that add_legend needs.
 int legend_width(const ColorMap& map, const std::string& name, int font_size);

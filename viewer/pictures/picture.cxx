@@ -52,15 +52,15 @@ struct Layout
 
 Status check_options(const std::vector<Tile>& tiles, const PictureOptions& options)
 {
-  const auto in = [](double value, double lower, double upper)
+  const auto in_range = [](double value, double lower, double upper)
   { return value >= lower && value <= upper; };
-  if (!in(options.width, 16, 8192) || !in(options.height, 16, 8192))
+  if (!in_range(options.width, 16, 8192) || !in_range(options.height, 16, 8192))
   {
     return Status::invalid_input(
       "the width and height of a picture must be from 16 to 8192 pixels, got " +
       std::to_string(options.width) + " x " + std::to_string(options.height));
   }
-  if (!in(options.scale, 1, largest_scale_factor))
+  if (!in_range(options.scale, 1, largest_scale_factor))
   {
     return Status::invalid_input("the scale factor of a picture must be from 1 to " +
       std::to_string(largest_scale_factor) + ", got " + std::to_string(options.scale));
@@ -71,11 +71,11 @@ Status check_options(const std::vector<Tile>& tiles, const PictureOptions& optio
   {
     return size;
   }
-  if (!in(options.supersampling, 1, 4))
+  if (!in_range(options.supersampling, 1, 4))
   {
     return Status::invalid_input("supersampling must be from 1 to 4");
   }
-  if (!in(options.section, 0.0, 1.0))
+  if (!in_range(options.section, 0.0, 1.0))
   {
     return Status::invalid_input("the section must be between 0 and 1");
   }
@@ -90,7 +90,7 @@ Status check_options(const std::vector<Tile>& tiles, const PictureOptions& optio
   {
     return Status::invalid_input("the size of shrunk tets must be above 0 and at most 1");
   }
-  if (!in(options.view.zoom, 1e-3, 1e3))
+  if (!in_range(options.view.zoom, 1e-3, 1e3))
   {
     return Status::invalid_input("the zoom must be between 0.001 and 1000");
   }
@@ -180,12 +180,12 @@ Status check_tets(const std::vector<Tile>& tiles, const PictureOptions& options)
 std::vector<Category> all_defects(const std::vector<Tile>& tiles, bool& any)
 {
   std::vector<Category> categories = defect_categories();
-  std::vector<vtkDataSet*> seen;
+  std::vector<vtkDataSet*> counted;
   const auto add = [&](vtkDataSet* data)
   {
-    if (is_defect_data(data) && std::find(seen.begin(), seen.end(), data) == seen.end())
+    if (is_defect_data(data) && std::find(counted.begin(), counted.end(), data) == counted.end())
     {
-      seen.push_back(data);
+      counted.push_back(data);
       count_defects(vtkPolyData::SafeDownCast(data), categories);
     }
   };
@@ -199,7 +199,7 @@ std::vector<Category> all_defects(const std::vector<Tile>& tiles, bool& any)
       add(data);
     }
   }
-  any = any || !seen.empty();
+  any = any || !counted.empty();
   return categories;
 }
 
@@ -208,7 +208,7 @@ std::vector<Category> all_defects(const std::vector<Tile>& tiles, bool& any)
 Status check_volumes(
   const std::vector<Tile>& tiles, const PictureOptions& options, const Coloring& coloring)
 {
-  if (coloring.minus && !options.isosurfaces.empty())
+  if (coloring.subtracted_data && !options.isosurfaces.empty())
   {
     return Status::invalid_input("a difference cannot be shown by isosurfaces; use a slice");
   }
@@ -250,7 +250,7 @@ Status check_volumes(
   return result;
 }
 
-bool sorts_by_depth(const std::vector<Tile>& tiles, const PictureOptions& options)
+bool needs_depth_sort(const std::vector<Tile>& tiles, const PictureOptions& options)
 {
   return options.isosurfaces.size() > 1 ||
     std::any_of(tiles.begin(), tiles.end(),
@@ -276,7 +276,7 @@ int choose_columns(int count, double width, double height, double shape_aspect)
 }
 
 // Largest fraction of the picture's height that lists of names may occupy.
-constexpr double list_share = 0.94;
+constexpr double maximum_list_fraction = 0.94;
 
 // Return the map that a legend shows: the whole map as a bar, or one field per isosurface level.
 ColorMap make_legend_map(const PictureOptions& options, const ColorMap& map)
@@ -296,10 +296,10 @@ int place_legends(std::vector<Legend>& legends, int width, int top, Layout& layo
   const int margin = layout.font;
   for (Legend& legend : legends)
   {
-    if (legend.map.downwards)
+    if (legend.map.first_at_top)
     {
-      legend.map = shortened(
-        legend.map, static_cast<int>(list_share * top / legends.size() / (1.25 * margin)) - 3);
+      legend.map = shorten_legend(legend.map,
+        static_cast<int>(maximum_list_fraction * top / legends.size() / (1.25 * margin)) - 3);
     }
   }
   int right = width;
@@ -310,9 +310,10 @@ int place_legends(std::vector<Legend>& legends, int width, int top, Layout& layo
     box.width = legend_width(legend.map, legend.name, layout.font);
     // The height of a list of names follows from its texts.
     const double fields = legend.map.texts.empty() ? 17.5 : 1.7 * legend.map.texts.size();
-    const double share = legend.map.downwards ? list_share / legends.size()
-                                              : 0.62 / std::min<double>(legends.size(), 1.5);
-    box.height = static_cast<int>(std::min(share * top, (2.5 + fields) * layout.font));
+    const double height_fraction = legend.map.first_at_top
+      ? maximum_list_fraction / legends.size()
+      : 0.62 / std::min<double>(legends.size(), 1.5);
+    box.height = static_cast<int>(std::min(height_fraction * top, (2.5 + fields) * layout.font));
     height += box.height + (height > 0 ? 2 * margin : 0);
     right = std::min(right, width - margin - box.width - margin / 2);
     layout.legends.push_back(box);
@@ -434,20 +435,21 @@ Eigen::Vector2d PictureGeometry::project(std::size_t tile, const Vec3& point) co
   return (this->tiles.at(tile).world_to_pixel * point.homogeneous()).hnormalized().head<2>();
 }
 
-Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wanted,
+Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& requested,
   vtkSmartPointer<vtkImageData>& image, PictureGeometry* geometry)
 {
-  PictureOptions options = wanted;
+  PictureOptions options = requested;
   std::sort(options.isosurfaces.begin(), options.isosurfaces.end());
   options.isosurfaces.erase(
     std::unique(options.isosurfaces.begin(), options.isosurfaces.end()), options.isosurfaces.end());
-  std::vector<Tile> seen = tiles;
-  seen.insert(seen.end(), options.around.begin(), options.around.end());
-  Status status = tiles.empty() ? check_options(tiles, options) : check_options(seen, options);
+  std::vector<Tile> view_tiles = tiles;
+  view_tiles.insert(view_tiles.end(), options.undrawn_tiles.begin(), options.undrawn_tiles.end());
+  Status status =
+    tiles.empty() ? check_options(tiles, options) : check_options(view_tiles, options);
   Coloring coloring;
   if (status.ok())
   {
-    status = choose_coloring(seen, options, coloring);
+    status = choose_coloring(view_tiles, options, coloring);
   }
   if (status.ok() && (options.volume || !options.isosurfaces.empty()))
   {
@@ -458,10 +460,10 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
   {
     status = find_extrema(tiles, coloring, extrema);
   }
-  const Status useful = status.ok() ? check_tets(tiles, options) : Status();
-  if (!useful.ok())
+  const Status tets_status = status.ok() ? check_tets(tiles, options) : Status();
+  if (!tets_status.ok())
   {
-    return useful;
+    return tets_status;
   }
   if (!status.ok())
   {
@@ -472,7 +474,7 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
     return Status::failure(StatusCode::unavailable, no_display_message());
   }
 
-  const Points all = all_points(seen, options, coloring, nullptr);
+  const Points all = all_points(view_tiles, options, coloring, nullptr);
   if (all.rows() == 0)
   {
     return Status::invalid_input("the picture has no data to draw");
@@ -482,16 +484,16 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
     return Status::invalid_input("a coordinate is not finite");
   }
   const Frame frame = choose_frame(bounding_box(all), options.view.up);
-  const Points points = all_points(seen, options, coloring, &frame);
+  const Points points = all_points(view_tiles, options, coloring, &frame);
   const Vec3 size = bounding_box(points).size();
-  const int across = 3 - frame.up - frame.depth;
-  const double shape_aspect = std::clamp(
-    (size[across] + 1e-9 * size.norm() + 1e-300) / (size[frame.up] + 1e-9 * size.norm() + 1e-300),
+  const int horizontal_axis = 3 - frame.up - frame.depth;
+  const double shape_aspect = std::clamp((size[horizontal_axis] + 1e-9 * size.norm() + 1e-300) /
+      (size[frame.up] + 1e-9 * size.norm() + 1e-300),
     0.2, 5.0);
   std::vector<Legend> legends;
   // colors of clusters have no names, so they get no legend
-  const bool tells = !coloring.map.ticks.empty();
-  if (options.legend && coloring.kind != Coloring::Kind::none && tells)
+  const bool has_ticks = !coloring.map.ticks.empty();
+  if (options.legend && coloring.kind != Coloring::Kind::none && has_ticks)
   {
     legends.push_back({ make_legend_map(options, coloring.map), coloring.legend_name() });
   }
@@ -518,21 +520,21 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
   window->SetOffScreenRendering(1);
   window->SetAlphaBitPlanes(1);
   // The driver cannot sort see-through surfaces by depth with several samples per pixel.
-  window->SetMultiSamples(samples > 1 && !sorts_by_depth(tiles, options) ? 4 : 0);
+  window->SetMultiSamples(samples > 1 && !needs_depth_sort(tiles, options) ? 4 : 0);
   window->SetNumberOfLayers(3);
 
-  vtkNew<vtkRenderer> paper;
-  paper->SetLayer(0);
+  vtkNew<vtkRenderer> background_renderer;
+  background_renderer->SetLayer(0);
   const bool transparent = options.background == Background::transparent;
   const bool gradient = options.background == Background::gradient;
   const Rgb lower = gradient ? palette::gradient_bottom : palette::white;
-  paper->SetBackground(lower[0], lower[1], lower[2]);
-  paper->SetGradientBackground(gradient);
-  paper->SetBackground2(
+  background_renderer->SetBackground(lower[0], lower[1], lower[2]);
+  background_renderer->SetGradientBackground(gradient);
+  background_renderer->SetBackground2(
     palette::gradient_top[0], palette::gradient_top[1], palette::gradient_top[2]);
-  window->AddRenderer(paper);
+  window->AddRenderer(background_renderer);
 
-  Drawn shown;
+  DrawnCounts drawn_counts;
   std::vector<std::int64_t> extrema_drawn;
   vtkNew<vtkCamera> camera;
   const PixelBox& first = layout.tiles.front();
@@ -548,14 +550,14 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
     renderer->SetActiveCamera(camera);
     window->AddRenderer(renderer);
     add_lights(renderer);
-    shown.extrema = 0;
+    drawn_counts.extrema = 0;
     const Status drawn =
-      add_tile(renderer, tiles[i], options, coloring, extrema[i], frame, scale, shown);
+      add_tile(renderer, tiles[i], options, coloring, extrema[i], frame, scale, drawn_counts);
     if (!drawn.ok())
     {
       return drawn;
     }
-    extrema_drawn.push_back(shown.extrema);
+    extrema_drawn.push_back(drawn_counts.extrema);
     if (geometry)
     {
       PictureGeometry::TileView view;
@@ -569,21 +571,21 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
     }
   }
 
-  vtkNew<vtkRenderer> writing;
-  writing->SetLayer(2);
-  writing->InteractiveOff();
-  window->AddRenderer(writing);
-  add_text(writing, options.title, 0.5 * width, layout.title_y,
+  vtkNew<vtkRenderer> text_renderer;
+  text_renderer->SetLayer(2);
+  text_renderer->InteractiveOff();
+  window->AddRenderer(text_renderer);
+  add_text(text_renderer, options.title, 0.5 * width, layout.title_y,
     static_cast<int>(1.25 * layout.font), TextAlign::center, true);
   for (std::size_t i = 0; i < tiles.size(); ++i)
   {
     const PixelBox& box = layout.label_boxes[i];
-    add_text(writing, tiles[i].label, box.x + 0.5 * box.width, box.y + 0.55 * box.height,
+    add_text(text_renderer, tiles[i].label, box.x + 0.5 * box.width, box.y + 0.55 * box.height,
       layout.font, TextAlign::center);
   }
   for (std::size_t i = 0; i < legends.size(); ++i)
   {
-    add_legend(writing, legends[i].map, legends[i].name, layout.legends[i], layout.font);
+    add_legend(text_renderer, legends[i].map, legends[i].name, layout.legends[i], layout.font);
   }
 
   WindowPicture picture;
@@ -600,9 +602,9 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& wan
   status.report.set("picture.width", picture.width);
   status.report.set("picture.height", picture.height);
   status.report.set("picture.tiles", static_cast<int>(tiles.size()));
-  if (shown.tets > 0)
+  if (drawn_counts.tets > 0)
   {
-    status.report.set("picture.tets", shown.tets);
+    status.report.set("picture.tets", drawn_counts.tets);
   }
   status.report.merge(coloring.numbers);
   if (options.extrema)

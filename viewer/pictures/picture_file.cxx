@@ -21,7 +21,7 @@ namespace bindpose
 
 namespace
 {
-Status broken(const std::string& path, const std::string& reason)
+Status read_failure(const std::string& path, const std::string& reason)
 {
   return Status::invalid_input(path + " cannot be read: " + reason);
 }
@@ -32,7 +32,7 @@ Status read_png(const std::string& path, vtkSmartPointer<vtkImageData>& image)
   png.version = PNG_IMAGE_VERSION;
   if (!png_image_begin_read_from_file(&png, path.c_str()))
   {
-    return broken(path, png.message);
+    return read_failure(path, png.message);
   }
   png.format = (png.format & PNG_FORMAT_FLAG_ALPHA) ? PNG_FORMAT_RGBA : PNG_FORMAT_RGB;
   vtkNew<vtkUnsignedCharArray> pixels;
@@ -43,7 +43,7 @@ Status read_png(const std::string& path, vtkSmartPointer<vtkImageData>& image)
   const auto stride = static_cast<png_int_32>(PNG_IMAGE_ROW_STRIDE(png));
   if (!png_image_finish_read(&png, nullptr, pixels->GetPointer(0), -stride, nullptr))
   {
-    return broken(path, png.message);
+    return read_failure(path, png.message);
   }
   image = vtkSmartPointer<vtkImageData>::New();
   image->SetDimensions(static_cast<int>(png.width), static_cast<int>(png.height), 1);
@@ -51,31 +51,31 @@ Status read_png(const std::string& path, vtkSmartPointer<vtkImageData>& image)
   return {};
 }
 
-void note_error(vtkObject*, unsigned long, void* caught, void*)
+void note_error(vtkObject*, unsigned long, void* has_error, void*)
 {
-  *static_cast<bool*>(caught) = true;
+  *static_cast<bool*>(has_error) = true;
 }
 
 template <typename Reader>
 Status read_by_vtk(const std::string& path, vtkSmartPointer<vtkImageData>& image)
 {
   vtkNew<Reader> reader;
-  bool caught = false;
+  bool has_error = false;
   vtkNew<vtkCallbackCommand> listener;
   listener->SetCallback(note_error);
-  listener->SetClientData(&caught);
+  listener->SetClientData(&has_error);
   reader->AddObserver(vtkCommand::ErrorEvent, listener);
   if (reader->CanReadFile(path.c_str()) != 0)
   {
     reader->SetFileName(path.c_str());
     reader->Update();
     image = reader->GetOutput();
-    if (!caught && reader->GetErrorCode() == 0 && image->GetNumberOfPoints() > 0)
+    if (!has_error && reader->GetErrorCode() == 0 && image->GetNumberOfPoints() > 0)
     {
       return {};
     }
   }
-  return broken(path, "the file is damaged or does not have the format of its extension");
+  return read_failure(path, "the file is damaged or does not have the format of its extension");
 }
 } // namespace
 
@@ -89,13 +89,13 @@ Status read_picture(const std::string& path, vtkSmartPointer<vtkImageData>& imag
   std::error_code error;
   if (!std::filesystem::is_regular_file(path, error))
   {
-    return broken(path, "there is no such file");
+    return read_failure(path, "there is no such file");
   }
-  const std::string ending = file_extension(path);
-  return ending == "png" ? read_png(path, image)
-    : ending == "bmp"    ? read_by_vtk<vtkBMPReader>(path, image)
-    : ending[0] == 'j'   ? read_by_vtk<vtkJPEGReader>(path, image)
-                         : read_by_vtk<vtkTIFFReader>(path, image);
+  const std::string extension = file_extension(path);
+  return extension == "png" ? read_png(path, image)
+    : extension == "bmp"    ? read_by_vtk<vtkBMPReader>(path, image)
+    : extension[0] == 'j'   ? read_by_vtk<vtkJPEGReader>(path, image)
+                            : read_by_vtk<vtkTIFFReader>(path, image);
 }
 
 } // namespace bindpose

@@ -17,7 +17,7 @@ namespace bindpose
 
 namespace
 {
-std::string without_ending(const std::string& path)
+std::string without_extension(const std::string& path)
 {
   return path.substr(0, path.size() - file_extension(path).size() - 1);
 }
@@ -27,12 +27,12 @@ std::string numbered_file(const std::string& path, int frame)
 {
   char number[16];
   std::snprintf(number, sizeof(number), "_%04d.", frame);
-  return without_ending(path) + number + file_extension(path);
+  return without_extension(path) + number + file_extension(path);
 }
 
 std::string collection_file(const std::string& path)
 {
-  return without_ending(path) + ".pvd";
+  return without_extension(path) + ".pvd";
 }
 
 std::string format_collection(const std::vector<std::string>& files, double rate)
@@ -101,15 +101,15 @@ double frames_per_second(const Sequence& sequence)
   return std::isfinite(rate) && rate > 0.0 ? rate : 24.0;
 }
 
-std::vector<std::size_t> evenly(std::size_t count, std::size_t most)
+std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t maximum_count)
 {
-  std::vector<std::size_t> taken(std::min(count, most));
-  for (std::size_t k = 0; k < taken.size(); ++k)
+  std::vector<std::size_t> indices(std::min(count, maximum_count));
+  for (std::size_t k = 0; k < indices.size(); ++k)
   {
-    taken[k] =
-      taken.size() < 2 ? 0 : (k * (count - 1) + (taken.size() - 1) / 2) / (taken.size() - 1);
+    indices[k] =
+      indices.size() < 2 ? 0 : (k * (count - 1) + (indices.size() - 1) / 2) / (indices.size() - 1);
   }
-  return taken;
+  return indices;
 }
 
 } // namespace bindpose

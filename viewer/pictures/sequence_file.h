@@ -35,9 +35,9 @@ Status read_collection(const std::string& path, Sequence& sequence);
 /// Return the number of frames per second; 24 if the times do not determine it.
 double frames_per_second(const Sequence& sequence);
 
-/// Choose at most `most` of `count` items and return their indices. They are evenly spaced and
-/// include the first and the last item.
-std::vector<std::size_t> evenly(std::size_t count, std::size_t most);
+/// Choose at most `maximum_count` of `count` items and return their indices. They are evenly spaced
+/// and include the first and the last item.
+std::vector<std::size_t> evenly_spaced(std::size_t count, std::size_t maximum_count);
 
 } // namespace bindpose
 

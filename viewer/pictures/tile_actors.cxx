@@ -110,7 +110,7 @@ vtkSmartPointer<vtkActor> add_actor(
 
 // Draw the surface with a depth offset behind lines that are on it. Otherwise parts of the lines
 // would fail the depth test. The offset of the surface is not visible.
-void push_back(vtkActor* actor)
+void draw_behind_lines(vtkActor* actor)
 {
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
   actor->GetMapper()->SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 2.0);
@@ -134,7 +134,7 @@ void add_lines(vtkRenderer* renderer, vtkPolyData* data, const Rgb& color, doubl
 }
 
 // Show the map's colors unchanged.
-void switch_off_light(vtkActor* actor)
+void disable_lighting(vtkActor* actor)
 {
   actor->GetProperty()->LightingOff();
   actor->GetProperty()->SetAmbient(0.0);
@@ -157,7 +157,7 @@ vtkSmartPointer<vtkActor> add_surface(vtkRenderer* renderer, vtkPolyData* surfac
     return nullptr;
   }
   const auto actor = add_actor(renderer, shaded.polydata(), coloring);
-  push_back(actor);
+  draw_behind_lines(actor);
   if (options.edges)
   {
     use_edges(actor, palette::edges, 0.6 * scale);
@@ -245,39 +245,41 @@ void add_shrunk(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput
 // the boundary behind the plane.
 Status add_tet_slice(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput& input,
   const Plane& plane, const PictureOptions& options, const Coloring& coloring, double scale,
-  Index& shown, std::vector<char>& seen)
+  Index& drawn_tets, std::vector<char>& drawn_points)
 {
-  const std::vector<Index> met = tets_at_plane(input, plane.origin, plane.normal);
+  const std::vector<Index> crossed_tets = tets_at_plane(input, plane.origin, plane.normal);
   const auto cut = slice_tets(grid, plane.origin, plane.normal);
   if (cut->GetNumberOfPolys() == 0)
   {
     return Status::invalid_input("the section does not cross any tet");
   }
-  shown += static_cast<Index>(met.size());
+  drawn_tets += static_cast<Index>(crossed_tets.size());
   const auto actor = add_actor(renderer, cut, coloring);
   set_color(actor->GetProperty(), palette::cut);
-  switch_off_light(actor);
-  push_back(actor);
+  disable_lighting(actor);
+  draw_behind_lines(actor);
   if (options.isolines)
   {
     add_lines(
       renderer, contour_lines(cut, coloring.isolines), palette::line, isoline_width * scale);
   }
   const TetCut whole(input.points.view(), input.tets.view());
-  const auto outside = face_polydata(grid, whole.outside().triangles, whole.outside().tets);
-  add_surface(renderer, part_behind(outside, plane.origin, plane.normal), options, coloring, scale);
+  const auto boundary_faces =
+    face_polydata(grid, whole.boundary_faces().triangles, whole.boundary_faces().tets);
+  add_surface(
+    renderer, part_behind(boundary_faces, plane.origin, plane.normal), options, coloring, scale);
   const auto is_behind = [&](Index v)
   { return (input.points.view().row(v).transpose() - plane.origin).dot(plane.normal) <= 0.0; };
-  for (Index i = 0; i < whole.outside().triangles.size(); ++i)
+  for (Index i = 0; i < whole.boundary_faces().triangles.size(); ++i)
   {
-    const Index v = whole.outside().triangles.data()[i];
-    seen[v] = is_behind(v);
+    const Index v = whole.boundary_faces().triangles.data()[i];
+    drawn_points[v] = is_behind(v);
   }
-  for (const Index t : met)
+  for (const Index t : crossed_tets)
   {
     for (int k = 0; k < 4; ++k)
     {
-      seen[input.tets.view()(t, k)] = 1;
+      drawn_points[input.tets.view()(t, k)] = 1;
     }
   }
   return {};
@@ -285,18 +287,18 @@ Status add_tet_slice(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const Tet
 
 Status add_tets(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput& input,
   const PictureOptions& options, const Coloring& coloring, const Frame& frame, double scale,
-  Index& shown, std::vector<char>& seen)
+  Index& drawn_tets, std::vector<char>& drawn_points)
 {
   TetCut cut(input.points.view(), input.tets.view());
   if (options.cut)
   {
     const Plane plane = section_of(bounding_box(input.points.view()), options, frame);
-    const bool toward = view_direction(frame, options.view).dot(plane.normal) >= 0.0;
-    const Vec3 normal = toward ? plane.normal : Vec3(-plane.normal);
+    const bool faces_camera = view_direction(frame, options.view).dot(plane.normal) >= 0.0;
+    const Vec3 normal = faces_camera ? plane.normal : Vec3(-plane.normal);
     if (options.slice)
     {
-      return add_tet_slice(
-        renderer, grid, input, { plane.origin, normal }, options, coloring, scale, shown, seen);
+      return add_tet_slice(renderer, grid, input, { plane.origin, normal }, options, coloring,
+        scale, drawn_tets, drawn_points);
     }
     cut.keep_behind(plane.origin, normal);
   }
@@ -304,28 +306,29 @@ Status add_tets(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput
   {
     return Status::invalid_input("the section removes all tets; move it toward the camera");
   }
-  shown += cut.kept_count();
+  drawn_tets += cut.kept_count();
   if (options.shrink < 1.0)
   {
     for (Index t = 0; t < input.tets.view().rows(); ++t)
     {
       for (int k = 0; k < 4 && cut.kept()[t]; ++k)
       {
-        seen[input.tets.view()(t, k)] = 1;
+        drawn_points[input.tets.view()(t, k)] = 1;
       }
     }
     add_shrunk(renderer, grid, input, cut.kept(), options.shrink, coloring, scale);
     return {};
   }
-  for (const TetCut::Sides* sides : { &cut.outside(), &cut.exposed_faces() })
+  for (const TetCut::FaceSet* sides : { &cut.boundary_faces(), &cut.exposed_faces() })
   {
     for (Index i = 0; i < sides->triangles.size(); ++i)
     {
-      seen[sides->triangles.data()[i]] = 1;
+      drawn_points[sides->triangles.data()[i]] = 1;
     }
   }
-  const auto outside = face_polydata(grid, cut.outside().triangles, cut.outside().tets);
-  add_surface(renderer, outside, options, coloring, scale);
+  const auto boundary_faces =
+    face_polydata(grid, cut.boundary_faces().triangles, cut.boundary_faces().tets);
+  add_surface(renderer, boundary_faces, options, coloring, scale);
   add_flat(renderer, face_polydata(grid, cut.exposed_faces().triangles, cut.exposed_faces().tets),
     coloring, scale);
   return {};
@@ -347,8 +350,8 @@ vtkSmartPointer<vtkPolyData> slice_faces(
   image->GetExtent(extent);
   const int axis = frame.depth;
   const int last = extent[2 * axis + 1] - extent[2 * axis];
-  const int at = extent[2 * axis] + static_cast<int>(std::lround(options.section * last));
-  extent[2 * axis] = extent[2 * axis + 1] = at;
+  const int slice_index = extent[2 * axis] + static_cast<int>(std::lround(options.section * last));
+  extent[2 * axis] = extent[2 * axis + 1] = slice_index;
   vtkNew<vtkExtractVOI> cut;
   cut->SetInputData(image);
   cut->SetVOI(extent);
@@ -359,26 +362,26 @@ vtkSmartPointer<vtkPolyData> slice_faces(
 }
 
 void add_slice(vtkRenderer* renderer, vtkImageData* image, const PictureOptions& options,
-  const Coloring& coloring, const Frame& frame, double scale, bool shell_wanted)
+  const Coloring& coloring, const Frame& frame, double scale, bool with_shell)
 {
   const auto faces = slice_faces(image, options, frame);
   const auto actor = add_actor(renderer, faces, coloring);
-  switch_off_light(actor);
-  push_back(actor);
+  disable_lighting(actor);
+  draw_behind_lines(actor);
   if (coloring.kind != Coloring::Kind::winding)
   {
     return;
   }
   add_lines(renderer, contour_lines(faces, { 0.5 }), palette::line, 1.6 * scale);
-  if (shell_wanted && image->GetDataDimension() == 3 &&
+  if (with_shell && image->GetDataDimension() == 3 &&
     image->GetPointData()->HasArray(color_array_name))
   {
     const auto shell = isosurface(image, color_array_name, 0.5);
     if (shell->GetNumberOfPolys() > 0)
     {
       const ShadedSurface shaded(shell);
-      const auto glass = add_actor(renderer, shaded.polydata(), Coloring());
-      glass->GetProperty()->SetOpacity(0.2);
+      const auto translucent_actor = add_actor(renderer, shaded.polydata(), Coloring());
+      translucent_actor->GetProperty()->SetOpacity(0.2);
     }
   }
 }
@@ -459,7 +462,7 @@ void add_lines_and_points(
   const auto actor = add_actor(renderer, copy, coloring);
   actor->GetProperty()->SetLineWidth(static_cast<float>(2.0 * scale));
   actor->GetProperty()->SetPointSize(static_cast<float>(4.0 * scale));
-  switch_off_light(actor);
+  disable_lighting(actor);
   if (!copy->GetPointData()->HasArray(color_array_name))
   {
     set_color(actor->GetProperty(), palette::line);
@@ -482,7 +485,7 @@ bool shows_solids(const PictureOptions& options)
   return options.volume || !options.isosurfaces.empty();
 }
 
-void add_used_points(vtkDataSet* data, std::vector<Vec3>& places)
+void add_used_points(vtkDataSet* data, std::vector<Vec3>& positions)
 {
   std::vector<bool> used(
     static_cast<std::size_t>(data->GetNumberOfPoints()), data->GetNumberOfCells() == 0);
@@ -499,8 +502,8 @@ void add_used_points(vtkDataSet* data, std::vector<Vec3>& places)
   {
     if (used[v])
     {
-      places.emplace_back();
-      data->GetPoint(static_cast<vtkIdType>(v), places.back().data());
+      positions.emplace_back();
+      data->GetPoint(static_cast<vtkIdType>(v), positions.back().data());
     }
   }
 }
@@ -510,7 +513,7 @@ void add_used_points(vtkDataSet* data, std::vector<Vec3>& places)
 Points shown_points(
   const Tile& tile, const PictureOptions& options, const Coloring& coloring, const Frame* frame)
 {
-  std::vector<Vec3> places;
+  std::vector<Vec3> positions;
   if (auto* image = vtkImageData::SafeDownCast(tile.data))
   {
     double bounds[6];
@@ -532,17 +535,17 @@ Points shown_points(
     }
     for (int corner = 0; corner < 8; ++corner)
     {
-      places.emplace_back(
+      positions.emplace_back(
         bounds[corner & 1], bounds[2 + (corner >> 1 & 1)], bounds[4 + (corner >> 2 & 1)]);
     }
   }
   else if (tile.data && !is_handle_data(tile.data))
   {
-    add_used_points(tile.data, places);
+    add_used_points(tile.data, positions);
   }
   for (const auto& data : tile.context)
   {
-    add_used_points(data, places);
+    add_used_points(data, positions);
   }
   vtkPolyData* handle_sets[2] = { tile.handles,
     is_handle_data(tile.data) ? vtkPolyData::SafeDownCast(tile.data) : nullptr };
@@ -552,16 +555,16 @@ Points shown_points(
     representation->SetHandles(handles);
     for (vtkIdType cell = 0; handles && cell < handles->GetNumberOfCells(); ++cell)
     {
-      places.emplace_back();
-      representation->GetPosedHead(cell, places.back().data());
-      places.emplace_back();
-      representation->GetPosedTail(cell, places.back().data());
+      positions.emplace_back();
+      representation->GetPosedHead(cell, positions.back().data());
+      positions.emplace_back();
+      representation->GetPosedTail(cell, positions.back().data());
     }
   }
-  Points points(static_cast<Index>(places.size()), 3);
-  for (std::size_t i = 0; i < places.size(); ++i)
+  Points points(static_cast<Index>(positions.size()), 3);
+  for (std::size_t i = 0; i < positions.size(); ++i)
   {
-    points.row(static_cast<Index>(i)) = places[i].transpose();
+    points.row(static_cast<Index>(i)) = positions[i].transpose();
   }
   return points;
 }
@@ -610,8 +613,8 @@ void add_context(vtkRenderer* renderer, vtkDataSet* data, double radius, double 
   const ShadedSurface shaded(surface);
   if (shaded.polydata()->GetNumberOfPolys() > 0)
   {
-    const auto glass = add_actor(renderer, shaded.polydata(), Coloring());
-    glass->GetProperty()->SetOpacity(0.25);
+    const auto translucent_actor = add_actor(renderer, shaded.polydata(), Coloring());
+    translucent_actor->GetProperty()->SetOpacity(0.25);
     sort_by_depth(renderer);
   }
 }
@@ -619,11 +622,11 @@ void add_context(vtkRenderer* renderer, vtkDataSet* data, double radius, double 
 
 Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& options,
   const Coloring& coloring, const std::vector<Extremum>& extrema, const Frame& frame, double scale,
-  Drawn& shown)
+  DrawnCounts& drawn_counts)
 {
   // Flags of the points whose extrema are drawn. Empty: all points of a surface. For tets, only the
   // points of the drawn faces are set.
-  std::vector<char> seen;
+  std::vector<char> drawn_points;
   if (auto* image = vtkImageData::SafeDownCast(tile.data))
   {
     const auto values = with_color_values(image, coloring);
@@ -671,9 +674,9 @@ Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& o
     auto* grid = vtkUnstructuredGrid::SafeDownCast(tile.data);
     if (grid && to_tets(grid, tets).ok())
     {
-      seen.assign(static_cast<std::size_t>(grid->GetNumberOfPoints()), 0);
+      drawn_points.assign(static_cast<std::size_t>(grid->GetNumberOfPoints()), 0);
       const Status status = add_tets(renderer, with_color_values(grid, coloring), tets, options,
-        coloring, frame, scale, shown.tets, seen);
+        coloring, frame, scale, drawn_counts.tets, drawn_points);
       if (!status.ok())
       {
         return status;
@@ -705,7 +708,7 @@ Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& o
   if (!extrema.empty())
   {
     const double radius = 4.0 * tube_radius(tile, options, coloring);
-    shown.extrema += add_extrema(renderer, tile.data, extrema, seen, radius);
+    drawn_counts.extrema += add_extrema(renderer, tile.data, extrema, drawn_points, radius);
   }
   for (const auto& data : tile.context)
   {

@@ -23,7 +23,7 @@ Points shown_points(const Tile& tile, const PictureOptions& options, const Color
   const Frame* frame = nullptr);
 
 /// Numbers of tets and extrema that a picture shows.
-struct Drawn
+struct DrawnCounts
 {
   Index tets = 0;
   Index extrema = 0;
@@ -32,11 +32,11 @@ struct Drawn
 /// Add a tile's actors to its renderer.
 /// @param extrema  extrema of the tile's data
 /// @param scale  window pixels per picture pixel, for line widths and handle sizes
-/// @param shown  counts of drawn elements, to which the counts of this tile are added
+/// @param drawn_counts  counts of drawn elements, to which the counts of this tile are added
 /// @return invalid_input if the section plane removes all of a tile's tets
 Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& options,
   const Coloring& coloring, const std::vector<Extremum>& extrema, const Frame& frame, double scale,
-  Drawn& shown);
+  DrawnCounts& drawn_counts);
 
 /// Add key, fill and back lights that move with the camera.
 void add_lights(vtkRenderer* renderer);

@@ -15,23 +15,23 @@ namespace
 constexpr double time_limit = 3600.0; // seconds
 
 /// Return the arguments of ffmpeg for a file format.
-std::vector<std::string> codec_of(const std::string& ending)
+std::vector<std::string> codec_of(const std::string& extension)
 {
-  if (ending == "gif")
+  if (extension == "gif")
   {
     // Compute a palette of 256 colors from these frames; ffmpeg's default palette is generic.
     return { "-vf", "split[a][b];[a]palettegen=stats_mode=full[p];[b][p]paletteuse" };
   }
-  if (ending == "apng")
+  if (extension == "apng")
   {
     return { "-plays", "0", "-f", "apng" };
   }
   // Many players support only even sizes and one color per four pixels.
-  const std::string even = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white";
-  return ending == "webm" ? std::vector<std::string>{ "-vf", even, "-c:v", "libvpx-vp9", "-crf",
-    "24", "-b:v", "0", "-pix_fmt", "yuv420p" }
-                          : std::vector<std::string>{ "-vf", even, "-c:v", "libx264", "-crf", "18",
-                              "-pix_fmt", "yuv420p", "-movflags", "+faststart" };
+  const std::string even_size_filter = "pad=ceil(iw/2)*2:ceil(ih/2)*2:color=white";
+  return extension == "webm" ? std::vector<std::string>{ "-vf", even_size_filter, "-c:v",
+    "libvpx-vp9", "-crf", "24", "-b:v", "0", "-pix_fmt", "yuv420p" }
+                             : std::vector<std::string>{ "-vf", even_size_filter, "-c:v", "libx264",
+                                 "-crf", "18", "-pix_fmt", "yuv420p", "-movflags", "+faststart" };
 }
 } // namespace
 
@@ -65,14 +65,18 @@ Status write_video(ExecutionContext& context, const std::string& folder, double 
   request.arguments.insert(request.arguments.end(), codec.begin(), codec.end());
   request.arguments.push_back("file:" + path); // the prefix "file:" allows a file name with a colon
   request.time_limit = time_limit;
-  std::string said;
+  std::string first_message;
   ChildEnd end;
   Status status = run_child(
-    context, request, [&said](const std::string& line) { said = said.empty() ? line : said; }, end);
+    context, request,
+    [&first_message](const std::string& line)
+    { first_message = first_message.empty() ? line : first_message; },
+    end);
   if (status.ok() && !end.failure.empty())
   {
     status = Status::failure(StatusCode::unavailable,
-      "ffmpeg " + end.failure + (said.empty() ? "" : ": " + one_line(said.substr(0, 200))));
+      "ffmpeg " + end.failure +
+        (first_message.empty() ? "" : ": " + sanitize_line(first_message.substr(0, 200))));
   }
   return status;
 }

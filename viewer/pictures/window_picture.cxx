@@ -40,8 +40,8 @@ namespace
 constexpr int tile_size = 3072;
 constexpr int tile_margin = 160;
 
-constexpr std::int64_t most_across = 32767;
-constexpr std::int64_t most_pixels = std::int64_t(1) << 28;
+constexpr std::int64_t maximum_side = 32767;
+constexpr std::int64_t maximum_pixels = std::int64_t(1) << 28;
 
 struct Rect
 {
@@ -50,12 +50,12 @@ struct Rect
 
 Rect common_part(const Rect& a, const Rect& b)
 {
-  Rect both;
-  both.x = std::max(a.x, b.x);
-  both.y = std::max(a.y, b.y);
-  both.width = std::min(a.x + a.width, b.x + b.width) - both.x;
-  both.height = std::min(a.y + a.height, b.y + b.height) - both.y;
-  return both;
+  Rect intersection;
+  intersection.x = std::max(a.x, b.x);
+  intersection.y = std::max(a.y, b.y);
+  intersection.width = std::min(a.x + a.width, b.x + b.width) - intersection.x;
+  intersection.height = std::min(a.y + a.height, b.y + b.height) - intersection.y;
+  return intersection;
 }
 
 /// Makes a renderer show parts of its view; restores the renderer when the object is destroyed.
@@ -63,23 +63,23 @@ class TiledRenderer
 {
 public:
   TiledRenderer(vtkRenderer* renderer, int width, int height)
-    : renderer_(renderer), camera_(renderer->GetActiveCamera()), drawn_(renderer->GetDraw())
+    : renderer_(renderer), camera_(renderer->GetActiveCamera()), draw_flag_(renderer->GetDraw())
   {
     renderer->GetViewport(this->viewport_.data());
-    renderer->GetBackground(this->below_.data());
-    renderer->GetBackground2(this->above_.data());
+    renderer->GetBackground(this->bottom_color_.data());
+    renderer->GetBackground2(this->top_color_.data());
     this->gradient_ = renderer->GetGradientBackground();
-    const auto at = [](double share, int size)
-    { return static_cast<int>(std::lround(share * size)); };
-    this->whole_.x = at(this->viewport_[0], width);
-    this->whole_.y = at(this->viewport_[1], height);
-    this->whole_.width = at(this->viewport_[2], width) - this->whole_.x;
-    this->whole_.height = at(this->viewport_[3], height) - this->whole_.y;
-    vtkActor2DCollection* flat = renderer->GetActors2D();
-    flat->InitTraversal();
-    while (vtkActor2D* actor = flat->GetNextActor2D())
+    const auto to_pixels = [](double fraction, int size)
+    { return static_cast<int>(std::lround(fraction * size)); };
+    this->view_area_.x = to_pixels(this->viewport_[0], width);
+    this->view_area_.y = to_pixels(this->viewport_[1], height);
+    this->view_area_.width = to_pixels(this->viewport_[2], width) - this->view_area_.x;
+    this->view_area_.height = to_pixels(this->viewport_[3], height) - this->view_area_.y;
+    vtkActor2DCollection* actors_2d = renderer->GetActors2D();
+    actors_2d->InitTraversal();
+    while (vtkActor2D* actor = actors_2d->GetNextActor2D())
     {
-      this->flat_.push_back({ actor, { actor->GetPosition()[0], actor->GetPosition()[1] } });
+      this->actors_2d_.push_back({ actor, { actor->GetPosition()[0], actor->GetPosition()[1] } });
     }
   }
 
@@ -87,13 +87,13 @@ public:
   {
     this->renderer_->SetViewport(this->viewport_.data());
     this->renderer_->SetActiveCamera(this->camera_);
-    this->renderer_->SetDraw(this->drawn_);
-    this->renderer_->SetBackground(this->below_.data());
-    this->renderer_->SetBackground2(this->above_.data());
+    this->renderer_->SetDraw(this->draw_flag_);
+    this->renderer_->SetBackground(this->bottom_color_.data());
+    this->renderer_->SetBackground2(this->top_color_.data());
     this->renderer_->SetGradientBackground(this->gradient_);
-    for (const auto& [actor, place] : this->flat_)
+    for (const auto& [actor, position] : this->actors_2d_)
     {
-      actor->SetPosition(place[0], place[1]);
+      actor->SetPosition(position[0], position[1]);
     }
   }
   TiledRenderer(const TiledRenderer&) = delete;
@@ -101,10 +101,10 @@ public:
 
   void show(const Rect& tile)
   {
-    const Rect part = common_part(this->whole_, tile);
-    const bool seen = part.width > 0 && part.height > 0;
-    this->renderer_->SetDraw(seen ? this->drawn_ : 0);
-    if (!seen)
+    const Rect part = common_part(this->view_area_, tile);
+    const bool is_visible = part.width > 0 && part.height > 0;
+    this->renderer_->SetDraw(is_visible ? this->draw_flag_ : 0);
+    if (!is_visible)
     {
       return;
     }
@@ -114,33 +114,33 @@ public:
       static_cast<double>(part.y + part.height - tile.y) / tile.height);
     if (this->renderer_->GetGradientBackground()) // give the part its section of the whole gradient
     {
-      const double low = static_cast<double>(part.y - this->whole_.y) / this->whole_.height;
-      const double high = low + static_cast<double>(part.height) / this->whole_.height;
-      this->renderer_->SetBackground(this->ground(low).data());
-      this->renderer_->SetBackground2(this->ground(high).data());
+      const double low = static_cast<double>(part.y - this->view_area_.y) / this->view_area_.height;
+      const double high = low + static_cast<double>(part.height) / this->view_area_.height;
+      this->renderer_->SetBackground(this->background_color(low).data());
+      this->renderer_->SetBackground2(this->background_color(high).data());
     }
     vtkNew<vtkCamera> camera;
     camera->DeepCopy(this->camera_);
-    const double share = static_cast<double>(part.height) / this->whole_.height;
-    camera->SetParallelScale(share * this->camera_->GetParallelScale());
+    const double fraction = static_cast<double>(part.height) / this->view_area_.height;
+    camera->SetParallelScale(fraction * this->camera_->GetParallelScale());
     const double half = std::tan(0.5 * vtkMath::RadiansFromDegrees(this->camera_->GetViewAngle()));
-    camera->SetViewAngle(2.0 * vtkMath::DegreesFromRadians(std::atan(share * half)));
+    camera->SetViewAngle(2.0 * vtkMath::DegreesFromRadians(std::atan(fraction * half)));
     // Offset from the center of the view to the center of the part, in units of half the part's
     // size.
     camera->SetWindowCenter(
-      (2.0 * (part.x - this->whole_.x) + part.width - this->whole_.width) / part.width,
-      (2.0 * (part.y - this->whole_.y) + part.height - this->whole_.height) / part.height);
+      (2.0 * (part.x - this->view_area_.x) + part.width - this->view_area_.width) / part.width,
+      (2.0 * (part.y - this->view_area_.y) + part.height - this->view_area_.height) / part.height);
     this->renderer_->SetActiveCamera(camera);
-    for (const auto& [actor, place] : this->flat_)
+    for (const auto& [actor, position] : this->actors_2d_)
     {
       actor->SetPosition(
-        place[0] - (part.x - this->whole_.x), place[1] - (part.y - this->whole_.y));
+        position[0] - (part.x - this->view_area_.x), position[1] - (part.y - this->view_area_.y));
     }
   }
 
   /// Set the background to a gray level if the renderer is in the lowest layer and nothing is drawn
   /// behind it.
-  void set_ground(double level)
+  void set_background(double level)
   {
     if (this->renderer_->GetLayer() == 0)
     {
@@ -151,24 +151,24 @@ public:
 
 private:
   using Color = std::array<double, 3>;
-  Color ground(double height) const
+  Color background_color(double height) const
   {
     Color color{};
     for (std::size_t k = 0; k < 3; ++k)
     {
-      color[k] = (1.0 - height) * this->below_[k] + height * this->above_[k];
+      color[k] = (1.0 - height) * this->bottom_color_[k] + height * this->top_color_[k];
     }
     return color;
   }
 
   vtkSmartPointer<vtkRenderer> renderer_;
   vtkSmartPointer<vtkCamera> camera_;
-  int drawn_;
-  Color below_{}, above_{}; // lower and upper background colors of the renderer
+  int draw_flag_;
+  Color bottom_color_{}, top_color_{}; // lower and upper background colors of the renderer
   bool gradient_ = false;
   std::array<double, 4> viewport_{};
-  Rect whole_; // the area of the renderer's view in the picture
-  std::vector<std::pair<vtkSmartPointer<vtkActor2D>, std::array<double, 2>>> flat_;
+  Rect view_area_; // the area of the renderer's view in the picture
+  std::vector<std::pair<vtkSmartPointer<vtkActor2D>, std::array<double, 2>>> actors_2d_;
 };
 
 /// The samples of a tile, four bytes per sample.
@@ -218,12 +218,12 @@ void fill_image(const Samples& on_white, const Samples& on_black, const Rect& ti
         continue;
       }
       const std::array<double, 3> black = average(on_black, tile, x, y, samples);
-      double seen = 0.0; // visible fraction of the background
+      double background_fraction = 0.0; // visible fraction of the background
       for (std::size_t k = 0; k < 3; ++k)
       {
-        seen += (white[k] - black[k]) / (3.0 * 255.0);
+        background_fraction += (white[k] - black[k]) / (3.0 * 255.0);
       }
-      const double opacity = 1.0 - seen;
+      const double opacity = 1.0 - background_fraction;
       // Pixels that are almost clear show planes that are drawn only so that they can be picked.
       const bool clear = opacity < 1.5 / 255.0;
       to = std::transform(black.begin(), black.end(), to,
@@ -263,12 +263,12 @@ Rect with_margins(const Rect& core, int width, int height)
 
 Status check_picture_size(std::int64_t width, std::int64_t height)
 {
-  if (width > most_across || height > most_across || width * height > most_pixels)
+  if (width > maximum_side || height > maximum_side || width * height > maximum_pixels)
   {
     return Status::invalid_input("a picture of " + std::to_string(width) + " x " +
       std::to_string(height) + " pixels is too large: expected at most " +
-      std::to_string(most_across) + " pixels in width and height and " +
-      std::to_string(most_pixels / 1000000) + " million pixels in total");
+      std::to_string(maximum_side) + " pixels in width and height and " +
+      std::to_string(maximum_pixels / 1000000) + " million pixels in total");
   }
   return {};
 }
@@ -296,7 +296,7 @@ Status draw_in_tiles(
   {
     renderers.push_back(std::make_unique<TiledRenderer>(renderer, width, height));
   }
-  const bool one = width <= tile_size && height <= tile_size;
+  const bool is_single_tile = width <= tile_size && height <= tile_size;
   Rect core;
   for (core.y = 0; core.y < height && status.ok(); core.y += core.height)
   {
@@ -304,11 +304,11 @@ Status draw_in_tiles(
     for (core.x = 0; core.x < width && status.ok(); core.x += core.width)
     {
       core.width = std::min(core_length(width, samples), width - core.x);
-      const Rect tile = one ? core : with_margins(core, width, height);
+      const Rect tile = is_single_tile ? core : with_margins(core, width, height);
       window->SetSize(tile.width, tile.height);
       for (const auto& renderer : renderers)
       {
-        if (!one)
+        if (!is_single_tile)
         {
           renderer->show(tile);
         }
@@ -318,19 +318,19 @@ Status draw_in_tiles(
       {
         for (const auto& renderer : renderers)
         {
-          renderer->set_ground(0.0);
+          renderer->set_background(0.0);
         }
         status = read_samples(window, tile, on_black);
         for (const auto& renderer : renderers)
         {
-          renderer->set_ground(1.0);
+          renderer->set_background(1.0);
         }
       }
-      Samples seen;
-      status = status.ok() ? read_samples(window, tile, seen) : status;
+      Samples on_white;
+      status = status.ok() ? read_samples(window, tile, on_white) : status;
       if (status.ok())
       {
-        fill_image(seen, on_black, tile, core, samples, image);
+        fill_image(on_white, on_black, tile, core, samples, image);
       }
     }
   }
@@ -345,7 +345,7 @@ Status draw_in_tiles(
 
 ScaledLines::ScaledLines(vtkRenderWindow* window, double factor)
 {
-  std::set<vtkProperty*> seen;
+  std::set<vtkProperty*> scaled_properties;
   vtkRendererCollection* renderers = window->GetRenderers();
   renderers->InitTraversal();
   while (vtkRenderer* renderer = renderers->GetNextItem())
@@ -355,7 +355,7 @@ ScaledLines::ScaledLines(vtkRenderWindow* window, double factor)
     while (vtkActor* actor = actors->GetNextActor())
     {
       vtkProperty* property = actor->GetProperty();
-      if (seen.insert(property).second)
+      if (scaled_properties.insert(property).second)
       {
         this->widths_.push_back({ property, property->GetLineWidth(), property->GetPointSize() });
         property->SetLineWidth(static_cast<float>(factor * property->GetLineWidth()));

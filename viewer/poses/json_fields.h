@@ -19,12 +19,13 @@ using Json = nlohmann::ordered_json;
 class JsonFields
 {
 public:
-  /// @param what  the object's name in messages, for example "the pose options"
-  JsonFields(const Json& json, std::string what) : json_(json), what_(std::move(what))
+  /// @param object_name  the object's name in messages, for example "the pose options"
+  JsonFields(const Json& json, std::string object_name)
+    : json_(json), object_name_(std::move(object_name))
   {
     if (!json.is_object())
     {
-      this->status_ = Status::invalid_input(this->what_ + " must be an object");
+      this->status_ = Status::invalid_input(this->object_name_ + " must be an object");
     }
   }
 
@@ -115,7 +116,7 @@ public:
 
   /// Return a member that must be a list (`list` is true) or an object. Return null if it is
   /// missing or of another type.
-  const Json* part(const char* key, bool list)
+  const Json* member(const char* key, bool list)
   {
     const Json* found = this->find(key);
     if (found && !(list ? found->is_array() : found->is_object()))
@@ -144,13 +145,14 @@ private:
     const auto found = this->json_.find(key);
     return found == this->json_.end() ? nullptr : &*found;
   }
-  void fail(const char* key, const std::string& wanted)
+  void fail(const char* key, const std::string& expected)
   {
-    this->status_ = Status::invalid_input(this->what_ + ": \"" + key + "\" must be " + wanted);
+    this->status_ =
+      Status::invalid_input(this->object_name_ + ": \"" + key + "\" must be " + expected);
   }
 
   const Json& json_;
-  std::string what_;
+  std::string object_name_;
   Status status_;
 };
 

@@ -12,14 +12,14 @@ namespace bindpose
 
 namespace
 {
-constexpr double same_time = 5e-4; // seconds
-constexpr double longest = 36000.0;
+constexpr double time_tolerance = 5e-4; // seconds
+constexpr double maximum_time = 36000.0;
 constexpr const char* interpolation_words[] = { "linear", "spline" };
 
 /// Return a handle's pivot, relative to its parent, at a time between keys 1 and 2. Key 0 precedes
 /// key 1, and key 3 follows key 2. At the start of the sequence key 0 equals key 1; at the end key
 /// 3 equals key 2.
-Vec3 on_spline(const Vec3 (&p)[4], const double (&t)[4], double time)
+Vec3 spline_point(const Vec3 (&p)[4], const double (&t)[4], double time)
 {
   const double span = t[2] - t[1];
   // The slope at a key is that of the parabola through the key and its two neighbors.
@@ -46,11 +46,11 @@ Vec3 pivot_of(const Handle& handle, const HandlePose& pose)
 }
 } // namespace
 
-int KeyFrames::at(double time) const
+int KeyFrames::index_at(double time) const
 {
   for (std::size_t k = 0; k < this->keys_.size(); ++k)
   {
-    if (std::abs(this->keys_[k].time - time) < same_time)
+    if (std::abs(this->keys_[k].time - time) < time_tolerance)
     {
       return static_cast<int>(k);
     }
@@ -60,17 +60,17 @@ int KeyFrames::at(double time) const
 
 std::size_t KeyFrames::set(double time, NamedPose pose)
 {
-  const double when = std::clamp(std::isfinite(time) ? time : 0.0, 0.0, longest);
-  const int there = this->at(when);
-  if (there >= 0)
+  const double clamped_time = std::clamp(std::isfinite(time) ? time : 0.0, 0.0, maximum_time);
+  const int existing = this->index_at(clamped_time);
+  if (existing >= 0)
   {
-    this->keys_[static_cast<std::size_t>(there)].pose = std::move(pose);
-    return static_cast<std::size_t>(there);
+    this->keys_[static_cast<std::size_t>(existing)].pose = std::move(pose);
+    return static_cast<std::size_t>(existing);
   }
-  const auto next = std::find_if(
-    this->keys_.begin(), this->keys_.end(), [&](const Key& key) { return key.time > when; });
+  const auto next = std::find_if(this->keys_.begin(), this->keys_.end(),
+    [&](const Key& key) { return key.time > clamped_time; });
   const auto number = static_cast<std::size_t>(next - this->keys_.begin());
-  this->keys_.insert(next, { when, std::move(pose) });
+  this->keys_.insert(next, { clamped_time, std::move(pose) });
   return number;
 }
 
@@ -107,34 +107,36 @@ Pose KeyFrames::pose_at(double time, const Handles& handles, const Pose& base) c
     this->keys_.begin(), this->keys_.end(), [&](const Key& key) { return key.time > time; });
   if (next == this->keys_.begin())
   {
-    return next->pose.of(handles, base);
+    return next->pose.for_handles(handles, base);
   }
   const auto before = next - 1;
-  const Pose from = before->pose.of(handles, base);
+  const Pose from = before->pose.for_handles(handles, base);
   if (next == this->keys_.end() || time == before->time)
   {
     return from;
   }
-  const Pose to = next->pose.of(handles, base);
-  const double share = (time - before->time) / (next->time - before->time);
-  if (share == 0.0 || this->interpolation == KeyInterpolation::linear || this->keys_.size() < 3)
+  const Pose to = next->pose.for_handles(handles, base);
+  const double fraction = (time - before->time) / (next->time - before->time);
+  if (fraction == 0.0 || this->interpolation == KeyInterpolation::linear || this->keys_.size() < 3)
   {
-    return blend(handles, from, to, share);
+    return blend(handles, from, to, fraction);
   }
   const auto first = before == this->keys_.begin() ? before : before - 1;
   const auto last = next + 1 == this->keys_.end() ? next : next + 1;
   const double times[4] = { first->time, before->time, next->time, last->time };
-  Pose keys[4] = { first->pose.of(handles, base), from, to, last->pose.of(handles, base) };
+  Pose keys[4] = { first->pose.for_handles(handles, base), from, to,
+    last->pose.for_handles(handles, base) };
   for (Pose& key : keys)
   {
     key = relative_pose(handles, key);
   }
-  Pose result = blend_relative(handles, keys[1], keys[2], share);
+  Pose result = blend_relative(handles, keys[1], keys[2], fraction);
   for (std::size_t k = 0; k < result.size(); ++k)
   {
-    const Vec3 places[4] = { pivot_of(handles[k], keys[0][k]), pivot_of(handles[k], keys[1][k]),
+    const Vec3 pivots[4] = { pivot_of(handles[k], keys[0][k]), pivot_of(handles[k], keys[1][k]),
       pivot_of(handles[k], keys[2][k]), pivot_of(handles[k], keys[3][k]) };
-    result[k].transform.col(3) += on_spline(places, times, time) - pivot_of(handles[k], result[k]);
+    result[k].transform.col(3) +=
+      spline_point(pivots, times, time) - pivot_of(handles[k], result[k]);
   }
   return absolute_pose(handles, result);
 }
@@ -154,7 +156,7 @@ std::vector<Pose> KeyFrames::frames(const Handles& handles, const Pose& base) co
   {
     // If a frame's time equals a key's time up to round-off, use the key's time.
     const double time = static_cast<double>(k) / this->frames_per_second;
-    const int key = this->at(time);
+    const int key = this->index_at(time);
     result.push_back(this->pose_at(
       key >= 0 ? this->keys_[static_cast<std::size_t>(key)].time : time, handles, base));
   }
@@ -180,7 +182,7 @@ Status from_json(const Json& json, KeyFrames& keys)
   fields.read("fps", read.frames_per_second, 1.0, 240.0);
   fields.read("interpolation", read.interpolation, interpolation_words);
   fields.read("loop", read.loop);
-  const Json* list = fields.part("keys", true);
+  const Json* list = fields.member("keys", true);
   if (!fields.status().ok())
   {
     return fields.status();
@@ -190,8 +192,8 @@ Status from_json(const Json& json, KeyFrames& keys)
     double time = -1.0;
     NamedPose pose;
     JsonFields key(entry, "a key frame");
-    key.read("time", time, 0.0, longest);
-    const Json* handles = key.part("handles", false);
+    key.read("time", time, 0.0, maximum_time);
+    const Json* handles = key.member("handles", false);
     Status status = key.status();
     if (status.ok() && (time < 0.0 || !handles))
     {

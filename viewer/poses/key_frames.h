@@ -40,7 +40,7 @@ public:
   void clear() { this->keys_.clear(); }
   void rename_handle(const std::string& from, const std::string& to);
   /// Return the index of the key at a time; -1: none.
-  int at(double time) const;
+  int index_at(double time) const;
 
   double duration() const { return this->keys_.empty() ? 0.0 : this->keys_.back().time; }
   double frames_per_second = 24.0; ///< frames per second of exported animations; 1 to 240

@@ -17,19 +17,19 @@ NamedPose::NamedPose(const Handles& handles, Pose pose) : pose_(std::move(pose))
   }
 }
 
-Pose NamedPose::of(const Handles& handles, const Pose& base) const
+Pose NamedPose::for_handles(const Handles& handles, const Pose& base) const
 {
-  std::map<std::string, std::size_t> at;
+  std::map<std::string, std::size_t> index_of;
   for (std::size_t k = 0; k < this->names_.size(); ++k)
   {
-    at[this->names_[k]] = k;
+    index_of[this->names_[k]] = k;
   }
   Pose result = base;
   for (const Index handle : parents_first(handles))
   {
     const auto k = static_cast<std::size_t>(handle);
-    const auto found = at.find(handles[k].name);
-    if (found != at.end() && k < result.size())
+    const auto found = index_of.find(handles[k].name);
+    if (found != index_of.end() && k < result.size())
     {
       result[k] = this->pose_[found->second];
     }

@@ -21,7 +21,7 @@ public:
 
   /// Return the pose of these handles. A handle without an entry has the pose of `base` relative to
   /// its parent. The result has as many entries as `base`.
-  Pose of(const Handles& handles, const Pose& base) const;
+  Pose for_handles(const Handles& handles, const Pose& base) const;
   bool empty() const { return this->names_.empty(); }
   /// Rename a handle. If the pose has an entry with the new name, that entry is removed.
   void rename(const std::string& from, const std::string& to);

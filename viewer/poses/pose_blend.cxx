@@ -11,7 +11,7 @@ namespace bindpose
 
 namespace
 {
-Eigen::Matrix3d turn(double degrees, const Vec3& axis)
+Eigen::Matrix3d axis_rotation(double degrees, const Vec3& axis)
 {
   return Eigen::AngleAxisd(degrees * pi / 180.0, axis).toRotationMatrix();
 }
@@ -31,7 +31,7 @@ HandleValues values_of(const Handles& handles, const Pose& pose, std::size_t han
   const double z = upright ? std::atan2(r(1, 0), r(0, 0)) : 0.0;
   values.degrees = Vec3(x, y, z) * 180.0 / pi;
   values.scale = parts.scale.trace() / 3.0;
-  values.more =
+  values.is_approximate =
     (parts.scale - values.scale * Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() > 1e-9;
   values.stretch = pose[handle].stretch;
   values.twist = pose[handle].twist;
@@ -41,8 +41,9 @@ HandleValues values_of(const Handles& handles, const Pose& pose, std::size_t han
 Pose with_values(
   const Handles& handles, const Pose& pose, std::size_t handle, const HandleValues& values)
 {
-  const Eigen::Matrix3d rotation = turn(values.degrees.z(), Vec3::UnitZ()) *
-    turn(values.degrees.y(), Vec3::UnitY()) * turn(values.degrees.x(), Vec3::UnitX());
+  const Eigen::Matrix3d rotation = axis_rotation(values.degrees.z(), Vec3::UnitZ()) *
+    axis_rotation(values.degrees.y(), Vec3::UnitY()) *
+    axis_rotation(values.degrees.x(), Vec3::UnitX());
   Pose relative = relative_pose(handles, pose);
   relative[handle].transform =
     affine_about(handles[handle].head, values.scale * rotation, values.translate);
@@ -60,7 +61,7 @@ Pose with_values(
   return result;
 }
 
-Pose blend_relative(const Handles& handles, const Pose& a, const Pose& b, double share)
+Pose blend_relative(const Handles& handles, const Pose& a, const Pose& b, double fraction)
 {
   Pose result = a;
   for (std::size_t k = 0; k < a.size(); ++k)
@@ -68,30 +69,30 @@ Pose blend_relative(const Handles& handles, const Pose& a, const Pose& b, double
     const Vec3& pivot = handles[k].head;
     const TransformParts from = parts_of(a[k].transform, pivot);
     const TransformParts to = parts_of(b[k].transform, pivot);
-    TransformParts between;
-    between.translation = (1.0 - share) * from.translation + share * to.translation;
-    between.rotation = Eigen::Quaterniond(from.rotation)
-                         .slerp(share, Eigen::Quaterniond(to.rotation))
+    TransformParts blended;
+    blended.translation = (1.0 - fraction) * from.translation + fraction * to.translation;
+    blended.rotation = Eigen::Quaterniond(from.rotation)
+                         .slerp(fraction, Eigen::Quaterniond(to.rotation))
                          .toRotationMatrix();
-    between.scale = (1.0 - share) * from.scale + share * to.scale;
+    blended.scale = (1.0 - fraction) * from.scale + fraction * to.scale;
     if (a[k].transform != b[k].transform)
     {
-      result[k].transform = affine_of(between, pivot);
+      result[k].transform = affine_of(blended, pivot);
     }
-    result[k].stretch = (1.0 - share) * a[k].stretch + share * b[k].stretch;
-    result[k].twist = (1.0 - share) * a[k].twist + share * b[k].twist;
+    result[k].stretch = (1.0 - fraction) * a[k].stretch + fraction * b[k].stretch;
+    result[k].twist = (1.0 - fraction) * a[k].twist + fraction * b[k].twist;
   }
   return result;
 }
 
-Pose blend(const Handles& handles, const Pose& a, const Pose& b, double share)
+Pose blend(const Handles& handles, const Pose& a, const Pose& b, double fraction)
 {
-  if (share <= 0.0 || share >= 1.0)
+  if (fraction <= 0.0 || fraction >= 1.0)
   {
-    return share <= 0.0 ? a : b;
+    return fraction <= 0.0 ? a : b;
   }
-  Pose result = absolute_pose(
-    handles, blend_relative(handles, relative_pose(handles, a), relative_pose(handles, b), share));
+  Pose result = absolute_pose(handles,
+    blend_relative(handles, relative_pose(handles, a), relative_pose(handles, b), fraction));
   std::vector<bool> moves(handles.size(), false);
   for (const Index handle : parents_first(handles))
   {

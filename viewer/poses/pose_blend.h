@@ -21,7 +21,7 @@ struct HandleValues
   Eigen::Vector2d twist = Eigen::Vector2d::Zero();
   /// True if the transform has a shear, a non-uniform scale or a reflection, which these fields
   /// cannot express. They then contain the nearest rotation and the mean scale.
-  bool more = false;
+  bool is_approximate = false;
 };
 HandleValues values_of(const Handles& handles, const Pose& pose, std::size_t handle);
 /// Return the pose with new values for one handle. The handle's mode is kept, and its descendants
@@ -30,13 +30,13 @@ Pose with_values(
   const Handles& handles, const Pose& pose, std::size_t handle, const HandleValues& values);
 
 /// Interpolate between two poses, per handle and relative to its parent. Pivots, scale, shear,
-/// stretch and twist are interpolated linearly, rotations along the shorter arc (slerp). `share` is
-/// the interpolation parameter: 0 returns `a` and 1 returns `b`, bit for bit. Below 1 the modes are
-/// those of `a`. If a handle and all its ancestors are equal in both poses, the handle's bits do
-/// not change.
-Pose blend(const Handles& handles, const Pose& a, const Pose& b, double share);
+/// stretch and twist are interpolated linearly, rotations along the shorter arc (slerp). `fraction`
+/// is the interpolation parameter: 0 returns `a` and 1 returns `b`, bit for bit. Below 1 the modes
+/// are those of `a`. If a handle and all its ancestors are equal in both poses, the handle's bits
+/// do not change.
+Pose blend(const Handles& handles, const Pose& a, const Pose& b, double fraction);
 /// Like blend(), for poses that are already relative (relative_pose()).
-Pose blend_relative(const Handles& handles, const Pose& a, const Pose& b, double share);
+Pose blend_relative(const Handles& handles, const Pose& a, const Pose& b, double fraction);
 
 } // namespace bindpose
 

@@ -5,7 +5,7 @@
 namespace bindpose
 {
 
-bool PoseLibrary::is_taken(const std::string& name) const
+bool PoseLibrary::has_name(const std::string& name) const
 {
   for (const Entry& entry : this->entries_)
   {
@@ -19,14 +19,14 @@ bool PoseLibrary::is_taken(const std::string& name) const
 
 std::string PoseLibrary::store(const std::string& name, NamedPose pose)
 {
-  const std::string wanted = name.empty() ? "pose" : name;
-  std::string free = wanted;
-  for (int number = 2; this->is_taken(free); ++number)
+  const std::string base_name = name.empty() ? "pose" : name;
+  std::string unique_name = base_name;
+  for (int number = 2; this->has_name(unique_name); ++number)
   {
-    free = wanted + " " + std::to_string(number);
+    unique_name = base_name + " " + std::to_string(number);
   }
-  this->entries_.push_back({ free, std::move(pose) });
-  return free;
+  this->entries_.push_back({ unique_name, std::move(pose) });
+  return unique_name;
 }
 
 bool PoseLibrary::rename(std::size_t entry, const std::string& name)
@@ -35,7 +35,7 @@ bool PoseLibrary::rename(std::size_t entry, const std::string& name)
   {
     return false;
   }
-  if (name != this->entries_[entry].name && this->is_taken(name))
+  if (name != this->entries_[entry].name && this->has_name(name))
   {
     return false;
   }
@@ -82,7 +82,7 @@ Status from_json(const Json& json, PoseLibrary& library)
     NamedPose pose;
     JsonFields fields(entry, "a pose of the library");
     fields.read("name", name);
-    const Json* handles = fields.part("handles", false);
+    const Json* handles = fields.member("handles", false);
     Status status = fields.status();
     if (status.ok() && handles)
     {

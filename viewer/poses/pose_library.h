@@ -27,7 +27,7 @@ public:
   void rename_handle(const std::string& from, const std::string& to);
 
 private:
-  bool is_taken(const std::string& name) const;
+  bool has_name(const std::string& name) const;
 
   std::vector<Entry> entries_;
 };

@@ -5,17 +5,18 @@
 namespace bindpose
 {
 
-Json to_json(const PoseShelf& shelf)
+Json to_json(const StoredPoses& stored_poses)
 {
-  return { { "library", to_json(shelf.library) }, { "key_frames", to_json(shelf.keys) } };
+  return { { "library", to_json(stored_poses.library) },
+    { "key_frames", to_json(stored_poses.keys) } };
 }
 
-Status from_json(const Json& json, PoseShelf& shelf)
+Status from_json(const Json& json, StoredPoses& stored_poses)
 {
-  PoseShelf read;
+  StoredPoses read;
   JsonFields fields(json, "the stored poses");
-  const Json* library = fields.part("library", true);
-  const Json* keys = fields.part("key_frames", false);
+  const Json* library = fields.member("library", true);
+  const Json* keys = fields.member("key_frames", false);
   Status status = fields.status();
   if (status.ok() && library)
   {
@@ -27,7 +28,7 @@ Status from_json(const Json& json, PoseShelf& shelf)
   }
   if (status.ok())
   {
-    shelf = std::move(read);
+    stored_poses = std::move(read);
   }
   return status;
 }

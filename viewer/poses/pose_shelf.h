@@ -9,17 +9,17 @@ namespace bindpose
 
 /// All stored poses of a document: the library and the key frames. Copies are stored in sessions
 /// and for undo.
-struct PoseShelf
+struct StoredPoses
 {
   PoseLibrary library;
   KeyFrames keys;
 };
 
 /// Return {"library": […], "key_frames": {…}}.
-nlohmann::ordered_json to_json(const PoseShelf& shelf);
+nlohmann::ordered_json to_json(const StoredPoses& stored_poses);
 /// Read a shelf. A missing member gives an empty library or empty key frames. On invalid_input the
 /// shelf is unchanged.
-Status from_json(const nlohmann::ordered_json& json, PoseShelf& shelf);
+Status from_json(const nlohmann::ordered_json& json, StoredPoses& stored_poses);
 
 } // namespace bindpose
 

@@ -16,11 +16,12 @@ namespace bindpose
 namespace
 {
 /// Return the rows of a point array, padded with zeros to three components. The result is empty if
-/// the array is missing, has fewer than `fewest` components, or has more than three.
-Points to_rows(vtkPolyData* surface, const char* name, int fewest)
+/// the array is missing, has fewer than `minimum_components` components, or has more than three.
+Points padded_rows(vtkPolyData* surface, const char* name, int minimum_components)
 {
   vtkDataArray* array = surface->GetPointData()->GetArray(name);
-  if (!array || array->GetNumberOfComponents() < fewest || array->GetNumberOfComponents() > 3)
+  if (!array || array->GetNumberOfComponents() < minimum_components ||
+    array->GetNumberOfComponents() > 3)
   {
     return {};
   }
@@ -83,19 +84,19 @@ Status to_pose_source(
       source.arrays.fixed.push_back(fixed->GetComponent(v, 0) != 0.0);
     }
   }
-  source.arrays.parameters = to_rows(surface, "Parameterization", 2);
-  source.arrays.tangents = to_rows(surface, "Tangents", 3);
-  source.arrays.load = to_rows(surface, "Load", 3);
-  source.of_pseudo_edges = to_pseudo_edges(handles, source.handles, cells, source.pseudo_edges);
+  source.arrays.parameters = padded_rows(surface, "Parameterization", 2);
+  source.arrays.tangents = padded_rows(surface, "Tangents", 3);
+  source.arrays.load = padded_rows(surface, "Load", 3);
+  source.pseudo_edges_status = to_pseudo_edges(handles, source.handles, cells, source.pseudo_edges);
 
   TetInput volume;
-  vtkDataArray* of_tets = tets ? tets->GetPointData()->GetArray("Weights") : nullptr;
-  if (of_tets && to_tets(tets, volume).ok() &&
-    check_weights(of_tets, tets->GetNumberOfPoints(), source.handles).ok())
+  vtkDataArray* tet_weights_array = tets ? tets->GetPointData()->GetArray("Weights") : nullptr;
+  if (tet_weights_array && to_tets(tets, volume).ok() &&
+    check_weights(tet_weights_array, tets->GetNumberOfPoints(), source.handles).ok())
   {
     source.tet_points = volume.points.view();
     source.tets = volume.tets.view();
-    source.tet_weights = to_matrix(of_tets).view();
+    source.tet_weights = to_matrix(tet_weights_array).view();
   }
   return {};
 }

@@ -51,8 +51,9 @@ Frame choose_frame(const Box& box, const std::string& up)
     }
   }
   // The two horizontal axes: x and z if y is up; x and y if z is up; y and z if x is up.
-  const int level[2] = { frame.up == 0 ? 1 : 0, frame.up == 2 ? 1 : 2 };
-  frame.depth = size[level[0]] >= size[level[1]] ? level[1] : level[0];
+  const int horizontal_axes[2] = { frame.up == 0 ? 1 : 0, frame.up == 2 ? 1 : 2 };
+  frame.depth =
+    size[horizontal_axes[0]] >= size[horizontal_axes[1]] ? horizontal_axes[1] : horizontal_axes[0];
   return frame;
 }
 
@@ -87,7 +88,7 @@ void fit_along(vtkCamera* camera, PointsView points, const Axes& axes, double an
   const auto& [forward, right, up] = axes;
   const Box box = bounding_box(points);
   const Vec3 center = box.center();
-  const double free = 1.0 - 2.0 * margin;
+  const double inner_fraction = 1.0 - 2.0 * margin;
   const double ty = std::tan(0.5 * angle * pi / 180.0);
   const double tx = ty * aspect;
   // The terms A and B of the comment at the top of this file, for the right, left, upper and lower
@@ -101,25 +102,25 @@ void fit_along(vtkCamera* camera, PointsView points, const Axes& axes, double an
     const double x = p.dot(right);
     const double y = p.dot(up);
     const double z = p.dot(forward);
-    high[0] = std::max(high[0], x - free * tx * z);
-    high[1] = std::max(high[1], -x - free * tx * z);
-    high[2] = std::max(high[2], y - free * ty * z);
-    high[3] = std::max(high[3], -y - free * ty * z);
+    high[0] = std::max(high[0], x - inner_fraction * tx * z);
+    high[1] = std::max(high[1], -x - inner_fraction * tx * z);
+    high[2] = std::max(high[2], y - inner_fraction * ty * z);
+    high[3] = std::max(high[3], -y - inner_fraction * ty * z);
     near_point = std::min(near_point, z);
     far_point = std::max(far_point, z);
   }
   // A single point, or a line along the view direction, has no width. Keep a minimum distance from
   // it.
   const double smallest = std::max(0.5 * box.diagonal(), 1e-6);
-  double depth =
-    std::min(-(high[0] + high[1]) / (2.0 * free * tx), -(high[2] + high[3]) / (2.0 * free * ty));
+  double depth = std::min(-(high[0] + high[1]) / (2.0 * inner_fraction * tx),
+    -(high[2] + high[3]) / (2.0 * inner_fraction * ty));
   depth = std::min(depth, near_point - 0.1 * smallest);
   const double middle = 0.5 * (near_point + far_point);
-  const Vec3 place =
+  const Vec3 position =
     center + 0.5 * (high[0] - high[1]) * right + 0.5 * (high[2] - high[3]) * up + depth * forward;
-  const Vec3 focus = place + (middle - depth) * forward;
+  const Vec3 focus = position + (middle - depth) * forward;
 
-  camera->SetPosition(place.data());
+  camera->SetPosition(position.data());
   camera->SetFocalPoint(focus.data());
   camera->SetViewUp(up.data());
   const double slack = 0.1 * std::max(far_point - near_point, smallest);
@@ -147,7 +148,7 @@ bool sees_all(vtkCamera* camera, PointsView points, const Axes& axes, double asp
 
 /// Return the smallest size at which all points are visible: the distance from the points' center,
 /// or the parallel scale of a parallel view.
-double least_size(vtkCamera* camera, PointsView points, const Axes& axes, double aspect)
+double minimum_size(vtkCamera* camera, PointsView points, const Axes& axes, double aspect)
 {
   const Vec3 center = bounding_box(points).center();
   const bool parallel = camera->GetParallelProjection() != 0;
@@ -188,17 +189,17 @@ void keep_in_view(vtkCamera* camera, PointsView points, double aspect_before, do
   axes.forward = Vec3(camera->GetDirectionOfProjection());
   axes.right = axes.forward.cross(Vec3(camera->GetViewUp())).normalized();
   axes.up = axes.right.cross(axes.forward);
-  const bool seen = sees_all(camera, points, axes, aspect_before);
-  const double before = least_size(camera, points, axes, aspect_before);
-  const double after = least_size(camera, points, axes, aspect);
+  const bool was_visible = sees_all(camera, points, axes, aspect_before);
+  const double before = minimum_size(camera, points, axes, aspect_before);
+  const double after = minimum_size(camera, points, axes, aspect);
   if (before > 0.0 && after > 0.0)
   {
     const Vec3 focus(camera->GetFocalPoint());
-    const Vec3 place = focus + after / before * (Vec3(camera->GetPosition()) - focus);
-    camera->SetPosition(place.data());
+    const Vec3 position = focus + after / before * (Vec3(camera->GetPosition()) - focus);
+    camera->SetPosition(position.data());
     camera->SetParallelScale(after / before * camera->GetParallelScale());
   }
-  if (seen && !sees_all(camera, points, axes, aspect))
+  if (was_visible && !sees_all(camera, points, axes, aspect))
   {
     constexpr double margin = 0.04;
     fit_along(camera, points, axes, camera->GetViewAngle(), aspect, margin);
@@ -217,9 +218,9 @@ bool find_plane(PointsView points, Vec3& normal)
   }
   // Use the mean of the points, which is in their plane; the center of the bounding box may not be.
   const Eigen::RowVector3d middle = points.colwise().mean();
-  const Points apart = points.rowwise() - middle;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(
-    apart.transpose() * apart / (diagonal * diagonal * static_cast<double>(points.rows())));
+  const Points centered_points = points.rowwise() - middle;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(centered_points.transpose() *
+    centered_points / (diagonal * diagonal * static_cast<double>(points.rows())));
   constexpr double flat = 1e-6;
   normal = axes.eigenvectors().col(0);
   // Orient the normal toward the default view.
@@ -237,7 +238,7 @@ bool find_plane(PointsView points, Vec3& normal)
     normal[k] = std::abs(normal[k]) < 1e-12 ? 0.0 : normal[k];
   }
   normal.normalize();
-  return (apart * normal).array().abs().maxCoeff() <= flat * diagonal &&
+  return (centered_points * normal).array().abs().maxCoeff() <= flat * diagonal &&
     std::sqrt(std::max(0.0, axes.eigenvalues()[1])) > flat;
 }
 
@@ -254,20 +255,20 @@ void fit_parallel_camera(
     box.add(Vec3(p.dot(right), p.dot(up), p.dot(normal)));
   }
   const Vec3 size = box.size();
-  const double free = 1.0 - 2.0 * margin;
+  const double inner_fraction = 1.0 - 2.0 * margin;
   const double smallest = std::max(0.5 * box.diagonal(), 1e-6);
   const Vec3 center = box.center();
   const Vec3 focus = center.x() * right + center.y() * up + center.z() * normal;
   // Use the camera distance of a perspective view, so that switching to perspective shows the same
   // part of the plane.
-  const double scale =
-    std::max({ 0.5 * size.y() / free, 0.5 * size.x() / (free * aspect), 1e-3 * smallest });
+  const double scale = std::max({ 0.5 * size.y() / inner_fraction,
+    0.5 * size.x() / (inner_fraction * aspect), 1e-3 * smallest });
   const double distance = scale / std::tan(0.5 * view_angle * pi / 180.0);
-  const Vec3 place = focus + distance * normal;
+  const Vec3 position = focus + distance * normal;
   camera->ParallelProjectionOn();
   camera->SetParallelScale(scale);
   camera->SetViewAngle(view_angle);
-  camera->SetPosition(place.data());
+  camera->SetPosition(position.data());
   camera->SetFocalPoint(focus.data());
   camera->SetViewUp(up.data());
   camera->SetClippingRange(1e-2 * distance, 2.0 * distance + size.z());

@@ -32,7 +32,7 @@ const std::vector<Category>& label_categories()
   return table;
 }
 
-const std::vector<Category>& rung_categories()
+const std::vector<Category>& method_categories()
 {
   static const std::vector<Category> table{
     { 0, "cdt", { 0.27, 0.47, 0.67 } },
@@ -74,10 +74,10 @@ const std::vector<Category>& extremum_categories()
 Rgb handle_color(std::size_t column)
 {
   static const Colors colors = categorical_colors(16);
-  const auto at = static_cast<Index>(column % handle_colors);
+  const auto at = static_cast<Index>(column % handle_color_count);
   const double shade = at < 16 ? 1.0 : 0.55;
-  const auto its = colors.row(at < 16 ? at : at - 16);
-  return { shade * its[0], shade * its[1], shade * its[2] };
+  const auto color_row = colors.row(at < 16 ? at : at - 16);
+  return { shade * color_row[0], shade * color_row[1], shade * color_row[2] };
 }
 
 std::vector<Category> handle_categories(const std::vector<std::string>& names)
@@ -125,7 +125,7 @@ Status count_labels(vtkDataSet* tets, std::vector<Category>& categories)
                      short_number(labels->GetComponent(bad, 0)) + "; expected -1, 0, 1 or 2");
 }
 
-Status count_rung(vtkDataSet* tets, std::vector<Category>& categories)
+Status count_method(vtkDataSet* tets, std::vector<Category>& categories)
 {
   auto* array = vtkStringArray::SafeDownCast(tets->GetFieldData()->GetAbstractArray("Method"));
   if (!array || array->GetNumberOfValues() == 0)
@@ -173,7 +173,7 @@ void count_defects(vtkPolyData* defects, std::vector<Category>& categories)
 namespace
 {
 /// Format a count with separators: "12,345".
-std::string grouped(Index count)
+std::string format_count(Index count)
 {
   std::string digits = std::to_string(count);
   for (auto at = static_cast<std::ptrdiff_t>(digits.size()) - 3; at > 0; at -= 3)
@@ -201,33 +201,34 @@ ColorMap category_map(const std::vector<Category>& categories)
     const Rgb& c = used[i].color;
     map.table->SetTableValue(i, c[0], c[1], c[2], 1.0);
     map.ticks.push_back(i + 0.5);
-    map.texts.push_back(used[i].name + ": " + grouped(used[i].count));
+    map.texts.push_back(used[i].name + ": " + format_count(used[i].count));
   }
   return map;
 }
 
-ColorMap shortened(const ColorMap& map, int most)
+ColorMap shorten_legend(const ColorMap& map, int maximum_lines)
 {
   const int count = static_cast<int>(map.texts.size());
-  if (count <= most || most < 2)
+  if (count <= maximum_lines || maximum_lines < 2)
   {
     return map;
   }
   ColorMap result = map;
-  result.upper = most;
+  result.upper = maximum_lines;
   result.table = vtkSmartPointer<vtkLookupTable>::New();
-  result.table->SetNumberOfTableValues(most);
-  result.table->SetTableRange(0.0, most);
+  result.table->SetNumberOfTableValues(maximum_lines);
+  result.table->SetTableRange(0.0, maximum_lines);
   double rgba[4];
-  for (int i = 0; i + 1 < most; ++i)
+  for (int i = 0; i + 1 < maximum_lines; ++i)
   {
     map.table->GetTableValue(i, rgba);
     result.table->SetTableValue(i, rgba);
   }
-  result.table->SetTableValue(most - 1, palette::white[0], palette::white[1], palette::white[2], 1);
-  result.ticks.resize(static_cast<std::size_t>(most));
-  result.texts.resize(static_cast<std::size_t>(most));
-  result.texts.back() = "and " + grouped(count - most + 1) + " more";
+  result.table->SetTableValue(
+    maximum_lines - 1, palette::white[0], palette::white[1], palette::white[2], 1);
+  result.ticks.resize(static_cast<std::size_t>(maximum_lines));
+  result.texts.resize(static_cast<std::size_t>(maximum_lines));
+  result.texts.back() = "and " + format_count(count - maximum_lines + 1) + " more";
   return result;
 }
 

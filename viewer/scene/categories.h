@@ -31,8 +31,8 @@ struct Category
 /// color. The colors of labels that contradict the winding number are darker.
 const std::vector<Category>& label_categories();
 /// Return one category per meshing method of vtkTetrahedralizeSurface: cdt, remesh, embed, wrap,
-/// ftetwild. Any other name is "other". Identifiers use `rung` for a meshing method.
-const std::vector<Category>& rung_categories();
+/// ftetwild. Any other name is "other".
+const std::vector<Category>& method_categories();
 /// Return one category per type of defect, in the order of vtkSurfaceDefects.
 const std::vector<Category>& defect_categories();
 
@@ -41,7 +41,7 @@ const std::vector<Category>& defect_categories();
 const std::vector<Category>& extremum_categories();
 /// Number of distinct handle colors: the colors that vtkWeightedColors gives to handles without a
 /// color, and their lighter and darker variants.
-constexpr std::size_t handle_colors = 24;
+constexpr std::size_t handle_color_count = 24;
 /// Return the color of the handle with this column of the weights. After the last color, the first
 /// is used again.
 Rgb handle_color(std::size_t column);
@@ -53,7 +53,7 @@ std::vector<Category> handle_categories(const std::vector<std::string>& names);
 Status count_labels(vtkDataSet* tets, std::vector<Category>& categories);
 /// Count all tets in the category of their meshing method, which the field data `Method` contains.
 /// Return invalid_input if `Method` is missing.
-Status count_rung(vtkDataSet* tets, std::vector<Category>& categories);
+Status count_method(vtkDataSet* tets, std::vector<Category>& categories);
 
 /// Report whether a dataset is an output of vtkSurfaceDefects.
 bool is_defect_data(vtkDataSet* data);
@@ -65,9 +65,9 @@ void count_defects(vtkPolyData* defects, std::vector<Category>& categories);
 /// category with index i in this legend has the value i + 0.5 in the table. Each tick text contains
 /// the name and the count of a category.
 ColorMap category_map(const std::vector<Category>& categories);
-/// Shorten the legend to a maximum of `most` lines. The last line states how many categories are
-/// omitted.
-ColorMap shortened(const ColorMap& map, int most);
+/// Shorten the legend to a maximum of `maximum_lines` lines. The last line states how many
+/// categories are omitted.
+ColorMap shorten_legend(const ColorMap& map, int maximum_lines);
 /// Return the value of each category in the table of category_map(); -1 for categories that do not
 /// occur.
 std::vector<double> category_values(const std::vector<Category>& categories);

@@ -157,9 +157,9 @@ namespace
 // The dihedral angle of the regular tet, in degrees. No tet has a larger smallest dihedral angle.
 constexpr double regular_angle = 70.52877936550931;
 
-bool names_tets(ColorBy by)
+bool is_tet_quantity(ColorBy by)
 {
-  return by == ColorBy::label || by == ColorBy::quality || by == ColorBy::rung;
+  return by == ColorBy::label || by == ColorBy::quality || by == ColorBy::method;
 }
 
 std::string word_of(ColorBy by)
@@ -192,21 +192,21 @@ vtkSmartPointer<vtkDoubleArray> tet_values(vtkDataSet* data, const Coloring& col
     }
     return values;
   }
-  const std::vector<double> shown = category_values(coloring.categories);
+  const std::vector<double> table_values = category_values(coloring.categories);
   std::vector<Category> own = coloring.categories;
   for (Category& category : own)
   {
     category.count = 0;
   }
-  if (coloring.by == ColorBy::rung)
+  if (coloring.by == ColorBy::method)
   {
-    if (!count_rung(data, own).ok())
+    if (!count_method(data, own).ok())
     {
       return nullptr;
     }
     const auto its = std::find_if(
       own.begin(), own.end(), [](const Category& category) { return category.count > 0; });
-    values->Fill(shown[static_cast<std::size_t>(its - own.begin())]);
+    values->Fill(table_values[static_cast<std::size_t>(its - own.begin())]);
     return values;
   }
   if (!count_labels(data, own).ok())
@@ -218,7 +218,7 @@ vtkSmartPointer<vtkDoubleArray> tet_values(vtkDataSet* data, const Coloring& col
   {
     const auto its = std::find_if(own.begin(), own.end(),
       [&](const Category& category) { return category.value == labels->GetComponent(t, 0); });
-    values->SetValue(t, shown[static_cast<std::size_t>(its - own.begin())]);
+    values->SetValue(t, table_values[static_cast<std::size_t>(its - own.begin())]);
   }
   return values;
 }
@@ -289,13 +289,13 @@ vtkSmartPointer<vtkDoubleArray> handle_values(vtkDataSet* data, const Coloring& 
   // Tiles may have weights of different handles. Handles are therefore matched by name, not by
   // column.
   const std::vector<std::string> names = handle_names(find_array(data, "Weights").array);
-  const std::vector<double> shown = category_values(coloring.categories);
+  const std::vector<double> table_values = category_values(coloring.categories);
   std::vector<double> values;
   for (const std::string& name : names)
   {
     const auto its = std::find_if(coloring.categories.begin(), coloring.categories.end(),
       [&](const Category& category) { return category.name == name; });
-    values.push_back(shown[static_cast<std::size_t>(its - coloring.categories.begin())]);
+    values.push_back(table_values[static_cast<std::size_t>(its - coloring.categories.begin())]);
   }
   look_up(columns, values);
   return columns;
@@ -351,7 +351,7 @@ Status choose_handle_coloring(
   }
   coloring.kind = Coloring::Kind::other;
   coloring.map = category_map(coloring.categories);
-  coloring.map.downwards = true;
+  coloring.map.first_at_top = true;
   return {};
 }
 
@@ -427,7 +427,7 @@ void choose_weight_map(
 // Check that the dataset to subtract has an array that fits the array of the tile.
 Status check_minus(const FoundArray& found, const Coloring& coloring)
 {
-  const FoundArray other = find_array(coloring.minus, coloring.array);
+  const FoundArray other = find_array(coloring.subtracted_data, coloring.array);
   if (!other.array || other.on_points != found.on_points)
   {
     return Status::invalid_input("the subtracted dataset has no " +
@@ -453,14 +453,14 @@ Status check_minus(const FoundArray& found, const Coloring& coloring)
 Status choose_tet_coloring(
   const std::vector<Tile>& tiles, const PictureOptions& options, Coloring& coloring)
 {
-  const bool given = options.range[0] <= options.range[1];
-  if (given && coloring.by != ColorBy::quality)
+  const bool has_range = options.range[0] <= options.range[1];
+  if (has_range && coloring.by != ColorBy::quality)
   {
     return Status::invalid_input("colors by " + word_of(coloring.by) + " cannot have a range");
   }
   if (coloring.by != ColorBy::quality)
   {
-    coloring.categories = coloring.by == ColorBy::label ? label_categories() : rung_categories();
+    coloring.categories = coloring.by == ColorBy::label ? label_categories() : method_categories();
   }
   bool any = false;
   for (const Tile& tile : tiles)
@@ -473,8 +473,8 @@ Status choose_tet_coloring(
     any = true;
     const Status status = coloring.by == ColorBy::label
       ? count_labels(tile.data, coloring.categories)
-      : coloring.by == ColorBy::rung ? count_rung(tile.data, coloring.categories)
-                                     : Status();
+      : coloring.by == ColorBy::method ? count_method(tile.data, coloring.categories)
+                                       : Status();
     if (!status.ok())
     {
       return status;
@@ -488,8 +488,8 @@ Status choose_tet_coloring(
   coloring.kind = Coloring::Kind::other;
   if (coloring.by == ColorBy::quality)
   {
-    coloring.map =
-      sequential_map(given ? options.range[0] : 0.0, given ? options.range[1] : regular_angle, 0);
+    coloring.map = sequential_map(
+      has_range ? options.range[0] : 0.0, has_range ? options.range[1] : regular_angle, 0);
   }
   else
   {
@@ -507,7 +507,7 @@ std::string Coloring::legend_name() const
       return "Label";
     case ColorBy::quality:
       return "Min. angle (°)";
-    case ColorBy::rung:
+    case ColorBy::method:
       return "Method";
     case ColorBy::handle:
       return "Handle";
@@ -523,7 +523,7 @@ std::string Coloring::legend_name() const
     case ColorBy::winding_number:
       break;
   }
-  if (this->minus)
+  if (this->subtracted_data)
   {
     return (this->component_name.empty() ? this->array : this->component_name) + ", difference";
   }
@@ -533,7 +533,7 @@ std::string Coloring::legend_name() const
 vtkSmartPointer<vtkDoubleArray> color_values(
   vtkDataSet* data, const Coloring& coloring, bool& on_points)
 {
-  if (names_tets(coloring.by))
+  if (is_tet_quantity(coloring.by))
   {
     on_points = false;
     return tet_values(data, coloring);
@@ -562,9 +562,9 @@ vtkSmartPointer<vtkDoubleArray> color_values(
   {
     values->SetValue(i, value_of(found.array, i, component));
   }
-  if (coloring.minus)
+  if (coloring.subtracted_data)
   {
-    vtkDataArray* other = find_array(coloring.minus, coloring.array).array;
+    vtkDataArray* other = find_array(coloring.subtracted_data, coloring.array).array;
     const int its = find_component(other, coloring);
     for (vtkIdType i = 0; i < values->GetNumberOfValues(); ++i)
     {
@@ -581,8 +581,9 @@ Status choose_coloring(
   coloring.by = options.color_by;
   coloring.array = options.array;
   coloring.component = options.component;
-  coloring.minus = options.minus;
-  if (coloring.minus && coloring.by != ColorBy::array && coloring.by != ColorBy::winding_number)
+  coloring.subtracted_data = options.subtracted_data;
+  if (coloring.subtracted_data && coloring.by != ColorBy::array &&
+    coloring.by != ColorBy::winding_number)
   {
     return Status::invalid_input("a difference needs colors by an array or by winding number");
   }
@@ -593,7 +594,7 @@ Status choose_coloring(
       return Status::invalid_input(
         "an array or a component cannot be combined with another choice of colors");
     }
-    if (names_tets(coloring.by))
+    if (is_tet_quantity(coloring.by))
     {
       return choose_tet_coloring(tiles, options, coloring);
     }
@@ -620,7 +621,8 @@ Status choose_coloring(
   }
   if (coloring.array.empty())
   {
-    return coloring.minus ? Status::invalid_input("a difference needs the name of an array")
+    return coloring.subtracted_data
+      ? Status::invalid_input("a difference needs the name of an array")
       : options.component.empty()
       ? Status()
       : Status::invalid_input("a component needs the name of its array");
@@ -646,10 +648,10 @@ Status choose_coloring(
       continue;
     }
     has_component = true;
-    const Status fits = coloring.minus ? check_minus(found, coloring) : Status();
-    if (!fits.ok())
+    const Status match_status = coloring.subtracted_data ? check_minus(found, coloring) : Status();
+    if (!match_status.ok())
     {
-      return fits;
+      return match_status;
     }
     if (found.array->GetNumberOfComponents() > 1 && component >= 0)
     {
@@ -682,9 +684,9 @@ Status choose_coloring(
   }
   if (!sample)
   {
-    const std::string there = list_words(array_names(tiles));
+    const std::string available = list_words(array_names(tiles));
     return Status::invalid_input("there is no array '" + coloring.array + "'" +
-      (there.empty() ? std::string("; the data has no arrays") : "; available: " + there));
+      (available.empty() ? std::string("; the data has no arrays") : "; available: " + available));
   }
   if (!has_component)
   {
@@ -695,21 +697,22 @@ Status choose_coloring(
   {
     return Status::invalid_input("the array '" + coloring.array + "' has no finite value");
   }
-  const bool given = options.range[0] <= options.range[1];
-  if (coloring.minus || coloring.by == ColorBy::row_sum)
+  const bool has_range = options.range[0] <= options.range[1];
+  if (coloring.subtracted_data || coloring.by == ColorBy::row_sum)
   {
-    const double center = coloring.minus ? 0.0 : 1.0;
-    const double reach = std::max(std::abs(lower - center), std::abs(upper - center));
-    if (given && !(options.range[0] <= center && center <= options.range[1]))
+    const double center = coloring.subtracted_data ? 0.0 : 1.0;
+    const double half_range = std::max(std::abs(lower - center), std::abs(upper - center));
+    if (has_range && !(options.range[0] <= center && center <= options.range[1]))
     {
-      return Status::invalid_input(coloring.minus ? "the range of a difference must contain 0"
-                                                  : "the range of row sums must contain 1");
+      return Status::invalid_input(coloring.subtracted_data
+          ? "the range of a difference must contain 0"
+          : "the range of row sums must contain 1");
     }
-    coloring.map = diverging_map(
-      given ? options.range[0] : center - reach, given ? options.range[1] : center + reach, center);
-    if (coloring.minus)
+    coloring.map = diverging_map(has_range ? options.range[0] : center - half_range,
+      has_range ? options.range[1] : center + half_range, center);
+    if (coloring.subtracted_data)
     {
-      coloring.numbers.set("picture.difference.largest", reach);
+      coloring.numbers.set("picture.difference.largest", half_range);
       coloring.numbers.set(
         "picture.difference.rms", std::sqrt(squares / static_cast<double>(count)));
     }
@@ -719,7 +722,7 @@ Status choose_coloring(
       coloring.numbers.set("picture.row_sum.maximum", upper);
     }
   }
-  else if (coloring.array == "WindingNumber" && !given)
+  else if (coloring.array == "WindingNumber" && !has_range)
   {
     coloring.kind = Coloring::Kind::winding;
     coloring.map = winding_map();
@@ -735,7 +738,7 @@ Status choose_coloring(
     const double from = angles ? 0.0 : lower;
     const double to = angles ? angle_scale(upper) : upper;
     coloring.map =
-      sequential_map(given ? options.range[0] : from, given ? options.range[1] : to, 0);
+      sequential_map(has_range ? options.range[0] : from, has_range ? options.range[1] : to, 0);
   }
   return Status();
 }

@@ -42,7 +42,8 @@ struct Coloring
   std::vector<Category> categories; ///< categories of labels, meshing methods or handles
   /// Values of the isolines of weights: the borders of the bands, usually multiples of 0.1.
   std::vector<double> isolines;
-  vtkSmartPointer<vtkDataSet> minus; ///< the dataset whose values are subtracted; may be null
+  vtkSmartPointer<vtkDataSet>
+    subtracted_data; ///< the dataset whose values are subtracted; may be null
   Report numbers; ///< statistics of row sums and of differences over all tiles
 
   std::string legend_name() const;

@@ -150,18 +150,18 @@ ColorMap diverging_map(double lower, double upper, double center)
 {
   ColorMap map;
   // Half the width of the range that is used if all values equal the center.
-  const double least = std::max(1e-12, 1e-9 * std::abs(center));
-  const bool constant = !(upper - lower > 2.0 * least);
-  map.lower = constant ? center - least : lower;
-  map.upper = constant ? center + least : upper;
+  const double minimum_half_width = std::max(1e-12, 1e-9 * std::abs(center));
+  const bool constant = !(upper - lower > 2.0 * minimum_half_width);
+  map.lower = constant ? center - minimum_half_width : lower;
+  map.upper = constant ? center + minimum_half_width : upper;
   // Use an odd number of entries, so that the center of a symmetric range has its own entry.
   constexpr int count = 257;
   map.table = make_table(map.lower, map.upper, count);
-  const double reach = std::max(map.upper - center, center - map.lower);
+  const double half_range = std::max(map.upper - center, center - map.lower);
   for (int i = 0; i < count; ++i)
   {
     const double value = map.lower + (map.upper - map.lower) * (i + 0.5) / count;
-    const Rgb c = diverging_color((value - center) / reach);
+    const Rgb c = diverging_color((value - center) / half_range);
     map.table->SetTableValue(i, c[0], c[1], c[2], 1.0);
   }
   map.ticks = constant ? std::vector<double>{ center } : round_ticks(map.lower, map.upper);
@@ -221,7 +221,7 @@ ColorMap level_map(const ColorMap& map, const std::vector<double>& levels)
 
 ColorMap with_levels(ColorMap map, const std::vector<double>& levels)
 {
-  const double room = 0.07 * (map.upper - map.lower);
+  const double minimum_distance = 0.07 * (map.upper - map.lower);
   std::vector<double> ticks;
   for (const double level : levels)
   {
@@ -232,7 +232,7 @@ ColorMap with_levels(ColorMap map, const std::vector<double>& levels)
   }
   for (const double tick : map.ticks)
   {
-    const auto touches = [&](double level) { return std::abs(level - tick) < room; };
+    const auto touches = [&](double level) { return std::abs(level - tick) < minimum_distance; };
     if (std::none_of(ticks.begin(), ticks.end(), touches))
     {
       ticks.push_back(tick);

@@ -66,7 +66,7 @@ struct ColorMap
   std::vector<double> ticks; ///< values that are labeled in the legend
   int decimals = 1; ///< decimals of the tick texts; -1: shortest text with three digits
   std::vector<std::string> texts; ///< texts of the ticks; empty: the values
-  bool downwards = false; ///< true: the first entry is at the top; false: at the bottom
+  bool first_at_top = false; ///< true: the first entry is at the top; false: at the bottom
 };
 
 /// Return the map of weights: ten bands of one color each over [0, 1].

@@ -22,8 +22,8 @@ namespace bindpose
 {
 namespace
 {
-constexpr int classes = 3; // number of classes of tubes: multiplicity 1, 2, and 3 or more
-constexpr double widths[classes] = { 1.0, 1.5, 2.0 };
+constexpr int class_count = 3; // number of classes of tubes: multiplicity 1, 2, and 3 or more
+constexpr double widths[class_count] = { 1.0, 1.5, 2.0 };
 
 vtkSmartPointer<vtkPolyData> lines_of_class(vtkPolyData* data, int wanted)
 {
@@ -34,9 +34,11 @@ vtkSmartPointer<vtkPolyData> lines_of_class(vtkPolyData* data, int wanted)
   vtkNew<vtkIdList> ids;
   for (vtkIdType line = 0; line < data->GetNumberOfLines(); ++line)
   {
-    const double times = multiplicity ? std::abs(multiplicity->GetComponent(first + line, 0)) : 1.0;
-    const int its = std::isfinite(times) ? static_cast<int>(std::lround(std::min(times, 3.0))) : 1;
-    if (its == wanted + 1)
+    const double usage_count =
+      multiplicity ? std::abs(multiplicity->GetComponent(first + line, 0)) : 1.0;
+    const int line_class =
+      std::isfinite(usage_count) ? static_cast<int>(std::lround(std::min(usage_count, 3.0))) : 1;
+    if (line_class == wanted + 1)
     {
       data->GetLines()->GetCellAtId(line, ids);
       lines->InsertNextCell(ids);
@@ -90,9 +92,9 @@ std::vector<vtkSmartPointer<vtkActor>> make_curves(
   vtkPolyData* data, double radius, double line_width)
 {
   std::vector<vtkSmartPointer<vtkActor>> actors;
-  for (int which = 0; which < classes; ++which)
+  for (int tube_class = 0; tube_class < class_count; ++tube_class)
   {
-    const auto lines = lines_of_class(data, which);
+    const auto lines = lines_of_class(data, tube_class);
     if (lines->GetNumberOfLines() == 0)
     {
       continue;
@@ -109,7 +111,7 @@ std::vector<vtkSmartPointer<vtkActor>> make_curves(
     strips->JoinContiguousSegmentsOn();
     vtkNew<vtkTubeFilter> tubes;
     tubes->SetInputConnection(strips->GetOutputPort());
-    tubes->SetRadius(radius * widths[which]);
+    tubes->SetRadius(radius * widths[tube_class]);
     tubes->SetNumberOfSides(10);
     tubes->CappingOn();
     tubes->Update();
@@ -123,7 +125,7 @@ std::vector<vtkSmartPointer<vtkActor>> make_curves(
     const auto faint = make_actor(strips->GetOutput());
     faint->GetProperty()->LightingOff();
     faint->GetProperty()->SetOpacity(0.35);
-    faint->GetProperty()->SetLineWidth(static_cast<float>(line_width * widths[which]));
+    faint->GetProperty()->SetLineWidth(static_cast<float>(line_width * widths[tube_class]));
     vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
     faint->GetMapper()->SetRelativeCoincidentTopologyLineOffsetParameters(0.0, -66000.0);
     actors.push_back(faint);

@@ -89,9 +89,9 @@ std::vector<vtkSmartPointer<vtkActor>> make_defects(vtkPolyData* defects, double
       property->SetOpacity(hidden ? 0.35 : 1.0);
       // A large depth offset draws in front of everything; a small one just in front of the surface
       // that contains the defect.
-      const double nearer = hidden ? -66000.0 : -8.0;
-      actor->GetMapper()->SetRelativeCoincidentTopologyLineOffsetParameters(0.0, nearer);
-      actor->GetMapper()->SetRelativeCoincidentTopologyPointOffsetParameter(nearer);
+      const double depth_offset = hidden ? -66000.0 : -8.0;
+      actor->GetMapper()->SetRelativeCoincidentTopologyLineOffsetParameters(0.0, depth_offset);
+      actor->GetMapper()->SetRelativeCoincidentTopologyPointOffsetParameter(depth_offset);
       actors.push_back(actor);
     }
   }

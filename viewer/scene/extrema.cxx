@@ -32,19 +32,19 @@ constexpr double rim_size = 1.25;
 
 std::vector<char> points_of_handles(vtkDataSet* data)
 {
-  std::vector<char> exempt(static_cast<std::size_t>(data->GetNumberOfPoints()), 0);
+  std::vector<char> is_handle_point(static_cast<std::size_t>(data->GetNumberOfPoints()), 0);
   for (const char* name : { "Weights", "RawWeights" })
   {
     vtkDataArray* weights = data->GetPointData()->GetArray(name);
     for (vtkIdType v = 0; weights && v < weights->GetNumberOfTuples(); ++v)
     {
-      for (int j = 0; j < weights->GetNumberOfComponents() && !exempt[v]; ++j)
+      for (int j = 0; j < weights->GetNumberOfComponents() && !is_handle_point[v]; ++j)
       {
-        exempt[v] = weights->GetComponent(v, j) == 1.0;
+        is_handle_point[v] = weights->GetComponent(v, j) == 1.0;
       }
     }
   }
-  return exempt;
+  return is_handle_point;
 }
 
 } // namespace
@@ -84,9 +84,9 @@ Status find_extrema(const std::vector<Tile>& tiles, const Coloring& coloring,
 std::vector<Category> count_extrema(const std::vector<std::vector<Extremum>>& extrema)
 {
   std::vector<Category> categories = extremum_categories();
-  for (const std::vector<Extremum>& its : extrema)
+  for (const std::vector<Extremum>& tile_extrema : extrema)
   {
-    for (const Extremum& extremum : its)
+    for (const Extremum& extremum : tile_extrema)
     {
       ++categories[extremum.maximum ? 1 : 0].count;
     }
@@ -99,11 +99,11 @@ void report_extrema(const std::vector<std::vector<Extremum>>& extrema,
 {
   std::vector<std::int64_t> maxima;
   std::vector<std::int64_t> minima;
-  for (const std::vector<Extremum>& its : extrema)
+  for (const std::vector<Extremum>& tile_extrema : extrema)
   {
-    maxima.push_back(std::count_if(
-      its.begin(), its.end(), [](const Extremum& extremum) { return extremum.maximum; }));
-    minima.push_back(static_cast<std::int64_t>(its.size()) - maxima.back());
+    maxima.push_back(std::count_if(tile_extrema.begin(), tile_extrema.end(),
+      [](const Extremum& extremum) { return extremum.maximum; }));
+    minima.push_back(static_cast<std::int64_t>(tile_extrema.size()) - maxima.back());
   }
   report.set("picture.extrema[].maxima", maxima);
   report.set("picture.extrema[].minima", minima);
@@ -128,44 +128,44 @@ ExtremumBalls::ExtremumBalls()
       const auto actor = vtkSmartPointer<vtkActor>::New();
       actor->SetMapper(mapper);
       actor->PickableOff();
-      vtkProperty* look = actor->GetProperty();
+      vtkProperty* property = actor->GetProperty();
       if (rim)
       {
-        set_color(look, palette::line);
-        look->LightingOff();
-        look->FrontfaceCullingOn();
+        set_color(property, palette::line);
+        property->LightingOff();
+        property->FrontfaceCullingOn();
       }
       else
       {
         const Rgb& color = extremum_categories()[maximum].color;
-        set_color(look, color);
-        look->SetAmbient(0.45);
-        look->SetDiffuse(0.65);
+        set_color(property, color);
+        property->SetAmbient(0.45);
+        property->SetDiffuse(0.65);
       }
       this->actors_.push_back(actor);
     }
   }
 }
 
-void ExtremumBalls::set(const std::vector<Place>& places, double radius)
+void ExtremumBalls::set(const std::vector<Marker>& markers, double radius)
 {
-  this->places_ = places;
+  this->markers_ = markers;
   this->radius_ = radius;
   this->spheres_[0]->SetRadius(radius);
   this->spheres_[1]->SetRadius(rim_size * radius);
 }
 
-void ExtremumBalls::face(const Vec3& eye)
+void ExtremumBalls::face_eye(const Vec3& eye)
 {
   for (const int maximum : { 0, 1 })
   {
     vtkNew<vtkPoints> points;
-    for (const Place& place : this->places_)
+    for (const Marker& marker : this->markers_)
     {
-      if (place.maximum == (maximum == 1))
+      if (marker.maximum == (maximum == 1))
       {
-        const Vec3 toward = (eye - place.at).normalized();
-        points->InsertNextPoint(Vec3(place.at + rim_size * this->radius_ * toward).data());
+        const Vec3 toward = (eye - marker.position).normalized();
+        points->InsertNextPoint(Vec3(marker.position + rim_size * this->radius_ * toward).data());
       }
     }
     this->clouds_[maximum]->SetPoints(points);
@@ -178,19 +178,19 @@ void ExtremumBalls::face(const Vec3& eye)
 }
 
 Index add_extrema(vtkRenderer* renderer, vtkDataSet* data, const std::vector<Extremum>& extrema,
-  const std::vector<char>& seen, double radius)
+  const std::vector<char>& drawn_points, double radius)
 {
-  std::vector<ExtremumBalls::Place> places;
+  std::vector<ExtremumBalls::Marker> markers;
   for (const Extremum& extremum : extrema)
   {
-    if (seen.empty() || seen[extremum.vertex])
+    if (drawn_points.empty() || drawn_points[extremum.vertex])
     {
-      places.push_back({ Vec3(data->GetPoint(extremum.vertex)), extremum.maximum });
+      markers.push_back({ Vec3(data->GetPoint(extremum.vertex)), extremum.maximum });
     }
   }
   ExtremumBalls balls;
-  balls.set(places, radius);
-  balls.face(Vec3(renderer->GetActiveCamera()->GetPosition()));
+  balls.set(markers, radius);
+  balls.face_eye(Vec3(renderer->GetActiveCamera()->GetPosition()));
   for (const auto& actor : balls.actors())
   {
     if (actor->GetVisibility())
@@ -198,7 +198,7 @@ Index add_extrema(vtkRenderer* renderer, vtkDataSet* data, const std::vector<Ext
       renderer->AddActor(actor);
     }
   }
-  return static_cast<Index>(places.size());
+  return static_cast<Index>(markers.size());
 }
 
 } // namespace bindpose

@@ -48,19 +48,19 @@ class ExtremumBalls
 public:
   ExtremumBalls();
 
-  struct Place
+  struct Marker
   {
-    Vec3 at = Vec3::Zero();
+    Vec3 position = Vec3::Zero();
     bool maximum = false;
   };
-  void set(const std::vector<Place>& places, double radius);
+  void set(const std::vector<Marker>& markers, double radius);
   /// Move the balls in front of their extrema, on the line to the eye; otherwise a surface would
   /// cover the rims. Call this after the eye has moved.
-  void face(const Vec3& eye);
+  void face_eye(const Vec3& eye);
   const std::vector<vtkSmartPointer<vtkActor>>& actors() const { return this->actors_; }
 
 private:
-  std::vector<Place> places_;
+  std::vector<Marker> markers_;
   double radius_ = 1.0;
   std::array<vtkNew<vtkPolyData>, 2> clouds_; // minima, maxima
   std::array<vtkNew<vtkSphereSource>, 2> spheres_; // the ball and its rim
@@ -68,10 +68,10 @@ private:
 };
 
 /// Add a ball with a dark rim at each extremum.
-/// @param seen  #V: 1 for points whose extrema are drawn; empty: all extrema are drawn
+/// @param drawn_points  #V: 1 for points whose extrema are drawn; empty: all extrema are drawn
 /// @return number of balls
 Index add_extrema(vtkRenderer* renderer, vtkDataSet* data, const std::vector<Extremum>& extrema,
-  const std::vector<char>& seen, double radius);
+  const std::vector<char>& drawn_points, double radius);
 
 } // namespace bindpose
 

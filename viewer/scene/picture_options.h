@@ -47,7 +47,7 @@ enum class ColorBy
   winding_number, ///< the array WindingNumber
   label, ///< tets: inside or outside, from the cell array Label
   quality, ///< tets: the smallest dihedral angle, degrees
-  rung, ///< tets: the meshing method, from the field data Method
+  method, ///< tets: the meshing method, from the field data Method
   handle, ///< cells of meshes: the name of the handle with the largest Weights at the cell
   row_sum, ///< the sum of each point's `RawWeights`
   rotation_cluster, ///< cells: the rotation cluster of most of their points (RotationCluster)
@@ -85,7 +85,7 @@ struct PictureOptions
   /// Dataset whose values are subtracted from the displayed values, point by point or cell by cell.
   /// It needs the same array and component and the same number of points or cells. Null: no
   /// subtraction.
-  vtkSmartPointer<vtkDataSet> minus;
+  vtkSmartPointer<vtkDataSet> subtracted_data;
   /// Show local extrema of the displayed array as balls; see find_extrema(). On tets, only extrema
   /// on the drawn faces are visible.
   bool extrema = false;
@@ -130,7 +130,7 @@ struct PictureOptions
   int supersampling = 2;
   /// Tiles that are not drawn but are included in the view and the range of the colors, for example
   /// the other frames of a moving picture.
-  std::vector<Tile> around;
+  std::vector<Tile> undrawn_tiles;
 };
 
 } // namespace bindpose

@@ -47,8 +47,9 @@ void for_each_cell(vtkDataSet* data, const Cell& each)
         clusters.push_back(cluster);
       }
     }
-    const int its = clusters.empty() ? -1 : most_frequent(clusters.begin(), clusters.end());
-    each(cell, its, clusters);
+    const int cell_cluster =
+      clusters.empty() ? -1 : most_frequent(clusters.begin(), clusters.end());
+    each(cell, cell_cluster, clusters);
   }
 }
 
@@ -56,22 +57,22 @@ using Pairs = std::set<std::pair<int, int>>; // pairs of clusters that touch, th
 
 /// Return a handle color for each cluster. The color differs from those of all clusters with a
 /// lower index that touch the cluster.
-std::vector<std::size_t> deal_colors(std::size_t clusters, const Pairs& touching)
+std::vector<std::size_t> assign_colors(std::size_t clusters, const Pairs& touching)
 {
   std::vector<std::size_t> colors;
   for (std::size_t k = 0; k < clusters; ++k)
   {
-    std::vector<char> taken(handle_colors, 0);
+    std::vector<char> is_used(handle_color_count, 0);
     const int number = static_cast<int>(k);
     for (auto pair = touching.lower_bound({ number, 0 });
          pair != touching.end() && pair->first == number; ++pair)
     {
-      taken[colors[static_cast<std::size_t>(pair->second)]] = 1;
+      is_used[colors[static_cast<std::size_t>(pair->second)]] = 1;
     }
-    std::size_t color = k % handle_colors;
-    for (std::size_t tried = 0; taken[color] && tried < handle_colors; ++tried)
+    std::size_t color = k % handle_color_count;
+    for (std::size_t attempt = 0; is_used[color] && attempt < handle_color_count; ++attempt)
     {
-      color = (color + 1) % handle_colors;
+      color = (color + 1) % handle_color_count;
     }
     colors.push_back(color);
   }
@@ -86,12 +87,12 @@ Status check_clusters(const std::vector<vtkDataSet*>& datasets)
   {
     vtkDataArray* array = cluster_array(data);
     any = any || array;
-    const auto most =
+    const auto value_limit =
       array ? static_cast<double>(data->GetNumberOfPoints() + data->GetNumberOfCells()) : 0.0;
     for (vtkIdType v = 0; array && v < array->GetNumberOfTuples(); ++v)
     {
       const double value = array->GetComponent(v, 0);
-      if (!(value >= -1.0 && value < most && value == std::floor(value)))
+      if (!(value >= -1.0 && value < value_limit && value == std::floor(value)))
       {
         return Status::invalid_input("'RotationCluster' of point " + std::to_string(v) + " is " +
           short_number(value) + ", which is not a cluster number");
@@ -124,25 +125,26 @@ std::vector<Category> cluster_categories(const std::vector<vtkDataSet*>& dataset
   for (vtkDataSet* data : datasets)
   {
     for_each_cell(data,
-      [&](vtkIdType, int cluster, const std::vector<int>& around)
+      [&](vtkIdType, int cluster, const std::vector<int>& point_clusters)
       {
         if (cluster < 0)
         {
           return;
         }
-        counts.resize(std::max(counts.size(), static_cast<std::size_t>(around.back()) + 1), 0);
+        counts.resize(
+          std::max(counts.size(), static_cast<std::size_t>(point_clusters.back()) + 1), 0);
         ++counts[static_cast<std::size_t>(cluster)];
-        for (const int higher : around)
+        for (const int higher : point_clusters)
         {
-          for (std::size_t b = 0; around[b] < higher; ++b)
+          for (std::size_t b = 0; point_clusters[b] < higher; ++b)
           {
-            touching.emplace(higher, around[b]);
+            touching.emplace(higher, point_clusters[b]);
           }
         }
       });
   }
   std::vector<Category> categories;
-  const std::vector<std::size_t> colors = deal_colors(counts.size(), touching);
+  const std::vector<std::size_t> colors = assign_colors(counts.size(), touching);
   for (std::size_t k = 0; k < counts.size(); ++k)
   {
     categories.push_back(

@@ -53,9 +53,9 @@ Status check_volume(vtkDataSet* data, const std::string& array)
   vtkDataArray* values = image->GetPointData()->GetArray(array.c_str());
   if (!values)
   {
-    const std::string there = point_array_names(image);
+    const std::string available = point_array_names(image);
     return Status::invalid_input("the volume has no point array '" + array + "'" +
-      (there.empty() ? std::string("; it has no point arrays") : "; available: " + there));
+      (available.empty() ? std::string("; it has no point arrays") : "; available: " + available));
   }
   if (values->GetNumberOfComponents() != 1)
   {
@@ -74,19 +74,19 @@ Status check_volume(vtkDataSet* data, const std::string& array)
   }
   double lower = 1e300;
   double upper = -1e300;
-  vtkIdType bad = 0;
+  vtkIdType bad_count = 0;
   const vtkIdType count = values->GetNumberOfTuples();
   for (vtkIdType i = 0; i < count; ++i)
   {
     const double value = values->GetComponent(i, 0);
-    bad += !std::isfinite(value);
+    bad_count += !std::isfinite(value);
     lower = std::min(lower, value);
     upper = std::max(upper, value);
   }
-  if (bad > 0)
+  if (bad_count > 0)
   {
-    return Status::invalid_input(std::to_string(bad) + " of the " + std::to_string(count) +
-      " values of '" + array + "' " + (bad == 1 ? "is" : "are") + " not finite");
+    return Status::invalid_input(std::to_string(bad_count) + " of the " + std::to_string(count) +
+      " values of '" + array + "' " + (bad_count == 1 ? "is" : "are") + " not finite");
   }
   Status status;
   status.report.set("volume.samples", count);
@@ -121,7 +121,7 @@ vtkSmartPointer<vtkPolyData> slice(
   return cutter->GetOutput();
 }
 
-bool value_at(vtkImageData* image, const std::string& array, const Vec3& place, double& value)
+bool value_at(vtkImageData* image, const std::string& array, const Vec3& position, double& value)
 {
   // Clamp the position to the image, so that rounding does not exclude positions on the border.
   double bounds[6];
@@ -130,8 +130,8 @@ bool value_at(vtkImageData* image, const std::string& array, const Vec3& place, 
   double p[3];
   for (int axis = 0; axis < 3; ++axis)
   {
-    p[axis] = std::clamp(place[axis], bounds[2 * axis], bounds[2 * axis + 1]);
-    if (std::abs(p[axis] - place[axis]) > slack)
+    p[axis] = std::clamp(position[axis], bounds[2 * axis], bounds[2 * axis + 1]);
+    if (std::abs(p[axis] - position[axis]) > slack)
     {
       return false;
     }

@@ -36,7 +36,7 @@ vtkSmartPointer<vtkPolyData> slice(
 
 /// Interpolate the value between samples, linearly in each direction. Return false if the position
 /// is outside the image by more than a millionth of its diagonal.
-bool value_at(vtkImageData* image, const std::string& array, const Vec3& place, double& value);
+bool value_at(vtkImageData* image, const std::string& array, const Vec3& position, double& value);
 
 /// Return the total area of the polygons.
 double surface_area(vtkPolyData* surface);

@@ -28,19 +28,19 @@ constexpr double highest = 2.0;
 
 double winding_opacity(double winding_number, double step)
 {
-  const auto solid = [step](double opacity) { return 1.0 - std::pow(1.0 - opacity, step); };
-  const std::array<std::array<double, 2>, 12> corners = { { { -1.0, solid(0.24) },
-    { -0.5, solid(0.1) }, { -0.1, solid(0.008) }, { -0.02, 0.0 }, { 0.02, 0.0 }, { 0.25, 0.004 },
-    { 0.42, 0.6 }, { 0.58, 0.6 }, { 0.75, solid(0.03) }, { 1.02, solid(0.03) },
-    { 1.1, solid(0.04) }, { 2.0, solid(0.24) } } };
+  const auto step_opacity = [step](double opacity) { return 1.0 - std::pow(1.0 - opacity, step); };
+  const std::array<std::array<double, 2>, 12> control_points = { { { -1.0, step_opacity(0.24) },
+    { -0.5, step_opacity(0.1) }, { -0.1, step_opacity(0.008) }, { -0.02, 0.0 }, { 0.02, 0.0 },
+    { 0.25, 0.004 }, { 0.42, 0.6 }, { 0.58, 0.6 }, { 0.75, step_opacity(0.03) },
+    { 1.02, step_opacity(0.03) }, { 1.1, step_opacity(0.04) }, { 2.0, step_opacity(0.24) } } };
   const double w = std::clamp(winding_number, lowest, highest);
   std::size_t next = 1;
-  while (next + 1 < corners.size() && w > corners[next][0])
+  while (next + 1 < control_points.size() && w > control_points[next][0])
   {
     ++next;
   }
-  const auto& from = corners[next - 1];
-  const auto& to = corners[next];
+  const auto& from = control_points[next - 1];
+  const auto& to = control_points[next];
   return from[1] + (w - from[0]) / (to[0] - from[0]) * (to[1] - from[1]);
 }
 
@@ -57,9 +57,9 @@ vtkSmartPointer<vtkVolume> make_winding_volume(
     clamped->SetValue(
       i, static_cast<float>(std::clamp(values->GetComponent(i, 0), lowest, highest)));
   }
-  vtkNew<vtkImageData> shown;
-  shown->CopyStructure(image);
-  shown->GetPointData()->SetScalars(clamped);
+  vtkNew<vtkImageData> clamped_image;
+  clamped_image->CopyStructure(image);
+  clamped_image->GetPointData()->SetScalars(clamped);
 
   double spacing[3];
   image->GetSpacing(spacing);
@@ -87,7 +87,7 @@ vtkSmartPointer<vtkVolume> make_winding_volume(
   property->SetSpecular(0.0);
 
   vtkNew<vtkFixedPointVolumeRayCastMapper> mapper;
-  mapper->SetInputData(shown);
+  mapper->SetInputData(clamped_image);
   mapper->SetSampleDistance(static_cast<float>(0.25 * step));
   mapper->SetInteractiveSampleDistance(static_cast<float>(0.5 * step));
   mapper->SetAutoAdjustSampleDistances(pixels <= 0.0);

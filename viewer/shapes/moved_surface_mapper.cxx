@@ -92,19 +92,19 @@ void MovedSurfaceMapper::BuildBufferObjects(vtkRenderer* renderer, vtkActor* act
 {
   const auto start = std::chrono::steady_clock::now();
   this->choose_shift();
-  if (this->CurrentInput && this->drawn_ == state_of(*this, actor) && this->upload_moved())
+  if (this->CurrentInput && this->uploaded_state_ == state_of(*this, actor) && this->upload_moved())
   {
-    ++this->moves_;
+    ++this->move_count_;
     this->VBOBuildTime.Modified();
   }
   else
   {
     this->Superclass::BuildBufferObjects(renderer, actor);
-    this->drawn_.clear();
+    this->uploaded_state_.clear();
     if (this->CurrentInput)
     {
       // Record the state after the upload, because the first upload creates a lookup table.
-      this->drawn_ = state_of(*this, actor);
+      this->uploaded_state_ = state_of(*this, actor);
     }
   }
   this->microseconds_ =
@@ -143,17 +143,18 @@ void MovedSurfaceMapper::choose_shift()
   {
     box.GetCenter(center);
   }
-  const bool shifts = Eigen::Map<const Vec3>(center).norm() > far * box.GetDiagonalLength();
+  const bool needs_shift = Eigen::Map<const Vec3>(center).norm() > far * box.GetDiagonalLength();
   using Buffer = vtkOpenGLVertexBufferObject;
   // If shifting is disabled, VTK keeps the last shift. Shifting may therefore be disabled only
   // after an upload in which VTK needed no shift.
   Buffer* buffer = this->VBOs->GetVBO("vertexMC");
-  const bool shifted = buffer && buffer->GetCoordShiftAndScaleEnabled();
-  const int method = shifts || shifted ? Buffer::AUTO_SHIFT_SCALE : Buffer::DISABLE_SHIFT_SCALE;
+  const bool has_shift = buffer && buffer->GetCoordShiftAndScaleEnabled();
+  const int method =
+    needs_shift || has_shift ? Buffer::AUTO_SHIFT_SCALE : Buffer::DISABLE_SHIFT_SCALE;
   if (method != this->GetVBOShiftScaleMethod())
   {
     this->SetVBOShiftScaleMethod(method);
-    this->drawn_.clear();
+    this->uploaded_state_.clear();
   }
 }
 
@@ -161,22 +162,22 @@ void MovedSurfaceMapper::choose_shift()
 /// @return false if the buffers cannot be updated in place
 bool MovedSurfaceMapper::upload_moved()
 {
-  auto* places = vtkDoubleArray::SafeDownCast(this->CurrentInput->GetPoints()->GetData());
+  auto* positions = vtkDoubleArray::SafeDownCast(this->CurrentInput->GetPoints()->GetData());
   auto* normals = vtkFloatArray::SafeDownCast(this->CurrentInput->GetPointData()->GetNormals());
-  vtkOpenGLVertexBufferObject* place_buffer = this->VBOs->GetVBO("vertexMC");
+  vtkOpenGLVertexBufferObject* position_buffer = this->VBOs->GetVBO("vertexMC");
   vtkOpenGLVertexBufferObject* normal_buffer = this->VBOs->GetVBO("normalMC");
-  if (!places || !normals || !place_buffer || !normal_buffer ||
-    place_buffer->GetCoordShiftAndScaleEnabled() ||
+  if (!positions || !normals || !position_buffer || !normal_buffer ||
+    position_buffer->GetCoordShiftAndScaleEnabled() ||
     this->GetVBOShiftScaleMethod() != vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE)
   {
     return false;
   }
-  if (place_buffer->GetUploadTime() < places->GetMTime())
+  if (position_buffer->GetUploadTime() < positions->GetMTime())
   {
-    copy_as_floats(places, this->places_);
+    copy_as_floats(positions, this->positions_);
     // Another mapper of these points uses the same buffer and may have chosen a shift.
-    place_buffer->SetCoordShiftAndScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
-    place_buffer->UploadDataArray(this->places_);
+    position_buffer->SetCoordShiftAndScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
+    position_buffer->UploadDataArray(this->positions_);
   }
   if (normal_buffer->GetUploadTime() < normals->GetMTime())
   {

@@ -30,7 +30,7 @@ public:
   /// Duration of the last upload in microseconds.
   double upload_microseconds() const { return this->microseconds_; }
   /// Number of uploads so far that contained only points and normals.
-  int moves() const { return this->moves_; }
+  int move_count() const { return this->move_count_; }
 
 protected:
   MovedSurfaceMapper() = default;
@@ -43,11 +43,11 @@ private:
 
   /// Addresses and modification times of all inputs of the last upload, except the modification
   /// times of points and normals.
-  std::vector<vtkMTimeType> drawn_;
-  vtkNew<vtkFloatArray> places_; ///< positions of the points, as uploaded to the graphics card
+  std::vector<vtkMTimeType> uploaded_state_;
+  vtkNew<vtkFloatArray> positions_; ///< positions of the points, as uploaded to the graphics card
   vtkMTimeType bounds_time_ = 0; ///< modification time of the points that Bounds was computed from
   double microseconds_ = 0.0;
-  int moves_ = 0;
+  int move_count_ = 0;
 };
 
 } // namespace bindpose

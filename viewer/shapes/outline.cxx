@@ -76,16 +76,16 @@ void Outline::before_drawing()
     this->silhouette_ = std::make_unique<Silhouette>(points.view(), this->shape_->triangles());
   }
   Eye eye;
-  eye.place = Vec3(camera->GetPosition());
+  eye.position = Vec3(camera->GetPosition());
   eye.direction = Vec3(camera->GetDirectionOfProjection());
   eye.parallel = camera->GetParallelProjection() != 0;
   this->silhouette_->find(points.view(), eye, this->edges_);
 
   const auto count = static_cast<vtkIdType>(this->edges_.size());
-  vtkNew<vtkFloatArray> places;
-  places->SetNumberOfComponents(3);
-  places->SetNumberOfTuples(2 * count);
-  float* to = places->GetPointer(0);
+  vtkNew<vtkFloatArray> coordinates;
+  coordinates->SetNumberOfComponents(3);
+  coordinates->SetNumberOfTuples(2 * count);
+  float* to = coordinates->GetPointer(0);
   for (const Silhouette::Edge& edge : this->edges_)
   {
     for (const Index end : edge)
@@ -100,7 +100,7 @@ void Outline::before_drawing()
   vtkNew<vtkCellArray> cells;
   cells->SetData(2, ends);
   vtkNew<vtkPoints> ends_of_lines;
-  ends_of_lines->SetData(places);
+  ends_of_lines->SetData(coordinates);
   this->lines_->SetPoints(ends_of_lines);
   this->lines_->SetLines(cells);
   this->shape_time_ = drawn->GetMTime();

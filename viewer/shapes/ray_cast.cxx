@@ -20,17 +20,18 @@ double area(const double* a, const double* b)
 
 /// Report whether the ray hits a triangle of transformed points. If so, set the barycentric
 /// coordinates and the distance of the hit.
-bool meets(const double* a, const double* b, const double* c, Vec3& shares, double& distance)
+bool hits_triangle(
+  const double* a, const double* b, const double* c, Vec3& barycentric, double& distance)
 {
   Vec3 areas;
   const bool inside = surrounds_ray(a, b, c, areas);
-  const double whole = areas[0] + areas[1] + areas[2];
-  if (!inside || whole == 0.0)
+  const double total_area = areas[0] + areas[1] + areas[2];
+  if (!inside || total_area == 0.0)
   {
     return false;
   }
-  shares = areas / whole;
-  distance = shares[0] * a[2] + shares[1] * b[2] + shares[2] * c[2];
+  barycentric = areas / total_area;
+  distance = barycentric[0] * a[2] + barycentric[1] * b[2] + barycentric[2] * c[2];
   return distance >= 0.0;
 }
 } // namespace
@@ -41,74 +42,74 @@ bool surrounds_ray(const double* a, const double* b, const double* c, Vec3& area
   return (areas.array() >= 0.0).all() || (areas.array() <= 0.0).all();
 }
 
-Points seen_along(const SightRay& ray, PointsView points)
+Points to_ray_coordinates(const ViewRay& ray, PointsView points)
 {
   const Vec3 across = ray.direction.unitOrthogonal();
   Eigen::Matrix3d axes;
   axes << across, ray.direction.cross(across), ray.direction;
-  Points seen(points.rows(), 3);
-  seen.noalias() = (points.rowwise() - ray.origin.transpose()) * axes;
-  return seen;
+  Points ray_points(points.rows(), 3);
+  ray_points.noalias() = (points.rowwise() - ray.origin.transpose()) * axes;
+  return ray_points;
 }
 
-bool first_triangle(const SightRay& ray, PointsView points, TrianglesView triangles, SightHit& hit)
+bool first_triangle(const ViewRay& ray, PointsView points, TrianglesView triangles, RayHit& hit)
 {
-  const Points seen = seen_along(ray, points);
+  const Points ray_points = to_ray_coordinates(ray, points);
   hit.element = -1;
   hit.distance = std::numeric_limits<double>::infinity();
   for (Index t = 0; t < triangles.rows(); ++t)
   {
     const Index* corners = triangles.data() + 3 * t;
-    Vec3 shares;
+    Vec3 barycentric;
     double distance = 0.0;
-    if (meets(seen.data() + 3 * corners[0], seen.data() + 3 * corners[1],
-          seen.data() + 3 * corners[2], shares, distance) &&
+    if (hits_triangle(ray_points.data() + 3 * corners[0], ray_points.data() + 3 * corners[1],
+          ray_points.data() + 3 * corners[2], barycentric, distance) &&
       distance < hit.distance)
     {
-      hit = { distance, t, shares };
+      hit = { distance, t, barycentric };
     }
   }
   return hit.element >= 0;
 }
 
-bool first_tet(const SightRay& ray, PointsView points, TetsView tets,
-  const std::vector<char>& wanted, double size, SightHit& hit)
+bool first_tet(const ViewRay& ray, PointsView points, TetsView tets,
+  const std::vector<char>& is_candidate, double size, RayHit& hit)
 {
-  const Points seen = seen_along(ray, points);
+  const Points ray_points = to_ray_coordinates(ray, points);
   hit.element = -1;
   hit.distance = std::numeric_limits<double>::infinity();
   for (Index t = 0; t < tets.rows(); ++t)
   {
-    if (!wanted[static_cast<std::size_t>(t)])
+    if (!is_candidate[static_cast<std::size_t>(t)])
     {
       continue;
     }
     const Index* corners = tets.data() + 4 * t;
-    const double* p[4] = { seen.data() + 3 * corners[0], seen.data() + 3 * corners[1],
-      seen.data() + 3 * corners[2], seen.data() + 3 * corners[3] };
-    const auto beside = [&p](int axis)
+    const double* p[4] = { ray_points.data() + 3 * corners[0], ray_points.data() + 3 * corners[1],
+      ray_points.data() + 3 * corners[2], ray_points.data() + 3 * corners[3] };
+    const auto misses_ray = [&p](int axis)
     {
       const auto [low, high] = std::minmax({ p[0][axis], p[1][axis], p[2][axis], p[3][axis] });
       return low > 0.0 || high < 0.0;
     };
-    if (beside(0) || beside(1))
+    if (misses_ray(0) || misses_ray(1))
     {
       // The ray misses this tet, and therefore also the shrunk tet, which is inside of it.
       continue;
     }
-    Eigen::Matrix<double, 3, 4> own;
+    Eigen::Matrix<double, 3, 4> vertices;
     for (int k = 0; k < 4; ++k)
     {
-      own.col(k) = Eigen::Map<const Vec3>(p[k]);
+      vertices.col(k) = Eigen::Map<const Vec3>(p[k]);
     }
-    const Vec3 middle = own.rowwise().mean();
-    own = (size * (own.colwise() - middle)).colwise() + middle;
+    const Vec3 middle = vertices.rowwise().mean();
+    vertices = (size * (vertices.colwise() - middle)).colwise() + middle;
     for (int k = 0; k < 4; ++k)
     {
-      Vec3 shares;
+      Vec3 barycentric;
       double distance = 0.0;
-      if (meets(own.col(k).data(), own.col((k + 1) % 4).data(), own.col((k + 2) % 4).data(), shares,
-            distance) &&
+      if (hits_triangle(vertices.col(k).data(), vertices.col((k + 1) % 4).data(),
+            vertices.col((k + 2) % 4).data(), barycentric, distance) &&
         distance < hit.distance)
       {
         hit = { distance, t, Vec3::Zero() };

@@ -85,12 +85,12 @@ DrawnTriangles triangles_of(vtkPolyData* surface)
 /// Copy all arrays of `from`. The result has the tuples with these ids, in this order.
 void gather(vtkDataSetAttributes* from, const std::vector<Index>& ids, vtkDataSetAttributes* to)
 {
-  bool all = static_cast<vtkIdType>(ids.size()) == from->GetNumberOfTuples();
-  for (std::size_t k = 0; all && k < ids.size(); ++k)
+  bool is_identity = static_cast<vtkIdType>(ids.size()) == from->GetNumberOfTuples();
+  for (std::size_t k = 0; is_identity && k < ids.size(); ++k)
   {
-    all = ids[k] == static_cast<Index>(k);
+    is_identity = ids[k] == static_cast<Index>(k);
   }
-  if (all)
+  if (is_identity)
   {
     to->ShallowCopy(from);
     return;
@@ -123,10 +123,10 @@ ShadedSurface::ShadedSurface(vtkPolyData* surface, double feature_angle)
   this->normals_->SetName("Normals");
   this->normals_->SetNumberOfComponents(3);
   this->normals_->SetNumberOfTuples(count);
-  this->take(surface);
+  this->set_arrays(surface);
 }
 
-bool ShadedSurface::is_of(vtkPolyData* surface) const
+bool ShadedSurface::has_mesh_of(vtkPolyData* surface) const
 {
   return surface->GetPoints() == this->input_->GetPoints() &&
     surface->GetVerts() == this->input_->GetVerts() &&
@@ -135,7 +135,7 @@ bool ShadedSurface::is_of(vtkPolyData* surface) const
     surface->GetStrips() == this->input_->GetStrips();
 }
 
-void ShadedSurface::take(vtkPolyData* surface)
+void ShadedSurface::set_arrays(vtkPolyData* surface)
 {
   vtkPointData* data = this->display_->GetPointData();
   gather(surface->GetPointData(), this->input_points_, data);
@@ -148,8 +148,8 @@ void ShadedSurface::take(vtkPolyData* surface)
 
 void ShadedSurface::move(PointsView points)
 {
-  auto* places = vtkDoubleArray::SafeDownCast(this->display_->GetPoints()->GetData());
-  double* to = places->GetPointer(0);
+  auto* positions = vtkDoubleArray::SafeDownCast(this->display_->GetPoints()->GetData());
+  double* to = positions->GetPointer(0);
   ExecutionContext context;
   parallel_for(context, static_cast<Index>(this->input_points_.size()), 4096,
     [&](Index begin, Index end)
@@ -163,7 +163,7 @@ void ShadedSurface::move(PointsView points)
       }
     });
   this->update_normals();
-  places->Modified();
+  positions->Modified();
   this->display_->GetPoints()->Modified();
   this->display_->Modified();
 }
@@ -191,8 +191,8 @@ void ShadedSurface::find_triangles_of_points()
 
 void ShadedSurface::update_normals()
 {
-  auto* places = vtkDoubleArray::SafeDownCast(this->display_->GetPoints()->GetData());
-  const double* at = places->GetPointer(0);
+  auto* positions = vtkDoubleArray::SafeDownCast(this->display_->GetPoints()->GetData());
+  const double* coordinates = positions->GetPointer(0);
   double* normals = this->triangle_normals_.data();
   ExecutionContext context;
   parallel_for(context, this->triangles_.rows(), 4096,
@@ -201,9 +201,9 @@ void ShadedSurface::update_normals()
       const Index* corners = this->triangles_.data();
       for (Index t = begin; t < end; ++t)
       {
-        const double* a = at + 3 * corners[3 * t];
-        const double* b = at + 3 * corners[3 * t + 1];
-        const double* c = at + 3 * corners[3 * t + 2];
+        const double* a = coordinates + 3 * corners[3 * t];
+        const double* b = coordinates + 3 * corners[3 * t + 1];
+        const double* c = coordinates + 3 * corners[3 * t + 2];
         const double u[3] = { b[0] - a[0], b[1] - a[1], b[2] - a[2] };
         const double w[3] = { c[0] - a[0], c[1] - a[1], c[2] - a[2] };
         normals[3 * t] = u[1] * w[2] - u[2] * w[1];
@@ -212,7 +212,7 @@ void ShadedSurface::update_normals()
       }
     });
   float* to = this->normals_->GetPointer(0);
-  parallel_for(context, places->GetNumberOfTuples(), 4096,
+  parallel_for(context, positions->GetNumberOfTuples(), 4096,
     [&](Index begin, Index end)
     {
       for (Index v = begin; v < end; ++v)

@@ -31,10 +31,10 @@ public:
 
   /// Report whether another surface has the same points and cells as the input, so that take() can
   /// use its arrays.
-  bool is_of(vtkPolyData* surface) const;
+  bool has_mesh_of(vtkPolyData* surface) const;
   /// Reset the points to those of `surface`, and replace the point and cell arrays by those of
-  /// `surface`. is_of(surface) must be true.
-  void take(vtkPolyData* surface);
+  /// `surface`. has_mesh_of(surface) must be true.
+  void set_arrays(vtkPolyData* surface);
 
   /// The surface to draw: the points that triangles use, normals, and the input's point and cell
   /// arrays.

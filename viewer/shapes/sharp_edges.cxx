@@ -51,15 +51,15 @@ public:
   /// first corners.
   /// @param corners  3 * triangle + position in the triangle, ascending
   /// @return the number of groups
-  Id group(const Id* corners, Id count, Id* groups)
+  Id group_corners(const Id* corners, Id count, Id* groups)
   {
     this->edges_.clear();
-    this->joined_.reset(static_cast<std::size_t>(count));
+    this->corner_sets_.reset(static_cast<std::size_t>(count));
     for (Id k = 0; k < count; ++k)
     {
       if (k > 0 && corners[k] / 3 == corners[k - 1] / 3)
       {
-        this->joined_.unite(k - 1, k); // a degenerate triangle that has the vertex twice
+        this->corner_sets_.unite(k - 1, k); // a degenerate triangle that has the vertex twice
       }
       const Id t = corners[k] / 3, position = corners[k] % 3;
       this->edges_.push_back({ this->triangles_(t, (position + 1) % 3), k });
@@ -78,17 +78,17 @@ public:
         if (this->normals_.row(corners[a] / 3).dot(this->normals_.row(corners[b] / 3)) >
           this->cosine_)
         {
-          this->joined_.unite(a, b);
+          this->corner_sets_.unite(a, b);
         }
       }
     }
-    Id number = 0;
+    Id group_count = 0;
     for (Id k = 0; k < count; ++k)
     {
-      const Id root = this->joined_.find(k); // the first corner of the group
-      groups[k] = root == k ? number++ : groups[root];
+      const Id root = this->corner_sets_.find(k); // the first corner of the group
+      groups[k] = root == k ? group_count++ : groups[root];
     }
-    return number;
+    return group_count;
   }
 
 private:
@@ -97,7 +97,7 @@ private:
   double cosine_;
   /// For each edge at the vertex: the vertex at its other end, and a corner that touches the edge.
   std::vector<std::pair<Index, Id>> edges_;
-  DisjointSets<Id> joined_; ///< groups of corners
+  DisjointSets<Id> corner_sets_; ///< groups of corners
 };
 } // namespace
 
@@ -127,10 +127,10 @@ std::vector<Index> split_sharp_edges(PointsView points, double feature_angle, Tr
   parallel_for(context, static_cast<Index>(vertices), 2048,
     [&](Index begin, Index end)
     {
-      CornerGroups vertex(triangles, normals, cosine);
+      CornerGroups corner_groups(triangles, normals, cosine);
       for (Index v = begin; v < end; ++v)
       {
-        group_counts[v] = vertex.group(
+        group_counts[v] = corner_groups.group_corners(
           corners.data() + first[v], first[v + 1] - first[v], groups.data() + first[v]);
       }
     });

@@ -12,7 +12,7 @@ namespace bindpose
 /// The eye that looks at a surface: at a position, or in a parallel view along a direction.
 struct Eye
 {
-  Vec3 place = Vec3::Zero();
+  Vec3 position = Vec3::Zero();
   Vec3 direction = -Vec3::UnitZ(); ///< viewing direction
   bool parallel = false;
 };
@@ -43,7 +43,7 @@ private:
     int other; ///< triangle on the other side; -1 if there is none
     /// True if both triangles traverse the edge in the same direction, so their orientations
     /// differ.
-    bool same_way;
+    bool same_direction;
   };
   TrianglesView triangles_;
   std::vector<Side> sides_;

@@ -10,7 +10,7 @@ namespace bindpose
 namespace
 {
 // Face k is opposite vertex k and oriented to point away from it.
-constexpr int side[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
+constexpr int face_corners[4][3] = { { 1, 2, 3 }, { 0, 3, 2 }, { 0, 1, 3 }, { 0, 2, 1 } };
 } // namespace
 
 TetCut::TetCut(PointsView points, TetsView tets)
@@ -29,7 +29,8 @@ TetCut::TetCut(PointsView points, TetsView tets)
     for (int k = 0; k < 4; ++k)
     {
       sum += points.row(tets(t, k)).transpose();
-      std::array<Index, 3> key{ tets(t, side[k][0]), tets(t, side[k][1]), tets(t, side[k][2]) };
+      std::array<Index, 3> key{ tets(t, face_corners[k][0]), tets(t, face_corners[k][1]),
+        tets(t, face_corners[k][2]) };
       std::sort(key.begin(), key.end());
       entries.push_back({ key, 4 * t + k });
     }
@@ -57,7 +58,7 @@ TetCut::TetCut(PointsView points, TetsView tets)
     {
       continue; // the face is already stored as a facet of the other tet
     }
-    const int* k = side[at % 4];
+    const int* k = face_corners[at % 4];
     this->facets_.push_back({ { tets(t, k[0]), tets(t, k[1]), tets(t, k[2]) }, t, other[at] });
   }
   this->keep_all();
@@ -67,7 +68,7 @@ void TetCut::keep_all()
 {
   this->kept_count_ = this->centers_.rows();
   this->kept_.assign(static_cast<std::size_t>(this->kept_count_), 1);
-  this->find_sides();
+  this->find_faces();
 }
 
 void TetCut::keep_behind(const Vec3& origin, const Vec3& normal)
@@ -80,14 +81,14 @@ void TetCut::keep_behind(const Vec3& origin, const Vec3& normal)
     this->kept_[t] = c[0] * normal[0] + c[1] * normal[1] + c[2] * normal[2] <= at;
     this->kept_count_ += this->kept_[t];
   }
-  this->find_sides();
+  this->find_faces();
 }
 
-void TetCut::find_sides()
+void TetCut::find_faces()
 {
   std::vector<Index> corners[2];
-  Sides* const parts[2] = { &this->outside_, &this->exposed_faces_ };
-  for (Sides* part : parts)
+  FaceSet* const parts[2] = { &this->boundary_faces_, &this->exposed_faces_ };
+  for (FaceSet* part : parts)
   {
     part->tets.clear();
   }
@@ -112,14 +113,14 @@ void TetCut::find_sides()
   }
 }
 
-std::array<double, 2> TetCut::reach(const Vec3& direction) const
+std::array<double, 2> TetCut::center_range(const Vec3& direction) const
 {
   if (this->centers_.rows() == 0)
   {
     return { 0.0, 0.0 };
   }
-  const Eigen::VectorXd places = this->centers_ * direction;
-  return { places.minCoeff(), places.maxCoeff() };
+  const Eigen::VectorXd coordinates = this->centers_ * direction;
+  return { coordinates.minCoeff(), coordinates.maxCoeff() };
 }
 
 ShrunkTets shrink_tets(
@@ -150,7 +151,7 @@ ShrunkTets shrink_tets(
       result.tets[row + k] = t;
       for (int corner = 0; corner < 3; ++corner)
       {
-        result.triangles(row + k, corner) = row + side[k][corner];
+        result.triangles(row + k, corner) = row + face_corners[k][corner];
       }
     }
     row += 4;

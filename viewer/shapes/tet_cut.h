@@ -16,7 +16,7 @@ class TetCut
 {
 public:
   /// Triangular faces of tets, oriented outward, with the tet of each face.
-  struct Sides
+  struct FaceSet
   {
     Triangles triangles; ///< #S x 3 vertex ids
     std::vector<Index> tets; ///< #S: the tet of each face
@@ -36,10 +36,10 @@ public:
   /// #T: 1 for a kept tet.
   const std::vector<char>& kept() const { return this->kept_; }
   /// Faces of kept tets on the boundary of the whole mesh, and faces that the cut exposes.
-  const Sides& outside() const { return this->outside_; }
-  const Sides& exposed_faces() const { return this->exposed_faces_; }
+  const FaceSet& boundary_faces() const { return this->boundary_faces_; }
+  const FaceSet& exposed_faces() const { return this->exposed_faces_; }
   /// Return the smallest and largest coordinate of the tet centers along a direction.
-  std::array<double, 2> reach(const Vec3& direction) const;
+  std::array<double, 2> center_range(const Vec3& direction) const;
 
 private:
   /// A face with its one or two tets, oriented outward from the first tet.
@@ -49,14 +49,14 @@ private:
     Index tet;
     Index other; ///< the second tet; -1 if there is none
   };
-  void find_sides();
+  void find_faces();
 
   std::vector<Facet> facets_; // sorted by tet
   Points centers_; // #T x 3
   std::vector<char> kept_;
   Index kept_count_ = 0;
-  Sides outside_;
-  Sides exposed_faces_;
+  FaceSet boundary_faces_;
+  FaceSet exposed_faces_;
 };
 
 /// Tets with gaps between them: each tet has its own four points, moved toward the tet's center.

@@ -39,20 +39,20 @@ vtkSmartPointer<vtkPolyData> slice_tets(
 
 std::vector<Index> tets_at_plane(const TetInput& tets, const Vec3& origin, const Vec3& normal)
 {
-  const Eigen::VectorXd ahead =
+  const Eigen::VectorXd signed_distances =
     (tets.points.view().rowwise() - origin.transpose()) * normal.normalized();
-  std::vector<Index> met;
+  std::vector<Index> crossed_tets;
   for (Index t = 0; t < tets.tets.view().rows(); ++t)
   {
     const auto tet = tets.tets.view().row(t);
-    const auto [lowest, highest] =
-      std::minmax({ ahead[tet[0]], ahead[tet[1]], ahead[tet[2]], ahead[tet[3]] });
+    const auto [lowest, highest] = std::minmax({ signed_distances[tet[0]], signed_distances[tet[1]],
+      signed_distances[tet[2]], signed_distances[tet[3]] });
     if (lowest < 0.0 && highest >= 0.0)
     {
-      met.push_back(t);
+      crossed_tets.push_back(t);
     }
   }
-  return met;
+  return crossed_tets;
 }
 
 vtkSmartPointer<vtkPolyData> part_behind(

@@ -46,11 +46,11 @@ constexpr double stretch_to = 30.0;
 constexpr double stretch_room = 32.0;
 constexpr int ring_sides = 72;
 // an axis with a larger cosine to the viewing direction points at the viewer
-constexpr double along_sight = 0.985;
+constexpr double axis_on_cosine = 0.985;
 // a plate whose normal has a smaller cosine to the viewing direction is seen edge-on
-constexpr double edge_on = 0.13;
+constexpr double plate_edge_on_cosine = 0.13;
 // a ring whose axis has a smaller sine to the viewing direction is drawn as a whole
-constexpr double face_on = 0.3;
+constexpr double ring_face_on_sine = 0.3;
 
 const char* const letters[3] = { "X", "Y", "Z" };
 
@@ -69,8 +69,8 @@ bool inside_convex(const Vector2d& p, const std::vector<Vector2d>& corners)
   for (std::size_t k = 0; k < corners.size(); ++k)
   {
     const Vector2d side = corners[(k + 1) % corners.size()] - corners[k];
-    const Vector2d way = p - corners[k];
-    const double turn = side[0] * way[1] - side[1] * way[0];
+    const Vector2d displacement = p - corners[k];
+    const double turn = side[0] * displacement[1] - side[1] * displacement[0];
     left += turn > 0.0;
     right += turn < 0.0;
   }
@@ -101,8 +101,8 @@ double ring_pixels(const GizmoSetup& setup, int part)
 Gizmo::Gizmo(const ScreenView& view, const GizmoSetup& setup, const GizmoMarks& marks)
   : view_(view), setup_(setup), marks_(marks)
 {
-  this->pixel_ = view.pixel_at(setup.origin);
-  this->unit_ = setup.pixels / 80.0;
+  this->pixel_ = view.pixel_length_at(setup.origin);
+  this->layout_scale_ = setup.pixels / 80.0;
   if (setup.kind == GizmoKind::none || !(this->pixel_ > 0.0))
   {
     return;
@@ -124,7 +124,8 @@ Gizmo::Gizmo(const ScreenView& view, const GizmoSetup& setup, const GizmoMarks& 
 
 Vector3d Gizmo::at(int axis, double pixels) const
 {
-  return this->setup_.origin + pixels * this->unit_ * this->pixel_ * this->setup_.frame.col(axis);
+  return this->setup_.origin +
+    pixels * this->layout_scale_ * this->pixel_ * this->setup_.frame.col(axis);
 }
 
 void Gizmo::add_axes()
@@ -139,11 +140,11 @@ void Gizmo::add_axes()
     return;
   }
   const Layout& layout = layouts[static_cast<int>(kind)];
-  const Vector3d sight = this->view_.sight_to(this->setup_.origin);
+  const Vector3d forward = this->view_.direction_to(this->setup_.origin);
   for (int k = 0; k < 3; ++k)
   {
-    const double cosine = std::abs(this->setup_.frame.col(k).dot(sight));
-    if (cosine < along_sight && layout.shaft > 0.0)
+    const double cosine = std::abs(this->setup_.frame.col(k).dot(forward));
+    if (cosine < axis_on_cosine && layout.shaft > 0.0)
     {
       Part arrow;
       arrow.color = this->setup_.axes[k];
@@ -177,14 +178,14 @@ void Gizmo::add_axes()
         this->parts_.push_back(box);
       }
     }
-    if (cosine > edge_on && layout.plate > 0.0)
+    if (cosine > plate_edge_on_cosine && layout.plate > 0.0)
     {
       Part plate;
       plate.part = move_yz + k;
       plate.rank = 1;
       plate.color = this->setup_.axes[k];
-      const Vector3d u = this->setup_.frame.col((k + 1) % 3) * this->unit_ * this->pixel_;
-      const Vector3d v = this->setup_.frame.col((k + 2) % 3) * this->unit_ * this->pixel_;
+      const Vector3d u = this->setup_.frame.col((k + 1) % 3) * this->layout_scale_ * this->pixel_;
+      const Vector3d v = this->setup_.frame.col((k + 2) % 3) * this->layout_scale_ * this->pixel_;
       for (const auto& [a, b] : { std::pair{ -1, -1 }, { 1, -1 }, { 1, 1 }, { -1, 1 } })
       {
         plate.plate.push_back(this->setup_.origin + (layout.plate + a * plate_half) * u +
@@ -202,11 +203,11 @@ Gizmo::Part Gizmo::ring(
   ring.part = part;
   ring.rank = 3;
   ring.thickness = thin;
-  const double radius = pixels * this->unit_ * this->pixel_;
-  const Vector3d sight = this->view_.sight_to(center);
+  const double radius = pixels * this->layout_scale_ * this->pixel_;
+  const Vector3d forward = this->view_.direction_to(center);
   // Begin the ring on the side away from the camera, so that the half in front is one polyline.
-  Vector3d u = sight - axis * axis.dot(sight);
-  whole = whole || u.norm() < face_on;
+  Vector3d u = forward - axis * axis.dot(forward);
+  whole = whole || u.norm() < ring_face_on_sine;
   u = u.norm() > 1e-6 ? Vector3d(u.normalized()) : axis.unitOrthogonal();
   const Vector3d v = axis.cross(u);
   for (int side = 0; side <= ring_sides; ++side)
@@ -238,8 +239,8 @@ void Gizmo::add_rings()
   if (layout.view_ring > 0.0)
   {
     const bool scales = this->setup_.kind == GizmoKind::scale;
-    Part ring = this->ring(scales ? scale_all : turn_view, origin, -this->view_.sight_to(origin),
-      layout.view_ring, true);
+    Part ring = this->ring(scales ? scale_all : turn_view, origin,
+      -this->view_.direction_to(origin), layout.view_ring, true);
     ring.color = this->setup_.plain;
     ring.rank = 4;
     ring.quiet = true;
@@ -250,7 +251,7 @@ void Gizmo::add_rings()
       knob.part = scale_all;
       knob.rank = 0;
       const Vector3d corner = (this->view_.right() + this->view_.up()).normalized();
-      knob.box = { origin + layout.view_ring * this->unit_ * this->pixel_ * corner };
+      knob.box = { origin + layout.view_ring * this->layout_scale_ * this->pixel_ * corner };
       knob.box_half = box_half;
       if (!scales)
       {
@@ -285,7 +286,7 @@ void Gizmo::add_bone()
     Part knob;
     knob.part = stretch_bone;
     knob.color = this->setup_.bone;
-    const double pixel = this->unit_ * this->pixel_;
+    const double pixel = this->layout_scale_ * this->pixel_;
     // Move the box for stretching farther out if the tip of an arrow is at its position.
     double out = stretch_to;
     const auto is_taken = [&]()
@@ -298,7 +299,8 @@ void Gizmo::add_bone()
             : !part.box.empty()                    ? &part.box[0]
                                                    : nullptr;
           return tip &&
-            (this->view_.to_display(*tip).head<2>() - at).norm() < stretch_room * this->unit_;
+            (this->view_.to_display(*tip).head<2>() - at).norm() <
+            stretch_room * this->layout_scale_;
         });
     };
     for (int step = 0; step < 8 && is_taken(); ++step)
@@ -313,16 +315,16 @@ void Gizmo::add_bone()
   }
   if (kind == GizmoKind::turn || kind == GizmoKind::all)
   {
-    const bool apart = this->setup_.twists_apart;
+    const bool separate_rings = this->setup_.two_twist_rings;
     for (const int part : { twist_head, twist_tail })
     {
-      if (part == twist_head && !apart)
+      if (part == twist_head && !separate_rings)
       {
         continue;
       }
-      const double share = !apart ? 0.5 : part == twist_head ? 0.3 : 0.7;
+      const double fraction = !separate_rings ? 0.5 : part == twist_head ? 0.3 : 0.7;
       Part ring = this->ring(
-        part, head + share * (tail - head), axis, twist_radius, this->marks_.active == part);
+        part, head + fraction * (tail - head), axis, twist_radius, this->marks_.active == part);
       ring.rank = 0;
       ring.color = this->setup_.bone;
       this->parts_.push_back(ring);
@@ -378,10 +380,10 @@ int Gizmo::pick(const Vector2d& mouse, double tolerance) const
     {
       continue;
     }
-    const auto offer = [&](int rank, double distance, const Vector3d& place)
+    const auto offer = [&](int rank, double distance, const Vector3d& position)
     {
       const std::tuple<int, double, double> order{ rank, distance,
-        this->view_.to_display(place)[2] };
+        this->view_.to_display(position)[2] };
       if (order < best_order)
       {
         best = part.part;
@@ -393,7 +395,7 @@ int Gizmo::pick(const Vector2d& mouse, double tolerance) const
       const double distance =
         distance_to_segment(mouse, this->view_.to_display(part.path[i]).head<2>(),
           this->view_.to_display(part.path[i + 1]).head<2>());
-      if (distance <= 0.5 * part.thickness * this->unit_ + tolerance)
+      if (distance <= 0.5 * part.thickness * this->layout_scale_ + tolerance)
       {
         offer(part.rank, distance, part.path[i]);
       }
@@ -401,7 +403,7 @@ int Gizmo::pick(const Vector2d& mouse, double tolerance) const
     for (const Vector3d& box : part.box)
     {
       const double distance = (this->view_.to_display(box).head<2>() - mouse).norm();
-      if (distance <= part.box_half * this->unit_ + tolerance)
+      if (distance <= part.box_half * this->layout_scale_ + tolerance)
       {
         offer(0, distance, box);
       }
@@ -411,7 +413,7 @@ int Gizmo::pick(const Vector2d& mouse, double tolerance) const
       const double distance =
         distance_to_segment(mouse, this->view_.to_display(part.cone[0]).head<2>(),
           this->view_.to_display(part.cone[1]).head<2>());
-      if (distance <= part.cone_radius * this->unit_ + 0.5 * tolerance)
+      if (distance <= part.cone_radius * this->layout_scale_ + 0.5 * tolerance)
       {
         offer(0, distance, part.cone[1]);
       }
@@ -439,23 +441,24 @@ void Gizmo::draw(HandleShapes& solid, HandleShapes& hull) const
   const Color dark = { 0.13, 0.13, 0.15 };
   for (const Part& part : this->parts_)
   {
-    const bool hot =
+    const bool is_highlighted =
       !part.guide && (part.part == this->marks_.hovered || part.part == this->marks_.active);
     // Show the part under the mouse larger and lighter. Mixing halfway with white would lose the
     // color of its axis, so the color is mixed with less white.
     Color color = part.color;
     for (double& c : color)
     {
-      c += hot ? 0.35 * (1.0 - c) : 0.0;
+      c += is_highlighted ? 0.35 * (1.0 - c) : 0.0;
     }
-    const double pixel = this->unit_ * this->pixel_;
-    const double grow = hot ? 1.25 : 1.0;
+    const double pixel = this->layout_scale_ * this->pixel_;
+    const double grow = is_highlighted ? 1.25 : 1.0;
     const double margin = outline * pixel;
-    const double tube = 0.5 * pixel * (hot ? std::max(thick, part.thickness) : part.thickness);
+    const double tube =
+      0.5 * pixel * (is_highlighted ? std::max(thick, part.thickness) : part.thickness);
     if (part.path.size() > 1)
     {
       solid.add_tube(part.path, tube, color);
-      if (!part.guide && !(part.quiet && !hot))
+      if (!part.guide && !(part.quiet && !is_highlighted))
       {
         hull.add_tube(part.path, tube + margin, dark);
       }
@@ -466,7 +469,7 @@ void Gizmo::draw(HandleShapes& solid, HandleShapes& hull) const
       Eigen::Matrix3d frame = this->setup_.frame;
       if (part.part == scale_all || part.part == stretch_bone)
       {
-        frame << this->view_.right(), this->view_.up(), -this->view_.sight();
+        frame << this->view_.right(), this->view_.up(), -this->view_.forward();
       }
       solid.add_box(box, frame, Vector3d::Constant(half), color);
       hull.add_box(box, frame, Vector3d::Constant(half + margin), dark);
@@ -512,7 +515,7 @@ std::vector<Gizmo::Label> Gizmo::labels() const
     Vector2d aside = display - origin;
     aside = aside.norm() > 0.0 ? Vector2d(aside.normalized()) : Vector2d(1.0, 0.0);
     labels.push_back({ part.label,
-      display + (part.cone.empty() ? 18.0 : 12.0) * this->unit_ * aside, part.color });
+      display + (part.cone.empty() ? 18.0 : 12.0) * this->layout_scale_ * aside, part.color });
   }
   return labels;
 }
@@ -525,25 +528,25 @@ std::optional<Vector2d> Gizmo::grip(int wanted) const
     {
       continue;
     }
-    Vector3d place;
+    Vector3d position;
     if (!part.box.empty())
     {
-      place = part.box[0];
+      position = part.box[0];
     }
     else if (!part.cone.empty())
     {
-      place = 0.5 * (part.cone[0] + part.cone[1]);
+      position = 0.5 * (part.cone[0] + part.cone[1]);
     }
     else if (!part.plate.empty())
     {
-      place = 0.5 * (part.plate[0] + part.plate[2]);
+      position = 0.5 * (part.plate[0] + part.plate[2]);
     }
     else
     {
       // Grab the ring away from its middle, where another ring in front of it crosses an axis.
-      place = part.path[part.path.size() * 2 / 5];
+      position = part.path[part.path.size() * 2 / 5];
     }
-    return Vector2d(this->view_.to_display(place).head<2>());
+    return Vector2d(this->view_.to_display(position).head<2>());
   }
   return std::nullopt;
 }

@@ -66,7 +66,7 @@ struct GizmoSetup
   bool only_moves = false; ///< true: the gizmo has no parts for rotating, scaling or stretching
   std::optional<Eigen::Vector3d> tail; ///< tail of a bone, whose head is the origin
   /// True: two twist rings, at head and tail; false: one ring in the middle.
-  bool twists_apart = true;
+  bool two_twist_rings = true;
   double pixels = 80.0; ///< size in window pixels: distance of a scale box from the origin
   /// Red, green and blue by convention, in shades that viewers with any type of color blindness can
   /// distinguish.
@@ -146,7 +146,7 @@ private:
   GizmoSetup setup_;
   GizmoMarks marks_;
   double pixel_ = 0.0; // world length of a pixel at the origin
-  double unit_ = 1.0; // window pixels per pixel of the layout
+  double layout_scale_ = 1.0; // window pixels per pixel of the layout
   std::vector<Part> parts_;
 };
 

@@ -12,12 +12,12 @@ enum class HandleAction
 {
   select,
   toggle,
-  grip,
+  drag_gizmo,
   start_move,
   start_turn,
   start_scale,
-  hold_axis,
-  hold_plane,
+  constrain_to_axis,
+  constrain_to_plane,
   fine,
   snap,
   reach,
@@ -31,7 +31,7 @@ enum class HandleAction
   close_cage,
   finish_cage,
   drop_vertex,
-  snap_place
+  snap_position
 };
 
 /// The effects of keys and buttons on the region brush.
@@ -67,15 +67,15 @@ constexpr std::array<HandleBinding, 22> handle_bindings{ {
     "the bone" },
   { HandleAction::toggle, "pose", "Shift + left button on a handle", "",
     "Add it to the selection, or remove it" },
-  { HandleAction::grip, "pose", "Left button on the gizmo", "",
+  { HandleAction::drag_gizmo, "pose", "Left button on the gizmo", "",
     "Move, turn, scale, stretch or twist all selected handles" },
   { HandleAction::start_move, "pose", "G", " g ", "Move the selected handles with the mouse" },
   { HandleAction::start_turn, "pose", "R", " r ", "Turn the selected handles with the mouse" },
   { HandleAction::start_scale, "pose", "S", " s ", "Scale the selected handles with the mouse" },
-  { HandleAction::hold_axis, "drag", "X, Y, Z", " x y z ",
+  { HandleAction::constrain_to_axis, "drag", "X, Y, Z", " x y z ",
     "Constrain the drag to an axis; press again for the axis of the other space, a third time for "
     "no axis" },
-  { HandleAction::hold_plane, "drag", "Shift + X, Y, Z", " x y z ",
+  { HandleAction::constrain_to_plane, "drag", "Shift + X, Y, Z", " x y z ",
     "Constrain the drag to the plane perpendicular to an axis" },
   { HandleAction::fine, "drag", "Shift, held", "", "Drag finely: a tenth of the mouse motion" },
   { HandleAction::snap, "drag", "Ctrl, held", "",
@@ -104,7 +104,7 @@ constexpr std::array<HandleBinding, 22> handle_bindings{ {
     "Finish the cage without closing it" },
   { HandleAction::drop_vertex, "add cage", "Esc", " Escape ",
     "Remove the last vertex; leave the mode if there is none" },
-  { HandleAction::snap_place, "add points, add bones, add cage, move rest", "Ctrl, held", "",
+  { HandleAction::snap_position, "add points, add bones, add cage, move rest", "Ctrl, held", "",
     "Snap to the ends of handles and to the surface's vertices" },
 } };
 

@@ -28,11 +28,11 @@ namespace bindpose
 {
 namespace
 {
-constexpr double fine_share = 0.1;
+constexpr double fine_fraction = 0.1;
 // a line with a larger cosine to the viewing direction cannot be followed
-constexpr double seen_along = 0.998;
+constexpr double maximum_line_cosine = 0.998;
 // a ring whose axis has a smaller cosine to the viewing direction is seen edge-on
-constexpr double seen_from_side = 0.12;
+constexpr double edge_on_cosine = 0.12;
 constexpr double smallest_factor = 0.01;
 // a scale uses a ratio of distances only if it starts farther than this from the pivot
 constexpr double near_pixels = 8.0;
@@ -54,22 +54,22 @@ int single_axis(int axes)
 } // namespace
 
 Drag::Drag(const ScreenView& view, const DragSetup& setup, const Vector2d& mouse)
-  : view_(view), setup_(setup), mouse_(mouse), start_(mouse), now_(mouse)
+  : view_(view), setup_(setup), mouse_(mouse), start_(mouse), current_(mouse)
 {
   this->restart();
 }
 
 void Drag::restart()
 {
-  this->turned_ = 0.0;
+  this->rotation_angle_ = 0.0;
   this->last_angle_ = this->angle(this->start_).value_or(0.0);
-  this->last_ = DragMotion();
+  this->last_motion_ = DragMotion();
   this->follow_angle();
 }
 
 void Drag::move_to(const Vector2d& mouse, bool fine)
 {
-  this->now_ += (fine ? fine_share : 1.0) * (mouse - this->mouse_);
+  this->current_ += (fine ? fine_fraction : 1.0) * (mouse - this->mouse_);
   this->mouse_ = mouse;
   this->follow_angle();
 }
@@ -88,140 +88,142 @@ void Drag::constrain(const Matrix3d& frame, int axes)
 Vector3d Drag::axis() const
 {
   const int single = single_axis(this->setup_.axes);
-  return single < 0 ? Vector3d(-this->view_.sight_to(this->setup_.pivot))
+  return single < 0 ? Vector3d(-this->view_.direction_to(this->setup_.pivot))
                     : Vector3d(this->setup_.frame.col(single));
 }
 
 /// Return the distance of the mouse along an axis through the grabbed position; nothing if the axis
 /// points at the viewer.
-std::optional<double> Drag::along(const Vector3d& axis, const Vector2d& mouse) const
+std::optional<double> Drag::distance_along(const Vector3d& axis, const Vector2d& mouse) const
 {
-  const Vector3d& place = this->setup_.grabbed;
-  const Vector3d sight = this->view_.sight_to(place);
-  const Vector3d normal = sight - axis * axis.dot(sight);
-  Vector3d at;
-  if (std::abs(axis.dot(sight)) > seen_along ||
-    !meet_plane(this->view_.ray(mouse), place, normal, at))
+  const Vector3d& position = this->setup_.grabbed;
+  const Vector3d forward = this->view_.direction_to(position);
+  const Vector3d normal = forward - axis * axis.dot(forward);
+  Vector3d hit;
+  if (std::abs(axis.dot(forward)) > maximum_line_cosine ||
+    !intersect_plane(this->view_.ray(mouse), position, normal, hit))
   {
     return std::nullopt;
   }
-  return axis.dot(at - place);
+  return axis.dot(hit - position);
 }
 
 std::optional<double> Drag::angle(const Vector2d& mouse) const
 {
   const Vector3d axis = this->axis();
   const Vector3d& pivot = this->setup_.pivot;
-  const Vector3d sight = this->view_.sight_to(pivot);
+  const Vector3d forward = this->view_.direction_to(pivot);
   if (single_axis(this->setup_.axes) < 0)
   {
-    const Vector2d way = mouse - this->view_.to_display(pivot).head<2>();
-    return std::atan2(way[1], way[0]);
+    const Vector2d displacement = mouse - this->view_.to_display(pivot).head<2>();
+    return std::atan2(displacement[1], displacement[0]);
   }
-  if (std::abs(axis.dot(sight)) < seen_from_side)
+  if (std::abs(axis.dot(forward)) < edge_on_cosine)
   {
-    const double pixel = this->view_.pixel_at(pivot);
-    const Vector3d near = pivot - this->setup_.ring_pixels * pixel * sight;
-    const Vector2d way =
-      (this->view_.to_display(near + pixel * axis.cross(-sight)) - this->view_.to_display(near))
+    const double pixel = this->view_.pixel_length_at(pivot);
+    const Vector3d near = pivot - this->setup_.ring_pixels * pixel * forward;
+    const Vector2d displacement =
+      (this->view_.to_display(near + pixel * axis.cross(-forward)) - this->view_.to_display(near))
         .head<2>();
-    return way.norm() > 0.0 ? way.normalized().dot(mouse - this->start_) / this->setup_.ring_pixels
-                            : 0.0;
+    return displacement.norm() > 0.0
+      ? displacement.normalized().dot(mouse - this->start_) / this->setup_.ring_pixels
+      : 0.0;
   }
-  Vector3d at;
-  if (!meet_plane(this->view_.ray(mouse), pivot, axis, at))
+  Vector3d hit;
+  if (!intersect_plane(this->view_.ray(mouse), pivot, axis, hit))
   {
     return std::nullopt;
   }
   const Vector3d u = axis.unitOrthogonal();
   const Vector3d v = axis.cross(u);
-  return std::atan2(v.dot(at - pivot), u.dot(at - pivot));
+  return std::atan2(v.dot(hit - pivot), u.dot(hit - pivot));
 }
 
 void Drag::follow_angle()
 {
-  const std::optional<double> angle = this->angle(this->now_);
+  const std::optional<double> angle = this->angle(this->current_);
   if (angle)
   {
-    this->turned_ += std::remainder(*angle - this->last_angle_, 2.0 * EIGEN_PI);
+    this->rotation_angle_ += std::remainder(*angle - this->last_angle_, 2.0 * EIGEN_PI);
     this->last_angle_ = *angle;
   }
 }
 
-double Drag::snapped(double amount, double step) const
+double Drag::snap_amount(double amount, double step) const
 {
   return this->snap_ && step > 0.0 ? step * std::round(amount / step) : amount;
 }
 
-DragMotion Drag::moved() const
+DragMotion Drag::move_motion() const
 {
   const DragSetup& s = this->setup_;
-  DragMotion result = this->last_;
+  DragMotion result = this->last_motion_;
   const int bits = count_bits(s.axes);
   const int single = single_axis(s.axes);
-  Vector3d way = Vector3d::Zero();
+  Vector3d displacement = Vector3d::Zero();
   if (this->typed_)
   {
     const int first = (s.axes & 1) ? 0 : (s.axes & 2) ? 1 : 2;
-    way = *this->typed_ * s.frame.col(first);
+    displacement = *this->typed_ * s.frame.col(first);
   }
   else if (bits == 1)
   {
-    const std::optional<double> before = this->along(s.frame.col(single), this->start_);
-    const std::optional<double> after = this->along(s.frame.col(single), this->now_);
+    const std::optional<double> before = this->distance_along(s.frame.col(single), this->start_);
+    const std::optional<double> after = this->distance_along(s.frame.col(single), this->current_);
     if (!before || !after)
     {
       return result;
     }
-    way = this->snapped(*after - *before, s.length_step) * s.frame.col(single);
+    displacement = this->snap_amount(*after - *before, s.length_step) * s.frame.col(single);
   }
   else
   {
-    const Vector3d normal = bits == 2 ? Vector3d(s.frame.col(single)) : this->view_.sight();
+    const Vector3d normal = bits == 2 ? Vector3d(s.frame.col(single)) : this->view_.forward();
     Vector3d before;
     Vector3d after;
-    if (!meet_plane(this->view_.ray(this->start_), s.grabbed, normal, before) ||
-      !meet_plane(this->view_.ray(this->now_), s.grabbed, normal, after))
+    if (!intersect_plane(this->view_.ray(this->start_), s.grabbed, normal, before) ||
+      !intersect_plane(this->view_.ray(this->current_), s.grabbed, normal, after))
     {
       return result;
     }
-    way = after - before;
+    displacement = after - before;
     if (bits == 2 || (this->snap_ && s.length_step > 0.0))
     {
-      Vector3d own = s.frame.transpose() * way;
+      Vector3d local_offset = s.frame.transpose() * displacement;
       for (int k = 0; k < 3; ++k)
       {
         // components outside of the plane are exactly 0, without round-off
-        own[k] = (s.axes >> k) & 1 ? this->snapped(own[k], s.length_step) : 0.0;
+        local_offset[k] =
+          (s.axes >> k) & 1 ? this->snap_amount(local_offset[k], s.length_step) : 0.0;
       }
-      way = s.frame * own;
+      displacement = s.frame * local_offset;
     }
   }
-  result.motion = Affine3d(Eigen::Translation3d(way));
-  result.amount = bits == 1 ? way.dot(s.frame.col(single)) : way.norm();
+  result.motion = Affine3d(Eigen::Translation3d(displacement));
+  result.amount = bits == 1 ? displacement.dot(s.frame.col(single)) : displacement.norm();
   return result;
 }
 
-DragMotion Drag::turned() const
+DragMotion Drag::turn_motion() const
 {
   DragMotion result;
   const double degrees = this->typed_
     ? *this->typed_
-    : this->snapped(this->turned_ * 180.0 / EIGEN_PI, this->setup_.degree_step);
+    : this->snap_amount(this->rotation_angle_ * 180.0 / EIGEN_PI, this->setup_.degree_step);
   result.amount = degrees;
   result.motion = motion_about(this->setup_.pivot,
     Eigen::AngleAxisd(degrees * EIGEN_PI / 180.0, this->axis().normalized()).toRotationMatrix());
   return result;
 }
 
-DragMotion Drag::aimed() const
+DragMotion Drag::aim_motion() const
 {
   const DragSetup& s = this->setup_;
-  DragMotion result = this->last_;
+  DragMotion result = this->last_motion_;
   Vector3d before;
   Vector3d after;
-  if (!meet_plane(this->view_.ray(this->start_), s.grabbed, this->view_.sight(), before) ||
-    !meet_plane(this->view_.ray(this->now_), s.grabbed, this->view_.sight(), after))
+  if (!intersect_plane(this->view_.ray(this->start_), s.grabbed, this->view_.forward(), before) ||
+    !intersect_plane(this->view_.ray(this->current_), s.grabbed, this->view_.forward(), after))
   {
     return result;
   }
@@ -232,21 +234,23 @@ DragMotion Drag::aimed() const
     return result;
   }
   Eigen::AngleAxisd rotation(rotation_between(s.arm, arm));
-  rotation.angle() = this->snapped(rotation.angle(), this->setup_.degree_step * EIGEN_PI / 180.0);
+  rotation.angle() =
+    this->snap_amount(rotation.angle(), this->setup_.degree_step * EIGEN_PI / 180.0);
   result.motion = motion_about(s.pivot, rotation.toRotationMatrix());
   result.amount = rotation.angle() * 180.0 / EIGEN_PI;
   if (s.kind == DragKind::reach)
   {
-    result.factor = std::max(this->snapped(arm.norm() / length, s.factor_step), smallest_factor);
+    result.factor =
+      std::max(this->snap_amount(arm.norm() / length, s.factor_step), smallest_factor);
     result.amount = result.factor;
   }
   return result;
 }
 
-DragMotion Drag::scaled() const
+DragMotion Drag::scale_motion() const
 {
   const DragSetup& s = this->setup_;
-  DragMotion result = this->last_;
+  DragMotion result = this->last_motion_;
   double factor = 1.0;
   const Vector2d pivot = this->view_.to_display(s.pivot).head<2>();
   const double far = (this->start_ - pivot).norm();
@@ -256,8 +260,8 @@ DragMotion Drag::scaled() const
   {
     const Vector3d axis = s.frame.col(single_axis(s.axes));
     const double offset = axis.dot(s.grabbed - s.pivot);
-    before = this->along(axis, this->start_);
-    after = this->along(axis, this->now_);
+    before = this->distance_along(axis, this->start_);
+    after = this->distance_along(axis, this->current_);
     if (before && after)
     {
       *before += offset;
@@ -269,21 +273,22 @@ DragMotion Drag::scaled() const
     // A typed negative factor mirrors. The magnitude is at least smallest_factor.
     factor = std::copysign(std::max(std::abs(*this->typed_), smallest_factor), *this->typed_);
   }
-  else if (before && after && std::abs(*before) > near_pixels * this->view_.pixel_at(s.pivot))
+  else if (before && after &&
+    std::abs(*before) > near_pixels * this->view_.pixel_length_at(s.pivot))
   {
     factor = *after / *before;
   }
   else if (far > near_pixels)
   {
-    factor = (this->now_ - pivot).norm() / far;
+    factor = (this->current_ - pivot).norm() / far;
   }
   else
   {
-    factor = 1.0 + (this->now_ - this->start_).sum() * std::sqrt(0.5) / double_pixels;
+    factor = 1.0 + (this->current_ - this->start_).sum() * std::sqrt(0.5) / double_pixels;
   }
   if (!this->typed_)
   {
-    factor = std::max(this->snapped(factor, s.factor_step), smallest_factor);
+    factor = std::max(this->snap_amount(factor, s.factor_step), smallest_factor);
   }
   Vector3d factors;
   for (int k = 0; k < 3; ++k)
@@ -297,25 +302,25 @@ DragMotion Drag::scaled() const
   return result;
 }
 
-DragMotion Drag::stretched() const
+DragMotion Drag::stretch_motion() const
 {
   const DragSetup& s = this->setup_;
-  DragMotion result = this->last_;
+  DragMotion result = this->last_motion_;
   const double length = s.arm.norm();
   if (!(length > 0.0))
   {
     return result;
   }
   const Vector3d axis = s.arm / length;
-  const std::optional<double> before = this->along(axis, this->start_);
-  const std::optional<double> after = this->along(axis, this->now_);
+  const std::optional<double> before = this->distance_along(axis, this->start_);
+  const std::optional<double> after = this->distance_along(axis, this->current_);
   if (!this->typed_ && (!before || !after))
   {
     return result;
   }
   const double factor = this->typed_
     ? *this->typed_
-    : this->snapped((length + *after - *before) / length, s.factor_step);
+    : this->snap_amount((length + *after - *before) / length, s.factor_step);
   result.factor = std::max(factor, smallest_factor);
   result.amount = result.factor;
   return result;
@@ -324,14 +329,14 @@ DragMotion Drag::stretched() const
 Vector3d Drag::start_arm() const
 {
   const Vector3d axis = this->axis().normalized();
-  Vector3d at;
-  const Vector3d sight = this->view_.sight_to(this->setup_.pivot);
-  if (std::abs(axis.dot(sight)) < seen_from_side ||
-    !meet_plane(this->view_.ray(this->start_), this->setup_.pivot, axis, at))
+  Vector3d hit;
+  const Vector3d forward = this->view_.direction_to(this->setup_.pivot);
+  if (std::abs(axis.dot(forward)) < edge_on_cosine ||
+    !intersect_plane(this->view_.ray(this->start_), this->setup_.pivot, axis, hit))
   {
-    at = this->setup_.pivot - sight;
+    hit = this->setup_.pivot - forward;
   }
-  const Vector3d arm = at - this->setup_.pivot;
+  const Vector3d arm = hit - this->setup_.pivot;
   const Vector3d across = arm - axis * axis.dot(arm);
   return across.norm() > 0.0 ? Vector3d(across.normalized()) : axis.unitOrthogonal();
 }
@@ -341,23 +346,23 @@ DragMotion Drag::motion()
   switch (this->setup_.kind)
   {
     case DragKind::move:
-      this->last_ = this->moved();
+      this->last_motion_ = this->move_motion();
       break;
     case DragKind::turn:
-      this->last_ = this->turned();
+      this->last_motion_ = this->turn_motion();
       break;
     case DragKind::aim:
     case DragKind::reach:
-      this->last_ = this->typed_ ? this->turned() : this->aimed();
+      this->last_motion_ = this->typed_ ? this->turn_motion() : this->aim_motion();
       break;
     case DragKind::scale:
-      this->last_ = this->scaled();
+      this->last_motion_ = this->scale_motion();
       break;
     case DragKind::stretch:
-      this->last_ = this->stretched();
+      this->last_motion_ = this->stretch_motion();
       break;
   }
-  return this->last_;
+  return this->last_motion_;
 }
 
 } // namespace bindpose

@@ -84,27 +84,28 @@ public:
 
 private:
   void restart();
-  std::optional<double> along(const Eigen::Vector3d& axis, const Eigen::Vector2d& mouse) const;
+  std::optional<double> distance_along(
+    const Eigen::Vector3d& axis, const Eigen::Vector2d& mouse) const;
   std::optional<double> angle(const Eigen::Vector2d& mouse) const;
   void follow_angle();
-  DragMotion moved() const;
-  DragMotion turned() const;
-  DragMotion aimed() const;
-  DragMotion scaled() const;
-  DragMotion stretched() const;
-  double snapped(double amount, double step) const;
+  DragMotion move_motion() const;
+  DragMotion turn_motion() const;
+  DragMotion aim_motion() const;
+  DragMotion scale_motion() const;
+  DragMotion stretch_motion() const;
+  double snap_amount(double amount, double step) const;
 
   ScreenView view_;
   DragSetup setup_;
   Eigen::Vector2d mouse_; // last position of the mouse
   Eigen::Vector2d start_;
   // Mouse position that the drag uses; in fine mode it moves less than the mouse.
-  Eigen::Vector2d now_;
-  double turned_ = 0.0; // angle of the rotation so far, in radians
+  Eigen::Vector2d current_;
+  double rotation_angle_ = 0.0; // angle of the rotation so far, in radians
   double last_angle_ = 0.0;
   bool snap_ = false;
   std::optional<double> typed_;
-  DragMotion last_;
+  DragMotion last_motion_;
 };
 
 } // namespace bindpose

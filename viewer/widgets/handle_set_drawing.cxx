@@ -20,7 +20,7 @@
 
 #include <algorithm>
 
-using bindpose::HandlePlace;
+using bindpose::HandleRecord;
 using bindpose::HandleSetState;
 using bindpose::ShapeActors;
 using Eigen::Vector2d;
@@ -63,9 +63,9 @@ void vtkHandleSetRepresentation::BuildRepresentation()
     return;
   }
   const bindpose::ScreenView view(this->Renderer);
-  std::vector<HandlePlace> places = self.Data.places(this->DrawsRest());
-  bindpose::HandleData::resolve_modes(places, this->FindsRotations != 0);
-  const bool fine = places.size() <= 60;
+  std::vector<HandleRecord> records = self.Data.records(this->DrawsRest());
+  bindpose::HandleData::resolve_modes(records, this->FindsRotations != 0);
+  const bool fine = records.size() <= 60;
   bindpose::HandleShapes solid(fine);
   bindpose::HandleShapes outline(fine);
   bindpose::HandleSizes sizes;
@@ -74,33 +74,35 @@ void vtkHandleSetRepresentation::BuildRepresentation()
   const bindpose::HandleLook look{ { to_color(this->FullColor), to_color(this->PositionColor),
                                      to_color(this->FreeColor) },
     to_color(this->OutlineColor), to_color(this->SelectedColor), this->PixelScale };
-  const bindpose::HandleMarks marks{ this->HoveredHandle, this->ActiveHandle, self.Selected };
-  bindpose::draw_handles(view, places,
-    places.empty() ? std::vector<bindpose::HandleData::Bar>() : self.Data.bars(places), sizes, look,
-    marks, solid, outline);
+  const bindpose::HandleMarks marks{ this->HoveredHandle, this->ActiveHandle,
+    self.SelectedHandles };
+  bindpose::draw_handles(view, records,
+    records.empty() ? std::vector<bindpose::HandleData::Bar>() : self.Data.bars(records), sizes,
+    look, marks, solid, outline);
   const bindpose::RestEditor::Preview& preview = self.Editor.preview();
-  const bindpose::Color fresh = bindpose::lighter(look.modes[0]);
+  const bindpose::Color preview_color = bindpose::lighter(look.modes[0]);
   if (preview.bone)
   {
     const auto& [head, tail] = *preview.bone;
-    const double pixel = view.pixel_at(0.5 * (head + tail));
+    const double pixel = view.pixel_length_at(0.5 * (head + tail));
     const double width = sizes.half_width((tail - head).norm(), pixel);
-    solid.add_bone(head, tail, width, fresh);
+    solid.add_bone(head, tail, width, preview_color);
     outline.add_bone(head, tail, width, look.outline, 1.6 * this->PixelScale * pixel);
-    solid.add_ball(head, sizes.end() * view.pixel_at(head), fresh);
+    solid.add_ball(head, sizes.end() * view.pixel_length_at(head), preview_color);
   }
   if (preview.bar)
   {
     const auto& [from, to] = *preview.bar;
-    solid.add_tube({ from, to }, 1.2 * this->PixelScale * view.pixel_at(0.5 * (from + to)), fresh);
+    solid.add_tube({ from, to }, 1.2 * this->PixelScale * view.pixel_length_at(0.5 * (from + to)),
+      preview_color);
   }
   if (preview.ball)
   {
     // A wider outline marks a ball that has snapped to an existing handle or vertex.
-    const double pixel = view.pixel_at(*preview.ball);
+    const double pixel = view.pixel_length_at(*preview.ball);
     const double size = this->EditMode == ADD_BONES ? sizes.end() : sizes.ball;
     const double rim = this->PixelScale * (preview.snapped ? 4.5 : 1.6);
-    solid.add_ball(*preview.ball, size * pixel, fresh);
+    solid.add_ball(*preview.ball, size * pixel, preview_color);
     outline.add_ball(
       *preview.ball, (size + rim) * pixel, preview.snapped ? look.selected : look.outline);
     outline.add_ball(*preview.ball, (size + rim + 1.6 * this->PixelScale) * pixel, look.outline);
@@ -108,52 +110,55 @@ void vtkHandleSetRepresentation::BuildRepresentation()
   self.Labels.clear();
   for (vtkIdType cell = 0; cell < self.Data.count(); ++cell)
   {
-    const bool hot = cell == this->HoveredHandle || cell == this->ActiveHandle;
-    const HandlePlace& place = places[static_cast<std::size_t>(cell)];
-    const bool dragged = self.Dragged && cell == this->ActiveHandle;
-    const bool named = this->ShowHoverName && hot && self.HoveredPart == bindpose::no_part;
-    if (place.is_handle() && (this->ShowLabels || named || dragged))
+    const bool is_highlighted = cell == this->HoveredHandle || cell == this->ActiveHandle;
+    const HandleRecord& record = records[static_cast<std::size_t>(cell)];
+    const bool dragged = self.CurrentDrag && cell == this->ActiveHandle;
+    const bool named =
+      this->ShowHoverName && is_highlighted && self.HoveredPart == bindpose::no_part;
+    if (record.is_handle() && (this->ShowLabels || named || dragged))
     {
       std::string text = self.Data.name(cell);
-      text += place.locked          ? " (locked)"
-        : place.is_free() && hot    ? " (free)"
-        : place.only_moves() && hot ? " (rotation free)"
-                                    : "";
-      text += dragged && !self.LastText.empty() ? "   " + self.LastText : "";
-      Vector2d at = bindpose::label_place(view, place, this->PixelScale * this->PointSize);
-      if (dragged && self.Dragged->part() != bindpose::no_part)
+      text += record.locked                     ? " (locked)"
+        : record.is_free() && is_highlighted    ? " (free)"
+        : record.only_moves() && is_highlighted ? " (rotation free)"
+                                                : "";
+      text += dragged && !self.LastDragText.empty() ? "   " + self.LastDragText : "";
+      Vector2d label_position =
+        bindpose::label_anchor(view, record, this->PixelScale * this->PointSize);
+      if (dragged && self.CurrentDrag->part() != bindpose::no_part)
       {
         // Draw the text below the gizmo, or above it near the lower border of the window, because
         // nothing else is drawn there.
         const double aside = this->PixelScale * (1.45 * this->GizmoSize + 14.0);
-        at = view.to_display(place.head).head<2>();
-        at += Vector2d(-0.25 * aside, at[1] > 1.2 * aside ? -aside : aside);
+        label_position = view.to_display(record.head).head<2>();
+        label_position += Vector2d(-0.25 * aside, label_position[1] > 1.2 * aside ? -aside : aside);
       }
-      self.Labels.add(text, at, this->PixelScale);
+      self.Labels.add(text, label_position, this->PixelScale);
     }
   }
   self.Handles.Set(solid, outline);
 
   bindpose::HandleShapes gizmo_solid(true);
   bindpose::HandleShapes gizmo_outline(true);
-  const vtkIdType gizmo_handle = self.Dragged ? this->ActiveHandle : this->GetSelectedHandle();
-  const bool shows = self.Dragged || (this->EditMode == POSE && this->Gizmo != GIZMO_NONE);
-  if (shows && this->GetDragRefusal(gizmo_handle) == DRAGGABLE)
+  const vtkIdType gizmo_handle = self.CurrentDrag ? this->ActiveHandle : this->GetSelectedHandle();
+  const bool shows_gizmo =
+    self.CurrentDrag || (this->EditMode == POSE && this->Gizmo != GIZMO_NONE);
+  if (shows_gizmo && this->GetDragRefusal(gizmo_handle) == DRAGGABLE)
   {
-    bindpose::GizmoSetup setup = this->MakeGizmo(places[static_cast<std::size_t>(gizmo_handle)]);
+    bindpose::GizmoSetup setup = this->MakeGizmo(records[static_cast<std::size_t>(gizmo_handle)]);
     bindpose::GizmoMarks gizmo_marks;
     gizmo_marks.hovered = self.HoveredPart;
-    if (self.Dragged)
+    if (self.CurrentDrag)
     {
       // Draw the constraint for any drag, including drags that a key has started.
-      gizmo_marks.active = self.Dragged->part();
+      gizmo_marks.active = self.CurrentDrag->part();
       setup.kind = bindpose::gizmo_with(gizmo_marks.active, setup.kind);
-      setup.frame = self.Dragged->frame();
-      const auto spokes = self.Dragged->spokes(
-        bindpose::ring_pixels(setup, gizmo_marks.active) * view.pixel_at(setup.origin));
+      setup.frame = self.CurrentDrag->frame();
+      const auto spokes = self.CurrentDrag->spokes(
+        bindpose::ring_pixels(setup, gizmo_marks.active) * view.pixel_length_at(setup.origin));
       std::copy(spokes.begin(), spokes.end(), gizmo_marks.spokes);
     }
-    if (!self.Dragged || gizmo_marks.active != bindpose::no_part)
+    if (!self.CurrentDrag || gizmo_marks.active != bindpose::no_part)
     {
       const bindpose::Gizmo gizmo(view, setup, gizmo_marks);
       gizmo.draw(gizmo_solid, gizmo_outline);
@@ -170,9 +175,9 @@ void vtkHandleSetRepresentation::BuildRepresentation()
 double* vtkHandleSetRepresentation::GetBounds()
 {
   Eigen::AlignedBox3d box;
-  for (const HandlePlace& place : this->Internal->Data.places(this->DrawsRest()))
+  for (const HandleRecord& record : this->Internal->Data.records(this->DrawsRest()))
   {
-    box.extend(place.head).extend(place.tail);
+    box.extend(record.head).extend(record.tail);
   }
   vtkMath::UninitializeBounds(this->Bounds);
   for (int axis = 0; axis < 3 && !box.isEmpty(); ++axis)
@@ -198,7 +203,7 @@ int vtkHandleSetRepresentation::RenderOverlay(vtkViewport* viewport)
   this->BuildRepresentation();
   int rendered = 0;
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(viewport->GetVTKWindow());
-  const auto on_top = [&](ShapeActors& actors)
+  const auto draw_on_top = [&](ShapeActors& actors)
   {
     vtkOpenGLState* state = window->GetState();
     state->vtkglEnable(gl_depth_test);
@@ -208,11 +213,11 @@ int vtkHandleSetRepresentation::RenderOverlay(vtkViewport* viewport)
   };
   if (window && this->DrawOnTop)
   {
-    on_top(this->Internal->Handles);
+    draw_on_top(this->Internal->Handles);
   }
   if (window)
   {
-    on_top(this->Internal->Gizmo);
+    draw_on_top(this->Internal->Gizmo);
   }
   return rendered + this->Internal->Labels.render(viewport);
 }

@@ -14,21 +14,21 @@
 #include <cmath>
 
 using bindpose::Affine;
-using bindpose::HandlePlace;
+using bindpose::HandleRecord;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-bool vtkHandleSetRepresentation::WriteHandle(vtkIdType handle, const HandlePlace& posed)
+bool vtkHandleSetRepresentation::WriteHandle(vtkIdType handle, const HandleRecord& posed)
 {
-  const std::vector<HandlePlace> places = this->Internal->Data.places();
+  const std::vector<HandleRecord> records = this->Internal->Data.records();
   if (!this->Internal->Data.exists(handle) || this->GetDragRefusal(handle) == IS_LOCKED ||
-    !places[static_cast<std::size_t>(handle)].is_handle() || !posed.transform.allFinite())
+    !records[static_cast<std::size_t>(handle)].is_handle() || !posed.transform.allFinite())
   {
     return false;
   }
-  const HandlePlace& before = places[static_cast<std::size_t>(handle)];
+  const HandleRecord& before = records[static_cast<std::size_t>(handle)];
   const bindpose::HandleGroup group =
-    bindpose::make_group(places, { handle }, this->MoveDescendants != 0);
+    bindpose::make_group(records, { handle }, this->MoveDescendants != 0);
   // The descendants of the handle move by the motion from the old to the new transform. The handle
   // itself gets exactly the values that were set.
   Eigen::Affine3d motion = Eigen::Affine3d::Identity();
@@ -40,7 +40,7 @@ bool vtkHandleSetRepresentation::WriteHandle(vtkIdType handle, const HandlePlace
   }
   const double factor = before.stretch != 0.0 ? posed.stretch / before.stretch : 1.0;
   std::vector<bindpose::HandleData::CellPose> poses =
-    bindpose::moved_poses(places, group, motion, { factor, posed.twist - before.twist, true });
+    bindpose::moved_poses(records, group, motion, { factor, posed.twist - before.twist, true });
   poses.front() = { posed.transform, posed.stretch, posed.twist };
   this->Internal->Data.set_poses(group.cells, poses);
   this->Modified();
@@ -49,18 +49,18 @@ bool vtkHandleSetRepresentation::WriteHandle(vtkIdType handle, const HandlePlace
 
 bool vtkHandleSetRepresentation::SetHandleTranslation(vtkIdType handle, const double translation[3])
 {
-  HandlePlace place = this->Internal->Data.place(handle);
-  const Affine linear = place.transform;
-  place.transform.col(3) =
-    place.rest_head + Vector3d(translation) - linear.leftCols<3>() * place.rest_head;
-  return this->WriteHandle(handle, place);
+  HandleRecord record = this->Internal->Data.record(handle);
+  const Affine linear = record.transform;
+  record.transform.col(3) =
+    record.rest_head + Vector3d(translation) - linear.leftCols<3>() * record.rest_head;
+  return this->WriteHandle(handle, record);
 }
 
 bool vtkHandleSetRepresentation::SetHandleRotation(
   vtkIdType handle, const double axis[3], double degrees)
 {
-  HandlePlace place = this->Internal->Data.place(handle);
-  bindpose::TransformParts parts = bindpose::parts_of(place.transform, place.rest_head);
+  HandleRecord record = this->Internal->Data.record(handle);
+  bindpose::TransformParts parts = bindpose::parts_of(record.transform, record.rest_head);
   const double length = Vector3d(axis).norm();
   if (!(length > 0.0))
   {
@@ -68,15 +68,15 @@ bool vtkHandleSetRepresentation::SetHandleRotation(
   }
   parts.rotation = Eigen::AngleAxisd(vtkMath::RadiansFromDegrees(degrees), Vector3d(axis) / length)
                      .toRotationMatrix();
-  place.transform = bindpose::affine_of(parts, place.rest_head);
-  return this->WriteHandle(handle, place);
+  record.transform = bindpose::affine_of(parts, record.rest_head);
+  return this->WriteHandle(handle, record);
 }
 
 bool vtkHandleSetRepresentation::SetHandleScale(vtkIdType handle, const double factors[3])
 {
-  HandlePlace place = this->Internal->Data.place(handle);
-  bindpose::TransformParts parts = bindpose::parts_of(place.transform, place.rest_head);
-  const Eigen::Matrix3d axes = bindpose::rest_axes(place);
+  HandleRecord record = this->Internal->Data.record(handle);
+  bindpose::TransformParts parts = bindpose::parts_of(record.transform, record.rest_head);
+  const Eigen::Matrix3d axes = bindpose::rest_axes(record);
   const Vector3d scale(factors);
   if ((scale.array() == 0.0).any())
   {
@@ -87,8 +87,8 @@ bool vtkHandleSetRepresentation::SetHandleScale(vtkIdType handle, const double f
   {
     parts.scale = scale[0] * Eigen::Matrix3d::Identity(); // exact, without round-off
   }
-  place.transform = bindpose::affine_of(parts, place.rest_head);
-  return this->WriteHandle(handle, place);
+  record.transform = bindpose::affine_of(parts, record.rest_head);
+  return this->WriteHandle(handle, record);
 }
 
 bool vtkHandleSetRepresentation::SetHandleScale(vtkIdType handle, double factor)
@@ -99,59 +99,60 @@ bool vtkHandleSetRepresentation::SetHandleScale(vtkIdType handle, double factor)
 
 bool vtkHandleSetRepresentation::SetHandleStretch(vtkIdType handle, double ratio)
 {
-  HandlePlace place = this->Internal->Data.place(handle);
-  place.stretch = ratio;
-  return ratio > 0.0 && std::isfinite(ratio) && place.is_bone() && this->WriteHandle(handle, place);
+  HandleRecord record = this->Internal->Data.record(handle);
+  record.stretch = ratio;
+  return ratio > 0.0 && std::isfinite(ratio) && record.is_bone() &&
+    this->WriteHandle(handle, record);
 }
 
 bool vtkHandleSetRepresentation::SetHandleTwist(
   vtkIdType handle, double headDegrees, double tailDegrees)
 {
-  HandlePlace place = this->Internal->Data.place(handle);
-  place.twist = Vector2d(headDegrees, tailDegrees);
-  return place.twist.allFinite() && place.is_bone() && this->WriteHandle(handle, place);
+  HandleRecord record = this->Internal->Data.record(handle);
+  record.twist = Vector2d(headDegrees, tailDegrees);
+  return record.twist.allFinite() && record.is_bone() && this->WriteHandle(handle, record);
 }
 
 bool vtkHandleSetRepresentation::ResetHandle(vtkIdType handle)
 {
-  HandlePlace place = this->Internal->Data.place(handle);
-  place.transform = bindpose::identity_affine();
-  place.stretch = 1.0;
-  place.twist.setZero();
-  return this->WriteHandle(handle, place);
+  HandleRecord record = this->Internal->Data.record(handle);
+  record.transform = bindpose::identity_affine();
+  record.stretch = 1.0;
+  record.twist.setZero();
+  return this->WriteHandle(handle, record);
 }
 
 void vtkHandleSetRepresentation::GetHandleTranslation(vtkIdType handle, double translation[3])
 {
-  const HandlePlace place = this->Internal->Data.place(handle);
-  const Vector3d moved = bindpose::parts_of(place.transform, place.rest_head).translation;
+  const HandleRecord record = this->Internal->Data.record(handle);
+  const Vector3d moved = bindpose::parts_of(record.transform, record.rest_head).translation;
   std::copy_n(moved.data(), 3, translation);
 }
 
 double vtkHandleSetRepresentation::GetHandleRotation(vtkIdType handle, double axis[3])
 {
-  const HandlePlace place = this->Internal->Data.place(handle);
-  const Eigen::AngleAxisd turned(bindpose::parts_of(place.transform, place.rest_head).rotation);
+  const HandleRecord record = this->Internal->Data.record(handle);
+  const Eigen::AngleAxisd turned(bindpose::parts_of(record.transform, record.rest_head).rotation);
   std::copy_n(turned.axis().data(), 3, axis);
   return vtkMath::DegreesFromRadians(turned.angle());
 }
 
 void vtkHandleSetRepresentation::GetHandleScale(vtkIdType handle, double factors[3])
 {
-  const HandlePlace place = this->Internal->Data.place(handle);
-  const Eigen::Matrix3d axes = bindpose::rest_axes(place);
+  const HandleRecord record = this->Internal->Data.record(handle);
+  const Eigen::Matrix3d axes = bindpose::rest_axes(record);
   const Vector3d scale =
-    (axes.transpose() * bindpose::parts_of(place.transform, place.rest_head).scale * axes)
+    (axes.transpose() * bindpose::parts_of(record.transform, record.rest_head).scale * axes)
       .diagonal();
   std::copy_n(scale.data(), 3, factors);
 }
 
 double vtkHandleSetRepresentation::GetHandleStretch(vtkIdType handle)
 {
-  return this->Internal->Data.place(handle).stretch;
+  return this->Internal->Data.record(handle).stretch;
 }
 
 void vtkHandleSetRepresentation::GetHandleTwist(vtkIdType handle, double degrees[2])
 {
-  std::copy_n(this->Internal->Data.place(handle).twist.data(), 2, degrees);
+  std::copy_n(this->Internal->Data.record(handle).twist.data(), 2, degrees);
 }

@@ -86,15 +86,15 @@ struct HandleSetState
   ShapeActors Handles;
   ShapeActors Gizmo;
   ScreenLabels Labels;
-  std::vector<vtkIdType> Selected;
+  std::vector<vtkIdType> SelectedHandles;
   int HoveredPart = no_part; // part of the gizmo under the mouse
 
-  std::optional<PoseDrag> Dragged;
+  std::optional<PoseDrag> CurrentDrag;
   RestEditor Editor{ this->Data };
   std::string Message; // reason why the last edit was refused
 
-  std::string LastName; // type of the last drag; see GetInteractionName()
-  std::string LastText;
+  std::string LastDragName; // type of the last drag; see GetInteractionName()
+  std::string LastDragText;
 };
 
 } // namespace bindpose

@@ -42,32 +42,32 @@ DragKind kind_of_part(int part, bool reach)
 }
 
 /// Report whether a part affects only the grabbed handle, not all selected handles.
-bool is_of_one(int part)
+bool affects_one_handle(int part)
 {
   return part == static_cast<int>(HandlePart::tail) || part >= stretch_bone;
 }
 
-Matrix3d axes_in(bool local, const HandlePlace& place)
+Matrix3d axes_in(bool local, const HandleRecord& record)
 {
-  return local ? posed_axes(place) : Matrix3d(Matrix3d::Identity());
+  return local ? posed_axes(record) : Matrix3d(Matrix3d::Identity());
 }
 
-DragSetup setup_of(const HandlePlace& place, int part, const DragSettings& settings)
+DragSetup setup_of(const HandleRecord& record, int part, const DragSettings& settings)
 {
   DragSetup setup;
   const bool on_tail = part == static_cast<int>(HandlePart::tail);
-  setup.kind = place.only_moves() ? DragKind::move : kind_of_part(part, settings.reach);
-  setup.pivot = setup.grabbed = place.head;
-  setup.arm = place.tail - place.head;
+  setup.kind = record.only_moves() ? DragKind::move : kind_of_part(part, settings.reach);
+  setup.pivot = setup.grabbed = record.head;
+  setup.arm = record.tail - record.head;
   if (part == static_cast<int>(HandlePart::body))
   {
-    setup.grabbed = 0.5 * (place.head + place.tail);
+    setup.grabbed = 0.5 * (record.head + record.tail);
   }
   else if (on_tail || part == stretch_bone)
   {
-    setup.grabbed = place.tail;
+    setup.grabbed = record.tail;
   }
-  setup.frame = axes_in(settings.local_space, place);
+  setup.frame = axes_in(settings.local_space, record);
   setup.axes = axes_of_part(part);
   if (is_twist(part))
   {
@@ -100,13 +100,14 @@ int axes_of_part(int part)
   return 7;
 }
 
-PoseDrag::PoseDrag(const ScreenView& view, std::vector<HandlePlace> places, int part,
+PoseDrag::PoseDrag(const ScreenView& view, std::vector<HandleRecord> records, int part,
   const std::vector<vtkIdType>& grabbed, const Vector2d& mouse, const DragSettings& settings)
-  : start_part_(part), places_(std::move(places)),
-    group_(make_group(this->places_,
-      is_of_one(part) ? std::vector<vtkIdType>{ grabbed.front() } : grabbed, settings.descend)),
+  : start_part_(part), records_(std::move(records)),
+    group_(make_group(this->records_,
+      affects_one_handle(part) ? std::vector<vtkIdType>{ grabbed.front() } : grabbed,
+      settings.with_descendants)),
     settings_(settings),
-    drag_(view, setup_of(this->places_[static_cast<std::size_t>(grabbed.front())], part, settings),
+    drag_(view, setup_of(this->records_[static_cast<std::size_t>(grabbed.front())], part, settings),
       mouse)
 {
 }
@@ -116,14 +117,14 @@ std::vector<HandleData::CellPose> PoseDrag::poses()
   const DragMotion result = this->drag_.motion();
   GrabbedChange change;
   change.factor = result.factor;
-  change.to_arrays = this->settings_.bone_arrays;
+  change.writes_arrays = this->settings_.writes_bone_arrays;
   Eigen::Affine3d motion = result.motion;
   if (is_twist(this->start_part_) && this->drag_.setup().kind == DragKind::turn)
   {
     motion.setIdentity();
-    change.twist[this->start_part_ == twist_head && change.to_arrays ? 0 : 1] = result.amount;
+    change.twist[this->start_part_ == twist_head && change.writes_arrays ? 0 : 1] = result.amount;
   }
-  return moved_poses(this->places_, this->group_, motion, change);
+  return moved_poses(this->records_, this->group_, motion, change);
 }
 
 void PoseDrag::press_axis(int axis, bool plane)
@@ -133,11 +134,11 @@ void PoseDrag::press_axis(int axis, bool plane)
     return; // these drags have their own axis, which cannot be changed
   }
   const int axes = plane ? 7 ^ (1 << axis) : 1 << axis;
-  this->presses_ = axes == this->pressed_axes_ ? (this->presses_ + 1) % 3 : 1;
+  this->axis_presses_ = axes == this->pressed_axes_ ? (this->axis_presses_ + 1) % 3 : 1;
   this->pressed_axes_ = axes;
-  const HandlePlace& place = this->places_[static_cast<std::size_t>(this->group_.cells.front())];
-  const bool local = this->settings_.local_space == (this->presses_ == 1);
-  this->drag_.constrain(axes_in(local, place), this->presses_ == 0 ? 7 : axes);
+  const HandleRecord& record = this->records_[static_cast<std::size_t>(this->group_.cells.front())];
+  const bool local = this->settings_.local_space == (this->axis_presses_ == 1);
+  this->drag_.constrain(axes_in(local, record), this->axis_presses_ == 0 ? 7 : axes);
 }
 
 bool PoseDrag::type(char key)

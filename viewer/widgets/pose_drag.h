@@ -17,9 +17,9 @@ struct DragSettings
 {
   /// The gizmo and the keys X, Y, Z use the handle's own axes. If false, they use the world's axes.
   bool local_space = false;
-  bool descend = true;
+  bool with_descendants = true;
   /// Write stretch and twist to their arrays. If false, multiply them into the transform.
-  bool bone_arrays = true;
+  bool writes_bone_arrays = true;
   bool reach = false; ///< dragging a tail also stretches the bone
   double ring_pixels = 80.0;
   double length_step = 0.0;
@@ -40,7 +40,7 @@ public:
   /// @param grabbed   cells of the handles to drag; the handle under the mouse comes first. The
   /// caller must leave out handles that cannot be dragged (locked, or in mode free unless DragFree
   /// is on).
-  PoseDrag(const ScreenView& view, std::vector<HandlePlace> places, int part,
+  PoseDrag(const ScreenView& view, std::vector<HandleRecord> records, int part,
     const std::vector<vtkIdType>& grabbed, const Eigen::Vector2d& mouse,
     const DragSettings& settings);
 
@@ -71,11 +71,11 @@ public:
 
 private:
   int start_part_;
-  std::vector<HandlePlace> places_;
+  std::vector<HandleRecord> records_;
   HandleGroup group_;
   DragSettings settings_;
   Drag drag_;
-  int presses_ = 0;
+  int axis_presses_ = 0;
   int pressed_axes_ = 0;
   std::string typed_;
 };

@@ -22,7 +22,7 @@ constexpr double snap_pixels = 14.0;
 constexpr double shortest_pixels = 5.0; // minimum length of a bone; a shorter one is a click
 } // namespace
 
-Index RestEditor::handle_of(vtkIdType cell) const
+Index RestEditor::handle_index(vtkIdType cell) const
 {
   Handles handles;
   std::vector<Index> cells;
@@ -53,93 +53,99 @@ EditResult RestEditor::take_result()
 
 // ---- Position under the mouse ------------------------------------------------------------------
 
-std::optional<RestEditor::Target> RestEditor::end_under(const ScreenView& view,
+std::optional<RestEditor::Target> RestEditor::handle_end_at(const ScreenView& view,
   const Eigen::Vector2d& mouse, const EditSettings& settings, bool any_kind) const
 {
   std::optional<Target> best;
   double nearest = std::max(settings.sizes.ball + settings.sizes.tolerance,
     any_kind ? snap_pixels * settings.sizes.ball / 7.0 : 0.0);
-  const std::vector<HandlePlace> places = this->data_.places(true);
-  for (std::size_t i = 0; i < places.size(); ++i)
+  const std::vector<HandleRecord> records = this->data_.records(true);
+  for (std::size_t i = 0; i < records.size(); ++i)
   {
     for (const bool tail : { true, false }) // at a joint, prefer the tail of the upper bone
     {
-      const HandlePlace& place = places[i];
-      const Vec3& at = tail ? place.tail : place.head;
-      if (!place.is_handle() || (tail && !place.is_bone()) || view.pixel_at(at) == 0.0)
+      const HandleRecord& record = records[i];
+      const Vec3& end_position = tail ? record.tail : record.head;
+      if (!record.is_handle() || (tail && !record.is_bone()) ||
+        view.pixel_length_at(end_position) == 0.0)
       {
         continue;
       }
-      const double distance = (view.to_display(at).head<2>() - mouse).norm();
+      const double distance = (view.to_display(end_position).head<2>() - mouse).norm();
       if (distance < nearest)
       {
         nearest = distance;
-        best = Target{ at, static_cast<vtkIdType>(i), tail, true };
+        best = Target{ end_position, static_cast<vtkIdType>(i), tail, true };
       }
     }
   }
   // If a head was found first, prefer a tail at the same position.
-  for (std::size_t i = 0; best && !best->tail && i < places.size(); ++i)
+  for (std::size_t i = 0; best && !best->tail && i < records.size(); ++i)
   {
-    if (places[i].is_bone() && (places[i].tail - best->place).norm() == 0.0)
+    if (records[i].is_bone() && (records[i].tail - best->position).norm() == 0.0)
     {
-      best = Target{ places[i].tail, static_cast<vtkIdType>(i), true, true };
+      best = Target{ records[i].tail, static_cast<vtkIdType>(i), true, true };
     }
   }
   return best;
 }
 
-std::optional<RestEditor::Target> RestEditor::find(const ScreenView& view, const Hand& hand,
-  const EditSettings& settings, const std::optional<Vec3>& depth, bool take_ends)
+std::optional<RestEditor::Target> RestEditor::find(const ScreenView& view,
+  const MouseState& mouse_state, const EditSettings& settings,
+  const std::optional<Vec3>& depth_point, bool snap_to_ends)
 {
-  if (take_ends || hand.snap)
+  if (snap_to_ends || mouse_state.snap)
   {
-    const std::optional<Target> end = this->end_under(view, hand.mouse, settings, hand.snap);
+    const std::optional<Target> end =
+      this->handle_end_at(view, mouse_state.mouse, settings, mouse_state.snap);
     if (end)
     {
       return end;
     }
   }
   Target target;
-  const Ray ray = view.ray(hand.mouse);
+  const Ray ray = view.ray(mouse_state.mouse);
   const SurfaceProbe* probe = this->surface_.probe();
   LineSpan span;
   const bool cage = settings.mode == EditMode::add_cage;
-  if (probe && (hand.snap || !(cage && depth)) &&
+  if (probe && (mouse_state.snap || !(cage && depth_point)) &&
     probe->first_inside(ray.origin, ray.direction, span))
   {
-    if (hand.snap)
+    if (mouse_state.snap)
     {
-      target.place = this->surface_.nearest_vertex(span.triangle, span.entry);
+      target.position = this->surface_.nearest_vertex(span.triangle, span.entry);
       target.snapped = true;
     }
     else
     {
-      target.place = settings.place_inside && !cage ? span.middle() : span.entry;
+      target.position = settings.place_inside && !cage ? span.middle() : span.entry;
     }
     return target;
   }
-  if (probe && !depth && !cage)
+  if (probe && !depth_point && !cage)
   {
     return std::nullopt; // the mouse is outside the shape
   }
-  const Vec3 through = depth ? *depth : probe ? this->surface_.center() : settings.focus;
-  if (!meet_plane(ray, through, view.sight(), target.place))
+  const Vec3 through = depth_point ? *depth_point
+    : probe                        ? this->surface_.center()
+                                   : settings.focus;
+  if (!intersect_plane(ray, through, view.forward(), target.position))
   {
     return std::nullopt;
   }
   return target;
 }
 
-void RestEditor::leave()
+void RestEditor::clear_preview()
 {
   this->target_.reset();
   this->preview_ = Preview();
 }
 
-void RestEditor::hover(const ScreenView& view, const Hand& hand, const EditSettings& settings)
+void RestEditor::hover(
+  const ScreenView& view, const MouseState& mouse_state, const EditSettings& settings)
 {
-  this->leave();
+  this->clear_preview();
   if (settings.mode == EditMode::pose || settings.mode == EditMode::move_rest)
   {
     return;
@@ -149,19 +155,20 @@ void RestEditor::hover(const ScreenView& view, const Hand& hand, const EditSetti
   {
     this->cage_.pop_back();
   }
-  std::optional<Vec3> depth;
+  std::optional<Vec3> depth_point;
   if (settings.mode == EditMode::add_cage && !this->cage_.empty())
   {
-    depth = this->data_.place(this->cell_named(this->cage_.back()), true).head;
+    depth_point = this->data_.record(this->cell_named(this->cage_.back()), true).head;
   }
-  this->target_ = this->find(view, hand, settings, depth, settings.mode != EditMode::add_points);
+  this->target_ =
+    this->find(view, mouse_state, settings, depth_point, settings.mode != EditMode::add_points);
   if (this->target_)
   {
-    this->preview_.ball = this->target_->place;
+    this->preview_.ball = this->target_->position;
     this->preview_.snapped = this->target_->snapped;
-    if (depth)
+    if (depth_point)
     {
-      this->preview_.bar = { *depth, this->target_->place };
+      this->preview_.bar = { *depth_point, this->target_->position };
     }
   }
 }
@@ -180,15 +187,15 @@ vtkIdType RestEditor::cell_named(const std::string& name) const
 
 // ---- The button --------------------------------------------------------------------------------
 
-bool RestEditor::press(const ScreenView& view, const Hand& hand, const EditSettings& settings,
-  const std::vector<vtkIdType>& selected)
+bool RestEditor::press(const ScreenView& view, const MouseState& mouse_state,
+  const EditSettings& settings, const std::vector<vtkIdType>& selected)
 {
   if (settings.mode == EditMode::move_rest)
   {
-    this->busy_ = this->press_rest(view, hand, settings, selected);
+    this->busy_ = this->press_rest(view, mouse_state, settings, selected);
     return this->busy_;
   }
-  this->hover(view, hand, settings);
+  this->hover(view, mouse_state, settings);
   if (settings.mode == EditMode::pose || !this->target_)
   {
     return false;
@@ -197,14 +204,15 @@ bool RestEditor::press(const ScreenView& view, const Hand& hand, const EditSetti
   {
     return this->press_cage(*this->target_);
   }
-  this->remember();
+  this->save_start();
   this->name_ = settings.mode == EditMode::add_points ? "add point" : "add bone";
   this->head_ = *this->target_;
   this->busy_ = true;
   return true;
 }
 
-void RestEditor::move(const ScreenView& view, const Hand& hand, const EditSettings& settings)
+void RestEditor::move(
+  const ScreenView& view, const MouseState& mouse_state, const EditSettings& settings)
 {
   if (!this->busy_)
   {
@@ -212,27 +220,28 @@ void RestEditor::move(const ScreenView& view, const Hand& hand, const EditSettin
   }
   if (this->drag_)
   {
-    this->move_rest(view, hand, settings);
+    this->move_rest(view, mouse_state, settings);
     return;
   }
   const bool bone = settings.mode == EditMode::add_bones;
   // Outside the shape, the tail of a bone is placed at the depth of the head.
-  this->target_ = this->find(
-    view, hand, settings, bone ? std::optional<Vec3>(this->head_.place) : std::nullopt, false);
+  this->target_ = this->find(view, mouse_state, settings,
+    bone ? std::optional<Vec3>(this->head_.position) : std::nullopt, false);
   this->preview_ = Preview();
   if (!this->target_)
   {
     return;
   }
   this->preview_.snapped = this->target_->snapped;
-  this->preview_.ball = this->target_->place;
+  this->preview_.ball = this->target_->position;
   if (bone)
   {
-    this->preview_.bone = { this->head_.place, this->target_->place };
+    this->preview_.bone = { this->head_.position, this->target_->position };
   }
 }
 
-void RestEditor::release(const ScreenView& view, const Hand& hand, const EditSettings& settings)
+void RestEditor::release(
+  const ScreenView& view, const MouseState& mouse_state, const EditSettings& settings)
 {
   if (!this->busy_)
   {
@@ -240,7 +249,7 @@ void RestEditor::release(const ScreenView& view, const Hand& hand, const EditSet
   }
   if (!this->drag_)
   {
-    this->move(view, hand, settings);
+    this->move(view, mouse_state, settings);
   }
   this->busy_ = false;
   if (this->drag_)
@@ -250,17 +259,17 @@ void RestEditor::release(const ScreenView& view, const Hand& hand, const EditSet
     return;
   }
   const std::optional<Target> target = this->target_;
-  this->leave();
+  this->clear_preview();
   Handle handle;
   if (!target)
   {
     return;
   }
-  handle.head = handle.tail = target->place;
+  handle.head = handle.tail = target->position;
   if (settings.mode == EditMode::add_bones)
   {
     handle.kind = HandleKind::bone;
-    handle.head = this->head_.place;
+    handle.head = this->head_.position;
     const double length =
       (view.to_display(handle.head) - view.to_display(handle.tail)).head<2>().norm();
     if (length < shortest_pixels * settings.sizes.ball / 7.0)
@@ -269,7 +278,7 @@ void RestEditor::release(const ScreenView& view, const Hand& hand, const EditSet
     }
     // a bone that starts at the end of another bone becomes its child
     handle.parent =
-      this->data_.place(this->head_.cell).is_bone() ? this->handle_of(this->head_.cell) : -1;
+      this->data_.record(this->head_.cell).is_bone() ? this->handle_index(this->head_.cell) : -1;
   }
   this->edit(this->name_.c_str(),
     [&](const Handles& before, EditedHandles& after) { return add_handle(before, handle, after); });
@@ -283,13 +292,13 @@ void RestEditor::cancel()
     this->drag_.reset();
     this->data_.get()->ShallowCopy(this->start_);
     this->data_.get()->Modified();
-    this->leave();
+    this->clear_preview();
   }
 }
 
 /// Save the dataset for a cancel. Edits replace the arrays and never write into them, so a shallow
 /// copy is sufficient.
-void RestEditor::remember()
+void RestEditor::save_start()
 {
   this->start_ = vtkSmartPointer<vtkPolyData>::New();
   this->start_->ShallowCopy(this->data_.get());
@@ -300,9 +309,9 @@ void RestEditor::remember()
 bool RestEditor::press_cage(const Target& target)
 {
   const vtkIdType last = this->cage_.empty() ? -1 : this->cell_named(this->cage_.back());
-  const HandlePlace under = this->data_.place(target.cell, true);
-  const Index from = last < 0 ? -1 : this->handle_of(last);
-  if (target.cell >= 0 && under.kind == static_cast<int>(HandleKind::cage_vertex))
+  const HandleRecord clicked = this->data_.record(target.cell, true);
+  const Index from = last < 0 ? -1 : this->handle_index(last);
+  if (target.cell >= 0 && clicked.kind == static_cast<int>(HandleKind::cage_vertex))
   {
     const std::string name = this->data_.name(target.cell);
     if (target.cell == last)
@@ -311,7 +320,7 @@ bool RestEditor::press_cage(const Target& target)
       return true;
     }
     const bool closes = !this->cage_.empty() && name == this->cage_.front();
-    const Index to = this->handle_of(target.cell);
+    const Index to = this->handle_index(target.cell);
     if (from < 0)
     {
       this->cage_ = { name }; // continue the cage from the clicked vertex
@@ -337,7 +346,7 @@ bool RestEditor::press_cage(const Target& target)
   }
   Handle handle;
   handle.kind = HandleKind::cage_vertex;
-  handle.head = handle.tail = target.place;
+  handle.head = handle.tail = target.position;
   const bool done = this->edit("add cage vertex",
     [&](const Handles& before, EditedHandles& after)
     {
@@ -358,7 +367,7 @@ bool RestEditor::finish_cage()
 {
   const bool any = !this->cage_.empty();
   this->cage_.clear();
-  this->leave();
+  this->clear_preview();
   return any;
 }
 
@@ -368,9 +377,9 @@ bool RestEditor::drop_cage_vertex()
   {
     return false;
   }
-  const Index last = this->handle_of(this->cell_named(this->cage_.back()));
+  const Index last = this->handle_index(this->cell_named(this->cage_.back()));
   this->cage_.pop_back();
-  this->leave();
+  this->clear_preview();
   if (last >= 0)
   {
     this->edit("remove cage vertex",
@@ -382,43 +391,43 @@ bool RestEditor::drop_cage_vertex()
 
 // ---- Rest places -------------------------------------------------------------------------------
 
-bool RestEditor::press_rest(const ScreenView& view, const Hand& hand, const EditSettings& settings,
-  const std::vector<vtkIdType>& selected)
+bool RestEditor::press_rest(const ScreenView& view, const MouseState& mouse_state,
+  const EditSettings& settings, const std::vector<vtkIdType>& selected)
 {
-  const std::vector<HandlePlace> places = this->data_.places(true);
-  const HandlePick pick = pick_handle(view, places, hand.mouse, settings.sizes);
+  const std::vector<HandleRecord> records = this->data_.records(true);
+  const HandlePick pick = pick_handle(view, records, mouse_state.mouse, settings.sizes);
   Handles handles;
   std::vector<Index> cells;
   if (pick.part == HandlePart::none || !to_editable(this->data_.get(), handles, cells).ok() ||
-    places[static_cast<std::size_t>(pick.handle)].locked)
+    records[static_cast<std::size_t>(pick.handle)].locked)
   {
     return false;
   }
   this->ends_.clear();
-  this->places_.clear();
+  this->start_positions_.clear();
   const auto add = [&](vtkIdType cell, bool tail)
   {
-    const HandleEnd end{ this->handle_of(cell), tail };
-    const HandlePlace& place = places[static_cast<std::size_t>(cell)];
+    const HandleEnd end{ this->handle_index(cell), tail };
+    const HandleRecord& record = records[static_cast<std::size_t>(cell)];
     this->ends_.push_back(end);
-    this->places_.push_back(tail ? place.tail : place.head);
+    this->start_positions_.push_back(tail ? record.tail : record.head);
   };
   const auto add_whole = [&](vtkIdType cell)
   {
-    const HandlePlace& place = places[static_cast<std::size_t>(cell)];
-    if (place.is_handle() && !place.locked)
+    const HandleRecord& record = records[static_cast<std::size_t>(cell)];
+    if (record.is_handle() && !record.locked)
     {
       add(cell, false);
-      if (place.is_bone())
+      if (record.is_bone())
       {
         add(cell, true);
       }
     }
   };
-  const bool of_many = selected.size() > 1 &&
+  const bool is_multi_selected = selected.size() > 1 &&
     std::find(selected.begin(), selected.end(), pick.handle) != selected.end();
   const bool tail = pick.part == HandlePart::tail;
-  if (of_many)
+  if (is_multi_selected)
   {
     for (const vtkIdType cell : selected)
     {
@@ -433,15 +442,15 @@ bool RestEditor::press_rest(const ScreenView& view, const Hand& hand, const Edit
   {
     add(pick.handle, tail);
   }
-  const HandlePlace& held = places[static_cast<std::size_t>(pick.handle)];
+  const HandleRecord& picked = records[static_cast<std::size_t>(pick.handle)];
   DragSetup setup;
-  setup.grabbed = pick.part == HandlePart::body ? Vec3(0.5 * (held.head + held.tail))
-    : tail                                      ? held.tail
-                                                : held.head;
+  setup.grabbed = pick.part == HandlePart::body ? Vec3(0.5 * (picked.head + picked.tail))
+    : tail                                      ? picked.tail
+                                                : picked.head;
   setup.pivot = setup.grabbed;
   setup.length_step = settings.length_step;
-  this->drag_.emplace(view, setup, hand.mouse);
-  this->remember();
+  this->drag_.emplace(view, setup, mouse_state.mouse);
+  this->save_start();
   this->name_ = "move rest";
   return true;
 }
@@ -455,37 +464,38 @@ void RestEditor::constrain(int axes)
   }
 }
 
-void RestEditor::move_rest(const ScreenView& view, const Hand& hand, const EditSettings& settings)
+void RestEditor::move_rest(
+  const ScreenView& view, const MouseState& mouse_state, const EditSettings& settings)
 {
-  this->drag_->move_to(hand.mouse, hand.fine);
-  this->drag_->set_snapping(hand.snap);
-  Vec3 way = this->drag_->motion().motion.translation();
+  this->drag_->move_to(mouse_state.mouse, mouse_state.fine);
+  this->drag_->set_snapping(mouse_state.snap);
+  Vec3 displacement = this->drag_->motion().motion.translation();
   // Start again from the state before the drag, because edits must not accumulate.
-  vtkNew<vtkPolyData> valid;
-  valid->ShallowCopy(this->data_.get());
+  vtkNew<vtkPolyData> last_valid;
+  last_valid->ShallowCopy(this->data_.get());
   this->data_.get()->ShallowCopy(this->start_);
-  if (hand.snap && this->drag_->setup().axes == 7)
+  if (mouse_state.snap && this->drag_->setup().axes == 7)
   {
     // Snap to another handle's end or a vertex of the surface, if one is near.
     const std::optional<Target> target =
-      this->find(view, hand, settings, this->drag_->setup().grabbed, false);
-    const bool own =
-      target && target->cell >= 0 && (target->place - this->drag_->setup().grabbed).norm() == 0.0;
+      this->find(view, mouse_state, settings, this->drag_->setup().grabbed, false);
+    const bool own = target && target->cell >= 0 &&
+      (target->position - this->drag_->setup().grabbed).norm() == 0.0;
     if (target && target->snapped && !own)
     {
-      way = target->place - this->drag_->setup().grabbed;
+      displacement = target->position - this->drag_->setup().grabbed;
     }
   }
-  std::vector<Vec3> places = this->places_;
-  for (Vec3& place : places)
+  std::vector<Vec3> positions = this->start_positions_;
+  for (Vec3& position : positions)
   {
-    place += way;
+    position += displacement;
   }
   if (!this->edit("move rest",
         [&](const Handles& before, EditedHandles& after)
-        { return move_ends(before, this->ends_, places, after); }))
+        { return move_ends(before, this->ends_, positions, after); }))
   {
-    this->data_.get()->ShallowCopy(valid); // restore the last valid state
+    this->data_.get()->ShallowCopy(last_valid); // restore the last valid state
   }
   this->data_.get()->Modified();
 }

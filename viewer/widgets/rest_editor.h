@@ -29,7 +29,7 @@ enum class EditMode
 };
 
 /// State of the mouse and the modifiers.
-struct Hand
+struct MouseState
 {
   Eigen::Vector2d mouse = Eigen::Vector2d::Zero();
   bool fine = false;
@@ -68,16 +68,16 @@ public:
   RestSurface& surface() { return this->surface_; }
 
   /// Update the preview for a mouse position without a pressed button.
-  void hover(const ScreenView& view, const Hand& hand, const EditSettings& settings);
+  void hover(const ScreenView& view, const MouseState& mouse_state, const EditSettings& settings);
   /// Clear the preview, because the mouse is not on a position for a handle.
-  void leave();
+  void clear_preview();
   /// Handle a press of the button. Return true if a drag or a placement has begun or is complete
   /// (see take_result()).
   /// @param selected  selected cells; all of them are moved if one of them is dragged
-  bool press(const ScreenView& view, const Hand& hand, const EditSettings& settings,
+  bool press(const ScreenView& view, const MouseState& mouse_state, const EditSettings& settings,
     const std::vector<vtkIdType>& selected);
-  void move(const ScreenView& view, const Hand& hand, const EditSettings& settings);
-  void release(const ScreenView& view, const Hand& hand, const EditSettings& settings);
+  void move(const ScreenView& view, const MouseState& mouse_state, const EditSettings& settings);
+  void release(const ScreenView& view, const MouseState& mouse_state, const EditSettings& settings);
   /// Report whether an interaction is in progress while the button is down.
   bool busy() const { return this->busy_; }
   /// Restore the dataset to its state before the interaction.
@@ -115,24 +115,25 @@ private:
   /// The position at which a press would place a handle.
   struct Target
   {
-    Vec3 place = Vec3::Zero();
+    Vec3 position = Vec3::Zero();
     vtkIdType cell = -1; ///< a handle whose end is at this position; -1 if there is none
     bool tail = false;
     bool snapped = false;
   };
-  std::optional<Target> find(const ScreenView& view, const Hand& hand, const EditSettings& settings,
-    const std::optional<Vec3>& depth, bool take_ends);
-  std::optional<Target> end_under(const ScreenView& view, const Eigen::Vector2d& mouse,
+  std::optional<Target> find(const ScreenView& view, const MouseState& mouse_state,
+    const EditSettings& settings, const std::optional<Vec3>& depth_point, bool snap_to_ends);
+  std::optional<Target> handle_end_at(const ScreenView& view, const Eigen::Vector2d& mouse,
     const EditSettings& settings, bool any_kind) const;
   bool press_cage(const Target& target);
-  bool press_rest(const ScreenView& view, const Hand& hand, const EditSettings& settings,
-    const std::vector<vtkIdType>& selected);
-  void move_rest(const ScreenView& view, const Hand& hand, const EditSettings& settings);
+  bool press_rest(const ScreenView& view, const MouseState& mouse_state,
+    const EditSettings& settings, const std::vector<vtkIdType>& selected);
+  void move_rest(
+    const ScreenView& view, const MouseState& mouse_state, const EditSettings& settings);
   bool edit(const char* name, const HandleListEdit& edit);
   /// Return the index of a cell's handle in the list of handles.
-  Index handle_of(vtkIdType cell) const;
+  Index handle_index(vtkIdType cell) const;
   vtkIdType cell_named(const std::string& name) const;
-  void remember();
+  void save_start();
 
   HandleData& data_;
   RestSurface surface_;
@@ -148,7 +149,7 @@ private:
   vtkSmartPointer<vtkPolyData> start_;
   std::optional<Drag> drag_;
   std::vector<HandleEnd> ends_;
-  std::vector<Vec3> places_;
+  std::vector<Vec3> start_positions_;
 };
 
 } // namespace bindpose

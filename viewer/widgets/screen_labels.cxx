@@ -12,12 +12,12 @@ namespace bindpose
 void ScreenLabels::add(
   const std::string& text, const Eigen::Vector2d& display, double scale, const double* color)
 {
-  if (this->actors_.size() == this->shown_)
+  if (this->actors_.size() == this->used_actors_)
   {
     this->actors_.push_back(vtkSmartPointer<vtkTextActor>::New());
     this->actors_.back()->GetPositionCoordinate()->SetCoordinateSystemToDisplay();
   }
-  vtkTextActor* label = this->actors_[this->shown_++];
+  vtkTextActor* label = this->actors_[this->used_actors_++];
   label->SetInput((color ? text : " " + text + " ").c_str());
   vtkTextProperty* property = label->GetTextProperty();
   property->ShallowCopy(this->text_);
@@ -35,7 +35,7 @@ void ScreenLabels::add(
 int ScreenLabels::render(vtkViewport* viewport)
 {
   int rendered = 0;
-  for (std::size_t i = 0; i < this->shown_; ++i)
+  for (std::size_t i = 0; i < this->used_actors_; ++i)
   {
     this->actors_[i]->RenderOpaqueGeometry(viewport);
     rendered += this->actors_[i]->RenderOverlay(viewport);

@@ -22,7 +22,7 @@ class ScreenLabels
 {
 public:
   vtkTextProperty* text() const { return this->text_; }
-  void clear() { this->shown_ = 0; }
+  void clear() { this->used_actors_ = 0; }
   /// Add a text.
   /// @param scale   factor on the font's size
   /// @param color  text color, without a background plate; null: the font's own color and plate
@@ -34,7 +34,7 @@ public:
 private:
   vtkNew<vtkTextProperty> text_;
   std::vector<vtkSmartPointer<vtkTextActor>> actors_;
-  std::size_t shown_ = 0;
+  std::size_t used_actors_ = 0;
 };
 
 } // namespace bindpose

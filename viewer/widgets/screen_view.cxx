@@ -37,11 +37,11 @@ ScreenView::ScreenView(vtkRenderer* renderer)
     *corners[k] = Vector2d(renderer->GetDisplayPoint());
   }
   this->eye_ = Vector3d(camera->GetPosition());
-  this->sight_ = Vector3d(camera->GetDirectionOfProjection());
-  this->right_ = this->sight_.cross(Vector3d(camera->GetViewUp()));
-  this->right_ =
-    this->right_.norm() > 0.0 ? Vector3d(this->right_.normalized()) : this->sight_.unitOrthogonal();
-  this->up_ = this->right_.cross(this->sight_);
+  this->forward_ = Vector3d(camera->GetDirectionOfProjection());
+  this->right_ = this->forward_.cross(Vector3d(camera->GetViewUp()));
+  this->right_ = this->right_.norm() > 0.0 ? Vector3d(this->right_.normalized())
+                                           : this->forward_.unitOrthogonal();
+  this->up_ = this->right_.cross(this->forward_);
   this->parallel_ = camera->GetParallelProjection() != 0;
   const double height = std::max(renderer->GetSize()[1], 1);
   const double half = this->parallel_
@@ -69,31 +69,34 @@ Ray ScreenView::ray(const Vector2d& display) const
   const Vector3d near = (this->from_clip_ * Vector4d(view[0], view[1], 0.0, 1.0)).hnormalized();
   Ray ray;
   ray.origin = near;
-  ray.direction = this->parallel_ ? this->sight_ : Vector3d((near - this->eye_).normalized());
+  ray.direction = this->parallel_ ? this->forward_ : Vector3d((near - this->eye_).normalized());
   return ray;
 }
 
-double ScreenView::pixel_at(const Vector3d& place) const
+double ScreenView::pixel_length_at(const Vector3d& position) const
 {
-  return this->parallel_ ? this->pixel_slope_
-                         : this->pixel_slope_ * std::max(this->sight_.dot(place - this->eye_), 0.0);
+  return this->parallel_
+    ? this->pixel_slope_
+    : this->pixel_slope_ * std::max(this->forward_.dot(position - this->eye_), 0.0);
 }
 
-Vector3d ScreenView::sight_to(const Vector3d& place) const
+Vector3d ScreenView::direction_to(const Vector3d& position) const
 {
-  const Vector3d way = place - this->eye_;
-  return this->parallel_ || way.norm() == 0.0 ? this->sight_ : Vector3d(way.normalized());
+  const Vector3d displacement = position - this->eye_;
+  return this->parallel_ || displacement.norm() == 0.0 ? this->forward_
+                                                       : Vector3d(displacement.normalized());
 }
 
-bool meet_plane(const Ray& ray, const Vector3d& place, const Vector3d& normal, Vector3d& at)
+bool intersect_plane(
+  const Ray& ray, const Vector3d& position, const Vector3d& normal, Vector3d& hit)
 {
   const double slope = ray.direction.dot(normal);
-  const double t = normal.dot(place - ray.origin) / slope;
+  const double t = normal.dot(position - ray.origin) / slope;
   if (slope == 0.0 || !std::isfinite(t) || t < 0.0)
   {
     return false;
   }
-  at = ray.origin + t * ray.direction;
+  hit = ray.origin + t * ray.direction;
   return true;
 }
 

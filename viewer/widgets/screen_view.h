@@ -29,11 +29,11 @@ public:
   Eigen::Vector3d to_display(const Eigen::Vector3d& world) const;
   Ray ray(const Eigen::Vector2d& display) const;
   /// Return the world length of a pixel at a position; 0 behind the eye.
-  double pixel_at(const Eigen::Vector3d& place) const;
+  double pixel_length_at(const Eigen::Vector3d& position) const;
   /// Return the unit vector from the eye to a position.
-  Eigen::Vector3d sight_to(const Eigen::Vector3d& place) const;
+  Eigen::Vector3d direction_to(const Eigen::Vector3d& position) const;
 
-  const Eigen::Vector3d& sight() const { return this->sight_; }
+  const Eigen::Vector3d& forward() const { return this->forward_; }
   const Eigen::Vector3d& right() const { return this->right_; }
   const Eigen::Vector3d& up() const { return this->up_; }
 
@@ -43,7 +43,7 @@ private:
   Eigen::Vector2d lower_; // display coordinates of the viewport's corners: lower left, upper right
   Eigen::Vector2d upper_;
   Eigen::Vector3d eye_;
-  Eigen::Vector3d sight_;
+  Eigen::Vector3d forward_;
   Eigen::Vector3d right_;
   Eigen::Vector3d up_;
   bool parallel_ = false;
@@ -53,8 +53,8 @@ private:
 
 /// Intersect a ray with a plane. Return false if there is no intersection in front of the ray's
 /// origin.
-bool meet_plane(
-  const Ray& ray, const Eigen::Vector3d& place, const Eigen::Vector3d& normal, Eigen::Vector3d& at);
+bool intersect_plane(const Ray& ray, const Eigen::Vector3d& position, const Eigen::Vector3d& normal,
+  Eigen::Vector3d& hit);
 
 } // namespace bindpose
 

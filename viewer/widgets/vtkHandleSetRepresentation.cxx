@@ -23,7 +23,7 @@
 #include <cmath>
 #include <vector>
 
-using bindpose::HandlePlace;
+using bindpose::HandleRecord;
 using bindpose::HandleSetState;
 using Eigen::Vector2d;
 using Eigen::Vector3d;
@@ -75,9 +75,9 @@ void vtkHandleSetRepresentation::SetHandles(vtkPolyData* handles)
   this->HoveredHandle = -1;
   this->ActiveHandle = -1;
   this->InteractionState = OUTSIDE;
-  this->Internal->Selected.clear();
+  this->Internal->SelectedHandles.clear();
   this->Internal->HoveredPart = bindpose::no_part;
-  this->Internal->Dragged.reset();
+  this->Internal->CurrentDrag.reset();
   this->Modified();
 }
 
@@ -106,21 +106,21 @@ void vtkHandleSetRepresentation::SetSelectedHandle(vtkIdType handle)
 {
   const std::vector<vtkIdType> selected =
     handle < 0 ? std::vector<vtkIdType>() : std::vector<vtkIdType>{ handle };
-  if (this->Internal->Selected != selected)
+  if (this->Internal->SelectedHandles != selected)
   {
-    this->Internal->Selected = selected;
+    this->Internal->SelectedHandles = selected;
     this->Modified();
   }
 }
 
 vtkIdType vtkHandleSetRepresentation::GetSelectedHandle()
 {
-  return this->Internal->Selected.empty() ? -1 : this->Internal->Selected.back();
+  return this->Internal->SelectedHandles.empty() ? -1 : this->Internal->SelectedHandles.back();
 }
 
 void vtkHandleSetRepresentation::ToggleSelected(vtkIdType handle)
 {
-  std::vector<vtkIdType>& selected = this->Internal->Selected;
+  std::vector<vtkIdType>& selected = this->Internal->SelectedHandles;
   const auto found = std::find(selected.begin(), selected.end(), handle);
   if (found != selected.end())
   {
@@ -135,18 +135,18 @@ void vtkHandleSetRepresentation::ToggleSelected(vtkIdType handle)
 
 bool vtkHandleSetRepresentation::IsSelected(vtkIdType handle)
 {
-  const std::vector<vtkIdType>& selected = this->Internal->Selected;
+  const std::vector<vtkIdType>& selected = this->Internal->SelectedHandles;
   return std::find(selected.begin(), selected.end(), handle) != selected.end();
 }
 
 int vtkHandleSetRepresentation::GetNumberOfSelectedHandles()
 {
-  return static_cast<int>(this->Internal->Selected.size());
+  return static_cast<int>(this->Internal->SelectedHandles.size());
 }
 
 vtkIdType vtkHandleSetRepresentation::GetSelectedHandle(int number)
 {
-  const std::vector<vtkIdType>& selected = this->Internal->Selected;
+  const std::vector<vtkIdType>& selected = this->Internal->SelectedHandles;
   return number >= 0 && number < static_cast<int>(selected.size())
     ? selected[static_cast<std::size_t>(number)]
     : -1;
@@ -160,18 +160,18 @@ void vtkHandleSetRepresentation::SelectInRectangle(const double corner[2], const
     const bindpose::ScreenView view(this->Renderer);
     Eigen::AlignedBox2d box;
     box.extend(Vector2d(corner)).extend(Vector2d(opposite));
-    const std::vector<HandlePlace> places = this->Internal->Data.places();
-    for (std::size_t i = 0; i < places.size(); ++i)
+    const std::vector<HandleRecord> records = this->Internal->Data.records();
+    for (std::size_t i = 0; i < records.size(); ++i)
     {
-      const Vector3d middle = 0.5 * (places[i].head + places[i].tail);
-      if (places[i].is_handle() && view.pixel_at(middle) > 0.0 &&
+      const Vector3d middle = 0.5 * (records[i].head + records[i].tail);
+      if (records[i].is_handle() && view.pixel_length_at(middle) > 0.0 &&
         box.contains(Vector2d(view.to_display(middle).head<2>())))
       {
         selected.push_back(static_cast<vtkIdType>(i));
       }
     }
   }
-  this->Internal->Selected = selected;
+  this->Internal->SelectedHandles = selected;
   this->Modified();
 }
 
@@ -184,35 +184,35 @@ std::string vtkHandleSetRepresentation::GetHandleName(vtkIdType handle)
 
 int vtkHandleSetRepresentation::GetHandleMode(vtkIdType handle)
 {
-  return this->Internal->Data.place(handle).mode;
+  return this->Internal->Data.record(handle).mode;
 }
 
 bool vtkHandleSetRepresentation::IsBone(vtkIdType handle)
 {
-  return this->Internal->Data.place(handle).is_bone();
+  return this->Internal->Data.record(handle).is_bone();
 }
 
 void vtkHandleSetRepresentation::GetPosedHead(vtkIdType handle, double head[3])
 {
-  std::copy_n(this->Internal->Data.place(handle).head.data(), 3, head);
+  std::copy_n(this->Internal->Data.record(handle).head.data(), 3, head);
 }
 
 void vtkHandleSetRepresentation::GetPosedTail(vtkIdType handle, double tail[3])
 {
-  std::copy_n(this->Internal->Data.place(handle).tail.data(), 3, tail);
+  std::copy_n(this->Internal->Data.record(handle).tail.data(), 3, tail);
 }
 
 int vtkHandleSetRepresentation::GetDragRefusal(vtkIdType handle)
 {
-  const HandlePlace place = this->Internal->Data.place(handle);
-  if (!this->Internal->Data.exists(handle) || !place.is_handle())
+  const HandleRecord record = this->Internal->Data.record(handle);
+  if (!this->Internal->Data.exists(handle) || !record.is_handle())
   {
     return IS_NO_HANDLE;
   }
   // In edit modes a handle is shown at its rest position, whatever its pose.
   const bool poses = this->EditMode == POSE;
-  const bool free = place.is_free() && poses && !this->DragFree;
-  return place.locked         ? IS_LOCKED
+  const bool free = record.is_free() && poses && !this->DragFree;
+  return record.locked        ? IS_LOCKED
     : poses && this->ShowRest ? IS_AT_REST
     : free                    ? IS_FREE
                               : DRAGGABLE;
@@ -220,21 +220,21 @@ int vtkHandleSetRepresentation::GetDragRefusal(vtkIdType handle)
 
 // ---- Picking -----------------------------------------------------------------------------------
 
-bindpose::GizmoSetup vtkHandleSetRepresentation::MakeGizmo(const HandlePlace& place)
+bindpose::GizmoSetup vtkHandleSetRepresentation::MakeGizmo(const HandleRecord& record)
 {
   bindpose::GizmoSetup setup;
   setup.kind = static_cast<bindpose::GizmoKind>(this->Gizmo);
-  setup.origin = place.head;
-  setup.only_moves = place.only_moves();
-  setup.twists_apart = this->StretchableBones != 0;
+  setup.origin = record.head;
+  setup.only_moves = record.only_moves();
+  setup.two_twist_rings = this->StretchableBones != 0;
   setup.pixels = this->PixelScale * this->GizmoSize;
   if (this->Space == LOCAL)
   {
-    setup.frame = bindpose::posed_axes(place);
+    setup.frame = bindpose::posed_axes(record);
   }
-  if (place.is_bone())
+  if (record.is_bone())
   {
-    setup.tail = place.tail;
+    setup.tail = record.tail;
   }
   return setup;
 }
@@ -247,10 +247,10 @@ int vtkHandleSetRepresentation::ComputeInteractionState(int x, int y, int vtkNot
   const double position[2] = { static_cast<double>(x), static_cast<double>(y) };
   if (this->Renderer && this->EditMode > MOVE_REST)
   {
-    self.Editor.hover(
-      bindpose::ScreenView(this->Renderer), this->MakeHand(position), this->MakeEditSettings());
-    const bool has_place = self.Editor.preview().ball.has_value();
-    this->InteractionState = has_place ? PLACING : OUTSIDE;
+    self.Editor.hover(bindpose::ScreenView(this->Renderer), this->MakeMouseState(position),
+      this->MakeEditSettings());
+    const bool has_target = self.Editor.preview().ball.has_value();
+    this->InteractionState = has_target ? PLACING : OUTSIDE;
     this->SetHoveredHandle(self.Editor.target());
     this->Modified();
     return this->InteractionState;
@@ -265,7 +265,7 @@ int vtkHandleSetRepresentation::ComputeInteractionState(int x, int y, int vtkNot
       this->GetDragRefusal(selected) == DRAGGABLE)
     {
       part =
-        bindpose::Gizmo(view, this->MakeGizmo(self.Data.place(selected))).pick(mouse, tolerance);
+        bindpose::Gizmo(view, this->MakeGizmo(self.Data.record(selected))).pick(mouse, tolerance);
     }
     if (part != bindpose::no_part)
     {
@@ -277,7 +277,7 @@ int vtkHandleSetRepresentation::ComputeInteractionState(int x, int y, int vtkNot
       sizes.ball = this->PixelScale * this->PointSize;
       sizes.bone_width = this->BoneWidth;
       sizes.tolerance = tolerance;
-      pick = bindpose::pick_handle(view, self.Data.places(this->DrawsRest()), mouse, sizes);
+      pick = bindpose::pick_handle(view, self.Data.records(this->DrawsRest()), mouse, sizes);
     }
   }
   this->InteractionState = part != bindpose::no_part ? part : static_cast<int>(pick.part);
@@ -294,7 +294,7 @@ void vtkHandleSetRepresentation::LeaveHandles()
 {
   if (this->Internal->Editor.preview().ball)
   {
-    this->Internal->Editor.leave();
+    this->Internal->Editor.clear_preview();
     this->Modified();
   }
   this->InteractionState = OUTSIDE;
@@ -308,14 +308,14 @@ void vtkHandleSetRepresentation::LeaveHandles()
 
 bool vtkHandleSetRepresentation::GetGizmoGrip(int part, double display[2])
 {
-  const HandlePlace place = this->Internal->Data.place(this->GetSelectedHandle());
+  const HandleRecord record = this->Internal->Data.record(this->GetSelectedHandle());
   if (!this->Renderer || this->EditMode != POSE ||
     this->GetDragRefusal(this->GetSelectedHandle()) != DRAGGABLE)
   {
     return false;
   }
   const auto grip =
-    bindpose::Gizmo(bindpose::ScreenView(this->Renderer), this->MakeGizmo(place)).grip(part);
+    bindpose::Gizmo(bindpose::ScreenView(this->Renderer), this->MakeGizmo(record)).grip(part);
   std::copy_n(grip ? grip->data() : Vector2d::Zero().eval().data(), 2, display);
   return grip.has_value();
 }
@@ -346,8 +346,8 @@ bindpose::DragSettings vtkHandleSetRepresentation::MakeSettings()
 {
   bindpose::DragSettings settings;
   settings.local_space = this->Space == LOCAL;
-  settings.descend = this->MoveDescendants != 0;
-  settings.bone_arrays = this->StretchableBones != 0;
+  settings.with_descendants = this->MoveDescendants != 0;
+  settings.writes_bone_arrays = this->StretchableBones != 0;
   settings.reach = this->Reach != 0;
   settings.ring_pixels = this->PixelScale * this->GizmoSize;
   settings.length_step = this->GetSnapLength();
@@ -362,7 +362,7 @@ void vtkHandleSetRepresentation::BeginDrag(int part, const double eventPos[2])
   std::vector<vtkIdType> grabbed{ this->ActiveHandle };
   if (this->IsSelected(this->ActiveHandle))
   {
-    for (const vtkIdType handle : self.Selected)
+    for (const vtkIdType handle : self.SelectedHandles)
     {
       if (handle != this->ActiveHandle && this->GetDragRefusal(handle) == DRAGGABLE)
       {
@@ -370,26 +370,26 @@ void vtkHandleSetRepresentation::BeginDrag(int part, const double eventPos[2])
       }
     }
   }
-  self.Dragged.emplace(bindpose::ScreenView(this->Renderer), self.Data.places(), part, grabbed,
+  self.CurrentDrag.emplace(bindpose::ScreenView(this->Renderer), self.Data.records(), part, grabbed,
     Vector2d(eventPos), this->MakeSettings());
-  self.LastName = self.Dragged->name();
-  self.LastText.clear();
+  self.LastDragName = self.CurrentDrag->name();
+  self.LastDragText.clear();
   this->Modified();
 }
 
 void vtkHandleSetRepresentation::StartWidgetInteraction(double eventPos[2])
 {
   this->ActiveHandle = -1;
-  this->Internal->Dragged.reset();
+  this->Internal->CurrentDrag.reset();
   this->Edited = false;
   this->Internal->Message.clear();
   if (this->Renderer && this->EditMode != POSE)
   {
     const vtkIdType hovered = this->HoveredHandle;
     const bool began = this->Internal->Editor.press(bindpose::ScreenView(this->Renderer),
-      this->MakeHand(eventPos), this->MakeEditSettings(), this->Internal->Selected);
+      this->MakeMouseState(eventPos), this->MakeEditSettings(), this->Internal->SelectedHandles);
     this->ActiveHandle = began && this->EditMode == MOVE_REST ? hovered : -1;
-    this->TakeEdit();
+    this->ApplyEditResult();
     return;
   }
   if (this->Renderer && this->InteractionState != OUTSIDE &&
@@ -404,17 +404,17 @@ bool vtkHandleSetRepresentation::StartDrag(int gizmo, double eventPos[2])
 {
   HandleSetState& self = *this->Internal;
   const vtkIdType handle = this->GetSelectedHandle();
-  const bool moves = gizmo == GIZMO_MOVE;
+  const bool is_move = gizmo == GIZMO_MOVE;
   if (this->ActiveHandle >= 0 || !this->Renderer || this->EditMode != POSE ||
     this->GetDragRefusal(handle) != DRAGGABLE ||
-    (!moves &&
-      (self.Data.place(handle).only_moves() || (gizmo != GIZMO_TURN && gizmo != GIZMO_SCALE))))
+    (!is_move &&
+      (self.Data.record(handle).only_moves() || (gizmo != GIZMO_TURN && gizmo != GIZMO_SCALE))))
   {
     return false;
   }
   this->ActiveHandle = handle;
   const int point = static_cast<int>(bindpose::HandlePart::point);
-  this->BeginDrag(moves     ? point
+  this->BeginDrag(is_move   ? point
       : gizmo == GIZMO_TURN ? static_cast<int>(bindpose::turn_view)
                             : static_cast<int>(bindpose::scale_all),
     eventPos);
@@ -424,12 +424,12 @@ bool vtkHandleSetRepresentation::StartDrag(int gizmo, double eventPos[2])
 void vtkHandleSetRepresentation::UpdateDrag()
 {
   HandleSetState& self = *this->Internal;
-  if (self.Dragged)
+  if (self.CurrentDrag)
   {
-    self.Dragged->drag().set_snapping(this->Snap != 0);
-    self.Data.set_poses(self.Dragged->group().cells, self.Dragged->poses());
-    self.LastName = self.Dragged->name();
-    self.LastText = self.Dragged->text();
+    self.CurrentDrag->drag().set_snapping(this->Snap != 0);
+    self.Data.set_poses(self.CurrentDrag->group().cells, self.CurrentDrag->poses());
+    self.LastDragName = self.CurrentDrag->name();
+    self.LastDragText = self.CurrentDrag->text();
     this->Modified();
   }
 }
@@ -438,14 +438,14 @@ void vtkHandleSetRepresentation::WidgetInteraction(double eventPos[2])
 {
   if (this->Internal->Editor.busy() && this->Renderer)
   {
-    this->Internal->Editor.move(
-      bindpose::ScreenView(this->Renderer), this->MakeHand(eventPos), this->MakeEditSettings());
+    this->Internal->Editor.move(bindpose::ScreenView(this->Renderer),
+      this->MakeMouseState(eventPos), this->MakeEditSettings());
     this->Modified();
     return;
   }
-  if (this->Internal->Dragged)
+  if (this->Internal->CurrentDrag)
   {
-    this->Internal->Dragged->drag().move_to(Vector2d(eventPos), this->Fine != 0);
+    this->Internal->CurrentDrag->drag().move_to(Vector2d(eventPos), this->Fine != 0);
     this->UpdateDrag();
   }
 }
@@ -456,16 +456,16 @@ void vtkHandleSetRepresentation::ConstrainDrag(int axis, bool plane)
   {
     this->Internal->Editor.constrain(plane ? 7 ^ (1 << axis) : 1 << axis);
   }
-  if (this->Internal->Dragged && axis >= 0 && axis < 3)
+  if (this->Internal->CurrentDrag && axis >= 0 && axis < 3)
   {
-    this->Internal->Dragged->press_axis(axis, plane);
+    this->Internal->CurrentDrag->press_axis(axis, plane);
     this->UpdateDrag();
   }
 }
 
 bool vtkHandleSetRepresentation::TypeIntoDrag(char key)
 {
-  if (!this->Internal->Dragged || !this->Internal->Dragged->type(key))
+  if (!this->Internal->CurrentDrag || !this->Internal->CurrentDrag->type(key))
   {
     return false;
   }
@@ -477,12 +477,12 @@ void vtkHandleSetRepresentation::EndWidgetInteraction(double eventPos[2])
 {
   if (this->Internal->Editor.busy() && this->Renderer)
   {
-    this->Internal->Editor.release(
-      bindpose::ScreenView(this->Renderer), this->MakeHand(eventPos), this->MakeEditSettings());
-    this->TakeEdit();
+    this->Internal->Editor.release(bindpose::ScreenView(this->Renderer),
+      this->MakeMouseState(eventPos), this->MakeEditSettings());
+    this->ApplyEditResult();
   }
   this->ActiveHandle = -1;
-  this->Internal->Dragged.reset();
+  this->Internal->CurrentDrag.reset();
   this->Modified();
 }
 
@@ -496,11 +496,11 @@ void vtkHandleSetRepresentation::CancelWidgetInteraction()
     this->ActiveHandle = -1;
     this->Modified();
   }
-  if (this->Internal->Dragged)
+  if (this->Internal->CurrentDrag)
   {
-    const bindpose::HandleGroup& group = this->Internal->Dragged->group();
+    const bindpose::HandleGroup& group = this->Internal->CurrentDrag->group();
     this->Internal->Data.set_poses(group.cells, group.start);
-    this->Internal->Dragged.reset();
+    this->Internal->CurrentDrag.reset();
     this->ActiveHandle = -1;
     this->Modified();
   }
@@ -510,7 +510,7 @@ void vtkHandleSetRepresentation::CancelWidgetInteraction()
 
 bool vtkHandleSetRepresentation::IsInteracting()
 {
-  return this->Internal->Dragged.has_value() || this->Internal->Editor.busy();
+  return this->Internal->CurrentDrag.has_value() || this->Internal->Editor.busy();
 }
 
 void vtkHandleSetRepresentation::SetEditMode(int mode)
@@ -564,17 +564,17 @@ bindpose::EditSettings vtkHandleSetRepresentation::MakeEditSettings()
   return settings;
 }
 
-bindpose::Hand vtkHandleSetRepresentation::MakeHand(const double eventPos[2])
+bindpose::MouseState vtkHandleSetRepresentation::MakeMouseState(const double eventPos[2])
 {
   return { Vector2d(eventPos), this->Fine != 0, this->Snap != 0 };
 }
 
 /// Read the result of a finished edit, which may have renumbered cells.
-void vtkHandleSetRepresentation::TakeEdit()
+void vtkHandleSetRepresentation::ApplyEditResult()
 {
   HandleSetState& self = *this->Internal;
-  self.LastName = self.Editor.name();
-  self.LastText.clear();
+  self.LastDragName = self.Editor.name();
+  self.LastDragText.clear();
   if (self.Editor.busy())
   {
     return;
@@ -585,7 +585,7 @@ void vtkHandleSetRepresentation::TakeEdit()
   if (result.changed)
   {
     std::vector<vtkIdType> selected;
-    for (const vtkIdType handle : self.Selected)
+    for (const vtkIdType handle : self.SelectedHandles)
     {
       const auto cell = static_cast<std::size_t>(handle);
       if (cell < result.cell_of.size() && result.cell_of[cell] >= 0)
@@ -594,7 +594,8 @@ void vtkHandleSetRepresentation::TakeEdit()
       }
     }
     // A new handle becomes the only selected handle.
-    self.Selected = result.added.empty() ? selected : std::vector<vtkIdType>{ result.added.back() };
+    self.SelectedHandles =
+      result.added.empty() ? selected : std::vector<vtkIdType>{ result.added.back() };
     this->SetHoveredHandle(-1);
   }
   this->Modified();
@@ -620,7 +621,7 @@ bool vtkHandleSetRepresentation::DropCageVertex()
   {
     return false;
   }
-  this->TakeEdit();
+  this->ApplyEditResult();
   return true;
 }
 
@@ -631,12 +632,12 @@ std::string vtkHandleSetRepresentation::GetEditMessage()
 
 std::string vtkHandleSetRepresentation::GetInteractionName()
 {
-  return this->Internal->LastName;
+  return this->Internal->LastDragName;
 }
 
 std::string vtkHandleSetRepresentation::GetInteractionText()
 {
-  return this->Internal->LastText;
+  return this->Internal->LastDragText;
 }
 
 void vtkHandleSetRepresentation::PrintSelf(ostream& os, vtkIndent indent)

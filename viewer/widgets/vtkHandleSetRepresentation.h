@@ -97,8 +97,8 @@ namespace bindpose
 struct DragSettings;
 struct EditSettings;
 struct GizmoSetup;
-struct Hand;
-struct HandlePlace;
+struct MouseState;
+struct HandleRecord;
 struct HandleSetState;
 } // namespace bindpose
 
@@ -480,13 +480,13 @@ private:
   void operator=(const vtkHandleSetRepresentation&) = delete;
 
   bindpose::DragSettings MakeSettings();
-  bindpose::GizmoSetup MakeGizmo(const bindpose::HandlePlace& place);
+  bindpose::GizmoSetup MakeGizmo(const bindpose::HandleRecord& record);
   bindpose::EditSettings MakeEditSettings();
-  bindpose::Hand MakeHand(const double eventPos[2]);
-  void TakeEdit();
+  bindpose::MouseState MakeMouseState(const double eventPos[2]);
+  void ApplyEditResult();
   void BeginDrag(int part, const double eventPos[2]);
   void UpdateDrag();
-  bool WriteHandle(vtkIdType handle, const bindpose::HandlePlace& posed);
+  bool WriteHandle(vtkIdType handle, const bindpose::HandleRecord& posed);
 
   bool DrawsRest() const { return this->ShowRest || this->EditMode != POSE; }
 

@@ -199,7 +199,7 @@ void vtkHandleSetWidget::SelectAction(vtkAbstractWidget* widget)
   if (self->State == DRAGGING)
   {
     self->EventCallbackCommand->SetAbortFlag(1);
-    if (self->ByKey)
+    if (self->StartedByKey)
     {
       self->EndDrag();
     }
@@ -228,9 +228,9 @@ void vtkHandleSetWidget::SelectAction(vtkAbstractWidget* widget)
     representation->SetSelectedHandle(handle);
     self->InvokeEvent(vtkCommand::SelectionChangedEvent, nullptr);
   }
-  if (self->Edits())
+  if (self->IsEditing())
   {
-    self->PressInMode();
+    self->PressInEditMode();
     return;
   }
   double position[2] = { static_cast<double>(self->Interactor->GetEventPosition()[0]),
@@ -239,7 +239,7 @@ void vtkHandleSetWidget::SelectAction(vtkAbstractWidget* widget)
   representation->StartWidgetInteraction(position);
   if (representation->GetActiveHandle() >= 0)
   {
-    self->ByKey = false;
+    self->StartedByKey = false;
     self->BeginDragging();
   }
   self->Render();
@@ -247,7 +247,7 @@ void vtkHandleSetWidget::SelectAction(vtkAbstractWidget* widget)
 
 /// Handle a press in edit modes. StartInteractionEvent is invoked before any change, so that an
 /// observer can store the handles for an undo.
-void vtkHandleSetWidget::PressInMode()
+void vtkHandleSetWidget::PressInEditMode()
 {
   vtkHandleSetRepresentation* representation = this->GetHandleSetRepresentation();
   double position[2] = { static_cast<double>(this->Interactor->GetEventPosition()[0]),
@@ -258,7 +258,7 @@ void vtkHandleSetWidget::PressInMode()
     return;
   }
   this->ReadModifiers();
-  this->ByKey = false;
+  this->StartedByKey = false;
   this->BeginDragging();
   representation->StartWidgetInteraction(position);
   if (!representation->IsInteracting())
@@ -278,7 +278,7 @@ void vtkHandleSetWidget::DoubleClickAction(vtkAbstractWidget* widget)
   }
 }
 
-bool vtkHandleSetWidget::Edits()
+bool vtkHandleSetWidget::IsEditing()
 {
   return this->GetEditMode() != vtkHandleSetRepresentation::POSE;
 }
@@ -300,7 +300,7 @@ int vtkHandleSetWidget::GetEditMode()
 void vtkHandleSetWidget::EndSelectAction(vtkAbstractWidget* widget)
 {
   auto* self = static_cast<vtkHandleSetWidget*>(widget);
-  if (self->State != DRAGGING || self->ByKey)
+  if (self->State != DRAGGING || self->StartedByKey)
   {
     return;
   }
@@ -345,9 +345,9 @@ bool vtkHandleSetWidget::PressKey(const std::string& key)
   {
     return this->PressKeyInDrag(key);
   }
-  if (this->Edits())
+  if (this->IsEditing())
   {
-    return this->PressKeyInMode(key);
+    return this->PressKeyInEditMode(key);
   }
   if (!this->StartKeys || this->Interactor->GetControlKey() || this->Interactor->GetAltKey())
   {
@@ -367,7 +367,7 @@ bool vtkHandleSetWidget::PressKey(const std::string& key)
   return false;
 }
 
-bool vtkHandleSetWidget::PressKeyInMode(const std::string& key)
+bool vtkHandleSetWidget::PressKeyInEditMode(const std::string& key)
 {
   vtkHandleSetRepresentation* representation = this->GetHandleSetRepresentation();
   if (is_key_of(HandleAction::finish_cage, key) && representation->FinishCage())
@@ -411,7 +411,7 @@ bool vtkHandleSetWidget::PressKeyInDrag(const std::string& key)
   {
     return false;
   }
-  if (is_key_of(HandleAction::hold_axis, key))
+  if (is_key_of(HandleAction::constrain_to_axis, key))
   {
     representation->ConstrainDrag(key[0] - 'x', this->Interactor->GetShiftKey() != 0);
   }
@@ -464,9 +464,9 @@ void vtkHandleSetWidget::FinishDragging(bool canceled)
   this->Canceled = canceled;
   this->ReleaseFocus();
   this->Superclass::EndInteraction();
-  if (this->Edits())
+  if (this->IsEditing())
   {
-    this->TellEdit();
+    this->InvokeEditEvents();
   }
   else if (canceled)
   {
@@ -476,7 +476,7 @@ void vtkHandleSetWidget::FinishDragging(bool canceled)
   this->Render();
 }
 
-void vtkHandleSetWidget::TellEdit()
+void vtkHandleSetWidget::InvokeEditEvents()
 {
   vtkHandleSetRepresentation* representation = this->GetHandleSetRepresentation();
   std::string message = representation->GetEditMessage();
@@ -484,13 +484,13 @@ void vtkHandleSetWidget::TellEdit()
   {
     this->InvokeEvent(vtkCommand::WarningEvent, &message[0]);
   }
-  const bool moves = this->GetEditMode() == vtkHandleSetRepresentation::MOVE_REST;
-  if (representation->GetEdited() && !moves)
+  const bool moves_rest = this->GetEditMode() == vtkHandleSetRepresentation::MOVE_REST;
+  if (representation->GetEdited() && !moves_rest)
   {
     this->InvokeEvent(vtkCommand::PlacePointEvent, nullptr);
     this->InvokeEvent(vtkCommand::SelectionChangedEvent, nullptr);
   }
-  if (representation->GetEdited() || moves)
+  if (representation->GetEdited() || moves_rest)
   {
     this->InvokeEvent(vtkCommand::InteractionEvent, nullptr);
   }
@@ -508,7 +508,7 @@ bool vtkHandleSetWidget::StartDrag(int gizmo)
   {
     return false;
   }
-  this->ByKey = true;
+  this->StartedByKey = true;
   this->BeginDragging();
   this->Render();
   return true;
@@ -522,7 +522,7 @@ void vtkHandleSetWidget::EndDrag()
       static_cast<double>(this->Interactor->GetEventPosition()[1]) };
     vtkHandleSetRepresentation* representation = this->GetHandleSetRepresentation();
     representation->EndWidgetInteraction(position);
-    this->FinishDragging(this->Edits() && !representation->GetEdited());
+    this->FinishDragging(this->IsEditing() && !representation->GetEdited());
   }
 }
 

@@ -148,17 +148,17 @@ private:
   bool Hover();
   bool PressKey(const std::string& key);
   bool PressKeyInDrag(const std::string& key);
-  bool PressKeyInMode(const std::string& key);
-  void PressInMode();
-  bool Edits();
-  void TellEdit();
+  bool PressKeyInEditMode(const std::string& key);
+  void PressInEditMode();
+  bool IsEditing();
+  void InvokeEditEvents();
   void ReadModifiers();
   void BeginDragging();
   void FinishDragging(bool canceled);
 
   vtkTypeBool StartKeys = 1;
   int State = HOVERING;
-  bool ByKey = false; // the drag was started by a key and needs no button
+  bool StartedByKey = false; // the drag was started by a key and needs no button
   bool Moved = false; // the mouse has moved since the button was pressed
   bool Canceled = false;
 };

@@ -33,7 +33,7 @@ namespace
 constexpr int outline_sides = 64;
 // distance between the discs of a stroke, as a fraction of the radius
 constexpr double spacing = 0.4;
-constexpr int most_discs = 200; // maximum number of discs per move of the mouse
+constexpr int maximum_discs = 200; // maximum number of discs per move of the mouse
 } // namespace
 
 class vtkRegionBrushRepresentation::Internals
@@ -41,17 +41,17 @@ class vtkRegionBrushRepresentation::Internals
 public:
   bindpose::RestSurface Surface;
   std::unique_ptr<bindpose::SurfaceDisc> Disc;
-  int DiscOf = -1; // RestSurface::builds() of the surface for which Disc was created
+  int DiscBuild = -1; // RestSurface::builds() of the surface for which Disc was created
 
-  bool HasPlace = false;
-  Vector3d Place = Vector3d::Zero();
+  bool HasHit = false;
+  Vector3d HitPosition = Vector3d::Zero();
   Vector3d Normal = Vector3d::UnitZ();
   bindpose::Index Triangle = -1;
 
   bool Painting = false;
-  Vector2d Last = Vector2d::Zero(); // last display position of the stroke
+  Vector2d LastPosition = Vector2d::Zero(); // last display position of the stroke
   // changed vertices with their labels before the stroke
-  std::vector<std::pair<vtkIdType, double>> Before;
+  std::vector<std::pair<vtkIdType, double>> ChangedLabels;
 
   vtkNew<vtkPolyDataMapper> Mapper;
   vtkNew<vtkActor> Actor;
@@ -73,7 +73,7 @@ public:
     return labels;
   }
 
-  void Tell(vtkDataArray* labels)
+  void MarkModified(vtkDataArray* labels)
   {
     labels->Modified();
     this->Surface.get()->Modified();
@@ -100,8 +100,8 @@ void vtkRegionBrushRepresentation::SetSurface(vtkPolyData* surface)
   {
     this->CancelWidgetInteraction();
     this->Internal->Surface.set(surface);
-    this->Internal->DiscOf = -1;
-    this->Internal->Before.clear();
+    this->Internal->DiscBuild = -1;
+    this->Internal->ChangedLabels.clear();
     this->Leave();
     this->Modified();
   }
@@ -126,7 +126,7 @@ double vtkRegionBrushRepresentation::GetDiscRadius()
 
 vtkIdType vtkRegionBrushRepresentation::GetNumberOfChangedPoints()
 {
-  return static_cast<vtkIdType>(this->Internal->Before.size());
+  return static_cast<vtkIdType>(this->Internal->ChangedLabels.size());
 }
 
 bool vtkRegionBrushRepresentation::IsPainting()
@@ -136,10 +136,10 @@ bool vtkRegionBrushRepresentation::IsPainting()
 
 // ---- The mouse ---------------------------------------------------------------------------------
 
-bool vtkRegionBrushRepresentation::FindPlace(const double eventPos[2])
+bool vtkRegionBrushRepresentation::FindHit(const double eventPos[2])
 {
   Internals& self = *this->Internal;
-  self.HasPlace = false;
+  self.HasHit = false;
   const bindpose::SurfaceProbe* probe = this->Renderer ? self.Surface.probe() : nullptr;
   if (!probe)
   {
@@ -152,8 +152,8 @@ bool vtkRegionBrushRepresentation::FindPlace(const double eventPos[2])
   {
     return false;
   }
-  self.HasPlace = true;
-  self.Place = ray.origin + hits.front().distance * ray.direction;
+  self.HasHit = true;
+  self.HitPosition = ray.origin + hits.front().distance * ray.direction;
   self.Triangle = hits.front().triangle;
   const auto points = self.Surface.points();
   const auto corners = self.Surface.triangles().row(self.Triangle);
@@ -166,7 +166,7 @@ bool vtkRegionBrushRepresentation::FindPlace(const double eventPos[2])
 int vtkRegionBrushRepresentation::ComputeInteractionState(int x, int y, int vtkNotUsed(modify))
 {
   const double position[2] = { static_cast<double>(x), static_cast<double>(y) };
-  this->InteractionState = this->FindPlace(position) ? ON_SURFACE : OUTSIDE;
+  this->InteractionState = this->FindHit(position) ? ON_SURFACE : OUTSIDE;
   this->Modified();
   return this->InteractionState;
 }
@@ -174,9 +174,9 @@ int vtkRegionBrushRepresentation::ComputeInteractionState(int x, int y, int vtkN
 void vtkRegionBrushRepresentation::Leave()
 {
   this->InteractionState = OUTSIDE;
-  if (this->Internal->HasPlace)
+  if (this->Internal->HasHit)
   {
-    this->Internal->HasPlace = false;
+    this->Internal->HasHit = false;
     this->Modified();
   }
 }
@@ -192,19 +192,19 @@ void vtkRegionBrushRepresentation::PaintDisc()
     const double before = labels->GetComponent(vertex, 0);
     if (before != label)
     {
-      self.Before.emplace_back(vertex, before);
+      self.ChangedLabels.emplace_back(vertex, before);
       labels->SetComponent(vertex, 0, label);
     }
   };
   if (this->Geodesic)
   {
-    if (self.DiscOf != self.Surface.builds())
+    if (self.DiscBuild != self.Surface.build_count())
     {
       self.Disc =
         std::make_unique<bindpose::SurfaceDisc>(self.Surface.points(), self.Surface.triangles());
-      self.DiscOf = self.Surface.builds();
+      self.DiscBuild = self.Surface.build_count();
     }
-    for (const auto& found : self.Disc->within(self.Place, self.Triangle, radius))
+    for (const auto& found : self.Disc->within(self.HitPosition, self.Triangle, radius))
     {
       paint(found.first);
     }
@@ -213,7 +213,7 @@ void vtkRegionBrushRepresentation::PaintDisc()
   const auto points = self.Surface.points();
   for (bindpose::Index v = 0; v < points.rows(); ++v)
   {
-    if ((points.row(v).transpose() - self.Place).squaredNorm() <= radius * radius)
+    if ((points.row(v).transpose() - self.HitPosition).squaredNorm() <= radius * radius)
     {
       paint(v);
     }
@@ -223,15 +223,15 @@ void vtkRegionBrushRepresentation::PaintDisc()
 void vtkRegionBrushRepresentation::StartWidgetInteraction(double eventPos[2])
 {
   Internals& self = *this->Internal;
-  if (!this->FindPlace(eventPos))
+  if (!this->FindHit(eventPos))
   {
     return;
   }
   self.Painting = true;
-  self.Before.clear();
-  self.Last = Vector2d(eventPos);
+  self.ChangedLabels.clear();
+  self.LastPosition = Vector2d(eventPos);
   this->PaintDisc();
-  self.Tell(self.Labels());
+  self.MarkModified(self.Labels());
   this->Modified();
 }
 
@@ -242,24 +242,25 @@ void vtkRegionBrushRepresentation::WidgetInteraction(double eventPos[2])
   {
     return;
   }
-  // Place discs along the path of the mouse, because it may have moved far since the last event.
+  // HitPosition discs along the path of the mouse, because it may have moved far since the last
+  // event.
   const Vector2d to(eventPos);
-  const Vector2d way = to - self.Last;
+  const Vector2d displacement = to - self.LastPosition;
   const double pixel =
-    self.HasPlace ? bindpose::ScreenView(this->Renderer).pixel_at(self.Place) : 0.0;
-  const double step = pixel > 0.0 ? spacing * this->GetDiscRadius() / pixel : way.norm();
-  const int count = static_cast<int>(
-    std::clamp(std::ceil(way.norm() / std::max(step, 1.0)), 1.0, static_cast<double>(most_discs)));
+    self.HasHit ? bindpose::ScreenView(this->Renderer).pixel_length_at(self.HitPosition) : 0.0;
+  const double step = pixel > 0.0 ? spacing * this->GetDiscRadius() / pixel : displacement.norm();
+  const int count = static_cast<int>(std::clamp(
+    std::ceil(displacement.norm() / std::max(step, 1.0)), 1.0, static_cast<double>(maximum_discs)));
   for (int i = 1; i <= count; ++i)
   {
-    const Vector2d at = self.Last + way * i / count;
-    if (this->FindPlace(at.data()))
+    const Vector2d display_position = self.LastPosition + displacement * i / count;
+    if (this->FindHit(display_position.data()))
     {
       this->PaintDisc();
     }
   }
-  self.Last = to;
-  self.Tell(self.Labels());
+  self.LastPosition = to;
+  self.MarkModified(self.Labels());
   this->Modified();
 }
 
@@ -279,12 +280,12 @@ void vtkRegionBrushRepresentation::CancelWidgetInteraction()
   self.Painting = false;
   vtkDataArray* labels = self.Labels();
   // in reverse order, because a vertex may have changed twice
-  for (auto change = self.Before.rbegin(); change != self.Before.rend(); ++change)
+  for (auto change = self.ChangedLabels.rbegin(); change != self.ChangedLabels.rend(); ++change)
   {
     labels->SetComponent(change->first, 0, change->second);
   }
-  self.Before.clear();
-  self.Tell(labels);
+  self.ChangedLabels.clear();
+  self.MarkModified(labels);
   this->Modified();
 }
 
@@ -294,11 +295,11 @@ void vtkRegionBrushRepresentation::BuildRepresentation()
 {
   Internals& self = *this->Internal;
   bindpose::HandleShapes shapes(false);
-  if (self.HasPlace && this->Renderer)
+  if (self.HasHit && this->Renderer)
   {
     const bindpose::ScreenView view(this->Renderer);
     const double* rgb = this->Erase ? this->EraseColor : this->PaintColor;
-    const double pixel = this->PixelScale * view.pixel_at(self.Place);
+    const double pixel = this->PixelScale * view.pixel_length_at(self.HitPosition);
     const Vector3d u = self.Normal.unitOrthogonal();
     const Vector3d v = self.Normal.cross(u);
     std::vector<Vector3d> circle;
@@ -306,18 +307,18 @@ void vtkRegionBrushRepresentation::BuildRepresentation()
     {
       const double angle = 2.0 * EIGEN_PI * (side % outline_sides) / outline_sides;
       circle.push_back(
-        self.Place + this->GetDiscRadius() * (std::cos(angle) * u + std::sin(angle) * v));
+        self.HitPosition + this->GetDiscRadius() * (std::cos(angle) * u + std::sin(angle) * v));
     }
     shapes.add_tube(circle, 2.0 * pixel, { 0.13, 0.13, 0.15 });
     // Draw a second, thinner circle nearer to the eye, so that the dark circle is visible as its
     // outline.
-    for (Vector3d& place : circle)
+    for (Vector3d& point : circle)
     {
-      place -= 3.0 * pixel * view.sight_to(place);
+      point -= 3.0 * pixel * view.direction_to(point);
     }
     shapes.add_tube(circle, 1.2 * pixel, { rgb[0], rgb[1], rgb[2] });
-    shapes.add_ball(self.Place - 3.0 * pixel * view.sight_to(self.Place), 2.2 * pixel,
-      { rgb[0], rgb[1], rgb[2] });
+    shapes.add_ball(self.HitPosition - 3.0 * pixel * view.direction_to(self.HitPosition),
+      2.2 * pixel, { rgb[0], rgb[1], rgb[2] });
   }
   self.Mapper->SetInputData(shapes.polydata());
 }
@@ -325,7 +326,7 @@ void vtkRegionBrushRepresentation::BuildRepresentation()
 int vtkRegionBrushRepresentation::RenderOverlay(vtkViewport* viewport)
 {
   this->BuildRepresentation();
-  return this->Internal->HasPlace ? this->Internal->Actor->RenderOpaqueGeometry(viewport) : 0;
+  return this->Internal->HasHit ? this->Internal->Actor->RenderOpaqueGeometry(viewport) : 0;
 }
 
 void vtkRegionBrushRepresentation::ReleaseGraphicsResources(vtkWindow* window)

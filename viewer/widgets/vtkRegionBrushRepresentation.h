@@ -115,7 +115,7 @@ private:
   vtkRegionBrushRepresentation(const vtkRegionBrushRepresentation&) = delete;
   void operator=(const vtkRegionBrushRepresentation&) = delete;
 
-  bool FindPlace(const double eventPos[2]);
+  bool FindHit(const double eventPos[2]);
   void PaintDisc();
 
   int RegionId = 1;

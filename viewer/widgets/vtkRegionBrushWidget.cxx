@@ -191,7 +191,7 @@ void vtkRegionBrushWidget::Resize(double factor)
   this->Render();
 }
 
-bool vtkRegionBrushWidget::TurnsWheel()
+bool vtkRegionBrushWidget::WheelResizesDisc()
 {
   return this->State == PAINTING ||
     (this->Interactor->GetShiftKey() &&
@@ -202,7 +202,7 @@ bool vtkRegionBrushWidget::TurnsWheel()
 void vtkRegionBrushWidget::GrowAction(vtkAbstractWidget* widget)
 {
   auto* self = static_cast<vtkRegionBrushWidget*>(widget);
-  if (self->TurnsWheel())
+  if (self->WheelResizesDisc())
   {
     self->Resize(growth);
   }
@@ -211,7 +211,7 @@ void vtkRegionBrushWidget::GrowAction(vtkAbstractWidget* widget)
 void vtkRegionBrushWidget::ShrinkAction(vtkAbstractWidget* widget)
 {
   auto* self = static_cast<vtkRegionBrushWidget*>(widget);
-  if (self->TurnsWheel())
+  if (self->WheelResizesDisc())
   {
     self->Resize(1.0 / growth);
   }

@@ -96,7 +96,7 @@ private:
   static void KeyAction(vtkAbstractWidget* widget);
   bool Hover();
   void Resize(double factor);
-  bool TurnsWheel();
+  bool WheelResizesDisc();
   void Finish(bool canceled);
 
   int State = HOVERING;

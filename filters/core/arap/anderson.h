@@ -38,8 +38,8 @@ public:
   /// @param window number of previous iterates to combine, 0 (no acceleration) to
   /// largest_anderson_window.
   /// @param size number of entries of x.
-  /// @param carried number of carried values, which are stored behind x in memory.
-  Anderson(Index window, Index size, Index carried, Dot dot);
+  /// @param extra_size number of carried values, which are stored behind x in memory.
+  Anderson(Index window, Index size, Index extra_size, Dot dot);
 
   Index window() const { return this->window_; }
 
@@ -53,15 +53,15 @@ public:
 
   /// Sum of the absolute values of the last coefficients. The round-off of the carried values in an
   /// extrapolated iterate is at most about this factor times their round-off in g(x).
-  double reach() const { return this->reach_; }
+  double coefficient_sum() const { return this->coefficient_sum_; }
 
 private:
-  bool solve(Index count, std::array<double, largest_anderson_window>& shares);
+  bool solve(Index count, std::array<double, largest_anderson_window>& coefficients);
 
   Index window_, size_, length_;
   Dot dot_;
   Index count_ = 0; ///< number of calls of next() since forget()
-  double reach_ = 0.0;
+  double coefficient_sum_ = 0.0;
   AlignedVector<Scalar> changes_g_, changes_f_; ///< ring buffers of `window` differences of g and f
   AlignedVector<Scalar> last_g_, last_f_;
   Eigen::MatrixXd products_; ///< inner products of the differences of the residual

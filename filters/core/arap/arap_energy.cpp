@@ -35,10 +35,10 @@ constexpr const int (&edges_of(const TetsView&))[6][2]
 
 /// The groups that contribute to an element or edge, and their fractions, which sum to one.
 template <int Corners>
-struct Shares
+struct GroupWeights
 {
   std::array<Index, Corners> group;
-  std::array<double, Corners> share;
+  std::array<double, Corners> fraction;
   int count = 0;
 
   void add(Index g, double s)
@@ -47,36 +47,38 @@ struct Shares
     {
       if (this->group[i] == g)
       {
-        this->share[i] += s;
+        this->fraction[i] += s;
         return;
       }
     }
     this->group[this->count] = g;
-    this->share[this->count] = s;
+    this->fraction[this->count] = s;
     ++this->count;
   }
 };
 
 template <typename Elements, int Corners>
-Shares<Corners> shares_of(const Elements& elements, Index e, const RotationGroups& groups)
+GroupWeights<Corners> make_group_weights(
+  const Elements& elements, Index e, const RotationGroups& groups)
 {
-  Shares<Corners> shares;
+  GroupWeights<Corners> group_weights;
   if (groups.energy == ArapEnergy::elements)
   {
-    shares.add(groups.of_element[static_cast<std::size_t>(e)], 1.0);
-    return shares;
+    group_weights.add(groups.group_of_element[static_cast<std::size_t>(e)], 1.0);
+    return group_weights;
   }
   for (int k = 0; k < Corners; ++k)
   {
-    shares.add(groups.of_vertex[static_cast<std::size_t>(elements(e, k))], 1.0 / Corners);
+    group_weights.add(
+      groups.group_of_vertex[static_cast<std::size_t>(elements(e, k))], 1.0 / Corners);
   }
-  return shares;
+  return group_weights;
 }
 
 /// Return for each vertex the most frequent label among its elements; -1 if it has no element.
 template <typename Elements>
 std::vector<Index> labels_around(
-  const Elements& elements, const std::vector<Index>& of_element, std::size_t vertices)
+  const Elements& elements, const std::vector<Index>& group_of_element, std::size_t vertices)
 {
   // Start of each vertex's labels. The array is shifted by two entries for the counting sort.
   std::vector<Index> begin(vertices + 2, 0);
@@ -94,18 +96,18 @@ std::vector<Index> labels_around(
     for (Index k = 0; k < elements.cols(); ++k)
     {
       labels[begin[static_cast<std::size_t>(elements(e, k)) + 1]++] =
-        of_element[static_cast<std::size_t>(e)];
+        group_of_element[static_cast<std::size_t>(e)];
     }
   }
-  std::vector<Index> of_vertex(vertices, -1);
+  std::vector<Index> group_of_vertex(vertices, -1);
   for (std::size_t v = 0; v < vertices; ++v)
   {
     if (begin[v] < begin[v + 1])
     {
-      of_vertex[v] = most_frequent(labels.begin() + begin[v], labels.begin() + begin[v + 1]);
+      group_of_vertex[v] = most_frequent(labels.begin() + begin[v], labels.begin() + begin[v + 1]);
     }
   }
-  return of_vertex;
+  return group_of_vertex;
 }
 
 template <typename Elements, int Corners>
@@ -115,12 +117,12 @@ RotationGroups make_groups(
   RotationGroups groups;
   groups.energy = energy;
   groups.count = count;
-  groups.of_vertex = std::move(vertex_labels);
+  groups.group_of_vertex = std::move(vertex_labels);
   if (energy != ArapEnergy::elements)
   {
     return groups;
   }
-  groups.of_element.resize(static_cast<std::size_t>(elements.rows()));
+  groups.group_of_element.resize(static_cast<std::size_t>(elements.rows()));
   std::vector<Index> fresh(static_cast<std::size_t>(count), -1);
   groups.count = 0;
   for (Index e = 0; e < elements.rows(); ++e)
@@ -128,16 +130,17 @@ RotationGroups make_groups(
     std::array<Index, Corners> labels;
     for (int k = 0; k < Corners; ++k)
     {
-      labels[k] = groups.of_vertex[static_cast<std::size_t>(elements(e, k))];
+      labels[k] = groups.group_of_vertex[static_cast<std::size_t>(elements(e, k))];
     }
     Index& name = fresh[static_cast<std::size_t>(most_frequent(labels.begin(), labels.end()))];
     if (name < 0)
     {
       name = groups.count++;
     }
-    groups.of_element[static_cast<std::size_t>(e)] = name;
+    groups.group_of_element[static_cast<std::size_t>(e)] = name;
   }
-  groups.of_vertex = labels_around(elements, groups.of_element, groups.of_vertex.size());
+  groups.group_of_vertex =
+    labels_around(elements, groups.group_of_element, groups.group_of_vertex.size());
   return groups;
 }
 
@@ -150,9 +153,9 @@ struct Spoke
 
 /// If the weight of an edge is below this fraction of the diagonal entries of its vertices, it is
 /// round-off and ignored.
-constexpr double no_weight = 1e-12;
+constexpr double weight_tolerance = 1e-12;
 
-std::vector<Spoke> spokes_of(const SparseMatrix& stiffness, Index* left_out)
+std::vector<Spoke> spokes_of(const SparseMatrix& stiffness, Index* ignored_edges)
 {
   std::vector<Spoke> spokes;
   const Eigen::VectorXd diagonal = stiffness.diagonal();
@@ -162,36 +165,36 @@ std::vector<Spoke> spokes_of(const SparseMatrix& stiffness, Index* left_out)
     for (SparseMatrix::InnerIterator it(stiffness, j); it && it.row() < j; ++it)
     {
       const double weight = -it.value();
-      const double least = no_weight * std::min(diagonal[it.row()], diagonal[j]);
-      if (weight > least)
+      const double threshold = weight_tolerance * std::min(diagonal[it.row()], diagonal[j]);
+      if (weight > threshold)
       {
         spokes.push_back({ it.row(), j, weight });
       }
-      negative += weight < -least;
+      negative += weight < -threshold;
     }
   }
-  if (left_out)
+  if (ignored_edges)
   {
-    *left_out = negative;
+    *ignored_edges = negative;
   }
   return spokes;
 }
 
 template <typename Elements>
 SparseMatrix make_stiffness(
-  PointsView rest, const Elements& elements, ArapEnergy energy, Index* left_out)
+  PointsView rest, const Elements& elements, ArapEnergy energy, Index* ignored_edges)
 {
   SparseMatrix stiffness = stiffness_matrix(rest, elements);
-  if (left_out)
+  if (ignored_edges)
   {
-    *left_out = 0;
+    *ignored_edges = 0;
   }
   if (energy != ArapEnergy::spokes)
   {
     return stiffness;
   }
   std::vector<Eigen::Triplet<double, int>> entries;
-  for (const Spoke& spoke : spokes_of(stiffness, left_out))
+  for (const Spoke& spoke : spokes_of(stiffness, ignored_edges))
   {
     const int i = static_cast<int>(spoke.i), j = static_cast<int>(spoke.j);
     entries.emplace_back(i, j, -spoke.weight);
@@ -205,12 +208,12 @@ SparseMatrix make_stiffness(
 }
 
 /// Return the groups at the ends of an edge, each with its fraction of the edge.
-Shares<2> shares_of(const Spoke& spoke, const RotationGroups& groups)
+GroupWeights<2> make_group_weights(const Spoke& spoke, const RotationGroups& groups)
 {
-  Shares<2> shares;
-  shares.add(groups.of_vertex[static_cast<std::size_t>(spoke.i)], 0.5);
-  shares.add(groups.of_vertex[static_cast<std::size_t>(spoke.j)], 0.5);
-  return shares;
+  GroupWeights<2> group_weights;
+  group_weights.add(groups.group_of_vertex[static_cast<std::size_t>(spoke.i)], 0.5);
+  group_weights.add(groups.group_of_vertex[static_cast<std::size_t>(spoke.j)], 0.5);
+  return group_weights;
 }
 
 SparseMatrix spokes_covariance(
@@ -221,14 +224,14 @@ SparseMatrix spokes_covariance(
   for (const Spoke& spoke : spokes)
   {
     const Vec3 edge = spoke.weight * (rest.row(spoke.i) - rest.row(spoke.j)).transpose();
-    const Shares<2> shares = shares_of(spoke, groups);
-    for (int s = 0; s < shares.count; ++s)
+    const GroupWeights<2> group_weights = make_group_weights(spoke, groups);
+    for (int s = 0; s < group_weights.count; ++s)
     {
       for (int i = 0; i < 3; ++i)
       {
-        const auto row = static_cast<int>(i * groups.count + shares.group[s]);
-        entries.emplace_back(row, static_cast<int>(spoke.i), shares.share[s] * edge[i]);
-        entries.emplace_back(row, static_cast<int>(spoke.j), -shares.share[s] * edge[i]);
+        const auto row = static_cast<int>(i * groups.count + group_weights.group[s]);
+        entries.emplace_back(row, static_cast<int>(spoke.i), group_weights.fraction[s] * edge[i]);
+        entries.emplace_back(row, static_cast<int>(spoke.j), -group_weights.fraction[s] * edge[i]);
       }
     }
   }
@@ -245,11 +248,12 @@ double spokes_energy(PointsView rest, const std::vector<Spoke>& spokes,
   {
     const Vec3 edge = (rest.row(spoke.i) - rest.row(spoke.j)).transpose();
     const Vec3 moved = (posed.row(spoke.i) - posed.row(spoke.j)).transpose();
-    const Shares<2> shares = shares_of(spoke, groups);
-    for (int s = 0; s < shares.count; ++s)
+    const GroupWeights<2> group_weights = make_group_weights(spoke, groups);
+    for (int s = 0; s < group_weights.count; ++s)
     {
-      const Eigen::Matrix3d& rotation = rotations[static_cast<std::size_t>(shares.group[s])];
-      sum += 0.5 * shares.share[s] * spoke.weight * (moved - rotation * edge).squaredNorm();
+      const Eigen::Matrix3d& rotation = rotations[static_cast<std::size_t>(group_weights.group[s])];
+      sum +=
+        0.5 * group_weights.fraction[s] * spoke.weight * (moved - rotation * edge).squaredNorm();
     }
   }
   return sum;
@@ -280,15 +284,15 @@ SparseMatrix make_covariance(
       b[i] += c(e, k) * edge;
       b[j] -= c(e, k) * edge;
     }
-    const auto shares = shares_of<Elements, Corners>(elements, e, groups);
-    for (int s = 0; s < shares.count; ++s)
+    const auto group_weights = make_group_weights<Elements, Corners>(elements, e, groups);
+    for (int s = 0; s < group_weights.count; ++s)
     {
       for (int corner = 0; corner < Corners; ++corner)
       {
         for (int i = 0; i < 3; ++i)
         {
-          entries.emplace_back(static_cast<int>(i * groups.count + shares.group[s]),
-            static_cast<int>(elements(e, corner)), shares.share[s] * b[corner][i]);
+          entries.emplace_back(static_cast<int>(i * groups.count + group_weights.group[s]),
+            static_cast<int>(elements(e, corner)), group_weights.fraction[s] * b[corner][i]);
         }
       }
     }
@@ -312,16 +316,16 @@ double sum_energy(PointsView rest, const Elements& elements, const RotationGroup
   double sum = 0.0;
   for (Index e = 0; e < elements.rows(); ++e)
   {
-    const auto shares = shares_of<Elements, Corners>(elements, e, groups);
-    for (int s = 0; s < shares.count; ++s)
+    const auto group_weights = make_group_weights<Elements, Corners>(elements, e, groups);
+    for (int s = 0; s < group_weights.count; ++s)
     {
-      const Eigen::Matrix3d& rotation = rotations[static_cast<std::size_t>(shares.group[s])];
+      const Eigen::Matrix3d& rotation = rotations[static_cast<std::size_t>(group_weights.group[s])];
       for (Index k = 0; k < c.cols(); ++k)
       {
         const Index i = elements(e, edges[k][0]), j = elements(e, edges[k][1]);
         const Vec3 edge = (rest.row(i) - rest.row(j)).transpose();
         const Vec3 moved = (posed.row(i) - posed.row(j)).transpose();
-        sum += 0.5 * shares.share[s] * c(e, k) * (moved - rotation * edge).squaredNorm();
+        sum += 0.5 * group_weights.fraction[s] * c(e, k) * (moved - rotation * edge).squaredNorm();
       }
     }
   }
@@ -331,7 +335,7 @@ double sum_energy(PointsView rest, const Elements& elements, const RotationGroup
 
 const char* to_string(ArapEnergy energy, bool tets)
 {
-  switch (resolved(energy, tets))
+  switch (resolve_energy(energy, tets))
   {
     case ArapEnergy::spokes_and_rims:
       return "spokes_and_rims";
@@ -342,7 +346,7 @@ const char* to_string(ArapEnergy energy, bool tets)
   }
 }
 
-ArapEnergy resolved(ArapEnergy energy, bool tets)
+ArapEnergy resolve_energy(ArapEnergy energy, bool tets)
 {
   if (energy != ArapEnergy::automatic)
   {
@@ -352,25 +356,26 @@ ArapEnergy resolved(ArapEnergy energy, bool tets)
 }
 
 SparseMatrix arap_stiffness(
-  PointsView rest, TrianglesView triangles, ArapEnergy energy, Index* left_out)
+  PointsView rest, TrianglesView triangles, ArapEnergy energy, Index* ignored_edges)
 {
-  return make_stiffness(rest, triangles, energy, left_out);
+  return make_stiffness(rest, triangles, energy, ignored_edges);
 }
 
-SparseMatrix arap_stiffness(PointsView rest, TetsView tets, ArapEnergy energy, Index* left_out)
+SparseMatrix arap_stiffness(PointsView rest, TetsView tets, ArapEnergy energy, Index* ignored_edges)
 {
-  return make_stiffness(rest, tets, energy, left_out);
+  return make_stiffness(rest, tets, energy, ignored_edges);
 }
 
-std::string left_out_warning(Index left_out)
+std::string ignored_edges_warning(Index ignored_edges)
 {
-  if (left_out == 0)
+  if (ignored_edges == 0)
   {
     return {};
   }
-  return std::to_string(left_out) +
-    (left_out == 1 ? " edge has a negative cotangent weight (obtuse angles opposite to it)"
-                   : " edges have negative cotangent weights (obtuse angles opposite to them)") +
+  return std::to_string(ignored_edges) +
+    (ignored_edges == 1
+        ? " edge has a negative cotangent weight (obtuse angles opposite to it)"
+        : " edges have negative cotangent weights (obtuse angles opposite to them)") +
     ", which energy spokes ignores; energy spokes-and-rims uses all edges";
 }
 

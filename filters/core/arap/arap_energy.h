@@ -43,20 +43,20 @@ constexpr double negligible_energy = 1e-6;
 const char* to_string(ArapEnergy energy, bool tets);
 
 /// Return the energy that `automatic` selects; return any other energy unchanged.
-ArapEnergy resolved(ArapEnergy energy, bool tets);
+ArapEnergy resolve_energy(ArapEnergy energy, bool tets);
 
 /// Return the matrix L (#V x #V) of the quadratic part 1/2 tr(V'^T L V') of the energy. L does not
 /// depend on the groups. L is the stiffness matrix of the mesh; for `spokes`, edges with negative
 /// weights are excluded.
-/// @param left_out receives the number of excluded edges.
+/// @param ignored_edges receives the number of excluded edges.
 SparseMatrix arap_stiffness(
-  PointsView rest, TrianglesView triangles, ArapEnergy energy, Index* left_out = nullptr);
+  PointsView rest, TrianglesView triangles, ArapEnergy energy, Index* ignored_edges = nullptr);
 SparseMatrix arap_stiffness(
-  PointsView rest, TetsView tets, ArapEnergy energy, Index* left_out = nullptr);
+  PointsView rest, TetsView tets, ArapEnergy energy, Index* ignored_edges = nullptr);
 
 /// Return a one-sentence warning about the edges that the energy `spokes` omits; empty if no edge
 /// is omitted.
-std::string left_out_warning(Index left_out);
+std::string ignored_edges_warning(Index ignored_edges);
 
 /// Assignment of vertices or elements to groups that share a rotation. The energy `elements`
 /// assigns elements, the other energies assign vertices.
@@ -66,9 +66,9 @@ struct RotationGroups
   Index count = 0;
   /// #V: group of each vertex. For the energy `elements`: the most frequent group among the
   /// vertex's elements (the lowest of equally frequent groups), -1 if no element uses the vertex.
-  std::vector<Index> of_vertex;
+  std::vector<Index> group_of_vertex;
   /// #elements: the group of each element; empty for the per-vertex energies.
-  std::vector<Index> of_element;
+  std::vector<Index> group_of_element;
 };
 
 /// Return the groups for labels of the vertices. With the energy `elements`, the group of an

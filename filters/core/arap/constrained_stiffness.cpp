@@ -26,54 +26,55 @@ namespace
 {
 /// A held point is redundant if its pivot in the QR decomposition is below this fraction of the
 /// largest pivot.
-constexpr double held_rank = 1e-9;
+constexpr double rank_tolerance = 1e-9;
 } // namespace
 
 Status ConstrainedStiffness::prepare(const SparseMatrix& stiffness,
-  const std::vector<Index>& part_of_vertex, Index part_count, std::vector<Index> given,
-  std::vector<MeshPoint> held)
+  const std::vector<Index>& part_of_vertex, Index part_count, std::vector<Index> prescribed,
+  std::vector<MeshPoint> constrained)
 {
   *this = ConstrainedStiffness();
-  this->given_ = std::move(given);
-  this->held_ = std::move(held);
+  this->prescribed_ = std::move(prescribed);
+  this->constrained_ = std::move(constrained);
   const Index n = stiffness.rows();
-  std::vector<char> is_given(static_cast<std::size_t>(n), 0), has_given(part_count, 0);
+  std::vector<char> is_prescribed(static_cast<std::size_t>(n), 0),
+    part_is_prescribed(part_count, 0);
   std::vector<int> column_of(static_cast<std::size_t>(n), -1);
-  for (std::size_t i = 0; i < this->given_.size(); ++i)
+  for (std::size_t i = 0; i < this->prescribed_.size(); ++i)
   {
-    const Index v = this->given_[i];
-    is_given[v] = 1;
+    const Index v = this->prescribed_[i];
+    is_prescribed[v] = 1;
     column_of[v] = static_cast<int>(i);
     if (part_of_vertex[v] >= 0)
     {
-      has_given[part_of_vertex[v]] = 1;
+      part_is_prescribed[part_of_vertex[v]] = 1;
     }
   }
-  std::vector<Index> number(static_cast<std::size_t>(part_count), -1);
-  this->floating_.assign(static_cast<std::size_t>(n), -1);
-  this->row_of_.assign(static_cast<std::size_t>(n), -1);
+  std::vector<Index> floating_index(static_cast<std::size_t>(part_count), -1);
+  this->floating_part_.assign(static_cast<std::size_t>(n), -1);
+  this->unknown_index_.assign(static_cast<std::size_t>(n), -1);
   for (Index v = 0; v < n; ++v)
   {
     const Index part = part_of_vertex[v];
-    if (part < 0 || is_given[v])
+    if (part < 0 || is_prescribed[v])
     {
       continue;
     }
     bool grounded = false;
-    if (!has_given[part])
+    if (!part_is_prescribed[part])
     {
-      grounded = number[part] < 0;
+      grounded = floating_index[part] < 0;
       if (grounded)
       {
-        number[part] = static_cast<Index>(this->size_.size());
-        this->size_.push_back(0.0);
+        floating_index[part] = static_cast<Index>(this->floating_part_sizes_.size());
+        this->floating_part_sizes_.push_back(0.0);
       }
-      this->floating_[v] = number[part];
-      this->size_[number[part]] += 1.0;
+      this->floating_part_[v] = floating_index[part];
+      this->floating_part_sizes_[floating_index[part]] += 1.0;
     }
     if (!grounded)
     {
-      this->row_of_[v] = static_cast<Index>(this->unknowns_.size());
+      this->unknown_index_[v] = static_cast<Index>(this->unknowns_.size());
       this->unknowns_.push_back(v);
     }
   }
@@ -83,10 +84,10 @@ Status ConstrainedStiffness::prepare(const SparseMatrix& stiffness,
   double trace = 0.0;
   for (const Index v : this->unknowns_)
   {
-    const int column = static_cast<int>(this->row_of_[v]);
+    const int column = static_cast<int>(this->unknown_index_[v]);
     for (SparseMatrix::InnerIterator it(stiffness, v); it; ++it)
     {
-      const Index row = this->row_of_[it.row()];
+      const Index row = this->unknown_index_[it.row()];
       if (row >= 0)
       {
         inner.emplace_back(static_cast<int>(row), column, it.value());
@@ -98,7 +99,7 @@ Status ConstrainedStiffness::prepare(const SparseMatrix& stiffness,
       }
     }
   }
-  this->border_.resize(size, static_cast<Index>(this->given_.size()));
+  this->border_.resize(size, static_cast<Index>(this->prescribed_.size()));
   this->border_.setFromTriplets(border.begin(), border.end());
   if (size > 0)
   {
@@ -117,27 +118,27 @@ Status ConstrainedStiffness::prepare(const SparseMatrix& stiffness,
       return status;
     }
   }
-  this->choose_independent(is_given);
-  this->factor_held(size > 0 && trace > 0.0 ? trace / static_cast<double>(size) : 1.0);
+  this->choose_independent(is_prescribed);
+  this->factor_constraints(size > 0 && trace > 0.0 ? trace / static_cast<double>(size) : 1.0);
   return {};
 }
 
 /// Scale the rows of the held points, select independent rows, and compute the matrix that maps the
 /// targets of all held points to the targets of the selected points.
-void ConstrainedStiffness::choose_independent(const std::vector<char>& is_given)
+void ConstrainedStiffness::choose_independent(const std::vector<char>& is_prescribed)
 {
-  const auto count = static_cast<Index>(this->held_.size());
-  std::vector<Index> used, column(is_given.size(), -1);
-  for (const MeshPoint& point : this->held_)
+  const auto count = static_cast<Index>(this->constrained_.size());
+  std::vector<Index> used, column(is_prescribed.size(), -1);
+  for (const MeshPoint& point : this->constrained_)
   {
     double square = 0.0;
-    for (const auto& [v, share] : point)
+    for (const auto& [v, coordinate] : point)
     {
-      if (is_given[v])
+      if (is_prescribed[v])
       {
         continue;
       }
-      square += share * share;
+      square += coordinate * coordinate;
       if (column[v] < 0)
       {
         column[v] = static_cast<Index>(used.size());
@@ -158,20 +159,20 @@ void ConstrainedStiffness::choose_independent(const std::vector<char>& is_given)
   Eigen::MatrixXd transposed = Eigen::MatrixXd::Zero(static_cast<Index>(used.size()), count);
   for (Index i = 0; i < count; ++i)
   {
-    for (const auto& [v, share] : this->held_[i])
+    for (const auto& [v, coordinate] : this->constrained_[i])
     {
-      if (!is_given[v])
+      if (!is_prescribed[v])
       {
-        transposed(column[v], i) += this->scale_[i] * share;
+        transposed(column[v], i) += this->scale_[i] * coordinate;
       }
     }
   }
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(transposed);
-  qr.setThreshold(held_rank);
+  qr.setThreshold(rank_tolerance);
   const Index rank = qr.rank();
   for (Index i = 0; i < count; ++i)
   {
-    (i < rank ? this->kept_ : this->redundant_).push_back(qr.colsPermutation().indices()[i]);
+    (i < rank ? this->independent_ : this->redundant_).push_back(qr.colsPermutation().indices()[i]);
   }
   // All points are linear combinations of the kept points. Targets that contradict this dependence
   // are satisfied in the least-squares sense.
@@ -191,31 +192,34 @@ void ConstrainedStiffness::choose_independent(const std::vector<char>& is_given)
   }
 }
 
-void ConstrainedStiffness::factor_held(double unit)
+void ConstrainedStiffness::factor_constraints(double unit)
 {
-  const auto kept = static_cast<Index>(this->kept_.size());
-  this->shift_.assign(this->size_.size(), -1);
+  const auto independent_count = static_cast<Index>(this->independent_.size());
+  this->shift_index_.assign(this->floating_part_sizes_.size(), -1);
   Index shifts = 0;
-  Eigen::MatrixXd right = Eigen::MatrixXd::Zero(static_cast<Index>(this->unknowns_.size()), kept);
-  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(kept, static_cast<Index>(this->size_.size()));
-  for (Index i = 0; i < kept; ++i)
+  Eigen::MatrixXd right =
+    Eigen::MatrixXd::Zero(static_cast<Index>(this->unknowns_.size()), independent_count);
+  Eigen::MatrixXd sums =
+    Eigen::MatrixXd::Zero(independent_count, static_cast<Index>(this->floating_part_sizes_.size()));
+  for (Index i = 0; i < independent_count; ++i)
   {
-    const Index point = this->kept_[i];
-    for (const auto& [v, share] : this->held_[point])
+    const Index point = this->independent_[i];
+    for (const auto& [v, coordinate] : this->constrained_[point])
     {
-      if (this->row_of_[v] >= 0)
+      if (this->unknown_index_[v] >= 0)
       {
-        right(this->row_of_[v], i) += this->scale_[point] * share;
+        right(this->unknown_index_[v], i) += this->scale_[point] * coordinate;
       }
-      const Index part = this->floating_[v];
+      const Index part = this->floating_part_[v];
       if (part >= 0)
       {
-        sums(i, part) += this->scale_[point] * share;
-        this->shift_[part] = this->shift_[part] < 0 ? shifts++ : this->shift_[part];
+        sums(i, part) += this->scale_[point] * coordinate;
+        this->shift_index_[part] =
+          this->shift_index_[part] < 0 ? shifts++ : this->shift_index_[part];
       }
     }
   }
-  if (kept == 0)
+  if (independent_count == 0)
   {
     return;
   }
@@ -223,15 +227,16 @@ void ConstrainedStiffness::factor_held(double unit)
   // by `unit`.
   this->response_ = this->unknowns_.empty() ? right : Eigen::MatrixXd(this->solver_.solve(right));
   this->response_ *= unit;
-  Eigen::MatrixXd& small = this->held_system_;
-  small = Eigen::MatrixXd::Zero(kept + shifts, kept + shifts);
-  small.topLeftCorner(kept, kept) = right.transpose() * this->response_;
-  for (std::size_t part = 0; part < this->shift_.size(); ++part)
+  Eigen::MatrixXd& small = this->constraint_system_;
+  small = Eigen::MatrixXd::Zero(independent_count + shifts, independent_count + shifts);
+  small.topLeftCorner(independent_count, independent_count) = right.transpose() * this->response_;
+  for (std::size_t part = 0; part < this->shift_index_.size(); ++part)
   {
-    if (this->shift_[part] >= 0)
+    if (this->shift_index_[part] >= 0)
     {
-      small.col(kept + this->shift_[part]).head(kept) = -sums.col(static_cast<Index>(part));
-      small.row(kept + this->shift_[part]).head(kept) =
+      small.col(independent_count + this->shift_index_[part]).head(independent_count) =
+        -sums.col(static_cast<Index>(part));
+      small.row(independent_count + this->shift_index_[part]).head(independent_count) =
         -sums.col(static_cast<Index>(part)).transpose();
     }
   }
@@ -240,7 +245,7 @@ void ConstrainedStiffness::factor_held(double unit)
 }
 
 void ConstrainedStiffness::solve(
-  const Rows& force, const Rows& given, const Rows& held, Rows& x) const
+  const Rows& force, const Rows& prescribed, const Rows& constrained, Rows& x) const
 {
   const Index n = force.rows(), columns = force.cols();
   const auto size = static_cast<Index>(this->unknowns_.size());
@@ -250,41 +255,42 @@ void ConstrainedStiffness::solve(
     right.row(i) = force.row(this->unknowns_[i]);
   }
   x.setZero(n, columns);
-  if (!this->given_.empty())
+  if (!this->prescribed_.empty())
   {
-    right -= this->border_ * given;
-    for (std::size_t i = 0; i < this->given_.size(); ++i)
+    right -= this->border_ * prescribed;
+    for (std::size_t i = 0; i < this->prescribed_.size(); ++i)
     {
-      x.row(this->given_[i]) = given.row(static_cast<Index>(i));
+      x.row(this->prescribed_[i]) = prescribed.row(static_cast<Index>(i));
     }
   }
   Eigen::MatrixXd inner = size > 0 ? this->solver_.solve(right) : right;
 
-  const auto kept = static_cast<Index>(this->kept_.size());
-  Eigen::MatrixXd shifts = Eigen::MatrixXd::Zero(static_cast<Index>(this->shift_.size()), columns);
-  if (kept > 0)
+  const auto independent_count = static_cast<Index>(this->independent_.size());
+  Eigen::MatrixXd shifts =
+    Eigen::MatrixXd::Zero(static_cast<Index>(this->shift_index_.size()), columns);
+  if (independent_count > 0)
   {
-    const auto count = static_cast<Index>(this->held_.size());
+    const auto count = static_cast<Index>(this->constrained_.size());
     Eigen::MatrixXd target(count, columns);
     for (Index i = 0; i < count; ++i)
     {
-      target.row(i) = held.row(i);
-      for (const auto& [v, share] : this->held_[i])
+      target.row(i) = constrained.row(i);
+      for (const auto& [v, coordinate] : this->constrained_[i])
       {
-        target.row(i) -= share * x.row(v); // x is 0 except at given vertices
+        target.row(i) -= coordinate * x.row(v); // x is 0 except at given vertices
       }
       target.row(i) *= this->scale_[i];
     }
     Eigen::MatrixXd small = Eigen::MatrixXd::Zero(this->multipliers_.rows(), columns);
-    small.topRows(kept) = -this->least_squares_ * target;
-    for (Index i = 0; i < kept; ++i)
+    small.topRows(independent_count) = -this->least_squares_ * target;
+    for (Index i = 0; i < independent_count; ++i)
     {
-      const Index point = this->kept_[i];
-      for (const auto& [v, share] : this->held_[point])
+      const Index point = this->independent_[i];
+      for (const auto& [v, coordinate] : this->constrained_[point])
       {
-        if (this->row_of_[v] >= 0)
+        if (this->unknown_index_[v] >= 0)
         {
-          small.row(i) += this->scale_[point] * share * inner.row(this->row_of_[v]);
+          small.row(i) += this->scale_[point] * coordinate * inner.row(this->unknown_index_[v]);
         }
       }
     }
@@ -292,30 +298,31 @@ void ConstrainedStiffness::solve(
     // correct digits. The resulting violation of a constraint could lower the energy, so the caller
     // could mistake the violation for an improvement.
     Eigen::MatrixXd answer = this->multipliers_ * small;
-    answer += this->multipliers_ * (small - this->held_system_ * answer);
-    inner.noalias() -= this->response_ * answer.topRows(kept);
-    for (std::size_t part = 0; part < this->shift_.size(); ++part)
+    answer += this->multipliers_ * (small - this->constraint_system_ * answer);
+    inner.noalias() -= this->response_ * answer.topRows(independent_count);
+    for (std::size_t part = 0; part < this->shift_index_.size(); ++part)
     {
-      if (this->shift_[part] >= 0)
+      if (this->shift_index_[part] >= 0)
       {
-        shifts.row(static_cast<Index>(part)) = answer.row(kept + this->shift_[part]);
+        shifts.row(static_cast<Index>(part)) =
+          answer.row(independent_count + this->shift_index_[part]);
       }
     }
   }
   for (Index i = 0; i < size; ++i)
   {
     x.row(this->unknowns_[i]) = inner.row(i);
-    const Index part = this->floating_[this->unknowns_[i]];
-    if (part >= 0 && this->shift_[part] < 0)
+    const Index part = this->floating_part_[this->unknowns_[i]];
+    if (part >= 0 && this->shift_index_[part] < 0)
     {
-      shifts.row(part) -= inner.row(i) / this->size_[part];
+      shifts.row(part) -= inner.row(i) / this->floating_part_sizes_[part];
     }
   }
-  for (Index v = 0; v < n && !this->shift_.empty(); ++v)
+  for (Index v = 0; v < n && !this->shift_index_.empty(); ++v)
   {
-    if (this->floating_[v] >= 0)
+    if (this->floating_part_[v] >= 0)
     {
-      x.row(v) += shifts.row(this->floating_[v]);
+      x.row(v) += shifts.row(this->floating_part_[v]);
     }
   }
 }

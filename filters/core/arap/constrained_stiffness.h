@@ -31,27 +31,27 @@ public:
 
   /// @param part_of_vertex #V: for each vertex its connected part of the mesh; -1: x is 0 at this
   /// vertex.
-  /// @param given ids of the given vertices, ascending, without duplicates.
+  /// @param prescribed ids of the given vertices, ascending, without duplicates.
   /// @return invalid_input if L cannot be factored: elements are too distorted for double
   /// precision.
   Status prepare(const SparseMatrix& stiffness, const std::vector<Index>& part_of_vertex,
-    Index part_count, std::vector<Index> given, std::vector<MeshPoint> held);
+    Index part_count, std::vector<Index> prescribed, std::vector<MeshPoint> constrained);
 
   /// Compute x (#V x k) from a force (#V x k), the values at the given vertices (#given x k, in the
   /// order of their ids) and the values at the held points (#held x k).
-  void solve(const Rows& force, const Rows& given, const Rows& held, Rows& x) const;
+  void solve(const Rows& force, const Rows& prescribed, const Rows& constrained, Rows& x) const;
 
   /// Return the indices of held points that depend linearly on other held points.
   const std::vector<Index>& redundant() const { return this->redundant_; }
 
 private:
-  void choose_independent(const std::vector<char>& is_given);
-  void factor_held(double unit);
+  void choose_independent(const std::vector<char>& is_prescribed);
+  void factor_constraints(double unit);
 
-  std::vector<Index> given_;
-  std::vector<MeshPoint> held_;
+  std::vector<Index> prescribed_;
+  std::vector<MeshPoint> constrained_;
   std::vector<Index> unknowns_; ///< ids of the vertices in the factored matrix
-  std::vector<Index> row_of_; ///< #V: index in unknowns_ or -1
+  std::vector<Index> unknown_index_; ///< #V: index in unknowns_ or -1
   /// #unknowns x #given: block of the stiffness between unknowns and given vertices.
   SparseMatrix border_;
   SparseSolver solver_;
@@ -60,20 +60,20 @@ private:
   // barycentric weights at the vertices that are not given. Per held point: factor that scales this
   // row to unit length.
   std::vector<double> scale_;
-  std::vector<Index> kept_; ///< indices of linearly independent held points
+  std::vector<Index> independent_; ///< indices of linearly independent held points
   std::vector<Index> redundant_;
   /// #kept x #held: maps the targets of all held points to the targets of the kept points.
   Eigen::MatrixXd least_squares_;
   Eigen::MatrixXd response_; ///< #unknowns x #kept: L^-1 A^T
-  Eigen::MatrixXd held_system_; ///< A L^-1 A^T, bordered by one column per shift (below)
-  Eigen::MatrixXd multipliers_; ///< inverse of held_system_
+  Eigen::MatrixXd constraint_system_; ///< A L^-1 A^T, bordered by one column per shift (below)
+  Eigen::MatrixXd multipliers_; ///< inverse of constraint_system_
 
   /// #V: index of the vertex's part among the parts without a given vertex, or -1.
-  std::vector<Index> floating_;
+  std::vector<Index> floating_part_;
   /// Per part without a given vertex: index of its shift (an unknown translation of the part) among
-  /// the shifts in held_system_; -1 if no held point is in the part.
-  std::vector<Index> shift_;
-  std::vector<double> size_; ///< per part without a given vertex: number of vertices
+  /// the shifts in constraint_system_; -1 if no held point is in the part.
+  std::vector<Index> shift_index_;
+  std::vector<double> floating_part_sizes_; ///< per part without a given vertex: number of vertices
 };
 
 } // namespace bindpose

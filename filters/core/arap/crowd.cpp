@@ -13,7 +13,7 @@ Status Crowd::bind_any(ExecutionContext& context, PointsView points, const Eleme
   ReducedArapOptions single = options;
   single.skinning.single_precision = true;
   Status status = this->space_.bind(context, points, elements, weights, handles, single);
-  this->no_load_ = ReducedSpace::Rows::Zero(4 * this->space_.columns, 3);
+  this->zero_load_ = ReducedSpace::Rows::Zero(4 * this->space_.columns, 3);
   return status;
 }
 
@@ -52,7 +52,7 @@ Status Crowd::solve(
       this->solver_.set_rotations(std::move(this->rotations_[i]));
     }
     Status status = this->solver_.solve(
-      context, this->space_, { this->space_.stiffness, this->no_load_ }, poses[i], options, d);
+      context, this->space_, { this->space_.stiffness, this->zero_load_ }, poses[i], options, d);
     if (!status.usable())
     {
       // The transforms of the last successful solve remain. The next solve of this instance starts

@@ -59,7 +59,7 @@ private:
     WeightsView weights, const Handles& handles, const ReducedArapOptions& options);
 
   ReducedSpace space_;
-  ReducedSpace::Rows no_load_;
+  ReducedSpace::Rows zero_load_;
   ReducedSolver solver_;
   /// Last rotations of each instance, stored in planes as in ReducedSpace.
   std::vector<std::vector<double>> rotations_;

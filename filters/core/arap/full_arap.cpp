@@ -41,12 +41,12 @@ constexpr double rounding = 1e-12;
 /// Number of items per block. The block sizes affect the round-off of the sums; the number of
 /// threads does not.
 constexpr Index groups_per_block = 512;
-constexpr Index vertices_at_once = 1024;
-constexpr Index numbers_at_once = 16384;
+constexpr Index vertices_per_block = 1024;
+constexpr Index numbers_per_block = 16384;
 
 double dot(ExecutionContext& context, Index count, const double* a, const double* b)
 {
-  return parallel_sum(context, count, numbers_at_once,
+  return parallel_sum(context, count, numbers_per_block,
     [&](Index begin, Index end) { return packed_dot(end - begin, a + begin, b + begin); });
 }
 } // namespace
@@ -55,8 +55,8 @@ Status FullArap::prepare(const Pose& pose)
 {
   this->modes_.clear();
   this->grips_.choose(pose);
-  Status status = this->system_.prepare(this->stiffness_, this->parts_.of_vertex,
-    this->parts_.count, this->grips_.given(), this->grips_.held());
+  Status status = this->system_.prepare(this->stiffness_, this->parts_.component_of_vertex,
+    this->parts_.count, this->grips_.prescribed(), this->grips_.constrained());
   if (!status.ok())
   {
     return status;
@@ -72,29 +72,29 @@ Status FullArap::prepare(const Pose& pose)
 void FullArap::start_rotations(const Pose& pose)
 {
   const Eigen::Matrix3d common = pivot_rotation(this->handles_, pose, 0.3 * this->radius_);
-  Rows given = Rows::Zero(static_cast<Index>(this->grips_.given().size()), 9), field;
-  Rows held = Rows::Zero(static_cast<Index>(this->grips_.held().size()), 9);
-  Eigen::VectorXd owners = Eigen::VectorXd::Zero(given.rows());
-  for (const MeshGrips::Hold& hold : this->grips_.holds())
+  Rows prescribed = Rows::Zero(static_cast<Index>(this->grips_.prescribed().size()), 9), field;
+  Rows constrained = Rows::Zero(static_cast<Index>(this->grips_.constrained().size()), 9);
+  Eigen::VectorXd handle_counts = Eigen::VectorXd::Zero(prescribed.rows());
+  for (const MeshGrips::Constraint& constraint : this->grips_.constraints())
   {
-    const HandlePose& handle = pose[hold.handle];
-    const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> turn =
+    const HandlePose& handle = pose[constraint.handle];
+    const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> delta =
       (constrains_transform(handle.mode) ? Eigen::Matrix3d(handle.transform.leftCols<3>())
                                          : common) -
       Eigen::Matrix3d::Identity();
-    const Eigen::Map<const Eigen::Matrix<double, 1, 9>> row(turn.data());
-    if (hold.given >= 0)
+    const Eigen::Map<const Eigen::Matrix<double, 1, 9>> row(delta.data());
+    if (constraint.prescribed >= 0)
     {
-      given.row(hold.given) += row;
-      owners[hold.given] += 1.0;
+      prescribed.row(constraint.prescribed) += row;
+      handle_counts[constraint.prescribed] += 1.0;
     }
-    else if (hold.held >= 0)
+    else if (constraint.constrained >= 0)
     {
-      held.row(hold.held) = row;
+      constrained.row(constraint.constrained) = row;
     }
   }
-  given.array().colwise() /= owners.array();
-  this->system_.solve(Rows::Zero(this->rest_.rows(), 9), given, held, field);
+  prescribed.array().colwise() /= handle_counts.array();
+  this->system_.solve(Rows::Zero(this->rest_.rows(), 9), prescribed, constrained, field);
   for (Index k = 0; k < this->groups_.count; ++k)
   {
     Eigen::Matrix3d blend = Eigen::Matrix3d::Zero();
@@ -121,22 +121,23 @@ void FullArap::start_rotations(const Pose& pose)
   }
 }
 
-/// Compute the covariances of D, the rotations that best fit them, and the energy term `turned_`.
+/// Compute the covariances of D, the rotations that best fit them, and the energy term
+/// `rotation_term_`.
 bool FullArap::local_step(ExecutionContext& context, const Rows& d)
 {
   const Index count = this->groups_.count, stride = this->stride_;
   const Index blocks = (count + groups_per_block - 1) / groups_per_block;
-  std::vector<double> turned(blocks, 0.0);
+  std::vector<double> block_sums(blocks, 0.0);
   const bool done = parallel_for(context, count, groups_per_block,
     [&](Index begin, Index end)
     {
       for (Index k = begin; k < end; ++k)
       {
         Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
-        for (Index t = this->of_group_.begin[k]; t < this->of_group_.begin[k + 1]; ++t)
+        for (Index t = this->group_terms_.begin[k]; t < this->group_terms_.begin[k + 1]; ++t)
         {
-          const double* b = this->of_group_.b.data() + 3 * t;
-          const double* moved = d.data() + 3 * Index(this->of_group_.item[t]);
+          const double* b = this->group_terms_.b.data() + 3 * t;
+          const double* moved = d.data() + 3 * Index(this->group_terms_.item[t]);
           s += Eigen::Map<const Vec3>(b) * Eigen::Map<const Vec3>(moved).transpose();
         }
         for (Index e = 0; e < 9; ++e)
@@ -152,16 +153,16 @@ bool FullArap::local_step(ExecutionContext& context, const Rows& d)
       {
         for (Index e = 0; e < 9; ++e)
         {
-          const double turn = this->rotations_[e * stride + k] - (e % 4 == 0 ? 1.0 : 0.0);
-          sum += turn * this->covariance_[(3 * (e % 3) + e / 3) * stride + k];
+          const double delta = this->rotations_[e * stride + k] - (e % 4 == 0 ? 1.0 : 0.0);
+          sum += delta * this->covariance_[(3 * (e % 3) + e / 3) * stride + k];
         }
       }
-      turned[begin / groups_per_block] = sum;
+      block_sums[begin / groups_per_block] = sum;
     });
-  this->turned_ = 0.0;
-  for (const double sum : turned)
+  this->rotation_term_ = 0.0;
+  for (const double sum : block_sums)
   {
-    this->turned_ += sum;
+    this->rotation_term_ += sum;
   }
   return done;
 }
@@ -171,7 +172,7 @@ bool FullArap::global_step(ExecutionContext& context, Rows& d)
 {
   const Index count = this->groups_.count, stride = this->stride_;
   const Index blocks = (count + groups_per_block - 1) / groups_per_block;
-  std::vector<double> turned(blocks, 0.0);
+  std::vector<double> block_sums(blocks, 0.0);
   bool done = parallel_for(context, count, groups_per_block,
     [&](Index begin, Index end)
     {
@@ -180,39 +181,39 @@ bool FullArap::global_step(ExecutionContext& context, Rows& d)
       {
         for (Index e = 0; e < 9; ++e)
         {
-          const double turn = this->rotations_[e * stride + k] - (e % 4 == 0 ? 1.0 : 0.0);
-          this->turn_[9 * k + e] = turn;
-          sum += turn * this->rest_covariance_[(3 * (e % 3) + e / 3) * stride + k];
+          const double delta = this->rotations_[e * stride + k] - (e % 4 == 0 ? 1.0 : 0.0);
+          this->rotation_deltas_[9 * k + e] = delta;
+          sum += delta * this->rest_covariance_[(3 * (e % 3) + e / 3) * stride + k];
         }
       }
-      turned[begin / groups_per_block] = sum;
+      block_sums[begin / groups_per_block] = sum;
     });
-  this->rest_turned_ = 0.0;
-  for (const double sum : turned)
+  this->rest_rotation_term_ = 0.0;
+  for (const double sum : block_sums)
   {
-    this->rest_turned_ += sum;
+    this->rest_rotation_term_ += sum;
   }
   const Index n = this->rest_.rows();
   this->force_.resize(n, 3);
   done = done &&
-    parallel_for(context, n, vertices_at_once,
+    parallel_for(context, n, vertices_per_block,
       [&](Index begin, Index end)
       {
         for (Index v = begin; v < end; ++v)
         {
           Vec3 sum = Vec3::Zero();
-          for (Index t = this->of_vertex_.begin[v]; t < this->of_vertex_.begin[v + 1]; ++t)
+          for (Index t = this->vertex_terms_.begin[v]; t < this->vertex_terms_.begin[v + 1]; ++t)
           {
-            const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> turn(
-              this->turn_.data() + 9 * Index(this->of_vertex_.item[t]));
-            sum += turn * Eigen::Map<const Vec3>(this->of_vertex_.b.data() + 3 * t);
+            const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> delta(
+              this->rotation_deltas_.data() + 9 * Index(this->vertex_terms_.item[t]));
+            sum += delta * Eigen::Map<const Vec3>(this->vertex_terms_.b.data() + 3 * t);
           }
           this->force_.row(v) = sum.transpose();
         }
       });
   if (done)
   {
-    this->system_.solve(this->force_, this->given_, this->held_, d);
+    this->system_.solve(this->force_, this->prescribed_, this->constrained_, d);
   }
   return done && !context.canceled();
 }
@@ -221,7 +222,7 @@ bool FullArap::global_step(ExecutionContext& context, Rows& d)
 double FullArap::quadratic(ExecutionContext& context, const Rows& d) const
 {
   return 0.5 *
-    parallel_sum(context, d.rows(), vertices_at_once,
+    parallel_sum(context, d.rows(), vertices_per_block,
       [&](Index begin, Index end)
       {
         double sum = 0.0;
@@ -260,7 +261,7 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
     return Status::canceled();
   }
   status.warnings = this->grips_.redundancy(pose, this->system_.redundant());
-  this->grips_.targets(pose, this->given_, this->held_);
+  this->grips_.targets(pose, this->prescribed_, this->constrained_);
 
   const Index n = this->rest_.rows();
   ProgressRange iterating(context, 0.2, 1.0);
@@ -272,18 +273,18 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
         this->rotations_.begin() + e * this->stride_, this->groups_.count, e % 4 == 0 ? 1.0 : 0.0);
     }
   }
-  else if (options.start == Start::guess || !this->warm_)
+  else if (options.start == Start::guess || !this->has_rotations_)
   {
     this->start_rotations(pose);
   }
-  this->warm_ = false; // true again when this solve has succeeded
-  double terms = 0.0; // sum of the absolute values of the terms of the last energy
+  this->has_rotations_ = false; // true again when this solve has succeeded
+  double magnitude = 0.0; // sum of the absolute values of the terms of the last energy
   const auto energy_after_global = [&](const Rows& g)
   {
-    const double bent = this->quadratic(context, g);
+    const double quadratic_term = this->quadratic(context, g);
     const double work = n > 0 ? dot(context, 3 * n, this->force_.data(), g.data()) : 0.0;
-    terms = std::abs(bent) + std::abs(work) + std::abs(this->rest_turned_);
-    return bent - work - this->rest_turned_;
+    magnitude = std::abs(quadratic_term) + std::abs(work) + std::abs(this->rest_rotation_term_);
+    return quadratic_term - work - this->rest_rotation_term_;
   };
   Rows g, d; // the plain iterate and the candidate iterate
   if (!this->global_step(context, g))
@@ -306,13 +307,13 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
       static_cast<double>(iterations + 1) / total);
     const double energy_before = this->energies_.back();
     bool done = this->local_step(context, d);
-    double energy = this->quadratic(context, d) - this->turned_;
+    double energy = this->quadratic(context, d) - this->rotation_term_;
     if (accelerated && done && !(energy <= energy_before))
     {
       d = g;
       anderson.forget();
       done = this->local_step(context, d);
-      energy = this->quadratic(context, d) - this->turned_;
+      energy = this->quadratic(context, d) - this->rotation_term_;
     }
     this->energies_.push_back(energy);
     if (!done || !this->global_step(context, g))
@@ -321,7 +322,7 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
     }
     const double energy_after = energy_after_global(g);
     ++iterations;
-    if (energy_after > energy + rounding * terms)
+    if (energy_after > energy + rounding * magnitude)
     {
       rise = energy_after - energy;
       g.swap(d);
@@ -344,7 +345,7 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
   {
     return Status::canceled();
   }
-  this->warm_ = true;
+  this->has_rotations_ = true;
 
   const double residual = this->grips_.residual(pose, g, status.warnings);
   for (Index v = 0; v < n; ++v)
@@ -360,8 +361,9 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
   status.report.set("iterations", iterations);
   status.report.set("microseconds_per_iteration",
     iterations > 0 ? microseconds / static_cast<double>(iterations) : 0.0);
-  status.report.set("counts.constrained", this->grips_.given().size() + this->grips_.held().size());
-  if (!this->grips_.holds().empty())
+  status.report.set(
+    "counts.constrained", this->grips_.prescribed().size() + this->grips_.constrained().size());
+  if (!this->grips_.constraints().empty())
   {
     status.report.set("constraint_residual", residual);
   }

@@ -103,7 +103,7 @@ public:
   }
 
   /// Discard the last rotations, so that the next solve starts with `guess`.
-  void forget() { this->warm_ = false; }
+  void forget() { this->has_rotations_ = false; }
 
   /// The vertices in the last solved pose.
   const Points& posed() const { return this->posed_; }
@@ -134,7 +134,7 @@ private:
   template <typename Elements>
   Status bind_any(ExecutionContext& context, PointsView points, const Elements& elements,
     const Handles& handles, const FullArapOptions& options);
-  void take_covariance(const SparseMatrix& covariance);
+  void set_covariance(const SparseMatrix& covariance);
   Status prepare(const Pose& pose);
   void start_rotations(const Pose& pose);
   bool local_step(ExecutionContext& context, const Rows& d);
@@ -149,7 +149,7 @@ private:
   /// rotation nearest to the mean of the initial matrices at these vertices.
   std::vector<std::array<int, 4>> group_vertices_;
   SparseMatrix stiffness_;
-  Terms of_group_, of_vertex_;
+  Terms group_terms_, vertex_terms_;
   Components parts_; ///< connected parts of the mesh; elements without energy do not connect
   /// #V: for a vertex that only flat elements use, the neighbor that it moves with; else -1.
   std::vector<Index> leader_;
@@ -164,16 +164,16 @@ private:
 
   // ---- per pose
   /// Target displacements of constrained vertices (given) and constrained points (held).
-  Rows given_, held_;
+  Rows prescribed_, constrained_;
 
   // ---- state; entry (i, j) of matrix k is at (3 i + j) * stride_ + k
   Index stride_ = 0;
   std::vector<double> rest_covariance_, covariance_, rotations_;
-  std::vector<double> turn_; ///< R - I, nine per group, row by row
+  std::vector<double> rotation_deltas_; ///< R - I, nine per group, row by row
   Rows force_; ///< K^T Q of the last global step, #V x 3
-  double turned_ = 0.0; ///< inner product <R - I, S> after the last local step
-  double rest_turned_ = 0.0; ///< inner product of R - I and the rest pose's S
-  bool warm_ = false;
+  double rotation_term_ = 0.0; ///< inner product <R - I, S> after the last local step
+  double rest_rotation_term_ = 0.0; ///< inner product of R - I and the rest pose's S
+  bool has_rotations_ = false;
   Points posed_;
   std::vector<double> energies_;
 };

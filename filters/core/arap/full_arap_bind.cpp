@@ -13,7 +13,7 @@ namespace
 {
 /// An element is flat if its largest cotangent exceeds this value. Flat elements are left out of
 /// the energy, because their energy would be round-off.
-constexpr double largest_cotangent = 1e7;
+constexpr double maximum_cotangent = 1e7;
 
 /// Return the unit of an element's cotangent weights: 1 for a triangle, the length of the longest
 /// edge for a tet.
@@ -82,14 +82,14 @@ std::vector<Index> leaders(const Elements& elements, const std::vector<Index>& p
 }
 } // namespace
 
-void FullArap::take_covariance(const SparseMatrix& covariance)
+void FullArap::set_covariance(const SparseMatrix& covariance)
 {
   const Index groups = this->groups_.count, n = this->rest_.rows();
-  this->of_vertex_ = this->of_group_ = Terms();
-  this->of_vertex_.begin.assign(static_cast<std::size_t>(n) + 1, 0);
-  this->of_group_.begin.assign(static_cast<std::size_t>(groups) + 1, 0);
+  this->vertex_terms_ = this->group_terms_ = Terms();
+  this->vertex_terms_.begin.assign(static_cast<std::size_t>(n) + 1, 0);
+  this->group_terms_.begin.assign(static_cast<std::size_t>(groups) + 1, 0);
   const auto terms = static_cast<std::size_t>(covariance.nonZeros() / 3);
-  for (Terms* t : { &this->of_vertex_, &this->of_group_ })
+  for (Terms* t : { &this->vertex_terms_, &this->group_terms_ })
   {
     t->item.resize(terms);
     t->b.resize(3 * terms);
@@ -102,16 +102,16 @@ void FullArap::take_covariance(const SparseMatrix& covariance)
     const Index count = (covariance.outerIndexPtr()[v + 1] - first) / 3;
     for (Index t = 0; t < count; ++t, ++at)
     {
-      this->of_vertex_.item[at] = covariance.innerIndexPtr()[first + t];
+      this->vertex_terms_.item[at] = covariance.innerIndexPtr()[first + t];
       for (Index i = 0; i < 3; ++i)
       {
-        this->of_vertex_.b[3 * at + i] = covariance.valuePtr()[first + i * count + t];
+        this->vertex_terms_.b[3 * at + i] = covariance.valuePtr()[first + i * count + t];
       }
-      this->of_group_.begin[this->of_vertex_.item[at] + 1] += 1;
+      this->group_terms_.begin[this->vertex_terms_.item[at] + 1] += 1;
     }
-    this->of_vertex_.begin[v + 1] = at;
+    this->vertex_terms_.begin[v + 1] = at;
   }
-  std::vector<Index>& begin = this->of_group_.begin;
+  std::vector<Index>& begin = this->group_terms_.begin;
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
   std::vector<Index> next(begin.begin(), begin.end() - 1);
   this->stride_ = (groups + 7) / 8 * 8;
@@ -120,15 +120,15 @@ void FullArap::take_covariance(const SparseMatrix& covariance)
   for (Index v = 0; v < n; ++v)
   {
     const Vec3 p = this->rest_.row(v).transpose() - middle;
-    for (Index t = this->of_vertex_.begin[v]; t < this->of_vertex_.begin[v + 1]; ++t)
+    for (Index t = this->vertex_terms_.begin[v]; t < this->vertex_terms_.begin[v + 1]; ++t)
     {
-      const Index k = this->of_vertex_.item[t];
+      const Index k = this->vertex_terms_.item[t];
       const Index to = next[k]++;
-      this->of_group_.item[to] = static_cast<int>(v);
+      this->group_terms_.item[to] = static_cast<int>(v);
       for (Index i = 0; i < 3; ++i)
       {
-        const double b = this->of_vertex_.b[3 * t + i];
-        this->of_group_.b[3 * to + i] = b;
+        const double b = this->vertex_terms_.b[3 * t + i];
+        this->group_terms_.b[3 * to + i] = b;
         for (Index j = 0; j < 3; ++j)
         {
           this->rest_covariance_[(3 * i + j) * this->stride_ + k] += b * p[j];
@@ -153,7 +153,7 @@ Status FullArap::bind_any(ExecutionContext& context, PointsView points, const El
   this->rest_ = points;
 
   // Keep the elements that are not flat, in their input order.
-  auto kept = owned(elements);
+  auto regular_elements = owned(elements);
   Index count = 0;
   {
     Phase phase(context, "elements", 0.0, 0.3);
@@ -161,9 +161,9 @@ Status FullArap::bind_any(ExecutionContext& context, PointsView points, const El
     for (Index e = 0; e < elements.rows(); ++e)
     {
       const double largest = c.row(e).cwiseAbs().maxCoeff();
-      if (largest > 0.0 && largest <= largest_cotangent * weight_unit(points, elements, e))
+      if (largest > 0.0 && largest <= maximum_cotangent * weight_unit(points, elements, e))
       {
-        kept.row(count++) = elements.row(e);
+        regular_elements.row(count++) = elements.row(e);
       }
     }
     if (count == 0)
@@ -176,14 +176,14 @@ Status FullArap::bind_any(ExecutionContext& context, PointsView points, const El
       const Index flat = elements.rows() - count;
       status.warnings.push_back(std::to_string(flat) + " of " + std::to_string(elements.rows()) +
         " " + element_word(elements) + "s are too flat and do not contribute to the energy");
-      kept.conservativeResize(count, Eigen::NoChange);
+      regular_elements.conservativeResize(count, Eigen::NoChange);
     }
-    this->parts_ = connected_components(points.rows(), kept);
+    this->parts_ = connected_components(points.rows(), regular_elements);
     this->leader_ = count < elements.rows()
-      ? leaders(elements, this->parts_.of_vertex)
+      ? leaders(elements, this->parts_.component_of_vertex)
       : std::vector<Index>(static_cast<std::size_t>(points.rows()), -1);
   }
-  const Elements view = kept;
+  const Elements view = regular_elements;
   const Eigen::RowVector3d middle = points.colwise().mean();
   this->radius_ = std::sqrt((points.rowwise() - middle).rowwise().squaredNorm().mean());
   if (context.canceled())
@@ -192,19 +192,20 @@ Status FullArap::bind_any(ExecutionContext& context, PointsView points, const El
   }
   {
     Phase phase(context, "grips", 0.3, 0.6);
-    Status gripped = this->grips_.find(points, view, this->parts_, handles, options.region_ids);
-    if (!gripped.ok())
+    Status grip_status = this->grips_.find(points, view, this->parts_, handles, options.region_ids);
+    if (!grip_status.ok())
     {
-      return gripped;
+      return grip_status;
     }
-    status.warnings.insert(status.warnings.end(), gripped.warnings.begin(), gripped.warnings.end());
+    status.warnings.insert(
+      status.warnings.end(), grip_status.warnings.begin(), grip_status.warnings.end());
   }
   Phase phase(context, "energy", 0.6, 1.0);
-  const ArapEnergy energy = resolved(options.energy, tets);
+  const ArapEnergy energy = resolve_energy(options.energy, tets);
   this->groups_.energy = energy;
   this->groups_.count = energy == ArapEnergy::elements ? count : points.rows();
   std::vector<Index>& label =
-    energy == ArapEnergy::elements ? this->groups_.of_element : this->groups_.of_vertex;
+    energy == ArapEnergy::elements ? this->groups_.group_of_element : this->groups_.group_of_vertex;
   label.resize(static_cast<std::size_t>(this->groups_.count));
   std::iota(label.begin(), label.end(), Index(0));
   this->group_vertices_.assign(static_cast<std::size_t>(this->groups_.count), { -1, -1, -1, -1 });
@@ -216,21 +217,21 @@ Status FullArap::bind_any(ExecutionContext& context, PointsView points, const El
       this->group_vertices_[k][corner] = static_cast<int>(view(k, corner));
     }
   }
-  Index left_out = 0;
-  this->stiffness_ = arap_stiffness(points, view, energy, &left_out);
-  if (left_out > 0)
+  Index ignored_edges = 0;
+  this->stiffness_ = arap_stiffness(points, view, energy, &ignored_edges);
+  if (ignored_edges > 0)
   {
-    status.warnings.push_back(left_out_warning(left_out));
+    status.warnings.push_back(ignored_edges_warning(ignored_edges));
   }
   if (context.canceled())
   {
     return Status::canceled();
   }
-  this->take_covariance(covariance_matrix(points, view, this->groups_));
+  this->set_covariance(covariance_matrix(points, view, this->groups_));
   const Points centered = points.rowwise() - bounding_box(points).center().transpose();
   this->rest_energy_ = 0.5 * (centered.array() * (this->stiffness_ * centered).array()).sum();
   this->covariance_ = this->rotations_ = this->rest_covariance_;
-  this->turn_.assign(static_cast<std::size_t>(9 * this->groups_.count), 0.0);
+  this->rotation_deltas_.assign(static_cast<std::size_t>(9 * this->groups_.count), 0.0);
   this->posed_ = points;
   if (context.canceled())
   {

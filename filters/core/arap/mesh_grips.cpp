@@ -18,9 +18,9 @@ constexpr double vertex_tolerance = 1e-9;
 /// A handle is on the mesh if its distance is at most this, in bounding-box diagonals.
 constexpr double on_mesh = 1e-6;
 /// A mesh point is treated as a vertex if its barycentric weight at the vertex is at least this.
-constexpr double whole = 1.0 - 1e-9;
+constexpr double vertex_coordinate = 1.0 - 1e-9;
 /// Maximum number of intervals between the constrained points of a bone that has no vertices.
-constexpr double most_places = 16.0;
+constexpr double maximum_intervals = 16.0;
 
 MeshPoint vertex_point(Index v)
 {
@@ -44,22 +44,22 @@ Status MeshGrips::find_any(PointsView points, const Elements& elements, const Co
   Box box;
   for (Index v = 0; v < points.rows(); ++v)
   {
-    if (parts.of_vertex[v] >= 0)
+    if (parts.component_of_vertex[v] >= 0)
     {
       box.add(points.row(v).transpose());
     }
   }
   this->diagonal_ = box.diagonal();
   const SimplexLocator locator(this->rest_, elements);
-  double edge = 0.0;
+  double mean_edge_length = 0.0;
   for (Index e = 0; e < elements.rows(); ++e)
   {
-    edge += (this->rest_.row(elements(e, 0)) - this->rest_.row(elements(e, 1))).norm();
+    mean_edge_length += (this->rest_.row(elements(e, 0)) - this->rest_.row(elements(e, 1))).norm();
   }
-  edge /= static_cast<double>(elements.rows());
+  mean_edge_length /= static_cast<double>(elements.rows());
 
-  double farthest = 0.0;
-  std::vector<Index> beside;
+  double largest_distance = 0.0;
+  std::vector<Index> distant_handles;
   const auto point_at = [&](const Vec3& p, double& distance) -> MeshPoint
   {
     Index nearest = -1;
@@ -67,7 +67,7 @@ Status MeshGrips::find_any(PointsView points, const Elements& elements, const Co
     for (Index v = 0; v < this->rest_.rows(); ++v)
     {
       const double length = (this->rest_.row(v) - p.transpose()).norm();
-      if (length <= least && parts.of_vertex[v] >= 0)
+      if (length <= least && parts.component_of_vertex[v] >= 0)
       {
         least = length;
         nearest = v;
@@ -83,15 +83,15 @@ Status MeshGrips::find_any(PointsView points, const Elements& elements, const Co
     double sum = 0.0;
     for (Index k = 0; k < elements.cols(); ++k)
     {
-      const double share = found.barycentric[k];
-      if (share >= whole)
+      const double coordinate = found.barycentric[k];
+      if (coordinate >= vertex_coordinate)
       {
         return vertex_point(elements(found.element, k));
       }
-      if (share > 1.0 - whole)
+      if (coordinate > 1.0 - vertex_coordinate)
       {
-        point.emplace_back(elements(found.element, k), share);
-        sum += share;
+        point.emplace_back(elements(found.element, k), coordinate);
+        sum += coordinate;
       }
     }
     for (auto& term : point)
@@ -109,7 +109,7 @@ Status MeshGrips::find_any(PointsView points, const Elements& elements, const Co
     {
       for (Index v = 0; v < this->rest_.rows(); ++v)
       {
-        if (region_ids[v] == handle.region_id && parts.of_vertex[v] >= 0)
+        if (region_ids[v] == handle.region_id && parts.component_of_vertex[v] >= 0)
         {
           grip.points.push_back(vertex_point(v));
         }
@@ -132,7 +132,7 @@ Status MeshGrips::find_any(PointsView points, const Elements& elements, const Co
         grip.tail = point_at(handle.tail, distance);
         for (Index v = 0; v < this->rest_.rows(); ++v)
         {
-          if (parts.of_vertex[v] >= 0 &&
+          if (parts.component_of_vertex[v] >= 0 &&
             nearest_in_triangle(this->rest_.row(v), handle.head, handle.tail, handle.tail)
                 .distance <= vertex_tolerance * this->diagonal_)
           {
@@ -140,12 +140,13 @@ Status MeshGrips::find_any(PointsView points, const Elements& elements, const Co
           }
         }
         const double length = (handle.tail - handle.head).norm();
-        const double places = std::clamp(std::ceil(length / edge), 1.0, most_places);
+        const double intervals =
+          std::clamp(std::ceil(length / mean_edge_length), 1.0, maximum_intervals);
         const bool along = grip.points.size() < 2;
-        for (double k = 0.0; along && k <= places; k += 1.0)
+        for (double k = 0.0; along && k <= intervals; k += 1.0)
         {
           grip.points.push_back(
-            point_at(handle.head + k / places * (handle.tail - handle.head), distance));
+            point_at(handle.head + k / intervals * (handle.tail - handle.head), distance));
         }
       }
       else
@@ -155,16 +156,16 @@ Status MeshGrips::find_any(PointsView points, const Elements& elements, const Co
     }
     if (distance > on_mesh * this->diagonal_)
     {
-      farthest = std::max(farthest, distance);
-      beside.push_back(static_cast<Index>(this->grips_.size()));
+      largest_distance = std::max(largest_distance, distance);
+      distant_handles.push_back(static_cast<Index>(this->grips_.size()));
     }
     this->grips_.push_back(std::move(grip));
   }
-  if (!beside.empty())
+  if (!distant_handles.empty())
   {
-    status.warnings.push_back("these handles are up to " + std::to_string(farthest) +
+    status.warnings.push_back("these handles are up to " + std::to_string(largest_distance) +
       " away from the mesh and constrain its nearest points: " +
-      quoted_names(this->handles_, beside));
+      quoted_names(this->handles_, distant_handles));
   }
   return status;
 }
@@ -181,12 +182,12 @@ Status MeshGrips::find(PointsView points, TetsView elements, const Components& p
   return this->find_any(points, elements, parts, handles, region_ids);
 }
 
-Vec3 MeshGrips::at_rest(const MeshPoint& point) const
+Vec3 MeshGrips::rest_position(const MeshPoint& point) const
 {
   Vec3 sum = Vec3::Zero();
-  for (const auto& [v, share] : point)
+  for (const auto& [v, coordinate] : point)
   {
-    sum += share * this->rest_.row(v).transpose();
+    sum += coordinate * this->rest_.row(v).transpose();
   }
   return sum;
 }
@@ -194,25 +195,26 @@ Vec3 MeshGrips::at_rest(const MeshPoint& point) const
 /// Return the target displacement of a constrained point. The points of a full handle are
 /// transformed with the handle. If the pivot is not on the mesh, its nearest mesh point has the
 /// displacement of the pivot.
-Vec3 MeshGrips::wanted(const Hold& hold, const HandlePose& pose) const
+Vec3 MeshGrips::target_displacement(const Constraint& constraint, const HandlePose& pose) const
 {
   const Eigen::Matrix3d linear = pose.transform.leftCols<3>() - Eigen::Matrix3d::Identity();
-  const Handle& handle = this->handles_[hold.handle];
-  if (hold.tail)
+  const Handle& handle = this->handles_[constraint.handle];
+  if (constraint.tail)
   {
     return posed_tail(handle, pose) - handle.tail;
   }
   const bool by_pivot = constrains_pivot(pose.mode) && handle.kind != HandleKind::region;
-  return linear * (by_pivot ? handle.head : this->at_rest(hold.point)) + pose.transform.col(3);
+  return linear * (by_pivot ? handle.head : this->rest_position(constraint.point)) +
+    pose.transform.col(3);
 }
 
-void MeshGrips::choose(const Pose& pose, const std::vector<Index>& staying)
+void MeshGrips::choose(const Pose& pose, const std::vector<Index>& fixed_vertices)
 {
-  this->holds_.clear();
-  this->doubled_.clear();
-  this->given_.clear();
-  this->held_.clear();
-  this->holder_.clear();
+  this->constraints_.clear();
+  this->redundant_handles_.clear();
+  this->prescribed_.clear();
+  this->constrained_.clear();
+  this->handle_of_constrained_.clear();
   for (const bool full : { true, false })
   {
     for (std::size_t h = 0; h < pose.size(); ++h)
@@ -224,83 +226,86 @@ void MeshGrips::choose(const Pose& pose, const std::vector<Index>& staying)
       }
       for (std::size_t k = 0; full && k < this->grips_[h].points.size(); ++k)
       {
-        this->holds_.push_back({ handle, this->grips_[h].points[k] });
+        this->constraints_.push_back({ handle, this->grips_[h].points[k] });
       }
       if (constrains_pivot(pose[h].mode))
       {
-        this->holds_.push_back({ handle, this->grips_[h].pivot });
+        this->constraints_.push_back({ handle, this->grips_[h].pivot });
       }
       if (constrains_tail(pose[h].mode))
       {
-        this->holds_.push_back({ handle, this->grips_[h].tail, -1, -1, true });
+        this->constraints_.push_back({ handle, this->grips_[h].tail, -1, -1, true });
       }
     }
   }
   // A position handle at a vertex that a full handle constrains is redundant. If several position
   // handles are at one vertex, all except the first are reported as redundant, but the target is
   // the mean of all their targets.
-  std::map<Index, bool> given; // vertex -> whether a full handle constrains it
-  for (const Hold& hold : this->holds_)
+  std::map<Index, bool> prescribed; // vertex -> whether a full handle constrains it
+  for (const Constraint& constraint : this->constraints_)
   {
-    if (hold.point.size() == 1)
+    if (constraint.point.size() == 1)
     {
-      given.insert({ hold.point[0].first, constrains_transform(pose[hold.handle].mode) });
+      prescribed.insert(
+        { constraint.point[0].first, constrains_transform(pose[constraint.handle].mode) });
     }
   }
-  for (const Index v : staying)
+  for (const Index v : fixed_vertices)
   {
-    given.insert({ v, false });
+    prescribed.insert({ v, false });
   }
-  std::map<Index, Index> place;
-  for (const auto& entry : given)
+  std::map<Index, Index> index_of_vertex;
+  for (const auto& entry : prescribed)
   {
-    place[entry.first] = static_cast<Index>(this->given_.size());
-    this->given_.push_back(entry.first);
+    index_of_vertex[entry.first] = static_cast<Index>(this->prescribed_.size());
+    this->prescribed_.push_back(entry.first);
   }
-  std::vector<char> taken(this->given_.size(), 0);
-  for (Hold& hold : this->holds_)
+  std::vector<char> is_claimed(this->prescribed_.size(), 0);
+  for (Constraint& constraint : this->constraints_)
   {
-    const bool full = constrains_transform(pose[hold.handle].mode);
-    if (hold.point.size() > 1)
+    const bool full = constrains_transform(pose[constraint.handle].mode);
+    if (constraint.point.size() > 1)
     {
-      hold.held = static_cast<Index>(this->held_.size());
-      this->held_.push_back(hold.point);
-      this->holder_.push_back(hold.handle);
+      constraint.constrained = static_cast<Index>(this->constrained_.size());
+      this->constrained_.push_back(constraint.point);
+      this->handle_of_constrained_.push_back(constraint.handle);
     }
     else
     {
-      const Index v = hold.point[0].first;
-      if (full || !given[v])
+      const Index v = constraint.point[0].first;
+      if (full || !prescribed[v])
       {
-        hold.given = place[v];
+        constraint.prescribed = index_of_vertex[v];
       }
-      if (!full && taken[place[v]])
+      if (!full && is_claimed[index_of_vertex[v]])
       {
-        this->doubled_.push_back(hold.handle);
+        this->redundant_handles_.push_back(constraint.handle);
       }
-      taken[place[v]] = 1;
+      is_claimed[index_of_vertex[v]] = 1;
     }
   }
 }
 
-void MeshGrips::targets(const Pose& pose, Rows& given, Rows& held) const
+void MeshGrips::targets(const Pose& pose, Rows& prescribed, Rows& constrained) const
 {
-  given = Rows::Zero(static_cast<Index>(this->given_.size()), 3);
-  held = Rows::Zero(static_cast<Index>(this->held_.size()), 3);
-  Eigen::VectorXd owners = Eigen::VectorXd::Zero(given.rows());
-  for (const Hold& hold : this->holds_)
+  prescribed = Rows::Zero(static_cast<Index>(this->prescribed_.size()), 3);
+  constrained = Rows::Zero(static_cast<Index>(this->constrained_.size()), 3);
+  Eigen::VectorXd handle_counts = Eigen::VectorXd::Zero(prescribed.rows());
+  for (const Constraint& constraint : this->constraints_)
   {
-    const Vec3 move = this->wanted(hold, pose[hold.handle]);
-    if (hold.given >= 0)
+    const Vec3 move = this->target_displacement(constraint, pose[constraint.handle]);
+    if (constraint.prescribed >= 0)
     {
       // Update the mean incrementally. If all handles have the same target, the result is exact to
       // the bit.
-      owners[hold.given] += 1.0;
-      given.row(hold.given) += (move.transpose() - given.row(hold.given)) / owners[hold.given];
+      handle_counts[constraint.prescribed] += 1.0;
+      prescribed.row(constraint.prescribed) +=
+        (move.transpose() - prescribed.row(constraint.prescribed)) /
+        handle_counts[constraint.prescribed];
     }
-    else if (hold.held >= 0)
+    else if (constraint.constrained >= 0)
     {
-      held.row(hold.held) = move.transpose();
+      constrained.row(constraint.constrained) = move.transpose();
     }
   }
 }
@@ -308,10 +313,10 @@ void MeshGrips::targets(const Pose& pose, Rows& given, Rows& held) const
 std::vector<std::string> MeshGrips::redundancy(
   const Pose& pose, const std::vector<Index>& points) const
 {
-  std::vector<Index> redundant = this->doubled_;
+  std::vector<Index> redundant = this->redundant_handles_;
   for (const Index point : points)
   {
-    const Index handle = this->holder_[point];
+    const Index handle = this->handle_of_constrained_[point];
     if (!constrains_transform(pose[handle].mode))
     {
       redundant.push_back(handle);
@@ -332,19 +337,19 @@ double MeshGrips::residual(
 {
   double residual = 0.0;
   std::vector<Index> contradicting;
-  for (const Hold& hold : this->holds_)
+  for (const Constraint& constraint : this->constraints_)
   {
-    Vec3 miss = this->wanted(hold, pose[hold.handle]);
-    for (const auto& [v, share] : hold.point)
+    Vec3 violation = this->target_displacement(constraint, pose[constraint.handle]);
+    for (const auto& [v, coordinate] : constraint.point)
     {
-      miss -= share * displacements.row(v).transpose();
+      violation -= coordinate * displacements.row(v).transpose();
     }
-    const double length = miss.norm() / std::max(this->diagonal_, 1e-300);
+    const double length = violation.norm() / std::max(this->diagonal_, 1e-300);
     residual = std::max(residual, length);
-    if (length > contradictory_miss &&
-      (contradicting.empty() || contradicting.back() != hold.handle))
+    if (length > contradiction_tolerance &&
+      (contradicting.empty() || contradicting.back() != constraint.handle))
     {
-      contradicting.push_back(hold.handle);
+      contradicting.push_back(constraint.handle);
     }
   }
   if (!contradicting.empty())

@@ -30,12 +30,12 @@ public:
   using Rows = ConstrainedStiffness::Rows;
 
   /// One point that a handle constrains in the chosen modes.
-  struct Hold
+  struct Constraint
   {
     Index handle;
     MeshPoint point;
-    Index given = -1; ///< index in given(), or -1
-    Index held = -1; ///< index in held(), or -1
+    Index prescribed = -1; ///< index in given(), or -1
+    Index constrained = -1; ///< index in held(), or -1
     bool tail = false; ///< whether the point is the tail of a bone in mode tail or ends
   };
 
@@ -50,18 +50,19 @@ public:
     const std::vector<Index>& region_ids);
 
   /// Select the constraints that the modes of a pose require.
-  /// @param staying additional given vertices. They stay at rest unless a handle constrains them.
-  void choose(const Pose& pose, const std::vector<Index>& staying = {});
+  /// @param fixed_vertices additional given vertices. They stay at rest unless a handle constrains
+  /// them.
+  void choose(const Pose& pose, const std::vector<Index>& fixed_vertices = {});
 
   /// given() returns the ids of constrained vertices, ascending. held() returns the constrained
   /// points that are not vertices.
-  const std::vector<Index>& given() const { return this->given_; }
-  const std::vector<MeshPoint>& held() const { return this->held_; }
-  const std::vector<Hold>& holds() const { return this->holds_; }
+  const std::vector<Index>& prescribed() const { return this->prescribed_; }
+  const std::vector<MeshPoint>& constrained() const { return this->constrained_; }
+  const std::vector<Constraint>& constraints() const { return this->constraints_; }
 
   /// Compute the target displacements for a pose with the chosen modes, one row per entry of
   /// given() and held().
-  void targets(const Pose& pose, Rows& given, Rows& held) const;
+  void targets(const Pose& pose, Rows& prescribed, Rows& constrained) const;
   /// Return a warning about redundant position handles, or an empty list.
   /// @param points indices in held() of the redundant points that ConstrainedStiffness found.
   std::vector<std::string> redundancy(const Pose& pose, const std::vector<Index>& points) const;
@@ -83,20 +84,21 @@ private:
   template <typename Elements>
   Status find_any(PointsView points, const Elements& elements, const Components& parts,
     const Handles& handles, const std::vector<Index>& region_ids);
-  Vec3 at_rest(const MeshPoint& point) const;
-  Vec3 wanted(const Hold& hold, const HandlePose& pose) const;
+  Vec3 rest_position(const MeshPoint& point) const;
+  Vec3 target_displacement(const Constraint& constraint, const HandlePose& pose) const;
 
   Handles handles_;
   Points rest_;
   double diagonal_ = 0.0;
   std::vector<Grip> grips_;
-  std::vector<Hold> holds_;
-  std::vector<Index> given_;
-  std::vector<MeshPoint> held_;
-  std::vector<Index> holder_; ///< per held point: index of the handle that constrains it
+  std::vector<Constraint> constraints_;
+  std::vector<Index> prescribed_;
+  std::vector<MeshPoint> constrained_;
+  std::vector<Index>
+    handle_of_constrained_; ///< per held point: index of the handle that constrains it
   /// Indices of the position handles that are redundant because another handle constrains their
   /// vertex.
-  std::vector<Index> doubled_;
+  std::vector<Index> redundant_handles_;
 };
 
 } // namespace bindpose

@@ -13,7 +13,7 @@ Status ReducedArap::bind_any(ExecutionContext& context, PointsView points, const
 {
   *this = ReducedArap();
   Status status = this->space_.bind(context, points, elements, weights, handles, options);
-  this->no_load_ = ReducedSpace::Rows::Zero(4 * this->space_.columns, 3);
+  this->zero_load_ = ReducedSpace::Rows::Zero(4 * this->space_.columns, 3);
   this->transforms_.assign(static_cast<std::size_t>(this->space_.columns), identity_affine());
   return status;
 }
@@ -34,7 +34,7 @@ Status ReducedArap::solve(ExecutionContext& context, const Pose& pose, const Sol
 {
   ReducedSpace::Rows d;
   Status status = this->solver_.solve(
-    context, this->space_, { this->space_.stiffness, this->no_load_ }, pose, options, d);
+    context, this->space_, { this->space_.stiffness, this->zero_load_ }, pose, options, d);
   if (status.usable())
   {
     this->transforms_ = this->space_.transforms_of(d, pose);

@@ -91,7 +91,7 @@ private:
     WeightsView weights, const Handles& handles, const ReducedArapOptions& options);
 
   ReducedSpace space_;
-  ReducedSpace::Rows no_load_;
+  ReducedSpace::Rows zero_load_;
   ReducedSolver solver_;
   std::vector<Affine> transforms_;
 };

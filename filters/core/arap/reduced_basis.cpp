@@ -48,7 +48,7 @@ constexpr double energy_rank = 1e-12;
 constexpr double position_rank = 1e-9;
 /// The quick method requires that the reciprocal condition numbers of A A^T and of R are above this
 /// value.
-constexpr double beyond_doubt = 1e-6;
+constexpr double independence_tolerance = 1e-6;
 /// The robust method is faster if there is more than one constraint per this many unknowns.
 constexpr Index unknowns_per_constraint = 4;
 /// Number of columns of a triangular matrix that are multiplied per block.
@@ -96,35 +96,35 @@ Eigen::MatrixXd Reflections::tail() const
   return z;
 }
 
-Coordinates Reflections::turned(const Coordinates& x) const
+Coordinates Reflections::reflect(const Coordinates& x) const
 {
   return x - thin_product(this->v_, thin_product(this->t_, transposed_thin_product(this->v_, x)));
 }
 
-Coordinates Reflections::turned_back(const Coordinates& x) const
+Coordinates Reflections::reflect_transposed(const Coordinates& x) const
 {
   return x -
     thin_product(this->v_, transposed_thin_product(this->t_, transposed_thin_product(this->v_, x)));
 }
 
 void ReducedBasis::make(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
-  const std::vector<Index>& open, const Eigen::MatrixXd& held)
+  const std::vector<Index>& free_dofs, const Eigen::MatrixXd& position_rows)
 {
-  if (!this->make_quickly(space, stiffness, open, held))
+  if (!this->make_fast(space, stiffness, free_dofs, position_rows))
   {
-    this->make_sturdily(space, stiffness, open, held);
+    this->make_robust(space, stiffness, free_dofs, position_rows);
   }
 }
 
-void ReducedBasis::factor_whole(const ReducedSpace& space, const Eigen::MatrixXd& stiffness)
+void ReducedBasis::factor_full_matrix(const ReducedSpace& space, const Eigen::MatrixXd& stiffness)
 {
-  Whole& whole = this->whole_;
-  whole.tried = true;
+  FullFactorization& factorization = this->factorization_;
+  factorization.tried = true;
   for (Index i = 0; i < stiffness.rows(); ++i)
   {
     if (space.basis_scale[i] > 0.0)
     {
-      whole.rows.push_back(i);
+      factorization.rows.push_back(i);
     }
   }
   // The translation u has equal entries in the translation rows of all handles and 0 in the rows of
@@ -133,29 +133,30 @@ void ReducedBasis::factor_whole(const ReducedSpace& space, const Eigen::MatrixXd
   const auto handles = static_cast<Index>(space.handles.size());
   const auto shift_of = [&](Index i)
   { return i % 4 == 3 && i < 4 * handles ? 1.0 / space.basis_scale[i] : 0.0; };
-  const auto largest = std::max_element(whole.rows.begin(), whole.rows.end(),
+  const auto largest = std::max_element(factorization.rows.begin(), factorization.rows.end(),
     [&](Index a, Index b) { return shift_of(a) < shift_of(b); });
-  if (largest == whole.rows.end() || shift_of(*largest) == 0.0)
+  if (largest == factorization.rows.end() || shift_of(*largest) == 0.0)
   {
     return;
   }
-  std::rotate(largest, largest + 1, whole.rows.end());
-  auto size = static_cast<Index>(whole.rows.size());
-  whole.scale = space.basis_scale(whole.rows);
-  whole.shift.resize(size);
+  std::rotate(largest, largest + 1, factorization.rows.end());
+  auto size = static_cast<Index>(factorization.rows.size());
+  factorization.scale = space.basis_scale(factorization.rows);
+  factorization.shift.resize(size);
   for (Index q = 0; q < size; ++q)
   {
-    whole.shift[q] = shift_of(whole.rows[static_cast<std::size_t>(q)]);
+    factorization.shift[q] = shift_of(factorization.rows[static_cast<std::size_t>(q)]);
   }
-  whole.shift.normalize();
-  Eigen::MatrixXd h =
-    whole.scale.asDiagonal() * stiffness(whole.rows, whole.rows) * whole.scale.asDiagonal();
-  Eigen::MatrixXd k = space.covariance(Eigen::all, whole.rows) * whole.scale.asDiagonal();
-  if ((h * whole.shift).norm() > energy_rank * h.norm())
+  factorization.shift.normalize();
+  Eigen::MatrixXd h = factorization.scale.asDiagonal() *
+    stiffness(factorization.rows, factorization.rows) * factorization.scale.asDiagonal();
+  Eigen::MatrixXd k =
+    space.covariance(Eigen::all, factorization.rows) * factorization.scale.asDiagonal();
+  if ((h * factorization.shift).norm() > energy_rank * h.norm())
   {
-    whole.shift.resize(0);
+    factorization.shift.resize(0);
   }
-  else if ((k * whole.shift).norm() > energy_rank * k.norm())
+  else if ((k * factorization.shift).norm() > energy_rank * k.norm())
   {
     return;
   }
@@ -165,67 +166,70 @@ void ReducedBasis::factor_whole(const ReducedSpace& space, const Eigen::MatrixXd
     h.conservativeResize(size, size);
     k.conservativeResize(Eigen::NoChange, size);
   }
-  if (size == 0 || !whole.cholesky.factor(std::move(h)) ||
-    !(whole.cholesky.reciprocal_condition() > 1e3 * energy_rank))
+  if (size == 0 || !factorization.cholesky.factor(std::move(h)) ||
+    !(factorization.cholesky.reciprocal_condition() > 1e3 * energy_rank))
   {
     return;
   }
-  whole.directions = Eigen::MatrixXd::Identity(size, size);
-  whole.cholesky.solve_right(whole.directions);
-  whole.covariance = std::move(k);
-  whole.cholesky.solve_right(whole.covariance);
-  whole.good = true;
+  factorization.directions = Eigen::MatrixXd::Identity(size, size);
+  factorization.cholesky.solve_right(factorization.directions);
+  factorization.covariance = std::move(k);
+  factorization.cholesky.solve_right(factorization.covariance);
+  factorization.good = true;
 }
 
-bool ReducedBasis::make_quickly(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
-  const std::vector<Index>& open, const Eigen::MatrixXd& held)
+bool ReducedBasis::make_fast(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
+  const std::vector<Index>& free_dofs, const Eigen::MatrixXd& position_rows)
 {
-  const Index all = stiffness.rows(), asked = held.rows();
-  if (unknowns_per_constraint * (asked + all - static_cast<Index>(open.size())) > all)
+  const Index all = stiffness.rows(), position_count = position_rows.rows();
+  if (unknowns_per_constraint * (position_count + all - static_cast<Index>(free_dofs.size())) > all)
   {
     return false;
   }
-  if (!this->whole_.tried)
+  if (!this->factorization_.tried)
   {
-    this->factor_whole(space, stiffness);
+    this->factor_full_matrix(space, stiffness);
   }
-  const Whole& whole = this->whole_;
-  if (!whole.good)
+  const FullFactorization& factorization = this->factorization_;
+  if (!factorization.good)
   {
     return false;
   }
-  const Index unknowns = whole.directions.rows();
+  const Index unknowns = factorization.directions.rows();
   std::vector<char> is_open(static_cast<std::size_t>(all), 0);
-  for (const Index i : open)
+  for (const Index i : free_dofs)
   {
     is_open[static_cast<std::size_t>(i)] = 1;
   }
   std::vector<Index> given;
-  this->reached_.clear();
-  for (Index q = 0; q < static_cast<Index>(whole.rows.size()); ++q)
+  this->free_indices_.clear();
+  for (Index q = 0; q < static_cast<Index>(factorization.rows.size()); ++q)
   {
-    (is_open[static_cast<std::size_t>(whole.rows[static_cast<std::size_t>(q)])] ? this->reached_
-                                                                                : given)
+    (is_open[static_cast<std::size_t>(factorization.rows[static_cast<std::size_t>(q)])]
+        ? this->free_indices_
+        : given)
       .push_back(q);
   }
-  const auto count = asked + static_cast<Index>(given.size());
-  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(count, static_cast<Index>(whole.rows.size()));
-  for (const Index q : this->reached_)
+  const auto count = position_count + static_cast<Index>(given.size());
+  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(count, static_cast<Index>(factorization.rows.size()));
+  for (const Index q : this->free_indices_)
   {
-    a.col(q).head(asked) = whole.scale[q] * held.col(whole.rows[static_cast<std::size_t>(q)]);
+    a.col(q).head(position_count) =
+      factorization.scale[q] * position_rows.col(factorization.rows[static_cast<std::size_t>(q)]);
   }
-  if (asked > 0)
+  if (position_count > 0)
   {
     DenseCholesky positions;
-    if (!positions.factor(dense_product(a.topRows(asked), a.topRows(asked).transpose())) ||
-      !(positions.reciprocal_condition() > beyond_doubt))
+    if (!positions.factor(
+          dense_product(a.topRows(position_count), a.topRows(position_count).transpose())) ||
+      !(positions.reciprocal_condition() > independence_tolerance))
     {
       return false;
     }
   }
   for (std::size_t i = 0; i < given.size(); ++i)
   {
-    a(asked + static_cast<Index>(i), given[i]) = 1.0;
+    a(position_count + static_cast<Index>(i), given[i]) = 1.0;
   }
 
   // G = A E, and E is upper triangular.
@@ -233,23 +237,23 @@ bool ReducedBasis::make_quickly(const ReducedSpace& space, const Eigen::MatrixXd
   for (Index first = 0; first < unknowns; first += triangle_columns)
   {
     const Index columns = std::min(triangle_columns, unknowns - first), last = first + columns;
-    add_dense_product(a.leftCols(last), whole.directions.block(0, first, last, columns),
+    add_dense_product(a.leftCols(last), factorization.directions.block(0, first, last, columns),
       g.middleCols(first, columns));
   }
-  const bool shifts = whole.shift.size() > 0;
+  const bool shifts = factorization.shift.size() > 0;
   if (shifts)
   {
-    this->mirror_ = a * whole.shift;
-    const double length = this->mirror_.norm();
-    if (count == 0 || !(length > beyond_doubt * a.norm()))
+    this->householder_ = a * factorization.shift;
+    const double length = this->householder_.norm();
+    if (count == 0 || !(length > independence_tolerance * a.norm()))
     {
       return false;
     }
-    this->rho_ = this->mirror_[0] < 0.0 ? length : -length;
-    this->mirror_[0] -= this->rho_;
-    this->mirror_ *= std::sqrt(2.0) / this->mirror_.norm();
-    g -= this->mirror_ * (this->mirror_.transpose() * g).eval();
-    this->lever_ = g.row(0);
+    this->rho_ = this->householder_[0] < 0.0 ? length : -length;
+    this->householder_[0] -= this->rho_;
+    this->householder_ *= std::sqrt(2.0) / this->householder_.norm();
+    g -= this->householder_ * (this->householder_.transpose() * g).eval();
+    this->shift_coupling_ = g.row(0);
   }
   const Index rank = count - (shifts ? 1 : 0);
   const Eigen::HouseholderQR<Eigen::MatrixXd> qr(g.bottomRows(rank).transpose());
@@ -257,15 +261,15 @@ bool ReducedBasis::make_quickly(const ReducedSpace& space, const Eigen::MatrixXd
   this->inverse_ = Eigen::MatrixXd::Identity(rank, rank);
   r.transpose().triangularView<Eigen::Lower>().solveInPlace(this->inverse_);
   if (rank > 0 &&
-    !(beyond_doubt * norm_of_rows(r.transpose()) * norm_of_rows(this->inverse_) < 1.0))
+    !(independence_tolerance * norm_of_rows(r.transpose()) * norm_of_rows(this->inverse_) < 1.0))
   {
     return false;
   }
   this->reflections_ = Reflections(qr.matrixQR(), qr.hCoeffs(), rank);
 
-  this->quick_ = true;
+  this->is_fast_ = true;
   this->coordinates_ = unknowns - rank;
-  this->open_ = open;
+  this->free_dofs_ = free_dofs;
   this->constraints_ = count;
   this->redundant_.clear();
   this->particular_.resize(0, 0);
@@ -273,32 +277,33 @@ bool ReducedBasis::make_quickly(const ReducedSpace& space, const Eigen::MatrixXd
   return true;
 }
 
-void ReducedBasis::make_sturdily(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
-  const std::vector<Index>& open, const Eigen::MatrixXd& held)
+void ReducedBasis::make_robust(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
+  const std::vector<Index>& free_dofs, const Eigen::MatrixXd& position_rows)
 {
-  this->quick_ = false;
-  this->open_ = open;
+  this->is_fast_ = false;
+  this->free_dofs_ = free_dofs;
   this->redundant_.clear();
   // Unknowns are scaled so that each column of M has root mean square one. An empty column has
   // scale 0.
-  const auto size = static_cast<Index>(open.size()), asked = held.rows();
-  const Eigen::VectorXd scale = space.basis_scale(open);
-  Eigen::MatrixXd reduced = scale.asDiagonal() * stiffness(open, open) * scale.asDiagonal();
-  Eigen::MatrixXd covariance = space.covariance(Eigen::all, open) * scale.asDiagonal();
+  const auto size = static_cast<Index>(free_dofs.size()), position_count = position_rows.rows();
+  const Eigen::VectorXd scale = space.basis_scale(free_dofs);
+  Eigen::MatrixXd reduced =
+    scale.asDiagonal() * stiffness(free_dofs, free_dofs) * scale.asDiagonal();
+  Eigen::MatrixXd covariance = space.covariance(Eigen::all, free_dofs) * scale.asDiagonal();
 
   // The displacements that move the constrained positions by b are D = `particular_` b + Z y, with
   // `rows` Z = 0. The columns of Z (`free_space`) are the last columns of the orthogonal factor.
-  this->particular_ = Eigen::MatrixXd::Zero(size, asked);
+  this->particular_ = Eigen::MatrixXd::Zero(size, position_count);
   Eigen::MatrixXd free_space;
   Index rank = 0;
-  if (asked > 0 && size > 0)
+  if (position_count > 0 && size > 0)
   {
-    const Eigen::MatrixXd rows = held(Eigen::all, open) * scale.asDiagonal();
-    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(size, asked);
+    const Eigen::MatrixXd rows = position_rows(Eigen::all, free_dofs) * scale.asDiagonal();
+    Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(size, position_count);
     qr.setThreshold(position_rank);
     qr.compute(rows.transpose());
     rank = qr.rank();
-    for (Index r = rank; r < asked; ++r)
+    for (Index r = rank; r < position_count; ++r)
     {
       this->redundant_.push_back(qr.colsPermutation().indices()[r]);
     }
@@ -307,8 +312,8 @@ void ReducedBasis::make_sturdily(const ReducedSpace& space, const Eigen::MatrixX
       Eigen::MatrixXd range = Eigen::MatrixXd::Identity(size, rank);
       range.applyOnTheLeft(qr.householderQ());
       const Eigen::MatrixXd met = rows * range; // of full column rank
-      this->particular_ =
-        range * met.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(asked, asked));
+      this->particular_ = range *
+        met.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(position_count, position_count));
       const Reflections reflections(qr.matrixQR(), qr.hCoeffs(), rank);
       free_space = reflections.tail();
       covariance = reflections.times_tail(covariance);
@@ -336,9 +341,9 @@ void ReducedBasis::make_sturdily(const ReducedSpace& space, const Eigen::MatrixX
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(reduced);
       const double largest = std::max(eigen.eigenvalues().maxCoeff(), 0.0);
       // Eigenvalues are in ascending order, so directions with energy are the last ones.
-      const Index seen = (eigen.eigenvalues().array() > energy_rank * largest).count();
-      const Eigen::MatrixXd directions = eigen.eigenvectors().rightCols(seen) *
-        eigen.eigenvalues().tail(seen).cwiseSqrt().cwiseInverse().asDiagonal();
+      const Index mode_count = (eigen.eigenvalues().array() > energy_rank * largest).count();
+      const Eigen::MatrixXd directions = eigen.eigenvectors().rightCols(mode_count) *
+        eigen.eigenvalues().tail(mode_count).cwiseSqrt().cwiseInverse().asDiagonal();
       this->basis_ = dense_product(free_space, directions);
       covariance = dense_product(covariance, directions);
     }
@@ -349,11 +354,11 @@ void ReducedBasis::make_sturdily(const ReducedSpace& space, const Eigen::MatrixX
   this->coordinates_ = this->basis_.cols();
 }
 
-void ReducedBasis::take_covariance(Eigen::Ref<Eigen::MatrixXd> covariance)
+void ReducedBasis::extract_covariance(Eigen::Ref<Eigen::MatrixXd> covariance)
 {
-  if (this->quick_)
+  if (this->is_fast_)
   {
-    this->reflections_.times_tail(this->whole_.covariance, covariance);
+    this->reflections_.times_tail(this->factorization_.covariance, covariance);
   }
   else
   {
@@ -362,103 +367,106 @@ void ReducedBasis::take_covariance(Eigen::Ref<Eigen::MatrixXd> covariance)
   }
 }
 
-void ReducedBasis::add_open(const Coordinates& change, Coordinates& d) const
+void ReducedBasis::add_free(const Coordinates& change, Coordinates& d) const
 {
   for (Index r = 0; r < change.rows(); ++r)
   {
-    d.row(this->open_[static_cast<std::size_t>(r)]) += change.row(r);
+    d.row(this->free_dofs_[static_cast<std::size_t>(r)]) += change.row(r);
   }
 }
 
 ReducedBasis::UnrotatedMinimizer ReducedBasis::robust_unrotated_minimizer(const ReducedSpace& space,
   const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given,
-  const Coordinates& missing) const
+  const Coordinates& position_residual) const
 {
   // First compute a displacement that contains the given blocks and satisfies the constrained
   // positions. Then add the response to its force and to the load: the combination of columns of B
   // that minimizes the energy.
   UnrotatedMinimizer result;
   result.given = given;
-  Coordinates& star = result.given;
-  this->add_open(thin_product(this->particular_, missing), star);
-  const Coordinates bent = thin_product(stiffness, star);
-  const Coordinates force = bent - load;
-  const Coordinates answer = transposed_thin_product(this->basis_, force(this->open_, Eigen::all));
+  Coordinates& minimizer = result.given;
+  this->add_free(thin_product(this->particular_, position_residual), minimizer);
+  const Coordinates elastic_force = thin_product(stiffness, minimizer);
+  const Coordinates force = elastic_force - load;
+  const Coordinates answer =
+    transposed_thin_product(this->basis_, force(this->free_dofs_, Eigen::all));
   // The response lowers the energy by half the squared norm of its coordinates `answer`, because
   // B^T H B = I.
-  result.energy = 0.5 * (star.array() * bent.array()).sum() - (star.array() * load.array()).sum() -
-    0.5 * answer.squaredNorm();
-  this->add_open(-thin_product(this->basis_, answer), star);
-  result.covariance = thin_product(space.covariance, star);
+  result.energy = 0.5 * (minimizer.array() * elastic_force.array()).sum() -
+    (minimizer.array() * load.array()).sum() - 0.5 * answer.squaredNorm();
+  this->add_free(-thin_product(this->basis_, answer), minimizer);
+  result.covariance = thin_product(space.covariance, minimizer);
   return result;
 }
 
 Eigen::RowVector3d ReducedBasis::shift_of(
   const Coordinates& z, const Eigen::RowVector3d& first) const
 {
-  return (first - this->lever_.transpose() * z) / this->rho_;
+  return (first - this->shift_coupling_.transpose() * z) / this->rho_;
 }
 
 ReducedBasis::UnrotatedMinimizer ReducedBasis::unrotated_minimizer(const ReducedSpace& space,
   const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given,
-  const Coordinates& missing) const
+  const Coordinates& position_residual) const
 {
-  if (!this->quick_)
+  if (!this->is_fast_)
   {
-    return this->robust_unrotated_minimizer(space, stiffness, load, given, missing);
+    return this->robust_unrotated_minimizer(space, stiffness, load, given, position_residual);
   }
   // z is Q times a vector with two parts. The first part satisfies the constraints; the second part
   // is the response to the given blocks and the load. The first part is orthogonal to the
   // directions of B, so it causes no response.
-  const Whole& whole = this->whole_;
-  const Index unknowns = whole.directions.rows(), rank = this->reflections_.rank();
+  const FullFactorization& factorization = this->factorization_;
+  const Index unknowns = factorization.directions.rows(), rank = this->reflections_.rank();
   const bool shifts = rank < this->constraints_;
   UnrotatedMinimizer result;
   result.given = given;
-  Coordinates wanted = Coordinates::Zero(this->constraints_, 3);
-  wanted.topRows(missing.rows()) = missing;
+  Coordinates right_side = Coordinates::Zero(this->constraints_, 3);
+  right_side.topRows(position_residual.rows()) = position_residual;
   if (shifts)
   {
-    wanted -= this->mirror_ * (this->mirror_.transpose() * wanted).eval();
-    result.first = wanted.row(0);
+    right_side -= this->householder_ * (this->householder_.transpose() * right_side).eval();
+    result.first = right_side.row(0);
   }
   result.z = Coordinates::Zero(unknowns, 3);
-  result.z.topRows(rank) = thin_product(this->inverse_, wanted.bottomRows(rank));
+  result.z.topRows(rank) = thin_product(this->inverse_, right_side.bottomRows(rank));
 
   const bool is_given = !given.isZero(0.0);
   if (!is_given && load.isZero(0.0))
   {
-    result.z = this->reflections_.turned(result.z);
+    result.z = this->reflections_.reflect(result.z);
     result.energy = 0.5 * result.z.squaredNorm();
-    result.covariance = thin_product(whole.covariance, result.z);
+    result.covariance = thin_product(factorization.covariance, result.z);
     return result;
   }
-  const Coordinates bent = thin_product(stiffness, given);
-  Coordinates force = Coordinates::Zero(static_cast<Index>(whole.rows.size()), 3);
-  for (const Index q : this->reached_)
+  const Coordinates elastic_force = thin_product(stiffness, given);
+  Coordinates force = Coordinates::Zero(static_cast<Index>(factorization.rows.size()), 3);
+  for (const Index q : this->free_indices_)
   {
-    const Index row = whole.rows[static_cast<std::size_t>(q)];
-    force.row(q) = whole.scale[q] * (bent.row(row) - load.row(row));
+    const Index row = factorization.rows[static_cast<std::size_t>(q)];
+    force.row(q) = factorization.scale[q] * (elastic_force.row(row) - load.row(row));
   }
-  const Coordinates pull = transposed_thin_product(whole.directions, force.topRows(unknowns));
-  Coordinates open_pull = pull;
-  Eigen::RowVector3d shift_pull = Eigen::RowVector3d::Zero();
+  const Coordinates gradient =
+    transposed_thin_product(factorization.directions, force.topRows(unknowns));
+  Coordinates free_gradient = gradient;
+  Eigen::RowVector3d shift_gradient = Eigen::RowVector3d::Zero();
   if (shifts)
   {
-    shift_pull = whole.shift.transpose() * force;
-    open_pull -= this->lever_ * (shift_pull / this->rho_);
+    shift_gradient = factorization.shift.transpose() * force;
+    free_gradient -= this->shift_coupling_ * (shift_gradient / this->rho_);
   }
-  const Index open = unknowns - rank;
-  result.z.bottomRows(open) = -this->reflections_.turned_back(open_pull).bottomRows(open);
-  result.z = this->reflections_.turned(result.z);
-  result.energy = 0.5 * (given.array() * bent.array()).sum() -
-    (given.array() * load.array()).sum() + (pull.array() * result.z.array()).sum() +
+  const Index free_dofs = unknowns - rank;
+  result.z.bottomRows(free_dofs) =
+    -this->reflections_.reflect_transposed(free_gradient).bottomRows(free_dofs);
+  result.z = this->reflections_.reflect(result.z);
+  result.energy = 0.5 * (given.array() * elastic_force.array()).sum() -
+    (given.array() * load.array()).sum() + (gradient.array() * result.z.array()).sum() +
     0.5 * result.z.squaredNorm();
   if (shifts)
   {
-    result.energy += shift_pull.dot(this->shift_of(result.z, result.first));
+    result.energy += shift_gradient.dot(this->shift_of(result.z, result.first));
   }
-  result.covariance = thin_product(whole.covariance, result.z);
+  result.covariance = thin_product(factorization.covariance, result.z);
   if (is_given)
   {
     result.covariance += thin_product(space.covariance, given);
@@ -469,24 +477,25 @@ ReducedBasis::UnrotatedMinimizer ReducedBasis::unrotated_minimizer(const Reduced
 Coordinates ReducedBasis::displacement(const UnrotatedMinimizer& from, const Coordinates& y) const
 {
   Coordinates d = from.given;
-  if (!this->quick_)
+  if (!this->is_fast_)
   {
-    this->add_open(thin_product(this->basis_, y), d);
+    this->add_free(thin_product(this->basis_, y), d);
     return d;
   }
-  const Whole& whole = this->whole_;
-  Coordinates z = Coordinates::Zero(whole.directions.rows(), 3);
+  const FullFactorization& factorization = this->factorization_;
+  Coordinates z = Coordinates::Zero(factorization.directions.rows(), 3);
   z.bottomRows(y.rows()) = y;
-  z = from.z + this->reflections_.turned(z);
-  Coordinates in_units = Coordinates::Zero(static_cast<Index>(whole.rows.size()), 3);
-  in_units.topRows(z.rows()) = thin_product(whole.directions, z);
-  if (whole.shift.size() > 0)
+  z = from.z + this->reflections_.reflect(z);
+  Coordinates in_units = Coordinates::Zero(static_cast<Index>(factorization.rows.size()), 3);
+  in_units.topRows(z.rows()) = thin_product(factorization.directions, z);
+  if (factorization.shift.size() > 0)
   {
-    in_units += whole.shift * this->shift_of(z, from.first);
+    in_units += factorization.shift * this->shift_of(z, from.first);
   }
-  for (const Index q : this->reached_)
+  for (const Index q : this->free_indices_)
   {
-    d.row(whole.rows[static_cast<std::size_t>(q)]) += whole.scale[q] * in_units.row(q);
+    d.row(factorization.rows[static_cast<std::size_t>(q)]) +=
+      factorization.scale[q] * in_units.row(q);
   }
   return d;
 }

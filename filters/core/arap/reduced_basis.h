@@ -32,8 +32,8 @@ public:
   /// Return the matrix Z.
   Eigen::MatrixXd tail() const;
   /// Return Q X. The next function returns Q^T X.
-  Coordinates turned(const Coordinates& x) const;
-  Coordinates turned_back(const Coordinates& x) const;
+  Coordinates reflect(const Coordinates& x) const;
+  Coordinates reflect_transposed(const Coordinates& x) const;
 
 private:
   Eigen::MatrixXd v_, t_;
@@ -45,9 +45,9 @@ private:
 /// to their targets. The columns of B span the displacements that change neither the given blocks
 /// nor the constrained positions. They are orthonormal in the stiffness H (B^T H B = I).
 ///
-/// There are two methods. The robust method (make_sturdily) determines the ranks for any input and
+/// There are two methods. The robust method (make_robust) determines the ranks for any input and
 /// factors the part of H for the open rows, which no full handle prescribes: O(#open^3). The quick
-/// method (make_quickly) factors the whole matrix H once. After each choice of modes it only
+/// method (make_fast) factors the whole matrix H once. After each choice of modes it only
 /// applies reflections to that factor: O((#columns + #clusters) #columns #constraints). The quick
 /// method requires that all ranks are numerically certain; otherwise it returns false.
 class ReducedBasis
@@ -55,18 +55,18 @@ class ReducedBasis
 public:
   /// Compute B by the quick method, or by the robust method if the quick method returns false.
   /// @param stiffness H; it must be the same matrix in every call.
-  /// @param open indices of the rows of D that no full handle prescribes, ascending.
-  /// @param held matrix that maps D to the displacements of the constrained positions: #positions x
-  /// #rows of D.
+  /// @param free_dofs indices of the rows of D that no full handle prescribes, ascending.
+  /// @param position_rows matrix that maps D to the displacements of the constrained positions:
+  /// #positions x #rows of D.
   void make(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
-    const std::vector<Index>& open, const Eigen::MatrixXd& held);
+    const std::vector<Index>& free_dofs, const Eigen::MatrixXd& position_rows);
 
-  /// Compute B by the robust or by the quick method. make_quickly returns false if a rank is not
+  /// Compute B by the robust or by the quick method. make_fast returns false if a rank is not
   /// certain or if the robust method would be faster.
-  bool make_quickly(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
-    const std::vector<Index>& open, const Eigen::MatrixXd& held);
-  void make_sturdily(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
-    const std::vector<Index>& open, const Eigen::MatrixXd& held);
+  bool make_fast(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
+    const std::vector<Index>& free_dofs, const Eigen::MatrixXd& position_rows);
+  void make_robust(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
+    const std::vector<Index>& free_dofs, const Eigen::MatrixXd& position_rows);
 
   /// Return the indices of constrained positions that depend linearly on other positions.
   const std::vector<Index>& redundant() const { return this->redundant_; }
@@ -74,7 +74,7 @@ public:
   /// Return the number of columns of B.
   Index coordinates() const { return this->coordinates_; }
   /// Move the covariance C = K B to `covariance`. Call this once after make().
-  void take_covariance(Eigen::Ref<Eigen::MatrixXd> covariance);
+  void extract_covariance(Eigen::Ref<Eigen::MatrixXd> covariance);
 
   /// D* for one pose: the minimizer of 1/2 <D, H D> - <P, D> among all D that contain the given
   /// blocks and satisfy the constrained positions in the least-squares sense.
@@ -89,11 +89,11 @@ public:
   /// Compute D* for one pose.
   /// @param load P
   /// @param given contains the given blocks of D; 0 in all other rows.
-  /// @param missing differences between the targets of the constrained positions and those of
-  /// `given`.
+  /// @param position_residual differences between the targets of the constrained positions and
+  /// those of `given`.
   UnrotatedMinimizer unrotated_minimizer(const ReducedSpace& space,
     const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given,
-    const Coordinates& missing) const;
+    const Coordinates& position_residual) const;
   /// Return D* + B Y.
   Coordinates displacement(const UnrotatedMinimizer& from, const Coordinates& y) const;
 
@@ -101,7 +101,7 @@ private:
   /// Factorization H = L L^T for the unknowns that affect the energy, scaled so that each column of
   /// M has root mean square one. If a translation u of the whole shape has no energy, one unknown
   /// is omitted, and D = u t + E z.
-  struct Whole
+  struct FullFactorization
   {
     bool tried = false, good = false;
     std::vector<Index> rows; ///< indices of rows of D; if u is not empty, H omits the last one
@@ -111,35 +111,35 @@ private:
     Eigen::MatrixXd directions; ///< E = L^-T
     Eigen::MatrixXd covariance; ///< covariances K E
   };
-  void factor_whole(const ReducedSpace& space, const Eigen::MatrixXd& stiffness);
+  void factor_full_matrix(const ReducedSpace& space, const Eigen::MatrixXd& stiffness);
   UnrotatedMinimizer robust_unrotated_minimizer(const ReducedSpace& space,
     const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given,
-    const Coordinates& missing) const;
+    const Coordinates& position_residual) const;
   /// Return the translation t for z and the target of the first constraint.
   Eigen::RowVector3d shift_of(const Coordinates& z, const Eigen::RowVector3d& first) const;
   /// Add `change` to the rows of d that no full handle prescribes.
-  void add_open(const Coordinates& change, Coordinates& d) const;
+  void add_free(const Coordinates& change, Coordinates& d) const;
 
-  std::vector<Index> open_;
+  std::vector<Index> free_dofs_;
   std::vector<Index> redundant_;
   Index coordinates_ = 0;
-  bool quick_ = false;
+  bool is_fast_ = false;
 
   // ---- robust method
   /// Open x positions: maps differences of positions to the smallest change that corrects them.
   Eigen::MatrixXd particular_;
   Eigen::MatrixXd basis_; ///< B, open x coordinates
-  Eigen::MatrixXd covariance_; ///< covariance C = K B; empty after take_covariance()
+  Eigen::MatrixXd covariance_; ///< covariance C = K B; empty after extract_covariance()
 
   // ---- quick method. The constraints are A D = g, positions first. A reflection of the
   // constraints removes the translation t from all constraints except the first one. Then the first
   // constraint is rho t + lever z = g_0. The others are R^T (Q^T z) = h, where h contains the g_i
   // with i > 0.
-  Whole whole_;
-  std::vector<Index> reached_; ///< indices of the open unknowns in whole_.rows
+  FullFactorization factorization_;
+  std::vector<Index> free_indices_; ///< indices of the open unknowns in whole_.rows
   Index constraints_ = 0;
-  Eigen::VectorXd mirror_; ///< the reflection of the constraints is I - mirror mirror^T
-  Eigen::VectorXd lever_;
+  Eigen::VectorXd householder_; ///< the reflection of the constraints is I - mirror mirror^T
+  Eigen::VectorXd shift_coupling_;
   double rho_ = 1.0;
   Reflections reflections_; ///< orthogonal factor Q of the constraints
   Eigen::MatrixXd inverse_; ///< inverse transpose of the constraints' triangular factor, R^-T

@@ -83,20 +83,20 @@ Status ReducedDynamics::bind(ExecutionContext& context, PointsView points, TetsV
 Status ReducedDynamics::start(
   ExecutionContext& context, const Pose& pose, const ReducedSolveOptions& options)
 {
-  const Rows no_load = Rows::Zero(4 * this->space_.columns, 3);
-  ReducedSolver still;
+  const Rows zero_load = Rows::Zero(4 * this->space_.columns, 3);
+  ReducedSolver solver;
   ReducedSolveOptions from_guess = options;
   from_guess.start = ReducedStart::guess;
   Rows d;
   Status status =
-    still.solve(context, this->space_, { this->space_.stiffness, no_load }, pose, from_guess, d);
+    solver.solve(context, this->space_, { this->space_.stiffness, zero_load }, pose, from_guess, d);
   if (status.usable())
   {
     this->state_.time = 0.0;
     this->state_.steps = 0;
     this->state_.displacement = d;
-    this->state_.velocity = no_load;
-    this->state_.rotations = still.rotations();
+    this->state_.velocity = zero_load;
+    this->state_.rotations = solver.rotations();
     this->state_.transforms = this->space_.transforms_of(d, pose);
   }
   return status;

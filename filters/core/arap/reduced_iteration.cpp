@@ -34,7 +34,7 @@ constexpr double energy_noise = sizeof(Scalar) == 4 ? 2e-7 : 0.0;
 /// Largest sum of absolute coefficients (Anderson::reach()) for which the extrapolated S is
 /// accurate enough.
 template <typename Scalar>
-constexpr double farthest_reach = sizeof(Scalar) == 4 ? 3.0 : 1e4;
+constexpr double maximum_coefficient_sum = sizeof(Scalar) == 4 ? 3.0 : 1e4;
 
 constexpr Index columns_at_once = 4;
 
@@ -72,7 +72,7 @@ BINDPOSE_ALWAYS_INLINE void dot_columns(
     for (Index j = 0; j < 3; ++j)
     {
       const Scalar* const sum = reinterpret_cast<const Scalar*>(sums[c][j]);
-      y[j * length + c] = sum_of(pack_at(sum) + pack_at(sum + tile_rows<Scalar> / 2));
+      y[j * length + c] = sum_lanes(pack_at(sum) + pack_at(sum + tile_rows<Scalar> / 2));
     }
   }
 }
@@ -80,10 +80,10 @@ BINDPOSE_ALWAYS_INLINE void dot_columns(
 /// Compute Y = C^T Q and S = S* + C Y.
 template <int bytes, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void multiply_both(Index rows, Index columns, const Scalar* covariance,
-  const Scalar* q, const Scalar* star, Scalar* y, Index length, Scalar* s)
+  const Scalar* q, const Scalar* unrotated_covariance, Scalar* y, Index length, Scalar* s)
 {
   constexpr Index count = bytes / 16; // the sums need twelve registers
-  std::copy_n(star, 3 * rows, s);
+  std::copy_n(unrotated_covariance, 3 * rows, s);
   for (Index c = 0; c < columns; c += columns_at_once)
   {
     const Scalar* const a = covariance + c * rows;
@@ -98,25 +98,25 @@ BINDPOSE_ALWAYS_INLINE void multiply_both(Index rows, Index columns, const Scala
 /// Compute S = S* + C Y.
 template <int bytes, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void multiply_once(Index rows, Index columns, const Scalar* covariance,
-  const Scalar* star, const Scalar* y, Index length, Scalar* s)
+  const Scalar* unrotated_covariance, const Scalar* y, Index length, Scalar* s)
 {
-  std::copy_n(star, 3 * rows, s);
+  std::copy_n(unrotated_covariance, 3 * rows, s);
   for (Index c = 0; c < columns; c += columns_at_once)
   {
     add_columns<columns_at_once, bytes>(rows, covariance + c * rows, y + c, length, s);
   }
 }
 
-#define BINDPOSE_PRODUCTS(version, bytes, Scalar)                                               \
-  version void products(Index rows, Index columns, const Scalar* covariance, const Scalar* q,   \
-    const Scalar* star, Scalar* y, Index length, Scalar* s)                                     \
-  {                                                                                             \
-    multiply_both<bytes>(rows, columns, covariance, q, star, y, length, s);                     \
-  }                                                                                             \
-  version void product(Index rows, Index columns, const Scalar* covariance, const Scalar* star, \
-    const Scalar* y, Index length, Scalar* s)                                                   \
-  {                                                                                             \
-    multiply_once<bytes>(rows, columns, covariance, star, y, length, s);                        \
+#define BINDPOSE_PRODUCTS(version, bytes, Scalar)                                             \
+  version void products(Index rows, Index columns, const Scalar* covariance, const Scalar* q, \
+    const Scalar* unrotated_covariance, Scalar* y, Index length, Scalar* s)                   \
+  {                                                                                           \
+    multiply_both<bytes>(rows, columns, covariance, q, unrotated_covariance, y, length, s);   \
+  }                                                                                           \
+  version void product(Index rows, Index columns, const Scalar* covariance,                   \
+    const Scalar* unrotated_covariance, const Scalar* y, Index length, Scalar* s)             \
+  {                                                                                           \
+    multiply_once<bytes>(rows, columns, covariance, unrotated_covariance, y, length, s);      \
   }
 BINDPOSE_SIMD_WIDTHS(BINDPOSE_PRODUCTS, float)
 BINDPOSE_SIMD_WIDTHS(BINDPOSE_PRODUCTS, double)
@@ -149,9 +149,9 @@ void ReducedIteration<Scalar>::set_size(Index clusters, Index columns)
   std::fill(this->covariance_.begin() + static_cast<std::ptrdiff_t>(this->rows_ * columns),
     this->covariance_.end(), Scalar(0));
   const auto size = static_cast<std::size_t>(3 * this->rows_);
-  this->star_.assign(size, Scalar(0));
-  this->turns_.assign(size, Scalar(0));
-  this->plain_.assign(size + static_cast<std::size_t>(3 * this->length_), Scalar(0));
+  this->unrotated_covariance_.assign(size, Scalar(0));
+  this->rotation_deltas_.assign(size, Scalar(0));
+  this->iterate_.assign(size + static_cast<std::size_t>(3 * this->length_), Scalar(0));
 }
 
 template <typename Scalar>
@@ -182,13 +182,15 @@ void ReducedIteration<Scalar>::set_matrix(const ReducedIteration<Other>& from, d
 }
 
 template <typename Scalar>
-void ReducedIteration<Scalar>::set_star(Index stride, const std::vector<double>& star)
+void ReducedIteration<Scalar>::set_unrotated_covariance(
+  Index stride, const std::vector<double>& unrotated_covariance)
 {
   const double scale = 1.0 / (this->unit_ * this->unit_);
   for (Index e = 0; e < 9; ++e)
   {
-    const double* const from = star.data() + e * stride;
-    Scalar* const to = this->star_.data() + e % 3 * this->rows_ + e / 3 * this->clusters_;
+    const double* const from = unrotated_covariance.data() + e * stride;
+    Scalar* const to =
+      this->unrotated_covariance_.data() + e % 3 * this->rows_ + e / 3 * this->clusters_;
     for (Index k = 0; k < this->clusters_; ++k)
     {
       to[k] = static_cast<Scalar>(scale * from[k]);
@@ -197,15 +199,16 @@ void ReducedIteration<Scalar>::set_star(Index stride, const std::vector<double>&
 }
 
 template <typename Scalar>
-void ReducedIteration<Scalar>::begin(
-  Index stride, const std::vector<double>& star, const std::vector<double>& rotations)
+void ReducedIteration<Scalar>::begin(Index stride, const std::vector<double>& unrotated_covariance,
+  const std::vector<double>& rotations)
 {
-  this->set_star(stride, star);
+  this->set_unrotated_covariance(stride, unrotated_covariance);
   for (Index e = 0; e < 9; ++e)
   {
     const double rest = e % 4 == 0 ? 1.0 : 0.0;
     const double* const from = rotations.data() + e * stride;
-    Scalar* const to = this->turns_.data() + e / 3 * this->rows_ + e % 3 * this->clusters_;
+    Scalar* const to =
+      this->rotation_deltas_.data() + e / 3 * this->rows_ + e % 3 * this->clusters_;
     for (Index k = 0; k < this->clusters_; ++k)
     {
       to[k] = static_cast<Scalar>(from[k] - rest);
@@ -216,19 +219,19 @@ void ReducedIteration<Scalar>::begin(
 
 template <typename Scalar>
 template <typename Other>
-void ReducedIteration<Scalar>::go_on(const ReducedIteration<Other>& from)
+void ReducedIteration<Scalar>::continue_from(const ReducedIteration<Other>& from)
 {
   const double y_unit = from.unit_ / this->unit_, s_unit = y_unit * y_unit;
   for (Index j = 0; j < 3; ++j)
   {
-    const Other* const y = from.plain_.data() + j * from.length_;
+    const Other* const y = from.iterate_.data() + j * from.length_;
     for (Index c = 0; c < this->columns_; ++c)
     {
-      this->plain_[static_cast<std::size_t>(j * this->length_ + c)] =
+      this->iterate_[static_cast<std::size_t>(j * this->length_ + c)] =
         static_cast<Scalar>(y_unit * y[c]);
     }
-    const Other* const s = from.plain_.data() + 3 * from.length_ + j * from.rows_;
-    Scalar* const to = this->plain_.data() + 3 * this->length_ + j * this->rows_;
+    const Other* const s = from.iterate_.data() + 3 * from.length_ + j * from.rows_;
+    Scalar* const to = this->iterate_.data() + 3 * this->length_ + j * this->rows_;
     for (Index k = 0; k < 3 * this->clusters_; ++k)
     {
       to[k] = static_cast<Scalar>(s_unit * s[k]);
@@ -241,33 +244,36 @@ template <typename Scalar>
 double ReducedIteration<Scalar>::local_step(AlignedVector<Scalar>& iterate)
 {
   const Scalar* const s = iterate.data() + 3 * this->length_;
-  fit_turns(this->clusters_, MatrixPlanes<const Scalar>{ s, this->clusters_, this->rows_ },
-    MatrixPlanes<Scalar>{ this->turns_.data(), this->rows_, this->clusters_ });
+  fit_rotation_deltas(this->clusters_,
+    MatrixPlanes<const Scalar>{ s, this->clusters_, this->rows_ },
+    MatrixPlanes<Scalar>{ this->rotation_deltas_.data(), this->rows_, this->clusters_ });
   return 0.5 * packed_dot(3 * this->length_, iterate.data(), iterate.data()) -
-    packed_dot(3 * this->rows_, this->turns_.data(), s);
+    packed_dot(3 * this->rows_, this->rotation_deltas_.data(), s);
 }
 
 template <typename Scalar>
 double ReducedIteration<Scalar>::global_step(AlignedVector<Scalar>& iterate)
 {
-  products(this->rows_, this->columns_, this->covariance_.data(), this->turns_.data(),
-    this->star_.data(), iterate.data(), this->length_, iterate.data() + 3 * this->length_);
+  products(this->rows_, this->columns_, this->covariance_.data(), this->rotation_deltas_.data(),
+    this->unrotated_covariance_.data(), iterate.data(), this->length_,
+    iterate.data() + 3 * this->length_);
   const double half_square = 0.5 * packed_dot(3 * this->length_, iterate.data(), iterate.data());
-  const double gained = packed_dot(3 * this->rows_, this->turns_.data(), this->star_.data());
+  const double gained =
+    packed_dot(3 * this->rows_, this->rotation_deltas_.data(), this->unrotated_covariance_.data());
   this->magnitude_ = half_square + std::abs(gained);
   return -half_square - gained;
 }
 
 template <typename Scalar>
 bool ReducedIteration<Scalar>::run(ExecutionContext& context, const ReducedLimits& limits,
-  Index window, double star_energy, ReducedProgress& progress)
+  Index window, double unrotated_energy, ReducedProgress& progress)
 {
   const double unit = this->unit_ * this->unit_;
   std::vector<double>& energies = progress.energies;
   const std::size_t first = energies.size();
   if (!this->has_iterate_)
   {
-    energies.push_back(star_energy + unit * this->global_step(this->plain_));
+    energies.push_back(unrotated_energy + unit * this->global_step(this->iterate_));
   }
   // If there is only one iteration, the usual case in double precision, there is no previous
   // iterate for the extrapolation.
@@ -281,12 +287,13 @@ bool ReducedIteration<Scalar>::run(ExecutionContext& context, const ReducedLimit
   if (accelerates)
   {
     this->anderson_->forget();
-    this->tried_ = this->plain_;
+    this->trial_ = this->iterate_;
   }
-  bool can_see = true;
+  bool above_noise = true;
   Index iterations = 0;
   progress.converged = false;
-  while (iterations < limits.iterations && !progress.converged && progress.in_time && can_see)
+  while (iterations < limits.iterations && !progress.converged && progress.within_deadline &&
+    above_noise)
   {
     if (iterations % 64 == 63 && context.canceled())
     {
@@ -294,28 +301,29 @@ bool ReducedIteration<Scalar>::run(ExecutionContext& context, const ReducedLimit
       break;
     }
     bool accelerated = accelerates && iterations > 0 &&
-      this->anderson_->next(this->plain_.data(), this->tried_.data());
-    if (accelerated && this->anderson_->reach() > farthest_reach<Scalar>)
+      this->anderson_->next(this->iterate_.data(), this->trial_.data());
+    if (accelerated && this->anderson_->coefficient_sum() > maximum_coefficient_sum<Scalar>)
     {
-      product(this->rows_, this->columns_, this->covariance_.data(), this->star_.data(),
-        this->tried_.data(), this->length_, this->tried_.data() + 3 * this->length_);
+      product(this->rows_, this->columns_, this->covariance_.data(),
+        this->unrotated_covariance_.data(), this->trial_.data(), this->length_,
+        this->trial_.data() + 3 * this->length_);
     }
     const double energy_before = energies.back();
     const double noise = energy_noise<Scalar> * unit * this->magnitude_;
     double energy =
-      star_energy + unit * this->local_step(accelerated ? this->tried_ : this->plain_);
-    if (accelerated && !(energy <= energy_before + limits.same_energy))
+      unrotated_energy + unit * this->local_step(accelerated ? this->trial_ : this->iterate_);
+    if (accelerated && !(energy <= energy_before + limits.energy_tolerance))
     {
       this->anderson_->forget();
-      energy = star_energy + unit * this->local_step(this->plain_);
+      energy = unrotated_energy + unit * this->local_step(this->iterate_);
       accelerated = false;
     }
     energies.push_back(energy);
     if (!accelerated && accelerates)
     {
-      this->tried_ = this->plain_;
+      this->trial_ = this->iterate_;
     }
-    energy = star_energy + unit * this->global_step(this->plain_);
+    energy = unrotated_energy + unit * this->global_step(this->iterate_);
     energies.push_back(energy);
     ++iterations;
     if (!std::isfinite(energy))
@@ -327,13 +335,13 @@ bool ReducedIteration<Scalar>::run(ExecutionContext& context, const ReducedLimit
     if (iterations > 1 || !this->has_iterate_)
     {
       progress.change = energy_before - energy;
-      can_see = noise == 0.0 || progress.change > noise;
-      progress.converged = limits.tolerance > 0.0 && can_see &&
-        progress.change <= limits.tolerance * std::max(energy, limits.least_energy);
+      above_noise = noise == 0.0 || progress.change > noise;
+      progress.converged = limits.tolerance > 0.0 && above_noise &&
+        progress.change <= limits.tolerance * std::max(energy, limits.minimum_energy);
     }
     // Reading the clock takes as long as some rotation fits, so the clock is read only if there is
     // a deadline.
-    progress.in_time = limits.deadline == limits.deadline.max() ||
+    progress.within_deadline = limits.deadline == limits.deadline.max() ||
       std::chrono::steady_clock::now() < limits.deadline;
   }
   progress.iterations += iterations;
@@ -346,7 +354,8 @@ void ReducedIteration<Scalar>::rotations(Index stride, std::vector<double>& plan
   for (Index e = 0; e < 9; ++e)
   {
     const double rest = e % 4 == 0 ? 1.0 : 0.0;
-    const Scalar* const from = this->turns_.data() + e / 3 * this->rows_ + e % 3 * this->clusters_;
+    const Scalar* const from =
+      this->rotation_deltas_.data() + e / 3 * this->rows_ + e % 3 * this->clusters_;
     double* const to = planes.data() + e * stride;
     for (Index k = 0; k < this->clusters_; ++k)
     {
@@ -360,13 +369,13 @@ Coordinates ReducedIteration<Scalar>::coordinates() const
 {
   return this->unit_ *
     Eigen::Map<const Eigen::Matrix<Scalar, Eigen::Dynamic, 3>, 0, Eigen::OuterStride<>>(
-      this->plain_.data(), this->columns_, 3, Eigen::OuterStride<>(this->length_))
+      this->iterate_.data(), this->columns_, 3, Eigen::OuterStride<>(this->length_))
       .template cast<double>();
 }
 
 template class ReducedIteration<float>;
 template class ReducedIteration<double>;
 template void ReducedIteration<float>::set_matrix(const ReducedIteration<double>&, double);
-template void ReducedIteration<double>::go_on(const ReducedIteration<float>&);
+template void ReducedIteration<double>::continue_from(const ReducedIteration<float>&);
 
 } // namespace bindpose

@@ -22,8 +22,9 @@ struct ReducedLimits
 {
   /// The run ends if an iteration lowers the energy by at most this fraction of the energy.
   double tolerance = 0.0;
-  double least_energy = 0.0; ///< lower bound for the energy in the convergence test
-  double same_energy = 0.0; ///< energies whose difference is at most this are equal up to round-off
+  double minimum_energy = 0.0; ///< lower bound for the energy in the convergence test
+  double energy_tolerance =
+    0.0; ///< energies whose difference is at most this are equal up to round-off
   Index iterations = 0; ///< maximum number of iterations
   std::chrono::steady_clock::time_point deadline = std::chrono::steady_clock::time_point::max();
 };
@@ -35,7 +36,7 @@ struct ReducedProgress
   Index iterations = 0;
   double change = 0.0; ///< decrease of the energy in the last iteration
   bool converged = false;
-  bool in_time = true;
+  bool within_deadline = true;
   bool canceled = false;
 };
 
@@ -67,18 +68,19 @@ public:
 
   /// Set S* and the initial rotations. Matrices are stored in planes: entry (i, j) of matrix k is
   /// at (3 i + j) stride + k.
-  void begin(Index stride, const std::vector<double>& star, const std::vector<double>& rotations);
+  void begin(Index stride, const std::vector<double>& unrotated_covariance,
+    const std::vector<double>& rotations);
 
   /// Continue from the last iterate of another ReducedIteration object whose begin() had the same
   /// arguments. Call this after begin(). If the covariances do not determine a rotation, the
   /// rotation of begin() is kept.
   template <typename Other>
-  void go_on(const ReducedIteration<Other>& from);
+  void continue_from(const ReducedIteration<Other>& from);
 
-  /// Run the alternation. `star_energy` is added to all energies. Return false if a value is not
-  /// finite; in this case the list of energies is unchanged.
-  bool run(ExecutionContext& context, const ReducedLimits& limits, Index window, double star_energy,
-    ReducedProgress& progress);
+  /// Run the alternation. `unrotated_energy` is added to all energies. Return false if a value is
+  /// not finite; in this case the list of energies is unchanged.
+  bool run(ExecutionContext& context, const ReducedLimits& limits, Index window,
+    double unrotated_energy, ReducedProgress& progress);
 
   /// Write the last rotations, stored in planes as in begin().
   void rotations(Index stride, std::vector<double>& planes) const;
@@ -90,7 +92,7 @@ private:
   template <typename Other>
   friend class ReducedIteration;
   void set_size(Index clusters, Index columns);
-  void set_star(Index stride, const std::vector<double>& star);
+  void set_unrotated_covariance(Index stride, const std::vector<double>& unrotated_covariance);
   double local_step(AlignedVector<Scalar>& iterate);
   double global_step(AlignedVector<Scalar>& iterate);
 
@@ -101,10 +103,10 @@ private:
   Index length_ = 0; ///< padded length of a column of Y
   double unit_ = 1.0;
   AlignedVector<Scalar> covariance_; ///< C, with the columns in groups of four
-  AlignedVector<Scalar> star_; ///< covariances S* of D*
-  AlignedVector<Scalar> turns_; ///< rotations minus the identity, Q
+  AlignedVector<Scalar> unrotated_covariance_; ///< covariances S* of D*
+  AlignedVector<Scalar> rotation_deltas_; ///< rotations minus the identity, Q
   /// Plain and extrapolated iterate: three columns of Y, then S.
-  AlignedVector<Scalar> plain_, tried_;
+  AlignedVector<Scalar> iterate_, trial_;
   std::optional<Anderson<Scalar>> anderson_; ///< stored here to reuse its memory
   bool has_iterate_ = false; ///< false: the iteration starts from the rotations
   double magnitude_ = 0.0; ///< sum of the absolute values of the energy's terms

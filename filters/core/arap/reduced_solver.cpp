@@ -47,7 +47,7 @@ namespace
 using Rows = ReducedSpace::Rows;
 
 /// Energies whose difference is at most this fraction of the rest energy are equal up to round-off.
-constexpr double same_energy = 1e-15;
+constexpr double energy_tolerance = 1e-15;
 } // namespace
 
 void ReducedSolver::reset()
@@ -58,7 +58,7 @@ void ReducedSolver::reset()
 void ReducedSolver::set_rotations(std::vector<double> rotations)
 {
   this->rotations_ = std::move(rotations);
-  this->warm_ = true;
+  this->has_rotations_ = true;
 }
 
 void ReducedSolver::factor(
@@ -67,7 +67,7 @@ void ReducedSolver::factor(
   this->modes_ = modes_of(pose);
   this->positions_.clear();
   const auto handles = static_cast<Index>(pose.size());
-  std::vector<Index> open;
+  std::vector<Index> free_dofs;
   for (Index h = 0; h < handles; ++h)
   {
     const HandleMode mode = this->modes_[static_cast<std::size_t>(h)];
@@ -86,22 +86,22 @@ void ReducedSolver::factor(
     {
       for (Index a = 0; a < 4; ++a)
       {
-        open.push_back(4 * j + a);
+        free_dofs.push_back(4 * j + a);
       }
     }
   }
   this->position_rows_ = space.pivot_rows(this->positions_, Eigen::all);
-  this->basis_.make(space, stiffness, open, this->position_rows_);
+  this->basis_.make(space, stiffness, free_dofs, this->position_rows_);
   this->redundant_.clear();
   for (const Index r : this->basis_.redundant())
   {
     this->redundant_.push_back(this->positions_[static_cast<std::size_t>(r)] % handles);
   }
-  this->basis_.take_covariance(
+  this->basis_.extract_covariance(
     this->iteration_.matrix(space.groups.count, this->basis_.coordinates()));
   const double unit = std::sqrt(space.rest_energy);
-  this->has_single_ = std::isnormal(unit);
-  if (this->has_single_)
+  this->has_single_precision_ = std::isnormal(unit);
+  if (this->has_single_precision_)
   {
     this->single_iteration_.set_matrix(this->iteration_, unit);
   }
@@ -113,8 +113,8 @@ void ReducedSolver::factor(
 /// full handles.
 void ReducedSolver::start_rotations(const ReducedSpace& space, const Pose& pose)
 {
-  const double reach = 0.3 * space.radius; // size of the frame that represents a full handle
-  const Eigen::Matrix3d common = pivot_rotation(space.handles, pose, reach);
+  const double pivot_radius = 0.3 * space.radius; // size of the frame that represents a full handle
+  const Eigen::Matrix3d common = pivot_rotation(space.handles, pose, pivot_radius);
   for (Index k = 0; k < space.groups.count; ++k)
   {
     Eigen::Matrix3d blend = 1e-9 * common;
@@ -164,9 +164,9 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
       d.middleRows<4>(4 * j) = space.block_of(pose[h].transform, j);
     }
   }
-  const auto asked = static_cast<Index>(this->positions_.size());
-  Rows wanted(asked, 3);
-  for (Index r = 0; r < asked; ++r)
+  const auto position_count = static_cast<Index>(this->positions_.size());
+  Rows targets(position_count, 3);
+  for (Index r = 0; r < position_count; ++r)
   {
     const Index h = this->positions_[static_cast<std::size_t>(r)];
     const auto handle = static_cast<std::size_t>(h) % pose.size();
@@ -174,18 +174,18 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
     const Vec3 move = static_cast<std::size_t>(h) < pose.size()
       ? posed_pivot(rest, pose[handle]) - rest.head
       : posed_tail(rest, pose[handle]) - rest.tail;
-    wanted.row(r) = move.transpose();
+    targets.row(r) = move.transpose();
   }
-  const ReducedBasis::UnrotatedMinimizer star = this->basis_.unrotated_minimizer(
-    space, quadratic.stiffness, quadratic.load, d, wanted - thin_product(this->position_rows_, d));
-  const double star_energy = quadratic.constant + star.energy;
-  std::vector<double> star_covariance = space.rest_covariance;
+  const ReducedBasis::UnrotatedMinimizer minimizer = this->basis_.unrotated_minimizer(
+    space, quadratic.stiffness, quadratic.load, d, targets - thin_product(this->position_rows_, d));
+  const double unrotated_energy = quadratic.constant + minimizer.energy;
+  std::vector<double> unrotated_covariance = space.rest_covariance;
   for (Index e = 0; e < 9; ++e)
   {
     for (Index k = 0; k < clusters; ++k)
     {
-      star_covariance[static_cast<std::size_t>(e * stride + k)] +=
-        star.covariance(e / 3 * clusters + k, e % 3);
+      unrotated_covariance[static_cast<std::size_t>(e * stride + k)] +=
+        minimizer.covariance(e / 3 * clusters + k, e % 3);
     }
   }
 
@@ -198,7 +198,7 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
         e % 4 == 0 ? 1.0 : 0.0);
     }
   }
-  else if (options.start == ReducedStart::guess || !this->warm_)
+  else if (options.start == ReducedStart::guess || !this->has_rotations_)
   {
     this->start_rotations(space, pose);
   }
@@ -207,7 +207,7 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
   const double floor = negligible_energy * space.rest_energy;
   this->energies_.clear();
   ReducedProgress progress{ this->energies_ };
-  ReducedLimits limits{ options.tolerance, floor, same_energy * space.rest_energy };
+  ReducedLimits limits{ options.tolerance, floor, energy_tolerance * space.rest_energy };
   if (options.budget_microseconds > 0.0)
   {
     limits.deadline = start +
@@ -215,18 +215,18 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
         std::chrono::duration<double, std::micro>(options.budget_microseconds));
   }
   Index single_iterations = 0;
-  this->iteration_.begin(stride, star_covariance, this->rotations_);
-  if (options.mixed_precision && this->has_single_ && options.max_iterations > 1)
+  this->iteration_.begin(stride, unrotated_covariance, this->rotations_);
+  if (options.mixed_precision && this->has_single_precision_ && options.max_iterations > 1)
   {
     limits.iterations = options.max_iterations - 1;
-    this->single_iteration_.begin(stride, star_covariance, this->rotations_);
+    this->single_iteration_.begin(stride, unrotated_covariance, this->rotations_);
     if (this->single_iteration_.run(
-          context, limits, options.anderson_window, star_energy, progress))
+          context, limits, options.anderson_window, unrotated_energy, progress))
     {
-      this->iteration_.go_on(this->single_iteration_);
+      this->iteration_.continue_from(this->single_iteration_);
       single_iterations = progress.iterations;
     }
-    progress.in_time = true; // always allow one iteration in double precision
+    progress.within_deadline = true; // always allow one iteration in double precision
   }
   if (!progress.canceled)
   {
@@ -234,7 +234,7 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
     // its last digits.
     const bool converged = progress.converged;
     limits.iterations = converged ? 1 : options.max_iterations - progress.iterations;
-    this->iteration_.run(context, limits, options.anderson_window, star_energy, progress);
+    this->iteration_.run(context, limits, options.anderson_window, unrotated_energy, progress);
     progress.converged |= converged;
   }
   if (progress.canceled)
@@ -246,19 +246,19 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
     std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
   const Index iterations = progress.iterations;
   const double change = progress.change;
-  this->warm_ = true;
+  this->has_rotations_ = true;
 
-  d = this->basis_.displacement(star, this->iteration_.coordinates());
+  d = this->basis_.displacement(minimizer, this->iteration_.coordinates());
   double residual = 0.0;
   std::vector<Index> contradicting;
-  if (asked > 0)
+  if (position_count > 0)
   {
-    const Rows missed = thin_product(this->position_rows_, d) - wanted;
-    for (Index r = 0; r < asked; ++r)
+    const Rows violations = thin_product(this->position_rows_, d) - targets;
+    for (Index r = 0; r < position_count; ++r)
     {
-      const double miss = missed.row(r).norm() / std::max(space.diagonal, 1e-300);
-      residual = std::max(residual, miss);
-      if (miss > contradictory_miss)
+      const double violation = violations.row(r).norm() / std::max(space.diagonal, 1e-300);
+      residual = std::max(residual, violation);
+      if (violation > contradiction_tolerance)
       {
         contradicting.push_back(
           this->positions_[static_cast<std::size_t>(r)] % static_cast<Index>(pose.size()));
@@ -282,7 +282,7 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
   }
   status.report.set("microseconds_per_iteration",
     Report::Value(iterations > 0 ? microseconds / static_cast<double>(iterations) : 0.0));
-  if (asked > 0)
+  if (position_count > 0)
   {
     status.report.set("constraint_residual", Report::Value(residual));
   }
@@ -291,7 +291,7 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
     status.code = StatusCode::not_converged;
     status.message = "the energy still decreased by " + short_number(change) + " of " +
       short_number(this->energies_.back()) + " in the last of " + std::to_string(iterations) +
-      " iterations" + (progress.in_time ? "" : ", when the time budget was used up");
+      " iterations" + (progress.within_deadline ? "" : ", when the time budget was used up");
   }
   return status;
 }

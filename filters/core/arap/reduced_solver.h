@@ -67,7 +67,7 @@ public:
     const Pose& pose, const ReducedSolveOptions& options, ReducedSpace::Rows& d);
 
   /// Discard the last rotations, so that the next solve starts with `guess`.
-  void forget() { this->warm_ = false; }
+  void forget() { this->has_rotations_ = false; }
 
   /// Rotations of the last solve, stored in planes as in ReducedSpace. The caller can store and
   /// restore them.
@@ -92,11 +92,11 @@ private:
   ReducedIteration<double> iteration_; ///< alternation with C = K B in double precision
   /// Alternation in single precision; valid if single precision can represent C.
   ReducedIteration<float> single_iteration_;
-  bool has_single_ = false;
+  bool has_single_precision_ = false;
 
   // ---- state
   std::vector<double> rotations_; ///< stored in planes, see ReducedSpace
-  bool warm_ = false;
+  bool has_rotations_ = false;
   std::vector<double> energies_;
 };
 

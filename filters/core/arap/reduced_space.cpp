@@ -23,7 +23,7 @@ namespace
 /// Number of row ranges ("strips") of the mesh whose partial sums are added in order. It affects
 /// the round-off of the sums; the number of threads does not.
 constexpr Index strips = 16;
-constexpr Index rows_at_once = 256;
+constexpr Index rows_per_block = 256;
 /// A pivot is treated as a vertex if their distance is at most this, in bounding-box diagonals.
 constexpr double pivot_tolerance = 1e-9;
 /// A pivot is on a triangle if their distance is at most this, in bounding-box diagonals.
@@ -97,8 +97,8 @@ void ReducedSpace::find_pivots(PointsView points, const Elements& elements, Weig
   const auto count = static_cast<Index>(this->handles.size());
   this->pivot_rows = Eigen::MatrixXd::Zero(2 * count, 4 * this->columns);
   Eigen::RowVectorXd row(4 * this->columns);
-  std::vector<Index> open;
-  const auto place = [&](Index end) -> const Vec3&
+  std::vector<Index> unlocated_ends;
+  const auto end_position = [&](Index end) -> const Vec3&
   {
     const Handle& handle = this->handles[static_cast<std::size_t>(end % count)];
     return end < count ? handle.head : handle.tail;
@@ -113,26 +113,28 @@ void ReducedSpace::find_pivots(PointsView points, const Elements& elements, Weig
     // Default, used if the pivot is not on the mesh: the pivot moves with the handle's own
     // transform.
     Eigen::VectorXd unit = Eigen::VectorXd::Unit(this->columns, end % count);
-    this->basis_row(unit.data(), place(end), row.data());
+    this->basis_row(unit.data(), end_position(end), row.data());
     this->pivot_rows.row(end) = row;
     if (handle.kind == HandleKind::region)
     {
       continue; // a region moves as one body, so its pivot needs no point of the mesh
     }
     Index nearest = 0;
-    const double distance = std::sqrt(
-      (points.rowwise() - place(end).transpose()).rowwise().squaredNorm().minCoeff(&nearest));
+    const double distance = std::sqrt((points.rowwise() - end_position(end).transpose())
+                                        .rowwise()
+                                        .squaredNorm()
+                                        .minCoeff(&nearest));
     if (distance <= pivot_tolerance * this->diagonal)
     {
-      const Vec3 at = points.row(nearest);
-      this->basis_row(weights.row(nearest).data(), at, row.data());
+      const Vec3 vertex_point = points.row(nearest);
+      this->basis_row(weights.row(nearest).data(), vertex_point, row.data());
       this->pivot_rows.row(end) = row;
       continue;
     }
-    open.push_back(end);
+    unlocated_ends.push_back(end);
   }
   constexpr int corners = Elements::ColsAtCompileTime;
-  for (Index e = 0; e < elements.rows() && !open.empty(); ++e)
+  for (Index e = 0; e < elements.rows() && !unlocated_ends.empty(); ++e)
   {
     Box box;
     for (int k = 0; k < corners; ++k)
@@ -140,23 +142,23 @@ void ReducedSpace::find_pivots(PointsView points, const Elements& elements, Weig
       box.add(points.row(elements(e, k)).transpose());
     }
     const double margin = on_surface * this->diagonal;
-    for (std::size_t i = 0; i < open.size(); ++i)
+    for (std::size_t i = 0; i < unlocated_ends.size(); ++i)
     {
-      const Vec3 p = place(open[i]);
+      const Vec3 p = end_position(unlocated_ends[i]);
       Eigen::Vector4d lambda;
       if (((p - box.lower).array() < -margin).any() || ((p - box.upper).array() > margin).any() ||
         !locate(points, elements, e, p, this->diagonal, lambda))
       {
         continue;
       }
-      this->pivot_rows.row(open[i]).setZero();
+      this->pivot_rows.row(unlocated_ends[i]).setZero();
       for (int k = 0; k < corners; ++k)
       {
-        const Vec3 at = points.row(elements(e, k));
-        this->basis_row(weights.row(elements(e, k)).data(), at, row.data());
-        this->pivot_rows.row(open[i]) += lambda[k] * row;
+        const Vec3 vertex_point = points.row(elements(e, k));
+        this->basis_row(weights.row(elements(e, k)).data(), vertex_point, row.data());
+        this->pivot_rows.row(unlocated_ends[i]) += lambda[k] * row;
       }
-      open.erase(open.begin() + static_cast<std::ptrdiff_t>(i));
+      unlocated_ends.erase(unlocated_ends.begin() + static_cast<std::ptrdiff_t>(i));
       --i;
     }
   }
@@ -178,15 +180,15 @@ bool ReducedSpace::project_stiffness(ExecutionContext& context, PointsView point
       Eigen::VectorXd& square = squares[static_cast<std::size_t>(s)];
       sum = Weights::Zero(size, size);
       square = Eigen::VectorXd::Zero(size);
-      Weights m(rows_at_once, size), lm(rows_at_once, size);
+      Weights m(rows_per_block, size), lm(rows_per_block, size);
       Eigen::RowVectorXd row(size);
-      for (Index begin = s * strip; begin < std::min(n, (s + 1) * strip); begin += rows_at_once)
+      for (Index begin = s * strip; begin < std::min(n, (s + 1) * strip); begin += rows_per_block)
       {
         if (context.canceled())
         {
           return;
         }
-        const Index rows = std::min(std::min(n, (s + 1) * strip) - begin, rows_at_once);
+        const Index rows = std::min(std::min(n, (s + 1) * strip) - begin, rows_per_block);
         lm.setZero();
         for (Index r = 0; r < rows; ++r)
         {
@@ -231,10 +233,10 @@ void ReducedSpace::project_mass(
   const Index size = 4 * this->columns;
   this->mass = Eigen::MatrixXd::Zero(size, size);
   this->mass_sums = Eigen::VectorXd::Zero(size);
-  Weights m(rows_at_once, size);
-  for (Index begin = 0; begin < points.rows(); begin += rows_at_once)
+  Weights m(rows_per_block, size);
+  for (Index begin = 0; begin < points.rows(); begin += rows_per_block)
   {
-    const Index rows = std::min(points.rows() - begin, rows_at_once);
+    const Index rows = std::min(points.rows() - begin, rows_per_block);
     for (Index r = 0; r < rows; ++r)
     {
       const Index v = begin + r;
@@ -292,10 +294,10 @@ void ReducedSpace::project_covariance(
 
 template <typename Elements>
 Status ReducedSpace::bind(ExecutionContext& context, PointsView points, const Elements& elements,
-  WeightsView weights, const Handles& their_handles, const ReducedArapOptions& options)
+  WeightsView weights, const Handles& input_handles, const ReducedArapOptions& options)
 {
   *this = ReducedSpace();
-  Status status = check_mesh_and_handles(points, elements, their_handles);
+  Status status = check_mesh_and_handles(points, elements, input_handles);
   if (!status.ok())
   {
     return status;
@@ -305,10 +307,10 @@ Status ReducedSpace::bind(ExecutionContext& context, PointsView points, const El
     return Status::invalid_input("the weights have " + std::to_string(weights.rows()) +
       " rows, but there are " + std::to_string(points.rows()) + " vertices");
   }
-  if (weights.cols() != static_cast<Index>(their_handles.size()))
+  if (weights.cols() != static_cast<Index>(input_handles.size()))
   {
     return Status::invalid_input("the weights have " + std::to_string(weights.cols()) +
-      " columns, but there are " + std::to_string(their_handles.size()) + " handles");
+      " columns, but there are " + std::to_string(input_handles.size()) + " handles");
   }
   {
     Phase phase(context, "copy_weights", 0.0, 0.1);
@@ -318,18 +320,18 @@ Status ReducedSpace::bind(ExecutionContext& context, PointsView points, const El
       return status;
     }
   }
-  this->handles = their_handles;
+  this->handles = input_handles;
   this->diagonal = bounding_box(points).diagonal();
   const Eigen::RowVector3d middle = points.colwise().mean();
   this->radius = std::sqrt((points.rowwise() - middle).rowwise().squaredNorm().mean());
-  const auto handle_count = static_cast<Index>(their_handles.size());
+  const auto handle_count = static_cast<Index>(input_handles.size());
   std::string empty_names;
   for (Index j = 0; j < handle_count; ++j)
   {
     if (weights.col(j).isZero(0.0))
     {
       empty_names +=
-        (empty_names.empty() ? "'" : ", '") + their_handles[static_cast<std::size_t>(j)].name + "'";
+        (empty_names.empty() ? "'" : ", '") + input_handles[static_cast<std::size_t>(j)].name + "'";
     }
   }
   if (!empty_names.empty())
@@ -341,12 +343,12 @@ Status ReducedSpace::bind(ExecutionContext& context, PointsView points, const El
   Weights all = weights;
   Clusters clusters;
   const bool tets = Elements::ColsAtCompileTime == 4;
-  const ArapEnergy energy = resolved(options.energy, tets);
-  Index left_out = 0;
-  const SparseMatrix laplacian = arap_stiffness(points, elements, energy, &left_out);
-  if (left_out > 0)
+  const ArapEnergy energy = resolve_energy(options.energy, tets);
+  Index ignored_edges = 0;
+  const SparseMatrix laplacian = arap_stiffness(points, elements, energy, &ignored_edges);
+  if (ignored_edges > 0)
   {
-    status.warnings.push_back(left_out_warning(left_out));
+    status.warnings.push_back(ignored_edges_warning(ignored_edges));
   }
   const bool modes = options.extra_weights > 0 && options.extra_kind == ExtraWeights::eigenmodes;
   const Eigen::VectorXd masses =
@@ -379,23 +381,25 @@ Status ReducedSpace::bind(ExecutionContext& context, PointsView points, const El
         return widened;
       }
     }
-    const Index wanted = options.clusters > 0 ? options.clusters : 4 * all.cols();
-    if (wanted >= points.rows())
+    const Index cluster_count = options.clusters > 0 ? options.clusters : 4 * all.cols();
+    if (cluster_count >= points.rows())
     {
       clusters.count = points.rows();
-      clusters.of_row.resize(static_cast<std::size_t>(points.rows()));
-      std::iota(clusters.of_row.begin(), clusters.of_row.end(), Index(0));
+      clusters.cluster_of_row.resize(static_cast<std::size_t>(points.rows()));
+      std::iota(clusters.cluster_of_row.begin(), clusters.cluster_of_row.end(), Index(0));
     }
-    else if (!cluster_rows(context, weights, wanted, clusters))
+    else if (!cluster_rows(context, weights, cluster_count, clusters))
     {
       return Status::canceled();
     }
-    this->groups = rotation_groups(energy, elements, clusters.count, std::move(clusters.of_row));
-    if (wanted >= points.rows() && energy == ArapEnergy::elements)
+    this->groups =
+      rotation_groups(energy, elements, clusters.count, std::move(clusters.cluster_of_row));
+    if (cluster_count >= points.rows() && energy == ArapEnergy::elements)
     {
       this->groups.count = elements.rows();
-      this->groups.of_element.resize(static_cast<std::size_t>(elements.rows()));
-      std::iota(this->groups.of_element.begin(), this->groups.of_element.end(), Index(0));
+      this->groups.group_of_element.resize(static_cast<std::size_t>(elements.rows()));
+      std::iota(
+        this->groups.group_of_element.begin(), this->groups.group_of_element.end(), Index(0));
     }
     status.report.set("method", to_string(energy, tets));
   }

@@ -50,7 +50,7 @@ struct ReducedSpace
   /// Compute the data. Arguments and errors are those of ReducedArap::bind().
   template <typename Elements>
   Status bind(ExecutionContext& context, PointsView points, const Elements& elements,
-    WeightsView weights, const Handles& their_handles, const ReducedArapOptions& options);
+    WeightsView weights, const Handles& input_handles, const ReducedArapOptions& options);
 
   /// Convert a column's transform to its displacement block. The next function converts a block to
   /// a transform.

@@ -27,13 +27,13 @@ namespace bindpose
 namespace
 {
 /// Shift s, as a fraction of the mean eigenvalue.
-constexpr double shift_share = 1e-9;
+constexpr double shift_fraction = 1e-9;
 /// Rows of weights are equal if their distance is at most this.
-constexpr double equal_rows = 1e-9;
+constexpr double equal_row_tolerance = 1e-9;
 /// Maximum number of free vertices for which a dense eigenvalue solver is used.
 constexpr Index dense_size = 100;
 constexpr double eigenvalue_tolerance = 1e-10;
-constexpr Index most_restarts = 300;
+constexpr Index maximum_restarts = 300;
 
 struct Canceled
 {
@@ -74,12 +74,13 @@ private:
 
 std::vector<Index> handle_vertices(WeightsView weights)
 {
-  const std::vector<Index> rows = handle_rows(weights);
+  const std::vector<Index> rows = largest_weight_rows(weights);
   std::vector<Index> result;
   for (Index v = 0; v < weights.rows(); ++v)
   {
     if (std::any_of(rows.begin(), rows.end(),
-          [&](Index row) { return (weights.row(v) - weights.row(row)).norm() <= equal_rows; }))
+          [&](Index row)
+          { return (weights.row(v) - weights.row(row)).norm() <= equal_row_tolerance; }))
     {
       result.push_back(v);
     }
@@ -88,21 +89,22 @@ std::vector<Index> handle_vertices(WeightsView weights)
 }
 
 Status skinning_eigenmodes(ExecutionContext& context, const SparseMatrix& stiffness,
-  const Eigen::VectorXd& mass, const std::vector<Index>& zero, Index count, Eigenmodes& result)
+  const Eigen::VectorXd& mass, const std::vector<Index>& fixed_vertices, Index count,
+  Eigenmodes& result)
 {
   result = Eigenmodes();
   const Index n = stiffness.rows();
-  std::vector<Index> place(static_cast<std::size_t>(n), 0);
-  for (const Index v : zero)
+  std::vector<Index> row_of_vertex(static_cast<std::size_t>(n), 0);
+  for (const Index v : fixed_vertices)
   {
-    place[static_cast<std::size_t>(v)] = -1;
+    row_of_vertex[static_cast<std::size_t>(v)] = -1;
   }
   std::vector<Index> free;
   for (Index v = 0; v < n; ++v)
   {
-    Index& at = place[static_cast<std::size_t>(v)];
-    at = at == 0 && mass[v] > 0.0 ? static_cast<Index>(free.size()) : -1;
-    if (at >= 0)
+    Index& row_index = row_of_vertex[static_cast<std::size_t>(v)];
+    row_index = row_index == 0 && mass[v] > 0.0 ? static_cast<Index>(free.size()) : -1;
+    if (row_index >= 0)
     {
       free.push_back(v);
     }
@@ -124,7 +126,7 @@ Status skinning_eigenmodes(ExecutionContext& context, const SparseMatrix& stiffn
     root[c] = std::sqrt(mass[v]);
     for (SparseMatrix::InnerIterator it(stiffness, v); it; ++it)
     {
-      const Index r = place[static_cast<std::size_t>(it.row())];
+      const Index r = row_of_vertex[static_cast<std::size_t>(it.row())];
       if (r >= 0)
       {
         entries.emplace_back(static_cast<int>(r), static_cast<int>(c), it.value());
@@ -132,7 +134,7 @@ Status skinning_eigenmodes(ExecutionContext& context, const SparseMatrix& stiffn
       }
     }
   }
-  const double shift = shift_share * trace / root.squaredNorm();
+  const double shift = shift_fraction * trace / root.squaredNorm();
   for (Index c = 0; c < size; ++c)
   {
     entries.emplace_back(static_cast<int>(c), static_cast<int>(c), shift * root[c] * root[c]);
@@ -166,7 +168,7 @@ Status skinning_eigenmodes(ExecutionContext& context, const SparseMatrix& stiffn
     try
     {
       eigen.init();
-      eigen.compute(Spectra::SortRule::LargestAlge, most_restarts, eigenvalue_tolerance);
+      eigen.compute(Spectra::SortRule::LargestAlge, maximum_restarts, eigenvalue_tolerance);
     }
     catch (const Canceled&)
     {

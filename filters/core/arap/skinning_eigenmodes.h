@@ -17,9 +17,9 @@ struct Eigenmodes
 };
 
 /// Compute skinning eigenmodes: the solutions w of L w = lambda M w with the smallest eigenvalues
-/// lambda that are zero at the vertices `zero`. Used as weights of additional transforms, the modes
-/// span smooth deformations of low energy that do not move these vertices. Method: Benchekroun et
-/// al. 2023, Fast complementary dynamics via skinning eigenmodes.
+/// lambda that are zero at the vertices `fixed_vertices`. Used as weights of additional transforms,
+/// the modes span smooth deformations of low energy that do not move these vertices. Method:
+/// Benchekroun et al. 2023, Fast complementary dynamics via skinning eigenmodes.
 ///
 /// In the paper, modes are orthogonal to the deformations of the rig. Here they are zero at
 /// handles, like all extra weights. Therefore the transforms of handles in mode full are exact. If
@@ -27,15 +27,16 @@ struct Eigenmodes
 ///
 /// @param stiffness L, positive semi-definite.
 /// @param mass diagonal of M; modes are zero at vertices without mass.
-/// @param zero vertices at which modes are zero. A part of the mesh without such a vertex has a
-/// constant mode of eigenvalue 0, because it can move as a whole.
+/// @param fixed_vertices vertices at which modes are zero. A part of the mesh without such a vertex
+/// has a constant mode of eigenvalue 0, because it can move as a whole.
 ///
 /// The result has fewer modes if there are fewer free vertices. The status is not_converged if the
 /// eigenvalue solver did not find all modes; the result contains the modes that it found. Cost: one
 /// sparse factorization and a few solves per mode. The result has the same bits for any number of
 /// threads.
 Status skinning_eigenmodes(ExecutionContext& context, const SparseMatrix& stiffness,
-  const Eigen::VectorXd& mass, const std::vector<Index>& zero, Index count, Eigenmodes& result);
+  const Eigen::VectorXd& mass, const std::vector<Index>& fixed_vertices, Index count,
+  Eigenmodes& result);
 
 /// Return the vertices whose row of weights equals the row of a handle, that is, the row of the
 /// vertex at which the handle's weight is largest.

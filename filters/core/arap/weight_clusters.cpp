@@ -18,9 +18,9 @@ constexpr Index rows_per_block = 512;
 constexpr Index lloyd_rounds = 100;
 /// Number of sampled rows per cluster from which the means are computed. At the end all rows are
 /// assigned to the means.
-constexpr Index rows_a_cluster = 25;
+constexpr Index rows_per_cluster = 25;
 /// Rows are equal if their distance is at most this.
-constexpr double same_row = 1e-12;
+constexpr double equal_row_tolerance = 1e-12;
 
 /// Return a pseudo-random number that is the same on every machine (splitmix64).
 std::uint64_t scramble(std::uint64_t x)
@@ -66,11 +66,11 @@ void farthest_rows(
   const Index blocks = (rows.rows() + rows_per_block - 1) / rows_per_block;
   std::vector<double> distance(
     static_cast<std::size_t>(rows.rows()), std::numeric_limits<double>::infinity());
-  std::vector<Index> farthest(static_cast<std::size_t>(blocks), 0);
+  std::vector<Index> farthest_in_block(static_cast<std::size_t>(blocks), 0);
   const auto pick = [&]
   {
-    Index best = farthest[0];
-    for (const Index row : farthest)
+    Index best = farthest_in_block[0];
+    for (const Index row : farthest_in_block)
     {
       best = distance[static_cast<std::size_t>(row)] > distance[static_cast<std::size_t>(best)]
         ? row
@@ -90,7 +90,7 @@ void farthest_rows(
           d = std::min(d, (rows.row(i) - rows.row(seed)).squaredNorm());
           best = d > distance[static_cast<std::size_t>(best)] ? i : best;
         }
-        farthest[static_cast<std::size_t>(begin / rows_per_block)] = best;
+        farthest_in_block[static_cast<std::size_t>(begin / rows_per_block)] = best;
       });
   };
   Index added = 0;
@@ -111,7 +111,7 @@ void farthest_rows(
   for (; added < count; ++added)
   {
     const Index next = pick();
-    if (distance[static_cast<std::size_t>(next)] <= same_row * same_row)
+    if (distance[static_cast<std::size_t>(next)] <= equal_row_tolerance * equal_row_tolerance)
     {
       return;
     }
@@ -123,7 +123,7 @@ void farthest_rows(
   }
 }
 
-std::vector<Index> handle_rows(WeightsView weights)
+std::vector<Index> largest_weight_rows(WeightsView weights)
 {
   std::vector<Index> result(static_cast<std::size_t>(weights.cols()), 0);
   for (Index j = 0; j < weights.cols() && weights.rows() > 0; ++j)
@@ -136,14 +136,14 @@ std::vector<Index> handle_rows(WeightsView weights)
 bool cluster_rows(ExecutionContext& context, WeightsView rows, Index count, Clusters& clusters)
 {
   clusters = Clusters();
-  clusters.of_row.assign(static_cast<std::size_t>(rows.rows()), 0);
+  clusters.cluster_of_row.assign(static_cast<std::size_t>(rows.rows()), 0);
   if (rows.rows() == 0)
   {
     return !context.canceled();
   }
   count = std::max<Index>(1, std::min(count, rows.rows()));
-  const Index wanted = std::max<Index>(5000, rows_a_cluster * count);
-  const Index step = (rows.rows() + wanted - 1) / wanted;
+  const Index sample_size = std::max<Index>(5000, rows_per_cluster * count);
+  const Index step = (rows.rows() + sample_size - 1) / sample_size;
   Weights sample((rows.rows() + step - 1) / step, rows.cols());
   for (Index i = 0; i < sample.rows(); ++i)
   {
@@ -191,12 +191,12 @@ bool cluster_rows(ExecutionContext& context, WeightsView rows, Index count, Clus
       break;
     }
   }
-  if (!assign_rows(context, rows, means, clusters.of_row))
+  if (!assign_rows(context, rows, means, clusters.cluster_of_row))
   {
     return false;
   }
   std::vector<Index> name(static_cast<std::size_t>(means.rows()), -1);
-  for (Index& label : clusters.of_row)
+  for (Index& label : clusters.cluster_of_row)
   {
     Index& fresh = name[static_cast<std::size_t>(label)];
     if (fresh < 0)
@@ -210,7 +210,7 @@ bool cluster_rows(ExecutionContext& context, WeightsView rows, Index count, Clus
 
 Weights spline_bumps(ExecutionContext& context, WeightsView weights, Index count)
 {
-  std::vector<Index> seeds = handle_rows(weights);
+  std::vector<Index> seeds = largest_weight_rows(weights);
   const std::size_t handles = seeds.size();
   farthest_rows(context, weights, count, seeds);
   const auto extras = static_cast<Index>(seeds.size() - handles);

@@ -24,12 +24,12 @@ void farthest_rows(
 
 /// Return for each handle the vertex at which its weight is largest (the lowest vertex if several
 /// are equal).
-std::vector<Index> handle_rows(WeightsView weights);
+std::vector<Index> largest_weight_rows(WeightsView weights);
 
 struct Clusters
 {
   Index count = 0;
-  std::vector<Index> of_row; ///< #rows: cluster of each row, from 0; no cluster is empty
+  std::vector<Index> cluster_of_row; ///< #rows: cluster of each row, from 0; no cluster is empty
 };
 
 /// Cluster rows by k-means: farthest-point seeds, then Lloyd's iteration (at most 100 rounds; the

@@ -37,12 +37,12 @@ SortedSurface sorted(PointsView points, TrianglesView triangles)
   {
     used[triangles.data()[k]] = 1;
   }
-  const std::vector<Index> order = spatial_sort(points, used);
+  const std::vector<Index> order = lexicographic_order(points, used);
   SortedSurface surface;
   std::vector<Index> number(static_cast<std::size_t>(points.rows()), -1);
   for (std::size_t i = 0; i < order.size(); ++i)
   {
-    if (i == 0 || !same_place(points, order[i - 1], order[i]))
+    if (i == 0 || !are_coincident(points, order[i - 1], order[i]))
     {
       surface.original.push_back(order[i]);
     }
@@ -80,16 +80,16 @@ Status make_points(ExecutionContext& context, const SortedSurface& surface,
     return status;
   }
   std::vector<Index> vertices;
-  for (Index i = 0; i < spread.places.rows(); ++i)
+  for (Index i = 0; i < spread.positions.rows(); ++i)
   {
     Handle handle;
-    handle.head = handle.tail = spread.places.row(i);
+    handle.head = handle.tail = spread.positions.row(i);
     handle.name = "p" + std::to_string(i + 1);
     handles.push_back(std::move(handle));
     vertices.push_back(surface.original[spread.vertices[i]]);
   }
   status.report.set("counts.components", spread.components);
-  status.report.set("counts.served_components", spread.served);
+  status.report.set("counts.served_components", spread.covered_components);
   status.report.set("counts.points_inside", spread.inside);
   status.report.set("distance", to_string(options.distance));
   status.report.set("handles[].vertex", vertices);
@@ -97,7 +97,7 @@ Status make_points(ExecutionContext& context, const SortedSurface& surface,
 }
 
 /// Count the joints that are outside the shape and the bones that leave it between their ends.
-void look_inside(
+void report_outside(
   const SkeletonBones& bones, const std::function<bool(const Vec3&)>& inside, Status& status)
 {
   constexpr int pieces = 16;
@@ -169,7 +169,7 @@ Status make_bones(ExecutionContext& context, const SortedSurface& surface,
   status.report.set("counts.cut_cycles", bones.cut_cycles);
   status.report.set("counts.pruned_branches", bones.pruned_branches);
   status.report.set("counts.merged_branches", bones.merged_branches);
-  look_inside(bones, to_bones.inside, status);
+  report_outside(bones, to_bones.inside, status);
   handles = std::move(bones.handles);
   return status;
 }

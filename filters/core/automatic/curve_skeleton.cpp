@@ -118,7 +118,7 @@ std::vector<Solid> solids_of(const TriangleMesh& surface)
   std::vector<std::vector<Index>> faces(static_cast<std::size_t>(components.count));
   for (Index f = 0; f < surface.triangles.rows(); ++f)
   {
-    faces[components.of_vertex[surface.triangles(f, 0)]].push_back(f);
+    faces[components.component_of_vertex[surface.triangles(f, 0)]].push_back(f);
   }
   std::vector<Solid> solids;
   for (const std::vector<Index>& list : faces)
@@ -175,8 +175,8 @@ std::vector<Index> parts_of(const CurveSkeleton& skeleton, Index& count)
   return part;
 }
 
-/// Compute radii, part_of and centroids of the skeleton. Each component of the skeleton belongs to
-/// the solid nearest to the component's widest point.
+/// Compute radii, part_of_point and centroids of the skeleton. Each component of the skeleton
+/// belongs to the solid nearest to the component's widest point.
 void measure(const TriangleMesh& surface, CurveSkeleton& skeleton)
 {
   const double any = std::numeric_limits<double>::infinity();
@@ -187,11 +187,11 @@ void measure(const TriangleMesh& surface, CurveSkeleton& skeleton)
     skeleton.radii[v] = tree.distance(skeleton.points.row(v), any);
   }
   Index count = 0;
-  skeleton.part_of = parts_of(skeleton, count);
+  skeleton.part_of_point = parts_of(skeleton, count);
   std::vector<Index> widest(static_cast<std::size_t>(count), -1);
   for (Index v = 0; v < skeleton.points.rows(); ++v)
   {
-    Index& w = widest[skeleton.part_of[v]];
+    Index& w = widest[skeleton.part_of_point[v]];
     w = w < 0 || skeleton.radii[v] > skeleton.radii[w] ? v : w;
   }
   std::vector<double> nearest(widest.size(), any);
@@ -264,7 +264,7 @@ Status curve_skeleton(ExecutionContext& context, PointsView points, TrianglesVie
   request.time_limit =
     std::max(options.time_limit - (context.elapsed_seconds() - start), least_seconds);
   request.memory_limit = options.memory_limit;
-  MesherAnswer answer;
+  MesherResult answer;
   Status contracted;
   {
     const Phase phase(context, "contract", 0.25, 0.98);

@@ -34,7 +34,7 @@ struct CurveSkeleton
   Eigen::VectorXd radii; ///< #P: distance to the closed surface, which is half of the thickness
   /// #P: component of each point, as an index into centroids. If a component has one point, its
   /// part of the shape is a ball or almost a ball.
-  std::vector<Index> part_of;
+  std::vector<Index> part_of_point;
   std::vector<Vec3> centroids; ///< for each component, the center of mass of its part of the shape
 };
 

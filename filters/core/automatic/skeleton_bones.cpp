@@ -31,11 +31,11 @@ class Graph
 public:
   Graph(const CurveSkeleton& skeleton, const std::function<bool(const Vec3&)>& inside)
     : next_(static_cast<std::size_t>(skeleton.points.rows())), alive_(next_.size(), 1),
-      held_(next_.size(), 0), skeleton_(skeleton), inside_(inside)
+      is_root_(next_.size(), 0), skeleton_(skeleton), inside_(inside)
   {
     for (Index v = 0; v < skeleton.points.rows(); ++v)
     {
-      this->places_.push_back(skeleton.points.row(v));
+      this->positions_.push_back(skeleton.points.row(v));
       this->radii_.push_back(skeleton.radii[v]);
     }
     for (Index s = 0; s < skeleton.segments.rows(); ++s)
@@ -46,28 +46,31 @@ public:
   }
 
   Index size() const { return static_cast<Index>(this->next_.size()); }
-  bool holds(const Vec3& p) const { return !this->inside_ || this->inside_(p); }
+  bool is_inside(const Vec3& p) const { return !this->inside_ || this->inside_(p); }
   bool leaves(const Vec3& head, const Vec3& tail) const
   {
     constexpr int pieces = 16;
     for (int i = 1; i < pieces; ++i)
     {
       const double t = static_cast<double>(i) / pieces;
-      if (!this->holds((1.0 - t) * head + t * tail))
+      if (!this->is_inside((1.0 - t) * head + t * tail))
       {
         return true;
       }
     }
     return false;
   }
-  const Vec3& place(Index v) const { return this->places_[v]; }
+  const Vec3& position(Index v) const { return this->positions_[v]; }
   double radius(Index v) const { return this->radii_[v]; }
-  Index part(Index v) const { return this->skeleton_.part_of[v]; }
+  Index part(Index v) const { return this->skeleton_.part_of_point[v]; }
   const Vec3& centroid(Index part) const { return this->skeleton_.centroids[part]; }
-  bool alive(Index v) const { return this->alive_[v] != 0; }
-  bool held(Index v) const { return this->held_[v] != 0; }
+  bool is_alive(Index v) const { return this->alive_[v] != 0; }
+  bool is_root(Index v) const { return this->is_root_[v] != 0; }
   Index degree(Index v) const { return static_cast<Index>(this->next_[v].size()); }
-  bool joint(Index v) const { return this->alive(v) && (this->degree(v) != 2 || this->held(v)); }
+  bool joint(Index v) const
+  {
+    return this->is_alive(v) && (this->degree(v) != 2 || this->is_root(v));
+  }
 
   /// Return the joint nearest to the centroid, or the nearest vertex if there is no joint.
   Index nearest_joint(Index part) const
@@ -78,8 +81,8 @@ public:
     {
       for (Index v = 0; v < this->size() && (joints_only || best < 0); ++v)
       {
-        const double distance = (this->place(v) - this->centroid(part)).norm();
-        if (this->part(v) == part && this->alive(v) && (!joints_only || this->joint(v)) &&
+        const double distance = (this->position(v) - this->centroid(part)).norm();
+        if (this->part(v) == part && this->is_alive(v) && (!joints_only || this->joint(v)) &&
           distance < least)
         {
           least = distance;
@@ -115,7 +118,7 @@ public:
       return 0;
     }
     const Index root = this->nearest_joint(part);
-    this->held_[root] = 1;
+    this->is_root_[root] = 1;
     std::vector<double> distance(this->next_.size(), infinite);
     std::vector<Index> from(this->next_.size(), -1);
     std::set<std::pair<double, Index>> open{ { 0.0, root } };
@@ -126,7 +129,7 @@ public:
       open.erase(open.begin());
       for (const Index w : this->next_[v])
       {
-        const double way = distance[v] + (this->place(v) - this->place(w)).norm();
+        const double way = distance[v] + (this->position(v) - this->position(w)).norm();
         if (way < distance[w])
         {
           open.erase({ distance[w], w });
@@ -172,7 +175,7 @@ public:
         for (;;)
         {
           branch.path.push_back(at);
-          branch.length += (this->place(at) - this->place(before)).norm();
+          branch.length += (this->position(at) - this->position(before)).norm();
           if (this->joint(at))
           {
             break;
@@ -214,8 +217,8 @@ public:
     for (int end = 0; end < 2; ++end)
     {
       std::reverse(path.begin(), path.end());
-      while (path.size() > least && this->degree(path.back()) == 1 && !this->held(path.back()) &&
-        !this->holds(this->place(path.back())))
+      while (path.size() > least && this->degree(path.back()) == 1 && !this->is_root(path.back()) &&
+        !this->is_inside(this->position(path.back())))
       {
         this->remove(path.back());
         path.pop_back();
@@ -229,17 +232,17 @@ public:
   void contract(const Branch& branch)
   {
     // A held root does not move.
-    const Index a = this->held(branch.path.back()) ? branch.path.back() : branch.path.front();
+    const Index a = this->is_root(branch.path.back()) ? branch.path.back() : branch.path.front();
     const Index b = a == branch.path.front() ? branch.path.back() : branch.path.front();
     const std::set<Index> others = this->next_[b];
-    Vec3 place = 0.5 * (this->place(a) + this->place(b));
-    if (!this->holds(place))
+    Vec3 position = 0.5 * (this->position(a) + this->position(b));
+    if (!this->is_inside(position))
     {
-      place = this->place(branch.path[branch.path.size() / 2]);
+      position = this->position(branch.path[branch.path.size() / 2]);
     }
-    if (this->held(a) || !this->holds(place))
+    if (this->is_root(a) || !this->is_inside(position))
     {
-      place = this->place(a);
+      position = this->position(a);
     }
     for (const Index v : branch.path)
     {
@@ -250,13 +253,13 @@ public:
     }
     for (const Index w : others)
     {
-      if (this->alive(w) && w != a)
+      if (this->is_alive(w) && w != a)
       {
         this->next_[a].insert(w);
         this->next_[w].insert(a);
       }
     }
-    this->places_[a] = place;
+    this->positions_[a] = position;
     this->radii_[a] = std::max(this->radii_[a], this->radii_[b]);
   }
 
@@ -266,7 +269,7 @@ public:
     Index widest = -1;
     for (Index v = 0; v < this->size(); ++v)
     {
-      if (this->alive(v) && this->part(v) == part &&
+      if (this->is_alive(v) && this->part(v) == part &&
         (widest < 0 || this->radius(v) > this->radius(widest)))
       {
         widest = v;
@@ -274,7 +277,7 @@ public:
     }
     for (Index v = 0; v < this->size(); ++v)
     {
-      if (this->alive(v) && this->part(v) == part && v != widest)
+      if (this->is_alive(v) && this->part(v) == part && v != widest)
       {
         this->remove(v);
       }
@@ -299,8 +302,8 @@ private:
 
   std::vector<std::set<Index>> next_;
   std::vector<char> alive_;
-  std::vector<char> held_; ///< 1 for roots, which are joints even if they have two neighbors
-  std::vector<Vec3> places_;
+  std::vector<char> is_root_; ///< 1 for roots, which are joints even if they have two neighbors
+  std::vector<Vec3> positions_;
   std::vector<double> radii_;
   const CurveSkeleton& skeleton_;
   const std::function<bool(const Vec3&)>& inside_;
@@ -418,7 +421,7 @@ struct Piece
   /// The larger of two values: the distance of the piece from its bone divided by the tolerance,
   /// and the length of the piece divided by the maximum length. The piece must be split if this is
   /// above 1. If the distance is within the tolerance but the bone leaves the shape, 1 is added.
-  double need = 0.0;
+  double split_priority = 0.0;
   std::size_t at = 0; ///< index in the path at which the piece would be split
 };
 
@@ -426,8 +429,8 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
 {
   Piece piece;
   piece.path = std::move(path);
-  const Vec3& head = graph.place(piece.path.front());
-  const Vec3 chord = graph.place(piece.path.back()) - head;
+  const Vec3& head = graph.position(piece.path.front());
+  const Vec3 chord = graph.position(piece.path.back()) - head;
   const double squared = chord.squaredNorm();
   double length = 0.0;
   std::vector<double> along{ 0.0 };
@@ -436,14 +439,14 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
   double farthest = slight * tolerance;
   for (std::size_t i = 1; i < piece.path.size(); ++i)
   {
-    const Vec3& p = graph.place(piece.path[i]);
-    length += (p - graph.place(piece.path[i - 1])).norm();
+    const Vec3& p = graph.position(piece.path[i]);
+    length += (p - graph.position(piece.path[i - 1])).norm();
     along.push_back(length);
     const double t =
       squared > 0.0 ? std::min(std::max((p - head).dot(chord) / squared, 0.0), 1.0) : 0.0;
     const double distance = (p - head - t * chord).norm();
     // The piece may only be split at a point inside the shape, because this point becomes a joint.
-    if (distance > farthest && graph.holds(p))
+    if (distance > farthest && graph.is_inside(p))
     {
       farthest = distance;
       piece.at = i;
@@ -455,22 +458,22 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
   }
   if (piece.at > 0)
   {
-    piece.need = farthest / tolerance;
-    if (piece.need <= 1.0 && graph.leaves(head, head + chord))
+    piece.split_priority = farthest / tolerance;
+    if (piece.split_priority <= 1.0 && graph.leaves(head, head + chord))
     {
-      piece.need += 1.0;
+      piece.split_priority += 1.0;
     }
   }
-  if (longest > 0.0 && length / longest > std::max(piece.need, 1.0))
+  if (longest > 0.0 && length / longest > std::max(piece.split_priority, 1.0))
   {
     double from_middle = infinite;
     for (std::size_t i = 1; i + 1 < along.size(); ++i)
     {
       const double distance = std::abs(along[i] - 0.5 * length);
-      if (distance < from_middle && graph.holds(graph.place(piece.path[i])))
+      if (distance < from_middle && graph.is_inside(graph.position(piece.path[i])))
       {
         from_middle = distance;
-        piece.need = length / longest;
+        piece.split_priority = length / longest;
         piece.at = i;
       }
     }
@@ -487,7 +490,7 @@ std::vector<Index> outside_of_junctions(const Graph& graph, const std::vector<In
   {
     constexpr Index least = 3;
     return graph.degree(end) >= least &&
-      (graph.place(v) - graph.place(end)).norm() <= graph.radius(end);
+      (graph.position(v) - graph.position(end)).norm() <= graph.radius(end);
   };
   for (std::size_t i = 1; i + 1 < path.size(); ++i)
   {
@@ -510,9 +513,9 @@ std::vector<Piece> split(const Graph& graph, double tolerance, double longest, I
   }
   while (most == 0 || static_cast<Index>(pieces.size()) < most)
   {
-    const auto neediest = std::max_element(
-      pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.need < b.need; });
-    if (neediest == pieces.end() || neediest->need <= 1.0)
+    const auto neediest = std::max_element(pieces.begin(), pieces.end(),
+      [](const Piece& a, const Piece& b) { return a.split_priority < b.split_priority; });
+    if (neediest == pieces.end() || neediest->split_priority <= 1.0)
     {
       break;
     }
@@ -533,7 +536,7 @@ double volume_of(const Graph& graph, const Piece& piece)
     const Index a = piece.path[i - 1];
     const Index b = piece.path[i];
     const double radius = 0.5 * (graph.radius(a) + graph.radius(b));
-    sum += radius * radius * (graph.place(a) - graph.place(b)).norm();
+    sum += radius * radius * (graph.position(a) - graph.position(b)).norm();
   }
   return sum;
 }
@@ -543,13 +546,13 @@ class Orientation
 {
 public:
   Orientation(const Graph& graph, const std::vector<Piece>& pieces, SkeletonBones& result)
-    : graph_(graph), pieces_(pieces), result_(result), at_(static_cast<std::size_t>(graph.size())),
-      done_(pieces.size(), 0)
+    : graph_(graph), pieces_(pieces), result_(result),
+      pieces_at_joint_(static_cast<std::size_t>(graph.size())), done_(pieces.size(), 0)
   {
     for (std::size_t i = 0; i < pieces.size(); ++i)
     {
-      this->at_[pieces[i].path.front()].push_back(static_cast<Index>(i));
-      this->at_[pieces[i].path.back()].push_back(static_cast<Index>(i));
+      this->pieces_at_joint_[pieces[i].path.front()].push_back(static_cast<Index>(i));
+      this->pieces_at_joint_[pieces[i].path.back()].push_back(static_cast<Index>(i));
     }
   }
 
@@ -574,7 +577,7 @@ public:
       const Index root = this->root_of(part);
       if (root >= 0)
       {
-        this->grow(root, this->nearest(this->graph_.place(root), first_bone, last_bone));
+        this->grow(root, this->nearest(this->graph_.position(root), first_bone, last_bone));
         last_bone =
           last_bone > first_bone ? last_bone : static_cast<Index>(this->result_.handles.size());
       }
@@ -598,13 +601,14 @@ private:
   {
     const auto distance = [&](Index v)
     {
-      return this->graph_.held(v) ? -1.0
-                                  : (this->graph_.place(v) - this->graph_.centroid(part)).norm();
+      return this->graph_.is_root(v)
+        ? -1.0
+        : (this->graph_.position(v) - this->graph_.centroid(part)).norm();
     };
     Index root = -1;
     for (Index v = 0; v < this->graph_.size(); ++v)
     {
-      if (this->graph_.part(v) == part && !this->at_[v].empty() &&
+      if (this->graph_.part(v) == part && !this->pieces_at_joint_[v].empty() &&
         (root < 0 || distance(v) < distance(root)))
       {
         root = v;
@@ -614,7 +618,7 @@ private:
   }
 
   /// Return the bone in [begin, end) nearest to a point, or -1 if the range is empty.
-  Index nearest(const Vec3& place, Index begin, Index end) const
+  Index nearest(const Vec3& position, Index begin, Index end) const
   {
     Index best = -1;
     double least = infinite;
@@ -622,8 +626,8 @@ private:
     {
       const Handle& bone = this->result_.handles[h];
       const Vec3 vector = bone.tail - bone.head;
-      const double along = fraction_along_bone(place, bone.head, vector);
-      const double distance = (bone.head + along * vector - place).norm();
+      const double along = fraction_along_bone(position, bone.head, vector);
+      const double distance = (bone.head + along * vector - position).norm();
       if (distance < least)
       {
         least = distance;
@@ -635,8 +639,8 @@ private:
 
   void add_joint(Index v)
   {
-    this->joints_.push_back(this->graph_.place(v));
-    this->result_.junctions += this->at_[v].size() >= 3 ? 1 : 0;
+    this->joints_.push_back(this->graph_.position(v));
+    this->result_.junctions += this->pieces_at_joint_[v].size() >= 3 ? 1 : 0;
   }
 
   /// Create the bones of one component. The bone with the largest volume at the root is the parent
@@ -644,7 +648,7 @@ private:
   /// @param carrier parent of the first bone, or -1.
   void grow(Index root, Index carrier)
   {
-    std::vector<Index>& first = this->at_[root];
+    std::vector<Index>& first = this->pieces_at_joint_[root];
     std::iter_swap(first.begin(),
       std::max_element(first.begin(), first.end(),
         [&](Index a, Index b) {
@@ -660,7 +664,7 @@ private:
     {
       const auto [head, parent] = open.front();
       open.pop();
-      for (const Index i : this->at_[head])
+      for (const Index i : this->pieces_at_joint_[head])
       {
         if (this->done_[i])
         {
@@ -674,8 +678,8 @@ private:
         Handle bone;
         bone.kind = HandleKind::bone;
         bone.name = "b" + std::to_string(++this->bones_);
-        bone.head = this->graph_.place(head);
-        bone.tail = this->graph_.place(tail);
+        bone.head = this->graph_.position(head);
+        bone.tail = this->graph_.position(tail);
         bone.parent = number == trunk ? carrier : parent;
         open.push({ tail, number });
         this->result_.handles.push_back(std::move(bone));
@@ -686,7 +690,7 @@ private:
   const Graph& graph_;
   const std::vector<Piece>& pieces_;
   SkeletonBones& result_;
-  std::vector<std::vector<Index>> at_; ///< pieces at each joint
+  std::vector<std::vector<Index>> pieces_at_joint_; ///< pieces at each joint
   std::vector<char> done_; ///< 1 for each piece that has become a bone
   std::vector<Vec3> joints_;
   Index bones_ = 0;
@@ -694,7 +698,7 @@ private:
 
 Status check_options(const SkeletonBonesOptions& options)
 {
-  const auto bad = [](const char* name, const char* range, double value)
+  const auto out_of_range = [](const char* name, const char* range, double value)
   {
     return Status::invalid_input(
       std::string(name) + " must be " + range + ", not " + short_number(value));
@@ -704,20 +708,20 @@ Status check_options(const SkeletonBonesOptions& options)
   constexpr double most_prune = 10.0;
   if (!(options.tolerance >= least_tolerance && options.tolerance <= 1.0))
   {
-    return bad("bone_tolerance", "from 0.001 to 1", options.tolerance);
+    return out_of_range("bone_tolerance", "from 0.001 to 1", options.tolerance);
   }
   if (!(options.longest_bone == 0.0 || options.longest_bone >= least_bone) ||
     !std::isfinite(options.longest_bone))
   {
-    return bad("longest_bone", "0 (no limit) or at least 0.01", options.longest_bone);
+    return out_of_range("longest_bone", "0 (no limit) or at least 0.01", options.longest_bone);
   }
   if (options.maximum_bones < 0)
   {
-    return bad("maximum_bones", "at least 0", static_cast<double>(options.maximum_bones));
+    return out_of_range("maximum_bones", "at least 0", static_cast<double>(options.maximum_bones));
   }
   if (!(options.prune >= 0.0 && options.prune <= most_prune))
   {
-    return bad("prune", "from 0 to 10", options.prune);
+    return out_of_range("prune", "from 0 to 10", options.prune);
   }
   return {};
 }
@@ -742,10 +746,10 @@ Status skeleton_bones(const CurveSkeleton& skeleton, double diagonal,
   collapse_balls(graph, parts, options.prune);
   for (Index v = 0; v < graph.size(); ++v)
   {
-    if (graph.alive(v) && graph.degree(v) == 0)
+    if (graph.is_alive(v) && graph.degree(v) == 0)
     {
       Handle point;
-      point.head = point.tail = graph.place(v);
+      point.head = point.tail = graph.position(v);
       point.name = "p" + std::to_string(bones.handles.size() + 1);
       bones.handles.push_back(std::move(point));
     }

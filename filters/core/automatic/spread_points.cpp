@@ -63,7 +63,7 @@ public:
   {
     result.components = static_cast<Index>(this->components_.size());
     const SurfaceProbe probe(this->points_, this->triangles_);
-    std::vector<Vec3> places;
+    std::vector<Vec3> positions;
     for (Index n = 0; n < this->options_.count; ++n)
     {
       this->context_.progress(static_cast<double>(n) / static_cast<double>(this->options_.count));
@@ -82,26 +82,26 @@ public:
         component->full = vertex < 0;
       }
       ++component->points;
-      result.served += component->points == 1 ? 1 : 0;
-      Vec3 place = this->points_.row(vertex);
+      result.covered_components += component->points == 1 ? 1 : 0;
+      Vec3 position = this->points_.row(vertex);
       std::vector<std::pair<double, Index>> near{ { 0.0, vertex } };
       double depth = 0.0;
-      if (this->options_.inside && this->move_inside(probe, vertex, places, place, depth))
+      if (this->options_.inside && this->move_inside(probe, vertex, positions, position, depth))
       {
         ++result.inside;
-        this->add_vertices_near(*component, place, 2.0 * depth, near);
+        this->add_vertices_near(*component, position, 2.0 * depth, near);
       }
-      if (!this->update(*component, place, std::move(near)))
+      if (!this->update(*component, position, std::move(near)))
       {
         return Status::canceled();
       }
-      places.push_back(place);
+      positions.push_back(position);
       result.vertices.push_back(vertex);
     }
-    result.places.resize(static_cast<Index>(places.size()), 3);
-    for (std::size_t i = 0; i < places.size(); ++i)
+    result.positions.resize(static_cast<Index>(positions.size()), 3);
+    for (std::size_t i = 0; i < positions.size(); ++i)
     {
-      result.places.row(static_cast<Index>(i)) = places[i].transpose();
+      result.positions.row(static_cast<Index>(i)) = positions[i].transpose();
     }
     return {};
   }
@@ -115,7 +115,7 @@ private:
     {
       finite[static_cast<std::size_t>(v)] = this->points_.row(v).allFinite();
     }
-    const std::vector<Index> weld = lowest_at_place(this->points_, finite);
+    const std::vector<Index> weld = find_representatives(this->points_, finite);
     this->welded_ = this->triangles_;
     for (Index k = 0; k < this->welded_.size(); ++k)
     {
@@ -126,9 +126,9 @@ private:
     this->components_.resize(static_cast<std::size_t>(parts.count));
     for (Index v = 0; v < this->points_.rows(); ++v)
     {
-      if (parts.of_vertex[v] >= 0)
+      if (parts.component_of_vertex[v] >= 0)
       {
-        this->components_[parts.of_vertex[v]].vertices.push_back(v);
+        this->components_[parts.component_of_vertex[v]].vertices.push_back(v);
       }
     }
     for (Index f = 0; f < this->welded_.rows(); ++f)
@@ -136,7 +136,7 @@ private:
       const Vec3 a = this->points_.row(this->welded_(f, 0));
       const Vec3 b = this->points_.row(this->welded_(f, 1));
       const Vec3 c = this->points_.row(this->welded_(f, 2));
-      this->components_[parts.of_vertex[this->welded_(f, 0)]].area +=
+      this->components_[parts.component_of_vertex[this->welded_(f, 0)]].area +=
         0.5 * (b - a).cross(c - a).norm();
     }
     for (const Component& component : this->components_)
@@ -186,11 +186,11 @@ private:
         continue;
       }
       const bool first = component.points == 0 && component.area >= crumb * this->largest_area_;
-      const double share = component.area / static_cast<double>(component.points + 1);
-      if ((first && !best_first) || (first == best_first && share > most))
+      const double area_per_point = component.area / static_cast<double>(component.points + 1);
+      if ((first && !best_first) || (first == best_first && area_per_point > most))
       {
         best = &component;
-        most = share;
+        most = area_per_point;
         best_first = first;
       }
     }
@@ -227,7 +227,7 @@ private:
     return best;
   }
 
-  bool holds(const Vec3& p) const
+  bool is_inside(const Vec3& p) const
   {
     return this->winding_.evaluate_at(p) >= this->options_.winding_threshold;
   }
@@ -236,34 +236,34 @@ private:
   /// the new position. Return whether the point was moved.
   /// @param depth set to the distance of the moved point from the surface.
   bool move_inside(const SurfaceProbe& probe, Index vertex, const std::vector<Vec3>& taken,
-    Vec3& place, double& depth) const
+    Vec3& position, double& depth) const
   {
     // The inside is tested at one point on each side of the surface. This is the distance of these
     // points from the vertex, in bounding-box diagonals.
     constexpr double near = 1e-5;
-    const Vec3 from = place;
-    Vec3 way = -this->normals_.row(vertex).transpose();
-    if (!(way.norm() > 0.0))
+    const Vec3 from = position;
+    Vec3 direction = -this->normals_.row(vertex).transpose();
+    if (!(direction.norm() > 0.0))
     {
       return false;
     }
-    way.normalize();
+    direction.normalize();
     const double step = near * this->diagonal_;
-    if (!this->holds(from + step * way))
+    if (!this->is_inside(from + step * direction))
     {
-      way = -way; // the surface is inside out at this vertex
-      if (!this->holds(from + step * way))
+      direction = -direction; // the surface is inside out at this vertex
+      if (!this->is_inside(from + step * direction))
       {
         return false;
       }
     }
     // Find the distance at which the ray leaves the shape.
-    const Vec3 origin = from + step * way;
+    const Vec3 origin = from + step * direction;
     double end = this->diagonal_;
     double last = 0.0;
-    for (const SurfaceProbe::Hit& hit : probe.hits(origin, way))
+    for (const SurfaceProbe::Hit& hit : probe.hits(origin, direction))
     {
-      if (!this->holds(origin + 0.5 * (last + hit.distance) * way))
+      if (!this->is_inside(origin + 0.5 * (last + hit.distance) * direction))
       {
         break;
       }
@@ -271,7 +271,7 @@ private:
     }
     const auto depth_at = [&](double t)
     {
-      const Vec3 p = origin + t * way;
+      const Vec3 p = origin + t * direction;
       Vec3 nearest = p;
       probe.nearest(p, nearest);
       return (p - nearest).norm();
@@ -291,24 +291,24 @@ private:
       best = i * h;
       depth = deeper;
     }
-    const Vec3 inner = origin + best * way;
+    const Vec3 inner = origin + best * direction;
     constexpr double same = 1e-6;
     const bool free = std::none_of(taken.begin(), taken.end(),
       [&](const Vec3& other) { return (other - inner).norm() <= same * this->diagonal_; });
-    if (!free || !this->holds(inner))
+    if (!free || !this->is_inside(inner))
     {
       return false;
     }
-    place = inner;
+    position = inner;
     return true;
   }
 
-  void add_vertices_near(const Component& component, const Vec3& place, double reach,
+  void add_vertices_near(const Component& component, const Vec3& position, double reach,
     std::vector<std::pair<double, Index>>& near) const
   {
     for (const Index v : component.vertices)
     {
-      const double distance = (this->points_.row(v).transpose() - place).norm();
+      const double distance = (this->points_.row(v).transpose() - position).norm();
       if (distance <= reach)
       {
         near.emplace_back(distance, v);
@@ -319,14 +319,14 @@ private:
   /// Update the distances of the component's vertices for a new point.
   /// @return false if canceled.
   bool update(
-    const Component& component, const Vec3& place, std::vector<std::pair<double, Index>> near)
+    const Component& component, const Vec3& position, std::vector<std::pair<double, Index>> near)
   {
     if (this->options_.distance == PointDistance::straight)
     {
       for (const Index v : component.vertices)
       {
         this->distance_[v] =
-          std::min(this->distance_[v], (this->points_.row(v).transpose() - place).norm());
+          std::min(this->distance_[v], (this->points_.row(v).transpose() - position).norm());
       }
       this->distance_[near.front().second] = 0.0;
       return !this->context_.canceled();

@@ -33,11 +33,11 @@ struct SpreadPointsOptions
 /// The result of spread_points().
 struct SpreadPoints
 {
-  Points places; ///< #count x 3: positions of the points, in the order of choice
+  Points positions; ///< #count x 3: positions of the points, in the order of choice
   std::vector<Index> vertices; ///< #count: the vertex at which each point was chosen
   Index inside = 0; ///< number of points that were moved inside
   Index components = 0; ///< number of components of the surface with equal vertices welded
-  Index served = 0; ///< number of components that got at least one point
+  Index covered_components = 0; ///< number of components that got at least one point
 };
 
 /// Spread points over a surface's vertices (farthest-point sampling). Each point is as far as

@@ -11,14 +11,14 @@ namespace bindpose
 /// Allocates memory that begins at a cache line, so that a load of the widest registers never
 /// crosses a cache line.
 template <typename T>
-struct LineAllocator
+struct CacheLineAllocator
 {
   using value_type = T;
   static constexpr std::align_val_t line{ 64 };
 
-  LineAllocator() = default;
+  CacheLineAllocator() = default;
   template <typename U>
-  LineAllocator(const LineAllocator<U>&)
+  CacheLineAllocator(const CacheLineAllocator<U>&)
   {
   }
   T* allocate(std::size_t count)
@@ -26,12 +26,12 @@ struct LineAllocator
     return static_cast<T*>(::operator new(count * sizeof(T), line));
   }
   void deallocate(T* memory, std::size_t) { ::operator delete(memory, line); }
-  friend bool operator==(const LineAllocator&, const LineAllocator&) { return true; }
-  friend bool operator!=(const LineAllocator&, const LineAllocator&) { return false; }
+  friend bool operator==(const CacheLineAllocator&, const CacheLineAllocator&) { return true; }
+  friend bool operator!=(const CacheLineAllocator&, const CacheLineAllocator&) { return false; }
 };
 
 template <typename T>
-using AlignedVector = std::vector<T, LineAllocator<T>>;
+using AlignedVector = std::vector<T, CacheLineAllocator<T>>;
 
 } // namespace bindpose
 

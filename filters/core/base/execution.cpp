@@ -60,8 +60,8 @@ void ExecutionContext::emit(double fraction_of_whole, bool force)
   this->last_emit_ = now;
   // If a kernel repeats a part of its work, the progress of that part starts again. The reported
   // progress must not decrease.
-  this->furthest_ = std::max(this->furthest_, fraction_of_whole);
-  this->progress_(this->furthest_, this->phase_);
+  this->largest_fraction_ = std::max(this->largest_fraction_, fraction_of_whole);
+  this->progress_(this->largest_fraction_, this->phase_);
 }
 
 Phase::Phase(ExecutionContext& context, std::string name, double begin, double end)

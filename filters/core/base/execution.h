@@ -65,7 +65,7 @@ private:
   int threads_ = 0;
   double begin_ = 0.0; // range of the current phase as fractions of the whole computation
   double end_ = 1.0;
-  double furthest_ = 0.0; // largest fraction reported so far
+  double largest_fraction_ = 0.0; // largest fraction reported so far
   std::string phase_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point last_emit_{};

@@ -19,7 +19,11 @@ class FlushDenormals
 {
 public:
   FlushDenormals() : before_(read()) { write(this->before_ | flush); }
-  ~FlushDenormals() { write(this->before_); }
+  ~FlushDenormals()
+  {
+    // Other bits may have changed: exception flags, rounding mode.
+    write((read() & ~flush) | (this->before_ & flush));
+  }
   FlushDenormals(const FlushDenormals&) = delete;
   FlushDenormals& operator=(const FlushDenormals&) = delete;
 
@@ -55,7 +59,7 @@ private:
   static void write(std::uint64_t) {}
 #endif
 
-  std::uint64_t before_; ///< the control register at the begin of the scope
+  std::uint64_t before_; ///< the control register before the scope
 };
 
 } // namespace bindpose

@@ -16,11 +16,11 @@ template <typename Item, typename Body>
 bool gather(ExecutionContext& context, Index count, std::vector<Item>& all, const Body& body,
   Index block = 512)
 {
-  std::vector<std::vector<Item>> of_block(static_cast<std::size_t>((count + block - 1) / block));
+  std::vector<std::vector<Item>> block_items(static_cast<std::size_t>((count + block - 1) / block));
   const bool whole = parallel_for(context, count, block,
     [&](Index begin, Index end)
     {
-      auto& list = of_block[static_cast<std::size_t>(begin / block)];
+      auto& list = block_items[static_cast<std::size_t>(begin / block)];
       for (Index i = begin; i < end; ++i)
       {
         if (i % 16 == 0 && context.canceled())
@@ -31,7 +31,7 @@ bool gather(ExecutionContext& context, Index count, std::vector<Item>& all, cons
       }
     });
   all.clear();
-  for (auto& list : of_block)
+  for (auto& list : block_items)
   {
     all.insert(all.end(), list.begin(), list.end());
     std::vector<Item>().swap(list);

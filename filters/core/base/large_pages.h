@@ -16,7 +16,7 @@ namespace bindpose
 /// pages, the first write to a gigabyte takes a fourth of the time and freeing it takes a thirtieth
 /// (measured). Random access has fewer misses in the address translation cache. The request is only
 /// a hint: contents, addresses and results never depend on it.
-inline void ask_for_large_pages([[maybe_unused]] void* begin, [[maybe_unused]] std::size_t bytes)
+inline void request_large_pages([[maybe_unused]] void* begin, [[maybe_unused]] std::size_t bytes)
 {
 #if defined(__linux__) && defined(MADV_HUGEPAGE)
   constexpr std::uintptr_t page = 1 << 21;
@@ -37,11 +37,11 @@ inline void ask_for_large_pages([[maybe_unused]] void* begin, [[maybe_unused]] s
 template <typename Item>
 void reserve_in_large_pages(std::vector<Item>& items, std::size_t count)
 {
-  std::vector<Item> roomy;
-  roomy.reserve(count);
-  ask_for_large_pages(roomy.data(), count * sizeof(Item));
-  roomy.assign(items.begin(), items.end());
-  items.swap(roomy);
+  std::vector<Item> enlarged;
+  enlarged.reserve(count);
+  request_large_pages(enlarged.data(), count * sizeof(Item));
+  enlarged.assign(items.begin(), items.end());
+  items.swap(enlarged);
 }
 
 } // namespace bindpose

@@ -125,7 +125,7 @@ double available_memory()
 #endif
 }
 
-double memory_left(Index limit)
+double remaining_memory(Index limit)
 {
   const double available = available_memory();
   return limit > 0
@@ -135,20 +135,23 @@ double memory_left(Index limit)
 
 Status check_memory(const std::string& what, double bytes, Index limit)
 {
-  const double left = memory_left(limit);
+  const double left = remaining_memory(limit);
   if (bytes <= left)
   {
     return {};
   }
-  const double held = resident_memory();
+  const double resident_bytes = resident_memory();
   const double allowed = static_cast<double>(limit) * mebibyte;
-  const bool limited = limit > 0 && allowed - held <= available_memory();
-  const auto words = [](double size)
+  const bool limited = limit > 0 && allowed - resident_bytes <= available_memory();
+  const auto format_mebibytes = [](double size)
   { return std::to_string(static_cast<long long>(std::ceil(size / mebibyte))) + " MiB"; };
   return Status::failure(StatusCode::internal_error,
-    what + " would increase the memory of this process to about " + words(held + bytes) + "; " +
-      (limited ? "the limit is " + words(allowed) + ": use a coarser mesh or a higher limit"
-               : "only " + words(held + left) + " are available: use a coarser mesh"));
+    what + " would increase the memory of this process to about " +
+      format_mebibytes(resident_bytes + bytes) + "; " +
+      (limited
+          ? "the limit is " + format_mebibytes(allowed) + ": use a coarser mesh or a higher limit"
+          : "only " + format_mebibytes(resident_bytes + left) +
+            " are available: use a coarser mesh"));
 }
 
 } // namespace bindpose

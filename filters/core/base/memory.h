@@ -36,7 +36,7 @@ Status check_memory(const std::string& what, double bytes, Index limit);
 
 /// Return the number of bytes that the process can still allocate.
 /// @param limit MiB that the whole process may use; 0: all available memory
-double memory_left(Index limit);
+double remaining_memory(Index limit);
 
 } // namespace bindpose
 

@@ -15,13 +15,13 @@ typename std::iterator_traits<Iterator>::value_type most_frequent(Iterator begin
 {
   std::sort(begin, end);
   auto best = *begin;
-  std::ptrdiff_t most = 0;
+  std::ptrdiff_t longest_run = 0;
   for (Iterator run = begin; run != end;)
   {
     const Iterator next = std::upper_bound(run, end, *run);
-    if (next - run > most)
+    if (next - run > longest_run)
     {
-      most = next - run;
+      longest_run = next - run;
       best = *run;
     }
     run = next;

@@ -30,7 +30,7 @@ BINDPOSE_ALWAYS_INLINE const auto& pack_at(const Scalar* from)
   return *reinterpret_cast<const typename PackOf<Scalar, bytes>::Pack*>(from);
 }
 
-BINDPOSE_ALWAYS_INLINE float sum_of(const PackOf<float>::Pack& p)
+BINDPOSE_ALWAYS_INLINE float sum_lanes(const PackOf<float>::Pack& p)
 {
   typedef float Four __attribute__((vector_size(16), aligned(4), may_alias));
   const Four* const halves = reinterpret_cast<const Four*>(&p);
@@ -38,7 +38,7 @@ BINDPOSE_ALWAYS_INLINE float sum_of(const PackOf<float>::Pack& p)
   return (sum[0] + sum[2]) + (sum[1] + sum[3]);
 }
 
-BINDPOSE_ALWAYS_INLINE double sum_of(const PackOf<double>::Pack& p)
+BINDPOSE_ALWAYS_INLINE double sum_lanes(const PackOf<double>::Pack& p)
 {
   return (p[0] + p[2]) + (p[1] + p[3]);
 }
@@ -59,8 +59,8 @@ BINDPOSE_ALWAYS_INLINE void add_columns(
       factors[c][j] = x[j * x_stride + c];
     }
   }
-  const Index whole = rows / lanes * lanes;
-  for (Index r = 0; r < whole; r += lanes)
+  const Index full_pack_rows = rows / lanes * lanes;
+  for (Index r = 0; r < full_pack_rows; r += lanes)
   {
     Pack y0 = pack_at<bytes>(y + r), y1 = pack_at<bytes>(y + rows + r),
          y2 = pack_at<bytes>(y + 2 * rows + r);
@@ -75,7 +75,7 @@ BINDPOSE_ALWAYS_INLINE void add_columns(
     pack_at<bytes>(y + rows + r) = y1;
     pack_at<bytes>(y + 2 * rows + r) = y2;
   }
-  for (Index r = whole; r < rows; ++r)
+  for (Index r = full_pack_rows; r < rows; ++r)
   {
     for (Index c = 0; c < count; ++c)
     {

@@ -16,11 +16,11 @@
 namespace bindpose
 {
 
-int thread_count(int asked)
+int thread_count(int requested)
 {
   // TBB would print a warning if more threads than cores were requested.
   const int cores = tbb::info::default_concurrency();
-  return asked > 0 ? std::min(asked, cores) : cores;
+  return requested > 0 ? std::min(requested, cores) : cores;
 }
 
 bool parallel_for(ExecutionContext& context, Index count, Index block_size,
@@ -56,7 +56,7 @@ bool parallel_for(ExecutionContext& context, Index count, Index block_size,
   {
     // The loop is isolated, so that a thread that waits for the last block does not start other
     // tasks.
-    const auto share = [&]
+    const auto run_blocks = [&]
     {
       tbb::this_task_arena::isolate(
         [&] { tbb::parallel_for(Index(0), blocks, Index(1), run, tbb::simple_partitioner()); });
@@ -66,13 +66,13 @@ bool parallel_for(ExecutionContext& context, Index count, Index block_size,
     {
       // Use the existing arena. A new arena per call would exist until its worker threads have left
       // the arena. Such arenas would accumulate on a busy machine.
-      share();
+      run_blocks();
     }
     else
     {
       // The arenas are kept between calls, because new arenas per call would accumulate.
       thread_local std::map<int, tbb::task_arena> arenas;
-      arenas.try_emplace(threads, threads).first->second.execute(share);
+      arenas.try_emplace(threads, threads).first->second.execute(run_blocks);
     }
   }
   return !stopped;

@@ -11,9 +11,9 @@
 namespace bindpose
 {
 
-/// Return the number of threads that run concurrently if `asked` threads are requested (0: all
+/// Return the number of threads that run concurrently if `requested` threads are requested (0: all
 /// cores). It is at most the number of cores, because more threads would save no time.
-int thread_count(int asked);
+int thread_count(int requested);
 
 /// Call body(begin, end) for consecutive blocks of at most block_size items that cover [0, count),
 /// on the context's threads. The blocks are the same for any number of threads. Therefore results

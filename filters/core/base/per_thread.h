@@ -20,31 +20,31 @@ public:
   template <typename Make, typename Use>
   void with(const Make& make, const Use& use)
   {
-    std::unique_ptr<T> one;
+    std::unique_ptr<T> object;
     {
       const std::lock_guard<std::mutex> lock(this->mutex_);
       if (!this->idle_.empty())
       {
-        one = std::move(this->idle_.back());
+        object = std::move(this->idle_.back());
         this->idle_.pop_back();
       }
     }
-    if (!one)
+    if (!object)
     {
-      one = make();
+      object = make();
     }
-    use(*one);
+    use(*object);
     const std::lock_guard<std::mutex> lock(this->mutex_);
-    this->idle_.push_back(std::move(one));
+    this->idle_.push_back(std::move(object));
   }
 
   /// Call see(const T&) for each object. No loop body may run at the same time.
-  template <typename See>
-  void for_each(const See& see) const
+  template <typename Visit>
+  void for_each(const Visit& visit) const
   {
-    for (const auto& one : this->idle_)
+    for (const auto& object : this->idle_)
     {
-      see(*one);
+      visit(*object);
     }
   }
 

@@ -29,9 +29,9 @@ SideTask::~SideTask()
 {
   {
     const std::lock_guard<std::mutex> lock(this->mutex_);
-    this->dropped_ = true;
+    this->destroyed_ = true;
   }
-  this->changed_.notify_all();
+  this->condition_.notify_all();
   if (this->thread_.joinable())
   {
     this->thread_.join();
@@ -42,14 +42,14 @@ void SideTask::run()
 {
   {
     std::unique_lock<std::mutex> lock(this->mutex_);
-    this->changed_.wait_for(lock, std::chrono::duration<double>(this->delay_),
-      [this] { return this->wanted_ || this->dropped_; });
-    if (this->dropped_)
+    this->condition_.wait_for(lock, std::chrono::duration<double>(this->delay_),
+      [this] { return this->finish_requested_ || this->destroyed_; });
+    if (this->destroyed_)
     {
       return;
     }
   }
-  ExecutionContext context({}, [this] { return this->dropped_ || this->context_.canceled(); });
+  ExecutionContext context({}, [this] { return this->destroyed_ || this->context_.canceled(); });
   context.set_threads(1);
   try
   {
@@ -75,9 +75,9 @@ void SideTask::finish()
   }
   {
     const std::lock_guard<std::mutex> lock(this->mutex_);
-    this->wanted_ = true;
+    this->finish_requested_ = true;
   }
-  this->changed_.notify_all();
+  this->condition_.notify_all();
   this->thread_.join();
   if (this->failure_)
   {

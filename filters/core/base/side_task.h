@@ -41,9 +41,9 @@ private:
   ExecutionContext& context_;
   const Work work_;
   std::mutex mutex_;
-  std::condition_variable changed_;
-  bool wanted_ = false; ///< true after finish() was called
-  std::atomic<bool> dropped_{ false }; ///< set by the destructor
+  std::condition_variable condition_;
+  bool finish_requested_ = false; ///< true after finish() was called
+  std::atomic<bool> destroyed_{ false }; ///< set by the destructor
   bool finished_ = false;
   std::exception_ptr failure_;
   std::thread thread_; ///< not started if the context has only one thread

@@ -127,7 +127,7 @@ std::string Report::text(const std::string& key, const std::string& fallback) co
   return text ? *text : fallback;
 }
 
-std::string one_line(std::string text)
+std::string sanitize_line(std::string text)
 {
   for (std::size_t i = 0; i < text.size();)
   {
@@ -145,7 +145,7 @@ Status Status::failure(StatusCode code, std::string message)
 {
   Status status;
   status.code = code;
-  status.message = one_line(std::move(message));
+  status.message = sanitize_line(std::move(message));
   return status;
 }
 

@@ -71,7 +71,7 @@ private:
 
 /// Return the text with a '?' in place of every control character and every byte that is not UTF-8.
 /// Therefore neither names nor text from files can break a line, a terminal or a Python string.
-std::string one_line(std::string text);
+std::string sanitize_line(std::string text);
 
 /// Outcome of a computation: a code, a message of one sentence, warnings (one sentence each) and a
 /// report of measured values.
@@ -86,7 +86,7 @@ struct Status
   /// Report whether there is a result: the code is ok or not_converged.
   bool usable() const { return this->ok() || this->code == StatusCode::not_converged; }
 
-  /// Return a failed status. The message is passed through one_line().
+  /// Return a failed status. The message is passed through sanitize_line().
   static Status failure(StatusCode code, std::string message);
   static Status invalid_input(std::string message);
   static Status canceled();

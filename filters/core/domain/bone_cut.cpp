@@ -69,25 +69,25 @@ double left_of(const Handle& bone, const Eigen::RowVector3d& p)
 }
 
 /// Return the triangles at a vertex, in groups that are separated by bones.
-std::vector<std::vector<Index>> groups_around(
-  Index vertex, const std::vector<Index>& around, TrianglesView triangles, const BoneEdges& bones)
+std::vector<std::vector<Index>> groups_around(Index vertex,
+  const std::vector<Index>& adjacent_triangles, TrianglesView triangles, const BoneEdges& bones)
 {
-  std::vector<std::size_t> group(around.size());
+  std::vector<std::size_t> group(adjacent_triangles.size());
   // Key: other end of an edge at `vertex`; value: first triangle at that edge.
   std::map<Index, std::size_t> first_at;
-  for (std::size_t i = 0; i < around.size(); ++i)
+  for (std::size_t i = 0; i < adjacent_triangles.size(); ++i)
   {
     group[i] = i;
     for (int k = 0; k < 3; ++k)
     {
-      const Index other = triangles(around[i], k);
+      const Index other = triangles(adjacent_triangles[i], k);
       if (other == vertex || bones.count(key_of(vertex, other)))
       {
         continue;
       }
-      const auto [place, is_new] = first_at.emplace(other, i);
+      const auto [entry, is_new] = first_at.emplace(other, i);
       const std::size_t from = group[i];
-      const std::size_t to = group[place->second];
+      const std::size_t to = group[entry->second];
       if (!is_new && from != to)
       {
         std::replace(group.begin(), group.begin() + static_cast<std::ptrdiff_t>(i) + 1,
@@ -96,14 +96,14 @@ std::vector<std::vector<Index>> groups_around(
     }
   }
   std::vector<std::vector<Index>> groups;
-  for (std::size_t g = 0; g < around.size(); ++g)
+  for (std::size_t g = 0; g < adjacent_triangles.size(); ++g)
   {
     std::vector<Index> members;
-    for (std::size_t i = 0; i < around.size(); ++i)
+    for (std::size_t i = 0; i < adjacent_triangles.size(); ++i)
     {
       if (group[i] == g)
       {
-        members.push_back(around[i]);
+        members.push_back(adjacent_triangles[i]);
       }
     }
     if (!members.empty())
@@ -202,20 +202,21 @@ Status cut_along_bones(ExecutionContext& context, PointsView points, TrianglesVi
     return Status::invalid_input("the handles contain no bone to cut along");
   }
 
-  std::map<Index, std::vector<Index>> around; // triangles around each vertex on a bone, ascending
+  std::map<Index, std::vector<Index>>
+    adjacent_triangles; // triangles around each vertex on a bone, ascending
   for (const auto& [edge, bone] : cut)
   {
-    around[edge.first];
-    around[edge.second];
+    adjacent_triangles[edge.first];
+    adjacent_triangles[edge.second];
   }
   for (Index t = 0; t < triangles.rows(); ++t)
   {
     for (int k = 0; k < 3; ++k)
     {
-      const auto place = around.find(triangles(t, k));
-      if (place != around.end())
+      const auto entry = adjacent_triangles.find(triangles(t, k));
+      if (entry != adjacent_triangles.end())
       {
-        place->second.push_back(t);
+        entry->second.push_back(t);
       }
     }
   }
@@ -227,7 +228,7 @@ Status cut_along_bones(ExecutionContext& context, PointsView points, TrianglesVi
   }
   result.side.assign(static_cast<std::size_t>(points.rows()), 0);
   std::vector<bool> opened(handles.size(), false);
-  for (const auto& [vertex, triangles_around] : around)
+  for (const auto& [vertex, triangles_around] : adjacent_triangles)
   {
     const auto groups = groups_around(vertex, triangles_around, triangles, cut);
     for (std::size_t g = 0; g < groups.size(); ++g)

@@ -72,8 +72,8 @@ Status fill_faces(ExecutionContext& context, const std::vector<CageElement>& fac
   TetrahedralizeOptions options;
   options.interior_edge = interior_edge_of_weights(
     std::abs(signed_volume(corners, triangles)), bounding_box(corners).diagonal());
-  options.handles.points = cage.places.points;
-  if (points.rows() <= cage.most_points)
+  options.handles.points = cage.handle_elements.points;
+  if (points.rows() <= cage.maximum_points)
   {
     const Index count = options.handles.points.rows();
     options.handles.points.conservativeResize(count + points.rows(), 3);
@@ -86,7 +86,7 @@ Status fill_faces(ExecutionContext& context, const std::vector<CageElement>& fac
     status.message = "the cage cannot be filled: " + status.message;
     return status;
   }
-  result.domain = volume_of(result.tets.mesh);
+  result.domain = tet_domain(result.tets.mesh);
   return status;
 }
 
@@ -105,8 +105,8 @@ Status fill_edges(ExecutionContext& context, const std::vector<CageElement>& edg
   // The rows are, in this order: heads of all handles, tails of all handles (bones), points of the
   // shape.
   const auto handle_count = static_cast<Index>(handles.size());
-  const Index shape_points = points.rows() <= cage.most_points ? points.rows() : 0;
-  Points places(2 * handle_count + points.rows(), 3);
+  const Index shape_points = points.rows() <= cage.maximum_points ? points.rows() : 0;
+  Points positions(2 * handle_count + points.rows(), 3);
   PlanarHandles inside;
   inside.bones.resize(handle_count, 2);
   Index bones = 0;
@@ -114,17 +114,17 @@ Status fill_edges(ExecutionContext& context, const std::vector<CageElement>& edg
   {
     const Handle& handle = handles[static_cast<std::size_t>(j)];
     const bool bone = handle.kind == HandleKind::bone;
-    places.row(j) = handle.head;
-    places.row(handle_count + j) = bone ? handle.tail : handle.head;
+    positions.row(j) = handle.head;
+    positions.row(handle_count + j) = bone ? handle.tail : handle.head;
     if (bone)
     {
       inside.bones.row(bones++) << j, handle_count + j;
     }
   }
   inside.bones.conservativeResize(bones, 2);
-  places.bottomRows(points.rows()) = points;
+  positions.bottomRows(points.rows()) = points;
   Vec3 normal;
-  if (!is_flat(places, bounding_box(places).diagonal(), normal))
+  if (!is_flat(positions, bounding_box(positions).diagonal(), normal))
   {
     return Status::invalid_input(std::string(needs) + "; these handles and the shape are not flat");
   }
@@ -136,11 +136,11 @@ Status fill_edges(ExecutionContext& context, const std::vector<CageElement>& edg
     area += (corner(1) - corner(0)).cross(corner(2) - corner(0));
   }
   normal = area.dot(normal) < 0.0 ? Vec3(-normal) : normal;
-  const Vec3 origin = places.colwise().mean();
+  const Vec3 origin = positions.colwise().mean();
   Eigen::Matrix<double, 3, 2> axes;
   axes.col(0) = normal.unitOrthogonal();
   axes.col(1) = normal.cross(axes.col(0));
-  const PlanePoints flat = (places.rowwise() - origin.transpose()) * axes;
+  const PlanePoints flat = (positions.rowwise() - origin.transpose()) * axes;
   inside.points = flat.topRows(2 * handle_count + shape_points);
   const PlanePoints corners = flat.topRows(handle_count);
   Segments outline(static_cast<Index>(edges.size()), 2);
@@ -180,7 +180,7 @@ Status fill_edges(ExecutionContext& context, const std::vector<CageElement>& edg
   {
     if (shape.handle_vertices[static_cast<std::size_t>(i)] >= 0)
     {
-      domain.points.row(shape.handle_vertices[static_cast<std::size_t>(i)]) = places.row(i);
+      domain.points.row(shape.handle_vertices[static_cast<std::size_t>(i)]) = positions.row(i);
     }
   }
   result.plane_cage = { domain.points, domain.triangles };

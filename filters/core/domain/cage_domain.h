@@ -15,10 +15,10 @@ struct CageOptions
   /// edges.
   double winding_threshold = 0.5;
   /// The points of this handle geometry become vertices of the tets. Used only for a cage of faces.
-  HandlePlaces places;
+  HandleElements handle_elements;
   /// The points of the surface become vertices of the domain if their number is at most this limit;
   /// otherwise no point of the surface does.
-  Index most_points = 20000;
+  Index maximum_points = 20000;
 };
 
 /// The result of fill_cage().
@@ -32,7 +32,7 @@ struct CageDomain
 /// Fill the closed cage that is formed by cage vertices among the handles. A cage of faces is
 /// filled with tets (tetrahedralize); a cage of edges in the plane of a flat shape is filled with
 /// triangles (planar_shape). The points of the surface become vertices, unless there are too many
-/// (CageOptions::most_points).
+/// (CageOptions::maximum_points).
 ///
 /// Report: for a cage of faces, the report of tetrahedralize(); for a cage of edges, cage.area and
 /// cage.min_angle (degrees). Return an error if the handles have no closed cage, if a cage of edges

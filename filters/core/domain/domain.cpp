@@ -8,7 +8,7 @@
 namespace bindpose
 {
 
-Domain volume_of(const TetMesh& mesh)
+Domain tet_domain(const TetMesh& mesh)
 {
   Domain domain;
   domain.points = mesh.points;

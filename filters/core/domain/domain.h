@@ -17,13 +17,13 @@ struct Domain
   Triangles triangles; ///< triangles of a surface, used if there are no tets
   /// #T: for a lattice that contains a surface, the fraction of each tet that is inside the
   /// surface, > 0; empty: 1 for all tets. Energies of a tet are multiplied by this fraction.
-  Eigen::VectorXd shares;
+  Eigen::VectorXd inside_fractions;
   /// For a lattice that contains a surface: the points of the surface, and for each point one
   /// corner of the tet that contains it (-1: no tet does). The distance between a component and a
   /// handle is measured from these points. If there are no such points, it is measured from the
   /// vertices.
-  Points held_points;
-  std::vector<Index> held_corners;
+  Points embedded_points;
+  std::vector<Index> embedded_point_corners;
 
   bool is_volume() const { return this->tets.rows() > 0; }
   int corners() const { return this->is_volume() ? 4 : 3; }
@@ -39,7 +39,7 @@ struct Domain
 };
 
 /// Return the tets as a domain in which every tet is completely inside.
-Domain volume_of(const TetMesh& mesh);
+Domain tet_domain(const TetMesh& mesh);
 
 /// Check a domain. Return invalid_input if the domain has no element, if ids are out of range, if
 /// coordinates are not finite, if the volume of a tet is not positive (naming the first such tet

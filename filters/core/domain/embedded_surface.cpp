@@ -26,7 +26,7 @@ namespace bindpose
 
 namespace
 {
-constexpr double least_share = 0.03;
+constexpr double minimum_fraction = 0.03;
 
 /// Return the gradients of the columns at the vertices, #V x (3 #columns): the x components of all
 /// columns, then the y components, then the z components. The gradient at a vertex is the mean over
@@ -41,10 +41,11 @@ Eigen::MatrixXd corner_gradients(const Domain& domain, WeightsView values)
   {
     const auto corner = [&](int k) -> Vec3 { return domain.points.row(domain.tets(t, k)); };
     const Vec3 a = corner(1) - corner(0), b = corner(2) - corner(0), c = corner(3) - corner(0);
-    const double six_volumes = a.cross(b).dot(c);
-    const double volume = six_volumes * (domain.shares.size() > 0 ? domain.shares[t] : 1.0);
-    const Vec3 of_hat[3] = { b.cross(c) / six_volumes, c.cross(a) / six_volumes,
-      a.cross(b) / six_volumes };
+    const double volume_times_six = a.cross(b).dot(c);
+    const double volume =
+      volume_times_six * (domain.inside_fractions.size() > 0 ? domain.inside_fractions[t] : 1.0);
+    const Vec3 of_hat[3] = { b.cross(c) / volume_times_six, c.cross(a) / volume_times_six,
+      a.cross(b) / volume_times_six };
     const auto row = [&](int k) { return values.row(domain.tets(t, k)); };
     for (int axis = 0; axis < 3; ++axis)
     {
@@ -91,10 +92,10 @@ void group_by_key(Index count, Index items, const KeyOf& key_of, std::vector<Ind
 }
 } // namespace
 
-std::size_t EmbeddedSurface::PlaceHash::operator()(const Place& place) const
+std::size_t EmbeddedSurface::LatticePositionHash::operator()(const LatticePosition& position) const
 {
   std::size_t hash = 0;
-  for (const Index x : place)
+  for (const Index x : position)
   {
     hash = hash * 1000003 + static_cast<std::size_t>(x);
   }
@@ -126,21 +127,21 @@ EmbeddedSurface::EmbeddedSurface(PointsView points, TrianglesView triangles,
     this->first_corner_, this->corners_at_);
 }
 
-EmbeddedSurface::Place EmbeddedSurface::center_of(Index tet) const
+EmbeddedSurface::LatticePosition EmbeddedSurface::center_of(Index tet) const
 {
   Vec3 sum = Vec3::Zero();
   for (int k = 0; k < 4; ++k)
   {
     sum += (this->lattice_.points.row(this->lattice_.tets(tet, k)) - this->lattice_.points.row(0));
   }
-  Place place;
+  LatticePosition position;
   for (int k = 0; k < 3; ++k)
   {
     // Lattice nodes are at multiples of half the edge of a cube, so means of four nodes are at
     // multiples of an eighth of this edge.
-    place[k] = static_cast<Index>(std::llround(2.0 * sum[k] / this->spacing_));
+    position[k] = static_cast<Index>(std::llround(2.0 * sum[k] / this->spacing_));
   }
-  return place;
+  return position;
 }
 
 Domain EmbeddedSurface::domain(const Eigen::VectorXd& inside_fractions) const
@@ -148,24 +149,24 @@ Domain EmbeddedSurface::domain(const Eigen::VectorXd& inside_fractions) const
   Domain result;
   result.points = this->lattice_.points;
   result.tets = this->lattice_.tets;
-  result.shares = inside_fractions.cwiseMax(least_share);
-  result.held_points = this->points_;
+  result.inside_fractions = inside_fractions.cwiseMax(minimum_fraction);
+  result.embedded_points = this->points_;
   for (const Index tet : this->binding_.tets)
   {
-    result.held_corners.push_back(tet < 0 ? -1 : this->lattice_.tets(tet, 0));
+    result.embedded_point_corners.push_back(tet < 0 ? -1 : this->lattice_.tets(tet, 0));
   }
   return result;
 }
 
-Index EmbeddedSurface::tet_of(const Vec3& place) const
+Index EmbeddedSurface::tet_of(const Vec3& position) const
 {
-  const Index found = this->tets_.locate(place).element;
+  const Index found = this->tets_.locate(position).element;
   const auto copies = found < 0 ? this->copies_.end() : this->copies_.find(this->center_of(found));
   if (copies == this->copies_.end())
   {
     return found;
   }
-  const SimplexLocation near = this->surface_.locate(place);
+  const SimplexLocation near = this->surface_.locate(position);
   if (near.element < 0)
   {
     return found;
@@ -174,7 +175,7 @@ Index EmbeddedSurface::tet_of(const Vec3& place) const
   const Index start =
     this->binding_.tets[this->triangles_(near.element, corner - near.barycentric.begin())];
   std::vector<Index> queue{ start };
-  std::unordered_set<Index> seen{ start };
+  std::unordered_set<Index> visited{ start };
   for (std::size_t i = 0; i < queue.size(); ++i)
   {
     if (std::find(copies->second.begin(), copies->second.end(), queue[i]) != copies->second.end())
@@ -187,7 +188,7 @@ Index EmbeddedSurface::tet_of(const Vec3& place) const
       for (Index at = this->first_corner_[v]; at < this->first_corner_[v + 1]; ++at)
       {
         const Index tet = this->corners_at_[at] / 4;
-        if (seen.insert(tet).second)
+        if (visited.insert(tet).second)
         {
           queue.push_back(tet);
         }
@@ -212,7 +213,7 @@ Status EmbeddedSurface::interpolate(
   const Eigen::RowVectorXd lowest = values.colwise().minCoeff();
   const Eigen::RowVectorXd highest = values.colwise().maxCoeff();
   result.resize(this->points_.rows(), m);
-  const bool whole = parallel_for(context, this->points_.rows(), 512,
+  const bool completed = parallel_for(context, this->points_.rows(), 512,
     [&](Index begin, Index end)
     {
       for (Index i = begin; i < end; ++i)
@@ -241,17 +242,17 @@ Status EmbeddedSurface::interpolate(
             best.element = parts[at];
           }
         }
-        Vec3 place = Vec3::Zero();
+        Vec3 position = Vec3::Zero();
         for (int k = 0; k < 4; ++k)
         {
-          place +=
+          position +=
             best.barycentric[k] * domain.points.row(domain.tets(best.element, k)).transpose();
         }
         result.row(i).setZero();
         for (int k = 0; k < 4; ++k)
         {
           const Index v = domain.tets(best.element, k);
-          const Vec3 half = 0.5 * (place - domain.points.row(v).transpose());
+          const Vec3 half = 0.5 * (position - domain.points.row(v).transpose());
           result.row(i) += best.barycentric[k] *
             (values.row(v) + half[0] * gradients.row(v).segment(0, m) +
               half[1] * gradients.row(v).segment(m, m) +
@@ -260,13 +261,13 @@ Status EmbeddedSurface::interpolate(
         result.row(i) = result.row(i).cwiseMax(lowest).cwiseMin(highest);
       }
     });
-  return whole ? Status() : Status::canceled();
+  return completed ? Status() : Status::canceled();
 }
 
 /// Return the id of the surface's point at a position; -1: no point there.
-Index EmbeddedSurface::point_at(const Vec3& place) const
+Index EmbeddedSurface::point_at(const Vec3& position) const
 {
-  const SimplexLocation at = this->surface_.locate(place);
+  const SimplexLocation at = this->surface_.locate(position);
   for (int k = 0; k < 3 && at.element >= 0; ++k)
   {
     if (at.distance <= 1e-7 * this->spacing_ && at.barycentric[k] >= 1.0 - 1e-7)
@@ -307,16 +308,16 @@ Status EmbeddedSurface::smooth(ExecutionContext& context, const std::vector<Inde
   std::vector<Index> fixed;
   for (const Index point : fixed_points)
   {
-    fixed.push_back(welded.of_point[point]);
+    fixed.push_back(welded.vertex_of_point[point]);
   }
   sort_unique(fixed);
 
   Eigen::MatrixXd smooth = Eigen::MatrixXd::Zero(n, result.cols());
   for (Index i = 0; i < result.rows(); ++i)
   {
-    if (welded.of_point[i] >= 0)
+    if (welded.vertex_of_point[i] >= 0)
     {
-      smooth.row(welded.of_point[i]) = result.row(i);
+      smooth.row(welded.vertex_of_point[i]) = result.row(i);
     }
   }
   if (!smooth_on_surface(context, points, triangles, fixed, length, smooth))
@@ -327,16 +328,16 @@ Status EmbeddedSurface::smooth(ExecutionContext& context, const std::vector<Inde
   const Eigen::RowVectorXd highest = result.colwise().maxCoeff();
   for (Index i = 0; i < result.rows(); ++i)
   {
-    if (welded.of_point[i] >= 0)
+    if (welded.vertex_of_point[i] >= 0)
     {
-      const Index v = welded.of_point[i];
+      const Index v = welded.vertex_of_point[i];
       result.row(i) = smooth.row(v).cwiseMax(lowest).cwiseMin(highest);
     }
   }
   return {};
 }
 
-Status EmbeddedSurface::carry(ExecutionContext& context, const HandleInsertion& mesh,
+Status EmbeddedSurface::transfer_values(ExecutionContext& context, const HandleInsertion& mesh,
   const Handles& handles, WeightsView values, Smoothness smoothness, Weights& result) const
 {
   constexpr double smoothing = 0.3;

@@ -34,7 +34,7 @@ public:
   /// Return the tet that contains a point. If no tet contains the point, return the nearest tet. If
   /// this tet has copies, return the copy that is connected to the surface point nearest to the
   /// given point. Thread-safe.
-  Index tet_of(const Vec3& place) const;
+  Index tet_of(const Vec3& position) const;
 
   /// Whether transferred values are smoothed along the surface. Interpolated values are good enough
   /// for comparing lattices but not for display, because their second derivatives are discontinuous
@@ -51,22 +51,22 @@ public:
   /// times half of the vector from the corner to the point. The sum is clamped to the column's
   /// range. Smoothed values are smoothed along the surface over 0.3 times the lattice spacing
   /// (smooth_on_surface), except at points on handles.
-  Status carry(ExecutionContext& context, const HandleInsertion& mesh, const Handles& handles,
-    WeightsView values, Smoothness smoothness, Weights& result) const;
+  Status transfer_values(ExecutionContext& context, const HandleInsertion& mesh,
+    const Handles& handles, WeightsView values, Smoothness smoothness, Weights& result) const;
 
 private:
-  using Place = std::array<Index, 3>;
-  struct PlaceHash
+  using LatticePosition = std::array<Index, 3>;
+  struct LatticePositionHash
   {
-    std::size_t operator()(const Place& place) const;
+    std::size_t operator()(const LatticePosition& position) const;
   };
-  Place center_of(Index tet) const;
+  LatticePosition center_of(Index tet) const;
   Status interpolate(ExecutionContext& context, const HandleInsertion& mesh, WeightsView values,
     Weights& result) const;
   /// @param fixed_points ids of points whose values do not change.
   Status smooth(ExecutionContext& context, const std::vector<Index>& fixed_points, double length,
     Weights& result) const;
-  Index point_at(const Vec3& place) const;
+  Index point_at(const Vec3& position) const;
 
   PointsView points_;
   TrianglesView triangles_;
@@ -76,7 +76,7 @@ private:
   const SimplexLocator& surface_;
   double spacing_ = 0.0; ///< edge length of a lattice cube, which is the longest edge of a tet
   /// For each center that several tets have in common: the ids of these tets (copies).
-  std::unordered_map<Place, std::vector<Index>, PlaceHash> copies_;
+  std::unordered_map<LatticePosition, std::vector<Index>, LatticePositionHash> copies_;
   std::vector<Index> first_corner_, corners_at_; ///< corners grouped by vertex, as 4 * tet + corner
 };
 

@@ -36,7 +36,7 @@ void find_components(const Domain& domain, HandleConstraints& result)
   result.components = connected_components(domain);
   for (Index v = 0; v < vertex_count; ++v)
   {
-    if (result.components.of_vertex[v] >= 0)
+    if (result.components.component_of_vertex[v] >= 0)
     {
       result.roles[v] = VertexRole::solved;
     }
@@ -75,7 +75,7 @@ void join_components(const std::vector<Index>& labels, Components& components)
   std::map<Index, Index> part_of_label;
   for (std::size_t v = 0; v < labels.size(); ++v)
   {
-    const Index c = components.of_vertex[v];
+    const Index c = components.component_of_vertex[v];
     if (labels[v] > 0 && c >= 0)
     {
       parts.unite(c, part_of_label.insert({ labels[v], c }).first->second);
@@ -88,43 +88,43 @@ void join_components(const std::vector<Index>& labels, Components& components)
     const Index root = parts.find(c);
     renumbered[c] = root == c ? count++ : renumbered[root];
   }
-  for (Index& c : components.of_vertex)
+  for (Index& c : components.component_of_vertex)
   {
     c = c < 0 ? c : renumbered[c];
   }
   components.count = count;
 }
 
-void tether_components(const Domain& domain, const Handles& handles,
-  const std::vector<std::vector<Index>>& of_handle, HandleConstraints& result)
+void assign_nearest_handles(const Domain& domain, const Handles& handles,
+  const std::vector<std::vector<Index>>& vertices_of_handle, HandleConstraints& result)
 {
   const Index count = result.components.count;
-  result.tether.assign(static_cast<std::size_t>(count), -1);
+  result.nearest_handle.assign(static_cast<std::size_t>(count), -1);
   std::vector<char> has_handle(static_cast<std::size_t>(count), 0);
   for (const Index v : result.vertices)
   {
-    has_handle[result.components.of_vertex[v]] = 1;
+    has_handle[result.components.component_of_vertex[v]] = 1;
   }
   for (Index v = 0; v < domain.points.rows(); ++v)
   {
-    const Index c = result.components.of_vertex[v];
+    const Index c = result.components.component_of_vertex[v];
     if (c >= 0 && !has_handle[c])
     {
-      result.roles[v] = VertexRole::tethered;
+      result.roles[v] = VertexRole::without_handle;
     }
   }
-  const bool holds = !domain.held_corners.empty();
-  const PointsView places = holds ? domain.held_points : domain.points;
+  const bool has_embedded_points = !domain.embedded_point_corners.empty();
+  const PointsView measured_points = has_embedded_points ? domain.embedded_points : domain.points;
   std::vector<double> nearest(static_cast<std::size_t>(count), 1e300);
-  for (Index v = 0; v < places.rows(); ++v)
+  for (Index v = 0; v < measured_points.rows(); ++v)
   {
-    const Index corner = holds ? domain.held_corners[v] : v;
-    const Index c = corner < 0 ? -1 : result.components.of_vertex[corner];
+    const Index corner = has_embedded_points ? domain.embedded_point_corners[v] : v;
+    const Index c = corner < 0 ? -1 : result.components.component_of_vertex[corner];
     if (c < 0 || has_handle[c])
     {
       continue;
     }
-    const Vec3 p = places.row(v);
+    const Vec3 p = measured_points.row(v);
     for (std::size_t i = 0; i < handles.size(); ++i)
     {
       double distance = 1e300;
@@ -134,7 +134,7 @@ void tether_components(const Domain& domain, const Handles& handles,
       }
       if (handles[i].kind == HandleKind::region)
       {
-        for (const Index u : of_handle[i])
+        for (const Index u : vertices_of_handle[i])
         {
           distance = std::min(distance, (domain.points.row(u).transpose() - p).norm());
         }
@@ -146,7 +146,7 @@ void tether_components(const Domain& domain, const Handles& handles,
       if (distance < nearest[c])
       {
         nearest[c] = distance;
-        result.tether[c] = static_cast<Index>(i);
+        result.nearest_handle[c] = static_cast<Index>(i);
       }
     }
   }
@@ -156,13 +156,13 @@ void tether_components(const Domain& domain, const Handles& handles,
     std::find_if(result.counts.begin(), result.counts.end(), [](Index owned) { return owned > 0; });
   for (Index c = 0; c < count; ++c)
   {
-    if (result.tether[c] < 0 && !has_handle[c])
+    if (result.nearest_handle[c] < 0 && !has_handle[c])
     {
-      result.tether[c] = first - result.counts.begin();
+      result.nearest_handle[c] = first - result.counts.begin();
     }
   }
   std::map<Index, Index> parts; // handle -> number of components that copy its weights
-  for (const Index handle : result.tether)
+  for (const Index handle : result.nearest_handle)
   {
     if (handle >= 0)
     {
@@ -186,7 +186,7 @@ void tether_components(const Domain& domain, const Handles& handles,
     (all == 1               ? ""
         : parts.size() == 1 ? "handle "
                             : "handles ") +
-    first_names(handles, followed));
+    abbreviated_names(handles, followed));
 }
 
 /// Return advice to the user about a handle that has no vertex of its own.
@@ -207,13 +207,13 @@ std::string advice_about(const Handle& handle, const Box& box)
 /// anywhere. In this case one of its vertices is assigned to this handle alone: the first vertex at
 /// which all other handles already have vertices of their own. If there is no such vertex and the
 /// handle is optional, the handle is removed from all its vertices.
-Status give_every_handle_a_vertex(const Handles& handles, const Box& box,
+Status assign_own_vertices(const Handles& handles, const Box& box,
   std::map<Index, std::vector<Index>>& owners, HandleConstraints& result)
 {
-  std::vector<Index> own(handles.size(), 0);
+  std::vector<Index> own_vertex_count(handles.size(), 0);
   for (const auto& [v, list] : owners)
   {
-    own[list[0]] += list.size() == 1;
+    own_vertex_count[list[0]] += list.size() == 1;
   }
   const auto set_row = [&](Index vertex, const std::vector<Index>& list)
   {
@@ -225,22 +225,23 @@ Status give_every_handle_a_vertex(const Handles& handles, const Box& box,
       result.values(row, owner) = 1.0 / static_cast<double>(list.size());
     }
   };
-  std::vector<Index> idle;
+  std::vector<Index> skipped;
   for (std::size_t j = 0; j < handles.size(); ++j)
   {
     const auto at = static_cast<Index>(j);
-    for (auto vertex = owners.begin(); vertex != owners.end() && own[j] == 0; ++vertex)
+    for (auto vertex = owners.begin(); vertex != owners.end() && own_vertex_count[j] == 0; ++vertex)
     {
       auto& list = vertex->second;
       if (std::find(list.begin(), list.end(), at) != list.end() &&
-        std::all_of(list.begin(), list.end(), [&](Index i) { return i == at || own[i] > 0; }))
+        std::all_of(
+          list.begin(), list.end(), [&](Index i) { return i == at || own_vertex_count[i] > 0; }))
       {
         list = { at };
         set_row(vertex->first, list);
-        own[j] = 1;
+        own_vertex_count[j] = 1;
       }
     }
-    if (own[j] > 0)
+    if (own_vertex_count[j] > 0)
     {
       continue;
     }
@@ -250,7 +251,7 @@ Status give_every_handle_a_vertex(const Handles& handles, const Box& box,
         "' has no vertex of its own because other handles constrain the same vertices; " +
         advice_about(handles[j], box));
     }
-    idle.push_back(at);
+    skipped.push_back(at);
     result.counts[j] = 0;
     for (auto& [v, list] : owners)
     {
@@ -258,23 +259,23 @@ Status give_every_handle_a_vertex(const Handles& handles, const Box& box,
       if (its != list.end())
       {
         list.erase(its);
-        own[list[0]] += list.size() == 1;
+        own_vertex_count[list[0]] += list.size() == 1;
         set_row(v, list);
       }
     }
   }
-  if (idle.size() == handles.size())
+  if (skipped.size() == handles.size())
   {
     return Status::invalid_input(
       "no handle constrains a vertex because all handles are on elements without area");
   }
-  if (!idle.empty())
+  if (!skipped.empty())
   {
-    result.warnings.push_back(idle.size() == 1 ? "joint " + first_names(handles, idle) +
+    result.warnings.push_back(skipped.size() == 1 ? "joint " + abbreviated_names(handles, skipped) +
           " has no vertex of its own and was skipped: its weights are zero"
-                                               : std::to_string(idle.size()) +
+                                                  : std::to_string(skipped.size()) +
           " joints have no vertex of their own and were skipped; their weights are zero: " +
-          first_names(handles, idle));
+          abbreviated_names(handles, skipped));
   }
   return {};
 }
@@ -292,8 +293,8 @@ void warn_of_shared_vertices(const Handles& handles,
   {
     const Handle& a = handles[pair.first];
     const Handle& b = handles[pair.second];
-    const bool idle = result.counts[pair.first] == 0 || result.counts[pair.second] == 0;
-    if (idle ||
+    const bool skipped = result.counts[pair.first] == 0 || result.counts[pair.second] == 0;
+    if (skipped ||
       (a.kind != HandleKind::region && b.kind != HandleKind::region && touch(a, b, tolerance)))
     {
       continue;
@@ -322,14 +323,15 @@ void warn_of_shared_vertices(const Handles& handles,
 } // namespace
 
 Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
-  const std::vector<Index>& region_ids, HandleConstraints& result, const std::vector<Index>& joined)
+  const std::vector<Index>& region_ids, HandleConstraints& result,
+  const std::vector<Index>& part_labels)
 {
   result = {};
   const Domain& domain = mesh.domain;
   find_components(domain, result);
-  if (!joined.empty())
+  if (!part_labels.empty())
   {
-    join_components(joined, result.components);
+    join_components(part_labels, result.components);
   }
 
   const Status valid = check_regions(
@@ -339,7 +341,7 @@ Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
     return valid;
   }
   const std::vector<Index> labels = extend_labels(mesh, region_ids);
-  std::vector<std::vector<Index>> of_handle(handles.size());
+  std::vector<std::vector<Index>> vertices_of_handle(handles.size());
   result.counts.assign(handles.size(), 0);
   std::map<Index, std::vector<Index>> handles_of_vertex;
   for (std::size_t i = 0; i < handles.size(); ++i)
@@ -347,7 +349,7 @@ Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
     const Handle& handle = handles[i];
     if (handle.kind != HandleKind::region)
     {
-      of_handle[i] = mesh.handles[i].vertices;
+      vertices_of_handle[i] = mesh.handles[i].vertices;
     }
     else
     {
@@ -355,13 +357,13 @@ Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
       {
         if (labels[v] == handle.region_id)
         {
-          of_handle[i].push_back(v);
+          vertices_of_handle[i].push_back(v);
         }
       }
     }
-    for (const Index v : of_handle[i])
+    for (const Index v : vertices_of_handle[i])
     {
-      if (result.components.of_vertex[v] >= 0)
+      if (result.components.component_of_vertex[v] >= 0)
       {
         handles_of_vertex[v].push_back(static_cast<Index>(i));
         result.counts[i] += 1;
@@ -381,7 +383,7 @@ Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
   }
   for (const CageVertex& on_cage : mesh.cage)
   {
-    if (result.components.of_vertex[on_cage.vertex] >= 0)
+    if (result.components.component_of_vertex[on_cage.vertex] >= 0)
     {
       result.vertices.push_back(on_cage.vertex);
     }
@@ -397,14 +399,14 @@ Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
   {
     // Handles take precedence over edges and faces of cages. Cage elements that meet at a vertex
     // give it the same weights.
-    if (result.components.of_vertex[on_cage.vertex] >= 0 &&
+    if (result.components.component_of_vertex[on_cage.vertex] >= 0 &&
       handles_of_vertex.count(on_cage.vertex) == 0)
     {
       for (int k = 0; k < 3; ++k)
       {
         if (on_cage.element[k] >= 0)
         {
-          result.values(row_of(on_cage.vertex), on_cage.element[k]) += on_cage.shares[k];
+          result.values(row_of(on_cage.vertex), on_cage.element[k]) += on_cage.barycentric[k];
         }
       }
     }
@@ -436,13 +438,13 @@ Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
     }
   }
   const Box box = bounding_box(domain.points);
-  const Status owned = give_every_handle_a_vertex(handles, box, handles_of_vertex, result);
+  const Status owned = assign_own_vertices(handles, box, handles_of_vertex, result);
   if (!owned.ok())
   {
     return owned;
   }
   warn_of_shared_vertices(handles, shared, 1e-9 * box.diagonal(), result);
-  tether_components(domain, handles, of_handle, result);
+  assign_nearest_handles(domain, handles, vertices_of_handle, result);
   return {};
 }
 

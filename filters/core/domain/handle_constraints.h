@@ -12,7 +12,7 @@ enum class VertexRole : unsigned char
   solved, ///< a vertex whose row is the result of the minimization
   handle, ///< a vertex on a handle; its row is given by the handle
   /// A vertex in a component without handles; it copies the weights of the nearest handle.
-  tethered,
+  without_handle,
   follower, ///< a vertex that is only in elements without area; it copies the weights of a neighbor
   unreferenced ///< a vertex in no element; its row is zero
 };
@@ -28,7 +28,7 @@ struct HandleConstraints
   /// vertices.
   Components components;
   /// For each component, the handle whose weights it copies; -1: the component has handles.
-  std::vector<Index> tether;
+  std::vector<Index> nearest_handle;
   /// #V: for a follower, the vertex whose weights it copies; -1: not a follower.
   std::vector<Index> leader;
   std::vector<std::string> warnings;
@@ -47,13 +47,13 @@ struct HandleConstraints
 /// of a skipped handle is zero, and one warning names all skipped handles.
 ///
 /// @param region_ids region label of every original vertex, or empty if there are no regions.
-/// @param joined label of every vertex, or empty. Components that contain vertices with the same
-/// label > 0 count as one component.
+/// @param part_labels label of every vertex, or empty. Components that contain vertices with the
+/// same label > 0 count as one component.
 /// @return invalid_input in the cases of check_regions(), and, naming the handle, if a required
 /// handle constrains no vertex or cannot have a vertex of its own.
 Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
   const std::vector<Index>& region_ids, HandleConstraints& result,
-  const std::vector<Index>& joined = {});
+  const std::vector<Index>& part_labels = {});
 
 } // namespace bindpose
 

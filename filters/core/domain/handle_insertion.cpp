@@ -12,7 +12,7 @@
 #include "base/sort_unique.h"
 #include "geometry/line_pieces.h"
 #include "geometry/simplex_locator.h"
-#include "inside/handle_places.h"
+#include "inside/handle_elements.h"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +36,7 @@ struct Element
 /// `handle` is -1, -2, … for the first, second, … such element.
 struct Sample
 {
-  Vec3 place = Vec3::Zero();
+  Vec3 position = Vec3::Zero();
   Index handle = 0;
   Index vertex = -1;
 };
@@ -90,11 +90,11 @@ private:
     return handle < 0 ? this->on_cage_ : this->result_.handles[handle];
   }
   SimplexLocation root(const Vec3& p) const;
-  bool is_held(Index v) const;
-  SimplexLocation locate(const Vec3& p, Vec3& place) const;
+  bool is_in_located_element(Index v) const;
+  SimplexLocation locate(const Vec3& p, Vec3& position) const;
   void take_corners(Sample& sample);
   void insert(Sample& sample, const std::vector<Sample>& earlier);
-  Index split(const std::vector<Index>& span, const Vec3& place, Index root);
+  Index split(const std::vector<Index>& span, const Vec3& position, Index root);
   void finish();
   Vec3 point(Index v) const { return this->points_[v]; }
   SimplexLocation nearest(const Element& element, const Vec3& p) const;
@@ -160,7 +160,7 @@ SimplexLocation Inserter::root(const Vec3& p) const
 /// Report whether the original vertex v is a corner of the element that root() returns for the
 /// position of v. Overlapping elements have copies of a vertex at the same position. Only one of
 /// these copies is such a corner.
-bool Inserter::is_held(Index v) const
+bool Inserter::is_in_located_element(Index v) const
 {
   if (!this->options_.element_of)
   {
@@ -171,15 +171,15 @@ bool Inserter::is_held(Index v) const
 }
 
 /// Return the element of the current mesh that contains p, or the nearest element.
-/// @param place set to the point nearest to p in the original element.
-SimplexLocation Inserter::locate(const Vec3& p, Vec3& place) const
+/// @param position set to the point nearest to p in the original element.
+SimplexLocation Inserter::locate(const Vec3& p, Vec3& position) const
 {
   SimplexLocation at = this->root(p);
   const double outside = at.distance;
-  place.setZero();
+  position.setZero();
   for (int k = 0; k < this->corners_; ++k)
   {
-    place += at.barycentric[k] * this->points_[this->elements_[at.element].ids[k]];
+    position += at.barycentric[k] * this->points_[this->elements_[at.element].ids[k]];
   }
   while (!this->elements_[at.element].children.empty())
   {
@@ -187,7 +187,7 @@ SimplexLocation Inserter::locate(const Vec3& p, Vec3& place) const
     best.distance = 1e300;
     for (const Index child : this->elements_[at.element].children)
     {
-      SimplexLocation in_child = this->nearest(this->elements_[child], place);
+      SimplexLocation in_child = this->nearest(this->elements_[child], position);
       if (in_child.distance < best.distance)
       {
         best = in_child;
@@ -214,7 +214,7 @@ void Inserter::add_bone_samples(
     const Vec3 d = this->points_[v] - head;
     const double t = d.dot(axis) / (length * length);
     if (t < -on / length || t > 1.0 + on / length || (d - t * axis).norm() > on ||
-      this->incident_[v].empty() || !this->is_held(static_cast<Index>(v)))
+      this->incident_[v].empty() || !this->is_in_located_element(static_cast<Index>(v)))
     {
       continue;
     }
@@ -256,8 +256,8 @@ void Inserter::add_cage_vertex(Index number, Index vertex)
     { at.barycentric[0], at.barycentric[1], at.barycentric[2] } };
   if (placed.element[2] < 0)
   {
-    on_cage.shares[1] += on_cage.shares[2];
-    on_cage.shares[2] = 0.0;
+    on_cage.barycentric[1] += on_cage.barycentric[2];
+    on_cage.barycentric[2] = 0.0;
   }
   this->result_.cage.push_back(on_cage);
 }
@@ -279,19 +279,19 @@ void Inserter::add_cage_samples(std::vector<Sample>& on_vertices, std::vector<Sa
     const PlacedElement& placed = this->cage_[i];
     const Index number = -1 - static_cast<Index>(i);
     const bool face = placed.element[2] >= 0;
-    HandlePlaces places;
-    places.points.resize(face ? 3 : 2, 3);
-    for (Index k = 0; k < places.points.rows(); ++k)
+    HandleElements handle_elements;
+    handle_elements.points.resize(face ? 3 : 2, 3);
+    for (Index k = 0; k < handle_elements.points.rows(); ++k)
     {
-      places.points.row(k) = placed.corners[k];
+      handle_elements.points.row(k) = placed.corners[k];
     }
-    places.segments.resize(face ? 3 : 1, 2);
-    places.segments.row(0) << 0, 1;
+    handle_elements.segments.resize(face ? 3 : 1, 2);
+    handle_elements.segments.row(0) << 0, 1;
     if (face)
     {
-      places.segments.bottomRows(2) << 1, 2, 2, 0;
-      places.triangles.resize(1, 3);
-      places.triangles << 0, 1, 2;
+      handle_elements.segments.bottomRows(2) << 1, 2, 2, 0;
+      handle_elements.triangles.resize(1, 3);
+      handle_elements.triangles << 0, 1, 2;
     }
     const auto length = [&](const Vec3& p)
     {
@@ -302,26 +302,26 @@ void Inserter::add_cage_samples(std::vector<Sample>& on_vertices, std::vector<Sa
     for (std::size_t v = 0; v < this->points_.size(); ++v)
     {
       if (!this->incident_[v].empty() && placed.nearest(this->points_[v]).distance <= on &&
-        this->is_held(static_cast<Index>(v)))
+        this->is_in_located_element(static_cast<Index>(v)))
       {
         on_vertices.push_back({ this->points_[v], number, static_cast<Index>(v) });
         this->add_cage_vertex(number, static_cast<Index>(v));
       }
     }
-    const HandleSamples samples = sample_places(places, length);
-    for (Index k = samples.chosen; k < samples.points.rows(); ++k)
+    const HandleSamples samples = sample_handle_elements(handle_elements, length);
+    for (Index k = samples.handle_point_count; k < samples.points.rows(); ++k)
     {
-      const Vec3 place = samples.points.row(k);
+      const Vec3 position = samples.points.row(k);
       // No new sample is needed if a vertex on the cage element is within this distance.
-      const double near = 0.75 * length(place);
+      const double near = 0.75 * length(position);
       if (std::any_of(on_vertices.begin() + static_cast<std::ptrdiff_t>(first), on_vertices.end(),
-            [&](const Sample& other) { return (other.place - place).norm() <= near; }))
+            [&](const Sample& other) { return (other.position - position).norm() <= near; }))
       {
         continue;
       }
-      if (this->root(place).distance <= 1e-6 * this->diagonal_)
+      if (this->root(position).distance <= 1e-6 * this->diagonal_)
       {
-        between.push_back({ place, number, -1 });
+        between.push_back({ position, number, -1 });
       }
       else
       {
@@ -335,8 +335,8 @@ void Inserter::add_cage_samples(std::vector<Sample>& on_vertices, std::vector<Sa
 /// sample has a nonzero barycentric coordinate.
 void Inserter::take_corners(Sample& sample)
 {
-  Vec3 place;
-  const SimplexLocation at = this->locate(sample.place, place);
+  Vec3 position;
+  const SimplexLocation at = this->locate(sample.position, position);
   HandlePlacement& placement = this->placement_of(sample.handle);
   placement.outside = std::max(placement.outside, at.distance);
   for (int k = 0; k < this->corners_; ++k)
@@ -349,7 +349,7 @@ void Inserter::take_corners(Sample& sample)
       {
         this->add_cage_vertex(sample.handle, v);
       }
-      placement.snap = std::max(placement.snap, (this->points_[v] - place).norm());
+      placement.snap = std::max(placement.snap, (this->points_[v] - position).norm());
     }
   }
 }
@@ -357,13 +357,13 @@ void Inserter::take_corners(Sample& sample)
 void Inserter::insert(Sample& sample, const std::vector<Sample>& earlier)
 {
   HandlePlacement& placement = this->placement_of(sample.handle);
-  Vec3 place;
-  const SimplexLocation at = this->locate(sample.place, place);
+  Vec3 position;
+  const SimplexLocation at = this->locate(sample.position, position);
   placement.outside = std::max(placement.outside, at.distance);
   // Samples that have the same position before they are moved get the same vertex.
   for (const Sample& other : earlier)
   {
-    if ((other.place - sample.place).norm() <= 1e-9 * this->diagonal_ && other.vertex >= 0)
+    if ((other.position - sample.position).norm() <= 1e-9 * this->diagonal_ && other.vertex >= 0)
     {
       sample.vertex = other.vertex;
       placement.vertices.push_back(sample.vertex);
@@ -377,7 +377,7 @@ void Inserter::insert(Sample& sample, const std::vector<Sample>& earlier)
       [&](const Sample& other) { return other.vertex == v && other.handle != sample.handle; });
   };
   std::vector<Index> span;
-  Vec3 target = place;
+  Vec3 target = position;
   for (const double snap : { this->options_.snap, 1e-3, 1e-9 })
   {
     span.clear();
@@ -398,7 +398,7 @@ void Inserter::insert(Sample& sample, const std::vector<Sample>& earlier)
       break;
     }
   }
-  const double moved = (target - place).norm();
+  const double moved = (target - position).norm();
   const double edge = mean_edge_length(this->domain_, element.root);
   placement.snap = std::max(placement.snap, moved);
   this->result_.largest_snap =
@@ -407,7 +407,7 @@ void Inserter::insert(Sample& sample, const std::vector<Sample>& earlier)
   placement.vertices.push_back(sample.vertex);
 }
 
-Index Inserter::split(const std::vector<Index>& span, const Vec3& place, Index root)
+Index Inserter::split(const std::vector<Index>& span, const Vec3& position, Index root)
 {
   const auto fresh = static_cast<Index>(this->points_.size());
   InsertedVertex inserted;
@@ -416,7 +416,7 @@ Index Inserter::split(const std::vector<Index>& span, const Vec3& place, Index r
     const Index* ids = this->domain_.element(root);
     Element original;
     std::copy(ids, ids + this->corners_, original.ids.begin());
-    return this->nearest(original, place);
+    return this->nearest(original, position);
   }();
   for (int k = 0; k < this->corners_; ++k)
   {
@@ -424,7 +424,7 @@ Index Inserter::split(const std::vector<Index>& span, const Vec3& place, Index r
     inserted.barycentric[k] = in_root.barycentric[k];
   }
   this->result_.inserted.push_back(inserted);
-  this->points_.push_back(place);
+  this->points_.push_back(position);
   this->incident_.emplace_back();
 
   std::vector<Index> around;
@@ -467,31 +467,31 @@ void Inserter::finish()
   {
     domain.points.row(v) = this->points_[v];
   }
-  std::vector<Index> alive;
+  std::vector<Index> leaf_elements;
   for (std::size_t e = 0; e < this->elements_.size(); ++e)
   {
     if (this->elements_[e].children.empty())
     {
-      alive.push_back(static_cast<Index>(e));
+      leaf_elements.push_back(static_cast<Index>(e));
       this->result_.parent_element.push_back(this->elements_[e].root);
     }
   }
-  const auto count = static_cast<Index>(alive.size());
+  const auto count = static_cast<Index>(leaf_elements.size());
   domain.tets.resize(this->corners_ == 4 ? count : 0, 4);
   domain.triangles.resize(this->corners_ == 4 ? 0 : count, 3);
-  if (this->domain_.shares.size() > 0)
+  if (this->domain_.inside_fractions.size() > 0)
   {
-    domain.shares.resize(count);
+    domain.inside_fractions.resize(count);
     for (Index e = 0; e < count; ++e)
     {
-      domain.shares[e] = this->domain_.shares[this->result_.parent_element[e]];
+      domain.inside_fractions[e] = this->domain_.inside_fractions[this->result_.parent_element[e]];
     }
   }
-  domain.held_points = this->domain_.held_points;
-  // The ids in held_corners remain valid, because original vertices keep their ids.
-  domain.held_corners = this->domain_.held_corners;
+  domain.embedded_points = this->domain_.embedded_points;
+  // The ids in embedded_point_corners remain valid, because original vertices keep their ids.
+  domain.embedded_point_corners = this->domain_.embedded_point_corners;
   Index* out = this->corners_ == 4 ? domain.tets.data() : domain.triangles.data();
-  for (const Index e : alive)
+  for (const Index e : leaf_elements)
   {
     out = std::copy_n(this->elements_[e].ids.begin(), this->corners_, out);
   }
@@ -567,7 +567,7 @@ Status Inserter::run(ExecutionContext& context)
   std::stable_partition(samples.begin(), samples.end(),
     [&](const Sample& sample)
     {
-      const SimplexLocation at = this->root(sample.place);
+      const SimplexLocation at = this->root(sample.position);
       return *std::max_element(at.barycentric.begin(), at.barycentric.end()) >= 1.0 - 1e-9;
     });
   for (std::size_t i = 0; i < samples.size(); ++i)

@@ -51,7 +51,7 @@ struct CageVertex
   Index vertex = -1;
   CageElement element{ -1, -1, -1 };
   /// Barycentric coordinates of the vertex in the edge or face of the cage.
-  std::array<double, 3> shares{ 0.0, 0.0, 0.0 };
+  std::array<double, 3> barycentric{ 0.0, 0.0, 0.0 };
 };
 
 /// The mesh with handles as vertices.

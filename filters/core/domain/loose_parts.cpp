@@ -20,7 +20,7 @@ std::vector<char> parts_with_handles(
   const auto add = [&](Index v)
   {
     const Index original = v < vertex_count ? v : inserted.inserted[v - vertex_count].parents[0];
-    has_handle[parts.of_vertex[original]] = 1;
+    has_handle[parts.component_of_vertex[original]] = 1;
   };
   for (const HandlePlacement& placement : inserted.handles)
   {
@@ -34,27 +34,27 @@ std::vector<char> parts_with_handles(
 }
 
 /// Return the components of a surface after welding equal points.
-Components welded_components(
-  TrianglesView triangles, const std::vector<Index>& lowest_equal, std::vector<Index>& of_triangle)
+Components welded_components(TrianglesView triangles,
+  const std::vector<Index>& representative_of_vertex, std::vector<Index>& component_of_triangle)
 {
   Triangles welded = triangles;
   for (Index i = 0; i < welded.size(); ++i)
   {
-    welded.data()[i] = lowest_equal[welded.data()[i]];
+    welded.data()[i] = representative_of_vertex[welded.data()[i]];
   }
-  Components components =
-    connected_components(static_cast<Index>(lowest_equal.size()), TrianglesView(welded));
-  of_triangle.resize(static_cast<std::size_t>(welded.rows()));
+  Components components = connected_components(
+    static_cast<Index>(representative_of_vertex.size()), TrianglesView(welded));
+  component_of_triangle.resize(static_cast<std::size_t>(welded.rows()));
   for (Index f = 0; f < welded.rows(); ++f)
   {
-    of_triangle[f] = components.of_vertex[welded(f, 0)];
+    component_of_triangle[f] = components.component_of_vertex[welded(f, 0)];
   }
   return components;
 }
 } // namespace
 
 Status find_loose_parts(ExecutionContext& context, PointsView points, TrianglesView triangles,
-  const std::vector<Index>& lowest_equal, const EmbeddingTets& lattice,
+  const std::vector<Index>& representative_of_vertex, const EmbeddingTets& lattice,
   const EmbeddedSurface& surface, const Handles& handles, const HandleInsertionOptions& insertion,
   LooseParts& result)
 {
@@ -80,15 +80,17 @@ Status find_loose_parts(ExecutionContext& context, PointsView points, TrianglesV
   }
   // Links connect surface components and not parts of the lattice, because one part may contain
   // several components that a finer lattice separates.
-  std::vector<Index> of_triangle;
-  const Components components = welded_components(triangles, lowest_equal, of_triangle);
-  std::vector<char> is_held(static_cast<std::size_t>(components.count), 0);
+  std::vector<Index> component_of_triangle;
+  const Components components =
+    welded_components(triangles, representative_of_vertex, component_of_triangle);
+  std::vector<char> is_attached(static_cast<std::size_t>(components.count), 0);
   for (Index f = 0; f < triangles.rows(); ++f)
   {
     const Index tet = lattice.binding.tets[triangles(f, 0)];
-    is_held[of_triangle[f]] = tet < 0 || has_handle[parts.of_vertex[tets.tets(tet, 0)]] ? 1 : 0;
+    is_attached[component_of_triangle[f]] =
+      tet < 0 || has_handle[parts.component_of_vertex[tets.tets(tet, 0)]] ? 1 : 0;
   }
-  const auto loose = std::count(is_held.begin(), is_held.end(), 0);
+  const auto loose = std::count(is_attached.begin(), is_attached.end(), 0);
   if (loose == 0 || loose == components.count || loose > most_loose_components)
   {
     return {};
@@ -96,7 +98,8 @@ Status find_loose_parts(ExecutionContext& context, PointsView points, TrianglesV
   PartLinkOptions options;
   options.touching = touching * bounding_box(points, triangles).diagonal();
   options.spacing = lattice.spacing;
-  return link_parts(context, points, triangles, of_triangle, is_held, options, result.links);
+  return link_parts(
+    context, points, triangles, component_of_triangle, is_attached, options, result.links);
 }
 
 } // namespace bindpose

@@ -23,9 +23,10 @@ struct LooseParts
 /// to the components that it touches (within 1/500 of the diagonal), or else to the nearest
 /// component (link_parts). If there are links, the caller must embed the surface again with them.
 /// @param surface the surface of the points and triangles, embedded in `lattice`
-/// @param lowest_equal #V: for each point, the smallest id of all points with the same position
+/// @param representative_of_vertex #V: for each point, the smallest id of all points with the same
+/// position
 Status find_loose_parts(ExecutionContext& context, PointsView points, TrianglesView triangles,
-  const std::vector<Index>& lowest_equal, const EmbeddingTets& lattice,
+  const std::vector<Index>& representative_of_vertex, const EmbeddingTets& lattice,
   const EmbeddedSurface& surface, const Handles& handles, const HandleInsertionOptions& insertion,
   LooseParts& result);
 

@@ -20,9 +20,10 @@ ScaledMesh scale_mesh(const Domain& domain, const std::vector<char>& used)
   result.points.rowwise() -= box.center().transpose();
   result.points /= result.diagonal;
   const Points& points = result.points;
-  result.stiffness = domain.is_volume() ? stiffness_matrix(points, domain.tets, domain.shares)
-                                        : stiffness_matrix(points, domain.triangles);
-  result.mass = domain.is_volume() ? lumped_mass(points, domain.tets, domain.shares)
+  result.stiffness = domain.is_volume()
+    ? stiffness_matrix(points, domain.tets, domain.inside_fractions)
+    : stiffness_matrix(points, domain.triangles);
+  result.mass = domain.is_volume() ? lumped_mass(points, domain.tets, domain.inside_fractions)
                                    : lumped_mass(points, domain.triangles);
   result.mass_unit = result.mass.maxCoeff();
   result.mass /= result.mass_unit;

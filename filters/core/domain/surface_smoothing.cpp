@@ -64,7 +64,7 @@ public:
   /// Minimize the energy by conjugate gradients; each column has its own step lengths. After each
   /// iteration, `advance` is called with the estimated fraction of the work that is done.
   void minimize(const ExecutionContext& context, Columns& w,
-    const std::function<void(double share)>& advance) const
+    const std::function<void(double fraction)>& advance) const
   {
     constexpr double reduction = 1e-6;
     constexpr int most_iterations = 200;
@@ -77,13 +77,13 @@ public:
     {
       r.row(v) = -this->free_[v] * this->times_stiffness(curvature, v);
     }
-    Lanes now = this->precondition(r, z, work);
+    Lanes rz = this->precondition(r, z, work);
     p = z;
-    const Lanes first = now;
+    const Lanes first = rz;
     const Lanes enough = reduction * reduction * first;
     // A column no longer changes after it has converged, or after round-off prevents an
     // improvement.
-    Eigen::Array<bool, 1, lanes> goes_on = now > enough;
+    Eigen::Array<bool, 1, lanes> goes_on = rz > enough;
     for (int i = 0; i < most_iterations && goes_on.any() && !context.canceled(); ++i)
     {
       this->find_curvature(p, curvature);
@@ -97,22 +97,23 @@ public:
         along += p_v * ap_v;
       }
       goes_on = goes_on && along > 0.0;
-      const Lanes step = goes_on.select(now / along, 0.0);
+      const Lanes step = goes_on.select(rz / along, 0.0);
       for (Index v = 0; v < count; ++v)
       {
         w.row(v) += step * p.row(v);
         r.row(v) -= step * ap.row(v);
       }
       const Lanes next = this->precondition(r, z, work);
-      const Lanes again = goes_on.select(next / now, 0.0);
+      const Lanes again = goes_on.select(next / rz, 0.0);
       for (Index v = 0; v < count; ++v)
       {
         p.row(v) = z.row(v) + again * p.row(v);
       }
-      now = next;
-      goes_on = goes_on && now > enough;
-      const Lanes gone = goes_on.select((now / first).log() / std::log(reduction * reduction), 1.0);
-      advance(gone.minCoeff());
+      rz = next;
+      goes_on = goes_on && rz > enough;
+      const Lanes done_fraction =
+        goes_on.select((rz / first).log() / std::log(reduction * reduction), 1.0);
+      advance(done_fraction.minCoeff());
     }
   }
 
@@ -196,12 +197,12 @@ private:
   void count_fixed(ExecutionContext& context, const std::vector<Index>& fixed)
   {
     const ProgressRange range(context, factored, preparation_end);
-    constexpr Index most_numbers = 80'000'000; // 320 MB
+    constexpr Index most_numbers = 40'000'000; // 160 MB
     const Index n = this->mass_.size();
     const Index most = std::min(static_cast<Index>(fixed.size()), most_numbers / n);
-    this->counted_.assign(fixed.begin(), fixed.begin() + most);
+    this->corrected_points_.assign(fixed.begin(), fixed.begin() + most);
     this->responses_.resize(n, most);
-    const bool whole = parallel_for(context, most, lanes,
+    const bool completed = parallel_for(context, most, lanes,
       [&](Index begin, Index end)
       {
         Columns terms = Columns::Zero(n, lanes), found(n, lanes);
@@ -214,9 +215,9 @@ private:
         this->responses_.middleCols(begin, end - begin) =
           found.leftCols(end - begin).matrix().cast<float>();
       });
-    if (!whole)
+    if (!completed)
     {
-      this->counted_.clear(); // canceled: some solutions are missing
+      this->corrected_points_.clear(); // canceled: some solutions are missing
       return;
     }
     Eigen::MatrixXd small = Eigen::MatrixXd::Identity(most, most);
@@ -231,7 +232,7 @@ private:
     {
       // Single precision is not accurate enough for the corrections. Without them, more iterations
       // are needed.
-      this->counted_.clear();
+      this->corrected_points_.clear();
     }
   }
 
@@ -241,7 +242,7 @@ private:
   template <typename Visit>
   void for_each_of_term(Index c, const Visit& visit) const
   {
-    const Index point = this->counted_[c];
+    const Index point = this->corrected_points_[c];
     for (SparseMatrix::InnerIterator k(this->stiffness_, point); k; ++k)
     {
       if (this->free_[k.row()] != 0.0)
@@ -280,7 +281,7 @@ private:
   /// Subtract from z the correction for the fixed points (Woodbury).
   void correct(Columns& z) const
   {
-    if (this->counted_.empty())
+    if (this->corrected_points_.empty())
     {
       return;
     }
@@ -334,7 +335,7 @@ private:
   // energy. Without these terms in the preconditioner, several more iterations would be needed per
   // fixed point. The terms are included by the Sherman-Morrison-Woodbury formula.
   FloatCholesky factor_; // factor of M + K, if available
-  std::vector<Index> counted_; // fixed points whose terms u uᵀ are in the preconditioner
+  std::vector<Index> corrected_points_; // fixed points whose terms u uᵀ are in the preconditioner
   // #V x #counted: (M + K)⁻¹ M (M + K)⁻¹ u for each of these points
   Responses responses_;
   // Factor of 1 + Uᵀ (M + K)⁻¹ M (M + K)⁻¹ U, where the columns of U are the vectors u.
@@ -355,22 +356,22 @@ bool smooth_on_surface(ExecutionContext& context, PointsView points, TrianglesVi
   const SmoothingEnergy energy(context, points, triangles, fixed, length);
   const ProgressRange range(context, preparation_end, 1.0);
   const Index blocks = (values.cols() + lanes - 1) / lanes;
-  std::vector<std::atomic<double>> gone(static_cast<std::size_t>(blocks));
-  const bool whole = parallel_for(context, values.cols(), lanes,
+  std::vector<std::atomic<double>> done_fraction(static_cast<std::size_t>(blocks));
+  const bool completed = parallel_for(context, values.cols(), lanes,
     [&](Index begin, Index end)
     {
       Columns w = Columns::Zero(values.rows(), lanes);
       w.leftCols(end - begin) = values.middleCols(begin, end - begin);
       energy.minimize(context, w,
-        [&](double share)
+        [&](double fraction)
         {
-          gone[begin / lanes] = share;
-          const double sum = std::accumulate(gone.begin(), gone.end(), 0.0);
+          done_fraction[begin / lanes] = fraction;
+          const double sum = std::accumulate(done_fraction.begin(), done_fraction.end(), 0.0);
           context.progress(sum / static_cast<double>(blocks));
         });
       values.middleCols(begin, end - begin) = w.leftCols(end - begin);
     });
-  return whole && !context.canceled();
+  return completed && !context.canceled();
 }
 
 } // namespace bindpose

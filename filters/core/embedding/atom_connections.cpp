@@ -43,8 +43,8 @@ public:
   {
     const auto count = static_cast<std::size_t>(this->atoms_.count());
     this->result_.within.reset(count);
-    this->result_.shares.assign(count, 0.0F);
-    this->cut_.assign(static_cast<std::size_t>(this->atoms_.first_full), 0);
+    this->result_.inside_volume.assign(count, 0.0F);
+    this->cut_.assign(static_cast<std::size_t>(this->atoms_.first_full_atom), 0);
     if (!this->cut_lines())
     {
       return Status::canceled();
@@ -76,7 +76,7 @@ private:
     }
     else
     {
-      this->result_.across.emplace_back(a, b);
+      this->result_.between_tets.emplace_back(a, b);
     }
   }
 
@@ -111,22 +111,23 @@ private:
     const auto& list = this->crossings_;
     // Intervals between two crossings on one line. Each interval is represented by the index of its
     // first crossing.
-    std::vector<Index> stretches;
+    std::vector<Index> intervals;
     for (std::size_t i = 0; i + 1 < list.size(); ++i)
     {
-      if (list[i].line == list[i + 1].line && list[i + 1].at - list[i].at > LineCrossing::touching)
+      if (list[i].line == list[i + 1].line &&
+        list[i + 1].at - list[i].at > LineCrossing::merge_distance)
       {
-        stretches.push_back(static_cast<Index>(i));
+        intervals.push_back(static_cast<Index>(i));
       }
     }
     std::vector<char> inside_after(list.size(), 0);
     {
-      Points middles(static_cast<Index>(stretches.size()), 3);
+      Points middles(static_cast<Index>(intervals.size()), 3);
       for (Index i = 0; i < middles.rows(); ++i)
       {
-        const LineCrossing& crossing = list[stretches[i]];
-        middles.row(i) = this->cover_.lattice.point_at(
-          crossing.place(0.5 * (crossing.at + list[stretches[i] + 1].at)));
+        const LineCrossing& crossing = list[intervals[i]];
+        middles.row(i) = this->cover_.lattice.world_point(
+          crossing.position(0.5 * (crossing.at + list[intervals[i] + 1].at)));
       }
       Eigen::VectorXd w;
       const Status status = this->winding_.evaluate(this->context_, middles, w);
@@ -136,7 +137,7 @@ private:
       }
       for (Index i = 0; i < w.size(); ++i)
       {
-        inside_after[stretches[i]] = w[i] >= this->threshold_ ? 1 : 0;
+        inside_after[intervals[i]] = w[i] >= this->threshold_ ? 1 : 0;
       }
     }
     // Mark the cut lines at each sample: bits 0 to 2 for the lines to the next samples along x, y,
@@ -145,7 +146,7 @@ private:
     {
       const int axis = crossing.axis();
       const Id lower = this->atoms_.atom_of(crossing.sample());
-      const Id upper = this->atoms_.atom_of(CubeSamples::next_of(crossing.sample(), axis));
+      const Id upper = this->atoms_.atom_of(CubeSamples::next_sample(crossing.sample(), axis));
       this->mark(lower, axis);
       this->mark(upper, axis + 3);
     }
@@ -168,7 +169,7 @@ private:
 
   void mark(Id sample, int line)
   {
-    if (sample >= 0 && sample < this->atoms_.first_full)
+    if (sample >= 0 && sample < this->atoms_.first_full_atom)
     {
       this->cut_[sample] = static_cast<std::uint8_t>(this->cut_[sample] | 1U << line);
     }
@@ -179,19 +180,19 @@ private:
     const auto& list = this->crossings_;
     const int axis = list[begin].axis();
     const Id lower = this->atoms_.atom_of(list[begin].sample());
-    const Id upper = this->atoms_.atom_of(CubeSamples::next_of(list[begin].sample(), axis));
+    const Id upper = this->atoms_.atom_of(CubeSamples::next_sample(list[begin].sample(), axis));
     Id last = this->atoms_.is_inside(lower) ? lower : -1;
     double at = 0.0;
     bool inside = last >= 0;
     for (std::size_t i = begin; i < end; ++i)
     {
-      const Key tet = DisphenoidLattice::locate(list[i].place(list[i].at)).tet;
+      const Key tet = DisphenoidLattice::locate(list[i].position(list[i].at)).tet;
       const Id atom = this->atoms_.atom_of(list[i].triangle, tet);
       if (inside)
       {
         this->measure(lower, upper, at, list[i].at, last >= 0 ? last : atom);
       }
-      if (i > begin ? inside || list[i].at - at <= LineCrossing::touching : inside)
+      if (i > begin ? inside || list[i].at - at <= LineCrossing::merge_distance : inside)
       {
         this->connect(last, atom);
       }
@@ -215,14 +216,15 @@ private:
     {
       return;
     }
-    this->add_share(lower, std::min(to, 0.5) - from, atom);
-    this->add_share(upper, to - std::max(from, 0.5), atom);
+    this->add_volume(lower, std::min(to, 0.5) - from, atom);
+    this->add_volume(upper, to - std::max(from, 0.5), atom);
   }
-  void add_share(Id sample, double length, Id atom)
+  void add_volume(Id sample, double length, Id atom)
   {
-    if (length > 0.0 && sample >= 0 && sample < this->atoms_.first_full)
+    if (length > 0.0 && sample >= 0 && sample < this->atoms_.first_full_atom)
     {
-      this->result_.shares[atom] += static_cast<float>(length / cut_axes(this->cut_[sample]));
+      this->result_.inside_volume[atom] +=
+        static_cast<float>(length / cut_axes(this->cut_[sample]));
     }
   }
   static int cut_axes(unsigned cut)
@@ -236,36 +238,37 @@ private:
   /// sample. The fraction is 1 if no line is cut.
   bool connect_samples()
   {
-    for (Id cube = 0; cube < static_cast<Id>(this->atoms_.sampled.size()); ++cube)
+    for (Id cube = 0; cube < static_cast<Id>(this->atoms_.sampled_cubes.size()); ++cube)
     {
       if (cube % 64 == 0 && this->context_.canceled())
       {
         return false;
       }
-      for (int s = 0; s < CubeSamples::of_cube; ++s)
+      for (int s = 0; s < CubeSamples::samples_per_cube; ++s)
       {
-        const Id atom = cube * CubeSamples::of_cube + s;
+        const Id atom = cube * CubeSamples::samples_per_cube + s;
         if (!this->atoms_.is_inside(atom))
         {
           continue;
         }
         const unsigned cut = this->cut_[atom];
-        const Sample position = CubeSamples::position_of(s);
-        double share = cut == 0 ? 1.0 : 0.0;
+        const Sample position = CubeSamples::local_coordinates(s);
+        double fraction = cut == 0 ? 1.0 : 0.0;
         int stride = 1;
-        for (int axis = 0; axis < 3; ++axis, stride *= CubeSamples::along)
+        for (int axis = 0; axis < 3; ++axis, stride *= CubeSamples::samples_per_edge)
         {
           const bool up_is_cut = (cut >> axis & 1U) != 0;
           const bool down_is_cut = (cut >> (axis + 3) & 1U) != 0;
           if (up_is_cut != down_is_cut)
           {
-            share += 0.5 / cut_axes(cut);
+            fraction += 0.5 / cut_axes(cut);
           }
           if (!up_is_cut)
           {
-            const Id next = position[axis] + 1 < CubeSamples::along
+            const Id next = position[axis] + 1 < CubeSamples::samples_per_edge
               ? atom + stride
-              : this->atoms_.atom_of(CubeSamples::next_of(this->atoms_.sample_of(cube, s), axis));
+              : this->atoms_.atom_of(
+                  CubeSamples::next_sample(this->atoms_.global_coordinates(cube, s), axis));
             if (this->atoms_.is_inside(next))
             {
               this->connect(atom, next);
@@ -276,16 +279,16 @@ private:
             // The previous point along the axis is in the adjacent cube. If that cube is sampled,
             // the connection is made when the lines of its samples are processed. If that cube is
             // completely inside, the connection is made here.
-            Sample below = this->atoms_.sample_of(cube, s);
+            Sample below = this->atoms_.global_coordinates(cube, s);
             --below[axis];
             const Id last = this->atoms_.atom_of(below);
-            if (last >= this->atoms_.first_full)
+            if (last >= this->atoms_.first_full_atom)
             {
               this->connect(atom, last);
             }
           }
         }
-        this->result_.shares[atom] += static_cast<float>(share);
+        this->result_.inside_volume[atom] += static_cast<float>(fraction);
       }
     }
     return true;
@@ -294,13 +297,13 @@ private:
   /// Connect neighboring cubes that are completely inside. No triangle separates them.
   void connect_cubes()
   {
-    for (Id i = 0; i < static_cast<Id>(this->atoms_.full.size()); ++i)
+    for (Id i = 0; i < static_cast<Id>(this->atoms_.full_cubes.size()); ++i)
     {
-      const Cube cube = DisphenoidLattice::cube_of(this->atoms_.full[i]);
+      const Cube cube = DisphenoidLattice::cube_of(this->atoms_.full_cubes[i]);
       for (int half = 0; half < EmbeddingAtoms::halves; ++half)
       {
-        const Id atom = this->atoms_.first_full + i * EmbeddingAtoms::halves + half;
-        this->result_.shares[atom] = static_cast<float>(this->atoms_.samples_of_half[half]);
+        const Id atom = this->atoms_.first_full_atom + i * EmbeddingAtoms::halves + half;
+        this->result_.inside_volume[atom] = static_cast<float>(this->atoms_.samples_of_half[half]);
         if (half % 2 == 0)
         {
           continue;
@@ -311,7 +314,7 @@ private:
         if (above >= 0)
         {
           this->result_.within.unite(
-            atom, this->atoms_.first_full + above * EmbeddingAtoms::halves + half - 1);
+            atom, this->atoms_.first_full_atom + above * EmbeddingAtoms::halves + half - 1);
         }
       }
     }
@@ -354,7 +357,7 @@ private:
         }
       }
     }
-    this->result_.of_vertex = std::move(first_at);
+    this->result_.atom_of_vertex = std::move(first_at);
     if (!parallel_sort(this->context_, sides,
           [](const Side& x, const Side& y) { return x.a != y.a ? x.a < y.a : x.b < y.b; }))
     {
@@ -385,24 +388,24 @@ private:
     for (const LatticeSurface::End& end : this->surface_.ends)
     {
       const Key tet = this->cover_.tet_of_point[end.point];
-      Id held = this->atoms_.atom_of(end.triangle, tet);
-      if (held < 0) // because of rounding, the triangle has a piece only in a neighboring tet
+      Id end_atom = this->atoms_.atom_of(end.triangle, tet);
+      if (end_atom < 0) // because of rounding, the triangle has a piece only in a neighboring tet
       {
-        held = this->nearest_piece(end.triangle, this->cover_.places[end.point]);
+        end_atom = this->nearest_piece(end.triangle, this->cover_.positions[end.point]);
       }
-      this->connect(this->atoms_.atom_of(end.link, tet), held);
+      this->connect(this->atoms_.atom_of(end.link, tet), end_atom);
     }
   }
 
   /// Return the atom of the triangle's piece whose middle is nearest to a position.
-  Id nearest_piece(Id triangle, const Vec3& place) const
+  Id nearest_piece(Id triangle, const Vec3& position) const
   {
     const auto& pieces = this->cover_.pieces;
     const auto begin = pieces.begin() + this->cover_.first_piece[triangle];
     const auto end = pieces.begin() + this->cover_.first_piece[triangle + 1];
     const auto nearest = std::min_element(begin, end,
       [&](const LatticeCover::Piece& a, const LatticeCover::Piece& b)
-      { return (a.middle - place).squaredNorm() < (b.middle - place).squaredNorm(); });
+      { return (a.middle - position).squaredNorm() < (b.middle - position).squaredNorm(); });
     return this->atoms_.first_piece + static_cast<Id>(nearest - pieces.begin());
   }
 

@@ -20,11 +20,11 @@ struct AtomConnections
   using Id = EmbeddingAtoms::Id;
 
   DisjointSets<Id> within; ///< classes of connected atoms in the same tet
-  std::vector<std::pair<Id, Id>> across; ///< connected atoms of different tets
+  std::vector<std::pair<Id, Id>> between_tets; ///< connected atoms of different tets
   /// #atoms: inside volume that the atom represents, in units of one cell of the sub-grid.
-  std::vector<float> shares;
+  std::vector<float> inside_volume;
   /// One atom at each vertex of the surface; -1: no triangle uses the vertex.
-  std::vector<Id> of_vertex;
+  std::vector<Id> atom_of_vertex;
 };
 
 /// Find the connections of all atoms.

@@ -18,22 +18,26 @@ struct CubeSamples
   /// Integer coordinates of a sample in the sub-grid, over all cubes or within one cube.
   using Sample = std::array<Id, 3>;
 
-  static constexpr int along = 6; ///< number of samples along the edge of a cube
-  static constexpr int of_cube = along * along * along;
+  static constexpr int samples_per_edge = 6; ///< number of samples along the edge of a cube
+  static constexpr int samples_per_cube = samples_per_edge * samples_per_edge * samples_per_edge;
   /// Offset of the first sample, in units of the sample distance.
   static constexpr double shift[3] = { 0.62, 0.41, 0.53 };
 
   /// Return the integer coordinates of sample s within its cube.
-  static Sample position_of(int s) { return { s % along, s / along % along, s / (along * along) }; }
-  static Sample next_of(Sample s, int axis)
+  static Sample local_coordinates(int s)
+  {
+    return { s % samples_per_edge, s / samples_per_edge % samples_per_edge,
+      s / (samples_per_edge * samples_per_edge) };
+  }
+  static Sample next_sample(Sample s, int axis)
   {
     ++s[axis];
     return s;
   }
   /// Return the position of a sample, in units of cubes.
-  static Vec3 place_of(const Sample& at)
+  static Vec3 lattice_position(const Sample& at)
   {
-    return Vec3(at[0] + shift[0], at[1] + shift[1], at[2] + shift[2]) / along;
+    return Vec3(at[0] + shift[0], at[1] + shift[1], at[2] + shift[2]) / samples_per_edge;
   }
 };
 

@@ -62,9 +62,9 @@ std::array<int, 3> sorted_axes(const Vec3& d)
   return axes;
 }
 
-Vec3 from_center(const Vec3& place, const DisphenoidLattice::Cube& cube)
+Vec3 from_center(const Vec3& position, const DisphenoidLattice::Cube& cube)
 {
-  return { place[0] - cube[0] - 0.5, place[1] - cube[1] - 0.5, place[2] - cube[2] - 0.5 };
+  return { position[0] - cube[0] - 0.5, position[1] - cube[1] - 0.5, position[2] - cube[2] - 0.5 };
 }
 } // namespace
 
@@ -85,7 +85,7 @@ DisphenoidLattice::DisphenoidLattice(const Box& box, double spacing)
   }
 }
 
-double DisphenoidLattice::least_spacing(double largest_coordinate)
+double DisphenoidLattice::minimum_spacing(double largest_coordinate)
 {
   return std::ldexp(largest_coordinate, -36);
 }
@@ -104,10 +104,10 @@ DisphenoidLattice::Cube DisphenoidLattice::cube_of(Key cube_key)
     static_cast<std::int32_t>(cube_key >> 2 * cube_bits & mask) };
 }
 
-DisphenoidLattice::Location DisphenoidLattice::locate(const Vec3& place)
+DisphenoidLattice::Location DisphenoidLattice::locate(const Vec3& position)
 {
-  Cube cube = cube_of(place);
-  const Vec3 d = from_center(place, cube);
+  Cube cube = cube_of(position);
+  const Vec3 d = from_center(position, cube);
   const auto [a, m, n] = sorted_axes(d);
   const bool upper = d[a] >= 0.0;
   const double across = std::abs(d[a]);
@@ -143,7 +143,7 @@ std::array<DisphenoidLattice::Key, 4> DisphenoidLattice::corners(Key tet)
 Vec3 DisphenoidLattice::node_point(Key node) const
 {
   constexpr Key mask = (Key(1) << node_bits) - 1;
-  return this->point_at(0.5 *
+  return this->world_point(0.5 *
     Vec3(static_cast<double>(node & mask), static_cast<double>(node >> node_bits & mask),
       static_cast<double>(node >> 2 * node_bits & mask)));
 }
@@ -156,9 +156,9 @@ DisphenoidLattice::Key DisphenoidLattice::tet_of_half(const Cube& cube, int half
   return cube_key(lower) << tet_bits | static_cast<Key>(number);
 }
 
-int DisphenoidLattice::half_of(const Vec3& place)
+int DisphenoidLattice::half_of(const Vec3& position)
 {
-  const Vec3 d = from_center(place, cube_of(place));
+  const Vec3 d = from_center(position, cube_of(position));
   const auto [a, m, n] = sorted_axes(d);
   return 2 * Frame::number(a, m, d[m] >= 0.0) + (d[a] >= 0.0 ? 1 : 0);
 }
@@ -176,8 +176,8 @@ void DisphenoidLattice::cut(
     const double sign = first ? 1.0 : -1.0;
     for (int i = 0; i < from.count; ++i)
     {
-      const Vec3& p = from.places[i];
-      const Vec3& q = from.places[(i + 1) % from.count];
+      const Vec3& p = from.positions[i];
+      const Vec3& q = from.positions[(i + 1) % from.count];
       const double at_p = sign * (along(direction, p) - bound);
       const double at_q = sign * (along(direction, q) - bound);
       if (at_p <= 0.0)

@@ -29,22 +29,25 @@ public:
   DisphenoidLattice() = default;
   /// Make a lattice with at least two cubes of margin around the box. The spacing is rounded up to
   /// 8 binary digits and the origin to a 64th of the spacing. Coordinates of nodes are therefore
-  /// exact if the spacing is at least least_spacing().
+  /// exact if the spacing is at least minimum_spacing().
   DisphenoidLattice(const Box& box, double spacing);
   /// Return the smallest spacing for which node coordinates are exact, for a box whose
   /// coordinates have absolute values up to `largest_coordinate`.
-  static double least_spacing(double largest_coordinate);
+  static double minimum_spacing(double largest_coordinate);
 
   double spacing() const { return this->spacing_; }
   const Vec3& origin() const { return this->origin_; }
-  Vec3 place_of(const Vec3& point) const { return (point - this->origin_) / this->spacing_; }
-  Vec3 point_at(const Vec3& place) const { return this->origin_ + this->spacing_ * place; }
-
-  static Cube cube_of(const Vec3& place)
+  Vec3 lattice_position(const Vec3& point) const
   {
-    return { static_cast<std::int32_t>(std::floor(place[0])),
-      static_cast<std::int32_t>(std::floor(place[1])),
-      static_cast<std::int32_t>(std::floor(place[2])) };
+    return (point - this->origin_) / this->spacing_;
+  }
+  Vec3 world_point(const Vec3& position) const { return this->origin_ + this->spacing_ * position; }
+
+  static Cube cube_of(const Vec3& position)
+  {
+    return { static_cast<std::int32_t>(std::floor(position[0])),
+      static_cast<std::int32_t>(std::floor(position[1])),
+      static_cast<std::int32_t>(std::floor(position[2])) };
   }
   static Key cube_key(const Cube& cube);
   static Cube cube_of(Key cube_key);
@@ -57,7 +60,7 @@ public:
     Key tet = 0;
     std::array<double, 4> coordinates{};
   };
-  static Location locate(const Vec3& place);
+  static Location locate(const Vec3& position);
 
   /// Return the keys of a tet's nodes, in the order that makes its volume positive.
   static std::array<Key, 4> corners(Key tet);
@@ -75,18 +78,18 @@ public:
   static int number_of(Key tet) { return static_cast<int>(tet & 15U); }
   /// Return the index of the half that contains a position, among the 24 halves of the position's
   /// cube.
-  static int half_of(const Vec3& place);
+  static int half_of(const Vec3& position);
 
   /// Cut a triangle by the planes of all facets, and call piece(middle, lower, upper) for each
   /// piece, with a position in the piece and its bounding box. A segment is passed as three
   /// positions, two of them equal. Pieces thinner than 1e-9 cubes are skipped.
   template <typename Piece>
-  static void for_pieces(const std::array<Vec3, 3>& places, const Piece& piece)
+  static void for_pieces(const std::array<Vec3, 3>& positions, const Piece& piece)
   {
     Polygon whole;
-    for (const Vec3& place : places)
+    for (const Vec3& position : positions)
     {
-      whole.add(place);
+      whole.add(position);
     }
     slice(whole, 0, piece);
   }
@@ -97,21 +100,21 @@ private:
     /// Maximum number of corners: 3 of the triangle, at most one more for each of 12 planes, and
     /// some for rounding.
     static constexpr int most = 24;
-    std::array<Vec3, most> places;
+    std::array<Vec3, most> positions;
     int count = 0;
-    void add(const Vec3& place)
+    void add(const Vec3& position)
     {
       if (this->count < most)
       {
-        this->places[this->count++] = place;
+        this->positions[this->count++] = position;
       }
     }
   };
   static constexpr int directions = 6;
-  static double along(int direction, const Vec3& place)
+  static double along(int direction, const Vec3& position)
   {
-    const double x = place[direction / 2];
-    const double y = place[(direction / 2 + 1) % 3];
+    const double x = position[direction / 2];
+    const double y = position[(direction / 2 + 1) % 3];
     return direction % 2 ? x - y : x + y;
   }
   /// Clip the polygon to the region between the planes `lower` and `upper`.
@@ -123,21 +126,21 @@ private:
     if (direction == directions)
     {
       Vec3 middle = Vec3::Zero();
-      Vec3 lower = polygon.places[0], upper = polygon.places[0];
+      Vec3 lower = polygon.positions[0], upper = polygon.positions[0];
       for (int i = 0; i < polygon.count; ++i)
       {
-        middle += polygon.places[i] / polygon.count;
-        lower = lower.cwiseMin(polygon.places[i]);
-        upper = upper.cwiseMax(polygon.places[i]);
+        middle += polygon.positions[i] / polygon.count;
+        lower = lower.cwiseMin(polygon.positions[i]);
+        upper = upper.cwiseMax(polygon.positions[i]);
       }
       piece(middle, lower, upper);
       return;
     }
-    double low = along(direction, polygon.places[0]);
+    double low = along(direction, polygon.positions[0]);
     double high = low;
     for (int i = 1; i < polygon.count; ++i)
     {
-      const double at = along(direction, polygon.places[i]);
+      const double at = along(direction, polygon.positions[i]);
       low = at < low ? at : low;
       high = at > high ? at : high;
     }

@@ -41,13 +41,13 @@ public:
 
   Id count() const { return this->first_piece + static_cast<Id>(this->piece_tets_.size()); }
   /// Return the integer coordinates, over all cubes, of sample s in cube `sampled[sampled_cube]`.
-  Sample sample_of(Id sampled_cube, int s) const
+  Sample global_coordinates(Id sampled_cube, int s) const
   {
-    const Cube cube = DisphenoidLattice::cube_of(this->sampled[sampled_cube]);
-    Sample at = CubeSamples::position_of(s);
+    const Cube cube = DisphenoidLattice::cube_of(this->sampled_cubes[sampled_cube]);
+    Sample at = CubeSamples::local_coordinates(s);
     for (int k = 0; k < 3; ++k)
     {
-      at[k] += CubeSamples::along * cube[k];
+      at[k] += CubeSamples::samples_per_edge * cube[k];
     }
     return at;
   }
@@ -55,25 +55,26 @@ public:
   /// the surface, the sample itself is the atom, and it may be outside; see is_inside().
   Id atom_of(const Sample& at) const
   {
-    const Cube cube{ at[0] / CubeSamples::along, at[1] / CubeSamples::along,
-      at[2] / CubeSamples::along };
+    const Cube cube{ at[0] / CubeSamples::samples_per_edge, at[1] / CubeSamples::samples_per_edge,
+      at[2] / CubeSamples::samples_per_edge };
     const auto found = this->cube_id_.find(DisphenoidLattice::cube_key(cube));
     if (found == this->cube_id_.end())
     {
       return -1;
     }
-    const int s = ((at[2] % CubeSamples::along) * CubeSamples::along + at[1] % CubeSamples::along) *
-        CubeSamples::along +
-      at[0] % CubeSamples::along;
+    const int s = ((at[2] % CubeSamples::samples_per_edge) * CubeSamples::samples_per_edge +
+                    at[1] % CubeSamples::samples_per_edge) *
+        CubeSamples::samples_per_edge +
+      at[0] % CubeSamples::samples_per_edge;
     return found->second >= 0
-      ? found->second * CubeSamples::of_cube + s
-      : this->first_full + (-1 - found->second) * halves + this->half_of_sample_[s];
+      ? found->second * CubeSamples::samples_per_cube + s
+      : this->first_full_atom + (-1 - found->second) * halves + this->half_of_sample_[s];
   }
   /// Report whether an atom is inside. All atoms are, except for samples that are outside. Return
   /// false for -1.
   bool is_inside(Id atom) const
   {
-    return atom >= this->first_full || (atom >= 0 && this->inside_[atom] != 0);
+    return atom >= this->first_full_atom || (atom >= 0 && this->inside_[atom] != 0);
   }
   /// Return the index of the atom's tet in `tets`.
   Id tet_of(Id atom) const
@@ -82,12 +83,12 @@ public:
     {
       return this->piece_tets_[atom - this->first_piece];
     }
-    if (atom >= this->first_full)
+    if (atom >= this->first_full_atom)
     {
-      return this->half_tets_[this->sampled.size() * halves + (atom - this->first_full)];
+      return this->half_tets_[this->sampled_cubes.size() * halves + (atom - this->first_full_atom)];
     }
-    return this->half_tets_[(atom / CubeSamples::of_cube) * halves +
-      this->half_of_sample_[atom % CubeSamples::of_cube]];
+    return this->half_tets_[(atom / CubeSamples::samples_per_cube) * halves +
+      this->half_of_sample_[atom % CubeSamples::samples_per_cube]];
   }
   /// Return the atom of a triangle's piece in a tet; -1: no such piece, because of rounding.
   Id atom_of(Id triangle, Key tet) const
@@ -101,10 +102,10 @@ public:
       : this->first_piece + static_cast<Id>(at - this->cover_.pieces.begin());
   }
   /// Return the index of a tet in `tets`; -1: the tet is unused.
-  Id place_of_tet(Key tet) const;
+  Id index_of_tet(Key tet) const;
   /// Return a position in the atom, in units of cubes.
-  Vec3 place_of(Id atom) const;
-  /// Return the index of a cube in `full`; -1: the cube is not completely inside.
+  Vec3 lattice_position(Id atom) const;
+  /// Return the index of a cube in `full_cubes`; -1: the cube is not completely inside.
   Id full_cube(const Cube& cube) const
   {
     const auto found = this->cube_id_.find(DisphenoidLattice::cube_key(cube));
@@ -112,22 +113,22 @@ public:
   }
 
   /// Keys of the cubes at the surface, and of the cubes that are completely inside, sorted.
-  std::vector<Key> sampled, full;
+  std::vector<Key> sampled_cubes, full_cubes;
   std::vector<Key> tets; ///< keys of the tets that contain atoms, sorted
   std::vector<std::array<Key, 4>> nodes; ///< #tets: keys of the tet's nodes
   std::array<int, halves> samples_of_half{};
-  Id first_full = 0; ///< index of the first atom in the cubes of `full`
+  Id first_full_atom = 0; ///< index of the first atom in the cubes of `full_cubes`
   Id first_piece = 0;
 
 private:
   const LatticeCover& cover_;
-  /// Cube key -> index i in `sampled`, or -1 - i for index i in `full`.
+  /// Cube key -> index i in `sampled_cubes`, or -1 - i for index i in `full_cubes`.
   std::unordered_map<Key, Id> cube_id_;
   /// The tet of each half, as an index in `tets`: 24 halves per sampled cube, then 24 per full
   /// cube.
   std::vector<Id> half_tets_;
   std::vector<Id> piece_tets_; ///< the tet of each piece in cover_.pieces, as an index in `tets`
-  std::array<int, CubeSamples::of_cube> half_of_sample_{};
+  std::array<int, CubeSamples::samples_per_cube> half_of_sample_{};
   std::vector<std::uint8_t> inside_; ///< 1 for samples that are inside
 };
 

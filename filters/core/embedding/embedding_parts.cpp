@@ -21,10 +21,10 @@ namespace
 using Key = EmbeddingAtoms::Key;
 using Id = EmbeddingAtoms::Id;
 
-class Parts
+class EmbeddingBuilder
 {
 public:
-  Parts(ExecutionContext& context, PointsView points, const LatticeSurface& surface,
+  EmbeddingBuilder(ExecutionContext& context, PointsView points, const LatticeSurface& surface,
     const LatticeCover& cover, const EmbeddingAtoms& atoms, AtomConnections& connections,
     const MaterialProbes& probes)
     : points_(points), surface_(surface), cover_(cover), atoms_(atoms), connections_(connections),
@@ -38,12 +38,12 @@ public:
   }
 
 private:
-  // ---- Parts and copies of nodes ----
+  // ---- EmbeddingBuilder and copies of nodes ----
 
   bool find_parts()
   {
     const Id count = this->atoms_.count();
-    this->part_of_.assign(static_cast<std::size_t>(count), -1);
+    this->part_of_atom_.assign(static_cast<std::size_t>(count), -1);
     for (Id atom = 0; atom < count; ++atom)
     {
       if (atom % atoms_per_check == 0 && this->context_.canceled())
@@ -57,13 +57,13 @@ private:
       const Id root = this->connections_.within.find(atom);
       if (root == atom)
       {
-        this->part_of_[atom] = static_cast<Id>(this->part_tets_.size());
+        this->part_of_atom_[atom] = static_cast<Id>(this->part_tets_.size());
         this->part_tets_.push_back(this->atoms_.tet_of(atom));
-        this->part_shares_.push_back(0.0);
+        this->part_volumes_.push_back(0.0);
       }
-      this->part_of_[atom] = this->part_of_[root];
-      this->part_shares_[this->part_of_[atom]] +=
-        static_cast<double>(this->connections_.shares[atom]);
+      this->part_of_atom_[atom] = this->part_of_atom_[root];
+      this->part_volumes_[this->part_of_atom_[atom]] +=
+        static_cast<double>(this->connections_.inside_volume[atom]);
     }
     this->corners_.reset(4 * this->part_tets_.size());
     return true;
@@ -74,36 +74,36 @@ private:
   template <typename AtomAt>
   void join_convex(Index count, const AtomAt& atom_at)
   {
-    this->at_node_.clear();
+    this->node_corners_.clear();
     for (Index i = 0; i < count; ++i)
     {
-      const Id part = this->part_of_[atom_at(i)];
+      const Id part = this->part_of_atom_[atom_at(i)];
       const auto& nodes = this->atoms_.nodes[this->part_tets_[part]];
       for (int k = 0; k < 4; ++k)
       {
-        this->at_node_.emplace_back(nodes[k], 4 * part + k);
+        this->node_corners_.emplace_back(nodes[k], 4 * part + k);
       }
     }
-    std::sort(this->at_node_.begin(), this->at_node_.end());
-    for (std::size_t i = 1; i < this->at_node_.size(); ++i)
+    std::sort(this->node_corners_.begin(), this->node_corners_.end());
+    for (std::size_t i = 1; i < this->node_corners_.size(); ++i)
     {
-      if (this->at_node_[i].first == this->at_node_[i - 1].first)
+      if (this->node_corners_[i].first == this->node_corners_[i - 1].first)
       {
-        this->corners_.unite(this->at_node_[i].second, this->at_node_[i - 1].second);
+        this->corners_.unite(this->node_corners_[i].second, this->node_corners_[i - 1].second);
       }
     }
   }
 
   bool join_corners()
   {
-    for (std::size_t i = 0; i < this->connections_.across.size(); ++i)
+    for (std::size_t i = 0; i < this->connections_.between_tets.size(); ++i)
     {
       if (i % atoms_per_check == 0 && this->context_.canceled())
       {
         return false;
       }
-      const Id p = this->part_of_[this->connections_.across[i].first];
-      const Id q = this->part_of_[this->connections_.across[i].second];
+      const Id p = this->part_of_atom_[this->connections_.between_tets[i].first];
+      const Id q = this->part_of_atom_[this->connections_.between_tets[i].second];
       const auto& of_p = this->atoms_.nodes[this->part_tets_[p]];
       const auto& of_q = this->atoms_.nodes[this->part_tets_[q]];
       for (int k = 0; k < 4; ++k)
@@ -130,11 +130,12 @@ private:
           [&](Index i) { return this->atoms_.first_piece + static_cast<Id>(first[f] + i); });
       }
     }
-    for (Id cube = 0; cube < static_cast<Id>(this->atoms_.full.size()); ++cube)
+    for (Id cube = 0; cube < static_cast<Id>(this->atoms_.full_cubes.size()); ++cube)
     {
       this->join_convex(EmbeddingAtoms::halves,
-        [&](Index i)
-        { return this->atoms_.first_full + cube * EmbeddingAtoms::halves + static_cast<Id>(i); });
+        [&](Index i) {
+          return this->atoms_.first_full_atom + cube * EmbeddingAtoms::halves + static_cast<Id>(i);
+        });
     }
     return true;
   }
@@ -162,8 +163,8 @@ private:
       const Id part = c->second / 4;
       for (Index i = this->first_of_part_[part]; i < this->first_of_part_[part + 1]; ++i)
       {
-        const Id atom = this->of_part_[i];
-        side->places.push_back(this->atoms_.place_of(atom));
+        const Id atom = this->atoms_of_part_[i];
+        side->positions.push_back(this->atoms_.lattice_position(atom));
         if (atom >= this->atoms_.first_piece)
         {
           triangles.push_back(this->cover_.pieces[atom - this->atoms_.first_piece].triangle);
@@ -177,7 +178,7 @@ private:
   {
     const auto parts = static_cast<Id>(this->part_tets_.size());
     this->first_of_part_.assign(static_cast<std::size_t>(parts) + 1, 0);
-    for (const Id part : this->part_of_)
+    for (const Id part : this->part_of_atom_)
     {
       if (part >= 0)
       {
@@ -186,13 +187,13 @@ private:
     }
     std::partial_sum(
       this->first_of_part_.begin(), this->first_of_part_.end(), this->first_of_part_.begin());
-    this->of_part_.resize(static_cast<std::size_t>(this->first_of_part_.back()));
+    this->atoms_of_part_.resize(static_cast<std::size_t>(this->first_of_part_.back()));
     std::vector<Index> next(this->first_of_part_.begin(), this->first_of_part_.end() - 1);
-    for (std::size_t atom = 0; atom < this->part_of_.size(); ++atom)
+    for (std::size_t atom = 0; atom < this->part_of_atom_.size(); ++atom)
     {
-      if (this->part_of_[atom] >= 0)
+      if (this->part_of_atom_[atom] >= 0)
       {
-        this->of_part_[next[this->part_of_[atom]]++] = static_cast<Id>(atom);
+        this->atoms_of_part_[next[this->part_of_atom_[atom]]++] = static_cast<Id>(atom);
       }
     }
     std::vector<Id> roots(4 * static_cast<std::size_t>(parts));
@@ -207,10 +208,10 @@ private:
       return false;
     }
     // Nodes with more copies are skipped: they indicate a triangle soup, not a slice.
-    constexpr std::size_t most_copies = 12;
+    constexpr std::size_t maximum_copies = 12;
     std::vector<Id> copies;
     // For each node with several copies, the range of its corners.
-    std::vector<std::pair<Index, Index>> several;
+    std::vector<std::pair<Index, Index>> node_ranges;
     for (std::size_t begin = 0; begin < corners.size();)
     {
       std::size_t end = begin;
@@ -220,20 +221,20 @@ private:
         copies.push_back(roots[corners[end].second]);
       }
       sort_unique(copies);
-      if (copies.size() > 1 && copies.size() <= most_copies)
+      if (copies.size() > 1 && copies.size() <= maximum_copies)
       {
-        several.emplace_back(begin, end);
+        node_ranges.emplace_back(begin, end);
       }
       begin = end;
     }
     std::vector<std::pair<Id, Id>> joined;
     constexpr Index nodes_at_once = 16;
     if (!gather(
-          this->context_, static_cast<Index>(several.size()), joined,
+          this->context_, static_cast<Index>(node_ranges.size()), joined,
           [&](Index i, std::vector<std::pair<Id, Id>>& list)
           {
-            this->probe_node(
-              corners.data() + several[i].first, corners.data() + several[i].second, roots, list);
+            this->probe_node(corners.data() + node_ranges[i].first,
+              corners.data() + node_ranges[i].second, roots, list);
           },
           nodes_at_once))
     {
@@ -250,7 +251,7 @@ private:
 
   bool write(EmbeddingTets& result)
   {
-    // Parts in the same tet with the same copies of its nodes become one tet.
+    // EmbeddingBuilder in the same tet with the same copies of its nodes become one tet.
     struct Copy
     {
       Id tet;
@@ -278,19 +279,19 @@ private:
     // Vertices of the mesh: a node, and the root corner that identifies the copy of the node.
     std::vector<std::pair<Key, Id>> vertices;
     std::vector<Index> tet_of_part(copies.size());
-    std::vector<std::size_t> first_of_tet;
+    std::vector<std::size_t> first_copy_of_tet;
     for (std::size_t i = 0; i < copies.size(); ++i)
     {
       if (i == 0 || !same(copies[i - 1], copies[i]))
       {
         result.lattice_tets += i == 0 || copies[i - 1].tet != copies[i].tet ? 1 : 0;
-        first_of_tet.push_back(i);
+        first_copy_of_tet.push_back(i);
         for (int k = 0; k < 4; ++k)
         {
           vertices.emplace_back(this->atoms_.nodes[copies[i].tet][k], copies[i].corners[k]);
         }
       }
-      tet_of_part[copies[i].part] = static_cast<Index>(first_of_tet.size()) - 1;
+      tet_of_part[copies[i].part] = static_cast<Index>(first_copy_of_tet.size()) - 1;
     }
     sort_unique(vertices);
     const auto vertex_count = static_cast<Index>(vertices.size());
@@ -300,12 +301,12 @@ private:
       result.mesh.points.row(v) = this->cover_.lattice.node_point(vertices[v].first);
       result.duplicated_nodes += v > 0 && vertices[v].first == vertices[v - 1].first ? 1 : 0;
     }
-    const auto tet_count = static_cast<Index>(first_of_tet.size());
+    const auto tet_count = static_cast<Index>(first_copy_of_tet.size());
     result.mesh.tets.resize(tet_count, 4);
     result.inside_fractions = Eigen::VectorXd::Zero(tet_count);
     for (Index t = 0; t < tet_count; ++t)
     {
-      const Copy& copy = copies[first_of_tet[t]];
+      const Copy& copy = copies[first_copy_of_tet[t]];
       for (int k = 0; k < 4; ++k)
       {
         const auto vertex = std::make_pair(this->atoms_.nodes[copy.tet][k], copy.corners[k]);
@@ -313,16 +314,16 @@ private:
           std::lower_bound(vertices.begin(), vertices.end(), vertex) - vertices.begin();
       }
     }
-    double shares = 0.0;
+    double inside_volume = 0.0;
     for (const Copy& copy : copies)
     {
-      result.inside_fractions[tet_of_part[copy.part]] += this->part_shares_[copy.part];
-      shares += this->part_shares_[copy.part];
+      result.inside_fractions[tet_of_part[copy.part]] += this->part_volumes_[copy.part];
+      inside_volume += this->part_volumes_[copy.part];
     }
     for (Index t = 0; t < tet_count; ++t)
     {
       const int number =
-        2 * DisphenoidLattice::number_of(this->atoms_.tets[copies[first_of_tet[t]].tet]);
+        2 * DisphenoidLattice::number_of(this->atoms_.tets[copies[first_copy_of_tet[t]].tet]);
       const int samples =
         this->atoms_.samples_of_half[number] + this->atoms_.samples_of_half[number + 1];
       result.inside_fractions[t] = std::min(1.0, result.inside_fractions[t] / samples);
@@ -331,12 +332,12 @@ private:
     // above are relative to these numbers. The fractions are correct for whole tets, but plates
     // aligned with the sub-grid would become too thick or too thin. The total number of inside
     // samples has no such bias, so the fractions of cut tets are scaled to match it.
-    constexpr double samples_of_tet = CubeSamples::of_cube / 12.0;
+    constexpr double samples_of_tet = CubeSamples::samples_per_cube / 12.0;
     const double whole = (result.inside_fractions.array() >= 1.0).count();
     const double cut = result.inside_fractions.sum() - whole;
     if (cut > 0.0)
     {
-      const double right = std::clamp((shares / samples_of_tet - whole) / cut, 0.5, 2.0);
+      const double right = std::clamp((inside_volume / samples_of_tet - whole) / cut, 0.5, 2.0);
       for (double& fraction : result.inside_fractions)
       {
         fraction = fraction < 1.0 ? std::min(1.0, right * fraction) : fraction;
@@ -364,21 +365,21 @@ private:
     binding.coordinates.setZero(this->points_.rows(), 4);
     for (Index i = 0; i < this->points_.rows(); ++i)
     {
-      const Id vertex = this->surface_.of_point[i];
-      const Vec3 place = this->cover_.lattice.place_of(this->points_.row(i));
-      if (vertex < 0 && !((place.array() >= 0.0).all() && (place.array() < 65535.0).all()))
+      const Id vertex = this->surface_.vertex_of_point[i];
+      const Vec3 position = this->cover_.lattice.lattice_position(this->points_.row(i));
+      if (vertex < 0 && !((position.array() >= 0.0).all() && (position.array() < 65535.0).all()))
       {
         continue;
       }
-      const auto location = DisphenoidLattice::locate(place);
+      const auto location = DisphenoidLattice::locate(position);
       Index tet = -1;
       if (vertex >= 0)
       {
-        tet = tet_of_part[this->part_of_[this->connections_.of_vertex[vertex]]];
+        tet = tet_of_part[this->part_of_atom_[this->connections_.atom_of_vertex[vertex]]];
       }
       else
       {
-        const Id at = this->atoms_.place_of_tet(location.tet);
+        const Id at = this->atoms_.index_of_tet(location.tet);
         tet = at >= 0 ? fullest[at] : -1;
       }
       binding.tets[i] = tet;
@@ -397,13 +398,13 @@ private:
   const MaterialProbes& probes_;
   ExecutionContext& context_;
 
-  std::vector<Id> part_of_; // #atoms: the part that contains the atom; -1: outside
+  std::vector<Id> part_of_atom_; // #atoms: the part that contains the atom; -1: outside
   std::vector<Id> part_tets_; // #parts: index of the part's tet in atoms_.tets
-  std::vector<double> part_shares_;
-  std::vector<Index> first_of_part_; // #parts + 1: offsets into of_part_
-  std::vector<Id> of_part_;
+  std::vector<double> part_volumes_;
+  std::vector<Index> first_of_part_; // #parts + 1: offsets into atoms_of_part_
+  std::vector<Id> atoms_of_part_;
   DisjointSets<Id> corners_; // classes over 4 * part + corner; each class is one copy of a node
-  std::vector<std::pair<Key, Id>> at_node_;
+  std::vector<std::pair<Key, Id>> node_corners_;
 };
 } // namespace
 
@@ -411,7 +412,7 @@ bool make_embedding(ExecutionContext& context, PointsView points, const LatticeS
   const LatticeCover& cover, const EmbeddingAtoms& atoms, AtomConnections connections,
   const MaterialProbes& probes, EmbeddingTets& result)
 {
-  return Parts(context, points, surface, cover, atoms, connections, probes).run(result);
+  return EmbeddingBuilder(context, points, surface, cover, atoms, connections, probes).run(result);
 }
 
 } // namespace bindpose

@@ -135,7 +135,7 @@ Status check(PointsView points, TrianglesView triangles, const EmbeddingOptions&
     for (int k = 0; k < 2; ++k)
     {
       if (link.triangles[k] < 0 || link.triangles[k] >= triangles.rows() ||
-        !link.places[k].allFinite())
+        !link.positions[k].allFinite())
       {
         return Status::invalid_input("a link must connect two finite positions on triangles of the "
                                      "surface, but its triangle is " +

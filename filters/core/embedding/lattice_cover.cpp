@@ -22,11 +22,11 @@ using Cube = LatticeCover::Cube;
 using Id = LatticeCover::Id;
 
 // Accepted numbers of tets, as fractions of the target number.
-constexpr double fewest_tets = 2.0 / 3.0;
-constexpr double most_tets = 1.5;
-constexpr double most_pieces = 2e8;
+constexpr double minimum_tet_ratio = 2.0 / 3.0;
+constexpr double maximum_tet_ratio = 1.5;
+constexpr double maximum_pieces = 2e8;
 // Maximum number of pieces if the resolution is chosen, in addition to one per triangle.
-constexpr double most_pieces_of_choice = 1e6;
+constexpr double maximum_added_pieces = 1e6;
 
 /// Return the neighboring cube at one of the six faces of a cube.
 Cube neighbor_of(Key cube_key, int side)
@@ -77,7 +77,7 @@ struct Measures
   /// Return the largest number of cubes along the longest side for which count(cubes) is below a
   /// bound.
   template <typename Count>
-  static double most_cubes_along(double bound, const Count& count)
+  static double maximum_cubes_along(double bound, const Count& count)
   {
     double low = 1.0;
     double high = static_cast<double>(LatticeCover::largest_resolution);
@@ -97,10 +97,10 @@ bool LatticeSurface::build(ExecutionContext& context, PointsView all, TrianglesV
   const std::vector<PartLink>& links)
 {
   std::vector<Id> order;
-  this->of_point.assign(static_cast<std::size_t>(all.rows()), -1);
+  this->vertex_of_point.assign(static_cast<std::size_t>(all.rows()), -1);
   for (Index i = 0; i < faces.size(); ++i)
   {
-    Id& id = this->of_point[faces.data()[i]];
+    Id& id = this->vertex_of_point[faces.data()[i]];
     if (id < 0)
     {
       id = 0;
@@ -124,21 +124,21 @@ bool LatticeSurface::build(ExecutionContext& context, PointsView all, TrianglesV
     {
       this->points.emplace_back(all.row(order[i]));
     }
-    this->of_point[order[i]] = static_cast<Id>(this->points.size()) - 1;
+    this->vertex_of_point[order[i]] = static_cast<Id>(this->points.size()) - 1;
   }
   this->triangles.resize(static_cast<std::size_t>(faces.rows()));
   for (Index f = 0; f < faces.rows(); ++f)
   {
     for (int k = 0; k < 3; ++k)
     {
-      this->triangles[f][k] = this->of_point[faces(f, k)];
+      this->triangles[f][k] = this->vertex_of_point[faces(f, k)];
     }
   }
   for (const PartLink& link : links)
   {
     const auto from = static_cast<Id>(this->points.size());
     const auto id = static_cast<Id>(this->triangles.size());
-    this->points.insert(this->points.end(), link.places.begin(), link.places.end());
+    this->points.insert(this->points.end(), link.positions.begin(), link.positions.end());
     this->triangles.push_back({ from, from + 1, from + 1 });
     for (int k = 0; k < 2; ++k)
     {
@@ -153,10 +153,10 @@ Status LatticeCover::build(ExecutionContext& context, double spacing)
   this->pieces.clear();
   this->kinds.clear();
   this->lattice = DisphenoidLattice(this->box_, spacing);
-  this->first_cube_ = DisphenoidLattice::cube_of(this->lattice.place_of(this->box_.lower));
-  this->last_cube_ = DisphenoidLattice::cube_of(this->lattice.place_of(this->box_.upper));
+  this->first_cube_ = DisphenoidLattice::cube_of(this->lattice.lattice_position(this->box_.lower));
+  this->last_cube_ = DisphenoidLattice::cube_of(this->lattice.lattice_position(this->box_.upper));
   const auto count = static_cast<Index>(this->surface_.points.size());
-  this->places.resize(this->surface_.points.size());
+  this->positions.resize(this->surface_.points.size());
   this->tet_of_point.resize(this->surface_.points.size());
   constexpr Index block = 4096;
   if (!parallel_for(context, count, block,
@@ -164,8 +164,8 @@ Status LatticeCover::build(ExecutionContext& context, double spacing)
         {
           for (Index i = begin; i < end; ++i)
           {
-            this->places[i] = this->lattice.place_of(this->surface_.points[i]);
-            this->tet_of_point[i] = DisphenoidLattice::locate(this->places[i]).tet;
+            this->positions[i] = this->lattice.lattice_position(this->surface_.points[i]);
+            this->tet_of_point[i] = DisphenoidLattice::locate(this->positions[i]).tet;
           }
         }) ||
     !this->find_pieces(context))
@@ -210,7 +210,7 @@ bool LatticeCover::find_pieces(ExecutionContext& context)
       };
       for (const Id v : t)
       {
-        const Vec3& p = this->places[v];
+        const Vec3& p = this->positions[v];
         add(p, p, p);
       }
       if (this->tet_of_point[t[0]] != this->tet_of_point[t[1]] ||
@@ -223,8 +223,8 @@ bool LatticeCover::find_pieces(ExecutionContext& context)
           const Id w = t[(k + 1) % 3];
           if (this->tet_of_point[v] != this->tet_of_point[w])
           {
-            const Vec3& p = this->places[std::min(v, w)];
-            const Vec3& q = this->places[std::max(v, w)];
+            const Vec3& p = this->positions[std::min(v, w)];
+            const Vec3& q = this->positions[std::max(v, w)];
             DisphenoidLattice::for_pieces({ p, q, q }, add);
           }
         }
@@ -277,17 +277,17 @@ LatticeCover::Kind LatticeCover::kind_of(const Cube& cube) const
 
 Status LatticeCover::find_cubes(ExecutionContext& context)
 {
-  std::vector<Key> border; // cubes whose neighbors have not been visited
+  std::vector<Key> frontier; // cubes whose neighbors have not been visited
   for (const auto& [key, kind] : this->kinds)
   {
-    border.push_back(key);
+    frontier.push_back(key);
   }
-  std::sort(border.begin(), border.end());
+  std::sort(frontier.begin(), frontier.end());
   std::vector<Key> outside;
-  while (!border.empty())
+  while (!frontier.empty())
   {
     std::vector<Key> next;
-    for (const Key key : border)
+    for (const Key key : frontier)
     {
       for (int side = 0; side < 6; ++side)
       {
@@ -305,7 +305,7 @@ Status LatticeCover::find_cubes(ExecutionContext& context)
     {
       const Cube cube = DisphenoidLattice::cube_of(next[i]);
       centers.row(static_cast<Index>(i)) =
-        this->lattice.point_at(Vec3(cube[0] + 0.5, cube[1] + 0.5, cube[2] + 0.5));
+        this->lattice.world_point(Vec3(cube[0] + 0.5, cube[1] + 0.5, cube[2] + 0.5));
     }
     Eigen::VectorXd w;
     const Status status = this->winding_.evaluate(context, centers, w);
@@ -313,14 +313,14 @@ Status LatticeCover::find_cubes(ExecutionContext& context)
     {
       return status;
     }
-    border.clear();
+    frontier.clear();
     for (std::size_t i = 0; i < next.size(); ++i)
     {
       const bool inside = w[static_cast<Index>(i)] >= this->threshold_;
       this->kinds[next[i]] = inside ? Kind::inside : Kind::outside;
-      (inside ? border : outside).push_back(next[i]);
+      (inside ? frontier : outside).push_back(next[i]);
     }
-    if (static_cast<Index>(this->kinds.size()) > most_cubes)
+    if (static_cast<Index>(this->kinds.size()) > maximum_cubes)
     {
       return too_many_cubes();
     }
@@ -362,7 +362,7 @@ Status LatticeCover::find_cubes(ExecutionContext& context)
 
 Status LatticeCover::too_many_cubes()
 {
-  return Status::invalid_input("the lattice would have more than " + std::to_string(most_cubes) +
+  return Status::invalid_input("the lattice would have more than " + std::to_string(maximum_cubes) +
     " cubes; use a smaller resolution");
 }
 
@@ -385,50 +385,51 @@ double LatticeCover::count_tets() const
   return static_cast<double>(tets.size());
 }
 
-Status LatticeCover::choose(ExecutionContext& context, Index resolution, Index wanted)
+Status LatticeCover::choose(ExecutionContext& context, Index resolution, Index target)
 {
-  const auto wanted_tets = static_cast<double>(wanted);
+  const auto target_tets = static_cast<double>(target);
   const Measures measures(this->surface_, this->box_);
   const double largest =
     this->box_.lower.cwiseAbs().cwiseMax(this->box_.upper.cwiseAbs()).maxCoeff();
-  double least_spacing = DisphenoidLattice::least_spacing(largest);
-  least_spacing = least_spacing > 0.0 ? least_spacing : 1.0;
+  double minimum_spacing = DisphenoidLattice::minimum_spacing(largest);
+  minimum_spacing = minimum_spacing > 0.0 ? minimum_spacing : 1.0;
   if (resolution > 0 || !(measures.longest > 0.0))
   {
     const auto cubes = static_cast<double>(std::max<Index>(1, resolution));
-    return measures.pieces(cubes) > most_pieces
+    return measures.pieces(cubes) > maximum_pieces
       ? too_many_cubes()
-      : this->build(context, std::max(measures.longest / cubes, least_spacing));
+      : this->build(context, std::max(measures.longest / cubes, minimum_spacing));
   }
   const double most =
-    std::min(Measures::most_cubes_along(measures.triangles + most_pieces_of_choice,
+    std::min(Measures::maximum_cubes_along(measures.triangles + maximum_added_pieces,
                [&](double cubes) { return measures.pieces(cubes); }),
-      std::max(1.0, measures.longest / least_spacing));
+      std::max(1.0, measures.longest / minimum_spacing));
   double cubes = std::min(
-    most, Measures::most_cubes_along(wanted_tets, [&](double c) { return measures.tets(c); }));
+    most, Measures::maximum_cubes_along(target_tets, [&](double c) { return measures.tets(c); }));
   double last_cubes = 0.0;
   double last_tets = 0.0;
   constexpr int rounds = 6;
   for (int round = 0;; ++round)
   {
     const ProgressRange range(context, 1.0 - std::pow(0.5, round), 1.0 - std::pow(0.5, round + 1));
-    const Status status = this->build(context, std::max(measures.longest / cubes, least_spacing));
+    const Status status = this->build(context, std::max(measures.longest / cubes, minimum_spacing));
     const double tets = status.ok() ? this->count_tets() : 0.0;
-    if (!status.ok() || (tets >= fewest_tets * wanted_tets && tets <= most_tets * wanted_tets) ||
+    if (!status.ok() ||
+      (tets >= minimum_tet_ratio * target_tets && tets <= maximum_tet_ratio * target_tets) ||
       round + 1 == rounds)
     {
       return status;
     }
     // The number of tets is modeled as a power of the resolution; the exponent is between 0.8
     // (threads) and 3.2 (solids).
-    double power = tets < wanted_tets ? 2.5 : 2.0;
+    double power = tets < target_tets ? 2.5 : 2.0;
     if (last_cubes > 0.0 && last_cubes != cubes)
     {
       power = std::clamp(std::log(tets / last_tets) / std::log(cubes / last_cubes), 0.8, 3.2);
     }
     last_cubes = cubes;
     last_tets = tets;
-    cubes = std::clamp(cubes * std::pow(wanted_tets / tets, 1.0 / power), 1.0, most);
+    cubes = std::clamp(cubes * std::pow(target_tets / tets, 1.0 / power), 1.0, most);
     if (cubes == last_cubes)
     {
       return status;

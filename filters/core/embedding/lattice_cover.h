@@ -27,7 +27,7 @@ struct LatticeSurface
     Id triangle; ///< triangle of the surface that contains the end
   };
 
-  std::vector<Id> of_point; ///< #V: index in `points`; -1 for a point that no triangle uses
+  std::vector<Id> vertex_of_point; ///< #V: index in `points`; -1 for a point that no triangle uses
   std::vector<Vec3> points;
   std::vector<std::array<Id, 3>> triangles;
   std::vector<End> ends; ///< ends of the links
@@ -59,7 +59,7 @@ public:
     inside, ///< the cube contains no triangle, and its winding number is at least the threshold
     cut ///< contains triangles, or is at an opening of the surface, where the inside ends
   };
-  static constexpr Index most_cubes = 4000000;
+  static constexpr Index maximum_cubes = 4000000;
   /// Maximum number of cubes along the longest side.
   static constexpr Index largest_resolution = 1000;
 
@@ -74,7 +74,7 @@ public:
   /// @param resolution number of cubes along the longest side of the box; 0: chosen to give about
   /// `tets` tets, but at most 1000 cubes, and fewer if triangles would be cut into millions of
   /// pieces.
-  /// @return invalid_input if the lattice would have more than most_cubes cubes. Cost: 1 us per
+  /// @return invalid_input if the lattice would have more than maximum_cubes cubes. Cost: 1 us per
   /// piece of a triangle.
   Status choose(ExecutionContext& context, Index resolution, Index tets);
   Status build(ExecutionContext& context, double spacing);
@@ -82,14 +82,14 @@ public:
   std::array<Vec3, 3> corners_of(Index triangle) const
   {
     const auto& t = this->surface_.triangles[triangle];
-    return { this->places[t[0]], this->places[t[1]], this->places[t[2]] };
+    return { this->positions[t[0]], this->positions[t[1]], this->positions[t[2]] };
   }
   /// Call body(tet) for the tets that the edge between two vertices passes through.
   template <typename Body>
   void tets_of_edge(Id a, Id b, const Body& body) const
   {
-    const Vec3& p = this->places[std::min(a, b)];
-    const Vec3& q = this->places[std::max(a, b)];
+    const Vec3& p = this->positions[std::min(a, b)];
+    const Vec3& q = this->positions[std::max(a, b)];
     DisphenoidLattice::for_pieces({ p, q, q },
       [&](const Vec3& middle, const Vec3&, const Vec3&)
       { body(DisphenoidLattice::locate(middle).tet); });
@@ -98,7 +98,7 @@ public:
   static Status too_many_cubes();
 
   DisphenoidLattice lattice;
-  std::vector<Vec3> places; ///< #points: positions of the surface's points, in units of cubes
+  std::vector<Vec3> positions; ///< #points: positions of the surface's points, in units of cubes
   std::vector<Key> tet_of_point;
   std::vector<Piece> pieces; ///< all pieces of triangles, sorted by triangle, then by tet
   std::vector<Index> first_piece; ///< #F + 1: offsets into `pieces`

@@ -23,13 +23,13 @@ Key line_key(int axis, const CubeSamples::Sample& s)
 }
 } // namespace
 
-Vec3 LineCrossing::place(double along_line) const
+Vec3 LineCrossing::position(double along_line) const
 {
   const Sample s = this->sample();
-  Vec3 place = CubeSamples::place_of(s);
-  place[this->axis()] =
-    (s[this->axis()] + along_line + CubeSamples::shift[this->axis()]) / CubeSamples::along;
-  return place;
+  Vec3 position = CubeSamples::lattice_position(s);
+  position[this->axis()] = (s[this->axis()] + along_line + CubeSamples::shift[this->axis()]) /
+    CubeSamples::samples_per_edge;
+  return position;
 }
 
 void add_line_crossings(
@@ -39,7 +39,7 @@ void add_line_crossings(
   const int v = (axis + 2) % 3;
   for (Vec3& p : corner)
   {
-    p = CubeSamples::along * p -
+    p = CubeSamples::samples_per_edge * p -
       Vec3(CubeSamples::shift[0], CubeSamples::shift[1], CubeSamples::shift[2]);
   }
   const int turn = orientation_2d(

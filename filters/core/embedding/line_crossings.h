@@ -19,7 +19,7 @@ struct LineCrossing
   using Sample = CubeSamples::Sample;
 
   /// Crossings of a line whose distance is below this fraction of the sample distance count as one.
-  static constexpr double touching = 1e-9;
+  static constexpr double merge_distance = 1e-9;
 
   Key line; ///< key of the line, from its axis and its first sample
   double at; ///< position on the line, 0 … 1
@@ -33,7 +33,7 @@ struct LineCrossing
       static_cast<Id>(this->line >> 40 & mask) };
   }
   /// Return a position on the line, in units of cubes.
-  Vec3 place(double along_line) const;
+  Vec3 position(double along_line) const;
 };
 
 /// Append all crossings of a triangle (corners in units of cubes) with the lines along an axis. If

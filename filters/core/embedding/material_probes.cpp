@@ -19,7 +19,7 @@ namespace
 /// Intersect the segment from a to b with a triangle; `at` is set to the position of the
 /// intersection, as a fraction of the segment. Hits slightly outside of the triangle count too,
 /// because an additional cut is harmless.
-bool meets(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& t, double& at)
+bool find_intersection(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& t, double& at)
 {
   const Vec3 u = t[1] - t[0];
   const Vec3 v = t[2] - t[0];
@@ -46,10 +46,10 @@ bool MaterialProbes::stays_inside(
   const double length = (b - a).norm();
   const auto inside_at = [&](double t)
   {
-    const Vec3 p = this->cover_.lattice.point_at(a + t * (b - a));
+    const Vec3 p = this->cover_.lattice.world_point(a + t * (b - a));
     return this->winding_.evaluate_at(p) >= this->threshold_;
   };
-  if (length > LineCrossing::touching && !inside_at(0.5))
+  if (length > LineCrossing::merge_distance && !inside_at(0.5))
   {
     return false;
   }
@@ -57,7 +57,7 @@ bool MaterialProbes::stays_inside(
   for (const Id f : triangles)
   {
     double at = 0.0;
-    if (meets(a, b, this->cover_.corners_of(f), at))
+    if (find_intersection(a, b, this->cover_.corners_of(f), at))
     {
       cuts.push_back(at);
     }
@@ -65,7 +65,7 @@ bool MaterialProbes::stays_inside(
   std::sort(cuts.begin(), cuts.end());
   for (std::size_t i = 1; i < cuts.size(); ++i)
   {
-    if ((cuts[i] - cuts[i - 1]) * length > LineCrossing::touching &&
+    if ((cuts[i] - cuts[i - 1]) * length > LineCrossing::merge_distance &&
       !inside_at(0.5 * (cuts[i] + cuts[i - 1])))
     {
       return false;
@@ -77,17 +77,17 @@ bool MaterialProbes::stays_inside(
 bool MaterialProbes::connects(const std::vector<Vec3>& from, const std::vector<Vec3>& to,
   const std::vector<Id>& triangles, std::vector<double>& cuts) const
 {
-  struct Line
+  struct Probe
   {
     double squared_length;
     std::size_t from, to;
-    bool operator<(const Line& other) const
+    bool operator<(const Probe& other) const
     {
       return std::tie(this->squared_length, this->from, this->to) <
         std::tie(other.squared_length, other.from, other.to);
     }
   };
-  std::vector<Line> lines;
+  std::vector<Probe> lines;
   for (std::size_t i = 0; i < from.size(); ++i)
   {
     for (std::size_t j = 0; j < to.size(); ++j)
@@ -95,12 +95,12 @@ bool MaterialProbes::connects(const std::vector<Vec3>& from, const std::vector<V
       lines.push_back({ (from[i] - to[j]).squaredNorm(), i, j });
     }
   }
-  constexpr std::size_t most_lines = 12;
-  const std::size_t count = std::min(lines.size(), most_lines);
+  constexpr std::size_t maximum_probes = 12;
+  const std::size_t count = std::min(lines.size(), maximum_probes);
   std::partial_sort(lines.begin(), lines.begin() + static_cast<Index>(count), lines.end());
   lines.resize(count);
   return std::any_of(lines.begin(), lines.end(),
-    [&](const Line& line)
+    [&](const Probe& line)
     { return this->stays_inside(from[line.from], to[line.to], triangles, cuts); });
 }
 
@@ -108,15 +108,15 @@ void MaterialProbes::connect(
   std::vector<Side> sides, std::vector<Id> triangles, std::vector<std::pair<Id, Id>>& joined) const
 {
   sort_unique(triangles);
-  constexpr std::size_t most_places = 40;
+  constexpr std::size_t maximum_positions = 40;
   for (Side& side : sides)
   {
-    const std::size_t count = side.places.size();
-    for (std::size_t i = 0; i < most_places && count > most_places; ++i)
+    const std::size_t count = side.positions.size();
+    for (std::size_t i = 0; i < maximum_positions && count > maximum_positions; ++i)
     {
-      side.places[i] = side.places[i * count / most_places];
+      side.positions[i] = side.positions[i * count / maximum_positions];
     }
-    side.places.resize(std::min(count, most_places));
+    side.positions.resize(std::min(count, maximum_positions));
   }
   std::vector<double> cuts;
   DisjointSets<Id> sides_joined(sides.size());
@@ -127,7 +127,7 @@ void MaterialProbes::connect(
       const auto a = static_cast<Id>(i);
       const auto b = static_cast<Id>(j);
       if (sides_joined.find(a) != sides_joined.find(b) &&
-        this->connects(sides[i].places, sides[j].places, triangles, cuts))
+        this->connects(sides[i].positions, sides[j].positions, triangles, cuts))
       {
         sides_joined.unite(a, b);
         joined.emplace_back(sides[i].root, sides[j].root);

@@ -37,35 +37,35 @@ namespace bindpose
 namespace
 {
 /// A triangle is flat if one of its cotangents exceeds this value.
-constexpr double flat_cotangent = 1e7;
+constexpr double maximum_cotangent = 1e7;
 /// Maximum number of refinement steps. Refinement ends earlier if a correction is at most the
 /// fraction `enough` of the solution, or is not smaller than the previous correction. The relative
 /// size of a correction is about the ratio by which the error decreases per step.
-constexpr int most_refinements = 8;
+constexpr int maximum_refinements = 8;
 constexpr double enough = 1e-9;
 /// Number of power iterations for the estimate of the condition number.
 constexpr int power_steps = 12;
 
-/// Return the one-ring layer of each vertex, counted from the free vertices, up to `most`; -1: the
-/// vertex is farther away.
+/// Return the one-ring layer of each vertex, counted from the free vertices, up to `maximum_layer`;
+/// -1: the vertex is farther away.
 std::vector<int> layers_from_free(
-  const Triangles& triangles, const std::vector<char>& is_free, int most)
+  const Triangles& triangles, const std::vector<char>& is_free, int maximum_layer)
 {
   std::vector<int> layer(is_free.size(), -1);
   for (std::size_t v = 0; v < is_free.size(); ++v)
   {
     layer[v] = is_free[v] ? 0 : -1;
   }
-  for (int next = 1; next <= most; ++next)
+  for (int next = 1; next <= maximum_layer; ++next)
   {
     for (Index t = 0; t < triangles.rows(); ++t)
     {
-      const auto at = [&](int k) -> int& { return layer[triangles(t, k)]; };
-      if (at(0) == next - 1 || at(1) == next - 1 || at(2) == next - 1)
+      const auto vertex_layer = [&](int k) -> int& { return layer[triangles(t, k)]; };
+      if (vertex_layer(0) == next - 1 || vertex_layer(1) == next - 1 || vertex_layer(2) == next - 1)
       {
         for (int k = 0; k < 3; ++k)
         {
-          at(k) = at(k) < 0 ? next : at(k);
+          vertex_layer(k) = vertex_layer(k) < 0 ? next : vertex_layer(k);
         }
       }
     }
@@ -104,17 +104,17 @@ void Polyharmonic::bind(
 }
 
 Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
-  const std::vector<Index>& given, const std::vector<MeshPoint>& held)
+  const std::vector<Index>& prescribed, const std::vector<MeshPoint>& constrained)
 {
   const Index n = this->parameters_.rows();
-  this->given_count_ = static_cast<Index>(given.size());
-  this->held_count_ = static_cast<Index>(held.size());
+  this->prescribed_count_ = static_cast<Index>(prescribed.size());
+  this->constrained_count_ = static_cast<Index>(constrained.size());
   this->is_free_.assign(static_cast<std::size_t>(n), 0);
   for (Index v = 0; v < n; ++v)
   {
-    this->is_free_[v] = parts.of_vertex[v] >= 0;
+    this->is_free_[v] = parts.component_of_vertex[v] >= 0;
   }
-  for (const Index v : given)
+  for (const Index v : prescribed)
   {
     this->is_free_[v] = 0;
   }
@@ -124,13 +124,13 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
   const std::vector<int> layer =
     layers_from_free(this->triangles_, this->is_free_, region ? this->order_ : 1);
   const int deepest = region ? this->order_ - 1 : 0;
-  std::vector<char> counts(static_cast<std::size_t>(this->triangles_.rows()), 0);
+  std::vector<char> in_patch(static_cast<std::size_t>(this->triangles_.rows()), 0);
   for (Index t = 0; t < this->triangles_.rows(); ++t)
   {
     for (int k = 0; k < 3; ++k)
     {
-      const int at = layer[this->triangles_(t, k)];
-      counts[t] = counts[t] || (at >= 0 && at <= deepest);
+      const int vertex_layer = layer[this->triangles_(t, k)];
+      in_patch[t] = in_patch[t] || (vertex_layer >= 0 && vertex_layer <= deepest);
     }
   }
   // Add the ears of a patch, such as the triangles at the corners of a square. They have no free
@@ -138,7 +138,7 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
   const std::vector<TriangleSide> sides = sides_by_edge(this->triangles_);
   if (this->boundary_ == PatchBoundary::tangent)
   {
-    std::vector<int> inner(counts.size(), 0), outer(counts.size(), 0);
+    std::vector<int> inner(in_patch.size(), 0), outer(in_patch.size(), 0);
     for (std::size_t i = 0, j = 0; i < sides.size(); i = j)
     {
       j = end_of_edge(sides, i);
@@ -148,19 +148,19 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
         {
           if (o != s)
           {
-            (counts[sides[o].triangle] ? inner : outer)[sides[s].triangle] += 1;
+            (in_patch[sides[o].triangle] ? inner : outer)[sides[s].triangle] += 1;
           }
         }
       }
     }
-    for (std::size_t t = 0; t < counts.size(); ++t)
+    for (std::size_t t = 0; t < in_patch.size(); ++t)
     {
-      counts[t] = counts[t] || (inner[t] > 0 && outer[t] == 0);
+      in_patch[t] = in_patch[t] || (inner[t] > 0 && outer[t] == 0);
     }
   }
 
   // Reject invalid patches, and collect the triangle sides along the patch's edge.
-  std::vector<TriangleSide> edge, across;
+  std::vector<TriangleSide> patch_sides, opposite_sides;
   this->layers_ = this->order_;
   for (std::size_t i = 0, j = 0; i < sides.size(); i = j)
   {
@@ -168,7 +168,7 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
     std::vector<TriangleSide> in, out;
     for (std::size_t s = i; s < j; ++s)
     {
-      (counts[sides[s].triangle] ? in : out).push_back(sides[s]);
+      (in_patch[sides[s].triangle] ? in : out).push_back(sides[s]);
     }
     if (!in.empty() && j - i > 2)
     {
@@ -185,8 +185,8 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
     }
     if (in.size() == 1)
     {
-      edge.push_back(in[0]);
-      across.insert(across.end(), out.begin(), out.end());
+      patch_sides.push_back(in[0]);
+      opposite_sides.insert(opposite_sides.end(), out.begin(), out.end());
     }
   }
   const auto cotangents = cotangent_weights(this->parameters_, this->triangles_);
@@ -194,12 +194,12 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
   Triangles patch(this->triangles_.rows(), 3);
   for (Index t = 0; t < this->triangles_.rows(); ++t)
   {
-    if (!counts[t])
+    if (!in_patch[t])
     {
       continue;
     }
     const double largest = cotangents.row(t).cwiseAbs().maxCoeff();
-    if (!(largest > 0.0 && largest <= flat_cotangent))
+    if (!(largest > 0.0 && largest <= maximum_cotangent))
     {
       return Status::invalid_input("triangle " + std::to_string(t) +
         " of the patch must have an area in the parameter domain");
@@ -233,10 +233,10 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
 
   if (this->boundary_ == PatchBoundary::tangent)
   {
-    this->inside_flux_ = side_flux(this->parameters_, this->triangles_, edge);
-    this->outside_flux_ = -side_flux(this->parameters_, this->triangles_, across);
+    this->inside_flux_ = side_flux(this->parameters_, this->triangles_, patch_sides);
+    this->outside_flux_ = -side_flux(this->parameters_, this->triangles_, opposite_sides);
     std::vector<Eigen::Triplet<double, int>> entries;
-    for (const TriangleSide& side : edge)
+    for (const TriangleSide& side : patch_sides)
     {
       const double sixth =
         (this->parameters_.row(side.a) - this->parameters_.row(side.b)).norm() / 6.0;
@@ -253,7 +253,8 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
   {
     return Status::canceled();
   }
-  Status status = this->system_.prepare(this->matrix_, parts.of_vertex, parts.count, given, held);
+  Status status = this->system_.prepare(
+    this->matrix_, parts.component_of_vertex, parts.count, prescribed, constrained);
   if (!status.ok())
   {
     return Status::failure(StatusCode::unavailable,
@@ -273,7 +274,8 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
 void Polyharmonic::estimate_condition(Report& report) const
 {
   const Index n = this->parameters_.rows();
-  const Rows none = Rows::Zero(this->given_count_, 1), points = Rows::Zero(this->held_count_, 1);
+  const Rows none = Rows::Zero(this->prescribed_count_, 1),
+             points = Rows::Zero(this->constrained_count_, 1);
   const Eigen::VectorXd diagonal = this->matrix_.diagonal();
   const auto length = [&](const Rows& x)
   { return std::sqrt((diagonal.array() * x.col(0).array().square()).sum()); };
@@ -311,11 +313,11 @@ void Polyharmonic::estimate_condition(Report& report) const
   report.set("condition", largest * inverse);
 }
 
-double Polyharmonic::solve(
-  const Rows& given, const Rows& held, const Rows& flux, const Rows& load, Rows& x) const
+double Polyharmonic::solve(const Rows& prescribed, const Rows& constrained, const Rows& flux,
+  const Rows& load, Rows& x) const
 {
   const Index n = this->parameters_.rows();
-  Rows weights = Rows::Zero(n, given.cols()); // the product M load
+  Rows weights = Rows::Zero(n, prescribed.cols()); // the product M load
   if (load.size() > 0)
   {
     weights = (std::pow(this->unit_, this->order_) * this->mass_).asDiagonal() * load;
@@ -334,14 +336,14 @@ double Polyharmonic::solve(
     }
     return Rows(weights - v);
   };
-  this->system_.solve(residual(Rows::Zero(n, given.cols())), given, held, x);
-  const Rows no_given = Rows::Zero(given.rows(), given.cols());
-  const Rows no_held = Rows::Zero(held.rows(), held.cols());
+  this->system_.solve(residual(Rows::Zero(n, prescribed.cols())), prescribed, constrained, x);
+  const Rows zero_prescribed = Rows::Zero(prescribed.rows(), prescribed.cols());
+  const Rows zero_constrained = Rows::Zero(constrained.rows(), constrained.cols());
   double last = -1.0;
   Rows step;
-  for (int k = 0; k < most_refinements; ++k)
+  for (int k = 0; k < maximum_refinements; ++k)
   {
-    this->system_.solve(residual(x), no_given, no_held, step);
+    this->system_.solve(residual(x), zero_prescribed, zero_constrained, step);
     const double size = norm(step);
     if (!(last < 0.0 || size < last))
     {

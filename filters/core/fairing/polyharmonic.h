@@ -46,15 +46,15 @@ public:
   void bind(PointsView parameters, TrianglesView triangles, int order, PatchBoundary boundary);
 
   /// Factor the system for a choice of given vertices.
-  /// @param given ids of the given vertices, ascending.
-  /// @param held points of the mesh whose values are also prescribed.
+  /// @param prescribed ids of the given vertices, ascending.
+  /// @param constrained points of the mesh whose values are also prescribed.
   /// @return invalid_input, with the first invalid triangle or edge, if a triangle at a free vertex
   /// has no area or an edge there has three triangles or more. For boundary `region`, the triangles
   /// of the band are checked, too. Return unavailable if the system cannot be factored in double
   /// precision. The report contains counts.free and condition (a lower bound of the condition
   /// number of the matrix, scaled to ones on its diagonal).
   Status prepare(ExecutionContext& context, const Components& parts,
-    const std::vector<Index>& given, const std::vector<MeshPoint>& held);
+    const std::vector<Index>& prescribed, const std::vector<MeshPoint>& constrained);
 
   /// Solve for u, and store it in x.
   /// @param flux integrals of phi_i du/dn along the edge of the patch, where phi_i is the hat
@@ -62,8 +62,8 @@ public:
   /// @param load #V x m; empty: zero.
   /// @return the last correction of the iterative refinement, relative to x (ratio of the largest
   /// absolute entries).
-  double solve(
-    const Rows& given, const Rows& held, const Rows& flux, const Rows& load, Rows& x) const;
+  double solve(const Rows& prescribed, const Rows& constrained, const Rows& flux, const Rows& load,
+    Rows& x) const;
 
   /// Return the flux that corresponds to derivatives du/dn (#V x m) at the vertices of the patch's
   /// edge.
@@ -89,7 +89,7 @@ private:
   int order_ = 2;
   PatchBoundary boundary_ = PatchBoundary::region;
 
-  Index given_count_ = 0, held_count_ = 0;
+  Index prescribed_count_ = 0, constrained_count_ = 0;
   std::vector<char> is_free_;
   int layers_ = 0;
   SparseMatrix stiffness_; ///< stiffness K of the triangles in use

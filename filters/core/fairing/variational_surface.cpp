@@ -62,7 +62,7 @@ Status VariationalSurface::bind(ExecutionContext& context, PointsView points,
       "the order must be 1, 2 or 3, not " + std::to_string(options.order));
   }
   if (options.boundary == PatchBoundary::tangent &&
-    options.tangent_source == PatchTangents::given && options.tangents.rows() == 0)
+    options.tangent_source == PatchTangents::prescribed && options.tangents.rows() == 0)
   {
     return Status::invalid_input("tangent source given needs tangents, but the mesh has none");
   }
@@ -80,9 +80,9 @@ Status VariationalSurface::bind(ExecutionContext& context, PointsView points,
   this->parts_ = connected_components(n, triangles);
   for (Index v = 0; v < static_cast<Index>(options.fixed.size()); ++v)
   {
-    if (options.fixed[v] && this->parts_.of_vertex[v] >= 0)
+    if (options.fixed[v] && this->parts_.component_of_vertex[v] >= 0)
     {
-      this->staying_.push_back(v);
+      this->fixed_vertices_.push_back(v);
     }
   }
   status = this->grips_.find(points, triangles, this->parts_, handles, options.region_ids);
@@ -110,35 +110,37 @@ Status VariationalSurface::bind(ExecutionContext& context, PointsView points,
 Status VariationalSurface::prepare(ExecutionContext& context, const Pose& pose)
 {
   const VariationalSurfaceOptions& options = this->options_;
-  this->grips_.choose(pose, this->staying_);
+  this->grips_.choose(pose, this->fixed_vertices_);
   if (options.fair)
   {
-    std::vector<char> held(static_cast<std::size_t>(this->parts_.count), 0);
-    for (const Index v : this->grips_.given())
+    std::vector<char> constrained(static_cast<std::size_t>(this->parts_.count), 0);
+    for (const Index v : this->grips_.prescribed())
     {
-      held[this->parts_.of_vertex[v]] = 1;
+      constrained[this->parts_.component_of_vertex[v]] = 1;
     }
-    for (const MeshPoint& point : this->grips_.held())
+    for (const MeshPoint& point : this->grips_.constrained())
     {
-      held[this->parts_.of_vertex[point[0].first]] = 1;
+      constrained[this->parts_.component_of_vertex[point[0].first]] = 1;
     }
     for (Index v = 0; v < this->rest_.rows(); ++v)
     {
-      if (this->parts_.of_vertex[v] >= 0 && !held[this->parts_.of_vertex[v]])
+      if (this->parts_.component_of_vertex[v] >= 0 &&
+        !constrained[this->parts_.component_of_vertex[v]])
       {
         return Status::invalid_input("the connected part that contains point " + std::to_string(v) +
           " must have at least one fixed point");
       }
     }
   }
-  Status status =
-    this->system_.prepare(context, this->parts_, this->grips_.given(), this->grips_.held());
+  Status status = this->system_.prepare(
+    context, this->parts_, this->grips_.prescribed(), this->grips_.constrained());
   if (!status.ok())
   {
     return status;
   }
   this->factorizations_ += 1;
-  status.report.set("counts.constrained", this->grips_.given().size() + this->grips_.held().size());
+  status.report.set(
+    "counts.constrained", this->grips_.prescribed().size() + this->grips_.constrained().size());
   const int order = options.order;
   if (options.boundary == PatchBoundary::curve && order > 1 && options.load.rows() == 0)
   {
@@ -166,13 +168,13 @@ Status VariationalSurface::prepare(ExecutionContext& context, const Pose& pose)
   return status;
 }
 
-/// Return a #V x 3 matrix with the rows of `given` at the given vertices and zero elsewhere.
-VariationalSurface::Rows VariationalSurface::known(const Rows& given) const
+/// Return a #V x 3 matrix with the rows of `prescribed` at the given vertices and zero elsewhere.
+VariationalSurface::Rows VariationalSurface::expand_prescribed(const Rows& prescribed) const
 {
   Rows all = Rows::Zero(this->rest_.rows(), 3);
-  for (Index i = 0; i < given.rows(); ++i)
+  for (Index i = 0; i < prescribed.rows(); ++i)
   {
-    all.row(this->grips_.given()[i]) = given.row(i);
+    all.row(this->grips_.prescribed()[i]) = prescribed.row(i);
   }
   return all;
 }
@@ -204,19 +206,19 @@ Status VariationalSurface::solve(ExecutionContext& context, const Pose& pose)
   std::vector<std::string> redundant = this->grips_.redundancy(pose, this->system_.redundant());
   status.warnings.insert(status.warnings.end(), redundant.begin(), redundant.end());
 
-  Rows given, held;
-  this->grips_.targets(pose, given, held);
+  Rows prescribed, constrained;
+  this->grips_.targets(pose, prescribed, constrained);
   if (options.fair)
   {
-    for (Index i = 0; i < given.rows(); ++i)
+    for (Index i = 0; i < prescribed.rows(); ++i)
     {
-      given.row(i) += this->rest_.row(this->grips_.given()[i]);
+      prescribed.row(i) += this->rest_.row(this->grips_.prescribed()[i]);
     }
-    for (Index i = 0; i < held.rows(); ++i)
+    for (Index i = 0; i < constrained.rows(); ++i)
     {
-      for (const auto& [v, share] : this->grips_.held()[i])
+      for (const auto& [v, coordinate] : this->grips_.constrained()[i])
       {
-        held.row(i) += share * this->rest_.row(v);
+        constrained.row(i) += coordinate * this->rest_.row(v);
       }
     }
   }
@@ -226,9 +228,9 @@ Status VariationalSurface::solve(ExecutionContext& context, const Pose& pose)
     switch (options.tangent_source)
     {
       case PatchTangents::surroundings:
-        flux = this->system_.flux_of_surroundings(this->known(given));
+        flux = this->system_.flux_of_surroundings(this->expand_prescribed(prescribed));
         break;
-      case PatchTangents::given:
+      case PatchTangents::prescribed:
         flux = this->system_.flux_of_derivatives(options.tangents);
         if (!options.fair)
         {
@@ -240,7 +242,7 @@ Status VariationalSurface::solve(ExecutionContext& context, const Pose& pose)
     }
   }
   Rows x;
-  const double refinement = this->system_.solve(given, held, flux, options.load, x);
+  const double refinement = this->system_.solve(prescribed, constrained, flux, options.load, x);
   if (!x.allFinite())
   {
     return Status::failure(StatusCode::unavailable, "the patch has no finite solution");
@@ -251,7 +253,7 @@ Status VariationalSurface::solve(ExecutionContext& context, const Pose& pose)
   }
   for (Index v = 0; v < x.rows(); ++v)
   {
-    if (this->parts_.of_vertex[v] < 0)
+    if (this->parts_.component_of_vertex[v] < 0)
     {
       x.row(v) = this->rest_.row(v);
     }
@@ -267,7 +269,7 @@ Status VariationalSurface::solve(ExecutionContext& context, const Pose& pose)
       " of the largest coordinate, so the result is inaccurate; use a lower order or a coarser "
       "mesh");
   }
-  if (!this->grips_.holds().empty())
+  if (!this->grips_.constraints().empty())
   {
     status.report.set(
       "constraint_residual", this->grips_.residual(pose, x - Rows(this->rest_), status.warnings));

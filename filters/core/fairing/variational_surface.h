@@ -14,7 +14,7 @@ enum class PatchTangents : int
 {
   /// Derivatives on the triangles on the other side of the edge; zero where the mesh ends.
   surroundings = 0,
-  given = 1, ///< the values of VariationalSurfaceOptions::tangents
+  prescribed = 1, ///< the values of VariationalSurfaceOptions::tangents
   clamped = 2 ///< zero. Displacements keep the tangents at rest; positions get a cusp.
 };
 
@@ -93,13 +93,13 @@ private:
   using Rows = Polyharmonic::Rows;
 
   Status prepare(ExecutionContext& context, const Pose& pose);
-  Rows known(const Rows& given) const;
+  Rows expand_prescribed(const Rows& prescribed) const;
 
   Handles handles_;
   VariationalSurfaceOptions options_;
   Points rest_;
   Components parts_;
-  std::vector<Index> staying_;
+  std::vector<Index> fixed_vertices_;
   MeshGrips grips_;
 
   // ---- per choice of modes

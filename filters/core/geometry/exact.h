@@ -111,7 +111,7 @@ private:
     {
       return;
     }
-    int kept = 0;
+    int new_count = 0;
     double carry = value;
     for (int i = 0; i < this->count_; ++i)
     {
@@ -119,14 +119,14 @@ private:
       two_sum(carry, this->parts_[i], carry, low);
       if (low != 0.0)
       {
-        this->parts_[kept++] = low;
+        this->parts_[new_count++] = low;
       }
     }
     if (carry != 0.0)
     {
-      this->parts_[kept++] = carry;
+      this->parts_[new_count++] = carry;
     }
-    this->count_ = kept;
+    this->count_ = new_count;
   }
 
   std::array<double, 2 * MaximumProducts> parts_{};

@@ -55,12 +55,12 @@ Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor> cotangent_weights(
   {
     const Vec3 p[3] = { points.row(triangles(t, 0)), points.row(triangles(t, 1)),
       points.row(triangles(t, 2)) };
-    const double two_areas = (p[1] - p[0]).cross(p[2] - p[0]).norm();
-    for (int k = 0; k < 3 && two_areas > 0.0; ++k)
+    const double area_times_two = (p[1] - p[0]).cross(p[2] - p[0]).norm();
+    for (int k = 0; k < 3 && area_times_two > 0.0; ++k)
     {
       const Vec3 u = p[(k + 1) % 3] - p[k];
       const Vec3 v = p[(k + 2) % 3] - p[k];
-      const double half_cot = 0.5 * u.dot(v) / two_areas;
+      const double half_cot = 0.5 * u.dot(v) / area_times_two;
       c(t, k) = std::isfinite(half_cot) ? half_cot : 0.0;
     }
   }
@@ -76,8 +76,8 @@ Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> cotangent_weights(
   {
     const Vec3 p[4] = { points.row(tets(t, 0)), points.row(tets(t, 1)), points.row(tets(t, 2)),
       points.row(tets(t, 3)) };
-    const double six_volumes = (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]);
-    if (six_volumes == 0.0)
+    const double volume_times_six = (p[1] - p[0]).cross(p[2] - p[0]).dot(p[3] - p[0]);
+    if (volume_times_six == 0.0)
     {
       continue;
     }
@@ -88,7 +88,7 @@ Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> cotangent_weights(
     g[2] = (p[3] - p[0]).cross(p[1] - p[0]);
     g[3] = (p[1] - p[0]).cross(p[2] - p[0]);
     g[0] = -(g[1] + g[2] + g[3]);
-    const double scale = 1.0 / (6.0 * std::abs(six_volumes));
+    const double scale = 1.0 / (6.0 * std::abs(volume_times_six));
     for (int k = 0; k < 6; ++k)
     {
       const double w = -scale * g[tet_edges[k][0]].dot(g[tet_edges[k][1]]);
@@ -99,39 +99,39 @@ Eigen::Matrix<double, Eigen::Dynamic, 6, Eigen::RowMajor> cotangent_weights(
 }
 
 SparseMatrix stiffness_matrix(
-  PointsView points, TrianglesView triangles, const Eigen::VectorXd& shares)
+  PointsView points, TrianglesView triangles, const Eigen::VectorXd& fractions)
 {
   auto c = cotangent_weights(points, triangles);
-  if (shares.size() > 0)
+  if (fractions.size() > 0)
   {
-    c = shares.asDiagonal() * c;
+    c = fractions.asDiagonal() * c;
   }
   return assemble(points.rows(), triangles, c, triangle_edges);
 }
 
-SparseMatrix stiffness_matrix(PointsView points, TetsView tets, const Eigen::VectorXd& shares)
+SparseMatrix stiffness_matrix(PointsView points, TetsView tets, const Eigen::VectorXd& fractions)
 {
   auto c = cotangent_weights(points, tets);
-  if (shares.size() > 0)
+  if (fractions.size() > 0)
   {
-    c = shares.asDiagonal() * c;
+    c = fractions.asDiagonal() * c;
   }
   return assemble(points.rows(), tets, c, tet_edges);
 }
 
 SparseMatrix boundary_flux(PointsView points, TrianglesView triangles)
 {
-  std::vector<TriangleSide> border;
+  std::vector<TriangleSide> boundary_sides;
   const std::vector<TriangleSide> sides = sides_by_edge(triangles);
   for (std::size_t i = 0, j = 0; i < sides.size(); i = j)
   {
     j = end_of_edge(sides, i);
     if (j == i + 1)
     {
-      border.push_back(sides[i]);
+      boundary_sides.push_back(sides[i]);
     }
   }
-  return side_flux(points, triangles, border);
+  return side_flux(points, triangles, boundary_sides);
 }
 
 SparseMatrix boundary_flux(PointsView points, TetsView tets)
@@ -147,8 +147,8 @@ SparseMatrix boundary_flux(PointsView points, TetsView tets)
     const Index t = facets[i].tet;
     const auto& corners = facet_corners[facets[i].side];
     const auto at = [&](int k) -> Vec3 { return points.row(tets(t, k)); };
-    const double six_volumes = (at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0));
-    if (j > i + 1 || !(six_volumes > 0.0))
+    const double volume_times_six = (at(1) - at(0)).cross(at(2) - at(0)).dot(at(3) - at(0));
+    if (j > i + 1 || !(volume_times_six > 0.0))
     {
       continue;
     }
@@ -162,7 +162,7 @@ SparseMatrix boundary_flux(PointsView points, TetsView tets)
     {
       // The gradient of the corner's basis function points away from the facet opposite to the
       // corner.
-      const double third = outwards.dot(-twice_area(c)) / six_volumes / 3.0;
+      const double third = outwards.dot(-twice_area(c)) / volume_times_six / 3.0;
       for (const int end : corners)
       {
         entries.emplace_back(static_cast<int>(tets(t, end)), static_cast<int>(tets(t, c)), third);
@@ -184,30 +184,30 @@ Eigen::VectorXd lumped_mass(PointsView points, TrianglesView triangles)
     const bool obtuse = c(t, 0) < 0.0 || c(t, 1) < 0.0 || c(t, 2) < 0.0;
     for (int k = 0; k < 3; ++k)
     {
-      double share;
+      double corner_area;
       if (obtuse)
       {
-        share = c(t, k) < 0.0 ? area / 2.0 : area / 4.0;
+        corner_area = c(t, k) < 0.0 ? area / 2.0 : area / 4.0;
       }
       else
       {
         const int i = (k + 1) % 3, j = (k + 2) % 3;
-        share =
+        corner_area =
           0.25 * (c(t, j) * (p[i] - p[k]).squaredNorm() + c(t, i) * (p[j] - p[k]).squaredNorm());
       }
-      mass[triangles(t, k)] += share;
+      mass[triangles(t, k)] += corner_area;
     }
   }
   return mass;
 }
 
-Eigen::VectorXd lumped_mass(PointsView points, TetsView tets, const Eigen::VectorXd& shares)
+Eigen::VectorXd lumped_mass(PointsView points, TetsView tets, const Eigen::VectorXd& fractions)
 {
   Eigen::VectorXd mass = Eigen::VectorXd::Zero(points.rows());
   Eigen::VectorXd volumes = tet_volumes(points, tets);
-  if (shares.size() > 0)
+  if (fractions.size() > 0)
   {
-    volumes.array() *= shares.array();
+    volumes.array() *= fractions.array();
   }
   for (Index t = 0; t < tets.rows(); ++t)
   {

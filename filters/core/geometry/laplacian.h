@@ -30,12 +30,12 @@ constexpr int tet_edges[6][2] = { { 0, 1 }, { 0, 2 }, { 0, 3 }, { 1, 2 }, { 1, 3
 /// Return the positive semi-definite stiffness matrix K (#V x #V): K_ij is minus the sum of the
 /// cotangent weights of edge ij over its elements. The sum of each row is 0. K is minus the
 /// cotangent Laplacian.
-/// @param shares one factor per element (the fraction of the element that contains material), or
+/// @param fractions one factor per element (the fraction of the element that contains material), or
 ///   empty for 1 everywhere
 SparseMatrix stiffness_matrix(
-  PointsView points, TrianglesView triangles, const Eigen::VectorXd& shares = Eigen::VectorXd());
+  PointsView points, TrianglesView triangles, const Eigen::VectorXd& fractions = Eigen::VectorXd());
 SparseMatrix stiffness_matrix(
-  PointsView points, TetsView tets, const Eigen::VectorXd& shares = Eigen::VectorXd());
+  PointsView points, TetsView tets, const Eigen::VectorXd& fractions = Eigen::VectorXd());
 
 /// Return the matrix N of the outward flux through the boundary (#V x #V): N_ij is the integral of
 /// phi_i n . grad phi_j over the boundary. Then (K - N) u = 0 for every linear u, also at the
@@ -49,7 +49,7 @@ SparseMatrix boundary_flux(PointsView points, TetsView tets);
 /// their volume to each vertex. The mass of unused vertices is 0.
 Eigen::VectorXd lumped_mass(PointsView points, TrianglesView triangles);
 Eigen::VectorXd lumped_mass(
-  PointsView points, TetsView tets, const Eigen::VectorXd& shares = Eigen::VectorXd());
+  PointsView points, TetsView tets, const Eigen::VectorXd& fractions = Eigen::VectorXd());
 
 /// Return Q_k = K (M^-1 K)^(k-1), which is symmetric positive semi-definite. It defines the energy
 /// 1/2 w' Q_k w: Dirichlet for k = 1, biharmonic for k = 2 and triharmonic for k = 3. The rows of

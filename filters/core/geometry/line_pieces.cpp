@@ -13,28 +13,29 @@ std::vector<double> line_cuts(double from, double to, const std::function<double
   const std::function<int(double)>& pieces)
 {
   // passed[i] is the length of the line from its start to parameter at[i], in local lengths.
-  std::vector<double> passed{ 0.0 };
-  std::vector<double> at{ from };
-  while (at.back() < to)
+  std::vector<double> cumulative_lengths{ 0.0 };
+  std::vector<double> parameters{ from };
+  while (parameters.back() < to)
   {
     constexpr double part = 0.5; // step of the integration, in local lengths
-    const double here = length(at.back());
-    const double step = std::min(part * here, to - at.back());
-    passed.push_back(passed.back() + step / here);
-    at.push_back(to - at.back() - step < 1e-9 ? to : at.back() + step);
+    const double here = length(parameters.back());
+    const double step = std::min(part * here, to - parameters.back());
+    cumulative_lengths.push_back(cumulative_lengths.back() + step / here);
+    parameters.push_back(to - parameters.back() - step < 1e-9 ? to : parameters.back() + step);
   }
-  const int count = pieces(passed.back());
+  const int count = pieces(cumulative_lengths.back());
   std::vector<double> cuts;
   std::size_t next = 1;
   for (int piece = 1; piece < count; ++piece)
   {
-    const double wanted = passed.back() * piece / count;
-    while (passed[next] < wanted)
+    const double wanted = cumulative_lengths.back() * piece / count;
+    while (cumulative_lengths[next] < wanted)
     {
       ++next;
     }
-    const double f = (wanted - passed[next - 1]) / (passed[next] - passed[next - 1]);
-    cuts.push_back(at[next - 1] + f * (at[next] - at[next - 1]));
+    const double f = (wanted - cumulative_lengths[next - 1]) /
+      (cumulative_lengths[next] - cumulative_lengths[next - 1]);
+    cuts.push_back(parameters[next - 1] + f * (parameters[next] - parameters[next - 1]));
   }
   return cuts;
 }

@@ -54,13 +54,13 @@ Components components_of(Index vertex_count, const Elements& elements)
     }
   }
   Components result;
-  result.of_vertex.assign(static_cast<std::size_t>(vertex_count), -1);
+  result.component_of_vertex.assign(static_cast<std::size_t>(vertex_count), -1);
   for (Index v = 0; v < vertex_count; ++v)
   {
     if (used[v])
     {
       const Index root = sets.find(v);
-      result.of_vertex[v] = root == v ? result.count++ : result.of_vertex[root];
+      result.component_of_vertex[v] = root == v ? result.count++ : result.component_of_vertex[root];
     }
   }
   return result;
@@ -108,28 +108,28 @@ double signed_volume(PointsView points, TrianglesView triangles)
   // Coordinates are relative to the center of the box. Far from the origin, the determinants would
   // lose digits by cancellation.
   const Vec3 c = triangles.rows() ? bounding_box(points, triangles).center() : Vec3::Zero();
-  double six_volumes = 0.0;
+  double volume_times_six = 0.0;
   for (Index t = 0; t < triangles.rows(); ++t)
   {
     const Vec3 p0 = points.row(triangles(t, 0)).transpose() - c;
     const Vec3 p1 = points.row(triangles(t, 1)).transpose() - c;
     const Vec3 p2 = points.row(triangles(t, 2)).transpose() - c;
-    six_volumes += p0.dot(p1.cross(p2));
+    volume_times_six += p0.dot(p1.cross(p2));
   }
-  return six_volumes / 6.0;
+  return volume_times_six / 6.0;
 }
 
 double surface_area(PointsView points, TrianglesView triangles)
 {
-  double two_areas = 0.0;
+  double area_times_two = 0.0;
   for (Index t = 0; t < triangles.rows(); ++t)
   {
     const Vec3 p0 = points.row(triangles(t, 0));
     const Vec3 p1 = points.row(triangles(t, 1));
     const Vec3 p2 = points.row(triangles(t, 2));
-    two_areas += (p1 - p0).cross(p2 - p0).norm();
+    area_times_two += (p1 - p0).cross(p2 - p0).norm();
   }
-  return 0.5 * two_areas;
+  return 0.5 * area_times_two;
 }
 
 double tet_volume(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)

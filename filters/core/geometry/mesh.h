@@ -78,7 +78,7 @@ EdgeCounts count_edges(TrianglesView triangles);
 struct Components
 {
   Index count = 0;
-  std::vector<Index> of_vertex; ///< #V component ids from 0, -1 for an unused vertex
+  std::vector<Index> component_of_vertex; ///< #V component ids from 0, -1 for an unused vertex
 };
 Components connected_components(Index vertex_count, TrianglesView triangles);
 Components connected_components(Index vertex_count, TetsView tets);

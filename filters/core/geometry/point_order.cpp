@@ -34,11 +34,11 @@ std::vector<std::int32_t> spatial_sort(const std::vector<Vec3>& points)
       spread[i] |= (i >> bit & 1U) << (3 * bit);
     }
   }
-  Vec3 per_length = Vec3::Zero();
+  Vec3 cells_per_length = Vec3::Zero();
   for (int k = 0; k < 3 && !box.empty(); ++k)
   {
     const double size = box.size()[k];
-    per_length[k] = size > 0.0 && std::isfinite(cells / size) ? cells / size : 0.0;
+    cells_per_length[k] = size > 0.0 && std::isfinite(cells / size) ? cells / size : 0.0;
   }
   std::vector<std::uint32_t> keys(points.size());
   std::vector<std::int32_t> begin((std::size_t(1) << (3 * bits)) + 1, 0);
@@ -47,7 +47,7 @@ std::vector<std::int32_t> spatial_sort(const std::vector<Vec3>& points)
     std::uint32_t key = 0;
     for (int k = 0; k < 3; ++k)
     {
-      const double at = (points[i][k] - box.lower[k]) * per_length[k];
+      const double at = (points[i][k] - box.lower[k]) * cells_per_length[k];
       const auto cell = static_cast<std::uint32_t>(at > 0.0 ? std::min(at, cells - 1.0) : 0.0);
       key |= spread[cell] << k;
     }

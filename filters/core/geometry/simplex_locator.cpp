@@ -72,12 +72,12 @@ SimplexLocation nearest_in_tet(
   const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
 {
   const Vec3 corner[4] = { a, b, c, d };
-  const double six_volumes = (b - a).cross(c - a).dot(d - a);
-  if (six_volumes != 0.0)
+  const double volume_times_six = (b - a).cross(c - a).dot(d - a);
+  if (volume_times_six != 0.0)
   {
-    const double u = (p - a).cross(c - a).dot(d - a) / six_volumes;
-    const double v = (b - a).cross(p - a).dot(d - a) / six_volumes;
-    const double w = (b - a).cross(c - a).dot(p - a) / six_volumes;
+    const double u = (p - a).cross(c - a).dot(d - a) / volume_times_six;
+    const double v = (b - a).cross(p - a).dot(d - a) / volume_times_six;
+    const double w = (b - a).cross(c - a).dot(p - a) / volume_times_six;
     if (u >= 0.0 && v >= 0.0 && w >= 0.0 && u + v + w <= 1.0)
     {
       SimplexLocation inside;
@@ -108,13 +108,13 @@ SimplexLocation nearest_in_tet(
 }
 
 SimplexLocator::SimplexLocator(PointsView points, TetsView tets)
-  : points_(points), elements_(tets.data()), count_(tets.rows()), corners_(4)
+  : points_(points), elements_(tets.data()), count_(tets.rows()), corners_per_element_(4)
 {
   this->build();
 }
 
 SimplexLocator::SimplexLocator(PointsView points, TrianglesView triangles)
-  : points_(points), elements_(triangles.data()), count_(triangles.rows()), corners_(3)
+  : points_(points), elements_(triangles.data()), count_(triangles.rows()), corners_per_element_(3)
 {
   this->build();
 }
@@ -128,9 +128,9 @@ void SimplexLocator::build()
   for (Index e = 0; e < this->count_; ++e)
   {
     Box box;
-    for (int k = 0; k < this->corners_; ++k)
+    for (int k = 0; k < this->corners_per_element_; ++k)
     {
-      box.add(this->points_.row(this->elements_[e * this->corners_ + k]));
+      box.add(this->points_.row(this->elements_[e * this->corners_per_element_ + k]));
     }
     this->lower_[e] = box.lower;
     this->upper_[e] = box.upper;
@@ -143,7 +143,7 @@ void SimplexLocator::build()
 
 Index SimplexLocator::build(Index begin, Index end)
 {
-  const auto self = static_cast<Index>(this->nodes_.size());
+  const auto node_id = static_cast<Index>(this->nodes_.size());
   this->nodes_.emplace_back();
   Box box;
   Box centers;
@@ -154,10 +154,10 @@ Index SimplexLocator::build(Index begin, Index end)
     box.add(this->upper_[e]);
     centers.add(this->lower_[e] + this->upper_[e]);
   }
-  this->nodes_[self].lower = box.lower;
-  this->nodes_[self].upper = box.upper;
-  this->nodes_[self].begin = begin;
-  this->nodes_[self].end = end;
+  this->nodes_[node_id].lower = box.lower;
+  this->nodes_[node_id].upper = box.upper;
+  this->nodes_[node_id].begin = begin;
+  this->nodes_[node_id].end = end;
   if (end - begin > leaf_size)
   {
     int axis;
@@ -173,17 +173,18 @@ Index SimplexLocator::build(Index begin, Index end)
       });
     this->build(begin, middle);
     const Index right = this->build(middle, end);
-    this->nodes_[self].right = right;
+    this->nodes_[node_id].right = right;
   }
-  return self;
+  return node_id;
 }
 
 SimplexLocation SimplexLocator::nearest_in_element(Index element, const Vec3& p) const
 {
-  const Index* ids = this->elements_ + element * this->corners_;
+  const Index* ids = this->elements_ + element * this->corners_per_element_;
   const auto at = [&](int k) { return Vec3(this->points_.row(ids[k])); };
-  SimplexLocation result = this->corners_ == 4 ? nearest_in_tet(p, at(0), at(1), at(2), at(3))
-                                               : nearest_in_triangle(p, at(0), at(1), at(2));
+  SimplexLocation result = this->corners_per_element_ == 4
+    ? nearest_in_tet(p, at(0), at(1), at(2), at(3))
+    : nearest_in_triangle(p, at(0), at(1), at(2));
   result.element = element;
   return result;
 }
@@ -197,11 +198,11 @@ SimplexLocation SimplexLocator::locate(const Vec3& p) const
     best.distance = 0.0;
     return best;
   }
-  std::vector<std::pair<double, Index>> open{ { 0.0, 0 } };
-  while (!open.empty())
+  std::vector<std::pair<double, Index>> stack{ { 0.0, 0 } };
+  while (!stack.empty())
   {
-    const auto [distance, at] = open.back();
-    open.pop_back();
+    const auto [distance, at] = stack.back();
+    stack.pop_back();
     if (distance > best.distance)
     {
       continue;
@@ -234,8 +235,8 @@ SimplexLocation SimplexLocator::locate(const Vec3& p) const
     {
       std::swap(near, far);
     }
-    open.push_back(far);
-    open.push_back(near);
+    stack.push_back(far);
+    stack.push_back(near);
   }
   return best;
 }

@@ -52,7 +52,7 @@ private:
   PointsView points_;
   const Index* elements_;
   Index count_;
-  int corners_;
+  int corners_per_element_;
   std::vector<Vec3> lower_, upper_; // boxes of the elements
   std::vector<Index> order_;
   std::vector<Node> nodes_;

@@ -21,17 +21,17 @@ namespace bindpose
 
 namespace
 {
-constexpr Index deepest = 100; // maximum nesting of brackets in the JSON text
-constexpr Index most_frames = 100000;
+constexpr Index maximum_depth = 100; // maximum nesting of brackets in the JSON text
+constexpr Index maximum_frames = 100000;
 constexpr double frames_per_second = 24.0; // frame rate if the keys are not evenly spaced
 
 using Transforms = std::vector<Eigen::Affine3d>;
 
 /// Exception for an error in the file. The message of the status is the file's path followed by
 /// `sentence`.
-struct Broken : std::exception
+struct GltfError : std::exception
 {
-  explicit Broken(std::string text) : sentence(std::move(text)) {}
+  explicit GltfError(std::string text) : sentence(std::move(text)) {}
   const char* what() const noexcept override { return this->sentence.c_str(); }
   std::string sentence;
 };
@@ -89,7 +89,7 @@ bool read_bytes(
   return status.ok();
 }
 
-bool no_picture(
+bool ignore_image(
   tinygltf::Image*, int, std::string*, std::string*, int, int, const unsigned char*, int, void*)
 {
   return true;
@@ -100,7 +100,7 @@ tinygltf::Model parse(const std::string& path, const std::string& content)
   const bool binary = content.compare(0, 4, "glTF") == 0;
   if (content.size() > 0xffffffffULL)
   {
-    throw Broken("the file is larger than 4 GB, which is not supported");
+    throw GltfError("the file is larger than 4 GB, which is not supported");
   }
   std::string_view text(content);
   if (binary)
@@ -112,14 +112,14 @@ tinygltf::Model parse(const std::string& path, const std::string& content)
     }
     text = text.substr(std::min<std::size_t>(20, text.size()), length);
   }
-  if (depth_of(text) > deepest)
+  if (depth_of(text) > maximum_depth)
   {
-    throw Broken("the JSON of the file is nested too deeply");
+    throw GltfError("the JSON of the file is nested too deeply");
   }
   tinygltf::Model model;
   tinygltf::TinyGLTF parser;
   parser.SetFsCallbacks({ is_file, as_it_is, read_bytes, nullptr, nullptr });
-  parser.SetImageLoader(no_picture, nullptr);
+  parser.SetImageLoader(ignore_image, nullptr);
   std::string errors;
   std::string warnings;
   const auto size = static_cast<unsigned int>(content.size());
@@ -144,11 +144,12 @@ tinygltf::Model parse(const std::string& path, const std::string& content)
   if (!parsed)
   {
     const std::string first = errors.substr(0, errors.find('\n')).substr(0, 200);
-    throw Broken(first.empty() ? "not a glTF file" : "the file is not valid: " + first);
+    throw GltfError(first.empty() ? "not a glTF file" : "the file is not valid: " + first);
   }
   if (model.asset.version.compare(0, 2, "2.") != 0)
   {
-    throw Broken("glTF " + model.asset.version.substr(0, 20) + " is not supported; expected 2.0");
+    throw GltfError(
+      "glTF " + model.asset.version.substr(0, 20) + " is not supported; expected 2.0");
   }
   for (const std::string& extension : model.extensionsRequired)
   {
@@ -156,7 +157,7 @@ tinygltf::Model parse(const std::string& path, const std::string& content)
     if (extension.compare(0, 14, "KHR_materials_") != 0 &&
       extension.compare(0, 12, "KHR_texture_") != 0)
     {
-      throw Broken("the required extension " + extension.substr(0, 100) + " is not supported");
+      throw GltfError("the required extension " + extension.substr(0, 100) + " is not supported");
     }
   }
   return model;
@@ -167,8 +168,8 @@ const Element& at(const std::vector<Element>& list, int id, const char* what)
 {
   if (id < 0 || static_cast<std::size_t>(id) >= list.size())
   {
-    throw Broken(std::string(what) + " " + std::to_string(id) + " does not exist; the file has " +
-      std::to_string(list.size()));
+    throw GltfError(std::string(what) + " " + std::to_string(id) +
+      " does not exist; the file has " + std::to_string(list.size()));
   }
   return list[static_cast<std::size_t>(id)];
 }
@@ -218,12 +219,12 @@ std::size_t component_size(int type)
     case TINYGLTF_COMPONENT_TYPE_FLOAT:
       return 4;
     default:
-      throw Broken("an accessor has an unknown component type");
+      throw GltfError("an accessor has an unknown component type");
   }
 }
 
 /// Return the divisor of normalized integers: the largest value of the component type.
-double unit_of(int type)
+double normalization_divisor(int type)
 {
   switch (type)
   {
@@ -260,7 +261,7 @@ public:
     const tinygltf::Accessor& accessor = at(this->model_.accessors, id, "accessor");
     if (accessor.type != type)
     {
-      throw Broken(std::string(what) + ": unexpected number of components");
+      throw GltfError(std::string(what) + ": unexpected number of components");
     }
     const int columns = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
     const std::size_t size = component_size(accessor.componentType);
@@ -268,13 +269,13 @@ public:
     // must not exceed the number of bytes in the file.
     if (accessor.count == 0 || accessor.count > this->bytes_)
     {
-      throw Broken(std::string(what) + ": the number of elements is " +
+      throw GltfError(std::string(what) + ": the number of elements is " +
         std::to_string(accessor.count) + "; it must be at least 1 and fit into the file");
     }
     const auto count = static_cast<Index>(accessor.count);
     if (accessor.bufferView < 0 && !accessor.sparse.isSparse)
     {
-      throw Broken(std::string(what) + ": no data");
+      throw GltfError(std::string(what) + ": no data");
     }
     Numbers numbers;
     if (accessor.bufferView >= 0)
@@ -301,7 +302,7 @@ public:
     }
     if (accessor.normalized)
     {
-      numbers /= unit_of(accessor.componentType);
+      numbers /= normalization_divisor(accessor.componentType);
       numbers = numbers.cwiseMax(-1.0);
     }
     return numbers;
@@ -313,7 +314,7 @@ public:
     Numbers numbers = this->read(id, type, what);
     if (!numbers.allFinite())
     {
-      throw Broken(std::string(what) + ": a value is not finite");
+      throw GltfError(std::string(what) + ": a value is not finite");
     }
     return numbers;
   }
@@ -326,7 +327,7 @@ public:
       component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
       component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
     {
-      throw Broken(std::string(what) + ": expected unsigned integers");
+      throw GltfError(std::string(what) + ": expected unsigned integers");
     }
     return this->read(id, type, what);
   }
@@ -348,7 +349,7 @@ private:
       offset > view.byteLength || stride > all || size > view.byteLength - offset ||
       stride < size || (count - 1) > (view.byteLength - offset - size) / stride)
     {
-      throw Broken(std::string(what) + ": the data extend beyond the end of the buffer");
+      throw GltfError(std::string(what) + ": the data extend beyond the end of the buffer");
     }
     return { buffer.data.data() + view.byteOffset + offset, stride };
   }
@@ -360,7 +361,7 @@ private:
     if (sparse.count < 0 || sparse.count > numbers.rows() || sparse.indices.byteOffset < 0 ||
       sparse.values.byteOffset < 0)
     {
-      throw Broken(std::string(what) + ": the sparse values are out of range");
+      throw GltfError(std::string(what) + ": the sparse values are out of range");
     }
     if (sparse.count == 0)
     {
@@ -377,7 +378,7 @@ private:
       const double row = component_at(ids.data + k * ids.stride, sparse.indices.componentType);
       if (!(row >= 0.0 && row < static_cast<double>(numbers.rows())) || row != std::floor(row))
       {
-        throw Broken(std::string(what) + ": the sparse values are out of range");
+        throw GltfError(std::string(what) + ": the sparse values are out of range");
       }
       for (int c = 0; c < columns; ++c)
       {
@@ -394,7 +395,7 @@ private:
 // ---- Nodes -------------------------------------------------------------------------------------
 
 template <int Size>
-bool take(const std::vector<double>& from, Eigen::Matrix<double, Size, 1>& to)
+bool read_vector(const std::vector<double>& from, Eigen::Matrix<double, Size, 1>& to)
 {
   if (from.empty())
   {
@@ -409,7 +410,7 @@ bool take(const std::vector<double>& from, Eigen::Matrix<double, Size, 1>& to)
 }
 
 /// The local transform of a node: a matrix, or translation, rotation and scale.
-struct Placement
+struct NodeTransform
 {
   bool has_matrix = false;
   Eigen::Affine3d matrix = Eigen::Affine3d::Identity();
@@ -422,21 +423,22 @@ void set_rotation(const Eigen::Vector4d& q, Trs& trs)
 {
   if (!(q.norm() > 1e-12))
   {
-    throw Broken("a rotation has length zero");
+    throw GltfError("a rotation has length zero");
   }
   trs.rotation.coeffs() = q.normalized();
 }
 
-Placement placement_of(const tinygltf::Node& node)
+NodeTransform read_node_transform(const tinygltf::Node& node)
 {
-  Placement result;
+  NodeTransform result;
   Eigen::Matrix<double, 16, 1> columns = Eigen::Matrix<double, 16, 1>::Zero();
   Eigen::Vector4d rotation = Eigen::Vector4d::UnitW();
-  if (!take<16>(node.matrix, columns) || !take<3>(node.translation, result.trs.translation) ||
-    !take<4>(node.rotation, rotation) || !take<3>(node.scale, result.trs.scale))
+  if (!read_vector<16>(node.matrix, columns) ||
+    !read_vector<3>(node.translation, result.trs.translation) ||
+    !read_vector<4>(node.rotation, rotation) || !read_vector<3>(node.scale, result.trs.scale))
   {
-    throw Broken("the transform of a node is not valid: expected finite numbers, 16 for the "
-                 "matrix, 3 for the translation and scale, and 4 for the rotation");
+    throw GltfError("the transform of a node is not valid: expected finite numbers, 16 for the "
+                    "matrix, 3 for the translation and scale, and 4 for the rotation");
   }
   set_rotation(rotation, result.trs);
   if (!node.matrix.empty())
@@ -450,17 +452,17 @@ Placement placement_of(const tinygltf::Node& node)
 
 struct Nodes
 {
-  std::vector<Placement> placements;
+  std::vector<NodeTransform> node_transforms;
   std::vector<int> parents;
   std::vector<int> order; ///< parents first
 
   /// Return the node-to-scene transforms.
-  Transforms stand() const
+  Transforms scene_transforms() const
   {
-    Transforms global(this->placements.size());
+    Transforms global(this->node_transforms.size());
     for (const int id : this->order)
     {
-      const Eigen::Affine3d own = this->placements[id].affine();
+      const Eigen::Affine3d own = this->node_transforms[id].affine();
       global[id] = this->parents[id] < 0 ? own : global[this->parents[id]] * own;
     }
     return global;
@@ -473,13 +475,13 @@ Nodes read_nodes(const tinygltf::Model& model)
   nodes.parents.assign(model.nodes.size(), -1);
   for (std::size_t n = 0; n < model.nodes.size(); ++n)
   {
-    nodes.placements.push_back(placement_of(model.nodes[n]));
+    nodes.node_transforms.push_back(read_node_transform(model.nodes[n]));
     for (const int child : model.nodes[n].children)
     {
       at(model.nodes, child, "node");
       if (nodes.parents[child] >= 0)
       {
-        throw Broken("node " + std::to_string(child) + " has more than one parent");
+        throw GltfError("node " + std::to_string(child) + " has more than one parent");
       }
       nodes.parents[child] = static_cast<int>(n);
     }
@@ -498,14 +500,14 @@ Nodes read_nodes(const tinygltf::Model& model)
   }
   if (nodes.order.size() != model.nodes.size())
   {
-    throw Broken("the hierarchy of the nodes contains a cycle");
+    throw GltfError("the hierarchy of the nodes contains a cycle");
   }
   return nodes;
 }
 
 // ---- Joints ------------------------------------------------------------------------------------
 
-bool take(const tinygltf::Value& value, Vec3& to)
+bool read_vector(const tinygltf::Value& value, Vec3& to)
 {
   for (int k = 0; k < 3; ++k)
   {
@@ -520,26 +522,28 @@ bool take(const tinygltf::Value& value, Vec3& to)
 
 /// Read the extras that Bindpose writes for a handle. Return nothing if they are missing or
 /// invalid.
-std::optional<GltfNote> read_note(const tinygltf::Value& extras, std::size_t joints)
+std::optional<GltfHandleExtras> read_handle_extras(
+  const tinygltf::Value& extras, std::size_t joints)
 {
   if (!extras.IsObject() || !extras.Has("bindpose") || !extras.Get("bindpose").IsObject())
   {
     return {};
   }
-  const tinygltf::Value& words = extras.Get("bindpose");
-  GltfNote note;
-  if (!words.Has("kind") || !words.Get("kind").IsString() || !take(words.Get("head"), note.head) ||
-    !take(words.Get("tail"), note.tail))
+  const tinygltf::Value& properties = extras.Get("bindpose");
+  GltfHandleExtras note;
+  if (!properties.Has("kind") || !properties.Get("kind").IsString() ||
+    !read_vector(properties.Get("head"), note.head) ||
+    !read_vector(properties.Get("tail"), note.tail))
   {
     return {};
   }
-  note.kind = words.Get("kind").Get<std::string>();
-  if (words.Has("region") && words.Get("region").IsNumber())
+  note.kind = properties.Get("kind").Get<std::string>();
+  if (properties.Has("region") && properties.Get("region").IsNumber())
   {
-    const double region = words.Get("region").GetNumberAsDouble();
+    const double region = properties.Get("region").GetNumberAsDouble();
     note.region = region > 0.0 && region < 1e15 ? static_cast<Index>(region) : 0;
   }
-  const tinygltf::Value& cage = words.Get("cage");
+  const tinygltf::Value& cage = properties.Get("cage");
   for (std::size_t e = 0; cage.IsArray() && e < cage.ArrayLen(); ++e)
   {
     const tinygltf::Value& corners = cage.Get(static_cast<int>(e));
@@ -572,7 +576,7 @@ SkinNodes read_joints(const tinygltf::Model& model, const Accessors& accessors, 
   result.nodes = from.joints;
   if (from.joints.empty())
   {
-    throw Broken("the skin has no joints");
+    throw GltfError("the skin has no joints");
   }
   for (std::size_t j = 0; j < from.joints.size(); ++j)
   {
@@ -580,7 +584,7 @@ SkinNodes read_joints(const tinygltf::Model& model, const Accessors& accessors, 
     int& joint = result.joint_of_node[from.joints[j]];
     if (joint >= 0)
     {
-      throw Broken("the skin contains a joint twice");
+      throw GltfError("the skin contains a joint twice");
     }
     joint = static_cast<int>(j);
   }
@@ -591,10 +595,10 @@ SkinNodes read_joints(const tinygltf::Model& model, const Accessors& accessors, 
       accessors.read_finite(from.inverseBindMatrices, TINYGLTF_TYPE_MAT4, "inverse bind matrices");
     if (inverse_binds.rows() < static_cast<Index>(from.joints.size()))
     {
-      throw Broken("the skin has fewer inverse bind matrices than joints");
+      throw GltfError("the skin has fewer inverse bind matrices than joints");
     }
   }
-  const Transforms global = nodes.stand();
+  const Transforms global = nodes.scene_transforms();
   std::set<std::string> names;
   for (std::size_t j = 0; j < from.joints.size(); ++j)
   {
@@ -611,7 +615,7 @@ SkinNodes read_joints(const tinygltf::Model& model, const Accessors& accessors, 
     }
     if (!joint.rest.matrix().allFinite() || !joint.posed.matrix().allFinite())
     {
-      throw Broken(
+      throw GltfError(
         "joint " + std::to_string(j) + " has a matrix that is not finite or not invertible");
     }
     for (int above = nodes.parents[id]; above >= 0 && joint.parent < 0;
@@ -619,8 +623,8 @@ SkinNodes read_joints(const tinygltf::Model& model, const Accessors& accessors, 
     {
       joint.parent = result.joint_of_node[above];
     }
-    joint.note = read_note(model.nodes[id].extras, from.joints.size());
-    const std::string name = one_line(model.nodes[id].name);
+    joint.note = read_handle_extras(model.nodes[id].extras, from.joints.size());
+    const std::string name = sanitize_line(model.nodes[id].name);
     joint.name = name.empty() ? "joint " + std::to_string(j) : name;
     for (int copy = 2; !names.insert(joint.name).second; ++copy)
     {
@@ -652,7 +656,7 @@ struct Parts
   Index unweighted = 0;
   /// The first vertex of each combination of accessors. Primitives with different materials can
   /// share their vertices.
-  std::map<std::map<std::string, int>, Index> shared;
+  std::map<std::map<std::string, int>, Index> first_vertex_by_accessors;
   /// For each vertex, pairs of joint and weight.
   std::vector<std::vector<std::pair<Index, double>>> influences;
 };
@@ -662,7 +666,7 @@ void add_triangles(const std::vector<Index>& corners, int mode, Index offset, Pa
   const auto count = static_cast<Index>(corners.size());
   if (count < 3 || (mode == TINYGLTF_MODE_TRIANGLES && count % 3 != 0))
   {
-    throw Broken("a mesh has " + std::to_string(count) +
+    throw GltfError("a mesh has " + std::to_string(count) +
       " triangle corners; expected at least 3, and a multiple of 3 for a triangle list");
   }
   const auto add = [&](Index a, Index b, Index c)
@@ -691,8 +695,8 @@ Numbers read_attribute(const Accessors& accessors, const tinygltf::Primitive& pr
                         : accessors.read_finite(entry->second, type, name);
   if (vertices >= 0 && numbers.rows() != vertices)
   {
-    throw Broken(std::string(name) + " has " + std::to_string(numbers.rows()) + " elements for " +
-      std::to_string(vertices) + " vertices");
+    throw GltfError(std::string(name) + " has " + std::to_string(numbers.rows()) +
+      " elements for " + std::to_string(vertices) + " vertices");
   }
   return numbers;
 }
@@ -728,7 +732,7 @@ void read_influences(const Accessors& accessors, const tinygltf::Primitive& prim
       read_attribute(accessors, primitive, weight_name.c_str(), TINYGLTF_TYPE_VEC4, vertices);
     if (ids.rows() != weights.rows())
     {
-      throw Broken("JOINTS and WEIGHTS of set " + std::to_string(set) +
+      throw GltfError("JOINTS and WEIGHTS of set " + std::to_string(set) +
         " must be either both present or both missing");
     }
     if (ids.rows() == 0)
@@ -747,7 +751,7 @@ void read_influences(const Accessors& accessors, const tinygltf::Primitive& prim
         }
         if (weight < 0.0 || ids(v, k) >= static_cast<double>(joints))
         {
-          throw Broken("vertex " + std::to_string(v) +
+          throw GltfError("vertex " + std::to_string(v) +
             (weight < 0.0
                 ? std::string(" has a negative weight")
                 : " has a weight of joint " + std::to_string(static_cast<Index>(ids(v, k))) +
@@ -760,7 +764,7 @@ void read_influences(const Accessors& accessors, const tinygltf::Primitive& prim
 }
 
 void read_primitive(const tinygltf::Model& model, const Accessors& accessors,
-  const tinygltf::Primitive& primitive, const Eigen::Affine3d& place, std::size_t joints,
+  const tinygltf::Primitive& primitive, const Eigen::Affine3d& mesh_to_scene, std::size_t joints,
   Parts& parts)
 {
   const int mode = primitive.mode < 0 ? TINYGLTF_MODE_TRIANGLES : primitive.mode;
@@ -776,22 +780,23 @@ void read_primitive(const tinygltf::Model& model, const Accessors& accessors,
   Numbers points = read_attribute(accessors, primitive, "POSITION", TINYGLTF_TYPE_VEC3, -1);
   if (points.rows() == 0)
   {
-    throw Broken("a mesh has no attribute POSITION");
+    throw GltfError("a mesh has no attribute POSITION");
   }
   const Index vertices = points.rows();
-  const auto [entry, fresh] = parts.shared.insert({ primitive.attributes, parts.vertices });
+  const auto [entry, inserted] =
+    parts.first_vertex_by_accessors.insert({ primitive.attributes, parts.vertices });
   const Index offset = entry->second;
-  if (fresh)
+  if (inserted)
   {
     for (Index v = 0; v < vertices; ++v)
     {
-      points.row(v) = (place * Vec3(points.row(v).transpose())).transpose();
+      points.row(v) = (mesh_to_scene * Vec3(points.row(v).transpose())).transpose();
     }
     Numbers normals = read_attribute(accessors, primitive, "NORMAL", TINYGLTF_TYPE_VEC3, vertices);
-    const Eigen::Matrix3d turn = place.linear().inverse().transpose();
-    for (Index v = 0; v < normals.rows() && turn.allFinite(); ++v)
+    const Eigen::Matrix3d normal_matrix = mesh_to_scene.linear().inverse().transpose();
+    for (Index v = 0; v < normals.rows() && normal_matrix.allFinite(); ++v)
     {
-      normals.row(v) = (turn * normals.row(v).transpose()).stableNormalized().transpose();
+      normals.row(v) = (normal_matrix * normals.row(v).transpose()).stableNormalized().transpose();
     }
     parts.points.push_back(points);
     parts.normals.push_back(normals);
@@ -816,7 +821,7 @@ void read_primitive(const tinygltf::Model& model, const Accessors& accessors,
     {
       if (ids(k, 0) >= static_cast<double>(vertices))
       {
-        throw Broken("a triangle references vertex " +
+        throw GltfError("a triangle references vertex " +
           std::to_string(static_cast<Index>(ids(k, 0))) + ", but there are " +
           std::to_string(vertices) + " vertices");
       }
@@ -867,7 +872,7 @@ void set_weights(Parts& parts, SkinNodes& joint_nodes, GltfSkin& skin)
     static_cast<std::size_t>(parts.vertices) * static_cast<std::size_t>(joints) * sizeof(double);
   if (static_cast<double>(needed) > available_memory())
   {
-    throw Broken("the weights of " + std::to_string(parts.vertices) + " vertices and " +
+    throw GltfError("the weights of " + std::to_string(parts.vertices) + " vertices and " +
       std::to_string(joints) + " joints need more memory than is available");
   }
   skin.weights.setZero(parts.vertices, joints);
@@ -916,10 +921,10 @@ struct Track
   /// One row per key; for cubic interpolation three rows per key: in-tangent, value, out-tangent.
   Numbers values;
 
-  bool cubic() const { return this->interpolation == "CUBICSPLINE"; }
+  bool is_cubic() const { return this->interpolation == "CUBICSPLINE"; }
   Eigen::VectorXd value(std::size_t key) const
   {
-    return this->values.row(static_cast<Index>(this->cubic() ? 3 * key + 1 : key)).transpose();
+    return this->values.row(static_cast<Index>(this->is_cubic() ? 3 * key + 1 : key)).transpose();
   }
 
   Eigen::VectorXd at(double time) const
@@ -938,7 +943,7 @@ struct Track
     {
       return a;
     }
-    if (this->cubic())
+    if (this->is_cubic())
     {
       const auto row = static_cast<Index>(3 * key);
       const Eigen::VectorXd out = step * this->values.row(row + 2).transpose();
@@ -989,15 +994,15 @@ std::optional<Track> read_track(const tinygltf::Model& model, const Accessors& a
   {
     if (!(track.times[k] > track.times[k - 1]))
     {
-      throw Broken("the key times of an animation must be strictly increasing");
+      throw GltfError("the key times of an animation must be strictly increasing");
     }
   }
   const bool rotates = track.property == Track::Property::rotation;
   track.values = accessors.read_finite(
     sampler.output, rotates ? TINYGLTF_TYPE_VEC4 : TINYGLTF_TYPE_VEC3, "keys");
-  if (track.values.rows() != times.rows() * (track.cubic() ? 3 : 1))
+  if (track.values.rows() != times.rows() * (track.is_cubic() ? 3 : 1))
   {
-    throw Broken("the number of keys of an animation must match the number of key times");
+    throw GltfError("the number of keys of an animation must match the number of key times");
   }
   return track;
 }
@@ -1029,9 +1034,9 @@ std::vector<double> frame_times(const std::vector<Track>& tracks, double& rate)
     return { keys.begin(), keys.end() };
   }
   const double frames = std::round(length * rate) + 1.0;
-  if (!(frames <= static_cast<double>(most_frames)))
+  if (!(frames <= static_cast<double>(maximum_frames)))
   {
-    throw Broken("the animation is longer than " + std::to_string(most_frames) + " frames");
+    throw GltfError("the animation is longer than " + std::to_string(maximum_frames) + " frames");
   }
   std::vector<double> times;
   for (Index frame = 0; frame < static_cast<Index>(frames); ++frame)
@@ -1069,7 +1074,7 @@ std::optional<std::string> read_animation(const tinygltf::Model& model, const Ac
     if (tracks.empty() && !found.empty())
     {
       tracks = std::move(found);
-      name = one_line(animation.name);
+      name = sanitize_line(animation.name);
     }
   }
   if (tracks.empty())
@@ -1080,36 +1085,36 @@ std::optional<std::string> read_animation(const tinygltf::Model& model, const Ac
   if (static_cast<double>(times.size() * skin.joints.size() * sizeof(Eigen::Affine3d)) >
     available_memory())
   {
-    throw Broken("the animation needs more memory than is available");
+    throw GltfError("the animation needs more memory than is available");
   }
   for (const double time : times)
   {
     for (const Track& track : tracks)
     {
-      Placement& placement = nodes.placements[track.node];
-      placement.has_matrix = false; // glTF does not allow animated nodes with a matrix
+      NodeTransform& node_transform = nodes.node_transforms[track.node];
+      node_transform.has_matrix = false; // glTF does not allow animated nodes with a matrix
       const Eigen::VectorXd value = track.at(time);
       switch (track.property)
       {
         case Track::Property::translation:
-          placement.trs.translation = value;
+          node_transform.trs.translation = value;
           break;
         case Track::Property::scale:
-          placement.trs.scale = value;
+          node_transform.trs.scale = value;
           break;
         case Track::Property::rotation:
-          set_rotation(value, placement.trs);
+          set_rotation(value, node_transform.trs);
           break;
       }
     }
-    const Transforms global = nodes.stand();
+    const Transforms global = nodes.scene_transforms();
     GltfFrame frame;
     for (const int id : skin_nodes.nodes)
     {
       frame.posed.push_back(global[id]);
       if (!global[id].matrix().allFinite())
       {
-        throw Broken("the animation gives a joint a transform that is not finite");
+        throw GltfError("the animation gives a joint a transform that is not finite");
       }
     }
     skin.frames.push_back(std::move(frame));
@@ -1119,27 +1124,27 @@ std::optional<std::string> read_animation(const tinygltf::Model& model, const Ac
 
 // ---- Content that is not read ------------------------------------------------------------------
 
-std::string counted(std::size_t count, const char* one, const char* many)
+std::string count_phrase(std::size_t count, const char* singular, const char* plural)
 {
-  return std::to_string(count) + " " + (count == 1 ? one : many);
+  return std::to_string(count) + " " + (count == 1 ? singular : plural);
 }
 
 /// Return the content of the file that `skin` does not contain, one phrase per type.
-std::vector<std::string> find_losses(const tinygltf::Model& model, const Parts& parts,
+std::vector<std::string> find_unsupported(const tinygltf::Model& model, const Parts& parts,
   const GltfSkin& skin, const std::optional<std::string>& animation, Index other_meshes)
 {
-  std::vector<std::string> losses;
-  const auto add = [&losses](std::size_t count, const char* one, const char* many)
+  std::vector<std::string> unsupported;
+  const auto add = [&unsupported](std::size_t count, const char* singular, const char* plural)
   {
     if (count > 0)
     {
-      losses.push_back(counted(count, one, many));
+      unsupported.push_back(count_phrase(count, singular, plural));
     }
   };
   const std::size_t animations = model.animations.size();
   if (animation && animations > 1)
   {
-    losses.push_back(std::to_string(animations - 1) + " of " + std::to_string(animations) +
+    unsupported.push_back(std::to_string(animations - 1) + " of " + std::to_string(animations) +
       " animations (" + (animation->empty() ? "the first" : "'" + *animation + "'") + " is kept)");
   }
   else if (!animation)
@@ -1157,29 +1162,30 @@ std::vector<std::string> find_losses(const tinygltf::Model& model, const Parts& 
     "primitives of points or lines");
   if (parts.meshes > 1)
   {
-    losses.push_back("the division into " + std::to_string(parts.meshes) + " meshes");
+    unsupported.push_back("the division into " + std::to_string(parts.meshes) + " meshes");
   }
-  const auto some = [&losses](const std::vector<Numbers>& rows, Index kept, const char* what)
+  const auto add_partial = [&unsupported](
+                             const std::vector<Numbers>& rows, Index kept, const char* what)
   {
     const bool any =
       std::any_of(rows.begin(), rows.end(), [](const Numbers& part) { return part.rows() > 0; });
     if (any && kept == 0)
     {
-      losses.push_back(std::string(what) + ", which only some meshes have");
+      unsupported.push_back(std::string(what) + ", which only some meshes have");
     }
   };
-  some(parts.normals, skin.normals.rows(), "normals");
-  some(parts.textures, skin.texture.rows(), "texture coordinates");
-  some(parts.colors, skin.colors.rows(), "vertex colors");
+  add_partial(parts.normals, skin.normals.rows(), "normals");
+  add_partial(parts.textures, skin.texture.rows(), "texture coordinates");
+  add_partial(parts.colors, skin.colors.rows(), "vertex colors");
   if (parts.more_attributes)
   {
-    losses.emplace_back("further sets of texture coordinates or vertex colors");
+    unsupported.emplace_back("further sets of texture coordinates or vertex colors");
   }
-  return losses;
+  return unsupported;
 }
 
 /// Return "a, b and c".
-std::string listed(const std::vector<std::string>& phrases)
+std::string join_phrases(const std::vector<std::string>& phrases)
 {
   std::string text;
   for (std::size_t k = 0; k < phrases.size(); ++k)
@@ -1209,13 +1215,13 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
 {
   const Accessors accessors(model, file_size);
   const Nodes nodes = read_nodes(model);
-  const int which = first_skin(model);
+  const int skin_id = first_skin(model);
   SkinNodes skin_nodes;
-  if (which >= 0)
+  if (skin_id >= 0)
   {
-    skin_nodes = read_joints(model, accessors, nodes, at(model.skins, which, "skin"), skin);
+    skin_nodes = read_joints(model, accessors, nodes, at(model.skins, skin_id, "skin"), skin);
   }
-  const Transforms global = nodes.stand();
+  const Transforms global = nodes.scene_transforms();
   Parts parts;
   std::set<int> seen;
   Index left_out = 0;
@@ -1226,36 +1232,36 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
     {
       continue;
     }
-    if (node.skin != which)
+    if (node.skin != skin_id)
     {
       left_out += 1;
       continue;
     }
     const tinygltf::Mesh& mesh = at(model.meshes, node.mesh, "mesh");
-    if (which >= 0 && !seen.insert(node.mesh).second)
+    if (skin_id >= 0 && !seen.insert(node.mesh).second)
     {
       // The joints determine the mesh's position, so a second node would duplicate the mesh.
       continue;
     }
     if (!global[n].matrix().allFinite())
     {
-      throw Broken("the transform of a node is not finite");
+      throw GltfError("the transform of a node is not finite");
     }
-    const Eigen::Affine3d place = which >= 0 ? Eigen::Affine3d::Identity() : global[n];
-    if (which < 0)
+    const Eigen::Affine3d mesh_to_scene = skin_id >= 0 ? Eigen::Affine3d::Identity() : global[n];
+    if (skin_id < 0)
     {
-      parts.shared.clear(); // a mesh at another position needs its own vertices
+      parts.first_vertex_by_accessors.clear(); // a mesh at another position needs its own vertices
     }
     for (const tinygltf::Primitive& primitive : mesh.primitives)
     {
-      read_primitive(model, accessors, primitive, place, skin.joints.size(), parts);
+      read_primitive(model, accessors, primitive, mesh_to_scene, skin.joints.size(), parts);
     }
-    skin.name = mesh.name.empty() ? skin.name : one_line(mesh.name);
+    skin.name = mesh.name.empty() ? skin.name : sanitize_line(mesh.name);
     parts.meshes += 1;
   }
   if (parts.triangles.empty())
   {
-    throw Broken("the file contains no triangles");
+    throw GltfError("the file contains no triangles");
   }
   join(parts.points, parts.vertices, 1.0, skin.points);
   join(parts.normals, parts.vertices, 1.0, skin.normals);
@@ -1263,7 +1269,7 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
   join(parts.colors, parts.vertices, 255.0, skin.colors);
   if (!skin.points.allFinite())
   {
-    throw Broken("a vertex has a coordinate that is not finite");
+    throw GltfError("a vertex has a coordinate that is not finite");
   }
   if (skin.texture.rows() > 0)
   {
@@ -1275,16 +1281,17 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
     skin.triangles.row(t) << parts.triangles[t][0], parts.triangles[t][1], parts.triangles[t][2];
   }
   std::optional<std::string> animation;
-  if (which >= 0)
+  if (skin_id >= 0)
   {
     set_weights(parts, skin_nodes, skin);
     animation = read_animation(model, accessors, nodes, skin_nodes, skin);
   }
-  const std::vector<std::string> losses = find_losses(model, parts, skin, animation, left_out);
-  if (!losses.empty())
+  const std::vector<std::string> unsupported =
+    find_unsupported(model, parts, skin, animation, left_out);
+  if (!unsupported.empty())
   {
-    status.warnings.push_back(path + ": Bindpose does not keep " + listed(losses));
-    status.report.set("not_kept[]", losses);
+    status.warnings.push_back(path + ": Bindpose does not keep " + join_phrases(unsupported));
+    status.report.set("not_kept[]", unsupported);
   }
   Report& report = status.report;
   report.set("counts.vertices", skin.points.rows());
@@ -1296,7 +1303,7 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
   report.set("counts.materials", model.materials.size());
   report.set("counts.skipped_primitives", parts.skipped);
   report.set("counts.morph_targets", parts.morph_targets);
-  if (which >= 0)
+  if (skin_id >= 0)
   {
     report.set("counts.unweighted_vertices", parts.unweighted);
     report.set("sets", parts.sets);
@@ -1318,9 +1325,9 @@ Status read_gltf_skin(const std::string& path, GltfSkin& skin)
     const tinygltf::Model model = parse(path, content);
     read_model(path, model, content.size(), skin, status);
   }
-  catch (const Broken& broken)
+  catch (const GltfError& failure)
   {
-    status = Status::invalid_input(path + ": " + broken.sentence);
+    status = Status::invalid_input(path + ": " + failure.sentence);
   }
   catch (const std::bad_alloc&)
   {

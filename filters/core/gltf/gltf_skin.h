@@ -14,7 +14,7 @@ namespace bindpose
 
 /// Properties of a handle that glTF has no field for. They are stored in the extras of the joint's
 /// node, {"bindpose": {…}}.
-struct GltfNote
+struct GltfHandleExtras
 {
   std::string kind;
   Vec3 head = Vec3::Zero(); ///< rest position of the handle or of the head of a bone
@@ -33,7 +33,7 @@ struct GltfJoint
   /// Joint-to-scene transform in the pose that the file's nodes define. The joint moves the mesh by
   /// the transform posed * rest^-1.
   Eigen::Affine3d posed = Eigen::Affine3d::Identity();
-  std::optional<GltfNote> note;
+  std::optional<GltfHandleExtras> note;
 };
 
 /// One frame of an animation.

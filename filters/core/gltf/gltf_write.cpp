@@ -24,21 +24,21 @@ namespace
 constexpr std::size_t largest_file = 0xf0000000;
 // Adding a weight of at most this size to a float of value 1 does not change the float.
 constexpr float smallest_weight = 0x1p-24F;
-constexpr double exact_row = 1e-6; // tolerance of the row sums of weights
+constexpr double row_sum_tolerance = 1e-6; // tolerance of the row sums of weights
 
 using Transforms = std::vector<Eigen::Affine3d>;
 
 // ---- Weights -----------------------------------------------------------------------------------
 
-/// The weights as stored in the file: `per_row` weights per vertex, the largest first.
+/// The weights as stored in the file: `weights_per_vertex` weights per vertex, the largest first.
 struct PackedWeights
 {
-  Index per_row = 0; // number of stored weights per vertex, a multiple of 4
+  Index weights_per_vertex = 0; // number of stored weights per vertex, a multiple of 4
   std::vector<std::uint16_t> joints;
   std::vector<float> weights;
   bool rest_joint = false; // whether there is an additional joint "rest" after all others
   Index dropped = 0;
-  double dropped_share = 0.0;
+  double dropped_weight = 0.0;
   Index negative_rows = 0; // number of rows with a negative weight or a sum above one
 };
 
@@ -51,41 +51,41 @@ struct Influence
 /// Return the influences of one row that are kept. They are at least 0 and sum to one, including
 /// the influence of the joint "rest".
 std::vector<Influence> influences_of(
-  const GltfSkin& skin, Index v, Index most, PackedWeights& packed)
+  const GltfSkin& skin, Index v, Index maximum_influences, PackedWeights& packed)
 {
   const auto joints = static_cast<Index>(skin.joints.size());
   std::vector<Influence> row;
-  double lacks = 1.0;
+  double missing_weight = 1.0;
   bool changed = false;
   for (Index j = 0; j < joints; ++j)
   {
     const double w = skin.weights(v, j);
-    lacks -= w;
-    changed = changed || w < -exact_row;
+    missing_weight -= w;
+    changed = changed || w < -row_sum_tolerance;
     if (w > smallest_weight)
     {
       row.push_back({ w, j });
     }
   }
-  packed.negative_rows += changed || lacks < -exact_row;
+  packed.negative_rows += changed || missing_weight < -row_sum_tolerance;
   // If the weights sum to less than one, the joint "rest" gets the missing weight. The sum includes
   // negative weights, which are removed.
-  if (lacks > exact_row)
+  if (missing_weight > row_sum_tolerance)
   {
-    row.push_back({ lacks, joints });
+    row.push_back({ missing_weight, joints });
   }
   std::stable_sort(row.begin(), row.end(),
     [](const Influence& a, const Influence& b) { return a.weight > b.weight; });
-  if (most > 0 && static_cast<Index>(row.size()) > most)
+  if (maximum_influences > 0 && static_cast<Index>(row.size()) > maximum_influences)
   {
-    double share = 0.0;
-    for (std::size_t k = static_cast<std::size_t>(most); k < row.size(); ++k)
+    double dropped_sum = 0.0;
+    for (std::size_t k = static_cast<std::size_t>(maximum_influences); k < row.size(); ++k)
     {
-      share += row[k].weight;
+      dropped_sum += row[k].weight;
     }
-    packed.dropped += static_cast<Index>(row.size()) - most;
-    packed.dropped_share = std::max(packed.dropped_share, share);
-    row.resize(static_cast<std::size_t>(most));
+    packed.dropped += static_cast<Index>(row.size()) - maximum_influences;
+    packed.dropped_weight = std::max(packed.dropped_weight, dropped_sum);
+    row.resize(static_cast<std::size_t>(maximum_influences));
   }
   double sum = 0.0;
   for (const Influence& influence : row)
@@ -103,31 +103,31 @@ std::vector<Influence> influences_of(
   return row;
 }
 
-PackedWeights pack(const GltfSkin& skin, Index most)
+PackedWeights pack(const GltfSkin& skin, Index maximum_influences)
 {
   PackedWeights packed;
   const Index vertices = skin.points.rows();
   std::vector<std::vector<Influence>> rows(static_cast<std::size_t>(vertices));
-  std::size_t fullest = 1;
+  std::size_t maximum_row_size = 1;
   for (Index v = 0; v < vertices; ++v)
   {
-    rows[v] = influences_of(skin, v, most, packed);
-    fullest = std::max(fullest, rows[v].size());
+    rows[v] = influences_of(skin, v, maximum_influences, packed);
+    maximum_row_size = std::max(maximum_row_size, rows[v].size());
   }
-  packed.per_row = static_cast<Index>((fullest + 3) / 4 * 4);
-  packed.joints.assign(static_cast<std::size_t>(vertices * packed.per_row), 0);
-  packed.weights.assign(static_cast<std::size_t>(vertices * packed.per_row), 0.0F);
+  packed.weights_per_vertex = static_cast<Index>((maximum_row_size + 3) / 4 * 4);
+  packed.joints.assign(static_cast<std::size_t>(vertices * packed.weights_per_vertex), 0);
+  packed.weights.assign(static_cast<std::size_t>(vertices * packed.weights_per_vertex), 0.0F);
   for (Index v = 0; v < vertices; ++v)
   {
-    const Index at = v * packed.per_row;
+    const Index first_weight = v * packed.weights_per_vertex;
     float sum = 0.0F;
     for (std::size_t k = rows[v].size(); k-- > 0;)
     {
       const Influence& influence = rows[v][k];
-      packed.joints[at + k] = static_cast<std::uint16_t>(influence.joint);
+      packed.joints[first_weight + k] = static_cast<std::uint16_t>(influence.joint);
       // The largest weight is computed from the others, so that the rounded row sums to one.
-      packed.weights[at + k] = k == 0 ? 1.0F - sum : static_cast<float>(influence.weight);
-      sum += packed.weights[at + k];
+      packed.weights[first_weight + k] = k == 0 ? 1.0F - sum : static_cast<float>(influence.weight);
+      sum += packed.weights[first_weight + k];
       packed.rest_joint =
         packed.rest_joint || influence.joint == static_cast<Index>(skin.joints.size());
     }
@@ -138,7 +138,7 @@ PackedWeights pack(const GltfSkin& skin, Index most)
 // ---- Positions of vertices ---------------------------------------------------------------------
 
 /// Return the rest-to-pose maps of all joints, followed by the identity for the joint "rest".
-Transforms maps_of(const GltfSkin& skin, const Transforms& posed)
+Transforms rest_to_pose_maps(const GltfSkin& skin, const Transforms& posed)
 {
   Transforms maps;
   for (std::size_t j = 0; j < skin.joints.size(); ++j)
@@ -165,7 +165,7 @@ Vec3 moved(const Transforms& maps, const Vec3& p, const double* weights, Index j
 Vec3 moved(const Transforms& maps, const Vec3& p, const PackedWeights& packed, Index v)
 {
   Vec3 result = p;
-  for (Index k = v * packed.per_row; k < (v + 1) * packed.per_row; ++k)
+  for (Index k = v * packed.weights_per_vertex; k < (v + 1) * packed.weights_per_vertex; ++k)
   {
     result += static_cast<double>(packed.weights[k]) * (maps[packed.joints[k]] * p - p);
   }
@@ -174,14 +174,14 @@ Vec3 moved(const Transforms& maps, const Vec3& p, const PackedWeights& packed, I
 
 /// Return the largest distance between the position of a vertex according to the file and its
 /// correct position.
-/// @param wanted exact joint-to-scene maps.
-/// @param held joint-to-scene maps according to the file.
-/// @param points correct positions; if empty, computed from `wanted`.
-double largest_error(const GltfSkin& skin, const PackedWeights& packed, const Transforms& wanted,
-  const Transforms& held, const Points& points)
+/// @param exact_maps exact joint-to-scene maps.
+/// @param stored_maps joint-to-scene maps according to the file.
+/// @param points correct positions; if empty, computed from `exact_maps`.
+double largest_error(const GltfSkin& skin, const PackedWeights& packed,
+  const Transforms& exact_maps, const Transforms& stored_maps, const Points& points)
 {
-  const Transforms right = maps_of(skin, wanted);
-  const Transforms in_file = maps_of(skin, held);
+  const Transforms right = rest_to_pose_maps(skin, exact_maps);
+  const Transforms in_file = rest_to_pose_maps(skin, stored_maps);
   const auto joints = static_cast<Index>(skin.joints.size());
   double largest = 0.0;
   for (Index v = 0; v < skin.points.rows(); ++v)
@@ -213,24 +213,25 @@ std::vector<Index> parents_first(const std::vector<GltfJoint>& joints)
   return order;
 }
 
-/// Return local transforms that move the joints to the joint-to-scene maps `wanted`, as closely as
-/// nodes can represent these maps. Set `held` to the resulting joint-to-scene maps.
-std::vector<Trs> local_maps(const GltfSkin& skin, const Transforms& wanted, Transforms& held)
+/// Return local transforms that move the joints to the joint-to-scene maps `exact_maps`, as closely
+/// as nodes can represent these maps. Set `stored_maps` to the resulting joint-to-scene maps.
+std::vector<Trs> local_maps(
+  const GltfSkin& skin, const Transforms& exact_maps, Transforms& stored_maps)
 {
   std::vector<Trs> locals(skin.joints.size());
-  held.resize(skin.joints.size());
+  stored_maps.resize(skin.joints.size());
   for (const Index j : parents_first(skin.joints))
   {
     const Index parent = skin.joints[j].parent;
-    const Eigen::Affine3d above = parent < 0 ? Eigen::Affine3d::Identity() : held[parent];
-    Eigen::Affine3d local = above.inverse() * wanted[j];
+    const Eigen::Affine3d above = parent < 0 ? Eigen::Affine3d::Identity() : stored_maps[parent];
+    Eigen::Affine3d local = above.inverse() * exact_maps[j];
     // If the parent's map is singular, no local transform can correct the joint.
     if (!local.matrix().allFinite())
     {
-      local = wanted[j];
+      local = exact_maps[j];
     }
     locals[j] = nearest_trs(local);
-    held[j] = above * locals[j].affine();
+    stored_maps[j] = above * locals[j].affine();
   }
   return locals;
 }
@@ -288,14 +289,14 @@ public:
     const int accessor = this->add(values, columns, type, target);
     for (int c = 0; c < columns; ++c)
     {
-      float least = std::numeric_limits<float>::max();
+      float minimum = std::numeric_limits<float>::max();
       float largest = std::numeric_limits<float>::lowest();
       for (std::size_t k = c; k < values.size(); k += columns)
       {
-        least = std::min(least, values[k]);
+        minimum = std::min(minimum, values[k]);
         largest = std::max(largest, values[k]);
       }
-      this->model.accessors[accessor].minValues.push_back(least);
+      this->model.accessors[accessor].minValues.push_back(minimum);
       this->model.accessors[accessor].maxValues.push_back(largest);
     }
     return accessor;
@@ -322,15 +323,15 @@ tinygltf::Value to_value(const Vec3& v)
   return tinygltf::Value({ tinygltf::Value(v[0]), tinygltf::Value(v[1]), tinygltf::Value(v[2]) });
 }
 
-tinygltf::Value to_value(const GltfNote& note)
+tinygltf::Value to_value(const GltfHandleExtras& note)
 {
-  tinygltf::Value::Object words;
-  words["kind"] = tinygltf::Value(note.kind);
-  words["head"] = to_value(note.head);
-  words["tail"] = to_value(note.tail);
+  tinygltf::Value::Object properties;
+  properties["kind"] = tinygltf::Value(note.kind);
+  properties["head"] = to_value(note.head);
+  properties["tail"] = to_value(note.tail);
   if (note.region != 0)
   {
-    words["region"] = tinygltf::Value(static_cast<double>(note.region));
+    properties["region"] = tinygltf::Value(static_cast<double>(note.region));
   }
   if (!note.cage.empty())
   {
@@ -344,9 +345,9 @@ tinygltf::Value to_value(const GltfNote& note)
       }
       elements.emplace_back(corners);
     }
-    words["cage"] = tinygltf::Value(elements);
+    properties["cage"] = tinygltf::Value(elements);
   }
-  return tinygltf::Value(tinygltf::Value::Object{ { "bindpose", tinygltf::Value(words) } });
+  return tinygltf::Value(tinygltf::Value::Object{ { "bindpose", tinygltf::Value(properties) } });
 }
 
 void set_trs(const Trs& trs, tinygltf::Node& node)
@@ -388,15 +389,15 @@ void add_mesh(Builder& builder, const GltfSkin& skin, const PackedWeights& packe
   }
   const std::size_t rows = skin.joints.empty() ? 0 : static_cast<std::size_t>(skin.points.rows());
   const bool bytes = skin.joints.size() + packed.rest_joint <= 256;
-  for (Index set = 0; rows > 0 && set < packed.per_row / 4; ++set)
+  for (Index set = 0; rows > 0 && set < packed.weights_per_vertex / 4; ++set)
   {
     std::vector<std::uint8_t> small;
     std::vector<std::uint16_t> joints;
     std::vector<float> weights;
     for (std::size_t v = 0; v < rows; ++v)
     {
-      const std::size_t at = v * packed.per_row + 4 * set;
-      for (std::size_t k = at; k < at + 4; ++k)
+      const std::size_t first_weight = v * packed.weights_per_vertex + 4 * set;
+      for (std::size_t k = first_weight; k < first_weight + 4; ++k)
       {
         bytes ? small.push_back(static_cast<std::uint8_t>(packed.joints[k]))
               : joints.push_back(packed.joints[k]);
@@ -442,9 +443,9 @@ void add_nodes(Builder& builder, const GltfSkin& skin, const std::vector<Trs>& l
   model.nodes[0].skin = 0;
   model.nodes[1].name = "handles";
   model.scenes[0].nodes.push_back(1);
-  tinygltf::Skin bound;
-  bound.name = "skin";
-  bound.skeleton = 1;
+  tinygltf::Skin gltf_skin;
+  gltf_skin.name = "skin";
+  gltf_skin.skeleton = 1;
   std::vector<float> inverse_binds;
   for (std::size_t j = 0; j < joints + rests; ++j)
   {
@@ -467,20 +468,20 @@ void add_nodes(Builder& builder, const GltfSkin& skin, const std::vector<Trs>& l
     else
     {
       node.name = "rest";
-      GltfNote note;
+      GltfHandleExtras note;
       note.kind = "rest";
       node.extras = to_value(note);
     }
     model.nodes[parent < 0 ? 1 : first_joint + parent].children.push_back(id);
-    bound.joints.push_back(id);
+    gltf_skin.joints.push_back(id);
     // Write the matrix column by column, which is also Eigen's storage order.
     for (int k = 0; k < 16; ++k)
     {
       inverse_binds.push_back(static_cast<float>(inverse.data()[k]));
     }
   }
-  bound.inverseBindMatrices = builder.add(inverse_binds, 16, TINYGLTF_TYPE_MAT4);
-  model.skins.push_back(bound);
+  gltf_skin.inverseBindMatrices = builder.add(inverse_binds, 16, TINYGLTF_TYPE_MAT4);
+  model.skins.push_back(gltf_skin);
 }
 
 int add_times(Builder& builder, const GltfSkin& skin)
@@ -565,8 +566,8 @@ void animate_shapes(Builder& builder, const GltfSkin& skin)
   mesh.weights.assign(static_cast<std::size_t>(count), 0.0);
   mesh.extras =
     tinygltf::Value(tinygltf::Value::Object{ { "targetNames", tinygltf::Value(names) } });
-  Column shares = Column::Identity(count, count);
-  const Eigen::Map<Column> in_a_row(shares.data(), shares.size(), 1);
+  Column target_weights = Column::Identity(count, count);
+  const Eigen::Map<Column> in_a_row(target_weights.data(), target_weights.size(), 1);
   tinygltf::Animation animation;
   animation.name = "poses";
   add_channel(animation, add_times(builder, skin),
@@ -577,7 +578,7 @@ void animate_shapes(Builder& builder, const GltfSkin& skin)
 // ---- Checks ------------------------------------------------------------------------------------
 
 template <typename Matrix>
-bool are_floats(const Matrix& matrix)
+bool fits_in_float(const Matrix& matrix)
 {
   return matrix.size() == 0 ||
     (matrix.allFinite() &&
@@ -596,10 +597,10 @@ Status check_frames(const GltfSkin& skin, const GltfOptions& options)
       return Status::invalid_input(
         "the number of points or joints of an animation frame differs from the mesh");
     }
-    bool finite = are_floats(frame.points) && are_floats(frame.normals);
+    bool finite = fits_in_float(frame.points) && fits_in_float(frame.normals);
     for (const Eigen::Affine3d& map : frame.posed)
     {
-      finite = finite && are_floats(map.matrix());
+      finite = finite && fits_in_float(map.matrix());
     }
     if (!finite)
     {
@@ -623,9 +624,10 @@ Status check(const GltfSkin& skin, const GltfOptions& options)
     return status;
   }
   const auto joints = static_cast<Index>(skin.joints.size());
-  const auto fits = [vertices](Index rows) { return rows == 0 || rows == vertices; };
-  if (skin.triangles.rows() == 0 || !fits(skin.normals.rows()) || !fits(skin.texture.rows()) ||
-    !fits(skin.colors.rows()) ||
+  const auto matches_vertex_count = [vertices](Index rows)
+  { return rows == 0 || rows == vertices; };
+  if (skin.triangles.rows() == 0 || !matches_vertex_count(skin.normals.rows()) ||
+    !matches_vertex_count(skin.texture.rows()) || !matches_vertex_count(skin.colors.rows()) ||
     (joints > 0 && (skin.weights.rows() != vertices || skin.weights.cols() != joints)))
   {
     return Status::invalid_input(skin.triangles.rows() == 0
@@ -633,8 +635,8 @@ Status check(const GltfSkin& skin, const GltfOptions& options)
         : "the number of normals, texture coordinates, colors or weights differs from the number "
           "of vertices or joints");
   }
-  if (!are_floats(skin.points) || !are_floats(skin.normals) || !are_floats(skin.texture) ||
-    !are_floats(skin.weights))
+  if (!fits_in_float(skin.points) || !fits_in_float(skin.normals) || !fits_in_float(skin.texture) ||
+    !fits_in_float(skin.weights))
   {
     return Status::invalid_input("the mesh contains a value that is not a finite float");
   }
@@ -650,7 +652,7 @@ Status check(const GltfSkin& skin, const GltfOptions& options)
     {
       return Status::invalid_input("joint '" + joint.name + "' has a parent that does not exist");
     }
-    if (!are_floats(joint.rest.matrix()) || !are_floats(joint.posed.matrix()) ||
+    if (!fits_in_float(joint.rest.matrix()) || !fits_in_float(joint.posed.matrix()) ||
       joint.rest.linear().determinant() == 0.0)
     {
       return Status::invalid_input(
@@ -707,18 +709,18 @@ Status write_gltf_skin(ExecutionContext& context, const std::string& path, const
   const bool skinned = !skin.joints.empty();
   const bool morph = options.animation == GltfAnimation::morph;
   const PackedWeights packed = skinned ? pack(skin, options.influences) : PackedWeights();
-  Transforms wanted;
+  Transforms exact_maps;
   for (const GltfJoint& joint : skin.joints)
   {
-    wanted.push_back(joint.posed);
+    exact_maps.push_back(joint.posed);
   }
-  Transforms held;
-  const std::vector<Trs> locals = local_maps(skin, wanted, held);
+  Transforms stored_maps;
+  const std::vector<Trs> locals = local_maps(skin, exact_maps, stored_maps);
   const double diagonal = std::max(bounding_box(skin.points, skin.triangles).diagonal(), 1e-300);
 
   const std::size_t frame_bytes = morph ? 24 * static_cast<std::size_t>(skin.points.rows()) : 0;
   if (skin.frames.size() * (frame_bytes + 40 * skin.joints.size()) +
-      static_cast<std::size_t>(skin.points.rows()) * (36 + 6 * packed.per_row) >
+      static_cast<std::size_t>(skin.points.rows()) * (36 + 6 * packed.weights_per_vertex) >
     largest_file)
   {
     return Status::invalid_input("a .glb file can have at most 4 GB; use fewer frames or joints");
@@ -761,11 +763,12 @@ Status write_gltf_skin(ExecutionContext& context, const std::string& path, const
   if (skinned)
   {
     report.set("counts.joints", skin.joints.size());
-    report.set("sets", packed.per_row / 4);
+    report.set("sets", packed.weights_per_vertex / 4);
     report.set("counts.dropped_weights", packed.dropped);
-    report.set("dropped_share", packed.dropped_share);
+    report.set("dropped_share", packed.dropped_weight);
     report.set("rest_joint", packed.rest_joint ? "yes" : "no");
-    report.set("pose_error", largest_error(skin, packed, wanted, held, Points()) / diagonal);
+    report.set(
+      "pose_error", largest_error(skin, packed, exact_maps, stored_maps, Points()) / diagonal);
   }
   if (packed.negative_rows > 0)
   {

@@ -12,7 +12,7 @@ namespace bindpose
 {
 namespace
 {
-EditedHandles unedited(const Handles& handles)
+EditedHandles copy_unedited(const Handles& handles)
 {
   EditedHandles edited;
   edited.handles = handles;
@@ -20,7 +20,7 @@ EditedHandles unedited(const Handles& handles)
   {
     edited.source.push_back(static_cast<Index>(i));
   }
-  edited.model = edited.source;
+  edited.copied_from = edited.source;
   return edited;
 }
 
@@ -28,13 +28,13 @@ EditedHandles unedited(const Handles& handles)
 Status finish(const Handles& before, EditedHandles edited, EditedHandles& after)
 {
   Status status = edited.handles.empty() ? Status() : check_handles(edited.handles);
-  after = status.ok() ? std::move(edited) : unedited(before);
+  after = status.ok() ? std::move(edited) : copy_unedited(before);
   return status;
 }
 
 Status refuse(const Handles& before, EditedHandles& after, const std::string& why)
 {
-  after = unedited(before);
+  after = copy_unedited(before);
   return Status::invalid_input(why);
 }
 
@@ -43,7 +43,7 @@ bool is_number(const Handles& handles, Index which)
   return which >= 0 && which < static_cast<Index>(handles.size());
 }
 
-std::string no_such(Index which)
+std::string missing_handle_message(Index which)
 {
   return "handle " + std::to_string(which) + " does not exist";
 }
@@ -56,7 +56,7 @@ bool has_name(const Handles& handles, const std::string& name)
 
 std::vector<Index> all_or(const Handles& handles, const std::vector<Index>& which)
 {
-  return which.empty() ? unedited(handles).source : which;
+  return which.empty() ? copy_unedited(handles).source : which;
 }
 
 double extent(const Handles& handles)
@@ -97,7 +97,7 @@ bool has_element(const Handles& handles, const CageElement& element)
 
 // ---- Names -------------------------------------------------------------------------------------
 
-std::string free_name(const Handles& handles, const std::string& wanted, HandleKind kind)
+std::string unique_name(const Handles& handles, const std::string& wanted, HandleKind kind)
 {
   if (!wanted.empty() && !has_name(handles, wanted))
   {
@@ -181,9 +181,9 @@ Status rename_handle(
 {
   if (!is_number(before, which))
   {
-    return refuse(before, after, no_such(which));
+    return refuse(before, after, missing_handle_message(which));
   }
-  EditedHandles edited = unedited(before);
+  EditedHandles edited = copy_unedited(before);
   Handle& handle = edited.handles[static_cast<std::size_t>(which)];
   if (name.empty())
   {
@@ -201,15 +201,15 @@ Status rename_handle(
 
 Status add_handle(const Handles& before, Handle handle, EditedHandles& after)
 {
-  EditedHandles edited = unedited(before);
-  handle.name = free_name(before, handle.name, handle.kind);
+  EditedHandles edited = copy_unedited(before);
+  handle.name = unique_name(before, handle.name, handle.kind);
   if (handle.kind != HandleKind::bone)
   {
     handle.tail = handle.head;
   }
   edited.handles.push_back(std::move(handle));
   edited.source.push_back(-1);
-  edited.model.push_back(-1);
+  edited.copied_from.push_back(-1);
   return finish(before, std::move(edited), after);
 }
 
@@ -220,7 +220,7 @@ Status remove_handles(const Handles& before, const std::vector<Index>& which, Ed
   {
     if (!is_number(before, h))
     {
-      return refuse(before, after, no_such(h));
+      return refuse(before, after, missing_handle_message(h));
     }
     gone[static_cast<std::size_t>(h)] = true;
   }
@@ -259,7 +259,7 @@ Status remove_handles(const Handles& before, const std::vector<Index>& which, Ed
     }
     handle.cage = kept;
   }
-  edited.model = edited.source;
+  edited.copied_from = edited.source;
   return finish(before, std::move(edited), after);
 }
 
@@ -267,9 +267,9 @@ Status set_parent(const Handles& before, Index which, Index parent, EditedHandle
 {
   if (!is_number(before, which) || (parent != -1 && !is_number(before, parent)))
   {
-    return refuse(before, after, no_such(is_number(before, which) ? parent : which));
+    return refuse(before, after, missing_handle_message(is_number(before, which) ? parent : which));
   }
-  EditedHandles edited = unedited(before);
+  EditedHandles edited = copy_unedited(before);
   edited.handles[static_cast<std::size_t>(which)].parent = parent;
   return finish(before, std::move(edited), after);
 }
@@ -278,9 +278,9 @@ Status toggle_cage_edge(const Handles& before, Index a, Index b, EditedHandles& 
 {
   if (!is_number(before, a) || !is_number(before, b))
   {
-    return refuse(before, after, no_such(is_number(before, a) ? b : a));
+    return refuse(before, after, missing_handle_message(is_number(before, a) ? b : a));
   }
-  EditedHandles edited = unedited(before);
+  EditedHandles edited = copy_unedited(before);
   const CageElement edge{ a, b, -1 };
   if (has_element(before, edge))
   {
@@ -300,7 +300,7 @@ Status toggle_cage_edge(const Handles& before, Index a, Index b, EditedHandles& 
 
 // ---- Positions ---------------------------------------------------------------------------------
 
-std::vector<HandleEnd> joint_of(const Handles& handles, const HandleEnd& end)
+std::vector<HandleEnd> ends_at_joint(const Handles& handles, const HandleEnd& end)
 {
   std::vector<HandleEnd> joint{ end };
   if (!is_number(handles, end.handle) ||
@@ -309,7 +309,7 @@ std::vector<HandleEnd> joint_of(const Handles& handles, const HandleEnd& end)
     return joint;
   }
   const Handle& own = handles[static_cast<std::size_t>(end.handle)];
-  const Vec3& place = end.tail ? own.tail : own.head;
+  const Vec3& position = end.tail ? own.tail : own.head;
   const double same = 1e-9 * extent(handles);
   for (std::size_t i = 0; i < handles.size(); ++i)
   {
@@ -317,7 +317,7 @@ std::vector<HandleEnd> joint_of(const Handles& handles, const HandleEnd& end)
     {
       const auto number = static_cast<Index>(i);
       const Vec3& other = tail ? handles[i].tail : handles[i].head;
-      if (handles[i].kind == HandleKind::bone && (other - place).norm() <= same &&
+      if (handles[i].kind == HandleKind::bone && (other - position).norm() <= same &&
         (number != end.handle || tail != end.tail))
       {
         joint.push_back({ number, tail });
@@ -328,22 +328,22 @@ std::vector<HandleEnd> joint_of(const Handles& handles, const HandleEnd& end)
 }
 
 Status move_ends(const Handles& before, const std::vector<HandleEnd>& ends,
-  const std::vector<Vec3>& places, EditedHandles& after)
+  const std::vector<Vec3>& positions, EditedHandles& after)
 {
-  EditedHandles edited = unedited(before);
-  for (std::size_t i = 0; i < ends.size() && i < places.size(); ++i)
+  EditedHandles edited = copy_unedited(before);
+  for (std::size_t i = 0; i < ends.size() && i < positions.size(); ++i)
   {
     if (!is_number(before, ends[i].handle))
     {
-      return refuse(before, after, no_such(ends[i].handle));
+      return refuse(before, after, missing_handle_message(ends[i].handle));
     }
-    for (const HandleEnd& end : joint_of(before, ends[i]))
+    for (const HandleEnd& end : ends_at_joint(before, ends[i]))
     {
-      end_of(edited.handles, end) = places[i];
+      end_of(edited.handles, end) = positions[i];
       Handle& handle = edited.handles[static_cast<std::size_t>(end.handle)];
       if (handle.kind != HandleKind::bone)
       {
-        handle.head = handle.tail = places[i];
+        handle.head = handle.tail = positions[i];
       }
     }
   }
@@ -354,12 +354,12 @@ Status snap_to_surface(const Handles& before, const std::vector<Index>& which,
   const SurfaceProbe& surface, EditedHandles& after)
 {
   std::vector<HandleEnd> ends;
-  std::vector<Vec3> places;
+  std::vector<Vec3> positions;
   for (const Index h : all_or(before, which))
   {
     if (!is_number(before, h))
     {
-      return refuse(before, after, no_such(h));
+      return refuse(before, after, missing_handle_message(h));
     }
     const Handle& handle = before[static_cast<std::size_t>(h)];
     for (const bool tail : { false, true })
@@ -368,31 +368,31 @@ Status snap_to_surface(const Handles& before, const std::vector<Index>& which,
       {
         continue;
       }
-      Vec3 place;
-      if (!surface.nearest(tail ? handle.tail : handle.head, place))
+      Vec3 position;
+      if (!surface.nearest(tail ? handle.tail : handle.head, position))
       {
         return refuse(before, after, "the surface has no triangles to snap to");
       }
       ends.push_back({ h, tail });
-      places.push_back(place);
+      positions.push_back(position);
     }
   }
-  return move_ends(before, ends, places, after);
+  return move_ends(before, ends, positions, after);
 }
 
-Status mirror_handles(const Handles& before, const std::vector<Index>& which, const Vec3& place,
+Status mirror_handles(const Handles& before, const std::vector<Index>& which, const Vec3& position,
   const Vec3& normal, EditedHandles& after)
 {
   const double length = normal.norm();
-  if (!(length > 0.0) || !normal.allFinite() || !place.allFinite())
+  if (!(length > 0.0) || !normal.allFinite() || !position.allFinite())
   {
     return refuse(before, after, "the mirror plane must have a normal");
   }
   const Vec3 n = normal / length;
-  const auto mirrored = [&](const Vec3& p) { return Vec3(p - 2.0 * n * n.dot(p - place)); };
+  const auto mirrored = [&](const Vec3& p) { return Vec3(p - 2.0 * n * n.dot(p - position)); };
   const double same = 1e-9 * std::max(extent(before), 1e-300);
   const auto near = [&](const Vec3& a, const Vec3& b) { return (a - b).norm() <= same; };
-  const auto in_plane = [&](const Vec3& p) { return std::abs(n.dot(p - place)) <= same; };
+  const auto in_plane = [&](const Vec3& p) { return std::abs(n.dot(p - position)) <= same; };
 
   std::map<std::string, Index> by_name;
   for (std::size_t i = 0; i < before.size(); ++i)
@@ -400,13 +400,13 @@ Status mirror_handles(const Handles& before, const std::vector<Index>& which, co
     by_name[before[i].name] = static_cast<Index>(i);
   }
   const std::vector<Index> list = all_or(before, which);
-  EditedHandles edited = unedited(before);
+  EditedHandles edited = copy_unedited(before);
   std::vector<Index> image(before.size(), -1); // index of each handle's mirror image; -1: none
   for (const Index h : list)
   {
     if (!is_number(before, h))
     {
-      return refuse(before, after, no_such(h));
+      return refuse(before, after, missing_handle_message(h));
     }
     const Handle& handle = before[static_cast<std::size_t>(h)];
     const bool across =
@@ -448,14 +448,14 @@ Status mirror_handles(const Handles& before, const std::vector<Index>& which, co
       continue;
     }
     Handle copy = handle;
-    copy.name = free_name(edited.handles, name, handle.kind);
+    copy.name = unique_name(edited.handles, name, handle.kind);
     copy.head = mirrored(handle.head);
     copy.tail = mirrored(handle.tail);
     copy.cage.clear();
     image[static_cast<std::size_t>(h)] = static_cast<Index>(edited.handles.size());
     edited.handles.push_back(copy);
     edited.source.push_back(-1);
-    edited.model.push_back(h);
+    edited.copied_from.push_back(h);
   }
   for (std::size_t i = before.size(); i < edited.handles.size(); ++i)
   {

@@ -19,7 +19,7 @@ struct EditedHandles
   std::vector<Index> source; ///< index before the edit; -1: new handle
   /// For a copy: the index of the copied handle before the edit. For other handles: equal to
   /// `source`. -1: the handle is new and not a copy.
-  std::vector<Index> model;
+  std::vector<Index> copied_from;
 };
 
 // Every edit below takes handles that pass check_handles(), or an empty list. The handles after the
@@ -30,9 +30,9 @@ struct EditedHandles
 /// Return the wanted name. If another handle has this name, append a suffix .001, .002, …. If the
 /// wanted name is empty, return a letter for the kind (p, b, c or r) with the first free number,
 /// for example p1.
-std::string free_name(const Handles& handles, const std::string& wanted, HandleKind kind);
+std::string unique_name(const Handles& handles, const std::string& wanted, HandleKind kind);
 
-/// Append a handle. The new name is free_name(handle.name). The cage elements of the handle may
+/// Append a handle. The new name is unique_name(handle.name). The cage elements of the handle may
 /// refer to the new handle by its future index, which is the size of the list before the edit.
 Status add_handle(const Handles& before, Handle handle, EditedHandles& after);
 
@@ -59,11 +59,12 @@ struct HandleEnd
 };
 /// Return the ends of all bones at the same position as `end` (equal, or within 1e-9 of the
 /// handles' extent), with `end` first. If the handle is not a bone, return `end` alone.
-std::vector<HandleEnd> joint_of(const Handles& handles, const HandleEnd& end);
+std::vector<HandleEnd> ends_at_joint(const Handles& handles, const HandleEnd& end);
 
-/// Move each end to its new position. All bone ends of the same joint (see joint_of) move, too.
+/// Move each end to its new position. All bone ends of the same joint (see ends_at_joint) move,
+/// too.
 Status move_ends(const Handles& before, const std::vector<HandleEnd>& ends,
-  const std::vector<Vec3>& places, EditedHandles& after);
+  const std::vector<Vec3>& positions, EditedHandles& after);
 
 /// Return the name of the mirrored handle, by Blender's conventions. The name contains a side, left
 /// or right, in one of these forms:
@@ -74,8 +75,8 @@ Status move_ends(const Handles& before, const std::vector<HandleEnd>& ends,
 /// without a side is returned unchanged.
 std::string mirrored_name(const std::string& name);
 
-/// Mirror handles at the plane through `place` with the given `normal` (of any nonzero length). The
-/// copy of a handle is named by mirrored_name(). If a handle of the same kind already has this
+/// Mirror handles at the plane through `position` with the given `normal` (of any nonzero length).
+/// The copy of a handle is named by mirrored_name(). If a handle of the same kind already has this
 /// name, that handle is moved to the mirrored position and no copy is made. If both handles are
 /// among the handles to mirror, neither of them is moved.
 ///
@@ -87,7 +88,7 @@ std::string mirrored_name(const std::string& name);
 /// have images. The corners of copied faces are in reversed order, so that their outer sides stay
 /// outside.
 /// @param which  indices of the handles to mirror; empty: all
-Status mirror_handles(const Handles& before, const std::vector<Index>& which, const Vec3& place,
+Status mirror_handles(const Handles& before, const std::vector<Index>& which, const Vec3& position,
   const Vec3& normal, EditedHandles& after);
 
 /// Move points, cage vertices and both ends of bones to the nearest point of a surface. Regions do

@@ -81,7 +81,7 @@ std::string quoted_names(const Handles& handles, const std::vector<Index>& list)
   return names;
 }
 
-std::string first_names(const Handles& handles, const std::vector<Index>& list)
+std::string abbreviated_names(const Handles& handles, const std::vector<Index>& list)
 {
   constexpr std::size_t most = 3;
   if (list.size() <= most + 1)

@@ -68,7 +68,7 @@ const char* to_string(HandleKind kind);
 /// Return the quoted names of the listed handles for use in a sentence: 'a', 'b'.
 std::string quoted_names(const Handles& handles, const std::vector<Index>& list);
 /// Like quoted_names(), but abbreviate a long list: 'a', 'b', 'c' and 12 more.
-std::string first_names(const Handles& handles, const std::vector<Index>& list);
+std::string abbreviated_names(const Handles& handles, const std::vector<Index>& list);
 
 /// Check handles before a bind. Return invalid_input, naming the handle, if
 /// - the list is empty;

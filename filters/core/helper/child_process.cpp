@@ -121,7 +121,7 @@ public:
       return error;
     }
     this->set_limits();
-    this->tell(this->id_);
+    this->notify_group(this->id_);
     return 0;
   }
 
@@ -157,7 +157,7 @@ public:
       {
       }
       this->id_ = -1;
-      this->tell(0);
+      this->notify_group(0);
     }
     return status;
   }
@@ -177,7 +177,7 @@ private:
     }
   }
 
-  void tell(int group) const
+  void notify_group(int group) const
   {
     if (this->request_.started)
     {
@@ -190,26 +190,26 @@ private:
 };
 
 /// Splits the output of the pipe into lines.
-class Lines
+class LineReader
 {
 public:
-  explicit Lines(const std::function<void(const std::string&)>& take) : take_(take) {}
+  explicit LineReader(const std::function<void(const std::string&)>& on_line) : on_line_(on_line) {}
 
   /// Read from the pipe.
   /// @return false at the end of the output.
   bool read(int pipe)
   {
     char block[4096];
-    const ssize_t got = ::read(pipe, block, sizeof(block));
-    if (got <= 0)
+    const ssize_t byte_count = ::read(pipe, block, sizeof(block));
+    if (byte_count <= 0)
     {
-      return got < 0 && (errno == EINTR || errno == EAGAIN);
+      return byte_count < 0 && (errno == EINTR || errno == EAGAIN);
     }
-    this->pending_.append(block, static_cast<std::size_t>(got));
+    this->pending_.append(block, static_cast<std::size_t>(byte_count));
     std::size_t end = 0;
     while ((end = this->pending_.find('\n')) != std::string::npos)
     {
-      this->take_(this->pending_.substr(0, end));
+      this->on_line_(this->pending_.substr(0, end));
       this->pending_.erase(0, end + 1);
     }
     constexpr std::size_t longest = 65536;
@@ -221,14 +221,14 @@ public:
   }
 
 private:
-  const std::function<void(const std::string&)>& take_;
+  const std::function<void(const std::string&)>& on_line_;
   std::string pending_;
 };
 
-void judge(int status, ChildEnd& end)
+void describe_end(int status, ChildEnd& end)
 {
-  end.by_signal = WIFSIGNALED(status);
-  if (end.by_signal)
+  end.killed_by_signal = WIFSIGNALED(status);
+  if (end.killed_by_signal)
   {
     end.failure = "was terminated by signal " + std::to_string(WTERMSIG(status)) + " (" +
       ::strsignal(WTERMSIG(status)) + ")";
@@ -249,7 +249,7 @@ void FileDescriptor::close()
   this->descriptor_ = -1;
 }
 
-bool executable_file(const std::string& path)
+bool is_executable_file(const std::string& path)
 {
   std::error_code none;
   return std::filesystem::is_regular_file(path, none) && ::access(path.c_str(), X_OK) == 0;
@@ -262,7 +262,7 @@ std::string find_on_path(const std::string& program)
   for (std::string folder; std::getline(folders, folder, ':');)
   {
     std::string file = (folder.empty() ? "." : folder) + "/" + program;
-    if (executable_file(file))
+    if (is_executable_file(file))
     {
       return file;
     }
@@ -284,14 +284,14 @@ Status check_limits(double time_limit, Index memory_limit)
   return {};
 }
 
-std::string memory_words(Index memory_limit)
+std::string memory_limit_phrase(Index memory_limit)
 {
   return memory_limit > 0 ? " under a memory limit of " + std::to_string(memory_limit) + " MiB"
                           : std::string();
 }
 
 Status run_child(ExecutionContext& context, const ChildRequest& request,
-  const std::function<void(const std::string&)>& take_line, ChildEnd& end)
+  const std::function<void(const std::string&)>& on_line, ChildEnd& end)
 {
   using Clock = std::chrono::steady_clock;
   end = ChildEnd();
@@ -316,7 +316,7 @@ Status run_child(ExecutionContext& context, const ChildRequest& request,
   }
   lines_write.close();
 
-  Lines lines(take_line);
+  LineReader lines(on_line);
   bool open = true;
   for (;;)
   {
@@ -337,13 +337,13 @@ Status run_child(ExecutionContext& context, const ChildRequest& request,
     // the end of the child is sufficient.
     if ((!open || ready == 0) && child.ended())
     {
-      judge(child.finish(), end);
+      describe_end(child.finish(), end);
       return {};
     }
     const bool at_processor_limit =
       request.processor_limit > 0.0 && child.processor_seconds() > request.processor_limit;
-    end.at_limit = at_processor_limit || end.seconds > request.time_limit;
-    if (end.at_limit)
+    end.timed_out = at_processor_limit || end.seconds > request.time_limit;
+    if (end.timed_out)
     {
       return Status::failure(StatusCode::internal_error,
         request.name + " was stopped at its time limit of " +

@@ -20,7 +20,7 @@ struct ChildRequest
   std::string folder; ///< working folder; empty: working folder of this process
   int input = -1; ///< file descriptor for the standard input of the program, -1: no input
   /// File descriptor for the standard output of the program. -1: the lines of the output are passed
-  /// to take_line, like those of standard error.
+  /// to on_line, like those of standard error.
   int output = -1;
   double time_limit = 120.0; ///< the program is killed after this many seconds
   /// The program is killed after using this many seconds of processor time, 0: no limit. Processor
@@ -38,21 +38,21 @@ struct ChildEnd
   /// Phrase for messages, such as "was ended by signal 11 (Segmentation fault)" or "ended with code
   /// 7"; empty for code 0.
   std::string failure;
-  bool by_signal = false;
-  bool at_limit = false; ///< whether the program was stopped at one of its time limits
+  bool killed_by_signal = false;
+  bool timed_out = false; ///< whether the program was stopped at one of its time limits
   double seconds = 0.0;
 };
 
 /// Run a program and wait for its end. The program leads a separate process group, which is always
 /// killed before the function returns, so that no process that it started remains. The program
-/// writes no core file. `take_line` is called in the current thread for each printed line, without
+/// writes no core file. `on_line` is called in the current thread for each printed line, without
 /// the line end. Return
 /// - ok: the program ended; see `end`;
 /// - unavailable: the program could not be started;
 /// - canceled: the context was canceled (the group is killed within 20 ms);
 /// - internal_error: the program was stopped at a time limit, or no pipe could be created.
 Status run_child(ExecutionContext& context, const ChildRequest& request,
-  const std::function<void(const std::string&)>& take_line, ChildEnd& end);
+  const std::function<void(const std::string&)>& on_line, ChildEnd& end);
 
 /// Return invalid_input if the time limit (seconds) is not positive or the memory limit (MiB) is
 /// below 0.
@@ -60,10 +60,10 @@ Status check_limits(double time_limit, Index memory_limit);
 
 /// Return a phrase for messages, for example " under a memory limit of 500 MiB"; empty without a
 /// limit.
-std::string memory_words(Index memory_limit);
+std::string memory_limit_phrase(Index memory_limit);
 
 /// Report whether a path is an executable file.
-bool executable_file(const std::string& path);
+bool is_executable_file(const std::string& path);
 
 /// Return the path of a program in one of the folders of PATH, or an empty string if not found.
 std::string find_on_path(const std::string& program);

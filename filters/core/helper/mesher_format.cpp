@@ -19,10 +19,10 @@ constexpr std::array<char, 8> magic{ 'B', 'P', 'M', 'E', 'S', 'H', '0', '3' };
 
 bool write_all(int file, const void* data, std::size_t size)
 {
-  const char* at = static_cast<const char*>(data);
+  const char* next_byte = static_cast<const char*>(data);
   while (size > 0)
   {
-    const ssize_t written = ::write(file, at, size);
+    const ssize_t written = ::write(file, next_byte, size);
     if (written < 0 && errno == EINTR)
     {
       continue;
@@ -31,7 +31,7 @@ bool write_all(int file, const void* data, std::size_t size)
     {
       return false;
     }
-    at += written;
+    next_byte += written;
     size -= static_cast<std::size_t>(written);
   }
   return true;
@@ -44,17 +44,17 @@ bool read_all(int file, std::vector<char>& bytes)
   for (;;)
   {
     bytes.resize(size + block);
-    const ssize_t got = ::read(file, bytes.data() + size, block);
-    if (got < 0 && errno == EINTR)
+    const ssize_t byte_count = ::read(file, bytes.data() + size, block);
+    if (byte_count < 0 && errno == EINTR)
     {
       continue;
     }
-    if (got < 0)
+    if (byte_count < 0)
     {
       return false;
     }
-    size += static_cast<std::size_t>(got);
-    if (got == 0)
+    size += static_cast<std::size_t>(byte_count);
+    if (byte_count == 0)
     {
       bytes.resize(size);
       return true;
@@ -116,25 +116,25 @@ bool read_mesher_data(int file, MesherData& data)
   {
     return false;
   }
-  const char* at = bytes.data() + magic.size() + sizeof(counts);
-  const auto take = [&](void* to, std::size_t size)
+  const char* next_byte = bytes.data() + magic.size() + sizeof(counts);
+  const auto read_array = [&](void* to, std::size_t size)
   {
     if (size > 0)
     {
-      std::memcpy(to, at, size);
+      std::memcpy(to, next_byte, size);
     }
-    at += size;
+    next_byte += size;
   };
   data.points.resize(counts[0], 3);
   data.triangles.resize(counts[1], 3);
   data.tets.resize(counts[2], 4);
   data.regions.resize(static_cast<std::size_t>(counts[3]));
   data.segments.resize(counts[4], 2);
-  take(data.points.data(), sizeof(double) * data.points.size());
-  take(data.triangles.data(), sizeof(Index) * data.triangles.size());
-  take(data.tets.data(), sizeof(Index) * data.tets.size());
-  take(data.regions.data(), sizeof(Index) * data.regions.size());
-  take(data.segments.data(), sizeof(Index) * data.segments.size());
+  read_array(data.points.data(), sizeof(double) * data.points.size());
+  read_array(data.triangles.data(), sizeof(Index) * data.triangles.size());
+  read_array(data.tets.data(), sizeof(Index) * data.tets.size());
+  read_array(data.regions.data(), sizeof(Index) * data.regions.size());
+  read_array(data.segments.data(), sizeof(Index) * data.segments.size());
   return data.points.allFinite() &&
     ids_in_range(data.triangles.data(), data.triangles.size(), counts[0]) &&
     ids_in_range(data.tets.data(), data.tets.size(), counts[0]) &&

@@ -74,25 +74,25 @@ public:
   }
 
   std::string error() const { return this->error_; }
-  std::string noise() const { return this->noise_; }
+  std::string library_output() const { return this->noise_; }
 
 private:
   std::string error_;
   std::string noise_;
 };
 
-Status judge_end(const ChildEnd& end, const HelperOutput& lines, const MesherRequest& request,
+Status check_end(const ChildEnd& end, const HelperOutput& lines, const MesherRequest& request,
   const std::string& job)
 {
   if (end.failure.empty() && lines.error().empty())
   {
     return {};
   }
-  const std::string limit = memory_words(request.memory_limit);
+  const std::string limit = memory_limit_phrase(request.memory_limit);
   std::string message = job + " " + end.failure + limit;
-  if (end.by_signal)
+  if (end.killed_by_signal)
   {
-    message += lines.noise().empty() ? "" : "; last output: " + lines.noise();
+    message += lines.library_output().empty() ? "" : "; last output: " + lines.library_output();
   }
   else if (!lines.error().empty())
   {
@@ -100,7 +100,7 @@ Status judge_end(const ChildEnd& end, const HelperOutput& lines, const MesherReq
   }
   else
   {
-    message += lines.noise().empty() ? "" : ": " + lines.noise();
+    message += lines.library_output().empty() ? "" : ": " + lines.library_output();
   }
   return Status::failure(StatusCode::internal_error, message);
 }
@@ -110,7 +110,7 @@ std::string find_mesher()
 {
   if (const char* chosen = std::getenv("BINDPOSE_MESHER"))
   {
-    return executable_file(chosen) ? std::string(chosen) : std::string();
+    return is_executable_file(chosen) ? std::string(chosen) : std::string();
   }
   std::vector<std::string> folders;
   char self[4096];
@@ -135,7 +135,7 @@ std::string find_mesher()
   for (const std::string& folder : folders)
   {
     std::string path = folder + "/bindpose-mesher";
-    if (executable_file(path))
+    if (is_executable_file(path))
     {
       return path;
     }
@@ -144,9 +144,9 @@ std::string find_mesher()
 }
 
 Status run_mesher(ExecutionContext& context, const MesherRequest& request, const MesherData& input,
-  MesherAnswer& answer)
+  MesherResult& answer)
 {
-  answer = MesherAnswer();
+  answer = MesherResult();
   if (context.canceled())
   {
     return Status::canceled();
@@ -193,10 +193,10 @@ Status run_mesher(ExecutionContext& context, const MesherRequest& request, const
     context, child, [&](const std::string& line) { lines.take(context, line, answer.report); },
     end);
   answer.seconds = end.seconds;
-  answer.at_limit = end.at_limit;
+  answer.timed_out = end.timed_out;
   if (status.ok())
   {
-    status = judge_end(end, lines, request, child.name);
+    status = check_end(end, lines, request, child.name);
   }
   if (!status.ok())
   {

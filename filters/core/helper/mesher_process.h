@@ -23,12 +23,12 @@ struct MesherRequest
 };
 
 /// The result of a job.
-struct MesherAnswer
+struct MesherResult
 {
   MesherData data;
   Report report; ///< values that the helper reported, with the helper's keys
   double seconds = 0.0;
-  bool at_limit = false; ///< whether the helper was stopped at one of its time limits
+  bool timed_out = false; ///< whether the helper was stopped at one of its time limits
 };
 
 /// Return the path of bindpose-mesher, or an empty string if it is not found. If the environment
@@ -49,7 +49,7 @@ std::string find_mesher();
 /// Input and output are anonymous memory files, so no file remains even if either process is
 /// killed. Progress lines of the helper become progress of the current phase.
 Status run_mesher(ExecutionContext& context, const MesherRequest& request, const MesherData& input,
-  MesherAnswer& answer);
+  MesherResult& answer);
 
 } // namespace bindpose
 

@@ -58,9 +58,9 @@ ScratchFolder::~ScratchFolder()
     std::error_code ignored;
     std::filesystem::remove_all(this->path_, ignored);
   }
-  if (this->line_ >= 0)
+  if (this->socket_ >= 0)
   {
-    ::close(this->line_);
+    ::close(this->socket_);
   }
   while (this->guard_ > 0 && ::waitpid(this->guard_, nullptr, 0) < 0 && errno == EINTR)
   {
@@ -69,11 +69,11 @@ ScratchFolder::~ScratchFolder()
 
 void ScratchFolder::guard_group(int group)
 {
-  if (this->line_ >= 0)
+  if (this->socket_ >= 0)
   {
     const std::string line = group > 0 ? std::to_string(group) + "\n" : "\n";
     // If the guard has ended, sending fails; the flag MSG_NOSIGNAL then prevents a signal.
-    static_cast<void>(::send(this->line_, line.data(), line.size(), MSG_NOSIGNAL));
+    static_cast<void>(::send(this->socket_, line.data(), line.size(), MSG_NOSIGNAL));
   }
 }
 
@@ -104,7 +104,7 @@ void ScratchFolder::start_guard()
   posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   ::close(ends[1]);
-  this->line_ = ends[0];
+  this->socket_ = ends[0];
 }
 
 } // namespace bindpose

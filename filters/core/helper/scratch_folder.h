@@ -33,7 +33,8 @@ private:
   std::string path_;
   std::string error_;
   int guard_ = -1; ///< process id of the guard; -1: no guard
-  int line_ = -1; ///< file descriptor of the socket to the guard; it closes when this process ends
+  int socket_ =
+    -1; ///< file descriptor of the socket to the guard; it closes when this process ends
 };
 
 } // namespace bindpose

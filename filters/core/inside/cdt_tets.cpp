@@ -32,7 +32,7 @@ namespace bindpose
 {
 
 /// Command-line switches and domain of a TetGen run.
-struct CdtTets::Way
+struct CdtTets::TetgenSetup
 {
   std::string switches;
   bool box; ///< whether TetGen fills a box around the surface instead of its convex hull
@@ -41,11 +41,11 @@ struct CdtTets::Way
 struct CdtTets::TetgenRun
 {
   Status status;
-  MesherAnswer answer;
+  MesherResult answer;
 };
 
 /// A modification of the vertices before the refinement.
-struct CdtTets::Move
+struct CdtTets::Perturbation
 {
   const char* name;
   /// Spacing of the grid to which vertices are rounded, as a fraction of the bounding-box diagonal.
@@ -70,14 +70,14 @@ double scatter(std::uint64_t n)
 
 } // namespace
 
-void RungLog::add(const std::string& rung, double seconds, const Status& status)
+void AttemptLog::add(const std::string& attempt, double seconds, const Status& status)
 {
-  this->names_.push_back(rung);
+  this->names_.push_back(attempt);
   this->seconds_.push_back(seconds);
   this->outcomes_.push_back(status.ok() ? "ok" : status.message);
 }
 
-void RungLog::report(Report& report) const
+void AttemptLog::report(Report& report) const
 {
   if (!this->names_.empty())
   {
@@ -87,7 +87,7 @@ void RungLog::report(Report& report) const
   }
 }
 
-Status wrong_volume(double volume, const EnclosedRegion& inside)
+Status wrong_volume_error(double volume, const EnclosedRegion& inside)
 {
   return Status::failure(StatusCode::internal_error,
     "the tets have volume " + short_number(volume) +
@@ -95,7 +95,7 @@ Status wrong_volume(double volume, const EnclosedRegion& inside)
 }
 
 CdtTets::CdtTets(ExecutionContext& context, const RepairedSurface& surface, EnclosedRegion& inside,
-  const CdtOptions& options, RungLog& log)
+  const CdtOptions& options, AttemptLog& log)
   : surface_(surface), inside_(inside), options_(options), log_(log), context_(context),
     diagonal_(bounding_box(surface.points).diagonal()), start_(context.elapsed_seconds())
 {
@@ -104,7 +104,7 @@ CdtTets::CdtTets(ExecutionContext& context, const RepairedSurface& surface, Encl
 Status CdtTets::build(double seconds)
 {
   this->deadline_ = this->context_.elapsed_seconds() + seconds;
-  const Move no_move{ "", 0.0, 0.0 };
+  const Perturbation no_move{ "", 0.0, 0.0 };
   Status status;
   if (this->surface_.clean())
   {
@@ -123,9 +123,9 @@ Status CdtTets::build(double seconds)
   }
   MesherData first_refined;
   std::vector<Index> first_original;
-  const Move moves[] = { no_move, { ", vertices rounded", 0x1p-20, 0.0 },
+  const Perturbation moves[] = { no_move, { ", vertices rounded", 0x1p-20, 0.0 },
     { ", vertices moved by 1e-5", 0.0, 1e-5 } };
-  for (const Move& move : moves)
+  for (const Perturbation& move : moves)
   {
     MesherData refined;
     status = this->refine(move, refined);
@@ -181,13 +181,13 @@ bool CdtTets::out_of_patience() const
 /// follow the winding number, which may reach the threshold even outside the convex hull. If
 /// near_threshold_fraction() is very large, as for a sheet with a thin sliver in front of the
 /// sheet, small tets are not tried first, because they would miss the sliver, too.
-Status CdtTets::try_switches(const Move& move, const MesherData& refined)
+Status CdtTets::try_switches(const Perturbation& move, const MesherData& refined)
 {
   const Phase phase(this->context_, "tetgen", 0.4, 1.0);
   constexpr double wide_open = 1.5;
   constexpr double sheet = 14.0;
-  const double doubt = this->inside_.near_threshold_fraction();
-  const bool fine_first = doubt > wide_open && doubt < sheet;
+  const double near_fraction = this->inside_.near_threshold_fraction();
+  const bool fine_first = near_fraction > wide_open && near_fraction < sheet;
   bool fine_tried = false;
   bool fine_is_wrong = false;
   Status status;
@@ -210,10 +210,10 @@ Status CdtTets::try_switches(const Move& move, const MesherData& refined)
   // 1e-8, TetGen takes exactly cut triangles for coplanar although they are not, and crashes. If
   // both sets of switches crash, other sets usually crash as well: in an experiment one set in
   // thirty succeeded on the same triangles.
-  std::vector<Way> ways{ { "pYcAT1e-12", false }, { "pYAT1e-16", true } };
+  std::vector<TetgenSetup> setups{ { "pYcAT1e-12", false }, { "pYAT1e-16", true } };
   if (move.jitter > 0.0)
   {
-    ways.erase(ways.begin()); // after random displacements no triangles are coplanar
+    setups.erase(setups.begin()); // after random displacements no triangles are coplanar
   }
   // If the first set of switches takes long, the run with the last set is started in parallel,
   // provided that two processes do not need too much memory.
@@ -224,17 +224,17 @@ Status CdtTets::try_switches(const Move& move, const MesherData& refined)
   const double delay = large ? never : long_time;
   TetgenRun last_run;
   SideTask last(this->context_, delay,
-    [&](ExecutionContext& side) { last_run = this->run_tetgen(side, ways.back(), refined); });
-  for (std::size_t i = 0; i < ways.size(); ++i)
+    [&](ExecutionContext& side) { last_run = this->run_tetgen(side, setups.back(), refined); });
+  for (std::size_t i = 0; i < setups.size(); ++i)
   {
-    if (i + 1 < ways.size())
+    if (i + 1 < setups.size())
     {
-      status = this->try_tetgen(ways[i], move, refined);
+      status = this->try_tetgen(setups[i], move, refined);
     }
     else
     {
       last.finish();
-      status = this->judge(ways[i], move, last_run);
+      status = this->evaluate_run(setups[i], move, last_run);
     }
     if (this->timed_out_ || (!status.ok() && this->out_of_patience()))
     {
@@ -256,7 +256,7 @@ Status CdtTets::try_switches(const Move& move, const MesherData& refined)
 
 /// Compute tets in a box around the region. They are small enough to resolve the boundary of the
 /// region in the openings between triangles.
-Status CdtTets::try_fine_tets(const Move& move, const MesherData& refined)
+Status CdtTets::try_fine_tets(const Perturbation& move, const MesherData& refined)
 {
   this->wrong_volume_ = false;
   if (this->fine_fails_)
@@ -274,33 +274,35 @@ Status CdtTets::try_fine_tets(const Move& move, const MesherData& refined)
   return status;
 }
 
-Status CdtTets::try_tetgen(const Way& way, const Move& move, const MesherData& input)
+Status CdtTets::try_tetgen(
+  const TetgenSetup& setup, const Perturbation& move, const MesherData& input)
 {
-  return this->judge(way, move, this->run_tetgen(this->context_, way, input));
+  return this->evaluate_run(setup, move, this->run_tetgen(this->context_, setup, input));
 }
 
 /// Run TetGen with a time limit of twice the longest time that successful runs need for surfaces of
 /// this size. Typical runs take 20 to 60 us per triangle. Thread-safe.
 CdtTets::TetgenRun CdtTets::run_tetgen(
-  ExecutionContext& context, const Way& way, const MesherData& input) const
+  ExecutionContext& context, const TetgenSetup& setup, const MesherData& input) const
 {
   const double seconds = 1.5 + 1e-4 * static_cast<double>(input.triangles.rows());
   TetgenRun run;
-  run.status =
-    this->run_job(context, { "tetgen", "--switches", way.switches, "--box", way.box ? "1" : "0" },
-      input, seconds, run.answer);
+  run.status = this->run_job(context,
+    { "tetgen", "--switches", setup.switches, "--box", setup.box ? "1" : "0" }, input, seconds,
+    run.answer);
   return run;
 }
 
 /// Keep the tets of a TetGen run that are inside, and log the attempt.
-Status CdtTets::judge(const Way& way, const Move& move, const TetgenRun& run)
+Status CdtTets::evaluate_run(
+  const TetgenSetup& setup, const Perturbation& move, const TetgenRun& run)
 {
   const double start = this->context_.elapsed_seconds();
   this->wrong_volume_ = false;
-  this->timed_out_ = run.answer.at_limit;
+  this->timed_out_ = run.answer.timed_out;
   this->job_seconds_ += run.answer.seconds;
   const Status status = run.status.ok() ? this->keep_inside(run.answer.data) : run.status;
-  this->log_.add("tetgen " + way.switches + (way.box ? " in a box" : "") + move.name,
+  this->log_.add("tetgen " + setup.switches + (setup.box ? " in a box" : "") + move.name,
     run.answer.seconds + this->context_.elapsed_seconds() - start, status);
   return status;
 }
@@ -336,7 +338,7 @@ Status CdtTets::try_delaunay(const MesherData& refined)
   input.points.conservativeResize(kept, 3);
   input.triangles.resize(0, 3);
   this->original_.resize(static_cast<std::size_t>(originals));
-  MesherAnswer answer;
+  MesherResult answer;
   const double seconds = 5.0 + 2e-4 * static_cast<double>(input.points.rows());
   Status status = this->run_job(this->context_, { "delaunay" }, input, seconds, answer);
   if (status.ok())
@@ -353,7 +355,7 @@ Status CdtTets::try_delaunay(const MesherData& refined)
 }
 
 /// Displace the vertices, then cut the triangles along their crossings.
-Status CdtTets::refine(const Move& move, MesherData& refined)
+Status CdtTets::refine(const Perturbation& move, MesherData& refined)
 {
   const Phase phase(this->context_, "refine", 0.0, 0.4);
   const double start = this->context_.elapsed_seconds();
@@ -363,14 +365,14 @@ Status CdtTets::refine(const Move& move, MesherData& refined)
   if (status.ok())
   {
     this->original_ = moved.original_vertices;
-    MesherAnswer answer;
+    MesherResult answer;
     MesherData input;
     input.points = std::move(moved.points);
     input.triangles = std::move(moved.triangles);
     const double size = static_cast<double>(input.triangles.rows());
     status = this->run_job(this->context_, { "refine" }, input, 5.0 + 1e-4 * size, answer);
     this->job_seconds_ += answer.seconds;
-    this->too_many_crossings_ = answer.at_limit || answer.report.number("too_many", 0.0) > 0.0;
+    this->too_many_crossings_ = answer.timed_out || answer.report.number("too_many", 0.0) > 0.0;
     rounded = answer.report.number("rounded", 0.0) > 0.0;
     refined = std::move(answer.data);
     if (status.ok() && refined.triangles.rows() == 0)
@@ -384,7 +386,7 @@ Status CdtTets::refine(const Move& move, MesherData& refined)
   return status;
 }
 
-Status CdtTets::move_vertices(const Move& move, RepairedSurface& moved)
+Status CdtTets::move_vertices(const Perturbation& move, RepairedSurface& moved)
 {
   if (move.snap > 0.0)
   {
@@ -419,7 +421,7 @@ Status CdtTets::move_vertices(const Move& move, RepairedSurface& moved)
 /// Run one job of the helper executable bindpose-mesher. The job ends after `seconds` of processor
 /// time or at the deadline.
 Status CdtTets::run_job(ExecutionContext& context, const std::vector<std::string>& arguments,
-  const MesherData& input, double seconds, MesherAnswer& answer) const
+  const MesherData& input, double seconds, MesherResult& answer) const
 {
   const double left = this->deadline_ - this->context_.elapsed_seconds();
   if (left <= 0.0)
@@ -505,12 +507,12 @@ Status CdtTets::take_inside(
   // A tet without a neighbor is removed if its volume is less than this fraction of the total. Such
   // tets occur where the winding number varies around the threshold.
   const double lone = this->inside_.labels_are_exact() ? 1e-8 : 1e-4;
-  drop_crumbs(data.points, kept, facets, lone);
+  remove_small_components(data.points, kept, facets, lone);
   peel_slivers(data.points, kept, facets, flat_height * this->diagonal_);
   if (count == 0 && this->inside_.labels_are_exact())
   {
     this->finer_is_no_better_ = true;
-    return this->inside_.encloses_nothing();
+    return this->inside_.nothing_enclosed_error();
   }
   status = this->swap_flat(data.points, kept, facets);
   status = status.ok() ? check_tets(data.points, kept, facets) : status;
@@ -549,7 +551,7 @@ Status CdtTets::take_inside(
   }
   return fits    ? Status()
     : count == 0 ? Status::failure(StatusCode::internal_error, "no tet is inside")
-                 : wrong_volume(volume, this->inside_);
+                 : wrong_volume_error(volume, this->inside_);
 }
 
 /// Remove tets without volume (up to rounding errors), which TetGen sometimes creates away from the
@@ -571,7 +573,7 @@ Status CdtTets::swap_flat(const Points& points, Tets& tets, std::vector<TetFacet
   TetMesh mesh{ points, tets };
   ImproveOptions options;
   options.angle = 1e-8; // degrees
-  options.least_angle = 0.0; // held (constrained) vertices do not move
+  options.release_angle = 0.0; // held (constrained) vertices do not move
   options.keep_boundary = true;
   Improvement done;
   if (!improve_tets(this->context_, mesh,
@@ -592,7 +594,7 @@ void CdtTets::take_all(
   const Eigen::VectorXd volumes = tet_volumes(data.points, data.tets);
   this->mesh_.tets = data.tets;
   this->winding_numbers_ = w;
-  this->kept_ = inside;
+  this->is_inside_ = inside;
   Index count = 0;
   for (Index t = 0; t < data.tets.rows(); ++t)
   {
@@ -600,12 +602,12 @@ void CdtTets::take_all(
     {
       this->mesh_.tets.row(count) = data.tets.row(t);
       this->winding_numbers_[count] = w[t];
-      this->kept_[count++] = inside[t];
+      this->is_inside_[count++] = inside[t];
     }
   }
   this->mesh_.tets.conservativeResize(count, 4);
   this->winding_numbers_.conservativeResize(count);
-  this->kept_.resize(static_cast<std::size_t>(count));
+  this->is_inside_.resize(static_cast<std::size_t>(count));
 }
 
 Status CdtTets::complete()

@@ -7,7 +7,7 @@
 #include "base/execution.h"
 #include "geometry/tet_facets.h"
 #include "inside/enclosed_region.h"
-#include "inside/handle_places.h"
+#include "inside/handle_elements.h"
 #include "segmentation/segmentation.h"
 #include "surface/surface_repair.h"
 
@@ -18,14 +18,14 @@
 namespace bindpose
 {
 
-struct MesherAnswer;
+struct MesherResult;
 
-/// Log of the attempts ("rungs") of a meshing method. Each attempt has a duration in seconds and an
-/// outcome.
-class RungLog
+/// Log of the attempts of a meshing method (`rungs` in the report). Each attempt has a duration in
+/// seconds and an outcome.
+class AttemptLog
 {
 public:
-  void add(const std::string& rung, double seconds, const Status& status);
+  void add(const std::string& attempt, double seconds, const Status& status);
   /// Report rungs[].name, rungs[].seconds and rungs[].outcome. An outcome is "ok" or the message of
   /// the failure.
   void report(Report& report) const;
@@ -47,12 +47,12 @@ struct CdtOptions
   bool bare = false;
   double interior_edge = 0.0;
   bool keep_outside = false; ///< keep all segmented tets unchanged, including the tets outside
-  HandlePlaces handles;
+  HandleElements handles;
 };
 
 /// Return the failure for tets whose volume differs from that of the enclosed region. The message
 /// contains both volumes.
-Status wrong_volume(double volume, const EnclosedRegion& inside);
+Status wrong_volume_error(double volume, const EnclosedRegion& inside);
 
 /// Constrained Delaunay tets of the convex hull of a surface, reduced to the tets in which the
 /// winding number reaches the threshold. TetGen computes them in the helper executable
@@ -62,7 +62,7 @@ class CdtTets
 {
 public:
   CdtTets(ExecutionContext& context, const RepairedSurface& surface, EnclosedRegion& inside,
-    const CdtOptions& options, RungLog& log);
+    const CdtOptions& options, AttemptLog& log);
 
   /// Try one set of TetGen arguments after the other, for at most `seconds`, until the tets inside
   /// have the right volume. On failure, the tets with the smallest misfit() are kept.
@@ -82,30 +82,31 @@ public:
   /// Winding numbers from which the segmentation was computed, #T, and flags, #T: 1 for tets
   /// inside, else 0. Both arrays are empty unless `keep_outside` is set.
   const Eigen::VectorXd& winding_numbers() const { return this->winding_numbers_; }
-  const std::vector<char>& inside() const { return this->kept_; }
+  const std::vector<char>& inside() const { return this->is_inside_; }
   /// Report of the kept tets: segmentation and, if the labels are from a graph cut, energy,
   /// threshold_energy and counts.changed_by_cut (see Segmentation).
   const Report& report() const { return this->report_; }
 
 private:
-  struct Move;
-  struct Way;
+  struct Perturbation;
+  struct TetgenSetup;
   struct TetgenRun;
-  struct Inside;
+  struct FillState;
   /// Tets at the boundary are removed if their height is smaller than this, in bounding-box
   /// diagonals.
   static constexpr double flat_height = 1e-11;
 
-  Status try_switches(const Move& move, const MesherData& refined);
-  Status try_fine_tets(const Move& move, const MesherData& refined);
-  Status try_tetgen(const Way& way, const Move& move, const MesherData& input);
-  TetgenRun run_tetgen(ExecutionContext& context, const Way& way, const MesherData& input) const;
-  Status judge(const Way& way, const Move& move, const TetgenRun& run);
+  Status try_switches(const Perturbation& move, const MesherData& refined);
+  Status try_fine_tets(const Perturbation& move, const MesherData& refined);
+  Status try_tetgen(const TetgenSetup& setup, const Perturbation& move, const MesherData& input);
+  TetgenRun run_tetgen(
+    ExecutionContext& context, const TetgenSetup& setup, const MesherData& input) const;
+  Status evaluate_run(const TetgenSetup& setup, const Perturbation& move, const TetgenRun& run);
   Status try_delaunay(const MesherData& refined);
-  Status refine(const Move& move, MesherData& refined);
-  Status move_vertices(const Move& move, RepairedSurface& moved);
+  Status refine(const Perturbation& move, MesherData& refined);
+  Status move_vertices(const Perturbation& move, RepairedSurface& moved);
   Status run_job(ExecutionContext& context, const std::vector<std::string>& arguments,
-    const MesherData& input, double seconds, MesherAnswer& answer) const;
+    const MesherData& input, double seconds, MesherResult& answer) const;
   bool final(const Status& status) const;
   bool out_of_patience() const;
   Status keep_inside(const MesherData& data);
@@ -113,13 +114,13 @@ private:
   Status swap_flat(const Points& points, Tets& tets, std::vector<TetFacet>& facets);
   void take_all(const MesherData& data, const Eigen::VectorXd& w, const std::vector<char>& inside);
   Status fill();
-  Status find_places(Inside& inside);
-  Status find_even_places(
-    double length, double long_edge, Index most_tets, Index most, Inside& inside);
-  Status find_inner_places(Index most, Inside& inside);
-  Status look_inside(double longest, Inside& inside);
-  Points places_of_handles(Inside& inside) const;
-  Status insert(const Points& places, std::vector<Index>& vertices);
+  Status find_positions(FillState& inside);
+  Status find_even_positions(
+    double length, double long_edge, Index most_tets, Index most, FillState& inside);
+  Status find_inner_positions(Index most, FillState& inside);
+  Status prepare_interior(double longest, FillState& inside);
+  Points positions_on_handles(FillState& inside) const;
+  Status insert(const Points& positions, std::vector<Index>& vertices);
   Status accept(TetMesh& mesh);
   Status improve();
   double mean_surface_edge() const;
@@ -129,7 +130,7 @@ private:
   const RepairedSurface& surface_;
   EnclosedRegion& inside_;
   CdtOptions options_;
-  RungLog& log_;
+  AttemptLog& log_;
   ExecutionContext& context_;
   double diagonal_ = 0.0;
   double start_ = 0.0;
@@ -144,7 +145,7 @@ private:
   bool fine_fails_ = false; ///< whether small tets were tried and TetGen returned none
   TetMesh mesh_;
   Eigen::VectorXd winding_numbers_;
-  std::vector<char> kept_;
+  std::vector<char> is_inside_;
   std::vector<Index> mesh_original_;
   std::vector<Index> handle_vertices_; ///< vertices at the points of the handles that are inside
   double misfit_ = std::numeric_limits<double>::infinity();

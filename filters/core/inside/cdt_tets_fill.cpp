@@ -1,8 +1,8 @@
 // Vertices inside the tets of method cdt. Weights can vary inside a volume only if the tets have
 // vertices there. The points of an octree that becomes coarser away from the boundary
 // (inner_points.h) are inserted as vertices (tet_insertion.h). Then flat tets are improved
-// (tet_improvement.h). The boundary changes only where long edges are split (find_places) and where
-// the shared edge of two coplanar triangles is swapped (improve).
+// (tet_improvement.h). The boundary changes only where long edges are split (find_positions) and
+// where the shared edge of two coplanar triangles is swapped (improve).
 #include "inside/cdt_tets.h"
 
 #include "base/number_text.h"
@@ -49,9 +49,9 @@ Index most_inner_vertices(Index surface_triangles, Index boundary_triangles)
   return static_cast<Index>(std::max(least * triangles, tets / tets_per_vertex));
 }
 
-/// Remove the positions in `places` whose distance to one of `others` is less than half of the
+/// Remove the positions in `positions` whose distance to one of `others` is less than half of the
 /// local edge length.
-void remove_near(Points& places, const Points& others, const SizingField& sizes)
+void remove_near(Points& positions, const Points& others, const SizingField& sizes)
 {
   if (others.rows() == 0)
   {
@@ -63,9 +63,9 @@ void remove_near(Points& places, const Points& others, const SizingField& sizes)
   std::sort(
     order.begin(), order.end(), [&](Index a, Index b) { return others(a, 0) < others(b, 0); });
   Index kept = 0;
-  for (Index i = 0; i < places.rows(); ++i)
+  for (Index i = 0; i < positions.rows(); ++i)
   {
-    const Vec3 p = places.row(i);
+    const Vec3 p = positions.row(i);
     // Minimum distance from the other points, in units of the local edge length.
     constexpr double spacing = 0.5;
     const double least = spacing * sizes.at(p);
@@ -78,20 +78,20 @@ void remove_near(Points& places, const Points& others, const SizingField& sizes)
     }
     if (!near)
     {
-      places.row(kept++) = p;
+      positions.row(kept++) = p;
     }
   }
-  places.conservativeResize(kept, 3);
+  positions.conservativeResize(kept, 3);
 }
 } // namespace
 
 /// The region enclosed by the boundary of the tets.
-struct CdtTets::Inside
+struct CdtTets::FillState
 {
   Interior interior;
   Index boundary_triangles = 0;
   std::unique_ptr<SizingField> sizes;
-  Points places; ///< positions of new vertices
+  Points positions; ///< positions of new vertices
 };
 
 /// Insert vertices inside, beginning with the points of handles.
@@ -99,27 +99,27 @@ Status CdtTets::fill()
 {
   const double start = this->context_.elapsed_seconds();
   constexpr double found = 0.35; // fraction of the total time for finding the positions
-  Inside inside;
+  FillState inside;
   Status status;
   {
     const ProgressRange range(this->context_, 0.0, found);
-    status =
-      this->options_.bare ? this->look_inside(this->diagonal_, inside) : this->find_places(inside);
+    status = this->options_.bare ? this->prepare_interior(this->diagonal_, inside)
+                                 : this->find_positions(inside);
   }
-  const Points of_handles = status.ok() ? this->places_of_handles(inside) : Points(0, 3);
+  const Points handle_positions = status.ok() ? this->positions_on_handles(inside) : Points(0, 3);
   this->log_.add("places inside", this->context_.elapsed_seconds() - start, status);
-  Points places(of_handles.rows() + inside.places.rows(), 3);
-  places << of_handles, inside.places;
-  if (!status.ok() || places.rows() == 0)
+  Points positions(handle_positions.rows() + inside.positions.rows(), 3);
+  positions << handle_positions, inside.positions;
+  if (!status.ok() || positions.rows() == 0)
   {
     return status;
   }
   const ProgressRange range(this->context_, found, 1.0);
   std::vector<Index> vertices;
-  status = this->insert(places, vertices);
+  status = this->insert(positions, vertices);
   if (status.ok())
   {
-    std::copy_if(vertices.begin(), vertices.begin() + of_handles.rows(),
+    std::copy_if(vertices.begin(), vertices.begin() + handle_positions.rows(),
       std::back_inserter(this->handle_vertices_), [](Index v) { return v >= 0; });
   }
   return status;
@@ -127,24 +127,24 @@ Status CdtTets::fill()
 
 /// Find positions of new vertices. Boundary edges that are long compared with the edge length
 /// inside are split.
-Status CdtTets::find_places(Inside& inside)
+Status CdtTets::find_positions(FillState& inside)
 {
   const double wanted = this->options_.interior_edge * this->diagonal_;
   if (wanted > 0.0)
   {
     // Length above which a boundary edge is split, in units of the requested length.
     constexpr double long_edge = 3.0;
-    return this->find_even_places(
+    return this->find_even_positions(
       wanted, long_edge * wanted, most_tets_on_request, most_tets_on_request, inside);
   }
-  Status status = this->look_inside(this->diagonal_, inside);
+  Status status = this->prepare_interior(this->diagonal_, inside);
   if (status.ok())
   {
-    status = this->find_inner_places(
+    status = this->find_inner_positions(
       most_inner_vertices(this->surface_.triangles.rows(), inside.boundary_triangles), inside);
   }
-  const Index expected =
-    tets_per_boundary_triangle * inside.boundary_triangles + tets_per_vertex * inside.places.rows();
+  const Index expected = tets_per_boundary_triangle * inside.boundary_triangles +
+    tets_per_vertex * inside.positions.rows();
   if (!status.ok() || expected >= fewest_tets)
   {
     return status;
@@ -155,27 +155,27 @@ Status CdtTets::find_places(Inside& inside)
   constexpr double long_edge = 2.0;
   // Maximum fraction of the tets that may result from splitting boundary edges.
   constexpr double share = 0.6;
-  return this->find_even_places(length, long_edge * length,
+  return this->find_even_positions(length, long_edge * length,
     static_cast<Index>(share * static_cast<double>(fewest_tets)), fewest_tets / tets_per_vertex,
     inside);
 }
 
 /// Find up to about `most` positions, at distances of up to about `length` from each other. First,
 /// boundary edges longer than `long_edge` are split until there are `most_tets` tets.
-Status CdtTets::find_even_places(
-  double length, double long_edge, Index most_tets, Index most, Inside& inside)
+Status CdtTets::find_even_positions(
+  double length, double long_edge, Index most_tets, Index most, FillState& inside)
 {
   if (!split_long_edges(this->context_, this->mesh_, long_edge, most_tets))
   {
     return Status::canceled();
   }
-  const Status status = this->look_inside(length, inside);
-  return status.ok() ? this->find_inner_places(most, inside) : status;
+  const Status status = this->prepare_interior(length, inside);
+  return status.ok() ? this->find_inner_positions(most, inside) : status;
 }
 
-Status CdtTets::find_inner_places(Index most, Inside& inside)
+Status CdtTets::find_inner_positions(Index most, FillState& inside)
 {
-  return inner_points(this->context_, inside.interior, *inside.sizes, most, inside.places)
+  return inner_points(this->context_, inside.interior, *inside.sizes, most, inside.positions)
     ? Status()
     : Status::canceled();
 }
@@ -184,7 +184,7 @@ Status CdtTets::find_inner_places(Index most, Inside& inside)
 /// boundary edge at the vertex. The length increases with the distance from the boundary at a rate
 /// of 0.75, up to `longest`. (With the mean instead of the shortest edge, tets are too coarse for
 /// small details between long triangles.)
-Status CdtTets::look_inside(double longest, Inside& inside)
+Status CdtTets::prepare_interior(double longest, FillState& inside)
 {
   const Points& points = this->mesh_.points;
   const Triangles boundary = boundary_triangles(this->mesh_.tets);
@@ -213,7 +213,7 @@ Status CdtTets::look_inside(double longest, Inside& inside)
   lengths.conservativeResize(count);
   constexpr double growth = 0.75;
   inside.sizes = std::make_unique<SizingField>(sites, lengths, growth, longest);
-  inside.places.resize(0, 3);
+  inside.positions.resize(0, 3);
   inside.boundary_triangles = boundary.rows();
   return inside.interior.build(this->context_, points, boundary);
 }
@@ -222,7 +222,7 @@ Status CdtTets::look_inside(double longest, Inside& inside)
 /// triangles. Samples keep some distance from the boundary, because the boundary has enough
 /// vertices, and tets between a sample and the boundary would be flat. Other positions near the
 /// returned points are removed.
-Points CdtTets::places_of_handles(Inside& inside) const
+Points CdtTets::positions_on_handles(FillState& inside) const
 {
   // Minimum distance of samples from the boundary, in units of the local edge length.
   constexpr double near = 0.3;
@@ -230,28 +230,29 @@ Points CdtTets::places_of_handles(Inside& inside) const
   constexpr double touching = 1e-6;
   const SizingField& sizes = *inside.sizes;
   const HandleSamples samples =
-    sample_places(this->options_.handles, [&](const Vec3& p) { return sizes.at(p); });
+    sample_handle_elements(this->options_.handles, [&](const Vec3& p) { return sizes.at(p); });
   Points kept(samples.points.rows(), 3);
   Index count = 0;
   for (Index i = 0; i < samples.points.rows(); ++i)
   {
     const Vec3 p = samples.points.row(i);
-    const double distance = i < samples.chosen ? touching * this->diagonal_ : near * sizes.at(p);
-    if (inside.interior.is_clear(p, distance) && inside.interior.contains(p))
+    const double distance =
+      i < samples.handle_point_count ? touching * this->diagonal_ : near * sizes.at(p);
+    if (inside.interior.has_clearance(p, distance) && inside.interior.contains(p))
     {
       kept.row(count++) = p;
     }
   }
   kept.conservativeResize(count, 3);
-  remove_near(inside.places, kept, sizes);
+  remove_near(inside.positions, kept, sizes);
   return kept;
 }
 
-Status CdtTets::insert(const Points& places, std::vector<Index>& vertices)
+Status CdtTets::insert(const Points& positions, std::vector<Index>& vertices)
 {
   const double start = this->context_.elapsed_seconds();
   TetMesh mesh = this->mesh_;
-  if (!insert_vertices(this->context_, mesh, places, vertices))
+  if (!insert_vertices(this->context_, mesh, positions, vertices))
   {
     return Status::canceled();
   }
@@ -285,20 +286,20 @@ Status CdtTets::improve()
 {
   const double start = this->context_.elapsed_seconds();
   TetMesh mesh = this->mesh_;
-  std::vector<char> held(static_cast<std::size_t>(mesh.points.rows()), 0);
-  std::fill_n(held.begin(), std::min(this->mesh_original_.size(), held.size()), 1);
+  std::vector<char> fixed(static_cast<std::size_t>(mesh.points.rows()), 0);
+  std::fill_n(fixed.begin(), std::min(this->mesh_original_.size(), fixed.size()), 1);
   for (const Index v : this->handle_vertices_)
   {
-    held[v] = 1;
+    fixed[v] = 1;
   }
   ImproveOptions options;
-  options.least_angle = 0.0; // held (constrained) vertices never move
+  options.release_angle = 0.0; // held (constrained) vertices never move
   options.keep_boundary = true;
   options.coplanar = coplanar * this->diagonal_;
   options.insert = true;
   options.slack = 0.7;
   Improvement done;
-  if (!improve_tets(this->context_, mesh, std::move(held), {}, options, done))
+  if (!improve_tets(this->context_, mesh, std::move(fixed), {}, options, done))
   {
     return Status::canceled();
   }

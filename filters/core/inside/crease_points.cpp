@@ -28,7 +28,7 @@ bool bounds(const RegionBoundary& region, const TriangleSide& side)
       region.corner(side.triangle, (side.corner + 1) % 3));
   const Vec3 apex = region.corner(side.triangle, (side.corner + 2) % 3);
   constexpr double inwards = 0.02;
-  return region.bounded_at(side.triangle, (1.0 - inwards) * middle + inwards * apex);
+  return region.bounds_region_at(side.triangle, (1.0 - inwards) * middle + inwards * apex);
 }
 } // namespace
 
@@ -38,7 +38,7 @@ CreasePoints find_creases(const RegionBoundary& region, const SizingField& field
   const double smooth = cosine(angle);
   // Pairs (vertex, other end of a crease edge), in both directions.
   std::vector<std::pair<Index, Index>> ends;
-  std::vector<Vec3> between;
+  std::vector<Vec3> edge_points;
   for (std::size_t i = 0, j = 0; i < sides.size(); i = j)
   {
     j = end_of_edge(sides, i);
@@ -65,7 +65,7 @@ CreasePoints find_creases(const RegionBoundary& region, const SizingField& field
     const double parts = std::min(std::ceil((b - a).norm() / length), most);
     for (double part = 1.0; part < parts; ++part)
     {
-      between.emplace_back(a + part / parts * (b - a));
+      edge_points.emplace_back(a + part / parts * (b - a));
     }
   }
   CreasePoints creases;
@@ -87,10 +87,10 @@ CreasePoints find_creases(const RegionBoundary& region, const SizingField& field
     }
     (straight ? creases.vertices : creases.corners).push_back(v);
   }
-  creases.between.resize(static_cast<Index>(between.size()), 3);
-  for (std::size_t i = 0; i < between.size(); ++i)
+  creases.edge_points.resize(static_cast<Index>(edge_points.size()), 3);
+  for (std::size_t i = 0; i < edge_points.size(); ++i)
   {
-    creases.between.row(static_cast<Index>(i)) = between[i];
+    creases.edge_points.row(static_cast<Index>(i)) = edge_points[i];
   }
   return creases;
 }

@@ -13,7 +13,7 @@ struct CreasePoints
   std::vector<Index> corners; ///< input vertices at which creases end, branch or change direction
   std::vector<Index> vertices; ///< input vertices on creases that are not corners
   /// Evenly spaced points on crease edges that are longer than the sizing field allows.
-  Points between;
+  Points edge_points;
 };
 
 /// Find the creases that bound the region. A crease is an edge that is open or non-manifold, or at

@@ -46,15 +46,15 @@ Points spread_points(const Box& box, Index count)
 } // namespace
 
 Status EnclosedRegion::build(
-  ExecutionContext& context, RepairedSurface& surface, double threshold, bool& turned)
+  ExecutionContext& context, RepairedSurface& surface, double threshold, bool& flipped)
 {
   this->threshold_ = threshold;
   this->closed_ = surface.closed;
   this->box_ = bounding_box(surface.points);
   double negative = 0.0;
   Status status = this->sample(context, surface, negative);
-  turned = status.ok() && negative > this->volume_ && !surface.clean();
-  if (turned)
+  flipped = status.ok() && negative > this->volume_ && !surface.clean();
+  if (flipped)
   {
     surface.triangles.col(1).swap(surface.triangles.col(2));
     this->largest_winding_ = 0.0;
@@ -135,7 +135,7 @@ double EnclosedRegion::misfit(double volume) const
                                              : std::numeric_limits<double>::infinity();
 }
 
-Status EnclosedRegion::encloses_nothing() const
+Status EnclosedRegion::nothing_enclosed_error() const
 {
   return Status::invalid_input("the surface encloses nothing: its largest winding number is " +
     short_number(this->largest_winding_) +
@@ -145,18 +145,18 @@ Status EnclosedRegion::encloses_nothing() const
     short_number(this->threshold_));
 }
 
-Status EnclosedRegion::no_tets() const
+Status EnclosedRegion::no_tets_error() const
 {
-  const double share = this->volume_ / this->box_.size().prod();
+  const double fraction = this->volume_ / this->box_.size().prod();
   constexpr double speck = 1e-6;
-  return share > speck
+  return fraction > speck
     ? Status::failure(StatusCode::unavailable,
-        "the surface encloses about " + short_number(100.0 * share, 3) +
+        "the surface encloses about " + short_number(100.0 * fraction, 3) +
           " % of its bounding box, but this region is too thin for tets of this size")
-    : this->encloses_nothing();
+    : this->nothing_enclosed_error();
 }
 
-Status EnclosedRegion::only_specks(const RepairedSurface& surface) const
+Status EnclosedRegion::check_not_specks(const RepairedSurface& surface) const
 {
   constexpr Index fewest_triangles = 10000;
   constexpr double loose = 0.9; // minimum fraction of the triangle sides that are boundary edges
@@ -164,8 +164,8 @@ Status EnclosedRegion::only_specks(const RepairedSurface& surface) const
   // Maximum thickness, relative to the mean size of a triangle.
   constexpr double largest_thickness = 0.1;
   const Index count = surface.triangles.rows();
-  const double share = this->volume_ / this->box_.size().prod();
-  if (count < fewest_triangles || share > largest_share ||
+  const double fraction = this->volume_ / this->box_.size().prod();
+  if (count < fewest_triangles || fraction > largest_share ||
     static_cast<double>(surface.found.boundary_edges) < loose * 3.0 * static_cast<double>(count))
   {
     return {};
@@ -175,8 +175,8 @@ Status EnclosedRegion::only_specks(const RepairedSurface& surface) const
   return this->volume_ > largest_thickness * size * area
     ? Status()
     : Status::invalid_input("the surface consists of " + std::to_string(count) +
-        " mostly disconnected triangles that enclose only about " + short_number(100.0 * share, 3) +
-        " % of its bounding box");
+        " mostly disconnected triangles that enclose only about " +
+        short_number(100.0 * fraction, 3) + " % of its bounding box");
 }
 
 bool EnclosedRegion::fits(double volume) const
@@ -208,8 +208,8 @@ Status EnclosedRegion::label_regions(
   std::map<Index, Index> largest; // index of the largest tet of each region
   for (Index t = 0; t < data.tets.rows(); ++t)
   {
-    const auto [entry, fresh] = largest.emplace(data.regions[t], t);
-    if (!fresh && volumes[t] > volumes[entry->second])
+    const auto [entry, is_new] = largest.emplace(data.regions[t], t);
+    if (!is_new && volumes[t] > volumes[entry->second])
     {
       entry->second = t;
     }
@@ -237,7 +237,7 @@ Status EnclosedRegion::label_regions(
 Status EnclosedRegion::label_tets(
   ExecutionContext& context, const MesherData& data, Eigen::VectorXd& w) const
 {
-  const Points centers = centers_of(data.points, data.tets);
+  const Points centers = tet_centers(data.points, data.tets);
   Status status = this->winding_.evaluate(context, centers, w);
   if (!status.usable())
   {
@@ -245,23 +245,23 @@ Status EnclosedRegion::label_tets(
   }
   // If a fast winding number is within its error bound of the threshold, it may be on the wrong
   // side of the threshold. Evaluate these values exactly.
-  const double doubt = this->winding_.method() == WindingMethod::fast
+  const double error_bound = this->winding_.method() == WindingMethod::fast
     ? this->winding_.status().report.number("error_bound", 0.0)
     : 0.0;
-  std::vector<Index> close;
+  std::vector<Index> undecided;
   for (Index t = 0; t < w.size(); ++t)
   {
-    if (std::abs(w[t] - this->threshold_) < doubt)
+    if (std::abs(w[t] - this->threshold_) < error_bound)
     {
-      close.push_back(t);
+      undecided.push_back(t);
     }
   }
-  if (!parallel_for(context, static_cast<Index>(close.size()), 8,
+  if (!parallel_for(context, static_cast<Index>(undecided.size()), 8,
         [&](Index begin, Index end)
         {
           for (Index i = begin; i < end; ++i)
           {
-            w[close[i]] = this->winding_.evaluate_exactly_at(centers.row(close[i]));
+            w[undecided[i]] = this->winding_.evaluate_exactly_at(centers.row(undecided[i]));
           }
         }))
   {

@@ -15,11 +15,12 @@ class EnclosedRegion
 {
 public:
   /// Build the winding number and estimate the volume. If the surface encloses more volume with the
-  /// negative orientation than with the positive one, all its triangles are flipped and `turned` is
-  /// set. (Closed components are already oriented outwards; open components may not be.) The volume
-  /// is estimated from sample points in the box. Points are added until 20,000 of them are inside,
-  /// or until more would take longer than about two seconds.
-  Status build(ExecutionContext& context, RepairedSurface& surface, double threshold, bool& turned);
+  /// negative orientation than with the positive one, all its triangles are flipped and `flipped`
+  /// is set. (Closed components are already oriented outwards; open components may not be.) The
+  /// volume is estimated from sample points in the box. Points are added until 20,000 of them are
+  /// inside, or until more would take longer than about two seconds.
+  Status build(
+    ExecutionContext& context, RepairedSurface& surface, double threshold, bool& flipped);
 
   const WindingNumber& winding() const { return this->winding_; }
   /// Return the volume: exact for a clean surface of one component, sampled otherwise.
@@ -40,16 +41,16 @@ public:
   bool labels_are_exact() const { return this->closed_; }
   /// Return the error for a surface that encloses no volume. The message contains the largest
   /// winding number sampled so far.
-  Status encloses_nothing() const;
+  Status nothing_enclosed_error() const;
   /// Return the error for a method that found no tet inside. The code is `unavailable` if the
   /// surface encloses a volume that is too thin for the tets of the method.
-  Status no_tets() const;
+  Status no_tets_error() const;
 
   /// Return an error if the surface consists of at least 10,000 mostly disconnected triangles that
   /// enclose only specks: tiny volumes between neighboring triangles, thinner than a tenth of a
   /// triangle's size. Meshing specks takes minutes, and the tets represent no shape. Otherwise
   /// return ok.
-  Status only_specks(const RepairedSurface& surface) const;
+  Status check_not_specks(const RepairedSurface& surface) const;
 
   /// Compute the winding number of each tet. If the surface is closed, the winding number of a
   /// region's largest tet is assigned to all tets of the region. Otherwise the winding number is

@@ -106,9 +106,9 @@ TetMesh clean_up(const MeditMesh& read)
 
 std::string find_ftetwild()
 {
-  if (const char* chosen = std::getenv(variable))
+  if (const char* configured_path = std::getenv(variable))
   {
-    return executable_file(chosen) ? std::string(chosen) : std::string();
+    return is_executable_file(configured_path) ? std::string(configured_path) : std::string();
   }
   const std::string installed = find_on_path("FloatTetwild_bin");
   return installed.empty() ? find_on_path("ftetwild") : installed;
@@ -132,11 +132,11 @@ Status run_ftetwild(ExecutionContext& context, PointsView points, TrianglesView 
   request.path = find_ftetwild();
   if (request.path.empty())
   {
-    const char* chosen = std::getenv(variable);
+    const char* configured_path = std::getenv(variable);
     return Status::failure(StatusCode::unavailable,
-      chosen ? "the environment variable " + std::string(variable) +
-          " must name an executable file, but is set to " + chosen
-             : std::string(missing));
+      configured_path ? "the environment variable " + std::string(variable) +
+          " must name an executable file, but is set to " + configured_path
+                      : std::string(missing));
   }
   ScratchFolder folder("ftetwild");
   if (folder.path().empty())
@@ -179,7 +179,7 @@ Status run_ftetwild(ExecutionContext& context, PointsView points, TrianglesView 
   if (!end.failure.empty())
   {
     return Status::failure(StatusCode::internal_error,
-      request.name + " " + end.failure + memory_words(options.memory_limit) +
+      request.name + " " + end.failure + memory_limit_phrase(options.memory_limit) +
         (lines.last().empty() ? "" : "; last output: " + lines.last()));
   }
   MeditMesh read;

@@ -27,7 +27,7 @@ constexpr int deepest = 19; // maximum number of octree levels
 constexpr Index cells_per_block = 256;
 
 /// Integer coordinates in units of half of the smallest cell's side: 21 bits per coordinate.
-using Place = std::array<std::uint64_t, 3>;
+using LatticePosition = std::array<std::uint64_t, 3>;
 
 class PointLattice
 {
@@ -45,9 +45,9 @@ public:
     this->lower_ = box.center() - Vec3::Constant(0.5 * whole);
   }
 
-  /// Build the octree and choose its points. @return false if canceled, or if more than `most`
-  /// cells are inside; then points() is empty.
-  bool build(Index most)
+  /// Build the octree and choose its points. @return false if canceled, or if more than
+  /// `maximum_count` cells are inside; then points() is empty.
+  bool build(Index maximum_count)
   {
     std::vector<Cell> cells{ Cell() };
     constexpr double chosen = 0.7; // fraction of the total time that is spent before choose()
@@ -56,10 +56,11 @@ public:
     {
       // The number of levels is unknown and most cells are in the last levels, so progress is
       // estimated from the number of cells.
-      const double share = static_cast<double>(cells.size()) / static_cast<double>(most);
-      const double next = std::min(0.5 * (1.0 + done), done + share);
+      const double fraction =
+        static_cast<double>(cells.size()) / static_cast<double>(maximum_count);
+      const double next = std::min(0.5 * (1.0 + done), done + fraction);
       const ProgressRange range(this->context_, chosen * done, chosen * next);
-      if (!this->look_at(cells, level) || !this->cut(cells, level, most))
+      if (!this->look_at(cells, level) || !this->cut(cells, level, maximum_count))
       {
         return false;
       }
@@ -74,7 +75,7 @@ public:
 private:
   struct Cell
   {
-    Place corner{}; ///< lower corner
+    LatticePosition corner{}; ///< lower corner
     bool inside = false; ///< the whole cell is inside
     bool outside = false;
     bool large = false;
@@ -86,33 +87,35 @@ private:
   static constexpr int bits = 21;
   static constexpr Key mask = (Key(1) << bits) - 1;
 
-  static Key key_of(const Place& place, bool inside)
+  static Key key_of(const LatticePosition& coordinates, bool inside)
   {
-    return ((place[0] << bits | place[1]) << bits | place[2]) << 1 | (inside ? 0 : 1);
+    return ((coordinates[0] << bits | coordinates[1]) << bits | coordinates[2]) << 1 |
+      (inside ? 0 : 1);
   }
 
   Vec3 position(Key key) const
   {
-    const Key place = key >> 1;
-    return this->position(Place{ place >> (2 * bits), place >> bits & mask, place & mask });
+    const Key coordinates = key >> 1;
+    return this->position(
+      LatticePosition{ coordinates >> (2 * bits), coordinates >> bits & mask, coordinates & mask });
   }
 
-  Vec3 position(const Place& place) const
+  Vec3 position(const LatticePosition& coordinates) const
   {
-    const Vec3 units(
-      static_cast<double>(place[0]), static_cast<double>(place[1]), static_cast<double>(place[2]));
+    const Vec3 units(static_cast<double>(coordinates[0]), static_cast<double>(coordinates[1]),
+      static_cast<double>(coordinates[2]));
     return this->lower_ + this->unit_ * units;
   }
 
   static std::uint64_t side_of(int level) { return std::uint64_t(1) << (deepest + 1 - level); }
 
-  static Place moved(Place place, int corner, std::uint64_t step)
+  static LatticePosition moved(LatticePosition coordinates, int corner, std::uint64_t step)
   {
     for (int k = 0; k < 3; ++k)
     {
-      place[k] += (corner >> k & 1) * step;
+      coordinates[k] += (corner >> k & 1) * step;
     }
-    return place;
+    return coordinates;
   }
 
   bool look_at(std::vector<Cell>& cells, int level)
@@ -127,7 +130,7 @@ private:
         {
           Cell& cell = cells[i];
           const Vec3 center = this->position(moved(cell.corner, 7, units / 2));
-          if (!cell.inside && this->interior_.is_clear(center, reach))
+          if (!cell.inside && this->interior_.has_clearance(center, reach))
           {
             cell.inside = this->interior_.contains(center);
             cell.outside = !cell.inside;
@@ -140,7 +143,7 @@ private:
 
   /// Compute the cells of the next level. The corners and centers of cells that are not divided are
   /// added to keys_.
-  bool cut(std::vector<Cell>& cells, int level, Index most)
+  bool cut(std::vector<Cell>& cells, int level, Index maximum_count)
   {
     const std::uint64_t units = side_of(level);
     std::vector<Cell> parts;
@@ -167,7 +170,7 @@ private:
       }
     }
     cells = std::move(parts);
-    return this->cells_inside_ <= most;
+    return this->cells_inside_ <= maximum_count;
   }
 
   /// Keep the positions that are inside and far enough from the surface.
@@ -187,7 +190,7 @@ private:
           for (Index i = begin; i < end; ++i)
           {
             const Vec3 p = this->position(keys[i]);
-            good[i] = this->interior_.is_clear(p, least * this->sizes_.at(p)) &&
+            good[i] = this->interior_.has_clearance(p, least * this->sizes_.at(p)) &&
               ((keys[i] & 1) == 0 || this->interior_.contains(p));
           }
         });
@@ -236,7 +239,7 @@ bool Interior::contains(const Vec3& p) const
   return this->winding_.evaluate_at(p) > half;
 }
 
-bool Interior::is_clear(const Vec3& p, double distance) const
+bool Interior::has_clearance(const Vec3& p, double distance) const
 {
   return this->tree_->distance(p, distance) > distance;
 }
@@ -267,14 +270,14 @@ namespace
 class ScaleSearch
 {
 public:
-  ScaleSearch(double first, double wanted) : wanted_(wanted), least_(first) {}
+  ScaleSearch(double first, double target) : target_(target), least_(first) {}
 
   /// Add a measurement: the number of points at a scale, or infinity if there were too many to
   /// count.
   void add(double scale, double points)
   {
-    Sample& known = points > this->wanted_ ? this->many_ : this->few_;
-    if (std::isfinite(points) && points > this->wanted_ && std::isfinite(this->many_.points) &&
+    Sample& known = points > this->target_ ? this->many_ : this->few_;
+    if (std::isfinite(points) && points > this->target_ && std::isfinite(this->many_.points) &&
       this->many_.scale > 0.0)
     {
       constexpr double least_power = 0.4;
@@ -298,7 +301,7 @@ public:
     if (few.scale == 0.0)
     {
       const double step = std::isfinite(many.points)
-        ? std::pow(many.points / this->wanted_, 1.0 / this->power_)
+        ? std::pow(many.points / this->target_, 1.0 / this->power_)
         : blind;
       return many.scale * std::clamp(step, least_step, largest_step);
     }
@@ -306,17 +309,18 @@ public:
     {
       constexpr double largest_step_back = 0.1;
       return std::max(
-        this->least_, few.scale * std::max(largest_step_back, few.points / this->wanted_));
+        this->least_, few.scale * std::max(largest_step_back, few.points / this->target_));
     }
     // Position of the next scale between those of many_ and few_, on a logarithmic axis.
-    double share = 0.5;
+    double fraction = 0.5;
     if (std::isfinite(many.points) && few.points > 0.0)
     {
       constexpr double margin = 0.15;
-      share = std::clamp(std::log(many.points / this->wanted_) / std::log(many.points / few.points),
-        margin, 1.0 - margin);
+      fraction =
+        std::clamp(std::log(many.points / this->target_) / std::log(many.points / few.points),
+          margin, 1.0 - margin);
     }
-    return many.scale * std::pow(few.scale / many.scale, share);
+    return many.scale * std::pow(few.scale / many.scale, fraction);
   }
 
   /// Report whether the interval between the two measured scales is too small to continue.
@@ -333,27 +337,27 @@ private:
     double scale = 0.0; ///< scale of the edge lengths; 0: no measurement
     double points = 0.0;
   };
-  double wanted_;
+  double target_;
   double least_; ///< smallest scale that may be tried
   double power_ = 1.0;
   Sample many_; ///< measurement at the largest scale with more points than wanted
   Sample few_; ///< measurement at the smallest scale with at most the wanted number of points
 };
 
-/// Return a subset of `wanted` points, at equal intervals in the order of the points.
-Points thinned(const Points& points, Index wanted)
+/// Return a subset of `target` points, at equal intervals in the order of the points.
+Points thinned(const Points& points, Index target)
 {
-  Points kept(wanted, 3);
-  for (Index i = 0; i < wanted; ++i)
+  Points kept(target, 3);
+  for (Index i = 0; i < target; ++i)
   {
-    kept.row(i) = points.row(i * points.rows() / wanted);
+    kept.row(i) = points.row(i * points.rows() / target);
   }
   return kept;
 }
 } // namespace
 
 bool inner_points(ExecutionContext& context, const Interior& interior, SizingField& sizes,
-  Index most, Points& inner)
+  Index maximum_count, Points& inner)
 {
   // An attempt ends if more cells are inside than this factor times the maximum number of points.
   constexpr double too_many = 5.0;
@@ -364,8 +368,8 @@ bool inner_points(ExecutionContext& context, const Interior& interior, SizingFie
   constexpr int attempts = 20;
   // Largest growth rate of edge lengths that octree cells can follow.
   constexpr double most_growth = 1.0;
-  const double wanted = static_cast<double>(std::max<Index>(1, most));
-  ScaleSearch search(sizes.scale(), wanted);
+  const double target = static_cast<double>(std::max<Index>(1, maximum_count));
+  ScaleSearch search(sizes.scale(), target);
   // Before the first attempt, increase the scale of the edge lengths until the expected number of
   // points is small enough. On most surfaces there are 4 to 20 points per cell of the layer at the
   // surface.
@@ -375,7 +379,7 @@ bool inner_points(ExecutionContext& context, const Interior& interior, SizingFie
     constexpr double points_per_cell = 3.0;
     constexpr double largest_guess = 30.0;
     constexpr double step = 1.5;
-    while (points_per_cell * interior.layer(sizes) > enough * wanted &&
+    while (points_per_cell * interior.layer(sizes) > enough * target &&
       sizes.scale() < largest_guess * first_scale)
     {
       if (sizes.growth() < most_growth)
@@ -394,13 +398,13 @@ bool inner_points(ExecutionContext& context, const Interior& interior, SizingFie
   for (int attempt = 0; attempt < attempts; ++attempt)
   {
     // There are typically two or three attempts.
-    constexpr double share = 0.45; // fraction of the remaining progress
-    const double end = begin + share * (1.0 - begin);
+    constexpr double fraction = 0.45; // fraction of the remaining progress
+    const double end = begin + fraction * (1.0 - begin);
     const ProgressRange range(context, begin, end);
     begin = end;
     PointLattice lattice(context, interior, sizes);
     const bool whole =
-      lattice.build(static_cast<Index>(std::max(few_cells, too_many * wanted)) + 1);
+      lattice.build(static_cast<Index>(std::max(few_cells, too_many * target)) + 1);
     if (context.canceled())
     {
       return false;
@@ -408,7 +412,7 @@ bool inner_points(ExecutionContext& context, const Interior& interior, SizingFie
     inner = lattice.points();
     const double points =
       whole ? static_cast<double>(inner.rows()) : std::numeric_limits<double>::infinity();
-    const bool many = points > enough * wanted;
+    const bool many = points > enough * target;
     if (many && sizes.growth() < most_growth)
     {
       sizes.set_growth(most_growth);
@@ -420,7 +424,7 @@ bool inner_points(ExecutionContext& context, const Interior& interior, SizingFie
     // scale has no effect.
     const bool same = whole && points == before;
     before = points;
-    if (!many && (points >= least_enough * wanted || sizes.scale() == first_scale))
+    if (!many && (points >= least_enough * target || sizes.scale() == first_scale))
     {
       return true;
     }
@@ -441,8 +445,8 @@ bool inner_points(ExecutionContext& context, const Interior& interior, SizingFie
   // In a plate all cells may be divided at the same scale. Then the number of points jumps from too
   // few to too many at this scale, so a subset of the larger set is used.
   constexpr double too_few = 0.3;
-  const bool thin_out = more.rows() > 0 && static_cast<double>(fewer.rows()) < too_few * wanted;
-  inner = thin_out ? thinned(more, static_cast<Index>(wanted)) : std::move(fewer);
+  const bool thin_out = more.rows() > 0 && static_cast<double>(fewer.rows()) < too_few * target;
+  inner = thin_out ? thinned(more, static_cast<Index>(target)) : std::move(fewer);
   return true;
 }
 

@@ -21,7 +21,7 @@ public:
   Status build(ExecutionContext& context, Points points, Triangles boundary);
   bool contains(const Vec3& p) const;
   /// Report whether every point of the surface is at least `distance` away from p.
-  bool is_clear(const Vec3& p, double distance) const;
+  bool has_clearance(const Vec3& p, double distance) const;
   const Box& box() const { return this->box_; }
   /// Estimate the number of octree cells in the layer at the surface, up to a factor that depends
   /// little on the edge lengths. A part of the surface with area A contributes A / (2 growth
@@ -40,12 +40,12 @@ private:
 /// Find points inside. The distance between neighboring points is about the local edge length of
 /// `sizes`, and their distance from the surface is at least about half of this length. The points
 /// are corners and centers of the cells of an octree, whose Delaunay tets are well shaped. If there
-/// are more than `most` points, the edge lengths are increased, by a scale and by a higher growth
-/// rate, until there are about `most` points. Cost: some microseconds per cell, for two or three
-/// attempts.
+/// are more than `maximum_count` points, the edge lengths are increased, by a scale and by a higher
+/// growth rate, until there are about `maximum_count` points. Cost: some microseconds per cell, for
+/// two or three attempts.
 /// @return false if canceled.
 bool inner_points(ExecutionContext& context, const Interior& interior, SizingField& sizes,
-  Index most, Points& inner);
+  Index maximum_count, Points& inner);
 
 } // namespace bindpose
 

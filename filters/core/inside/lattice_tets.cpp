@@ -70,16 +70,16 @@ public:
   }
   Vec3 point(Index v) const
   {
-    const auto at = this->position(v);
+    const auto location = this->position(v);
     const double shift = this->is_center(v) ? 0.5 : 0.0;
     return this->lattice_.origin +
-      this->lattice_.spacing * Vec3(at[0] + shift, at[1] + shift, at[2] + shift);
+      this->lattice_.spacing * Vec3(location[0] + shift, location[1] + shift, location[2] + shift);
   }
   /// Return the parity of a vertex. The two ends of a long edge have different parities.
   bool even(Index v) const
   {
-    const auto at = this->position(v);
-    return (at[0] + at[1] + at[2]) % 2 == 0;
+    const auto location = this->position(v);
+    return (location[0] + location[1] + location[2]) % 2 == 0;
   }
   /// Report whether an edge is long: it joins two corners or two centers and its length is 1. An
   /// edge between a corner and a center is short; its length is sqrt(3)/2.
@@ -90,16 +90,16 @@ public:
   template <typename Body>
   void tets_of_cube(Index i, Index j, Index k, const Body& body) const
   {
-    const std::array<Index, 3> at{ i, j, k };
+    const std::array<Index, 3> location{ i, j, k };
     for (int axis = 0; axis < 3; ++axis)
     {
-      if (at[axis] + 1 >= this->lattice_.cubes[axis])
+      if (location[axis] + 1 >= this->lattice_.cubes[axis])
       {
         continue;
       }
-      std::array<Index, 3> next = at;
+      std::array<Index, 3> next = location;
       next[axis] += 1;
-      const Index c0 = this->center(at[0], at[1], at[2]);
+      const Index c0 = this->center(location[0], location[1], location[2]);
       const Index c1 = this->center(next[0], next[1], next[2]);
       const int u = (axis + 1) % 3;
       const int v = (axis + 2) % 3;
@@ -126,7 +126,7 @@ public:
   {
     const auto& n = this->lattice_.cubes;
     std::vector<std::vector<Tet>> of_layer(static_cast<std::size_t>(n[2] * n[1]));
-    const bool whole = parallel_for(context, n[2] * n[1], 4,
+    const bool completed = parallel_for(context, n[2] * n[1], 4,
       [&](Index begin, Index end)
       {
         for (Index row = begin; row < end; ++row)
@@ -148,7 +148,7 @@ public:
     {
       tets.insert(tets.end(), list.begin(), list.end());
     }
-    return whole;
+    return completed;
   }
 
 private:
@@ -262,14 +262,14 @@ private:
     }
     std::sort(this->edges_.begin(), this->edges_.end());
     this->edges_.erase(std::unique(this->edges_.begin(), this->edges_.end()), this->edges_.end());
-    this->at_.resize(this->edges_.size());
+    this->cut_parameters_.resize(this->edges_.size());
     constexpr Index block = 32;
     return parallel_for(context, static_cast<Index>(this->edges_.size()), block,
       [&](Index begin, Index end)
       {
         for (Index e = begin; e < end; ++e)
         {
-          this->at_[e] = this->cut_of(this->edges_[e]);
+          this->cut_parameters_[e] = this->cut_of(this->edges_[e]);
         }
       });
   }
@@ -308,8 +308,10 @@ private:
       const double alpha = is_long ? alpha_long : alpha_short;
       const double length = is_long ? 1.0 : std::sqrt(0.75);
       const auto edge = static_cast<Index>(e);
-      ends.push_back({ v, edge, this->at_[e] * length, this->at_[e] < alpha });
-      ends.push_back({ w, edge, (1.0 - this->at_[e]) * length, 1.0 - this->at_[e] < alpha });
+      ends.push_back(
+        { v, edge, this->cut_parameters_[e] * length, this->cut_parameters_[e] < alpha });
+      ends.push_back({ w, edge, (1.0 - this->cut_parameters_[e]) * length,
+        1.0 - this->cut_parameters_[e] < alpha });
     }
     std::sort(ends.begin(), ends.end(),
       [](const End& x, const End& y)
@@ -318,7 +320,8 @@ private:
     for (std::size_t e = 0; e < this->edges_.size(); ++e)
     {
       const auto [v, w] = this->edges_[e];
-      cut_points[e] = this->points_[v] + this->at_[e] * (this->points_[w] - this->points_[v]);
+      cut_points[e] =
+        this->points_[v] + this->cut_parameters_[e] * (this->points_[w] - this->points_[v]);
     }
     for (std::size_t i = 0; i < ends.size();)
     {
@@ -356,8 +359,8 @@ private:
   Index cut_vertex(Index v, Index w) const
   {
     const Edge2 edge = std::minmax(v, w);
-    const auto at = std::lower_bound(this->edges_.begin(), this->edges_.end(), edge);
-    return this->cut_vertex_[static_cast<std::size_t>(at - this->edges_.begin())];
+    const auto location = std::lower_bound(this->edges_.begin(), this->edges_.end(), edge);
+    return this->cut_vertex_[static_cast<std::size_t>(location - this->edges_.begin())];
   }
 
   /// Select the diagonal of the quadrilateral a, b, bc, ac. The quadrilateral is the remaining part
@@ -441,9 +444,9 @@ private:
       const std::array<Index, 3> bottom{ b, this->cut_vertex(b, c), this->cut_vertex(b, d) };
       // Quadrilateral k of the prism is between corners k and k + 1. Its diagonal starts at the top
       // of corner k or k + 1.
-      const std::array<bool, 3> at_k{ this->diagonal_at_first(a, b, c), free_at_first,
+      const std::array<bool, 3> diagonal_at_top{ this->diagonal_at_first(a, b, c), free_at_first,
         !this->diagonal_at_first(a, b, d) };
-      if (!split_prism(top, bottom, at_k, tets))
+      if (!split_prism(top, bottom, diagonal_at_top, tets))
       {
         continue;
       }
@@ -468,23 +471,23 @@ private:
   void fill_cut_corner(const std::array<Index, 3>& plus, Index minus, std::vector<Tet>& out) const
   {
     std::array<Index, 3> bottom{};
-    std::array<bool, 3> at_k{};
+    std::array<bool, 3> diagonal_at_top{};
     for (int k = 0; k < 3; ++k)
     {
       bottom[k] = this->cut_vertex(plus[k], minus);
-      at_k[k] = this->diagonal_at_first(plus[k], plus[(k + 1) % 3], minus);
+      diagonal_at_top[k] = this->diagonal_at_first(plus[k], plus[(k + 1) % 3], minus);
     }
-    split_prism(plus, bottom, at_k, out);
+    split_prism(plus, bottom, diagonal_at_top, out);
   }
 
-  /// Divide a prism with the ends `top` and `bottom` into three tets. If at_k[k] is true, the
-  /// diagonal of the quadrilateral between corners k and k + 1 starts at top[k] and ends at
-  /// bottom[k + 1]. Otherwise it starts at top[k + 1] and ends at bottom[k]. Return false if the
+  /// Divide a prism with the ends `top` and `bottom` into three tets. If diagonal_at_top[k] is
+  /// true, the diagonal of the quadrilateral between corners k and k + 1 starts at top[k] and ends
+  /// at bottom[k + 1]. Otherwise it starts at top[k + 1] and ends at bottom[k]. Return false if the
   /// three diagonals are cyclic, because then no three tets fill the prism.
   static bool split_prism(const std::array<Index, 3>& top, const std::array<Index, 3>& bottom,
-    const std::array<bool, 3>& at_k, std::vector<Tet>& out)
+    const std::array<bool, 3>& diagonal_at_top, std::vector<Tet>& out)
   {
-    if (at_k[0] == at_k[1] && at_k[1] == at_k[2])
+    if (diagonal_at_top[0] == diagonal_at_top[1] && diagonal_at_top[1] == diagonal_at_top[2])
     {
       return false;
     }
@@ -492,11 +495,11 @@ private:
     {
       const int next = (k + 1) % 3;
       const int last = (k + 2) % 3;
-      if (at_k[k] && !at_k[last])
+      if (diagonal_at_top[k] && !diagonal_at_top[last])
       {
         // The two diagonals at corner k both start at its top vertex.
         out.push_back({ top[k], bottom[0], bottom[1], bottom[2] });
-        if (at_k[next])
+        if (diagonal_at_top[next])
         {
           out.push_back({ top[k], top[next], top[last], bottom[last] });
           out.push_back({ top[k], top[next], bottom[next], bottom[last] });
@@ -518,7 +521,7 @@ private:
   std::vector<Vec3> points_;
   std::vector<Edge2> edges_; // lattice edges that the boundary of the region cuts, sorted
   // Position of the cut point on each edge, from 0 at the first vertex to 1 at the second.
-  std::vector<double> at_;
+  std::vector<double> cut_parameters_;
   std::vector<Index> cut_vertex_;
 };
 } // namespace

@@ -10,7 +10,7 @@ namespace bindpose
 namespace
 {
 /// Return a phrase such as "1 triangle was" or "2 triangles were".
-std::string counted(Index count, const char* one, const char* many)
+std::string count_phrase(Index count, const char* one, const char* many)
 {
   return std::to_string(count) + " " + (count == 1 ? one : many) + (count == 1 ? " was" : " were");
 }
@@ -18,24 +18,24 @@ std::string counted(Index count, const char* one, const char* many)
 void report_turned(PreparedSurface& prepared)
 {
   const RepairedSurface& surface = prepared.surface;
-  if (surface.turned_triangles > 0)
+  if (surface.flipped_triangles > 0)
   {
-    prepared.report.set("counts.turned_triangles", Report::Value(surface.turned_triangles));
-    prepared.warnings.push_back(counted(surface.turned_triangles, "triangle", "triangles") +
+    prepared.report.set("counts.turned_triangles", Report::Value(surface.flipped_triangles));
+    prepared.warnings.push_back(count_phrase(surface.flipped_triangles, "triangle", "triangles") +
       " flipped to match the orientation of the neighbors");
   }
-  if (surface.turned_components > 0)
+  if (surface.flipped_components > 0)
   {
-    prepared.report.set("counts.turned_components", Report::Value(surface.turned_components));
+    prepared.report.set("counts.turned_components", Report::Value(surface.flipped_components));
     prepared.warnings.push_back(
-      counted(surface.turned_components, "closed component", "closed components") +
+      count_phrase(surface.flipped_components, "closed component", "closed components") +
       " flipped because the normals pointed inward");
   }
 }
 
 /// If there are back-side triangles, repair the surface again without them. The diagnosis in the
 /// report remains that of the whole surface.
-Status leave_out_backs(
+Status remove_back_triangles(
   ExecutionContext& context, PointsView points, TrianglesView triangles, PreparedSurface& prepared)
 {
   const std::vector<Index> backs = back_sides(prepared.surface.points, prepared.surface.triangles);
@@ -64,8 +64,9 @@ Status leave_out_backs(
     id = ids[id];
   }
   prepared.report.set("counts.back_triangles", Report::Value(count));
-  prepared.warnings.push_back(counted(count, "triangle that is the back side of another triangle",
-                                "triangles that are the back sides of other triangles") +
+  prepared.warnings.push_back(
+    count_phrase(count, "triangle that is the back side of another triangle",
+      "triangles that are the back sides of other triangles") +
     " ignored; otherwise the surface would enclose nothing there");
   return status;
 }
@@ -95,7 +96,7 @@ Status prepare_surface(ExecutionContext& context, PointsView points, TrianglesVi
   }
   {
     const Phase phase(context, "repair", 0.2, 0.3);
-    const Status status = leave_out_backs(context, points, triangles, prepared);
+    const Status status = remove_back_triangles(context, points, triangles, prepared);
     if (!status.ok())
     {
       return status;
@@ -103,9 +104,10 @@ Status prepare_surface(ExecutionContext& context, PointsView points, TrianglesVi
   }
   report_turned(prepared);
   const Phase phase(context, "winding", 0.3, 1.0);
-  bool turned = false;
-  const Status status = prepared.inside.build(context, prepared.surface, winding_threshold, turned);
-  if (turned)
+  bool flipped = false;
+  const Status status =
+    prepared.inside.build(context, prepared.surface, winding_threshold, flipped);
+  if (flipped)
   {
     prepared.warnings.emplace_back("the surface was flipped because its normals pointed inward");
   }

@@ -16,7 +16,7 @@ struct PreparedSurface
 {
   RepairedSurface surface;
   EnclosedRegion inside;
-  std::vector<DefectPlace> defects;
+  std::vector<DefectOccurrence> defects;
   double winding_threshold = 0.5;
   /// counts.* of the diagnosis of surface defects, counts.back_triangles, counts.turned_triangles,
   /// counts.turned_components.

@@ -26,7 +26,7 @@ Status check_input(PointsView points, TrianglesView triangles, const RemeshOptio
   {
     return status;
   }
-  const auto bad = [](const char* name, const char* range, double value)
+  const auto out_of_range = [](const char* name, const char* range, double value)
   {
     return Status::invalid_input(
       std::string(name) + " must be " + range + ", not " + short_number(value));
@@ -34,19 +34,19 @@ Status check_input(PointsView points, TrianglesView triangles, const RemeshOptio
   constexpr double least = 1e-4;
   if (!(options.winding_threshold > 0.0) || !std::isfinite(options.winding_threshold))
   {
-    return bad("winding_threshold", "positive", options.winding_threshold);
+    return out_of_range("winding_threshold", "positive", options.winding_threshold);
   }
   if (!(options.smallest_edge >= least && options.smallest_edge <= 1.0))
   {
-    return bad("smallest_edge", "from 0.0001 to 1", options.smallest_edge);
+    return out_of_range("smallest_edge", "from 0.0001 to 1", options.smallest_edge);
   }
   if (!(options.largest_edge >= options.smallest_edge && options.largest_edge <= 1.0))
   {
-    return bad("largest_edge", "from smallest_edge to 1", options.largest_edge);
+    return out_of_range("largest_edge", "from smallest_edge to 1", options.largest_edge);
   }
   if (!(options.tet_limit >= 1000.0))
   {
-    return bad("tet_limit", "at least 1000", options.tet_limit);
+    return out_of_range("tet_limit", "at least 1000", options.tet_limit);
   }
   Status limits = check_limits(options.time_limit, options.memory_limit);
   if (!limits.ok())
@@ -74,7 +74,7 @@ Ids ids_of(PointsView points, TrianglesView triangles)
   for (Index k = 0; k < triangles.size(); ++k)
   {
     const Index v = triangles.data()[k];
-    const auto [entry, fresh] =
+    const auto [entry, is_new] =
       ids.emplace(std::array<double, 3>{ points(v, 0), points(v, 1), points(v, 2) }, v);
     entry->second = std::min(entry->second, v);
   }
@@ -82,7 +82,7 @@ Ids ids_of(PointsView points, TrianglesView triangles)
 }
 
 bool improve(
-  ExecutionContext& context, const Ids& ids, const RegionBoundary& region, MesherAnswer& answer)
+  ExecutionContext& context, const Ids& ids, const RegionBoundary& region, MesherResult& answer)
 {
   MesherData& data = answer.data;
   for (Index t = 0; t < data.tets.rows(); ++t)
@@ -93,21 +93,21 @@ bool improve(
       std::swap(data.tets(t, 0), data.tets(t, 1));
     }
   }
-  std::vector<char> held(static_cast<std::size_t>(data.points.rows()));
+  std::vector<char> fixed(static_cast<std::size_t>(data.points.rows()));
   for (Index v = 0; v < data.points.rows(); ++v)
   {
-    held[v] = ids.count({ data.points(v, 0), data.points(v, 1), data.points(v, 2) }) > 0;
+    fixed[v] = ids.count({ data.points(v, 0), data.points(v, 1), data.points(v, 2) }) > 0;
   }
   const Phase phase(context, "improve", 0.8, 0.9);
   TetMesh mesh{ std::move(data.points), std::move(data.tets) };
   Improvement done;
-  const bool whole = improve_tets(
-    context, mesh, std::move(held),
-    [&](Vec3& p, const Vec3& n, double reach) { return region.onto_boundary(p, n, reach); },
+  const bool completed = improve_tets(
+    context, mesh, std::move(fixed),
+    [&](Vec3& p, const Vec3& n, double reach) { return region.project_to_boundary(p, n, reach); },
     ImproveOptions(), done);
   data.points = std::move(mesh.points);
   data.tets = std::move(mesh.tets);
-  return whole;
+  return completed;
 }
 
 /// Remove unused vertices and renumber the others so that the input's vertices come first.
@@ -167,7 +167,7 @@ Status remesh_tets(ExecutionContext& context, PointsView points, TrianglesView t
     exact_number(options.largest_edge * diagonal), "--tets", exact_number(options.tet_limit) };
   request.time_limit = options.time_limit;
   request.memory_limit = options.memory_limit;
-  MesherAnswer answer;
+  MesherResult answer;
   {
     const Phase phase(context, "remesh", 0.0, 0.8);
     MesherData data;

@@ -32,7 +32,7 @@ bool collect(ExecutionContext& context, PointsView points, TrianglesView triangl
   samples.assign(static_cast<std::size_t>(n + points.rows()), Sample());
   std::vector<std::array<bool, 3>> corners(static_cast<std::size_t>(n));
   constexpr Index block = 64;
-  const bool whole = parallel_for(context, n, block,
+  const bool completed = parallel_for(context, n, block,
     [&](Index begin, Index end)
     {
       for (Index f = begin; f < end; ++f)
@@ -49,7 +49,7 @@ bool collect(ExecutionContext& context, PointsView points, TrianglesView triangl
         }
       }
     });
-  for (Index f = 0; f < n && whole; ++f)
+  for (Index f = 0; f < n && completed; ++f)
   {
     const Vec3 a = points.row(triangles(f, 0));
     const Vec3 b = points.row(triangles(f, 1));
@@ -61,7 +61,7 @@ bool collect(ExecutionContext& context, PointsView points, TrianglesView triangl
       sample.weight += corners[f][k] ? (b - a).cross(c - a).norm() / 18.0 : 0.0;
     }
   }
-  return whole;
+  return completed;
 }
 
 bool measure(ExecutionContext& context, const std::vector<Sample>& samples,
@@ -69,7 +69,7 @@ bool measure(ExecutionContext& context, const std::vector<Sample>& samples,
 {
   std::vector<double> distances(samples.size(), 0.0);
   constexpr Index block = 64;
-  const bool whole = parallel_for(context, static_cast<Index>(samples.size()), block,
+  const bool completed = parallel_for(context, static_cast<Index>(samples.size()), block,
     [&](Index begin, Index end)
     {
       for (Index i = begin; i < end; ++i)
@@ -90,21 +90,21 @@ bool measure(ExecutionContext& context, const std::vector<Sample>& samples,
     distance.maximum = std::max(distance.maximum, distances[i]);
   }
   distance.mean = std::max(distance.mean, weights > 0.0 ? sum / weights : 0.0);
-  return whole;
+  return completed;
 }
 
 /// Finds the parts of the tets' boundary that close holes of the surface ("lids").
-class Lids
+class HoleCaps
 {
 public:
-  Lids(const RegionBoundary& region, const TriangleTree& tree) : region_(region), tree_(tree) {}
+  HoleCaps(const RegionBoundary& region, const TriangleTree& tree) : region_(region), tree_(tree) {}
 
   /// Report whether p is on a lid: the region ends within the distance `reach` of p along the
   /// normal n, and there is no triangle at this end.
   bool contain(const Vec3& p, const Vec3& n, double reach) const
   {
     Vec3 end = p;
-    if (!this->region_.onto_boundary(end, n, reach))
+    if (!this->region_.project_to_boundary(end, n, reach))
     {
       return false;
     }
@@ -122,20 +122,20 @@ bool measure_distance(ExecutionContext& context, const TetMesh& mesh, const Regi
   SurfaceDistance& distance)
 {
   distance = SurfaceDistance();
-  const Triangles skin = boundary_triangles(mesh.tets);
-  if (skin.rows() == 0 || region.triangles().rows() == 0)
+  const Triangles boundary = boundary_triangles(mesh.tets);
+  if (boundary.rows() == 0 || region.triangles().rows() == 0)
   {
     distance.maximum = distance.mean = std::numeric_limits<double>::infinity();
     return true;
   }
   const TriangleTree surface_tree(region.points(), region.triangles());
-  const TriangleTree skin_tree(mesh.points, skin);
+  const TriangleTree skin_tree(mesh.points, boundary);
   std::vector<Sample> samples;
   {
     const ProgressRange range(context, 0.0, 0.5);
     if (!collect(
           context, region.points(), region.triangles(),
-          [&](Index f, const Vec3& center) { return region.bounded_at(f, center); },
+          [&](Index f, const Vec3& center) { return region.bounds_region_at(f, center); },
           [&](Index f, int k, bool) { return region.bounded_at_corner(f, k); }, samples) ||
       !measure(context, samples, skin_tree, distance))
     {
@@ -143,7 +143,7 @@ bool measure_distance(ExecutionContext& context, const TetMesh& mesh, const Regi
     }
   }
   const ProgressRange range(context, 0.5, 1.0);
-  const Lids lids(region, surface_tree);
+  const HoleCaps lids(region, surface_tree);
   const bool may_have_lids = !region.closed();
   const auto on_surface = [&](Index f, const Vec3& center)
   {
@@ -151,17 +151,17 @@ bool measure_distance(ExecutionContext& context, const TetMesh& mesh, const Regi
     {
       return true;
     }
-    const Vec3 a = mesh.points.row(skin(f, 0));
-    const Vec3 b = mesh.points.row(skin(f, 1));
-    const Vec3 c = mesh.points.row(skin(f, 2));
+    const Vec3 a = mesh.points.row(boundary(f, 0));
+    const Vec3 b = mesh.points.row(boundary(f, 1));
+    const Vec3 c = mesh.points.row(boundary(f, 2));
     const double size = std::sqrt(std::max((b - a).squaredNorm(), (c - a).squaredNorm()));
     return !lids.contain(center, (b - a).cross(c - a).normalized(), 0.5 * size);
   };
   // A vertex is a sample if one of its triangles is not part of a lid. This includes the vertices
   // at the border of a lid, which is acceptable because the surface is near them.
   return collect(
-           context, mesh.points, skin, on_surface, [](Index, int, bool counts) { return counts; },
-           samples) &&
+           context, mesh.points, boundary, on_surface,
+           [](Index, int, bool counts) { return counts; }, samples) &&
     measure(context, samples, surface_tree, distance);
 }
 

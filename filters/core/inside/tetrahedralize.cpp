@@ -2,9 +2,9 @@
 //
 // Method automatic tries cdt (cdt_tets.h), then remesh. Method remesh is Delaunay refinement
 // (remesh_tets.h). If the refinement fails, a lattice is cut (lattice_tets.h) and made finer while
-// its volume is wrong. Each attempt is called a rung. The volume of its tets is compared with the
-// volume of {w >= threshold}. If no attempt has the right volume, the tets with the smallest misfit
-// are used, with a warning. The methods embed (embedding_tets.h), wrap (wrap_surface.h, filled as
+// its volume is wrong. The volume of the tets is compared with the volume of {w >= threshold}. If
+// no attempt has the right volume, the tets with the smallest misfit are used, with a warning. The
+// methods embed (embedding_tets.h), wrap (wrap_surface.h, filled as
 // in cdt) and ftetwild (ftetwild_process.h) are not part of this sequence.
 #include "inside/tetrahedralize.h"
 
@@ -48,10 +48,10 @@ Status no_method_fits(Status status)
   return status;
 }
 
-class Ladder
+class Tetrahedralizer
 {
 public:
-  Ladder(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  Tetrahedralizer(ExecutionContext& context, PointsView points, TrianglesView triangles,
     PreparedSurface& prepared, const TetrahedralizeOptions& options, TetrahedralizeResult& result)
     : points_(points), triangles_(triangles), options_(options), result_(result), context_(context),
       surface_(prepared.surface), inside_(prepared.inside),
@@ -67,12 +67,12 @@ public:
 
   Status run()
   {
-    return this->make_and_check([this]() { return this->climb(); });
+    return this->make_and_check([this]() { return this->run_method(); });
   }
   /// Complete method embed with tets that were computed by the caller.
   Status run(EmbeddingTets embedding)
   {
-    return this->make_and_check([&]() { return this->take(std::move(embedding)); });
+    return this->make_and_check([&]() { return this->use_embedding(std::move(embedding)); });
   }
 
 private:
@@ -112,9 +112,9 @@ private:
       : Status();
   }
 
-  // ---- Attempts ("rungs") of the methods ----
+  // ---- Attempts of the methods ----
 
-  Status climb()
+  Status run_method()
   {
     this->climb_start_ = this->context_.elapsed_seconds();
     if (this->options_.method == TetMethod::embed)
@@ -138,10 +138,10 @@ private:
           "; use method cdt (--method cdt), which also fills thin parts, or a resolution above " +
           std::to_string(this->remesh_resolution()) + " (--resolution) for smaller tets";
       }
-      return status.ok() ? status : this->take_lattice(status);
+      return status.ok() ? status : this->use_lattice_tets(status);
     }
     const bool automatic = this->options_.method == TetMethod::automatic;
-    const Status specks = automatic ? this->inside_.only_specks(this->surface_) : Status();
+    const Status specks = automatic ? this->inside_.check_not_specks(this->surface_) : Status();
     if (!specks.ok())
     {
       return no_method_fits(specks);
@@ -152,13 +152,13 @@ private:
     {
       const Phase phase(this->context_, "cdt", 0.0, cdt_built);
       // Fraction of the time limit for build(); the rest is for inserting vertices inside.
-      constexpr double share = 0.75;
-      status = cdt.build(share * this->time_limit_);
+      constexpr double fraction = 0.75;
+      status = cdt.build(fraction * this->time_limit_);
     }
     if (status.ok() || status.code == StatusCode::canceled)
     {
-      status = status.ok() ? this->take_cdt(cdt) : status;
-      return automatic && status.ok() && !this->is_good_enough() ? this->leave_cdt_for_quality()
+      status = status.ok() ? this->use_cdt_tets(cdt) : status;
+      return automatic && status.ok() && !this->is_good_enough() ? this->improve_cdt_by_remesh()
                                                                  : status;
     }
     const std::string why = status.message;
@@ -178,10 +178,10 @@ private:
     // If no attempt has the right volume, use the tets with the smallest misfit.
     if (cdt.misfit() < worst_misfit && cdt.misfit() <= this->lattice_misfit_)
     {
-      this->warn(wrong_volume(cdt.volume(), this->inside_).message);
-      return this->take_cdt(cdt);
+      this->warn(wrong_volume_error(cdt.volume(), this->inside_).message);
+      return this->use_cdt_tets(cdt);
     }
-    status = this->take_lattice(status);
+    status = this->use_lattice_tets(status);
     return automatic && !status.ok() ? no_method_fits(status) : status;
   }
 
@@ -199,7 +199,7 @@ private:
     return options;
   }
 
-  Status take_cdt(CdtTets& cdt, double begin = cdt_built, double end = 1.0)
+  Status use_cdt_tets(CdtTets& cdt, double begin = cdt_built, double end = 1.0)
   {
     const Phase phase(this->context_, "cdt", begin, end);
     Status status = cdt.complete();
@@ -241,7 +241,7 @@ private:
 
   /// Use the lattice tets with the smallest misfit, with a warning. Return `status` if there are no
   /// lattice tets.
-  Status take_lattice(const Status& status)
+  Status use_lattice_tets(const Status& status)
   {
     if (this->lattice_misfit_ > worst_misfit || status.code == StatusCode::canceled)
     {
@@ -249,7 +249,7 @@ private:
     }
     this->warn(status.message + "; parts thinner than a lattice cube are missing");
     this->result_.mesh = std::move(this->lattice_mesh_);
-    return this->keep_no_vertex(TetMethod::remesh);
+    return this->mark_all_vertices_new(TetMethod::remesh);
   }
 
   double angle() const
@@ -266,15 +266,15 @@ private:
   /// Run another attempt. Keep the tets of this attempt only if their smallest dihedral angle is
   /// larger than that of the present tets.
   /// @return ok or canceled.
-  template <typename Rung>
-  Status improve_by(const Rung& rung)
+  template <typename Attempt>
+  Status improve_by(const Attempt& attempt)
   {
     const double angle = this->angle();
     const Report report = std::exchange(this->report_, this->diagnosis_);
     TetrahedralizeResult result;
     result.defects = this->result_.defects;
     std::swap(result, this->result_);
-    const Status status = rung();
+    const Status status = attempt();
     if (status.code == StatusCode::canceled)
     {
       return status;
@@ -288,7 +288,7 @@ private:
   }
 
   /// Replace the tets of cdt by those of remesh if the smallest dihedral angle of remesh is larger.
-  Status leave_cdt_for_quality()
+  Status improve_cdt_by_remesh()
   {
     const double angle = this->angle();
     const Status status = this->improve_by([&] { return this->remesh(true); });
@@ -334,7 +334,7 @@ private:
       const double volume = tet_volumes(mesh.points, mesh.tets).sum();
       if (mesh.tets.rows() == 0)
       {
-        status = this->inside_.no_tets();
+        status = this->inside_.no_tets_error();
       }
       else if (status = check_tets(mesh.points, mesh.tets); !status.ok())
       {
@@ -342,7 +342,7 @@ private:
       }
       else if (!this->inside_.fits(volume))
       {
-        status = wrong_volume(volume, this->inside_);
+        status = wrong_volume_error(volume, this->inside_);
         if (this->inside_.misfit(volume) < this->lattice_misfit_)
         {
           this->lattice_misfit_ = this->inside_.misfit(volume);
@@ -353,7 +353,7 @@ private:
       this->log("lattice of " + std::to_string(resolution) + " cubes, cut", start, status);
       if (status.ok())
       {
-        return this->keep_no_vertex(TetMethod::remesh);
+        return this->mark_all_vertices_new(TetMethod::remesh);
       }
       const double finer_cubes = 8.0 * static_cast<double>(lattice.cubes[0]) *
         static_cast<double>(lattice.cubes[1]) * static_cast<double>(lattice.cubes[2]);
@@ -388,10 +388,10 @@ private:
     options.largest_edge = longest * cube;
     options.memory_limit = this->options_.memory_limit;
     // Time limit: the time that remains after method cdt, minus some time for the lattice.
-    constexpr double least_share = 0.25;
+    constexpr double minimum_fraction = 0.25;
     constexpr double lattice_share = 0.1;
     options.time_limit = std::max(
-      this->time_left() - lattice_share * this->time_limit_, least_share * this->time_limit_);
+      this->time_left() - lattice_share * this->time_limit_, minimum_fraction * this->time_limit_);
     if (this->options_.method == TetMethod::automatic)
     {
       // This limit is several times the duration for most surfaces. A surface of needle-shaped
@@ -410,7 +410,7 @@ private:
       const double volume = tet_volumes(result.mesh.points, result.mesh.tets).sum();
       if (!this->inside_.fits(volume))
       {
-        status = wrong_volume(volume, this->inside_);
+        status = wrong_volume_error(volume, this->inside_);
       }
     }
     this->log("Delaunay refinement of the inside", start, status);
@@ -450,15 +450,15 @@ private:
       return status;
     }
     this->report_.merge(status.report);
-    return this->take(std::move(embedding));
+    return this->use_embedding(std::move(embedding));
   }
 
-  Status take(EmbeddingTets embedding)
+  Status use_embedding(EmbeddingTets embedding)
   {
     this->result_.mesh = std::move(embedding.mesh);
     this->result_.inside_fractions = std::move(embedding.inside_fractions);
     this->result_.binding = std::move(embedding.binding);
-    return this->keep_no_vertex(TetMethod::embed);
+    return this->mark_all_vertices_new(TetMethod::embed);
   }
 
   /// Compute a closed surface that wraps the surface, and fill it like a clean surface.
@@ -469,7 +469,7 @@ private:
     Status status;
     {
       const Phase phase(this->context_, "wrap", 0.0, 0.5);
-      status = this->wrap_closely(wrap, around);
+      status = this->make_wrap(wrap, around);
     }
     if (!status.ok())
     {
@@ -482,12 +482,12 @@ private:
     {
       const Phase phase(this->context_, "cdt", 0.5, 0.7);
       // Fraction of the time limit for build(); the rest is for inserting vertices inside.
-      constexpr double share = 0.75;
-      status = cdt.build(share * options.time_limit);
+      constexpr double fraction = 0.75;
+      status = cdt.build(fraction * options.time_limit);
     }
     if (status.ok())
     {
-      status = this->take_cdt(cdt, 0.7, 0.9);
+      status = this->use_cdt_tets(cdt, 0.7, 0.9);
     }
     if (!status.ok())
     {
@@ -503,11 +503,11 @@ private:
         short_number(tet_volumes(mesh.points, mesh.tets).sum()) +
         ", but the enclosed volume by winding number is " + short_number(this->inside_.volume()));
     }
-    this->keep_no_vertex(TetMethod::wrap);
+    this->mark_all_vertices_new(TetMethod::wrap);
     return this->report_distance();
   }
 
-  Status wrap_closely(RepairedSurface& wrap, EnclosedRegion& around)
+  Status make_wrap(RepairedSurface& wrap, EnclosedRegion& around)
   {
     const double start = this->context_.elapsed_seconds();
     WrapOptions options;
@@ -515,8 +515,8 @@ private:
     options.offset = this->options_.wrap_offset;
     options.memory_limit = this->options_.memory_limit;
     // Fraction of the time limit for the wrap; the rest is for filling it.
-    constexpr double share = 0.75;
-    options.time_limit = share * this->time_limit_;
+    constexpr double fraction = 0.75;
+    options.time_limit = fraction * this->time_limit_;
     Points points;
     Triangles triangles;
     Status status;
@@ -533,8 +533,8 @@ private:
       as_it_is.orient = false;
       status = repair_surface(this->context_, points, triangles, as_it_is, wrap);
     }
-    bool turned = false;
-    return status.ok() ? around.build(this->context_, wrap, wrap_threshold, turned) : status;
+    bool flipped = false;
+    return status.ok() ? around.build(this->context_, wrap, wrap_threshold, flipped) : status;
   }
 
   Status ftetwild()
@@ -560,7 +560,7 @@ private:
     {
       return status;
     }
-    this->keep_no_vertex(TetMethod::ftetwild);
+    this->mark_all_vertices_new(TetMethod::ftetwild);
     return this->report_distance();
   }
 
@@ -571,14 +571,14 @@ private:
     const TetMesh& mesh = this->result_.mesh;
     if (mesh.tets.rows() == 0)
     {
-      return this->inside_.no_tets();
+      return this->inside_.no_tets_error();
     }
     const double volume = tet_volumes(mesh.points, mesh.tets).sum();
     if (this->inside_.fits(volume))
     {
       return {};
     }
-    const Status wrong = wrong_volume(volume, this->inside_);
+    const Status wrong = wrong_volume_error(volume, this->inside_);
     if (this->inside_.misfit(volume) > worst_misfit)
     {
       return wrong;
@@ -608,7 +608,7 @@ private:
     return this->time_limit_ - (this->context_.elapsed_seconds() - this->climb_start_);
   }
 
-  Status keep_no_vertex(TetMethod method)
+  Status mark_all_vertices_new(TetMethod method)
   {
     this->report_.set("method", to_string(method));
     this->result_.original_vertices.assign(
@@ -634,7 +634,7 @@ private:
     }
     if (this->result_.winding_numbers.size() == 0)
     {
-      const Points centers = centers_of(mesh.points, mesh.tets);
+      const Points centers = tet_centers(mesh.points, mesh.tets);
       status =
         this->inside_.winding().evaluate(this->context_, centers, this->result_.winding_numbers);
       if (!status.usable())
@@ -715,9 +715,9 @@ private:
 
   void warn(const std::string& sentence) { this->warnings_.push_back(sentence); }
 
-  void log(const std::string& rung, double start, const Status& status)
+  void log(const std::string& attempt, double start, const Status& status)
   {
-    this->log_.add(rung, this->context_.elapsed_seconds() - start, status);
+    this->log_.add(attempt, this->context_.elapsed_seconds() - start, status);
   }
 
   /// Largest misfit of a usable result: a factor of two in volume.
@@ -743,7 +743,7 @@ private:
   double lattice_misfit_ = std::numeric_limits<double>::infinity();
   const Report& diagnosis_; ///< report of the preparation, before the first attempt
   Report report_;
-  RungLog log_;
+  AttemptLog log_;
   std::vector<std::string> warnings_;
 };
 
@@ -807,7 +807,7 @@ Status check_options(const TetrahedralizeOptions& options)
     return Status::invalid_input("winding_threshold must be 0.5 for method ftetwild, not " +
       short_number(options.winding_threshold));
   }
-  return check_places(options.handles);
+  return check_handle_elements(options.handles);
 }
 } // namespace
 
@@ -842,7 +842,7 @@ const char* to_string(TetMethod method)
 namespace
 {
 /// Return a failure with the warnings and the report of the preparation, in the same form as the
-/// failures of the class Ladder.
+/// failures of the class Tetrahedralizer.
 Status failed(Status status, const PreparedSurface& prepared)
 {
   status.warnings.insert(
@@ -888,17 +888,19 @@ Status tetrahedralize(ExecutionContext& context, PointsView points, TrianglesVie
         ", but the surface was prepared with a winding_threshold of " +
         short_number(prepared.winding_threshold));
   }
-  return status.ok() ? Ladder(context, points, triangles, prepared, options, result).run() : status;
+  return status.ok() ? Tetrahedralizer(context, points, triangles, prepared, options, result).run()
+                     : status;
 }
 
-Status take_embedding(ExecutionContext& context, PointsView points, TrianglesView triangles,
+Status complete_embedding(ExecutionContext& context, PointsView points, TrianglesView triangles,
   PreparedSurface& prepared, EmbeddingTets embedding, TetrahedralizeResult& result)
 {
   result = TetrahedralizeResult();
   TetrahedralizeOptions options;
   options.method = TetMethod::embed;
   options.winding_threshold = prepared.winding_threshold;
-  return Ladder(context, points, triangles, prepared, options, result).run(std::move(embedding));
+  return Tetrahedralizer(context, points, triangles, prepared, options, result)
+    .run(std::move(embedding));
 }
 
 } // namespace bindpose

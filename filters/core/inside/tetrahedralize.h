@@ -6,7 +6,7 @@
 #include "base/execution.h"
 #include "embedding/embedding_tets.h"
 #include "geometry/mesh.h"
-#include "inside/handle_places.h"
+#include "inside/handle_elements.h"
 #include "inside/prepared_surface.h"
 #include "segmentation/segmentation.h"
 
@@ -91,7 +91,7 @@ struct TetrahedralizeOptions
   /// For cdt and wrap: each handle point that is inside becomes a vertex. Along segments and
   /// triangles of handles, vertices are inserted at intervals of the local edge length.
   /// (insert_handles() splits the tets of the other methods.)
-  HandlePlaces handles;
+  HandleElements handles;
 };
 
 /// Label of a tet. The values are those of the array `Label`: a tet is inside if its value is above
@@ -117,7 +117,7 @@ struct TetrahedralizeResult
   /// Label of each tet, #T; a tet of method embed is inside if its center is inside.
   std::vector<TetLabel> labels;
   Eigen::VectorXd min_dihedral_angles; ///< #T, degrees
-  std::vector<DefectPlace> defects; ///< defects of the surface with their locations
+  std::vector<DefectOccurrence> defects; ///< defects of the surface with their locations
   std::vector<Index> handle_vertices; ///< for cdt and wrap, #H: vertex at the handle point, or -1
   /// For embed only, otherwise empty: the fraction of each tet that is inside, #T, and the
   /// positions of the input points in the tets.
@@ -203,7 +203,7 @@ Status tetrahedralize(ExecutionContext& context, PointsView points, TrianglesVie
 
 /// Complete method embed from tets that embed_surface() has computed for the prepared surface: set
 /// winding numbers, labels, angles and the report. Cost: one winding number per tet.
-Status take_embedding(ExecutionContext& context, PointsView points, TrianglesView triangles,
+Status complete_embedding(ExecutionContext& context, PointsView points, TrianglesView triangles,
   PreparedSurface& prepared, EmbeddingTets embedding, TetrahedralizeResult& result);
 
 } // namespace bindpose

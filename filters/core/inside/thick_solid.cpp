@@ -136,7 +136,7 @@ Status thick_solid(ExecutionContext& context, PointsView points, TrianglesView t
   {
     const Phase phase(context, "distance", 0.4, 0.6);
     constexpr Index block = 256;
-    const bool whole = parallel_for(context, vertices.rows(), block,
+    const bool completed = parallel_for(context, vertices.rows(), block,
       [&](Index begin, Index end)
       {
         for (Index v = begin; v < end; ++v)
@@ -144,7 +144,7 @@ Status thick_solid(ExecutionContext& context, PointsView points, TrianglesView t
           region.inside[v] = region.inside[v] || in_layer(vertices.row(v)) ? 1 : 0;
         }
       });
-    if (!whole)
+    if (!completed)
     {
       return Status::canceled();
     }

@@ -56,7 +56,7 @@ Status wrap_surface(ExecutionContext& context, PointsView points, TrianglesView 
   MesherData input;
   input.points = frame.into(points);
   input.triangles = triangles;
-  MesherAnswer answer;
+  MesherResult answer;
   status = run_mesher(context, request, input, answer);
   if (!status.ok())
   {

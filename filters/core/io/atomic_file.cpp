@@ -200,7 +200,7 @@ void AtomicFile::discard_all()
   files.paths.clear();
 }
 
-Status write_whole_file(const std::string& path, std::string_view content, bool overwrite)
+Status write_file_atomically(const std::string& path, std::string_view content, bool overwrite)
 {
   AtomicFile file;
   Status status = file.open(path, overwrite);

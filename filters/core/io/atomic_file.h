@@ -65,7 +65,7 @@ private:
 };
 
 /// Write a text to a file that is either complete or missing.
-Status write_whole_file(const std::string& path, std::string_view content, bool overwrite);
+Status write_file_atomically(const std::string& path, std::string_view content, bool overwrite);
 
 } // namespace bindpose
 

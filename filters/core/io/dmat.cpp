@@ -29,7 +29,7 @@ Status read_ascii(TextScanner& scanner, Weights& matrix)
     for (Index r = 0; r < matrix.rows(); ++r)
     {
       std::string_view word;
-      if (!scanner.next_word_of_text(word))
+      if (!scanner.next_word_across_lines(word))
       {
         return scanner.error("the file is truncated: the matrix has " +
           std::to_string(matrix.cols()) + " columns of " + std::to_string(matrix.rows()) +
@@ -61,7 +61,7 @@ Status read_dmat(const std::string& path, Weights& matrix)
   bool binary = false;
   TextScanner ahead = scanner;
   std::string_view word;
-  if (status.ok() && columns == 0 && rows == 0 && ahead.next_word_of_text(word))
+  if (status.ok() && columns == 0 && rows == 0 && ahead.next_word_across_lines(word))
   {
     binary = true;
     status = read_size(scanner, columns, rows);

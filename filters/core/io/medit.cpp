@@ -39,7 +39,7 @@ Status read_medit_vertices(TextScanner& scanner, std::size_t bytes, Index dimens
       status = scanner.read_number("a vertex coordinate", points(v, k));
     }
     std::string_view reference;
-    if (status.ok() && !scanner.next_word_of_text(reference))
+    if (status.ok() && !scanner.next_word_across_lines(reference))
     {
       status = scanner.error("the file ends before the last vertex");
     }
@@ -64,7 +64,7 @@ Status read_elements(TextScanner& scanner, std::size_t bytes, Elements& elements
       status = scanner.read_index("a vertex id", largest_count, elements(e, k));
     }
     std::string_view reference;
-    if (status.ok() && !scanner.next_word_of_text(reference))
+    if (status.ok() && !scanner.next_word_across_lines(reference))
     {
       status = scanner.error("the file ends before the last element");
     }
@@ -98,7 +98,7 @@ Status read_sections(TextScanner& scanner, std::size_t bytes, MeditMesh& mesh)
   Index dimension = 3;
   std::string_view word;
   Status status;
-  while (status.ok() && scanner.next_word_of_text(word) && word != "End")
+  while (status.ok() && scanner.next_word_across_lines(word) && word != "End")
   {
     if (word == "Dimension")
     {
@@ -138,7 +138,7 @@ Status read_medit(const std::string& path, MeditMesh& mesh)
   TextScanner scanner(path, text);
   std::string_view word;
   Index version = 0;
-  if (!scanner.next_word_of_text(word) || word != "MeshVersionFormatted" ||
+  if (!scanner.next_word_across_lines(word) || word != "MeshVersionFormatted" ||
     !scanner.read_index("the version", 10, version).ok())
   {
     return scanner.error("an ASCII MEDIT file must begin with MeshVersionFormatted and a number");

@@ -25,9 +25,11 @@ Status read_vertex(TextScanner& scanner, std::vector<Vec3>& points)
   return {};
 }
 
-/// Read the vertex ids of a face or a polyline. Skip entries with fewer than `fewest` vertices.
-Status read_entry(TextScanner& scanner, Index vertices, const std::string& what, std::size_t fewest,
-  std::vector<Index>& corners, std::vector<Index>& offsets, Index& skipped)
+/// Read the vertex ids of a face or a polyline. Skip entries with fewer than `minimum_vertices`
+/// vertices.
+Status read_entry(TextScanner& scanner, Index vertices, const std::string& what,
+  std::size_t minimum_vertices, std::vector<Index>& corners, std::vector<Index>& offsets,
+  Index& skipped)
 {
   const std::size_t begin = corners.size();
   std::string_view word;
@@ -47,7 +49,7 @@ Status read_entry(TextScanner& scanner, Index vertices, const std::string& what,
     }
     corners.push_back(vertex);
   }
-  if (corners.size() < begin + fewest)
+  if (corners.size() < begin + minimum_vertices)
   {
     corners.resize(begin);
     skipped += 1;

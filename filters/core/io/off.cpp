@@ -15,7 +15,7 @@ namespace
 Status read_header(TextScanner& scanner)
 {
   std::string_view word;
-  if (!scanner.next_word_of_text(word))
+  if (!scanner.next_word_across_lines(word))
   {
     return scanner.error("the file has no OFF header");
   }
@@ -43,7 +43,7 @@ Status read_counts(TextScanner& scanner, Index& vertices, Index& faces)
 {
   TextScanner ahead = scanner;
   std::string_view word;
-  if (ahead.next_word_of_text(word) && word == "BINARY")
+  if (ahead.next_word_across_lines(word) && word == "BINARY")
   {
     return ahead.error("binary OFF files are not supported");
   }

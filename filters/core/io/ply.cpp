@@ -156,10 +156,10 @@ Status read_header(TextScanner& scanner, Header& header)
 }
 
 /// Reads one value after the other, in any of the three encodings.
-class Values
+class ValueReader
 {
 public:
-  Values(TextScanner& scanner, std::string_view text, Encoding encoding)
+  ValueReader(TextScanner& scanner, std::string_view text, Encoding encoding)
     : scanner_(scanner), bytes_(text.substr(scanner.position())), encoding_(encoding)
   {
   }
@@ -169,7 +169,7 @@ public:
     if (this->encoding_ == Encoding::ascii)
     {
       std::string_view word;
-      return this->scanner_.next_word_of_text(word) && parse_number(word, value);
+      return this->scanner_.next_word_across_lines(word) && parse_number(word, value);
     }
     const std::size_t size = size_of(type);
     if (this->bytes_.size() < size)
@@ -197,7 +197,7 @@ public:
 
 private:
   template <typename T>
-  static double as(const char* raw)
+  static double convert(const char* raw)
   {
     T value;
     std::memcpy(&value, raw, sizeof(T));
@@ -208,23 +208,23 @@ private:
     switch (type)
     {
       case Type::int8:
-        return as<std::int8_t>(raw);
+        return convert<std::int8_t>(raw);
       case Type::uint8:
-        return as<std::uint8_t>(raw);
+        return convert<std::uint8_t>(raw);
       case Type::int16:
-        return as<std::int16_t>(raw);
+        return convert<std::int16_t>(raw);
       case Type::uint16:
-        return as<std::uint16_t>(raw);
+        return convert<std::uint16_t>(raw);
       case Type::int32:
-        return as<std::int32_t>(raw);
+        return convert<std::int32_t>(raw);
       case Type::uint32:
-        return as<std::uint32_t>(raw);
+        return convert<std::uint32_t>(raw);
       case Type::float32:
-        return as<float>(raw);
+        return convert<float>(raw);
       case Type::float64:
         break;
     }
-    return as<double>(raw);
+    return convert<double>(raw);
   }
 
   TextScanner& scanner_;
@@ -258,7 +258,7 @@ Role role_of(const Element& element, const Property& property)
   return Role::skipped;
 }
 
-Status read_list(const std::string& path, Values& values, const Property& property, Role role,
+Status read_list(const std::string& path, ValueReader& values, const Property& property, Role role,
   Index vertices, PolygonMesh& mesh)
 {
   double count = 0;
@@ -299,8 +299,8 @@ Status read_list(const std::string& path, Values& values, const Property& proper
   return {};
 }
 
-Status read_element(const std::string& path, Values& values, const Element& element, Index vertices,
-  PolygonMesh& mesh)
+Status read_element(const std::string& path, ValueReader& values, const Element& element,
+  Index vertices, PolygonMesh& mesh)
 {
   std::vector<Role> roles;
   for (const Property& property : element.properties)
@@ -395,7 +395,7 @@ Status read_ply(const std::string& path, PolygonMesh& mesh)
     return scanner.error("the header must have the elements vertex and face");
   }
   mesh.points.setZero(vertices, 3);
-  Values values(scanner, text, header.encoding);
+  ValueReader values(scanner, text, header.encoding);
   for (const Element& element : header.elements)
   {
     status = read_element(path, values, element, vertices, mesh);

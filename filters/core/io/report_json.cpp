@@ -24,18 +24,18 @@ bool has_json_form(const T& value)
 
 /// Return the JSON object for the part of the key before the last dot. Create objects that do not
 /// exist.
-/// @param last set to the rest of the key.
-Json& object_of(Json& root, const std::string& key, std::string& last)
+/// @param member_name set to the rest of the key.
+Json& object_of(Json& root, const std::string& key, std::string& member_name)
 {
-  Json* at = &root;
+  Json* node = &root;
   std::size_t begin = 0;
   for (std::size_t dot = key.find('.'); dot != std::string::npos; dot = key.find('.', begin))
   {
-    at = &(*at)[key.substr(begin, dot - begin)];
+    node = &(*node)[key.substr(begin, dot - begin)];
     begin = dot + 1;
   }
-  last = key.substr(begin);
-  return *at;
+  member_name = key.substr(begin);
+  return *node;
 }
 } // namespace
 
@@ -53,9 +53,9 @@ std::string to_json(const Report& report, int indent)
         {
           if (has_json_form(v))
           {
-            std::string last;
-            Json& object = object_of(root, name, last);
-            object[last] = v;
+            std::string member_name;
+            Json& object = object_of(root, name, member_name);
+            object[member_name] = v;
           }
         }
         else
@@ -63,9 +63,9 @@ std::string to_json(const Report& report, int indent)
           // The value is a list of values (key "h[]" or "h"), or one property of a list of objects
           // (key "h[].x").
           const bool column = brackets != std::string::npos && brackets + 2 < name.size();
-          std::string last;
-          Json& object = object_of(root, name.substr(0, brackets), last);
-          Json& list = object[last];
+          std::string member_name;
+          Json& object = object_of(root, name.substr(0, brackets), member_name);
+          Json& list = object[member_name];
           if (list.is_null())
           {
             list = Json::array();

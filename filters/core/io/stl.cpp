@@ -26,9 +26,9 @@ public:
   Index id_of(const Vec3& p)
   {
     const Key key{ p.x() + 0.0, p.y() + 0.0, p.z() + 0.0 }; // -0 + 0 is +0
-    const auto [entry, fresh] =
+    const auto [entry, inserted] =
       this->ids_.insert({ key, static_cast<Index>(this->points_.size()) });
-    if (fresh)
+    if (inserted)
     {
       this->points_.push_back(p);
     }
@@ -85,7 +85,7 @@ Status read_text(
 {
   TextScanner scanner(path, text, 0);
   std::string_view word;
-  if (!scanner.next_word_of_text(word) || word != "solid")
+  if (!scanner.next_word_across_lines(word) || word != "solid")
   {
     return Status::invalid_input(path +
       " is not a valid STL file: it must begin with the word solid or have the size that follows "
@@ -93,7 +93,7 @@ Status read_text(
   }
   scanner.rest_of_line();
   bool ended = false;
-  while (scanner.next_word_of_text(word))
+  while (scanner.next_word_across_lines(word))
   {
     ended = word == "endsolid";
     if (ended)

@@ -216,7 +216,7 @@ bool TextScanner::next_word(std::string_view& word)
   return true;
 }
 
-bool TextScanner::next_word_of_text(std::string_view& word)
+bool TextScanner::next_word_across_lines(std::string_view& word)
 {
   while (!this->next_word(word))
   {
@@ -243,7 +243,7 @@ std::string_view TextScanner::rest_of_line()
 Status TextScanner::read_index(const char* what, Index limit, Index& value)
 {
   std::string_view word;
-  if (!this->next_word_of_text(word))
+  if (!this->next_word_across_lines(word))
   {
     return this->error(std::string("unexpected end of file: expected ") + what);
   }
@@ -262,7 +262,7 @@ Status TextScanner::read_index(const char* what, Index limit, Index& value)
 Status TextScanner::read_number(const char* what, double& value)
 {
   std::string_view word;
-  if (!this->next_word_of_text(word))
+  if (!this->next_word_across_lines(word))
   {
     return this->error(std::string("unexpected end of file: expected ") + what);
   }

@@ -43,7 +43,7 @@ public:
   /// Get the next word of the current line. Return false at the end of the line.
   bool next_word(std::string_view& word);
   /// Get the next word of the current line or of a later line. Return false at the end of the text.
-  bool next_word_of_text(std::string_view& word);
+  bool next_word_across_lines(std::string_view& word);
   /// Return the unread rest of the current line, without surrounding blanks and without its
   /// comment.
   std::string_view rest_of_line();

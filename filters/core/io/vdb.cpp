@@ -67,7 +67,7 @@ constexpr Index leaf_size = Leaf::DIM;
 /// which extend beyond the samples.
 constexpr Index largest_index = Index(1) << 30;
 /// Maximum number of samples: more than any memory can store, but within the range of Index.
-constexpr double most_samples = 1e15;
+constexpr double maximum_samples = 1e15;
 
 Status check(const SampleGrid& grid, const VdbOptions& options)
 {
@@ -88,7 +88,7 @@ Status check(const SampleGrid& grid, const VdbOptions& options)
   {
     return Status::invalid_input("the grid has no samples");
   }
-  if (samples > most_samples)
+  if (samples > maximum_samples)
   {
     return Status::invalid_input("the grid has too many samples");
   }
@@ -345,7 +345,7 @@ bool make_tree(ExecutionContext& context, const SampleGrid& grid, const Value* v
   const Classifier classify(options);
   const Voxel background = classify.background();
   std::vector<Block> made(static_cast<std::size_t>(blocks.count()));
-  std::atomic<Index> bad{ grid.count() };
+  std::atomic<Index> first_invalid{ grid.count() };
   const auto make = [&](Index b, Leaf& leaf)
   {
     const openvdb::Coord origin = blocks.origin(b);
@@ -359,8 +359,8 @@ bool make_tree(ExecutionContext& context, const SampleGrid& grid, const Value* v
         const auto exact = static_cast<double>(values[sample]);
         if (!std::isfinite(static_cast<float>(exact)))
         {
-          Index first = bad.load();
-          while (sample < first && !bad.compare_exchange_weak(first, sample))
+          Index first = first_invalid.load();
+          while (sample < first && !first_invalid.compare_exchange_weak(first, sample))
           {
           }
         }
@@ -389,7 +389,7 @@ bool make_tree(ExecutionContext& context, const SampleGrid& grid, const Value* v
   {
     return false;
   }
-  not_finite = bad < grid.count() ? bad.load() : -1;
+  not_finite = first_invalid < grid.count() ? first_invalid.load() : -1;
   for (Index b = 0; b < blocks.count() && not_finite < 0; ++b)
   {
     Block& block = made[static_cast<std::size_t>(b)];
@@ -487,7 +487,7 @@ private:
 
 /// Return "xxxxxxxx-xxxx-8xxx-8xxx-xxxxxxxxxxxx": a UUID of version 8, for which any digits x are
 /// valid (RFC 9562).
-std::string uuid_of(std::uint64_t first, std::uint64_t second)
+std::string make_uuid(std::uint64_t first, std::uint64_t second)
 {
   char digits[33];
   std::snprintf(digits, sizeof(digits), "%016llx%016llx", static_cast<unsigned long long>(first),
@@ -530,7 +530,7 @@ bool replace_uuid_by_hash(
   }
   file.clear();
   file.seekp(at);
-  file << uuid_of(first.value(), second.value());
+  file << make_uuid(first.value(), second.value());
   file.close();
   return !file.fail();
 }

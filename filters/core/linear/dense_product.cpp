@@ -76,36 +76,36 @@ BINDPOSE_ALWAYS_INLINE void pack_rows(
   const StridedMatrix& a, Index begin, Index end, Index first, Index inner, double* to)
 {
   constexpr Index rows = Tile<bytes>::rows;
-  for (Index at = begin; at < end; at += rows)
+  for (Index offset = begin; offset < end; offset += rows)
   {
-    const Index count = std::min(rows, end - at);
+    const Index count = std::min(rows, end - offset);
     for (Index k = 0; k < inner; ++k, to += rows)
     {
       for (Index i = 0; i < rows; ++i)
       {
-        to[i] = i < count ? a.data[(at + i) * a.row + (first + k) * a.column] : 0.0;
+        to[i] = i < count ? a.data[(offset + i) * a.row + (first + k) * a.column] : 0.0;
       }
     }
   }
 }
 
-/// Copy the columns of one tile of matrix `b`, beginning at column `left`. If the tile extends
-/// beyond the last column, it is padded with zeros.
+/// Copy the columns of one tile of matrix `b`, beginning at column `first_column`. If the tile
+/// extends beyond the last column, it is padded with zeros.
 template <int bytes>
 BINDPOSE_ALWAYS_INLINE void pack_columns(
-  const StridedMatrix& b, Index left, Index first, Index inner, double* to)
+  const StridedMatrix& b, Index first_column, Index first, Index inner, double* to)
 {
   constexpr Index cols = Tile<bytes>::cols;
-  const Index count = std::min(cols, b.cols - left);
+  const Index count = std::min(cols, b.cols - first_column);
   for (Index k = 0; k < inner; ++k, to += cols)
   {
-    const double* const from = b.data + (first + k) * b.row + left;
+    const double* const from = b.data + (first + k) * b.row + first_column;
     if (count == cols)
     {
       for (Index p = 0; p < Tile<bytes>::packs; ++p)
       {
-        const Index at = p * Tile<bytes>::lanes;
-        pack_at<bytes>(to + at) = pack_at<bytes>(from + at);
+        const Index offset = p * Tile<bytes>::lanes;
+        pack_at<bytes>(to + offset) = pack_at<bytes>(from + offset);
       }
       continue;
     }
@@ -121,10 +121,10 @@ BINDPOSE_ALWAYS_INLINE void add_product_of(
   const StridedMatrix& a, const StridedMatrix& b, double* c, Index c_stride, bool lower)
 {
   using T = Tile<bytes>;
-  const Index deepest = std::min(inner_block, a.cols);
+  const Index maximum_inner = std::min(inner_block, a.cols);
   const Index row_tiles = tiles_of(std::min(row_block, a.rows), T::rows);
-  std::vector<double> packed_a(static_cast<std::size_t>(row_tiles * T::rows * deepest));
-  std::vector<double> packed_b(static_cast<std::size_t>(T::cols * deepest));
+  std::vector<double> packed_a(static_cast<std::size_t>(row_tiles * T::rows * maximum_inner));
+  std::vector<double> packed_b(static_cast<std::size_t>(T::cols * maximum_inner));
   alignas(64) double sums[T::rows * T::cols];
   for (Index first = 0; first < a.cols; first += inner_block)
   {
@@ -133,22 +133,23 @@ BINDPOSE_ALWAYS_INLINE void add_product_of(
     {
       const Index end = std::min(begin + row_block, a.rows);
       pack_rows<bytes>(a, begin, end, first, inner, packed_a.data());
-      for (Index left = 0; left < b.cols && (!lower || left < end); left += T::cols)
+      for (Index first_column = 0; first_column < b.cols && (!lower || first_column < end);
+           first_column += T::cols)
       {
-        const Index columns = std::min(T::cols, b.cols - left);
-        pack_columns<bytes>(b, left, first, inner, packed_b.data());
-        for (Index at = begin; at < end; at += T::rows)
+        const Index columns = std::min(T::cols, b.cols - first_column);
+        pack_columns<bytes>(b, first_column, first, inner, packed_b.data());
+        for (Index offset = begin; offset < end; offset += T::rows)
         {
-          const Index rows = std::min(T::rows, end - at);
-          if (lower && left > at + rows - 1)
+          const Index rows = std::min(T::rows, end - offset);
+          if (lower && first_column > offset + rows - 1)
           {
             continue;
           }
           multiply_tile<bytes>(
-            packed_a.data() + (at - begin) * inner, packed_b.data(), inner, sums);
+            packed_a.data() + (offset - begin) * inner, packed_b.data(), inner, sums);
           for (Index i = 0; i < rows; ++i)
           {
-            double* const to = c + (at + i) * c_stride + left;
+            double* const to = c + (offset + i) * c_stride + first_column;
             for (Index j = 0; j < columns; ++j)
             {
               to[j] += sums[i * T::cols + j];

@@ -100,7 +100,7 @@ void Fronts::measure_stacks()
 }
 
 /// The analysis, which all clones share.
-struct Plan
+struct Analysis
 {
   Fronts fronts; // of the whole matrix
   std::vector<int> node_of_column;
@@ -155,11 +155,12 @@ std::vector<int> postorder(const std::vector<int>& parent)
 /// later row of column j is also in column i. So the parent of a restricted supernode is the
 /// supernode of its first remaining row below, even if the former parent has no column left. The
 /// remaining supernodes are sorted into a postorder of the new tree.
-void restrict_fronts(const Plan& plan, const std::vector<char>& left_out, BlockFronts& block)
+void restrict_fronts(
+  const Analysis& analysis, const std::vector<char>& excluded, BlockFronts& block)
 {
-  const Fronts& whole = plan.fronts;
+  const Fronts& whole = analysis.fronts;
   const Supernodes& nodes = whole.nodes;
-  const auto kept = [&](int step) { return !left_out[nodes.order[step]]; };
+  const auto kept = [&](int step) { return !excluded[nodes.order[step]]; };
   std::vector<int> kept_nodes, parent;
   std::vector<int> kept_of_node(static_cast<std::size_t>(whole.count()), -1);
   for (int s = 0; s < whole.count(); ++s)
@@ -181,7 +182,7 @@ void restrict_fronts(const Plan& plan, const std::vector<char>& left_out, BlockF
     for (int r = nodes.first_row[s] + whole.columns(s); r < nodes.first_row[s + 1] && above < 0;
          ++r)
     {
-      above = kept(nodes.rows[r]) ? kept_of_node[plan.node_of_column[nodes.rows[r]]] : -1;
+      above = kept(nodes.rows[r]) ? kept_of_node[analysis.node_of_column[nodes.rows[r]]] : -1;
     }
     parent.push_back(above);
   }
@@ -196,7 +197,7 @@ void restrict_fronts(const Plan& plan, const std::vector<char>& left_out, BlockF
   mine = Supernodes();
   block.fronts.parent.clear();
   block.step_in_whole.clear();
-  block.step_in_block.assign(static_cast<std::size_t>(plan.size()), -1);
+  block.step_in_block.assign(static_cast<std::size_t>(analysis.size()), -1);
   mine.first_column.push_back(0);
   for (const int k : sorted)
   {
@@ -241,7 +242,7 @@ Status wrong_pattern()
 }
 
 /// Consecutive rows of an update matrix that are also consecutive in the parent's front.
-struct Run
+struct RowRun
 {
   int from = 0;
   int to = 0;
@@ -251,19 +252,22 @@ struct Run
 
 struct FloatCholesky::Impl
 {
-  std::shared_ptr<Plan> plan;
+  std::shared_ptr<Analysis> analysis;
   BlockFronts block; // of the last factor_block()
   bool is_block = false; // true: the factor is that of a block
   std::vector<float> values;
   std::vector<float> stack[2];
   std::size_t top[2] = { 0, 0 };
-  std::vector<int> waiting[2]; // supernodes whose update matrices are on the stacks
+  std::vector<int> stacked_supernodes[2]; // supernodes whose update matrices are on the stacks
   // Per step of elimination: its index in the front that is being assembled.
-  std::vector<int> row_in_front;
-  std::vector<Run> runs;
+  std::vector<int> front_index_of_row;
+  std::vector<RowRun> runs;
   Eigen::VectorXd scale; // 1 / sqrt(diagonal entry), per unknown
 
-  const Fronts& fronts() const { return this->is_block ? this->block.fronts : this->plan->fronts; }
+  const Fronts& fronts() const
+  {
+    return this->is_block ? this->block.fronts : this->analysis->fronts;
+  }
   Status factor(const ExecutionContext& context, const SparseMatrix& matrix, double shift);
   void scatter(const SparseMatrix& matrix, double shift, int s);
   int eliminate(const SparseMatrix& matrix, double shift, int s);
@@ -278,13 +282,13 @@ FloatCholesky& FloatCholesky::operator=(FloatCholesky&&) noexcept = default;
 
 bool FloatCholesky::analyzed() const
 {
-  return this->impl_->plan != nullptr;
+  return this->impl_->analysis != nullptr;
 }
 
 FloatCholesky FloatCholesky::clone() const
 {
   FloatCholesky copy;
-  copy.impl_->plan = this->impl_->plan;
+  copy.impl_->analysis = this->impl_->analysis;
   return copy;
 }
 
@@ -298,21 +302,22 @@ void FloatCholesky::release_workspace()
 
 double FloatCholesky::factor_bytes() const
 {
-  const Plan* plan = this->impl_->plan.get();
-  return plan ? sizeof(float) * static_cast<double>(plan->fronts.nodes.first_value.back()) : 0.0;
+  const Analysis* analysis = this->impl_->analysis.get();
+  return analysis ? sizeof(float) * static_cast<double>(analysis->fronts.nodes.first_value.back())
+                  : 0.0;
 }
 
 double FloatCholesky::workspace_bytes() const
 {
-  const Plan* plan = this->impl_->plan.get();
-  return plan
-    ? sizeof(float) * static_cast<double>(plan->fronts.stack_size[0] + plan->fronts.stack_size[1])
-    : 0.0;
+  const Analysis* analysis = this->impl_->analysis.get();
+  return analysis ? sizeof(float) *
+      static_cast<double>(analysis->fronts.stack_size[0] + analysis->fronts.stack_size[1])
+                  : 0.0;
 }
 
 Index FloatCholesky::factorizations() const
 {
-  return this->impl_->plan ? this->impl_->plan->factorizations.load() : 0;
+  return this->impl_->analysis ? this->impl_->analysis->factorizations.load() : 0;
 }
 
 Status FloatCholesky::analyze(const SparseSolver& solver, const SparseMatrix& matrix)
@@ -324,40 +329,40 @@ Status FloatCholesky::analyze(const SparseSolver& solver, const SparseMatrix& ma
     return Status::failure(StatusCode::unavailable,
       "the factorization in single precision needs a supernodal factor of CHOLMOD");
   }
-  auto plan = std::make_shared<Plan>();
-  plan->fronts.nodes = *found;
-  const Supernodes& nodes = plan->fronts.nodes;
-  const int n = plan->size();
+  auto analysis = std::make_shared<Analysis>();
+  analysis->fronts.nodes = *found;
+  const Supernodes& nodes = analysis->fronts.nodes;
+  const int n = analysis->size();
   if (matrix.rows() != n || matrix.cols() != n || !matrix.isCompressed())
   {
     return wrong_pattern();
   }
   const auto count = static_cast<int>(nodes.first_column.size()) - 1;
-  plan->node_of_column.resize(static_cast<std::size_t>(n));
+  analysis->node_of_column.resize(static_cast<std::size_t>(n));
   for (int s = 0; s < count; ++s)
   {
     for (int j = nodes.first_column[s]; j < nodes.first_column[s + 1]; ++j)
     {
-      plan->node_of_column[j] = s;
+      analysis->node_of_column[j] = s;
     }
   }
-  plan->fronts.parent.assign(static_cast<std::size_t>(count), -1);
+  analysis->fronts.parent.assign(static_cast<std::size_t>(count), -1);
   for (int s = 0; s < count; ++s)
   {
     const int below = nodes.first_row[s] + nodes.first_column[s + 1] - nodes.first_column[s];
     if (below < nodes.first_row[s + 1])
     {
-      plan->fronts.parent[s] = plan->node_of_column[nodes.rows[below]];
+      analysis->fronts.parent[s] = analysis->node_of_column[nodes.rows[below]];
     }
   }
-  plan->fronts.measure_stacks();
+  analysis->fronts.measure_stacks();
 
   std::vector<int> step_of(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i)
   {
     step_of[nodes.order[i]] = i;
   }
-  plan->first_entry.assign(static_cast<std::size_t>(n) + 1, 0);
+  analysis->first_entry.assign(static_cast<std::size_t>(n) + 1, 0);
   std::vector<int> column_of_entry(static_cast<std::size_t>(matrix.nonZeros()), -1);
   for (int j = 0; j < n; ++j)
   {
@@ -370,7 +375,7 @@ Status FloatCholesky::analyze(const SparseSolver& solver, const SparseMatrix& ma
       }
       const int column = std::min(step_of[i], step_of[j]);
       const int row = std::max(step_of[i], step_of[j]);
-      const int s = plan->node_of_column[column];
+      const int s = analysis->node_of_column[column];
       const int* begin = nodes.rows.data() + nodes.first_row[s];
       const int* end = nodes.rows.data() + nodes.first_row[s + 1];
       if (!std::binary_search(begin, end, row))
@@ -378,13 +383,14 @@ Status FloatCholesky::analyze(const SparseSolver& solver, const SparseMatrix& ma
         return wrong_pattern();
       }
       column_of_entry[k] = column;
-      plan->first_entry[column + 1] += 1;
+      analysis->first_entry[column + 1] += 1;
     }
   }
-  std::partial_sum(plan->first_entry.begin(), plan->first_entry.end(), plan->first_entry.begin());
-  plan->entry.resize(static_cast<std::size_t>(plan->first_entry.back()));
-  plan->entry_row.resize(plan->entry.size());
-  std::vector<int> next(plan->first_entry.begin(), plan->first_entry.end() - 1);
+  std::partial_sum(
+    analysis->first_entry.begin(), analysis->first_entry.end(), analysis->first_entry.begin());
+  analysis->entry.resize(static_cast<std::size_t>(analysis->first_entry.back()));
+  analysis->entry_row.resize(analysis->entry.size());
+  std::vector<int> next(analysis->first_entry.begin(), analysis->first_entry.end() - 1);
   for (int j = 0; j < n; ++j)
   {
     for (int k = matrix.outerIndexPtr()[j]; k < matrix.outerIndexPtr()[j + 1]; ++k)
@@ -392,22 +398,22 @@ Status FloatCholesky::analyze(const SparseSolver& solver, const SparseMatrix& ma
       if (column_of_entry[k] >= 0)
       {
         const int at = next[column_of_entry[k]]++;
-        plan->entry[at] = k;
-        plan->entry_row[at] = std::max(step_of[matrix.innerIndexPtr()[k]], step_of[j]);
+        analysis->entry[at] = k;
+        analysis->entry_row[at] = std::max(step_of[matrix.innerIndexPtr()[k]], step_of[j]);
       }
     }
   }
-  plan->stored_entries = matrix.nonZeros();
-  this->impl_->plan = std::move(plan);
+  analysis->stored_entries = matrix.nonZeros();
+  this->impl_->analysis = std::move(analysis);
   return {};
 }
 
 #ifdef BINDPOSE_HAS_CHOLMOD
-/// Write the entries of the scaled matrix to the block of a supernode's columns. row_in_front
+/// Write the entries of the scaled matrix to the block of a supernode's columns. front_index_of_row
 /// contains the rows of this supernode.
 void FloatCholesky::Impl::scatter(const SparseMatrix& matrix, double shift, int s)
 {
-  const Plan& shared = *this->plan;
+  const Analysis& shared = *this->analysis;
   const std::vector<int>& order = shared.fronts.nodes.order;
   const Fronts& fronts = this->fronts();
   const auto rows = static_cast<std::size_t>(fronts.rows(s));
@@ -428,7 +434,7 @@ void FloatCholesky::Impl::scatter(const SparseMatrix& matrix, double shift, int 
       const double value = matrix.valuePtr()[shared.entry[e]] * this->scale[order[in_whole]] *
         this->scale[order[column]];
       block[static_cast<std::size_t>(c) * rows +
-        static_cast<std::size_t>(this->row_in_front[row])] =
+        static_cast<std::size_t>(this->front_index_of_row[row])] =
         static_cast<float>(in_whole == column ? value + shift * std::abs(value) : value);
     }
   }
@@ -443,7 +449,7 @@ void FloatCholesky::Impl::find_runs(int child, int columns)
   this->runs.clear();
   for (int i = 0; i < fronts.below(child); ++i)
   {
-    const int to = this->row_in_front[row[i]];
+    const int to = this->front_index_of_row[row[i]];
     if (this->runs.empty() || to != this->runs.back().to + this->runs.back().length ||
       to == columns)
     {
@@ -457,6 +463,7 @@ void FloatCholesky::Impl::find_runs(int child, int columns)
 /// @return 0, or the 1-based column of the block whose pivot is not positive.
 int FloatCholesky::Impl::eliminate(const SparseMatrix& matrix, double shift, int s)
 {
+  const FlushDenormals flush;
   const Fronts& shared = this->fronts();
   const Supernodes& nodes = shared.nodes;
   const int columns = shared.columns(s);
@@ -466,13 +473,13 @@ int FloatCholesky::Impl::eliminate(const SparseMatrix& matrix, double shift, int
   float* block = this->values.data() + nodes.first_value[s];
   for (int i = 0; i < rows; ++i)
   {
-    this->row_in_front[row[i]] = i;
+    this->front_index_of_row[row[i]] = i;
   }
   this->scatter(matrix, shift, s);
-  const int stack_of_mine = shared.depth[s];
-  float* mine = this->stack[stack_of_mine].data() + this->top[stack_of_mine];
-  std::vector<int>& children = this->waiting[!stack_of_mine];
-  std::size_t& end_of_children = this->top[!stack_of_mine];
+  const int own_stack = shared.depth[s];
+  float* mine = this->stack[own_stack].data() + this->top[own_stack];
+  std::vector<int>& children = this->stacked_supernodes[!own_stack];
+  std::size_t& end_of_children = this->top[!own_stack];
 
   const float one = 1.0F;
   const float minus_one = -1.0F;
@@ -485,12 +492,12 @@ int FloatCholesky::Impl::eliminate(const SparseMatrix& matrix, double shift, int
          ++child)
     {
       at -= shared.update_size(*child);
-      const float* update = this->stack[!stack_of_mine].data() + at;
+      const float* update = this->stack[!own_stack].data() + at;
       const auto size = static_cast<std::size_t>(shared.below(*child));
       this->find_runs(*child, columns);
       for (std::size_t k = 0; k < this->runs.size(); ++k)
       {
-        const Run& column_run = this->runs[k];
+        const RowRun& column_run = this->runs[k];
         if ((column_run.to < columns) != now)
         {
           continue;
@@ -508,7 +515,7 @@ int FloatCholesky::Impl::eliminate(const SparseMatrix& matrix, double shift, int
           }
           for (std::size_t r = k + 1; r < this->runs.size(); ++r)
           {
-            const Run& run = this->runs[r];
+            const RowRun& run = this->runs[r];
             float* to = into + run.to;
             const float* source = from + run.from;
             for (int i = 0; i < run.length; ++i)
@@ -552,8 +559,8 @@ int FloatCholesky::Impl::eliminate(const SparseMatrix& matrix, double shift, int
   }
   if (below_count > 0)
   {
-    this->top[stack_of_mine] += shared.update_size(s);
-    this->waiting[stack_of_mine].push_back(s);
+    this->top[own_stack] += shared.update_size(s);
+    this->stacked_supernodes[own_stack].push_back(s);
   }
   return 0;
 }
@@ -562,34 +569,33 @@ Status FloatCholesky::Impl::factor(
   const ExecutionContext& context, const SparseMatrix& matrix, double shift)
 {
   const Fronts& fronts = this->fronts();
-  this->plan->factorizations += 1;
+  this->analysis->factorizations += 1;
   this->values.resize(static_cast<std::size_t>(fronts.nodes.first_value.back()));
   for (const int k : { 0, 1 })
   {
     this->stack[k].resize(std::max(this->stack[k].size(), fronts.stack_size[k]));
     this->top[k] = 0;
-    this->waiting[k].clear();
+    this->stacked_supernodes[k].clear();
   }
-  this->row_in_front.resize(static_cast<std::size_t>(this->plan->size()));
-  this->scale.resize(this->plan->size());
-  for (int j = 0; j < this->plan->size(); ++j)
+  this->front_index_of_row.resize(static_cast<std::size_t>(this->analysis->size()));
+  this->scale.resize(this->analysis->size());
+  for (int j = 0; j < this->analysis->size(); ++j)
   {
     const double diagonal = matrix.coeff(j, j);
     // If a diagonal entry is not positive, the factorization fails at its pivot.
     this->scale[j] = diagonal > 0.0 ? 1.0 / std::sqrt(diagonal) : 1.0;
   }
   const SerialBlas serial;
-  const FlushDenormals flush;
   for (int s = 0; s < fronts.count(); ++s)
   {
     if (context.canceled())
     {
       return Status::canceled();
     }
-    const int failed = this->eliminate(matrix, shift, s);
-    if (failed)
+    const int failed_column = this->eliminate(matrix, shift, s);
+    if (failed_column)
     {
-      const int unknown = fronts.nodes.order[fronts.nodes.first_column[s] + failed - 1];
+      const int unknown = fronts.nodes.order[fronts.nodes.first_column[s] + failed_column - 1];
       return Status::invalid_input(
         "the matrix is not positive definite in single precision: the pivot of unknown " +
         std::to_string(unknown) + " is not positive");
@@ -612,8 +618,9 @@ Status FloatCholesky::Impl::factor(const ExecutionContext&, const SparseMatrix&,
 
 bool FloatCholesky::has_pattern_of(const SparseMatrix& matrix) const
 {
-  const Plan* plan = this->impl_->plan.get();
-  return plan && matrix.rows() == plan->size() && matrix.nonZeros() == plan->stored_entries;
+  const Analysis* analysis = this->impl_->analysis.get();
+  return analysis && matrix.rows() == analysis->size() &&
+    matrix.nonZeros() == analysis->stored_entries;
 }
 
 Status FloatCholesky::factor(
@@ -628,13 +635,13 @@ Status FloatCholesky::factor(
 }
 
 Status FloatCholesky::factor_block(
-  const ExecutionContext& context, const SparseMatrix& matrix, const std::vector<char>& left_out)
+  const ExecutionContext& context, const SparseMatrix& matrix, const std::vector<char>& excluded)
 {
-  if (!this->has_pattern_of(matrix) || static_cast<Index>(left_out.size()) != matrix.rows())
+  if (!this->has_pattern_of(matrix) || static_cast<Index>(excluded.size()) != matrix.rows())
   {
     return wrong_pattern();
   }
-  restrict_fronts(*this->impl_->plan, left_out, this->impl_->block);
+  restrict_fronts(*this->impl_->analysis, excluded, this->impl_->block);
   this->impl_->is_block = true;
   return this->impl_->factor(context, matrix, 0.0);
 }
@@ -646,18 +653,17 @@ void FloatCholesky::Impl::solve(const double* rhs, int columns, double* x) const
   const Supernodes& nodes = this->fronts().nodes;
   const std::vector<int>& order = nodes.order;
   const std::size_t count = order.size();
-  const auto n = static_cast<std::size_t>(this->plan->size());
-  std::fill(x, x + n * static_cast<std::size_t>(columns), 0.0);
+  const auto n = static_cast<std::size_t>(this->analysis->size());
   std::vector<float> scaled;
-  std::array<double, most_solve_columns> factor{};
+  std::array<double, maximum_solve_columns> factor{};
   for (int done = 0; done < columns;)
   {
     const int left = columns - done;
-    const int width = left == 1 ? 1 : left <= 4 ? 4 : most_solve_columns;
-    const int wanted = std::min(left, width);
+    const int width = left == 1 ? 1 : left <= 4 ? 4 : maximum_solve_columns;
+    const int used_columns = std::min(left, width);
     const auto stride = static_cast<std::size_t>(width);
     scaled.assign(count * stride, 0.0F);
-    for (int c = 0; c < wanted; ++c)
+    for (int c = 0; c < used_columns; ++c)
     {
       const double* from = rhs + static_cast<std::size_t>(done + c) * n;
       double size = 0.0;
@@ -678,16 +684,20 @@ void FloatCholesky::Impl::solve(const double* rhs, int columns, double* x) const
       }
     }
     solve_with_supernodes(nodes, this->values.data(), scaled.data(), width);
-    for (int c = 0; c < wanted; ++c)
+    for (int c = 0; c < used_columns; ++c)
     {
       const float* from = scaled.data() + c;
       double* into = x + static_cast<std::size_t>(done + c) * n;
+      if (count < n)
+      {
+        std::fill(into, into + n, 0.0); // unknowns that are excluded
+      }
       for (std::size_t i = 0; i < count; ++i)
       {
         into[order[i]] = factor[c] * static_cast<double>(from[i * stride]) * this->scale[order[i]];
       }
     }
-    done += wanted;
+    done += used_columns;
   }
 }
 

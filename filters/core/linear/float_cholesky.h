@@ -43,12 +43,12 @@ public:
   /// the message contains the unknown whose pivot failed. A cancel request is checked between dense
   /// blocks.
   Status factor(const ExecutionContext& context, const SparseMatrix& matrix, double shift);
-  /// Factor the block of the unknowns that are not left out. solve() then ignores the rows of the
-  /// right-hand side that are left out, and returns 0 for these unknowns. Time and memory are those
+  /// Factor the block of the unknowns that are not excluded. solve() then ignores the rows of the
+  /// right-hand side that are excluded, and returns 0 for these unknowns. The time is that
   /// of a matrix of the block's size with the same order of elimination.
-  /// @param left_out  one entry per unknown
+  /// @param excluded  one entry per unknown
   Status factor_block(
-    const ExecutionContext& context, const SparseMatrix& matrix, const std::vector<char>& left_out);
+    const ExecutionContext& context, const SparseMatrix& matrix, const std::vector<char>& excluded);
   /// Solve approximately with the last factorization. Several threads may call this function
   /// concurrently.
   void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const;

@@ -20,66 +20,66 @@ double refined_solve(const FloatCholesky& factor,
   const auto squared_norm = [&](const auto& v) { return v.cwiseAbs2().dot(inverse_diagonal); };
   x = MatrixXd::Zero(rhs.rows(), rhs.cols());
   VectorXd size(rhs.cols());
-  std::vector<Index> open; // columns that have not converged
+  std::vector<Index> active; // columns that have not converged
   for (Index j = 0; j < rhs.cols(); ++j)
   {
     size[j] = squared_norm(rhs.col(j));
     if (!(size[j] <= 0.0))
     {
-      open.push_back(j);
+      active.push_back(j);
     }
   }
   double worst = 0.0;
   // Residuals, preconditioned residuals and search directions of the open columns, one matrix
   // column each.
-  MatrixXd r = rhs(Eigen::all, open);
+  MatrixXd r = rhs(Eigen::all, active);
   MatrixXd z;
   MatrixXd p;
-  VectorXd last;
-  for (int step = 0; step < options.most_steps && !open.empty(); ++step)
+  VectorXd previous_rho;
+  for (int step = 0; step < options.most_steps && !active.empty(); ++step)
   {
     if (options.context && options.context->canceled())
     {
       return 1.0;
     }
     factor.solve(r, z);
-    const VectorXd now = r.cwiseProduct(z).colwise().sum();
-    p = step == 0 ? z : MatrixXd(z + p * now.cwiseQuotient(last).asDiagonal());
-    last = now;
+    const VectorXd rho = r.cwiseProduct(z).colwise().sum();
+    p = step == 0 ? z : MatrixXd(z + p * rho.cwiseQuotient(previous_rho).asDiagonal());
+    previous_rho = rho;
     const MatrixXd product = multiply(p);
     const VectorXd curvature = p.cwiseProduct(product).colwise().sum();
-    std::vector<Index> kept; // columns of r that stay open
-    for (Index k = 0; k < static_cast<Index>(open.size()); ++k)
+    std::vector<Index> remaining; // columns of r that stay open
+    for (Index k = 0; k < static_cast<Index>(active.size()); ++k)
     {
-      bool ends = !(curvature[k] > 0.0) || !std::isfinite(now[k]);
-      if (!ends)
+      bool finished = !(curvature[k] > 0.0) || !std::isfinite(rho[k]);
+      if (!finished)
       {
-        const double length = now[k] / curvature[k];
-        x.col(open[k]) += length * p.col(k);
+        const double length = rho[k] / curvature[k];
+        x.col(active[k]) += length * p.col(k);
         r.col(k) -= length * product.col(k);
       }
-      const double share = std::sqrt(squared_norm(r.col(k)) / size[open[k]]);
-      ends = ends || share <= options.accuracy;
-      if (ends || step + 1 == options.most_steps)
+      const double relative_residual = std::sqrt(squared_norm(r.col(k)) / size[active[k]]);
+      finished = finished || relative_residual <= options.accuracy;
+      if (finished || step + 1 == options.most_steps)
       {
-        worst = std::max(worst, std::isfinite(share) ? share : 1e300);
+        worst = std::max(worst, std::isfinite(relative_residual) ? relative_residual : 1e300);
       }
-      if (!ends)
+      if (!finished)
       {
-        kept.push_back(k);
+        remaining.push_back(k);
       }
     }
-    if (kept.size() < open.size())
+    if (remaining.size() < active.size())
     {
       std::vector<Index> still;
-      for (const Index k : kept)
+      for (const Index k : remaining)
       {
-        still.push_back(open[k]);
+        still.push_back(active[k]);
       }
-      open = std::move(still);
-      r = MatrixXd(r(Eigen::all, kept));
-      p = MatrixXd(p(Eigen::all, kept));
-      last = VectorXd(last(kept));
+      active = std::move(still);
+      r = MatrixXd(r(Eigen::all, remaining));
+      p = MatrixXd(p(Eigen::all, remaining));
+      previous_rho = VectorXd(previous_rho(remaining));
     }
   }
   return worst;

@@ -33,10 +33,10 @@ SerialBlas::SerialBlas()
     auto* parallel = find_function<int()>("openblas_get_parallel");
     return parallel && parallel() == 0;
   }();
-  static std::mutex one_at_a_time;
+  static std::mutex serial_mutex;
   if (exclusive)
   {
-    this->lock_ = std::unique_lock<std::mutex>(one_at_a_time);
+    this->lock_ = std::unique_lock<std::mutex>(serial_mutex);
   }
 
   static auto* get_levels = find_function<int()>("omp_get_max_active_levels");

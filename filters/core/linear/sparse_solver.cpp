@@ -198,8 +198,9 @@ public:
     if (this->common_.status == CHOLMOD_NOT_POSDEF)
     {
       const auto* order = static_cast<const int*>(this->factor_->Perm);
-      const auto at = static_cast<Index>(this->factor_->minor);
-      return not_positive_definite(at < matrix.rows() ? order[at] : at);
+      const auto failed_column = static_cast<Index>(this->factor_->minor);
+      return not_positive_definite(
+        failed_column < matrix.rows() ? order[failed_column] : failed_column);
     }
     if (this->common_.status < 0)
     {
@@ -413,8 +414,8 @@ Status SparseSolver::analyze(const SparseMatrix& matrix)
   }
   // METIS uses the random generator of the C library. Analyses never run concurrently, so that each
   // one is repeatable.
-  static std::mutex one_at_a_time;
-  const std::lock_guard<std::mutex> lock(one_at_a_time);
+  static std::mutex serial_mutex;
+  const std::lock_guard<std::mutex> lock(serial_mutex);
   this->impl_->size = matrix.rows();
   this->impl_->nonzeros = matrix.nonZeros();
   this->impl_->counters->analyses += 1;

@@ -24,7 +24,7 @@ typedef float Row4 __attribute__((vector_size(16)));
 typedef float Row8 __attribute__((vector_size(32)));
 /// Partial sums of the dot products of a single right-hand side.
 typedef float Lanes __attribute__((vector_size(64), aligned(4)));
-constexpr int rows_at_once = 16;
+constexpr int rows_per_pass = 16;
 
 /// Forward substitution with one block, by groups of columns. The triangle at the top of a group
 /// gives the solution x for its columns. Then the products of the rows below with x are subtracted
@@ -89,7 +89,7 @@ BINDPOSE_ALWAYS_INLINE void dots(const float* a, const float* t, int first, int 
 {
   Lanes partial[count] = {};
   int r = first;
-  for (; r + rows_at_once <= rows; r += rows_at_once)
+  for (; r + rows_per_pass <= rows; r += rows_per_pass)
   {
     for (int i = 0; i < count; ++i)
     {
@@ -103,7 +103,7 @@ BINDPOSE_ALWAYS_INLINE void dots(const float* a, const float* t, int first, int 
     {
       partial[i][k - r] += a[static_cast<std::size_t>(i) * rows + k] * t[k];
     }
-    for (int half = rows_at_once / 2; half > 0; half /= 2)
+    for (int half = rows_per_pass / 2; half > 0; half /= 2)
     {
       for (int k = 0; k < half; ++k)
       {

@@ -9,7 +9,7 @@ namespace bindpose
 {
 
 /// Maximum number of right-hand sides that are solved together.
-constexpr int most_solve_columns = 8;
+constexpr int maximum_solve_columns = 8;
 
 /// Solve L L' x = b in place, with a Cholesky factor in supernodes. Reading the factor twice
 /// dominates the time, so several columns take little more time than one column. The bits are the

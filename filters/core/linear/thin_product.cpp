@@ -40,8 +40,8 @@ BINDPOSE_ALWAYS_INLINE void dot_columns(
   constexpr Index lanes = PackOf<double>::lanes;
   using Pack = PackOf<double>::Pack;
   Pack packs[count][3] = {};
-  const Index whole = rows / lanes * lanes;
-  for (Index r = 0; r < whole; r += lanes)
+  const Index full_pack_rows = rows / lanes * lanes;
+  for (Index r = 0; r < full_pack_rows; r += lanes)
   {
     const Pack x0 = pack_at(x + r), x1 = pack_at(x + rows + r), x2 = pack_at(x + 2 * rows + r);
     for (Index c = 0; c < count; ++c)
@@ -56,8 +56,8 @@ BINDPOSE_ALWAYS_INLINE void dot_columns(
   {
     for (Index j = 0; j < 3; ++j)
     {
-      double sum = sum_of(packs[c][j]);
-      for (Index r = whole; r < rows; ++r)
+      double sum = sum_lanes(packs[c][j]);
+      for (Index r = full_pack_rows; r < rows; ++r)
       {
         sum += a[c * rows + r] * x[j * rows + r];
       }

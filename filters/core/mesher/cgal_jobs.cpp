@@ -72,8 +72,8 @@ struct Soup
   }
   Index add(const Coordinates& p)
   {
-    const auto [entry, fresh] = this->ids.emplace(p, static_cast<Index>(this->points.size()));
-    if (fresh)
+    const auto [entry, is_new] = this->ids.emplace(p, static_cast<Index>(this->points.size()));
+    if (is_new)
     {
       this->points.push_back(p);
     }
@@ -333,7 +333,7 @@ void cut(Soup& soup, const Face& face, const Cuts& cuts, std::vector<Face>& piec
 
 std::string too_many(const std::string& why)
 {
-  tell_report("too_many", 1.0);
+  report_value("too_many", 1.0);
   return why;
 }
 
@@ -349,12 +349,12 @@ std::string split(Soup& soup, const std::vector<Pair>& pairs, const Stopwatch& c
   const RefineOptions& options, std::size_t face_limit)
 {
   std::map<Index, Cuts> cuts;
-  constexpr std::size_t often = 256;
+  constexpr std::size_t check_interval = 256;
   for (std::size_t p = 0; p < pairs.size(); ++p)
   {
     const auto [f, g] = pairs[p];
     note_pair(soup, soup.faces[f], soup.faces[g], cuts[f], cuts[g]);
-    if (p % often == 0 && clock.seconds() > options.time_limit)
+    if (p % check_interval == 0 && clock.seconds() > options.time_limit)
     {
       return too_long(options.time_limit);
     }
@@ -371,9 +371,9 @@ std::string split(Soup& soup, const std::vector<Pair>& pairs, const Stopwatch& c
       continue;
     }
     cut(soup, Face(soup.faces[f]), entry->second, next);
-    if (++done % often == 0)
+    if (++done % check_interval == 0)
     {
-      tell_progress(std::min(clock.seconds() / options.time_limit, 1.0));
+      report_progress(std::min(clock.seconds() / options.time_limit, 1.0));
     }
     if (next.size() > face_limit)
     {
@@ -443,7 +443,7 @@ std::string refine(MesherData& data, const RefineOptions& options)
     const std::vector<Pair> pairs = crossing_pairs(soup, pair_limit);
     // Fraction of the total time for the first search, if few triangles cross.
     constexpr double first_found = 0.4;
-    tell_progress(first_found);
+    report_progress(first_found);
     if (pairs.size() > pair_limit)
     {
       return too_many("more than " + std::to_string(pair_limit) +
@@ -451,7 +451,7 @@ std::string refine(MesherData& data, const RefineOptions& options)
     }
     if (round == 0 && !rounded)
     {
-      tell_report("counts.self_intersections", static_cast<double>(pairs.size()));
+      report_value("counts.self_intersections", static_cast<double>(pairs.size()));
     }
     if (pairs.empty())
     {
@@ -483,8 +483,8 @@ std::string refine(MesherData& data, const RefineOptions& options)
   {
     return "triangles still cross after " + std::to_string(round) + " rounds of splitting";
   }
-  tell_report("rounded", rounded ? 1.0 : 0.0);
-  tell_report("rounds", round);
+  report_value("rounded", rounded ? 1.0 : 0.0);
+  report_value("rounds", round);
   data = MesherData();
   data.points.resize(static_cast<Index>(soup.points.size()), 3);
   for (Index v = 0; v < data.points.rows(); ++v)

@@ -12,9 +12,9 @@ namespace bindpose
 {
 
 /// Send the progress of the job in [0, 1] to the parent process as one line of text.
-void tell_progress(double fraction);
+void report_progress(double fraction);
 /// Send a value of the job's report to the parent process as one line of text.
-void tell_report(const char* key, double number);
+void report_value(const char* key, double number);
 
 /// Options of refine().
 struct RefineOptions
@@ -51,7 +51,7 @@ struct FillOptions
   double min_angle = 30.0; ///< degrees
   double longest_edge = 0.0; ///< maximum edge length; 0: no bound
   /// triangles with a side shorter than this length are not refined for their angles
-  double floor = 0.0;
+  double smallest_side = 0.0;
   double time_limit = 120.0; ///< seconds after which refinement stops
 };
 

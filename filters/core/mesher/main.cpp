@@ -17,12 +17,12 @@
 namespace bindpose
 {
 
-void tell_progress(double fraction)
+void report_progress(double fraction)
 {
   std::fprintf(stderr, "progress %.4f\n", fraction);
 }
 
-void tell_report(const char* key, double number)
+void report_value(const char* key, double number)
 {
   std::fprintf(stderr, "report %s %.17g\n", key, number);
 }
@@ -110,7 +110,7 @@ std::string run(const std::string& job, const std::map<std::string, std::string>
     bindpose::FillOptions fill;
     fill.min_angle = number(options, "--min-angle", fill.min_angle);
     fill.longest_edge = number(options, "--edge", fill.longest_edge);
-    fill.floor = number(options, "--floor", fill.floor);
+    fill.smallest_side = number(options, "--floor", fill.smallest_side);
     fill.time_limit = number(options, "--time", fill.time_limit);
     return bindpose::fill_plane(data, fill);
   }

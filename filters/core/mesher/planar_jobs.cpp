@@ -70,7 +70,7 @@ struct Plane
   }
 };
 
-Pair edge_of(Index a, Index b)
+Pair ordered_pair(Index a, Index b)
 {
   return { std::min(a, b), std::max(a, b) };
 }
@@ -100,7 +100,7 @@ bool bend(const Arrangement& arrangement, const Plane& plane, double grid, Pairs
       const Index a = f->vertex(Arrangement::ccw(k))->info().value;
       const Index b = f->vertex(Arrangement::cw(k))->info().value;
       const Index v = f->vertex(k)->info().value;
-      const auto edge = edges.find(edge_of(a, b));
+      const auto edge = edges.find(ordered_pair(a, b));
       if (edge == edges.end() || v == a || v == b)
       {
         continue;
@@ -118,8 +118,8 @@ bool bend(const Arrangement& arrangement, const Plane& plane, double grid, Pairs
       if (beside < 0.5 * grid && way > 0.0 && way < length)
       {
         edges.erase(edge);
-        edges.insert(edge_of(a, v));
-        edges.insert(edge_of(v, b));
+        edges.insert(ordered_pair(a, v));
+        edges.insert(ordered_pair(v, b));
         any = true;
       }
     }
@@ -153,10 +153,10 @@ std::string insert(const Plane& plane, const Pairs& edges, Arrangement& arrangem
     {
       return "the curves cross at more than " + std::to_string(limit) + " points";
     }
-    constexpr std::size_t often = 4096;
-    if (++done % often == 0)
+    constexpr std::size_t check_interval = 4096;
+    if (++done % check_interval == 0)
     {
-      tell_progress(0.5 * static_cast<double>(done) / static_cast<double>(edges.size()));
+      report_progress(0.5 * static_cast<double>(done) / static_cast<double>(edges.size()));
     }
   }
   return {};
@@ -169,17 +169,17 @@ using Filling = CGAL::Constrained_Delaunay_triangulation_2<Inexact,
   CGAL::Triangulation_data_structure_2<FillVertex, FillFace>, CGAL::Exact_predicates_tag>;
 
 /// Quality criteria for the refinement: bounds for angles and lengths. Triangles with a side
-/// shorter than `floor` are not refined for their angles. Otherwise refinement could continue down
-/// to the resolution of doubles where a bound above 20.6 degrees cannot be satisfied.
+/// shorter than `smallest_side` are not refined for their angles. Otherwise refinement could
+/// continue down to the resolution of doubles where a bound above 20.6 degrees cannot be satisfied.
 class Criteria : public CGAL::Delaunay_mesh_size_criteria_2<Filling>
 {
 public:
   using Base = CGAL::Delaunay_mesh_size_criteria_2<Filling>;
 
-  Criteria(double sine_squared, double longest_edge, double floor)
+  Criteria(double sine_squared, double longest_edge, double smallest_side)
     // The constructor is called here, because the class is a virtual base.
     : CGAL::Delaunay_mesh_criteria_2<Filling>(sine_squared), Base(sine_squared, longest_edge),
-      floor_(floor)
+      floor_(smallest_side)
   {
   }
 
@@ -188,7 +188,10 @@ public:
   public:
     using BaseIsBad = Base::Is_bad;
 
-    Is_bad(const BaseIsBad& base, double floor) : BaseIsBad(base), floor_squared_(floor * floor) {}
+    Is_bad(const BaseIsBad& base, double smallest_side)
+      : BaseIsBad(base), floor_squared_(smallest_side * smallest_side)
+    {
+    }
 
     CGAL::Mesh_2::Face_badness operator()(const Quality quality) const
     {
@@ -325,18 +328,18 @@ bool refine(Filling& filling, double min_angle, const FillOptions& options, std:
   const Stopwatch& clock)
 {
   const double sine = std::sin(min_angle * M_PI / 180.0);
-  const Criteria criteria(sine * sine, options.longest_edge, options.floor);
+  const Criteria criteria(sine * sine, options.longest_edge, options.smallest_side);
   CGAL::Delaunay_mesher_2<Filling, Criteria> mesher(filling, criteria);
   mesher.init(true);
   std::size_t steps = 0;
   while (!mesher.is_refinement_done())
   {
     mesher.step_by_step_refine_mesh();
-    constexpr std::size_t often = 1024;
-    if (++steps % often == 0)
+    constexpr std::size_t check_interval = 1024;
+    if (++steps % check_interval == 0)
     {
       const auto vertices = static_cast<double>(filling.number_of_vertices());
-      tell_progress(std::min(vertices / static_cast<double>(limit), 1.0));
+      report_progress(std::min(vertices / static_cast<double>(limit), 1.0));
       if (filling.number_of_vertices() > limit || clock.seconds() > options.time_limit)
       {
         return false;
@@ -405,7 +408,7 @@ std::string arrange(MesherData& data, double grid)
     const Index b = plane.ids.at(plane.points[data.segments(e, 1)]);
     if (a != b)
     {
-      edges.insert(edge_of(a, b));
+      edges.insert(ordered_pair(a, b));
     }
   }
   constexpr int round_limit = 30;
@@ -435,13 +438,13 @@ std::string arrange(MesherData& data, double grid)
       const Index b = e->first->vertex(Arrangement::cw(e->second))->info().value;
       if (a != b) // rounding may have merged the two ends of the edge
       {
-        edges.insert(edge_of(a, b));
+        edges.insert(ordered_pair(a, b));
       }
     }
     fresh = (grid > 0.0 && bend(arrangement, plane, grid, edges)) || fresh;
     if (!fresh)
     {
-      tell_report("rounds", round);
+      report_value("rounds", round);
       data.triangles.resize(static_cast<Index>(arrangement.number_of_faces()), 3);
       Index t = 0;
       for (auto f = arrangement.finite_faces_begin(); f != arrangement.finite_faces_end(); ++f, ++t)
@@ -505,8 +508,8 @@ std::string fill_plane(MesherData& data, const FillOptions& options)
     filling.clear();
   }
   collect(filling, data);
-  tell_report("min_angle", angle);
-  tell_report("stopped", done ? 0.0 : 1.0);
+  report_value("min_angle", angle);
+  report_value("stopped", done ? 0.0 : 1.0);
   return {};
 }
 

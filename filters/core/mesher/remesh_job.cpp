@@ -225,8 +225,8 @@ void take_result(const Complex& complex, MesherData& data)
     std::array<Index, 4> tet{};
     for (int k = 0; k < 4; ++k)
     {
-      const auto [entry, fresh] = ids.emplace(cell->vertex(k), static_cast<Index>(points.size()));
-      if (fresh)
+      const auto [entry, is_new] = ids.emplace(cell->vertex(k), static_cast<Index>(points.size()));
+      if (is_new)
       {
         points.push_back(to_vec3(cell->vertex(k)->point().point()));
       }
@@ -264,7 +264,7 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
   sampling.largest = options.largest_edge;
   BoundarySites sites;
   sample_boundary(context, region, sampling, sites);
-  tell_report("counts.boundary_vertices", static_cast<double>(sites.vertices.size()));
+  report_value("counts.boundary_vertices", static_cast<double>(sites.vertices.size()));
   if (sites.points.rows() == 0)
   {
     data = MesherData(); // the surface encloses no volume
@@ -272,13 +272,13 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
   }
   const SizingField field = make_field(sites, options);
   const CreasePoints creases = find_creases(region, field);
-  tell_report("seconds.sample", clock.seconds());
+  report_value("seconds.sample", clock.seconds());
 
   const Box box = region.box();
   const double radius = 0.5 * box.diagonal();
   constexpr double error = 1e-7;
   const Domain domain = Domain::create_implicit_mesh_domain([&](const Kernel::Point_3& p)
-    { return region.holds(to_vec3(p)) ? -1.0 : 1.0; },
+    { return region.contains(to_vec3(p)) ? -1.0 : 1.0; },
     Kernel::Sphere_3(to_point(box.center()), 1.21 * radius * radius),
     CGAL::parameters::relative_error_bound = error);
   Complex complex;
@@ -293,9 +293,9 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
       start.insert(region.points().row(v), apart);
     }
   }
-  for (Index i = 0; i < creases.between.rows(); ++i)
+  for (Index i = 0; i < creases.edge_points.rows(); ++i)
   {
-    start.insert(creases.between.row(i), apart);
+    start.insert(creases.edge_points.row(i), apart);
   }
   for (const Index v : sites.vertices)
   {
@@ -323,7 +323,7 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
   {
     return "the boundary of the enclosed region is flat";
   }
-  tell_report("seconds.start", clock.seconds());
+  report_value("seconds.start", clock.seconds());
 
   // A mesh has about five tets per vertex, so this limit is far above the expected number of
   // vertices. The limit stops refinements that would not end by themselves.
@@ -338,7 +338,7 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
   {
     return "the refinement did not terminate after " + std::to_string(most_vertices) + " vertices";
   }
-  tell_report("seconds.refine", clock.seconds());
+  report_value("seconds.refine", clock.seconds());
   if (complex.number_of_cells_in_complex() == 0)
   {
     return "the refinement found no cells inside the surface";

@@ -145,7 +145,7 @@ void contract(const Mesh& mesh, const SkeletonJobOptions& options, double begin,
     // the change is used as progress.
     furthest =
       std::max(furthest, std::log(std::min(change, 1.0)) / std::log(flow.area_variation_factor()));
-    tell_progress(begin + (end - begin) * std::min(furthest, 1.0));
+    report_progress(begin + (end - begin) * std::min(furthest, 1.0));
   }
   Flow::Skeleton skeleton;
   flow.convert_to_skeleton(skeleton);
@@ -195,15 +195,16 @@ std::string skeleton(MesherData& data, const SkeletonJobOptions& options)
   double done = 0.0;
   for (Part& part : parts)
   {
-    const double share = CGAL::to_double(pmp::area(part.mesh)) / area;
+    const double fraction = CGAL::to_double(pmp::area(part.mesh)) / area;
     // A small component needs a minimum number of triangles to represent its shape.
     constexpr double least = 1000.0;
-    even_out(part.mesh, std::max(least, share * options.triangles));
+    even_out(part.mesh, std::max(least, fraction * options.triangles));
     triangles += static_cast<Index>(part.mesh.number_of_faces());
     constexpr double evened = 0.2;
-    tell_progress(done + evened * share);
-    contract(part.mesh, options, done + evened * share, done + share, iterations, points, segments);
-    done += share;
+    report_progress(done + evened * fraction);
+    contract(
+      part.mesh, options, done + evened * fraction, done + fraction, iterations, points, segments);
+    done += fraction;
   }
   data = MesherData();
   data.points.resize(static_cast<Index>(points.size()), 3);
@@ -216,12 +217,12 @@ std::string skeleton(MesherData& data, const SkeletonJobOptions& options)
   {
     data.segments.row(static_cast<Index>(i)) << segments[i][0], segments[i][1];
   }
-  tell_report("parts", static_cast<double>(parts.size()));
-  tell_report("open", static_cast<double>(open));
-  tell_report("hollow", static_cast<double>(hollow));
-  tell_report("crumbs", static_cast<double>(crumbs));
-  tell_report("triangles", static_cast<double>(triangles));
-  tell_report("iterations", static_cast<double>(iterations));
+  report_value("parts", static_cast<double>(parts.size()));
+  report_value("open", static_cast<double>(open));
+  report_value("hollow", static_cast<double>(hollow));
+  report_value("crumbs", static_cast<double>(crumbs));
+  report_value("triangles", static_cast<double>(triangles));
+  report_value("iterations", static_cast<double>(iterations));
   return {};
 }
 

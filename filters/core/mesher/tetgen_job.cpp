@@ -108,9 +108,9 @@ void run_steps(tetgenbehavior& behavior, tetgenio& in, tetgenio& out)
   // printing.
   constexpr double triangulated = 0.3, facets_found = 0.4, recovered = 0.7, carved = 0.85;
   mesh.incrementaldelaunay(unused);
-  tell_progress(triangulated);
+  report_progress(triangulated);
   mesh.meshsurface();
-  tell_progress(facets_found);
+  report_progress(facets_found);
   if (behavior.nobisect)
   {
     mesh.recoverboundary(unused);
@@ -119,9 +119,9 @@ void run_steps(tetgenbehavior& behavior, tetgenio& in, tetgenio& out)
   {
     mesh.constraineddelaunay(unused);
   }
-  tell_progress(recovered);
+  report_progress(recovered);
   mesh.carveholes();
-  tell_progress(carved);
+  report_progress(carved);
   if (behavior.nobisect && mesh.subvertstack->objects > 0)
   {
     mesh.suppresssteinerpoints();

@@ -36,7 +36,7 @@ public:
     if (++this->count_ % seldom == 0)
     {
       const double done = static_cast<double>(this->count_);
-      tell_progress(0.95 * done / (done + this->expected_));
+      report_progress(0.95 * done / (done + this->expected_));
     }
   }
 

@@ -22,7 +22,7 @@ namespace bindpose
 namespace
 {
 constexpr Index no_vertex = -1;
-constexpr Index longest_contour = Index(1) << 25;
+constexpr Index maximum_contour_points = Index(1) << 25;
 
 /// The contour: points, and for each point its successor in a linked list.
 struct Contour
@@ -32,9 +32,9 @@ struct Contour
 };
 
 /// A row of alpha, with one column of the frame at each end.
-struct AlphaLine
+struct PaddedAlphaRow
 {
-  explicit AlphaLine(Index columns) : values(static_cast<std::size_t>(columns + 2), 0.0f) {}
+  explicit PaddedAlphaRow(Index columns) : values(static_cast<std::size_t>(columns + 2), 0.0f) {}
   std::vector<float> values;
 };
 
@@ -60,10 +60,10 @@ public:
       context.progress(static_cast<double>(row + 1) / static_cast<double>(this->rows_ + 1));
       this->read(row + 1, inside);
       this->link(row, contour);
-      if (static_cast<Index>(contour.points.size()) > longest_contour)
+      if (static_cast<Index>(contour.points.size()) > maximum_contour_points)
       {
         return Status::invalid_input("the image's outline has more than " +
-          std::to_string(longest_contour) +
+          std::to_string(maximum_contour_points) +
           " points; blur the alpha channel or use a smaller image");
       }
       std::swap(this->lower_, this->upper_);
@@ -183,8 +183,8 @@ private:
   Index rows_;
   const AlphaRow& alpha_;
   float threshold_;
-  AlphaLine lower_;
-  AlphaLine upper_;
+  PaddedAlphaRow lower_;
+  PaddedAlphaRow upper_;
   std::vector<Index> bottom_; // vertices on the bottom edges of the row of cells, by column
   std::vector<Index> top_;
 };
@@ -334,7 +334,7 @@ class Simplifier
 {
 public:
   Simplifier(const Loops& loops, Index columns, Index rows)
-    : loops_(loops), grid_(columns, rows), alive_(loops.points.size(), 1),
+    : loops_(loops), grid_(columns, rows), is_remaining_(loops.points.size(), 1),
       next_(loops.points.size()), previous_(loops.points.size())
   {
     for (std::size_t l = 0; l + 1 < loops.starts.size(); ++l)
@@ -346,29 +346,29 @@ public:
         this->next_[v] = v + 1 < end ? v + 1 : begin;
         this->previous_[v] = v > begin ? v - 1 : end - 1;
       }
-      this->left_.push_back(end - begin);
+      this->remaining_counts_.push_back(end - begin);
     }
   }
 
   Status run(ExecutionContext& context, double tolerance)
   {
     constexpr double first = 0.25;
-    for (bool fewer = true; fewer;)
+    for (bool has_removed = true; has_removed;)
     {
       if (context.canceled())
       {
         return Status::canceled();
       }
-      fewer = this->halve(first * tolerance);
+      has_removed = this->halve(first * tolerance);
     }
     context.progress(0.5);
-    for (bool fewer = true; fewer;)
+    for (bool has_removed = true; has_removed;)
     {
       if (context.canceled())
       {
         return Status::canceled();
       }
-      fewer = this->leap(tolerance);
+      has_removed = this->leap(tolerance);
     }
     return {};
   }
@@ -376,7 +376,7 @@ public:
   /// Copy the remaining vertices to the outline.
   void collect(ImageOutline& outline) const
   {
-    const Index count = std::count(this->alive_.begin(), this->alive_.end(), 1);
+    const Index count = std::count(this->is_remaining_.begin(), this->is_remaining_.end(), 1);
     outline.points.resize(count, 2);
     outline.segments.resize(count, 2);
     Index at = 0;
@@ -385,7 +385,7 @@ public:
       const Index first = at;
       for (Index v = this->loops_.starts[l]; v < this->loops_.starts[l + 1]; ++v)
       {
-        if (this->alive_[v])
+        if (this->is_remaining_[v])
         {
           outline.points.row(at) = this->loops_.points[v].transpose();
           outline.segments.row(at) << at, at + 1;
@@ -399,39 +399,39 @@ public:
 private:
   bool halve(double tolerance)
   {
-    this->grid_.fill(this->loops_.points, this->alive_);
-    bool fewer = false;
+    this->grid_.fill(this->loops_.points, this->is_remaining_);
+    bool has_removed = false;
     for (std::size_t l = 0; l + 1 < this->loops_.starts.size(); ++l)
     {
       for (Index v = this->loops_.starts[l]; v < this->loops_.starts[l + 1]; ++v)
       {
         const Index p = this->previous_[v];
         const Index n = this->next_[v];
-        if (this->alive_[v] && this->left_[l] > fewest &&
-          this->deviation(l, p, n, tolerance) <= tolerance && !this->holds_vertex(p, v, n))
+        if (this->is_remaining_[v] && this->remaining_counts_[l] > minimum_loop_size &&
+          this->deviation(l, p, n, tolerance) <= tolerance && !this->contains_vertex(p, v, n))
         {
-          fewer = true;
+          has_removed = true;
           this->remove(l, p, n, 1);
-          this->alive_[v] = 0;
+          this->is_remaining_[v] = 0;
           v = n > v ? n : v; // skip the next vertex in this pass
         }
       }
     }
-    return fewer;
+    return has_removed;
   }
 
   bool leap(double tolerance)
   {
-    this->grid_.fill(this->loops_.points, this->alive_);
-    bool fewer = false;
+    this->grid_.fill(this->loops_.points, this->is_remaining_);
+    bool has_removed = false;
     for (std::size_t l = 0; l + 1 < this->loops_.starts.size(); ++l)
     {
       for (Index v = this->loops_.starts[l]; v < this->loops_.starts[l + 1]; ++v)
       {
-        fewer = (this->alive_[v] && this->leap_from(l, v, tolerance)) || fewer;
+        has_removed = (this->is_remaining_[v] && this->leap_from(l, v, tolerance)) || has_removed;
       }
     }
-    return fewer;
+    return has_removed;
   }
 
   /// Connect p to the farthest vertex found by a search ahead. The vertices after p are removed one
@@ -439,39 +439,42 @@ private:
   /// last line within the tolerance are restored. Return true if a vertex was removed.
   bool leap_from(std::size_t loop, Index p, double tolerance)
   {
-    constexpr std::size_t farthest = 256; // maximum number of vertices that are removed at a time
-    constexpr double hopeless = 3.0; // multiple of the tolerance at which the search ends
-    std::vector<Index>& gone = this->gone_;
-    gone.clear();
-    std::size_t good = 0;
+    constexpr std::size_t maximum_removed =
+      256; // maximum number of vertices that are removed at a time
+    constexpr double search_limit = 3.0; // multiple of the tolerance at which the search ends
+    std::vector<Index>& removed = this->gone_;
+    removed.clear();
+    std::size_t accepted_count = 0;
     Index v = this->next_[p];
-    while (this->left_[loop] - static_cast<Index>(gone.size()) > fewest && gone.size() < farthest)
+    while (this->remaining_counts_[loop] - static_cast<Index>(removed.size()) > minimum_loop_size &&
+      removed.size() < maximum_removed)
     {
       const Index n = this->next_[v];
-      const double deviation = this->deviation(loop, p, n, hopeless * tolerance);
-      if (deviation > hopeless * tolerance || this->holds_vertex(p, v, n))
+      const double deviation = this->deviation(loop, p, n, search_limit * tolerance);
+      if (deviation > search_limit * tolerance || this->contains_vertex(p, v, n))
       {
         break;
       }
-      this->alive_[v] = 0;
-      gone.push_back(v);
-      good = deviation <= tolerance ? gone.size() : good;
+      this->is_remaining_[v] = 0;
+      removed.push_back(v);
+      accepted_count = deviation <= tolerance ? removed.size() : accepted_count;
       v = n;
     }
-    for (std::size_t k = good; k < gone.size(); ++k)
+    for (std::size_t k = accepted_count; k < removed.size(); ++k)
     {
-      this->alive_[gone[k]] = 1;
+      this->is_remaining_[removed[k]] = 1;
     }
-    if (good > 0)
+    if (accepted_count > 0)
     {
-      this->remove(loop, p, this->next_[gone[good - 1]], static_cast<Index>(good));
+      this->remove(
+        loop, p, this->next_[removed[accepted_count - 1]], static_cast<Index>(accepted_count));
     }
-    return good > 0;
+    return accepted_count > 0;
   }
 
   void remove(std::size_t loop, Index p, Index n, Index count)
   {
-    this->left_[loop] -= count;
+    this->remaining_counts_[loop] -= count;
     this->next_[p] = n;
     this->previous_[n] = p;
   }
@@ -498,7 +501,7 @@ private:
 
   /// Report whether another remaining vertex is in the closed triangle, with a tolerance for
   /// rounding.
-  bool holds_vertex(Index p, Index v, Index n) const
+  bool contains_vertex(Index p, Index v, Index n) const
   {
     const std::vector<Vec2>& points = this->loops_.points;
     std::array<Vec2, 3> corners{ points[p], points[v], points[n] };
@@ -510,7 +513,7 @@ private:
     return this->grid_.any(corners,
       [&](Index u)
       {
-        if (u == p || u == v || u == n || !this->alive_[u])
+        if (u == p || u == v || u == n || !this->is_remaining_[u])
         {
           return false;
         }
@@ -527,14 +530,14 @@ private:
   }
 
   // Minimum number of vertices of a loop, so that the diamond around a single pixel is kept.
-  static constexpr Index fewest = 4;
+  static constexpr Index minimum_loop_size = 4;
 
   const Loops& loops_;
   VertexGrid grid_;
-  std::vector<char> alive_;
+  std::vector<char> is_remaining_;
   std::vector<Index> next_; // next remaining vertex in the loop
   std::vector<Index> previous_; // previous remaining vertex in the loop
-  std::vector<Index> left_; // number of remaining vertices per loop
+  std::vector<Index> remaining_counts_; // number of remaining vertices per loop
   std::vector<Index> gone_;
 };
 } // namespace

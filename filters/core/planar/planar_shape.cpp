@@ -76,19 +76,19 @@ Status check_options(const PlanarShapeOptions& options)
 }
 
 /// The vertices in use, where equal vertices are merged.
-class Gathered
+class MergedVertices
 {
 public:
-  Index add(const Vec2& p, const Vec2& place, Index original)
+  Index add(const Vec2& p, const Vec2& input_point, Index original)
   {
-    const auto [entry, fresh] =
+    const auto [entry, inserted] =
       // Adding 0 turns -0 into 0.
       this->ids_.emplace(std::make_pair(p.x() + 0.0, p.y() + 0.0), this->count());
-    if (fresh)
+    if (inserted)
     {
       this->points.push_back(p);
       this->originals.push_back(original);
-      this->places.push_back(place);
+      this->input_points.push_back(input_point);
     }
     return entry->second;
   }
@@ -97,7 +97,7 @@ public:
   std::vector<Vec2> points; ///< scaled
   /// Lowest input id of the equal vertices; -1 for the point of a handle.
   std::vector<Index> originals;
-  std::vector<Vec2> places; ///< input positions
+  std::vector<Vec2> input_points; ///< input positions
 
 private:
   std::map<std::pair<double, double>, Index> ids_;
@@ -117,17 +117,17 @@ public:
 
 private:
   Status scale();
-  void gather();
+  void merge_vertices();
   Status arrange();
   Status keep();
   Status fill();
-  Status try_fill(double angle, double seconds, MesherAnswer& answer);
+  Status try_fill(double angle, double seconds, MesherResult& answer);
   Status number(PlanarShape& shape);
   void report(const PlanarShape& shape, Status& status) const;
-  Status run_job(const std::vector<std::string>& arguments, double seconds, MesherAnswer& answer);
+  Status run_job(const std::vector<std::string>& arguments, double seconds, MesherResult& answer);
   Vec2 scaled(const Vec2& p) const;
   double smallest_height() const;
-  bool fits(bool exact) const;
+  bool has_positive_areas(bool exact) const;
   Vec2 point(Index v) const { return this->data_.points.row(v).head<2>().transpose(); }
   double mean_winding(Index triangle) const;
   Vec2 unscaled(Index v) const
@@ -142,7 +142,7 @@ private:
   const PlanarHandles& input_handles_;
   const PlanarShapeOptions& options_;
   ExecutionContext& context_;
-  Gathered gathered_;
+  MergedVertices merged_;
   Segments curves_; ///< segments of the curves, oriented with the inside on the left
   Segments bones_;
   std::vector<Index> handles_; ///< index in gathered_ of each handle point
@@ -151,14 +151,14 @@ private:
   double rounding_ = 0.0; ///< 8 units in the last place of the coordinates, scaled
   double diagonal_ = 0.0; ///< diagonal of the curves' bounding box, scaled
   PlanePoints curve_points_; ///< scaled
-  double finest_ = 0.0; ///< smallest height of a kept triangle, scaled
-  double finest_allowed_ = 0.0; ///< smallest height that refinement can handle, scaled
+  double smallest_height_ = 0.0; ///< smallest height of a kept triangle, scaled
+  double minimum_height_ = 0.0; ///< smallest height that refinement can handle, scaled
   double grid_ = 0.0; ///< grid size, scaled; 0: no grid
   CurveWindingNumber winding_;
   MesherData data_;
   Index crossings_ = 0;
   Index open_ends_ = 0;
-  bool turned_ = false;
+  bool reversed_ = false;
   std::vector<std::string> warnings_;
 };
 
@@ -200,7 +200,7 @@ Status Builder::scale()
   // coordinates.
   int exponent = 0;
   std::frexp(std::max(0x1p-40 * this->diagonal_, this->rounding_), &exponent);
-  this->finest_allowed_ = std::ldexp(1.0, exponent);
+  this->minimum_height_ = std::ldexp(1.0, exponent);
   return {};
 }
 
@@ -217,12 +217,12 @@ Vec2 Builder::scaled(const Vec2& p) const
   return result;
 }
 
-void Builder::gather()
+void Builder::merge_vertices()
 {
-  this->gathered_ = Gathered();
+  this->merged_ = MergedVertices();
   this->handles_.clear();
-  const auto add = [&](const Vec2& place, Index original)
-  { return this->gathered_.add(this->scaled(place), place, original); };
+  const auto add = [&](const Vec2& input_point, Index original)
+  { return this->merged_.add(this->scaled(input_point), input_point, original); };
   const std::set<Index> used(
     this->segments_.data(), this->segments_.data() + this->segments_.size());
   std::map<Index, Index> gathered;
@@ -246,16 +246,16 @@ void Builder::gather()
     this->bones_.row(b) << this->handles_[handles.bones(b, 0)], this->handles_[handles.bones(b, 1)];
   }
   this->data_ = MesherData();
-  this->data_.points.resize(this->gathered_.count(), 3);
-  for (Index v = 0; v < this->gathered_.count(); ++v)
+  this->data_.points.resize(this->merged_.count(), 3);
+  for (Index v = 0; v < this->merged_.count(); ++v)
   {
-    this->data_.points.row(v) << this->gathered_.points[v].transpose(), 0.0;
+    this->data_.points.row(v) << this->merged_.points[v].transpose(), 0.0;
   }
   this->curve_points_ = this->data_.points.leftCols<2>();
 }
 
 Status Builder::run_job(
-  const std::vector<std::string>& arguments, double seconds, MesherAnswer& answer)
+  const std::vector<std::string>& arguments, double seconds, MesherResult& answer)
 {
   MesherRequest request;
   request.arguments = arguments;
@@ -275,7 +275,7 @@ Status Builder::arrange()
   const Phase phase(this->context_, "arrange", 0.0, 0.4);
   this->data_.segments.resize(this->curves_.rows() + this->bones_.rows(), 2);
   this->data_.segments << this->curves_, this->bones_;
-  MesherAnswer answer;
+  MesherResult answer;
   const Status status = this->run_job({ "arrange", "--grid", exact_number(this->grid_) },
     this->options_.time_limit - this->context_.elapsed_seconds(), answer);
   if (!status.ok())
@@ -283,7 +283,7 @@ Status Builder::arrange()
     return status;
   }
   this->data_ = std::move(answer.data);
-  this->crossings_ = this->data_.points.rows() - this->gathered_.count();
+  this->crossings_ = this->data_.points.rows() - this->merged_.count();
   if (this->data_.triangles.rows() == 0)
   {
     return Status::invalid_input(
@@ -339,7 +339,7 @@ Status Builder::keep()
   Status status = this->winding_.build(this->context_, this->curve_points_, this->curves_);
   if (status.ok() && status.report.number("area", 0.0) < 0.0)
   {
-    this->turned_ = true;
+    this->reversed_ = true;
     this->curves_.col(0).swap(this->curves_.col(1));
     status = this->winding_.build(this->context_, this->curve_points_, this->curves_);
   }
@@ -382,7 +382,7 @@ Status Builder::keep()
       short_number(this->options_.winding_threshold));
   }
   this->data_.triangles.conservativeResize(kept, 3);
-  this->finest_ = this->smallest_height();
+  this->smallest_height_ = this->smallest_height();
   Index inside = 0;
   for (Index e = 0; e < this->data_.segments.rows(); ++e)
   {
@@ -409,7 +409,7 @@ Status Builder::fill()
       angles.push_back(weaker);
     }
   }
-  MesherAnswer answer;
+  MesherResult answer;
   Status status;
   for (std::size_t k = 0; k < angles.size(); ++k)
   {
@@ -441,14 +441,15 @@ Status Builder::fill()
   return {};
 }
 
-Status Builder::try_fill(double angle, double seconds, MesherAnswer& answer)
+Status Builder::try_fill(double angle, double seconds, MesherResult& answer)
 {
   // Fraction of the time for refinement; the rest is for reading and writing.
   constexpr double part = 0.8;
   // Smallest useful size of triangles, as a fraction of the finest detail.
   constexpr double fine = 0x1p-10;
   const double edge = this->options_.edge * this->diagonal_;
-  const double detail = edge > 0.0 ? std::min(edge, this->finest_) : this->finest_;
+  const double detail =
+    edge > 0.0 ? std::min(edge, this->smallest_height_) : this->smallest_height_;
   const double floor = std::max(fine * detail, this->rounding_);
   return this->run_job(
     { "fill-plane", "--min-angle", exact_number(angle), "--edge", exact_number(edge), "--floor",
@@ -460,16 +461,17 @@ Status Builder::try_fill(double angle, double seconds, MesherAnswer& answer)
 /// rounded to doubles.
 /// @param exact use the exact input coordinates of input points instead of their positions on the
 /// grid.
-bool Builder::fits(bool exact) const
+bool Builder::has_positive_areas(bool exact) const
 {
-  const auto place = [&](Index v)
-  { return exact && v < this->gathered_.count() ? this->gathered_.places[v] : this->unscaled(v); };
+  const auto input_point = [&](Index v) {
+    return exact && v < this->merged_.count() ? this->merged_.input_points[v] : this->unscaled(v);
+  };
   for (Index t = 0; t < this->data_.triangles.rows(); ++t)
   {
     const auto side = [&](int from, int to) // edge vector, scaled, because areas could underflow
     {
       const Vec2 along =
-        place(this->data_.triangles(t, to)) - place(this->data_.triangles(t, from));
+        input_point(this->data_.triangles(t, to)) - input_point(this->data_.triangles(t, from));
       return Vec2(std::ldexp(along.x(), -this->exponent_), std::ldexp(along.y(), -this->exponent_));
     };
     const Vec2 b = side(0, 1);
@@ -484,8 +486,8 @@ bool Builder::fits(bool exact) const
 
 Status Builder::number(PlanarShape& shape)
 {
-  const bool exact = this->fits(true);
-  if (!exact && !this->fits(false))
+  const bool exact = this->has_positive_areas(true);
+  if (!exact && !this->has_positive_areas(false))
   {
     return Status::failure(StatusCode::internal_error,
       "rounding flipped a triangle because the curves are too far from the origin for their level "
@@ -507,10 +509,10 @@ Status Builder::number(PlanarShape& shape)
     {
       continue;
     }
-    const bool gathered = v < this->gathered_.count();
-    const Vec2 place = gathered && exact ? this->gathered_.places[v] : this->unscaled(v);
-    shape.points.row(at) = place.transpose();
-    shape.original_vertices[at] = gathered ? this->gathered_.originals[v] : none;
+    const bool gathered = v < this->merged_.count();
+    const Vec2 input_point = gathered && exact ? this->merged_.input_points[v] : this->unscaled(v);
+    shape.points.row(at) = input_point.transpose();
+    shape.original_vertices[at] = gathered ? this->merged_.originals[v] : none;
     ids[v] = at++;
   }
   shape.handle_vertices.clear();
@@ -555,8 +557,8 @@ void Builder::report(const PlanarShape& shape, Status& status) const
     [](Index original) { return original != none; });
   Report& report = status.report;
   report.set("counts.points",
-    static_cast<Index>(std::count_if(this->gathered_.originals.begin(),
-      this->gathered_.originals.end(), [](Index original) { return original != none; })));
+    static_cast<Index>(std::count_if(this->merged_.originals.begin(), this->merged_.originals.end(),
+      [](Index original) { return original != none; })));
   report.set("counts.segments", this->curves_.rows());
   report.set("counts.crossings", this->crossings_);
   report.set("counts.open_ends", this->open_ends_);
@@ -566,10 +568,10 @@ void Builder::report(const PlanarShape& shape, Status& status) const
   report.set("area", std::ldexp(area, 2 * this->exponent_));
   report.set("min_angle", smallest_angle);
   report.set("longest_edge", std::ldexp(longest, this->exponent_));
-  report.set("turned", this->turned_ ? 1 : 0);
+  report.set("turned", this->reversed_ ? 1 : 0);
   report.set("grid", std::ldexp(this->grid_, this->exponent_));
   status.warnings = this->warnings_;
-  if (this->turned_)
+  if (this->reversed_)
   {
     status.warnings.emplace_back(
       "the curves were reversed because they are clockwise around their inside");
@@ -593,14 +595,14 @@ Status Builder::run(PlanarShape& shape)
   Status status = this->scale();
   for (int attempt = 0; status.ok() && attempt < 2; ++attempt)
   {
-    this->gather();
+    this->merge_vertices();
     status = this->arrange();
     status = status.ok() ? this->keep() : status;
-    if (!status.ok() || this->grid_ > 0.0 || this->finest_ >= this->finest_allowed_)
+    if (!status.ok() || this->grid_ > 0.0 || this->smallest_height_ >= this->minimum_height_)
     {
       break;
     }
-    this->grid_ = this->finest_allowed_;
+    this->grid_ = this->minimum_height_;
   }
   status = status.ok() ? this->fill() : status;
   status = status.ok() ? this->number(shape) : status;

@@ -29,7 +29,7 @@ constexpr Index elements_per_block = 4096;
 /// A tet is degenerate if its volume at rest is at most about this fraction of the volume of a cube
 /// on its longest edge. For triangles, the area and a square are compared. Only round-off
 /// determines the shape of such an element.
-constexpr double degenerate_share = 1e-12;
+constexpr double degenerate_tolerance = 1e-12;
 /// A shape is flat if its thickness in z is at most this fraction of the bounding-box diagonal.
 constexpr double flat_tolerance = 1e-9;
 /// Number of elements that are processed in parallel; elements_per_block is a multiple of it.
@@ -40,7 +40,7 @@ constexpr Index triangle_numbers = 4, tet_numbers = 10;
 /// Jacobi sweeps are repeated while the squared cosine of the angle between two columns exceeds
 /// this value. Each sweep squares the remaining cosine.
 constexpr double right_angle = 1e-16;
-constexpr int most_sweeps = 12;
+constexpr int maximum_sweeps = 12;
 
 struct Block
 {
@@ -52,7 +52,7 @@ struct Block
 /// 3 x 3 matrices, indexed by column, row, lane.
 struct alignas(64) Batch
 {
-  double at[3][3][elements_per_tile];
+  double columns[3][3][elements_per_tile];
 };
 
 struct alignas(64) BatchValues
@@ -64,15 +64,16 @@ struct alignas(64) BatchValues
 /// Rotate columns p and q of each lane until they are orthogonal. Return the largest value of
 /// c^2 - right_angle * a * b over the lanes before the rotation, where a and b are the squared
 /// lengths and c is the dot product. It is positive if another sweep is needed.
-BINDPOSE_ALWAYS_INLINE double turn(double (*p)[elements_per_tile], double (*q)[elements_per_tile])
+BINDPOSE_ALWAYS_INLINE double jacobi_rotate(
+  double (*p)[elements_per_tile], double (*q)[elements_per_tile])
 {
-  double open[elements_per_tile];
+  double off_diagonal[elements_per_tile];
   for (Index i = 0; i < elements_per_tile; ++i)
   {
     const double a = p[0][i] * p[0][i] + p[1][i] * p[1][i] + p[2][i] * p[2][i];
     const double b = q[0][i] * q[0][i] + q[1][i] * q[1][i] + q[2][i] * q[2][i];
     const double c = p[0][i] * q[0][i] + p[1][i] * q[1][i] + p[2][i] * q[2][i];
-    open[i] = c * c - right_angle * a * b;
+    off_diagonal[i] = c * c - right_angle * a * b;
     const double d = b - a;
     const double reach = std::abs(d) + std::sqrt(d * d + 4.0 * c * c);
     const double tangent = (d < 0.0 ? -2.0 : 2.0) * c / (reach + 1e-300);
@@ -85,12 +86,12 @@ BINDPOSE_ALWAYS_INLINE double turn(double (*p)[elements_per_tile], double (*q)[e
       p[k][i] = first;
     }
   }
-  double most = open[0];
+  double maximum = off_diagonal[0];
   for (Index i = 1; i < elements_per_tile; ++i)
   {
-    most = open[i] > most ? open[i] : most;
+    maximum = off_diagonal[i] > maximum ? off_diagonal[i] : maximum;
   }
-  return most;
+  return maximum;
 }
 
 BINDPOSE_ALWAYS_INLINE void singular_values(Batch& f, BatchValues& values)
@@ -101,7 +102,7 @@ BINDPOSE_ALWAYS_INLINE void singular_values(Batch& f, BatchValues& values)
     size[i] = 0.0;
   }
   // Scale the entries so that squares of huge and tiny entries neither overflow nor underflow.
-  for (auto& column : f.at)
+  for (auto& column : f.columns)
   {
     for (auto& row : column)
     {
@@ -111,7 +112,7 @@ BINDPOSE_ALWAYS_INLINE void singular_values(Batch& f, BatchValues& values)
       }
     }
   }
-  for (auto& column : f.at)
+  for (auto& column : f.columns)
   {
     for (auto& row : column)
     {
@@ -121,11 +122,11 @@ BINDPOSE_ALWAYS_INLINE void singular_values(Batch& f, BatchValues& values)
       }
     }
   }
-  for (int sweep = 0; sweep < most_sweeps; ++sweep)
+  for (int sweep = 0; sweep < maximum_sweeps; ++sweep)
   {
-    const double first = turn(f.at[0], f.at[1]);
-    const double second = turn(f.at[0], f.at[2]);
-    const double third = turn(f.at[1], f.at[2]);
+    const double first = jacobi_rotate(f.columns[0], f.columns[1]);
+    const double second = jacobi_rotate(f.columns[0], f.columns[2]);
+    const double third = jacobi_rotate(f.columns[1], f.columns[2]);
     if (first <= 0.0 && second <= 0.0 && third <= 0.0)
     {
       break;
@@ -137,8 +138,8 @@ BINDPOSE_ALWAYS_INLINE void singular_values(Batch& f, BatchValues& values)
     for (int c = 0; c < 3; ++c)
     {
       length[c] = size[i] *
-        std::sqrt(f.at[c][0][i] * f.at[c][0][i] + f.at[c][1][i] * f.at[c][1][i] +
-          f.at[c][2][i] * f.at[c][2][i]);
+        std::sqrt(f.columns[c][0][i] * f.columns[c][0][i] +
+          f.columns[c][1][i] * f.columns[c][1][i] + f.columns[c][2][i] * f.columns[c][2][i]);
     }
     values.largest[i] = std::max({ length[0], length[1], length[2] });
     values.smallest[i] = std::min({ length[0], length[1], length[2] });
@@ -153,8 +154,8 @@ Vec3 edge(PointsView points, Index from, Index to)
 }
 
 /// Add the singular values of one element to a block. `flipped`: the element is inside out.
-void count(Block& block, double limit, Index element, double largest, double smallest, bool flipped,
-  ElementStretch& stretch)
+void count_element(Block& block, double limit, Index element, double largest, double smallest,
+  bool flipped, ElementStretch& stretch)
 {
   block.measured += 1;
   block.largest = std::max(block.largest, largest);
@@ -200,7 +201,7 @@ BINDPOSE_SIMD_CLONES void measure_tets(
     {
       for (Index i = 0; i < elements_per_tile; ++i)
       {
-        f.at[k][row][i] = u[i] * p[0][row][i] + v[i] * p[1][row][i] + w[i] * p[2][row][i];
+        f.columns[k][row][i] = u[i] * p[0][row][i] + v[i] * p[1][row][i] + w[i] * p[2][row][i];
       }
     }
   }
@@ -247,7 +248,7 @@ void shape_of(PointsView rest, const Index* v, TetsView, double* shape)
   const Vec3 bc = b.cross(c), ca = c.cross(a), ab = a.cross(b);
   const double volume = a.dot(bc);
   const double longest = std::max({ a.squaredNorm(), b.squaredNorm(), c.squaredNorm() });
-  if (!(std::abs(volume) > degenerate_share * longest * std::sqrt(longest)))
+  if (!(std::abs(volume) > degenerate_tolerance * longest * std::sqrt(longest)))
   {
     return;
   }
@@ -265,7 +266,7 @@ void shape_of(PointsView rest, const Index* v, TrianglesView, double* shape)
   const Vec3 a = edge(rest, v[0], v[1]), b = edge(rest, v[0], v[2]);
   const double length = a.norm();
   const double height = a.cross(b).norm() / length;
-  if (!(height > degenerate_share * std::max(length, b.norm())))
+  if (!(height > degenerate_tolerance * std::max(length, b.norm())))
   {
     return;
   }
@@ -417,15 +418,15 @@ Status RestElements::stretch(ExecutionContext& context, const ElementStretchOpti
         {
           measure_triangles(posed.data(), ids, shape, values);
         }
-        const double* whole = shape + (numbers - 1) * elements_per_tile;
+        const double* orientation = shape + (numbers - 1) * elements_per_tile;
         for (Index i = 0; i < std::min(elements_per_tile, end - e); ++i)
         {
-          if (whole[i] == 0.0)
+          if (orientation[i] == 0.0)
           {
             block.degenerate += 1;
             continue;
           }
-          count(block, options.limit, e + i, values.largest[i], values.smallest[i],
+          count_element(block, options.limit, e + i, values.largest[i], values.smallest[i],
             sign && values.area[i] < 0.0, stretch);
         }
       }

@@ -26,7 +26,7 @@ bool is_identity(const Affine& transform, double size)
 }
 } // namespace
 
-Pose with_found_rotations(const Handles& handles, const Pose& pose)
+Pose resolve_automatic_modes(const Handles& handles, const Pose& pose)
 {
   const Pose relative = relative_pose(handles, pose);
   Pose result = pose;

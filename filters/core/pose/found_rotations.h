@@ -14,7 +14,7 @@ namespace bindpose
 ///   method computes its rotation. A point or cage vertex at rest also gets mode `position`.
 /// - A handle that is rotated, scaled, stretched or twisted gets mode `full`. A region and a bone
 ///   at rest (such as a bone that only moves with its parent) also get mode `full`.
-Pose with_found_rotations(const Handles& handles, const Pose& pose);
+Pose resolve_automatic_modes(const Handles& handles, const Pose& pose);
 
 } // namespace bindpose
 

@@ -14,15 +14,15 @@ namespace bindpose
 std::vector<Index> parents_first(const Handles& handles)
 {
   std::vector<Index> order;
-  std::vector<bool> seen(handles.size(), false);
+  std::vector<bool> visited(handles.size(), false);
   std::vector<Index> chain;
   for (std::size_t start = 0; start < handles.size(); ++start)
   {
     chain.clear();
-    for (auto h = static_cast<Index>(start); h >= 0 && !seen[static_cast<std::size_t>(h)];
+    for (auto h = static_cast<Index>(start); h >= 0 && !visited[static_cast<std::size_t>(h)];
          h = handles[static_cast<std::size_t>(h)].parent)
     {
-      seen[static_cast<std::size_t>(h)] = true;
+      visited[static_cast<std::size_t>(h)] = true;
       chain.push_back(h);
     }
     order.insert(order.end(), chain.rbegin(), chain.rend());
@@ -30,7 +30,7 @@ std::vector<Index> parents_first(const Handles& handles)
   return order;
 }
 
-Affine composed(const Affine& second, const Affine& first)
+Affine compose(const Affine& second, const Affine& first)
 {
   Affine result;
   result.leftCols<3>() = second.leftCols<3>() * first.leftCols<3>();
@@ -61,7 +61,7 @@ Affine transform_for_child(const Handle& parent, const HandlePose& posed, const 
   const double along = fraction_along_bone(place, parent.head, bone);
   const double degrees = (1.0 - along) * posed.twist[0] + along * posed.twist[1];
   const Eigen::AngleAxisd turn(degrees * (EIGEN_PI / 180.0), bone.stableNormalized());
-  return composed(posed.transform,
+  return compose(posed.transform,
     affine_about(parent.head, turn.toRotationMatrix(), along * (posed.stretch - 1.0) * bone));
 }
 
@@ -81,11 +81,11 @@ Pose relative_pose(const Handles& handles, const Pose& pose)
   Pose relative = pose;
   for (std::size_t h = 0; h < handles.size(); ++h)
   {
-    Affine back;
+    Affine inverse;
     if (handles[h].parent >= 0 &&
-      invert(inherited_transform(handles, pose, static_cast<Index>(h)), back))
+      invert(inherited_transform(handles, pose, static_cast<Index>(h)), inverse))
     {
-      relative[h].transform = composed(back, pose[h].transform);
+      relative[h].transform = compose(inverse, pose[h].transform);
     }
   }
   return relative;
@@ -98,10 +98,10 @@ Pose absolute_pose(const Handles& handles, const Pose& relative)
   {
     const auto h = static_cast<std::size_t>(handle);
     const Affine inherited = inherited_transform(handles, pose, handle);
-    Affine back;
-    if (handles[h].parent >= 0 && invert(inherited, back))
+    Affine inverse;
+    if (handles[h].parent >= 0 && invert(inherited, inverse))
     {
-      pose[h].transform = composed(inherited, relative[h].transform);
+      pose[h].transform = compose(inherited, relative[h].transform);
     }
   }
   return pose;
@@ -111,11 +111,11 @@ void follow_parent(const Handles& handles, const Pose& base, Index handle, Pose&
 {
   const Affine before = inherited_transform(handles, base, handle);
   const Affine now = inherited_transform(handles, pose, handle);
-  Affine back;
-  if (now != before && invert(before, back))
+  Affine inverse;
+  if (now != before && invert(before, inverse))
   {
     const auto h = static_cast<std::size_t>(handle);
-    pose[h].transform = composed(now, composed(back, base[h].transform));
+    pose[h].transform = compose(now, compose(inverse, base[h].transform));
   }
 }
 

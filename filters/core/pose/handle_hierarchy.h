@@ -33,7 +33,7 @@ Pose absolute_pose(const Handles& handles, const Pose& relative);
 void follow_parent(const Handles& handles, const Pose& base, Index handle, Pose& pose);
 
 /// Return the transform that applies `first`, then `second`.
-Affine composed(const Affine& second, const Affine& first);
+Affine compose(const Affine& second, const Affine& first);
 /// Compute the inverse of a transform. Return false, and leave `inverse` unchanged, if the
 /// transform is singular.
 bool invert(const Affine& transform, Affine& inverse);

@@ -9,7 +9,7 @@
 namespace bindpose
 {
 
-Eigen::Matrix3d pivot_rotation(const Handles& handles, const Pose& pose, double reach)
+Eigen::Matrix3d pivot_rotation(const Handles& handles, const Pose& pose, double pivot_radius)
 {
   Vec3 rest_mean = Vec3::Zero(), posed_mean = Vec3::Zero();
   std::vector<std::pair<Vec3, Vec3>> pivots;
@@ -30,7 +30,7 @@ Eigen::Matrix3d pivot_rotation(const Handles& handles, const Pose& pose, double 
     }
     if (constrains_transform(pose[h].mode))
     {
-      s += reach * reach * pose[h].transform.leftCols<3>().transpose();
+      s += pivot_radius * pivot_radius * pose[h].transform.leftCols<3>().transpose();
     }
   }
   const double count = std::max<double>(1.0, static_cast<double>(pivots.size()));

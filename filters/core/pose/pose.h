@@ -41,7 +41,7 @@ inline Affine identity_affine()
 
 /// Constraints violated by more than this fraction of the bounding-box diagonal are reported as
 /// contradictory.
-constexpr double contradictory_miss = 1e-9;
+constexpr double contradiction_tolerance = 1e-9;
 
 /// Pose of one handle.
 struct HandlePose

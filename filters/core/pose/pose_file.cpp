@@ -38,7 +38,7 @@ struct PoseFileError : std::runtime_error
   throw PoseFileError("the pose file: " + where + what);
 }
 
-const char* article(const Json& value)
+const char* describe_type(const Json& value)
 {
   switch (value.type())
   {
@@ -62,7 +62,7 @@ void check_object(
 {
   if (!value.is_object())
   {
-    fail(where, std::string(" is ") + article(value) + "; it must be an object");
+    fail(where, std::string(" is ") + describe_type(value) + "; it must be an object");
   }
   for (const auto& item : value.items())
   {
@@ -84,7 +84,7 @@ double number(const Json& value, const std::string& where)
 {
   if (!value.is_number())
   {
-    fail(where, std::string(" is ") + article(value) + "; it must be a number");
+    fail(where, std::string(" is ") + describe_type(value) + "; it must be a number");
   }
   const auto x = value.get<double>();
   if (!std::isfinite(x))
@@ -166,54 +166,54 @@ HandleEdit read_handle(
   {
     const std::string& key = item.key();
     const Json& entry = item.value();
-    const std::string at = where + "." + key;
+    const std::string entry_path = where + "." + key;
     const bool for_bones = key == "head" || key == "tail" || key == "stretch" || key == "twist";
     if (for_bones && rest.kind != HandleKind::bone)
     {
-      fail(at,
+      fail(entry_path,
         std::string(" can only be used for bones, but the handle is a ") + to_string(rest.kind));
     }
     if (key == "mode")
     {
-      edit.mode = static_cast<HandleMode>(word(entry, at, handle_mode_words));
+      edit.mode = static_cast<HandleMode>(word(entry, entry_path, handle_mode_words));
       if (constrains_tail(*edit.mode) && rest.kind != HandleKind::bone)
       {
-        fail(at,
+        fail(entry_path,
           " is '" + std::string(to_string(*edit.mode)) +
             "', which is only for bones, but the handle is a " + std::string(to_string(rest.kind)));
       }
     }
     else if (key == "translate")
     {
-      edit.translate = numbers<3>(entry, at);
+      edit.translate = numbers<3>(entry, entry_path);
     }
     else if (key == "rotate")
     {
-      edit.rotation = read_rotation(entry, at);
+      edit.rotation = read_rotation(entry, entry_path);
     }
     else if (key == "scale")
     {
-      edit.scale = positive_number(entry, at);
+      edit.scale = positive_number(entry, entry_path);
     }
     else if (key == "space")
     {
-      edit.with_parent = word(entry, at, { "parent", "world" }) == 0;
+      edit.with_parent = word(entry, entry_path, { "parent", "world" }) == 0;
     }
     else if (key == "head")
     {
-      edit.head = numbers<3>(entry, at);
+      edit.head = numbers<3>(entry, entry_path);
     }
     else if (key == "tail")
     {
-      edit.tail = numbers<3>(entry, at);
+      edit.tail = numbers<3>(entry, entry_path);
     }
     else if (key == "stretch")
     {
-      edit.stretch = positive_number(entry, at);
+      edit.stretch = positive_number(entry, entry_path);
     }
     else
     {
-      edit.twist = numbers<2>(entry, at);
+      edit.twist = numbers<2>(entry, entry_path);
     }
   }
   if (edit.head || edit.tail)
@@ -241,19 +241,19 @@ bool is_expression(const std::string& key, const Json& value)
 /// Evaluates the expressions of a file at one time, and records whether the file has any.
 struct Expressions
 {
-  const PoseExpression& value_of;
+  const PoseExpression& evaluate;
   double time;
   bool found = false;
 
   /// Replace expressions in a value by numbers.
   void replace(Json& value, const std::string& key, const std::string& where)
   {
-    if (is_expression(key, value) && this->value_of)
+    if (is_expression(key, value) && this->evaluate)
     {
       this->found = true;
       const auto text = value.get<std::string>();
       double result = 0.0;
-      const Status status = this->value_of(text, this->time, result);
+      const Status status = this->evaluate(text, this->time, result);
       if (!status.ok())
       {
         fail(where, " is '" + text + "': " + status.message);
@@ -334,9 +334,9 @@ PoseEdits read_pose(const Json& value, const std::string& where,
 
 /// Report whether version 2 would pose a handle of a version 1 file differently. This is the case
 /// if a pose moves a parent and has no "space" for a child.
-bool leaves_a_child(const Json& root, const Handles& handles)
+bool omits_child(const Json& root, const Handles& handles)
 {
-  const auto leaves = [&](const Json& pose)
+  const auto pose_omits_child = [&](const Json& pose)
   {
     const Json& named = pose["handles"];
     return std::any_of(handles.begin(), handles.end(),
@@ -350,9 +350,9 @@ bool leaves_a_child(const Json& root, const Handles& handles)
   };
   if (!root.contains("frames"))
   {
-    return leaves(root);
+    return pose_omits_child(root);
   }
-  return std::any_of(root["frames"].begin(), root["frames"].end(), leaves);
+  return std::any_of(root["frames"].begin(), root["frames"].end(), pose_omits_child);
 }
 
 /// Parse JSON and reject duplicate keys. The library alone would silently use the last of several
@@ -399,9 +399,9 @@ Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequ
     const Json root = parse_without_doubled_keys(text);
     const int version = read_version(root);
     Status status;
-    const auto note_children = [&]
+    const auto warn_about_children = [&]
     {
-      if (!root.contains("version") && leaves_a_child(root, handles))
+      if (!root.contains("version") && omits_child(root, handles))
       {
         status.warnings.push_back(
           "the pose file has no \"version\" and is read as version 1, in which children do not "
@@ -415,7 +415,7 @@ Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequ
       sequence.frames.push_back(
         read_pose(root, "the pose", index_of, handles, expressions, version));
       sequence.has_expressions = expressions.found;
-      note_children();
+      warn_about_children();
       return status;
     }
     check_object(root, "the sequence", { "version", "frames", "fps" });
@@ -437,7 +437,7 @@ Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequ
       sequence.frames.push_back(read_pose(frame, where, index_of, handles, expressions, version));
       sequence.has_expressions = sequence.has_expressions || expressions.found;
     }
-    note_children();
+    warn_about_children();
     return status;
   }
   catch (const PoseFileError& error)
@@ -532,33 +532,34 @@ bool has_transform(const HandleEdit& edit)
   return edit.head || edit.tail || edit.translate || edit.rotation || edit.scale;
 }
 
-/// Apply the transform of an edit to a handle that inherits `up` from its parent.
-void place_handle(const HandleEdit& edit, const Handle& rest, const Affine& up, HandlePose& posed)
+/// Apply the transform of an edit to a handle that inherits `parent_transform` from its parent.
+void place_handle(
+  const HandleEdit& edit, const Handle& rest, const Affine& parent_transform, HandlePose& posed)
 {
   if (!edit.head && !edit.tail)
   {
     const Eigen::Matrix3d linear =
       edit.scale.value_or(1.0) * edit.rotation.value_or(Eigen::Matrix3d::Identity());
-    posed.transform =
-      composed(up, affine_about(rest.head, linear, edit.translate.value_or(Vec3::Zero())));
+    posed.transform = compose(
+      parent_transform, affine_about(rest.head, linear, edit.translate.value_or(Vec3::Zero())));
     return;
   }
-  const Vec3 carried_head = up * rest.head.homogeneous();
-  const Vec3 carried_tail = up * rest.tail.homogeneous();
-  const Vec3 carried = carried_tail - carried_head;
-  const Vec3 head = edit.head.value_or(carried_head);
-  const Vec3 bone = edit.tail.value_or(carried_tail) - head;
+  const Vec3 inherited_head = parent_transform * rest.head.homogeneous();
+  const Vec3 inherited_tail = parent_transform * rest.tail.homogeneous();
+  const Vec3 inherited_vector = inherited_tail - inherited_head;
+  const Vec3 head = edit.head.value_or(inherited_head);
+  const Vec3 bone = edit.tail.value_or(inherited_tail) - head;
   // Both ends may coincide up to round-off, because one of them moves with the parent. In this case
   // the ends define no direction, and the bone keeps the direction that it inherits.
   constexpr double round_off = 1e-13;
-  const double least =
-    edit.head && edit.tail ? 0.0 : round_off * (head.stableNorm() + carried.stableNorm());
-  Eigen::Matrix3d linear = up.leftCols<3>();
+  const double minimum_length =
+    edit.head && edit.tail ? 0.0 : round_off * (head.stableNorm() + inherited_vector.stableNorm());
+  Eigen::Matrix3d linear = parent_transform.leftCols<3>();
   posed.stretch = 1.0;
-  if (carried != Vec3::Zero() && bone.stableNorm() > least)
+  if (inherited_vector != Vec3::Zero() && bone.stableNorm() > minimum_length)
   {
-    linear = minimal_arc(carried, bone) * linear;
-    posed.stretch = bone.stableNorm() / carried.stableNorm();
+    linear = minimal_arc(inherited_vector, bone) * linear;
+    posed.stretch = bone.stableNorm() / inherited_vector.stableNorm();
   }
   posed.transform = affine_about(rest.head, linear, head - rest.head);
 }
@@ -585,7 +586,7 @@ void pose_handle(const HandleEdit* edit, bool children_follow, const Handles& ha
   {
     const auto parent = static_cast<std::size_t>(rest.parent);
     // In version 1, the parent's transform is applied afterward.
-    posed.transform = composed(pose[parent].transform, posed.transform);
+    posed.transform = compose(pose[parent].transform, posed.transform);
   }
   if (edit)
   {
@@ -672,7 +673,7 @@ Json format_handle(const Pose& pose, const Handles& handles, std::size_t h, bool
     to_parent.exact = invert(inherited_transform(handles, pose, static_cast<Index>(h)), back);
     if (to_parent.exact)
     {
-      to_parent = numbers_of(composed(back, posed.transform), rest.head);
+      to_parent = numbers_of(compose(back, posed.transform), rest.head);
     }
     if (to_parent.exact)
     {
@@ -722,14 +723,14 @@ void warn_of_inexact(const Handles& handles, const std::vector<char>& is_exact, 
   {
     return;
   }
-  const bool one = inexact.size() == 1;
-  const std::string who = one ? "the transform of handle " : "the transforms of ";
-  const std::string count = one ? "" : std::to_string(inexact.size()) + " handles (";
+  const bool is_single = inexact.size() == 1;
+  const std::string who = is_single ? "the transform of handle " : "the transforms of ";
+  const std::string count = is_single ? "" : std::to_string(inexact.size()) + " handles (";
   const std::string when = pose_count == 1
     ? ""
     : " in " + std::to_string(inexact_poses) + " of " + std::to_string(pose_count) + " poses";
-  status.warnings.push_back(who + count + first_names(handles, inexact) + (one ? "" : ")") +
-    (one ? " has" : " have") +
+  status.warnings.push_back(who + count + abbreviated_names(handles, inexact) +
+    (is_single ? "" : ")") + (is_single ? " has" : " have") +
     " a shear, a non-uniform scale or a reflection, which a pose file cannot store" + when +
     "; the nearest rotation and scale were written");
 }

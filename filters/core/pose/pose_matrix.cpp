@@ -15,7 +15,7 @@ namespace bindpose
 namespace
 {
 /// Read transposed transforms that are stored one below the other.
-void take_transforms(WeightsView matrix, Pose& pose)
+void read_transforms(WeightsView matrix, Pose& pose)
 {
   const Index d = matrix.cols();
   for (Index h = 0; h < static_cast<Index>(pose.size()); ++h)
@@ -55,7 +55,7 @@ const Affine& follow(const std::vector<Eigen::Matrix3d>& rotations, const Handle
     if (parent >= 0)
     {
       const Affine above = follow(rotations, handles, static_cast<std::size_t>(parent), done, pose);
-      transform = composed(above, transform);
+      transform = compose(above, transform);
     }
   }
   return transform;
@@ -93,10 +93,10 @@ Status pose_of_matrix(WeightsView matrix, const Handles& handles, Pose& pose)
   pose.assign(handles.size(), HandlePose());
   if (transforms)
   {
-    take_transforms(matrix, pose);
+    read_transforms(matrix, pose);
     return {};
   }
-  std::vector<Eigen::Matrix3d> turns(handles.size(), Eigen::Matrix3d::Identity());
+  std::vector<Eigen::Matrix3d> joint_rotations(handles.size(), Eigen::Matrix3d::Identity());
   Index bone = 0;
   for (std::size_t h = 0; h < handles.size(); ++h)
   {
@@ -113,12 +113,12 @@ Status pose_of_matrix(WeightsView matrix, const Handles& handles, Pose& pose)
         "the quaternion of bone '" + handles[h].name + "' has length zero");
     }
     q.coeffs() /= length;
-    turns[h] = q.toRotationMatrix();
+    joint_rotations[h] = q.toRotationMatrix();
   }
   std::vector<char> done(handles.size(), 0);
   for (std::size_t h = 0; h < handles.size(); ++h)
   {
-    follow(turns, handles, h, done, pose);
+    follow(joint_rotations, handles, h, done, pose);
   }
   return {};
 }

@@ -43,8 +43,8 @@ Neighbors neighbors_of(Index vertices, const Elements& elements)
       {
         if (a != b)
         {
-          Index& at = next[static_cast<std::size_t>(elements(e, a))];
-          list.to[static_cast<std::size_t>(at++)] = elements(e, b);
+          Index& index = next[static_cast<std::size_t>(elements(e, a))];
+          list.to[static_cast<std::size_t>(index++)] = elements(e, b);
         }
       }
     }
@@ -56,14 +56,14 @@ Neighbors neighbors_of(Index vertices, const Elements& elements)
 Index nearest_vertex(PointsView points, const Neighbors& neighbors, const Vec3& to)
 {
   Index nearest = -1;
-  double least = std::numeric_limits<double>::infinity();
+  double smallest_distance = std::numeric_limits<double>::infinity();
   for (Index v = 0; v < points.rows(); ++v)
   {
     const double distance = (points.row(v).transpose() - to).squaredNorm();
-    const auto at = static_cast<std::size_t>(v);
-    if (neighbors.start[at] < neighbors.start[at + 1] && distance < least)
+    const auto index = static_cast<std::size_t>(v);
+    if (neighbors.start[index] < neighbors.start[index + 1] && distance < smallest_distance)
     {
-      least = distance;
+      smallest_distance = distance;
       nearest = v;
     }
   }
@@ -72,21 +72,21 @@ Index nearest_vertex(PointsView points, const Neighbors& neighbors, const Vec3& 
 
 /// A path between two handles: its length, then the indices of the handles. Paths are sorted by
 /// length.
-using Way = std::tuple<double, Index, Index>;
+using HandlePath = std::tuple<double, Index, Index>;
 
-Way way(double length, Index a, Index b)
+HandlePath make_path(double length, Index a, Index b)
 {
   return { length, std::min(a, b), std::max(a, b) };
 }
 
 /// Return the pseudo-edges of the minimum spanning forest, by Kruskal's algorithm.
-PseudoEdges spanning_tree(std::vector<Way> ways, std::size_t handles)
+PseudoEdges spanning_tree(std::vector<HandlePath> paths, std::size_t handles)
 {
-  std::sort(ways.begin(), ways.end());
+  std::sort(paths.begin(), paths.end());
   std::vector<Index> part(handles);
   std::iota(part.begin(), part.end(), Index(0));
   PseudoEdges edges;
-  for (const auto& [length, a, b] : ways)
+  for (const auto& [length, a, b] : paths)
   {
     const Index from = part[static_cast<std::size_t>(a)], to = part[static_cast<std::size_t>(b)];
     if (from != to)
@@ -112,7 +112,7 @@ Status find_edges(ExecutionContext& context, PointsView points, const Elements& 
   const auto size = static_cast<std::size_t>(points.rows());
   std::vector<double> distance(size, std::numeric_limits<double>::infinity());
   std::vector<Index> owner(size, -1);
-  std::vector<Way> ways;
+  std::vector<HandlePath> paths;
   using Reached = std::tuple<double, Index, Index>; // distance, handle, vertex
   std::priority_queue<Reached, std::vector<Reached>, std::greater<Reached>> front;
   Index count = 0;
@@ -135,33 +135,33 @@ Status find_edges(ExecutionContext& context, PointsView points, const Elements& 
   {
     const auto [length, handle, v] = front.top();
     front.pop();
-    const auto at = static_cast<std::size_t>(v);
-    if (owner[at] >= 0)
+    const auto index = static_cast<std::size_t>(v);
+    if (owner[index] >= 0)
     {
-      if (owner[at] != handle) // a path between two different handles
+      if (owner[index] != handle) // a path between two different handles
       {
-        ways.push_back(way(distance[at] + length, owner[at], handle));
+        paths.push_back(make_path(distance[index] + length, owner[index], handle));
       }
       continue;
     }
-    owner[at] = handle;
-    distance[at] = length;
-    for (Index k = neighbors.start[at]; k < neighbors.start[at + 1]; ++k)
+    owner[index] = handle;
+    distance[index] = length;
+    for (Index k = neighbors.start[index]; k < neighbors.start[index + 1]; ++k)
     {
       const Index u = neighbors.to[static_cast<std::size_t>(k)];
       const auto next = static_cast<std::size_t>(u);
-      const double farther = length + (points.row(u) - points.row(v)).norm();
+      const double new_distance = length + (points.row(u) - points.row(v)).norm();
       if (owner[next] < 0)
       {
-        if (farther < distance[next])
+        if (new_distance < distance[next])
         {
-          distance[next] = farther;
-          front.emplace(farther, handle, u);
+          distance[next] = new_distance;
+          front.emplace(new_distance, handle, u);
         }
       }
       else if (owner[next] != handle)
       {
-        ways.push_back(way(farther + distance[next], owner[next], handle));
+        paths.push_back(make_path(new_distance + distance[next], owner[next], handle));
       }
     }
     if (++steps % 1024 == 0)
@@ -173,7 +173,7 @@ Status find_edges(ExecutionContext& context, PointsView points, const Elements& 
       }
     }
   }
-  edges = spanning_tree(std::move(ways), handles.size());
+  edges = spanning_tree(std::move(paths), handles.size());
   Status status;
   if (edges.empty())
   {
@@ -188,7 +188,7 @@ Status find_edges(ExecutionContext& context, PointsView points, const Elements& 
 }
 
 /// Sums over the pseudo-edges at a handle.
-struct Turn
+struct EdgeRotation
 {
   Eigen::Vector4d quaternion = Eigen::Vector4d::Zero(); // sum of the edges' rotations
   double ratio = 0.0; // sum of the edges' length ratios
@@ -201,7 +201,7 @@ struct Turn
     {
       return; // an edge of length zero has no direction
     }
-    const Eigen::Vector4d q = least_rotation(rest, posed).coeffs();
+    const Eigen::Vector4d q = minimal_rotation(rest, posed).coeffs();
     this->quaternion += this->edges > 0 && q.dot(this->first) < 0.0 ? Eigen::Vector4d(-q) : q;
     this->first = this->edges > 0 ? this->first : q;
     this->ratio += to / from;
@@ -244,7 +244,7 @@ Status automatic_pseudo_edges(ExecutionContext& context, PointsView points, Tria
   return find_edges(context, points, triangles, handles, edges);
 }
 
-Eigen::Quaterniond least_rotation(const Vec3& from, const Vec3& to)
+Eigen::Quaterniond minimal_rotation(const Vec3& from, const Vec3& to)
 {
   const Vec3 u = from.stableNormalized(), v = to.stableNormalized();
   if (u.isZero(0.0) || v.isZero(0.0) || u == v)
@@ -259,12 +259,12 @@ Eigen::Quaterniond least_rotation(const Vec3& from, const Vec3& to)
   }
   if (axis.isZero(0.0))
   {
-    Index farthest = 2;
+    Index axis_index = 2;
     for (const Index k : { 1, 0 })
     {
-      farthest = std::abs(u[k]) < std::abs(u[farthest]) ? k : farthest;
+      axis_index = std::abs(u[k]) < std::abs(u[axis_index]) ? k : axis_index;
     }
-    axis = Vec3::Unit(farthest) - u[farthest] * u;
+    axis = Vec3::Unit(axis_index) - u[axis_index] * u;
   }
   // The cosine and sine of half the angle are half the lengths of the sum and of the difference of
   // the unit vectors.
@@ -275,7 +275,7 @@ Eigen::Quaterniond least_rotation(const Vec3& from, const Vec3& to)
   return q;
 }
 
-void turn_by_pseudo_edges(
+void rotate_by_pseudo_edges(
   const Handles& handles, const PseudoEdges& edges, bool stretch, Pose& pose)
 {
   Points posed(static_cast<Index>(handles.size()), 3);
@@ -285,7 +285,7 @@ void turn_by_pseudo_edges(
     const Vec3 moved = pose[h].transform * pivot.homogeneous();
     posed.row(static_cast<Index>(h)) = pose[h].mode == HandleMode::free ? pivot : moved;
   }
-  std::vector<Turn> turns(handles.size());
+  std::vector<EdgeRotation> turns(handles.size());
   for (const auto& [a, b] : edges)
   {
     const Vec3 rest =
@@ -296,7 +296,7 @@ void turn_by_pseudo_edges(
   }
   for (std::size_t h = 0; h < handles.size(); ++h)
   {
-    const Turn& turn = turns[h];
+    const EdgeRotation& turn = turns[h];
     if (turn.edges == 0 || pose[h].mode == HandleMode::free)
     {
       continue;

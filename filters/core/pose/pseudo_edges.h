@@ -46,7 +46,7 @@ Status automatic_pseudo_edges(ExecutionContext& context, PointsView points, Tria
 /// perpendicular to them. If several coordinate axes have the same angle, the last one is used, so
 /// that flat shapes (z = const) rotate within their plane. Return the identity for a vector of
 /// length zero.
-Eigen::Quaterniond least_rotation(const Vec3& from, const Vec3& to);
+Eigen::Quaterniond minimal_rotation(const Vec3& from, const Vec3& to);
 
 /// Rotate each handle that has pseudo-edges. For each of its edges, there is a smallest rotation
 /// from the rest direction to the posed direction. The handle is rotated by the mean of these
@@ -61,7 +61,7 @@ Eigen::Quaterniond least_rotation(const Vec3& from, const Vec3& to);
 /// edge does not change the edge and cannot be detected.
 ///
 /// @param stretch whether to also scale handles by the mean ratio of their edges' lengths.
-void turn_by_pseudo_edges(
+void rotate_by_pseudo_edges(
   const Handles& handles, const PseudoEdges& edges, bool stretch, Pose& pose);
 
 } // namespace bindpose

@@ -35,9 +35,9 @@ constexpr double same_eigenvalue = 1e-12;
 
 /// Parameters of the fast path for a precision.
 template <typename Scalar>
-struct Fast;
+struct FitLimits;
 template <>
-struct Fast<double>
+struct FitLimits<double>
 {
   static constexpr int lanes = 8; ///< number of matrices that are processed in parallel
   static constexpr int steps = 5; ///< number of iterations of Laguerre's method
@@ -46,17 +46,18 @@ struct Fast<double>
   /// Smallest p'(lambda) / |S|^3 for which the result is trusted.
   static constexpr double slope = 1e-3;
   static constexpr double tiny = 1e-300; ///< added to denominators, to keep quotients finite
-  static constexpr double least = 1e-200, most = 1e200; ///< range of |S|^2 for the fast path
+  static constexpr double minimum_norm2 = 1e-200,
+                          maximum_norm2 = 1e200; ///< range of |S|^2 for the fast path
 };
 template <>
-struct Fast<float>
+struct FitLimits<float>
 {
   static constexpr int lanes = 16;
   static constexpr int steps = 4;
   static constexpr float last_step = 1e-3F;
   static constexpr float slope = 3e-2F;
   static constexpr float tiny = 1e-36F;
-  static constexpr float least = 1e-25F, most = 1e25F;
+  static constexpr float minimum_norm2 = 1e-25F, maximum_norm2 = 1e25F;
 };
 
 /// The ten entries of the symmetric matrix N over (w, x, y, z).
@@ -124,7 +125,7 @@ BINDPOSE_ALWAYS_INLINE Quaternion<Scalar> eigenvector(const Horn<Scalar>& n, Sca
 template <typename Scalar>
 BINDPOSE_ALWAYS_INLINE Scalar square_of(const Quaternion<Scalar>& v)
 {
-  return v.w * v.w + v.x * v.x + v.y * v.y + v.z * v.z + Fast<Scalar>::tiny;
+  return v.w * v.w + v.x * v.x + v.y * v.y + v.z * v.z + FitLimits<Scalar>::tiny;
 }
 
 template <typename Scalar>
@@ -139,25 +140,25 @@ BINDPOSE_ALWAYS_INLINE Scalar rayleigh(const Horn<Scalar>& n, const Quaternion<S
 
 /// Number of groups of lanes that each step of the fast path processes together. The latency of
 /// square roots and divisions of one group overlaps with the work on the other groups.
-constexpr int groups_at_once = 4;
+constexpr int groups_per_block = 4;
 
 /// Data that one step of the fast path passes to the next step.
 template <typename Scalar>
 struct FitBlock
 {
-  static constexpr int lanes = Fast<Scalar>::lanes;
+  static constexpr int lanes = FitLimits<Scalar>::lanes;
   int groups; ///< number of groups in use
-  Index begin[groups_at_once]; ///< first matrix of each group
+  Index begin[groups_per_block]; ///< first matrix of each group
   /// Number of leading lanes in each group that another group has already processed.
-  int skipped[groups_at_once];
-  Scalar horn[10][groups_at_once * lanes];
+  int skipped[groups_per_block];
+  Scalar horn[10][groups_per_block * lanes];
   /// Coefficients of the quartic.
-  Scalar linear[groups_at_once * lanes], constant[groups_at_once * lanes];
-  Scalar norm2[groups_at_once * lanes];
-  Scalar eigenvalue[groups_at_once * lanes];
+  Scalar linear[groups_per_block * lanes], constant[groups_per_block * lanes];
+  Scalar norm2[groups_per_block * lanes];
+  Scalar eigenvalue[groups_per_block * lanes];
   /// P'(lambda) if the result of a lane can be trusted, otherwise 0.
-  Scalar slope[groups_at_once * lanes];
-  Scalar rotation[9][groups_at_once * lanes];
+  Scalar slope[groups_per_block * lanes];
+  Scalar rotation[9][groups_per_block * lanes];
 
   BINDPOSE_ALWAYS_INLINE Horn<Scalar> horn_of(int k) const
   {
@@ -173,7 +174,7 @@ template <typename Scalar>
 BINDPOSE_ALWAYS_INLINE void set_quartics(
   const MatrixPlanes<const Scalar>& s, FitBlock<Scalar>& __restrict block)
 {
-  constexpr int lanes = Fast<Scalar>::lanes;
+  constexpr int lanes = FitLimits<Scalar>::lanes;
   for (int g = 0; g < block.groups; ++g)
   {
     const MatrixPlanes<const Scalar> from = s.from(block.begin[g]);
@@ -185,7 +186,7 @@ BINDPOSE_ALWAYS_INLINE void set_quartics(
       const int k = g * lanes + i;
       const Scalar norm2 = p00[i] * p00[i] + p01[i] * p01[i] + p02[i] * p02[i] + p10[i] * p10[i] +
         p11[i] * p11[i] + p12[i] * p12[i] + p20[i] * p20[i] + p21[i] * p21[i] + p22[i] * p22[i];
-      const Scalar f = 1 / std::sqrt(norm2 + Fast<Scalar>::tiny);
+      const Scalar f = 1 / std::sqrt(norm2 + FitLimits<Scalar>::tiny);
       const Scalar s00 = f * p00[i], s01 = f * p01[i], s02 = f * p02[i];
       const Scalar s10 = f * p10[i], s11 = f * p11[i], s12 = f * p12[i];
       const Scalar s20 = f * p20[i], s21 = f * p21[i], s22 = f * p22[i];
@@ -220,7 +221,7 @@ BINDPOSE_ALWAYS_INLINE void set_quartics(
 template <typename Scalar>
 BINDPOSE_ALWAYS_INLINE void find_eigenvalues(FitBlock<Scalar>& __restrict block)
 {
-  using Limits = Fast<Scalar>;
+  using Limits = FitLimits<Scalar>;
   for (int g = 0; g < block.groups; ++g)
   {
     for (int k = g * Limits::lanes; k < (g + 1) * Limits::lanes; ++k)
@@ -242,10 +243,10 @@ BINDPOSE_ALWAYS_INLINE void find_eigenvalues(FitBlock<Scalar>& __restrict block)
         x -= step;
       }
       // A lane is not trusted if the iteration has not converged (convergence to a double root is
-      // slow), or if |S|^2 is out of range. fit_carefully() processes such lanes.
+      // slow), or if |S|^2 is out of range. fit_by_eigenvectors() processes such lanes.
       const Scalar slope = (4 * x * x - 4) * x + c1;
-      block.slope[k] =
-        std::abs(step) < Limits::last_step && norm2 > Limits::least && norm2 < Limits::most
+      block.slope[k] = std::abs(step) < Limits::last_step && norm2 > Limits::minimum_norm2 &&
+          norm2 < Limits::maximum_norm2
         ? slope
         : Scalar(0);
       block.eigenvalue[k] = x;
@@ -257,7 +258,7 @@ BINDPOSE_ALWAYS_INLINE void find_eigenvalues(FitBlock<Scalar>& __restrict block)
 template <typename Scalar>
 BINDPOSE_ALWAYS_INLINE void refine_eigenvalues(FitBlock<Scalar>& __restrict block)
 {
-  constexpr int lanes = Fast<Scalar>::lanes;
+  constexpr int lanes = FitLimits<Scalar>::lanes;
   for (int g = 0; g < block.groups; ++g)
   {
     for (int k = g * lanes; k < (g + 1) * lanes; ++k)
@@ -272,7 +273,7 @@ BINDPOSE_ALWAYS_INLINE void refine_eigenvalues(FitBlock<Scalar>& __restrict bloc
 template <typename Scalar>
 BINDPOSE_ALWAYS_INLINE void make_rotations(Scalar diagonal, FitBlock<Scalar>& __restrict block)
 {
-  constexpr int lanes = Fast<Scalar>::lanes;
+  constexpr int lanes = FitLimits<Scalar>::lanes;
   for (int g = 0; g < block.groups; ++g)
   {
     for (int k = g * lanes; k < (g + 1) * lanes; ++k)
@@ -299,29 +300,29 @@ template <typename Scalar>
 BINDPOSE_ALWAYS_INLINE int put_rotations(
   const MatrixPlanes<Scalar>& rotations, FitBlock<Scalar>& __restrict block)
 {
-  constexpr int lanes = Fast<Scalar>::lanes;
-  int careful = 0;
+  constexpr int lanes = FitLimits<Scalar>::lanes;
+  int unresolved = 0;
   for (int g = 0; g < block.groups; ++g)
   {
-    bool take[lanes];
+    bool is_resolved[lanes];
     for (int i = 0; i < lanes; ++i)
     {
       const int k = g * lanes + i;
       block.slope[k] = i < block.skipped[g] ? Scalar(1) : block.slope[k];
       // a comparison with NaN is false, so NaN is not trusted
-      careful += block.slope[k] > Fast<Scalar>::slope ? 0 : 1;
-      take[i] = i >= block.skipped[g] && block.slope[k] > Fast<Scalar>::slope;
+      unresolved += block.slope[k] > FitLimits<Scalar>::slope ? 0 : 1;
+      is_resolved[i] = i >= block.skipped[g] && block.slope[k] > FitLimits<Scalar>::slope;
     }
     for (int e = 0; e < 9; ++e)
     {
       Scalar* const __restrict to = rotations.at(e / 3, e % 3) + block.begin[g];
       for (int i = 0; i < lanes; ++i)
       {
-        to[i] = take[i] ? block.rotation[e][g * lanes + i] : to[i];
+        to[i] = is_resolved[i] ? block.rotation[e][g * lanes + i] : to[i];
       }
     }
   }
-  return careful;
+  return unresolved;
 }
 
 template <typename Scalar>
@@ -349,7 +350,7 @@ BINDPOSE_SIMD_CLONES int fit_block(const MatrixPlanes<const float>& s,
 
 /// Compute the best rotation of any S. If it is not unique, choose the one that is nearest to the
 /// previous rotation.
-void fit_carefully(const Eigen::Matrix3d& matrix, Eigen::Matrix3d& rotation)
+void fit_by_eigenvectors(const Eigen::Matrix3d& matrix, Eigen::Matrix3d& rotation)
 {
   const double largest = matrix.cwiseAbs().maxCoeff();
   if (!(largest > 0.0) || !matrix.allFinite())
@@ -384,11 +385,11 @@ template <typename Scalar>
 void fit_rest(const FitBlock<Scalar>& block, const MatrixPlanes<const Scalar>& s,
   const MatrixPlanes<Scalar>& rotations, Scalar diagonal)
 {
-  constexpr int lanes = Fast<Scalar>::lanes;
+  constexpr int lanes = FitLimits<Scalar>::lanes;
   const double missing = 1.0 - diagonal;
   for (int k = 0; k < block.groups * lanes; ++k)
   {
-    if (block.slope[k] > Fast<Scalar>::slope)
+    if (block.slope[k] > FitLimits<Scalar>::slope)
     {
       continue;
     }
@@ -399,7 +400,7 @@ void fit_rest(const FitBlock<Scalar>& block, const MatrixPlanes<const Scalar>& s
       matrix(e / 3, e % 3) = s.at(e / 3, e % 3)[at];
       rotation(e / 3, e % 3) = rotations.at(e / 3, e % 3)[at] + (e % 4 == 0 ? missing : 0.0);
     }
-    fit_carefully(matrix, rotation);
+    fit_by_eigenvectors(matrix, rotation);
     for (int e = 0; e < 9; ++e)
     {
       rotations.at(e / 3, e % 3)[at] =
@@ -414,7 +415,7 @@ template <typename Scalar>
 void fit_all(Index count, const MatrixPlanes<const Scalar>& s,
   const MatrixPlanes<Scalar>& rotations, Scalar diagonal)
 {
-  constexpr int lanes = Fast<Scalar>::lanes;
+  constexpr int lanes = FitLimits<Scalar>::lanes;
   FitBlock<Scalar> block;
   const auto fit = [&](const MatrixPlanes<const Scalar>& from, const MatrixPlanes<Scalar>& to)
   {
@@ -445,7 +446,7 @@ void fit_all(Index count, const MatrixPlanes<const Scalar>& s,
   }
   for (Index done = 0; done < count;)
   {
-    for (block.groups = 0; block.groups < groups_at_once && done < count; ++block.groups)
+    for (block.groups = 0; block.groups < groups_per_block && done < count; ++block.groups)
     {
       // The last group overlaps the previous group and skips the matrices that are already done.
       const Index begin = std::min(done, count - lanes);
@@ -463,14 +464,14 @@ void fit_rotations(Index count, Index stride, const double* s, double* rotations
   fit_all(count, { s, 3 * stride, stride }, { rotations, 3 * stride, stride }, 1.0);
 }
 
-void fit_turns(Index count, MatrixPlanes<const double> s, MatrixPlanes<double> turns)
+void fit_rotation_deltas(Index count, MatrixPlanes<const double> s, MatrixPlanes<double> deltas)
 {
-  fit_all(count, s, turns, 0.0);
+  fit_all(count, s, deltas, 0.0);
 }
 
-void fit_turns(Index count, MatrixPlanes<const float> s, MatrixPlanes<float> turns)
+void fit_rotation_deltas(Index count, MatrixPlanes<const float> s, MatrixPlanes<float> deltas)
 {
-  fit_all(count, s, turns, 0.0F);
+  fit_all(count, s, deltas, 0.0F);
 }
 
 void fit_rotation(const Eigen::Matrix3d& s, Eigen::Matrix3d& rotation)

@@ -26,22 +26,29 @@ void fit_rotation(const Eigen::Matrix3d& s, Eigen::Matrix3d& rotation);
 /// matrices near rank 1.
 void fit_rotations(Index count, Index stride, const double* s, double* rotations);
 
-/// Matrices stored in planes: entry (i, j) of matrix k is planes[i * by_row + j * by_column + k].
+/// Matrices stored in planes: entry (i, j) of matrix k is planes[i * row_stride + j * column_stride
+/// + k].
 template <typename Scalar>
 struct MatrixPlanes
 {
   Scalar* planes;
-  Index by_row, by_column;
+  Index row_stride, column_stride;
 
-  Scalar* at(int i, int j) const { return this->planes + i * this->by_row + j * this->by_column; }
+  Scalar* at(int i, int j) const
+  {
+    return this->planes + i * this->row_stride + j * this->column_stride;
+  }
   /// Return the planes that start at matrix `k`.
-  MatrixPlanes from(Index k) const { return { this->planes + k, this->by_row, this->by_column }; }
+  MatrixPlanes from(Index k) const
+  {
+    return { this->planes + k, this->row_stride, this->column_stride };
+  }
 };
 
 /// Fit many rotations and store R - I instead of R.
-void fit_turns(Index count, MatrixPlanes<const double> s, MatrixPlanes<double> turns);
+void fit_rotation_deltas(Index count, MatrixPlanes<const double> s, MatrixPlanes<double> deltas);
 /// Fit in single precision, with an error of about 1e-6 and half the computing time.
-void fit_turns(Index count, MatrixPlanes<const float> s, MatrixPlanes<float> turns);
+void fit_rotation_deltas(Index count, MatrixPlanes<const float> s, MatrixPlanes<float> deltas);
 
 /// Return the first `count` matrices that are stored in planes.
 std::vector<Eigen::Matrix3d> rotation_matrices(

@@ -10,7 +10,7 @@ namespace bindpose
 
 namespace
 {
-auto tied(const BodyOptions& o)
+auto as_tuple(const BodyOptions& o)
 {
   return std::tie(o.gravity, o.down, o.stiffness, o.damping, o.steps_per_second);
 }
@@ -28,7 +28,7 @@ bool same_pose(const Pose& a, const Pose& b)
 
 /// Return `before` if it equals `value`; otherwise return a shared copy of `value`.
 template <typename Value, typename Same>
-std::shared_ptr<const Value> shared_with(
+std::shared_ptr<const Value> reuse_if_equal(
   const std::shared_ptr<const Value>& before, const Value& value, const Same& same)
 {
   return before && same(*before, value) ? before : std::make_shared<const Value>(value);
@@ -48,7 +48,7 @@ ReducedDynamicsOptions kernel_options(const BodyOptions& options, double diagona
 
 bool operator==(const BodyOptions& a, const BodyOptions& b)
 {
-  return tied(a) == tied(b);
+  return as_tuple(a) == as_tuple(b);
 }
 
 bool Body::is_bound(const PoseOptions& options) const
@@ -88,12 +88,14 @@ Status Body::bind(ExecutionContext& context, const PoseOptions& options)
     // from the same columns.
     ReducedArap arap;
     Weights columns, weights;
-    Status carried = arap.bind(
+    Status surface_status = arap.bind(
       context, source.tet_points, source.tets, source.tet_weights, source.handles, reduced);
-    carried = carried.usable() ? arap.weights(context, columns) : carried;
-    carried = carried.usable() ? weights_on_surface(context, source, columns, weights) : carried;
-    carried = carried.usable() ? this->on_surface_.bind(context, weights) : carried;
-    status = carried.usable() ? status : carried;
+    surface_status = surface_status.usable() ? arap.weights(context, columns) : surface_status;
+    surface_status = surface_status.usable() ? weights_on_surface(context, source, columns, weights)
+                                             : surface_status;
+    surface_status =
+      surface_status.usable() ? this->surface_skinning_.bind(context, weights) : surface_status;
+    status = surface_status.usable() ? status : surface_status;
   }
   if (status.usable())
   {
@@ -111,7 +113,7 @@ const PoseRotations* Body::rotations()
   {
     return nullptr;
   }
-  take_rotations(*this->source_, this->body_.groups(), this->body_.rotations(),
+  update_rotations(*this->source_, this->body_.groups(), this->body_.rotations(),
     this->bound_->in_tets, this->rotations_);
   return &this->rotations_;
 }
@@ -119,7 +121,7 @@ const PoseRotations* Body::rotations()
 Status Body::move_surface(ExecutionContext& context, Points& posed) const
 {
   Phase phase(context, "skin", 0.5, 1.0);
-  return this->bound_->in_tets ? this->on_surface_.linear_blend(
+  return this->bound_->in_tets ? this->surface_skinning_.linear_blend(
                                    context, this->source_->points, this->body_.transforms(), posed)
                                : this->body_.deform(context, this->source_->points, posed);
 }
@@ -130,17 +132,17 @@ Status Body::restart(ExecutionContext& context, const Pose& pose, Points& posed)
   {
     return Status::invalid_input("the mesh is not bound: bind first");
   }
-  ReducedSolveOptions still;
-  still.max_iterations = 1000;
-  const Pose start = with_found_rotations(this->source_->handles, pose);
-  const Status status = this->body_.start(context, start, still);
+  ReducedSolveOptions rest_options;
+  rest_options.max_iterations = 1000;
+  const Pose start = resolve_automatic_modes(this->source_->handles, pose);
+  const Status status = this->body_.start(context, start, rest_options);
   if (!status.usable())
   {
     return status;
   }
   this->run_ = BodyRun();
   this->run_.start = std::make_shared<const Pose>(pose);
-  this->whole_ = true;
+  this->is_complete_ = true;
   const Status moved = this->move_surface(context, posed);
   return moved.ok() ? status : moved;
 }
@@ -155,7 +157,7 @@ Status Body::step(
   Status status;
   {
     Phase phase(context, "solve", 0.0, 0.5);
-    const Pose resolved = with_found_rotations(this->source_->handles, pose);
+    const Pose resolved = resolve_automatic_modes(this->source_->handles, pose);
     status = this->body_.step(context, resolved, kernel_options(options, this->diagonal_));
     if (!status.usable())
     {
@@ -173,20 +175,20 @@ Status Body::step(
     const BodyRun::Step before = this->run_.steps.empty()
       ? BodyRun::Step{ this->run_.start, nullptr }
       : this->run_.steps.back();
-    this->run_.steps.push_back({ shared_with(before.pose, pose, same_pose),
-      shared_with(before.options, options,
+    this->run_.steps.push_back({ reuse_if_equal(before.pose, pose, same_pose),
+      reuse_if_equal(before.options, options,
         [](const BodyOptions& a, const BodyOptions& b) { return a == b; }) });
   }
   else
   {
-    this->whole_ = false;
+    this->is_complete_ = false;
   }
   const Status moved = this->move_surface(context, posed);
   return moved.ok() ? status : moved;
 }
 
 Status Body::play(ExecutionContext& context, const BodyRun& given,
-  const std::function<bool(std::size_t step, const Points& posed)>& seen)
+  const std::function<bool(std::size_t step, const Points& posed)>& on_step)
 {
   if (!given.start)
   {
@@ -196,11 +198,11 @@ Status Body::play(ExecutionContext& context, const BodyRun& given,
   const BodyRun run = given;
   Points posed;
   Status status = this->restart(context, *run.start, posed);
-  bool more = status.usable() && seen(0, posed);
+  bool more = status.usable() && on_step(0, posed);
   for (std::size_t k = 0; more && k < run.steps.size(); ++k)
   {
     status = this->step(context, *run.steps[k].pose, *run.steps[k].options, posed);
-    more = status.usable() && seen(k + 1, posed);
+    more = status.usable() && on_step(k + 1, posed);
   }
   return status;
 }

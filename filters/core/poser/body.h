@@ -66,18 +66,18 @@ public:
   const BodyRun& run() const { return this->run_; }
   /// Report whether the run contains all steps. The result is false after more than longest_run
   /// steps.
-  bool run_is_whole() const { return this->whole_; }
+  bool run_is_complete() const { return this->is_complete_; }
   /// Return one transform per handle. For handles whose mode is not full, it is the transform that
   /// the simulation computed.
   const std::vector<Affine>& transforms() const { return this->body_.transforms(); }
   /// Return the fitted rotations; null before the body has started.
   const PoseRotations* rotations();
 
-  /// Replay a run from its start, and call `seen` with every shape: first the shape at the start,
-  /// then the shape after each step.
-  /// @param seen  returns false to stop the replay
+  /// Replay a run from its start, and call `on_step` with every shape: first the shape at the
+  /// start, then the shape after each step.
+  /// @param on_step  returns false to stop the replay
   Status play(ExecutionContext& context, const BodyRun& run,
-    const std::function<bool(std::size_t step, const Points& posed)>& seen);
+    const std::function<bool(std::size_t step, const Points& posed)>& on_step);
 
 private:
   Status move_surface(ExecutionContext& context, Points& posed) const;
@@ -86,9 +86,10 @@ private:
   std::optional<PoseOptions> bound_;
   ReducedDynamics body_;
   PoseRotations rotations_; ///< cache for rotations()
-  Skinning on_surface_; ///< blends the surface's points; used only if the body is simulated in tets
+  Skinning
+    surface_skinning_; ///< blends the surface's points; used only if the body is simulated in tets
   BodyRun run_;
-  bool whole_ = true;
+  bool is_complete_ = true;
   double diagonal_ = 0.0;
   Index binds_ = 0;
 };

@@ -7,62 +7,25 @@ namespace bindpose
 
 namespace
 {
-/// Return the ends of handles, and their bones and elements of cages. Edges and faces of cages have
-/// their own points, as in a handle dataset.
-HandlePlaces places_of(const Handles& handles)
+/// Return the points of the handles that endpoint_weights() defines. For the method `bounded`,
+/// these are the two vertices of a cage of one edge.
+HandleElements elements_of(const Handles& ends)
 {
-  std::vector<Vec3> points;
-  std::vector<std::array<Index, 2>> segments;
-  std::vector<std::array<Index, 3>> triangles;
-  const auto add = [&](const Vec3& point)
+  HandleElements elements;
+  const auto count = static_cast<Index>(ends.size());
+  const bool is_edge = !ends.empty() && !ends.front().cage.empty();
+  elements.points.resize(is_edge ? 2 * count : count, 3);
+  for (Index j = 0; j < elements.points.rows(); ++j)
   {
-    points.push_back(point);
-    return static_cast<Index>(points.size()) - 1;
-  };
-  for (const Handle& handle : handles)
-  {
-    const Index head = add(handle.head);
-    if (handle.kind == HandleKind::bone)
-    {
-      segments.push_back({ head, add(handle.tail) });
-    }
+    elements.points.row(j) = ends[static_cast<std::size_t>(j % count)].head;
   }
-  for (const Handle& handle : handles)
+  elements.segments.resize(is_edge ? 1 : 0, 2);
+  if (is_edge)
   {
-    for (const CageElement& element : handle.cage)
-    {
-      const auto corner = [&](int k)
-      { return add(handles[static_cast<std::size_t>(element[k])].head); };
-      const Index a = corner(0);
-      const Index b = corner(1);
-      if (element[2] < 0)
-      {
-        segments.push_back({ a, b });
-        continue;
-      }
-      const Index c = corner(2);
-      segments.insert(segments.end(), { { c, a }, { a, b }, { b, c } });
-      triangles.push_back({ a, b, c });
-    }
+    elements.segments << count, count + 1;
   }
-  HandlePlaces places;
-  places.points.resize(static_cast<Index>(points.size()), 3);
-  for (std::size_t i = 0; i < points.size(); ++i)
-  {
-    places.points.row(static_cast<Index>(i)) = points[i];
-  }
-  places.segments.resize(static_cast<Index>(segments.size()), 2);
-  for (std::size_t i = 0; i < segments.size(); ++i)
-  {
-    places.segments.row(static_cast<Index>(i)) << segments[i][0], segments[i][1];
-  }
-  places.triangles.resize(static_cast<Index>(triangles.size()), 3);
-  for (std::size_t i = 0; i < triangles.size(); ++i)
-  {
-    places.triangles.row(static_cast<Index>(i)) << triangles[i][0], triangles[i][1],
-      triangles[i][2];
-  }
-  return places;
+  elements.triangles.resize(0, 3);
+  return elements;
 }
 
 Status solve_on_surface(ExecutionContext& context, const Domain& shape, const Handles& handles,
@@ -70,7 +33,7 @@ Status solve_on_surface(ExecutionContext& context, const Domain& shape, const Ha
 {
   SurfaceWeightsOptions options;
   options.domain = domain;
-  options.places = places_of(handles);
+  options.handle_elements = elements_of(handles);
   SurfaceWeights result;
   Status status = surface_weights(
     context, shape.points, shape.triangles, {}, handles, options, {}, method, result);
@@ -101,13 +64,14 @@ Status solve_endpoint_weights(ExecutionContext& context, const Domain& shape,
   const Handles& handles, EndpointMethod method, WeightsDomain domain, Weights& endpoints)
 {
   const WeightsMethod bounded =
-    [](ExecutionContext& of_method, const WeightsProblem& problem, WeightsResult& result)
-  { return bounded_biharmonic_weights(of_method, problem, {}, result); };
-  const BoundedSolve solve = [&](ExecutionContext& of_solve, const Handles& ends,
+    [](ExecutionContext& method_context, const WeightsProblem& problem, WeightsResult& result)
+  { return bounded_biharmonic_weights(method_context, problem, {}, result); };
+  const BoundedSolve solve = [&](ExecutionContext& solve_context, const Handles& ends,
                                Weights& weights) -> Status
   {
-    return shape.is_volume() ? solve_in_tets(of_solve, shape, ends, bounded, weights)
-                             : solve_on_surface(of_solve, shape, ends, domain, bounded, weights);
+    return shape.is_volume()
+      ? solve_in_tets(solve_context, shape, ends, bounded, weights)
+      : solve_on_surface(solve_context, shape, ends, domain, bounded, weights);
   };
   return endpoint_weights(context, shape.points, handles, method, solve, endpoints);
 }

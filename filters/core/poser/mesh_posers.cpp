@@ -14,7 +14,7 @@ const PoseRotations* FullPoser::rotations()
   {
     return nullptr;
   }
-  take_rotations(this->source(), this->arap_.groups(), this->arap_.rotations(),
+  update_rotations(this->source(), this->arap_.groups(), this->arap_.rotations(),
     this->bound_->in_tets, this->rotations_);
   return &this->rotations_;
 }
@@ -50,11 +50,11 @@ Status FullPoser::bind_missing(ExecutionContext& context, const PoseOptions& opt
 }
 
 Status FullPoser::pose(ExecutionContext& context, const Pose& pose, const PoseOptions& options,
-  Index most_iterations, Points& posed)
+  Index maximum_iterations, Points& posed)
 {
   Phase phase(context, "solve");
   FullArap::SolveOptions solve;
-  solve.max_iterations = most_iterations > 0 ? most_iterations : solve.max_iterations;
+  solve.max_iterations = maximum_iterations > 0 ? maximum_iterations : solve.max_iterations;
   Status status = this->arap_.solve(context, pose, solve);
   if (!status.usable())
   {

@@ -24,7 +24,7 @@ public:
 protected:
   Status bind_missing(ExecutionContext& context, const PoseOptions& options) override;
   Status pose(ExecutionContext& context, const Pose& pose, const PoseOptions& options,
-    Index most_iterations, Points& posed) override;
+    Index maximum_iterations, Points& posed) override;
 
 private:
   std::optional<PoseOptions> bound_;
@@ -44,7 +44,7 @@ public:
 protected:
   Status bind_missing(ExecutionContext& context, const PoseOptions& options) override;
   Status pose(ExecutionContext& context, const Pose& pose, const PoseOptions& options,
-    Index most_iterations, Points& posed) override;
+    Index maximum_iterations, Points& posed) override;
 
 private:
   std::optional<PoseOptions> bound_;

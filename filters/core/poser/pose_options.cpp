@@ -10,7 +10,7 @@ namespace
 constexpr const char* method_words[] = { "lbs", "dqs", "reduced-arap", "stbs", "cor", "full-arap",
   "variational" };
 
-auto tied(const PoseOptions& o)
+auto as_tuple(const PoseOptions& o)
 {
   return std::tie(o.method, o.single_precision, o.pseudo_edges, o.pseudo_edge_stretch, o.endpoints,
     o.energy, o.in_tets, o.extra_weights, o.extra_kind, o.iterations, o.budget_microseconds,
@@ -67,19 +67,6 @@ bool is_slow(PoseMethod method)
 
 bool same_bind(const PoseOptions& a, const PoseOptions& b)
 {
-  if (is_skinning(a.method) && is_skinning(b.method))
-  {
-    // All four skinning methods use the same bind, apart from two additions: centers of rotation
-    // and endpoint weights.
-    const auto extra = [](const PoseOptions& o)
-    {
-      return std::make_tuple(o.method == PoseMethod::rotation_centers,
-        o.method == PoseMethod::stretchable_bones ? static_cast<int>(o.endpoints) : -1);
-    };
-    return a.single_precision == b.single_precision && extra(a) == extra(b) &&
-      (a.pseudo_edges == PseudoEdgeChoice::automatic) ==
-      (b.pseudo_edges == PseudoEdgeChoice::automatic);
-  }
   if (a.method != b.method)
   {
     return false;
@@ -98,7 +85,7 @@ bool same_bind(const PoseOptions& a, const PoseOptions& b)
 
 bool operator==(const PoseOptions& a, const PoseOptions& b)
 {
-  return tied(a) == tied(b);
+  return as_tuple(a) == as_tuple(b);
 }
 
 } // namespace bindpose

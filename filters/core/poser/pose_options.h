@@ -5,12 +5,12 @@
 #include "arap/reduced_space.h"
 #include "fairing/polyharmonic.h"
 #include "pose/pose.h"
-#include "poser/skinning_methods.h"
+#include "poser/skinning_bind.h"
 
 namespace bindpose
 {
 
-// The pose methods of the window and their options.
+// The pose methods and their options.
 
 /// All pose methods. The window's actions use the same integers.
 enum class PoseMethod : int
@@ -78,7 +78,8 @@ struct PoseOptions
   PatchBoundary boundary = PatchBoundary::region;
 };
 
-/// Report whether one bind can be used with both options.
+/// Report whether one bind can be used with both options. The methods must not be skinning methods
+/// (see SkinningBind).
 bool same_bind(const PoseOptions& a, const PoseOptions& b);
 bool operator==(const PoseOptions& a, const PoseOptions& b);
 inline bool operator!=(const PoseOptions& a, const PoseOptions& b)

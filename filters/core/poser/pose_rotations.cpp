@@ -10,30 +10,30 @@ namespace
 std::vector<Index> groups_on_surface(
   const PoseSource& source, const RotationGroups& groups, bool in_tets)
 {
-  // groups.of_vertex is empty if full ARAP groups elements instead of vertices.
-  if (!in_tets || groups.of_vertex.empty())
+  // groups.group_of_vertex is empty if full ARAP groups elements instead of vertices.
+  if (!in_tets || groups.group_of_vertex.empty())
   {
-    return groups.of_vertex;
+    return groups.group_of_vertex;
   }
-  std::vector<Index> of_point =
+  std::vector<Index> cluster_of_point =
     TetAnchors(source.points, source.tet_points, source.tets).nearest_vertices();
-  for (Index& each : of_point)
+  for (Index& each : cluster_of_point)
   {
-    each = groups.of_vertex[static_cast<std::size_t>(each)];
+    each = groups.group_of_vertex[static_cast<std::size_t>(each)];
   }
-  return of_point;
+  return cluster_of_point;
 }
 } // namespace
 
-void take_rotations(const PoseSource& source, const RotationGroups& groups,
-  const std::vector<Eigen::Matrix3d>& rotations, bool in_tets, PoseRotations& taken)
+void update_rotations(const PoseSource& source, const RotationGroups& groups,
+  const std::vector<Eigen::Matrix3d>& rotations, bool in_tets, PoseRotations& pose_rotations)
 {
-  if (!taken.of_point)
+  if (!pose_rotations.cluster_of_point)
   {
-    taken.of_point =
+    pose_rotations.cluster_of_point =
       std::make_shared<const std::vector<Index>>(groups_on_surface(source, groups, in_tets));
   }
-  taken.rotations = rotations;
+  pose_rotations.rotations = rotations;
 }
 
 } // namespace bindpose

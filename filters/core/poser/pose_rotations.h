@@ -15,16 +15,16 @@ struct PoseRotations
 {
   /// Index of the rotation that each surface point follows, #V, -1 for none. Each bind creates a
   /// new object.
-  std::shared_ptr<const std::vector<Index>> of_point;
+  std::shared_ptr<const std::vector<Index>> cluster_of_point;
   std::vector<Eigen::Matrix3d> rotations;
 };
 
-/// Set `taken` to the rotations of the surface's points. A surface point follows the rotation of
-/// its own group; with tets, it follows the group of the vertex that has the largest barycentric
-/// coordinate in its tet. If `taken` already has groups, these groups are kept; they must come from
-/// the same bind.
-void take_rotations(const PoseSource& source, const RotationGroups& groups,
-  const std::vector<Eigen::Matrix3d>& rotations, bool in_tets, PoseRotations& taken);
+/// Set `pose_rotations` to the rotations of the surface's points. A surface point follows the
+/// rotation of its own group; with tets, it follows the group of the vertex that has the largest
+/// barycentric coordinate in its tet. If `pose_rotations` already has groups, these groups are
+/// kept; they must come from the same bind.
+void update_rotations(const PoseSource& source, const RotationGroups& groups,
+  const std::vector<Eigen::Matrix3d>& rotations, bool in_tets, PoseRotations& pose_rotations);
 
 } // namespace bindpose
 

@@ -24,7 +24,7 @@ struct PoseSource
   VariationalSurfaceOptions arrays;
   Handles handles;
   PseudoEdges pseudo_edges; ///< pseudo-edges of the handle dataset
-  Status of_pseudo_edges; ///< the reason why pseudo_edges cannot be used, or ok
+  Status pseudo_edges_status; ///< the reason why pseudo_edges cannot be used, or ok
   /// The tets on which the weights were solved; empty if they are unknown or were not tets.
   Points tet_points;
   Tets tets;

@@ -21,7 +21,7 @@ Status Poser::bind(ExecutionContext& context, const PoseOptions& options)
 }
 
 Status Poser::solve(ExecutionContext& context, const Pose& pose, const PoseOptions& options,
-  Index most_iterations, Points& posed)
+  Index maximum_iterations, Points& posed)
 {
   if (!this->is_bound(options))
   {
@@ -30,9 +30,10 @@ Status Poser::solve(ExecutionContext& context, const Pose& pose, const PoseOptio
   Status status = check_pose(this->source().handles, pose);
   if (status.ok())
   {
-    const Pose resolved =
-      finds_rotations(options.method) ? with_found_rotations(this->source().handles, pose) : pose;
-    status = this->pose(context, resolved, options, most_iterations, posed);
+    const Pose resolved = finds_rotations(options.method)
+      ? resolve_automatic_modes(this->source().handles, pose)
+      : pose;
+    status = this->pose(context, resolved, options, maximum_iterations, posed);
     const std::string unused = unused_stretch(resolved, stretch_use(options.method));
     if (status.usable() && !unused.empty())
     {

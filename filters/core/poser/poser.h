@@ -11,7 +11,7 @@
 namespace bindpose
 {
 
-/// Base class of the pose methods of the window. A poser calls the kernels of one method on one
+/// Base class of the pose methods. A poser calls the kernels of one method on one
 /// source: it binds once and poses many times. The result equals that of the method's filter, bit
 /// for bit. bind() and solve() can be called on any thread, one call at a time.
 ///
@@ -29,10 +29,10 @@ public:
   Status bind(ExecutionContext& context, const PoseOptions& options);
   /// Compute the points of the surface in a pose, which has one entry per handle. The points are
   /// also valid if the status is not_converged.
-  /// @param most_iterations  maximum number of iterations, for computing a long solve in several
+  /// @param maximum_iterations  maximum number of iterations, for computing a long solve in several
   /// calls; 0: the default limit
   Status solve(ExecutionContext& context, const Pose& pose, const PoseOptions& options,
-    Index most_iterations, Points& posed);
+    Index maximum_iterations, Points& posed);
   /// Return the transforms that the last solve computed, at least one per handle; null if the
   /// method computes none.
   virtual const std::vector<Affine>* found() const { return nullptr; }
@@ -47,7 +47,7 @@ protected:
   const PoseSource& source() const { return *this->source_; }
   virtual Status bind_missing(ExecutionContext& context, const PoseOptions& options) = 0;
   virtual Status pose(ExecutionContext& context, const Pose& pose, const PoseOptions& options,
-    Index most_iterations, Points& posed) = 0;
+    Index maximum_iterations, Points& posed) = 0;
 
 private:
   std::shared_ptr<const PoseSource> source_;

@@ -35,7 +35,7 @@ const PoseRotations* ReducedPoser::rotations()
   {
     return nullptr;
   }
-  take_rotations(this->source(), this->arap_.groups(), this->arap_.rotations(),
+  update_rotations(this->source(), this->arap_.groups(), this->arap_.rotations(),
     this->bound_->in_tets, this->rotations_);
   return &this->rotations_;
 }
@@ -64,10 +64,12 @@ Status ReducedPoser::bind_missing(ExecutionContext& context, const PoseOptions& 
   if (status.usable() && options.in_tets)
   {
     Weights columns, weights;
-    Status carried = this->arap_.weights(context, columns);
-    carried = carried.ok() ? weights_on_surface(context, source, columns, weights) : carried;
-    carried = carried.usable() ? this->on_surface_.bind(context, weights) : carried;
-    status = carried.usable() ? status : carried;
+    Status surface_status = this->arap_.weights(context, columns);
+    surface_status =
+      surface_status.ok() ? weights_on_surface(context, source, columns, weights) : surface_status;
+    surface_status =
+      surface_status.usable() ? this->surface_skinning_.bind(context, weights) : surface_status;
+    status = surface_status.usable() ? status : surface_status;
   }
   if (status.usable())
   {
@@ -77,13 +79,13 @@ Status ReducedPoser::bind_missing(ExecutionContext& context, const PoseOptions& 
 }
 
 Status ReducedPoser::pose(ExecutionContext& context, const Pose& pose, const PoseOptions& options,
-  Index most_iterations, Points& posed)
+  Index maximum_iterations, Points& posed)
 {
   Status status;
   {
     Phase phase(context, "solve", 0.0, 0.5);
     ReducedArap::SolveOptions solve;
-    solve.max_iterations = most_iterations > 0 ? most_iterations : options.iterations;
+    solve.max_iterations = maximum_iterations > 0 ? maximum_iterations : options.iterations;
     solve.budget_microseconds = options.budget_microseconds;
     status = this->arap_.solve(context, pose, solve);
     if (!status.usable())
@@ -95,7 +97,7 @@ Status ReducedPoser::pose(ExecutionContext& context, const Pose& pose, const Pos
   Phase phase(context, "skin", 0.5, 1.0);
   const PoseSource& source = this->source();
   const Status moved = options.in_tets
-    ? this->on_surface_.linear_blend(context, source.points, this->arap_.transforms(), posed)
+    ? this->surface_skinning_.linear_blend(context, source.points, this->arap_.transforms(), posed)
     : this->arap_.deform(context, source.points, posed);
   status.report.set("seconds.skin", phase.seconds());
   return moved.ok() ? status : moved;

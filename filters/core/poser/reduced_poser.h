@@ -22,13 +22,13 @@ public:
 protected:
   Status bind_missing(ExecutionContext& context, const PoseOptions& options) override;
   Status pose(ExecutionContext& context, const Pose& pose, const PoseOptions& options,
-    Index most_iterations, Points& posed) override;
+    Index maximum_iterations, Points& posed) override;
 
 private:
   std::optional<PoseOptions> bound_;
   ReducedArap arap_;
   PoseRotations rotations_; ///< cache for rotations()
-  Skinning on_surface_; ///< blends the surface's points by all columns; used only with tets
+  Skinning surface_skinning_; ///< blends the surface's points by all columns; used only with tets
 };
 
 /// Return the options of the reduced as-rigid-as-possible kernels.

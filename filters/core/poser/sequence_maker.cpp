@@ -17,9 +17,9 @@ Status make_frames(ExecutionContext& context, const std::shared_ptr<const PoseSo
   }
   for (std::size_t k = 0; status.usable() && k < poses.size(); ++k)
   {
-    const auto share = [&](std::size_t frame)
+    const auto fraction = [&](std::size_t frame)
     { return 0.3 + 0.7 * static_cast<double>(frame) / static_cast<double>(poses.size()); };
-    ProgressRange range(context, share(k), share(k + 1));
+    ProgressRange range(context, fraction(k), fraction(k + 1));
     Points points;
     status = poser->solve(context, poses[k], options, 0, points);
     frames.points.push_back(std::move(points));

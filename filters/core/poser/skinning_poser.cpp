@@ -25,12 +25,13 @@ SkinnedShape SkinningPoser::shape() const
 
 bool SkinningPoser::is_bound(const PoseOptions& options) const
 {
-  return this->methods_.is_bound(this->shape(), to_method_options(options));
+  return this->bind_.is_bound(this->shape(), to_method_options(options));
 }
 
 Status SkinningPoser::bind_missing(ExecutionContext& context, const PoseOptions& options)
 {
-  return this->methods_.bind(
+  Phase phase(context, "bind");
+  return this->bind_.bind(
     context, this->shape(), Tets(), this->source().triangles, to_method_options(options));
 }
 
@@ -38,16 +39,21 @@ Status SkinningPoser::pose(ExecutionContext& context, const Pose& pose, const Po
   Index /*most_iterations*/, Points& posed)
 {
   const PoseSource& source = this->source();
-  if (options.pseudo_edges == PseudoEdgeChoice::given && !source.of_pseudo_edges.ok())
+  if (options.pseudo_edges == PseudoEdgeChoice::given && !source.pseudo_edges_status.ok())
   {
-    return source.of_pseudo_edges;
+    return source.pseudo_edges_status;
   }
   Phase phase(context, "skin");
-  Status status = this->methods_.pose(
+  Status status = this->bind_.pose(
     context, this->shape(), pose, source.pseudo_edges, to_method_options(options), posed);
   if (status.usable())
   {
     status.report.set("seconds.skin", phase.seconds());
+    if (options.method == PoseMethod::stretchable_bones && !has_bones(source.handles))
+    {
+      status.warnings.emplace_back("no handle is a bone that can stretch or twist, so the result "
+                                   "equals linear blend skinning");
+    }
   }
   return status;
 }

@@ -2,7 +2,7 @@
 #define bindpose_poser_skinning_poser_h
 
 #include "poser/poser.h"
-#include "poser/skinning_methods.h"
+#include "poser/skinning_bind.h"
 
 namespace bindpose
 {
@@ -19,12 +19,12 @@ public:
 protected:
   Status bind_missing(ExecutionContext& context, const PoseOptions& options) override;
   Status pose(ExecutionContext& context, const Pose& pose, const PoseOptions& options,
-    Index most_iterations, Points& posed) override;
+    Index maximum_iterations, Points& posed) override;
 
 private:
   SkinnedShape shape() const;
 
-  SkinningMethods methods_;
+  SkinningBind bind_;
 };
 
 } // namespace bindpose

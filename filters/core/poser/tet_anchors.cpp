@@ -14,11 +14,11 @@ TetAnchors::TetAnchors(PointsView surface, PointsView tet_points, TetsView tets)
   for (Index v = 0; v < surface.rows(); ++v)
   {
     const Vec3 p = surface.row(v);
-    const SimplexLocation at = locator.locate(p);
-    Anchor anchor{ { 0, 0, 0, 0 }, at.barycentric };
+    const SimplexLocation location = locator.locate(p);
+    Anchor anchor{ { 0, 0, 0, 0 }, location.barycentric };
     for (int k = 0; k < 4; ++k)
     {
-      anchor.vertices[k] = tets(at.element, k);
+      anchor.vertices[k] = tets(location.element, k);
     }
     for (int k = 0; k < 4; ++k)
     {
@@ -37,8 +37,9 @@ std::vector<Index> TetAnchors::nearest_vertices() const
   std::vector<Index> nearest;
   for (const Anchor& anchor : this->anchors_)
   {
-    const auto* largest = std::max_element(anchor.shares.begin(), anchor.shares.end());
-    nearest.push_back(anchor.vertices[static_cast<std::size_t>(largest - anchor.shares.begin())]);
+    const auto* largest = std::max_element(anchor.coordinates.begin(), anchor.coordinates.end());
+    nearest.push_back(
+      anchor.vertices[static_cast<std::size_t>(largest - anchor.coordinates.begin())]);
   }
   return nearest;
 }
@@ -50,7 +51,7 @@ void TetAnchors::move(
   for (Index v = 0; v < surface.rows(); ++v)
   {
     const Anchor& anchor = this->anchors_[static_cast<std::size_t>(v)];
-    if (anchor.shares[0] == 1.0)
+    if (anchor.coordinates[0] == 1.0)
     {
       posed.row(v) =
         moved.row(anchor.vertices[0]) + (surface.row(v) - tet_points.row(anchor.vertices[0]));
@@ -59,8 +60,8 @@ void TetAnchors::move(
     posed.row(v) = surface.row(v);
     for (int k = 0; k < 4; ++k)
     {
-      posed.row(v) +=
-        anchor.shares[k] * (moved.row(anchor.vertices[k]) - tet_points.row(anchor.vertices[k]));
+      posed.row(v) += anchor.coordinates[k] *
+        (moved.row(anchor.vertices[k]) - tet_points.row(anchor.vertices[k]));
     }
   }
 }

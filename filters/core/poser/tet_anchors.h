@@ -28,7 +28,7 @@ private:
   struct Anchor
   {
     std::array<Index, 4> vertices;
-    std::array<double, 4> shares; ///< barycentric coordinates; 1, 0, 0, 0 on a vertex
+    std::array<double, 4> coordinates; ///< barycentric coordinates; 1, 0, 0, 0 on a vertex
   };
   std::vector<Anchor> anchors_;
 };

@@ -1,8 +1,8 @@
-// The active-set method of BoxQp (see active_set.h). A vertex is held if its weight is kept at a
-// bound. Only the block of A without the held vertices is factored. The factor gives exact
-// solutions while the set of held vertices does not change. It is a good preconditioner if only few
-// vertices enter or leave this set. If projected_newton() does not converge with a factor, the next
-// factor is computed for the vertices that are held at that time.
+// The active-set method of BoxQp (see active_set.h). The active set consists of the vertices whose
+// weight is kept at a bound. Only the block of A without these vertices is factored. The factor
+// gives exact solutions while the active set does not change. It is a good preconditioner if only
+// few vertices enter or leave this set. If projected_newton() does not converge with a factor, the
+// next factor is computed for the active set at that time.
 #include "qp/active_set.h"
 
 #include "base/stopwatch.h"
@@ -23,7 +23,7 @@ using Eigen::VectorXd;
 Certificate certify_column(const SplitForm& matrices, const BoxQpColumn& column,
   const ColumnProblem& problem, double tolerance, const InverseForm& inverse, const VectorXd& w)
 {
-  const BoundedEnergy energy{ matrices.q, problem.free_here, column.bounds };
+  const BoundedEnergy energy{ matrices.q, problem.is_column_free, column.bounds };
   const Certificate first = certify(energy, w);
   return first.relative_gap <= tolerance || first.kkt_residual > tolerance
     ? first
@@ -43,39 +43,39 @@ BoxQpSolution active_set(ExecutionContext& context, const SplitForm& matrices,
   constexpr double nearer = 0.5;
   constexpr int rounds = 6; // maximum number of Newton rounds per factorization
   const double tolerance = options.tolerance;
-  const double enough = settled_newton_move(tolerance);
+  const double small_change = converged_newton_change(tolerance);
   const ColumnProblem problem(matrices, column);
   BoxQpSolution solution;
   VectorXd x = start.x;
-  std::vector<char> held = start.held;
+  std::vector<char> at_bound = start.at_bound;
   const int most = std::min(most_factorizations, options.maximum_iterations);
   const bool given = std::all_of(
     problem.pinned.begin(), problem.pinned.end(), [](char pinned) { return pinned != 0; });
-  double moved = given ? 0.0 : 1e300;
+  double largest_change = given ? 0.0 : 1e300;
   double least_move = 1e300;
   const auto certified = [&]
   {
-    solution.w = problem.whole(matrices, x);
+    solution.w = problem.extend_to_all(matrices, x);
     solution.certificate =
       certify_column(matrices, column, problem, tolerance, inverse, solution.w);
     return std::max(solution.certificate.relative_gap, solution.certificate.kkt_residual) <=
       tolerance;
   };
-  while (!(moved <= enough && certified()))
+  while (!(largest_change <= small_change && certified()))
   {
-    const bool stalled = solution.iterations > sure && !(moved < nearer * least_move);
+    const bool stalled = solution.iterations > sure && !(largest_change < nearer * least_move);
     if (stalled || solution.iterations >= most || context.canceled())
     {
       solution.status = Status::failure(StatusCode::not_converged, "");
       break;
     }
-    least_move = std::min(least_move, moved);
+    least_move = std::min(least_move, largest_change);
     if (solution.iterations > 0)
     {
-      held = held_vertices(matrices, problem, matrices.a.transpose() * x + problem.c, x);
+      at_bound = vertices_at_bounds(matrices, problem, matrices.a.transpose() * x + problem.c, x);
     }
     const Stopwatch factor_watch;
-    const Status factored = workspace.single.factor_block(context, matrices.lower, held);
+    const Status factored = workspace.single.factor_block(context, matrices.lower, at_bound);
     solution.factorizations += 1;
     solution.factor_seconds += factor_watch.seconds();
     if (!factored.ok())
@@ -83,18 +83,18 @@ BoxQpSolution active_set(ExecutionContext& context, const SplitForm& matrices,
       solution.status = Status::failure(StatusCode::not_converged, factored.message);
       break;
     }
-    moved = projected_newton(
+    largest_change = projected_newton(
       context, matrices, problem,
       [&](const VectorXd& r, VectorXd& z)
       {
         workspace.single.solve(r, z);
         for (Index i = 0; i < r.size(); ++i)
         {
-          // Vertices that are no longer held are not in the factor.
-          z[i] = held[i] ? r[i] / matrices.lower.valuePtr()[matrices.diagonal[i]] : z[i];
+          // Vertices that have left the active set are not in the factor.
+          z[i] = at_bound[i] ? r[i] / matrices.lower.valuePtr()[matrices.diagonal[i]] : z[i];
         }
       },
-      rounds, enough, x);
+      rounds, small_change, x);
     solution.iterations += 1;
   }
   // After the maximum number of iterations, a certified iterate is a valid result even if the

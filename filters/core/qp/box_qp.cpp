@@ -37,19 +37,19 @@ constexpr double wanted_accuracy = 1e-14;
 constexpr double good_accuracy = 1e-12;
 
 /// Limit the number of threads of a context while this object exists; 0: no limit.
-class FewerThreads
+class ThreadLimit
 {
 public:
-  FewerThreads(ExecutionContext& context, int most) : context_(context), asked_(context.threads())
+  ThreadLimit(ExecutionContext& context, int most) : context_(context), asked_(context.threads())
   {
     if (most > 0)
     {
       context.set_threads(std::min(thread_count(this->asked_), most));
     }
   }
-  ~FewerThreads() { this->context_.set_threads(this->asked_); }
-  FewerThreads(const FewerThreads&) = delete;
-  FewerThreads& operator=(const FewerThreads&) = delete;
+  ~ThreadLimit() { this->context_.set_threads(this->asked_); }
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
 
 private:
   ExecutionContext& context_;
@@ -68,7 +68,7 @@ struct BoxQp::Impl : SplitForm
   // unavailable.
   FloatCholesky single;
   FloatCholesky single_of_a; // A's factor, if single precision is accurate enough
-  bool in_single = false;
+  bool float_is_accurate = false;
   mutable bool in_double = false; // whether `solver` contains A's factor
   VectorXd inverse_diagonal; // 1 / diagonal of A
   double memory_estimate = 0.0;
@@ -87,24 +87,26 @@ struct BoxQp::Impl : SplitForm
     const auto vertices = static_cast<double>(this->q.rows());
     const double in_double_precision = this->solver.factor_bytes();
     // Memory per column: given values, minimizer without bounds, start, solution.
-    const double once = (in_single_precision ? this->single.factor_bytes() : in_double_precision) +
+    const double shared_bytes =
+      (in_single_precision ? this->single.factor_bytes() : in_double_precision) +
       5.0 * sizeof(double) * vertices * std::max(count, 1.0);
     // Memory per workspace: the matrix, about 40 vectors and the factors.
-    const double each = columns.empty()
+    const double bytes_per_column = columns.empty()
       ? 0.0
       : static_cast<double>(this->lower.nonZeros()) * (sizeof(double) + sizeof(int)) +
         40.0 * sizeof(double) * vertices + this->single.factor_bytes() +
         this->single.workspace_bytes() +
         (ordered || !this->single.analyzed() ? in_double_precision : 0.0);
-    const double left = memory_left(this->options.solver.memory_limit);
+    const double left = remaining_memory(this->options.solver.memory_limit);
     const double wanted = std::min(count, static_cast<double>(thread_count(threads)));
-    const double fitting = each > 0.0 ? std::floor((left - once) / each) : wanted;
+    const double fitting =
+      bytes_per_column > 0.0 ? std::floor((left - shared_bytes) / bytes_per_column) : wanted;
     const double workspaces = std::clamp(fitting, std::min(1.0, count), std::max(wanted, 1.0));
     this->most_threads = static_cast<int>(workspaces);
-    this->memory_estimate = resident_memory() + once + workspaces * each;
+    this->memory_estimate = resident_memory() + shared_bytes + workspaces * bytes_per_column;
     return check_memory("solving for " + std::to_string(columns.size()) + " columns on " +
         std::to_string(this->q.rows()) + " vertices",
-      once + workspaces * each, this->options.solver.memory_limit);
+      shared_bytes + workspaces * bytes_per_column, this->options.solver.memory_limit);
   }
   std::unique_ptr<BoxQpWorkspace> make_workspace() const
   {
@@ -122,7 +124,8 @@ struct BoxQp::Impl : SplitForm
     const ExecutionContext* context, const Eigen::MatrixXd& rhs, Eigen::MatrixXd& x) const
   {
     x = Eigen::MatrixXd::Zero(rhs.rows(), rhs.cols());
-    if (rhs.size() == 0 || (this->in_single && this->refined(context, rhs, x) <= good_accuracy))
+    if (rhs.size() == 0 ||
+      (this->float_is_accurate && this->refined(context, rhs, x) <= good_accuracy))
     {
       return true;
     }
@@ -172,10 +175,10 @@ struct BoxQp::Impl : SplitForm
     const Status status = this->single_of_a.factor(context, this->lower, 0.0);
     this->single_of_a.release_workspace();
     Eigen::MatrixXd x;
-    const VectorXd ones = VectorXd::Ones(this->to_fixed.cols());
-    this->in_single =
-      status.ok() && this->refined(&context, this->to_fixed * ones, x) <= good_accuracy;
-    if (!this->in_single)
+    const VectorXd ones = VectorXd::Ones(this->fixed_block.cols());
+    this->float_is_accurate =
+      status.ok() && this->refined(&context, this->fixed_block * ones, x) <= good_accuracy;
+    if (!this->float_is_accurate)
     {
       this->single_of_a = FloatCholesky();
     }
@@ -184,7 +187,7 @@ struct BoxQp::Impl : SplitForm
   /// Multiply A^-1 with the free entries of r (#V). The result (#V) is 0 at fixed vertices.
   VectorXd inverse(const VectorXd& r) const
   {
-    return this->whole(this->inverse_of_a(this->free_rows(r)),
+    return this->extend_to_all(this->inverse_of_a(this->free_rows(r)),
       Eigen::MatrixXd::Zero(static_cast<Index>(this->fixed.size()), 1));
   }
   /// Return the values of the fixed vertices, one column per problem.
@@ -204,8 +207,8 @@ struct BoxQp::Impl : SplitForm
     const ExecutionContext* context, const Eigen::MatrixXd& fixed_values) const
   {
     Eigen::MatrixXd x;
-    this->solve_a(context, -(this->to_fixed * fixed_values), x);
-    return this->whole(x, fixed_values);
+    this->solve_a(context, -(this->fixed_block * fixed_values), x);
+    return this->extend_to_all(x, fixed_values);
   }
 };
 
@@ -286,17 +289,18 @@ private:
   }
 
   /// Compute starts for the requested columns.
-  /// @param asked indices of the columns.
+  /// @param requested indices of the columns.
   /// @param barriers compute starts for the interior-point method (see splitting_start).
   /// @return #columns; a start is empty if its column was not requested or cannot have a start.
-  std::vector<ColumnStart> find_starts(const std::vector<std::size_t>& asked, bool barriers)
+  std::vector<ColumnStart> find_starts(const std::vector<std::size_t>& requested, bool barriers)
   {
     const Stopwatch watch;
     std::vector<ColumnStart> starts(this->columns_.size());
     std::vector<std::size_t> chosen;
     std::vector<BoxQpColumn> some;
-    Eigen::MatrixXd unconstrained(this->unconstrained_.rows(), static_cast<Index>(asked.size()));
-    for (const std::size_t j : asked)
+    Eigen::MatrixXd unconstrained(
+      this->unconstrained_.rows(), static_cast<Index>(requested.size()));
+    for (const std::size_t j : requested)
     {
       if (this->may_start(this->columns_[j]))
       {
@@ -393,10 +397,10 @@ Status BoxQp::prepare(ExecutionContext& context, const std::vector<BoxQpColumn>&
   {
     status = impl.factor_single(context);
   }
-  if (status.ok() && !context.canceled() && !impl.in_single)
+  if (status.ok() && !context.canceled() && !impl.float_is_accurate)
   {
     status = impl.plan_memory(columns, context.threads(), false);
-    status = status.ok() ? without_minimum(impl.solver.factor(impl.lower)) : status;
+    status = status.ok() ? explain_no_minimum(impl.solver.factor(impl.lower)) : status;
     impl.in_double = status.ok();
   }
   context.add_seconds("factor", watch.seconds());
@@ -472,7 +476,7 @@ std::vector<BoxQpSolution> BoxQp::solve_all(
   Eigen::MatrixXd free_of_bounds = impl.minimizers(&context, impl.fixed_values_of(columns));
   if (!context.canceled())
   {
-    const FewerThreads fewer(context, impl.most_threads);
+    const ThreadLimit fewer(context, impl.most_threads);
     Impl::ColumnsSolve(context, impl, columns, std::move(free_of_bounds), solutions).run();
   }
   return solutions;
@@ -503,7 +507,7 @@ const SparseSolver& BoxQp::solver() const
   return this->impl_->solver;
 }
 
-Status worst_of(const std::vector<BoxQpSolution>& solutions)
+Status first_failure(const std::vector<BoxQpSolution>& solutions)
 {
   for (const BoxQpSolution& solution : solutions)
   {

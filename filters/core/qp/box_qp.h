@@ -86,7 +86,7 @@ private:
 };
 
 /// Return the status of the first column without a usable result; ok if all results are usable.
-Status worst_of(const std::vector<BoxQpSolution>& solutions);
+Status first_failure(const std::vector<BoxQpSolution>& solutions);
 
 } // namespace bindpose
 

@@ -26,16 +26,16 @@ using InverseForm = std::function<Eigen::VectorXd(const Eigen::VectorXd& r)>;
 /// alone is not a sufficient criterion, because the gap is quadratic in the error of the weights.
 /// The weights of a certified iterate can differ from the minimizer by a thousand times the
 /// tolerance.
-inline double settled_move(double tolerance)
+inline double converged_change(double tolerance)
 {
   return std::max(tolerance, std::min(5.0 * tolerance, 1.5e-6));
 }
 
 /// Return the largest change of a weight in the last round of a projected Newton method that counts
 /// as converged.
-inline double settled_newton_move(double tolerance)
+inline double converged_newton_change(double tolerance)
 {
-  return 0.1 * settled_move(tolerance);
+  return 0.1 * converged_change(tolerance);
 }
 
 } // namespace bindpose

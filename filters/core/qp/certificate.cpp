@@ -23,7 +23,7 @@ Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
   double gap = 0.0;
   for (std::size_t k = 0; k < pairs.size(); ++k)
   {
-    const double slack = w[pairs[k].high] - w[pairs[k].low] - pairs[k].least;
+    const double slack = w[pairs[k].high] - w[pairs[k].low] - pairs[k].minimum_difference;
     const double lambda = multipliers[static_cast<Index>(k)];
     gap += lambda * slack;
     g[pairs[k].high] -= lambda;
@@ -45,8 +45,8 @@ Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
     const double diagonal = problem.q.coeff(v, v);
     diagonal_sum += diagonal;
     ++free_count;
-    const double share = g[v] == 0.0 ? 0.0 : std::max(g[v] * (w[v] - l), -g[v] * (u - w[v]));
-    gap += share;
+    const double contribution = g[v] == 0.0 ? 0.0 : std::max(g[v] * (w[v] - l), -g[v] * (u - w[v]));
+    gap += contribution;
     // If a Newton step of this vertex alone stays within the bounds, the vertex belongs to the set
     // R (see Certificate).
     if (inverse && w[v] - g[v] / diagonal > l && w[v] - g[v] / diagonal < u)
@@ -55,7 +55,7 @@ Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
     }
     else
     {
-      second_gap += share;
+      second_gap += contribution;
     }
     const double step = std::clamp(w[v] - g[v] / diagonal, l, u);
     certificate.kkt_residual = std::max(certificate.kkt_residual, std::abs(w[v] - step));
@@ -70,7 +70,7 @@ Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
   return certificate;
 }
 
-std::string not_certified(double relative_gap, double kkt_residual, double tolerance)
+std::string certificate_message(double relative_gap, double kkt_residual, double tolerance)
 {
   char numbers[96];
   std::snprintf(numbers, sizeof(numbers), "relative gap %.2g, residual %.2g, tolerance %.2g",

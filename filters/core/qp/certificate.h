@@ -15,7 +15,7 @@ struct OrderedPair
 {
   Index low = 0;
   Index high = 0;
-  double least = 0.0;
+  double minimum_difference = 0.0;
 };
 
 /// An optimality certificate of a column w: the residual of w, and an upper bound (the gap) on the
@@ -74,7 +74,7 @@ Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
   const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& inverse = {});
 
 /// Return "are not certified (relative gap …, residual …, tolerance …)", for use in a message.
-std::string not_certified(double relative_gap, double kkt_residual, double tolerance);
+std::string certificate_message(double relative_gap, double kkt_residual, double tolerance);
 
 } // namespace bindpose
 

@@ -18,19 +18,19 @@ struct ColumnProblem
   Eigen::VectorXd c; ///< n
   Eigen::VectorXd lower, upper; ///< n: l and u
   std::vector<char> pinned; ///< n: 1 for pinned vertices
-  Eigen::VectorXd given; ///< #V: fixed and pinned values, 0 elsewhere
-  std::vector<char> free_here; ///< #V: 1 for vertices that this column solves for
+  Eigen::VectorXd given_values; ///< #V: fixed and pinned values, 0 elsewhere
+  std::vector<char> is_column_free; ///< #V: 1 for vertices that this column solves for
 
   /// Restrict a vector to the free vertices and clamp it to the bounds; pinned entries get their
   /// given values.
   /// @param all one entry per vertex, #V.
   /// @return one entry per free vertex, n.
-  Eigen::VectorXd nearest(const SplitForm& matrices, const Eigen::VectorXd& all) const;
+  Eigen::VectorXd clamp_to_bounds(const SplitForm& matrices, const Eigen::VectorXd& all) const;
   /// Extend a vector from the free vertices to all vertices. The entries of x are clamped to the
   /// bounds.
   /// @param x one entry per free vertex, n.
   /// @return #V: the entries of x at vertices to solve for, and the given values elsewhere.
-  Eigen::VectorXd whole(const SplitForm& matrices, const Eigen::VectorXd& x) const;
+  Eigen::VectorXd extend_to_all(const SplitForm& matrices, const Eigen::VectorXd& x) const;
 };
 
 } // namespace bindpose

@@ -168,11 +168,11 @@ private:
   const Index m_; // number of columns
 
   MatrixXd given_; // #V x m: fixed and pinned values, 0 elsewhere
-  MatrixXd solved_; // n x m: 1 where a weight is solved for
+  MatrixXd is_solved_; // n x m: 1 where a weight is solved for
   MatrixXd lower_, upper_; // n x m
-  MatrixXd capped_; // n x m: 1 if the upper bound is not implied by the row sum
+  MatrixXd has_upper_bound_; // n x m: 1 if the upper bound is not implied by the row sum
   VectorXd sum_; // n: required sum of a row's solved weights
-  std::vector<char> coupled_; // n: 1 for rows with at least two weights to solve for
+  std::vector<char> is_coupled_; // n: 1 for rows with at least two weights to solve for
   MatrixXd c_; // n x m: linear terms
   MatrixXd x_, s_, t_, z_, r_;
   VectorXd y_;
@@ -180,7 +180,7 @@ private:
   VectorXd rp_;
   MatrixXd d_; // n x m: terms added to A's diagonal
   // n: for the preconditioner, the diagonal scaling and the smallest entry of d_ per vertex.
-  VectorXd share_, least_d_;
+  VectorXd row_scale_, least_d_;
   std::vector<SparseSolver> solvers_;
   CoupledSolution result_, best_;
   double factor_seconds_ = 0.0;
@@ -190,12 +190,12 @@ Status CoupledQp::set_up()
 {
   const auto& free = this->matrices_.free_vertices;
   this->given_ = MatrixXd::Zero(this->matrices_.q.rows(), this->m_);
-  this->solved_ = MatrixXd::Ones(this->n_, this->m_);
+  this->is_solved_ = MatrixXd::Ones(this->n_, this->m_);
   this->lower_ = MatrixXd::Zero(this->n_, this->m_);
   this->upper_ = MatrixXd::Ones(this->n_, this->m_);
-  this->capped_ = MatrixXd::Zero(this->n_, this->m_);
+  this->has_upper_bound_ = MatrixXd::Zero(this->n_, this->m_);
   this->sum_ = VectorXd::Ones(this->n_);
-  this->coupled_.assign(static_cast<std::size_t>(this->n_), 0);
+  this->is_coupled_.assign(static_cast<std::size_t>(this->n_), 0);
   for (Index j = 0; j < this->m_; ++j)
   {
     const BoxQpColumn& column = this->columns_[j];
@@ -205,11 +205,11 @@ Status CoupledQp::set_up()
     }
     for (std::size_t i = 0; i < column.pinned.size(); ++i)
     {
-      const Index at = this->matrices_.free_of_vertex[column.pinned[i]];
+      const Index at = this->matrices_.free_index[column.pinned[i]];
       if (at >= 0)
       {
         this->given_(column.pinned[i], j) = column.pinned_values[static_cast<Index>(i)];
-        this->solved_(at, j) = 0.0;
+        this->is_solved_(at, j) = 0.0;
         this->sum_[at] -= column.pinned_values[static_cast<Index>(i)];
       }
     }
@@ -222,7 +222,7 @@ Status CoupledQp::set_up()
   constexpr double tolerance = 1e-9;
   for (Index i = 0; i < this->n_; ++i)
   {
-    const auto is_solved = this->solved_.row(i).array();
+    const auto is_solved = this->is_solved_.row(i).array();
     const double least = (is_solved * this->lower_.row(i).array()).sum();
     const double most = (is_solved * this->upper_.row(i).array()).sum();
     if (this->sum_[i] < least - tolerance || this->sum_[i] > most + tolerance)
@@ -233,28 +233,28 @@ Status CoupledQp::set_up()
     const auto count = static_cast<Index>(is_solved.sum());
     for (Index j = 0; j < this->m_ && count == 1; ++j)
     {
-      if (this->solved_(i, j) == 1.0)
+      if (this->is_solved_(i, j) == 1.0)
       {
         this->given_(free[i], j) =
           std::clamp(this->sum_[i], this->lower_(i, j), this->upper_(i, j));
-        this->solved_(i, j) = 0.0;
+        this->is_solved_(i, j) = 0.0;
         break;
       }
     }
-    this->coupled_[i] = count > 1;
+    this->is_coupled_[i] = count > 1;
     for (Index j = 0; j < this->m_ && count > 1; ++j)
     {
-      if (this->solved_(i, j) == 1.0)
+      if (this->is_solved_(i, j) == 1.0)
       {
         const double others = least - this->lower_(i, j);
-        this->capped_(i, j) = this->upper_(i, j) < this->sum_[i] - others;
+        this->has_upper_bound_(i, j) = this->upper_(i, j) < this->sum_[i] - others;
       }
     }
   }
   this->c_.resize(this->n_, this->m_);
   for (Index j = 0; j < this->m_; ++j)
   {
-    this->c_.col(j) = this->matrices_.to_fixed * this->columns_[j].fixed_values;
+    this->c_.col(j) = this->matrices_.fixed_block * this->columns_[j].fixed_values;
     this->solvers_.push_back(this->prepared_.solver().clone());
   }
   const auto columns = static_cast<double>(this->m_);
@@ -270,7 +270,7 @@ void CoupledQp::row_of(Index i, const MatrixXd& w, const MatrixXd* gradient, Row
   row.sum = this->sum_[i];
   for (Index j = 0; j < this->m_; ++j)
   {
-    if (this->solved_(i, j) == 1.0)
+    if (this->is_solved_(i, j) == 1.0)
     {
       row.value.push_back(w(i, j));
       row.lower.push_back(this->lower_(i, j));
@@ -289,15 +289,15 @@ void CoupledQp::set_start(const MatrixXd& start)
     const Index v = this->matrices_.free_vertices[i];
     for (Index j = 0; j < this->m_; ++j)
     {
-      this->x_(i, j) = this->solved_(i, j) == 1.0 ? start(v, j) : this->given_(v, j);
+      this->x_(i, j) = this->is_solved_(i, j) == 1.0 ? start(v, j) : this->given_(v, j);
     }
-    if (this->coupled_[i])
+    if (this->is_coupled_[i])
     {
       this->row_of(i, this->x_, nullptr, row);
       project(row);
       for (Index j = 0, k = 0; j < this->m_; ++j)
       {
-        if (this->solved_(i, j) == 1.0)
+        if (this->is_solved_(i, j) == 1.0)
         {
           this->x_(i, j) = row.value[k++];
         }
@@ -314,19 +314,19 @@ void CoupledQp::set_start(const MatrixXd& start)
   // energy, 1.5 times as many iterations are needed (measured).
   constexpr double least = 1e-2;
   constexpr double of_energy = 1.0;
-  const double mu = of_energy * std::abs(energy) / std::max(1.0, this->solved_.sum());
+  const double mu = of_energy * std::abs(energy) / std::max(1.0, this->is_solved_.sum());
   this->s_ = (this->x_ - this->lower_).cwiseMax(least * (this->upper_ - this->lower_));
   this->t_ = (this->upper_ - this->x_).cwiseMax(least * (this->upper_ - this->lower_));
-  this->z_ = (mu * this->s_.cwiseInverse()).cwiseProduct(this->solved_);
-  this->r_ = (mu * this->t_.cwiseInverse()).cwiseProduct(this->capped_);
+  this->z_ = (mu * this->s_.cwiseInverse()).cwiseProduct(this->is_solved_);
+  this->r_ = (mu * this->t_.cwiseInverse()).cwiseProduct(this->has_upper_bound_);
   gradient -= this->z_ - this->r_;
   this->y_ = VectorXd::Zero(this->n_);
   for (Index i = 0; i < this->n_; ++i)
   {
-    if (this->coupled_[i])
+    if (this->is_coupled_[i])
     {
-      this->y_[i] =
-        -gradient.row(i).cwiseProduct(this->solved_.row(i)).sum() / this->solved_.row(i).sum();
+      this->y_[i] = -gradient.row(i).cwiseProduct(this->is_solved_.row(i)).sum() /
+        this->is_solved_.row(i).sum();
     }
   }
 }
@@ -336,7 +336,7 @@ Status CoupledQp::factor()
   const Stopwatch watch;
   this->d_ = this->z_.cwiseQuotient(this->s_) + this->r_.cwiseQuotient(this->t_);
   std::vector<Status> statuses(static_cast<std::size_t>(this->m_));
-  const bool whole = parallel_for(this->context_, this->m_, 1,
+  const bool completed = parallel_for(this->context_, this->m_, 1,
     [&](Index begin, Index end)
     {
       for (Index j = begin; j < end; ++j)
@@ -348,9 +348,9 @@ Status CoupledQp::factor()
           for (int k = matrix.outerIndexPtr()[i]; k < matrix.outerIndexPtr()[i + 1]; ++k)
           {
             const Index other = matrix.innerIndexPtr()[k];
-            values[k] = other == i                                           ? values[k]
-              : this->solved_(i, j) == 1.0 && this->solved_(other, j) == 1.0 ? values[k]
-                                                                             : 0.0;
+            values[k] = other == i                                                 ? values[k]
+              : this->is_solved_(i, j) == 1.0 && this->is_solved_(other, j) == 1.0 ? values[k]
+                                                                                   : 0.0;
           }
           values[this->matrices_.diagonal[i]] += this->d_(i, j);
         }
@@ -378,25 +378,25 @@ Status CoupledQp::factor()
   // For the preconditioner, compute for each vertex the smallest entry of d_ and the effective
   // number of columns, both over the columns in which the vertex is solved for.
   const VectorXd diagonal = this->matrices_.a.diagonal();
-  this->share_ = VectorXd::Zero(this->n_);
+  this->row_scale_ = VectorXd::Zero(this->n_);
   this->least_d_ = VectorXd::Zero(this->n_);
   for (Index i = 0; i < this->n_; ++i)
   {
     double least = 1e300;
     for (Index j = 0; j < this->m_; ++j)
     {
-      least = this->solved_(i, j) == 1.0 ? std::min(least, this->d_(i, j)) : least;
+      least = this->is_solved_(i, j) == 1.0 ? std::min(least, this->d_(i, j)) : least;
     }
     double count = 0.0;
-    for (Index j = 0; j < this->m_ && this->coupled_[i]; ++j)
+    for (Index j = 0; j < this->m_ && this->is_coupled_[i]; ++j)
     {
-      count += this->solved_(i, j) * (diagonal[i] + least) / (diagonal[i] + this->d_(i, j));
+      count += this->is_solved_(i, j) * (diagonal[i] + least) / (diagonal[i] + this->d_(i, j));
     }
-    this->least_d_[i] = this->coupled_[i] ? least : 0.0;
-    this->share_[i] = count > 0.0 ? 1.0 / std::sqrt(count) : 0.0;
+    this->least_d_[i] = this->is_coupled_[i] ? least : 0.0;
+    this->row_scale_[i] = count > 0.0 ? 1.0 / std::sqrt(count) : 0.0;
   }
   this->factor_seconds_ += watch.seconds();
-  return whole && !this->context_.canceled() ? Status() : Status::canceled();
+  return completed && !this->context_.canceled() ? Status() : Status::canceled();
 }
 
 /// Multiply each column j by H_j^-1. The result is 0 for weights that are not solved for.
@@ -409,8 +409,8 @@ MatrixXd CoupledQp::solve_columns(const MatrixXd& rhs)
       VectorXd x;
       for (Index j = begin; j < end; ++j)
       {
-        this->solvers_[j].solve(VectorXd(rhs.col(j).cwiseProduct(this->solved_.col(j))), x);
-        result.col(j) = x.cwiseProduct(this->solved_.col(j));
+        this->solvers_[j].solve(VectorXd(rhs.col(j).cwiseProduct(this->is_solved_.col(j))), x);
+        result.col(j) = x.cwiseProduct(this->is_solved_.col(j));
       }
     });
   return result;
@@ -435,32 +435,32 @@ void CoupledQp::find_multipliers(const VectorXd& rhs, double accuracy, VectorXd&
   constexpr int most_steps = 200;
   const auto precondition = [&](const VectorXd& r) -> VectorXd
   {
-    const VectorXd scaled = r.cwiseProduct(this->share_);
+    const VectorXd scaled = r.cwiseProduct(this->row_scale_);
     return (this->matrices_.a.transpose() * scaled + this->least_d_.cwiseProduct(scaled))
-      .cwiseProduct(this->share_);
+      .cwiseProduct(this->row_scale_);
   };
   VectorXd r = rhs - this->sums_of_inverse(y);
-  const double wanted = accuracy * accuracy * rhs.dot(precondition(rhs));
+  const double target = accuracy * accuracy * rhs.dot(precondition(rhs));
   VectorXd z, p;
-  double last = 0.0;
+  double last_rz = 0.0;
   for (int k = 0; k < most_steps && !this->context_.canceled(); ++k)
   {
     z = precondition(r);
-    const double now = r.dot(z);
-    if (!(now > wanted))
+    const double rz = r.dot(z);
+    if (!(rz > target))
     {
       break;
     }
-    p = k == 0 ? z : VectorXd(z + (now / last) * p);
-    last = now;
+    p = k == 0 ? z : VectorXd(z + (rz / last_rz) * p);
+    last_rz = rz;
     const VectorXd product = this->sums_of_inverse(p);
     const double curvature = p.dot(product);
     if (!(curvature > 0.0))
     {
       break;
     }
-    y += (now / curvature) * p;
-    r -= (now / curvature) * product;
+    y += (rz / curvature) * p;
+    r -= (rz / curvature) * product;
     this->result_.inner_iterations += 1;
   }
 }
@@ -476,7 +476,7 @@ CoupledQp::Direction CoupledQp::solve(
   const MatrixXd rt = this->r_.cwiseQuotient(this->t_);
   const MatrixXd b =
     (-this->rd_ + per_s - zs.cwiseProduct(this->rs_) - per_t + rt.cwiseProduct(this->rt_))
-      .cwiseProduct(this->solved_);
+      .cwiseProduct(this->is_solved_);
   const MatrixXd first = this->solve_columns(b);
   VectorXd rhs = -this->rp_;
   for (Index j = 0; j < this->m_; ++j)
@@ -489,8 +489,8 @@ CoupledQp::Direction CoupledQp::solve(
   d.x = first - this->solve_columns(d.y.replicate(1, this->m_));
   d.s = d.x + this->rs_;
   d.t = -d.x + this->rt_;
-  d.z = (per_s - zs.cwiseProduct(d.s)).cwiseProduct(this->solved_);
-  d.r = (per_t - rt.cwiseProduct(d.t)).cwiseProduct(this->capped_);
+  d.z = (per_s - zs.cwiseProduct(d.s)).cwiseProduct(this->is_solved_);
+  d.r = (per_t - rt.cwiseProduct(d.t)).cwiseProduct(this->has_upper_bound_);
   return d;
 }
 
@@ -502,12 +502,12 @@ void CoupledQp::step_lengths(const Direction& d, double& primal, double& dual) c
   {
     for (Index i = 0; i < this->n_; ++i)
     {
-      if (this->solved_(i, j) == 1.0)
+      if (this->is_solved_(i, j) == 1.0)
       {
         primal = d.s(i, j) < 0.0 ? std::min(primal, -this->s_(i, j) / d.s(i, j)) : primal;
         dual = d.z(i, j) < 0.0 ? std::min(dual, -this->z_(i, j) / d.z(i, j)) : dual;
       }
-      if (this->capped_(i, j) == 1.0)
+      if (this->has_upper_bound_(i, j) == 1.0)
       {
         primal = d.t(i, j) < 0.0 ? std::min(primal, -this->t_(i, j) / d.t(i, j)) : primal;
         dual = d.r(i, j) < 0.0 ? std::min(dual, -this->r_(i, j) / d.r(i, j)) : dual;
@@ -525,7 +525,7 @@ void CoupledQp::certify_iterate()
   MatrixXd w = this->given_;
   for (Index i = 0; i < this->n_; ++i)
   {
-    if (!this->coupled_[i])
+    if (!this->is_coupled_[i])
     {
       continue;
     }
@@ -533,7 +533,7 @@ void CoupledQp::certify_iterate()
     project(row);
     for (Index j = 0, k = 0; j < this->m_; ++j)
     {
-      if (this->solved_(i, j) == 1.0)
+      if (this->is_solved_(i, j) == 1.0)
       {
         w(free[i], j) = row.value[k++];
       }
@@ -569,7 +569,7 @@ void CoupledQp::certify_iterate()
   const VectorXd diagonal = this->matrices_.a.diagonal();
   for (Index i = 0; i < this->n_; ++i)
   {
-    if (!this->coupled_[i])
+    if (!this->is_coupled_[i])
     {
       continue;
     }
@@ -583,7 +583,7 @@ void CoupledQp::certify_iterate()
     }
     for (Index j = 0, k = 0; j < this->m_; ++j)
     {
-      if (this->solved_(i, j) != 1.0)
+      if (this->is_solved_(i, j) != 1.0)
       {
         continue;
       }
@@ -649,15 +649,15 @@ CoupledSolution CoupledQp::run(const MatrixXd& start)
   {
     this->rd_ = this->matrices_.a.transpose() * this->x_ + this->c_ - this->z_ + this->r_ +
       this->y_.replicate(1, this->m_);
-    this->rd_ = this->rd_.cwiseProduct(this->solved_);
+    this->rd_ = this->rd_.cwiseProduct(this->is_solved_);
     this->rs_ = this->x_ - this->lower_ - this->s_;
     this->rt_ = this->upper_ - this->x_ - this->t_;
     this->rp_ = VectorXd::Zero(this->n_);
     for (Index i = 0; i < this->n_; ++i)
     {
-      if (this->coupled_[i])
+      if (this->is_coupled_[i])
       {
-        this->rp_[i] = this->sum_[i] - this->x_.row(i).cwiseProduct(this->solved_.row(i)).sum();
+        this->rp_[i] = this->sum_[i] - this->x_.row(i).cwiseProduct(this->is_solved_.row(i)).sum();
       }
     }
     status = this->factor();
@@ -665,7 +665,7 @@ CoupledSolution CoupledQp::run(const MatrixXd& start)
     {
       break;
     }
-    const double count = this->solved_.sum() + this->capped_.sum();
+    const double count = this->is_solved_.sum() + this->has_upper_bound_.sum();
     const MatrixXd sz = this->s_.cwiseProduct(this->z_);
     const MatrixXd tr = this->t_.cwiseProduct(this->r_);
     const double mu = (sz.sum() + tr.sum()) / count;
@@ -680,11 +680,13 @@ CoupledSolution CoupledQp::run(const MatrixXd& start)
     const double affine = ((this->s_ + primal * d.s).cwiseProduct(this->z_ + dual * d.z).sum() +
                             (this->t_ + primal * d.t).cwiseProduct(this->r_ + dual * d.r).sum()) /
       count;
-    const double wanted = std::pow(affine / mu, 3.0) * mu;
-    const MatrixXd target_s = (wanted * this->solved_ - sz - primal * dual * d.s.cwiseProduct(d.z));
-    const MatrixXd target_t = (wanted * this->capped_ - tr - primal * dual * d.t.cwiseProduct(d.r));
-    d = this->solve(target_s.cwiseProduct(this->solved_), target_t.cwiseProduct(this->capped_),
-      step_accuracy, d.y);
+    const double target = std::pow(affine / mu, 3.0) * mu;
+    const MatrixXd target_s =
+      (target * this->is_solved_ - sz - primal * dual * d.s.cwiseProduct(d.z));
+    const MatrixXd target_t =
+      (target * this->has_upper_bound_ - tr - primal * dual * d.t.cwiseProduct(d.r));
+    d = this->solve(target_s.cwiseProduct(this->is_solved_),
+      target_t.cwiseProduct(this->has_upper_bound_), step_accuracy, d.y);
     this->step_lengths(d, primal, dual);
     const double back = 0.995;
     primal = primal < 1.0 ? back * primal : 1.0;
@@ -704,7 +706,7 @@ CoupledSolution CoupledQp::run(const MatrixXd& start)
     this->y_ += dual * d.y;
     // The slacks must stay positive. Slacks of omitted upper bounds are unused and set to one.
     this->s_ = this->s_.array().max(1e-300).matrix();
-    this->t_ = (this->capped_.array() == 1.0).select(this->t_.array(), 1.0).matrix();
+    this->t_ = (this->has_upper_bound_.array() == 1.0).select(this->t_.array(), 1.0).matrix();
     this->result_.iterations += 1;
     this->certify_iterate();
     if (worst(this->result_.certificate) < worst(this->best_.certificate))
@@ -723,15 +725,15 @@ CoupledSolution CoupledQp::run(const MatrixXd& start)
   {
     this->best_.status.code = StatusCode::not_converged;
   }
-  const double share = 1.0 / std::max<double>(1.0, static_cast<double>(this->m_));
+  const double column_fraction = 1.0 / std::max<double>(1.0, static_cast<double>(this->m_));
   const double seconds = watch.seconds();
   for (BoxQpSolution& column : this->best_.columns)
   {
     column.status = this->best_.status;
     column.iterations = this->best_.iterations;
     column.factorizations = this->best_.iterations;
-    column.factor_seconds = share * this->factor_seconds_;
-    column.solve_seconds = share * (seconds - this->factor_seconds_);
+    column.factor_seconds = column_fraction * this->factor_seconds_;
+    column.solve_seconds = column_fraction * (seconds - this->factor_seconds_);
   }
   return this->best_;
 }

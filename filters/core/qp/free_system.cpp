@@ -22,23 +22,23 @@ Status FreeSystem::factor(ExecutionContext& context, const SparseSolver::Options
   Status status = this->solver_.analyze(this->form_.lower);
   if (status.ok() && !context.canceled())
   {
-    status = without_minimum(this->solver_.factor(this->form_.lower));
+    status = explain_no_minimum(this->solver_.factor(this->form_.lower));
   }
   return context.canceled() ? Status::canceled() : status;
 }
 
 MatrixXd FreeSystem::minimizers(const MatrixXd& fixed_values) const
 {
-  return this->form_.whole(
-    this->solver_.solve(-(this->form_.to_fixed * fixed_values)), fixed_values);
+  return this->form_.extend_to_all(
+    this->solver_.solve(-(this->form_.fixed_block * fixed_values)), fixed_values);
 }
 
 VectorXd FreeSystem::solve(const MatrixXd& rhs, MatrixXd& w) const
 {
   const MatrixXd given = w(this->form_.fixed, Eigen::all);
-  const MatrixXd right = this->form_.free_rows(rhs) - this->form_.to_fixed * given;
+  const MatrixXd right = this->form_.free_rows(rhs) - this->form_.fixed_block * given;
   const MatrixXd x = this->solver_.solve(right);
-  w = this->form_.whole(x, given);
+  w = this->form_.extend_to_all(x, given);
   if (this->form_.free_vertices.empty())
   {
     return VectorXd::Zero(rhs.cols());

@@ -72,7 +72,7 @@ public:
     const InverseForm& inverse, BoxQpWorkspace& workspace, bool in_single)
     : matrices_(matrices), options_(options), column_(column), unconstrained_(unconstrained),
       start_(start), inverse_(inverse), workspace_(workspace), context_(context),
-      problem_(matrices, column), single_is_enough_(in_single)
+      problem_(matrices, column), float_is_accurate_(in_single)
   {
   }
 
@@ -94,12 +94,12 @@ private:
   MatrixXd multiply(const MatrixXd& x) const;
   bool solve_refined(const VectorXd& rhs, double accuracy, VectorXd& x);
   Direction solve(const VectorXd& target, double accuracy);
-  double finish(double enough);
+  double finish(double small_change);
   static double longest_step(const VectorXd& at, const VectorXd& direction);
   void step_lengths(const Direction& d, double& primal, double& dual) const;
   Direction find_direction();
   void certify_iterate(bool second_bound = false);
-  void order_pairs(VectorXd& w) const;
+  void enforce_pairs(VectorXd& w) const;
 
   const SplitForm& matrices_;
   const BoxQpOptions& options_;
@@ -114,7 +114,7 @@ private:
   std::vector<Index> unpinned_; // free indices of vertices that are not pinned
   std::vector<Index> bounded_; // the entries of unpinned_ whose vertices have bounds
   std::vector<PairRow> rows_;
-  std::vector<OrderedPair> upwards_; // the column's pairs, sorted by upward_pairs()
+  std::vector<OrderedPair> sorted_pairs_; // the column's pairs, sorted by sort_pairs_by_order()
   VectorXd h_; // constant terms h of the constraints
   VectorXd x_, s_, z_;
   VectorXd rd_, rp_; // residuals of the first two optimality conditions
@@ -124,7 +124,7 @@ private:
   VectorXd inverse_diagonal_; // 1 / diagonal of the factored matrix
   double shift_ = 0.0; // largest diagonal shift that a factorization in single precision has needed
   bool in_single_ = false; // whether the last factorization is in single precision
-  bool single_is_enough_;
+  bool float_is_accurate_;
   Status failure_; // status of a factorization that failed within solve()
   double mu_ = 0.0;
   BoxQpSolution best_;
@@ -151,10 +151,10 @@ Status InteriorPoint::set_up()
     const OrderedPair& pair = this->column_.pairs[k];
     PairRow row;
     row.pair = static_cast<Index>(k);
-    row.low = this->problem_.free_here[pair.low] ? matrices.free_of_vertex[pair.low] : -1;
-    row.high = this->problem_.free_here[pair.high] ? matrices.free_of_vertex[pair.high] : -1;
-    row.offset = (row.high < 0 ? this->problem_.given[pair.high] : 0.0) -
-      (row.low < 0 ? this->problem_.given[pair.low] : 0.0) - pair.least;
+    row.low = this->problem_.is_column_free[pair.low] ? matrices.free_index[pair.low] : -1;
+    row.high = this->problem_.is_column_free[pair.high] ? matrices.free_index[pair.high] : -1;
+    row.offset = (row.high < 0 ? this->problem_.given_values[pair.high] : 0.0) -
+      (row.low < 0 ? this->problem_.given_values[pair.low] : 0.0) - pair.minimum_difference;
     if (row.low < 0 && row.high < 0)
     {
       continue;
@@ -183,12 +183,12 @@ Status InteriorPoint::set_up()
 
   if (!this->rows_.empty())
   {
-    const std::vector<Index> order = upward_order(this->column_.pairs, matrices.q.rows());
+    const std::vector<Index> order = topological_order(this->column_.pairs, matrices.q.rows());
     if (static_cast<Index>(order.size()) != matrices.q.rows())
     {
       return Status::failure(StatusCode::internal_error, "the ordered pairs contain a cycle");
     }
-    this->upwards_ = upward_pairs(this->column_.pairs, order);
+    this->sorted_pairs_ = sort_pairs_by_order(this->column_.pairs, order);
   }
   return {};
 }
@@ -271,7 +271,7 @@ Status InteriorPoint::factor(const VectorXd& d)
   }
   Status status;
   this->in_single_ = false;
-  if (this->workspace_.single.analyzed() && this->single_is_enough_)
+  if (this->workspace_.single.analyzed() && this->float_is_accurate_)
   {
     this->extra_ = VectorXd::Zero(this->problem_.c.size());
     for (Index i = 0; i < nb; ++i)
@@ -296,7 +296,7 @@ Status InteriorPoint::factor(const VectorXd& d)
     } while (status.code == StatusCode::invalid_input &&
       (this->shift_ = std::max(least_shift, 10.0 * this->shift_)) < 1.5 * largest_shift);
     this->in_single_ = status.ok();
-    this->single_is_enough_ = status.code != StatusCode::invalid_input;
+    this->float_is_accurate_ = status.code != StatusCode::invalid_input;
   }
   if (!this->in_single_ && status.code != StatusCode::canceled)
   {
@@ -393,7 +393,7 @@ InteriorPoint::Direction InteriorPoint::solve(const VectorXd& target, double acc
     // Single precision is not accurate enough. Use double precision for the rest of this column.
     const Stopwatch watch;
     this->in_single_ = false;
-    this->single_is_enough_ = false;
+    this->float_is_accurate_ = false;
     this->failure_ = this->factor_double();
     this->result_.factor_seconds += watch.seconds();
   }
@@ -494,11 +494,11 @@ void InteriorPoint::set_start(bool central)
     return;
   }
   const VectorXd& guess = this->column_.start.size() ? this->column_.start : this->unconstrained_;
-  this->x_ = this->problem_.nearest(matrices, guess);
+  this->x_ = this->problem_.clamp_to_bounds(matrices, guess);
   double energy = this->column_.energy > 0.0
     ? this->column_.energy
     : 0.5 * this->unconstrained_.dot(matrices.q.transpose() * this->unconstrained_);
-  const VectorXd within = this->problem_.whole(matrices, this->x_);
+  const VectorXd within = this->problem_.extend_to_all(matrices, this->x_);
   const double energy_within = 0.5 * within.dot(matrices.q.transpose() * within);
   if (!(energy > 1e-9 * energy_within))
   {
@@ -553,9 +553,9 @@ void InteriorPoint::raise_slacks(double least)
 
 /// Change values as little as necessary to satisfy the order of the pairs. Given values do not
 /// change.
-void InteriorPoint::order_pairs(VectorXd& w) const
+void InteriorPoint::enforce_pairs(VectorXd& w) const
 {
-  if (this->upwards_.empty())
+  if (this->sorted_pairs_.empty())
   {
     return;
   }
@@ -564,7 +564,7 @@ void InteriorPoint::order_pairs(VectorXd& w) const
   {
     highest[v] = this->column_.bounds.high(v);
   }
-  order_values(this->upwards_, this->problem_.free_here, highest, w);
+  enforce_order(this->sorted_pairs_, this->problem_.is_column_free, highest, w);
 }
 
 /// Project the iterate and compute its certificate.
@@ -572,15 +572,15 @@ void InteriorPoint::order_pairs(VectorXd& w) const
 void InteriorPoint::certify_iterate(bool second_bound)
 {
   const auto& matrices = this->matrices_;
-  this->result_.w = this->problem_.whole(matrices, this->x_);
-  this->order_pairs(this->result_.w);
+  this->result_.w = this->problem_.extend_to_all(matrices, this->x_);
+  this->enforce_pairs(this->result_.w);
   const auto nb = static_cast<Index>(this->bounded_.size());
   this->result_.multipliers = VectorXd::Zero(static_cast<Index>(this->column_.pairs.size()));
   for (std::size_t r = 0; r < this->rows_.size(); ++r)
   {
     this->result_.multipliers[this->rows_[r].pair] = this->z_[2 * nb + static_cast<Index>(r)];
   }
-  const BoundedEnergy problem{ matrices.q, this->problem_.free_here, this->column_.bounds };
+  const BoundedEnergy problem{ matrices.q, this->problem_.is_column_free, this->column_.bounds };
   Certificate& certificate = this->result_.certificate;
   const bool bounds_everywhere = this->bounded_.size() == this->unpinned_.size();
   certificate = certify(problem, this->result_.w, this->column_.pairs, this->result_.multipliers,
@@ -598,10 +598,10 @@ void InteriorPoint::certify_iterate(bool second_bound)
 }
 
 /// Continue from the iterate with a projected Newton method. The iterate itself does not change.
-/// @param enough largest change of a weight in one round that counts as converged.
-/// @return the largest change in the last round. If it is at most `enough`, result_ contains the
-/// new point and its certificate.
-double InteriorPoint::finish(double enough)
+/// @param small_change largest change of a weight in one round that counts as converged.
+/// @return the largest change in the last round. If it is at most `small_change`, result_ contains
+/// the new point and its certificate.
+double InteriorPoint::finish(double small_change)
 {
   constexpr int rounds = 6;
   VectorXd x = this->x_;
@@ -609,7 +609,7 @@ double InteriorPoint::finish(double enough)
   {
     x[i] = std::clamp(x[i], this->problem_.lower[i], this->problem_.upper[i]);
   }
-  const double moved = projected_newton(
+  const double largest_change = projected_newton(
     this->context_, this->matrices_, this->problem_,
     [this](const VectorXd& r, VectorXd& z)
     {
@@ -622,14 +622,14 @@ double InteriorPoint::finish(double enough)
         this->workspace_.solver.solve(r, z);
       }
     },
-    rounds, enough, x);
-  if (moved <= enough)
+    rounds, small_change, x);
+  if (largest_change <= small_change)
   {
     std::swap(x, this->x_);
     this->certify_iterate(true);
     std::swap(x, this->x_);
   }
-  return moved;
+  return largest_change;
 }
 
 BoxQpSolution InteriorPoint::run()
@@ -648,7 +648,7 @@ BoxQpSolution InteriorPoint::run()
   // After an iterate is certified, a few more iterations let the weights converge. These iterations
   // do not affect the status.
   constexpr int most_settling = 6;
-  const double settled = settled_move(tolerance);
+  const double settled = converged_change(tolerance);
   int settling = 0;
   // The projected Newton method is tried if no weight changed by more than `near` in the last
   // iteration. It converges many times faster than the central path and requires only solves with
@@ -666,11 +666,11 @@ BoxQpSolution InteriorPoint::run()
   // After this number of iterations without an improvement, double precision is used.
   constexpr int most_stalled = 3;
   int stalled = 0;
-  double moved = this->h_.size() == 0 ? 0.0 : 1.0;
+  double largest_change = this->h_.size() == 0 ? 0.0 : 1.0;
   const auto done = [&]
   {
     return worst(this->best_.certificate) <= tolerance &&
-      (moved <= settled || settling > most_settling);
+      (largest_change <= settled || settling > most_settling);
   };
   while (status.ok() && !done() && this->result_.iterations < this->options_.maximum_iterations)
   {
@@ -684,7 +684,7 @@ BoxQpSolution InteriorPoint::run()
     {
       this->set_start(false);
     }
-    this->single_is_enough_ = this->single_is_enough_ && this->result_.iterations < double_after;
+    this->float_is_accurate_ = this->float_is_accurate_ && this->result_.iterations < double_after;
     this->rp_ = this->apply(this->x_) + this->h_ - this->s_;
     this->rd_ = this->matrices_.a.transpose() * this->x_ + this->problem_.c -
       this->apply_transposed(this->z_);
@@ -713,7 +713,7 @@ BoxQpSolution InteriorPoint::run()
     this->result_.iterations += 1;
     const VectorXd previous = this->result_.w;
     this->certify_iterate();
-    moved = (this->result_.w - previous).cwiseAbs().maxCoeff();
+    largest_change = (this->result_.w - previous).cwiseAbs().maxCoeff();
     settling += worst(this->best_.certificate) <= tolerance;
     if (!(worst(this->result_.certificate) >= worst(this->best_.certificate)))
     {
@@ -722,23 +722,23 @@ BoxQpSolution InteriorPoint::run()
     }
     else if (++stalled >= most_stalled && !this->rows_.empty())
     {
-      this->single_is_enough_ = false;
+      this->float_is_accurate_ = false;
     }
     if (!done() && this->rows_.empty() &&
-      (moved <= near || (tries == 0 && worst(this->best_.certificate) <= tolerance)))
+      (largest_change <= near || (tries == 0 && worst(this->best_.certificate) <= tolerance)))
     {
       const BoxQpSolution iterate = this->result_;
-      const double enough = settled_newton_move(tolerance);
-      const double left = this->finish(enough);
-      if (left <= enough && worst(this->result_.certificate) <= tolerance)
+      const double small_change = converged_newton_change(tolerance);
+      const double left = this->finish(small_change);
+      if (left <= small_change && worst(this->result_.certificate) <= tolerance)
       {
         this->best_ = this->result_;
-        moved = 0.0;
+        largest_change = 0.0;
       }
       this->result_ = iterate;
       // If the last attempt nearly converged, make the next attempt soon; otherwise wait until the
       // changes are smaller.
-      near = moved * std::clamp(enough / left, 0.2, 0.8);
+      near = largest_change * std::clamp(small_change / left, 0.2, 0.8);
       ++tries;
     }
   }

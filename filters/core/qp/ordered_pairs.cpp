@@ -8,7 +8,7 @@ namespace bindpose
 {
 
 SparseMatrix positive_stiffness(
-  const SparseMatrix& stiffness, const VertexGraph& graph, const std::vector<char>& pulls)
+  const SparseMatrix& stiffness, const VertexGraph& graph, const std::vector<char>& is_used)
 {
   // Minimum edge weight as a fraction of the diagonal entries. It is small enough that the harmonic
   // function still follows the geometry of the mesh, and large enough to keep rounding errors of
@@ -24,7 +24,7 @@ SparseMatrix positive_stiffness(
     for (Index k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
     {
       const Index other = graph.neighbors[k];
-      if (pulls[v] && pulls[other])
+      if (is_used[v] && is_used[other])
       {
         const double least = least_weight * std::sqrt(diagonal[v] * diagonal[other]);
         const double w = std::max(-stiffness.coeff(v, other), least);
@@ -50,7 +50,7 @@ void sort_pairs(std::vector<OrderedPair>& pairs)
     pairs.end());
 }
 
-std::vector<Index> upward_order(const std::vector<OrderedPair>& pairs, Index count)
+std::vector<Index> topological_order(const std::vector<OrderedPair>& pairs, Index count)
 {
   std::vector<std::vector<Index>> above(static_cast<std::size_t>(count));
   // For each vertex, the number of pairs in which this vertex is `high` and whose `low` vertex is
@@ -83,7 +83,7 @@ std::vector<Index> upward_order(const std::vector<OrderedPair>& pairs, Index cou
   return order;
 }
 
-std::vector<OrderedPair> upward_pairs(
+std::vector<OrderedPair> sort_pairs_by_order(
   const std::vector<OrderedPair>& pairs, const std::vector<Index>& order)
 {
   std::vector<Index> rank(order.size());
@@ -91,13 +91,13 @@ std::vector<OrderedPair> upward_pairs(
   {
     rank[order[i]] = static_cast<Index>(i);
   }
-  std::vector<OrderedPair> upwards = pairs;
-  std::stable_sort(upwards.begin(), upwards.end(),
+  std::vector<OrderedPair> sorted_pairs = pairs;
+  std::stable_sort(sorted_pairs.begin(), sorted_pairs.end(),
     [&](const OrderedPair& a, const OrderedPair& b) { return rank[a.low] < rank[b.low]; });
-  return upwards;
+  return sorted_pairs;
 }
 
-void order_values(const std::vector<OrderedPair>& upwards, const std::vector<char>& is_free,
+void enforce_order(const std::vector<OrderedPair>& sorted_pairs, const std::vector<char>& is_free,
   const Eigen::VectorXd& highest, Eigen::VectorXd& values)
 {
   // Upper limits of the values that also satisfy the pairs. The limit of a vertex is at most the
@@ -107,19 +107,19 @@ void order_values(const std::vector<OrderedPair>& upwards, const std::vector<cha
   {
     cap[v] = is_free[v] ? highest[v] : values[v];
   }
-  for (auto pair = upwards.rbegin(); pair != upwards.rend(); ++pair)
+  for (auto pair = sorted_pairs.rbegin(); pair != sorted_pairs.rend(); ++pair)
   {
-    cap[pair->low] = std::min(cap[pair->low], cap[pair->high] - pair->least);
+    cap[pair->low] = std::min(cap[pair->low], cap[pair->high] - pair->minimum_difference);
   }
   for (Index v = 0; v < values.size(); ++v)
   {
     values[v] = is_free[v] ? std::min(values[v], cap[v]) : values[v];
   }
-  for (const OrderedPair& pair : upwards)
+  for (const OrderedPair& pair : sorted_pairs)
   {
     if (is_free[pair.high])
     {
-      values[pair.high] = std::max(values[pair.high], values[pair.low] + pair.least);
+      values[pair.high] = std::max(values[pair.high], values[pair.low] + pair.minimum_difference);
     }
   }
 }
@@ -142,15 +142,15 @@ Index find_infeasible_vertex(
   {
     least[column.pinned[i]] = most[column.pinned[i]] = column.pinned_values[static_cast<Index>(i)];
   }
-  const std::vector<Index> order = upward_order(column.pairs, count);
-  for (const OrderedPair& pair : upward_pairs(column.pairs, order))
+  const std::vector<Index> order = topological_order(column.pairs, count);
+  for (const OrderedPair& pair : sort_pairs_by_order(column.pairs, order))
   {
-    least[pair.high] = std::max(least[pair.high], least[pair.low] + pair.least);
+    least[pair.high] = std::max(least[pair.high], least[pair.low] + pair.minimum_difference);
   }
   constexpr double round_off = 1e-12;
-  const auto tight = std::find_if(
+  const auto infeasible = std::find_if(
     order.begin(), order.end(), [&](Index u) { return least[u] > most[u] + round_off; });
-  return tight == order.end() ? Index(-1) : *tight;
+  return infeasible == order.end() ? Index(-1) : *infeasible;
 }
 
 } // namespace bindpose

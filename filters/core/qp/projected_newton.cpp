@@ -1,6 +1,7 @@
-// A projected Newton method with inexact solves (see projected_newton.h). In each round, held
-// vertices move to their bounds. For the other vertices, a few iterations of preconditioned
-// conjugate gradients reduce the gradient. Values outside of the bounds are projected back to them.
+// A projected Newton method with inexact solves (see projected_newton.h). In each round, the
+// vertices of the active set move to their bounds. For the other vertices, a few iterations of
+// preconditioned conjugate gradients reduce the gradient. Values outside of the bounds are
+// projected back to them.
 #include "qp/projected_newton.h"
 
 #include <algorithm>
@@ -21,21 +22,21 @@ double newton_step(const SplitForm& matrices, const VectorXd& gradient, const Ve
 }
 } // namespace
 
-std::vector<char> held_vertices(const SplitForm& matrices, const ColumnProblem& problem,
+std::vector<char> vertices_at_bounds(const SplitForm& matrices, const ColumnProblem& problem,
   const VectorXd& gradient, const VectorXd& x)
 {
-  std::vector<char> held(problem.pinned);
+  std::vector<char> at_bound(problem.pinned);
   for (Index i = 0; i < x.size(); ++i)
   {
     const double to = newton_step(matrices, gradient, x, i);
-    held[i] = held[i] || to <= problem.lower[i] || to >= problem.upper[i];
+    at_bound[i] = at_bound[i] || to <= problem.lower[i] || to >= problem.upper[i];
   }
-  return held;
+  return at_bound;
 }
 
 double projected_newton(const ExecutionContext& context, const SplitForm& matrices,
-  const ColumnProblem& problem, const Preconditioner& preconditioner, int rounds, double enough,
-  VectorXd& x)
+  const ColumnProblem& problem, const Preconditioner& preconditioner, int rounds,
+  double small_change, VectorXd& x)
 {
   constexpr int steps = 4; // maximum iterations of conjugate gradients per round
   // Conjugate gradients end earlier if the energy norm of the error has decreased to this fraction.
@@ -43,29 +44,30 @@ double projected_newton(const ExecutionContext& context, const SplitForm& matric
   const Index n = x.size();
   // A is symmetric. Products with its transpose are faster.
   const SparseMatrix& a = matrices.a;
-  std::vector<char> held;
+  std::vector<char> at_bound;
   const auto release = [&](VectorXd& v)
   {
     for (Index i = 0; i < n; ++i)
     {
-      v[i] = held[i] ? 0.0 : v[i];
+      v[i] = at_bound[i] ? 0.0 : v[i];
     }
   };
   VectorXd g = a.transpose() * x + problem.c;
   VectorXd r, z, p, ap;
-  double moved = 1.0;
+  double largest_change = 1.0;
   double before = 1e300;
-  // Stop if the largest change does not decrease, because then the set of held vertices is still
+  // Stop if the largest change does not decrease, because then the active set is still
   // wrong.
-  for (int round = 0;
-       round < rounds && moved > enough && moved < 0.9 * before && !context.canceled(); ++round)
+  for (int round = 0; round < rounds && largest_change > small_change &&
+       largest_change < 0.9 * before && !context.canceled();
+       ++round)
   {
-    before = round == 0 ? 1e300 : moved;
-    held = held_vertices(matrices, problem, g, x);
+    before = round == 0 ? 1e300 : largest_change;
+    at_bound = vertices_at_bounds(matrices, problem, g, x);
     VectorXd start = x;
     for (Index i = 0; i < n; ++i)
     {
-      if (held[i] && !problem.pinned[i])
+      if (at_bound[i] && !problem.pinned[i])
       {
         start[i] = std::clamp(newton_step(matrices, g, x, i), problem.lower[i], problem.upper[i]);
       }
@@ -74,19 +76,19 @@ double projected_newton(const ExecutionContext& context, const SplitForm& matric
     release(r);
     VectorXd next = start;
     double first = 0.0;
-    double last = 0.0;
+    double last_rz = 0.0;
     for (int k = 0; k < steps; ++k)
     {
       preconditioner(r, z);
       release(z);
-      const double now = r.dot(z);
-      if (!(now > 0.0) || now <= reduction * reduction * first)
+      const double rz = r.dot(z);
+      if (!(rz > 0.0) || rz <= reduction * reduction * first)
       {
         break;
       }
-      first = k == 0 ? now : first;
-      p = k == 0 ? z : VectorXd(z + (now / last) * p);
-      last = now;
+      first = k == 0 ? rz : first;
+      p = k == 0 ? z : VectorXd(z + (rz / last_rz) * p);
+      last_rz = rz;
       ap = a.transpose() * p;
       release(ap);
       const double curvature = p.dot(ap);
@@ -94,22 +96,23 @@ double projected_newton(const ExecutionContext& context, const SplitForm& matric
       {
         break;
       }
-      next += (now / curvature) * p;
-      r -= (now / curvature) * ap;
+      next += (rz / curvature) * p;
+      r -= (rz / curvature) * ap;
     }
     for (Index i = 0; i < n; ++i)
     {
       next[i] = problem.pinned[i] ? x[i] : std::clamp(next[i], problem.lower[i], problem.upper[i]);
     }
-    moved = (next - x).cwiseAbs().maxCoeff();
+    largest_change = (next - x).cwiseAbs().maxCoeff();
     g += a.transpose() * (next - x);
     x = next;
-    if (round > 0 && moved * std::pow(moved / before, rounds - 1 - round) > enough)
+    if (round > 0 &&
+      largest_change * std::pow(largest_change / before, rounds - 1 - round) > small_change)
     {
       break; // at this rate the remaining rounds do not suffice to converge
     }
   }
-  return moved;
+  return largest_change;
 }
 
 } // namespace bindpose

@@ -14,12 +14,12 @@ namespace bindpose
 /// definite.
 using Preconditioner = std::function<void(const Eigen::VectorXd& r, Eigen::VectorXd& z)>;
 
-/// Return the held vertices: vertices whose value is kept at a bound during a Newton step. A vertex
-/// is held if a Newton step of this vertex alone, starting from x, would reach or cross a bound.
+/// Return the vertices whose value is kept at a bound during a Newton step. A vertex is kept if a
+/// Newton step of this vertex alone, starting from x, would reach or cross a bound.
 /// Pinned vertices are included.
 /// @param gradient Ax + c.
-/// @return one entry per free vertex: 1 for held vertices.
-std::vector<char> held_vertices(const SplitForm& matrices, const ColumnProblem& problem,
+/// @return one entry per free vertex: 1 for vertices at a bound.
+std::vector<char> vertices_at_bounds(const SplitForm& matrices, const ColumnProblem& problem,
   const Eigen::VectorXd& gradient, const Eigen::VectorXd& x);
 
 /// Improve a point that is already close to the minimizer of 1/2 x'Ax + c'x subject to l <= x <= u,
@@ -29,12 +29,12 @@ std::vector<char> held_vertices(const SplitForm& matrices, const ColumnProblem& 
 ///
 /// Bertsekas 1982, Projected Newton methods for optimization problems with simple constraints.
 /// @param rounds maximum number of Newton rounds.
-/// @param enough the method stops after a round in which no entry changes by more than this.
+/// @param small_change the method stops after a round in which no entry changes by more than this.
 /// @param x one entry per free vertex, within the bounds before and after.
 /// @return the largest change of an entry in the last round.
 double projected_newton(const ExecutionContext& context, const SplitForm& matrices,
-  const ColumnProblem& problem, const Preconditioner& preconditioner, int rounds, double enough,
-  Eigen::VectorXd& x);
+  const ColumnProblem& problem, const Preconditioner& preconditioner, int rounds,
+  double small_change, Eigen::VectorXd& x);
 
 } // namespace bindpose
 

@@ -17,12 +17,12 @@ SplitForm::SplitForm(const SparseMatrix& form, std::vector<Index> given)
     this->is_free[this->fixed[i]] = 0;
     fixed_of_vertex[this->fixed[i]] = static_cast<Index>(i);
   }
-  this->free_of_vertex.assign(static_cast<std::size_t>(form.rows()), -1);
+  this->free_index.assign(static_cast<std::size_t>(form.rows()), -1);
   for (Index v = 0; v < form.rows(); ++v)
   {
     if (this->is_free[v])
     {
-      this->free_of_vertex[v] = static_cast<Index>(this->free_vertices.size());
+      this->free_index[v] = static_cast<Index>(this->free_vertices.size());
       this->free_vertices.push_back(v);
     }
   }
@@ -33,8 +33,8 @@ SplitForm::SplitForm(const SparseMatrix& form, std::vector<Index> given)
   {
     for (SparseMatrix::InnerIterator entry(this->q, static_cast<int>(v)); entry; ++entry)
     {
-      const auto i = static_cast<int>(this->free_of_vertex[entry.row()]);
-      const auto j = static_cast<int>(this->free_of_vertex[v]);
+      const auto i = static_cast<int>(this->free_index[entry.row()]);
+      const auto j = static_cast<int>(this->free_index[v]);
       if (i >= 0 && j >= 0)
       {
         inner.emplace_back(i, j, entry.value());
@@ -51,8 +51,8 @@ SplitForm::SplitForm(const SparseMatrix& form, std::vector<Index> given)
   }
   this->a.resize(n, n);
   this->a.setFromTriplets(inner.begin(), inner.end());
-  this->to_fixed.resize(n, static_cast<int>(this->fixed.size()));
-  this->to_fixed.setFromTriplets(outer.begin(), outer.end());
+  this->fixed_block.resize(n, static_cast<int>(this->fixed.size()));
+  this->fixed_block.setFromTriplets(outer.begin(), outer.end());
   this->lower = this->a.triangularView<Eigen::Lower>();
   this->lower.makeCompressed();
   for (int i = 0; i < n; ++i)
@@ -66,7 +66,7 @@ Eigen::MatrixXd SplitForm::free_rows(const Eigen::MatrixXd& all) const
   return all(this->free_vertices, Eigen::all);
 }
 
-Eigen::MatrixXd SplitForm::whole(
+Eigen::MatrixXd SplitForm::extend_to_all(
   const Eigen::MatrixXd& free_rows, const Eigen::MatrixXd& fixed_values) const
 {
   Eigen::MatrixXd all(this->q.rows(), fixed_values.cols());
@@ -75,14 +75,14 @@ Eigen::MatrixXd SplitForm::whole(
   return all;
 }
 
-void SplitForm::decouple(const std::vector<char>& held, SparseMatrix& matrix)
+void SplitForm::decouple(const std::vector<char>& at_bound, SparseMatrix& matrix)
 {
   for (Index j = 0; j < matrix.cols(); ++j)
   {
     for (int k = matrix.outerIndexPtr()[j]; k < matrix.outerIndexPtr()[j + 1]; ++k)
     {
       const Index i = matrix.innerIndexPtr()[k];
-      if (i != j && (held[i] || held[j]))
+      if (i != j && (at_bound[i] || at_bound[j]))
       {
         matrix.valuePtr()[k] = 0.0;
       }
@@ -98,7 +98,7 @@ int SplitForm::position(Index i, Index j) const
   return at != end && *at == i ? static_cast<int>(at - this->lower.innerIndexPtr()) : -1;
 }
 
-Status without_minimum(Status of_factor)
+Status explain_no_minimum(Status of_factor)
 {
   if (of_factor.code == StatusCode::invalid_input)
   {

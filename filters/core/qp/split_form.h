@@ -22,10 +22,10 @@ struct SplitForm
   std::vector<Index> fixed;
   std::vector<char> is_free; ///< #V: 1 for free vertices
   std::vector<Index> free_vertices;
-  std::vector<Index> free_of_vertex; ///< #V: index in free_vertices; -1: fixed
+  std::vector<Index> free_index; ///< #V: index in free_vertices; -1: fixed
   SparseMatrix a; ///< block of the free vertices, both triangular halves stored
   SparseMatrix lower; ///< lower triangle of a; every diagonal entry is stored
-  SparseMatrix to_fixed; ///< free x fixed
+  SparseMatrix fixed_block; ///< free x fixed
   std::vector<int> diagonal; ///< indices of the diagonal entries in the values of `lower`
 
   /// Return the rows of the free vertices.
@@ -36,12 +36,12 @@ struct SplitForm
   /// @param free_rows free x m.
   /// @param fixed_values fixed x m.
   /// @return #V x m.
-  Eigen::MatrixXd whole(
+  Eigen::MatrixXd extend_to_all(
     const Eigen::MatrixXd& free_rows, const Eigen::MatrixXd& fixed_values) const;
-  /// Set the off-diagonal entries of a free x free matrix to 0 in the rows and columns of held
-  /// vertices.
-  /// @param held one entry per free vertex: 1 for held vertices.
-  static void decouple(const std::vector<char>& held, SparseMatrix& matrix);
+  /// Set the off-diagonal entries of a free x free matrix to 0 in the rows and columns of
+  /// the given vertices.
+  /// @param at_bound one entry per free vertex: 1 for vertices at a bound.
+  static void decouple(const std::vector<char>& at_bound, SparseMatrix& matrix);
   /// Return the index of entry (i, j), i > j, in the values of `lower`; -1 if there is no such
   /// entry.
   int position(Index i, Index j) const;
@@ -50,7 +50,7 @@ struct SplitForm
 /// Change the message if a factorization failed with invalid_input. In this case the block of free
 /// vertices is not positive definite, so the form has no unique minimum. Return any other status
 /// unchanged.
-Status without_minimum(Status of_factor);
+Status explain_no_minimum(Status of_factor);
 
 } // namespace bindpose
 

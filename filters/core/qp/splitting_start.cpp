@@ -17,6 +17,7 @@
 
 #include "base/flush_denormals.h"
 #include "base/parallel.h"
+#include "linear/supernode_solve.h"
 #include "qp/column_problem.h"
 
 #include <Eigen/Cholesky>
@@ -44,7 +45,10 @@ constexpr int steps = 80;
 // this fraction of its energy.
 constexpr double settled_change = 1e-7;
 constexpr int memory = 8; // number of past iterations for Anderson acceleration
-constexpr Index largest_block = 8; // number of columns that are solved together
+// A block of columns is solved together on one thread. Wide blocks read the factor less often; if
+// there are few columns, narrow blocks use more threads.
+constexpr Index narrow_block = 4;
+constexpr Index many_columns = 16;
 
 /// Return the solution y in (0, 1) of y - z = mu_per_p / y - mu_per_p / (1 - y), where mu_per_p is
 /// mu divided by the vertex's entry of P. Newton's method starts near the bound that is closer to
@@ -86,6 +90,7 @@ public:
   /// @param change result of the iteration minus z.
   void accelerate(VectorXd& z, const VectorXd& change, const VectorXd& weights)
   {
+    const FlushDenormals flush; // differences of iterates are tiny at most vertices
     const VectorXf f = change.cwiseProduct(weights).cast<float>();
     const VectorXf at = z.cwiseProduct(weights).cast<float>();
     const double size = f.squaredNorm();
@@ -163,12 +168,12 @@ std::vector<ColumnStart> splitting_start(ExecutionContext& context, const SplitF
     return starts;
   }
   const VectorXd weights = p.cwiseSqrt();
+  const Index largest_block = count < many_columns ? narrow_block : maximum_solve_columns;
   const Index blocks = (count + largest_block - 1) / largest_block;
   const Index block = (count + blocks - 1) / blocks;
   parallel_for(context, blocks, 1,
     [&](Index begin, Index)
     {
-      const FlushDenormals flush; // for the floats of Anderson acceleration
       const Index first = std::min(begin * block, count);
       const Index width = std::min(block, count - first);
       MatrixXd z(n, width), y(n, width), rhs, x;
@@ -180,7 +185,7 @@ std::vector<ColumnStart> splitting_start(ExecutionContext& context, const SplitF
       {
         const VectorXd free_of_bounds = unconstrained.col(first + k);
         problems.emplace_back(matrices, columns[static_cast<std::size_t>(first + k)]);
-        z.col(k) = problems.back().nearest(matrices, free_of_bounds);
+        z.col(k) = problems.back().clamp_to_bounds(matrices, free_of_bounds);
         energy[k] = 0.5 * free_of_bounds.dot(matrices.q.transpose() * free_of_bounds);
         mu[k] = barriers ? relative_mu * energy[k] / static_cast<double>(2 * n) : 0.0;
         anderson.emplace_back(n);
@@ -192,7 +197,7 @@ std::vector<ColumnStart> splitting_start(ExecutionContext& context, const SplitF
         {
           const double l = problem.lower[i];
           const double range = problem.upper[i] - l;
-          y(i, k) = problem.pinned[i] ? problem.given[matrices.free_vertices[i]]
+          y(i, k) = problem.pinned[i] ? problem.given_values[matrices.free_vertices[i]]
             : mu[k] > 0.0 // the equation is scaled to [0, 1]
             ? l + range * barrier_step((z(i, k) - l) / range, mu[k] / p[i] / (range * range))
             : std::clamp(z(i, k), l, problem.upper[i]);
@@ -243,10 +248,10 @@ std::vector<ColumnStart> splitting_start(ExecutionContext& context, const SplitF
         start.mu = mu[k];
         if (!barriers)
         {
-          start.held = problems[static_cast<std::size_t>(k)].pinned;
+          start.at_bound = problems[static_cast<std::size_t>(k)].pinned;
           for (Index i = 0; i < n; ++i)
           {
-            start.held[i] = start.held[i] || z(i, k) != y(i, k);
+            start.at_bound[i] = start.at_bound[i] || z(i, k) != y(i, k);
           }
         }
       }

@@ -27,7 +27,7 @@ using Vertex = boost::graph_traits<Network>::vertex_descriptor;
 using Arc = boost::graph_traits<Network>::edge_descriptor;
 using ArcIndex = boost::property_map<Network, boost::edge_index_t>::const_type;
 
-struct Stop
+struct CancelException
 {
 };
 
@@ -55,13 +55,13 @@ Flow get(const Residuals& map, const Arc& arc)
 
 void put(const Residuals& map, const Arc& arc, Flow value)
 {
-  constexpr std::int64_t often = 1 << 16;
+  constexpr std::int64_t check_interval = 1 << 16;
   if (--*map.countdown <= 0)
   {
-    *map.countdown = often;
+    *map.countdown = check_interval;
     if (map.context->canceled())
     {
-      throw Stop();
+      throw CancelException();
     }
   }
   map[arc] = value;
@@ -98,7 +98,7 @@ Status check(const CutEnergy& energy)
 }
 } // namespace
 
-double CutEnergy::of(const std::vector<char>& inside) const
+double CutEnergy::evaluate(const std::vector<char>& inside) const
 {
   double sum = 0.0;
   for (std::size_t i = 0; i < inside.size(); ++i)
@@ -132,7 +132,7 @@ public:
     const auto nodes = static_cast<Index>(this->labels_.size());
     // Total cost of each node's edges to undecided nodes.
     std::vector<double> edges(this->labels_.size());
-    for (bool go_on = true; go_on;)
+    for (bool has_progress = true; has_progress;)
     {
       for (Index i = 0; i < nodes; ++i)
       {
@@ -168,43 +168,43 @@ public:
       }
       // The loop ends if a round decides at most one node per 20 undecided nodes.
       constexpr Index few = 20;
-      go_on = few * decided > left;
+      has_progress = few * decided > left;
     }
   }
 
   /// Return the energy as a function of the undecided nodes, with the labels of their decided
   /// neighbors inserted.
-  CutEnergy rest()
+  CutEnergy reduced()
   {
     this->ids_.assign(this->labels_.size(), -1);
-    CutEnergy rest;
+    CutEnergy reduced;
     for (std::size_t i = 0; i < this->labels_.size(); ++i)
     {
       if (this->labels_[i] == undecided)
       {
-        this->ids_[i] = static_cast<Index>(rest.inside_costs.size());
-        rest.inside_costs.push_back(std::max(0.0, -this->gains_[i]));
-        rest.outside_costs.push_back(std::max(0.0, this->gains_[i]));
+        this->ids_[i] = static_cast<Index>(reduced.inside_costs.size());
+        reduced.inside_costs.push_back(std::max(0.0, -this->gains_[i]));
+        reduced.outside_costs.push_back(std::max(0.0, this->gains_[i]));
       }
     }
     for (const CutEnergy::Edge& edge : this->energy_.edges)
     {
       if (this->ids_[edge.a] >= 0 && this->ids_[edge.b] >= 0)
       {
-        rest.edges.push_back({ this->ids_[edge.a], this->ids_[edge.b], edge.cost });
+        reduced.edges.push_back({ this->ids_[edge.a], this->ids_[edge.b], edge.cost });
       }
     }
-    return rest;
+    return reduced;
   }
 
-  /// Return the labels of all nodes. @param rest labels of the undecided nodes, indexed by their
+  /// Return the labels of all nodes. @param reduced labels of the undecided nodes, indexed by their
   /// ids in rest().
-  std::vector<char> with(const std::vector<char>& rest) const
+  std::vector<char> expand(const std::vector<char>& reduced) const
   {
     std::vector<char> all = this->labels_;
     for (std::size_t i = 0; i < all.size(); ++i)
     {
-      all[i] = this->ids_[i] >= 0 ? rest[this->ids_[i]] : all[i];
+      all[i] = this->ids_[i] >= 0 ? reduced[this->ids_[i]] : all[i];
     }
     return all;
   }
@@ -243,15 +243,16 @@ Status cut(ExecutionContext& context, const CutEnergy& energy, std::vector<char>
     sum += edge.cost;
   }
   const double scale = sum > 0.0 ? 0x1p40 / sum : 0.0;
-  const auto whole = [&](double cost) { return static_cast<Flow>(std::llround(scale * cost)); };
+  const auto to_integer = [&](double cost)
+  { return static_cast<Flow>(std::llround(scale * cost)); };
 
-  struct Line
+  struct ArcData
   {
     Index from, to;
     Flow capacity;
     Index pair; ///< index of the pair of opposite arcs to which this arc belongs
   };
-  std::vector<Line> lines;
+  std::vector<ArcData> lines;
   lines.reserve(2 * (energy.edges.size() + static_cast<std::size_t>(nodes)));
   Index pairs = 0;
   const auto connect = [&](Index a, Index b, Flow there, Flow back)
@@ -262,7 +263,7 @@ Status cut(ExecutionContext& context, const CutEnergy& energy, std::vector<char>
   };
   for (Index i = 0; i < nodes; ++i)
   {
-    const Flow gain = whole(energy.outside_costs[i] - energy.inside_costs[i]);
+    const Flow gain = to_integer(energy.outside_costs[i] - energy.inside_costs[i]);
     if (gain > 0)
     {
       connect(source, i, gain, 0);
@@ -274,14 +275,14 @@ Status cut(ExecutionContext& context, const CutEnergy& energy, std::vector<char>
   }
   for (const CutEnergy::Edge& edge : energy.edges)
   {
-    const Flow capacity = whole(edge.cost);
+    const Flow capacity = to_integer(edge.cost);
     if (capacity > 0)
     {
       connect(edge.a, edge.b, capacity, capacity);
     }
   }
   std::sort(lines.begin(), lines.end(),
-    [](const Line& x, const Line& y) {
+    [](const ArcData& x, const ArcData& y) {
       return x.from != y.from ? x.from < y.from : x.to != y.to ? x.to < y.to : x.pair < y.pair;
     });
   if (context.canceled())
@@ -323,19 +324,19 @@ Status cut(ExecutionContext& context, const CutEnergy& energy, std::vector<char>
   std::vector<boost::default_color_type> colors(vertices, boost::gray_color);
   std::vector<Index> distances(vertices, 0);
   std::int64_t countdown = 0;
-  const auto of_vertex = get(boost::vertex_index, network);
+  const auto vertex_index_map = get(boost::vertex_index, network);
   try
   {
     boost::boykov_kolmogorov_max_flow(network,
       boost::make_iterator_property_map(capacities.begin(), index),
       Residuals{ index, &residuals, &context, &countdown },
       boost::make_iterator_property_map(reverse.begin(), index),
-      boost::make_iterator_property_map(predecessors.begin(), of_vertex),
-      boost::make_iterator_property_map(colors.begin(), of_vertex),
-      boost::make_iterator_property_map(distances.begin(), of_vertex), of_vertex,
+      boost::make_iterator_property_map(predecessors.begin(), vertex_index_map),
+      boost::make_iterator_property_map(colors.begin(), vertex_index_map),
+      boost::make_iterator_property_map(distances.begin(), vertex_index_map), vertex_index_map,
       static_cast<Vertex>(source), static_cast<Vertex>(sink));
   }
-  catch (const Stop&)
+  catch (const CancelException&)
   {
     return Status::canceled();
   }
@@ -357,11 +358,11 @@ Status minimize(ExecutionContext& context, const CutEnergy& energy, std::vector<
   }
   Labels labels(energy);
   labels.decide();
-  std::vector<char> rest;
-  status = cut(context, labels.rest(), rest);
+  std::vector<char> reduced;
+  status = cut(context, labels.reduced(), reduced);
   if (status.ok())
   {
-    inside = labels.with(rest);
+    inside = labels.expand(reduced);
   }
   return status;
 }

@@ -25,7 +25,7 @@ struct CutEnergy
   std::vector<Edge> edges; ///< if there are several edges between two nodes, their costs add up
 
   /// Return the energy E of these labels (1 inside, 0 outside).
-  double of(const std::vector<char>& inside) const;
+  double evaluate(const std::vector<char>& inside) const;
 };
 
 /// Compute the labels with minimum energy by maximum flow (Boykov, Kolmogorov, An Experimental

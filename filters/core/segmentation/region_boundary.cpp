@@ -19,7 +19,7 @@ RegionBoundary::RegionBoundary(
 {
 }
 
-bool RegionBoundary::holds(const Vec3& p) const
+bool RegionBoundary::contains(const Vec3& p) const
 {
   return (p.array() >= this->box_.lower.array()).all() &&
     (p.array() <= this->box_.upper.array()).all() &&
@@ -34,10 +34,10 @@ Vec3 RegionBoundary::normal(Index f) const
   return length > 0.0 ? Vec3(n / length) : Vec3::Zero();
 }
 
-bool RegionBoundary::bounded_at(Index f, const Vec3& p) const
+bool RegionBoundary::bounds_region_at(Index f, const Vec3& p) const
 {
   const Vec3 step = this->step_ * this->normal(f);
-  return this->holds(p + step) != this->holds(p - step);
+  return this->contains(p + step) != this->contains(p - step);
 }
 
 bool RegionBoundary::bounded_at_corner(Index f, int k) const
@@ -46,17 +46,17 @@ bool RegionBoundary::bounded_at_corner(Index f, int k) const
   // edges, and near enough to the corner to represent it.
   constexpr double inwards = 0.02;
   const Vec3 center = (this->corner(f, 0) + this->corner(f, 1) + this->corner(f, 2)) / 3.0;
-  return this->bounded_at(f, (1.0 - inwards) * this->corner(f, k) + inwards * center);
+  return this->bounds_region_at(f, (1.0 - inwards) * this->corner(f, k) + inwards * center);
 }
 
 double RegionBoundary::thickness(Index f, const Vec3& p, double smallest, double largest) const
 {
   const Vec3 n = this->normal(f);
-  const bool behind = this->holds(p - this->step_ * n);
+  const bool behind = this->contains(p - this->step_ * n);
   constexpr double growth = 1.5;
   for (double distance = smallest; distance < largest; distance *= growth)
   {
-    if (this->holds(p - distance * n) != behind || this->holds(p + distance * n) == behind)
+    if (this->contains(p - distance * n) != behind || this->contains(p + distance * n) == behind)
     {
       return distance;
     }
@@ -64,11 +64,11 @@ double RegionBoundary::thickness(Index f, const Vec3& p, double smallest, double
   return largest;
 }
 
-bool RegionBoundary::onto_boundary(Vec3& p, const Vec3& n, double reach) const
+bool RegionBoundary::project_to_boundary(Vec3& p, const Vec3& n, double reach) const
 {
   double inside = -reach;
   double outside = reach;
-  if (!this->holds(p + inside * n) || this->holds(p + outside * n))
+  if (!this->contains(p + inside * n) || this->contains(p + outside * n))
   {
     return false;
   }
@@ -76,7 +76,7 @@ bool RegionBoundary::onto_boundary(Vec3& p, const Vec3& n, double reach) const
   for (int s = 0; s < steps; ++s)
   {
     const double middle = 0.5 * (inside + outside);
-    (this->holds(p + middle * n) ? inside : outside) = middle;
+    (this->contains(p + middle * n) ? inside : outside) = middle;
   }
   p += 0.5 * (inside + outside) * n;
   return true;
@@ -93,16 +93,16 @@ struct Site
 /// Place points on a triangle, at most about `spacing` apart, in rows parallel to its shortest
 /// edge.
 template <typename Found>
-void spread(const RegionBoundary& region, Index f, double spacing, const Found& found)
+void sample_triangle(const RegionBoundary& region, Index f, double spacing, const Found& found)
 {
   int shortest = 0;
-  double least = 0.0, longest = 0.0;
+  double shortest_length = 0.0, longest = 0.0;
   for (int k = 0; k < 3; ++k)
   {
     const double length = (region.corner(f, (k + 1) % 3) - region.corner(f, (k + 2) % 3)).norm();
-    if (k == 0 || length < least)
+    if (k == 0 || length < shortest_length)
     {
-      least = length;
+      shortest_length = length;
       shortest = k;
     }
     longest = std::max(longest, length);
@@ -110,20 +110,21 @@ void spread(const RegionBoundary& region, Index f, double spacing, const Found& 
   const Vec3 apex = region.corner(f, shortest);
   const Vec3 a = region.corner(f, (shortest + 1) % 3) - apex;
   const Vec3 b = region.corner(f, (shortest + 2) % 3) - apex;
-  constexpr double most = 100.0;
-  const double rows = std::min(std::ceil(longest / spacing), most);
+  constexpr double maximum_subdivisions = 100.0;
+  const double rows = std::min(std::ceil(longest / spacing), maximum_subdivisions);
   const double area = 0.5 * a.cross(b).norm();
   for (double row = 0.0; row < rows; ++row)
   {
     // Points are on the center line of the row. If there is only one row, they are at two thirds of
     // the triangle's height, so that a single point is the triangle's centroid.
     const double t = rows > 1.0 ? (row + 0.5) / rows : 2.0 / 3.0;
-    const double columns = std::clamp(std::ceil(t * least / spacing), 1.0, most);
-    const double share = area * (2.0 * row + 1.0) / (rows * rows * columns);
+    const double columns =
+      std::clamp(std::ceil(t * shortest_length / spacing), 1.0, maximum_subdivisions);
+    const double point_area = area * (2.0 * row + 1.0) / (rows * rows * columns);
     for (double column = 0.0; column < columns; ++column)
     {
       const double s = (column + 0.5) / columns;
-      found(Vec3(apex + t * ((1.0 - s) * a + s * b)), least, share);
+      found(Vec3(apex + t * ((1.0 - s) * a + s * b)), shortest_length, point_area);
     }
   }
 }
@@ -136,18 +137,18 @@ bool sample_boundary(ExecutionContext& context, const RegionBoundary& region,
   const Index block = 64;
   const Index blocks = (triangles.rows() + block - 1) / block;
   std::vector<std::vector<Site>> of_block(static_cast<std::size_t>(blocks));
-  std::vector<std::array<double, 3>> at_corner(static_cast<std::size_t>(triangles.rows()));
+  std::vector<std::array<double, 3>> corner_lengths(static_cast<std::size_t>(triangles.rows()));
   const bool whole = parallel_for(context, triangles.rows(), block,
     [&](Index begin, Index end)
     {
       for (Index f = begin; f < end; ++f)
       {
         double edge = options.largest;
-        spread(region, f, options.largest,
+        sample_triangle(region, f, options.largest,
           [&](const Vec3& p, double shortest, double area)
           {
             edge = shortest;
-            if (region.bounded_at(f, p))
+            if (region.bounds_region_at(f, p))
             {
               const double thick = region.thickness(f, p, options.smallest, options.largest);
               of_block[begin / block].push_back(
@@ -156,7 +157,7 @@ bool sample_boundary(ExecutionContext& context, const RegionBoundary& region,
           });
         for (int k = 0; k < 3; ++k)
         {
-          at_corner[f][k] = region.bounded_at_corner(f, k) ? edge : -1.0;
+          corner_lengths[f][k] = region.bounded_at_corner(f, k) ? edge : -1.0;
         }
       }
     });
@@ -170,9 +171,9 @@ bool sample_boundary(ExecutionContext& context, const RegionBoundary& region,
   {
     for (int k = 0; k < 3; ++k)
     {
-      if (at_corner[f][k] >= 0.0)
+      if (corner_lengths[f][k] >= 0.0)
       {
-        sum[triangles(f, k)] += at_corner[f][k];
+        sum[triangles(f, k)] += corner_lengths[f][k];
         count[triangles(f, k)] += 1.0;
       }
     }

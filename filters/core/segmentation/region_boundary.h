@@ -21,13 +21,13 @@ public:
     PointsView points, TrianglesView triangles, const WindingNumber& winding, double threshold);
 
   const Box& box() const { return this->box_; }
-  bool holds(const Vec3& p) const;
+  bool contains(const Vec3& p) const;
   /// Report whether the triangles alone bound the region, because the surface is closed and all
   /// winding numbers are integers.
   bool closed() const { return this->closed_; }
   /// Report whether the region is on exactly one side of triangle f at p, a point of the triangle.
   /// The test evaluates points 1e-6 of the diagonal in front of p and behind it.
-  bool bounded_at(Index f, const Vec3& p) const;
+  bool bounds_region_at(Index f, const Vec3& p) const;
   /// Report whether the region is on exactly one side of triangle f near its corner k.
   bool bounded_at_corner(Index f, int k) const;
   /// Return the thickness of the region at p along the normal of triangle f, which bounds the
@@ -38,7 +38,7 @@ public:
   /// Move p along the unit vector n onto the boundary of the region, by at most `reach` in either
   /// direction. The error is 2^-20 times `reach`. n points outwards. @return true if p - reach n is
   /// inside and p + reach n is outside; otherwise p does not change.
-  bool onto_boundary(Vec3& p, const Vec3& n, double reach) const;
+  bool project_to_boundary(Vec3& p, const Vec3& n, double reach) const;
   /// Return the unit normal, or zero for a triangle without area.
   Vec3 normal(Index f) const;
   Vec3 corner(Index f, int k) const { return this->points_.row(this->triangles_(f, k)); }

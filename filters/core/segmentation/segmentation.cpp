@@ -21,7 +21,7 @@ double area(PointsView points, const TetFacet& facet)
   return 0.5 * (b - a).cross(c - a).norm();
 }
 
-CutEnergy energy_of(
+CutEnergy build_energy(
   PointsView points, TetsView tets, const Eigen::VectorXd& w, const SegmentationOptions& options)
 {
   CutEnergy energy;
@@ -72,34 +72,34 @@ Status segment_tets(ExecutionContext& context, PointsView points, TetsView tets,
   {
     return Status::invalid_input("cut_sigma must be positive");
   }
-  std::vector<char> above(static_cast<std::size_t>(tets.rows()));
+  std::vector<char> threshold_labels(static_cast<std::size_t>(tets.rows()));
   for (Index t = 0; t < tets.rows(); ++t)
   {
-    above[t] = winding_numbers[t] >= options.winding_threshold;
+    threshold_labels[t] = winding_numbers[t] >= options.winding_threshold;
   }
-  result.inside = above;
+  result.inside = threshold_labels;
   if (options.method == SegmentationMethod::threshold)
   {
     return {};
   }
-  const CutEnergy energy = energy_of(points, tets, winding_numbers, options);
+  const CutEnergy energy = build_energy(points, tets, winding_numbers, options);
   Status status = minimize(context, energy, result.inside);
   if (!status.ok())
   {
     return status;
   }
-  result.threshold_energy = energy.of(above);
-  result.energy = energy.of(result.inside);
+  result.threshold_energy = energy.evaluate(threshold_labels);
+  result.energy = energy.evaluate(result.inside);
   if (result.energy >= result.threshold_energy)
   {
     // If both energies are equal, the labels of the threshold are used, because they follow
     // directly from the winding numbers.
-    result.inside = above;
+    result.inside = threshold_labels;
     result.energy = result.threshold_energy;
   }
   for (Index t = 0; t < tets.rows(); ++t)
   {
-    result.changed += result.inside[t] != above[t];
+    result.changed += result.inside[t] != threshold_labels[t];
   }
   return {};
 }

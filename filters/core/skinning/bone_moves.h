@@ -22,7 +22,7 @@ struct BoneFrame
   Scalar directions[3][3];
   Scalar per_length; ///< the endpoint weight is z times this factor, clamped to [0, 1]
   /// Twist at the head, and the difference between the twists at tail and head, in turns.
-  Scalar head_turns, more_turns;
+  Scalar head_turns, turn_difference;
   bool twists;
 };
 
@@ -30,7 +30,7 @@ template <typename Scalar>
 struct BoneFrames
 {
   /// Per handle: index in `frames`; -1: the handle neither stretches nor twists.
-  std::vector<std::int32_t> of_column;
+  std::vector<std::int32_t> frame_of_column;
   std::vector<BoneFrame<Scalar>> frames;
 };
 

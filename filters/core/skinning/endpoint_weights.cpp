@@ -16,14 +16,14 @@ namespace bindpose
 namespace
 {
 /// Weight of the projection relative to the weights of the joints (method `joints`).
-constexpr double share_of_projection = 1e-4;
+constexpr double projection_weight = 1e-4;
 
-Handle end_of_bone(const std::string& name, HandleKind kind, const Vec3& at)
+Handle make_endpoint_handle(const std::string& name, HandleKind kind, const Vec3& position)
 {
   Handle handle;
   handle.name = name;
   handle.kind = kind;
-  handle.head = handle.tail = at;
+  handle.head = handle.tail = position;
   return handle;
 }
 
@@ -49,16 +49,17 @@ void add_words(const Status& step, Status& status)
 struct Joints
 {
   Handles handles;
-  std::map<std::array<double, 3>, Index> by_place;
+  std::map<std::array<double, 3>, Index> handle_at_position;
 
-  Index add(const Vec3& at)
+  Index add(const Vec3& position)
   {
-    const auto [entry, fresh] = this->by_place.emplace(
-      std::array<double, 3>{ at[0], at[1], at[2] }, static_cast<Index>(this->handles.size()));
+    const auto [entry, fresh] = this->handle_at_position.emplace(
+      std::array<double, 3>{ position[0], position[1], position[2] },
+      static_cast<Index>(this->handles.size()));
     if (fresh)
     {
-      this->handles.push_back(
-        end_of_bone("joint " + std::to_string(entry->second), HandleKind::point, at));
+      this->handles.push_back(make_endpoint_handle(
+        "joint " + std::to_string(entry->second), HandleKind::point, position));
     }
     return entry->second;
   }
@@ -135,8 +136,8 @@ Status endpoint_weights(ExecutionContext& context, PointsView points, const Hand
     {
       const auto head = w.col(ends[i][0]).array().max(0.0);
       const auto tail = w.col(ends[i][1]).array().max(0.0);
-      endpoints.col(bones[i]) = (tail + share_of_projection * endpoints.col(bones[i]).array()) /
-        (head + tail + share_of_projection);
+      endpoints.col(bones[i]) = (tail + projection_weight * endpoints.col(bones[i]).array()) /
+        (head + tail + projection_weight);
     }
   }
   else if (method == EndpointMethod::bounded)
@@ -144,8 +145,9 @@ Status endpoint_weights(ExecutionContext& context, PointsView points, const Hand
     for (std::size_t i = 0; i < bones.size(); ++i)
     {
       const Handle& bone = handles[static_cast<std::size_t>(bones[i])];
-      Handles ends = { end_of_bone("head of " + bone.name, HandleKind::cage_vertex, bone.head),
-        end_of_bone("tail of " + bone.name, HandleKind::cage_vertex, bone.tail) };
+      Handles ends = { make_endpoint_handle(
+                         "head of " + bone.name, HandleKind::cage_vertex, bone.head),
+        make_endpoint_handle("tail of " + bone.name, HandleKind::cage_vertex, bone.tail) };
       ends[0].cage.push_back({ 0, 1, -1 });
       const double step = 1.0 / static_cast<double>(bones.size());
       const ProgressRange range(

@@ -31,12 +31,12 @@ namespace
 {
 constexpr Index points_per_block = 512;
 /// Smallest distance used, as a fraction of the handles' extent.
-constexpr double nearest_distance = 1e-12;
+constexpr double distance_tolerance = 1e-12;
 /// Points are in one plane if their z coordinates differ by less than this fraction of the
 /// bounding-box diagonal.
 constexpr double flat_tolerance = 1e-9;
 
-constexpr double gauss_at[4] = { 0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
+constexpr double gauss_nodes[4] = { 0.1834346424956498, 0.5255324099163290, 0.7966664774136267,
   0.9602898564975363 };
 constexpr double gauss_weight[4] = { 0.3626837833783620, 0.3137066458778873, 0.2223810344533745,
   0.1012285362903763 };
@@ -64,26 +64,26 @@ double falloff(double squared_ratio, double exponent)
 /// weight is large. The amount is scaled so that a bone as long as the handles' extent has the same
 /// weight as a point handle.
 /// @param nearest distance of v to the nearest handle.
-/// @param own distance of v to this bone.
-MovingLeastSquares::Share bone_share(const Handle& bone, const Vec3& v, double nearest, double own,
-  double floor, double exponent, double extent)
+/// @param bone_distance distance of v to this bone.
+MovingLeastSquares::HandleMoments bone_moments(const Handle& bone, const Vec3& v, double nearest,
+  double bone_distance, double floor, double exponent, double extent)
 {
   const Vec3 along = bone.tail - bone.head;
   const double length = along.norm();
-  const double at = nearest_parameter(bone, v);
-  const Vec3 offset = bone.head + at * along - v;
+  const double parameter = nearest_parameter(bone, v);
+  const Vec3 offset = bone.head + parameter * along - v;
   double sums[3] = { 0.0, 0.0, 0.0 };
   for (const double direction : { -1.0, 1.0 })
   {
-    const double end = direction < 0.0 ? at : 1.0 - at;
-    double width = own / length;
+    const double end = direction < 0.0 ? parameter : 1.0 - parameter;
+    double width = bone_distance / length;
     for (double from = 0.0; from < end; width *= 2.0)
     {
       const double half = 0.5 * std::min(width, end - from);
       const double middle = from + half;
       for (int k = 0; k < 8; ++k)
       {
-        const double s = direction * (middle + (k % 2 ? half : -half) * gauss_at[k / 2]);
+        const double s = direction * (middle + (k % 2 ? half : -half) * gauss_nodes[k / 2]);
         const double distance2 = std::max((offset + s * along).squaredNorm(), floor * floor);
         const double w =
           half * gauss_weight[k / 2] * falloff(nearest * nearest / distance2, exponent);
@@ -97,7 +97,8 @@ MovingLeastSquares::Share bone_share(const Handle& bone, const Vec3& v, double n
     }
   }
   const double mean = sums[1] / sums[0];
-  return { length / extent * sums[0], at + mean, std::max(0.0, sums[2] / sums[0] - mean * mean) };
+  return { length / extent * sums[0], parameter + mean,
+    std::max(0.0, sums[2] / sums[0] - mean * mean) };
 }
 
 /// Report whether the points are in a plane z = const up to the tolerance.
@@ -107,7 +108,7 @@ bool is_flat(PointsView points, double tolerance)
 }
 
 /// Return the heads of all handles, then the tails, 2 #handles x 3.
-Points places(const Handles& handles, const std::vector<Affine>* transforms)
+Points endpoint_positions(const Handles& handles, const std::vector<Affine>* transforms)
 {
   const auto count = static_cast<Index>(handles.size());
   Points result(2 * count, 3);
@@ -141,15 +142,16 @@ double largest_distance(const Points& points)
   return std::sqrt(squared);
 }
 
-/// Return the rows of `places` for the handles in `counting`: head, tail, head, tail, …
-Points rows_of(const Points& places, const std::vector<Index>& counting)
+/// Return the rows of `endpoint_positions` for the handles in `active_handles`: head, tail, head,
+/// tail, …
+Points rows_of(const Points& endpoint_positions, const std::vector<Index>& active_handles)
 {
-  const Index count = places.rows() / 2;
-  Points result(2 * static_cast<Index>(counting.size()), 3);
-  for (std::size_t i = 0; i < counting.size(); ++i)
+  const Index count = endpoint_positions.rows() / 2;
+  Points result(2 * static_cast<Index>(active_handles.size()), 3);
+  for (std::size_t i = 0; i < active_handles.size(); ++i)
   {
-    result.row(2 * static_cast<Index>(i)) = places.row(counting[i]);
-    result.row(2 * static_cast<Index>(i) + 1) = places.row(count + counting[i]);
+    result.row(2 * static_cast<Index>(i)) = endpoint_positions.row(active_handles[i]);
+    result.row(2 * static_cast<Index>(i) + 1) = endpoint_positions.row(count + active_handles[i]);
   }
   return result;
 }
@@ -170,11 +172,11 @@ Status MovingLeastSquares::bind(ExecutionContext& context, const MovingLeastSqua
   }
   // Lengths are relative to the extent of the handles, so that the motion of a vertex does not
   // depend on other vertices.
-  const double extent = largest_distance(places(handles, nullptr));
-  const double floor = std::max(nearest_distance * extent, 1e-150);
+  const double extent = largest_distance(endpoint_positions(handles, nullptr));
+  const double floor = std::max(distance_tolerance * extent, 1e-150);
   const double exponent = options.exponent;
   const std::size_t count = handles.size();
-  this->shares_.resize(static_cast<std::size_t>(rest.rows()) * count);
+  this->moments_.resize(static_cast<std::size_t>(rest.rows()) * count);
   const bool done = parallel_for(context, rest.rows(), points_per_block,
     [&](Index begin, Index end)
     {
@@ -185,17 +187,17 @@ Status MovingLeastSquares::bind(ExecutionContext& context, const MovingLeastSqua
         for (std::size_t j = 0; j < count; ++j)
         {
           const Handle& h = handles[j];
-          const double at = is_bone(h) ? nearest_parameter(h, v) : 0.0;
-          distance[j] = std::max((h.head + at * (h.tail - h.head) - v).norm(), floor);
+          const double parameter = is_bone(h) ? nearest_parameter(h, v) : 0.0;
+          distance[j] = std::max((h.head + parameter * (h.tail - h.head) - v).norm(), floor);
         }
         const double nearest = *std::min_element(distance.begin(), distance.end());
-        Share* shares = this->shares_.data() + static_cast<std::size_t>(i) * count;
+        HandleMoments* moments = this->moments_.data() + static_cast<std::size_t>(i) * count;
         for (std::size_t j = 0; j < count; ++j)
         {
           const double ratio = nearest / distance[j];
-          shares[j] = is_bone(handles[j])
-            ? bone_share(handles[j], v, nearest, distance[j], floor, exponent, extent)
-            : Share{ falloff(ratio * ratio, exponent), 0.0, 0.0 };
+          moments[j] = is_bone(handles[j])
+            ? bone_moments(handles[j], v, nearest, distance[j], floor, exponent, extent)
+            : HandleMoments{ falloff(ratio * ratio, exponent), 0.0, 0.0 };
         }
       }
     });
@@ -220,12 +222,12 @@ Status MovingLeastSquares::warp(
       std::to_string(this->handles_) + " handles are bound");
   }
   std::vector<Affine> transforms;
-  std::vector<Index> counting;
+  std::vector<Index> active_handles;
   for (Index j = 0; j < count; ++j)
   {
     if (pose[static_cast<std::size_t>(j)].mode != HandleMode::free)
     {
-      counting.push_back(j);
+      active_handles.push_back(j);
     }
   }
   Status status = skinning_transforms(handles, pose, transforms);
@@ -235,16 +237,16 @@ Status MovingLeastSquares::warp(
   }
   // Remove the warnings about free handles: in this method free handles have no effect.
   status.warnings.clear();
-  if (counting.empty())
+  if (active_handles.empty())
   {
     posed = this->rest_;
     status.warnings.emplace_back("all handles are free, so the mesh does not move");
     return status;
   }
-  const Points rest_places = places(handles, nullptr);
-  const Points posed_places = places(handles, &transforms);
-  const Points rest_rows = rows_of(rest_places, counting);
-  const Points posed_rows = rows_of(posed_places, counting);
+  const Points rest_endpoints = endpoint_positions(handles, nullptr);
+  const Points posed_endpoints = endpoint_positions(handles, &transforms);
+  const Points rest_rows = rows_of(rest_endpoints, active_handles);
+  const Points posed_rows = rows_of(posed_endpoints, active_handles);
   const double tolerance = flat_tolerance *
     std::max({ bounding_box(this->rest_).diagonal(), bounding_box(rest_rows).diagonal(),
       bounding_box(posed_rows).diagonal() });
@@ -267,57 +269,57 @@ Status MovingLeastSquares::warp(
       rotations.col(8).setOnes();
       for (Index i = 0; i < size; ++i)
       {
-        const Share* shares = this->shares_.data() + (begin + i) * count;
+        const HandleMoments* moments = this->moments_.data() + (begin + i) * count;
         const auto rest_at = [&](Index j)
         {
-          return Vec3(((1.0 - shares[j].mean) * rest_places.row(j) +
-            shares[j].mean * rest_places.row(count + j))
+          return Vec3(((1.0 - moments[j].mean) * rest_endpoints.row(j) +
+            moments[j].mean * rest_endpoints.row(count + j))
                         .transpose());
         };
         const auto posed_at = [&](Index j)
         {
-          return Vec3(((1.0 - shares[j].mean) * posed_places.row(j) +
-            shares[j].mean * posed_places.row(count + j))
+          return Vec3(((1.0 - moments[j].mean) * posed_endpoints.row(j) +
+            moments[j].mean * posed_endpoints.row(count + j))
                         .transpose());
         };
         // Means are computed relative to the position with the largest weight. If no other handle
         // has an effect, the means equal this position exactly, and rounding causes no rotation.
-        Index main = counting[0];
+        Index dominant = active_handles[0];
         double amount = 0.0;
-        for (const Index j : counting)
+        for (const Index j : active_handles)
         {
-          main = shares[j].amount > shares[main].amount ? j : main;
-          amount += shares[j].amount;
+          dominant = moments[j].amount > moments[dominant].amount ? j : dominant;
+          amount += moments[j].amount;
         }
-        const Vec3 rest_main = rest_at(main);
-        const Vec3 posed_main = posed_at(main);
+        const Vec3 rest_dominant = rest_at(dominant);
+        const Vec3 posed_dominant = posed_at(dominant);
         Vec3 p = Vec3::Zero();
         Vec3 q = Vec3::Zero();
-        for (const Index j : counting)
+        for (const Index j : active_handles)
         {
-          const double share = shares[j].amount / amount;
-          p += share * (rest_at(j) - rest_main);
-          q += share * (posed_at(j) - posed_main);
+          const double fraction = moments[j].amount / amount;
+          p += fraction * (rest_at(j) - rest_dominant);
+          q += fraction * (posed_at(j) - posed_dominant);
         }
         Eigen::Matrix3d moment = Eigen::Matrix3d::Zero();
-        for (const Index j : counting)
+        for (const Index j : active_handles)
         {
-          const double share = shares[j].amount / amount;
-          moment +=
-            share * (rest_at(j) - rest_main - p) * (posed_at(j) - posed_main - q).transpose();
-          if (shares[j].variance > 0.0)
+          const double fraction = moments[j].amount / amount;
+          moment += fraction * (rest_at(j) - rest_dominant - p) *
+            (posed_at(j) - posed_dominant - q).transpose();
+          if (moments[j].variance > 0.0)
           {
-            moment += share * shares[j].variance *
-              (rest_places.row(count + j) - rest_places.row(j)).transpose() *
-              (posed_places.row(count + j) - posed_places.row(j));
+            moment += fraction * moments[j].variance *
+              (rest_endpoints.row(count + j) - rest_endpoints.row(j)).transpose() *
+              (posed_endpoints.row(count + j) - posed_endpoints.row(j));
           }
         }
         for (int k = 0; k < 9; ++k)
         {
           s(i, k) = moment(k / 3, k % 3);
         }
-        rest_means.row(i) = (rest_main + p).transpose();
-        posed_means.row(i) = (posed_main + q).transpose();
+        rest_means.row(i) = (rest_dominant + p).transpose();
+        posed_means.row(i) = (posed_dominant + q).transpose();
       }
       if (!planar)
       {

@@ -58,20 +58,20 @@ public:
   /// Weight of a handle at a vertex. The amount is the total weight (1 for the nearest handle if
   /// that handle is a point). For a bone, `mean` and `variance` are those of the weighted positions
   /// along the bone (0 head, 1 tail).
-  struct Share
+  struct HandleMoments
   {
     double amount = 0.0, mean = 0.0, variance = 0.0;
   };
-  Share share(Index vertex, Index handle) const
+  HandleMoments moments(Index vertex, Index handle) const
   {
-    return this->shares_[static_cast<std::size_t>(vertex * this->handles_ + handle)];
+    return this->moments_[static_cast<std::size_t>(vertex * this->handles_ + handle)];
   }
 
 private:
   Points rest_;
   Index handles_ = 0;
   bool flat_ = false;
-  std::vector<Share> shares_;
+  std::vector<HandleMoments> moments_;
 };
 
 } // namespace bindpose

@@ -48,11 +48,11 @@ struct PairGroups
   std::vector<double> x, y, z; ///< sum of amount * centroid over the elements
   Index count = 0;
 
-  void add(double a, double b, double of_all, const Vec3& moment)
+  void add(double a, double b, double total_amount, const Vec3& moment)
   {
     this->first.push_back(a);
     this->second.push_back(b);
-    this->amount.push_back(of_all);
+    this->amount.push_back(total_amount);
     this->x.push_back(moment[0]);
     this->y.push_back(moment[1]);
     this->z.push_back(moment[2]);
@@ -115,18 +115,18 @@ BINDPOSE_SIMD_CLONES void add_similar(
   alignas(64) double amount[lanes] = {}, x[lanes] = {}, y[lanes] = {}, z[lanes] = {};
   const auto count = static_cast<Index>(groups.first.size());
   const double *first = groups.first.data(), *second = groups.second.data();
-  const double *of_amount = groups.amount.data(), *of_x = groups.x.data(), *of_y = groups.y.data(),
-               *of_z = groups.z.data();
+  const double *group_amount = groups.amount.data(), *group_x = groups.x.data(),
+               *group_y = groups.y.data(), *group_z = groups.z.data();
   for (Index g = 0; g < count; g += lanes)
   {
     for (Index i = 0; i < lanes; ++i)
     {
       const double d = a * second[g + i] - b * first[g + i];
       const double s = decay(d * d);
-      amount[i] += s * of_amount[g + i];
-      x[i] += s * of_x[g + i];
-      y[i] += s * of_y[g + i];
-      z[i] += s * of_z[g + i];
+      amount[i] += s * group_amount[g + i];
+      x[i] += s * group_x[g + i];
+      y[i] += s * group_y[g + i];
+      z[i] += s * group_z[g + i];
     }
   }
   for (Index i = 0; i < lanes; ++i)
@@ -180,20 +180,20 @@ PairGroups groups_of(std::vector<PairElement>& elements, const Points& centroids
   const RotationCentersOptions& options)
 {
   PairGroups groups;
-  std::vector<std::pair<std::size_t, std::size_t>> open;
+  std::vector<std::pair<std::size_t, std::size_t>> pending_ranges;
   if (!elements.empty())
   {
-    open.emplace_back(0, elements.size());
+    pending_ranges.emplace_back(0, elements.size());
   }
-  while (!open.empty())
+  while (!pending_ranges.empty())
   {
-    const auto [begin, end] = open.back();
-    open.pop_back();
+    const auto [begin, end] = pending_ranges.back();
+    pending_ranges.pop_back();
     const std::size_t middle = split(elements, begin, end, options.group_size);
     if (middle > begin)
     {
-      open.emplace_back(middle, end);
-      open.emplace_back(begin, middle);
+      pending_ranges.emplace_back(middle, end);
+      pending_ranges.emplace_back(begin, middle);
       continue;
     }
     double amount = 0.0, first = 0.0, second = 0.0;
@@ -276,14 +276,14 @@ Status find_centers(ExecutionContext& context, const RotationCentersOptions& opt
     }
   }
   // For each handle: the elements in which it has a weight.
-  std::vector<std::vector<Index>> felt(static_cast<std::size_t>(handles));
+  std::vector<std::vector<Index>> elements_of_handle(static_cast<std::size_t>(handles));
   for (Index e = 0; e < count; ++e)
   {
     for (Index j = 0; j < handles && sizes[static_cast<std::size_t>(e)] > 0.0; ++j)
     {
       if (means(e, j) > smallest)
       {
-        felt[static_cast<std::size_t>(j)].push_back(e);
+        elements_of_handle[static_cast<std::size_t>(j)].push_back(e);
       }
     }
     for (int c = 0; c < corners; ++c)
@@ -293,12 +293,12 @@ Status find_centers(ExecutionContext& context, const RotationCentersOptions& opt
   }
   const Index pair_count = handles * (handles - 1) / 2;
   std::vector<PairGroups> pairs(static_cast<std::size_t>(pair_count));
-  std::vector<std::pair<Index, Index>> names;
+  std::vector<std::pair<Index, Index>> handle_pairs;
   for (Index j = 0; j < handles; ++j)
   {
     for (Index k = j + 1; k < handles; ++k)
     {
-      names.emplace_back(j, k);
+      handle_pairs.emplace_back(j, k);
     }
   }
   {
@@ -306,20 +306,20 @@ Status find_centers(ExecutionContext& context, const RotationCentersOptions& opt
     const bool done = parallel_for(context, pair_count, 1,
       [&](Index from, Index to)
       {
-        std::vector<PairElement> both;
+        std::vector<PairElement> pair_elements;
         for (Index p = from; p < to; ++p)
         {
-          const auto [j, k] = names[static_cast<std::size_t>(p)];
-          both.clear();
-          for (const Index e : felt[static_cast<std::size_t>(j)])
+          const auto [j, k] = handle_pairs[static_cast<std::size_t>(p)];
+          pair_elements.clear();
+          for (const Index e : elements_of_handle[static_cast<std::size_t>(j)])
           {
             const double a = means(e, j), b = means(e, k);
             if (b > smallest)
             {
-              both.push_back({ { a, b }, sizes[static_cast<std::size_t>(e)] * a * b, e });
+              pair_elements.push_back({ { a, b }, sizes[static_cast<std::size_t>(e)] * a * b, e });
             }
           }
-          pairs[static_cast<std::size_t>(p)] = groups_of(both, centroids, options);
+          pairs[static_cast<std::size_t>(p)] = groups_of(pair_elements, centroids, options);
         }
       });
     if (!done)
@@ -338,35 +338,36 @@ Status find_centers(ExecutionContext& context, const RotationCentersOptions& opt
   const bool done = parallel_for(context, points.rows(), vertices_per_block,
     [&](Index from, Index to)
     {
-      std::vector<Index> own;
+      std::vector<Index> influences;
       for (Index v = from; v < to; ++v)
       {
-        own.clear();
+        influences.clear();
         for (Index j = 0; j < handles; ++j)
         {
           if (weights(v, j) > smallest)
           {
-            own.push_back(j);
+            influences.push_back(j);
           }
         }
         // The largest product is the product of the two largest weights.
-        double most = 0.0, second_most = 0.0;
-        for (const Index j : own)
+        double largest = 0.0, second_largest = 0.0;
+        for (const Index j : influences)
         {
-          second_most = std::max(second_most, std::min(most, weights(v, j)));
-          most = std::max(most, weights(v, j));
+          second_largest = std::max(second_largest, std::min(largest, weights(v, j)));
+          largest = std::max(largest, weights(v, j));
         }
-        const double least = options.smallest_pair * most * second_most;
+        const double threshold = options.smallest_pair * largest * second_largest;
         Sums sums;
-        for (std::size_t a = 0; a < own.size(); ++a)
+        for (std::size_t a = 0; a < influences.size(); ++a)
         {
-          for (std::size_t b = a + 1; b < own.size(); ++b)
+          for (std::size_t b = a + 1; b < influences.size(); ++b)
           {
-            const double first = weights(v, own[a]), second = weights(v, own[b]);
-            if (first * second >= least)
+            const double first = weights(v, influences[a]), second = weights(v, influences[b]);
+            if (first * second >= threshold)
             {
-              add_similar(pairs[static_cast<std::size_t>(pair_of(own[a], own[b], handles))], first,
-                second, first * second, sums);
+              add_similar(
+                pairs[static_cast<std::size_t>(pair_of(influences[a], influences[b], handles))],
+                first, second, first * second, sums);
             }
           }
         }

@@ -48,13 +48,13 @@ BlendValues<Scalar, 12> displacements(const std::vector<Affine>& transforms, con
 /// most accurate for coordinates relative to such a point.
 Vec3 center_of(PointsView points)
 {
-  const Index few = std::min<Index>(points.rows(), 64);
+  const Index sample_count = std::min<Index>(points.rows(), 64);
   Vec3 sum = Vec3::Zero();
-  for (Index i = 0; i < few; ++i)
+  for (Index i = 0; i < sample_count; ++i)
   {
-    sum += points.row(i * points.rows() / few).transpose();
+    sum += points.row(i * points.rows() / sample_count).transpose();
   }
-  return few > 0 ? Vec3(sum / static_cast<double>(few)) : sum;
+  return sample_count > 0 ? Vec3(sum / static_cast<double>(sample_count)) : sum;
 }
 
 /// Add the coordinates in `what` to those in `to`.
@@ -102,7 +102,7 @@ Vec3 unit_or(const Vec3& n, const Vec3& fallback)
 /// the result has no direction. The scale of the map has no effect. The map is first scaled by a
 /// power of two, which is exact, so that squares of huge and tiny entries neither overflow nor
 /// underflow.
-Vec3 turned_normal(const Eigen::Matrix3d& linear, const Vec3& n)
+Vec3 transform_normal(const Eigen::Matrix3d& linear, const Vec3& n)
 {
   const double largest = linear.cwiseAbs().maxCoeff();
   if (!(largest > 1e-300))
@@ -168,11 +168,11 @@ template <typename Scalar>
 void set_signs(const std::vector<DualQuaternion>& motions, BlendValues<Scalar, 8>& quaternions)
 {
   bool any_flip = false;
-  for (const DualQuaternion& of_column : motions)
+  for (const DualQuaternion& column_motion : motions)
   {
-    for (const DualQuaternion& of_reference : motions)
+    for (const DualQuaternion& reference_motion : motions)
     {
-      const bool flip = of_column.real.dot(of_reference.real) < 0.0;
+      const bool flip = column_motion.real.dot(reference_motion.real) < 0.0;
       any_flip = any_flip || flip;
       quaternions.signs.push_back(flip ? quaternions.sign_bit : 0);
     }
@@ -184,15 +184,15 @@ void set_signs(const std::vector<DualQuaternion>& motions, BlendValues<Scalar, 8
 }
 
 /// The weights of a row that are kept, and the factor that compensates for the dropped weights.
-class KeptRow
+class PrunedRow
 {
 public:
-  explicit KeptRow(const SkinningOptions& options) : options_(options) {}
+  explicit PrunedRow(const SkinningOptions& options) : options_(options) {}
 
-  void take(WeightsView weights, Index v)
+  void assign_row(WeightsView weights, Index v)
   {
     this->columns_.clear();
-    double all = 0.0, kept = 0.0;
+    double all = 0.0, kept_sum = 0.0;
     Index nonzero = 0;
     for (Index j = 0; j < weights.cols(); ++j)
     {
@@ -215,29 +215,30 @@ public:
     double size = 0.0;
     for (const Index j : this->columns_)
     {
-      kept += weights(v, j);
+      kept_sum += weights(v, j);
       size += std::abs(weights(v, j));
     }
     this->row_sum_ = all;
     this->dropped_ = nonzero - static_cast<Index>(this->columns_.size());
-    this->share_ = this->dropped_ > 0 ? weights.row(v).cwiseAbs().sum() - size : 0.0;
-    this->factor_ = this->dropped_ > 0 && kept > 0.0 && all > 0.0 ? all / kept : 1.0;
+    this->dropped_weight_ = this->dropped_ > 0 ? weights.row(v).cwiseAbs().sum() - size : 0.0;
+    this->factor_ = this->dropped_ > 0 && kept_sum > 0.0 && all > 0.0 ? all / kept_sum : 1.0;
   }
 
   const std::vector<Index>& columns() const { return this->columns_; }
   double factor() const { return this->factor_; }
   double row_sum() const { return this->row_sum_; }
   Index dropped() const { return this->dropped_; }
-  double dropped_share() const { return this->share_; }
+  double dropped_weight() const { return this->dropped_weight_; }
 
 private:
   const SkinningOptions& options_;
   std::vector<Index> columns_;
-  double factor_ = 1.0, row_sum_ = 0.0, share_ = 0.0;
+  double factor_ = 1.0, row_sum_ = 0.0, dropped_weight_ = 0.0;
   Index dropped_ = 0;
 };
 /// Transform the points of a tile by an affine map.
-void place(const Affine& placement, const TilePoints<float>& points, TilePoints<float>& placed)
+void apply_placement(
+  const Affine& placement, const TilePoints<float>& points, TilePoints<float>& placed)
 {
   constexpr Index lanes = WeightTiles<float>::lanes;
   const Eigen::Matrix<float, 3, 4> p = placement.cast<float>();
@@ -255,12 +256,12 @@ void place(const Affine& placement, const TilePoints<float>& points, TilePoints<
 template <>
 const WeightTiles<float>& Skinning::tiles() const
 {
-  return this->floats_;
+  return this->single_tiles_;
 }
 template <>
 const WeightTiles<double>& Skinning::tiles() const
 {
-  return this->doubles_;
+  return this->double_tiles_;
 }
 
 /// Copy the kept weights to tiles. The first pass finds the columns of each tile, the second pass
@@ -276,22 +277,22 @@ bool Skinning::pack(ExecutionContext& context, WeightsView weights, const Skinni
   bool done = parallel_for(context, count, skinning_block / lanes,
     [&](Index begin, Index end)
     {
-      KeptRow row(options);
-      std::vector<char> has(static_cast<std::size_t>(this->handles_));
+      PrunedRow row(options);
+      std::vector<char> is_used(static_cast<std::size_t>(this->handles_));
       for (Index tile = begin; tile < end; ++tile)
       {
-        std::fill(has.begin(), has.end(), 0);
+        std::fill(is_used.begin(), is_used.end(), 0);
         for (Index v = tile * lanes; v < std::min((tile + 1) * lanes, rows); ++v)
         {
-          row.take(weights, v);
+          row.assign_row(weights, v);
           for (const Index j : row.columns())
           {
-            has[static_cast<std::size_t>(j)] = 1;
+            is_used[static_cast<std::size_t>(j)] = 1;
           }
         }
-        for (std::size_t j = 0; j < has.size(); ++j)
+        for (std::size_t j = 0; j < is_used.size(); ++j)
         {
-          if (has[j])
+          if (is_used[j])
           {
             columns[static_cast<std::size_t>(tile)].push_back(static_cast<std::int32_t>(j));
           }
@@ -303,20 +304,20 @@ bool Skinning::pack(ExecutionContext& context, WeightsView weights, const Skinni
     return false;
   }
   tiles = WeightTiles<Scalar>();
-  for (const std::vector<std::int32_t>& of_tile : columns)
+  for (const std::vector<std::int32_t>& tile_columns : columns)
   {
-    tiles.columns.insert(tiles.columns.end(), of_tile.begin(), of_tile.end());
+    tiles.columns.insert(tiles.columns.end(), tile_columns.begin(), tile_columns.end());
     tiles.start.push_back(static_cast<Index>(tiles.columns.size()));
   }
   tiles.weights.assign(tiles.columns.size() * static_cast<std::size_t>(lanes), Scalar(0));
-  this->references_.assign(static_cast<std::size_t>(count * lanes), 0);
+  this->reference_handles_.assign(static_cast<std::size_t>(count * lanes), 0);
   return parallel_for(context, rows, skinning_block,
     [&](Index begin, Index end)
     {
-      KeptRow row(options);
+      PrunedRow row(options);
       for (Index v = begin; v < end; ++v)
       {
-        row.take(weights, v);
+        row.assign_row(weights, v);
         Index k = tiles.start[static_cast<std::size_t>(tiles.tile_of(v))];
         Index largest = -1;
         for (const Index j : row.columns())
@@ -329,7 +330,7 @@ bool Skinning::pack(ExecutionContext& context, WeightsView weights, const Skinni
             static_cast<Scalar>(row.factor() * weights(v, j));
           largest = largest < 0 || weights(v, j) > weights(v, largest) ? j : largest;
         }
-        this->references_[static_cast<std::size_t>(v)] =
+        this->reference_handles_[static_cast<std::size_t>(v)] =
           static_cast<std::int32_t>(std::max<Index>(largest, 0));
       }
     });
@@ -347,30 +348,30 @@ Status Skinning::bind(
   }
   struct Block
   {
-    Index bad = -1;
-    Index worst = 0, off = 0, count = 0, dropped = 0;
-    double error = 0.0, share = 0.0;
+    Index nonfinite_entry = -1;
+    Index worst = 0, inexact_rows = 0, count = 0, dropped = 0;
+    double error = 0.0, largest_dropped_weight = 0.0;
   };
   std::vector<Block> blocks(static_cast<std::size_t>((rows + skinning_block - 1) / skinning_block));
   bool done = parallel_for(context, rows, skinning_block,
     [&](Index begin, Index end)
     {
       Block& block = blocks[static_cast<std::size_t>(begin / skinning_block)];
-      KeptRow row(options);
+      PrunedRow row(options);
       for (Index v = begin; v < end; ++v)
       {
-        for (Index j = 0; j < cols && block.bad < 0; ++j)
+        for (Index j = 0; j < cols && block.nonfinite_entry < 0; ++j)
         {
-          block.bad = std::isfinite(weights(v, j)) ? -1 : v * cols + j;
+          block.nonfinite_entry = std::isfinite(weights(v, j)) ? -1 : v * cols + j;
         }
-        row.take(weights, v);
+        row.assign_row(weights, v);
         const double error = std::abs(row.row_sum() - 1.0);
         block.worst = v == begin || error > block.error ? v : block.worst;
         block.error = v == begin ? error : std::max(block.error, error);
-        block.off += error > row_sum_tolerance ? 1 : 0;
+        block.inexact_rows += error > row_sum_tolerance ? 1 : 0;
         block.count += static_cast<Index>(row.columns().size());
         block.dropped += row.dropped();
-        block.share = std::max(block.share, row.dropped_share());
+        block.largest_dropped_weight = std::max(block.largest_dropped_weight, row.dropped_weight());
       }
     });
   if (!done)
@@ -380,24 +381,25 @@ Status Skinning::bind(
   Block all;
   for (const Block& block : blocks)
   {
-    if (block.bad >= 0)
+    if (block.nonfinite_entry >= 0)
     {
-      return Status::invalid_input("the weight of vertex " + std::to_string(block.bad / cols) +
-        " in column " + std::to_string(block.bad % cols) + " is not a finite number");
+      return Status::invalid_input("the weight of vertex " +
+        std::to_string(block.nonfinite_entry / cols) + " in column " +
+        std::to_string(block.nonfinite_entry % cols) + " is not a finite number");
     }
     all.worst = block.error > all.error ? block.worst : all.worst;
     all.error = std::max(all.error, block.error);
-    all.off += block.off;
+    all.inexact_rows += block.inexact_rows;
     all.count += block.count;
     all.dropped += block.dropped;
-    all.share = std::max(all.share, block.share);
+    all.largest_dropped_weight = std::max(all.largest_dropped_weight, block.largest_dropped_weight);
   }
   this->vertices_ = rows;
   this->handles_ = cols;
   this->weight_count_ = all.count;
-  this->single_ = options.single_precision;
-  done = this->single_ ? this->pack(context, weights, options, this->floats_)
-                       : this->pack(context, weights, options, this->doubles_);
+  this->is_single_precision_ = options.single_precision;
+  done = this->is_single_precision_ ? this->pack(context, weights, options, this->single_tiles_)
+                                    : this->pack(context, weights, options, this->double_tiles_);
   if (!done)
   {
     *this = Skinning();
@@ -408,11 +410,11 @@ Status Skinning::bind(
   if (options.smallest_weight > 0.0 || options.influences > 0)
   {
     status.report.set("counts.dropped_weights", Report::Value(all.dropped));
-    status.report.set("dropped_share", Report::Value(all.share));
+    status.report.set("dropped_share", Report::Value(all.largest_dropped_weight));
   }
-  if (all.off > 0)
+  if (all.inexact_rows > 0)
   {
-    status.warnings.push_back("the weights of " + std::to_string(all.off) + " of " +
+    status.warnings.push_back("the weights of " + std::to_string(all.inexact_rows) + " of " +
       std::to_string(rows) + " vertices do not sum to one (worst: vertex " +
       std::to_string(all.worst) + ", off by " + std::to_string(all.error) +
       "); the missing fraction of a vertex stays at rest");
@@ -471,7 +473,7 @@ bool Skinning::blend_affine(ExecutionContext& context, PointsView rest,
           const Eigen::Matrix3d linear =
             Eigen::Matrix3d::Identity() + affine_of(blended, i).template leftCols<3>();
           const Vec3 n = rest.row(v + i);
-          posed.row(v + i) = turned_normal(linear, n).transpose();
+          posed.row(v + i) = transform_normal(linear, n).transpose();
         }
       }
     });
@@ -485,7 +487,7 @@ Status Skinning::linear_blend(ExecutionContext& context, PointsView rest,
   {
     return status;
   }
-  const bool done = this->single_
+  const bool done = this->is_single_precision_
     ? this->blend_affine<float>(context, rest, transforms, false, posed)
     : this->blend_affine<double>(context, rest, transforms, false, posed);
   return done ? status : Status::canceled();
@@ -509,20 +511,20 @@ Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
   const std::vector<std::vector<Affine>>& transforms, const std::vector<float*>& posed,
   const std::vector<Affine>& placements) const
 {
-  if (!this->single_)
+  if (!this->is_single_precision_)
   {
     return Status::invalid_input("posing many instances needs weights in single precision");
   }
-  const auto of_instances = [&](std::size_t count, const char* what)
+  const auto check_instance_count = [&](std::size_t count, const char* what)
   {
     return count == transforms.size() ? Status()
                                       : Status::invalid_input("there are " + std::to_string(count) +
                                           what + std::to_string(transforms.size()) + " instances");
   };
-  Status fits = of_instances(posed.size(), " arrays of points for ");
+  Status fits = check_instance_count(posed.size(), " arrays of points for ");
   if (fits.ok() && !placements.empty())
   {
-    fits = of_instances(placements.size(), " placements for ");
+    fits = check_instance_count(placements.size(), " placements for ");
   }
   if (!fits.ok())
   {
@@ -566,9 +568,9 @@ Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
           const auto tile = static_cast<std::size_t>((v - begin) / lanes);
           if (!placements.empty())
           {
-            place(placements[i], at[tile], placed);
+            apply_placement(placements[i], at[tile], placed);
           }
-          pose_tile(this->floats_, v / lanes, moves[i], points[tile],
+          pose_tile(this->single_tiles_, v / lanes, moves[i], points[tile],
             placements.empty() ? at[tile] : placed, std::min(lanes, end - v), posed[i] + 3 * v);
         }
       }
@@ -584,7 +586,7 @@ Status Skinning::linear_blend_normals(ExecutionContext& context, PointsView rest
   {
     return status;
   }
-  const bool done = this->single_
+  const bool done = this->is_single_precision_
     ? this->blend_affine<float>(context, rest_normals, transforms, true, posed_normals)
     : this->blend_affine<double>(context, rest_normals, transforms, true, posed_normals);
   return done ? status : Status::canceled();
@@ -640,7 +642,7 @@ Status Skinning::stretchable_bones(ExecutionContext& context, PointsView rest,
   {
     return status;
   }
-  const bool done = this->single_
+  const bool done = this->is_single_precision_
     ? this->blend_bones<float>(context, rest, transforms, bones, endpoints, posed)
     : this->blend_bones<double>(context, rest, transforms, bones, endpoints, posed);
   return done ? status : Status::canceled();
@@ -690,7 +692,7 @@ bool Skinning::blend_dual(ExecutionContext& context, PointsView rest,
         const Index count = std::min(lanes, end - v);
         const double* from = rest.data() + 3 * v;
         double* to = posed.data() + 3 * v;
-        blend_tile(tiles, v / lanes, quaternions, this->references_.data() + v, blended);
+        blend_tile(tiles, v / lanes, quaternions, this->reference_handles_.data() + v, blended);
         if (any_shear)
         {
           blend_tile(tiles, v / lanes, shear_moves, nullptr, sheared);
@@ -702,7 +704,7 @@ bool Skinning::blend_dual(ExecutionContext& context, PointsView rest,
           {
             const Eigen::Matrix3d linear =
               Eigen::Matrix3d::Identity() + affine_of(sheared, i).template leftCols<3>();
-            turned.row(i) = turned_normal(linear, Vec3(rest.row(v + i))).transpose();
+            turned.row(i) = transform_normal(linear, Vec3(rest.row(v + i))).transpose();
           }
           from = turned.data();
         }
@@ -737,7 +739,7 @@ Status Skinning::dual_quaternion(ExecutionContext& context, PointsView rest,
   {
     return status;
   }
-  const bool done = this->single_
+  const bool done = this->is_single_precision_
     ? this->blend_dual<float>(context, rest, transforms, pivots, false, posed)
     : this->blend_dual<double>(context, rest, transforms, pivots, false, posed);
   return done ? status : Status::canceled();
@@ -752,7 +754,7 @@ Status Skinning::dual_quaternion_normals(ExecutionContext& context, PointsView r
   {
     return status;
   }
-  const bool done = this->single_
+  const bool done = this->is_single_precision_
     ? this->blend_dual<float>(context, rest_normals, transforms, pivots, true, posed_normals)
     : this->blend_dual<double>(context, rest_normals, transforms, pivots, true, posed_normals);
   return done ? status : Status::canceled();
@@ -795,7 +797,7 @@ bool Skinning::blend_about(ExecutionContext& context, PointsView rest,
       for (Index v = begin; v < end; v += lanes)
       {
         const Index count = std::min(lanes, end - v);
-        blend_tile(tiles, v / lanes, quaternions, this->references_.data() + v, turned);
+        blend_tile(tiles, v / lanes, quaternions, this->reference_handles_.data() + v, turned);
         if (any_shear)
         {
           blend_tile(tiles, v / lanes, shear_moves, nullptr, sheared);
@@ -818,7 +820,7 @@ bool Skinning::blend_about(ExecutionContext& context, PointsView rest,
           {
             const Eigen::Matrix3d linear =
               Eigen::Quaterniond(q).toRotationMatrix() * (Eigen::Matrix3d::Identity() + shear);
-            posed.row(v + i) = turned_normal(linear, Vec3(rest.row(v + i))).transpose();
+            posed.row(v + i) = transform_normal(linear, Vec3(rest.row(v + i))).transpose();
             continue;
           }
           // Only displacements are added, so that a handle that does not move contributes exactly
@@ -837,7 +839,7 @@ bool Skinning::blend_about(ExecutionContext& context, PointsView rest,
     });
 }
 
-Status Skinning::about_centers(ExecutionContext& context, PointsView rest,
+Status Skinning::centers_of_rotation(ExecutionContext& context, PointsView rest,
   const std::vector<Affine>& transforms, PointsView centers, Points& posed) const
 {
   Status status = this->check(rest, transforms);
@@ -850,13 +852,13 @@ Status Skinning::about_centers(ExecutionContext& context, PointsView rest,
   {
     return status;
   }
-  const bool done = this->single_
+  const bool done = this->is_single_precision_
     ? this->blend_about<float>(context, rest, transforms, &centers, posed)
     : this->blend_about<double>(context, rest, transforms, &centers, posed);
   return done ? status : Status::canceled();
 }
 
-Status Skinning::about_centers_normals(ExecutionContext& context, PointsView rest_normals,
+Status Skinning::centers_of_rotation_normals(ExecutionContext& context, PointsView rest_normals,
   const std::vector<Affine>& transforms, Points& posed_normals) const
 {
   const Status status = this->check(rest_normals, transforms);
@@ -864,7 +866,7 @@ Status Skinning::about_centers_normals(ExecutionContext& context, PointsView res
   {
     return status;
   }
-  const bool done = this->single_
+  const bool done = this->is_single_precision_
     ? this->blend_about<float>(context, rest_normals, transforms, nullptr, posed_normals)
     : this->blend_about<double>(context, rest_normals, transforms, nullptr, posed_normals);
   return done ? status : Status::canceled();

@@ -107,9 +107,9 @@ public:
   /// center is on the axis, and a bent joint does not bulge as with dual quaternions. The result is
   /// exact if all handles have the same affine map.
   /// @param centers #V x 3 at rest, from rotation_centers().
-  Status about_centers(ExecutionContext& context, PointsView rest,
+  Status centers_of_rotation(ExecutionContext& context, PointsView rest,
     const std::vector<Affine>& transforms, PointsView centers, Points& posed) const;
-  Status about_centers_normals(ExecutionContext& context, PointsView rest_normals,
+  Status centers_of_rotation_normals(ExecutionContext& context, PointsView rest_normals,
     const std::vector<Affine>& transforms, Points& posed_normals) const;
 
   /// Deform by stretchable, twistable bones (Jacobson and Sorkine 2011). A bone with head a and
@@ -156,11 +156,11 @@ private:
   Index vertices_ = 0;
   Index handles_ = 0;
   Index weight_count_ = 0;
-  bool single_ = false;
-  WeightTiles<float> floats_; ///< used in single precision
-  WeightTiles<double> doubles_; ///< used in double precision
+  bool is_single_precision_ = false;
+  WeightTiles<float> single_tiles_; ///< used in single precision
+  WeightTiles<double> double_tiles_; ///< used in double precision
   /// Reference of each vertex: the handle with its largest weight. Padded to whole tiles.
-  std::vector<std::int32_t> references_;
+  std::vector<std::int32_t> reference_handles_;
 };
 
 /// Compute the transforms that skinning uses. A handle in mode full or ends uses its transform. A

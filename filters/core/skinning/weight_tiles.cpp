@@ -38,7 +38,7 @@ template <typename Scalar, int bytes>
 struct PartReferences
 {
   static constexpr int lanes = part_lanes<Scalar, bytes>;
-  Bits<Scalar, bytes> where[lanes]; // per reference handle: all bits are set in its lanes
+  Bits<Scalar, bytes> lane_mask[lanes]; // per reference handle: all bits are set in its lanes
   std::int32_t handles[lanes];
   int count = 0;
 
@@ -58,7 +58,7 @@ struct PartReferences
         done[k] = done[k] || equal;
         same[k] = equal ? -1 : 0;
       }
-      this->where[this->count] = same;
+      this->lane_mask[this->count] = same;
       this->handles[this->count++] = references[i];
     }
   }
@@ -83,11 +83,11 @@ BINDPOSE_ALWAYS_INLINE void blend_part(const std::int32_t* columns, const Scalar
     Pack<Scalar, bytes> w = pack_at<bytes>(weights + k * tile_lanes<Scalar>);
     if (signs)
     {
-      const Bit<Scalar>* of_column = signs + columns[k] * handles;
+      const Bit<Scalar>* column_signs = signs + columns[k] * handles;
       Bits<Scalar, bytes> flips = {};
       for (int r = 0; r < references->count; ++r)
       {
-        flips |= references->where[r] & of_column[references->handles[r]];
+        flips |= references->lane_mask[r] & column_signs[references->handles[r]];
       }
       w = reinterpret_cast<Pack<Scalar, bytes>>(reinterpret_cast<Bits<Scalar, bytes>>(w) ^ flips);
     }
@@ -124,7 +124,7 @@ BINDPOSE_ALWAYS_INLINE void shuffle(
 
 /// Transpose the points of a part: from x y z per point to one row per coordinate.
 template <int bytes, typename Scalar>
-BINDPOSE_ALWAYS_INLINE void take_apart(const Scalar* line, Scalar* points)
+BINDPOSE_ALWAYS_INLINE void deinterleave(const Scalar* line, Scalar* points)
 {
   constexpr int lanes = part_lanes<Scalar, bytes>;
   const Pack<Scalar, bytes> thirds[3] = { pack_at<bytes>(line), pack_at<bytes>(line + lanes),
@@ -149,7 +149,7 @@ BINDPOSE_ALWAYS_INLINE void take_apart(const Scalar* line, Scalar* points)
 
 /// Transpose back: from one row per coordinate to x y z per point.
 template <int bytes, typename Scalar>
-BINDPOSE_ALWAYS_INLINE void put_together(const Scalar* points, Scalar* line)
+BINDPOSE_ALWAYS_INLINE void interleave(const Scalar* points, Scalar* line)
 {
   constexpr int lanes = part_lanes<Scalar, bytes>;
   const Pack<Scalar, bytes> x = pack_at<bytes>(points),
@@ -190,7 +190,7 @@ BINDPOSE_ALWAYS_INLINE void load_tile(
     }
     for (Index p = 0; p < lanes; p += part)
     {
-      take_apart<bytes>(line + 3 * p, points + p);
+      deinterleave<bytes>(line + 3 * p, points + p);
     }
     return;
   }
@@ -267,7 +267,7 @@ BINDPOSE_ALWAYS_INLINE void store_tile(
     alignas(64) Scalar line[3 * lanes];
     for (Index p = 0; p < lanes; p += part)
     {
-      put_together<bytes>(moves + p, line + 3 * p);
+      interleave<bytes>(moves + p, line + 3 * p);
     }
     for (Index i = 0; i < 3 * lanes; ++i)
     {
@@ -324,9 +324,9 @@ BINDPOSE_ALWAYS_INLINE void affine_parts(const Scalar* blended, const Scalar* po
   {                                                                                                \
     for (Index p = 0; p < tile_lanes<Scalar>; p += part_lanes<Scalar, bytes>)                      \
     {                                                                                              \
-      const PartReferences<Scalar, bytes> of_part(references + p);                                 \
+      const PartReferences<Scalar, bytes> part_references(references + p);                         \
       blend_part<8, bytes, Scalar>(                                                                \
-        columns, weights + p, count, values, signs, handles, &of_part, blended + p);               \
+        columns, weights + p, count, values, signs, handles, &part_references, blended + p);       \
     }                                                                                              \
   }                                                                                                \
   version void load(const double* rest, Index count, const double* center, Scalar* points)         \
@@ -379,7 +379,7 @@ BINDPOSE_ALWAYS_INLINE void pose_parts(const std::int32_t* columns, const float*
   {
     for (Index p = 0; p < lanes; p += part)
     {
-      put_together<bytes>(moves + p, posed + 3 * p);
+      interleave<bytes>(moves + p, posed + 3 * p);
     }
     return;
   }
@@ -402,11 +402,11 @@ BINDPOSE_SIMD_WIDTHS(BINDPOSE_POSE_FLOATS, float)
 #undef BINDPOSE_POSE_FLOATS
 
 /// Length below which a sum of quaternions is treated as zero.
-constexpr float no_length(float)
+constexpr float minimum_length(float)
 {
   return 1e-30f;
 }
-constexpr double no_length(double)
+constexpr double minimum_length(double)
 {
   return 1e-300;
 }
@@ -420,19 +420,19 @@ void blend_tile(const WeightTiles<Scalar>& weights, Index tile,
   const Index begin = weights.start[static_cast<std::size_t>(tile)];
   const Index count = weights.start[static_cast<std::size_t>(tile) + 1] - begin;
   const std::int32_t* columns = weights.columns.data() + begin;
-  const Scalar* of_tile = weights.weights.data() + begin * WeightTiles<Scalar>::lanes;
+  const Scalar* tile_weights = weights.weights.data() + begin * WeightTiles<Scalar>::lanes;
   if constexpr (entries == 12)
   {
-    blend_12(columns, of_tile, count, values.values.data(), &blended.sums[0][0]);
+    blend_12(columns, tile_weights, count, values.values.data(), &blended.sums[0][0]);
   }
   else if (values.signs.empty())
   {
-    blend_8(columns, of_tile, count, values.values.data(), &blended.sums[0][0]);
+    blend_8(columns, tile_weights, count, values.values.data(), &blended.sums[0][0]);
   }
   else
   {
     const auto handles = static_cast<Index>(values.values.size()) / entries;
-    blend_signed_8(columns, of_tile, count, values.values.data(), values.signs.data(), handles,
+    blend_signed_8(columns, tile_weights, count, values.values.data(), values.signs.data(), handles,
       references, &blended.sums[0][0]);
   }
 }
@@ -454,7 +454,7 @@ template <typename Scalar>
 void dual_quaternion_moves(const BlendedTile<Scalar, 8>& blended, const TilePoints<Scalar>& points,
   TilePoints<Scalar>& moves)
 {
-  dual(&blended.sums[0][0], &points.at[0][0], no_length(Scalar()), &moves.at[0][0]);
+  dual(&blended.sums[0][0], &points.at[0][0], minimum_length(Scalar()), &moves.at[0][0]);
 }
 
 template <typename Scalar>

@@ -44,7 +44,7 @@ constexpr PlaneConstants plane_constants = make_plane_constants();
 
 /// Number of coefficients of a polynomial of this order, padded with zeros to whole lanes.
 template <int Order>
-constexpr int room_of = (Order / polynomial_lanes + 1) * polynomial_lanes;
+constexpr int padded_count = (Order / polynomial_lanes + 1) * polynomial_lanes;
 
 /// Add the products with the harmonics (L + 2Q, L), (L + 2Q + 2, L) … to the polynomial. r and i
 /// are the real and imaginary parts of zeta^L |zeta|^2Q, and rho2 is |zeta|^2.
@@ -85,7 +85,7 @@ BINDPOSE_ALWAYS_INLINE void add_rows(
 template <int Order, typename Real>
 BINDPOSE_ALWAYS_INLINE void contract_rows(const Real* rows, double y, double z, double* polynomial)
 {
-  constexpr int room = room_of<Order>;
+  constexpr int room = padded_count<Order>;
   Real sum[room] = {};
   add_rows<Order, 0>(rows, Real(1), Real(0), static_cast<Real>(y), static_cast<Real>(z), sum);
   for (int j = 0; j < room; ++j)
@@ -95,7 +95,7 @@ BINDPOSE_ALWAYS_INLINE void contract_rows(const Real* rows, double y, double z, 
 }
 
 template <typename Real>
-BINDPOSE_ALWAYS_INLINE void contract_any(
+BINDPOSE_ALWAYS_INLINE void contract_by_order(
   int order, const Real* rows, double y, double z, double* polynomial)
 {
   switch (order)
@@ -138,12 +138,12 @@ double eight_terms(const double* p, double x, double x2, double x4)
 }
 
 template <typename Real>
-std::array<double, 2> slopes(int order, const Real* numbers, const Vec3& local)
+std::array<double, 2> slopes(int order, const Real* coefficients, const Vec3& local)
 {
   const double x = local[0], y = local[1], z = local[2];
   const double rho2 = y * y + z * z;
   std::array<double, 2> sums{ 0.0, 0.0 };
-  const Real* row = numbers;
+  const Real* row = coefficients;
   double re = 1.0, im = 0.0; // zeta^l
   double below_re = 0.0, below_im = 0.0; // l zeta^(l-1)
   for (int l = 0; l <= order; ++l)
@@ -184,16 +184,16 @@ std::array<double, 2> slopes(int order, const Real* numbers, const Vec3& local)
 BINDPOSE_SIMD_CLONES void contract_local(
   int order, const float* rows, double y, double z, double* polynomial)
 {
-  contract_any(order, rows, y, z, polynomial);
+  contract_by_order(order, rows, y, z, polynomial);
 }
 
 BINDPOSE_SIMD_CLONES void contract_local(
   int order, const double* rows, double y, double z, double* polynomial)
 {
-  contract_any(order, rows, y, z, polynomial);
+  contract_by_order(order, rows, y, z, polynomial);
 }
 
-double polynomial_at(const double* polynomial, int order, double x)
+double evaluate_polynomial(const double* polynomial, int order, double x)
 {
   const double x2 = x * x, x4 = x2 * x2;
   const double low = eight_terms(polynomial, x, x2, x4);
@@ -201,14 +201,14 @@ double polynomial_at(const double* polynomial, int order, double x)
     ? low
     : low + x4 * x4 * eight_terms(polynomial + polynomial_lanes, x, x2, x4);
 }
-std::array<double, 2> slopes_across(int order, const float* numbers, const Vec3& at)
+std::array<double, 2> transverse_derivatives(int order, const float* coefficients, const Vec3& at)
 {
-  return slopes(order, numbers, at);
+  return slopes(order, coefficients, at);
 }
 
-std::array<double, 2> slopes_across(int order, const double* numbers, const Vec3& at)
+std::array<double, 2> transverse_derivatives(int order, const double* coefficients, const Vec3& at)
 {
-  return slopes(order, numbers, at);
+  return slopes(order, coefficients, at);
 }
 
 } // namespace bindpose

@@ -29,25 +29,25 @@ constexpr int largest_polynomial_order = 14;
 constexpr int polynomial_lanes = 8;
 /// Capacity of an array for the coefficients of a polynomial of any order; unused coefficients are
 /// 0.
-constexpr int polynomial_room = 2 * polynomial_lanes;
+constexpr int polynomial_capacity = 2 * polynomial_lanes;
 
 /// Return the number of values in an expansion.
-constexpr int count_of_local(int order)
+constexpr int local_coefficient_count(int order)
 {
   return (order + 1) * (order + 1);
 }
 
 /// Contract an expansion to a polynomial in x for the specified y and z, in the precision of the
-/// coefficients `numbers`. `order` must be 2 … largest_polynomial_order. The result has the same
-/// bits on every instruction set.
-void contract_local(int order, const float* numbers, double y, double z, double* polynomial);
-void contract_local(int order, const double* numbers, double y, double z, double* polynomial);
+/// coefficients `coefficients`. `order` must be 2 … largest_polynomial_order. The result has the
+/// same bits on every instruction set.
+void contract_local(int order, const float* coefficients, double y, double z, double* polynomial);
+void contract_local(int order, const double* coefficients, double y, double z, double* polynomial);
 
-double polynomial_at(const double* polynomial, int order, double x);
+double evaluate_polynomial(const double* polynomial, int order, double x);
 
 /// Return the derivatives of the expansion along y and z.
-std::array<double, 2> slopes_across(int order, const float* numbers, const Vec3& at);
-std::array<double, 2> slopes_across(int order, const double* numbers, const Vec3& at);
+std::array<double, 2> transverse_derivatives(int order, const float* coefficients, const Vec3& at);
+std::array<double, 2> transverse_derivatives(int order, const double* coefficients, const Vec3& at);
 
 } // namespace bindpose
 

@@ -13,7 +13,7 @@ namespace
 /// applies to tetrahedra that have the segment as an edge. The tighter bound is relative to the
 /// squared largest coordinate times the length of the segment. In units of 2^-53, subtractions
 /// contribute 1, cross products 28 and volumes 90. The bound is rounded up.
-constexpr double double_error = 0x1p-53 * 256.0;
+constexpr double relative_error = 0x1p-53 * 256.0;
 } // namespace
 
 Crossing crossing(const Vec3& p, const Vec3& r, const std::array<Vec3, 3>& corners)
@@ -25,8 +25,8 @@ Crossing crossing(const Vec3& p, const Vec3& r, const std::array<Vec3, 3>& corne
   const double length = d.lpNorm<Eigen::Infinity>();
   const double size = std::max({ a.lpNorm<Eigen::Infinity>(), b.lpNorm<Eigen::Infinity>(),
     c.lpNorm<Eigen::Infinity>(), length });
-  const double error = double_error * size * size * size;
-  const double edge_error = double_error * size * size * length;
+  const double error = relative_error * size * size * size;
+  const double edge_error = relative_error * size * size * length;
   const Vec3 bc = b.cross(c);
   const double u = d.dot(bc);
   const double v = d.dot(c.cross(a));
@@ -48,7 +48,7 @@ Crossing crossing(const Vec3& p, const Vec3& r, const std::array<Vec3, 3>& corne
   {
     return Crossing::inwards;
   }
-  return Crossing::unclear;
+  return Crossing::undecided;
 }
 
 } // namespace bindpose

@@ -17,11 +17,11 @@ enum class Crossing
   none,
   outwards, ///< the segment crosses in the direction of the triangle's normal
   inwards,
-  unclear
+  undecided
 };
 
 /// Classify how the segment from p to r crosses a triangle, from the signs of volumes in doubles.
-/// The result is `unclear` if round-off could have changed a sign. This includes segments that
+/// The result is `undecided` if round-off could have changed a sign. This includes segments that
 /// touch an edge and segments that begin or end in the plane of the triangle.
 Crossing crossing(const Vec3& p, const Vec3& r, const std::array<Vec3, 3>& corners);
 

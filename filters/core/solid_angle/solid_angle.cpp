@@ -27,11 +27,11 @@ namespace bindpose
 
 namespace
 {
-using Wide3 = std::array<DoubleDouble, 3>;
+using DoubleDouble3 = std::array<DoubleDouble, 3>;
 
-Wide3 wide_difference(const Vec3& a, const Vec3& b)
+DoubleDouble3 exact_difference(const Vec3& a, const Vec3& b)
 {
-  Wide3 difference;
+  DoubleDouble3 difference;
   for (int k = 0; k < 3; ++k)
   {
     two_sum(a[k], -b[k], difference[k].high, difference[k].low);
@@ -39,19 +39,20 @@ Wide3 wide_difference(const Vec3& a, const Vec3& b)
   return difference;
 }
 
-DoubleDouble dot(const Wide3& a, const Wide3& b)
+DoubleDouble dot(const DoubleDouble3& a, const DoubleDouble3& b)
 {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-DoubleDouble determinant(const Wide3& a, const Wide3& b, const Wide3& c)
+DoubleDouble determinant(const DoubleDouble3& a, const DoubleDouble3& b, const DoubleDouble3& c)
 {
   return a[0] * (b[1] * c[2] - b[2] * c[1]) + a[1] * (b[2] * c[0] - b[0] * c[2]) +
     a[2] * (b[0] * c[1] - b[1] * c[0]);
 }
 
 /// Return s a + t b.
-Wide3 sum(const DoubleDouble& s, const Wide3& a, const DoubleDouble& t, const Wide3& b)
+DoubleDouble3 sum(
+  const DoubleDouble& s, const DoubleDouble3& a, const DoubleDouble& t, const DoubleDouble3& b)
 {
   return { s * a[0] + t * b[0], s * a[1] + t * b[1], s * a[2] + t * b[2] };
 }
@@ -102,7 +103,7 @@ double side_of_triangle(const Vec3& point, const Vec3& a0, const Vec3& b0, const
     return side;
   }
   return determinant(
-    wide_difference(a0, point), wide_difference(b0, point), wide_difference(c0, point))
+    exact_difference(a0, point), exact_difference(b0, point), exact_difference(c0, point))
     .value();
 }
 
@@ -124,12 +125,12 @@ double SolidAngleSum::near_half_angle(const Vec3& a0, const Vec3& b0, const Vec3
     directions[0].dot(directions[1]) };
   const auto first = std::max_element(cosines, cosines + 3) - cosines;
   std::rotate(corners.begin(), corners.begin() + first, corners.end());
-  const Wide3 a = wide_difference(corners[0], this->point_);
-  const Wide3 b = wide_difference(corners[1], this->point_);
-  const Wide3 c = wide_difference(corners[2], this->point_);
+  const DoubleDouble3 a = exact_difference(corners[0], this->point_);
+  const DoubleDouble3 b = exact_difference(corners[1], this->point_);
+  const DoubleDouble3 c = exact_difference(corners[2], this->point_);
   const DoubleDouble la = sqrt(dot(a, a));
-  const Wide3 u = sum(la, b, sqrt(dot(b, b)), a);
-  const Wide3 v = sum(la, c, sqrt(dot(c, c)), a);
+  const DoubleDouble3 u = sum(la, b, sqrt(dot(b, b)), a);
+  const DoubleDouble3 v = sum(la, c, sqrt(dot(c, c)), a);
   const double real = dot(u, v).value() * la.value();
   const double imaginary = determinant(a, u, v).value();
   return imaginary == 0.0 ? 0.0 : std::atan2(imaginary, real);

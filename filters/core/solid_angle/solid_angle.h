@@ -64,8 +64,8 @@ inline void SolidAngleSum::add(const Vec3& a0, const Vec3& b0, const Vec3& c0, i
   // If this condition is true, the half angle is below 45 degrees, so four half angles sum to less
   // than a half turn. The condition also excludes triangles that touch the point: real / lengths is
   // at most 0.63 for a touching triangle whose vertices are more than 4 tolerances away.
-  const double reach = 4.0 * this->tolerance_;
-  if (real > lengths && la > reach && lb > reach && lc > reach &&
+  const double near_distance = 4.0 * this->tolerance_;
+  if (real > lengths && la > near_distance && lb > near_distance && lc > near_distance &&
     (multiplicity == 1 || multiplicity == -1))
   {
     const double signed_imaginary = multiplicity * imaginary;

@@ -17,13 +17,13 @@ namespace
 {
 /// The coefficient (n, m) for any sign of m is the stored coefficient at `index` with its real part
 /// multiplied by `real_sign` and its imaginary part by `imaginary_sign`.
-struct Place
+struct StoredCoefficient
 {
   int index;
   double real_sign, imaginary_sign;
 };
 
-BINDPOSE_ALWAYS_INLINE Place place(int n, int m)
+BINDPOSE_ALWAYS_INLINE StoredCoefficient stored_coefficient(int n, int m)
 {
   if (m >= 0)
   {
@@ -43,9 +43,10 @@ void Harmonics::clear(int order)
   }
 }
 
-BINDPOSE_SIMD_CLONES void regular_harmonics(int order, const HarmonicLanes (&at)[3], Harmonics& out)
+BINDPOSE_SIMD_CLONES void regular_harmonics(
+  int order, const HarmonicLanes (&position)[3], Harmonics& out)
 {
-  const HarmonicPack x = pack(at[0]), y = pack(at[1]), z = pack(at[2]);
+  const HarmonicPack x = pack(position[0]), y = pack(position[1]), z = pack(position[2]);
   const HarmonicPack r2 = x * x + y * y + z * z;
   const HarmonicPack zero = x - x;
   pack(out.real[0]) = zero + 1.0;
@@ -77,13 +78,13 @@ BINDPOSE_SIMD_CLONES void regular_harmonics(int order, const HarmonicLanes (&at)
 }
 
 BINDPOSE_SIMD_CLONES void irregular_harmonics(
-  int order, const HarmonicLanes (&at)[3], Harmonics& out)
+  int order, const HarmonicLanes (&position)[3], Harmonics& out)
 {
-  const HarmonicPack r2 =
-    pack(at[0]) * pack(at[0]) + pack(at[1]) * pack(at[1]) + pack(at[2]) * pack(at[2]);
+  const HarmonicPack r2 = pack(position[0]) * pack(position[0]) +
+    pack(position[1]) * pack(position[1]) + pack(position[2]) * pack(position[2]);
   const HarmonicPack inverse = 1.0 / r2;
-  const HarmonicPack x = pack(at[0]) * inverse, y = pack(at[1]) * inverse,
-                     z = pack(at[2]) * inverse;
+  const HarmonicPack x = pack(position[0]) * inverse, y = pack(position[1]) * inverse,
+                     z = pack(position[2]) * inverse;
   HarmonicLanes root;
   for (int i = 0; i < harmonic_lanes; ++i)
   {
@@ -141,7 +142,7 @@ BINDPOSE_SIMD_CLONES void regular_derivative(
       }
       if (1 - m <= n - 1) // (x + iy) U(n-1, m-1)
       {
-        const Place b = place(n - 1, m - 1);
+        const StoredCoefficient b = stored_coefficient(n - 1, m - 1);
         const HarmonicPack ure = pack(value.real[b.index]) * b.real_sign;
         const HarmonicPack uim = pack(value.imaginary[b.index]) * b.imaginary_sign;
         re += x * ure - y * uim;
@@ -167,7 +168,7 @@ BINDPOSE_SIMD_CLONES void multipole_to_multipole(
         const int d = n - k;
         for (int l = m - d > -k ? m - d : -k; l <= (m + d < k ? m + d : k); ++l)
         {
-          const Place s = place(k, l), c = place(d, m - l);
+          const StoredCoefficient s = stored_coefficient(k, l), c = stored_coefficient(d, m - l);
           const double rr = s.real_sign * c.real_sign;
           const double ii = s.imaginary_sign * c.imaginary_sign;
           const double ri = s.real_sign * c.imaginary_sign;
@@ -261,7 +262,7 @@ BINDPOSE_SIMD_CLONES void local_to_local(
         for (int m = l - d > -n ? l - d : -n; m <= (l + d < n ? l + d : n); ++m)
         {
           // conj(U(d, m - l)) F(n, m)
-          const Place s = place(d, m - l), c = place(n, m);
+          const StoredCoefficient s = stored_coefficient(d, m - l), c = stored_coefficient(n, m);
           const double rr = s.real_sign * c.real_sign;
           const double ii = s.imaginary_sign * c.imaginary_sign;
           const double ri = s.real_sign * c.imaginary_sign;

@@ -40,9 +40,9 @@ struct Harmonics
 };
 
 /// Compute the regular (polynomial) harmonics of x, y, z up to degree `order`; z is the polar axis.
-void regular_harmonics(int order, const HarmonicLanes (&at)[3], Harmonics& out);
-/// Compute the irregular (decaying) harmonics; `at` must not be 0.
-void irregular_harmonics(int order, const HarmonicLanes (&at)[3], Harmonics& out);
+void regular_harmonics(int order, const HarmonicLanes (&position)[3], Harmonics& out);
+/// Compute the irregular (decaying) harmonics; `position` must not be 0.
+void irregular_harmonics(int order, const HarmonicLanes (&position)[3], Harmonics& out);
 
 /// Add to `out` the integral of the derivative of the regular harmonics along a normal. `value` is
 /// the integral of the regular harmonics. The coefficients out(n, m) of degrees n = 1 … order are

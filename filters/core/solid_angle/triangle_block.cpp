@@ -4,7 +4,7 @@
 // angle of each triangle is computed, by a polynomial arc tangent (fitted at Chebyshev nodes). The
 // angle of a triangle loses digits if the point is next to an edge or a vertex. The sign of the
 // angle is uncertain if the point is almost in the plane of the triangle. The lanes of such
-// triangles contribute 0 and are passed to the CarefulSum.
+// triangles contribute 0 and are passed to the FallbackSum.
 #include "solid_angle/triangle_block.h"
 
 #include "base/constants.h"
@@ -26,18 +26,18 @@ struct Precision<float>
 {
   using Flag = std::int32_t;
   /// Smallest accepted size of the complex number, relative to |a||b||c|.
-  static constexpr float lost = 1e-2f;
+  static constexpr float smallest_magnitude = 1e-2f;
   /// Smallest accepted volume() relative to |a||b||c|, a measure of the distance from the plane.
-  static constexpr float flat = 1e-4f;
+  static constexpr float smallest_volume = 1e-4f;
   /// Smallest accepted squared distance of a vertex from the point, relative to the squared block
   /// size.
-  static constexpr float reach = 1e-4f;
+  static constexpr float smallest_distance2 = 1e-4f;
   /// A block is far if the squared distance of its center from the point, relative to the squared
   /// block size, is larger than this number.
-  static constexpr float apart = 2.5f;
+  static constexpr float distant = 2.5f;
   /// Beyond this squared distance, relative to the squared block size, products of four complex
   /// numbers would overflow.
-  static constexpr float remote = 1e4f;
+  static constexpr float largest_distance2 = 1e4f;
   static BINDPOSE_ALWAYS_INLINE float arc_tangent(float t)
   {
     // The terms are summed in pairs, because a chain of twelve dependent operations would be
@@ -56,11 +56,11 @@ template <>
 struct Precision<double>
 {
   using Flag = std::int64_t;
-  static constexpr double lost = 1e-6;
-  static constexpr double flat = 1e-6;
-  static constexpr double reach = 1e-12;
-  static constexpr double apart = 2.5;
-  static constexpr double remote = 1e4;
+  static constexpr double smallest_magnitude = 1e-6;
+  static constexpr double smallest_volume = 1e-6;
+  static constexpr double smallest_distance2 = 1e-12;
+  static constexpr double distant = 2.5;
+  static constexpr double largest_distance2 = 1e4;
   static BINDPOSE_ALWAYS_INLINE double arc_tangent(double t)
   {
     const double u = t * t;
@@ -83,7 +83,7 @@ struct Precision<double>
 
 /// A block, and the position of the point relative to the center of the block, in block sizes.
 template <typename Real>
-struct SeenBlock
+struct RelativeBlock
 {
   Index block;
   Real at[3];
@@ -91,11 +91,12 @@ struct SeenBlock
 
 /// Corners relative to the point.
 template <typename Real>
-struct Seen
+struct RelativeTriangle
 {
   Real ax, ay, az, bx, by, bz, cx, cy, cz;
 
-  BINDPOSE_ALWAYS_INLINE Seen(const TriangleBlock<Real>& block, int i, Real x, Real y, Real z)
+  BINDPOSE_ALWAYS_INLINE RelativeTriangle(
+    const TriangleBlock<Real>& block, int i, Real x, Real y, Real z)
     : ax(block.corner[0][i] - x), ay(block.corner[1][i] - y), az(block.corner[2][i] - z),
       bx(block.corner[3][i] - x), by(block.corner[4][i] - y), bz(block.corner[5][i] - z),
       cx(block.corner[6][i] - x), cy(block.corner[7][i] - y), cz(block.corner[8][i] - z)
@@ -131,12 +132,12 @@ BINDPOSE_ALWAYS_INLINE Real angle_of(Real re, Real im)
   return im < Real(0) ? -half : half;
 }
 
-/// Add blocks far from the point. Seen from the point, a sphere of the block's size covers less
-/// than an eighth of all directions. Half the solid angle of a triangle is below 41 degrees, so the
-/// sum for four triangles is below half a turn. No triangle touches the point.
+/// Add blocks far from the point. RelativeTriangle from the point, a sphere of the block's size
+/// covers less than an eighth of all directions. Half the solid angle of a triangle is below 41
+/// degrees, so the sum for four triangles is below half a turn. No triangle touches the point.
 template <typename Real>
-BINDPOSE_ALWAYS_INLINE void add_apart(const TriangleBlock<Real>* blocks,
-  const SeenBlock<Real>* seen, const int* order, int count, Real (&sums)[triangle_lanes])
+BINDPOSE_ALWAYS_INLINE void add_distant_blocks(const TriangleBlock<Real>* blocks,
+  const RelativeBlock<Real>* relative, const int* order, int count, Real (&sums)[triangle_lanes])
 {
   for (int first = 0; first < count; first += 4)
   {
@@ -149,12 +150,12 @@ BINDPOSE_ALWAYS_INLINE void add_apart(const TriangleBlock<Real>* blocks,
     const int end = std::min(count, first + 4);
     for (int s = first; s < end; ++s)
     {
-      const SeenBlock<Real>& from = seen[order[s]];
+      const RelativeBlock<Real>& from = relative[order[s]];
       const TriangleBlock<Real>& block = blocks[from.block];
       const Real x = from.at[0], y = from.at[1], z = from.at[2];
       for (int i = 0; i < triangle_lanes; ++i)
       {
-        const Seen<Real> t(block, i, x, y, z);
+        const RelativeTriangle<Real> t(block, i, x, y, z);
         const Real la = std::sqrt(t.ax * t.ax + t.ay * t.ay + t.az * t.az);
         const Real lb = std::sqrt(t.bx * t.bx + t.by * t.by + t.bz * t.bz);
         const Real lc = std::sqrt(t.cx * t.cx + t.cy * t.cy + t.cz * t.cz);
@@ -175,19 +176,20 @@ BINDPOSE_ALWAYS_INLINE void add_apart(const TriangleBlock<Real>* blocks,
 /// Add a block at any distance and with any multiplicities.
 template <typename Real>
 BINDPOSE_ALWAYS_INLINE void add_block(const TriangleBlock<Real>* blocks,
-  const SeenBlock<Real>& seen, double touch_tolerance, Real (&sums)[triangle_lanes],
-  CarefulSum& careful)
+  const RelativeBlock<Real>& relative, double touch_tolerance, Real (&sums)[triangle_lanes],
+  FallbackSum& fallback)
 {
   using P = Precision<Real>;
-  const TriangleBlock<Real>& block = blocks[seen.block];
-  const Real x = seen.at[0], y = seen.at[1], z = seen.at[2];
-  const Real touching = static_cast<Real>(touch_tolerance * block.inverse_size);
-  const Real reach = std::max(P::reach, 20 * touching * touching);
+  const TriangleBlock<Real>& block = blocks[relative.block];
+  const Real x = relative.at[0], y = relative.at[1], z = relative.at[2];
+  const Real scaled_tolerance = static_cast<Real>(touch_tolerance * block.inverse_size);
+  const Real smallest_distance2 =
+    std::max(P::smallest_distance2, 20 * scaled_tolerance * scaled_tolerance);
   typename P::Flag flags[triangle_lanes];
   typename P::Flag any = 0;
   for (int i = 0; i < triangle_lanes; ++i)
   {
-    const Seen<Real> t(block, i, x, y, z);
+    const RelativeTriangle<Real> t(block, i, x, y, z);
     const Real aa = t.ax * t.ax + t.ay * t.ay + t.az * t.az;
     const Real bb = t.bx * t.bx + t.by * t.by + t.bz * t.bz;
     const Real cc = t.cx * t.cx + t.cy * t.cy + t.cz * t.cz;
@@ -198,13 +200,13 @@ BINDPOSE_ALWAYS_INLINE void add_block(const TriangleBlock<Real>* blocks,
     const Real re_size = std::abs(re), im_size = std::abs(im);
     const Real least = aa < bb ? aa : bb;
     const Real nearest = least < cc ? least : cc;
-    const bool far_off = re > Real(0.7) * lengths;
+    const bool is_far = re > Real(0.7) * lengths;
     // Upper bound for the volume if the point touches the triangle: the volume of a slab whose
     // thickness is the tolerance.
-    const Real slab = 2 * touching * (la * lb + lb * lc + lc * la);
-    const bool off_plane = im_size > P::flat * lengths + slab;
-    const bool kept =
-      (re_size + im_size > P::lost * lengths) & (nearest > reach) & (far_off | off_plane);
+    const Real slab = 2 * scaled_tolerance * (la * lb + lb * lc + lc * la);
+    const bool off_plane = im_size > P::smallest_volume * lengths + slab;
+    const bool kept = (re_size + im_size > P::smallest_magnitude * lengths) &
+      (nearest > smallest_distance2) & (is_far | off_plane);
     const Real turned = block.weight[i] * angle_of(re, im);
     sums[i] += kept ? turned : Real(0);
     flags[i] = kept ? 0 : 1;
@@ -217,55 +219,56 @@ BINDPOSE_ALWAYS_INLINE void add_block(const TriangleBlock<Real>* blocks,
     {
       lanes[i] = flags[i] && block.weight[i] != Real(0);
     }
-    careful.add(seen.block, lanes);
+    fallback.add(relative.block, lanes);
   }
 }
 
 template <typename Real>
 BINDPOSE_ALWAYS_INLINE double sum(const TriangleBlock<Real>* blocks, const BlockRun* runs,
-  Index count, const Vec3& point, double touch_tolerance, CarefulSum& careful)
+  Index count, const Vec3& point, double touch_tolerance, FallbackSum& fallback)
 {
   using P = Precision<Real>;
-  constexpr int room = 32;
-  SeenBlock<Real> seen[room];
-  int apart[room], others[room];
-  int count_seen = 0, count_apart = 0, count_others = 0;
+  constexpr int capacity = 32;
+  RelativeBlock<Real> relative[capacity];
+  int distant[capacity], near_blocks[capacity];
+  int relative_count = 0, distant_count = 0, near_count = 0;
   Real sums[triangle_lanes] = {};
   const auto add_all = [&]() __attribute__((always_inline))
   {
-    add_apart(blocks, seen, apart, count_apart, sums);
-    for (int i = 0; i < count_others; ++i)
+    add_distant_blocks(blocks, relative, distant, distant_count, sums);
+    for (int i = 0; i < near_count; ++i)
     {
-      add_block(blocks, seen[others[i]], touch_tolerance, sums, careful);
+      add_block(blocks, relative[near_blocks[i]], touch_tolerance, sums, fallback);
     }
-    count_seen = count_apart = count_others = 0;
+    relative_count = distant_count = near_count = 0;
   };
   const double at[3] = { point[0], point[1], point[2] };
   for (Index r = 0; r < count; ++r)
   {
     for (Index b = runs[r].first; b < runs[r].first + runs[r].count; ++b)
     {
-      if (count_seen == room)
+      if (relative_count == capacity)
       {
         add_all();
       }
       const TriangleBlock<Real>& block = blocks[b];
-      SeenBlock<Real>& next = seen[count_seen];
+      RelativeBlock<Real>& next = relative[relative_count];
       next.block = b;
       Real distance2 = 0;
       for (int k = 0; k < 3; ++k)
       {
-        const Real away = static_cast<Real>((at[k] - block.center[k]) * block.inverse_size);
-        next.at[k] = away;
-        distance2 += away * away;
+        const Real offset = static_cast<Real>((at[k] - block.center[k]) * block.inverse_size);
+        next.at[k] = offset;
+        distance2 += offset * offset;
       }
       // Bitwise operators avoid a branch, whose outcome would be unpredictable.
-      const bool is_apart = (distance2 > P::apart) & (distance2 < P::remote) & block.single;
-      apart[count_apart] = count_seen;
-      others[count_others] = count_seen;
-      count_apart += is_apart;
-      count_others += !is_apart;
-      ++count_seen;
+      const bool is_distant =
+        (distance2 > P::distant) & (distance2 < P::largest_distance2) & block.unit_weights;
+      distant[distant_count] = relative_count;
+      near_blocks[near_count] = relative_count;
+      distant_count += is_distant;
+      near_count += !is_distant;
+      ++relative_count;
     }
   }
   add_all();
@@ -279,15 +282,15 @@ BINDPOSE_ALWAYS_INLINE double sum(const TriangleBlock<Real>* blocks, const Block
 } // namespace
 
 BINDPOSE_SIMD_CLONES double sum_blocks(const TriangleBlock<float>* blocks, const BlockRun* runs,
-  Index count, const Vec3& point, double touch_tolerance, CarefulSum& careful)
+  Index count, const Vec3& point, double touch_tolerance, FallbackSum& fallback)
 {
-  return sum(blocks, runs, count, point, touch_tolerance, careful);
+  return sum(blocks, runs, count, point, touch_tolerance, fallback);
 }
 
 BINDPOSE_SIMD_CLONES double sum_blocks(const TriangleBlock<double>* blocks, const BlockRun* runs,
-  Index count, const Vec3& point, double touch_tolerance, CarefulSum& careful)
+  Index count, const Vec3& point, double touch_tolerance, FallbackSum& fallback)
 {
-  return sum(blocks, runs, count, point, touch_tolerance, careful);
+  return sum(blocks, runs, count, point, touch_tolerance, fallback);
 }
 
 } // namespace bindpose

@@ -21,7 +21,7 @@ struct TriangleBlock
   double inverse_size;
   Real corner[9][triangle_lanes]; ///< coordinates x, y, z of corner a, then of b, then of c
   Real weight[triangle_lanes]; ///< multiplicity; 0 in an unused lane
-  bool single; ///< whether every multiplicity is -1, 0 or 1
+  bool unit_weights; ///< whether every multiplicity is -1, 0 or 1
 };
 
 /// The consecutive blocks first … first + count - 1.
@@ -32,23 +32,23 @@ struct BlockRun
 
 /// Interface that sums the triangles of a block that are too near the point for the fast formula. A
 /// triangle is selected if its entry in `lanes` is not 0.
-class CarefulSum
+class FallbackSum
 {
 public:
   virtual void add(Index block, const int* lanes) = 0;
 
 protected:
-  ~CarefulSum() = default;
+  ~FallbackSum() = default;
 };
 
 /// Return the winding number of the triangles of the runs, except the triangles that are passed to
-/// `careful`. All triangles within touch_tolerance of the point are passed to `careful`. A triangle
-/// takes about 1.5 ns in float, with an error of 1e-5 of a turn, and 4 ns in double, with an error
-/// of 1e-9 of a turn. The result has the same bits on every instruction set.
+/// `fallback`. All triangles within touch_tolerance of the point are passed to `fallback`. A
+/// triangle takes about 1.5 ns in float, with an error of 1e-5 of a turn, and 4 ns in double, with
+/// an error of 1e-9 of a turn. The result has the same bits on every instruction set.
 double sum_blocks(const TriangleBlock<float>* blocks, const BlockRun* runs, Index count,
-  const Vec3& point, double touch_tolerance, CarefulSum& careful);
+  const Vec3& point, double touch_tolerance, FallbackSum& fallback);
 double sum_blocks(const TriangleBlock<double>* blocks, const BlockRun* runs, Index count,
-  const Vec3& point, double touch_tolerance, CarefulSum& careful);
+  const Vec3& point, double touch_tolerance, FallbackSum& fallback);
 
 } // namespace bindpose
 

@@ -14,7 +14,7 @@ namespace bindpose
 namespace
 {
 /// Largest norm of the sum of the area vectors of a closed patch, relative to the patch's area.
-constexpr double most_open = 0.25;
+constexpr double maximum_opening = 0.25;
 
 /// All copies of one triangle, half of them with each orientation.
 struct Copies
@@ -95,20 +95,20 @@ std::vector<Index> back_sides(PointsView points, TrianglesView triangles)
     {
       const auto corner = [&](int k) -> Vec3
       { return points.row(canceling.triangles(patch.triangles[i], k)).transpose() - origin; };
-      const double way = patch.turned[i] ? -1.0 : 1.0;
+      const double way = patch.flipped[i] ? -1.0 : 1.0;
       const Vec3 normal = 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0));
       area += normal.norm();
       sum += way * normal;
       volume += way * corner(0).dot(normal) / 3.0;
     }
-    if (!patch.orientable || sum.norm() > most_open * area)
+    if (!patch.orientable || sum.norm() > maximum_opening * area)
     {
       continue;
     }
     for (std::size_t i = 0; i < patch.triangles.size(); ++i)
     {
       const Copies& copies = canceling.copies[patch.triangles[i]];
-      const bool forward = (patch.turned[i] == 0) == (volume >= 0.0);
+      const bool forward = (patch.flipped[i] == 0) == (volume >= 0.0);
       const Index kept = forward ? copies.forward : copies.backward;
       std::copy_if(copies.all.begin(), copies.all.end(), std::back_inserter(backs),
         [&](Index copy) { return copy != kept; });

@@ -46,31 +46,31 @@ std::vector<Neighbors> neighbors_of(TrianglesView triangles)
 std::vector<OrientedPatch> oriented_patches(TrianglesView triangles)
 {
   const std::vector<Neighbors> neighbors = neighbors_of(triangles);
-  std::vector<signed char> turned(neighbors.size(), -1); // -1: the triangle is not yet in a patch
+  std::vector<signed char> flipped(neighbors.size(), -1); // -1: the triangle is not yet in a patch
   std::vector<OrientedPatch> patches;
   for (Index start = 0; start < triangles.rows(); ++start)
   {
-    if (turned[start] >= 0)
+    if (flipped[start] >= 0)
     {
       continue;
     }
     OrientedPatch patch;
     patch.triangles.assign(1, start);
-    turned[start] = 0;
+    flipped[start] = 0;
     for (std::size_t i = 0; i < patch.triangles.size(); ++i)
     {
       const Index t = patch.triangles[i];
-      patch.turned.push_back(turned[t]);
+      patch.flipped.push_back(flipped[t]);
       for (int k = 0; k < neighbors[t].count; ++k)
       {
         const Neighbor& n = neighbors[t].list[k];
-        const auto expected = static_cast<signed char>(n.agrees ? turned[t] : 1 - turned[t]);
-        if (turned[n.triangle] < 0)
+        const auto expected = static_cast<signed char>(n.agrees ? flipped[t] : 1 - flipped[t]);
+        if (flipped[n.triangle] < 0)
         {
-          turned[n.triangle] = expected;
+          flipped[n.triangle] = expected;
           patch.triangles.push_back(n.triangle);
         }
-        patch.orientable = patch.orientable && turned[n.triangle] == expected;
+        patch.orientable = patch.orientable && flipped[n.triangle] == expected;
       }
     }
     patches.push_back(std::move(patch));

@@ -15,8 +15,8 @@ struct OrientedPatch
   std::vector<Index> triangles;
   /// One flag per triangle: 1 if its orientation is opposite to that of the first triangle.
   /// Orientations are compared by going from neighbor to neighbor.
-  std::vector<signed char> turned;
-  bool orientable = true; ///< false: one-sided, like a Moebius strip; `turned` is then not unique
+  std::vector<signed char> flipped;
+  bool orientable = true; ///< false: one-sided, like a Moebius strip; `flipped` is then not unique
 };
 
 /// Return the patches of a surface. The patches are sorted by their smallest triangle id, which is

@@ -21,7 +21,7 @@ namespace bindpose
 
 namespace
 {
-constexpr Index several = -1; ///< label of a box with triangles of more than one group
+constexpr Index mixed_label = -1; ///< label of a box with triangles of more than one group
 
 using Corners = std::array<Vec3, 3>;
 
@@ -48,7 +48,7 @@ std::array<double, 2> nearest_on_segments(
 
 /// Find the first point where an edge of triangle a intersects triangle b. Return false if there is
 /// none.
-bool edge_meets(const Corners& a, const Corners& b, Vec3& place)
+bool edge_meets(const Corners& a, const Corners& b, Vec3& position)
 {
   for (int k = 0; k < 3; ++k)
   {
@@ -59,7 +59,7 @@ bool edge_meets(const Corners& a, const Corners& b, Vec3& place)
       const Vec3 normal = (b[1] - b[0]).cross(b[2] - b[0]);
       const double from = normal.dot(p - b[0]), to = normal.dot(q - b[0]);
       const double t = from != to ? std::clamp(from / (from - to), 0.0, 1.0) : 0.5;
-      place = closest_point(p + t * (q - p), b[0], b[1], b[2]);
+      position = closest_point(p + t * (q - p), b[0], b[1], b[2]);
       return true;
     }
   }
@@ -85,9 +85,10 @@ class Linker
 {
 public:
   Linker(ExecutionContext& context, PointsView points, TrianglesView triangles,
-    const std::vector<Index>& parts, const std::vector<char>& held, const PartLinkOptions& options)
-    : points_(points), triangles_(triangles), parts_(parts), held_(held), options_(options),
-      context_(context), tree_(points, triangles), groups_(held.size())
+    const std::vector<Index>& parts, const std::vector<char>& constrained,
+    const PartLinkOptions& options)
+    : points_(points), triangles_(triangles), parts_(parts), constrained_(constrained),
+      options_(options), context_(context), tree_(points, triangles), groups_(constrained.size())
   {
   }
 
@@ -102,8 +103,8 @@ private:
     return { this->points_.row(this->triangles_(f, 0)), this->points_.row(this->triangles_(f, 1)),
       this->points_.row(this->triangles_(f, 2)) };
   }
-  /// Label every box of the tree: with the common label of its triangles, with `several` if their
-  /// labels differ, or with `none` if none of its triangles belongs to a part.
+  /// Label every box of the tree: with the common label of its triangles, with `mixed_label` if
+  /// their labels differ, or with `none` if none of its triangles belongs to a part.
   void label_boxes(const std::vector<Index>& label_of_part)
   {
     const auto& nodes = this->tree_.nodes();
@@ -126,7 +127,7 @@ private:
   }
   static Index joined(Index a, Index b)
   {
-    return a == none || a == b ? b : b == none ? a : several;
+    return a == none || a == b ? b : b == none ? a : mixed_label;
   }
 
   /// Call at_triangle(g) for the triangles in all leaf boxes whose label differs from `label` and
@@ -200,7 +201,7 @@ private:
           }
           PartLink link;
           link.triangles = { f, g };
-          const double d = nearest_places(here, this->corners(g), link.places);
+          const double d = nearest_points(here, this->corners(g), link.positions);
           if (d < best.distance)
           {
             best = { d, link };
@@ -212,24 +213,24 @@ private:
 
   bool link_nearest(std::vector<PartLink>& links)
   {
-    const auto parts = static_cast<Index>(this->held_.size());
+    const auto parts = static_cast<Index>(this->constrained_.size());
     // For each group, 1 if it contains a held part; indexed by the group's smallest part.
-    std::vector<char> held = this->held_;
+    std::vector<char> constrained = this->constrained_;
     for (bool again = true; again;)
     {
       again = false;
-      this->group_of_part_.resize(this->held_.size());
+      this->group_of_part_.resize(this->constrained_.size());
       for (Index p = 0; p < parts; ++p)
       {
         this->group_of_part_[p] = this->groups_.find(p);
       }
-      std::vector<std::vector<Index>> members(this->held_.size());
+      std::vector<std::vector<Index>> members(this->constrained_.size());
       for (Index i = 0; i < this->triangles_.rows(); ++i)
       {
         // Use the order of the tree, so that consecutive triangles are near each other.
         const Index f = this->tree_.order()[i];
         const Index group = this->parts_[f] < 0 ? -1 : this->group_of_part_[this->parts_[f]];
-        if (group >= 0 && !held[group])
+        if (group >= 0 && !constrained[group])
         {
           members[group].push_back(f);
         }
@@ -256,7 +257,7 @@ private:
         {
           links.push_back(best.link);
           this->groups_.unite(a, b);
-          held[std::min(a, b)] = held[a] || held[b] ? 1 : 0;
+          constrained[std::min(a, b)] = constrained[a] || constrained[b] ? 1 : 0;
           again = true;
         }
       }
@@ -267,31 +268,31 @@ private:
   /// Link loose parts to all parts that they touch, with one link per cube of a grid.
   bool link_touching(std::vector<PartLink>& links)
   {
-    std::vector<Index> own(this->held_.size());
+    std::vector<Index> own(this->constrained_.size());
     std::iota(own.begin(), own.end(), Index(0));
     this->label_boxes(own);
     using Cell = std::array<std::int64_t, 3>;
     std::set<std::tuple<Index, Index, Cell>> linked;
-    const auto cell_of = [&](const Vec3& place)
+    const auto cell_of = [&](const Vec3& position)
     {
       Cell cell;
       for (int k = 0; k < 3; ++k)
       {
-        cell[k] = std::llround(place[k] / this->options_.spacing);
+        cell[k] = std::llround(position[k] / this->options_.spacing);
       }
       return cell;
     };
     for (const PartLink& link : links)
     {
       const Index a = this->parts_[link.triangles[0]], b = this->parts_[link.triangles[1]];
-      linked.insert({ std::min(a, b), std::max(a, b), cell_of(link.places[0]) });
+      linked.insert({ std::min(a, b), std::max(a, b), cell_of(link.positions[0]) });
     }
     std::set<std::pair<Index, Cell>> looked_at;
     for (Index i = 0; i < this->triangles_.rows(); ++i)
     {
       const Index f = this->tree_.order()[i];
       const Index part = this->parts_[f];
-      if (part < 0 || this->held_[part])
+      if (part < 0 || this->constrained_[part])
       {
         continue;
       }
@@ -300,14 +301,14 @@ private:
         return false;
       }
       this->for_samples(f,
-        [&](const Vec3& place)
+        [&](const Vec3& position)
         {
-          if (!looked_at.insert({ part, cell_of(place) }).second)
+          if (!looked_at.insert({ part, cell_of(position) }).second)
           {
             return;
           }
           Box box;
-          box.add(place);
+          box.add(position);
           double limit = this->options_.touching;
           PartLink link;
           this->visit_others(box, part, limit,
@@ -317,20 +318,21 @@ private:
               {
                 return;
               }
-              const Corners there = this->corners(g);
-              const Vec3 nearest = closest_point(place, there[0], there[1], there[2]);
-              const double d = (nearest - place).norm();
+              const Corners other_corners = this->corners(g);
+              const Vec3 nearest =
+                closest_point(position, other_corners[0], other_corners[1], other_corners[2]);
+              const double d = (nearest - position).norm();
               if (d < limit || (d == limit && link.triangles[1] < 0))
               {
                 limit = d;
                 link.triangles = { f, g };
-                link.places = { place, nearest };
+                link.positions = { position, nearest };
               }
             });
           if (link.triangles[1] >= 0)
           {
             const Index other = this->parts_[link.triangles[1]];
-            if (linked.insert({ std::min(part, other), std::max(part, other), cell_of(place) })
+            if (linked.insert({ std::min(part, other), std::max(part, other), cell_of(position) })
                   .second)
             {
               links.push_back(link);
@@ -370,7 +372,7 @@ private:
   PointsView points_;
   TrianglesView triangles_;
   const std::vector<Index>& parts_;
-  const std::vector<char>& held_;
+  const std::vector<char>& constrained_;
   const PartLinkOptions& options_;
   ExecutionContext& context_;
   TriangleTree tree_;
@@ -381,45 +383,48 @@ private:
 };
 } // namespace
 
-double nearest_places(
-  const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, std::array<Vec3, 2>& places)
+double nearest_points(
+  const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, std::array<Vec3, 2>& positions)
 {
   double best = infinite;
-  const auto offer = [&](const Vec3& p, const Vec3& q)
+  const auto update_nearest = [&](const Vec3& p, const Vec3& q)
   {
     const double d = (p - q).norm();
     if (d < best)
     {
       best = d;
-      places = { p, q };
+      positions = { p, q };
     }
   };
-  Vec3 place;
-  if (distance(box_of(a), box_of(b)) == 0.0 && (edge_meets(a, b, place) || edge_meets(b, a, place)))
+  Vec3 position;
+  if (distance(box_of(a), box_of(b)) == 0.0 &&
+    (edge_meets(a, b, position) || edge_meets(b, a, position)))
   {
-    places = { closest_point(place, a[0], a[1], a[2]), closest_point(place, b[0], b[1], b[2]) };
+    positions = { closest_point(position, a[0], a[1], a[2]),
+      closest_point(position, b[0], b[1], b[2]) };
     return 0.0;
   }
   for (int k = 0; k < 3; ++k)
   {
-    offer(a[k], closest_point(a[k], b[0], b[1], b[2]));
-    offer(closest_point(b[k], a[0], a[1], a[2]), b[k]);
+    update_nearest(a[k], closest_point(a[k], b[0], b[1], b[2]));
+    update_nearest(closest_point(b[k], a[0], a[1], a[2]), b[k]);
     for (int l = 0; l < 3; ++l)
     {
       const Vec3 &p = a[k], &q = a[(k + 1) % 3], &r = b[l], &s = b[(l + 1) % 3];
       const auto at = nearest_on_segments(p, q, r, s);
-      offer(p + at[0] * (q - p), r + at[1] * (s - r));
+      update_nearest(p + at[0] * (q - p), r + at[1] * (s - r));
     }
   }
   return best;
 }
 
 Status link_parts(ExecutionContext& context, PointsView points, TrianglesView triangles,
-  const std::vector<Index>& parts, const std::vector<char>& held, const PartLinkOptions& options,
-  std::vector<PartLink>& links)
+  const std::vector<Index>& parts, const std::vector<char>& constrained,
+  const PartLinkOptions& options, std::vector<PartLink>& links)
 {
   links.clear();
-  if (std::none_of(held.begin(), held.end(), [](char is_held) { return is_held != 0; }))
+  if (std::none_of(
+        constrained.begin(), constrained.end(), [](char is_held) { return is_held != 0; }))
   {
     return Status::invalid_input("no part of the surface is constrained by a handle");
   }
@@ -428,8 +433,9 @@ Status link_parts(ExecutionContext& context, PointsView points, TrianglesView tr
     return Status::invalid_input(
       "the spacing of links must be greater than 0 and the contact distance at least 0");
   }
-  return Linker(context, points, triangles, parts, held, options).run(links) ? Status()
-                                                                             : Status::canceled();
+  return Linker(context, points, triangles, parts, constrained, options).run(links)
+    ? Status()
+    : Status::canceled();
 }
 
 } // namespace bindpose

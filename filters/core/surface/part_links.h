@@ -15,7 +15,7 @@ struct PartLink
 {
   std::array<Index, 2> triangles{ -1, -1 };
   /// The points on the two triangles; they may be equal.
-  std::array<Vec3, 2> places{ Vec3::Zero(), Vec3::Zero() };
+  std::array<Vec3, 2> positions{ Vec3::Zero(), Vec3::Zero() };
 };
 
 /// Options of link_parts().
@@ -39,15 +39,15 @@ struct PartLinkOptions
 /// The links are the same for any number of threads. Cost: O(log #parts) rounds; each round takes
 /// about 5 us per triangle of a loose part.
 /// @param parts #F: part of each triangle, 0 … #parts - 1; triangles with -1 are ignored
-/// @param held #parts: nonzero for held parts. Return invalid_input if no part is held.
+/// @param constrained #parts: nonzero for held parts. Return invalid_input if no part is held.
 Status link_parts(ExecutionContext& context, PointsView points, TrianglesView triangles,
-  const std::vector<Index>& parts, const std::vector<char>& held, const PartLinkOptions& options,
-  std::vector<PartLink>& links);
+  const std::vector<Index>& parts, const std::vector<char>& constrained,
+  const PartLinkOptions& options, std::vector<PartLink>& links);
 
 /// Return the distance of two triangles, 0 if they intersect.
-/// @param places set to the nearest points, the first one on triangle a
-double nearest_places(
-  const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, std::array<Vec3, 2>& places);
+/// @param positions set to the nearest points, the first one on triangle a
+double nearest_points(
+  const std::array<Vec3, 3>& a, const std::array<Vec3, 3>& b, std::array<Vec3, 2>& positions);
 
 } // namespace bindpose
 

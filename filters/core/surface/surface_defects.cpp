@@ -26,7 +26,7 @@ public:
     }
   }
 
-  std::vector<DefectPlace> run()
+  std::vector<DefectOccurrence> run()
   {
     this->vertices();
     this->edges();
@@ -36,9 +36,9 @@ public:
     for (const auto& [t, inward] : this->repaired_.inward_triangles)
     {
       this->add(Defect::inward_component, this->repaired_.original_triangles[t]);
-      this->places_.back().inward = inward;
+      this->occurrences_.back().inward = inward;
     }
-    return std::move(this->places_);
+    return std::move(this->occurrences_);
   }
 
 private:
@@ -46,27 +46,28 @@ private:
   /// uses it.
   Index welded(Index input_vertex) const
   {
-    return this->id_[this->repaired_.lowest_equal[input_vertex]];
+    return this->id_[this->repaired_.representative_of_vertex[input_vertex]];
   }
 
   Index component_of(Index input_vertex) const
   {
     const Index v = this->welded(input_vertex);
-    return v < 0 ? -1 : this->components_.of_vertex[v];
+    return v < 0 ? -1 : this->components_.component_of_vertex[v];
   }
 
   void add(Defect defect, Index triangle, Index crossed = -1)
   {
-    DefectPlace place;
-    place.defect = defect;
-    place.triangle = triangle;
-    place.crossed = crossed;
+    DefectOccurrence occurrence;
+    occurrence.defect = defect;
+    occurrence.triangle = triangle;
+    occurrence.crossed = crossed;
     for (int k = 0; k < 3; ++k)
     {
-      place.vertices.push_back(this->triangles_(triangle, k));
-      place.component = std::max(place.component, this->component_of(place.vertices.back()));
+      occurrence.vertices.push_back(this->triangles_(triangle, k));
+      occurrence.component =
+        std::max(occurrence.component, this->component_of(occurrence.vertices.back()));
     }
-    this->places_.push_back(std::move(place));
+    this->occurrences_.push_back(std::move(occurrence));
   }
 
   void vertices()
@@ -80,9 +81,10 @@ private:
     {
       for (Index v = 0; v < this->points_.rows(); ++v)
       {
-        if (defect == Defect::duplicate_vertex ? this->repaired_.lowest_equal[v] != v : !used[v])
+        if (defect == Defect::duplicate_vertex ? this->repaired_.representative_of_vertex[v] != v
+                                               : !used[v])
         {
-          this->places_.push_back({ defect, { v }, -1, -1, this->component_of(v), -1 });
+          this->occurrences_.push_back({ defect, { v }, -1, -1, this->component_of(v), -1 });
         }
       }
     }
@@ -90,15 +92,16 @@ private:
 
   void edges()
   {
-    Triangles as_given(this->repaired_.triangles.rows(), 3);
-    for (Index t = 0; t < as_given.rows(); ++t)
+    Triangles input_orientation(this->repaired_.triangles.rows(), 3);
+    for (Index t = 0; t < input_orientation.rows(); ++t)
     {
       for (int k = 0; k < 3; ++k)
       {
-        as_given(t, k) = this->welded(this->triangles_(this->repaired_.original_triangles[t], k));
+        input_orientation(t, k) =
+          this->welded(this->triangles_(this->repaired_.original_triangles[t], k));
       }
     }
-    const std::vector<Edge> edges = mesh_edges(as_given);
+    const std::vector<Edge> edges = mesh_edges(input_orientation);
     for (const Defect defect :
       { Defect::boundary_edge, Defect::nonmanifold_edge, Defect::misoriented_edge })
     {
@@ -109,10 +112,10 @@ private:
                                                : edge.uses == 2 && edge.net_direction != 0;
         if (here)
         {
-          this->places_.push_back({ defect,
+          this->occurrences_.push_back({ defect,
             { this->repaired_.original_vertices[edge.a],
               this->repaired_.original_vertices[edge.b] },
-            -1, -1, this->components_.of_vertex[edge.a], -1 });
+            -1, -1, this->components_.component_of_vertex[edge.a], -1 });
         }
       }
     }
@@ -170,18 +173,19 @@ private:
   void crossings()
   {
     constexpr Index none = std::numeric_limits<Index>::max();
-    std::vector<Index> met(static_cast<std::size_t>(this->repaired_.triangles.rows()), none);
+    std::vector<Index> first_crossed(
+      static_cast<std::size_t>(this->repaired_.triangles.rows()), none);
     for (const auto& [s, t] : this->repaired_.crossings)
     {
-      met[s] = std::min(met[s], t);
-      met[t] = std::min(met[t], s);
+      first_crossed[s] = std::min(first_crossed[s], t);
+      first_crossed[t] = std::min(first_crossed[t], s);
     }
-    for (std::size_t t = 0; t < met.size(); ++t)
+    for (std::size_t t = 0; t < first_crossed.size(); ++t)
     {
-      if (met[t] != none)
+      if (first_crossed[t] != none)
       {
         this->add(Defect::self_intersection, this->repaired_.original_triangles[t],
-          this->repaired_.original_triangles[met[t]]);
+          this->repaired_.original_triangles[first_crossed[t]]);
       }
     }
   }
@@ -191,7 +195,7 @@ private:
   const RepairedSurface& repaired_;
   Components components_;
   std::vector<Index> id_; // id of an input vertex in the repaired surface, or -1
-  std::vector<DefectPlace> places_;
+  std::vector<DefectOccurrence> occurrences_;
 };
 } // namespace
 
@@ -203,7 +207,7 @@ const char* to_string(Defect defect)
   return words[static_cast<int>(defect)];
 }
 
-std::vector<DefectPlace> list_defects(
+std::vector<DefectOccurrence> list_defects(
   PointsView points, TrianglesView triangles, const RepairedSurface& repaired)
 {
   return Lister(points, triangles, repaired).run();

@@ -29,7 +29,7 @@ constexpr int defect_kinds = 9;
 const char* to_string(Defect defect);
 
 /// One occurrence of a defect.
-struct DefectPlace
+struct DefectOccurrence
 {
   Defect defect;
   std::vector<Index> vertices; ///< 1, 2 or 3 vertex ids of the input
@@ -44,7 +44,7 @@ struct DefectPlace
 /// given by the lowest ids of the welded vertices. A triangle that intersects several others is
 /// listed once. Cost: O(n log n).
 /// @param points, triangles the surface from which `repaired` was computed.
-std::vector<DefectPlace> list_defects(
+std::vector<DefectOccurrence> list_defects(
   PointsView points, TrianglesView triangles, const RepairedSurface& repaired);
 
 } // namespace bindpose

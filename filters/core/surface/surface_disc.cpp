@@ -37,21 +37,21 @@ SurfaceDisc::SurfaceDisc(PointsView points, TrianglesView triangles)
   {
     this->first_[v + 1] += this->first_[v];
   }
-  this->around_.resize(static_cast<std::size_t>(3 * triangles.rows()));
+  this->vertex_triangles_.resize(static_cast<std::size_t>(3 * triangles.rows()));
   std::vector<Index> next(this->first_.begin(), this->first_.end() - 1);
   for (Index f = 0; f < triangles.rows(); ++f)
   {
     for (int k = 0; k < 3; ++k)
     {
-      this->around_[static_cast<std::size_t>(next[static_cast<std::size_t>(triangles(f, k))]++)] =
-        f;
+      this->vertex_triangles_[static_cast<std::size_t>(
+        next[static_cast<std::size_t>(triangles(f, k))]++)] = f;
     }
   }
   this->distance_.assign(count, infinity);
   this->done_.assign(count, 0);
 }
 
-double SurfaceDisc::carried(Index a, Index b, Index c) const
+double SurfaceDisc::propagated_distance(Index a, Index b, Index c) const
 {
   const Vec3 pa = this->points_.row(a);
   const Vec3 pb = this->points_.row(b);
@@ -86,10 +86,10 @@ double SurfaceDisc::carried(Index a, Index b, Index c) const
 }
 
 std::vector<SurfaceDisc::Found> SurfaceDisc::within(
-  const Vec3& place, Index triangle, double radius) const
+  const Vec3& point, Index triangle, double radius) const
 {
   std::vector<Found> found;
-  if (triangle < 0 || triangle >= this->triangles_.rows() || !place.allFinite())
+  if (triangle < 0 || triangle >= this->triangles_.rows() || !point.allFinite())
   {
     return found;
   }
@@ -112,7 +112,7 @@ std::vector<SurfaceDisc::Found> SurfaceDisc::within(
   for (int k = 0; k < 3; ++k)
   {
     const Index vertex = this->triangles_(triangle, k);
-    offer(vertex, (Vec3(this->points_.row(vertex)) - place).norm());
+    offer(vertex, (Vec3(this->points_.row(vertex)) - point).norm());
   }
   while (!queue.empty())
   {
@@ -127,14 +127,14 @@ std::vector<SurfaceDisc::Found> SurfaceDisc::within(
     found.emplace_back(vertex, distance);
     for (Index i = this->first_[v]; i < this->first_[v + 1]; ++i)
     {
-      const auto t = this->triangles_.row(this->around_[static_cast<std::size_t>(i)]);
+      const auto t = this->triangles_.row(this->vertex_triangles_[static_cast<std::size_t>(i)]);
       for (int k = 0; k < 3; ++k)
       {
         const Index other = t[k];
         const Index third = t[0] + t[1] + t[2] - vertex - other;
         if (other != vertex && third != vertex && third != other)
         {
-          offer(other, this->carried(vertex, third, other));
+          offer(other, this->propagated_distance(vertex, third, other));
         }
       }
     }

@@ -19,22 +19,22 @@ public:
 
   /// A vertex and its geodesic distance.
   using Found = std::pair<Index, double>;
-  /// Find the vertices within `radius` of `place`, a point on triangle `triangle`. Distances are
+  /// Find the vertices within `radius` of `point`, a point on triangle `triangle`. Distances are
   /// propagated from triangle to triangle, as if the surface were unfolded into the plane of each
   /// triangle. The distances are exact if the surface is flat around the point, and never less than
   /// the straight-line distance. Distances do not propagate across gaps of the surface.
   /// @return vertices and distances, sorted by distance
-  std::vector<Found> within(const Vec3& place, Index triangle, double radius) const;
+  std::vector<Found> within(const Vec3& point, Index triangle, double radius) const;
 
 private:
   /// Return the geodesic distance of vertex c of the triangle a b c, computed from the distances of
   /// a and b.
-  double carried(Index a, Index b, Index c) const;
+  double propagated_distance(Index a, Index b, Index c) const;
 
   PointsView points_;
   TrianglesView triangles_;
   std::vector<Index> first_; // #V + 1: index in around_ of each vertex's first triangle
-  std::vector<Index> around_; // triangles around each vertex
+  std::vector<Index> vertex_triangles_; // triangles around each vertex
   mutable std::vector<double> distance_; // #V: distances; infinity, except while within() runs
   mutable std::vector<char> done_;
 };

@@ -52,18 +52,18 @@ std::vector<SurfaceProbe::Hit> SurfaceProbe::hits(const Vec3& origin, const Vec3
     [](const Hit& a, const Hit& b)
     { return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle; });
   // At a shared edge or vertex, several triangles report the same intersection.
-  std::vector<Hit> once;
+  std::vector<Hit> unique_hits;
   for (const Hit& hit : all)
   {
-    const bool again = std::any_of(once.rbegin(), once.rend(),
+    const bool again = std::any_of(unique_hits.rbegin(), unique_hits.rend(),
       [&](const Hit& other)
       { return other.enters == hit.enters && hit.distance - other.distance <= same_hit * far; });
     if (!again)
     {
-      once.push_back(hit);
+      unique_hits.push_back(hit);
     }
   }
-  return once;
+  return unique_hits;
 }
 
 bool SurfaceProbe::first_inside(const Vec3& origin, const Vec3& direction, LineSpan& span) const

@@ -92,9 +92,9 @@ double area(const Points& points, const Triangles& triangles, Index t)
 /// In every patch with inconsistent orientations, flip the triangles of the orientation with the
 /// smaller area.
 /// @return the number of flipped triangles.
-Index agree_within_patches(const Points& points, Triangles& triangles)
+Index orient_patches(const Points& points, Triangles& triangles)
 {
-  Index turned = 0;
+  Index flipped = 0;
   for (const OrientedPatch& patch : oriented_patches(triangles))
   {
     if (!patch.orientable)
@@ -104,19 +104,19 @@ Index agree_within_patches(const Points& points, Triangles& triangles)
     double areas[2] = { 0.0, 0.0 };
     for (std::size_t i = 0; i < patch.triangles.size(); ++i)
     {
-      areas[patch.turned[i]] += area(points, triangles, patch.triangles[i]);
+      areas[patch.flipped[i]] += area(points, triangles, patch.triangles[i]);
     }
     const int minority = areas[1] <= areas[0] ? 1 : 0;
     for (std::size_t i = 0; i < patch.triangles.size(); ++i)
     {
-      if (patch.turned[i] == minority)
+      if (patch.flipped[i] == minority)
       {
         std::swap(triangles(patch.triangles[i], 1), triangles(patch.triangles[i], 2));
-        ++turned;
+        ++flipped;
       }
     }
   }
-  return turned;
+  return flipped;
 }
 
 struct Shell
@@ -192,7 +192,7 @@ std::vector<Shell> find_shells(
     Index& shell = shell_of_patch[patch[t]];
     if (!closed_patch[patch[t]])
     {
-      shell = components.of_vertex[triangles(t, 0)];
+      shell = components.component_of_vertex[triangles(t, 0)];
     }
     else if (shell < 0)
     {
@@ -274,15 +274,15 @@ std::vector<Vec3> test_points_of(
 /// points times the number of triangles is small, else by counting crossings. Return false if
 /// canceled.
 bool winding_numbers(ExecutionContext& context, const Points& points, const Triangles& triangles,
-  const Shell& shell, const std::vector<Vec3>& places, Eigen::VectorXd& numbers)
+  const Shell& shell, const std::vector<Vec3>& query_points, Eigen::VectorXd& windings)
 {
-  constexpr std::size_t few_angles = 100000;
-  numbers.resize(static_cast<Index>(places.size()));
-  if (places.size() * shell.triangles.size() <= few_angles)
+  constexpr std::size_t maximum_direct_angles = 100000;
+  windings.resize(static_cast<Index>(query_points.size()));
+  if (query_points.size() * shell.triangles.size() <= maximum_direct_angles)
   {
-    for (std::size_t i = 0; i < places.size(); ++i)
+    for (std::size_t i = 0; i < query_points.size(); ++i)
     {
-      numbers[static_cast<Index>(i)] = winding_of_shell(points, triangles, shell, places[i]);
+      windings[static_cast<Index>(i)] = winding_of_shell(points, triangles, shell, query_points[i]);
     }
     return !context.canceled();
   }
@@ -312,19 +312,19 @@ bool winding_numbers(ExecutionContext& context, const Points& points, const Tria
         vertices.begin();
     }
   }
-  Points queries(numbers.size(), 3);
+  Points queries(windings.size(), 3);
   for (Index i = 0; i < queries.rows(); ++i)
   {
-    queries.row(i) = places[i].transpose();
+    queries.row(i) = query_points[i].transpose();
   }
-  ExecutionContext quiet({}, [&context] { return context.canceled(); });
-  quiet.set_threads(context.threads());
+  ExecutionContext silent_context({}, [&context] { return context.canceled(); });
+  silent_context.set_threads(context.threads());
   WindingNumber::Options options;
   options.method = WindingMethod::exact;
   options.expected_queries = queries.rows();
   WindingNumber winding;
-  Status status = winding.build(quiet, own_points, own, options);
-  status = status.ok() ? winding.evaluate(quiet, queries, numbers.data()) : status;
+  Status status = winding.build(silent_context, own_points, own, options);
+  status = status.ok() ? winding.evaluate(silent_context, queries, windings.data()) : status;
   return status.ok();
 }
 
@@ -401,7 +401,7 @@ private:
 struct InwardShells
 {
   std::vector<Index> roots; ///< shells that are inside out
-  std::vector<Index> turn; ///< the shells in `roots` and the closed shells inside them
+  std::vector<Index> shells_to_flip; ///< the shells in `roots` and the closed shells inside them
 };
 
 /// Find the shells that are inside out. Return false if canceled.
@@ -435,17 +435,17 @@ bool inward_shells(ExecutionContext& context, const Points& points, const Triang
   // Process shells by descending volume. For each shell that is in no other shell, find all smaller
   // shells inside it.
   std::vector<Index> container(shells.size(), -1);
-  std::vector<char> turned(shells.size(), 0);
+  std::vector<char> flipped(shells.size(), 0);
   for (const Index s : order)
   {
     if (container[s] >= 0)
     {
-      turned[s] = turned[container[s]];
+      flipped[s] = flipped[container[s]];
     }
     else
     {
-      turned[s] = shells[s].volume < 0.0;
-      if (turned[s])
+      flipped[s] = shells[s].volume < 0.0;
+      if (flipped[s])
       {
         result.roots.push_back(s);
       }
@@ -458,38 +458,38 @@ bool inward_shells(ExecutionContext& context, const Points& points, const Triang
             inner.push_back(t);
           }
         });
-      std::vector<Vec3> places;
+      std::vector<Vec3> query_points;
       std::vector<std::size_t> begin{ 0 };
       for (const Index t : inner)
       {
         const std::vector<Vec3> test_points = test_points_of(points, triangles, shells[t]);
-        places.insert(places.end(), test_points.begin(), test_points.end());
-        begin.push_back(places.size());
+        query_points.insert(query_points.end(), test_points.begin(), test_points.end());
+        begin.push_back(query_points.size());
       }
-      Eigen::VectorXd numbers;
-      if (!places.empty() &&
-        !winding_numbers(context, points, triangles, shells[s], places, numbers))
+      Eigen::VectorXd windings;
+      if (!query_points.empty() &&
+        !winding_numbers(context, points, triangles, shells[s], query_points, windings))
       {
         return false;
       }
       for (std::size_t i = 0; i < inner.size(); ++i)
       {
         constexpr double inside = 0.75;
-        const auto here = numbers.segment(
+        const auto here = windings.segment(
           static_cast<Index>(begin[i]), static_cast<Index>(begin[i + 1] - begin[i]));
         const Index in = (here.array().abs() > inside).count();
         container[inner[i]] = 2 * in > here.size() ? s : -1;
       }
     }
-    if (turned[s])
+    if (flipped[s])
     {
-      result.turn.push_back(s);
+      result.shells_to_flip.push_back(s);
     }
   }
   return true;
 }
 
-void weld_and_drop(PointsView points, TrianglesView triangles, const RepairOptions& options,
+void weld_and_remove_flat(PointsView points, TrianglesView triangles, const RepairOptions& options,
   RepairedSurface& repaired)
 {
   SurfaceDiagnosis& found = repaired.found;
@@ -498,33 +498,33 @@ void weld_and_drop(PointsView points, TrianglesView triangles, const RepairOptio
   {
     used[triangles.data()[k]] = 1;
   }
-  Points moved = points;
+  Points snapped = points;
   if (options.snap > 0.0)
   {
-    snap_points(moved, used, options.snap);
+    snap_points(snapped, used, options.snap);
   }
-  const std::vector<Index> weld = lowest_at_place(moved, used);
+  const std::vector<Index> weld = find_representatives(snapped, used);
   for (Index v = 0; v < points.rows(); ++v)
   {
     found.unreferenced_vertices += !used[v];
     found.duplicate_vertices += weld[v] != v;
   }
-  std::vector<char> keep(static_cast<std::size_t>(points.rows()), 0);
+  std::vector<char> is_used(static_cast<std::size_t>(points.rows()), 0);
   for (Index t = 0; t < triangles.rows(); ++t)
   {
     const Key key{ weld[triangles(t, 0)], weld[triangles(t, 1)], weld[triangles(t, 2)] };
-    if (collinear(moved.row(key[0]), moved.row(key[1]), moved.row(key[2])))
+    if (collinear(snapped.row(key[0]), snapped.row(key[1]), snapped.row(key[2])))
     {
       found.degenerate_triangles += 1;
       continue;
     }
     repaired.original_triangles.push_back(t);
-    keep[key[0]] = keep[key[1]] = keep[key[2]] = 1;
+    is_used[key[0]] = is_used[key[1]] = is_used[key[2]] = 1;
   }
-  std::vector<Index> id(keep.size(), -1);
+  std::vector<Index> id(is_used.size(), -1);
   for (Index v = 0; v < points.rows(); ++v)
   {
-    if (keep[v])
+    if (is_used[v])
     {
       id[v] = static_cast<Index>(repaired.original_vertices.size());
       repaired.original_vertices.push_back(v);
@@ -533,7 +533,7 @@ void weld_and_drop(PointsView points, TrianglesView triangles, const RepairOptio
   repaired.points.resize(static_cast<Index>(repaired.original_vertices.size()), 3);
   for (Index v = 0; v < repaired.points.rows(); ++v)
   {
-    repaired.points.row(v) = moved.row(repaired.original_vertices[v]);
+    repaired.points.row(v) = snapped.row(repaired.original_vertices[v]);
   }
   repaired.triangles.resize(static_cast<Index>(repaired.original_triangles.size()), 3);
   for (Index t = 0; t < repaired.triangles.rows(); ++t)
@@ -543,7 +543,7 @@ void weld_and_drop(PointsView points, TrianglesView triangles, const RepairOptio
       repaired.triangles(t, k) = id[weld[triangles(repaired.original_triangles[t], k)]];
     }
   }
-  repaired.lowest_equal = weld;
+  repaired.representative_of_vertex = weld;
 }
 
 Index count_duplicates(const Triangles& triangles)
@@ -594,7 +594,7 @@ Status repair_surface(ExecutionContext& context, PointsView points, TrianglesVie
   SurfaceDiagnosis& found = repaired.found;
   found.vertices = points.rows();
   found.triangles = triangles.rows();
-  weld_and_drop(points, triangles, options, repaired);
+  weld_and_remove_flat(points, triangles, options, repaired);
   found.flat = is_flat(repaired.points, repaired.triangles);
   found.duplicate_triangles = count_duplicates(repaired.triangles);
   const EdgeCounts edges = count_edges(repaired.triangles);
@@ -608,7 +608,7 @@ Status repair_surface(ExecutionContext& context, PointsView points, TrianglesVie
   }
   if (options.orient && found.misoriented_edges > 0)
   {
-    repaired.turned_triangles = agree_within_patches(repaired.points, repaired.triangles);
+    repaired.flipped_triangles = orient_patches(repaired.points, repaired.triangles);
   }
   const Components components = connected_components(repaired.points.rows(), repaired.triangles);
   const std::vector<Shell> shells = shells_of(repaired.points, repaired.triangles, components);
@@ -629,8 +629,8 @@ Status repair_surface(ExecutionContext& context, PointsView points, TrianglesVie
   std::sort(repaired.inward_triangles.begin(), repaired.inward_triangles.end());
   if (options.orient)
   {
-    repaired.turned_components = found.inward_components;
-    for (const Index s : inward.turn)
+    repaired.flipped_components = found.inward_components;
+    for (const Index s : inward.shells_to_flip)
     {
       for (const Index t : shells[s].triangles)
       {
@@ -639,7 +639,7 @@ Status repair_surface(ExecutionContext& context, PointsView points, TrianglesVie
     }
   }
   repaired.closed =
-    repaired.turned_triangles == 0 ? found.closed : count_edges(repaired.triangles).closed;
+    repaired.flipped_triangles == 0 ? found.closed : count_edges(repaired.triangles).closed;
   if (options.count_self_intersections)
   {
     if (!crossing_pairs(context, repaired.points, repaired.triangles, repaired.crossings))

@@ -66,13 +66,13 @@ struct RepairedSurface
   std::vector<Index> original_vertices; ///< #V: the lowest input id of the welded vertices
   std::vector<Index> original_triangles; ///< #F: input ids of the triangles
   /// #V of the input: the lowest id of the input vertices welded with this one, usually its own id.
-  std::vector<Index> lowest_equal;
+  std::vector<Index> representative_of_vertex;
   /// Pairs (triangle, component) for all triangles of closed components that are inside out,
   /// ascending. Components are numbered from 0 to found.inward_components - 1.
   std::vector<std::pair<Index, Index>> inward_triangles;
   SurfaceDiagnosis found; ///< defects of the input, before any triangle was flipped
-  Index turned_triangles = 0; ///< number of triangles flipped to agree with their neighbors
-  Index turned_components = 0; ///< number of closed components that were inside out
+  Index flipped_triangles = 0; ///< number of triangles flipped to agree with their neighbors
+  Index flipped_components = 0; ///< number of closed components that were inside out
   std::vector<std::pair<Index, Index>> crossings; ///< pairs of crossing triangles of this surface
   bool closed = false; ///< value of found.closed after triangles were flipped
 

@@ -137,9 +137,9 @@ int orientation_3d(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d)
   // a fourth of the products.
   if (is_exact(a, d) && is_exact(b, d) && is_exact(c, d))
   {
-    ExactSum<12> of_differences;
-    add_determinant(of_differences, 1.0, u, v, w);
-    return -of_differences.sign();
+    ExactSum<12> translated_sum;
+    add_determinant(translated_sum, 1.0, u, v, w);
+    return -translated_sum.sign();
   }
   ExactSum<48> sum;
   add_determinant(sum, 1.0, b, c, d);

@@ -8,7 +8,7 @@
 namespace bindpose
 {
 
-double smallest_corner(const Vec3& a, const Vec3& b, const Vec3& c)
+double smallest_triangle_angle(const Vec3& a, const Vec3& b, const Vec3& c)
 {
   constexpr double degrees = 57.295779513082320877;
   const std::array<Vec3, 3> p{ a, b, c };
@@ -27,7 +27,7 @@ Index count_needles(PointsView points, TrianglesView triangles, double angle)
   Index count = 0;
   for (Index t = 0; t < triangles.rows(); ++t)
   {
-    count += smallest_corner(points.row(triangles(t, 0)), points.row(triangles(t, 1)),
+    count += smallest_triangle_angle(points.row(triangles(t, 0)), points.row(triangles(t, 1)),
                points.row(triangles(t, 2))) < angle;
   }
   return count;

@@ -19,7 +19,7 @@ namespace bindpose
 namespace
 {
 constexpr Index leaf_size = 4;
-constexpr Index most_crossings = 1000;
+constexpr Index maximum_crossings = 1000;
 
 bool boxes_meet(const Box& a, const Box& b)
 {
@@ -63,7 +63,7 @@ TriangleTree::TriangleTree(PointsView points, TrianglesView triangles)
 
 Box TriangleTree::build(std::vector<Item>& items, Index begin, Index end)
 {
-  const std::size_t self = this->nodes_.size();
+  const std::size_t node_id = this->nodes_.size();
   this->nodes_.push_back({ Box(), begin, end, -1 });
   Box box;
   if (end - begin <= leaf_size)
@@ -74,7 +74,7 @@ Box TriangleTree::build(std::vector<Item>& items, Index begin, Index end)
       box.add(one.lower);
       box.add(one.upper);
     }
-    this->leaves_.push_back(static_cast<Index>(self));
+    this->leaves_.push_back(static_cast<Index>(node_id));
   }
   else
   {
@@ -93,12 +93,12 @@ Box TriangleTree::build(std::vector<Item>& items, Index begin, Index end)
                                                 : a.triangle < b.triangle;
       });
     box = this->build(items, begin, middle);
-    this->nodes_[self].right = static_cast<Index>(this->nodes_.size());
+    this->nodes_[node_id].right = static_cast<Index>(this->nodes_.size());
     const Box right = this->build(items, middle, end);
     box.add(right.lower);
     box.add(right.upper);
   }
-  this->nodes_[self].box = box;
+  this->nodes_[node_id].box = box;
   return box;
 }
 
@@ -183,7 +183,7 @@ void TriangleTree::visit(const Enter& enter, const AtLeaf& at_leaf) const
 }
 
 bool TriangleTree::segment_meets(
-  const Vec3& a, const Vec3& b, const std::function<bool(Index)>& counts) const
+  const Vec3& a, const Vec3& b, const std::function<bool(Index)>& accept) const
 {
   Box box;
   box.add(a);
@@ -218,7 +218,7 @@ bool TriangleTree::segment_meets(
       for (Index i = node.begin; i < node.end && !met; ++i)
       {
         const auto t = this->triangles_.row(this->order_[i]);
-        met = passes(this->boxes_[i]) && counts(this->order_[i]) &&
+        met = passes(this->boxes_[i]) && accept(this->order_[i]) &&
           segment_meets_triangle(
             a, b, this->points_.row(t[0]), this->points_.row(t[1]), this->points_.row(t[2]));
       }
@@ -229,16 +229,17 @@ bool TriangleTree::segment_meets(
 
 void TriangleTree::pairs_of_leaf(Index leaf, const std::function<bool(Index, Index)>& found) const
 {
-  const Node& own = this->nodes_[this->leaves_[leaf]];
+  const Node& query_node = this->nodes_[this->leaves_[leaf]];
   std::array<bool, leaf_size> finished{};
-  Index left = own.end - own.begin; // number of triangles of this leaf whose search continues
+  Index left =
+    query_node.end - query_node.begin; // number of triangles of this leaf whose search continues
   this->visit([&](const Node& node)
-    { return node.end > own.begin && boxes_meet(node.box, own.box); },
+    { return node.end > query_node.begin && boxes_meet(node.box, query_node.box); },
     [&](const Node& node)
     {
-      for (Index i = own.begin; i < own.end; ++i)
+      for (Index i = query_node.begin; i < query_node.end; ++i)
       {
-        bool& done = finished[i - own.begin];
+        bool& done = finished[i - query_node.begin];
         for (Index j = std::max(i + 1, node.begin); j < node.end && !done; ++j)
         {
           if (boxes_meet(this->boxes_[i], this->boxes_[j]) &&
@@ -271,14 +272,14 @@ bool crossing_pairs(ExecutionContext& context, PointsView points, TrianglesView 
         tree.pairs_of_leaf(leaf,
           [&](Index f, Index g)
           {
-            constexpr Index often = 1024;
-            const bool goes_on = ++looked % often != 0 || !context.canceled();
+            constexpr Index check_interval = 1024;
+            const bool goes_on = ++looked % check_interval != 0 || !context.canceled();
             if (!triangles_cross(points, triangles, f, g))
             {
               return goes_on;
             }
             mine.push_back(std::minmax(f, g));
-            return goes_on && ++crossed[f] < most_crossings;
+            return goes_on && ++crossed[f] < maximum_crossings;
           });
       }
     });

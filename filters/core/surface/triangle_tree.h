@@ -27,7 +27,7 @@ public:
 
   /// Report whether the segment from a to b intersects a triangle for which counts() returns true.
   /// Thread-safe.
-  bool segment_meets(const Vec3& a, const Vec3& b, const std::function<bool(Index)>& counts) const;
+  bool segment_meets(const Vec3& a, const Vec3& b, const std::function<bool(Index)>& accept) const;
 
   /// Return the number of leaves. Each leaf contains a few triangles.
   Index leaf_count() const { return static_cast<Index>(this->leaves_.size()); }

@@ -24,12 +24,12 @@ int compare(const PointsView& points, Index a, Index b)
 }
 } // namespace
 
-bool same_place(const PointsView& points, Index a, Index b)
+bool are_coincident(const PointsView& points, Index a, Index b)
 {
   return compare(points, a, b) == 0;
 }
 
-std::vector<Index> spatial_sort(const PointsView& points, const std::vector<char>& used)
+std::vector<Index> lexicographic_order(const PointsView& points, const std::vector<char>& used)
 {
   struct Entry
   {
@@ -63,14 +63,14 @@ std::vector<Index> spatial_sort(const PointsView& points, const std::vector<char
   return order;
 }
 
-std::vector<Index> lowest_at_place(const PointsView& points, const std::vector<char>& used)
+std::vector<Index> find_representatives(const PointsView& points, const std::vector<char>& used)
 {
-  const std::vector<Index> order = spatial_sort(points, used);
+  const std::vector<Index> order = lexicographic_order(points, used);
   std::vector<Index> lowest(static_cast<std::size_t>(points.rows()));
   std::iota(lowest.begin(), lowest.end(), Index(0));
   for (std::size_t i = 1; i < order.size(); ++i)
   {
-    if (same_place(points, order[i - 1], order[i]))
+    if (are_coincident(points, order[i - 1], order[i]))
     {
       lowest[order[i]] = lowest[order[i - 1]];
     }

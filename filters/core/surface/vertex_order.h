@@ -9,15 +9,15 @@ namespace bindpose
 {
 
 /// Report whether two vertices have the same coordinates.
-bool same_place(const PointsView& points, Index a, Index b);
+bool are_coincident(const PointsView& points, Index a, Index b);
 
 /// Return the used vertices sorted lexicographically by coordinates. Equal vertices are sorted by
 /// id.
-std::vector<Index> spatial_sort(const PointsView& points, const std::vector<char>& used);
+std::vector<Index> lexicographic_order(const PointsView& points, const std::vector<char>& used);
 
 /// For every vertex, return the lowest id of the used vertices with the same coordinates. An unused
 /// vertex gets its own id.
-std::vector<Index> lowest_at_place(const PointsView& points, const std::vector<char>& used);
+std::vector<Index> find_representatives(const PointsView& points, const std::vector<char>& used);
 
 } // namespace bindpose
 

@@ -15,7 +15,7 @@ struct ImproveOptions
   double angle = 12.0;
   /// A held (constrained) vertex may move if a tet at the vertex remains below this angle, degrees.
   /// 0: held vertices never move.
-  double least_angle = 8.5;
+  double release_angle = 8.5;
   Index passes = 20; ///< maximum number of passes over the tets that are too flat
   /// Whether boundary triangles stay unchanged, except as `coplanar` allows.
   bool keep_boundary = false;

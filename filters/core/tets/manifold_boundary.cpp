@@ -18,27 +18,27 @@ namespace bindpose
 
 namespace
 {
-class Facets
+class FacetAdjacency
 {
 public:
-  explicit Facets(TetsView tets)
-    : tets_(tets), other_(static_cast<std::size_t>(4 * tets.rows()), -1)
+  explicit FacetAdjacency(TetsView tets)
+    : tets_(tets), opposite_facets_(static_cast<std::size_t>(4 * tets.rows()), -1)
   {
     const std::vector<TetFacet> facets = tet_facets(tets);
     for (std::size_t i = 1; i < facets.size(); ++i)
     {
       if (facets[i].vertices == facets[i - 1].vertices)
       {
-        const Index first = number_of(facets[i - 1]);
-        const Index second = number_of(facets[i]);
-        this->other_[first] = second;
-        this->other_[second] = first;
+        const Index first = facet_id(facets[i - 1]);
+        const Index second = facet_id(facets[i]);
+        this->opposite_facets_[first] = second;
+        this->opposite_facets_[second] = first;
       }
     }
   }
 
   /// Return the id of the same facet in the tet on its other side, or -1 on the boundary.
-  Index other(Index facet) const { return this->other_[facet]; }
+  Index opposite_facet(Index facet) const { return this->opposite_facets_[facet]; }
 
   std::array<Index, 3> corners(Index facet) const
   {
@@ -48,7 +48,7 @@ public:
   }
 
   /// Return the other facet of the same tet that has the edge from a to b.
-  Index around(Index facet, Index a, Index b) const
+  Index adjacent_facet(Index facet, Index a, Index b) const
   {
     const Index first = facet - facet % 4;
     for (Index k = first; k < first + 4; ++k)
@@ -65,9 +65,10 @@ public:
   /// Return the boundary facet that bounds the same wedge of tets at the edge from a to b.
   Index neighbor(Index facet, Index a, Index b) const
   {
-    for (Index next = this->around(facet, a, b);; next = this->around(this->other(next), a, b))
+    for (Index next = this->adjacent_facet(facet, a, b);;
+         next = this->adjacent_facet(this->opposite_facet(next), a, b))
     {
-      if (this->other(next) < 0)
+      if (this->opposite_facet(next) < 0)
       {
         return next;
       }
@@ -75,49 +76,50 @@ public:
   }
 
 private:
-  static Index number_of(const TetFacet& facet) { return 4 * facet.tet + facet.side; }
+  static Index facet_id(const TetFacet& facet) { return 4 * facet.tet + facet.side; }
 
   TetsView tets_;
-  std::vector<Index> other_;
+  std::vector<Index> opposite_facets_;
 };
 
 /// The triangles of the boundary with their neighbors across edges. Side 3 f + k is the side from
 /// corner k of triangle f to the next corner.
-struct Skin
+struct BoundaryMesh
 {
   /// Corners of the triangles, as ids of the tets' vertices.
   std::vector<std::array<Index, 3>> corners;
   std::vector<Index> opposite; ///< per side: the side of the neighboring triangle
 };
 
-Skin skin_of(TetsView tets)
+BoundaryMesh skin_of(TetsView tets)
 {
-  const Facets facets(tets);
-  Skin skin;
+  const FacetAdjacency facets(tets);
+  BoundaryMesh boundary_mesh;
   std::vector<Index> boundary;
   std::vector<Index> triangle_of(static_cast<std::size_t>(4 * tets.rows()), -1);
   for (Index facet = 0; facet < 4 * tets.rows(); ++facet)
   {
-    if (facets.other(facet) < 0)
+    if (facets.opposite_facet(facet) < 0)
     {
       triangle_of[facet] = static_cast<Index>(boundary.size());
       boundary.push_back(facet);
-      skin.corners.push_back(facets.corners(facet));
+      boundary_mesh.corners.push_back(facets.corners(facet));
     }
   }
   for (std::size_t f = 0; f < boundary.size(); ++f)
   {
     for (int k = 0; k < 3; ++k)
     {
-      const Index a = skin.corners[f][k];
-      const Index b = skin.corners[f][(k + 1) % 3];
+      const Index a = boundary_mesh.corners[f][k];
+      const Index b = boundary_mesh.corners[f][(k + 1) % 3];
       const Index neighbor = triangle_of[facets.neighbor(boundary[f], a, b)];
-      const std::array<Index, 3>& theirs = skin.corners[neighbor];
-      skin.opposite.push_back(3 * neighbor +
-        static_cast<Index>(std::find(theirs.begin(), theirs.end(), b) - theirs.begin()));
+      const std::array<Index, 3>& neighbor_corners = boundary_mesh.corners[neighbor];
+      boundary_mesh.opposite.push_back(3 * neighbor +
+        static_cast<Index>(std::find(neighbor_corners.begin(), neighbor_corners.end(), b) -
+          neighbor_corners.begin()));
     }
   }
-  return skin;
+  return boundary_mesh;
 }
 
 Index next_side(Index side)
@@ -149,23 +151,23 @@ std::vector<char> doubled_sides(const std::vector<Index>& vertex)
 
 TriangleMesh manifold_boundary(const TetMesh& tets)
 {
-  const Skin skin = skin_of(tets.tets);
-  const auto count = static_cast<Index>(skin.opposite.size());
-  DisjointSets<Index> corners(skin.opposite.size());
+  const BoundaryMesh boundary_mesh = skin_of(tets.tets);
+  const auto count = static_cast<Index>(boundary_mesh.opposite.size());
+  DisjointSets<Index> corners(boundary_mesh.opposite.size());
   for (Index side = 0; side < count; ++side)
   {
-    corners.unite(side, next_side(skin.opposite[side]));
-    corners.unite(next_side(side), skin.opposite[side]);
+    corners.unite(side, next_side(boundary_mesh.opposite[side]));
+    corners.unite(next_side(side), boundary_mesh.opposite[side]);
   }
   std::vector<Vec3> points;
-  std::vector<Index> vertex(skin.opposite.size(), -1); // output vertex at each corner
+  std::vector<Index> vertex(boundary_mesh.opposite.size(), -1); // output vertex at each corner
   for (Index corner = 0; corner < count; ++corner)
   {
     const Index first = corners.find(corner); // the first corner of the set already has a vertex
     if (first == corner)
     {
       vertex[corner] = static_cast<Index>(points.size());
-      points.emplace_back(tets.points.row(skin.corners[corner / 3][corner % 3]));
+      points.emplace_back(tets.points.row(boundary_mesh.corners[corner / 3][corner % 3]));
     }
     vertex[corner] = vertex[first];
   }
@@ -177,7 +179,7 @@ TriangleMesh manifold_boundary(const TetMesh& tets)
   {
     if (doubled[side] && middle[side] < 0)
     {
-      middle[side] = middle[skin.opposite[side]] = static_cast<Index>(points.size());
+      middle[side] = middle[boundary_mesh.opposite[side]] = static_cast<Index>(points.size());
       points.push_back(0.5 * (points[vertex[side]] + points[vertex[next_side(side)]]));
     }
   }

@@ -23,18 +23,18 @@ Index fill_cavity(TetComplex& tets, const Vec3& p, const TetCavity& cavity)
   return v;
 }
 
-bool CavitySearch::find(const Vec3& p, Index start, double least, TetCavity& cavity)
+bool CavitySearch::find(const Vec3& p, Index start, double minimum_quality, TetCavity& cavity)
 {
-  const auto tets = static_cast<std::size_t>(this->tets_.tet_ids());
+  const auto tets = static_cast<std::size_t>(this->tets_.tet_id_limit());
   this->cavity_.resize(tets, 0);
   this->site_ids_.resize(tets, 0);
   this->collect_sphere(p, start);
-  if (!this->shrink(p, start, least))
+  if (!this->shrink(p, start, minimum_quality))
   {
     return false;
   }
   this->collect_connected(start, cavity);
-  return this->keeps_all(p, cavity);
+  return this->preserves_volume(p, cavity);
 }
 
 bool CavitySearch::in_sphere(const Tet& tet, const Vec3& p) const
@@ -58,14 +58,14 @@ void CavitySearch::add_site(Index t)
 }
 
 /// Return the tet beyond facet k of a tet of the cavity.
-Index CavitySearch::beyond_of_site(Index t, int k)
+Index CavitySearch::site_neighbor(Index t, int k)
 {
-  Index& next = this->site_of(t).beyond[k];
+  Index& next = this->site_of(t).neighbor_tet[k];
   if (next == Site::unknown)
   {
     const Tet& tet = this->tets_.tet(t);
     const auto& f = facet_corners[k];
-    next = this->tets_.beyond(t, tet[f[0]], tet[f[1]], tet[f[2]]);
+    next = this->tets_.neighbor_tet(t, tet[f[0]], tet[f[1]], tet[f[2]]);
   }
   return next;
 }
@@ -80,8 +80,8 @@ void CavitySearch::collect_sphere(const Vec3& p, Index start)
   {
     for (int k = 0; k < 4; ++k)
     {
-      const Index next = this->beyond_of_site(this->queue_[i], k);
-      if (next >= 0 && !this->joins(next) && this->in_sphere(this->tets_.tet(next), p))
+      const Index next = this->site_neighbor(this->queue_[i], k);
+      if (next >= 0 && !this->is_in_cavity(next) && this->in_sphere(this->tets_.tet(next), p))
       {
         this->add_site(next);
         ++this->evaluations_;
@@ -90,9 +90,9 @@ void CavitySearch::collect_sphere(const Vec3& p, Index start)
   }
 }
 
-bool CavitySearch::facet_fits(const Vec3& p, Index t, int k, double least)
+bool CavitySearch::facet_fits(const Vec3& p, Index t, int k, double minimum_quality)
 {
-  double& fit = this->site_of(t).fits[k];
+  double& fit = this->site_of(t).qualities[k];
   if (std::isnan(fit))
   {
     ++this->evaluations_;
@@ -100,7 +100,7 @@ bool CavitySearch::facet_fits(const Vec3& p, Index t, int k, double least)
     fit = TetComplex::quality(
       this->tets_.point(f[0]), this->tets_.point(f[1]), this->tets_.point(f[2]), p);
   }
-  return fit >= least;
+  return fit >= minimum_quality;
 }
 
 /// Return facet k of a tet, oriented as seen from inside the tet.
@@ -113,18 +113,19 @@ CavitySearch::Facet CavitySearch::facet_inwards(Index t, int k) const
 
 /// Remove each tet of the cavity that has a facet with which p would form too flat a tet. After
 /// each removal, check the neighbors of the removed tet again. @return false if `start` is removed.
-bool CavitySearch::shrink(const Vec3& p, Index start, double least)
+bool CavitySearch::shrink(const Vec3& p, Index start, double minimum_quality)
 {
   for (std::size_t next = 0; next < this->queue_.size(); ++next)
   {
     const Index t = this->queue_[next];
-    if (!this->joins(t))
+    if (!this->is_in_cavity(t))
     {
       continue;
     }
     for (int k = 0; k < 4; ++k)
     {
-      if (this->joins(this->beyond_of_site(t, k)) || this->facet_fits(p, t, k, least))
+      if (this->is_in_cavity(this->site_neighbor(t, k)) ||
+        this->facet_fits(p, t, k, minimum_quality))
       {
         continue;
       }
@@ -135,8 +136,8 @@ bool CavitySearch::shrink(const Vec3& p, Index start, double least)
       this->cavity_[t] = 0;
       for (int other = 0; other < 4; ++other)
       {
-        const Index neighbor = this->beyond_of_site(t, other);
-        if (this->joins(neighbor))
+        const Index neighbor = this->site_neighbor(t, other);
+        if (this->is_in_cavity(neighbor))
         {
           this->queue_.push_back(neighbor);
         }
@@ -159,8 +160,8 @@ void CavitySearch::collect_connected(Index start, TetCavity& cavity)
     const Index t = cavity.tets[i];
     for (int k = 0; k < 4; ++k)
     {
-      const Index next = this->beyond_of_site(t, k);
-      if (this->joins(next))
+      const Index next = this->site_neighbor(t, k);
+      if (this->is_in_cavity(next))
       {
         this->cavity_[next] = reached;
         cavity.tets.push_back(next);
@@ -174,7 +175,7 @@ void CavitySearch::collect_connected(Index start, TetCavity& cavity)
 }
 
 /// Report whether the new tets fill the same volume as the cavity and use all its vertices.
-bool CavitySearch::keeps_all(const Vec3& p, const TetCavity& cavity) const
+bool CavitySearch::preserves_volume(const Vec3& p, const TetCavity& cavity) const
 {
   double new_volume = 0.0;
   std::vector<Index> kept;

@@ -34,9 +34,9 @@ public:
 
   /// Find the tets around tet `start`, connected by facets, whose circumspheres contain p. Tets of
   /// the cavity are removed until every new tet, between p and a facet that bounds the cavity, has
-  /// at least the quality `least`. p must be inside `start`.
+  /// at least the quality `minimum_quality`. p must be inside `start`.
   /// @return false if no cavity remains.
-  bool find(const Vec3& p, Index start, double least, TetCavity& cavity);
+  bool find(const Vec3& p, Index start, double minimum_quality, TetCavity& cavity);
   /// Return the work so far: number of computed tet qualities plus number of collected tets.
   Index evaluations() const { return this->evaluations_; }
 
@@ -47,21 +47,21 @@ private:
   struct Site
   {
     static constexpr Index unknown = -2;
-    std::array<Index, 4> beyond{ unknown, unknown, unknown, unknown };
+    std::array<Index, 4> neighbor_tet{ unknown, unknown, unknown, unknown };
     /// Qualities of the new tets on the four facets; NAN: not yet computed.
-    std::array<double, 4> fits{ NAN, NAN, NAN, NAN };
+    std::array<double, 4> qualities{ NAN, NAN, NAN, NAN };
   };
   bool in_sphere(const Tet& tet, const Vec3& p) const;
   Site& site_of(Index t) { return this->sites_[this->site_ids_[t]]; }
   void add_site(Index t);
-  bool joins(Index t) const { return t >= 0 && this->cavity_[t] == this->searches_; }
-  Index beyond_of_site(Index t, int k);
+  bool is_in_cavity(Index t) const { return t >= 0 && this->cavity_[t] == this->searches_; }
+  Index site_neighbor(Index t, int k);
   Facet facet_inwards(Index t, int k) const;
-  bool facet_fits(const Vec3& p, Index t, int k, double least);
+  bool facet_fits(const Vec3& p, Index t, int k, double minimum_quality);
   void collect_sphere(const Vec3& p, Index start);
-  bool shrink(const Vec3& p, Index start, double least);
+  bool shrink(const Vec3& p, Index start, double minimum_quality);
   void collect_connected(Index start, TetCavity& cavity);
-  bool keeps_all(const Vec3& p, const TetCavity& cavity) const;
+  bool preserves_volume(const Vec3& p, const TetCavity& cavity) const;
 
   const TetComplex& tets_;
   /// Per tet: the index of the last search whose cavity contained the tet. The index is negative if

@@ -24,7 +24,7 @@ TetComplex::TetComplex(TetMesh& mesh)
   {
     this->points_[v] = mesh.points.row(v);
   }
-  this->at_.resize(this->points_.size());
+  this->vertex_tets_.resize(this->points_.size());
   this->boundary_.resize(this->points_.size(), 0);
   this->stamp_.resize(this->points_.size(), 0);
   const auto tets = static_cast<std::size_t>(mesh.tets.rows());
@@ -34,10 +34,10 @@ TetComplex::TetComplex(TetMesh& mesh)
   {
     this->add({ mesh.tets(t, 0), mesh.tets(t, 1), mesh.tets(t, 2), mesh.tets(t, 3) });
   }
-  const Triangles skin = boundary_triangles(mesh.tets);
-  for (Index k = 0; k < skin.size(); ++k)
+  const Triangles boundary_facets = boundary_triangles(mesh.tets);
+  for (Index k = 0; k < boundary_facets.size(); ++k)
   {
-    this->boundary_[skin.data()[k]] = 1;
+    this->boundary_[boundary_facets.data()[k]] = 1;
   }
 }
 
@@ -50,7 +50,7 @@ void TetComplex::write(TetMesh& mesh)
   }
   Index count = 0;
   mesh.tets.resize(this->count_, 4);
-  for (Index t = 0; t < this->tet_ids(); ++t)
+  for (Index t = 0; t < this->tet_id_limit(); ++t)
   {
     if (this->alive(t))
     {
@@ -121,7 +121,7 @@ double TetComplex::quality_with(Index t, Index v, const Vec3& p) const
 Index TetComplex::add_vertex(const Vec3& p, bool on_boundary)
 {
   this->points_.push_back(p);
-  this->at_.emplace_back();
+  this->vertex_tets_.emplace_back();
   this->boundary_.push_back(on_boundary ? 1 : 0);
   this->stamp_.push_back(++this->changes_);
   return this->vertex_count() - 1;
@@ -131,7 +131,7 @@ void TetComplex::move(Index v, const Vec3& p)
 {
   this->points_[v] = p;
   ++this->changes_;
-  for (const Index t : this->at_[v])
+  for (const Index t : this->vertex_tets_[v])
   {
     this->quality_[t] = this->quality(this->tets_[t]);
     for (const Index w : this->tets_[t])
@@ -143,13 +143,13 @@ void TetComplex::move(Index v, const Vec3& p)
 
 Index TetComplex::add(const Tet& tet)
 {
-  const Index id = this->tet_ids();
+  const Index id = this->tet_id_limit();
   this->tets_.push_back(tet);
   this->quality_.push_back(this->quality(tet));
   ++this->changes_;
   for (const Index v : tet)
   {
-    this->at_[v].push_back(id);
+    this->vertex_tets_[v].push_back(id);
     this->stamp_[v] = this->changes_;
   }
   ++this->count_;
@@ -161,11 +161,11 @@ void TetComplex::remove(Index t)
   ++this->changes_;
   for (const Index v : this->tets_[t])
   {
-    auto& list = this->at_[v];
+    auto& list = this->vertex_tets_[v];
     list.erase(std::find(list.begin(), list.end(), t));
     this->stamp_[v] = this->changes_;
   }
-  this->quality_[t] = gone;
+  this->quality_[t] = removed_quality;
   --this->count_;
 }
 
@@ -173,7 +173,7 @@ std::vector<Index> TetComplex::compact(Index ids)
 {
   std::vector<Index> new_ids(this->tets_.size(), -1);
   Index count = 0;
-  for (Index t = 0; t < this->tet_ids(); ++t)
+  for (Index t = 0; t < this->tet_id_limit(); ++t)
   {
     if (this->alive(t))
     {
@@ -186,7 +186,7 @@ std::vector<Index> TetComplex::compact(Index ids)
   this->quality_.resize(static_cast<std::size_t>(count));
   this->tets_.reserve(static_cast<std::size_t>(ids));
   this->quality_.reserve(static_cast<std::size_t>(ids));
-  for (std::vector<Index>& list : this->at_)
+  for (std::vector<Index>& list : this->vertex_tets_)
   {
     for (Index& t : list)
     {
@@ -196,14 +196,14 @@ std::vector<Index> TetComplex::compact(Index ids)
   return new_ids;
 }
 
-void TetComplex::tets_with(Index a, Index b, std::vector<Index>& found) const
+void TetComplex::find_edge_tets(Index a, Index b, std::vector<Index>& found) const
 {
   found.clear();
-  const bool swap = this->at_[b].size() < this->at_[a].size();
+  const bool swap = this->vertex_tets_[b].size() < this->vertex_tets_[a].size();
   const Index other = swap ? a : b;
-  for (const Index t : this->at_[swap ? b : a])
+  for (const Index t : this->vertex_tets_[swap ? b : a])
   {
-    if (has(this->tets_[t], other))
+    if (has_vertex(this->tets_[t], other))
     {
       found.push_back(t);
     }
@@ -212,13 +212,14 @@ void TetComplex::tets_with(Index a, Index b, std::vector<Index>& found) const
 
 bool TetComplex::has_edge(Index a, Index b) const
 {
-  const bool swap = this->at_[b].size() < this->at_[a].size();
+  const bool swap = this->vertex_tets_[b].size() < this->vertex_tets_[a].size();
   const Index other = swap ? a : b;
-  const auto& list = this->at_[swap ? b : a];
-  return std::any_of(list.begin(), list.end(), [&](Index t) { return has(this->tets_[t], other); });
+  const auto& list = this->vertex_tets_[swap ? b : a];
+  return std::any_of(
+    list.begin(), list.end(), [&](Index t) { return has_vertex(this->tets_[t], other); });
 }
 
-std::pair<Index, Index> TetComplex::others(Index t, Index a, Index b) const
+std::pair<Index, Index> TetComplex::opposite_edge(Index t, Index a, Index b) const
 {
   Tet tet = this->tets_[t];
   int swaps = 0;
@@ -238,8 +239,8 @@ std::pair<Index, Index> TetComplex::others(Index t, Index a, Index b) const
 bool TetComplex::find_ring(Index a, Index b, Ring& ring) const
 {
   std::vector<Index> left;
-  this->tets_with(a, b, left);
-  if (left.empty() || left.size() > longest_ring)
+  this->find_edge_tets(a, b, left);
+  if (left.empty() || left.size() > maximum_ring_size)
   {
     return false;
   }
@@ -247,7 +248,7 @@ bool TetComplex::find_ring(Index a, Index b, Ring& ring) const
   sides.reserve(left.size());
   for (const Index t : left)
   {
-    sides.push_back(this->others(t, a, b));
+    sides.push_back(this->opposite_edge(t, a, b));
   }
   // Start at the ring edge whose first vertex is not the end of another ring edge, if there is one.
   std::size_t first = 0;
@@ -285,20 +286,20 @@ bool TetComplex::find_ring(Index a, Index b, Ring& ring) const
   return true;
 }
 
-Index TetComplex::beyond(Index t, Index a, Index b, Index c) const
+Index TetComplex::neighbor_tet(Index t, Index a, Index b, Index c) const
 {
   // Search the shortest of the three lists of tets.
-  if (this->at_[b].size() < this->at_[a].size())
+  if (this->vertex_tets_[b].size() < this->vertex_tets_[a].size())
   {
     std::swap(a, b);
   }
-  if (this->at_[c].size() < this->at_[a].size())
+  if (this->vertex_tets_[c].size() < this->vertex_tets_[a].size())
   {
     std::swap(a, c);
   }
-  for (const Index s : this->at_[a])
+  for (const Index s : this->vertex_tets_[a])
   {
-    if (s != t && has(this->tets_[s], b) && has(this->tets_[s], c))
+    if (s != t && has_vertex(this->tets_[s], b) && has_vertex(this->tets_[s], c))
     {
       return s;
     }
@@ -306,10 +307,10 @@ Index TetComplex::beyond(Index t, Index a, Index b, Index c) const
   return -1;
 }
 
-std::vector<TetComplex::Facet> TetComplex::skin_at(Index v) const
+std::vector<TetComplex::Facet> TetComplex::boundary_facets_at(Index v) const
 {
-  std::vector<Facet> skin;
-  for (const Index t : this->at_[v])
+  std::vector<Facet> boundary_facets;
+  for (const Index t : this->vertex_tets_[v])
   {
     const Tet& tet = this->tets_[t];
     for (const auto& f : facet_corners)
@@ -317,13 +318,13 @@ std::vector<TetComplex::Facet> TetComplex::skin_at(Index v) const
       const Facet facet{ tet[f[0]], tet[f[1]], tet[f[2]] };
       if ((facet[0] == v || facet[1] == v || facet[2] == v) && this->boundary_[facet[0]] &&
         this->boundary_[facet[1]] && this->boundary_[facet[2]] &&
-        this->beyond(t, facet[0], facet[1], facet[2]) < 0)
+        this->neighbor_tet(t, facet[0], facet[1], facet[2]) < 0)
       {
-        skin.push_back(facet);
+        boundary_facets.push_back(facet);
       }
     }
   }
-  return skin;
+  return boundary_facets;
 }
 
 bool TetComplex::may_split_edge(
@@ -337,7 +338,7 @@ bool TetComplex::may_split_edge(
 Index TetComplex::split_edge(Index a, Index b, const Vec3& p)
 {
   std::vector<Index> old;
-  this->tets_with(a, b, old);
+  this->find_edge_tets(a, b, old);
   if (!this->may_split_edge(a, b, old, p))
   {
     return -1;
@@ -345,8 +346,8 @@ Index TetComplex::split_edge(Index a, Index b, const Vec3& p)
   bool open = false;
   for (const Index t : old)
   {
-    const auto [c, d] = this->others(t, a, b);
-    open = open || this->beyond(t, a, b, c) < 0 || this->beyond(t, a, b, d) < 0;
+    const auto [c, d] = this->opposite_edge(t, a, b);
+    open = open || this->neighbor_tet(t, a, b, c) < 0 || this->neighbor_tet(t, a, b, d) < 0;
   }
   const Index v = this->add_vertex(p, open);
   for (const Index t : old)

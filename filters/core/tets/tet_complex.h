@@ -29,8 +29,8 @@ public:
     bool closed = false;
   };
 
-  static constexpr double gone = 1e9; ///< quality of a removed tet
-  static constexpr std::size_t longest_ring = 10; ///< maximum number of tets in a ring
+  static constexpr double removed_quality = 1e9; ///< quality of a removed tet
+  static constexpr std::size_t maximum_ring_size = 10; ///< maximum number of tets in a ring
 
   /// Take over points and tets. The tets must be positive and conforming: they intersect only in
   /// shared facets, edges and vertices.
@@ -40,12 +40,12 @@ public:
 
   Index vertex_count() const { return static_cast<Index>(this->points_.size()); }
   /// Return one more than the largest tet id.
-  Index tet_ids() const { return static_cast<Index>(this->tets_.size()); }
+  Index tet_id_limit() const { return static_cast<Index>(this->tets_.size()); }
   Index tet_count() const { return this->count_; }
   const Vec3& point(Index v) const { return this->points_[v]; }
   const Tet& tet(Index t) const { return this->tets_[t]; }
-  bool alive(Index t) const { return this->quality_[t] < gone; }
-  const std::vector<Index>& tets_at(Index v) const { return this->at_[v]; }
+  bool alive(Index t) const { return this->quality_[t] < removed_quality; }
+  const std::vector<Index>& tets_of_vertex(Index v) const { return this->vertex_tets_[v]; }
   bool on_boundary(Index v) const { return this->boundary_[v] != 0; }
   double quality(Index t) const { return this->quality_[t]; }
   /// Return the quality of a tet, or -1 if its volume is not positive (exact test).
@@ -73,22 +73,22 @@ public:
   /// @return the new id for each old id, -1 for removed tets.
   std::vector<Index> compact(Index ids);
 
-  static bool has(const Tet& tet, Index v)
+  static bool has_vertex(const Tet& tet, Index v)
   {
     return tet[0] == v || tet[1] == v || tet[2] == v || tet[3] == v;
   }
-  void tets_with(Index a, Index b, std::vector<Index>& found) const;
+  void find_edge_tets(Index a, Index b, std::vector<Index>& found) const;
   bool has_edge(Index a, Index b) const;
   /// Return the two vertices of tet t other than a and b, ordered so that (a, b, first, second) is
   /// positive.
-  std::pair<Index, Index> others(Index t, Index a, Index b) const;
+  std::pair<Index, Index> opposite_edge(Index t, Index a, Index b) const;
   /// Find the ring of edge a-b. @return false if the tets of the edge do not form a single ring, or
-  /// if there are more than longest_ring of them.
+  /// if there are more than maximum_ring_size of them.
   bool find_ring(Index a, Index b, Ring& ring) const;
   /// Return the tet on the other side of a facet, or -1 on the boundary.
-  Index beyond(Index t, Index a, Index b, Index c) const;
+  Index neighbor_tet(Index t, Index a, Index b, Index c) const;
   /// Return the boundary facets at vertex v, oriented outwards.
-  std::vector<Facet> skin_at(Index v) const;
+  std::vector<Facet> boundary_facets_at(Index v) const;
 
   /// Report whether a new vertex at p would split each of the tets at edge a-b into two tets of
   /// positive volume.
@@ -101,7 +101,7 @@ private:
   std::vector<Vec3> points_;
   std::vector<Tet> tets_;
   std::vector<double> quality_;
-  std::vector<std::vector<Index>> at_; ///< tet ids per vertex
+  std::vector<std::vector<Index>> vertex_tets_; ///< tet ids per vertex
   std::vector<char> boundary_; ///< per vertex: 1 on the boundary, else 0
   std::vector<std::uint64_t> stamp_;
   Index count_ = 0;

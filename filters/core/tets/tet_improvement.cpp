@@ -6,7 +6,7 @@
 // changed a tet that it uses. The result does not depend on the number of threads.
 //
 // In the last passes, held (constrained) vertices of tets that are still too flat may move, unless
-// least_angle is 0. Tets that are still too flat after these passes and have no neighbor are
+// release_angle is 0. Tets that are still too flat after these passes and have no neighbor are
 // removed, unless keep_boundary is set.
 #include "tets/tet_improvement.h"
 
@@ -31,17 +31,18 @@ using Tet = TetComplex::Tet;
 class Improver
 {
 public:
-  Improver(ExecutionContext& context, TetMesh& mesh, std::vector<char> held,
-    const OntoSurface& surface, const ImproveOptions& options, Improvement& done)
-    : mesh_(mesh), tets_(mesh), options_(options), rules_(options, surface), done_(done),
-      context_(context), quiet_({}, [&context] { return context.canceled(); }),
+  Improver(ExecutionContext& context, TetMesh& mesh, std::vector<char> constrained,
+    const OntoSurface& surface, const ImproveOptions& options, Improvement& improvement)
+    : mesh_(mesh), tets_(mesh), options_(options), rules_(options, surface),
+      improvement_(improvement), context_(context),
+      silent_context_({}, [&context] { return context.canceled(); }),
       moved_(static_cast<std::size_t>(mesh.points.rows()), 0)
   {
     const auto tets = static_cast<double>(mesh.tets.rows() + small);
-    this->most_evaluations_ = std::min(options.effort * tets, large + per_tet_of_large * tets);
-    this->rules_.held = std::move(held);
-    this->rules_.stays.resize(this->moved_.size(), 0);
-    this->quiet_.set_threads(context.threads());
+    this->maximum_evaluations_ = std::min(options.effort * tets, large + per_tet_of_large * tets);
+    this->rules_.constrained = std::move(constrained);
+    this->rules_.immovable_since.resize(this->moved_.size(), 0);
+    this->silent_context_.set_threads(context.threads());
   }
 
   bool run()
@@ -53,14 +54,14 @@ public:
     if (whole && this->options_.insert)
     {
       this->rules_.insert = true;
-      this->tried_.clear();
+      this->last_search_.clear();
       whole = this->passes(passes - first_passes, this->options_.angle);
     }
-    if (whole && this->options_.least_angle > 0.0)
+    if (whole && this->options_.release_angle > 0.0)
     {
-      this->rules_.release = true;
-      this->tried_.clear();
-      whole = this->passes(last_passes, this->options_.least_angle);
+      this->rules_.may_move_constrained = true;
+      this->last_search_.clear();
+      whole = this->passes(last_passes, this->options_.release_angle);
     }
     if (whole && !this->options_.keep_boundary)
     {
@@ -78,22 +79,22 @@ private:
   static constexpr double per_tet_of_large = 400.0;
   /// Number of tets whose steps are searched in parallel. It is large enough for many threads and
   /// small enough that the tets are rarely neighbors.
-  static constexpr std::size_t most_at_once = 64;
+  static constexpr std::size_t maximum_batch = 64;
   static constexpr Index per_task = 2;
 
   bool exhausted() const
   {
-    return static_cast<double>(this->evaluations_) > this->most_evaluations_;
+    return static_cast<double>(this->evaluations_) > this->maximum_evaluations_;
   }
 
   /// Run up to `most` passes. @return false if canceled.
   bool passes(Index most, double angle)
   {
-    const double enough = TetComplex::quality_of_angle(angle);
+    const double required_quality = TetComplex::quality_of_angle(angle);
     for (Index pass = 0; pass < most; ++pass)
     {
       Count count;
-      if (!this->pass(enough, count))
+      if (!this->pass(required_quality, count))
       {
         return false;
       }
@@ -113,53 +114,54 @@ private:
     Index improved = 0;
   };
 
-  bool pass(double enough, Count& count)
+  bool pass(double required_quality, Count& count)
   {
-    const std::vector<Index> flat = this->flat_tets(enough);
-    std::vector<Index> now; // tets of the current batch
-    std::vector<Index> later; // tets of the following batches
+    const std::vector<Index> flat = this->flat_tets(required_quality);
+    std::vector<Index> batch; // tets of the current batch
+    std::vector<Index> deferred; // tets of the following batches
     const auto is_due = [&](Index t)
     // An earlier step may have improved the tet.
-    { return this->tets_.quality(t) < enough && this->changed(t); };
-    for (std::size_t next = 0; (next < flat.size() || !later.empty()) && !this->exhausted();)
+    { return this->tets_.quality(t) < required_quality && this->changed(t); };
+    for (std::size_t next = 0; (next < flat.size() || !deferred.empty()) && !this->exhausted();)
     {
-      const std::vector<Index> first = std::exchange(later, {});
-      now.clear();
-      ++this->turn_;
+      const std::vector<Index> first = std::exchange(deferred, {});
+      batch.clear();
+      ++this->batch_;
       const auto choose = [&](Index t)
       {
         if (is_due(t))
         {
-          (now.size() < most_at_once && this->claim(t) ? now : later).push_back(t);
+          (batch.size() < maximum_batch && this->claim(t) ? batch : deferred).push_back(t);
         }
       };
       std::for_each(first.begin(), first.end(), choose);
-      for (; now.size() < most_at_once && later.size() < most_at_once && next < flat.size(); ++next)
+      for (; batch.size() < maximum_batch && deferred.size() < maximum_batch && next < flat.size();
+           ++next)
       {
         choose(flat[next]);
       }
-      if (!this->look_at(now))
+      if (!this->look_at(batch))
       {
         return false;
       }
       const std::uint64_t before = this->tets_.changes();
-      for (std::size_t i = 0; i < now.size(); ++i)
+      for (std::size_t i = 0; i < batch.size(); ++i)
       {
         const TetStep& step = this->steps_[i];
-        if (step.kind != TetStep::Kind::none && this->touched_since(before, step))
+        if (step.kind != TetStep::Kind::none && this->changed_since(before, step))
         {
-          later.push_back(now[i]);
+          deferred.push_back(batch[i]);
           continue;
         }
         ++count.tried;
         if (step.kind == TetStep::Kind::none)
         {
-          this->tried_[now[i]] = before;
+          this->last_search_[batch[i]] = before;
           continue;
         }
         ++count.improved;
-        this->take(step);
-        later.push_back(now[i]);
+        this->apply(step);
+        deferred.push_back(batch[i]);
       }
     }
     return true;
@@ -173,13 +175,13 @@ private:
     const Tet& tet = this->tets_.tet(t);
     const auto moves = [&](Index v) { return may_move(this->tets_, this->rules_, v); };
     if (std::any_of(tet.begin(), tet.end(),
-          [&](Index v) { return this->claims_[v] == this->turn_ && moves(v); }))
+          [&](Index v) { return this->claims_[v] == this->batch_ && moves(v); }))
     {
       return false;
     }
     for (const Index v : tet)
     {
-      this->claims_[v] = this->turn_;
+      this->claims_[v] = this->batch_;
     }
     return true;
   }
@@ -187,29 +189,30 @@ private:
   /// Search a step for each tet while the mesh does not change. @return false if canceled.
   bool look_at(const std::vector<Index>& tets)
   {
-    this->tried_.resize(static_cast<std::size_t>(this->tets_.tet_ids()), 0);
-    this->steps_.resize(most_at_once);
-    const bool whole = parallel_for(this->quiet_, static_cast<Index>(tets.size()), per_task,
-      [&](Index begin, Index end)
-      {
-        this->searches_.with([&]
-          { return std::make_unique<TetStepSearch>(this->tets_, this->rules_); },
-          [&](TetStepSearch& search)
-          {
-            for (Index i = begin; i < end; ++i)
+    this->last_search_.resize(static_cast<std::size_t>(this->tets_.tet_id_limit()), 0);
+    this->steps_.resize(maximum_batch);
+    const bool whole =
+      parallel_for(this->silent_context_, static_cast<Index>(tets.size()), per_task,
+        [&](Index begin, Index end)
+        {
+          this->searches_.with([&]
+            { return std::make_unique<TetStepSearch>(this->tets_, this->rules_); },
+            [&](TetStepSearch& search)
             {
-              search.find(tets[i], this->steps_[i]);
-            }
-          });
-      });
+              for (Index i = begin; i < end; ++i)
+              {
+                search.find(tets[i], this->steps_[i]);
+              }
+            });
+        });
     this->evaluations_ = 0;
     this->searches_.for_each(
       [&](const TetStepSearch& search) { this->evaluations_ += search.evaluations(); });
     for (std::size_t i = 0; i < tets.size() && whole; ++i)
     {
-      for (const Index v : this->steps_[i].stay)
+      for (const Index v : this->steps_[i].immovable)
       {
-        this->rules_.stays[v] = this->tets_.stamp(v);
+        this->rules_.immovable_since[v] = this->tets_.stamp(v);
       }
     }
     return whole;
@@ -217,17 +220,17 @@ private:
 
   /// Report whether a tet that the step uses has been removed or changed since the change counter
   /// was `before`.
-  bool touched_since(std::uint64_t before, const TetStep& step) const
+  bool changed_since(std::uint64_t before, const TetStep& step) const
   {
     const auto touched = [&](Index t) { return !this->tets_.alive(t) || this->newest(t) > before; };
     const std::vector<Index>& tets = step.kind == TetStep::Kind::move
-      ? this->tets_.tets_at(step.vertex)
+      ? this->tets_.tets_of_vertex(step.vertex)
       : step.kind == TetStep::Kind::insert ? step.cavity.tets
                                            : step.removed;
     return std::any_of(tets.begin(), tets.end(), touched);
   }
 
-  void take(const TetStep& step)
+  void apply(const TetStep& step)
   {
     switch (step.kind)
     {
@@ -239,25 +242,26 @@ private:
         {
           this->tets_.remove(t);
         }
-        for (const Tet& tet : step.fresh)
+        for (const Tet& tet : step.added)
         {
           this->tets_.add(tet);
         }
-        this->done_.collapsed_edges += step.kind == TetStep::Kind::contract;
-        this->done_.removed_tets += step.fresh.empty();
+        this->improvement_.collapsed_edges += step.kind == TetStep::Kind::contract;
+        this->improvement_.removed_tets += step.added.empty();
         return;
       case TetStep::Kind::move:
-        this->tets_.move(step.vertex, step.place);
-        (this->rules_.held[step.vertex] ? this->done_.released_vertices
-                                        : this->done_.moved_vertices) += !this->moved_[step.vertex];
+        this->tets_.move(step.vertex, step.position);
+        (this->rules_.constrained[step.vertex] ? this->improvement_.released_vertices
+                                               : this->improvement_.moved_vertices) +=
+          !this->moved_[step.vertex];
         this->moved_[step.vertex] = 1;
         return;
       case TetStep::Kind::insert:
-        fill_cavity(this->tets_, step.place, step.cavity);
-        this->rules_.held.push_back(0);
-        this->rules_.stays.push_back(0);
+        fill_cavity(this->tets_, step.position, step.cavity);
+        this->rules_.constrained.push_back(0);
+        this->rules_.immovable_since.push_back(0);
         this->moved_.push_back(1);
-        ++this->done_.inserted_vertices;
+        ++this->improvement_.inserted_vertices;
         return;
     }
   }
@@ -276,15 +280,16 @@ private:
   /// Report whether a vertex of the tet has changed since the last search for the tet.
   bool changed(Index t) const
   {
-    return t >= static_cast<Index>(this->tried_.size()) || this->tried_[t] < this->newest(t);
+    return t >= static_cast<Index>(this->last_search_.size()) ||
+      this->last_search_[t] < this->newest(t);
   }
 
-  std::vector<Index> flat_tets(double enough) const
+  std::vector<Index> flat_tets(double required_quality) const
   {
     std::vector<Index> flat;
-    for (Index t = 0; t < this->tets_.tet_ids(); ++t)
+    for (Index t = 0; t < this->tets_.tet_id_limit(); ++t)
     {
-      if (this->tets_.quality(t) < enough)
+      if (this->tets_.quality(t) < required_quality)
       {
         flat.push_back(t);
       }
@@ -303,18 +308,19 @@ private:
   void drop_lone_tets()
   {
     const std::vector<Index> flat =
-      this->flat_tets(TetComplex::quality_of_angle(this->options_.least_angle));
+      this->flat_tets(TetComplex::quality_of_angle(this->options_.release_angle));
     for (const Index t : flat)
     {
       const Tet& tet = this->tets_.tet(t);
-      const bool held =
-        std::any_of(tet.begin(), tet.end(), [&](Index v) { return this->rules_.held[v]; });
+      const bool constrained =
+        std::any_of(tet.begin(), tet.end(), [&](Index v) { return this->rules_.constrained[v]; });
       const bool alone = std::all_of(std::begin(facet_corners), std::end(facet_corners),
-        [&](const auto& f) { return this->tets_.beyond(t, tet[f[0]], tet[f[1]], tet[f[2]]) < 0; });
-      if (!held && alone)
+        [&](const auto& f)
+        { return this->tets_.neighbor_tet(t, tet[f[0]], tet[f[1]], tet[f[2]]) < 0; });
+      if (!constrained && alone)
       {
         this->tets_.remove(t);
-        ++this->done_.removed_tets;
+        ++this->improvement_.removed_tets;
       }
     }
   }
@@ -323,26 +329,26 @@ private:
   TetComplex tets_;
   const ImproveOptions& options_;
   TetStepRules rules_;
-  Improvement& done_;
+  Improvement& improvement_;
   ExecutionContext& context_;
-  ExecutionContext quiet_; ///< context of the parallel loops; it reports no progress
-  double most_evaluations_ = 0.0;
+  ExecutionContext silent_context_; ///< context of the parallel loops; it reports no progress
+  double maximum_evaluations_ = 0.0;
   Index evaluations_ = 0;
   std::vector<char> moved_;
   /// Per tet: the change counter of the mesh at the last search for the tet.
-  std::vector<std::uint64_t> tried_;
+  std::vector<std::uint64_t> last_search_;
   std::vector<Index> claims_; ///< per vertex: the last batch that reserved it
-  Index turn_ = 0;
+  Index batch_ = 0;
   std::vector<TetStep> steps_; ///< steps found for the tets of the current batch
   PerThread<TetStepSearch> searches_;
 };
 } // namespace
 
-bool improve_tets(ExecutionContext& context, TetMesh& mesh, std::vector<char> held,
-  const OntoSurface& surface, const ImproveOptions& options, Improvement& done)
+bool improve_tets(ExecutionContext& context, TetMesh& mesh, std::vector<char> constrained,
+  const OntoSurface& surface, const ImproveOptions& options, Improvement& improvement)
 {
-  done = Improvement();
-  return Improver(context, mesh, std::move(held), surface, options, done).run();
+  improvement = Improvement();
+  return Improver(context, mesh, std::move(constrained), surface, options, improvement).run();
 }
 
 } // namespace bindpose

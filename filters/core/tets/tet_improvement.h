@@ -47,8 +47,8 @@ struct Improvement
 /// the same for any number of threads. Cost: about 40 us of one thread per tet that is too flat, in
 /// each pass in which its neighborhood has changed.
 /// @return false if canceled; the mesh is also valid in this case.
-bool improve_tets(ExecutionContext& context, TetMesh& mesh, std::vector<char> held,
-  const OntoSurface& surface, const ImproveOptions& options, Improvement& done);
+bool improve_tets(ExecutionContext& context, TetMesh& mesh, std::vector<char> constrained,
+  const OntoSurface& surface, const ImproveOptions& options, Improvement& improvement);
 
 } // namespace bindpose
 

@@ -56,14 +56,14 @@ constexpr Index first_round = 64; // number of positions in the first round
 /// Return the order in which new vertices are inserted, as indices of their positions. The order
 /// consists of rounds. Each round is twice as long as the previous one and samples all positions,
 /// so that cavities soon become small (Amenta, Choi, Rote, Incremental Constructions con BRIO,
-/// 2003). `near` is an order in which consecutive positions are near each other. Each round is
-/// divided into `tracks` pieces of this order and takes one position of each piece in turn.
-/// Therefore vertices that are inserted in parallel are far apart. Each vertex is also near a
+/// 2003). `spatial_order` is an order in which consecutive positions are near each other. Each
+/// round is divided into `tracks` pieces of this order and takes one position of each piece in
+/// turn. Therefore vertices that are inserted in parallel are far apart. Each vertex is also near a
 /// vertex that was inserted shortly before, so that the tets there are still in the processor's
 /// caches.
-std::vector<Index> order_of_insertion(const std::vector<std::int32_t>& near, Index tracks)
+std::vector<Index> order_of_insertion(const std::vector<std::int32_t>& spatial_order, Index tracks)
 {
-  const auto count = static_cast<Index>(near.size());
+  const auto count = static_cast<Index>(spatial_order.size());
   // The last round contains every second position, the round before contains every second of the
   // remaining positions, and so on.
   std::vector<std::vector<Index>> rounds(1);
@@ -78,10 +78,10 @@ std::vector<Index> order_of_insertion(const std::vector<std::int32_t>& near, Ind
     {
       --round;
     }
-    rounds[round].push_back(near[rank]);
+    rounds[round].push_back(spatial_order[rank]);
   }
   std::vector<Index> order;
-  order.reserve(near.size());
+  order.reserve(spatial_order.size());
   for (const std::vector<Index>& round : rounds)
   {
     const auto size = static_cast<Index>(round.size());
@@ -100,10 +100,10 @@ std::vector<Index> order_of_insertion(const std::vector<std::int32_t>& near, Ind
 /// Return the fraction of the total work for the first `done` of `count` positions. About half of
 /// the work is the same for every round, because the few vertices of the first rounds have large
 /// cavities.
-double share_of_insertion(std::size_t done, std::size_t count)
+double insertion_progress(std::size_t done, std::size_t count)
 {
-  const auto rounds = [](std::size_t places)
-  { return std::log2(1.0 + static_cast<double>(places) / static_cast<double>(first_round)); };
+  const auto rounds = [](std::size_t positions)
+  { return std::log2(1.0 + static_cast<double>(positions) / static_cast<double>(first_round)); };
   return 0.5 *
     (static_cast<double>(done) / static_cast<double>(count) + rounds(done) / rounds(count));
 }
@@ -111,30 +111,30 @@ double share_of_insertion(std::size_t done, std::size_t count)
 /// Finds the tets that contain the positions of new vertices while tets are being replaced. The
 /// search starts in a tree over the initial tets, continues with the tets that replaced the tet
 /// found there, and then walks from tet to tet.
-class PlaceFinder
+class TetLocator
 {
 public:
-  explicit PlaceFinder(const TetComplex& tets) : tets_(tets) {}
+  explicit TetLocator(const TetComplex& tets) : tets_(tets) {}
 
-  /// Locate all positions in the current tets. Must be called before all other functions. `near`:
-  /// an order in which consecutive positions are usually near each other. @return false if
-  /// canceled.
-  bool look_for(ExecutionContext& context, const TetMesh& mesh, const Points& places,
-    const std::vector<std::int32_t>& near)
+  /// Locate all positions in the current tets. Must be called before all other functions.
+  /// `spatial_order`: an order in which consecutive positions are usually near each other. @return
+  /// false if canceled.
+  bool locate_all(ExecutionContext& context, const TetMesh& mesh, const Points& positions,
+    const std::vector<std::int32_t>& spatial_order)
   {
     const SimplexLocator locator(mesh.points, mesh.tets);
-    this->first_.resize(static_cast<std::size_t>(places.rows()));
+    this->first_.resize(static_cast<std::size_t>(positions.rows()));
     constexpr Index block = 64;
-    return parallel_for(context, places.rows(), block,
+    return parallel_for(context, positions.rows(), block,
       [&](Index begin, Index end)
       {
         Index t = -1;
         for (Index i = begin; i < end; ++i)
         {
-          const Vec3 p = places.row(near[i]);
+          const Vec3 p = positions.row(spatial_order[i]);
           t = this->walk(t, p, few);
           t = t >= 0 ? t : locator.locate(p).element;
-          this->first_[near[i]] = t;
+          this->first_[spatial_order[i]] = t;
         }
       });
   }
@@ -158,7 +158,7 @@ public:
       t = range.begin < range.end ? range.begin : -1;
       for (Index other = range.begin; other < range.end; ++other)
       {
-        if (this->side_toward(other, p) < 0)
+        if (this->separating_side(other, p) < 0)
         {
           t = other;
           break;
@@ -170,8 +170,8 @@ public:
 
   /// Locate the pending positions in the current tets, so that the ids of replaced tets are no
   /// longer needed. After that the tets get new ids: see renumber(). @return false if canceled.
-  bool find_again(
-    ExecutionContext& context, const Points& places, const std::vector<Index>& pending)
+  bool relocate(
+    ExecutionContext& context, const Points& positions, const std::vector<Index>& pending)
   {
     constexpr Index block = 64;
     return parallel_for(context, static_cast<Index>(pending.size()), block,
@@ -179,7 +179,7 @@ public:
       {
         for (Index i = begin; i < end; ++i)
         {
-          this->first_[pending[i]] = this->find(pending[i], places.row(pending[i]));
+          this->first_[pending[i]] = this->find(pending[i], positions.row(pending[i]));
         }
       });
   }
@@ -197,10 +197,10 @@ public:
   /// Record that `tets` have been replaced by the tets with ids from `begin` to the last id.
   void replace(const std::vector<Index>& tets, Index begin)
   {
-    this->replaced_.resize(static_cast<std::size_t>(this->tets_.tet_ids()));
+    this->replaced_.resize(static_cast<std::size_t>(this->tets_.tet_id_limit()));
     for (const Index t : tets)
     {
-      this->replaced_[t] = { begin, this->tets_.tet_ids() };
+      this->replaced_[t] = { begin, this->tets_.tet_id_limit() };
     }
   }
 
@@ -215,7 +215,7 @@ private:
 
   /// Return the side of tet t that separates the tet from p, as an index into facet_corners, or -1
   /// if p is in the tet.
-  int side_toward(Index t, const Vec3& p, int first = 0) const
+  int separating_side(Index t, const Vec3& p, int first = 0) const
   {
     const Tet& tet = this->tets_.tet(t);
     for (int k = 0; k < 4; ++k)
@@ -235,7 +235,7 @@ private:
   /// straight line from that vertex to p was inside the cavity.
   Index walk_from(const Range& range, const Vec3& p) const
   {
-    const std::vector<Index>& around = this->tets_.tets_at(this->tets_.tet(range.begin)[3]);
+    const std::vector<Index>& around = this->tets_.tets_of_vertex(this->tets_.tet(range.begin)[3]);
     return around.empty() ? -1 : this->walk(around.front(), p, many);
   }
 
@@ -245,14 +245,14 @@ private:
     for (int step = 0; step < longest && t >= 0; ++step)
     {
       // Each step tests the sides in a different order, so that the walk does not cycle.
-      const int side = this->side_toward(t, p, step);
+      const int side = this->separating_side(t, p, step);
       if (side < 0)
       {
         return t;
       }
       const Tet& tet = this->tets_.tet(t);
       const auto& f = facet_corners[side];
-      t = this->tets_.beyond(t, tet[f[0]], tet[f[1]], tet[f[2]]);
+      t = this->tets_.neighbor_tet(t, tet[f[0]], tet[f[1]], tet[f[2]]);
     }
     return -1;
   }
@@ -271,80 +271,80 @@ class Inserter
 public:
   Inserter(ExecutionContext& context, TetComplex& tets)
     : tets_(tets), finder_(tets), context_(context),
-      quiet_({}, [&context] { return context.canceled(); })
+      silent_context_({}, [&context] { return context.canceled(); })
   {
-    this->quiet_.set_threads(context.threads());
+    this->silent_context_.set_threads(context.threads());
   }
 
-  /// Insert vertices at the positions `places`. `mesh` contains the current tets.
-  bool insert(const TetMesh& mesh, const Points& places, std::vector<Index>& vertices)
+  /// Insert vertices at the positions `positions`. `mesh` contains the current tets.
+  bool insert(const TetMesh& mesh, const Points& positions, std::vector<Index>& vertices)
   {
-    const std::vector<std::int32_t> near = spatial_sort(as_vectors(places));
+    const std::vector<std::int32_t> spatial_order = spatial_sort(as_vectors(positions));
     constexpr double looked = 0.2; // fraction of the total time for locating the positions
     {
       const ProgressRange range(this->context_, 0.0, looked);
-      if (!this->finder_.look_for(this->context_, mesh, places, near))
+      if (!this->finder_.locate_all(this->context_, mesh, positions, spatial_order))
       {
         return false;
       }
     }
     const ProgressRange range(this->context_, looked, 1.0);
-    const std::vector<Index> order = order_of_insertion(near, most_at_once);
-    std::vector<Index> now;
-    std::vector<Index> later;
+    const std::vector<Index> order = order_of_insertion(spatial_order, maximum_batch);
+    std::vector<Index> batch;
+    std::vector<Index> deferred;
     // If all vertices are on one sphere, the first cavities are large and overlap. Therefore the
     // number of cavities that are searched in parallel is adapted.
-    std::size_t at_once = 1;
-    for (std::size_t next = 0; next < order.size() || !later.empty();)
+    std::size_t batch_size = 1;
+    for (std::size_t next = 0; next < order.size() || !deferred.empty();)
     {
-      const auto again = static_cast<std::ptrdiff_t>(std::min(at_once, later.size()));
-      now.assign(later.begin(), later.begin() + again);
-      later.erase(later.begin(), later.begin() + again);
-      for (; now.size() < at_once && next < order.size(); ++next)
+      const auto again = static_cast<std::ptrdiff_t>(std::min(batch_size, deferred.size()));
+      batch.assign(deferred.begin(), deferred.begin() + again);
+      deferred.erase(deferred.begin(), deferred.begin() + again);
+      for (; batch.size() < batch_size && next < order.size(); ++next)
       {
-        now.push_back(order[next]);
+        batch.push_back(order[next]);
       }
-      const std::size_t waiting = later.size();
-      if (this->tets_.tet_ids() > this->most_ids_)
+      const std::size_t waiting = deferred.size();
+      if (this->tets_.tet_id_limit() > this->maximum_ids_)
       {
         std::vector<Index> pending(order.begin() + static_cast<std::ptrdiff_t>(next), order.end());
-        pending.insert(pending.end(), now.begin(), now.end());
-        pending.insert(pending.end(), later.begin(), later.end());
-        if (!this->drop_replaced(places, pending))
+        pending.insert(pending.end(), batch.begin(), batch.end());
+        pending.insert(pending.end(), deferred.begin(), deferred.end());
+        if (!this->drop_replaced(positions, pending))
         {
           return false;
         }
       }
-      if (!this->look_at(places, now))
+      if (!this->find_sites(positions, batch))
       {
         return false;
       }
-      for (std::size_t i = 0; i < now.size(); ++i)
+      for (std::size_t i = 0; i < batch.size(); ++i)
       {
         const Site& site = this->sites_[i];
         if (std::all_of(site.tets().begin(), site.tets().end(),
               [&](Index t) { return this->tets_.alive(t); }))
         {
-          vertices[now[i]] = this->take(site, places.row(now[i]));
+          vertices[batch[i]] = this->insert_at(site, positions.row(batch[i]));
         }
         else
         {
-          later.push_back(now[i]);
+          deferred.push_back(batch[i]);
         }
       }
       // The number of cavities that are searched in parallel is reduced if more than one in four
       // cavities must be searched again.
       constexpr std::size_t seldom = 4;
-      const bool overlap = seldom * (later.size() - waiting) > now.size();
-      at_once =
-        overlap ? std::max<std::size_t>(1, at_once / 2) : std::min(most_at_once, 2 * at_once);
-      this->context_.progress(share_of_insertion(next, order.size()));
+      const bool overlap = seldom * (deferred.size() - waiting) > batch.size();
+      batch_size = overlap ? std::max<std::size_t>(1, batch_size / 2)
+                           : std::min(maximum_batch, 2 * batch_size);
+      this->context_.progress(insertion_progress(next, order.size()));
     }
     return true;
   }
 
 private:
-  static constexpr std::size_t most_at_once = 64;
+  static constexpr std::size_t maximum_batch = 64;
   static constexpr Index per_task = 4;
 
   /// The tets or the edge that a new vertex would replace.
@@ -369,20 +369,20 @@ private:
 
   /// Remove replaced tets to free memory. pending: the positions at which no vertex has been
   /// inserted yet. @return false if canceled.
-  bool drop_replaced(const Points& places, const std::vector<Index>& pending)
+  bool drop_replaced(const Points& positions, const std::vector<Index>& pending)
   {
-    if (!this->finder_.find_again(this->quiet_, places, pending))
+    if (!this->finder_.relocate(this->silent_context_, positions, pending))
     {
       return false;
     }
-    this->most_ids_ = most_ids_of(this->tets_.tet_count());
-    this->finder_.renumber(this->tets_.compact(this->most_ids_));
+    this->maximum_ids_ = maximum_ids_for(this->tets_.tet_count());
+    this->finder_.renumber(this->tets_.compact(this->maximum_ids_));
     return true;
   }
 
   /// Return the number of tet ids above which replaced tets are removed, for this number of tets.
   /// Memory for up to half as many replaced tets is allowed.
-  static Index most_ids_of(Index tets)
+  static Index maximum_ids_for(Index tets)
   {
     // Number of ids of replaced tets that is always allowed, because they take little memory.
     constexpr Index few = 100000;
@@ -390,9 +390,9 @@ private:
   }
 
   /// Search the sites of these positions in parallel. @return false if canceled.
-  bool look_at(const Points& places, const std::vector<Index>& now)
+  bool find_sites(const Points& positions, const std::vector<Index>& batch)
   {
-    return parallel_for(this->quiet_, static_cast<Index>(now.size()), per_task,
+    return parallel_for(this->silent_context_, static_cast<Index>(batch.size()), per_task,
       [&](Index begin, Index end)
       {
         this->searches_.with([&] { return std::make_unique<CavitySearch>(this->tets_); },
@@ -400,7 +400,7 @@ private:
           {
             for (Index i = begin; i < end; ++i)
             {
-              this->look_at(now[i], places.row(now[i]), search, this->sites_[i]);
+              this->find_sites(batch[i], positions.row(batch[i]), search, this->sites_[i]);
             }
           });
       });
@@ -410,7 +410,7 @@ private:
   /// attempt is a cavity whose new tets have dihedral angles of at least 1 degree. The second
   /// attempt splits an edge that contains p up to rounding (points of a bone are collinear). The
   /// last attempt is a cavity with any positive new tets.
-  void look_at(Index i, const Vec3& p, CavitySearch& search, Site& site) const
+  void find_sites(Index i, const Vec3& p, CavitySearch& search, Site& site) const
   {
     site.kind = Site::Kind::none;
     site.cavity.tets.clear();
@@ -419,7 +419,7 @@ private:
     {
       return;
     }
-    if (search.find(p, t, this->thick_, site.cavity))
+    if (search.find(p, t, this->minimum_quality_, site.cavity))
     {
       site.kind = Site::Kind::cavity;
     }
@@ -461,9 +461,9 @@ private:
   }
 
   /// Insert the vertex into its site. @return the new vertex, or -1 if the site is not valid.
-  Index take(const Site& site, const Vec3& p)
+  Index insert_at(const Site& site, const Vec3& p)
   {
-    const Index begin = this->tets_.tet_ids();
+    const Index begin = this->tets_.tet_id_limit();
     Index v = -1;
     if (site.kind == Site::Kind::cavity)
     {
@@ -481,14 +481,14 @@ private:
   }
 
   TetComplex& tets_;
-  PlaceFinder finder_;
+  TetLocator finder_;
   ExecutionContext& context_;
-  ExecutionContext quiet_; ///< context of the parallel loops; it reports no progress
+  ExecutionContext silent_context_; ///< context of the parallel loops; it reports no progress
   PerThread<CavitySearch> searches_;
-  std::array<Site, most_at_once> sites_;
-  const double thick_ = TetComplex::quality_of_angle(1.0);
+  std::array<Site, maximum_batch> sites_;
+  const double minimum_quality_ = TetComplex::quality_of_angle(1.0);
   /// Number of tet ids above which replaced tets are removed.
-  Index most_ids_ = most_ids_of(tets_.tet_count());
+  Index maximum_ids_ = maximum_ids_for(tets_.tet_count());
 };
 } // namespace
 
@@ -521,7 +521,7 @@ bool split_long_edges(ExecutionContext& context, TetMesh& mesh, double longest, 
       tets.split_edge(edge.a, edge.b, 0.5 * (tets.point(edge.a) + tets.point(edge.b)));
     if (v >= 0)
     {
-      for (const TetComplex::Facet& f : tets.skin_at(v))
+      for (const TetComplex::Facet& f : tets.boundary_facets_at(v))
       {
         for (const Index w : f)
         {
@@ -539,11 +539,11 @@ bool split_long_edges(ExecutionContext& context, TetMesh& mesh, double longest, 
 }
 
 bool insert_vertices(
-  ExecutionContext& context, TetMesh& mesh, const Points& places, std::vector<Index>& vertices)
+  ExecutionContext& context, TetMesh& mesh, const Points& positions, std::vector<Index>& vertices)
 {
   TetComplex tets(mesh);
-  vertices.assign(static_cast<std::size_t>(places.rows()), -1);
-  const bool whole = Inserter(context, tets).insert(mesh, places, vertices);
+  vertices.assign(static_cast<std::size_t>(positions.rows()), -1);
+  const bool whole = Inserter(context, tets).insert(mesh, positions, vertices);
   tets.write(mesh);
   return whole;
 }

@@ -26,7 +26,7 @@ bool split_long_edges(ExecutionContext& context, TetMesh& mesh, double longest, 
 /// higher if all vertices are on one sphere or ellipsoid.
 /// @return false if canceled; the mesh is also valid in this case.
 bool insert_vertices(
-  ExecutionContext& context, TetMesh& mesh, const Points& places, std::vector<Index>& vertices);
+  ExecutionContext& context, TetMesh& mesh, const Points& positions, std::vector<Index>& vertices);
 
 } // namespace bindpose
 

@@ -26,7 +26,7 @@ double min_dihedral_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
   constexpr double nearly_one = 0.9999;
   double largest_cosine = -1.0;
   // Smallest sine, used for small angles, because their cosines are all rounded to 1.
-  double least_sine = 1.0;
+  double smallest_sine = 1.0;
   for (int i = 0; i < 4; ++i)
   {
     for (int j = 0; j < i; ++j)
@@ -42,13 +42,14 @@ double min_dihedral_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
       {
         const int k = i != 0 && j != 0 ? 0 : (i != 1 && j != 1 ? 1 : 2);
         const int l = 6 - i - j - k; // the edge k-l is between facets i and j
-        least_sine = std::min(least_sine, volume * (corners[l] - corners[k]).norm() / lengths);
+        smallest_sine =
+          std::min(smallest_sine, volume * (corners[l] - corners[k]).norm() / lengths);
       }
     }
   }
   constexpr double degrees = 57.295779513082320877;
   return degrees *
-    (largest_cosine > nearly_one ? std::asin(least_sine) : std::acos(largest_cosine));
+    (largest_cosine > nearly_one ? std::asin(smallest_sine) : std::acos(largest_cosine));
 }
 
 double longest_edge(const Points& points, const Tets& tets, Index t)
@@ -120,15 +121,15 @@ bool is_blocked(
     points.row(triangle[2]) };
   const Vec3 normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
   Vec3 center = Vec3::Zero();
-  double around = 0.0;
+  double perimeter = 0.0;
   for (int k = 0; k < 3; ++k)
   {
     const double opposite = (corners[(k + 2) % 3] - corners[(k + 1) % 3]).norm();
     center += opposite * corners[k];
-    around += opposite;
+    perimeter += opposite;
   }
-  center /= around;
-  const double radius = normal.norm() / around;
+  center /= perimeter;
+  const double radius = normal.norm() / perimeter;
   // Height of `top` as a fraction of the roof's height, with a margin for rounding.
   constexpr double within = 0.999;
   const Vec3 top = center - within * std::tan(angle / degrees) * radius * normal.normalized();
@@ -205,7 +206,7 @@ std::vector<EdgeKey> forced_edges(
     {
       const Index t = sides[i].triangle;
       is_forced = blocked[t] ||
-        smallest_corner(points.row(boundary(t, 0)), points.row(boundary(t, 1)),
+        smallest_triangle_angle(points.row(boundary(t, 0)), points.row(boundary(t, 1)),
           points.row(boundary(t, 2))) < angle;
       for (std::size_t j = begin; j < i && !is_forced; ++j)
       {
@@ -299,7 +300,8 @@ Status check_tets(
   return {};
 }
 
-Index drop_crumbs(const Points& points, Tets& tets, std::vector<TetFacet>& facets, double lone)
+Index remove_small_components(
+  const Points& points, Tets& tets, std::vector<TetFacet>& facets, double isolated_fraction)
 {
   DisjointSets<Index> groups(static_cast<std::size_t>(tets.rows()));
   for (std::size_t i = 1; i < facets.size(); ++i)
@@ -310,19 +312,20 @@ Index drop_crumbs(const Points& points, Tets& tets, std::vector<TetFacet>& facet
     }
   }
   const Eigen::VectorXd volumes = tet_volumes(points, tets);
-  Eigen::VectorXd of_group = Eigen::VectorXd::Zero(tets.rows());
+  Eigen::VectorXd group_volume = Eigen::VectorXd::Zero(tets.rows());
   std::vector<Index> size(static_cast<std::size_t>(tets.rows()), 0);
   for (Index t = 0; t < tets.rows(); ++t)
   {
-    of_group[groups.find(t)] += volumes[t];
+    group_volume[groups.find(t)] += volumes[t];
     ++size[groups.find(t)];
   }
-  constexpr double crumb = 1e-8;
+  constexpr double minimum_fraction = 1e-8;
   const double all = volumes.sum();
   Index kept = 0;
   for (Index t = 0; t < tets.rows(); ++t)
   {
-    if (of_group[groups.find(t)] >= (size[groups.find(t)] > 1 ? crumb : lone) * all)
+    if (group_volume[groups.find(t)] >=
+      (size[groups.find(t)] > 1 ? minimum_fraction : isolated_fraction) * all)
     {
       tets.row(kept++) = tets.row(t).eval();
     }
@@ -386,7 +389,7 @@ Index peel_slivers(const Points& points, Tets& tets, std::vector<TetFacet>& face
   }
 }
 
-Points centers_of(const Points& points, const Tets& tets)
+Points tet_centers(const Points& points, const Tets& tets)
 {
   Points centers(tets.rows(), 3);
   for (Index t = 0; t < tets.rows(); ++t)

@@ -66,11 +66,11 @@ Status check_tets(
   PointsView points, TetsView tets, const std::vector<TetFacet>& facets, bool may_branch = false);
 
 /// Remove groups of tets, connected by facets, whose volume is less than 1e-8 of the total. Such
-/// groups result from rounding. Also remove tets without a neighbor that have less than `lone` of
-/// the volume. `facets` contains the tet_facets() of the tets and is updated. @return the number of
-/// removed tets.
-Index drop_crumbs(
-  const Points& points, Tets& tets, std::vector<TetFacet>& facets, double lone = 1e-8);
+/// groups result from rounding. Also remove tets without a neighbor that have less than
+/// `isolated_fraction` of the volume. `facets` contains the tet_facets() of the tets and is
+/// updated. @return the number of removed tets.
+Index remove_small_components(
+  const Points& points, Tets& tets, std::vector<TetFacet>& facets, double isolated_fraction = 1e-8);
 
 /// Remove tets at the boundary whose smallest height is below `height`, repeatedly, until none
 /// remains there. The boundary moves by less than `height`. `facets` contains the tet_facets() of
@@ -78,7 +78,7 @@ Index drop_crumbs(
 Index peel_slivers(const Points& points, Tets& tets, std::vector<TetFacet>& facets, double height);
 
 /// Return the #T x 3 centroids of the tets.
-Points centers_of(const Points& points, const Tets& tets);
+Points tet_centers(const Points& points, const Tets& tets);
 
 } // namespace bindpose
 

@@ -25,13 +25,13 @@ namespace bindpose
 namespace
 {
 // Minimum decrease of the cost. It corresponds to an increase of one tet's smallest angle by 2 %.
-constexpr double better = 0.02;
-constexpr double never = std::numeric_limits<double>::infinity();
+constexpr double minimum_gain = 0.02;
+constexpr double infinite_cost = std::numeric_limits<double>::infinity();
 // Cosines of limits for the angle between the normals of boundary triangles.
 constexpr double flat_cosine = 0.966; // 15 degrees: below this angle an edge may be swapped
 constexpr double crease_cosine = 0.766; // 40 degrees: above this angle a vertex may not move
 
-bool turned_less(const Vec3& one, const Vec3& other, double cosine)
+bool is_angle_below(const Vec3& one, const Vec3& other, double cosine)
 {
   return one.dot(other) > cosine * one.norm() * other.norm();
 }
@@ -49,7 +49,7 @@ Vec3 direction(int k)
 }
 
 template <typename T>
-std::ptrdiff_t shared(const std::vector<T>& one, const std::vector<T>& other)
+std::ptrdiff_t count_shared(const std::vector<T>& one, const std::vector<T>& other)
 {
   return std::count_if(one.begin(), one.end(),
     [&](const T& x) { return std::binary_search(other.begin(), other.end(), x); });
@@ -60,20 +60,20 @@ void TetStep::clear()
 {
   this->kind = Kind::none;
   this->removed.clear();
-  this->fresh.clear();
+  this->added.clear();
   this->vertex = -1;
-  this->stay.clear();
+  this->immovable.clear();
 }
 
 bool may_move(const TetComplex& tets, const TetStepRules& rules, Index v)
 {
-  return (!rules.held[v] || rules.release) && (!tets.on_boundary(v) || rules.surface) &&
-    rules.stays[v] != tets.stamp(v);
+  return (!rules.constrained[v] || rules.may_move_constrained) &&
+    (!tets.on_boundary(v) || rules.surface) && rules.immovable_since[v] != tets.stamp(v);
 }
 
 TetStepSearch::TetStepSearch(const TetComplex& tets, const TetStepRules& rules)
-  : tets_(tets), rules_(rules), good_(TetComplex::quality_of_angle(rules.options.angle)),
-    bad_(TetComplex::quality_of_angle(rules.options.insert_angle)), cavities_(tets)
+  : tets_(tets), rules_(rules), good_quality_(TetComplex::quality_of_angle(rules.options.angle)),
+    insertion_quality_(TetComplex::quality_of_angle(rules.options.insert_angle)), cavities_(tets)
 {
 }
 
@@ -100,8 +100,8 @@ void TetStepSearch::find(Index t, TetStep& step)
   }
   // Fraction of the longest edge. If an edge is shorter than this, moving its vertices cannot
   // improve the tet.
-  constexpr double too_near = 0.01;
-  if (this->contract_any(tet, too_near, step))
+  constexpr double short_edge_ratio = 0.01;
+  if (this->contract_short_edge(tet, short_edge_ratio, step))
   {
     return;
   }
@@ -112,8 +112,8 @@ void TetStepSearch::find(Index t, TetStep& step)
       return;
     }
   }
-  if (!this->contract_any(tet, 1.0, step) && this->rules_.insert &&
-    this->tets_.quality(t) < this->bad_)
+  if (!this->contract_short_edge(tet, 1.0, step) && this->rules_.insert &&
+    this->tets_.quality(t) < this->insertion_quality_)
   {
     this->insert_near(t, step);
   }
@@ -127,14 +127,14 @@ double TetStepSearch::quality(const Tet& tet)
 
 double TetStepSearch::penalty(double quality) const
 {
-  if (quality >= this->good_)
+  if (quality >= this->good_quality_)
   {
     return 0.0;
   }
-  constexpr double least = 1e-24;
+  constexpr double minimum_quality = 1e-24;
   // The logarithm is halved, because the quality is the square of the sine.
   constexpr double half = 0.5;
-  return half * std::log(this->good_ / std::max(quality, least));
+  return half * std::log(this->good_quality_ / std::max(quality, minimum_quality));
 }
 
 TetStepSearch::Cost TetStepSearch::cost(const std::vector<Index>& tets) const
@@ -149,10 +149,10 @@ TetStepSearch::Cost TetStepSearch::cost(const std::vector<Index>& tets) const
 }
 
 /// Return the minimum quality of tets that replace tets with this cost.
-double TetStepSearch::least_after(const Cost& cost) const
+double TetStepSearch::minimum_quality_after(const Cost& cost) const
 {
   return std::min(
-    this->rules_.options.slack * this->rules_.options.slack * cost.worst, this->good_);
+    this->rules_.options.slack * this->rules_.options.slack * cost.worst, this->good_quality_);
 }
 
 // ---- Edges and facets ------------------------------------------------------------------------
@@ -169,24 +169,24 @@ bool TetStepSearch::remove_edge(Index a, Index b, TetStep& step)
     return false;
   }
   const Cost old = this->cost(ring.tets);
-  const double least = this->least_after(old);
+  const double minimum_quality = this->minimum_quality_after(old);
   const std::vector<Index>& r = ring.vertices;
   const std::size_t n = r.size();
-  constexpr std::size_t most = TetComplex::longest_ring + 1;
+  constexpr std::size_t upper_limit = TetComplex::maximum_ring_size + 1;
   // best[i][j]: the cost of the best triangulation of the polygon r[i] … r[j].
-  std::array<std::array<double, most>, most> best;
-  std::array<std::array<std::size_t, most>, most> apex{};
+  std::array<std::array<double, upper_limit>, upper_limit> best;
+  std::array<std::array<std::size_t, upper_limit>, upper_limit> apex{};
   for (std::size_t i = 0; i + 1 < n; ++i)
   {
     best[i][i + 1] = 0.0;
   }
-  const double enough = old.sum - better;
+  const double enough = old.sum - minimum_gain;
   for (std::size_t span = 2; span < n; ++span)
   {
     for (std::size_t i = 0; i + span < n; ++i)
     {
       const std::size_t j = i + span;
-      best[i][j] = never;
+      best[i][j] = infinite_cost;
       for (std::size_t k = i + 1; k < j; ++k)
       {
         const double rest = best[i][k] + best[k][j];
@@ -195,12 +195,12 @@ bool TetStepSearch::remove_edge(Index a, Index b, TetStep& step)
           continue;
         }
         const double one = this->quality({ r[i], r[k], r[j], b });
-        if (!(one > 0.0) || one < least)
+        if (!(one > 0.0) || one < minimum_quality)
         {
           continue;
         }
         const double other = this->quality({ r[k], r[i], r[j], a });
-        if (!(other > 0.0) || other < least)
+        if (!(other > 0.0) || other < minimum_quality)
         {
           continue;
         }
@@ -229,8 +229,8 @@ bool TetStepSearch::remove_edge(Index a, Index b, TetStep& step)
       continue;
     }
     const std::size_t k = apex[i][j];
-    step.fresh.push_back({ r[i], r[k], r[j], b });
-    step.fresh.push_back({ r[k], r[i], r[j], a });
+    step.added.push_back({ r[i], r[k], r[j], b });
+    step.added.push_back({ r[k], r[i], r[j], a });
     open.emplace_back(i, k);
     open.emplace_back(k, j);
   }
@@ -252,7 +252,7 @@ bool TetStepSearch::may_swap_boundary(Index a, Index b, const Ring& ring) const
   const Vec3 other = (this->point(last) - p).cross(q - p);
   const Vec3 new_one = (p - this->point(first)).cross(this->point(last) - this->point(first));
   const Vec3 new_other = (this->point(last) - this->point(first)).cross(q - this->point(first));
-  const auto flat = [](const Vec3& x, const Vec3& y) { return turned_less(x, y, flat_cosine); };
+  const auto flat = [](const Vec3& x, const Vec3& y) { return is_angle_below(x, y, flat_cosine); };
   if (!flat(one, other) || !flat(new_one, new_other) || !flat(one, new_one))
   {
     return false;
@@ -276,7 +276,7 @@ bool TetStepSearch::may_swap_boundary(Index a, Index b, const Ring& ring) const
 
 bool TetStepSearch::remove_facet(Index t, Index a, Index b, Index c, TetStep& step)
 {
-  const Index other = this->tets_.beyond(t, a, b, c);
+  const Index other = this->tets_.neighbor_tet(t, a, b, c);
   if (other < 0)
   {
     return false;
@@ -293,53 +293,53 @@ bool TetStepSearch::remove_facet(Index t, Index a, Index b, Index c, TetStep& st
     return Index(-1);
   };
   const Index d = apex(t), e = apex(other);
-  std::array<Tet, 3> fresh{ { { a, b, e, d }, { b, c, e, d }, { c, a, e, d } } };
+  std::array<Tet, 3> added{ { { a, b, e, d }, { b, c, e, d }, { c, a, e, d } } };
   if (this->tets_.volume({ a, b, c, d }) < 0.0)
   {
-    for (Tet& tet : fresh)
+    for (Tet& tet : added)
     {
       std::swap(tet[0], tet[1]);
     }
   }
   const Cost old = this->cost({ t, other });
-  const double least = this->least_after(old);
+  const double minimum_quality = this->minimum_quality_after(old);
   double sum = 0.0;
-  for (const Tet& tet : fresh)
+  for (const Tet& tet : added)
   {
     const double value = this->quality(tet);
-    if (!(value > 0.0) || value < least)
+    if (!(value > 0.0) || value < minimum_quality)
     {
       return false;
     }
     sum += this->penalty(value);
   }
-  if (!(sum < old.sum - better) || this->tets_.has_edge(d, e))
+  if (!(sum < old.sum - minimum_gain) || this->tets_.has_edge(d, e))
   {
     return false;
   }
   step.kind = TetStep::Kind::swap;
   step.removed = { t, other };
-  step.fresh.assign(fresh.begin(), fresh.end());
+  step.added.assign(added.begin(), added.end());
   return true;
 }
 
 // ---- Vertices --------------------------------------------------------------------------------
 
-/// Return the patch of boundary triangles `skin` with vertex `moved` at the position p.
+/// Return the patch of boundary triangles `boundary_facets` with vertex `moved` at the position p.
 TetStepSearch::Patch TetStepSearch::patch_of(
-  const std::vector<Facet>& skin, Index moved, const Vec3& p) const
+  const std::vector<Facet>& boundary_facets, Index moved, const Vec3& p) const
 {
   const auto at = [&](Index v) -> const Vec3& { return v == moved ? p : this->point(v); };
   std::vector<Vec3> normals;
   Patch patch;
-  for (const auto& f : skin)
+  for (const auto& f : boundary_facets)
   {
     normals.push_back((at(f[1]) - at(f[0])).cross(at(f[2]) - at(f[0])));
     patch.normal += normals.back();
   }
   patch.normal.normalize();
   patch.smooth = std::all_of(normals.begin(), normals.end(),
-    [&](const Vec3& n) { return turned_less(n, patch.normal, crease_cosine); });
+    [&](const Vec3& n) { return is_angle_below(n, patch.normal, crease_cosine); });
   return patch;
 }
 
@@ -351,20 +351,20 @@ bool TetStepSearch::move(Index v, TetStep& step)
   }
   const bool on_boundary = this->tets_.on_boundary(v);
   const Vec3 start = this->point(v);
-  std::vector<Facet> skin;
+  std::vector<Facet> boundary_facets;
   Patch patch;
   if (on_boundary)
   {
-    skin = this->tets_.skin_at(v);
-    patch = this->patch_of(skin, v, start);
+    boundary_facets = this->tets_.boundary_facets_at(v);
+    patch = this->patch_of(boundary_facets, v, start);
     if (!patch.smooth)
     {
-      step.stay.push_back(v);
+      step.immovable.push_back(v);
       return false;
     }
   }
-  this->star_ = this->tets_.tets_at(v);
-  double shortest = never;
+  this->star_ = this->tets_.tets_of_vertex(v);
+  double shortest = infinite_cost;
   for (const Index t : this->star_)
   {
     for (const Index w : this->tets_.tet(t))
@@ -376,7 +376,7 @@ bool TetStepSearch::move(Index v, TetStep& step)
     }
   }
   const Cost old = this->cost(this->star_);
-  const double least = this->least_after(old);
+  const double minimum_quality = this->minimum_quality_after(old);
   double value = old.sum;
   Vec3 at = start;
   // Sort the most expensive tets first, because they exclude most directions.
@@ -399,8 +399,9 @@ bool TetStepSearch::move(Index v, TetStep& step)
       {
         continue;
       }
-      const double there = this->sum_of_star(v, p, least, value - better);
-      if (there < value - better && (skin.empty() || this->patch_of(skin, v, p).smooth))
+      const double there = this->star_cost(v, p, minimum_quality, value - minimum_gain);
+      if (there < value - minimum_gain &&
+        (boundary_facets.empty() || this->patch_of(boundary_facets, v, p).smooth))
       {
         value = there;
         at = p;
@@ -409,22 +410,22 @@ bool TetStepSearch::move(Index v, TetStep& step)
     }
     length *= found ? 1.0 : 0.5;
   }
-  if (!(value < old.sum - better))
+  if (!(value < old.sum - minimum_gain))
   {
-    step.stay.push_back(v);
+    step.immovable.push_back(v);
     return false;
   }
   step.kind = TetStep::Kind::move;
   step.vertex = v;
-  step.place = at;
+  step.position = at;
   return true;
 }
 
 /// Return the sum of the costs of new tets, one per item. The result is infinity if the sum exceeds
-/// `most` or if the quality of a tet is less than `least`.
+/// `upper_limit` or if the quality of a tet is less than `minimum_quality`.
 template <typename Items, typename QualityOf>
-double TetStepSearch::sum_of(
-  const Items& items, const QualityOf& quality_of, double least, double most)
+double TetStepSearch::total_cost(
+  const Items& items, const QualityOf& quality_of, double minimum_quality, double upper_limit)
 {
   double sum = 0.0;
   for (const auto& item : items)
@@ -432,19 +433,20 @@ double TetStepSearch::sum_of(
     ++this->evaluations_;
     const double value = quality_of(item);
     sum += this->penalty(value);
-    if (!(value > 0.0) || value < least || sum > most)
+    if (!(value > 0.0) || value < minimum_quality || sum > upper_limit)
     {
-      return never;
+      return infinite_cost;
     }
   }
   return sum;
 }
 
 /// Return the cost of the tets in star_ with vertex v at p.
-double TetStepSearch::sum_of_star(Index v, const Vec3& p, double least, double most)
+double TetStepSearch::star_cost(Index v, const Vec3& p, double minimum_quality, double upper_limit)
 {
-  return this->sum_of(
-    this->star_, [&](Index t) { return this->tets_.quality_with(t, v, p); }, least, most);
+  return this->total_cost(
+    this->star_, [&](Index t) { return this->tets_.quality_with(t, v, p); }, minimum_quality,
+    upper_limit);
 }
 
 // ---- New vertices ------------------------------------------------------------------------------
@@ -485,8 +487,8 @@ bool TetStepSearch::insert(Index t, Vec3 p, TetStep& step)
     return false;
   }
   const Cost old = this->cost(step.cavity.tets);
-  const double least = this->least_after(old);
-  double shortest = never;
+  const double minimum_quality = this->minimum_quality_after(old);
+  double shortest = infinite_cost;
   for (const Facet& f : step.cavity.facets)
   {
     for (const Index w : f)
@@ -501,7 +503,7 @@ bool TetStepSearch::insert(Index t, Vec3 p, TetStep& step)
   // the second limit.
   constexpr double hopeful = 3.0;
   constexpr double promising = 1.5;
-  double value = this->sum_of_cavity(step.cavity, p, least, never);
+  double value = this->cavity_cost(step.cavity, p, minimum_quality, infinite_cost);
   if (!(value < hopeful * old.sum))
   {
     return false;
@@ -513,12 +515,12 @@ bool TetStepSearch::insert(Index t, Vec3 p, TetStep& step)
     bool found = false;
     for (int k = 0; k < directions_count && !found; ++k)
     {
-      const Vec3 place = p + length * direction(k);
-      const double there = this->sum_of_cavity(step.cavity, place, least, value);
-      if (there < value - better)
+      const Vec3 position = p + length * direction(k);
+      const double there = this->cavity_cost(step.cavity, position, minimum_quality, value);
+      if (there < value - minimum_gain)
       {
         value = there;
-        p = place;
+        p = position;
         found = true;
       }
     }
@@ -533,26 +535,26 @@ bool TetStepSearch::insert(Index t, Vec3 p, TetStep& step)
     return false;
   }
   step.kind = TetStep::Kind::insert;
-  step.place = p;
+  step.position = p;
   return true;
 }
 
 /// Return the cost of the tets between p and the cavity's facets.
-double TetStepSearch::sum_of_cavity(
-  const TetCavity& cavity, const Vec3& p, double least, double most)
+double TetStepSearch::cavity_cost(
+  const TetCavity& cavity, const Vec3& p, double minimum_quality, double upper_limit)
 {
-  return this->sum_of(
+  return this->total_cost(
     cavity.facets,
     [&](const Facet& f)
     { return TetComplex::quality(this->point(f[0]), this->point(f[1]), this->point(f[2]), p); },
-    least, most);
+    minimum_quality, upper_limit);
 }
 
 // ---- Contraction -----------------------------------------------------------------------------
 
-/// Find a step that contracts an edge of the tet. The edge is at most `share` times as long as the
-/// tet's longest edge.
-bool TetStepSearch::contract_any(const Tet& tet, double share, TetStep& step)
+/// Find a step that contracts an edge of the tet. The edge is at most `maximum_ratio` times as long
+/// as the tet's longest edge.
+bool TetStepSearch::contract_short_edge(const Tet& tet, double maximum_ratio, TetStep& step)
 {
   double longest = 0.0;
   const auto length = [&](int i, int j)
@@ -563,7 +565,7 @@ bool TetStepSearch::contract_any(const Tet& tet, double share, TetStep& step)
   }
   for (int k = 0; k < 16; ++k)
   {
-    if (k / 4 != k % 4 && length(k / 4, k % 4) <= share * longest &&
+    if (k / 4 != k % 4 && length(k / 4, k % 4) <= maximum_ratio * longest &&
       this->contract(tet[k / 4], tet[k % 4], step))
     {
       return true;
@@ -577,38 +579,40 @@ bool TetStepSearch::contract_any(const Tet& tet, double share, TetStep& step)
 bool TetStepSearch::contract(Index a, Index b, TetStep& step)
 {
   const bool on_boundary = this->tets_.on_boundary(a);
-  if (this->rules_.held[a] || (on_boundary && this->rules_.options.keep_boundary))
+  if (this->rules_.constrained[a] || (on_boundary && this->rules_.options.keep_boundary))
   {
     return false;
   }
-  const std::vector<Index> old = this->tets_.tets_at(a);
+  const std::vector<Index> old = this->tets_.tets_of_vertex(a);
   const Cost before = this->cost(old);
-  const double least = this->least_after(before);
-  std::vector<Tet>& fresh = step.fresh;
-  fresh.clear();
+  const double minimum_quality = this->minimum_quality_after(before);
+  std::vector<Tet>& added = step.added;
+  added.clear();
   double sum = 0.0;
   for (const Index other : old)
   {
-    if (TetComplex::has(this->tets_.tet(other), b))
+    if (TetComplex::has_vertex(this->tets_.tet(other), b))
     {
       continue;
     }
-    fresh.push_back(this->tets_.tet(other));
-    std::replace(fresh.back().begin(), fresh.back().end(), a, b);
-    const double value = this->quality(fresh.back());
+    added.push_back(this->tets_.tet(other));
+    std::replace(added.back().begin(), added.back().end(), a, b);
+    const double value = this->quality(added.back());
     sum += this->penalty(value);
-    if (!(value > 0.0) || value < least || !(sum < before.sum - better))
+    if (!(value > 0.0) || value < minimum_quality || !(sum < before.sum - minimum_gain))
     {
       return false;
     }
   }
-  const std::vector<Facet> skin = on_boundary ? this->tets_.skin_at(a) : std::vector<Facet>();
+  const std::vector<Facet> boundary_facets =
+    on_boundary ? this->tets_.boundary_facets_at(a) : std::vector<Facet>();
   const auto has_b = [b](const Facet& f) { return std::find(f.begin(), f.end(), b) != f.end(); };
-  if (on_boundary && std::none_of(skin.begin(), skin.end(), has_b))
+  if (on_boundary && std::none_of(boundary_facets.begin(), boundary_facets.end(), has_b))
   {
     return false; // a-b is an inner edge, so the boundary would move inwards
   }
-  if (fresh.empty() || !this->keeps_shape(skin, a, b) || !this->keeps_topology(skin, a, b))
+  if (added.empty() || !this->keeps_shape(boundary_facets, a, b) ||
+    !this->keeps_topology(boundary_facets, a, b))
   {
     return false;
   }
@@ -620,11 +624,11 @@ bool TetStepSearch::contract(Index a, Index b, TetStep& step)
 /// Report whether the normals of the boundary triangles at vertex a change little if a is replaced
 /// by b. A vertex of a crease may be contracted along the crease only. A vertex at which creases
 /// meet or end must not be contracted. skin: the boundary triangles at a.
-bool TetStepSearch::keeps_shape(const std::vector<Facet>& skin, Index a, Index b) const
+bool TetStepSearch::keeps_shape(const std::vector<Facet>& boundary_facets, Index a, Index b) const
 {
   // Pairs (other end of an edge at a, normal of a triangle at this edge).
   std::vector<std::pair<Index, Vec3>> sides;
-  for (const auto& f : skin)
+  for (const auto& f : boundary_facets)
   {
     std::array<Vec3, 3> p{ this->point(f[0]), this->point(f[1]), this->point(f[2]) };
     const Vec3 n = (p[1] - p[0]).cross(p[2] - p[0]);
@@ -638,7 +642,7 @@ bool TetStepSearch::keeps_shape(const std::vector<Facet>& skin, Index a, Index b
     if (std::find(f.begin(), f.end(), b) == f.end())
     {
       p[std::find(f.begin(), f.end(), a) - f.begin()] = this->point(b);
-      if (!turned_less(n, (p[1] - p[0]).cross(p[2] - p[0]), flat_cosine))
+      if (!is_angle_below(n, (p[1] - p[0]).cross(p[2] - p[0]), flat_cosine))
       {
         return false;
       }
@@ -651,7 +655,7 @@ bool TetStepSearch::keeps_shape(const std::vector<Facet>& skin, Index a, Index b
     for (std::size_t j = 0; j < i; ++j)
     {
       if (sides[i].first == sides[j].first &&
-        !turned_less(sides[i].second, sides[j].second, crease_cosine))
+        !is_angle_below(sides[i].second, sides[j].second, crease_cosine))
       {
         ++creases;
         along = along || sides[i].first == b;
@@ -664,32 +668,34 @@ bool TetStepSearch::keeps_shape(const std::vector<Facet>& skin, Index a, Index b
 /// Check the link condition: the intersection of the links of a and b must be the link of the edge
 /// a-b. The outside is represented by an additional vertex that forms tets with the boundary
 /// triangles.
-bool TetStepSearch::keeps_topology(const std::vector<Facet>& skin, Index a, Index b) const
+bool TetStepSearch::keeps_topology(
+  const std::vector<Facet>& boundary_facets, Index a, Index b) const
 {
-  const Link link_a = this->link_of(a, skin);
-  const Link link_b =
-    this->link_of(b, this->tets_.on_boundary(b) ? this->tets_.skin_at(b) : std::vector<Facet>());
+  const Link link_a = this->link_of(a, boundary_facets);
+  const Link link_b = this->link_of(
+    b, this->tets_.on_boundary(b) ? this->tets_.boundary_facets_at(b) : std::vector<Facet>());
   // The link of the edge is a cycle (or more than one, if the boundary touches itself).
   std::vector<Index> at_edge;
-  this->tets_.tets_with(a, b, at_edge);
+  this->tets_.find_edge_tets(a, b, at_edge);
   const auto cycle = static_cast<std::ptrdiff_t>(at_edge.size()) +
-    std::count_if(skin.begin(), skin.end(),
+    std::count_if(boundary_facets.begin(), boundary_facets.end(),
       [&](const auto& f) { return std::find(f.begin(), f.end(), b) != f.end(); });
-  return shared(link_a.vertices, link_b.vertices) == cycle &&
-    shared(link_a.edges, link_b.edges) == cycle && shared(link_a.triangles, link_b.triangles) == 0;
+  return count_shared(link_a.vertices, link_b.vertices) == cycle &&
+    count_shared(link_a.edges, link_b.edges) == cycle &&
+    count_shared(link_a.triangles, link_b.triangles) == 0;
 }
 
-TetStepSearch::Link TetStepSearch::link_of(Index v, const std::vector<Facet>& skin) const
+TetStepSearch::Link TetStepSearch::link_of(Index v, const std::vector<Facet>& boundary_facets) const
 {
   constexpr Index outside = -1;
   Link link;
-  for (const Index t : this->tets_.tets_at(v))
+  for (const Index t : this->tets_.tets_of_vertex(v))
   {
     Tet tet = this->tets_.tet(t);
     std::swap(*std::find(tet.begin(), tet.end(), v), tet[3]);
     link.triangles.push_back({ tet[0], tet[1], tet[2] });
   }
-  for (auto f : skin)
+  for (auto f : boundary_facets)
   {
     *std::find(f.begin(), f.end(), v) = outside;
     link.triangles.push_back(f);

@@ -19,19 +19,19 @@ struct TetStep
   enum class Kind
   {
     none,
-    swap, ///< the tets `removed` are replaced by `fresh`
+    swap, ///< the tets `removed` are replaced by `added`
     contract, ///< a swap after which one vertex is no longer used
-    move, ///< `vertex` moves to `place`
-    insert ///< the tets of `cavity` are replaced by tets from a new vertex at `place`
+    move, ///< `vertex` moves to `position`
+    insert ///< the tets of `cavity` are replaced by tets from a new vertex at `position`
   };
   Kind kind = Kind::none;
   std::vector<Index> removed;
-  std::vector<TetComplex::Tet> fresh;
+  std::vector<TetComplex::Tet> added;
   Index vertex = -1;
-  Vec3 place = Vec3::Zero();
+  Vec3 position = Vec3::Zero();
   TetCavity cavity;
   /// Vertices of the tet for which the search found no better position.
-  std::vector<Index> stay;
+  std::vector<Index> immovable;
 
   void clear();
 };
@@ -46,17 +46,17 @@ struct TetStepRules
 
   const ImproveOptions& options;
   const OntoSurface& surface;
-  std::vector<char> held; ///< #V: 1 for held (constrained) vertices
+  std::vector<char> constrained; ///< #V: 1 for held (constrained) vertices
   /// #V: value of TetComplex::stamp() for each vertex at the last search that found no better
   /// position for the vertex. 0: no such search.
-  std::vector<std::uint64_t> stays;
-  bool release = false; ///< true if held vertices may move
+  std::vector<std::uint64_t> immovable_since;
+  bool may_move_constrained = false; ///< true if held vertices may move
   bool insert = false; ///< true if vertices may be inserted
 };
 
 /// Report whether a better position for vertex v may be searched. Held vertices may move only if
-/// `release` is set, and boundary vertices only if there is a surface. The tets at v must have
-/// changed since the last search that found no better position.
+/// `may_move_constrained` is set, and boundary vertices only if there is a surface. The tets at v
+/// must have changed since the last search that found no better position.
 bool may_move(const TetComplex& tets, const TetStepRules& rules, Index v);
 
 /// Finds steps that improve a tet. Each thread needs a separate object. The tets and the rules may
@@ -102,7 +102,7 @@ private:
   double quality(const Tet& tet);
   double penalty(double quality) const;
   Cost cost(const std::vector<Index>& tets) const;
-  double least_after(const Cost& cost) const;
+  double minimum_quality_after(const Cost& cost) const;
 
   bool remove_edge(Index a, Index b, TetStep& step);
   bool may_swap_boundary(Index a, Index b, const Ring& ring) const;
@@ -110,24 +110,27 @@ private:
 
   bool move(Index v, TetStep& step);
   template <typename Items, typename QualityOf>
-  double sum_of(const Items& items, const QualityOf& quality_of, double least, double most);
-  double sum_of_star(Index v, const Vec3& p, double least, double most);
-  Patch patch_of(const std::vector<Facet>& skin, Index moved, const Vec3& p) const;
+  double total_cost(
+    const Items& items, const QualityOf& quality_of, double minimum_quality, double upper_limit);
+  double star_cost(Index v, const Vec3& p, double minimum_quality, double upper_limit);
+  Patch patch_of(const std::vector<Facet>& boundary_facets, Index moved, const Vec3& p) const;
 
   bool insert_near(Index t, TetStep& step);
   bool insert(Index t, Vec3 p, TetStep& step);
-  double sum_of_cavity(const TetCavity& cavity, const Vec3& p, double least, double most);
+  double cavity_cost(
+    const TetCavity& cavity, const Vec3& p, double minimum_quality, double upper_limit);
 
-  bool contract_any(const Tet& tet, double share, TetStep& step);
+  bool contract_short_edge(const Tet& tet, double maximum_ratio, TetStep& step);
   bool contract(Index a, Index b, TetStep& step);
-  bool keeps_shape(const std::vector<Facet>& skin, Index a, Index b) const;
-  bool keeps_topology(const std::vector<Facet>& skin, Index a, Index b) const;
-  Link link_of(Index v, const std::vector<Facet>& skin) const;
+  bool keeps_shape(const std::vector<Facet>& boundary_facets, Index a, Index b) const;
+  bool keeps_topology(const std::vector<Facet>& boundary_facets, Index a, Index b) const;
+  Link link_of(Index v, const std::vector<Facet>& boundary_facets) const;
 
   const TetComplex& tets_;
   const TetStepRules& rules_;
-  const double good_; ///< tets whose quality is at least this are not improved
-  const double bad_; ///< vertices may be inserted near tets whose quality is below this
+  const double good_quality_; ///< tets whose quality is at least this are not improved
+  const double
+    insertion_quality_; ///< vertices may be inserted near tets whose quality is below this
   CavitySearch cavities_;
   Ring ring_;
   std::vector<Index> star_;

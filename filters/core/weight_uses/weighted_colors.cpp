@@ -31,7 +31,7 @@ struct Tally
   Index not_finite = -1; ///< the first vertex whose blended color is not finite; -1: none
 };
 
-double beyond(const Vec3& color, const Vec3& lower, const Vec3& upper)
+double distance_outside(const Vec3& color, const Vec3& lower, const Vec3& upper)
 {
   return std::max({ 0.0, (lower.array() - color.array()).maxCoeff(),
     (color.array() - upper.array()).maxCoeff() });
@@ -111,8 +111,8 @@ Status weighted_colors(ExecutionContext& context, WeightsView weights, ColorsVie
           tally.not_finite = tally.not_finite < 0 ? v : tally.not_finite;
           continue;
         }
-        const double gamut = beyond(color, Vec3::Zero(), Vec3::Ones());
-        const double overshoot = beyond(color, least, most);
+        const double gamut = distance_outside(color, Vec3::Zero(), Vec3::Ones());
+        const double overshoot = distance_outside(color, least, most);
         result.out_of_gamut[static_cast<std::size_t>(v)] = gamut > gamut_tolerance;
         tally.out_of_gamut += gamut > gamut_tolerance;
         tally.beyond_handles += overshoot > gamut_tolerance;

@@ -119,7 +119,7 @@ Status inverse_distances(
 {
   const HandleDistances distances(problem);
   const Index m = problem.handle_count();
-  const bool whole = parallel_for(context, problem.vertex_count(), 256,
+  const bool completed = parallel_for(context, problem.vertex_count(), 256,
     [&](Index begin, Index end)
     {
       VectorXd d(m);
@@ -143,7 +143,7 @@ Status inverse_distances(
         w.row(v) /= w.row(v).sum();
       }
     });
-  return whole ? Status() : Status::canceled();
+  return completed ? Status() : Status::canceled();
 }
 
 SparseMatrix with_diagonal(const SparseMatrix& matrix, double factor, const VectorXd& diagonal)
@@ -190,7 +190,7 @@ Status smoothed_harmonic(ExecutionContext& context, const WeightsProblem& proble
 /// Triangles that can block the line of sight from a vertex to a handle: the boundary of a volume,
 /// or a surface itself. For a flat shape, the triangles are perpendicular to the shape and contain
 /// the edges of its outline.
-struct Walls
+struct Occluders
 {
   Points points;
   Triangles triangles;
@@ -198,26 +198,26 @@ struct Walls
   std::vector<std::array<Index, 3>> vertices;
 };
 
-Walls walls_of(const WeightsProblem& problem)
+Occluders walls_of(const WeightsProblem& problem)
 {
   const Domain& domain = problem.mesh.domain;
-  Walls walls;
+  Occluders occluders;
   Vec3 normal;
   if (domain.is_volume() || !is_flat(domain.points, problem.diagonal, normal))
   {
-    walls.points = domain.points;
-    walls.triangles = domain.is_volume() ? boundary_triangles(domain.tets) : domain.triangles;
-    for (Index f = 0; f < walls.triangles.rows(); ++f)
+    occluders.points = domain.points;
+    occluders.triangles = domain.is_volume() ? boundary_triangles(domain.tets) : domain.triangles;
+    for (Index f = 0; f < occluders.triangles.rows(); ++f)
     {
-      walls.vertices.push_back(
-        { walls.triangles(f, 0), walls.triangles(f, 1), walls.triangles(f, 2) });
+      occluders.vertices.push_back(
+        { occluders.triangles(f, 0), occluders.triangles(f, 1), occluders.triangles(f, 2) });
     }
-    return walls;
+    return occluders;
   }
   const Index n = domain.points.rows();
   const Vec3 up = problem.diagonal * normal;
-  walls.points.resize(2 * n, 3);
-  walls.points << domain.points.rowwise() - up.transpose(),
+  occluders.points.resize(2 * n, 3);
+  occluders.points << domain.points.rowwise() - up.transpose(),
     domain.points.rowwise() + up.transpose();
   std::vector<std::array<Index, 3>> triangles;
   for (const Edge& edge : mesh_edges(domain.triangles))
@@ -226,15 +226,15 @@ Walls walls_of(const WeightsProblem& problem)
     {
       triangles.push_back({ edge.a, edge.b, n + edge.b });
       triangles.push_back({ edge.a, n + edge.b, n + edge.a });
-      walls.vertices.insert(walls.vertices.end(), 2, { edge.a, edge.b, edge.b });
+      occluders.vertices.insert(occluders.vertices.end(), 2, { edge.a, edge.b, edge.b });
     }
   }
-  walls.triangles.resize(static_cast<Index>(triangles.size()), 3);
-  for (Index f = 0; f < walls.triangles.rows(); ++f)
+  occluders.triangles.resize(static_cast<Index>(triangles.size()), 3);
+  for (Index f = 0; f < occluders.triangles.rows(); ++f)
   {
-    walls.triangles.row(f) << triangles[f][0], triangles[f][1], triangles[f][2];
+    occluders.triangles.row(f) << triangles[f][0], triangles[f][1], triangles[f][2];
   }
-  return walls;
+  return occluders;
 }
 
 /// Compute H and p (see the top of this file) for every vertex. H is 0 if none of the nearest
@@ -242,13 +242,13 @@ Walls walls_of(const WeightsProblem& problem)
 Status heat_sources(ExecutionContext& context, const WeightsProblem& problem, double heat,
   VectorXd& h, MatrixXd& p, Index& heated)
 {
-  const Walls walls = walls_of(problem);
-  const TriangleTree tree(walls.points, walls.triangles);
+  const Occluders occluders = walls_of(problem);
+  const TriangleTree tree(occluders.points, occluders.triangles);
   const HandleDistances distances(problem);
   const Index m = problem.handle_count();
   h = VectorXd::Zero(problem.vertex_count());
   p = MatrixXd::Zero(problem.vertex_count(), m);
-  const bool whole = parallel_for(context, problem.vertex_count(), 64,
+  const bool completed = parallel_for(context, problem.vertex_count(), 64,
     [&](Index begin, Index end)
     {
       VectorXd d(m);
@@ -258,10 +258,10 @@ Status heat_sources(ExecutionContext& context, const WeightsProblem& problem, do
         {
           continue;
         }
-        const Vec3 at = problem.mesh.domain.points.row(v);
+        const Vec3 position = problem.mesh.domain.points.row(v);
         for (Index j = 0; j < m; ++j)
         {
-          d[j] = distances.from(j, at);
+          d[j] = distances.from(j, position);
         }
         constexpr double equally_near = 1.0001;
         const double least = std::max(d.minCoeff(), 1e-6 * problem.diagonal);
@@ -271,16 +271,16 @@ Status heat_sources(ExecutionContext& context, const WeightsProblem& problem, do
           {
             continue;
           }
-          const Vec3 to = distances.nearest(static_cast<std::size_t>(j), at);
+          const Vec3 to = distances.nearest(static_cast<std::size_t>(j), position);
           // Shorten the segment at both ends, because its ends touch a wall if they are on the
           // surface.
           constexpr double short_of = 1e-3;
-          const Vec3 from = at + short_of * (to - at);
-          const Vec3 until = to + short_of * (at - to);
+          const Vec3 from = position + short_of * (to - position);
+          const Vec3 until = to + short_of * (position - to);
           const bool hidden = tree.segment_meets(from, until,
             [&](Index f)
             {
-              const auto& own = walls.vertices[f];
+              const auto& own = occluders.vertices[f];
               return std::find(own.begin(), own.end(), v) == own.end();
             });
           p(v, j) = hidden ? 0.0 : 1.0;
@@ -295,7 +295,7 @@ Status heat_sources(ExecutionContext& context, const WeightsProblem& problem, do
       }
     });
   heated = (h.array() > 0.0).count();
-  return whole ? Status() : Status::canceled();
+  return completed ? Status() : Status::canceled();
 }
 
 Status bone_heat(ExecutionContext& context, const WeightsProblem& problem,

@@ -36,7 +36,7 @@ public:
     this->find_unknowns(mirrored);
     this->find_fixed();
     this->group_.columns.resize(this->group_.handles.size());
-    this->group_.own_pins.assign(this->group_.handles.size(), 0);
+    this->group_.has_pins.assign(this->group_.handles.size(), 0);
     for (std::size_t c = 0; c < this->group_.columns.size(); ++c)
     {
       const Status status = this->make_column(static_cast<Index>(c));
@@ -56,7 +56,7 @@ public:
 private:
   void find_unknowns(bool mirrored)
   {
-    const auto& of_vertex = this->problem_.constraints.components.of_vertex;
+    const auto& component_of_vertex = this->problem_.constraints.components.component_of_vertex;
     const Index copies = this->group_.copies;
     DisjointSets<Index> classes(static_cast<std::size_t>(copies * this->n_));
     bool merged = false;
@@ -64,7 +64,7 @@ private:
     for (Index v = 0; v < this->n_; ++v)
     {
       const Index set = this->terms_.rigid_sets.empty() ? 0 : this->terms_.rigid_sets[v];
-      if (set > 0 && of_vertex[v] >= 0)
+      if (set > 0 && component_of_vertex[v] >= 0)
       {
         const Index first = first_of_set.insert({ set, v }).first->second;
         for (Index k = 0; k < copies; ++k)
@@ -74,7 +74,7 @@ private:
         merged = merged || first != v;
       }
       const Index other = mirrored ? this->terms_.mirror[v] : -1;
-      if (other >= 0 && of_vertex[v] >= 0 && of_vertex[other] >= 0)
+      if (other >= 0 && component_of_vertex[v] >= 0 && component_of_vertex[other] >= 0)
       {
         classes.unite(v, (copies - 1) * this->n_ + other);
         merged = merged || copies > 1 || other != v;
@@ -104,21 +104,22 @@ private:
     // Find the connected components of the unknowns.
     const Index parts = this->problem_.constraints.components.count;
     DisjointSets<Index> joined(static_cast<std::size_t>(copies * parts));
-    this->part_.assign(static_cast<std::size_t>(this->group_.count), -1);
+    this->component_of_unknown_.assign(static_cast<std::size_t>(this->group_.count), -1);
     for (Index u = 0; u < this->group_.count; ++u)
     {
       for (const Index member : this->members_[u])
       {
-        const Index part = of_vertex[member % this->n_];
+        const Index part = component_of_vertex[member % this->n_];
         if (part >= 0)
         {
           const Index at = (member / this->n_) * parts + part;
-          this->part_[u] = this->part_[u] < 0 ? at : this->part_[u];
-          joined.unite(this->part_[u], at);
+          this->component_of_unknown_[u] =
+            this->component_of_unknown_[u] < 0 ? at : this->component_of_unknown_[u];
+          joined.unite(this->component_of_unknown_[u], at);
         }
       }
     }
-    for (Index& part : this->part_)
+    for (Index& part : this->component_of_unknown_)
     {
       part = part < 0 ? -1 : joined.find(part);
     }
@@ -185,8 +186,8 @@ private:
         const Index handle = handles[member / this->n_];
         const Index row = this->row_of_[v];
         double value = row >= 0 ? this->problem_.fixed_values(row, handle) : std::nan("");
-        const double pin =
-          this->terms_.pinned.size() > 0 && this->part_[u] >= 0 && !(this->inserted(v) && row >= 0)
+        const double pin = this->terms_.pinned.size() > 0 && this->component_of_unknown_[u] >= 0 &&
+            !(this->inserted(v) && row >= 0)
           ? this->terms_.pinned(v, handle)
           : std::nan("");
         if (!std::isnan(pin))
@@ -200,7 +201,7 @@ private:
           }
           value = row >= 0 ? value : pin;
         }
-        if (bounded && this->part_[u] >= 0)
+        if (bounded && this->component_of_unknown_[u] >= 0)
         {
           const Status status = this->intersect_bounds(v, handle, value, u, column.bounds);
           if (!status.ok())
@@ -233,12 +234,12 @@ private:
       {
         column.fixed_values[fixed_count++] = given[u];
       }
-      else if (bounded && this->part_[u] >= 0 && std::isnan(given[u]) &&
+      else if (bounded && this->component_of_unknown_[u] >= 0 && std::isnan(given[u]) &&
         column.bounds.lower[u] == column.bounds.upper[u])
       {
         given[u] = column.bounds.lower[u];
       }
-      if (bounded && (this->part_[u] < 0 || !std::isnan(given[u])))
+      if (bounded && (this->component_of_unknown_[u] < 0 || !std::isnan(given[u])))
       {
         // The bounds of this unknown are unused. Make them finite and consistent with the given
         // value.
@@ -319,7 +320,7 @@ private:
       this->constant_.emplace_back(this->part_count_, std::numeric_limits<double>::infinity());
     for (Index u = 0; u < this->group_.count; ++u)
     {
-      const Index part = this->part_[u];
+      const Index part = this->component_of_unknown_[u];
       if (part >= 0 && !std::isnan(given[u]))
       {
         constant[part] = std::isinf(constant[part]) || constant[part] == given[u]
@@ -329,7 +330,7 @@ private:
     }
     for (Index u = 0; u < this->group_.count; ++u)
     {
-      const Index part = this->part_[u];
+      const Index part = this->component_of_unknown_[u];
       if (part >= 0 && std::isnan(given[u]) &&
         !(constant[part] >= column.bounds.low(u) && constant[part] <= column.bounds.high(u)))
       {
@@ -359,17 +360,17 @@ private:
       std::vector<double> values;
       for (Index u = 0; u < this->group_.count; ++u)
       {
-        if (this->is_fixed_[u] || this->part_[u] < 0)
+        if (this->is_fixed_[u] || this->component_of_unknown_[u] < 0)
         {
           continue;
         }
         const double given = this->given_[c][u];
-        const double constant = this->constant_[c][this->part_[u]];
+        const double constant = this->constant_[c][this->component_of_unknown_[u]];
         if (!std::isnan(given) || !std::isnan(constant))
         {
           column.pinned.push_back(u);
           values.push_back(std::isnan(given) ? constant : given);
-          this->group_.own_pins[c] = this->group_.own_pins[c] || std::isnan(constant);
+          this->group_.has_pins[c] = this->group_.has_pins[c] || std::isnan(constant);
         }
       }
       column.pinned_values =
@@ -384,7 +385,7 @@ private:
   ColumnGroup& group_;
   const Index n_;
   std::vector<std::vector<Index>> members_; // members of every unknown, each as copy * #V + vertex
-  std::vector<Index> part_; // component of every unknown; -1: in no component
+  std::vector<Index> component_of_unknown_; // component of every unknown; -1: in no component
   Index part_count_ = 0;
   // Index of every vertex in the rows of problem.fixed_values; -1: not fixed.
   std::vector<Index> row_of_;
@@ -436,7 +437,7 @@ Status make_column_groups(const WeightsProblem& problem, const Exclusions& exclu
   return {};
 }
 
-std::vector<BoxQpColumn> plain_columns(const WeightsProblem& problem)
+std::vector<BoxQpColumn> columns_without_terms(const WeightsProblem& problem)
 {
   ColumnGroup group;
   for (Index j = 0; j < problem.handle_count(); ++j)

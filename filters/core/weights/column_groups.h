@@ -28,7 +28,7 @@ struct ColumnGroup
   std::vector<BoxQpColumn> columns;
   /// For each column: 1 if it has pinned unknowns in a component in which the column is not
   /// constant.
-  std::vector<char> own_pins;
+  std::vector<char> has_pins;
 
   Index unknown(Index vertex, Index copy, Index vertex_count) const
   {
@@ -51,7 +51,7 @@ Status make_column_groups(const WeightsProblem& problem, const Exclusions& exclu
 
 /// Return the columns of the problem's weights without its optional terms. Every vertex is an
 /// unknown.
-std::vector<BoxQpColumn> plain_columns(const WeightsProblem& problem);
+std::vector<BoxQpColumn> columns_without_terms(const WeightsProblem& problem);
 
 /// Convert a quadratic form over vertices to a form over the group's unknowns.
 SparseMatrix merge_form(const ColumnGroup& group, const SparseMatrix& form);

@@ -102,7 +102,7 @@ void sweep(const VertexGraph& graph, const Eigen::VectorXd& values, const std::v
 } // namespace
 
 std::vector<Extremum> interior_extrema(const VertexGraph& graph, const Eigen::VectorXd& values,
-  const std::vector<char>& exempt, double least_persistence)
+  const std::vector<char>& exempt, double minimum_persistence)
 {
   std::vector<Extremum> found;
   if (values.size() == 0)
@@ -117,7 +117,7 @@ std::vector<Extremum> interior_extrema(const VertexGraph& graph, const Eigen::Ve
   sweep(graph, values, exempt, 1.0, range, found);
   sweep(graph, values, exempt, -1.0, range, found);
   found.erase(std::remove_if(found.begin(), found.end(),
-                [&](const Extremum& e) { return !(e.persistence > least_persistence); }),
+                [&](const Extremum& e) { return !(e.persistence > minimum_persistence); }),
     found.end());
   std::sort(found.begin(), found.end(),
     [](const Extremum& a, const Extremum& b)

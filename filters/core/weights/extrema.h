@@ -35,10 +35,10 @@ constexpr double notable_persistence = 1e-3;
 ///
 /// @param values #V, finite.
 /// @param exempt #V, 1 for vertices on handles. Vertices without neighbors are ignored.
-/// @param least_persistence only extrema whose persistence is above this fraction of the range are
-/// returned.
+/// @param minimum_persistence only extrema whose persistence is above this fraction of the range
+/// are returned.
 std::vector<Extremum> interior_extrema(const VertexGraph& graph, const Eigen::VectorXd& values,
-  const std::vector<char>& exempt, double least_persistence = notable_persistence);
+  const std::vector<char>& exempt, double minimum_persistence = notable_persistence);
 
 } // namespace bindpose
 

@@ -47,7 +47,7 @@ void flood(const VertexGraph& graph, const ExtremaList& list, int from, std::vec
     std::reverse(order.begin(), order.end());
   }
   // The queue contains positions in `order`; the smallest position is taken first.
-  std::vector<Index> place(rank.size(), -1);
+  std::vector<Index> queue_index(rank.size(), -1);
   std::priority_queue<Index, std::vector<Index>, std::greater<>> open;
   std::vector<Index> last;
   for (Index i = 0; i < count; ++i)
@@ -63,15 +63,15 @@ void flood(const VertexGraph& graph, const ExtremaList& list, int from, std::vec
     }
     else
     {
-      place[v] = i;
+      queue_index[v] = i;
     }
   }
-  std::vector<Index> taken;
-  taken.reserve(order.size());
+  std::vector<Index> new_order;
+  new_order.reserve(order.size());
   // Take all listed extrema first, because none of their neighbors may come before them.
   for (std::size_t listed = open.size(); listed > 0; --listed)
   {
-    taken.push_back(order[open.top()]);
+    new_order.push_back(order[open.top()]);
     open.pop();
   }
   const auto reach = [&](Index v)
@@ -79,26 +79,26 @@ void flood(const VertexGraph& graph, const ExtremaList& list, int from, std::vec
     for (Index k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
     {
       const Index u = graph.neighbors[k];
-      if (place[u] >= 0)
+      if (queue_index[u] >= 0)
       {
-        open.push(place[u]);
-        place[u] = -1;
+        open.push(queue_index[u]);
+        queue_index[u] = -1;
       }
     }
   };
-  const std::size_t seeds = taken.size();
+  const std::size_t seeds = new_order.size();
   for (std::size_t i = 0; i < seeds; ++i)
   {
-    reach(taken[i]);
+    reach(new_order[i]);
   }
   while (!open.empty())
   {
-    taken.push_back(order[open.top()]);
+    new_order.push_back(order[open.top()]);
     open.pop();
-    reach(taken.back());
+    reach(new_order.back());
   }
-  taken.insert(taken.end(), last.begin(), last.end());
-  order = std::move(taken);
+  new_order.insert(new_order.end(), last.begin(), last.end());
+  order = std::move(new_order);
   if (from > 0)
   {
     std::reverse(order.begin(), order.end());
@@ -110,19 +110,19 @@ void flood(const VertexGraph& graph, const ExtremaList& list, int from, std::vec
 }
 } // namespace
 
-std::vector<std::vector<Index>> parts_without(
-  const VertexGraph& graph, const std::vector<char>& taking_part, const ExtremaList& list, int kind)
+std::vector<std::vector<Index>> parts_without_extremum(
+  const VertexGraph& graph, const std::vector<char>& is_included, const ExtremaList& list, int kind)
 {
   std::vector<std::vector<Index>> parts;
-  std::vector<char> seen(taking_part.size(), 0);
-  for (std::size_t first = 0; first < seen.size(); ++first)
+  std::vector<char> visited(is_included.size(), 0);
+  for (std::size_t first = 0; first < visited.size(); ++first)
   {
-    if (seen[first] || !taking_part[first] || list[first] * kind < 0)
+    if (visited[first] || !is_included[first] || list[first] * kind < 0)
     {
       continue;
     }
     std::vector<Index> part{ static_cast<Index>(first) };
-    seen[first] = 1;
+    visited[first] = 1;
     bool found = false;
     for (std::size_t i = 0; i < part.size(); ++i)
     {
@@ -131,9 +131,9 @@ std::vector<std::vector<Index>> parts_without(
       for (Index k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
       {
         const Index u = graph.neighbors[k];
-        if (!seen[u] && taking_part[u] && list[u] * kind >= 0)
+        if (!visited[u] && is_included[u] && list[u] * kind >= 0)
         {
-          seen[u] = 1;
+          visited[u] = 1;
           part.push_back(u);
         }
       }
@@ -147,7 +147,7 @@ std::vector<std::vector<Index>> parts_without(
 }
 
 int order_with_extrema(const ExecutionContext& context, const VertexGraph& graph,
-  const std::vector<char>& taking_part, const ExtremaList& list, const Eigen::VectorXd& values,
+  const std::vector<char>& is_included, const ExtremaList& list, const Eigen::VectorXd& values,
   std::vector<Index>& rank)
 {
   constexpr int most_floods = 1000;
@@ -156,7 +156,7 @@ int order_with_extrema(const ExecutionContext& context, const VertexGraph& graph
   std::vector<Index> order;
   for (Index v = 0; v < n; ++v)
   {
-    if (taking_part[v])
+    if (is_included[v])
     {
       order.push_back(v);
     }
@@ -175,7 +175,7 @@ int order_with_extrema(const ExecutionContext& context, const VertexGraph& graph
   return 0;
 }
 
-void order_again(const Eigen::VectorXd& values, std::vector<Index>& rank)
+void update_order(const Eigen::VectorXd& values, std::vector<Index>& rank)
 {
   std::vector<Index> order;
   for (std::size_t v = 0; v < rank.size(); ++v)
@@ -194,8 +194,8 @@ void order_again(const Eigen::VectorXd& values, std::vector<Index>& rank)
   }
 }
 
-std::vector<OrderedPair> pairs_of_order(
-  const VertexGraph& graph, const ExtremaList& list, const std::vector<Index>& rank, double least)
+std::vector<OrderedPair> pairs_from_order(const VertexGraph& graph, const ExtremaList& list,
+  const std::vector<Index>& rank, double minimum_difference)
 {
   std::vector<OrderedPair> pairs;
   for (std::size_t i = 0; i < rank.size(); ++i)
@@ -214,13 +214,14 @@ std::vector<OrderedPair> pairs_of_order(
       highest = rank[u] > rank[highest] ? u : highest;
       if (list[v] != 0 && list[u] * list[v] <= 0)
       {
-        pairs.push_back(list[v] > 0 ? OrderedPair{ u, v, least } : OrderedPair{ v, u, least });
+        pairs.push_back(list[v] > 0 ? OrderedPair{ u, v, minimum_difference }
+                                    : OrderedPair{ v, u, minimum_difference });
       }
     }
     if (list[v] == 0)
     {
-      pairs.push_back({ lowest, v, least });
-      pairs.push_back({ v, highest, least });
+      pairs.push_back({ lowest, v, minimum_difference });
+      pairs.push_back({ v, highest, minimum_difference });
     }
   }
   sort_pairs(pairs);

@@ -31,7 +31,7 @@ namespace
 {
 using Eigen::VectorXd;
 
-std::string places(std::size_t count, const char* of)
+std::string vertex_phrase(std::size_t count, const char* of)
 {
   return std::to_string(count) + (count == 1 ? " vertex " : " vertices ") + of;
 }
@@ -60,7 +60,7 @@ private:
   Status guide_values(const VectorXd& unconstrained, VectorXd& values);
   Status solve();
   void rebuild(BoxQpColumn& column, BoxQpSolution& best);
-  void take(const BoxQpSolution& solution);
+  void record_energy(const BoxQpSolution& solution);
   void finish(Status& status);
 
   const Domain& domain_;
@@ -69,17 +69,17 @@ private:
   ExecutionContext& context_;
   MonotoneSmoothingResult& result_;
 
-  Domain kept_; // the domain without triangles of zero area
+  Domain measurable_; // the domain without triangles of zero area
   Components components_;
   std::vector<char> used_; // #V: 1 for vertices in elements of positive measure
-  std::vector<char> taking_part_; // #V: 1 for used vertices in parts that are not constant
+  std::vector<char> is_included_; // #V: 1 for used vertices in parts that are not constant
   VertexGraph graph_;
   double middle_ = 0.0, range_ = 0.0; // center and range of the data
   VectorXd f_; // data scaled to the range -1/2 … 1/2; 0 at unused vertices
   ScaledMesh scaled_; // the mesh scaled to size 1
   std::vector<Index> fixed_; // fixed vertices, then the additional unknown, whose index is #V
   VectorXd fixed_values_;
-  VectorXd pull_; // diagonal of the data term in the quadratic form
+  VectorXd data_diagonal_; // diagonal of the data term in the quadratic form
   bool keep_values_ = false;
   Index constant_parts_ = 0;
   std::unique_ptr<BoxQp> solver_;
@@ -132,23 +132,24 @@ Status Smoothing::check() const
 
 void Smoothing::take_measurable()
 {
-  this->kept_ = this->domain_;
-  this->kept_.triangles = measurable_triangles(this->domain_);
+  this->measurable_ = this->domain_;
+  this->measurable_.triangles = measurable_triangles(this->domain_);
   const Index n = this->domain_.points.rows();
-  this->components_ = connected_components(this->kept_);
+  this->components_ = connected_components(this->measurable_);
   this->used_.resize(static_cast<std::size_t>(n));
   for (Index v = 0; v < n; ++v)
   {
-    this->used_[v] = this->components_.of_vertex[v] >= 0;
+    this->used_[v] = this->components_.component_of_vertex[v] >= 0;
   }
   const auto unused = std::count(this->used_.begin(), this->used_.end(), 0);
   if (unused > 0)
   {
-    this->warnings_.push_back(places(static_cast<std::size_t>(unused), unused == 1 ? "is" : "are") +
+    this->warnings_.push_back(
+      vertex_phrase(static_cast<std::size_t>(unused), unused == 1 ? "is" : "are") +
       " not part of any element with an area or volume; their values do not change");
   }
-  this->taking_part_ = this->used_;
-  this->graph_ = vertex_graph(this->kept_);
+  this->is_included_ = this->used_;
+  this->graph_ = vertex_graph(this->measurable_);
 }
 
 /// Compute f_, the data scaled to a range of 1.
@@ -190,7 +191,7 @@ void Smoothing::choose_list()
   for (std::size_t i = 0; i < found.size(); ++i)
   {
     const bool eldest = found[i].persistence >= 1.0;
-    if (this->taking_part_[found[i].vertex] &&
+    if (this->is_included_[found[i].vertex] &&
       (eldest || count == 0 || static_cast<Index>(i) < count))
     {
       list[found[i].vertex] = found[i].maximum ? 1 : -1;
@@ -201,7 +202,7 @@ void Smoothing::choose_list()
     again = false;
     for (const int kind : { -1, 1 })
     {
-      for (const auto& part : parts_without(this->graph_, this->taking_part_, list, kind))
+      for (const auto& part : parts_without_extremum(this->graph_, this->is_included_, list, kind))
       {
         const Index most = *std::max_element(part.begin(), part.end(),
           [&](Index a, Index b) { return kind * this->f_[a] < kind * this->f_[b]; });
@@ -213,26 +214,26 @@ void Smoothing::choose_list()
 }
 
 /// Check that the list has a maximum and a minimum in every part that is not constant (see
-/// parts_without).
+/// parts_without_extremum).
 Status Smoothing::check_list()
 {
   const ExtremaList& list = this->result_.list;
   for (const int kind : { -1, 1 })
   {
-    for (const auto& part : parts_without(this->graph_, this->taking_part_, list, kind))
+    for (const auto& part : parts_without_extremum(this->graph_, this->is_included_, list, kind))
     {
       const char* wanted = kind > 0 ? "maximum" : "minimum";
       const char* other = kind > 0 ? "minima" : "maxima";
-      const Index c = this->components_.of_vertex[part.front()];
+      const Index c = this->components_.component_of_vertex[part.front()];
       bool whole = true;
       for (std::size_t v = 0; v < list.size() && whole; ++v)
       {
-        whole = this->components_.of_vertex[v] != c || list[v] * kind <= 0;
+        whole = this->components_.component_of_vertex[v] != c || list[v] * kind <= 0;
       }
       return Status::invalid_input(whole ? "the list of extrema has no " + std::string(wanted) +
             " in the connected part of vertex " + std::to_string(part.front()) + ", only " + other
                                          : "the list of extrema has no " + std::string(wanted) +
-            " among " + places(part.size(), "that ") + other +
+            " among " + vertex_phrase(part.size(), "that ") + other +
             " separate from the rest, including vertex " + std::to_string(part.front()));
     }
   }
@@ -249,7 +250,7 @@ Status Smoothing::find_list()
   list = this->options_.extrema;
   for (Index v = 0; v < n; ++v)
   {
-    const Index c = this->components_.of_vertex[v];
+    const Index c = this->components_.component_of_vertex[v];
     if (c < 0 && !list.empty() && list[v] != 0)
     {
       return Status::invalid_input("the list of extrema contains vertex " + std::to_string(v) +
@@ -269,8 +270,8 @@ Status Smoothing::find_list()
   }
   for (Index v = 0; v < n; ++v)
   {
-    const Index c = this->components_.of_vertex[v];
-    this->taking_part_[v] = c >= 0 && (given ? listed[c] != 0 : low[c] < high[c]);
+    const Index c = this->components_.component_of_vertex[v];
+    this->is_included_[v] = c >= 0 && (given ? listed[c] != 0 : low[c] < high[c]);
   }
   for (std::size_t c = 0; c < low.size(); ++c)
   {
@@ -294,7 +295,7 @@ Status Smoothing::find_list()
 /// determines the balance of smoothness and data.
 void Smoothing::scale_to_size()
 {
-  this->scaled_ = scale_mesh(this->kept_, this->used_);
+  this->scaled_ = scale_mesh(this->measurable_, this->used_);
   const VectorXd& mass = this->scaled_.mass;
   Vec3 centroid = Vec3::Zero();
   for (Index v = 0; v < mass.size(); ++v)
@@ -309,7 +310,7 @@ void Smoothing::scale_to_size()
     sum += this->used_[v] ? mass[v] * from.squaredNorm() : 0.0;
   }
   const double size = std::sqrt(12.0 * sum / mass.sum());
-  const int dimension = this->kept_.is_volume() ? 3 : 2;
+  const int dimension = this->measurable_.is_volume() ? 3 : 2;
   this->scaled_.diagonal *= size;
   this->scaled_.stiffness *= std::pow(size, 2 - dimension);
   this->scaled_.mass_unit *= std::pow(size, -dimension);
@@ -323,7 +324,7 @@ void Smoothing::assemble()
   this->scale_to_size();
   // The quadratic form is the scaled mesh's energy times mass_unit^(k - 1), so the data term is
   // multiplied by the same factor.
-  this->pull_ =
+  this->data_diagonal_ =
     this->options_.data_weight * std::pow(this->scaled_.mass_unit, k) * this->scaled_.mass;
   const SparseMatrix q = harmonic_energy(this->scaled_.stiffness, this->scaled_.mass, k);
   std::vector<Eigen::Triplet<double, int>> entries;
@@ -338,11 +339,11 @@ void Smoothing::assemble()
   const int one = static_cast<int>(n);
   for (int v = 0; v < one; ++v)
   {
-    entries.emplace_back(v, v, this->pull_[v]);
-    entries.emplace_back(v, one, -this->pull_[v] * this->f_[v]);
-    entries.emplace_back(one, v, -this->pull_[v] * this->f_[v]);
+    entries.emplace_back(v, v, this->data_diagonal_[v]);
+    entries.emplace_back(v, one, -this->data_diagonal_[v] * this->f_[v]);
+    entries.emplace_back(one, v, -this->data_diagonal_[v] * this->f_[v]);
   }
-  entries.emplace_back(one, one, this->pull_.dot(this->f_.cwiseAbs2()));
+  entries.emplace_back(one, one, this->data_diagonal_.dot(this->f_.cwiseAbs2()));
   SparseMatrix form(n + 1, n + 1);
   form.setFromTriplets(entries.begin(), entries.end());
 
@@ -352,16 +353,16 @@ void Smoothing::assemble()
   {
     if (this->used_[v])
     {
-      sums[this->components_.of_vertex[v]] += this->scaled_.mass[v] * this->f_[v];
-      masses[this->components_.of_vertex[v]] += this->scaled_.mass[v];
+      sums[this->components_.component_of_vertex[v]] += this->scaled_.mass[v] * this->f_[v];
+      masses[this->components_.component_of_vertex[v]] += this->scaled_.mass[v];
     }
   }
   std::vector<double> values;
   for (Index v = 0; v < n; ++v)
   {
-    if (!this->taking_part_[v])
+    if (!this->is_included_[v])
     {
-      const Index c = this->components_.of_vertex[v];
+      const Index c = this->components_.component_of_vertex[v];
       this->fixed_.push_back(v);
       values.push_back(c < 0 ? 0.0 : sums[c] / masses[c]);
     }
@@ -387,12 +388,12 @@ double Smoothing::expected_energy(
 {
   VectorXd ordered = unconstrained.w;
   for (const OrderedPair& pair :
-    upward_pairs(column.pairs, upward_order(column.pairs, ordered.size())))
+    sort_pairs_by_order(column.pairs, topological_order(column.pairs, ordered.size())))
   {
-    ordered[pair.high] = std::max(ordered[pair.high], ordered[pair.low] + pair.least);
+    ordered[pair.high] = std::max(ordered[pair.high], ordered[pair.low] + pair.minimum_difference);
   }
-  const VectorXd moved = (ordered - unconstrained.w).head(this->pull_.size());
-  return unconstrained.certificate.energy + 0.5 * this->pull_.dot(moved.cwiseAbs2());
+  const VectorXd moved = (ordered - unconstrained.w).head(this->data_diagonal_.size());
+  return unconstrained.certificate.energy + 0.5 * this->data_diagonal_.dot(moved.cwiseAbs2());
 }
 
 /// Compute the values of the guide (see SmoothingGuide). The result has the same order as these
@@ -409,7 +410,7 @@ Status Smoothing::guide_values(const VectorXd& unconstrained, VectorXd& values)
   for (std::size_t v = 0; v < this->used_.size(); ++v)
   {
     const bool maximum = this->result_.list[v] > 0;
-    if (this->result_.list[v] != 0 || !this->taking_part_[v])
+    if (this->result_.list[v] != 0 || !this->is_included_[v])
     {
       given.push_back(static_cast<Index>(v));
       given_values.push_back(
@@ -417,7 +418,7 @@ Status Smoothing::guide_values(const VectorXd& unconstrained, VectorXd& values)
     }
   }
   FreeSystem harmonic(
-    positive_stiffness(this->scaled_.stiffness, this->graph_, this->taking_part_), given);
+    positive_stiffness(this->scaled_.stiffness, this->graph_, this->is_included_), given);
   Status status = harmonic.factor(this->context_, this->options_.solver);
   if (status.ok())
   {
@@ -437,9 +438,9 @@ void Smoothing::rebuild(BoxQpColumn& column, BoxQpSolution& best)
     const ProgressRange range(this->context_, 0.4 + 0.6 * round / this->options_.rebuilds,
       0.4 + 0.6 * (round + 1) / this->options_.rebuilds);
     std::vector<Index> rank = this->rank_;
-    order_again(best.w, rank);
+    update_order(best.w, rank);
     std::vector<OrderedPair> pairs =
-      pairs_of_order(this->graph_, this->result_.list, rank, this->options_.epsilon);
+      pairs_from_order(this->graph_, this->result_.list, rank, this->options_.epsilon);
     const bool same =
       std::equal(pairs.begin(), pairs.end(), column.pairs.begin(), column.pairs.end(),
         [](const OrderedPair& a, const OrderedPair& b)
@@ -462,7 +463,7 @@ void Smoothing::rebuild(BoxQpColumn& column, BoxQpSolution& best)
     const double gain = best.certificate.energy - next.certificate.energy;
     best = next;
     this->rank_ = std::move(rank);
-    this->take(best);
+    this->record_energy(best);
     constexpr double least_gain = 1e-4;
     if (gain < least_gain * best.certificate.energy)
     {
@@ -473,7 +474,7 @@ void Smoothing::rebuild(BoxQpColumn& column, BoxQpSolution& best)
 
 /// Append the energy of a solution, converted from the units of the form to the units of the
 /// integrals.
-void Smoothing::take(const BoxQpSolution& solution)
+void Smoothing::record_energy(const BoxQpSolution& solution)
 {
   this->result_.energies.push_back(2.0 * solution.certificate.energy /
     std::pow(this->scaled_.mass_unit, this->options_.order - 1));
@@ -501,7 +502,7 @@ Status Smoothing::solve()
     return status;
   }
   this->floods_ = order_with_extrema(
-    this->context_, this->graph_, this->taking_part_, this->result_.list, values, this->rank_);
+    this->context_, this->graph_, this->is_included_, this->result_.list, values, this->rank_);
   if (this->context_.canceled())
   {
     return Status::canceled();
@@ -512,16 +513,17 @@ Status Smoothing::solve()
       StatusCode::internal_error, "no order of the vertices was found for the list of extrema");
   }
   column.pairs =
-    pairs_of_order(this->graph_, this->result_.list, this->rank_, this->options_.epsilon);
-  const Index tight = find_infeasible_vertex(column, this->fixed_, n + 1);
-  if (tight >= 0)
+    pairs_from_order(this->graph_, this->result_.list, this->rank_, this->options_.epsilon);
+  const Index infeasible = find_infeasible_vertex(column, this->fixed_, n + 1);
+  if (infeasible >= 0)
   {
     return Status::invalid_input(
       "the values at the extrema cannot be kept without additional extrema (conflict at vertex " +
-      std::to_string(tight) + "); turn off the option to keep values, or list other extrema");
+      std::to_string(infeasible) + "); turn off the option to keep values, or list other extrema");
   }
   const bool ordered = std::all_of(column.pairs.begin(), column.pairs.end(),
-    [&](const OrderedPair& pair) { return best.w[pair.low] + pair.least <= best.w[pair.high]; });
+    [&](const OrderedPair& pair)
+    { return best.w[pair.low] + pair.minimum_difference <= best.w[pair.high]; });
   if (!ordered)
   {
     const ProgressRange range(this->context_, 0.1, this->options_.rebuilds > 0 ? 0.4 : 1.0);
@@ -534,12 +536,12 @@ Status Smoothing::solve()
     {
       return best.status;
     }
-    this->take(best);
+    this->record_energy(best);
     this->rebuild(column, best);
   }
   else
   {
-    this->take(best);
+    this->record_energy(best);
   }
   this->solution_ = std::move(best);
   return this->context_.canceled() ? Status::canceled() : Status();
@@ -578,11 +580,11 @@ void Smoothing::finish(Status& status)
     std::vector<char> is_free(static_cast<std::size_t>(n));
     for (Index v = 0; v < n; ++v)
     {
-      is_free[v] = this->taking_part_[v] && result.list[v] == 0;
+      is_free[v] = this->is_included_[v] && result.list[v] == 0;
     }
     const std::vector<OrderedPair> pairs =
-      pairs_of_order(this->graph_, result.list, this->rank_, 0.0);
-    order_values(upward_pairs(pairs, upward_order(pairs, n)), is_free,
+      pairs_from_order(this->graph_, result.list, this->rank_, 0.0);
+    enforce_order(sort_pairs_by_order(pairs, topological_order(pairs, n)), is_free,
       VectorXd::Constant(n, std::numeric_limits<double>::infinity()), result.values);
   }
   // Listed extrema and vertices in constant parts do not count as spurious extrema.
@@ -594,7 +596,7 @@ void Smoothing::finish(Status& status)
   std::vector<double> values, data, persistences;
   for (Index v = 0; v < n; ++v)
   {
-    exempt[v] = result.list[v] != 0 || !this->taking_part_[v];
+    exempt[v] = result.list[v] != 0 || !this->is_included_[v];
     strict[v] += this->rank_[v] >= 0 ? 1e-12 * double(this->rank_[v]) / double(n) : 0.0;
   }
   result.spurious = interior_extrema(this->graph_, w, exempt);
@@ -641,7 +643,8 @@ void Smoothing::finish(Status& status)
   {
     status.code = StatusCode::not_converged;
     status.message = "the smoothed data " +
-      not_certified(result.certificate.relative_gap, result.certificate.kkt_residual, tolerance);
+      certificate_message(
+        result.certificate.relative_gap, result.certificate.kkt_residual, tolerance);
   }
 }
 
@@ -671,8 +674,8 @@ Status Smoothing::run()
   status.report.set(
     "method", this->options_.order == 2 ? "monotone-smoothing" : "monotone-smoothing-triharmonic");
   status.report.set("counts.vertices", this->data_.size());
-  status.report.set(
-    this->kept_.is_volume() ? "counts.tets" : "counts.triangles", this->kept_.element_count());
+  status.report.set(this->measurable_.is_volume() ? "counts.tets" : "counts.triangles",
+    this->measurable_.element_count());
   status.report.set("counts.components", this->components_.count);
   if (!varies)
   {

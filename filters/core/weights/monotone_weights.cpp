@@ -33,7 +33,7 @@ namespace
 /// nonnegative boundary values, so that no cancellation occurs.
 Status pinned_guide(ExecutionContext& context, const SparseMatrix& laplacian,
   const std::vector<Index>& fixed, const BoxQpColumn& column, const SparseSolver::Options& options,
-  Eigen::VectorXd& u, Eigen::VectorXd& rest)
+  Eigen::VectorXd& u, Eigen::VectorXd& complement)
 {
   std::vector<Index> given = fixed;
   given.insert(given.end(), column.pinned.begin(), column.pinned.end());
@@ -46,13 +46,13 @@ Status pinned_guide(ExecutionContext& context, const SparseMatrix& laplacian,
   {
     const Eigen::MatrixXd both = solver.minimizers(values);
     u = both.col(0);
-    rest = both.col(1);
+    complement = both.col(1);
   }
   return status;
 }
 
 /// Return the handle and vertex that an unknown represents, for messages.
-std::string place_of(const WeightsProblem& problem, const ColumnGroup& group, Index c, Index u)
+std::string vertex_name(const WeightsProblem& problem, const ColumnGroup& group, Index c, Index u)
 {
   const Index n = problem.vertex_count();
   Index member = u;
@@ -86,13 +86,13 @@ Status monotone_guide(ExecutionContext& context, const WeightsProblem& problem, 
   {
     is_fixed[u] = 1;
   }
-  std::vector<char> pulls(static_cast<std::size_t>(problem.vertex_count()));
+  std::vector<char> is_used(static_cast<std::size_t>(problem.vertex_count()));
   for (Index v = 0; v < problem.vertex_count(); ++v)
   {
-    pulls[v] = problem.constraints.roles[v] != VertexRole::follower;
+    is_used[v] = problem.constraints.roles[v] != VertexRole::follower;
   }
   const SparseMatrix laplacian =
-    merge_form(group, positive_stiffness(problem.stiffness, problem.graph, pulls));
+    merge_form(group, positive_stiffness(problem.stiffness, problem.graph, is_used));
   FreeSystem solver(laplacian, group.fixed);
   Status status = solver.factor(context, solver_options);
   if (!status.ok())
@@ -105,34 +105,34 @@ Status monotone_guide(ExecutionContext& context, const WeightsProblem& problem, 
     fixed_values.col(j) = group.columns[j].fixed_values;
   }
   result.guide = solver.minimizers(fixed_values);
-  // If the group contains all columns, all guides together sum to one. Then column j of `behind` is
-  // the sum of the guides after j, `before` is the sum of the guides before j, and both together
-  // are 1 - u. Otherwise, `before` is zero, and `behind` is 1 - u.
+  // If the group contains all columns, all guides together sum to one. Then column j of `later_sum`
+  // is the sum of the guides after j, `earlier_sum` is the sum of the guides before j, and both
+  // together are 1 - u. Otherwise, `earlier_sum` is zero, and `later_sum` is 1 - u.
   const bool whole = m == problem.handle_count();
-  Eigen::MatrixXd behind = Eigen::MatrixXd::Zero(n, m);
+  Eigen::MatrixXd later_sum = Eigen::MatrixXd::Zero(n, m);
   for (Index j = m - 1; j-- > 0 && whole;)
   {
-    behind.col(j) = behind.col(j + 1) + result.guide.col(j + 1);
+    later_sum.col(j) = later_sum.col(j + 1) + result.guide.col(j + 1);
   }
   if (!whole)
   {
-    behind = solver.minimizers((1.0 - fixed_values.array()).matrix());
+    later_sum = solver.minimizers((1.0 - fixed_values.array()).matrix());
   }
-  Eigen::VectorXd before = Eigen::VectorXd::Zero(n);
+  Eigen::VectorXd earlier_sum = Eigen::VectorXd::Zero(n);
   result.pairs.assign(static_cast<std::size_t>(m), {});
   for (Index j = 0; j < m; ++j)
   {
     BoxQpColumn& column = group.columns[static_cast<std::size_t>(j)];
     Eigen::VectorXd u = result.guide.col(j);
-    Eigen::VectorXd rest = before + behind.col(j);
+    Eigen::VectorXd complement = earlier_sum + later_sum.col(j);
     if (whole)
     {
-      before += u;
+      earlier_sum += u;
     }
-    const bool own_pins = group.own_pins[static_cast<std::size_t>(j)];
-    if (own_pins)
+    const bool has_pins = group.has_pins[static_cast<std::size_t>(j)];
+    if (has_pins)
     {
-      status = pinned_guide(context, laplacian, group.fixed, column, solver_options, u, rest);
+      status = pinned_guide(context, laplacian, group.fixed, column, solver_options, u, complement);
       if (!status.ok())
       {
         return status;
@@ -141,9 +141,9 @@ Status monotone_guide(ExecutionContext& context, const WeightsProblem& problem, 
     }
     const auto below = [&](Index a, Index b)
     {
-      if (u[a] > 0.5 && u[b] > 0.5 && rest[a] != rest[b])
+      if (u[a] > 0.5 && u[b] > 0.5 && complement[a] != complement[b])
       {
-        return rest[a] > rest[b];
+        return complement[a] > complement[b];
       }
       return u[a] != u[b] ? u[a] < u[b] : a < b;
     };
@@ -156,12 +156,12 @@ Status monotone_guide(ExecutionContext& context, const WeightsProblem& problem, 
       column.pinned_values.data(), column.pinned_values.data() + column.pinned_values.size());
     for (Index v = 0; v < n; ++v)
     {
-      if (!is_fixed[v] && !pinned[v] && (u[v] == 0.0 || rest[v] == 0.0))
+      if (!is_fixed[v] && !pinned[v] && (u[v] == 0.0 || complement[v] == 0.0))
       {
         const double value = u[v] == 0.0 ? 0.0 : 1.0;
         if (value < column.bounds.low(v) || value > column.bounds.high(v))
         {
-          return Status::invalid_input("the weight of " + place_of(problem, group, j, v) +
+          return Status::invalid_input("the weight of " + vertex_name(problem, group, j, v) +
             " must be " + std::to_string(static_cast<int>(value)) +
             " to be monotone, which is outside its bounds");
         }
@@ -207,13 +207,13 @@ Status monotone_guide(ExecutionContext& context, const WeightsProblem& problem, 
     }
     sort_pairs(pairs);
     column.pairs = pairs;
-    const Index tight = own_pins || column.bounds.lower.size() > 0
+    const Index infeasible = has_pins || column.bounds.lower.size() > 0
       ? find_infeasible_vertex(column, group.fixed, n)
       : Index(-1);
-    if (tight >= 0)
+    if (infeasible >= 0)
     {
-      return Status::invalid_input("the bounds and pins of " + place_of(problem, group, j, tight) +
-        " allow no monotone weight there");
+      return Status::invalid_input("the bounds and pins of " +
+        vertex_name(problem, group, j, infeasible) + " allow no monotone weight there");
     }
     if (context.canceled())
     {

@@ -55,7 +55,7 @@ public:
   Eigen::MatrixXd harmonic() const
   {
     const Eigen::MatrixXd& given = this->problem_.fixed_values;
-    return this->form_.whole(-this->solve(this->form_.to_fixed * given), given);
+    return this->form_.extend_to_all(-this->solve(this->form_.fixed_block * given), given);
   }
 
   /// Compute the biharmonic weights by the cheaper of the two methods.
@@ -65,9 +65,9 @@ public:
   {
     // Find the fixed vertices with a free neighbor.
     std::vector<int> active;
-    for (int b = 0; b < this->form_.to_fixed.outerSize(); ++b)
+    for (int b = 0; b < this->form_.fixed_block.outerSize(); ++b)
     {
-      if (SparseMatrix::InnerIterator(this->form_.to_fixed, b))
+      if (SparseMatrix::InnerIterator(this->form_.fixed_block, b))
       {
         active.push_back(b);
       }
@@ -79,20 +79,20 @@ public:
       w = harmonic;
       return true;
     }
-    // `flow` contains D_b K_bb e at the active vertices.
-    Eigen::MatrixXd flow(rank, m);
-    SparseMatrix u(this->form_.to_fixed.rows(), rank);
+    // `fixed_flux` contains D_b K_bb e at the active vertices.
+    Eigen::MatrixXd fixed_flux(rank, m);
+    SparseMatrix u(this->form_.fixed_block.rows(), rank);
     Eigen::VectorXd mass(rank);
     {
       const Eigen::MatrixXd all = this->problem_.stiffness *
-        this->form_.whole(
+        this->form_.extend_to_all(
           Eigen::MatrixXd::Zero(this->mass_.size(), m), this->problem_.fixed_values);
       for (Index i = 0; i < rank; ++i)
       {
         const Index v = this->form_.fixed[active[i]];
         mass[i] = this->problem_.mass[v];
-        flow.row(i) = all.row(v) / mass[i];
-        u.col(static_cast<int>(i)) = this->form_.to_fixed.col(active[i]);
+        fixed_flux.row(i) = all.row(v) / mass[i];
+        u.col(static_cast<int>(i)) = this->form_.fixed_block.col(active[i]);
       }
     }
     // Typical number of solves per column that conjugate gradients need.
@@ -100,9 +100,9 @@ public:
     const Eigen::MatrixXd start = this->form_.free_rows(harmonic);
     Eigen::MatrixXd x;
     const bool done = rank <= solves_of_gradients * m
-      ? this->by_rank(context, u, mass, flow, start, x)
-      : this->by_gradients(context, u, mass, flow, start, x);
-    w = done ? this->form_.whole(x, this->problem_.fixed_values) : Eigen::MatrixXd();
+      ? this->by_rank(context, u, mass, fixed_flux, start, x)
+      : this->by_gradients(context, u, mass, fixed_flux, start, x);
+    w = done ? this->form_.extend_to_all(x, this->problem_.fixed_values) : Eigen::MatrixXd();
     return done;
   }
 
@@ -120,7 +120,7 @@ private:
   /// Solve by a low-rank update (Woodbury).
   /// @param start -K_ff^-1 U e, the harmonic weights.
   bool by_rank(ExecutionContext& context, const SparseMatrix& u, const Eigen::VectorXd& mass,
-    const Eigen::MatrixXd& flow, const Eigen::MatrixXd& start, Eigen::MatrixXd& x) const
+    const Eigen::MatrixXd& fixed_flux, const Eigen::MatrixXd& start, Eigen::MatrixXd& x) const
   {
     const Index rank = u.cols();
     Eigen::MatrixXd g(u.rows(), rank);
@@ -137,13 +137,13 @@ private:
     }
     Eigen::MatrixXd s = u.transpose() * g;
     s.diagonal() += mass;
-    const Eigen::MatrixXd y = start - g * flow;
+    const Eigen::MatrixXd y = start - g * fixed_flux;
     x = y - g * s.ldlt().solve(Eigen::MatrixXd(u.transpose() * y));
     return true;
   }
 
   bool by_gradients(ExecutionContext& context, const SparseMatrix& u, const Eigen::VectorXd& mass,
-    const Eigen::MatrixXd& flow, const Eigen::MatrixXd& start, Eigen::MatrixXd& x) const
+    const Eigen::MatrixXd& fixed_flux, const Eigen::MatrixXd& start, Eigen::MatrixXd& x) const
   {
     const SparseMatrix& k = this->form_.a;
     const Eigen::VectorXd inverse = this->mass_.cwiseInverse();
@@ -155,7 +155,7 @@ private:
     // The right-hand side is -Q_fb e, where K_ff D_f U e = -K_ff D_f K_ff start.
     x = start;
     Eigen::MatrixXd r =
-      -(u * (mass.cwiseInverse().asDiagonal() * (u.transpose() * start))) - u * flow;
+      -(u * (mass.cwiseInverse().asDiagonal() * (u.transpose() * start))) - u * fixed_flux;
     Eigen::MatrixXd z = this->product(r);
     Eigen::MatrixXd p = z;
     Eigen::VectorXd rz = r.cwiseProduct(z).colwise().sum().transpose();
@@ -214,7 +214,7 @@ Status preview_weights(ExecutionContext& context, const WeightsProblem& problem,
   w = w.cwiseMax(0.0).cwiseMin(1.0);
 
   const SparseMatrix q = harmonic_energy(problem.stiffness, problem.mass, 2);
-  const std::vector<BoxQpColumn> columns = plain_columns(problem);
+  const std::vector<BoxQpColumn> columns = columns_without_terms(problem);
   std::vector<BoxQpSolution> solutions(columns.size());
   const bool whole = parallel_for(context, static_cast<Index>(columns.size()), 1,
     [&](Index begin, Index end)
@@ -223,13 +223,13 @@ Status preview_weights(ExecutionContext& context, const WeightsProblem& problem,
       {
         BoxQpSolution& solution = solutions[j];
         solution.w = w.col(j);
-        std::vector<char> free_here = preview.is_free();
+        std::vector<char> is_column_free = preview.is_free();
         for (std::size_t i = 0; i < columns[j].pinned.size(); ++i)
         {
-          free_here[columns[j].pinned[i]] = 0;
+          is_column_free[columns[j].pinned[i]] = 0;
           solution.w[columns[j].pinned[i]] = columns[j].pinned_values[static_cast<Index>(i)];
         }
-        solution.certificate = certify({ q, free_here }, solution.w);
+        solution.certificate = certify({ q, is_column_free }, solution.w);
       }
     });
   if (!whole)

@@ -58,10 +58,10 @@ struct Lattice
   /// Transfers values to the surface; refers to the member `tets`.
   std::unique_ptr<EmbeddedSurface> surface;
 
-  Status carry(ExecutionContext& context, const Weights& solved, const Handles& handles,
+  Status transfer_values(ExecutionContext& context, const Weights& solved, const Handles& handles,
     EmbeddedSurface::Smoothness smoothness, Weights& at_points) const
   {
-    return this->surface->carry(
+    return this->surface->transfer_values(
       context, this->result.problem.mesh, handles, solved, smoothness, at_points);
   }
 };
@@ -96,33 +96,33 @@ public:
 private:
   Status automatic(SurfaceWeights& result);
   Status automatic_volume(SurfaceWeights& result);
-  Status take_over(const Status& first, SurfaceWeights& result);
+  Status fall_back_to_embedding(const Status& first, SurfaceWeights& result);
   Status prepare();
-  Status on_mesh(SurfaceWeights& result);
-  Status in_volume(SurfaceWeights& result);
+  Status solve_on_surface(SurfaceWeights& result);
+  Status solve_in_volume(SurfaceWeights& result);
   Status solve_volume(Status mesh_status, SurfaceWeights& result);
-  Status in_embedding(SurfaceWeights& result);
-  Status in_cage(SurfaceWeights& result);
+  Status solve_in_embedding(SurfaceWeights& result);
+  Status solve_in_cage(SurfaceWeights& result);
   LatticePtr embed(Index resolution, Index tets);
-  Status hold_surface(EmbeddingOptions options, Lattice& lattice);
-  void put_surface_in(Lattice& lattice);
-  HandleInsertionOptions insertion_in(const Lattice& lattice) const;
-  Status solve_on(Lattice& lattice, Status mesh_status);
+  Status embed_with_links(EmbeddingOptions options, Lattice& lattice);
+  void attach_surface(Lattice& lattice);
+  HandleInsertionOptions insertion_options(const Lattice& lattice) const;
+  Status solve_on_lattice(Lattice& lattice, Status mesh_status);
   LatticePtr best_lattice();
-  double share_of_transfer() const;
+  double transfer_fraction() const;
   Status finish(Lattice& lattice, SurfaceWeights& result);
   Status fill(TetrahedralizeResult& tets);
-  Status refuse_single_points(const char* domain) const;
+  Status reject_vertex_terms(const char* domain) const;
   /// Return the status of `step` with the warnings and the report of `before` added.
-  Status joined(Status before, Status step) const;
+  Status merge_status(Status before, Status step) const;
   /// A function that transfers weights from the domain's vertices to the surface's points.
-  using Carry = std::function<Status(const Weights& solved, Weights& at_points)>;
+  using TransferFunction = std::function<Status(const Weights& solved, Weights& at_points)>;
   Status solve(const Domain& domain, const std::vector<Index>& region_ids, const WeightTerms& terms,
-    const HandleInsertionOptions& insertion, const Carry& carry, const Carry& carry_preview,
-    SurfaceWeights& result);
-  Status carry_weights(const Carry& carry, SurfaceWeights& result) const;
+    const HandleInsertionOptions& insertion, const TransferFunction& transfer_values,
+    const TransferFunction& transfer_preview, SurfaceWeights& result);
+  Status transfer_weights(const TransferFunction& transfer_values, SurfaceWeights& result) const;
   /// Transfer the optional terms from the surface's vertices to a mesh of its inside.
-  Status carry_terms_to(const Points& points, const std::vector<Index>& original,
+  Status transfer_terms_to(const Points& points, const std::vector<Index>& original,
     WeightTerms& terms, Status& status) const;
 
   PointsView points_;
@@ -168,7 +168,7 @@ double report_difference(
   return rms;
 }
 
-Status Solver::joined(Status before, Status step) const
+Status Solver::merge_status(Status before, Status step) const
 {
   step.warnings.insert(step.warnings.begin(), before.warnings.begin(), before.warnings.end());
   before.report.merge(step.report);
@@ -219,7 +219,7 @@ Status Solver::fill(TetrahedralizeResult& tets)
   options.winding_threshold = this->options_.winding_threshold;
   options.interior_edge = interior_edge_of_weights(
     this->prepared_->inside.volume(), bounding_box(this->prepared_->surface.points).diagonal());
-  options.handles = this->options_.places;
+  options.handles = this->options_.handle_elements;
   const ProgressRange range(this->context_, 0.3, 1.0);
   status = tetrahedralize(
     this->context_, this->points_, this->triangles_, *this->prepared_, options, tets);
@@ -229,7 +229,7 @@ Status Solver::fill(TetrahedralizeResult& tets)
 
 /// Return an error if an optional term applies to individual points, because these points are not
 /// vertices of this domain.
-Status Solver::refuse_single_points(const char* domain) const
+Status Solver::reject_vertex_terms(const char* domain) const
 {
   return has_vertex_terms(this->weights_options_.terms)
     ? Status::invalid_input("rigid sets, bounds, pins and mirrors of points need tets that "
@@ -238,7 +238,7 @@ Status Solver::refuse_single_points(const char* domain) const
     : Status();
 }
 
-Status Solver::carry_terms_to(const Points& points, const std::vector<Index>& original,
+Status Solver::transfer_terms_to(const Points& points, const std::vector<Index>& original,
   WeightTerms& terms, Status& status) const
 {
   terms = this->weights_options_.terms;
@@ -254,22 +254,23 @@ Status Solver::carry_terms_to(const Points& points, const std::vector<Index>& or
   {
     return fits;
   }
-  Index lost = 0;
-  const Status carried = carry_terms(
-    this->context_, this->weights_options_.terms, surface, points, original, terms, lost);
-  if (lost > 0)
+  Index dropped_count = 0;
+  const Status transfer_status = transfer_terms(
+    this->context_, this->weights_options_.terms, surface, points, original, terms, dropped_count);
+  if (dropped_count > 0)
   {
-    status.warnings.push_back(std::to_string(lost) +
-      (lost == 1 ? " point of the surface is not a vertex"
-                 : " points of the surface are not vertices") +
+    status.warnings.push_back(std::to_string(dropped_count) +
+      (dropped_count == 1 ? " point of the surface is not a vertex"
+                          : " points of the surface are not vertices") +
       " of the tets; bounds, pins, rigid sets and mirror points there are ignored");
   }
-  return carried;
+  return transfer_status;
 }
 
 Status Solver::solve(const Domain& domain, const std::vector<Index>& region_ids,
-  const WeightTerms& terms, const HandleInsertionOptions& insertion, const Carry& carry,
-  const Carry& carry_preview, SurfaceWeights& result)
+  const WeightTerms& terms, const HandleInsertionOptions& insertion,
+  const TransferFunction& transfer_values, const TransferFunction& transfer_preview,
+  SurfaceWeights& result)
 {
   Status status;
   {
@@ -283,7 +284,7 @@ Status Solver::solve(const Domain& domain, const std::vector<Index>& region_ids,
     {
       const ProgressRange before(this->context_, 0.04, 0.1);
       status = preview_weights(this->context_, result.problem, options, result.solved);
-      if (status.usable() && carry_preview(result.solved.weights, this->preview_).usable())
+      if (status.usable() && transfer_preview(result.solved.weights, this->preview_).usable())
       {
         normalize(this->preview_);
         this->options_.preview(this->preview_);
@@ -299,24 +300,26 @@ Status Solver::solve(const Domain& domain, const std::vector<Index>& region_ids,
     }
   }
   const Phase phase(this->context_, "transfer", solving_end, 1.0);
-  const Status carried = this->carry_weights(carry, result);
-  if (!carried.usable())
+  const Status transfer_status = this->transfer_weights(transfer_values, result);
+  if (!transfer_status.usable())
   {
-    return carried;
+    return transfer_status;
   }
   if (this->preview_.size() > 0)
   {
     report_difference(this->preview_, result.weights, "preview", status.report);
   }
   // The transfer adds report keys and warnings, but does not change the status code of the solve.
-  status.report.merge(carried.report);
-  status.warnings.insert(status.warnings.end(), carried.warnings.begin(), carried.warnings.end());
+  status.report.merge(transfer_status.report);
+  status.warnings.insert(
+    status.warnings.end(), transfer_status.warnings.begin(), transfer_status.warnings.end());
   return status;
 }
 
 /// Transfer the weights, and the raw weights if requested, from the domain's vertices to the
 /// surface's points.
-Status Solver::carry_weights(const Carry& carry, SurfaceWeights& result) const
+Status Solver::transfer_weights(
+  const TransferFunction& transfer_values, SurfaceWeights& result) const
 {
   const Index m = result.solved.weights.cols();
   Weights solved = result.solved.weights;
@@ -326,8 +329,8 @@ Status Solver::carry_weights(const Carry& carry, SurfaceWeights& result) const
     solved.rightCols(m) = result.solved.raw;
   }
   Weights at_points;
-  const Status carried = carry(solved, at_points);
-  if (carried.usable())
+  const Status transfer_status = transfer_values(solved, at_points);
+  if (transfer_status.usable())
   {
     result.raw = at_points.rightCols(at_points.cols() - m);
     at_points.conservativeResize(Eigen::NoChange, m);
@@ -337,25 +340,25 @@ Status Solver::carry_weights(const Carry& carry, SurfaceWeights& result) const
       normalize(result.weights); // clamping and smoothing have changed the sums
     }
   }
-  return carried;
+  return transfer_status;
 }
 
-Status Solver::on_mesh(SurfaceWeights& result)
+Status Solver::solve_on_surface(SurfaceWeights& result)
 {
   Domain domain;
   domain.points = this->points_;
   domain.triangles = this->triangles_;
   result.domain = WeightsDomain::surface;
-  const Carry carry = [&](const Weights& solved, Weights& at_points)
+  const TransferFunction transfer_values = [&](const Weights& solved, Weights& at_points)
   {
     at_points = solved.topRows(this->points_.rows()); // the surface's own points come first
     return Status();
   };
   return this->solve(domain, this->region_ids_, this->weights_options_.terms,
-    this->weights_options_.insertion, carry, carry, result);
+    this->weights_options_.insertion, transfer_values, transfer_values, result);
 }
 
-Status Solver::in_volume(SurfaceWeights& result)
+Status Solver::solve_in_volume(SurfaceWeights& result)
 {
   Status status = this->fill(result.tets);
   return status.usable() ? this->solve_volume(std::move(status), result) : status;
@@ -380,33 +383,33 @@ Status Solver::solve_volume(Status mesh_status, SurfaceWeights& result)
   }
   result.domain = WeightsDomain::volume;
   WeightTerms terms;
-  const Status carried = this->carry_terms_to(
+  const Status transfer_status = this->transfer_terms_to(
     result.tets.mesh.points, result.tets.original_vertices, terms, mesh_status);
-  if (!carried.ok())
+  if (!transfer_status.ok())
   {
-    return carried;
+    return transfer_status;
   }
-  const Carry carry = [&](const Weights& solved, Weights& at_points)
+  const TransferFunction transfer_values = [&](const Weights& solved, Weights& at_points)
   {
     TransferCounts counts;
     return transfer(
       this->context_, result.problem.mesh.domain, solved, this->points_, {}, at_points, counts);
   };
-  return this->joined(mesh_status,
-    this->solve(volume_of(result.tets.mesh), labels, terms, this->weights_options_.insertion, carry,
-      carry, result));
+  return this->merge_status(mesh_status,
+    this->solve(tet_domain(result.tets.mesh), labels, terms, this->weights_options_.insertion,
+      transfer_values, transfer_values, result));
 }
 
-Status Solver::in_cage(SurfaceWeights& result)
+Status Solver::solve_in_cage(SurfaceWeights& result)
 {
-  Status status = this->refuse_single_points("cage");
+  Status status = this->reject_vertex_terms("cage");
   if (!status.ok())
   {
     return status;
   }
   CageOptions options;
   options.winding_threshold = this->options_.winding_threshold;
-  options.places = this->options_.places;
+  options.handle_elements = this->options_.handle_elements;
   CageDomain cage;
   {
     const ProgressRange range(this->context_, 0.0, meshing_end);
@@ -424,25 +427,26 @@ Status Solver::in_cage(SurfaceWeights& result)
   result.domain = WeightsDomain::cage;
   WeightTerms terms;
   const std::vector<Index> none(static_cast<std::size_t>(domain.points.rows()), -1);
-  const Status carried_terms = this->carry_terms_to(domain.points, none, terms, status);
-  if (!carried_terms.ok())
+  const Status terms_status = this->transfer_terms_to(domain.points, none, terms, status);
+  if (!terms_status.ok())
   {
-    return carried_terms;
+    return terms_status;
   }
-  const Carry carry = [&](const Weights& solved, Weights& at_points)
+  const TransferFunction transfer_values = [&](const Weights& solved, Weights& at_points)
   {
     TransferCounts counts;
-    Status carried = transfer(
+    Status transfer_status = transfer(
       this->context_, result.problem.mesh.domain, solved, this->points_, {}, at_points, counts);
     if (counts.nearest + counts.misses > 0)
     {
-      carried.warnings = { std::to_string(counts.nearest + counts.misses) +
+      transfer_status.warnings = { std::to_string(counts.nearest + counts.misses) +
         " points of the surface are outside the cage and get the nearest weights" };
     }
-    return carried;
+    return transfer_status;
   };
-  return this->joined(
-    status, this->solve(domain, {}, terms, this->weights_options_.insertion, carry, carry, result));
+  return this->merge_status(status,
+    this->solve(domain, {}, terms, this->weights_options_.insertion, transfer_values,
+      transfer_values, result));
 }
 
 /// Make one lattice and solve the weights on it.
@@ -454,19 +458,19 @@ LatticePtr Solver::embed(Index resolution, Index tets)
   options.winding_threshold = this->options_.winding_threshold;
   options.resolution = resolution;
   options.tets = tets;
-  lattice->status = this->hold_surface(options, *lattice);
+  lattice->status = this->embed_with_links(options, *lattice);
   if (lattice->status.usable())
   {
     lattice->resolution = lattice->tets.resolution;
     lattice->status.report.set("embedding.resolution", lattice->resolution);
-    lattice->status = this->solve_on(*lattice, std::move(lattice->status));
+    lattice->status = this->solve_on_lattice(*lattice, std::move(lattice->status));
   }
   return lattice;
 }
 
 /// Make a lattice in which every part has a handle or is linked to other parts. The links of one
 /// lattice are also used for all later lattices.
-Status Solver::hold_surface(EmbeddingOptions options, Lattice& lattice)
+Status Solver::embed_with_links(EmbeddingOptions options, Lattice& lattice)
 {
   const Phase phase(this->context_, "tetrahedralize", 0.0, meshing_end);
   Status prepared;
@@ -493,11 +497,11 @@ Status Solver::hold_surface(EmbeddingOptions options, Lattice& lattice)
     {
       return status;
     }
-    this->put_surface_in(lattice);
+    this->attach_surface(lattice);
     LooseParts loose;
     const Status found = find_loose_parts(this->context_, this->points_, this->triangles_,
-      this->prepared_->surface.lowest_equal, lattice.tets, *lattice.surface, this->handles_,
-      this->insertion_in(lattice), loose);
+      this->prepared_->surface.representative_of_vertex, lattice.tets, *lattice.surface,
+      this->handles_, this->insertion_options(lattice), loose);
     if (!found.ok())
     {
       return found;
@@ -527,7 +531,7 @@ Status Solver::hold_surface(EmbeddingOptions options, Lattice& lattice)
 }
 
 /// Make the object that transfers weights from the lattice to the surface.
-void Solver::put_surface_in(Lattice& lattice)
+void Solver::attach_surface(Lattice& lattice)
 {
   if (!this->surface_)
   {
@@ -537,52 +541,54 @@ void Solver::put_surface_in(Lattice& lattice)
     this->points_, this->triangles_, *this->surface_, lattice.tets.mesh, lattice.tets.binding);
 }
 
-HandleInsertionOptions Solver::insertion_in(const Lattice& lattice) const
+HandleInsertionOptions Solver::insertion_options(const Lattice& lattice) const
 {
   HandleInsertionOptions insertion = this->weights_options_.insertion;
   insertion.spacing = 0.5;
-  insertion.element_of = [&lattice](const Vec3& place) { return lattice.surface->tet_of(place); };
+  insertion.element_of = [&lattice](const Vec3& position)
+  { return lattice.surface->tet_of(position); };
   return insertion;
 }
 
 /// Solve the weights on a lattice and transfer them to the surface without smoothing.
 /// @param mesh_status  status of making the lattice.
-Status Solver::solve_on(Lattice& lattice, Status mesh_status)
+Status Solver::solve_on_lattice(Lattice& lattice, Status mesh_status)
 {
   SurfaceWeights& result = lattice.result;
   result.domain = WeightsDomain::embedding;
   WeightTerms terms;
   const Domain domain = lattice.surface->domain(lattice.tets.inside_fractions);
   const std::vector<Index> none(static_cast<std::size_t>(domain.points.rows()), -1);
-  const Status carried = this->carry_terms_to(domain.points, none, terms, mesh_status);
-  if (!carried.ok())
+  const Status transfer_status = this->transfer_terms_to(domain.points, none, terms, mesh_status);
+  if (!transfer_status.ok())
   {
-    return carried;
+    return transfer_status;
   }
   using Smoothness = EmbeddedSurface::Smoothness;
-  const auto carry = [&](Smoothness smoothness)
+  const auto transfer_values = [&](Smoothness smoothness)
   {
-    return [&, smoothness](const Weights& solved, Weights& at_points)
-    { return lattice.carry(this->context_, solved, this->handles_, smoothness, at_points); };
+    return [&, smoothness](const Weights& solved, Weights& at_points) {
+      return lattice.transfer_values(this->context_, solved, this->handles_, smoothness, at_points);
+    };
   };
-  return this->joined(std::move(mesh_status),
-    this->solve(domain, {}, terms, this->insertion_in(lattice), carry(Smoothness::as_interpolated),
-      carry(Smoothness::smoothed), result));
+  return this->merge_status(std::move(mesh_status),
+    this->solve(domain, {}, terms, this->insertion_options(lattice),
+      transfer_values(Smoothness::as_interpolated), transfer_values(Smoothness::smoothed), result));
 }
 
-Status Solver::in_embedding(SurfaceWeights& result)
+Status Solver::solve_in_embedding(SurfaceWeights& result)
 {
   if (!this->region_ids_.empty())
   {
     return Status::invalid_input("regions need tets that preserve the surface's points; use domain "
                                  "volume instead of embedding");
   }
-  Status status = this->refuse_single_points("embedding");
+  Status status = this->reject_vertex_terms("embedding");
   if (!status.ok())
   {
     return status;
   }
-  const double solved = 1.0 - this->share_of_transfer();
+  const double solved = 1.0 - this->transfer_fraction();
   LatticePtr best;
   {
     const ProgressRange range(this->context_, 0.0, solved);
@@ -596,7 +602,7 @@ Status Solver::in_embedding(SurfaceWeights& result)
 /// Return the estimated time of the smoothed transfer to the surface, as a fraction of the total
 /// time. For a dense surface and ten handles, the fraction is about half. Measured on surfaces with
 /// one and four million triangles.
-double Solver::share_of_transfer() const
+double Solver::transfer_fraction() const
 {
   // Times in seconds on two threads: two constants for the transfer, then two constants for the
   // solves on all lattices.
@@ -615,8 +621,8 @@ double Solver::share_of_transfer() const
 /// a result. If no lattice has a result, a lattice whose status contains the reason.
 LatticePtr Solver::best_lattice()
 {
-  const Index asked = this->options_.resolution;
-  bool trusted = false;
+  const Index requested = this->options_.resolution;
+  bool has_converged = false;
   // Use the finer lattice as `best`, unless only the coarser lattice converged or has a result.
   const auto compare = [&](LatticePtr& best, LatticePtr finer)
   {
@@ -628,7 +634,7 @@ LatticePtr Solver::best_lattice()
           best->result.weights, finer->result.weights, "guard", lattice->status.report);
         const Lattice& other = lattice == finer.get() ? *best : *finer;
         lattice->status.report.set("guard.resolution", other.resolution);
-        trusted = rms <= largest_rms;
+        has_converged = rms <= largest_rms;
       }
     }
     if (finer->status.ok() || !best->status.usable() ||
@@ -640,7 +646,7 @@ LatticePtr Solver::best_lattice()
   LatticePtr best;
   {
     const ProgressRange range(this->context_, 0.0, lattice_ends[0]);
-    best = this->embed(asked > 0 ? std::max<Index>(4, (2 * asked + 1) / 3) : 0, first_tets);
+    best = this->embed(requested > 0 ? std::max<Index>(4, (2 * requested + 1) / 3) : 0, first_tets);
   }
   if (best->resolution == 0 || best->status.code == StatusCode::canceled)
   {
@@ -648,16 +654,17 @@ LatticePtr Solver::best_lattice()
   }
   // Resolution of the last lattice. The solve on this lattice may have failed.
   Index resolution = best->resolution;
-  for (int level = 1; level < most_lattices && !trusted; ++level)
+  for (int level = 1; level < most_lattices && !has_converged; ++level)
   {
     const double growth = level == 1 ? 1.5 : growth_to_third(*best);
-    resolution =
-      asked > 0 ? asked : static_cast<Index>(std::ceil(growth * static_cast<double>(resolution)));
+    resolution = requested > 0
+      ? requested
+      : static_cast<Index>(std::ceil(growth * static_cast<double>(resolution)));
     const auto vertices = static_cast<double>(best->result.problem.vertex_count());
     const double seconds =
       predicted_seconds(static_cast<Index>(std::pow(growth, power_of_tets) * vertices),
         static_cast<Index>(this->handles_.size()));
-    if (level > 1 && (asked > 0 || seconds > most_seconds))
+    if (level > 1 && (requested > 0 || seconds > most_seconds))
     {
       break;
     }
@@ -675,7 +682,7 @@ LatticePtr Solver::best_lattice()
     }
   }
   Status& status = best->status;
-  if (!trusted && status.usable() && status.report.find("guard.resolution"))
+  if (!has_converged && status.usable() && status.report.find("guard.resolution"))
   {
     const auto number = [&](const char* key) { return status.report.number(key, 0.0); };
     char text[200];
@@ -695,18 +702,18 @@ LatticePtr Solver::best_lattice()
 Status Solver::finish(Lattice& lattice, SurfaceWeights& result)
 {
   const Phase phase(this->context_, "transfer");
-  const Status carried = this->carry_weights(
+  const Status transfer_status = this->transfer_weights(
     [&](const Weights& solved, Weights& at_points)
     {
-      return lattice.carry(
+      return lattice.transfer_values(
         this->context_, solved, this->handles_, EmbeddedSurface::Smoothness::smoothed, at_points);
     },
     lattice.result);
-  if (!carried.usable())
+  if (!transfer_status.usable())
   {
-    return carried;
+    return transfer_status;
   }
-  Status described = take_embedding(this->context_, this->points_, this->triangles_,
+  Status described = complete_embedding(this->context_, this->points_, this->triangles_,
     *this->prepared_, std::move(lattice.tets), lattice.result.tets);
   if (!described.usable())
   {
@@ -714,7 +721,7 @@ Status Solver::finish(Lattice& lattice, SurfaceWeights& result)
   }
   rename_tet_method(described.report);
   described.warnings.clear(); // the lattice's status contains these warnings already
-  Status status = this->joined(std::move(described), std::move(lattice.status));
+  Status status = this->merge_status(std::move(described), std::move(lattice.status));
   if (this->preview_.size() > 0)
   {
     report_difference(this->preview_, lattice.result.weights, "preview", status.report);
@@ -737,14 +744,14 @@ Status Solver::automatic(SurfaceWeights& result)
   const double diagonal = bounding_box(this->points_, this->triangles_).diagonal();
   if (diagonal > 0.0 && is_flat(this->points_, diagonal, normal))
   {
-    const Status status = with_reason(this->on_mesh(result), "the shape is flat");
-    return status.ok() ? status : this->take_over(status, result);
+    const Status status = with_reason(this->solve_on_surface(result), "the shape is flat");
+    return status.ok() ? status : this->fall_back_to_embedding(status, result);
   }
-  const bool asked = has_vertex_terms(this->weights_options_.terms);
-  if (asked || !this->region_ids_.empty())
+  const bool requested = has_vertex_terms(this->weights_options_.terms);
+  if (requested || !this->region_ids_.empty())
   {
-    return with_reason(this->in_volume(result),
-      asked ? "weight terms apply to single points" : "the surface has region labels");
+    return with_reason(this->solve_in_volume(result),
+      requested ? "weight terms apply to single points" : "the surface has region labels");
   }
   {
     const ProgressRange range(this->context_, 0.0, 0.05);
@@ -760,7 +767,7 @@ Status Solver::automatic(SurfaceWeights& result)
   {
     return this->automatic_volume(result);
   }
-  return with_reason(this->in_embedding(result), reason);
+  return with_reason(this->solve_in_embedding(result), reason);
 }
 
 /// Solve in the volume. If the tets are badly shaped or expensive, or if the volume fails, solve in
@@ -779,19 +786,19 @@ Status Solver::automatic_volume(SurfaceWeights& result)
       reason_against_tets(result.tets.mesh, static_cast<Index>(this->handles_.size()));
     if (!reason.empty())
     {
-      return with_reason(this->in_embedding(result), reason);
+      return with_reason(this->solve_in_embedding(result), reason);
     }
     status = this->solve_volume(std::move(status), result);
   }
   return status.ok()
     ? with_reason(std::move(status), "the surface is closed and its tets are well shaped")
-    : this->take_over(status, result);
+    : this->fall_back_to_embedding(status, result);
 }
 
 /// Solve in the embedding after another domain has failed. Add one warning and the reason to the
 /// report.
 /// @param first status of the other domain; it is returned if the embedding fails, too.
-Status Solver::take_over(const Status& first, SurfaceWeights& result)
+Status Solver::fall_back_to_embedding(const Status& first, SurfaceWeights& result)
 {
   if (first.code == StatusCode::canceled)
   {
@@ -799,7 +806,7 @@ Status Solver::take_over(const Status& first, SurfaceWeights& result)
   }
   const std::string domain = to_string(result.domain);
   SurfaceWeights embedded;
-  Status status = this->in_embedding(embedded);
+  Status status = this->solve_in_embedding(embedded);
   if (!status.usable() || (first.usable() && !status.ok()))
   {
     return status.code == StatusCode::canceled ? status : first;
@@ -820,16 +827,16 @@ Status Solver::run(SurfaceWeights& result)
   switch (this->options_.domain)
   {
     case WeightsDomain::surface:
-      status = this->on_mesh(result);
+      status = this->solve_on_surface(result);
       break;
     case WeightsDomain::volume:
-      status = this->in_volume(result);
+      status = this->solve_in_volume(result);
       break;
     case WeightsDomain::cage:
-      status = this->in_cage(result);
+      status = this->solve_in_cage(result);
       break;
     case WeightsDomain::embedding:
-      status = this->in_embedding(result);
+      status = this->solve_in_embedding(result);
       break;
     default:
       status = this->automatic(result);

@@ -67,7 +67,7 @@ struct SurfaceWeightsOptions
   /// Transfer the raw weights to the surface's points, too.
   bool keep_raw = false;
   /// Handle geometry (such as bones) that becomes part of the volume's tets.
-  HandlePlaces places;
+  HandleElements handle_elements;
   /// If set, this function is called once, before the method runs. Its argument is the weights of
   /// preview_weights() at the surface's points. The call is made in the caller's thread.
   std::function<void(const Weights&)> preview;

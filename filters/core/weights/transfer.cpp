@@ -47,10 +47,10 @@ Status transfer(ExecutionContext& context, const Domain& mesh, WeightsView value
     outside,
     beyond
   };
-  std::vector<char> how(static_cast<std::size_t>(points.rows()), beyond);
+  std::vector<char> point_class(static_cast<std::size_t>(points.rows()), beyond);
   std::vector<double> distances(static_cast<std::size_t>(points.rows()), 0.0);
   result = Weights::Zero(points.rows(), values.cols());
-  const bool whole = parallel_for(context, points.rows(), 512,
+  const bool completed = parallel_for(context, points.rows(), 512,
     [&](Index begin, Index end)
     {
       for (Index i = begin; i < end; ++i)
@@ -63,31 +63,32 @@ Status transfer(ExecutionContext& context, const Domain& mesh, WeightsView value
         }
         const Index* ids = mesh.element(at.element);
         distances[i] = at.distance;
-        how[i] = at.distance > reach ? beyond : at.distance > coincident ? outside : inside;
+        point_class[i] = at.distance > reach ? beyond : at.distance > coincident ? outside : inside;
         for (int k = 0; k < mesh.corners(); ++k)
         {
-          if (how[i] == inside && (mesh.points.row(ids[k]).transpose() - p).norm() <= coincident)
+          if (point_class[i] == inside &&
+            (mesh.points.row(ids[k]).transpose() - p).norm() <= coincident)
           {
-            how[i] = exact;
+            point_class[i] = exact;
             result.row(i) = values.row(ids[k]);
           }
         }
-        for (int k = 0; k < mesh.corners() && how[i] != exact; ++k)
+        for (int k = 0; k < mesh.corners() && point_class[i] != exact; ++k)
         {
           result.row(i) += at.barycentric[k] * values.row(ids[k]);
         }
       }
     });
-  if (!whole)
+  if (!completed)
   {
     return Status::canceled();
   }
   for (Index i = 0; i < points.rows(); ++i)
   {
-    counts.exact += how[i] == exact;
-    counts.barycentric += how[i] == inside;
-    counts.nearest += how[i] == outside;
-    counts.misses += how[i] == beyond;
+    counts.exact += point_class[i] == exact;
+    counts.barycentric += point_class[i] == inside;
+    counts.nearest += point_class[i] == outside;
+    counts.misses += point_class[i] == beyond;
     counts.largest_distance = std::max(counts.largest_distance, distances[i]);
   }
   Status status;

@@ -36,16 +36,16 @@ bool fixed_vertices_span(const WeightsProblem& problem)
   std::vector<std::vector<Index>> all(fixed.size());
   for (const Index v : problem.fixed)
   {
-    if (components.of_vertex[v] >= 0)
+    if (components.component_of_vertex[v] >= 0)
     {
-      fixed[components.of_vertex[v]].push_back(v);
+      fixed[components.component_of_vertex[v]].push_back(v);
     }
   }
   for (Index v = 0; v < problem.vertex_count(); ++v)
   {
-    if (components.of_vertex[v] >= 0)
+    if (components.component_of_vertex[v] >= 0)
     {
-      all[components.of_vertex[v]].push_back(v);
+      all[components.component_of_vertex[v]].push_back(v);
     }
   }
   // Vertices count as flat in a direction if their extent in this direction is at most this
@@ -94,7 +94,7 @@ Status minimize(ExecutionContext& context, const WeightsProblem& problem, const 
     return status;
   }
   const std::vector<BoxQpSolution> solutions =
-    solver.solve_unbounded(context, plain_columns(problem));
+    solver.solve_unbounded(context, columns_without_terms(problem));
   if (context.canceled())
   {
     return Status::canceled();

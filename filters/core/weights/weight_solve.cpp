@@ -89,7 +89,7 @@ public:
   }
 
   /// Solve all columns separately, each with its own certificate.
-  Status solve_alone(double begin, double end, Round& round)
+  Status solve_separately(double begin, double end, Round& round)
   {
     const Phase phase(this->context_, "weights", begin, end);
     const Index m = this->problem_.handle_count();
@@ -102,7 +102,7 @@ public:
       const BoxQp& solver = *this->solvers_[g].solver;
       const ProgressRange range(this->context_, g / count, (g + 1) / count);
       std::vector<BoxQpSolution> solved = solver.solve_all(this->context_, group.columns);
-      const Status status = worst_of(solved);
+      const Status status = first_failure(solved);
       if (!status.usable())
       {
         return status;
@@ -114,7 +114,7 @@ public:
         fixed_values.col(static_cast<Index>(c)) = group.columns[c].fixed_values;
       }
       const Eigen::MatrixXd unconstrained = solver.unconstrained(fixed_values);
-      this->spread(group, solved, &unconstrained, round);
+      this->expand_solutions(group, solved, &unconstrained, round);
     }
     return {};
   }
@@ -147,7 +147,7 @@ public:
     {
       return outcome;
     }
-    this->spread(group, solved.columns, nullptr, round);
+    this->expand_solutions(group, solved.columns, nullptr, round);
     round.coupled_energy = solved.certificate.energy;
     return {};
   }
@@ -175,7 +175,7 @@ public:
 
 private:
   /// Copy solutions from the unknowns of a group to vertices and handles.
-  void spread(const ColumnGroup& group, const std::vector<BoxQpSolution>& solved,
+  void expand_solutions(const ColumnGroup& group, const std::vector<BoxQpSolution>& solved,
     const Eigen::MatrixXd* fallback, Round& round) const
   {
     const Index n = this->problem_.vertex_count();
@@ -222,14 +222,14 @@ Weights normalized(const WeightsProblem& problem, const Round& round, const Excl
 
 /// Exclude the smallest weights, so that each vertex has at most `most` nonzero weights. Weights
 /// are never excluded if they are pinned to a nonzero value or have a lower bound above 0.
-/// @param capped set to the number of vertices at which a weight above 0 is excluded.
+/// @param capped_count set to the number of vertices at which a weight above 0 is excluded.
 Status exclude_smallest(const WeightsProblem& problem, const Weights& weights, int most,
-  Exclusions& excluded, Index& capped)
+  Exclusions& excluded, Index& capped_count)
 {
   const Index m = weights.cols();
   const WeightTerms& terms = problem.terms;
   excluded.assign(static_cast<std::size_t>(weights.size()), 0);
-  capped = 0;
+  capped_count = 0;
   std::vector<Index> order(static_cast<std::size_t>(m));
   for (Index v = 0; v < weights.rows(); ++v)
   {
@@ -271,7 +271,7 @@ Status exclude_smallest(const WeightsProblem& problem, const Weights& weights, i
       excluded[v * m + order[i]] = 1;
       any = any || weights(v, order[i]) > 0.0;
     }
-    capped += any;
+    capped_count += any;
   }
   return {};
 }
@@ -349,9 +349,9 @@ Status solve_weights(ExecutionContext& context, const WeightsProblem& problem, i
   Exclusions excluded;
   Round round;
   Status outcome; // status of the coupled quadratic program
-  Weights alone;
+  Weights separate;
   Weights unlimited;
-  Index capped = 0;
+  Index capped_count = 0;
   for (int pass = 0; pass < (limited ? 2 : 1); ++pass)
   {
     // All passes have the same part of the progress range. Within a pass, the coupled program takes
@@ -360,16 +360,17 @@ Status solve_weights(ExecutionContext& context, const WeightsProblem& problem, i
     const double begin = 0.1 + pass * length;
     const double middle = begin + (coupled ? 0.3 : 1.0) * length;
     Status status = solver.prepare(excluded);
-    status = status.ok() ? solver.solve_alone(begin, middle, round) : status;
+    status = status.ok() ? solver.solve_separately(begin, middle, round) : status;
     if (status.ok() && coupled)
     {
-      alone = normalized(problem, round, excluded);
-      status = solver.solve_coupled(alone, middle, begin + length, round, outcome);
+      separate = normalized(problem, round, excluded);
+      status = solver.solve_coupled(separate, middle, begin + length, round, outcome);
     }
     if (status.ok() && limited && pass == 0)
     {
       unlimited = normalized(problem, round, excluded);
-      status = exclude_smallest(problem, unlimited, options.maximum_influences, excluded, capped);
+      status =
+        exclude_smallest(problem, unlimited, options.maximum_influences, excluded, capped_count);
     }
     if (!status.ok())
     {
@@ -394,14 +395,14 @@ Status solve_weights(ExecutionContext& context, const WeightsProblem& problem, i
   }
   if (limited)
   {
-    status.report.set("counts.capped_vertices", capped);
+    status.report.set("counts.capped_vertices", capped_count);
     report_difference(problem, result.weights, unlimited, "influences", status.report);
   }
   if (coupled)
   {
     status.report.set("partition.of_unity", "coupled");
     status.report.set("partition.energy", round.coupled_energy);
-    report_difference(problem, result.weights, alone, "partition", status.report);
+    report_difference(problem, result.weights, separate, "partition", status.report);
   }
   return status;
 }

@@ -331,10 +331,11 @@ bool has_vertex_terms(const WeightTerms& terms)
     terms.pinned.size() > 0 || !terms.mirror.empty();
 }
 
-Status carry_terms(ExecutionContext& context, const WeightTerms& terms, const Domain& surface,
-  const Points& points, const std::vector<Index>& original, WeightTerms& carried, Index& lost)
+Status transfer_terms(ExecutionContext& context, const WeightTerms& terms, const Domain& surface,
+  const Points& points, const std::vector<Index>& original, WeightTerms& transferred,
+  Index& dropped_count)
 {
-  carried = terms;
+  transferred = terms;
   if (terms.rigidity.size() > 0)
   {
     const Weights painted = terms.rigidity;
@@ -345,28 +346,29 @@ Status carry_terms(ExecutionContext& context, const WeightTerms& terms, const Do
     {
       return status;
     }
-    carried.rigidity = there.col(0);
+    transferred.rigidity = there.col(0);
   }
-  std::vector<Index> carried_to(static_cast<std::size_t>(surface.points.rows()), -1);
+  std::vector<Index> mesh_vertex(static_cast<std::size_t>(surface.points.rows()), -1);
   for (std::size_t v = 0; v < original.size(); ++v)
   {
     if (original[v] >= 0)
     {
-      carried_to[original[v]] = static_cast<Index>(v);
+      mesh_vertex[original[v]] = static_cast<Index>(v);
     }
   }
-  const auto asked = [&](const Eigen::MatrixXd& values, Index v)
+  const auto has_values = [&](const Eigen::MatrixXd& values, Index v)
   { return values.size() > 0 && !values.row(v).array().isNaN().all(); };
-  lost = 0;
+  dropped_count = 0;
   for (Index v = 0; v < surface.points.rows(); ++v)
   {
     const bool set = !terms.rigid_sets.empty() && terms.rigid_sets[v] > 0;
     const bool mirrored = !terms.mirror.empty() && terms.mirror[v] >= 0;
-    lost += carried_to[v] < 0 &&
-      (set || mirrored || asked(terms.lower, v) || asked(terms.upper, v) || asked(terms.pinned, v));
+    dropped_count += mesh_vertex[v] < 0 &&
+      (set || mirrored || has_values(terms.lower, v) || has_values(terms.upper, v) ||
+        has_values(terms.pinned, v));
   }
   const Index count = points.rows();
-  for (Eigen::MatrixXd* values : { &carried.lower, &carried.upper, &carried.pinned })
+  for (Eigen::MatrixXd* values : { &transferred.lower, &transferred.upper, &transferred.pinned })
   {
     if (values->size() > 0)
     {
@@ -383,19 +385,19 @@ Status carry_terms(ExecutionContext& context, const WeightTerms& terms, const Do
   }
   if (!terms.rigid_sets.empty())
   {
-    carried.rigid_sets.assign(static_cast<std::size_t>(count), 0);
+    transferred.rigid_sets.assign(static_cast<std::size_t>(count), 0);
     for (Index v = 0; v < count; ++v)
     {
-      carried.rigid_sets[v] = original[v] >= 0 ? terms.rigid_sets[original[v]] : 0;
+      transferred.rigid_sets[v] = original[v] >= 0 ? terms.rigid_sets[original[v]] : 0;
     }
   }
   if (!terms.mirror.empty())
   {
-    carried.mirror.assign(static_cast<std::size_t>(count), -1);
+    transferred.mirror.assign(static_cast<std::size_t>(count), -1);
     for (Index v = 0; v < count; ++v)
     {
       const Index image = original[v] >= 0 ? terms.mirror[original[v]] : -1;
-      carried.mirror[v] = image >= 0 ? carried_to[image] : -1;
+      transferred.mirror[v] = image >= 0 ? mesh_vertex[image] : -1;
     }
   }
   return {};
@@ -409,10 +411,10 @@ std::vector<Index> mirrored_handles(
   {
     return partner;
   }
-  std::vector<Index> row_of(constraints.roles.size(), -1);
+  std::vector<Index> constraint_row(constraints.roles.size(), -1);
   for (std::size_t i = 0; i < constraints.vertices.size(); ++i)
   {
-    row_of[constraints.vertices[i]] = static_cast<Index>(i);
+    constraint_row[constraints.vertices[i]] = static_cast<Index>(i);
   }
   // Report whether every nonzero given value of column a equals the value of column b at the mirror
   // vertex.
@@ -427,8 +429,8 @@ std::vector<Index> mirrored_handles(
       {
         continue;
       }
-      if (other < 0 || row_of[other] < 0 ||
-        std::abs(constraints.values(row_of[other], b) - value) > 1e-12)
+      if (other < 0 || constraint_row[other] < 0 ||
+        std::abs(constraints.values(constraint_row[other], b) - value) > 1e-12)
       {
         return false;
       }

@@ -76,10 +76,11 @@ bool has_vertex_terms(const WeightTerms& terms);
 /// Transfer the terms from a surface to a mesh that contains some of its vertices. The rigidity of
 /// a mesh vertex is the rigidity at the nearest point of the surface.
 /// @param original for every vertex of the mesh, the surface vertex at its position; -1: none.
-/// @param lost set to the number of surface vertices that have terms for individual vertices but
-/// are not in the mesh.
-Status carry_terms(ExecutionContext& context, const WeightTerms& terms, const Domain& surface,
-  const Points& points, const std::vector<Index>& original, WeightTerms& carried, Index& lost);
+/// @param dropped_count set to the number of surface vertices that have terms for individual
+/// vertices but are not in the mesh.
+Status transfer_terms(ExecutionContext& context, const WeightTerms& terms, const Domain& surface,
+  const Points& points, const std::vector<Index>& original, WeightTerms& transferred,
+  Index& dropped_count);
 
 /// Return the mirror image of each handle; -1: none. Handle b is the mirror image of handle a if
 /// the vertices on b are the mirror vertices of the vertices on a. A handle on the mirror plane is

@@ -18,10 +18,10 @@ void collect_fixed(WeightsProblem& problem)
 {
   const HandleConstraints& constraints = problem.constraints;
   const Index m = problem.handle_count();
-  std::vector<Index> row_of(static_cast<std::size_t>(problem.vertex_count()), -1);
+  std::vector<Index> constraint_row(static_cast<std::size_t>(problem.vertex_count()), -1);
   for (std::size_t i = 0; i < constraints.vertices.size(); ++i)
   {
-    row_of[constraints.vertices[i]] = static_cast<Index>(i);
+    constraint_row[constraints.vertices[i]] = static_cast<Index>(i);
   }
   for (Index v = 0; v < problem.vertex_count(); ++v)
   {
@@ -37,11 +37,12 @@ void collect_fixed(WeightsProblem& problem)
     const auto row = static_cast<Index>(i);
     if (constraints.roles[v] == VertexRole::handle)
     {
-      problem.fixed_values.row(row) = constraints.values.row(row_of[v]);
+      problem.fixed_values.row(row) = constraints.values.row(constraint_row[v]);
     }
-    else if (constraints.roles[v] == VertexRole::tethered)
+    else if (constraints.roles[v] == VertexRole::without_handle)
     {
-      problem.fixed_values(row, constraints.tether[constraints.components.of_vertex[v]]) = 1.0;
+      problem.fixed_values(
+        row, constraints.nearest_handle[constraints.components.component_of_vertex[v]]) = 1.0;
     }
   }
 }
@@ -58,7 +59,8 @@ Eigen::VectorXd element_rigidity(const Domain& domain, const Eigen::VectorXd& pa
     {
       sum += painted[domain.element(e)[k]];
     }
-    result[e] = sum / domain.corners() * (domain.shares.size() > 0 ? domain.shares[e] : 1.0);
+    result[e] = sum / domain.corners() *
+      (domain.inside_fractions.size() > 0 ? domain.inside_fractions[e] : 1.0);
   }
   return result;
 }
@@ -75,11 +77,11 @@ void report_problem(const WeightsProblem& problem, Status& status)
   report.set("counts.components", Report::Value(constraints.components.count));
   report.set("counts.inserted_vertices",
     Report::Value(static_cast<std::int64_t>(problem.mesh.inserted.size())));
-  const auto tethered = std::count_if(
-    constraints.tether.begin(), constraints.tether.end(), [](Index handle) { return handle >= 0; });
-  if (tethered > 0)
+  const auto without_handle = std::count_if(constraints.nearest_handle.begin(),
+    constraints.nearest_handle.end(), [](Index handle) { return handle >= 0; });
+  if (without_handle > 0)
   {
-    report.set("counts.components_without_handle", Report::Value(std::int64_t(tethered)));
+    report.set("counts.components_without_handle", Report::Value(std::int64_t(without_handle)));
   }
   const auto unreferenced =
     std::count(constraints.roles.begin(), constraints.roles.end(), VertexRole::unreferenced);
@@ -142,16 +144,16 @@ Status make_weights_problem(ExecutionContext& context, const Domain& domain,
     return status;
   }
   status.warnings = problem.mesh.warnings;
-  Index lost_pins = 0;
+  Index ignored_pins = 0;
   for (Index v = 0; v < problem.terms.pinned.rows(); ++v)
   {
     const bool pinned = !problem.terms.pinned.row(v).array().isNaN().all();
-    lost_pins += pinned && problem.constraints.components.of_vertex[v] < 0;
+    ignored_pins += pinned && problem.constraints.components.component_of_vertex[v] < 0;
   }
-  if (lost_pins > 0)
+  if (ignored_pins > 0)
   {
-    status.warnings.push_back(std::to_string(lost_pins) +
-      (lost_pins == 1 ? " pinned vertex is" : " pinned vertices are") +
+    status.warnings.push_back(std::to_string(ignored_pins) +
+      (ignored_pins == 1 ? " pinned vertex is" : " pinned vertices are") +
       " not part of any element with an area or volume and therefore ignored");
   }
   const std::string slow_blas = SparseSolver::blas_warning();
@@ -212,7 +214,7 @@ Index normalize_rows(const WeightsProblem& problem, const Eigen::MatrixXd& fallb
 {
   const Eigen::MatrixXd& pinned = problem.terms.pinned;
   const Index m = weights.cols();
-  Index thin_rows = 0;
+  Index fallback_rows = 0;
   for (Index v = 0; v < weights.rows(); ++v)
   {
     const VertexRole role = problem.constraints.roles[v];
@@ -220,7 +222,7 @@ Index normalize_rows(const WeightsProblem& problem, const Eigen::MatrixXd& fallb
     {
       continue;
     }
-    double wanted = 1.0;
+    double target_sum = 1.0;
     double sum = weights.row(v).sum();
     // For each weight of the row, 1 if it is scaled, 0 if it is pinned and does not change.
     Eigen::RowVectorXd scaled = Eigen::RowVectorXd::Ones(m);
@@ -229,7 +231,7 @@ Index normalize_rows(const WeightsProblem& problem, const Eigen::MatrixXd& fallb
       if (!std::isnan(pinned(v, j)))
       {
         scaled[j] = 0.0;
-        wanted -= weights(v, j);
+        target_sum -= weights(v, j);
         sum -= weights(v, j);
       }
     }
@@ -237,7 +239,8 @@ Index normalize_rows(const WeightsProblem& problem, const Eigen::MatrixXd& fallb
     {
       for (Index j = 0; j < m; ++j)
       {
-        const double part = wanted == 1.0 ? weights(v, j) / sum : weights(v, j) * (wanted / sum);
+        const double part =
+          target_sum == 1.0 ? weights(v, j) / sum : weights(v, j) * (target_sum / sum);
         weights(v, j) = scaled[j] == 0.0 ? weights(v, j) : part;
       }
       continue;
@@ -254,11 +257,11 @@ Index normalize_rows(const WeightsProblem& problem, const Eigen::MatrixXd& fallb
     row = row.sum() > 0.0 ? row : scaled;
     for (Index j = 0; j < m && row.sum() > 0.0; ++j)
     {
-      weights(v, j) = scaled[j] != 0.0 ? wanted * row[j] / row.sum() : weights(v, j);
+      weights(v, j) = scaled[j] != 0.0 ? target_sum * row[j] / row.sum() : weights(v, j);
     }
-    thin_rows += std::abs(wanted) > 1e-12;
+    fallback_rows += std::abs(target_sum) > 1e-12;
   }
-  return thin_rows;
+  return fallback_rows;
 }
 
 Status finish_weights(ExecutionContext& context, const WeightsProblem& problem,
@@ -285,7 +288,7 @@ Status finish_weights(ExecutionContext& context, const WeightsProblem& problem,
     }
     result.row_sum_error = std::max(result.row_sum_error, std::abs(1.0 - result.raw.row(v).sum()));
   }
-  const Index thin_rows = normalize_rows(problem, fallback, excluded, result.weights);
+  const Index fallback_rows = normalize_rows(problem, fallback, excluded, result.weights);
   for (Index v = 0; v < n; ++v)
   {
     if (constraints.roles[v] == VertexRole::follower)
@@ -294,9 +297,9 @@ Status finish_weights(ExecutionContext& context, const WeightsProblem& problem,
       result.weights.row(v) = result.weights.row(constraints.leader[v]);
     }
   }
-  if (thin_rows > 0)
+  if (fallback_rows > 0)
   {
-    status.warnings.push_back(std::to_string(thin_rows) +
+    status.warnings.push_back(std::to_string(fallback_rows) +
       " vertices have a sum of weights near 0; their weights were replaced by weights without "
       "bounds");
   }
@@ -307,7 +310,7 @@ Status finish_weights(ExecutionContext& context, const WeightsProblem& problem,
     exempt[v] = constraints.roles[v] != VertexRole::solved;
   }
   result.columns.assign(static_cast<std::size_t>(m), {});
-  const bool whole = parallel_for(context, m, 1,
+  const bool completed = parallel_for(context, m, 1,
     [&](Index begin, Index end)
     {
       for (Index j = begin; j < end; ++j)
@@ -327,7 +330,7 @@ Status finish_weights(ExecutionContext& context, const WeightsProblem& problem,
           static_cast<Index>(interior_extrema(problem.graph, normalized, exempt).size());
       }
     });
-  if (!whole)
+  if (!completed)
   {
     return Status::canceled();
   }
@@ -337,7 +340,7 @@ Status finish_weights(ExecutionContext& context, const WeightsProblem& problem,
   std::vector<std::int64_t> iterations, factorizations, extrema, normalized_extrema;
   double bounds = 0.0;
   std::int64_t total = 0;
-  std::string late;
+  std::string unconverged_names;
   for (Index j = 0; j < m; ++j)
   {
     const WeightsColumn& column = result.columns[j];
@@ -358,7 +361,8 @@ Status finish_weights(ExecutionContext& context, const WeightsProblem& problem,
     context.add_seconds("solve", solutions[j].solve_seconds);
     if (!(std::max(gaps.back(), residuals.back()) <= tolerance))
     {
-      late += (late.empty() ? "'" : ", '") + problem.handles[j].name + "'";
+      unconverged_names +=
+        (unconverged_names.empty() ? "'" : ", '") + problem.handles[j].name + "'";
     }
   }
   const double worst_gap = *std::max_element(gaps.begin(), gaps.end());
@@ -378,11 +382,11 @@ Status finish_weights(ExecutionContext& context, const WeightsProblem& problem,
   report.set("handles[].interior_extrema_normalized", normalized_extrema);
   report.set("handles[].zeros", zeros);
   report.set("handles[].ones", ones);
-  if (!late.empty())
+  if (!unconverged_names.empty())
   {
     status.code = StatusCode::not_converged;
-    status.message =
-      "the weights of " + late + " " + not_certified(worst_gap, worst_residual, tolerance);
+    status.message = "the weights of " + unconverged_names + " " +
+      certificate_message(worst_gap, worst_residual, tolerance);
   }
   return status;
 }

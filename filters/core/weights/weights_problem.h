@@ -65,8 +65,9 @@ struct WeightsProblem
   /// Stiffness weighted by each element's painted rigidity; empty if no rigidity is painted.
   SparseMatrix rigid_stiffness;
   VertexGraph graph;
-  /// Fixed vertices: all vertices whose rows are given (roles `handle`, `tethered`, `follower`,
-  /// `unreferenced` of VertexRole). Their rows are in `fixed_values`, #fixed x #handles.
+  /// Fixed vertices: all vertices whose rows are given (roles `handle`, `without_handle`,
+  /// `follower`, `unreferenced` of VertexRole). Their rows are in `fixed_values`, #fixed x
+  /// #handles.
   std::vector<Index> fixed;
   Eigen::MatrixXd fixed_values;
   Status status; ///< counts and warnings of make_weights_problem()

@@ -40,65 +40,66 @@ void cap_path(const std::vector<Index>& path, std::size_t first, std::size_t las
 
 Triangles boundary_caps(const std::vector<Edge>& edges)
 {
-  std::vector<DirectedEdge> open;
+  std::vector<DirectedEdge> open_edges;
   for (const Edge& edge : edges)
   {
     for (Index k = 0; k < std::abs(edge.net_direction); ++k)
     {
-      open.push_back(
+      open_edges.push_back(
         edge.net_direction > 0 ? DirectedEdge{ edge.a, edge.b } : DirectedEdge{ edge.b, edge.a });
     }
   }
-  std::stable_sort(open.begin(), open.end(),
+  std::stable_sort(open_edges.begin(), open_edges.end(),
     [](const DirectedEdge& x, const DirectedEdge& y) { return x.from < y.from; });
   // Boundary vertices are referred to by their index in `vertices`, so that the arrays have the
   // size of the boundary, not of the mesh.
   std::vector<Index> vertices;
   std::vector<std::size_t> next; // index of the first unvisited edge at each vertex
-  for (std::size_t i = 0; i < open.size(); ++i)
+  for (std::size_t i = 0; i < open_edges.size(); ++i)
   {
-    if (i == 0 || open[i].from != open[i - 1].from)
+    if (i == 0 || open_edges[i].from != open_edges[i - 1].from)
     {
-      vertices.push_back(open[i].from);
+      vertices.push_back(open_edges[i].from);
       next.push_back(i);
     }
   }
-  const auto rank = [&](Index vertex)
+  const auto index_of = [&](Index vertex)
   {
     return static_cast<std::size_t>(
       std::lower_bound(vertices.begin(), vertices.end(), vertex) - vertices.begin());
   };
   std::vector<std::array<Index, 3>> caps;
   constexpr std::size_t not_on_path = ~std::size_t{ 0 };
-  std::vector<std::size_t> place(vertices.size(), not_on_path); // index of each vertex on the path
+  std::vector<std::size_t> path_index(
+    vertices.size(), not_on_path); // index of each vertex on the path
   std::vector<Index> path;
   for (std::size_t start = 0; start < vertices.size(); ++start)
   {
-    std::size_t at = start;
+    std::size_t current = start;
     path.assign(1, vertices[start]);
-    place[start] = 0;
-    while (next[at] < open.size() && open[next[at]].from == vertices[at])
+    path_index[start] = 0;
+    while (next[current] < open_edges.size() && open_edges[next[current]].from == vertices[current])
     {
-      at = rank(open[next[at]++].to);
-      path.push_back(vertices[at]);
-      if (place[at] != not_on_path)
+      current = index_of(open_edges[next[current]++].to);
+      path.push_back(vertices[current]);
+      if (path_index[current] != not_on_path)
       {
-        const std::size_t begin = place[at];
+        const std::size_t begin = path_index[current];
         // A loop of n edges has n + 1 entries; the last one repeats the first.
         cap_path(path, begin, path.size() - 2, caps);
         while (path.size() > begin + 1)
         {
-          place[rank(path.back())] = not_on_path;
+          path_index[index_of(path.back())] = not_on_path;
           path.pop_back();
         }
-        place[at] = begin;
+        path_index[current] = begin;
       }
       else
       {
-        place[at] = path.size() - 1;
+        path_index[current] = path.size() - 1;
       }
     }
-    place[start] = not_on_path;
+    path_index[start] = not_on_path;
   }
   Triangles result(static_cast<Index>(caps.size()), 3);
   for (std::size_t t = 0; t < caps.size(); ++t)
@@ -112,9 +113,10 @@ Triangles smaller_caps(const Points& points, const Triangles& triangles, const T
 {
   // All vertices of a cap belong to one component, because a walk along the boundary cannot leave
   // the component.
-  const Components parts = connected_components(points.rows(), triangles);
-  const auto part_of = [&](const auto& triangle) { return parts.of_vertex[triangle[0]]; };
-  const auto squared_length = [&](const auto& triangle)
+  const Components components = connected_components(points.rows(), triangles);
+  const auto component_of = [&](const auto& triangle)
+  { return components.component_of_vertex[triangle[0]]; };
+  const auto squared_longest_edge = [&](const auto& triangle)
   {
     double longest = 0.0;
     for (int k = 0; k < 3; ++k)
@@ -126,27 +128,27 @@ Triangles smaller_caps(const Points& points, const Triangles& triangles, const T
   };
   // For each component: the sum of the squared longest edges of its caps, minus the same sum for
   // its triangles.
-  std::vector<double> excess(static_cast<std::size_t>(parts.count), 0.0);
+  std::vector<double> excess(static_cast<std::size_t>(components.count), 0.0);
   for (Index t = 0; t < caps.rows(); ++t)
   {
-    excess[part_of(caps.row(t))] += squared_length(caps.row(t));
+    excess[component_of(caps.row(t))] += squared_longest_edge(caps.row(t));
   }
   for (Index t = 0; t < triangles.rows(); ++t)
   {
-    excess[part_of(triangles.row(t))] -= squared_length(triangles.row(t));
+    excess[component_of(triangles.row(t))] -= squared_longest_edge(triangles.row(t));
   }
   Triangles chosen(triangles.rows() + caps.rows(), 3);
   Index count = 0;
   for (Index t = 0; t < caps.rows(); ++t)
   {
-    if (excess[part_of(caps.row(t))] <= 0.0)
+    if (excess[component_of(caps.row(t))] <= 0.0)
     {
       chosen.row(count++) = caps.row(t);
     }
   }
   for (Index t = 0; t < triangles.rows(); ++t)
   {
-    if (excess[part_of(triangles.row(t))] > 0.0)
+    if (excess[component_of(triangles.row(t))] > 0.0)
     {
       chosen.row(count++) << triangles(t, 2), triangles(t, 1), triangles(t, 0);
     }

@@ -45,7 +45,7 @@ namespace
 using Id = std::int32_t;
 /// Pieces with at most this many segments are not split further. (Measured: limits from 4 to 12
 /// have nearly the same speed.)
-constexpr Id most_in_leaf = 6;
+constexpr Id maximum_leaf_size = 6;
 
 /// Report whether a vertex is above the ray from p. A vertex at the height of the ray counts as
 /// above.
@@ -163,7 +163,7 @@ struct Segment
   Id from, to;
 };
 
-struct Welded
+struct WeldedCurve
 {
   std::vector<Vec2> points; ///< vertices in the exact frame (ExactFrame); equal points are merged
   std::vector<Segment> segments; ///< all segments except those from a vertex to itself
@@ -171,7 +171,7 @@ struct Welded
 };
 
 bool weld(ExecutionContext& context, PlanePointsView points, SegmentsView segments,
-  const ExactFrame& frame, Welded& welded)
+  const ExactFrame& frame, WeldedCurve& welded)
 {
   std::vector<char> used(static_cast<std::size_t>(points.rows()), 0);
   for (Index k = 0; k < segments.size(); ++k)
@@ -254,7 +254,7 @@ struct Loop
 };
 
 /// Write the vertices of all loops to `path`, one loop after the other.
-void walk(const std::vector<Segment>& segments, const std::vector<Degree>& degrees,
+void trace_loops(const std::vector<Segment>& segments, const std::vector<Degree>& degrees,
   std::vector<Id>& path, std::vector<Loop>& loops)
 {
   // The segments that leave each vertex, in their input order.
@@ -272,7 +272,7 @@ void walk(const std::vector<Segment>& segments, const std::vector<Degree>& degre
       to[place[segment.from]++] = segment.to;
     }
   }
-  const auto walk_from = [&](Id start)
+  const auto trace_from = [&](Id start)
   {
     const auto first = static_cast<Id>(path.size());
     path.push_back(start);
@@ -293,14 +293,14 @@ void walk(const std::vector<Segment>& segments, const std::vector<Degree>& degre
   {
     for (Id surplus = degrees[v].out - degrees[v].in; surplus > 0; --surplus)
     {
-      walk_from(v);
+      trace_from(v);
     }
   }
   for (Id v = 0; v < count; ++v)
   {
     while (next[v] < end[v])
     {
-      walk_from(v);
+      trace_from(v);
     }
   }
 }
@@ -413,7 +413,7 @@ private:
     }
     const std::size_t node = this->nodes_.size();
     this->nodes_.push_back({});
-    this->nodes_[node].leaf = last - first <= most_in_leaf;
+    this->nodes_[node].leaf = last - first <= maximum_leaf_size;
     if (this->nodes_[node].leaf)
     {
       Node& leaf = this->nodes_[node];
@@ -474,9 +474,9 @@ private:
 
 /// Return the sum of (area of a region) x (winding number in the region), over all regions of the
 /// plane. The shoelace formula is used, with the first point of each loop as the origin.
-double area_of(const std::vector<Vec2>& path, const std::vector<Loop>& loops)
+double signed_area(const std::vector<Vec2>& path, const std::vector<Loop>& loops)
 {
-  double two_areas = 0.0;
+  double area_times_two = 0.0;
   for (const Loop& loop : loops)
   {
     const Vec2& origin = path[loop.first];
@@ -484,14 +484,14 @@ double area_of(const std::vector<Vec2>& path, const std::vector<Loop>& loops)
     {
       const Vec2 a = path[i] - origin;
       const Vec2 b = path[i + 1] - origin;
-      two_areas += a.x() * b.y() - a.y() * b.x();
+      area_times_two += a.x() * b.y() - a.y() * b.x();
     }
   }
-  return 0.5 * two_areas;
+  return 0.5 * area_times_two;
 }
 } // namespace
 
-struct CurveWindingNumber::Parts
+struct CurveWindingNumber::Impl
 {
   Status status;
   ExactFrame frame;
@@ -504,9 +504,9 @@ struct CurveWindingNumber::Parts
   Vec2 gradient_at(const Vec2& query) const;
 };
 
-CurveWindingNumber::CurveWindingNumber() : parts_(new Parts) {}
+CurveWindingNumber::CurveWindingNumber() : impl_(new Impl) {}
 CurveWindingNumber::CurveWindingNumber(PlanePointsView points, SegmentsView segments)
-  : parts_(new Parts)
+  : impl_(new Impl)
 {
   ExecutionContext context;
   this->build(context, points, segments);
@@ -518,21 +518,21 @@ CurveWindingNumber& CurveWindingNumber::operator=(CurveWindingNumber&&) noexcept
 Status CurveWindingNumber::build(
   ExecutionContext& context, PlanePointsView points, SegmentsView segments)
 {
-  this->parts_.reset(new Parts);
-  Parts& parts = *this->parts_;
-  Status& status = parts.status;
+  this->impl_.reset(new Impl);
+  Impl& impl = *this->impl_;
+  Status& status = impl.status;
   status = check_segments(points, segments);
   if (!status.ok())
   {
     return status;
   }
-  parts.frame = frame_of(points, segments);
-  Welded welded;
+  impl.frame = frame_of(points, segments);
+  WeldedCurve welded;
   Index duplicates = 0;
   bool done = true;
   {
     const ProgressRange range(context, 0.0, 0.4);
-    done = weld(context, points, segments, parts.frame, welded);
+    done = weld(context, points, segments, impl.frame, welded);
   }
   if (done)
   {
@@ -580,39 +580,39 @@ Status CurveWindingNumber::build(
 
     std::vector<Id> vertices;
     std::vector<Loop> loops;
-    walk(welded.segments, degrees, vertices, loops);
-    parts.path.reserve(vertices.size());
+    trace_loops(welded.segments, degrees, vertices, loops);
+    impl.path.reserve(vertices.size());
     for (const Id v : vertices)
     {
-      parts.path.push_back(welded.points[v]);
+      impl.path.push_back(welded.points[v]);
     }
-    report.set("area", area_of(parts.path, loops) / parts.frame.scale / parts.frame.scale);
+    report.set("area", signed_area(impl.path, loops) / impl.frame.scale / impl.frame.scale);
     const ProgressRange range(context, 0.7, 1.0);
     // The boxes are enlarged by twice the tolerance, because their coordinates are rounded.
-    done = TreeBuilder(
-      context, parts.path, loops, 2.0 * parts.frame.tolerance, parts.nodes, parts.chords)
-             .run();
+    done =
+      TreeBuilder(context, impl.path, loops, 2.0 * impl.frame.tolerance, impl.nodes, impl.chords)
+        .run();
   }
   if (!done)
   {
-    this->parts_.reset(new Parts);
-    this->parts_->status = Status::canceled();
+    this->impl_.reset(new Impl);
+    this->impl_->status = Status::canceled();
   }
-  return this->parts_->status;
+  return this->impl_->status;
 }
 
 const Status& CurveWindingNumber::status() const
 {
-  return this->parts_->status;
+  return this->impl_->status;
 }
 
 Index CurveWindingNumber::memory() const
 {
-  return static_cast<Index>(sizeof(Vec2) * this->parts_->path.size() +
-    sizeof(Node) * this->parts_->nodes.size() + sizeof(Chord) * this->parts_->chords.size());
+  return static_cast<Index>(sizeof(Vec2) * this->impl_->path.size() +
+    sizeof(Node) * this->impl_->nodes.size() + sizeof(Chord) * this->impl_->chords.size());
 }
 
-double CurveWindingNumber::Parts::at(const Vec2& query, bool& on_curve) const
+double CurveWindingNumber::Impl::at(const Vec2& query, bool& on_curve) const
 {
   on_curve = false;
   if (!query.allFinite())
@@ -624,7 +624,7 @@ double CurveWindingNumber::Parts::at(const Vec2& query, bool& on_curve) const
   {
     return 0.0;
   }
-  Index whole = 0;
+  Index crossing_sum = 0;
   const auto count = static_cast<Id>(this->nodes.size());
   for (Id n = 0; n < count;)
   {
@@ -635,24 +635,25 @@ double CurveWindingNumber::Parts::at(const Vec2& query, bool& on_curve) const
     }
     else if (p.x() > node.upper.x())
     {
-      whole += static_cast<int>(node.first_y >= p.y()) - static_cast<int>(node.last_y >= p.y());
+      crossing_sum +=
+        static_cast<int>(node.first_y >= p.y()) - static_cast<int>(node.last_y >= p.y());
       n = node.skip;
     }
     else
     {
       if (node.leaf)
       {
-        const Id last_real = node.ends_with_chord ? node.last - 1 : node.last;
+        const Id segment_end = node.ends_with_chord ? node.last - 1 : node.last;
         for (Id i = node.first; i < node.last; ++i)
         {
           const Vec2& a = this->path[i];
           const Vec2& b = this->path[i + 1];
-          if (i < last_real && touches(a, b, p, this->frame.tolerance))
+          if (i < segment_end && touches(a, b, p, this->frame.tolerance))
           {
             on_curve = true;
             return this->at_touching(p);
           }
-          whole += crossing(a, b, p);
+          crossing_sum += crossing(a, b, p);
         }
       }
       ++n;
@@ -663,11 +664,11 @@ double CurveWindingNumber::Parts::at(const Vec2& query, bool& on_curve) const
   {
     angles += signed_angle(chord.start, chord.end, p);
   }
-  return static_cast<double>(whole) + angles / two_pi;
+  return static_cast<double>(crossing_sum) + angles / two_pi;
 }
 
 /// Return the sum of the angles of all segments that do not touch the point, in full turns.
-double CurveWindingNumber::Parts::at_touching(const Vec2& p) const
+double CurveWindingNumber::Impl::at_touching(const Vec2& p) const
 {
   const auto outside = [&](const Node& node)
   { return (p.array() < node.lower.array()).any() || (p.array() > node.upper.array()).any(); };
@@ -687,8 +688,8 @@ double CurveWindingNumber::Parts::at_touching(const Vec2& p) const
     }
     if (node.leaf)
     {
-      const Id last_real = node.ends_with_chord ? node.last - 1 : node.last;
-      for (Id i = node.first; i < last_real; ++i)
+      const Id segment_end = node.ends_with_chord ? node.last - 1 : node.last;
+      for (Id i = node.first; i < segment_end; ++i)
       {
         if (!touches(this->path[i], this->path[i + 1], p, this->frame.tolerance))
         {
@@ -714,7 +715,7 @@ double CurveWindingNumber::Parts::at_touching(const Vec2& p) const
 /// is arg(t - p) - arg(s - p). For a vertex v, let (X, Y) = v - p. Then d arg(v - p) = (X dY - Y
 /// dX) / (X^2 + Y^2) and (dX, dY) = -dp, so the derivative of arg(v - p) along p is (Y, -X) / (X^2
 /// + Y^2). Only open ends contribute, because the contributions of all other vertices cancel.
-Vec2 CurveWindingNumber::Parts::gradient_at(const Vec2& query) const
+Vec2 CurveWindingNumber::Impl::gradient_at(const Vec2& query) const
 {
   if (!query.allFinite())
   {
@@ -726,7 +727,7 @@ Vec2 CurveWindingNumber::Parts::gradient_at(const Vec2& query) const
   {
     return sum;
   }
-  const auto end_share = [&](const Vec2& end) -> Vec2
+  const auto end_contribution = [&](const Vec2& end) -> Vec2
   {
     const Vec2 to_end = end - p;
     const double squared = to_end.squaredNorm();
@@ -738,7 +739,7 @@ Vec2 CurveWindingNumber::Parts::gradient_at(const Vec2& query) const
   };
   for (const Chord& chord : this->chords)
   {
-    sum += end_share(chord.end) - end_share(chord.start);
+    sum += end_contribution(chord.end) - end_contribution(chord.start);
   }
   return this->frame.scale / two_pi * sum;
 }
@@ -746,7 +747,7 @@ Vec2 CurveWindingNumber::Parts::gradient_at(const Vec2& query) const
 double CurveWindingNumber::evaluate_at(const Vec2& point, bool* on_curve) const
 {
   bool touches_segment = false;
-  const double winding_number = this->parts_->at(point, touches_segment);
+  const double winding_number = this->impl_->at(point, touches_segment);
   if (on_curve)
   {
     *on_curve = touches_segment;
@@ -756,7 +757,7 @@ double CurveWindingNumber::evaluate_at(const Vec2& point, bool* on_curve) const
 
 namespace
 {
-double nanoseconds_a_point(std::size_t chords)
+double nanoseconds_per_point(std::size_t chords)
 {
   return 200.0 + 25.0 * static_cast<double>(chords);
 }
@@ -765,19 +766,19 @@ double nanoseconds_a_point(std::size_t chords)
 Status CurveWindingNumber::evaluate(
   ExecutionContext& context, PlanePointsView queries, double* out, unsigned char* on_curve) const
 {
-  const Parts& parts = *this->parts_;
-  if (!parts.status.ok())
+  const Impl& impl = *this->impl_;
+  if (!impl.status.ok())
   {
-    return parts.status;
+    return impl.status;
   }
-  return point_values(context, queries.rows(), nanoseconds_a_point(parts.chords.size()), out,
+  return point_values(context, queries.rows(), nanoseconds_per_point(impl.chords.size()), out,
     on_curve,
     [&](Index begin, Index end, unsigned char* flags)
     {
       for (Index i = begin; i < end; ++i)
       {
         bool touches = false;
-        out[i] = parts.at(queries.row(i), touches);
+        out[i] = impl.at(queries.row(i), touches);
         flags[i - begin] = touches;
       }
     });
@@ -793,13 +794,13 @@ Status CurveWindingNumber::evaluate(
 Status CurveWindingNumber::evaluate_gradient(
   ExecutionContext& context, PlanePointsView queries, double* out) const
 {
-  const Parts& parts = *this->parts_;
-  if (!parts.status.ok())
+  const Impl& impl = *this->impl_;
+  if (!impl.status.ok())
   {
-    return parts.status;
+    return impl.status;
   }
-  return point_gradients(context, queries.rows(), nanoseconds_a_point(parts.chords.size()),
-    [&](Index i) { Eigen::Map<Vec2>(out + 2 * i) = parts.gradient_at(queries.row(i)); });
+  return point_gradients(context, queries.rows(), nanoseconds_per_point(impl.chords.size()),
+    [&](Index i) { Eigen::Map<Vec2>(out + 2 * i) = impl.gradient_at(queries.row(i)); });
 }
 
 double curve_winding_number_direct(

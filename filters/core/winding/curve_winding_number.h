@@ -88,8 +88,8 @@ public:
   double evaluate_at(const Vec2& point, bool* on_curve = nullptr) const;
 
 private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
 };
 
 /// Return the winding number as the plain sum of angles over all segments, without a build. For a

@@ -21,11 +21,12 @@ namespace
 DipoleField::Corners DipoleField::corners(Index slot) const
 {
   Corners corners;
-  const Index own = this->points_->rows();
+  const Index original_count = this->points_->rows();
   for (int k = 0; k < 3; ++k)
   {
     const Index id = this->ids_[slot][k];
-    corners[k] = id < own ? Vec3(this->points_->row(id)) : this->extra_points_[id - own];
+    corners[k] =
+      id < original_count ? Vec3(this->points_->row(id)) : this->extra_points_[id - original_count];
   }
   return corners;
 }
@@ -36,10 +37,10 @@ Index DipoleField::block_count() const
 }
 
 /// Computes the exact solid angles of the triangles that the fast formula rejects.
-class DipoleField::Careful : public CarefulSum
+class DipoleField::AccurateSum : public FallbackSum
 {
 public:
-  Careful(const DipoleField& field, const Vec3& point)
+  AccurateSum(const DipoleField& field, const Vec3& point)
     : field_(field), sum_(point, field.touch_tolerance_)
   {
   }
@@ -50,7 +51,7 @@ public:
       if (lanes[i])
       {
         const Corners c = this->field_.corners(block * triangle_lanes + i);
-        const double weight = this->field_.fine_
+        const double weight = this->field_.double_precision_
           ? this->field_.double_blocks_[block].weight[i]
           : static_cast<double>(this->field_.float_blocks_[block].weight[i]);
         if (weight != 0.0)
@@ -73,23 +74,23 @@ private:
 double DipoleField::near_sum(
   const BlockRun* runs, Index count, const Vec3& point, bool& on_surface) const
 {
-  Careful careful(*this, point);
-  const double sum = this->fine_
-    ? sum_blocks(this->double_blocks_.data(), runs, count, point, this->touch_tolerance_, careful)
-    : sum_blocks(this->float_blocks_.data(), runs, count, point, this->touch_tolerance_, careful);
-  on_surface = on_surface || careful.on_surface();
-  return sum + careful.winding_number();
+  AccurateSum fallback(*this, point);
+  const double sum = this->double_precision_
+    ? sum_blocks(this->double_blocks_.data(), runs, count, point, this->touch_tolerance_, fallback)
+    : sum_blocks(this->float_blocks_.data(), runs, count, point, this->touch_tolerance_, fallback);
+  on_surface = on_surface || fallback.on_surface();
+  return sum + fallback.winding_number();
 }
 
 double DipoleField::exact_sum(const Vec3& point) const
 {
-  Careful careful(*this, point);
+  AccurateSum fallback(*this, point);
   constexpr int every[triangle_lanes] = { 1, 1, 1, 1, 1, 1, 1, 1 };
   for (Index b = 0; b < this->block_count(); ++b)
   {
-    careful.add(b, every);
+    fallback.add(b, every);
   }
-  return careful.winding_number();
+  return fallback.winding_number();
 }
 
 bool DipoleField::in_cells(const Vec3& point) const
@@ -103,14 +104,14 @@ bool DipoleField::in_cells(const Vec3& point) const
   return inside;
 }
 
-std::uint32_t DipoleField::place(double x, int axis) const
+std::uint32_t DipoleField::cell_coordinate(double x, int axis) const
 {
   constexpr std::uint32_t last = (1u << finest_level) - 1;
   const double at = (x - this->lower_[axis]) * (static_cast<double>(last + 1) / this->size_);
   return std::min(static_cast<std::uint32_t>(at), last);
 }
 
-DipoleField::Leaf DipoleField::leaf_at(const Place& at) const
+DipoleField::Leaf DipoleField::leaf_at(const CellCoordinates& at) const
 {
   int level = this->top_level_;
   int shift = finest_level - level;
@@ -139,26 +140,27 @@ DipoleField::Leaf DipoleField::leaf_at(const Place& at) const
 
 DipoleField::Leaf DipoleField::leaf_at(const Vec3& point) const
 {
-  return this->leaf_at(
-    Place{ this->place(point[0], 0), this->place(point[1], 1), this->place(point[2], 2) });
+  return this->leaf_at(CellCoordinates{ this->cell_coordinate(point[0], 0),
+    this->cell_coordinate(point[1], 1), this->cell_coordinate(point[2], 2) });
 }
 
 /// Call `use` with the coefficients of a leaf's expansion, which are floats or doubles, and return
 /// its result.
 template <typename Use>
-auto DipoleField::with_numbers(Id leaf, const Use& use) const
+auto DipoleField::with_coefficients(Id leaf, const Use& use) const
 {
-  const std::size_t first =
-    static_cast<std::size_t>(leaf) * static_cast<std::size_t>(count_of_local(this->order_));
-  return this->fine_ ? use(&this->double_locals_[first]) : use(&this->float_locals_[first]);
+  const std::size_t first = static_cast<std::size_t>(leaf) *
+    static_cast<std::size_t>(local_coefficient_count(this->order_));
+  return this->double_precision_ ? use(&this->double_locals_[first])
+                                 : use(&this->float_locals_[first]);
 }
 
 void DipoleField::contract(const Leaf& leaf, double y, double z, double* polynomial) const
 {
-  this->with_numbers(leaf.id,
-    [&](const auto* numbers)
+  this->with_coefficients(leaf.id,
+    [&](const auto* coefficients)
     {
-      contract_local(this->order_, numbers, (y - leaf.center[1]) * leaf.inverse,
+      contract_local(this->order_, coefficients, (y - leaf.center[1]) * leaf.inverse,
         (z - leaf.center[2]) * leaf.inverse, polynomial);
     });
 }
@@ -179,18 +181,18 @@ double DipoleField::evaluate(const Vec3& point, bool* on_surface) const
 /// before the first point is evaluated.
 void DipoleField::evaluate(const Vec3* points, Index count, double* out, bool* on_surface) const
 {
-  constexpr Index at_once = 16;
-  std::array<Leaf, at_once> leaves;
-  const auto fetch = [](const void* begin, std::size_t bytes)
+  constexpr Index batch_size = 16;
+  std::array<Leaf, batch_size> leaves;
+  const auto prefetch = [](const void* begin, std::size_t bytes)
   {
     for (std::size_t i = 0; i < bytes; i += 64)
     {
       __builtin_prefetch(static_cast<const char*>(begin) + i);
     }
   };
-  for (Index first = 0; first < count; first += at_once)
+  for (Index first = 0; first < count; first += batch_size)
   {
-    const Index end = std::min(count, first + at_once);
+    const Index end = std::min(count, first + batch_size);
     for (Index i = first; i < end; ++i)
     {
       Leaf& leaf = leaves[i - first];
@@ -198,12 +200,14 @@ void DipoleField::evaluate(const Vec3* points, Index count, double* out, bool* o
       if (!this->ids_.empty() && this->in_cells(points[i]))
       {
         leaf = this->leaf_at(points[i]);
-        this->with_numbers(leaf.id,
-          [&](const auto* numbers) {
-            fetch(
-              numbers, static_cast<std::size_t>(count_of_local(this->order_)) * sizeof(*numbers));
+        this->with_coefficients(leaf.id,
+          [&](const auto* coefficients)
+          {
+            prefetch(coefficients,
+              static_cast<std::size_t>(local_coefficient_count(this->order_)) *
+                sizeof(*coefficients));
           });
-        fetch(&this->first_run_[leaf.id], 1);
+        prefetch(&this->first_run_[leaf.id], 1);
       }
     }
     for (Index i = first; i < end; ++i)
@@ -213,11 +217,11 @@ void DipoleField::evaluate(const Vec3* points, Index count, double* out, bool* o
       const Leaf& leaf = leaves[i - first];
       if (leaf.id >= 0)
       {
-        double polynomial[polynomial_room];
+        double polynomial[polynomial_capacity];
         this->contract(leaf, points[i][1], points[i][2], polynomial);
-        out[i] =
-          polynomial_at(polynomial, this->order_, (points[i][0] - leaf.center[0]) * leaf.inverse);
-        fetch(&this->runs_[this->first_run_[leaf.id]], 64);
+        out[i] = evaluate_polynomial(
+          polynomial, this->order_, (points[i][0] - leaf.center[0]) * leaf.inverse);
+        prefetch(&this->runs_[this->first_run_[leaf.id]], 64);
       }
     }
     for (Index i = first; i < end; ++i)
@@ -256,16 +260,18 @@ void DipoleField::evaluate_row(
       ++i;
       continue;
     }
-    const Place at{ this->place(x[i], 0), this->place(y, 1), this->place(z, 2) };
+    const CellCoordinates at{ this->cell_coordinate(x[i], 0), this->cell_coordinate(y, 1),
+      this->cell_coordinate(z, 2) };
     const Leaf leaf = this->leaf_at(at);
-    double polynomial[polynomial_room];
+    double polynomial[polynomial_capacity];
     this->contract(leaf, y, z, polynomial);
     const BlockRun* runs = this->runs_.data() + this->first_run_[leaf.id];
     const Index run_count = this->first_run_[leaf.id + 1] - this->first_run_[leaf.id];
     const std::uint32_t cell = at[0] >> leaf.shift;
     do
     {
-      out[i] = polynomial_at(polynomial, this->order_, (x[i] - leaf.center[0]) * leaf.inverse);
+      out[i] =
+        evaluate_polynomial(polynomial, this->order_, (x[i] - leaf.center[0]) * leaf.inverse);
       touched = false;
       if (run_count > 0)
       {
@@ -276,8 +282,8 @@ void DipoleField::evaluate_row(
         on_surface[i] = touched;
       }
       ++i;
-    } while (
-      i < count && this->in_cells(Vec3(x[i], y, z)) && this->place(x[i], 0) >> leaf.shift == cell);
+    } while (i < count && this->in_cells(Vec3(x[i], y, z)) &&
+      this->cell_coordinate(x[i], 0) >> leaf.shift == cell);
   }
 }
 
@@ -312,8 +318,9 @@ void DipoleField::evaluate_row(
   }
 }
 
-template <typename See, typename All>
-void DipoleField::visit_outer(const Vec3& point, const See& see, const All& all) const
+template <typename UseMoments, typename All>
+void DipoleField::visit_outer(
+  const Vec3& point, const UseMoments& use_moments, const All& all) const
 {
   const auto count = static_cast<Id>(this->outer_.size());
   const int stride = 2 * harmonic_count(this->order_ + 1);
@@ -328,16 +335,16 @@ void DipoleField::visit_outer(const Vec3& point, const See& see, const All& all)
     {
       error *= inverse;
     }
-    const bool far_off = distance > 1.05 * node.radius && error <= this->outer_threshold_;
-    if (far_off)
+    const bool is_far = distance > 1.05 * node.radius && error <= this->outer_threshold_;
+    if (is_far)
     {
-      see(&this->outer_moments_[std::size_t(n) * stride], offset);
+      use_moments(&this->outer_moments_[std::size_t(n) * stride], offset);
     }
     else if (node.leaf)
     {
       all(node.blocks);
     }
-    n = far_off || node.leaf ? node.skip : n + 1;
+    n = is_far || node.leaf ? node.skip : n + 1;
   }
 }
 
@@ -432,8 +439,9 @@ Vec3 DipoleField::gradient(const Vec3& point) const
     {
       for (int i = 0; i < triangle_lanes; ++i)
       {
-        const double weight = this->fine_ ? this->double_blocks_[b].weight[i]
-                                          : static_cast<double>(this->float_blocks_[b].weight[i]);
+        const double weight = this->double_precision_
+          ? this->double_blocks_[b].weight[i]
+          : static_cast<double>(this->float_blocks_[b].weight[i]);
         if (weight != 0.0)
         {
           const Corners c = this->corners(b * triangle_lanes + i);
@@ -474,7 +482,7 @@ Vec3 DipoleField::gradient(const Vec3& point) const
   }
   const Leaf leaf = this->leaf_at(point);
   const Vec3 local = (point - leaf.center) * leaf.inverse;
-  double polynomial[polynomial_room];
+  double polynomial[polynomial_capacity];
   this->contract(leaf, point[1], point[2], polynomial);
   double slope = 0.0;
   for (int j = this->order_; j > 0; --j)
@@ -482,8 +490,9 @@ Vec3 DipoleField::gradient(const Vec3& point) const
     slope = slope * local[0] + j * polynomial[j];
   }
   sum[0] += leaf.inverse * slope;
-  const std::array<double, 2> across = this->with_numbers(
-    leaf.id, [&](const auto* numbers) { return slopes_across(this->order_, numbers, local); });
+  const std::array<double, 2> across = this->with_coefficients(leaf.id,
+    [&](const auto* coefficients)
+    { return transverse_derivatives(this->order_, coefficients, local); });
   sum[1] += leaf.inverse * across[0];
   sum[2] += leaf.inverse * across[1];
   for (Id r = this->first_run_[leaf.id]; r < this->first_run_[leaf.id + 1]; ++r)

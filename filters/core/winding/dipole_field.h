@@ -46,7 +46,7 @@ public:
 
   /// Report whether the expected number of points (0: very many) is so small that every value is
   /// computed as the sum over all triangles.
-  static bool sums_all(Index expected_points);
+  static bool uses_direct_sum(Index expected_points);
 
   /// Build the field. Points must be centered and scaled to a size of about 1, with ids below 2^31,
   /// and must outlive the field. There is one multiplicity per triangle. A triangle touches a point
@@ -105,27 +105,27 @@ private:
   };
   using Corners = std::array<Vec3, 3>;
   /// Coordinates of a cell, in units of the smallest possible cell.
-  using Place = std::array<std::uint32_t, 3>;
+  using CellCoordinates = std::array<std::uint32_t, 3>;
   struct Leaf
   {
     Id id;
-    /// Number of bits by which the coordinates of a Place in the leaf are shifted right. The result
-    /// is the coordinates of the leaf among the cells of its level.
+    /// Number of bits by which the coordinates of a CellCoordinates in the leaf are shifted right.
+    /// The result is the coordinates of the leaf among the cells of its level.
     int shift;
     double inverse; ///< 2 divided by the edge length of the leaf
     Vec3 center;
   };
   struct Build;
-  class Careful;
+  class AccurateSum;
 
   Corners corners(Index slot) const;
   Index block_count() const;
   bool in_cells(const Vec3& point) const;
-  std::uint32_t place(double x, int axis) const;
-  Leaf leaf_at(const Place& at) const;
+  std::uint32_t cell_coordinate(double x, int axis) const;
+  Leaf leaf_at(const CellCoordinates& at) const;
   Leaf leaf_at(const Vec3& point) const;
   template <typename Use>
-  auto with_numbers(Id leaf, const Use& use) const;
+  auto with_coefficients(Id leaf, const Use& use) const;
   void contract(const Leaf& leaf, double y, double z, double* polynomial) const;
   double near_sum(const BlockRun* runs, Index count, const Vec3& point, bool& on_surface) const;
   /// Return the sum of the solid angles of all triangles, each computed as exactly as possible.
@@ -133,8 +133,8 @@ private:
   double outer_sum(const Vec3& point, bool& on_surface) const;
   /// Call see(moments, offset) for nodes that are far from the point, and all(run) for the
   /// triangles of the other nodes.
-  template <typename See, typename All>
-  void visit_outer(const Vec3& point, const See& see, const All& all) const;
+  template <typename UseMoments, typename All>
+  void visit_outer(const Vec3& point, const UseMoments& use_moments, const All& all) const;
 
   const Points* points_ = nullptr;
   std::vector<Vec3> extra_points_; ///< vertices of cut triangles; their ids follow those of points_
@@ -143,7 +143,7 @@ private:
   double outer_threshold_ = 0.0; ///< largest allowed error of a multipole outside the cells
   double measured_error_ = 0.0;
   int order_ = 0;
-  bool fine_ = false; ///< whether blocks and cells use doubles instead of floats
+  bool double_precision_ = false; ///< whether blocks and cells use doubles instead of floats
 
   // Blocks and coefficients are stored either as floats or as doubles, so one vector of each pair
   // is empty.

@@ -35,7 +35,7 @@ namespace bindpose
 namespace
 {
 /// A cell whose near list has at most this many blocks is not split.
-constexpr Index few_blocks = 2;
+constexpr Index maximum_leaf_blocks = 2;
 struct Tuning
 {
   double tolerance;
@@ -46,11 +46,11 @@ struct Tuning
 /// the same cost.
 constexpr Tuning tunings[] = { { 1e-2, 4, 0.8 }, { 2e-3, 6, 0.8 }, { 1e-3, 7, 0.8 },
   { 1e-4, 7, 0.8 }, { 1e-5, 9, 0.8 }, { 1e-6, 11, 0.8 }, { 0.0, 13, 1.0 } };
-/// With cells that are smaller by the factor `finer`, an evaluation takes 1.2 times less time, and
-/// the field takes twice the memory. These cells are used for fields with up to `small_field`
-/// blocks.
-constexpr Index small_field = 2048;
-constexpr double finer = 0.75;
+/// With cells that are smaller by the factor `small_field_factor`, an evaluation takes 1.2 times
+/// less time, and the field takes twice the memory. These cells are used for fields with up to
+/// `small_field_blocks` blocks.
+constexpr Index small_field_blocks = 2048;
+constexpr double small_field_factor = 0.75;
 /// First threshold for the error estimate of an interaction, in units of the tolerance. The
 /// estimates are upper bounds, and the errors of many interactions rarely add up. If the errors do
 /// add up, the comparison on the sample points detects this case.
@@ -58,10 +58,10 @@ constexpr double first_threshold = 1.2;
 /// Threshold outside the cells, relative to the current threshold. This threshold is smaller,
 /// because each point has few interactions. In addition, the estimates are tighter, because they do
 /// not contain the radius of a cell.
-constexpr double outer_share = 0.2;
+constexpr double outer_threshold_factor = 0.2;
 /// Largest accepted error on the sample points, in units of the tolerance. The rest of the
 /// tolerance is a margin for all other points.
-constexpr double wanted_error = 0.5;
+constexpr double target_error = 0.5;
 /// Measured nanoseconds to sum a block, to make a cell, and to test one inherited node in a cell.
 /// The last two costs apply to order 7 and grow with the cube of the order. Splitting a cell halves
 /// its near list.
@@ -70,11 +70,11 @@ constexpr double cell_cost = 2000.0;
 constexpr double node_cost = 150.0;
 /// Up to this many expected points, every value is the sum over all triangles, because building the
 /// multipoles alone would cost about as much.
-constexpr Index few_points = 3000;
+constexpr Index maximum_direct_points = 3000;
 /// The finished field is compared with the plain sum on sample points. These are the number of
 /// expected points per sample point, and the minimum number of sample points.
 constexpr Index points_per_sample = 512;
-constexpr Index fewest_samples = 48;
+constexpr Index minimum_samples = 48;
 /// At or above this tolerance single precision is accurate enough, unless the errors of float sums
 /// exceed `largest_float_error` times the tolerance. A thousand triangles at one position cause
 /// such errors.
@@ -130,19 +130,19 @@ struct DipoleField::Build
     Id first = 0, count = 0;
     Id left = -1, right = -1;
     double block_radius = 0.0; ///< mean radius of the blocks
-    double share = 1.0; ///< fraction of the allowed error that the node may cause
+    double error_fraction = 1.0; ///< fraction of the allowed error that the node may cause
     int height = 0;
   };
   /// Sum of the error estimates of a cell's interactions (`size`), and the sum of the directions to
   /// their nodes, weighted by the estimates (`pull`).
-  struct Doubt
+  struct ErrorEstimate
   {
     double size = 0.0;
     Vec3 pull = Vec3::Zero();
   };
-  struct DoubtfulLeaf
+  struct LeafError
   {
-    Doubt doubt;
+    ErrorEstimate error_estimate;
     Vec3 center;
     double half; ///< half the size of the leaf
   };
@@ -153,10 +153,10 @@ struct DipoleField::Build
     std::vector<double> locals;
     std::vector<Id> run_count; ///< number of block runs (BlockRun) of each leaf
     std::vector<BlockRun> runs;
-    std::vector<DoubtfulLeaf> leaves;
+    std::vector<LeafError> leaves;
   };
   /// Coordinates of a cell among the cells of its level.
-  struct CellPlace
+  struct CellIndex
   {
     int level;
     Id at[3];
@@ -167,19 +167,19 @@ struct DipoleField::Build
     Harmonics at, in, out, children;
     std::array<Id, harmonic_lanes> batch{};
     int batched = 0;
-    Doubt doubt;
+    ErrorEstimate error_estimate;
     std::vector<Id> stack;
     std::vector<std::vector<Id>> lists; ///< nodes not yet part of an expansion, per level
     std::vector<std::vector<double>> locals; ///< expansions of the eight children, per level
   };
 
-  Build(ExecutionContext& run, DipoleField& owner, const Options& wanted)
-    : field(owner), context(run), options(wanted)
+  Build(ExecutionContext& run, DipoleField& owner, const Options& requested)
+    : field(owner), context(run), options(requested)
   {
   }
 
   bool run(const Triangles& triangles, const std::vector<int>& multiplicities);
-  void take(const Triangles& triangles, const std::vector<int>& multiplicities);
+  void add_triangles(const Triangles& triangles, const std::vector<int>& multiplicities);
   void cut_long_triangles();
   bool sort_triangles();
   Id split(Id first, Id count);
@@ -192,13 +192,13 @@ struct DipoleField::Build
   void place_cells();
   void find_outer();
   void add_outer(Id node);
-  void sum_all();
-  bool pays_to_split(const Vec3& center, double size, double blocks, std::size_t near) const;
+  void set_up_direct_sum();
+  bool is_split_worthwhile(const Vec3& center, double size, double blocks, std::size_t near) const;
   bool fill_cells();
-  void fill(Subtree& tree, const CellPlace& cell, std::size_t entry, const double* local,
-    const Doubt& inherited_doubt, const std::vector<Id>& inherited, Scratch& scratch,
+  void fill(Subtree& tree, const CellIndex& cell, std::size_t entry, const double* local,
+    const ErrorEstimate& inherited_error, const std::vector<Id>& inherited, Scratch& scratch,
     std::size_t depth);
-  bool settle(Id node, const Vec3& center, double radius, Scratch& scratch) const;
+  bool add_if_far(Id node, const Vec3& center, double radius, Scratch& scratch) const;
   void flush(const Vec3& center, Scratch& scratch) const;
   void emit_leaf(Subtree& tree, std::size_t entry, double half, const std::vector<double>& local,
     const std::vector<Id>& near) const;
@@ -206,15 +206,16 @@ struct DipoleField::Build
 
   Vec3 point(Id id) const
   {
-    const Id own = static_cast<Id>(this->field.points_->rows());
-    return id < own ? Vec3(this->field.points_->row(id)) : this->field.extra_points_[id - own];
+    const Id original_count = static_cast<Id>(this->field.points_->rows());
+    return id < original_count ? Vec3(this->field.points_->row(id))
+                               : this->field.extra_points_[id - original_count];
   }
   Corners corners(Id t) const
   {
     return { this->point(this->ids[t][0]), this->point(this->ids[t][1]),
       this->point(this->ids[t][2]) };
   }
-  int count_of_moments() const { return 2 * harmonic_count(this->field.order_ + 1); }
+  int moment_count() const { return 2 * harmonic_count(this->field.order_ + 1); }
 
   DipoleField& field;
   ExecutionContext& context;
@@ -224,7 +225,7 @@ struct DipoleField::Build
   Box region; // region that contains most expected points
   double density = 0.0; // expected points per volume; 0: very many
   std::vector<std::array<Id, 3>> ids;
-  std::vector<int> multiplicities_of;
+  std::vector<int> triangle_multiplicities;
   std::vector<int> weights; // multiplicity of each lane of each block
   std::vector<Vec3> centers; // centroids of the triangles
   std::vector<Id> order;
@@ -234,11 +235,12 @@ struct DipoleField::Build
   std::vector<double> moments;
   std::vector<double> bounds; // order + 2 error bounds per node
   std::vector<double> nodes_of_quadrature, weights_of_quadrature;
-  std::vector<DoubtfulLeaf> doubtful; // leaves with their error estimates
+  std::vector<LeafError> leaf_errors; // leaves with their error estimates
   double float_error = 0.0; // largest error of single-precision sums
 };
 
-void DipoleField::Build::take(const Triangles& triangles, const std::vector<int>& multiplicities)
+void DipoleField::Build::add_triangles(
+  const Triangles& triangles, const std::vector<int>& multiplicities)
 {
   for (Index t = 0; t < triangles.rows(); ++t)
   {
@@ -246,7 +248,7 @@ void DipoleField::Build::take(const Triangles& triangles, const std::vector<int>
     {
       this->ids.push_back({ static_cast<Id>(triangles(t, 0)), static_cast<Id>(triangles(t, 1)),
         static_cast<Id>(triangles(t, 2)) });
-      this->multiplicities_of.push_back(multiplicities[t]);
+      this->triangle_multiplicities.push_back(multiplicities[t]);
     }
   }
 }
@@ -276,7 +278,8 @@ void DipoleField::Build::cut_long_triangles()
   const std::size_t factor = this->options.expected_points == 0 ? 8
     : this->options.expected_points < 500000                    ? 2
                                                                 : 4;
-  const std::size_t most = std::max(2 * count, std::min<std::size_t>(factor * count, 8192));
+  const std::size_t maximum_triangles =
+    std::max(2 * count, std::min<std::size_t>(factor * count, 8192));
   // A triangle whose longest edge has length x is cut into about 1.5 x / limit pieces.
   double limit = *std::max_element(longest.begin(), longest.end());
   const auto pieces = [&](double length)
@@ -288,12 +291,13 @@ void DipoleField::Build::cut_long_triangles()
     }
     return sum;
   };
-  while (limit * 0.75 > shortest_cut && pieces(limit * 0.75) <= static_cast<double>(most))
+  while (
+    limit * 0.75 > shortest_cut && pieces(limit * 0.75) <= static_cast<double>(maximum_triangles))
   {
     limit *= 0.75;
   }
-  const auto own = static_cast<Id>(this->field.points_->rows());
-  for (std::size_t t = 0; t < this->ids.size() && this->ids.size() < most; ++t)
+  const auto original_count = static_cast<Id>(this->field.points_->rows());
+  for (std::size_t t = 0; t < this->ids.size() && this->ids.size() < maximum_triangles; ++t)
   {
     for (bool again = true; again;)
     {
@@ -309,16 +313,16 @@ void DipoleField::Build::cut_long_triangles()
           edge = k;
         }
       }
-      again = length > limit && this->ids.size() < most;
+      again = length > limit && this->ids.size() < maximum_triangles;
       if (again)
       {
-        const Id middle = own + static_cast<Id>(this->field.extra_points_.size());
+        const Id middle = original_count + static_cast<Id>(this->field.extra_points_.size());
         this->field.extra_points_.push_back(0.5 * (c[edge] + c[(edge + 1) % 3]));
         std::array<Id, 3> other = this->ids[t];
         this->ids[t][(edge + 1) % 3] = middle;
         other[edge] = middle;
         this->ids.push_back(other);
-        this->multiplicities_of.push_back(this->multiplicities_of[t]);
+        this->triangle_multiplicities.push_back(this->triangle_multiplicities[t]);
       }
     }
   }
@@ -352,7 +356,7 @@ bool DipoleField::Build::sort_triangles()
         // An empty lane repeats the last triangle with weight 0.
         const Id t = this->order[node.first + std::min<Id>(i, node.count - 1)];
         this->field.ids_.push_back(this->ids[t]);
-        this->weights.push_back(i < node.count ? this->multiplicities_of[t] : 0);
+        this->weights.push_back(i < node.count ? this->triangle_multiplicities[t] : 0);
       }
       node.first = blocks++;
       node.count = 1;
@@ -386,7 +390,8 @@ bool DipoleField::Build::sort_triangles()
       {
         Node& child = this->nodes[id];
         const bool as_large = child.radius > 0.9 * node.radius;
-        child.share = as_large ? node.share * child.count / node.count : node.share;
+        child.error_fraction =
+          as_large ? node.error_fraction * child.count / node.count : node.error_fraction;
       }
     }
   }
@@ -397,7 +402,7 @@ bool DipoleField::Build::sort_triangles()
 // squared size).
 std::int32_t DipoleField::Build::split(Id first, Id count)
 {
-  Box box, box_of_centers;
+  Box box, center_box;
   const auto add_triangle = [&](Box& to, Id t)
   {
     for (const Vec3& corner : this->corners(t))
@@ -408,7 +413,7 @@ std::int32_t DipoleField::Build::split(Id first, Id count)
   for (Id i = first; i < first + count; ++i)
   {
     add_triangle(box, this->order[i]);
-    box_of_centers.add(this->centers[this->order[i]]);
+    center_box.add(this->centers[this->order[i]]);
   }
   const auto id = static_cast<Id>(this->nodes.size());
   Node node;
@@ -428,7 +433,7 @@ std::int32_t DipoleField::Build::split(Id first, Id count)
   node.radius = std::sqrt(radius2) + 2.0 * this->field.touch_tolerance_;
   this->nodes.push_back(node);
   int axis = 0;
-  const double longest = box_of_centers.size().maxCoeff(&axis);
+  const double longest = center_box.size().maxCoeff(&axis);
   if (count == 1 || !(longest > 0.0) || (count > 4096 && this->context.canceled()))
   {
     if (count <= triangle_lanes || this->context.canceled())
@@ -480,7 +485,7 @@ std::int32_t DipoleField::Build::split(Id first, Id count)
     std::array<Id, bins> counts{};
     const auto bin_of = [&](Id t)
     {
-      const double x = (this->centers[t][axis] - box_of_centers.lower[axis]) / longest;
+      const double x = (this->centers[t][axis] - center_box.lower[axis]) / longest;
       return longest > 0.0 ? std::clamp(static_cast<int>(x * bins), 0, bins - 1) : 0;
     };
     for (Id i = 0; i < count; ++i)
@@ -505,17 +510,17 @@ std::int32_t DipoleField::Build::split(Id first, Id count)
       above[b] = side.size().squaredNorm();
     }
     side = Box();
-    Id so_far = 0;
+    Id left_count = 0;
     for (int b = 1; b < bins; ++b)
     {
       join(side, boxes[b - 1]);
-      so_far += counts[b - 1];
+      left_count += counts[b - 1];
       const double cost =
-        side.size().squaredNorm() * blocks(so_far) + above[b] * blocks(count - so_far);
-      if (so_far > 0 && so_far < count && cost < best)
+        side.size().squaredNorm() * blocks(left_count) + above[b] * blocks(count - left_count);
+      if (left_count > 0 && left_count < count && cost < best)
       {
         best = cost;
-        cut = so_far;
+        cut = left_count;
       }
     }
     cut = cut ? cut : count / 2;
@@ -559,7 +564,7 @@ void DipoleField::Build::fill_blocks(std::vector<TriangleBlock<Real>>& blocks)
           static_cast<Real>((c[k / 3][k % 3] - node.center[k % 3]) * block.inverse_size);
       }
       block.weight[i] = static_cast<Real>(this->weights[slot]);
-      block.single = (i == 0 || block.single) && std::abs(this->weights[slot]) <= 1;
+      block.unit_weights = (i == 0 || block.unit_weights) && std::abs(this->weights[slot]) <= 1;
     }
   }
 }
@@ -628,7 +633,7 @@ void DipoleField::Build::block_multipole(const Node& node, Scratch& scratch, dou
 
 bool DipoleField::Build::find_multipoles()
 {
-  const int stride = this->count_of_moments();
+  const int stride = this->moment_count();
   const int degree = this->field.order_ + 1;
   this->moments.assign(this->nodes.size() * static_cast<std::size_t>(stride), 0.0);
   gauss_legendre(
@@ -716,7 +721,7 @@ bool DipoleField::Build::find_multipoles()
 void DipoleField::Build::find_bounds()
 {
   const int top = this->field.order_ + 2;
-  const int stride = this->count_of_moments();
+  const int stride = this->moment_count();
   this->bounds.resize(this->nodes.size() * static_cast<std::size_t>(top));
   std::vector<double> weight(static_cast<std::size_t>(harmonic_count(top)));
   for (int n = 1; n < top; ++n)
@@ -756,8 +761,8 @@ void DipoleField::Build::find_bounds()
   }
 }
 
-/// Return the error estimate of an interaction, divided by the node's `share`. `distance` is the
-/// distance between the center of the node and the center of a cell of radius `radius`.
+/// Return the error estimate of an interaction, divided by the node's `error_fraction`. `distance`
+/// is the distance between the center of the node and the center of a cell of radius `radius`.
 double DipoleField::Build::error(Id node, double distance, double radius) const
 {
   const int top = this->field.order_ + 2;
@@ -772,7 +777,7 @@ double DipoleField::Build::error(Id node, double distance, double radius) const
   }
   // The higher degrees are estimated by a geometric series.
   const Node& of = this->nodes[node];
-  return sum * power / ((1.0 - (radius + of.radius) * inverse) * of.share);
+  return sum * power / ((1.0 - (radius + of.radius) * inverse) * of.error_fraction);
 }
 
 void DipoleField::Build::place_cells()
@@ -816,28 +821,30 @@ void DipoleField::Build::place_cells()
 }
 
 /// Make one cell whose near list contains all triangles.
-void DipoleField::Build::sum_all()
+void DipoleField::Build::set_up_direct_sum()
 {
   DipoleField& f = this->field;
   f.top_level_ = 0;
   f.cells_.assign(1, ~Id(0));
   f.first_run_ = { 0, 1 };
   f.runs_.assign(1, { 0, static_cast<Id>(f.block_count()) });
-  const auto numbers = static_cast<std::size_t>(count_of_local(f.order_) + polynomial_lanes);
-  f.fine_ ? f.double_locals_.assign(numbers, 0.0) : f.float_locals_.assign(numbers, 0.0F);
+  const auto numbers =
+    static_cast<std::size_t>(local_coefficient_count(f.order_) + polynomial_lanes);
+  f.double_precision_ ? f.double_locals_.assign(numbers, 0.0)
+                      : f.float_locals_.assign(numbers, 0.0F);
   OuterNode all;
   all.blocks = f.runs_[0];
   all.radius = 1e300; // with this radius, no point is far from the node
   all.leaf = true;
   all.skip = 1;
   f.outer_.assign(1, all);
-  f.outer_moments_.assign(static_cast<std::size_t>(this->count_of_moments()), 0.0);
+  f.outer_moments_.assign(static_cast<std::size_t>(this->moment_count()), 0.0);
 }
 
 /// Report whether splitting a cell saves more time in the evaluation than it takes in the build.
 /// @param blocks number of blocks in the near nodes of the cell
 /// @param near number of near nodes of the cell
-bool DipoleField::Build::pays_to_split(
+bool DipoleField::Build::is_split_worthwhile(
   const Vec3& center, double size, double blocks, std::size_t near) const
 {
   if (this->density <= 0.0)
@@ -863,7 +870,7 @@ void DipoleField::Build::find_outer()
 {
   this->field.outer_.clear();
   this->field.outer_moments_.clear();
-  this->field.outer_threshold_ = outer_share * this->threshold;
+  this->field.outer_threshold_ = outer_threshold_factor * this->threshold;
   this->add_outer(0);
   this->field.outer_.shrink_to_fit();
   this->field.outer_moments_.shrink_to_fit();
@@ -873,12 +880,12 @@ void DipoleField::Build::add_outer(Id id)
 {
   const Node& node = this->nodes[id];
   const int top = this->field.order_ + 2;
-  const int stride = this->count_of_moments();
+  const int stride = this->moment_count();
   const auto place = this->field.outer_.size();
   OuterNode outer;
   outer.center = node.center;
   outer.radius = node.radius;
-  outer.bound = this->bounds[std::size_t(id) * top + top - 1] / node.share;
+  outer.bound = this->bounds[std::size_t(id) * top + top - 1] / node.error_fraction;
   outer.blocks = { node.first, node.count };
   this->field.outer_.push_back(outer);
   const double* moment = &this->moments[std::size_t(id) * stride];
@@ -899,7 +906,8 @@ void DipoleField::Build::add_outer(Id id)
 }
 
 /// Add the node to the cell's expansion if it is far enough away. Return whether it was added.
-bool DipoleField::Build::settle(Id id, const Vec3& center, double radius, Scratch& scratch) const
+bool DipoleField::Build::add_if_far(
+  Id id, const Vec3& center, double radius, Scratch& scratch) const
 {
   const Node& node = this->nodes[id];
   const double distance = (center - node.center).norm();
@@ -910,8 +918,8 @@ bool DipoleField::Build::settle(Id id, const Vec3& center, double radius, Scratc
   const double error = this->error(id, distance, radius);
   if (error <= this->threshold)
   {
-    scratch.doubt.size += error;
-    scratch.doubt.pull += error / distance * (node.center - center);
+    scratch.error_estimate.size += error;
+    scratch.error_estimate.pull += error / distance * (node.center - center);
     scratch.batch[scratch.batched++] = id;
     if (scratch.batched == harmonic_lanes)
     {
@@ -929,7 +937,7 @@ void DipoleField::Build::flush(const Vec3& center, Scratch& scratch) const
     return;
   }
   const int degree = this->field.order_ + 1;
-  const int stride = this->count_of_moments();
+  const int stride = this->moment_count();
   HarmonicLanes from[3];
   for (int lane = 0; lane < harmonic_lanes; ++lane)
   {
@@ -952,9 +960,9 @@ void DipoleField::Build::flush(const Vec3& center, Scratch& scratch) const
   scratch.batched = 0;
 }
 
-void DipoleField::Build::fill(Subtree& tree, const CellPlace& cell, std::size_t entry,
-  const double* inherited_local, const Doubt& inherited_doubt, const std::vector<Id>& inherited,
-  Scratch& scratch, std::size_t depth)
+void DipoleField::Build::fill(Subtree& tree, const CellIndex& cell, std::size_t entry,
+  const double* inherited_local, const ErrorEstimate& inherited_error,
+  const std::vector<Id>& inherited, Scratch& scratch, std::size_t depth)
 {
   const int degree = this->field.order_;
   const int count = harmonic_count(degree);
@@ -970,16 +978,16 @@ void DipoleField::Build::fill(Subtree& tree, const CellPlace& cell, std::size_t 
   std::vector<Id> near = std::move(scratch.lists[depth]);
   near.clear();
   scratch.out.clear(degree);
-  scratch.doubt = inherited_doubt;
+  scratch.error_estimate = inherited_error;
   std::vector<Id>& stack = scratch.stack;
-  const auto go_through = [&](Id root, double largest)
+  const auto collect_near = [&](Id root, double largest)
   {
     stack.assign(1, root);
     while (!stack.empty())
     {
       const Id id = stack.back();
       stack.pop_back();
-      if (this->settle(id, center, radius, scratch))
+      if (this->add_if_far(id, center, radius, scratch))
       {
         continue;
       }
@@ -997,7 +1005,7 @@ void DipoleField::Build::fill(Subtree& tree, const CellPlace& cell, std::size_t 
   };
   for (const Id id : inherited)
   {
-    go_through(id, 0.5 * radius);
+    collect_near(id, 0.5 * radius);
   }
   double blocks = 0.0, sizes = 0.0;
   for (const Id id : near)
@@ -1005,20 +1013,21 @@ void DipoleField::Build::fill(Subtree& tree, const CellPlace& cell, std::size_t 
     blocks += this->nodes[id].count;
     sizes += this->nodes[id].block_radius * this->nodes[id].count;
   }
-  const bool leaf = blocks <= static_cast<double>(few_blocks) || cell.level >= finest_level ||
-    radius * blocks <= this->finest_cell * sizes || radius < 1e-6 * this->field.size_ ||
-    !this->pays_to_split(center, size, blocks, near.size());
+  const bool leaf = blocks <= static_cast<double>(maximum_leaf_blocks) ||
+    cell.level >= finest_level || radius * blocks <= this->finest_cell * sizes ||
+    radius < 1e-6 * this->field.size_ ||
+    !this->is_split_worthwhile(center, size, blocks, near.size());
   if (leaf)
   {
     std::vector<Id> rest;
     rest.swap(near);
     for (const Id id : rest)
     {
-      go_through(id, -1.0);
+      collect_near(id, -1.0);
     }
   }
   this->flush(center, scratch);
-  const Doubt doubt = scratch.doubt;
+  const ErrorEstimate error_estimate = scratch.error_estimate;
   std::vector<double> local(2 * static_cast<std::size_t>(count));
   for (int c = 0; c < count; ++c)
   {
@@ -1034,7 +1043,7 @@ void DipoleField::Build::fill(Subtree& tree, const CellPlace& cell, std::size_t 
   if (leaf)
   {
     this->emit_leaf(tree, entry, 0.5 * size, local, near);
-    tree.leaves.push_back({ doubt, center, 0.5 * size });
+    tree.leaves.push_back({ error_estimate, center, 0.5 * size });
   }
   else if (!this->context.canceled())
   {
@@ -1071,11 +1080,11 @@ void DipoleField::Build::fill(Subtree& tree, const CellPlace& cell, std::size_t 
     tree.cells.resize(first + 8, 0);
     for (int child = 0; child < 8; ++child)
     {
-      const CellPlace place{ cell.level + 1,
+      const CellIndex place{ cell.level + 1,
         { 2 * cell.at[0] + (child & 1), 2 * cell.at[1] + (child >> 1 & 1),
           2 * cell.at[2] + (child >> 2) } };
-      this->fill(
-        tree, place, first + child, &children[2 * child * count], doubt, near, scratch, depth + 1);
+      this->fill(tree, place, first + child, &children[2 * child * count], error_estimate, near,
+        scratch, depth + 1);
     }
     scratch.locals[depth] = std::move(children);
   }
@@ -1119,12 +1128,12 @@ void DipoleField::Build::emit_leaf(Subtree& tree, std::size_t entry, double half
 bool DipoleField::Build::fill_cells()
 {
   DipoleField& f = this->field;
-  const Id across = 1 << f.top_level_;
-  const Index tops = static_cast<Index>(across) * across * across;
-  std::vector<Subtree> trees(static_cast<std::size_t>(tops));
+  const Id cells_per_axis = 1 << f.top_level_;
+  const Index top_cells = static_cast<Index>(cells_per_axis) * cells_per_axis * cells_per_axis;
+  std::vector<Subtree> trees(static_cast<std::size_t>(top_cells));
   const std::vector<double> nothing(2 * static_cast<std::size_t>(harmonic_count(f.order_)), 0.0);
   const std::vector<Id> root(1, 0);
-  if (!parallel_for(this->context, tops, 1,
+  if (!parallel_for(this->context, top_cells, 1,
         [&](Index begin, Index end)
         {
           const auto scratch = std::make_unique<Scratch>();
@@ -1132,20 +1141,22 @@ bool DipoleField::Build::fill_cells()
           {
             const auto at = static_cast<Id>(i);
             this->fill(trees[i],
-              { f.top_level_, { at % across, at / across % across, at / across / across } }, 0,
-              nothing.data(), Doubt(), root, *scratch, 0);
+              { f.top_level_,
+                { at % cells_per_axis, at / cells_per_axis % cells_per_axis,
+                  at / cells_per_axis / cells_per_axis } },
+              0, nothing.data(), ErrorEstimate(), root, *scratch, 0);
           }
         }) ||
     this->context.canceled())
   {
     return false;
   }
-  f.cells_.assign(static_cast<std::size_t>(tops), 0);
+  f.cells_.assign(static_cast<std::size_t>(top_cells), 0);
   f.first_run_.clear();
   f.runs_.clear();
   f.float_locals_.clear();
   f.double_locals_.clear();
-  this->doubtful.clear();
+  this->leaf_errors.clear();
   std::size_t cells = f.cells_.size(), leaves = 0, runs = 0;
   for (const Subtree& tree : trees)
   {
@@ -1156,11 +1167,12 @@ bool DipoleField::Build::fill_cells()
   f.cells_.reserve(cells);
   f.first_run_.reserve(leaves + 1);
   f.runs_.reserve(runs);
-  const std::size_t coefficients = leaves * static_cast<std::size_t>(count_of_local(f.order_));
-  f.fine_ ? f.double_locals_.reserve(coefficients + polynomial_lanes)
-          : f.float_locals_.reserve(coefficients + polynomial_lanes);
+  const std::size_t coefficients =
+    leaves * static_cast<std::size_t>(local_coefficient_count(f.order_));
+  f.double_precision_ ? f.double_locals_.reserve(coefficients + polynomial_lanes)
+                      : f.float_locals_.reserve(coefficients + polynomial_lanes);
   Id run = 0;
-  for (Index i = 0; i < tops; ++i)
+  for (Index i = 0; i < top_cells; ++i)
   {
     Subtree& tree = trees[i];
     const auto offset = static_cast<Id>(f.cells_.size()) - 1;
@@ -1177,17 +1189,18 @@ bool DipoleField::Build::fill_cells()
       run += count;
     }
     f.runs_.insert(f.runs_.end(), tree.runs.begin(), tree.runs.end());
-    this->doubtful.insert(this->doubtful.end(), tree.leaves.begin(), tree.leaves.end());
+    this->leaf_errors.insert(this->leaf_errors.end(), tree.leaves.begin(), tree.leaves.end());
     for (const double x : tree.locals)
     {
-      f.fine_ ? f.double_locals_.push_back(x) : f.float_locals_.push_back(static_cast<float>(x));
+      f.double_precision_ ? f.double_locals_.push_back(x)
+                          : f.float_locals_.push_back(static_cast<float>(x));
     }
     tree = Subtree();
   }
   f.first_run_.push_back(run);
   // Add padding, because contract_local() reads beyond the end of the last row.
-  f.fine_ ? f.double_locals_.resize(coefficients + polynomial_lanes)
-          : f.float_locals_.resize(coefficients + polynomial_lanes);
+  f.double_precision_ ? f.double_locals_.resize(coefficients + polynomial_lanes)
+                      : f.float_locals_.resize(coefficients + polynomial_lanes);
   return true;
 }
 
@@ -1203,15 +1216,17 @@ double DipoleField::Build::measure()
   if (this->options.expected_points > 0)
   {
     samples = std::min(
-      samples, std::max(fewest_samples, this->options.expected_points / points_per_sample));
+      samples, std::max(minimum_samples, this->options.expected_points / points_per_sample));
   }
-  const Index feared = std::min<Index>(samples / 2, static_cast<Index>(this->doubtful.size()));
-  std::partial_sort(this->doubtful.begin(), this->doubtful.begin() + feared, this->doubtful.end(),
-    [](const DoubtfulLeaf& s, const DoubtfulLeaf& t)
+  const Index feared = std::min<Index>(samples / 2, static_cast<Index>(this->leaf_errors.size()));
+  std::partial_sort(this->leaf_errors.begin(), this->leaf_errors.begin() + feared,
+    this->leaf_errors.end(),
+    [](const LeafError& s, const LeafError& t)
     {
-      return s.doubt.size != t.doubt.size ? s.doubt.size > t.doubt.size
-                                          : std::lexicographical_compare(s.center.begin(),
-                                              s.center.end(), t.center.begin(), t.center.end());
+      return s.error_estimate.size != t.error_estimate.size
+        ? s.error_estimate.size > t.error_estimate.size
+        : std::lexicographical_compare(
+            s.center.begin(), s.center.end(), t.center.begin(), t.center.end());
     });
   std::vector<double> errors(static_cast<std::size_t>(samples));
   std::vector<double> float_errors(static_cast<std::size_t>(samples / 16 + 1), 0.0);
@@ -1228,10 +1243,10 @@ double DipoleField::Build::measure()
         Vec3 at;
         if (i < feared)
         {
-          const DoubtfulLeaf& leaf = this->doubtful[i];
+          const LeafError& leaf = this->leaf_errors[i];
           for (int k = 0; k < 3; ++k)
           {
-            at[k] = leaf.center[k] + (leaf.doubt.pull[k] > 0.0 ? 0.99 : -0.99) * leaf.half;
+            at[k] = leaf.center[k] + (leaf.error_estimate.pull[k] > 0.0 ? 0.99 : -0.99) * leaf.half;
           }
         }
         else if (i % 2)
@@ -1259,7 +1274,7 @@ double DipoleField::Build::measure()
         bool touched = false;
         const double sum = f.near_sum(&all, 1, at, touched);
         errors[i] = std::abs(f.evaluate(at) - sum);
-        if (i % 16 == 0 && !f.fine_)
+        if (i % 16 == 0 && !f.double_precision_)
         {
           float_errors[i / 16] = std::abs(f.exact_sum(at) - sum);
         }
@@ -1272,7 +1287,7 @@ double DipoleField::Build::measure()
 bool DipoleField::Build::run(const Triangles& triangles, const std::vector<int>& multiplicities)
 {
   DipoleField& f = this->field;
-  this->take(triangles, multiplicities);
+  this->add_triangles(triangles, multiplicities);
   if (this->ids.empty())
   {
     return !this->context.canceled();
@@ -1286,9 +1301,9 @@ bool DipoleField::Build::run(const Triangles& triangles, const std::vector<int>&
     this->options.order ? this->options.order : tuning->order, 2, largest_polynomial_order);
   this->finest_cell =
     this->options.finest_cell > 0.0 ? this->options.finest_cell : tuning->finest_cell;
-  f.fine_ = this->options.tolerance < float_tolerance;
-  const bool sums_all = DipoleField::sums_all(this->options.expected_points);
-  if (!sums_all)
+  f.double_precision_ = this->options.tolerance < float_tolerance;
+  const bool uses_direct_sum = DipoleField::uses_direct_sum(this->options.expected_points);
+  if (!uses_direct_sum)
   {
     this->cut_long_triangles();
   }
@@ -1299,12 +1314,12 @@ bool DipoleField::Build::run(const Triangles& triangles, const std::vector<int>&
       return false;
     }
   }
-  f.fine_ ? this->fill_blocks(f.double_blocks_) : this->fill_blocks(f.float_blocks_);
-  if (this->options.finest_cell <= 0.0 && f.block_count() <= small_field)
+  f.double_precision_ ? this->fill_blocks(f.double_blocks_) : this->fill_blocks(f.float_blocks_);
+  if (this->options.finest_cell <= 0.0 && f.block_count() <= small_field_blocks)
   {
-    this->finest_cell *= finer;
+    this->finest_cell *= small_field_factor;
   }
-  if (!sums_all)
+  if (!uses_direct_sum)
   {
     const ProgressRange range(this->context, 0.2, 0.3);
     if (!this->find_multipoles())
@@ -1317,9 +1332,9 @@ bool DipoleField::Build::run(const Triangles& triangles, const std::vector<int>&
   for (int round = 0;; ++round)
   {
     const ProgressRange range(this->context, 1.0 - 0.7 / (1 << round), 1.0 - 0.35 / (1 << round));
-    if (sums_all)
+    if (uses_direct_sum)
     {
-      this->sum_all();
+      this->set_up_direct_sum();
     }
     else
     {
@@ -1334,26 +1349,26 @@ bool DipoleField::Build::run(const Triangles& triangles, const std::vector<int>&
     {
       return false;
     }
-    const double wanted = wanted_error * this->options.tolerance;
-    if (this->float_error > largest_float_error * this->options.tolerance && !f.fine_)
+    const double requested = target_error * this->options.tolerance;
+    if (this->float_error > largest_float_error * this->options.tolerance && !f.double_precision_)
     {
-      f.fine_ = true;
+      f.double_precision_ = true;
       this->fill_blocks(f.double_blocks_);
       f.float_blocks_ = {};
       continue;
     }
-    if (f.measured_error_ <= wanted || round == 4 || sums_all)
+    if (f.measured_error_ <= requested || round == 4 || uses_direct_sum)
     {
 
       return true;
     }
-    this->threshold *= 0.8 * std::clamp(wanted / f.measured_error_, 0.02, 1.0);
+    this->threshold *= 0.8 * std::clamp(requested / f.measured_error_, 0.02, 1.0);
   }
 }
 
-bool DipoleField::sums_all(Index expected_points)
+bool DipoleField::uses_direct_sum(Index expected_points)
 {
-  return expected_points > 0 && expected_points <= few_points;
+  return expected_points > 0 && expected_points <= maximum_direct_points;
 }
 
 bool DipoleField::build(ExecutionContext& context, const Points& points, const Triangles& triangles,

@@ -15,27 +15,27 @@ namespace bindpose
 
 namespace
 {
-/// Keep the part of a convex polygon whose points p satisfy p . `toward` <= `limit`. `room` is
+/// Keep the part of a convex polygon whose points p satisfy p . `toward` <= `limit`. `buffer` is
 /// working memory.
-void cut(std::vector<Vec2>& polygon, const Vec2& toward, double limit, std::vector<Vec2>& room)
+void cut(std::vector<Vec2>& polygon, const Vec2& toward, double limit, std::vector<Vec2>& buffer)
 {
-  room.clear();
+  buffer.clear();
   for (std::size_t i = 0; i < polygon.size(); ++i)
   {
     const Vec2& a = polygon[i];
     const Vec2& b = polygon[(i + 1) % polygon.size()];
-    const double out_a = a.dot(toward) - limit;
-    const double out_b = b.dot(toward) - limit;
-    if (out_a <= 0.0)
+    const double distance_a = a.dot(toward) - limit;
+    const double distance_b = b.dot(toward) - limit;
+    if (distance_a <= 0.0)
     {
-      room.push_back(a);
+      buffer.push_back(a);
     }
-    if ((out_a < 0.0 && out_b > 0.0) || (out_a > 0.0 && out_b < 0.0))
+    if ((distance_a < 0.0 && distance_b > 0.0) || (distance_a > 0.0 && distance_b < 0.0))
     {
-      room.push_back(a + (out_a / (out_a - out_b)) * (b - a));
+      buffer.push_back(a + (distance_a / (distance_a - distance_b)) * (b - a));
     }
   }
-  polygon.swap(room);
+  polygon.swap(buffer);
 }
 
 /// Return the signed area of the intersection of the triangle 0, a, b with the disc around 0.
@@ -67,11 +67,11 @@ double triangle_in_disc(const Vec2& a, const Vec2& b, double radius)
 struct Scratch
 {
   std::vector<PointTree::Neighbor> neighbors;
-  std::vector<Vec2> polygon, room;
+  std::vector<Vec2> polygon, buffer;
 };
 
-double area_of(const Points& points, const Points& normals, PointTree::Id point, double tolerance,
-  Scratch& scratch)
+double voronoi_area(const Points& points, const Points& normals, PointTree::Id point,
+  double tolerance, Scratch& scratch)
 {
   const Vec3 normal = normals.row(point);
   if (scratch.neighbors.empty() || normal.isZero(0.0))
@@ -106,7 +106,7 @@ double area_of(const Points& points, const Points& normals, PointTree::Id point,
     constexpr double no_direction = 1e-9;
     if (length > no_direction * distance)
     {
-      cut(scratch.polygon, projected / length, 0.5 * distance, scratch.room);
+      cut(scratch.polygon, projected / length, 0.5 * distance, scratch.buffer);
     }
   }
   double area = 0.0;
@@ -133,7 +133,7 @@ bool estimate_point_areas(ExecutionContext& context, const Points& points, const
         // Points are processed in tree order, so that consecutive searches visit the same boxes.
         const PointTree::Id point = tree.order()[i];
         tree.nearest(points, point, neighbors, scratch.neighbors);
-        areas[point] = area_of(points, normals, point, tolerance, scratch);
+        areas[point] = voronoi_area(points, normals, point, tolerance, scratch);
       }
     });
 }

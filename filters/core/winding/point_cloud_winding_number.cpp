@@ -93,14 +93,14 @@ struct Extent
 
 /// Return the number of moments per box. A moment is the real or imaginary part of a coefficient;
 /// the imaginary parts for m = 0 are omitted.
-constexpr Index count_of_moments(int order)
+constexpr Index moment_count(int order)
 {
   return (order + 1) * (order + 1) - 1;
 }
 
 using Mask __attribute__((vector_size(64))) = std::int64_t;
 
-double sum_of(const HarmonicLanes& lanes)
+double sum_lanes(const HarmonicLanes& lanes)
 {
   const double(&l)[harmonic_lanes] = lanes.lane;
   return ((l[0] + l[1]) + (l[2] + l[3])) + ((l[4] + l[5]) + (l[6] + l[7]));
@@ -124,11 +124,11 @@ BINDPOSE_SIMD_CLONES void add_dipoles(const Dipoles* dipoles, Index count, const
     {
       root.lane[i] = __builtin_sqrt(squared[i]);
     }
-    const HarmonicPack share =
+    const HarmonicPack contribution =
       (x * pack(d->moment[0]) + y * pack(d->moment[1]) + z * pack(d->moment[2])) /
       (squared * pack(root));
     const Mask touches = squared <= squared_tolerance;
-    sum += touches ? HarmonicPack{} : share;
+    sum += touches ? HarmonicPack{} : contribution;
     touched |= touches;
   }
   reinterpret_cast<HarmonicPack&>(sums) = sum;
@@ -163,8 +163,8 @@ BINDPOSE_SIMD_CLONES void add_dipole_gradients(const Dipoles* dipoles, Index cou
     const Mask touches = squared <= squared_tolerance;
     for (int k = 0; k < 3; ++k)
     {
-      const HarmonicPack share = (steep * at[k] - pack(d->moment[k])) * inverse;
-      reinterpret_cast<HarmonicPack&>(sums[k]) += touches ? HarmonicPack{} : share;
+      const HarmonicPack contribution = (steep * at[k] - pack(d->moment[k])) * inverse;
+      reinterpret_cast<HarmonicPack&>(sums[k]) += touches ? HarmonicPack{} : contribution;
     }
   }
 }
@@ -230,10 +230,10 @@ BINDPOSE_SIMD_CLONES void add_multipole_gradients(int order, const HarmonicLanes
   {
     const HarmonicLanes* const real = harmonics.real + harmonic_index(n + 1, 0);
     const HarmonicLanes* const imaginary = harmonics.imaginary + harmonic_index(n + 1, 0);
-    const HarmonicPack whole = pack(*moments++);
-    sum[0] -= whole * pack(real[1]);
-    sum[1] -= whole * pack(imaginary[1]);
-    sum[2] -= whole * pack(real[0]);
+    const HarmonicPack zonal = pack(*moments++);
+    sum[0] -= zonal * pack(real[1]);
+    sum[1] -= zonal * pack(imaginary[1]);
+    sum[2] -= zonal * pack(real[0]);
     for (int m = 1; m <= n; ++m)
     {
       const HarmonicPack re = pack(*moments++);
@@ -258,21 +258,21 @@ BINDPOSE_SIMD_CLONES void add_multipole_gradients(int order, const HarmonicLanes
 
 /// Return the error bound at distance r (see the comment at the top of the file), times
 /// r^(order+2).
-double bound_of(const Extent& extent, int order, double r)
+double omitted_bound(const Extent& extent, int order, double r)
 {
   const double u = extent.radius / r;
   return extent.power * (order + 1 + u / (1.0 - u)) / (1.0 - u);
 }
 
 /// Return the smallest distance at which the bound is below the threshold.
-double reach_of(const Extent& extent, int order, double threshold)
+double far_distance(const Extent& extent, int order, double threshold)
 {
   if (extent.power == 0.0)
   {
     return extent.radius;
   }
   const auto too_near = [&](double r)
-  { return bound_of(extent, order, r) / std::pow(r, order + 2) > threshold; };
+  { return omitted_bound(extent, order, r) / std::pow(r, order + 2) > threshold; };
   double upper = 2.0 * extent.radius;
   while (too_near(upper))
   {
@@ -305,21 +305,21 @@ Status check_input(PointsView points, PointsView normals, NumbersView areas,
   }
   for (Index i = 0; i < count; ++i)
   {
-    const auto bad = [i](const std::string& what)
+    const auto invalid_point = [i](const std::string& what)
     { return Status::invalid_input("point " + std::to_string(i) + " has " + what); };
     if (!points.row(i).allFinite())
     {
-      return bad("a coordinate that is not a finite number");
+      return invalid_point("a coordinate that is not a finite number");
     }
     if (!normals.row(i).allFinite())
     {
-      return bad("a normal that is not a finite number");
+      return invalid_point("a normal that is not a finite number");
     }
     if (areas.size() != 0 && !(areas[i] >= 0.0 && std::isfinite(areas[i])))
     {
       std::ostringstream text;
       text << "the area " << areas[i] << "; areas must be finite and at least 0";
-      return bad(text.str());
+      return invalid_point(text.str());
     }
   }
   if (count == 1 && areas.size() == 0)
@@ -368,7 +368,7 @@ Points directions(PointsView normals, Index& zero_normals)
 }
 } // namespace
 
-struct PointCloudWindingNumber::Parts
+struct PointCloudWindingNumber::Impl
 {
   Status status;
   WindingMethod method = WindingMethod::direct;
@@ -381,19 +381,19 @@ struct PointCloudWindingNumber::Parts
   std::vector<HarmonicLanes> moments; ///< multipole moments of each group
   std::vector<Extent> extents; ///< eight extents per group; used by the build only
 
-  void take_dipoles(const Points& points, const Points& moments_of, const PointTree& tree);
+  void store_dipoles(const Points& points, const Points& point_moments, const PointTree& tree);
   bool find_multipoles(ExecutionContext& context, const PointTree& tree);
-  void find_multipole(const PointTree::Group& group, Index number, Harmonics (&room)[2]);
-  bool find_reaches(ExecutionContext& context, double threshold);
-  bool find_threshold(ExecutionContext& context, const Points& places);
-  double measured_error(ExecutionContext& context, const Points& places) const;
+  void find_multipole(const PointTree::Group& group, Index number, Harmonics (&workspace)[2]);
+  bool find_far_distances(ExecutionContext& context, double threshold);
+  bool find_threshold(ExecutionContext& context, const Points& sample_points);
+  double measured_error(ExecutionContext& context, const Points& sample_points) const;
   Points sample(const PointTree& tree) const;
 
-  bool winds_around(const Vec3& framed) const;
+  bool can_be_nonzero(const Vec3& framed) const;
   template <typename Far, typename Near>
   double visit(const Vec3& framed, double squared_stretch, const Far& far, const Near& near) const;
   template <typename Try>
-  void within_tolerance(const Try& attempt) const;
+  void repeat_until_tolerance(const Try& attempt) const;
   double plain_sum(const Vec3& framed, bool& touches) const;
   double tree_sum(const Vec3& framed, bool& touches) const;
   double at(const Vec3& query, bool exactly, bool& touches) const;
@@ -402,7 +402,7 @@ struct PointCloudWindingNumber::Parts
   Vec3 gradient_at(const Vec3& query) const;
 };
 
-PointCloudWindingNumber::PointCloudWindingNumber() : parts_(new Parts) {}
+PointCloudWindingNumber::PointCloudWindingNumber() : impl_(new Impl) {}
 PointCloudWindingNumber::~PointCloudWindingNumber() = default;
 PointCloudWindingNumber::PointCloudWindingNumber(PointCloudWindingNumber&&) noexcept = default;
 PointCloudWindingNumber& PointCloudWindingNumber::operator=(
@@ -414,34 +414,34 @@ PointCloudWindingNumber& PointCloudWindingNumber::operator=(
 /// boxes, and `from` contains the positions of p relative to the centers. Call near(first block,
 /// block count) for near leaves. Return the sum of the error bounds of the multipoles.
 template <typename Far, typename Near>
-double PointCloudWindingNumber::Parts::visit(
+double PointCloudWindingNumber::Impl::visit(
   const Vec3& p, double squared_stretch, const Far& far, const Near& near) const
 {
   HarmonicLanes bounds{};
   const double q[3] = { p[0], p[1], p[2] };
   // Each level leaves at most seven groups on the stack; 2^29 points have ten levels.
   Id stack[128];
-  int waiting = 0;
-  stack[waiting++] = 0;
-  while (waiting > 0)
+  int stack_size = 0;
+  stack[stack_size++] = 0;
+  while (stack_size > 0)
   {
-    const Id number = stack[--waiting];
+    const Id number = stack[--stack_size];
     const Boxes& box = this->boxes[number];
     HarmonicLanes from[3];
-    const unsigned far_off = far_boxes(box, q, this->order, squared_stretch, from, bounds);
-    if (far_off != 0)
+    const unsigned far_mask = far_boxes(box, q, this->order, squared_stretch, from, bounds);
+    if (far_mask != 0)
     {
-      far(number, from, far_off);
+      far(number, from, far_mask);
     }
     for (int c = 0; c < harmonic_lanes; ++c)
     {
-      if (far_off >> c & 1u)
+      if (far_mask >> c & 1u)
       {
         continue;
       }
       if (box.group[c] >= 0)
       {
-        stack[waiting++] = box.group[c];
+        stack[stack_size++] = box.group[c];
       }
       else if (box.block_count[c] > 0)
       {
@@ -449,13 +449,13 @@ double PointCloudWindingNumber::Parts::visit(
       }
     }
   }
-  return sum_of(bounds);
+  return sum_lanes(bounds);
 }
 
 /// Call `attempt` until the error bound that it returns is within the tolerance. The required
 /// distance of far boxes is increased before each further call.
 template <typename Try>
-void PointCloudWindingNumber::Parts::within_tolerance(const Try& attempt) const
+void PointCloudWindingNumber::Impl::repeat_until_tolerance(const Try& attempt) const
 {
   double squared_stretch = 1.0;
   for (;;)
@@ -472,8 +472,8 @@ void PointCloudWindingNumber::Parts::within_tolerance(const Try& attempt) const
   }
 }
 
-void PointCloudWindingNumber::Parts::take_dipoles(
-  const Points& points, const Points& moments_of, const PointTree& tree)
+void PointCloudWindingNumber::Impl::store_dipoles(
+  const Points& points, const Points& point_moments, const PointTree& tree)
 {
   const std::vector<Id>& ids = tree.order();
   this->dipoles.resize((ids.size() + harmonic_lanes - 1) / harmonic_lanes);
@@ -484,35 +484,35 @@ void PointCloudWindingNumber::Parts::take_dipoles(
     for (int k = 0; k < 3; ++k)
     {
       block.at[k].lane[i % harmonic_lanes] = points(id, k);
-      block.moment[k].lane[i % harmonic_lanes] = i < ids.size() ? moments_of(id, k) : 0.0;
+      block.moment[k].lane[i % harmonic_lanes] = i < ids.size() ? point_moments(id, k) : 0.0;
     }
   }
 }
 
-bool PointCloudWindingNumber::Parts::find_multipoles(
+bool PointCloudWindingNumber::Impl::find_multipoles(
   ExecutionContext& context, const PointTree& tree)
 {
   const std::size_t groups = tree.groups().size();
   this->boxes.resize(groups);
-  this->moments.resize(groups * static_cast<std::size_t>(count_of_moments(this->order)));
+  this->moments.resize(groups * static_cast<std::size_t>(moment_count(this->order)));
   this->extents.resize(groups * harmonic_lanes);
   constexpr Index block = 16;
   return parallel_for(context, static_cast<Index>(groups), block,
     [&](Index begin, Index end)
     {
-      const auto room = std::make_unique<Harmonics[][2]>(1);
+      const auto workspace = std::make_unique<Harmonics[][2]>(1);
       for (Index g = begin; g < end; ++g)
       {
-        this->find_multipole(tree.groups()[g], g, room[0]);
+        this->find_multipole(tree.groups()[g], g, workspace[0]);
       }
     });
 }
 
-void PointCloudWindingNumber::Parts::find_multipole(
-  const PointTree::Group& group, Index number, Harmonics (&room)[2])
+void PointCloudWindingNumber::Impl::find_multipole(
+  const PointTree::Group& group, Index number, Harmonics (&workspace)[2])
 {
   Boxes& box = this->boxes[number];
-  HarmonicLanes* out = &this->moments[number * count_of_moments(this->order)];
+  HarmonicLanes* out = &this->moments[number * moment_count(this->order)];
   for (int c = 0; c < harmonic_lanes; ++c)
   {
     if (c >= group.size)
@@ -563,8 +563,8 @@ void PointCloudWindingNumber::Parts::find_multipole(
         extent.power += weight * std::pow(distance, this->order);
       });
 
-    Harmonics& harmonics = room[0];
-    Harmonics& sum = room[1];
+    Harmonics& harmonics = workspace[0];
+    Harmonics& sum = workspace[1];
     sum.clear(this->order);
     for (const Dipoles* d = begin; d != end; ++d)
     {
@@ -587,19 +587,19 @@ void PointCloudWindingNumber::Parts::find_multipole(
     HarmonicLanes* to = out;
     for (int n = 1; n <= this->order; ++n)
     {
-      (to++)->lane[c] = sum_of(sum.real[harmonic_index(n, 0)]);
+      (to++)->lane[c] = sum_lanes(sum.real[harmonic_index(n, 0)]);
       for (int m = 1; m <= n; ++m)
       {
         // The coefficients for m and -m have the same contribution, so only one of them is stored,
         // doubled.
-        (to++)->lane[c] = 2.0 * sum_of(sum.real[harmonic_index(n, m)]);
-        (to++)->lane[c] = 2.0 * sum_of(sum.imaginary[harmonic_index(n, m)]);
+        (to++)->lane[c] = 2.0 * sum_lanes(sum.real[harmonic_index(n, m)]);
+        (to++)->lane[c] = 2.0 * sum_lanes(sum.imaginary[harmonic_index(n, m)]);
       }
     }
   }
 }
 
-bool PointCloudWindingNumber::Parts::find_reaches(ExecutionContext& context, double threshold)
+bool PointCloudWindingNumber::Impl::find_far_distances(ExecutionContext& context, double threshold)
 {
   constexpr Index block = 64;
   return parallel_for(context, static_cast<Index>(this->boxes.size()), block,
@@ -614,10 +614,10 @@ bool PointCloudWindingNumber::Parts::find_reaches(ExecutionContext& context, dou
           if (this->boxes[g].block_count[c] > 0)
           {
             const Extent& extent = this->extents[g * harmonic_lanes + c];
-            const double reach = std::max({ reach_of(extent, this->order, threshold),
+            const double reach = std::max({ far_distance(extent, this->order, threshold),
               extent.radius + 2.0 * this->frame.tolerance, nearest_multipole });
             squared = reach * reach;
-            this->boxes[g].bound.lane[c] = bound_of(extent, this->order, reach);
+            this->boxes[g].bound.lane[c] = omitted_bound(extent, this->order, reach);
           }
         }
       }
@@ -626,7 +626,7 @@ bool PointCloudWindingNumber::Parts::find_reaches(ExecutionContext& context, dou
 
 /// Return sample points for measuring the error. Half of them are near points of the cloud, at
 /// distances comparable with the point spacing. The other half are in and around the bounding box.
-Points PointCloudWindingNumber::Parts::sample(const PointTree& tree) const
+Points PointCloudWindingNumber::Impl::sample(const PointTree& tree) const
 {
   constexpr Index count = 384;
   Points result(count, 3);
@@ -682,9 +682,10 @@ Points PointCloudWindingNumber::Parts::sample(const PointTree& tree) const
   return result;
 }
 
-/// Find a threshold such that the largest sum of the error bounds at `places` is about 90 % of the
-/// tolerance. Return false if canceled.
-bool PointCloudWindingNumber::Parts::find_threshold(ExecutionContext& context, const Points& places)
+/// Find a threshold such that the largest sum of the error bounds at `sample_points` is about 90 %
+/// of the tolerance. Return false if canceled.
+bool PointCloudWindingNumber::Impl::find_threshold(
+  ExecutionContext& context, const Points& sample_points)
 {
   // The error bound of each box is proportional to the threshold. The number of boxes decreases
   // slightly if the threshold increases.
@@ -693,43 +694,44 @@ bool PointCloudWindingNumber::Parts::find_threshold(ExecutionContext& context, c
   for (int round = 0; round < rounds; ++round)
   {
     const ProgressRange range(context, round / (rounds + 1.0), (round + 1) / (rounds + 1.0));
-    if (!this->find_reaches(context, threshold))
+    if (!this->find_far_distances(context, threshold))
     {
       return false;
     }
-    std::vector<double> bounds(static_cast<std::size_t>(places.rows()));
+    std::vector<double> bounds(static_cast<std::size_t>(sample_points.rows()));
     constexpr Index block = 16;
-    if (!parallel_for(context, places.rows(), block,
+    if (!parallel_for(context, sample_points.rows(), block,
           [&](Index begin, Index end)
           {
             for (Index i = begin; i < end; ++i)
             {
               bounds[i] = this->visit(
-                places.row(i), 1.0, [](Id, const auto&, unsigned) {}, [](Id, Id) {});
+                sample_points.row(i), 1.0, [](Id, const auto&, unsigned) {}, [](Id, Id) {});
             }
           }))
     {
       return false;
     }
     const double largest = *std::max_element(bounds.begin(), bounds.end());
-    constexpr double most_at_once = 32.0;
+    constexpr double maximum_factor = 32.0;
     threshold *= std::clamp(
-      0.9 * this->tolerance / std::max(largest, 1e-300), 1.0 / most_at_once, most_at_once);
+      0.9 * this->tolerance / std::max(largest, 1e-300), 1.0 / maximum_factor, maximum_factor);
   }
   const ProgressRange range(context, rounds / (rounds + 1.0), 1.0);
-  return this->find_reaches(context, threshold);
+  return this->find_far_distances(context, threshold);
 }
 
-/// Return the largest difference from the plain sum at `places`, or a negative number if canceled.
-double PointCloudWindingNumber::Parts::measured_error(
-  ExecutionContext& context, const Points& places) const
+/// Return the largest difference from the plain sum at `sample_points`, or a negative number if
+/// canceled.
+double PointCloudWindingNumber::Impl::measured_error(
+  ExecutionContext& context, const Points& sample_points) const
 {
-  std::vector<double> errors(static_cast<std::size_t>(places.rows()));
-  const bool done = parallel_for(context, places.rows(), 1,
+  std::vector<double> errors(static_cast<std::size_t>(sample_points.rows()));
+  const bool done = parallel_for(context, sample_points.rows(), 1,
     [&](Index i, Index)
     {
       bool touches = false;
-      const Vec3 place = places.row(i);
+      const Vec3 place = sample_points.row(i);
       errors[i] = std::abs(this->tree_sum(place, touches) - this->plain_sum(place, touches));
     });
   return done ? *std::max_element(errors.begin(), errors.end()) : -1.0;
@@ -738,9 +740,9 @@ double PointCloudWindingNumber::Parts::measured_error(
 Status PointCloudWindingNumber::build(ExecutionContext& context, PointsView points,
   PointsView normals, NumbersView areas, const Options& options)
 {
-  this->parts_.reset(new Parts);
-  Parts& parts = *this->parts_;
-  Status& status = parts.status;
+  this->impl_.reset(new Impl);
+  Impl& impl = *this->impl_;
+  Status& status = impl.status;
   status = check_input(points, normals, areas, options);
   if (!status.ok())
   {
@@ -750,17 +752,17 @@ Status PointCloudWindingNumber::build(ExecutionContext& context, PointsView poin
   Report& report = status.report;
   if (count == 0)
   {
-    report.set("method", to_string(parts.method));
+    report.set("method", to_string(impl.method));
     report.set("counts.points", 0);
     status.warnings.emplace_back("the cloud has no points, so its winding number is 0 everywhere");
     return status;
   }
-  parts.frame = ExactFrame(bounding_box(points));
-  const double scale = parts.frame.scale;
+  impl.frame = ExactFrame(bounding_box(points));
+  const double scale = impl.frame.scale;
   Points framed(count, 3);
   for (Index i = 0; i < count; ++i)
   {
-    framed.row(i) = parts.frame(points.row(i)).transpose();
+    framed.row(i) = impl.frame(points.row(i)).transpose();
   }
   Index zero_normals = 0;
   Points moments = directions(normals, zero_normals);
@@ -776,19 +778,19 @@ Status PointCloudWindingNumber::build(ExecutionContext& context, PointsView poin
   {
     const ProgressRange range(context, 0.2, 0.6);
     done = estimate_point_areas(
-      context, framed, moments, tree, options.area_neighbors, parts.frame.tolerance, framed_areas);
-    parts.areas = framed_areas / scale / scale;
+      context, framed, moments, tree, options.area_neighbors, impl.frame.tolerance, framed_areas);
+    impl.areas = framed_areas / scale / scale;
   }
   else if (done)
   {
-    parts.areas = areas;
-    framed_areas = parts.areas * scale * scale;
+    impl.areas = areas;
+    framed_areas = impl.areas * scale * scale;
   }
   if (!done)
   {
-    this->parts_.reset(new Parts);
-    this->parts_->status = Status::canceled();
-    return this->parts_->status;
+    this->impl_.reset(new Impl);
+    this->impl_->status = Status::canceled();
+    return this->impl_->status;
   }
 
   double area = 0.0, volume = 0.0;
@@ -803,10 +805,10 @@ Status PointCloudWindingNumber::build(ExecutionContext& context, PointsView poin
   }
   if (!(area <= largest_moment))
   {
-    this->parts_.reset(new Parts);
-    this->parts_->status =
+    this->impl_.reset(new Impl);
+    this->impl_->status =
       Status::invalid_input("the areas are too large relative to the distances between the points");
-    return this->parts_->status;
+    return this->impl_->status;
   }
   report.set("counts.points", count);
   report.set("counts.zero_normals", zero_normals);
@@ -825,8 +827,8 @@ Status PointCloudWindingNumber::build(ExecutionContext& context, PointsView poin
       " points have no area because many points have the same position, and are ignored");
   }
 
-  parts.take_dipoles(framed, moments, tree);
-  parts.method = options.method == WindingMethod::fast ||
+  impl.store_dipoles(framed, moments, tree);
+  impl.method = options.method == WindingMethod::fast ||
       (options.method == WindingMethod::automatic && count > direct_sum_points)
     ? WindingMethod::fast
     : WindingMethod::direct;
@@ -837,12 +839,12 @@ Status PointCloudWindingNumber::build(ExecutionContext& context, PointsView poin
       (count > direct_sum_points ? " points: a direct sum would take longer"
                                  : " points: a direct sum is fastest for so few");
   }
-  if (parts.method == WindingMethod::fast)
+  if (impl.method == WindingMethod::fast)
   {
-    parts.tolerance = options.tolerance;
+    impl.tolerance = options.tolerance;
     for (const CloudTuning& tuning : cloud_tunings)
     {
-      parts.order = tuning.order;
+      impl.order = tuning.order;
       if (options.tolerance >= tuning.tolerance)
       {
         break;
@@ -850,75 +852,75 @@ Status PointCloudWindingNumber::build(ExecutionContext& context, PointsView poin
     }
     {
       const ProgressRange range(context, 0.6, 0.8);
-      done = parts.find_multipoles(context, tree);
+      done = impl.find_multipoles(context, tree);
     }
-    const Points places = done ? parts.sample(tree) : Points(0, 3);
+    const Points sample_points = done ? impl.sample(tree) : Points(0, 3);
     if (done)
     {
       const ProgressRange range(context, 0.8, 0.9);
-      done = parts.find_threshold(context, places);
+      done = impl.find_threshold(context, sample_points);
     }
     if (done)
     {
       const ProgressRange range(context, 0.9, 1.0);
-      const double error = parts.measured_error(context, places);
+      const double error = impl.measured_error(context, sample_points);
       done = error >= 0.0;
       report.set("error_bound", options.tolerance);
       report.set("measured_error", error);
     }
-    parts.extents = {};
+    impl.extents = {};
   }
-  report.set("method", to_string(parts.method));
+  report.set("method", to_string(impl.method));
   report.set("method_reason", reason);
   if (!done)
   {
-    this->parts_.reset(new Parts);
-    this->parts_->status = Status::canceled();
+    this->impl_.reset(new Impl);
+    this->impl_->status = Status::canceled();
   }
-  return this->parts_->status;
+  return this->impl_->status;
 }
 
 const Status& PointCloudWindingNumber::status() const
 {
-  return this->parts_->status;
+  return this->impl_->status;
 }
 
 WindingMethod PointCloudWindingNumber::method() const
 {
-  return this->parts_->method;
+  return this->impl_->method;
 }
 
 const Eigen::VectorXd& PointCloudWindingNumber::areas() const
 {
-  return this->parts_->areas;
+  return this->impl_->areas;
 }
 
 Index PointCloudWindingNumber::memory() const
 {
-  const Parts& parts = *this->parts_;
-  return static_cast<Index>(sizeof(double) * static_cast<std::size_t>(parts.areas.size()) +
-    sizeof(Dipoles) * parts.dipoles.size() + sizeof(Boxes) * parts.boxes.size() +
-    sizeof(HarmonicLanes) * parts.moments.size());
+  const Impl& impl = *this->impl_;
+  return static_cast<Index>(sizeof(double) * static_cast<std::size_t>(impl.areas.size()) +
+    sizeof(Dipoles) * impl.dipoles.size() + sizeof(Boxes) * impl.boxes.size() +
+    sizeof(HarmonicLanes) * impl.moments.size());
 }
 
 // ---- Evaluating --------------------------------------------------------------------------------
 
-double PointCloudWindingNumber::Parts::plain_sum(const Vec3& p, bool& touches) const
+double PointCloudWindingNumber::Impl::plain_sum(const Vec3& p, bool& touches) const
 {
   HarmonicLanes sums{};
   const double q[3] = { p[0], p[1], p[2] };
   add_dipoles(this->dipoles.data(), static_cast<Index>(this->dipoles.size()), q,
     this->frame.tolerance * this->frame.tolerance, sums, touches);
-  return sum_of(sums);
+  return sum_lanes(sums);
 }
 
-double PointCloudWindingNumber::Parts::tree_sum(const Vec3& p, bool& touches) const
+double PointCloudWindingNumber::Impl::tree_sum(const Vec3& p, bool& touches) const
 {
   const double q[3] = { p[0], p[1], p[2] };
   const double squared_tolerance = this->frame.tolerance * this->frame.tolerance;
   Harmonics harmonics;
   HarmonicLanes sums;
-  this->within_tolerance(
+  this->repeat_until_tolerance(
     [&](double squared_stretch)
     {
       sums = {};
@@ -927,22 +929,22 @@ double PointCloudWindingNumber::Parts::tree_sum(const Vec3& p, bool& touches) co
         [&](Id number, const HarmonicLanes(&from)[3], unsigned bits)
         {
           irregular_harmonics(this->order, from, harmonics);
-          add_multipoles(this->order, &this->moments[number * count_of_moments(this->order)],
-            harmonics, bits, sums);
+          add_multipoles(
+            this->order, &this->moments[number * moment_count(this->order)], harmonics, bits, sums);
         },
         [&](Id first, Id count)
         { add_dipoles(&this->dipoles[first], count, q, squared_tolerance, sums, touches); });
     });
-  return sum_of(sums);
+  return sum_lanes(sums);
 }
 
-Vec3 PointCloudWindingNumber::Parts::tree_gradient(const Vec3& p) const
+Vec3 PointCloudWindingNumber::Impl::tree_gradient(const Vec3& p) const
 {
   const double q[3] = { p[0], p[1], p[2] };
   const double squared_tolerance = this->frame.tolerance * this->frame.tolerance;
   Harmonics harmonics;
   HarmonicLanes sums[3];
-  this->within_tolerance(
+  this->repeat_until_tolerance(
     [&](double squared_stretch)
     {
       std::fill_n(sums, 3, HarmonicLanes{});
@@ -951,38 +953,38 @@ Vec3 PointCloudWindingNumber::Parts::tree_gradient(const Vec3& p) const
         [&](Id number, const HarmonicLanes(&from)[3], unsigned bits)
         {
           irregular_harmonics(this->order + 1, from, harmonics);
-          add_multipole_gradients(this->order,
-            &this->moments[number * count_of_moments(this->order)], harmonics, bits, sums);
+          add_multipole_gradients(
+            this->order, &this->moments[number * moment_count(this->order)], harmonics, bits, sums);
         },
         [&](Id first, Id count)
         { add_dipole_gradients(&this->dipoles[first], count, q, squared_tolerance, sums); });
     });
-  return { sum_of(sums[0]), sum_of(sums[1]), sum_of(sums[2]) };
+  return { sum_lanes(sums[0]), sum_lanes(sums[1]), sum_lanes(sums[2]) };
 }
 
-Vec3 PointCloudWindingNumber::Parts::plain_gradient(const Vec3& p) const
+Vec3 PointCloudWindingNumber::Impl::plain_gradient(const Vec3& p) const
 {
   const double q[3] = { p[0], p[1], p[2] };
   HarmonicLanes sums[3] = {};
   add_dipole_gradients(this->dipoles.data(), static_cast<Index>(this->dipoles.size()), q,
     this->frame.tolerance * this->frame.tolerance, sums);
-  return { sum_of(sums[0]), sum_of(sums[1]), sum_of(sums[2]) };
+  return { sum_lanes(sums[0]), sum_lanes(sums[1]), sum_lanes(sums[2]) };
 }
 
 /// Report whether the winding number can differ from 0. Far away it is 0 in double precision.
-bool PointCloudWindingNumber::Parts::winds_around(const Vec3& framed) const
+bool PointCloudWindingNumber::Impl::can_be_nonzero(const Vec3& framed) const
 {
   return !this->dipoles.empty() && framed.cwiseAbs().maxCoeff() < farthest;
 }
 
-Vec3 PointCloudWindingNumber::Parts::gradient_at(const Vec3& query) const
+Vec3 PointCloudWindingNumber::Impl::gradient_at(const Vec3& query) const
 {
   if (!query.allFinite())
   {
     return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   }
   const Vec3 p = this->frame(query);
-  if (!this->winds_around(p))
+  if (!this->can_be_nonzero(p))
   {
     return Vec3::Zero();
   }
@@ -990,7 +992,7 @@ Vec3 PointCloudWindingNumber::Parts::gradient_at(const Vec3& query) const
     (this->method == WindingMethod::direct ? this->plain_gradient(p) : this->tree_gradient(p));
 }
 
-double PointCloudWindingNumber::Parts::at(const Vec3& query, bool exactly, bool& touches) const
+double PointCloudWindingNumber::Impl::at(const Vec3& query, bool exactly, bool& touches) const
 {
   touches = false;
   if (!query.allFinite())
@@ -998,7 +1000,7 @@ double PointCloudWindingNumber::Parts::at(const Vec3& query, bool exactly, bool&
     return std::numeric_limits<double>::quiet_NaN();
   }
   const Vec3 p = this->frame(query);
-  if (!this->winds_around(p))
+  if (!this->can_be_nonzero(p))
   {
     return 0.0;
   }
@@ -1009,7 +1011,7 @@ double PointCloudWindingNumber::Parts::at(const Vec3& query, bool exactly, bool&
 double PointCloudWindingNumber::evaluate_at(const Vec3& point, bool* on_surface) const
 {
   bool touches = false;
-  const double winding_number = this->parts_->at(point, false, touches);
+  const double winding_number = this->impl_->at(point, false, touches);
   if (on_surface)
   {
     *on_surface = touches;
@@ -1020,7 +1022,7 @@ double PointCloudWindingNumber::evaluate_at(const Vec3& point, bool* on_surface)
 double PointCloudWindingNumber::evaluate_exactly_at(const Vec3& point, bool* on_surface) const
 {
   bool touches = false;
-  const double winding_number = this->parts_->at(point, true, touches);
+  const double winding_number = this->impl_->at(point, true, touches);
   if (on_surface)
   {
     *on_surface = touches;
@@ -1032,21 +1034,21 @@ template <typename PointAt>
 Status PointCloudWindingNumber::evaluate_points(ExecutionContext& context, Index count,
   const PointAt& point_at, double* out, unsigned char* on_surface) const
 {
-  const Parts& parts = *this->parts_;
-  if (!parts.status.ok())
+  const Impl& impl = *this->impl_;
+  if (!impl.status.ok())
   {
-    return parts.status;
+    return impl.status;
   }
-  const double nanoseconds = parts.method == WindingMethod::fast
+  const double nanoseconds = impl.method == WindingMethod::fast
     ? 4000.0
-    : 1.0 + 8.0 * static_cast<double>(parts.dipoles.size());
+    : 1.0 + 8.0 * static_cast<double>(impl.dipoles.size());
   return point_values(context, count, nanoseconds, out, on_surface,
     [&](Index begin, Index end, unsigned char* flags)
     {
       for (Index i = begin; i < end; ++i)
       {
         bool touches = false;
-        out[i] = parts.at(point_at(i), false, touches);
+        out[i] = impl.at(point_at(i), false, touches);
         flags[i - begin] = touches;
       }
     });
@@ -1078,16 +1080,16 @@ template <typename PointAt>
 Status PointCloudWindingNumber::evaluate_gradients(
   ExecutionContext& context, Index count, const PointAt& point_at, double* out) const
 {
-  const Parts& parts = *this->parts_;
-  if (!parts.status.ok())
+  const Impl& impl = *this->impl_;
+  if (!impl.status.ok())
   {
-    return parts.status;
+    return impl.status;
   }
-  const double nanoseconds = parts.method == WindingMethod::fast
+  const double nanoseconds = impl.method == WindingMethod::fast
     ? 8000.0
-    : 1.0 + 16.0 * static_cast<double>(parts.dipoles.size());
+    : 1.0 + 16.0 * static_cast<double>(impl.dipoles.size());
   return point_gradients(context, count, nanoseconds,
-    [&](Index i) { Eigen::Map<Vec3>(out + 3 * i) = parts.gradient_at(point_at(i)); });
+    [&](Index i) { Eigen::Map<Vec3>(out + 3 * i) = impl.gradient_at(point_at(i)); });
 }
 
 Status PointCloudWindingNumber::evaluate_gradient(

@@ -111,7 +111,7 @@ public:
   double evaluate_exactly_at(const Vec3& point, bool* on_surface = nullptr) const;
 
 private:
-  struct Parts;
+  struct Impl;
   template <typename PointAt>
   Status evaluate_points(ExecutionContext& context, Index count, const PointAt& point_at,
     double* out, unsigned char* on_surface) const;
@@ -119,7 +119,7 @@ private:
   Status evaluate_gradients(
     ExecutionContext& context, Index count, const PointAt& point_at, double* out) const;
 
-  std::unique_ptr<Parts> parts_;
+  std::unique_ptr<Impl> impl_;
 };
 
 } // namespace bindpose

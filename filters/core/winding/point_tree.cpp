@@ -82,12 +82,12 @@ void PointTree::add_children(
   std::vector<Item>& items, Group& group, Id first, Id count, int halvings)
 {
   const auto begin = items.begin() + first;
-  Vec3 lower = begin->at;
+  Vec3 lower = begin->position;
   Vec3 upper = lower;
   for (auto item = begin; item != begin + count; ++item)
   {
-    lower = lower.cwiseMin(item->at);
-    upper = upper.cwiseMax(item->at);
+    lower = lower.cwiseMin(item->position);
+    upper = upper.cwiseMax(item->position);
   }
   if (halvings == 0 || count <= this->leaf_size_)
   {
@@ -99,7 +99,10 @@ void PointTree::add_children(
   const Id half = (count / 2 + width - 1) / width * width;
   std::nth_element(begin, begin + half, begin + count,
     [axis](const Item& x, const Item& y)
-    { return x.at[axis] != y.at[axis] ? x.at[axis] < y.at[axis] : x.id < y.id; });
+    {
+      return x.position[axis] != y.position[axis] ? x.position[axis] < y.position[axis]
+                                                  : x.id < y.id;
+    });
   this->add_children(items, group, first, half, halvings - 1);
   this->add_children(items, group, first + half, count - half, halvings - 1);
 }
@@ -108,13 +111,13 @@ void PointTree::nearest(
   const Points& points, Id point, Index count, std::vector<Neighbor>& neighbors) const
 {
   neighbors.clear();
-  const auto wanted =
+  const auto neighbor_count =
     static_cast<std::size_t>(std::min<Index>(count, static_cast<Index>(this->order_.size()) - 1));
-  if (wanted == 0)
+  if (neighbor_count == 0)
   {
     return;
   }
-  const Vec3 at = points.row(point);
+  const Vec3 position = points.row(point);
   const auto look = [&](const auto& look_again, Id number) -> void
   {
     const Group& group = this->groups_[number];
@@ -122,18 +125,19 @@ void PointTree::nearest(
     for (int c = 0; c < group.size; ++c)
     {
       const Child& child = group.children[c];
-      const Vec3 beside = (child.lower - at).cwiseMax(at - child.upper).cwiseMax(Vec3::Zero());
+      const Vec3 beside =
+        (child.lower - position).cwiseMax(position - child.upper).cwiseMax(Vec3::Zero());
       const Neighbor box{ beside.squaredNorm(), c };
-      int place = c;
-      for (; place > 0 && is_nearer(box, near[place - 1]); --place)
+      int slot = c;
+      for (; slot > 0 && is_nearer(box, near[slot - 1]); --slot)
       {
-        near[place] = near[place - 1];
+        near[slot] = near[slot - 1];
       }
-      near[place] = box;
+      near[slot] = box;
     }
     for (int k = 0; k < group.size; ++k)
     {
-      if (neighbors.size() == wanted &&
+      if (neighbors.size() == neighbor_count &&
         near[k].squared_distance > neighbors.back().squared_distance)
       {
         return;
@@ -147,13 +151,13 @@ void PointTree::nearest(
       for (Id i = child.first; i < child.first + child.count; ++i)
       {
         const Id other = this->order_[i];
-        const Neighbor neighbor{ (points.row(other).transpose() - at).squaredNorm(), other };
+        const Neighbor neighbor{ (points.row(other).transpose() - position).squaredNorm(), other };
         if (other == point ||
-          (neighbors.size() == wanted && !is_nearer(neighbor, neighbors.back())))
+          (neighbors.size() == neighbor_count && !is_nearer(neighbor, neighbors.back())))
         {
           continue;
         }
-        if (neighbors.size() == wanted)
+        if (neighbors.size() == neighbor_count)
         {
           neighbors.pop_back();
         }

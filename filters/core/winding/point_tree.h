@@ -57,7 +57,7 @@ public:
 private:
   struct Item
   {
-    Vec3 at;
+    Vec3 position;
     Id id;
   };
   void divide(ExecutionContext& context, std::vector<Item>& items, Id group, Id first, Id count);

@@ -16,24 +16,24 @@ namespace
 {
 /// Return the number of points per block. Each thread gets several blocks. Blocks are large enough
 /// to keep neighbors together and small enough to notice a cancel request in time.
-Index block_of(Index count, double nanoseconds_a_point)
+Index block_size(Index count, double nanoseconds_per_point)
 {
   constexpr double shortest_block = 8e5, longest_block = 5e6; // nanoseconds
-  constexpr double largest_block = 32768.0, wanted_blocks = 16.0;
-  const double nanoseconds = std::max(1.0, nanoseconds_a_point);
+  constexpr double largest_block = 32768.0, target_blocks = 16.0;
+  const double nanoseconds = std::max(1.0, nanoseconds_per_point);
   const double most = std::clamp(longest_block / nanoseconds, 1.0, largest_block);
   const double least = std::min(std::max(shortest_block / nanoseconds, 1.0), most);
-  return static_cast<Index>(std::clamp(static_cast<double>(count) / wanted_blocks, least, most));
+  return static_cast<Index>(std::clamp(static_cast<double>(count) / target_blocks, least, most));
 }
 } // namespace
 
-Status point_values(ExecutionContext& context, Index count, double nanoseconds_a_point,
+Status point_values(ExecutionContext& context, Index count, double nanoseconds_per_point,
   const double* values, unsigned char* on_surface,
   const std::function<void(Index begin, Index end, unsigned char* flags)>& body)
 {
   std::atomic<Index> touching{ 0 };
   std::atomic<Index> not_finite{ 0 };
-  const bool done = parallel_for(context, count, block_of(count, nanoseconds_a_point),
+  const bool done = parallel_for(context, count, block_size(count, nanoseconds_per_point),
     [&](Index begin, Index end)
     {
       std::vector<unsigned char> own(on_surface ? 0 : static_cast<std::size_t>(end - begin));
@@ -59,10 +59,10 @@ Status point_values(ExecutionContext& context, Index count, double nanoseconds_a
   return status;
 }
 
-Status point_gradients(ExecutionContext& context, Index count, double nanoseconds_a_point,
+Status point_gradients(ExecutionContext& context, Index count, double nanoseconds_per_point,
   const std::function<void(Index i)>& body)
 {
-  const bool done = parallel_for(context, count, block_of(count, nanoseconds_a_point),
+  const bool done = parallel_for(context, count, block_size(count, nanoseconds_per_point),
     [&](Index begin, Index end)
     {
       for (Index i = begin; i < end; ++i)

@@ -42,15 +42,15 @@ constexpr double slab_face_cost = 50.0;
 constexpr double row_cost = 5.0;
 /// Minimum and maximum number of cells per point in the grid of the projection plane. The number
 /// increases if triangles outnumber the points, so that most triangles overlap only empty cells.
-constexpr double fewest_cells_per_point = 0.5;
-constexpr double most_cells_per_point = 8.0;
+constexpr double minimum_cells_per_point = 0.5;
+constexpr double maximum_cells_per_point = 8.0;
 /// Points per slab of the grid in the projection plane; one thread processes a slab.
 constexpr Index points_per_slab = 32768;
-constexpr std::int32_t points_at_once = 256;
+constexpr std::int32_t points_per_batch = 256;
 /// A triangle is listed in each slab that it overlaps. These limits bound the memory if triangles
 /// are as large as the surface.
-constexpr Index most_slabs = 64;
-constexpr Index most_slabs_per_face = 32;
+constexpr Index maximum_slabs = 64;
+constexpr Index maximum_slabs_per_face = 32;
 /// Samples per slab of a sample grid. A slab takes some hundred kilobytes, so that it stays in the
 /// cache.
 constexpr Index samples_per_slab = 65536;
@@ -62,7 +62,7 @@ int sign_of(double x)
 
 /// Return the orientation of the triangle of a, b and p, where p is moved by an infinitesimal
 /// amount; 0 if a equals b.
-int moved_orientation(double ay, double az, double by, double bz, double py, double pz)
+int perturbed_orientation(double ay, double az, double by, double bz, double py, double pz)
 {
   int sign = orientation_2d(ay, az, by, bz, py, pz);
   sign = sign != 0 ? sign : sign_of(az - bz);
@@ -71,7 +71,7 @@ int moved_orientation(double ay, double az, double by, double bz, double py, dou
 
 /// Return the index of the first of the ascending `values` that is at least x. The search starts at
 /// the index expected for equal spacing, with `per_length` values per unit of length.
-Index first_from(const std::vector<double>& values, double x, double per_length)
+Index lower_bound_index(const std::vector<double>& values, double x, double per_length)
 {
   const auto count = static_cast<Index>(values.size());
   const double guess = (x - values[0]) * per_length;
@@ -87,7 +87,7 @@ Index first_from(const std::vector<double>& values, double x, double per_length)
   return i;
 }
 
-double per_length_of(const std::vector<double>& values)
+double index_density(const std::vector<double>& values)
 {
   const double length = values.back() - values.front();
   return length > 0.0 ? static_cast<double>(values.size() - 1) / length : 0.0;
@@ -155,8 +155,9 @@ double RayCrossings::predicted_nanoseconds(Index number) const
 
 std::array<Vec3, 3> RayCrossings::corners(Index face) const
 {
-  const Index own = this->triangles_->rows();
-  const auto row = face < own ? this->triangles_->row(face) : this->caps_->row(face - own);
+  const Index triangle_count = this->triangles_->rows();
+  const auto row =
+    face < triangle_count ? this->triangles_->row(face) : this->caps_->row(face - triangle_count);
   return { Vec3(this->points_->row(row[0])), Vec3(this->points_->row(row[1])),
     Vec3(this->points_->row(row[2])) };
 }
@@ -195,7 +196,7 @@ RayCrossings::Facet RayCrossings::facet(Index face, int axis) const
   return f;
 }
 
-int RayCrossings::crossing_of(const Facet& f, const Vec3& point, bool& touches) const
+int RayCrossings::signed_crossing(const Facet& f, const Vec3& point, bool& touches) const
 {
   const double px = point[f.axis], py = point[(f.axis + 1) % 3], pz = point[(f.axis + 2) % 3];
   const bool before = px < f.lower[0];
@@ -207,9 +208,9 @@ int RayCrossings::crossing_of(const Facet& f, const Vec3& point, bool& touches) 
     touches = true;
     return 0;
   }
-  const int sign = moved_orientation(f.y[0], f.z[0], f.y[1], f.z[1], py, pz);
-  if (sign == 0 || moved_orientation(f.y[1], f.z[1], f.y[2], f.z[2], py, pz) != sign ||
-    moved_orientation(f.y[2], f.z[2], f.y[0], f.z[0], py, pz) != sign)
+  const int sign = perturbed_orientation(f.y[0], f.z[0], f.y[1], f.z[1], py, pz);
+  if (sign == 0 || perturbed_orientation(f.y[1], f.z[1], f.y[2], f.z[2], py, pz) != sign ||
+    perturbed_orientation(f.y[2], f.z[2], f.y[0], f.z[0], py, pz) != sign)
   {
     return 0;
   }
@@ -247,7 +248,7 @@ struct FacetBounds
 /// Add the crossings of the rays from `count` points with one triangle. For points with uncertain
 /// signs, no crossing is counted and open[i] is set to 1. Return whether there are such points.
 BINDPOSE_SIMD_CLONES bool add_crossings(const FacetBounds& f, const double* x, const double* y,
-  const double* z, int count, std::int32_t* counts, std::int32_t* open)
+  const double* z, int count, std::int32_t* counts, std::int32_t* undecided)
 {
   std::int32_t any = 0;
   for (int i = 0; i < count; ++i)
@@ -259,22 +260,22 @@ BINDPOSE_SIMD_CLONES bool add_crossings(const FacetBounds& f, const double* x, c
     const double bc = by * cz - bz * cy;
     const double ca = cy * az - cz * ay;
     const double least_of_two = ab < bc ? ab : bc, most_of_two = ab > bc ? ab : bc;
-    const double least = least_of_two < ca ? least_of_two : ca;
-    const double most = most_of_two > ca ? most_of_two : ca;
+    const double minimum = least_of_two < ca ? least_of_two : ca;
+    const double maximum = most_of_two > ca ? most_of_two : ca;
     const double height = f.nx * (px - f.ax) - f.ny * ay - f.nz * az;
     const bool in_box = (py >= f.lower_y) & (py <= f.upper_y) & (pz >= f.lower_z) &
       (pz <= f.upper_z) & (px <= f.upper_x);
     const bool before = px < f.lower_x;
     const bool above = height > f.plane_bound, below = height < -f.plane_bound;
-    const bool clear_side = before | above | below;
-    const bool outwards = least > f.edge_bound, inwards = most < -f.edge_bound;
-    const bool apart = (least < -f.outside) & (most > f.outside);
-    const bool is_open = in_box & !apart & (!clear_side | !(outwards | inwards));
+    const bool is_side_certain = before | above | below;
+    const bool outwards = minimum > f.edge_bound, inwards = maximum < -f.edge_bound;
+    const bool apart = (minimum < -f.outside) & (maximum > f.outside);
+    const bool is_open = in_box & !apart & (!is_side_certain | !(outwards | inwards));
     const bool leaves = in_box & outwards & (before | below);
     const bool enters = in_box & inwards & (before | above);
     counts[i] += is_open ? 0 : (leaves ? 1 : 0) - (enters ? 1 : 0);
-    open[i] = is_open ? 1 : 0;
-    any |= open[i];
+    undecided[i] = is_open ? 1 : 0;
+    any |= undecided[i];
   }
   return any != 0;
 }
@@ -291,27 +292,27 @@ bool RayCrossings::count(ExecutionContext& context, const Vec3* points, Index nu
   // A grid of cells in the projection plane. The index along axis u varies fastest.
   const double width = upper[u] - lower[u], height = upper[v] - lower[v];
   const double cells = std::clamp(std::clamp(static_cast<double>(this->faces_),
-                                    fewest_cells_per_point * static_cast<double>(number),
-                                    most_cells_per_point * static_cast<double>(number)),
+                                    minimum_cells_per_point * static_cast<double>(number),
+                                    maximum_cells_per_point * static_cast<double>(number)),
     1.0, 4e6);
   const double aspect = width > 0.0 && height > 0.0 ? std::clamp(width / height, 1e-3, 1e3) : 1.0;
-  const auto us = static_cast<Index>(std::ceil(std::sqrt(cells * aspect)));
-  const auto vs = static_cast<Index>(std::ceil(std::sqrt(cells / aspect)));
-  const double per_u = width > 0.0 ? static_cast<double>(us) / width : 0.0;
-  const double per_v = height > 0.0 ? static_cast<double>(vs) / height : 0.0;
+  const auto u_cells = static_cast<Index>(std::ceil(std::sqrt(cells * aspect)));
+  const auto v_cells = static_cast<Index>(std::ceil(std::sqrt(cells / aspect)));
+  const double per_u = width > 0.0 ? static_cast<double>(u_cells) / width : 0.0;
+  const double per_v = height > 0.0 ? static_cast<double>(v_cells) / height : 0.0;
   // u_of() and v_of() are monotone, so the cells of a triangle's box contain all points in the box.
   const auto u_of = [&](double x)
-  { return std::clamp<Index>(static_cast<Index>((x - lower[u]) * per_u), 0, us - 1); };
+  { return std::clamp<Index>(static_cast<Index>((x - lower[u]) * per_u), 0, u_cells - 1); };
   const auto v_of = [&](double x)
-  { return std::clamp<Index>(static_cast<Index>((x - lower[v]) * per_v), 0, vs - 1); };
+  { return std::clamp<Index>(static_cast<Index>((x - lower[v]) * per_v), 0, v_cells - 1); };
 
   std::vector<std::int32_t> cell(static_cast<std::size_t>(number));
-  std::vector<std::int32_t> begin(static_cast<std::size_t>(us * vs) + 1, 0);
+  std::vector<std::int32_t> begin(static_cast<std::size_t>(u_cells * v_cells) + 1, 0);
   for (Index i = 0; i < number; ++i)
   {
     const Vec3& p = points[i];
     const bool inside = (p.array() >= lower.array()).all() && (p.array() <= upper.array()).all();
-    cell[i] = inside ? static_cast<std::int32_t>(v_of(p[v]) * us + u_of(p[u])) : -1;
+    cell[i] = inside ? static_cast<std::int32_t>(v_of(p[v]) * u_cells + u_of(p[u])) : -1;
     if (inside)
     {
       begin[cell[i] + 1] += 1;
@@ -348,8 +349,8 @@ bool RayCrossings::count(ExecutionContext& context, const Vec3* points, Index nu
 
   // Each slab consists of whole lines of cells. List the triangles that overlap each slab.
   const Index slabs = std::clamp<Index>(
-    static_cast<Index>(inside) / points_per_slab, 1, std::min<Index>(vs, most_slabs));
-  const auto slab_of = [&](Index line) { return line * slabs / vs; };
+    static_cast<Index>(inside) / points_per_slab, 1, std::min<Index>(v_cells, maximum_slabs));
+  const auto slab_of = [&](Index line) { return line * slabs / v_cells; };
   std::vector<Index> face_begin(static_cast<std::size_t>(slabs) + 1, 0);
   std::vector<std::int32_t> faces;
   if (slabs > 1)
@@ -379,20 +380,20 @@ bool RayCrossings::count(ExecutionContext& context, const Vec3* points, Index nu
   return parallel_for(context, slabs, 1,
     [&](Index slab, Index)
     {
-      Index first_line = slab * vs / slabs;
+      Index first_line = slab * v_cells / slabs;
       while (slab_of(first_line) < slab)
       {
         ++first_line;
       }
       Index last_line = first_line;
-      while (last_line < vs && slab_of(last_line) == slab)
+      while (last_line < v_cells && slab_of(last_line) == slab)
       {
         ++last_line;
       }
-      const std::int32_t first_point = begin[first_line * us];
-      const std::int32_t last_point = begin[last_line * us];
+      const std::int32_t first_point = begin[first_line * u_cells];
+      const std::int32_t last_point = begin[last_line * u_cells];
       std::vector<std::int32_t> sums(static_cast<std::size_t>(last_point - first_point), 0);
-      std::array<std::int32_t, points_at_once> open;
+      std::array<std::int32_t, points_per_batch> undecided;
       const Index face_count = slabs > 1 ? face_begin[slab + 1] - face_begin[slab] : this->faces_;
       for (Index i = 0; i < face_count; ++i)
       {
@@ -415,7 +416,7 @@ bool RayCrossings::count(ExecutionContext& context, const Vec3* points, Index nu
         FacetBounds bounds;
         for (Index line = v0; line <= v1; ++line)
         {
-          const std::int32_t b = begin[line * us + u0], e = begin[line * us + u1 + 1];
+          const std::int32_t b = begin[line * u_cells + u0], e = begin[line * u_cells + u1 + 1];
           if (b == e)
           {
             continue;
@@ -428,18 +429,18 @@ bool RayCrossings::count(ExecutionContext& context, const Vec3* points, Index nu
               f.normal[2], f.edge_bound, f.outside, f.plane_bound };
             made = true;
           }
-          for (std::int32_t at = b; at < e; at += points_at_once)
+          for (std::int32_t at = b; at < e; at += points_per_batch)
           {
-            const std::int32_t some = std::min(points_at_once, e - at);
+            const std::int32_t some = std::min(points_per_batch, e - at);
             if (add_crossings(bounds, &sorted.x[at], &sorted.y[at], &sorted.z[at], some,
-                  &sums[at - first_point], open.data()))
+                  &sums[at - first_point], undecided.data()))
             {
               for (std::int32_t k = at; k < at + some; ++k)
               {
-                if (open[k - at])
+                if (undecided[k - at])
                 {
                   bool touches = false;
-                  sums[k - first_point] += this->crossing_of(f, points[ids[k]], touches);
+                  sums[k - first_point] += this->signed_crossing(f, points[ids[k]], touches);
                   resolved[ids[k]] = resolved[ids[k]] && !touches;
                 }
               }
@@ -456,15 +457,16 @@ bool RayCrossings::count(ExecutionContext& context, const Vec3* points, Index nu
 
 // ---- Grids -------------------------------------------------------------------------------------
 
-RayCrossings::Layers RayCrossings::layers_of(const Grid& grid) const
+RayCrossings::Layers RayCrossings::find_layers(const Grid& grid) const
 {
   const auto& [xs, ys, zs] = grid.at;
   Layers layers;
   const auto zs_count = static_cast<Index>(zs.size());
   const auto area = static_cast<Index>(xs.size() * ys.size());
-  layers.per_slab = std::clamp<Index>(samples_per_slab / std::max<Index>(1, area), 1, zs_count);
-  const Index slabs = (zs_count + layers.per_slab - 1) / layers.per_slab;
-  const double per_y = per_length_of(ys), per_z = per_length_of(zs);
+  layers.layers_per_slab =
+    std::clamp<Index>(samples_per_slab / std::max<Index>(1, area), 1, zs_count);
+  const Index slabs = (zs_count + layers.layers_per_slab - 1) / layers.layers_per_slab;
+  const double per_y = index_density(ys), per_z = index_density(zs);
   layers.begin.assign(static_cast<std::size_t>(slabs) + 1, 0);
   struct Range
   {
@@ -477,17 +479,17 @@ RayCrossings::Layers RayCrossings::layers_of(const Grid& grid) const
     const std::array<Vec3, 3> c = this->corners(f);
     const Vec3 lower = c[0].cwiseMin(c[1]).cwiseMin(c[2]).array() - this->tolerance_;
     const Vec3 upper = c[0].cwiseMax(c[1]).cwiseMax(c[2]).array() + this->tolerance_;
-    const Index first = first_from(zs, lower.z(), per_z);
+    const Index first = lower_bound_index(zs, lower.z(), per_z);
     Index end = first;
     if (first < zs_count && zs[first] <= upper.z() && xs.front() <= upper.x())
     {
-      end = first_from(zs, upper.z(), per_z);
+      end = lower_bound_index(zs, upper.z(), per_z);
       end += end < zs_count && zs[end] <= upper.z();
       const double across = (upper.y() - lower.y()) * per_y;
       rows += static_cast<double>(end - first) * std::min(across, static_cast<double>(ys.size()));
     }
-    ranges[f] = { static_cast<std::int32_t>(first / layers.per_slab),
-      static_cast<std::int32_t>(end > first ? (end - 1) / layers.per_slab : -1) };
+    ranges[f] = { static_cast<std::int32_t>(first / layers.layers_per_slab),
+      static_cast<std::int32_t>(end > first ? (end - 1) / layers.layers_per_slab : -1) };
     for (Index s = ranges[f].first; s <= ranges[f].last; ++s)
     {
       layers.begin[s + 1] += 1;
@@ -497,7 +499,7 @@ RayCrossings::Layers RayCrossings::layers_of(const Grid& grid) const
   {
     layers.begin[s + 1] += layers.begin[s];
   }
-  if (layers.begin.back() > most_slabs_per_face * this->faces_ + 1000000)
+  if (layers.begin.back() > maximum_slabs_per_face * this->faces_ + 1000000)
   {
     layers.nanoseconds = std::numeric_limits<double>::infinity();
     return layers;
@@ -587,19 +589,20 @@ void RayCrossings::count_slab(const Grid& grid, const Layers& layers, Index slab
   const auto& [xs, ys, zs] = grid.at;
   const auto length = static_cast<Index>(xs.size());
   const auto rows = static_cast<Index>(ys.size());
-  const Index first_layer = slab * layers.per_slab;
-  const Index last_layer = std::min(static_cast<Index>(zs.size()), first_layer + layers.per_slab);
-  const double per_x = per_length_of(xs), per_y = per_length_of(ys), per_z = per_length_of(zs);
+  const Index first_layer = slab * layers.layers_per_slab;
+  const Index last_layer =
+    std::min(static_cast<Index>(zs.size()), first_layer + layers.layers_per_slab);
+  const double per_x = index_density(xs), per_y = index_density(ys), per_z = index_density(zs);
   RowHits hits((last_layer - first_layer) * rows);
   for (Index i = layers.begin[slab]; i < layers.begin[slab + 1]; ++i)
   {
     const Facet f = this->facet(layers.faces[i], 0);
-    const Index j0 = first_from(ys, f.lower[1], per_y);
+    const Index j0 = lower_bound_index(ys, f.lower[1], per_y);
     if (j0 == rows || ys[j0] > f.upper[1])
     {
       continue;
     }
-    const Index k0 = std::max(first_layer, first_from(zs, f.lower[2], per_z));
+    const Index k0 = std::max(first_layer, lower_bound_index(zs, f.lower[2], per_z));
     const double per_normal = 1.0 / f.normal[0];
     const double reach = f.plane_bound * std::abs(per_normal);
     for (Index k = k0; k < last_layer && zs[k] <= f.upper[2]; ++k)
@@ -613,13 +616,13 @@ void RayCrossings::count_slab(const Grid& grid, const Layers& layers, Index slab
         const double ab = ay * bz - az * by;
         const double bc = by * cz - bz * cy;
         const double ca = cy * az - cz * ay;
-        const double least = std::min({ ab, bc, ca }), most = std::max({ ab, bc, ca });
-        if (least < -f.outside && most > f.outside)
+        const double minimum = std::min({ ab, bc, ca }), maximum = std::max({ ab, bc, ca });
+        if (minimum < -f.outside && maximum > f.outside)
         {
           continue;
         }
         const Index row = (k - first_layer) * rows + j;
-        const bool certain = least > f.edge_bound || most < -f.edge_bound;
+        const bool certain = minimum > f.edge_bound || maximum < -f.edge_bound;
         // Samples with x coordinates from `x` to `y` are tested one by one. If the triangle is
         // parallel to the rows, `center` is NaN and the comparisons select the ends of the box.
         const double center = f.x[0] + (f.normal[1] * ay + f.normal[2] * az) * per_normal;
@@ -627,22 +630,22 @@ void RayCrossings::count_slab(const Grid& grid, const Layers& layers, Index slab
           center - reach > f.lower[0] ? std::min(center - reach, f.upper[0]) : f.lower[0];
         const double y =
           center + reach < f.upper[0] ? std::max(center + reach, f.lower[0]) : f.upper[0];
-        Index at = first_from(xs, x, per_x);
+        Index at = lower_bound_index(xs, x, per_x);
         bool touches = false;
         if (certain)
         {
-          hits.add(row, at, least > 0.0 ? 1 : -1);
+          hits.add(row, at, minimum > 0.0 ? 1 : -1);
         }
         else if (at > 0)
         {
           // A ray that starts in front of the box crosses the triangle if it crosses the triangle's
           // projection.
-          hits.add(row, at, this->crossing_of(f, Vec3(f.lower[0] - 1.0, py, pz), touches));
+          hits.add(row, at, this->signed_crossing(f, Vec3(f.lower[0] - 1.0, py, pz), touches));
         }
         for (; at < length && xs[at] <= y; ++at)
         {
           touches = false;
-          const int sign = this->crossing_of(f, Vec3(xs[at], py, pz), touches);
+          const int sign = this->signed_crossing(f, Vec3(xs[at], py, pz), touches);
           if (touches)
           {
             unresolved.push_back(row * length + at);

@@ -50,7 +50,7 @@ public:
   /// z). Slabs can be evaluated independently.
   struct Layers
   {
-    Index per_slab = 1; ///< number of layers per slab
+    Index layers_per_slab = 1; ///< number of layers per slab
     /// Index of each slab's first triangle in `faces`; the last entry is the size of `faces`.
     std::vector<Index> begin;
     std::vector<std::int32_t> faces;
@@ -58,7 +58,7 @@ public:
     /// surface is too large for rays; `faces` is then empty.
     double nanoseconds = 0.0;
   };
-  Layers layers_of(const Grid& grid) const;
+  Layers find_layers(const Grid& grid) const;
   /// Write the winding numbers of the samples of a slab to `values`. x varies fastest, and the
   /// first value belongs to the first layer of the slab. Append the indices (in `values`) of
   /// unresolved samples to `unresolved`; they are not sorted and may occur twice. Thread-safe.
@@ -73,7 +73,7 @@ private:
   Facet facet(Index face, int axis) const;
   /// Return +1 if the ray crosses the triangle outwards, -1 if inwards, and 0 if it does not cross.
   /// Set `touches` if the point touches the triangle.
-  int crossing_of(const Facet& facet, const Vec3& point, bool& touches) const;
+  int signed_crossing(const Facet& facet, const Vec3& point, bool& touches) const;
 
   const Points* points_;
   const Triangles* triangles_;

@@ -14,20 +14,20 @@ namespace bindpose
 SurfaceBoundary surface_boundary(
   PointsView points, TrianglesView triangles, const std::vector<Edge>& edges, TrianglesView caps)
 {
-  const Components parts = connected_components(points.rows(), triangles);
+  const Components components = connected_components(points.rows(), triangles);
   SurfaceBoundary boundary;
-  boundary.components.resize(static_cast<std::size_t>(parts.count));
-  std::vector<Index> origin(static_cast<std::size_t>(parts.count), -1);
+  boundary.components.resize(static_cast<std::size_t>(components.count));
+  std::vector<Index> origin(static_cast<std::size_t>(components.count), -1);
   const auto add = [&](const auto& corners, Index counts)
   {
-    const Index part = parts.of_vertex[corners[0]];
-    Index& o = origin[part];
+    const Index component = components.component_of_vertex[corners[0]];
+    Index& o = origin[component];
     o = o < 0 ? corners[0] : o;
     const Vec3 a = points.row(corners[0]) - points.row(o);
     const Vec3 b = points.row(corners[1]) - points.row(o);
     const Vec3 c = points.row(corners[2]) - points.row(o);
-    boundary.components[part].triangles += counts;
-    boundary.components[part].volume += a.dot(b.cross(c)) / 6.0;
+    boundary.components[component].triangles += counts;
+    boundary.components[component].volume += a.dot(b.cross(c)) / 6.0;
   };
   for (Index t = 0; t < triangles.rows(); ++t)
   {
@@ -41,12 +41,12 @@ SurfaceBoundary surface_boundary(
   {
     if (edge.net_direction != 0)
     {
-      const Index part = parts.of_vertex[edge.a];
+      const Index component = components.component_of_vertex[edge.a];
       const Index multiplicity = std::abs(edge.net_direction);
       const bool forwards = edge.net_direction > 0;
       boundary.edges.push_back(
-        { forwards ? edge.a : edge.b, forwards ? edge.b : edge.a, multiplicity, part });
-      boundary.components[part].open_edges += multiplicity;
+        { forwards ? edge.a : edge.b, forwards ? edge.b : edge.a, multiplicity, component });
+      boundary.components[component].open_edges += multiplicity;
     }
   }
   return boundary;

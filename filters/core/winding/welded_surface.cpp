@@ -44,10 +44,10 @@ std::uint32_t leading_bits(double x)
   return leading & 0x80000000U ? ~leading : leading | 0x80000000U;
 }
 
-/// Sort vertices by x, y, z and id. `at` contains the point of each vertex id. Return false if
-/// canceled.
+/// Sort vertices by x, y, z and id. `positions` contains the point of each vertex id. Return false
+/// if canceled.
 bool sort_vertices(
-  ExecutionContext& context, const std::vector<Vec3>& at, std::vector<Vertex>& vertices)
+  ExecutionContext& context, const std::vector<Vec3>& positions, std::vector<Vertex>& vertices)
 {
   constexpr int bits = 11;
   constexpr std::uint32_t digits = 1U << bits;
@@ -77,8 +77,8 @@ bool sort_vertices(
   }
   const auto less = [&](const Vertex& s, const Vertex& t)
   {
-    const Vec3& a = at[s.id];
-    const Vec3& b = at[t.id];
+    const Vec3& a = positions[s.id];
+    const Vec3& b = positions[t.id];
     for (int k = 0; k < 3; ++k)
     {
       if (a[k] != b[k])
@@ -120,10 +120,10 @@ std::uint64_t packed(Index first, Index second)
 }
 
 /// Group items by a vertex: the items of vertex v are items[begin[v] … begin[v + 1]), ascending.
-/// `visit(see)` must call see(vertex, item) for all items. lay_out() calls `visit` twice. Return
-/// false if canceled.
+/// `visit(see)` must call see(vertex, item) for all items. group_by_vertex() calls `visit` twice.
+/// Return false if canceled.
 template <typename Visit>
-bool lay_out(ExecutionContext& context, Index vertices, const Visit& visit,
+bool group_by_vertex(ExecutionContext& context, Index vertices, const Visit& visit,
   std::vector<Index>& begin, std::vector<std::uint64_t>& items)
 {
   begin.assign(static_cast<std::size_t>(vertices) + 1, 0);
@@ -156,16 +156,16 @@ bool weld(ExecutionContext& context, PointsView points, TrianglesView triangles,
     used[triangles.data()[k]] = 1;
   }
   std::vector<Vertex> vertices;
-  std::vector<Vec3> at(static_cast<std::size_t>(points.rows()));
+  std::vector<Vec3> positions(static_cast<std::size_t>(points.rows()));
   for (Index v = 0; v < points.rows(); ++v)
   {
     if (used[v])
     {
-      at[v] = frame(points.row(v));
-      vertices.push_back({ leading_bits(at[v].x()), static_cast<std::int32_t>(v) });
+      positions[v] = frame(points.row(v));
+      vertices.push_back({ leading_bits(positions[v].x()), static_cast<std::int32_t>(v) });
     }
   }
-  if (!sort_vertices(context, at, vertices))
+  if (!sort_vertices(context, positions, vertices))
   {
     return false;
   }
@@ -174,8 +174,8 @@ bool weld(ExecutionContext& context, PointsView points, TrianglesView triangles,
   welded.points.resize(static_cast<Index>(vertices.size()), 3);
   for (std::size_t i = 0; i < vertices.size(); ++i)
   {
-    const Vec3& here = at[vertices[i].id];
-    if (i == 0 || here != at[vertices[i - 1].id])
+    const Vec3& here = positions[vertices[i].id];
+    if (i == 0 || here != positions[vertices[i - 1].id])
     {
       welded.points.row(count++) = here.transpose();
       welded.original_vertices.push_back(vertices[i].id);
@@ -212,17 +212,17 @@ bool count_duplicates(
 {
   std::vector<Index> begin;
   // The two larger corner ids of each triangle, packed in ascending order.
-  std::vector<std::uint64_t> others;
-  const auto visit = [&](const auto& see)
+  std::vector<std::uint64_t> other_corners;
+  const auto visit = [&](const auto& emit)
   {
     for (Index t = 0; t < triangles.rows(); ++t)
     {
       const Index a = triangles(t, 0), b = triangles(t, 1), c = triangles(t, 2);
       const Index least = std::min({ a, b, c }), most = std::max({ a, b, c });
-      see(least, packed(a + b + c - least - most, most));
+      emit(least, packed(a + b + c - least - most, most));
     }
   };
-  if (!lay_out(context, vertices, visit, begin, others))
+  if (!group_by_vertex(context, vertices, visit, begin, other_corners))
   {
     return false;
   }
@@ -230,7 +230,7 @@ bool count_duplicates(
   {
     for (Index i = begin[v] + 1; i < begin[v + 1]; ++i)
     {
-      duplicates += others[i] == others[i - 1];
+      duplicates += other_corners[i] == other_corners[i - 1];
     }
   }
   return true;
@@ -244,7 +244,7 @@ bool find_edges(
   std::vector<Index> begin;
   // For each triangle side: the larger vertex id, and 1 if the side points to that vertex.
   std::vector<std::uint64_t> sides;
-  const auto visit = [&](const auto& see)
+  const auto visit = [&](const auto& emit)
   {
     for (Index t = 0; t < triangles.rows(); ++t)
     {
@@ -252,11 +252,11 @@ bool find_edges(
       {
         const Index from = triangles(t, k);
         const Index to = triangles(t, (k + 1) % 3);
-        see(std::min(from, to), packed(std::max(from, to), from < to ? 1 : 0));
+        emit(std::min(from, to), packed(std::max(from, to), from < to ? 1 : 0));
       }
     }
   };
-  if (!lay_out(context, vertices, visit, begin, sides))
+  if (!group_by_vertex(context, vertices, visit, begin, sides))
   {
     return false;
   }

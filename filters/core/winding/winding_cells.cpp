@@ -28,13 +28,14 @@ namespace
 {
 /// Largest change of a stored coordinate by rounding, including a margin for the round-off of
 /// floats.
-constexpr float rounded_by = 0.57f;
+constexpr float rounding_error = 0.57f;
 } // namespace
 
 std::array<Vec3, 3> WindingCells::corners(Id face) const
 {
-  const Index own = this->triangles_->rows();
-  const auto row = face < own ? this->triangles_->row(face) : this->caps_->row(face - own);
+  const Index triangle_count = this->triangles_->rows();
+  const auto row =
+    face < triangle_count ? this->triangles_->row(face) : this->caps_->row(face - triangle_count);
   return { Vec3(this->points_->row(row[0])), Vec3(this->points_->row(row[1])),
     Vec3(this->points_->row(row[2])) };
 }
@@ -44,41 +45,42 @@ bool WindingCells::is_outside(const Vec3& p) const
   return !((p.array() >= this->lower_.array()).all() && (p.array() <= this->upper_.array()).all());
 }
 
-std::array<WindingCells::Id, 3> WindingCells::place_of(const Node& node, const Vec3& p) const
+std::array<WindingCells::Id, 3> WindingCells::cell_coordinates(
+  const Node& node, const Vec3& p) const
 {
-  std::array<Id, 3> place;
+  std::array<Id, 3> coordinates;
   for (int k = 0; k < 3; ++k)
   {
-    place[k] =
+    coordinates[k] =
       std::clamp(static_cast<Id>((p[k] - node.lower[k]) * node.inverse), Id(0), node.size[k] - 1);
   }
-  return place;
+  return coordinates;
 }
 
 /// Return the signed crossings of the segment from the point q to the reference, which is the
 /// origin. q and `touching` are in units of the stored plane distances. Faces with an undecided
 /// sign, and faces within the distance `touching` of the point, are not counted but added to
-/// `unclear`.
-BINDPOSE_SIMD_CLONES int WindingCells::tally(const Block* begin, const Block* end,
-  const Faces* faces, float touching, const float* q, Unclear& unclear)
+/// `undecided`.
+BINDPOSE_SIMD_CLONES int WindingCells::count_crossings(const Block* begin, const Block* end,
+  const Faces* faces, float touching, const float* q, UndecidedFaces& undecided)
 {
   const float qx = q[0], qy = q[1], qz = q[2];
   const float length = std::abs(qx) + std::abs(qy) + std::abs(qz);
   // A point at the distance d from a triangle has a signed distance of at least -d from the planes
   // through its edges (positive on the side of the triangle).
-  const float edge_bound = rounded_by * length + 1.01f * Block::one * touching;
-  const float side_bound = edge_bound + rounded_by * Block::one;
+  const float edge_bound = rounding_error * length + 1.01f * Block::fixed_point_one * touching;
+  const float side_bound = edge_bound + rounding_error * Block::fixed_point_one;
   std::int32_t counts[lanes] = {};
   for (const Block* block = begin; block != end; ++block)
   {
     // The conversion to floats is a separate loop, because compilers would not vectorize the next
     // loop if it contained the conversion.
-    float plane[Block::numbers * lanes];
-    for (int k = 0; k < Block::numbers * lanes; ++k)
+    float plane[Block::values_per_plane * lanes];
+    for (int k = 0; k < Block::values_per_plane * lanes; ++k)
     {
       plane[k] = static_cast<float>(block->plane[k]);
     }
-    std::int32_t open[lanes];
+    std::int32_t undecided_lanes[lanes];
     std::int32_t any = 0;
     for (int i = 0; i < lanes; ++i)
     {
@@ -89,25 +91,25 @@ BINDPOSE_SIMD_CLONES int WindingCells::tally(const Block* begin, const Block* en
         qx * plane[6 * lanes + i] + qy * plane[7 * lanes + i] + qz * plane[8 * lanes + i];
       const float across =
         qx * plane[9 * lanes + i] + qy * plane[10 * lanes + i] + qz * plane[11 * lanes + i];
-      const float other_side = Block::one * plane[12 * lanes + i];
+      const float other_side = Block::fixed_point_one * plane[12 * lanes + i];
       const float side = other_side - across;
       const float least = u < v ? (u < w ? u : w) : (v < w ? v : w);
-      const float most = u > v ? (u > w ? u : w) : (v > w ? v : w);
+      const float maximum = u > v ? (u > w ? u : w) : (v > w ? v : w);
       const bool before = side > side_bound, behind = side < -side_bound;
       const bool to_before = other_side > side_bound, to_behind = other_side < -side_bound;
-      const bool none =
-        ((least < -edge_bound) & (most > edge_bound)) | (before & to_before) | (behind & to_behind);
-      const bool outwards = (most < -edge_bound) & before & to_behind;
+      const bool none = ((least < -edge_bound) & (maximum > edge_bound)) | (before & to_before) |
+        (behind & to_behind);
+      const bool outwards = (maximum < -edge_bound) & before & to_behind;
       const bool inwards = (least > edge_bound) & behind & to_before;
       counts[i] += (outwards ? 1 : 0) - (inwards ? 1 : 0);
-      open[i] = none | outwards | inwards ? 0 : 1;
-      any |= open[i];
+      undecided_lanes[i] = none | outwards | inwards ? 0 : 1;
+      any |= undecided_lanes[i];
     }
     if (any)
     {
       for (int i = 0; i < lanes; ++i)
       {
-        unclear.add(open[i] ? faces[block - begin][i] : -1);
+        undecided.add(undecided_lanes[i] ? faces[block - begin][i] : -1);
       }
     }
   }
@@ -119,27 +121,27 @@ BINDPOSE_SIMD_CLONES int WindingCells::tally(const Block* begin, const Block* en
   return sum;
 }
 
-bool WindingCells::count_in(const Leaf& found, const Vec3& p, int& count) const
+bool WindingCells::count_in_leaf(const Leaf& leaf, const Vec3& p, int& count) const
 {
-  const Vec3 seen = static_cast<double>(found.per_length) * (p - found.reference);
-  const float q[3] = { static_cast<float>(seen[0]), static_cast<float>(seen[1]),
-    static_cast<float>(seen[2]) };
-  Unclear unclear;
-  count = found.count +
-    tally(this->arrays_.blocks.data() + found.begin, this->arrays_.blocks.data() + found.end,
-      this->arrays_.faces.data() + found.begin,
-      found.per_length * static_cast<float>(this->tolerance_), q, unclear);
-  if (unclear.number == 0)
+  const Vec3 relative = static_cast<double>(leaf.distance_scale) * (p - leaf.reference);
+  const float q[3] = { static_cast<float>(relative[0]), static_cast<float>(relative[1]),
+    static_cast<float>(relative[2]) };
+  UndecidedFaces undecided;
+  count = leaf.count +
+    count_crossings(this->arrays_.blocks.data() + leaf.begin,
+      this->arrays_.blocks.data() + leaf.end, this->arrays_.faces.data() + leaf.begin,
+      leaf.distance_scale * static_cast<float>(this->tolerance_), q, undecided);
+  if (undecided.number == 0)
   {
     return true;
   }
-  if (unclear.number > Unclear::most)
+  if (undecided.number > UndecidedFaces::maximum)
   {
     return false;
   }
-  for (Id k = 0; k < unclear.number; ++k)
+  for (Id k = 0; k < undecided.number; ++k)
   {
-    const std::array<Vec3, 3> corners = this->corners(unclear.faces[k]);
+    const std::array<Vec3, 3> corners = this->corners(undecided.faces[k]);
     const Vec3 u = corners[1] - corners[0];
     const Vec3 v = corners[2] - corners[0];
     const Vec3 r = corners[0] - p;
@@ -149,8 +151,8 @@ bool WindingCells::count_in(const Leaf& found, const Vec3& p, int& count) const
     {
       return false;
     }
-    const Crossing what = crossing(p, found.reference, corners);
-    if (what == Crossing::unclear)
+    const Crossing what = crossing(p, leaf.reference, corners);
+    if (what == Crossing::undecided)
     {
       return false;
     }
@@ -163,13 +165,13 @@ void WindingCells::evaluate(const Vec3* points, Index number, int* counts, bool*
 {
   // All points descend in parallel: the data of one point is prefetched while other points are
   // processed.
-  std::array<const Cell*, most_at_once> cells;
-  std::array<Id, most_at_once> waiting;
-  Id left = 0;
+  std::array<const Cell*, maximum_batch> cells;
+  std::array<Id, maximum_batch> active;
+  Id active_count = 0;
   const auto look_up = [&](Id i, Id id)
   {
-    const Node& at = this->arrays_.nodes[id];
-    cells[i] = &this->cell_at(at, this->place_of(at, points[i]));
+    const Node& node = this->arrays_.nodes[id];
+    cells[i] = &this->cell_at(node, this->cell_coordinates(node, points[i]));
     __builtin_prefetch(cells[i]);
   };
   for (Index i = 0; i < number; ++i)
@@ -178,24 +180,24 @@ void WindingCells::evaluate(const Vec3* points, Index number, int* counts, bool*
     resolved[i] = true;
     if (!this->is_outside(points[i]))
     {
-      waiting[left++] = static_cast<Id>(i);
+      active[active_count++] = static_cast<Id>(i);
       look_up(static_cast<Id>(i), 0);
     }
   }
-  std::array<Id, most_at_once> in_leaves;
+  std::array<Id, maximum_batch> in_leaves;
   Id leaves = 0;
-  while (left > 0)
+  while (active_count > 0)
   {
-    Id still = 0;
-    for (Id k = 0; k < left; ++k)
+    Id next_count = 0;
+    for (Id k = 0; k < active_count; ++k)
     {
-      const Id i = waiting[k];
+      const Id i = active[k];
       const Cell cell = *cells[i];
-      if (cell.kind == holds_nothing)
+      if (cell.kind == empty_cell)
       {
         counts[i] = cell.value;
       }
-      else if (cell.kind == holds_leaf)
+      else if (cell.kind == leaf_cell)
       {
         __builtin_prefetch(&this->arrays_.leaves[cell.value]);
         in_leaves[leaves++] = i;
@@ -203,21 +205,21 @@ void WindingCells::evaluate(const Vec3* points, Index number, int* counts, bool*
       else
       {
         __builtin_prefetch(&this->arrays_.nodes[cell.value]);
-        waiting[still++] = i;
+        active[next_count++] = i;
       }
     }
-    for (Id k = 0; k < still; ++k)
+    for (Id k = 0; k < next_count; ++k)
     {
-      look_up(waiting[k], cells[waiting[k]]->value);
+      look_up(active[k], cells[active[k]]->value);
     }
-    left = still;
+    active_count = next_count;
   }
   for (Id k = 0; k < leaves; ++k)
   {
-    const Leaf& found = this->arrays_.leaves[cells[in_leaves[k]]->value];
+    const Leaf& leaf = this->arrays_.leaves[cells[in_leaves[k]]->value];
     const char* const begin =
-      reinterpret_cast<const char*>(this->arrays_.blocks.data() + found.begin);
-    const char* const end = reinterpret_cast<const char*>(this->arrays_.blocks.data() + found.end);
+      reinterpret_cast<const char*>(this->arrays_.blocks.data() + leaf.begin);
+    const char* const end = reinterpret_cast<const char*>(this->arrays_.blocks.data() + leaf.end);
     for (const char* line = begin; line < end && line < begin + 768; line += 64)
     {
       __builtin_prefetch(line);
@@ -226,7 +228,7 @@ void WindingCells::evaluate(const Vec3* points, Index number, int* counts, bool*
   for (Id k = 0; k < leaves; ++k)
   {
     const Id i = in_leaves[k];
-    resolved[i] = this->count_in(this->arrays_.leaves[cells[i]->value], points[i], counts[i]);
+    resolved[i] = this->count_in_leaf(this->arrays_.leaves[cells[i]->value], points[i], counts[i]);
   }
 }
 
@@ -247,37 +249,37 @@ void WindingCells::evaluate_row(const double* xs, Index number, double y, double
       counts[i++] = 0.0;
       continue;
     }
-    const Node* at = this->arrays_.nodes.data();
-    std::array<Id, 3> place = this->place_of(*at, p);
-    Cell cell = this->cell_at(*at, place);
-    while (cell.kind == holds_node)
+    const Node* node = this->arrays_.nodes.data();
+    std::array<Id, 3> coordinates = this->cell_coordinates(*node, p);
+    Cell cell = this->cell_at(*node, coordinates);
+    while (cell.kind == node_cell)
     {
-      at = &this->arrays_.nodes[cell.value];
-      place = this->place_of(*at, p);
-      cell = this->cell_at(*at, place);
+      node = &this->arrays_.nodes[cell.value];
+      coordinates = this->cell_coordinates(*node, p);
+      cell = this->cell_at(*node, coordinates);
     }
     // Part of the row in this cell. A small margin at the cell's sides is excluded, because
     // rounding could assign its points to the neighboring cell, and evaluate() must find every
     // point in the same cell.
-    const double lower = at->lower.x() + (place[0] + 1e-6) / at->inverse;
-    const double upper = at->lower.x() + (place[0] + 1 - 1e-6) / at->inverse;
+    const double lower = node->lower.x() + (coordinates[0] + 1e-6) / node->inverse;
+    const double upper = node->lower.x() + (coordinates[0] + 1 - 1e-6) / node->inverse;
     Index end = i + 1;
     while (end < number && xs[end] > lower && xs[end] < upper)
     {
       ++end;
     }
-    if (cell.kind == holds_nothing)
+    if (cell.kind == empty_cell)
     {
       std::fill(counts + i, counts + end, static_cast<double>(cell.value));
       i = end;
       continue;
     }
-    const Leaf& found = this->arrays_.leaves[cell.value];
+    const Leaf& leaf = this->arrays_.leaves[cell.value];
     for (; i < end; ++i)
     {
       p.x() = xs[i];
       int count = 0;
-      if (!this->count_in(found, p, count))
+      if (!this->count_in_leaf(leaf, p, count))
       {
         unresolved.push_back(i);
       }

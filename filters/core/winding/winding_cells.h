@@ -28,11 +28,11 @@ public:
   bool build(ExecutionContext& context, const Points& points, const Triangles& triangles,
     const Triangles& caps, double tolerance);
 
-  /// Compute the winding numbers of up to `most_at_once` points. Several points per call are
+  /// Compute the winding numbers of up to `maximum_batch` points. Several points per call are
   /// faster, because memory for the next point is prefetched while the current one is processed.
   /// resolved[i] is false if point i touches a triangle or a cap, and for about one in 1e12 other
   /// points. The caller must use another method for unresolved points. Thread-safe.
-  static constexpr Index most_at_once = 32;
+  static constexpr Index maximum_batch = 32;
   void evaluate(const Vec3* points, Index number, int* counts, bool* resolved) const;
 
   /// Compute the winding numbers of the points (xs[0 … number), y, z). Consecutive points in one
@@ -53,16 +53,16 @@ private:
   /// arrays: each coordinate is stored for all triangles before the next coordinate.
   struct Block
   {
-    static constexpr int numbers = 13;
-    static constexpr float one = 32767.0f; ///< stored length of a unit normal
-    std::int16_t plane[numbers * lanes];
+    static constexpr int values_per_plane = 13;
+    static constexpr float fixed_point_one = 32767.0f; ///< stored length of a unit normal
+    std::int16_t plane[values_per_plane * lanes];
   };
   /// Triangle ids, -1 if unused. Rarely accessed, so stored apart from the planes.
   using Faces = std::array<Id, lanes>;
   struct Leaf
   {
     Vec3 reference;
-    float per_length; ///< factor from lengths to stored plane distances
+    float distance_scale; ///< factor from lengths to stored plane distances
     int count; ///< winding number at the reference
     Id begin, end; ///< range of the leaf's blocks
   };
@@ -76,9 +76,9 @@ private:
   };
   enum Kind : std::uint32_t
   {
-    holds_nothing, ///< `value` is the constant winding number of the cell
-    holds_leaf,
-    holds_node
+    empty_cell, ///< `value` is the constant winding number of the cell
+    leaf_cell,
+    node_cell
   };
   struct Cell
   {
@@ -86,16 +86,16 @@ private:
     std::uint32_t kind : 2;
   };
   /// Faces for which single precision cannot decide whether the segment crosses them.
-  struct Unclear
+  struct UndecidedFaces
   {
-    static constexpr Id most = 32;
-    std::array<Id, most> faces;
-    /// Number of faces, which may exceed `most`; then only the first `most` faces are stored.
+    static constexpr Id maximum = 32;
+    std::array<Id, maximum> faces;
+    /// Number of faces, which may exceed `maximum`; then only the first `maximum` faces are stored.
     Id number = 0;
 
     void add(Id face)
     {
-      if (face >= 0 && this->number++ < most)
+      if (face >= 0 && this->number++ < maximum)
       {
         this->faces[this->number - 1] = face;
       }
@@ -103,17 +103,17 @@ private:
   };
   class Builder;
 
-  std::array<Id, 3> place_of(const Node& node, const Vec3& p) const;
-  const Cell& cell_at(const Node& node, const std::array<Id, 3>& place) const
+  std::array<Id, 3> cell_coordinates(const Node& node, const Vec3& p) const;
+  const Cell& cell_at(const Node& node, const std::array<Id, 3>& coordinates) const
   {
-    return this->arrays_
-      .cells[node.first + (place[2] * node.size[1] + place[1]) * node.size[0] + place[0]];
+    return this->arrays_.cells[node.first +
+      (coordinates[2] * node.size[1] + coordinates[1]) * node.size[0] + coordinates[0]];
   }
   bool is_outside(const Vec3& p) const;
   std::array<Vec3, 3> corners(Id face) const;
-  bool count_in(const Leaf& leaf, const Vec3& p, int& count) const;
-  static int tally(const Block* begin, const Block* end, const Faces* faces, float touching,
-    const float* q, Unclear& unclear);
+  bool count_in_leaf(const Leaf& leaf, const Vec3& p, int& count) const;
+  static int count_crossings(const Block* begin, const Block* end, const Faces* faces,
+    float touching, const float* q, UndecidedFaces& undecided);
 
   const Points* points_ = nullptr;
   const Triangles* triangles_ = nullptr;

@@ -23,14 +23,14 @@ namespace
 /// Cells with more triangles are divided further. Measured on refined_elephant.off: 30 takes an
 /// eighth more memory and the same time; 56 takes an eighth less memory and a fifth more time near
 /// the surface.
-constexpr std::size_t few = 40;
+constexpr std::size_t maximum_leaf_faces = 40;
 /// Intended number of triangles in a new cell.
 constexpr double wanted = 18;
-constexpr int most_cells_along = 32;
+constexpr int maximum_cells_along = 32;
 /// Minimum number of cells along the longest side of the surface's box, so that most points around
 /// a few large triangles are in cells without triangles.
-constexpr double fewest_cells_along = 8.0;
-constexpr int deepest = 12;
+constexpr double minimum_cells_along = 8.0;
+constexpr int maximum_depth = 12;
 /// Stored number for a plane distance of one cell size. It is slightly less than the largest number
 /// of 16 bits.
 constexpr double distance_units = 32000.0;
@@ -69,11 +69,12 @@ bool overlaps(const std::array<Vec3, 3>& corners, const Vec3& center, const Vec3
   return true;
 }
 
-/// A triangle with sorted corner ids; `turn` is 1 if sorting was an even permutation and -1 if odd.
+/// A triangle with sorted corner ids; `parity` is 1 if sorting was an even permutation and -1 if
+/// odd.
 struct SortedCorners
 {
   std::array<Index, 3> ids;
-  int turn;
+  int parity;
   Index triangle;
 };
 
@@ -85,7 +86,7 @@ SortedCorners sorted_corners(const Triangles& triangles, Index t)
     if (corners.ids[i] > corners.ids[k])
     {
       std::swap(corners.ids[i], corners.ids[k]);
-      corners.turn = -corners.turn;
+      corners.parity = -corners.parity;
     }
   }
   return corners;
@@ -93,48 +94,48 @@ SortedCorners sorted_corners(const Triangles& triangles, Index t)
 
 /// Return the ids of the triangles, followed by the ids of the caps, in ascending order. Pairs of
 /// triangles with the same corners and opposite orientation are omitted.
-std::vector<std::int32_t> without_opposites(const Triangles& triangles, const Triangles& caps)
+std::vector<std::int32_t> remove_opposite_pairs(const Triangles& triangles, const Triangles& caps)
 {
-  std::vector<SortedCorners> of_caps;
+  std::vector<SortedCorners> cap_corners;
   for (Index t = 0; t < caps.rows(); ++t)
   {
-    of_caps.push_back(sorted_corners(caps, t));
+    cap_corners.push_back(sorted_corners(caps, t));
   }
-  std::sort(of_caps.begin(), of_caps.end(),
+  std::sort(cap_corners.begin(), cap_corners.end(),
     [](const SortedCorners& x, const SortedCorners& y)
     { return x.ids != y.ids ? x.ids < y.ids : x.triangle < y.triangle; });
-  std::vector<char> gone(of_caps.size(), 0);
-  std::vector<std::int32_t> kept;
-  kept.reserve(static_cast<std::size_t>(triangles.rows() + caps.rows()));
+  std::vector<char> gone(cap_corners.size(), 0);
+  std::vector<std::int32_t> remaining;
+  remaining.reserve(static_cast<std::size_t>(triangles.rows() + caps.rows()));
   for (Index t = 0; t < triangles.rows(); ++t)
   {
     bool canceled = false;
-    if (!of_caps.empty())
+    if (!cap_corners.empty())
     {
       const SortedCorners own = sorted_corners(triangles, t);
-      auto cap = std::lower_bound(of_caps.begin(), of_caps.end(), own.ids,
+      auto cap = std::lower_bound(cap_corners.begin(), cap_corners.end(), own.ids,
         [](const SortedCorners& x, const std::array<Index, 3>& ids) { return x.ids < ids; });
-      for (; cap != of_caps.end() && cap->ids == own.ids && !canceled; ++cap)
+      for (; cap != cap_corners.end() && cap->ids == own.ids && !canceled; ++cap)
       {
-        char& is_gone = gone[static_cast<std::size_t>(cap - of_caps.begin())];
-        canceled = !is_gone && cap->turn != own.turn;
-        is_gone = is_gone || canceled;
+        char& cap_canceled = gone[static_cast<std::size_t>(cap - cap_corners.begin())];
+        canceled = !cap_canceled && cap->parity != own.parity;
+        cap_canceled = cap_canceled || canceled;
       }
     }
     if (!canceled)
     {
-      kept.push_back(static_cast<std::int32_t>(t));
+      remaining.push_back(static_cast<std::int32_t>(t));
     }
   }
-  for (std::size_t i = 0; i < of_caps.size(); ++i)
+  for (std::size_t i = 0; i < cap_corners.size(); ++i)
   {
     if (!gone[i])
     {
-      kept.push_back(static_cast<std::int32_t>(triangles.rows() + of_caps[i].triangle));
+      remaining.push_back(static_cast<std::int32_t>(triangles.rows() + cap_corners[i].triangle));
     }
   }
-  std::sort(kept.begin(), kept.end());
-  return kept;
+  std::sort(remaining.begin(), remaining.end());
+  return remaining;
 }
 } // namespace
 
@@ -170,7 +171,7 @@ private:
     std::vector<int> counts; ///< winding numbers of the references
 
     Id cells() const { return this->size[0] * this->size[1] * this->size[2]; }
-    std::array<Id, 3> place(Id c) const
+    std::array<Id, 3> position(Id c) const
     {
       return { c % this->size[0], c / this->size[0] % this->size[1],
         c / this->size[0] / this->size[1] };
@@ -178,22 +179,22 @@ private:
     Id number(Id c) const { return this->begin[c + 1] - this->begin[c]; }
   };
   using List = std::pair<const Id*, const Id*>;
-  using Found = std::vector<std::pair<Id, Id>>; // cell, face
+  using CellFacePairs = std::vector<std::pair<Id, Id>>; // cell, face
 
-  Grid cells_of(const Box& box, double most_along) const;
-  bool sort(const Box& box, bool on_all_threads, std::size_t most, Grid& grid) const;
-  bool find(
-    const Box& box, const Grid& grid, Index begin, Index end, std::size_t most, Found& found) const;
-  bool refer(const Box& box, Grid& grid) const;
+  Grid choose_cells(const Box& box, double most_along) const;
+  bool sort(const Box& box, bool on_all_threads, std::size_t maximum_entries, Grid& grid) const;
+  bool find(const Box& box, const Grid& grid, Index begin, Index end, std::size_t maximum_entries,
+    CellFacePairs& found) const;
+  bool choose_references(const Box& box, Grid& grid) const;
   static bool crossings(
-    const Box& box, const Vec3& from, const Vec3& to, List some, List others, int& count);
-  bool count_slowly(const Vec3& place, int& count) const;
+    const Box& box, const Vec3& from, const Vec3& to, List range_a, List range_b, int& count);
+  bool count_by_solid_angles(const Vec3& position, int& count) const;
   bool cut_whole(const Box& whole);
-  bool cut(const Box& box, Arrays& made, std::size_t entries) const;
+  bool cut(const Box& box, Arrays& output, std::size_t entries) const;
   bool fill(
-    const Box& box, const Grid& grid, Id c, std::size_t entries, Arrays& made, Cell& cell) const;
+    const Box& box, const Grid& grid, Id c, std::size_t entries, Arrays& output, Cell& cell) const;
   static Id add_leaf(
-    const Box& box, const Vec3& reference, int count, double cell, List faces, Arrays& made);
+    const Box& box, const Vec3& reference, int count, double cell, List faces, Arrays& output);
   void append(const Arrays& part, Id first, Id cells);
 
   WindingCells& owner_;
@@ -213,7 +214,7 @@ bool WindingCells::build(ExecutionContext& context, const Points& points,
 
 bool WindingCells::Builder::build()
 {
-  this->faces_ = without_opposites(*this->owner_.triangles_, *this->owner_.caps_);
+  this->faces_ = remove_opposite_pairs(*this->owner_.triangles_, *this->owner_.caps_);
   Box all;
   bindpose::Box bounds;
   reserve_in_large_pages(all.corners, this->faces_.size());
@@ -253,20 +254,20 @@ bool WindingCells::Builder::build()
 /// Count the signed crossings of a segment with the faces of two lists. A face in both lists is
 /// counted once. Return false if a crossing is unclear.
 bool WindingCells::Builder::crossings(
-  const Box& box, const Vec3& from, const Vec3& to, List some, List others, int& count)
+  const Box& box, const Vec3& from, const Vec3& to, List range_a, List range_b, int& count)
 {
   count = 0;
-  while (some.first != some.second || others.first != others.second)
+  while (range_a.first != range_a.second || range_b.first != range_b.second)
   {
-    const bool both =
-      some.first != some.second && others.first != others.second && *some.first == *others.first;
-    const bool own =
-      others.first == others.second || (some.first != some.second && *some.first <= *others.first);
-    const Id face = own ? *some.first : *others.first;
-    some.first += own || both;
-    others.first += !own || both;
+    const bool both = range_a.first != range_a.second && range_b.first != range_b.second &&
+      *range_a.first == *range_b.first;
+    const bool own = range_b.first == range_b.second ||
+      (range_a.first != range_a.second && *range_a.first <= *range_b.first);
+    const Id face = own ? *range_a.first : *range_b.first;
+    range_a.first += own || both;
+    range_b.first += !own || both;
     const Crossing found = crossing(from, to, box.corners[face]);
-    if (found == Crossing::unclear)
+    if (found == Crossing::undecided)
     {
       return false;
     }
@@ -277,9 +278,9 @@ bool WindingCells::Builder::crossings(
 
 /// Compute the winding number from the solid angles of all faces. Return false if the point touches
 /// a face.
-bool WindingCells::Builder::count_slowly(const Vec3& place, int& count) const
+bool WindingCells::Builder::count_by_solid_angles(const Vec3& position, int& count) const
 {
-  SolidAngleSum sum(place, this->owner_.tolerance_);
+  SolidAngleSum sum(position, this->owner_.tolerance_);
   for (const Id face : this->faces_)
   {
     const std::array<Vec3, 3> corners = this->owner_.corners(face);
@@ -291,26 +292,27 @@ bool WindingCells::Builder::count_slowly(const Vec3& place, int& count) const
 
 /// Choose the cubic cells of a box. The number of cells is chosen so that a cell contains about
 /// `wanted` triangles if the triangles form a sheet.
-WindingCells::Builder::Grid WindingCells::Builder::cells_of(const Box& box, double most_along) const
+WindingCells::Builder::Grid WindingCells::Builder::choose_cells(
+  const Box& box, double most_along) const
 {
   Grid grid;
   grid.faces_before = box.faces.size();
-  const double fewest_along = box.depth == 0 ? fewest_cells_along : 2.0;
+  const double fewest_along = box.depth == 0 ? minimum_cells_along : 2.0;
   const double along = std::min(most_along,
     std::max(fewest_along, std::round(std::sqrt(static_cast<double>(box.faces.size()) / wanted))));
   grid.cell = box.size.maxCoeff() / along;
   for (int k = 0; k < 3; ++k)
   {
     grid.size[k] = std::clamp(
-      static_cast<Id>(std::ceil(box.size[k] / grid.cell - 1e-6)), Id(1), Id(most_cells_along));
+      static_cast<Id>(std::ceil(box.size[k] / grid.cell - 1e-6)), Id(1), Id(maximum_cells_along));
   }
   return grid;
 }
 
 /// Find the cells that the faces [begin, end) of the box overlap. Return false if canceled or if
-/// there are more than `most` pairs of a cell and a face.
-bool WindingCells::Builder::find(
-  const Box& box, const Grid& grid, Index begin, Index end, std::size_t most, Found& found) const
+/// there are more than `maximum_entries` pairs of a cell and a face.
+bool WindingCells::Builder::find(const Box& box, const Grid& grid, Index begin, Index end,
+  std::size_t maximum_entries, CellFacePairs& found) const
 {
   const std::array<Id, 3>& size = grid.size;
   // A small margin, so that the result is also correct for points that rounding assigns to the
@@ -319,7 +321,7 @@ bool WindingCells::Builder::find(
   const double inverse = 1.0 / grid.cell;
   for (Index i = begin; i < end; ++i)
   {
-    if (found.size() > most || (i % 16384 == 16383 && this->context_.canceled()))
+    if (found.size() > maximum_entries || (i % 16384 == 16383 && this->context_.canceled()))
     {
       return false;
     }
@@ -357,26 +359,28 @@ bool WindingCells::Builder::find(
 }
 
 /// Sort the faces of the box into its cells. Return false if canceled or if there would be more
-/// than `most` pairs of a cell and a face.
+/// than `maximum_entries` pairs of a cell and a face.
 bool WindingCells::Builder::sort(
-  const Box& box, bool on_all_threads, std::size_t most, Grid& grid) const
+  const Box& box, bool on_all_threads, std::size_t maximum_entries, Grid& grid) const
 {
   const auto count = static_cast<Index>(box.faces.size());
-  const Index share = on_all_threads ? 16384 : count;
-  std::vector<Found> found(static_cast<std::size_t>((count + share - 1) / share));
+  const Index faces_per_task = on_all_threads ? 16384 : count;
+  std::vector<CellFacePairs> found(
+    static_cast<std::size_t>((count + faces_per_task - 1) / faces_per_task));
   std::atomic<bool> done{ true };
   std::atomic<std::size_t> entries{ 0 };
   const auto body = [&](Index begin, Index end)
   {
-    Found& here = found[begin / share];
-    if (!done || !this->find(box, grid, begin, end, most, here) || (entries += here.size()) > most)
+    CellFacePairs& here = found[begin / faces_per_task];
+    if (!done || !this->find(box, grid, begin, end, maximum_entries, here) ||
+      (entries += here.size()) > maximum_entries)
     {
       done = false;
     }
   };
   if (on_all_threads)
   {
-    done = parallel_for(this->context_, count, share, body) && done;
+    done = parallel_for(this->context_, count, faces_per_task, body) && done;
   }
   else
   {
@@ -387,7 +391,7 @@ bool WindingCells::Builder::sort(
     return false;
   }
   grid.begin.assign(static_cast<std::size_t>(grid.cells()) + 1, 0);
-  for (const Found& part : found)
+  for (const CellFacePairs& part : found)
   {
     for (const auto& entry : part)
     {
@@ -400,7 +404,7 @@ bool WindingCells::Builder::sort(
   }
   grid.faces.resize(static_cast<std::size_t>(grid.begin.back()));
   std::vector<Id> next(grid.begin.begin(), grid.begin.end() - 1);
-  for (const Found& part : found)
+  for (const CellFacePairs& part : found)
   {
     for (const auto& [c, face] : part)
     {
@@ -411,7 +415,7 @@ bool WindingCells::Builder::sort(
 }
 
 /// Choose the references of the cells and compute their winding numbers. Return false if canceled.
-bool WindingCells::Builder::refer(const Box& box, Grid& grid) const
+bool WindingCells::Builder::choose_references(const Box& box, Grid& grid) const
 {
   const Id cells = grid.cells();
   grid.references.resize(static_cast<std::size_t>(cells));
@@ -422,7 +426,7 @@ bool WindingCells::Builder::refer(const Box& box, Grid& grid) const
     {
       return false;
     }
-    const auto [x, y, z] = grid.place(c);
+    const auto [x, y, z] = grid.position(c);
     const Id before = x > 0 ? c - 1 : y > 0 ? c - grid.size[0] : c - grid.size[0] * grid.size[1];
     const Vec3 center = box.lower + grid.cell * Vec3(x + 0.5, y + 0.5, z + 0.5);
     const auto list = [&](Id i)
@@ -433,34 +437,34 @@ bool WindingCells::Builder::refer(const Box& box, Grid& grid) const
       // Place the reference near the center of the cell, in a different direction with irregular
       // ratios at each attempt.
       const double t = attempt + 1.0;
-      const Vec3 place = center +
+      const Vec3 position = center +
         0.05 * grid.cell *
           Vec3(std::sin(1.7 * t + 0.3), std::sin(2.3 * t + 1.1), std::sin(3.1 * t + 2.3));
-      grid.references[c] = place;
+      grid.references[c] = position;
       const List none(nullptr, nullptr);
       int& found = grid.counts[c];
       if (c > 0)
       {
-        resolved = crossings(box, place, grid.references[before], list(c), list(before), found);
+        resolved = crossings(box, position, grid.references[before], list(c), list(before), found);
         found += grid.counts[before];
       }
       else if (box.depth == 0)
       {
         // The segment begins outside the box, where the winding number is 0.
         const Vec3 step = grid.cell * Vec3(1.1, 0.03, 0.05);
-        resolved = crossings(box, place, place - step, list(c), none, found);
+        resolved = crossings(box, position, position - step, list(c), none, found);
       }
       else
       {
         std::vector<Id> all(box.faces.size());
         std::iota(all.begin(), all.end(), 0);
         resolved = crossings(
-          box, place, box.reference, List(all.data(), all.data() + all.size()), none, found);
+          box, position, box.reference, List(all.data(), all.data() + all.size()), none, found);
         found += box.count;
       }
       if (!resolved && attempt % 8 == 7)
       {
-        resolved = this->count_slowly(place, found);
+        resolved = this->count_by_solid_angles(position, found);
       }
     }
   }
@@ -473,24 +477,25 @@ bool WindingCells::Builder::cut_whole(const Box& whole)
   // cells in proportion to the number of faces that each contains. For every arrangement of the
   // faces, the limit bounds the memory to a multiple of the surface's memory. Surfaces with
   // triangles as large as the surface get fewer cells.
-  const double most = 16.0 * static_cast<double>(this->faces_.size()) + 1e5;
+  const double maximum_entries = 16.0 * static_cast<double>(this->faces_.size()) + 1e5;
   Grid grid;
   {
     const ProgressRange range(this->context_, 0.0, 0.3);
     bool sorted = false;
-    for (double along = most_cells_along; !sorted && along >= 1.0 && !this->context_.canceled();
+    for (double along = maximum_cells_along; !sorted && along >= 1.0 && !this->context_.canceled();
          along = 0.5 * whole.size.maxCoeff() / grid.cell)
     {
-      grid = this->cells_of(whole, along);
-      sorted = this->sort(whole, true, static_cast<std::size_t>(most), grid);
+      grid = this->choose_cells(whole, along);
+      sorted = this->sort(whole, true, static_cast<std::size_t>(maximum_entries), grid);
     }
-    if (!sorted || !this->refer(whole, grid))
+    if (!sorted || !this->choose_references(whole, grid))
     {
       return false;
     }
   }
   const Id cells = grid.cells();
-  const double each = most / static_cast<double>(std::max<std::size_t>(1, grid.faces.size()));
+  const double entries_per_pair =
+    maximum_entries / static_cast<double>(std::max<std::size_t>(1, grid.faces.size()));
   constexpr Index cells_at_once = 16;
   std::vector<Arrays> parts(static_cast<std::size_t>((cells + cells_at_once - 1) / cells_at_once));
   Arrays& all = this->owner_.arrays_;
@@ -506,7 +511,7 @@ bool WindingCells::Builder::cut_whole(const Box& whole)
         {
           for (auto c = static_cast<Id>(begin); c < end && done; ++c)
           {
-            const auto entries = static_cast<std::size_t>(each * grid.number(c));
+            const auto entries = static_cast<std::size_t>(entries_per_pair * grid.number(c));
             if (!this->fill(whole, grid, c, entries, parts[begin / cells_at_once], all.cells[c]))
             {
               done = false;
@@ -552,7 +557,7 @@ void WindingCells::Builder::append(const Arrays& part, Id first, Id end)
   const auto leaves = static_cast<Id>(all.leaves.size());
   const auto blocks = static_cast<Id>(all.blocks.size());
   const auto shift = [&](Cell& cell) {
-    cell.value += cell.kind == holds_node ? nodes : cell.kind == holds_leaf ? leaves : 0;
+    cell.value += cell.kind == node_cell ? nodes : cell.kind == leaf_cell ? leaves : 0;
   };
   std::for_each(all.cells.begin() + first, all.cells.begin() + end, shift);
   all.nodes.insert(all.nodes.end(), part.nodes.begin(), part.nodes.end());
@@ -572,36 +577,37 @@ void WindingCells::Builder::append(const Arrays& part, Id first, Id end)
 
 /// Add the box as a new node. Return false if canceled. Return false and add nothing if there would
 /// be more than `entries` pairs of a cell and a face.
-bool WindingCells::Builder::cut(const Box& box, Arrays& made, std::size_t entries) const
+bool WindingCells::Builder::cut(const Box& box, Arrays& output, std::size_t entries) const
 {
-  Grid grid = this->cells_of(box, most_cells_along);
+  Grid grid = this->choose_cells(box, maximum_cells_along);
   if (this->context_.canceled() || !this->sort(box, false, entries, grid) ||
-    !this->refer(box, grid))
+    !this->choose_references(box, grid))
   {
     return false;
   }
   const Id cells = grid.cells();
-  const auto first = static_cast<Id>(made.cells.size());
-  made.cells.resize(static_cast<std::size_t>(first + cells));
-  made.nodes.push_back({ box.lower, 1.0 / grid.cell, grid.size, first });
-  const double each =
+  const auto first = static_cast<Id>(output.cells.size());
+  output.cells.resize(static_cast<std::size_t>(first + cells));
+  output.nodes.push_back({ box.lower, 1.0 / grid.cell, grid.size, first });
+  const double entries_per_pair =
     static_cast<double>(entries) / static_cast<double>(std::max<std::size_t>(1, grid.faces.size()));
   for (Id c = 0; c < cells; ++c)
   {
     Cell cell{};
-    if (!this->fill(box, grid, c, static_cast<std::size_t>(each * grid.number(c)), made, cell))
+    if (!this->fill(
+          box, grid, c, static_cast<std::size_t>(entries_per_pair * grid.number(c)), output, cell))
     {
       return false;
     }
-    made.cells[first + c] = cell;
+    output.cells[first + c] = cell;
   }
   return true;
 }
 
-/// Set `cell` for the cell c of the grid, and add its leaf or node to `made`. Return false if
+/// Set `cell` for the cell c of the grid, and add its leaf or node to `output`. Return false if
 /// canceled.
 bool WindingCells::Builder::fill(
-  const Box& box, const Grid& grid, Id c, std::size_t entries, Arrays& made, Cell& cell) const
+  const Box& box, const Grid& grid, Id c, std::size_t entries, Arrays& output, Cell& cell) const
 {
   const auto number = static_cast<std::size_t>(grid.number(c));
   const List faces(grid.faces.data() + grid.begin[c], grid.faces.data() + grid.begin[c + 1]);
@@ -609,9 +615,10 @@ bool WindingCells::Builder::fill(
   // triangles, one cell of any size contains the vertex, so dividing does not help.
   const bool shrinks = box.depth < 3 || 10 * number < 7 * grid.faces_before;
   const bool large_enough = grid.cell > 1e6 * this->owner_.tolerance_;
-  if (number > few && shrinks && large_enough && box.depth < deepest && entries > number)
+  if (number > maximum_leaf_faces && shrinks && large_enough && box.depth < maximum_depth &&
+    entries > number)
   {
-    const auto [x, y, z] = grid.place(c);
+    const auto [x, y, z] = grid.position(c);
     Box inner;
     inner.lower = box.lower + grid.cell * Vec3(x, y, z);
     inner.size = Vec3::Constant(grid.cell);
@@ -625,8 +632,8 @@ bool WindingCells::Builder::fill(
       inner.corners.push_back(box.corners[*face]);
     }
     inner.depth = box.depth + 1;
-    cell = { static_cast<Id>(made.nodes.size()), holds_node };
-    if (this->cut(inner, made, entries))
+    cell = { static_cast<Id>(output.nodes.size()), node_cell };
+    if (this->cut(inner, output, entries))
     {
       return true;
     }
@@ -636,40 +643,40 @@ bool WindingCells::Builder::fill(
     }
     // The faces are too large to be sorted into smaller cells, so the cell becomes a leaf.
   }
-  cell = { grid.counts[c], holds_nothing };
+  cell = { grid.counts[c], empty_cell };
   if (number > 0)
   {
-    cell = { add_leaf(box, grid.references[c], grid.counts[c], grid.cell, faces, made),
-      holds_leaf };
+    cell = { add_leaf(box, grid.references[c], grid.counts[c], grid.cell, faces, output),
+      leaf_cell };
   }
   return true;
 }
 
 namespace
 {
-/// Return a cross product scaled to the length `one`, or zeros if it is too short to have a
-/// direction. With zeros every sign is undecided.
-std::array<double, 3> direction(const Vec3& product, double shortest, double one)
+/// Return a cross product scaled to the length `fixed_point_one`, or zeros if it is too short to
+/// have a direction. With zeros every sign is undecided.
+std::array<double, 3> direction(const Vec3& product, double shortest, double fixed_point_one)
 {
   const double length = product.norm();
   if (!(length > shortest))
   {
     return { 0.0, 0.0, 0.0 };
   }
-  const Vec3 scaled = product * (one / length);
+  const Vec3 scaled = product * (fixed_point_one / length);
   return { scaled.x(), scaled.y(), scaled.z() };
 }
 } // namespace
 
 WindingCells::Id WindingCells::Builder::add_leaf(
-  const Box& box, const Vec3& reference, int count, double cell, List faces, Arrays& made)
+  const Box& box, const Vec3& reference, int count, double cell, List faces, Arrays& output)
 {
-  constexpr auto one = static_cast<double>(Block::one);
+  constexpr auto fixed_point_one = static_cast<double>(Block::fixed_point_one);
   Leaf leaf;
   leaf.reference = reference;
   leaf.count = count;
-  leaf.per_length = static_cast<float>(distance_units / cell);
-  leaf.begin = static_cast<Id>(made.blocks.size());
+  leaf.distance_scale = static_cast<float>(distance_units / cell);
+  leaf.begin = static_cast<Id>(output.blocks.size());
   for (const Id* first = faces.first; first < faces.second; first += lanes)
   {
     Block block;
@@ -677,52 +684,52 @@ WindingCells::Id WindingCells::Builder::add_leaf(
     for (int lane = 0; lane < lanes; ++lane)
     {
       // An unused lane contains a plane far from the cell.
-      std::array<double, Block::numbers> plane{};
-      plane[12] = one;
+      std::array<double, Block::values_per_plane> plane{};
+      plane[12] = fixed_point_one;
       ids[lane] = -1;
       if (first + lane < faces.second)
       {
         ids[lane] = box.faces[first[lane]];
         const std::array<Vec3, 3>& corners = box.corners[first[lane]];
-        const std::array<Vec3, 3> seen{ corners[0] - reference, corners[1] - reference,
+        const std::array<Vec3, 3> relative{ corners[0] - reference, corners[1] - reference,
           corners[2] - reference };
         double reach = 0.0;
         for (int k = 0; k < 3; ++k)
         {
-          reach = std::max(reach, seen[k].norm());
+          reach = std::max(reach, relative[k].norm());
         }
         for (int k = 0; k < 3; ++k)
         {
-          const auto normal =
-            direction(seen[(k + 1) % 3].cross(seen[(k + 2) % 3]), shortest_product * reach, one);
+          const auto normal = direction(relative[(k + 1) % 3].cross(relative[(k + 2) % 3]),
+            shortest_product * reach, fixed_point_one);
           std::copy(normal.begin(), normal.end(), plane.begin() + 3 * k);
         }
         const Vec3 u = corners[1] - corners[0];
         const Vec3 v = corners[2] - corners[0];
         const Vec3 product = u.cross(v);
         const double longest = std::max(u.norm(), v.norm());
-        const auto normal =
-          direction(product, shortest_product * longest * std::max(1.0, reach / cell), one);
+        const auto normal = direction(
+          product, shortest_product * longest * std::max(1.0, reach / cell), fixed_point_one);
         const double distance =
-          static_cast<double>(leaf.per_length) * product.dot(seen[0]) / product.norm();
+          static_cast<double>(leaf.distance_scale) * product.dot(relative[0]) / product.norm();
         // The condition is true for most faces, because they overlap the cell.
-        const bool is_near = std::abs(distance) < one;
+        const bool is_near = std::abs(distance) < fixed_point_one;
         std::copy(normal.begin(), normal.end(), plane.begin() + 9);
         plane[12] = is_near && normal != std::array<double, 3>{} ? distance : 0.0;
       }
-      for (int k = 0; k < Block::numbers; ++k)
+      for (int k = 0; k < Block::values_per_plane; ++k)
       {
         // Round to the nearest integer; a library call would cost more than the rest.
         block.plane[k * lanes + lane] =
           static_cast<std::int16_t>(plane[k] + (plane[k] < 0.0 ? -0.5 : 0.5));
       }
     }
-    made.blocks.push_back(block);
-    made.faces.push_back(ids);
+    output.blocks.push_back(block);
+    output.faces.push_back(ids);
   }
-  leaf.end = static_cast<Id>(made.blocks.size());
-  made.leaves.push_back(leaf);
-  return static_cast<Id>(made.leaves.size()) - 1;
+  leaf.end = static_cast<Id>(output.blocks.size());
+  output.leaves.push_back(leaf);
+  return static_cast<Id>(output.leaves.size()) - 1;
 }
 
 } // namespace bindpose

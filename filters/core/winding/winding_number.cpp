@@ -39,24 +39,24 @@ namespace bindpose
 namespace
 {
 /// Up to this many triangles the plain sum takes no more time than a data structure.
-constexpr Index few_triangles = 24;
+constexpr Index maximum_direct_triangles = 24;
 /// Up to this many open edges (edges whose directions do not cancel), the sum over the caps takes
 /// less time than a descent of the tree. The tree is also slower if the number of open edges is at
 /// least half the number of triangles. Measured: 14-20 ns per open edge, 20 ns per triangle, 20 to
 /// 600 us for the tree (more on rougher surfaces).
-constexpr Index few_open_edges = 15000;
+constexpr Index maximum_summed_edges = 15000;
 /// Up to this many open edges, the exact sum over the caps takes about as much time as the
 /// DipoleField of the caps.
-constexpr Index hardly_open = 12;
+constexpr Index maximum_exact_edges = 12;
 /// Measured nanoseconds of WindingCells: to build, per triangle; to evaluate a point; to evaluate a
 /// sample of a row.
-constexpr double cells_per_face = 450.0;
-constexpr double cells_per_point = 40.0;
-constexpr double cells_per_sample = 6.0;
+constexpr double cell_build_ns_per_face = 450.0;
+constexpr double cell_ns_per_point = 40.0;
+constexpr double cell_ns_per_sample = 6.0;
 /// Nanoseconds to write a sample of a row.
-constexpr double write_per_sample = 1.0;
+constexpr double write_ns_per_sample = 1.0;
 /// Largest number of points for which rays are used; each point takes 30 bytes.
-constexpr Index most_ray_points = 1 << 22;
+constexpr Index maximum_ray_points = 1 << 22;
 
 double direct_sum(
   PointsView points, TrianglesView triangles, const Vec3& p, double tolerance, bool* on_surface)
@@ -94,7 +94,7 @@ const char* to_string(WindingMethod method)
   return "automatic";
 }
 
-struct WindingNumber::Parts
+struct WindingNumber::Impl
 {
   Status status;
   WindingMethod method = WindingMethod::direct;
@@ -114,19 +114,19 @@ struct WindingNumber::Parts
   /// Sum of the predicted times of all ray counts so far.
   mutable std::atomic<double> ray_nanoseconds{ 0.0 };
   std::unique_ptr<RayCrossings> rays;
-  std::vector<Edge> rim; ///< edges whose directions do not cancel
+  std::vector<Edge> open_edge_list; ///< edges whose directions do not cancel
   Triangles caps; ///< triangles that close the surface (boundary_caps.h)
   SurfaceBoundary boundary; ///< boundary edges and components, in ids and units of the input
   DipoleField field; ///< field of the caps, used by the method `fast`
 
-  bool by_crossings() const
+  bool uses_crossings() const
   {
     return this->method == WindingMethod::crossings || this->method == WindingMethod::fast;
   }
-  void choose(WindingMethod wanted, Index open_edges);
+  void choose(WindingMethod requested, Index open_edges);
   bool build_tree(ExecutionContext& context) const;
   bool build_cells(ExecutionContext& context) const;
-  bool rays_pay(double ray_cost, double cell_cost) const;
+  bool are_rays_faster(double ray_cost, double cell_cost) const;
   /// Add to ray_nanoseconds; evaluations may run at the same time.
   void add_ray_cost(double nanoseconds) const
   {
@@ -138,13 +138,13 @@ struct WindingNumber::Parts
   void at(const Vec3* queries, Index number, const int* counts, const unsigned char* resolved,
     double* winding_numbers, bool* on_surface) const;
   Vec3 gradient_at(const Vec3& point) const;
-  double slowly_at(const Vec3& framed, bool* on_surface) const;
-  bool reaches(const SampleGrid& grid) const;
-  void caps_at(const Vec3* framed, Index count, double* winding_numbers, bool* touches) const;
+  double evaluate_robustly(const Vec3& framed, bool* on_surface) const;
+  bool accepts(const SampleGrid& grid) const;
+  void evaluate_caps(const Vec3* framed, Index count, double* winding_numbers, bool* touches) const;
 };
 
-WindingNumber::WindingNumber() : parts_(new Parts) {}
-WindingNumber::WindingNumber(PointsView points, TrianglesView triangles) : parts_(new Parts)
+WindingNumber::WindingNumber() : impl_(new Impl) {}
+WindingNumber::WindingNumber(PointsView points, TrianglesView triangles) : impl_(new Impl)
 {
   ExecutionContext context;
   this->build(context, points, triangles);
@@ -153,26 +153,27 @@ WindingNumber::~WindingNumber() = default;
 WindingNumber::WindingNumber(WindingNumber&&) noexcept = default;
 WindingNumber& WindingNumber::operator=(WindingNumber&&) noexcept = default;
 
-void WindingNumber::Parts::choose(WindingMethod wanted, Index open_edges)
+void WindingNumber::Impl::choose(WindingMethod requested, Index open_edges)
 {
   const Index count = this->triangles.rows();
   std::string reason = "requested";
-  this->method = wanted;
+  this->method = requested;
   const std::string numbers =
     std::to_string(count) + " triangles, " + std::to_string(open_edges) + " open edges: ";
-  if (wanted == WindingMethod::fast && open_edges == 0)
+  if (requested == WindingMethod::fast && open_edges == 0)
   {
     this->method = WindingMethod::crossings;
     reason = numbers + "a closed surface, for which an exact method is as fast";
   }
-  else if (wanted == WindingMethod::automatic && count > few_triangles && open_edges > hardly_open)
+  else if (requested == WindingMethod::automatic && count > maximum_direct_triangles &&
+    open_edges > maximum_exact_edges)
   {
     this->method = WindingMethod::fast;
     reason = numbers + "exact sums over the open edges would take many times longer";
   }
-  else if (wanted == WindingMethod::automatic || wanted == WindingMethod::exact)
+  else if (requested == WindingMethod::automatic || requested == WindingMethod::exact)
   {
-    if (count <= few_triangles && open_edges > 0)
+    if (count <= maximum_direct_triangles && open_edges > 0)
     {
       this->method = WindingMethod::direct;
       reason = numbers + "a direct sum is fastest for so few triangles";
@@ -183,7 +184,7 @@ void WindingNumber::Parts::choose(WindingMethod wanted, Index open_edges)
       reason =
         numbers + "a triangle soup with almost no shared edges, for which a direct sum is fastest";
     }
-    else if (open_edges <= few_open_edges || 2 * open_edges >= count)
+    else if (open_edges <= maximum_summed_edges || 2 * open_edges >= count)
     {
       this->method = WindingMethod::crossings;
       reason = numbers +
@@ -203,9 +204,9 @@ void WindingNumber::Parts::choose(WindingMethod wanted, Index open_edges)
 Status WindingNumber::build(
   ExecutionContext& context, PointsView points, TrianglesView triangles, const Options& options)
 {
-  this->parts_.reset(new Parts);
-  Parts& parts = *this->parts_;
-  Status& status = parts.status;
+  this->impl_.reset(new Impl);
+  Impl& impl = *this->impl_;
+  Status& status = impl.status;
   status = check_mesh(points, triangles);
   if (status.ok() && triangles.rows() > std::numeric_limits<std::int32_t>::max() / 4)
   {
@@ -239,29 +240,29 @@ Status WindingNumber::build(
   }
 
   Report& report = status.report;
-  parts.frame = triangles.rows() ? ExactFrame(bounding_box(points, triangles)) : ExactFrame();
+  impl.frame = triangles.rows() ? ExactFrame(bounding_box(points, triangles)) : ExactFrame();
   WeldedSurface welded;
   bool done = true;
   {
     const ProgressRange range(context, 0.0, 0.4);
-    done = weld_surface(context, points, triangles, parts.frame, welded);
+    done = weld_surface(context, points, triangles, impl.frame, welded);
   }
-  parts.points = std::move(welded.points);
-  parts.triangles = std::move(welded.triangles);
+  impl.points = std::move(welded.points);
+  impl.triangles = std::move(welded.triangles);
   if (done)
   {
-    parts.rim = std::move(welded.open_edges);
-    const auto open = static_cast<Index>(parts.rim.size());
-    parts.caps = boundary_caps(parts.rim);
-    parts.boundary = surface_boundary(parts.points, parts.triangles, parts.rim, parts.caps);
-    const double unit = 1.0 / parts.frame.scale;
+    impl.open_edge_list = std::move(welded.open_edges);
+    const auto open = static_cast<Index>(impl.open_edge_list.size());
+    impl.caps = boundary_caps(impl.open_edge_list);
+    impl.boundary = surface_boundary(impl.points, impl.triangles, impl.open_edge_list, impl.caps);
+    const double unit = 1.0 / impl.frame.scale;
     double volume = 0.0;
-    for (SurfaceBoundary::BoundaryEdge& edge : parts.boundary.edges)
+    for (SurfaceBoundary::BoundaryEdge& edge : impl.boundary.edges)
     {
       edge.from = welded.original_vertices[edge.from];
       edge.to = welded.original_vertices[edge.to];
     }
-    for (SurfaceBoundary::Component& component : parts.boundary.components)
+    for (SurfaceBoundary::Component& component : impl.boundary.components)
     {
       component.volume *= unit * unit * unit;
       volume += component.volume;
@@ -271,42 +272,42 @@ Status WindingNumber::build(
     report.set("counts.boundary_edges", welded.boundary_edges);
     report.set("counts.nonmanifold_edges", welded.nonmanifold_edges);
     report.set("counts.open_edges", open);
-    report.set("counts.components", static_cast<Index>(parts.boundary.components.size()));
+    report.set("counts.components", static_cast<Index>(impl.boundary.components.size()));
     report.set("counts.merged_vertices", welded.merged_vertices);
     report.set("counts.degenerate_triangles", welded.degenerate_triangles);
     report.set("counts.duplicate_triangles", welded.duplicate_triangles);
     report.set("volume", volume);
-    parts.choose(options.method, open);
-    if (parts.triangles.rows() == 0)
+    impl.choose(options.method, open);
+    if (impl.triangles.rows() == 0)
     {
       status.warnings.push_back(triangles.rows() == 0
           ? "the surface has no triangles, so its winding number is 0 everywhere"
           : "all triangles are degenerate, so the winding number is 0 everywhere");
-      parts.method = WindingMethod::direct;
+      impl.method = WindingMethod::direct;
     }
   }
   // The plain sum needs the minimum number of caps; the cells of the field need caps of minimum
   // size.
-  if (done && parts.method == WindingMethod::fast &&
-    !DipoleField::sums_all(options.expected_queries))
+  if (done && impl.method == WindingMethod::fast &&
+    !DipoleField::uses_direct_sum(options.expected_queries))
   {
-    parts.caps = smaller_caps(parts.points, parts.triangles, parts.caps);
+    impl.caps = smaller_caps(impl.points, impl.triangles, impl.caps);
   }
-  parts.max_leaf_size = options.max_leaf_size;
-  if (done && parts.method == WindingMethod::hierarchical)
+  impl.max_leaf_size = options.max_leaf_size;
+  if (done && impl.method == WindingMethod::hierarchical)
   {
     const ProgressRange range(context, 0.4, 1.0);
-    done = parts.build_tree(context);
+    done = impl.build_tree(context);
   }
-  if (done && parts.by_crossings())
+  if (done && impl.uses_crossings())
   {
-    const ProgressRange range(context, 0.4, parts.method == WindingMethod::fast ? 0.6 : 1.0);
-    parts.rays = std::make_unique<RayCrossings>(
-      parts.points, parts.triangles, parts.caps, parts.frame.tolerance);
+    const ProgressRange range(context, 0.4, impl.method == WindingMethod::fast ? 0.6 : 1.0);
+    impl.rays =
+      std::make_unique<RayCrossings>(impl.points, impl.triangles, impl.caps, impl.frame.tolerance);
     // If the number of queries is known, the first evaluation chooses between rays and cells.
-    done = options.expected_queries > 0 || parts.build_cells(context);
+    done = options.expected_queries > 0 || impl.build_cells(context);
   }
-  if (done && parts.method == WindingMethod::fast)
+  if (done && impl.method == WindingMethod::fast)
   {
     const ProgressRange range(context, 0.6, 1.0);
     DipoleField::Options field;
@@ -314,64 +315,63 @@ Status WindingNumber::build(
     field.expected_points = options.expected_queries;
     // The default padding of grids, as a fraction of the bounding-box diagonal.
     constexpr double padding = 0.1;
-    field.region = bounding_box(parts.points, parts.triangles);
+    field.region = bounding_box(impl.points, impl.triangles);
     const double pad = padding * field.region.diagonal();
     field.region.lower.array() -= pad;
     field.region.upper.array() += pad;
     // The field cuts long caps at rounded positions. Points for which this rounding matters count
     // as touching a cap. The exact sum is used for these points.
-    const double shows = parts.frame.tolerance / options.tolerance;
-    done = parts.field.build(context, parts.points, parts.caps,
-      std::vector<int>(static_cast<std::size_t>(parts.caps.rows()), 1), shows, field);
+    const double cut_tolerance = impl.frame.tolerance / options.tolerance;
+    done = impl.field.build(context, impl.points, impl.caps,
+      std::vector<int>(static_cast<std::size_t>(impl.caps.rows()), 1), cut_tolerance, field);
     report.set("error_bound", options.tolerance);
-    report.set("measured_error", parts.field.measured_error());
+    report.set("measured_error", impl.field.measured_error());
   }
   if (!done)
   {
-    this->parts_.reset(new Parts);
-    this->parts_->status = Status::canceled();
+    this->impl_.reset(new Impl);
+    this->impl_->status = Status::canceled();
   }
-  return this->parts_->status;
+  return this->impl_->status;
 }
 
 const Status& WindingNumber::status() const
 {
-  return this->parts_->status;
+  return this->impl_->status;
 }
 
 WindingMethod WindingNumber::method() const
 {
-  return this->parts_->method;
+  return this->impl_->method;
 }
 
 const SurfaceBoundary& WindingNumber::boundary() const
 {
-  return this->parts_->boundary;
+  return this->impl_->boundary;
 }
 
 Index WindingNumber::memory() const
 {
-  return static_cast<Index>(sizeof(double)) * this->parts_->points.size() +
-    static_cast<Index>(sizeof(Index)) *
-    (this->parts_->triangles.size() + this->parts_->caps.size()) +
-    this->parts_->tree.memory() + this->parts_->cells.memory() + this->parts_->field.memory();
+  return static_cast<Index>(sizeof(double)) * this->impl_->points.size() +
+    static_cast<Index>(sizeof(Index)) * (this->impl_->triangles.size() + this->impl_->caps.size()) +
+    this->impl_->tree.memory() + this->impl_->cells.memory() + this->impl_->field.memory();
 }
 
 /// Report whether counting crossings by rays is faster than by cells. `ray_cost` and `cell_cost`
 /// are the predicted times of this evaluation in nanoseconds. Cells that do not exist count as
 /// slower until the total time of rays would exceed the time to build the cells.
-bool WindingNumber::Parts::rays_pay(double ray_cost, double cell_cost) const
+bool WindingNumber::Impl::are_rays_faster(double ray_cost, double cell_cost) const
 {
   if (this->cells_built)
   {
     return ray_cost < cell_cost;
   }
   const double build =
-    cells_per_face * static_cast<double>(this->triangles.rows() + this->caps.rows());
+    cell_build_ns_per_face * static_cast<double>(this->triangles.rows() + this->caps.rows());
   return this->ray_nanoseconds + ray_cost < build + cell_cost;
 }
 
-bool WindingNumber::Parts::build_cells(ExecutionContext& context) const
+bool WindingNumber::Impl::build_cells(ExecutionContext& context) const
 {
   const std::lock_guard<std::mutex> lock(this->cells_mutex);
   this->cells_built = this->cells_built ||
@@ -379,15 +379,15 @@ bool WindingNumber::Parts::build_cells(ExecutionContext& context) const
   return this->cells_built;
 }
 
-/// Evaluate up to WindingCells::most_at_once points. `counts` and `resolved` are the results of
+/// Evaluate up to WindingCells::maximum_batch points. `counts` and `resolved` are the results of
 /// RayCrossings for these points, or null.
-void WindingNumber::Parts::at(const Vec3* queries, Index number, const int* counts,
+void WindingNumber::Impl::at(const Vec3* queries, Index number, const int* counts,
   const unsigned char* resolved, double* winding_numbers, bool* on_surface) const
 {
-  std::array<Vec3, WindingCells::most_at_once> framed;
+  std::array<Vec3, WindingCells::maximum_batch> framed;
   framed.fill(Vec3::Zero());
   // Indices of the points that need an evaluation.
-  std::array<Index, WindingCells::most_at_once> asked;
+  std::array<Index, WindingCells::maximum_batch> active;
   Index count = 0;
   for (Index i = 0; i < number; ++i)
   {
@@ -397,49 +397,49 @@ void WindingNumber::Parts::at(const Vec3* queries, Index number, const int* coun
     if (this->triangles.rows() > 0 && p.cwiseAbs().maxCoeff() < far_away)
     {
       framed[count] = p;
-      asked[count++] = i;
+      active[count++] = i;
     }
   }
-  if (!this->by_crossings())
+  if (!this->uses_crossings())
   {
     for (Index k = 0; k < count; ++k)
     {
-      winding_numbers[asked[k]] = this->slowly_at(framed[k], &on_surface[asked[k]]);
+      winding_numbers[active[k]] = this->evaluate_robustly(framed[k], &on_surface[active[k]]);
     }
     return;
   }
-  std::array<int, WindingCells::most_at_once> crossed;
-  std::array<bool, WindingCells::most_at_once> is_resolved;
+  std::array<int, WindingCells::maximum_batch> crossing_counts;
+  std::array<bool, WindingCells::maximum_batch> is_resolved;
   if (counts)
   {
     for (Index k = 0; k < count; ++k)
     {
-      crossed[k] = counts[asked[k]];
-      is_resolved[k] = resolved[asked[k]] != 0;
+      crossing_counts[k] = counts[active[k]];
+      is_resolved[k] = resolved[active[k]] != 0;
     }
   }
   else
   {
     if (!this->cells_built)
     {
-      ExecutionContext quiet;
-      this->build_cells(quiet);
+      ExecutionContext silent_context;
+      this->build_cells(silent_context);
     }
-    this->cells.evaluate(framed.data(), count, crossed.data(), is_resolved.data());
+    this->cells.evaluate(framed.data(), count, crossing_counts.data(), is_resolved.data());
   }
-  std::array<double, WindingCells::most_at_once> of_caps;
-  std::array<bool, WindingCells::most_at_once> touches;
-  this->caps_at(framed.data(), count, of_caps.data(), touches.data());
+  std::array<double, WindingCells::maximum_batch> cap_winding;
+  std::array<bool, WindingCells::maximum_batch> touches;
+  this->evaluate_caps(framed.data(), count, cap_winding.data(), touches.data());
   for (Index k = 0; k < count; ++k)
   {
-    winding_numbers[asked[k]] = is_resolved[k] && !touches[k]
-      ? crossed[k] - of_caps[k]
-      : this->slowly_at(framed[k], &on_surface[asked[k]]);
+    winding_numbers[active[k]] = is_resolved[k] && !touches[k]
+      ? crossing_counts[k] - cap_winding[k]
+      : this->evaluate_robustly(framed[k], &on_surface[active[k]]);
   }
 }
 
 /// Compute the winding numbers of the caps at the points, and report whether a point touches a cap.
-void WindingNumber::Parts::caps_at(
+void WindingNumber::Impl::evaluate_caps(
   const Vec3* framed, Index count, double* winding_numbers, bool* touches) const
 {
   if (this->method == WindingMethod::fast && this->caps.rows() > 0)
@@ -457,7 +457,7 @@ void WindingNumber::Parts::caps_at(
 }
 
 /// Build the tree if it does not exist. Called when the first point needs the tree.
-bool WindingNumber::Parts::build_tree(ExecutionContext& context) const
+bool WindingNumber::Impl::build_tree(ExecutionContext& context) const
 {
   const std::lock_guard<std::mutex> lock(this->tree_mutex);
   this->tree_built = this->tree_built ||
@@ -467,7 +467,7 @@ bool WindingNumber::Parts::build_tree(ExecutionContext& context) const
 }
 
 /// Evaluate a point by a method that is correct everywhere: the plain sum or the tree.
-double WindingNumber::Parts::slowly_at(const Vec3& p, bool* on_surface) const
+double WindingNumber::Impl::evaluate_robustly(const Vec3& p, bool* on_surface) const
 {
   if (this->method == WindingMethod::direct)
   {
@@ -475,8 +475,8 @@ double WindingNumber::Parts::slowly_at(const Vec3& p, bool* on_surface) const
   }
   if (!this->tree_built)
   {
-    ExecutionContext quiet;
-    this->build_tree(quiet);
+    ExecutionContext silent_context;
+    this->build_tree(silent_context);
   }
   SolidAngleSum sum(p, this->frame.tolerance);
   this->tree.add_to(sum, p);
@@ -486,19 +486,19 @@ double WindingNumber::Parts::slowly_at(const Vec3& p, bool* on_surface) const
   }
   // Round the value to an integer if the surface is closed, because WindingCells returns integers
   // for the other points.
-  const bool whole = this->rim.empty() && !sum.on_surface();
+  const bool whole = this->open_edge_list.empty() && !sum.on_surface();
   return whole ? std::round(sum.winding_number()) : sum.winding_number();
 }
 
 double WindingNumber::evaluate_exactly_at(const Vec3& point, bool* on_surface) const
 {
-  const Parts& parts = *this->parts_;
-  const Vec3 p = parts.frame(point);
-  if (parts.method == WindingMethod::fast && parts.triangles.rows() > 0 &&
+  const Impl& impl = *this->impl_;
+  const Vec3 p = impl.frame(point);
+  if (impl.method == WindingMethod::fast && impl.triangles.rows() > 0 &&
     p.cwiseAbs().maxCoeff() < far_away)
   {
     bool touches = false;
-    const double winding_number = parts.slowly_at(p, &touches);
+    const double winding_number = impl.evaluate_robustly(p, &touches);
     if (on_surface)
     {
       *on_surface = touches;
@@ -512,7 +512,7 @@ double WindingNumber::evaluate_at(const Vec3& point, bool* on_surface) const
 {
   double winding_number = 0.0;
   bool touches = false;
-  this->parts_->at(&point, 1, nullptr, nullptr, &winding_number, &touches);
+  this->impl_->at(&point, 1, nullptr, nullptr, &winding_number, &touches);
   if (on_surface)
   {
     *on_surface = touches;
@@ -524,47 +524,46 @@ template <typename PointAt>
 Status WindingNumber::evaluate_points(ExecutionContext& context, Index count,
   const PointAt& point_at, double* out, unsigned char* on_surface) const
 {
-  const Parts& parts = *this->parts_;
-  if (!parts.status.ok())
+  const Impl& impl = *this->impl_;
+  if (!impl.status.ok())
   {
-    return parts.status;
+    return impl.status;
   }
   std::vector<int> counts;
   std::vector<unsigned char> resolved;
-  bool by_rays = false;
-  if (parts.by_crossings() && count > 0 && parts.triangles.rows() > 0)
+  bool use_rays = false;
+  if (impl.uses_crossings() && count > 0 && impl.triangles.rows() > 0)
   {
-    const double ray_cost = parts.rays->predicted_nanoseconds(count);
-    by_rays = count <= most_ray_points &&
-      parts.rays_pay(ray_cost, cells_per_point * static_cast<double>(count));
+    const double ray_cost = impl.rays->predicted_nanoseconds(count);
+    use_rays = count <= maximum_ray_points &&
+      impl.are_rays_faster(ray_cost, cell_ns_per_point * static_cast<double>(count));
     const ProgressRange range(context, 0.0, 0.5);
-    if (by_rays)
+    if (use_rays)
     {
-      parts.add_ray_cost(ray_cost);
+      impl.add_ray_cost(ray_cost);
       std::vector<Vec3> framed;
       reserve_in_large_pages(framed, static_cast<std::size_t>(count));
       for (Index i = 0; i < count; ++i)
       {
-        framed.push_back(parts.frame(point_at(i)));
+        framed.push_back(impl.frame(point_at(i)));
       }
       counts.resize(static_cast<std::size_t>(count));
       resolved.resize(static_cast<std::size_t>(count));
-      if (!parts.rays->count(context, framed.data(), count, counts.data(), resolved.data()))
+      if (!impl.rays->count(context, framed.data(), count, counts.data(), resolved.data()))
       {
         return Status::canceled();
       }
     }
-    else if (!parts.cells_built && !parts.build_cells(context))
+    else if (!impl.cells_built && !impl.build_cells(context))
     {
       return Status::canceled();
     }
   }
-  const ProgressRange range(context, by_rays ? 0.5 : 0.0, 1.0);
+  const ProgressRange range(context, use_rays ? 0.5 : 0.0, 1.0);
   // The estimate for the tree is the worst case, in which the tree takes the time of the plain sum.
-  const double nanoseconds = parts.method == WindingMethod::fast ? 500.0
-    : parts.method == WindingMethod::crossings
-    ? 100.0 + 20.0 * static_cast<double>(parts.caps.rows())
-    : 20.0 * static_cast<double>(parts.triangles.rows());
+  const double nanoseconds = impl.method == WindingMethod::fast ? 500.0
+    : impl.method == WindingMethod::crossings ? 100.0 + 20.0 * static_cast<double>(impl.caps.rows())
+                                              : 20.0 * static_cast<double>(impl.triangles.rows());
   return point_values(context, count, nanoseconds, out, on_surface,
     [&](Index begin, Index end, unsigned char* flags)
     {
@@ -577,26 +576,26 @@ Status WindingNumber::evaluate_points(ExecutionContext& context, Index count,
         points[i] = point_at(begin + i);
       }
       const std::vector<std::int32_t> order = spatial_sort(points);
-      constexpr Index at_once = WindingCells::most_at_once;
-      std::array<Vec3, at_once> some;
-      std::array<double, at_once> values;
-      std::array<bool, at_once> touches;
-      std::array<int, at_once> counts_here;
-      std::array<unsigned char, at_once> resolved_here;
-      for (Index first = 0; first < count_here; first += at_once)
+      constexpr Index batch_size = WindingCells::maximum_batch;
+      std::array<Vec3, batch_size> some;
+      std::array<double, batch_size> values;
+      std::array<bool, batch_size> touches;
+      std::array<int, batch_size> counts_here;
+      std::array<unsigned char, batch_size> resolved_here;
+      for (Index first = 0; first < count_here; first += batch_size)
       {
-        const Index number = std::min(at_once, count_here - first);
+        const Index number = std::min(batch_size, count_here - first);
         for (Index i = 0; i < number; ++i)
         {
           some[i] = points[order[first + i]];
-          if (by_rays)
+          if (use_rays)
           {
             counts_here[i] = counts[begin + order[first + i]];
             resolved_here[i] = resolved[begin + order[first + i]];
           }
         }
-        parts.at(some.data(), number, by_rays ? counts_here.data() : nullptr,
-          by_rays ? resolved_here.data() : nullptr, values.data(), touches.data());
+        impl.at(some.data(), number, use_rays ? counts_here.data() : nullptr,
+          use_rays ? resolved_here.data() : nullptr, values.data(), touches.data());
         for (Index i = 0; i < number; ++i)
         {
           out[begin + order[first + i]] = values[i];
@@ -608,12 +607,12 @@ Status WindingNumber::evaluate_points(ExecutionContext& context, Index count,
 
 namespace
 {
-auto points_of(const SampleGrid& grid)
+auto point_function(const SampleGrid& grid)
 {
   return [&grid](Index i) { return grid.point(i); };
 }
 
-auto points_of(PointsView queries)
+auto point_function(PointsView queries)
 {
   return [queries](Index i) -> Vec3 { return queries.row(i); };
 }
@@ -622,57 +621,57 @@ auto points_of(PointsView queries)
 Status WindingNumber::evaluate(
   ExecutionContext& context, PointsView queries, double* out, unsigned char* on_surface) const
 {
-  return this->evaluate_points(context, queries.rows(), points_of(queries), out, on_surface);
+  return this->evaluate_points(context, queries.rows(), point_function(queries), out, on_surface);
 }
 
 Status WindingNumber::evaluate(
   ExecutionContext& context, const SampleGrid& grid, double* out, unsigned char* on_surface) const
 {
-  if (this->parts_->status.ok() && this->parts_->by_crossings() && this->parts_->reaches(grid))
+  if (this->impl_->status.ok() && this->impl_->uses_crossings() && this->impl_->accepts(grid))
   {
     return this->evaluate_rows(context, grid, out, on_surface);
   }
-  return this->evaluate_points(context, grid.count(), points_of(grid), out, on_surface);
+  return this->evaluate_points(context, grid.count(), point_function(grid), out, on_surface);
 }
 
 template <typename PointAt>
 Status WindingNumber::evaluate_gradients(
   ExecutionContext& context, Index count, const PointAt& point_at, double* out) const
 {
-  const Parts& parts = *this->parts_;
-  if (!parts.status.ok())
+  const Impl& impl = *this->impl_;
+  if (!impl.status.ok())
   {
-    return parts.status;
+    return impl.status;
   }
-  const double nanoseconds = parts.method == WindingMethod::fast
+  const double nanoseconds = impl.method == WindingMethod::fast
     ? 1000.0
-    : 10.0 + 10.0 * static_cast<double>(parts.rim.size());
+    : 10.0 + 10.0 * static_cast<double>(impl.open_edge_list.size());
   return point_gradients(context, count, nanoseconds,
-    [&](Index i) { Eigen::Map<Vec3>(out + 3 * i) = parts.gradient_at(point_at(i)); });
+    [&](Index i) { Eigen::Map<Vec3>(out + 3 * i) = impl.gradient_at(point_at(i)); });
 }
 
 Status WindingNumber::evaluate_gradient(
   ExecutionContext& context, PointsView queries, double* out) const
 {
-  return this->evaluate_gradients(context, queries.rows(), points_of(queries), out);
+  return this->evaluate_gradients(context, queries.rows(), point_function(queries), out);
 }
 
 Status WindingNumber::evaluate_gradient(
   ExecutionContext& context, const SampleGrid& grid, double* out) const
 {
-  return this->evaluate_gradients(context, grid.count(), points_of(grid), out);
+  return this->evaluate_gradients(context, grid.count(), point_function(grid), out);
 }
 
 /// Return the sum over the boundary edges (the field of an electric current along them). The result
 /// does not depend on the triangles between the boundary edges.
-Vec3 WindingNumber::Parts::gradient_at(const Vec3& point) const
+Vec3 WindingNumber::Impl::gradient_at(const Vec3& point) const
 {
   if (!point.allFinite())
   {
     return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   }
   const Vec3 p = this->frame(point);
-  if (this->rim.empty() || !(p.cwiseAbs().maxCoeff() < far_away))
+  if (this->open_edge_list.empty() || !(p.cwiseAbs().maxCoeff() < far_away))
   {
     return Vec3::Zero();
   }
@@ -681,7 +680,7 @@ Vec3 WindingNumber::Parts::gradient_at(const Vec3& point) const
     return -this->frame.scale * this->field.gradient(p);
   }
   Vec3 sum = Vec3::Zero();
-  for (const Edge& edge : this->rim)
+  for (const Edge& edge : this->open_edge_list)
   {
     const Vec3 a = this->points.row(edge.a).transpose() - p;
     const Vec3 b = this->points.row(edge.b).transpose() - p;
@@ -697,7 +696,7 @@ Vec3 WindingNumber::Parts::gradient_at(const Vec3& point) const
 }
 
 /// Report whether all samples are within the range of coordinates that cells and rays accept.
-bool WindingNumber::Parts::reaches(const SampleGrid& grid) const
+bool WindingNumber::Impl::accepts(const SampleGrid& grid) const
 {
   const auto corner = [&](int end)
   { return this->frame(grid.point(grid.extent[end], grid.extent[2 + end], grid.extent[4 + end])); };
@@ -710,20 +709,20 @@ bool WindingNumber::Parts::reaches(const SampleGrid& grid) const
 Status WindingNumber::evaluate_rows(
   ExecutionContext& context, const SampleGrid& grid, double* out, unsigned char* on_surface) const
 {
-  const Parts& parts = *this->parts_;
+  const Impl& impl = *this->impl_;
   const Index length = grid.size(0);
   std::vector<double> xs(static_cast<std::size_t>(length));
   for (Index i = 0; i < length; ++i)
   {
-    xs[i] = parts.frame(grid.point(grid.extent[0] + i, grid.extent[2], grid.extent[4])).x();
+    xs[i] = impl.frame(grid.point(grid.extent[0] + i, grid.extent[2], grid.extent[4])).x();
   }
-  const bool closed = parts.caps.rows() == 0;
-  const bool fast = parts.method == WindingMethod::fast;
-  ask_for_large_pages(out, static_cast<std::size_t>(grid.count()) * sizeof(double));
+  const bool closed = impl.caps.rows() == 0;
+  const bool fast = impl.method == WindingMethod::fast;
+  request_large_pages(out, static_cast<std::size_t>(grid.count()) * sizeof(double));
   RayCrossings::Grid framed;
   RayCrossings::Layers layers;
-  bool by_rays = (grid.spacing.array() > 0.0).all();
-  if (by_rays)
+  bool use_rays = (grid.spacing.array() > 0.0).all();
+  if (use_rays)
   {
     framed.at[0] = xs;
     for (int k = 1; k < 3; ++k)
@@ -732,45 +731,45 @@ Status WindingNumber::evaluate_rows(
       {
         std::array<Index, 3> at{ grid.extent[0], grid.extent[2], grid.extent[4] };
         at[k] += i;
-        framed.at[k].push_back(parts.frame(grid.point(at[0], at[1], at[2]))[k]);
+        framed.at[k].push_back(impl.frame(grid.point(at[0], at[1], at[2]))[k]);
       }
     }
-    layers = parts.rays->layers_of(framed);
+    layers = impl.rays->find_layers(framed);
     const auto samples = static_cast<double>(grid.count());
-    const double ray_cost = layers.nanoseconds + write_per_sample * samples;
-    by_rays = parts.rays_pay(ray_cost, cells_per_sample * samples);
-    parts.add_ray_cost(by_rays ? ray_cost : 0.0);
+    const double ray_cost = layers.nanoseconds + write_ns_per_sample * samples;
+    use_rays = impl.are_rays_faster(ray_cost, cell_ns_per_sample * samples);
+    impl.add_ray_cost(use_rays ? ray_cost : 0.0);
   }
-  if (!by_rays && !parts.cells_built && !parts.build_cells(context))
+  if (!use_rays && !impl.cells_built && !impl.build_cells(context))
   {
     return Status::canceled();
   }
-  const Index cost = fast ? 10 : 1 + parts.caps.rows();
-  const Index rows_per_block =
-    by_rays ? layers.per_slab * grid.size(1) : std::max<Index>(1, 1000000 / (cost * length));
+  const Index cost = fast ? 10 : 1 + impl.caps.rows();
+  const Index rows_per_block = use_rays ? layers.layers_per_slab * grid.size(1)
+                                        : std::max<Index>(1, 1000000 / (cost * length));
   std::atomic<Index> touching{ 0 };
   const bool done = parallel_for(context, grid.size(1) * grid.size(2), rows_per_block,
     [&](Index begin, Index end)
     {
       Index touching_here = 0;
       std::vector<Index> unresolved, slab_unresolved;
-      if (by_rays)
+      if (use_rays)
       {
-        parts.rays->count_slab(
+        impl.rays->count_slab(
           framed, layers, begin / rows_per_block, out + begin * length, slab_unresolved);
         std::sort(slab_unresolved.begin(), slab_unresolved.end());
       }
       auto next_in_slab = slab_unresolved.begin();
-      std::vector<double> caps_wind(fast ? static_cast<std::size_t>(length) : 0);
-      std::vector<unsigned char> on_cap(caps_wind.size());
+      std::vector<double> cap_windings(fast ? static_cast<std::size_t>(length) : 0);
+      std::vector<unsigned char> on_cap(cap_windings.size());
       for (Index row = begin; row < end; ++row)
       {
-        Vec3 p = parts.frame(grid.point(grid.extent[0], grid.extent[2] + row % grid.size(1),
+        Vec3 p = impl.frame(grid.point(grid.extent[0], grid.extent[2] + row % grid.size(1),
           grid.extent[4] + row / grid.size(1)));
         double* values = out + row * length;
         unsigned char* flags = on_surface ? on_surface + row * length : nullptr;
         unresolved.clear();
-        if (by_rays)
+        if (use_rays)
         {
           const Index first = (row - begin) * length;
           for (; next_in_slab != slab_unresolved.end() && *next_in_slab < first + length;
@@ -781,23 +780,23 @@ Status WindingNumber::evaluate_rows(
         }
         else
         {
-          parts.cells.evaluate_row(xs.data(), length, p.y(), p.z(), values, unresolved);
+          impl.cells.evaluate_row(xs.data(), length, p.y(), p.z(), values, unresolved);
         }
         if (fast)
         {
-          parts.field.evaluate_row(
-            xs.data(), p.y(), p.z(), length, caps_wind.data(), on_cap.data());
+          impl.field.evaluate_row(
+            xs.data(), p.y(), p.z(), length, cap_windings.data(), on_cap.data());
         }
         for (Index i = 0; i < length && !closed; ++i)
         {
           p.x() = xs[i];
           bool touches = fast && on_cap[i];
-          double of_caps = fast ? caps_wind[i] : 0.0;
+          double cap_winding = fast ? cap_windings[i] : 0.0;
           if (!fast)
           {
-            parts.caps_at(&p, 1, &of_caps, &touches);
+            impl.evaluate_caps(&p, 1, &cap_winding, &touches);
           }
-          values[i] -= of_caps;
+          values[i] -= cap_winding;
           if (touches)
           {
             unresolved.push_back(i);
@@ -814,7 +813,7 @@ Status WindingNumber::evaluate_rows(
         {
           p.x() = xs[i];
           bool touches = false;
-          values[i] = parts.slowly_at(p, &touches);
+          values[i] = impl.evaluate_robustly(p, &touches);
           touching_here += touches;
           if (flags)
           {

@@ -137,7 +137,7 @@ public:
   double evaluate_exactly_at(const Vec3& point, bool* on_surface = nullptr) const;
 
 private:
-  struct Parts;
+  struct Impl;
   template <typename PointAt>
   Status evaluate_points(ExecutionContext& context, Index count, const PointAt& point_at,
     double* out, unsigned char* on_surface) const;
@@ -148,7 +148,7 @@ private:
   Status evaluate_rows(ExecutionContext& context, const SampleGrid& grid, double* out,
     unsigned char* on_surface) const;
 
-  std::unique_ptr<Parts> parts_;
+  std::unique_ptr<Impl> impl_;
 };
 
 /// Return the winding number as the plain sum over all triangles, without a build. For a point on

@@ -18,7 +18,7 @@ namespace
 /// Merge the entries of the same edge and remove entries whose `net` is 0. The entries must be
 /// sorted by (a, b).
 template <typename NetEdges>
-void combine(NetEdges& edges)
+void merge_edges(NetEdges& edges)
 {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < edges.size();)
@@ -36,7 +36,7 @@ void combine(NetEdges& edges)
   edges.resize(kept);
 }
 
-constexpr auto by_ends = [](const auto& x, const auto& y)
+constexpr auto compare_edges = [](const auto& x, const auto& y)
 { return x.a != y.a ? x.a < y.a : x.b < y.b; };
 } // namespace
 
@@ -85,7 +85,7 @@ bool WindingTree::build_node(ExecutionContext& context, Id id, std::vector<NetEd
     context.progress(static_cast<double>(first) / static_cast<double>(this->order_.size()));
   }
   Box box;
-  Box box_of_centers;
+  Box center_box;
   for (Id i = first; i < first + count; ++i)
   {
     const Index t = this->order_[i];
@@ -93,13 +93,13 @@ bool WindingTree::build_node(ExecutionContext& context, Id id, std::vector<NetEd
     {
       box.add(this->points_->row((*this->triangles_)(t, k)));
     }
-    box_of_centers.add(this->centers_[t]);
+    center_box.add(this->centers_[t]);
   }
   std::copy_n(box.lower.data(), 3, this->nodes_[id].lower);
   std::copy_n(box.upper.data(), 3, this->nodes_[id].upper);
 
   int axis = 0;
-  const double longest = box_of_centers.size().maxCoeff(&axis);
+  const double longest = center_box.size().maxCoeff(&axis);
   if (count <= this->max_leaf_size_ || longest <= 0.0)
   {
     boundary = this->boundary_of_triangles(first, count);
@@ -122,16 +122,16 @@ bool WindingTree::build_node(ExecutionContext& context, Id id, std::vector<NetEd
     this->nodes_[left].count = count / 2;
     this->nodes_[left + 1].first = first + count / 2;
     this->nodes_[left + 1].count = count - count / 2;
-    std::vector<NetEdge> of_right;
+    std::vector<NetEdge> right_boundary;
     if (!this->build_node(context, left, boundary) ||
-      !this->build_node(context, left + 1, of_right))
+      !this->build_node(context, left + 1, right_boundary))
     {
       return false;
     }
     const auto middle = static_cast<std::ptrdiff_t>(boundary.size());
-    boundary.insert(boundary.end(), of_right.begin(), of_right.end());
-    std::inplace_merge(boundary.begin(), boundary.begin() + middle, boundary.end(), by_ends);
-    combine(boundary);
+    boundary.insert(boundary.end(), right_boundary.begin(), right_boundary.end());
+    std::inplace_merge(boundary.begin(), boundary.begin() + middle, boundary.end(), compare_edges);
+    merge_edges(boundary);
   }
 
   // Edges at the apex of the fan need no triangle. Therefore the apex is the vertex that is the end
@@ -182,8 +182,8 @@ std::vector<WindingTree::NetEdge> WindingTree::boundary_of_triangles(Id first, I
       edges.push_back({ std::min(from, to), std::max(from, to), from < to ? 1 : -1 });
     }
   }
-  std::sort(edges.begin(), edges.end(), by_ends);
-  combine(edges);
+  std::sort(edges.begin(), edges.end(), compare_edges);
+  merge_edges(edges);
   return edges;
 }
 

@@ -13,7 +13,7 @@ namespace bindpose::test
 constexpr ArapEnergy every_energy[] = { ArapEnergy::elements, ArapEnergy::spokes_and_rims,
   ArapEnergy::spokes };
 
-struct Held
+struct LabeledBar
 {
   TetMesh mesh;
   Handles handles;
@@ -22,9 +22,9 @@ struct Held
 
 /// Return the bar [0, 4] x [0, 1] x [0, 1]. Regions 1, 2 and 3 are the cross sections at x = 0, 2
 /// and 4.
-inline Held held_bar(int cells)
+inline LabeledBar labeled_bar(int cells)
 {
-  Held bar;
+  LabeledBar bar;
   const int across = std::max(2, cells / 4);
   bar.mesh = tet_box(cells, across, across, Vec3::Zero(), Vec3(4, 1, 1));
   const char* const names[] = { "left", "middle", "right" };
@@ -44,11 +44,10 @@ inline Held held_bar(int cells)
   return bar;
 }
 
-inline Status bind(FullArap& arap, const Held& held, ArapEnergy energy)
+inline Status bind(FullArap& arap, const LabeledBar& bar, ArapEnergy energy)
 {
   ExecutionContext context;
-  return arap.bind(
-    context, held.mesh.points, held.mesh.tets, held.handles, { energy, held.labels });
+  return arap.bind(context, bar.mesh.points, bar.mesh.tets, bar.handles, { energy, bar.labels });
 }
 
 /// Return options for the given number of iterations without acceleration.

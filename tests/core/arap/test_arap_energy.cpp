@@ -41,9 +41,9 @@ double energy_of(const Mesh& mesh, ArapEnergy energy, const Eigen::Matrix3d& map
     static_cast<std::size_t>(groups.count), Eigen::Matrix3d::Identity());
   for (Index k = 0; k < groups.count; ++k)
   {
-    Eigen::Matrix3d one;
-    one << s.row(k), s.row(groups.count + k), s.row(2 * groups.count + k);
-    fit_rotation(one, rotations[static_cast<std::size_t>(k)]);
+    Eigen::Matrix3d covariance;
+    covariance << s.row(k), s.row(groups.count + k), s.row(2 * groups.count + k);
+    fit_rotation(covariance, rotations[static_cast<std::size_t>(k)]);
   }
   return arap_energy(mesh.points, elements_of(mesh), groups, posed, rotations);
 }
@@ -87,9 +87,9 @@ TEST(ArapEnergy, SpokesCostTheSameForACommonRotationAndForSimilarities)
   const Eigen::Matrix3d turn =
     Eigen::AngleAxisd(2.0, Vec3(1, -2, 3).normalized()).toRotationMatrix();
   const double area = surface_area(ball.points, ball.triangles);
-  Index left_out = -1;
-  arap_stiffness(ball.points, ball.triangles, ArapEnergy::spokes, &left_out);
-  EXPECT_EQ(left_out, 0);
+  Index ignored_edges = -1;
+  arap_stiffness(ball.points, ball.triangles, ArapEnergy::spokes, &ignored_edges);
+  EXPECT_EQ(ignored_edges, 0);
   for (const double scale : { 0.0, 0.5, 2.0 })
   {
     const double cost = (scale - 1.0) * (scale - 1.0);
@@ -122,15 +122,16 @@ TEST(ArapEnergy, SpokesLeaveOutEdgesOfNegativeWeight)
   kite.points << -1, 0, 0, 1, 0, 0, 0, 0.2, 0, 0, -0.2, 0;
   kite.triangles.resize(2, 3);
   kite.triangles << 0, 1, 2, 1, 0, 3;
-  Index left_out = -1;
-  const SparseMatrix l = arap_stiffness(kite.points, kite.triangles, ArapEnergy::spokes, &left_out);
-  EXPECT_EQ(left_out, 1);
+  Index ignored_edges = -1;
+  const SparseMatrix l =
+    arap_stiffness(kite.points, kite.triangles, ArapEnergy::spokes, &ignored_edges);
+  EXPECT_EQ(ignored_edges, 1);
   EXPECT_EQ(l.coeff(0, 1), 0.0);
   EXPECT_LT((l * Eigen::VectorXd::Ones(4)).norm(), 1e-15);
-  EXPECT_FALSE(left_out_warning(left_out).empty());
-  EXPECT_TRUE(left_out_warning(0).empty());
-  arap_stiffness(kite.points, kite.triangles, ArapEnergy::spokes_and_rims, &left_out);
-  EXPECT_EQ(left_out, 0);
+  EXPECT_FALSE(ignored_edges_warning(ignored_edges).empty());
+  EXPECT_TRUE(ignored_edges_warning(0).empty());
+  arap_stiffness(kite.points, kite.triangles, ArapEnergy::spokes_and_rims, &ignored_edges);
+  EXPECT_EQ(ignored_edges, 0);
   // The rest shape has the energy 0, which is the minimum.
   EXPECT_LT(std::abs(energy_of(kite, ArapEnergy::spokes, Eigen::Matrix3d::Identity())), 1e-28);
 }
@@ -160,23 +161,24 @@ TEST(ArapEnergy, CovariancesAreTheSumOverEdges)
       for (int k = 0; k < 6; ++k)
       {
         const Index i = mesh.tets(e, tet_edges[k][0]), j = mesh.tets(e, tet_edges[k][1]);
-        const Eigen::Matrix3d one = c(e, k) *
+        const Eigen::Matrix3d covariance = c(e, k) *
           (mesh.points.row(i) - mesh.points.row(j)).transpose() * (posed.row(i) - posed.row(j));
         for (int corner = 0; corner < 4; ++corner)
         {
           if (energy == ArapEnergy::spokes_and_rims)
           {
-            sums[static_cast<std::size_t>(mesh.tets(e, corner) % 3)] += 0.25 * one;
+            sums[static_cast<std::size_t>(mesh.tets(e, corner) % 3)] += 0.25 * covariance;
           }
         }
         if (energy == ArapEnergy::spokes)
         {
-          sums[static_cast<std::size_t>(i % 3)] += 0.5 * one;
-          sums[static_cast<std::size_t>(j % 3)] += 0.5 * one;
+          sums[static_cast<std::size_t>(i % 3)] += 0.5 * covariance;
+          sums[static_cast<std::size_t>(j % 3)] += 0.5 * covariance;
         }
         if (energy == ArapEnergy::elements)
         {
-          sums[static_cast<std::size_t>(groups.of_element[static_cast<std::size_t>(e)])] += one;
+          sums[static_cast<std::size_t>(groups.group_of_element[static_cast<std::size_t>(e)])] +=
+            covariance;
         }
       }
     }
@@ -203,11 +205,11 @@ TEST(ArapEnergy, ElementsTakeTheLabelOfMostVertices)
   // The vertices of the three elements have the labels 3 3 1 3, 1 3 1 0 and 1 0 0 0, so the
   // elements take the labels 3, 1 and 0. Groups are numbered in the order of their first
   // appearance.
-  EXPECT_EQ(groups.of_element, (std::vector<Index>{ 0, 1, 2 }));
+  EXPECT_EQ(groups.group_of_element, (std::vector<Index>{ 0, 1, 2 }));
   EXPECT_EQ(groups.count, 3);
   // A vertex takes the group of most of its elements, and the lowest group if two are equally
   // frequent.
-  EXPECT_EQ(groups.of_vertex, (std::vector<Index>{ 0, 0, 0, 0, 1, 1, 2, 2 }));
+  EXPECT_EQ(groups.group_of_vertex, (std::vector<Index>{ 0, 0, 0, 0, 1, 1, 2, 2 }));
   EXPECT_STREQ(to_string(ArapEnergy::elements, true), "tetrahedra");
   EXPECT_STREQ(to_string(ArapEnergy::elements, false), "triangles");
   EXPECT_STREQ(to_string(ArapEnergy::spokes_and_rims, true), "spokes_and_rims");

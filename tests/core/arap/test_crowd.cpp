@@ -33,36 +33,38 @@ std::vector<Pose> poses_at(const Handles& handles, int time)
 TEST(Crowd, InstancesAreWhatReducedArapMakesOfTheirPoses)
 {
   const Rig rig = bar();
-  ExecutionContext one, many;
-  one.set_threads(1);
-  many.set_threads(4);
+  ExecutionContext context, parallel_context;
+  context.set_threads(1);
+  parallel_context.set_threads(4);
   Crowd crowd;
-  ASSERT_TRUE(crowd.bind(one, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).usable());
+  ASSERT_TRUE(
+    crowd.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).usable());
   std::vector<ReducedArap> alone(5);
   for (ReducedArap& arap : alone)
   {
-    ASSERT_TRUE(arap.bind(one, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).usable());
+    ASSERT_TRUE(
+      arap.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).usable());
   }
   const double diagonal = bounding_box(rig.mesh.points).diagonal();
   for (int time = 0; time < 3; ++time)
   {
     const std::vector<Pose> poses = poses_at(rig.handles, time);
-    const Status status = crowd.solve(one, poses);
+    const Status status = crowd.solve(context, poses);
     ASSERT_TRUE(status.usable()) << status.message;
     EXPECT_EQ(status.report.number("counts.instances", 0), 5);
     std::vector<FloatPoints> posed, again;
-    ASSERT_TRUE(crowd.deform(one, rig.mesh.points, posed).ok());
-    ASSERT_TRUE(crowd.deform(many, rig.mesh.points, again).ok());
+    ASSERT_TRUE(crowd.deform(context, rig.mesh.points, posed).ok());
+    ASSERT_TRUE(crowd.deform(parallel_context, rig.mesh.points, again).ok());
     EXPECT_EQ(posed, again);
     double iterations = 0.0;
     for (std::size_t i = 0; i < 5; ++i)
     {
-      const Status single = alone[i].solve(one, poses[i]);
+      const Status single = alone[i].solve(context, poses[i]);
       ASSERT_TRUE(single.usable());
       iterations += single.report.number("iterations", 0);
       EXPECT_EQ(crowd.transforms()[i], alone[i].transforms()) << time << " " << i;
       Points expected;
-      ASSERT_TRUE(alone[i].deform(one, rig.mesh.points, expected).ok());
+      ASSERT_TRUE(alone[i].deform(context, rig.mesh.points, expected).ok());
       EXPECT_LT((posed[i].cast<double>() - expected).cwiseAbs().maxCoeff(), 1e-6 * diagonal);
     }
     EXPECT_EQ(status.report.number("iterations", 0), iterations);

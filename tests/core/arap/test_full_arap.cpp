@@ -92,7 +92,7 @@ TEST(FullArap, IsTheReducedMethodInTheWholeSpaceIterateByIterate)
 // If all handles move by one rigid motion, the mesh moves rigidly.
 TEST(FullArap, RigidHandlesMoveTheMeshRigidly)
 {
-  const Held bar = held_bar(6);
+  const LabeledBar bar = labeled_bar(6);
   const TriangleMesh ball = test::sphere(3);
   Handles poles;
   for (const Index v : { 0, 1, 2, 3 }) // four of the 12 vertices of the icosahedron
@@ -129,7 +129,7 @@ TEST(FullArap, RigidHandlesMoveTheMeshRigidly)
 // that is computed as a sum over the edges.
 TEST(FullArap, NoHalfStepRaisesTheEnergyAndTheLastIsTheEdgeSum)
 {
-  const Held bar = held_bar(6);
+  const LabeledBar bar = labeled_bar(6);
   ExecutionContext context;
   for (const ArapEnergy energy : every_energy)
   {
@@ -158,7 +158,7 @@ TEST(FullArap, NoHalfStepRaisesTheEnergyAndTheLastIsTheEdgeSum)
 
 TEST(FullArap, AtTheEndNoFreeVertexIsPulled)
 {
-  const Held bar = held_bar(6);
+  const LabeledBar bar = labeled_bar(6);
   ExecutionContext context;
   for (const ArapEnergy energy : every_energy)
   {
@@ -187,7 +187,7 @@ TEST(FullArap, AtTheEndNoFreeVertexIsPulled)
 
 TEST(FullArap, AccelerationReachesTheSameEnergyInFewerIterations)
 {
-  const Held bar = held_bar(12);
+  const LabeledBar bar = labeled_bar(12);
   ExecutionContext context;
   for (const ArapEnergy energy : every_energy)
   {
@@ -228,7 +228,7 @@ TEST(FullArap, AccelerationReachesTheSameEnergyInFewerIterations)
 TEST(FullArap, CostsNoMoreThanTheReducedMethodWithTheSameHandles)
 {
   const test::Rig rig = test::bar();
-  const Held bar = held_bar(8);
+  const LabeledBar bar = labeled_bar(8);
   ExecutionContext context;
   ReducedArap reduced;
   ASSERT_TRUE(reduced

@@ -28,7 +28,7 @@ struct Cloth
 // A pivot inside of an element constrains the point of the mesh that is at the pivot at rest.
 TEST(FullArapRobustness, APivotInsideAnElementIsThatPointOfTheMesh)
 {
-  Held bar = held_bar(8);
+  LabeledBar bar = labeled_bar(8);
   const Index tet = bar.mesh.tets.rows() / 2, other = tet + 40;
   const auto inside = [&](const Points& points, Index t) -> Vec3
   {
@@ -92,15 +92,15 @@ TEST(FullArapRobustness, ThreePointsInsideElementsMoveTheMeshRigidly)
 TEST(FullArapRobustness, PointsThatNearlyMeetAndArePulledApartNeverRaiseTheEnergy)
 {
   ExecutionContext context;
-  Index kept = 0;
+  Index rise_warnings = 0;
   test::Random random(5);
   for (Index k = 0; k < 40; ++k)
   {
     Cloth cloth;
-    const double apart = std::pow(10.0, -2.0 - 0.15 * static_cast<double>(k));
-    for (const Vec3& at : { Vec3(0.31, 0.12, 0), Vec3(0.31 + apart, 0.12 + 0.3 * apart, 0),
-           Vec3(0.31 + 0.1 * apart, 0.12 + apart, 0), Vec3(0.63, 0.57, 0),
-           Vec3(0.63 + apart, 0.57, 0) })
+    const double distance = std::pow(10.0, -2.0 - 0.15 * static_cast<double>(k));
+    for (const Vec3& at : { Vec3(0.31, 0.12, 0), Vec3(0.31 + distance, 0.12 + 0.3 * distance, 0),
+           Vec3(0.31 + 0.1 * distance, 0.12 + distance, 0), Vec3(0.63, 0.57, 0),
+           Vec3(0.63 + distance, 0.57, 0) })
     {
       cloth.handles.push_back(point_handle("n" + std::to_string(cloth.handles.size()), at));
     }
@@ -120,7 +120,7 @@ TEST(FullArapRobustness, PointsThatNearlyMeetAndArePulledApartNeverRaiseTheEnerg
       const std::vector<double>& energies = arap.energies();
       for (std::size_t i = 1; i < energies.size(); ++i)
       {
-        ASSERT_LE(energies[i], energies[i - 1] * (1.0 + 1e-9)) << apart << " " << i;
+        ASSERT_LE(energies[i], energies[i - 1] * (1.0 + 1e-9)) << distance << " " << i;
       }
       // The last energy must be that of the final points.
       EXPECT_NEAR(arap_energy(cloth.mesh.points, cloth.mesh.triangles, arap.groups(), arap.posed(),
@@ -128,16 +128,16 @@ TEST(FullArapRobustness, PointsThatNearlyMeetAndArePulledApartNeverRaiseTheEnerg
         energies.back(), 1e-6 * energies.back());
       for (const std::string& warning : status.warnings)
       {
-        kept += warning.find("increased the energy") != std::string::npos;
+        rise_warnings += warning.find("increased the energy") != std::string::npos;
       }
     }
   }
-  EXPECT_GT(kept, 0) << "no case was hard enough";
+  EXPECT_GT(rise_warnings, 0) << "no case was hard enough";
 }
 
 TEST(FullArapRobustness, TheMiddleOfARegionGoesWhereItsPositionIs)
 {
-  const Held bar = held_bar(8);
+  const LabeledBar bar = labeled_bar(8);
   ExecutionContext context;
   FullArap arap;
   ASSERT_TRUE(arap
@@ -227,7 +227,7 @@ TEST(FullArapRobustness, RedundantAndContradictingHandlesAreNamed)
   EXPECT_THAT(status.warnings[1], HasSubstr("'f'"));
   EXPECT_TRUE(arap.posed().allFinite());
   // Two handles of mode full constrain the same vertex. The result is the mean of their targets.
-  Held bar = held_bar(4);
+  LabeledBar bar = labeled_bar(4);
   Handle corner = point_handle("corner", Vec3(0, 0, 0));
   bar.handles.push_back(corner);
   ASSERT_TRUE(arap
@@ -325,7 +325,7 @@ TEST(FullArapRobustness, FlatAndNeedleTrianglesDoNoHarm)
 
 TEST(FullArapRobustness, TheSameBitsForAnyNumberOfThreadsAndOneFactorizationForAllPoses)
 {
-  const Held bar = held_bar(16);
+  const LabeledBar bar = labeled_bar(16);
   Points first;
   for (const int threads : { 1, 2, 5 })
   {
@@ -357,7 +357,7 @@ TEST(FullArapRobustness, TheSameBitsForAnyNumberOfThreadsAndOneFactorizationForA
 // Results do not depend on the unit of length, the position or the direction of the mesh.
 TEST(FullArapRobustness, ScaleAndPlaceOfTheWorldDoNotMatter)
 {
-  const Held bar = held_bar(6);
+  const LabeledBar bar = labeled_bar(6);
   ExecutionContext context;
   FullArap arap;
   ASSERT_TRUE(arap
@@ -372,7 +372,7 @@ TEST(FullArapRobustness, ScaleAndPlaceOfTheWorldDoNotMatter)
     const Eigen::Matrix3d turn = rigid(130, Vec3(3, -1, 2), Vec3::Zero()).leftCols<3>();
     const Vec3 move = scale * Vec3(10, -20, 5);
     const auto carry = [&](const Vec3& p) -> Vec3 { return scale * (turn * p) + move; };
-    Held large = bar;
+    LabeledBar large = bar;
     Pose pose = bend(HandleMode::position);
     for (Index v = 0; v < bar.mesh.points.rows(); ++v)
     {
@@ -432,11 +432,11 @@ TEST(FullArapRobustness, BadInputIsNamed)
   EXPECT_THAT(message(cloth.mesh.points, cloth.mesh.triangles, regions, std::vector<Index>(49, 1)),
     HasSubstr("region 'r' has no label"));
   Handles far{ point_handle("far", Vec3(0, 0, 3)), point_handle("b", Vec3(1, 0, 0)) };
-  const Status beside = arap.bind(context, cloth.mesh.points, cloth.mesh.triangles, far);
-  ASSERT_TRUE(beside.ok());
-  ASSERT_EQ(beside.warnings.size(), 1u);
-  EXPECT_THAT(beside.warnings[0], HasSubstr("'far'"));
-  EXPECT_THAT(beside.warnings[0], HasSubstr("3.0"));
+  const Status bind_status = arap.bind(context, cloth.mesh.points, cloth.mesh.triangles, far);
+  ASSERT_TRUE(bind_status.ok());
+  ASSERT_EQ(bind_status.warnings.size(), 1u);
+  EXPECT_THAT(bind_status.warnings[0], HasSubstr("'far'"));
+  EXPECT_THAT(bind_status.warnings[0], HasSubstr("3.0"));
 
   ASSERT_TRUE(arap.bind(context, cloth.mesh.points, cloth.mesh.triangles, cloth.handles).ok());
   EXPECT_THAT(arap.solve(context, Pose(3)).message, HasSubstr("the pose has 3 handles"));
@@ -454,25 +454,25 @@ TEST(FullArapRobustness, BadInputIsNamed)
 
 TEST(FullArapRobustness, CancelEndsASolveAndTheNextIsWhole)
 {
-  const Held bar = held_bar(12);
-  FullArap arap, twin;
+  const LabeledBar bar = labeled_bar(12);
+  FullArap arap, reference;
   ExecutionContext context;
   ASSERT_TRUE(arap
                 .bind(context, bar.mesh.points, bar.mesh.tets, bar.handles,
                   { ArapEnergy::automatic, bar.labels })
                 .ok());
-  ASSERT_TRUE(twin
+  ASSERT_TRUE(reference
                 .bind(context, bar.mesh.points, bar.mesh.tets, bar.handles,
                   { ArapEnergy::automatic, bar.labels })
                 .ok());
-  int asked = 0;
-  ExecutionContext stopping({}, [&asked] { return ++asked > 200; });
+  int cancel_checks = 0;
+  ExecutionContext stopping({}, [&cancel_checks] { return ++cancel_checks > 200; });
   stopping.set_threads(1);
   EXPECT_EQ(arap.solve(stopping, bend(HandleMode::free), plain(1000, FullArap::Start::last)).code,
     StatusCode::canceled);
   ASSERT_TRUE(arap.solve(context, bend(HandleMode::free)).usable());
-  ASSERT_TRUE(twin.solve(context, bend(HandleMode::free)).usable());
-  EXPECT_EQ(arap.posed(), twin.posed());
+  ASSERT_TRUE(reference.solve(context, bend(HandleMode::free)).usable());
+  EXPECT_EQ(arap.posed(), reference.posed());
   ExecutionContext before;
   before.request_cancel();
   EXPECT_EQ(arap

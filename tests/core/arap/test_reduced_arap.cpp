@@ -24,7 +24,8 @@ Eigen::Matrix3d svd_rotation(const Eigen::Matrix3d& s)
 
 /// Compute reduced ARAP with plain dense matrices. M, L and K follow their definitions, a KKT
 /// system satisfies the constraints, and rotations are computed by SVD.
-Points dense_twin(const test::Rig& rig, const RotationGroups& groups, const Pose& pose, Index count)
+Points dense_reference(
+  const test::Rig& rig, const RotationGroups& groups, const Pose& pose, Index count)
 {
   const Index n = rig.mesh.points.rows(), m = rig.weights.cols(), r = groups.count;
   Eigen::MatrixXd basis(n, 4 * m);
@@ -87,9 +88,9 @@ Points dense_twin(const test::Rig& rig, const RotationGroups& groups, const Pose
     const Eigen::MatrixXd s = k * result;
     for (Index g = 0; g < r; ++g)
     {
-      Eigen::Matrix3d one;
-      one << s.row(g), s.row(r + g), s.row(2 * r + g);
-      const Eigen::Matrix3d rotation = svd_rotation(one);
+      Eigen::Matrix3d covariance;
+      covariance << s.row(g), s.row(r + g), s.row(2 * r + g);
+      const Eigen::Matrix3d rotation = svd_rotation(covariance);
       for (Index a = 0; a < 3; ++a)
       {
         rotations.row(a * r + g) = rotation.transpose().row(a);
@@ -154,11 +155,11 @@ Points full_arap(const TetMesh& mesh, const RotationGroups& groups, const std::v
     const Eigen::MatrixXd s = k * result;
     for (Index g = 0; g < r; ++g)
     {
-      Eigen::Matrix3d one;
-      one << s.row(g), s.row(r + g), s.row(2 * r + g);
+      Eigen::Matrix3d covariance;
+      covariance << s.row(g), s.row(r + g), s.row(2 * r + g);
       for (Index a = 0; a < 3; ++a)
       {
-        rotations.row(a * r + g) = svd_rotation(one).transpose().row(a);
+        rotations.row(a * r + g) = svd_rotation(covariance).transpose().row(a);
       }
     }
   }
@@ -185,8 +186,8 @@ TEST(ReducedArap, EveryIterateIsThatOfTheDenseTwin)
         ASSERT_TRUE(arap.solve(context, pose, iterations_from_rest(count)).ok());
         Points result;
         ASSERT_TRUE(arap.deform(context, rig.mesh.points, result).ok());
-        const Points twin = dense_twin(rig, arap.groups(), pose, count);
-        EXPECT_LT((result - twin).cwiseAbs().maxCoeff(), 1e-9) << count;
+        const Points reference = dense_reference(rig, arap.groups(), pose, count);
+        EXPECT_LT((result - reference).cwiseAbs().maxCoeff(), 1e-9) << count;
       }
     }
   }
@@ -390,9 +391,9 @@ TEST(ReducedArap, ReductionCostsEnergy)
   const Eigen::MatrixXd s = covariance_matrix(rig.mesh.points, rig.mesh.tets, arap.groups()) * full;
   for (Index g = 0; g < arap.groups().count; ++g)
   {
-    Eigen::Matrix3d one;
-    one << s.row(g), s.row(arap.groups().count + g), s.row(2 * arap.groups().count + g);
-    rotations.push_back(svd_rotation(one));
+    Eigen::Matrix3d covariance;
+    covariance << s.row(g), s.row(arap.groups().count + g), s.row(2 * arap.groups().count + g);
+    rotations.push_back(svd_rotation(covariance));
   }
   EXPECT_LT(arap_energy(rig.mesh.points, rig.mesh.tets, arap.groups(), full, rotations),
     arap.energies().back());

@@ -276,19 +276,19 @@ TEST(ReducedArapRobustness, MovesWithTheWorldAndScalesWithIt)
   };
   test::Rig other = rig;
   other.mesh.points = moved(rig.mesh.points, world);
-  Pose there = pose;
+  Pose moved_pose = pose;
   for (std::size_t h = 0; h < 3; ++h)
   {
     other.handles[h].head = other.handles[h].tail = world * rig.handles[h].head.homogeneous();
-    there[h].transform = compose(world, compose(pose[h].transform, back));
+    moved_pose[h].transform = compose(world, compose(pose[h].transform, back));
   }
   ReducedArap same;
   ASSERT_TRUE(
     same.bind(context, other.mesh.points, other.mesh.tets, other.weights, other.handles).ok());
-  ASSERT_TRUE(same.solve(context, there, iterations(40)).ok());
-  Points result_there;
-  ASSERT_TRUE(same.deform(context, other.mesh.points, result_there).ok());
-  EXPECT_LT((result_there - moved(result, world)).cwiseAbs().maxCoeff(), 1e-9 * 200);
+  ASSERT_TRUE(same.solve(context, moved_pose, iterations(40)).ok());
+  Points moved_result;
+  ASSERT_TRUE(same.deform(context, other.mesh.points, moved_result).ok());
+  EXPECT_LT((moved_result - moved(result, world)).cwiseAbs().maxCoeff(), 1e-9 * 200);
   EXPECT_NEAR(same.energies().back(), 125000.0 * arap.energies().back(), 1e-6);
 }
 

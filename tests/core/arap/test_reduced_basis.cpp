@@ -56,7 +56,7 @@ struct BasisCase
   void choose(const std::vector<Index>& full, const std::vector<Index>& held_rows)
   {
     this->given = Coordinates::Zero(4 * this->space.columns, 3);
-    this->open.clear();
+    this->free_dofs.clear();
     for (Index j = 0; j < this->space.columns; ++j)
     {
       const bool is_full = std::find(full.begin(), full.end(), j) != full.end();
@@ -68,15 +68,15 @@ struct BasisCase
         }
         else
         {
-          this->open.push_back(i);
+          this->free_dofs.push_back(i);
         }
       }
     }
-    this->held = this->space.pivot_rows(held_rows, Eigen::all);
-    this->missing.resize(this->held.rows(), 3);
-    for (Index r = 0; r < this->held.rows(); ++r)
+    this->position_rows = this->space.pivot_rows(held_rows, Eigen::all);
+    this->position_residual.resize(this->position_rows.rows(), 3);
+    for (Index r = 0; r < this->position_rows.rows(); ++r)
     {
-      this->missing.row(r) = this->random.in_box(-Vec3::Ones(), Vec3::Ones()).transpose();
+      this->position_residual.row(r) = this->random.in_box(-Vec3::Ones(), Vec3::Ones()).transpose();
     }
   }
 
@@ -96,18 +96,18 @@ struct BasisCase
     }
   }
 
-  bool quickly(const Eigen::MatrixXd& stiffness, ReducedBasis& basis) const
+  bool try_fast(const Eigen::MatrixXd& stiffness, ReducedBasis& basis) const
   {
-    return basis.make_quickly(this->space, stiffness, this->open, this->held);
+    return basis.make_fast(this->space, stiffness, this->free_dofs, this->position_rows);
   }
-  bool quickly(ReducedBasis& basis) const { return this->quickly(this->space.stiffness, basis); }
+  bool try_fast(ReducedBasis& basis) const { return this->try_fast(this->space.stiffness, basis); }
 
   /// Return the columns of the basis B, without the particular solution D*.
   Eigen::MatrixXd columns(const Eigen::MatrixXd& stiffness, const ReducedBasis& basis) const
   {
     const Coordinates nothing = Coordinates::Zero(4 * this->space.columns, 3);
     const ReducedBasis::UnrotatedMinimizer rest = basis.unrotated_minimizer(
-      this->space, stiffness, nothing, nothing, Coordinates::Zero(this->held.rows(), 3));
+      this->space, stiffness, nothing, nothing, Coordinates::Zero(this->position_rows.rows(), 3));
     Eigen::MatrixXd b(4 * this->space.columns, basis.coordinates());
     for (Index c = 0; c < b.cols(); ++c)
     {
@@ -126,9 +126,9 @@ struct BasisCase
     EXPECT_LT(
       (b.transpose() * stiffness * b - Eigen::MatrixXd::Identity(size, size)).cwiseAbs().maxCoeff(),
       1e-10);
-    EXPECT_LT((this->held * b).cwiseAbs().sum(), 1e-11 * b.cwiseAbs().maxCoeff());
+    EXPECT_LT((this->position_rows * b).cwiseAbs().sum(), 1e-11 * b.cwiseAbs().maxCoeff());
     Eigen::MatrixXd c(this->space.covariance.rows(), size);
-    basis.take_covariance(c);
+    basis.extract_covariance(c);
     EXPECT_LT((c - this->space.covariance * b).norm(), 1e-10 * c.norm());
     return c;
   }
@@ -136,20 +136,23 @@ struct BasisCase
   /// Compare the results of the fast and the robust construction.
   void compare(const Eigen::MatrixXd& stiffness, const Coordinates& load) const
   {
-    ReducedBasis quick, sturdy;
-    ASSERT_TRUE(this->quickly(stiffness, quick));
-    sturdy.make_sturdily(this->space, stiffness, this->open, this->held);
-    EXPECT_TRUE(quick.redundant().empty() && sturdy.redundant().empty());
-    ASSERT_EQ(quick.coordinates(), sturdy.coordinates());
-    const Eigen::MatrixXd a = this->check(stiffness, quick), b = this->check(stiffness, sturdy);
+    ReducedBasis fast, robust;
+    ASSERT_TRUE(this->try_fast(stiffness, fast));
+    robust.make_robust(this->space, stiffness, this->free_dofs, this->position_rows);
+    EXPECT_TRUE(fast.redundant().empty() && robust.redundant().empty());
+    ASSERT_EQ(fast.coordinates(), robust.coordinates());
+    const Eigen::MatrixXd a = this->check(stiffness, fast), b = this->check(stiffness, robust);
     // Two bases of the same space differ by a rotation.
     EXPECT_LT((a * a.transpose() - b * b.transpose()).norm(), 1e-10 * (a * a.transpose()).norm());
 
     const auto still = [&](const ReducedBasis& basis)
-    { return basis.unrotated_minimizer(this->space, stiffness, load, this->given, this->missing); };
-    const ReducedBasis::UnrotatedMinimizer first = still(quick), second = still(sturdy);
-    const Coordinates zero = Coordinates::Zero(quick.coordinates(), 3);
-    const Coordinates d = quick.displacement(first, zero), e = sturdy.displacement(second, zero);
+    {
+      return basis.unrotated_minimizer(
+        this->space, stiffness, load, this->given, this->position_residual);
+    };
+    const ReducedBasis::UnrotatedMinimizer first = still(fast), second = still(robust);
+    const Coordinates zero = Coordinates::Zero(fast.coordinates(), 3);
+    const Coordinates d = fast.displacement(first, zero), e = robust.displacement(second, zero);
     EXPECT_LT((d - e).norm(), 1e-9 * e.norm());
     EXPECT_NEAR(first.energy, second.energy, 1e-10 * std::abs(second.energy) + 1e-12);
     const double direct =
@@ -157,14 +160,14 @@ struct BasisCase
     EXPECT_NEAR(first.energy, direct, 1e-10 * std::abs(direct) + 1e-12);
     EXPECT_LT(
       (first.covariance - second.covariance).norm(), 1e-9 * second.covariance.norm() + 1e-12);
-    EXPECT_LT((this->held * (d - this->given) - this->missing).norm(), 1e-11);
+    EXPECT_LT((this->position_rows * (d - this->given) - this->position_residual).norm(), 1e-11);
   }
 
   ReducedSpace space;
   test::Random random{ 5 };
-  std::vector<Index> open;
-  Eigen::MatrixXd held;
-  Coordinates given, missing;
+  std::vector<Index> free_dofs;
+  Eigen::MatrixXd position_rows;
+  Coordinates given, position_residual;
 };
 } // namespace
 
@@ -172,31 +175,32 @@ TEST(ReducedBasis, BothWaysLeadToTheSame)
 {
   for (const bool flat : { false, true })
   {
-    BasisCase one(many_handles());
+    BasisCase basis_case(many_handles());
     if (flat)
     {
-      one.flatten();
+      basis_case.flatten();
     }
-    const Coordinates nothing = Coordinates::Zero(4 * one.space.columns, 3);
-    const Eigen::MatrixXd with_mass = one.space.stiffness + 0.1 * one.space.mass;
+    const Coordinates nothing = Coordinates::Zero(4 * basis_case.space.columns, 3);
+    const Eigen::MatrixXd with_mass = basis_case.space.stiffness + 0.1 * basis_case.space.mass;
     Coordinates load = nothing;
     for (Index i = 0; i < load.rows(); ++i)
     {
-      load.row(i) = one.random.in_box(-Vec3::Ones(), Vec3::Ones()).transpose();
+      load.row(i) = basis_case.random.in_box(-Vec3::Ones(), Vec3::Ones()).transpose();
     }
     const std::vector<std::vector<Index>> full{ {}, {}, { 1 }, { 0, 2 }, { 0 } };
-    const std::vector<std::vector<Index>> held{ { 1 }, { 0, 1, 2, 7, 9 }, {}, { 1 }, { 1, 2, 20 } };
+    const std::vector<std::vector<Index>> position_rows{ { 1 }, { 0, 1, 2, 7, 9 }, {}, { 1 },
+      { 1, 2, 20 } };
     for (std::size_t i = 0; i < full.size(); ++i)
     {
-      one.choose(full[i], held[i]);
-      one.compare(one.space.stiffness, nothing);
-      one.compare(with_mass, load);
+      basis_case.choose(full[i], position_rows[i]);
+      basis_case.compare(basis_case.space.stiffness, nothing);
+      basis_case.compare(with_mass, load);
     }
     // Without constraints the stiffness matrix is singular. Adding the mass makes it nonsingular.
-    one.choose({}, {});
-    one.compare(with_mass, load);
+    basis_case.choose({}, {});
+    basis_case.compare(with_mass, load);
     ReducedBasis basis;
-    EXPECT_FALSE(one.quickly(basis));
+    EXPECT_FALSE(basis_case.try_fast(basis));
   }
 }
 
@@ -206,42 +210,42 @@ TEST(ReducedBasis, TheQuickWayDeclinesWhatIsInDoubt)
   ReducedBasis basis;
   BasisCase same(rig);
   same.choose({}, { 0, 1 });
-  ASSERT_TRUE(same.quickly(basis));
-  const Eigen::RowVectorXd other = same.held.row(1);
-  for (const double apart : { 0.0, 1e-12, 1e-8, 1e-4 })
+  ASSERT_TRUE(same.try_fast(basis));
+  const Eigen::RowVectorXd other = same.position_rows.row(1);
+  for (const double distance : { 0.0, 1e-12, 1e-8, 1e-4 })
   {
-    same.held.row(1) = same.held.row(0) + apart * other;
-    EXPECT_FALSE(same.quickly(basis)) << apart;
+    same.position_rows.row(1) = same.position_rows.row(0) + distance * other;
+    EXPECT_FALSE(same.try_fast(basis)) << distance;
   }
-  same.held.row(1) *= 0.0;
-  EXPECT_FALSE(same.quickly(basis));
-  same.held(1, 3) = std::nan("");
-  EXPECT_FALSE(same.quickly(basis));
+  same.position_rows.row(1) *= 0.0;
+  EXPECT_FALSE(same.try_fast(basis));
+  same.position_rows(1, 3) = std::nan("");
+  EXPECT_FALSE(same.try_fast(basis));
 
   // make() finds the same redundant constraints as the robust construction.
-  same.held.row(1) = same.held.row(0);
-  basis.make(same.space, same.space.stiffness, same.open, same.held);
+  same.position_rows.row(1) = same.position_rows.row(0);
+  basis.make(same.space, same.space.stiffness, same.free_dofs, same.position_rows);
   EXPECT_EQ(basis.redundant().size(), 1u);
   // After the failure the fast construction works again.
   same.choose({}, { 0, 1 });
-  EXPECT_TRUE(same.quickly(basis));
+  EXPECT_TRUE(same.try_fast(basis));
   EXPECT_TRUE(basis.redundant().empty());
 
   // The fast construction fails if there are too many constraints.
   BasisCase many(rig);
   many.choose({ 0, 1, 2, 3, 4 }, { 5, 6, 7, 8, 9 });
   ReducedBasis few;
-  EXPECT_FALSE(many.quickly(few));
+  EXPECT_FALSE(many.try_fast(few));
 
   // The weights have two almost equal columns.
   test::Rig doubled = rig;
-  for (const double apart : { 0.0, 1e-12, 1e-6 })
+  for (const double distance : { 0.0, 1e-12, 1e-6 })
   {
-    doubled.weights.col(0) = 0.5 * (rig.weights.col(0) + (1.0 - apart) * rig.weights.col(1));
+    doubled.weights.col(0) = 0.5 * (rig.weights.col(0) + (1.0 - distance) * rig.weights.col(1));
     doubled.weights.col(1) = rig.weights.col(0) + rig.weights.col(1) - doubled.weights.col(0);
     BasisCase ill(doubled);
     ill.choose({}, { 0 });
     ReducedBasis none;
-    EXPECT_FALSE(ill.quickly(none)) << apart;
+    EXPECT_FALSE(ill.try_fast(none)) << distance;
   }
 }

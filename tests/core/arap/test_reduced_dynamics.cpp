@@ -55,12 +55,12 @@ private:
 };
 
 /// Return the pose before the release: the left end is fixed and the right end is displaced.
-Pose drawn()
+Pose dragged_pose()
 {
   return bend(HandleMode::free);
 }
 
-Pose let_go()
+Pose released_pose()
 {
   Pose pose(3);
   pose[1].mode = pose[2].mode = HandleMode::free;
@@ -120,10 +120,10 @@ TEST(ReducedDynamics, WithoutGravityMomentumStays)
   options.stiffness = 50.0;
   // The bar swings with one end fixed. Then this end is released, and the bar moves away while it
   // rotates and vibrates.
-  ASSERT_TRUE(body.dynamics.start(body.context, drawn()).usable());
+  ASSERT_TRUE(body.dynamics.start(body.context, dragged_pose()).usable());
   for (int n = 0; n < 20; ++n)
   {
-    body.step(let_go(), options);
+    body.step(released_pose(), options);
   }
   const Vec3 momentum = body.dynamics.momentum();
   EXPECT_GT(momentum.norm(), 1e-2);
@@ -149,14 +149,14 @@ TEST(ReducedDynamics, SwingsAreWavesThatLoseEnergy)
   options.stiffness = 50.0;
   options.solve.tolerance = 1e-12;
   options.solve.max_iterations = 2000;
-  ASSERT_TRUE(body.dynamics.start(body.context, drawn(), options.solve).usable());
+  ASSERT_TRUE(body.dynamics.start(body.context, dragged_pose(), options.solve).usable());
   double energy = body.mechanical_energy(options);
   EXPECT_GT(energy, 1e-2);
   double largest_kinetic = 0.0;
   const double start = energy;
   for (int n = 0; n < 300; ++n)
   {
-    body.step(let_go(), options);
+    body.step(released_pose(), options);
     const double now = body.mechanical_energy(options);
     ASSERT_LE(now, energy + 1e-9 * start) << n;
     energy = now;
@@ -186,7 +186,7 @@ TEST(ReducedDynamics, ComesToRestWhereTheForcesBalance)
   options.solve.max_iterations = 500;
   for (int n = 0; n < 600; ++n)
   {
-    body.step(let_go(), options);
+    body.step(released_pose(), options);
   }
   EXPECT_LT(body.dynamics.kinetic_energy(), 1e-12);
   const Points hanging = body.points();
@@ -195,7 +195,7 @@ TEST(ReducedDynamics, ComesToRestWhereTheForcesBalance)
   options.time_step = 0.25;
   for (int n = 0; n < 300; ++n)
   {
-    body.step(let_go(), options);
+    body.step(released_pose(), options);
   }
   EXPECT_LT((body.points() - hanging).cwiseAbs().maxCoeff(), 1e-6);
 }
@@ -237,7 +237,7 @@ TEST(ReducedDynamics, AnHourOfFramesStaysFinite)
   options.damping = 0.2;
   options.solve.max_iterations = 5;
   test::Random random(5);
-  Pose pose = let_go();
+  Pose pose = released_pose();
   for (int n = 0; n < 3600 * 24; ++n)
   {
     if (n % 100 == 0)
@@ -263,10 +263,10 @@ TEST(ReducedDynamics, ReplaysAreTheSameBitsOnAnyNumberOfThreads)
   ReducedDynamics::State half;
   for (Body* body : { &first, &second })
   {
-    ASSERT_TRUE(body->dynamics.start(body->context, drawn()).usable());
+    ASSERT_TRUE(body->dynamics.start(body->context, dragged_pose()).usable());
     for (int n = 0; n < 60; ++n)
     {
-      body->step(n < 10 ? drawn() : let_go(), options);
+      body->step(n < 10 ? dragged_pose() : released_pose(), options);
       if (n == 29)
       {
         half = body->dynamics.state();
@@ -280,7 +280,7 @@ TEST(ReducedDynamics, ReplaysAreTheSameBitsOnAnyNumberOfThreads)
   EXPECT_NE(first.points(), at_end);
   for (int n = 30; n < 60; ++n)
   {
-    first.step(let_go(), options);
+    first.step(released_pose(), options);
   }
   EXPECT_EQ(first.points(), at_end);
 }
@@ -289,7 +289,7 @@ TEST(ReducedDynamics, BadNumbersAreNamed)
 {
   const test::Rig rig = test::bar();
   Body body(rig);
-  const Pose pose = let_go();
+  const Pose pose = released_pose();
   const auto message = [&](auto change)
   {
     ReducedDynamicsOptions options;

@@ -17,7 +17,7 @@ struct FixedBox
   TetMesh mesh;
   SparseMatrix stiffness;
   Eigen::VectorXd mass;
-  std::vector<Index> zero;
+  std::vector<Index> fixed_vertices;
 
   explicit FixedBox(TetMesh box)
     : mesh(std::move(box)), stiffness(stiffness_matrix(this->mesh.points, this->mesh.tets)),
@@ -27,7 +27,7 @@ struct FixedBox
     {
       if (this->mesh.points(v, 0) == 0.0)
       {
-        this->zero.push_back(v);
+        this->fixed_vertices.push_back(v);
       }
     }
   }
@@ -41,7 +41,8 @@ TEST(SkinningEigenmodes, OfABarHeldAtOneEndAreSines)
   const FixedBox bar(tet_box(48, 2, 2, Vec3::Zero(), Vec3(6.0, 0.25, 0.25)));
   ExecutionContext context;
   Eigenmodes found;
-  ASSERT_TRUE(skinning_eigenmodes(context, bar.stiffness, bar.mass, bar.zero, 6, found).ok());
+  ASSERT_TRUE(
+    skinning_eigenmodes(context, bar.stiffness, bar.mass, bar.fixed_vertices, 6, found).ok());
   ASSERT_EQ(found.modes.cols(), 6);
   for (Index k = 0; k < 6; ++k)
   {
@@ -62,9 +63,10 @@ TEST(SkinningEigenmodes, SolveTheProblemAndAreOrthogonal)
   const FixedBox box(tet_box(6, 5, 5));
   ExecutionContext context;
   Eigenmodes found;
-  ASSERT_TRUE(skinning_eigenmodes(context, box.stiffness, box.mass, box.zero, 15, found).ok());
+  ASSERT_TRUE(
+    skinning_eigenmodes(context, box.stiffness, box.mass, box.fixed_vertices, 15, found).ok());
   ASSERT_EQ(found.modes.cols(), 15);
-  for (const Index v : box.zero)
+  for (const Index v : box.fixed_vertices)
   {
     EXPECT_EQ(found.modes.row(v).cwiseAbs().maxCoeff(), 0.0);
   }
@@ -77,7 +79,7 @@ TEST(SkinningEigenmodes, SolveTheProblemAndAreOrthogonal)
     unit.col(k) /= std::sqrt(unit.col(k).dot(box.mass.asDiagonal() * unit.col(k)));
     Eigen::VectorXd residual = box.stiffness * unit.col(k) -
       found.eigenvalues[k] * (box.mass.asDiagonal() * unit.col(k)).eval();
-    for (const Index v : box.zero)
+    for (const Index v : box.fixed_vertices)
     {
       residual[v] = 0.0; // ignore the reaction force at a fixed vertex
     }
@@ -88,7 +90,7 @@ TEST(SkinningEigenmodes, SolveTheProblemAndAreOrthogonal)
   // For a large number of modes the function uses the dense solver. The result must be the same.
   Eigenmodes dense;
   ASSERT_TRUE(skinning_eigenmodes(
-    context, box.stiffness, box.mass, box.zero, box.mesh.points.rows() / 2, dense)
+    context, box.stiffness, box.mass, box.fixed_vertices, box.mesh.points.rows() / 2, dense)
                 .ok());
   EXPECT_LT((dense.eigenvalues.head(15) - found.eigenvalues).cwiseAbs().maxCoeff(), 1e-7);
 }
@@ -101,7 +103,8 @@ TEST(SkinningEigenmodes, SameBitsAgainAndOnManyThreads)
   {
     ExecutionContext context;
     context.set_threads(i == 0 ? 1 : 4);
-    ASSERT_TRUE(skinning_eigenmodes(context, box.stiffness, box.mass, box.zero, 8, found[i]).ok());
+    ASSERT_TRUE(
+      skinning_eigenmodes(context, box.stiffness, box.mass, box.fixed_vertices, 8, found[i]).ok());
   }
   EXPECT_EQ(found[0].modes, found[1].modes);
   EXPECT_EQ(found[0].eigenvalues, found[1].eigenvalues);
@@ -116,10 +119,12 @@ TEST(SkinningEigenmodes, APartThatNothingHoldsMayMoveAsAWhole)
   two.points.bottomRows(n) = one.points.rowwise() + Eigen::RowVector3d(5, 0, 0);
   two.tets.conservativeResize(2 * one.tets.rows(), 4);
   two.tets.bottomRows(one.tets.rows()) = one.tets.array() + static_cast<int>(n);
-  const FixedBox held(two);
+  const FixedBox fixed_box(two);
   ExecutionContext context;
   Eigenmodes found;
-  ASSERT_TRUE(skinning_eigenmodes(context, held.stiffness, held.mass, held.zero, 4, found).ok());
+  ASSERT_TRUE(skinning_eigenmodes(
+    context, fixed_box.stiffness, fixed_box.mass, fixed_box.fixed_vertices, 4, found)
+                .ok());
   EXPECT_NEAR(found.eigenvalues[0], 0.0, 1e-6);
   EXPECT_GT(found.eigenvalues[1], 0.1);
   EXPECT_LT((found.modes.col(0).tail(n).array() - 1.0).abs().maxCoeff(), 1e-6);
@@ -139,7 +144,8 @@ TEST(SkinningEigenmodes, NothingFreeGivesNoModesAndCancelEnds)
   ASSERT_TRUE(skinning_eigenmodes(context, box.stiffness, box.mass, all, 5, found).ok());
   EXPECT_EQ(found.modes.cols(), 0);
   context.request_cancel();
-  EXPECT_EQ(skinning_eigenmodes(context, box.stiffness, box.mass, box.zero, 5, found).code,
+  EXPECT_EQ(
+    skinning_eigenmodes(context, box.stiffness, box.mass, box.fixed_vertices, 5, found).code,
     StatusCode::canceled);
 }
 

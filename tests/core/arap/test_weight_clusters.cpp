@@ -39,11 +39,13 @@ TEST(WeightClusters, GroupsAreFound)
     Clusters clusters;
     ASSERT_TRUE(cluster_rows(context, blobs(centers, each, 0.1), 4, clusters));
     ASSERT_EQ(clusters.count, 4);
-    for (std::size_t i = 4; i < clusters.of_row.size(); ++i)
+    for (std::size_t i = 4; i < clusters.cluster_of_row.size(); ++i)
     {
-      ASSERT_EQ(clusters.of_row[i], clusters.of_row[i % 4]);
+      ASSERT_EQ(clusters.cluster_of_row[i], clusters.cluster_of_row[i % 4]);
     }
-    EXPECT_EQ(std::set<Index>(clusters.of_row.begin(), clusters.of_row.begin() + 4).size(), 4u);
+    EXPECT_EQ(
+      std::set<Index>(clusters.cluster_of_row.begin(), clusters.cluster_of_row.begin() + 4).size(),
+      4u);
   }
 }
 
@@ -57,7 +59,7 @@ TEST(WeightClusters, NoRowHasANearerMean)
   std::vector<double> sizes(static_cast<std::size_t>(clusters.count), 0.0);
   for (Index v = 0; v < rig.weights.rows(); ++v)
   {
-    const Index c = clusters.of_row[static_cast<std::size_t>(v)];
+    const Index c = clusters.cluster_of_row[static_cast<std::size_t>(v)];
     means.row(c) += rig.weights.row(v);
     sizes[static_cast<std::size_t>(c)] += 1.0;
   }
@@ -71,7 +73,7 @@ TEST(WeightClusters, NoRowHasANearerMean)
   {
     Index nearest = 0;
     (means.rowwise() - rig.weights.row(v)).rowwise().squaredNorm().minCoeff(&nearest);
-    wrong += nearest != clusters.of_row[static_cast<std::size_t>(v)] ? 1 : 0;
+    wrong += nearest != clusters.cluster_of_row[static_cast<std::size_t>(v)] ? 1 : 0;
   }
   EXPECT_EQ(wrong, 0); // each row is in the nearest cluster: Lloyd's iteration has converged
 }
@@ -117,7 +119,7 @@ TEST(WeightClusters, BumpsAreSplinesThatVanishAtTheHandles)
     // The spline's maximum 2/3 at the seed is scaled by 1.5.
     EXPECT_NEAR(bumps.col(e).maxCoeff(), 1.0, 1e-14);
   }
-  for (const Index v : handle_rows(rig.weights))
+  for (const Index v : largest_weight_rows(rig.weights))
   {
     EXPECT_LT(bumps.row(v).maxCoeff(), 1e-12);
   }

@@ -40,7 +40,7 @@ CurveSkeleton run_curve_skeleton(const TriangleMesh& mesh, const std::string& su
   EXPECT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(status.report.text("surface"), surface);
   EXPECT_EQ(skeleton.radii.size(), skeleton.points.rows());
-  EXPECT_EQ(static_cast<Index>(skeleton.part_of.size()), skeleton.points.rows());
+  EXPECT_EQ(static_cast<Index>(skeleton.part_of_point.size()), skeleton.points.rows());
   return skeleton;
 }
 
@@ -224,7 +224,7 @@ TEST_F(CurveSkeletonTest, ComponentsHaveTheirOwnAndCrumbsNone)
   for (Index v = 0; v < skeleton.points.rows(); ++v)
   {
     const bool second = skeleton.points(v, 1) > 2.0;
-    EXPECT_LT((skeleton.centroids[skeleton.part_of[v]] - expected[second]).norm(), 1e-9);
+    EXPECT_LT((skeleton.centroids[skeleton.part_of_point[v]] - expected[second]).norm(), 1e-9);
   }
 }
 
@@ -277,7 +277,7 @@ TEST_F(CurveSkeletonTest, CanBeCanceledWhileItContracts)
   test::CancelLater user(context, 1500);
   const Status status =
     curve_skeleton(context, mesh.points, mesh.triangles, options, skeleton, solid);
-  EXPECT_LT(user.waited(), 0.5);
+  EXPECT_LT(user.seconds_since_cancel(), 0.5);
   EXPECT_EQ(status.code, StatusCode::canceled);
 }
 

@@ -59,7 +59,7 @@ struct Drawing
     {
       result.segments.row(s) << this->segments[s][0], this->segments[s][1];
     }
-    result.part_of = this->parts;
+    result.part_of_point = this->parts;
     result.centroids = this->centroids;
     return result;
   }

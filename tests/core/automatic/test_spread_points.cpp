@@ -37,7 +37,7 @@ Status fail(const TriangleMesh& mesh, const SpreadPointsOptions& options)
   return spread_points(context, mesh.points, mesh.triangles, options, result);
 }
 
-SpreadPointsOptions on_surface(Index count, PointDistance distance)
+SpreadPointsOptions surface_options(Index count, PointDistance distance)
 {
   SpreadPointsOptions options;
   options.count = count;
@@ -102,14 +102,14 @@ TEST(SpreadPoints, AreFartherFromEachOtherThanAnyVertexIsFromThem)
   const TriangleMesh mesh = test::torus(30, 12, 1.0, 0.3);
   for (const PointDistance metric : { PointDistance::along_edges, PointDistance::straight })
   {
-    const SpreadPoints points = run_spread_points(mesh, on_surface(9, metric));
+    const SpreadPoints points = run_spread_points(mesh, surface_options(9, metric));
     ASSERT_EQ(points.vertices.size(), 9u);
     EXPECT_EQ(points.inside, 0);
     std::vector<double> nearest(static_cast<std::size_t>(mesh.points.rows()), infinite);
     double closest_pair = infinite;
     for (std::size_t i = 0; i < points.vertices.size(); ++i)
     {
-      EXPECT_EQ(points.places.row(static_cast<Index>(i)), mesh.points.row(points.vertices[i]));
+      EXPECT_EQ(points.positions.row(static_cast<Index>(i)), mesh.points.row(points.vertices[i]));
       const std::vector<double> distance = metric == PointDistance::straight
         ? straight(mesh, points.vertices[i])
         : along_edges(mesh, points.vertices[i]);
@@ -132,11 +132,11 @@ TEST(SpreadPoints, FewerAreTheFirstOfMore)
 {
   const TriangleMesh mesh = test::join(test::sphere(3), test::sphere(2, 0.5, Vec3(3.0, 0.0, 0.0)));
   const std::vector<Index> more =
-    run_spread_points(mesh, on_surface(20, PointDistance::along_edges)).vertices;
+    run_spread_points(mesh, surface_options(20, PointDistance::along_edges)).vertices;
   for (const Index count : { 1, 2, 5, 19 })
   {
     const std::vector<Index> fewer =
-      run_spread_points(mesh, on_surface(count, PointDistance::along_edges)).vertices;
+      run_spread_points(mesh, surface_options(count, PointDistance::along_edges)).vertices;
     EXPECT_TRUE(std::equal(fewer.begin(), fewer.end(), more.begin()));
   }
   EXPECT_EQ(std::set<Index>(more.begin(), more.end()).size(), 20u);
@@ -152,11 +152,11 @@ TEST(SpreadPoints, EveryComponentHasItsShare)
   mesh = test::join(mesh, test::sphere(1, 0.01, Vec3(0.0, 9.0, 0.0)));
   for (const PointDistance metric : { PointDistance::along_edges, PointDistance::straight })
   {
-    const SpreadPoints three = run_spread_points(mesh, on_surface(3, metric));
+    const SpreadPoints three = run_spread_points(mesh, surface_options(3, metric));
     EXPECT_EQ(three.components, 4);
-    EXPECT_EQ(three.served, 3);
-    const SpreadPoints nine = run_spread_points(mesh, on_surface(9, metric));
-    EXPECT_EQ(nine.served, 3);
+    EXPECT_EQ(three.covered_components, 3);
+    const SpreadPoints nine = run_spread_points(mesh, surface_options(9, metric));
+    EXPECT_EQ(nine.covered_components, 3);
     Index counts[3] = { 0, 0, 0 };
     for (const Index v : nine.vertices)
     {
@@ -175,16 +175,16 @@ TEST(SpreadPoints, WeldEqualVertices)
   // the same as for the welded mesh.
   const TriangleMesh mesh = test::sphere(2);
   const TriangleMesh loose = test::unwelded(mesh);
-  const SpreadPoints a = run_spread_points(mesh, on_surface(12, PointDistance::along_edges));
-  const SpreadPoints b = run_spread_points(loose, on_surface(12, PointDistance::along_edges));
+  const SpreadPoints a = run_spread_points(mesh, surface_options(12, PointDistance::along_edges));
+  const SpreadPoints b = run_spread_points(loose, surface_options(12, PointDistance::along_edges));
   EXPECT_EQ(b.components, 1);
   std::set<std::array<double, 3>> different;
-  for (Index i = 0; i < b.places.rows(); ++i)
+  for (Index i = 0; i < b.positions.rows(); ++i)
   {
-    different.insert({ b.places(i, 0), b.places(i, 1), b.places(i, 2) });
+    different.insert({ b.positions(i, 0), b.positions(i, 1), b.positions(i, 2) });
   }
   EXPECT_EQ(different.size(), 12u);
-  EXPECT_EQ(a.places.rows(), 12);
+  EXPECT_EQ(a.positions.rows(), 12);
 }
 
 TEST(SpreadPoints, LieInTheMiddleOfTheShape)
@@ -198,10 +198,10 @@ TEST(SpreadPoints, LieInTheMiddleOfTheShape)
   for (Index i = 0; i < 6; ++i)
   {
     // The points are near the axis. The error is at most the last step of their motion.
-    EXPECT_NEAR(points.places(i, 1), 0.5, 0.15) << i;
-    EXPECT_NEAR(points.places(i, 2), 0.5, 0.15) << i;
-    least = std::min(least, points.places(i, 0));
-    most = std::max(most, points.places(i, 0));
+    EXPECT_NEAR(points.positions(i, 1), 0.5, 0.15) << i;
+    EXPECT_NEAR(points.positions(i, 2), 0.5, 0.15) << i;
+    least = std::min(least, points.positions(i, 0));
+    most = std::max(most, points.positions(i, 0));
   }
   // The outermost points are less than 0.7 from the ends of the bar, which has the thickness 1.
   EXPECT_LT(least, 0.7);
@@ -218,9 +218,9 @@ TEST(SpreadPoints, StayInTheTips)
   options.count = 2;
   const SpreadPoints points = run_spread_points(mesh, options);
   EXPECT_EQ(points.inside, 2);
-  EXPECT_GT(std::abs(points.places(0, 0)), 3.5);
-  EXPECT_GT(std::abs(points.places(1, 0)), 3.5);
-  EXPECT_LT(points.places(0, 0) * points.places(1, 0), 0.0);
+  EXPECT_GT(std::abs(points.positions(0, 0)), 3.5);
+  EXPECT_GT(std::abs(points.positions(1, 0)), 3.5);
+  EXPECT_LT(points.positions(0, 0) * points.positions(1, 0), 0.0);
 }
 
 TEST(SpreadPoints, APlateIsNotServedOnBothSides)
@@ -233,7 +233,7 @@ TEST(SpreadPoints, APlateIsNotServedOnBothSides)
   {
     for (Index j = 0; j < i; ++j)
     {
-      EXPECT_GT((points.places.row(i) - points.places.row(j)).norm(), 0.15) << i << " " << j;
+      EXPECT_GT((points.positions.row(i) - points.positions.row(j)).norm(), 0.15) << i << " " << j;
     }
   }
 }
@@ -250,9 +250,9 @@ TEST(SpreadPoints, AreInsideWhicheverWayTrianglesTurn)
   const SpreadPoints points = run_spread_points(open, options);
   const WindingNumber winding(open.points, open.triangles);
   EXPECT_GE(points.inside, 4);
-  for (Index i = 0; i < right.places.rows(); ++i)
+  for (Index i = 0; i < right.positions.rows(); ++i)
   {
-    EXPECT_GE(winding_number_direct(mesh.points, mesh.triangles, right.places.row(i)), 0.5);
+    EXPECT_GE(winding_number_direct(mesh.points, mesh.triangles, right.positions.row(i)), 0.5);
   }
   // A flat surface has no inside, so its points are not moved.
   const SpreadPoints flat = run_spread_points(test::grid(5, 5), options);
@@ -265,7 +265,8 @@ TEST(SpreadPoints, DoNotDependOnThreads)
   SpreadPointsOptions options;
   options.count = 10;
   const TriangleMesh mesh = bar_surface();
-  EXPECT_EQ(run_spread_points(mesh, options, 1).places, run_spread_points(mesh, options, 2).places);
+  EXPECT_EQ(
+    run_spread_points(mesh, options, 1).positions, run_spread_points(mesh, options, 2).positions);
 }
 
 TEST(SpreadPoints, BadInputIsOneSentence)
@@ -276,11 +277,12 @@ TEST(SpreadPoints, BadInputIsOneSentence)
     EXPECT_EQ(status.code, StatusCode::invalid_input);
     return status.message;
   };
-  EXPECT_THAT(message(fail(mesh, on_surface(0, PointDistance::straight))), HasSubstr("not 0"));
+  EXPECT_THAT(message(fail(mesh, surface_options(0, PointDistance::straight))), HasSubstr("not 0"));
   for (const PointDistance metric : { PointDistance::along_edges, PointDistance::straight })
   {
-    EXPECT_EQ(run_spread_points(mesh, on_surface(8, metric)).vertices.size(), 8u);
-    EXPECT_THAT(message(fail(mesh, on_surface(9, metric))), HasSubstr("only 8 distinct vertices"));
+    EXPECT_EQ(run_spread_points(mesh, surface_options(8, metric)).vertices.size(), 8u);
+    EXPECT_THAT(
+      message(fail(mesh, surface_options(9, metric))), HasSubstr("only 8 distinct vertices"));
   }
   SpreadPointsOptions options;
   options.winding_threshold = 0.0;

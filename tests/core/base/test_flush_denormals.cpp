@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cfenv>
 #include <limits>
 
 using namespace bindpose;
@@ -46,4 +47,16 @@ TEST(FlushDenormals, DenormalsAreZeroWithinTheScopeOnly)
   }
   EXPECT_GT(denormal_product(), 0.0F);
   EXPECT_GT(multiple_of_a_denormal(), 0.0F);
+}
+
+TEST(FlushDenormals, ExceptionFlagsOfTheScopeRemain)
+{
+  std::feclearexcept(FE_ALL_EXCEPT);
+  {
+    const FlushDenormals flush;
+    volatile float zero = 0.0F;
+    volatile float infinite = 1.0F / zero;
+    EXPECT_GT(infinite, 0.0F);
+  }
+  EXPECT_NE(std::fetestexcept(FE_DIVBYZERO), 0);
 }

@@ -69,13 +69,13 @@ TEST(Memory, RefusesWithBothNumbers)
     testing::StartsWith("all of it would increase the memory of this process to about 95"));
   EXPECT_THAT(far.message, testing::HasSubstr(" are available: use a coarser mesh"));
 
-  const auto held = static_cast<Index>(resident_memory() / mebibyte);
-  EXPECT_TRUE(check_memory("a little", 16 * mebibyte, held + 128).ok());
-  const Status over = check_memory("too much", 256 * mebibyte, held + 128);
+  const auto resident_mebibytes = static_cast<Index>(resident_memory() / mebibyte);
+  EXPECT_TRUE(check_memory("a little", 16 * mebibyte, resident_mebibytes + 128).ok());
+  const Status over = check_memory("too much", 256 * mebibyte, resident_mebibytes + 128);
   EXPECT_EQ(over.code, StatusCode::internal_error);
   EXPECT_THAT(over.message,
     testing::HasSubstr(
-      "the limit is " + std::to_string(held + 128) + " MiB: use a coarser mesh or "));
-  EXPECT_LE(memory_left(held + 128), 129 * mebibyte);
-  EXPECT_EQ(memory_left(1), 0.0);
+      "the limit is " + std::to_string(resident_mebibytes + 128) + " MiB: use a coarser mesh or "));
+  EXPECT_LE(remaining_memory(resident_mebibytes + 128), 129 * mebibyte);
+  EXPECT_EQ(remaining_memory(1), 0.0);
 }

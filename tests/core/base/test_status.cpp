@@ -54,15 +54,15 @@ TEST(Report, BecomesNestedJson)
 TEST(Status, MessagesAreOneLineOfUtf8)
 {
   EXPECT_EQ(Status::invalid_input("a\nb\r\x1b\x7f").message, "a?b???");
-  EXPECT_EQ(one_line("gr\xc3\xbc\xc3\x9f\xe2\x80\xa6 \xf0\x9f\x98\x80"),
+  EXPECT_EQ(sanitize_line("gr\xc3\xbc\xc3\x9f\xe2\x80\xa6 \xf0\x9f\x98\x80"),
     "gr\xc3\xbc\xc3\x9f\xe2\x80\xa6 \xf0\x9f\x98\x80");
   // The invalid sequences are: a truncated one, an overlong one, a surrogate, a code point above
   // the largest one, and a byte that cannot begin a sequence.
-  EXPECT_EQ(one_line("\xc3"), "?");
-  EXPECT_EQ(one_line("\xe0\x80\x80x"), "???x");
-  EXPECT_EQ(one_line("\xed\xa0\x80"), "???");
-  EXPECT_EQ(one_line("\xf4\x90\x80\x80"), "????");
-  EXPECT_EQ(one_line("\x80\xff" + std::string(1, '\0')), "???");
+  EXPECT_EQ(sanitize_line("\xc3"), "?");
+  EXPECT_EQ(sanitize_line("\xe0\x80\x80x"), "???x");
+  EXPECT_EQ(sanitize_line("\xed\xa0\x80"), "???");
+  EXPECT_EQ(sanitize_line("\xf4\x90\x80\x80"), "????");
+  EXPECT_EQ(sanitize_line("\x80\xff" + std::string(1, '\0')), "???");
 }
 
 TEST(Status, UsableMeansThereIsAResult)

@@ -169,8 +169,8 @@ TEST_F(CagesInTets, AroundASurfaceAreItsDomain)
   options.domain = WeightsDomain::cage;
   SurfaceWeights result;
   const auto method =
-    [](ExecutionContext& of_method, const WeightsProblem& problem, WeightsResult& weights)
-  { return bounded_biharmonic_weights(of_method, problem, {}, weights); };
+    [](ExecutionContext& method_context, const WeightsProblem& problem, WeightsResult& weights)
+  { return bounded_biharmonic_weights(method_context, problem, {}, weights); };
   Status status = surface_weights(
     context, ball.points, ball.triangles, {}, cube_cage(1.0), options, {}, method, result);
   ASSERT_TRUE(status.ok()) << status.message;
@@ -211,8 +211,8 @@ TEST_F(CagesInTets, OfEdgesAroundAFlatShapeAreItsDomain)
   SurfaceWeightsOptions options;
   options.domain = WeightsDomain::cage;
   const auto method =
-    [](ExecutionContext& of_method, const WeightsProblem& problem, WeightsResult& weights)
-  { return bounded_biharmonic_weights(of_method, problem, {}, weights); };
+    [](ExecutionContext& method_context, const WeightsProblem& problem, WeightsResult& weights)
+  { return bounded_biharmonic_weights(method_context, problem, {}, weights); };
   TriangleMesh shape = test::grid(10, 10, 0.8, 0.8);
   shape.points.leftCols(2).array() += 0.1; // the shape is inside of a cage of size one
   Handles cage = polyline({ { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } }, true);

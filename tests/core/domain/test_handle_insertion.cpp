@@ -102,12 +102,12 @@ TEST(HandleInsertion, ManyRandomHandlesKeepVolumesAndStayApart)
 {
   const Domain box = test::to_domain(test::tet_box(2, 2, 2));
   test::Random random(11);
-  std::vector<Vec3> places;
+  std::vector<Vec3> positions;
   for (int i = 0; i < 60; ++i)
   {
-    places.push_back(random.in_box(Vec3::Zero(), Vec3::Ones()));
+    positions.push_back(random.in_box(Vec3::Zero(), Vec3::Ones()));
   }
-  const HandleInsertion mesh = inserted(box, test::point_handles(places));
+  const HandleInsertion mesh = inserted(box, test::point_handles(positions));
   expect_sound(box, mesh);
   std::set<Index> vertices;
   for (const HandlePlacement& placement : mesh.handles)
@@ -118,11 +118,11 @@ TEST(HandleInsertion, ManyRandomHandlesKeepVolumesAndStayApart)
   EXPECT_EQ(vertices.size(), 60u) << "no two handles share a vertex";
 
   const Domain sheet = test::to_domain(test::grid(3, 3));
-  for (Vec3& p : places)
+  for (Vec3& p : positions)
   {
     p.z() = 0.0;
   }
-  const HandleInsertion flat = inserted(sheet, test::point_handles(places));
+  const HandleInsertion flat = inserted(sheet, test::point_handles(positions));
   expect_sound(sheet, flat);
 }
 
@@ -301,10 +301,10 @@ TEST(HandleConstraints, PartsWithoutHandlesFollowTheNearest)
   HandleConstraints constraints;
   ASSERT_TRUE(constrain_handles(mesh, handles, {}, constraints).ok());
   EXPECT_EQ(constraints.components.count, 2);
-  EXPECT_EQ(constraints.tether, (std::vector<Index>{ -1, 1 }));
+  EXPECT_EQ(constraints.nearest_handle, (std::vector<Index>{ -1, 1 }));
   ASSERT_EQ(constraints.warnings.size(), 1u);
   EXPECT_NE(constraints.warnings[0].find("'p2'"), std::string::npos);
-  EXPECT_EQ(constraints.roles[domain.points.rows() - 1], VertexRole::tethered);
+  EXPECT_EQ(constraints.roles[domain.points.rows() - 1], VertexRole::without_handle);
 }
 
 TEST(HandleConstraints, OneWarningPerKind)

@@ -43,13 +43,13 @@ TEST(DisphenoidLattice, EveryPlaceIsInItsTet)
   test::Random random(1);
   for (int round = 0; round < 2000; ++round)
   {
-    Vec3 place = random.in_box(Vec3::Constant(2.0), Vec3::Constant(5.0));
+    Vec3 position = random.in_box(Vec3::Constant(2.0), Vec3::Constant(5.0));
     if (round % 4 == 0)
     {
       // Round the point so that it is on a node, an edge or a facet.
-      place = (4.0 * place).array().round() / 4.0;
+      position = (4.0 * position).array().round() / 4.0;
     }
-    const auto at = DisphenoidLattice::locate(place);
+    const auto at = DisphenoidLattice::locate(position);
     const auto corners = tet_at(lattice, at.tet);
     Vec3 sum = Vec3::Zero();
     double ones = 0.0;
@@ -60,12 +60,12 @@ TEST(DisphenoidLattice, EveryPlaceIsInItsTet)
       ones += at.coordinates[k];
     }
     EXPECT_NEAR(ones, 1.0, 1e-15);
-    EXPECT_LT((sum - lattice.point_at(place)).norm(), 1e-13);
+    EXPECT_LT((sum - lattice.world_point(position)).norm(), 1e-13);
     EXPECT_NEAR(tet_volume(corners[0], corners[1], corners[2], corners[3]), 1.0 / 12.0, 1e-14)
       << "twelve tets a cube, all positive";
     EXPECT_NEAR(min_dihedral_angle(corners[0], corners[1], corners[2], corners[3]), 60.0, 1e-9);
-    const auto cube = DisphenoidLattice::cube_of(place);
-    EXPECT_EQ(DisphenoidLattice::tet_of_half(cube, DisphenoidLattice::half_of(place)), at.tet);
+    const auto cube = DisphenoidLattice::cube_of(position);
+    EXPECT_EQ(DisphenoidLattice::tet_of_half(cube, DisphenoidLattice::half_of(position)), at.tet);
   }
 }
 
@@ -92,8 +92,9 @@ TEST(DisphenoidLattice, PiecesAreWhatATriangleGoesThrough)
       double s = random.uniform(), r = random.uniform();
       s = s + r > 1.0 ? 1.0 - s : s;
       r = s + r > 1.0 ? 1.0 - s : r;
-      const Vec3 place = corners[0] + s * (corners[1] - corners[0]) + r * (corners[2] - corners[0]);
-      EXPECT_EQ(found.count(DisphenoidLattice::locate(place).tet), 1u);
+      const Vec3 position =
+        corners[0] + s * (corners[1] - corners[0]) + r * (corners[2] - corners[0]);
+      EXPECT_EQ(found.count(DisphenoidLattice::locate(position).tet), 1u);
     }
   }
 }
@@ -103,8 +104,8 @@ TEST(DisphenoidLattice, NodesAreExactFarFromTheOrigin)
   Box box;
   box.add(Vec3::Constant(1e9));
   box.add(Vec3::Constant(1e9 + 1.0));
-  const DisphenoidLattice lattice(box, DisphenoidLattice::least_spacing(1e9 + 1.0));
-  const auto at = DisphenoidLattice::locate(lattice.place_of(Vec3::Constant(1e9 + 0.4)));
+  const DisphenoidLattice lattice(box, DisphenoidLattice::minimum_spacing(1e9 + 1.0));
+  const auto at = DisphenoidLattice::locate(lattice.lattice_position(Vec3::Constant(1e9 + 0.4)));
   const auto corners = tet_at(lattice, at.tet);
   const double cube = lattice.spacing() * lattice.spacing() * lattice.spacing();
   EXPECT_DOUBLE_EQ(tet_volume(corners[0], corners[1], corners[2], corners[3]), cube / 12.0);

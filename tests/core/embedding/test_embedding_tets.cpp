@@ -24,7 +24,7 @@ using test::box;
 
 namespace
 {
-EmbeddingTets embedded(const TriangleMesh& mesh, Index resolution = 0, int threads = 0)
+EmbeddingTets embed_mesh(const TriangleMesh& mesh, Index resolution = 0, int threads = 0)
 {
   ExecutionContext context;
   context.set_threads(threads);
@@ -106,7 +106,9 @@ void expect_valid_embedding(const TriangleMesh& surface, const EmbeddingTets& re
   EXPECT_TRUE(status.ok()) << status.message;
   EXPECT_NEAR(measure_tets(mesh.points, mesh.tets).min_dihedral_angle, 60.0, 1e-6);
   const Components components = connected_components(mesh.points.rows(), mesh.tets);
-  EXPECT_EQ(std::count(components.of_vertex.begin(), components.of_vertex.end(), -1), 0);
+  EXPECT_EQ(
+    std::count(components.component_of_vertex.begin(), components.component_of_vertex.end(), -1),
+    0);
   EXPECT_EQ(components.count, result.components);
   ASSERT_EQ(result.inside_fractions.size(), mesh.tets.rows());
   EXPECT_GE(result.inside_fractions.minCoeff(), 0.0);
@@ -136,20 +138,20 @@ void expect_valid_embedding(const TriangleMesh& surface, const EmbeddingTets& re
   for (Index f = 0; f < surface.triangles.rows(); ++f)
   {
     const auto component = [&](int k)
-    { return components.of_vertex[mesh.tets(binding.tets[surface.triangles(f, k)], 0)]; };
+    { return components.component_of_vertex[mesh.tets(binding.tets[surface.triangles(f, k)], 0)]; };
     ASSERT_TRUE(component(0) == component(1) && component(1) == component(2)) << f;
   }
 }
 
 /// Report whether any tet of the component contains the point, by brute force.
-bool is_held(const EmbeddingTets& result, const Components& components, Index component,
+bool is_covered(const EmbeddingTets& result, const Components& components, Index component,
   const Vec3& p, double tolerance)
 {
   const TetMesh& mesh = result.mesh;
   for (Index t = 0; t < mesh.tets.rows(); ++t)
   {
     const Vec3 a = mesh.points.row(mesh.tets(t, 0));
-    if (components.of_vertex[mesh.tets(t, 0)] != component ||
+    if (components.component_of_vertex[mesh.tets(t, 0)] != component ||
       (a - p).norm() > 1.01 * result.spacing)
     {
       continue;
@@ -168,7 +170,7 @@ bool is_held(const EmbeddingTets& result, const Components& components, Index co
   return false;
 }
 
-void expect_held(const TriangleMesh& surface, const EmbeddingTets& result, int samples)
+void expect_covered(const TriangleMesh& surface, const EmbeddingTets& result, int samples)
 {
   const Components components = connected_components(result.mesh.points.rows(), result.mesh.tets);
   test::Random random(5);
@@ -182,8 +184,8 @@ void expect_held(const TriangleMesh& surface, const EmbeddingTets& result, int s
     const Vec3 b = surface.points.row(surface.triangles(f, 1));
     const Vec3 c = surface.points.row(surface.triangles(f, 2));
     const Index t = result.binding.tets[surface.triangles(f, 0)];
-    EXPECT_TRUE(is_held(result, components, components.of_vertex[result.mesh.tets(t, 0)],
-      a + s * (b - a) + r * (c - a), 1e-6));
+    EXPECT_TRUE(is_covered(result, components,
+      components.component_of_vertex[result.mesh.tets(t, 0)], a + s * (b - a) + r * (c - a), 1e-6));
   }
 }
 
@@ -262,7 +264,7 @@ TEST(EmbeddingTets, ABallIsOnePieceWithoutCopies)
   for (const Index resolution : { 0, 5, 9, 20 })
   {
     const TriangleMesh ball = test::sphere(4);
-    const EmbeddingTets result = embedded(ball, resolution);
+    const EmbeddingTets result = embed_mesh(ball, resolution);
     expect_valid_embedding(ball, result);
     EXPECT_EQ(result.components, 1);
     EXPECT_EQ(result.duplicated_nodes, 0);
@@ -285,7 +287,7 @@ TEST(EmbeddingTets, AnyConvexBodyHasNoCopies)
       Eigen::AngleAxisd(random.uniform(0.0, 3.0), Vec3(1.0, 2.0, 3.0).normalized())
         .toRotationMatrix();
     body.points = (body.points * scale.asDiagonal() * turn).eval();
-    const EmbeddingTets result = embedded(body, 12);
+    const EmbeddingTets result = embed_mesh(body, 12);
     expect_valid_embedding(body, result);
     EXPECT_EQ(result.components, 1);
     EXPECT_EQ(result.duplicated_nodes, 0) << scale.transpose();
@@ -295,12 +297,12 @@ TEST(EmbeddingTets, AnyConvexBodyHasNoCopies)
 TEST(EmbeddingTets, TopologyIsTheSurfaces)
 {
   const TriangleMesh torus = test::torus(48, 24, 1.0, 0.4);
-  EXPECT_EQ(test::euler_characteristic(embedded(torus).mesh), 0);
+  EXPECT_EQ(test::euler_characteristic(embed_mesh(torus).mesh), 0);
   const TriangleMesh shell = test::join(test::sphere(3), test::flipped(test::sphere(3, 0.5)));
-  EXPECT_EQ(test::euler_characteristic(embedded(shell).mesh), 2) << "a ball with a cavity";
+  EXPECT_EQ(test::euler_characteristic(embed_mesh(shell).mesh), 2) << "a ball with a cavity";
   // The ring is thin compared with a lattice cube. Its tets must still have the topology of a ring.
   TriangleMesh ring = test::torus(48, 24, 1.0, 0.2);
-  const EmbeddingTets whole = embedded(ring, 20);
+  const EmbeddingTets whole = embed_mesh(ring, 20);
   EXPECT_EQ(test::euler_characteristic(whole.mesh), 0);
 }
 
@@ -313,9 +315,9 @@ TEST(EmbeddingTets, BarsThatAreNearShareNoVertex)
     const TriangleMesh lower = box({ 0.0, 0.0, 0.0 }, { 4.0, 0.4, 0.5 });
     const TriangleMesh upper = box({ 0.0, 0.4 + gap * cube, 0.0 }, { 4.0, 0.8 + gap * cube, 0.5 });
     const TriangleMesh bars = test::join(lower, upper);
-    const EmbeddingTets result = embedded(bars, resolution);
+    const EmbeddingTets result = embed_mesh(bars, resolution);
     expect_valid_embedding(bars, result);
-    expect_held(bars, result, 100);
+    expect_covered(bars, result, 100);
     EXPECT_EQ(result.components, 2) << gap;
     EXPECT_GT(result.duplicated_nodes, 0);
     const auto of_lower =
@@ -334,7 +336,7 @@ TEST(EmbeddingTets, SolidsThatOverlapAreOne)
 {
   const TriangleMesh bars = test::join(
     box({ 0.0, 0.0, 0.0 }, { 4.0, 0.4, 0.5 }), box({ 0.0, 0.3, 0.0 }, { 4.0, 0.8, 0.5 }));
-  const EmbeddingTets result = embedded(bars, 16);
+  const EmbeddingTets result = embed_mesh(bars, 16);
   expect_valid_embedding(bars, result);
   EXPECT_EQ(result.components, 1);
   EXPECT_EQ(result.duplicated_nodes, 0) << "their union is convex, and inner walls do not part";
@@ -348,9 +350,9 @@ TEST(EmbeddingTets, FingersAreConnectedThroughThePalmOnly)
     ASSERT_TRUE(count_edges(hand.triangles).closed);
     const double volume = 0.3 * (4 * 0.2 * 2.0 + (0.8 + 3 * gap) * 0.6);
     ASSERT_NEAR(signed_volume(hand.points, hand.triangles), volume, 1e-12);
-    const EmbeddingTets result = embedded(hand, 20); // a lattice cube has the size 0.13
+    const EmbeddingTets result = embed_mesh(hand, 20); // a lattice cube has the size 0.13
     expect_valid_embedding(hand, result);
-    expect_held(hand, result, 100);
+    expect_covered(hand, result, 100);
     EXPECT_EQ(result.components, 1);
     EXPECT_EQ(test::euler_characteristic(result.mesh), 1);
     const auto tips = [&](int finger)
@@ -360,12 +362,13 @@ TEST(EmbeddingTets, FingersAreConnectedThroughThePalmOnly)
         [=](const Vec3& p)
         { return p[1] > 1.9 && p[0] >= from - 1e-9 && p[0] <= from + 0.2 + 1e-9; });
     };
-    const std::vector<double> way = distances(result.mesh, tips(0));
+    const std::vector<double> path_length = distances(result.mesh, tips(0));
     for (int finger = 1; finger < 4; ++finger)
     {
       for (const Index v : tips(finger))
       {
-        EXPECT_GT(way[v], 2.0 * 2.0 - 4.0 * result.spacing) << "down one finger, up the other";
+        EXPECT_GT(path_length[v], 2.0 * 2.0 - 4.0 * result.spacing)
+          << "down one finger, up the other";
       }
     }
     const Eigen::VectorXd volumes = tet_volumes(result.mesh.points, result.mesh.tets);
@@ -383,7 +386,7 @@ TEST(EmbeddingTets, InsideFractionsGiveTheVolume)
     const double volume = signed_volume(shape.points, shape.triangles);
     const auto error = [&](Index resolution)
     {
-      const EmbeddingTets result = embedded(shape, resolution);
+      const EmbeddingTets result = embed_mesh(shape, resolution);
       const double sum =
         tet_volumes(result.mesh.points, result.mesh.tets).dot(result.inside_fractions);
       return std::abs(sum / volume - 1.0);
@@ -394,7 +397,7 @@ TEST(EmbeddingTets, InsideFractionsGiveTheVolume)
   }
   // The cube is open: the inside ends at the opening, where the winding number is 0.5.
   const TriangleMesh open = test::open_cube();
-  const EmbeddingTets result = embedded(open, 16);
+  const EmbeddingTets result = embed_mesh(open, 16);
   expect_valid_embedding(open, result);
   EXPECT_NEAR(
     tet_volumes(result.mesh.points, result.mesh.tets).dot(result.inside_fractions), 8.0, 0.4);
@@ -414,13 +417,13 @@ TEST(EmbeddingTets, WhatEnclosesNothingIsHeldToo)
   {
     for (const Index resolution : { 0, 7 })
     {
-      const EmbeddingTets result = embedded(mesh, resolution);
+      const EmbeddingTets result = embed_mesh(mesh, resolution);
       expect_valid_embedding(mesh, result);
-      expect_held(mesh, result, 20);
+      expect_covered(mesh, result, 20);
       EXPECT_EQ(result.inside_fractions.maxCoeff(), 0.0);
     }
   }
-  const EmbeddingTets result = embedded(test::grid(1, 1));
+  const EmbeddingTets result = embed_mesh(test::grid(1, 1));
   EXPECT_GT(result.mesh.tets.rows(), 15000);
   EXPECT_LT(result.mesh.tets.rows(), 60000);
 }
@@ -430,7 +433,7 @@ TEST(EmbeddingTets, SheetsThatAreNearAreApart)
   // The sheets face each other: the winding number is -1 between them and 0 elsewhere.
   const TriangleMesh sheets = test::join(
     test::grid(4, 4), test::flipped(test::translated(test::grid(4, 4), Vec3(0.0, 0.0, 1e-4))));
-  const EmbeddingTets result = embedded(sheets, 10);
+  const EmbeddingTets result = embed_mesh(sheets, 10);
   expect_valid_embedding(sheets, result);
   EXPECT_EQ(result.components, 2);
   EXPECT_EQ(result.mesh.tets.rows(), 2 * result.lattice_tets);
@@ -445,7 +448,7 @@ TEST(EmbeddingTets, TheNumberOfTetsIsChosen)
   for (const TriangleMesh& shape : shapes)
   {
     SCOPED_TRACE(shape.triangles.rows());
-    const EmbeddingTets result = embedded(shape);
+    const EmbeddingTets result = embed_mesh(shape);
     EXPECT_GE(result.lattice_tets, 15000);
     EXPECT_LE(result.mesh.tets.rows(), 60000);
   }
@@ -494,13 +497,13 @@ TEST(EmbeddingTets, UncleanSurfaces)
     SCOPED_TRACE(number++);
     for (const Index resolution : { 6, 15 })
     {
-      const EmbeddingTets result = embedded(mesh, resolution);
+      const EmbeddingTets result = embed_mesh(mesh, resolution);
       expect_valid_embedding(mesh, result);
-      expect_held(mesh, result, 50);
+      expect_covered(mesh, result, 50);
       EXPECT_EQ(result.components, components);
     }
   }
-  const EmbeddingTets result = embedded(stray, 10);
+  const EmbeddingTets result = embed_mesh(stray, 10);
   const Index last = stray.points.rows() - 1;
   EXPECT_GE(result.binding.tets[last - 2], 0) << "inside";
   EXPECT_EQ(result.binding.tets[last - 1], -1);
@@ -519,9 +522,9 @@ TEST(EmbeddingTets, HostileSurfaces)
     {
       continue;
     }
-    const EmbeddingTets result = embedded(mesh, 3 + random.below(10));
+    const EmbeddingTets result = embed_mesh(mesh, 3 + random.below(10));
     expect_valid_embedding(mesh, result);
-    expect_held(mesh, result, 10);
+    expect_covered(mesh, result, 10);
   }
 }
 
@@ -539,7 +542,7 @@ TEST(EmbeddingTets, HostilePlaces)
     const double size = bounding_box(mesh.points, mesh.triangles).size().maxCoeff();
     if (size > 1e-90 && size < 1e90) // the volumes are in the range of double
     {
-      expect_valid_embedding(mesh, embedded(mesh, 6));
+      expect_valid_embedding(mesh, embed_mesh(mesh, 6));
       continue;
     }
     ExecutionContext context;
@@ -554,13 +557,13 @@ TEST(EmbeddingTets, HostilePlaces)
   {
     TriangleMesh mesh = test::torus(24, 12, 1.0, 0.4);
     mesh.points *= scale;
-    const EmbeddingTets result = embedded(mesh);
+    const EmbeddingTets result = embed_mesh(mesh);
     expect_valid_embedding(mesh, result);
     EXPECT_EQ(result.components, 1);
   }
   TriangleMesh far = test::sphere(3);
   far.points.array() += 1e9;
-  expect_valid_embedding(far, embedded(far, 10));
+  expect_valid_embedding(far, embed_mesh(far, 10));
 }
 
 TEST(EmbeddingTets, RealSurfaces)
@@ -573,7 +576,7 @@ TEST(EmbeddingTets, RealSurfaces)
     {
       continue;
     }
-    const EmbeddingTets result = embedded(mesh);
+    const EmbeddingTets result = embed_mesh(mesh);
     expect_valid_embedding(mesh, result);
     EXPECT_GE(result.lattice_tets, 15000);
     EXPECT_LE(result.mesh.tets.rows(), 60000);
@@ -587,7 +590,7 @@ TEST(EmbeddingTets, ScalesWithTheSurface)
     test::join(test::torus(24, 12, 1.0, 0.4), test::sphere(3, 0.55, Vec3(0.02, 0.0, 0.0)));
   TriangleMesh large = surface;
   large.points *= 1024.0;
-  const EmbeddingTets a = embedded(surface), b = embedded(large);
+  const EmbeddingTets a = embed_mesh(surface), b = embed_mesh(large);
   EXPECT_EQ(a.mesh.tets, b.mesh.tets);
   EXPECT_EQ(Points(1024.0 * a.mesh.points), b.mesh.points);
   EXPECT_EQ(a.inside_fractions, b.inside_fractions);
@@ -599,7 +602,7 @@ TEST(EmbeddingTets, SameBitsForAnyNumberOfThreads)
 {
   for (const TriangleMesh& surface : { fork(0.02), test::open_cube() })
   {
-    const EmbeddingTets one = embedded(surface, 0, 1), two = embedded(surface, 0, 2);
+    const EmbeddingTets one = embed_mesh(surface, 0, 1), two = embed_mesh(surface, 0, 2);
     EXPECT_EQ(one.mesh.points, two.mesh.points);
     EXPECT_EQ(one.mesh.tets, two.mesh.tets);
     EXPECT_EQ(one.inside_fractions, two.inside_fractions);
@@ -674,11 +677,11 @@ TEST(EmbeddingTets, ALinkConnectsWhatIsAtItsEnds)
   {
     for (Index f = begin; f < mesh.triangles.rows(); ++f)
     {
-      std::array<Vec3, 2> places;
+      std::array<Vec3, 2> positions;
       const Vec3 a = mesh.points.row(mesh.triangles(f, 0));
       const Vec3 b = mesh.points.row(mesh.triangles(f, 1));
       const Vec3 c = mesh.points.row(mesh.triangles(f, 2));
-      if (nearest_places({ place, place, place }, { a, b, c }, places) < 1e-12)
+      if (nearest_points({ place, place, place }, { a, b, c }, positions) < 1e-12)
       {
         return f;
       }
@@ -693,11 +696,11 @@ TEST(EmbeddingTets, ALinkConnectsWhatIsAtItsEnds)
     const Vec3 to = is_near ? Vec3(2, 1.01, 0.4) : Vec3(4, 1, 1);
     PartLink link;
     link.triangles = { triangle_at(mesh, from, 0), triangle_at(mesh, to, 12) };
-    link.places = { from, to };
+    link.positions = { from, to };
     const WindingNumber winding(mesh.points, mesh.triangles);
     for (const Index resolution : { 5, 9, 20 })
     {
-      EXPECT_EQ(embedded(mesh, resolution).components, 2);
+      EXPECT_EQ(embed_mesh(mesh, resolution).components, 2);
       EmbeddingOptions options;
       options.resolution = resolution;
       options.links = { link };
@@ -712,12 +715,13 @@ TEST(EmbeddingTets, ALinkConnectsWhatIsAtItsEnds)
         vertices_of(
           result, mesh.points, [](const Vec3& p) { return (p - Vec3(0, 0, 0)).norm() < 1e-9; }));
       const Vec3 end = is_near ? Vec3(0, 2, 0) : Vec3(5, 0, 0);
-      const double way = (from - Vec3(0, 0, 0)).norm() + (to - from).norm() + (end - to).norm();
+      const double path_length =
+        (from - Vec3(0, 0, 0)).norm() + (to - from).norm() + (end - to).norm();
       for (const Index v :
         vertices_of(result, mesh.points, [&](const Vec3& p) { return (p - end).norm() < 1e-9; }))
       {
-        EXPECT_LT(distance[v], 1.5 * way);
-        EXPECT_GT(distance[v], way - 3.0 * result.spacing);
+        EXPECT_LT(distance[v], 1.5 * path_length);
+        EXPECT_GT(distance[v], path_length - 3.0 * result.spacing);
       }
     }
     EmbeddingOptions options;

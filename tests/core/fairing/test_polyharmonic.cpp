@@ -28,8 +28,8 @@ struct Square
 {
   TriangleMesh mesh;
   Components parts;
-  std::vector<Index> given;
-  Rows values, flux, load, x; ///< `values` has one row per vertex in `given`
+  std::vector<Index> prescribed;
+  Rows values, flux, load, x; ///< `values` has one row per vertex in `prescribed`
 
   Square(int n, int layers, const Vec3& corner, const Function& u = {})
     : mesh(translated(grid(n, n), corner)),
@@ -41,13 +41,13 @@ struct Square
       const double border = std::min({ p[0], p[1], n - p[0], n - p[1] });
       if (std::lround(border) < layers)
       {
-        given.push_back(v);
+        prescribed.push_back(v);
       }
     }
-    values = Rows::Zero(static_cast<Index>(given.size()), 1);
-    for (std::size_t i = 0; u && i < given.size(); ++i)
+    values = Rows::Zero(static_cast<Index>(prescribed.size()), 1);
+    for (std::size_t i = 0; u && i < prescribed.size(); ++i)
     {
-      values(static_cast<Index>(i), 0) = this->at(u, given[i]);
+      values(static_cast<Index>(i), 0) = this->at(u, prescribed[i]);
     }
   }
 
@@ -61,7 +61,7 @@ struct Square
     ExecutionContext context;
     Polyharmonic system;
     system.bind(this->mesh.points, this->mesh.triangles, order, boundary);
-    Status status = system.prepare(context, this->parts, this->given, {});
+    Status status = system.prepare(context, this->parts, this->prescribed, {});
     if (status.ok())
     {
       system.solve(this->values, Rows(0, 1), this->flux, this->load, this->x);
@@ -111,15 +111,15 @@ Eigen::VectorXd mixed_solution(const Square& square, int order)
   const SparseMatrix k = stiffness_matrix(square.mesh.points, square.mesh.triangles);
   const Eigen::VectorXd m = lumped_mass(square.mesh.points, square.mesh.triangles);
   const Index n = k.rows(), size = order * n;
-  std::vector<char> given(static_cast<std::size_t>(n), 0);
+  std::vector<char> prescribed(static_cast<std::size_t>(n), 0);
   Eigen::VectorXd right = Eigen::VectorXd::Zero(size);
   std::vector<Eigen::Triplet<double, int>> entries;
   const auto add = [&](Index row, Index column, double value)
   { entries.emplace_back(static_cast<int>(row), static_cast<int>(column), value); };
-  for (std::size_t i = 0; i < square.given.size(); ++i)
+  for (std::size_t i = 0; i < square.prescribed.size(); ++i)
   {
-    given[square.given[i]] = 1;
-    right[square.given[i]] = square.values(static_cast<Index>(i), 0);
+    prescribed[square.prescribed[i]] = 1;
+    right[square.prescribed[i]] = square.values(static_cast<Index>(i), 0);
   }
   // Call the unknowns x_0 = u, x_1 = v and x_2 = w. The first block of rows fixes u at the given
   // vertices and contains K x_(order - 1) = 0 at the others. Row block q contains M x_q = K x_(q -
@@ -128,7 +128,7 @@ Eigen::VectorXd mixed_solution(const Square& square, int order)
   {
     for (SparseMatrix::InnerIterator it(k, column); it; ++it)
     {
-      if (!given[it.row()])
+      if (!prescribed[it.row()])
       {
         add(it.row(), (order - 1) * n + column, it.value());
       }
@@ -141,7 +141,7 @@ Eigen::VectorXd mixed_solution(const Square& square, int order)
     {
       add(q * n + column, q * n + column, -m[column]);
     }
-    if (given[column])
+    if (prescribed[column])
     {
       add(column, column, 1.0);
     }
@@ -209,7 +209,7 @@ TEST(Polyharmonic, DerivativesAcrossTheEdgeAreMet)
     ExecutionContext context;
     Polyharmonic system;
     system.bind(square.mesh.points, square.mesh.triangles, 2, PatchBoundary::tangent);
-    ASSERT_TRUE(system.prepare(context, square.parts, square.given, {}).ok());
+    ASSERT_TRUE(system.prepare(context, square.parts, square.prescribed, {}).ok());
     // At a corner the integrals along two sides of the square are added. Each side is therefore
     // tested separately.
     const Index size = square.mesh.points.rows();

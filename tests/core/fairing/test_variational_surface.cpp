@@ -349,7 +349,7 @@ TEST(VariationalSurface, WhatCannotBeIsRefused)
   EXPECT_THAT(refusal(length), HasSubstr("flags"));
   Bump tangents;
   tangents.options.boundary = PatchBoundary::tangent;
-  tangents.options.tangent_source = PatchTangents::given;
+  tangents.options.tangent_source = PatchTangents::prescribed;
   EXPECT_THAT(refusal(tangents), HasSubstr("tangents"));
   Bump empty;
   empty.mesh.triangles.resize(0, 3);

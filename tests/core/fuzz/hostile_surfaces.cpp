@@ -23,13 +23,14 @@ Vec3 on_lattice(Random& random, Index size)
 }
 
 /// Return triangles between random vertices. Some triangles are repeated or reversed.
-template <typename Place>
-TriangleMesh random_heap(Random& random, Index triangles, Index vertices, const Place& place)
+template <typename MakePoint>
+TriangleMesh random_heap(
+  Random& random, Index triangles, Index vertices, const MakePoint& random_point)
 {
   TriangleMesh mesh{ Points(vertices, 3), Triangles(triangles, 3) };
   for (Index v = 0; v < vertices; ++v)
   {
-    mesh.points.row(v) = place().transpose();
+    mesh.points.row(v) = random_point().transpose();
   }
   for (Index t = 0; t < triangles; ++t)
   {
@@ -120,14 +121,14 @@ TriangleMesh random_cubes(Random& random, Index n)
 {
   std::vector<char> filled(static_cast<std::size_t>((n + 2) * (n + 2) * (n + 2)), 0);
   const auto at = [n](Index x, Index y, Index z) { return (z * (n + 2) + y) * (n + 2) + x; };
-  const double share = random.uniform(0.1, 0.9);
+  const double probability = random.uniform(0.1, 0.9);
   for (Index z = 1; z <= n; ++z)
   {
     for (Index y = 1; y <= n; ++y)
     {
       for (Index x = 1; x <= n; ++x)
       {
-        filled[at(x, y, z)] = chance(random, share);
+        filled[at(x, y, z)] = chance(random, probability);
       }
     }
   }
@@ -182,13 +183,13 @@ TriangleMesh random_cubes(Random& random, Index n)
 }
 
 /// Return facets of random tets between the given vertices, in either orientation.
-template <typename Place>
-TriangleMesh tets(Random& random, Index count, Index vertices, const Place& place)
+template <typename MakePoint>
+TriangleMesh tets(Random& random, Index count, Index vertices, const MakePoint& random_point)
 {
   TriangleMesh mesh{ Points(vertices, 3), Triangles(4 * count, 3) };
   for (Index v = 0; v < vertices; ++v)
   {
-    mesh.points.row(v) = place().transpose();
+    mesh.points.row(v) = random_point().transpose();
   }
   for (Index t = 0; t < count; ++t)
   {
@@ -241,13 +242,13 @@ TriangleMesh blob(Random& random, Index most)
 /// Add typical defects to a surface: holes, reversed and repeated triangles, seams.
 void spoil(Random& random, TriangleMesh& mesh)
 {
-  const double share = random.uniform(0.0, 0.3);
+  const double probability = random.uniform(0.0, 0.3);
   std::vector<std::array<Index, 3>> kept;
   std::vector<Vec3> more;
   for (Index t = 0; t < mesh.triangles.rows(); ++t)
   {
     std::array<Index, 3> ids{ mesh.triangles(t, 0), mesh.triangles(t, 1), mesh.triangles(t, 2) };
-    const Index what = chance(random, share) ? random.below(5) : 5;
+    const Index what = chance(random, probability) ? random.below(5) : 5;
     if (what == 0)
     {
       continue;

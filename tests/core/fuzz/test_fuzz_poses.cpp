@@ -98,7 +98,7 @@ void make_bones(Random& random, const TetMesh& mesh, Handles& handles)
 
 /// Set a random mode that the handle supports and a random transform. For bones, also set a random
 /// stretch and twist.
-void pose_anyhow(Random& random, double exponent, const Handle& handle, HandlePose& pose)
+void randomize_pose(Random& random, double exponent, const Handle& handle, HandlePose& pose)
 {
   const bool bone = handle.kind == HandleKind::bone;
   pose.mode = static_cast<HandleMode>(random.below(bone ? 5 : 3));
@@ -184,7 +184,7 @@ TEST(FuzzPoses, Skinning)
       Pose pose(shape.handles.size());
       for (std::size_t h = 0; h < pose.size(); ++h)
       {
-        pose_anyhow(random, exponent, shape.handles[h], pose[h]);
+        randomize_pose(random, exponent, shape.handles[h], pose[h]);
       }
       if (chance(random, 0.1) && !constrains_tail(pose[0].mode))
       {
@@ -200,14 +200,14 @@ TEST(FuzzPoses, Skinning)
       const bool rests = std::all_of(transforms.begin(), transforms.end(),
         [](const Affine& t) { return t == identity_affine(); });
 
-      ExecutionContext one, many;
-      one.set_threads(1);
-      many.set_threads(4);
+      ExecutionContext serial, parallel;
+      serial.set_threads(1);
+      parallel.set_threads(4);
       Skinning skinning;
-      expect_valid_messages(skinning.bind(one, weights));
+      expect_valid_messages(skinning.bind(serial, weights));
       Points blended, again;
-      ASSERT_TRUE(skinning.linear_blend(one, rest, transforms, blended).ok());
-      ASSERT_TRUE(skinning.linear_blend(many, rest, transforms, again).ok());
+      ASSERT_TRUE(skinning.linear_blend(serial, rest, transforms, blended).ok());
+      ASSERT_TRUE(skinning.linear_blend(parallel, rest, transforms, again).ok());
       EXPECT_EQ(blended, again);
       for (Index v = 0; v < rest.rows(); ++v)
       {
@@ -222,8 +222,8 @@ TEST(FuzzPoses, Skinning)
       }
       Points quaternions;
       const Points pivots = handle_pivots(shape.handles);
-      ASSERT_TRUE(skinning.dual_quaternion(one, rest, transforms, pivots, quaternions).ok());
-      ASSERT_TRUE(skinning.dual_quaternion(many, rest, transforms, pivots, again).ok());
+      ASSERT_TRUE(skinning.dual_quaternion(serial, rest, transforms, pivots, quaternions).ok());
+      ASSERT_TRUE(skinning.dual_quaternion(parallel, rest, transforms, pivots, again).ok());
       EXPECT_EQ(quaternions, again);
       ASSERT_TRUE(quaternions.allFinite());
       for (Index v = 0; v < rest.rows(); ++v)
@@ -244,8 +244,10 @@ TEST(FuzzPoses, Skinning)
       }
       const std::vector<BoneChange> bones = bone_changes(shape.handles, pose);
       Points bent;
-      ASSERT_TRUE(skinning.stretchable_bones(one, rest, transforms, bones, Weights(), bent).ok());
-      ASSERT_TRUE(skinning.stretchable_bones(many, rest, transforms, bones, Weights(), again).ok());
+      ASSERT_TRUE(
+        skinning.stretchable_bones(serial, rest, transforms, bones, Weights(), bent).ok());
+      ASSERT_TRUE(
+        skinning.stretchable_bones(parallel, rest, transforms, bones, Weights(), again).ok());
       EXPECT_EQ(bent, again);
       ASSERT_TRUE(bent.allFinite());
       if (std::none_of(bones.begin(), bones.end(), [](const BoneChange& b) { return b.any(); }))
@@ -263,9 +265,9 @@ TEST(FuzzPoses, Skinning)
       {
         normals.row(v) = random.in_box(Vec3::Constant(-1.0), Vec3::Ones()).normalized().transpose();
       }
-      ASSERT_TRUE(skinning.linear_blend_normals(one, normals, transforms, blended).ok());
+      ASSERT_TRUE(skinning.linear_blend_normals(serial, normals, transforms, blended).ok());
       ASSERT_TRUE(
-        skinning.dual_quaternion_normals(one, normals, transforms, pivots, quaternions).ok());
+        skinning.dual_quaternion_normals(serial, normals, transforms, pivots, quaternions).ok());
       for (const Points* turned : { &blended, &quaternions })
       {
         ASSERT_LE((turned->rowwise().norm().array() - 1.0).abs().maxCoeff(), 1e-9);
@@ -321,14 +323,14 @@ TEST(FuzzPoses, ReducedArap)
       const ReducedCase shape(random);
       const Points& rest = shape.shape.mesh.points;
       const double diagonal = bounding_box(rest).diagonal();
-      ExecutionContext one, many;
-      one.set_threads(1);
-      many.set_threads(4);
-      ReducedArap arap, twin;
-      const Status bound = shape.bind(one, arap);
+      ExecutionContext serial, parallel;
+      serial.set_threads(1);
+      parallel.set_threads(4);
+      ReducedArap arap, parallel_arap;
+      const Status bound = shape.bind(serial, arap);
       expect_valid_messages(bound);
       ASSERT_TRUE(bound.ok()) << bound.message;
-      ASSERT_TRUE(shape.bind(many, twin).ok());
+      ASSERT_TRUE(shape.bind(parallel, parallel_arap).ok());
       const double exponent = chance(random, 0.2) ? 30.0 : 4.0;
       Pose pose(shape.shape.handles.size());
       Points result, again;
@@ -339,15 +341,15 @@ TEST(FuzzPoses, ReducedArap)
         {
           if (chance(random, 0.5))
           {
-            pose_anyhow(random, exponent, shape.shape.handles[h], pose[h]);
+            randomize_pose(random, exponent, shape.shape.handles[h], pose[h]);
           }
         }
         const ReducedArap::SolveOptions options = solve_options(random);
-        const Status status = arap.solve(one, pose, options);
+        const Status status = arap.solve(serial, pose, options);
         ++solves;
         expect_valid_messages(status);
         ASSERT_TRUE(status.usable()) << status.message;
-        ASSERT_TRUE(arap.deform(one, rest, result).ok());
+        ASSERT_TRUE(arap.deform(serial, rest, result).ok());
         ASSERT_TRUE(result.allFinite());
         for (std::size_t h = 0; h < pose.size(); ++h)
         {
@@ -372,10 +374,10 @@ TEST(FuzzPoses, ReducedArap)
             arap.energies()[i - 1] + unit + share * std::abs(arap.energies()[i - 1]))
             << i << " size " << size;
         }
-        ASSERT_TRUE(twin.solve(many, pose, options).usable());
-        ASSERT_TRUE(twin.deform(many, rest, again).ok());
+        ASSERT_TRUE(parallel_arap.solve(parallel, pose, options).usable());
+        ASSERT_TRUE(parallel_arap.deform(parallel, rest, again).ok());
         ASSERT_EQ(result, again);
-        ASSERT_EQ(arap.energies(), twin.energies());
+        ASSERT_EQ(arap.energies(), parallel_arap.energies());
       }
       // The rest pose gives the rest shape in all modes.
       for (HandlePose& handle : pose)
@@ -385,8 +387,8 @@ TEST(FuzzPoses, ReducedArap)
       }
       for (const auto start : { ReducedArap::Start::guess, ReducedArap::Start::rest })
       {
-        ASSERT_TRUE(arap.solve(one, pose, { 1e-6, 100, start }).usable());
-        ASSERT_TRUE(arap.deform(one, rest, result).ok());
+        ASSERT_TRUE(arap.solve(serial, pose, { 1e-6, 100, start }).usable());
+        ASSERT_TRUE(arap.deform(serial, rest, result).ok());
         ASSERT_LT((result - rest).cwiseAbs().maxCoeff(), 1e-8 * diagonal)
           << (start == ReducedArap::Start::guess ? "guess" : "rest");
       }
@@ -464,13 +466,13 @@ TEST(FuzzPoses, FullArap)
     [&](Random& random)
     {
       const FullCase shape(random);
-      ExecutionContext one, many;
-      one.set_threads(1);
-      many.set_threads(4);
-      FullArap arap, twin;
-      const Status bound = shape.bind(one, arap);
+      ExecutionContext serial, parallel;
+      serial.set_threads(1);
+      parallel.set_threads(4);
+      FullArap arap, parallel_arap;
+      const Status bound = shape.bind(serial, arap);
       expect_valid_messages(bound);
-      ASSERT_EQ(shape.bind(many, twin).code, bound.code);
+      ASSERT_EQ(shape.bind(parallel, parallel_arap).code, bound.code);
       if (!bound.usable())
       {
         // The bind fails, for example, if two handles have the same position, or if the vertices of
@@ -487,12 +489,12 @@ TEST(FuzzPoses, FullArap)
         {
           if (chance(random, 0.5))
           {
-            pose_anyhow(random, exponent, shape.handles[h], pose[h]);
+            randomize_pose(random, exponent, shape.handles[h], pose[h]);
           }
         }
         const FullArap::SolveOptions options{ chance(random, 0.5) ? 0.0 : 1e-6, random.below(25),
           static_cast<FullArap::Start>(random.below(3)), random.below(6) };
-        const Status status = arap.solve(one, pose, options);
+        const Status status = arap.solve(serial, pose, options);
         ++solves;
         expect_valid_messages(status);
         ASSERT_TRUE(status.usable()) << status.message;
@@ -516,9 +518,9 @@ TEST(FuzzPoses, FullArap)
         }
         ASSERT_LE(arap.energies().back(),
           arap.energies().front() + unit + 1e-6 * std::abs(arap.energies().front()));
-        ASSERT_TRUE(twin.solve(many, pose, options).usable());
-        ASSERT_EQ(arap.posed(), twin.posed());
-        ASSERT_EQ(arap.energies(), twin.energies());
+        ASSERT_TRUE(parallel_arap.solve(parallel, pose, options).usable());
+        ASSERT_EQ(arap.posed(), parallel_arap.posed());
+        ASSERT_EQ(arap.energies(), parallel_arap.energies());
       }
       // The rest pose gives the rest shape in all modes.
       for (HandlePose& handle : pose)
@@ -529,7 +531,7 @@ TEST(FuzzPoses, FullArap)
       const double diagonal = bounding_box(shape.mesh.points).diagonal();
       for (const auto start : { FullArap::Start::guess, FullArap::Start::rest })
       {
-        ASSERT_TRUE(arap.solve(one, pose, { 1e-6, 100, start, 5 }).usable());
+        ASSERT_TRUE(arap.solve(serial, pose, { 1e-6, 100, start, 5 }).usable());
         ASSERT_LT((arap.posed() - shape.mesh.points).cwiseAbs().maxCoeff(), 1e-8 * diagonal)
           << (start == FullArap::Start::guess ? "guess" : "rest");
       }

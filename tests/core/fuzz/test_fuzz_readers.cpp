@@ -23,7 +23,7 @@ namespace
 {
 constexpr Index memory_limit = 256; // MiB; the files have a few KiB
 
-std::size_t random_place(test::Random& random, std::size_t size)
+std::size_t random_index(test::Random& random, std::size_t size)
 {
   return static_cast<std::size_t>(random.below(static_cast<Index>(size)));
 }
@@ -66,7 +66,7 @@ void replace_number(test::Random& random, std::string& text)
     "2147483648", "-2147483648", "4294967295", "4294967296", "1099511627775", "1099511627776",
     "4611686018427387904", "9223372036854775807", "-9223372036854775808", "18446744073709551616",
     "99999999999999999999999999", "0x10", "1.5", "1e3", "+", "-", "1,5", "" };
-  const std::size_t from = text.find_first_of("0123456789", random_place(random, text.size()));
+  const std::size_t from = text.find_first_of("0123456789", random_index(random, text.size()));
   if (from == std::string::npos)
   {
     return;
@@ -92,7 +92,7 @@ void replace_raw(test::Random& random, std::string& text)
     size);
   if (text.size() >= size)
   {
-    text.replace(random_place(random, text.size() - size + 1), size, raw, size);
+    text.replace(random_index(random, text.size() - size + 1), size, raw, size);
   }
 }
 
@@ -102,7 +102,7 @@ void spoil_lines(test::Random& random, std::string& text)
   const std::size_t lines = begins.size() - 1;
   const auto line = [&](std::size_t i)
   { return text.substr(begins[i], begins[i + 1] - begins[i]); };
-  const std::size_t a = random_place(random, lines), b = random_place(random, lines);
+  const std::size_t a = random_index(random, lines), b = random_index(random, lines);
   const std::string at_a = line(a), at_b = line(b);
   switch (random.below(3))
   {
@@ -124,7 +124,7 @@ std::string spoilt_file(test::Random& random, std::string text)
   const Index count = 1 + random.below(4);
   for (Index k = 0; k < count && !text.empty(); ++k)
   {
-    const std::size_t at = random_place(random, text.size());
+    const std::size_t at = random_index(random, text.size());
     switch (random.below(9))
     {
       case 0:
@@ -194,7 +194,7 @@ void fuzz_texts(const char* what, Index rounds, const std::vector<std::string>& 
   test::fuzz(what, rounds,
     [&](test::Random& random)
     {
-      const std::string& text = valid[random_place(random, valid.size())];
+      const std::string& text = valid[random_index(random, valid.size())];
       const std::string path = folder.write("file", spoilt_file(random, text));
       read(path);
       if (testing::Test::HasFailure())
@@ -402,8 +402,8 @@ std::string gltf(bool binary, GltfAnimation animation)
     joint.name = "j" + std::to_string(j);
     joint.parent = j - 1;
     joint.rest.translation() = joint.posed.translation() = Vec3(0, 0.2 * static_cast<double>(j), 0);
-    joint.note = GltfNote{ "cage_vertex", joint.rest.translation(), joint.rest.translation(), 0,
-      { { j, (j + 1) % 6, -1 } } };
+    joint.note = GltfHandleExtras{ "cage_vertex", joint.rest.translation(),
+      joint.rest.translation(), 0, { { j, (j + 1) % 6, -1 } } };
     skin.joints.push_back(joint);
   }
   for (int k = 0; k < 3; ++k)
@@ -533,7 +533,7 @@ TEST(FuzzReaders, Poses)
   test::fuzz("pose texts", 12000,
     [&](test::Random& random)
     {
-      const std::string text = spoilt_file(random, valid[random_place(random, 2)]);
+      const std::string text = spoilt_file(random, valid[random_index(random, 2)]);
       SCOPED_TRACE(text);
       PoseSequence sequence;
       const Status status = parse_pose_file(text, handles, sequence);

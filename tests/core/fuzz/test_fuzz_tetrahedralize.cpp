@@ -44,12 +44,12 @@ void select(TriangleMesh& mesh, const std::vector<Index>& ids)
   mesh.triangles = kept;
 }
 
-void drop_some(test::Random& random, TriangleMesh& mesh, double share)
+void drop_some(test::Random& random, TriangleMesh& mesh, double probability)
 {
   std::vector<Index> ids;
   for (Index t = 0; t < mesh.triangles.rows(); ++t)
   {
-    if (!test::chance(random, share))
+    if (!test::chance(random, probability))
     {
       ids.push_back(t);
     }
@@ -57,13 +57,13 @@ void drop_some(test::Random& random, TriangleMesh& mesh, double share)
   select(mesh, ids);
 }
 
-void double_some(test::Random& random, TriangleMesh& mesh, double share)
+void double_some(test::Random& random, TriangleMesh& mesh, double probability)
 {
   std::vector<Index> ids(static_cast<std::size_t>(mesh.triangles.rows()));
   std::iota(ids.begin(), ids.end(), Index(0));
   for (Index t = 0; t < mesh.triangles.rows(); ++t)
   {
-    if (test::chance(random, share))
+    if (test::chance(random, probability))
     {
       ids.push_back(t);
     }
@@ -71,11 +71,11 @@ void double_some(test::Random& random, TriangleMesh& mesh, double share)
   select(mesh, ids);
 }
 
-void flip_some(test::Random& random, TriangleMesh& mesh, double share)
+void flip_some(test::Random& random, TriangleMesh& mesh, double probability)
 {
   for (Index t = 0; t < mesh.triangles.rows(); ++t)
   {
-    if (test::chance(random, share))
+    if (test::chance(random, probability))
     {
       std::swap(mesh.triangles(t, 1), mesh.triangles(t, 2));
     }
@@ -103,23 +103,23 @@ void add_loose(test::Random& random, TriangleMesh& mesh)
   }
 }
 
-TriangleMesh abused(test::Random& random)
+TriangleMesh defective_surface(test::Random& random)
 {
   TriangleMesh mesh = random_solid(random);
   const Index count = random.below(4);
   for (Index k = 0; k < count && mesh.triangles.rows() > 0; ++k)
   {
-    const double share = test::chance(random, 0.8) ? 0.1 : 0.5;
+    const double probability = test::chance(random, 0.8) ? 0.1 : 0.5;
     switch (random.below(8))
     {
       case 0:
-        drop_some(random, mesh, share);
+        drop_some(random, mesh, probability);
         break;
       case 1:
-        flip_some(random, mesh, share);
+        flip_some(random, mesh, probability);
         break;
       case 2:
-        double_some(random, mesh, share);
+        double_some(random, mesh, probability);
         break;
       case 3:
         jitter(random, mesh, std::pow(10.0, random.uniform(-12.0, -0.7)));
@@ -170,7 +170,7 @@ double sampled_volume(
 }
 
 /// Return the names of the attempted methods with their outcomes.
-std::vector<std::pair<std::string, std::string>> rungs(const Status& status)
+std::vector<std::pair<std::string, std::string>> attempts(const Status& status)
 {
   std::vector<std::pair<std::string, std::string>> list;
   const auto* names = status.report.find("rungs[].name");
@@ -193,7 +193,7 @@ std::vector<std::pair<std::string, std::string>> rungs(const Status& status)
 double allowed_move(const Status& status)
 {
   double allowed = 1e-12;
-  for (const auto& [name, outcome] : rungs(status))
+  for (const auto& [name, outcome] : attempts(status))
   {
     allowed = name.find("moved by 1e-4") != std::string::npos ? 2e-4
       : name.find("moved by 1e-5") != std::string::npos       ? std::max(allowed, 2e-5)
@@ -240,7 +240,9 @@ void expect_valid_tets(
   // The boundary of an embedding may be non-manifold, with several tets on one side of a facet.
   EXPECT_TRUE(!result.binding.tets.empty() || count_edges(boundary_triangles(mesh.tets)).closed);
   const Components components = connected_components(mesh.points.rows(), mesh.tets);
-  EXPECT_EQ(std::count(components.of_vertex.begin(), components.of_vertex.end(), -1), 0);
+  EXPECT_EQ(
+    std::count(components.component_of_vertex.begin(), components.component_of_vertex.end(), -1),
+    0);
   ASSERT_EQ(result.winding_numbers.size(), mesh.tets.rows());
   EXPECT_TRUE(result.winding_numbers.allFinite());
   expect_kept_vertices(surface, result, status);
@@ -312,9 +314,9 @@ void expect_repeatable(const TriangleMesh& surface, const TetrahedralizeOptions&
   }
   const auto clock_decided = [](const Status& run)
   {
-    const auto of_run = rungs(run);
+    const auto of_run = attempts(run);
     return std::any_of(of_run.begin(), of_run.end(),
-      [](const auto& rung) { return rung.second.find("time") != std::string::npos; });
+      [](const auto& attempt) { return attempt.second.find("time") != std::string::npos; });
   };
   if (clock_decided(status))
   {
@@ -383,7 +385,7 @@ TEST(FuzzTetrahedralize, AbusedSurfaces)
   test::fuzz("surfaces", 30,
     [&](test::Random& random)
     {
-      const TriangleMesh surface = abused(random);
+      const TriangleMesh surface = defective_surface(random);
       TetrahedralizeOptions options;
       const Index method = random.below(8);
       options.method = method == 0 ? TetMethod::remesh
@@ -430,7 +432,7 @@ TEST(FuzzTetrahedralize, LatticesOfAbusedSurfaces)
   test::fuzz("surfaces on lattices", 40,
     [&](test::Random& random)
     {
-      const TriangleMesh surface = abused(random);
+      const TriangleMesh surface = defective_surface(random);
       TetrahedralizeOptions options;
       options.method = test::chance(random, 0.6) ? TetMethod::remesh : TetMethod::embed;
       options.resolution = 4 + random.below(7);
@@ -460,7 +462,7 @@ TEST_F(FuzzWrap, AbusedSurfaces)
   test::fuzz("wraps", 24,
     [&](test::Random& random)
     {
-      const TriangleMesh surface = abused(random);
+      const TriangleMesh surface = defective_surface(random);
       TetrahedralizeOptions options;
       options.method = TetMethod::wrap;
       options.wrap_alpha = random.uniform(0.05, 0.3);

@@ -49,7 +49,7 @@ Domain random_domain(Random& random)
 
 /// Return a random point in a special position: at or near a vertex, on an edge, in an element,
 /// outside of the domain, or at or near another handle.
-Vec3 hostile_place(Random& random, const Domain& domain, const Handles& others)
+Vec3 hostile_position(Random& random, const Domain& domain, const Handles& others)
 {
   const Box box = bounding_box(domain.points);
   const double size = box.diagonal();
@@ -103,10 +103,10 @@ Handles handles_in(Random& random, const Domain& domain)
   for (Index h = 0; h < count; ++h)
   {
     const std::string name = "h" + std::to_string(h);
-    const Vec3 head = hostile_place(random, domain, handles);
+    const Vec3 head = hostile_position(random, domain, handles);
     handles.push_back(chance(random, 0.6)
         ? point_handle(name, head)
-        : bone_handle(name, head, hostile_place(random, domain, handles)));
+        : bone_handle(name, head, hostile_position(random, domain, handles)));
     if (handles.back().kind == HandleKind::point && chance(random, 0.1))
     {
       handles.back().kind = HandleKind::cage_vertex;

@@ -29,9 +29,9 @@ using namespace bindpose::test;
 
 namespace
 {
-struct OneThread : ExecutionContext
+struct SerialContext : ExecutionContext
 {
-  OneThread() { this->set_threads(1); }
+  SerialContext() { this->set_threads(1); }
 };
 
 bool same_bits(double a, double b)
@@ -39,23 +39,24 @@ bool same_bits(double a, double b)
   return std::memcmp(&a, &b, sizeof a) == 0;
 }
 
-struct Way
+struct WindingCase
 {
   WindingMethod method;
   double tolerance;
 };
-constexpr Way all_ways_and_tolerances[] = { { WindingMethod::automatic, 1e-3 },
+constexpr WindingCase all_ways_and_tolerances[] = { { WindingMethod::automatic, 1e-3 },
   { WindingMethod::exact, 1e-3 }, { WindingMethod::direct, 1e-3 },
   { WindingMethod::crossings, 1e-3 }, { WindingMethod::hierarchical, 1e-3 },
   { WindingMethod::fast, 1e-2 }, { WindingMethod::fast, 1e-3 }, { WindingMethod::fast, 1e-5 } };
 
-WindingNumber random_winding(Random& random, const TriangleMesh& mesh, const Way& way)
+WindingNumber random_winding(
+  Random& random, const TriangleMesh& mesh, const WindingCase& winding_case)
 {
   WindingNumber::Options options;
-  options.method = way.method;
-  options.tolerance = way.tolerance;
+  options.method = winding_case.method;
+  options.tolerance = winding_case.tolerance;
   options.max_leaf_size = chance(random, 0.5) ? 64 : 1 + random.below(8);
-  OneThread context;
+  SerialContext context;
   WindingNumber winding;
   const Status status = winding.build(context, mesh.points, mesh.triangles, options);
   EXPECT_TRUE(status.ok()) << status.message;
@@ -84,7 +85,7 @@ bool is_borderline(const TriangleMesh& mesh, const Vec3& point)
 }
 
 /// Points, and the plain sum (the true winding number) at each of them.
-struct Truth
+struct ReferenceValues
 {
   Points points;
   std::vector<double> values;
@@ -92,7 +93,7 @@ struct Truth
   std::vector<bool> borderline;
 
   template <typename PointAt>
-  Truth(const TriangleMesh& mesh, Index count, const PointAt& point_at)
+  ReferenceValues(const TriangleMesh& mesh, Index count, const PointAt& point_at)
     : points(count, 3), values(count), on_surface(count), borderline(count)
   {
     for (Index i = 0; i < count; ++i)
@@ -141,43 +142,44 @@ struct Tally
   double exact_error = 0.0; ///< largest absolute error of exact methods
   double fast_error = 0.0; ///< largest error of fast methods, divided by their tolerance
 
-  void add(const WindingNumber& winding, const Way& way, bool closed, const Truth& truth, Index i,
-    double value, bool touches)
+  void add(const WindingNumber& winding, const WindingCase& winding_case, bool closed,
+    const ReferenceValues& reference, Index i, double value, bool touches)
   {
     const auto where = [&]
     {
       std::ostringstream text;
       text.precision(17);
-      text << to_string(way.method) << " " << way.tolerance << " (" << to_string(winding.method())
-           << ") at " << truth.points.row(i) << ", touching " << truth.on_surface[i];
+      text << to_string(winding_case.method) << " " << winding_case.tolerance << " ("
+           << to_string(winding.method()) << ") at " << reference.points.row(i) << ", touching "
+           << reference.on_surface[i];
       return text.str();
     };
     ++this->queries;
-    if (truth.borderline[i])
+    if (reference.borderline[i])
     {
       ++this->borderline;
       return;
     }
     this->touching += touches;
-    if (!truth.points.row(i).allFinite()) // a grid may extend beyond the range of double
+    if (!reference.points.row(i).allFinite()) // a grid may extend beyond the range of double
     {
-      EXPECT_TRUE(std::isnan(value) && std::isnan(truth.values[i]) && !touches) << where();
+      EXPECT_TRUE(std::isnan(value) && std::isnan(reference.values[i]) && !touches) << where();
       return;
     }
-    const double error = std::abs(value - truth.values[i]);
-    EXPECT_EQ(touches, truth.on_surface[i]) << where();
+    const double error = std::abs(value - reference.values[i]);
+    EXPECT_EQ(touches, reference.on_surface[i]) << where();
     const bool fast = winding.method() == WindingMethod::fast;
-    if (fast && !truth.on_surface[i])
+    if (fast && !reference.on_surface[i])
     {
-      EXPECT_LE(error, way.tolerance) << where();
-      this->fast_error = std::max(this->fast_error, error / way.tolerance);
+      EXPECT_LE(error, winding_case.tolerance) << where();
+      this->fast_error = std::max(this->fast_error, error / winding_case.tolerance);
     }
     else
     {
       EXPECT_LE(error, 1e-12) << where();
       this->exact_error = std::max(this->exact_error, error);
     }
-    if (closed && !truth.on_surface[i] && winding.method() != WindingMethod::direct)
+    if (closed && !reference.on_surface[i] && winding.method() != WindingMethod::direct)
     {
       EXPECT_EQ(value, std::round(value)) << where();
     }
@@ -193,27 +195,29 @@ struct Tally
 
 /// Compare one method with the true winding numbers: at all points in one call, at single points,
 /// and on the grid.
-void compare(Random& random, const TriangleMesh& mesh, const Way& way, const Truth& points,
-  const SampleGrid& grid, const Truth& samples, Tally& tally)
+void compare(Random& random, const TriangleMesh& mesh, const WindingCase& winding_case,
+  const ReferenceValues& points, const SampleGrid& grid, const ReferenceValues& samples,
+  Tally& tally)
 {
-  const WindingNumber winding = random_winding(random, mesh, way);
+  const WindingNumber winding = random_winding(random, mesh, winding_case);
   const bool closed = winding.boundary().edges.empty();
-  OneThread context;
-  for (const Truth* truth : { &points, &samples })
+  SerialContext context;
+  for (const ReferenceValues* reference : { &points, &samples })
   {
-    const bool on_grid = truth == &samples;
-    const auto count = static_cast<Index>(truth->values.size());
-    std::vector<double> values(truth->values.size());
+    const bool on_grid = reference == &samples;
+    const auto count = static_cast<Index>(reference->values.size());
+    std::vector<double> values(reference->values.size());
     std::vector<unsigned char> flags(values.size());
-    ASSERT_TRUE((on_grid ? winding.evaluate(context, grid, values.data(), flags.data())
-                         : winding.evaluate(context, truth->points, values.data(), flags.data()))
-                  .ok());
+    ASSERT_TRUE(
+      (on_grid ? winding.evaluate(context, grid, values.data(), flags.data())
+               : winding.evaluate(context, reference->points, values.data(), flags.data()))
+        .ok());
     for (Index i = 0; i < count; ++i)
     {
-      const Vec3 p = truth->points.row(i);
-      tally.add(winding, way, closed, *truth, i, values[i], flags[i] != 0);
+      const Vec3 p = reference->points.row(i);
+      tally.add(winding, winding_case, closed, *reference, i, values[i], flags[i] != 0);
       ASSERT_TRUE(same_bits(winding.evaluate_at(p), values[i]))
-        << to_string(way.method) << (on_grid ? " on a grid" : " in a batch") << " at "
+        << to_string(winding_case.method) << (on_grid ? " on a grid" : " in a batch") << " at "
         << p.transpose() << ": " << values[i] << " and " << winding.evaluate_at(p);
     }
   }
@@ -244,12 +248,12 @@ TEST(FuzzWinding, AllMethodsOnSurfacesOfAllKinds)
         return;
       }
       mesh = placed(random, mesh);
-      const Truth points(mesh, 64, [&](Index) { return hostile_point(random, mesh); });
+      const ReferenceValues points(mesh, 64, [&](Index) { return hostile_point(random, mesh); });
       const SampleGrid grid = hostile_grid(random, mesh);
-      const Truth samples(mesh, grid.count(), points_of(grid));
-      for (const Way& way : all_ways_and_tolerances)
+      const ReferenceValues samples(mesh, grid.count(), points_of(grid));
+      for (const WindingCase& winding_case : all_ways_and_tolerances)
       {
-        compare(random, mesh, way, points, grid, samples, tally);
+        compare(random, mesh, winding_case, points, grid, samples, tally);
         if (testing::Test::HasFailure())
         {
           return;
@@ -322,7 +326,7 @@ TEST(FuzzWinding, CellsOfLargeClosedSurfaces)
           ++plain;
         }
       };
-      OneThread context;
+      SerialContext context;
       Points points(1000, 3);
       for (Index i = 0; i < points.rows(); ++i)
       {
@@ -401,7 +405,7 @@ TEST(FuzzWinding, CubesHoldTheirMiddles)
       grid.spacing = Vec3::Constant(0.5 * unit);
       grid.extent = { 0, 2 * n + 4, 0, 2 * n + 4, 0, 2 * n + 4 };
       Eigen::VectorXd values;
-      OneThread context;
+      SerialContext context;
       ASSERT_TRUE(winding.evaluate(context, grid, values).ok());
       const auto is_filled = [&](Index x, Index y, Index z)
       {
@@ -501,7 +505,7 @@ TEST(FuzzWinding, GradientIsThatOfThePlainSum)
         }
         Vec3 gradient, fast_gradient;
         const Points point = p.transpose();
-        OneThread context;
+        SerialContext context;
         ASSERT_TRUE(exact.evaluate_gradient(context, point, gradient.data()).ok());
         ASSERT_TRUE(fast.evaluate_gradient(context, point, fast_gradient.data()).ok());
         const double error = (gradient - expected).norm() * off;
@@ -611,7 +615,7 @@ TEST(FuzzWinding, CurvesAgainstThePlainSum)
     [&](Random& random)
     {
       const Curve curve = hostile_curve(random);
-      OneThread context;
+      SerialContext context;
       CurveWindingNumber winding;
       const Status status = winding.build(context, curve.points, curve.segments);
       ASSERT_TRUE(status.ok()) << status.message;
@@ -749,14 +753,14 @@ TEST(FuzzWinding, CloudsAgainstThePlainSum)
         points.row(i) =
           (chance(random, 0.2) ? sample : Vec3(sample + far * size * off)).transpose();
       }
-      for (const Way& way : { Way{ WindingMethod::automatic, 1e-3 },
-             Way{ WindingMethod::direct, 1e-3 }, Way{ WindingMethod::fast, 1e-2 },
-             Way{ WindingMethod::fast, 1e-3 }, Way{ WindingMethod::fast, 1e-5 } })
+      for (const WindingCase& winding_case : { WindingCase{ WindingMethod::automatic, 1e-3 },
+             WindingCase{ WindingMethod::direct, 1e-3 }, WindingCase{ WindingMethod::fast, 1e-2 },
+             WindingCase{ WindingMethod::fast, 1e-3 }, WindingCase{ WindingMethod::fast, 1e-5 } })
       {
         PointCloudWindingNumber::Options options;
-        options.method = way.method;
-        options.tolerance = way.tolerance;
-        OneThread context;
+        options.method = winding_case.method;
+        options.tolerance = winding_case.tolerance;
+        SerialContext context;
         PointCloudWindingNumber winding;
         const Status status =
           winding.build(context, cloud.points, cloud.normals, cloud.areas, options);
@@ -772,22 +776,22 @@ TEST(FuzzWinding, CloudsAgainstThePlainSum)
         for (Index i = 0; i < points.rows(); ++i)
         {
           const Vec3 p = points.row(i);
-          double expected = 0.0, shares = 0.0;
+          double expected = 0.0, absolute_sum = 0.0;
           bool touches = false;
-          plain_sum_in_long_double(cloud, p, reach, expected, shares, touches);
+          plain_sum_in_long_double(cloud, p, reach, expected, absolute_sum, touches);
           ++queries;
           touching += touches;
           ASSERT_EQ(flags[i] != 0, touches) << std::setprecision(17) << p.transpose();
           ASSERT_TRUE(same_bits(values[i], winding.evaluate_at(p)));
           const bool fast = winding.method() == WindingMethod::fast;
-          const double rounding = 1e-14 * (1.0 + shares);
+          const double rounding = 1e-14 * (1.0 + absolute_sum);
           const double error = std::abs(values[i] - expected);
-          ASSERT_LE(error, rounding + (fast ? way.tolerance : 0.0))
-            << std::setprecision(17) << to_string(way.method) << way.tolerance << " at "
-            << p.transpose() << ": " << values[i] << ", unsigned " << shares;
+          ASSERT_LE(error, rounding + (fast ? winding_case.tolerance : 0.0))
+            << std::setprecision(17) << to_string(winding_case.method) << winding_case.tolerance
+            << " at " << p.transpose() << ": " << values[i] << ", unsigned " << absolute_sum;
           double& largest = fast ? worst_fast : worst;
-          largest =
-            std::max(largest, fast ? (error - rounding) / way.tolerance : error / (1.0 + shares));
+          largest = std::max(largest,
+            fast ? (error - rounding) / winding_case.tolerance : error / (1.0 + absolute_sum));
         }
       }
     });

@@ -60,9 +60,9 @@ TEST(Mesh, ComponentsAreNumberedByVertex)
   const TriangleMesh two = test::join(test::cube(), test::sphere(1, 1.0, Vec3(5, 0, 0)));
   const Components components = connected_components(two.points.rows() + 1, two.triangles);
   EXPECT_EQ(components.count, 2);
-  EXPECT_EQ(components.of_vertex.front(), 0);
-  EXPECT_EQ(components.of_vertex[8], 1);
-  EXPECT_EQ(components.of_vertex.back(), -1);
+  EXPECT_EQ(components.component_of_vertex.front(), 0);
+  EXPECT_EQ(components.component_of_vertex[8], 1);
+  EXPECT_EQ(components.component_of_vertex.back(), -1);
 }
 
 TEST(Mesh, CheckNamesTheFirstOffender)

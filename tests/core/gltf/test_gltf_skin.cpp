@@ -165,7 +165,7 @@ TEST(GltfSkin, WhatIsWrittenComesBack)
   {
     GltfSkin skin = example(7);
     skin.name = "ball";
-    skin.joints[2].note = GltfNote{ "cage_vertex", Vec3(0.1, 0.2, 0.3), Vec3(1, 2, 3), 4,
+    skin.joints[2].note = GltfHandleExtras{ "cage_vertex", Vec3(0.1, 0.2, 0.3), Vec3(1, 2, 3), 4,
       { { 2, 1, -1 }, { 2, 0, 1 } } };
     GltfOptions options;
     options.binary = binary;
@@ -177,30 +177,30 @@ TEST(GltfSkin, WhatIsWrittenComesBack)
     EXPECT_EQ(status.report.text("rest_joint"), "no");
     EXPECT_LT(status.report.number("pose_error", 1), 1e-7);
     EXPECT_TRUE(status.warnings.empty());
-    GltfSkin back;
-    status = read_gltf_skin(folder / "rig.gltf", back);
+    GltfSkin reread;
+    status = read_gltf_skin(folder / "rig.gltf", reread);
     ASSERT_TRUE(status.ok()) << status.message;
     EXPECT_TRUE(status.warnings.empty());
-    EXPECT_EQ(back.name, "ball");
-    EXPECT_LT(largest(back.points - skin.points), float_step);
-    EXPECT_LT(largest(back.normals - skin.normals), float_step);
-    EXPECT_LT(largest(back.texture - skin.texture), float_step);
-    EXPECT_EQ(back.colors, skin.colors);
-    EXPECT_EQ(back.triangles, skin.triangles);
-    ASSERT_EQ(back.joints.size(), skin.joints.size());
-    EXPECT_LT(largest(back.weights - skin.weights), float_step);
+    EXPECT_EQ(reread.name, "ball");
+    EXPECT_LT(largest(reread.points - skin.points), float_step);
+    EXPECT_LT(largest(reread.normals - skin.normals), float_step);
+    EXPECT_LT(largest(reread.texture - skin.texture), float_step);
+    EXPECT_EQ(reread.colors, skin.colors);
+    EXPECT_EQ(reread.triangles, skin.triangles);
+    ASSERT_EQ(reread.joints.size(), skin.joints.size());
+    EXPECT_LT(largest(reread.weights - skin.weights), float_step);
     for (std::size_t j = 0; j < skin.joints.size(); ++j)
     {
-      EXPECT_EQ(back.joints[j].name, skin.joints[j].name);
-      EXPECT_EQ(back.joints[j].parent, skin.joints[j].parent);
-      EXPECT_LT(difference_of_affines(back.joints[j].rest, skin.joints[j].rest), 1e-6);
-      EXPECT_LT(difference_of_affines(back.joints[j].posed, skin.joints[j].rest), 1e-12);
+      EXPECT_EQ(reread.joints[j].name, skin.joints[j].name);
+      EXPECT_EQ(reread.joints[j].parent, skin.joints[j].parent);
+      EXPECT_LT(difference_of_affines(reread.joints[j].rest, skin.joints[j].rest), 1e-6);
+      EXPECT_LT(difference_of_affines(reread.joints[j].posed, skin.joints[j].rest), 1e-12);
     }
-    ASSERT_TRUE(back.joints[2].note);
-    EXPECT_EQ(back.joints[2].note->kind, "cage_vertex");
-    EXPECT_EQ(back.joints[2].note->head, Vec3(0.1, 0.2, 0.3));
-    EXPECT_EQ(back.joints[2].note->region, 4);
-    EXPECT_EQ(back.joints[2].note->cage, skin.joints[2].note->cage);
+    ASSERT_TRUE(reread.joints[2].note);
+    EXPECT_EQ(reread.joints[2].note->kind, "cage_vertex");
+    EXPECT_EQ(reread.joints[2].note->head, Vec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(reread.joints[2].note->region, 4);
+    EXPECT_EQ(reread.joints[2].note->cage, skin.joints[2].note->cage);
   }
 }
 
@@ -240,10 +240,10 @@ TEST(GltfSkin, RowsInTheFileSumToOne)
   }
   // Reading removes the additional joint. The weights of the original joints are unchanged, so rows
   // sum to less than 1 again.
-  GltfSkin back;
-  ASSERT_TRUE(read_gltf_skin(folder / "rig.glb", back).ok());
-  ASSERT_EQ(back.joints.size(), 6u);
-  EXPECT_LT(largest(back.weights - skin.weights), float_step);
+  GltfSkin reread;
+  ASSERT_TRUE(read_gltf_skin(folder / "rig.glb", reread).ok());
+  ASSERT_EQ(reread.joints.size(), 6u);
+  EXPECT_LT(largest(reread.weights - skin.weights), float_step);
 }
 
 TEST(GltfSkin, TheLargestWeightsAndWhatThatCosts)
@@ -261,25 +261,25 @@ TEST(GltfSkin, TheLargestWeightsAndWhatThatCosts)
   ASSERT_TRUE(status.ok());
   EXPECT_EQ(status.report.number("sets", 0), 1);
   EXPECT_EQ(status.report.number("counts.dropped_weights", 0), 5.0 * skin.points.rows());
-  GltfSkin back;
-  ASSERT_TRUE(read_gltf_skin(folder / "four.glb", back).ok());
-  double share = 0.0;
+  GltfSkin reread;
+  ASSERT_TRUE(read_gltf_skin(folder / "four.glb", reread).ok());
+  double dropped_sum = 0.0;
   std::vector<Eigen::Affine3d> posed;
   for (Index v = 0; v < skin.points.rows(); ++v)
   {
     Eigen::VectorXd row = skin.weights.row(v).transpose();
     std::sort(row.data(), row.data() + row.size());
-    share = std::max(share, row.head(5).sum());
-    EXPECT_EQ((back.weights.row(v).array() > 0.0).count(), 4);
+    dropped_sum = std::max(dropped_sum, row.head(5).sum());
+    EXPECT_EQ((reread.weights.row(v).array() > 0.0).count(), 4);
   }
   for (const GltfJoint& joint : skin.joints)
   {
     posed.push_back(joint.posed);
   }
-  EXPECT_NEAR(status.report.number("dropped_share", 0), share, 1e-12);
+  EXPECT_NEAR(status.report.number("dropped_share", 0), dropped_sum, 1e-12);
   // The reported error is that of posing with the weights in the file.
   GltfSkin cut = skin;
-  cut.weights = back.weights;
+  cut.weights = reread.weights;
   const double error = (skinned(cut, posed) - skinned(skin, posed)).rowwise().norm().maxCoeff() /
     bounding_box(skin.points).diagonal();
   EXPECT_GT(error, 0.001);
@@ -298,10 +298,10 @@ TEST(GltfSkin, NegativeWeightsAreTold)
   ASSERT_TRUE(status.ok());
   ASSERT_EQ(status.warnings.size(), 1u);
   EXPECT_THAT(status.warnings[0], HasSubstr("2 vertices"));
-  GltfSkin back;
-  ASSERT_TRUE(read_gltf_skin(folder / "rig.glb", back).ok());
-  EXPECT_LT(largest(back.weights.row(6) - Eigen::RowVector3d(0.25, 0.25, 0.5)), float_step);
-  EXPECT_LT(largest(back.weights.row(5) - Eigen::RowVector3d(0, 0.4, 0.6)), float_step);
+  GltfSkin reread;
+  ASSERT_TRUE(read_gltf_skin(folder / "rig.glb", reread).ok());
+  EXPECT_LT(largest(reread.weights.row(6) - Eigen::RowVector3d(0.25, 0.25, 0.5)), float_step);
+  EXPECT_LT(largest(reread.weights.row(5) - Eigen::RowVector3d(0, 0.4, 0.6)), float_step);
 }
 
 TEST(GltfSkin, AnAnimationOfJoints)
@@ -324,26 +324,27 @@ TEST(GltfSkin, AnAnimationOfJoints)
   ASSERT_TRUE(status.ok()) << status.message;
   // Rotations and uniform scalings are exact.
   EXPECT_LT(status.report.number("animation_error", 1), 1e-6);
-  GltfSkin back;
-  status = read_gltf_skin(folder / "rig.glb", back);
+  GltfSkin reread;
+  status = read_gltf_skin(folder / "rig.glb", reread);
   ASSERT_TRUE(status.ok()) << status.message;
-  EXPECT_EQ(back.frames_per_second, 30.0);
-  ASSERT_EQ(back.frames.size(), 7u);
+  EXPECT_EQ(reread.frames_per_second, 30.0);
+  ASSERT_EQ(reread.frames.size(), 7u);
   for (std::size_t k = 0; k < 7; ++k)
   {
     for (std::size_t j = 0; j < skin.joints.size(); ++j)
     {
-      EXPECT_LT(difference_of_affines(back.frames[k].posed[j], skin.frames[k].posed[j]), 3e-6);
+      EXPECT_LT(difference_of_affines(reread.frames[k].posed[j], skin.frames[k].posed[j]), 3e-6);
     }
   }
   // Shears are not exact, and the report contains their error.
   skin.frames[3].posed[4].linear() *= (Eigen::Matrix3d() << 1, 0.8, 0, 0, 1, 0, 0, 0, 1).finished();
   status = write_gltf_skin(folder / "sheared.glb", skin);
-  ASSERT_TRUE(read_gltf_skin(folder / "sheared.glb", back).ok());
-  const double error = (skinned(back, back.frames[3].posed) - skinned(skin, skin.frames[3].posed))
-                         .rowwise()
-                         .norm()
-                         .maxCoeff() /
+  ASSERT_TRUE(read_gltf_skin(folder / "sheared.glb", reread).ok());
+  const double error =
+    (skinned(reread, reread.frames[3].posed) - skinned(skin, skin.frames[3].posed))
+      .rowwise()
+      .norm()
+      .maxCoeff() /
     bounding_box(skin.points).diagonal();
   EXPECT_GT(error, 0.01);
   EXPECT_NEAR(status.report.number("animation_error", 0), error, 1e-5);
@@ -379,12 +380,12 @@ TEST(GltfSkin, AnAnimationOfShapes)
     ASSERT_NEAR(moved, 0.5 * skin.points.data()[k], float_step);
   }
   EXPECT_EQ(written["animations"][0]["channels"][0]["target"]["path"], "weights");
-  GltfSkin back;
-  const Status read = read_gltf_skin(folder / "rig.glb", back);
+  GltfSkin reread;
+  const Status read = read_gltf_skin(folder / "rig.glb", reread);
   ASSERT_TRUE(read.ok());
   ASSERT_EQ(read.warnings.size(), 1u);
   EXPECT_THAT(read.warnings[0], HasSubstr("does not keep 1 animation and 3 morph targets"));
-  EXPECT_TRUE(back.frames.empty());
+  EXPECT_TRUE(reread.frames.empty());
   // A mesh without joints may also have an animation by shapes.
   skin.joints.clear();
   skin.weights.resize(0, 0);
@@ -406,8 +407,8 @@ TEST(GltfSkin, OneWarningListsWhatIsNotKept)
   GltfOptions options;
   options.binary = false;
   ASSERT_TRUE(write_gltf_skin(folder / "own.gltf", skin, options).ok());
-  GltfSkin back;
-  EXPECT_TRUE(read_gltf_skin(folder / "own.gltf", back).warnings.empty()) << "it is kept whole";
+  GltfSkin reread;
+  EXPECT_TRUE(read_gltf_skin(folder / "own.gltf", reread).warnings.empty()) << "it is kept whole";
 
   json file = json::parse(folder.read("own.gltf"));
   file["animations"][0]["name"] = "Walk";
@@ -423,9 +424,9 @@ TEST(GltfSkin, OneWarningListsWhatIsNotKept)
   file["meshes"].push_back(file["meshes"][0]);
   file["meshes"][1]["primitives"][0]["attributes"].erase("NORMAL");
   file["nodes"].push_back({ { "mesh", 1 }, { "skin", 0 } });
-  const Status status = read_gltf_skin(folder.write("character.gltf", file.dump()), back);
+  const Status status = read_gltf_skin(folder.write("character.gltf", file.dump()), reread);
   ASSERT_TRUE(status.ok()) << status.message;
-  EXPECT_EQ(back.frames.size(), 2u);
+  EXPECT_EQ(reread.frames.size(), 2u);
   ASSERT_EQ(status.warnings.size(), 1u);
   for (const char* lost :
     { "character.gltf", "39 of 40 animations ('Walk' is kept)", "2 materials", "1 texture,",
@@ -473,10 +474,10 @@ TEST(GltfSkin, ErrorsAreNamed)
 {
   const test::Folder folder;
   GltfSkin skin;
-  const auto error = [&](const std::function<void(json&)>& spoil)
+  const auto error = [&](const std::function<void(json&)>& modify)
   {
     json file = foreign();
-    spoil(file);
+    modify(file);
     const Status status = read_gltf_skin(folder.write("f.gltf", file.dump()), skin);
     EXPECT_EQ(status.code, StatusCode::invalid_input);
     EXPECT_EQ(skin.points.rows(), 0);
@@ -534,21 +535,21 @@ TEST(GltfSkin, ACancelLeavesNoFile)
   {
     frame.posed.assign(3, Eigen::Affine3d::Identity());
   }
-  int asked = 0;
-  ExecutionContext context({}, [&asked] { return ++asked > 10; });
+  int cancel_checks = 0;
+  ExecutionContext context({}, [&cancel_checks] { return ++cancel_checks > 10; });
   const Status status = write_gltf_skin(context, folder / "rig.glb", skin, GltfOptions());
   EXPECT_EQ(status.code, StatusCode::canceled);
   EXPECT_EQ(folder.number_of_files(), 0u);
-  EXPECT_LT(asked, 20);
+  EXPECT_LT(cancel_checks, 20);
 }
 
 TEST(GltfSkin, WhatCannotBeWrittenIsTold)
 {
   const test::Folder folder;
-  const auto error = [&](const std::function<void(GltfSkin&)>& spoil)
+  const auto error = [&](const std::function<void(GltfSkin&)>& modify)
   {
     GltfSkin skin = example(3);
-    spoil(skin);
+    modify(skin);
     const Status status = write_gltf_skin(folder / "rig.glb", skin);
     EXPECT_EQ(status.code, StatusCode::invalid_input);
     return status.message;

@@ -129,9 +129,9 @@ TEST(HandleEdits, CageEdgesComeAndGo)
 
 TEST(HandleEdits, JointsMoveTogether)
 {
-  EXPECT_EQ(joint_of(three_bone_arm(), { 1, false }).size(), 2u);
-  EXPECT_EQ(joint_of(three_bone_arm(), { 2, true }).size(), 1u);
-  EXPECT_EQ(joint_of(three_bone_arm(), { 3, false }).size(), 1u);
+  EXPECT_EQ(ends_at_joint(three_bone_arm(), { 1, false }).size(), 2u);
+  EXPECT_EQ(ends_at_joint(three_bone_arm(), { 2, true }).size(), 1u);
+  EXPECT_EQ(ends_at_joint(three_bone_arm(), { 3, false }).size(), 1u);
   EditedHandles after;
   ASSERT_TRUE(move_ends(three_bone_arm(), { { 0, true } }, { Vec3(2, 0.5, 0) }, after).ok());
   EXPECT_EQ(after.handles[0].tail, Vec3(2, 0.5, 0));
@@ -167,7 +167,7 @@ TEST(HandleEdits, MirroringCopiesBonesWithNamesAndParents)
       "upper.L", "lower.L", "hand.L", "nail", "nose", "upper.R", "lower.R", "hand.R", "nail.001"))
     << "the nose lies in the plane";
   EXPECT_THAT(after.source, ElementsAre(0, 1, 2, 3, 4, -1, -1, -1, -1));
-  EXPECT_THAT(after.model, ElementsAre(0, 1, 2, 3, 4, 0, 1, 2, 3));
+  EXPECT_THAT(after.copied_from, ElementsAre(0, 1, 2, 3, 4, 0, 1, 2, 3));
   EXPECT_EQ(after.handles[7].head, Vec3(-3, 0, 0));
   EXPECT_EQ(after.handles[7].tail, Vec3(-3.5, 0.5, 0));
   EXPECT_EQ(after.handles[5].parent, -1);

@@ -42,7 +42,7 @@ public:
 
 bool dies_soon(const std::string& process)
 {
-  return test::soon([&] { return test::gone(std::stoi(process)); });
+  return test::becomes_true([&] { return test::has_exited(std::stoi(process)); });
 }
 } // namespace
 
@@ -59,11 +59,11 @@ TEST(ChildProcess, EndsAreTold)
   Shell seven("exit 7");
   ASSERT_TRUE(seven.run().ok());
   EXPECT_EQ(seven.end.failure, "failed with exit code 7");
-  EXPECT_FALSE(seven.end.by_signal);
+  EXPECT_FALSE(seven.end.killed_by_signal);
   Shell crash("kill -SEGV $$");
   ASSERT_TRUE(crash.run().ok());
   EXPECT_THAT(crash.end.failure, HasSubstr("signal 11"));
-  EXPECT_TRUE(crash.end.by_signal);
+  EXPECT_TRUE(crash.end.killed_by_signal);
   Shell nowhere("true");
   nowhere.request.path = "/nowhere/program";
   const Status status = nowhere.run();
@@ -129,7 +129,7 @@ TEST(ChildProcess, OnlyItsOwnProcessorTimeCounts)
   Shell idle("sleep 0.5");
   idle.request.processor_limit = 0.2;
   EXPECT_TRUE(idle.run().ok());
-  EXPECT_FALSE(idle.end.at_limit);
+  EXPECT_FALSE(idle.end.timed_out);
 
   Shell busy("while :; do :; done");
   busy.request.processor_limit = 0.2;
@@ -137,6 +137,6 @@ TEST(ChildProcess, OnlyItsOwnProcessorTimeCounts)
   const Status status = busy.run();
   EXPECT_EQ(status.code, StatusCode::internal_error);
   EXPECT_EQ(status.message, "the shell was stopped at its time limit of 0.2 s of processor time");
-  EXPECT_TRUE(busy.end.at_limit);
+  EXPECT_TRUE(busy.end.timed_out);
   EXPECT_GE(busy.end.seconds, 0.19);
 }

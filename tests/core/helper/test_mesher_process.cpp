@@ -45,7 +45,7 @@ public:
     return run_mesher(context ? *context : own, request, input, this->answer);
   }
 
-  MesherAnswer answer;
+  MesherResult answer;
 };
 
 constexpr const char* write_process = "echo $$ > \"$(dirname \"$0\")/pid\"\n";
@@ -56,7 +56,7 @@ double seconds_since(std::chrono::steady_clock::time_point start)
 }
 
 Status run_real(
-  const std::vector<std::string>& arguments, const TriangleMesh& mesh, MesherAnswer& answer)
+  const std::vector<std::string>& arguments, const TriangleMesh& mesh, MesherResult& answer)
 {
   ExecutionContext context;
   MesherData input;
@@ -69,7 +69,7 @@ Status run_real(
 TEST(MesherProcess, MissingHelperNamesItsPackages)
 {
   ExecutionContext context;
-  MesherAnswer answer;
+  MesherResult answer;
   {
     const Environment helper("BINDPOSE_MESHER", "/nowhere/bindpose-mesher");
     EXPECT_TRUE(find_mesher().empty());
@@ -142,7 +142,7 @@ TEST(MesherProcess, GarbageIsNoMesh)
 
 TEST(MesherProcess, RecordsAreChecked)
 {
-  const auto survives = [](const MesherData& data)
+  const auto round_trips = [](const MesherData& data)
   {
     const int file = ::memfd_create("test", 0);
     EXPECT_TRUE(write_mesher_data(file, data));
@@ -154,20 +154,20 @@ TEST(MesherProcess, RecordsAreChecked)
       back.regions == data.regions;
   };
   MesherData data;
-  EXPECT_TRUE(survives(data));
+  EXPECT_TRUE(round_trips(data));
   const TetMesh box = test::tet_box(2, 2, 2);
   data.points = box.points;
   data.tets = box.tets;
   data.regions.assign(static_cast<std::size_t>(box.tets.rows()), 4);
-  EXPECT_TRUE(survives(data));
+  EXPECT_TRUE(round_trips(data));
   data.tets(3, 2) = box.points.rows();
-  EXPECT_FALSE(survives(data)) << "an id out of range";
+  EXPECT_FALSE(round_trips(data)) << "an id out of range";
   data.tets = box.tets;
   data.points(5, 0) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(survives(data)) << "not a number";
+  EXPECT_FALSE(round_trips(data)) << "not a number";
   data.points = box.points;
   data.regions.pop_back();
-  EXPECT_FALSE(survives(data)) << "one region too few";
+  EXPECT_FALSE(round_trips(data)) << "one region too few";
 }
 
 TEST(MesherProcess, TimeLimitKillsTheHelper)
@@ -188,9 +188,9 @@ TEST(MesherProcess, CancelKillsTheHelperAtOnce)
   ExecutionContext context;
   test::CancelLater user(context, 300);
   const Status status = helper.run(60.0, &context);
-  const double waited = user.waited();
+  const double seconds_since_cancel = user.seconds_since_cancel();
   EXPECT_EQ(status.code, StatusCode::canceled);
-  EXPECT_LT(waited, 0.2);
+  EXPECT_LT(seconds_since_cancel, 0.2);
   ASSERT_GT(helper.process(), 0);
   EXPECT_NE(::kill(helper.process(), 0), 0) << "still running";
   // A run that is canceled before it starts does not start the helper.
@@ -220,7 +220,7 @@ TEST_F(RealHelper, RefinesUntilNothingCrosses)
     test::join(test::cube(), test::translated(test::cube(), Vec3(1, 1, 0)));
   for (const TriangleMesh& mesh : { two, open, coplanar })
   {
-    MesherAnswer answer;
+    MesherResult answer;
     const Status status = run_real({ "refine" }, mesh, answer);
     ASSERT_TRUE(status.ok()) << status.message;
     const MesherData& refined = answer.data;
@@ -238,7 +238,7 @@ TEST_F(RealHelper, RefinesUntilNothingCrosses)
     EXPECT_FALSE(
       count_edges(refined.triangles).boundary > count_edges(mesh.triangles).boundary + 60);
   }
-  MesherAnswer answer;
+  MesherResult answer;
   ASSERT_TRUE(run_real({ "refine" }, two, answer).ok());
   // No triangles are coplanar, so refinement only subdivides them.
   EXPECT_NEAR(surface_area(answer.data.points, answer.data.triangles),
@@ -267,7 +267,7 @@ TEST_F(RealHelper, AFewTrianglesMayFallIntoManyPieces)
       mesh = test::join(mesh, square);
     }
   }
-  MesherAnswer answer;
+  MesherResult answer;
   const Status status = run_real({ "refine" }, mesh, answer);
   ASSERT_TRUE(status.ok()) << status.message;
   const MesherData& refined = answer.data;
@@ -288,7 +288,7 @@ TEST_F(RealHelper, SheetsThatNearlyCoincideAreRounded)
   const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).matrix();
   twin.points = (twin.points * turn) * turn.transpose();
   const TriangleMesh both = test::join(sphere, twin);
-  MesherAnswer answer;
+  MesherResult answer;
   const Status status = run_real({ "refine" }, both, answer);
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(answer.report.number("rounded", 0.0), 1.0);
@@ -303,7 +303,7 @@ TEST_F(RealHelper, SheetsThatNearlyCoincideAreRounded)
 
 TEST_F(RealHelper, CleanSurfacesAreLeftAlone)
 {
-  MesherAnswer answer;
+  MesherResult answer;
   ASSERT_TRUE(run_real({ "refine" }, test::torus(12, 8, 1.0, 0.4), answer).ok());
   EXPECT_EQ(answer.data.points, test::torus(12, 8, 1.0, 0.4).points);
   EXPECT_EQ(answer.data.triangles, test::torus(12, 8, 1.0, 0.4).triangles);
@@ -315,7 +315,7 @@ TEST_F(RealHelper, FillsACube)
     { std::vector<std::string>{ "tetgen", "--switches", "pYA" },
       std::vector<std::string>{ "delaunay" } })
   {
-    MesherAnswer answer;
+    MesherResult answer;
     const Status status = run_real(job, test::cube(), answer);
     ASSERT_TRUE(status.ok()) << status.message;
     EXPECT_NEAR(tet_volumes(answer.data.points, answer.data.tets).sum(), 8.0, 1e-14);
@@ -327,7 +327,7 @@ TEST_F(RealHelper, WhatCrashesTetgenIsAStatus)
 {
   // These two surfaces cross and were not refined.
   TriangleMesh mesh = test::join(test::sphere(2), test::sphere(2, 1.0, Vec3(0.7, 0.31, 0.17)));
-  MesherAnswer answer;
+  MesherResult answer;
   EXPECT_EQ(
     run_real({ "tetgen", "--switches", "pY" }, mesh, answer).code, StatusCode::internal_error);
   // An open surface has no tets.
@@ -343,7 +343,7 @@ TEST_F(RealHelper, MemoryLimitIsKept)
   const TriangleMesh mesh = test::sphere(6);
   input.points = mesh.points;
   input.triangles = mesh.triangles;
-  MesherAnswer answer;
+  MesherResult answer;
   const Status status = run_mesher(context, { { "refine" }, 60.0, 24 }, input, answer);
   EXPECT_EQ(status.code, StatusCode::internal_error);
   EXPECT_THAT(status.message, HasSubstr("memory limit of 24 MiB"));

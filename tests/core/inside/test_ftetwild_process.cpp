@@ -28,10 +28,10 @@
 #include <unistd.h>
 
 using namespace bindpose;
+using test::becomes_true;
 using test::Environment;
-using test::gone;
+using test::has_exited;
 using test::open_descriptors;
-using test::soon;
 using testing::HasSubstr;
 
 namespace
@@ -138,14 +138,14 @@ TEST(Ftetwild, SurfacesGoAndTetsComeInTheirOwnPlace)
 
 TEST(Ftetwild, ItsStagesAreProgress)
 {
-  std::vector<double> seen;
+  std::vector<double> reported_fractions;
   ExecutionContext context(
-    [&](double fraction, const std::string&) { seen.push_back(fraction); }, {});
+    [&](double fraction, const std::string&) { reported_fractions.push_back(fraction); }, {});
   FakeFtetwild fake(std::string("sleep 0.1; echo '[float-tetwild] [info] preprocessing 0.1s'; "
                                 "sleep 0.1; echo '[float-tetwild] [info] mesh optimization 2s'\n") +
     writes_the_cube);
   ASSERT_TRUE(fake.run(test::cube(), {}, &context).ok());
-  EXPECT_THAT(seen, testing::ElementsAre(0.1, 0.9));
+  EXPECT_THAT(reported_fractions, testing::ElementsAre(0.1, 0.9));
 }
 
 TEST(Ftetwild, IsFoundOnThePath)
@@ -211,15 +211,15 @@ TEST(Ftetwild, TimeLimitAndCancelKillItAtOnce)
   EXPECT_EQ(status.code, StatusCode::internal_error);
   EXPECT_THAT(status.message, HasSubstr("fTetWild was stopped at its time limit of 0.5 s"));
   ASSERT_GT(fake.process(), 0);
-  EXPECT_TRUE(gone(fake.process())) << "still running";
+  EXPECT_TRUE(has_exited(fake.process())) << "still running";
 
   ExecutionContext context;
   test::CancelLater user(context, 400);
   status = fake.run(test::cube(), {}, &context);
-  const double waited = user.waited();
+  const double seconds_since_cancel = user.seconds_since_cancel();
   EXPECT_EQ(status.code, StatusCode::canceled);
-  EXPECT_LT(waited, 0.2);
-  EXPECT_TRUE(gone(fake.process())) << "still running";
+  EXPECT_LT(seconds_since_cancel, 0.2);
+  EXPECT_TRUE(has_exited(fake.process())) << "still running";
 }
 
 TEST(Ftetwild, MemoryIsLimited)
@@ -243,12 +243,12 @@ TEST(Ftetwild, NothingIsLeftWhenThisProcessIsKilled)
     ::_exit(0);
   }
   ASSERT_GT(victim, 0);
-  ASSERT_TRUE(soon([&] { return fake.process() > 0; }));
+  ASSERT_TRUE(becomes_true([&] { return fake.process() > 0; }));
   EXPECT_EQ(fake.temporary().number_of_files(), 1u);
   ::kill(victim, SIGKILL);
   ::waitpid(victim, nullptr, 0);
-  EXPECT_TRUE(soon([&] { return fake.temporary().number_of_files() == 0; }));
-  EXPECT_TRUE(soon([&] { return gone(fake.process()); })) << "still running";
+  EXPECT_TRUE(becomes_true([&] { return fake.temporary().number_of_files() == 0; }));
+  EXPECT_TRUE(becomes_true([&] { return has_exited(fake.process()); })) << "still running";
 }
 
 TEST(Ftetwild, BadInputIsOneSentence)

@@ -20,14 +20,14 @@ SizingField everywhere(double length)
   return SizingField(Points(0, 3), Eigen::VectorXd(0), 0.0, length);
 }
 
-Points points_in(const TriangleMesh& mesh, SizingField sizes, Index most, int threads = 0)
+Points points_in(const TriangleMesh& mesh, SizingField sizes, Index maximum_count, int threads = 0)
 {
   ExecutionContext context;
   context.set_threads(threads);
   Interior interior;
   EXPECT_TRUE(interior.build(context, mesh.points, mesh.triangles).ok());
   Points inner;
-  EXPECT_TRUE(inner_points(context, interior, sizes, most, inner));
+  EXPECT_TRUE(inner_points(context, interior, sizes, maximum_count, inner));
   return inner;
 }
 
@@ -71,9 +71,9 @@ TEST(InnerPoints, AreDenserWhereTheSurfaceIs)
   ASSERT_GT(inner.rows(), 50);
   for (Index i = 0; i < inner.rows(); ++i)
   {
-    const double wanted = sizes.at(inner.row(i));
-    EXPECT_GE(spacing(inner, i), 0.2 * wanted);
-    EXPECT_LE(spacing(inner, i), 2.0 * wanted);
+    const double target = sizes.at(inner.row(i));
+    EXPECT_GE(spacing(inner, i), 0.2 * target);
+    EXPECT_LE(spacing(inner, i), 2.0 * target);
   }
 }
 
@@ -97,11 +97,11 @@ TEST(InnerPoints, EvenGridsGiveSomePointsAndNotTooMany)
     const TriangleMesh mesh{ box.points, boundary_triangles(box.tets) };
     const SizingField sizes(
       mesh.points, Eigen::VectorXd::Constant(mesh.points.rows(), 0.05), 0.75, 2.0);
-    for (const Index most : { 20, 200, 1000 })
+    for (const Index maximum_count : { 20, 200, 1000 })
     {
-      const Points inner = points_in(mesh, sizes, most);
-      EXPECT_GT(inner.rows(), 0) << height << " " << most;
-      EXPECT_LE(inner.rows(), 2 * most) << height << " " << most;
+      const Points inner = points_in(mesh, sizes, maximum_count);
+      EXPECT_GT(inner.rows(), 0) << height << " " << maximum_count;
+      EXPECT_LE(inner.rows(), 2 * maximum_count) << height << " " << maximum_count;
     }
   }
 }

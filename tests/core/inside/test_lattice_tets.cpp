@@ -13,7 +13,7 @@ using namespace bindpose;
 
 namespace
 {
-TetMesh stuffed(const TriangleMesh& mesh, Index resolution, int threads = 0)
+TetMesh stuff_surface(const TriangleMesh& mesh, Index resolution, int threads = 0)
 {
   ExecutionContext context;
   context.set_threads(threads);
@@ -34,7 +34,7 @@ TEST(LatticeTets, StuffingHasGoodAnglesAndTheRightVolume)
   double last_error = 1.0;
   for (const Index resolution : { 8, 16, 32 })
   {
-    const TetMesh mesh = stuffed(sphere, resolution);
+    const TetMesh mesh = stuff_surface(sphere, resolution);
     ASSERT_TRUE(check_tets(mesh.points, mesh.tets).ok());
     const TetQuality quality = measure_tets(mesh.points, mesh.tets);
     EXPECT_GT(quality.min_volume, 0.0);
@@ -50,10 +50,10 @@ TEST(LatticeTets, StuffingHasGoodAnglesAndTheRightVolume)
 
 TEST(LatticeTets, StuffingKeepsTheTopology)
 {
-  const TetMesh torus = stuffed(test::torus(48, 24, 1.0, 0.4), 24);
+  const TetMesh torus = stuff_surface(test::torus(48, 24, 1.0, 0.4), 24);
   EXPECT_EQ(test::euler_characteristic(torus), 0);
   const TetMesh shell =
-    stuffed(test::join(test::sphere(3), test::flipped(test::sphere(3, 0.5))), 24);
+    stuff_surface(test::join(test::sphere(3), test::flipped(test::sphere(3, 0.5))), 24);
   EXPECT_EQ(test::euler_characteristic(shell), 2) << "a ball with a cavity";
   EXPECT_GE(measure_tets(shell.points, shell.tets).min_dihedral_angle, 10.7);
 }
@@ -61,7 +61,7 @@ TEST(LatticeTets, StuffingKeepsTheTopology)
 TEST(LatticeTets, StuffingBoundaryLiesOnTheSurface)
 {
   const TriangleMesh sphere = test::sphere(4);
-  const TetMesh mesh = stuffed(sphere, 16);
+  const TetMesh mesh = stuff_surface(sphere, 16);
   const double cube = 2.0 / 16.0;
   const Triangles skin = boundary_triangles(mesh.tets);
   for (Index k = 0; k < skin.size(); ++k)
@@ -75,7 +75,7 @@ TEST(LatticeTets, StuffingBoundaryLiesOnTheSurface)
 
 TEST(LatticeTets, StuffingOfAnOpenCubeEndsAtItsOpening)
 {
-  const TetMesh mesh = stuffed(test::open_cube(), 16);
+  const TetMesh mesh = stuff_surface(test::open_cube(), 16);
   const TetQuality quality = measure_tets(mesh.points, mesh.tets);
   EXPECT_NEAR(quality.volume, 8.0, 0.25) << "edges of the cube are cut off";
   EXPECT_GE(quality.min_dihedral_angle, 10.7);
@@ -83,15 +83,15 @@ TEST(LatticeTets, StuffingOfAnOpenCubeEndsAtItsOpening)
 
 TEST(LatticeTets, NothingEnclosedGivesNothing)
 {
-  EXPECT_EQ(stuffed(test::grid(2, 2), 8).tets.rows(), 0);
+  EXPECT_EQ(stuff_surface(test::grid(2, 2), 8).tets.rows(), 0);
 }
 
 TEST(LatticeTets, SameBitsForAnyNumberOfThreads)
 {
   const TriangleMesh surface = test::torus(24, 12, 1.0, 0.4);
-  const TetMesh one = stuffed(surface, 16, 1), many = stuffed(surface, 16, 4);
-  EXPECT_EQ(one.points, many.points);
-  EXPECT_EQ(one.tets, many.tets);
+  const TetMesh serial = stuff_surface(surface, 16, 1), parallel = stuff_surface(surface, 16, 4);
+  EXPECT_EQ(serial.points, parallel.points);
+  EXPECT_EQ(serial.tets, parallel.tets);
 }
 
 TEST(LatticeTets, MovesAndScalesWithTheSurface)
@@ -99,7 +99,7 @@ TEST(LatticeTets, MovesAndScalesWithTheSurface)
   const TriangleMesh surface = test::torus(24, 12, 1.0, 0.4);
   TriangleMesh large = surface;
   large.points *= 1024.0; // a power of two, so the results have the same bits
-  const TetMesh a = stuffed(surface, 12), b = stuffed(large, 12);
+  const TetMesh a = stuff_surface(surface, 12), b = stuff_surface(large, 12);
   EXPECT_EQ(a.tets, b.tets);
   EXPECT_EQ(Points(1024.0 * a.points), b.points);
 }

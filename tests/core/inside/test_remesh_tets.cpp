@@ -36,7 +36,7 @@ struct RemeshOutcome
   {
     return tet_volumes(this->result.mesh.points, this->result.mesh.tets).sum();
   }
-  Index kept() const
+  Index kept_vertices() const
   {
     const auto& ids = this->result.original_vertices;
     return std::count_if(ids.begin(), ids.end(), [](Index id) { return id >= 0; });
@@ -107,7 +107,9 @@ void expect_valid_remesh(
   EXPECT_GE(outcome.angle(), angle);
   EXPECT_TRUE(manifold(boundary_triangles(mesh.tets)));
   const Components components = connected_components(mesh.points.rows(), mesh.tets);
-  EXPECT_EQ(std::count(components.of_vertex.begin(), components.of_vertex.end(), -1), 0);
+  EXPECT_EQ(
+    std::count(components.component_of_vertex.begin(), components.component_of_vertex.end(), -1),
+    0);
   const auto& ids = outcome.result.original_vertices;
   ASSERT_EQ(static_cast<Index>(ids.size()), mesh.points.rows());
   const auto fresh = std::find(ids.begin(), ids.end(), -1);
@@ -185,7 +187,7 @@ TEST_F(Remesh, ClosedSurfacesKeepVolumeVerticesAndShape)
     expect_valid_remesh(outcome, c.mesh, 11.0);
     const double volume = signed_volume(c.mesh.points, c.mesh.triangles);
     EXPECT_NEAR(outcome.volume(), volume, 0.004 * volume);
-    EXPECT_GE(outcome.kept(), static_cast<Index>(c.share * c.mesh.points.rows()));
+    EXPECT_GE(outcome.kept_vertices(), static_cast<Index>(c.share * c.mesh.points.rows()));
     EXPECT_EQ(outcome.result.boundary_vertices, c.mesh.points.rows());
     EXPECT_LT(outcome.status.report.number("distance_max", 100.0), 0.5);
     EXPECT_LT(outcome.status.report.number("distance_mean", 100.0), 0.03);
@@ -201,7 +203,7 @@ TEST_F(Remesh, OpenCubeGetsALid)
   // The winding number exceeds 0.5 up to the rim of the opening and also above it. The region is
   // therefore cut off at the bounding box.
   EXPECT_NEAR(outcome.volume(), 8.0, 0.01);
-  EXPECT_EQ(outcome.kept(), 8);
+  EXPECT_EQ(outcome.kept_vertices(), 8);
   EXPECT_LT(outcome.status.report.number("distance_max", 100.0), 0.5) << "the lid does not count";
   // With a higher threshold, the boundary of the tets across the opening is farther inside.
   RemeshOptions high;
@@ -228,8 +230,8 @@ TEST_F(Remesh, CrossingSolidsAreOne)
     outside += (p - other).norm() > 1.0;
   }
   EXPECT_NEAR(outcome.result.boundary_vertices, outside, 0.02 * outside);
-  EXPECT_GT(outcome.kept(), 0.95 * outside);
-  EXPECT_LE(outcome.kept(), outcome.result.boundary_vertices);
+  EXPECT_GT(outcome.kept_vertices(), 0.95 * outside);
+  EXPECT_LE(outcome.kept_vertices(), outcome.result.boundary_vertices);
 }
 
 TEST_F(Remesh, ASoupThatCrosses)
@@ -256,7 +258,7 @@ TEST_F(Remesh, SquaresOfFourPointsOnACircleLeaveNoClusters)
   {
     const RemeshOutcome outcome = run_remesh(mesh);
     expect_valid_remesh(outcome, mesh, 11.0);
-    EXPECT_EQ(outcome.kept(), torus.points.rows());
+    EXPECT_EQ(outcome.kept_vertices(), torus.points.rows());
   }
   for (const TriangleMesh& mesh : { turned, loose, test::flipped(torus) })
   {
@@ -300,16 +302,17 @@ TEST_F(Remesh, LengthsAreFractions)
 {
   // Scaling by a power of two does not round, so the tets are the same.
   const TriangleMesh mesh = test::torus(24, 12, 1.0, 0.4);
-  const RemeshOutcome one = run_remesh(mesh);
+  const RemeshOutcome reference = run_remesh(mesh);
   for (const double scale : { 9.313225746154785e-10, 1073741824.0 })
   {
     TriangleMesh scaled = mesh;
     scaled.points *= scale;
     const RemeshOutcome outcome = run_remesh(scaled);
     expect_valid_remesh(outcome, scaled);
-    EXPECT_NEAR(outcome.volume() / (scale * scale * scale), one.volume(), 0.002 * one.volume());
+    EXPECT_NEAR(
+      outcome.volume() / (scale * scale * scale), reference.volume(), 0.002 * reference.volume());
     EXPECT_NEAR(outcome.status.report.number("distance_mean", -1.0),
-      one.status.report.number("distance_mean", -2.0), 0.005);
+      reference.status.report.number("distance_mean", -2.0), 0.005);
   }
 }
 
@@ -317,14 +320,14 @@ TEST_F(Remesh, SameBitsEveryTimeAndForAnyNumberOfThreads)
 {
   const TriangleMesh mesh =
     test::join(test::open_cube(), test::translated(test::sphere(2), Vec3(0.6, 0.5, 0.4)));
-  const RemeshOutcome one = run_remesh(mesh, {}, 1);
-  ASSERT_TRUE(one.status.ok()) << one.status.message;
+  const RemeshOutcome reference = run_remesh(mesh, {}, 1);
+  ASSERT_TRUE(reference.status.ok()) << reference.status.message;
   for (const int threads : { 1, 2 })
   {
     const RemeshOutcome again = run_remesh(mesh, {}, threads);
-    ASSERT_EQ(one.result.mesh.points, again.result.mesh.points);
-    ASSERT_EQ(one.result.mesh.tets, again.result.mesh.tets);
-    EXPECT_EQ(one.result.distance.mean, again.result.distance.mean);
+    ASSERT_EQ(reference.result.mesh.points, again.result.mesh.points);
+    ASSERT_EQ(reference.result.mesh.tets, again.result.mesh.tets);
+    EXPECT_EQ(reference.result.distance.mean, again.result.distance.mean);
   }
 }
 
@@ -356,11 +359,11 @@ TEST_F(Remesh, ASheetBesideASolidEnds)
   }
   // Through tetrahedralize(), the method must also succeed.
   ExecutionContext context;
-  TetrahedralizeOptions ladder;
-  ladder.method = TetMethod::remesh;
-  ladder.time_limit = 20.0;
+  TetrahedralizeOptions tet_options;
+  tet_options.method = TetMethod::remesh;
+  tet_options.time_limit = 20.0;
   TetrahedralizeResult result;
-  const Status status = tetrahedralize(context, mesh.points, mesh.triangles, ladder, result);
+  const Status status = tetrahedralize(context, mesh.points, mesh.triangles, tet_options, result);
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(status.report.text("method"), "remesh");
   EXPECT_NEAR(
@@ -426,9 +429,9 @@ TEST(RemeshTets, CancelKillsTheHelper)
   test::CancelLater user(context, 300);
   RemeshResult result;
   const Status status = remesh_tets(context, mesh.points, mesh.triangles, winding, {}, result);
-  const double waited = user.waited();
+  const double seconds_since_cancel = user.seconds_since_cancel();
   EXPECT_EQ(status.code, StatusCode::canceled);
-  EXPECT_LT(waited, 0.2);
+  EXPECT_LT(seconds_since_cancel, 0.2);
   EXPECT_EQ(result.mesh.tets.rows(), 0);
 }
 

@@ -151,9 +151,9 @@ TEST(Tetrahedralize, CancelEndsAtOnce)
   test::CancelLater user(context, 500);
   TetrahedralizeResult result;
   const Status status = tetrahedralize(context, mesh.points, mesh.triangles, {}, result);
-  const double waited = user.waited();
+  const double seconds_since_cancel = user.seconds_since_cancel();
   EXPECT_EQ(status.code, StatusCode::canceled);
-  EXPECT_LT(waited, 0.2);
+  EXPECT_LT(seconds_since_cancel, 0.2);
   EXPECT_EQ(result.mesh.tets.rows(), 0);
 }
 
@@ -303,11 +303,11 @@ TEST(Tetrahedralize, AThresholdNothingReachesIsSaidAtOnce)
     EXPECT_EQ(outcome.status.code, StatusCode::invalid_input);
     EXPECT_THAT(
       outcome.status.message, HasSubstr("largest winding number is 1, below the threshold of 1.5"));
-    const Report::Value* rungs = outcome.status.report.find("rungs[].name");
+    const Report::Value* attempt_names = outcome.status.report.find("rungs[].name");
     if (method == TetMethod::cdt)
     {
-      ASSERT_NE(rungs, nullptr);
-      EXPECT_EQ(std::get<std::vector<std::string>>(*rungs).size(), 1U);
+      ASSERT_NE(attempt_names, nullptr);
+      EXPECT_EQ(std::get<std::vector<std::string>>(*attempt_names).size(), 1U);
     }
   }
   if (find_mesher().empty())

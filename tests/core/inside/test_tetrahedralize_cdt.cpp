@@ -18,7 +18,7 @@
 using namespace bindpose;
 using test::Cdt;
 using test::expect_valid;
-using test::places_of;
+using test::handle_elements_of;
 using test::run;
 using Outcome = test::TetOutcome;
 using testing::HasSubstr;
@@ -149,13 +149,13 @@ TEST_F(Cdt, TheSurfaceIsLeftForAnAngleThatItDoesNotAllow)
   ASSERT_FALSE(left.status.warnings.empty());
   EXPECT_THAT(left.status.warnings.back(), testing::HasSubstr("replaced method cdt"));
   // The result must contain no data of the tets of method cdt, which were rejected.
-  options.handles = places_of({ Vec3(0.9, 0.5, 0.02) });
+  options.handles = handle_elements_of({ Vec3(0.9, 0.5, 0.02) });
   const Outcome with_handle = run(wedge, options);
   EXPECT_EQ(with_handle.method(), "remesh");
   EXPECT_TRUE(with_handle.result.handle_vertices.empty());
   EXPECT_EQ(with_handle.number("counts.handle_vertices"), -1.0);
   EXPECT_EQ(with_handle.result.mesh.tets, left.result.mesh.tets);
-  options.handles = HandlePlaces();
+  options.handles = HandleElements();
   // The result of method cdt is kept if its angles are large enough.
   const Outcome cube = run(test::cube(), options);
   expect_valid(cube, test::cube());
@@ -178,11 +178,11 @@ TEST_F(Cdt, SameBitsForAnyNumberOfThreads)
 {
   const TriangleMesh mesh =
     test::join(test::open_cube(), test::translated(test::sphere(2), Vec3(0.6, 0.5, 0.4)));
-  const Outcome one = run(mesh, {}, 1), many = run(mesh, {}, 4);
-  ASSERT_TRUE(one.status.ok()) << one.status.message;
-  EXPECT_EQ(one.result.mesh.points, many.result.mesh.points);
-  EXPECT_EQ(one.result.mesh.tets, many.result.mesh.tets);
-  EXPECT_EQ(one.result.winding_numbers, many.result.winding_numbers);
+  const Outcome serial = run(mesh, {}, 1), parallel = run(mesh, {}, 4);
+  ASSERT_TRUE(serial.status.ok()) << serial.status.message;
+  EXPECT_EQ(serial.result.mesh.points, parallel.result.mesh.points);
+  EXPECT_EQ(serial.result.mesh.tets, parallel.result.mesh.tets);
+  EXPECT_EQ(serial.result.winding_numbers, parallel.result.winding_numbers);
 }
 
 // ---- Unclean -----------------------------------------------------------------------------------
@@ -376,10 +376,11 @@ TEST_F(Cdt, TooManyCrossingsAreLeftAtOnce)
     mesh = mesh.points.rows() == 0 ? bar : test::join(mesh, bar);
   }
   const Outcome outcome = run(mesh);
-  const auto* rungs =
+  const auto* attempt_outcomes =
     std::get_if<std::vector<std::string>>(outcome.status.report.find("rungs[].outcome"));
-  ASSERT_NE(rungs, nullptr);
-  EXPECT_THAT(rungs->front(), HasSubstr("pairs of triangles cross, too many to split them"));
+  ASSERT_NE(attempt_outcomes, nullptr);
+  EXPECT_THAT(
+    attempt_outcomes->front(), HasSubstr("pairs of triangles cross, too many to split them"));
   const auto* names =
     std::get_if<std::vector<std::string>>(outcome.status.report.find("rungs[].name"));
   ASSERT_NE(names, nullptr);

@@ -14,7 +14,7 @@
 using namespace bindpose;
 using test::Cdt;
 using test::expect_valid;
-using test::places_of;
+using test::handle_elements_of;
 using test::run;
 using Outcome = test::TetOutcome;
 using testing::HasSubstr;
@@ -52,7 +52,7 @@ TEST_F(Cdt, PointsOfHandlesBecomeVertices)
       ball.points.row(ball.triangles(5, 2)))
       .transpose() /
     3.0;
-  options.handles = places_of({ Vec3(0.1, 0.2, 0.3), vertex, Vec3(2, 0, 0), middle });
+  options.handles = handle_elements_of({ Vec3(0.1, 0.2, 0.3), vertex, Vec3(2, 0, 0), middle });
   const Outcome outcome = run(ball, options);
   expect_valid(outcome, ball);
   const auto& found = outcome.result.handle_vertices;
@@ -77,7 +77,7 @@ TEST_F(Cdt, BonesAndCagesGetVerticesAtTheLocalEdgeLength)
   TetrahedralizeOptions options;
   options.method = TetMethod::cdt;
   options.interior_edge = 0.04;
-  options.handles = places_of({ head, tail, a, b, c });
+  options.handles = handle_elements_of({ head, tail, a, b, c });
   options.handles.segments.resize(1, 2);
   options.handles.segments << 0, 1;
   options.handles.triangles.resize(1, 3);
@@ -125,7 +125,7 @@ TEST_F(Cdt, HandlesNeedNoRefinement)
   TetrahedralizeOptions options;
   options.method = TetMethod::cdt;
   options.bare = true;
-  options.handles = places_of({ Vec3(0.1, 0.0, 0.2) });
+  options.handles = handle_elements_of({ Vec3(0.1, 0.0, 0.2) });
   const Outcome outcome = run(test::cube(), options);
   expect_valid(outcome, test::cube());
   EXPECT_EQ(outcome.result.mesh.points.rows(), 9);
@@ -136,9 +136,9 @@ TEST_F(Cdt, HandlesNeedNoRefinement)
 TEST(Tetrahedralize, BadHandlesAreRefused)
 {
   TetrahedralizeOptions options;
-  options.handles = places_of({ Vec3(0, 0, std::numeric_limits<double>::quiet_NaN()) });
+  options.handles = handle_elements_of({ Vec3(0, 0, std::numeric_limits<double>::quiet_NaN()) });
   EXPECT_THAT(run(test::cube(), options).status.message, HasSubstr("not finite"));
-  options.handles = places_of({ Vec3::Zero() });
+  options.handles = handle_elements_of({ Vec3::Zero() });
   options.handles.segments.resize(1, 2);
   options.handles.segments << 0, 1;
   const Outcome outcome = run(test::cube(), options);

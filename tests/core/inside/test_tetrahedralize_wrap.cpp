@@ -19,7 +19,7 @@
 using namespace bindpose;
 using test::Environment;
 using test::expect_valid;
-using test::places_of;
+using test::handle_elements_of;
 using test::run;
 using Outcome = test::TetOutcome;
 using testing::HasSubstr;
@@ -40,7 +40,7 @@ void expect_to_hold(const TetMesh& mesh, const TriangleMesh& surface)
   ASSERT_TRUE(winding.build(context, mesh.points, skin).ok());
   const TriangleTree tree(mesh.points, skin);
   const double near = 1e-14 * bounding_box(surface.points, surface.triangles).diagonal();
-  const auto held = [&](const Vec3& p)
+  const auto is_contained = [&](const Vec3& p)
   { return std::abs(winding.evaluate_exactly_at(p) - 1.0) < 1e-6 || tree.distance(p, 1e9) < near; };
   for (Index f = 0; f < surface.triangles.rows(); ++f)
   {
@@ -48,10 +48,10 @@ void expect_to_hold(const TetMesh& mesh, const TriangleMesh& surface)
     for (int k = 0; k < 3; ++k)
     {
       const Vec3 p = surface.points.row(surface.triangles(f, k));
-      EXPECT_TRUE(held(p)) << f;
+      EXPECT_TRUE(is_contained(p)) << f;
       center += p / 3.0;
     }
-    EXPECT_TRUE(held(center)) << f;
+    EXPECT_TRUE(is_contained(center)) << f;
   }
 }
 } // namespace
@@ -165,7 +165,7 @@ TEST_F(Wrap, PointsOfHandlesBecomeVertices)
   TetrahedralizeOptions options;
   options.method = TetMethod::wrap;
   options.wrap_alpha = 0.1;
-  options.handles = places_of({ Vec3(0.1, 0.2, 0.3), Vec3(2, 0, 0) });
+  options.handles = handle_elements_of({ Vec3(0.1, 0.2, 0.3), Vec3(2, 0, 0) });
   const Outcome outcome = run(test::sphere(2), options);
   expect_valid(outcome, test::sphere(2));
   const auto& found = outcome.result.handle_vertices;

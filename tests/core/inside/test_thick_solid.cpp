@@ -11,7 +11,7 @@ using namespace bindpose;
 
 namespace
 {
-struct Made
+struct SolidOutcome
 {
   TriangleMesh solid;
   Status status;
@@ -19,60 +19,61 @@ struct Made
   double volume = 0.0;
 };
 
-Made make_solid(const TriangleMesh& mesh, const ThickSolidOptions& options, int threads = 0)
+SolidOutcome make_solid(const TriangleMesh& mesh, const ThickSolidOptions& options, int threads = 0)
 {
   ExecutionContext context;
   context.set_threads(threads);
   const WindingNumber winding(mesh.points, mesh.triangles);
-  Made made;
-  made.status = thick_solid(context, mesh.points, mesh.triangles, winding, options, made.solid);
-  EXPECT_TRUE(made.status.ok()) << made.status.message;
-  EXPECT_TRUE(count_edges(made.solid.triangles).closed);
-  made.parts = connected_components(made.solid.points.rows(), made.solid.triangles).count;
-  made.volume = signed_volume(made.solid.points, made.solid.triangles);
-  return made;
+  SolidOutcome outcome;
+  outcome.status =
+    thick_solid(context, mesh.points, mesh.triangles, winding, options, outcome.solid);
+  EXPECT_TRUE(outcome.status.ok()) << outcome.status.message;
+  EXPECT_TRUE(count_edges(outcome.solid.triangles).closed);
+  outcome.parts = connected_components(outcome.solid.points.rows(), outcome.solid.triangles).count;
+  outcome.volume = signed_volume(outcome.solid.points, outcome.solid.triangles);
+  return outcome;
 }
 
 /// Return the size of a lattice cube of the solid. `longest` is the longest side of the mesh's
 /// bounding box.
-double cube_of(const Made& made, double longest)
+double cube_of(const SolidOutcome& outcome, double longest)
 {
-  return longest / made.status.report.number("resolution", 0.0);
+  return longest / outcome.status.report.number("resolution", 0.0);
 }
 } // namespace
 
 TEST(ThickSolid, OfABallIsABallWithTheWantedTriangles)
 {
   const TriangleMesh ball = test::sphere(4);
-  const Made made = make_solid(ball, {});
-  EXPECT_EQ(made.parts, 1);
-  EXPECT_LT(made.status.report.number("counts.thickened_triangles", 1e9),
+  const SolidOutcome outcome = make_solid(ball, {});
+  EXPECT_EQ(outcome.parts, 1);
+  EXPECT_LT(outcome.status.report.number("counts.thickened_triangles", 1e9),
     0.01 * static_cast<double>(ball.triangles.rows()));
-  EXPECT_NEAR(made.volume / signed_volume(ball.points, ball.triangles), 1.0, 0.01);
-  EXPECT_NEAR(static_cast<double>(made.solid.triangles.rows()), 20000.0, 2000.0);
+  EXPECT_NEAR(outcome.volume / signed_volume(ball.points, ball.triangles), 1.0, 0.01);
+  EXPECT_NEAR(static_cast<double>(outcome.solid.triangles.rows()), 20000.0, 2000.0);
 }
 
 TEST(ThickSolid, ASheetBecomesAPlateOfTwiceTheLayer)
 {
   const TriangleMesh sheet = test::grid(10, 10);
-  const Made made = make_solid(sheet, {});
-  EXPECT_EQ(made.parts, 1);
-  const double layer = 0.6 * cube_of(made, 1.0);
+  const SolidOutcome outcome = make_solid(sheet, {});
+  EXPECT_EQ(outcome.parts, 1);
+  const double layer = 0.6 * cube_of(outcome, 1.0);
   // The solid should be a plate with a half cylinder at each of its four edges, and a quarter of a
   // ball at each corner.
   const double pi = std::acos(-1.0);
   const double expected =
     2.0 * layer + 2.0 * pi * layer * layer + 4.0 / 3.0 * pi * layer * layer * layer;
-  EXPECT_NEAR(made.volume / expected, 1.0, 0.1);
+  EXPECT_NEAR(outcome.volume / expected, 1.0, 0.1);
 }
 
 TEST(ThickSolid, ThinWallsStay)
 {
   // The two large faces of the plate have a distance of a hundredth of a lattice cube.
   const TriangleMesh plate = test::box(Vec3(0.0, 0.0, 0.0), Vec3(1.0, 1.0, 1e-4));
-  const Made made = make_solid(plate, {});
-  EXPECT_EQ(made.parts, 1);
-  EXPECT_GT(made.volume, cube_of(made, 1.0));
+  const SolidOutcome outcome = make_solid(plate, {});
+  EXPECT_EQ(outcome.parts, 1);
+  EXPECT_GT(outcome.volume, cube_of(outcome, 1.0));
 }
 
 TEST(ThickSolid, NarrowGapsCloseWherePartsAreJoinedOnly)
@@ -93,10 +94,10 @@ TEST(ThickSolid, NarrowGapsCloseWherePartsAreJoinedOnly)
 
 TEST(ThickSolid, AnOpenCubeIsFilled)
 {
-  const Made made = make_solid(test::open_cube(), {});
-  EXPECT_EQ(made.parts, 1);
+  const SolidOutcome outcome = make_solid(test::open_cube(), {});
+  EXPECT_EQ(outcome.parts, 1);
   // Next to the opening, the walls are thicker by one layer.
-  EXPECT_NEAR(made.volume, 8.0, 0.8);
+  EXPECT_NEAR(outcome.volume, 8.0, 0.8);
 }
 
 TEST(ThickSolid, SameBitsForAnyNumberOfThreads)
@@ -105,10 +106,10 @@ TEST(ThickSolid, SameBitsForAnyNumberOfThreads)
   options.triangles = 3000;
   options.join_near_parts = true;
   const TriangleMesh mesh = test::join(test::torus(24, 12, 1.0, 0.4), test::grid(3, 3));
-  const Made one = make_solid(mesh, options, 1);
-  const Made many = make_solid(mesh, options, 4);
-  EXPECT_EQ(one.solid.points, many.solid.points);
-  EXPECT_EQ(one.solid.triangles, many.solid.triangles);
+  const SolidOutcome serial = make_solid(mesh, options, 1);
+  const SolidOutcome parallel = make_solid(mesh, options, 4);
+  EXPECT_EQ(serial.solid.points, parallel.solid.points);
+  EXPECT_EQ(serial.solid.triangles, parallel.solid.triangles);
 }
 
 TEST(ThickSolid, CancelEndsSoon)

@@ -83,7 +83,7 @@ void expect_around(const TriangleMesh& wrap, const TriangleMesh& mesh, double of
   ASSERT_TRUE(winding.build(context, wrap.points, wrap.triangles).ok());
   const double diagonal = bounding_box(mesh.points, mesh.triangles).diagonal();
   const TriangleTree wrap_tree(wrap.points, wrap.triangles);
-  const auto held = [&](const Vec3& p)
+  const auto is_contained = [&](const Vec3& p)
   {
     return std::abs(winding.evaluate_exactly_at(p) - 1.0) < 1e-6 ||
       wrap_tree.distance(p, 1e9) < 1e-14 * diagonal;
@@ -94,10 +94,10 @@ void expect_around(const TriangleMesh& wrap, const TriangleMesh& mesh, double of
     for (int k = 0; k < 3; ++k)
     {
       const Vec3 p = mesh.points.row(mesh.triangles(f, k));
-      EXPECT_TRUE(held(p)) << f;
+      EXPECT_TRUE(is_contained(p)) << f;
       center += p / 3.0;
     }
-    EXPECT_TRUE(held(center)) << f;
+    EXPECT_TRUE(is_contained(center)) << f;
   }
   const TriangleTree tree(mesh.points, mesh.triangles);
   const double length = offset * diagonal;
@@ -217,14 +217,15 @@ TEST_F(WrapSurface, TimeMemoryAndCancelEndIt)
   EXPECT_THAT(status.message, HasSubstr("memory limit of 60 MiB"));
 
   options = { 0.004, 0.0004, 60.0, 0 };
-  std::vector<double> seen;
-  ExecutionContext context([&](double fraction, const std::string&) { seen.push_back(fraction); },
-    [&] { return !seen.empty() && seen.back() > 0.0; });
+  std::vector<double> reported_fractions;
+  ExecutionContext context([&](double fraction, const std::string&)
+    { reported_fractions.push_back(fraction); },
+    [&] { return !reported_fractions.empty() && reported_fractions.back() > 0.0; });
   const TriangleMesh sphere = test::sphere(3);
   status =
     wrap_surface(context, sphere.points, sphere.triangles, options, wrap.points, wrap.triangles);
   EXPECT_EQ(status.code, StatusCode::canceled) << "at the first sign of progress";
-  EXPECT_FALSE(seen.empty());
+  EXPECT_FALSE(reported_fractions.empty());
   EXPECT_LT(seconds(), 30.0);
 }
 

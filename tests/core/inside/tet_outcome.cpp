@@ -40,7 +40,8 @@ void expect_valid(const TetOutcome& outcome, const TriangleMesh& surface)
     EXPECT_TRUE(count_edges(boundary_triangles(mesh.tets)).closed);
   }
   const Components components = connected_components(mesh.points.rows(), mesh.tets);
-  EXPECT_EQ(std::count(components.of_vertex.begin(), components.of_vertex.end(), -1), 0)
+  EXPECT_EQ(
+    std::count(components.component_of_vertex.begin(), components.component_of_vertex.end(), -1), 0)
     << "a stray vertex";
   const auto& ids = outcome.result.original_vertices;
   ASSERT_EQ(static_cast<Index>(ids.size()), mesh.points.rows());
@@ -64,15 +65,15 @@ void expect_valid(const TetOutcome& outcome, const TriangleMesh& surface)
   EXPECT_EQ(histogram[0], outcome.number("counts.tets_below_5_degrees"));
 }
 
-HandlePlaces places_of(const std::vector<Vec3>& points)
+HandleElements handle_elements_of(const std::vector<Vec3>& points)
 {
-  HandlePlaces places;
-  places.points.resize(static_cast<Index>(points.size()), 3);
+  HandleElements handle_elements;
+  handle_elements.points.resize(static_cast<Index>(points.size()), 3);
   for (std::size_t i = 0; i < points.size(); ++i)
   {
-    places.points.row(static_cast<Index>(i)) = points[i];
+    handle_elements.points.row(static_cast<Index>(i)) = points[i];
   }
-  return places;
+  return handle_elements;
 }
 
 } // namespace bindpose::test

@@ -33,7 +33,7 @@ TetOutcome run(const TriangleMesh& mesh, TetMethod method);
 void expect_valid(const TetOutcome& outcome, const TriangleMesh& surface);
 
 /// Return the given points as point handles.
-HandlePlaces places_of(const std::vector<Vec3>& points);
+HandleElements handle_elements_of(const std::vector<Vec3>& points);
 
 /// Fixture of the tests of method cdt (constrained Delaunay tetrahedralization).
 class Cdt : public NeedsMesher

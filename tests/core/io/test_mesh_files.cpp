@@ -56,12 +56,12 @@ TEST_P(PolygonFiles, ReadBackWhatWasWritten)
   const PolygonMesh mesh = awkward_mesh();
   const std::string path = this->folder / "mesh.x";
   ASSERT_TRUE(GetParam().write(path, mesh).ok());
-  PolygonMesh back;
-  const Status status = GetParam().read(path, back);
+  PolygonMesh reread;
+  const Status status = GetParam().read(path, reread);
   ASSERT_TRUE(status.ok()) << status.message;
-  EXPECT_EQ(back.points, mesh.points);
-  EXPECT_EQ(back.offsets, mesh.offsets);
-  EXPECT_EQ(back.corners, mesh.corners);
+  EXPECT_EQ(reread.points, mesh.points);
+  EXPECT_EQ(reread.offsets, mesh.offsets);
+  EXPECT_EQ(reread.corners, mesh.corners);
 }
 
 TEST_P(PolygonFiles, EveryTruncationIsAnErrorOrAMesh)

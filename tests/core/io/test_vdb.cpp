@@ -402,7 +402,7 @@ TEST_F(Vdb, AnEmptyGridIsAWarning)
 TEST_F(Vdb, WhatCannotBeWrittenIsOneSentence)
 {
   const Field good = ball();
-  const auto refuses = [this](const Field& field, const char* word)
+  const auto expect_rejected = [this](const Field& field, const char* word)
   {
     const Status status = this->write(field);
     EXPECT_EQ(status.code, StatusCode::invalid_input) << word;
@@ -414,51 +414,51 @@ TEST_F(Vdb, WhatCannotBeWrittenIsOneSentence)
     Field field = good;
     field.values[70] = value;
     field.values[30000] = not_a_number;
-    refuses(field, "sample 70 ");
+    expect_rejected(field, "sample 70 ");
   }
   for (const double value : { not_a_number, 0.0, -0.5, 1.0 / 0.0 })
   {
     Field field = good;
     field.grid.spacing[1] = value;
-    refuses(field, "spacing");
+    expect_rejected(field, "spacing");
   }
   Field field = good;
   field.grid.origin[0] = not_a_number;
-  refuses(field, "origin");
+  expect_rejected(field, "origin");
   field = good;
   field.grid.extent = { 0, -1, 0, 5, 0, 5 };
-  refuses(field, "no samples");
+  expect_rejected(field, "no samples");
   field.grid.extent = { 0, 0, 0, 0, Index(1) << 40, Index(1) << 40 };
-  refuses(field, "index 1099511627776");
+  expect_rejected(field, "index 1099511627776");
   field.grid.extent = { 0, 1 << 30, 0, 1 << 30, 0, 1 << 30 };
-  refuses(field, "too many");
+  expect_rejected(field, "too many");
 
-  const auto refuses_options = [&](const VdbOptions& wrong, const char* word)
+  const auto refuses_options = [&](const VdbOptions& invalid_options, const char* word)
   {
-    this->options = wrong;
-    refuses(good, word);
+    this->options = invalid_options;
+    expect_rejected(good, word);
   };
-  VdbOptions wrong;
-  wrong.grid_name = "";
-  refuses_options(wrong, "name");
-  wrong = VdbOptions();
-  wrong.background = not_a_number;
-  refuses_options(wrong, "background");
-  wrong = VdbOptions();
-  wrong.tolerance = not_a_number;
-  refuses_options(wrong, "tolerance");
-  wrong = VdbOptions();
-  wrong.direction(0, 1) = 0.5;
-  refuses_options(wrong, "orthonormal");
-  wrong = VdbOptions();
-  wrong.band = VdbBand::narrow;
-  wrong.band_width = 0;
-  refuses_options(wrong, "1 voxel");
-  wrong.band_width = 3;
-  wrong.threshold = not_a_number;
-  refuses_options(wrong, "threshold");
-  wrong.threshold = 0.0;
-  refuses_options(wrong, "differ from the threshold");
+  VdbOptions invalid_options;
+  invalid_options.grid_name = "";
+  refuses_options(invalid_options, "name");
+  invalid_options = VdbOptions();
+  invalid_options.background = not_a_number;
+  refuses_options(invalid_options, "background");
+  invalid_options = VdbOptions();
+  invalid_options.tolerance = not_a_number;
+  refuses_options(invalid_options, "tolerance");
+  invalid_options = VdbOptions();
+  invalid_options.direction(0, 1) = 0.5;
+  refuses_options(invalid_options, "orthonormal");
+  invalid_options = VdbOptions();
+  invalid_options.band = VdbBand::narrow;
+  invalid_options.band_width = 0;
+  refuses_options(invalid_options, "1 voxel");
+  invalid_options.band_width = 3;
+  invalid_options.threshold = not_a_number;
+  refuses_options(invalid_options, "threshold");
+  invalid_options.threshold = 0.0;
+  refuses_options(invalid_options, "differ from the threshold");
 }
 
 TEST_F(Vdb, FilesAreThereWholeOrNotAtAll)

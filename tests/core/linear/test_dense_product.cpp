@@ -7,7 +7,7 @@ using namespace bindpose;
 
 namespace
 {
-Weights noise(Index rows, Index cols, unsigned seed)
+Weights random_rows(Index rows, Index cols, unsigned seed)
 {
   std::srand(seed);
   return Weights::Random(rows, cols);
@@ -22,8 +22,8 @@ TEST(DenseProduct, IsEigensAtAllSizes)
     {
       for (const Index inner : { 0, 1, 3, 256, 300 })
       {
-        const Weights a = noise(rows, inner, 1), b = noise(inner, cols, 2);
-        Weights c = noise(rows, cols, 3);
+        const Weights a = random_rows(rows, inner, 1), b = random_rows(inner, cols, 2);
+        Weights c = random_rows(rows, cols, 3);
         const Weights expected = c + a * b;
         add_product(
           { a.data(), rows, inner, inner, 1 }, { b.data(), inner, cols, cols, 1 }, c.data(), cols);
@@ -37,8 +37,8 @@ TEST(DenseProduct, IsEigensAtAllSizes)
 TEST(DenseProduct, TakesTransposedAndWholeNumbersExactly)
 {
   // Sums of integers have no round-off.
-  Weights a = (noise(300, 37, 4) * 10.0).array().round();
-  Weights b = (noise(300, 41, 5) * 10.0).array().round();
+  Weights a = (random_rows(300, 37, 4) * 10.0).array().round();
+  Weights b = (random_rows(300, 41, 5) * 10.0).array().round();
   Weights c = Weights::Zero(37, 50);
   add_product({ a.data(), 37, 300, 1, 37 }, { b.data(), 300, 41, 41, 1 }, c.data(), 50);
   EXPECT_EQ(Weights(c.leftCols(41)), Weights(a.transpose() * b));
@@ -48,7 +48,7 @@ TEST(DenseProduct, TakesTransposedAndWholeNumbersExactly)
 
 TEST(DenseProduct, LowerHasTheLowerTriangle)
 {
-  const Weights a = (noise(290, 61, 6) * 10.0).array().round();
+  const Weights a = (random_rows(290, 61, 6) * 10.0).array().round();
   Weights c = Weights::Zero(61, 61);
   add_product({ a.data(), 61, 290, 1, 61 }, { a.data(), 290, 61, 61, 1 }, c.data(), 61, true);
   const Weights expected = a.transpose() * a;
@@ -65,8 +65,8 @@ TEST(DenseProduct, OfMatricesIsTheSumOfProductsAtOddSizes)
     {
       for (const Index inner : { 0, 1, 11, 257 })
       {
-        const Eigen::MatrixXd a = (noise(rows + 3, inner + 2, 7) * 10.0).array().round();
-        const Eigen::MatrixXd b = (noise(inner + 5, cols + 1, 8) * 10.0).array().round();
+        const Eigen::MatrixXd a = (random_rows(rows + 3, inner + 2, 7) * 10.0).array().round();
+        const Eigen::MatrixXd b = (random_rows(inner + 5, cols + 1, 8) * 10.0).array().round();
         Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(rows, cols);
         for (Index i = 0; i < rows; ++i)
         {

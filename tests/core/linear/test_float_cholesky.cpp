@@ -96,17 +96,17 @@ TEST_F(FloatCholeskyTest, FactorsTheBlockOfAnyUnknowns)
     FloatCholesky single = analyzed(a, solver);
     for (const double fraction : { 0.0, 0.05, 0.3, 0.6, 0.9, 0.97, 1.0 })
     {
-      std::vector<char> left_out;
+      std::vector<char> excluded;
       std::vector<int> block;
       for (int i = 0; i < a.rows(); ++i)
       {
-        left_out.push_back(random.uniform(0.0, 1.0) < fraction ? 1 : 0);
-        if (!left_out.back())
+        excluded.push_back(random.uniform(0.0, 1.0) < fraction ? 1 : 0);
+        if (!excluded.back())
         {
           block.push_back(i);
         }
       }
-      ASSERT_TRUE(single.factor_block(context_, a, left_out).ok());
+      ASSERT_TRUE(single.factor_block(context_, a, excluded).ok());
       const Eigen::MatrixXd rhs =
         Eigen::MatrixXd::NullaryExpr(a.rows(), 3, [&] { return random.uniform(-1.0, 1.0); });
       Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(a.rows(), 3);
@@ -121,7 +121,7 @@ TEST_F(FloatCholeskyTest, FactorsTheBlockOfAnyUnknowns)
       EXPECT_LE((x - expected).norm(), 1e-4 * expected.norm()) << n << " " << fraction;
       for (int i = 0; i < a.rows(); ++i)
       {
-        EXPECT_TRUE(!left_out[i] || x.row(i).isZero(0.0));
+        EXPECT_TRUE(!excluded[i] || x.row(i).isZero(0.0));
       }
     }
     // A factorization of the whole matrix after that of a block has the bits of a first one.
@@ -134,6 +134,30 @@ TEST_F(FloatCholeskyTest, FactorsTheBlockOfAnyUnknowns)
     fresh.solve(ones, y);
     EXPECT_EQ(x, y);
   }
+}
+
+TEST_F(FloatCholeskyTest, ABlockIgnoresWhatIsExcludedAndNamesItsPivot)
+{
+  SparseMatrix a = lower_triangle(6, 0.1);
+  SparseSolver solver;
+  FloatCholesky single = analyzed(a, solver);
+  // Exclude a contiguous half, as an active set does.
+  std::vector<char> excluded(static_cast<std::size_t>(a.rows()), 0);
+  std::fill(excluded.begin(), excluded.begin() + a.rows() / 2, 1);
+  a.coeffRef(3, 3) = -1.0;
+  EXPECT_EQ(single.factor(context_, a, 0.0).code, StatusCode::invalid_input);
+  EXPECT_TRUE(single.factor_block(context_, a, excluded).ok());
+  const int bad = static_cast<int>(a.rows()) - 2;
+  a.coeffRef(bad, bad) = -1.0;
+  EXPECT_NE(single.factor_block(context_, a, excluded)
+              .message.find("the pivot of unknown " + std::to_string(bad) + " "),
+    std::string::npos);
+  EXPECT_EQ(single.factorizations(), 3);
+  EXPECT_EQ(
+    single.factor_block(context_, a, { 1, 0 }).code, StatusCode::internal_error); // wrong size
+  ExecutionContext stopped;
+  stopped.request_cancel();
+  EXPECT_EQ(single.factor_block(stopped, a, excluded).code, StatusCode::canceled);
 }
 
 TEST_F(FloatCholeskyTest, SolvesAnyNumberOfColumnsAsItSolvesOne)
@@ -221,10 +245,10 @@ TEST_F(FloatCholeskyTest, ClonesAndThreadsGiveTheSameBits)
   FloatCholesky single = analyzed(a, solver);
   ASSERT_TRUE(single.factor(context_, a, 0.0).ok());
   const Eigen::VectorXd rhs = Eigen::VectorXd::LinSpaced(a.rows(), -1.0, 1.0);
-  Eigen::VectorXd alone;
-  single.solve(rhs, alone);
+  Eigen::VectorXd serial_solution;
+  single.solve(rhs, serial_solution);
   std::vector<FloatCholesky> clones;
-  std::vector<Eigen::VectorXd> together(count);
+  std::vector<Eigen::VectorXd> concurrent_solutions(count);
   std::vector<Eigen::VectorXd> shared(count);
   std::vector<std::thread> threads;
   for (int i = 0; i < count; ++i)
@@ -240,7 +264,7 @@ TEST_F(FloatCholeskyTest, ClonesAndThreadsGiveTheSameBits)
         for (int again = 0; again < 3; ++again)
         {
           clones[i].factor(context, a, 0.0);
-          clones[i].solve(rhs, together[i]);
+          clones[i].solve(rhs, concurrent_solutions[i]);
           single.solve(rhs, shared[i]);
         }
       });
@@ -251,8 +275,8 @@ TEST_F(FloatCholeskyTest, ClonesAndThreadsGiveTheSameBits)
   }
   for (int i = 0; i < count; ++i)
   {
-    EXPECT_EQ(together[i], alone);
-    EXPECT_EQ(shared[i], alone);
+    EXPECT_EQ(concurrent_solutions[i], serial_solution);
+    EXPECT_EQ(shared[i], serial_solution);
   }
   EXPECT_EQ(solver.analyses(), 1);
   EXPECT_EQ(single.factorizations(), 1 + 3 * count);

@@ -101,15 +101,15 @@ TEST_F(RefinedSolve, TellsTheResidualThatItReaches)
   double before = 1.0;
   for (const int steps : { 1, 2, 3 })
   {
-    const double told = this->solve({ 1e-14, steps }, x);
+    const double reported_residual = this->solve({ 1e-14, steps }, x);
     double worst = 0.0;
     for (const Index j : { 0, 1, 2, 3, 4, 6, 7, 8, 9, 10 })
     {
       worst = std::max(worst, this->residual(x, j));
     }
-    EXPECT_NEAR(told, worst, 1e-3 * worst + 1e-13);
-    EXPECT_LT(told, 0.1 * before);
-    before = told;
+    EXPECT_NEAR(reported_residual, worst, 1e-3 * worst + 1e-13);
+    EXPECT_LT(reported_residual, 0.1 * before);
+    before = reported_residual;
   }
   EXPECT_LE(this->solve({ 1e-4, 20 }, x), 1e-4);
   EXPECT_GT(this->residual(x, 0), 1e-12) << "no step more than is wanted";

@@ -107,14 +107,14 @@ TEST_P(SparseSolverTest, OneAnalysisServesManyFactorizationsAndThreads)
   }
   ASSERT_TRUE(solver.analyze(matrices[0]).ok());
   const Eigen::VectorXd rhs = Eigen::VectorXd::LinSpaced(matrices[0].rows(), 0.0, 1.0);
-  std::vector<Eigen::VectorXd> alone(count);
+  std::vector<Eigen::VectorXd> serial_solutions(count);
   for (int i = 0; i < count; ++i)
   {
     ASSERT_TRUE(solver.factor(matrices[i]).ok());
-    solver.solve(rhs, alone[i]);
-    EXPECT_LT((matrices[i] * alone[i] - rhs).norm(), 1e-8 * rhs.norm());
+    solver.solve(rhs, serial_solutions[i]);
+    EXPECT_LT((matrices[i] * serial_solutions[i] - rhs).norm(), 1e-8 * rhs.norm());
   }
-  std::vector<Eigen::VectorXd> together(count);
+  std::vector<Eigen::VectorXd> concurrent_solutions(count);
   std::vector<SparseSolver> clones;
   std::vector<std::thread> threads;
   for (int i = 0; i < count; ++i)
@@ -129,7 +129,7 @@ TEST_P(SparseSolverTest, OneAnalysisServesManyFactorizationsAndThreads)
         for (int again = 0; again < 3; ++again)
         {
           clones[i].factor(matrices[i]);
-          clones[i].solve(rhs, together[i]);
+          clones[i].solve(rhs, concurrent_solutions[i]);
         }
       });
   }
@@ -139,7 +139,7 @@ TEST_P(SparseSolverTest, OneAnalysisServesManyFactorizationsAndThreads)
   }
   for (int i = 0; i < count; ++i)
   {
-    EXPECT_EQ(alone[i], together[i]) << "the same bits on any thread";
+    EXPECT_EQ(serial_solutions[i], concurrent_solutions[i]) << "the same bits on any thread";
   }
   EXPECT_EQ(solver.analyses(), 1);
   EXPECT_EQ(solver.factorizations(), count + 3 * count);

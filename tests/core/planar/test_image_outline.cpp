@@ -135,7 +135,7 @@ double one_way(const ImageOutline& from, const ImageOutline& to)
   return largest;
 }
 
-double share_inside(double x, double y, const Vec2& center, double radius)
+double inside_fraction(double x, double y, const Vec2& center, double radius)
 {
   int inside = 0;
   for (int i = 0; i < 64; ++i)
@@ -156,7 +156,7 @@ TEST(ImageOutline, DiscWithinAPixel)
     const Picture picture = paint(128, 120,
       [&](double x, double y)
       {
-        return smooth ? share_inside(x, y, center, radius)
+        return smooth ? inside_fraction(x, y, center, radius)
                       : ((Vec2(x, y) - center).norm() <= radius ? 1.0 : 0.0);
       });
     for (const double simplify : { 0.0, 0.25, 0.5, 1.0 })

@@ -98,7 +98,7 @@ double smallest_angle(const PlanarShape& shape, const std::vector<Vec2>& except 
 }
 
 /// Return the total length of the mesh edges that are on the segment from a to b.
-double covered(const PlanarShape& shape, const Vec2& a, const Vec2& b)
+double covered_length(const PlanarShape& shape, const Vec2& a, const Vec2& b)
 {
   const double length = (b - a).norm();
   const Vec2 along = (b - a) / length;
@@ -170,7 +170,7 @@ protected:
     EXPECT_NEAR(status.report.number("area", -1), sum, 1e-12 * sum + 100.0 * rounding);
     return sum;
   }
-  void refuses(const Curves& curves, const std::string& words)
+  void expect_rejected(const Curves& curves, const std::string& words)
   {
     status = this->run(curves);
     EXPECT_EQ(status.code, StatusCode::invalid_input) << status.message;
@@ -214,7 +214,7 @@ TEST_F(PlanarShapeTest, Square)
   for (int k = 0; k < 4; ++k)
   {
     EXPECT_EQ(Vec2(shape.points.row(k)), unit_square[k]);
-    EXPECT_NEAR(covered(shape, unit_square[k], unit_square[(k + 1) % 4]), 1.0, 1e-12);
+    EXPECT_NEAR(covered_length(shape, unit_square[k], unit_square[(k + 1) % 4]), 1.0, 1e-12);
   }
   const double longest = options.edge * std::sqrt(2.0);
   EXPECT_LE(status.report.number("longest_edge", 1.0), longest * (1.0 + 1e-12));
@@ -243,7 +243,7 @@ TEST_F(PlanarShapeTest, HolesRunTheOtherWay)
   {
     const Vec2 a = annulus.points.row(annulus.segments(e, 0));
     const Vec2 b = annulus.points.row(annulus.segments(e, 1));
-    ASSERT_NEAR(covered(shape, a, b), (b - a).norm(), 1e-12);
+    ASSERT_NEAR(covered_length(shape, a, b), (b - a).norm(), 1e-12);
   }
 }
 
@@ -259,7 +259,7 @@ TEST_F(PlanarShapeTest, PentagramByThreshold)
   {
     const Vec2 a = star.points.row(k);
     const Vec2 b = star.points.row((k + 1) % 5);
-    EXPECT_NEAR(covered(shape, a, b), (b - a).norm(), 1e-10);
+    EXPECT_NEAR(covered_length(shape, a, b), (b - a).norm(), 1e-10);
   }
   options.winding_threshold = 1.5;
   EXPECT_NEAR(area(star), pentagram_area(false), 1e-12);
@@ -382,7 +382,7 @@ TEST_F(PlanarShapeTest, HandlesAreVerticesAndBonesEdges)
   ASSERT_EQ(status.warnings.size(), 1u);
   EXPECT_THAT(status.warnings[0], HasSubstr("2 of 5"));
   const Vec2 out(1.0, 0.6); // the bone leaves the square here
-  EXPECT_NEAR(covered(shape, { 0.5, 0.5 }, out), (out - Vec2(0.5, 0.5)).norm(), 1e-12);
+  EXPECT_NEAR(covered_length(shape, { 0.5, 0.5 }, out), (out - Vec2(0.5, 0.5)).norm(), 1e-12);
   EXPECT_GE(smallest_angle(shape), 25.0);
 }
 
@@ -483,18 +483,18 @@ TEST_F(PlanarShapeTest, SameForAnyNumberOfThreads)
 
 TEST_F(PlanarShapeTest, Refuses)
 {
-  refuses({}, "no curves");
-  refuses(Curves().add({ { 1, 2 }, { 1, 2 } }), "coincide");
-  refuses(Curves().add({ { 0, 0 }, { 1, 1 }, { 3, 3 } }), "one line");
-  refuses(Curves().add({ { 0, 0 }, { NAN, 1 }, { 3, 3 } }), "vertex 1");
-  refuses(Curves().add({ { 0, 0 }, { INFINITY, 1 }, { 3, 3 } }), "finite");
+  expect_rejected({}, "no curves");
+  expect_rejected(Curves().add({ { 1, 2 }, { 1, 2 } }), "coincide");
+  expect_rejected(Curves().add({ { 0, 0 }, { 1, 1 }, { 3, 3 } }), "one line");
+  expect_rejected(Curves().add({ { 0, 0 }, { NAN, 1 }, { 3, 3 } }), "vertex 1");
+  expect_rejected(Curves().add({ { 0, 0 }, { INFINITY, 1 }, { 3, 3 } }), "finite");
   Curves wrong = Curves().add(unit_square);
   wrong.segments(2, 1) = 4;
-  refuses(wrong, "segment 2 references vertex 4");
+  expect_rejected(wrong, "segment 2 references vertex 4");
   // Between the two arms the winding number is below 1/2.
   Curves arms;
   arms.add({ { 0, 0 }, { 1, 0 } }, false).add({ { 1, 2 }, { 0, 2 } }, false);
-  refuses(arms, "enclose nothing");
+  expect_rejected(arms, "enclose nothing");
 }
 
 TEST_F(PlanarShapeTest, RefusesOptions)
@@ -502,29 +502,29 @@ TEST_F(PlanarShapeTest, RefusesOptions)
   const Curves curves = Curves().add(unit_square);
   const PlanarShapeOptions good;
   options.winding_threshold = 0.0;
-  refuses(curves, "threshold");
+  expect_rejected(curves, "threshold");
   options = good;
   options.winding_threshold = 1.5;
-  refuses(curves, "the largest winding number is 1");
+  expect_rejected(curves, "the largest winding number is 1");
   options = good;
   for (const double angle : { -1.0, 34.0, double(NAN) })
   {
     options.min_angle = angle;
-    refuses(curves, "angle");
+    expect_rejected(curves, "angle");
   }
   options = good;
   for (const double edge : { -1.0, 1e-7, double(NAN) })
   {
     options.edge = edge;
-    refuses(curves, "edge");
+    expect_rejected(curves, "edge");
   }
   options = good;
   options.time_limit = 0.0;
-  refuses(curves, "time_limit");
+  expect_rejected(curves, "time_limit");
   options = good;
   handles.points.resize(1, 2);
   handles.points << NAN, 0.0;
-  refuses(curves, "handle");
+  expect_rejected(curves, "handle");
 }
 
 TEST_F(PlanarShapeTest, Cancel)

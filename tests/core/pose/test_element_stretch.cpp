@@ -46,7 +46,7 @@ Report report_of(
   return status.report;
 }
 
-Points shaken(Points points, double by, bool flat = false)
+Points perturbed(Points points, double by, bool flat = false)
 {
   test::Random random(3);
   for (Index v = 0; v < points.rows(); ++v)
@@ -177,7 +177,7 @@ TEST(ElementStretch, AreThoseOfEigenForRandomPoses)
 {
   // The elements fill several blocks; the last block is partially filled.
   const TetMesh box = test::tet_box(9, 9, 9);
-  const Points posed = shaken(box.points, 0.06);
+  const Points posed = perturbed(box.points, 0.06);
   ElementStretch stretch;
   const Status status = measure_stretch(box.points, posed, box.tets, stretch);
   Index inverted = 0, stretched = 0;
@@ -211,7 +211,7 @@ TEST(ElementStretch, AreThoseOfEigenForRandomPoses)
 TEST(ElementStretch, AreThoseOfEigenForRandomTriangles)
 {
   const TriangleMesh ball = test::sphere(3);
-  const Points posed = shaken(ball.points, 0.2);
+  const Points posed = perturbed(ball.points, 0.2);
   ElementStretch stretch;
   measure_stretch(ball.points, posed, ball.triangles, stretch);
   for (Index t = 0; t < ball.triangles.rows(); ++t)
@@ -238,19 +238,19 @@ TEST(ElementStretch, AreThoseOfEigenForRandomTriangles)
 TEST(ElementStretch, DoNotDependOnThreadsSizeOrPlace)
 {
   const TetMesh box = test::tet_box(12, 12, 12);
-  const Points posed = shaken(box.points, 0.03);
-  ElementStretch one, many;
-  const Status serial = measure_stretch(box.points, posed, box.tets, one, 2.0, 1);
+  const Points posed = perturbed(box.points, 0.03);
+  ElementStretch one_thread, many;
+  const Status serial = measure_stretch(box.points, posed, box.tets, one_thread, 2.0, 1);
   const Status parallel = measure_stretch(box.points, posed, box.tets, many, 2.0, 4);
-  EXPECT_EQ(one.largest, many.largest);
-  EXPECT_EQ(one.smallest, many.smallest);
+  EXPECT_EQ(one_thread.largest, many.largest);
+  EXPECT_EQ(one_thread.smallest, many.smallest);
   EXPECT_EQ(serial.warnings, parallel.warnings);
   // Scaling by a power of two does not round.
   for (const double scale : { 0x1p-200, 0x1p200 })
   {
     ElementStretch scaled;
     measure_stretch(Points(scale * box.points), Points(scale * posed), box.tets, scaled);
-    EXPECT_EQ(scaled.largest, one.largest) << scale;
+    EXPECT_EQ(scaled.largest, one_thread.largest) << scale;
   }
 }
 

@@ -39,7 +39,7 @@ Affine turned_about_z(double angle)
 
 std::vector<HandleMode> modes(const Pose& pose)
 {
-  return modes_of(with_found_rotations(two_bone_arm(), pose));
+  return modes_of(resolve_automatic_modes(two_bone_arm(), pose));
 }
 } // namespace
 
@@ -87,7 +87,7 @@ TEST(FoundRotations, ChildrenAreTakenRelativeToTheirParents)
   EXPECT_EQ(modes(pose)[3], HandleMode::position);
   Affine further = identity_affine();
   further.col(3) = Vec3(0.3, 0.0, 0.0);
-  pose[1].transform = composed(pose[0].transform, further);
+  pose[1].transform = compose(pose[0].transform, further);
   EXPECT_EQ(modes(pose)[1], HandleMode::position) << "translated relative to its parent";
   pose[1].transform = identity_affine();
   EXPECT_EQ(modes(pose)[1], HandleMode::full) << "the bone stays in the world";

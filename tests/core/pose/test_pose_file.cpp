@@ -67,8 +67,8 @@ TEST(PoseFile, HandlesMoveAboutTheirPivots)
 
 TEST(PoseFile, ModesOfHandlesWithoutModeAreFullWhereMoreThanATranslationIsGiven)
 {
-  const auto mode = [](const std::string& fore, const Pose& base = Pose(3))
-  { return read(R"({"version": 2, "handles": {"fore": {)" + fore + "}}}", base)[1].mode; };
+  const auto mode = [](const std::string& forearm, const Pose& base = Pose(3))
+  { return read(R"({"version": 2, "handles": {"fore": {)" + forearm + "}}}", base)[1].mode; };
   EXPECT_EQ(mode(R"("translate": [1, 0, 0])"), HandleMode::automatic);
   EXPECT_EQ(mode(R"("rotate": {"axis": [0, 0, 1], "degrees": 0})"), HandleMode::full);
   EXPECT_EQ(mode(R"("scale": 1)"), HandleMode::full);
@@ -104,13 +104,13 @@ TEST(PoseFile, WhatIsNotMentionedKeepsTheBase)
 TEST(PoseFile, InVersionOneParentsComposeOnlyWhenAsked)
 {
   const std::string upper = R"("upper": {"rotate": {"axis": [0, 0, 1], "degrees": 90}})";
-  const std::string fore = R"("fore": {"rotate": {"axis": [0, 0, 1], "degrees": 90})";
+  const std::string forearm = R"("fore": {"rotate": {"axis": [0, 0, 1], "degrees": 90})";
   // In world space, the bone rotates around the rest position of its own head.
-  Pose pose = read("{\"handles\": {" + fore + "}, " + upper + "}}");
+  Pose pose = read("{\"handles\": {" + forearm + "}, " + upper + "}}");
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(1, 1, 0)).norm(), 1e-15);
   // In parent space, the bone's own rotation is applied first. Then the rotation of the parent
   // around the origin is applied.
-  pose = read("{\"handles\": {" + fore + ", \"space\": \"parent\"}, " + upper + "}}");
+  pose = read("{\"handles\": {" + forearm + ", \"space\": \"parent\"}, " + upper + "}}");
   EXPECT_LT((apply(pose[1].transform, Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm(), 1e-15);
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(-1, 1, 0)).norm(), 1e-15);
   // For a handle without a parent, parent space is the same as world space.
@@ -147,37 +147,37 @@ TEST(PoseFile, AMissingVersionWarnsIfChildrenWouldFollow)
 
 TEST(PoseFile, ChildrenFollowTheirParents)
 {
-  const auto read_new = [](const std::string& handles, const Pose& base = Pose(3))
+  const auto read_version_2 = [](const std::string& handles, const Pose& base = Pose(3))
   { return read("{\"version\": 2, \"handles\": {" + handles + "}}", base); };
   const std::string upper = R"("upper": {"rotate": {"axis": [0, 0, 1], "degrees": 90}})";
   // A rotation by 90 degrees about the origin rotates the bone and its child.
-  Pose pose = read_new(upper);
+  Pose pose = read_version_2(upper);
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(0, 2, 0)).norm(), 1e-15);
   EXPECT_EQ(pose[0].transform, identity_affine());
   // The child's own rotation by 90 degrees is applied first.
-  pose = read_new(upper + R"(, "fore": {"rotate": {"axis": [0, 0, 1], "degrees": 90}})");
+  pose = read_version_2(upper + R"(, "fore": {"rotate": {"axis": [0, 0, 1], "degrees": 90}})");
   EXPECT_LT((apply(pose[1].transform, Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm(), 1e-15);
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(-1, 1, 0)).norm(), 1e-15);
   // In world space the child does not follow its parent, with or without a transform of its own.
-  pose = read_new(
+  pose = read_version_2(
     upper + R"(, "fore": {"space": "world", "rotate": {"axis": [0, 0, 1], "degrees": 90}})");
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(1, 1, 0)).norm(), 1e-15);
-  pose = read_new(upper + R"(, "fore": {"space": "world", "mode": "free"})");
+  pose = read_version_2(upper + R"(, "fore": {"space": "world", "mode": "free"})");
   EXPECT_EQ(pose[1].transform, identity_affine());
   EXPECT_EQ(pose[1].mode, HandleMode::free);
   // A child at the tail of a bone moves with the stretched tail and rotates with the twist there.
-  pose = read_new(R"("upper": {"rotate": {"axis": [0, 0, 1], "degrees": 90}, "stretch": 3})");
+  pose = read_version_2(R"("upper": {"rotate": {"axis": [0, 0, 1], "degrees": 90}, "stretch": 3})");
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(0, 4, 0)).norm(), 1e-15);
-  pose = read_new(R"("upper": {"twist": [0, 90]})");
+  pose = read_version_2(R"("upper": {"twist": [0, 90]})");
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 1, 0)) - Vec3(2, 0, 1)).norm(), 1e-15);
   // If the file specifies one end of the bone, this end is a world position. The other end follows
   // the parent.
-  pose = read_new(upper + R"(, "fore": {"tail": [2, 1, 0]})");
+  pose = read_version_2(upper + R"(, "fore": {"tail": [2, 1, 0]})");
   EXPECT_LT((apply(pose[1].transform, Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm(), 1e-15);
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(1, 1, 0)).norm(), 1e-15);
   EXPECT_DOUBLE_EQ(pose[1].stretch, 2.0);
   // The specified tail coincides with the posed head of the same bone.
-  pose = read_new(upper + R"(, "fore": {"tail": [0, 1, 0]})");
+  pose = read_version_2(upper + R"(, "fore": {"tail": [0, 1, 0]})");
   EXPECT_EQ(pose[1].stretch, 1.0);
   EXPECT_TRUE(pose[1].transform.allFinite());
 }
@@ -206,7 +206,7 @@ TEST(PoseFile, FollowersKeepTheirPlaceRelativeToTheParent)
     ASSERT_TRUE(invert(transform_for_child(point_and_chain()[2], pose[2], Vec3(1, 0, 0)), back));
     ASSERT_TRUE(
       invert(transform_for_child(point_and_chain()[2], base[2], Vec3(1, 0, 0)), back_then));
-    EXPECT_LT((composed(back, pose[1].transform) - composed(back_then, base[1].transform))
+    EXPECT_LT((compose(back, pose[1].transform) - compose(back_then, base[1].transform))
                 .cwiseAbs()
                 .maxCoeff(),
       1e-13);
@@ -248,9 +248,10 @@ TEST(HandleHierarchy, ChildrenGoWithTheSkinWhereTheyAreAttached)
                 .ok());
   for (Index i = 0; i < 50; ++i)
   {
-    const Vec3 place = rest.row(i).transpose();
+    const Vec3 position = rest.row(i).transpose();
     EXPECT_LT(
-      (apply(transform_for_child(bone, posed, place), place) - skin.row(i).transpose()).norm(),
+      (apply(transform_for_child(bone, posed, position), position) - skin.row(i).transpose())
+        .norm(),
       1e-12);
   }
 }

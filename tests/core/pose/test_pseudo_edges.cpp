@@ -28,13 +28,13 @@ namespace
 /// Return a pose that translates the handles. Each pivot moves as under the rigid motion, but no
 /// handle rotates.
 Pose translations(
-  const Handles& handles, const Eigen::Matrix3d& turn, const Vec3& by = Vec3::Zero())
+  const Handles& handles, const Eigen::Matrix3d& turn, const Vec3& translation = Vec3::Zero())
 {
   Pose pose(handles.size());
   for (std::size_t h = 0; h < handles.size(); ++h)
   {
     pose[h].mode = HandleMode::position;
-    pose[h].transform.col(3) = turn * handles[h].head + by - handles[h].head;
+    pose[h].transform.col(3) = turn * handles[h].head + translation - handles[h].head;
   }
   return pose;
 }
@@ -52,14 +52,14 @@ const PseudoEdges edges_of_ring = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 } };
 TEST(PseudoEdges, WhatStaysOrIsMovedAlongDoesNotTurn)
 {
   Pose pose = translations(corner_handles, Eigen::Matrix3d::Identity(), Vec3(3, -1, 2));
-  turn_by_pseudo_edges(corner_handles, edges_of_ring, true, pose);
+  rotate_by_pseudo_edges(corner_handles, edges_of_ring, true, pose);
   for (std::size_t h = 0; h < corner_handles.size(); ++h)
   {
     EXPECT_LT(largest_difference(linear(pose, h), Eigen::Matrix3d::Identity()), 1e-15);
     EXPECT_LT((pose[h].transform.col(3) - Vec3(3, -1, 2)).norm(), 1e-15);
   }
   Pose rest(corner_handles.size());
-  turn_by_pseudo_edges(corner_handles, edges_of_ring, false, rest);
+  rotate_by_pseudo_edges(corner_handles, edges_of_ring, false, rest);
   for (const HandlePose& one : rest)
   {
     EXPECT_EQ(one.transform, identity_affine()) << "no bit moves at rest";
@@ -72,7 +72,7 @@ TEST(PseudoEdges, ARigidMotionInThePlaneIsFoundExactly)
   {
     const Eigen::Matrix3d turn = rotation(degrees, Vec3(0, 0, 1));
     Pose pose = translations(corner_handles, turn, Vec3(0.2, 5, 0));
-    turn_by_pseudo_edges(corner_handles, edges_of_ring, false, pose);
+    rotate_by_pseudo_edges(corner_handles, edges_of_ring, false, pose);
     for (std::size_t h = 0; h < corner_handles.size(); ++h)
     {
       EXPECT_LT(largest_difference(linear(pose, h), turn), 1e-13) << degrees;
@@ -97,7 +97,7 @@ TEST(PseudoEdges, SkinningByTheRotationsOfARigidMotionIsThatMotion)
   }
   const Eigen::Matrix3d turn = rotation(110, Vec3(0, 0, 1));
   Pose pose = translations(corner_handles, turn);
-  turn_by_pseudo_edges(corner_handles, edges_of_ring, false, pose);
+  rotate_by_pseudo_edges(corner_handles, edges_of_ring, false, pose);
   ExecutionContext context;
   Skinning skinning;
   ASSERT_TRUE(skinning.bind(context, weights).ok());
@@ -112,7 +112,7 @@ TEST(PseudoEdges, AnEdgeDoesNotSeeATurnAboutItself)
 {
   const Handles pair = point_handles({ Vec3(0, 0, 0), Vec3(0, 0, 1) });
   Pose pose = translations(pair, rotation(70, Vec3(0, 0, 1)));
-  turn_by_pseudo_edges(pair, { { 0, 1 } }, false, pose);
+  rotate_by_pseudo_edges(pair, { { 0, 1 } }, false, pose);
   EXPECT_EQ(pose[0].transform, identity_affine());
   EXPECT_EQ(pose[1].transform, identity_affine());
 }
@@ -120,10 +120,10 @@ TEST(PseudoEdges, AnEdgeDoesNotSeeATurnAboutItself)
 TEST(PseudoEdges, OppositeDirectionsTurnAboutAFixedAxis)
 {
   // The axis is perpendicular to the plane z = const, which contains both directions.
-  EXPECT_LT(largest_difference(
-              least_rotation(Vec3(1, 0, 0), Vec3(-2, 0, 0)).matrix(), rotation(180, Vec3(0, 0, 1))),
+  EXPECT_LT(largest_difference(minimal_rotation(Vec3(1, 0, 0), Vec3(-2, 0, 0)).matrix(),
+              rotation(180, Vec3(0, 0, 1))),
     1e-15);
-  EXPECT_LT(largest_difference(least_rotation(Vec3(3, -4, 0), Vec3(-3, 4, 0)).matrix(),
+  EXPECT_LT(largest_difference(minimal_rotation(Vec3(3, -4, 0), Vec3(-3, 4, 0)).matrix(),
               rotation(180, Vec3(0, 0, 1))),
     1e-15);
   test::Random random(9);
@@ -131,18 +131,18 @@ TEST(PseudoEdges, OppositeDirectionsTurnAboutAFixedAxis)
   {
     const Vec3 u = random.in_box(Vec3::Constant(-1), Vec3::Constant(1));
     const Vec3 v = k % 2 ? Vec3(-u) : random.in_box(Vec3::Constant(-1), Vec3::Constant(1));
-    const Eigen::Quaterniond q = least_rotation(u, v);
+    const Eigen::Quaterniond q = minimal_rotation(u, v);
     EXPECT_NEAR(q.norm(), 1.0, 1e-15);
     EXPECT_LT((q * u.normalized() - v.normalized()).norm(), 1e-14);
     EXPECT_NEAR(q.angularDistance(Eigen::Quaterniond::Identity()),
       std::acos(std::clamp(u.normalized().dot(v.normalized()), -1.0, 1.0)), 1e-7)
       << "and no farther than it must";
-    EXPECT_EQ(q.coeffs(), least_rotation(u, v).coeffs());
+    EXPECT_EQ(q.coeffs(), minimal_rotation(u, v).coeffs());
   }
   for (const double tiny : { 1e-5, 1e-9, 1e-13 })
   {
     const Vec3 almost(-1, tiny, 0);
-    const Eigen::Quaterniond q = least_rotation(Vec3(1, 0, 0), almost);
+    const Eigen::Quaterniond q = minimal_rotation(Vec3(1, 0, 0), almost);
     EXPECT_LT((q * Vec3(1, 0, 0) - almost.normalized()).norm(), 1e-14) << tiny;
   }
 }
@@ -158,7 +158,7 @@ TEST(PseudoEdges, EdgesOfAHandleCountAlike)
   pose[2].transform.col(3) = end - Vec3(1, 0, 0);
   pose[3].transform.leftCols<3>() = rotation(33, Vec3(1, 2, 3));
   const Affine own = pose[3].transform;
-  turn_by_pseudo_edges(row, { { 0, 1 }, { 2, 1 } }, false, pose);
+  rotate_by_pseudo_edges(row, { { 0, 1 }, { 2, 1 } }, false, pose);
   EXPECT_EQ(linear(pose, 0), Eigen::Matrix3d::Identity());
   EXPECT_LT(largest_difference(linear(pose, 1), rotation(30, Vec3(0, 0, 1))), 1e-15);
   EXPECT_LT(largest_difference(linear(pose, 2), rotation(60, Vec3(0, 0, 1))), 1e-15);
@@ -179,10 +179,10 @@ TEST(PseudoEdges, TurnWhatTheUserTurnedAndScaleWhenAsked)
   pose[1].transform.col(3) += 2.0 * (turn * Vec3(2, 0, 0));
   const Vec3 before = pose[0].transform * pair[0].head.homogeneous();
   Pose scaled = pose;
-  turn_by_pseudo_edges(pair, { { 0, 1 } }, false, pose);
+  rotate_by_pseudo_edges(pair, { { 0, 1 } }, false, pose);
   EXPECT_LT(largest_difference(linear(pose, 0), turn * twist), 1e-15);
   EXPECT_LT((pose[0].transform * pair[0].head.homogeneous() - before).norm(), 1e-15);
-  turn_by_pseudo_edges(pair, { { 0, 1 } }, true, scaled);
+  rotate_by_pseudo_edges(pair, { { 0, 1 } }, true, scaled);
   EXPECT_LT(largest_difference(linear(scaled, 1), 3.0 * turn), 1e-14);
 }
 
@@ -192,12 +192,12 @@ TEST(PseudoEdges, FreeAndCollapsedEndsSayNothing)
   Pose pose(2);
   pose[0].mode = pose[1].mode = HandleMode::position;
   pose[1].transform.col(3) = Vec3(-1, 0, 0); // both handles are now at the same position
-  turn_by_pseudo_edges(pair, { { 0, 1 } }, true, pose);
+  rotate_by_pseudo_edges(pair, { { 0, 1 } }, true, pose);
   EXPECT_EQ(linear(pose, 0), Eigen::Matrix3d::Identity());
   EXPECT_EQ(pose[1].mode, HandleMode::position);
   pose[0].mode = HandleMode::free;
   pose[1].transform.col(3) = Vec3(-1, 1, 0);
-  turn_by_pseudo_edges(pair, { { 0, 1 } }, false, pose);
+  rotate_by_pseudo_edges(pair, { { 0, 1 } }, false, pose);
   EXPECT_EQ(pose[0].mode, HandleMode::free);
   EXPECT_LT(largest_difference(linear(pose, 1), rotation(90, Vec3(0, 0, 1))), 1e-15);
 }
@@ -240,13 +240,13 @@ TEST(PseudoEdges, AutomaticOnesAreAMinimumSpanningTreeOfShortestWays)
 {
   const TetMesh box = test::tet_box(6, 5, 4);
   test::Random random(4);
-  std::vector<Vec3> places;
+  std::vector<Vec3> positions;
   for (int k = 0; k < 9; ++k)
   {
-    places.emplace_back(box.points.row(random.below(box.points.rows())));
+    positions.emplace_back(box.points.row(random.below(box.points.rows())));
   }
-  places.push_back(places[3] + Vec3(0.01, 0, 0)); // two handles are at one vertex
-  const Handles handles = point_handles(places);
+  positions.push_back(positions[3] + Vec3(0.01, 0, 0)); // two handles are at one vertex
+  const Handles handles = point_handles(positions);
   ExecutionContext context;
   PseudoEdges edges;
   ASSERT_TRUE(automatic_pseudo_edges(context, box.points, TetsView(box.tets), handles, edges).ok());
@@ -254,21 +254,22 @@ TEST(PseudoEdges, AutomaticOnesAreAMinimumSpanningTreeOfShortestWays)
   // Compute the reference by Floyd-Warshall over all vertices, then Prim's algorithm. The total
   // length of the tree must be equal.
   const Index n = box.points.rows();
-  Eigen::MatrixXd way = Eigen::MatrixXd::Constant(n, n, 1e300);
+  Eigen::MatrixXd path_length = Eigen::MatrixXd::Constant(n, n, 1e300);
   for (Index t = 0; t < box.tets.rows(); ++t)
   {
     for (int a = 0; a < 4; ++a)
     {
       for (int b = 0; b < 4; ++b)
       {
-        way(box.tets(t, a), box.tets(t, b)) =
+        path_length(box.tets(t, a), box.tets(t, b)) =
           (box.points.row(box.tets(t, a)) - box.points.row(box.tets(t, b))).norm();
       }
     }
   }
   for (Index k = 0; k < n; ++k)
   {
-    way = way.cwiseMin(way.col(k).replicate(1, n) + way.row(k).replicate(n, 1));
+    path_length =
+      path_length.cwiseMin(path_length.col(k).replicate(1, n) + path_length.row(k).replicate(n, 1));
   }
   std::vector<Index> vertex;
   std::vector<double> offset;
@@ -280,30 +281,32 @@ TEST(PseudoEdges, AutomaticOnesAreAMinimumSpanningTreeOfShortestWays)
     vertex.push_back(nearest);
   }
   const auto length = [&](std::size_t a, std::size_t b)
-  { return offset[a] + offset[b] + (a == b ? 0.0 : way(vertex[a], vertex[b])); };
-  double total = 0.0, least = 0.0;
+  { return offset[a] + offset[b] + (a == b ? 0.0 : path_length(vertex[a], vertex[b])); };
+  double total = 0.0, tree_length = 0.0;
   for (const auto& [a, b] : edges)
   {
     total += length(static_cast<std::size_t>(a), static_cast<std::size_t>(b));
   }
-  std::vector<double> to_tree(handles.size(), 1e300);
+  std::vector<double> distance_to_tree(handles.size(), 1e300);
   std::vector<char> in_tree(handles.size(), 0);
-  to_tree[0] = 0.0;
+  distance_to_tree[0] = 0.0;
   for (std::size_t step = 0; step < handles.size(); ++step)
   {
     std::size_t next = handles.size();
     for (std::size_t h = 0; h < handles.size(); ++h)
     {
-      next = !in_tree[h] && (next == handles.size() || to_tree[h] < to_tree[next]) ? h : next;
+      next = !in_tree[h] && (next == handles.size() || distance_to_tree[h] < distance_to_tree[next])
+        ? h
+        : next;
     }
     in_tree[next] = 1;
-    least += to_tree[next];
+    tree_length += distance_to_tree[next];
     for (std::size_t h = 0; h < handles.size(); ++h)
     {
-      to_tree[h] = std::min(to_tree[h], length(next, h));
+      distance_to_tree[h] = std::min(distance_to_tree[h], length(next, h));
     }
   }
-  EXPECT_NEAR(total, least, 1e-12);
+  EXPECT_NEAR(total, tree_length, 1e-12);
 }
 
 TEST(PseudoEdges, PartsHaveTreesOfTheirOwnAndLonelyPointsAreToldOf)
@@ -312,10 +315,10 @@ TEST(PseudoEdges, PartsHaveTreesOfTheirOwnAndLonelyPointsAreToldOf)
   const TriangleMesh both = test::join(a, test::translated(a, Vec3(5, 0, 0)));
   ExecutionContext context;
   PseudoEdges edges;
-  const auto run = [&](const std::vector<Vec3>& places)
+  const auto run = [&](const std::vector<Vec3>& positions)
   {
     return automatic_pseudo_edges(
-      context, both.points, TrianglesView(both.triangles), point_handles(places), edges);
+      context, both.points, TrianglesView(both.triangles), point_handles(positions), edges);
   };
   EXPECT_TRUE(run({ Vec3(0, 0, 0), Vec3(5, 0, 0), Vec3(1, 1, 0), Vec3(6, 1, 0) }).warnings.empty());
   std::sort(edges.begin(), edges.end());

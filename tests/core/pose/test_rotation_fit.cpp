@@ -221,8 +221,8 @@ TEST(RotationFit, TurnsAreRotationsLessOneInAnyPlanes)
   test::Random random(17);
   constexpr Index count = 29;
   std::vector<double> s(9 * count), r(9 * count, 0.0), transposed(9 * count),
-    turns(9 * count, -1.0);
-  std::vector<float> single(9 * count), single_turns(9 * count, 0.0F);
+    deltas(9 * count, -1.0);
+  std::vector<float> single(9 * count), single_deltas(9 * count, 0.0F);
   for (Index k = 0; k < count; ++k)
   {
     const Eigen::Matrix3d matrix = random_rotation(random) *
@@ -235,17 +235,17 @@ TEST(RotationFit, TurnsAreRotationsLessOneInAnyPlanes)
     }
   }
   fit_rotations(count, count, s.data(), r.data());
-  fit_turns(count, MatrixPlanes<const double>{ transposed.data(), count, 3 * count },
-    MatrixPlanes<double>{ turns.data(), 3 * count, count });
-  fit_turns(count, MatrixPlanes<const float>{ single.data(), 3 * count, count },
-    MatrixPlanes<float>{ single_turns.data(), 3 * count, count });
+  fit_rotation_deltas(count, MatrixPlanes<const double>{ transposed.data(), count, 3 * count },
+    MatrixPlanes<double>{ deltas.data(), 3 * count, count });
+  fit_rotation_deltas(count, MatrixPlanes<const float>{ single.data(), 3 * count, count },
+    MatrixPlanes<float>{ single_deltas.data(), 3 * count, count });
   for (Index k = 0; k < count; ++k)
   {
     for (int e = 0; e < 9; ++e)
     {
       const double rotation = r[e * count + k] - (e % 4 == 0 ? 1.0 : 0.0);
-      EXPECT_NEAR(turns[e * count + k], rotation, 1e-15);
-      EXPECT_NEAR(single_turns[e * count + k], rotation, 2e-5);
+      EXPECT_NEAR(deltas[e * count + k], rotation, 1e-15);
+      EXPECT_NEAR(single_deltas[e * count + k], rotation, 2e-5);
     }
   }
 }
@@ -254,7 +254,7 @@ TEST(RotationFit, SinglePrecisionLosesNextToNothing)
 {
   test::Random random(19);
   constexpr Index count = 20000;
-  std::vector<float> s(9 * count), turns(9 * count, 0.0F);
+  std::vector<float> s(9 * count), deltas(9 * count, 0.0F);
   for (Index k = 0; k < count; ++k)
   {
     const Eigen::Matrix3d matrix = random_square_matrix(random).normalized();
@@ -263,15 +263,15 @@ TEST(RotationFit, SinglePrecisionLosesNextToNothing)
       s[e * count + k] = static_cast<float>(matrix(e / 3, e % 3));
     }
   }
-  fit_turns(count, MatrixPlanes<const float>{ s.data(), 3 * count, count },
-    MatrixPlanes<float>{ turns.data(), 3 * count, count });
+  fit_rotation_deltas(count, MatrixPlanes<const float>{ s.data(), 3 * count, count },
+    MatrixPlanes<float>{ deltas.data(), 3 * count, count });
   for (Index k = 0; k < count; ++k)
   {
     Eigen::Matrix3d matrix, rotation, best = Eigen::Matrix3d::Identity();
     for (int e = 0; e < 9; ++e)
     {
       matrix(e / 3, e % 3) = s[e * count + k];
-      rotation(e / 3, e % 3) = turns[e * count + k] + (e % 4 == 0 ? 1.0 : 0.0);
+      rotation(e / 3, e % 3) = deltas[e * count + k] + (e % 4 == 0 ? 1.0 : 0.0);
     }
     fit_rotation(matrix, best);
     ASSERT_LT((rotation.transpose() * rotation - Eigen::Matrix3d::Identity()).norm(), 2e-6);

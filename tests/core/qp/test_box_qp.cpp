@@ -98,8 +98,8 @@ TEST(BoxQp, AgreesWithProjectedGaussSeidel)
   {
     const BoxQpSolution solution = qp.solve(context, values);
     ASSERT_TRUE(solution.status.ok());
-    const Eigen::VectorXd twin = gauss_seidel(q, three_fixed, values.fixed_values, 40000);
-    EXPECT_LT((solution.w - twin).cwiseAbs().maxCoeff(), 1e-6);
+    const Eigen::VectorXd expected = gauss_seidel(q, three_fixed, values.fixed_values, 40000);
+    EXPECT_LT((solution.w - expected).cwiseAbs().maxCoeff(), 1e-6);
     EXPECT_GE(solution.w.minCoeff(), 0.0);
     EXPECT_LE(solution.w.maxCoeff(), 1.0);
     least = std::min(least, qp.unconstrained(values.fixed_values).minCoeff());
@@ -248,7 +248,7 @@ TEST(BoxQp, NeedsNoBoundsAndKeepsDistances)
   EXPECT_LT((ordered.w - bounded.w).cwiseAbs().maxCoeff(), 1e-5);
   for (OrderedPair& pair : unbounded.pairs)
   {
-    pair.least = 1e-3;
+    pair.minimum_difference = 1e-3;
   }
   const BoxQpSolution apart = qp.solve(context, unbounded);
   ASSERT_TRUE(apart.status.ok());
@@ -365,13 +365,13 @@ TEST_P(BoxQpStarts, FoundTogetherEndWhereOthersEnd)
         const BoxQpSolution alone = qp.solve(context, column);
         ASSERT_TRUE(alone.status.ok());
         EXPECT_LT((together[j].w - alone.w).cwiseAbs().maxCoeff(), same) << j;
-        std::vector<char> free_here = free;
+        std::vector<char> is_column_free = free;
         for (std::size_t i = 0; i < column.pinned.size(); ++i)
         {
-          free_here[column.pinned[i]] = 0;
+          is_column_free[column.pinned[i]] = 0;
           EXPECT_EQ(together[j].w[column.pinned[i]], column.pinned_values[static_cast<Index>(i)]);
         }
-        const Certificate proof = certify({ scaled, free_here }, together[j].w);
+        const Certificate proof = certify({ scaled, is_column_free }, together[j].w);
         EXPECT_LE(proof.kkt_residual, tolerance);
         EXPECT_EQ(proof.bounds_violation, 0.0);
       }
@@ -448,7 +448,7 @@ TEST(BoxQp, TheEstimateOfItsMemoryIsThePeak)
     ExecutionContext context;
     context.set_threads(threads);
     ASSERT_TRUE(qp.prepare(context, columns).ok());
-    ASSERT_TRUE(worst_of(qp.solve_all(context, columns)).ok());
+    ASSERT_TRUE(first_failure(qp.solve_all(context, columns)).ok());
     const double peak = peak_memory();
     ASSERT_GT(peak, before + 50 * mebibyte);
     EXPECT_GT(qp.memory_estimate() - before, 0.8 * (peak - before)) << threads;
@@ -458,6 +458,10 @@ TEST(BoxQp, TheEstimateOfItsMemoryIsThePeak)
 
 TEST(BoxQp, TakesFewerThreadsOrRefusesWhereMemoryEnds)
 {
+  if (test::sanitized)
+  {
+    return; // the memory of the sanitizer is several times the measured memory
+  }
   const TetMesh box = test::tet_box(16, 16, 16);
   const SparseMatrix q = energy(box, 2);
   const std::vector<Index> fixed{ 0, 16, 4912 };
@@ -519,9 +523,9 @@ TEST(BoxQp, TooFewIterationsAreSaidAndCancelEndsIt)
   EXPECT_GT(std::max(early.certificate.relative_gap, early.certificate.kkt_residual), 1e-9);
   EXPECT_GE(early.w.minCoeff(), 0.0);
 
-  int asked = 0;
+  int poll_count = 0;
   bool prepared = false;
-  ExecutionContext stopped(nullptr, [&] { return prepared && ++asked > 4; });
+  ExecutionContext stopped(nullptr, [&] { return prepared && ++poll_count > 4; });
   stopped.set_threads(1);
   BoxQp other(q, { 88, 220, 352 }, {});
   const Status status = other.prepare(stopped);

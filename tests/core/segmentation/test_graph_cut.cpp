@@ -48,7 +48,7 @@ double brute_force(const CutEnergy& energy)
     {
       inside[i] = (labels >> i) & 1;
     }
-    least = std::min(least, energy.of(inside));
+    least = std::min(least, energy.evaluate(inside));
   }
   return least;
 }
@@ -90,7 +90,7 @@ TEST(GraphCut, EqualsBruteForce)
     const CutEnergy energy = random_energy(nodes, random.below(4 * nodes), random);
     std::vector<char> inside;
     ASSERT_TRUE(minimized(energy, inside).ok());
-    ASSERT_NEAR(energy.of(inside), brute_force(energy), 1e-9) << "instance " << instance;
+    ASSERT_NEAR(energy.evaluate(inside), brute_force(energy), 1e-9) << "instance " << instance;
   }
 }
 
@@ -166,16 +166,16 @@ TEST(GraphCut, CancelStopsIt)
   test::CancelLater user(context, 500);
   std::vector<char> inside;
   const Status status = minimize(context, energy, inside);
-  const double waited = user.waited();
+  const double seconds_since_cancel = user.seconds_since_cancel();
   if (status.code == StatusCode::canceled)
   {
     // The cancel takes about 200 ms on an idle machine.
-    EXPECT_LT(waited, test::sanitized ? 10.0 : 1.0);
+    EXPECT_LT(seconds_since_cancel, test::sanitized ? 10.0 : 1.0);
   }
   else
   {
     // A fast machine may finish before the cancel request.
     EXPECT_TRUE(status.ok()) << status.message;
-    EXPECT_LT(waited, 0.0);
+    EXPECT_LT(seconds_since_cancel, 0.0);
   }
 }

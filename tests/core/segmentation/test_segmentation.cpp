@@ -27,7 +27,7 @@ Segmentation segmented(
 }
 
 /// Evaluate the energy as segmentation.h defines it, with a loop over all pairs of tets.
-double stated_energy(const TetMesh& mesh, const Eigen::VectorXd& w, const SegmentationOptions& o,
+double reference_energy(const TetMesh& mesh, const Eigen::VectorXd& w, const SegmentationOptions& o,
   const std::vector<char>& inside)
 {
   double data = 0.0;
@@ -107,7 +107,7 @@ TEST(Segmentation, EqualsBruteForce)
     CutEnergy energy;
     const auto nodes = static_cast<std::size_t>(mesh.tets.rows());
     std::vector<char> labels(nodes, 0);
-    const double none = stated_energy(mesh, w, options, labels);
+    const double none = reference_energy(mesh, w, options, labels);
     for (std::size_t t = 0; t < nodes; ++t)
     {
       const double shifted = w[static_cast<Index>(t)] - options.winding_threshold + 0.5;
@@ -119,7 +119,7 @@ TEST(Segmentation, EqualsBruteForce)
     {
       labels.assign(nodes, 0);
       labels[t] = 1;
-      alone.push_back(stated_energy(mesh, w, options, labels) - none - energy.inside_costs[t] +
+      alone.push_back(reference_energy(mesh, w, options, labels) - none - energy.inside_costs[t] +
         energy.outside_costs[t]);
     }
     for (std::size_t s = 0; s < nodes; ++s)
@@ -128,7 +128,7 @@ TEST(Segmentation, EqualsBruteForce)
       {
         labels.assign(nodes, 0);
         labels[s] = labels[t] = 1;
-        const double both = stated_energy(mesh, w, options, labels) - none -
+        const double both = reference_energy(mesh, w, options, labels) - none -
           energy.inside_costs[s] + energy.outside_costs[s] - energy.inside_costs[t] +
           energy.outside_costs[t];
         const double between = 0.5 * (alone[s] + alone[t] - both);
@@ -145,10 +145,10 @@ TEST(Segmentation, EqualsBruteForce)
       {
         labels[t] = (mask >> t) & 1;
       }
-      least = std::min(least, energy.of(labels));
+      least = std::min(least, energy.evaluate(labels));
     }
     ASSERT_NEAR(found.energy, least, 1e-9) << "instance " << instance;
-    ASSERT_NEAR(found.energy, stated_energy(mesh, w, options, found.inside), 1e-9);
+    ASSERT_NEAR(found.energy, reference_energy(mesh, w, options, found.inside), 1e-9);
     ASSERT_LE(found.energy, found.threshold_energy);
   }
 }

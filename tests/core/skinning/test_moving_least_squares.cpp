@@ -87,7 +87,8 @@ Points warped(const Points& rest, const Handles& handles, const Pose& pose, doub
 /// Evaluate the paper's formulas for one point. Each bone is replaced by very many points. The
 /// weight of such a point is the length of its part of the bone, divided by the extent of all
 /// handles.
-Vec3 plain_warp(const Vec3& v, const Handles& handles, const Pose& pose, double exponent, bool flat)
+Vec3 reference_warp(
+  const Vec3& v, const Handles& handles, const Pose& pose, double exponent, bool flat)
 {
   double extent = 0.0;
   for (const Handle& one : handles)
@@ -207,7 +208,7 @@ TEST(MovingLeastSquares, IsThePapersFormula)
       const Points posed = warped(rest, handles, pose, exponent);
       for (Index v = 0; v < rest.rows(); ++v)
       {
-        const Vec3 plain = plain_warp(rest.row(v).transpose(), handles, pose, exponent, flat);
+        const Vec3 plain = reference_warp(rest.row(v).transpose(), handles, pose, exponent, flat);
         EXPECT_LT((posed.row(v).transpose() - plain).norm(), 2e-5) << v;
       }
     }
@@ -223,7 +224,8 @@ TEST(MovingLeastSquares, PointsAloneAreThePapersFormulaToRounding)
   const Points posed = warped(rest, handles, mixed_pose(false));
   for (Index v = 0; v < rest.rows(); ++v)
   {
-    const Vec3 plain = plain_warp(rest.row(v).transpose(), handles, mixed_pose(false), 1.0, false);
+    const Vec3 plain =
+      reference_warp(rest.row(v).transpose(), handles, mixed_pose(false), 1.0, false);
     EXPECT_LT((posed.row(v).transpose() - plain).norm(), 1e-12) << v;
   }
 }
@@ -356,16 +358,16 @@ TEST(MovingLeastSquares, SharesOfABoneAreTheIntegrals)
       rest << a, d, 0.0;
       MovingLeastSquares warp;
       ASSERT_TRUE(warp.bind(context, {}, rest, handles).ok());
-      const MovingLeastSquares::Share share = warp.share(0, 0);
+      const MovingLeastSquares::HandleMoments moments = warp.moments(0, 0);
       const double zeroth = (std::atan((1 - a) / d) + std::atan(a / d)) / d;
       const double first = 0.5 * std::log((d * d + (1 - a) * (1 - a)) / (d * d + a * a));
       const double second = 1.0 - d * d * zeroth;
-      EXPECT_NEAR(share.amount / (d * d * zeroth), 1.0, 1e-9) << d << " " << a;
-      EXPECT_NEAR(share.mean, a + first / zeroth, 1e-8 * std::max(1e-3, std::abs(first / zeroth)))
+      EXPECT_NEAR(moments.amount / (d * d * zeroth), 1.0, 1e-9) << d << " " << a;
+      EXPECT_NEAR(moments.mean, a + first / zeroth, 1e-8 * std::max(1e-3, std::abs(first / zeroth)))
         << d;
       if (d <= 1.0) // for larger distances the closed form suffers from cancellation
       {
-        EXPECT_NEAR(share.variance / (second / zeroth - std::pow(first / zeroth, 2)), 1.0, 1e-7)
+        EXPECT_NEAR(moments.variance / (second / zeroth - std::pow(first / zeroth, 2)), 1.0, 1e-7)
           << d << " " << a;
       }
     }
@@ -377,8 +379,8 @@ TEST(MovingLeastSquares, SharesOfABoneAreTheIntegrals)
   rest << 1.25, 0.0, 0.0;
   MovingLeastSquares warp;
   ASSERT_TRUE(warp.bind(context, {}, rest, handles).ok());
-  EXPECT_NEAR(warp.share(0, 0).amount, 0.25 * 0.25 * (1 / 0.25 - 1 / 1.25), 1e-10);
-  EXPECT_NEAR(1.25 - warp.share(0, 0).mean, std::log(5.0) / (1 / 0.25 - 1 / 1.25), 1e-8);
+  EXPECT_NEAR(warp.moments(0, 0).amount, 0.25 * 0.25 * (1 / 0.25 - 1 / 1.25), 1e-10);
+  EXPECT_NEAR(1.25 - warp.moments(0, 0).mean, std::log(5.0) / (1 / 0.25 - 1 / 1.25), 1e-8);
 }
 
 TEST(MovingLeastSquares, TheSameBitsForAnyNumberOfThreads)

@@ -84,7 +84,7 @@ double size_of_element(const Points& p, const Triangles& triangles, Index e)
 }
 
 template <typename Elements>
-Points plain_centers(
+Points reference_centers(
   const Points& points, const Elements& elements, const Weights& weights, double width)
 {
   Points centers = points;
@@ -115,7 +115,7 @@ Points plain_centers(
 }
 
 template <typename Elements>
-Points found_centers(const Points& points, const Elements& elements, const Weights& weights,
+Points computed_centers(const Points& points, const Elements& elements, const Weights& weights,
   const RotationCentersOptions& options = {}, int threads = 0)
 {
   ExecutionContext context;
@@ -164,17 +164,17 @@ struct Tube
   /// Return the smallest and the largest radius of the ring at z = 0 after posing.
   std::pair<double, double> ring(const Points& posed) const
   {
-    double least = 1e300, most = 0.0;
+    double minimum = 1e300, maximum = 0.0;
     for (Index v = 0; v < posed.rows(); ++v)
     {
       if (std::abs(this->mesh.points(v, 2)) < 1e-9)
       {
         const double radius = posed.row(v).head<2>().norm();
-        least = std::min(least, radius);
-        most = std::max(most, radius);
+        minimum = std::min(minimum, radius);
+        maximum = std::max(maximum, radius);
       }
     }
-    return { least, most };
+    return { minimum, maximum };
   }
 };
 } // namespace
@@ -188,13 +188,13 @@ TEST(RotationCenters, AreThePapersSums)
     RotationCentersOptions options = exact();
     options.width = width;
     const Weights in_box = random_weights_with_zeros(box.points.rows(), 4);
-    EXPECT_LT(largest_distance(found_centers(box.points, box.tets, in_box, options),
-                plain_centers(box.points, box.tets, in_box, width)),
+    EXPECT_LT(largest_distance(computed_centers(box.points, box.tets, in_box, options),
+                reference_centers(box.points, box.tets, in_box, width)),
       1e-11)
       << width;
     const Weights on_ball = random_weights_with_zeros(ball.points.rows(), 3);
-    EXPECT_LT(largest_distance(found_centers(ball.points, ball.triangles, on_ball, options),
-                plain_centers(ball.points, ball.triangles, on_ball, width)),
+    EXPECT_LT(largest_distance(computed_centers(ball.points, ball.triangles, on_ball, options),
+                reference_centers(ball.points, ball.triangles, on_ball, width)),
       1e-11)
       << width;
   }
@@ -204,8 +204,8 @@ TEST(RotationCenters, GroupsMoveThemLittle)
 {
   const TetMesh bar = test::tet_box(40, 4, 4, Vec3::Zero(), Vec3(10, 1, 1));
   const Weights weights = smooth_weights(bar.points, 5);
-  const Points plain = found_centers(bar.points, bar.tets, weights, exact());
-  const Points grouped = found_centers(bar.points, bar.tets, weights);
+  const Points plain = computed_centers(bar.points, bar.tets, weights, exact());
+  const Points grouped = computed_centers(bar.points, bar.tets, weights);
   EXPECT_LT(largest_distance(grouped, plain), 1e-3 * bounding_box(bar.points).diagonal());
   RotationCentersOptions coarse;
   coarse.group_size = 0.05;
@@ -221,7 +221,7 @@ TEST(RotationCenters, GroupsMoveThemLittle)
 TEST(RotationCenters, OfATubeLieOnItsAxis)
 {
   const Tube tube;
-  const Points centers = found_centers(tube.mesh.points, tube.mesh.triangles, tube.weights);
+  const Points centers = computed_centers(tube.mesh.points, tube.mesh.triangles, tube.weights);
   for (Index v = 0; v < centers.rows(); ++v)
   {
     if (std::abs(tube.mesh.points(v, 2)) < 0.9)
@@ -238,7 +238,7 @@ TEST(RotationCenters, OfATubeLieOnItsAxis)
 TEST(RotationCenters, KeepTwistedJointsWide)
 {
   const Tube tube;
-  const Points centers = found_centers(tube.mesh.points, tube.mesh.triangles, tube.weights);
+  const Points centers = computed_centers(tube.mesh.points, tube.mesh.triangles, tube.weights);
   ExecutionContext context;
   for (const bool single : { false, true })
   {
@@ -255,7 +255,8 @@ TEST(RotationCenters, KeepTwistedJointsWide)
       Points posed;
       ASSERT_TRUE(skinning.linear_blend(context, tube.mesh.points, twist, posed).ok());
       EXPECT_NEAR(tube.ring(posed).second, radius, 1e-6);
-      ASSERT_TRUE(skinning.about_centers(context, tube.mesh.points, twist, centers, posed).ok());
+      ASSERT_TRUE(
+        skinning.centers_of_rotation(context, tube.mesh.points, twist, centers, posed).ok());
       EXPECT_NEAR(tube.ring(posed).first, 1.0, single ? 1e-6 : 1e-12) << degrees;
       EXPECT_NEAR(tube.ring(posed).second, 1.0, single ? 1e-6 : 1e-12) << degrees;
     }
@@ -266,13 +267,13 @@ TEST(RotationCenters, SkinningIsExactForOneMapOfAllHandles)
 {
   const TetMesh box = test::tet_box(4, 3, 3);
   const Weights weights = random_weights_with_zeros(box.points.rows(), 5);
-  const Points centers = found_centers(box.points, box.tets, weights);
+  const Points centers = computed_centers(box.points, box.tets, weights);
   ExecutionContext context;
   Skinning skinning;
   ASSERT_TRUE(skinning.bind(context, weights).ok());
   Points posed;
   const std::vector<Affine> rest(5, identity_affine());
-  ASSERT_TRUE(skinning.about_centers(context, box.points, rest, centers, posed).ok());
+  ASSERT_TRUE(skinning.centers_of_rotation(context, box.points, rest, centers, posed).ok());
   EXPECT_EQ(posed, box.points) << "no bit moves at rest";
   Eigen::Matrix3d stretch = rotation(200, Vec3(3, 1, -2));
   stretch *= Vec3(2.0, 0.5, 1.25).asDiagonal();
@@ -281,12 +282,12 @@ TEST(RotationCenters, SkinningIsExactForOneMapOfAllHandles)
   for (const Affine& map : maps)
   {
     const std::vector<Affine> all(5, map);
-    ASSERT_TRUE(skinning.about_centers(context, box.points, all, centers, posed).ok());
+    ASSERT_TRUE(skinning.centers_of_rotation(context, box.points, all, centers, posed).ok());
     EXPECT_LT(largest_distance(posed, moved(box.points, map)), 1e-13);
     Points normals = box.points.rowwise().normalized();
     normals.row(0) << 1, 0, 0;
     Points turned;
-    ASSERT_TRUE(skinning.about_centers_normals(context, normals, all, turned).ok());
+    ASSERT_TRUE(skinning.centers_of_rotation_normals(context, normals, all, turned).ok());
     const Eigen::Matrix3d cofactors =
       map.leftCols<3>().determinant() * map.leftCols<3>().inverse().transpose();
     const Points expected = (normals * cofactors.transpose()).rowwise().normalized();
@@ -298,7 +299,7 @@ TEST(RotationCenters, TurnsByTheBlendAboutTheCenterThatTheBlendMoves)
 {
   const TetMesh box = test::tet_box(3, 3, 3);
   const Weights weights = random_weights_with_zeros(box.points.rows(), 3);
-  const Points centers = found_centers(box.points, box.tets, weights);
+  const Points centers = computed_centers(box.points, box.tets, weights);
   const std::vector<Affine> maps{ affine(rotation(50, Vec3(1, 0, 1)), Vec3(1, 0, 0)),
     affine(rotation(-80, Vec3(0, 1, 1)), Vec3(0, 0.5, 0)),
     affine(rotation(100, Vec3(1, 1, 0)), Vec3(0, 0, -1)) };
@@ -306,7 +307,7 @@ TEST(RotationCenters, TurnsByTheBlendAboutTheCenterThatTheBlendMoves)
   Skinning skinning;
   ASSERT_TRUE(skinning.bind(context, weights).ok());
   Points posed;
-  ASSERT_TRUE(skinning.about_centers(context, box.points, maps, centers, posed).ok());
+  ASSERT_TRUE(skinning.centers_of_rotation(context, box.points, maps, centers, posed).ok());
   for (Index v = 0; v < box.points.rows(); ++v)
   {
     Index largest = 0;
@@ -331,14 +332,14 @@ TEST(RotationCenters, DoNotDependOnThreadsOrOrderAndFollowTheShape)
 {
   const TetMesh bar = test::tet_box(16, 4, 4, Vec3::Zero(), Vec3(4, 1, 1));
   const Weights weights = smooth_weights(bar.points, 4);
-  const Points one = found_centers(bar.points, bar.tets, weights, {}, 1);
-  EXPECT_EQ(one, found_centers(bar.points, bar.tets, weights, {}, 4));
+  const Points one_thread = computed_centers(bar.points, bar.tets, weights, {}, 1);
+  EXPECT_EQ(one_thread, computed_centers(bar.points, bar.tets, weights, {}, 4));
   const Affine motion = affine(8.0 * rotation(33, Vec3(1, 2, 0)), Vec3(5, 6, 7));
-  EXPECT_LT(largest_distance(
-              found_centers(moved(bar.points, motion), bar.tets, weights), moved(one, motion)),
+  EXPECT_LT(largest_distance(computed_centers(moved(bar.points, motion), bar.tets, weights),
+              moved(one_thread, motion)),
     1e-11);
   const Tets reversed = bar.tets.colwise().reverse();
-  EXPECT_LT(largest_distance(found_centers(bar.points, reversed, weights), one), 1e-12);
+  EXPECT_LT(largest_distance(computed_centers(bar.points, reversed, weights), one_thread), 1e-12);
 }
 
 TEST(RotationCenters, BadInputAndCancel)
@@ -376,9 +377,9 @@ TEST(RotationCenters, BadInputAndCancel)
   ASSERT_TRUE(skinning.bind(context, weights).ok());
   Points posed;
   const std::vector<Affine> turn{ affine(rotation(90, Vec3(0, 0, 1)), Vec3(1, 0, 0)) };
-  ASSERT_TRUE(skinning.about_centers(context, box.points, turn, centers, posed).ok());
+  ASSERT_TRUE(skinning.centers_of_rotation(context, box.points, turn, centers, posed).ok());
   EXPECT_EQ(posed, box.points) << "rows of zeros rest";
-  EXPECT_EQ(skinning.about_centers(context, box.points, turn, Points(2, 3), posed).code,
+  EXPECT_EQ(skinning.centers_of_rotation(context, box.points, turn, Points(2, 3), posed).code,
     StatusCode::invalid_input);
   context.request_cancel();
   EXPECT_EQ(code({}), StatusCode::canceled);

@@ -384,9 +384,9 @@ TEST(StretchableBones, ATwistTurnsByTheEndpointWeightAndKeepsTheRadius)
   EXPECT_LT((posed - quarter).cwiseAbs().maxCoeff(), 1e-15);
   // If an endpoint weight is painted, it replaces the computed weight. NaN means that the weight is
   // not painted.
-  Weights painted = Weights::Constant(16, 1, 0.25);
-  painted(3, 0) = std::numeric_limits<double>::quiet_NaN();
-  posed = stretched(points, ones, { identity_affine() }, { bone }, painted);
+  Weights endpoint_weights = Weights::Constant(16, 1, 0.25);
+  endpoint_weights(3, 0) = std::numeric_limits<double>::quiet_NaN();
+  posed = stretched(points, ones, { identity_affine() }, { bone }, endpoint_weights);
   EXPECT_LT((posed.row(3) - quarter.row(3)).norm(), 1e-15);
   quarter = moved(points, turn_about(45.0, Vec3::UnitX()));
   EXPECT_LT((posed.row(4) - quarter.row(4)).norm(), 1e-15);
@@ -422,7 +422,7 @@ TEST(StretchableBones, WithoutAChangeAreLinearBlendBitForBit)
 namespace
 {
 /// Evaluate the definition of stretchable bones, point by point and weight by weight.
-Points stretched_one_by_one(const Points& points, const Weights& weights,
+Points reference_stretched(const Points& points, const Weights& weights,
   const std::vector<Affine>& transforms, const std::vector<BoneChange>& bones,
   const Weights& endpoints)
 {
@@ -463,19 +463,19 @@ TEST(StretchableBones, AreTheirDefinitionInBothPrecisions)
     // Most of these vertex counts do not fill the last tile of vertices.
     const Index vertices = 1 + random.below(70), handles = 1 + random.below(6);
     Points points(vertices, 3);
-    Weights weights(vertices, handles), painted(vertices, handles);
+    Weights weights(vertices, handles), endpoint_weights(vertices, handles);
     for (Index v = 0; v < vertices; ++v)
     {
       points.row(v) = (Vec3(3, -2, 1) + random.in_box(-2.0 * ones, 2.0 * ones)).transpose();
       for (Index j = 0; j < handles; ++j)
       {
         weights(v, j) = random.below(2) == 0 ? 0.0 : between(0.0, 1.0);
-        painted(v, j) = random.below(2) == 0 ? std::nan("") : between(0.0, 1.0);
+        endpoint_weights(v, j) = random.below(2) == 0 ? std::nan("") : between(0.0, 1.0);
       }
     }
     if (trial % 2 == 0)
     {
-      painted.resize(0, 0);
+      endpoint_weights.resize(0, 0);
     }
     std::vector<Affine> transforms;
     std::vector<BoneChange> bones;
@@ -499,9 +499,11 @@ TEST(StretchableBones, AreTheirDefinitionInBothPrecisions)
       }
       bones.push_back(bone);
     }
-    const Points expected = stretched_one_by_one(points, weights, transforms, bones, painted);
-    EXPECT_LT(
-      (stretched(points, weights, transforms, bones, painted) - expected).cwiseAbs().maxCoeff(),
+    const Points expected =
+      reference_stretched(points, weights, transforms, bones, endpoint_weights);
+    EXPECT_LT((stretched(points, weights, transforms, bones, endpoint_weights) - expected)
+                .cwiseAbs()
+                .maxCoeff(),
       1e-12);
     ExecutionContext context;
     Skinning floats;
@@ -509,7 +511,8 @@ TEST(StretchableBones, AreTheirDefinitionInBothPrecisions)
     options.single_precision = true;
     ASSERT_TRUE(floats.bind(context, weights, options).ok());
     Points posed;
-    ASSERT_TRUE(floats.stretchable_bones(context, points, transforms, bones, painted, posed).ok());
+    ASSERT_TRUE(
+      floats.stretchable_bones(context, points, transforms, bones, endpoint_weights, posed).ok());
     // In single precision, a twist of ten turns has an error of about 2^-24 times ten turns.
     EXPECT_LT((posed - expected).cwiseAbs().maxCoeff(), 2e-4);
   }
@@ -742,10 +745,10 @@ TEST(Skinning, DroppedWeightsAreCountedAndTheirErrorIsBounded)
     options.smallest_weight = smallest;
     options.influences = influences;
     Index dropped = 0;
-    double share = 0.0;
-    Points twin(rig.mesh.points.rows(), 3);
+    double dropped_weight = 0.0;
+    Points expected(rig.mesh.points.rows(), 3);
     double reach = 0.0; // largest distance between two images of a point, each under one handle
-    for (Index v = 0; v < twin.rows(); ++v)
+    for (Index v = 0; v < expected.rows(); ++v)
     {
       std::vector<std::pair<double, Index>> row;
       for (Index j = 0; j < 5; ++j)
@@ -767,8 +770,8 @@ TEST(Skinning, DroppedWeightsAreCountedAndTheirErrorIsBounded)
         (keep ? kept : lost) += w;
         sum += keep ? Vec3(w * place) : Vec3::Zero();
       }
-      share = std::max(share, lost);
-      twin.row(v) = (sum / kept).transpose();
+      dropped_weight = std::max(dropped_weight, lost);
+      expected.row(v) = (sum / kept).transpose();
       for (const Vec3& a : places)
       {
         for (const Vec3& b : places)
@@ -781,9 +784,9 @@ TEST(Skinning, DroppedWeightsAreCountedAndTheirErrorIsBounded)
     Status bound;
     const Blends fewer = blends_of(rig.mesh.points, weights, transforms, pivots, options, &bound);
     EXPECT_EQ(bound.report.number("counts.dropped_weights", -1), static_cast<double>(dropped));
-    EXPECT_NEAR(bound.report.number("dropped_share", -1), share, 1e-12);
-    EXPECT_LT(largest_distance(fewer.linear, twin), 1e-12);
-    EXPECT_LE(largest_distance(fewer.linear, exact.linear), share * reach + 1e-12);
+    EXPECT_NEAR(bound.report.number("dropped_share", -1), dropped_weight, 1e-12);
+    EXPECT_LT(largest_distance(fewer.linear, expected), 1e-12);
+    EXPECT_LE(largest_distance(fewer.linear, exact.linear), dropped_weight * reach + 1e-12);
   }
   ExecutionContext context;
   Skinning skinning;

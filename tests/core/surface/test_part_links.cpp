@@ -47,19 +47,19 @@ struct Shape
 };
 
 std::vector<PartLink> links_of(
-  const Shape& shape, const std::vector<char>& held, const PartLinkOptions& options)
+  const Shape& shape, const std::vector<char>& constrained, const PartLinkOptions& options)
 {
   ExecutionContext context;
   std::vector<PartLink> links;
-  const Status status =
-    link_parts(context, shape.mesh.points, shape.mesh.triangles, shape.parts, held, options, links);
+  const Status status = link_parts(
+    context, shape.mesh.points, shape.mesh.triangles, shape.parts, constrained, options, links);
   EXPECT_TRUE(status.ok()) << status.message;
   return links;
 }
 
-/// Return the total length of the shortest links that connect every part to a fixed part (`held`).
-/// The links are found among all pairs of triangles.
-double shortest_forest(const Shape& shape, const std::vector<char>& held)
+/// Return the total length of the shortest links that connect every part to a fixed part
+/// (`constrained`). The links are found among all pairs of triangles.
+double shortest_forest(const Shape& shape, const std::vector<char>& constrained)
 {
   struct Edge
   {
@@ -73,21 +73,21 @@ double shortest_forest(const Shape& shape, const std::vector<char>& held)
     {
       if (shape.parts[f] != shape.parts[g])
       {
-        std::array<Vec3, 2> places;
-        edges.push_back({ nearest_places(corners_of_triangle(shape.mesh, f),
-                            corners_of_triangle(shape.mesh, g), places),
+        std::array<Vec3, 2> positions;
+        edges.push_back({ nearest_points(corners_of_triangle(shape.mesh, f),
+                            corners_of_triangle(shape.mesh, g), positions),
           shape.parts[f], shape.parts[g] });
       }
     }
   }
   std::sort(
     edges.begin(), edges.end(), [](const Edge& x, const Edge& y) { return x.length < y.length; });
-  DisjointSets<Index> sets(held.size() + 1); // the last set represents the fixed parts
-  for (std::size_t p = 0; p < held.size(); ++p)
+  DisjointSets<Index> sets(constrained.size() + 1); // the last set represents the fixed parts
+  for (std::size_t p = 0; p < constrained.size(); ++p)
   {
-    if (held[p])
+    if (constrained[p])
     {
-      sets.unite(static_cast<Index>(p), static_cast<Index>(held.size()));
+      sets.unite(static_cast<Index>(p), static_cast<Index>(constrained.size()));
     }
   }
   double total = 0.0;
@@ -119,9 +119,9 @@ TEST(PartLinks, NearestPlacesAreNearerThanAllSamples)
     {
       b[2] = 0.5 * (b[0] + b[1]); // makes the triangle degenerate
     }
-    std::array<Vec3, 2> places;
-    const double distance = nearest_places(a, b, places);
-    EXPECT_NEAR((places[0] - places[1]).norm(), distance, 1e-12);
+    std::array<Vec3, 2> positions;
+    const double distance = nearest_points(a, b, positions);
+    EXPECT_NEAR((positions[0] - positions[1]).norm(), distance, 1e-12);
     crossing += distance == 0.0;
     constexpr int steps = 24;
     double nearest = 1e300;
@@ -148,7 +148,7 @@ TEST(PartLinks, NearestPlacesAreNearerThanAllSamples)
     EXPECT_LE(distance, nearest + 1e-12);
     EXPECT_GE(distance, nearest - 0.15) << "samples are at most this far from any place";
     std::array<Vec3, 2> back;
-    EXPECT_NEAR(nearest_places(b, a, back), distance, 1e-12);
+    EXPECT_NEAR(nearest_points(b, a, back), distance, 1e-12);
   }
   EXPECT_GT(crossing, 10);
 }
@@ -164,25 +164,25 @@ TEST(PartLinks, AreTheShortestForestOfAllPairs)
       const Vec3 lower = random_point(random, 10.0);
       shape.add(box(lower, lower + Vec3::Constant(0.2) + random_point(random, 0.5)));
     }
-    std::vector<char> held(40, 0);
-    held[seed] = held[7 * seed] = 1;
-    const std::vector<PartLink> links = links_of(shape, held, { 0.0, 1.0 });
+    std::vector<char> constrained(40, 0);
+    constrained[seed] = constrained[7 * seed] = 1;
+    const std::vector<PartLink> links = links_of(shape, constrained, { 0.0, 1.0 });
     double total = 0.0;
-    DisjointSets<Index> sets(held.size());
+    DisjointSets<Index> sets(constrained.size());
     for (const PartLink& link : links)
     {
-      total += (link.places[0] - link.places[1]).norm();
+      total += (link.positions[0] - link.positions[1]).norm();
       sets.unite(shape.parts[link.triangles[0]], shape.parts[link.triangles[1]]);
       for (int k = 0; k < 2; ++k)
       {
         std::array<Vec3, 2> on;
-        const Vec3& place = link.places[k];
-        EXPECT_LT(nearest_places({ place, place, place },
+        const Vec3& position = link.positions[k];
+        EXPECT_LT(nearest_points({ position, position, position },
                     corners_of_triangle(shape.mesh, link.triangles[k]), on),
           1e-12);
       }
     }
-    EXPECT_NEAR(total, shortest_forest(shape, held), 1e-9);
+    EXPECT_NEAR(total, shortest_forest(shape, constrained), 1e-9);
     for (Index p = 0; p < 40; ++p)
     {
       EXPECT_TRUE(sets.find(p) == sets.find(static_cast<Index>(seed)) ||
@@ -206,7 +206,7 @@ TEST(PartLinks, LeadToEverythingThatALoosePartTouches)
   std::set<Index> linked;
   for (const PartLink& link : links)
   {
-    EXPECT_LE((link.places[0] - link.places[1]).norm(), 0.02);
+    EXPECT_LE((link.positions[0] - link.positions[1]).norm(), 0.02);
     linked.insert(shape.parts[link.triangles[0]]);
     linked.insert(shape.parts[link.triangles[1]]);
   }
@@ -226,7 +226,7 @@ TEST(PartLinks, LeaveOutTrianglesOfNoPart)
   std::replace(shape.parts.begin(), shape.parts.end(), Index(1), Index(-1));
   const std::vector<PartLink> links = links_of(shape, { 1, 1, 0 }, { 0.0, 1.0 });
   ASSERT_EQ(links.size(), 1U);
-  EXPECT_NEAR((links[0].places[0] - links[0].places[1]).norm(), 2.0, 1e-12);
+  EXPECT_NEAR((links[0].positions[0] - links[0].positions[1]).norm(), 2.0, 1e-12);
 }
 
 TEST(PartLinks, RefusesWhatItCannotUse)
@@ -235,10 +235,10 @@ TEST(PartLinks, RefusesWhatItCannotUse)
   shape.add(box(Vec3(0, 0, 0), Vec3(1, 1, 1)));
   ExecutionContext context;
   std::vector<PartLink> links;
-  const auto code = [&](const std::vector<char>& held, const PartLinkOptions& options)
+  const auto code = [&](const std::vector<char>& constrained, const PartLinkOptions& options)
   {
     return link_parts(
-      context, shape.mesh.points, shape.mesh.triangles, shape.parts, held, options, links)
+      context, shape.mesh.points, shape.mesh.triangles, shape.parts, constrained, options, links)
       .code;
   };
   EXPECT_EQ(code({ 0 }, { 0.0, 1.0 }), StatusCode::invalid_input);

@@ -16,12 +16,12 @@ namespace
 struct Listed
 {
   RepairedSurface repaired;
-  std::vector<DefectPlace> places;
+  std::vector<DefectOccurrence> places;
 
-  std::vector<DefectPlace> of(Defect defect) const
+  std::vector<DefectOccurrence> of(Defect defect) const
   {
-    std::vector<DefectPlace> some;
-    for (const DefectPlace& place : this->places)
+    std::vector<DefectOccurrence> some;
+    for (const DefectOccurrence& place : this->places)
     {
       if (place.defect == defect)
       {
@@ -70,7 +70,7 @@ TEST(SurfaceDefects, AnOpenCubeShowsItsRim)
   const Listed found = listed(cube);
   expect_the_counts(found);
   ASSERT_EQ(found.places.size(), 4u);
-  for (const DefectPlace& place : found.places)
+  for (const DefectOccurrence& place : found.places)
   {
     EXPECT_EQ(place.defect, Defect::boundary_edge);
     ASSERT_EQ(place.vertices.size(), 2u);
@@ -124,7 +124,7 @@ TEST(SurfaceDefects, MisorientedEdgesAreThoseOfTheInputEvenWhenRepaired)
     expect_the_counts(found);
     const auto edges = found.of(Defect::misoriented_edge);
     ASSERT_EQ(edges.size(), 3u);
-    for (const DefectPlace& edge : edges)
+    for (const DefectOccurrence& edge : edges)
     {
       for (const Index v : edge.vertices)
       {
@@ -144,7 +144,7 @@ TEST(SurfaceDefects, CrossingTrianglesNameEachOther)
   ASSERT_FALSE(crossings.empty());
   const Index half = mesh.triangles.rows() / 2;
   std::map<Index, Index> met;
-  for (const DefectPlace& place : crossings)
+  for (const DefectOccurrence& place : crossings)
   {
     EXPECT_NE(place.triangle < half, place.crossed < half) << "a sphere does not cross itself";
     EXPECT_EQ(place.component, place.triangle < half ? 0 : 1);
@@ -173,7 +173,7 @@ TEST(SurfaceDefects, InwardComponents)
   expect_the_counts(found);
   const auto inward = found.of(Defect::inward_component);
   ASSERT_EQ(static_cast<Index>(inward.size()), mesh.triangles.rows() / 2);
-  for (const DefectPlace& place : inward)
+  for (const DefectOccurrence& place : inward)
   {
     EXPECT_GE(place.triangle, mesh.triangles.rows() / 2);
     EXPECT_EQ(place.component, 1);

@@ -128,7 +128,7 @@ TEST(SurfaceRepair, TurnsTheSmallerPartOfAPatch)
   }
   const double volume = signed_volume(test::sphere(3).points, test::sphere(3).triangles);
   const RepairedSurface repaired = repair(mesh);
-  EXPECT_EQ(repaired.turned_triangles, turned);
+  EXPECT_EQ(repaired.flipped_triangles, turned);
   EXPECT_GT(repaired.found.misoriented_edges, 0);
   EXPECT_TRUE(repaired.clean());
   EXPECT_NEAR(signed_volume(repaired.points, repaired.triangles), volume, 1e-12);
@@ -157,7 +157,7 @@ TEST(SurfaceRepair, OneSidedPatchesStay)
     strip.triangles.row(2 * i + 1) << b, c, d;
   }
   const RepairedSurface repaired = repair(strip);
-  EXPECT_EQ(repaired.turned_triangles, 0);
+  EXPECT_EQ(repaired.flipped_triangles, 0);
   EXPECT_EQ(repaired.triangles, strip.triangles);
 }
 
@@ -169,15 +169,15 @@ TEST(SurfaceRepair, InsideOutComponentsAreTurnedWithWhatLiesInThem)
     signed_volume(outer.points, outer.triangles) - signed_volume(inner.points, inner.triangles);
   const TriangleMesh cavity = test::join(outer, test::flipped(inner));
   EXPECT_EQ(diagnose(cavity).inward_components, 0) << "a cavity is not a mistake";
-  EXPECT_EQ(repair(cavity).turned_components, 0);
+  EXPECT_EQ(repair(cavity).flipped_components, 0);
   const RepairedSurface repaired = repair(test::flipped(cavity));
   EXPECT_EQ(repaired.found.inward_components, 1);
-  EXPECT_EQ(repaired.turned_components, 1);
+  EXPECT_EQ(repaired.flipped_components, 1);
   EXPECT_NEAR(signed_volume(repaired.points, repaired.triangles), shell, 1e-12);
   // There are two separate solids. One of them is inside out.
   const TriangleMesh far = test::translated(inner, Vec3(9, 0, 0));
   const RepairedSurface two = repair(test::join(outer, test::flipped(far)));
-  EXPECT_EQ(two.turned_components, 1);
+  EXPECT_EQ(two.flipped_components, 1);
   EXPECT_NEAR(signed_volume(two.points, two.triangles),
     signed_volume(outer.points, outer.triangles) + signed_volume(inner.points, inner.triangles),
     1e-12);
@@ -198,7 +198,7 @@ TEST(SurfaceRepair, SolidsThatTouchAreTurnedOneByOne)
   const RepairedSurface repaired = repair(chain);
   EXPECT_EQ(repaired.found.components, 1);
   EXPECT_EQ(repaired.found.inward_components, count / 2);
-  EXPECT_EQ(repaired.turned_components, count / 2);
+  EXPECT_EQ(repaired.flipped_components, count / 2);
   EXPECT_NEAR(signed_volume(repaired.points, repaired.triangles), count, 1e-12);
 }
 
@@ -221,7 +221,7 @@ TEST(SurfaceRepair, ACavityThatTouchesStaysACavity)
       const TriangleMesh hollow = test::join(test::cube(), test::flipped(tet));
       const RepairedSurface repaired = repair(inward ? test::flipped(hollow) : hollow);
       EXPECT_EQ(repaired.found.components, 1);
-      EXPECT_EQ(repaired.turned_components, inward ? 1 : 0);
+      EXPECT_EQ(repaired.flipped_components, inward ? 1 : 0);
       EXPECT_NEAR(signed_volume(repaired.points, repaired.triangles), 8.0 - inner, 1e-12);
     }
   }

@@ -10,16 +10,16 @@ using namespace bindpose;
 TEST(TriangleShape, SmallestCornerIsTheAnalyticAngle)
 {
   EXPECT_NEAR(
-    smallest_corner(Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(1, std::sqrt(3.0), 0)), 60.0, 1e-12);
+    smallest_triangle_angle(Vec3(0, 0, 0), Vec3(2, 0, 0), Vec3(1, std::sqrt(3.0), 0)), 60.0, 1e-12);
   const Vec3 shift(5, -7, 3);
   for (const double height : { 1.0, 0.1, 1e-6 })
   {
     SCOPED_TRACE(height);
     const double degrees = std::atan(height) * 180.0 / M_PI;
     const Vec3 a = shift, b = shift + Vec3(1, 0, 0), c = shift + Vec3(1, 0, height);
-    EXPECT_NEAR(smallest_corner(a, b, c) / degrees, 1.0, 1e-8);
-    EXPECT_NEAR(smallest_corner(c, a, b) / degrees, 1.0, 1e-8);
-    EXPECT_NEAR(smallest_corner(c, b, a) / degrees, 1.0, 1e-8);
+    EXPECT_NEAR(smallest_triangle_angle(a, b, c) / degrees, 1.0, 1e-8);
+    EXPECT_NEAR(smallest_triangle_angle(c, a, b) / degrees, 1.0, 1e-8);
+    EXPECT_NEAR(smallest_triangle_angle(c, b, a) / degrees, 1.0, 1e-8);
   }
 }
 

@@ -97,10 +97,10 @@ Index unused_vertices(const TetMesh& mesh)
   return count;
 }
 
-bool improve(TetMesh& mesh, const std::vector<char>& held, Improvement& done)
+bool improve(TetMesh& mesh, const std::vector<char>& constrained, Improvement& done)
 {
   ExecutionContext context;
-  return improve_tets(context, mesh, held, {}, ImproveOptions(), done);
+  return improve_tets(context, mesh, constrained, {}, ImproveOptions(), done);
 }
 } // namespace
 
@@ -303,10 +303,10 @@ TEST(TetImprovement, VerticesTooNearToOthersGo)
     const Index fresh = split_edge(mesh, vertex_at(mesh, c.from), vertex_at(mesh, c.to), 1e-6);
     ASSERT_TRUE(check_tets(mesh.points, mesh.tets).ok());
     ASSERT_LT(angle(mesh), 1e-3);
-    std::vector<char> held(mesh.points.rows(), 1);
-    held[fresh] = 0;
+    std::vector<char> constrained(mesh.points.rows(), 1);
+    constrained[fresh] = 0;
     Improvement done;
-    ASSERT_TRUE(improve(mesh, held, done));
+    ASSERT_TRUE(improve(mesh, constrained, done));
     EXPECT_EQ(done.collapsed_edges, 1);
     EXPECT_FALSE(uses(mesh, fresh));
     EXPECT_EQ(tet_set(mesh.tets), tet_set(box.tets));
@@ -320,15 +320,15 @@ TEST(TetImprovement, HeldVerticesNeverGo)
   const Index inside = vertex_at(mesh, Vec3(0.5, 0.5, 0.5));
   const Index fresh = split_edge(mesh, inside, vertex_at(mesh, Vec3(0.5, 0.5, 0.75)), 1e-6);
   ImproveOptions options;
-  options.least_angle = 0.0; // no angle is below 0 degrees, so held vertices do not move
+  options.release_angle = 0.0; // no angle is below 0 degrees, so held vertices do not move
   ExecutionContext context;
   Improvement done;
   for (const bool both : { true, false })
   {
     TetMesh better = mesh;
-    std::vector<char> held(mesh.points.rows(), 1);
-    held[inside] = both;
-    ASSERT_TRUE(improve_tets(context, better, held, {}, options, done));
+    std::vector<char> constrained(mesh.points.rows(), 1);
+    constrained[inside] = both;
+    ASSERT_TRUE(improve_tets(context, better, constrained, {}, options, done));
     EXPECT_TRUE(uses(better, fresh));
     EXPECT_EQ(uses(better, inside), both);
     EXPECT_EQ(better.points, mesh.points);
@@ -425,12 +425,12 @@ TEST(TetImprovement, AFlatTetByItselfGoes)
   }
   ASSERT_TRUE(check_tets(mesh.points, mesh.tets).ok());
   ASSERT_LT(angle(mesh), 8.0);
-  for (const bool held : { false, true })
+  for (const bool constrained : { false, true })
   {
     TetMesh better = mesh;
     Improvement done;
-    ASSERT_TRUE(improve(better, std::vector<char>(mesh.points.rows(), held), done));
-    EXPECT_EQ(done.removed_tets, held ? 0 : 1);
-    EXPECT_EQ(better.tets.rows(), mesh.tets.rows() - (held ? 0 : 1));
+    ASSERT_TRUE(improve(better, std::vector<char>(mesh.points.rows(), constrained), done));
+    EXPECT_EQ(done.removed_tets, constrained ? 0 : 1);
+    EXPECT_EQ(better.tets.rows(), mesh.tets.rows() - (constrained ? 0 : 1));
   }
 }

@@ -64,17 +64,17 @@ TEST(TetInsertion, SplittingEndsAtTheNumberOfTets)
 TEST(TetInsertion, PlacesBecomeVertices)
 {
   TetMesh mesh = test::tet_box(1, 1, 1);
-  Points places(4, 3);
+  Points positions(4, 3);
   // The points are in general position, on the cube's diagonal, on its boundary, and outside.
-  places << 0.3, 0.41, 0.2, 0.5, 0.5, 0.5, 0.0, 0.31, 0.4, 1.5, 0.5, 0.5;
+  positions << 0.3, 0.41, 0.2, 0.5, 0.5, 0.5, 0.0, 0.31, 0.4, 1.5, 0.5, 0.5;
   std::vector<Index> vertices;
   ExecutionContext context;
-  ASSERT_TRUE(insert_vertices(context, mesh, places, vertices));
+  ASSERT_TRUE(insert_vertices(context, mesh, positions, vertices));
   ASSERT_EQ(vertices.size(), 4u);
   for (const int i : { 0, 1 })
   {
     ASSERT_GE(vertices[i], 8);
-    EXPECT_EQ(mesh.points.row(vertices[i]), places.row(i));
+    EXPECT_EQ(mesh.points.row(vertices[i]), positions.row(i));
   }
   EXPECT_EQ(vertices[2], -1);
   EXPECT_EQ(vertices[3], -1);
@@ -88,11 +88,11 @@ TEST(TetInsertion, ManyPlacesAreInserted)
   TetMesh mesh = test::tet_box(3, 3, 3);
   std::mt19937 random(1);
   std::uniform_real_distribution<double> within(0.05, 0.95);
-  Points places(500, 3);
-  std::generate_n(places.data(), places.size(), [&] { return within(random); });
+  Points positions(500, 3);
+  std::generate_n(positions.data(), positions.size(), [&] { return within(random); });
   std::vector<Index> vertices;
   ExecutionContext context;
-  ASSERT_TRUE(insert_vertices(context, mesh, places, vertices));
+  ASSERT_TRUE(insert_vertices(context, mesh, positions, vertices));
   EXPECT_EQ(std::count(vertices.begin(), vertices.end(), -1), 0);
   expect_cube(mesh);
 }
@@ -103,18 +103,18 @@ TEST(TetInsertion, PlacesAreFoundAgainWhenReplacedTetsAreDropped)
   // several times as many ids as tets.
   TetMesh mesh = test::tet_box(3, 3, 3);
   test::Random random(23);
-  Points places(20000, 3);
-  for (Index i = 0; i < places.rows(); ++i)
+  Points positions(20000, 3);
+  for (Index i = 0; i < positions.rows(); ++i)
   {
-    places.row(i) = random.in_box(Vec3::Constant(0.01), Vec3::Constant(0.99));
+    positions.row(i) = random.in_box(Vec3::Constant(0.01), Vec3::Constant(0.99));
   }
   std::vector<Index> vertices;
   ExecutionContext context;
-  ASSERT_TRUE(insert_vertices(context, mesh, places, vertices));
+  ASSERT_TRUE(insert_vertices(context, mesh, positions, vertices));
   EXPECT_EQ(std::count(vertices.begin(), vertices.end(), -1), 0);
-  for (Index i = 0; i < places.rows(); ++i)
+  for (Index i = 0; i < positions.rows(); ++i)
   {
-    EXPECT_EQ(mesh.points.row(vertices[i]), places.row(i));
+    EXPECT_EQ(mesh.points.row(vertices[i]), positions.row(i));
   }
   expect_cube(mesh);
 }
@@ -125,10 +125,10 @@ TEST(TetInsertion, ThreadsMakeNoDifference)
   // created, and many points of one batch need the same tets.
   const TetMesh box = test::tet_box(3, 3, 3);
   test::Random random(17);
-  Points places(10 * box.tets.rows(), 3);
-  for (Index i = 0; i < places.rows(); ++i)
+  Points positions(10 * box.tets.rows(), 3);
+  for (Index i = 0; i < positions.rows(); ++i)
   {
-    places.row(i) = random.in_box(Vec3::Constant(0.01), Vec3::Constant(0.99));
+    positions.row(i) = random.in_box(Vec3::Constant(0.01), Vec3::Constant(0.99));
   }
   TetMesh one;
   for (const int threads : { 1, 2, 8 })
@@ -138,12 +138,12 @@ TEST(TetInsertion, ThreadsMakeNoDifference)
     ExecutionContext context;
     context.set_threads(threads);
     std::vector<Index> vertices;
-    ASSERT_TRUE(insert_vertices(context, mesh, places, vertices));
+    ASSERT_TRUE(insert_vertices(context, mesh, positions, vertices));
     expect_cube(mesh);
-    for (Index i = 0; i < places.rows(); ++i)
+    for (Index i = 0; i < positions.rows(); ++i)
     {
       ASSERT_GE(vertices[i], box.points.rows()) << i;
-      ASSERT_EQ(mesh.points.row(vertices[i]), places.row(i)) << i;
+      ASSERT_EQ(mesh.points.row(vertices[i]), positions.row(i)) << i;
     }
     if (threads == 1)
     {

@@ -108,8 +108,8 @@ TEST(TetQuality, CrumbsAndLoneTetsGo)
   ASSERT_TRUE(check_tets(mesh.points, mesh.tets).ok());
   Tets tets = mesh.tets;
   std::vector<TetFacet> facets = tet_facets(tets);
-  EXPECT_EQ(drop_crumbs(mesh.points, tets, facets), 0);
-  EXPECT_EQ(drop_crumbs(mesh.points, tets, facets, 1e-4), 1);
+  EXPECT_EQ(remove_small_components(mesh.points, tets, facets), 0);
+  EXPECT_EQ(remove_small_components(mesh.points, tets, facets, 1e-4), 1);
   EXPECT_EQ(tets, mesh.tets.topRows(m + 2));
   EXPECT_EQ(facets.size(), static_cast<std::size_t>(4 * tets.rows()));
   EXPECT_TRUE(check_tets(mesh.points, tets, facets).ok());

@@ -228,10 +228,10 @@ TEST(InverseDistance, IsShepards)
     {
       labeled = std::min(labeled, (p - q).norm());
     }
-    Vec3 shares((p - handles[0].head).norm(), bone, labeled);
-    shares = shares.array().pow(-3.0);
-    shares /= shares.sum();
-    EXPECT_LT((result.weights.row(v).transpose() - shares).cwiseAbs().maxCoeff(), 1e-6);
+    Vec3 expected((p - handles[0].head).norm(), bone, labeled);
+    expected = expected.array().pow(-3.0);
+    expected /= expected.sum();
+    EXPECT_LT((result.weights.row(v).transpose() - expected).cwiseAbs().maxCoeff(), 1e-6);
   }
 }
 

@@ -37,7 +37,7 @@ VertexGraph path(Index count)
 double climb(
   const VertexGraph& graph, const Eigen::VectorXd& f, const std::vector<char>& exempt, Index from)
 {
-  std::vector<char> seen(static_cast<std::size_t>(f.size()), 0);
+  std::vector<char> visited(static_cast<std::size_t>(f.size()), 0);
   using Entry = std::pair<double, Index>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
   open.emplace(f[from], from);
@@ -46,11 +46,11 @@ double climb(
   {
     const auto [value, v] = open.top();
     open.pop();
-    if (seen[v])
+    if (visited[v])
     {
       continue;
     }
-    seen[v] = 1;
+    visited[v] = 1;
     height = std::max(height, value);
     if (v != from && (exempt[v] || f[v] < f[from]))
     {

@@ -54,8 +54,8 @@ TEST(ExtremaOrder, HasTheListedExtremaWhateverTheValues)
       {
         list[random.below(n)] = i % 2 ? 1 : -1;
       }
-      if (!parts_without(graph, all, list, 1).empty() ||
-        !parts_without(graph, all, list, -1).empty())
+      if (!parts_without_extremum(graph, all, list, 1).empty() ||
+        !parts_without_extremum(graph, all, list, -1).empty())
       {
         continue;
       }

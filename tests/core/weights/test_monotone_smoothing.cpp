@@ -225,7 +225,7 @@ TEST(MonotoneSmoothing, AgreesWithADenseTwin)
                   context, graph, std::vector<char>(std::size_t(n), 1), options.extrema, w, rank),
         0);
       const double least = epsilon * (f.maxCoeff() - f.minCoeff());
-      const auto pairs = pairs_of_order(graph, options.extrema, rank, least);
+      const auto pairs = pairs_from_order(graph, options.extrema, rank, least);
       VectorXd multipliers = VectorXd::Zero(static_cast<Index>(pairs.size()));
       for (int sweep = 0; sweep < 20000; ++sweep)
       {
@@ -234,7 +234,7 @@ TEST(MonotoneSmoothing, AgreesWithADenseTwin)
           const OrderedPair& p = pairs[k];
           const VectorXd direction = inverse.col(p.high) - inverse.col(p.low);
           double& z = multipliers[static_cast<Index>(k)];
-          const double short_of = p.least - (w[p.high] - w[p.low]);
+          const double short_of = p.minimum_difference - (w[p.high] - w[p.low]);
           const double step = std::max(short_of / (direction[p.high] - direction[p.low]), -z);
           z += step;
           w += step * direction;
@@ -465,10 +465,10 @@ TEST(MonotoneSmoothing, ThreadsDoNotChangeABit)
   const VectorXd f = noisy_hills(domain, 0.3);
   MonotoneSmoothingOptions options;
   options.extrema = hills_list(domain);
-  const VectorXd one = smooth(domain, f, options, 1).values;
+  const VectorXd serial = smooth(domain, f, options, 1).values;
   for (const int threads : { 2, 5 })
   {
-    EXPECT_EQ(smooth(domain, f, options, threads).values, one);
+    EXPECT_EQ(smooth(domain, f, options, threads).values, serial);
   }
 }
 
@@ -643,5 +643,5 @@ TEST(MonotoneSmoothing, TooFewIterationsAreSaidAndCancelEndsIt)
   test::CancelLater later(context, 300);
   EXPECT_EQ(monotone_smoothing(context, fine, noisy_hills(fine, 0.3), options, nothing).code,
     StatusCode::canceled);
-  EXPECT_LT(later.waited(), 1.0);
+  EXPECT_LT(later.seconds_since_cancel(), 1.0);
 }

@@ -37,7 +37,7 @@ Status solve_surface_weights(const TriangleMesh& mesh, const Handles& handles,
     context, mesh.points, mesh.triangles, {}, handles, options, {}, bounded_method, result);
 }
 
-SurfaceWeightsOptions in(WeightsDomain domain, Index resolution = 0)
+SurfaceWeightsOptions options_for(WeightsDomain domain, Index resolution = 0)
 {
   SurfaceWeightsOptions options;
   options.domain = domain;
@@ -78,7 +78,8 @@ TEST_F(SurfaceWeightsInTets, OfTheVolumeAreTheStagesByHand)
 {
   const TriangleMesh mesh = long_box();
   SurfaceWeights result;
-  Status status = solve_surface_weights(mesh, three_along(), in(WeightsDomain::volume), result);
+  Status status =
+    solve_surface_weights(mesh, three_along(), options_for(WeightsDomain::volume), result);
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(status.report.text("domain"), "volume");
   EXPECT_EQ(status.report.text("tetrahedralize.method"), "cdt");
@@ -95,11 +96,12 @@ TEST_F(SurfaceWeightsInTets, OfTheVolumeAreTheStagesByHand)
     make_weights_problem(context, test::to_domain(tets.mesh), {}, three_along(), {}, problem).ok());
   WeightsResult solved;
   ASSERT_TRUE(bounded_method(context, problem, solved).ok());
-  Weights carried;
+  Weights transferred;
   TransferCounts counts;
   ASSERT_TRUE(
-    transfer(context, problem.mesh.domain, solved.weights, mesh.points, {}, carried, counts).ok());
-  EXPECT_TRUE((carried.array() == result.weights.array()).all());
+    transfer(context, problem.mesh.domain, solved.weights, mesh.points, {}, transferred, counts)
+      .ok());
+  EXPECT_TRUE((transferred.array() == result.weights.array()).all());
 }
 
 TEST(SurfaceWeights, OfTheEmbeddingAreNearThoseOfAFineVolume)
@@ -119,7 +121,7 @@ TEST(SurfaceWeights, OfTheEmbeddingAreNearThoseOfAFineVolume)
 
   SurfaceWeights result;
   const Status status =
-    solve_surface_weights(mesh, three_along(), in(WeightsDomain::embedding), result);
+    solve_surface_weights(mesh, three_along(), options_for(WeightsDomain::embedding), result);
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(status.report.text("domain"), "embedding");
   expect_weights(result.weights, mesh.points.rows(), 3);
@@ -149,7 +151,7 @@ TEST(SurfaceWeights, ProngsThatAreNearButNotConnectedDoNotShareWeights)
     test::point_handle("a", { 3.8, 0.25, 0.25 }), test::point_handle("b", { 3.8, 0.8, 0.25 }) };
   SurfaceWeights result;
   const Status status =
-    solve_surface_weights(fork, handles, in(WeightsDomain::embedding, 13), result);
+    solve_surface_weights(fork, handles, options_for(WeightsDomain::embedding, 13), result);
   ASSERT_TRUE(status.usable()) << status.message;
   for (Index v = 0; v < fork.points.rows(); ++v)
   {
@@ -173,7 +175,7 @@ TEST(SurfaceWeights, BonesInPartsThatShareTetsFindTheirOwn)
   const Status status = solve_surface_weights(slabs,
     { test::bone_handle("low", { 0.5, 2, 0.05 }, { 3.5, 2, 0.05 }),
       test::bone_handle("high", { 0.5, 2, 0.2 }, { 3.5, 2, 0.2 }) },
-    in(WeightsDomain::embedding, 8), result);
+    options_for(WeightsDomain::embedding, 8), result);
   ASSERT_TRUE(status.usable()) << status.message;
   const Index half = below.points.rows();
   EXPECT_GT(result.weights.col(0).head(half).minCoeff(), 1.0 - 1e-6);
@@ -198,7 +200,7 @@ TEST(SurfaceWeights, APartWithoutAHandleFollowsTheHandleNearestToItsSurface)
     test::point_handle("right", { 2.5, 0, 0 }) };
   for (const Index resolution : { 6, 7, 9, 13, 17 })
   {
-    SurfaceWeightsOptions options = in(WeightsDomain::embedding, resolution);
+    SurfaceWeightsOptions options = options_for(WeightsDomain::embedding, resolution);
     options.guard = false;
     SurfaceWeights result;
     const Status status = solve_surface_weights(shape, handles, options, result);
@@ -230,7 +232,7 @@ TEST(SurfaceWeights, APartWithoutAHandleFollowsWhatItTouches)
     test::point_handle("far", { 1, 1.75, 0.25 }) };
   for (const Index resolution : { 12, 20, 30 })
   {
-    SurfaceWeightsOptions options = in(WeightsDomain::embedding, resolution);
+    SurfaceWeightsOptions options = options_for(WeightsDomain::embedding, resolution);
     options.guard = false;
     SurfaceWeights result;
     const Status status = solve_surface_weights(shape, handles, options, result);
@@ -287,10 +289,10 @@ TEST(SurfaceWeights, CarriesSmoothFunctionsBetterThanTetsDo)
   {
     values.row(v) << f(mesh.domain.points.row(v)), 0.25;
   }
-  Weights carried;
+  Weights transferred;
   ASSERT_TRUE(embedded
-                .carry(context, mesh, { test::point_handle("p", Vec3::Zero()) }, values,
-                  EmbeddedSurface::Smoothness::smoothed, carried)
+                .transfer_values(context, mesh, { test::point_handle("p", Vec3::Zero()) }, values,
+                  EmbeddedSurface::Smoothness::smoothed, transferred)
                 .ok());
   double linear = 0.0, smooth = 0.0;
   for (Index i = 0; i < ball.points.rows(); ++i)
@@ -303,8 +305,8 @@ TEST(SurfaceWeights, CarriesSmoothFunctionsBetterThanTetsDo)
         f(lattice.mesh.points.row(lattice.mesh.tets(lattice.binding.tets[i], k)));
     }
     linear += (by_tet - exact) * (by_tet - exact);
-    smooth += (carried(i, 0) - exact) * (carried(i, 0) - exact);
-    EXPECT_NEAR(carried(i, 1), 0.25, 1e-9);
+    smooth += (transferred(i, 0) - exact) * (transferred(i, 0) - exact);
+    EXPECT_NEAR(transferred(i, 1), 0.25, 1e-9);
   }
   EXPECT_LT(smooth, 0.25 * linear) << "half the error of linear interpolation, at most";
 }
@@ -332,8 +334,8 @@ TEST_F(SurfaceWeightsInTets, AutomaticallyChoosesTheDomain)
   EXPECT_EQ(status.report.text("domain_reason"), "the surface is not closed");
   expect_weights(result.weights, sheet.points.rows(), 2);
 
-  status =
-    solve_surface_weights(sheet, { handles[0], handles[1] }, in(WeightsDomain::volume), result);
+  status = solve_surface_weights(
+    sheet, { handles[0], handles[1] }, options_for(WeightsDomain::volume), result);
   // The status may also be a failure, if the tets do not fill enough of the region where the
   // sheet's winding number is high.
   if (status.usable())
@@ -358,15 +360,15 @@ TEST_F(SurfaceWeightsInTets, TheEmbeddingTakesOverWhereTheVolumeFails)
     const WeightsMethod fails_in_volumes =
       [&](ExecutionContext& context, const WeightsProblem& problem, WeightsResult& result)
     {
-      const bool lattice = problem.mesh.domain.shares.size() > 0;
+      const bool lattice = problem.mesh.domain.inside_fractions.size() > 0;
       const Status status = bounded_method(context, problem, result);
       return lattice ? status : failure;
     };
     const auto run = [&](WeightsDomain domain, SurfaceWeights& result)
     {
       ExecutionContext context;
-      return surface_weights(context, box.points, box.triangles, {}, three_along(), in(domain), {},
-        fails_in_volumes, result);
+      return surface_weights(context, box.points, box.triangles, {}, three_along(),
+        options_for(domain), {}, fails_in_volumes, result);
     };
     SurfaceWeights result;
     const Status status = run(WeightsDomain::automatic, result);
@@ -396,10 +398,11 @@ TEST_F(SurfaceWeightsInTets, ACoarserLatticeServesWhereTheFinerOneDoesNotConverg
   SurfaceWeights result;
   int calls = 0;
   const Status status = surface_weights(
-    context, box.points, box.triangles, {}, three_along(), in(WeightsDomain::embedding), {},
-    [&](ExecutionContext& of_method, const WeightsProblem& problem, WeightsResult& weights)
+    context, box.points, box.triangles, {}, three_along(), options_for(WeightsDomain::embedding),
+    {},
+    [&](ExecutionContext& method_context, const WeightsProblem& problem, WeightsResult& weights)
     {
-      Status solved = bounded_method(of_method, problem, weights);
+      Status solved = bounded_method(method_context, problem, weights);
       solved.code = ++calls == 2 ? StatusCode::not_converged : solved.code;
       return solved;
     },
@@ -413,7 +416,7 @@ TEST_F(SurfaceWeightsInTets, ACoarserLatticeServesWhereTheFinerOneDoesNotConverg
 TEST(SurfaceWeights, PreviewComesFirstAndItsDifferenceIsReported)
 {
   const TriangleMesh mesh = long_box();
-  SurfaceWeightsOptions options = in(WeightsDomain::embedding, 24);
+  SurfaceWeightsOptions options = options_for(WeightsDomain::embedding, 24);
   Weights preview;
   int calls = 0;
   bool solved_before = false;
@@ -428,10 +431,10 @@ TEST(SurfaceWeights, PreviewComesFirstAndItsDifferenceIsReported)
   SurfaceWeights result;
   const Status status = surface_weights(
     context, mesh.points, mesh.triangles, {}, three_along(), options, {},
-    [&](ExecutionContext& of_method, const WeightsProblem& problem, WeightsResult& weights)
+    [&](ExecutionContext& method_context, const WeightsProblem& problem, WeightsResult& weights)
     {
       solved = true;
-      return bounded_method(of_method, problem, weights);
+      return bounded_method(method_context, problem, weights);
     },
     result);
   ASSERT_TRUE(status.ok()) << status.message;
@@ -446,7 +449,7 @@ TEST(SurfaceWeights, PreviewComesFirstAndItsDifferenceIsReported)
 TEST(SurfaceWeights, RawOnesAreCarriedOnlyWhenAskedForAndChangeNothing)
 {
   const TriangleMesh mesh = long_box();
-  SurfaceWeightsOptions options = in(WeightsDomain::embedding);
+  SurfaceWeightsOptions options = options_for(WeightsDomain::embedding);
   options.guard = false;
   SurfaceWeights without, with;
   ASSERT_TRUE(solve_surface_weights(mesh, three_along(), options, without).usable());
@@ -466,12 +469,12 @@ TEST(SurfaceWeights, RawOnesAreCarriedOnlyWhenAskedForAndChangeNothing)
 TEST(SurfaceWeights, AreTheSameBitsOnAnyNumberOfThreads)
 {
   SurfaceWeights one, many;
-  ASSERT_TRUE(
-    solve_surface_weights(long_box(), three_along(), in(WeightsDomain::embedding, 16), one, 1)
-      .usable());
-  ASSERT_TRUE(
-    solve_surface_weights(long_box(), three_along(), in(WeightsDomain::embedding, 16), many, 4)
-      .usable());
+  ASSERT_TRUE(solve_surface_weights(
+    long_box(), three_along(), options_for(WeightsDomain::embedding, 16), one, 1)
+                .usable());
+  ASSERT_TRUE(solve_surface_weights(
+    long_box(), three_along(), options_for(WeightsDomain::embedding, 16), many, 4)
+                .usable());
   EXPECT_TRUE((one.weights.array() == many.weights.array()).all());
 }
 
@@ -485,7 +488,8 @@ TEST(SurfaceWeights, PointsOfTheSurfaceThatAreHandlesHaveTheirRows)
   }
   SurfaceWeights result;
   ASSERT_TRUE(
-    solve_surface_weights(mesh, handles, in(WeightsDomain::embedding, 14), result).usable());
+    solve_surface_weights(mesh, handles, options_for(WeightsDomain::embedding, 14), result)
+      .usable());
   Index j = 0;
   for (const Index v : { 0, 77, 201, 333, 512, 640 })
   {
@@ -502,12 +506,12 @@ TEST(SurfaceWeights, UnboundedMethodsAreNotClamped)
   const Handles handles{ test::point_handle("left", { 0.1, 0.5, 0.5 }),
     test::point_handle("middle", { 2.0, 0.5, 0.5 }),
     test::point_handle("right", { 3.9, 0.5, 0.5 }) };
-  SurfaceWeightsOptions options = in(WeightsDomain::embedding, 24);
+  SurfaceWeightsOptions options = options_for(WeightsDomain::embedding, 24);
   options.guard = false;
   const Status status = surface_weights(
     context, mesh.points, mesh.triangles, {}, handles, options, {},
-    [](ExecutionContext& of_method, const WeightsProblem& problem, WeightsResult& weights)
-    { return biharmonic_weights(of_method, problem, {}, weights); },
+    [](ExecutionContext& method_context, const WeightsProblem& problem, WeightsResult& weights)
+    { return biharmonic_weights(method_context, problem, {}, weights); },
     result);
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_LT(result.weights.col(0).minCoeff(), -0.05) << "-1/9 on a thin bar";
@@ -519,18 +523,20 @@ TEST(SurfaceWeights, RefusesWhatItCannotUse)
   SurfaceWeights result;
   const TriangleMesh mesh = test::sphere(2);
   const Handles handles{ test::point_handle("p", { 0, 0, 0.5 }) };
-  EXPECT_THAT(solve_surface_weights(mesh, handles, in(WeightsDomain::embedding, 3), result).message,
+  EXPECT_THAT(
+    solve_surface_weights(mesh, handles, options_for(WeightsDomain::embedding, 3), result).message,
     HasSubstr("between 6 and 1000"));
   EXPECT_EQ(solve_surface_weights(mesh, {}, {}, result).code, StatusCode::invalid_input);
   ExecutionContext context;
   const std::vector<Index> regions(static_cast<std::size_t>(mesh.points.rows()), 1);
-  Status status = surface_weights(context, mesh.points, mesh.triangles, regions,
-    { test::region_handle("r", 1) }, in(WeightsDomain::embedding), {}, bounded_method, result);
+  Status status =
+    surface_weights(context, mesh.points, mesh.triangles, regions, { test::region_handle("r", 1) },
+      options_for(WeightsDomain::embedding), {}, bounded_method, result);
   EXPECT_THAT(status.message, HasSubstr("regions need tets"));
   status = surface_weights(
     context, mesh.points, mesh.triangles, { 1, 2 }, handles, {}, {}, bounded_method, result);
   EXPECT_THAT(status.message, HasSubstr("2 region labels"));
-  SurfaceWeightsOptions canceled = in(WeightsDomain::embedding);
+  SurfaceWeightsOptions canceled = options_for(WeightsDomain::embedding);
   ExecutionContext stopped;
   stopped.request_cancel();
   EXPECT_EQ(surface_weights(stopped, mesh.points, mesh.triangles, {}, handles, canceled, {},

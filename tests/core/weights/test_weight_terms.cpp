@@ -19,7 +19,7 @@ using namespace bindpose;
 
 namespace
 {
-struct Solved
+struct SolvedWeights
 {
   WeightsProblem problem;
   WeightsResult result;
@@ -37,10 +37,11 @@ struct Solved
   }
 };
 
-Solved solve_with_terms(const Domain& domain, const Handles& handles, const WeightsOptions& options,
-  const std::vector<Index>& regions = {}, WeightsKernel kernel = bounded_biharmonic_weights)
+SolvedWeights solve_with_terms(const Domain& domain, const Handles& handles,
+  const WeightsOptions& options, const std::vector<Index>& regions = {},
+  WeightsKernel kernel = bounded_biharmonic_weights)
 {
-  Solved solved;
+  SolvedWeights solved;
   ExecutionContext context;
   solved.status = make_weights_problem(context, domain, regions, handles, options, solved.problem);
   if (solved.status.ok())
@@ -168,7 +169,7 @@ TEST(WeightTerms, BoundsAndPinsAreTheDenseMinimizer)
         kind > 0.55 && kind < 0.6 ? 0.25 * uniform(random) : std::nan("");
     }
   }
-  const Solved solved = solve_with_terms(domain, handles, options);
+  const SolvedWeights solved = solve_with_terms(domain, handles, options);
   ASSERT_TRUE(solved.status.ok()) << solved.status.message;
   const Eigen::MatrixXd q = Eigen::MatrixXd(solved.problem.energy(2));
   for (Index j = 0; j < 3; ++j)
@@ -191,10 +192,11 @@ TEST(WeightTerms, BoundsAndPinsAreTheDenseMinimizer)
     const Eigen::VectorXd w = solved.result.raw.col(j);
     EXPECT_LE((lower - w).maxCoeff(), 0.0);
     EXPECT_LE((w - upper).maxCoeff(), 0.0);
-    const Eigen::VectorXd twin =
+    const Eigen::VectorXd expected =
       coordinate_descent(q, lower, upper, Eigen::VectorXd::Constant(w.size(), 0.3));
-    EXPECT_LE((w - twin).cwiseAbs().maxCoeff(), 1e-5);
-    EXPECT_NEAR(0.5 * w.dot(q * w), 0.5 * twin.dot(q * twin), 1e-8 * twin.dot(q * twin));
+    EXPECT_LE((w - expected).cwiseAbs().maxCoeff(), 1e-5);
+    EXPECT_NEAR(
+      0.5 * w.dot(q * w), 0.5 * expected.dot(q * expected), 1e-8 * expected.dot(q * expected));
     EXPECT_LE(relative_gap(solved.problem.energy(2), w, lower, upper), 2e-9);
     EXPECT_LE(solved.result.columns[j].certificate.relative_gap, 1e-9);
     EXPECT_LE(solved.result.columns[j].certificate.kkt_residual, 1e-9);
@@ -216,7 +218,7 @@ TEST(WeightTerms, BoundsOfHandlesWidenTheBox)
   options.terms.handle_bounds.resize(5, 2);
   options.terms.handle_bounds.col(0).setConstant(-3.0);
   options.terms.handle_bounds.col(1).setConstant(4.0);
-  const Solved wide = solve_with_terms(domain, handles, options);
+  const SolvedWeights wide = solve_with_terms(domain, handles, options);
   ASSERT_TRUE(wide.status.ok()) << wide.status.message;
   ExecutionContext context;
   WeightsResult free;
@@ -308,7 +310,7 @@ TEST(WeightTerms, GradientsFallWithRigidity)
       options.terms.rigidity[v] = x > 0.45 && x < 0.75 ? paint : 0.0;
     }
     options.tolerance = 1e-9;
-    const Solved solved = solve_with_terms(bar.domain, bar.handles, options, bar.region_ids);
+    const SolvedWeights solved = solve_with_terms(bar.domain, bar.handles, options, bar.region_ids);
     ASSERT_TRUE(solved.status.ok()) << solved.status.message;
     steepest.push_back(0.0);
     for (int i = 0; i < n; ++i)
@@ -358,7 +360,7 @@ TEST(WeightTerms, RigidSetsAreOneUnknown)
   const Handles handles = test::five_points();
   WeightsOptions options;
   options.tolerance = 1e-9;
-  const Solved free = solve_with_terms(domain, handles, options);
+  const SolvedWeights free = solve_with_terms(domain, handles, options);
   options.terms.rigid_sets.assign(static_cast<std::size_t>(domain.points.rows()), 0);
   const Vec3 p4 = handles[3].head;
   for (Index v = 0; v < domain.points.rows(); ++v)
@@ -368,7 +370,7 @@ TEST(WeightTerms, RigidSetsAreOneUnknown)
       : (p - p4).norm() < 0.12                                          ? 8
                                                                         : 0;
   }
-  const Solved solved = solve_with_terms(domain, handles, options);
+  const SolvedWeights solved = solve_with_terms(domain, handles, options);
   ASSERT_TRUE(solved.status.ok()) << solved.status.message;
   EXPECT_EQ(solved.result.analyses, 1);
   EXPECT_GT(solved.energy(), 1.01 * free.energy());
@@ -416,7 +418,7 @@ TEST(WeightTerms, RigidSetsAreOneUnknown)
   WeightsOptions joined;
   joined.terms.rigid_sets.assign(static_cast<std::size_t>(2 * count), 0);
   joined.terms.rigid_sets[12] = joined.terms.rigid_sets[12 + count] = 1;
-  const Solved both = solve_with_terms(
+  const SolvedWeights both = solve_with_terms(
     parts, test::point_handles({ Vec3(0, 0, 0), Vec3(1, 1, 0), Vec3(1, 0, 0) }), joined);
   ASSERT_TRUE(both.status.ok()) << both.status.message;
   EXPECT_TRUE(both.status.warnings.empty());
@@ -445,7 +447,7 @@ TEST(WeightTerms, MonotoneWeightsTakeThem)
   const Index pin = 10 * 21 + 5;
   options.terms.pinned(pin, 0) = 0.3;
   options.terms.upper(3 * 21 + 9, 0) = 0.45;
-  const Solved solved = solve_with_terms(domain, handles, options, {}, monotone_weights);
+  const SolvedWeights solved = solve_with_terms(domain, handles, options, {}, monotone_weights);
   ASSERT_TRUE(solved.status.ok()) << solved.status.message;
   EXPECT_EQ(solved.result.raw(pin, 0), 0.3);
   EXPECT_LE(solved.result.raw(3 * 21 + 9, 0), 0.45);
@@ -476,9 +478,9 @@ TEST(WeightTerms, MirroredHandlesHaveMirroredWeights)
     { Vec3(0.25, 0.25, 0), Vec3(0.75, 0.25, 0), Vec3(0.5, 0.75, 0), Vec3(0.125, 0.875, 0) });
   WeightsOptions options;
   options.tolerance = 1e-9;
-  const Solved free = solve_with_terms(domain, handles, options);
+  const SolvedWeights free = solve_with_terms(domain, handles, options);
   options.terms.mirror = mirrored(n);
-  const Solved solved = solve_with_terms(domain, handles, options);
+  const SolvedWeights solved = solve_with_terms(domain, handles, options);
   ASSERT_TRUE(solved.status.ok()) << solved.status.message;
   double free_difference = 0.0;
   for (Index v = 0; v < domain.points.rows(); ++v)
@@ -506,7 +508,7 @@ TEST(WeightTerms, MirroredHandlesHaveMirroredWeights)
   plane.tolerance = 1e-9;
   plane.terms.mirror_origin = Vec3(0.5, 0, 0);
   plane.terms.mirror_normal = Vec3(2, 0, 0);
-  const Solved by_plane = solve_with_terms(domain, handles, plane);
+  const SolvedWeights by_plane = solve_with_terms(domain, handles, plane);
   EXPECT_EQ(by_plane.problem.terms.mirror, options.terms.mirror);
   EXPECT_EQ((by_plane.result.raw - solved.result.raw).cwiseAbs().maxCoeff(), 0.0);
 }
@@ -520,7 +522,7 @@ TEST(WeightTerms, FewInfluences)
   {
     WeightsOptions options;
     options.maximum_influences = most;
-    const Solved solved = solve_with_terms(domain, handles, options);
+    const SolvedWeights solved = solve_with_terms(domain, handles, options);
     ASSERT_TRUE(solved.status.ok()) << solved.status.message;
     for (Index v = 0; v < domain.points.rows(); ++v)
     {
@@ -545,7 +547,7 @@ TEST(WeightTerms, CoupledColumnsAreTheDenseMinimizer)
   WeightsOptions options;
   options.tolerance = 1e-8;
   options.partition = PartitionOfUnity::coupled;
-  const Solved solved = solve_with_terms(domain, handles, options);
+  const SolvedWeights solved = solve_with_terms(domain, handles, options);
   ASSERT_TRUE(solved.status.ok()) << solved.status.message;
   // Compute the reference by coordinate descent. A step moves weight from one column to another at
   // one vertex. Each sweep visits all vertices and all pairs of columns.
@@ -597,15 +599,15 @@ TEST(WeightTerms, CoupledColumnsSumToOne)
   const Domain domain = test::to_domain(test::grid(30, 30));
   const Handles handles = test::five_points();
   WeightsOptions options;
-  const Solved alone = solve_with_terms(domain, handles, options);
+  const SolvedWeights separate = solve_with_terms(domain, handles, options);
   options.partition = PartitionOfUnity::coupled;
-  const Solved solved = solve_with_terms(domain, handles, options);
+  const SolvedWeights solved = solve_with_terms(domain, handles, options);
   ASSERT_TRUE(solved.status.ok()) << solved.status.message;
   const SparseMatrix q = solved.problem.energy(2);
   const Weights& w = solved.result.raw;
   EXPECT_GE(w.minCoeff(), 0.0);
   EXPECT_LE(solved.result.row_sum_error, 1e-12);
-  EXPECT_GT(alone.result.row_sum_error, 0.01);
+  EXPECT_GT(separate.result.row_sum_error, 0.01);
   EXPECT_LE((w - solved.result.weights).cwiseAbs().maxCoeff(), 1e-12);
   // Compute the second bound of the certificate (certificate.h) from the gradients alone. The bound
   // is valid for any multipliers. Here the multiplier of a row is minus the mean of its gradients,
@@ -641,11 +643,12 @@ TEST(WeightTerms, CoupledColumnsSumToOne)
     }
   }
   gap += 0.5 * r.cwiseProduct(a.llt().solve(r)).sum();
-  const double normalized = 0.5 * alone.result.weights.cwiseProduct(q * alone.result.weights).sum();
+  const double normalized =
+    0.5 * separate.result.weights.cwiseProduct(q * separate.result.weights).sum();
   EXPECT_LE(gap, 2e-6 * solved.energy());
   EXPECT_LE(solved.energy(), (1.0 + 1e-6) * normalized);
-  EXPECT_GE(solved.energy(), (1.0 - 1e-6) * alone.energy()) << "one constraint more";
-  const double largest = (solved.result.weights - alone.result.weights).cwiseAbs().maxCoeff();
+  EXPECT_GE(solved.energy(), (1.0 - 1e-6) * separate.energy()) << "one constraint more";
+  const double largest = (solved.result.weights - separate.result.weights).cwiseAbs().maxCoeff();
   EXPECT_NEAR(solved.status.report.number("partition.largest_difference", 0.0), largest, 1e-12);
   EXPECT_GT(largest, 1e-3);
 }
@@ -659,11 +662,11 @@ TEST(WeightTerms, CoupledIsTheSameForOneAndTwoHandles)
     handles.resize(count);
     WeightsOptions options;
     options.tolerance = 1e-9;
-    const Solved alone = solve_with_terms(domain, handles, options);
+    const SolvedWeights separate = solve_with_terms(domain, handles, options);
     options.partition = PartitionOfUnity::coupled;
-    const Solved coupled = solve_with_terms(domain, handles, options);
+    const SolvedWeights coupled = solve_with_terms(domain, handles, options);
     ASSERT_TRUE(coupled.status.ok()) << coupled.status.message;
-    EXPECT_LE((coupled.result.weights - alone.result.weights).cwiseAbs().maxCoeff(), 1e-6);
+    EXPECT_LE((coupled.result.weights - separate.result.weights).cwiseAbs().maxCoeff(), 1e-6);
   }
 }
 
@@ -679,7 +682,7 @@ TEST(WeightTerms, CoupledKeepsPinsBoundsSetsAndInfluences)
   options.terms.pinned(100, 1) = 0.4;
   options.terms.upper(8 * 17 + 4, 0) = 0.2;
   options.terms.rigid_sets[5] = options.terms.rigid_sets[6] = options.terms.rigid_sets[7] = 1;
-  const Solved solved = solve_with_terms(domain, handles, options);
+  const SolvedWeights solved = solve_with_terms(domain, handles, options);
   ASSERT_TRUE(solved.status.ok()) << solved.status.message;
   EXPECT_EQ(solved.result.weights(100, 1), 0.4);
   EXPECT_LE(solved.result.weights(8 * 17 + 4, 0), 0.2 + 1e-15);

@@ -311,14 +311,14 @@ TEST(Weights, VolumesWithHandlesAnywhereAreCertified)
 TEST(Weights, UnitsAndRotationDoNotMatter)
 {
   TetMesh box = test::tet_box(5, 4, 4);
-  const std::vector<Vec3> places{ Vec3(0.113, 0.217, 0.154), Vec3(0.92, 0.71, 0.83),
+  const std::vector<Vec3> positions{ Vec3(0.113, 0.217, 0.154), Vec3(0.92, 0.71, 0.83),
     Vec3(0.43, 0.88, 0.19) };
   const auto solve = [&](const Eigen::Matrix3d& map, const Vec3& shift)
   {
     TetMesh moved = box;
     moved.points = (box.points * map.transpose()).rowwise() + shift.transpose();
     std::vector<Vec3> moved_places;
-    for (const Vec3& place : places)
+    for (const Vec3& place : positions)
     {
       moved_places.emplace_back(map * place + shift);
     }
@@ -364,10 +364,10 @@ TEST(Weights, SliversOfAThousandthOfADegree)
   {
     square.points(v, 0) -= std::abs(square.points(v, 0) - 0.5) < 1e-9 ? (1.0 - 1e-5) / 12.0 : 0.0;
   }
-  const std::vector<Vec3> places{ Vec3(0.1, 0.2, 0), Vec3(0.7, 0.8, 0), Vec3(0.9, 0.1, 0) };
+  const std::vector<Vec3> positions{ Vec3(0.1, 0.2, 0), Vec3(0.7, 0.8, 0), Vec3(0.9, 0.1, 0) };
   for (const Domain& domain : { test::to_domain(box), test::to_domain(square) })
   {
-    const WeightsProblem problem = problem_of(domain, test::point_handles(places));
+    const WeightsProblem problem = problem_of(domain, test::point_handles(positions));
     expect_certified(problem, bounded(problem));
     expect_certified(problem, monotone(problem));
   }
@@ -376,13 +376,13 @@ TEST(Weights, SliversOfAThousandthOfADegree)
 TEST(Weights, TwoHundredHandles)
 {
   test::Random random;
-  std::vector<Vec3> places;
+  std::vector<Vec3> positions;
   for (int i = 0; i < 200; ++i)
   {
-    places.emplace_back(random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1));
+    positions.emplace_back(random.uniform(0, 1), random.uniform(0, 1), random.uniform(0, 1));
   }
   const WeightsProblem problem =
-    problem_of(test::to_domain(test::tet_box(8, 8, 8)), test::point_handles(places));
+    problem_of(test::to_domain(test::tet_box(8, 8, 8)), test::point_handles(positions));
   EXPECT_EQ(problem.fixed.size(), 200u);
   const WeightsResult result = bounded(problem);
   EXPECT_EQ(result.weights.cols(), 200);
@@ -393,12 +393,12 @@ TEST(Weights, TwoHundredHandles)
 TEST(Weights, HandlesAtEveryVertexAreTheIdentity)
 {
   const TetMesh box = test::tet_box(2, 2, 2);
-  std::vector<Vec3> places;
+  std::vector<Vec3> positions;
   for (Index v = 0; v < box.points.rows(); ++v)
   {
-    places.emplace_back(box.points.row(v));
+    positions.emplace_back(box.points.row(v));
   }
-  const WeightsProblem problem = problem_of(test::to_domain(box), test::point_handles(places));
+  const WeightsProblem problem = problem_of(test::to_domain(box), test::point_handles(positions));
   ASSERT_EQ(problem.vertex_count(), box.points.rows()) << "none is inserted";
   for (const WeightsResult& result :
     { bounded(problem), monotone(problem), unconstrained(problem, 2) })
@@ -498,14 +498,14 @@ TEST(Weights, BudgetCancelAndBadOptions)
   // status canceled.
   for (const int looks : { 0, 1, 3, 10, 40 })
   {
-    int asked = 0;
-    ExecutionContext stopped(nullptr, [&] { return ++asked > looks; });
+    int poll_count = 0;
+    ExecutionContext stopped(nullptr, [&] { return ++poll_count > looks; });
     stopped.set_threads(1);
     options = {};
     EXPECT_EQ(
       bounded_biharmonic_weights(stopped, problem, options, result).code, StatusCode::canceled);
-    asked = 0;
-    ExecutionContext stopped_too(nullptr, [&] { return ++asked > looks; });
+    poll_count = 0;
+    ExecutionContext stopped_too(nullptr, [&] { return ++poll_count > looks; });
     stopped_too.set_threads(1);
     EXPECT_EQ(monotone_weights(stopped_too, problem, {}, result).code, StatusCode::canceled);
   }

@@ -78,18 +78,18 @@ struct Bar
   Index vertex(double x, int n) const { return static_cast<Index>(x * n + 0.5); }
 };
 
-inline Bar bar(int n, const std::vector<double>& places)
+inline Bar bar(int n, const std::vector<double>& positions)
 {
   Bar result;
   result.domain = to_domain(grid(n, 2, 1.0, 2.0 / n));
   result.region_ids.assign(static_cast<std::size_t>(result.domain.points.rows()), 0);
-  for (std::size_t i = 0; i < places.size(); ++i)
+  for (std::size_t i = 0; i < positions.size(); ++i)
   {
     const auto label = static_cast<Index>(i) + 1;
     result.handles.push_back(region_handle("r" + std::to_string(label), label));
     for (Index v = 0; v < result.domain.points.rows(); ++v)
     {
-      if (std::abs(result.domain.points(v, 0) - places[i]) < 1e-9)
+      if (std::abs(result.domain.points(v, 0) - positions[i]) < 1e-9)
       {
         result.region_ids[v] = label;
       }

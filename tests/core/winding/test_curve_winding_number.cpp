@@ -18,7 +18,7 @@ using test::Curve;
 
 namespace
 {
-Curve curve_of(const std::vector<Vec2>& vertices, bool closed = true)
+Curve make_curve(const std::vector<Vec2>& vertices, bool closed = true)
 {
   Curve curve;
   curve.add(vertices, closed);
@@ -75,9 +75,9 @@ PlanePoints random_plane_points(Index count, double reach, std::uint64_t seed)
 
 TEST(CurveWindingNumber, ClosedCurvesGiveWholeNumbersExactly)
 {
-  const Curve curve = curve_of(square_corners());
+  const Curve curve = make_curve(square_corners());
   const CurveWindingNumber winding(curve.points, curve.segments);
-  const Curve clockwise = curve_of(reversed(square_corners()));
+  const Curve clockwise = make_curve(reversed(square_corners()));
   const CurveWindingNumber minus(clockwise.points, clockwise.segments);
   test::Random random(7);
   for (int i = 0; i < 2000; ++i)
@@ -91,21 +91,21 @@ TEST(CurveWindingNumber, ClosedCurvesGiveWholeNumbersExactly)
 
 TEST(CurveWindingNumber, ThreeSidesOfASquareAreThreeQuarters)
 {
-  expect_curve_winding(curve_of(square_corners(), false), Vec2::Zero(), 0.75);
+  expect_curve_winding(make_curve(square_corners(), false), Vec2::Zero(), 0.75);
 }
 
 TEST(CurveWindingNumber, SegmentSeenUnderARightAngleIsAQuarter)
 {
-  const Curve segment = curve_of({ { 1, -1 }, { 1, 1 } }, false);
+  const Curve segment = make_curve({ { 1, -1 }, { 1, 1 } }, false);
   expect_curve_winding(segment, Vec2::Zero(), 0.25);
   expect_curve_winding(segment, Vec2(2, 0), -0.25);
   // A segment on the other side of the point subtends the same angle, although it crosses the
   // negative x axis.
-  expect_curve_winding(curve_of({ { -1, 1 }, { -1, -1 } }, false), Vec2::Zero(), 0.25);
+  expect_curve_winding(make_curve({ { -1, 1 }, { -1, -1 } }, false), Vec2::Zero(), 0.25);
   // At the third corner of an equilateral triangle, the opposite side subtends an angle of 60
   // degrees.
   expect_curve_winding(
-    curve_of({ { 0, 0 }, { 1, 0 } }, false), Vec2(0.5, 0.5 * std::sqrt(3.0)), 1.0 / 6.0);
+    make_curve({ { 0, 0 }, { 1, 0 } }, false), Vec2(0.5, 0.5 * std::sqrt(3.0)), 1.0 / 6.0);
 }
 
 TEST(CurveWindingNumber, PentagramWindsTwiceInItsCenterAndOnceInItsArms)
@@ -116,7 +116,7 @@ TEST(CurveWindingNumber, PentagramWindsTwiceInItsCenterAndOnceInItsArms)
     const double angle = 0.5 * pi + 4.0 * pi * i / 5.0;
     vertices.emplace_back(std::cos(angle), std::sin(angle));
   }
-  const Curve star = curve_of(vertices);
+  const Curve star = make_curve(vertices);
   expect_curve_winding(star, Vec2(0, 0), 2.0, 0.0);
   expect_curve_winding(star, Vec2(0, 0.8), 1.0, 0.0);
   expect_curve_winding(star, Vec2(0, -0.8), 0.0, 0.0);
@@ -126,21 +126,21 @@ TEST(CurveWindingNumber, PentagramWindsTwiceInItsCenterAndOnceInItsArms)
 
 TEST(CurveWindingNumber, PartsAddUp)
 {
-  Curve nested = curve_of(square_corners());
+  Curve nested = make_curve(square_corners());
   nested.add(square_corners(-0.5, 0.5), true);
   expect_curve_winding(nested, Vec2::Zero(), 2.0, 0.0);
-  Curve ring = curve_of(square_corners());
+  Curve ring = make_curve(square_corners());
   ring.add(reversed(square_corners(-0.5, 0.5)), true);
   expect_curve_winding(ring, Vec2::Zero(), 0.0, 0.0);
   expect_curve_winding(ring, Vec2(0.75, 0), 1.0, 0.0);
-  Curve overlapping = curve_of(square_corners());
+  Curve overlapping = make_curve(square_corners());
   overlapping.add(square_corners(0.0, 2.0), true);
   expect_curve_winding(overlapping, Vec2(0.5, 0.5), 2.0, 0.0);
   // The top side of the square is repeated, or reversed.
-  Curve doubled = curve_of(square_corners());
+  Curve doubled = make_curve(square_corners());
   doubled.add_segment(2, 3);
   expect_curve_winding(doubled, Vec2::Zero(), 1.25);
-  Curve flipped = curve_of(square_corners(), false);
+  Curve flipped = make_curve(square_corners(), false);
   flipped.segments.row(2) << 3, 2;
   flipped.add_segment(3, 0);
   expect_curve_winding(flipped, Vec2::Zero(), 0.5);
@@ -148,7 +148,7 @@ TEST(CurveWindingNumber, PartsAddUp)
 
 TEST(CurveWindingNumber, PrincipalValueOnTheCurve)
 {
-  const Curve curve = curve_of(square_corners());
+  const Curve curve = make_curve(square_corners());
   const CurveWindingNumber winding(curve.points, curve.segments);
   for (const auto& [p, expected] : std::vector<std::pair<Vec2, double>>{ { { 1, 0.3 }, 0.5 },
          { { -0.2, -1 }, 0.5 }, { { -1, 0 }, 0.5 }, { { 1, 1 }, 0.25 }, { { -1, -1 }, 0.25 } })
@@ -167,20 +167,20 @@ TEST(CurveWindingNumber, PrincipalValueOnTheCurve)
   {
     vertices.emplace_back(1e4 + std::cos(2.0 * pi * i / 7.0), std::sin(2.0 * pi * i / 7.0) - 3e4);
   }
-  const Curve heptagon = curve_of(vertices);
+  const Curve heptagon = make_curve(vertices);
   // The tolerance allows for rounded coordinates.
   expect_curve_winding(heptagon, vertices[3], 5.0 / 14.0, 1e-10);
   expect_curve_winding(heptagon, 0.5 * (vertices[1] + vertices[2]), 0.5, 1e-10);
   expect_curve_winding(heptagon, 0.3 * vertices[6] + 0.7 * vertices[0], 0.5, 1e-10);
   // The first point is at an open end. The second point is on a segment that is repeated in the
   // opposite direction.
-  expect_curve_winding(curve_of({ { 0, 0 }, { 1, 0 }, { 1, 1 } }, false), Vec2(0, 0), 0.125);
-  expect_curve_winding(curve_of({ { 0, 0 }, { 1, 0 }, { 0, 0 } }, false), Vec2(0.5, 0), 0.0);
+  expect_curve_winding(make_curve({ { 0, 0 }, { 1, 0 }, { 1, 1 } }, false), Vec2(0, 0), 0.125);
+  expect_curve_winding(make_curve({ { 0, 0 }, { 1, 0 }, { 0, 0 } }, false), Vec2(0.5, 0), 0.0);
 }
 
 TEST(CurveWindingNumber, JumpsByOneAcrossTheCurveAndNotAcrossChords)
 {
-  const Curve curve = curve_of(square_corners(), false); // the side x = -1 is open
+  const Curve curve = make_curve(square_corners(), false); // the side x = -1 is open
   const CurveWindingNumber winding(curve.points, curve.segments);
   for (const double e : { 1e-3, 1e-6, 1e-9, 1e-14 })
   {
@@ -251,7 +251,7 @@ TEST(CurveWindingNumber, SameAsTheSumOfAnglesOnHeapsOnALattice)
 
 TEST(CurveWindingNumber, SameAsTheSumOfAnglesOnLongCurves)
 {
-  Curve curve = curve_of(flower(3000, 0.3, 9));
+  Curve curve = make_curve(flower(3000, 0.3, 9));
   curve.add(flower(500, 0.1, 40), false);
   for (Index i = 0; i < 200; ++i) // add short scattered curves
   {
@@ -287,7 +287,7 @@ TEST(CurveWindingNumber, SameAsTheSumOfAnglesOnLongCurves)
 TEST(CurveWindingNumber, FlowerIsInsideWhereItsRadiusSays)
 {
   // The distance of the polygon from its curve is below 1e-5.
-  const Curve curve = curve_of(flower(20000, 0.3, 9));
+  const Curve curve = make_curve(flower(20000, 0.3, 9));
   const CurveWindingNumber winding(curve.points, curve.segments);
   const PlanePoints queries = random_plane_points(5000, 1.5, 11);
   for (Index i = 0; i < queries.rows(); ++i)
@@ -306,7 +306,7 @@ TEST(CurveWindingNumber, GradientIsThatOfTheField)
   // The point is in front of a segment from (1, -1) to (1, 1). On the x axis the angle is 2 atan(1
   // / (1 - x)), and its derivative is 2 / ((1 - x)^2 + 1). At x = 0 this gives the gradient 1 / (2
   // pi).
-  const Curve segment = curve_of({ { 1, -1 }, { 1, 1 } }, false);
+  const Curve segment = make_curve({ { 1, -1 }, { 1, 1 } }, false);
   ExecutionContext context;
   PlanePoints query(1, 2);
   query << 0, 0;
@@ -317,7 +317,7 @@ TEST(CurveWindingNumber, GradientIsThatOfTheField)
   EXPECT_NEAR(gradient.x(), 0.5 / pi, 1e-15);
   EXPECT_NEAR(gradient.y(), 0.0, 1e-15);
 
-  Curve curve = curve_of(flower(200, 0.3, 5), false);
+  Curve curve = make_curve(flower(200, 0.3, 5), false);
   curve.add({ { -1, 0.3 }, { 0.4, 0.5 }, { 0.1, -0.8 } }, false);
   curve.add(square_corners(-0.1, 0.2), true);
   for (const double unit : { 1.0, 1000.0 })
@@ -342,7 +342,7 @@ TEST(CurveWindingNumber, GradientIsThatOfTheField)
   }
   // The gradient must be zero inside of a closed curve, finite at an open end, and zero far away
   // from the curve.
-  const Curve closed = curve_of(square_corners());
+  const Curve closed = make_curve(square_corners());
   ASSERT_TRUE(CurveWindingNumber(closed.points, closed.segments)
                 .evaluate_gradient(context, query, gradient.data())
                 .ok());
@@ -363,7 +363,7 @@ TEST(CurveWindingNumber, GradientIsThatOfTheField)
 
 TEST(CurveWindingNumber, ShiftsScalesAndOrderDoNotMatter)
 {
-  Curve curve = curve_of(flower(400, 0.3, 7));
+  Curve curve = make_curve(flower(400, 0.3, 7));
   curve.add(flower(90, 0.2, 3), false);
   curve.add(square_corners(-0.2, 0.3), false);
   const auto snap = [](double x) { return std::round(x * 0x1p20) * 0x1p-20; };
@@ -406,10 +406,10 @@ TEST(CurveWindingNumber, HugeAndTinyCurvesAreNoExceptions)
 {
   for (const double size : { 1e-320, 1e-300, 1.0, 1e150, 1e307, 1.7e308 })
   {
-    const Curve curve = curve_of(square_corners(-size, size));
+    const Curve curve = make_curve(square_corners(-size, size));
     EXPECT_EQ(CurveWindingNumber(curve.points, curve.segments).evaluate_at(Vec2::Zero()), 1.0)
       << size;
-    expect_curve_winding(curve_of(square_corners(-size, size), false), Vec2::Zero(), 0.75);
+    expect_curve_winding(make_curve(square_corners(-size, size), false), Vec2::Zero(), 0.75);
   }
 }
 
@@ -459,7 +459,7 @@ TEST(CurveWindingNumber, NothingWindsAroundNothing)
   EXPECT_EQ(empty.status().warnings.size(), 1u);
   EXPECT_EQ(empty.evaluate_at(Vec2(1, 2)), 0.0);
   EXPECT_EQ(CurveWindingNumber().evaluate_at(Vec2(1, 2)), 0.0); // nothing was built
-  const Curve dot = curve_of({ { 3, 3 }, { 3, 3 } });
+  const Curve dot = make_curve({ { 3, 3 }, { 3, 3 } });
   const CurveWindingNumber degenerate(dot.points, dot.segments);
   EXPECT_EQ(degenerate.status().warnings.size(), 1u);
   EXPECT_EQ(degenerate.evaluate_at(Vec2(3, 3)), 0.0);
@@ -469,7 +469,7 @@ TEST(CurveWindingNumber, BadInputIsNamed)
 {
   ExecutionContext context;
   CurveWindingNumber winding;
-  Curve curve = curve_of(square_corners());
+  Curve curve = make_curve(square_corners());
   curve.segments(2, 1) = 4;
   Status status = winding.build(context, curve.points, curve.segments);
   EXPECT_EQ(status.code, StatusCode::invalid_input);
@@ -478,7 +478,7 @@ TEST(CurveWindingNumber, BadInputIsNamed)
   EXPECT_EQ(winding.evaluate(context, curve.points, w).code, StatusCode::invalid_input);
   curve.segments(2, 1) = -1;
   EXPECT_EQ(winding.build(context, curve.points, curve.segments).code, StatusCode::invalid_input);
-  curve = curve_of(square_corners());
+  curve = make_curve(square_corners());
   for (const double bad :
     { std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity() })
   {
@@ -496,7 +496,7 @@ TEST(CurveWindingNumber, BadInputIsNamed)
 
 TEST(CurveWindingNumber, PointsThatAreNoneGiveNaN)
 {
-  const Curve curve = curve_of(square_corners());
+  const Curve curve = make_curve(square_corners());
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   PlanePoints queries(5, 2);
   queries << 0, 0, nan, 0, 0, std::numeric_limits<double>::infinity(), 1e300, 0, 1, 1;
@@ -519,7 +519,7 @@ TEST(CurveWindingNumber, PointsThatAreNoneGiveNaN)
 
 TEST(CurveWindingNumber, SameBitsOnAnyNumberOfThreads)
 {
-  Curve curve = curve_of(flower(100000, 0.3, 9));
+  Curve curve = make_curve(flower(100000, 0.3, 9));
   curve.add(flower(30000, 0.2, 4), false);
   const PlanePoints queries = random_plane_points(100000, 1.5, 23);
   std::vector<Eigen::VectorXd> values;
@@ -538,28 +538,28 @@ TEST(CurveWindingNumber, SameBitsOnAnyNumberOfThreads)
 
 TEST(CurveWindingNumber, CancelsMidwayAndRunsAgain)
 {
-  const Curve curve = curve_of(flower(200000, 0.3, 9));
+  const Curve curve = make_curve(flower(200000, 0.3, 9));
   const PlanePoints queries = random_plane_points(300000, 1.5, 29);
   int allowed = 0;
-  int asked = 0;
+  int cancel_checks = 0;
   ExecutionContext probe({},
     [&]
     {
-      ++asked;
+      ++cancel_checks;
       return false;
     });
   probe.set_threads(1);
   CurveWindingNumber winding;
   ASSERT_TRUE(winding.build(probe, curve.points, curve.segments).ok());
-  const int in_build = asked;
+  const int build_checks = cancel_checks;
   Eigen::VectorXd w;
   ASSERT_TRUE(winding.evaluate(probe, queries, w).ok());
-  const int in_all = asked;
-  ASSERT_GT(in_build, 10);
-  ASSERT_GT(in_all, in_build + 5);
+  const int in_all = cancel_checks;
+  ASSERT_GT(build_checks, 10);
+  ASSERT_GT(in_all, build_checks + 5);
   for (const int share : { 0, 1, 2, 3 })
   {
-    allowed = in_build * share / 4;
+    allowed = build_checks * share / 4;
     ExecutionContext context({}, [&] { return --allowed < 0; });
     context.set_threads(1);
     EXPECT_EQ(winding.build(context, curve.points, curve.segments).code, StatusCode::canceled);

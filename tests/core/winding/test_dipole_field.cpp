@@ -24,7 +24,7 @@ struct FieldCase
   std::vector<int> multiplicities;
 };
 
-FieldCase once(std::string name, TriangleMesh mesh)
+FieldCase unit_case(std::string name, TriangleMesh mesh)
 {
   std::vector<int> ones(static_cast<std::size_t>(mesh.triangles.rows()), 1);
   return { std::move(name), std::move(mesh), std::move(ones) };
@@ -110,16 +110,16 @@ TriangleMesh random_soup(Index count)
 std::vector<FieldCase> all_cases()
 {
   std::vector<FieldCase> cases;
-  cases.push_back(once("closed", bumpy(3)));
+  cases.push_back(unit_case("closed", bumpy(3)));
   TriangleMesh open = bumpy(4);
   open.triangles.conservativeResize(3 * open.triangles.rows() / 4, 3);
-  cases.push_back(once("open", open));
-  cases.push_back(once("caps", caps(60)));
-  cases.push_back(once("soup", random_soup(500)));
-  cases.push_back(once("one triangle", random_soup(1)));
+  cases.push_back(unit_case("open", open));
+  cases.push_back(unit_case("caps", caps(60)));
+  cases.push_back(unit_case("soup", random_soup(500)));
+  cases.push_back(unit_case("one triangle", random_soup(1)));
   cases.back().mesh.points << 0.1, 0.2, 0.3, 0.9, 0.1, -0.2, -0.3, 0.8, 0.4;
-  cases.push_back(once("slivers", test::grid(1, 300)));
-  FieldCase counted = once("multiplicities", random_soup(400));
+  cases.push_back(unit_case("slivers", test::grid(1, 300)));
+  FieldCase counted = unit_case("multiplicities", random_soup(400));
   for (std::size_t t = 0; t < counted.multiplicities.size(); ++t)
   {
     constexpr int some[] = { 1, -1, 2, -2, 0, 5 };
@@ -146,7 +146,7 @@ double expected_at(const FieldCase& c, const Vec3& p)
   return sum;
 }
 
-DipoleField field_of(const FieldCase& c, double tolerance, int threads = 1)
+DipoleField build_field(const FieldCase& c, double tolerance, int threads = 1)
 {
   ExecutionContext context;
   context.set_threads(threads);
@@ -191,7 +191,7 @@ TEST(DipoleField, IsTheWindingNumberWithinTheTolerance)
   {
     for (const double tolerance : { 1e-2, 1e-3, 1e-4, 1e-5, 1e-6 })
     {
-      const DipoleField field = field_of(c, tolerance);
+      const DipoleField field = build_field(c, tolerance);
       EXPECT_LE(field.measured_error(), 0.5 * tolerance) << c.name << ", " << tolerance;
       test::Random random(31);
       double worst = 0.0;
@@ -208,8 +208,8 @@ TEST(DipoleField, TouchingTrianglesCountNothing)
 {
   for (const double tolerance : { 1e-3, 1e-6 })
   {
-    const FieldCase cube = once("cube", test::cube());
-    const DipoleField field = field_of(cube, tolerance);
+    const FieldCase cube = unit_case("cube", test::cube());
+    const DipoleField field = build_field(cube, tolerance);
     bool on_surface = false;
     EXPECT_NEAR(field.evaluate(Vec3(1, 0, 0), &on_surface), 0.5, tolerance);
     EXPECT_TRUE(on_surface);
@@ -225,9 +225,10 @@ TEST(DipoleField, TouchingTrianglesCountNothing)
     EXPECT_FALSE(on_surface);
 
     // The vertices have many triangles, some of which were subdivided.
-    for (const FieldCase& c : { once("bumpy", bumpy(3)), once("slivers", test::grid(1, 300)) })
+    for (const FieldCase& c :
+      { unit_case("bumpy", bumpy(3)), unit_case("slivers", test::grid(1, 300)) })
     {
-      const DipoleField other = field_of(c, tolerance);
+      const DipoleField other = build_field(c, tolerance);
       for (Index v = 0; v < c.mesh.points.rows(); v += 7)
       {
         const Vec3 p = c.mesh.points.row(v);
@@ -244,7 +245,7 @@ TEST(DipoleField, RowsGiveTheBitsOfTheirPoints)
   {
     for (const double tolerance : { 1e-3, 1e-6 })
     {
-      const DipoleField field = field_of(c, tolerance);
+      const DipoleField field = build_field(c, tolerance);
       const Index count = 300;
       std::vector<double> values(static_cast<std::size_t>(count));
       std::vector<unsigned char> touched(static_cast<std::size_t>(count));
@@ -270,7 +271,7 @@ TEST(DipoleField, ManyPointsAtOnceGiveTheBitsOfEach)
   {
     for (const double tolerance : { 1e-3, 1e-6 })
     {
-      const DipoleField field = field_of(c, tolerance);
+      const DipoleField field = build_field(c, tolerance);
       test::Random random(6);
       const std::vector<Vec3> points = points_for(c.mesh, 25, random);
       const auto count = static_cast<Index>(points.size());
@@ -291,10 +292,10 @@ TEST(DipoleField, SameBitsForAnyNumberOfThreads)
 {
   for (const FieldCase& c : all_cases())
   {
-    const DipoleField one = field_of(c, 1e-4, 1);
+    const DipoleField one = build_field(c, 1e-4, 1);
     for (const int threads : { 0, 2 })
     {
-      const DipoleField many = field_of(c, 1e-4, threads);
+      const DipoleField many = build_field(c, 1e-4, threads);
       EXPECT_EQ(one.measured_error(), many.measured_error());
       EXPECT_EQ(one.memory(), many.memory());
       test::Random random(3);
@@ -310,7 +311,7 @@ TEST(DipoleField, GradientIsTheSlope)
 {
   for (const FieldCase& c : all_cases())
   {
-    const DipoleField field = field_of(c, 1e-6);
+    const DipoleField field = build_field(c, 1e-6);
     test::Random random(8);
     for (int i = 0; i < 200; ++i)
     {
@@ -340,15 +341,15 @@ TEST(DipoleField, GradientIsTheSlope)
 TEST(DipoleField, NothingGivesNothing)
 {
   FieldCase empty;
-  EXPECT_EQ(field_of(empty, 1e-3).evaluate(Vec3(0.1, 0.2, 0.3)), 0.0);
-  EXPECT_EQ(field_of(empty, 1e-3).gradient(Vec3(0.1, 0.2, 0.3)), Vec3::Zero());
-  FieldCase uncounted = once("uncounted", test::cube());
+  EXPECT_EQ(build_field(empty, 1e-3).evaluate(Vec3(0.1, 0.2, 0.3)), 0.0);
+  EXPECT_EQ(build_field(empty, 1e-3).gradient(Vec3(0.1, 0.2, 0.3)), Vec3::Zero());
+  FieldCase uncounted = unit_case("uncounted", test::cube());
   std::fill(uncounted.multiplicities.begin(), uncounted.multiplicities.end(), 0);
-  EXPECT_EQ(field_of(uncounted, 1e-3).evaluate(Vec3(0.1, 0.2, 0.3)), 0.0);
+  EXPECT_EQ(build_field(uncounted, 1e-3).evaluate(Vec3(0.1, 0.2, 0.3)), 0.0);
   // All corners of all triangles are at one position, so the triangles have no area.
-  FieldCase flat = once("flat", random_soup(50));
+  FieldCase flat = unit_case("flat", random_soup(50));
   flat.mesh.points.setConstant(0.25);
-  const DipoleField field = field_of(flat, 1e-3);
+  const DipoleField field = build_field(flat, 1e-3);
   EXPECT_EQ(field.evaluate(Vec3(0.1, 0.2, 0.3)), 0.0);
   EXPECT_EQ(field.evaluate(Vec3::Constant(0.25)), 0.0);
 }
@@ -361,7 +362,7 @@ TEST(DipoleField, ManyTrianglesAtOnePlace)
   {
     for (const double apart : { 0.0, 1e-3 })
     {
-      FieldCase pile = once("pile", random_soup(1));
+      FieldCase pile = unit_case("pile", random_soup(1));
       pile.mesh.points << 0.1, 0.2, 0.3, 0.9, 0.1, -0.2, -0.3, 0.8, 0.4;
       const Points one = pile.mesh.points;
       pile.mesh.points = one.replicate(count, 1);
@@ -376,7 +377,7 @@ TEST(DipoleField, ManyTrianglesAtOnePlace)
       pile.multiplicities.assign(static_cast<std::size_t>(count), 1);
       for (const double tolerance : { 1e-2, 1e-3, 1e-4 })
       {
-        const DipoleField field = field_of(pile, tolerance);
+        const DipoleField field = build_field(pile, tolerance);
         for (int i = 0; i < 300; ++i)
         {
           const Vec3 p = (i % 2 ? 1.0 : 2.0) * random.in_box(Vec3::Constant(-1), Vec3::Constant(1));
@@ -389,21 +390,21 @@ TEST(DipoleField, ManyTrianglesAtOnePlace)
 
 TEST(DipoleField, CanBeCanceledAnywhere)
 {
-  const FieldCase c = once("bumpy", bumpy(4));
+  const FieldCase c = unit_case("bumpy", bumpy(4));
   DipoleField::Options options;
-  int asked_in_all = 0;
+  int total_checks = 0;
   {
-    ExecutionContext context(nullptr, [&] { return ++asked_in_all < 0; });
+    ExecutionContext context(nullptr, [&] { return ++total_checks < 0; });
     context.set_threads(1);
     DipoleField field;
     ASSERT_TRUE(field.build(
       context, c.mesh.points, c.mesh.triangles, c.multiplicities, touch_tolerance, options));
   }
-  ASSERT_GT(asked_in_all, 10);
-  for (int stop = 1; stop <= asked_in_all; stop += 1 + asked_in_all / 20)
+  ASSERT_GT(total_checks, 10);
+  for (int stop = 1; stop <= total_checks; stop += 1 + total_checks / 20)
   {
-    int asked = 0;
-    ExecutionContext context(nullptr, [&] { return ++asked >= stop; });
+    int cancel_checks = 0;
+    ExecutionContext context(nullptr, [&] { return ++cancel_checks >= stop; });
     context.set_threads(1);
     DipoleField field;
     EXPECT_FALSE(field.build(

@@ -18,7 +18,7 @@ using test::Cloud;
 
 namespace
 {
-const Eigen::VectorXd no_areas(0);
+const Eigen::VectorXd empty_areas(0);
 
 /// Return points on the unit sphere, evenly spaced on a spiral or at random. Each point has an
 /// equal fraction of the area.
@@ -78,8 +78,9 @@ double plain_sum(const Cloud& cloud, const Vec3& q)
   return sum;
 }
 
-PointCloudWindingNumber built(const Cloud& cloud, WindingMethod method = WindingMethod::fast,
-  double tolerance = 1e-3, const Eigen::VectorXd* areas = nullptr)
+PointCloudWindingNumber build_winding(const Cloud& cloud,
+  WindingMethod method = WindingMethod::fast, double tolerance = 1e-3,
+  const Eigen::VectorXd* areas = nullptr)
 {
   PointCloudWindingNumber::Options options;
   options.method = method;
@@ -121,7 +122,7 @@ TEST(PointCloudWindingNumber, OneDipoleIsItsFormula)
   for (const WindingMethod method :
     { WindingMethod::automatic, WindingMethod::direct, WindingMethod::exact, WindingMethod::fast })
   {
-    const PointCloudWindingNumber winding = built(cloud, method);
+    const PointCloudWindingNumber winding = build_winding(cloud, method);
     for (const Vec3& q : { Vec3(0, 0, 0), Vec3(1, 2, 3), Vec3(0.3, -0.2, 0.8), Vec3(-5, 9, 2) })
     {
       const double expected = dipole(cloud.points.row(0), cloud.normals.row(0), cloud.areas[0], q);
@@ -133,8 +134,8 @@ TEST(PointCloudWindingNumber, OneDipoleIsItsFormula)
   // d^2). Normals may have any length.
   cloud.points << 0, 0, 1;
   cloud.normals << 0, 0, 1e-200;
-  EXPECT_NEAR(built(cloud).evaluate_exactly_at(Vec3(0, 0, -1)), 2.5 / (16.0 * pi), 1e-16);
-  EXPECT_NEAR(built(cloud).evaluate_exactly_at(Vec3(0, 0, 3)), -2.5 / (16.0 * pi), 1e-16);
+  EXPECT_NEAR(build_winding(cloud).evaluate_exactly_at(Vec3(0, 0, -1)), 2.5 / (16.0 * pi), 1e-16);
+  EXPECT_NEAR(build_winding(cloud).evaluate_exactly_at(Vec3(0, 0, 3)), -2.5 / (16.0 * pi), 1e-16);
 }
 
 TEST(PointCloudWindingNumber, SpheresWindOnceInsideAndTheErrorShrinks)
@@ -144,7 +145,7 @@ TEST(PointCloudWindingNumber, SpheresWindOnceInsideAndTheErrorShrinks)
   {
     const Cloud cloud = sphere_cloud(count);
     const double spacing = std::sqrt(4.0 * pi / static_cast<double>(count));
-    const PointCloudWindingNumber winding = built(cloud, WindingMethod::fast, 1e-7);
+    const PointCloudWindingNumber winding = build_winding(cloud, WindingMethod::fast, 1e-7);
     test::Random random(1);
     double largest = 0.0, two_away = 0.0;
     for (int i = 0; i < 2000; ++i)
@@ -172,7 +173,7 @@ TEST(PointCloudWindingNumber, HalfASphereIsItsSolidAngle)
   Cloud cloud = sphere_cloud(40000);
   const Index half = 20000; // these are the points with z > 0
   cloud = { cloud.points.topRows(half), cloud.normals.topRows(half), cloud.areas.head(half) };
-  const PointCloudWindingNumber winding = built(cloud, WindingMethod::fast, 1e-6);
+  const PointCloudWindingNumber winding = build_winding(cloud, WindingMethod::fast, 1e-6);
   // On the axis below the rim, the half sphere has the same winding number as the disc that the rim
   // bounds. This number is (1 - c) / 2, where c is the cosine of the angle between the axis and a
   // line from the point to the rim.
@@ -207,7 +208,7 @@ TEST(PointCloudWindingNumber, FastKeepsItsTolerance)
     const Points queries = queries_around(cloud, 2500, 7);
     for (const double tolerance : { 1e-1, 1e-2, 1e-3, 1e-5, 1e-8 })
     {
-      const PointCloudWindingNumber winding = built(cloud, WindingMethod::fast, tolerance);
+      const PointCloudWindingNumber winding = build_winding(cloud, WindingMethod::fast, tolerance);
       EXPECT_EQ(winding.method(), WindingMethod::fast);
       const Report& report = winding.status().report;
       EXPECT_EQ(report.number("error_bound", -1), tolerance);
@@ -231,7 +232,7 @@ TEST(PointCloudWindingNumber, FastKeepsItsToleranceWhereErrorsAddUp)
   // At the center of a sphere all boxes of the tree have the same distance, so their errors have
   // the same sign and add up.
   const Cloud cloud = sphere_cloud(100000);
-  const PointCloudWindingNumber winding = built(cloud, WindingMethod::fast, 1e-4);
+  const PointCloudWindingNumber winding = build_winding(cloud, WindingMethod::fast, 1e-4);
   test::Random random(3);
   for (int i = 0; i < 300; ++i)
   {
@@ -243,7 +244,7 @@ TEST(PointCloudWindingNumber, FastKeepsItsToleranceWhereErrorsAddUp)
 TEST(PointCloudWindingNumber, PlainSumIsTheDefinition)
 {
   const Cloud cloud = scattered_cloud(3001, 9); // 3001 is not a multiple of eight
-  const PointCloudWindingNumber winding = built(cloud, WindingMethod::direct);
+  const PointCloudWindingNumber winding = build_winding(cloud, WindingMethod::direct);
   EXPECT_EQ(winding.method(), WindingMethod::direct);
   const Points queries = queries_around(cloud, 500, 11);
   for (Index i = 0; i < queries.rows(); ++i)
@@ -258,7 +259,7 @@ TEST(PointCloudWindingNumber, PointsOnSamplesCountTheOthers)
   const Cloud cloud = sphere_cloud(5000);
   for (const WindingMethod method : { WindingMethod::direct, WindingMethod::fast })
   {
-    const PointCloudWindingNumber winding = built(cloud, method);
+    const PointCloudWindingNumber winding = build_winding(cloud, method);
     std::vector<double> values(5000);
     std::vector<unsigned char> flags(5000, 7);
     ExecutionContext context;
@@ -287,7 +288,7 @@ TEST(PointCloudWindingNumber, ShiftsAndScalesDoNotMatter)
   {
     ExecutionContext context;
     Eigen::VectorXd w;
-    EXPECT_TRUE(built(c, method, 1e-6).evaluate(context, at, w).ok());
+    EXPECT_TRUE(build_winding(c, method, 1e-6).evaluate(context, at, w).ok());
     return w;
   };
   for (const WindingMethod method : { WindingMethod::direct, WindingMethod::fast })
@@ -319,7 +320,8 @@ TEST(PointCloudWindingNumber, ShiftsAndScalesDoNotMatter)
 TEST(PointCloudWindingNumber, EstimatedAreasDoForEvenSamples)
 {
   const Cloud cloud = sphere_cloud(10000);
-  const PointCloudWindingNumber winding = built(cloud, WindingMethod::automatic, 1e-4, &no_areas);
+  const PointCloudWindingNumber winding =
+    build_winding(cloud, WindingMethod::automatic, 1e-4, &empty_areas);
   ASSERT_EQ(winding.areas().size(), 10000);
   EXPECT_NEAR(winding.areas().sum(), 4.0 * pi, 1e-3 * 4.0 * pi);
   EXPECT_EQ(winding.status().report.number("counts.zero_areas", -1), 0);
@@ -334,18 +336,19 @@ TEST(PointCloudWindingNumber, EstimatedAreasDoForEvenSamples)
   // not depend on the position.
   Cloud moved = cloud;
   moved.points = Points((0x1p10 * cloud.points).array() + 0x1p12);
-  const PointCloudWindingNumber large = built(moved, WindingMethod::automatic, 1e-4, &no_areas);
+  const PointCloudWindingNumber large =
+    build_winding(moved, WindingMethod::automatic, 1e-4, &empty_areas);
   EXPECT_LE((large.areas() * 0x1p-20 - winding.areas()).lpNorm<Eigen::Infinity>(), 1e-9);
 }
 
 TEST(PointCloudWindingNumber, MethodsAndReport)
 {
   const Cloud few = sphere_cloud(100);
-  const PointCloudWindingNumber small = built(few, WindingMethod::automatic);
+  const PointCloudWindingNumber small = build_winding(few, WindingMethod::automatic);
   EXPECT_EQ(small.method(), WindingMethod::direct);
   EXPECT_EQ(small.status().report.find("error_bound"), nullptr);
   const Cloud many = sphere_cloud(20000);
-  const PointCloudWindingNumber large = built(many, WindingMethod::automatic);
+  const PointCloudWindingNumber large = build_winding(many, WindingMethod::automatic);
   EXPECT_EQ(large.method(), WindingMethod::fast);
   EXPECT_EQ(large.status().report.text("method"), "fast");
   EXPECT_FALSE(large.status().report.text("method_reason").empty());
@@ -359,7 +362,7 @@ TEST(PointCloudWindingNumber, NormalsAndAreasOfZeroCountNothing)
   cloud.normals.row(7).setZero();
   cloud.normals.row(9).setZero();
   cloud.areas[11] = 0.0;
-  const PointCloudWindingNumber winding = built(cloud);
+  const PointCloudWindingNumber winding = build_winding(cloud);
   EXPECT_EQ(winding.status().report.number("counts.zero_normals", -1), 2);
   EXPECT_EQ(winding.status().report.number("counts.zero_areas", -1), 1);
   ASSERT_EQ(winding.status().warnings.size(), 1u);
@@ -369,13 +372,13 @@ TEST(PointCloudWindingNumber, NormalsAndAreasOfZeroCountNothing)
   winding.evaluate_at(cloud.points.row(7), &on_surface);
   EXPECT_TRUE(on_surface);
   cloud.areas.setZero();
-  EXPECT_EQ(built(cloud).evaluate_at(Vec3(0.2, 0.1, 0)), 0.0);
+  EXPECT_EQ(build_winding(cloud).evaluate_at(Vec3(0.2, 0.1, 0)), 0.0);
 }
 
 TEST(PointCloudWindingNumber, NothingWindsAroundNothing)
 {
-  const Cloud nothing{ Points(0, 3), Points(0, 3), no_areas };
-  const PointCloudWindingNumber winding = built(nothing);
+  const Cloud nothing{ Points(0, 3), Points(0, 3), empty_areas };
+  const PointCloudWindingNumber winding = build_winding(nothing);
   EXPECT_EQ(winding.status().warnings.size(), 1u);
   EXPECT_EQ(winding.evaluate_at(Vec3(1, 2, 3)), 0.0);
   EXPECT_EQ(PointCloudWindingNumber().evaluate_at(Vec3(1, 2, 3)), 0.0); // nothing was built
@@ -417,7 +420,7 @@ TEST(PointCloudWindingNumber, BadInputIsNamed)
   cloud = good;
   cloud.areas *= 1e200;
   expect_refused(cloud, "too large relative to the distances");
-  expect_refused({ good.points.topRows(1), good.normals.topRows(1), no_areas }, "single point");
+  expect_refused({ good.points.topRows(1), good.normals.topRows(1), empty_areas }, "single point");
   options.tolerance = 0.0;
   expect_refused(good, "tolerance");
   options = {};
@@ -448,7 +451,7 @@ TEST(PointCloudWindingNumber, OddCloudsAreFiniteEverywhere)
   heavy.areas *= 1e30;
   for (const Cloud& cloud : { one_place, huge, tiny, clusters, heavy })
   {
-    const PointCloudWindingNumber winding = built(cloud);
+    const PointCloudWindingNumber winding = build_winding(cloud);
     const double size = cloud.points.cwiseAbs().maxCoeff();
     test::Random random(2);
     for (int i = 0; i < 300; ++i)
@@ -466,7 +469,7 @@ TEST(PointCloudWindingNumber, OddCloudsAreFiniteEverywhere)
 
 TEST(PointCloudWindingNumber, PointsThatAreNoneGiveNaN)
 {
-  const PointCloudWindingNumber winding = built(sphere_cloud(2000));
+  const PointCloudWindingNumber winding = build_winding(sphere_cloud(2000));
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   Points queries(4, 3);
   queries << 0, 0, 0, nan, 0, 0, 0, std::numeric_limits<double>::infinity(), 0, 1e300, 0, 0;
@@ -509,7 +512,7 @@ TEST(PointCloudWindingNumber, GridsAndPointsAgreeOnAnyNumberOfThreads)
     ExecutionContext context;
     context.set_threads(threads);
     PointCloudWindingNumber winding;
-    ASSERT_TRUE(winding.build(context, cloud.points, cloud.normals, no_areas).ok());
+    ASSERT_TRUE(winding.build(context, cloud.points, cloud.normals, empty_areas).ok());
     areas.push_back(winding.areas());
     Eigen::VectorXd on_grid(grid.count()), at_points;
     ASSERT_TRUE(winding.evaluate(context, grid, on_grid.data()).ok());
@@ -527,7 +530,7 @@ TEST(PointCloudWindingNumber, GradientIsTheDefinitions)
 {
   for (const Cloud& cloud : { sphere_cloud(4000, false), scattered_cloud(5000, 8) })
   {
-    const PointCloudWindingNumber winding = built(cloud, WindingMethod::direct);
+    const PointCloudWindingNumber winding = build_winding(cloud, WindingMethod::direct);
     const Points queries = queries_around(cloud, 200, 12);
     Points gradients(queries.rows(), 3);
     ExecutionContext context;
@@ -558,7 +561,7 @@ TEST(PointCloudWindingNumber, GradientIsTheDefinitions)
 TEST(PointCloudWindingNumber, GradientIsTheSlope)
 {
   const Cloud cloud = scattered_cloud(5000, 9);
-  const PointCloudWindingNumber winding = built(cloud, WindingMethod::fast, 1e-6);
+  const PointCloudWindingNumber winding = build_winding(cloud, WindingMethod::fast, 1e-6);
   const Points queries = queries_around(cloud, 300, 13);
   Points gradients(queries.rows(), 3);
   ExecutionContext context;
@@ -594,14 +597,14 @@ TEST(PointCloudWindingNumber, FastGradientsAreWithinTheirTolerance)
   for (const Cloud& cloud :
     { sphere_cloud(20000), sphere_cloud(20000, false), scattered_cloud(20000, 10) })
   {
-    const PointCloudWindingNumber plain = built(cloud, WindingMethod::direct);
+    const PointCloudWindingNumber plain = build_winding(cloud, WindingMethod::direct);
     Points queries = queries_around(cloud, 300, 14);
     Points expected(queries.rows(), 3), gradients(queries.rows(), 3);
     ExecutionContext context;
     ASSERT_TRUE(plain.evaluate_gradient(context, queries, expected.data()).ok());
     for (const double tolerance : { 1e-2, 1e-3, 1e-5 })
     {
-      const PointCloudWindingNumber winding = built(cloud, WindingMethod::fast, tolerance);
+      const PointCloudWindingNumber winding = build_winding(cloud, WindingMethod::fast, tolerance);
       ASSERT_TRUE(winding.evaluate_gradient(context, queries, gradients.data()).ok());
       for (Index i = 0; i < queries.rows(); ++i)
       {
@@ -629,7 +632,7 @@ TEST(PointCloudWindingNumber, GradientsOfGridsAndOddPoints)
   {
     ExecutionContext context;
     context.set_threads(threads);
-    const PointCloudWindingNumber winding = built(cloud);
+    const PointCloudWindingNumber winding = build_winding(cloud);
     Points gradients(grid.count(), 3);
     ASSERT_TRUE(winding.evaluate_gradient(context, grid, gradients.data()).ok());
     values.push_back(gradients);
@@ -646,7 +649,7 @@ TEST(PointCloudWindingNumber, GradientsOfGridsAndOddPoints)
     EXPECT_LE(at_odd.row(2).norm(), 1e-3); // the point is at the center of the sphere
   }
   EXPECT_EQ(values[0], values[1]);
-  const PointCloudWindingNumber winding = built(cloud);
+  const PointCloudWindingNumber winding = build_winding(cloud);
   ExecutionContext canceled(nullptr, [] { return true; });
   Points gradients(grid.count(), 3);
   EXPECT_EQ(winding.evaluate_gradient(canceled, grid, gradients.data()).code, StatusCode::canceled);
@@ -659,7 +662,7 @@ TEST(PointCloudWindingNumber, GradientsOfGridsAndOddPoints)
   larger_grid.spacing *= 8.0;
   Points of_larger(grid.count(), 3);
   ExecutionContext context;
-  ASSERT_TRUE(built(larger).evaluate_gradient(context, larger_grid, of_larger.data()).ok());
+  ASSERT_TRUE(build_winding(larger).evaluate_gradient(context, larger_grid, of_larger.data()).ok());
   EXPECT_LE((8.0 * of_larger - values[0]).cwiseAbs().maxCoeff(), 1e-9);
 }
 
@@ -667,32 +670,32 @@ TEST(PointCloudWindingNumber, CancelsMidwayAndRunsAgain)
 {
   const Cloud cloud = sphere_cloud(20000);
   PointCloudWindingNumber winding;
-  int asked = 0;
+  int cancel_checks = 0;
   ExecutionContext probe({},
     [&]
     {
-      ++asked;
+      ++cancel_checks;
       return false;
     });
   probe.set_threads(1);
-  ASSERT_TRUE(winding.build(probe, cloud.points, cloud.normals, no_areas).ok());
-  const int in_build = asked;
-  ASSERT_GT(in_build, 50);
+  ASSERT_TRUE(winding.build(probe, cloud.points, cloud.normals, empty_areas).ok());
+  const int build_checks = cancel_checks;
+  ASSERT_GT(build_checks, 50);
   Eigen::VectorXd w;
   int allowed = 0;
   for (int step = 0; step < 8; ++step)
   {
-    allowed = in_build * step / 8;
+    allowed = build_checks * step / 8;
     ExecutionContext context({}, [&] { return --allowed < 0; });
     context.set_threads(1);
     EXPECT_EQ(
-      winding.build(context, cloud.points, cloud.normals, no_areas).code, StatusCode::canceled);
+      winding.build(context, cloud.points, cloud.normals, empty_areas).code, StatusCode::canceled);
     EXPECT_EQ(winding.evaluate(context, cloud.points, w).code, StatusCode::canceled);
   }
   std::vector<double> fractions;
   ExecutionContext watched(
     [&](double fraction, const std::string&) { fractions.push_back(fraction); }, {});
-  ASSERT_TRUE(winding.build(watched, cloud.points, cloud.normals, no_areas).ok());
+  ASSERT_TRUE(winding.build(watched, cloud.points, cloud.normals, empty_areas).ok());
   EXPECT_TRUE(std::is_sorted(fractions.begin(), fractions.end()));
   allowed = 3;
   ExecutionContext context({}, [&] { return --allowed < 0; });

@@ -136,13 +136,13 @@ TEST(RayCrossings, RaysThroughVerticesEdgesAndFaces)
         rows.at[k].push_back(p[k]);
       }
     }
-    const RayCrossings::Layers layers = rays.layers_of(rows);
+    const RayCrossings::Layers layers = rays.find_layers(rows);
     const Index slabs = static_cast<Index>(layers.begin.size()) - 1;
     std::vector<double> values(points.size());
     std::set<Index> unresolved;
     for (Index slab = 0; slab < slabs; ++slab)
     {
-      const Index first = slab * layers.per_slab * 21 * 21;
+      const Index first = slab * layers.layers_per_slab * 21 * 21;
       std::vector<Index> here;
       rays.count_slab(rows, layers, slab, values.data() + first, here);
       for (const Index i : here)
@@ -214,7 +214,7 @@ TEST(RayCrossings, TrianglesAsLargeAsTheSurfaceAreNotListedInEveryLayer)
       grid.at[k].push_back(-1.0 + 2.0 * i / (k < 2 ? 255 : 1199));
     }
   }
-  const RayCrossings::Layers layers = rays.layers_of(grid);
+  const RayCrossings::Layers layers = rays.find_layers(grid);
   EXPECT_TRUE(layers.faces.empty());
   EXPECT_TRUE(std::isinf(layers.nanoseconds));
 }

@@ -20,7 +20,7 @@ constexpr WindingMethod methods[] = { WindingMethod::exact, WindingMethod::direc
 
 /// Return the winding number by each method. Leaves are small, so that the trees have several
 /// levels.
-std::vector<WindingNumber> all_ways(const TriangleMesh& mesh)
+std::vector<WindingNumber> build_all_methods(const TriangleMesh& mesh)
 {
   std::vector<WindingNumber> ways;
   for (const WindingMethod method : methods)
@@ -40,7 +40,7 @@ void expect_winding(const TriangleMesh& mesh, const Vec3& p, double expected, do
 {
   EXPECT_NEAR(winding_number_direct(mesh.points, mesh.triangles, p), expected, tolerance)
     << "reference at " << p.transpose();
-  for (const WindingNumber& way : all_ways(mesh))
+  for (const WindingNumber& way : build_all_methods(mesh))
   {
     EXPECT_NEAR(way.evaluate_at(p), expected, tolerance)
       << to_string(way.method()) << " at " << p.transpose();
@@ -169,7 +169,7 @@ TEST(WindingNumber, ClosedSurfacesGiveWholeNumbers)
   expect_winding(cube, Vec3::Zero(), 1.0, 1e-15);
   expect_winding(cube, Vec3(10, 20, 30), 0.0, 1e-15);
   expect_winding(test::flipped(cube), Vec3::Zero(), -1.0, 1e-15);
-  const auto ways = all_ways(cube);
+  const auto ways = build_all_methods(cube);
   test::Random random(7);
   for (int i = 0; i < 2000; ++i)
   {
@@ -258,7 +258,7 @@ TEST(WindingNumber, PartsAddUp)
 TEST(WindingNumber, JumpsByOneAcrossTheSurface)
 {
   const TriangleMesh mesh = test::open_cube();
-  for (const WindingNumber& way : all_ways(mesh))
+  for (const WindingNumber& way : build_all_methods(mesh))
   {
     const auto jump = [&](double e)
     { return way.evaluate_at(Vec3(.3, .1, -1 + e)) - way.evaluate_at(Vec3(.3, .1, -1 - e)); };
@@ -298,7 +298,7 @@ TEST(WindingNumber, PrincipalValueOnTheSurface)
   for (const auto& [p, expected] : cases)
   {
     expect_winding(cube, p, expected, 1e-14);
-    for (const WindingNumber& way : all_ways(cube))
+    for (const WindingNumber& way : build_all_methods(cube))
     {
       bool on_surface = false;
       way.evaluate_at(p, &on_surface);
@@ -400,7 +400,7 @@ TEST(WindingNumber, FlatTrianglesCountNothing)
   mesh.triangles.row(12) << 0, 0, 1;
   mesh.triangles.row(13) << 0, n, 3;
   mesh.triangles.row(14) << 0, n + 1, 7;
-  for (const WindingNumber& way : all_ways(mesh))
+  for (const WindingNumber& way : build_all_methods(mesh))
   {
     const Report& report = way.status().report;
     EXPECT_EQ(report.number("counts.degenerate_triangles", -1), 3);
@@ -507,7 +507,7 @@ TEST(WindingNumber, BoundaryTellsEdgesAndComponents)
 TEST(WindingNumber, EmptyMeshWindsAroundNothing)
 {
   const TriangleMesh nothing{ Points(0, 3), Triangles(0, 3) };
-  for (const WindingNumber& way : all_ways(nothing))
+  for (const WindingNumber& way : build_all_methods(nothing))
   {
     EXPECT_EQ(way.evaluate_at(Vec3(1, 2, 3)), 0.0);
     ASSERT_EQ(way.status().warnings.size(), 1u);
@@ -548,7 +548,7 @@ TEST(WindingNumber, PointsThatAreNoneGiveNaN)
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Points queries(5, 3);
   queries << 0, 0, 0, nan, 0, 0, 0, 0, infinity, 1e200, 0, 0, 1, 1, 1;
-  for (const WindingNumber& way : all_ways(cube))
+  for (const WindingNumber& way : build_all_methods(cube))
   {
     ExecutionContext context;
     Eigen::VectorXd w;

@@ -18,7 +18,7 @@ using namespace bindpose;
 
 namespace
 {
-constexpr WindingMethod ways[] = { WindingMethod::direct, WindingMethod::hierarchical,
+constexpr WindingMethod tested_methods[] = { WindingMethod::direct, WindingMethod::hierarchical,
   WindingMethod::crossings };
 
 WindingNumber winding_by_method(const TriangleMesh& mesh, WindingMethod method, Index leaf = 64)
@@ -154,7 +154,7 @@ TEST(WindingMethods, AgreeWithWholeNumbersOnLatticeSoups)
   {
     const TriangleMesh mesh = lattice_soup(random, 1 + random.below(60));
     std::vector<WindingNumber> windings;
-    for (const WindingMethod method : ways)
+    for (const WindingMethod method : tested_methods)
     {
       windings.push_back(winding_by_method(mesh, method, 1 + random.below(6)));
     }
@@ -199,7 +199,7 @@ TEST(WindingMethods, AgreeOnRandomSoups)
           0.5 * (a + b) + Vec3(1e-10, 0, 0), a - Vec3(0, 0, 0.25), 0.5 * (b + c) - Vec3(0, 0, 1e-7),
           a + Vec3(0, 1e-9, -1e-9) });
     }
-    for (const WindingMethod method : ways)
+    for (const WindingMethod method : tested_methods)
     {
       EXPECT_LE(worst_difference(mesh, winding_by_method(mesh, method, 8), points), 1e-12)
         << to_string(method) << ", " << triangles;
@@ -226,7 +226,7 @@ TEST(WindingMethods, AgreeOnUncleanSurfaces)
         { random.in_box(Vec3::Constant(-1.5), Vec3::Constant(1.5)), a, m, 0.5 * (a + b),
           m + 1e-4 * n, m - 1e-4 * n, m + 1e-9 * n, m - 1e-9 * n });
     }
-    for (const WindingMethod method : ways)
+    for (const WindingMethod method : tested_methods)
     {
       EXPECT_LE(worst_difference(mesh, winding_by_method(mesh, method), points), 1e-12)
         << to_string(method) << ", hole " << hole;
@@ -270,7 +270,7 @@ TEST(WindingMethods, ThinTrianglesDoNotFlip)
   TriangleMesh mesh = test::cube();
   mesh.points.col(0) *= 1e-7;
   mesh.points.col(1) *= 1e-4;
-  for (const WindingMethod method : ways)
+  for (const WindingMethod method : tested_methods)
   {
     const WindingNumber winding = winding_by_method(mesh, method, 2);
     for (const double z : { -1.0 + 1e-12, -0.4, 0.3, 1.0 - 1e-12 })
@@ -310,7 +310,7 @@ TEST(WindingMethods, SliversAreSeenUnderTheAngleOfTheirRectangle)
         }
       }
       expected /= 12.56637061435917295;
-      for (const WindingMethod method : ways)
+      for (const WindingMethod method : tested_methods)
       {
         EXPECT_NEAR(winding_by_method(mesh, method, 1).evaluate_at(Vec3(0, 0, h)), expected, 1e-15)
           << to_string(method) << ", " << width << ", " << h;
@@ -324,7 +324,7 @@ TEST(WindingMethods, WhatIsNoTriangleCannotBeTouched)
   TriangleMesh mesh = test::cube();
   mesh.triangles.conservativeResize(13, 3);
   mesh.triangles.row(12) << 0, 7, 0; // this triangle is a segment between opposite corners
-  for (const WindingMethod method : ways)
+  for (const WindingMethod method : tested_methods)
   {
     bool touches = true;
     EXPECT_NEAR(winding_by_method(mesh, method).evaluate_at(Vec3::Zero(), &touches), 1.0, 1e-15);
@@ -353,12 +353,12 @@ TEST(WindingMethods, FarFromTheOriginTouchingReachesAsFar)
       loose.triangles(t, k) = 3 * t + k;
     }
   }
-  for (const double place : { 1e6, 1e9, 1e11 })
+  for (const double magnitude : { 1e6, 1e9, 1e11 })
   {
-    const double reach = std::ldexp(place, -49);
+    const double reach = std::ldexp(magnitude, -49);
     for (const bool closed : { true, false })
     {
-      const TriangleMesh mesh = test::translated(closed ? sphere : loose, Vec3(place, 0, 0));
+      const TriangleMesh mesh = test::translated(closed ? sphere : loose, Vec3(magnitude, 0, 0));
       const WindingNumber winding =
         winding_by_method(mesh, closed ? WindingMethod::crossings : WindingMethod::fast);
       for (Index t = 0; t < mesh.triangles.rows(); ++t)
@@ -370,7 +370,7 @@ TEST(WindingMethods, FarFromTheOriginTouchingReachesAsFar)
         {
           bool touches = false;
           winding.evaluate_at(center + height * reach * normal, &touches);
-          EXPECT_EQ(touches, std::abs(height) < 1.0) << place << ", " << closed << ", " << t;
+          EXPECT_EQ(touches, std::abs(height) < 1.0) << magnitude << ", " << closed << ", " << t;
         }
       }
     }
@@ -389,7 +389,7 @@ TEST(WindingMethods, AsSmallAsDoublesGet)
   {
     mesh.points = (radius * sphere.points).array().round();
     tiny.points = unit * mesh.points;
-    for (const WindingMethod method : ways)
+    for (const WindingMethod method : tested_methods)
     {
       const WindingNumber winding = winding_by_method(mesh, method, 4),
                           of_tiny = winding_by_method(tiny, method, 4);
@@ -714,7 +714,7 @@ TEST(WindingMethods, ProgressGoesForwardAndCancelStops)
   const TriangleMesh mesh = unclean_surface(6, 0.3);
   Points queries(1000000, 3);
   queries.setConstant(0.01);
-  for (const WindingMethod method : ways)
+  for (const WindingMethod method : tested_methods)
   {
     std::vector<double> fractions;
     ExecutionContext watched(
@@ -749,15 +749,15 @@ TEST(WindingMethods, ProgressGoesForwardAndCancelStops)
 TEST(WindingMethods, BuildCanBeCanceledAnywhere)
 {
   const TriangleMesh mesh = unclean_surface(5, 0.3);
-  int asked_in_all = 0;
+  int total_checks = 0;
   {
-    ExecutionContext context(nullptr, [&] { return ++asked_in_all < 0; });
+    ExecutionContext context(nullptr, [&] { return ++total_checks < 0; });
     context.set_threads(1);
     WindingNumber winding;
     ASSERT_TRUE(winding.build(context, mesh.points, mesh.triangles).ok());
   }
-  ASSERT_GT(asked_in_all, 10);
-  for (int stop = 1; stop <= asked_in_all; stop += 1 + asked_in_all / 20)
+  ASSERT_GT(total_checks, 10);
+  for (int stop = 1; stop <= total_checks; stop += 1 + total_checks / 20)
   {
     int asked = 0;
     ExecutionContext context(nullptr, [&] { return ++asked >= stop; });

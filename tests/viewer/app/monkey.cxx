@@ -33,14 +33,14 @@ bool is_left_alone(const QString& name)
 } // namespace
 
 Monkey::Monkey(MainWindow* window, unsigned seed, std::vector<QString> files)
-  : window_(window), hand_(window), random_(seed), files_(std::move(files))
+  : window_(window), user_(window), random_(seed), files_(std::move(files))
 {
 }
 
 double Monkey::number(double lowest, double highest)
 {
-  const double share = static_cast<double>(this->random_()) / 4294967295.0;
-  return lowest + share * (highest - lowest);
+  const double fraction = static_cast<double>(this->random_()) / 4294967295.0;
+  return lowest + fraction * (highest - lowest);
 }
 
 void Monkey::note(const std::string& kind, const QString& what)
@@ -70,15 +70,15 @@ std::string Monkey::story() const
 QPoint Monkey::anywhere()
 {
   const Handles& handles = this->window_->document()->handles();
-  QPoint at = this->hand_.place(this->number(-0.05, 1.05), this->number(-0.05, 1.05));
+  QPoint position = this->user_.place(this->number(-0.05, 1.05), this->number(-0.05, 1.05));
   if (!handles.empty() && this->pick(2) == 0)
   {
     const auto& name =
       handles[static_cast<std::size_t>(this->pick(static_cast<int>(handles.size())))].name;
-    this->hand_.place_of(QString::fromStdString(name), this->pick(2), at);
-    at += QPoint(this->pick(5) - 2, this->pick(5) - 2);
+    this->user_.find_handle_position(QString::fromStdString(name), this->pick(2), position);
+    position += QPoint(this->pick(5) - 2, this->pick(5) - 2);
   }
-  return at;
+  return position;
 }
 
 Qt::MouseButton Monkey::any_button()
@@ -101,14 +101,14 @@ void Monkey::drag()
   const QPoint from = this->anywhere();
   const QPoint by(this->pick(241) - 120, this->pick(241) - 120);
   const Qt::MouseButton button = this->any_button();
-  const Qt::KeyboardModifiers held = this->any_held();
+  const Qt::KeyboardModifiers modifiers = this->any_held();
   const int moves = 1 + this->pick(6);
   this->note("drag", QString("%1 %2 by %3 %4").arg(from.x()).arg(from.y()).arg(by.x()).arg(by.y()));
-  this->hand_.move(from, held);
-  this->hand_.press(from, button, held);
+  this->user_.move(from, modifiers);
+  this->user_.press(from, button, modifiers);
   for (int k = 1; k <= moves; ++k)
   {
-    this->hand_.move(from + by * k / moves, held);
+    this->user_.move(from + by * k / moves, modifiers);
     QApplication::processEvents();
     if (this->pick(25) == 0)
     {
@@ -117,7 +117,7 @@ void Monkey::drag()
   }
   if (this->pick(12) != 0) // otherwise the mouse button stays down for a while
   {
-    this->hand_.release(from + by, button, held);
+    this->user_.release(from + by, button, modifiers);
   }
 }
 
@@ -129,17 +129,17 @@ void Monkey::any_key()
     "Ctrl+Z", "Ctrl+Y", "Ctrl+Shift+Z", "Ctrl+B", "Ctrl+R", "Ctrl+A", "F2", "PgUp", "PgDown" };
   const char* key = keys[this->pick(static_cast<int>(std::size(keys)))];
   this->note("key", key);
-  this->hand_.press_key(key);
+  this->user_.press_key(key);
 }
 
 void Monkey::any_action()
 {
-  const QStringList names = this->hand_.actions();
+  const QStringList names = this->user_.actions();
   const QString name = names.isEmpty() ? QString() : names[this->pick(names.size())];
   if (!is_left_alone(name))
   {
     this->note("action", name);
-    this->hand_.trigger(name);
+    this->user_.trigger(name);
   }
 }
 
@@ -157,7 +157,7 @@ void Monkey::any_option()
     value = this->number(std::max(option.lowest, -2.0), std::min(option.highest, 200.0));
   }
   this->note("option", QString("%1 %2").arg(option.key, value.toString()));
-  this->hand_.choose(option.key, value);
+  this->user_.choose(option.key, value);
 }
 
 /// Click a random visible button. Buttons that open a file dialog are excluded.
@@ -181,7 +181,7 @@ void Monkey::any_button_of_panels()
   {
     const QString text = texts[this->pick(texts.size())];
     this->note("push", text);
-    this->hand_.push(text);
+    this->user_.push(text);
   }
 }
 
@@ -201,33 +201,33 @@ void Monkey::act()
     case 6:
     case 7:
     {
-      const QPoint at = this->anywhere();
-      this->note("click", QString("%1 %2").arg(at.x()).arg(at.y()));
+      const QPoint position = this->anywhere();
+      this->note("click", QString("%1 %2").arg(position.x()).arg(position.y()));
       const Qt::MouseButton button = this->any_button();
-      this->hand_.move(at);
-      this->hand_.press(at, button, this->any_held());
-      this->hand_.release(at, button);
+      this->user_.move(position);
+      this->user_.press(position, button, this->any_held());
+      this->user_.release(position, button);
       break;
     }
     case 8:
     {
-      const QPoint at = this->anywhere();
-      this->note("double click", QString("%1 %2").arg(at.x()).arg(at.y()));
-      this->hand_.double_click(at, Qt::LeftButton);
+      const QPoint position = this->anywhere();
+      this->note("double click", QString("%1 %2").arg(position.x()).arg(position.y()));
+      this->user_.double_click(position, Qt::LeftButton);
       break;
     }
     case 9:
       this->note("wheel", QString());
-      this->hand_.wheel(this->anywhere(), this->number(-3.0, 3.0));
+      this->user_.wheel(this->anywhere(), this->number(-3.0, 3.0));
       break;
     case 10:
     case 11:
       this->note("release", QString());
       for (const Qt::MouseButton button : { Qt::LeftButton, Qt::RightButton, Qt::MiddleButton })
       {
-        if (this->hand_.buttons() & button)
+        if (this->user_.buttons() & button)
         {
-          this->hand_.release(this->anywhere(), button);
+          this->user_.release(this->anywhere(), button);
         }
       }
       break;
@@ -247,8 +247,8 @@ void Monkey::act()
       break;
     case 20:
       this->note("panel", QString());
-      this->hand_.show_panel(
-        WindowHand::panel_names()[this->pick(WindowHand::panel_names().size())]);
+      this->user_.show_panel(
+        SimulatedUser::panel_names()[this->pick(SimulatedUser::panel_names().size())]);
       break;
     case 21:
       this->any_button_of_panels();
@@ -261,7 +261,7 @@ void Monkey::act()
       for (int steps = this->pick(6); steps >= 0; --steps)
       {
         this->note("undo, redo", QString());
-        this->hand_.trigger(this->pick(3) == 0 ? "edit.redo" : "edit.undo");
+        this->user_.trigger(this->pick(3) == 0 ? "edit.redo" : "edit.undo");
       }
       break;
     case 24:
@@ -300,7 +300,7 @@ void Monkey::act()
     }
     default:
       this->note("scrub", QString());
-      this->hand_.scrub(this->number(0.0, 2.0));
+      this->user_.scrub(this->number(0.0, 2.0));
   }
 }
 
@@ -330,17 +330,17 @@ void Monkey::rest()
 {
   for (const Qt::MouseButton button : { Qt::LeftButton, Qt::RightButton, Qt::MiddleButton })
   {
-    if (this->hand_.buttons() & button)
+    if (this->user_.buttons() & button)
     {
-      this->hand_.release(this->hand_.place(0.5, 0.5), button);
+      this->user_.release(this->user_.place(0.5, 0.5), button);
     }
   }
-  this->hand_.press_key("Esc"); // Esc ends a drag that was started by a key
+  this->user_.press_key("Esc"); // Esc ends a drag that was started by a key
   this->window_->binding()->cancel();
-  this->window_->inspection()->cancel();
+  this->window_->tet_inspection()->cancel();
   this->window_->weights()->cancel();
   this->window_->winding_volume()->cancel();
-  this->window_->posing()->keeper()->play(false);
+  this->window_->posing()->pose_manager()->play(false);
   this->window_->posing()->motion()->play(false);
   this->window_->posing()->sequence_export()->cancel();
 }

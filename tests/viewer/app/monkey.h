@@ -48,7 +48,7 @@ private:
   void any_button_of_panels();
 
   MainWindow* window_;
-  WindowHand hand_;
+  SimulatedUser user_;
   std::mt19937 random_;
   std::vector<QString> files_;
   long long events_ = 0;

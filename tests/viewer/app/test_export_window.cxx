@@ -75,7 +75,7 @@ protected:
   }
   bool enabled(const char* name)
   {
-    const QAction* entry = this->hand.action(name);
+    const QAction* entry = this->user.action(name);
     EXPECT_NE(entry, nullptr) << name;
     return entry && entry->isEnabled();
   }
@@ -107,10 +107,10 @@ protected:
         }
       });
     watch.start(20);
-    EXPECT_EQ(this->hand.trigger(name), QString()) << name;
+    EXPECT_EQ(this->user.trigger(name), QString()) << name;
     EXPECT_EQ(answered, 1) << name;
   }
-  QString said() { return this->window.export_bar()->sentence(); }
+  QString bar_message() { return this->window.export_bar()->message(); }
   void press(const QString& text)
   {
     for (QPushButton* button : this->window.export_bar()->findChildren<QPushButton*>())
@@ -124,7 +124,7 @@ protected:
     ADD_FAILURE() << "no button " << text.toStdString();
   }
 
-  WindowHand hand{ &this->window };
+  SimulatedUser user{ &this->window };
   vtkSmartPointer<vtkPolyData> ball;
   test::Folder folder;
 };
@@ -169,7 +169,7 @@ TEST_F(ExportWindow, TheShapeIsExportedAsItIsShown)
   ASSERT_EQ(read->GetNumberOfPoints(), shown.rows());
   EXPECT_LT((Points(to_points(read).view()) - shown).cwiseAbs().maxCoeff(), 1e-5);
   EXPECT_GT((shown - Points(to_points(this->ball.Get()).view())).cwiseAbs().maxCoeff(), 0.2);
-  EXPECT_TRUE(this->said().contains("bent.ply")) << this->said().toStdString();
+  EXPECT_TRUE(this->bar_message().contains("bent.ply")) << this->bar_message().toStdString();
   EXPECT_EQ(this->window.error(), QString());
 }
 
@@ -191,11 +191,12 @@ TEST_F(ExportWindow, TheRigHasTheSkinAndStandsAsTheHandlesDo)
   const Points there = to_points(other.shown()).view();
   ASSERT_EQ(there.rows(), here.rows());
   EXPECT_LT((there - here).cwiseAbs().maxCoeff(), 1e-5);
-  EXPECT_TRUE(this->said().contains("ball.glb"));
+  EXPECT_TRUE(this->bar_message().contains("ball.glb"));
   // A method that glTF does not support is reported.
   this->window.set_method(1);
   ASSERT_TRUE(this->window.exports()->save_rig(to_qt(path)));
-  EXPECT_TRUE(this->said().contains("linear blend skinning")) << this->said().toStdString();
+  EXPECT_TRUE(this->bar_message().contains("linear blend skinning"))
+    << this->bar_message().toStdString();
 }
 
 TEST_F(ExportWindow, PoseAndPictureAreExportedByTheMenu)
@@ -204,47 +205,47 @@ TEST_F(ExportWindow, PoseAndPictureAreExportedByTheMenu)
   this->bend();
   this->export_by_menu("file.export_pose", this->folder / "bent.json");
   EXPECT_TRUE(std::filesystem::exists(this->folder / "bent.json"));
-  EXPECT_TRUE(this->said().contains("bent.json"));
+  EXPECT_TRUE(this->bar_message().contains("bent.json"));
   this->export_by_menu("file.export_picture", this->folder / "bent.png");
   EXPECT_FALSE(QImage(to_qt(this->folder / "bent.png")).isNull());
-  EXPECT_TRUE(this->said().contains("bent.png"));
+  EXPECT_TRUE(this->bar_message().contains("bent.png"));
 }
 
 TEST_F(ExportWindow, AFilmNeedsKeyFramesAndSaysSo)
 {
   this->open_bound();
   EXPECT_FALSE(this->window.strip()->isVisible());
-  EXPECT_EQ(this->hand.trigger("file.export_film"), QString());
-  EXPECT_TRUE(this->said().contains("key frames")) << this->said().toStdString();
+  EXPECT_EQ(this->user.trigger("file.export_film"), QString());
+  EXPECT_TRUE(this->bar_message().contains("key frames")) << this->bar_message().toStdString();
   EXPECT_EQ(this->window.error(), QString());
   this->press("Show the timeline");
   EXPECT_TRUE(this->window.strip()->isVisible());
-  EXPECT_EQ(this->said(), QString());
+  EXPECT_EQ(this->bar_message(), QString());
   // Two key frames are enough for the export of a film. The export of a pose file needs no other
   // program.
-  EXPECT_EQ(this->hand.press_key("K"), QString());
-  this->hand.scrub(0.25);
+  EXPECT_EQ(this->user.press_key("K"), QString());
+  this->user.scrub(0.25);
   this->bend();
-  EXPECT_EQ(this->hand.press_key("K"), QString());
+  EXPECT_EQ(this->user.press_key("K"), QString());
   const std::string path = this->folder / "film.json";
   this->export_by_menu("file.export_film", path);
   ASSERT_TRUE(wait_for([this] { return !this->window.posing()->sequence_export()->is_running(); }));
   EXPECT_TRUE(std::filesystem::exists(path));
-  EXPECT_TRUE(this->said().contains("film.json")) << this->said().toStdString();
-  EXPECT_TRUE(this->said().contains("7 frames"));
+  EXPECT_TRUE(this->bar_message().contains("film.json")) << this->bar_message().toStdString();
+  EXPECT_TRUE(this->bar_message().contains("7 frames"));
 }
 
 TEST_F(ExportWindow, TheFolderOfWhatWasWrittenIsOpened)
 {
   this->open_mesh();
   ASSERT_TRUE(this->window.exports()->save_shape(to_qt(this->folder / "ball.obj")));
-  EXPECT_TRUE(this->said().contains("ball.obj"));
+  EXPECT_TRUE(this->bar_message().contains("ball.obj"));
   OpenedFolders folders;
   this->press("Show in folder");
   ASSERT_EQ(folders.urls().size(), 1);
   EXPECT_EQ(std::filesystem::canonical(folders.urls()[0].toLocalFile().toStdString()),
     std::filesystem::canonical(std::filesystem::path(this->folder / "ball.obj").parent_path()));
-  EXPECT_EQ(this->said(), QString()) << "the bar has done its work";
+  EXPECT_EQ(this->bar_message(), QString()) << "the bar has done its work";
 }
 
 TEST_F(ExportWindow, AnErrorLeavesWhenTheSameKindSucceeds)
@@ -252,7 +253,7 @@ TEST_F(ExportWindow, AnErrorLeavesWhenTheSameKindSucceeds)
   this->open_bound();
   EXPECT_FALSE(this->window.exports()->save_shape("/no/such/folder/ball.ply"));
   EXPECT_TRUE(this->window.error().contains("Cannot export")) << this->window.error().toStdString();
-  EXPECT_EQ(this->said(), QString());
+  EXPECT_EQ(this->bar_message(), QString());
   ASSERT_TRUE(this->window.exports()->save_shape(to_qt(this->folder / "ball.ply")));
   EXPECT_EQ(this->window.error(), QString());
   // If an action of another kind succeeds, the error message stays.
@@ -265,11 +266,11 @@ TEST_F(ExportWindow, AnErrorLeavesWhenTheSameKindSucceeds)
   EXPECT_TRUE(this->window.editing()->commands()->rename(0, "foot"));
   EXPECT_EQ(this->window.error(), QString());
   // The first export of key frames cannot be written, the second one can.
-  EXPECT_EQ(this->hand.press_key("K"), QString());
+  EXPECT_EQ(this->user.press_key("K"), QString());
   this->window.posing()->export_to("/no/such/folder/ball.json");
   ASSERT_TRUE(wait_for([this] { return !this->window.error().isEmpty(); }));
   this->window.posing()->export_to(to_qt(this->folder / "ball.json"));
-  ASSERT_TRUE(
-    wait_for([this] { return !this->said().isEmpty() && this->said().contains("Wrote"); }));
+  ASSERT_TRUE(wait_for(
+    [this] { return !this->bar_message().isEmpty() && this->bar_message().contains("Wrote"); }));
   EXPECT_EQ(this->window.error(), QString());
 }

@@ -107,7 +107,7 @@ protected:
   QUndoStack* history() { return this->window.history(); }
   Viewport* viewport() { return this->window.viewport(); }
   vtkHandleSetWidget* widget() { return this->viewport()->handle_widget(); }
-  Drawn* drawn() { return this->widget()->GetHandleSetRepresentation(); }
+  Drawn* representation() { return this->widget()->GetHandleSetRepresentation(); }
   const Handle& handle(const std::string& name)
   {
     for (const Handle& each : this->document()->handles())
@@ -149,11 +149,11 @@ protected:
     QTest::keyClick(this->viewport(), which, modifiers);
     QApplication::processEvents();
   }
-  void click(const QPoint& at)
+  void click(const QPoint& position)
   {
-    this->hover(at);
-    this->mouse(QEvent::MouseButtonPress, at, Qt::LeftButton, Qt::LeftButton);
-    this->mouse(QEvent::MouseButtonRelease, at, Qt::LeftButton, Qt::NoButton);
+    this->hover(position);
+    this->mouse(QEvent::MouseButtonPress, position, Qt::LeftButton, Qt::LeftButton);
+    this->mouse(QEvent::MouseButtonRelease, position, Qt::LeftButton, Qt::NoButton);
     this->render();
   }
   void press(const QPoint& from, const QPoint& to)
@@ -165,16 +165,17 @@ protected:
       this->mouse(QEvent::MouseMove, from + (to - from) * step / 4, Qt::NoButton, Qt::LeftButton);
     }
   }
-  void release(const QPoint& at)
+  void release(const QPoint& position)
   {
-    this->mouse(QEvent::MouseButtonRelease, at, Qt::LeftButton, Qt::NoButton);
+    this->mouse(QEvent::MouseButtonRelease, position, Qt::LeftButton, Qt::NoButton);
     this->render();
   }
   QPoint grip(int part)
   {
-    double at[2] = { 0, 0 };
-    EXPECT_TRUE(this->drawn()->GetGizmoGrip(part, at));
-    return { static_cast<int>(at[0]), this->viewport()->height() - 1 - static_cast<int>(at[1]) };
+    double position[2] = { 0, 0 };
+    EXPECT_TRUE(this->representation()->GetGizmoGrip(part, position));
+    return { static_cast<int>(position[0]),
+      this->viewport()->height() - 1 - static_cast<int>(position[1]) };
   }
   QString hint()
   {
@@ -249,14 +250,15 @@ protected:
 TEST_F(HandleWindow, HandlesComeFromTheShape)
 {
   this->open_mesh();
-  ShapeHandles* makes = this->window.shape_handles();
-  const auto wait = [makes] { return wait_for([makes] { return !makes->is_running(); }); };
-  makes->start(AutomaticMethod::points, 5);
-  EXPECT_TRUE(makes->is_running());
-  EXPECT_FALSE(this->window.note_bar()->sentence().isEmpty());
+  ShapeHandles* handle_creator = this->window.shape_handles();
+  const auto wait = [handle_creator]
+  { return wait_for([handle_creator] { return !handle_creator->is_running(); }); };
+  handle_creator->start(AutomaticMethod::points, 5);
+  EXPECT_TRUE(handle_creator->is_running());
+  EXPECT_FALSE(this->window.note_bar()->message().isEmpty());
   ASSERT_TRUE(wait());
   EXPECT_EQ(this->window.error(), QString());
-  EXPECT_EQ(this->window.note_bar()->sentence(), QString());
+  EXPECT_EQ(this->window.note_bar()->message(), QString());
   EXPECT_EQ(this->names(), QStringList({ "p1", "p2", "p3", "p4", "p5" }));
   EXPECT_EQ(this->history()->undoText(), "points spread over the shape");
   for (const Handle& each : this->document()->handles())
@@ -264,19 +266,19 @@ TEST_F(HandleWindow, HandlesComeFromTheShape)
     EXPECT_LT((each.head.array() / Vec3(0.4, 0.4, 1.0).array()).matrix().norm(), 1.0) << "inside";
   }
   // A canceled computation keeps the existing handles.
-  makes->start(AutomaticMethod::points, 7);
-  makes->cancel();
+  handle_creator->start(AutomaticMethod::points, 7);
+  handle_creator->cancel();
   ASSERT_TRUE(wait());
   EXPECT_EQ(this->names().size(), 5);
   EXPECT_EQ(this->window.error(), QString());
-  makes->start(AutomaticMethod::points, 1000000);
+  handle_creator->start(AutomaticMethod::points, 1000000);
   ASSERT_TRUE(wait());
   EXPECT_TRUE(this->window.error().contains("Cannot create handles"))
     << this->window.error().toStdString();
   EXPECT_EQ(this->names().size(), 5);
   this->history()->undo();
   EXPECT_TRUE(this->names().isEmpty());
-  makes->start(AutomaticMethod::skeleton, 0);
+  handle_creator->start(AutomaticMethod::skeleton, 0);
   ASSERT_TRUE(wait());
   ASSERT_FALSE(this->names().isEmpty());
   for (const Handle& each : this->document()->handles())
@@ -289,13 +291,15 @@ TEST_F(HandleWindow, HandlesComeFromTheShape)
 TEST_F(HandleWindow, AutoRigMakesBonesAndBindsThem)
 {
   this->open_mesh();
-  ShapeHandles* makes = this->window.shape_handles();
-  const auto wait = [&] {
-    return wait_for([&] { return !makes->is_running() && !this->window.binding()->is_running(); });
+  ShapeHandles* handle_creator = this->window.shape_handles();
+  const auto wait = [&]
+  {
+    return wait_for(
+      [&] { return !handle_creator->is_running() && !this->window.binding()->is_running(); });
   };
-  makes->auto_rig_action()->trigger();
-  EXPECT_TRUE(makes->is_running());
-  EXPECT_FALSE(makes->auto_rig_action()->isEnabled());
+  handle_creator->auto_rig_action()->trigger();
+  EXPECT_TRUE(handle_creator->is_running());
+  EXPECT_FALSE(handle_creator->auto_rig_action()->isEnabled());
   ASSERT_TRUE(wait());
   EXPECT_EQ(this->window.error(), QString());
   ASSERT_FALSE(this->document()->handles().empty());
@@ -310,7 +314,7 @@ TEST_F(HandleWindow, AutoRigMakesBonesAndBindsThem)
   // The automatic method finds no bones in a ball, so the ball gets point handles.
   const TriangleMesh ball = test::sphere(3);
   ASSERT_TRUE(this->window.set_mesh(to_polydata(ball.points, ball.triangles), "ball"));
-  makes->auto_rig_action()->trigger();
+  handle_creator->auto_rig_action()->trigger();
   ASSERT_TRUE(wait());
   EXPECT_EQ(this->window.error(), QString());
   EXPECT_EQ(this->names().size(), 8);
@@ -327,9 +331,9 @@ TEST_F(HandleWindow, PointsAreAddedToAMeshWithoutHandlesAndBound)
   EXPECT_EQ(this->editing()->mode(), HandleEditing::add_points);
   EXPECT_FALSE(nothing->isVisible());
   const QPoint top = this->pixel(Vec3(0, 0, 0.6));
-  const QPoint low = this->pixel(Vec3(0, 0, -0.6));
+  const QPoint bottom = this->pixel(Vec3(0, 0, -0.6));
   this->check("add point p1", [&] { this->click(top); });
-  this->check("add point p2", [&] { this->click(low); });
+  this->check("add point p2", [&] { this->click(bottom); });
   ASSERT_EQ(this->names(), QStringList({ "p1", "p2" }));
   // The point is halfway through the pole: near its axis, at the height of the mouse.
   EXPECT_NEAR(this->handle("p1").head.z(), 0.6, 0.05);
@@ -350,8 +354,8 @@ TEST_F(HandleWindow, PointsAreAddedToAMeshWithoutHandlesAndBound)
   ASSERT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
   this->render();
   const Points rest = this->points();
-  const QPoint at = this->pixel(this->handle("p1").head);
-  this->check("move p1", [&] { this->drag(at, at + QPoint(60, 0)); });
+  const QPoint position = this->pixel(this->handle("p1").head);
+  this->check("move p1", [&] { this->drag(position, position + QPoint(60, 0)); });
   EXPECT_GT((this->points() - rest).rowwise().norm().maxCoeff(), 0.05);
 }
 
@@ -376,10 +380,10 @@ TEST_F(HandleWindow, BonesAreDrawnAsAChain)
 {
   this->open_mesh();
   this->key(Qt::Key_B);
-  const QPoint low = this->pixel(Vec3(0, 0, -0.8));
+  const QPoint bottom = this->pixel(Vec3(0, 0, -0.8));
   const QPoint middle = this->pixel(Vec3(0, 0, 0));
   const QPoint top = this->pixel(Vec3(0, 0, 0.8));
-  this->check("add bone b1", [&] { this->drag(low, middle); });
+  this->check("add bone b1", [&] { this->drag(bottom, middle); });
   this->check("add bone b2", [&] { this->drag(middle, top); });
   ASSERT_EQ(this->names(), QStringList({ "b1", "b2" }));
   EXPECT_EQ(this->handle("b2").parent, this->number("b1"));
@@ -389,7 +393,7 @@ TEST_F(HandleWindow, BonesAreDrawnAsAChain)
   const std::string before = this->state();
   const int steps = this->history()->count();
   this->click(this->pixel(Vec3(0.1, 0, 0.3)));
-  this->press(low, top);
+  this->press(bottom, top);
   EXPECT_TRUE(this->hint().contains("Esc")) << this->hint().toStdString();
   this->key(Qt::Key_Escape);
   this->release(top);
@@ -435,12 +439,12 @@ TEST_F(HandleWindow, CagesAreClosedLeftOpenAndTakenBackVertexByVertex)
   this->click(this->pixel(this->handle("c1").head));
   EXPECT_EQ(this->history()->undoText(), "close cage");
   EXPECT_EQ(edges(), 3U);
-  EXPECT_FALSE(this->drawn()->IsMakingCage());
+  EXPECT_FALSE(this->representation()->IsMakingCage());
   // Esc removes the last vertex; the next Esc ends the mode.
   this->history()->clear();
   const std::string closed = this->state();
   this->click(this->pixel(Vec3(-0.9, 0, 0.3)));
-  EXPECT_TRUE(this->drawn()->IsMakingCage());
+  EXPECT_TRUE(this->representation()->IsMakingCage());
   EXPECT_TRUE(this->hint().contains("closes the cage")) << this->hint().toStdString();
   this->key(Qt::Key_Escape);
   EXPECT_EQ(this->history()->undoText(), "remove cage vertex");
@@ -452,7 +456,7 @@ TEST_F(HandleWindow, CagesAreClosedLeftOpenAndTakenBackVertexByVertex)
   this->click(this->pixel(Vec3(-0.9, 0, 0.3)));
   this->click(this->pixel(Vec3(-0.9, 0, -0.3)));
   this->key(Qt::Key_Return);
-  EXPECT_FALSE(this->drawn()->IsMakingCage());
+  EXPECT_FALSE(this->representation()->IsMakingCage());
   EXPECT_EQ(edges(), 4U);
 }
 
@@ -473,7 +477,7 @@ TEST_F(HandleWindow, RegionsArePaintedErasedAndUndone)
   };
   const QImage plain = this->picture();
   const QPoint top = this->pixel(Vec3(0, 0, 0.7));
-  const QPoint low = this->pixel(Vec3(0, 0, -0.7));
+  const QPoint bottom = this->pixel(Vec3(0, 0, -0.7));
   this->check("paint region r1", [&] { this->drag(top, top + QPoint(10, 0)); });
   EXPECT_NE(this->picture(), plain);
   EXPECT_EQ(this->handle("r1").kind, HandleKind::region);
@@ -502,14 +506,14 @@ TEST_F(HandleWindow, RegionsArePaintedErasedAndUndone)
       button->click();
     }
   }
-  this->check("paint region r2", [&] { this->drag(low, low + QPoint(5, 0)); });
+  this->check("paint region r2", [&] { this->drag(bottom, bottom + QPoint(5, 0)); });
   EXPECT_EQ(this->handle("r2").region_id, 2);
   EXPECT_GT(labeled(2), 0);
   // A stroke that is canceled with Esc has no effect, and the edit mode continues.
   const std::string before = this->state();
-  this->press(low, low + QPoint(0, -60));
+  this->press(bottom, bottom + QPoint(0, -60));
   this->key(Qt::Key_Escape);
-  this->release(low + QPoint(0, -60));
+  this->release(bottom + QPoint(0, -60));
   EXPECT_EQ(this->state(), before);
   EXPECT_EQ(this->editing()->mode(), HandleEditing::paint_regions);
   // Deleting a region also deletes its labels.
@@ -531,10 +535,10 @@ TEST_F(HandleWindow, WhatCannotBePlacedIsOneSentence)
 {
   this->open_mesh();
   this->key(Qt::Key_A);
-  const QPoint at = this->pixel(Vec3(0, 0, 0.5));
-  this->click(at);
+  const QPoint position = this->pixel(Vec3(0, 0, 0.5));
+  this->click(position);
   const int steps = this->history()->count();
-  this->click(at); // click again at the same position
+  this->click(position); // click again at the same position
   EXPECT_EQ(this->history()->count(), steps);
   EXPECT_TRUE(this->editing()->is_warning());
   EXPECT_TRUE(this->hint().contains("p1")) << this->hint().toStdString();
@@ -588,9 +592,9 @@ TEST_F(HandleWindow, RestPlacesAreMovedAndARebindIsOffered)
   this->key(Qt::Key_M);
   this->render();
   EXPECT_EQ(this->points(), rest); // the shape is shown at rest
-  const QPoint at = this->pixel(this->handle("left").head);
+  const QPoint position = this->pixel(this->handle("left").head);
   EXPECT_TRUE(this->window.rebind_bar()->isHidden());
-  this->check("move at rest left", [&] { this->drag(at, at + QPoint(0, 30)); });
+  this->check("move at rest left", [&] { this->drag(position, position + QPoint(0, 30)); });
   EXPECT_GT((this->handle("left").head - Vec3(-0.3, 0, 0.5)).norm(), 0.02);
   EXPECT_FALSE(this->window.rebind_bar()->isHidden());
   this->render(); // the bar that offers a bind takes up space in the window
@@ -599,7 +603,7 @@ TEST_F(HandleWindow, RestPlacesAreMovedAndARebindIsOffered)
   const int steps = this->history()->count();
   const QPoint from = this->pixel(this->handle("right").head);
   this->press(from, from + QPoint(30, 30));
-  EXPECT_NE(this->drawn()->GetActiveHandle(), -1);
+  EXPECT_NE(this->representation()->GetActiveHandle(), -1);
   this->key(Qt::Key_Escape);
   this->release(from + QPoint(30, 30));
   EXPECT_EQ(this->state(), before);
@@ -615,7 +619,7 @@ TEST_F(HandleWindow, TheGizmoDragsAlongAnAxisAndIsCanceledBitByBit)
   this->click(this->pixel(this->handle("right").head));
   ASSERT_EQ(this->editing()->selection()->selected(), std::vector<int>{ 1 });
   this->key(Qt::Key_W);
-  EXPECT_EQ(this->drawn()->GetGizmo(), Drawn::GIZMO_MOVE);
+  EXPECT_EQ(this->representation()->GetGizmo(), Drawn::GIZMO_MOVE);
   this->render();
   // The drag follows the projected axis, with some deviation from it.
   const QPoint z = this->grip(Drawn::MOVE_Z);
@@ -655,11 +659,11 @@ TEST_F(HandleWindow, TheGizmoDragsAlongAnAxisAndIsCanceledBitByBit)
 TEST_F(HandleWindow, StretchGoesToTheBoneOnlyWhereItIsSeen)
 {
   this->open_bound();
-  EXPECT_FALSE(this->drawn()->GetStretchableBones());
+  EXPECT_FALSE(this->representation()->GetStretchableBones());
   this->window.set_method(static_cast<int>(PoseMethod::stretchable_bones));
-  EXPECT_TRUE(this->drawn()->GetStretchableBones());
+  EXPECT_TRUE(this->representation()->GetStretchableBones());
   this->history()->undo();
-  EXPECT_FALSE(this->drawn()->GetStretchableBones());
+  EXPECT_FALSE(this->representation()->GetStretchableBones());
 }
 
 /// During a drag, letters and digits control the drag. At other times they are shortcuts of the
@@ -667,10 +671,10 @@ TEST_F(HandleWindow, StretchGoesToTheBoneOnlyWhereItIsSeen)
 TEST_F(HandleWindow, KeysOfADragAreNoShortcuts)
 {
   this->open_bound();
-  const QPoint at = this->pixel(this->handle("right").head);
-  this->click(at);
+  const QPoint position = this->pixel(this->handle("right").head);
+  this->click(position);
   const int method = this->document()->number("pose.method");
-  this->hover(at);
+  this->hover(position);
   this->key(Qt::Key_G);
   ASSERT_TRUE(this->widget()->IsDragging());
   this->key(Qt::Key_Z);
@@ -692,13 +696,13 @@ TEST_F(HandleWindow, KeysOfADragAreNoShortcuts)
   // R rotates the selected handle, and T shows the shape at rest.
   this->key(Qt::Key_R);
   EXPECT_TRUE(this->widget()->IsDragging());
-  EXPECT_FALSE(this->window.posing()->looks_at_rest());
+  EXPECT_FALSE(this->window.posing()->is_rest_view());
   this->key(Qt::Key_Escape);
   EXPECT_FALSE(this->widget()->IsDragging());
   this->key(Qt::Key_T);
-  EXPECT_TRUE(this->window.posing()->looks_at_rest());
+  EXPECT_TRUE(this->window.posing()->is_rest_view());
   this->key(Qt::Key_T);
-  EXPECT_FALSE(this->window.posing()->looks_at_rest());
+  EXPECT_FALSE(this->window.posing()->is_rest_view());
 }
 
 TEST_F(HandleWindow, ARefusedDragSaysWhy)
@@ -707,11 +711,11 @@ TEST_F(HandleWindow, ARefusedDragSaysWhy)
   this->editing()->selection()->select({ 0 });
   this->commands()->set_locked(true);
   this->render();
-  const QPoint at = this->pixel(this->handle("left").head);
+  const QPoint position = this->pixel(this->handle("left").head);
   const std::string before = this->state();
-  this->hover(at);
+  this->hover(position);
   EXPECT_TRUE(this->hint().startsWith("left is locked")) << this->hint().toStdString();
-  this->drag(at, at + QPoint(40, 0));
+  this->drag(position, position + QPoint(40, 0));
   EXPECT_EQ(this->state(), before);
   this->document()->set_mode(1, static_cast<int>(HandleMode::free));
   this->render();
@@ -724,8 +728,8 @@ TEST_F(HandleWindow, SeveralSelectedHandlesMoveAsOneStep)
   this->open_bound();
   this->editing()->selection()->select({ 0, 1 });
   this->render();
-  const QPoint at = this->pixel(this->handle("right").head);
-  this->check("move 2 handles", [&] { this->drag(at, at + QPoint(0, -40)); });
+  const QPoint position = this->pixel(this->handle("right").head);
+  this->check("move 2 handles", [&] { this->drag(position, position + QPoint(0, -40)); });
   const Pose pose = this->document()->pose();
   EXPECT_LT((pose[0].transform.col(3) - pose[1].transform.col(3)).norm(), 1e-12);
   EXPECT_GT(pose[0].transform.col(3).norm(), 0.02);
@@ -803,18 +807,19 @@ TEST_F(HandleWindow, NamesThatCannotBeAreOneSentence)
 {
   this->open_bound();
   // Stored poses also get the new name.
-  PoseShelf shelf;
+  StoredPoses stored_poses;
   Pose kept(3);
   kept[0].transform.col(3) = Vec3(0.5, 0, 0);
-  shelf.library.store("wave", NamedPose(this->document()->handles(), kept));
-  shelf.keys.set(0.5, NamedPose(this->document()->handles(), kept));
-  this->document()->set_key_poses(shelf, "keep");
+  stored_poses.library.store("wave", NamedPose(this->document()->handles(), kept));
+  stored_poses.keys.set(0.5, NamedPose(this->document()->handles(), kept));
+  this->document()->set_stored_poses(stored_poses, "keep");
   this->editing()->selection()->select({ 0 });
   this->check("rename left", [&] { EXPECT_TRUE(this->commands()->rename(0, " paw ")); });
   EXPECT_EQ(this->names()[0], "paw");
   EXPECT_EQ(this->editing()->selection()->selected(), std::vector<int>{ 0 });
-  const PoseShelf& now = *this->document()->work().key_poses;
-  EXPECT_EQ(now.library.entries()[0].pose.of(this->document()->handles(), Pose(3))[0].transform,
+  const StoredPoses& now = *this->document()->work().stored_poses;
+  EXPECT_EQ(
+    now.library.entries()[0].pose.for_handles(this->document()->handles(), Pose(3))[0].transform,
     kept[0].transform);
   EXPECT_EQ(
     now.keys.pose_at(0.5, this->document()->handles(), Pose(3))[0].transform, kept[0].transform);
@@ -843,13 +848,13 @@ TEST_F(HandleWindow, TheRightButtonShowsWhatCanBeDoneWithAHandle)
 {
   this->open_bound();
   QMenu* menu = this->commands()->menu();
-  const QPoint at = this->pixel(this->handle("right").head);
-  this->hover(at);
-  this->mouse(QEvent::MouseButtonPress, at, Qt::RightButton, Qt::RightButton);
+  const QPoint position = this->pixel(this->handle("right").head);
+  this->hover(position);
+  this->mouse(QEvent::MouseButtonPress, position, Qt::RightButton, Qt::RightButton);
   EXPECT_TRUE(menu->isVisible());
   EXPECT_EQ(this->editing()->selection()->selected(), std::vector<int>{ 1 });
   menu->hide();
-  this->mouse(QEvent::MouseButtonRelease, at, Qt::RightButton, Qt::NoButton);
+  this->mouse(QEvent::MouseButtonRelease, position, Qt::RightButton, Qt::NoButton);
   const QString texts = [menu]
   {
     QStringList all;
@@ -872,12 +877,12 @@ TEST_F(HandleWindow, TheRightButtonShowsWhatCanBeDoneWithAHandle)
   this->mouse(QEvent::MouseButtonRelease, beside, Qt::RightButton, Qt::NoButton);
   // During a drag, the right mouse button cancels the drag.
   const std::string before = this->state();
-  this->press(at, at + QPoint(40, 0));
-  this->mouse(QEvent::MouseButtonPress, at + QPoint(40, 0), Qt::RightButton, Qt::RightButton);
+  this->press(position, position + QPoint(40, 0));
+  this->mouse(QEvent::MouseButtonPress, position + QPoint(40, 0), Qt::RightButton, Qt::RightButton);
   EXPECT_EQ(this->state(), before);
   EXPECT_FALSE(menu->isVisible());
-  this->mouse(QEvent::MouseButtonRelease, at, Qt::RightButton, Qt::NoButton);
-  this->release(at);
+  this->mouse(QEvent::MouseButtonRelease, position, Qt::RightButton, Qt::NoButton);
+  this->release(position);
   // The list of handles has the same context menu.
   const HandleTree* handles = this->window.panel()->handle_list();
   QTreeWidget* list = handles->tree();
@@ -962,7 +967,7 @@ TEST_F(HandleWindow, TheSheetTellsTheKeysThatThereAre)
   {
     EXPECT_TRUE(all.contains(QString::fromStdString(vtkRegionBrushWidget::GetBindingText(row))));
   }
-  sheet->look_for("bone head");
+  sheet->apply_search("bone head");
   int shown = 0;
   for (int row = 0; row < sheet->table()->rowCount(); ++row)
   {

@@ -63,35 +63,35 @@ protected:
   }
 
   HandleTree* list() { return this->window.panel()->handle_list(); }
-  void click(int row, Qt::KeyboardModifiers held = Qt::NoModifier)
+  void click(int row, Qt::KeyboardModifiers modifiers = Qt::NoModifier)
   {
     QTreeWidget* tree = this->list()->tree();
     const QRect at = tree->visualItemRect(this->list()->item(row));
-    QTest::mouseClick(tree->viewport(), Qt::LeftButton, held, at.center());
+    QTest::mouseClick(tree->viewport(), Qt::LeftButton, modifiers, at.center());
     QApplication::processEvents();
   }
   /// Return the selected handles. Expect that the list, the panel and the view show this selection.
   std::vector<int> selected()
   {
     const std::vector<int> result = this->window.editing()->selection()->selected();
-    auto* drawn = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
+    auto* representation = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
     for (int k = 0; k < static_cast<int>(this->list()->rows().size()); ++k)
     {
       const bool is = std::find(result.begin(), result.end(), k) != result.end();
       EXPECT_EQ(this->list()->item(k)->isSelected(), is) << k;
-      EXPECT_EQ(drawn->IsSelected(this->window.document()->handle_cells()[k]), is) << k;
+      EXPECT_EQ(representation->IsSelected(this->window.document()->handle_cells()[k]), is) << k;
     }
     EXPECT_EQ(this->window.panel()->selected_handles(), result);
     return result;
   }
   /// Click a handle in the view.
-  void pick(const char* name, Qt::KeyboardModifiers held = Qt::NoModifier)
+  void pick(const char* name, Qt::KeyboardModifiers modifiers = Qt::NoModifier)
   {
     QPoint at;
-    ASSERT_EQ(this->hand.place_of(name, 0.0, at), QString());
-    this->hand.move(at, held);
-    this->hand.press(at, Qt::LeftButton, held);
-    this->hand.release(at, Qt::LeftButton, held);
+    ASSERT_EQ(this->user.find_handle_position(name, 0.0, at), QString());
+    this->user.move(at, modifiers);
+    this->user.press(at, Qt::LeftButton, modifiers);
+    this->user.release(at, Qt::LeftButton, modifiers);
     QApplication::processEvents();
   }
   QString note()
@@ -127,47 +127,47 @@ protected:
     return this->window.document()->pose()[static_cast<std::size_t>(handle)].mode;
   }
 
-  WindowHand hand{ &this->window };
+  SimulatedUser user{ &this->window };
 };
 
-using Numbers = std::vector<int>;
+using Indices = std::vector<int>;
 } // namespace
 
 TEST_F(HandleList, ClicksWithCtrlAndShiftSelectSeveralInThePicture)
 {
   this->click(0);
-  EXPECT_EQ(this->selected(), Numbers({ 0 }));
+  EXPECT_EQ(this->selected(), Indices({ 0 }));
   EXPECT_EQ(this->note(), QString());
   this->click(2, Qt::ControlModifier);
-  EXPECT_EQ(this->selected(), Numbers({ 0, 2 }));
+  EXPECT_EQ(this->selected(), Indices({ 0, 2 }));
   this->click(0, Qt::ControlModifier);
-  EXPECT_EQ(this->selected(), Numbers({ 2 }));
+  EXPECT_EQ(this->selected(), Indices({ 2 }));
   this->click(0, Qt::ControlModifier);
-  EXPECT_EQ(this->selected(), Numbers({ 2, 0 })) << "in the order in which they were chosen";
+  EXPECT_EQ(this->selected(), Indices({ 2, 0 })) << "in the order in which they were chosen";
   this->click(1);
-  EXPECT_EQ(this->selected(), Numbers({ 1 }));
+  EXPECT_EQ(this->selected(), Indices({ 1 }));
   this->click(3, Qt::ShiftModifier);
-  EXPECT_EQ(this->selected(), Numbers({ 1, 2, 3 }));
+  EXPECT_EQ(this->selected(), Indices({ 1, 2, 3 }));
   this->click(1, Qt::ControlModifier);
   this->click(2, Qt::ControlModifier);
   this->click(3, Qt::ControlModifier);
-  EXPECT_EQ(this->selected(), Numbers());
+  EXPECT_EQ(this->selected(), Indices());
 }
 
 TEST_F(HandleList, WhatIsSelectedInThePictureIsSelectedInTheList)
 {
   this->pick("top");
-  EXPECT_EQ(this->selected(), Numbers({ 2 }));
+  EXPECT_EQ(this->selected(), Indices({ 2 }));
   this->pick("bottom", Qt::ShiftModifier);
-  EXPECT_EQ(this->selected(), Numbers({ 2, 0 }));
-  this->hand.trigger("select_all");
-  EXPECT_EQ(this->selected(), Numbers({ 0, 1, 2, 3 }));
+  EXPECT_EQ(this->selected(), Indices({ 2, 0 }));
+  this->user.trigger("select_all");
+  EXPECT_EQ(this->selected(), Indices({ 0, 1, 2, 3 }));
   this->pick("middle", Qt::ShiftModifier);
-  EXPECT_EQ(this->selected(), Numbers({ 0, 2, 3 }));
+  EXPECT_EQ(this->selected(), Indices({ 0, 2, 3 }));
   // Undo of a deletion selects the handles that it restores, by name.
-  this->hand.trigger("delete");
-  EXPECT_EQ(this->selected(), Numbers());
-  this->hand.trigger("edit.undo");
+  this->user.trigger("delete");
+  EXPECT_EQ(this->selected(), Indices());
+  this->user.trigger("edit.undo");
   EXPECT_EQ(this->list()->rows().size(), 4U);
   this->selected();
 }
@@ -203,8 +203,8 @@ TEST_F(HandleList, AModeIsForAllThatAreSelectedAndOneStep)
   EXPECT_EQ(this->mode(0), HandleMode::position);
   EXPECT_EQ(this->mode(1), HandleMode::automatic);
   EXPECT_EQ(this->mode(2), HandleMode::position);
-  EXPECT_EQ(this->selected(), Numbers({ 0, 2 }));
-  this->hand.trigger("edit.undo");
+  EXPECT_EQ(this->selected(), Indices({ 0, 2 }));
+  this->user.trigger("edit.undo");
   EXPECT_EQ(this->mode(0), HandleMode::automatic);
   EXPECT_EQ(this->mode(2), HandleMode::automatic);
   EXPECT_EQ(this->modes()->currentIndex(), this->entry_of(HandleMode::automatic));
@@ -214,8 +214,8 @@ TEST_F(HandleList, AModeIsForAllThatAreSelectedAndOneStep)
   EXPECT_TRUE(this->offers(HandleMode::tail));
   this->click(2, Qt::ControlModifier);
   EXPECT_FALSE(this->offers(HandleMode::tail)) << "one of them is a point";
-  EXPECT_NE(this->hand.set_mode("tail"), QString());
-  EXPECT_EQ(this->hand.set_mode("free"), QString());
+  EXPECT_NE(this->user.set_mode("tail"), QString());
+  EXPECT_EQ(this->user.set_mode("free"), QString());
   EXPECT_EQ(this->mode(2), HandleMode::free);
   EXPECT_EQ(this->mode(3), HandleMode::free);
 }
@@ -229,19 +229,19 @@ TEST_F(HandleList, TheWeightsPanelAndTheSelectionFollowEachOther)
   this->window.panels()->show_panel(PanelColumn::weights);
   EXPECT_EQ(weights->column(), 2) << "what was selected before";
   this->pick("bottom");
-  EXPECT_EQ(this->selected(), Numbers({ 0 }));
+  EXPECT_EQ(this->selected(), Indices({ 0 }));
   EXPECT_EQ(weights->column(), 0);
   this->click(3);
   EXPECT_EQ(weights->column(), 3);
   auto* box = weights->findChild<QComboBox*>("weights.column");
   box->setCurrentIndex(1 + 1);
-  EXPECT_EQ(this->selected(), Numbers({ 1 }));
+  EXPECT_EQ(this->selected(), Indices({ 1 }));
   // If several handles are selected, the weights of the last one are shown, and all stay selected.
   this->click(2, Qt::ControlModifier);
-  EXPECT_EQ(this->selected(), Numbers({ 1, 2 }));
+  EXPECT_EQ(this->selected(), Indices({ 1, 2 }));
   EXPECT_EQ(weights->column(), 2);
   box->setCurrentIndex(0); // this entry shows all handles
-  EXPECT_EQ(this->selected(), Numbers({ 1, 2 }));
+  EXPECT_EQ(this->selected(), Indices({ 1, 2 }));
 }
 
 // ---- The tree ----------------------------------------------------------------------------------
@@ -356,7 +356,7 @@ TEST_F(HandleTreeWindow, TheSearchShowsMatchesBelowTheirParents)
     << "letters are no shortcuts there";
   QTest::keyClick(search, Qt::Key_Return);
   EXPECT_EQ(
-    this->window.editing()->selection()->selected(), Numbers({ this->number("right_finger_0") }));
+    this->window.editing()->selection()->selected(), Indices({ this->number("right_finger_0") }));
   // If a handle is selected elsewhere, its row is visible for any search text.
   this->window.panel()->select_handle(this->number("nose"));
   EXPECT_TRUE(this->seen().contains("nose"));

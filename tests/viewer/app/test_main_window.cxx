@@ -56,7 +56,7 @@ using test::with_linear_weights;
 
 namespace
 {
-Vec3 top_of(vtkPolyData* data)
+Vec3 highest_point(vtkPolyData* data)
 {
   Vec3 top(0, 0, -1e300);
   for (vtkIdType v = 0; v < data->GetNumberOfPoints(); ++v)
@@ -114,9 +114,9 @@ protected:
   /// Return the pixel of a handle in the window, in VTK's coordinates (y upward).
   Eigen::Vector2i pixel_of(vtkIdType handle)
   {
-    auto* drawn = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
+    auto* representation = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
     double p[3];
-    drawn->GetPosedHead(handle, p);
+    representation->GetPosedHead(handle, p);
     vtkRenderer* renderer = this->window.viewport()->renderer();
     renderer->SetWorldPoint(p[0], p[1], p[2], 1.0);
     renderer->WorldToDisplay();
@@ -131,22 +131,22 @@ protected:
     interactor->InvokeEvent(event);
   }
 
-  void press_and_move(vtkIdType handle, const Eigen::Vector2i& by)
+  void press_and_move(vtkIdType handle, const Eigen::Vector2i& offset)
   {
     const Eigen::Vector2i at = this->pixel_of(handle);
     this->mouse(at, vtkCommand::MouseMoveEvent);
     this->mouse(at, vtkCommand::LeftButtonPressEvent);
     for (int step = 1; step <= 4; ++step)
     {
-      this->mouse(at + by * step / 4, vtkCommand::MouseMoveEvent);
+      this->mouse(at + offset * step / 4, vtkCommand::MouseMoveEvent);
     }
   }
 
-  void drag(vtkIdType handle, const Eigen::Vector2i& by)
+  void drag(vtkIdType handle, const Eigen::Vector2i& offset)
   {
     const Eigen::Vector2i at = this->pixel_of(handle);
-    this->press_and_move(handle, by);
-    this->mouse(at + by, vtkCommand::LeftButtonReleaseEvent);
+    this->press_and_move(handle, offset);
+    this->mouse(at + offset, vtkCommand::LeftButtonReleaseEvent);
   }
 
   MainWindow window;
@@ -156,16 +156,16 @@ protected:
 TEST_F(Window, ADragMovesVerticesAndUndoTakesItBack)
 {
   this->open_bound();
-  const Vec3 rest = top_of(this->window.shown());
+  const Vec3 rest = highest_point(this->window.shown());
   this->drag(1, { 80, 0 });
-  const Vec3 moved = top_of(this->window.shown());
+  const Vec3 moved = highest_point(this->window.shown());
   EXPECT_GT((moved - rest).norm(), 0.1);
   ASSERT_EQ(this->window.history()->count(), 1);
   EXPECT_NE(this->window.history()->undoText().indexOf("top"), -1);
   this->window.history()->undo();
-  EXPECT_EQ(top_of(this->window.shown()), rest);
+  EXPECT_EQ(highest_point(this->window.shown()), rest);
   this->window.history()->redo();
-  EXPECT_EQ(top_of(this->window.shown()), moved);
+  EXPECT_EQ(highest_point(this->window.shown()), moved);
 }
 
 /// If a desktop icon starts the program, there is no visible terminal, so the window must show the
@@ -178,12 +178,12 @@ TEST_F(Window, FilesThatCannotBeReadAreNamedInTheErrorBar)
   const TriangleMesh mesh = column(3);
   const auto surface = to_polydata(mesh.points, mesh.triangles);
   ASSERT_TRUE(write_shape(surface, folder / "good.vtp").ok());
-  std::vector<FirstFile> files(4);
+  std::vector<InitialFile> files(4);
   files[0] = { folder / "gone.off", {}, "cannot open gone.off: No such file or directory" };
   files[1] = { noise, {}, {} };
   files[2] = { session, {}, {} };
   files[3] = { folder / "good.vtp", {}, {} };
-  open_first_files(this->window, files);
+  open_initial_files(this->window, files);
   const QStringList said = this->window.error().split('\n');
   ASSERT_EQ(said.size(), 3) << this->window.error().toStdString();
   EXPECT_EQ(said[0], "cannot open gone.off: No such file or directory");
@@ -208,30 +208,30 @@ TEST_F(Window, ARigIsReadyToBePosed)
   std::remove(path.c_str());
   ASSERT_TRUE(this->window.is_bound()); // the weights in the file make the mesh bound
   this->render();
-  const Vec3 rest = top_of(this->window.shown());
+  const Vec3 rest = highest_point(this->window.shown());
   this->drag(1, { 80, 0 });
-  EXPECT_GT((top_of(this->window.shown()) - rest).norm(), 0.1);
+  EXPECT_GT((highest_point(this->window.shown()) - rest).norm(), 0.1);
 }
 
 TEST_F(Window, EscapeTakesTheDragBackAndLeavesNoHistory)
 {
   this->open_bound();
-  const Vec3 rest = top_of(this->window.shown());
+  const Vec3 rest = highest_point(this->window.shown());
   this->press_and_move(1, { 80, 0 });
-  EXPECT_GT((top_of(this->window.shown()) - rest).norm(), 0.1);
+  EXPECT_GT((highest_point(this->window.shown()) - rest).norm(), 0.1);
   vtkRenderWindowInteractor* interactor = this->window.viewport()->interactor();
   interactor->SetKeySym("Escape");
   interactor->InvokeEvent(vtkCommand::KeyPressEvent);
-  EXPECT_EQ(top_of(this->window.shown()), rest);
+  EXPECT_EQ(highest_point(this->window.shown()), rest);
   EXPECT_EQ(this->window.history()->count(), 0);
 }
 
 TEST_F(Window, AllMethodsFollowTheHandles)
 {
   this->open_bound();
-  const Vec3 rest = top_of(this->window.shown());
+  const Vec3 rest = highest_point(this->window.shown());
   this->drag(1, { 80, 0 });
-  const Vec3 linear = top_of(this->window.shown());
+  const Vec3 linear = highest_point(this->window.shown());
   for (const int handle : { 0, 1 })
   {
     this->window.set_mode(handle, static_cast<int>(HandleMode::full));
@@ -241,7 +241,8 @@ TEST_F(Window, AllMethodsFollowTheHandles)
     this->window.set_method(method);
     EXPECT_EQ(this->window.error(), QString());
     // The two handles determine the motion of the top, so all methods agree on it.
-    EXPECT_NEAR((top_of(this->window.shown()) - linear).norm(), 0.0, 0.05 * (linear - rest).norm());
+    EXPECT_NEAR(
+      (highest_point(this->window.shown()) - linear).norm(), 0.0, 0.05 * (linear - rest).norm());
   }
 }
 
@@ -259,8 +260,8 @@ TEST_F(Window, ModesAreRememberedAndUndone)
   {
     this->window.history()->undo();
   }
-  auto* drawn = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
-  EXPECT_EQ(drawn->GetHandleMode(1), static_cast<int>(HandleMode::automatic));
+  auto* representation = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
+  EXPECT_EQ(representation->GetHandleMode(1), static_cast<int>(HandleMode::automatic));
 }
 
 TEST_F(Window, BindsOffTheUiThreadWithProgress)
@@ -291,9 +292,9 @@ TEST_F(Window, BindsOffTheUiThreadWithProgress)
   EXPECT_EQ(backward, "");
   EXPECT_GT(steps, 3);
   this->render();
-  const Vec3 rest = top_of(this->window.shown());
+  const Vec3 rest = highest_point(this->window.shown());
   this->drag(1, { 80, 0 });
-  EXPECT_GT((top_of(this->window.shown()) - rest).norm(), 0.1);
+  EXPECT_GT((highest_point(this->window.shown()) - rest).norm(), 0.1);
 }
 
 TEST_F(Window, ACanceledBindLeavesAtMostItsPreview)
@@ -425,8 +426,8 @@ TEST_F(Window, ABindKeepsTheSelectedHandle)
   EXPECT_EQ(this->window.panel()->selected_handle(), 1);
   ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
   EXPECT_EQ(this->window.panel()->selected_handle(), 1);
-  auto* drawn = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
-  EXPECT_EQ(drawn->GetSelectedHandle(), 1);
+  auto* representation = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
+  EXPECT_EQ(representation->GetSelectedHandle(), 1);
 }
 
 TEST_F(Window, TheKeyboardBindsAndCancelsWithoutChoosingAHandle)
@@ -456,12 +457,12 @@ TEST_F(Window, TheKeyboardBindsAndCancelsWithoutChoosingAHandle)
 TEST_F(Window, UndoDuringADragEndsTheDrag)
 {
   this->open_bound();
-  const Vec3 rest = top_of(this->window.shown());
+  const Vec3 rest = highest_point(this->window.shown());
   this->drag(1, { 80, 0 });
   this->press_and_move(1, { 0, 40 });
   this->window.history()->undo();
   EXPECT_FALSE(this->window.viewport()->handle_widget()->IsDragging());
-  EXPECT_EQ(top_of(this->window.shown()), rest);
+  EXPECT_EQ(highest_point(this->window.shown()), rest);
 }
 
 TEST_F(Window, HandlesWithoutAMeshAreInView)
@@ -574,16 +575,16 @@ TEST_F(Window, HandlesAreDraggedBesideAnOpenVolumeInThePanelPose)
   EXPECT_TRUE(this->window.is_bound());
   this->render();
   const double slice = this->window.volume_view()->position();
-  const Vec3 rest = top_of(this->window.shown());
+  const Vec3 rest = highest_point(this->window.shown());
   // While the slice is shown, the shape is at rest. A drag moves neither the handles nor the slice
   // behind them.
   this->drag(1, { 80, 0 });
-  EXPECT_EQ(top_of(this->window.shown()), rest);
+  EXPECT_EQ(highest_point(this->window.shown()), rest);
   EXPECT_EQ(this->window.volume_view()->position(), slice);
   this->window.panels()->show_panel(PanelColumn::bind_and_pose);
   this->render();
   this->drag(1, { 80, 0 });
-  EXPECT_GT((top_of(this->window.shown()) - rest).norm(), 0.1);
+  EXPECT_GT((highest_point(this->window.shown()) - rest).norm(), 0.1);
   EXPECT_EQ(this->window.volume_view()->position(), slice);
   EXPECT_EQ(this->window.history()->count(), 2); // the two steps are the volume and the drag
 }
@@ -625,7 +626,7 @@ TEST_F(Window, TurnsDarkAndLightAgain)
     EXPECT_TRUE(dark.save(QString(folder) + "/dark.png"));
   }
   // Panel, menu and view have a dark background and light text.
-  const auto light_share = [](const QImage& image, const QRect& at)
+  const auto light_fraction = [](const QImage& image, const QRect& at)
   {
     int light_pixels = 0, all = 0;
     for (int y = at.top(); y <= at.bottom(); ++y)
@@ -642,9 +643,9 @@ TEST_F(Window, TurnsDarkAndLightAgain)
          static_cast<const QWidget*>(this->window.viewport()) })
   {
     const QRect at(part->mapTo(&this->window, QPoint()), part->size());
-    EXPECT_LT(light_share(dark, at), 0.3) << part->metaObject()->className();
-    EXPECT_GT(light_share(dark, at), 0.0005) << part->metaObject()->className();
-    EXPECT_GT(light_share(light, at), 0.7) << part->metaObject()->className();
+    EXPECT_LT(light_fraction(dark, at), 0.3) << part->metaObject()->className();
+    EXPECT_GT(light_fraction(dark, at), 0.0005) << part->metaObject()->className();
+    EXPECT_GT(light_fraction(light, at), 0.7) << part->metaObject()->className();
   }
   choose_appearance(*qApp, Appearance::light);
   EXPECT_FALSE(is_dark());

@@ -56,18 +56,18 @@ int distance(const QColor& a, const QColor& b)
     std::abs(a.blue() - b.blue()) });
 }
 
-double share_apart(const QImage& a, const QImage& b, int level)
+double differing_fraction(const QImage& a, const QImage& b, int level)
 {
   EXPECT_EQ(a.size(), b.size());
-  int apart = 0;
+  int differing_pixels = 0;
   for (int y = 0; y < a.height(); ++y)
   {
     for (int x = 0; x < a.width(); ++x)
     {
-      apart += distance(a.pixelColor(x, y), b.pixelColor(x, y)) > level;
+      differing_pixels += distance(a.pixelColor(x, y), b.pixelColor(x, y)) > level;
     }
   }
-  return static_cast<double>(apart) / (a.width() * a.height());
+  return static_cast<double>(differing_pixels) / (a.width() * a.height());
 }
 
 /// Return the difference in lightness between the background and the letters and lines of the
@@ -78,24 +78,24 @@ double ink(const QImage& image)
   double sum = 0.0;
   for (int y = 0; y < image.height(); ++y)
   {
-    const int ground = image.pixelColor(image.width() - 1, y).lightness();
+    const int background = image.pixelColor(image.width() - 1, y).lightness();
     for (int x = image.width() / 25; x < image.width() / 6; ++x)
     {
       const QColor c = image.pixelColor(x, y);
-      sum += c.saturation() < 60 ? std::max(0, ground - c.lightness()) : 0;
+      sum += c.saturation() < 60 ? std::max(0, background - c.lightness()) : 0;
     }
   }
   return sum;
 }
 
 /// Return the color of a pixel that is composited over a ground color.
-QColor over(const QColor& pixel, const Rgb& ground)
+QColor over(const QColor& pixel, const Rgb& background)
 {
   const double alpha = pixel.alphaF();
   const auto mixed = [alpha](int value, double below)
   { return static_cast<int>(std::lround(alpha * value + (1.0 - alpha) * 255.0 * below)); };
-  return { mixed(pixel.red(), ground[0]), mixed(pixel.green(), ground[1]),
-    mixed(pixel.blue(), ground[2]) };
+  return { mixed(pixel.red(), background[0]), mixed(pixel.green(), background[1]),
+    mixed(pixel.blue(), background[2]) };
 }
 
 class PictureWindow : public test::WindowTest
@@ -128,15 +128,15 @@ protected:
   /// see-through objects and letters.
   void expect_right_over_any_color(int scale)
   {
-    const auto clear = this->take(scale, true);
-    ASSERT_EQ(clear->GetNumberOfScalarComponents(), 4);
+    const auto transparent_picture = this->take(scale, true);
+    ASSERT_EQ(transparent_picture->GetNumberOfScalarComponents(), 4);
     vtkRenderer* renderer = this->window.viewport()->renderer();
     const Rgb grounds[] = { { 1.0, 1.0, 1.0 }, { 0.0, 0.0, 0.0 }, { 0.8, 0.2, 0.6 } };
     int part = 0; // number of pixels that are partly covered
-    for (const Rgb& ground : grounds)
+    for (const Rgb& background : grounds)
     {
       renderer->GradientBackgroundOff();
-      renderer->SetBackground(ground[0], ground[1], ground[2]);
+      renderer->SetBackground(background[0], background[1], background[2]);
       const auto drawn = this->take(scale, false);
       renderer->GradientBackgroundOn();
       const int* size = drawn->GetDimensions();
@@ -145,16 +145,18 @@ protected:
       {
         for (int x = 0; x < size[0]; ++x)
         {
-          const QColor pixel = pixel_of(clear, x, y);
+          const QColor pixel = pixel_of(transparent_picture, x, y);
           part += pixel.alpha() > 30 && pixel.alpha() < 225;
-          worst = std::max(worst, distance(over(pixel, ground), pixel_of(drawn, x, y)));
+          worst = std::max(worst, distance(over(pixel, background), pixel_of(drawn, x, y)));
         }
       }
-      EXPECT_LE(worst, 4) << "of 255, over " << ground[0] << " " << ground[1] << " " << ground[2];
+      EXPECT_LE(worst, 4) << "of 255, over " << background[0] << " " << background[1] << " "
+                          << background[2];
     }
     EXPECT_GT(part, 500) << "edges are partly covered";
     // The background is clear.
-    EXPECT_EQ(pixel_of(clear, clear->GetDimensions()[0] - 4, 4).alpha(), 0);
+    EXPECT_EQ(
+      pixel_of(transparent_picture, transparent_picture->GetDimensions()[0] - 4, 4).alpha(), 0);
   }
 };
 } // namespace
@@ -182,8 +184,8 @@ TEST_F(PictureWindow, OfEveryScaleIsWhatIsSeenOnlyFiner)
     const QImage taken = image_of(this->take(scale, false));
     const QImage small = taken.scaled(seen.size(), Qt::IgnoreAspectRatio, Qt::SmoothTransformation);
     // Only the pixels at the edges of letters and lines may differ.
-    EXPECT_LT(share_apart(small, seen, 24), 0.02) << scale;
-    EXPECT_LT(share_apart(small, seen, 80), 0.004) << scale;
+    EXPECT_LT(differing_fraction(small, seen, 24), 0.02) << scale;
+    EXPECT_LT(differing_fraction(small, seen, 80), 0.004) << scale;
     EXPECT_NEAR(ink(taken) / (scale * scale), ink(seen), 0.15 * ink(seen)) << scale;
   }
 }
@@ -205,9 +207,9 @@ TEST_F(PictureWindow, HasNoFringeWhereItIsTransparent)
   this->open_weighted();
   this->expect_right_over_any_color(1);
   this->expect_right_over_any_color(2);
-  const auto clear = this->take(2, true);
+  const auto transparent_picture = this->take(2, true);
   const QPoint middle = 2 * this->pixel(Vec3(0, 0, 0));
-  EXPECT_EQ(pixel_of(clear, middle.x(), middle.y()).alpha(), 255);
+  EXPECT_EQ(pixel_of(transparent_picture, middle.x(), middle.y()).alpha(), 255);
 }
 
 TEST_F(PictureWindow, KeepsSeeThroughThingsSeeThrough)
@@ -215,10 +217,10 @@ TEST_F(PictureWindow, KeepsSeeThroughThingsSeeThrough)
   this->open_weighted();
   this->window.viewport()->set_surface_look(Viewport::see_through);
   this->expect_right_over_any_color(1);
-  const auto clear = this->take(1, true);
+  const auto transparent_picture = this->take(1, true);
   const QPoint beside = this->pixel(Vec3(0.4, 0.3, 0));
-  EXPECT_GT(pixel_of(clear, beside.x(), beside.y()).alpha(), 60);
-  EXPECT_LT(pixel_of(clear, beside.x(), beside.y()).alpha(), 200);
+  EXPECT_GT(pixel_of(transparent_picture, beside.x(), beside.y()).alpha(), 60);
+  EXPECT_LT(pixel_of(transparent_picture, beside.x(), beside.y()).alpha(), 200);
 }
 
 TEST_F(PictureWindow, IsWrittenWithItsAlpha)

@@ -43,11 +43,11 @@ protected:
     this->resize({ 1000, 700 });
   }
   vtkCamera* camera() { return this->window.viewport()->renderer()->GetActiveCamera(); }
-  Vec3 sight() { return Vec3(this->camera()->GetDirectionOfProjection()); }
-  QAction* entry() { return WindowHand(&this->window).action("view.2d_view"); }
+  Vec3 view_direction() { return Vec3(this->camera()->GetDirectionOfProjection()); }
+  QAction* entry() { return SimulatedUser(&this->window).action("view.2d_view"); }
   void choose(const char* option, const QVariant& value)
   {
-    const QString refused = WindowHand(&this->window).choose(option, value);
+    const QString refused = SimulatedUser(&this->window).choose(option, value);
     EXPECT_TRUE(refused.isEmpty()) << refused.toStdString();
     this->render();
   }
@@ -60,7 +60,7 @@ Eigen::Matrix3d turned(double degrees, const Vec3& axis)
   return Eigen::AngleAxisd(degrees * M_PI / 180.0, axis.normalized()).toRotationMatrix();
 }
 
-const Eigen::Matrix3d tilted = turned(35.0, Vec3(1.0, 0.4, 0.2));
+const Eigen::Matrix3d tilted_rotation = turned(35.0, Vec3(1.0, 0.4, 0.2));
 } // namespace
 
 TEST_F(PlanarWindow, AShapeInAPlaneIsSeenFromInFrontWithoutPerspective)
@@ -69,13 +69,13 @@ TEST_F(PlanarWindow, AShapeInAPlaneIsSeenFromInFrontWithoutPerspective)
     { std::tuple(Eigen::Matrix3d(Eigen::Matrix3d::Identity()), Vec3(0, 0, 1), Vec3(0, 1, 0)),
       std::tuple(turned(90.0, Vec3::UnitY()), Vec3(1, 0, 0), Vec3(0, 1, 0)),
       std::tuple(turned(90.0, Vec3::UnitX()), Vec3(0, -1, 0), Vec3(0, 0, 1)),
-      std::tuple(tilted, Vec3(tilted.col(2)),
-        Vec3((Vec3::UnitY() - tilted(1, 2) * tilted.col(2)).normalized())) })
+      std::tuple(tilted_rotation, Vec3(tilted_rotation.col(2)),
+        Vec3((Vec3::UnitY() - tilted_rotation(1, 2) * tilted_rotation.col(2)).normalized())) })
   {
     this->open(turn);
     EXPECT_TRUE(this->window.viewport()->is_flat());
     EXPECT_TRUE(this->camera()->GetParallelProjection() != 0);
-    EXPECT_LT((this->sight() + normal).norm(), 1e-9) << normal.transpose();
+    EXPECT_LT((this->view_direction() + normal).norm(), 1e-9) << normal.transpose();
     EXPECT_LT((Vec3(this->camera()->GetViewUp()) - up).norm(), 1e-9) << normal.transpose();
     // The whole shape is visible. It is large and centered in the view.
     QRect seen;
@@ -89,20 +89,20 @@ TEST_F(PlanarWindow, AShapeInAPlaneIsSeenFromInFrontWithoutPerspective)
     EXPECT_GT(
       std::max(1.0 * seen.width() / view.width(), 1.0 * seen.height() / view.height()), 0.7);
     EXPECT_TRUE(
-      this->window.note_bar()->sentence().isEmpty() || !this->window.note_bar()->isVisible())
+      this->window.note_bar()->message().isEmpty() || !this->window.note_bar()->isVisible())
       << "the border of a rectangle is no defect";
   }
 }
 
 TEST_F(PlanarWindow, DraggingMovesItAndTheMenuLetsItBeTurned)
 {
-  this->open(tilted);
-  const Vec3 sight = this->sight();
-  const QPoint at = this->window.viewport()->rect().center();
+  this->open(tilted_rotation);
+  const Vec3 view_direction = this->view_direction();
+  const QPoint position = this->window.viewport()->rect().center();
   const Vec3 middle(1, 2, 3);
   const QPoint before = this->pixel(middle);
-  this->drag(at, at + QPoint(60, 25));
-  EXPECT_LT((this->sight() - sight).norm(), 1e-9);
+  this->drag(position, position + QPoint(60, 25));
+  EXPECT_LT((this->view_direction() - view_direction).norm(), 1e-9);
   EXPECT_LE((this->pixel(middle) - before - QPoint(60, 25)).manhattanLength(), 3);
   // Leave the 2D mode and return to it.
   ASSERT_TRUE(this->entry()->isEnabled());
@@ -112,13 +112,13 @@ TEST_F(PlanarWindow, DraggingMovesItAndTheMenuLetsItBeTurned)
   EXPECT_FALSE(this->window.viewport()->is_flat());
   EXPECT_FALSE(this->entry()->isChecked());
   EXPECT_FALSE(this->camera()->GetParallelProjection() != 0);
-  const Vec3 turned_from = this->sight();
-  this->drag(at, at + QPoint(60, 25));
-  EXPECT_GT((this->sight() - turned_from).norm(), 0.05);
+  const Vec3 turned_from = this->view_direction();
+  this->drag(position, position + QPoint(60, 25));
+  EXPECT_GT((this->view_direction() - turned_from).norm(), 0.05);
   this->entry()->trigger();
   this->render();
   EXPECT_TRUE(this->window.viewport()->is_flat());
-  EXPECT_LT((this->sight() + tilted.col(2)).norm(), 1e-9);
+  EXPECT_LT((this->view_direction() + tilted_rotation.col(2)).norm(), 1e-9);
   // A ball has no 2D mode.
   const TriangleMesh ball = test::sphere(3);
   ASSERT_TRUE(this->window.set_mesh(to_polydata(ball.points, ball.triangles), "ball"));
@@ -129,24 +129,24 @@ TEST_F(PlanarWindow, DraggingMovesItAndTheMenuLetsItBeTurned)
 
 TEST_F(PlanarWindow, ATiltedPlaneIsBoundPosedInItselfAndLayered)
 {
-  this->open(tilted);
+  this->open(tilted_rotation);
   Handles handles(2);
   handles[0].name = "left";
-  handles[0].head = handles[0].tail = Vec3(1, 2, 3) - 0.9 * tilted.col(0);
+  handles[0].head = handles[0].tail = Vec3(1, 2, 3) - 0.9 * tilted_rotation.col(0);
   handles[1].name = "right";
-  handles[1].head = handles[1].tail = Vec3(1, 2, 3) + 0.9 * tilted.col(0);
+  handles[1].head = handles[1].tail = Vec3(1, 2, 3) + 0.9 * tilted_rotation.col(0);
   ASSERT_TRUE(this->window.set_handles(to_polydata(handles), "points"));
   this->window.binding()->start();
   ASSERT_TRUE(test::wait_for([this] { return !this->window.binding()->is_running(); }));
   ASSERT_EQ(this->window.error(), QString());
   ASSERT_TRUE(this->window.is_bound());
   // The mouse moves the handle within the plane of the shape.
-  const QPoint at = this->pixel(handles[1].head);
+  const QPoint position = this->pixel(handles[1].head);
   this->render();
-  this->drag(at, at + QPoint(-40, -60));
+  this->drag(position, position + QPoint(-40, -60));
   const Points posed = to_points(this->window.shown()).view();
   EXPECT_GT((posed - this->mesh.points).rowwise().norm().maxCoeff(), 0.05);
-  const Vec3 normal = tilted.col(2);
+  const Vec3 normal = tilted_rotation.col(2);
   EXPECT_LT(((posed.rowwise() - Eigen::RowVector3d(1, 2, 3)) * normal).cwiseAbs().maxCoeff(), 1e-9);
   // Layers move the drawn surface along its normal. They change nothing else.
   set_handle_layer(
@@ -216,15 +216,15 @@ TEST_F(PlanarWindow, WeightsLieOverThePictureAsMuchAsIsWanted)
   this->window.panels()->show_panel(PanelColumn::bind_and_pose);
   this->choose("show.column", 0);
   const QImage plain = this->picture();
-  int apart = 0;
+  int differing_pixels = 0;
   for (int y = 0; y < plain.height(); ++y)
   {
     for (int x = 200; x < plain.width(); ++x)
     {
-      apart += plain.pixel(x, y) != picture.pixel(x, y);
+      differing_pixels += plain.pixel(x, y) != picture.pixel(x, y);
     }
   }
-  EXPECT_EQ(apart, 0);
+  EXPECT_EQ(differing_pixels, 0);
 }
 
 TEST_F(PlanarWindow, BesideEachOtherBothShapesHaveThePicture)
@@ -242,20 +242,20 @@ TEST_F(PlanarWindow, BesideEachOtherBothShapesHaveThePicture)
   const QImage seen = this->picture();
   // Exclude the names at the bottom of the view.
   const int half = seen.width() / 2, below = seen.height() - 60;
-  int colored = 0, apart = 0;
+  int colored = 0, differing_pixels = 0;
   for (int y = 0; y < below; ++y)
   {
     for (int x = 0; x < half; ++x)
     {
       const QColor a = seen.pixelColor(x, y), b = seen.pixelColor(x + half, y);
       colored += b.saturation() > 60;
-      apart += std::max({ std::abs(a.red() - b.red()), std::abs(a.green() - b.green()),
-                 std::abs(a.blue() - b.blue()) }) > 24;
+      differing_pixels += std::max({ std::abs(a.red() - b.red()), std::abs(a.green() - b.green()),
+                            std::abs(a.blue() - b.blue()) }) > 24;
     }
   }
   EXPECT_GT(colored, 5000);
   // At rest both halves are equal; if the width is odd, one half is shifted by half a pixel.
-  EXPECT_LT(apart, colored / 10);
+  EXPECT_LT(differing_pixels, colored / 10);
   // The compared shape is drawn over the shape, see-through and blue. It is visible wherever it
   // differs from the shape.
   this->choose("pose.ghost", 0);

@@ -83,7 +83,7 @@ vtkSmartPointer<vtkImageData> samples()
 PlaneHandle* plane_of(MainWindow& window, const std::string& name)
 {
   return name == "volume" ? window.volume_view()->plane()
-    : name == "tets"      ? window.inspection()->tet_view()->plane()
+    : name == "tets"      ? window.tet_inspection()->tet_view()->plane()
                           : window.weights()->view()->plane();
 }
 
@@ -124,8 +124,8 @@ protected:
   ValueRow* row() { return this->window.panels()->findChild<ValueRow*>(this->key("place")); }
   int steps() { return this->window.history()->index() - this->begin; }
   std::string undo_text() { return this->window.history()->undoText().toStdString(); }
-  void undo() { this->hand.trigger("edit.undo"); }
-  void redo() { this->hand.trigger("edit.redo"); }
+  void undo() { this->user.trigger("edit.undo"); }
+  void redo() { this->user.trigger("edit.redo"); }
 
   /// Begin to drag a plane perpendicular to z between two z coordinates. The mouse button stays
   /// down.
@@ -133,19 +133,19 @@ protected:
   {
     const QPoint start = this->pixel(Vec3(0.4, 0.3, from));
     const QPoint end = this->pixel(Vec3(0.4, 0.3, to));
-    this->hand.move(start);
+    this->user.move(start);
     QApplication::processEvents();
-    this->hand.press(start, Qt::LeftButton);
+    this->user.press(start, Qt::LeftButton);
     for (int k = 1; k <= 4; ++k)
     {
-      this->hand.move(start + (end - start) * k / 4);
+      this->user.move(start + (end - start) * k / 4);
       QApplication::processEvents();
     }
     this->last = end;
   }
   void end_drag()
   {
-    this->hand.release(this->last, Qt::LeftButton);
+    this->user.release(this->last, Qt::LeftButton);
     this->render();
   }
   /// Rotate a free plane: drag the tip of its arrow by this vector in pixels.
@@ -154,7 +154,7 @@ protected:
     const Vec3 tip = this->plane()->origin() + 0.3 * std::sqrt(12.0) * this->plane()->normal();
     this->drag(this->pixel(tip), this->pixel(tip) + by);
   }
-  void expect_place(double position, const char* when)
+  void expect_position(double position, const char* when)
   {
     EXPECT_NEAR(this->plane()->position(), position, 1e-9) << when;
     EXPECT_NEAR(this->row()->value(), position, 0.002) << when;
@@ -164,7 +164,7 @@ protected:
   }
 
   test::Folder folder;
-  WindowHand hand{ &this->window };
+  SimulatedUser user{ &this->window };
   QPoint last;
   int begin = 0;
 };
@@ -204,7 +204,7 @@ TEST(PlaneShare, IsNotWornAwayByPositionsGivenBack)
 
 TEST_P(PlaneWindow, ADragIsOneStepAndUndoTakesItBack)
 {
-  this->expect_place(0.0, "at first");
+  this->expect_position(0.0, "at first");
   const QImage at_first = this->picture();
   this->begin_drag(0.0, 0.4);
   EXPECT_EQ(this->steps(), 0) << "the drag still goes on";
@@ -222,13 +222,13 @@ TEST_P(PlaneWindow, ADragIsOneStepAndUndoTakesItBack)
   ASSERT_EQ(this->steps(), 2) << "another drag is another step";
   EXPECT_NEAR(this->plane()->position(), -0.3, 0.08);
   this->undo();
-  this->expect_place(moved, "the second drag is undone");
-  this->hand.move(QPoint(2, 2)); // there is nothing under the mouse here
+  this->expect_position(moved, "the second drag is undone");
+  this->user.move(QPoint(2, 2)); // there is nothing under the mouse here
   EXPECT_EQ(this->picture(), then);
   this->undo();
-  this->expect_place(0.0, "both are");
+  this->expect_position(0.0, "both are");
   this->redo();
-  this->expect_place(moved, "the first is done again");
+  this->expect_position(moved, "the first is done again");
   EXPECT_EQ(this->picture(), then);
 }
 
@@ -239,18 +239,18 @@ TEST_P(PlaneWindow, EscDuringADragTakesItBack)
   ASSERT_EQ(this->steps(), 1);
   this->begin_drag(0.2, 0.6);
   EXPECT_GT(this->plane()->position(), 0.4);
-  EXPECT_EQ(this->hand.press_key("Esc"), QString());
-  this->expect_place(0.2, "Esc");
+  EXPECT_EQ(this->user.press_key("Esc"), QString());
+  this->expect_position(0.2, "Esc");
   EXPECT_FALSE(this->plane()->is_dragged());
-  this->hand.move(this->last + QPoint(40, 40)); // the mouse button is still down
+  this->user.move(this->last + QPoint(40, 40)); // the mouse button is still down
   this->end_drag();
-  this->expect_place(0.2, "the button is let go");
+  this->expect_position(0.2, "the button is let go");
   EXPECT_EQ(this->steps(), 1);
   // Undo ends the drag, and also reverts the step before the drag.
   this->begin_drag(0.2, 0.6);
   this->undo();
   this->end_drag();
-  this->expect_place(0.0, "undo");
+  this->expect_position(0.0, "undo");
   EXPECT_EQ(this->steps(), 0);
   EXPECT_EQ(this->window.history()->count(), this->begin + 1) << "the step can be done again";
   // Saving during a drag saves the state before the drag.
@@ -275,30 +275,30 @@ TEST_P(PlaneWindow, TheSliderIsOneStepUntilItIsLetGo)
       EXPECT_EQ(slider->value(), at + (end > 500 ? 50 : -50)) << "it stays under the mouse";
     }
     slider->setSliderDown(false);
-    this->expect_place(-1.0 + 0.002 * end, "slider");
+    this->expect_position(-1.0 + 0.002 * end, "slider");
   }
   EXPECT_EQ(this->steps(), 2);
   EXPECT_EQ(this->undo_text(), GetParam().move);
   this->undo();
-  this->expect_place(0.4, "undo");
+  this->expect_position(0.4, "undo");
   EXPECT_EQ(slider->value(), 700);
   this->undo();
-  this->expect_place(0.0, "undo of all");
+  this->expect_position(0.0, "undo of all");
   // A tour specifies the position as a fraction of the range of the slider.
-  EXPECT_EQ(this->hand.choose(this->key("place"), 0.25), QString());
-  this->expect_place(-0.5, "a tour");
+  EXPECT_EQ(this->user.choose(this->key("place"), 0.25), QString());
+  this->expect_position(-0.5, "a tour");
 }
 
 TEST_P(PlaneWindow, AFreePlaneIsTurnedInOneStep)
 {
-  EXPECT_EQ(this->hand.choose(this->key("orientation"), PlaneHandle::x_axis), QString());
+  EXPECT_EQ(this->user.choose(this->key("orientation"), PlaneHandle::x_axis), QString());
   EXPECT_EQ(this->undo_text(), GetParam().axis);
   this->row()->field()->setValue(0.1);
-  EXPECT_EQ(this->hand.choose(this->key("orientation"), PlaneHandle::free_plane), QString());
+  EXPECT_EQ(this->user.choose(this->key("orientation"), PlaneHandle::free_plane), QString());
   EXPECT_EQ(this->plane()->normal(), Vec3(1, 0, 0)) << "it begins where the axis was";
   EXPECT_NEAR(this->plane()->position(), 0.1, 1e-9);
-  EXPECT_EQ(this->hand.choose(this->key("orientation"), PlaneHandle::z_axis), QString());
-  EXPECT_EQ(this->hand.choose(this->key("orientation"), PlaneHandle::free_plane), QString());
+  EXPECT_EQ(this->user.choose(this->key("orientation"), PlaneHandle::z_axis), QString());
+  EXPECT_EQ(this->user.choose(this->key("orientation"), PlaneHandle::free_plane), QString());
   this->render();
   const int before = this->steps();
   this->turn({ 70, 30 });
@@ -314,17 +314,17 @@ TEST_P(PlaneWindow, AFreePlaneIsTurnedInOneStep)
     EXPECT_EQ(kept[k].toDouble(), turned[k]);
   }
   // Choose an axis for the plane, then undo. The free plane has its previous orientation again.
-  EXPECT_EQ(this->hand.choose(this->key("orientation"), PlaneHandle::y_axis), QString());
+  EXPECT_EQ(this->user.choose(this->key("orientation"), PlaneHandle::y_axis), QString());
   EXPECT_EQ(this->plane()->normal(), Vec3(0, 1, 0));
   this->undo();
   EXPECT_EQ(this->plane()->normal(), turned);
-  this->expect_place(moved, "undo of an axis");
+  this->expect_position(moved, "undo of an axis");
   this->undo();
   EXPECT_EQ(this->plane()->normal(), Vec3(0, 0, 1));
   EXPECT_EQ(this->plane()->orientation(), PlaneHandle::free_plane);
   this->redo();
   EXPECT_EQ(this->plane()->normal(), turned);
-  this->expect_place(moved, "redo of the turn");
+  this->expect_position(moved, "redo of the turn");
   this->redo();
   EXPECT_EQ(this->plane()->normal(), Vec3(0, 1, 0));
   for (int k = 0; k < 7; ++k)
@@ -332,12 +332,12 @@ TEST_P(PlaneWindow, AFreePlaneIsTurnedInOneStep)
     this->undo();
   }
   EXPECT_EQ(this->plane()->orientation(), PlaneHandle::z_axis);
-  this->expect_place(0.0, "undo of all");
+  this->expect_position(0.0, "undo of all");
 }
 
 TEST_P(PlaneWindow, SessionsKeepThePlane)
 {
-  EXPECT_EQ(this->hand.choose(this->key("orientation"), PlaneHandle::free_plane), QString());
+  EXPECT_EQ(this->user.choose(this->key("orientation"), PlaneHandle::free_plane), QString());
   this->render();
   this->turn({ 70, 30 });
   this->row()->field()->setValue(0.3);
@@ -368,5 +368,5 @@ TEST_P(PlaneWindow, SessionsKeepThePlane)
   ASSERT_TRUE(this->window.open(QString::fromStdString(this->folder / "old.bindpose")))
     << this->window.error().toStdString();
   EXPECT_EQ(this->plane()->orientation(), PlaneHandle::z_axis);
-  this->expect_place(0.0, "an old session");
+  this->expect_position(0.0, "an old session");
 }

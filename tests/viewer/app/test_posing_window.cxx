@@ -141,17 +141,17 @@ protected:
     return found;
   }
   void choose(PoseMethod method) { this->window.set_method(static_cast<int>(method)); }
-  bool settle()
+  bool wait_until_settled()
   {
     return wait_for([this]
       { return this->posing()->deformation()->is_settled() || !this->window.error().isEmpty(); });
   }
 
   /// Set the pose of the window's handles, as undo and playback do.
-  void put(const Pose& pose)
+  void apply_pose(const Pose& pose)
   {
     Q_EMIT this->posing()->pose_changed(pose);
-    Q_EMIT this->posing()->pose_done("test");
+    Q_EMIT this->posing()->pose_step_requested("test");
   }
   Pose bent(double amount = 1.0)
   {
@@ -188,18 +188,18 @@ protected:
     interactor->SetEventInformation(at.x(), at.y(), 0, 0, 0, 0, nullptr);
     interactor->InvokeEvent(what);
   }
-  void drag_handle(vtkIdType cell, const Eigen::Vector2i& by, bool release = true)
+  void drag_handle(vtkIdType cell, const Eigen::Vector2i& offset, bool release = true)
   {
     const Eigen::Vector2i at = this->pixel_of(cell, false);
     this->event(at, vtkCommand::MouseMoveEvent);
     this->event(at, vtkCommand::LeftButtonPressEvent);
     for (int step = 1; step <= 4; ++step)
     {
-      this->event(at + by * step / 4, vtkCommand::MouseMoveEvent);
+      this->event(at + offset * step / 4, vtkCommand::MouseMoveEvent);
     }
     if (release)
     {
-      this->event(at + by, vtkCommand::LeftButtonReleaseEvent);
+      this->event(at + offset, vtkCommand::LeftButtonReleaseEvent);
     }
   }
 
@@ -215,11 +215,11 @@ TEST_F(PosingWindow, EveryMethodGivesWhatItsPoserGives)
   ASSERT_TRUE(to_pose_source(this->surface, nullptr, this->handles, *source).ok());
   for (int method = 0; method < pose_method_count; ++method)
   {
-    this->put(Pose(4));
+    this->apply_pose(Pose(4));
     this->choose(static_cast<PoseMethod>(method));
-    ASSERT_TRUE(this->settle()) << method;
-    this->put(this->bent(0.4));
-    ASSERT_TRUE(this->settle()) << method;
+    ASSERT_TRUE(this->wait_until_settled()) << method;
+    this->apply_pose(this->bent(0.4));
+    ASSERT_TRUE(this->wait_until_settled()) << method;
     EXPECT_EQ(this->window.error(), QString());
     EXPECT_GT((this->points() - source->points).cwiseAbs().maxCoeff(), 0.05) << method;
     if (is_slow(static_cast<PoseMethod>(method)))
@@ -254,14 +254,14 @@ TEST_F(PosingWindow, DragsDoNotBindAgain)
   for (int method = 0; method < pose_method_count; ++method)
   {
     this->choose(static_cast<PoseMethod>(method));
-    ASSERT_TRUE(this->settle());
+    ASSERT_TRUE(this->wait_until_settled());
     const Index binds = this->posing()->deformation()->binds();
     for (int drag = 0; drag < 3; ++drag)
     {
       this->drag_handle(1, { 10, 5 });
       QApplication::processEvents();
     }
-    ASSERT_TRUE(this->settle());
+    ASSERT_TRUE(this->wait_until_settled());
     EXPECT_EQ(this->posing()->deformation()->binds(), binds) << method;
   }
   // Returning to an earlier method does not cause a bind.
@@ -269,7 +269,7 @@ TEST_F(PosingWindow, DragsDoNotBindAgain)
   this->choose(PoseMethod::reduced_arap);
   this->choose(PoseMethod::linear_blend);
   this->choose(PoseMethod::full_arap);
-  ASSERT_TRUE(this->settle());
+  ASSERT_TRUE(this->wait_until_settled());
   EXPECT_EQ(this->posing()->deformation()->binds(), binds);
 }
 
@@ -277,14 +277,14 @@ TEST_F(PosingWindow, FullArapFollowsTheMouseAndStartsAgainWhenItMovesOn)
 {
   this->open(5); // a slice of the solve takes a while with 20480 triangles
   this->choose(PoseMethod::full_arap);
-  ASSERT_TRUE(this->settle());
+  ASSERT_TRUE(this->wait_until_settled());
   Deformation* deformation = this->posing()->deformation();
   double longest = 0.0;
   for (int move = 1; move <= 12; ++move)
   {
     QElapsedTimer clock;
     clock.start();
-    this->put(this->bent(0.05 * move));
+    this->apply_pose(this->bent(0.05 * move));
     longest = std::max(longest, 1e-6 * static_cast<double>(clock.nsecsElapsed()));
     // Pause after every second move, so that the slices of the solve become larger.
     const Points before = deformation->points();
@@ -301,7 +301,7 @@ TEST_F(PosingWindow, FullArapFollowsTheMouseAndStartsAgainWhenItMovesOn)
     "longest call of a drag %.2f ms, %d solves started again\n", longest, deformation->restarts());
   EXPECT_LT(longest, 200.0); // the call must not wait for the end of an iteration
   EXPECT_GT(deformation->restarts(), 0);
-  ASSERT_TRUE(this->settle());
+  ASSERT_TRUE(this->wait_until_settled());
   EXPECT_TRUE(deformation->status().usable());
   // A solve that has been started again ends near the result of a solve from rest.
   auto source = std::make_shared<PoseSource>();
@@ -327,11 +327,11 @@ TEST_F(PosingWindow, CentersAreMadeBesideTheWindowAndCanBeStopped)
   EXPECT_FALSE(this->posing()->deformation()->is_binding());
   EXPECT_EQ(this->window.error(), QString());
   this->choose(PoseMethod::linear_blend);
-  this->put(this->bent());
-  ASSERT_TRUE(this->settle());
+  this->apply_pose(this->bent());
+  ASSERT_TRUE(this->wait_until_settled());
   EXPECT_NE(this->points(), before);
   this->choose(PoseMethod::rotation_centers);
-  ASSERT_TRUE(this->settle());
+  ASSERT_TRUE(this->wait_until_settled());
   EXPECT_EQ(this->window.error(), QString());
 }
 
@@ -344,8 +344,8 @@ TEST_F(PosingWindow, MethodsWithoutWeightsNeedNoBind)
   EXPECT_FALSE(this->posing()->can_pose());
   this->choose(PoseMethod::variational);
   ASSERT_TRUE(this->posing()->can_pose());
-  this->put(this->bent(0.3));
-  ASSERT_TRUE(this->settle());
+  this->apply_pose(this->bent(0.3));
+  ASSERT_TRUE(this->wait_until_settled());
   EXPECT_EQ(this->window.error(), QString());
   EXPECT_NE(this->points(), mesh.points);
 }
@@ -395,14 +395,14 @@ TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
   {
     pose[static_cast<std::size_t>(other)].mode = HandleMode::free;
   }
-  this->put(pose);
-  ASSERT_TRUE(this->settle());
+  this->apply_pose(pose);
+  ASSERT_TRUE(this->wait_until_settled());
 
   show(1);
   const PoseRotations* found = this->posing()->rotations();
   ASSERT_NE(found, nullptr);
-  ASSERT_EQ(static_cast<Index>(found->of_point->size()), drawn->GetNumberOfPoints());
-  ASSERT_TRUE(viewport->shows(vtkDoubleArray::SafeDownCast(on_cells())));
+  ASSERT_EQ(static_cast<Index>(found->cluster_of_point->size()), drawn->GetNumberOfPoints());
+  ASSERT_TRUE(viewport->shows_values(vtkDoubleArray::SafeDownCast(on_cells())));
   // All triangles of a cluster have one color, which differs from the colors of all other clusters.
   std::map<Index, double> color_of;
   const TrianglesView triangles = viewport->shaded()->triangles();
@@ -411,7 +411,7 @@ TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
     std::set<Index> clusters;
     for (int k = 0; k < 3; ++k)
     {
-      clusters.insert((*found->of_point)[static_cast<std::size_t>(triangles(t, k))]);
+      clusters.insert((*found->cluster_of_point)[static_cast<std::size_t>(triangles(t, k))]);
     }
     const double color = on_cells()->GetComponent(t, 0);
     if (clusters.size() == 1)
@@ -426,13 +426,13 @@ TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
     EXPECT_TRUE(colors.insert(color).second) << cluster;
   }
   const vtkSmartPointer<vtkDataArray> clusters = on_cells();
-  this->put(pose);
+  this->apply_pose(pose);
   this->render();
   EXPECT_EQ(on_cells(), clusters); // a new pose does not create a new array
 
   // The whole pole rotates with the only handle that is rotated.
   show(2);
-  ASSERT_TRUE(viewport->shows(vtkDoubleArray::SafeDownCast(on_points())));
+  ASSERT_TRUE(viewport->shows_values(vtkDoubleArray::SafeDownCast(on_points())));
   for (vtkIdType v = 0; v < drawn->GetNumberOfPoints(); ++v)
   {
     EXPECT_NEAR(on_points()->GetComponent(v, 0), 40.0, 1.0) << v;
@@ -440,34 +440,34 @@ TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
   const vtkSmartPointer<vtkDataArray> angles = on_points();
   pose[2].transform.leftCols<3>() =
     Eigen::AngleAxisd(EIGEN_PI * 35.0 / 180.0, Vec3::UnitZ()).toRotationMatrix();
-  this->put(pose);
-  ASSERT_TRUE(this->settle());
+  this->apply_pose(pose);
+  ASSERT_TRUE(this->wait_until_settled());
   this->render();
   // The array is updated in place; the color scale still ends at 45 degrees.
   EXPECT_EQ(on_points(), angles);
   EXPECT_NEAR(angles->GetComponent(7, 0), 35.0, 1.0);
-  this->posing()->look_at_rest(true);
+  this->posing()->set_rest_view(true);
   this->render();
   EXPECT_EQ(on_points()->GetComponent(7, 0), 0.0);
-  this->posing()->look_at_rest(false);
+  this->posing()->set_rest_view(false);
 
   // Other panels use their own coloring. Methods without rotations have no coloring by rotation. If
   // the change of the method is undone, the coloring by rotation is shown again.
   this->window.panels()->show_panel(PanelColumn::weights);
   this->render();
-  EXPECT_FALSE(viewport->shows(vtkDoubleArray::SafeDownCast(angles)));
+  EXPECT_FALSE(viewport->shows_values(vtkDoubleArray::SafeDownCast(angles)));
   this->window.panels()->show_panel(PanelColumn::bind_and_pose);
   this->render();
-  ASSERT_TRUE(viewport->shows(vtkDoubleArray::SafeDownCast(on_points())));
+  ASSERT_TRUE(viewport->shows_values(vtkDoubleArray::SafeDownCast(on_points())));
   EXPECT_NEAR(on_points()->GetComponent(7, 0), 35.0, 1.0);
   this->choose(PoseMethod::dual_quaternion);
   this->render();
-  EXPECT_FALSE(viewport->shows(vtkDoubleArray::SafeDownCast(on_points())));
+  EXPECT_FALSE(viewport->shows_values(vtkDoubleArray::SafeDownCast(on_points())));
   this->choose(PoseMethod::reduced_arap);
   this->render();
-  EXPECT_TRUE(viewport->shows(vtkDoubleArray::SafeDownCast(on_points())));
+  EXPECT_TRUE(viewport->shows_values(vtkDoubleArray::SafeDownCast(on_points())));
   show(0);
-  EXPECT_FALSE(viewport->shows(vtkDoubleArray::SafeDownCast(on_points())));
+  EXPECT_FALSE(viewport->shows_values(vtkDoubleArray::SafeDownCast(on_points())));
 }
 
 TEST_F(PosingWindow, FullArapTurnsEachVertexByItsOwnRotation)
@@ -483,8 +483,8 @@ TEST_F(PosingWindow, FullArapTurnsEachVertexByItsOwnRotation)
     handle.transform.leftCols<3>() =
       Eigen::AngleAxisd(EIGEN_PI * 40.0 / 180.0, Vec3::UnitZ()).toRotationMatrix();
   }
-  this->put(pose);
-  ASSERT_TRUE(this->settle());
+  this->apply_pose(pose);
+  ASSERT_TRUE(this->wait_until_settled());
   this->render();
   const PoseRotations* found = this->posing()->rotations();
   ASSERT_NE(found, nullptr);
@@ -492,7 +492,7 @@ TEST_F(PosingWindow, FullArapTurnsEachVertexByItsOwnRotation)
   Viewport* viewport = this->window.viewport();
   const auto angles = [viewport]
   { return viewport->drawn()->GetPointData()->GetArray(color_array_name); };
-  ASSERT_TRUE(viewport->shows(vtkDoubleArray::SafeDownCast(angles())));
+  ASSERT_TRUE(viewport->shows_values(vtkDoubleArray::SafeDownCast(angles())));
   for (vtkIdType v = 0; v < angles()->GetNumberOfTuples(); ++v)
   {
     EXPECT_NEAR(angles()->GetComponent(v, 0), 40.0, 1e-3) << v;
@@ -502,15 +502,15 @@ TEST_F(PosingWindow, FullArapTurnsEachVertexByItsOwnRotation)
   pose[3].transform(2, 3) += 0.2;
   Q_EMIT this->posing()->pose_changed(pose);
   EXPECT_NE(this->posing()->rotations(), nullptr);
-  ASSERT_TRUE(this->settle());
-  EXPECT_TRUE(viewport->shows(vtkDoubleArray::SafeDownCast(angles())));
+  ASSERT_TRUE(this->wait_until_settled());
+  EXPECT_TRUE(viewport->shows_values(vtkDoubleArray::SafeDownCast(angles())));
   // Each vertex is a cluster. Clusters that touch have different colors.
   this->option<QComboBox>("pose.rotations")->setCurrentIndex(1);
   this->render();
-  ASSERT_TRUE(viewport->shows(
+  ASSERT_TRUE(viewport->shows_values(
     vtkDoubleArray::SafeDownCast(viewport->drawn()->GetCellData()->GetArray(color_array_name))));
   this->choose(PoseMethod::variational);
-  ASSERT_TRUE(this->settle());
+  ASSERT_TRUE(this->wait_until_settled());
   EXPECT_EQ(this->posing()->rotations(), nullptr);
 }
 
@@ -518,7 +518,7 @@ TEST_F(PosingWindow, ABodyThatMovesShowsItsOwnRotations)
 {
   this->open();
   this->choose(PoseMethod::reduced_arap);
-  this->put(this->bent());
+  this->apply_pose(this->bent());
   this->option<QComboBox>("pose.rotations")->setCurrentIndex(2);
   this->option<QCheckBox>("pose.moves")->setChecked(true);
   ASSERT_TRUE(wait_for([this] { return this->posing()->motion()->has_started(); }));
@@ -527,10 +527,11 @@ TEST_F(PosingWindow, ABodyThatMovesShowsItsOwnRotations)
   this->render();
   vtkDataArray* angles =
     this->window.viewport()->drawn()->GetPointData()->GetArray(color_array_name);
-  ASSERT_TRUE(this->window.viewport()->shows(vtkDoubleArray::SafeDownCast(angles)));
+  ASSERT_TRUE(this->window.viewport()->shows_values(vtkDoubleArray::SafeDownCast(angles)));
   for (vtkIdType v = 0; v < angles->GetNumberOfTuples(); ++v)
   {
-    const auto k = static_cast<std::size_t>((*found->of_point)[static_cast<std::size_t>(v)]);
+    const auto k =
+      static_cast<std::size_t>((*found->cluster_of_point)[static_cast<std::size_t>(v)]);
     EXPECT_EQ(angles->GetComponent(v, 0), rotation_vector(found->rotations[k]).norm());
   }
 }
@@ -558,14 +559,14 @@ TEST_F(PosingWindow, TheReadingSaysWhenASolveFallsShort)
   Pose pose = this->bent();
   pose[1].mode = HandleMode::free;
   pose[2].mode = HandleMode::position;
-  this->put(pose);
+  this->apply_pose(pose);
   EXPECT_TRUE(this->posing()->reading().contains("converged"));
   EXPECT_TRUE(this->posing()->reading().contains("iterations in"));
   EXPECT_TRUE(this->posing()->reading().contains("energy"));
   this->option<ValueRow>("pose.iterations")->field()->setValue(1);
-  this->put(Pose(4));
+  this->apply_pose(Pose(4));
   pose[3].transform.col(3) += Vec3(0.5, 0.4, 0);
-  this->put(pose);
+  this->apply_pose(pose);
   EXPECT_TRUE(this->posing()->reading().contains("NOT converged"))
     << this->posing()->reading().toStdString();
   this->render();
@@ -579,21 +580,21 @@ TEST_F(PosingWindow, AStretchThatTheMethodIgnoresIsSaid)
   pose[3].stretch = 1.4;
   pose[2].twist[1] = 60.0;
   this->choose(PoseMethod::stretchable_bones);
-  this->put(pose);
-  ASSERT_TRUE(this->settle());
+  this->apply_pose(pose);
+  ASSERT_TRUE(this->wait_until_settled());
   EXPECT_FALSE(this->posing()->reading().contains("stretches or twists bones"));
   this->choose(PoseMethod::linear_blend);
-  ASSERT_TRUE(this->settle());
+  ASSERT_TRUE(this->wait_until_settled());
   EXPECT_TRUE(this->posing()->reading().contains("stretches or twists bones"))
     << this->posing()->reading().toStdString();
-  this->put(Pose(4));
+  this->apply_pose(Pose(4));
   EXPECT_FALSE(this->posing()->reading().contains("stretches or twists bones"));
 }
 
 TEST_F(PosingWindow, TwoMethodsAreComparedOverAndBesideEachOther)
 {
   this->open();
-  this->put(this->bent());
+  this->apply_pose(this->bent());
   // Hide the outlines, because their depth offset depends on the view.
   this->window.show_outlines(false);
   const QImage alone = this->picture();
@@ -611,7 +612,7 @@ TEST_F(PosingWindow, TwoMethodsAreComparedOverAndBesideEachOther)
   Points expected;
   ASSERT_TRUE(poser->bind(context, options).usable());
   ASSERT_TRUE(poser->solve(context, this->bent(), options, 0, expected).usable());
-  EXPECT_EQ(this->posing()->compared()->points(), expected);
+  EXPECT_EQ(this->posing()->compared_deformation()->points(), expected);
   // The displayed difference equals the computed difference.
   const double largest = (expected - this->points()).rowwise().norm().maxCoeff();
   const double diagonal = bounding_box(source->points).diagonal();
@@ -635,21 +636,21 @@ TEST_F(PosingWindow, TwoMethodsAreComparedOverAndBesideEachOther)
   // Lines on the surface may differ, because their depth offset depends on the view.
   const QImage again = this->picture();
   ASSERT_EQ(again.size(), alone.size());
-  int apart = 0;
+  int differing_pixels = 0;
   for (int y = 0; y < again.height(); ++y)
   {
     for (int x = 0; x < again.width(); ++x)
     {
-      apart += again.pixel(x, y) != alone.pixel(x, y);
+      differing_pixels += again.pixel(x, y) != alone.pixel(x, y);
     }
   }
-  EXPECT_LT(apart, 20);
+  EXPECT_LT(differing_pixels, 20);
 }
 
 TEST_F(PosingWindow, ADistanceIsSeenInTheColorsOfItsScale)
 {
   this->open();
-  this->put(this->bent());
+  this->apply_pose(this->bent());
   Viewport* viewport = this->window.viewport();
   this->option<QComboBox>("pose.compared")
     ->setCurrentIndex(1 + static_cast<int>(PoseMethod::dual_quaternion));
@@ -657,9 +658,9 @@ TEST_F(PosingWindow, ADistanceIsSeenInTheColorsOfItsScale)
   { return viewport->drawn()->GetPointData()->GetArray(color_array_name); };
   const auto expect_distances = [&](const char* when)
   {
-    const Points& other = this->posing()->compared()->points();
+    const Points& other = this->posing()->compared_deformation()->points();
     ASSERT_NE(colors(), nullptr) << when;
-    EXPECT_TRUE(viewport->shows(vtkDoubleArray::SafeDownCast(colors()))) << when;
+    EXPECT_TRUE(viewport->shows_values(vtkDoubleArray::SafeDownCast(colors()))) << when;
     const Points shape = this->points();
     const double diagonal = this->surface->GetLength();
     double largest = 0.0;
@@ -678,15 +679,15 @@ TEST_F(PosingWindow, ADistanceIsSeenInTheColorsOfItsScale)
   expect_distances("bent");
   EXPECT_GT(colors()->GetRange()[1], 0.5);
   EXPECT_EQ(viewport->legend(Viewport::weight_legend), "Distance (% of diagonal)");
-  this->put(this->bent(0.5));
+  this->apply_pose(this->bent(0.5));
   expect_distances("less bent");
   // Shapes that coincide have one color, the lowest of the color scale.
-  this->put(Pose(4));
+  this->apply_pose(Pose(4));
   expect_distances("at rest");
   EXPECT_LT(colors()->GetRange()[1], 1e-6);
   // Other panels use their own coloring. The coloring by distance returns with the panel, and ends
   // with the comparison.
-  this->put(this->bent());
+  this->apply_pose(this->bent());
   this->window.panels()->show_panel(PanelColumn::weights);
   EXPECT_NE(viewport->legend(Viewport::weight_legend), "Distance (% of diagonal)");
   this->window.panels()->show_panel(PanelColumn::bind_and_pose);
@@ -726,14 +727,14 @@ TEST_F(PosingWindow, WhereTwoShapesCoincideThereAreNoSpeckles)
   turned.leftCols<2>() *= -1.0;
   this->posing()->ghost()->move(turned, points);
   EXPECT_LE(blue(), alone + 20) << "turned";
-  this->put(this->bent());
+  this->apply_pose(this->bent());
   EXPECT_GT(blue(), alone + 500) << "where they differ the other one is seen";
 }
 
 TEST_F(PosingWindow, NoMethodIsComparedWithItself)
 {
   this->open();
-  this->put(this->bent());
+  this->apply_pose(this->bent());
   auto* with = this->option<QComboBox>("pose.compared");
   const auto is_enabled = [with](PoseMethod method)
   {
@@ -742,13 +743,13 @@ TEST_F(PosingWindow, NoMethodIsComparedWithItself)
   };
   EXPECT_FALSE(is_enabled(PoseMethod::linear_blend));
   EXPECT_TRUE(is_enabled(PoseMethod::dual_quaternion));
-  WindowHand hand(&this->window);
-  EXPECT_NE(hand.choose("pose.compared", 1), QString());
-  ASSERT_EQ(hand.choose("pose.compared", 2), QString());
+  SimulatedUser user(&this->window);
+  EXPECT_NE(user.choose("pose.compared", 1), QString());
+  ASSERT_EQ(user.choose("pose.compared", 2), QString());
   EXPECT_EQ(this->posing()->ghost()->place(), PoseGhost::in_colors);
   // If the method of the shape is also chosen as the compared method, nothing can be compared. A
   // label says this.
-  hand.press_key("2");
+  user.press_key("2");
   ASSERT_EQ(this->window.document()->number("pose.method"), 1);
   EXPECT_EQ(this->posing()->ghost()->place(), PoseGhost::hidden);
   EXPECT_FALSE(is_enabled(PoseMethod::dual_quaternion));
@@ -756,7 +757,7 @@ TEST_F(PosingWindow, NoMethodIsComparedWithItself)
   const auto labels = this->panel()->findChildren<QLabel*>();
   EXPECT_TRUE(std::any_of(labels.begin(), labels.end(),
     [](const QLabel* label) { return label->text().contains("choose another method"); }));
-  hand.trigger("edit.undo");
+  user.trigger("edit.undo");
   EXPECT_EQ(this->posing()->ghost()->place(), PoseGhost::in_colors);
 }
 
@@ -765,7 +766,7 @@ TEST_F(PosingWindow, TheBodyMovesPausesAndReplaysBitByBit)
   this->open();
   Pose pose(4);
   pose[0].mode = pose[1].mode = pose[3].mode = HandleMode::free;
-  this->put(pose);
+  this->apply_pose(pose);
   this->option<QCheckBox>("pose.moves")->setChecked(true);
   Body* body = this->posing()->motion()->body();
   ASSERT_NE(body, nullptr);
@@ -815,11 +816,11 @@ TEST_F(PosingWindow, TheBodyMovesPausesAndReplaysBitByBit)
 TEST_F(PosingWindow, RestAndPoseAreOneKeyApart)
 {
   this->open();
-  this->put(this->bent());
+  this->apply_pose(this->bent());
   const Points posed = this->points();
-  this->posing()->look_at_rest(true);
+  this->posing()->set_rest_view(true);
   EXPECT_EQ(this->points(), Points(to_points(this->surface).view()));
-  this->posing()->look_at_rest(false);
+  this->posing()->set_rest_view(false);
   EXPECT_EQ(this->points(), posed);
 }
 
@@ -840,7 +841,7 @@ TEST_F(PosingWindow, TypedValuesMoveTheSelectedHandle)
   values.scale = 1.2;
   pose = with_values(this->list, pose, 3, values);
   const Points typed = this->points();
-  this->put(pose);
+  this->apply_pose(pose);
   EXPECT_LT((this->points() - typed).cwiseAbs().maxCoeff(), 1e-12);
   while (this->window.history()->index() > steps)
   {
@@ -915,14 +916,14 @@ TEST_F(PosingWindow, TheWheelTurnsNothingButTheFieldWithTheFocus)
 TEST_F(PosingWindow, PosesAreStoredNamedAppliedAndBlended)
 {
   this->open();
-  this->put(this->bent());
+  this->apply_pose(this->bent());
   const Points posed = this->points();
   this->find<QPushButton>("Store")->click();
-  this->put(Pose(4));
+  this->apply_pose(Pose(4));
   auto* names = this->option<QListWidget>("poses");
   ASSERT_EQ(names->count(), 1);
   names->item(0)->setText("bow");
-  EXPECT_EQ(this->posing()->shelf().library.entries()[0].name, "bow");
+  EXPECT_EQ(this->posing()->stored_poses().library.entries()[0].name, "bow");
   names->setCurrentRow(0);
   const int steps = this->window.history()->count();
   this->find<QPushButton>("Apply")->click();
@@ -943,7 +944,7 @@ TEST_F(PosingWindow, PosesAreStoredNamedAppliedAndBlended)
   EXPECT_EQ(this->points(), half);
   EXPECT_EQ(this->window.history()->undoText(), "blend poses");
   this->find<QPushButton>("Delete")->click();
-  EXPECT_TRUE(this->posing()->shelf().library.entries().empty());
+  EXPECT_TRUE(this->posing()->stored_poses().library.entries().empty());
 }
 
 TEST_F(PosingWindow, UndoTakesTheFirstKeptPoseBack)
@@ -953,7 +954,7 @@ TEST_F(PosingWindow, UndoTakesTheFirstKeptPoseBack)
   auto* names = this->option<QListWidget>("poses");
   ASSERT_EQ(names->count(), 1);
   this->window.history()->undo();
-  EXPECT_TRUE(this->posing()->shelf().library.entries().empty());
+  EXPECT_TRUE(this->posing()->stored_poses().library.entries().empty());
   EXPECT_EQ(names->count(), 0);
   this->window.history()->redo();
   EXPECT_EQ(names->count(), 1);
@@ -993,11 +994,11 @@ TEST_F(PosingWindow, CurvesOfTheRestShapeAreSeenWithItAlone)
   EXPECT_TRUE(are_seen());
   Pose pose(4);
   pose[3].transform.col(3) = Vec3(0.3, 0, 0);
-  this->put(pose);
+  this->apply_pose(pose);
   EXPECT_FALSE(are_seen());
-  this->posing()->look_at_rest(true);
+  this->posing()->set_rest_view(true);
   EXPECT_TRUE(are_seen());
-  this->posing()->look_at_rest(false);
+  this->posing()->set_rest_view(false);
   EXPECT_FALSE(are_seen());
   this->window.back_to_rest();
   EXPECT_TRUE(are_seen());
@@ -1020,7 +1021,7 @@ TEST_F(PosingWindow, BonesMayBeHeldByAnEnd)
   Pose pose(4);
   pose[2].mode = HandleMode::tail;
   pose[3].mode = HandleMode::ends;
-  this->put(pose);
+  this->apply_pose(pose);
   EXPECT_EQ(this->window.error(), QString());
   EXPECT_TRUE(texts().contains("lower   (tail)")) << texts().join(", ").toStdString();
   EXPECT_TRUE(texts().contains("upper   (ends)"));
@@ -1059,7 +1060,7 @@ TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
   ASSERT_TRUE(this->window.set_handles(to_polydata(ends), "ends"));
   Pose folded(2);
   folded[1].transform.leftCols<3>() = Eigen::AngleAxisd(EIGEN_PI, Vec3::UnitZ()).toRotationMatrix();
-  this->put(folded);
+  this->apply_pose(folded);
   this->window.panel()->select_handle(1);
   this->window.panel()->show_column(1);
   this->render();
@@ -1069,7 +1070,7 @@ TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
   vtkRenderer* renderer = this->window.viewport()->renderer();
   const auto right_is_seen = [&]
   {
-    EXPECT_TRUE(this->settle());
+    EXPECT_TRUE(this->wait_until_settled());
     this->render();
     vtkCamera* camera = renderer->GetActiveCamera();
     camera->SetPosition(-0.5, 0, 5);
@@ -1113,13 +1114,13 @@ TEST_F(PosingWindow, KeyFramesPlayAndScrubThroughTheirKeys)
 {
   this->open();
   KeyStrip* strip = this->strip();
-  Q_EMIT strip->key_wanted();
+  Q_EMIT strip->set_key_requested();
   Q_EMIT strip->scrubbed(0.5);
   Q_EMIT strip->scrub_ended();
-  this->put(this->bent());
+  this->apply_pose(this->bent());
   const Points posed = this->points();
-  Q_EMIT strip->key_wanted();
-  ASSERT_EQ(this->posing()->shelf().keys.keys().size(), 2U);
+  Q_EMIT strip->set_key_requested();
+  ASSERT_EQ(this->posing()->stored_poses().keys.keys().size(), 2U);
   Q_EMIT strip->scrubbed(0.0);
   EXPECT_EQ(this->points(), Points(to_points(this->surface).view()));
   Q_EMIT strip->scrubbed(0.25);
@@ -1130,19 +1131,19 @@ TEST_F(PosingWindow, KeyFramesPlayAndScrubThroughTheirKeys)
   Q_EMIT strip->scrub_ended();
   // Without loop, playback stops at its end, and no point moves afterward.
   Q_EMIT strip->loop_chosen(false);
-  this->posing()->keeper()->play(true);
-  EXPECT_TRUE(this->posing()->keeper()->is_playing());
-  ASSERT_TRUE(wait_for([this] { return !this->posing()->keeper()->is_playing(); }, 20));
+  this->posing()->pose_manager()->play(true);
+  EXPECT_TRUE(this->posing()->pose_manager()->is_playing());
+  ASSERT_TRUE(wait_for([this] { return !this->posing()->pose_manager()->is_playing(); }, 20));
   EXPECT_EQ(this->points(), posed);
   // With loop, playback continues until it is stopped. A drag stops it.
   Q_EMIT strip->loop_chosen(true);
-  this->posing()->keeper()->play(true);
+  this->posing()->pose_manager()->play(true);
   QElapsedTimer clock;
   clock.start();
   wait_for([&] { return clock.elapsed() > 700; });
-  EXPECT_TRUE(this->posing()->keeper()->is_playing());
+  EXPECT_TRUE(this->posing()->pose_manager()->is_playing());
   this->drag_handle(1, { 20, 10 });
-  EXPECT_FALSE(this->posing()->keeper()->is_playing());
+  EXPECT_FALSE(this->posing()->pose_manager()->is_playing());
   // The mouse drags a key to another time.
   this->render();
   KeyTrack* track = strip->track();
@@ -1156,7 +1157,7 @@ TEST_F(PosingWindow, KeyFramesPlayAndScrubThroughTheirKeys)
   send(QEvent::MouseButtonPress, from, Qt::LeftButton);
   send(QEvent::MouseMove, to, Qt::NoButton);
   send(QEvent::MouseButtonRelease, to, Qt::LeftButton);
-  EXPECT_NEAR(this->posing()->shelf().keys.duration(), 1.0, 0.02);
+  EXPECT_NEAR(this->posing()->stored_poses().keys.duration(), 1.0, 0.02);
   EXPECT_EQ(this->window.error(), QString());
 }
 
@@ -1164,11 +1165,11 @@ TEST_F(PosingWindow, AnimationsAreExportedAndReadBack)
 {
   this->open(2);
   KeyStrip* strip = this->strip();
-  Q_EMIT strip->key_wanted();
+  Q_EMIT strip->set_key_requested();
   Q_EMIT strip->scrubbed(0.25);
-  this->put(this->bent());
+  this->apply_pose(this->bent());
   const Points posed = this->points();
-  Q_EMIT strip->key_wanted();
+  Q_EMIT strip->set_key_requested();
   const std::filesystem::path folder =
     std::filesystem::path(testing::TempDir()) / "bindpose_export";
   std::filesystem::create_directories(folder);
@@ -1224,7 +1225,7 @@ TEST_F(PosingWindow, AnimationsAreExportedAndReadBack)
     const std::string unwanted = folder / "unwanted.webm";
     int taken = 0;
     QObject listener;
-    QObject::connect(film, &SequenceExport::pictures_taken, &listener,
+    QObject::connect(film, &SequenceExport::rendering_finished, &listener,
       [film, &taken]
       {
         ++taken;
@@ -1245,7 +1246,7 @@ TEST_F(PosingWindow, AnimationsAreExportedAndReadBack)
   this->posing()->export_to(QString::fromStdString(folder / "bow.doc"));
   EXPECT_TRUE(wait_for([this] { return this->window.error().contains("doc"); }, 5))
     << this->window.error().toStdString();
-  EXPECT_EQ(this->posing()->shelf().keys.keys().size(), 2U);
+  EXPECT_EQ(this->posing()->stored_poses().keys.keys().size(), 2U);
   std::filesystem::remove_all(folder);
 }
 
@@ -1310,21 +1311,21 @@ TEST_F(PosingWindow, EveryStateHasAPictureOfItsOwn)
   };
   Pose pose = this->bent();
   pose[1].mode = HandleMode::free;
-  Q_EMIT this->strip()->key_wanted();
+  Q_EMIT this->strip()->set_key_requested();
   Q_EMIT this->strip()->scrubbed(0.8);
   for (int method = 0; method < pose_method_count; ++method)
   {
     this->choose(static_cast<PoseMethod>(method));
-    this->put(pose);
-    this->settle();
+    this->apply_pose(pose);
+    this->wait_until_settled();
     save(("method_" + std::string(to_string(static_cast<PoseMethod>(method)))).c_str());
   }
-  Q_EMIT this->strip()->key_wanted();
+  Q_EMIT this->strip()->set_key_requested();
   this->choose(PoseMethod::linear_blend);
   this->find<QPushButton>(QString::fromUtf8("▸  Compare"))->click();
   this->option<QComboBox>("pose.compared")
     ->setCurrentIndex(1 + static_cast<int>(PoseMethod::full_arap));
-  wait_for([this] { return this->posing()->compared()->is_settled(); });
+  wait_for([this] { return this->posing()->compared_deformation()->is_settled(); });
   save("compare_distance");
   this->find<QPushButton>("Over it")->click();
   save("compare_over");
@@ -1348,8 +1349,8 @@ TEST_F(PosingWindow, EveryStateHasAPictureOfItsOwn)
 TEST_F(PosingWindow, AScrubEndsADragWithoutAButton)
 {
   this->open();
-  Q_EMIT this->strip()->key_wanted();
-  this->put(this->bent());
+  Q_EMIT this->strip()->set_key_requested();
+  this->apply_pose(this->bent());
   vtkHandleSetWidget* widget = this->window.viewport()->handle_widget();
   widget->GetHandleSetRepresentation()->SetSelectedHandle(0);
   ASSERT_TRUE(widget->StartDrag(vtkHandleSetRepresentation::GIZMO_MOVE));
@@ -1431,7 +1432,7 @@ TEST_P(DragFrame, TakesMilliseconds)
   ASSERT_TRUE(this->window.set_mesh(data, "ring"));
   ASSERT_TRUE(this->window.set_handles(to_polydata(twenty), "twenty"));
   this->choose(PoseMethod::reduced_arap);
-  ASSERT_TRUE(this->settle());
+  ASSERT_TRUE(this->wait_until_settled());
   this->render();
   // Limit in milliseconds on a busy machine; an idle machine needs a tenth of it.
   constexpr double busy = 50.0;

@@ -53,7 +53,7 @@ protected:
     }
     return this->window.reading().toStdString();
   }
-  std::string read(const Vec3& place) { return this->read(this->pixel(place)); }
+  std::string read(const Vec3& position) { return this->read(this->pixel(position)); }
 
   void open_ball(int levels = 4)
   {
@@ -73,7 +73,7 @@ protected:
   }
   void choose(const char* option, const QVariant& value)
   {
-    const QString refused = WindowHand(&this->window).choose(option, value);
+    const QString refused = SimulatedUser(&this->window).choose(option, value);
     EXPECT_TRUE(refused.isEmpty()) << refused.toStdString();
     this->render();
   }
@@ -84,19 +84,19 @@ protected:
 struct SurfaceReading
 {
   long long triangle = -1, vertex = -1;
-  Vec3 place = Vec3::Zero();
+  Vec3 position = Vec3::Zero();
 };
 
 bool parse(const std::string& text, SurfaceReading& reading)
 {
   const std::size_t triangle = text.find("Triangle");
-  const std::size_t place =
+  const std::size_t position =
     text.find("x ", triangle == std::string::npos ? 0 : text.find("  ", triangle));
-  return triangle != std::string::npos && place != std::string::npos &&
+  return triangle != std::string::npos && position != std::string::npos &&
     std::sscanf(text.c_str() + triangle, "Triangle %lld, vertex %lld", &reading.triangle,
       &reading.vertex) == 2 &&
-    std::sscanf(text.c_str() + place, "x %lf y %lf z %lf", &reading.place.x(), &reading.place.y(),
-      &reading.place.z()) == 3;
+    std::sscanf(text.c_str() + position, "x %lf y %lf z %lf", &reading.position.x(),
+      &reading.position.y(), &reading.position.z()) == 3;
 }
 
 double number_after(const std::string& text, const std::string& words)
@@ -113,10 +113,10 @@ TEST(RayCast, FindsWhatATwinThatTestsEveryTriangleFinds)
   const TriangleMesh ball = test::sphere(3);
   for (int k = 0; k < 50; ++k)
   {
-    SightRay ray;
+    ViewRay ray;
     ray.origin = Vec3(3.0 * std::cos(k), 3.0 * std::sin(k), 0.02 * k);
     ray.direction = (Vec3(0.01 * k, 0.3, -0.2) - ray.origin).normalized();
-    SightHit hit;
+    RayHit hit;
     ASSERT_TRUE(first_triangle(ray, ball.points, ball.triangles, hit));
     // Intersect the ray's line with each triangle's plane.
     double nearest = 1e300;
@@ -132,14 +132,14 @@ TEST(RayCast, FindsWhatATwinThatTestsEveryTriangleFinds)
       }
     }
     EXPECT_NEAR(hit.distance, nearest, 1e-12);
-    const Vec3 place = hit.shares.transpose() *
+    const Vec3 position = hit.barycentric.transpose() *
       (Eigen::Matrix3d() << ball.points.row(ball.triangles(hit.element, 0)),
         ball.points.row(ball.triangles(hit.element, 1)),
         ball.points.row(ball.triangles(hit.element, 2)))
         .finished();
-    EXPECT_LT((place - ray.origin - hit.distance * ray.direction).norm(), 1e-12);
+    EXPECT_LT((position - ray.origin - hit.distance * ray.direction).norm(), 1e-12);
   }
-  SightHit hit;
+  RayHit hit;
   EXPECT_FALSE(first_triangle({ Vec3(0, 0, 3), Vec3::UnitZ() }, ball.points, ball.triangles, hit))
     << "it lies behind";
   // A ray through a vertex must hit the surface. Round-off must not let the ray pass between
@@ -164,7 +164,7 @@ TEST_F(ProbeWindow, ASurfaceIsReadWithTriangleVertexAndPlace)
     ASSERT_TRUE(parse(text, reading)) << text;
     // The reported position is under the mouse and on the near side of the shape. It is in the
     // reported triangle and next to the reported vertex.
-    EXPECT_LE((this->pixel(reading.place) - at).manhattanLength(), 2) << text;
+    EXPECT_LE((this->pixel(reading.position) - at).manhattanLength(), 2) << text;
     ASSERT_LT(reading.triangle, this->ball.triangles.rows());
     double least = 1e300;
     Index nearest = -1;
@@ -177,15 +177,15 @@ TEST_F(ProbeWindow, ASurfaceIsReadWithTriangleVertexAndPlace)
       middle += corner / 3.0;
       size =
         std::max(size, (corner - Vec3(this->ball.points.row(nearest < 0 ? v : nearest))).norm());
-      if ((corner - reading.place).norm() < least)
+      if ((corner - reading.position).norm() < least)
       {
-        least = (corner - reading.place).norm();
+        least = (corner - reading.position).norm();
         nearest = v;
       }
     }
     EXPECT_EQ(reading.vertex, nearest);
-    EXPECT_LT((reading.place - middle).norm(), size);
-    EXPECT_GT(reading.place.norm(), 0.99);
+    EXPECT_LT((reading.position - middle).norm(), size);
+    EXPECT_GT(reading.position.norm(), 0.99);
     ++read_places;
   }
   EXPECT_EQ(read_places, 4);
@@ -201,12 +201,12 @@ TEST_F(ProbeWindow, WeightsAreReadWithTheStrongestHandle)
   this->weigh();
   this->window.panels()->show_panel(PanelColumn::weights);
   this->choose("weights.column", 2);
-  for (const Vec3& place : { Vec3(0.3, 0.2, 0.7), Vec3(0.5, -0.3, -0.4), Vec3(0.1, 0.6, 0.3) })
+  for (const Vec3& position : { Vec3(0.3, 0.2, 0.7), Vec3(0.5, -0.3, -0.4), Vec3(0.1, 0.6, 0.3) })
   {
-    const std::string text = this->read(place);
+    const std::string text = this->read(position);
     SurfaceReading reading;
     ASSERT_TRUE(parse(text, reading)) << text;
-    const double top = 0.5 * (reading.place.z() + 1.0);
+    const double top = 0.5 * (reading.position.z() + 1.0);
     EXPECT_NEAR(number_after(text, "Weights top: "), top, 2e-3) << text;
     const bool above = top > 0.5;
     EXPECT_NEAR(
@@ -228,16 +228,16 @@ TEST_F(ProbeWindow, RotationsAreReadWithTheirCluster)
 {
   this->open_ball();
   this->weigh();
-  const Vec3 place(0.3, 0.2, 0.7);
-  EXPECT_EQ(this->read(place).find("otation"), std::string::npos);
+  const Vec3 position(0.3, 0.2, 0.7);
+  EXPECT_EQ(this->read(position).find("otation"), std::string::npos);
   this->window.set_method(static_cast<int>(PoseMethod::reduced_arap));
   this->choose("pose.rotations", 1);
   const PoseRotations* found = this->window.posing()->rotations();
   ASSERT_NE(found, nullptr);
-  const std::string text = this->read(place);
+  const std::string text = this->read(position);
   SurfaceReading reading;
   ASSERT_TRUE(parse(text, reading)) << text;
-  const auto cluster = (*found->of_point)[static_cast<std::size_t>(reading.vertex)];
+  const auto cluster = (*found->cluster_of_point)[static_cast<std::size_t>(reading.vertex)];
   EXPECT_NE(text.find("Rotation cluster " + std::to_string(cluster) + " of " +
               std::to_string(found->rotations.size()) + ": 0.0°"),
     std::string::npos)
@@ -256,15 +256,15 @@ TEST_F(ProbeWindow, TheDifferenceOfTwoMethodsIsReadInUnitsAndShares)
   this->render();
   Posing* posing = this->window.posing();
   const Points& a = posing->points();
-  const Points& b = posing->compared()->points();
+  const Points& b = posing->compared_deformation()->points();
   ASSERT_EQ(a.rows(), b.rows());
   Index widest = 0;
   const double largest = (a - b).rowwise().norm().maxCoeff(&widest);
   ASSERT_GT(largest, 0.1);
   int seen = 0;
-  for (const Vec3& place : { Vec3(0.3, 0.2, 0.4), Vec3(0.2, 0.1, 0.2), Vec3(0.3, 0.0, -0.1) })
+  for (const Vec3& position : { Vec3(0.3, 0.2, 0.4), Vec3(0.2, 0.1, 0.2), Vec3(0.3, 0.0, -0.1) })
   {
-    const std::string text = this->read(place);
+    const std::string text = this->read(position);
     SurfaceReading reading;
     ASSERT_TRUE(parse(text, reading)) << text;
     const double units = number_after(text, "Distance ");
@@ -286,7 +286,7 @@ TEST_F(ProbeWindow, ATetIsReadWithItsQuality)
   this->resize({ 1000, 700 });
   this->choose("tets.shown", true);
   this->choose("tets.colors", 1); // this coloring is not by quality
-  TetView* view = this->window.inspection()->tet_view();
+  TetView* view = this->window.tet_inspection()->tet_view();
   ASSERT_TRUE(view->is_shown());
   const PointsView points = view->input().points.view();
   const TetsView tets = view->input().tets.view();
@@ -310,16 +310,16 @@ TEST_F(ProbeWindow, ATetIsReadWithItsQuality)
       const auto corner = [&](int k) { return Vec3(points.row(tets(tet, k))); };
       EXPECT_NEAR(angle, min_dihedral_angle(corner(0), corner(1), corner(2), corner(3)), 0.06);
       // The reported position is inside of the reported tet.
-      const Vec3 place(
+      const Vec3 position(
         number_after(text, "x "), number_after(text, "   y "), number_after(text, "   z "));
       Eigen::Matrix4d system;
       for (int k = 0; k < 4; ++k)
       {
         system.col(k) = corner(k).homogeneous();
       }
-      const Eigen::Vector4d shares = system.partialPivLu().solve(place.homogeneous());
-      EXPECT_GT(shares.minCoeff(), -0.02) << text;
-      EXPECT_LE((this->pixel(place) - at).manhattanLength(), 2) << text;
+      const Eigen::Vector4d barycentric = system.partialPivLu().solve(position.homogeneous());
+      EXPECT_GT(barycentric.minCoeff(), -0.02) << text;
+      EXPECT_LE((this->pixel(position) - at).manhattanLength(), 2) << text;
       ++seen;
     }
     EXPECT_GE(seen, 2);
@@ -362,12 +362,12 @@ TEST_F(ProbeWindow, ADefectIsReadByItsName)
   const TriangleMesh cube = test::open_cube();
   ASSERT_TRUE(this->window.set_mesh(to_polydata(cube.points, cube.triangles), "cube"));
   this->window.panels()->show_panel(PanelColumn::tets);
-  this->window.inspection()->show_defects();
+  this->window.tet_inspection()->show_defects();
   ASSERT_TRUE(
-    test::wait_for([this] { return this->window.inspection()->defect_view().is_shown(); }));
+    test::wait_for([this] { return this->window.tet_inspection()->defect_view().is_shown(); }));
   this->resize({ 1000, 700 });
   // Take the ends of an edge with only one triangle.
-  vtkPolyData* defects = this->window.inspection()->defect_view().defects();
+  vtkPolyData* defects = this->window.tet_inspection()->defect_view().defects();
   ASSERT_GT(defects->GetNumberOfLines(), 0);
   const Vec3 a(defects->GetPoint(defects->GetCell(0)->GetPointId(0)));
   const Vec3 b(defects->GetPoint(defects->GetCell(0)->GetPointId(1)));
@@ -397,7 +397,7 @@ TEST_F(ProbeWindow, NothingIsReadDuringADragAndTheLabelKeepsOutOfTheWay)
   // Zoom in until the ball also covers the corner of the view.
   for (int k = 0; k < 12; ++k)
   {
-    WindowHand(&this->window).wheel(middle, 1.0);
+    SimulatedUser(&this->window).wheel(middle, 1.0);
   }
   this->render();
   const QPoint corner(this->window.viewport()->width() - 40, 20);

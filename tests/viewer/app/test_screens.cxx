@@ -190,10 +190,10 @@ TEST_F(Screens, ABackupAfterABindDoesNotHoldTheWindow)
     ball_with_equal_weights(6, 20)->GetPointData()->GetArray("Weights"));
   QElapsedTimer clock;
   clock.start();
-  const double cpu = own_cpu_seconds();
+  const double cpu = thread_cpu_seconds();
   ASSERT_TRUE(this->window.document()->set_bound(bound, nullptr));
   const double shown = 1e-6 * static_cast<double>(clock.nsecsElapsed());
-  const double shown_cpu = 1e3 * (own_cpu_seconds() - cpu);
+  const double shown_cpu = 1e3 * (thread_cpu_seconds() - cpu);
   Autosave* autosave = this->window.sessions()->autosave();
   autosave->begin_save();
   EXPECT_TRUE(autosave->is_saving()) << "the caller goes on";

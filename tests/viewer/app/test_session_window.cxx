@@ -257,7 +257,7 @@ TEST_F(SessionWindow, AMissingInputIsSaidAndCanBeLocated)
   ASSERT_TRUE(this->window.sessions()->write(to_qt(this->folder / "work.bindpose")));
   std::filesystem::rename(this->folder / "column.off", this->folder / "moved.off");
   ASSERT_TRUE(this->window.open(to_qt(this->folder / "work.bindpose")));
-  EXPECT_EQ(this->window.note_bar()->sentence(),
+  EXPECT_EQ(this->window.note_bar()->message(),
     "column.off is missing; the session was opened without it.");
   EXPECT_NE(button_of(this->window.note_bar(), "Locate…"), nullptr);
   EXPECT_EQ(this->window.document()->surface(), nullptr);
@@ -310,27 +310,27 @@ TEST_F(SessionWindow, ABindIsOneStepAndIsBackedUpAtOnce)
 TEST_F(SessionWindow, ARebindIsOfferedAndPosingGoesOn)
 {
   this->open_files();
-  EXPECT_EQ(this->window.rebind_bar()->sentence(), "");
+  EXPECT_EQ(this->window.rebind_bar()->message(), "");
   this->window.document()->handle_data()->GetPoints()->SetPoint(0, 0, 0, -0.5);
   ASSERT_TRUE(this->window.document()->commit_handles("move at rest").ok());
-  EXPECT_EQ(this->window.rebind_bar()->sentence(), "Since the last bind, 1 handle was moved.");
+  EXPECT_EQ(this->window.rebind_bar()->message(), "Since the last bind, 1 handle was moved.");
   const double before = top_of(this->window.shown());
   this->pose();
   EXPECT_GT(top_of(this->window.shown()), before + 0.3);
   EXPECT_EQ(this->window.error(), "");
   this->window.history()->undo();
   this->window.history()->undo();
-  EXPECT_EQ(this->window.rebind_bar()->sentence(), "");
+  EXPECT_EQ(this->window.rebind_bar()->message(), "");
   this->window.history()->redo();
   button_of(this->window.rebind_bar(), "Bind again")->click();
   EXPECT_TRUE(this->window.binding()->is_running());
-  EXPECT_EQ(this->window.rebind_bar()->sentence(), "");
+  EXPECT_EQ(this->window.rebind_bar()->message(), "");
   this->window.binding()->cancel();
   while (this->window.binding()->is_running())
   {
     QApplication::processEvents(QEventLoop::AllEvents, 20);
   }
-  EXPECT_NE(this->window.rebind_bar()->sentence(), ""); // a new bind is still offered
+  EXPECT_NE(this->window.rebind_bar()->message(), ""); // a new bind is still offered
 }
 
 // ---- After a crash -----------------------------------------------------------------------------
@@ -368,15 +368,15 @@ TEST_F(SessionWindow, AKilledProgramsWorkIsOfferedAndRestored)
   }
   ASSERT_TRUE(is_saved());
   this->window.sessions()->offer_recovery(root);
-  EXPECT_EQ(this->window.recovery_bar()->sentence(), ""); // the other program is still running
+  EXPECT_EQ(this->window.recovery_bar()->message(), ""); // the other program is still running
   program.kill();
   program.waitForFinished();
 
   this->window.sessions()->offer_recovery(root);
-  EXPECT_NE(this->window.recovery_bar()->sentence().indexOf("did not close properly"), -1);
+  EXPECT_NE(this->window.recovery_bar()->message().indexOf("did not close properly"), -1);
   EXPECT_TRUE(this->window.is_empty()); // work is restored only after the user has agreed
   button_of(this->window.recovery_bar(), "&Restore")->click();
-  EXPECT_EQ(this->window.recovery_bar()->sentence(), "");
+  EXPECT_EQ(this->window.recovery_bar()->message(), "");
   EXPECT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
   EXPECT_EQ(this->window.document()->handles().size(), 2u);
   EXPECT_TRUE(this->window.isWindowModified());
@@ -395,10 +395,10 @@ TEST_F(SessionWindow, DiscardedWorkIsGoneAndTheNextIsOffered)
   for (int left = 2; left > 0; --left)
   {
     EXPECT_EQ(QDir(root).entryList(QDir::Dirs | QDir::NoDotAndDotDot).size(), left);
-    ASSERT_NE(this->window.recovery_bar()->sentence(), "");
+    ASSERT_NE(this->window.recovery_bar()->message(), "");
     button_of(this->window.recovery_bar(), "Discard")->click();
   }
-  EXPECT_EQ(this->window.recovery_bar()->sentence(), "");
+  EXPECT_EQ(this->window.recovery_bar()->message(), "");
   EXPECT_TRUE(QDir(root).isEmpty());
 }
 
@@ -407,10 +407,10 @@ TEST_F(SessionWindow, DiscardedWorkIsGoneAndTheNextIsOffered)
 TEST_F(SessionWindow, EveryKindOfMeshCanBeDropped)
 {
   const auto mesh = column_data(false);
-  for (const char* ending : { "obj", "off", "ply", "stl", "vtp" })
+  for (const char* extension : { "obj", "off", "ply", "stl", "vtp" })
   {
-    SCOPED_TRACE(ending);
-    const std::string path = this->folder / (std::string("shape.") + ending);
+    SCOPED_TRACE(extension);
+    const std::string path = this->folder / (std::string("shape.") + extension);
     write_mesh(mesh, path);
     this->drop(path);
     EXPECT_EQ(this->window.error(), "");
@@ -490,7 +490,7 @@ TEST_F(SessionWindow, APictureIsCutOutShownAndBent)
   this->drop(write_picture(this->folder));
   ASSERT_EQ(this->window.error(), "");
   ASSERT_NE(this->window.document()->surface(), nullptr);
-  EXPECT_NE(this->window.note_bar()->sentence().indexOf("cut out"), -1);
+  EXPECT_NE(this->window.note_bar()->message().indexOf("cut out"), -1);
   const auto red = [](const QColor& c) { return c.red() > 180 && c.green() < 80 && c.blue() < 80; };
   const auto blue = [](const QColor& c)
   { return c.blue() > 180 && c.green() < 80 && c.red() < 80; };
@@ -551,15 +551,15 @@ TEST_F(SessionWindow, AnUncleanSurfaceIsToldAboutAndShown)
   ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "box"));
   QElapsedTimer clock;
   clock.start();
-  while (this->window.note_bar()->sentence().isEmpty() && clock.elapsed() < 20000)
+  while (this->window.note_bar()->message().isEmpty() && clock.elapsed() < 20000)
   {
     QApplication::processEvents(QEventLoop::AllEvents, 20);
   }
-  EXPECT_NE(this->window.note_bar()->sentence().indexOf("4"), -1) // the four edges around the hole
-    << this->window.note_bar()->sentence().toStdString();
+  EXPECT_NE(this->window.note_bar()->message().indexOf("4"), -1) // the four edges around the hole
+    << this->window.note_bar()->message().toStdString();
   button_of(this->window.note_bar(), "Show where")->click();
   EXPECT_EQ(this->window.panels()->shown_panel(), PanelColumn::tets);
-  EXPECT_TRUE(this->window.inspection()->defect_view().is_shown());
+  EXPECT_TRUE(this->window.tet_inspection()->defect_view().is_shown());
 }
 
 TEST_F(SessionWindow, WhatAFileLosesIsToldAbout)
@@ -575,18 +575,18 @@ TEST_F(SessionWindow, WhatAFileLosesIsToldAbout)
   this->folder.write("character.gltf", file);
   ASSERT_TRUE(this->window.open(to_qt(path))) << this->window.error().toStdString();
   const QString lost = "character.gltf: Bindpose does not keep 2 materials.";
-  EXPECT_TRUE(this->window.note_bar()->sentence().startsWith(lost))
-    << this->window.note_bar()->sentence().toStdString();
+  EXPECT_TRUE(this->window.note_bar()->message().startsWith(lost))
+    << this->window.note_bar()->message().toStdString();
   // The search for defects ends later. It must not remove the sentence about the lost materials.
   ASSERT_TRUE(
-    test::wait_for([this] { return this->window.note_bar()->sentence().contains("has defects"); }));
-  EXPECT_TRUE(this->window.note_bar()->sentence().startsWith(lost));
+    test::wait_for([this] { return this->window.note_bar()->message().contains("has defects"); }));
+  EXPECT_TRUE(this->window.note_bar()->message().startsWith(lost));
   // After another mesh is opened, the sentence about the lost materials disappears.
   const TriangleMesh other = test::open_cube();
   test::write_with<vtkXMLPolyDataWriter>(
     to_polydata(other.points, other.triangles), this->folder / "other.vtp");
   ASSERT_TRUE(this->window.open(to_qt(this->folder / "other.vtp")));
-  EXPECT_FALSE(this->window.note_bar()->sentence().contains("does not keep"));
+  EXPECT_FALSE(this->window.note_bar()->message().contains("does not keep"));
 }
 
 TEST_F(SessionWindow, WeightsWithoutAMeshAreOneSentence)
@@ -616,7 +616,7 @@ TEST_F(SessionWindow, RecentFilesAreListedAndMissingOnesGrayed)
   {
     RecentFiles::add(QString("/file %1").arg(k));
   }
-  EXPECT_EQ(RecentFiles::list().size(), RecentFiles::most);
+  EXPECT_EQ(RecentFiles::list().size(), RecentFiles::maximum_count);
 }
 
 TEST_F(SessionWindow, BarsAreNeverClippedAndNeverWidenTheWindow)

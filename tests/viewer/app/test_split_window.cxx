@@ -60,7 +60,7 @@ protected:
   vtkCamera* camera() { return this->left()->GetActiveCamera(); }
   void choose(const char* option, int value)
   {
-    ASSERT_EQ(this->hand.choose(option, value), QString()) << option;
+    ASSERT_EQ(this->user.choose(option, value), QString()) << option;
     this->render();
   }
   void compare()
@@ -84,7 +84,10 @@ protected:
     return largest;
   }
   double extent_left() { return extent(this->left(), to_points(this->window.shown()).view()); }
-  double extent_right() { return extent(this->right(), this->posing()->compared()->points()); }
+  double extent_right()
+  {
+    return extent(this->right(), this->posing()->compared_deformation()->points());
+  }
   /// Expect that both shapes are within their halves and fill them.
   void expect_both_in_view(const char* when)
   {
@@ -97,11 +100,11 @@ protected:
     double range[2];
     this->camera()->GetClippingRange(range);
     const Vec3 eye(this->camera()->GetPosition());
-    const Vec3 sight(this->camera()->GetDirectionOfProjection());
-    for (const Points& points :
-      { Points(to_points(this->window.shown()).view()), this->posing()->compared()->points() })
+    const Vec3 view_direction(this->camera()->GetDirectionOfProjection());
+    for (const Points& points : { Points(to_points(this->window.shown()).view()),
+           this->posing()->compared_deformation()->points() })
     {
-      const Eigen::VectorXd depths = (points.rowwise() - eye.transpose()) * sight;
+      const Eigen::VectorXd depths = (points.rowwise() - eye.transpose()) * view_direction;
       EXPECT_GT(depths.minCoeff(), range[0]) << when;
       EXPECT_LT(depths.maxCoeff(), range[1]) << when;
     }
@@ -123,7 +126,7 @@ protected:
     return count;
   }
 
-  WindowHand hand{ &this->window };
+  SimulatedUser user{ &this->window };
 };
 } // namespace
 
@@ -132,13 +135,13 @@ TEST_F(SplitWindow, EachShapeFitsIntoItsHalf)
   const double whole = this->extent_left();
   ASSERT_GT(whole, 0.6);
   const Vec3 before(this->camera()->GetPosition());
-  const Vec3 sight(this->camera()->GetDirectionOfProjection());
+  const Vec3 view_direction(this->camera()->GetDirectionOfProjection());
   this->compare();
   this->beside();
   ASSERT_TRUE(this->window.viewport()->is_split());
   this->expect_both_in_view("beside");
   EXPECT_NEAR(this->extent_left(), whole, 0.12) << "as much of the half as of the whole";
-  EXPECT_LT((Vec3(this->camera()->GetDirectionOfProjection()) - sight).norm(), 1e-9);
+  EXPECT_LT((Vec3(this->camera()->GetDirectionOfProjection()) - view_direction).norm(), 1e-9);
   // No pixel at the border between the halves is covered, and both shapes have the same size.
   EXPECT_EQ(this->drawn(0.498, 0.502), 0);
   const int left = this->drawn(0.0, 0.5);
@@ -146,11 +149,11 @@ TEST_F(SplitWindow, EachShapeFitsIntoItsHalf)
   EXPECT_GT(left, 2000);
   EXPECT_NEAR(left, right, 0.15 * left); // the handles cover a part of the left shape
   // After the comparison ends, the view is as before.
-  this->hand.trigger("edit.undo");
+  this->user.trigger("edit.undo");
   this->render();
   EXPECT_FALSE(this->window.viewport()->is_split());
   EXPECT_LT((Vec3(this->camera()->GetPosition()) - before).norm(), 1e-6);
-  this->hand.trigger("edit.redo");
+  this->user.trigger("edit.redo");
   this->render();
   EXPECT_TRUE(this->window.viewport()->is_split());
   this->expect_both_in_view("redo");
@@ -166,18 +169,18 @@ TEST_F(SplitWindow, AnotherSizeAndAnotherViewKeepBothInTheirHalves)
     this->expect_both_in_view("resized");
   }
   // Rotating the view in the right half rotates both halves.
-  const Vec3 sight(this->camera()->GetDirectionOfProjection());
-  this->drag(this->hand.place(0.9, 0.1), this->hand.place(0.8, 0.15));
-  EXPECT_GT((Vec3(this->camera()->GetDirectionOfProjection()) - sight).norm(), 0.05);
+  const Vec3 view_direction(this->camera()->GetDirectionOfProjection());
+  this->drag(this->user.place(0.9, 0.1), this->user.place(0.8, 0.15));
+  EXPECT_GT((Vec3(this->camera()->GetDirectionOfProjection()) - view_direction).norm(), 0.05);
   EXPECT_EQ(this->right()->GetActiveCamera(), this->camera());
-  this->hand.press_key("Home");
+  this->user.press_key("Home");
   this->render();
   this->expect_both_in_view("home");
   // If a pose moves a shape out of its half, the key Home fits the view to the shape again.
   Pose pose(2);
   pose[1].transform.col(3) = Vec3(1.5, 0, 3.0);
   this->window.document()->set_pose(pose, "far");
-  this->hand.press_key("Home");
+  this->user.press_key("Home");
   this->render();
   this->expect_both_in_view("far");
 }
@@ -198,9 +201,9 @@ TEST_F(SplitWindow, AZoomStaysAndAShiftedShapeComesBack)
   this->camera()->Dolly(0.5);
   vtkCamera* camera = this->camera();
   const Vec3 right = Vec3(camera->GetDirectionOfProjection()).cross(Vec3(camera->GetViewUp()));
-  const Vec3 by = -0.2 * camera->GetDistance() * right;
-  camera->SetFocalPoint((Vec3(camera->GetFocalPoint()) + by).eval().data());
-  camera->SetPosition((Vec3(camera->GetPosition()) + by).eval().data());
+  const Vec3 offset = -0.2 * camera->GetDistance() * right;
+  camera->SetFocalPoint((Vec3(camera->GetFocalPoint()) + offset).eval().data());
+  camera->SetPosition((Vec3(camera->GetPosition()) + offset).eval().data());
   ASSERT_LT(this->extent_left(), 1.0);
   this->beside();
   EXPECT_LT(this->extent_left(), 1.0);
@@ -211,36 +214,36 @@ TEST_F(SplitWindow, HandlesAreTakenHoldOfInTheLeftHalfAlone)
 {
   this->compare();
   this->beside();
-  QPoint at;
-  ASSERT_EQ(this->hand.place_of("right", 0.0, at), QString());
+  QPoint position;
+  ASSERT_EQ(this->user.find_handle_position("right", 0.0, position), QString());
   const int half = this->window.viewport()->width() / 2;
-  ASSERT_LT(at.x(), half);
+  ASSERT_LT(position.x(), half);
   auto* drawn = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
   // At the same position in the right half there is no handle.
-  this->hover(at + QPoint(half, 0));
+  this->hover(position + QPoint(half, 0));
   EXPECT_LT(drawn->GetHoveredHandle(), 0);
   // The handle widget is turned off and on while the mouse is in the right half.
-  this->hand.press_key("T");
-  this->hand.press_key("T");
+  this->user.press_key("T");
+  this->user.press_key("T");
   this->render();
-  this->hover(at);
+  this->hover(position);
   ASSERT_GE(drawn->GetHoveredHandle(), 0);
-  const Points before = this->posing()->compared()->points();
+  const Points before = this->posing()->compared_deformation()->points();
   const int steps = this->window.history()->index();
-  this->drag(at, at + QPoint(-20, -60));
+  this->drag(position, position + QPoint(-20, -60));
   EXPECT_EQ(this->window.history()->undoText(), "move right");
   EXPECT_EQ(this->window.history()->index(), steps + 1);
   QPoint now;
-  ASSERT_EQ(this->hand.place_of("right", 0.0, now), QString());
-  EXPECT_NEAR(now.x(), at.x() - 20, 2);
-  EXPECT_NEAR(now.y(), at.y() - 60, 2);
-  EXPECT_GT((this->posing()->compared()->points() - before).cwiseAbs().maxCoeff(), 0.1)
+  ASSERT_EQ(this->user.find_handle_position("right", 0.0, now), QString());
+  EXPECT_NEAR(now.x(), position.x() - 20, 2);
+  EXPECT_NEAR(now.y(), position.y() - 60, 2);
+  EXPECT_GT((this->posing()->compared_deformation()->points() - before).cwiseAbs().maxCoeff(), 0.1)
     << "the other method has the same pose";
   // A handle beyond the border is not drawn in the other half, so it cannot be picked there.
   this->camera()->Dolly(2.0);
   this->left()->ResetCameraClippingRange();
   this->render();
-  ASSERT_EQ(this->hand.place_of("right", 0.0, now), QString());
+  ASSERT_EQ(this->user.find_handle_position("right", 0.0, now), QString());
   ASSERT_GT(now.x(), half);
   this->hover(now);
   EXPECT_LT(drawn->GetHoveredHandle(), 0);

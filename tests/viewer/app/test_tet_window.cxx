@@ -52,12 +52,12 @@ TetMesh box_of(int n)
   return test::tet_box(n, n, n, Vec3(-1, -1, -1), Vec3(1, 1, 1));
 }
 
-vtkSmartPointer<vtkUnstructuredGrid> tets_of(const TetMesh& mesh)
+vtkSmartPointer<vtkUnstructuredGrid> to_tet_grid(const TetMesh& mesh)
 {
   return to_unstructured_grid(mesh.points, mesh.tets);
 }
 
-Index count_behind(const TetMesh& mesh, const Vec3& origin, const Vec3& normal)
+Index count_tets_behind(const TetMesh& mesh, const Vec3& origin, const Vec3& normal)
 {
   Index count = 0;
   for (Index t = 0; t < mesh.tets.rows(); ++t)
@@ -80,8 +80,8 @@ bool is_cut(const QColor& c)
 class TetWindow : public test::WindowTest
 {
 protected:
-  Inspection* inspection() { return this->window.inspection(); }
-  TetView* view() { return this->inspection()->tet_view(); }
+  TetInspection* tet_inspection() { return this->window.tet_inspection(); }
+  TetView* view() { return this->tet_inspection()->tet_view(); }
   TetPanel* panel() { return this->window.panels()->tet(); }
   /// Return a row of the panel: row 0 is the position of the cut, row 1 the size of the tets.
   ValueRow* row(int which) { return this->panel()->findChildren<ValueRow*>()[which]; }
@@ -115,7 +115,7 @@ protected:
     {
       QThread::msleep(5);
       QApplication::processEvents();
-    } while (this->inspection()->is_busy() && clock.elapsed() < 60000);
+    } while (this->tet_inspection()->is_busy() && clock.elapsed() < 60000);
     QApplication::processEvents();
   }
 };
@@ -124,10 +124,10 @@ protected:
 TEST_F(TetWindow, TetsAreOpenedCutOpen)
 {
   const TetMesh mesh = box_of(5);
-  ASSERT_TRUE(this->window.set_mesh(tets_of(mesh), "box"));
+  ASSERT_TRUE(this->window.set_mesh(to_tet_grid(mesh), "box"));
   EXPECT_TRUE(this->panel()->isVisible());
   EXPECT_EQ(this->view()->shown_count(),
-    count_behind(mesh, this->view()->plane()->origin(), this->view()->plane()->normal()));
+    count_tets_behind(mesh, this->view()->plane()->origin(), this->view()->plane()->normal()));
   EXPECT_LT(this->view()->shown_count(), mesh.tets.rows());
   EXPECT_FALSE(this->window.viewport()->surface_actor()->GetVisibility());
   const QImage image = this->picture();
@@ -146,7 +146,7 @@ TEST_F(TetWindow, TetsAreOpenedCutOpen)
   this->find<QCheckBox>("Keep the other side")->setChecked(true);
   EXPECT_GE(this->view()->shown_count() + behind, mesh.tets.rows());
   EXPECT_EQ(this->view()->shown_count(),
-    count_behind(mesh, this->view()->plane()->origin(), -this->view()->plane()->normal()));
+    count_tets_behind(mesh, this->view()->plane()->origin(), -this->view()->plane()->normal()));
 }
 
 /// The first cut faces the camera. If the shape is viewed along x, a cut perpendicular to z would
@@ -158,13 +158,15 @@ TEST_F(TetWindow, TheFirstCutShowsTheInside)
     const TetMesh mesh = test::tet_box(5, 5, 5, -size, size);
     MainWindow other;
     other.show();
-    ASSERT_TRUE(other.set_mesh(tets_of(mesh), "box"));
+    ASSERT_TRUE(other.set_mesh(to_tet_grid(mesh), "box"));
     QApplication::processEvents();
     other.viewport()->renderWindow()->Render();
-    const TetView* tets = other.inspection()->tet_view();
+    const TetView* tets = other.tet_inspection()->tet_view();
     const Vec3 normal = tets->plane()->normal();
-    const Vec3 sight(other.viewport()->renderer()->GetActiveCamera()->GetDirectionOfProjection());
-    EXPECT_EQ(std::abs(normal.dot(sight)), sight.cwiseAbs().maxCoeff()) << size.transpose();
+    const Vec3 view_direction(
+      other.viewport()->renderer()->GetActiveCamera()->GetDirectionOfProjection());
+    EXPECT_EQ(std::abs(normal.dot(view_direction)), view_direction.cwiseAbs().maxCoeff())
+      << size.transpose();
     EXPECT_GT(count(other.viewport()->grabFramebuffer(), is_cut), 5000) << size.transpose();
     // The cut is through the middle, so about half of the tets remain.
     const double kept = static_cast<double>(tets->shown_count());
@@ -175,10 +177,10 @@ TEST_F(TetWindow, TheFirstCutShowsTheInside)
 /// An orientation that the user has chosen is kept.
 TEST_F(TetWindow, AChosenCutStaysForOtherTets)
 {
-  this->open(tets_of(test::tet_box(3, 3, 3, Vec3(-1, -1, -0.5), Vec3(1, 1, 0.5))));
+  this->open(to_tet_grid(test::tet_box(3, 3, 3, Vec3(-1, -1, -0.5), Vec3(1, 1, 0.5))));
   EXPECT_EQ(this->view()->plane()->orientation(), PlaneHandle::z_axis);
   this->find<QPushButton>("Y")->click();
-  this->open(tets_of(test::tet_box(3, 3, 3, Vec3(-0.5, -1, -1), Vec3(0.5, 1, 1))));
+  this->open(to_tet_grid(test::tet_box(3, 3, 3, Vec3(-0.5, -1, -1), Vec3(0.5, 1, 1))));
   EXPECT_EQ(this->view()->plane()->orientation(), PlaneHandle::y_axis);
 }
 
@@ -186,7 +188,7 @@ TEST_F(TetWindow, AChosenCutStaysForOtherTets)
 /// the same time.
 TEST_F(TetWindow, NothingIsPosedAroundTetsAtRest)
 {
-  const auto grid = tets_of(box_of(4));
+  const auto grid = to_tet_grid(box_of(4));
   vtkNew<vtkDoubleArray> weights;
   weights->SetName("Weights");
   weights->SetNumberOfComponents(2);
@@ -232,9 +234,9 @@ TEST_F(TetWindow, NothingIsPosedAroundTetsAtRest)
   expect(true, "defects");
   this->window.panels()->show_panel(PanelColumn::bind_and_pose);
   expect(false, "the panel Pose");
-  this->window.posing()->look_at_rest(true);
+  this->window.posing()->set_rest_view(true);
   expect(true, "T");
-  this->window.posing()->look_at_rest(false);
+  this->window.posing()->set_rest_view(false);
   expect(false, "T again");
   // Exports and the undo history use the posed shape, even while tets or defects are shown at rest.
   this->window.panels()->show_panel(PanelColumn::tets);
@@ -246,7 +248,7 @@ TEST_F(TetWindow, NothingIsPosedAroundTetsAtRest)
 TEST_F(TetWindow, TheMouseDragsThePlane)
 {
   const TetMesh mesh = box_of(6);
-  this->open(tets_of(mesh));
+  this->open(to_tet_grid(mesh));
   this->row(0)->field()->setValue(0.1);
   this->render();
   this->drag(this->pixel(Vec3(0.5, 0.4, 0.1)), this->pixel(Vec3(0.5, 0.4, 0.6)));
@@ -254,7 +256,7 @@ TEST_F(TetWindow, TheMouseDragsThePlane)
   EXPECT_NEAR(this->row(0)->value(), this->view()->plane()->position(), 0.01);
   EXPECT_EQ(this->view()->plane()->normal(), Vec3(0, 0, 1));
   EXPECT_EQ(this->view()->shown_count(),
-    count_behind(mesh, this->view()->plane()->origin(), Vec3(0, 0, 1)));
+    count_tets_behind(mesh, this->view()->plane()->origin(), Vec3(0, 0, 1)));
   for (int axis = 0; axis < 3; ++axis)
   {
     const char* const names[] = { "X", "Y", "Z" };
@@ -262,7 +264,7 @@ TEST_F(TetWindow, TheMouseDragsThePlane)
     EXPECT_EQ(this->view()->plane()->normal(), Vec3(Vec3::Unit(axis)));
     this->row(0)->slider()->setValue(300 + 100 * axis);
     EXPECT_EQ(this->view()->shown_count(),
-      count_behind(mesh, this->view()->plane()->origin(), Vec3::Unit(axis)));
+      count_tets_behind(mesh, this->view()->plane()->origin(), Vec3::Unit(axis)));
   }
   // At the lower end of the slider no tet remains, and a label says this.
   this->row(0)->slider()->setValue(0);
@@ -274,7 +276,7 @@ TEST_F(TetWindow, AHundredThousandTetsFollowTheMouse)
 {
   const TetMesh mesh = box_of(26);
   ASSERT_GT(mesh.tets.rows(), 100000);
-  this->open(tets_of(mesh));
+  this->open(to_tet_grid(mesh));
   this->choose("By quality");
   const auto median = [this]
   {
@@ -294,7 +296,7 @@ TEST_F(TetWindow, AHundredThousandTetsFollowTheMouse)
 
 TEST_F(TetWindow, ShrunkTetsStandApart)
 {
-  this->open(tets_of(box_of(3)));
+  this->open(to_tet_grid(box_of(3)));
   this->find<QCheckBox>("Cut the tets")->setChecked(false);
   const auto backgrounds = [this]
   {
@@ -321,7 +323,7 @@ TEST_F(TetWindow, ShrunkTetsStandApart)
 TEST_F(TetWindow, ColorsAreThoseOfTheLegend)
 {
   const TetMesh mesh = box_of(4);
-  const auto grid = tets_of(mesh);
+  const auto grid = to_tet_grid(mesh);
   vtkNew<vtkIntArray> labels;
   labels->SetName("Label");
   for (Index t = 0; t < mesh.tets.rows(); ++t)
@@ -364,7 +366,7 @@ TEST_F(TetWindow, DefectsAreThoseOfTheFilter)
   EXPECT_EQ(this->window.viewport()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
   this->find<QCheckBox>("Show its defects")->setChecked(true);
   this->wait();
-  vtkPolyData* shown = this->inspection()->defect_view().defects();
+  vtkPolyData* shown = this->tet_inspection()->defect_view().defects();
   ASSERT_NE(shown, nullptr) << this->window.error().toStdString();
   std::vector<Category> expected = defect_categories();
   std::vector<Category> seen = defect_categories();
@@ -398,8 +400,8 @@ TEST_F(TetWindow, DefectsAreThoseOfTheFilter)
   const TriangleMesh clean = test::cube();
   ASSERT_TRUE(this->window.set_mesh(to_polydata(clean.points, clean.triangles), "cube"));
   this->wait();
-  ASSERT_NE(this->inspection()->defect_view().defects(), nullptr);
-  EXPECT_EQ(this->inspection()->defect_view().defects()->GetNumberOfCells(), 0);
+  ASSERT_NE(this->tet_inspection()->defect_view().defects(), nullptr);
+  EXPECT_EQ(this->tet_inspection()->defect_view().defects()->GetNumberOfCells(), 0);
   this->find<QPushButton>("Pose")->click();
   EXPECT_EQ(this->window.viewport()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
 }
@@ -410,7 +412,7 @@ TEST_F(TetWindow, TetsAreMadeAndAFailureKeepsThem)
   this->open(to_polydata(flat.points, flat.triangles));
   this->choose("Embedding lattice");
   this->find<QPushButton>("Make tets")->click();
-  EXPECT_TRUE(this->inspection()->is_busy());
+  EXPECT_TRUE(this->tet_inspection()->is_busy());
   this->wait();
   ASSERT_NE(this->view()->tets(), nullptr) << this->window.error().toStdString();
   const Index made = this->view()->tets()->GetNumberOfCells();
@@ -439,7 +441,7 @@ TEST_F(TetWindow, TetsAreMadeAndAFailureKeepsThem)
 
 TEST_F(TetWindow, ThePanelDecidesWhatIsSeen)
 {
-  this->open(tets_of(box_of(3)));
+  this->open(to_tet_grid(box_of(3)));
   EXPECT_FALSE(this->window.viewport()->surface_actor()->GetVisibility());
   this->find<QPushButton>("Pose")->click();
   EXPECT_TRUE(this->window.panel()->isVisible());
@@ -454,7 +456,7 @@ TEST_F(TetWindow, ThePanelDecidesWhatIsSeen)
 
 TEST_F(TetWindow, NoTextOfTheTetPanelIsClipped)
 {
-  this->open(tets_of(box_of(20)));
+  this->open(to_tet_grid(box_of(20)));
   this->find<QCheckBox>("Show its defects")->setChecked(true);
   this->wait();
   for (const QSize& size : { QSize(900, 680), QSize(1280, 800), QSize(1920, 1080) })

@@ -75,17 +75,17 @@ TEST(Tour, EveryVerbIsRead)
   const auto& s = tour.steps;
   EXPECT_EQ(s[0].text, "a.off");
   EXPECT_EQ(s[0].say, "Open it.");
-  EXPECT_EQ(s[3].wanted, std::vector<double>{ 0.5 });
-  EXPECT_TRUE(s[4].wants_truth);
-  EXPECT_EQ(s[4].wanted, std::vector<double>{ 0.0 });
+  EXPECT_EQ(s[3].expected, std::vector<double>{ 0.5 });
+  EXPECT_TRUE(s[4].expects_bool);
+  EXPECT_EQ(s[4].expected, std::vector<double>{ 0.0 });
   EXPECT_EQ(s[7].button, TourButton::right);
   EXPECT_TRUE(s[7].shift && s[7].ctrl && !s[7].alt);
-  EXPECT_EQ(s[7].place.at, (std::array<double, 2>{ 0.25, 0.75 }));
+  EXPECT_EQ(s[7].place.position, (std::array<double, 2>{ 0.25, 0.75 }));
   EXPECT_EQ(s[8].place.handle, "top");
   EXPECT_EQ(s[9].place.along, 1.0);
-  EXPECT_EQ(s[9].place.at, (std::array<double, 2>{ 3, -4 }));
+  EXPECT_EQ(s[9].place.position, (std::array<double, 2>{ 3, -4 }));
   EXPECT_TRUE(s[10].alt);
-  EXPECT_EQ(s[12].to.at, (std::array<double, 2>{ 0.1, 0.2 }));
+  EXPECT_EQ(s[12].to.position, (std::array<double, 2>{ 0.1, 0.2 }));
   EXPECT_EQ(s[12].moves, 3);
   EXPECT_EQ(s[13].turns, -2.0);
   EXPECT_EQ(s[15].seconds, 0.75);
@@ -97,8 +97,8 @@ TEST(Tour, EveryVerbIsRead)
   EXPECT_EQ(s[23].part, TourPart::window);
   EXPECT_EQ(s[24].text, "free");
   EXPECT_EQ(s[25].tolerance, 1e-3);
-  EXPECT_EQ(s[26].wanted.size(), 3u);
-  EXPECT_TRUE(s[27].wants_text);
+  EXPECT_EQ(s[26].expected.size(), 3u);
+  EXPECT_TRUE(s[27].expects_text);
   EXPECT_EQ(s[29].relation, TourRelation::at_least);
   EXPECT_EQ(s[31].relation, TourRelation::as_at);
   for (const TourStep& step : s)
@@ -208,10 +208,10 @@ TEST(Tour, BrokenTextsNeverCrash)
     std::string text = whole;
     for (int change = 0; change < 1 + static_cast<int>(random() % 4); ++change)
     {
-      const std::size_t at = random() % text.size();
+      const std::size_t position = random() % text.size();
       const char any[] = "{}[]\",:0129.eE-tfn\\\xff";
-      random() % 3 == 0 ? text.erase(at, 1 + random() % 8)
-                        : text.replace(at, 1, 1, any[random() % (sizeof(any) - 1)]);
+      random() % 3 == 0 ? text.erase(position, 1 + random() % 8)
+                        : text.replace(position, 1, 1, any[random() % (sizeof(any) - 1)]);
     }
     const Status status = parse_tour(text, tour);
     refused += !status.ok();

@@ -116,11 +116,11 @@ protected:
   /// Return the reading (the text about the data under the mouse) at a position. A window of
   /// another test on the same screen may cover this window, and the mouse then counts as outside of
   /// it. The function therefore moves the mouse again.
-  QString reading_at(const Vec3& place)
+  QString reading_at(const Vec3& position)
   {
     for (int attempt = 0; attempt < 50; ++attempt)
     {
-      this->hover(this->pixel(place));
+      this->hover(this->pixel(position));
       if (!this->window.reading().isEmpty())
       {
         break;
@@ -150,14 +150,14 @@ TEST_F(VolumeWindow, ASliceHasTheColorsOfItsValues)
   EXPECT_TRUE(this->panel()->isVisible());
   EXPECT_FALSE(this->window.panel()->isVisible());
   const QImage image = this->picture();
-  for (const Vec3& place :
+  for (const Vec3& position :
     { Vec3(0.8, 0.1, 0), Vec3(-1.2, 0.3, 0), Vec3(0.2, 0.1, 0), Vec3(-1.3, -1.3, 0) })
   {
-    const QColor seen = image.pixelColor(this->pixel(place));
-    const Rgb expected = winding_color(cone(place));
-    EXPECT_NEAR(seen.red(), 255.0 * expected[0], 8.0) << place.transpose();
-    EXPECT_NEAR(seen.green(), 255.0 * expected[1], 8.0) << place.transpose();
-    EXPECT_NEAR(seen.blue(), 255.0 * expected[2], 8.0) << place.transpose();
+    const QColor seen = image.pixelColor(this->pixel(position));
+    const Rgb expected = winding_color(cone(position));
+    EXPECT_NEAR(seen.red(), 255.0 * expected[0], 8.0) << position.transpose();
+    EXPECT_NEAR(seen.green(), 255.0 * expected[1], 8.0) << position.transpose();
+    EXPECT_NEAR(seen.blue(), 255.0 * expected[2], 8.0) << position.transpose();
   }
 }
 
@@ -173,9 +173,9 @@ TEST_F(VolumeWindow, TheMouseDragsTheSliceAndTheStatusBarReadsTheField)
   EXPECT_NEAR(this->row(0)->value(), this->view()->position(), 0.01);
   // The reading under the mouse equals the field at that position.
   int read = 0;
-  for (const Vec3& place : { Vec3(0.3, 0.2, 0.6), Vec3(-0.9, 0.5, 0.6), Vec3(1.0, -1.0, 0.6) })
+  for (const Vec3& position : { Vec3(0.3, 0.2, 0.6), Vec3(-0.9, 0.5, 0.6), Vec3(1.0, -1.0, 0.6) })
   {
-    const std::string reading = this->reading_at(place).toStdString();
+    const std::string reading = this->reading_at(position).toStdString();
     double x = 0;
     double y = 0;
     double z = 0;
@@ -183,7 +183,7 @@ TEST_F(VolumeWindow, TheMouseDragsTheSliceAndTheStatusBarReadsTheField)
     ASSERT_EQ(std::sscanf(reading.c_str(), "Slice: winding number w = %lf", &w), 1) << reading;
     ASSERT_EQ(std::sscanf(place_in(reading), "x %lf y %lf z %lf", &x, &y, &z), 3) << reading;
     EXPECT_NEAR(z, this->view()->position(), 1e-3);
-    EXPECT_NEAR(x, place.x(), 0.1);
+    EXPECT_NEAR(x, position.x(), 0.1);
     EXPECT_NEAR(w, cone(Vec3(x, y, z)), 0.005);
     ++read;
   }
@@ -242,15 +242,16 @@ TEST_F(VolumeWindow, TheLevelsSliderGivesTheSphereOfThatLevel)
   // the isosurface, the reading is on the slice.
   this->render();
   const std::string reading = this->reading_at(Vec3(0.2, 0.1, 0)).toStdString();
-  Vec3 place;
+  Vec3 position;
   double level = 0.0;
   ASSERT_EQ(std::sscanf(reading.c_str(), "Isosurface: winding number w = %lf", &level), 1)
     << reading;
-  ASSERT_EQ(
-    std::sscanf(place_in(reading), "x %lf y %lf z %lf", &place.x(), &place.y(), &place.z()), 3)
+  ASSERT_EQ(std::sscanf(
+              place_in(reading), "x %lf y %lf z %lf", &position.x(), &position.y(), &position.z()),
+    3)
     << reading;
   EXPECT_NEAR(level, 0.5, 1e-9);
-  EXPECT_NEAR(place.norm(), 1.0, 0.01);
+  EXPECT_NEAR(position.norm(), 1.0, 0.01);
   EXPECT_NE(this->reading_at(Vec3(1.4, 1.4, 0)).indexOf("Slice"), -1);
   this->find<QCheckBox>("Isosurface where w is")->setChecked(false);
   EXPECT_EQ(this->view()->isosurface()->GetNumberOfPolys(), 0);
@@ -367,9 +368,9 @@ TEST_F(VolumeWindow, BoundaryCurvesAreDrawnAndAreNoBones)
   std::remove(path.c_str());
   EXPECT_EQ(this->window.error(), QString());
   const QImage image = this->picture();
-  for (const Vec3& place : { Vec3(0.3, 1.2, 1.0), Vec3(-1.2, 0.1, 1.0), Vec3(0.7, -1.2, 1.0) })
+  for (const Vec3& position : { Vec3(0.3, 1.2, 1.0), Vec3(-1.2, 0.1, 1.0), Vec3(0.7, -1.2, 1.0) })
   {
-    EXPECT_TRUE(is_green(image.pixelColor(this->pixel(place)))) << place.transpose();
+    EXPECT_TRUE(is_green(image.pixelColor(this->pixel(position)))) << position.transpose();
   }
   // If no curves were opened, the lines of a mesh with faces are also shown.
   MainWindow other;

@@ -169,7 +169,10 @@ protected:
     } while (condition() && clock.elapsed() < 60000);
     QApplication::processEvents();
   }
-  QColor color_at(const Vec3& place) { return this->picture().pixelColor(this->pixel(place)); }
+  QColor color_at(const Vec3& position)
+  {
+    return this->picture().pixelColor(this->pixel(position));
+  }
 };
 } // namespace
 
@@ -252,16 +255,16 @@ TEST_F(WeightWindow, RowSumsNeedRawColumns)
 TEST_F(WeightWindow, ExtremaAreCountedAndSeen)
 {
   // Only the raw column has a bump, which is in the middle of the visible side.
-  const Vec3 place = Vec3(0.3, -0.5, 0.1).normalized();
-  Vec3 bump = place;
+  const Vec3 position = Vec3(0.3, -0.5, 0.1).normalized();
+  Vec3 bump = position;
   const auto mesh = ball_with_named_weights();
   double nearest = 1e300;
   for (vtkIdType v = 0; v < mesh->GetNumberOfPoints(); ++v)
   {
     const Vec3 p(mesh->GetPoint(v));
-    if ((p - place).norm() < nearest)
+    if ((p - position).norm() < nearest)
     {
-      nearest = (p - place).norm();
+      nearest = (p - position).norm();
       bump = p;
     }
   }
@@ -389,14 +392,14 @@ TEST_F(WeightWindow, TheOtherMethodIsSolvedBesideTheWindow)
   SurfaceWeights other;
   ExecutionContext context;
   SurfaceWeightsOptions options;
-  HandlePlaces places;
-  places.points.resize(2, 3);
-  places.points << 0, 0, -0.9, 0, 0, 0.9;
-  options.places = places;
+  HandleElements handle_elements;
+  handle_elements.points.resize(2, 3);
+  handle_elements.points << 0, 0, -0.9, 0, 0, 0.9;
+  options.handle_elements = handle_elements;
   ASSERT_TRUE(surface_weights(
     context, mesh.points, mesh.triangles, {}, handles, options, {},
-    [](ExecutionContext& of_method, const WeightsProblem& problem, WeightsResult& weights)
-    { return harmonic_weights(of_method, problem, {}, weights); },
+    [](ExecutionContext& method_context, const WeightsProblem& problem, WeightsResult& weights)
+    { return harmonic_weights(method_context, problem, {}, weights); },
     other)
                 .usable());
   double largest = 0.0;

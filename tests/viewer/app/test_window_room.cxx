@@ -64,7 +64,7 @@ protected:
     return { viewport->mapTo(&this->window, QPoint()), viewport->size() };
   }
 
-  WindowHand hand{ &this->window };
+  SimulatedUser user{ &this->window };
 };
 
 /// Return the class names of the parts that are hidden or extend beyond the window.
@@ -110,7 +110,7 @@ TEST_F(WindowRoom, BarsNeitherMoveNorResizeThePicture)
   expect_still("an error came");
   EXPECT_EQ(bars, 4);
   // The bars overlap neither each other nor the title of the edit mode.
-  EXPECT_EQ(this->hand.press_key("A"), QString());
+  EXPECT_EQ(this->user.press_key("A"), QString());
   expect_still("a mode began");
   QList<QRect> places;
   for (const QWidget* bar : { static_cast<QWidget*>(this->window.error_bar()),
@@ -145,17 +145,17 @@ TEST_F(WindowRoom, ABarDoesNotEndADrag)
 {
   this->open_figure();
   QPoint at;
-  ASSERT_EQ(this->hand.place_of("left_hand", 0.0, at), QString());
-  this->hand.move(at, Qt::NoModifier);
-  this->hand.press(at, Qt::LeftButton, Qt::NoModifier);
-  this->hand.move(at + QPoint(0, -20), Qt::NoModifier);
+  ASSERT_EQ(this->user.find_handle_position("left_hand", 0.0, at), QString());
+  this->user.move(at, Qt::NoModifier);
+  this->user.press(at, Qt::LeftButton, Qt::NoModifier);
+  this->user.move(at + QPoint(0, -20), Qt::NoModifier);
   this->window.show_error("Something has gone wrong meanwhile.");
   QApplication::processEvents();
-  this->hand.move(at + QPoint(0, -60), Qt::NoModifier);
-  this->hand.release(at + QPoint(0, -60), Qt::LeftButton, Qt::NoModifier);
+  this->user.move(at + QPoint(0, -60), Qt::NoModifier);
+  this->user.release(at + QPoint(0, -60), Qt::LeftButton, Qt::NoModifier);
   EXPECT_EQ(this->window.history()->undoText(), "move left_hand");
   QPoint now;
-  ASSERT_EQ(this->hand.place_of("left_hand", 0.0, now), QString());
+  ASSERT_EQ(this->user.find_handle_position("left_hand", 0.0, now), QString());
   EXPECT_NEAR(now.y(), at.y() - 60, 3);
 }
 
@@ -165,28 +165,28 @@ TEST_F(WindowRoom, TheTimelineComesWithTheFirstKeyOrOnDemand)
   const auto shown = [this]
   {
     QApplication::processEvents();
-    const QAction* entry = this->hand.action("view.timeline");
+    const QAction* entry = this->user.action("view.timeline");
     EXPECT_EQ(entry->isChecked(), this->window.strip()->isVisible());
     return this->window.strip()->isVisible();
   };
   EXPECT_FALSE(shown());
-  EXPECT_EQ(this->hand.press_key("K"), QString());
+  EXPECT_EQ(this->user.press_key("K"), QString());
   EXPECT_TRUE(shown());
-  EXPECT_EQ(this->hand.trigger("view.timeline"), QString());
+  EXPECT_EQ(this->user.trigger("view.timeline"), QString());
   EXPECT_FALSE(shown());
-  EXPECT_EQ(this->hand.press_key("K"), QString()); // the same key again
+  EXPECT_EQ(this->user.press_key("K"), QString()); // the same key again
   EXPECT_FALSE(shown()) << "a person has sent it away";
-  EXPECT_EQ(this->hand.trigger("edit.undo"), QString());
-  EXPECT_EQ(this->hand.trigger("edit.undo"), QString());
-  EXPECT_TRUE(this->window.posing()->shelf().keys.keys().empty());
-  EXPECT_EQ(this->hand.trigger("view.timeline"), QString());
+  EXPECT_EQ(this->user.trigger("edit.undo"), QString());
+  EXPECT_EQ(this->user.trigger("edit.undo"), QString());
+  EXPECT_TRUE(this->window.posing()->stored_poses().keys.keys().empty());
+  EXPECT_EQ(this->user.trigger("view.timeline"), QString());
   EXPECT_TRUE(shown()) << "there is none, but it was asked for";
 }
 
 TEST_F(WindowRoom, AScreenOf1280By800FitsAllOfIt)
 {
   this->open_figure();
-  EXPECT_EQ(this->hand.press_key("K"), QString());
+  EXPECT_EQ(this->user.press_key("K"), QString());
   // A desktop leaves this space for a window on a screen of 1280 x 800 pixels.
   const QSize room(1280, 720);
   for (int panel = 0; panel < 4; ++panel)
@@ -217,14 +217,14 @@ TEST_F(WindowRoom, AScreenOf1280By800FitsAllOfIt)
 TEST_F(WindowRoom, TheDomainOfABindIsChosen)
 {
   this->open_ball();
-  EXPECT_EQ(this->hand.choose("bind.domain", 4), QString()); // surface
+  EXPECT_EQ(this->user.choose("bind.domain", 4), QString()); // surface
   EXPECT_EQ(this->window.panel()->domain(), WeightsDomain::surface);
-  EXPECT_EQ(this->hand.trigger("edit.bind"), QString());
+  EXPECT_EQ(this->user.trigger("edit.bind"), QString());
   ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
   ASSERT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
   EXPECT_EQ(read_report(this->window.document()->surface()).text("domain"), "surface");
-  EXPECT_EQ(this->hand.choose("bind.domain", 2), QString()); // lattice
-  EXPECT_EQ(this->hand.trigger("edit.bind"), QString());
+  EXPECT_EQ(this->user.choose("bind.domain", 2), QString()); // lattice
+  EXPECT_EQ(this->user.trigger("edit.bind"), QString());
   ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
   EXPECT_EQ(read_report(this->window.document()->surface()).text("domain"), "embedding");
   EXPECT_EQ(this->window.error(), QString());
@@ -232,11 +232,11 @@ TEST_F(WindowRoom, TheDomainOfABindIsChosen)
 
 TEST_F(WindowRoom, WindingNumbersOfASurfaceAreComputedThere)
 {
-  EXPECT_NE(this->hand.show_panel("volume"), QString()) << "of nothing";
+  EXPECT_NE(this->user.show_panel("volume"), QString()) << "of nothing";
   this->open_ball(false);
-  ASSERT_EQ(this->hand.show_panel("volume"), QString());
-  EXPECT_EQ(this->hand.choose("volume.samples", 0), QString());
-  ASSERT_EQ(this->hand.push("Compute"), QString());
+  ASSERT_EQ(this->user.show_panel("volume"), QString());
+  EXPECT_EQ(this->user.choose("volume.samples", 0), QString());
+  ASSERT_EQ(this->user.push("Compute"), QString());
   ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
   vtkImageData* volume = this->window.volume_view()->volume();
   ASSERT_NE(volume, nullptr) << this->window.error().toStdString();
@@ -256,7 +256,7 @@ TEST_F(WindowRoom, WindingNumbersOfASurfaceAreComputedThere)
     }
   }
   EXPECT_GT(inside, 1000);
-  EXPECT_EQ(this->hand.choose("volume.isosurface", true), QString());
+  EXPECT_EQ(this->user.choose("volume.isosurface", true), QString());
   // The volume was computed and is in no file, so the session stores it.
   const test::Folder folder;
   const QString path = QString::fromStdString(folder / "ball.bindpose");
@@ -272,8 +272,8 @@ TEST_F(WindowRoom, WindingNumbersOfASurfaceAreComputedThere)
   EXPECT_EQ(Vec3(back.work.volume->GetOrigin()), Vec3(volume->GetOrigin()));
   EXPECT_EQ(back.work.volume->GetPointData()->GetArray("WindingNumber")->GetComponent(1000, 0),
     values->GetComponent(1000, 0));
-  EXPECT_EQ(this->hand.push("Close the volume"), QString());
+  EXPECT_EQ(this->user.push("Close the volume"), QString());
   EXPECT_EQ(this->window.volume_view()->volume(), nullptr);
-  EXPECT_EQ(this->hand.trigger("edit.undo"), QString());
+  EXPECT_EQ(this->user.trigger("edit.undo"), QString());
   EXPECT_EQ(this->window.volume_view()->volume(), volume);
 }

@@ -124,15 +124,20 @@ protected:
       this->window.viewport()->height() - 1 - static_cast<int>(d[1]) };
   }
 
-  void mouse(QEvent::Type type, const QPoint& at, Qt::MouseButton button, Qt::MouseButtons held)
+  void mouse(
+    QEvent::Type type, const QPoint& position, Qt::MouseButton button, Qt::MouseButtons held)
   {
     Viewport* viewport = this->window.viewport();
-    QMouseEvent event(type, at, viewport->mapToGlobal(at), button, held, Qt::NoModifier);
+    QMouseEvent event(
+      type, position, viewport->mapToGlobal(position), button, held, Qt::NoModifier);
     QApplication::sendEvent(viewport, &event);
     QApplication::processEvents();
   }
 
-  void hover(const QPoint& at) { this->mouse(QEvent::MouseMove, at, Qt::NoButton, Qt::NoButton); }
+  void hover(const QPoint& position)
+  {
+    this->mouse(QEvent::MouseMove, position, Qt::NoButton, Qt::NoButton);
+  }
 
   void drag(const QPoint& from, const QPoint& to)
   {

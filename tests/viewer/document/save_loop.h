@@ -18,24 +18,24 @@ namespace bindpose::test
 
 /// Return one of two different states of the work, with different weights, poses and names. The
 /// loops below save them alternately.
-inline Work state_of_work(int which)
+inline Work example_work(int index)
 {
   Document document;
-  open_bound(document);
-  bind(document, which);
-  document.set_mode(which, 1);
+  open_bound_document(document);
+  bind(document, index);
+  document.set_mode(index, 1);
   Work work = document.work();
-  work.name = which == 0 ? "even" : "odd";
+  work.name = index == 0 ? "even" : "odd";
   return work;
 }
 
 /// Save to a session file repeatedly until the process is killed.
-inline int save_for_ever(const char* path)
+inline int save_until_killed(const char* path)
 {
   SessionFile file;
   Session sessions[2];
-  sessions[0].work = state_of_work(0);
-  sessions[1].work = state_of_work(1);
+  sessions[0].work = example_work(0);
+  sessions[1].work = example_work(1);
   for (int k = 0;; ++k)
   {
     if (!file.write(path, sessions[k % 2]).ok())
@@ -51,10 +51,10 @@ inline int save_for_ever(const char* path)
 }
 
 /// Run with an autosave in the folder until the process is killed.
-inline int autosave_for_ever(const char* root)
+inline int autosave_until_killed(const char* root)
 {
   Session session;
-  session.work = state_of_work(1);
+  session.work = example_work(1);
   session.saved_as = "/somewhere/else.bindpose";
   Autosave autosave([&session] { return session; }, root);
   autosave.note_change();
@@ -68,10 +68,10 @@ inline double seconds_now()
 
 /// Change the work every 20 ms, with an autosave in the folder, until the process is killed. The
 /// stretch of the first handle is the current time in seconds.
-inline int change_for_ever(const char* root)
+inline int change_until_killed(const char* root)
 {
   Session session;
-  session.work = state_of_work(1);
+  session.work = example_work(1);
   Autosave autosave([&session] { return session; }, root);
   QTimer changes;
   QObject::connect(&changes, &QTimer::timeout,

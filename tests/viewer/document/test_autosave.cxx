@@ -38,8 +38,8 @@ TEST(Saving, AKillAtAnyMomentLeavesAWholeSession)
 {
   const test::Folder folder;
   const std::string path = folder / "work.bindpose";
-  const std::string states[2] = { test::fingerprint(test::state_of_work(0)),
-    test::fingerprint(test::state_of_work(1)) };
+  const std::string states[2] = { test::fingerprint(test::example_work(0)),
+    test::fingerprint(test::example_work(1)) };
   std::mt19937 random(7);
   int found[2] = { 0, 0 };
   for (int kill = 0; kill < 40; ++kill)
@@ -53,15 +53,15 @@ TEST(Saving, AKillAtAnyMomentLeavesAWholeSession)
     const Status status = read_session(QString::fromStdString(path), session);
     ASSERT_TRUE(status.ok()) << status.message;
     EXPECT_TRUE(session.notes.isEmpty()) << session.notes.join(' ').toStdString();
-    const std::string is = test::fingerprint(session.work);
-    ASSERT_TRUE(is == states[0] || is == states[1]);
-    ++found[is == states[1]];
+    const std::string restored_state = test::fingerprint(session.work);
+    ASSERT_TRUE(restored_state == states[0] || restored_state == states[1]);
+    ++found[restored_state == states[1]];
   }
   EXPECT_GT(found[0], 5); // each state was found after several kills
   EXPECT_GT(found[1], 5);
   // The next complete save removes the files that the killed processes left behind.
   Session session;
-  session.work = test::state_of_work(0);
+  session.work = test::example_work(0);
   ASSERT_TRUE(SessionFile().write(QString::fromStdString(path), session).ok());
   EXPECT_EQ(folder.number_of_files(), 2u);
 }
@@ -97,7 +97,7 @@ TEST(Autosaving, WhatAKilledProcessHadIsFoundOnce)
     Session session;
     const Status status = read_session(found->path(), session);
     ASSERT_TRUE(status.ok()) << status.message;
-    EXPECT_EQ(test::fingerprint(session.work), test::fingerprint(test::state_of_work(1)));
+    EXPECT_EQ(test::fingerprint(session.work), test::fingerprint(test::example_work(1)));
     EXPECT_EQ(session.saved_as, "/somewhere/else.bindpose");
     EXPECT_LT(found->time().secsTo(QDateTime::currentDateTime()), 60);
     EXPECT_EQ(RecoveredWork::find(root), nullptr) << "somebody else has it already";
@@ -145,22 +145,22 @@ TEST(Autosaving, UnchangedWeightsAreNotWrittenAgain)
 {
   const test::Folder folder;
   Session session;
-  session.work = test::state_of_work(0);
+  session.work = test::example_work(0);
   Autosave autosave([&session] { return session; }, QString::fromStdString(folder.path()));
   ASSERT_TRUE(autosave.save().ok());
-  const QDir own(QFileInfo(autosave.path()).absolutePath());
-  const QStringList before = own.entryList({ "work.surface-*" });
+  const QDir own_folder(QFileInfo(autosave.path()).absolutePath());
+  const QStringList before = own_folder.entryList({ "work.surface-*" });
   ASSERT_EQ(before.size(), 1);
-  const QDateTime time = QFileInfo(own.filePath(before.front())).lastModified();
+  const QDateTime time = QFileInfo(own_folder.filePath(before.front())).lastModified();
   QThread::msleep(20);
   session.work.pose[0].stretch = 1.5;
   ASSERT_TRUE(autosave.save().ok());
-  EXPECT_EQ(own.entryList({ "work.surface-*" }), before);
-  EXPECT_EQ(QFileInfo(own.filePath(before.front())).lastModified(), time);
+  EXPECT_EQ(own_folder.entryList({ "work.surface-*" }), before);
+  EXPECT_EQ(QFileInfo(own_folder.filePath(before.front())).lastModified(), time);
   // After a change of the weights, new files replace the old ones.
-  session.work = test::state_of_work(1);
+  session.work = test::example_work(1);
   ASSERT_TRUE(autosave.save().ok());
-  const QStringList after = own.entryList({ "work.surface-*" });
+  const QStringList after = own_folder.entryList({ "work.surface-*" });
   EXPECT_EQ(after.size(), 1);
   EXPECT_NE(after, before);
 }
@@ -200,7 +200,7 @@ void make_large(Session& session)
 }
 
 /// Store messages about failures of the autosave in `message`.
-void listen(Autosave& autosave, QString& message)
+void store_failures(Autosave& autosave, QString& message)
 {
   QObject::connect(
     &autosave, &Autosave::failed, [&message](const QString& text) { message = text; });
@@ -276,20 +276,20 @@ TEST(Autosaving, AWriterThatFailsIsToldAbout)
 {
   const test::Folder folder;
   Session session;
-  session.work = test::state_of_work(0);
+  session.work = test::example_work(0);
   Autosave autosave([&session] { return session; }, QString::fromStdString(folder.path()));
   QString message;
-  listen(autosave, message);
+  store_failures(autosave, message);
   ASSERT_TRUE(autosave.save().ok());
   EXPECT_EQ(message, "");
   // The backup folder is replaced by a file, so a backup fails.
-  const QString own = QFileInfo(autosave.path()).absolutePath();
-  ASSERT_TRUE(QDir(own).removeRecursively());
-  folder.write(QFileInfo(own).fileName().toStdString(), "no folder");
+  const QString own_folder = QFileInfo(autosave.path()).absolutePath();
+  ASSERT_TRUE(QDir(own_folder).removeRecursively());
+  folder.write(QFileInfo(own_folder).fileName().toStdString(), "no folder");
   autosave.begin_save();
   EXPECT_FALSE(autosave.wait().ok());
   EXPECT_NE(message.indexOf("not being backed up"), -1) << message.toStdString();
-  std::filesystem::remove(folder / QFileInfo(own).fileName().toStdString());
+  std::filesystem::remove(folder / QFileInfo(own_folder).fileName().toStdString());
 }
 
 /// Measures how much work is lost when the process is killed. The work changes every 20 ms, and
@@ -299,7 +299,7 @@ TEST(Autosaving, AKillLosesAtMostTheIntervalAndTheWriting)
   const test::Folder folder;
   qputenv("BINDPOSE_AUTOSAVE_SECONDS", "0.2");
   std::mt19937 random(11);
-  double most_lost = 0.0;
+  double maximum_loss = 0.0;
   for (int kill = 0; kill < 12; ++kill)
   {
     const QString root = QString::fromStdString(folder / ("run" + std::to_string(kill)));
@@ -307,15 +307,15 @@ TEST(Autosaving, AKillLosesAtMostTheIntervalAndTheWriting)
     start(process, "--change-for-ever", root.toStdString());
     ASSERT_TRUE(process.waitForReadyRead(30000));
     QThread::msleep(600 + random() % 500);
-    const double killed = test::seconds_now();
+    const double kill_time = test::seconds_now();
     kill_now(process);
     const auto found = RecoveredWork::find(root);
     ASSERT_NE(found, nullptr);
     Session session;
     ASSERT_TRUE(read_session(found->path(), session).ok());
-    most_lost = std::max(most_lost, killed - session.work.pose[0].stretch);
+    maximum_loss = std::max(maximum_loss, kill_time - session.work.pose[0].stretch);
   }
-  std::printf("lost at most %.2f s with copies every 0.2 s\n", most_lost);
-  EXPECT_GT(most_lost, 0.0);
-  EXPECT_LT(most_lost, 0.2 + 2.0); // a busy machine writes slowly
+  std::printf("lost at most %.2f s with copies every 0.2 s\n", maximum_loss);
+  EXPECT_GT(maximum_loss, 0.0);
+  EXPECT_LT(maximum_loss, 0.2 + 2.0); // a busy machine writes slowly
 }

@@ -21,7 +21,7 @@
 using namespace bindpose;
 using test::ball;
 using test::fingerprint;
-using test::open_bound;
+using test::open_bound_document;
 using test::three_handles;
 
 namespace
@@ -31,7 +31,7 @@ class Editing : public testing::Test
 protected:
   /// Expect that the edit is one undo step, and that undo and redo restore all bits of the states.
   template <typename Edit>
-  void check(const char* name, const Edit& edit)
+  void expect_undo_step(const char* name, const Edit& edit)
   {
     SCOPED_TRACE(name);
     QUndoStack* history = this->document.history();
@@ -61,7 +61,7 @@ protected:
   }
 
   /// Replace the handles during an edit, as the handle widget does.
-  void replace_live(const Handles& handles)
+  void replace_handles(const Handles& handles)
   {
     this->document.editable_handles()->DeepCopy(to_polydata(handles));
   }
@@ -73,13 +73,13 @@ protected:
 TEST_F(Editing, EveryEditIsAStepThatUndoTakesBackBitByBit)
 {
   Document& d = this->document;
-  this->check("open ball", [&] { ASSERT_TRUE(d.set_mesh(ball(), "ball").ok()); });
-  this->check("open handles h.tgf",
+  this->expect_undo_step("open ball", [&] { ASSERT_TRUE(d.set_mesh(ball(), "ball").ok()); });
+  this->expect_undo_step("open handles h.tgf",
     [&] { ASSERT_TRUE(d.set_handles(to_polydata(three_handles()), "h.tgf").ok()); });
-  this->check("bind", [&] { test::bind(d, 0.0); });
+  this->expect_undo_step("bind", [&] { test::bind(d, 0.0); });
   EXPECT_TRUE(d.is_bound());
-  this->check("bind", [&] { test::bind(d, 1.0); });
-  this->check("move top",
+  this->expect_undo_step("bind", [&] { test::bind(d, 1.0); });
+  this->expect_undo_step("move top",
     [&]
     {
       // Edit the transforms in place, then commit the edit, as the handle widget does.
@@ -89,15 +89,15 @@ TEST_F(Editing, EveryEditIsAStepThatUndoTakesBackBitByBit)
       transforms->Modified();
       d.commit_pose("move top");
     });
-  this->check("mode of spine", [&] { d.set_mode(2, 1); });
-  this->check("back to rest", [&] { d.back_to_rest(); });
-  this->check("rename",
+  this->expect_undo_step("mode of spine", [&] { d.set_mode(2, 1); });
+  this->expect_undo_step("back to rest", [&] { d.back_to_rest(); });
+  this->expect_undo_step("rename",
     [&]
     {
       this->rename(0, "foot");
       ASSERT_TRUE(d.commit_handles("rename").ok());
     });
-  this->check("color",
+  this->expect_undo_step("color",
     [&]
     {
       vtkNew<vtkUnsignedCharArray> colors;
@@ -108,7 +108,7 @@ TEST_F(Editing, EveryEditIsAStepThatUndoTakesBackBitByBit)
       d.handle_data()->GetCellData()->AddArray(colors);
       ASSERT_TRUE(d.commit_handles("color").ok());
     });
-  this->check("lock",
+  this->expect_undo_step("lock",
     [&]
     {
       vtkNew<vtkIntArray> locked;
@@ -118,56 +118,56 @@ TEST_F(Editing, EveryEditIsAStepThatUndoTakesBackBitByBit)
       d.handle_data()->GetCellData()->AddArray(locked);
       ASSERT_TRUE(d.commit_handles("lock").ok());
     });
-  this->check("move foot at rest",
+  this->expect_undo_step("move foot at rest",
     [&]
     {
       d.handle_data()->GetPoints()->SetPoint(0, 0.1, 0.2, -0.7);
       ASSERT_TRUE(d.commit_handles("move foot at rest").ok());
     });
-  this->check("add p4",
+  this->expect_undo_step("add p4",
     [&]
     {
       Handles more = three_handles();
       more.resize(4);
       more[3].name = "p4";
       more[3].head = more[3].tail = Vec3(0.5, 0, 0);
-      this->replace_live(more);
+      this->replace_handles(more);
       ASSERT_TRUE(d.commit_handles("add p4").ok());
     });
-  this->check("delete top",
+  this->expect_undo_step("delete top",
     [&]
     {
       Handles fewer = three_handles();
       fewer.erase(fewer.begin() + 1);
       fewer[0].parent = 1;
-      this->replace_live(fewer);
+      this->replace_handles(fewer);
       ASSERT_TRUE(d.commit_handles("delete top").ok());
     });
-  this->check("delete all",
+  this->expect_undo_step("delete all",
     [&]
     {
       d.editable_handles()->Initialize();
       ASSERT_TRUE(d.commit_handles("delete all").ok());
       EXPECT_EQ(d.handle_data(), nullptr);
     });
-  this->check("pose method", [&] { d.set_option("pose.method", 2); });
-  this->check("type of weights", [&] { d.set_option("bind.method", 1); });
-  this->check("displayed weights", [&] { d.set_option("show.column", 1); });
-  this->check("bands", [&] { d.set_option("weights.bands", false); });
-  this->check("keep a pose",
+  this->expect_undo_step("pose method", [&] { d.set_option("pose.method", 2); });
+  this->expect_undo_step("type of weights", [&] { d.set_option("bind.method", 1); });
+  this->expect_undo_step("displayed weights", [&] { d.set_option("show.column", 1); });
+  this->expect_undo_step("bands", [&] { d.set_option("weights.bands", false); });
+  this->expect_undo_step("keep a pose",
     [&]
     {
       Pose pose(3);
       pose[0].stretch = 1.1;
-      PoseShelf shelf;
-      shelf.library.store("wave", NamedPose(three_handles(), pose));
-      shelf.keys.set(0.1, NamedPose(three_handles(), pose));
-      d.set_key_poses(shelf, "keep a pose");
+      StoredPoses stored_poses;
+      stored_poses.library.store("wave", NamedPose(three_handles(), pose));
+      stored_poses.keys.set(0.1, NamedPose(three_handles(), pose));
+      d.set_stored_poses(stored_poses, "keep a pose");
     });
-  this->check("open other", [&] { ASSERT_TRUE(d.set_mesh(ball(), "other").ok()); });
-  this->check("open handles again",
+  this->expect_undo_step("open other", [&] { ASSERT_TRUE(d.set_mesh(ball(), "other").ok()); });
+  this->expect_undo_step("open handles again",
     [&] { ASSERT_TRUE(d.set_handles(to_polydata(three_handles()), "again").ok()); });
-  this->check("open weights w.dmat",
+  this->expect_undo_step("open weights w.dmat",
     [&]
     {
       ASSERT_TRUE(
@@ -190,7 +190,7 @@ TEST_F(Editing, EveryEditIsAStepThatUndoTakesBackBitByBit)
 
 TEST_F(Editing, WhatChangesNothingIsNoStep)
 {
-  open_bound(this->document);
+  open_bound_document(this->document);
   const int steps = this->document.history()->count();
   this->document.set_option("pose.method", 0);
   this->document.commit_pose("move nothing");
@@ -201,21 +201,23 @@ TEST_F(Editing, WhatChangesNothingIsNoStep)
 
 TEST_F(Editing, ARenamedHandleKeepsItsPoses)
 {
-  open_bound(this->document);
+  open_bound_document(this->document);
   Document& d = this->document;
-  Pose kept(3);
-  kept[0].stretch = 1.1;
-  PoseShelf shelf;
-  shelf.library.store("wave", NamedPose(d.handles(), kept));
-  shelf.keys.set(0.1, NamedPose(d.handles(), kept));
-  d.set_key_poses(shelf, "keep a pose");
+  Pose stored_pose(3);
+  stored_pose[0].stretch = 1.1;
+  StoredPoses stored_poses;
+  stored_poses.library.store("wave", NamedPose(d.handles(), stored_pose));
+  stored_poses.keys.set(0.1, NamedPose(d.handles(), stored_pose));
+  d.set_stored_poses(stored_poses, "keep a pose");
   const std::string name = d.handles()[0].name;
   const QString step = "rename " + QString::fromStdString(name);
-  this->check(step.toUtf8(), [&] { ASSERT_TRUE(d.rename_handle(0, "foot").ok()); });
+  this->expect_undo_step(step.toUtf8(), [&] { ASSERT_TRUE(d.rename_handle(0, "foot").ok()); });
   EXPECT_EQ(d.handles()[0].name, "foot");
   EXPECT_TRUE(d.is_bound());
-  EXPECT_EQ(d.work().key_poses->library.entries()[0].pose.of(d.handles(), Pose(3))[0].stretch, 1.1);
-  EXPECT_EQ(d.work().key_poses->keys.pose_at(0.1, d.handles(), Pose(3))[0].stretch, 1.1);
+  EXPECT_EQ(
+    d.work().stored_poses->library.entries()[0].pose.for_handles(d.handles(), Pose(3))[0].stretch,
+    1.1);
+  EXPECT_EQ(d.work().stored_poses->keys.pose_at(0.1, d.handles(), Pose(3))[0].stretch, 1.1);
   const std::string before = fingerprint(d);
   const int steps = d.history()->count();
   for (const char* bad : { "", "top" })
@@ -229,7 +231,7 @@ TEST_F(Editing, ARenamedHandleKeepsItsPoses)
 
 TEST_F(Editing, PaintedRegionsAreAStepAndARebindIsOffered)
 {
-  open_bound(this->document);
+  open_bound_document(this->document);
   Document& d = this->document;
   const vtkIdType count = d.surface()->GetNumberOfPoints();
   vtkNew<vtkIntArray> labels;
@@ -244,9 +246,9 @@ TEST_F(Editing, PaintedRegionsAreAStepAndARebindIsOffered)
     more[3].kind = HandleKind::region;
     more[3].region_id = 1;
     more[3].head = more[3].tail = Vec3(0.3, 0.2, 0.1);
-    this->replace_live(more);
+    this->replace_handles(more);
   };
-  this->check("paint region r1",
+  this->expect_undo_step("paint region r1",
     [&]
     {
       with_region();
@@ -257,7 +259,7 @@ TEST_F(Editing, PaintedRegionsAreAStepAndARebindIsOffered)
   test::bind(d, 2.0);
   EXPECT_TRUE(d.rebind_reason().isEmpty());
   labels->SetValue(4, 1);
-  this->check(
+  this->expect_undo_step(
     "paint region r1", [&] { ASSERT_TRUE(d.commit_regions(labels, "paint region r1").ok()); });
   // The labels were painted; the handles have not changed.
   EXPECT_TRUE(d.rebind_reason().contains("painted"));
@@ -337,10 +339,10 @@ TEST_F(Editing, WhatIsNotedOfAnEqualNumberLeavesItsBits)
 {
   this->document.set_option("weights.place", 0.25);
   const QVariant before = this->document.option("weights.place");
-  const double worn = 0.25 + 4e-16; // a panel can return this rounded value
-  ASSERT_NE(worn, before.toDouble());
-  this->document.set_option("weights.place", worn);
-  this->document.note_option("weights.place", worn);
+  const double rounded_value = 0.25 + 4e-16; // a panel can return this rounded value
+  ASSERT_NE(rounded_value, before.toDouble());
+  this->document.set_option("weights.place", rounded_value);
+  this->document.note_option("weights.place", rounded_value);
   EXPECT_EQ(this->document.history()->count(), 1);
   EXPECT_EQ(this->document.option("weights.place").toDouble(), before.toDouble());
   this->document.note_option("weights.place", 0.26); // a value that really differs is accepted
@@ -350,7 +352,7 @@ TEST_F(Editing, WhatIsNotedOfAnEqualNumberLeavesItsBits)
 TEST_F(Editing, WhatAViewDoesDuringUndoAndRedoIsNoStep)
 {
   Document& d = this->document;
-  open_bound(d);
+  open_bound_document(d);
   d.set_option("tets.shrink", 0.5);
   d.end_merge();
   d.set_mode(0, 1);
@@ -377,7 +379,7 @@ TEST_F(Editing, WhatAViewDoesDuringUndoAndRedoIsNoStep)
 
 TEST_F(Editing, LayersColorsAndLocksAreHowHandlesLook)
 {
-  test::open_bound(this->document);
+  test::open_bound_document(this->document);
   int parts = 0;
   QObject::connect(&this->document, &Document::changed, [&](int changed) { parts |= changed; });
   const auto expect_looks = [&](const char* when)
@@ -409,7 +411,7 @@ TEST_F(Editing, LayersColorsAndLocksAreHowHandlesLook)
 
 TEST_F(Editing, AnEditThatCannotBeUsedIsTakenBack)
 {
-  open_bound(this->document);
+  open_bound_document(this->document);
   const std::string before = fingerprint(this->document);
   this->rename(0, "top"); // another handle has this name
   const Status status = this->document.commit_handles("rename");
@@ -423,7 +425,7 @@ TEST_F(Editing, AnEditThatCannotBeUsedIsTakenBack)
 
 TEST_F(Editing, ABadMeshOrBadHandlesLeaveTheWork)
 {
-  open_bound(this->document);
+  open_bound_document(this->document);
   const std::string before = fingerprint(this->document);
   vtkNew<vtkPolyData> nothing;
   EXPECT_FALSE(this->document.set_mesh(nothing, "nothing").ok());
@@ -436,18 +438,18 @@ TEST_F(Editing, ABadMeshOrBadHandlesLeaveTheWork)
 
 TEST_F(Editing, WeightsFollowTheirHandlesByName)
 {
-  open_bound(this->document);
+  open_bound_document(this->document);
   vtkNew<vtkDoubleArray> bound;
   bound->DeepCopy(this->document.surface()->GetPointData()->GetArray("Weights"));
   EXPECT_EQ(this->document.rebind_reason(), "");
   // Rename the first handle, add a new one, and remove "top".
   const Handles before = three_handles();
-  Handles now{ before[0], before[0], before[2] };
-  now[0].parent = now[1].parent = now[2].parent = -1;
-  now[0].name = "foot";
-  now[1].name = "new";
-  now[1].head = now[1].tail = Vec3(0.5, 0.5, 0);
-  this->replace_live(now);
+  Handles new_handles{ before[0], before[0], before[2] };
+  new_handles[0].parent = new_handles[1].parent = new_handles[2].parent = -1;
+  new_handles[0].name = "foot";
+  new_handles[1].name = "new";
+  new_handles[1].head = new_handles[1].tail = Vec3(0.5, 0.5, 0);
+  this->replace_handles(new_handles);
   ASSERT_TRUE(this->document.commit_handles("edit").ok());
   ASSERT_TRUE(this->document.is_bound());
   vtkDataArray* weights = this->document.surface()->GetPointData()->GetArray("Weights");
@@ -468,7 +470,7 @@ TEST_F(Editing, WeightsFollowTheirHandlesByName)
 
 TEST_F(Editing, AMovedHandleKeepsItsWeightsAndARebindIsOffered)
 {
-  open_bound(this->document);
+  open_bound_document(this->document);
   const std::string weights = fingerprint(this->document.work());
   this->document.handle_data()->GetPoints()->SetPoint(0, 0.1, 0.2, -0.7);
   ASSERT_TRUE(this->document.commit_handles("move").ok());
@@ -487,7 +489,7 @@ TEST_F(Editing, AMovedHandleKeepsItsWeightsAndARebindIsOffered)
 
 TEST_F(Editing, AnotherMeshHasNoWeightsAndUndoBringsThemBack)
 {
-  open_bound(this->document);
+  open_bound_document(this->document);
   ASSERT_TRUE(this->document.set_mesh(ball(), "other").ok());
   EXPECT_FALSE(this->document.is_bound());
   EXPECT_NE(this->document.rebind_reason(), "");
@@ -498,13 +500,13 @@ TEST_F(Editing, AnotherMeshHasNoWeightsAndUndoBringsThemBack)
 
 TEST_F(Editing, WeightsOfAMeshThatIsGoneAreNotTaken)
 {
-  open_bound(this->document);
+  open_bound_document(this->document);
   this->document.begin_bind();
-  const auto late = test::with_weights(this->document.surface(), three_handles(), 4.0);
+  const auto late_result = test::with_weights(this->document.surface(), three_handles(), 4.0);
   ASSERT_TRUE(this->document.set_mesh(ball(), "other").ok());
   const std::string before = fingerprint(this->document);
-  EXPECT_FALSE(this->document.set_preview(late));
-  EXPECT_FALSE(this->document.set_bound(late, nullptr));
+  EXPECT_FALSE(this->document.set_preview(late_result));
+  EXPECT_FALSE(this->document.set_bound(late_result, nullptr));
   EXPECT_EQ(fingerprint(this->document), before);
 }
 
@@ -605,9 +607,9 @@ TEST(FuzzDocument, UndoOfEverythingIsTheBeginningAndRedoTheEnd)
           break;
         default:
         {
-          PoseShelf shelf;
-          shelf.keys.set(std::abs(number()), NamedPose(document.handles(), document.pose()));
-          document.set_key_poses(shelf, "keep");
+          StoredPoses stored_poses;
+          stored_poses.keys.set(std::abs(number()), NamedPose(document.handles(), document.pose()));
+          document.set_stored_poses(stored_poses, "keep");
           break;
         }
       }
@@ -632,15 +634,15 @@ int main(int argc, char** argv)
   QCoreApplication application(argc, argv);
   if (argc == 3 && std::string(argv[1]) == "--save-for-ever")
   {
-    return test::save_for_ever(argv[2]);
+    return test::save_until_killed(argv[2]);
   }
   if (argc == 3 && std::string(argv[1]) == "--autosave-for-ever")
   {
-    return test::autosave_for_ever(argv[2]);
+    return test::autosave_until_killed(argv[2]);
   }
   if (argc == 3 && std::string(argv[1]) == "--change-for-ever")
   {
-    return test::change_for_ever(argv[2]);
+    return test::change_until_killed(argv[2]);
   }
   testing::InitGoogleTest(&argc, argv);
   return RUN_ALL_TESTS();

@@ -54,7 +54,7 @@ void write(const std::string& path, const Session& session)
 Work full_work()
 {
   Document document;
-  test::open_bound(document);
+  test::open_bound_document(document);
   Pose pose = document.pose();
   for (std::size_t k = 0; k < pose.size(); ++k)
   {
@@ -73,10 +73,10 @@ Work full_work()
   size->FillValue(0.1F);
   document.handle_data()->GetCellData()->AddArray(size);
   document.commit_handles("size");
-  PoseShelf shelf;
-  shelf.library.store("wave “hello”", NamedPose(document.handles(), pose));
-  shelf.keys.set(1.0 / 7.0, NamedPose(document.handles(), pose));
-  document.set_key_poses(shelf, "keep");
+  StoredPoses stored_poses;
+  stored_poses.library.store("wave “hello”", NamedPose(document.handles(), pose));
+  stored_poses.keys.set(1.0 / 7.0, NamedPose(document.handles(), pose));
+  document.set_stored_poses(stored_poses, "keep");
   document.set_option("pose.method", 2);
   document.set_option("tets.shrink", 1.0 / 3.0);
   document.set_option("weights.bands", false);
@@ -87,7 +87,7 @@ Work full_work()
 }
 
 /// Return an unbound session that refers to a mesh file, with handles and a pose.
-Session with_file(const test::Folder& folder)
+Session session_with_file(const test::Folder& folder)
 {
   const std::string mesh = folder.write("corner.off", mesh_text);
   Document document;
@@ -184,7 +184,7 @@ TEST(Sessions, AnotherFolderOpensTheSameWork)
   const test::Folder folder;
   std::filesystem::create_directories(folder / "here/meshes");
   const std::string mesh = folder.write("here/meshes/corner.off", mesh_text);
-  Session session = with_file(folder);
+  Session session = session_with_file(folder);
   session.work.mesh_source = Source{ text(mesh), checksum_of(text(mesh)) };
   write(folder / "here/work.bindpose", session);
   EXPECT_THAT(folder.read("here/work.bindpose"), HasSubstr("\"meshes/corner.off\""));
@@ -193,7 +193,7 @@ TEST(Sessions, AnotherFolderOpensTheSameWork)
   std::filesystem::rename(folder / "here", folder / "far/away");
   const Session back = read(folder / "far/away/work.bindpose");
   EXPECT_TRUE(back.notes.isEmpty()) << back.notes.join(' ').toStdString();
-  EXPECT_TRUE(back.lost.empty());
+  EXPECT_TRUE(back.missing_inputs.empty());
   ASSERT_NE(back.work.surface, nullptr);
   EXPECT_EQ(back.work.surface->GetNumberOfPoints(), 4);
   EXPECT_EQ(back.work.mesh_source.path, text(folder / "far/away/meshes/corner.off"));
@@ -211,26 +211,26 @@ TEST(Sessions, AnotherFolderOpensTheSameWork)
 TEST(Sessions, OpenWithoutAMissingInputAndSaySo)
 {
   const test::Folder folder;
-  write(folder / "a.bindpose", with_file(folder));
+  write(folder / "a.bindpose", session_with_file(folder));
   std::filesystem::remove(folder / "corner.off");
   const Session back = read(folder / "a.bindpose");
   EXPECT_EQ(back.work.surface, nullptr);
   ASSERT_NE(back.work.handles, nullptr);
-  ASSERT_EQ(back.lost.size(), 1u);
-  EXPECT_EQ(back.lost[0].role, "mesh");
-  EXPECT_EQ(back.lost[0].path, text(folder / "corner.off"));
+  ASSERT_EQ(back.missing_inputs.size(), 1u);
+  EXPECT_EQ(back.missing_inputs[0].role, "mesh");
+  EXPECT_EQ(back.missing_inputs[0].path, text(folder / "corner.off"));
   ASSERT_EQ(back.notes.size(), 1);
   EXPECT_EQ(back.notes[0], "corner.off is missing; the session was opened without it.");
   // A file that can no longer be read counts as missing.
   folder.write("corner.off", "OFF\n4 4");
   EXPECT_EQ(read(folder / "a.bindpose").notes.size(), 1);
-  EXPECT_EQ(read(folder / "a.bindpose").lost.size(), 1u);
+  EXPECT_EQ(read(folder / "a.bindpose").missing_inputs.size(), 1u);
 }
 
 TEST(Sessions, SayWhenAnInputHasChanged)
 {
   const test::Folder folder;
-  write(folder / "a.bindpose", with_file(folder));
+  write(folder / "a.bindpose", session_with_file(folder));
   std::string other = mesh_text;
   other.replace(other.find("1 0 0"), 5, "2 0 0");
   folder.write("corner.off", other);
@@ -238,14 +238,14 @@ TEST(Sessions, SayWhenAnInputHasChanged)
   ASSERT_EQ(back.notes.size(), 1);
   EXPECT_EQ(back.notes[0], "corner.off has changed since the session was saved.");
   EXPECT_EQ(back.work.surface->GetPoint(1)[0], 2.0);
-  EXPECT_TRUE(back.lost.empty());
+  EXPECT_TRUE(back.missing_inputs.empty());
 }
 
 TEST(Sessions, ABoundSurfaceDoesNotNeedItsInput)
 {
   const test::Folder folder;
   Document document;
-  document.replace(with_file(folder).work);
+  document.replace(session_with_file(folder).work);
   test::bind(document, 0.0);
   Session session;
   session.work = document.work();
@@ -255,14 +255,14 @@ TEST(Sessions, ABoundSurfaceDoesNotNeedItsInput)
   EXPECT_EQ(fingerprint(back.work), fingerprint(session.work));
   ASSERT_EQ(back.notes.size(), 1);
   EXPECT_THAT(back.notes[0].toStdString(), HasSubstr("saved with the session"));
-  EXPECT_TRUE(back.lost.empty());
+  EXPECT_TRUE(back.missing_inputs.empty());
 }
 
 TEST(Sessions, ADamagedCompanionCostsItsWeightsOnly)
 {
   const test::Folder folder;
   Document document;
-  document.replace(with_file(folder).work);
+  document.replace(session_with_file(folder).work);
   test::bind(document, 0.0);
   Session session;
   session.work = document.work();
@@ -326,7 +326,7 @@ TEST(Sessions, KeepEveryMode)
   for (int mode = 0; mode < 5; ++mode)
   {
     Document document;
-    test::open_bound(document);
+    test::open_bound_document(document);
     Pose pose = document.pose();
     for (std::size_t k = 0; k < pose.size(); ++k)
     {
@@ -334,21 +334,21 @@ TEST(Sessions, KeepEveryMode)
       pose[k].mode = bone ? static_cast<HandleMode>(mode) : HandleMode::free;
     }
     document.set_pose(pose, "pose");
-    PoseShelf shelf;
-    shelf.library.store("kept", NamedPose(document.handles(), pose));
-    document.set_key_poses(shelf, "keep");
+    StoredPoses stored_poses;
+    stored_poses.library.store("kept", NamedPose(document.handles(), pose));
+    document.set_stored_poses(stored_poses, "keep");
     Session session;
     session.work = document.work();
     const std::string path = folder / ("mode" + std::to_string(mode) + ".bindpose");
     write(path, session);
     const Work back = read(path).work;
-    const Pose kept =
-      back.key_poses->library.entries().front().pose.of(document.handles(), Pose(pose.size()));
+    const Pose stored_pose = back.stored_poses->library.entries().front().pose.for_handles(
+      document.handles(), Pose(pose.size()));
     ASSERT_EQ(back.pose.size(), pose.size());
     for (std::size_t k = 0; k < pose.size(); ++k)
     {
       EXPECT_EQ(back.pose[k].mode, pose[k].mode) << mode;
-      EXPECT_EQ(kept[k].mode, pose[k].mode) << mode;
+      EXPECT_EQ(stored_pose[k].mode, pose[k].mode) << mode;
     }
   }
 }
@@ -394,7 +394,7 @@ TEST(Sessions, BrokenOnesGiveOneSentence)
   session.work = full_work();
   write(folder / "good.bindpose", session);
   const json good = json::parse(folder.read("good.bindpose"));
-  const auto refused = [&](const std::string& contents, const char* what)
+  const auto expect_refused = [&](const std::string& contents, const char* what)
   {
     SCOPED_TRACE(what);
     folder.write("bad.bindpose", contents);
@@ -408,30 +408,30 @@ TEST(Sessions, BrokenOnesGiveOneSentence)
     EXPECT_EQ(result.work.name, "untouched");
     return status.message;
   };
-  refused("", "empty");
-  refused("no json", "no json");
-  refused("[]", "a list");
-  refused("null", "null");
-  refused(R"({"bindpose": 3})", "no schema");
-  refused(std::string(200000, '['), "deep");
-  refused(R"({"bindpose": {"schema": 1e999}})", "huge");
-  EXPECT_THAT(refused(R"({"bindpose": {"schema": 99}})", "newer"), HasSubstr("newer"));
+  expect_refused("", "empty");
+  expect_refused("no json", "no json");
+  expect_refused("[]", "a list");
+  expect_refused("null", "null");
+  expect_refused(R"({"bindpose": 3})", "no schema");
+  expect_refused(std::string(200000, '['), "deep");
+  expect_refused(R"({"bindpose": {"schema": 1e999}})", "huge");
+  EXPECT_THAT(expect_refused(R"({"bindpose": {"schema": 99}})", "newer"), HasSubstr("newer"));
   const std::string whole = good.dump();
   for (std::size_t size = 0; size < whole.size(); size += 1 + whole.size() / 97)
   {
-    refused(whole.substr(0, size), "cut");
+    expect_refused(whole.substr(0, size), "cut");
   }
   // Replace every value by a value of every wrong type, and remove it.
   const auto flat = good.flatten();
-  const std::vector<json> wrong = { json("text"), json(-7.5e300), json(json::array()),
+  const std::vector<json> wrong_values = { json("text"), json(-7.5e300), json(json::array()),
     json(json::object()), json(true), json() };
   int tried = 0;
-  for (const auto& [where, value] : flat.items())
+  for (const auto& [json_path, value] : flat.items())
   {
-    for (const json& other : wrong)
+    for (const json& other : wrong_values)
     {
       json changed = good;
-      changed[json::json_pointer(where)] = other;
+      changed[json::json_pointer(json_path)] = other;
       folder.write("maybe.bindpose", changed.dump());
       Session result;
       const Status status = read_session(text(folder / "maybe.bindpose"), result);
@@ -445,8 +445,8 @@ TEST(Sessions, BrokenOnesGiveOneSentence)
       }
       else
       {
-        EXPECT_THAT(status.message, Not(HasSubstr("\n"))) << where;
-        EXPECT_LT(status.message.size(), 250u) << where;
+        EXPECT_THAT(status.message, Not(HasSubstr("\n"))) << json_path;
+        EXPECT_LT(status.message.size(), 250u) << json_path;
       }
     }
   }
@@ -455,33 +455,33 @@ TEST(Sessions, BrokenOnesGiveOneSentence)
   {
     json changed = good;
     changed.erase(key);
-    EXPECT_THAT(refused(changed.dump(), key.c_str()), HasSubstr(key));
+    EXPECT_THAT(expect_refused(changed.dump(), key.c_str()), HasSubstr(key));
   }
-  const auto with = [&good](const char* where, const json& value)
+  const auto with_value = [&good](const char* json_path, const json& value)
   {
     json changed = good;
-    changed[json::json_pointer(where)] = value;
+    changed[json::json_pointer(json_path)] = value;
     return changed.dump();
   };
-  refused(with("/pose/0/transform/3", json()), "a number that is not finite");
-  refused(with("/pose", json::array()), "another number of handles");
-  refused(with("/handles/points/0/0", json()), "a place that is not finite");
-  refused(with("/handles/vertices/0/0", 99), "a point that is not there");
-  refused(with("/handles/vertices/0/0", -1), "a negative point");
-  refused(with("/handles/cell_arrays/0/components", 1000000), "an array too large");
-  refused(with("/handles/cell_arrays/0/values", json::array()), "an array too short");
-  refused(with("/options/tets.shrink", 7), "an option out of range");
-  refused(with("/options/pose.method", "best"), "an unknown word of a choice");
-  refused(with("/options/tets.shrink", "1"), "a text for a number");
-  refused(with("/options/volume.normal", { "0", "0", "1" }), "texts for a direction");
-  refused(with("/options/volume.place", 1.5), "a place beyond the end");
-  refused(with("/options/volume.place", json()), "a place that is not finite");
-  refused(with("/options/volume.normal", { 0, 0, 2 }), "a direction that is too long");
-  refused(with("/options/volume.normal", { 0, 0, 0 }), "no direction");
-  refused(with("/options/volume.normal", { 0, 1 }), "a direction in a plane");
-  refused(with("/options/volume.normal", { 0, "up", 1 }), "a direction in words");
-  refused(with("/options/volume.normal", 1), "a number for a direction");
-  refused(with("/view/camera/angle", 0), "a camera that sees nothing");
+  expect_refused(with_value("/pose/0/transform/3", json()), "a number that is not finite");
+  expect_refused(with_value("/pose", json::array()), "another number of handles");
+  expect_refused(with_value("/handles/points/0/0", json()), "a place that is not finite");
+  expect_refused(with_value("/handles/vertices/0/0", 99), "a point that is not there");
+  expect_refused(with_value("/handles/vertices/0/0", -1), "a negative point");
+  expect_refused(with_value("/handles/cell_arrays/0/components", 1000000), "an array too large");
+  expect_refused(with_value("/handles/cell_arrays/0/values", json::array()), "an array too short");
+  expect_refused(with_value("/options/tets.shrink", 7), "an option out of range");
+  expect_refused(with_value("/options/pose.method", "best"), "an unknown word of a choice");
+  expect_refused(with_value("/options/tets.shrink", "1"), "a text for a number");
+  expect_refused(with_value("/options/volume.normal", { "0", "0", "1" }), "texts for a direction");
+  expect_refused(with_value("/options/volume.place", 1.5), "a place beyond the end");
+  expect_refused(with_value("/options/volume.place", json()), "a place that is not finite");
+  expect_refused(with_value("/options/volume.normal", { 0, 0, 2 }), "a direction that is too long");
+  expect_refused(with_value("/options/volume.normal", { 0, 0, 0 }), "no direction");
+  expect_refused(with_value("/options/volume.normal", { 0, 1 }), "a direction in a plane");
+  expect_refused(with_value("/options/volume.normal", { 0, "up", 1 }), "a direction in words");
+  expect_refused(with_value("/options/volume.normal", 1), "a number for a direction");
+  expect_refused(with_value("/view/camera/angle", 0), "a camera that sees nothing");
   EXPECT_FALSE(
     [&]
     {

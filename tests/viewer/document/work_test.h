@@ -86,7 +86,7 @@ inline void bind(Document& document, double phase)
 }
 
 /// Open a document with three handles and bind it.
-inline void open_bound(Document& document)
+inline void open_bound_document(Document& document)
 {
   document.set_mesh(ball(), "ball");
   document.set_handles(to_polydata(three_handles()), "handles");
@@ -125,7 +125,7 @@ inline void print_data(std::ostream& out, vtkPolyData* data, bool pose_arrays = 
       out << ' ' << ids[k];
     }
   }
-  const std::set<std::string> of_pose{ "Mode", "Transform", "Stretch", "Twist" };
+  const std::set<std::string> pose_array_names{ "Mode", "Transform", "Stretch", "Twist" };
   for (vtkDataSetAttributes* attributes :
     { static_cast<vtkDataSetAttributes*>(data->GetPointData()),
       static_cast<vtkDataSetAttributes*>(data->GetCellData()) })
@@ -135,7 +135,7 @@ inline void print_data(std::ostream& out, vtkPolyData* data, bool pose_arrays = 
     for (int a = 0; a < attributes->GetNumberOfArrays(); ++a)
     {
       vtkAbstractArray* array = attributes->GetAbstractArray(a);
-      if (!pose_arrays && of_pose.count(array->GetName()))
+      if (!pose_arrays && pose_array_names.count(array->GetName()))
       {
         continue;
       }
@@ -207,8 +207,9 @@ inline std::map<std::string, std::string> fingerprints(const Work& work)
   add("pose", [&](std::ostream& out) { print_pose(out, work.pose); });
   // The key poses are sorted by name, because the order of storage does not matter.
   add("key poses",
-    [&](std::ostream& out)
-    { out << nlohmann::json(to_json(work.key_poses ? *work.key_poses : PoseShelf())).dump(); });
+    [&](std::ostream& out) {
+      out << nlohmann::json(to_json(work.stored_poses ? *work.stored_poses : StoredPoses())).dump();
+    });
   for (auto option = work.options.begin(); option != work.options.end(); ++option)
   {
     const bool list = option.value().type() == QVariant::List;

@@ -24,7 +24,7 @@ namespace bindpose::test
 {
 
 /// Return weights that decrease with the distance from the centers of the handles.
-inline Weights made_up_weights(const Points& points, const Handles& handles)
+inline Weights distance_weights(const Points& points, const Handles& handles)
 {
   Weights weights(points.rows(), static_cast<Index>(handles.size()));
   for (Index v = 0; v < points.rows(); ++v)
@@ -69,7 +69,7 @@ inline Rig beam()
   to_handles(rig.handles, rig.list, &rig.cells);
   rig.surface = to_polydata(mesh.points, boundary_triangles(mesh.tets));
   rig.tets = to_unstructured_grid(mesh.points, mesh.tets);
-  const Weights weights = made_up_weights(mesh.points, rig.list);
+  const Weights weights = distance_weights(mesh.points, rig.list);
   for (vtkDataSet* data :
     { static_cast<vtkDataSet*>(rig.surface), static_cast<vtkDataSet*>(rig.tets) })
   {

@@ -42,7 +42,7 @@ protected:
 TEST_F(MovingBeam, SagsUnderGravityAndReplaysBitByBit)
 {
   const double end = this->posed.col(1).minCoeff();
-  std::vector<Points> seen{ this->posed };
+  std::vector<Points> frames{ this->posed };
   Pose pose = this->start;
   for (int k = 0; k < 40; ++k)
   {
@@ -52,7 +52,7 @@ TEST_F(MovingBeam, SagsUnderGravityAndReplaysBitByBit)
       this->options.damping = 3.0;
     }
     this->step(pose);
-    seen.push_back(this->posed);
+    frames.push_back(this->posed);
   }
   EXPECT_LT(this->posed.col(1).minCoeff(), end - 0.01);
   ASSERT_EQ(this->body.run().steps.size(), 40U);
@@ -69,7 +69,7 @@ TEST_F(MovingBeam, SagsUnderGravityAndReplaysBitByBit)
     const Status status = replayed->play(this->context, run,
       [&](std::size_t step, const Points& points)
       {
-        EXPECT_EQ(points, seen[step]) << step;
+        EXPECT_EQ(points, frames[step]) << step;
         ++steps;
         return true;
       });
@@ -91,14 +91,14 @@ TEST_F(MovingBeam, KeepsItsVelocityWhenItIsLetGo)
     this->step(pose);
   }
   const Vec3 before = this->body.transforms()[3].col(3);
-  const Points held = this->posed;
+  const Points points_at_release = this->posed;
   pose[3].mode = HandleMode::free;
   for (int k = 0; k < 3; ++k)
   {
     this->step(pose);
   }
   // After the handle is released, the body continues to move.
-  EXPECT_GT((this->posed - held).col(1).maxCoeff(), 0.02);
+  EXPECT_GT((this->posed - points_at_release).col(1).maxCoeff(), 0.02);
   EXPECT_NE(Vec3(this->body.transforms()[3].col(3)), before);
 }
 

@@ -101,7 +101,7 @@ TEST(Blend, ChildrenStayOnTheirParents)
     EXPECT_EQ(pose[0].transform, pose[1].transform) << t;
   }
   // If a stored pose does not contain a handle, the handle follows its parent.
-  const Pose known = NamedPose({ arm[0] }, { swung[0] }).of(arm, rest);
+  const Pose known = NamedPose({ arm[0] }, { swung[0] }).for_handles(arm, rest);
   EXPECT_LT((known[1].transform - swung[0].transform).cwiseAbs().maxCoeff(), 1e-15);
 }
 
@@ -126,7 +126,7 @@ TEST(HandleValues, AreReadBackAsTyped)
     EXPECT_NEAR(read.scale, 1.5, 1e-14);
     EXPECT_EQ(read.stretch, 1.25);
     EXPECT_EQ(read.twist, typed.twist);
-    EXPECT_FALSE(read.more);
+    EXPECT_FALSE(read.is_approximate);
   };
   expect_typed(values_of(handles, pose, 0));
   // The values of a child are relative to its parent, so they do not change if the parent moves.
@@ -149,7 +149,7 @@ TEST(HandleValues, AreReadBackAsTyped)
       .maxCoeff(),
     1e-7);
   pose[0].transform(0, 1) += 0.5;
-  EXPECT_TRUE(values_of(handles, pose, 0).more);
+  EXPECT_TRUE(values_of(handles, pose, 0).is_approximate);
 }
 
 TEST(KeyFrames, HitTheirKeysExactly)
@@ -202,8 +202,8 @@ TEST(KeyFrames, AreSetMovedAndRemoved)
   ASSERT_EQ(keys.keys().size(), 2U);
   EXPECT_EQ(keys.move(0, 4.0), 1U);
   EXPECT_EQ(keys.duration(), 4.0);
-  EXPECT_EQ(keys.at(4.0), 1);
-  EXPECT_EQ(keys.at(3.0), -1);
+  EXPECT_EQ(keys.index_at(4.0), 1);
+  EXPECT_EQ(keys.index_at(3.0), -1);
   keys.remove(1);
   EXPECT_EQ(keys.duration(), 1.0);
   keys.set(-3.0, NamedPose(handles(), at(1)));
@@ -262,7 +262,7 @@ TEST(NamedPose, FitsOtherHandlesByTheirNames)
   Handles others = { test::point_handle("new", Vec3::Zero()), handles()[1], handles()[0] };
   Pose base(3);
   base[0].stretch = 7.0;
-  const Pose pose = kept.of(others, base);
+  const Pose pose = kept.for_handles(others, base);
   EXPECT_EQ(pose[0].stretch, 7.0);
   EXPECT_EQ(pose[1].transform, at(1)[1].transform);
   EXPECT_EQ(pose[2].twist, at(1)[0].twist);
@@ -283,7 +283,7 @@ TEST(PoseLibrary, KeepsPosesByName)
   ASSERT_TRUE(from_json(Json::parse(to_json(library).dump()), read).ok());
   ASSERT_EQ(read.entries().size(), 2U);
   EXPECT_EQ(read.entries()[0].name, "wave");
-  expect_same(read.entries()[0].pose.of(handles(), Pose(2)), at(2));
+  expect_same(read.entries()[0].pose.for_handles(handles(), Pose(2)), at(2));
   EXPECT_EQ(from_json(Json::parse("{}"), read).code, StatusCode::invalid_input);
   EXPECT_EQ(from_json(Json::parse("[3]"), read).code, StatusCode::invalid_input);
   EXPECT_EQ(read.entries().size(), 2U);

@@ -1,5 +1,5 @@
-// Posers of the window are compared with the filters, which call the same kernels in another way.
-// The results must have the same bits.
+// Posers are compared with the filters: the results must have the same bits. The methods of
+// skinning, which both take from SkinningBind, are tested in tests/core/poser.
 #include "poser/make_poser.h"
 #include "rigs.h"
 
@@ -28,7 +28,7 @@ Points points_of(vtkDataSet* data)
 }
 
 /// Return the filter's result for the rig in the given pose.
-Points by_filter(vtkPoseAlgorithm* filter, const Rig& rig, const Pose& pose, vtkDataSet* mesh)
+Points filter_points(vtkPoseAlgorithm* filter, const Rig& rig, const Pose& pose, vtkDataSet* mesh)
 {
   vtkNew<vtkPolyData> handles;
   handles->DeepCopy(rig.handles);
@@ -40,7 +40,7 @@ Points by_filter(vtkPoseAlgorithm* filter, const Rig& rig, const Pose& pose, vtk
   return points_of(filter->GetOutput());
 }
 
-Points by_poser(const Rig& rig, const Pose& pose, const PoseOptions& options)
+Points poser_points(const Rig& rig, const Pose& pose, const PoseOptions& options)
 {
   ExecutionContext context;
   const auto poser = make_poser(options.method, rig.source());
@@ -52,7 +52,7 @@ Points by_poser(const Rig& rig, const Pose& pose, const PoseOptions& options)
   return posed;
 }
 
-PoseOptions with(PoseMethod method)
+PoseOptions options_for(PoseMethod method)
 {
   PoseOptions options;
   options.method = method;
@@ -67,7 +67,7 @@ TEST(Poser, AnIgnoredStretchIsSaid)
   {
     ExecutionContext context;
     const auto poser = make_poser(method, rig.source());
-    const PoseOptions options = with(method);
+    const PoseOptions options = options_for(method);
     Status status = poser->bind(context, options);
     EXPECT_TRUE(status.usable()) << status.message;
     Points posed;
@@ -118,10 +118,10 @@ TEST(Poser, EverySkinningMethodGivesWhatTheFilterGives)
         filter->SetMethod(of_filter);
         filter->SetPseudoEdges(edges);
         filter->SetSinglePrecision(single);
-        PoseOptions options = with(method);
+        PoseOptions options = options_for(method);
         options.pseudo_edges = static_cast<PseudoEdgeChoice>(edges);
         options.single_precision = single;
-        EXPECT_EQ(by_poser(rig, pose, options), by_filter(filter, rig, pose, rig.surface))
+        EXPECT_EQ(poser_points(rig, pose, options), filter_points(filter, rig, pose, rig.surface))
           << to_string(method) << " edges " << edges << " single " << single;
       }
     }
@@ -132,12 +132,14 @@ TEST(Poser, GivenEndpointWeightsAreUsed)
 {
   const Rig rig = beam();
   Weights endpoints = Weights::Constant(rig.surface->GetNumberOfPoints(), 4, 0.25);
-  const Points without = by_poser(rig, some_pose(rig.list), with(PoseMethod::stretchable_bones));
+  const Points without =
+    poser_points(rig, some_pose(rig.list), options_for(PoseMethod::stretchable_bones));
   rig.surface->GetPointData()->AddArray(to_weights_array("EndpointWeights", endpoints, rig.list));
   vtkNew<vtkSkinningDeformation> filter;
   filter->SetMethod(vtkSkinningDeformation::STRETCHABLE_BONES);
-  const Points posed = by_poser(rig, some_pose(rig.list), with(PoseMethod::stretchable_bones));
-  EXPECT_EQ(posed, by_filter(filter, rig, some_pose(rig.list), rig.surface));
+  const Points posed =
+    poser_points(rig, some_pose(rig.list), options_for(PoseMethod::stretchable_bones));
+  EXPECT_EQ(posed, filter_points(filter, rig, some_pose(rig.list), rig.surface));
   EXPECT_NE(posed, without);
 }
 
@@ -151,15 +153,15 @@ TEST(Poser, ReducedArapGivesWhatTheFilterGives)
   {
     vtkNew<vtkReducedARAP> filter;
     filter->SetNumberOfExtraWeights(static_cast<int>(extra));
-    PoseOptions options = with(PoseMethod::reduced_arap);
+    PoseOptions options = options_for(PoseMethod::reduced_arap);
     options.extra_weights = extra;
-    EXPECT_EQ(by_poser(rig, pose, options), by_filter(filter, rig, pose, rig.surface));
+    EXPECT_EQ(poser_points(rig, pose, options), filter_points(filter, rig, pose, rig.surface));
     // The points of the surface are the first points of the tets, with the same positions.
     vtkNew<vtkReducedARAP> in_tets;
     in_tets->SetNumberOfExtraWeights(static_cast<int>(extra));
     options.in_tets = true;
-    const Points all = by_filter(in_tets, rig, pose, rig.tets);
-    const Points surface = by_poser(rig, pose, options);
+    const Points all = filter_points(in_tets, rig, pose, rig.tets);
+    const Points surface = poser_points(rig, pose, options);
     EXPECT_LT((surface - all.topRows(surface.rows())).cwiseAbs().maxCoeff(), 1e-12);
   }
 }
@@ -173,10 +175,10 @@ TEST(Poser, RotationsAreTheFilters)
   {
     vtkNew<vtkReducedARAP> filter;
     filter->RotationArraysOn();
-    const Points all = by_filter(
+    const Points all = filter_points(
       filter, rig, pose, in_tets ? static_cast<vtkDataSet*>(rig.tets) : rig.surface.Get());
     vtkPointData* arrays = filter->GetOutput()->GetPointData();
-    PoseOptions options = with(PoseMethod::reduced_arap);
+    PoseOptions options = options_for(PoseMethod::reduced_arap);
     options.in_tets = in_tets;
     ExecutionContext context;
     const auto poser = make_poser(options.method, rig.source());
@@ -186,19 +188,19 @@ TEST(Poser, RotationsAreTheFilters)
     ASSERT_TRUE(poser->solve(context, pose, options, 0, posed).usable());
     const PoseRotations* found = poser->rotations();
     ASSERT_NE(found, nullptr);
-    ASSERT_EQ(static_cast<Index>(found->of_point->size()), posed.rows());
+    ASSERT_EQ(static_cast<Index>(found->cluster_of_point->size()), posed.rows());
     for (Index v = 0; v < posed.rows(); ++v)
     {
-      const Index cluster = (*found->of_point)[static_cast<std::size_t>(v)];
+      const Index cluster = (*found->cluster_of_point)[static_cast<std::size_t>(v)];
       // The surface's points are the first points of the tets.
       EXPECT_EQ(
         static_cast<double>(cluster), arrays->GetArray("RotationCluster")->GetComponent(v, 0));
       EXPECT_EQ(rotation_vector(found->rotations[static_cast<std::size_t>(cluster)]),
         Vec3(arrays->GetArray("Rotation")->GetTuple3(v)));
     }
-    const auto clusters = found->of_point;
+    const auto clusters = found->cluster_of_point;
     ASSERT_TRUE(poser->solve(context, Pose(4), options, 0, posed).usable());
-    EXPECT_EQ(poser->rotations()->of_point, clusters); // the clusters are those of the bind
+    EXPECT_EQ(poser->rotations()->cluster_of_point, clusters); // the clusters are those of the bind
   }
   EXPECT_EQ(make_poser(PoseMethod::linear_blend, rig.source())->rotations(), nullptr);
 }
@@ -208,13 +210,13 @@ TEST(Poser, FullArapGivesWhatTheFilterGives)
   const Rig rig = beam();
   const Pose pose = some_pose(rig.list, 0.3);
   vtkNew<vtkFullARAP> filter;
-  EXPECT_EQ(
-    by_poser(rig, pose, with(PoseMethod::full_arap)), by_filter(filter, rig, pose, rig.surface));
+  EXPECT_EQ(poser_points(rig, pose, options_for(PoseMethod::full_arap)),
+    filter_points(filter, rig, pose, rig.surface));
   vtkNew<vtkFullARAP> in_tets;
-  PoseOptions options = with(PoseMethod::full_arap);
+  PoseOptions options = options_for(PoseMethod::full_arap);
   options.in_tets = true;
-  const Points all = by_filter(in_tets, rig, pose, rig.tets);
-  const Points surface = by_poser(rig, pose, options);
+  const Points all = filter_points(in_tets, rig, pose, rig.tets);
+  const Points surface = poser_points(rig, pose, options);
   EXPECT_EQ(surface, all.topRows(surface.rows()));
   // Each tet has a rotation; the points have no rotations.
   ExecutionContext context;
@@ -225,7 +227,7 @@ TEST(Poser, FullArapGivesWhatTheFilterGives)
   const PoseRotations* rotations = poser->rotations();
   ASSERT_NE(rotations, nullptr);
   EXPECT_EQ(static_cast<Index>(rotations->rotations.size()), rig.tets->GetNumberOfCells());
-  EXPECT_TRUE(rotations->of_point->empty());
+  EXPECT_TRUE(rotations->cluster_of_point->empty());
 }
 
 TEST(Poser, ASolveInSlicesIsTheFilterRunInSlices)
@@ -233,7 +235,7 @@ TEST(Poser, ASolveInSlicesIsTheFilterRunInSlices)
   const Rig rig = beam();
   const Pose pose = some_pose(rig.list, 0.3);
   ExecutionContext context;
-  const PoseOptions options = with(PoseMethod::full_arap);
+  const PoseOptions options = options_for(PoseMethod::full_arap);
   const auto poser = make_poser(options.method, rig.source());
   ASSERT_TRUE(poser->bind(context, options).usable());
   vtkNew<vtkPolyData> handles;
@@ -261,9 +263,9 @@ TEST(Poser, VariationalSurfacesGiveWhatTheFilterGives)
   {
     vtkNew<vtkVariationalSurface> filter;
     filter->SetOrder(order);
-    PoseOptions options = with(PoseMethod::variational);
+    PoseOptions options = options_for(PoseMethod::variational);
     options.order = order;
-    EXPECT_EQ(by_poser(rig, pose, options), by_filter(filter, rig, pose, rig.surface));
+    EXPECT_EQ(poser_points(rig, pose, options), filter_points(filter, rig, pose, rig.surface));
   }
 }
 
@@ -273,7 +275,7 @@ TEST(Poser, DragsDoNotBindAgain)
   ExecutionContext context;
   for (int method = 0; method < pose_method_count; ++method)
   {
-    PoseOptions options = with(static_cast<PoseMethod>(method));
+    PoseOptions options = options_for(static_cast<PoseMethod>(method));
     const auto poser = make_poser(options.method, rig.source());
     ASSERT_TRUE(poser->bind(context, options).usable());
     Points posed;
@@ -327,12 +329,12 @@ TEST(Poser, RigidMethodsFindRotationsOfHandlesThatOnlyMove)
   }
   for (const PoseMethod method : { PoseMethod::reduced_arap, PoseMethod::full_arap })
   {
-    const PoseOptions options = with(method);
-    EXPECT_EQ(by_poser(rig, automatic, options), by_poser(rig, moved, options));
-    EXPECT_NE(by_poser(rig, automatic, options), by_poser(rig, full, options));
+    const PoseOptions options = options_for(method);
+    EXPECT_EQ(poser_points(rig, automatic, options), poser_points(rig, moved, options));
+    EXPECT_NE(poser_points(rig, automatic, options), poser_points(rig, full, options));
   }
-  const PoseOptions blend = with(PoseMethod::linear_blend);
-  EXPECT_EQ(by_poser(rig, automatic, blend), by_poser(rig, full, blend));
+  const PoseOptions blend = options_for(PoseMethod::linear_blend);
+  EXPECT_EQ(poser_points(rig, automatic, blend), poser_points(rig, full, blend));
 }
 
 TEST(Poser, WhatCannotBePosedIsSaid)
@@ -340,7 +342,7 @@ TEST(Poser, WhatCannotBePosedIsSaid)
   Rig rig = beam();
   ExecutionContext context;
   Points posed;
-  PoseOptions options = with(PoseMethod::reduced_arap);
+  PoseOptions options = options_for(PoseMethod::reduced_arap);
   auto poser = make_poser(options.method, rig.source());
   EXPECT_THAT(
     poser->solve(context, Pose(4), options, 0, posed).message, testing::HasSubstr("bound"));
@@ -349,10 +351,10 @@ TEST(Poser, WhatCannotBePosedIsSaid)
   poser = make_poser(options.method, rig.source());
   EXPECT_THAT(poser->bind(context, options).message, testing::HasSubstr("no tets"));
   rig.surface->GetPointData()->RemoveArray("Weights");
-  options = with(PoseMethod::linear_blend);
+  options = options_for(PoseMethod::linear_blend);
   poser = make_poser(options.method, rig.source());
   EXPECT_THAT(poser->bind(context, options).message, testing::HasSubstr("bind first"));
-  options = with(PoseMethod::full_arap); // this method needs no weights
+  options = options_for(PoseMethod::full_arap); // this method needs no weights
   poser = make_poser(options.method, rig.source());
   EXPECT_TRUE(poser->bind(context, options).usable());
   EXPECT_THAT(
@@ -366,7 +368,7 @@ TEST(Poser, WhatCannotBePosedIsSaid)
     handle.tail = handle.head;
   }
   points.handles = to_polydata(points.list);
-  options = with(PoseMethod::stretchable_bones);
+  options = options_for(PoseMethod::stretchable_bones);
   options.endpoints = EndpointMethod::bounded;
   poser = make_poser(options.method, points.source());
   ASSERT_TRUE(poser->bind(context, options).usable());
@@ -382,7 +384,7 @@ TEST(Poser, ABindIsCanceled)
   context.request_cancel();
   for (const PoseMethod method : { PoseMethod::rotation_centers, PoseMethod::reduced_arap })
   {
-    PoseOptions options = with(method);
+    PoseOptions options = options_for(method);
     const auto poser = make_poser(method, rig.source());
     EXPECT_EQ(poser->bind(context, options).code, StatusCode::canceled);
     EXPECT_FALSE(poser->is_bound(options));

@@ -41,12 +41,12 @@ Points random_points(Index count, const Vec3& lower, const Vec3& upper)
   return points;
 }
 
-Eigen::Matrix3d turned(double degrees, const Vec3& axis)
+Eigen::Matrix3d rotation_matrix(double degrees, const Vec3& axis)
 {
   return Eigen::AngleAxisd(degrees * EIGEN_PI / 180.0, axis.normalized()).toRotationMatrix();
 }
 
-const Eigen::Matrix3d tilted = turned(35.0, Vec3(1.0, 0.4, 0.2));
+const Eigen::Matrix3d tilted = rotation_matrix(35.0, Vec3(1.0, 0.4, 0.2));
 } // namespace
 
 TEST(Camera, FitsTightlyFromEverywhereWithoutClipping)
@@ -63,16 +63,16 @@ TEST(Camera, FitsTightlyFromEverywhereWithoutClipping)
         view.elevation = 0.3 * azimuth;
         vtkNew<vtkCamera> camera;
         fit_camera(camera, points, choose_frame(bounding_box(points), "auto"), view, aspect, 0.05);
-        const Points seen = project(camera, aspect, points);
-        const Eigen::Vector2d upper = seen.leftCols<2>().colwise().maxCoeff();
-        const Eigen::Vector2d lower = seen.leftCols<2>().colwise().minCoeff();
+        const Points projected = project(camera, aspect, points);
+        const Eigen::Vector2d upper = projected.leftCols<2>().colwise().maxCoeff();
+        const Eigen::Vector2d lower = projected.leftCols<2>().colwise().minCoeff();
         // In one direction both margins have exactly the requested size. In the other direction
         // they are at least this large.
         const double tightest = std::max(upper[0] - lower[0], upper[1] - lower[1]);
         EXPECT_NEAR(tightest, 1.8, 1e-6);
         EXPECT_LE(upper.maxCoeff(), 0.9 + 1e-6);
         EXPECT_GE(lower.minCoeff(), -0.9 - 1e-6);
-        EXPECT_LT(seen.col(2).cwiseAbs().maxCoeff(), 1.0) << "clipped";
+        EXPECT_LT(projected.col(2).cwiseAbs().maxCoeff(), 1.0) << "clipped";
       }
     }
   }
@@ -114,9 +114,9 @@ TEST(Camera, ZoomEnlargesAndAPointIsNoTrouble)
   fit_camera(camera, points, frame, view, 1.0);
   EXPECT_NEAR(project(camera, 1.0, points).col(0).maxCoeff() / width, 2.0, 1e-9);
 
-  const Points one = random_points(1, Vec3(5, 5, 5), Vec3(6, 6, 6));
-  fit_camera(camera, one, choose_frame(bounding_box(one), "auto"), View(), 1.0);
-  EXPECT_LT(project(camera, 1.0, one).cwiseAbs().maxCoeff(), 1.0);
+  const Points single_point = random_points(1, Vec3(5, 5, 5), Vec3(6, 6, 6));
+  fit_camera(camera, single_point, choose_frame(bounding_box(single_point), "auto"), View(), 1.0);
+  EXPECT_LT(project(camera, 1.0, single_point).cwiseAbs().maxCoeff(), 1.0);
 }
 
 TEST(Camera, AnotherShapeOfTheViewKeepsAllInItFromTheSameSide)
@@ -125,14 +125,14 @@ TEST(Camera, AnotherShapeOfTheViewKeepsAllInItFromTheSameSide)
   const Frame frame = choose_frame(bounding_box(points), "auto");
   for (const bool parallel : { false, true })
   {
-    for (const double before : { 0.6, 1.0, 2.0 })
+    for (const double old_aspect : { 0.6, 1.0, 2.0 })
     {
-      for (const double after : { 0.5, 1.0, 1.9 })
+      for (const double new_aspect : { 0.5, 1.0, 1.9 })
       {
         View view;
         view.azimuth = 20.0;
         vtkNew<vtkCamera> camera;
-        fit_camera(camera, points, frame, view, before, 0.1);
+        fit_camera(camera, points, frame, view, old_aspect, 0.1);
         if (parallel)
         {
           camera->ParallelProjectionOn();
@@ -142,11 +142,11 @@ TEST(Camera, AnotherShapeOfTheViewKeepsAllInItFromTheSameSide)
         const Vec3 sight(camera->GetDirectionOfProjection()), up(camera->GetViewUp());
         const auto extent = [&](double aspect)
         { return project(camera, aspect, points).leftCols<2>().cwiseAbs().maxCoeff(); };
-        const double taken = extent(before);
-        ASSERT_LE(taken, 1.0);
-        keep_in_view(camera, points, before, after);
-        EXPECT_LE(extent(after), 1.0) << before << " to " << after;
-        EXPECT_GT(extent(after), 0.8 * taken) << before << " to " << after;
+        const double extent_before = extent(old_aspect);
+        ASSERT_LE(extent_before, 1.0);
+        keep_in_view(camera, points, old_aspect, new_aspect);
+        EXPECT_LE(extent(new_aspect), 1.0) << old_aspect << " to " << new_aspect;
+        EXPECT_GT(extent(new_aspect), 0.8 * extent_before) << old_aspect << " to " << new_aspect;
         EXPECT_LT((Vec3(camera->GetDirectionOfProjection()) - sight).norm(), 1e-9);
         EXPECT_LT((Vec3(camera->GetViewUp()) - up).norm(), 1e-9);
       }
@@ -167,10 +167,10 @@ TEST(Camera, WhoLooksAtAPartGoesOnLookingAtIt)
   EXPECT_EQ(Vec3(camera->GetFocalPoint()), focus);
   EXPECT_GT(project(camera, 1.0, points).leftCols<2>().cwiseAbs().maxCoeff(), 1.0);
   // If the aspect ratio does not change, or if the shape is empty, the camera does not change.
-  const Vec3 place(camera->GetPosition());
+  const Vec3 position(camera->GetPosition());
   keep_in_view(camera, points, 1.0, 1.0);
   keep_in_view(camera, Points(0, 3), 1.0, 2.0);
-  EXPECT_EQ(Vec3(camera->GetPosition()), place);
+  EXPECT_EQ(Vec3(camera->GetPosition()), position);
 }
 
 TEST(Plane, IsFoundWhateverItIs)
@@ -179,11 +179,14 @@ TEST(Plane, IsFoundWhateverItIs)
   Vec3 normal;
   ASSERT_TRUE(find_plane(square, normal));
   EXPECT_EQ(normal, Vec3(0, 0, 1));
-  ASSERT_TRUE(find_plane(Points(square * turned(180.0, Vec3::UnitX()).transpose()), normal));
+  ASSERT_TRUE(
+    find_plane(Points(square * rotation_matrix(180.0, Vec3::UnitX()).transpose()), normal));
   EXPECT_LT((normal - Vec3(0, 0, 1)).norm(), 1e-9) << "looked at from +z, whichever way it faces";
-  ASSERT_TRUE(find_plane(Points(square * turned(90.0, Vec3::UnitY()).transpose()), normal));
+  ASSERT_TRUE(
+    find_plane(Points(square * rotation_matrix(90.0, Vec3::UnitY()).transpose()), normal));
   EXPECT_LT((normal - Vec3(1, 0, 0)).norm(), 1e-9);
-  ASSERT_TRUE(find_plane(Points(square * turned(90.0, Vec3::UnitX()).transpose()), normal));
+  ASSERT_TRUE(
+    find_plane(Points(square * rotation_matrix(90.0, Vec3::UnitX()).transpose()), normal));
   EXPECT_LT((normal - Vec3(0, -1, 0)).norm(), 1e-9);
   ASSERT_TRUE(find_plane(Points(square * tilted.transpose()), normal));
   EXPECT_LT((normal - tilted.col(2)).norm(), 1e-9);

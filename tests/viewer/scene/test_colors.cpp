@@ -31,7 +31,7 @@ double lab_distance(const Rgb& a, const Rgb& b)
 
 // Return the color that a viewer with one type of color blindness perceives. The matrices of
 // Machado, Oliveira and Fernandes 2009 with severity 1 are applied to linear light.
-Rgb seen_by(const std::array<std::array<double, 3>, 3>& matrix, const Rgb& color)
+Rgb perceived_color(const std::array<std::array<double, 3>, 3>& matrix, const Rgb& color)
 {
   const auto to_linear = [](double c)
   { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); };
@@ -53,7 +53,7 @@ Rgb seen_by(const std::array<std::array<double, 3>, 3>& matrix, const Rgb& color
   return result;
 }
 
-const std::array<std::array<double, 3>, 3> eyes[4] = {
+const std::array<std::array<double, 3>, 3> vision_matrices[4] = {
   { { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } },
   { { { 0.152286, 1.052583, -0.204868 }, { 0.114503, 0.786281, 0.099216 },
     { -0.003882, -0.048116, 1.051998 } } }, // protanopia
@@ -66,12 +66,12 @@ const std::array<std::array<double, 3>, 3> eyes[4] = {
 
 TEST(Colors, SequentialGetsDarkerEvenlyForAllEyes)
 {
-  for (const auto& eye : eyes)
+  for (const auto& vision_matrix : vision_matrices)
   {
-    double before = lab_lightness(seen_by(eye, sequential_color(0.0)));
+    double before = lab_lightness(perceived_color(vision_matrix, sequential_color(0.0)));
     for (int i = 1; i <= 9; ++i)
     {
-      const double now = lab_lightness(seen_by(eye, sequential_color(i / 9.0)));
+      const double now = lab_lightness(perceived_color(vision_matrix, sequential_color(i / 9.0)));
       EXPECT_LT(now, before - 2.5) << "band " << i;
       before = now;
     }
@@ -80,15 +80,15 @@ TEST(Colors, SequentialGetsDarkerEvenlyForAllEyes)
 
 TEST(Colors, WindingNumbersOfFiveKindsAreToldApartByAllEyes)
 {
-  for (const auto& eye : eyes)
+  for (const auto& vision_matrix : vision_matrices)
   {
     const double values[5] = { -1.0, 0.0, 0.5, 1.0, 2.0 };
     for (int i = 0; i < 5; ++i)
     {
       for (int k = 0; k < i; ++k)
       {
-        EXPECT_GT(lab_distance(
-                    seen_by(eye, winding_color(values[i])), seen_by(eye, winding_color(values[k]))),
+        EXPECT_GT(lab_distance(perceived_color(vision_matrix, winding_color(values[i])),
+                    perceived_color(vision_matrix, winding_color(values[k]))),
           20.0)
           << values[i] << " and " << values[k];
       }

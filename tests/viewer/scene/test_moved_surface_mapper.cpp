@@ -67,10 +67,10 @@ protected:
   /// Compare the picture with that of a new VTK mapper.
   void expect_right_picture()
   {
-    Scene<vtkOpenGLPolyDataMapper> fresh(this->shaded.polydata());
-    fresh.mapper->SetScalarVisibility(this->scene.mapper->GetScalarVisibility());
-    fresh.actor->SetProperty(this->scene.actor->GetProperty());
-    EXPECT_EQ(this->scene.picture(), fresh.picture());
+    Scene<vtkOpenGLPolyDataMapper> reference(this->shaded.polydata());
+    reference.mapper->SetScalarVisibility(this->scene.mapper->GetScalarVisibility());
+    reference.actor->SetProperty(this->scene.actor->GetProperty());
+    EXPECT_EQ(this->scene.picture(), reference.picture());
   }
 
   TriangleMesh mesh = test::join(test::cube(), test::sphere(2, 1.0, Vec3(2, 0, 0)));
@@ -81,14 +81,14 @@ protected:
 TEST_F(MovedSurface, TakesTheShortWay)
 {
   const std::vector<unsigned char> at_rest = this->scene.picture();
-  ASSERT_EQ(this->scene.mapper->moves(), 0);
+  ASSERT_EQ(this->scene.mapper->move_count(), 0);
   for (int frame = 1; frame <= 3; ++frame)
   {
     Points moved = this->mesh.points;
     moved.col(0) *= 1.0 + 0.2 * frame;
     this->shaded.move(moved);
     EXPECT_NE(this->scene.picture(), at_rest);
-    EXPECT_EQ(this->scene.mapper->moves(), frame);
+    EXPECT_EQ(this->scene.mapper->move_count(), frame);
     this->expect_right_picture();
   }
 }
@@ -115,7 +115,7 @@ TEST_F(MovedSurface, SeesNewColorsTrianglesAndMaterials)
   this->expect_right_picture();
   this->scene.actor->GetProperty()->SetColor(1.0, 0.0, 0.0);
   this->expect_right_picture();
-  EXPECT_EQ(this->scene.mapper->moves(), 0);
+  EXPECT_EQ(this->scene.mapper->move_count(), 0);
 }
 
 /// Return the fraction of the bytes of two pictures that differ by more than round-off.
@@ -125,12 +125,12 @@ double difference(const std::vector<unsigned char>& a, const std::vector<unsigne
   {
     return 1.0;
   }
-  std::size_t different = 0;
+  std::size_t differing_bytes = 0;
   for (std::size_t k = 0; k < a.size(); ++k)
   {
-    different += std::abs(int(a[k]) - int(b[k])) > 2;
+    differing_bytes += std::abs(int(a[k]) - int(b[k])) > 2;
   }
-  return static_cast<double>(different) / static_cast<double>(a.size());
+  return static_cast<double>(differing_bytes) / static_cast<double>(a.size());
 }
 
 TEST(MovedSurfaceMapper, DrawsShapesOfAnySizeAtTheirPlaceWhileTheyGrow)
@@ -141,12 +141,12 @@ TEST(MovedSurfaceMapper, DrawsShapesOfAnySizeAtTheirPlaceWhileTheyGrow)
     const TriangleMesh mesh = test::sphere(3, 0.5 * size);
     ShadedSurface shaded(to_polydata(mesh.points, mesh.triangles));
     Scene<MovedSurfaceMapper> scene(shaded.polydata());
-    const auto look = [size](vtkCamera* camera)
+    const auto set_camera = [size](vtkCamera* camera)
     {
       camera->SetPosition(size, 0.0, 12.0 * size);
       camera->SetFocalPoint(size, 0.0, 0.0);
     };
-    look(scene.renderer->GetActiveCamera());
+    set_camera(scene.renderer->GetActiveCamera());
     scene.picture();
     for (int frame = 1; frame <= 3; ++frame)
     {
@@ -154,10 +154,10 @@ TEST(MovedSurfaceMapper, DrawsShapesOfAnySizeAtTheirPlaceWhileTheyGrow)
       moved.col(0) *= 1.0 + frame;
       moved.col(0).array() += 0.5 * size * frame;
       shaded.move(moved);
-      Scene<vtkOpenGLPolyDataMapper> fresh(shaded.polydata());
-      look(fresh.renderer->GetActiveCamera());
-      EXPECT_LT(difference(scene.picture(), fresh.picture()), 0.005) << size << ", " << frame;
-      EXPECT_EQ(scene.mapper->moves(), frame) << size;
+      Scene<vtkOpenGLPolyDataMapper> reference(shaded.polydata());
+      set_camera(reference.renderer->GetActiveCamera());
+      EXPECT_LT(difference(scene.picture(), reference.picture()), 0.005) << size << ", " << frame;
+      EXPECT_EQ(scene.mapper->move_count(), frame) << size;
     }
   }
 }
@@ -172,13 +172,13 @@ TEST(MovedSurfaceMapper, AShapeMayBeMovedFarAwayAndBack)
     Points moved = mesh.points;
     moved.col(0).array() += x;
     shaded.move(moved);
-    Scene<vtkOpenGLPolyDataMapper> fresh(shaded.polydata());
-    for (vtkRenderer* renderer : { scene.renderer.Get(), fresh.renderer.Get() })
+    Scene<vtkOpenGLPolyDataMapper> reference(shaded.polydata());
+    for (vtkRenderer* renderer : { scene.renderer.Get(), reference.renderer.Get() })
     {
       renderer->GetActiveCamera()->SetPosition(x, 0.0, 5.0);
       renderer->GetActiveCamera()->SetFocalPoint(x, 0.0, 0.0);
     }
-    EXPECT_LT(difference(scene.picture(), fresh.picture()), 0.005) << x;
+    EXPECT_LT(difference(scene.picture(), reference.picture()), 0.005) << x;
   }
 }
 
@@ -190,18 +190,18 @@ TEST(MovedSurfaceMapper, ShapesFarFromTheOriginKeepTheirPlaces)
   far.rowwise() += Eigen::RowVector3d(1e6, 0, 0);
   ShadedSurface shaded(to_polydata(far, mesh.triangles));
   Scene<MovedSurfaceMapper> scene(shaded.polydata());
-  const auto look = [](vtkCamera* camera)
+  const auto set_camera = [](vtkCamera* camera)
   {
     camera->SetPosition(1e6, 0.0, 5.0);
     camera->SetFocalPoint(1e6, 0.0, 0.0);
   };
-  look(scene.renderer->GetActiveCamera());
+  set_camera(scene.renderer->GetActiveCamera());
   scene.picture();
   far.col(1) *= 0.5;
   shaded.move(far);
-  Scene<vtkOpenGLPolyDataMapper> fresh(shaded.polydata());
-  look(fresh.renderer->GetActiveCamera());
-  EXPECT_EQ(scene.picture(), fresh.picture());
+  Scene<vtkOpenGLPolyDataMapper> reference(shaded.polydata());
+  set_camera(reference.renderer->GetActiveCamera());
+  EXPECT_EQ(scene.picture(), reference.picture());
 }
 
 TEST(MovedSurfaceMapper, BoundsAreThoseOfWhatIsDrawn)

@@ -44,7 +44,7 @@ vtkSmartPointer<vtkPolyData> ball()
   return data;
 }
 
-PictureOptions tiny()
+PictureOptions tiny_options()
 {
   PictureOptions options;
   options.width = 64;
@@ -64,7 +64,7 @@ Status try_to_draw(const std::vector<Tile>& tiles, const PictureOptions& options
 
 TEST(Picture, NamesWhatThereIsWhenAskedForWhatIsNot)
 {
-  PictureOptions options = tiny();
+  PictureOptions options = tiny_options();
   options.array = "Wieghts";
   EXPECT_THAT(try_to_draw({ { ball(), nullptr, "" } }, options).message,
     HasSubstr("no array 'Wieghts'; available: Weights"));
@@ -81,7 +81,7 @@ TEST(Picture, NamesWhatThereIsWhenAskedForWhatIsNot)
 
 TEST(Picture, ReportsWhatIsShown)
 {
-  PictureOptions options = tiny();
+  PictureOptions options = tiny_options();
   options.array = "Weights";
   options.component = "1";
   const Status status = try_to_draw({ { ball(), nullptr, "" } }, options);
@@ -92,7 +92,7 @@ TEST(Picture, ReportsWhatIsShown)
 
 TEST(Picture, RefusesWhatCannotBeDrawn)
 {
-  PictureOptions options = tiny();
+  PictureOptions options = tiny_options();
   EXPECT_EQ(try_to_draw({}, options).code, StatusCode::invalid_input);
   const auto empty = vtkSmartPointer<vtkPolyData>::New();
   EXPECT_THAT(try_to_draw({ { empty, nullptr, "" } }, options).message, HasSubstr("empty"));
@@ -102,13 +102,13 @@ TEST(Picture, RefusesWhatCannotBeDrawn)
   EXPECT_THAT(try_to_draw({ { broken, nullptr, "" } }, options).message, HasSubstr("not finite"));
   options.width = 0;
   EXPECT_THAT(try_to_draw({ { ball(), nullptr, "" } }, options).message, HasSubstr("8192"));
-  options = tiny();
+  options = tiny_options();
   options.view.up = "w";
   EXPECT_THAT(try_to_draw({ { ball(), nullptr, "" } }, options).message, HasSubstr("up"));
-  options = tiny();
+  options = tiny_options();
   options.view.zoom = 0.0;
   EXPECT_THAT(try_to_draw({ { ball(), nullptr, "" } }, options).message, HasSubstr("zoom"));
-  options = tiny();
+  options = tiny_options();
   options.section = 2.0;
   EXPECT_THAT(try_to_draw({ { ball(), nullptr, "" } }, options).message, HasSubstr("section"));
 }
@@ -124,7 +124,7 @@ TEST(Picture, DrawsEveryKindOfData)
     volumes->InsertNextValue(static_cast<double>(t));
   }
   tets->GetCellData()->AddArray(volumes);
-  PictureOptions options = tiny();
+  PictureOptions options = tiny_options();
   options.array = "Volume";
   EXPECT_TRUE(try_to_draw({ { tets, nullptr, "" } }, options).ok());
   options.array = "";
@@ -151,17 +151,17 @@ TEST(Picture, TetsAreColoredByWhatTheyHave)
   const TetMesh box = test::tet_box(2, 2, 2);
   const auto tets = to_unstructured_grid(box.points, box.tets);
   const Tile tile{ tets, nullptr, "" };
-  const auto refused = [&](const PictureOptions& options, const Tile& what)
+  const auto refused = [&](const PictureOptions& options, const Tile& drawn_tile)
   {
-    const Status status = try_to_draw({ what }, options);
+    const Status status = try_to_draw({ drawn_tile }, options);
     EXPECT_EQ(status.code, StatusCode::invalid_input);
     EXPECT_EQ(status.message.find('\n'), std::string::npos);
     return status.message;
   };
-  PictureOptions options = tiny();
+  PictureOptions options = tiny_options();
   options.color_by = ColorBy::label;
   EXPECT_THAT(refused(options, tile), HasSubstr("no cell array 'Label'"));
-  options.color_by = ColorBy::rung;
+  options.color_by = ColorBy::method;
   EXPECT_THAT(refused(options, tile), HasSubstr("no field data array 'Method'"));
   options.color_by = ColorBy::winding_number;
   EXPECT_THAT(refused(options, tile), HasSubstr("no array 'WindingNumber'"));
@@ -180,7 +180,7 @@ TEST(Picture, TetsAreColoredByWhatTheyHave)
     labels->InsertNextValue(t == 7 ? 2 : 1);
   }
   tets->GetCellData()->AddArray(labels);
-  options = tiny();
+  options = tiny_options();
   options.color_by = ColorBy::label;
   const Status labeled = try_to_draw({ tile }, options);
   ASSERT_TRUE(labeled.ok()) << labeled.message;
@@ -196,7 +196,7 @@ TEST(Picture, SectionsAndSizesThatLeaveNothing)
 {
   const TetMesh box = test::tet_box(2, 2, 2);
   const Tile tile{ to_unstructured_grid(box.points, box.tets), nullptr, "" };
-  PictureOptions options = tiny();
+  PictureOptions options = tiny_options();
   options.section_plane = Plane{ Vec3(0, 0, -3), Vec3(0, 0, 1) };
   EXPECT_THAT(try_to_draw({ tile }, options).message, HasSubstr("removes all tets"));
   options.section_plane = Plane{ Vec3(0, 0, 0.5), Vec3(0, 0, 0) };
@@ -209,7 +209,7 @@ TEST(Picture, SectionsAndSizesThatLeaveNothing)
   EXPECT_EQ(half.report.number("picture.tets", -1), box.tets.rows() / 2);
   for (const double size : { 0.0, -1.0, 1.5, std::numeric_limits<double>::quiet_NaN() })
   {
-    options = tiny();
+    options = tiny_options();
     options.shrink = size;
     EXPECT_THAT(try_to_draw({ tile }, options).message, HasSubstr("shrunk"));
   }
@@ -222,7 +222,7 @@ TEST(Picture, FilesAppearWholeOrNotAtAll)
 {
   const test::Folder folder;
   const std::string path = folder / "ball.png";
-  ASSERT_TRUE(render_to_png({ { ball(), nullptr, "" } }, tiny(), path).ok());
+  ASSERT_TRUE(render_to_png({ { ball(), nullptr, "" } }, tiny_options(), path).ok());
   vtkNew<vtkPNGReader> reader;
   reader->SetFileName(path.c_str());
   reader->Update();
@@ -230,11 +230,11 @@ TEST(Picture, FilesAppearWholeOrNotAtAll)
   reader->GetOutput()->GetDimensions(size);
   EXPECT_EQ(size[0], 64);
   EXPECT_EQ(size[1], 48);
-  const Status again = render_to_png({ { ball(), nullptr, "" } }, tiny(), path);
+  const Status again = render_to_png({ { ball(), nullptr, "" } }, tiny_options(), path);
   EXPECT_EQ(again.code, StatusCode::invalid_input);
-  EXPECT_TRUE(render_to_png({ { ball(), nullptr, "" } }, tiny(), path, true).ok());
+  EXPECT_TRUE(render_to_png({ { ball(), nullptr, "" } }, tiny_options(), path, true).ok());
   const Status nowhere =
-    render_to_png({ { ball(), nullptr, "" } }, tiny(), folder / "no/such/ball.png");
+    render_to_png({ { ball(), nullptr, "" } }, tiny_options(), folder / "no/such/ball.png");
   EXPECT_EQ(nowhere.code, StatusCode::invalid_input);
   EXPECT_THAT(nowhere.message, HasSubstr("no/such"));
   EXPECT_EQ(folder.number_of_files(), 1u);

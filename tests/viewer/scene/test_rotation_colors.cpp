@@ -31,8 +31,9 @@ vtkSmartPointer<vtkPolyData> slices(const TriangleMesh& ball, int count)
   clusters->SetName("RotationCluster");
   for (Index v = 0; v < ball.points.rows(); ++v)
   {
-    const double around = std::atan2(ball.points(v, 1), ball.points(v, 0)) / (2.0 * EIGEN_PI) + 0.5;
-    clusters->InsertNextValue(std::min(count - 1, static_cast<int>(around * count)));
+    const double angle_fraction =
+      std::atan2(ball.points(v, 1), ball.points(v, 0)) / (2.0 * EIGEN_PI) + 0.5;
+    clusters->InsertNextValue(std::min(count - 1, static_cast<int>(angle_fraction * count)));
   }
   data->GetPointData()->AddArray(clusters);
   return data;
@@ -53,10 +54,10 @@ TEST(RotationColors, ACellHasTheClusterOfMostOfItsPoints)
     clusters->InsertNextValue(cluster);
   }
   data->GetPointData()->AddArray(clusters);
-  const auto of_cells = clusters_of_cells(data);
-  EXPECT_EQ(of_cells->GetValue(0), 2.0);
-  EXPECT_EQ(of_cells->GetValue(1), 1.0); // the lower of two equally frequent clusters
-  EXPECT_EQ(of_cells->GetValue(2), 1.0); // points without a cluster do not count
+  const auto cell_clusters = clusters_of_cells(data);
+  EXPECT_EQ(cell_clusters->GetValue(0), 2.0);
+  EXPECT_EQ(cell_clusters->GetValue(1), 1.0); // the lower of two equally frequent clusters
+  EXPECT_EQ(cell_clusters->GetValue(2), 1.0); // points without a cluster do not count
   clusters->Fill(-1);
   EXPECT_EQ(clusters_of_cells(data)->GetValue(0), -1.0);
 }

@@ -50,8 +50,8 @@ TEST(ShadedSurface, MovesAsTheInputDoes)
   const TriangleMesh mesh = test::join(test::cube(), test::sphere(2, 1.0, Vec3(3, 0, 0)));
   ShadedSurface surface(to_polydata(mesh.points, mesh.triangles));
   // A rigid motion rotates the normals. It does not change which edges are sharp.
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).matrix();
-  Points moved = mesh.points * turn.transpose();
+  const Eigen::Matrix3d rotation = Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).matrix();
+  Points moved = mesh.points * rotation.transpose();
   moved.rowwise() += Eigen::RowVector3d(5, 6, 7);
   std::vector<Vec3> before;
   for (vtkIdType v = 0; v < surface.polydata()->GetNumberOfPoints(); ++v)
@@ -64,11 +64,11 @@ TEST(ShadedSurface, MovesAsTheInputDoes)
   EXPECT_GT(surface.polydata()->GetMTime(), time);
   for (vtkIdType v = 0; v < surface.polydata()->GetNumberOfPoints(); ++v)
   {
-    const Vec3 place(surface.polydata()->GetPoint(v));
-    EXPECT_EQ(place, moved.row(surface.input_points()[v]).transpose());
+    const Vec3 position(surface.polydata()->GetPoint(v));
+    EXPECT_EQ(position, moved.row(surface.input_points()[v]).transpose());
     Vec3 n;
     surface.polydata()->GetPointData()->GetNormals()->GetTuple(v, n.data());
-    EXPECT_LT((n - turn * before[v]).norm(), 1e-5);
+    EXPECT_LT((n - rotation * before[v]).norm(), 1e-5);
   }
 }
 
@@ -100,7 +100,7 @@ vtkSmartPointer<vtkPolyData> numbered_box(double first)
   return box;
 }
 
-double at(vtkDataSetAttributes* data, const char* name, vtkIdType i)
+double value_at(vtkDataSetAttributes* data, const char* name, vtkIdType i)
 {
   return data->GetArray(name)->GetComponent(i, 0);
 }
@@ -115,13 +115,13 @@ TEST(ShadedSurface, CarriesArraysOfPointsAndCells)
   ASSERT_EQ(drawn->GetNumberOfPolys(), 12);
   for (vtkIdType v = 0; v < 24; ++v)
   {
-    EXPECT_EQ(at(drawn->GetPointData(), "Heights", v), 10.0 + shaded.input_points()[v]);
+    EXPECT_EQ(value_at(drawn->GetPointData(), "Heights", v), 10.0 + shaded.input_points()[v]);
   }
   for (Index t = 0; t < 12; ++t)
   {
     // Find the face of the box that contains the corners of the triangle.
     vtkNew<vtkIdList> corners;
-    const auto side = static_cast<vtkIdType>(at(drawn->GetCellData(), "Sides", t) - 10.0);
+    const auto side = static_cast<vtkIdType>(value_at(drawn->GetCellData(), "Sides", t) - 10.0);
     box->GetCellPoints(side, corners);
     for (int k = 0; k < 3; ++k)
     {
@@ -138,16 +138,16 @@ TEST(ShadedSurface, TakesOtherArraysOfTheSameMeshAndGoesBackToRest)
   const auto other = vtkSmartPointer<vtkPolyData>::New();
   other->CopyStructure(box);
   other->GetPointData()->ShallowCopy(numbered_box(50.0)->GetPointData());
-  EXPECT_TRUE(shaded.is_of(other));
-  EXPECT_FALSE(shaded.is_of(numbered_box(10.0))) << "equal, but not the same";
+  EXPECT_TRUE(shaded.has_mesh_of(other));
+  EXPECT_FALSE(shaded.has_mesh_of(numbered_box(10.0))) << "equal, but not the same";
   const Points larger = 2.0 * to_points(box).view();
   shaded.move(larger);
-  shaded.take(other);
+  shaded.set_arrays(other);
   vtkPolyData* drawn = shaded.polydata();
   EXPECT_FALSE(drawn->GetCellData()->HasArray("Sides"));
   for (vtkIdType v = 0; v < drawn->GetNumberOfPoints(); ++v)
   {
-    EXPECT_EQ(at(drawn->GetPointData(), "Heights", v), 50.0 + shaded.input_points()[v]);
+    EXPECT_EQ(value_at(drawn->GetPointData(), "Heights", v), 50.0 + shaded.input_points()[v]);
     EXPECT_EQ(Vec3(drawn->GetPoint(v)), Vec3(untouched.polydata()->GetPoint(v)));
     EXPECT_EQ(Vec3(drawn->GetPointData()->GetNormals()->GetTuple3(v)),
       Vec3(untouched.polydata()->GetPointData()->GetNormals()->GetTuple3(v)));

@@ -40,19 +40,19 @@ Triangles split_by_vtk(const TriangleMesh& mesh, double angle)
 
 void expect_the_same_split(const TriangleMesh& mesh, double angle)
 {
-  Triangles ours = mesh.triangles;
-  const std::vector<Index> originals = split_sharp_edges(mesh.points, angle, ours);
+  Triangles our_split = mesh.triangles;
+  const std::vector<Index> originals = split_sharp_edges(mesh.points, angle, our_split);
   EXPECT_TRUE(std::is_sorted(originals.begin(), originals.end()));
-  const Triangles theirs = split_by_vtk(mesh, angle);
-  std::map<Index, Index> their_id, our_id; // a one-to-one map between the new vertices
-  for (Index k = 0; k < ours.size(); ++k)
+  const Triangles vtk_split = split_by_vtk(mesh, angle);
+  std::map<Index, Index> vtk_vertex_of, our_vertex_of; // a one-to-one map between the new vertices
+  for (Index k = 0; k < our_split.size(); ++k)
   {
-    const Index a = ours.data()[k], b = theirs.data()[k];
+    const Index a = our_split.data()[k], b = vtk_split.data()[k];
     EXPECT_EQ(originals[a], mesh.triangles.data()[k]);
-    EXPECT_EQ(their_id.insert({ a, b }).first->second, b) << "corner " << k;
-    EXPECT_EQ(our_id.insert({ b, a }).first->second, a) << "corner " << k;
+    EXPECT_EQ(vtk_vertex_of.insert({ a, b }).first->second, b) << "corner " << k;
+    EXPECT_EQ(our_vertex_of.insert({ b, a }).first->second, a) << "corner " << k;
   }
-  EXPECT_EQ(our_id.size(), originals.size()) << "unused vertices are dropped";
+  EXPECT_EQ(our_vertex_of.size(), originals.size()) << "unused vertices are dropped";
 }
 } // namespace
 

@@ -28,7 +28,7 @@ using namespace bindpose;
 
 namespace
 {
-std::vector<Silhouette::Edge> found(const TriangleMesh& mesh, const Eye& eye)
+std::vector<Silhouette::Edge> silhouette_edges(const TriangleMesh& mesh, const Eye& eye)
 {
   Silhouette silhouette(mesh.points, mesh.triangles);
   std::vector<Silhouette::Edge> edges;
@@ -47,11 +47,11 @@ std::set<std::pair<Index, Index>> as_set(const std::vector<Silhouette::Edge>& ed
   return result;
 }
 
-bool faces(const TriangleMesh& mesh, Index t, const Eye& eye)
+bool faces_eye(const TriangleMesh& mesh, Index t, const Eye& eye)
 {
   const auto corner = [&](int k) { return Vec3(mesh.points.row(mesh.triangles(t, k))); };
   const Vec3 normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
-  return normal.dot(eye.parallel ? Vec3(-eye.direction) : Vec3(eye.place - corner(0))) >= 0.0;
+  return normal.dot(eye.parallel ? Vec3(-eye.direction) : Vec3(eye.position - corner(0))) >= 0.0;
 }
 
 /// Return the silhouette of a consistently oriented surface with two triangles per edge, by brute
@@ -64,7 +64,7 @@ std::set<std::pair<Index, Index>> brute_force_silhouette(const TriangleMesh& mes
     for (int k = 0; k < 3; ++k)
     {
       const Index a = mesh.triangles(t, k), b = mesh.triangles(t, (k + 1) % 3);
-      facing[{ std::min(a, b), std::max(a, b) }].insert(faces(mesh, t, eye));
+      facing[{ std::min(a, b), std::max(a, b) }].insert(faces_eye(mesh, t, eye));
     }
   }
   std::set<std::pair<Index, Index>> result;
@@ -78,10 +78,10 @@ std::set<std::pair<Index, Index>> brute_force_silhouette(const TriangleMesh& mes
   return result;
 }
 
-Eye from(const Vec3& place)
+Eye eye_at(const Vec3& position)
 {
   Eye eye;
-  eye.place = place;
+  eye.position = position;
   return eye;
 }
 } // namespace
@@ -90,7 +90,7 @@ TEST(Silhouette, OfASphereIsTheCircleThatTheEyeSees)
 {
   const TriangleMesh ball = test::sphere(5);
   const double distance = 3.0;
-  const auto edges = found(ball, from(Vec3(0, 0, distance)));
+  const auto edges = silhouette_edges(ball, eye_at(Vec3(0, 0, distance)));
   ASSERT_FALSE(edges.empty());
   double length = 0.0;
   for (const Silhouette::Edge& edge : edges)
@@ -112,37 +112,37 @@ TEST(Silhouette, IsThatOfATwin)
   const TriangleMesh ring = test::torus(40, 20, 1.0, 0.4);
   for (int k = 0; k < 20; ++k)
   {
-    const Eye eye = from(Vec3(3.0 * std::cos(k), 2.0 * std::sin(2.0 * k), 0.3 * k - 3.0));
-    EXPECT_EQ(as_set(found(ring, eye)), brute_force_silhouette(ring, eye)) << k;
+    const Eye eye = eye_at(Vec3(3.0 * std::cos(k), 2.0 * std::sin(2.0 * k), 0.3 * k - 3.0));
+    EXPECT_EQ(as_set(silhouette_edges(ring, eye)), brute_force_silhouette(ring, eye)) << k;
   }
   Eye along;
   along.parallel = true;
   along.direction = Vec3(0.3, -0.5, -0.8).normalized();
-  const auto edges = as_set(found(ring, along));
+  const auto edges = as_set(silhouette_edges(ring, along));
   EXPECT_EQ(edges, brute_force_silhouette(ring, along));
-  along.place = Vec3(100, 100, 100); // in a parallel view the position has no effect
-  EXPECT_EQ(as_set(found(ring, along)), edges);
+  along.position = Vec3(100, 100, 100); // in a parallel view the position has no effect
+  EXPECT_EQ(as_set(silhouette_edges(ring, along)), edges);
 }
 
 TEST(Silhouette, DoesNotDependOnHowTrianglesAreTurnedOrParted)
 {
   const TriangleMesh ring = test::torus(40, 20, 1.0, 0.4);
-  const Eye eye = from(Vec3(2.0, -3.0, 1.5));
-  const auto expected = as_set(found(ring, eye));
+  const Eye eye = eye_at(Vec3(2.0, -3.0, 1.5));
+  const auto expected = as_set(silhouette_edges(ring, eye));
   TriangleMesh turned = ring;
   for (Index t = 0; t < turned.triangles.rows(); t += 3)
   {
     std::swap(turned.triangles(t, 0), turned.triangles(t, 1));
   }
-  EXPECT_EQ(as_set(found(turned, eye)), expected);
+  EXPECT_EQ(as_set(silhouette_edges(turned, eye)), expected);
   const TriangleMesh soup = test::unwelded(ring);
-  EXPECT_EQ(found(soup, eye).size(), expected.size());
+  EXPECT_EQ(silhouette_edges(soup, eye).size(), expected.size());
 }
 
 TEST(Silhouette, OpenEdgesAreAlwaysThere)
 {
   const TriangleMesh sheet = test::grid(4, 3);
-  const auto edges = found(sheet, from(Vec3(0.3, 0.2, 5.0)));
+  const auto edges = silhouette_edges(sheet, eye_at(Vec3(0.3, 0.2, 5.0)));
   // The silhouette consists of all boundary edges of the sheet.
   EXPECT_EQ(edges.size(), 14u);
   Silhouette nothing(Points(0, 3), Triangles(0, 3));
@@ -153,7 +153,7 @@ TEST(Silhouette, OpenEdgesAreAlwaysThere)
   TriangleMesh bad = sheet;
   bad.triangles.conservativeResize(bad.triangles.rows() + 2, 3);
   bad.triangles.bottomRows(2) << 0, 0, 1, 0, 1, 7;
-  EXPECT_GE(found(bad, from(Vec3(0.3, 0.2, 5.0))).size(), 14u);
+  EXPECT_GE(silhouette_edges(bad, eye_at(Vec3(0.3, 0.2, 5.0))).size(), 14u);
 }
 
 TEST(Outline, FollowsShapeAndView)
@@ -195,7 +195,7 @@ TEST(Silhouette, IsCheap)
   constexpr int times = 20;
   for (int k = 0; k < times; ++k)
   {
-    silhouette.find(ring.points, from(Vec3(3, 0.1 * k, 2)), edges);
+    silhouette.find(ring.points, eye_at(Vec3(3, 0.1 * k, 2)), edges);
   }
   const auto end = std::chrono::steady_clock::now();
   const std::chrono::duration<double, std::milli> first = made - start, each = end - made;

@@ -61,9 +61,9 @@ TEST(TetCut, SidesAreTheBoundaryOfTheKeptTets)
     Index count = 0;
     for (Index t = 0; t < mesh.tets.rows(); ++t)
     {
-      const bool stays = (center_of(mesh, t) - origin).dot(normal) <= 0.0;
-      EXPECT_EQ(cut.kept()[t], stays);
-      if (stays)
+      const bool is_kept = (center_of(mesh, t) - origin).dot(normal) <= 0.0;
+      EXPECT_EQ(cut.kept()[t], is_kept);
+      if (is_kept)
       {
         kept.row(count++) = mesh.tets.row(t);
       }
@@ -72,15 +72,15 @@ TEST(TetCut, SidesAreTheBoundaryOfTheKeptTets)
     kept.conservativeResize(count, 4);
     // The outside facets and the exposed facets together are exactly the boundary of the remaining
     // tets, oriented outward.
-    Triangles all(cut.outside().triangles.rows() + cut.exposed_faces().triangles.rows(), 3);
-    all << cut.outside().triangles, cut.exposed_faces().triangles;
+    Triangles all(cut.boundary_faces().triangles.rows() + cut.exposed_faces().triangles.rows(), 3);
+    all << cut.boundary_faces().triangles, cut.exposed_faces().triangles;
     EXPECT_EQ(sorted(all), sorted(boundary_triangles(kept)));
     const auto whole = sorted(boundary_triangles(mesh.tets));
-    for (const auto& side : sorted(cut.outside().triangles))
+    for (const auto& side : sorted(cut.boundary_faces().triangles))
     {
       EXPECT_TRUE(std::binary_search(whole.begin(), whole.end(), side));
     }
-    for (const auto* sides : { &cut.outside(), &cut.exposed_faces() })
+    for (const auto* sides : { &cut.boundary_faces(), &cut.exposed_faces() })
     {
       for (Index s = 0; s < sides->triangles.rows(); ++s)
       {
@@ -102,10 +102,10 @@ TEST(TetCut, NothingIsLeftBeforeTheFirstCenter)
 {
   const TetMesh mesh = test::tet_box(2, 2, 2);
   TetCut cut(mesh.points, mesh.tets);
-  const auto [first, last] = cut.reach(Vec3::UnitX());
+  const auto [first, last] = cut.center_range(Vec3::UnitX());
   cut.keep_behind(Vec3(first - 1e-9, 0, 0), Vec3::UnitX());
   EXPECT_EQ(cut.kept_count(), 0);
-  EXPECT_EQ(cut.outside().triangles.rows() + cut.exposed_faces().triangles.rows(), 0);
+  EXPECT_EQ(cut.boundary_faces().triangles.rows() + cut.exposed_faces().triangles.rows(), 0);
   cut.keep_behind(Vec3(last + 1e-9, 0, 0), Vec3::UnitX());
   EXPECT_EQ(cut.kept_count(), mesh.tets.rows());
 }

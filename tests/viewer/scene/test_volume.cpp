@@ -97,9 +97,9 @@ TEST(Volume, AnIsosurfaceHasTheAreaAndTheNormalsOfItsSphere)
     ASSERT_NE(normals, nullptr);
     for (vtkIdType v = 0; v < surface->GetNumberOfPoints(); ++v)
     {
-      const Vec3 place(surface->GetPoint(v));
-      EXPECT_NEAR(place.norm(), radius, 0.005);
-      EXPECT_GT(std::abs(place.normalized().dot(Vec3(normals->GetTuple3(v)))), 0.99);
+      const Vec3 position(surface->GetPoint(v));
+      EXPECT_NEAR(position.norm(), radius, 0.005);
+      EXPECT_GT(std::abs(position.normalized().dot(Vec3(normals->GetTuple3(v)))), 0.99);
     }
   }
   EXPECT_EQ(isosurface(image, name, 7.0)->GetNumberOfPolys(), 0);
@@ -118,9 +118,9 @@ TEST(Volume, ASliceLiesInItsPlaneAndCarriesTheField)
     ASSERT_NE(values, nullptr);
     for (vtkIdType v = 0; v < cut->GetNumberOfPoints(); ++v)
     {
-      const Vec3 place(cut->GetPoint(v));
-      EXPECT_NEAR((place - origin).dot(normal), 0.0, 1e-5);
-      EXPECT_NEAR(values->GetComponent(v, 0), linear(place), 1e-6);
+      const Vec3 position(cut->GetPoint(v));
+      EXPECT_NEAR((position - origin).dot(normal), 0.0, 1e-5);
+      EXPECT_NEAR(values->GetComponent(v, 0), linear(position), 1e-6);
     }
   }
   EXPECT_NEAR(surface_area(slice(image, name, Vec3(0, 0, 0.23), Vec3(0, 0, 1))), 9.0, 1e-6);
@@ -131,10 +131,11 @@ TEST(Volume, AValueBetweenSamplesIsLinearInEachDirection)
   const auto product = [](const Vec3& p) { return 1.0 + p.x() * p.y() - 2.0 * p.z() * p.x(); };
   const auto image = field(31, 31, 31, product);
   double value = 0.0;
-  for (const Vec3& place : { Vec3(0.123, 0.456, -0.789), Vec3(1.5, 1.5, 1.5), Vec3(-1.5, 0.01, 0) })
+  for (const Vec3& position :
+    { Vec3(0.123, 0.456, -0.789), Vec3(1.5, 1.5, 1.5), Vec3(-1.5, 0.01, 0) })
   {
-    ASSERT_TRUE(value_at(image, name, place, value));
-    EXPECT_NEAR(value, product(place), 1e-12);
+    ASSERT_TRUE(value_at(image, name, position, value));
+    EXPECT_NEAR(value, product(position), 1e-12);
   }
   EXPECT_FALSE(value_at(image, name, Vec3(1.51, 0, 0), value));
 }
@@ -187,10 +188,10 @@ TEST(Volume, TheOutsideIsClearAndWhatIsWrongIsNot)
     // 3 % of the light is absorbed per unit of length, for any spacing of the grid.
     EXPECT_NEAR(std::pow(1.0 - inside, 1.0 / step), 0.97, 1e-12);
     EXPECT_NEAR(winding_opacity(0.5, step), 0.6, 1e-12);
-    for (const double wrong : { -1.0, 2.0 })
+    for (const double wrong_number : { -1.0, 2.0 })
     {
-      EXPECT_GT(winding_opacity(wrong, step), 4.0 * inside);
-      EXPECT_EQ(winding_opacity(wrong, step), winding_opacity(7.0 * wrong, step));
+      EXPECT_GT(winding_opacity(wrong_number, step), 4.0 * inside);
+      EXPECT_EQ(winding_opacity(wrong_number, step), winding_opacity(7.0 * wrong_number, step));
     }
     // The opacity has no jump that would be visible as an edge.
     for (double w = -1.0; w < 2.0; w += 0.001)

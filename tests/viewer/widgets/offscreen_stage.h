@@ -28,7 +28,7 @@
 namespace bindpose::test
 {
 
-constexpr double pixel = 0.0134; // world length of a pixel at z = 0: 2 * 10 * tan(15°) / 400
+constexpr double pixel_length = 0.0134; // world length of a pixel at z = 0: 2 * 10 * tan(15°) / 400
 
 // A window of 400 x 400 pixels whose camera looks along -z from a distance of 10.
 class OffscreenStage
@@ -54,11 +54,12 @@ public:
   }
 
   /// Enable the widget and count its events.
-  void put_on(vtkInteractorObserver* observer, std::initializer_list<unsigned long> counted)
+  void enable_and_count(
+    vtkInteractorObserver* observer, std::initializer_list<unsigned long> counted_events)
   {
     observer->SetEnabled(1);
     this->window->Render();
-    for (const unsigned long event : counted)
+    for (const unsigned long event : counted_events)
     {
       observer->AddObserver(event, this->counter);
     }
@@ -70,10 +71,10 @@ public:
     this->renderer->WorldToDisplay();
     return Eigen::Vector2d(this->renderer->GetDisplayPoint());
   }
-  void send(unsigned long event, const Eigen::Vector2d& at)
+  void send(unsigned long event, const Eigen::Vector2d& position)
   {
-    this->interactor->SetEventInformation(static_cast<int>(std::lround(at[0])),
-      static_cast<int>(std::lround(at[1])), this->control, this->shift);
+    this->interactor->SetEventInformation(static_cast<int>(std::lround(position[0])),
+      static_cast<int>(std::lround(position[1])), this->control, this->shift);
     this->interactor->SetAltKey(this->alt);
     this->interactor->InvokeEvent(event);
   }
@@ -97,7 +98,7 @@ public:
     this->release(to);
   }
   /// Set which modifier keys are held down during the next mouse events.
-  void hold(bool with_shift, bool with_control = false, bool with_alt = false)
+  void set_modifiers(bool with_shift, bool with_control = false, bool with_alt = false)
   {
     this->shift = with_shift;
     this->control = with_control;
@@ -137,7 +138,7 @@ public:
 };
 
 /// Save a picture for inspection, if the environment variable BINDPOSE_PICTURES contains a folder.
-inline void keep(vtkImageData* image, const std::string& name)
+inline void save_picture(vtkImageData* image, const std::string& name)
 {
   if (const char* folder = std::getenv("BINDPOSE_PICTURES"))
   {

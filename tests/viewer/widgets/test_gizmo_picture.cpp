@@ -14,13 +14,13 @@ using namespace bindpose::test;
 
 namespace
 {
-Vec3 pixel_of(vtkImageData* image, const Eigen::Vector2d& at)
+Vec3 pixel_of(vtkImageData* image, const Eigen::Vector2d& position)
 {
   Vec3 color;
   for (int k = 0; k < 3; ++k)
   {
     color[k] = image->GetScalarComponentAsDouble(
-      static_cast<int>(std::lround(at[0])), static_cast<int>(std::lround(at[1])), 0, k);
+      static_cast<int>(std::lround(position[0])), static_cast<int>(std::lround(position[1])), 0, k);
   }
   return color;
 }
@@ -62,60 +62,62 @@ const Handles lone = { point("p", Vec3(0, 0, 0)) };
 
 TEST(GizmoPicture, EveryGizmoAtOneAndTwoPixels)
 {
-  const std::pair<int, const char*> gizmos[4] = { { Widget::GIZMO_MOVE, "move" },
-    { Widget::GIZMO_TURN, "turn" }, { Widget::GIZMO_SCALE, "scale" },
-    { Widget::GIZMO_ALL, "all" } };
+  const std::pair<int, const char*> gizmos[4] = { { Representation::GIZMO_MOVE, "move" },
+    { Representation::GIZMO_TURN, "turn" }, { Representation::GIZMO_SCALE, "scale" },
+    { Representation::GIZMO_ALL, "all" } };
   for (const auto& [gizmo, name] : gizmos)
   {
-    for (const bool bony : { false, true })
+    for (const bool is_bone : { false, true })
     {
-      int drawn[2];
+      int pixel_counts[2];
       for (const int scale : { 1, 2 })
       {
-        PictureStage stage(bony ? arm : lone, gizmo, scale);
+        PictureStage stage(is_bone ? arm : lone, gizmo, scale);
         const auto image = stage.picture();
-        keep(image, std::string(name) + (bony ? "-bone" : "-point") + "@" + std::to_string(scale));
-        drawn[scale - 1] = drawn_pixels(image);
+        save_picture(
+          image, std::string(name) + (is_bone ? "-bone" : "-point") + "@" + std::to_string(scale));
+        pixel_counts[scale - 1] = drawn_pixels(image);
       }
-      EXPECT_GT(drawn[0], 2000) << name;
-      EXPECT_NEAR(static_cast<double>(drawn[1]) / drawn[0], 4.0, 0.25) << name;
+      EXPECT_GT(pixel_counts[0], 2000) << name;
+      EXPECT_NEAR(static_cast<double>(pixel_counts[1]) / pixel_counts[0], 4.0, 0.25) << name;
     }
   }
 }
 
 TEST(GizmoPicture, WhatTheMouseIsOnIsLighterAndLarger)
 {
-  PictureStage stage(lone, Widget::GIZMO_MOVE);
+  PictureStage stage(lone, Representation::GIZMO_MOVE);
   const auto before = stage.picture();
-  const Eigen::Vector2d plate = stage.grip(Widget::MOVE_XY);
+  const Eigen::Vector2d plate = stage.grip(Representation::MOVE_XY);
   stage.send(vtkCommand::MouseMoveEvent, plate);
   const auto after = stage.picture();
-  keep(after, "hover-plate");
+  save_picture(after, "hover-plate");
   EXPECT_GT(pixel_of(after, plate).sum(), pixel_of(before, plate).sum() + 60.0);
   EXPECT_GT(drawn_pixels(after), drawn_pixels(before));
 }
 
 TEST(GizmoPicture, ADragShowsWhatItIsHeldTo)
 {
-  PictureStage stage(arm, Widget::GIZMO_TURN);
-  const Eigen::Vector2d from = stage.grip(Widget::TURN_Y);
+  PictureStage stage(arm, Representation::GIZMO_TURN);
+  const Eigen::Vector2d from = stage.grip(Representation::TURN_Y);
   stage.send(vtkCommand::MouseMoveEvent, from);
   stage.send(vtkCommand::LeftButtonPressEvent, from);
   stage.send(vtkCommand::MouseMoveEvent, from + Eigen::Vector2d(45, 10));
-  keep(stage.picture(), "drag-turn");
+  save_picture(stage.picture(), "drag-turn");
   stage.escape();
 
-  PictureStage moving(lone, Widget::GIZMO_NONE);
-  const int ball = drawn_pixels(moving.picture());
+  PictureStage moving(lone, Representation::GIZMO_NONE);
+  const int ball_pixels = drawn_pixels(moving.picture());
   moving.key("g");
   moving.send(vtkCommand::MouseMoveEvent, Eigen::Vector2d(220, 230));
   moving.key("x");
-  const auto held = moving.picture();
-  keep(held, "drag-axis");
-  EXPECT_GT(drawn_pixels(held), ball + 300) << "a line along x through the whole window";
+  const auto constrained_picture = moving.picture();
+  save_picture(constrained_picture, "drag-axis");
+  EXPECT_GT(drawn_pixels(constrained_picture), ball_pixels + 300)
+    << "a line along x through the whole window";
   moving.escape();
   moving.send(vtkCommand::MouseMoveEvent, Eigen::Vector2d(1, 1));
-  EXPECT_NEAR(drawn_pixels(moving.picture()), ball, 5);
+  EXPECT_NEAR(drawn_pixels(moving.picture()), ball_pixels, 5);
 }
 
 TEST(GizmoPicture, ManyHandlesAreTwoActors)
@@ -126,8 +128,8 @@ TEST(GizmoPicture, ManyHandlesAreTwoActors)
     handles.push_back(
       point("p" + std::to_string(i), Vec3(0.1 * (i % 25) - 1.2, 0.12 * (i / 25) - 1.1, 0)));
   }
-  PictureStage stage(handles, Widget::GIZMO_ALL);
-  keep(stage.picture(), "many");
+  PictureStage stage(handles, Representation::GIZMO_ALL);
+  save_picture(stage.picture(), "many");
   EXPECT_EQ(stage.renderer->GetActors()->GetNumberOfItems(), 0)
     << "the representation draws by itself";
   EXPECT_EQ(stage.renderer->GetViewProps()->GetNumberOfItems(), 1);
@@ -136,22 +138,22 @@ TEST(GizmoPicture, ManyHandlesAreTwoActors)
 TEST(GizmoPicture, AxesAreToldApartByAllEyes)
 {
   // Test each type of color blindness (Machado, Oliveira and Fernandes 2009, severity 1).
-  Eigen::Matrix3d eyes[4];
-  eyes[0].setIdentity();
-  eyes[1] << 0.152286, 1.052583, -0.204868, 0.114503, 0.786281, 0.099216, -0.003882, -0.048116,
-    1.051998;
-  eyes[2] << 0.367322, 0.860646, -0.227968, 0.280085, 0.672501, 0.047413, -0.011820, 0.042940,
-    0.968881;
-  eyes[3] << 1.255528, -0.076749, -0.178779, -0.078411, 0.930809, 0.147602, 0.004733, 0.691367,
-    0.303900;
-  const auto seen = [](const Eigen::Matrix3d& eye, const Color& color)
+  Eigen::Matrix3d vision_matrices[4];
+  vision_matrices[0].setIdentity();
+  vision_matrices[1] << 0.152286, 1.052583, -0.204868, 0.114503, 0.786281, 0.099216, -0.003882,
+    -0.048116, 1.051998;
+  vision_matrices[2] << 0.367322, 0.860646, -0.227968, 0.280085, 0.672501, 0.047413, -0.011820,
+    0.042940, 0.968881;
+  vision_matrices[3] << 1.255528, -0.076749, -0.178779, -0.078411, 0.930809, 0.147602, 0.004733,
+    0.691367, 0.303900;
+  const auto perceived_lab = [](const Eigen::Matrix3d& vision_matrix, const Color& color)
   {
     Vec3 light;
     for (int k = 0; k < 3; ++k)
     {
       light[k] = color[k] <= 0.04045 ? color[k] / 12.92 : std::pow((color[k] + 0.055) / 1.055, 2.4);
     }
-    light = (eye * light).cwiseMax(0.0).cwiseMin(1.0);
+    light = (vision_matrix * light).cwiseMax(0.0).cwiseMin(1.0);
     for (double& c : light)
     {
       c = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1.0 / 2.4) - 0.055;
@@ -161,11 +163,12 @@ TEST(GizmoPicture, AxesAreToldApartByAllEyes)
     return lab;
   };
   const GizmoSetup setup;
-  for (const Eigen::Matrix3d& eye : eyes)
+  for (const Eigen::Matrix3d& vision_matrix : vision_matrices)
   {
     for (int k = 0; k < 3; ++k)
     {
-      const Vec3 difference = seen(eye, setup.axes[k]) - seen(eye, setup.axes[(k + 1) % 3]);
+      const Vec3 difference = perceived_lab(vision_matrix, setup.axes[k]) -
+        perceived_lab(vision_matrix, setup.axes[(k + 1) % 3]);
       EXPECT_GT(difference.norm(), 25.0) << k;
     }
   }
@@ -173,26 +176,26 @@ TEST(GizmoPicture, AxesAreToldApartByAllEyes)
 
 TEST(GizmoPicture, EditModesShowWhatAClickWouldMake)
 {
-  PictureStage stage(arm, Widget::GIZMO_ALL);
+  PictureStage stage(arm, Representation::GIZMO_ALL);
   const auto posed = stage.picture();
-  stage.widget->SetEditMode(Widget::ADD_BONES);
-  const int rest = drawn_pixels(stage.picture());
-  EXPECT_LT(rest, drawn_pixels(posed)) << "no gizmo";
+  stage.widget->SetEditMode(Representation::ADD_BONES);
+  const int rest_pixels = drawn_pixels(stage.picture());
+  EXPECT_LT(rest_pixels, drawn_pixels(posed)) << "no gizmo";
   stage.press(stage.tail(0));
   stage.move(Vec3(0.3, 1.3, 0));
   const auto drawing = stage.picture();
-  keep(drawing, "add-bone");
-  EXPECT_GT(drawn_pixels(drawing), rest + 400);
+  save_picture(drawing, "add-bone");
+  EXPECT_GT(drawn_pixels(drawing), rest_pixels + 400);
   stage.release(Vec3(0.3, 1.3, 0));
-  stage.widget->SetEditMode(Widget::ADD_CAGE);
-  for (const Vec3& at : { Vec3(-1.5, -1.2, 0), Vec3(1.3, -1.2, 0), Vec3(1.3, 1.2, 0) })
+  stage.widget->SetEditMode(Representation::ADD_CAGE);
+  for (const Vec3& position : { Vec3(-1.5, -1.2, 0), Vec3(1.3, -1.2, 0), Vec3(1.3, 1.2, 0) })
   {
-    stage.press(at);
-    stage.release(at);
+    stage.press(position);
+    stage.release(position);
   }
-  stage.hold(false, true);
+  stage.set_modifiers(false, true);
   stage.move(Vec3(-1.5, -1.2, 0));
-  keep(stage.picture(), "add-cage-snapped");
+  save_picture(stage.picture(), "add-cage-snapped");
 }
 
 TEST(GizmoPicture, FiveHundredHandlesAreBuiltQuickly)
@@ -203,7 +206,7 @@ TEST(GizmoPicture, FiveHundredHandlesAreBuiltQuickly)
     handles.push_back(
       point("p" + std::to_string(i), Vec3(0.1 * (i % 25) - 1.2, 0.12 * (i / 25) - 1.1, 0)));
   }
-  PictureStage stage(handles, Widget::GIZMO_MOVE);
+  PictureStage stage(handles, Representation::GIZMO_MOVE);
   double best = 1e9;
   for (int round = 0; round < 5; ++round)
   {

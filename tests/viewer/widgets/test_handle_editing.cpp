@@ -48,12 +48,13 @@ public:
   vtkSmartPointer<vtkPolyData> surface;
 };
 
-const double shot = 2.5 * pixel; // tolerance for one pixel and for the facets of the ball
+const double position_tolerance =
+  2.5 * pixel_length; // tolerance for one pixel and for the facets of the ball
 } // namespace
 
 TEST(HandleEditing, PointsGoToMidThickness)
 {
-  EditStage stage(Widget::ADD_POINTS);
+  EditStage stage(Representation::ADD_POINTS);
   stage.click(Vec3(0.3, 0.2, 0));
   Handles handles = stage.list();
   ASSERT_EQ(handles.size(), 1u);
@@ -83,7 +84,7 @@ TEST(HandleEditing, PointsGoToMidThickness)
 
 TEST(HandleEditing, BesideTheSurfaceTheCameraHasTheMouse)
 {
-  EditStage stage(Widget::ADD_POINTS);
+  EditStage stage(Representation::ADD_POINTS);
   const Vec3 before(stage.renderer->GetActiveCamera()->GetPosition());
   stage.drag(Vec3(-1.8, -1.8, 0), Vec3(-1.2, -1.8, 0));
   EXPECT_GT((Vec3(stage.renderer->GetActiveCamera()->GetPosition()) - before).norm(), 0.1);
@@ -92,7 +93,7 @@ TEST(HandleEditing, BesideTheSurfaceTheCameraHasTheMouse)
 
 TEST(HandleEditing, APointIsWhereTheButtonIsReleasedAndEscapeMakesNone)
 {
-  EditStage stage(Widget::ADD_POINTS);
+  EditStage stage(Representation::ADD_POINTS);
   stage.drag(Vec3(-0.5, 0, 0), Vec3(0.5, 0, 0));
   ASSERT_EQ(stage.list().size(), 1u);
   EXPECT_GT(stage.list()[0].head[0], 0.4);
@@ -102,15 +103,16 @@ TEST(HandleEditing, APointIsWhereTheButtonIsReleasedAndEscapeMakesNone)
   EXPECT_TRUE(stage.widget->GetCanceled());
   stage.release(Vec3(0, 0.4, 0));
   EXPECT_EQ(stage.list().size(), 1u);
-  EXPECT_EQ(stage.widget->GetEditMode(), Widget::ADD_POINTS) << "only the placing is canceled";
+  EXPECT_EQ(stage.widget->GetEditMode(), Representation::ADD_POINTS)
+    << "only the placing is canceled";
   stage.escape();
-  EXPECT_EQ(stage.widget->GetEditMode(), Widget::POSE);
+  EXPECT_EQ(stage.widget->GetEditMode(), Representation::POSE);
   EXPECT_EQ(stage.events[vtkCommand::StateChangedEvent], 1);
 }
 
 TEST(HandleEditing, TwoPointsAtOnePlaceAreRefused)
 {
-  EditStage stage(Widget::ADD_POINTS);
+  EditStage stage(Representation::ADD_POINTS);
   stage.click(Vec3(0.3, 0.2, 0));
   stage.click(Vec3(0.3, 0.2, 0));
   EXPECT_EQ(stage.list().size(), 1u);
@@ -123,21 +125,21 @@ TEST(HandleEditing, TwoPointsAtOnePlaceAreRefused)
 
 TEST(HandleEditing, CtrlSnapsToVerticesOfTheSurface)
 {
-  EditStage stage(Widget::ADD_POINTS);
-  stage.hold(false, true);
+  EditStage stage(Representation::ADD_POINTS);
+  stage.set_modifiers(false, true);
   stage.click(Vec3(0.31, 0.22, 0));
-  const Vec3 place = stage.list()[0].head;
+  const Vec3 head_position = stage.list()[0].head;
   double nearest = 1.0;
   for (vtkIdType v = 0; v < stage.surface->GetNumberOfPoints(); ++v)
   {
-    nearest = std::min(nearest, (Vec3(stage.surface->GetPoint(v)) - place).norm());
+    nearest = std::min(nearest, (Vec3(stage.surface->GetPoint(v)) - head_position).norm());
   }
   EXPECT_EQ(nearest, 0.0);
 }
 
 TEST(HandleEditing, BonesAreDrawnAndContinueChains)
 {
-  EditStage stage(Widget::ADD_BONES);
+  EditStage stage(Representation::ADD_BONES);
   stage.drag(Vec3(-0.6, 0, 0), Vec3(0, 0.1, 0));
   Handles handles = stage.list();
   ASSERT_EQ(handles.size(), 1u);
@@ -149,12 +151,12 @@ TEST(HandleEditing, BonesAreDrawnAndContinueChains)
   // The next drag begins near the tail, so the head of the child is exactly at the tail. The drag
   // ends outside of the shape, so the tail of the child has the same depth as its head.
   const Vec3 tail = handles[0].tail;
-  stage.drag(tail + Vec3(2 * pixel, 0, 0), Vec3(1.6, 0.4, tail[2]));
+  stage.drag(tail + Vec3(2 * pixel_length, 0, 0), Vec3(1.6, 0.4, tail[2]));
   handles = stage.list();
   ASSERT_EQ(handles.size(), 2u);
   EXPECT_EQ(handles[1].parent, 0);
   EXPECT_EQ(handles[1].head, tail);
-  EXPECT_LT((handles[1].tail - Vec3(1.6, 0.4, tail[2])).norm(), shot);
+  EXPECT_LT((handles[1].tail - Vec3(1.6, 0.4, tail[2])).norm(), position_tolerance);
   // Add a second child at the joint, and a child at the head of the root.
   stage.drag(tail, Vec3(0, -0.6, 0));
   stage.drag(handles[0].head, Vec3(-0.6, 0.5, 0));
@@ -173,15 +175,15 @@ TEST(HandleEditing, BonesAreDrawnAndContinueChains)
 
 TEST(HandleEditing, ATailSnapsToOtherEndsWithCtrl)
 {
-  EditStage stage(Widget::ADD_BONES, { point("p", Vec3(0.4, 0.4, 0.3)) });
-  stage.hold(false, true);
+  EditStage stage(Representation::ADD_BONES, { point("p", Vec3(0.4, 0.4, 0.3)) });
+  stage.set_modifiers(false, true);
   stage.press(Vec3(-0.4, 0, 0));
-  stage.hold(false, false);
+  stage.set_modifiers(false, false);
   stage.release(Vec3(-0.4, 0, 0)); // a click does not add a bone
   stage.press(Vec3(-0.4, 0, 0));
-  stage.hold(false, true);
-  stage.move(Vec3(0.4, 0.4, 0.3) + Vec3(3 * pixel, 0, 0));
-  stage.release(Vec3(0.4, 0.4, 0.3) + Vec3(3 * pixel, 0, 0));
+  stage.set_modifiers(false, true);
+  stage.move(Vec3(0.4, 0.4, 0.3) + Vec3(3 * pixel_length, 0, 0));
+  stage.release(Vec3(0.4, 0.4, 0.3) + Vec3(3 * pixel_length, 0, 0));
   ASSERT_EQ(stage.list().size(), 2u);
   EXPECT_EQ(stage.list()[1].tail, Vec3(0.4, 0.4, 0.3));
 }
@@ -189,23 +191,23 @@ TEST(HandleEditing, ATailSnapsToOtherEndsWithCtrl)
 TEST(HandleEditing, PosesColorsAndSelectionFollowTheirHandles)
 {
   // A new point precedes the bone in the order of the cells, so the index of the bone changes.
-  EditStage stage(Widget::ADD_POINTS, { bone("b", Vec3(-0.5, 0, 0), Vec3(0.2, 0, 0)) });
+  EditStage stage(Representation::ADD_POINTS, { bone("b", Vec3(-0.5, 0, 0), Vec3(0.2, 0, 0)) });
   const double t[3] = { 0.5, 0.25, 0 };
   stage.representation()->SetHandleTranslation(0, t);
   stage.representation()->SetHandleStretch(0, 1.25);
-  vtkNew<vtkDoubleArray> own;
-  own->SetName("Weight of my own");
-  own->InsertNextValue(42.0);
-  stage.handles->GetCellData()->AddArray(own);
+  vtkNew<vtkDoubleArray> own_array;
+  own_array->SetName("Weight of my own");
+  own_array->InsertNextValue(42.0);
+  stage.handles->GetCellData()->AddArray(own_array);
   stage.handles->GetCellData()->GetArray("Mode")->SetComponent(0, 0, 1);
   stage.representation()->SetSelectedHandle(0);
   stage.click(Vec3(0.3, 0.5, 0));
   ASSERT_EQ(stage.handles->GetNumberOfCells(), 2);
   EXPECT_EQ(stage.representation()->GetHandleName(1), "b");
   EXPECT_EQ(stage.transform(0), identity_affine());
-  double now[3];
-  stage.representation()->GetHandleTranslation(1, now);
-  EXPECT_EQ(Vec3(now), Vec3(t));
+  double translation[3];
+  stage.representation()->GetHandleTranslation(1, translation);
+  EXPECT_EQ(Vec3(translation), Vec3(t));
   EXPECT_EQ(stage.representation()->GetHandleStretch(1), 1.25);
   EXPECT_EQ(stage.representation()->GetHandleStretch(0), 1.0);
   EXPECT_EQ(stage.representation()->GetHandleMode(1), 1);
@@ -216,7 +218,7 @@ TEST(HandleEditing, PosesColorsAndSelectionFollowTheirHandles)
 
 TEST(HandleEditing, CagesAreClickedAndClosed)
 {
-  EditStage stage(Widget::ADD_CAGE);
+  EditStage stage(Representation::ADD_CAGE);
   const Vec3 corners[4] = { Vec3(-1.4, -1.4, 0), Vec3(1.4, -1.4, 0), Vec3(1.4, 1.4, 0),
     Vec3(-1.4, 1.4, 0) };
   for (int k = 0; k < 4; ++k)
@@ -225,7 +227,7 @@ TEST(HandleEditing, CagesAreClickedAndClosed)
     const Handles handles = stage.list();
     ASSERT_EQ(handles.size(), static_cast<std::size_t>(k + 1));
     EXPECT_EQ(handles.back().kind, HandleKind::cage_vertex);
-    EXPECT_LT((handles.back().head - corners[k]).norm(), shot);
+    EXPECT_LT((handles.back().head - corners[k]).norm(), position_tolerance);
     EXPECT_EQ(stage.handles->GetNumberOfLines(), k) << "edges";
   }
   EXPECT_TRUE(stage.representation()->IsMakingCage());
@@ -245,7 +247,7 @@ TEST(HandleEditing, CagesAreClickedAndClosed)
 
 TEST(HandleEditing, EscapeDropsVerticesAndEnterLeavesACageOpen)
 {
-  EditStage stage(Widget::ADD_CAGE);
+  EditStage stage(Representation::ADD_CAGE);
   stage.click(Vec3(-1.4, -1.4, 0));
   stage.click(Vec3(1.4, -1.4, 0));
   stage.click(Vec3(1.4, 1.4, 0));
@@ -270,13 +272,13 @@ TEST(HandleEditing, EscapeDropsVerticesAndEnterLeavesACageOpen)
   EXPECT_EQ(stage.list().size(), 4u);
   EXPECT_EQ(stage.handles->GetNumberOfLines(), 3);
   stage.escape();
-  EXPECT_EQ(stage.widget->GetEditMode(), Widget::POSE);
+  EXPECT_EQ(stage.widget->GetEditMode(), Representation::POSE);
   EXPECT_EQ(stage.list().size(), 4u);
 }
 
 TEST(HandleEditing, ACageGoesOnFromWhatAnUndoHasLeft)
 {
-  EditStage stage(Widget::ADD_CAGE, {}, false);
+  EditStage stage(Representation::ADD_CAGE, {}, false);
   stage.click(Vec3(-1, -1, 0));
   vtkNew<vtkPolyData> one;
   one->ShallowCopy(stage.handles);
@@ -294,16 +296,16 @@ TEST(HandleEditing, ACageGoesOnFromWhatAnUndoHasLeft)
 
 TEST(HandleEditing, RestPlacesMoveUnderTheMouse)
 {
-  EditStage stage(Widget::MOVE_REST, { point("p", Vec3(0.5, 0.5, 0.2)) });
+  EditStage stage(Representation::MOVE_REST, { point("p", Vec3(0.5, 0.5, 0.2)) });
   const double t[3] = { 0, -1, 0 };
   // The handle is posed elsewhere, but shown at rest.
   stage.representation()->SetHandleTranslation(0, t);
   stage.drag(Vec3(0.5, 0.5, 0.2), Vec3(-0.5, 0.75, 0.2));
-  EXPECT_LT((stage.list()[0].head - Vec3(-0.5, 0.75, 0.2)).norm(), shot);
+  EXPECT_LT((stage.list()[0].head - Vec3(-0.5, 0.75, 0.2)).norm(), position_tolerance);
   EXPECT_NEAR(stage.list()[0].head[2], 0.2, 1e-9);
-  double now[3];
-  stage.representation()->GetHandleTranslation(0, now);
-  EXPECT_LT((Vec3(now) - Vec3(t)).norm(), 1e-12);
+  double translation[3];
+  stage.representation()->GetHandleTranslation(0, translation);
+  EXPECT_LT((Vec3(translation) - Vec3(t)).norm(), 1e-12);
   EXPECT_EQ(stage.representation()->GetInteractionName(), "move rest");
   EXPECT_EQ(stage.events[vtkCommand::InteractionEvent], 5) << "four moves and the end";
 }
@@ -312,23 +314,23 @@ TEST(HandleEditing, JointsMoveTogetherAndBodiesWhole)
 {
   const Handles arm = { bone("upper", Vec3(-1, 0, 0), Vec3(0, 0, 0)),
     bone("lower", Vec3(0, 0, 0), Vec3(1, 0, 0), 0), bone("other", Vec3(-1, 1, 0), Vec3(1, 1, 0)) };
-  EditStage stage(Widget::MOVE_REST, arm);
+  EditStage stage(Representation::MOVE_REST, arm);
   stage.drag(Vec3(0, 0, 0), Vec3(0, 0.5, 0));
   Handles handles = stage.list();
-  EXPECT_LT((handles[0].tail - Vec3(0, 0.5, 0)).norm(), shot);
+  EXPECT_LT((handles[0].tail - Vec3(0, 0.5, 0)).norm(), position_tolerance);
   EXPECT_EQ(handles[0].tail, handles[1].head);
   EXPECT_EQ(handles[0].head, Vec3(-1, 0, 0));
   EXPECT_EQ(handles[1].tail, Vec3(1, 0, 0));
   stage.drag(Vec3(0, 1, 0), Vec3(0.2, 1.3, 0)); // this drags the body of the other bone
   handles = stage.list();
-  EXPECT_LT((handles[2].head - Vec3(-0.8, 1.3, 0)).norm(), shot);
-  EXPECT_LT((handles[2].tail - Vec3(1.2, 1.3, 0)).norm(), shot);
+  EXPECT_LT((handles[2].head - Vec3(-0.8, 1.3, 0)).norm(), position_tolerance);
+  EXPECT_LT((handles[2].tail - Vec3(1.2, 1.3, 0)).norm(), position_tolerance);
   EXPECT_LT((handles[2].tail - handles[2].head - Vec3(2, 0, 0)).norm(), 1e-12);
 }
 
 TEST(HandleEditing, CanceledRestMovesKeepEveryBitAndTheBind)
 {
-  EditStage stage(Widget::MOVE_REST,
+  EditStage stage(Representation::MOVE_REST,
     { point("p", Vec3(0.5, 0.5, 0.2)), bone("b", Vec3(-1, 0, 0), Vec3(0, 0, 0)) });
   const std::vector<vtkObject*> before = bind_objects(stage.handles);
   stage.press(Vec3(0.5, 0.5, 0.2));
@@ -347,7 +349,7 @@ TEST(HandleEditing, CanceledRestMovesKeepEveryBitAndTheBind)
 
 TEST(HandleEditing, RestMovesAreHeldSnappedAndLocked)
 {
-  EditStage stage(Widget::MOVE_REST,
+  EditStage stage(Representation::MOVE_REST,
     { point("p", Vec3(0.5, 0.5, 0.2)), point("q", Vec3(-0.5, -0.5, 0)),
       bone("b", Vec3(-1, 1, 0.3), Vec3(0, 1, 0)) },
     false);
@@ -356,22 +358,22 @@ TEST(HandleEditing, RestMovesAreHeldSnappedAndLocked)
   stage.key("x");
   stage.move(Vec3(1.0, 0.9, 0.2));
   EXPECT_EQ(stage.list()[0].head.tail<2>(), Eigen::Vector2d(0.5, 0.2));
-  EXPECT_NEAR(stage.list()[0].head[0], 1.0, shot);
+  EXPECT_NEAR(stage.list()[0].head[0], 1.0, position_tolerance);
   stage.escape();
   // With Ctrl, a move has fixed steps, or snaps to the end of another handle.
   stage.representation()->SetLengthStep(0.25);
-  stage.hold(false, true);
+  stage.set_modifiers(false, true);
   stage.drag(Vec3(0.5, 0.5, 0.2), Vec3(0.8, 0.2, 0.2));
   EXPECT_LT((stage.list()[0].head - Vec3(0.75, 0.25, 0.2)).norm(), 1e-12);
-  stage.drag(Vec3(0.75, 0.25, 0.2), Vec3(-1, 1, 0.3) + Vec3(3 * pixel, 0, 0));
+  stage.drag(Vec3(0.75, 0.25, 0.2), Vec3(-1, 1, 0.3) + Vec3(3 * pixel_length, 0, 0));
   EXPECT_EQ(stage.list()[0].head, Vec3(-1, 1, 0.3));
-  stage.hold(false, false);
+  stage.set_modifiers(false, false);
   set_handle_locked(stage.handles, 1, true);
   stage.drag(Vec3(-0.5, -0.5, 0), Vec3(0, 0, 0));
   EXPECT_EQ(stage.list()[1].head, Vec3(-0.5, -0.5, 0));
   // A point cannot move onto another point. It stays at its last valid position.
   set_handle_locked(stage.handles, 1, false);
-  stage.hold(false, true);
+  stage.set_modifiers(false, true);
   stage.drag(Vec3(-1, 1, 0.3), Vec3(-0.5, -0.5, 0), 2);
   EXPECT_NE(stage.list()[0].head, stage.list()[1].head);
   EXPECT_EQ(stage.events[vtkCommand::WarningEvent], 1);
@@ -379,36 +381,36 @@ TEST(HandleEditing, RestMovesAreHeldSnappedAndLocked)
 
 TEST(HandleEditing, SeveralRestPlacesMoveTogether)
 {
-  EditStage stage(Widget::MOVE_REST,
+  EditStage stage(Representation::MOVE_REST,
     { point("p", Vec3(0.5, 0.5, 0)), point("q", Vec3(-0.5, -0.5, 0)),
       point("r", Vec3(-0.5, 0.5, 0)) });
   stage.representation()->SetSelectedHandle(0);
   stage.representation()->ToggleSelected(1);
   stage.drag(Vec3(0.5, 0.5, 0), Vec3(0.7, 0.6, 0));
   const Handles handles = stage.list();
-  EXPECT_LT((handles[0].head - Vec3(0.7, 0.6, 0)).norm(), shot);
+  EXPECT_LT((handles[0].head - Vec3(0.7, 0.6, 0)).norm(), position_tolerance);
   EXPECT_LT((handles[0].head - handles[1].head - Vec3(1, 1, 0)).norm(), 1e-12);
   EXPECT_EQ(handles[2].head, Vec3(-0.5, 0.5, 0));
 }
 
 TEST(HandleEditing, WithoutASurfacePlacesAreAtTheFocus)
 {
-  EditStage stage(Widget::ADD_POINTS, {}, false);
+  EditStage stage(Representation::ADD_POINTS, {}, false);
   stage.click(Vec3(1.2, -0.7, 0));
-  EXPECT_LT((stage.list()[0].head - Vec3(1.2, -0.7, 0)).norm(), pixel);
+  EXPECT_LT((stage.list()[0].head - Vec3(1.2, -0.7, 0)).norm(), pixel_length);
 }
 
 TEST(HandleEditing, APreviewIsDrawnAndChangesNothing)
 {
-  EditStage stage(Widget::ADD_BONES);
+  EditStage stage(Representation::ADD_BONES);
   stage.move(Vec3(0.2, 0.2, 0));
-  EXPECT_EQ(stage.representation()->GetInteractionState(), Widget::PLACING);
+  EXPECT_EQ(stage.representation()->GetInteractionState(), Representation::PLACING);
   stage.press(Vec3(-0.5, 0, 0));
   stage.move(Vec3(0.5, 0.3, 0));
   stage.window->Render();
   EXPECT_EQ(stage.handles->GetNumberOfCells(), 0);
   EXPECT_EQ(stage.events[vtkCommand::InteractionEvent], 0);
-  stage.widget->SetEditMode(Widget::POSE); // this cancels the unfinished bone
+  stage.widget->SetEditMode(Representation::POSE); // this cancels the unfinished bone
   EXPECT_FALSE(stage.widget->IsDragging());
   stage.release(Vec3(0.5, 0.3, 0));
   EXPECT_EQ(stage.handles->GetNumberOfCells(), 0);
@@ -418,7 +420,7 @@ TEST(HandleEditing, UndoByEventsIsExact)
 {
   // Store a copy of the handles at the start of each interaction and restore it later, as the
   // application does.
-  EditStage stage(Widget::ADD_BONES, { point("p", Vec3(0.4, 0.4, 0)) });
+  EditStage stage(Representation::ADD_BONES, { point("p", Vec3(0.4, 0.4, 0)) });
   struct Memory
   {
     vtkPolyData* handles;
@@ -435,9 +437,9 @@ TEST(HandleEditing, UndoByEventsIsExact)
     });
   stage.widget->AddObserver(vtkCommand::StartInteractionEvent, keep);
   stage.drag(Vec3(-0.6, 0, 0), Vec3(0, 0.1, 0));
-  stage.widget->SetEditMode(Widget::ADD_CAGE);
+  stage.widget->SetEditMode(Representation::ADD_CAGE);
   stage.click(Vec3(1.2, 1.2, 0));
-  stage.widget->SetEditMode(Widget::MOVE_REST);
+  stage.widget->SetEditMode(Representation::MOVE_REST);
   stage.drag(Vec3(0.4, 0.4, 0), Vec3(0.6, 0.4, 0));
   ASSERT_EQ(memory.before.size(), 3u);
   const std::size_t sizes[3] = { 1, 2, 3 };
@@ -451,16 +453,16 @@ TEST(HandleEditing, UndoByEventsIsExact)
 
 TEST(HandleEditing, CageVerticesTakeTheirEdgesAlong)
 {
-  EditStage stage(Widget::ADD_CAGE, {}, false);
+  EditStage stage(Representation::ADD_CAGE, {}, false);
   const Vec3 corners[3] = { Vec3(-1, -1, 0), Vec3(1, -1, 0), Vec3(0, 1, 0) };
   for (const int k : { 0, 1, 2, 0 })
   {
     stage.click(corners[k]);
   }
-  stage.widget->SetEditMode(Widget::MOVE_REST);
+  stage.widget->SetEditMode(Representation::MOVE_REST);
   stage.drag(Vec3(0, 1, 0), Vec3(0.5, 0.5, 0));
   const Handles handles = stage.list();
-  EXPECT_LT((handles[2].head - Vec3(0.5, 0.5, 0)).norm(), shot);
+  EXPECT_LT((handles[2].head - Vec3(0.5, 0.5, 0)).norm(), position_tolerance);
   EXPECT_EQ(stage.handles->GetNumberOfLines(), 3);
   std::size_t elements = 0;
   for (const Handle& handle : handles)
@@ -474,35 +476,36 @@ TEST(HandleEditing, RandomEventsLeaveAValidDataset)
 {
   // Send random mouse and key events in every mode. The filters can always read the handles, every
   // transform is finite, and no interaction is active at the end.
-  EditStage stage(Widget::POSE,
+  EditStage stage(Representation::POSE,
     { point("p", Vec3(0.4, 0.4, 0.3)), bone("b", Vec3(-0.5, 0, 0), Vec3(0.2, 0.1, 0)),
       bone("c", Vec3(0.2, 0.1, 0), Vec3(0.8, 0, 0), 1) });
   test::Random random(11);
   const char* const keys[] = { "g", "r", "s", "x", "Y", "z", "Escape", "Return", "1", "period",
     "minus", "BackSpace", "5", "F1", "q" };
-  int most = 0;
+  int maximum_count = 0;
   for (int i = 0; i < 1500; ++i)
   {
     const Eigen::Vector2d at(random.uniform(-10, 410), random.uniform(-10, 410));
     // Often choose a position on a handle.
     const vtkIdType count = stage.handles->GetNumberOfCells();
     const bool aimed = count > 0 && random.uniform() < 0.4;
-    Vec3 place = Vec3::Zero();
+    Vec3 head_position = Vec3::Zero();
     if (aimed)
     {
-      stage.representation()->GetPosedHead(random.below(count), place.data());
+      stage.representation()->GetPosedHead(random.below(count), head_position.data());
     }
-    const Eigen::Vector2d there =
-      aimed && place.allFinite() && place.norm() < 5.0 ? stage.display(place) : at;
-    stage.hold(random.uniform() < 0.2, random.uniform() < 0.2, random.uniform() < 0.2);
+    const Eigen::Vector2d mouse = aimed && head_position.allFinite() && head_position.norm() < 5.0
+      ? stage.display(head_position)
+      : at;
+    stage.set_modifiers(random.uniform() < 0.2, random.uniform() < 0.2, random.uniform() < 0.2);
     switch (random.below(9))
     {
       case 0:
       case 1:
-        stage.send(vtkCommand::LeftButtonPressEvent, there);
+        stage.send(vtkCommand::LeftButtonPressEvent, mouse);
         break;
       case 2:
-        stage.send(vtkCommand::LeftButtonReleaseEvent, there);
+        stage.send(vtkCommand::LeftButtonReleaseEvent, mouse);
         break;
       case 3:
         stage.key(keys[random.below(15)], random.uniform() < 0.3);
@@ -516,9 +519,9 @@ TEST(HandleEditing, RandomEventsLeaveAValidDataset)
         }
         break;
       default:
-        stage.send(vtkCommand::MouseMoveEvent, there);
+        stage.send(vtkCommand::MouseMoveEvent, mouse);
     }
-    most = std::max(most, static_cast<int>(count));
+    maximum_count = std::max(maximum_count, static_cast<int>(count));
     if (i % 25 == 0 && count > 0)
     {
       stage.list();
@@ -535,7 +538,7 @@ TEST(HandleEditing, RandomEventsLeaveAValidDataset)
   stage.send(vtkCommand::LeftButtonReleaseEvent, Eigen::Vector2d(1, 1));
   stage.widget->CancelDrag();
   EXPECT_FALSE(stage.widget->IsDragging());
-  EXPECT_GT(most, 10) << "it did make handles";
+  EXPECT_GT(maximum_count, 10) << "it did make handles";
   vtkDataArray* transforms = stage.handles->GetCellData()->GetArray("Transform");
   for (vtkIdType cell = 0; transforms && cell < transforms->GetNumberOfTuples(); ++cell)
   {

@@ -27,7 +27,7 @@ namespace
 class GizmoStage : public Stage
 {
 public:
-  explicit GizmoStage(const Handles& list, int gizmo = Widget::GIZMO_ALL) : Stage(list)
+  explicit GizmoStage(const Handles& list, int gizmo = Representation::GIZMO_ALL) : Stage(list)
   {
     vtkCamera* camera = this->renderer->GetActiveCamera();
     camera->SetPosition(5, 4, 8);
@@ -36,13 +36,13 @@ public:
     this->window->Render();
   }
   // Drag a part of the gizmo by a number of pixels.
-  void pull(int part, const Eigen::Vector2d& by, int steps = 5)
+  void drag_part(int part, const Eigen::Vector2d& offset, int steps = 5)
   {
     const Eigen::Vector2d from = this->grip(part);
-    this->drag_pixels(from, from + by, steps);
+    this->drag_pixels(from, from + offset, steps);
   }
   // Return the direction of an axis on the screen, in pixels per world unit.
-  Eigen::Vector2d on_screen(const Vec3& axis)
+  Eigen::Vector2d screen_direction(const Vec3& axis)
   {
     return this->display(this->head(0) + axis) - this->display(this->head(0));
   }
@@ -70,18 +70,20 @@ double degrees_of(const Eigen::Matrix3d& rotation)
 TEST(HandleGizmo, EveryPartIsFoundWhereItIsGrabbed)
 {
   GizmoStage stage({ bone("b", Vec3(0, 0, 0), Vec3(1.1, 0.9, 0)) });
-  const std::map<int, std::vector<int>> parts = { { Widget::GIZMO_MOVE,
-                                                    { Widget::MOVE_X, Widget::MOVE_Y,
-                                                      Widget::MOVE_Z, Widget::MOVE_YZ,
-                                                      Widget::MOVE_ZX, Widget::MOVE_XY } },
-    { Widget::GIZMO_TURN,
-      { Widget::TURN_X, Widget::TURN_Y, Widget::TURN_Z, Widget::TURN_VIEW, Widget::TWIST_HEAD,
-        Widget::TWIST_TAIL } },
-    { Widget::GIZMO_SCALE,
-      { Widget::SCALE_X, Widget::SCALE_Y, Widget::SCALE_Z, Widget::SCALE_ALL, Widget::STRETCH } },
-    { Widget::GIZMO_ALL,
-      { Widget::MOVE_X, Widget::MOVE_YZ, Widget::TURN_VIEW, Widget::SCALE_Y, Widget::SCALE_ALL,
-        Widget::STRETCH } } };
+  const std::map<int, std::vector<int>> parts = {
+    { Representation::GIZMO_MOVE,
+      { Representation::MOVE_X, Representation::MOVE_Y, Representation::MOVE_Z,
+        Representation::MOVE_YZ, Representation::MOVE_ZX, Representation::MOVE_XY } },
+    { Representation::GIZMO_TURN,
+      { Representation::TURN_X, Representation::TURN_Y, Representation::TURN_Z,
+        Representation::TURN_VIEW, Representation::TWIST_HEAD, Representation::TWIST_TAIL } },
+    { Representation::GIZMO_SCALE,
+      { Representation::SCALE_X, Representation::SCALE_Y, Representation::SCALE_Z,
+        Representation::SCALE_ALL, Representation::STRETCH } },
+    { Representation::GIZMO_ALL,
+      { Representation::MOVE_X, Representation::MOVE_YZ, Representation::TURN_VIEW,
+        Representation::SCALE_Y, Representation::SCALE_ALL, Representation::STRETCH } }
+  };
   for (const auto& [gizmo, list] : parts)
   {
     stage.representation()->SetGizmo(gizmo);
@@ -92,26 +94,26 @@ TEST(HandleGizmo, EveryPartIsFoundWhereItIsGrabbed)
       EXPECT_EQ(stage.representation()->GetHoveredHandle(), 0);
     }
   }
-  double at[2];
-  stage.representation()->SetGizmo(Widget::GIZMO_NONE);
-  EXPECT_FALSE(stage.representation()->GetGizmoGrip(Widget::MOVE_X, at));
+  double position[2];
+  stage.representation()->SetGizmo(Representation::GIZMO_NONE);
+  EXPECT_FALSE(stage.representation()->GetGizmoGrip(Representation::MOVE_X, position));
 }
 
 TEST(HandleGizmo, ArrowsAndBoxesAndPlatesComeBeforeHandles)
 {
   // A point handle is exactly at the cone of the arrow. With the gizmo, the arrow is picked;
   // without it, the handle is picked.
-  GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Widget::GIZMO_MOVE);
-  const Eigen::Vector2d cone = stage.grip(Widget::MOVE_X);
+  GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Representation::GIZMO_MOVE);
+  const Eigen::Vector2d cone = stage.grip(Representation::MOVE_X);
   stage.renderer->SetDisplayPoint(cone[0], cone[1], 0.5);
   stage.renderer->DisplayToWorld();
   const Vec3 there(stage.renderer->GetWorldPoint());
   stage.handles->ShallowCopy(to_polydata({ point("a", Vec3(0, 0, 0)), point("b", there) }));
   stage.send(vtkCommand::MouseMoveEvent, cone);
-  EXPECT_EQ(stage.representation()->GetInteractionState(), Widget::MOVE_X);
-  stage.representation()->SetGizmo(Widget::GIZMO_NONE);
+  EXPECT_EQ(stage.representation()->GetInteractionState(), Representation::MOVE_X);
+  stage.representation()->SetGizmo(Representation::GIZMO_NONE);
   stage.send(vtkCommand::MouseMoveEvent, cone);
-  EXPECT_EQ(stage.representation()->GetInteractionState(), Widget::ON_POINT);
+  EXPECT_EQ(stage.representation()->GetInteractionState(), Representation::ON_POINT);
   EXPECT_EQ(stage.representation()->GetHoveredHandle(), 1);
 }
 
@@ -119,11 +121,11 @@ TEST(HandleGizmo, AnArrowMovesAlongItsAxisOnly)
 {
   for (int k = 0; k < 3; ++k)
   {
-    GizmoStage stage({ point("a", Vec3(0.2, 0.1, 0)) }, Widget::GIZMO_MOVE);
+    GizmoStage stage({ point("a", Vec3(0.2, 0.1, 0)) }, Representation::GIZMO_MOVE);
     const Vec3 axis = Vec3::Unit(k);
     // The mouse moves by the projection of 0.8 units along the axis.
-    const Eigen::Vector2d way = 0.8 * stage.on_screen(axis);
-    stage.pull(Widget::MOVE_X + k, way);
+    const Eigen::Vector2d mouse_motion = 0.8 * stage.screen_direction(axis);
+    stage.drag_part(Representation::MOVE_X + k, mouse_motion);
     const Vec3 moved = stage.head(0) - Vec3(0.2, 0.1, 0);
     EXPECT_EQ(moved[(k + 1) % 3], 0.0);
     EXPECT_EQ(moved[(k + 2) % 3], 0.0);
@@ -138,12 +140,12 @@ TEST(HandleGizmo, TheGrabbedPlaceOfAnArrowStaysUnderTheMouse)
 {
   // In a parallel projection, pixels are proportional to lengths, so the distance along the axis is
   // known exactly.
-  GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Widget::GIZMO_MOVE);
+  GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Representation::GIZMO_MOVE);
   stage.renderer->GetActiveCamera()->ParallelProjectionOn();
   stage.renderer->GetActiveCamera()->SetParallelScale(2.0);
   stage.window->Render();
-  const Eigen::Vector2d unit = stage.on_screen(Vec3::UnitX());
-  const Eigen::Vector2d from = stage.grip(Widget::MOVE_X).array().round();
+  const Eigen::Vector2d unit = stage.screen_direction(Vec3::UnitX());
+  const Eigen::Vector2d from = stage.grip(Representation::MOVE_X).array().round();
   const Eigen::Vector2d to = (from + 60.0 * unit.normalized()).array().round();
   stage.drag_pixels(from, to);
   // The result is the point of the axis that is nearest to the mouse.
@@ -154,8 +156,8 @@ TEST(HandleGizmo, APlateMovesInItsPlaneUnderTheMouse)
 {
   for (int k = 0; k < 3; ++k)
   {
-    GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Widget::GIZMO_MOVE);
-    const Eigen::Vector2d from = stage.grip(Widget::MOVE_YZ + k).array().round();
+    GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Representation::GIZMO_MOVE);
+    const Eigen::Vector2d from = stage.grip(Representation::MOVE_YZ + k).array().round();
     // The drag begins where the plate is grabbed and ends at a goal in the plane of the plate.
     Vec3 goal = Vec3::Zero();
     goal[(k + 1) % 3] = 0.6;
@@ -177,7 +179,7 @@ TEST(HandleGizmo, APlateMovesInItsPlaneUnderTheMouse)
     stage.drag_pixels(from, to);
     EXPECT_LT((stage.head(0) - (hit(to) - hit(from))).norm(), 1e-6);
     EXPECT_EQ(stage.head(0)[k], 0.0) << "exactly in the plane";
-    EXPECT_LT((stage.head(0) - goal).norm(), 3 * pixel);
+    EXPECT_LT((stage.head(0) - goal).norm(), 3 * pixel_length);
   }
 }
 
@@ -185,9 +187,9 @@ TEST(HandleGizmo, ARingTurnsByTheAngleUnderTheMouse)
 {
   for (int k = 0; k < 3; ++k)
   {
-    GizmoStage stage({ point("a", Vec3(0.3, -0.2, 0.1)) }, Widget::GIZMO_TURN);
+    GizmoStage stage({ point("a", Vec3(0.3, -0.2, 0.1)) }, Representation::GIZMO_TURN);
     const Vec3 center(0.3, -0.2, 0.1);
-    const Eigen::Vector2d from = stage.grip(Widget::TURN_X + k).array().round();
+    const Eigen::Vector2d from = stage.grip(Representation::TURN_X + k).array().round();
     // The drag begins where the ring is grabbed and follows the ring by 70 degrees.
     const auto hit = [&](const Eigen::Vector2d& display)
     {
@@ -231,9 +233,9 @@ TEST(HandleGizmo, ARingTurnsByTheAngleUnderTheMouse)
 
 TEST(HandleGizmo, SeveralTurnsAreCounted)
 {
-  GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Widget::GIZMO_TURN);
+  GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Representation::GIZMO_TURN);
   const Eigen::Vector2d center = stage.display(Vec3(0, 0, 0));
-  const Eigen::Vector2d from = stage.grip(Widget::TURN_VIEW);
+  const Eigen::Vector2d from = stage.grip(Representation::TURN_VIEW);
   stage.send(vtkCommand::MouseMoveEvent, from);
   stage.send(vtkCommand::LeftButtonPressEvent, from);
   for (int degrees = 15; degrees <= 765; degrees += 15)
@@ -253,12 +255,12 @@ TEST(HandleGizmo, ARingSeenFromTheSideRolls)
 {
   // Viewed from +z, the ring about x is a line. If the mouse moves by the radius of the ring, the
   // handle rotates by 1 radian.
-  GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Widget::GIZMO_TURN);
+  GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Representation::GIZMO_TURN);
   stage.renderer->GetActiveCamera()->SetPosition(0, 0, 10);
   stage.window->Render();
   const Eigen::Vector2d from = stage.display(Vec3::Zero()) + Eigen::Vector2d(0, 40);
   stage.send(vtkCommand::MouseMoveEvent, from);
-  ASSERT_EQ(stage.representation()->GetInteractionState(), Widget::TURN_X);
+  ASSERT_EQ(stage.representation()->GetInteractionState(), Representation::TURN_X);
   stage.drag_pixels(from, from - Eigen::Vector2d(0, stage.representation()->GetGizmoSize()));
   const Eigen::AngleAxisd turned(linear(stage.transform(0)));
   EXPECT_NEAR(turned.angle(), 1.0, 0.02);
@@ -269,9 +271,9 @@ TEST(HandleGizmo, ARingSeenFromTheSideRolls)
 
 TEST(HandleGizmo, BoxesScaleAlongTheirAxisAndTheKnobEvenly)
 {
-  GizmoStage stage({ point("a", Vec3(0.1, 0.2, 0.3)) }, Widget::GIZMO_SCALE);
+  GizmoStage stage({ point("a", Vec3(0.1, 0.2, 0.3)) }, Representation::GIZMO_SCALE);
   const Eigen::Vector2d center = stage.display(Vec3(0.1, 0.2, 0.3));
-  Eigen::Vector2d from = stage.grip(Widget::SCALE_ALL);
+  Eigen::Vector2d from = stage.grip(Representation::SCALE_ALL);
   stage.drag_pixels(from, center + 1.5 * (from - center));
   const Eigen::Matrix3d even = linear(stage.transform(0));
   EXPECT_NEAR(even(0, 0), 1.5, 0.02);
@@ -280,7 +282,7 @@ TEST(HandleGizmo, BoxesScaleAlongTheirAxisAndTheKnobEvenly)
   EXPECT_EQ(stage.representation()->GetInteractionName(), "scale");
   stage.representation()->ResetHandle(0);
 
-  from = stage.grip(Widget::SCALE_Y);
+  from = stage.grip(Representation::SCALE_Y);
   stage.drag_pixels(from, center + 2.0 * (from - center));
   const Eigen::Matrix3d along = linear(stage.transform(0));
   EXPECT_NEAR(along(1, 1), 2.0, 0.15) << "a ratio of lengths, seen in perspective";
@@ -292,18 +294,18 @@ TEST(HandleGizmo, BoxesScaleAlongTheirAxisAndTheKnobEvenly)
 TEST(HandleGizmo, LocalAxesAreTheHandlesOwn)
 {
   // The handle is rotated by 30 degrees about z. The local y axis of a bone is along the bone.
-  GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Widget::GIZMO_MOVE);
-  stage.representation()->SetSpace(Widget::LOCAL);
+  GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Representation::GIZMO_MOVE);
+  stage.representation()->SetSpace(Representation::LOCAL);
   const double axis[3] = { 0, 0, 1 };
   ASSERT_TRUE(stage.representation()->SetHandleRotation(0, axis, 30.0));
   const Vec3 own(std::cos(EIGEN_PI / 6), std::sin(EIGEN_PI / 6), 0);
-  stage.pull(Widget::MOVE_X, 0.7 * stage.on_screen(own));
+  stage.drag_part(Representation::MOVE_X, 0.7 * stage.screen_direction(own));
   EXPECT_LT(stage.head(0).cross(own).norm(), 1e-12);
   EXPECT_NEAR(stage.head(0).dot(own), 0.7, 0.1);
 
   // A scale along local axes causes no shear: the result is R S with a diagonal matrix S.
-  stage.representation()->SetGizmo(Widget::GIZMO_SCALE);
-  stage.pull(Widget::SCALE_X, 30.0 * stage.on_screen(own).normalized());
+  stage.representation()->SetGizmo(Representation::GIZMO_SCALE);
+  stage.drag_part(Representation::SCALE_X, 30.0 * stage.screen_direction(own).normalized());
   double factors[3];
   stage.representation()->GetHandleScale(0, factors);
   EXPECT_GT(factors[0], 1.2);
@@ -312,23 +314,25 @@ TEST(HandleGizmo, LocalAxesAreTheHandlesOwn)
   const Eigen::Matrix3d s = r.transpose() * linear(stage.transform(0));
   EXPECT_LT((s - Eigen::Matrix3d(Vec3(factors).asDiagonal())).norm(), 1e-12);
 
-  GizmoStage boned({ bone("b", Vec3(0, 0, 0), Vec3(0.8, 0.8, 0)) }, Widget::GIZMO_MOVE);
-  boned.representation()->SetSpace(Widget::LOCAL);
+  GizmoStage bone_stage(
+    { bone("b", Vec3(0, 0, 0), Vec3(0.8, 0.8, 0)) }, Representation::GIZMO_MOVE);
+  bone_stage.representation()->SetSpace(Representation::LOCAL);
   const Vec3 along = Vec3(1, 1, 0).normalized();
-  boned.pull(Widget::MOVE_Y, 30.0 * boned.on_screen(along).normalized());
-  EXPECT_GT(boned.head(0).dot(along), 0.2);
-  EXPECT_LT(boned.head(0).cross(along).norm(), 1e-12);
+  bone_stage.drag_part(
+    Representation::MOVE_Y, 30.0 * bone_stage.screen_direction(along).normalized());
+  EXPECT_GT(bone_stage.head(0).dot(along), 0.2);
+  EXPECT_LT(bone_stage.head(0).cross(along).norm(), 1e-12);
 }
 
 TEST(HandleGizmo, KeysHoldADragToAnAxisOrPlane)
 {
-  GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Widget::GIZMO_NONE);
+  GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Representation::GIZMO_NONE);
   const Eigen::Vector2d from = stage.display(Vec3::Zero());
   stage.send(vtkCommand::MouseMoveEvent, from);
   stage.send(vtkCommand::LeftButtonPressEvent, from);
   stage.send(vtkCommand::MouseMoveEvent, from + Eigen::Vector2d(50, 30));
-  const Vec3 unheld = stage.head(0);
-  EXPECT_GT(unheld.cwiseAbs().minCoeff(), 0.01);
+  const Vec3 unconstrained = stage.head(0);
+  EXPECT_GT(unconstrained.cwiseAbs().minCoeff(), 0.01);
   stage.key("x");
   EXPECT_NE(stage.head(0)[0], 0.0);
   EXPECT_EQ(stage.head(0).tail<2>(), Eigen::Vector2d::Zero());
@@ -341,14 +345,14 @@ TEST(HandleGizmo, KeysHoldADragToAnAxisOrPlane)
   EXPECT_NE(stage.head(0)[1], 0.0);
   stage.key("Z", true); // select the local axes, which equal the world axes here
   stage.key("Z", true); // remove the constraint
-  EXPECT_LT((stage.head(0) - unheld).norm(), 1e-12);
+  EXPECT_LT((stage.head(0) - unconstrained).norm(), 1e-12);
   stage.escape();
   EXPECT_EQ(stage.transform(0), identity_affine());
 }
 
 TEST(HandleGizmo, KeysAgainTakeTheOtherSpace)
 {
-  GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Widget::GIZMO_NONE);
+  GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Representation::GIZMO_NONE);
   const double axis[3] = { 0, 1, 0 };
   // The local x axis of the handle is now -z of the world.
   stage.representation()->SetHandleRotation(0, axis, 90.0);
@@ -366,7 +370,7 @@ TEST(HandleGizmo, KeysAgainTakeTheOtherSpace)
 
 TEST(HandleGizmo, NumbersCanBeTyped)
 {
-  GizmoStage stage({ point("a", Vec3(0.5, 0, 0)) }, Widget::GIZMO_NONE);
+  GizmoStage stage({ point("a", Vec3(0.5, 0, 0)) }, Representation::GIZMO_NONE);
   stage.send(vtkCommand::MouseMoveEvent, Eigen::Vector2d(50, 60));
   // The keys are G Y - . 7 5 Backspace Enter.
   stage.key("g");
@@ -398,14 +402,14 @@ TEST(HandleGizmo, NumbersCanBeTyped)
 
 TEST(HandleGizmo, KeysStartDragsThatFollowTheMouse)
 {
-  GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Widget::GIZMO_NONE);
+  GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Representation::GIZMO_NONE);
   stage.renderer->GetActiveCamera()->SetPosition(0, 0, 10);
   const Eigen::Vector2d away(70, 300);
   stage.send(vtkCommand::MouseMoveEvent, away);
   stage.key("g");
   const Eigen::Vector2d unit = stage.display(Vec3(1, 0, 0)) - stage.display(Vec3::Zero());
   stage.send(vtkCommand::MouseMoveEvent, away + unit);
-  EXPECT_LT((stage.head(0) - Vec3(1, 0, 0)).norm(), pixel);
+  EXPECT_LT((stage.head(0) - Vec3(1, 0, 0)).norm(), pixel_length);
   stage.send(vtkCommand::LeftButtonPressEvent, away + unit);
   EXPECT_FALSE(stage.widget->IsDragging());
   stage.send(vtkCommand::LeftButtonReleaseEvent, away + unit);
@@ -432,42 +436,43 @@ TEST(HandleGizmo, ShiftIsATenthWithoutAJump)
   Stage stage({ point("a", Vec3(0, 0, 0)) });
   stage.press(Vec3(0, 0, 0));
   const Eigen::Vector2d from = stage.display(Vec3::Zero()).array().round();
-  const auto at = [&](double pixels) { return Eigen::Vector2d(from + Eigen::Vector2d(pixels, 0)); };
-  stage.send(vtkCommand::MouseMoveEvent, at(50));
+  const auto position = [&](double pixels)
+  { return Eigen::Vector2d(from + Eigen::Vector2d(pixels, 0)); };
+  stage.send(vtkCommand::MouseMoveEvent, position(50));
   const double coarse = stage.head(0)[0];
-  stage.hold(true);
-  stage.send(vtkCommand::MouseMoveEvent, at(50));
+  stage.set_modifiers(true);
+  stage.send(vtkCommand::MouseMoveEvent, position(50));
   EXPECT_EQ(stage.head(0)[0], coarse) << "pressing Shift moves nothing";
-  stage.send(vtkCommand::MouseMoveEvent, at(150));
+  stage.send(vtkCommand::MouseMoveEvent, position(150));
   EXPECT_NEAR(stage.head(0)[0], coarse + 10 * coarse / 50, 1e-9) << "100 pixels count as 10";
   const double fine = stage.head(0)[0];
-  stage.hold(false);
-  stage.send(vtkCommand::MouseMoveEvent, at(150));
+  stage.set_modifiers(false);
+  stage.send(vtkCommand::MouseMoveEvent, position(150));
   EXPECT_EQ(stage.head(0)[0], fine) << "nor does releasing it";
-  stage.send(vtkCommand::MouseMoveEvent, at(160));
+  stage.send(vtkCommand::MouseMoveEvent, position(160));
   EXPECT_NEAR(stage.head(0)[0], fine + 10 * coarse / 50, 1e-9);
-  stage.send(vtkCommand::LeftButtonReleaseEvent, at(160));
+  stage.send(vtkCommand::LeftButtonReleaseEvent, position(160));
 }
 
 TEST(HandleGizmo, CtrlSnaps)
 {
   GizmoStage stage({ point("a", Vec3(0.03, 0, 0)) });
-  stage.hold(false, true);
+  stage.set_modifiers(false, true);
   stage.representation()->SetLengthStep(0.25);
-  stage.pull(Widget::MOVE_X, 0.6 * stage.on_screen(Vec3::UnitX()));
+  stage.drag_part(Representation::MOVE_X, 0.6 * stage.screen_direction(Vec3::UnitX()));
   const double steps = (stage.head(0)[0] - 0.03) / 0.25;
   EXPECT_NEAR(steps, std::round(steps), 1e-12);
   EXPECT_GE(std::round(steps), 2.0);
   stage.representation()->ResetHandle(0);
-  stage.representation()->SetGizmo(Widget::GIZMO_TURN);
-  const Eigen::Vector2d from = stage.grip(Widget::TURN_VIEW);
+  stage.representation()->SetGizmo(Representation::GIZMO_TURN);
+  const Eigen::Vector2d from = stage.grip(Representation::TURN_VIEW);
   const Eigen::Vector2d center = stage.display(stage.head(0));
   // This drag is a rotation by 51.6 degrees.
   stage.drag_pixels(from, center + Eigen::Rotation2Dd(0.9) * (from - center));
   EXPECT_NEAR(degrees_of(linear(stage.transform(0))), 45.0, 1e-9);
   stage.representation()->ResetHandle(0);
-  stage.representation()->SetGizmo(Widget::GIZMO_SCALE);
-  const Eigen::Vector2d knob = stage.grip(Widget::SCALE_ALL);
+  stage.representation()->SetGizmo(Representation::GIZMO_SCALE);
+  const Eigen::Vector2d knob = stage.grip(Representation::SCALE_ALL);
   stage.drag_pixels(knob, center + 1.37 * (knob - center));
   EXPECT_NEAR(linear(stage.transform(0))(0, 0), 1.4, 1e-12);
 }
@@ -489,7 +494,7 @@ TEST(HandleGizmo, TheStretchBoxWritesStretch)
   GizmoStage stage(arm);
   const Vec3 axis(1, 0, 0);
   const Affine before = stage.transform(0);
-  stage.pull(Widget::STRETCH, 0.4 * stage.on_screen(axis));
+  stage.drag_part(Representation::STRETCH, 0.4 * stage.screen_direction(axis));
   EXPECT_EQ(stage.transform(0), before) << "its transform stays";
   EXPECT_NEAR(stage.stretch(0), 1.5, 0.1) << "0.8 longer by 0.4, in perspective";
   EXPECT_NEAR((stage.tail(0) - stage.head(0)).norm(), 0.8 * stage.stretch(0), 1e-12);
@@ -499,10 +504,10 @@ TEST(HandleGizmo, TheStretchBoxWritesStretch)
   EXPECT_EQ(stage.representation()->GetInteractionName(), "stretch");
   // Escape restores the stretch.
   const double stretched = stage.stretch(0);
-  const Eigen::Vector2d knob = stage.grip(Widget::STRETCH);
+  const Eigen::Vector2d knob = stage.grip(Representation::STRETCH);
   stage.send(vtkCommand::MouseMoveEvent, knob);
   stage.send(vtkCommand::LeftButtonPressEvent, knob);
-  stage.send(vtkCommand::MouseMoveEvent, knob + 0.3 * stage.on_screen(axis));
+  stage.send(vtkCommand::MouseMoveEvent, knob + 0.3 * stage.screen_direction(axis));
   EXPECT_NE(stage.stretch(0), stretched);
   stage.escape();
   EXPECT_EQ(stage.stretch(0), stretched);
@@ -512,7 +517,7 @@ TEST(HandleGizmo, WithoutStretchableBonesTheTransformStretches)
 {
   GizmoStage stage({ bone("b", Vec3(-0.6, 0, 0), Vec3(0.2, 0, 0)) });
   stage.representation()->StretchableBonesOff();
-  stage.pull(Widget::STRETCH, 0.4 * stage.on_screen(Vec3::UnitX()));
+  stage.drag_part(Representation::STRETCH, 0.4 * stage.screen_direction(Vec3::UnitX()));
   EXPECT_EQ(stage.stretch(0), 1.0);
   Eigen::Matrix3d rest = linear(stage.transform(0));
   EXPECT_NEAR(rest(0, 0), 1.5, 0.1);
@@ -527,9 +532,9 @@ TEST(HandleGizmo, TwistRingsWriteTwist)
     bone("hand", Vec3(0.8, 0, 0), Vec3(1.2, 0.2, 0), 0) };
   for (const int end : { 0, 1 })
   {
-    GizmoStage stage(arm, Widget::GIZMO_TURN);
-    stage.send(vtkCommand::MouseMoveEvent, stage.grip(Widget::TWIST_HEAD + end));
-    stage.send(vtkCommand::LeftButtonPressEvent, stage.grip(Widget::TWIST_HEAD + end));
+    GizmoStage stage(arm, Representation::GIZMO_TURN);
+    stage.send(vtkCommand::MouseMoveEvent, stage.grip(Representation::TWIST_HEAD + end));
+    stage.send(vtkCommand::LeftButtonPressEvent, stage.grip(Representation::TWIST_HEAD + end));
     stage.key("3");
     stage.key("0");
     EXPECT_EQ(stage.representation()->GetInteractionName(), "twist");
@@ -542,12 +547,13 @@ TEST(HandleGizmo, TwistRingsWriteTwist)
       Eigen::AngleAxisd((end ? 30.0 : 0.0) * EIGEN_PI / 180.0, Vec3::UnitX()).toRotationMatrix();
     EXPECT_LT((linear(stage.transform(1)) - wrist).norm(), 1e-12);
   }
-  GizmoStage rigid(arm, Widget::GIZMO_TURN);
+  GizmoStage rigid(arm, Representation::GIZMO_TURN);
   rigid.representation()->StretchableBonesOff();
-  double at[2];
-  EXPECT_FALSE(rigid.representation()->GetGizmoGrip(Widget::TWIST_HEAD, at)) << "one ring is left";
-  rigid.send(vtkCommand::MouseMoveEvent, rigid.grip(Widget::TWIST_TAIL));
-  rigid.send(vtkCommand::LeftButtonPressEvent, rigid.grip(Widget::TWIST_TAIL));
+  double position[2];
+  EXPECT_FALSE(rigid.representation()->GetGizmoGrip(Representation::TWIST_HEAD, position))
+    << "one ring is left";
+  rigid.send(vtkCommand::MouseMoveEvent, rigid.grip(Representation::TWIST_TAIL));
+  rigid.send(vtkCommand::LeftButtonPressEvent, rigid.grip(Representation::TWIST_TAIL));
   rigid.key("9");
   rigid.key("0");
   rigid.key("Return");
@@ -562,14 +568,14 @@ TEST(HandleGizmo, TwistRingsWriteTwist)
 TEST(HandleGizmo, ATwistByTheMouseIsTheAngleAroundTheBone)
 {
   // Viewed along the bone, the ring is a circle. A quarter of the circle is 90 degrees.
-  GizmoStage stage({ bone("b", Vec3(0, 0, -1), Vec3(0.0, 0, 1)) }, Widget::GIZMO_TURN);
+  GizmoStage stage({ bone("b", Vec3(0, 0, -1), Vec3(0.0, 0, 1)) }, Representation::GIZMO_TURN);
   vtkCamera* camera = stage.renderer->GetActiveCamera();
   camera->ParallelProjectionOn();
   camera->SetParallelScale(2.0);
   camera->SetPosition(0, 0, 10);
   stage.window->Render();
   const Eigen::Vector2d center = stage.display(Vec3::Zero());
-  const Eigen::Vector2d from = stage.grip(Widget::TWIST_TAIL);
+  const Eigen::Vector2d from = stage.grip(Representation::TWIST_TAIL);
   stage.drag_pixels(from, center + Eigen::Rotation2Dd(EIGEN_PI / 2) * (from - center), 9);
   EXPECT_NEAR(stage.twist(0, 1) + stage.twist(0, 0), 90.0, 4.0) << "a pixel is 3 degrees here";
 }
@@ -579,8 +585,8 @@ TEST(HandleGizmo, StretchableBonesReadWhatTheWidgetWrites)
   // The whole mesh has the weight 1 for one bone. Points at its tail move to the tail that is
   // drawn, and rotate by the twist at the tail. Points at its head rotate by the twist at the head.
   GizmoStage stage({ bone("b", Vec3(-0.6, 0, 0), Vec3(0.8, 0, 0)) });
-  const Eigen::Vector2d knob = stage.grip(Widget::STRETCH);
-  stage.drag_pixels(knob, knob + 0.4 * stage.on_screen(Vec3::UnitX()));
+  const Eigen::Vector2d knob = stage.grip(Representation::STRETCH);
+  stage.drag_pixels(knob, knob + 0.4 * stage.screen_direction(Vec3::UnitX()));
   stage.representation()->SetHandleTwist(0, 20.0, 75.0);
   const double axis[3] = { 1, 2, 3 };
   stage.representation()->SetHandleRotation(0, axis, 50.0);
@@ -617,11 +623,12 @@ TEST(HandleGizmo, StretchableBonesReadWhatTheWidgetWrites)
 TEST(HandleGizmo, AltOnATailReaches)
 {
   Stage stage({ bone("b", Vec3(0.2, 0.1, 0), Vec3(1.2, 0.1, 0)) });
-  stage.hold(false, false, true);
+  stage.set_modifiers(false, false, true);
   stage.drag(Vec3(1.2, 0.1, 0), Vec3(0.2, 1.6, 0), 10);
-  EXPECT_LT((stage.tail(0) - Vec3(0.2, 1.6, 0)).norm(), pixel) << "under the mouse";
+  EXPECT_LT((stage.tail(0) - Vec3(0.2, 1.6, 0)).norm(), pixel_length) << "under the mouse";
   EXPECT_LT((stage.head(0) - Vec3(0.2, 0.1, 0)).norm(), 1e-12);
-  EXPECT_NEAR(stage.handles->GetCellData()->GetArray("Stretch")->GetComponent(0, 0), 1.5, pixel);
+  EXPECT_NEAR(
+    stage.handles->GetCellData()->GetArray("Stretch")->GetComponent(0, 0), 1.5, pixel_length);
   EXPECT_NEAR(linear(stage.transform(0)).determinant(), 1.0, 1e-12) << "turned, not scaled";
 }
 
@@ -631,20 +638,20 @@ TEST(HandleGizmo, SeveralSelectedHandlesMoveTogether)
     point("d", Vec3(-1, -1, 0)) });
   stage.press(Vec3(0, 0, 0));
   stage.release(Vec3(0, 0, 0));
-  stage.hold(true);
-  for (const Vec3& at : { Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-1, -1, 0), Vec3(-1, -1, 0) })
+  stage.set_modifiers(true);
+  for (const Vec3& position : { Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(-1, -1, 0), Vec3(-1, -1, 0) })
   {
-    stage.press(at);
-    stage.release(at);
+    stage.press(position);
+    stage.release(position);
   }
-  stage.hold(false);
+  stage.set_modifiers(false);
   EXPECT_EQ(stage.representation()->GetNumberOfSelectedHandles(), 3) << "d came and went";
   EXPECT_FALSE(stage.representation()->IsSelected(3));
   EXPECT_EQ(stage.representation()->GetSelectedHandle(), 2);
   stage.handles->GetCellData()->GetArray("Mode")->SetComponent(2, 0, 2); // set mode free for c
   stage.drag(Vec3(1, 0, 0), Vec3(1.4, 0.3, 0));
   EXPECT_EQ(stage.representation()->GetNumberOfSelectedHandles(), 3) << "a drag keeps them";
-  EXPECT_LT((stage.head(0) - Vec3(0.4, 0.3, 0)).norm(), 2 * pixel);
+  EXPECT_LT((stage.head(0) - Vec3(0.4, 0.3, 0)).norm(), 2 * pixel_length);
   EXPECT_LT((stage.head(1) - stage.head(0) - Vec3(1, 0, 0)).norm(), 1e-12);
   EXPECT_EQ(stage.transform(2), identity_affine()) << "free handles stay";
   EXPECT_EQ(stage.transform(3), identity_affine());
@@ -664,7 +671,8 @@ TEST(HandleGizmo, SeveralSelectedHandlesMoveTogether)
 
 TEST(HandleGizmo, ASelectionTurnsAboutTheOneThatIsHeld)
 {
-  GizmoStage stage({ point("a", Vec3(0, 0, 0)), point("b", Vec3(1, 0, 0)) }, Widget::GIZMO_NONE);
+  GizmoStage stage(
+    { point("a", Vec3(0, 0, 0)), point("b", Vec3(1, 0, 0)) }, Representation::GIZMO_NONE);
   stage.handles->GetCellData()->GetArray("Mode")->SetComponent(1, 0, 1); // set mode position for b
   stage.representation()->SetSelectedHandle(1);
   stage.representation()->ToggleSelected(0);
@@ -682,15 +690,16 @@ TEST(HandleGizmo, PositionHandlesOnlyMove)
 {
   GizmoStage stage({ bone("b", Vec3(0, 0, 0), Vec3(1, 0, 0)) });
   stage.handles->GetCellData()->GetArray("Mode")->SetComponent(0, 0, 1);
-  double at[2];
-  EXPECT_TRUE(stage.representation()->GetGizmoGrip(Widget::MOVE_X, at));
-  for (const int part : { Widget::TURN_X, Widget::TURN_VIEW, Widget::SCALE_X, Widget::SCALE_ALL,
-         Widget::STRETCH, Widget::TWIST_TAIL })
+  double position[2];
+  EXPECT_TRUE(stage.representation()->GetGizmoGrip(Representation::MOVE_X, position));
+  for (const int part :
+    { Representation::TURN_X, Representation::TURN_VIEW, Representation::SCALE_X,
+      Representation::SCALE_ALL, Representation::STRETCH, Representation::TWIST_TAIL })
   {
-    EXPECT_FALSE(stage.representation()->GetGizmoGrip(part, at)) << part;
+    EXPECT_FALSE(stage.representation()->GetGizmoGrip(part, position)) << part;
   }
-  EXPECT_FALSE(stage.widget->StartDrag(Widget::GIZMO_TURN));
-  stage.representation()->SetGizmo(Widget::GIZMO_NONE);
+  EXPECT_FALSE(stage.widget->StartDrag(Representation::GIZMO_TURN));
+  stage.representation()->SetGizmo(Representation::GIZMO_NONE);
   stage.drag(Vec3(1, 0, 0), Vec3(1, 0.5, 0)); // this drags the tail
   EXPECT_EQ(linear(stage.transform(0)), Eigen::Matrix3d::Identity());
   EXPECT_GT(stage.head(0)[1], 0.3);
@@ -705,9 +714,9 @@ TEST(HandleGizmo, LockedHandlesStayButFollowTheirParent)
   locked->InsertNextValue(0);
   locked->InsertNextValue(1);
   stage.handles->GetCellData()->AddArray(locked);
-  EXPECT_EQ(stage.representation()->GetDragRefusal(1), Widget::IS_LOCKED);
-  EXPECT_EQ(stage.representation()->GetDragRefusal(0), Widget::DRAGGABLE);
-  EXPECT_EQ(stage.representation()->GetDragRefusal(7), Widget::IS_NO_HANDLE);
+  EXPECT_EQ(stage.representation()->GetDragRefusal(1), Representation::IS_LOCKED);
+  EXPECT_EQ(stage.representation()->GetDragRefusal(0), Representation::DRAGGABLE);
+  EXPECT_EQ(stage.representation()->GetDragRefusal(7), Representation::IS_NO_HANDLE);
   stage.drag(Vec3(1, 0, 0), Vec3(1, 1, 0));
   EXPECT_EQ(stage.transform(1), identity_affine());
   EXPECT_EQ(stage.events[vtkCommand::StartInteractionEvent], 0);
@@ -722,7 +731,7 @@ TEST(HandleGizmo, NumbersAreExact)
 {
   Stage stage({ point("p", Vec3(1, 2, 3)), bone("b", Vec3(0, 1, 0), Vec3(0, 1, 2)),
     bone("c", Vec3(0, 1, 2), Vec3(0, 1, 3), 1) });
-  Widget* rep = stage.representation();
+  Representation* rep = stage.representation();
   const double t[3] = { 0.1, -0.2, 0.3 };
   const double axis[3] = { 0, 0, 2 };
   const double s[3] = { 2, 3, 0.5 };
@@ -767,7 +776,7 @@ TEST(HandleGizmo, NumbersAreExact)
 TEST(HandleGizmo, NumbersThatCannotBeAreRefused)
 {
   Stage stage({ point("p", Vec3(1, 2, 3)), bone("b", Vec3(0, 1, 0), Vec3(0, 1, 2)) });
-  Widget* rep = stage.representation();
+  Representation* rep = stage.representation();
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double bad[3] = { 0, nan, 0 };
   const double zero[3] = { 0, 0, 0 };
@@ -811,31 +820,31 @@ TEST(HandleGizmo, EscapeInAnyDragRestoresEveryBit)
     return numbers;
   };
   const std::vector<double> before = state();
-  int seen = 0;
-  for (int part = Widget::MOVE_X; part <= Widget::TWIST_TAIL; ++part)
+  int tested_parts = 0;
+  for (int part = Representation::MOVE_X; part <= Representation::TWIST_TAIL; ++part)
   {
-    double at[2];
-    if (!stage.representation()->GetGizmoGrip(part, at))
+    double position[2];
+    if (!stage.representation()->GetGizmoGrip(part, position))
     {
       continue;
     }
-    const Eigen::Vector2d grip(at);
+    const Eigen::Vector2d grip(position);
     stage.send(vtkCommand::MouseMoveEvent, grip);
     stage.send(vtkCommand::LeftButtonPressEvent, grip);
     stage.send(vtkCommand::MouseMoveEvent, grip + Eigen::Vector2d(17, 23));
     EXPECT_NE(state(), before) << part;
     stage.escape();
     EXPECT_EQ(state(), before) << part;
-    ++seen;
+    ++tested_parts;
   }
-  EXPECT_GE(seen, 14);
+  EXPECT_GE(tested_parts, 14);
 }
 
 TEST(HandleGizmo, StaysTheSameSizeOnTheScreen)
 {
-  GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Widget::GIZMO_TURN);
+  GizmoStage stage({ point("a", Vec3(0, 0, 0)) }, Representation::GIZMO_TURN);
   const auto radius = [&]()
-  { return (stage.grip(Widget::TURN_VIEW) - stage.display(Vec3::Zero())).norm(); };
+  { return (stage.grip(Representation::TURN_VIEW) - stage.display(Vec3::Zero())).norm(); };
   const double before = radius();
   stage.renderer->GetActiveCamera()->Dolly(0.3);
   EXPECT_NEAR(radius(), before, 1.0);
@@ -861,9 +870,9 @@ TEST(HandleGizmo, HoveringOverFiveHundredHandlesIsQuick)
   Handles handles;
   for (int i = 0; i < 250; ++i)
   {
-    const Vec3 at(0.2 * (i % 20) - 1.9, 0.25 * (i / 20) - 1.75, 0.1 * (i % 7));
-    handles.push_back(point("p" + std::to_string(i), at));
-    handles.push_back(bone("b" + std::to_string(i), at, at + Vec3(0.1, 0.1, 0)));
+    const Vec3 position(0.2 * (i % 20) - 1.9, 0.25 * (i / 20) - 1.75, 0.1 * (i % 7));
+    handles.push_back(point("p" + std::to_string(i), position));
+    handles.push_back(bone("b" + std::to_string(i), position, position + Vec3(0.1, 0.1, 0)));
   }
   GizmoStage stage(handles);
   // Use the minimum of several rounds, because other processes run on the machine.

@@ -13,15 +13,15 @@ TEST(HandleSetWidget, HoverFindsHandlesByPriority)
   // body, the bone is picked.
   Stage stage({ point("p", Vec3(1, 0, 0)), bone("b", Vec3(-1, 0, 0), Vec3(1, 0, 0)) });
   stage.move(Vec3(1, 0, 0));
-  EXPECT_EQ(stage.representation()->GetInteractionState(), Widget::ON_POINT);
+  EXPECT_EQ(stage.representation()->GetInteractionState(), Representation::ON_POINT);
   EXPECT_EQ(stage.representation()->GetHoveredHandle(), 0);
   stage.move(Vec3(-1, 0, 0));
-  EXPECT_EQ(stage.representation()->GetInteractionState(), Widget::ON_HEAD);
+  EXPECT_EQ(stage.representation()->GetInteractionState(), Representation::ON_HEAD);
   EXPECT_EQ(stage.representation()->GetHoveredHandle(), 1);
   stage.move(Vec3(0, 0, 0));
-  EXPECT_EQ(stage.representation()->GetInteractionState(), Widget::ON_BODY);
+  EXPECT_EQ(stage.representation()->GetInteractionState(), Representation::ON_BODY);
   stage.move(Vec3(0, 1, 0));
-  EXPECT_EQ(stage.representation()->GetInteractionState(), Widget::OUTSIDE);
+  EXPECT_EQ(stage.representation()->GetInteractionState(), Representation::OUTSIDE);
   EXPECT_EQ(stage.representation()->GetHoveredHandle(), -1);
   EXPECT_EQ(stage.events[vtkCommand::HighlightEvent], 3); // highlights of p, of b, and of no handle
   EXPECT_EQ(stage.representation()->GetHandleName(1), "b");
@@ -47,14 +47,14 @@ TEST(HandleSetWidget, AJointOfTwoBonesGivesTheUpperBonesTail)
     bone("lower", Vec3(0, 0, 0), Vec3(1, 0, 0), 0) });
   stage.move(Vec3(0, 0, 0));
   EXPECT_EQ(stage.representation()->GetHoveredHandle(), 0);
-  EXPECT_EQ(stage.representation()->GetInteractionState(), Widget::ON_TAIL);
+  EXPECT_EQ(stage.representation()->GetInteractionState(), Representation::ON_TAIL);
 }
 
 TEST(HandleSetWidget, DragMovesAPointInTheCameraPlane)
 {
   Stage stage({ point("a", Vec3(0.5, 0, 1)), point("b", Vec3(-1, 0, 0)) });
   stage.drag(Vec3(0.5, 0, 1), Vec3(1.25, 0.75, 1));
-  EXPECT_LT((stage.head(0) - Vec3(1.25, 0.75, 1)).norm(), pixel);
+  EXPECT_LT((stage.head(0) - Vec3(1.25, 0.75, 1)).norm(), pixel_length);
   EXPECT_NEAR(stage.head(0)[2], 1.0, 1e-9) << "the plane faces the camera";
   const Affine t = stage.transform(0);
   EXPECT_EQ(Eigen::Matrix3d(t.leftCols<3>()), Eigen::Matrix3d::Identity());
@@ -65,18 +65,18 @@ TEST(HandleSetWidget, DragMovesAPointInTheCameraPlane)
   EXPECT_EQ(stage.representation()->GetSelectedHandle(), 0);
   // Transforms are absolute, so a second drag continues from the posed position.
   stage.drag(stage.head(0), Vec3(0.5, 0, 1));
-  EXPECT_LT((stage.head(0) - Vec3(0.5, 0, 1)).norm(), 2 * pixel);
+  EXPECT_LT((stage.head(0) - Vec3(0.5, 0, 1)).norm(), 2 * pixel_length);
 }
 
 TEST(HandleSetWidget, GrabbingBesideTheMiddleDoesNotJump)
 {
   Stage stage({ point("a", Vec3(0, 0, 0)) });
-  const Vec3 beside(4 * pixel, 3 * pixel, 0);
+  const Vec3 beside(4 * pixel_length, 3 * pixel_length, 0);
   stage.press(beside);
   stage.move(beside);
   EXPECT_LT(stage.head(0).norm(), 1e-9);
   stage.move(beside + Vec3(1, 0, 0));
-  EXPECT_LT((stage.head(0) - Vec3(1, 0, 0)).norm(), 1.5 * pixel);
+  EXPECT_LT((stage.head(0) - Vec3(1, 0, 0)).norm(), 1.5 * pixel_length);
   stage.release(beside + Vec3(1, 0, 0));
 }
 
@@ -87,7 +87,7 @@ TEST(HandleSetWidget, DraggingATailTurnsTheBoneAboutItsHead)
   // The handle has rotated by 90 degrees. The length of the mouse's path has no effect.
   EXPECT_LT((stage.head(0) - Vec3(0.2, 0.1, 0)).norm(), 1e-12);
   EXPECT_NEAR((stage.tail(0) - stage.head(0)).norm(), 1.0, 1e-12);
-  EXPECT_LT((stage.tail(0) - Vec3(0.2, 1.1, 0)).norm(), pixel);
+  EXPECT_LT((stage.tail(0) - Vec3(0.2, 1.1, 0)).norm(), pixel_length);
   const Eigen::Matrix3d r = stage.transform(0).leftCols<3>();
   EXPECT_LT((r * r.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
   EXPECT_NEAR(r.determinant(), 1.0, 1e-12);
@@ -95,13 +95,13 @@ TEST(HandleSetWidget, DraggingATailTurnsTheBoneAboutItsHead)
 
 TEST(HandleSetWidget, DraggingBodyOrHeadMovesTheBone)
 {
-  for (const double where : { 0.0, 0.5 })
+  for (const double fraction : { 0.0, 0.5 })
   {
     Stage stage({ bone("b", Vec3(-0.5, 0, 0), Vec3(0.5, 0, 0)) });
-    const Vec3 grabbed(-0.5 + where, 0, 0);
+    const Vec3 grabbed(-0.5 + fraction, 0, 0);
     stage.drag(grabbed, grabbed + Vec3(0.3, -0.7, 0));
-    EXPECT_LT((stage.head(0) - Vec3(-0.2, -0.7, 0)).norm(), 1.5 * pixel);
-    EXPECT_LT((stage.tail(0) - Vec3(0.8, -0.7, 0)).norm(), 1.5 * pixel);
+    EXPECT_LT((stage.head(0) - Vec3(-0.2, -0.7, 0)).norm(), 1.5 * pixel_length);
+    EXPECT_LT((stage.tail(0) - Vec3(0.8, -0.7, 0)).norm(), 1.5 * pixel_length);
     EXPECT_EQ(Eigen::Matrix3d(stage.transform(0).leftCols<3>()), Eigen::Matrix3d::Identity());
   }
 }
@@ -113,7 +113,7 @@ TEST(HandleSetWidget, DescendantsFollowUnlessAskedNotTo)
     bone("other", Vec3(0, -2, 0), Vec3(1, -2, 0)) };
   Stage stage(arm);
   stage.drag(Vec3(0, 0, 0), Vec3(-1, 1, 0)); // this rotates the upper arm by 90 degrees
-  EXPECT_LT((stage.tail(2) - Vec3(-1, 2.4, 0)).norm(), 4 * pixel);
+  EXPECT_LT((stage.tail(2) - Vec3(-1, 2.4, 0)).norm(), 4 * pixel_length);
   EXPECT_LT((stage.tail(0) - stage.head(1)).norm(), 1e-12) << "joints hold";
   EXPECT_LT((stage.tail(1) - stage.head(2)).norm(), 1e-12);
   EXPECT_EQ(stage.transform(3), identity_affine());
@@ -121,7 +121,7 @@ TEST(HandleSetWidget, DescendantsFollowUnlessAskedNotTo)
   Stage alone(arm);
   alone.representation()->MoveDescendantsOff();
   alone.drag(Vec3(0, 0, 0), Vec3(-1, 1, 0));
-  EXPECT_LT((alone.tail(0) - Vec3(-1, 1, 0)).norm(), 2 * pixel);
+  EXPECT_LT((alone.tail(0) - Vec3(-1, 1, 0)).norm(), 2 * pixel_length);
   EXPECT_EQ(alone.transform(1), identity_affine());
 }
 
@@ -172,7 +172,8 @@ TEST(HandleSetWidget, DisablingOrNewHandlesCancelADrag)
   stage.widget->SetHandles(others);
   EXPECT_EQ(stage.transform(0), identity_affine());
   stage.drag(Vec3(0, 1, 0), Vec3(0, 0, 0));
-  EXPECT_NEAR(others->GetCellData()->GetArray("Transform")->GetComponent(0, 7), -1.0, 2 * pixel);
+  EXPECT_NEAR(
+    others->GetCellData()->GetArray("Transform")->GetComponent(0, 7), -1.0, 2 * pixel_length);
 }
 
 TEST(HandleSetWidget, DragsKeepModesAndWhatABindReads)
@@ -223,8 +224,8 @@ TEST(HandleSetWidget, HandlesShownAtRestAreSelectedThereButNotDragged)
   const int drags = stage.events[vtkCommand::StartInteractionEvent];
   stage.drag(Vec3(1, 0, 0), Vec3(1, -0.8, 0));
   EXPECT_EQ(stage.representation()->GetSelectedHandle(), 1);
-  EXPECT_EQ(stage.representation()->GetDragRefusal(1), Widget::IS_AT_REST);
-  EXPECT_FALSE(stage.widget->StartDrag(Widget::GIZMO_MOVE));
+  EXPECT_EQ(stage.representation()->GetDragRefusal(1), Representation::IS_AT_REST);
+  EXPECT_FALSE(stage.widget->StartDrag(Representation::GIZMO_MOVE));
   EXPECT_EQ(stage.events[vtkCommand::StartInteractionEvent], drags);
   EXPECT_EQ(stage.transform(1), pose);
   stage.representation()->ShowRestOff();
@@ -314,8 +315,8 @@ TEST(HandleSetWidget, TakesPlainPolydataAndOddFiles)
   stage.move(Vec3(0.5, 0, 0));
   EXPECT_EQ(stage.representation()->GetHoveredHandle(), -1) << "a cage's edge is no handle";
   stage.drag(Vec3(0, 0, 0), Vec3(0, 1, 0));
-  EXPECT_LT((stage.head(0) - Vec3(0, 1, 0)).norm(), pixel);
-  EXPECT_LT((stage.head(1) - Vec3(1, 1, 0)).norm(), pixel) << "each is below the other";
+  EXPECT_LT((stage.head(0) - Vec3(0, 1, 0)).norm(), pixel_length);
+  EXPECT_LT((stage.head(1) - Vec3(1, 1, 0)).norm(), pixel_length) << "each is below the other";
 
   Stage empty(vtkSmartPointer<vtkPolyData>::New());
   empty.drag(Vec3(0, 0, 0), Vec3(1, 0, 0));
@@ -332,7 +333,7 @@ TEST(HandleSetWidget, BoundsAreThoseOfThePose)
   const double expected[6] = { -1, 2, -1, 0, 0, 0.5 };
   for (int i = 0; i < 6; ++i)
   {
-    EXPECT_NEAR(bounds[i], expected[i], pixel);
+    EXPECT_NEAR(bounds[i], expected[i], pixel_length);
   }
 }
 

@@ -20,7 +20,7 @@
 #include <vector>
 
 using namespace bindpose;
-using test::pixel;
+using test::pixel_length;
 
 namespace
 {
@@ -31,7 +31,7 @@ public:
   {
     this->widget->SetInteractor(this->interactor);
     this->widget->SetSurface(this->surface);
-    this->put_on(this->widget,
+    this->enable_and_count(this->widget,
       { vtkCommand::StartInteractionEvent, vtkCommand::InteractionEvent,
         vtkCommand::EndInteractionEvent, vtkCommand::StateChangedEvent });
   }
@@ -75,7 +75,7 @@ TEST(RegionBrush, ADiscIsWhatLiesWithinTheRadius)
     for (vtkIdType v = 0; v < stage.surface->GetNumberOfPoints(); ++v)
     {
       const double distance = (Vec3(stage.surface->GetPoint(v)) - middle).norm();
-      if (std::abs(distance - 0.5) > 2 * pixel)
+      if (std::abs(distance - 0.5) > 2 * pixel_length)
       {
         EXPECT_EQ(stage.label(v), distance < 0.5 ? 3.0 : 0.0) << distance;
       }
@@ -103,7 +103,7 @@ TEST(RegionBrush, AFastStrokeHasNoGaps)
     {
       EXPECT_EQ(stage.label(v), 1.0) << p.transpose();
     }
-    else if (distance > 0.2 + 2 * pixel)
+    else if (distance > 0.2 + 2 * pixel_length)
     {
       EXPECT_EQ(stage.label(v), 0.0) << p.transpose();
     }
@@ -125,7 +125,7 @@ TEST(RegionBrush, CtrlErasesAndEscapeGivesEveryLabelBack)
   EXPECT_TRUE(stage.widget->GetCanceled());
   EXPECT_FALSE(stage.widget->IsPainting());
   stage.release(Vec3(0.5, 0.5, 0));
-  stage.hold(false, true);
+  stage.set_modifiers(false, true);
   stage.drag(Vec3(0, 0, 0), Vec3(0, 0, 0), 1);
   int erased = 0;
   for (std::size_t v = 0; v < painted.size(); ++v)
@@ -178,15 +178,16 @@ TEST(RegionBrush, RadiusByKeysAndWheelAndTheCameraElsewhere)
   EXPECT_NEAR(stage.brush()->GetDiscRadius(), 1.15 * start, 1e-12);
   stage.key("bracketleft");
   EXPECT_NEAR(stage.brush()->GetDiscRadius(), start, 1e-12);
-  const double away = stage.renderer->GetActiveCamera()->GetDistance();
-  stage.hold(true);
+  const double distance_before = stage.renderer->GetActiveCamera()->GetDistance();
+  stage.set_modifiers(true);
   stage.send(vtkCommand::MouseWheelForwardEvent, stage.display(Vec3(0, 0, 0)));
-  stage.hold(false);
+  stage.set_modifiers(false);
   EXPECT_NEAR(stage.brush()->GetDiscRadius(), 1.15 * start, 1e-12);
-  EXPECT_EQ(stage.renderer->GetActiveCamera()->GetDistance(), away);
+  EXPECT_EQ(stage.renderer->GetActiveCamera()->GetDistance(), distance_before);
   stage.send(vtkCommand::MouseWheelForwardEvent, stage.display(Vec3(0, 0, 0)));
   EXPECT_NEAR(stage.brush()->GetDiscRadius(), 1.15 * start, 1e-12);
-  EXPECT_LT(stage.renderer->GetActiveCamera()->GetDistance(), away) << "the camera's wheel";
+  EXPECT_LT(stage.renderer->GetActiveCamera()->GetDistance(), distance_before)
+    << "the camera's wheel";
   EXPECT_EQ(stage.events[vtkCommand::StateChangedEvent], 3);
   // If the mouse is not on the surface, its events move the camera.
   const Vec3 before(stage.renderer->GetActiveCamera()->GetPosition());
@@ -230,14 +231,14 @@ TEST(RegionBrush, AHundredThousandTrianglesAtMouseRate)
   for (int round = 0; round < 5; ++round)
   {
     const auto start = std::chrono::steady_clock::now();
-    double at[2];
+    double position[2];
     for (int i = 0; i < 20; ++i)
     {
       const double angle = 0.5 * EIGEN_PI + 0.02 * (20 * round + i);
       stage.renderer->SetWorldPoint(1.2 * std::cos(angle), 1.2 * std::sin(angle), 0.5, 1.0);
       stage.renderer->WorldToDisplay();
-      std::copy_n(stage.renderer->GetDisplayPoint(), 2, at);
-      stage.brush()->WidgetInteraction(at);
+      std::copy_n(stage.renderer->GetDisplayPoint(), 2, position);
+      stage.brush()->WidgetInteraction(position);
     }
     const std::chrono::duration<double, std::milli> spent =
       std::chrono::steady_clock::now() - start;
@@ -263,19 +264,19 @@ TEST(RegionBrush, TheDiscIsSeen)
   stage.renderer->SetBackground(0.93, 0.94, 0.95);
   stage.brush()->SetRadius(0.3);
   stage.drag(Vec3(-0.5, -0.2, 0), Vec3(0.4, 0.3, 0), 5);
-  const auto with = stage.picture();
-  test::keep(with, "brush");
+  const auto picture_with_disc = stage.picture();
+  test::save_picture(picture_with_disc, "brush");
   stage.move(Vec3(-2, -2, 0)); // this position is not on the surface
-  const auto without = stage.picture();
-  int different = 0;
+  const auto picture_without_disc = stage.picture();
+  int differing_pixels = 0;
   for (int y = 0; y < 400; ++y)
   {
     for (int x = 0; x < 400; ++x)
     {
-      different += std::abs(with->GetScalarComponentAsDouble(x, y, 0, 0) -
-                     without->GetScalarComponentAsDouble(x, y, 0, 0)) > 24.0;
+      differing_pixels += std::abs(picture_with_disc->GetScalarComponentAsDouble(x, y, 0, 0) -
+                            picture_without_disc->GetScalarComponentAsDouble(x, y, 0, 0)) > 24.0;
     }
   }
-  EXPECT_GT(different, 150) << "a circle of 140 pixels around, 2 wide";
-  EXPECT_LT(different, 1500);
+  EXPECT_GT(differing_pixels, 150) << "a circle of 140 pixels around, 2 wide";
+  EXPECT_LT(differing_pixels, 1500);
 }

@@ -24,7 +24,7 @@
 namespace bindpose::test
 {
 
-using Widget = vtkHandleSetRepresentation;
+using Representation = vtkHandleSetRepresentation;
 
 inline Handle point(const std::string& name, const Vec3& place)
 {
@@ -53,20 +53,20 @@ public:
   {
     this->widget->SetInteractor(this->interactor);
     this->widget->SetHandles(this->handles);
-    this->put_on(this->widget,
+    this->enable_and_count(this->widget,
       { vtkCommand::HighlightEvent, vtkCommand::SelectionChangedEvent,
         vtkCommand::StartInteractionEvent, vtkCommand::InteractionEvent,
         vtkCommand::EndInteractionEvent });
   }
 
-  Widget* representation() { return this->widget->GetHandleSetRepresentation(); }
+  Representation* representation() { return this->widget->GetHandleSetRepresentation(); }
 
   /// Return the display position at which the mouse can grab a part of the gizmo.
   Eigen::Vector2d grip(int part)
   {
-    Eigen::Vector2d at(-1, -1);
-    EXPECT_TRUE(this->representation()->GetGizmoGrip(part, at.data())) << part;
-    return at;
+    Eigen::Vector2d position(-1, -1);
+    EXPECT_TRUE(this->representation()->GetGizmoGrip(part, position.data())) << part;
+    return position;
   }
   void drag_pixels(const Eigen::Vector2d& from, const Eigen::Vector2d& to, int steps = 4)
   {

@@ -23,14 +23,15 @@ constexpr int between = 2; // pixels between buttons of a group
 
 /// Range of the logarithmic slider for the radius of the brush, as fractions of the shape's
 /// diagonal.
-constexpr double least_radius = 0.002;
-constexpr double most_radius = 0.5;
+constexpr double minimum_radius = 0.002;
+constexpr double maximum_radius = 0.5;
 constexpr int radius_steps = 200;
 
 int step_of(double radius)
 {
-  const double part = std::log(radius / least_radius) / std::log(most_radius / least_radius);
-  return static_cast<int>(std::lround(radius_steps * std::clamp(part, 0.0, 1.0)));
+  const double fraction =
+    std::log(radius / minimum_radius) / std::log(maximum_radius / minimum_radius);
+  return static_cast<int>(std::lround(radius_steps * std::clamp(fraction, 0.0, 1.0)));
 }
 } // namespace
 
@@ -161,29 +162,29 @@ ModeBar::ModeBar(QAction* inside, QWidget* parent) : QFrame(parent)
   QPushButton* done = button(tr("Done"), this);
   done->setToolTip(tr("Back to posing (Esc)"));
   row->addWidget(done);
-  QObject::connect(this->end_cage_, &QPushButton::clicked, this, &ModeBar::end_cage_wanted);
-  QObject::connect(this->new_region_, &QPushButton::clicked, this, &ModeBar::new_region_wanted);
+  QObject::connect(this->end_cage_, &QPushButton::clicked, this, &ModeBar::end_cage_requested);
+  QObject::connect(this->new_region_, &QPushButton::clicked, this, &ModeBar::new_region_requested);
   QObject::connect(this->radius_, &QSlider::valueChanged, this,
     [this](int step)
     {
       Q_EMIT this->radius_chosen(
-        least_radius * std::pow(most_radius / least_radius, step / double{ radius_steps }));
+        minimum_radius * std::pow(maximum_radius / minimum_radius, step / double{ radius_steps }));
     });
-  QObject::connect(done, &QPushButton::clicked, this, &ModeBar::done_wanted);
+  QObject::connect(done, &QPushButton::clicked, this, &ModeBar::done_requested);
   this->hide();
 }
 
 void ModeBar::show_state(const State& state)
 {
   this->title_->setText(state.title);
-  this->inside_->setVisible(state.places);
+  this->inside_->setVisible(state.shows_inside);
   this->end_cage_->setVisible(state.cage);
   this->end_cage_->setEnabled(state.making_cage);
-  this->brush_->setVisible(state.paints);
-  this->radius_->setVisible(state.paints);
-  this->new_region_->setVisible(state.paints);
+  this->brush_->setVisible(state.shows_brush);
+  this->radius_->setVisible(state.shows_brush);
+  this->new_region_->setVisible(state.shows_brush);
   this->new_region_->setEnabled(state.has_region);
-  const QSignalBlocker quiet(this->radius_);
+  const QSignalBlocker blocker(this->radius_);
   this->radius_->setValue(step_of(state.radius));
   this->setVisible(!state.title.isEmpty());
 }

@@ -48,20 +48,20 @@ public:
   {
     QString title;
     /// True: show the switch that places points and bones inside the surface instead of on it.
-    bool places = false;
+    bool shows_inside = false;
     bool cage = false;
     bool making_cage = false;
-    bool paints = false;
+    bool shows_brush = false;
     bool has_region = false; ///< true: the next stroke paints the label of an existing region
     double radius = 0.0; ///< radius of the brush, as a fraction of the shape's diagonal
   };
   void show_state(const State& state);
 
 Q_SIGNALS:
-  void end_cage_wanted();
-  void new_region_wanted();
+  void end_cage_requested();
+  void new_region_requested();
   void radius_chosen(double radius);
-  void done_wanted();
+  void done_requested();
 
 private:
   QLabel* title_;

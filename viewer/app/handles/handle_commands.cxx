@@ -42,16 +42,16 @@ std::vector<Index> to_list(const std::vector<int>& handles)
 } // namespace
 
 HandleCommands::HandleCommands(
-  HandleSelection* selection, Document* document, QWidget* picture, QWidget* list)
-  : QObject(selection), selection_(selection), document_(document), picture_(picture),
-    menu_(new QMenu(picture)), fixes_(new QMenu(tr("&Fixes"), picture)),
-    mirror_(new QMenu(tr("&Mirror"), picture)), parents_(new QMenu(tr("&Parent"), picture))
+  HandleSelection* selection, Document* document, QWidget* view_widget, QWidget* list)
+  : QObject(selection), selection_(selection), document_(document), view_widget_(view_widget),
+    menu_(new QMenu(view_widget)), mode_menu_(new QMenu(tr("&Fixes"), view_widget)),
+    mirror_(new QMenu(tr("&Mirror"), view_widget)), parents_(new QMenu(tr("&Parent"), view_widget))
 {
   this->make_actions();
   for (const auto& [name, action] : this->actions_)
   {
     action->setShortcutContext(Qt::WidgetShortcut);
-    picture->addAction(action);
+    view_widget->addAction(action);
     list->addAction(action);
   }
   QObject::connect(this->parents_, &QMenu::aboutToShow, this, &HandleCommands::fill_parents);
@@ -65,12 +65,12 @@ HandleCommands::~HandleCommands() = default;
 template <typename Action>
 QAction* HandleCommands::add(const std::string& name, const QString& text, Action action)
 {
-  auto* made = new QAction(text, this);
-  made->setObjectName(QString::fromStdString(name));
-  made->setShortcut(QKeySequence(QString::fromStdString(keys_of(name.c_str()))));
-  QObject::connect(made, &QAction::triggered, this, action);
-  this->actions_[name] = made;
-  return made;
+  auto* new_action = new QAction(text, this);
+  new_action->setObjectName(QString::fromStdString(name));
+  new_action->setShortcut(QKeySequence(QString::fromStdString(keys_of(name.c_str()))));
+  QObject::connect(new_action, &QAction::triggered, this, action);
+  this->actions_[name] = new_action;
+  return new_action;
 }
 
 void HandleCommands::make_actions()
@@ -98,10 +98,10 @@ void HandleCommands::make_actions()
     tr("A bone's &tail"), tr("A bone's &ends"), tr("&Automatic") };
   for (const HandleMode mode : all_modes)
   {
-    QAction* action =
-      this->add(name_of(mode), modes[static_cast<int>(mode)], [this, mode] { this->fix(mode); });
+    QAction* action = this->add(
+      name_of(mode), modes[static_cast<int>(mode)], [this, mode] { this->set_handle_mode(mode); });
     action->setCheckable(true);
-    this->fixes_->addAction(action);
+    this->mode_menu_->addAction(action);
   }
 }
 
@@ -117,7 +117,7 @@ void HandleCommands::fill(QMenu* menu)
   menu->addAction(this->action("color"));
   menu->addAction(this->action("no_color"));
   menu->addAction(this->action("lock"));
-  menu->addMenu(this->fixes_);
+  menu->addMenu(this->mode_menu_);
   menu->addMenu(this->parents_);
   menu->addSeparator();
   menu->addAction(this->action("reset"));
@@ -133,7 +133,7 @@ void HandleCommands::update()
 {
   const Handles& handles = this->document_->handles();
   const std::vector<int> selected = this->selection_->selected();
-  const bool some = !selected.empty();
+  const bool any_selected = !selected.empty();
   const auto all = [&](HandleKind kind)
   {
     return std::all_of(
@@ -141,24 +141,24 @@ void HandleCommands::update()
   };
   for (const auto& [name, action] : this->actions_)
   {
-    action->setEnabled(some);
+    action->setEnabled(any_selected);
   }
-  for (QMenu* menu : { this->fixes_, this->mirror_, this->parents_ })
+  for (QMenu* menu : { this->mode_menu_, this->mirror_, this->parents_ })
   {
-    menu->setEnabled(some);
+    menu->setEnabled(any_selected);
   }
   this->action("rename")->setEnabled(selected.size() == 1);
-  this->action("snap")->setEnabled(some && this->document_->surface());
+  this->action("snap")->setEnabled(any_selected && this->document_->surface());
   this->action("cage_edge")->setEnabled(selected.size() == 2 && all(HandleKind::cage_vertex));
   this->action("select_all")->setEnabled(!handles.empty());
-  this->action("lock")->setChecked(some &&
+  this->action("lock")->setChecked(any_selected &&
     std::all_of(selected.begin(), selected.end(), [this](int k) { return this->is_locked(k); }));
   const Pose pose = this->document_->pose();
   for (const HandleMode mode : all_modes)
   {
     QAction* action = this->action(name_of(mode));
-    action->setEnabled(some && (!constrains_tail(mode) || all(HandleKind::bone)));
-    action->setChecked(some &&
+    action->setEnabled(any_selected && (!constrains_tail(mode) || all(HandleKind::bone)));
+    action->setChecked(any_selected &&
       std::all_of(selected.begin(), selected.end(),
         [&](int k) { return pose[static_cast<std::size_t>(k)].mode == mode; }));
   }
@@ -200,7 +200,7 @@ void HandleCommands::ask_for_name()
     return;
   }
   const int handle = selected[0];
-  auto* dialog = new QInputDialog(this->picture_->window());
+  auto* dialog = new QInputDialog(this->view_widget_->window());
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setWindowTitle(tr("Rename"));
   dialog->setLabelText(tr("Name of the handle"));
@@ -221,7 +221,7 @@ bool HandleCommands::rename(int handle, const QString& name)
 
 void HandleCommands::ask_for_color()
 {
-  auto* dialog = new QColorDialog(QColor("#f2942e"), this->picture_->window());
+  auto* dialog = new QColorDialog(QColor("#f2942e"), this->view_widget_->window());
   dialog->setAttribute(Qt::WA_DeleteOnClose);
   dialog->setWindowTitle(tr("Color of the handle"));
   QObject::connect(dialog, &QColorDialog::colorSelected, this,
@@ -249,7 +249,7 @@ void HandleCommands::set_color(const std::optional<QColor>& color)
   }
   if (!selected.empty())
   {
-    this->selection_->commit(this->selection_->named(tr("color"), selected));
+    this->selection_->commit(this->selection_->step_name(tr("color"), selected));
   }
 }
 
@@ -271,7 +271,8 @@ void HandleCommands::set_locked(bool locked)
   }
   if (!selected.empty())
   {
-    this->selection_->commit(this->selection_->named(locked ? tr("lock") : tr("unlock"), selected));
+    this->selection_->commit(
+      this->selection_->step_name(locked ? tr("lock") : tr("unlock"), selected));
   }
 }
 
@@ -285,44 +286,44 @@ void HandleCommands::remove()
   }
   vtkPolyData* surface = this->document_->work().surface;
   vtkDataArray* labels = surface ? surface->GetPointData()->GetArray("RegionId") : nullptr;
-  vtkSmartPointer<vtkDataArray> left;
+  vtkSmartPointer<vtkDataArray> remaining_labels;
   for (const int handle : selected)
   {
-    const Handle& its = this->document_->handles()[handle];
-    if (its.kind != HandleKind::region || !labels)
+    const Handle& target = this->document_->handles()[handle];
+    if (target.kind != HandleKind::region || !labels)
     {
       continue;
     }
-    if (!left)
+    if (!remaining_labels)
     {
-      left.TakeReference(labels->NewInstance());
-      left->DeepCopy(labels);
+      remaining_labels.TakeReference(labels->NewInstance());
+      remaining_labels->DeepCopy(labels);
     }
-    for (vtkIdType v = 0; v < left->GetNumberOfTuples(); ++v)
+    for (vtkIdType v = 0; v < remaining_labels->GetNumberOfTuples(); ++v)
     {
-      if (left->GetComponent(v, 0) == static_cast<double>(its.region_id))
+      if (remaining_labels->GetComponent(v, 0) == static_cast<double>(target.region_id))
       {
-        left->SetComponent(v, 0, 0.0);
+        remaining_labels->SetComponent(v, 0, 0.0);
       }
     }
   }
   this->selection_->edit(
-    this->selection_->named(tr("delete"), selected),
+    this->selection_->step_name(tr("delete"), selected),
     [&](const Handles& before, EditedHandles& after)
     { return remove_handles(before, to_list(selected), after); },
-    left);
+    remaining_labels);
 }
 
-double HandleCommands::middle(int axis) const
+double HandleCommands::center_coordinate(int axis) const
 {
   vtkPolyData* shape =
     this->document_->surface() ? this->document_->surface() : this->document_->editable_handles();
   const double* bounds = shape->GetBounds();
   const double lower = bounds[2 * axis];
   const double upper = bounds[2 * axis + 1];
-  const double middle = 0.5 * (lower + upper);
+  const double center_coordinate = 0.5 * (lower + upper);
   constexpr double near = 0.02;
-  return std::abs(middle) <= near * (upper - lower) ? 0.0 : middle;
+  return std::abs(center_coordinate) <= near * (upper - lower) ? 0.0 : center_coordinate;
 }
 
 void HandleCommands::mirror(int axis)
@@ -333,8 +334,8 @@ void HandleCommands::mirror(int axis)
     return;
   }
   const Vec3 normal = Vec3::Unit(axis);
-  const Vec3 place = this->middle(axis) * normal;
-  this->selection_->edit(this->selection_->named(tr("mirror"), selected),
+  const Vec3 place = this->center_coordinate(axis) * normal;
+  this->selection_->edit(this->selection_->step_name(tr("mirror"), selected),
     [&](const Handles& before, EditedHandles& after)
     { return mirror_handles(before, to_list(selected), place, normal, after); });
 }
@@ -348,7 +349,7 @@ void HandleCommands::snap()
     return;
   }
   const SurfaceProbe probe(surface.points.view(), surface.triangles.view());
-  this->selection_->edit(this->selection_->named(tr("snap to the surface:"), selected),
+  this->selection_->edit(this->selection_->step_name(tr("snap to the surface:"), selected),
     [&](const Handles& before, EditedHandles& after)
     { return snap_to_surface(before, to_list(selected), probe, after); });
 }
@@ -360,7 +361,7 @@ void HandleCommands::set_parent(int parent)
   {
     return;
   }
-  this->selection_->edit(this->selection_->named(tr("parent of"), selected),
+  this->selection_->edit(this->selection_->step_name(tr("parent of"), selected),
     [&](const Handles& before, EditedHandles& after)
     {
       Status status;
@@ -391,7 +392,7 @@ void HandleCommands::toggle_cage_edge()
     { return bindpose::toggle_cage_edge(before, selected[0], selected[1], after); });
 }
 
-void HandleCommands::fix(HandleMode mode)
+void HandleCommands::set_handle_mode(HandleMode mode)
 {
   const std::vector<int> selected = this->selection_->selected();
   Pose pose = this->document_->pose();
@@ -401,7 +402,7 @@ void HandleCommands::fix(HandleMode mode)
   }
   if (!selected.empty())
   {
-    this->document_->set_pose(pose, this->selection_->named(tr("mode of"), selected));
+    this->document_->set_pose(pose, this->selection_->step_name(tr("mode of"), selected));
   }
   this->update(); // check the entry again, because a click on a checked entry unchecks it
 }
@@ -413,14 +414,14 @@ void HandleCommands::reset()
   Pose pose = this->document_->pose();
   for (const int handle : selected)
   {
-    HandlePose& its = pose[static_cast<std::size_t>(handle)];
-    const HandleMode mode = its.mode;
-    its = HandlePose();
-    its.mode = mode;
+    HandlePose& target = pose[static_cast<std::size_t>(handle)];
+    const HandleMode mode = target.mode;
+    target = HandlePose();
+    target.mode = mode;
   }
   if (!selected.empty())
   {
-    this->document_->set_pose(pose, this->selection_->named(tr("reset"), selected));
+    this->document_->set_pose(pose, this->selection_->step_name(tr("reset"), selected));
   }
 }
 

@@ -27,8 +27,9 @@ class HandleCommands : public QObject
   Q_OBJECT
 
 public:
-  /// The keys work in the 3D view `picture` and in `list`, the list of handles.
-  HandleCommands(HandleSelection* selection, Document* document, QWidget* picture, QWidget* list);
+  /// The keys work in the 3D view `view_widget` and in `list`, the list of handles.
+  HandleCommands(
+    HandleSelection* selection, Document* document, QWidget* view_widget, QWidget* list);
   ~HandleCommands() override;
 
   /// Return the context menu of handles.
@@ -54,7 +55,7 @@ public:
   /// Set the parent of the selected handles; -1: no parent.
   void set_parent(int parent);
   void toggle_cage_edge();
-  void fix(bindpose::HandleMode mode);
+  void set_handle_mode(bindpose::HandleMode mode);
   void reset();
   void select_all();
 
@@ -66,13 +67,13 @@ private:
   void ask_for_color();
   void fill_parents();
   bool is_locked(int handle) const;
-  double middle(int axis) const;
+  double center_coordinate(int axis) const;
 
   HandleSelection* selection_;
   Document* document_;
-  QWidget* picture_;
+  QWidget* view_widget_;
   QMenu* menu_;
-  QMenu* fixes_;
+  QMenu* mode_menu_;
   QMenu* mirror_;
   QMenu* parents_;
   std::map<std::string, QAction*> actions_;

@@ -38,7 +38,7 @@ using namespace bindpose;
 
 namespace
 {
-using Drawn = vtkHandleSetRepresentation;
+using Representation = vtkHandleSetRepresentation;
 } // namespace
 
 HandleEditing::HandleEditing(
@@ -54,18 +54,18 @@ HandleEditing::HandleEditing(
                                  this->gizmos_->actions() + QList<QAction*>{ this->local_ } },
     viewport->parentWidget());
   this->bar_ = new ModeBar(this->inside_, viewport);
-  this->nothing_ = new StartCard(auto_rig, viewport);
+  this->start_card_ = new StartCard(auto_rig, viewport);
   if (auto* over = qobject_cast<QBoxLayout*>(viewport->layout()))
   {
     over->insertWidget(0, this->bar_, 0, Qt::AlignLeft | Qt::AlignTop);
     // legends are on the left, so this text is on the right
-    over->addWidget(this->nothing_, 0, Qt::AlignRight | Qt::AlignBottom);
+    over->addWidget(this->start_card_, 0, Qt::AlignRight | Qt::AlignBottom);
   }
-  QObject::connect(this->bar_, &ModeBar::done_wanted, this, [this] { this->set_mode(pose); });
-  QObject::connect(this->bar_, &ModeBar::end_cage_wanted, this,
+  QObject::connect(this->bar_, &ModeBar::done_requested, this, [this] { this->set_mode(pose); });
+  QObject::connect(this->bar_, &ModeBar::end_cage_requested, this,
     [this]
     {
-      this->drawn()->FinishCage();
+      this->representation()->FinishCage();
       this->viewport_->setFocus();
       this->viewport_->refresh();
       this->show_state();
@@ -73,14 +73,15 @@ HandleEditing::HandleEditing(
   QObject::connect(
     this->bar_, &ModeBar::radius_chosen, this->painting_, &RegionPainting::set_radius);
   QObject::connect(
-    this->bar_, &ModeBar::new_region_wanted, this, [this] { this->selection_->select({}); });
+    this->bar_, &ModeBar::new_region_requested, this, [this] { this->selection_->select({}); });
   QObject::connect(this->painting_, &RegionPainting::changed, this, &HandleEditing::show_state);
   QObject::connect(this->painting_, &RegionPainting::refused, this, &HandleEditing::refused);
   QObject::connect(this->selection_, &HandleSelection::refused, this, &HandleEditing::refused);
-  QObject::connect(this->selection_, &HandleSelection::about_to_edit, this, &HandleEditing::stop);
+  QObject::connect(
+    this->selection_, &HandleSelection::about_to_edit, this, &HandleEditing::cancel_interaction);
   QObject::connect(
     this->selection_, &HandleSelection::changed, this, &HandleEditing::selection_changed);
-  QObject::connect(this->painting_, &RegionPainting::painted, this,
+  QObject::connect(this->painting_, &RegionPainting::region_painted, this,
     [this](const QString& region)
     {
       this->selection_->select_names(region.isEmpty()
@@ -91,15 +92,15 @@ HandleEditing::HandleEditing(
   QTreeWidget* list = panel->handle_list()->tree();
   list->setContextMenuPolicy(Qt::CustomContextMenu);
   QObject::connect(list, &QWidget::customContextMenuRequested, this,
-    [this, list](const QPoint& at)
+    [this, list](const QPoint& position)
     {
-      if (QTreeWidgetItem* item = list->itemAt(at))
+      if (QTreeWidgetItem* item = list->itemAt(position))
       {
         if (!item->isSelected())
         {
           list->setCurrentItem(item);
         }
-        this->commands_->menu()->popup(list->viewport()->mapToGlobal(at));
+        this->commands_->menu()->popup(list->viewport()->mapToGlobal(position));
       }
     });
   // Leave the edit mode, so that poses that are typed or played are visible. Also stop a drag that
@@ -107,7 +108,7 @@ HandleEditing::HandleEditing(
   QObject::connect(posing, &Posing::pose_changed, this,
     [this]
     {
-      this->stop();
+      this->cancel_interaction();
       this->set_mode(pose);
     });
   QObject::connect(document, &Document::option_changed, this,
@@ -169,16 +170,17 @@ void HandleEditing::make_actions()
       this->viewport_->setFocus();
     });
   this->gizmos_ = new QActionGroup(this);
-  this->add_action(this->gizmos_, "gizmo.none", tr("Drag"), Drawn::GIZMO_NONE)->setChecked(true);
-  this->add_action(this->gizmos_, "gizmo.move", tr("Move"), Drawn::GIZMO_MOVE);
-  this->add_action(this->gizmos_, "gizmo.turn", tr("Turn"), Drawn::GIZMO_TURN);
-  this->add_action(this->gizmos_, "gizmo.scale", tr("Scale"), Drawn::GIZMO_SCALE);
-  this->add_action(this->gizmos_, "gizmo.all", tr("All"), Drawn::GIZMO_ALL);
+  this->add_action(this->gizmos_, "gizmo.none", tr("Drag"), Representation::GIZMO_NONE)
+    ->setChecked(true);
+  this->add_action(this->gizmos_, "gizmo.move", tr("Move"), Representation::GIZMO_MOVE);
+  this->add_action(this->gizmos_, "gizmo.turn", tr("Turn"), Representation::GIZMO_TURN);
+  this->add_action(this->gizmos_, "gizmo.scale", tr("Scale"), Representation::GIZMO_SCALE);
+  this->add_action(this->gizmos_, "gizmo.all", tr("All"), Representation::GIZMO_ALL);
   QObject::connect(this->gizmos_, &QActionGroup::triggered, this,
     [this](QAction* action)
     {
       this->set_mode(pose);
-      this->drawn()->SetGizmo(action->data().toInt());
+      this->representation()->SetGizmo(action->data().toInt());
       this->viewport_->setFocus();
       this->viewport_->refresh();
     });
@@ -186,17 +188,17 @@ void HandleEditing::make_actions()
   QObject::connect(this->local_, &QAction::toggled, this,
     [this](bool on)
     {
-      this->drawn()->SetSpace(on ? Drawn::LOCAL : Drawn::WORLD);
+      this->representation()->SetSpace(on ? Representation::LOCAL : Representation::WORLD);
       this->viewport_->refresh();
     });
   this->inside_ = this->add_action(nullptr, "inside", tr("Place &inside the shape"), 0);
-  this->inside_->setChecked(this->drawn()->GetPlaceInside() != 0);
+  this->inside_->setChecked(this->representation()->GetPlaceInside() != 0);
   QObject::connect(this->inside_, &QAction::toggled, this,
     [this](bool on)
     {
-      this->drawn()->SetPlaceInside(on);
+      this->representation()->SetPlaceInside(on);
       this->viewport_->refresh();
-      Q_EMIT this->sentence_changed();
+      Q_EMIT this->status_text_changed();
     });
 }
 
@@ -227,7 +229,7 @@ void HandleEditing::set_mode(int mode)
   {
     return;
   }
-  this->stop();
+  this->cancel_interaction();
   this->warning_.clear();
   this->mode_ = mode;
   Q_EMIT this->mode_changed(mode);
@@ -235,12 +237,12 @@ void HandleEditing::set_mode(int mode)
   this->posing_->edit_at_rest(mode != pose);
   this->widget()->SetEditMode(mode == paint_regions ? move_rest : mode);
   this->widget()->SetProcessEvents(mode != paint_regions);
-  this->drawn()->LeaveHandles();
+  this->representation()->LeaveHandles();
   this->painting_->set_active(mode == paint_regions);
   if (mode == paint_regions)
   {
     const std::vector<int> selected = this->selection_->selected();
-    this->painting_->choose(selected.empty() ? -1 : selected.back());
+    this->painting_->set_region(selected.empty() ? -1 : selected.back());
   }
   if (mode != pose)
   {
@@ -252,10 +254,10 @@ void HandleEditing::set_mode(int mode)
 
 void HandleEditing::show_rest(bool shown)
 {
-  if (shown != (this->drawn()->GetShowRest() != 0))
+  if (shown != (this->representation()->GetShowRest() != 0))
   {
-    this->stop();
-    this->drawn()->SetShowRest(shown);
+    this->cancel_interaction();
+    this->representation()->SetShowRest(shown);
     this->viewport_->refresh();
   }
 }
@@ -264,9 +266,9 @@ void HandleEditing::step_back()
 {
   if (this->widget()->IsDragging() || this->painting_->is_painting())
   {
-    this->stop();
+    this->cancel_interaction();
   }
-  else if (this->drawn()->IsMakingCage())
+  else if (this->representation()->IsMakingCage())
   {
     QKeyEvent key(QEvent::KeyPress, Qt::Key_Escape, Qt::NoModifier);
     QApplication::sendEvent(this->viewport_, &key);
@@ -277,7 +279,7 @@ void HandleEditing::step_back()
   }
 }
 
-void HandleEditing::stop()
+void HandleEditing::cancel_interaction()
 {
   this->widget()->CancelDrag();
   this->painting_->cancel();
@@ -300,22 +302,22 @@ void HandleEditing::show_state()
   this->gizmos_->setEnabled(handles);
   this->local_->setEnabled(handles);
   this->inside_->setEnabled(surface);
-  this->nothing_->setVisible(surface && !handles && this->mode_ == pose);
-  this->drawn()->SetStretchableBones(
+  this->start_card_->setVisible(surface && !handles && this->mode_ == pose);
+  this->representation()->SetStretchableBones(
     this->document_->number("pose.method") == static_cast<int>(PoseMethod::stretchable_bones));
   ModeBar::State state;
   const QString titles[] = { QString(), tr("Move rest positions"), tr("Add points"),
     tr("Add bones"), tr("Add a cage"), tr("Paint regions") };
   state.title = titles[this->mode_];
-  state.places = surface && (this->mode_ == add_points || this->mode_ == add_bones);
+  state.shows_inside = surface && (this->mode_ == add_points || this->mode_ == add_bones);
   state.cage = this->mode_ == add_cage;
-  state.making_cage = this->drawn()->IsMakingCage();
-  state.paints = this->mode_ == paint_regions;
+  state.making_cage = this->representation()->IsMakingCage();
+  state.shows_brush = this->mode_ == paint_regions;
   state.has_region = this->painting_->has_region();
   state.radius = this->painting_->radius();
   this->bar_->show_state(state);
   this->commands_->update();
-  Q_EMIT this->sentence_changed();
+  Q_EMIT this->status_text_changed();
 }
 
 // ---- The widget --------------------------------------------------------------------------------
@@ -325,7 +327,7 @@ vtkHandleSetWidget* HandleEditing::widget() const
   return this->viewport_->handle_widget();
 }
 
-vtkHandleSetRepresentation* HandleEditing::drawn() const
+vtkHandleSetRepresentation* HandleEditing::representation() const
 {
   return this->widget()->GetHandleSetRepresentation();
 }
@@ -336,12 +338,12 @@ void HandleEditing::connect_widget()
   widget->AddObserver(
     vtkCommand::SelectionChangedEvent, this->selection_, &HandleSelection::read_view);
   widget->AddObserver(vtkCommand::StartInteractionEvent, this, &HandleEditing::drag_began);
-  widget->AddObserver(vtkCommand::InteractionEvent, this, &HandleEditing::drag_went_on);
+  widget->AddObserver(vtkCommand::InteractionEvent, this, &HandleEditing::drag_continued);
   widget->AddObserver(vtkCommand::EndInteractionEvent, this, &HandleEditing::drag_ended);
-  widget->AddObserver(vtkCommand::PlacePointEvent, this, &HandleEditing::placed);
-  widget->AddObserver(vtkCommand::WarningEvent, this, &HandleEditing::warned);
-  widget->AddObserver(vtkCommand::StateChangedEvent, this, &HandleEditing::mode_left);
-  widget->AddObserver(vtkCommand::HighlightEvent, this, &HandleEditing::sentence_changed);
+  widget->AddObserver(vtkCommand::PlacePointEvent, this, &HandleEditing::handle_placed);
+  widget->AddObserver(vtkCommand::WarningEvent, this, &HandleEditing::show_warning);
+  widget->AddObserver(vtkCommand::StateChangedEvent, this, &HandleEditing::widget_mode_changed);
+  widget->AddObserver(vtkCommand::HighlightEvent, this, &HandleEditing::status_text_changed);
 }
 
 void HandleEditing::drag_began()
@@ -353,48 +355,51 @@ void HandleEditing::drag_began()
   }
 }
 
-void HandleEditing::drag_went_on()
+void HandleEditing::drag_continued()
 {
   Q_EMIT this->moved();
-  Q_EMIT this->sentence_changed();
+  Q_EMIT this->status_text_changed();
 }
 
 /// Called when the widget has added or removed a handle.
-void HandleEditing::placed()
+void HandleEditing::handle_placed()
 {
-  const QString what = QString::fromStdString(this->widget()->GetInteractionName());
-  const bool adds = what == "add point" || what == "add bone" || what == "add cage vertex";
-  const std::string name = this->drawn()->GetHandleName(this->drawn()->GetSelectedHandle());
-  this->selection_->commit(adds ? what + " " + QString::fromStdString(name) : what);
+  const QString interaction = QString::fromStdString(this->widget()->GetInteractionName());
+  const bool adds =
+    interaction == "add point" || interaction == "add bone" || interaction == "add cage vertex";
+  const std::string name =
+    this->representation()->GetHandleName(this->representation()->GetSelectedHandle());
+  this->selection_->commit(adds ? interaction + " " + QString::fromStdString(name) : interaction);
 }
 
 void HandleEditing::drag_ended()
 {
   if (!this->widget()->GetCanceled())
   {
-    const QString what = QString::fromStdString(this->widget()->GetInteractionName());
+    const QString interaction = QString::fromStdString(this->widget()->GetInteractionName());
     if (this->mode_ == pose)
     {
-      this->document_->commit_pose(this->selection_->named(what, this->selection_->selected()));
+      this->document_->commit_pose(
+        this->selection_->step_name(interaction, this->selection_->selected()));
     }
     else if (this->mode_ == move_rest)
     {
       this->selection_->commit(
-        this->selection_->named(tr("move at rest"), this->selection_->selected()));
+        this->selection_->step_name(tr("move at rest"), this->selection_->selected()));
     }
   }
   this->show_state();
 }
 
-void HandleEditing::warned(vtkObject* /*caller*/, unsigned long /*event*/, void* sentence)
+void HandleEditing::show_warning(vtkObject* /*caller*/, unsigned long /*event*/, void* message)
 {
-  this->warning_ = capital(QString::fromUtf8(static_cast<const char*>(sentence))) + ".";
-  Q_EMIT this->sentence_changed();
+  this->warning_ = capitalized(QString::fromUtf8(static_cast<const char*>(message))) + ".";
+  Q_EMIT this->status_text_changed();
 }
 
-void HandleEditing::mode_left()
+void HandleEditing::widget_mode_changed()
 {
-  this->set_mode(this->drawn()->GetEditMode());
+  this->set_mode(this->representation()->GetEditMode());
 }
 
 // ---- The selection -----------------------------------------------------------------------------
@@ -403,40 +408,40 @@ void HandleEditing::selection_changed()
 {
   const std::vector<int> selected = this->selection_->selected();
   const int last = selected.empty() ? -1 : selected.back();
-  this->follows_ = true;
+  this->is_updating_list_ = true;
   this->panel_->select_handles(selected);
-  this->follows_ = false;
+  this->is_updating_list_ = false;
   if (this->mode_ == paint_regions)
   {
-    this->painting_->choose(last);
+    this->painting_->set_region(last);
   }
   Q_EMIT this->handle_selected(last);
   this->commands_->update();
-  Q_EMIT this->sentence_changed();
+  Q_EMIT this->status_text_changed();
 }
 
 void HandleEditing::list_chosen()
 {
-  if (!this->follows_)
+  if (!this->is_updating_list_)
   {
     this->selection_->select(this->panel_->selected_handles());
   }
 }
 
-bool HandleEditing::show_menu(const QPoint& at)
+bool HandleEditing::show_menu(const QPoint& position)
 {
-  const QPoint pixel = this->viewport_->to_vtk(at);
-  this->drawn()->ComputeInteractionState(pixel.x(), pixel.y());
-  const int handle = this->document_->handle_of_cell(this->drawn()->GetHoveredHandle());
+  const QPoint pixel = this->viewport_->to_vtk(position);
+  this->representation()->ComputeInteractionState(pixel.x(), pixel.y());
+  const int handle = this->document_->handle_of_cell(this->representation()->GetHoveredHandle());
   if (handle < 0)
   {
     return false;
   }
-  if (!this->drawn()->IsSelected(this->drawn()->GetHoveredHandle()))
+  if (!this->representation()->IsSelected(this->representation()->GetHoveredHandle()))
   {
     this->selection_->select({ handle });
   }
-  this->commands_->menu()->popup(this->viewport_->mapToGlobal(at));
+  this->commands_->menu()->popup(this->viewport_->mapToGlobal(position));
   return true;
 }
 
@@ -444,7 +449,7 @@ void HandleEditing::document_changed(int parts)
 {
   if (parts & mesh_part)
   {
-    this->drawn()->SetSurface(this->document_->work().surface);
+    this->representation()->SetSurface(this->document_->work().surface);
   }
   if (parts & (mesh_part | handles_part) && !this->document_->surface() &&
     !this->document_->handle_data())
@@ -464,7 +469,7 @@ void HandleEditing::document_changed(int parts)
 
 // ---- The status line ---------------------------------------------------------------------------
 
-QString HandleEditing::sentence() const
+QString HandleEditing::message() const
 {
   if (!this->warning_.isEmpty())
   {
@@ -472,53 +477,55 @@ QString HandleEditing::sentence() const
   }
   if (this->widget()->IsDragging())
   {
-    return this->drag_sentence();
+    return this->drag_hint();
   }
   const QString refusal = this->refusal();
-  return refusal.isEmpty() ? this->mode_sentence() : refusal;
+  return refusal.isEmpty() ? this->mode_hint() : refusal;
 }
 
-QString HandleEditing::drag_sentence() const
+QString HandleEditing::drag_hint() const
 {
-  const QString what = capital(QString::fromStdString(this->widget()->GetInteractionName()));
+  const QString interaction =
+    capitalized(QString::fromStdString(this->widget()->GetInteractionName()));
   if (this->mode_ > move_rest)
   {
-    return tr("%1: release the button to place it; Ctrl snaps, Esc cancels.").arg(what);
+    return tr("%1: release the button to place it; Ctrl snaps, Esc cancels.").arg(interaction);
   }
-  const QString much = QString::fromStdString(this->drawn()->GetInteractionText());
+  const QString much = QString::fromStdString(this->representation()->GetInteractionText());
   const QString keys = this->mode_ == pose
     ? tr("X Y Z: axis; digits: value; Shift: fine; Ctrl: snap; Enter: end; Esc: cancel")
     : tr("X Y Z: axis; Shift: fine; Ctrl: snap; Esc: cancel");
-  return QString("%1 %2   ·   %3").arg(what, much, keys);
+  return QString("%1 %2   ·   %3").arg(interaction, much, keys);
 }
 
 /// Return the reason why the handle under the mouse cannot be dragged.
 QString HandleEditing::refusal() const
 {
-  const vtkIdType cell = this->drawn()->GetHoveredHandle();
+  const vtkIdType cell = this->representation()->GetHoveredHandle();
   if (cell < 0 || this->mode_ > move_rest)
   {
     return {};
   }
-  const QString name = QString::fromStdString(this->drawn()->GetHandleName(cell));
-  switch (this->drawn()->GetDragRefusal(cell))
+  const QString name = QString::fromStdString(this->representation()->GetHandleName(cell));
+  switch (this->representation()->GetDragRefusal(cell))
   {
-    case Drawn::IS_FREE:
+    case Representation::IS_FREE:
       return tr("%1 is free: the solver computes its position. Fix its position to drag it.")
         .arg(name);
-    case Drawn::IS_LOCKED:
+    case Representation::IS_LOCKED:
       return tr("%1 is locked; %2 unlocks it when it is selected.")
         .arg(name, QString::fromStdString(keys_of("lock")));
-    case Drawn::IS_AT_REST:
+    case Representation::IS_AT_REST:
       return tr("%1 is shown at rest and cannot be dragged; show the pose to drag it.").arg(name);
     default:
       return {};
   }
 }
 
-QString HandleEditing::mode_sentence() const
+QString HandleEditing::mode_hint() const
 {
-  const bool inside = this->drawn()->GetPlaceInside() && this->drawn()->GetSurface();
+  const bool inside =
+    this->representation()->GetPlaceInside() && this->representation()->GetSurface();
   const QString where = inside ? tr("inside the shape (I: on its surface)")
                                : tr("on the surface (I: inside the shape)");
   switch (this->mode_)
@@ -532,7 +539,7 @@ QString HandleEditing::mode_sentence() const
                 "Ctrl snaps, Esc ends.")
         .arg(where);
     case add_cage:
-      return this->drawn()->IsMakingCage()
+      return this->representation()->IsMakingCage()
         ? tr("Click to add vertices; the first vertex closes the cage, Enter leaves it open, Esc "
              "removes the last vertex.")
         : tr("Click to add the first vertex of the cage, on or next to the shape; Esc ends.");
@@ -562,8 +569,9 @@ bool HandleEditing::takes_key(const QKeyEvent* event) const
   {
     return this->mode_ != pose;
   }
-  return this->mode_ == pose && this->widget()->GetEnabled() && !this->drawn()->GetShowRest() &&
-    this->drawn()->GetNumberOfSelectedHandles() > 0 &&
+  return this->mode_ == pose && this->widget()->GetEnabled() &&
+    !this->representation()->GetShowRest() &&
+    this->representation()->GetNumberOfSelectedHandles() > 0 &&
     (event->key() == Qt::Key_G || event->key() == Qt::Key_R || event->key() == Qt::Key_S);
 }
 
@@ -596,15 +604,16 @@ bool HandleEditing::eventFilter(QObject* watched, QEvent* event)
     case QEvent::MouseButtonPress:
     {
       const auto* mouse = static_cast<QMouseEvent*>(event);
-      this->right_button_ = mouse->button() == Qt::RightButton && !this->widget()->IsDragging() &&
-        !this->painting_->is_painting() && this->widget()->GetEnabled() &&
-        this->show_menu(mouse->pos());
-      return this->right_button_ || QObject::eventFilter(watched, event);
+      this->right_pressed_on_handle_ = mouse->button() == Qt::RightButton &&
+        !this->widget()->IsDragging() && !this->painting_->is_painting() &&
+        this->widget()->GetEnabled() && this->show_menu(mouse->pos());
+      return this->right_pressed_on_handle_ || QObject::eventFilter(watched, event);
     }
     case QEvent::MouseButtonRelease:
-      if (this->right_button_ && static_cast<QMouseEvent*>(event)->button() == Qt::RightButton)
+      if (this->right_pressed_on_handle_ &&
+        static_cast<QMouseEvent*>(event)->button() == Qt::RightButton)
       {
-        this->right_button_ = false;
+        this->right_pressed_on_handle_ = false;
         return true;
       }
       break;

@@ -67,15 +67,15 @@ public:
 
   /// Show the context menu of the handle at this position of the viewport. Return false if there is
   /// none.
-  bool show_menu(const QPoint& at);
+  bool show_menu(const QPoint& position);
 
   /// Update after changes of the document. `parts` combines the flags of the changed parts.
   void document_changed(int parts);
   /// Cancel the interaction that the mouse or a key has begun.
-  void stop();
+  void cancel_interaction();
   /// Return the sentence for the status line, or an empty string. It is a warning if the last
   /// action was refused.
-  QString sentence() const;
+  QString message() const;
   bool is_warning() const { return !this->warning_.isEmpty(); }
 
   bool eventFilter(QObject* watched, QEvent* event) override;
@@ -83,31 +83,31 @@ public:
 Q_SIGNALS:
   /// Emitted when the mode has changed, before the 3D view and the tools show the new mode.
   void mode_changed(int mode);
-  void sentence_changed();
+  void status_text_changed();
   /// Emitted during a drag when poses or rest positions have changed.
   void moved();
   /// Emitted with the handle that was selected last; -1: no handle.
   void handle_selected(int handle);
-  void refused(const QString& sentence);
+  void refused(const QString& message);
 
 private:
   QAction* add_action(QActionGroup* group, const char* name, const QString& text, int value);
   void make_actions();
   void connect_widget();
   vtkHandleSetWidget* widget() const;
-  vtkHandleSetRepresentation* drawn() const;
+  vtkHandleSetRepresentation* representation() const;
   void drag_began();
-  void drag_went_on();
+  void drag_continued();
   void drag_ended();
-  void placed();
-  void warned(vtkObject* caller, unsigned long event, void* sentence);
+  void handle_placed();
+  void show_warning(vtkObject* caller, unsigned long event, void* message);
   void selection_changed();
-  void mode_left();
+  void widget_mode_changed();
   void list_chosen();
   void show_state();
-  QString drag_sentence() const;
+  QString drag_hint() const;
   QString refusal() const;
-  QString mode_sentence() const;
+  QString mode_hint() const;
   bool takes_key(const QKeyEvent* event) const;
 
   Document* document_;
@@ -123,10 +123,11 @@ private:
   QAction* inside_ = nullptr;
   EditTools* tools_ = nullptr;
   ModeBar* bar_ = nullptr;
-  QWidget* nothing_ = nullptr; ///< shown over the 3D view while a mesh has no handles
+  QWidget* start_card_ = nullptr; ///< shown over the 3D view while a mesh has no handles
   int mode_ = pose;
-  bool follows_ = false; ///< true while the list is updated from the selection in the 3D view
-  bool right_button_ = false; ///< true: the right button was pressed on a handle
+  bool is_updating_list_ =
+    false; ///< true while the list is updated from the selection in the 3D view
+  bool right_pressed_on_handle_ = false; ///< true: the right button was pressed on a handle
   QString warning_;
 };
 

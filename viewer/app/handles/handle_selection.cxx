@@ -16,7 +16,7 @@ HandleSelection::HandleSelection(Document* document, Viewport* viewport)
 {
 }
 
-vtkHandleSetRepresentation* HandleSelection::drawn() const
+vtkHandleSetRepresentation* HandleSelection::representation() const
 {
   return this->viewport_->handle_widget()->GetHandleSetRepresentation();
 }
@@ -26,9 +26,10 @@ vtkHandleSetRepresentation* HandleSelection::drawn() const
 std::vector<int> HandleSelection::selected() const
 {
   std::vector<int> result;
-  for (int k = 0; k < this->drawn()->GetNumberOfSelectedHandles(); ++k)
+  for (int k = 0; k < this->representation()->GetNumberOfSelectedHandles(); ++k)
   {
-    const int handle = this->document_->handle_of_cell(this->drawn()->GetSelectedHandle(k));
+    const int handle =
+      this->document_->handle_of_cell(this->representation()->GetSelectedHandle(k));
     if (handle >= 0)
     {
       result.push_back(handle);
@@ -58,15 +59,15 @@ void HandleSelection::select_names(const std::vector<std::string>& names)
 void HandleSelection::show()
 {
   const Handles& handles = this->document_->handles();
-  this->drawn()->SetSelectedHandle(-1);
+  this->representation()->SetSelectedHandle(-1);
   for (const std::string& name : this->names_)
   {
     for (std::size_t k = 0; k < handles.size(); ++k)
     {
       const Index cell = this->document_->handle_cells()[k];
-      if (handles[k].name == name && !this->drawn()->IsSelected(cell))
+      if (handles[k].name == name && !this->representation()->IsSelected(cell))
       {
-        this->drawn()->ToggleSelected(cell);
+        this->representation()->ToggleSelected(cell);
       }
     }
   }
@@ -77,9 +78,10 @@ void HandleSelection::show()
 void HandleSelection::read_view()
 {
   this->names_.clear();
-  for (int k = 0; k < this->drawn()->GetNumberOfSelectedHandles(); ++k)
+  for (int k = 0; k < this->representation()->GetNumberOfSelectedHandles(); ++k)
   {
-    this->names_.push_back(this->drawn()->GetHandleName(this->drawn()->GetSelectedHandle(k)));
+    this->names_.push_back(
+      this->representation()->GetHandleName(this->representation()->GetSelectedHandle(k)));
   }
   Q_EMIT this->changed();
 }
@@ -101,7 +103,7 @@ void HandleSelection::handles_changed()
 bool HandleSelection::edit(const QString& step, const HandleListEdit& edit, vtkDataArray* labels)
 {
   Q_EMIT this->about_to_edit();
-  this->drawn()->FinishCage(); // the edit may change the vertices of an unfinished cage
+  this->representation()->FinishCage(); // the edit may change the vertices of an unfinished cage
   std::vector<Index> cell_of;
   std::vector<Index> added;
   const Status status = edit_handles(this->document_->editable_handles(), edit, &cell_of, &added);
@@ -111,26 +113,26 @@ bool HandleSelection::edit(const QString& step, const HandleListEdit& edit, vtkD
     return false;
   }
   std::vector<vtkIdType> selected(added.begin(), added.end());
-  for (int k = 0; added.empty() && k < this->drawn()->GetNumberOfSelectedHandles(); ++k)
+  for (int k = 0; added.empty() && k < this->representation()->GetNumberOfSelectedHandles(); ++k)
   {
-    const auto cell = static_cast<std::size_t>(this->drawn()->GetSelectedHandle(k));
+    const auto cell = static_cast<std::size_t>(this->representation()->GetSelectedHandle(k));
     if (cell < cell_of.size() && cell_of[cell] >= 0)
     {
       selected.push_back(cell_of[cell]);
     }
   }
-  this->drawn()->SetSelectedHandle(-1);
-  this->drawn()->LeaveHandles();
+  this->representation()->SetSelectedHandle(-1);
+  this->representation()->LeaveHandles();
   for (const vtkIdType cell : selected)
   {
-    this->drawn()->ToggleSelected(cell);
+    this->representation()->ToggleSelected(cell);
   }
   return this->commit(step, labels);
 }
 
 void HandleSelection::refuse(const Status& status)
 {
-  Q_EMIT this->refused(capital(QString::fromStdString(status.message)) + ".");
+  Q_EMIT this->refused(capitalized(QString::fromStdString(status.message)) + ".");
 }
 
 bool HandleSelection::commit(const QString& step, vtkDataArray* labels)
@@ -154,7 +156,7 @@ bool HandleSelection::rename(int handle, const QString& name)
   this->is_committing_ = true;
   const Status status = this->document_->rename_handle(handle, name);
   this->is_committing_ = false;
-  if (status.ok() && this->drawn()->IsSelected(this->document_->handle_cells()[handle]))
+  if (status.ok() && this->representation()->IsSelected(this->document_->handle_cells()[handle]))
   {
     // keep the old name in the list, too, so that the handle stays selected after an undo
     this->names_.push_back(before);
@@ -166,7 +168,7 @@ bool HandleSelection::rename(int handle, const QString& name)
   return status.ok();
 }
 
-QString HandleSelection::named(const QString& step, const std::vector<int>& handles) const
+QString HandleSelection::step_name(const QString& step, const std::vector<int>& handles) const
 {
   const Handles& all = this->document_->handles();
   return handles.size() == 1 && handles[0] < static_cast<int>(all.size())

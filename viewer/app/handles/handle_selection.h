@@ -43,7 +43,7 @@ public:
   bool rename(int handle, const QString& name);
   /// Return the name of an undo step for these handles: `step`, followed by the handle's name if
   /// there is one handle, otherwise by the number of handles.
-  QString named(const QString& step, const std::vector<int>& handles) const;
+  QString step_name(const QString& step, const std::vector<int>& handles) const;
 
   /// Update after the document's handles have changed.
   void handles_changed();
@@ -54,10 +54,10 @@ Q_SIGNALS:
   /// Emitted before an edit. Connected objects must then end all interactions with the mouse.
   void about_to_edit();
   void changed();
-  void refused(const QString& sentence);
+  void refused(const QString& message);
 
 private:
-  vtkHandleSetRepresentation* drawn() const;
+  vtkHandleSetRepresentation* representation() const;
   void show();
   void refuse(const bindpose::Status& status);
 

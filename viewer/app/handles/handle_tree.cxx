@@ -41,7 +41,7 @@ QIcon kind_icon(HandleKind kind)
     QPainter painter(&pixmap);
     painter.setRenderHint(QPainter::Antialiasing);
     painter.scale(scale, scale);
-    painter.setPen(QPen(shade("note"), 1.2));
+    painter.setPen(QPen(theme_color("note"), 1.2));
     switch (kind)
     {
       case HandleKind::bone:
@@ -54,11 +54,11 @@ QIcon kind_icon(HandleKind kind)
         painter.drawRect(QRectF(4.0, 4.0, 6.0, 6.0));
         break;
       case HandleKind::region:
-        painter.setBrush(shade("scroll"));
+        painter.setBrush(theme_color("scroll"));
         painter.drawEllipse(QRectF(2.0, 4.0, 10.0, 7.0));
         break;
       default:
-        painter.setBrush(shade("note"));
+        painter.setBrush(theme_color("note"));
         painter.drawEllipse(QRectF(4.5, 4.5, 5.0, 5.0));
         break;
     }
@@ -78,15 +78,15 @@ std::vector<int> checked_parents(const std::vector<HandleTree::Row>& rows)
   std::vector<int> parents(rows.size(), -1);
   for (int k = 0; k < count; ++k)
   {
-    int above = rows[static_cast<std::size_t>(k)].parent;
+    int ancestor = rows[static_cast<std::size_t>(k)].parent;
     int steps = 0;
-    while (above >= 0 && above < count && above != k && steps <= count)
+    while (ancestor >= 0 && ancestor < count && ancestor != k && steps <= count)
     {
-      above = rows[static_cast<std::size_t>(above)].parent;
+      ancestor = rows[static_cast<std::size_t>(ancestor)].parent;
       ++steps;
     }
     const int direct = rows[static_cast<std::size_t>(k)].parent;
-    if ((above < 0 || above >= count) && direct < count)
+    if ((ancestor < 0 || ancestor >= count) && direct < count)
     {
       parents[static_cast<std::size_t>(k)] = direct;
     }
@@ -139,7 +139,7 @@ HandleTree::HandleTree(QWidget* parent)
   this->tree_->viewport()->installEventFilter(this);
   column->addWidget(this->tree_, 1);
   QObject::connect(
-    this->tree_, &QTreeWidget::itemSelectionChanged, this, &HandleTree::take_selection);
+    this->tree_, &QTreeWidget::itemSelectionChanged, this, &HandleTree::read_selection);
   QObject::connect(this->tree_, &QTreeWidget::currentItemChanged, this,
     [this](QTreeWidgetItem* item)
     {
@@ -161,7 +161,7 @@ int HandleTree::handle_of(const QTreeWidgetItem* item)
 
 void HandleTree::set_rows(const std::vector<Row>& rows)
 {
-  const QSignalBlocker quiet(this->tree_);
+  const QSignalBlocker blocker(this->tree_);
   QSet<QString> folded;
   for (std::size_t k = 0; k < this->items_.size(); ++k)
   {
@@ -198,18 +198,19 @@ void HandleTree::set_rows(const std::vector<Row>& rows)
     }
   }
   this->tree_->addTopLevelItems(roots);
-  this->deepest_ = 0;
+  this->maximum_depth_ = 0;
   bool nested = false;
   for (std::size_t k = 0; k < rows.size(); ++k)
   {
     this->items_[k]->setExpanded(!folded.contains(rows[k].name));
     nested = nested || parents[k] >= 0;
     int depth = 0;
-    for (int above = parents[k]; above >= 0; above = parents[static_cast<std::size_t>(above)])
+    for (int ancestor = parents[k]; ancestor >= 0;
+         ancestor = parents[static_cast<std::size_t>(ancestor)])
     {
       ++depth;
     }
-    this->deepest_ = std::max(this->deepest_, depth);
+    this->maximum_depth_ = std::max(this->maximum_depth_, depth);
   }
   this->tree_->setRootIsDecorated(nested);
   this->heading_->setText(
@@ -230,8 +231,9 @@ void HandleTree::show_icons()
 /// Make the column as wide as the tree, with a minimum width for names in deep trees.
 void HandleTree::fit_column()
 {
-  this->tree_->header()->resizeSection(
-    0, std::max(this->tree_->viewport()->width(), (this->deepest_ + 1) * indentation + name_width));
+  this->tree_->header()->resizeSection(0,
+    std::max(
+      this->tree_->viewport()->width(), (this->maximum_depth_ + 1) * indentation + name_width));
 }
 
 void HandleTree::set_mode(int handle, int mode)
@@ -250,7 +252,7 @@ void HandleTree::select(const std::vector<int>& handles)
     return;
   }
   {
-    const QSignalBlocker quiet(this->tree_);
+    const QSignalBlocker blocker(this->tree_);
     this->selected_ = handles;
     this->show_matches(); // update the filter, which always shows selected rows
     QTreeWidgetItem* last = handles.empty() ? nullptr : this->item(handles.back());
@@ -266,12 +268,12 @@ void HandleTree::select(const std::vector<int>& handles)
     }
   }
   this->tree_->viewport()->update();
-  Q_EMIT this->chosen();
+  Q_EMIT this->selection_changed();
 }
 
 /// Update selected_. The tree reports which items are selected, but not the order of their
 /// selection, so the order is kept here.
-void HandleTree::take_selection()
+void HandleTree::read_selection()
 {
   const auto is_gone = [this](int k) { return !this->item(k)->isSelected(); };
   this->selected_.erase(
@@ -285,7 +287,7 @@ void HandleTree::take_selection()
       this->selected_.push_back(k);
     }
   }
-  Q_EMIT this->chosen();
+  Q_EMIT this->selection_changed();
 }
 
 // ---- The search --------------------------------------------------------------------------------
@@ -314,7 +316,7 @@ void HandleTree::show_matches()
     {
       item->setExpanded(true);
     }
-    item->setForeground(0, !found ? QBrush(shade("off")) : QBrush());
+    item->setForeground(0, !found ? QBrush(theme_color("off")) : QBrush());
     return shown;
   };
   for (int k = 0; k < this->tree_->topLevelItemCount(); ++k)

@@ -47,14 +47,14 @@ public:
 
 Q_SIGNALS:
   /// Emitted when the selection has changed.
-  void chosen();
+  void selection_changed();
 
 protected:
   bool eventFilter(QObject* watched, QEvent* event) override;
   void changeEvent(QEvent* event) override;
 
 private:
-  void take_selection();
+  void read_selection();
   void show_matches();
   void choose_first_match();
   bool matches(const QString& name) const;
@@ -67,7 +67,7 @@ private:
   std::vector<Row> rows_;
   std::vector<QTreeWidgetItem*> items_; // item of each handle
   std::vector<int> selected_;
-  int deepest_ = 0;
+  int maximum_depth_ = 0;
 };
 
 #endif

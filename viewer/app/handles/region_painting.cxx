@@ -54,21 +54,21 @@ Vec3 middle_of(vtkPolyData* surface, vtkDataArray* labels, int label, Vec3& near
 {
   Vec3 sum = Vec3::Zero();
   Index count = 0;
-  std::vector<Vec3> places;
+  std::vector<Vec3> positions;
   for (vtkIdType v = 0; v < surface->GetNumberOfPoints(); ++v)
   {
     if (label_at(labels, v) == label)
     {
-      places.emplace_back(surface->GetPoint(v));
-      sum += places.back();
+      positions.emplace_back(surface->GetPoint(v));
+      sum += positions.back();
       ++count;
     }
   }
   const Vec3 middle = sum / static_cast<double>(std::max<Index>(1, count));
-  const auto closest = std::min_element(places.begin(), places.end(),
+  const auto closest = std::min_element(positions.begin(), positions.end(),
     [&](const Vec3& a, const Vec3& b)
     { return (a - middle).squaredNorm() < (b - middle).squaredNorm(); });
-  nearest = closest == places.end() ? middle : *closest;
+  nearest = closest == positions.end() ? middle : *closest;
   return middle;
 }
 } // namespace
@@ -78,7 +78,7 @@ RegionPainting::RegionPainting(Document* document, Viewport* viewport)
 {
   vtkRegionBrushWidget* widget = viewport->brush_widget();
   widget->AddObserver(vtkCommand::StartInteractionEvent, this, &RegionPainting::stroke_began);
-  widget->AddObserver(vtkCommand::InteractionEvent, this, &RegionPainting::stroke_goes_on);
+  widget->AddObserver(vtkCommand::InteractionEvent, this, &RegionPainting::stroke_continued);
   widget->AddObserver(vtkCommand::EndInteractionEvent, this, &RegionPainting::stroke_ended);
   widget->AddObserver(vtkCommand::StateChangedEvent, this, &RegionPainting::radius_changed);
 }
@@ -90,7 +90,8 @@ vtkRegionBrushRepresentation* RegionPainting::brush() const
 
 vtkDataArray* RegionPainting::labels() const
 {
-  return this->painted_ ? this->painted_->GetPointData()->GetArray("RegionId") : nullptr;
+  return this->painted_surface_ ? this->painted_surface_->GetPointData()->GetArray("RegionId")
+                                : nullptr;
 }
 
 bool RegionPainting::is_painting() const
@@ -135,15 +136,15 @@ void RegionPainting::document_changed()
   {
     if (!surface)
     {
-      this->painted_ = nullptr;
+      this->painted_surface_ = nullptr;
       this->brush()->SetSurface(nullptr);
     }
     return;
   }
-  if (!this->painted_ || !same_mesh(this->painted_, surface))
+  if (!this->painted_surface_ || !same_mesh(this->painted_surface_, surface))
   {
-    this->painted_ = vtkSmartPointer<vtkPolyData>::New();
-    this->painted_->ShallowCopy(surface);
+    this->painted_surface_ = vtkSmartPointer<vtkPolyData>::New();
+    this->painted_surface_->ShallowCopy(surface);
   }
   // Copy the labels to a separate int array. In the file they may have another type.
   vtkDataArray* labels = surface->GetPointData()->GetArray("RegionId");
@@ -154,12 +155,12 @@ void RegionPainting::document_changed()
   {
     own->SetValue(v, label_at(labels, v));
   }
-  this->painted_->GetPointData()->AddArray(own);
-  this->brush()->SetSurface(this->painted_);
+  this->painted_surface_->GetPointData()->AddArray(own);
+  this->brush()->SetSurface(this->painted_surface_);
   this->show_labels();
 }
 
-void RegionPainting::choose(int handle)
+void RegionPainting::set_region(int handle)
 {
   const Handles& handles = this->document_->handles();
   const bool region = handle >= 0 && handle < static_cast<int>(handles.size()) &&
@@ -170,15 +171,15 @@ void RegionPainting::choose(int handle)
 
 double RegionPainting::radius() const
 {
-  const double diagonal = this->painted_ ? this->painted_->GetLength() : 0.0;
+  const double diagonal = this->painted_surface_ ? this->painted_surface_->GetLength() : 0.0;
   return diagonal > 0.0 ? this->brush()->GetDiscRadius() / diagonal : 0.05;
 }
 
-void RegionPainting::set_radius(double part)
+void RegionPainting::set_radius(double fraction)
 {
-  if (this->painted_)
+  if (this->painted_surface_)
   {
-    this->brush()->SetRadius(part * this->painted_->GetLength());
+    this->brush()->SetRadius(fraction * this->painted_surface_->GetLength());
     this->viewport_->refresh();
   }
 }
@@ -214,7 +215,7 @@ void RegionPainting::stroke_began()
   Q_EMIT this->changed();
 }
 
-void RegionPainting::stroke_goes_on()
+void RegionPainting::stroke_continued()
 {
   this->show_labels();
 }
@@ -224,9 +225,9 @@ void RegionPainting::stroke_ended()
   if (!this->viewport_->brush_widget()->GetCanceled())
   {
     std::string region = this->region_;
-    if (this->keep_stroke(region))
+    if (this->commit_stroke(region))
     {
-      Q_EMIT this->painted(QString::fromStdString(region));
+      Q_EMIT this->region_painted(QString::fromStdString(region));
     }
   }
   this->show_labels();
@@ -236,7 +237,7 @@ void RegionPainting::stroke_ended()
 /// Update the handles from the labels: a new label gets a handle, and a handle whose label has
 /// disappeared is removed. If the stroke has painted, `region` becomes the name of the painted
 /// region. Return false if the changes were refused.
-bool RegionPainting::keep_stroke(std::string& region)
+bool RegionPainting::commit_stroke(std::string& region)
 {
   QString step = QString::fromStdString(this->viewport_->brush_widget()->GetInteractionName());
   const int label = this->brush()->GetRegionId();
@@ -272,7 +273,7 @@ bool RegionPainting::keep_stroke(std::string& region)
     handle.kind = HandleKind::region;
     handle.region_id = label;
     Vec3 nearest;
-    handle.head = middle_of(this->painted_, this->labels(), label, nearest);
+    handle.head = middle_of(this->painted_surface_, this->labels(), label, nearest);
     for (int attempt = 0; attempt < 2; ++attempt)
     {
       handle.tail = handle.head;
@@ -318,7 +319,7 @@ bool RegionPainting::keep_stroke(std::string& region)
 void RegionPainting::show_labels()
 {
   vtkPolyData* drawn = this->viewport_->drawn();
-  if (!this->active_ || !drawn || !this->painted_)
+  if (!this->active_ || !drawn || !this->painted_surface_)
   {
     return;
   }

@@ -32,34 +32,35 @@ public:
   void document_changed();
   /// Let the next stroke paint the label of this handle. If the handle is not a region, or if
   /// `handle` is -1, the stroke begins a new region.
-  void choose(int handle);
+  void set_region(int handle);
   bool has_region() const { return !this->region_.empty(); }
   QString region() const { return QString::fromStdString(this->region_); }
   /// Return the radius of the brush as a fraction of the surface's diagonal.
   double radius() const;
-  void set_radius(double part);
+  void set_radius(double fraction);
 
 Q_SIGNALS:
   /// Emitted when the brush or the region has changed, or a stroke has begun or ended.
   void changed();
   /// Emitted when a stroke was stored. `region` is the name of its region, or empty.
-  void painted(const QString& region);
-  void refused(const QString& sentence);
+  void region_painted(const QString& region);
+  void refused(const QString& message);
 
 private:
   vtkRegionBrushRepresentation* brush() const;
   vtkDataArray* labels() const;
   void stroke_began();
-  void stroke_goes_on();
+  void stroke_continued();
   void stroke_ended();
-  bool keep_stroke(std::string& region);
+  bool commit_stroke(std::string& region);
   void show_labels();
   void radius_changed();
 
   Document* document_;
   Viewport* viewport_;
   bool active_ = false;
-  vtkSmartPointer<vtkPolyData> painted_; ///< shallow copy of the surface with its own labels
+  vtkSmartPointer<vtkPolyData>
+    painted_surface_; ///< shallow copy of the surface with its own labels
   std::string region_; ///< name of the region's handle
 };
 

@@ -80,7 +80,7 @@ void ShapeHandles::auto_rig()
     this->rigging_ = true;
     AutomaticHandlesOptions options;
     options.skeleton.triangles = quick_triangles;
-    this->make(options);
+    this->start_job(options);
   }
 }
 
@@ -93,11 +93,11 @@ void ShapeHandles::start(AutomaticMethod method, Index count)
     options.method = method;
     options.bones.maximum_bones = count;
     options.points.count = count;
-    this->make(options);
+    this->start_job(options);
   }
 }
 
-void ShapeHandles::make(AutomaticHandlesOptions options)
+void ShapeHandles::start_job(AutomaticHandlesOptions options)
 {
   if (!this->document_->surface())
   {
@@ -112,16 +112,16 @@ void ShapeHandles::make(AutomaticHandlesOptions options)
   }
   this->method_ = options.method;
   this->surface_ = this->document_->surface();
-  this->made_ = std::make_shared<Handles>();
+  this->new_handles_ = std::make_shared<Handles>();
   this->bar_->offer(options.method == AutomaticMethod::points
       ? tr("Spreading points over the shape …")
       : tr("Finding bones along the shape …"),
     {}, tr("Cancel"));
   this->job_.start(
-    [surface, options, made = this->made_](ExecutionContext& context)
+    [surface, options, new_handles = this->new_handles_](ExecutionContext& context)
     {
       return automatic_handles(
-        context, surface->points.view(), surface->triangles.view(), options, *made);
+        context, surface->points.view(), surface->triangles.view(), options, *new_handles);
     });
   this->update();
 }
@@ -136,19 +136,19 @@ void ShapeHandles::finish()
     return; // canceled, or another shape was opened meanwhile
   }
   const bool points = this->method_ == AutomaticMethod::points;
-  const bool has_bones = std::any_of(this->made_->begin(), this->made_->end(),
+  const bool has_bones = std::any_of(this->new_handles_->begin(), this->new_handles_->end(),
     [](const Handle& handle) { return handle.kind == HandleKind::bone; });
   if (this->rigging_ && !points && !(status.usable() && has_bones))
   {
     AutomaticHandlesOptions instead;
     instead.method = AutomaticMethod::points;
-    this->make(instead);
+    this->start_job(instead);
     return;
   }
   Status committed = status;
   if (status.usable())
   {
-    this->document_->editable_handles()->ShallowCopy(to_polydata(*this->made_));
+    this->document_->editable_handles()->ShallowCopy(to_polydata(*this->new_handles_));
     committed = this->document_->commit_handles(
       points ? tr("points spread over the shape") : tr("bones along the shape"));
   }

@@ -41,11 +41,11 @@ public:
 Q_SIGNALS:
   /// Emitted when auto_rig() has created its handles, which can now be bound.
   void rigged();
-  void failed(const QString& sentence);
+  void failed(const QString& message);
 
 private:
   void ask_for_count();
-  void make(bindpose::AutomaticHandlesOptions options);
+  void start_job(bindpose::AutomaticHandlesOptions options);
   void finish();
 
   Document* document_;
@@ -55,7 +55,7 @@ private:
   QMenu* menu_ = nullptr;
   bindpose::AutomaticMethod method_ = bindpose::AutomaticMethod::skeleton;
   bool rigging_ = false;
-  std::shared_ptr<bindpose::Handles> made_;
+  std::shared_ptr<bindpose::Handles> new_handles_;
   const void* surface_ = nullptr; ///< the surface for which handles are being created
   KernelJob job_; // last member, so that the job ends before the data that it uses is destroyed
 };

@@ -58,25 +58,25 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
   column->setSpacing(7);
 
   column->addWidget(heading(tr("Bind"), this));
-  this->kind_ = combo(this);
-  this->kind_->setObjectName("bind.method");
+  this->method_box_ = combo(this);
+  this->method_box_->setObjectName("bind.method");
   for (const bindpose::WeightMethod& method : bindpose::weight_methods())
   {
     if (method.constrained)
     {
-      this->kind_->addItem(
+      this->method_box_->addItem(
         tr("%1 weights").arg(QCoreApplication::translate("WeightPanel", method.label)));
     }
   }
   // This combo box determines the width of the panel, in any font.
-  this->kind_->setMinimumContentsLength(0);
-  this->kind_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
-  this->kind_->setToolTip(
+  this->method_box_->setMinimumContentsLength(0);
+  this->method_box_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  this->method_box_->setToolTip(
     tr("Bounded: smooth functions between 0 and 1.\n"
        "Monotone: in addition, no local maxima or minima away from the handles."));
-  QObject::connect(this->kind_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+  QObject::connect(this->method_box_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
     &SidePanel::bind_method_changed);
-  column->addWidget(this->kind_);
+  column->addWidget(this->method_box_);
   auto* domain_row = new QHBoxLayout;
   domain_row->addWidget(new QLabel(tr("Domain"), this));
   this->domain_ = combo(this);
@@ -122,10 +122,10 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
   auto* shown_row = new QHBoxLayout;
   this->shown_label_ = new QLabel(tr("Show"), this);
   shown_row->addWidget(this->shown_label_);
-  this->shown_ = combo(this);
-  this->shown_->setObjectName("show.column");
-  this->shown_->setToolTip(tr("Show the shaded surface, or the weights of one handle on it"));
-  shown_row->addWidget(this->shown_, 1);
+  this->column_box_ = combo(this);
+  this->column_box_->setObjectName("show.column");
+  this->column_box_->setToolTip(tr("Show the shaded surface, or the weights of one handle on it"));
+  shown_row->addWidget(this->column_box_, 1);
   column->addLayout(shown_row);
 
   // Put the widgets for posing into a scroll area, because a small window cannot show all of them.
@@ -144,7 +144,7 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
   this->pose_ = new PosePanel(content);
   auto* poses =
     new Section(tr("Poses"), tr("Stored poses, which can be applied again"), false, content);
-  this->poses_ = new PoseList(content);
+  this->poses_ = new PoseListWidget(content);
   poses->column()->addWidget(this->poses_);
 
   auto* handles = new QWidget(content);
@@ -188,19 +188,19 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
   scroll->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Expanding);
   column->addWidget(scroll, 1);
 
-  QObject::connect(this->bind_, &QPushButton::clicked, this, &SidePanel::bind_wanted);
+  QObject::connect(this->bind_, &QPushButton::clicked, this, &SidePanel::bind_requested);
   QObject::connect(this->cancel_, &QPushButton::clicked, this,
     [this]
     {
       this->stopping_ = true;
       this->set_note(tr("Stopping …"));
-      Q_EMIT this->cancel_wanted();
+      Q_EMIT this->cancel_requested();
     });
-  QObject::connect(this->rest_, &QPushButton::clicked, this, &SidePanel::rest_wanted);
+  QObject::connect(this->rest_, &QPushButton::clicked, this, &SidePanel::rest_requested);
   QObject::connect(this->pose_, &PosePanel::method_chosen, this, &SidePanel::method_chosen);
-  QObject::connect(this->shown_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
+  QObject::connect(this->column_box_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
     [this](int index) { Q_EMIT this->column_chosen(index - 1); });
-  QObject::connect(this->handles_, &HandleTree::chosen, this,
+  QObject::connect(this->handles_, &HandleTree::selection_changed, this,
     [this]
     {
       this->show_mode();
@@ -220,32 +220,32 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
 
 void SidePanel::set_handles(const std::vector<HandleTree::Row>& handles)
 {
-  const QSignalBlocker quiet(this->shown_);
-  const QString shown = this->shown_->currentIndex() > 0
-    ? this->shown_->currentData(Qt::ToolTipRole).toString()
+  const QSignalBlocker blocker(this->column_box_);
+  const QString shown = this->column_box_->currentIndex() > 0
+    ? this->column_box_->currentData(Qt::ToolTipRole).toString()
     : QString();
   this->handles_->set_rows(handles);
-  this->shown_->clear();
-  this->shown_->addItem(tr("Shaded surface"));
+  this->column_box_->clear();
+  this->column_box_->addItem(tr("Shaded surface"));
   int index = 0;
   for (const HandleTree::Row& handle : handles)
   {
-    this->shown_->addItem(
-      tr("Weights of %1")
-        .arg(this->fontMetrics().elidedText(handle.name, Qt::ElideMiddle, this->room_for_names())));
-    const int item = this->shown_->count() - 1;
-    this->shown_->setItemData(item, handle.name, Qt::ToolTipRole);
+    this->column_box_->addItem(tr("Weights of %1")
+                                 .arg(this->fontMetrics().elidedText(
+                                   handle.name, Qt::ElideMiddle, this->available_name_width())));
+    const int item = this->column_box_->count() - 1;
+    this->column_box_->setItemData(item, handle.name, Qt::ToolTipRole);
     index = !shown.isEmpty() && handle.name == shown ? item : index;
   }
-  this->shown_->setCurrentIndex(index);
+  this->column_box_->setCurrentIndex(index);
   this->show_mode();
 }
 
 /// Return the width in pixels that is available for a handle's name in the combo box, after the
 /// text before the name.
-int SidePanel::room_for_names() const
+int SidePanel::available_name_width() const
 {
-  const int field = this->kind_->sizeHint().width() - this->shown_label_->sizeHint().width() -
+  const int field = this->method_box_->sizeHint().width() - this->shown_label_->sizeHint().width() -
     60; // width of frame, arrow, padding and spacing
   return field - this->fontMetrics().horizontalAdvance(tr("Weights of %1").arg(QString()));
 }
@@ -254,7 +254,7 @@ int SidePanel::room_for_names() const
 /// support it.
 void SidePanel::show_mode()
 {
-  const QSignalBlocker quiet(this->mode_);
+  const QSignalBlocker blocker(this->mode_);
   const int handle = this->selected_handle();
   const std::vector<HandleTree::Row>& rows = this->handles_->rows();
   const auto is_bone = [&rows](int k)
@@ -316,11 +316,11 @@ void SidePanel::set_state(bool ready, bool binding, bool bound)
   {
     (binding ? this->cancel_ : this->bind_)->setFocus();
   }
-  enable(this->kind_, ready && !binding);
+  enable(this->method_box_, ready && !binding);
   enable(this->domain_, ready && !binding);
   this->bar_->setValue(0);
   this->bar_->setVisible(binding);
-  enable(this->shown_, bound);
+  enable(this->column_box_, bound);
   enable(this->rest_, bound);
 }
 
@@ -346,7 +346,7 @@ void SidePanel::set_method(int method)
 const bindpose::WeightMethod& SidePanel::method() const
 {
   // The constrained methods come first in the registry, in the order of the combo box.
-  return bindpose::weight_methods()[static_cast<std::size_t>(this->kind_->currentIndex())];
+  return bindpose::weight_methods()[static_cast<std::size_t>(this->method_box_->currentIndex())];
 }
 
 bindpose::WeightsDomain SidePanel::domain() const
@@ -356,10 +356,10 @@ bindpose::WeightsDomain SidePanel::domain() const
 
 int SidePanel::shown_column() const
 {
-  return this->shown_->currentIndex() - 1;
+  return this->column_box_->currentIndex() - 1;
 }
 
 void SidePanel::show_column(int column)
 {
-  this->shown_->setCurrentIndex(column + 1);
+  this->column_box_->setCurrentIndex(column + 1);
 }

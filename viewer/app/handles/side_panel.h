@@ -15,7 +15,7 @@ class QLabel;
 class QProgressBar;
 class QPushButton;
 class HandleFields;
-class PoseList;
+class PoseListWidget;
 class PosePanel;
 
 /// The panel to the right of the 3D view for binding and posing, and for selecting the displayed
@@ -55,7 +55,7 @@ public:
 
   PosePanel* pose() const { return this->pose_; }
   HandleFields* fields() const { return this->fields_; }
-  PoseList* poses() const { return this->poses_; }
+  PoseListWidget* poses() const { return this->poses_; }
 
   /// Return the chosen method of weights.
   const bindpose::WeightMethod& method() const;
@@ -68,27 +68,27 @@ public:
 Q_SIGNALS:
   /// Emitted when the user has chosen another method for the next bind.
   void bind_method_changed();
-  void bind_wanted();
-  void cancel_wanted();
+  void bind_requested();
+  void cancel_requested();
   void column_chosen(int column);
   void method_chosen(int method);
   /// Emitted when the selection has changed.
   void handles_chosen();
   /// Emitted when the user has chosen a mode for all selected handles.
   void mode_chosen(int mode);
-  void rest_wanted();
+  void rest_requested();
 
 private:
-  int room_for_names() const;
+  int available_name_width() const;
   void show_mode();
 
   HandleTree* handles_;
   QLabel* mode_label_;
   QComboBox* mode_;
-  QComboBox* kind_;
+  QComboBox* method_box_;
   QComboBox* domain_;
   QLabel* shown_label_;
-  QComboBox* shown_;
+  QComboBox* column_box_;
   QPushButton* bind_;
   QPushButton* cancel_;
   QProgressBar* bar_;
@@ -96,7 +96,7 @@ private:
   QPushButton* rest_;
   PosePanel* pose_;
   HandleFields* fields_;
-  PoseList* poses_;
+  PoseListWidget* poses_;
   bool stopping_ = false; // the user has pressed Cancel, but the bind has not ended yet
 };
 

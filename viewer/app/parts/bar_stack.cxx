@@ -8,12 +8,12 @@ namespace
 constexpr int bar_margin = 10; // pixels
 }
 
-BarStack::BarStack(QWidget* picture) : QWidget(picture), column_(new QVBoxLayout(this))
+BarStack::BarStack(QWidget* view_widget) : QWidget(view_widget), column_(new QVBoxLayout(this))
 {
   this->column_->setContentsMargins(0, 0, 0, 0);
   this->column_->setSpacing(6);
   this->setCursor(Qt::ArrowCursor); // use the arrow instead of the cursor of the 3D view below
-  picture->installEventFilter(this);
+  view_widget->installEventFilter(this);
   this->hide();
 }
 

@@ -10,7 +10,7 @@ class QVBoxLayout;
 class BarStack : public QWidget
 {
 public:
-  explicit BarStack(QWidget* picture);
+  explicit BarStack(QWidget* view_widget);
 
   /// Add a bar below the existing ones. A hidden bar takes no space.
   void add(QWidget* bar);

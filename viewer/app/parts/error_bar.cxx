@@ -22,10 +22,10 @@ ErrorBar::ErrorBar(QWidget* parent) : QFrame(parent), text_(new QLabel(this))
   this->hide();
 }
 
-void ErrorBar::show_sentence(const QString& sentence, ErrorKind kind, const QString& tool_tip)
+void ErrorBar::show_message(const QString& message, ErrorKind kind, const QString& tool_tip)
 {
   this->kind_ = kind;
-  this->text_->setText(sentence);
+  this->text_->setText(message);
   this->text_->setToolTip(tool_tip);
   this->show();
 }
@@ -38,7 +38,7 @@ void ErrorBar::succeeded(ErrorKind kind)
   }
 }
 
-QString ErrorBar::sentence() const
+QString ErrorBar::message() const
 {
   return this->isHidden() ? QString() : this->text_->text();
 }

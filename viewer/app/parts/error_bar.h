@@ -26,13 +26,13 @@ public:
   explicit ErrorBar(QWidget* parent);
 
   /// Replace the current sentence.
-  void show_sentence(const QString& sentence, ErrorKind kind = ErrorKind::other,
-    const QString& tool_tip = QString());
+  void show_message(
+    const QString& message, ErrorKind kind = ErrorKind::other, const QString& tool_tip = QString());
   /// Hide the bar if it shows an error of this kind. Call this function when an operation of the
   /// same kind has succeeded.
   void succeeded(ErrorKind kind);
   /// Return the sentence; empty if the bar is hidden.
-  QString sentence() const;
+  QString message() const;
 
 private:
   QLabel* text_;

@@ -25,7 +25,7 @@ bool FieldGuard::eventFilter(QObject* watched, QEvent* event)
   auto* box = qobject_cast<QAbstractSpinBox*>(watched);
   if (event->type() == QEvent::ShortcutOverride)
   {
-    return box && this->keep_from_undo(box, event);
+    return box && this->block_undo(box, event);
   }
   const bool slider =
     qobject_cast<QAbstractSlider*>(watched) && !qobject_cast<QScrollBar*>(watched);
@@ -39,7 +39,7 @@ bool FieldGuard::eventFilter(QObject* watched, QEvent* event)
     this->polish(widget);
     return false;
   }
-  return this->keep_from_wheel(widget, event);
+  return this->block_wheel(widget, event);
 }
 
 void FieldGuard::polish(QWidget* widget) const
@@ -65,7 +65,7 @@ void FieldGuard::polish(QWidget* widget) const
   }
 }
 
-bool FieldGuard::keep_from_wheel(QWidget* widget, QEvent* event) const
+bool FieldGuard::block_wheel(QWidget* widget, QEvent* event) const
 {
   if (widget->hasFocus())
   {
@@ -75,7 +75,7 @@ bool FieldGuard::keep_from_wheel(QWidget* widget, QEvent* event) const
   return true;
 }
 
-bool FieldGuard::keep_from_undo(QAbstractSpinBox* box, QEvent* event) const
+bool FieldGuard::block_undo(QAbstractSpinBox* box, QEvent* event) const
 {
   const auto* key = static_cast<QKeyEvent*>(event);
   const auto* text = box->findChild<QLineEdit*>();

@@ -25,8 +25,8 @@ public:
 
 private:
   void polish(QWidget* widget) const;
-  bool keep_from_wheel(QWidget* widget, QEvent* event) const;
-  bool keep_from_undo(QAbstractSpinBox* box, QEvent* event) const;
+  bool block_wheel(QWidget* widget, QEvent* event) const;
+  bool block_undo(QAbstractSpinBox* box, QEvent* event) const;
 
   std::function<void()> entered_;
 };

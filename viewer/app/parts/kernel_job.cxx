@@ -17,7 +17,7 @@ KernelJob::~KernelJob()
   }
 }
 
-void KernelJob::start(Work work)
+void KernelJob::start(JobFunction job_function)
 {
   if (this->running_)
   {
@@ -28,9 +28,9 @@ void KernelJob::start(Work work)
     this->thread_.join();
   }
   this->running_ = true;
-  this->cancel_ = false;
+  this->cancel_requested_ = false;
   this->thread_ = std::thread(
-    [this, work = std::move(work)]
+    [this, job_function = std::move(job_function)]
     {
       ExecutionContext context(
         [this](double fraction, const std::string& phase)
@@ -40,11 +40,11 @@ void KernelJob::start(Work work)
             this, [this, fraction, name] { Q_EMIT this->progress(fraction, name); },
             Qt::QueuedConnection);
         },
-        [this] { return this->cancel_.load(); });
+        [this] { return this->cancel_requested_.load(); });
       Status status;
       try
       {
-        status = work(context);
+        status = job_function(context);
       }
       catch (const std::exception& error)
       {
@@ -57,7 +57,7 @@ void KernelJob::start(Work work)
         [this, status]
         {
           this->status_ = status;
-          if (this->cancel_) // canceled after the work has ended, but before finished()
+          if (this->cancel_requested_) // canceled after the work has ended, but before finished()
           {
             this->status_ = Status::failure(StatusCode::canceled, "canceled");
           }
@@ -70,5 +70,5 @@ void KernelJob::start(Work work)
 
 void KernelJob::cancel()
 {
-  this->cancel_ = true;
+  this->cancel_requested_ = true;
 }

@@ -19,13 +19,13 @@ class KernelJob : public QObject
 public:
   /// The function that runs on the thread. It must own copies of its input, and write its output to
   /// objects that it shares by shared pointers.
-  using Work = std::function<bindpose::Status(bindpose::ExecutionContext&)>;
+  using JobFunction = std::function<bindpose::Status(bindpose::ExecutionContext&)>;
 
   explicit KernelJob(QObject* parent = nullptr);
   ~KernelJob() override;
 
   /// Start a job. Do nothing if a job is running.
-  void start(Work work);
+  void start(JobFunction job_function);
   /// Request cancellation of the job. finished() is still emitted, with the status canceled.
   void cancel();
   bool is_running() const { return this->running_; }
@@ -40,7 +40,7 @@ Q_SIGNALS:
 
 private:
   std::thread thread_;
-  std::atomic<bool> cancel_{ false };
+  std::atomic<bool> cancel_requested_{ false };
   bool running_ = false;
   bindpose::Status status_;
 };

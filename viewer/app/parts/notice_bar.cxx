@@ -27,7 +27,7 @@ QPushButton* NoticeBar::add_button(const QString& text)
   return button;
 }
 
-void NoticeBar::offer(const QString& sentence, const QList<Choice>& choices, const QString& close)
+void NoticeBar::offer(const QString& message, const QList<Choice>& choices, const QString& close)
 {
   for (QPushButton* button : this->buttons_)
   {
@@ -35,7 +35,7 @@ void NoticeBar::offer(const QString& sentence, const QList<Choice>& choices, con
     button->deleteLater(); // delete later, because this may be the button that was pressed
   }
   this->buttons_.clear();
-  this->set_sentence(sentence);
+  this->set_message(message);
   for (const Choice& choice : choices)
   {
     QObject::connect(this->add_button(choice.text), &QPushButton::clicked, this,
@@ -57,13 +57,13 @@ void NoticeBar::offer(const QString& sentence, const QList<Choice>& choices, con
   this->show();
 }
 
-void NoticeBar::set_sentence(const QString& sentence, const QString& tool_tip)
+void NoticeBar::set_message(const QString& message, const QString& tool_tip)
 {
-  this->text_->setText(sentence);
+  this->text_->setText(message);
   this->text_->setToolTip(tool_tip);
 }
 
-QString NoticeBar::sentence() const
+QString NoticeBar::message() const
 {
   return this->isHidden() ? QString() : this->text_->text();
 }

@@ -27,11 +27,11 @@ public:
 
   /// Show a sentence with buttons, in place of the current ones. `close` is the text of the button
   /// that only hides the bar; empty: no such button.
-  void offer(const QString& sentence, const QList<Choice>& choices, const QString& close);
+  void offer(const QString& message, const QList<Choice>& choices, const QString& close);
   /// Replace the sentence and keep the buttons.
-  void set_sentence(const QString& sentence, const QString& tool_tip = QString());
+  void set_message(const QString& message, const QString& tool_tip = QString());
   /// Return the sentence; empty if the bar is hidden.
-  QString sentence() const;
+  QString message() const;
 
 Q_SIGNALS:
   void closed();

@@ -73,31 +73,31 @@ void enable_all_but(QComboBox* list, int item, const QString& reason)
   }
 }
 
-QString capital(const QString& text)
+QString capitalized(const QString& text)
 {
   return text.left(1).toUpper() + text.mid(1);
 }
 
-QString shortened(const QString& text, int longest)
+QString shortened(const QString& text, int maximum_length)
 {
-  return text.size() <= longest
+  return text.size() <= maximum_length
     ? text
-    : text.left(longest / 2) + QStringLiteral("…") + text.right(longest / 2);
+    : text.left(maximum_length / 2) + QStringLiteral("…") + text.right(maximum_length / 2);
 }
 
 QString progress_note(double fraction, const QString& phase)
 {
   return QCoreApplication::translate("Panel", "%1, %2 %")
-    .arg(sentence_of(phase))
+    .arg(phase_description(phase))
     .arg(static_cast<int>(100.0 * fraction));
 }
 
-QString sentence_of(const QString& phase)
+QString phase_description(const QString& phase)
 {
   static const struct
   {
     const char* phases;
-    const char* sentence;
+    const char* message;
   } table[] = {
     { "repair", QT_TRANSLATE_NOOP("Panel", "Checking the surface") },
     { "winding", QT_TRANSLATE_NOOP("Panel", "Finding the inside") },
@@ -113,7 +113,7 @@ QString sentence_of(const QString& phase)
   {
     if (QString(row.phases).split(' ').contains(phase))
     {
-      return QCoreApplication::translate("Panel", row.sentence);
+      return QCoreApplication::translate("Panel", row.message);
     }
   }
   return phase;

@@ -24,12 +24,13 @@ QButtonGroup* add_orientations(QBoxLayout* column, QWidget* parent);
 /// Disable one item of a list (-1: none), and show the reason as its tooltip. Enable all others.
 void enable_all_but(QComboBox* list, int item, const QString& reason);
 /// Return the text with a capital first letter.
-QString capital(const QString& text);
-/// Return the text shortened to `longest` characters: the middle of a longer text is left out.
-QString shortened(const QString& text, int longest);
+QString capitalized(const QString& text);
+/// Return the text shortened to `maximum_length` characters: the middle of a longer text is left
+/// out.
+QString shortened(const QString& text, int maximum_length);
 /// Return a line of text about a running job: the phase in words, and the percentage.
 QString progress_note(double fraction, const QString& phase);
 /// Return a text for users that describes a phase of a kernel.
-QString sentence_of(const QString& phase);
+QString phase_description(const QString& phase);
 
 #endif

@@ -17,13 +17,13 @@
 
 namespace
 {
-struct Shade
+struct ThemeColor
 {
   const char* name;
   const char* light;
   const char* dark;
 };
-constexpr Shade shades[] = {
+constexpr ThemeColor theme_colors[] = {
   { "window", "#f4f4f2", "#26272a" },
   { "panel", "#fbfbfa", "#2c2d31" },
   { "field", "#ffffff", "#35373b" },
@@ -196,11 +196,11 @@ bool system_is_dark(const QApplication& application)
 }
 } // namespace
 
-QColor shade(const char* name)
+QColor theme_color(const char* name)
 {
-  const auto* const found = std::find_if(std::begin(shades), std::end(shades),
-    [name](const Shade& each) { return std::string_view(each.name) == name; });
-  return found == std::end(shades) ? QColor() : QColor(dark_now ? found->dark : found->light);
+  const auto* const found = std::find_if(std::begin(theme_colors), std::end(theme_colors),
+    [name](const ThemeColor& each) { return std::string_view(each.name) == name; });
+  return found == std::end(theme_colors) ? QColor() : QColor(dark_now ? found->dark : found->light);
 }
 
 bool is_dark()
@@ -234,8 +234,8 @@ void apply_style(QApplication& application)
   QPalette palette;
   const auto set = [&palette](QPalette::ColorRole role, const char* name, const char* off)
   {
-    palette.setColor(role, shade(name));
-    palette.setColor(QPalette::Disabled, role, shade(off));
+    palette.setColor(role, theme_color(name));
+    palette.setColor(QPalette::Disabled, role, theme_color(off));
   };
   set(QPalette::Window, "window", "window");
   set(QPalette::WindowText, "ink", "off");
@@ -255,13 +255,13 @@ void apply_style(QApplication& application)
   application.setFont(font);
   QString text = sheet;
   // Sort the names by descending length, because one name may be a prefix of another name.
-  std::vector<Shade> by_length(std::begin(shades), std::end(shades));
+  std::vector<ThemeColor> by_length(std::begin(theme_colors), std::end(theme_colors));
   std::sort(by_length.begin(), by_length.end(),
-    [](const Shade& a, const Shade& b)
+    [](const ThemeColor& a, const ThemeColor& b)
     { return std::string_view(a.name).size() > std::string_view(b.name).size(); });
-  for (const Shade& each : by_length)
+  for (const ThemeColor& each : by_length)
   {
-    text.replace(QString("@") + each.name, shade(each.name).name());
+    text.replace(QString("@") + each.name, theme_color(each.name).name());
   }
   text.replace("@down", dark_now ? "down-light" : "down");
   application.setStyleSheet(text);

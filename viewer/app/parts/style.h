@@ -10,7 +10,7 @@ class QApplication;
 void apply_style(QApplication& application);
 
 /// Return the current color for a purpose ("ink", "panel", "accent", ...).
-QColor shade(const char* name);
+QColor theme_color(const char* name);
 bool is_dark();
 
 /// The appearance of the window: light, dark, or the same as the desktop. The user's choice is

@@ -27,19 +27,19 @@ void arrow(QPainter& painter, const QPointF& from, const QPointF& to)
     QPolygonF({ to - 3.2 * along + 2.6 * across, to, to - 3.2 * along - 2.6 * across }));
 }
 
-void dot(QPainter& painter, const QPointF& at, double radius)
+void dot(QPainter& painter, const QPointF& center, double radius)
 {
   painter.save();
   painter.setBrush(painter.pen().color());
   painter.setPen(Qt::NoPen);
-  painter.drawEllipse(at, radius, radius);
+  painter.drawEllipse(center, radius, radius);
   painter.restore();
 }
 
-void plus(QPainter& painter, const QPointF& at)
+void plus(QPainter& painter, const QPointF& center)
 {
-  painter.drawLine(at - QPointF(2.8, 0), at + QPointF(2.8, 0));
-  painter.drawLine(at - QPointF(0, 2.8), at + QPointF(0, 2.8));
+  painter.drawLine(center - QPointF(2.8, 0), center + QPointF(2.8, 0));
+  painter.drawLine(center - QPointF(0, 2.8), center + QPointF(0, 2.8));
 }
 
 void ring(QPainter& painter, const QRectF& in)
@@ -50,9 +50,9 @@ void ring(QPainter& painter, const QRectF& in)
   painter.drawPolyline(QPolygonF({ end + QPointF(-0.2, -3.4), end, end + QPointF(-3.5, 0.6) }));
 }
 
-void box(QPainter& painter, const QPointF& at, double half)
+void box(QPainter& painter, const QPointF& center, double half)
 {
-  painter.drawRect(QRectF(at.x() - half, at.y() - half, 2.0 * half, 2.0 * half));
+  painter.drawRect(QRectF(center.x() - half, center.y() - half, 2.0 * half, 2.0 * half));
 }
 
 void draw_none(QPainter& painter)
@@ -191,11 +191,12 @@ QIcon tool_icon(const char* action)
   const auto drawing = drawings.find(action);
   for (int scale = 1; drawing != drawings.end() && scale <= 3; ++scale)
   {
-    icon.addPixmap(drawn(drawing->second, shade("ink"), scale), QIcon::Normal, QIcon::Off);
-    icon.addPixmap(drawn(drawing->second, shade("on_accent"), scale), QIcon::Normal, QIcon::On);
-    icon.addPixmap(drawn(drawing->second, shade("off"), scale), QIcon::Disabled, QIcon::Off);
+    icon.addPixmap(drawn(drawing->second, theme_color("ink"), scale), QIcon::Normal, QIcon::Off);
     icon.addPixmap(
-      drawn(drawing->second, shade("accent_off_ink"), scale), QIcon::Disabled, QIcon::On);
+      drawn(drawing->second, theme_color("on_accent"), scale), QIcon::Normal, QIcon::On);
+    icon.addPixmap(drawn(drawing->second, theme_color("off"), scale), QIcon::Disabled, QIcon::Off);
+    icon.addPixmap(
+      drawn(drawing->second, theme_color("accent_off_ink"), scale), QIcon::Disabled, QIcon::On);
   }
   return icon;
 }

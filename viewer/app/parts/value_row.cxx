@@ -32,7 +32,7 @@ ValueRow::ValueRow(QWidget* parent)
     [this](int step)
     {
       const double span = this->field_->maximum() - this->field_->minimum();
-      const QSignalBlocker quiet(this->field_);
+      const QSignalBlocker blocker(this->field_);
       this->field_->setValue(this->field_->minimum() + span * step / steps);
       Q_EMIT this->value_chosen(this->field_->value());
     });
@@ -46,7 +46,7 @@ ValueRow::ValueRow(QWidget* parent)
 
 void ValueRow::set_range(double lowest, double highest)
 {
-  const QSignalBlocker quiet(this->field_);
+  const QSignalBlocker blocker(this->field_);
   // Use enough digits to show the smallest change of the slider.
   const double step = (highest - lowest) / steps;
   const int digits =
@@ -58,7 +58,7 @@ void ValueRow::set_range(double lowest, double highest)
 
 void ValueRow::set_value(double value)
 {
-  const QSignalBlocker quiet(this->field_);
+  const QSignalBlocker blocker(this->field_);
   const QSignalBlocker quiet_too(this->slider_);
   this->field_->setValue(value);
   const double span = this->field_->maximum() - this->field_->minimum();

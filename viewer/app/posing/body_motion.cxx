@@ -15,23 +15,23 @@ namespace
 constexpr int frame_interval = 16; // milliseconds
 /// Maximum number of time steps per displayed frame. Simulated time that would need more steps is
 /// skipped.
-constexpr int most_steps = 4;
+constexpr int maximum_steps = 4;
 /// A body is bound immediately, not in the background, if its number of vertices times its number
 /// of handles is less than this value and the body is not simulated in tets.
 constexpr Index bound_at_once = 20000;
 } // namespace
 
 BodyMotion::BodyMotion(PosePanel* panel, std::function<Pose(bool for_step)> pose, QObject* parent)
-  : QObject(parent), panel_(panel), pose_(std::move(pose))
+  : QObject(parent), panel_(panel), get_pose_(std::move(pose))
 {
-  this->playing_.setTimerType(Qt::PreciseTimer);
-  this->playing_.setInterval(frame_interval);
-  QObject::connect(&this->playing_, &QTimer::timeout, this, &BodyMotion::tick);
+  this->play_timer_.setTimerType(Qt::PreciseTimer);
+  this->play_timer_.setInterval(frame_interval);
+  QObject::connect(&this->play_timer_, &QTimer::timeout, this, &BodyMotion::tick);
   QObject::connect(&this->job_, &KernelJob::finished, this, &BodyMotion::bound);
   QObject::connect(&this->job_, &KernelJob::progress, panel, &PosePanel::set_progress);
-  QObject::connect(panel, &PosePanel::play_wanted, this, &BodyMotion::play);
-  QObject::connect(panel, &PosePanel::step_wanted, this, [this] { this->step(1); });
-  QObject::connect(panel, &PosePanel::restart_wanted, this, &BodyMotion::restart);
+  QObject::connect(panel, &PosePanel::play_requested, this, &BodyMotion::play);
+  QObject::connect(panel, &PosePanel::step_requested, this, [this] { this->step(1); });
+  QObject::connect(panel, &PosePanel::restart_requested, this, &BodyMotion::restart);
 }
 
 void BodyMotion::set_source(std::shared_ptr<const PoseSource> source)
@@ -93,7 +93,7 @@ void BodyMotion::bound()
   const Status status = this->job_.status();
   const bool other =
     !this->body_ || (status.usable() && !this->body_->is_bound(this->panel_->options()));
-  if (other && this->panel_->moves())
+  if (other && this->panel_->simulates_motion())
   {
     this->begin(); // the source or the options have changed during the bind
   }
@@ -119,7 +119,7 @@ void BodyMotion::restart()
     return;
   }
   ExecutionContext context;
-  this->status_ = this->body_->restart(context, this->pose_(false), this->points_);
+  this->status_ = this->body_->restart(context, this->get_pose_(false), this->points_);
   if (!this->status_.usable())
   {
     this->fail(this->status_);
@@ -132,14 +132,14 @@ void BodyMotion::play(bool play)
 {
   if (play && this->has_started())
   {
-    Q_EMIT this->played();
+    Q_EMIT this->playback_started();
     this->clock_.start();
-    this->due_ = 0.0;
-    this->playing_.start();
+    this->simulated_until_ = 0.0;
+    this->play_timer_.start();
   }
   else
   {
-    this->playing_.stop(); // no timer runs while the window is idle
+    this->play_timer_.stop(); // no timer runs while the window is idle
   }
   this->panel_->set_playing(this->is_playing());
 }
@@ -148,11 +148,11 @@ void BodyMotion::tick()
 {
   const double step = 1.0 / this->panel_->body_options().steps_per_second;
   const double now = 1e-9 * static_cast<double>(this->clock_.nsecsElapsed());
-  const int due = static_cast<int>(std::floor((now - this->due_) / step));
+  const int due = static_cast<int>(std::floor((now - this->simulated_until_) / step));
   if (due > 0)
   {
-    this->due_ = due > most_steps ? now : this->due_ + due * step;
-    this->step(std::min(due, most_steps));
+    this->simulated_until_ = due > maximum_steps ? now : this->simulated_until_ + due * step;
+    this->step(std::min(due, maximum_steps));
   }
 }
 
@@ -162,7 +162,7 @@ void BodyMotion::step(int steps)
   {
     return;
   }
-  const Pose pose = this->pose_(true);
+  const Pose pose = this->get_pose_(true);
   const BodyOptions options = this->panel_->body_options();
   for (int k = 0; k < steps; ++k)
   {
@@ -185,7 +185,7 @@ void BodyMotion::show_time()
   this->panel_->set_time(this->has_started()
       ? tr("Time %1 s%2")
           .arg(this->body_->time(), 0, 'f', 2)
-          .arg(this->body_->run_is_whole() ? QString()
-                                           : tr("; only the first 10 minutes are recorded"))
+          .arg(this->body_->run_is_complete() ? QString()
+                                              : tr("; only the first 10 minutes are recorded"))
       : QString());
 }

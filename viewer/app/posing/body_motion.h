@@ -36,7 +36,7 @@ public:
   void cancel_bind() { this->job_.cancel(); }
 
   void play(bool play);
-  bool is_playing() const { return this->playing_.isActive(); }
+  bool is_playing() const { return this->play_timer_.isActive(); }
   void step(int steps);
   /// Restart the simulation at time zero.
   void restart();
@@ -55,8 +55,8 @@ public:
 Q_SIGNALS:
   /// Emitted when the shape has moved.
   void moved();
-  void played();
-  void failed(const QString& sentence);
+  void playback_started();
+  void failed(const QString& message);
 
 private:
   void bound();
@@ -65,14 +65,15 @@ private:
   void show_time();
 
   PosePanel* panel_;
-  std::function<bindpose::Pose(bool)> pose_;
+  std::function<bindpose::Pose(bool)> get_pose_;
   std::shared_ptr<const bindpose::PoseSource> source_;
   std::shared_ptr<bindpose::Body> body_;
   bindpose::Points points_;
   bindpose::Status status_;
-  QTimer playing_;
+  QTimer play_timer_;
   QElapsedTimer clock_;
-  double due_ = 0.0; ///< time of clock_, in seconds, up to which time steps were computed
+  double simulated_until_ =
+    0.0; ///< time of clock_, in seconds, up to which time steps were computed
   KernelJob job_; // last member, so that the job ends before the data that it uses is destroyed
 };
 

@@ -17,7 +17,7 @@ namespace
 /// vtkFullARAP has the same maximum for one pose.
 constexpr Index first_slice = 2;
 constexpr Index longest_slice = 64;
-constexpr Index most_iterations = 500;
+constexpr Index maximum_iterations = 500;
 
 /// Report whether a bind is so small (vertices times columns) that the user does not notice its
 /// duration.
@@ -77,7 +77,7 @@ void Deformation::set_options(const PoseOptions& options)
   this->settled_ = false;
   this->canceled_ = false;
   this->slice_ = first_slice;
-  this->spent_ = 0;
+  this->iterations_done_ = 0;
   if (this->task_.poser)
   {
     this->task_.stale = true;
@@ -98,7 +98,7 @@ void Deformation::set_pose(const Pose& pose)
   ++this->pose_number_;
   this->settled_ = false;
   this->slice_ = first_slice;
-  this->spent_ = 0;
+  this->iterations_done_ = 0;
   if (this->task_.poser && !this->task_.bind && this->task_.slice > first_slice &&
     !this->task_.stale)
   {
@@ -106,9 +106,9 @@ void Deformation::set_pose(const Pose& pose)
     ++this->restarts_;
     this->job_.cancel();
   }
-  this->asked_at_once_ = true;
+  this->is_setting_pose_ = true;
   this->advance();
-  this->asked_at_once_ = false;
+  this->is_setting_pose_ = false;
 }
 
 void Deformation::cancel()
@@ -126,7 +126,7 @@ void Deformation::bind()
 }
 
 /// Report whether the current poser has solved this pose and is not in use in the background.
-bool Deformation::is_found() const
+bool Deformation::has_solution() const
 {
   return this->can_pose() && this->settled_ && this->error_.isEmpty() &&
     !is_slow(this->options_.method);
@@ -134,16 +134,16 @@ bool Deformation::is_found() const
 
 const std::vector<Affine>* Deformation::found()
 {
-  return this->is_found() ? this->poser()->found() : nullptr;
+  return this->has_solution() ? this->poser()->found() : nullptr;
 }
 
 const PoseRotations* Deformation::rotations()
 {
   if (is_slow(this->options_.method))
   {
-    return this->rotations_.of_point ? &this->rotations_ : nullptr;
+    return this->rotations_.cluster_of_point ? &this->rotations_ : nullptr;
   }
-  return this->is_found() ? this->poser()->rotations() : nullptr;
+  return this->has_solution() ? this->poser()->rotations() : nullptr;
 }
 
 Index Deformation::binds() const
@@ -185,7 +185,7 @@ void Deformation::advance()
     if (!binds_at_once(*this->source_, this->options_))
     {
       this->set_binding(true);
-      this->bind_beside(poser);
+      this->bind_in_background(poser);
       return;
     }
     ExecutionContext context;
@@ -198,15 +198,15 @@ void Deformation::advance()
   }
   if (is_slow(this->options_.method))
   {
-    this->solve_beside(poser);
+    this->solve_in_background(poser);
   }
   else
   {
-    this->solve_now(*poser);
+    this->solve_immediately(*poser);
   }
 }
 
-void Deformation::bind_beside(const std::shared_ptr<Poser>& poser)
+void Deformation::bind_in_background(const std::shared_ptr<Poser>& poser)
 {
   if (this->job_.is_running())
   {
@@ -217,14 +217,14 @@ void Deformation::bind_beside(const std::shared_ptr<Poser>& poser)
     { return poser->bind(context, options); });
 }
 
-void Deformation::solve_now(Poser& poser)
+void Deformation::solve_immediately(Poser& poser)
 {
   ExecutionContext context;
   this->settled_ = true;
-  this->take(poser.solve(context, this->pose_, this->options_, 0, this->points_));
+  this->report_result(poser.solve(context, this->pose_, this->options_, 0, this->points_));
 }
 
-void Deformation::solve_beside(const std::shared_ptr<Poser>& poser)
+void Deformation::solve_in_background(const std::shared_ptr<Poser>& poser)
 {
   if (this->job_.is_running())
   {
@@ -232,8 +232,9 @@ void Deformation::solve_beside(const std::shared_ptr<Poser>& poser)
   }
   auto points = std::make_shared<Points>();
   auto rotations = std::make_shared<PoseRotations>();
-  this->task_ = { poser, false, false, std::min(this->slice_, most_iterations - this->spent_),
-    this->pose_number_, points, rotations };
+  this->task_ = { poser, false, false,
+    std::min(this->slice_, maximum_iterations - this->iterations_done_), this->pose_number_, points,
+    rotations };
   this->job_.start(
     [poser, points, rotations, pose = this->pose_, options = this->options_,
       slice = this->task_.slice](ExecutionContext& context)
@@ -271,11 +272,12 @@ void Deformation::job_finished()
     }
     if (task.pose_number == this->pose_number_)
     {
-      this->spent_ += static_cast<Index>(status.report.number("iterations", 0.0));
-      this->settled_ = status.code != StatusCode::not_converged || this->spent_ >= most_iterations;
+      this->iterations_done_ += static_cast<Index>(status.report.number("iterations", 0.0));
+      this->settled_ =
+        status.code != StatusCode::not_converged || this->iterations_done_ >= maximum_iterations;
       this->slice_ = std::min(2 * this->slice_, longest_slice);
     }
-    this->take(status);
+    this->report_result(status);
     if (!status.usable())
     {
       return;
@@ -293,7 +295,7 @@ void Deformation::set_binding(bool binding)
   }
 }
 
-void Deformation::take(const Status& status)
+void Deformation::report_result(const Status& status)
 {
   if (!status.usable())
   {
@@ -302,9 +304,9 @@ void Deformation::take(const Status& status)
   }
   this->status_ = status;
   this->error_.clear();
-  if (!this->asked_at_once_)
+  if (!this->is_setting_pose_)
   {
-    Q_EMIT this->arrived();
+    Q_EMIT this->points_computed();
   }
 }
 
@@ -318,7 +320,7 @@ void Deformation::fail(const Status& status)
     return;
   }
   this->error_ = QString::fromStdString(status.message);
-  if (!this->asked_at_once_)
+  if (!this->is_setting_pose_)
   {
     Q_EMIT this->failed();
   }

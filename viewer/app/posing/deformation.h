@@ -66,7 +66,7 @@ public:
 Q_SIGNALS:
   /// Emitted when new points were computed in the background. Not emitted for points that
   /// set_pose() computes immediately.
-  void arrived();
+  void points_computed();
   void bind_progress(double fraction, const QString& phase);
   /// Emitted when a bind has begun or ended.
   void binding_changed();
@@ -74,16 +74,16 @@ Q_SIGNALS:
   void failed();
 
 private:
-  bool is_found() const;
+  bool has_solution() const;
   std::shared_ptr<bindpose::Poser> poser();
   void advance();
-  void bind_beside(const std::shared_ptr<bindpose::Poser>& poser);
-  void solve_now(bindpose::Poser& poser);
-  void solve_beside(const std::shared_ptr<bindpose::Poser>& poser);
+  void bind_in_background(const std::shared_ptr<bindpose::Poser>& poser);
+  void solve_immediately(bindpose::Poser& poser);
+  void solve_in_background(const std::shared_ptr<bindpose::Poser>& poser);
   void job_finished();
   void set_binding(bool binding);
   void fail(const bindpose::Status& status);
-  void take(const bindpose::Status& status);
+  void report_result(const bindpose::Status& status);
 
   std::shared_ptr<const bindpose::PoseSource> source_;
   bindpose::PoseOptions options_;
@@ -100,7 +100,7 @@ private:
   bool canceled_ = false;
   /// True while set_pose() runs. The signals arrived() and failed() are not emitted then, because
   /// the caller of set_pose() reads the points itself.
-  bool asked_at_once_ = false;
+  bool is_setting_pose_ = false;
   int restarts_ = 0;
 
   /// The task of the running job.
@@ -116,7 +116,7 @@ private:
   };
   Task task_;
   bindpose::Index slice_ = 0; ///< iterations of the next slice
-  bindpose::Index spent_ = 0; ///< iterations that were computed for the current pose
+  bindpose::Index iterations_done_ = 0; ///< iterations that were computed for the current pose
   KernelJob job_; // last member, so that the job ends before the data that it uses is destroyed
 };
 

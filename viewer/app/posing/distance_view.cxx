@@ -44,13 +44,13 @@ void DistanceView::set_active(bool active)
 void DistanceView::update()
 {
   const Points& points = this->posing_->points();
-  const Points& other = this->posing_->compared()->points();
+  const Points& other = this->posing_->compared_deformation()->points();
   if (!this->active_ || this->posing_->ghost()->place() != PoseGhost::in_colors ||
-    this->posing_->shows_rest() || this->posing_->compared()->is_binding() || points.rows() == 0 ||
-    points.rows() != other.rows() || !this->viewport_->drawn() ||
+    this->posing_->shows_rest() || this->posing_->compared_deformation()->is_binding() ||
+    points.rows() == 0 || points.rows() != other.rows() || !this->viewport_->drawn() ||
     points.rows() != this->posing_->surface()->GetNumberOfPoints())
   {
-    if (this->viewport_->shows(this->values_))
+    if (this->viewport_->shows_values(this->values_))
     {
       this->viewport_->show_values(nullptr, true);
     }
@@ -61,8 +61,8 @@ void DistanceView::update()
   const Eigen::VectorXd distances = percent * (points - other).rowwise().norm();
   const double scale = distance_scale(distances.maxCoeff());
   const std::vector<Index>& drawn = this->viewport_->drawn_points();
-  const bool anew = !this->viewport_->shows(this->values_) || this->scale_ != scale;
-  if (anew)
+  const bool is_new_array = !this->viewport_->shows_values(this->values_) || this->scale_ != scale;
+  if (is_new_array)
   {
     this->values_ = vtkSmartPointer<vtkDoubleArray>::New();
     this->values_->SetNumberOfValues(static_cast<vtkIdType>(drawn.size()));
@@ -73,7 +73,7 @@ void DistanceView::update()
     *value++ = distances[point];
   }
   this->values_->Modified();
-  if (anew)
+  if (is_new_array)
   {
     this->scale_ = scale;
     this->viewport_->show_values(this->values_, true,

@@ -99,10 +99,10 @@ HandleFields::HandleFields(QWidget* parent) : QWidget(parent)
   QObject::connect(this->layer_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
     &HandleFields::layer_chosen);
   rows->addWidget(this->layer_row_);
-  this->more_ = new QLabel(tr("Also has a shear or nonuniform scale."), this);
-  this->more_->setObjectName("note");
-  this->more_->setToolTip(tr("Typing a number removes it"));
-  rows->addWidget(this->more_);
+  this->shear_note_ = new QLabel(tr("Also has a shear or nonuniform scale."), this);
+  this->shear_note_->setObjectName("note");
+  this->shear_note_->setToolTip(tr("Typing a number removes it"));
+  rows->addWidget(this->shear_note_);
   // Names for users of screen readers, who cannot see the grid.
   const char* const names[] = { QT_TR_NOOP("Move along x"), QT_TR_NOOP("Move along y"),
     QT_TR_NOOP("Move along z"), QT_TR_NOOP("Turn about x, degrees"),
@@ -127,7 +127,7 @@ void HandleFields::show_values(const Handle* handle, const HandleValues& values,
   const bool bone = handle && handle->kind == HandleKind::bone;
   for (std::size_t k = 0; k < this->fields_.size(); ++k)
   {
-    const QSignalBlocker quiet(this->fields_[k]);
+    const QSignalBlocker blocker(this->fields_[k]);
     if (!this->fields_[k]->hasFocus() || this->fields_[k]->value() != numbers[k])
     {
       this->fields_[k]->setValue(numbers[k]);
@@ -139,7 +139,7 @@ void HandleFields::show_values(const Handle* handle, const HandleValues& values,
     name->setEnabled(handle && !free);
   }
   this->bone_rows_->setVisible(bone);
-  this->more_->setVisible(handle && values.more);
+  this->shear_note_->setVisible(handle && values.is_approximate);
 }
 
 void HandleFields::show_count(const QString& name, int count)
@@ -154,7 +154,7 @@ void HandleFields::show_count(const QString& name, int count)
 
 void HandleFields::show_layer(const std::optional<double>& layer)
 {
-  const QSignalBlocker quiet(this->layer_);
+  const QSignalBlocker blocker(this->layer_);
   this->layer_->setValue(layer.value_or(0.0));
   this->layer_row_->setVisible(layer.has_value());
 }

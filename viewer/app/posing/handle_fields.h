@@ -52,7 +52,7 @@ private:
   QWidget* bone_rows_;
   QWidget* layer_row_;
   QDoubleSpinBox* layer_;
-  QLabel* more_;
+  QLabel* shear_note_;
   std::vector<QLabel*> names_; ///< labels of the fields that are always visible
 };
 

@@ -81,11 +81,11 @@ KeyStrip::KeyStrip(QWidget* parent) : QFrame(parent), track_(new KeyTrack(this))
   rows->addLayout(below);
 
   QObject::connect(this->play_, &QPushButton::clicked, this,
-    [this] { Q_EMIT this->play_wanted(!this->playing_); });
+    [this] { Q_EMIT this->play_requested(!this->playing_); });
   QObject::connect(this->loop_, &QPushButton::clicked, this, &KeyStrip::loop_chosen);
-  QObject::connect(this->add_, &QPushButton::clicked, this, &KeyStrip::key_wanted);
+  QObject::connect(this->add_, &QPushButton::clicked, this, &KeyStrip::set_key_requested);
   QObject::connect(this->remove_, &QPushButton::clicked, this,
-    [this] { Q_EMIT this->remove_wanted(this->keys_.at(this->time_)); });
+    [this] { Q_EMIT this->remove_requested(this->keys_.index_at(this->time_)); });
   QObject::connect(this->smooth_, &QPushButton::clicked, this, &KeyStrip::smooth_chosen);
   QObject::connect(this->rate_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
     &KeyStrip::rate_chosen);
@@ -97,7 +97,7 @@ KeyStrip::KeyStrip(QWidget* parent) : QFrame(parent), track_(new KeyTrack(this))
 
 void KeyStrip::set_keys(const KeyFrames& keys)
 {
-  const QSignalBlocker quiet(this->rate_);
+  const QSignalBlocker blocker(this->rate_);
   this->keys_ = keys;
   this->track_->set_keys(keys);
   this->loop_->setChecked(keys.loop);
@@ -131,7 +131,7 @@ void KeyStrip::enable()
 {
   this->play_->setEnabled(this->ready_ && (this->playing_ || this->keys_.keys().size() > 1));
   this->add_->setEnabled(this->ready_ && !this->playing_);
-  this->remove_->setEnabled(!this->playing_ && this->keys_.at(this->time_) >= 0);
+  this->remove_->setEnabled(!this->playing_ && this->keys_.index_at(this->time_) >= 0);
   this->track_->setEnabled(this->ready_);
 }
 
@@ -201,7 +201,7 @@ void KeyTrack::paintEvent(QPaintEvent* /*event*/)
   painter.setRenderHint(QPainter::Antialiasing);
   const bool on = this->isEnabled();
   const int middle = this->height() - this->fontMetrics().lineSpacing() / 2 - 6;
-  const QColor line = shade(on ? "scroll" : "line"), ink = shade(on ? "note" : "off");
+  const QColor line = theme_color(on ? "scroll" : "line"), ink = theme_color(on ? "note" : "off");
   painter.setPen(QPen(line, 2));
   painter.drawLine(strip_margin, middle, this->width() - strip_margin, middle);
   // Draw as many time labels as there is space for.
@@ -239,22 +239,22 @@ void KeyTrack::paintEvent(QPaintEvent* /*event*/)
   }
   for (std::size_t k = 0; k < this->keys_.keys().size(); ++k)
   {
-    const bool held = static_cast<int>(k) == this->dragged_ && this->moved_;
-    const double time = held ? this->dragged_to_ : this->keys_.keys()[k].time;
+    const bool held = static_cast<int>(k) == this->dragged_key_ && this->moved_;
+    const double time = held ? this->dragged_time_ : this->keys_.keys()[k].time;
     const int x = this->pixel(time);
     const bool here = std::abs(time - this->time_) < 5e-4;
-    painter.setPen(QPen(shade("key_edge"), 1.2));
-    painter.setBrush(shade(here || held ? "key_now" : "key"));
+    painter.setPen(QPen(theme_color("key_edge"), 1.2));
+    painter.setBrush(theme_color(here || held ? "key_now" : "key"));
     const QPoint diamond[4] = { { x, middle - 6 }, { x + 6, middle }, { x, middle + 6 },
       { x - 6, middle } };
     painter.drawPolygon(diamond, 4);
   }
   const int now = this->pixel(std::min(this->time_, this->length()));
-  painter.setPen(QPen(shade(on ? "accent" : "accent_off"), 2));
+  painter.setPen(QPen(theme_color(on ? "accent" : "accent_off"), 2));
   painter.drawLine(now, 2 + this->fontMetrics().lineSpacing(), now, this->height() - 1);
   if (this->hasFocus())
   {
-    painter.setPen(QPen(shade("accent"), 1));
+    painter.setPen(QPen(theme_color("accent"), 1));
     painter.setBrush(Qt::NoBrush);
     painter.drawRoundedRect(this->rect().adjusted(0, 0, -1, -1), 4, 4);
   }
@@ -266,21 +266,21 @@ void KeyTrack::mousePressEvent(QMouseEvent* event)
   {
     return;
   }
-  this->dragged_ = this->key_at(event->pos());
+  this->dragged_key_ = this->key_at(event->pos());
   this->moved_ = false;
   this->scrubbing_ = true;
-  Q_EMIT this->scrubbed(this->dragged_ >= 0
-      ? this->keys_.keys()[static_cast<std::size_t>(this->dragged_)].time
+  Q_EMIT this->scrubbed(this->dragged_key_ >= 0
+      ? this->keys_.keys()[static_cast<std::size_t>(this->dragged_key_)].time
       : this->seconds_at(event->x()));
 }
 
 void KeyTrack::mouseMoveEvent(QMouseEvent* event)
 {
-  if (this->dragged_ >= 0)
+  if (this->dragged_key_ >= 0)
   {
-    const double time = this->keys_.keys()[static_cast<std::size_t>(this->dragged_)].time;
+    const double time = this->keys_.keys()[static_cast<std::size_t>(this->dragged_key_)].time;
     this->moved_ = this->moved_ || std::abs(event->x() - this->pixel(time)) > 3;
-    this->dragged_to_ = this->seconds_at(event->x());
+    this->dragged_time_ = this->seconds_at(event->x());
     this->update();
   }
   else if (this->scrubbing_)
@@ -295,14 +295,14 @@ void KeyTrack::mouseReleaseEvent(QMouseEvent* event)
   {
     return;
   }
-  const int key = this->moved_ ? this->dragged_ : -1;
-  this->dragged_ = -1;
+  const int key = this->moved_ ? this->dragged_key_ : -1;
+  this->dragged_key_ = -1;
   this->moved_ = false;
   this->scrubbing_ = false;
   Q_EMIT this->scrub_ended();
   if (key >= 0)
   {
-    Q_EMIT this->key_moved(key, this->dragged_to_);
+    Q_EMIT this->key_moved(key, this->dragged_time_);
   }
 }
 

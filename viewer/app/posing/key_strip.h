@@ -28,11 +28,11 @@ public:
   KeyTrack* track() const { return this->track_; }
 
 Q_SIGNALS:
-  void play_wanted(bool play);
+  void play_requested(bool play);
   void scrubbed(double seconds);
   void scrub_ended();
-  void key_wanted();
-  void remove_wanted(int key);
+  void set_key_requested();
+  void remove_requested(int key);
   void key_moved(int key, double seconds);
   void loop_chosen(bool loop);
   void smooth_chosen(bool smooth);
@@ -88,8 +88,8 @@ private:
 
   bindpose::KeyFrames keys_;
   double time_ = 0.0;
-  int dragged_ = -1; ///< index of the dragged key; -1: none
-  double dragged_to_ = 0.0;
+  int dragged_key_ = -1; ///< index of the dragged key; -1: none
+  double dragged_time_ = 0.0;
   bool moved_ = false;
   bool scrubbing_ = false;
 };

@@ -39,14 +39,14 @@ PoseGhost::PoseGhost(Viewport* viewport) : viewport_(viewport)
   this->mapper_->SelectColorArray(distance_name);
   this->mapper_->UseLookupTableScalarRangeOn();
   constexpr int steps = 64;
-  this->fading_->SetNumberOfTableValues(steps);
-  this->fading_->SetTableRange(0.0, whole_from);
+  this->opacity_table_->SetNumberOfTableValues(steps);
+  this->opacity_table_->SetTableRange(0.0, whole_from);
   for (int k = 0; k < steps; ++k)
   {
-    this->fading_->SetTableValue(
+    this->opacity_table_->SetTableValue(
       k, ghost_color[0], ghost_color[1], ghost_color[2], k / (steps - 1.0));
   }
-  this->mapper_->SetLookupTable(this->fading_);
+  this->mapper_->SetLookupTable(this->opacity_table_);
   // If two poses differ only by points that have moved within the same surface, both shapes
   // coincide, although the distances of the points are not zero. Draw the first shape in front.
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
@@ -61,7 +61,8 @@ PoseGhost::PoseGhost(Viewport* viewport) : viewport_(viewport)
   this->renderer_->SetViewport(0.5, 0.0, 1.0, 1.0);
   for (vtkRenderer* half : { first, this->renderer_.Get() })
   {
-    half->AddObserver(vtkCommand::ResetCameraClippingRangeEvent, this, &PoseGhost::clipped);
+    half->AddObserver(
+      vtkCommand::ResetCameraClippingRangeEvent, this, &PoseGhost::clipping_range_changed);
   }
 }
 
@@ -70,9 +71,9 @@ PoseGhost::~PoseGhost() = default;
 void PoseGhost::set_surface(vtkPolyData* surface)
 {
   this->surface_ = surface;
-  if (surface && this->shaded_ && this->shaded_->is_of(surface))
+  if (surface && this->shaded_ && this->shaded_->has_mesh_of(surface))
   {
-    this->shaded_->take(surface);
+    this->shaded_->set_arrays(surface);
   }
   else
   {
@@ -197,7 +198,7 @@ void PoseGhost::update()
 
 /// Called when one half of the split view has set its clipping range. Set a range for both halves
 /// that contains both shapes.
-void PoseGhost::clipped()
+void PoseGhost::clipping_range_changed()
 {
   if (this->place_ != beside || this->clips_)
   {

@@ -56,14 +56,14 @@ private:
   void fade(bindpose::PointsView points, bindpose::PointsView first);
   void update();
   void look_as_beside();
-  void clipped();
+  void clipping_range_changed();
 
   Viewport* viewport_;
   Place place_ = hidden;
   vtkNew<bindpose::MovedSurfaceMapper> mapper_;
   vtkNew<vtkActor> actor_;
   // colors of a ghost over the surface: transparent where both shapes coincide
-  vtkNew<vtkLookupTable> fading_;
+  vtkNew<vtkLookupTable> opacity_table_;
   // distance between both shapes per drawn point, in bounding-box diagonals
   vtkNew<vtkDoubleArray> distances_;
   vtkNew<vtkRenderer> renderer_; // renderer of the right half of the split view

@@ -10,7 +10,7 @@
 #include <QSlider>
 #include <QVBoxLayout>
 
-PoseList::PoseList(QWidget* parent) : QWidget(parent)
+PoseListWidget::PoseListWidget(QWidget* parent) : QWidget(parent)
 {
   auto* rows = new QVBoxLayout(this);
   rows->setContentsMargins(0, 0, 0, 0);
@@ -40,21 +40,21 @@ PoseList::PoseList(QWidget* parent) : QWidget(parent)
   blend->addWidget(this->slider_, 1);
   rows->addLayout(blend);
 
-  QObject::connect(this->store_, &QPushButton::clicked, this, &PoseList::store_wanted);
+  QObject::connect(this->store_, &QPushButton::clicked, this, &PoseListWidget::store_requested);
   QObject::connect(this->apply_, &QPushButton::clicked, this,
-    [this] { Q_EMIT this->apply_wanted(this->chosen()); });
+    [this] { Q_EMIT this->apply_requested(this->selected_entry()); });
   QObject::connect(this->remove_, &QPushButton::clicked, this,
-    [this] { Q_EMIT this->remove_wanted(this->chosen()); });
+    [this] { Q_EMIT this->remove_requested(this->selected_entry()); });
   QObject::connect(this->list_, &QListWidget::itemChanged, this,
     [this](QListWidgetItem* item)
     { Q_EMIT this->renamed(this->list_->row(item), item->text().trimmed()); });
   QObject::connect(this->list_, &QListWidget::currentRowChanged, this, [this] { this->enable(); });
   QObject::connect(this->slider_, &QSlider::valueChanged, this,
-    [this](int value) { Q_EMIT this->blended(this->chosen(), 0.01 * value); });
+    [this](int value) { Q_EMIT this->blended(this->selected_entry(), 0.01 * value); });
   QObject::connect(this->slider_, &QSlider::sliderReleased, this,
     [this]
     {
-      const QSignalBlocker quiet(this->slider_);
+      const QSignalBlocker blocker(this->slider_);
       // the next blend starts at the current pose, which is 0 on the slider
       this->slider_->setValue(0);
       Q_EMIT this->blend_ended();
@@ -62,10 +62,10 @@ PoseList::PoseList(QWidget* parent) : QWidget(parent)
   this->enable();
 }
 
-void PoseList::set_names(const QStringList& names)
+void PoseListWidget::set_names(const QStringList& names)
 {
-  const QSignalBlocker quiet(this->list_);
-  const int row = this->chosen();
+  const QSignalBlocker blocker(this->list_);
+  const int row = this->selected_entry();
   this->list_->clear();
   for (const QString& name : names)
   {
@@ -76,27 +76,27 @@ void PoseList::set_names(const QStringList& names)
   this->enable();
 }
 
-int PoseList::chosen() const
+int PoseListWidget::selected_entry() const
 {
   return this->list_->currentRow();
 }
 
-void PoseList::choose(int entry)
+void PoseListWidget::select_entry(int entry)
 {
   this->list_->setCurrentRow(entry);
 }
 
-void PoseList::set_ready(bool ready)
+void PoseListWidget::set_ready(bool ready)
 {
   this->ready_ = ready;
   this->enable();
 }
 
-void PoseList::enable()
+void PoseListWidget::enable()
 {
-  const bool some = this->ready_ && this->chosen() >= 0;
+  const bool some = this->ready_ && this->selected_entry() >= 0;
   this->store_->setEnabled(this->ready_);
   this->apply_->setEnabled(some);
-  this->remove_->setEnabled(this->chosen() >= 0);
+  this->remove_->setEnabled(this->selected_entry() >= 0);
   this->slider_->setEnabled(some);
 }

@@ -9,27 +9,27 @@ class QPushButton;
 class QSlider;
 
 /// The list of stored poses: store, rename (by a double click), apply, blend, delete.
-class PoseList : public QWidget
+class PoseListWidget : public QWidget
 {
   Q_OBJECT
 
 public:
-  explicit PoseList(QWidget* parent = nullptr);
+  explicit PoseListWidget(QWidget* parent = nullptr);
 
   void set_names(const QStringList& names);
-  int chosen() const;
-  void choose(int entry);
+  int selected_entry() const;
+  void select_entry(int entry);
   void set_ready(bool ready);
 
 Q_SIGNALS:
-  void store_wanted();
-  void apply_wanted(int entry);
-  void remove_wanted(int entry);
+  void store_requested();
+  void apply_requested(int entry);
+  void remove_requested(int entry);
   void renamed(int entry, const QString& name);
-  /// Emitted when the user has moved the slider. `share` is its position, from 0 (the current pose)
-  /// to 1 (the selected pose, whose index is `entry`). blend_ended() is emitted when the slider is
-  /// released.
-  void blended(int entry, double share);
+  /// Emitted when the user has moved the slider. `fraction` is its position, from 0 (the current
+  /// pose) to 1 (the selected pose, whose index is `entry`). blend_ended() is emitted when the
+  /// slider is released.
+  void blended(int entry, double fraction);
   void blend_ended();
 
 private:

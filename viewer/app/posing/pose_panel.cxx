@@ -79,7 +79,7 @@ QComboBox* combo(QWidget* parent, const char* key, const QStringList& items)
 }
 } // namespace
 
-std::vector<PoseMethod> method_order()
+std::vector<PoseMethod> pose_methods_in_order()
 {
   std::vector<PoseMethod> order;
   for (const auto& entry : methods)
@@ -175,7 +175,7 @@ void PosePanel::add_methods(QVBoxLayout* column)
   bind->addWidget(this->cancel_);
   column->addWidget(this->bind_row_);
   this->bind_row_->hide();
-  QObject::connect(this->cancel_, &QPushButton::clicked, this, &PosePanel::cancel_wanted);
+  QObject::connect(this->cancel_, &QPushButton::clicked, this, &PosePanel::cancel_requested);
 }
 
 /// Add a line with a name and a widget for an option. The line is shown only for the methods `of`.
@@ -335,15 +335,15 @@ void PosePanel::add_comparison(QVBoxLayout* column)
   this->place_row_ = new QWidget(this);
   auto* places = new QVBoxLayout(this->place_row_);
   places->setContentsMargins(0, 0, 0, 0);
-  this->place_ =
+  this->ghost_group_ =
     add_segments(places, this->place_row_, { tr("Over it"), tr("Beside it"), tr("Distance") },
       { tr("Draw the second shape in see-through blue where both shapes differ"),
         tr("Draw each shape in one half of the picture, from the same view"),
         tr("Color the shape by its distance from the second shape,\n"
            "in percent of the bounding-box diagonal of the rest shape") });
   // Default: Distance, which shows the size of the differences.
-  this->place_->button(2)->setChecked(true);
-  this->place_->setObjectName("pose.ghost");
+  this->ghost_group_->button(2)->setChecked(true);
+  this->ghost_group_->setObjectName("pose.ghost");
   this->difference_ = new QLabel(this->place_row_);
   this->difference_->setObjectName("note");
   this->difference_->setWordWrap(true);
@@ -358,8 +358,8 @@ void PosePanel::add_comparison(QVBoxLayout* column)
       this->place_row_->setVisible(index > 0);
       Q_EMIT this->comparison_changed();
     });
-  QObject::connect(
-    this->place_, &QButtonGroup::idClicked, this, [this] { Q_EMIT this->comparison_changed(); });
+  QObject::connect(this->ghost_group_, &QButtonGroup::idClicked, this,
+    [this] { Q_EMIT this->comparison_changed(); });
 }
 
 void PosePanel::add_motion(QVBoxLayout* column)
@@ -367,12 +367,12 @@ void PosePanel::add_motion(QVBoxLayout* column)
   auto* section = new Section(tr("Motion"),
     tr("Simulate the shape as a body with mass: its free parts swing and fall"), false, this);
   column->addWidget(section);
-  this->moves_ = new QCheckBox(tr("Simulate motion"), this);
-  this->moves_->setObjectName("pose.moves");
-  this->moves_->setToolTip(
+  this->simulate_box_ = new QCheckBox(tr("Simulate motion"), this);
+  this->simulate_box_->setObjectName("pose.moves");
+  this->simulate_box_->setToolTip(
     tr("Handles lead the motion; everything else follows inertia and gravity.\n"
        "A free handle can be pulled and released."));
-  section->column()->addWidget(this->moves_);
+  section->column()->addWidget(this->simulate_box_);
   this->motion_ = new QWidget(this);
   auto* rows = new QVBoxLayout(this->motion_);
   rows->setContentsMargins(0, 0, 0, 0);
@@ -435,16 +435,16 @@ void PosePanel::add_motion(QVBoxLayout* column)
   this->motion_->hide();
   QObject::connect(this->down_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
     [this] { Q_EMIT this->body_changed(); });
-  QObject::connect(this->moves_, &QCheckBox::toggled, this,
-    [this](bool moves)
+  QObject::connect(this->simulate_box_, &QCheckBox::toggled, this,
+    [this](bool simulates_motion)
     {
-      this->motion_->setVisible(moves);
-      Q_EMIT this->moves_changed();
+      this->motion_->setVisible(simulates_motion);
+      Q_EMIT this->simulation_changed();
     });
   QObject::connect(this->play_, &QPushButton::clicked, this,
-    [this] { Q_EMIT this->play_wanted(this->play_->text() == tr("Play")); });
-  QObject::connect(this->step_, &QPushButton::clicked, this, &PosePanel::step_wanted);
-  QObject::connect(this->restart_, &QPushButton::clicked, this, &PosePanel::restart_wanted);
+    [this] { Q_EMIT this->play_requested(this->play_->text() == tr("Play")); });
+  QObject::connect(this->step_, &QPushButton::clicked, this, &PosePanel::step_requested);
+  QObject::connect(this->restart_, &QPushButton::clicked, this, &PosePanel::restart_requested);
 }
 
 void PosePanel::insert(QWidget* widget)
@@ -514,19 +514,20 @@ PoseGhost::Place PosePanel::ghost_place() const
 {
   constexpr PoseGhost::Place places[] = { PoseGhost::over, PoseGhost::beside,
     PoseGhost::in_colors };
-  return this->compared_method() < 0 || this->compares_itself() ? PoseGhost::hidden
-                                                                : places[this->place_->checkedId()];
+  return this->compared_method() < 0 || this->compares_itself()
+    ? PoseGhost::hidden
+    : places[this->ghost_group_->checkedId()];
 }
 
-bool PosePanel::moves() const
+bool PosePanel::simulates_motion() const
 {
-  return this->moves_->isChecked() && this->state_.bound;
+  return this->simulate_box_->isChecked() && this->state_.bound;
 }
 
-PosePanel::Rotations PosePanel::shown_rotations() const
+PosePanel::RotationDisplay PosePanel::shown_rotations() const
 {
   return std::count(rigid.begin(), rigid.end(), this->method()) > 0
-    ? static_cast<Rotations>(this->rotations_->currentIndex())
+    ? static_cast<RotationDisplay>(this->rotations_->currentIndex())
     : no_rotations;
 }
 
@@ -551,8 +552,8 @@ void PosePanel::set_state(const State& state)
     }
     each->setEnabled(state.ready);
   }
-  this->moves_->setEnabled(state.bound);
-  this->moves_->setToolTip(state.bound
+  this->simulate_box_->setEnabled(state.bound);
+  this->simulate_box_->setToolTip(state.bound
       ? tr("Handles lead the motion; everything else follows inertia and gravity.\n"
            "A free handle can be pulled and released.")
       : tr("Bind first: the simulation requires weights"));

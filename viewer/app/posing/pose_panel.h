@@ -39,15 +39,15 @@ public:
   /// Report whether the compared method is the current method, so that there is nothing to compare.
   bool compares_itself() const;
   PoseGhost::Place ghost_place() const;
-  bool moves() const;
+  bool simulates_motion() const;
   /// How the rotations of the method are shown as colors.
-  enum Rotations
+  enum RotationDisplay
   {
     no_rotations,
     clusters,
     angles
   };
-  Rotations shown_rotations() const;
+  RotationDisplay shown_rotations() const;
   bindpose::BodyOptions body_options() const;
 
   struct State
@@ -70,12 +70,12 @@ Q_SIGNALS:
   void method_chosen(int method);
   void options_changed();
   void comparison_changed();
-  void moves_changed();
+  void simulation_changed();
   void body_changed();
-  void play_wanted(bool play);
-  void step_wanted();
-  void restart_wanted();
-  void cancel_wanted();
+  void play_requested(bool play);
+  void step_requested();
+  void restart_requested();
+  void cancel_requested();
 
 private:
   void add_methods(QVBoxLayout* column);
@@ -114,10 +114,10 @@ private:
   QComboBox* order_;
   QComboBox* boundary_;
   QComboBox* compared_;
-  QButtonGroup* place_;
+  QButtonGroup* ghost_group_;
   QWidget* place_row_;
   QLabel* difference_;
-  QCheckBox* moves_;
+  QCheckBox* simulate_box_;
   QWidget* motion_;
   QPushButton* play_;
   QPushButton* step_;
@@ -131,7 +131,7 @@ private:
 
 /// Return the methods in the order of buttons, menu entries, keys (1 to 7) and `bindpose deform
 /// --method`.
-std::vector<bindpose::PoseMethod> method_order();
+std::vector<bindpose::PoseMethod> pose_methods_in_order();
 /// Return the name of a method for menus and lists, and one sentence about its purpose.
 QString method_name(bindpose::PoseMethod method);
 QString method_purpose(bindpose::PoseMethod method);

@@ -32,7 +32,7 @@ using namespace bindpose;
 
 namespace
 {
-QString microseconds(double seconds)
+QString format_duration(double seconds)
 {
   const double us = 1e6 * seconds;
   return us < 1000.0 ? Posing::tr("%1 µs").arg(us, 0, 'f', us < 10.0 ? 1 : 0)
@@ -41,38 +41,39 @@ QString microseconds(double seconds)
 } // namespace
 
 Posing::Posing(Viewport* viewport, const Panels& panels)
-  : QObject(viewport), viewport_(viewport), panels_(panels), main_(new Deformation(this)),
-    compared_(new Deformation(this)), ghost_(new PoseGhost(viewport)),
-    keeper_(new PoseKeeper(
+  : QObject(viewport), viewport_(viewport), panels_(panels), deformation_(new Deformation(this)),
+    compared_deformation_(new Deformation(this)), ghost_(new PoseGhost(viewport)),
+    pose_manager_(new StoredPoseManager(
       panels.poses, panels.strip, [this] { return this->pose(); }, this)),
     motion_(new BodyMotion(
-      panels.pose, [this](bool for_step) { return for_step ? this->holding_pose() : this->pose(); },
-      this)),
+      panels.pose,
+      [this](bool for_step) { return for_step ? this->constraint_pose() : this->pose(); }, this)),
     export_(new SequenceExport(viewport))
 {
   this->connect_panel();
-  this->connect_keeper();
-  QObject::connect(this->main_, &Deformation::arrived, this,
+  this->connect_pose_manager();
+  QObject::connect(this->deformation_, &Deformation::points_computed, this,
     [this]
     {
       this->show_difference();
       this->follow_free_handles();
       Q_EMIT this->moved();
     });
-  QObject::connect(this->compared_, &Deformation::arrived, this,
+  QObject::connect(this->compared_deformation_, &Deformation::points_computed, this,
     [this]
     {
       this->show_difference();
       Q_EMIT this->moved();
     });
-  for (Deformation* each : { this->main_, this->compared_ })
+  for (Deformation* each : { this->deformation_, this->compared_deformation_ })
   {
     QObject::connect(each, &Deformation::failed, this,
       [this, each] { Q_EMIT this->failed(tr("Cannot pose: %1.").arg(each->error())); });
     QObject::connect(each, &Deformation::binding_changed, this,
       [this]
       {
-        this->panels_.pose->set_binding(this->main_->is_binding() || this->compared_->is_binding());
+        this->panels_.pose->set_binding(
+          this->deformation_->is_binding() || this->compared_deformation_->is_binding());
         Q_EMIT this->moved();
       });
     QObject::connect(
@@ -85,8 +86,8 @@ Posing::Posing(Viewport* viewport, const Panels& panels)
       this->show_difference();
       Q_EMIT this->moved();
     });
-  QObject::connect(
-    this->motion_, &BodyMotion::played, this, [this] { this->keeper_->play(false); });
+  QObject::connect(this->motion_, &BodyMotion::playback_started, this,
+    [this] { this->pose_manager_->play(false); });
   QObject::connect(this->motion_, &BodyMotion::failed, this, &Posing::failed);
   this->show_state();
 }
@@ -98,7 +99,7 @@ Posing::~Posing() = default;
 void Posing::set_data(
   vtkPolyData* surface, vtkUnstructuredGrid* tets, vtkPolyData* handles, bool use_weights)
 {
-  this->keeper_->play(false);
+  this->pose_manager_->play(false);
   if (surface != this->surface_)
   {
     this->shape_ = nullptr;
@@ -110,16 +111,17 @@ void Posing::set_data(
   this->cells_.clear();
   if (surface && handles)
   {
-    vtkSmartPointer<vtkPolyData> read = surface;
+    vtkSmartPointer<vtkPolyData> input_surface = surface;
     if (!use_weights)
     {
-      read = vtkSmartPointer<vtkPolyData>::New();
-      read->ShallowCopy(surface);
-      read->GetPointData()->RemoveArray("Weights");
-      read->GetPointData()->RemoveArray("EndpointWeights");
+      input_surface = vtkSmartPointer<vtkPolyData>::New();
+      input_surface->ShallowCopy(surface);
+      input_surface->GetPointData()->RemoveArray("Weights");
+      input_surface->GetPointData()->RemoveArray("EndpointWeights");
     }
     auto source = std::make_shared<PoseSource>();
-    const Status status = to_pose_source(read, use_weights ? tets : nullptr, handles, *source);
+    const Status status =
+      to_pose_source(input_surface, use_weights ? tets : nullptr, handles, *source);
     Handles list;
     if (status.ok() && to_handles(handles, list, &this->cells_).ok())
     {
@@ -131,14 +133,14 @@ void Posing::set_data(
     }
   }
   this->order_layers();
-  this->main_->set_source(this->source_);
-  this->compared_->set_source(this->source_);
+  this->deformation_->set_source(this->source_);
+  this->compared_deformation_->set_source(this->source_);
   this->motion_->set_source(this->source_);
-  this->main_->set_options(this->panels_.pose->options());
+  this->deformation_->set_options(this->panels_.pose->options());
   this->show_state();
   this->update_automatic_modes();
   this->show_comparison();
-  this->moves_changed();
+  this->simulation_changed();
   this->show_values();
 }
 
@@ -160,7 +162,7 @@ void Posing::show_state()
       [](const Handle& handle) { return handle.kind == HandleKind::bone; });
   }
   this->panels_.pose->set_state(state);
-  this->keeper_->set_handles(this->source_
+  this->pose_manager_->set_handles(this->source_
       ? std::shared_ptr<const Handles>(this->source_, &this->source_->handles)
       : nullptr);
 }
@@ -183,12 +185,12 @@ void Posing::connect_panel()
   QObject::connect(panel, &PosePanel::method_chosen, this, &Posing::options_changed);
   QObject::connect(panel, &PosePanel::options_changed, this, &Posing::options_changed);
   QObject::connect(panel, &PosePanel::comparison_changed, this, &Posing::comparison_changed);
-  QObject::connect(panel, &PosePanel::moves_changed, this, &Posing::moves_changed);
-  QObject::connect(panel, &PosePanel::cancel_wanted, this,
+  QObject::connect(panel, &PosePanel::simulation_changed, this, &Posing::simulation_changed);
+  QObject::connect(panel, &PosePanel::cancel_requested, this,
     [this]
     {
-      this->main_->cancel();
-      this->compared_->cancel();
+      this->deformation_->cancel();
+      this->compared_deformation_->cancel();
       this->motion_->cancel_bind();
     });
   QObject::connect(this->panels_.fields, &HandleFields::values_chosen, this, &Posing::values_typed);
@@ -196,21 +198,22 @@ void Posing::connect_panel()
   QObject::connect(this->panels_.fields, &HandleFields::layer_chosen, this, &Posing::layer_typed);
 }
 
-void Posing::connect_keeper()
+void Posing::connect_pose_manager()
 {
-  QObject::connect(this->keeper_, &PoseKeeper::pose_wanted, this,
+  QObject::connect(this->pose_manager_, &StoredPoseManager::pose_requested, this,
     [this](const Pose& pose, const QString& step) { this->change_pose(pose, step); });
-  QObject::connect(this->keeper_, &PoseKeeper::pose_done, this,
-    [this](const QString& step) { Q_EMIT this->pose_done(step); });
-  QObject::connect(this->keeper_, &PoseKeeper::shelf_changed, this, &Posing::shelf_changed);
-  QObject::connect(this->keeper_, &PoseKeeper::failed, this, &Posing::failed);
-  QObject::connect(this->export_, &SequenceExport::pictures_taken, this, &Posing::moved);
+  QObject::connect(this->pose_manager_, &StoredPoseManager::pose_step_requested, this,
+    [this](const QString& step) { Q_EMIT this->pose_step_requested(step); });
+  QObject::connect(this->pose_manager_, &StoredPoseManager::stored_poses_changed, this,
+    &Posing::stored_poses_changed);
+  QObject::connect(this->pose_manager_, &StoredPoseManager::failed, this, &Posing::failed);
+  QObject::connect(this->export_, &SequenceExport::rendering_finished, this, &Posing::moved);
 }
 
 void Posing::options_changed()
 {
-  this->main_->set_options(this->panels_.pose->options());
-  this->main_->bind(); // starts a bind again that the user has canceled
+  this->deformation_->set_options(this->panels_.pose->options());
+  this->deformation_->bind(); // starts a bind again that the user has canceled
   this->show_comparison();
   this->motion_->options_changed();
   this->update_automatic_modes();
@@ -239,10 +242,10 @@ void Posing::comparison_changed()
 {
   this->show_comparison();
   if (this->source_ && this->panels_.pose->ghost_place() != PoseGhost::hidden &&
-    !this->compared_->can_pose())
+    !this->compared_deformation_->can_pose())
   {
-    Q_EMIT this->failed(
-      tr("%1 requires weights: bind first.").arg(method_name(this->compared_->options().method)));
+    Q_EMIT this->failed(tr("%1 requires weights: bind first.")
+                          .arg(method_name(this->compared_deformation_->options().method)));
   }
   Q_EMIT this->moved();
 }
@@ -251,15 +254,15 @@ void Posing::comparison_changed()
 void Posing::show_comparison()
 {
   const PoseGhost::Place wanted = this->panels_.pose->ghost_place();
-  this->chosen_ = wanted;
-  this->compared_->set_options(this->compared_options());
-  const bool can = this->compared_->can_pose() && !this->inspected_;
+  this->requested_place_ = wanted;
+  this->compared_deformation_->set_options(this->compared_options());
+  const bool can = this->compared_deformation_->can_pose() && !this->inspected_;
   if (can && wanted != PoseGhost::hidden)
   {
-    this->compared_->bind();
-    this->compared_->set_pose(this->pose());
+    this->compared_deformation_->bind();
+    this->compared_deformation_->set_pose(this->pose());
   }
-  const Points& other = this->compared_->points();
+  const Points& other = this->compared_deformation_->points();
   const Points none(0, 3);
   const bool fits = this->surface_ && other.rows() == this->surface_->GetNumberOfPoints();
   this->ghost_->set_place(can ? wanted : PoseGhost::hidden, fits ? other : none, this->points());
@@ -274,35 +277,35 @@ void Posing::handles_moved()
   }
   const Pose pose = this->pose();
   this->show_values();
-  if (!this->panels_.pose->moves())
+  if (!this->panels_.pose->simulates_motion())
   {
-    this->main_->set_options(this->panels_.pose->options());
-    this->main_->set_pose(pose);
+    this->deformation_->set_options(this->panels_.pose->options());
+    this->deformation_->set_pose(pose);
     this->follow_free_handles();
-    if (!this->main_->error().isEmpty())
+    if (!this->deformation_->error().isEmpty())
     {
-      Q_EMIT this->failed(tr("Cannot pose: %1.").arg(this->main_->error()));
+      Q_EMIT this->failed(tr("Cannot pose: %1.").arg(this->deformation_->error()));
     }
-    else if (this->main_->can_pose())
+    else if (this->deformation_->can_pose())
     {
       Q_EMIT this->succeeded();
     }
   }
-  if (this->panels_.pose->ghost_place() != this->chosen_)
+  if (this->panels_.pose->ghost_place() != this->requested_place_)
   {
     this->show_comparison(); // a change of the method can show or hide the ghost
   }
   else if (this->ghost_->place() != PoseGhost::hidden)
   {
-    this->compared_->set_pose(pose);
+    this->compared_deformation_->set_pose(pose);
   }
   this->show_difference();
 }
 
 void Posing::show_difference()
 {
-  this->viewport_->name_halves(
-    method_name(this->main_->options().method), method_name(this->compared_->options().method));
+  this->viewport_->set_half_names(method_name(this->deformation_->options().method),
+    method_name(this->compared_deformation_->options().method));
   if (this->ghost_->place() == PoseGhost::hidden)
   {
     this->panels_.pose->set_difference(this->panels_.pose->compares_itself()
@@ -310,13 +313,13 @@ void Posing::show_difference()
         : tr("Bind first: this method requires weights."));
     return;
   }
-  if (this->compared_->is_binding())
+  if (this->compared_deformation_->is_binding())
   {
     this->panels_.pose->set_difference(tr("Preparing the other method …"));
     return;
   }
   const Points& a = this->points();
-  const Points& b = this->compared_->points();
+  const Points& b = this->compared_deformation_->points();
   if (a.rows() != b.rows() || a.rows() == 0)
   {
     return;
@@ -336,17 +339,18 @@ void Posing::show_difference()
        "rms %2 %%3")
       .arg(100.0 * largest / diagonal, 0, 'g', 3)
       .arg(100.0 * mean / diagonal, 0, 'g', 3)
-      .arg(this->compared_->is_settled() && this->main_->is_settled() ? QString()
-                                                                      : tr("; still converging")));
+      .arg(this->compared_deformation_->is_settled() && this->deformation_->is_settled()
+          ? QString()
+          : tr("; still converging")));
 }
 
 /// Move handles in mode free to the positions that the method has computed, so that the user can
 /// see and drag them.
 void Posing::follow_free_handles()
 {
-  const std::vector<Affine>* found = this->panels_.pose->moves()
+  const std::vector<Affine>* found = this->panels_.pose->simulates_motion()
     ? (this->motion_->has_started() ? &this->motion_->body()->transforms() : nullptr)
-    : this->main_->found();
+    : this->deformation_->found();
   vtkDataArray* transforms =
     this->handles_ ? this->handles_->GetCellData()->GetArray("Transform") : nullptr;
   vtkDataArray* modes = this->handles_ ? this->handles_->GetCellData()->GetArray("Mode") : nullptr;
@@ -370,14 +374,15 @@ void Posing::follow_free_handles()
 
 const Points& Posing::points() const
 {
-  return this->panels_.pose->moves() ? this->motion_->points() : this->main_->points();
+  return this->panels_.pose->simulates_motion() ? this->motion_->points()
+                                                : this->deformation_->points();
 }
 
 const PoseRotations* Posing::rotations()
 {
-  return !this->panels_.pose->moves() ? this->main_->rotations()
-    : this->motion_->has_started()    ? this->motion_->body()->rotations()
-                                      : nullptr;
+  return !this->panels_.pose->simulates_motion() ? this->deformation_->rotations()
+    : this->motion_->has_started()               ? this->motion_->body()->rotations()
+                                                 : nullptr;
 }
 
 // ---- The visible shape -------------------------------------------------------------------------
@@ -388,10 +393,11 @@ vtkPolyData* Posing::shape()
   {
     return nullptr;
   }
-  const bool moves = this->panels_.pose->moves() && this->motion_->points().rows() > 0;
-  const Points& points = moves ? this->motion_->points() : this->main_->points();
-  if (this->at_rest_ || this->edits_at_rest_ ||
-    points.rows() != this->surface_->GetNumberOfPoints() || !(this->can_pose() || moves))
+  const bool simulates_motion =
+    this->panels_.pose->simulates_motion() && this->motion_->points().rows() > 0;
+  const Points& points = simulates_motion ? this->motion_->points() : this->deformation_->points();
+  if (this->is_rest_view_ || this->edits_at_rest_ ||
+    points.rows() != this->surface_->GetNumberOfPoints() || !(this->can_pose() || simulates_motion))
   {
     return this->surface_;
   }
@@ -417,14 +423,14 @@ void Posing::draw()
     return;
   }
   const auto start = std::chrono::steady_clock::now();
-  vtkPolyData* seen = this->seen();
-  this->viewport_->move_surface(seen);
-  this->viewport_->show_curves(seen == this->surface_ || !this->is_posed());
+  vtkPolyData* displayed_shape = this->displayed_shape();
+  this->viewport_->move_surface(displayed_shape);
+  this->viewport_->show_curves(displayed_shape == this->surface_ || !this->is_posed());
   this->drawing_microseconds_ =
     std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now() - start).count();
   if (!this->shows_rest())
   {
-    this->ghost_->move(this->compared_->points(), this->points());
+    this->ghost_->move(this->compared_deformation_->points(), this->points());
   }
   else if (this->source_)
   {
@@ -444,7 +450,7 @@ void Posing::inspect_at_rest(bool inspects)
 bool Posing::is_posed() const
 {
   const Pose pose = this->pose();
-  return (this->panels_.pose->moves() && this->motion_->has_started()) ||
+  return (this->panels_.pose->simulates_motion() && this->motion_->has_started()) ||
     std::any_of(pose.begin(), pose.end(),
       [](const HandlePose& each)
       {
@@ -453,22 +459,22 @@ bool Posing::is_posed() const
       });
 }
 
-void Posing::look_at_rest(bool rest)
+void Posing::set_rest_view(bool rest)
 {
-  if (this->at_rest_ != rest)
+  if (this->is_rest_view_ != rest)
   {
-    this->at_rest_ = rest;
+    this->is_rest_view_ = rest;
     Q_EMIT this->moved();
   }
 }
 
 void Posing::edit_at_rest(bool edits)
 {
-  this->look_at_rest(false);
+  this->set_rest_view(false);
   if (this->edits_at_rest_ != edits)
   {
     this->edits_at_rest_ = edits;
-    this->keeper_->play(false);
+    this->pose_manager_->play(false);
     this->motion_->play(false);
     Q_EMIT this->moved();
   }
@@ -476,20 +482,21 @@ void Posing::edit_at_rest(bool edits)
 
 QString Posing::reading() const
 {
-  if (this->at_rest_)
+  if (this->is_rest_view_)
   {
     return tr("The rest shape is shown. T shows the pose again.");
   }
-  const bool moves = this->panels_.pose->moves() && this->motion_->has_started();
-  if (this->main_->is_binding())
+  const bool simulates_motion =
+    this->panels_.pose->simulates_motion() && this->motion_->has_started();
+  if (this->deformation_->is_binding())
   {
     return tr("Preparing %1; the shape is unchanged until then.")
-      .arg(method_name(this->main_->options().method));
+      .arg(method_name(this->deformation_->options().method));
   }
-  const Status& status = moves ? this->motion_->status() : this->main_->status();
+  const Status& status = simulates_motion ? this->motion_->status() : this->deformation_->status();
   const Report& report = status.report;
   QStringList parts;
-  parts << (moves ? tr("Motion") : method_name(this->main_->options().method));
+  parts << (simulates_motion ? tr("Motion") : method_name(this->deformation_->options().method));
   // warnings come first, because a narrow window cuts off the end of the line
   if (!status.warnings.empty())
   {
@@ -501,19 +508,19 @@ QString Posing::reading() const
   {
     parts << tr("%1 iterations in %2, %3 each")
                .arg(iterations)
-               .arg(microseconds(solve),
-                 microseconds(1e-6 * report.number("microseconds_per_iteration", 0.0)));
+               .arg(format_duration(solve),
+                 format_duration(1e-6 * report.number("microseconds_per_iteration", 0.0)));
   }
   else if (solve > 0.0)
   {
-    parts << tr("solved in %1").arg(microseconds(solve));
+    parts << tr("solved in %1").arg(format_duration(solve));
   }
   if (const double skin = report.number("seconds.skin", 0.0); skin > 0.0)
   {
-    parts << tr("skin %1").arg(microseconds(skin));
+    parts << tr("skin %1").arg(format_duration(skin));
   }
-  parts << tr("normals %1").arg(microseconds(1e-6 * this->drawing_microseconds_));
-  parts << tr("upload %1").arg(microseconds(1e-6 * this->viewport_->upload_microseconds()));
+  parts << tr("normals %1").arg(format_duration(1e-6 * this->drawing_microseconds_));
+  parts << tr("upload %1").arg(format_duration(1e-6 * this->viewport_->upload_microseconds()));
   if (this->viewport_->frames_per_second() > 0.0)
   {
     parts << tr("%1 fps").arg(this->viewport_->frames_per_second(), 0, 'f', 0);
@@ -525,7 +532,8 @@ QString Posing::reading() const
   if (iterations > 0)
   {
     parts << (status.code == StatusCode::not_converged
-        ? (moves || this->main_->is_settled() ? tr("NOT converged") : tr("still converging"))
+        ? (simulates_motion || this->deformation_->is_settled() ? tr("NOT converged")
+                                                                : tr("still converging"))
         : tr("converged"));
   }
   return parts.join(QStringLiteral("  ·  "));
@@ -624,24 +632,24 @@ void Posing::order_layers()
 
 void Posing::change_pose(const Pose& pose, const QString& step, const QString& merge)
 {
-  this->look_at_rest(false);
+  this->set_rest_view(false);
   Q_EMIT this->pose_changed(pose);
   if (!step.isEmpty())
   {
-    Q_EMIT this->pose_done(step, merge);
+    Q_EMIT this->pose_step_requested(step, merge);
   }
 }
 
 void Posing::drag_began()
 {
-  this->keeper_->play(false);
+  this->pose_manager_->play(false);
 }
 
 // ---- The body ----------------------------------------------------------------------------------
 
 /// Return the pose that constrains the body. A handle in mode free is constrained only while it is
 /// dragged.
-Pose Posing::holding_pose() const
+Pose Posing::constraint_pose() const
 {
   Pose pose = this->pose();
   const vtkIdType held =
@@ -664,11 +672,11 @@ Pose Posing::holding_pose() const
   return pose;
 }
 
-void Posing::moves_changed()
+void Posing::simulation_changed()
 {
-  const bool moves = this->panels_.pose->moves();
-  this->viewport_->handle_widget()->GetHandleSetRepresentation()->SetDragFree(moves);
-  if (moves)
+  const bool simulates_motion = this->panels_.pose->simulates_motion();
+  this->viewport_->handle_widget()->GetHandleSetRepresentation()->SetDragFree(simulates_motion);
+  if (simulates_motion)
   {
     this->motion_->begin();
   }
@@ -684,13 +692,13 @@ void Posing::moves_changed()
 
 bool Posing::has_motion() const
 {
-  return this->panels_.pose->moves() && this->motion_->has_started() &&
+  return this->panels_.pose->simulates_motion() && this->motion_->has_started() &&
     !this->motion_->body()->run().steps.empty();
 }
 
 bool Posing::has_animation() const
 {
-  return this->source_ && (this->has_motion() || !this->shelf().keys.keys().empty());
+  return this->source_ && (this->has_motion() || !this->stored_poses().keys.keys().empty());
 }
 
 void Posing::export_to(const QString& path)
@@ -699,7 +707,7 @@ void Posing::export_to(const QString& path)
   {
     return;
   }
-  this->keeper_->play(false);
+  this->pose_manager_->play(false);
   this->motion_->play(false);
   SequenceExport::Input input;
   input.source = this->source_;
@@ -708,14 +716,14 @@ void Posing::export_to(const QString& path)
   input.handles->DeepCopy(this->handles_);
   set_pose(input.handles, this->cells_, Pose(this->cells_.size()));
   input.options = this->panels_.pose->options();
-  input.frames_per_second = this->shelf().keys.frames_per_second;
+  input.frames_per_second = this->stored_poses().keys.frames_per_second;
   if (this->has_motion())
   {
     input.run = this->motion_->body()->run();
   }
   else
   {
-    input.poses = this->shelf().keys.frames(this->source_->handles, this->pose());
+    input.poses = this->stored_poses().keys.frames(this->source_->handles, this->pose());
   }
   this->export_->start(input, path);
 }

@@ -17,7 +17,7 @@
 class BodyMotion;
 class HandleFields;
 class KeyStrip;
-class PoseList;
+class PoseListWidget;
 class PosePanel;
 class SequenceExport;
 class Viewport;
@@ -26,8 +26,8 @@ class Viewport;
 /// playback of key frames, the stored poses, and the texts of the panels about them.
 ///
 /// This class reads the pose from the handle dataset, which the handle widget edits in place. To
-/// change the pose, it emits pose_changed() and pose_done(), so that the owner of the undo history
-/// receives every change.
+/// change the pose, it emits pose_changed() and pose_step_requested(), so that the owner of the
+/// undo history receives every change.
 class Posing : public QObject
 {
   Q_OBJECT
@@ -37,7 +37,7 @@ public:
   {
     PosePanel* pose;
     HandleFields* fields;
-    PoseList* poses;
+    PoseListWidget* poses;
     KeyStrip* strip;
   };
   Posing(Viewport* viewport, const Panels& panels);
@@ -53,7 +53,7 @@ public:
   /// which part is in front. This function must be called before set_data().
   void set_plane(const std::optional<bindpose::Vec3>& normal) { this->plane_ = normal; }
   /// Report whether the method has all data that it needs.
-  bool can_pose() const { return this->main_->can_pose(); }
+  bool can_pose() const { return this->deformation_->can_pose(); }
 
   /// Update after the pose arrays of the handles have changed.
   void handles_moved();
@@ -71,7 +71,7 @@ public:
   vtkPolyData* shape();
   /// Return the shape that draw() draws: normally shape(), but the surface at rest while
   /// inspect_at_rest() is in effect.
-  vtkPolyData* seen() { return this->inspected_ ? this->surface_.Get() : this->shape(); }
+  vtkPolyData* displayed_shape() { return this->inspected_ ? this->surface_.Get() : this->shape(); }
   /// Update the viewport's surface and its ghost to seen().
   void draw();
   /// Set whether the 3D view shows data that belongs to the shape at rest (tets, slices). draw()
@@ -79,21 +79,24 @@ public:
   /// computed.
   void inspect_at_rest(bool inspects);
   /// Report whether the 3D view shows the shape at rest, regardless of the pose.
-  bool shows_rest() const { return this->inspected_ || this->at_rest_ || this->edits_at_rest_; }
+  bool shows_rest() const
+  {
+    return this->inspected_ || this->is_rest_view_ || this->edits_at_rest_;
+  }
   /// Report whether the pose moves a handle, or the simulated body moves.
   bool is_posed() const;
   /// Set whether the shape is shown at rest, regardless of the pose. The posed shape is shown again
   /// when this class changes the pose, or when edit_at_rest() is called.
-  void look_at_rest(bool rest);
-  bool looks_at_rest() const { return this->at_rest_; }
+  void set_rest_view(bool rest);
+  bool is_rest_view() const { return this->is_rest_view_; }
   bool edits_at_rest() const { return this->edits_at_rest_; }
   /// Set whether handles are edited at rest. The shape is then shown at rest, too.
   void edit_at_rest(bool edits);
   /// Return a line of text about the last pose: its computing time and its result.
   QString reading() const;
 
-  Deformation* deformation() const { return this->main_; }
-  Deformation* compared() const { return this->compared_; }
+  Deformation* deformation() const { return this->deformation_; }
+  Deformation* compared_deformation() const { return this->compared_deformation_; }
   /// Return the points of the current method's shape, even if the 3D view shows another shape.
   const bindpose::Points& points() const;
   /// Return the rotations of the current method's shape; null if the method fits none.
@@ -102,7 +105,7 @@ public:
   double rest_diagonal() const { return this->surface_ ? this->surface_->GetLength() : 0.0; }
   PoseGhost* ghost() const { return this->ghost_.get(); }
   BodyMotion* motion() const { return this->motion_; }
-  PoseKeeper* keeper() const { return this->keeper_; }
+  StoredPoseManager* pose_manager() const { return this->pose_manager_; }
   SequenceExport* sequence_export() const { return this->export_; }
   /// Report whether there are key frames or a recorded motion of the body.
   bool has_animation() const;
@@ -110,28 +113,28 @@ public:
   /// reports progress and result.
   void export_to(const QString& path);
 
-  const bindpose::PoseShelf& shelf() const { return this->keeper_->shelf(); }
+  const bindpose::StoredPoses& stored_poses() const { return this->pose_manager_->stored_poses(); }
 
 Q_SIGNALS:
   /// Emitted to request this pose of the handles.
   void pose_changed(const bindpose::Pose& pose);
   /// Emitted to request an undo step, named `step`, for all changes since the first pose_changed().
   /// Consecutive steps with the same `merge` text become one step, until edit_ended().
-  void pose_done(const QString& step, const QString& merge = {});
+  void pose_step_requested(const QString& step, const QString& merge = {});
   void edit_ended();
-  void shelf_changed(const QString& step);
+  void stored_poses_changed(const QString& step);
   /// Emitted when the cell arrays of the handles have changed, to request an undo step named
   /// `step`.
   void handles_changed(const QString& step);
   /// Emitted when the shape or the text of reading() has changed. The window must then call draw().
   void moved();
-  void failed(const QString& sentence);
+  void failed(const QString& message);
   /// Emitted when a pose was applied without errors.
   void succeeded();
 
 private:
   void connect_panel();
-  void connect_keeper();
+  void connect_pose_manager();
   bindpose::Pose pose() const;
   void update_automatic_modes();
   bindpose::PoseOptions compared_options() const;
@@ -146,16 +149,16 @@ private:
   void order_layers();
   void show_values();
   void change_pose(const bindpose::Pose& pose, const QString& step, const QString& merge = {});
-  bindpose::Pose holding_pose() const;
-  void moves_changed();
+  bindpose::Pose constraint_pose() const;
+  void simulation_changed();
   bool has_motion() const;
 
   Viewport* viewport_;
   Panels panels_;
-  Deformation* main_;
-  Deformation* compared_;
+  Deformation* deformation_;
+  Deformation* compared_deformation_;
   std::unique_ptr<PoseGhost> ghost_;
-  PoseKeeper* keeper_;
+  StoredPoseManager* pose_manager_;
   BodyMotion* motion_;
   SequenceExport* export_;
   std::shared_ptr<const bindpose::PoseSource> source_;
@@ -164,11 +167,11 @@ private:
   int selected_ = -1; ///< the first selected handle; -1: none
   int selected_count_ = 0;
   std::optional<bindpose::Vec3> plane_;
-  bool at_rest_ = false;
+  bool is_rest_view_ = false;
   bool edits_at_rest_ = false;
   bool inspected_ = false; ///< true: data that belongs to the shape at rest is inspected
   /// The display of the compared method that the panel requested at the last update.
-  PoseGhost::Place chosen_ = PoseGhost::hidden;
+  PoseGhost::Place requested_place_ = PoseGhost::hidden;
   double drawing_microseconds_ = 0.0; ///< time that draw() took for points and normals
 };
 

@@ -34,29 +34,30 @@ void RotationView::update()
 {
   // The colors of distances between methods have priority (DistanceView).
   const bool free = this->active_ && this->posing_->ghost()->place() != PoseGhost::in_colors;
-  const PosePanel::Rotations wanted =
+  const PosePanel::RotationDisplay wanted =
     free ? this->panel_->shown_rotations() : PosePanel::no_rotations;
   const PoseRotations* found = wanted ? this->posing_->rotations() : nullptr;
   if (!found || !this->viewport_->drawn() ||
-    static_cast<Index>(found->of_point->size()) != this->posing_->points().rows())
+    static_cast<Index>(found->cluster_of_point->size()) != this->posing_->points().rows())
   {
-    if (this->viewport_->shows(this->values_))
+    if (this->viewport_->shows_values(this->values_))
     {
       this->viewport_->show_values(nullptr, true);
     }
     this->values_ = nullptr;
     return;
   }
-  this->turns_.clear();
+  this->axis_angles_.clear();
   for (const Eigen::Matrix3d& rotation : found->rotations)
   {
-    this->turns_.push_back(
+    this->axis_angles_.push_back(
       this->posing_->shows_rest() ? Vec3::Zero().eval() : rotation_vector(rotation));
   }
-  if (!this->viewport_->shows(this->values_) || this->of_point_ != found->of_point)
+  if (!this->viewport_->shows_values(this->values_) ||
+    this->cluster_of_point_ != found->cluster_of_point)
   {
     this->values_ = nullptr; // another surface was set, or other values were shown meanwhile
-    this->of_point_ = found->of_point;
+    this->cluster_of_point_ = found->cluster_of_point;
   }
   if (wanted == PosePanel::clusters)
   {
@@ -80,7 +81,8 @@ void RotationView::show_clusters(const PoseRotations& found)
   clusters->SetName("RotationCluster");
   for (const Index point : this->viewport_->drawn_points())
   {
-    clusters->InsertNextValue(static_cast<int>((*found.of_point)[static_cast<std::size_t>(point)]));
+    clusters->InsertNextValue(
+      static_cast<int>((*found.cluster_of_point)[static_cast<std::size_t>(point)]));
   }
   drawn->GetPointData()->AddArray(clusters);
   PictureOptions options;
@@ -99,15 +101,15 @@ void RotationView::show_clusters(const PoseRotations& found)
 void RotationView::show_angles(const PoseRotations& found)
 {
   std::vector<double> degrees;
-  for (const Vec3& turn : this->turns_)
+  for (const Vec3& turn : this->axis_angles_)
   {
     degrees.push_back(turn.norm());
   }
   const double scale =
     angle_scale(degrees.empty() ? 0.0 : *std::max_element(degrees.begin(), degrees.end()));
-  const bool anew = !this->values_ || this->scale_ != scale;
+  const bool is_new_array = !this->values_ || this->scale_ != scale;
   const std::vector<Index>& points = this->viewport_->drawn_points();
-  if (anew)
+  if (is_new_array)
   {
     this->values_ = vtkSmartPointer<vtkDoubleArray>::New();
     this->values_->SetNumberOfValues(static_cast<vtkIdType>(points.size()));
@@ -115,11 +117,11 @@ void RotationView::show_angles(const PoseRotations& found)
   double* value = this->values_->GetPointer(0);
   for (const Index point : points)
   {
-    const Index cluster = (*found.of_point)[static_cast<std::size_t>(point)];
+    const Index cluster = (*found.cluster_of_point)[static_cast<std::size_t>(point)];
     *value++ = cluster < 0 ? 0.0 : degrees[static_cast<std::size_t>(cluster)];
   }
   this->values_->Modified();
-  if (anew)
+  if (is_new_array)
   {
     Coloring named;
     named.by = ColorBy::rotation;
@@ -131,24 +133,24 @@ void RotationView::show_angles(const PoseRotations& found)
 
 QString RotationView::reading(Index point) const
 {
-  if (!this->viewport_->shows(this->values_) ||
-    point >= static_cast<Index>(this->of_point_->size()))
+  if (!this->viewport_->shows_values(this->values_) ||
+    point >= static_cast<Index>(this->cluster_of_point_->size()))
   {
     return {};
   }
-  const Index cluster = (*this->of_point_)[static_cast<std::size_t>(point)];
+  const Index cluster = (*this->cluster_of_point_)[static_cast<std::size_t>(point)];
   if (cluster < 0)
   {
     return Posing::tr("No rotation cluster");
   }
-  const Vec3& turn = this->turns_[static_cast<std::size_t>(cluster)];
+  const Vec3& turn = this->axis_angles_[static_cast<std::size_t>(cluster)];
   const double degrees = turn.norm();
   constexpr double least = 0.05; // smaller angles would be displayed as 0.0, so they are omitted
   const Vec3 axis = turn.normalized();
   const auto number = [](double x) { return QString::number(x, 'f', 2); };
   return Posing::tr("Rotation cluster %1 of %2: %3°%4")
     .arg(cluster)
-    .arg(this->turns_.size())
+    .arg(this->axis_angles_.size())
     .arg(degrees, 0, 'f', 1)
     .arg(degrees < least ? QString()
                          : Posing::tr(" about %1, %2, %3")

@@ -43,9 +43,9 @@ private:
   bool active_ = true;
   vtkSmartPointer<vtkDoubleArray> values_; ///< the displayed values; null: none
   /// The array PoseRotations::of_point from which values_ was computed.
-  std::shared_ptr<const std::vector<bindpose::Index>> of_point_;
+  std::shared_ptr<const std::vector<bindpose::Index>> cluster_of_point_;
   double scale_ = 0.0; ///< upper end of the angle scale in degrees; 0: clusters are shown
-  std::vector<bindpose::Vec3> turns_; ///< axis times angle in degrees, one per rotation
+  std::vector<bindpose::Vec3> axis_angles_; ///< axis times angle in degrees, one per rotation
 };
 
 #endif

@@ -33,9 +33,9 @@ using namespace bindpose;
 
 namespace
 {
-constexpr const char* mesh_endings = "vtp ply obj off stl";
-constexpr const char* rig_endings = "glb gltf";
-constexpr std::size_t most_tiles = 12;
+constexpr const char* mesh_extensions = "vtp ply obj off stl";
+constexpr const char* rig_extensions = "glb gltf";
+constexpr std::size_t maximum_tiles = 12;
 constexpr int tile_width = 400; // width in pixels of each frame in a strip of frames
 
 Status cannot_write(const std::string& path)
@@ -59,9 +59,9 @@ SequenceExport::~SequenceExport() = default;
 
 QString SequenceExport::patterns()
 {
-  QString endings =
-    QString("json %1 %2 png %3").arg(mesh_endings).arg(rig_endings).arg(video_extensions);
-  return "*." + endings.replace(' ', " *.");
+  QString extensions =
+    QString("json %1 %2 png %3").arg(mesh_extensions).arg(rig_extensions).arg(video_extensions);
+  return "*." + extensions.replace(' ', " *.");
 }
 
 void SequenceExport::cancel()
@@ -79,17 +79,17 @@ void SequenceExport::start(const Input& input, const QString& path)
   this->input_ = input;
   this->path_ = path;
   this->error_.clear();
-  this->said_.clear();
+  this->summary_.clear();
   this->frames_ = std::make_shared<PosedFrames>();
   this->frames_->frames_per_second = input.frames_per_second;
-  const std::string ending = file_extension(path.toStdString());
+  const std::string extension = file_extension(path.toStdString());
   Status known = check_extension(path.toStdString(),
-    std::string("json png ") + mesh_endings + " " + rig_endings + " " + video_extensions);
-  if (known.ok() && is_listed(ending, video_extensions))
+    std::string("json png ") + mesh_extensions + " " + rig_extensions + " " + video_extensions);
+  if (known.ok() && is_listed(extension, video_extensions))
   {
     known = check_ffmpeg(); // check before the frames are computed
   }
-  if (known.ok() && ending == "json" && input.run.start)
+  if (known.ok() && extension == "json" && input.run.start)
   {
     known = Status::invalid_input(
       "a motion cannot be exported as a pose file (.json): choose datasets, glTF or pictures");
@@ -100,7 +100,7 @@ void SequenceExport::start(const Input& input, const QString& path)
     Q_EMIT this->finished();
     return;
   }
-  const bool poses_only = ending == "json";
+  const bool poses_only = extension == "json";
   Q_EMIT this->progress(0.0);
   this->job_.start(
     [frames = this->frames_, input, poses_only](ExecutionContext& context)
@@ -117,7 +117,7 @@ void SequenceExport::frames_made()
   if (status.usable())
   {
     status = this->write();
-    Q_EMIT this->pictures_taken();
+    Q_EMIT this->rendering_finished();
   }
   if (!this->encoder_.is_running())
   {
@@ -133,9 +133,9 @@ void SequenceExport::end(const Status& status)
   }
   else if (status.code != StatusCode::canceled)
   {
-    this->said_ = tr("%1 frames")
-                    .arg(this->frames_->points.empty() ? this->input_.poses.size()
-                                                       : this->frames_->points.size());
+    this->summary_ = tr("%1 frames")
+                       .arg(this->frames_->points.empty() ? this->input_.poses.size()
+                                                          : this->frames_->points.size());
   }
   this->frames_.reset();
   this->input_ = Input();
@@ -145,19 +145,19 @@ void SequenceExport::end(const Status& status)
 Status SequenceExport::write()
 {
   const std::string path = this->path_.toStdString();
-  const std::string ending = file_extension(path);
-  if (ending == "json")
+  const std::string extension = file_extension(path);
+  if (extension == "json")
   {
     return write_poses(
       this->input_.poses, this->input_.source->handles, path, this->input_.frames_per_second);
   }
-  return is_listed(ending, rig_endings) ? this->write_rig(path)
-    : is_listed(ending, mesh_endings)   ? this->write_datasets(path)
-    : ending == "png"                   ? this->write_strip(path)
-                                        : this->write_moving(path);
+  return is_listed(extension, rig_extensions) ? this->write_rig(path)
+    : is_listed(extension, mesh_extensions)   ? this->write_datasets(path)
+    : extension == "png"                      ? this->write_contact_sheet(path)
+                                              : this->write_film(path);
 }
 
-vtkSmartPointer<vtkPolyData> SequenceExport::posed(std::size_t frame) const
+vtkSmartPointer<vtkPolyData> SequenceExport::posed_surface(std::size_t frame) const
 {
   auto result = vtkSmartPointer<vtkPolyData>::New();
   result->ShallowCopy(this->input_.surface);
@@ -191,7 +191,7 @@ Status SequenceExport::write_datasets(const std::string& path)
     Status status = files[k].open(names[k], true);
     if (status.ok())
     {
-      status = write_shape(this->posed(k), files[k].temporary());
+      status = write_shape(this->posed_surface(k), files[k].temporary());
     }
     if (!status.ok())
     {
@@ -208,7 +208,7 @@ Status SequenceExport::write_datasets(const std::string& path)
       return status;
     }
   }
-  return write_whole_file(
+  return write_file_atomically(
     collection_file(path), format_collection(names, this->frames_->frames_per_second), true);
 }
 
@@ -228,7 +228,7 @@ Status SequenceExport::write_rig(const std::string& path)
   }
   for (std::size_t k = 0; k < this->frames_->points.size(); ++k)
   {
-    writer->AddFrameData(this->posed(k));
+    writer->AddFrameData(this->posed_surface(k));
   }
   writer->SetFramesPerSecond(this->frames_->frames_per_second);
   writer->SetAnimation(joints ? vtkGLTFSkinWriter::JOINTS : vtkGLTFSkinWriter::MORPH);
@@ -245,14 +245,14 @@ QImage SequenceExport::picture(std::size_t frame)
 }
 
 /// Write an image file of up to twelve evenly spaced frames, four per row.
-Status SequenceExport::write_strip(const std::string& path)
+Status SequenceExport::write_contact_sheet(const std::string& path)
 {
   vtkHandleSetWidget* handles = this->viewport_->handle_widget();
   const bool shown = handles->GetEnabled();
   // hide the handles, because their pose is not the pose of the frame
   handles->SetEnabled(false);
   QImage strip;
-  const std::vector<std::size_t> taken = evenly(this->frames_->points.size(), most_tiles);
+  const std::vector<std::size_t> taken = evenly_spaced(this->frames_->points.size(), maximum_tiles);
   const int columns = static_cast<int>(std::min<std::size_t>(taken.size(), 4));
   for (std::size_t k = 0; k < taken.size(); ++k)
   {
@@ -277,7 +277,7 @@ Status SequenceExport::write_strip(const std::string& path)
   return status;
 }
 
-Status SequenceExport::write_moving(const std::string& path)
+Status SequenceExport::write_film(const std::string& path)
 {
   const auto folder = std::make_shared<const ScratchFolder>("frames");
   if (folder->path().empty())

@@ -44,7 +44,7 @@ public:
   /// Return the error of the last export: one sentence, or empty.
   const QString& error() const { return this->error_; }
   /// Return a description of the written data, such as "24 frames"; empty after a cancel.
-  const QString& said() const { return this->said_; }
+  const QString& said() const { return this->summary_; }
   /// Return the file that is being written, or was written last.
   const QString& path() const { return this->path_; }
 
@@ -52,7 +52,7 @@ Q_SIGNALS:
   void progress(double fraction);
   /// Emitted when the viewport is no longer used for the export. The window must then draw the
   /// current shape again, because the viewport may still show the last frame.
-  void pictures_taken();
+  void rendering_finished();
   void finished();
 
 private:
@@ -60,11 +60,11 @@ private:
   bindpose::Status write();
   bindpose::Status write_datasets(const std::string& path);
   bindpose::Status write_rig(const std::string& path);
-  bindpose::Status write_strip(const std::string& path);
+  bindpose::Status write_contact_sheet(const std::string& path);
   /// Begin to encode a film, or return the reason why that is impossible.
-  bindpose::Status write_moving(const std::string& path);
+  bindpose::Status write_film(const std::string& path);
   void end(const bindpose::Status& status);
-  vtkSmartPointer<vtkPolyData> posed(std::size_t frame) const;
+  vtkSmartPointer<vtkPolyData> posed_surface(std::size_t frame) const;
   QImage picture(std::size_t frame);
 
   Viewport* viewport_;
@@ -72,7 +72,7 @@ private:
   QString path_;
   std::shared_ptr<bindpose::PosedFrames> frames_;
   QString error_;
-  QString said_;
+  QString summary_;
   KernelJob encoder_;
   KernelJob job_; // last member, so that the job ends before the data that it uses is destroyed
 };

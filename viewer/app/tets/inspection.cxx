@@ -87,38 +87,39 @@ QString counts_of(vtkPolyData* defects)
 }
 } // namespace
 
-Inspection::Inspection(Viewport* viewport, TetPanel* panel)
+TetInspection::TetInspection(Viewport* viewport, TetPanel* panel)
   : QObject(viewport), viewport_(viewport), panel_(panel), tets_(new TetView(viewport)),
     defects_(viewport)
 {
-  QObject::connect(panel, &TetPanel::make_wanted, this, &Inspection::make_tets);
-  QObject::connect(panel, &TetPanel::cancel_wanted, this, [this] { this->tet_job_.cancel(); });
+  QObject::connect(panel, &TetPanel::tets_requested, this, &TetInspection::make_tets);
+  QObject::connect(panel, &TetPanel::cancel_requested, this, [this] { this->tet_job_.cancel(); });
   QObject::connect(
-    panel, &TetPanel::tets_wanted, this, [this] { this->set_active(this->active_); });
-  QObject::connect(panel, &TetPanel::cut_wanted, this->tets_, &TetView::set_cut);
-  QObject::connect(panel, &TetPanel::other_side_wanted, this->tets_, &TetView::set_other_side);
+    panel, &TetPanel::show_tets_requested, this, [this] { this->set_active(this->active_); });
+  QObject::connect(panel, &TetPanel::cut_requested, this->tets_, &TetView::set_cut);
+  QObject::connect(panel, &TetPanel::other_side_requested, this->tets_, &TetView::set_other_side);
   PlaneHandle* plane = this->tets_->plane();
   QObject::connect(panel, &TetPanel::orientation_chosen, plane, &PlaneHandle::set_orientation);
   QObject::connect(panel, &TetPanel::position_chosen, plane, &PlaneHandle::set_position);
   QObject::connect(panel, &TetPanel::shrink_chosen, this->tets_, &TetView::set_shrink);
-  QObject::connect(panel, &TetPanel::colors_chosen, this, &Inspection::choose_colors);
-  QObject::connect(panel, &TetPanel::defects_wanted, this, &Inspection::update_defects);
-  QObject::connect(this->tets_, &TetView::plane_moved, this, &Inspection::show_position);
+  QObject::connect(panel, &TetPanel::colors_chosen, this, &TetInspection::choose_colors);
+  QObject::connect(panel, &TetPanel::defects_requested, this, &TetInspection::update_defects);
+  QObject::connect(this->tets_, &TetView::plane_moved, this, &TetInspection::show_position);
   QObject::connect(this->tets_, &TetView::count_changed, panel, &TetPanel::set_count);
   QObject::connect(&this->tet_job_, &KernelJob::progress, panel, &TetPanel::set_progress);
-  QObject::connect(&this->tet_job_, &KernelJob::finished, this, &Inspection::tets_finished);
-  QObject::connect(&this->defect_job_, &KernelJob::finished, this, &Inspection::defects_finished);
-  QObject::connect(viewport, &QOpenGLWidget::frameSwapped, this, &Inspection::picture_drawn);
+  QObject::connect(&this->tet_job_, &KernelJob::finished, this, &TetInspection::tets_finished);
+  QObject::connect(
+    &this->defect_job_, &KernelJob::finished, this, &TetInspection::defects_finished);
+  QObject::connect(viewport, &QOpenGLWidget::frameSwapped, this, &TetInspection::view_drawn);
 }
 
-void Inspection::set_active(bool active)
+void TetInspection::set_active(bool active)
 {
   this->active_ = active;
   this->tets_->show(active && this->panel_->wants_tets());
   this->update_defects();
 }
 
-void Inspection::set_surface(vtkPolyData* surface, vtkUnstructuredGrid* tets)
+void TetInspection::set_surface(vtkPolyData* surface, vtkUnstructuredGrid* tets)
 {
   this->cancel();
   this->surface_ = surface;
@@ -136,26 +137,26 @@ void Inspection::set_surface(vtkPolyData* surface, vtkUnstructuredGrid* tets)
   this->set_active(this->active_);
 }
 
-void Inspection::cancel()
+void TetInspection::cancel()
 {
   this->tet_job_.cancel();
   this->defect_job_.cancel();
 }
 
-int Inspection::surface_look() const
+int TetInspection::surface_look() const
 {
   return this->tets_->is_shown() ? Viewport::hidden
     : this->defects_.is_shown()  ? Viewport::see_through
                                  : Viewport::solid;
 }
 
-void Inspection::update_panel()
+void TetInspection::update_panel()
 {
   this->panel_->set_state(
     this->surface_ != nullptr, this->tet_job_.is_running(), this->tets_->tets() != nullptr);
 }
 
-void Inspection::show_position()
+void TetInspection::show_position()
 {
   const auto [lowest, highest] = this->tets_->plane()->positions();
   this->panel_->set_position(this->tets_->plane()->position(), lowest, highest);
@@ -163,7 +164,7 @@ void Inspection::show_position()
 
 // ---- Tets --------------------------------------------------------------------------------------
 
-void Inspection::make_tets(int method)
+void TetInspection::make_tets(int method)
 {
   SurfaceInput surface;
   const Status status =
@@ -172,9 +173,9 @@ void Inspection::make_tets(int method)
   {
     return;
   }
-  this->made_tets_ = std::make_shared<vtkSmartPointer<vtkUnstructuredGrid>>();
+  this->new_tets_ = std::make_shared<vtkSmartPointer<vtkUnstructuredGrid>>();
   this->tet_job_.start(
-    [made = this->made_tets_, mesh = copy_of(surface), options = options_of(method)](
+    [made = this->new_tets_, mesh = copy_of(surface), options = options_of(method)](
       ExecutionContext& context)
     {
       TetrahedralizeResult result;
@@ -189,7 +190,7 @@ void Inspection::make_tets(int method)
   this->update_panel();
 }
 
-void Inspection::tets_finished()
+void TetInspection::tets_finished()
 {
   this->update_panel();
   const Status& status = this->tet_job_.status();
@@ -199,7 +200,7 @@ void Inspection::tets_finished()
       this->tets_->tets() ? tr("Canceled; the tets are unchanged.") : tr("Canceled."));
     return;
   }
-  if (!status.usable() || !*this->made_tets_)
+  if (!status.usable() || !*this->new_tets_)
   {
     this->panel_->set_note(
       this->tets_->tets() ? tr("Failed; the tets are unchanged.") : tr("Failed."));
@@ -207,10 +208,10 @@ void Inspection::tets_finished()
     return;
   }
   const bool first = !this->tets_->tets();
-  this->tets_->set_tets(*this->made_tets_);
+  this->tets_->set_tets(*this->new_tets_);
   if (first)
   {
-    Q_EMIT this->tets_made();
+    Q_EMIT this->first_tets_computed();
   }
   this->choose_colors(this->colors_);
   this->update_panel();
@@ -228,7 +229,7 @@ void Inspection::tets_finished()
   }
 }
 
-void Inspection::choose_colors(int colors)
+void TetInspection::choose_colors(int colors)
 {
   std::optional<ColorBy> by;
   switch (colors)
@@ -242,8 +243,8 @@ void Inspection::choose_colors(int colors)
     case TetPanel::quality:
       by = ColorBy::quality;
       break;
-    case TetPanel::rung:
-      by = ColorBy::rung;
+    case TetPanel::method:
+      by = ColorBy::method;
       break;
     default:
       break;
@@ -262,13 +263,13 @@ void Inspection::choose_colors(int colors)
 // ---- Defects -----------------------------------------------------------------------------------
 
 /// Show or hide the defects. The first request starts the search for them.
-void Inspection::update_defects()
+void TetInspection::update_defects()
 {
   const bool wanted = this->active_ && this->panel_->wants_defects() && this->surface_;
   this->defects_.show(wanted);
   if (wanted)
   {
-    this->start_looking();
+    this->start_defect_search();
   }
   vtkPolyData* found = this->defects_.defects();
   this->panel_->set_defects_note(!wanted ? QString()
@@ -277,60 +278,60 @@ void Inspection::update_defects()
   Q_EMIT this->surface_look_changed();
 }
 
-void Inspection::look_for_defects()
+void TetInspection::search_defects()
 {
-  this->looking_ = this->surface_ != nullptr;
+  this->reports_defects_ = this->surface_ != nullptr;
   // Wait until the surface is drawn. With software rendering, drawing needs all cores.
-  this->waiting_ = this->looking_ && this->viewport_->isVisible();
-  if (!this->waiting_)
+  this->waits_for_drawing_ = this->reports_defects_ && this->viewport_->isVisible();
+  if (!this->waits_for_drawing_)
   {
-    this->start_looking();
+    this->start_defect_search();
   }
 }
 
-void Inspection::picture_drawn()
+void TetInspection::view_drawn()
 {
-  if (this->waiting_)
+  if (this->waits_for_drawing_)
   {
-    this->waiting_ = false;
-    this->start_looking();
+    this->waits_for_drawing_ = false;
+    this->start_defect_search();
   }
 }
 
-void Inspection::show_defects()
+void TetInspection::show_defects()
 {
   this->panel_->show_defects(true);
 }
 
 /// Search for defects in the background. The search runs once per surface.
-void Inspection::start_looking()
+void TetInspection::start_defect_search()
 {
   SurfaceInput surface;
   if (this->surface_ && !this->defects_.defects() && !this->defect_job_.is_running() &&
     to_surface(this->surface_, surface).ok())
   {
-    this->made_defects_ = std::make_shared<vtkSmartPointer<vtkPolyData>>();
+    this->new_defects_ = std::make_shared<vtkSmartPointer<vtkPolyData>>();
     this->defect_job_.start(
-      [made = this->made_defects_, mesh = copy_of(surface)](ExecutionContext& context)
+      [made = this->new_defects_, mesh = copy_of(surface)](ExecutionContext& context)
       { return find_defects(context, mesh, *made); });
   }
 }
 
-void Inspection::defects_finished()
+void TetInspection::defects_finished()
 {
   const Status& status = this->defect_job_.status();
   if (status.code == StatusCode::canceled)
   {
     this->update_defects(); // another surface may have been opened during the search
-    if (this->looking_)
+    if (this->reports_defects_)
     {
-      this->start_looking();
+      this->start_defect_search();
     }
     return;
   }
-  if (!status.ok() || !*this->made_defects_)
+  if (!status.ok() || !*this->new_defects_)
   {
-    this->looking_ = false;
+    this->reports_defects_ = false;
     if (!this->panel_->wants_defects())
     {
       return; // the user has not requested defects
@@ -340,12 +341,12 @@ void Inspection::defects_finished()
       tr("Cannot check the surface: %1.").arg(QString::fromStdString(status.message)));
     return;
   }
-  this->defects_.set_defects(*this->made_defects_);
+  this->defects_.set_defects(*this->new_defects_);
   this->update_defects();
   const QString counts = counts_of(this->defects_.defects());
-  if (this->looking_ && !counts.isEmpty())
+  if (this->reports_defects_ && !counts.isEmpty())
   {
     Q_EMIT this->defects_found(counts);
   }
-  this->looking_ = false;
+  this->reports_defects_ = false;
 }

@@ -12,14 +12,14 @@
 class TetPanel;
 class Viewport;
 
-/// Inspection of a surface's tets and defects, which are computed in the background. While the
+/// TetInspection of a surface's tets and defects, which are computed in the background. While the
 /// panel is visible, this class shows the tets and defects as the panel requests.
-class Inspection : public QObject
+class TetInspection : public QObject
 {
   Q_OBJECT
 
 public:
-  Inspection(Viewport* viewport, TetPanel* panel);
+  TetInspection(Viewport* viewport, TetPanel* panel);
 
   /// Set the surface at rest, and the tets inside it that were opened from a file (null: no tets).
   void set_surface(vtkPolyData* surface, vtkUnstructuredGrid* tets);
@@ -30,11 +30,12 @@ public:
   void cancel();
   /// Search for defects in the background after the surface was drawn. Emit defects_found() if the
   /// surface has defects.
-  void look_for_defects();
+  void search_defects();
   void show_defects();
   bool is_busy() const
   {
-    return this->tet_job_.is_running() || this->defect_job_.is_running() || this->waiting_;
+    return this->tet_job_.is_running() || this->defect_job_.is_running() ||
+      this->waits_for_drawing_;
   }
   /// Return how the surface is drawn (Viewport::SurfaceLook): hidden while tets are shown,
   /// see-through while defects are shown, otherwise solid.
@@ -46,24 +47,24 @@ public:
 Q_SIGNALS:
   void surface_look_changed();
   /// Emitted when the first tets of the surface were computed, before the tets are shown.
-  void tets_made();
-  /// Emitted when the search of look_for_defects() has found defects. `counts` is a text with the
+  void first_tets_computed();
+  /// Emitted when the search of search_defects() has found defects. `counts` is a text with the
   /// counts per type.
   void defects_found(const QString& counts);
   /// Emitted with one sentence if tets or their colors cannot be computed; the display is
   /// unchanged.
-  void failed(const QString& sentence);
+  void failed(const QString& message);
   /// Emitted when the tets are shown with the requested colors.
   void succeeded();
   /// Emitted with a message for the user after tets were computed.
-  void noticed(const QString& sentence);
+  void noticed(const QString& message);
 
 private:
   void tets_finished();
   void defects_finished();
   void update_defects();
-  void start_looking();
-  void picture_drawn();
+  void start_defect_search();
+  void view_drawn();
   void choose_colors(int colors);
   void show_position();
   void update_panel();
@@ -74,11 +75,12 @@ private:
   DefectView defects_;
   vtkSmartPointer<vtkPolyData> surface_;
   bool active_ = false;
-  bool looking_ = false; // true: emit defects_found() if the search finds defects
-  bool waiting_ = false; // true: the search begins after the surface was drawn for the first time
+  bool reports_defects_ = false; // true: emit defects_found() if the search finds defects
+  bool waits_for_drawing_ =
+    false; // true: the search begins after the surface was drawn for the first time
   int colors_ = 0; // the displayed values, one of TetPanel::Colors
-  std::shared_ptr<vtkSmartPointer<vtkUnstructuredGrid>> made_tets_;
-  std::shared_ptr<vtkSmartPointer<vtkPolyData>> made_defects_;
+  std::shared_ptr<vtkSmartPointer<vtkUnstructuredGrid>> new_tets_;
+  std::shared_ptr<vtkSmartPointer<vtkPolyData>> new_defects_;
   KernelJob tet_job_;
   KernelJob defect_job_;
 };

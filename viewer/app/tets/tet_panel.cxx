@@ -136,33 +136,33 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   column->addStretch(1);
 
   QObject::connect(this->make_, &QPushButton::clicked, this,
-    [this] { Q_EMIT this->make_wanted(this->method_->currentIndex()); });
+    [this] { Q_EMIT this->tets_requested(this->method_->currentIndex()); });
   QObject::connect(this->cancel_, &QPushButton::clicked, this,
     [this]
     {
       this->set_note(tr("Stopping …"));
-      Q_EMIT this->cancel_wanted();
+      Q_EMIT this->cancel_requested();
     });
   QObject::connect(this->tets_, &QCheckBox::toggled, this,
     [this](bool shown)
     {
       this->enable();
-      Q_EMIT this->tets_wanted(shown);
+      Q_EMIT this->show_tets_requested(shown);
     });
   QObject::connect(this->cut_, &QCheckBox::toggled, this,
     [this](bool cut)
     {
       this->enable();
-      Q_EMIT this->cut_wanted(cut);
+      Q_EMIT this->cut_requested(cut);
     });
-  QObject::connect(this->other_side_, &QCheckBox::toggled, this, &TetPanel::other_side_wanted);
+  QObject::connect(this->other_side_, &QCheckBox::toggled, this, &TetPanel::other_side_requested);
   QObject::connect(
     this->orientations_, &QButtonGroup::idClicked, this, &TetPanel::orientation_chosen);
   QObject::connect(this->position_, &ValueRow::value_chosen, this, &TetPanel::position_chosen);
   QObject::connect(this->shrink_, &ValueRow::value_chosen, this, &TetPanel::shrink_chosen);
   QObject::connect(this->colors_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
     &TetPanel::colors_chosen);
-  QObject::connect(this->defects_, &QCheckBox::toggled, this, &TetPanel::defects_wanted);
+  QObject::connect(this->defects_, &QCheckBox::toggled, this, &TetPanel::defects_requested);
   this->set_state(false, false, false);
 }
 
@@ -253,6 +253,6 @@ void TetPanel::show_defects(bool shown)
 
 void TetPanel::set_colors(int colors)
 {
-  const QSignalBlocker quiet(this->colors_);
+  const QSignalBlocker blocker(this->colors_);
   this->colors_->setCurrentIndex(colors);
 }

@@ -37,7 +37,7 @@ public:
     winding_number,
     label,
     quality,
-    rung
+    method
   };
 
   explicit TetPanel(QWidget* parent = nullptr);
@@ -58,16 +58,16 @@ public:
   void set_colors(int colors);
 
 Q_SIGNALS:
-  void make_wanted(int method);
-  void cancel_wanted();
-  void tets_wanted(bool shown);
-  void cut_wanted(bool cut);
-  void other_side_wanted(bool other);
+  void tets_requested(int method);
+  void cancel_requested();
+  void show_tets_requested(bool shown);
+  void cut_requested(bool cut);
+  void other_side_requested(bool other);
   void orientation_chosen(int orientation); ///< orientation: one of PlaneHandle::Orientation
   void position_chosen(double position);
   void shrink_chosen(double factor);
   void colors_chosen(int colors);
-  void defects_wanted(bool shown);
+  void defects_requested(bool shown);
 
 private:
   void enable();

@@ -175,7 +175,7 @@ void TetView::draw_shrunk()
   if (dragging)
   {
     wanted.assign(wanted.size(), 0);
-    for (const auto* sides : { &this->cut_.outside(), &this->cut_.exposed_faces() })
+    for (const auto* sides : { &this->cut_.boundary_faces(), &this->cut_.exposed_faces() })
     {
       for (const Index t : sides->tets)
       {
@@ -224,8 +224,8 @@ void TetView::update()
   }
   else
   {
-    this->draw(
-      0, this->cut_.outside().triangles, this->cut_.outside().tets, this->grid_->GetPoints());
+    this->draw(0, this->cut_.boundary_faces().triangles, this->cut_.boundary_faces().tets,
+      this->grid_->GetPoints());
     this->draw(1, this->cut_.exposed_faces().triangles, this->cut_.exposed_faces().tets,
       this->grid_->GetPoints());
   }

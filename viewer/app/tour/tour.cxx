@@ -18,13 +18,13 @@ namespace bindpose
 namespace
 {
 constexpr int schema = 1;
-constexpr std::size_t most_steps = 10000;
-constexpr std::size_t most_bytes = 16 << 20;
+constexpr std::size_t maximum_steps = 10000;
+constexpr std::size_t maximum_bytes = 16 << 20;
 constexpr double any = std::numeric_limits<double>::max();
 const char* const buttons[] = { "left", "middle", "right" };
 
 /// The type of the argument of a verb.
-enum class About
+enum class ArgumentType
 {
   text,
   place,
@@ -37,32 +37,32 @@ struct VerbInfo
 {
   TourVerb verb;
   const char* word;
-  About about;
+  ArgumentType argument_type;
   const char* fields; ///< allowed fields, in addition to "say"
 };
 const VerbInfo verb_table[] = {
-  { TourVerb::open, "open", About::text, "" },
-  { TourVerb::action, "action", About::text, "answer" },
-  { TourVerb::push, "push", About::text, "answer" },
-  { TourVerb::option, "option", About::text, "value" },
-  { TourVerb::panel, "panel", About::text, "" },
-  { TourVerb::select, "select", About::text, "" },
-  { TourVerb::type, "type", About::text, "into" },
-  { TourVerb::mode, "mode", About::text, "" },
-  { TourVerb::click, "click", About::place, "button held" },
-  { TourVerb::double_click, "double_click", About::place, "button held" },
-  { TourVerb::press, "press", About::place, "button held" },
-  { TourVerb::move, "move", About::place, "held" },
-  { TourVerb::release, "release", About::place, "button held" },
-  { TourVerb::drag, "drag", About::place, "to moves button held" },
-  { TourVerb::wheel, "wheel", About::place, "turns held" },
-  { TourVerb::scrub, "scrub", About::seconds, "" },
-  { TourVerb::key, "key", About::text, "" },
-  { TourVerb::resize, "resize", About::size, "" },
-  { TourVerb::wait, "wait", About::wait, "" },
-  { TourVerb::film, "film", About::text, "of width" },
-  { TourVerb::screenshot, "screenshot", About::text, "of width scale transparent" },
-  { TourVerb::check, "check", About::text, "is at_least at_most as_at tolerance" },
+  { TourVerb::open, "open", ArgumentType::text, "" },
+  { TourVerb::action, "action", ArgumentType::text, "answer" },
+  { TourVerb::push, "push", ArgumentType::text, "answer" },
+  { TourVerb::option, "option", ArgumentType::text, "value" },
+  { TourVerb::panel, "panel", ArgumentType::text, "" },
+  { TourVerb::select, "select", ArgumentType::text, "" },
+  { TourVerb::type, "type", ArgumentType::text, "into" },
+  { TourVerb::mode, "mode", ArgumentType::text, "" },
+  { TourVerb::click, "click", ArgumentType::place, "button held" },
+  { TourVerb::double_click, "double_click", ArgumentType::place, "button held" },
+  { TourVerb::press, "press", ArgumentType::place, "button held" },
+  { TourVerb::move, "move", ArgumentType::place, "held" },
+  { TourVerb::release, "release", ArgumentType::place, "button held" },
+  { TourVerb::drag, "drag", ArgumentType::place, "to moves button held" },
+  { TourVerb::wheel, "wheel", ArgumentType::place, "turns held" },
+  { TourVerb::scrub, "scrub", ArgumentType::seconds, "" },
+  { TourVerb::key, "key", ArgumentType::text, "" },
+  { TourVerb::resize, "resize", ArgumentType::size, "" },
+  { TourVerb::wait, "wait", ArgumentType::wait, "" },
+  { TourVerb::film, "film", ArgumentType::text, "of width" },
+  { TourVerb::screenshot, "screenshot", ArgumentType::text, "of width scale transparent" },
+  { TourVerb::check, "check", ArgumentType::text, "is at_least at_most as_at tolerance" },
 };
 
 const VerbInfo* find_verb(const std::string& word)
@@ -101,19 +101,19 @@ bool read_pair(const Json& json, std::array<double, 2>& pair)
   return true;
 }
 
-Status read_place(const Json& json, const std::string& who, TourPlace& place)
+Status read_position(const Json& json, const std::string& prefix, TourPosition& place)
 {
   if (json.is_array())
   {
-    return read_pair(json, place.at)
+    return read_pair(json, place.position)
       ? Status()
       : Status::invalid_input(
-          who + ": a position must be two fractions of the view size, for example [0.5, 0.5]");
+          prefix + ": a position must be two fractions of the view size, for example [0.5, 0.5]");
   }
   const bool of_gizmo = json.is_object() && json.contains("gizmo");
   if (!of_gizmo && (!json.is_object() || !json.contains("handle")))
   {
-    return Status::invalid_input(who +
+    return Status::invalid_input(prefix +
       ": a position must be [0.5, 0.5], {\"handle\": \"NAME\", \"offset\": [0, 0]} or {\"gizmo\": "
       "\"move_x\", \"offset\": [0, 0]}");
   }
@@ -121,13 +121,13 @@ Status read_place(const Json& json, const std::string& who, TourPlace& place)
   {
     if (!has_word(of_gizmo ? "gizmo offset" : "handle along offset", key))
     {
-      return Status::invalid_input(who + ": a position cannot have the field \"" + key + "\"");
+      return Status::invalid_input(prefix + ": a position cannot have the field \"" + key + "\"");
     }
   }
-  JsonFields fields(json, who);
+  JsonFields fields(json, prefix);
   fields.read("handle", place.handle);
   fields.read("along", place.along, -any, any);
-  fields.read("offset", place.at.data(), 2);
+  fields.read("offset", place.position.data(), 2);
   std::string part;
   fields.read("gizmo", part);
   if (!fields.status().ok())
@@ -140,27 +140,27 @@ Status read_place(const Json& json, const std::string& who, TourPlace& place)
   }
   if (of_gizmo && place.gizmo_part == no_part)
   {
-    return Status::invalid_input(who + ": unknown gizmo part \"" + part + "\"");
+    return Status::invalid_input(prefix + ": unknown gizmo part \"" + part + "\"");
   }
   return !of_gizmo && place.handle.empty()
-    ? Status::invalid_input(who + ": a position must contain the name of a handle")
+    ? Status::invalid_input(prefix + ": a position must contain the name of a handle")
     : Status();
 }
 
 /// Read the new value of an option, or the expected value of a check: a number, a list of numbers,
 /// a word, or true or false.
-Status read_wanted(const Json& json, const std::string& who, TourStep& step)
+Status read_expected(const Json& json, const std::string& prefix, TourStep& step)
 {
   if (json.is_string())
   {
-    step.wants_text = true;
-    step.wanted_text = json.get<std::string>();
+    step.expects_text = true;
+    step.expected_text = json.get<std::string>();
     return {};
   }
   if (json.is_boolean())
   {
-    step.wants_truth = true;
-    step.wanted = { json.get<bool>() ? 1.0 : 0.0 };
+    step.expects_bool = true;
+    step.expected = { json.get<bool>() ? 1.0 : 0.0 };
     return {};
   }
   const Json list = json.is_array() ? json : Json::array({ json });
@@ -169,16 +169,16 @@ Status read_wanted(const Json& json, const std::string& who, TourStep& step)
     if (!finite_number(number))
     {
       return Status::invalid_input(
-        who + ": a value must be a number, a list of numbers, a word, true or false");
+        prefix + ": a value must be a number, a list of numbers, a word, true or false");
     }
-    step.wanted.push_back(number.get<double>());
+    step.expected.push_back(number.get<double>());
   }
-  return step.wanted.empty()
-    ? Status::invalid_input(who + ": the list of numbers must not be empty")
+  return step.expected.empty()
+    ? Status::invalid_input(prefix + ": the list of numbers must not be empty")
     : Status();
 }
 
-Status read_check(const Json& json, const std::string& who, TourStep& step)
+Status read_check(const Json& json, const std::string& prefix, TourStep& step)
 {
   int relations = 0;
   for (const auto& [word, relation] :
@@ -189,7 +189,7 @@ Status read_check(const Json& json, const std::string& who, TourStep& step)
     {
       ++relations;
       step.relation = relation;
-      if (const Status status = read_wanted(json[word], who, step); !status.ok())
+      if (const Status status = read_expected(json[word], prefix, step); !status.ok())
       {
         return status;
       }
@@ -198,47 +198,49 @@ Status read_check(const Json& json, const std::string& who, TourStep& step)
   if (relations != 1)
   {
     return Status::invalid_input(
-      who + ": a check must have exactly one of is, at_least, at_most, as_at");
+      prefix + ": a check must have exactly one of is, at_least, at_most, as_at");
   }
   const bool bound =
     step.relation == TourRelation::at_least || step.relation == TourRelation::at_most;
-  if (bound && (step.wanted.size() != 1 || step.wants_truth))
+  if (bound && (step.expected.size() != 1 || step.expects_bool))
   {
-    return Status::invalid_input(who + ": at_least and at_most must be numbers");
+    return Status::invalid_input(prefix + ": at_least and at_most must be numbers");
   }
-  if (step.relation == TourRelation::as_at && !step.wants_text)
+  if (step.relation == TourRelation::as_at && !step.expects_text)
   {
-    return Status::invalid_input(who + ": \"as_at\" must be the name of a screenshot");
+    return Status::invalid_input(prefix + ": \"as_at\" must be the name of a screenshot");
   }
   return {};
 }
 
-Status read_about(const Json& value, About about, const std::string& who, TourStep& step)
+Status read_argument(
+  const Json& value, ArgumentType argument_type, const std::string& prefix, TourStep& step)
 {
-  switch (about)
+  switch (argument_type)
   {
-    case About::text:
+    case ArgumentType::text:
       if (!value.is_string() || value.get<std::string>().empty())
       {
-        return Status::invalid_input(who + ": the value of the verb must be a nonempty string");
+        return Status::invalid_input(prefix + ": the value of the verb must be a nonempty string");
       }
       step.text = value.get<std::string>();
       return {};
-    case About::place:
-      return read_place(value, who, step.place);
-    case About::size:
+    case ArgumentType::place:
+      return read_position(value, prefix, step.place);
+    case ArgumentType::size:
     {
       std::array<double, 2> size{};
       if (!read_pair(value, size) || !(size[0] >= 200 && size[0] <= 8000) ||
         !(size[1] >= 200 && size[1] <= 8000))
       {
-        return Status::invalid_input(who + ": a size must be two numbers from 200 to 8000");
+        return Status::invalid_input(prefix + ": a size must be two numbers from 200 to 8000");
       }
       step.size = { static_cast<int>(size[0]), static_cast<int>(size[1]) };
       return {};
     }
     default:
-      if (about == About::wait && value.is_string() && (value == "bind" || value == "idle"))
+      if (argument_type == ArgumentType::wait && value.is_string() &&
+        (value == "bind" || value == "idle"))
       {
         step.text = value.get<std::string>();
         return {};
@@ -248,9 +250,9 @@ Status read_about(const Json& value, About about, const std::string& who, TourSt
         step.seconds = value.get<double>();
         return {};
       }
-      return Status::invalid_input(who +
-        (about == About::wait ? ": expected \"bind\", \"idle\" or 0 to 3600 seconds"
-                              : ": expected 0 to 3600 seconds"));
+      return Status::invalid_input(prefix +
+        (argument_type == ArgumentType::wait ? ": expected \"bind\", \"idle\" or 0 to 3600 seconds"
+                                             : ": expected 0 to 3600 seconds"));
   }
 }
 
@@ -267,10 +269,10 @@ bool is_plain_name(const std::string& name)
 
 Status read_step(const Json& json, std::size_t index, TourStep& step)
 {
-  std::string who = "step " + std::to_string(index + 1);
+  std::string prefix = "step " + std::to_string(index + 1);
   if (!json.is_object())
   {
-    return Status::invalid_input(who + " must be a JSON object");
+    return Status::invalid_input(prefix + " must be a JSON object");
   }
   const VerbInfo* info = nullptr;
   for (const auto& [key, value] : json.items())
@@ -280,7 +282,7 @@ Status read_step(const Json& json, std::size_t index, TourStep& step)
       if (info)
       {
         return Status::invalid_input(
-          who + " has two verbs, \"" + info->word + "\" and \"" + verb->word + "\"");
+          prefix + " has two verbs, \"" + info->word + "\" and \"" + verb->word + "\"");
       }
       info = verb;
     }
@@ -289,22 +291,23 @@ Status read_step(const Json& json, std::size_t index, TourStep& step)
   {
     const std::string first = json.empty() ? std::string() : json.begin().key();
     return Status::invalid_input(
-      who + (json.empty() ? " is empty" : " must have a verb: \"" + first + "\" is not a verb"));
+      prefix + (json.empty() ? " is empty" : " must have a verb: \"" + first + "\" is not a verb"));
   }
   step.verb = info->verb;
-  who = step_name(index, step);
+  prefix = step_name(index, step);
   for (const auto& [key, value] : json.items())
   {
     if (key != info->word && key != "say" && !has_word(info->fields, key))
     {
-      return Status::invalid_input(who + ": the verb cannot have the field \"" + key + "\"");
+      return Status::invalid_input(prefix + ": the verb cannot have the field \"" + key + "\"");
     }
   }
-  if (const Status status = read_about(json[info->word], info->about, who, step); !status.ok())
+  if (const Status status = read_argument(json[info->word], info->argument_type, prefix, step);
+      !status.ok())
   {
     return status;
   }
-  JsonFields fields(json, who);
+  JsonFields fields(json, prefix);
   fields.read("say", step.say);
   fields.read("into", step.field);
   fields.read("answer", step.answer);
@@ -323,7 +326,8 @@ Status read_step(const Json& json, std::size_t index, TourStep& step)
   }
   if (step.part != TourPart::view && (step.scale > 1 || step.transparent))
   {
-    return Status::invalid_input(who + ": \"scale\" and \"transparent\" require \"of\": \"view\"");
+    return Status::invalid_input(
+      prefix + ": \"scale\" and \"transparent\" require \"of\": \"view\"");
   }
   if (json.contains("held"))
   {
@@ -335,33 +339,34 @@ Status read_step(const Json& json, std::size_t index, TourStep& step)
       if (key != "shift" && key != "ctrl" && key != "alt")
       {
         return Status::invalid_input(
-          who + ": \"held\" must be shift, ctrl or alt, or a list of these");
+          prefix + ": \"held\" must be shift, ctrl or alt, or a list of these");
       }
     }
   }
   if (json.contains("answer") && !is_plain_name(step.answer))
   {
-    return Status::invalid_input(who + ": the answer" + plain_names);
+    return Status::invalid_input(prefix + ": the answer" + plain_names);
   }
   switch (step.verb)
   {
     case TourVerb::type:
-      return step.field.empty() ? Status::invalid_input(who + ": \"into\" is missing") : Status();
+      return step.field.empty() ? Status::invalid_input(prefix + ": \"into\" is missing")
+                                : Status();
     case TourVerb::drag:
-      return json.contains("to") ? read_place(json["to"], who, step.to)
-                                 : Status::invalid_input(who + ": \"to\" is missing");
+      return json.contains("to") ? read_position(json["to"], prefix, step.to)
+                                 : Status::invalid_input(prefix + ": \"to\" is missing");
     case TourVerb::wheel:
       return json.contains("turns") ? Status()
-                                    : Status::invalid_input(who + ": \"turns\" is missing");
+                                    : Status::invalid_input(prefix + ": \"turns\" is missing");
     case TourVerb::option:
-      return json.contains("value") ? read_wanted(json["value"], who, step)
-                                    : Status::invalid_input(who + ": \"value\" is missing");
+      return json.contains("value") ? read_expected(json["value"], prefix, step)
+                                    : Status::invalid_input(prefix + ": \"value\" is missing");
     case TourVerb::check:
-      return read_check(json, who, step);
+      return read_check(json, prefix, step);
     case TourVerb::screenshot:
     case TourVerb::film:
       return is_plain_name(step.text) ? Status()
-                                      : Status::invalid_input(who + ": a name" + plain_names);
+                                      : Status::invalid_input(prefix + ": a name" + plain_names);
     default:
       return {};
   }
@@ -377,13 +382,13 @@ Status check_names(const Tour& tour)
     const TourStep& step = tour.steps[k];
     const auto known = [&](const std::string& name)
     { return std::find(names.begin(), names.end(), name) != names.end(); };
-    const std::string who = step_name(k, step);
+    const std::string prefix = step_name(k, step);
     if (step.verb == TourVerb::film)
     {
       if (filming != (step.text == "end"))
       {
         return Status::invalid_input(
-          who + (filming ? ": the previous film must end first" : ": no film was started"));
+          prefix + (filming ? ": the previous film must end first" : ": no film was started"));
       }
       filming = !filming;
     }
@@ -392,17 +397,17 @@ Status check_names(const Tour& tour)
     if (named && known(step.text))
     {
       return Status::invalid_input(
-        who + ": the name \"" + step.text + "\" is already used by an earlier step");
+        prefix + ": the name \"" + step.text + "\" is already used by an earlier step");
     }
     if (named)
     {
       names.push_back(step.text);
     }
     if (step.verb == TourVerb::check && step.relation == TourRelation::as_at &&
-      !known(step.wanted_text))
+      !known(step.expected_text))
     {
       return Status::invalid_input(
-        who + ": no earlier screenshot is named \"" + step.wanted_text + "\"");
+        prefix + ": no earlier screenshot is named \"" + step.expected_text + "\"");
     }
   }
   return filming ? Status::invalid_input("the last film must end: add the step {\"film\": \"end\"}")
@@ -466,7 +471,8 @@ Status parse_tour(const std::string& text, Tour& tour)
     if (head.contains(key))
     {
       TourStep read;
-      const Status status = read_about(head[key], About::size, "the head of the tour", read);
+      const Status status =
+        read_argument(head[key], ArgumentType::size, "the head of the tour", read);
       if (!status.ok())
       {
         return status;
@@ -475,7 +481,7 @@ Status parse_tour(const std::string& text, Tour& tour)
     }
   }
   if (!json.contains("steps") || !json["steps"].is_array() || json["steps"].empty() ||
-    json["steps"].size() > most_steps)
+    json["steps"].size() > maximum_steps)
   {
     return Status::invalid_input("\"steps\" must be a list of 1 to 10000 steps");
   }
@@ -494,7 +500,7 @@ Status read_tour(const std::string& path, Tour& tour)
 {
   std::ifstream file(path, std::ios::binary);
   std::string text;
-  text.resize(most_bytes);
+  text.resize(maximum_bytes);
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (file.gcount() == 0 || !file.eof())
   {

@@ -12,7 +12,7 @@ namespace bindpose
 
 /// A description of a mouse position in the 3D view. The position in pixels is computed when the
 /// step is played.
-struct TourPlace
+struct TourPosition
 {
   std::string handle; ///< name of a handle; empty: the position is relative to the view
   double along = 0.0; ///< position on a bone, from its head (0) to its tail (1)
@@ -21,7 +21,7 @@ struct TourPlace
   int gizmo_part = 0;
   /// For the view: the position from its upper left corner, as fractions of its width and height.
   /// For a handle or a gizmo: an offset to the right and down, in pixels.
-  std::array<double, 2> at{ 0.0, 0.0 };
+  std::array<double, 2> position{ 0.0, 0.0 };
 };
 
 /// The actions of a step. The words in a tour file have the same names.
@@ -86,8 +86,8 @@ struct TourStep
   std::string answer;
   std::string say; ///< text about the step for a tutorial
 
-  TourPlace place; ///< position of the mouse; start of a drag
-  TourPlace to; ///< end of a drag
+  TourPosition place; ///< position of the mouse; start of a drag
+  TourPosition to; ///< end of a drag
   int moves = 8; ///< number of mouse moves of a drag
   TourButton button = TourButton::left;
   bool shift = false, ctrl = false, alt = false;
@@ -101,10 +101,10 @@ struct TourStep
   bool transparent = false; ///< true: a screenshot of the view has a transparent background
 
   TourRelation relation = TourRelation::is;
-  std::string wanted_text; ///< expected word, or the name of the screenshot for `as_at`
+  std::string expected_text; ///< expected word, or the name of the screenshot for `as_at`
   /// Expected numbers, one per component. For the verb `option`: the new value of the option.
-  std::vector<double> wanted;
-  bool wants_text = false, wants_truth = false;
+  std::vector<double> expected;
+  bool expects_text = false, expects_bool = false;
   double tolerance = 0.0;
 };
 

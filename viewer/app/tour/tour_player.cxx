@@ -45,13 +45,13 @@ Qt::MouseButton button_of(const TourStep& step)
                                          : Qt::RightButton;
 }
 
-Qt::KeyboardModifiers held_in(const TourStep& step)
+Qt::KeyboardModifiers modifiers_of(const TourStep& step)
 {
-  Qt::KeyboardModifiers held;
-  held.setFlag(Qt::ShiftModifier, step.shift);
-  held.setFlag(Qt::ControlModifier, step.ctrl);
-  held.setFlag(Qt::AltModifier, step.alt);
-  return held;
+  Qt::KeyboardModifiers modifiers;
+  modifiers.setFlag(Qt::ShiftModifier, step.shift);
+  modifiers.setFlag(Qt::ControlModifier, step.ctrl);
+  modifiers.setFlag(Qt::AltModifier, step.alt);
+  return modifiers;
 }
 
 /// Convert an image to a QImage, with alpha if the image has alpha.
@@ -74,7 +74,7 @@ QImage at_most(const QImage& picture, int width)
 
 /// Return the fraction of pixels that differ from the background. The last pixel of each row
 /// determines the background color of the row.
-double drawn_share(const QImage& picture)
+double drawn_fraction(const QImage& picture)
 {
   long long drawn = 0;
   for (int y = 0; y < picture.height(); ++y)
@@ -98,7 +98,7 @@ QString json_text(const Json& value)
 
 /// Discards events of the real mouse and keyboard, because the real mouse may be over the window.
 /// Qt reports such events as spontaneous.
-class HandsOff : public QObject
+class RealInputFilter : public QObject
 {
 public:
   bool eventFilter(QObject* /*object*/, QEvent* event) override
@@ -130,17 +130,17 @@ void wait_seconds(double seconds)
 } // namespace
 
 TourPlayer::TourPlayer(MainWindow* window, const Tour& tour, const std::string& folder)
-  : window_(window), tour_(tour), tour_folder_(folder), hand_(window),
-    hands_off_(std::make_unique<HandsOff>())
+  : window_(window), tour_(tour), tour_folder_(folder), user_(window),
+    real_input_filter_(std::make_unique<RealInputFilter>())
 {
-  QApplication::instance()->installEventFilter(this->hands_off_.get());
+  QApplication::instance()->installEventFilter(this->real_input_filter_.get());
   QObject::connect(window->viewport(), &QOpenGLWidget::frameSwapped, &this->context_,
     [this]
     {
       if (this->first_picture_ < 0.0 && !this->window_->is_empty())
       {
         this->first_picture_ = seconds_since_start();
-        this->first_picture_cpu_ = own_cpu_seconds();
+        this->first_picture_cpu_ = thread_cpu_seconds();
       }
     });
 }
@@ -149,7 +149,7 @@ Status TourPlayer::play(const TourRequest& request)
 {
   this->folder_ = request.folder;
   this->overwrite_ = request.overwrite;
-  this->seconds_ = request.seconds > 0.0 ? request.seconds : this->tour_.seconds;
+  this->time_limit_ = request.seconds > 0.0 ? request.seconds : this->tour_.seconds;
   this->record_ = { { "tour", { { "schema", 1 }, { "name", this->tour_.name } } },
     { "steps", Json::array() }, { "screenshots", Json::object() } };
   Status status;
@@ -175,24 +175,24 @@ Status TourPlayer::play(const TourRequest& request)
   this->clock_.start();
   // under Xvfb there is no window manager that activates the window
   QApplication::setActiveWindow(this->window_);
-  this->let_draw();
+  this->process_drawing();
   this->fit_view();
   for (std::size_t k = 0; k < this->tour_.steps.size() && status.ok(); ++k)
   {
     const TourStep& step = this->tour_.steps[k];
     const double begin = 1e-9 * static_cast<double>(this->clock_.nsecsElapsed());
     const double cpu_begin = cpu_seconds();
-    QString sentence = this->answer_dialogs([&] { return this->perform(step); }, step.answer);
-    this->let_draw();
-    if (sentence.isEmpty())
+    QString message = this->answer_dialogs([&] { return this->perform(step); }, step.answer);
+    this->process_drawing();
+    if (message.isEmpty())
     {
-      sentence = this->fit_view();
+      message = this->fit_view();
     }
     const double seconds = 1e-9 * static_cast<double>(this->clock_.nsecsElapsed()) - begin;
     const double cpu = cpu_seconds() - cpu_begin;
-    if (sentence.isEmpty() && this->left() <= 0.0)
+    if (message.isEmpty() && this->left() <= 0.0)
     {
-      sentence = this->out_of_time();
+      message = this->timeout_message();
     }
     if (step.verb != TourVerb::check)
     {
@@ -201,12 +201,12 @@ Status TourPlayer::play(const TourRequest& request)
     }
     this->record_["steps"].push_back({ { "step", k + 1 }, { "verb", to_string(step.verb) },
       { "about", step.text }, { "seconds", seconds }, { "cpu_seconds", cpu } });
-    if (!sentence.isEmpty())
+    if (!message.isEmpty())
     {
       const std::string about = step.text.empty() ? "" : " '" + step.text + "'";
       status =
         Status::invalid_input("tour '" + this->tour_.name + "', step " + std::to_string(k + 1) +
-          " (" + to_string(step.verb) + about + "): " + sentence.toStdString());
+          " (" + to_string(step.verb) + about + "): " + message.toStdString());
     }
   }
   this->record_["passed"] = status.ok();
@@ -229,22 +229,22 @@ Status TourPlayer::write_record(const TourRequest& request) const
     return {};
   }
   // Names may contain bytes that are not valid UTF-8.
-  return write_whole_file(request.folder + "/tour.json",
+  return write_file_atomically(request.folder + "/tour.json",
     this->record_.dump(2, ' ', false, Json::error_handler_t::replace) + '\n', request.overwrite);
 }
 
 double TourPlayer::left() const
 {
-  return this->seconds_ - 1e-3 * static_cast<double>(this->clock_.elapsed());
+  return this->time_limit_ - 1e-3 * static_cast<double>(this->clock_.elapsed());
 }
 
-QString TourPlayer::out_of_time() const
+QString TourPlayer::timeout_message() const
 {
-  return QString("the tour exceeded its time limit of %1 s").arg(this->seconds_);
+  return QString("the tour exceeded its time limit of %1 s").arg(this->time_limit_);
 }
 
 /// Let the window process all requests to draw, without waiting for other work.
-void TourPlayer::let_draw()
+void TourPlayer::process_drawing()
 {
   // Three rounds of events are needed: for a change, for the rendering that the change requests,
   // and for the buffer swap.
@@ -254,10 +254,11 @@ void TourPlayer::let_draw()
   }
 }
 
-/// Run `what`, a part of a step, and answer the dialogs that it opens. If `answer` is not empty, it
-/// is entered as the file name in a file dialog, and every dialog except a message box is accepted
-/// once. All other dialogs are closed, and the returned sentence reports them.
-QString TourPlayer::answer_dialogs(const std::function<QString()>& what, const std::string& answer)
+/// Run `perform_step`, a part of a step, and answer the dialogs that it opens. If `answer` is not
+/// empty, it is entered as the file name in a file dialog, and every dialog except a message box is
+/// accepted once. All other dialogs are closed, and the returned sentence reports them.
+QString TourPlayer::answer_dialogs(
+  const std::function<QString()>& perform_step, const std::string& answer)
 {
   const QString file =
     QDir(QString::fromStdString(this->folder_)).absoluteFilePath(QString::fromStdString(answer));
@@ -296,13 +297,13 @@ QString TourPlayer::answer_dialogs(const std::function<QString()>& what, const s
       }
     });
   watch.start(50);
-  const QString sentence = what();
-  if (!answer.empty() && !answered && sentence.isEmpty())
+  const QString message = perform_step();
+  if (!answer.empty() && !answered && message.isEmpty())
   {
     return QString("expected a file dialog, but none was opened");
   }
   return title.isEmpty()
-    ? sentence
+    ? message
     : QString("the step opened the dialog %1, which needs an answer").arg(title);
 }
 
@@ -314,27 +315,27 @@ QString TourPlayer::perform(const TourStep& step)
     case TourVerb::open:
       return this->open(step.text);
     case TourVerb::action:
-      return this->hand_.trigger(word);
+      return this->user_.trigger(word);
     case TourVerb::push:
-      return this->hand_.push(word);
+      return this->user_.push(word);
     case TourVerb::option:
       return this->choose(step);
     case TourVerb::panel:
-      return this->hand_.show_panel(word);
+      return this->user_.show_panel(word);
     case TourVerb::select:
-      return this->hand_.select(word);
+      return this->user_.select(word);
     case TourVerb::scrub:
-      this->hand_.scrub(step.seconds);
+      this->user_.scrub(step.seconds);
       return {};
     case TourVerb::type:
-      return this->hand_.type(word, QString::fromStdString(step.field));
+      return this->user_.type(word, QString::fromStdString(step.field));
     case TourVerb::mode:
-      return this->hand_.set_mode(word);
+      return this->user_.set_mode(word);
     case TourVerb::key:
-      return this->hand_.press_key(word);
+      return this->user_.press_key(word);
     case TourVerb::resize:
       this->window_->resize(step.size[0], step.size[1]);
-      this->let_draw();
+      this->process_drawing();
       return this->window_->width() == step.size[0] && this->window_->height() == step.size[1]
         ? QString()
         : QString("cannot resize the window: its size is %1 x %2")
@@ -362,96 +363,96 @@ QString TourPlayer::open(const std::string& file)
   const QString name = QString::fromStdString(file);
   const QString beside = QDir(QString::fromStdString(this->tour_folder_)).filePath(name);
   const QString before = this->window_->error();
-  const QString sentence = this->hand_.drop(QFileInfo::exists(beside) ? beside : name);
+  const QString message = this->user_.drop(QFileInfo::exists(beside) ? beside : name);
   const QString error = this->window_->error();
-  return sentence.isEmpty() || error.isEmpty() || error == before ? sentence : error;
+  return message.isEmpty() || error.isEmpty() || error == before ? message : error;
 }
 
 QString TourPlayer::choose(const TourStep& step)
 {
   const QString key = QString::fromStdString(step.text);
-  if (step.wants_text)
+  if (step.expects_text)
   {
-    return this->hand_.choose(key, QString::fromStdString(step.wanted_text));
+    return this->user_.choose(key, QString::fromStdString(step.expected_text));
   }
-  if (step.wanted.size() != 1)
+  if (step.expected.size() != 1)
   {
     return QString("the value of an option must be a word, a number, true or false");
   }
-  return this->hand_.choose(
-    key, step.wants_truth ? QVariant(step.wanted[0] != 0.0) : QVariant(step.wanted[0]));
+  return this->user_.choose(
+    key, step.expects_bool ? QVariant(step.expected[0] != 0.0) : QVariant(step.expected[0]));
 }
 
-QString TourPlayer::find(const TourPlace& place, QPoint& at) const
+QString TourPlayer::find(const TourPosition& place, QPoint& position) const
 {
   const bool of_gizmo = place.gizmo_part != no_part;
   if (place.handle.empty() && !of_gizmo)
   {
-    at = this->hand_.place(place.at[0], place.at[1]);
+    position = this->user_.place(place.position[0], place.position[1]);
     return {};
   }
-  const QString sentence = of_gizmo
-    ? this->hand_.place_of_gizmo(place.gizmo_part, at)
-    : this->hand_.place_of(QString::fromStdString(place.handle), place.along, at);
-  at += QPoint(static_cast<int>(place.at[0]), static_cast<int>(place.at[1]));
-  return sentence;
+  const QString message = of_gizmo
+    ? this->user_.find_gizmo_position(place.gizmo_part, position)
+    : this->user_.find_handle_position(QString::fromStdString(place.handle), place.along, position);
+  position += QPoint(static_cast<int>(place.position[0]), static_cast<int>(place.position[1]));
+  return message;
 }
 
 QString TourPlayer::use_mouse(const TourStep& step)
 {
   const Qt::MouseButton button = button_of(step);
-  const Qt::KeyboardModifiers held = held_in(step);
-  QPoint at, to;
-  QString sentence = this->find(step.place, at);
-  if (sentence.isEmpty() && step.verb == TourVerb::drag)
+  const Qt::KeyboardModifiers modifiers = modifiers_of(step);
+  QPoint position, to;
+  QString message = this->find(step.place, position);
+  if (message.isEmpty() && step.verb == TourVerb::drag)
   {
-    sentence = this->find(step.to, to);
+    message = this->find(step.to, to);
   }
-  if (!sentence.isEmpty())
+  if (!message.isEmpty())
   {
-    return sentence;
+    return message;
   }
   const auto move = [&](const QPoint& place)
   {
-    this->hand_.move(place, held);
-    this->let_draw();
+    this->user_.move(place, modifiers);
+    this->process_drawing();
     return this->film_frame();
   };
   switch (step.verb)
   {
     case TourVerb::press:
       // move the mouse there first, because a user's press follows a move
-      this->hand_.move(at, held);
-      this->hand_.press(at, button, held);
+      this->user_.move(position, modifiers);
+      this->user_.press(position, button, modifiers);
       return {};
     case TourVerb::move:
-      return move(at);
+      return move(position);
     case TourVerb::release:
-      this->hand_.release(at, button, held);
+      this->user_.release(position, button, modifiers);
       return {};
     case TourVerb::click:
-      this->hand_.move(at, held);
-      this->hand_.press(at, button, held);
-      this->let_draw();
-      this->hand_.release(at, button, held);
+      this->user_.move(position, modifiers);
+      this->user_.press(position, button, modifiers);
+      this->process_drawing();
+      this->user_.release(position, button, modifiers);
       return {};
     case TourVerb::double_click:
-      this->hand_.move(at, held);
-      this->hand_.double_click(at, button, held);
+      this->user_.move(position, modifiers);
+      this->user_.double_click(position, button, modifiers);
       return {};
     case TourVerb::wheel:
-      this->hand_.wheel(at, step.turns, held);
+      this->user_.wheel(position, step.turns, modifiers);
       return this->film_frame();
     default:
-      this->hand_.move(at, held);
-      this->let_draw();
-      this->hand_.press(at, button, held);
-      for (int k = 1; k <= step.moves && sentence.isEmpty(); ++k)
+      this->user_.move(position, modifiers);
+      this->process_drawing();
+      this->user_.press(position, button, modifiers);
+      for (int k = 1; k <= step.moves && message.isEmpty(); ++k)
       {
-        sentence = move(at + (to - at) * k / step.moves);
+        message = move(position + (to - position) * k / step.moves);
       }
-      this->hand_.release(to, button, held);
-      return sentence;
+      this->user_.release(to, button, modifiers);
+      return message;
   }
 }
 
@@ -473,11 +474,11 @@ QString TourPlayer::wait(const TourStep& step)
   // it, because timers may end a millisecond too early.
   const double left = std::max(0.0, this->left());
   const double seconds = std::min(step.seconds, left);
-  const QString sentence = step.seconds > left ? this->out_of_time() : QString();
+  const QString message = step.seconds > left ? this->timeout_message() : QString();
   if (this->film_.text.empty())
   {
     wait_seconds(seconds);
-    return sentence;
+    return message;
   }
   QElapsedTimer clock;
   clock.start();
@@ -491,7 +492,7 @@ QString TourPlayer::wait(const TourStep& step)
       return failed;
     }
   }
-  return sentence;
+  return message;
 }
 
 // ---- Values and images -----------------------------------------------------------------------
@@ -517,26 +518,26 @@ QString TourPlayer::check(const TourStep& step)
   {
     return QString("the value does not exist at this step");
   }
-  Json wanted = step.wants_truth ? Json(step.wanted[0] != 0.0)
-    : step.wants_text            ? Json(step.wanted_text)
-    : step.wanted.size() == 1    ? Json(step.wanted[0])
-                                 : Json(step.wanted);
+  Json expected = step.expects_bool ? Json(step.expected[0] != 0.0)
+    : step.expects_text             ? Json(step.expected_text)
+    : step.expected.size() == 1     ? Json(step.expected[0])
+                                    : Json(step.expected);
   QString where;
   if (step.relation == TourRelation::as_at)
   {
-    const Json& then = this->record_["screenshots"][step.wanted_text]["values"];
+    const Json& then = this->record_["screenshots"][step.expected_text]["values"];
     if (!then.contains(step.text))
     {
       return QString("the value did not exist at the screenshot '%1'")
-        .arg(QString::fromStdString(step.wanted_text));
+        .arg(QString::fromStdString(step.expected_text));
     }
-    wanted = then[step.text];
-    where = QString(" as at the screenshot '%1'").arg(QString::fromStdString(step.wanted_text));
+    expected = then[step.text];
+    where = QString(" as at the screenshot '%1'").arg(QString::fromStdString(step.expected_text));
   }
   if (step.relation == TourRelation::at_least || step.relation == TourRelation::at_most)
   {
     const bool least = step.relation == TourRelation::at_least;
-    const double limit = step.wanted[0];
+    const double limit = step.expected[0];
     const double value = found->is_number() ? found->get<double>() : std::nan("");
     const bool kept = least ? value >= limit : value <= limit;
     return kept ? QString()
@@ -544,14 +545,14 @@ QString TourPlayer::check(const TourStep& step)
                     .arg(json_text(*found), least ? "least" : "most")
                     .arg(limit);
   }
-  if (distance(*found, wanted) <= step.tolerance)
+  if (distance(*found, expected) <= step.tolerance)
   {
     return {};
   }
   const QString within =
     step.tolerance > 0.0 ? QString(" within %1").arg(step.tolerance) : QString();
   return QString("the value is %1, expected %2%3%4")
-    .arg(json_text(*found), json_text(wanted), where, within);
+    .arg(json_text(*found), json_text(expected), where, within);
 }
 
 QImage TourPlayer::grab(TourPart part, int width)
@@ -561,7 +562,7 @@ QImage TourPlayer::grab(TourPart part, int width)
   {
     dialog = candidate->isVisible() ? candidate : dialog;
   }
-  this->let_draw();
+  this->process_drawing();
   Viewport* viewport = this->window_->viewport();
   viewport->renderWindow()->Render();
   QApplication::processEvents();
@@ -593,19 +594,19 @@ QString TourPlayer::write(const QImage& picture, const std::string& name)
 /// the sizes of other widgets depend on the fonts, and some widgets appear and disappear.
 QString TourPlayer::fit_view()
 {
-  const QSize wanted(this->tour_.view[0], this->tour_.view[1]);
-  if (wanted.width() == 0)
+  const QSize expected(this->tour_.view[0], this->tour_.view[1]);
+  if (expected.width() == 0)
   {
     return {};
   }
-  const auto missing = [&] { return wanted - this->window_->viewport()->size(); };
+  const auto missing = [&] { return expected - this->window_->viewport()->size(); };
   for (int tries = 0; tries < 3 && missing() != QSize(0, 0); ++tries)
   {
     this->window_->resize(this->window_->size() + missing());
-    this->let_draw();
+    this->process_drawing();
   }
   const QSize now = this->window_->viewport()->size();
-  return now == wanted
+  return now == expected
     ? QString()
     : QString("cannot resize the view: its size is %1 x %2").arg(now.width()).arg(now.height());
 }
@@ -628,7 +629,7 @@ QString TourPlayer::screenshot(const TourStep& step)
     }
     picture = at_most(to_image(taken), step.width);
   }
-  const double drawn = drawn_share(this->window_->viewport()->grabFramebuffer());
+  const double drawn = drawn_fraction(this->window_->viewport()->grabFramebuffer());
   if (picture.isNull() || (drawn == 0.0 && !this->window_->is_empty()))
   {
     return QString("the picture is empty");

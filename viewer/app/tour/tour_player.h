@@ -46,8 +46,8 @@ public:
 
 private:
   QString perform(const bindpose::TourStep& step);
-  QString answer_dialogs(const std::function<QString()>& what, const std::string& answer);
-  QString find(const bindpose::TourPlace& place, QPoint& at) const;
+  QString answer_dialogs(const std::function<QString()>& perform_step, const std::string& answer);
+  QString find(const bindpose::TourPosition& place, QPoint& position) const;
   QString use_mouse(const bindpose::TourStep& step);
   QString open(const std::string& file);
   QString choose(const bindpose::TourStep& step);
@@ -58,10 +58,10 @@ private:
   QString write(const QImage& picture, const std::string& name);
   nlohmann::ordered_json values() const;
   QImage grab(bindpose::TourPart part, int width);
-  void let_draw();
+  void process_drawing();
   QString fit_view();
   double left() const;
-  QString out_of_time() const;
+  QString timeout_message() const;
   bindpose::Status write_record(const TourRequest& request) const;
 
   MainWindow* window_;
@@ -69,9 +69,9 @@ private:
   std::string tour_folder_;
   std::string folder_;
   bool overwrite_ = false;
-  WindowHand hand_;
+  SimulatedUser user_;
   QElapsedTimer clock_;
-  double seconds_ = 0.0;
+  double time_limit_ = 0.0;
   /// Elapsed time and CPU time of the last step, in seconds.
   double last_seconds_ = 0.0, last_cpu_seconds_ = 0.0;
   double first_picture_ = -1.0, first_picture_cpu_ = 0.0;
@@ -80,7 +80,8 @@ private:
   int frames_ = 0;
   nlohmann::ordered_json record_;
   QObject context_; ///< context of connections
-  std::unique_ptr<QObject> hands_off_; ///< filters out events of the real mouse and keyboard
+  std::unique_ptr<QObject>
+    real_input_filter_; ///< filters out events of the real mouse and keyboard
 };
 
 #endif

@@ -76,13 +76,14 @@ void add_work(Json& values, MainWindow* window)
   values["bound"] = window->is_bound();
   values["binding"] = window->binding()->is_running();
   values["idle"] = is_idle(window);
-  values["panel"] = WindowHand::panel_names().value(window->panels()->shown_panel()).toStdString();
+  values["panel"] =
+    SimulatedUser::panel_names().value(window->panels()->shown_panel()).toStdString();
   values["steps"] = window->history()->index();
   values["undo"] = window->history()->undoText().toStdString();
   values["redo"] = window->history()->redoText().toStdString();
   values["error"] = window->error().toStdString();
-  values["note"] = window->note_bar()->sentence().toStdString();
-  values["rebind"] = window->rebind_bar()->sentence().toStdString();
+  values["note"] = window->note_bar()->message().toStdString();
+  values["rebind"] = window->rebind_bar()->message().toStdString();
   values["dialog"] = QApplication::activeModalWidget() != nullptr;
   values["reading"] = window->reading().toStdString();
   values["state"] = window->viewport()->state_name().toStdString();
@@ -101,7 +102,7 @@ void add_options(Json& values, const Document* document)
 void add_handles(Json& values, MainWindow* window)
 {
   const Document* document = window->document();
-  auto* drawn = window->viewport()->handle_widget()->GetHandleSetRepresentation();
+  auto* representation = window->viewport()->handle_widget()->GetHandleSetRepresentation();
   const int selected = window->panel()->selected_handle();
   const Handles& handles = document->handles();
   values["selected"] =
@@ -112,8 +113,8 @@ void add_handles(Json& values, MainWindow* window)
   {
     const Handle& handle = handles[k];
     Vec3 head, tail;
-    drawn->GetPosedHead(document->handle_cells()[k], head.data());
-    drawn->GetPosedTail(document->handle_cells()[k], tail.data());
+    representation->GetPosedHead(document->handle_cells()[k], head.data());
+    representation->GetPosedTail(document->handle_cells()[k], tail.data());
     values["handle." + handle.name] = to_json(head);
     if (handle.kind == HandleKind::bone)
     {
@@ -164,8 +165,8 @@ void add_shape(Json& values, MainWindow* window)
   }
   if (posing->ghost()->place() != PoseGhost::hidden)
   {
-    values["compared"] = to_string(posing->compared()->options().method);
-    add_distance(values, "difference", posed.view(), posing->compared()->points());
+    values["compared"] = to_string(posing->compared_deformation()->options().method);
+    add_distance(values, "difference", posed.view(), posing->compared_deformation()->points());
   }
   if (posing->motion()->has_started())
   {
@@ -229,7 +230,7 @@ void add_volume(Json& values, MainWindow* window)
 
 void add_tets(Json& values, MainWindow* window)
 {
-  const TetView* view = window->inspection()->tet_view();
+  const TetView* view = window->tet_inspection()->tet_view();
   if (view->tets())
   {
     values["tets"] = view->tets()->GetNumberOfCells();
@@ -240,12 +241,12 @@ void add_tets(Json& values, MainWindow* window)
 
 void add_keys(Json& values, MainWindow* window)
 {
-  const PoseShelf& shelf = window->posing()->shelf();
-  values["keys"] = static_cast<int>(shelf.keys.keys().size());
-  values["keys.seconds"] = shelf.keys.duration();
+  const StoredPoses& stored_poses = window->posing()->stored_poses();
+  values["keys"] = static_cast<int>(stored_poses.keys.keys().size());
+  values["keys.seconds"] = stored_poses.keys.duration();
   values["keys.time"] = window->strip()->time();
-  values["keys.playing"] = window->posing()->keeper()->is_playing();
-  values["poses"] = static_cast<int>(shelf.library.entries().size());
+  values["keys.playing"] = window->posing()->pose_manager()->is_playing();
+  values["poses"] = static_cast<int>(stored_poses.library.entries().size());
 }
 
 void add_view(Json& values, MainWindow* window)
@@ -334,7 +335,7 @@ double cpu_seconds()
   return seconds_of(CLOCK_PROCESS_CPUTIME_ID);
 }
 
-double own_cpu_seconds()
+double thread_cpu_seconds()
 {
   return seconds_of(CLOCK_THREAD_CPUTIME_ID);
 }

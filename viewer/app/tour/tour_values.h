@@ -22,7 +22,7 @@ double distance(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b
 double seconds_since_start();
 /// Return the CPU seconds of all threads of this process, or of the calling thread only.
 double cpu_seconds();
-double own_cpu_seconds();
+double thread_cpu_seconds();
 
 } // namespace bindpose
 

@@ -40,11 +40,11 @@ private:
 };
 } // namespace
 
-void open_first_files(MainWindow& window, const std::vector<FirstFile>& files)
+void open_initial_files(MainWindow& window, const std::vector<InitialFile>& files)
 {
   // Collect the errors, because opening a file without an error hides the previous error.
   QStringList errors;
-  for (const FirstFile& file : files)
+  for (const InitialFile& file : files)
   {
     if (!file.error.empty())
     {
@@ -62,13 +62,13 @@ void open_first_files(MainWindow& window, const std::vector<FirstFile>& files)
   }
 }
 
-int run_viewer(const std::vector<FirstFile>& files, bool auto_rig)
+int run_viewer(const std::vector<InitialFile>& files, bool auto_rig)
 {
   const Application application;
   MainWindow window;
   window.show();
   window.sessions()->offer_recovery();
-  open_first_files(window, files);
+  open_initial_files(window, files);
   if (auto_rig)
   {
     window.shape_handles()->auto_rig();
@@ -77,7 +77,7 @@ int run_viewer(const std::vector<FirstFile>& files, bool auto_rig)
 }
 
 bindpose::Status play_tour(
-  const std::vector<FirstFile>& files, bool auto_rig, const TourRequest& request)
+  const std::vector<InitialFile>& files, bool auto_rig, const TourRequest& request)
 {
   bindpose::Tour tour;
   const bindpose::Status status = read_tour(request.path, tour);
@@ -97,7 +97,7 @@ bindpose::Status play_tour(
   TourPlayer player(
     &window, tour, QFileInfo(QString::fromStdString(request.path)).path().toStdString());
   window.show();
-  open_first_files(window, files);
+  open_initial_files(window, files);
   if (!files.empty() && !window.error().isEmpty())
   {
     return bindpose::Status::invalid_input(window.error().toStdString());

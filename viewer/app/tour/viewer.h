@@ -13,7 +13,7 @@ class MainWindow;
 
 /// A file to open when the program starts. If this struct has neither data nor an error, the window
 /// reads the file.
-struct FirstFile
+struct InitialFile
 {
   std::string path;
   std::optional<OpenedFile> data;
@@ -23,14 +23,14 @@ struct FirstFile
 /// Run `bindpose view`: open a window with these files (meshes, meshes with weights, handles), and
 /// return the program's exit code. An X server is required.
 /// @param auto_rig  create bones along the mesh and bind it
-int run_viewer(const std::vector<FirstFile>& files, bool auto_rig);
+int run_viewer(const std::vector<InitialFile>& files, bool auto_rig);
 
 /// Open all files that can be opened. The error bar shows the errors of the other files.
-void open_first_files(MainWindow& window, const std::vector<FirstFile>& files);
+void open_initial_files(MainWindow& window, const std::vector<InitialFile>& files);
 
 /// Run `bindpose view --play`: like run_viewer(), but a tour is played instead of user input. The
 /// user's list of recent files and recovered work are not read or changed.
 bindpose::Status play_tour(
-  const std::vector<FirstFile>& files, bool auto_rig, const TourRequest& request);
+  const std::vector<InitialFile>& files, bool auto_rig, const TourRequest& request);
 
 #endif

@@ -70,14 +70,14 @@ void scroll_to(QWidget* widget)
 
 // ---- The mouse ---------------------------------------------------------------------------------
 
-QPoint WindowHand::place(double x, double y) const
+QPoint SimulatedUser::place(double x, double y) const
 {
   const Viewport* viewport = this->window_->viewport();
   return { static_cast<int>(std::lround(x * (viewport->width() - 1))),
     static_cast<int>(std::lround(y * (viewport->height() - 1))) };
 }
 
-int WindowHand::number_of(const QString& handle) const
+int SimulatedUser::number_of(const QString& handle) const
 {
   const Handles& handles = this->window_->document()->handles();
   const auto found = std::find_if(handles.begin(), handles.end(),
@@ -85,7 +85,8 @@ int WindowHand::number_of(const QString& handle) const
   return found == handles.end() ? -1 : static_cast<int>(found - handles.begin());
 }
 
-QString WindowHand::place_of(const QString& handle, double along, QPoint& at) const
+QString SimulatedUser::find_handle_position(
+  const QString& handle, double along, QPoint& position) const
 {
   const int number = this->number_of(handle);
   if (number < 0)
@@ -93,32 +94,32 @@ QString WindowHand::place_of(const QString& handle, double along, QPoint& at) co
     return QObject::tr("unknown handle '%1'").arg(handle);
   }
   Viewport* viewport = this->window_->viewport();
-  auto* drawn = viewport->handle_widget()->GetHandleSetRepresentation();
+  auto* representation = viewport->handle_widget()->GetHandleSetRepresentation();
   const Index cell = this->window_->document()->handle_cells()[static_cast<std::size_t>(number)];
   Vec3 head, tail;
-  drawn->GetPosedHead(cell, head.data());
-  drawn->GetPosedTail(cell, tail.data());
+  representation->GetPosedHead(cell, head.data());
+  representation->GetPosedTail(cell, tail.data());
   const Vec3 place = head + along * (tail - head);
   vtkRenderer* renderer = viewport->renderer();
   renderer->SetWorldPoint(place.x(), place.y(), place.z(), 1.0);
   renderer->WorldToDisplay();
-  at = this->from_display(renderer->GetDisplayPoint());
+  position = this->from_display(renderer->GetDisplayPoint());
   return {};
 }
 
-QString WindowHand::place_of_gizmo(int part, QPoint& at) const
+QString SimulatedUser::find_gizmo_position(int part, QPoint& position) const
 {
-  auto* drawn = this->window_->viewport()->handle_widget()->GetHandleSetRepresentation();
+  auto* representation = this->window_->viewport()->handle_widget()->GetHandleSetRepresentation();
   double pixel[2] = { 0.0, 0.0 };
-  if (!drawn->GetGizmoGrip(part, pixel))
+  if (!representation->GetGizmoGrip(part, pixel))
   {
     return QObject::tr("this part of the gizmo is not visible");
   }
-  at = this->from_display(pixel);
+  position = this->from_display(pixel);
   return {};
 }
 
-QPoint WindowHand::from_display(const double* pixel) const
+QPoint SimulatedUser::from_display(const double* pixel) const
 {
   const Viewport* viewport = this->window_->viewport();
   const double scale = viewport->devicePixelRatioF();
@@ -126,53 +127,56 @@ QPoint WindowHand::from_display(const double* pixel) const
     viewport->height() - 1 - static_cast<int>(std::floor(pixel[1] / scale)) };
 }
 
-void WindowHand::send(QEvent::Type type, const QPoint& at, Qt::MouseButton button,
+void SimulatedUser::send(QEvent::Type type, const QPoint& position, Qt::MouseButton button,
   Qt::MouseButtons held, Qt::KeyboardModifiers keys)
 {
   Viewport* viewport = this->window_->viewport();
-  QMouseEvent event(type, at, viewport->mapToGlobal(at), button, held, keys);
+  QMouseEvent event(type, position, viewport->mapToGlobal(position), button, held, keys);
   QApplication::sendEvent(viewport, &event);
 }
 
-void WindowHand::press(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held)
+void SimulatedUser::press(
+  const QPoint& position, Qt::MouseButton button, Qt::KeyboardModifiers held)
 {
   // a click on the 3D view gives it the focus
   this->window_->viewport()->setFocus(Qt::MouseFocusReason);
   this->buttons_ |= button;
-  this->send(QEvent::MouseButtonPress, at, button, this->buttons_, held);
+  this->send(QEvent::MouseButtonPress, position, button, this->buttons_, held);
 }
 
-void WindowHand::move(const QPoint& at, Qt::KeyboardModifiers held)
+void SimulatedUser::move(const QPoint& position, Qt::KeyboardModifiers held)
 {
-  this->send(QEvent::MouseMove, at, Qt::NoButton, this->buttons_, held);
+  this->send(QEvent::MouseMove, position, Qt::NoButton, this->buttons_, held);
 }
 
-void WindowHand::release(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held)
+void SimulatedUser::release(
+  const QPoint& position, Qt::MouseButton button, Qt::KeyboardModifiers held)
 {
   this->buttons_ &= ~Qt::MouseButtons(button);
-  this->send(QEvent::MouseButtonRelease, at, button, this->buttons_, held);
+  this->send(QEvent::MouseButtonRelease, position, button, this->buttons_, held);
 }
 
-void WindowHand::double_click(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held)
+void SimulatedUser::double_click(
+  const QPoint& position, Qt::MouseButton button, Qt::KeyboardModifiers held)
 {
-  this->press(at, button, held);
-  this->release(at, button, held);
+  this->press(position, button, held);
+  this->release(position, button, held);
   this->buttons_ |= button;
-  this->send(QEvent::MouseButtonDblClick, at, button, this->buttons_, held);
-  this->release(at, button, held);
+  this->send(QEvent::MouseButtonDblClick, position, button, this->buttons_, held);
+  this->release(position, button, held);
 }
 
-void WindowHand::wheel(const QPoint& at, double turns, Qt::KeyboardModifiers held)
+void SimulatedUser::wheel(const QPoint& position, double turns, Qt::KeyboardModifiers held)
 {
   Viewport* viewport = this->window_->viewport();
   constexpr int notch = 120; // angle of one wheel notch in eighths of a degree (Qt's unit)
   const QPoint angle(0, static_cast<int>(std::lround(notch * turns)));
-  QWheelEvent event(
-    at, viewport->mapToGlobal(at), QPoint(), angle, this->buttons_, held, Qt::NoScrollPhase, false);
+  QWheelEvent event(position, viewport->mapToGlobal(position), QPoint(), angle, this->buttons_,
+    held, Qt::NoScrollPhase, false);
   QApplication::sendEvent(viewport, &event);
 }
 
-void WindowHand::leave()
+void SimulatedUser::leave()
 {
   // While a button is pressed, the 3D view grabs the mouse, so Qt would send no leave event.
   if (this->buttons_ == Qt::NoButton)
@@ -182,15 +186,15 @@ void WindowHand::leave()
   }
 }
 
-void WindowHand::scrub(double seconds)
+void SimulatedUser::scrub(double seconds)
 {
   this->leave();
   KeyTrack* track = this->window_->strip()->track();
-  const QPoint at(track->pixel(seconds), track->height() / 2);
+  const QPoint position(track->pixel(seconds), track->height() / 2);
   for (const QEvent::Type type : { QEvent::MouseButtonPress, QEvent::MouseButtonRelease })
   {
     const bool down = type == QEvent::MouseButtonPress;
-    QMouseEvent event(type, at, track->mapToGlobal(at), Qt::LeftButton,
+    QMouseEvent event(type, position, track->mapToGlobal(position), Qt::LeftButton,
       down ? Qt::LeftButton : Qt::NoButton, Qt::NoModifier);
     QApplication::sendEvent(track, &event);
   }
@@ -198,25 +202,25 @@ void WindowHand::scrub(double seconds)
 
 // ---- Files, keys and menus ---------------------------------------------------------------------
 
-QString WindowHand::drop(const QString& file)
+QString SimulatedUser::drop(const QString& file)
 {
   this->leave();
   QMimeData data;
   data.setUrls({ QUrl::fromLocalFile(QFileInfo(file).absoluteFilePath()) });
-  const QPoint at = this->window_->rect().center();
-  QDragEnterEvent enter(at, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  const QPoint position = this->window_->rect().center();
+  QDragEnterEvent enter(position, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
   enter.ignore();
   QApplication::sendEvent(this->window_, &enter);
   if (!enter.isAccepted())
   {
     return QObject::tr("the window does not accept files now");
   }
-  QDropEvent drop(at, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
+  QDropEvent drop(position, Qt::CopyAction, &data, Qt::LeftButton, Qt::NoModifier);
   QApplication::sendEvent(this->window_, &drop);
   return drop.isAccepted() ? QString() : QObject::tr("the file cannot be opened");
 }
 
-QString WindowHand::type(const QString& text, const QString& field)
+QString SimulatedUser::type(const QString& text, const QString& field)
 {
   this->leave();
   for (QWidget* each : this->window_->findChildren<QWidget*>())
@@ -249,7 +253,7 @@ QString WindowHand::type(const QString& text, const QString& field)
   return QObject::tr("no field '%1' is visible").arg(field);
 }
 
-QString WindowHand::press_key(const QString& keys)
+QString SimulatedUser::press_key(const QString& keys)
 {
   const QKeySequence sequence = QKeySequence::fromString(keys, QKeySequence::PortableText);
   if (sequence.count() != 1 || (sequence[0] & ~Qt::KeyboardModifierMask) == Qt::Key_unknown)
@@ -288,7 +292,7 @@ QString WindowHand::press_key(const QString& keys)
   return {};
 }
 
-QStringList WindowHand::actions() const
+QStringList SimulatedUser::actions() const
 {
   QStringList names;
   for (const QAction* each : this->window_->findChildren<QAction*>())
@@ -301,12 +305,12 @@ QStringList WindowHand::actions() const
   return names;
 }
 
-QAction* WindowHand::action(const QString& name) const
+QAction* SimulatedUser::action(const QString& name) const
 {
   return name.isEmpty() ? nullptr : this->window_->findChild<QAction*>(name);
 }
 
-QString WindowHand::trigger(const QString& name)
+QString SimulatedUser::trigger(const QString& name)
 {
   QAction* found = this->action(name);
   if (!found)
@@ -323,7 +327,7 @@ QString WindowHand::trigger(const QString& name)
 
 // ---- Panels ------------------------------------------------------------------------------------
 
-QString WindowHand::push(const QString& text)
+QString SimulatedUser::push(const QString& text)
 {
   this->leave();
   bool seen = false;
@@ -352,7 +356,7 @@ QString WindowHand::push(const QString& text)
               : QObject::tr("no button '%1' is visible").arg(text);
 }
 
-QString WindowHand::choose(const QString& key, const QVariant& value)
+QString SimulatedUser::choose(const QString& key, const QVariant& value)
 {
   this->leave();
   const OptionInfo* option = find_option(key);
@@ -420,14 +424,14 @@ QString WindowHand::choose(const QString& key, const QVariant& value)
   return {};
 }
 
-const QStringList& WindowHand::panel_names()
+const QStringList& SimulatedUser::panel_names()
 {
   // The names are in the same order as PanelColumn::Panel.
   static const QStringList names{ "pose", "weights", "tets", "volume" };
   return names;
 }
 
-QString WindowHand::show_panel(const QString& name)
+QString SimulatedUser::show_panel(const QString& name)
 {
   this->leave();
   const int panel = panel_names().indexOf(name);
@@ -442,7 +446,7 @@ QString WindowHand::show_panel(const QString& name)
     : QObject::tr("the panel '%1' is not available").arg(name);
 }
 
-QString WindowHand::select(const QString& handle)
+QString SimulatedUser::select(const QString& handle)
 {
   this->leave();
   const int number = this->number_of(handle);
@@ -454,7 +458,7 @@ QString WindowHand::select(const QString& handle)
   return {};
 }
 
-QString WindowHand::set_mode(const QString& mode)
+QString SimulatedUser::set_mode(const QString& mode)
 {
   this->leave();
   const std::vector<int> selected = this->window_->panel()->selected_handles();
@@ -474,7 +478,7 @@ QString WindowHand::set_mode(const QString& mode)
       ? QObject::tr("the mode '%1' is not available for these handles").arg(mode)
       : QObject::tr("the mode '%1' is not available for this handle").arg(mode);
   }
-  this->window_->editing()->commands()->fix(static_cast<HandleMode>(number));
+  this->window_->editing()->commands()->set_handle_mode(static_cast<HandleMode>(number));
   return {};
 }
 
@@ -493,15 +497,15 @@ bool is_busy(Deformation* deformation)
 bool is_idle(const MainWindow* window)
 {
   const Posing* posing = window->posing();
-  const bool moves = window->panel()->pose()->moves();
+  const bool simulates_motion = window->panel()->pose()->simulates_motion();
   const bool compares = posing->ghost()->place() != PoseGhost::hidden;
-  return !window->binding()->is_running() && !window->inspection()->is_busy() &&
+  return !window->binding()->is_running() && !window->tet_inspection()->is_busy() &&
     !window->weights()->is_busy() && !window->winding_volume()->is_running() &&
-    !window->shape_handles()->is_running() && !posing->keeper()->is_playing() &&
+    !window->shape_handles()->is_running() && !posing->pose_manager()->is_playing() &&
     !posing->motion()->is_playing() && !posing->sequence_export()->is_running() &&
-    (moves || !is_busy(posing->deformation())) &&
-    (!moves || !posing->motion()->body() || posing->motion()->has_started()) &&
-    (!compares || !is_busy(posing->compared()));
+    (simulates_motion || !is_busy(posing->deformation())) &&
+    (!simulates_motion || !posing->motion()->body() || posing->motion()->has_started()) &&
+    (!compares || !is_busy(posing->compared_deformation()));
 }
 
 bool wait_until(const std::function<bool()>& condition, double seconds)

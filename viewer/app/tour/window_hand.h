@@ -17,24 +17,25 @@ class QAction;
 /// entries, buttons and options. Each action uses the widget that a user would use. If a user could
 /// not perform an action, because a widget is disabled or missing, the function returns a sentence
 /// with the reason.
-class WindowHand
+class SimulatedUser
 {
 public:
-  explicit WindowHand(MainWindow* window) : window_(window) {}
+  explicit SimulatedUser(MainWindow* window) : window_(window) {}
 
   // ---- The mouse on the 3D view; positions in pixels from its upper left corner ----
   QPoint place(double x, double y) const; ///< convert fractions of the view's width and height
   /// Find the screen position of a posed handle, between its head (`along` is 0) and its tail (1).
   /// Return a sentence if there is no such handle.
-  QString place_of(const QString& handle, double along, QPoint& at) const;
+  QString find_handle_position(const QString& handle, double along, QPoint& position) const;
   /// Find the position at which the mouse can best grab a part of the selected handle's gizmo.
   /// Return a sentence if the part is not visible.
-  QString place_of_gizmo(int part, QPoint& at) const;
-  void press(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held = {});
-  void move(const QPoint& at, Qt::KeyboardModifiers held = {});
-  void release(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held = {});
-  void double_click(const QPoint& at, Qt::MouseButton button, Qt::KeyboardModifiers held = {});
-  void wheel(const QPoint& at, double turns, Qt::KeyboardModifiers held = {});
+  QString find_gizmo_position(int part, QPoint& position) const;
+  void press(const QPoint& position, Qt::MouseButton button, Qt::KeyboardModifiers held = {});
+  void move(const QPoint& position, Qt::KeyboardModifiers held = {});
+  void release(const QPoint& position, Qt::MouseButton button, Qt::KeyboardModifiers held = {});
+  void double_click(
+    const QPoint& position, Qt::MouseButton button, Qt::KeyboardModifiers held = {});
+  void wheel(const QPoint& position, double turns, Qt::KeyboardModifiers held = {});
   /// Move the mouse off the 3D view, as a user does before using another widget.
   void leave();
   /// Click on the track of the key frames at this time.
@@ -70,8 +71,8 @@ public:
 private:
   int number_of(const QString& handle) const; ///< index of a handle by name; -1: no such handle
   QPoint from_display(const double* pixel) const;
-  void send(QEvent::Type type, const QPoint& at, Qt::MouseButton button, Qt::MouseButtons held,
-    Qt::KeyboardModifiers keys);
+  void send(QEvent::Type type, const QPoint& position, Qt::MouseButton button,
+    Qt::MouseButtons held, Qt::KeyboardModifiers keys);
 
   MainWindow* window_;
   Qt::MouseButtons buttons_;

@@ -57,9 +57,9 @@ PlaneHandle::PlaneHandle(Viewport* viewport, QObject* parent) : QObject(parent),
   {
     this->widget_->GetEventTranslator()->RemoveTranslation(event);
   }
-  this->widget_->AddObserver(vtkCommand::StartInteractionEvent, this, &PlaneHandle::widget_caught);
-  this->widget_->AddObserver(vtkCommand::InteractionEvent, this, &PlaneHandle::widget_moved);
-  this->widget_->AddObserver(vtkCommand::EndInteractionEvent, this, &PlaneHandle::widget_let_go);
+  this->widget_->AddObserver(vtkCommand::StartInteractionEvent, this, &PlaneHandle::drag_began);
+  this->widget_->AddObserver(vtkCommand::InteractionEvent, this, &PlaneHandle::drag_continued);
+  this->widget_->AddObserver(vtkCommand::EndInteractionEvent, this, &PlaneHandle::drag_ended);
   viewport->installEventFilter(this);
 }
 
@@ -82,7 +82,7 @@ void PlaneHandle::set_box(const bindpose::Box& box)
     }
     this->plane_->PlaceWidget(bounds);
   }
-  this->go_to_place();
+  this->apply_relative_position();
 }
 
 void PlaneHandle::draw_box(bool drawn)
@@ -108,7 +108,7 @@ void PlaneHandle::set_orientation(int orientation)
   {
     this->state_.free_normal = Vec3::Unit(orientation);
   }
-  this->go_to_place();
+  this->apply_relative_position();
   Q_EMIT this->moved();
 }
 
@@ -118,7 +118,7 @@ void PlaneHandle::set_free_normal(const Vec3& normal)
   this->state_.free_normal = normal;
   if (this->state_.orientation == free_plane)
   {
-    this->go_to_place();
+    this->apply_relative_position();
     Q_EMIT this->moved();
   }
 }
@@ -127,7 +127,7 @@ void PlaneHandle::set_place(double place)
 {
   this->cancel();
   this->state_.place = place;
-  this->go_to_place();
+  this->apply_relative_position();
   Q_EMIT this->moved();
 }
 
@@ -137,7 +137,7 @@ void PlaneHandle::set_position(double position)
   // Ignore smaller changes: setting the current position again must not change the relative
   // position by round-off.
   constexpr double round_off = 1e-12;
-  const double place = this->place_of(position);
+  const double place = this->to_relative_position(position);
   if (std::abs(place - this->state_.place) > round_off)
   {
     this->state_.place = place;
@@ -153,7 +153,7 @@ Vec3 PlaneHandle::normal() const
                                                 : Vec3(Vec3::Unit(this->state_.orientation));
 }
 
-double PlaneHandle::place_of(double position) const
+double PlaneHandle::to_relative_position(double position) const
 {
   const auto [first, last] = this->positions();
   return last > first ? std::clamp((position - first) / (last - first), 0.0, 1.0)
@@ -162,7 +162,7 @@ double PlaneHandle::place_of(double position) const
 
 /// Move the plane to its relative position. Its arrow is drawn at the point of the plane that is
 /// nearest to the center of the box.
-void PlaneHandle::go_to_place()
+void PlaneHandle::apply_relative_position()
 {
   const auto [first, last] = this->positions();
   const Vec3 middle = this->box_.empty() ? Vec3(Vec3::Zero()) : this->box_.center();
@@ -208,24 +208,24 @@ void PlaneHandle::place_widget()
 
 // ---- The mouse ---------------------------------------------------------------------------------
 
-void PlaneHandle::mouse_ray(Vec3& from, Vec3& along) const
+void PlaneHandle::mouse_ray(Vec3& ray_origin, Vec3& ray_direction) const
 {
-  int at[2];
-  this->viewport_->interactor()->GetEventPosition(at);
-  this->viewport_->ray_at(at[0], at[1], from, along);
+  int event_position[2];
+  this->viewport_->interactor()->GetEventPosition(event_position);
+  this->viewport_->ray_at(event_position[0], event_position[1], ray_origin, ray_direction);
 }
 
-void PlaneHandle::widget_caught()
+void PlaneHandle::drag_began()
 {
-  this->before_ = this->state_;
+  this->state_before_drag_ = this->state_;
   this->dragged_ = true;
   const Vec3 normal = this->normal();
-  Vec3 from;
-  Vec3 along;
-  this->mouse_ray(from, along);
-  const double slope = along.dot(normal);
-  this->grip_ = std::abs(slope) > 1e-6
-    ? Vec3(from + (this->position() - from.dot(normal)) / slope * along)
+  Vec3 ray_origin;
+  Vec3 ray_direction;
+  this->mouse_ray(ray_origin, ray_direction);
+  const double cosine = ray_direction.dot(normal);
+  this->grabbed_point_ = std::abs(cosine) > 1e-6
+    ? Vec3(ray_origin + (this->position() - ray_origin.dot(normal)) / cosine * ray_direction)
     : this->state_.origin;
 }
 
@@ -233,7 +233,7 @@ void PlaneHandle::widget_caught()
 /// the projected normal, which is inaccurate if the normal is nearly parallel to the view
 /// direction. Instead, this function moves the grabbed point along the normal to the point that is
 /// nearest to the ray through the mouse.
-void PlaneHandle::widget_moved()
+void PlaneHandle::drag_continued()
 {
   const bool pushed =
     this->plane_->GetInteractionState() == vtkImplicitPlaneRepresentation::Pushing;
@@ -248,34 +248,35 @@ void PlaneHandle::widget_moved()
   double position = this->position();
   if (pushed)
   {
-    Vec3 from;
-    Vec3 along;
-    this->mouse_ray(from, along);
-    const double slope = along.dot(normal);
-    const double steep = 1.0 - slope * slope;
+    Vec3 ray_origin;
+    Vec3 ray_direction;
+    this->mouse_ray(ray_origin, ray_direction);
+    const double cosine = ray_direction.dot(normal);
+    const double steep = 1.0 - cosine * cosine;
     // If the view direction is nearly parallel to the normal, keep the widget's result.
     if (steep > 0.01)
     {
-      const Vec3 gap = from - this->grip_;
-      position = this->grip_.dot(normal) + (gap.dot(normal) - gap.dot(along) * slope) / steep;
+      const Vec3 gap = ray_origin - this->grabbed_point_;
+      position = this->grabbed_point_.dot(normal) +
+        (gap.dot(normal) - gap.dot(ray_direction) * cosine) / steep;
     }
   }
   position = std::isfinite(position) ? std::clamp(position, first, last) : before;
   this->state_.origin += (position - this->position()) * normal;
-  this->state_.place = this->place_of(position);
+  this->state_.place = this->to_relative_position(position);
   this->plane_->SetOrigin(this->state_.origin.data());
   Q_EMIT this->moved();
 }
 
-void PlaneHandle::widget_let_go()
+void PlaneHandle::drag_ended()
 {
   if (!this->dragged_)
   {
     return; // the drag was canceled
   }
   this->dragged_ = false;
-  const bool turned = this->state_.free_normal != this->before_.free_normal;
-  if (turned || this->state_.place != this->before_.place)
+  const bool turned = this->state_.free_normal != this->state_before_drag_.free_normal;
+  if (turned || this->state_.place != this->state_before_drag_.place)
   {
     Q_EMIT this->dragged(turned);
   }
@@ -286,7 +287,7 @@ void PlaneHandle::cancel()
   if (this->dragged_)
   {
     this->dragged_ = false;
-    this->state_ = this->before_;
+    this->state_ = this->state_before_drag_;
     // Simulate the release of the button, because the widget has no function to end a drag.
     this->viewport_->interactor()->LeftButtonReleaseEvent();
     this->place_widget();

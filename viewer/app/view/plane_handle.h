@@ -61,11 +61,11 @@ public:
   std::pair<double, double> positions() const;
   bindpose::Vec3 origin() const { return this->state_.origin; }
   bindpose::Vec3 normal() const;
-  /// Return the free normal (kept_free_normal) or the relative position
+  /// Return the free normal (free_normal_before_drag) or the relative position
   /// (relative_position_before_drag). During a drag both functions return the values before the
   /// drag.
-  bindpose::Vec3 kept_free_normal() const { return this->kept().free_normal; }
-  double relative_position_before_drag() const { return this->kept().place; }
+  bindpose::Vec3 free_normal_before_drag() const { return this->state_before_drag().free_normal; }
+  double relative_position_before_drag() const { return this->state_before_drag().place; }
 
   /// Cancel a drag with the mouse, as Esc does.
   void cancel();
@@ -88,23 +88,27 @@ private:
     double place = 0.5;
     bindpose::Vec3 origin = bindpose::Vec3::Zero(); ///< point of the plane where its arrow is drawn
   };
-  const State& kept() const { return this->dragged_ ? this->before_ : this->state_; }
-  double place_of(double position) const;
-  void go_to_place();
+  const State& state_before_drag() const
+  {
+    return this->dragged_ ? this->state_before_drag_ : this->state_;
+  }
+  double to_relative_position(double position) const;
+  void apply_relative_position();
   void place_widget();
   /// Return the line of sight through the mouse.
-  void mouse_ray(bindpose::Vec3& from, bindpose::Vec3& along) const;
-  void widget_caught();
-  void widget_moved();
-  void widget_let_go();
+  void mouse_ray(bindpose::Vec3& ray_origin, bindpose::Vec3& ray_direction) const;
+  void drag_began();
+  void drag_continued();
+  void drag_ended();
 
   Viewport* viewport_;
   bindpose::Box box_;
   bool shown_ = false;
   State state_;
-  State before_; ///< state before the drag
+  State state_before_drag_; ///< state before the drag
   bool dragged_ = false;
-  bindpose::Vec3 grip_ = bindpose::Vec3::Zero(); // point of the plane that the mouse has grabbed
+  bindpose::Vec3 grabbed_point_ =
+    bindpose::Vec3::Zero(); // point of the plane that the mouse has grabbed
   vtkNew<vtkImplicitPlaneWidget2> widget_;
   vtkNew<vtkImplicitPlaneRepresentation> plane_;
 };

@@ -76,8 +76,8 @@ public:
       this->vtkInteractorStyleTrackballCamera::OnLeftButtonDown();
       return;
     }
-    const int* at = this->Interactor->GetEventPosition();
-    this->FindPokedRenderer(at[0], at[1]);
+    const int* event_position = this->Interactor->GetEventPosition();
+    this->FindPokedRenderer(event_position[0], event_position[1]);
     this->StartPan();
   }
 
@@ -142,7 +142,7 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
   // Disable direct rendering, so that all requests of widgets and camera during one event result in
   // one rendering after the event.
   this->interactor()->EnableRenderOff();
-  this->interactor()->AddObserver(vtkCommand::RenderEvent, this, &Viewport::render_wanted);
+  this->interactor()->AddObserver(vtkCommand::RenderEvent, this, &Viewport::render_requested);
   this->since_start_.start();
   this->renderer_->AddObserver(vtkCommand::EndEvent, this, &Viewport::frame_drawn);
 }
@@ -156,9 +156,9 @@ Viewport::~Viewport()
 
 void Viewport::set_surface(vtkPolyData* surface)
 {
-  if (surface && this->shaded_ && this->shaded_->is_of(surface))
+  if (surface && this->shaded_ && this->shaded_->has_mesh_of(surface))
   {
-    this->shaded_->take(surface);
+    this->shaded_->set_arrays(surface);
   }
   else
   {
@@ -232,9 +232,9 @@ void Viewport::set_picture(vtkImageData* picture)
   this->set_surface_look(this->look_);
 }
 
-void Viewport::set_tint(double share)
+void Viewport::set_tint(double opacity)
 {
-  this->tint_ = share;
+  this->tint_ = opacity;
   this->show_tint();
   this->refresh();
 }
@@ -275,7 +275,7 @@ void Viewport::set_curves(vtkPolyData* curves)
   {
     double bounds[6];
     curves->GetBounds(bounds);
-    bindpose::Box box = this->also_shown_;
+    bindpose::Box box = this->extra_bounds_;
     box.add(bindpose::Vec3(bounds[0], bounds[2], bounds[4]));
     box.add(bindpose::Vec3(bounds[1], bounds[3], bounds[5]));
     this->curves_ =
@@ -296,26 +296,27 @@ void Viewport::show_curves(bool shown)
   }
 }
 
-void Viewport::show_legend(LegendPlace place, const QString& name, const bindpose::ColorMap& map)
+void Viewport::show_legend(
+  LegendPosition position, const QString& name, const bindpose::ColorMap& map)
 {
-  this->legends_.erase(place);
+  this->legends_.erase(position);
   if (!name.isEmpty())
   {
-    this->legends_[place] = { name, map };
+    this->legends_[position] = { name, map };
   }
   this->draw_legend();
   this->refresh();
 }
 
-QString Viewport::legend(LegendPlace place) const
+QString Viewport::legend(LegendPosition position) const
 {
-  const auto found = this->legends_.find(place);
+  const auto found = this->legends_.find(position);
   return found == this->legends_.end() ? QString() : found->second.first;
 }
 
-void Viewport::set_also_shown(const bindpose::Box& box)
+void Viewport::set_extra_bounds(const bindpose::Box& box)
 {
-  this->also_shown_ = box;
+  this->extra_bounds_ = box;
 }
 
 void Viewport::move_surface(vtkPolyData* posed)
@@ -339,7 +340,7 @@ void Viewport::move_shape(bindpose::ShadedSurface& shape, bindpose::PointsView p
     return;
   }
   bindpose::Points drawn = points;
-  drawn += this->depths_ * this->toward_.transpose();
+  drawn += this->depths_ * this->eye_direction_.transpose();
   shape.move(drawn);
 }
 
@@ -349,34 +350,34 @@ void Viewport::set_ghosted(bool ghosted)
   this->set_surface_look(this->look_);
 }
 
-void Viewport::set_split(vtkRenderer* beside, vtkPolyData* shape)
+void Viewport::set_split(vtkRenderer* right_renderer, vtkPolyData* shape)
 {
   const double before = this->aspect_of(this->size());
-  this->shape_beside_ = shape;
-  if (beside != this->beside_)
+  this->right_shape_ = shape;
+  if (right_renderer != this->right_renderer_)
   {
-    this->beside_ = beside;
-    this->renderer_->SetViewport(0.0, 0.0, beside ? 0.5 : 1.0, 1.0);
+    this->right_renderer_ = right_renderer;
+    this->renderer_->SetViewport(0.0, 0.0, right_renderer ? 0.5 : 1.0, 1.0);
     this->use_appearance();
     this->draw_legend();
     // If the user has not moved the camera, restore the camera from before the split.
     vtkCamera* camera = this->renderer_->GetActiveCamera();
-    if (!beside && same_place(camera, this->split_camera_))
+    if (!right_renderer && same_place(camera, this->camera_after_split_))
     {
-      camera->DeepCopy(this->whole_camera_);
+      camera->DeepCopy(this->camera_before_split_);
       this->renderer_->ResetCameraClippingRange();
     }
     else
     {
-      this->whole_camera_->DeepCopy(camera);
+      this->camera_before_split_->DeepCopy(camera);
       this->keep_in_view(before);
-      this->split_camera_->DeepCopy(camera);
+      this->camera_after_split_->DeepCopy(camera);
     }
   }
   this->refresh();
 }
 
-void Viewport::name_halves(const QString& left, const QString& right)
+void Viewport::set_half_names(const QString& left, const QString& right)
 {
   if (left != this->left_name_ || right != this->right_name_)
   {
@@ -387,7 +388,7 @@ void Viewport::name_halves(const QString& left, const QString& right)
   }
 }
 
-void Viewport::name_state(const QString& state)
+void Viewport::set_state_name(const QString& state)
 {
   if (state != this->state_name_)
   {
@@ -401,16 +402,16 @@ void Viewport::name_state(const QString& state)
 /// split.
 double Viewport::aspect_of(const QSize& size) const
 {
-  return (this->beside_ ? 0.5 : 1.0) * size.width() / std::max(size.height(), 1);
+  return (this->right_renderer_ ? 0.5 : 1.0) * size.width() / std::max(size.height(), 1);
 }
 
 void Viewport::keep_in_view(double aspect_before)
 {
-  const std::vector<bindpose::Vec3> places = this->places_to_see();
-  if (!places.empty())
+  const std::vector<bindpose::Vec3> positions = this->points_to_show();
+  if (!positions.empty())
   {
     const Eigen::Map<const bindpose::Points> points(
-      places.front().data(), static_cast<bindpose::Index>(places.size()), 3);
+      positions.front().data(), static_cast<bindpose::Index>(positions.size()), 3);
     bindpose::keep_in_view(
       this->renderer_->GetActiveCamera(), points, aspect_before, this->aspect_of(this->size()));
     this->renderer_->ResetCameraClippingRange();
@@ -517,7 +518,7 @@ void Viewport::show_values(
   this->show_legend(weight_legend, this->has_values_ ? name : QString(), map);
 }
 
-bool Viewport::shows(vtkDoubleArray* values) const
+bool Viewport::shows_values(vtkDoubleArray* values) const
 {
   vtkPolyData* drawn = this->drawn();
   return values && drawn && this->has_values_ &&
@@ -530,7 +531,7 @@ void Viewport::use_appearance()
   using namespace bindpose::palette;
   const bindpose::Rgb& below = is_dark() ? dark_gradient_bottom : gradient_bottom;
   const bindpose::Rgb& above = is_dark() ? dark_gradient_top : gradient_top;
-  for (vtkRenderer* renderer : { this->renderer_.Get(), this->beside_ })
+  for (vtkRenderer* renderer : { this->renderer_.Get(), this->right_renderer_ })
   {
     if (renderer)
     {
@@ -572,7 +573,7 @@ void Viewport::draw_legend()
   const int most = std::max(2, static_cast<int>((room / font - around) / line));
   const auto add = [&](const bindpose::ColorMap& all, const QString& name)
   {
-    const bindpose::ColorMap map = bindpose::shortened(all, most);
+    const bindpose::ColorMap map = bindpose::shorten_legend(all, most);
     box.height = map.texts.empty() && !map.ticks.empty()
       ? static_cast<int>(240 * scale)
       : static_cast<int>((around + line * static_cast<double>(map.texts.size())) * font);
@@ -585,11 +586,11 @@ void Viewport::draw_legend()
   {
     add(bindpose::weight_map(), this->column_name_);
   }
-  for (const auto& [place, legend] : this->legends_)
+  for (const auto& [position, legend] : this->legends_)
   {
     add(legend.second, legend.first);
   }
-  if (this->beside_)
+  if (this->right_renderer_)
   {
     // draw the names at the lower edge, where they do not cover a shape
     this->add_name(0.25, 14.0, this->left_name_);
@@ -603,7 +604,7 @@ void Viewport::draw_legend()
 }
 
 /// Add a centered text at a fraction of the width, and `above` Qt pixels above the lower edge.
-void Viewport::add_name(double middle, double above, const QString& name)
+void Viewport::add_name(double center_fraction, double above, const QString& name)
 {
   const double scale = this->pixel_scale();
   vtkNew<vtkTextActor> text;
@@ -613,7 +614,7 @@ void Viewport::add_name(double middle, double above, const QString& name)
   font->SetJustificationToCentered();
   const bindpose::Rgb& color = is_dark() ? bindpose::palette::dark_text : bindpose::palette::text;
   font->SetColor(color[0], color[1], color[2]);
-  text->SetPosition(std::round(middle * scale * this->width()), std::round(above * scale));
+  text->SetPosition(std::round(center_fraction * scale * this->width()), std::round(above * scale));
   this->legend_->AddViewProp(text);
 }
 
@@ -627,7 +628,7 @@ void Viewport::resizeEvent(QResizeEvent* event)
   QVTKOpenGLNativeWidget::resizeEvent(event);
   this->resizing_ = false;
   this->update();
-  if (this->beside_ && event->oldSize().isValid())
+  if (this->right_renderer_ && event->oldSize().isValid())
   {
     this->keep_in_view(this->aspect_of(event->oldSize()));
   }
@@ -640,7 +641,7 @@ void Viewport::initializeGL()
   const auto* name =
     reinterpret_cast<const char*>(this->context()->functions()->glGetString(GL_RENDERER));
   const QString renderer = QString::fromLatin1(name ? name : "");
-  this->draws_on_processor_ = renderer.contains("llvmpipe") || renderer.contains("softpipe") ||
+  this->uses_software_rendering_ = renderer.contains("llvmpipe") || renderer.contains("softpipe") ||
     renderer.contains("Software") || renderer.contains("SWR");
 }
 
@@ -656,7 +657,7 @@ void Viewport::paintGL()
   }
 }
 
-void Viewport::render_wanted()
+void Viewport::render_requested()
 {
   // rendering is enabled only in paintGL()
   if (!this->interactor()->GetEnableRender())
@@ -666,12 +667,12 @@ void Viewport::render_wanted()
 }
 
 /// Return points of everything that the view must contain.
-std::vector<bindpose::Vec3> Viewport::places_to_see() const
+std::vector<bindpose::Vec3> Viewport::points_to_show() const
 {
   // Include the handles only if there is no other data.
   std::vector<vtkPolyData*> shown;
   for (vtkPolyData* candidate : { this->shaded_ ? this->shaded_->polydata() : nullptr,
-         this->curve_data_.Get(), this->beside_ ? this->shape_beside_.Get() : nullptr })
+         this->curve_data_.Get(), this->right_renderer_ ? this->right_shape_.Get() : nullptr })
   {
     if (candidate && candidate->GetNumberOfPoints() > 0)
     {
@@ -679,40 +680,40 @@ std::vector<bindpose::Vec3> Viewport::places_to_see() const
     }
   }
   vtkPolyData* handles = this->handles_->GetHandles();
-  if (shown.empty() && this->also_shown_.empty() && handles && handles->GetNumberOfPoints() > 0)
+  if (shown.empty() && this->extra_bounds_.empty() && handles && handles->GetNumberOfPoints() > 0)
   {
     shown.push_back(handles);
   }
-  std::vector<bindpose::Vec3> places;
+  std::vector<bindpose::Vec3> positions;
   for (vtkPolyData* polydata : shown)
   {
     const bindpose::SharedMatrix<bindpose::Points> points = bindpose::to_points(polydata);
     for (bindpose::Index v = 0; v < points.view().rows(); ++v)
     {
-      places.emplace_back(points.view().row(v).transpose());
+      positions.emplace_back(points.view().row(v).transpose());
     }
   }
-  if (!this->also_shown_.empty())
+  if (!this->extra_bounds_.empty())
   {
-    const bindpose::Vec3 ends[2] = { this->also_shown_.lower, this->also_shown_.upper };
+    const bindpose::Vec3 ends[2] = { this->extra_bounds_.lower, this->extra_bounds_.upper };
     for (int corner = 0; corner < 8; ++corner)
     {
-      places.emplace_back(
+      positions.emplace_back(
         ends[corner & 1].x(), ends[corner >> 1 & 1].y(), ends[corner >> 2 & 1].z());
     }
   }
-  return places;
+  return positions;
 }
 
 void Viewport::reset_view()
 {
-  const std::vector<bindpose::Vec3> places = this->places_to_see();
-  if (places.empty())
+  const std::vector<bindpose::Vec3> positions = this->points_to_show();
+  if (positions.empty())
   {
     return;
   }
   const Eigen::Map<const bindpose::Points> points(
-    places.front().data(), static_cast<bindpose::Index>(places.size()), 3);
+    positions.front().data(), static_cast<bindpose::Index>(positions.size()), 3);
   vtkCamera* camera = this->renderer_->GetActiveCamera();
   const double aspect = this->aspect_of(this->size());
   if (this->plane_)
@@ -727,14 +728,14 @@ void Viewport::reset_view()
   this->renderer_->ResetCameraClippingRange();
 }
 
-QPoint Viewport::to_vtk(const QPoint& place) const
+QPoint Viewport::to_vtk(const QPoint& position) const
 {
   const double scale = this->devicePixelRatioF();
-  return { static_cast<int>(scale * place.x()),
-    static_cast<int>(scale * (this->height() - 1 - place.y())) };
+  return { static_cast<int>(scale * position.x()),
+    static_cast<int>(scale * (this->height() - 1 - position.y())) };
 }
 
-void Viewport::ray_at(int x, int y, bindpose::Vec3& from, bindpose::Vec3& along) const
+void Viewport::ray_at(int x, int y, bindpose::Vec3& ray_origin, bindpose::Vec3& ray_direction) const
 {
   const auto world = [&](double depth)
   {
@@ -743,8 +744,8 @@ void Viewport::ray_at(int x, int y, bindpose::Vec3& from, bindpose::Vec3& along)
     return bindpose::Vec3(
       Eigen::Map<const Eigen::Vector4d>(this->renderer_->GetWorldPoint()).hnormalized());
   };
-  from = world(0.0);
-  along = (world(1.0) - from).normalized();
+  ray_origin = world(0.0);
+  ray_direction = (world(1.0) - ray_origin).normalized();
 }
 
 void Viewport::set_handles(vtkPolyData* handles, bool used)
@@ -770,7 +771,7 @@ void Viewport::refresh()
       this->window_->SetDesiredUpdateRate(dragging ? this->interactor()->GetDesiredUpdateRate()
                                                    : this->interactor()->GetStillUpdateRate());
       const int samples = this->window_->GetMultiSamples();
-      const bool coarse = this->draws_on_processor_ && samples > 0 &&
+      const bool coarse = this->uses_software_rendering_ && samples > 0 &&
         (dragging || std::exchange(this->first_picture_, false));
       this->window_->SetMultiSamples(coarse ? 0 : samples);
       this->window_->Render();
@@ -808,20 +809,20 @@ bindpose::Status Viewport::take_picture(
   int scale, bool transparent, vtkSmartPointer<vtkImageData>& picture)
 {
   const QSize size = this->picture_size(scale);
-  bindpose::WindowPicture wanted;
-  wanted.width = size.width();
-  wanted.height = size.height();
-  wanted.transparent = transparent;
+  bindpose::WindowPicture request;
+  request.width = size.width();
+  request.height = size.height();
+  request.transparent = transparent;
   this->window_->Render(); // apply all changes since the last rendering
   const bool smoothed = this->renderer_->GetUseFXAA();
   // Disable FXAA (antialiasing by filtering), because draw_in_tiles() averages several samples.
   this->renderer_->UseFXAAOff();
-  this->picture_scale_ = scale * wanted.samples;
+  this->picture_scale_ = scale * request.samples;
   this->set_pixel_scale();
   bindpose::Status status;
   {
     const bindpose::ScaledLines lines(this->window_, this->picture_scale_);
-    status = bindpose::draw_in_tiles(this->window_, wanted, picture);
+    status = bindpose::draw_in_tiles(this->window_, request, picture);
   }
   this->picture_scale_ = 1.0;
   this->set_pixel_scale();

@@ -60,28 +60,28 @@ public:
   void move_surface(bindpose::PointsView points);
   /// Move the points of another drawn shape with the same points and cells, for example the ghost.
   void move_shape(bindpose::ShadedSurface& shape, bindpose::PointsView points) const;
-  /// Set the offset of each point (#V, world units) along the unit vector `toward`, which points to
-  /// the eye. In a planar shape the offsets determine which parts are in front. An empty vector or
-  /// set_surface() removes the offsets.
-  void set_depths(const Eigen::VectorXd& depths, const bindpose::Vec3& toward)
+  /// Set the offset of each point (#V, world units) along the unit vector `eye_direction`, which
+  /// points to the eye. In a planar shape the offsets determine which parts are in front. An empty
+  /// vector or set_surface() removes the offsets.
+  void set_depths(const Eigen::VectorXd& depths, const bindpose::Vec3& eye_direction)
   {
     this->depths_ = depths;
-    this->toward_ = toward;
+    this->eye_direction_ = eye_direction;
   }
   /// Set whether a translucent shape is drawn over the surface. Both shapes are then sorted by
   /// depth.
   void set_ghosted(bool ghosted);
-  /// Split the view: the surface is drawn in the left half, and the renderer `beside` draws `shape`
-  /// in the right half, with the same camera. If both are null, the surface uses the whole view
-  /// again. The camera is moved so that all visible data stays visible in the narrower half.
-  void set_split(vtkRenderer* beside, vtkPolyData* shape);
-  bool is_split() const { return this->beside_ != nullptr; }
+  /// Split the view: the surface is drawn in the left half, and the renderer `right_renderer` draws
+  /// `shape` in the right half, with the same camera. If both are null, the surface uses the whole
+  /// view again. The camera is moved so that all visible data stays visible in the narrower half.
+  void set_split(vtkRenderer* right_renderer, vtkPolyData* shape);
+  bool is_split() const { return this->right_renderer_ != nullptr; }
   /// Show a text at the top of the view. The window uses the text to state that the shape at rest
   /// is shown instead of the posed shape. Empty: no text.
-  void name_state(const QString& state);
+  void set_state_name(const QString& state);
   QString state_name() const { return this->state_name_; }
   /// Set the names below the halves.
-  void name_halves(const QString& left, const QString& right);
+  void set_half_names(const QString& left, const QString& right);
   /// Return the time in microseconds of the last upload of moved points to the graphics card.
   double upload_microseconds() const;
   /// Return the smoothed number of frames per second. Return 0 if more than half a second has
@@ -98,7 +98,7 @@ public:
   void show_values(vtkDoubleArray* values, bool on_points, const QString& name = QString(),
     const bindpose::ColorMap& map = {});
   /// Report whether the surface is colored by these values.
-  bool shows(vtkDoubleArray* values) const;
+  bool shows_values(vtkDoubleArray* values) const;
   /// Return the displayed column; -1: none.
   int shown_column() const { return this->column_; }
   /// Return the surface as drawn, with the arrays of the input surface; null: no surface. Several
@@ -118,7 +118,7 @@ public:
   bool has_picture() const { return this->picture_ != nullptr; }
   /// Set the opacity of the colors over a texture, from 0 (only the texture) to 1 (only the
   /// colors).
-  void set_tint(double share);
+  void set_tint(double opacity);
   double tint() const { return this->tint_; }
   /// Set the 2D mode: a parallel projection onto the plane perpendicular to this unit vector, which
   /// points to the eye. Dragging pans the view. An empty value ends the 2D mode, and the view can
@@ -131,7 +131,7 @@ public:
   void show_curves(bool shown);
   /// The legends that are shown in addition to the legend of the column, from left to right. An
   /// empty name removes a legend.
-  enum LegendPlace
+  enum LegendPosition
   {
     weight_legend,
     extremum_legend,
@@ -139,11 +139,12 @@ public:
     tet_legend,
     defect_legend
   };
-  void show_legend(LegendPlace place, const QString& name, const bindpose::ColorMap& map = {});
+  void show_legend(
+    LegendPosition position, const QString& name, const bindpose::ColorMap& map = {});
   /// Return the name of a legend; empty: the legend is not shown.
-  QString legend(LegendPlace place) const;
+  QString legend(LegendPosition position) const;
   /// Set a box that reset_view() shows in addition to surface and curves; an empty box removes it.
-  void set_also_shown(const bindpose::Box& box);
+  void set_extra_bounds(const bindpose::Box& box);
   /// Reset the camera: show everything, seen from the direction in which it appears largest.
   void reset_view();
   /// Request that the view is drawn again. Several requests during one event result in one
@@ -162,10 +163,10 @@ public:
   vtkHandleSetWidget* handle_widget() const { return this->handles_; }
   vtkRegionBrushWidget* brush_widget() const { return this->brush_; }
   /// Convert a Qt position to VTK's pixels, counted from the lower left corner.
-  QPoint to_vtk(const QPoint& place) const;
+  QPoint to_vtk(const QPoint& position) const;
   /// Return the line of sight through a pixel in VTK's coordinates (from the lower left corner):
   /// its start on the near clipping plane, and its unit direction.
-  void ray_at(int x, int y, bindpose::Vec3& from, bindpose::Vec3& along) const;
+  void ray_at(int x, int y, bindpose::Vec3& ray_origin, bindpose::Vec3& ray_direction) const;
   vtkRenderer* renderer() const { return this->renderer_; }
   vtkActor* surface_actor() const { return this->actor_; }
 
@@ -178,12 +179,12 @@ protected:
 private:
   void use_appearance();
   void draw_legend();
-  void add_name(double middle, double above, const QString& name);
+  void add_name(double center_fraction, double above, const QString& name);
   double aspect_of(const QSize& size) const;
-  std::vector<bindpose::Vec3> places_to_see() const;
+  std::vector<bindpose::Vec3> points_to_show() const;
   void keep_in_view(double aspect_before);
   void frame_drawn();
-  void render_wanted();
+  void render_requested();
   void use_column();
   vtkPolyDataMapper* value_mapper() const;
   void show_tint();
@@ -196,14 +197,14 @@ private:
   vtkNew<vtkActor> actor_;
   vtkNew<vtkRenderer> legend_; // renderer of the color scale, in front and on the left
   // copies of the camera from before and after the view was split into halves
-  vtkNew<vtkCamera> whole_camera_, split_camera_;
+  vtkNew<vtkCamera> camera_before_split_, camera_after_split_;
   vtkNew<vtkHandleSetWidget> handles_;
   vtkNew<vtkRegionBrushWidget> brush_;
   std::unique_ptr<bindpose::ShadedSurface> shaded_;
   std::unique_ptr<bindpose::Outline> outline_;
   bool outlines_ = true;
   Eigen::VectorXd depths_;
-  bindpose::Vec3 toward_ = bindpose::Vec3::UnitZ();
+  bindpose::Vec3 eye_direction_ = bindpose::Vec3::UnitZ();
   std::optional<bindpose::Vec3> plane_;
   // For a textured surface: draws the same surface again, in the colors of its values.
   vtkNew<vtkPolyDataMapper> tint_mapper_;
@@ -212,15 +213,15 @@ private:
   vtkSmartPointer<vtkImageData> picture_;
   std::vector<vtkSmartPointer<vtkActor>> curves_;
   vtkSmartPointer<vtkPolyData> curve_data_;
-  bindpose::Box also_shown_;
+  bindpose::Box extra_bounds_;
   int column_ = -1;
   QString column_name_;
   bool has_values_ = false; // true: values are displayed instead of the column
-  std::map<LegendPlace, std::pair<QString, bindpose::ColorMap>> legends_;
+  std::map<LegendPosition, std::pair<QString, bindpose::ColorMap>> legends_;
   int look_ = solid;
   bool ghosted_ = false;
-  vtkRenderer* beside_ = nullptr; // renderer of the right half; null: the view is not split
-  vtkSmartPointer<vtkPolyData> shape_beside_;
+  vtkRenderer* right_renderer_ = nullptr; // renderer of the right half; null: the view is not split
+  vtkSmartPointer<vtkPolyData> right_shape_;
   QString left_name_, right_name_, state_name_;
   QElapsedTimer since_start_;
   // time of the last frame and smoothed time between frames, in seconds
@@ -229,7 +230,7 @@ private:
   double picture_scale_ = 1.0;
   bool refresh_pending_ = false;
   bool resizing_ = false;
-  bool draws_on_processor_ = false;
+  bool uses_software_rendering_ = false;
   bool first_picture_ = false; // true: the next frame is the first frame of its surface
   QTimer settle_; // single-shot timer that starts after a drag
 };

@@ -132,18 +132,18 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   this->close_ = button(tr("Close the volume"), this);
   column->addWidget(this->close_);
 
-  QObject::connect(this->compute_, &QPushButton::clicked, this, &VolumePanel::compute_wanted);
+  QObject::connect(this->compute_, &QPushButton::clicked, this, &VolumePanel::compute_requested);
   QObject::connect(this->cancel_, &QPushButton::clicked, this,
     [this]
     {
       this->set_note(tr("Stopping …"));
-      Q_EMIT this->cancel_wanted();
+      Q_EMIT this->cancel_requested();
     });
   QObject::connect(this->slice_, &QCheckBox::toggled, this,
     [this](bool shown)
     {
       this->enable();
-      Q_EMIT this->slice_wanted(shown);
+      Q_EMIT this->slice_requested(shown);
     });
   QObject::connect(
     this->orientations_, &QButtonGroup::idClicked, this, &VolumePanel::orientation_chosen);
@@ -152,7 +152,7 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
     [this](bool shown)
     {
       this->area_->setVisible(shown);
-      Q_EMIT this->isosurface_wanted(shown);
+      Q_EMIT this->isosurface_requested(shown);
     });
   QObject::connect(this->level_, &ValueRow::value_chosen, this,
     [this](double level)
@@ -162,10 +162,10 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
       this->isosurface_->setChecked(true);
       Q_EMIT this->level_chosen(level);
     });
-  QObject::connect(this->cloud_, &QCheckBox::toggled, this, &VolumePanel::cloud_wanted);
+  QObject::connect(this->cloud_, &QCheckBox::toggled, this, &VolumePanel::cloud_requested);
   QObject::connect(this->surface_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
     &VolumePanel::surface_look_chosen);
-  QObject::connect(this->close_, &QPushButton::clicked, this, &VolumePanel::close_wanted);
+  QObject::connect(this->close_, &QPushButton::clicked, this, &VolumePanel::close_requested);
   keep_place(this->area_);
   this->area_->hide();
   this->set_area(0.0);

@@ -38,16 +38,16 @@ public:
   int surface_look() const;
 
 Q_SIGNALS:
-  void compute_wanted();
-  void cancel_wanted();
-  void slice_wanted(bool shown);
+  void compute_requested();
+  void cancel_requested();
+  void slice_requested(bool shown);
   void orientation_chosen(int orientation); ///< orientation: one of PlaneHandle::Orientation
   void position_chosen(double position);
-  void isosurface_wanted(bool shown);
+  void isosurface_requested(bool shown);
   void level_chosen(double level);
-  void cloud_wanted(bool shown);
+  void cloud_requested(bool shown);
   void surface_look_chosen(int look); ///< look: one of Viewport::SurfaceLook
-  void close_wanted();
+  void close_requested();
 
 private:
   void enable();

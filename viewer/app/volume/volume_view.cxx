@@ -86,12 +86,12 @@ void VolumeView::set_volume(vtkImageData* image, double lowest, double highest)
     bindpose::Box box;
     box.add(Vec3(bounds[0], bounds[2], bounds[4]));
     box.add(Vec3(bounds[1], bounds[3], bounds[5]));
-    this->viewport_->set_also_shown(box);
+    this->viewport_->set_extra_bounds(box);
     this->plane_->set_box(box);
   }
   else
   {
-    this->viewport_->set_also_shown(bindpose::Box());
+    this->viewport_->set_extra_bounds(bindpose::Box());
   }
   this->update();
   Q_EMIT this->volume_changed();

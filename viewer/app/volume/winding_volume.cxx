@@ -58,8 +58,8 @@ Status compute(ExecutionContext& context, const TriangleMesh& mesh, int samples,
 WindingVolume::WindingVolume(Document* document, VolumePanel* panel, QObject* parent)
   : QObject(parent), document_(document), panel_(panel)
 {
-  QObject::connect(panel, &VolumePanel::compute_wanted, this, &WindingVolume::start);
-  QObject::connect(panel, &VolumePanel::cancel_wanted, this, &WindingVolume::cancel);
+  QObject::connect(panel, &VolumePanel::compute_requested, this, &WindingVolume::start);
+  QObject::connect(panel, &VolumePanel::cancel_requested, this, &WindingVolume::cancel);
   QObject::connect(&this->job_, &KernelJob::progress, panel, &VolumePanel::set_progress);
   QObject::connect(&this->job_, &KernelJob::finished, this, &WindingVolume::finish);
 }
@@ -88,9 +88,10 @@ void WindingVolume::start()
   mesh.points = surface.points.view();
   mesh.triangles = surface.triangles.view();
   this->surface_ = this->document_->work().surface;
-  this->made_ = std::make_shared<vtkSmartPointer<vtkImageData>>();
-  this->job_.start([made = this->made_, mesh = std::move(mesh), samples = this->panel_->samples()](
-                     ExecutionContext& context) { return compute(context, mesh, samples, *made); });
+  this->new_volume_ = std::make_shared<vtkSmartPointer<vtkImageData>>();
+  this->job_.start(
+    [new_volume = this->new_volume_, mesh = std::move(mesh), samples = this->panel_->samples()](
+      ExecutionContext& context) { return compute(context, mesh, samples, *new_volume); });
   this->panel_->set_note(tr("Starting …"));
   this->update();
 }
@@ -98,8 +99,8 @@ void WindingVolume::start()
 void WindingVolume::finish()
 {
   const Status& status = this->job_.status();
-  const vtkSmartPointer<vtkImageData> volume = *this->made_;
-  this->made_.reset();
+  const vtkSmartPointer<vtkImageData> volume = *this->new_volume_;
+  this->new_volume_.reset();
   this->update();
   if (status.code == StatusCode::canceled)
   {

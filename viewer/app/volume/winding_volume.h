@@ -31,7 +31,7 @@ public:
   void update();
 
 Q_SIGNALS:
-  void failed(const QString& sentence);
+  void failed(const QString& message);
   void succeeded();
 
 private:
@@ -40,7 +40,7 @@ private:
   Document* document_;
   VolumePanel* panel_;
   const void* surface_ = nullptr; ///< the surface for which the volume is computed
-  std::shared_ptr<vtkSmartPointer<vtkImageData>> made_;
+  std::shared_ptr<vtkSmartPointer<vtkImageData>> new_volume_;
   KernelJob job_; // last member, so that the job ends before the data that it uses is destroyed
 };
 

@@ -16,15 +16,15 @@ void run_bind(ExecutionContext& context, const BindInput& input,
 {
   SurfaceWeightsOptions options;
   options.keep_raw = true; // the weight panel shows row sums, which need the raw weights
-  options.places = input.handle_places;
+  options.handle_elements = input.handle_elements;
   options.domain = input.domain;
   if (input.preview)
   {
     options.preview = preview;
   }
   const WeightsMethod method =
-    [&](ExecutionContext& of_method, const WeightsProblem& problem, WeightsResult& weights)
-  { return input.method->kernel(of_method, problem, {}, weights); };
+    [&](ExecutionContext& method_context, const WeightsProblem& problem, WeightsResult& weights)
+  { return input.method->kernel(method_context, problem, {}, weights); };
   SurfaceWeights weights;
   result.status = surface_weights(context, input.surface.points, input.surface.triangles,
     input.region_of_vertex, input.handles, options, {}, method, weights);
@@ -47,21 +47,21 @@ void BindJob::start(BindInput input)
   {
     return;
   }
-  auto made = std::make_shared<BindResult>();
+  auto bind_result = std::make_shared<BindResult>();
   QObject::disconnect(&this->job_, &KernelJob::finished, this, nullptr);
   QObject::connect(&this->job_, &KernelJob::finished, this,
-    [this, made]
+    [this, bind_result]
     {
       this->result_ = BindResult();
       if (this->job_.status().code != StatusCode::canceled)
       {
-        this->result_ = std::move(*made);
+        this->result_ = std::move(*bind_result);
       }
       this->result_.status = this->job_.status();
       Q_EMIT this->finished();
     });
   this->job_.start(
-    [this, made, input = std::move(input)](ExecutionContext& context)
+    [this, bind_result, input = std::move(input)](ExecutionContext& context)
     {
       run_bind(
         context, input,
@@ -71,7 +71,7 @@ void BindJob::start(BindInput input)
           QMetaObject::invokeMethod(
             this, [this, copy] { Q_EMIT this->preview(*copy); }, Qt::QueuedConnection);
         },
-        *made);
-      return made->status;
+        *bind_result);
+      return bind_result->status;
     });
 }

@@ -5,7 +5,7 @@
 #include "base/status.h"
 #include "geometry/mesh.h"
 #include "handles/handles.h"
-#include "inside/handle_places.h"
+#include "inside/handle_elements.h"
 #include "weights/surface_weights.h"
 #include "weights/weight_methods.h"
 
@@ -17,7 +17,7 @@ struct BindInput
   bindpose::TriangleMesh surface;
   bindpose::Handles handles;
   /// Points, bones and cages of the handles, at which the mesher creates vertices of the tets.
-  bindpose::HandlePlaces handle_places;
+  bindpose::HandleElements handle_elements;
   std::vector<bindpose::Index> region_of_vertex; ///< #V labels, empty without regions
   /// The method, a row of weight_methods(); never null.
   const bindpose::WeightMethod* method = bindpose::weight_methods().data();

@@ -40,7 +40,7 @@ void Binding::start()
   input.domain = this->panel_->domain();
   this->document_->begin_bind();
   this->job_->start(std::move(input));
-  this->offer_again();
+  this->offer_rebind();
   Q_EMIT this->changed();
 }
 
@@ -62,7 +62,7 @@ bool Binding::make_input(BindInput& input)
   input.surface.points = surface.points.view();
   input.surface.triangles = surface.triangles.view();
   input.handles = this->document_->handles();
-  input.handle_places = to_handle_places(geometry);
+  input.handle_elements = to_handle_elements(geometry);
   if (vtkDataArray* regions = surface_data->GetPointData()->GetArray("RegionId"))
   {
     for (vtkIdType v = 0; v < regions->GetNumberOfTuples(); ++v)
@@ -75,7 +75,7 @@ bool Binding::make_input(BindInput& input)
 
 /// Offer another bind. The bind is optional, because the existing weights remain usable, see
 /// BoundColumns.
-void Binding::offer_again()
+void Binding::offer_rebind()
 {
   const QString reason = this->is_running() ? QString() : this->document_->rebind_reason();
   if (reason != this->reason_)
@@ -126,7 +126,7 @@ void Binding::finish()
   const BindResult& result = this->job_->result();
   const vtkSmartPointer<vtkPolyData> preview = std::move(this->preview_);
   this->document_->drop_preview();
-  this->offer_again();
+  this->offer_rebind();
   Q_EMIT this->changed();
   if (result.status.code == StatusCode::canceled)
   {

@@ -35,16 +35,16 @@ public:
   bool make_input(BindInput& input);
   /// Offer another bind if the handles have changed since the last bind. An offer for the same
   /// reason is not repeated.
-  void offer_again();
+  void offer_rebind();
 
 Q_SIGNALS:
   /// Emitted when a bind has begun or ended, before its result is shown.
   void changed();
   /// Emitted when the document has new weights.
   void bound();
-  void failed(const QString& sentence);
+  void failed(const QString& message);
   /// Emitted with a message for the user after a bind has ended.
-  void noticed(const QString& sentence);
+  void noticed(const QString& message);
 
 private:
   vtkSmartPointer<vtkPolyData> with_weights(const BindResult& result) const;

@@ -36,7 +36,7 @@ QString counts_of(const std::vector<Extremum>& extrema)
     .arg(static_cast<qlonglong>(extrema.size()) - maxima);
 }
 
-bool has_numbers(vtkDataSet* data, const char* name)
+bool has_point_array(vtkDataSet* data, const char* name)
 {
   return data && data->GetPointData()->HasArray(name) != 0;
 }
@@ -92,9 +92,9 @@ WeightInspection::WeightInspection(Viewport* viewport, WeightPanel* panel, MakeI
     make_input_(std::move(make_input))
 {
   QObject::connect(panel, &WeightPanel::look_changed, this, &WeightInspection::update);
-  QObject::connect(panel, &WeightPanel::tint_chosen, viewport, &Viewport::set_tint);
-  QObject::connect(panel, &WeightPanel::comparison_wanted, this, &WeightInspection::compare);
-  QObject::connect(panel, &WeightPanel::cancel_wanted, this, &WeightInspection::cancel);
+  QObject::connect(panel, &WeightPanel::tint_opacity_chosen, viewport, &Viewport::set_tint);
+  QObject::connect(panel, &WeightPanel::comparison_requested, this, &WeightInspection::compare);
+  QObject::connect(panel, &WeightPanel::cancel_requested, this, &WeightInspection::cancel);
   PlaneHandle* plane = this->view_->plane();
   QObject::connect(panel, &WeightPanel::orientation_chosen, plane, &PlaneHandle::set_orientation);
   QObject::connect(panel, &WeightPanel::position_chosen, plane, &PlaneHandle::set_position);
@@ -107,7 +107,7 @@ void WeightInspection::set_data(vtkPolyData* surface, vtkUnstructuredGrid* volum
 {
   this->cancel();
   this->surface_ = surface;
-  this->volume_ = has_numbers(volume, "Weights") ? volume : nullptr;
+  this->volume_ = has_point_array(volume, "Weights") ? volume : nullptr;
   this->has_handles_ = has_handles;
   this->compared_ = nullptr;
   this->panel_->set_comparison(QString());
@@ -115,7 +115,7 @@ void WeightInspection::set_data(vtkPolyData* surface, vtkUnstructuredGrid* volum
   this->panel_->set_columns(names_of(weights));
   this->view_->set_data(weights ? surface : nullptr, this->volume_);
   this->show_position();
-  this->update_facts();
+  this->update_panel_state();
   this->update();
 }
 
@@ -144,34 +144,34 @@ void WeightInspection::show_position()
   this->panel_->set_position(this->view_->plane()->position(), lowest, highest);
 }
 
-void WeightInspection::update_facts()
+void WeightInspection::update_panel_state()
 {
-  WeightPanel::Facts facts;
-  facts.has_weights = has_numbers(this->surface_, "Weights");
-  facts.has_raw = has_numbers(this->surface_, "RawWeights");
-  facts.has_handles = this->has_handles_;
-  facts.has_volume = this->volume_ != nullptr;
-  facts.has_picture = this->viewport_->has_picture();
-  facts.comparing = this->job_.is_running();
-  facts.compared = this->compared_ != nullptr;
-  facts.method = method_of_weights(this->surface_);
-  this->panel_->set_facts(facts);
+  WeightPanel::State state;
+  state.has_weights = has_point_array(this->surface_, "Weights");
+  state.has_raw_weights = has_point_array(this->surface_, "RawWeights");
+  state.has_handles = this->has_handles_;
+  state.has_volume = this->volume_ != nullptr;
+  state.has_picture = this->viewport_->has_picture();
+  state.comparing = this->job_.is_running();
+  state.compared = this->compared_ != nullptr;
+  state.method = method_of_weights(this->surface_);
+  this->panel_->set_state(state);
 }
 
 /// Show the data that the panel requests.
 void WeightInspection::update()
 {
-  const bool shown = this->active_ && has_numbers(this->surface_, "Weights");
+  const bool shown = this->active_ && has_point_array(this->surface_, "Weights");
   const int column = this->panel_->column();
-  const int what = this->panel_->what();
+  const int quantity = this->panel_->quantity();
   if (shown)
   {
     PictureOptions options;
-    if (what == WeightPanel::row_sums)
+    if (quantity == WeightPanel::row_sums)
     {
       options.color_by = ColorBy::row_sum;
     }
-    else if (column < 0 && what == WeightPanel::weights)
+    else if (column < 0 && quantity == WeightPanel::weights)
     {
       options.color_by = ColorBy::handle;
     }
@@ -180,7 +180,7 @@ void WeightInspection::update()
       options.array = this->panel_->raw() ? "RawWeights" : "Weights";
       options.component = std::to_string(std::max(column, 0));
     }
-    options.minus = what == WeightPanel::difference ? this->compared_ : nullptr;
+    options.subtracted_data = quantity == WeightPanel::difference ? this->compared_ : nullptr;
     options.bands = this->panel_->bands();
     options.isolines = this->panel_->isolines();
     options.extrema = this->panel_->extrema();
@@ -200,11 +200,11 @@ void WeightInspection::update()
   {
     this->view_->hide();
   }
-  this->panel_->set_certificate(this->certificate(what == WeightPanel::row_sums ? -1 : column));
+  this->panel_->set_certificate(this->certificate(quantity == WeightPanel::row_sums ? -1 : column));
   this->panel_->set_extrema(this->view_->is_shown() && this->panel_->extrema()
       ? counts_of(this->view_->extrema())
       : QString());
-  if (this->view_->is_shown() && what == WeightPanel::difference)
+  if (this->view_->is_shown() && quantity == WeightPanel::difference)
   {
     const Report& numbers = this->view_->numbers();
     this->panel_->set_comparison(
@@ -243,8 +243,8 @@ QString WeightInspection::certificate(int column) const
   const double residual = value("WeightsKKTResidual");
   if (gap < 0.0 || residual < 0.0)
   {
-    return has_numbers(this->surface_, "Weights") ? tr("These weights have no certificate.")
-                                                  : tr("There are no weights yet.");
+    return has_point_array(this->surface_, "Weights") ? tr("These weights have no certificate.")
+                                                      : tr("There are no weights yet.");
   }
   const int method = method_of_weights(this->surface_);
   QString text = method < 0 ? tr("Weights of the mesh:\n")
@@ -281,13 +281,13 @@ void WeightInspection::compare(int method)
   }
   this->job_.start(std::move(input));
   this->panel_->set_comparison(tr("Starting …"));
-  this->update_facts();
+  this->update_panel_state();
 }
 
 void WeightInspection::comparison_finished()
 {
   const BindResult& result = this->job_.result();
-  this->update_facts();
+  this->update_panel_state();
   const bool fits = this->surface_ && result.weights.rows() == this->surface_->GetNumberOfPoints();
   if (result.status.code == StatusCode::canceled || (result.status.usable() && !fits))
   {
@@ -321,6 +321,6 @@ void WeightInspection::comparison_finished()
     (own.view() - result.weights).cwiseAbs().colwise().maxCoeff().maxCoeff(&column);
     this->panel_->choose_column(static_cast<int>(column));
   }
-  this->update_facts();
-  this->panel_->show_what(WeightPanel::difference);
+  this->update_panel_state();
+  this->panel_->show_quantity(WeightPanel::difference);
 }

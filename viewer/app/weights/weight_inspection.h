@@ -44,20 +44,20 @@ public:
   int surface_look() const;
   /// Report whether the shape must be shown at rest, because a slice through the rest shape is
   /// shown.
-  bool wants_rest() const { return this->view_->is_sliced(); }
+  bool requires_rest_shape() const { return this->view_->is_sliced(); }
   WeightView* view() const { return this->view_; }
 
 Q_SIGNALS:
   void surface_look_changed();
   /// Emitted with one sentence if the requested data cannot be shown. The surface is then drawn
   /// without its values.
-  void failed(const QString& sentence);
+  void failed(const QString& message);
   /// Emitted when the requested data is shown.
   void succeeded();
 
 private:
   void update();
-  void update_facts();
+  void update_panel_state();
   void comparison_finished();
   void show_position();
   QString certificate(int column) const;

@@ -75,16 +75,16 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   this->column_->setToolTip(
     tr("Show the weights of one handle, or color every triangle by its strongest handle"));
   column->addWidget(this->column_);
-  this->what_ = this->add_choice({ tr("Weights"), tr("Row sums"), tr("Difference") },
+  this->quantity_group_ = this->add_choice({ tr("Weights"), tr("Row sums"), tr("Difference") },
     { tr("Show the weights of the handles"),
       tr("Show the sum of the raw weights at each point; where it is 1, normalization changes "
          "nothing"),
       tr("Show the difference from the weights of the other method below") });
-  this->raw_ = this->add_choice({ tr("Normalized"), tr("Raw") },
+  this->normalization_group_ = this->add_choice({ tr("Normalized"), tr("Raw") },
     { tr("Weights divided by their sum at each vertex; these weights deform the shape"),
       tr("Weights as solved, before normalization; the certificate applies to these weights") });
-  this->what_->setObjectName("weights.what");
-  this->raw_->setObjectName("weights.raw");
+  this->quantity_group_->setObjectName("weights.what");
+  this->normalization_group_->setObjectName("weights.raw");
   this->certificate_ = note(3);
   this->certificate_->setToolTip(
     tr("Optimality certificate of the column. Gap: its energy exceeds the minimum by at most this "
@@ -178,19 +178,19 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
       Q_EMIT this->column_chosen(index - 1);
     });
   QObject::connect(this->compare_, &QPushButton::clicked, this,
-    [this] { Q_EMIT this->comparison_wanted(this->method_->currentIndex()); });
+    [this] { Q_EMIT this->comparison_requested(this->method_->currentIndex()); });
   QObject::connect(this->cancel_, &QPushButton::clicked, this,
     [this]
     {
       this->set_comparison(tr("Stopping …"));
-      Q_EMIT this->cancel_wanted();
+      Q_EMIT this->cancel_requested();
     });
   QObject::connect(
     this->orientations_, &QButtonGroup::idClicked, this, &WeightPanel::orientation_chosen);
   QObject::connect(this->position_, &ValueRow::value_chosen, this, &WeightPanel::position_chosen);
-  QObject::connect(this->tint_, &ValueRow::value_chosen, this, &WeightPanel::tint_chosen);
+  QObject::connect(this->tint_, &ValueRow::value_chosen, this, &WeightPanel::tint_opacity_chosen);
   this->set_columns({});
-  this->set_facts({});
+  this->set_state({});
 }
 
 QButtonGroup* WeightPanel::add_choice(const QStringList& names, const QStringList& tips)
@@ -207,7 +207,7 @@ QButtonGroup* WeightPanel::add_choice(const QStringList& names, const QStringLis
 
 void WeightPanel::set_columns(const QStringList& names)
 {
-  const QSignalBlocker quiet(this->column_);
+  const QSignalBlocker blocker(this->column_);
   const QString before = this->column_->currentData(Qt::ToolTipRole).toString();
   this->column_->clear();
   this->column_->addItem(tr("All: strongest handle"));
@@ -222,34 +222,34 @@ void WeightPanel::set_columns(const QStringList& names)
   this->enable();
 }
 
-void WeightPanel::set_facts(const Facts& facts)
+void WeightPanel::set_state(const State& state)
 {
-  this->facts_ = facts;
+  this->state_ = state;
   // Data that no longer exists cannot be shown.
-  if ((this->what() == row_sums && !facts.has_raw) ||
-    (this->what() == difference && !facts.compared))
+  if ((this->quantity() == row_sums && !state.has_raw_weights) ||
+    (this->quantity() == difference && !state.compared))
   {
-    this->what_->button(weights)->setChecked(true);
+    this->quantity_group_->button(weights)->setChecked(true);
   }
-  if (this->raw() && !facts.has_raw)
+  if (this->raw() && !state.has_raw_weights)
   {
-    this->raw_->button(0)->setChecked(true);
+    this->normalization_group_->button(0)->setChecked(true);
   }
-  this->compare_->setText(facts.compared ? tr("Compare again") : tr("Compare"));
-  this->tint_row_->setVisible(facts.has_picture);
+  this->compare_->setText(state.compared ? tr("Compare again") : tr("Compare"));
+  this->tint_row_->setVisible(state.has_picture);
   for (QWidget* inside : { static_cast<QWidget*>(this->inside_),
          static_cast<QWidget*>(this->slice_), static_cast<QWidget*>(this->position_) })
   {
     // Hide the switch for the inside: a textured planar shape has no inside.
-    inside->setVisible(!facts.has_picture);
+    inside->setVisible(!state.has_picture);
   }
   for (QAbstractButton* orientation : this->orientations_->buttons())
   {
-    orientation->setVisible(!facts.has_picture);
+    orientation->setVisible(!state.has_picture);
   }
-  this->cancel_->setVisible(facts.comparing);
-  this->bar_->setVisible(facts.comparing);
-  if (!facts.comparing)
+  this->cancel_->setVisible(state.comparing);
+  this->bar_->setVisible(state.comparing);
+  if (!state.comparing)
   {
     this->bar_->setValue(0);
   }
@@ -260,27 +260,27 @@ void WeightPanel::set_facts(const Facts& facts)
 /// widgets state the reason.
 void WeightPanel::enable()
 {
-  const QString none = this->facts_.has_weights
+  const QString none = this->state_.has_weights
     ? QString()
     : tr("There are no weights: bind, or open a mesh with weights");
   const auto first = [&none](const QString& reason) { return none.isEmpty() ? reason : none; };
-  const QString no_raw = this->facts_.has_raw
+  const QString no_raw = this->state_.has_raw_weights
     ? QString()
     : tr("There are no raw weights: bind here, or write them with bindpose weights --keep-raw");
   const bool all = this->column() < 0;
-  const bool sums = this->what() == row_sums;
-  const bool differs = this->what() == difference;
+  const bool sums = this->quantity() == row_sums;
+  const bool differs = this->quantity() == difference;
   enable_or_say(this->column_, first(sums ? tr("Row sums include all handles") : QString()));
-  enable_or_say(this->what_->button(weights), none);
-  enable_or_say(this->what_->button(row_sums), first(no_raw));
-  enable_or_say(this->what_->button(difference),
-    first(this->facts_.compared ? QString() : tr("Compare with another method first, below")));
+  enable_or_say(this->quantity_group_->button(weights), none);
+  enable_or_say(this->quantity_group_->button(row_sums), first(no_raw));
+  enable_or_say(this->quantity_group_->button(difference),
+    first(this->state_.compared ? QString() : tr("Compare with another method first, below")));
   const QString of_all = all && !sums
     ? tr("The strongest handle is the same for raw and normalized weights")
     : QString();
-  enable_or_say(
-    this->raw_->button(0), first(sums ? tr("Row sums are always sums of raw weights") : of_all));
-  enable_or_say(this->raw_->button(1), first(no_raw.isEmpty() ? of_all : no_raw));
+  enable_or_say(this->normalization_group_->button(0),
+    first(sums ? tr("Row sums are always sums of raw weights") : of_all));
+  enable_or_say(this->normalization_group_->button(1), first(no_raw.isEmpty() ? of_all : no_raw));
   const QString not_a_column = sums ? tr("Row sums have their own colors: white is 1")
     : differs                       ? tr("Differences have their own colors: white is 0")
     : all ? tr("Choose one handle: this requires the weights of a single handle")
@@ -291,18 +291,18 @@ void WeightPanel::enable()
     first(all && !sums ? tr("Choose one handle: extrema require the weights of a single handle")
                        : QString()));
   this->extrema_note_->setEnabled(this->extrema_->isEnabled());
-  const QString no_comparison = this->facts_.comparing ? tr("A comparison is running")
-    : this->facts_.has_handles
+  const QString no_comparison = this->state_.comparing ? tr("A comparison is running")
+    : this->state_.has_handles
     ? QString()
     : tr("Open the handles of these weights: another method requires them");
   enable_or_say(this->method_, first(no_comparison));
   const QString same = tr("The weights already come from this method: choose another method");
-  const bool is_same = this->method_->currentIndex() == this->facts_.method;
+  const bool is_same = this->method_->currentIndex() == this->state_.method;
   enable_or_say(this->compare_, first(no_comparison.isEmpty() && is_same ? same : no_comparison));
-  enable_all_but(this->method_, this->facts_.method, same);
+  enable_all_but(this->method_, this->state_.method, same);
   const QString no_slice = differs
     ? tr("The other method was solved on different tets: the difference exists only on the surface")
-    : this->facts_.has_volume
+    : this->state_.has_volume
     ? QString()
     : tr("There is no volume: bind here, or open the tets (.vtu) that bindpose weights writes");
   enable_or_say(this->slice_, first(no_slice));
@@ -346,14 +346,14 @@ void WeightPanel::set_position(double position, double lowest, double highest)
   this->position_->set_value(position);
 }
 
-int WeightPanel::what() const
+int WeightPanel::quantity() const
 {
-  return this->what_->checkedId();
+  return this->quantity_group_->checkedId();
 }
 
-void WeightPanel::show_what(int what)
+void WeightPanel::show_quantity(int quantity)
 {
-  this->what_->button(what)->setChecked(true);
+  this->quantity_group_->button(quantity)->setChecked(true);
   this->enable();
   Q_EMIT this->look_changed();
 }
@@ -370,7 +370,7 @@ void WeightPanel::choose_column(int column)
 
 bool WeightPanel::raw() const
 {
-  return this->raw_->checkedId() == 1;
+  return this->normalization_group_->checkedId() == 1;
 }
 
 bool WeightPanel::bands() const

@@ -31,7 +31,7 @@ class WeightPanel : public QFrame
 
 public:
   /// The displayed quantity, in the order of its buttons.
-  enum What
+  enum Quantity
   {
     weights,
     row_sums,
@@ -43,10 +43,10 @@ public:
   /// Set the names of the columns. The column with the name of the chosen column stays chosen.
   void set_columns(const QStringList& names);
   /// The state that determines which widgets are enabled.
-  struct Facts
+  struct State
   {
     bool has_weights = false;
-    bool has_raw = false;
+    bool has_raw_weights = false;
     /// The handles to which the columns belong are open, so another method can compute weights.
     bool has_handles = false;
     bool has_volume = false;
@@ -56,7 +56,7 @@ public:
     /// The method of the weights, an index of bindpose::weight_methods(); -1: unknown.
     int method = -1;
   };
-  void set_facts(const Facts& facts);
+  void set_state(const State& state);
   /// Set the three lines about the method and the column's certificate.
   void set_certificate(const QString& text);
   void set_extrema(const QString& text);
@@ -65,8 +65,8 @@ public:
   void set_comparison(const QString& text);
   void set_position(double position, double lowest, double highest);
 
-  int what() const;
-  void show_what(int what);
+  int quantity() const;
+  void show_quantity(int quantity);
   /// Return the selected column; -1: all columns.
   int column() const;
   void choose_column(int column);
@@ -78,14 +78,14 @@ public:
 
 Q_SIGNALS:
   /// Emitted with the opacity of the colors over the texture, 0 to 1.
-  void tint_chosen(double share);
+  void tint_opacity_chosen(double opacity);
   /// Emitted when another column was selected; -1: all columns.
   void column_chosen(int column);
   /// Emitted when the result of any getter has changed.
   void look_changed();
   /// Emitted to request a comparison with this method, an index of bindpose::weight_methods().
-  void comparison_wanted(int method);
-  void cancel_wanted();
+  void comparison_requested(int method);
+  void cancel_requested();
   void orientation_chosen(int orientation); ///< orientation: one of PlaneHandle::Orientation
   void position_chosen(double position);
 
@@ -94,8 +94,8 @@ private:
   void enable();
 
   QComboBox* column_;
-  QButtonGroup* what_;
-  QButtonGroup* raw_;
+  QButtonGroup* quantity_group_;
+  QButtonGroup* normalization_group_;
   QLabel* certificate_;
   QCheckBox* bands_;
   QCheckBox* isolines_;
@@ -112,7 +112,7 @@ private:
   QCheckBox* slice_;
   QButtonGroup* orientations_;
   ValueRow* position_;
-  Facts facts_;
+  State state_;
 };
 
 #endif

@@ -56,8 +56,8 @@ WeightView::WeightView(Viewport* viewport)
   {
     renderer->AddActor(actor);
   }
-  this->balls_.face(Vec3::Zero()); // initialize; there are no balls yet
-  renderer->AddObserver(vtkCommand::StartEvent, this, &WeightView::before_drawing);
+  this->balls_.face_eye(Vec3::Zero()); // initialize; there are no balls yet
+  renderer->AddObserver(vtkCommand::StartEvent, this, &WeightView::orient_balls);
   this->plane_->draw_box(false); // not needed, because the surface shows the extent of the box
   QObject::connect(this->plane_, &PlaneHandle::moved, this,
     [this]
@@ -221,21 +221,21 @@ void WeightView::update_slice()
 void WeightView::place_extrema()
 {
   vtkDataSet* data = this->is_sliced() ? static_cast<vtkDataSet*>(this->volume_) : this->shape_;
-  std::vector<ExtremumBalls::Place> places;
+  std::vector<ExtremumBalls::Marker> markers;
   for (const Extremum& extremum : this->extrema_)
   {
-    places.push_back({ Vec3(data->GetPoint(extremum.vertex)), extremum.maximum });
+    markers.push_back({ Vec3(data->GetPoint(extremum.vertex)), extremum.maximum });
   }
-  this->balls_.set(places, this->surface_ ? 0.01 * this->surface_->GetLength() : 1.0);
-  this->before_drawing();
+  this->balls_.set(markers, this->surface_ ? 0.01 * this->surface_->GetLength() : 1.0);
+  this->orient_balls();
   this->viewport_->refresh();
 }
 
-void WeightView::before_drawing()
+void WeightView::orient_balls()
 {
   if (!this->extrema_.empty() || this->balls_.actors().front()->GetVisibility() ||
     this->balls_.actors().back()->GetVisibility())
   {
-    this->balls_.face(Vec3(this->viewport_->renderer()->GetActiveCamera()->GetPosition()));
+    this->balls_.face_eye(Vec3(this->viewport_->renderer()->GetActiveCamera()->GetPosition()));
   }
 }

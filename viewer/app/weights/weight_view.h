@@ -65,7 +65,7 @@ private:
   void draw_isolines(int part, vtkPolyData* data);
   void update_slice();
   void place_extrema();
-  void before_drawing();
+  void orient_balls();
 
   Viewport* viewport_;
   PlaneHandle* plane_;

@@ -17,7 +17,7 @@ EmptyState::EmptyState(QWidget* parent) : QWidget(parent)
   QPushButton* open = button(tr("Open and auto-rig…"), this);
   open->setObjectName("primary");
   open->setToolTip(tr("Open a mesh, create bones along it and bind it"));
-  QObject::connect(open, &QPushButton::clicked, this, &EmptyState::open_and_rig_wanted);
+  QObject::connect(open, &QPushButton::clicked, this, &EmptyState::open_and_rig_requested);
   column->addWidget(open, 0, Qt::AlignHCenter);
   auto* text =
     new QLabel(tr("<p>Or add handles or open a handle file (.tgf or .vtp), then bind and drag.</p>"

@@ -14,7 +14,7 @@ public:
 
 Q_SIGNALS:
   /// Emitted when the user wants to open a mesh for which handles are then created automatically.
-  void open_and_rig_wanted();
+  void open_and_rig_requested();
 };
 
 #endif

@@ -34,8 +34,8 @@ namespace
 /// Return a path that is short enough for one line of a bar.
 QString short_path(const QString& path)
 {
-  constexpr int longest = 70;
-  return shortened(QDir::toNativeSeparators(path), longest);
+  constexpr int maximum_length = 70;
+  return shortened(QDir::toNativeSeparators(path), maximum_length);
 }
 
 Status write_rig(vtkPolyData* surface, vtkPolyData* handles, const QString& path)
@@ -65,13 +65,13 @@ Exports::Exports(const ExportParts& parts) : QObject(parts.window), parts_(parts
 // ---- Ask for a path ----------------------------------------------------------------------------
 
 /// Show a file dialog and return the chosen path; empty if the user cancels.
-QString Exports::ask(const QString& title, const QString& kinds, const QString& ending)
+QString Exports::ask(const QString& title, const QString& filter, const QString& extension)
 {
-  QFileDialog dialog(this->parts_.window, title, this->folder_, kinds);
+  QFileDialog dialog(this->parts_.window, title, this->folder_, filter);
   dialog.setAcceptMode(QFileDialog::AcceptSave);
-  dialog.setDefaultSuffix(ending);
+  dialog.setDefaultSuffix(extension);
   const QString name = QFileInfo(this->parts_.sessions->name()).completeBaseName();
-  dialog.selectFile((name.isEmpty() ? tr("export") : name) + '.' + ending);
+  dialog.selectFile((name.isEmpty() ? tr("export") : name) + '.' + extension);
   return dialog.exec() == QDialog::Accepted ? dialog.selectedFiles().front() : QString();
 }
 
@@ -124,7 +124,7 @@ void Exports::ask_for_film()
     this->parts_.bar->offer(
       tr("A film requires key frames: pose the shape and set a key (K), move to "
          "another time, pose it again and set another key."),
-      { { tr("Show the timeline"), [this] { Q_EMIT this->timeline_wanted(); } } }, tr("Close"));
+      { { tr("Show the timeline"), [this] { Q_EMIT this->timeline_requested(); } } }, tr("Close"));
     return;
   }
   const QString path =
@@ -178,12 +178,12 @@ bool Exports::save_picture(const QString& path, int scale, bool transparent)
 
 void Exports::show_progress(double fraction)
 {
-  if (!this->tells_progress_)
+  if (!this->is_showing_progress_)
   {
-    this->tells_progress_ = true;
+    this->is_showing_progress_ = true;
     this->parts_.bar->offer(QString(), {}, tr("Stop"));
   }
-  this->parts_.bar->set_sentence(
+  this->parts_.bar->set_message(
     tr("Writing %1 … %2 %")
       .arg(QFileInfo(this->parts_.posing->sequence_export()->path()).fileName())
       .arg(static_cast<int>(100.0 * fraction)));
@@ -192,16 +192,16 @@ void Exports::show_progress(double fraction)
 void Exports::film_finished()
 {
   const SequenceExport* film = this->parts_.posing->sequence_export();
-  this->tells_progress_ = false;
+  this->is_showing_progress_ = false;
   this->parts_.bar->hide();
   if (!film->error().isEmpty())
   {
-    this->parts_.errors->show_sentence(
+    this->parts_.errors->show_message(
       tr("Cannot export: %1.").arg(film->error()), ErrorKind::export_file);
   }
   else if (!film->said().isEmpty()) // the description is empty after a cancel
   {
-    this->tell(film->path(), capital(film->said()) + '.');
+    this->show_result(film->path(), capitalized(film->said()) + '.');
   }
 }
 
@@ -211,18 +211,18 @@ bool Exports::finish(const QString& path, const Status& status, const QString& r
 {
   if (!status.ok())
   {
-    this->parts_.errors->show_sentence(
+    this->parts_.errors->show_message(
       tr("Cannot export: %1.").arg(QString::fromStdString(status.message)), ErrorKind::export_file);
     return false;
   }
   // The warnings name data that the file cannot represent.
-  this->tell(path,
+  this->show_result(path,
     status.warnings.empty() ? remark
-                            : capital(QString::fromStdString(status.warnings.front())) + '.');
+                            : capitalized(QString::fromStdString(status.warnings.front())) + '.');
   return true;
 }
 
-void Exports::tell(const QString& path, const QString& remark)
+void Exports::show_result(const QString& path, const QString& remark)
 {
   const QString absolute = QFileInfo(path).absoluteFilePath();
   this->folder_ = QFileInfo(absolute).absolutePath();
@@ -231,7 +231,7 @@ void Exports::tell(const QString& path, const QString& remark)
     { { tr("Show in folder"), [this, absolute] { this->show_in_folder(absolute); } } },
     tr("Close"));
   const QString written = tr("Wrote %1.").arg(short_path(absolute));
-  this->parts_.bar->set_sentence(
+  this->parts_.bar->set_message(
     remark.isEmpty() ? written : written + ' ' + remark, QDir::toNativeSeparators(absolute));
 }
 
@@ -240,7 +240,7 @@ void Exports::show_in_folder(const QString& path)
   const QString folder = QFileInfo(path).absolutePath();
   if (!QDesktopServices::openUrl(QUrl::fromLocalFile(folder)))
   {
-    this->parts_.errors->show_sentence(
+    this->parts_.errors->show_message(
       tr("Cannot open the folder %1: no suitable program was found.")
         .arg(QDir::toNativeSeparators(folder)),
       ErrorKind::export_file);

@@ -54,19 +54,19 @@ public:
 
 Q_SIGNALS:
   /// Emitted when the user wants to see the key frames.
-  void timeline_wanted();
+  void timeline_requested();
 
 private:
-  QString ask(const QString& title, const QString& kinds, const QString& ending);
+  QString ask(const QString& title, const QString& filter, const QString& extension);
   bool finish(const QString& path, const bindpose::Status& status, const QString& remark = {});
-  void tell(const QString& path, const QString& remark);
+  void show_result(const QString& path, const QString& remark);
   void show_progress(double fraction);
   void film_finished();
   void show_in_folder(const QString& path);
 
   ExportParts parts_;
   QString folder_; // folder of the last export
-  bool tells_progress_ = false;
+  bool is_showing_progress_ = false;
 };
 
 #endif

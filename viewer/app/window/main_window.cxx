@@ -73,8 +73,8 @@ namespace
 /// are shortened.
 QString short_name(const QString& path)
 {
-  constexpr int longest = 60;
-  return shortened(QFileInfo(path).fileName(), longest);
+  constexpr int maximum_length = 60;
+  return shortened(QFileInfo(path).fileName(), maximum_length);
 }
 QString method_words(const WeightMethod& method)
 {
@@ -113,12 +113,12 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), document_(new Doc
   this->make_layout();
   this->make_inspections();
   this->links_ = new OptionLinks(this->document_, this->panels_);
-  this->links_->tie(
+  this->links_->link_option(
     "show.outlines", [this] { return this->viewport_->has_outlines(); },
     [this](const QVariant& value) { this->show_outlines(value.toBool()); });
-  tie_plane(this->links_, this->document_, "volume", this->volume_view_->plane());
-  tie_plane(this->links_, this->document_, "tets", this->inspection_->tet_view()->plane());
-  tie_plane(this->links_, this->document_, "weights", this->weights_->view()->plane());
+  link_plane(this->links_, this->document_, "volume", this->volume_view_->plane());
+  link_plane(this->links_, this->document_, "tets", this->tet_inspection_->tet_view()->plane());
+  link_plane(this->links_, this->document_, "weights", this->weights_->view()->plane());
   this->sessions_ = new WindowSessions({ this, this->document_, this->viewport_, this->panels_,
     this->binding_, this->links_, this->error_bar_, this->recovery_bar_, this->note_bar_ });
   this->exports_ = new Exports({ this, this->document_, this->viewport_, this->posing_,
@@ -132,8 +132,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), document_(new Doc
   this->connect_handles();
   this->connect_posing();
   this->connect_errors();
-  QObject::connect(
-    this->document_, &Document::about_to_change, this->editing_, &HandleEditing::stop);
+  QObject::connect(this->document_, &Document::about_to_change, this->editing_,
+    &HandleEditing::cancel_interaction);
   QObject::connect(this->document_, &Document::changed, this, &MainWindow::document_changed);
   // The history updates its saved state only at the end of a step; update the title then.
   QObject::connect(this->history(), &QUndoStack::indexChanged, this, &MainWindow::update_title);
@@ -179,7 +179,7 @@ void MainWindow::make_layout()
   }
   auto* over = new QVBoxLayout(this->viewport_);
   this->empty_ = new EmptyState(this->viewport_);
-  QObject::connect(this->empty_, &EmptyState::open_and_rig_wanted, this,
+  QObject::connect(this->empty_, &EmptyState::open_and_rig_requested, this,
     [this]
     {
       this->choose_and_open();
@@ -224,16 +224,18 @@ void MainWindow::make_layout()
 void MainWindow::make_inspections()
 {
   this->volume_view_ = new VolumeView(this->viewport_);
-  this->inspection_ = new Inspection(this->viewport_, this->panels_->tet());
-  QObject::connect(this->inspection_, &Inspection::surface_look_changed, this,
+  this->tet_inspection_ = new TetInspection(this->viewport_, this->panels_->tet());
+  QObject::connect(this->tet_inspection_, &TetInspection::surface_look_changed, this,
     [this]
     {
       this->update_surface_look();
       this->draw_pose(); // draw the shape at rest: tets and defects belong to it
     });
-  QObject::connect(this->inspection_, &Inspection::tets_made, this, &MainWindow::face_planes);
-  QObject::connect(this->inspection_, &Inspection::noticed, this, &MainWindow::show_notice);
-  QObject::connect(this->inspection_, &Inspection::defects_found, this, &MainWindow::offer_defects);
+  QObject::connect(
+    this->tet_inspection_, &TetInspection::first_tets_computed, this, &MainWindow::orient_planes);
+  QObject::connect(this->tet_inspection_, &TetInspection::noticed, this, &MainWindow::show_notice);
+  QObject::connect(
+    this->tet_inspection_, &TetInspection::defects_found, this, &MainWindow::offer_defects);
   this->weights_ = new WeightInspection(this->viewport_, this->panels_->weight(),
     [this](BindInput& input) { return this->is_bound() && this->binding_->make_input(input); });
   QObject::connect(this->weights_, &WeightInspection::surface_look_changed, this,
@@ -245,11 +247,11 @@ void MainWindow::make_inspections()
   this->rotations_ =
     std::make_unique<RotationView>(this->viewport_, this->panels_->side()->pose(), this->posing_);
   this->distances_ = std::make_unique<DistanceView>(this->viewport_, this->posing_);
-  this->probe_ = new Probe(
-    { this->viewport_, this->volume_view_, this->inspection_->tet_view(), this->weights_->view(),
-      &this->inspection_->defect_view(), this->posing_, this->rotations_.get(),
-      [this] { return this->document_->surface() ? this->posing_->seen() : nullptr; } });
-  QObject::connect(this->panels_, &PanelColumn::panel_shown, this->inspection_,
+  this->probe_ = new Probe({ this->viewport_, this->volume_view_, this->tet_inspection_->tet_view(),
+    this->weights_->view(), &this->tet_inspection_->defect_view(), this->posing_,
+    this->rotations_.get(),
+    [this] { return this->document_->surface() ? this->posing_->displayed_shape() : nullptr; } });
+  QObject::connect(this->panels_, &PanelColumn::panel_shown, this->tet_inspection_,
     [this](int panel)
     {
       // The old panel removes its coloring before the new panel applies its own.
@@ -259,7 +261,7 @@ void MainWindow::make_inspections()
         this->distances_->set_active(false);
         this->rotations_->set_active(false);
       }
-      this->inspection_->set_active(panel == PanelColumn::tets);
+      this->tet_inspection_->set_active(panel == PanelColumn::tets);
       this->weights_->set_active(panel == PanelColumn::weights);
       this->volume_view_->set_active(panel == PanelColumn::volume_slice);
       if (poses)
@@ -289,19 +291,19 @@ void MainWindow::make_inspections()
 
 void MainWindow::connect_menus()
 {
-  QObject::connect(this->sessions_, &WindowSessions::open_wanted, this,
+  QObject::connect(this->sessions_, &WindowSessions::open_requested, this,
     [this](const QString& path) { this->open(path); });
   QObject::connect(this->sessions_, &WindowSessions::changed, this, &MainWindow::update_title);
-  QObject::connect(this->sessions_, &WindowSessions::perspective_wanted, this,
+  QObject::connect(this->sessions_, &WindowSessions::perspective_requested, this,
     [this] { this->set_flat_view(false); });
   QObject::connect(
-    this->exports_, &Exports::timeline_wanted, this, [this] { this->show_timeline(true); });
+    this->exports_, &Exports::timeline_requested, this, [this] { this->show_timeline(true); });
   WindowMenus* menus = this->menus_;
-  QObject::connect(menus, &WindowMenus::open_wanted, this, &MainWindow::choose_and_open);
-  QObject::connect(menus, &WindowMenus::flat_view_wanted, this, &MainWindow::set_flat_view);
-  QObject::connect(menus, &WindowMenus::outlines_wanted, this, &MainWindow::show_outlines);
-  QObject::connect(menus, &WindowMenus::timeline_wanted, this, &MainWindow::show_timeline);
-  QObject::connect(menus, &WindowMenus::method_wanted, this, &MainWindow::set_method);
+  QObject::connect(menus, &WindowMenus::open_requested, this, &MainWindow::choose_and_open);
+  QObject::connect(menus, &WindowMenus::flat_view_requested, this, &MainWindow::set_flat_view);
+  QObject::connect(menus, &WindowMenus::outlines_requested, this, &MainWindow::show_outlines);
+  QObject::connect(menus, &WindowMenus::timeline_requested, this, &MainWindow::show_timeline);
+  QObject::connect(menus, &WindowMenus::method_requested, this, &MainWindow::set_method);
 }
 
 void MainWindow::update_menus()
@@ -311,8 +313,8 @@ void MainWindow::update_menus()
 
 void MainWindow::connect_panel()
 {
-  QObject::connect(this->panel_, &SidePanel::bind_wanted, this->binding_, &Binding::start);
-  QObject::connect(this->panel_, &SidePanel::cancel_wanted, this->binding_, &Binding::cancel);
+  QObject::connect(this->panel_, &SidePanel::bind_requested, this->binding_, &Binding::start);
+  QObject::connect(this->panel_, &SidePanel::cancel_requested, this->binding_, &Binding::cancel);
   QObject::connect(this->binding_, &Binding::changed, this,
     [this]
     {
@@ -336,8 +338,9 @@ void MainWindow::connect_panel()
     });
   QObject::connect(this->panel_, &SidePanel::method_chosen, this, &MainWindow::set_method);
   QObject::connect(this->panel_, &SidePanel::mode_chosen, this,
-    [this](int mode) { this->editing_->commands()->fix(static_cast<HandleMode>(mode)); });
-  QObject::connect(this->panel_, &SidePanel::rest_wanted, this, &MainWindow::back_to_rest);
+    [this](int mode)
+    { this->editing_->commands()->set_handle_mode(static_cast<HandleMode>(mode)); });
+  QObject::connect(this->panel_, &SidePanel::rest_requested, this, &MainWindow::back_to_rest);
   QObject::connect(this->panel_, &SidePanel::column_chosen, this, &MainWindow::show_column);
 }
 
@@ -345,16 +348,16 @@ void MainWindow::connect_volume()
 {
   VolumePanel* panel = this->panels_->volume();
   VolumeView* view = this->volume_view_;
-  QObject::connect(panel, &VolumePanel::slice_wanted, view, &VolumeView::show_slice);
+  QObject::connect(panel, &VolumePanel::slice_requested, view, &VolumeView::show_slice);
   QObject::connect(
     panel, &VolumePanel::orientation_chosen, view->plane(), &PlaneHandle::set_orientation);
   QObject::connect(panel, &VolumePanel::position_chosen, view->plane(), &PlaneHandle::set_position);
-  QObject::connect(panel, &VolumePanel::isosurface_wanted, view, &VolumeView::show_isosurface);
+  QObject::connect(panel, &VolumePanel::isosurface_requested, view, &VolumeView::show_isosurface);
   QObject::connect(panel, &VolumePanel::level_chosen, view, &VolumeView::set_level);
-  QObject::connect(panel, &VolumePanel::cloud_wanted, view, &VolumeView::show_cloud);
+  QObject::connect(panel, &VolumePanel::cloud_requested, view, &VolumeView::show_cloud);
   QObject::connect(
     panel, &VolumePanel::surface_look_chosen, this, &MainWindow::update_surface_look);
-  QObject::connect(panel, &VolumePanel::close_wanted, this, &MainWindow::close_volume);
+  QObject::connect(panel, &VolumePanel::close_requested, this, &MainWindow::close_volume);
   const auto show_position = [panel, view]
   {
     const auto [lowest, highest] = view->positions();
@@ -375,7 +378,7 @@ void MainWindow::connect_handles()
 {
   QObject::connect(this->editing_, &HandleEditing::moved, this, &MainWindow::update_pose);
   QObject::connect(
-    this->editing_, &HandleEditing::sentence_changed, this, &MainWindow::update_hint);
+    this->editing_, &HandleEditing::status_text_changed, this, &MainWindow::update_hint);
   // While regions are painted, the surface shows only the colors of regions.
   QObject::connect(this->editing_, &HandleEditing::mode_changed, this,
     [this](int mode)
@@ -406,24 +409,24 @@ void MainWindow::show_selected_column()
 /// Connect the error bar. An error is hidden when an operation of the same type succeeds.
 void MainWindow::connect_errors()
 {
-  const auto fails = [this](auto* part, auto signal, ErrorKind kind)
+  const auto connect_failure = [this](auto* part, auto signal, ErrorKind kind)
   {
     QObject::connect(part, signal, this,
-      [this, kind](const QString& sentence) { this->show_error(sentence, kind); });
+      [this, kind](const QString& message) { this->show_error(message, kind); });
   };
   const auto succeeds = [this](auto* part, auto signal, ErrorKind kind)
   { QObject::connect(part, signal, this, [this, kind] { this->error_bar_->succeeded(kind); }); };
   // an error of a bind is hidden by the next bind
-  fails(this->binding_, &Binding::failed, ErrorKind::other);
-  fails(this->shape_handles_, &ShapeHandles::failed, ErrorKind::edit_handles);
-  fails(this->editing_, &HandleEditing::refused, ErrorKind::edit_handles);
-  fails(this->posing_, &Posing::failed, ErrorKind::pose);
+  connect_failure(this->binding_, &Binding::failed, ErrorKind::other);
+  connect_failure(this->shape_handles_, &ShapeHandles::failed, ErrorKind::edit_handles);
+  connect_failure(this->editing_, &HandleEditing::refused, ErrorKind::edit_handles);
+  connect_failure(this->posing_, &Posing::failed, ErrorKind::pose);
   succeeds(this->posing_, &Posing::succeeded, ErrorKind::pose);
-  fails(this->inspection_, &Inspection::failed, ErrorKind::tets);
-  succeeds(this->inspection_, &Inspection::succeeded, ErrorKind::tets);
-  fails(this->weights_, &WeightInspection::failed, ErrorKind::weights);
+  connect_failure(this->tet_inspection_, &TetInspection::failed, ErrorKind::tets);
+  succeeds(this->tet_inspection_, &TetInspection::succeeded, ErrorKind::tets);
+  connect_failure(this->weights_, &WeightInspection::failed, ErrorKind::weights);
   succeeds(this->weights_, &WeightInspection::succeeded, ErrorKind::weights);
-  fails(this->winding_volume_, &WindingVolume::failed, ErrorKind::volume);
+  connect_failure(this->winding_volume_, &WindingVolume::failed, ErrorKind::volume);
   succeeds(this->winding_volume_, &WindingVolume::succeeded, ErrorKind::volume);
 }
 
@@ -465,10 +468,10 @@ void MainWindow::document_changed(int parts)
     this->viewport_->set_handles(this->document_->editable_handles(),
       this->document_->surface() || this->document_->handle_data());
   }
-  if (parts & key_poses_part)
+  if (parts & stored_poses_part)
   {
-    const auto& kept = this->document_->work().key_poses;
-    this->posing_->keeper()->set_shelf(kept ? *kept : PoseShelf());
+    const auto& kept = this->document_->work().stored_poses;
+    this->posing_->pose_manager()->set_stored_poses(kept ? *kept : StoredPoses());
     this->keys_changed();
   }
   if (parts & (handles_part | handle_looks_part))
@@ -477,8 +480,8 @@ void MainWindow::document_changed(int parts)
   }
   this->editing_->document_changed(parts);
   this->update_title();
-  this->binding_->offer_again();
-  if (parts & ~(options_part | key_poses_part | sources_part))
+  this->binding_->offer_rebind();
+  if (parts & ~(options_part | stored_poses_part | sources_part))
   {
     this->update_panel();
     this->update_pose();
@@ -488,7 +491,7 @@ void MainWindow::document_changed(int parts)
 /// Show the timeline when the first key is set. Only the user can hide it again.
 void MainWindow::keys_changed()
 {
-  const bool has_keys = !this->posing_->shelf().keys.keys().empty();
+  const bool has_keys = !this->posing_->stored_poses().keys.keys().empty();
   if (has_keys && !this->has_keys_)
   {
     this->show_timeline(true);
@@ -518,20 +521,20 @@ void MainWindow::show_mesh()
   this->note_bar_->hide(); // the note is about the previous mesh
   const Work& work = this->document_->work();
   this->binding_->cancel();
-  this->drawn_ = work.surface;
+  this->drawn_surface_ = work.surface;
   this->viewport_->set_surface(work.surface);
   this->viewport_->set_picture(work.picture);
-  this->inspection_->set_surface(work.surface, work.mesh_tets);
+  this->tet_inspection_->set_surface(work.surface, work.mesh_tets);
   Vec3 normal;
   const bool planar = work.surface && find_plane(to_points(work.surface).view(), normal);
   this->plane_ = planar ? std::optional(normal) : std::nullopt;
-  this->flat_wanted_ = true;
+  this->flat_requested_ = true;
   this->update_plane();
   this->posing_->set_plane(this->plane_);
   if (work.surface && !planar)
   {
     // not for planar shapes: their boundary would be reported as a defect
-    this->inspection_->look_for_defects();
+    this->tet_inspection_->search_defects();
   }
   if (!work.curves)
   {
@@ -544,13 +547,13 @@ void MainWindow::show_mesh()
 /// Switch the viewport to 2D mode if the shape is planar. The mode is off while a volume is open.
 void MainWindow::update_plane()
 {
-  const bool flat = this->flat_wanted_ && !this->document_->work().volume;
+  const bool flat = this->flat_requested_ && !this->document_->work().volume;
   this->viewport_->set_plane(flat ? this->plane_ : std::nullopt);
 }
 
 void MainWindow::set_flat_view(bool flat)
 {
-  this->flat_wanted_ = flat;
+  this->flat_requested_ = flat;
   this->update_plane();
   this->update_menus();
 }
@@ -607,16 +610,16 @@ void MainWindow::show_volume()
 void MainWindow::connect_weights()
 {
   vtkPolyData* surface = this->document_->surface();
-  if (surface != this->drawn_)
+  if (surface != this->drawn_surface_)
   {
-    this->drawn_ = surface;
+    this->drawn_surface_ = surface;
     this->viewport_->set_surface(surface);
   }
   this->posing_->set_data(surface, this->document_->weighted_tets(), this->document_->handle_data(),
     this->document_->is_bound());
-  if (!this->document_->unused_weights().isEmpty())
+  if (!this->document_->unused_weights_reason().isEmpty())
   {
-    this->show_error(this->document_->unused_weights());
+    this->show_error(this->document_->unused_weights_reason());
   }
   this->weights_->set_data(surface, this->document_->weighted_tets(), this->is_bound());
 }
@@ -639,7 +642,7 @@ void MainWindow::offer_defects(const QString& counts)
       [this]
       {
         this->panels_->show_panel(PanelColumn::tets);
-        this->inspection_->show_defects();
+        this->tet_inspection_->show_defects();
       } } },
     tr("Close"));
 }
@@ -652,7 +655,7 @@ bool MainWindow::is_empty() const
 
 // ---- Opening -----------------------------------------------------------------------------------
 
-bool MainWindow::say(const QString& name, const Status& status)
+bool MainWindow::report_error(const QString& name, const Status& status)
 {
   if (!status.ok())
   {
@@ -683,7 +686,7 @@ bool MainWindow::open(const QString& path, const OpenedFile* read)
 bool MainWindow::open_file(const QString& path, const OpenedFile* read)
 {
   const QString name = short_name(path);
-  if (path.endsWith(QString(".") + session_ending, Qt::CaseInsensitive))
+  if (path.endsWith(QString(".") + session_extension, Qt::CaseInsensitive))
   {
     this->error_bar_->hide();
     return this->sessions_->open(path);
@@ -693,7 +696,7 @@ bool MainWindow::open_file(const QString& path, const OpenedFile* read)
   if (!status.ok())
   {
     // Show only the file name; the readers report the whole path.
-    this->error_bar_->show_sentence(
+    this->error_bar_->show_message(
       QString::fromStdString(status.message).replace(path, name), ErrorKind::other, path);
     return false;
   }
@@ -701,8 +704,8 @@ bool MainWindow::open_file(const QString& path, const OpenedFile* read)
   this->read_notice_.clear();
   for (const std::string& warning : file.warnings)
   {
-    const QString sentence = QString::fromStdString(warning).replace(path, name) + '.';
-    this->read_notice_ += (this->read_notice_.isEmpty() ? "" : "\n") + sentence;
+    const QString message = QString::fromStdString(warning).replace(path, name) + '.';
+    this->read_notice_ += (this->read_notice_.isEmpty() ? "" : "\n") + message;
   }
   const bool done = this->show_file(file, path);
   if (done && !this->read_notice_.isEmpty())
@@ -726,7 +729,7 @@ bool MainWindow::show_file(const OpenedFile& file, const QString& path)
       return this->set_curves(vtkPolyData::SafeDownCast(file.data), source);
     case OpenedFile::Kind::weights:
       this->error_bar_->hide();
-      return this->say(QString(), this->document_->set_weights(file.weights, name));
+      return this->report_error(QString(), this->document_->set_weights(file.weights, name));
     case OpenedFile::Kind::picture:
       return this->open_picture(vtkImageData::SafeDownCast(file.data), name, source, false);
     default:
@@ -758,18 +761,18 @@ bool MainWindow::open_picture(
         [this, kept, name, source] { this->open_picture(kept, name, source, true); } } },
       tr("Close"));
   }
-  return this->say(name, status);
+  return this->report_error(name, status);
 }
 
 bool MainWindow::set_mesh(vtkDataSet* mesh, const QString& name, const Source& source)
 {
   this->error_bar_->hide();
-  const bool done = this->say(name, this->document_->set_mesh(mesh, name, source));
+  const bool done = this->report_error(name, this->document_->set_mesh(mesh, name, source));
   if (done)
   {
-    this->face_planes();
+    this->orient_planes();
   }
-  if (done && this->inspection_->tet_view()->tets() && !this->document_->handle_data())
+  if (done && this->tet_inspection_->tet_view()->tets() && !this->document_->handle_data())
   {
     this->panels_->show_panel(PanelColumn::tets);
   }
@@ -780,17 +783,17 @@ bool MainWindow::set_handles(vtkPolyData* handles, const QString& name, const So
 {
   this->error_bar_->hide();
   this->binding_->cancel();
-  return this->say(name, this->document_->set_handles(handles, name, source));
+  return this->report_error(name, this->document_->set_handles(handles, name, source));
 }
 
 bool MainWindow::set_volume(vtkImageData* volume, const QString& name, const Source& source)
 {
   this->error_bar_->hide();
-  const bool done = this->say(name, check_volume(volume, "WindingNumber"));
+  const bool done = this->report_error(name, check_volume(volume, "WindingNumber"));
   if (done)
   {
     this->document_->set_volume(volume, name, source);
-    this->face_planes();
+    this->orient_planes();
   }
   return done;
 }
@@ -814,12 +817,12 @@ void MainWindow::close_volume()
 
 void MainWindow::choose_and_open()
 {
-  const QString endings = QString(vtkMeshFileReader::GetFileExtensions()).replace(' ', " *.") +
-    " *.tgf *.glb *.gltf *.dmat *.png *.jpg *.jpeg *." + session_ending;
-  for (const QString& path :
-    QFileDialog::getOpenFileNames(this, tr("Open"), QString(),
-      tr("All supported files (*.%1);;Sessions (*.%2);;All files (*)").arg(endings, session_ending),
-      nullptr, QFileDialog::HideNameFilterDetails))
+  const QString extensions = QString(vtkMeshFileReader::GetFileExtensions()).replace(' ', " *.") +
+    " *.tgf *.glb *.gltf *.dmat *.png *.jpg *.jpeg *." + session_extension;
+  for (const QString& path : QFileDialog::getOpenFileNames(this, tr("Open"), QString(),
+         tr("All supported files (*.%1);;Sessions (*.%2);;All files (*)")
+           .arg(extensions, session_extension),
+         nullptr, QFileDialog::HideNameFilterDetails))
   {
     this->open(path);
   }
@@ -890,13 +893,14 @@ void MainWindow::connect_posing()
       }
       this->update_pose();
     });
-  QObject::connect(this->posing_, &Posing::pose_done, this->document_,
+  QObject::connect(this->posing_, &Posing::pose_step_requested, this->document_,
     [this](const QString& step, const QString& merge)
     { this->document_->commit_pose(step, merge); });
   QObject::connect(
     this->posing_, &Posing::edit_ended, this->document_, [this] { this->document_->end_merge(); });
-  QObject::connect(this->posing_, &Posing::shelf_changed, this->document_,
-    [this](const QString& step) { this->document_->set_key_poses(this->posing_->shelf(), step); });
+  QObject::connect(this->posing_, &Posing::stored_poses_changed, this->document_,
+    [this](const QString& step)
+    { this->document_->set_stored_poses(this->posing_->stored_poses(), step); });
   QObject::connect(this->posing_, &Posing::handles_changed, this->document_,
     [this](const QString& step) { this->document_->commit_handles(step, step); });
 }
@@ -912,8 +916,8 @@ void MainWindow::draw_pose()
   vtkPolyData* rest = this->document_->surface();
   const bool handles = this->document_->handle_data();
   this->show_state();
-  const bool cuts = this->inspection_->tet_view()->is_shown();
-  const bool slices = this->volume_view_->is_slice_shown() || this->weights_->wants_rest();
+  const bool cuts = this->tet_inspection_->tet_view()->is_shown();
+  const bool slices = this->volume_view_->is_slice_shown() || this->weights_->requires_rest_shape();
   QString reading = cuts ? tr("Drag the cut to move it; drag elsewhere to turn the view.")
     : slices             ? tr("Drag the slice to move it; drag elsewhere to turn the view.")
     : !rest              ? tr("Open a mesh (Ctrl+O) or drop one here.")
@@ -924,10 +928,11 @@ void MainWindow::draw_pose()
   {
     reading = this->posing_->reading();
   }
-  if (rest && this->posing_->surface() == this->drawn_) // otherwise another mesh is being opened
+  if (rest &&
+    this->posing_->surface() == this->drawn_surface_) // otherwise another mesh is being opened
   {
     this->posing_->draw();
-    this->weights_->move_surface(this->posing_->seen());
+    this->weights_->move_surface(this->posing_->displayed_shape());
   }
   this->distances_->update();
   this->rotations_->update();
@@ -942,12 +947,13 @@ void MainWindow::draw_pose()
 /// rest. A label then states that the shape is at rest.
 void MainWindow::show_state()
 {
-  const QString inspected = this->inspection_->tet_view()->is_shown() ? tr("tets are shown at rest")
-    : this->inspection_->defect_view().is_shown() ? tr("defects are shown at rest")
-    : this->weights_->wants_rest()                ? tr("the slice of weights is shown at rest")
-    : this->volume_view_->is_shown()              ? tr("winding numbers are shown at rest")
-                                                  : QString();
-  const bool looks = this->posing_->looks_at_rest();
+  const QString inspected = this->tet_inspection_->tet_view()->is_shown()
+    ? tr("tets are shown at rest")
+    : this->tet_inspection_->defect_view().is_shown() ? tr("defects are shown at rest")
+    : this->weights_->requires_rest_shape()           ? tr("the slice of weights is shown at rest")
+    : this->volume_view_->is_shown()                  ? tr("winding numbers are shown at rest")
+                                                      : QString();
+  const bool looks = this->posing_->is_rest_view();
   this->posing_->inspect_at_rest(!inspected.isEmpty());
   this->editing_->show_rest(!inspected.isEmpty() || looks);
   const bool edits = this->posing_->edits_at_rest() && this->posing_->is_posed();
@@ -955,28 +961,30 @@ void MainWindow::show_state()
     : looks                                ? tr("T shows the pose")
     : edits                                ? tr("handles are edited at rest")
                                            : QString();
-  this->viewport_->name_state(
+  this->viewport_->set_state_name(
     this->document_->handle_data() && !why.isEmpty() ? tr("Rest shape: %1").arg(why) : QString());
 }
 
 /// Orient the cutting planes perpendicular to the axis that is nearest to the line of sight, so
 /// that a cut shows the inside. An orientation that the user has chosen is kept.
-void MainWindow::face_planes()
+void MainWindow::orient_planes()
 {
-  const Vec3 sight(this->viewport_->renderer()->GetActiveCamera()->GetDirectionOfProjection());
+  const Vec3 view_direction(
+    this->viewport_->renderer()->GetActiveCamera()->GetDirectionOfProjection());
   int axis = 0;
-  sight.cwiseAbs().maxCoeff(&axis);
+  view_direction.cwiseAbs().maxCoeff(&axis);
   for (const QString name : { "volume", "tets", "weights" })
   {
     const QString key = name + ".orientation";
-    int& faced = this->faced_.try_emplace(name, find_option(key)->initial.toInt()).first->second;
+    int& faced = this->automatic_orientations_.try_emplace(name, find_option(key)->initial.toInt())
+                   .first->second;
     if (this->document_->number(key) == faced)
     {
       faced = axis;
       this->links_->note(key, axis);
       if (name == "tets")
       {
-        this->links_->note("tets.other_side", sight[axis] > 0.0);
+        this->links_->note("tets.other_side", view_direction[axis] > 0.0);
       }
     }
   }
@@ -986,10 +994,10 @@ void MainWindow::face_planes()
 /// the last pose.
 void MainWindow::update_hint()
 {
-  const QString said = this->editing_->sentence();
+  const QString said = this->editing_->message();
   this->hint_->setText(said.isEmpty() ? this->hint_text_ : said);
   this->hint_->setStyleSheet(
-    this->editing_->is_warning() ? "color: " + shade("error_ink").name() : QString());
+    this->editing_->is_warning() ? "color: " + theme_color("error_ink").name() : QString());
 }
 
 void MainWindow::update_panel()
@@ -1036,7 +1044,7 @@ void MainWindow::show_outlines(bool shown)
 /// panel of the volume determines it.
 void MainWindow::update_surface_look()
 {
-  int look = this->inspection_->surface_look();
+  int look = this->tet_inspection_->surface_look();
   look = look == Viewport::solid ? this->weights_->surface_look() : look;
   this->viewport_->set_surface_look(look == Viewport::solid && this->volume_view_->is_active()
       ? this->panels_->volume()->surface_look()
@@ -1054,14 +1062,14 @@ void MainWindow::show_column(int column)
 
 // ---- Errors -------------------------------------------------------------------------
 
-void MainWindow::show_error(const QString& sentence, ErrorKind kind)
+void MainWindow::show_error(const QString& message, ErrorKind kind)
 {
-  this->error_bar_->show_sentence(sentence, kind);
+  this->error_bar_->show_message(message, kind);
 }
 
-void MainWindow::show_notice(const QString& sentence)
+void MainWindow::show_notice(const QString& message)
 {
-  this->note_bar_->offer(sentence, {}, tr("Close"));
+  this->note_bar_->offer(message, {}, tr("Close"));
 }
 
 QString MainWindow::reading() const
@@ -1071,5 +1079,5 @@ QString MainWindow::reading() const
 
 QString MainWindow::error() const
 {
-  return this->error_bar_->sentence();
+  return this->error_bar_->message();
 }

@@ -24,7 +24,7 @@ struct OpenedFile;
 class HandleEditing;
 class EmptyState;
 class ShapeHandles;
-class Inspection;
+class TetInspection;
 class KeyStrip;
 class NoticeBar;
 class OptionLinks;
@@ -87,7 +87,7 @@ public:
   RotationView* rotations() const { return this->rotations_.get(); }
   PanelColumn* panels() const { return this->panels_; }
   VolumeView* volume_view() const { return this->volume_view_; }
-  Inspection* inspection() const { return this->inspection_; }
+  TetInspection* tet_inspection() const { return this->tet_inspection_; }
   Probe* probe() const { return this->probe_; }
   /// Show or hide outlines, as an undo step.
   void show_outlines(bool shown);
@@ -106,7 +106,7 @@ public:
   QString reading() const;
   /// Return the sentence in the error bar; empty if the bar is hidden.
   QString error() const;
-  void show_error(const QString& sentence, ErrorKind kind = ErrorKind::other);
+  void show_error(const QString& message, ErrorKind kind = ErrorKind::other);
   ErrorBar* error_bar() const { return this->error_bar_; }
   NoticeBar* rebind_bar() const { return this->rebind_bar_; }
   NoticeBar* recovery_bar() const { return this->recovery_bar_; }
@@ -151,26 +151,26 @@ private:
   void show_selected_column();
   QString bound_note() const;
   void show_state();
-  void face_planes();
+  void orient_planes();
   bool open_file(const QString& path, const OpenedFile* read);
   bool show_file(const OpenedFile& file, const QString& path);
   bool open_picture(vtkImageData* picture, const QString& name, const Source& source, bool whole);
-  bool say(const QString& name, const bindpose::Status& status);
+  bool report_error(const QString& name, const bindpose::Status& status);
   void update_hint();
-  void show_notice(const QString& sentence);
+  void show_notice(const QString& message);
   void update_title();
 
   Document* document_;
   Viewport* viewport_ = nullptr;
   VolumeView* volume_view_ = nullptr;
-  Inspection* inspection_ = nullptr;
+  TetInspection* tet_inspection_ = nullptr;
   WeightInspection* weights_ = nullptr;
   Probe* probe_ = nullptr;
   std::optional<bindpose::Vec3> plane_; // normal of a planar shape at rest; empty: not planar
-  bool flat_wanted_ = true;
+  bool flat_requested_ = true;
   /// Last orientation that the program has chosen for each cutting plane. The key is the prefix of
   /// the plane's options: "volume", "tets" or "weights".
-  std::map<QString, int> faced_;
+  std::map<QString, int> automatic_orientations_;
   Posing* posing_ = nullptr;
   HandleEditing* editing_ = nullptr;
   Binding* binding_ = nullptr;
@@ -193,7 +193,7 @@ private:
   NoticeBar* export_bar_ = nullptr;
   ElidedLabel* hint_ = nullptr;
   EmptyState* empty_ = nullptr; // in the middle of the 3D view while no file is open
-  vtkSmartPointer<vtkPolyData> drawn_; // the surface that the viewport shows
+  vtkSmartPointer<vtkPolyData> drawn_surface_; // the surface that the viewport shows
   bool timeline_ = false; // true: show the timeline, after the first key frame or on request
   bool has_keys_ = false;
   QString read_notice_; // warnings about data of the opened file that was not read

@@ -22,14 +22,14 @@ OptionLinks::OptionLinks(Document* document, QWidget* root) : QObject(root), doc
     const auto tell = [this, key] { this->chosen(key); };
     if (auto* box = qobject_cast<QCheckBox*>(found))
     {
-      this->tie(
+      this->link_option(
         key, [box] { return box->isChecked(); },
         [box](const QVariant& value) { box->setChecked(value.toBool()); });
       QObject::connect(box, &QCheckBox::clicked, this, tell);
     }
     else if (auto* list = qobject_cast<QComboBox*>(found))
     {
-      this->tie(
+      this->link_option(
         key, [list] { return list->currentIndex(); },
         [list](const QVariant& value)
         {
@@ -42,7 +42,7 @@ OptionLinks::OptionLinks(Document* document, QWidget* root) : QObject(root), doc
     }
     else if (auto* group = qobject_cast<QButtonGroup*>(found))
     {
-      this->tie(
+      this->link_option(
         key, [group] { return group->checkedId(); },
         [group](const QVariant& value)
         {
@@ -56,7 +56,7 @@ OptionLinks::OptionLinks(Document* document, QWidget* root) : QObject(root), doc
     }
     else if (auto* row = qobject_cast<ValueRow*>(found))
     {
-      this->tie(
+      this->link_option(
         key, [row] { return row->value(); },
         [row](const QVariant& value) { row->choose(value.toDouble()); });
       QObject::connect(row, &ValueRow::value_chosen, this, tell);
@@ -67,21 +67,21 @@ OptionLinks::OptionLinks(Document* document, QWidget* root) : QObject(root), doc
   QObject::connect(document, &Document::option_changed, this, &OptionLinks::option_changed);
 }
 
-void OptionLinks::tie(const QString& key, const std::function<QVariant()>& value,
+void OptionLinks::link_option(const QString& key, const std::function<QVariant()>& value,
   const std::function<void(const QVariant&)>& set)
 {
   this->links_[key] = { value, set, {} };
 }
 
-void OptionLinks::join(const QStringList& keys)
+void OptionLinks::group_options(const QStringList& keys)
 {
   for (const QString& key : keys)
   {
-    this->links_[key].together = keys;
+    this->links_[key].grouped_keys = keys;
   }
 }
 
-void OptionLinks::note_all_but(const QStringList& keys)
+void OptionLinks::store_all_except(const QStringList& keys)
 {
   for (const auto& [key, link] : this->links_)
   {
@@ -94,13 +94,13 @@ void OptionLinks::note_all_but(const QStringList& keys)
 
 void OptionLinks::chosen(const QString& key)
 {
-  if (this->follows_)
+  if (this->is_updating_widgets_)
   {
     return;
   }
-  const QStringList& together = this->links_[key].together;
-  const QStringList keys = together.isEmpty() ? QStringList{ key } : together;
-  this->note_all_but(keys);
+  const QStringList& grouped_keys = this->links_[key].grouped_keys;
+  const QStringList keys = grouped_keys.isEmpty() ? QStringList{ key } : grouped_keys;
+  this->store_all_except(keys);
   Options values;
   for (const QString& each : keys)
   {
@@ -120,8 +120,8 @@ void OptionLinks::option_changed(const QString& key, const QVariant& value)
   const auto link = this->links_.find(key);
   if (link != this->links_.end() && link->second.value() != value)
   {
-    this->follows_ = true;
+    this->is_updating_widgets_ = true;
     link->second.set(value);
-    this->follows_ = false;
+    this->is_updating_widgets_ = false;
   }
 }

@@ -26,10 +26,10 @@ public:
 
   /// Connect an option by two functions: `value` returns the current value, `set` applies a new
   /// value.
-  void tie(const QString& key, const std::function<QVariant()>& value,
+  void link_option(const QString& key, const std::function<QVariant()>& value,
     const std::function<void(const QVariant&)>& set);
   /// Group options: the undo step of one option stores all options of its group.
-  void join(const QStringList& keys);
+  void group_options(const QStringList& keys);
   /// Make an undo step after the user has changed the option. The step has the name of the option.
   void chosen(const QString& key);
 
@@ -38,23 +38,23 @@ public:
   void note(const QString& key, const QVariant& value);
   /// Store the current values of all options in the document without an undo step, so that a
   /// session contains them.
-  void note_all() { this->note_all_but({}); }
+  void store_all() { this->store_all_except({}); }
 
 private:
   struct Link
   {
     std::function<QVariant()> value;
     std::function<void(const QVariant&)> set;
-    QStringList together; ///< the options of a group, including this one; empty: only this one
+    QStringList grouped_keys; ///< the options of a group, including this one; empty: only this one
   };
-  void note_all_but(const QStringList& keys);
+  void store_all_except(const QStringList& keys);
   void option_changed(const QString& key, const QVariant& value);
 
   Document* document_;
   std::map<QString, Link> links_;
   /// True while widgets are set from the document. Their signals are then caused by the program,
   /// not by the user.
-  bool follows_ = false;
+  bool is_updating_widgets_ = false;
 };
 
 #endif

@@ -73,7 +73,7 @@ PanelColumn::PanelColumn(QWidget* parent)
   this->splitter_->setStretchFactor(1, 0);
   column->addWidget(this->splitter_, 1);
   QObject::connect(
-    this->splitter_, &QSplitter::splitterMoved, this, [this] { this->shared_by_hand_ = true; });
+    this->splitter_, &QSplitter::splitterMoved, this, [this] { this->height_set_by_user_ = true; });
   QObject::connect(this->buttons_, &QButtonGroup::idClicked, this, &PanelColumn::show_panel);
   this->set_open(false, false, false);
 }
@@ -94,11 +94,11 @@ QWidget* PanelColumn::scrolled(QFrame* panel, int width)
 
 /// Give the list of handles the height that the panel does not need, but at most half of the total
 /// height. Do nothing after the user has dragged the border.
-void PanelColumn::share_height()
+void PanelColumn::distribute_height()
 {
   constexpr int panel_height = 540;
   constexpr int least = 180;
-  if (!this->shared_by_hand_ && !this->handles_->isHidden())
+  if (!this->height_set_by_user_ && !this->handles_->isHidden())
   {
     const int height = this->splitter_->height();
     const int list = std::max(least, std::min(height - panel_height, height / 2));
@@ -109,7 +109,7 @@ void PanelColumn::share_height()
 void PanelColumn::resizeEvent(QResizeEvent* event)
 {
   QWidget::resizeEvent(event);
-  this->share_height();
+  this->distribute_height();
 }
 
 void PanelColumn::set_open(bool volume, bool shape, bool surface)
@@ -160,7 +160,7 @@ void PanelColumn::show_handles()
   if (this->handles_->isHidden() == shown)
   {
     this->handles_->setVisible(shown);
-    this->share_height();
+    this->distribute_height();
   }
 }
 

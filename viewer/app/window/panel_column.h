@@ -52,7 +52,7 @@ protected:
 private:
   QWidget* scrolled(QFrame* panel, int width);
   void show_handles();
-  void share_height();
+  void distribute_height();
 
   QFrame* choice_;
   QSplitter* splitter_;
@@ -64,7 +64,7 @@ private:
   TetPanel* tet_;
   VolumePanel* volume_;
   bool has_shape_ = false; ///< true: a surface or handles are open
-  bool shared_by_hand_ = false;
+  bool height_set_by_user_ = false;
 };
 
 #endif

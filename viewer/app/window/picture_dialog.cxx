@@ -92,7 +92,7 @@ void PictureDialog::update_size()
   const bindpose::Status status = bindpose::check_picture_size(size.width(), size.height());
   this->save_->setEnabled(status.ok());
   this->size_->setText(status.ok() ? tr("%L1 × %L2 pixels").arg(size.width()).arg(size.height())
-                                   : capital(QString::fromStdString(status.message)) + '.');
+                                   : capitalized(QString::fromStdString(status.message)) + '.');
 }
 
 void PictureDialog::accept()

@@ -6,19 +6,19 @@
 
 using bindpose::Vec3;
 
-void tie_plane(OptionLinks* links, Document* document, const QString& name, PlaneHandle* plane)
+void link_plane(OptionLinks* links, Document* document, const QString& name, PlaneHandle* plane)
 {
   const QString place = name + ".place";
   const QString normal = name + ".normal";
   // During a drag, store the values from before the drag, because a session may be saved then.
-  links->tie(
+  links->link_option(
     place, [plane] { return plane->relative_position_before_drag(); },
     [plane](const QVariant& value) { plane->set_place(value.toDouble()); });
-  links->tie(
+  links->link_option(
     normal,
     [plane]
     {
-      const Vec3 direction = plane->kept_free_normal();
+      const Vec3 direction = plane->free_normal_before_drag();
       return QVariantList{ direction.x(), direction.y(), direction.z() };
     },
     [plane](const QVariant& value)
@@ -28,7 +28,7 @@ void tie_plane(OptionLinks* links, Document* document, const QString& name, Plan
     });
   // Undo these options together: choosing an axis changes the normal of the free plane, and
   // rotating the plane changes its relative position.
-  links->join({ name + ".orientation", place, normal });
+  links->group_options({ name + ".orientation", place, normal });
   QObject::connect(plane, &PlaneHandle::dragged, links,
     [links, document, place, normal](bool turned)
     {

@@ -9,6 +9,6 @@ class PlaneHandle;
 
 /// Connect a plane with the options NAME.orientation, NAME.place and NAME.normal, where NAME is the
 /// parameter `name`. A drag is one undo step; undo during a drag cancels the drag.
-void tie_plane(OptionLinks* links, Document* document, const QString& name, PlaneHandle* plane);
+void link_plane(OptionLinks* links, Document* document, const QString& name, PlaneHandle* plane);
 
 #endif

@@ -52,7 +52,7 @@ QString number(double value)
   return QString::number(value, 'g', 4);
 }
 
-QString place_words(const Vec3& place)
+QString format_position(const Vec3& place)
 {
   return Probe::tr("x %1   y %2   z %3")
     .arg(number(place.x()), number(place.y()), number(place.z()));
@@ -82,14 +82,14 @@ QString named_value(const Coloring& coloring, double value)
 
 /// Return the value that is displayed as a color: interpolated linearly between a triangle's
 /// corners, or the value of the cell.
-std::optional<double> shown_value(vtkPolyData* data, const Index* corners, const SightHit& hit)
+std::optional<double> shown_value(vtkPolyData* data, const Index* corners, const RayHit& hit)
 {
   if (vtkDataArray* array = data->GetPointData()->GetArray(color_array_name))
   {
     double value = 0.0;
     for (int k = 0; k < 3; ++k)
     {
-      value += hit.shares[k] * array->GetComponent(corners[k], 0);
+      value += hit.barycentric[k] * array->GetComponent(corners[k], 0);
     }
     return value;
   }
@@ -101,7 +101,7 @@ std::optional<double> shown_value(vtkPolyData* data, const Index* corners, const
 
 /// Compute the part of the ray that is inside a box, as distances `from` and `to` from its origin.
 /// Return false if the ray misses the box.
-bool stretch_in(const SightRay& ray, const double* bounds, double& from, double& to)
+bool stretch_in(const ViewRay& ray, const double* bounds, double& from, double& to)
 {
   from = 0.0;
   to = 1e300;
@@ -119,7 +119,7 @@ bool stretch_in(const SightRay& ray, const double* bounds, double& from, double&
   return from < to;
 }
 
-Vec3 at(const SightRay& ray, double distance)
+Vec3 point_on_ray(const ViewRay& ray, double distance)
 {
   return ray.origin + distance * ray.direction;
 }
@@ -127,7 +127,7 @@ Vec3 at(const SightRay& ray, double distance)
 /// Call `what` with the distance and the value at points along a ray through a volume, until `what`
 /// returns false. The number of points is twice the number of samples along the longest side.
 template <typename What>
-void walk(const SightRay& ray, vtkImageData* image, const What& what)
+void walk(const ViewRay& ray, vtkImageData* image, const What& what)
 {
   double from = 0.0;
   double to = 0.0;
@@ -141,7 +141,7 @@ void walk(const SightRay& ray, vtkImageData* image, const What& what)
   {
     const double distance = from + (to - from) * (k + 1e-6) / (steps + 2e-6);
     double value = 0.0;
-    if (value_at(image, winding_name, at(ray, distance), value) && !what(distance, value))
+    if (value_at(image, winding_name, point_on_ray(ray, distance), value) && !what(distance, value))
     {
       return;
     }
@@ -188,15 +188,15 @@ void Probe::mouse_moved(const QMouseEvent& event)
   }
   const auto start = std::chrono::steady_clock::now();
   const QPoint pixel = this->views_.viewport->to_vtk(event.pos());
-  this->say(this->read_at(pixel.x(), pixel.y()));
-  this->make_way(event.pos());
+  this->show_lines(this->read_at(pixel.x(), pixel.y()));
+  this->move_label_away(event.pos());
   this->milliseconds_ =
     std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 void Probe::clear()
 {
-  this->say({});
+  this->show_lines({});
 }
 
 QString Probe::reading() const
@@ -204,7 +204,7 @@ QString Probe::reading() const
   return this->lines_.join(QStringLiteral("  ·  "));
 }
 
-void Probe::say(const QStringList& lines)
+void Probe::show_lines(const QStringList& lines)
 {
   if (lines != this->lines_)
   {
@@ -217,7 +217,7 @@ void Probe::say(const QStringList& lines)
 
 /// Move the label to the upper right corner, or to the lower right corner if the mouse or another
 /// widget is there.
-void Probe::make_way(const QPoint& mouse)
+void Probe::move_label_away(const QPoint& mouse)
 {
   const Viewport* viewport = this->views_.viewport;
   const QRect room =
@@ -250,19 +250,20 @@ QStringList Probe::read_at(int x, int y)
   const int width = viewport->picture_size(1).width();
   // If the view is split, the right half shows the other shape with the same camera.
   const bool other = viewport->is_split() && 2 * x >= width;
-  SightRay ray;
+  ViewRay ray;
   viewport->ray_at(other ? x - width / 2 : x, y, ray.origin, ray.direction);
   if (!ray.origin.allFinite() || !ray.direction.allFinite())
   {
     return {};
   }
   const int look = viewport->surface_look();
-  const Maybe surface = this->surface(ray, other);
+  const OptionalHit surface = this->surface(ray, other);
   const QString defect = other ? QString() : this->defect(ray);
-  Maybe first = look == Viewport::solid ? surface : Maybe();
-  for (const Maybe& each : other ? std::vector<Maybe>()
-                                 : std::vector<Maybe>{ this->tets(ray), this->weight_slice(ray),
-                                     this->winding_slice(ray), this->isosurface(ray) })
+  OptionalHit first = look == Viewport::solid ? surface : OptionalHit();
+  for (const OptionalHit& each : other
+      ? std::vector<OptionalHit>()
+      : std::vector<OptionalHit>{ this->tets(ray), this->weight_slice(ray),
+          this->winding_slice(ray), this->isosurface(ray) })
   {
     if (each && (!first || each->distance < first->distance))
     {
@@ -270,7 +271,7 @@ QStringList Probe::read_at(int x, int y)
     }
   }
   first = first || other ? first : this->cloud(ray);
-  first = first ? first : look == Viewport::hidden ? Maybe() : surface;
+  first = first ? first : look == Viewport::hidden ? OptionalHit() : surface;
   QStringList lines = first ? first->lines : QStringList();
   if (!defect.isEmpty())
   {
@@ -280,22 +281,22 @@ QStringList Probe::read_at(int x, int y)
   return lines;
 }
 
-Probe::Maybe Probe::surface(const SightRay& ray, bool other) const
+Probe::OptionalHit Probe::surface(const ViewRay& ray, bool other) const
 {
   const ShadedSurface* shaded =
     other ? this->views_.posing->ghost()->shaded() : this->views_.viewport->shaded();
   vtkPolyData* shape = this->views_.surface();
-  SightHit hit;
+  RayHit hit;
   if (!shaded || !shape ||
     !first_triangle(ray, to_points(shaded->polydata()).view(), shaded->triangles(), hit))
   {
     return {};
   }
-  Found found;
+  Hit found;
   found.distance = hit.distance;
   // Show coordinates of the shape itself. The drawn points can differ from them, because the view
   // adds offsets to the layers of a planar shape.
-  const Vec3 seen = at(ray, hit.distance);
+  const Vec3 seen = point_on_ray(ray, hit.distance);
   Vec3 place = Vec3::Zero();
   Index nearest = -1;
   double least = 1e300;
@@ -303,7 +304,7 @@ Probe::Maybe Probe::surface(const SightRay& ray, bool other) const
   {
     const Index drawn = shaded->triangles()(hit.element, k);
     const Index vertex = shaded->input_points()[static_cast<std::size_t>(drawn)];
-    place += hit.shares[k] * Vec3(shape->GetPoint(vertex));
+    place += hit.barycentric[k] * Vec3(shape->GetPoint(vertex));
     const double distance = (Vec3(shaded->polydata()->GetPoint(drawn)) - seen).norm();
     nearest = distance < least ? vertex : nearest;
     least = std::min(least, distance);
@@ -311,16 +312,17 @@ Probe::Maybe Probe::surface(const SightRay& ray, bool other) const
   if (other)
   {
     place = seen;
-    found.lines << method_name(this->views_.posing->compared()->options().method);
+    found.lines << method_name(this->views_.posing->compared_deformation()->options().method);
   }
-  found.lines << tr("Triangle %1, vertex %2").arg(hit.element).arg(nearest) << place_words(place);
+  found.lines << tr("Triangle %1, vertex %2").arg(hit.element).arg(nearest)
+              << format_position(place);
   found.lines << this->weights(shape, hit) << this->difference(hit);
   found.lines << (other ? QString() : this->views_.rotations->reading(nearest));
   return found;
 }
 
 /// Return the displayed weight, and the handle with the largest weight.
-QStringList Probe::weights(vtkPolyData* shape, const SightHit& hit) const
+QStringList Probe::weights(vtkPolyData* shape, const RayHit& hit) const
 {
   const ShadedSurface* shaded = this->views_.viewport->shaded();
   vtkDataArray* array = shape->GetPointData()->GetArray("Weights");
@@ -341,7 +343,7 @@ QStringList Probe::weights(vtkPolyData* shape, const SightHit& hit) const
     double value = 0.0;
     for (int k = 0; k < 3; ++k)
     {
-      value += hit.shares[k] * array->GetComponent(vertices[k], column);
+      value += hit.barycentric[k] * array->GetComponent(vertices[k], column);
     }
     return value;
   };
@@ -372,14 +374,14 @@ QStringList Probe::weights(vtkPolyData* shape, const SightHit& hit) const
 }
 
 /// Return the distance between the shape and the shape of the compared method.
-QString Probe::difference(const SightHit& hit) const
+QString Probe::difference(const RayHit& hit) const
 {
   const Posing* posing = this->views_.posing;
   const ShadedSurface* shaded = this->views_.viewport->shaded();
   const Points& a = posing->points();
-  const Points& b = posing->compared()->points();
+  const Points& b = posing->compared_deformation()->points();
   if (posing->ghost()->place() == PoseGhost::hidden || !shaded || a.rows() != b.rows() ||
-    a.rows() == 0 || posing->shows_rest() || posing->compared()->is_binding())
+    a.rows() == 0 || posing->shows_rest() || posing->compared_deformation()->is_binding())
   {
     return {};
   }
@@ -388,7 +390,7 @@ QString Probe::difference(const SightHit& hit) const
   {
     const Index vertex =
       shaded->input_points()[static_cast<std::size_t>(shaded->triangles()(hit.element, k))];
-    apart += hit.shares[k] * (a.row(vertex) - b.row(vertex)).transpose();
+    apart += hit.barycentric[k] * (a.row(vertex) - b.row(vertex)).transpose();
   }
   const double diagonal = posing->rest_diagonal();
   return tr("Distance %1 units, %2 % of the diagonal")
@@ -396,10 +398,10 @@ QString Probe::difference(const SightHit& hit) const
     .arg(100.0 * apart.norm() / diagonal, 0, 'g', 3);
 }
 
-Probe::Maybe Probe::tets(const SightRay& ray) const
+Probe::OptionalHit Probe::tets(const ViewRay& ray) const
 {
   const TetView* view = this->views_.tets;
-  SightHit hit;
+  RayHit hit;
   if (!view->is_shown())
   {
     return {};
@@ -411,7 +413,7 @@ Probe::Maybe Probe::tets(const SightRay& ray) const
     return {};
   }
   const auto corner = [&](int k) { return Vec3(points.row(tets(hit.element, k))); };
-  Found found;
+  Hit found;
   found.distance = hit.distance;
   found.lines << tr("Tet %1: smallest angle %2°")
                    .arg(hit.element)
@@ -420,15 +422,15 @@ Probe::Maybe Probe::tets(const SightRay& ray) const
   {
     found.lines << named_value(view->coloring(), view->values()->GetValue(hit.element));
   }
-  found.lines << place_words(at(ray, hit.distance));
+  found.lines << format_position(point_on_ray(ray, hit.distance));
   return found;
 }
 
-Probe::Maybe Probe::weight_slice(const SightRay& ray) const
+Probe::OptionalHit Probe::weight_slice(const ViewRay& ray) const
 {
   const WeightView* view = this->views_.weights;
   SurfaceInput slice;
-  SightHit hit;
+  RayHit hit;
   if (!view->is_sliced() || view->slice()->GetNumberOfCells() == 0 ||
     !to_surface(view->slice(), slice).ok() ||
     !first_triangle(ray, slice.points.view(), slice.triangles.view(), hit))
@@ -437,14 +439,14 @@ Probe::Maybe Probe::weight_slice(const SightRay& ray) const
   }
   const auto value =
     shown_value(view->slice(), slice.triangles.view().data() + 3 * hit.element, hit);
-  Found found;
+  Hit found;
   found.distance = hit.distance;
   found.lines << tr("Slice") << (value ? named_value(view->coloring(), *value) : QString())
-              << place_words(at(ray, hit.distance));
+              << format_position(point_on_ray(ray, hit.distance));
   return found;
 }
 
-Probe::Maybe Probe::winding_slice(const SightRay& ray) const
+Probe::OptionalHit Probe::winding_slice(const ViewRay& ray) const
 {
   const VolumeView* view = this->views_.volume;
   const double slope = ray.direction.dot(view->slice_normal());
@@ -452,49 +454,49 @@ Probe::Maybe Probe::winding_slice(const SightRay& ray) const
   {
     return {}; // the plane is hidden or seen edge-on
   }
-  Found found;
+  Hit found;
   found.distance = (view->position() - ray.origin.dot(view->slice_normal())) / slope;
-  const Vec3 place = at(ray, found.distance);
+  const Vec3 place = point_on_ray(ray, found.distance);
   double value = 0.0;
   if (found.distance < 0.0 || !value_at(view->volume(), winding_name, place, value))
   {
     return {};
   }
-  found.lines << tr("Slice: winding number w = %1").arg(value, 0, 'f', 3) << place_words(place);
+  found.lines << tr("Slice: winding number w = %1").arg(value, 0, 'f', 3) << format_position(place);
   return found;
 }
 
 /// Find the point of the isosurface under the mouse: the first point of the ray at which the
 /// winding number crosses the level.
-Probe::Maybe Probe::isosurface(const SightRay& ray) const
+Probe::OptionalHit Probe::isosurface(const ViewRay& ray) const
 {
   const VolumeView* view = this->views_.volume;
   if (!view->volume() || view->isosurface()->GetNumberOfCells() == 0)
   {
     return {};
   }
-  Maybe found;
+  OptionalHit found;
   const double level = view->level();
-  std::optional<std::pair<double, double>> before;
+  std::optional<std::pair<double, double>> previous;
   walk(ray, view->volume(),
     [&](double distance, double value)
     {
-      if (before && (before->second < level) != (value < level))
+      if (previous && (previous->second < level) != (value < level))
       {
-        const double share = (level - before->second) / (value - before->second);
-        found = Found();
-        found->distance = before->first + share * (distance - before->first);
+        const double fraction = (level - previous->second) / (value - previous->second);
+        found = Hit();
+        found->distance = previous->first + fraction * (distance - previous->first);
         found->lines << tr("Isosurface: winding number w = %1").arg(level, 0, 'f', 3)
-                     << place_words(at(ray, found->distance));
+                     << format_position(point_on_ray(ray, found->distance));
         return false;
       }
-      before = { distance, value };
+      previous = { distance, value };
       return true;
     });
   return found;
 }
 
-Probe::Maybe Probe::cloud(const SightRay& ray) const
+Probe::OptionalHit Probe::cloud(const ViewRay& ray) const
 {
   const VolumeView* view = this->views_.volume;
   if (!view->volume() || !view->is_cloud_shown())
@@ -514,7 +516,7 @@ Probe::Maybe Probe::cloud(const SightRay& ray) const
   {
     return {};
   }
-  Found found;
+  Hit found;
   found.lines << tr("Cloud: winding number from %1 to %2 along the line of sight")
                    .arg(lowest, 0, 'f', 3)
                    .arg(highest, 0, 'f', 3);
@@ -523,7 +525,7 @@ Probe::Maybe Probe::cloud(const SightRay& ray) const
 
 /// Return the text about the defect under the mouse. Dots and edges within a few pixels have
 /// priority over faces. Among several candidates, the candidate nearest to the eye is used.
-QString Probe::defect(const SightRay& ray) const
+QString Probe::defect(const ViewRay& ray) const
 {
   vtkPolyData* defects = this->views_.defects->defects();
   if (!this->views_.defects->is_shown() || defects->GetNumberOfCells() == 0)
@@ -539,7 +541,7 @@ QString Probe::defect(const SightRay& ray) const
               : std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()))) /
     height;
   const double eye = (ray.origin - Vec3(camera->GetPosition())).norm();
-  const Points seen = seen_along(ray, to_points(defects).view());
+  const Points seen = to_ray_coordinates(ray, to_points(defects).view());
   const auto reach = [&](double depth) { return parallel ? slope : slope * (eye + depth); };
   Index best = -1;
   int best_kind = 4; // kind of the best candidate: 1 for a dot or edge, 3 for a face, 4 for none
@@ -561,9 +563,9 @@ QString Probe::defect(const SightRay& ray) const
       {
         const Vec3 way = b - a;
         const double length = way.head<2>().squaredNorm();
-        const double share =
+        const double fraction =
           length > 0.0 ? std::clamp(-a.head<2>().dot(way.head<2>()) / length, 0.0, 1.0) : 0.0;
-        const Vec3 near = a + share * way;
+        const Vec3 near = a + fraction * way;
         depth = near.z();
         met = depth > 0.0 && near.head<2>().norm() < reach(depth);
       }

@@ -63,25 +63,25 @@ public:
 
 private:
   /// An object that the ray intersects, and the text about it.
-  struct Found
+  struct Hit
   {
     double distance = 0.0;
     QStringList lines;
   };
-  using Maybe = std::optional<Found>;
-  Maybe surface(const bindpose::SightRay& ray, bool other) const;
-  Maybe tets(const bindpose::SightRay& ray) const;
-  Maybe weight_slice(const bindpose::SightRay& ray) const;
-  Maybe winding_slice(const bindpose::SightRay& ray) const;
-  Maybe isosurface(const bindpose::SightRay& ray) const;
-  Maybe cloud(const bindpose::SightRay& ray) const;
-  QString defect(const bindpose::SightRay& ray) const;
-  QStringList weights(vtkPolyData* shape, const bindpose::SightHit& hit) const;
-  QString difference(const bindpose::SightHit& hit) const;
+  using OptionalHit = std::optional<Hit>;
+  OptionalHit surface(const bindpose::ViewRay& ray, bool other) const;
+  OptionalHit tets(const bindpose::ViewRay& ray) const;
+  OptionalHit weight_slice(const bindpose::ViewRay& ray) const;
+  OptionalHit winding_slice(const bindpose::ViewRay& ray) const;
+  OptionalHit isosurface(const bindpose::ViewRay& ray) const;
+  OptionalHit cloud(const bindpose::ViewRay& ray) const;
+  QString defect(const bindpose::ViewRay& ray) const;
+  QStringList weights(vtkPolyData* shape, const bindpose::RayHit& hit) const;
+  QString difference(const bindpose::RayHit& hit) const;
 
   void mouse_moved(const QMouseEvent& event);
-  void say(const QStringList& lines);
-  void make_way(const QPoint& mouse);
+  void show_lines(const QStringList& lines);
+  void move_label_away(const QPoint& mouse);
 
   Views views_;
   QLabel* label_;

@@ -17,10 +17,10 @@ ShortcutSheet::ShortcutSheet(QWidget* parent) : QDialog(parent)
   this->setAttribute(Qt::WA_DeleteOnClose);
   auto* rows = new QVBoxLayout(this);
   rows->setContentsMargins(12, 12, 12, 12);
-  this->words_ = new QLineEdit(this);
-  this->words_->setPlaceholderText(tr("Search …"));
-  this->words_->setClearButtonEnabled(true);
-  rows->addWidget(this->words_);
+  this->search_field_ = new QLineEdit(this);
+  this->search_field_->setPlaceholderText(tr("Search …"));
+  this->search_field_->setClearButtonEnabled(true);
+  rows->addWidget(this->search_field_);
   this->table_ = new QTableWidget(0, 2, this);
   this->table_->setObjectName("sheet");
   this->table_->horizontalHeader()->hide();
@@ -36,9 +36,9 @@ ShortcutSheet::ShortcutSheet(QWidget* parent) : QDialog(parent)
   {
     const int heading = this->table_->rowCount();
     this->table_->insertRow(heading);
-    auto* title = new QTableWidgetItem(capital(QString::fromStdString(group.when)));
+    auto* title = new QTableWidgetItem(capitalized(QString::fromStdString(group.when)));
     title->setFont(bold);
-    title->setForeground(shade(is_dark() ? "accent_ring" : "accent"));
+    title->setForeground(theme_color(is_dark() ? "accent_ring" : "accent"));
     this->table_->setItem(heading, 0, title);
     this->table_->setSpan(heading, 0, 1, 2);
     for (const auto& [input, text] : group.rows)
@@ -59,13 +59,14 @@ ShortcutSheet::ShortcutSheet(QWidget* parent) : QDialog(parent)
   this->table_->horizontalHeader()->setSectionResizeMode(1, QHeaderView::Stretch);
   this->table_->verticalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   rows->addWidget(this->table_);
-  QObject::connect(this->words_, &QLineEdit::textChanged, this, &ShortcutSheet::look_for);
+  QObject::connect(
+    this->search_field_, &QLineEdit::textChanged, this, &ShortcutSheet::apply_search);
   const QSize window = parent ? parent->size() : QSize(1280, 800);
   this->resize(std::min(820, window.width() - 80), std::min(900, window.height() - 80));
-  this->words_->setFocus();
+  this->search_field_->setFocus();
 }
 
-void ShortcutSheet::look_for(const QString& words)
+void ShortcutSheet::apply_search(const QString& words)
 {
   const QStringList wanted = words.split(' ', Qt::SkipEmptyParts);
   int heading = -1;

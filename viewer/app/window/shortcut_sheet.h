@@ -17,10 +17,10 @@ public:
 
   QTableWidget* table() const { return this->table_; }
   /// Show only the rows that contain all words of the search text, and their headings.
-  void look_for(const QString& words);
+  void apply_search(const QString& words);
 
 private:
-  QLineEdit* words_;
+  QLineEdit* search_field_;
   QTableWidget* table_;
 };
 

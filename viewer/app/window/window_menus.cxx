@@ -97,7 +97,7 @@ QAction* WindowMenus::add(QMenu* menu, const QString& text, const char* name, Ac
 void WindowMenus::add_file_menu()
 {
   QMenu* file = this->parts_.window->menuBar()->addMenu(tr("&File"));
-  this->add(file, tr("&Open…"), "open", [this] { Q_EMIT this->open_wanted(); });
+  this->add(file, tr("&Open…"), "open", [this] { Q_EMIT this->open_requested(); });
   QMenu* recent = file->addMenu(tr("Open &recent"));
   recent->setToolTipsVisible(true);
   QObject::connect(recent, &QMenu::aboutToShow, this,
@@ -156,33 +156,36 @@ void WindowMenus::add_view_menu()
   this->flat_view_ = this->add(view, tr("&2D view"), "",
     [this]
     {
-      Q_EMIT this->flat_view_wanted(!this->parts_.viewport->is_flat());
+      Q_EMIT this->flat_view_requested(!this->parts_.viewport->is_flat());
       this->parts_.viewport->reset_view();
       this->parts_.viewport->refresh();
     });
   this->flat_view_->setCheckable(true);
   this->outlines_ = this->add(view, tr("&Outlines"), "",
-    [this] { Q_EMIT this->outlines_wanted(!this->parts_.viewport->has_outlines()); });
+    [this] { Q_EMIT this->outlines_requested(!this->parts_.viewport->has_outlines()); });
   this->outlines_->setCheckable(true);
   this->outlines_->setToolTip(
     tr("Dark lines along the silhouette and the open edges of the shape"));
   this->timeline_ = this->add(view, tr("Ti&meline"), "",
-    [this] { Q_EMIT this->timeline_wanted(this->timeline_->isChecked()); });
+    [this] { Q_EMIT this->timeline_requested(this->timeline_->isChecked()); });
   this->timeline_->setCheckable(true);
   view->addSeparator();
   this->add(view, tr("&Rest shape or pose"), "look_at_rest",
-    [this] { this->parts_.posing->look_at_rest(!this->parts_.posing->looks_at_rest()); });
+    [this] { this->parts_.posing->set_rest_view(!this->parts_.posing->is_rest_view()); });
   this->add(view, tr("&Play or pause"), "play",
-    [this] { this->parts_.posing->keeper()->play(!this->parts_.posing->keeper()->is_playing()); });
-  this->add(view, tr("&Set a key"), "set_key", [this] { Q_EMIT this->parts_.strip->key_wanted(); });
+    [this] {
+      this->parts_.posing->pose_manager()->play(!this->parts_.posing->pose_manager()->is_playing());
+    });
+  this->add(
+    view, tr("&Set a key"), "set_key", [this] { Q_EMIT this->parts_.strip->set_key_requested(); });
   view->addSeparator();
   this->methods_ = new QActionGroup(this);
   int key = Qt::Key_1;
-  for (const bindpose::PoseMethod each : method_order())
+  for (const bindpose::PoseMethod each : pose_methods_in_order())
   {
     const auto number = static_cast<int>(each);
     QAction* method = this->add(
-      view, method_name(each), "", [this, number] { Q_EMIT this->method_wanted(number); });
+      view, method_name(each), "", [this, number] { Q_EMIT this->method_requested(number); });
     method->setData(number);
     method->setShortcut(QKeySequence(key++));
     method->setCheckable(true);

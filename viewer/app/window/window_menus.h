@@ -55,11 +55,11 @@ public:
 
 Q_SIGNALS:
   // Emitted when the user has chosen a menu entry.
-  void open_wanted();
-  void flat_view_wanted(bool flat);
-  void outlines_wanted(bool shown);
-  void timeline_wanted(bool shown);
-  void method_wanted(int method);
+  void open_requested();
+  void flat_view_requested(bool flat);
+  void outlines_requested(bool shown);
+  void timeline_requested(bool shown);
+  void method_requested(int method);
 
 private:
   template <typename Action>

@@ -34,8 +34,8 @@ WindowSessions::WindowSessions(const SessionParts& parts)
 {
   QObject::connect(parts.document, &Document::changed, &this->autosave_, &Autosave::note_change);
   QObject::connect(&this->autosave_, &Autosave::failed, parts.errors,
-    [errors = parts.errors](const QString& sentence)
-    { errors->show_sentence(sentence, ErrorKind::save_session); });
+    [errors = parts.errors](const QString& message)
+    { errors->show_message(message, ErrorKind::save_session); });
 }
 
 WindowSessions::~WindowSessions() = default;
@@ -44,18 +44,18 @@ WindowSessions::~WindowSessions() = default;
 
 Session WindowSessions::session() const
 {
-  this->parts_.links->note_all();
+  this->parts_.links->store_all();
   Session session;
   session.work = this->parts_.document->work();
   session.view.panel = this->parts_.panels->shown_panel();
   vtkCamera* camera = this->parts_.viewport->renderer()->GetActiveCamera();
-  SessionView::Camera& kept = session.view.camera.emplace();
-  std::copy_n(camera->GetPosition(), 3, kept.position.begin());
-  std::copy_n(camera->GetFocalPoint(), 3, kept.focal_point.begin());
-  std::copy_n(camera->GetViewUp(), 3, kept.up.begin());
-  kept.angle = camera->GetViewAngle();
-  kept.scale = camera->GetParallelScale();
-  kept.parallel = camera->GetParallelProjection() != 0;
+  SessionView::Camera& stored_camera = session.view.camera.emplace();
+  std::copy_n(camera->GetPosition(), 3, stored_camera.position.begin());
+  std::copy_n(camera->GetFocalPoint(), 3, stored_camera.focal_point.begin());
+  std::copy_n(camera->GetViewUp(), 3, stored_camera.up.begin());
+  stored_camera.angle = camera->GetViewAngle();
+  stored_camera.scale = camera->GetParallelScale();
+  stored_camera.parallel = camera->GetParallelProjection() != 0;
   return session;
 }
 
@@ -66,19 +66,19 @@ void WindowSessions::show(const Session& session)
   this->parts_.panels->show_panel(session.view.panel);
   if (session.view.camera)
   {
-    const SessionView::Camera& kept = *session.view.camera;
+    const SessionView::Camera& stored_camera = *session.view.camera;
     vtkRenderer* renderer = this->parts_.viewport->renderer();
     vtkCamera* camera = renderer->GetActiveCamera();
-    camera->SetPosition(kept.position.data());
-    camera->SetFocalPoint(kept.focal_point.data());
-    camera->SetViewUp(kept.up.data());
-    camera->SetViewAngle(kept.angle);
-    camera->SetParallelScale(kept.scale);
-    if (!kept.parallel)
+    camera->SetPosition(stored_camera.position.data());
+    camera->SetFocalPoint(stored_camera.focal_point.data());
+    camera->SetViewUp(stored_camera.up.data());
+    camera->SetViewAngle(stored_camera.angle);
+    camera->SetParallelScale(stored_camera.scale);
+    if (!stored_camera.parallel)
     {
-      Q_EMIT this->perspective_wanted();
+      Q_EMIT this->perspective_requested();
     }
-    camera->SetParallelProjection(kept.parallel);
+    camera->SetParallelProjection(stored_camera.parallel);
     renderer->ResetCameraClippingRange();
   }
   this->show_notes(session);
@@ -94,9 +94,9 @@ void WindowSessions::show_notes(const Session& session)
     return;
   }
   QList<NoticeBar::Choice> choices;
-  if (!session.lost.empty())
+  if (!session.missing_inputs.empty())
   {
-    const QString path = session.lost.front().path;
+    const QString path = session.missing_inputs.front().path;
     choices << NoticeBar::Choice{ tr("Locate…"),
       [this, path]
       {
@@ -104,7 +104,7 @@ void WindowSessions::show_notes(const Session& session)
           tr("Locate %1").arg(QFileInfo(path).fileName()), QFileInfo(path).absolutePath());
         if (!found.isEmpty())
         {
-          Q_EMIT this->open_wanted(found);
+          Q_EMIT this->open_requested(found);
         }
       } };
   }
@@ -128,7 +128,7 @@ bool WindowSessions::open(const QString& path)
   const Status status = read_session(path, session);
   if (!status.ok())
   {
-    this->parts_.errors->show_sentence(QString::fromStdString(status.message));
+    this->parts_.errors->show_message(QString::fromStdString(status.message));
     return false;
   }
   if (!this->confirm_close())
@@ -146,7 +146,7 @@ bool WindowSessions::write(const QString& path)
   const Status status = this->file_.write(absolute, this->session());
   if (!status.ok())
   {
-    this->parts_.errors->show_sentence(
+    this->parts_.errors->show_message(
       tr("Cannot save the session: %1.").arg(QString::fromStdString(status.message)),
       ErrorKind::save_session);
     return false;
@@ -167,12 +167,12 @@ bool WindowSessions::save()
 bool WindowSessions::save_as()
 {
   QFileDialog dialog(this->parts_.window, tr("Save the session"),
-    QFileInfo(this->path_).absolutePath(), tr("Sessions (*.%1)").arg(session_ending));
+    QFileInfo(this->path_).absolutePath(), tr("Sessions (*.%1)").arg(session_extension));
   dialog.setAcceptMode(QFileDialog::AcceptSave);
-  dialog.setDefaultSuffix(session_ending);
+  dialog.setDefaultSuffix(session_extension);
   const QString name = this->name();
   dialog.selectFile(
-    (name.isEmpty() ? tr("work") : QFileInfo(name).completeBaseName()) + '.' + session_ending);
+    (name.isEmpty() ? tr("work") : QFileInfo(name).completeBaseName()) + '.' + session_extension);
   return dialog.exec() == QDialog::Accepted && this->write(dialog.selectedFiles().front());
 }
 
@@ -223,7 +223,7 @@ void WindowSessions::fill_recent(QMenu* menu)
     entry->setToolTip(path);
     entry->setEnabled(file.exists());
     QObject::connect(
-      entry, &QAction::triggered, this, [this, path] { Q_EMIT this->open_wanted(path); });
+      entry, &QAction::triggered, this, [this, path] { Q_EMIT this->open_requested(path); });
   }
   if (paths.isEmpty())
   {
@@ -261,7 +261,7 @@ void WindowSessions::recover()
   const Status status = read_session(this->recovered_->path(), session);
   if (!status.ok())
   {
-    this->parts_.errors->show_sentence(QString::fromStdString(status.message));
+    this->parts_.errors->show_message(QString::fromStdString(status.message));
     return;
   }
   if (!this->confirm_close())

@@ -65,11 +65,11 @@ public:
 
 Q_SIGNALS:
   /// Emitted when the user chooses a recent file or locates a missing one.
-  void open_wanted(const QString& path);
+  void open_requested(const QString& path);
   /// Emitted when name(), path() or the presence of unsaved changes may be different.
   void changed();
   /// Emitted if the opened session shows a planar shape with perspective.
-  void perspective_wanted();
+  void perspective_requested();
 
 private:
   Session session() const;

@@ -66,44 +66,44 @@ public:
     }
   }
 
-  HandlePlace place(vtkIdType cell) const
+  HandleRecord record(vtkIdType cell) const
   {
-    HandlePlace place;
+    HandleRecord record;
     vtkIdType size = 0;
     const vtkIdType* ids = nullptr;
     this->data_->GetCellPoints(cell, size, ids);
-    place.kind = static_cast<int>(this->kinds_.value(cell, size == 2 ? 1.0 : 0.0));
-    place.mode = static_cast<int>(this->modes_.value(cell, place.mode));
-    place.locked = this->locks_.value(cell, 0.0) != 0.0;
-    place.parent = static_cast<vtkIdType>(this->parents_.value(cell, -1.0));
-    this->transforms_.read(cell, place.transform.data());
-    place.stretch = this->stretches_.value(cell, 1.0);
-    this->twists_.read(cell, place.twist.data());
+    record.kind = static_cast<int>(this->kinds_.value(cell, size == 2 ? 1.0 : 0.0));
+    record.mode = static_cast<int>(this->modes_.value(cell, record.mode));
+    record.locked = this->locks_.value(cell, 0.0) != 0.0;
+    record.parent = static_cast<vtkIdType>(this->parents_.value(cell, -1.0));
+    this->transforms_.read(cell, record.transform.data());
+    record.stretch = this->stretches_.value(cell, 1.0);
+    this->twists_.read(cell, record.twist.data());
     if (this->colors_.has(cell))
     {
       Vec3 color;
       this->colors_.read(cell, color.data());
       if (color.allFinite())
       {
-        place.color = color / this->color_unit_;
+        record.color = color / this->color_unit_;
       }
     }
     if (size == 0)
     {
-      return place;
+      return record;
     }
-    this->data_->GetPoint(ids[0], place.rest_head.data());
-    this->data_->GetPoint(ids[size == 2 ? 1 : 0], place.rest_tail.data());
-    place.head = place.rest_head;
-    place.tail = place.rest_tail;
+    this->data_->GetPoint(ids[0], record.rest_head.data());
+    this->data_->GetPoint(ids[size == 2 ? 1 : 0], record.rest_tail.data());
+    record.head = record.rest_head;
+    record.tail = record.rest_tail;
     if (!this->at_rest_)
     {
       // `stretch` is the factor on the length of a bone; its head does not move
-      const Vec3 tail = place.head + place.stretch * (place.tail - place.head);
-      place.head = place.transform * place.rest_head.homogeneous();
-      place.tail = place.transform * tail.homogeneous();
+      const Vec3 tail = record.head + record.stretch * (record.tail - record.head);
+      record.head = record.transform * record.rest_head.homogeneous();
+      record.tail = record.transform * tail.homogeneous();
     }
-    return place;
+    return record;
   }
 
 private:
@@ -114,7 +114,7 @@ private:
 };
 
 /// Return an array that a drag can write to: doubles, one tuple per cell.
-vtkDataArray* writable(
+vtkDataArray* writable_array(
   vtkPolyData* data, const char* name, int components, const std::vector<double>& rest)
 {
   const vtkIdType count = data->GetNumberOfCells();
@@ -124,17 +124,17 @@ vtkDataArray* writable(
     return array;
   }
   const CellNumbers before(data, name, components);
-  vtkNew<vtkDoubleArray> fresh;
-  fresh->SetName(name);
-  fresh->SetNumberOfComponents(components);
-  fresh->SetNumberOfTuples(count);
+  vtkNew<vtkDoubleArray> new_array;
+  new_array->SetName(name);
+  new_array->SetNumberOfComponents(components);
+  new_array->SetNumberOfTuples(count);
   for (vtkIdType cell = 0; cell < count; ++cell)
   {
     std::vector<double> numbers = rest;
     before.read(cell, numbers.data());
-    fresh->SetTuple(cell, numbers.data());
+    new_array->SetTuple(cell, numbers.data());
   }
-  data->GetCellData()->AddArray(fresh);
+  data->GetCellData()->AddArray(new_array);
   return data->GetCellData()->GetArray(name);
 }
 } // namespace
@@ -172,89 +172,89 @@ std::string HandleData::name(vtkIdType cell) const
     return names->GetValue(cell);
   }
   // Use the same default names as the filters: points are counted separately from bones.
-  const std::vector<HandlePlace> all = this->places(true);
+  const std::vector<HandleRecord> all = this->records(true);
   const bool bone = all[static_cast<std::size_t>(cell)].is_bone();
   int number = 0;
   for (vtkIdType other = 0; other <= cell; ++other)
   {
-    const HandlePlace& place = all[static_cast<std::size_t>(other)];
-    number += place.is_handle() && place.is_bone() == bone;
+    const HandleRecord& record = all[static_cast<std::size_t>(other)];
+    number += record.is_handle() && record.is_bone() == bone;
   }
   return (bone ? "b" : "p") + std::to_string(number);
 }
 
-std::vector<HandlePlace> HandleData::places(bool at_rest) const
+std::vector<HandleRecord> HandleData::records(bool at_rest) const
 {
-  std::vector<HandlePlace> places;
+  std::vector<HandleRecord> records;
   if (this->data_)
   {
     const Reader reader(this->data_, at_rest);
-    places.reserve(static_cast<std::size_t>(this->count()));
+    records.reserve(static_cast<std::size_t>(this->count()));
     for (vtkIdType cell = 0; cell < this->count(); ++cell)
     {
-      places.push_back(reader.place(cell));
+      records.push_back(reader.record(cell));
     }
   }
-  return places;
+  return records;
 }
 
-void HandleData::resolve_modes(std::vector<HandlePlace>& places, bool finds_rotations)
+void HandleData::resolve_modes(std::vector<HandleRecord>& records, bool finds_rotations)
 {
-  Handles handles(places.size());
-  Pose pose(places.size());
-  for (std::size_t k = 0; k < places.size(); ++k)
+  Handles handles(records.size());
+  Pose pose(records.size());
+  for (std::size_t k = 0; k < records.size(); ++k)
   {
-    const HandlePlace& place = places[k];
-    handles[k].kind = place.is_handle() ? static_cast<HandleKind>(place.kind) : HandleKind::point;
-    handles[k].head = place.rest_head;
-    handles[k].tail = place.rest_tail;
+    const HandleRecord& record = records[k];
+    handles[k].kind = record.is_handle() ? static_cast<HandleKind>(record.kind) : HandleKind::point;
+    handles[k].head = record.rest_head;
+    handles[k].tail = record.rest_tail;
     const bool has_parent =
-      place.parent >= 0 && place.parent < static_cast<vtkIdType>(places.size());
-    handles[k].parent = has_parent ? static_cast<Index>(place.parent) : -1;
-    pose[k].mode = static_cast<HandleMode>(place.mode);
-    pose[k].transform = place.transform;
-    pose[k].stretch = place.stretch;
-    pose[k].twist = place.twist;
+      record.parent >= 0 && record.parent < static_cast<vtkIdType>(records.size());
+    handles[k].parent = has_parent ? static_cast<Index>(record.parent) : -1;
+    pose[k].mode = static_cast<HandleMode>(record.mode);
+    pose[k].transform = record.transform;
+    pose[k].stretch = record.stretch;
+    pose[k].twist = record.twist;
   }
-  const Pose resolved = finds_rotations ? with_found_rotations(handles, pose) : pose;
-  for (std::size_t k = 0; k < places.size(); ++k)
+  const Pose resolved = finds_rotations ? resolve_automatic_modes(handles, pose) : pose;
+  for (std::size_t k = 0; k < records.size(); ++k)
   {
     const HandleMode mode = resolved[k].mode;
-    places[k].mode = static_cast<int>(constrains_transform(mode) ? HandleMode::full : mode);
+    records[k].mode = static_cast<int>(constrains_transform(mode) ? HandleMode::full : mode);
   }
 }
 
-HandlePlace HandleData::place(vtkIdType cell, bool at_rest) const
+HandleRecord HandleData::record(vtkIdType cell, bool at_rest) const
 {
-  return this->exists(cell) ? Reader(this->data_, at_rest).place(cell) : HandlePlace();
+  return this->exists(cell) ? Reader(this->data_, at_rest).record(cell) : HandleRecord();
 }
 
-std::vector<HandleData::Bar> HandleData::bars(const std::vector<HandlePlace>& places) const
+std::vector<HandleData::Bar> HandleData::bars(const std::vector<HandleRecord>& records) const
 {
-  std::map<vtkIdType, Vec3> at;
+  std::map<vtkIdType, Vec3> position_of_point;
   std::vector<Bar> bars;
   vtkIdType size = 0;
   const vtkIdType* ids = nullptr;
-  for (std::size_t i = 0; i < places.size(); ++i)
+  for (std::size_t i = 0; i < records.size(); ++i)
   {
     this->data_->GetCellPoints(static_cast<vtkIdType>(i), size, ids);
-    if (size == 1 && places[i].is_handle())
+    if (size == 1 && records[i].is_handle())
     {
-      at[ids[0]] = places[i].head;
+      position_of_point[ids[0]] = records[i].head;
     }
   }
   const auto end_of = [&](vtkIdType point)
   {
-    const auto found = at.find(point);
+    const auto found = position_of_point.find(point);
     Vec3 rest;
     this->data_->GetPoint(point, rest.data());
-    return found == at.end() ? rest : found->second;
+    return found == position_of_point.end() ? rest : found->second;
   };
-  for (std::size_t i = 0; i < places.size(); ++i)
+  for (std::size_t i = 0; i < records.size(); ++i)
   {
     const auto cell = static_cast<vtkIdType>(i);
     this->data_->GetCellPoints(cell, size, ids);
-    for (vtkIdType k = 0; !places[i].is_handle() && k + 1 < size + (size > 2); ++k)
+    for (vtkIdType k = 0; !records[i].is_handle() && k + 1 < size + (size > 2); ++k)
     {
       bars.push_back({ cell, end_of(ids[k]), end_of(ids[(k + 1) % size]) });
     }
@@ -273,10 +273,10 @@ void HandleData::set_poses(const std::vector<vtkIdType>& cells, const std::vecto
     twists = twists || pose.twist != Eigen::Vector2d::Zero();
   }
   const Affine rest = identity_affine();
-  vtkDataArray* arrays[3] = { writable(this->data_, "Transform", 12,
+  vtkDataArray* arrays[3] = { writable_array(this->data_, "Transform", 12,
                                 std::vector<double>(rest.data(), rest.data() + 12)),
-    stretches ? writable(this->data_, "Stretch", 1, { 1.0 }) : nullptr,
-    twists ? writable(this->data_, "Twist", 2, { 0.0, 0.0 }) : nullptr };
+    stretches ? writable_array(this->data_, "Stretch", 1, { 1.0 }) : nullptr,
+    twists ? writable_array(this->data_, "Twist", 2, { 0.0, 0.0 }) : nullptr };
   for (std::size_t i = 0; i < cells.size(); ++i)
   {
     arrays[0]->SetTuple(cells[i], poses[i].transform.data());

@@ -16,7 +16,7 @@ namespace bindpose
 {
 
 /// The interactively editable properties of one cell of a handle dataset.
-struct HandlePlace
+struct HandleRecord
 {
   int kind = 0; ///< HandleKind; negative: not a handle but a bar (cage element or pseudo-edge)
   int mode = static_cast<int>(HandleMode::automatic); ///< HandleMode
@@ -50,19 +50,19 @@ public:
   std::string name(vtkIdType cell) const;
 
   /// Return all cells. With at_rest, transforms and stretches are ignored.
-  std::vector<HandlePlace> places(bool at_rest = false) const;
+  std::vector<HandleRecord> records(bool at_rest = false) const;
   /// Replace mode automatic by the mode that a pose method uses for it. If the method computes
   /// rotations, with_found_rotations() chooses the mode; otherwise it is full.
-  static void resolve_modes(std::vector<HandlePlace>& places, bool finds_rotations);
-  /// Return one cell, or a default-constructed HandlePlace if the cell does not exist.
-  HandlePlace place(vtkIdType cell, bool at_rest = false) const;
+  static void resolve_modes(std::vector<HandleRecord>& records, bool finds_rotations);
+  /// Return one cell, or a default-constructed HandleRecord if the cell does not exist.
+  HandleRecord record(vtkIdType cell, bool at_rest = false) const;
   /// The ends of a bar. Cage elements end at their cage vertices, pseudo-edges at their points.
   struct Bar
   {
     vtkIdType cell;
     Vec3 from, to;
   };
-  std::vector<Bar> bars(const std::vector<HandlePlace>& places) const;
+  std::vector<Bar> bars(const std::vector<HandleRecord>& records) const;
 
   /// The pose of one cell, as a drag writes it.
   struct CellPose

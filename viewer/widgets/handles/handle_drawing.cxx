@@ -24,41 +24,41 @@ Color lighter(const Color& color)
   return result;
 }
 
-void draw_handles(const ScreenView& view, const std::vector<HandlePlace>& places,
+void draw_handles(const ScreenView& view, const std::vector<HandleRecord>& records,
   const std::vector<HandleData::Bar>& bars, const HandleSizes& sizes, const HandleLook& look,
   const HandleMarks& marks, HandleShapes& solid, HandleShapes& outline)
 {
   for (const HandleData::Bar& bar : bars)
   {
-    const double pixel = look.pixel_scale * view.pixel_at(0.5 * (bar.from + bar.to));
+    const double pixel = look.pixel_scale * view.pixel_length_at(0.5 * (bar.from + bar.to));
     solid.add_tube({ bar.from, bar.to }, bar_pixels * pixel, look.outline);
   }
-  for (std::size_t i = 0; i < places.size(); ++i)
+  for (std::size_t i = 0; i < records.size(); ++i)
   {
-    const HandlePlace& place = places[i];
-    if (!place.is_handle())
+    const HandleRecord& record = records[i];
+    if (!record.is_handle())
     {
       continue;
     }
     const auto cell = static_cast<vtkIdType>(i);
-    const bool hot = cell == marks.hovered || cell == marks.active;
+    const bool is_highlighted = cell == marks.hovered || cell == marks.active;
     const bool selected =
       std::find(marks.selected.begin(), marks.selected.end(), cell) != marks.selected.end();
-    const Color base = place.color
-      ? Color{ (*place.color)[0], (*place.color)[1], (*place.color)[2] }
-      : look.modes[place.is_free() ? 2
-            : place.mode > 0       ? 1
-                                   : 0];
-    const Color color = hot ? lighter(base) : base;
+    const Color base = record.color
+      ? Color{ (*record.color)[0], (*record.color)[1], (*record.color)[2] }
+      : look.modes[record.is_free() ? 2
+            : record.mode > 0       ? 1
+                                    : 0];
+    const Color color = is_highlighted ? lighter(base) : base;
     const Color edge = selected ? look.selected : look.outline;
-    const double growth = hot ? hot_growth : 1.0;
+    const double growth = is_highlighted ? hot_growth : 1.0;
     const double line = look.pixel_scale * outline_pixels * (selected ? 1.6 : 1.0);
     // Surround the selected handle's outline with another one, so that it is visible on any
     // background.
     const double rim = line + look.pixel_scale * outline_pixels;
     const auto add_ball = [&](const Vec3& center, double size)
     {
-      const double pixel = view.pixel_at(center);
+      const double pixel = view.pixel_length_at(center);
       solid.add_ball(center, size * growth * pixel, color);
       outline.add_ball(center, (size * growth + line) * pixel, edge);
       if (selected)
@@ -66,31 +66,31 @@ void draw_handles(const ScreenView& view, const std::vector<HandlePlace>& places
         outline.add_ball(center, (size * growth + rim) * pixel, look.outline);
       }
     };
-    if (!place.is_bone())
+    if (!record.is_bone())
     {
-      add_ball(place.head, sizes.ball);
+      add_ball(record.head, sizes.ball);
       continue;
     }
-    const double pixel = view.pixel_at(0.5 * (place.head + place.tail));
-    const double width = growth * sizes.half_width((place.tail - place.head).norm(), pixel);
-    solid.add_bone(place.head, place.tail, width, color);
-    outline.add_bone(place.head, place.tail, width, edge, line * pixel);
+    const double pixel = view.pixel_length_at(0.5 * (record.head + record.tail));
+    const double width = growth * sizes.half_width((record.tail - record.head).norm(), pixel);
+    solid.add_bone(record.head, record.tail, width, color);
+    outline.add_bone(record.head, record.tail, width, edge, line * pixel);
     if (selected)
     {
-      outline.add_bone(place.head, place.tail, width, look.outline, rim * pixel);
+      outline.add_bone(record.head, record.tail, width, look.outline, rim * pixel);
     }
-    add_ball(place.head, sizes.end());
-    add_ball(place.tail, sizes.end());
+    add_ball(record.head, sizes.end());
+    add_ball(record.tail, sizes.end());
   }
 }
 
-Eigen::Vector2d label_place(const ScreenView& view, const HandlePlace& place, double ball)
+Eigen::Vector2d label_anchor(const ScreenView& view, const HandleRecord& record, double ball)
 {
-  const Eigen::Vector2d display = view.to_display(0.5 * (place.head + place.tail)).head<2>();
+  const Eigen::Vector2d display = view.to_display(0.5 * (record.head + record.tail)).head<2>();
   Eigen::Vector2d aside(1.0, 0.0);
-  if (place.is_bone())
+  if (record.is_bone())
   {
-    const Eigen::Vector2d along = display - view.to_display(place.head).head<2>();
+    const Eigen::Vector2d along = display - view.to_display(record.head).head<2>();
     if (along.norm() > 0.0)
     {
       aside = Eigen::Vector2d(along.y(), -along.x()).normalized();

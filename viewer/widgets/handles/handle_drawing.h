@@ -35,7 +35,7 @@ Color lighter(const Color& color);
 
 /// Add all handles and bars to the shapes: the bodies to `solid`, and slightly larger copies to
 /// `outline`.
-void draw_handles(const ScreenView& view, const std::vector<HandlePlace>& places,
+void draw_handles(const ScreenView& view, const std::vector<HandleRecord>& records,
   const std::vector<HandleData::Bar>& bars, const HandleSizes& sizes, const HandleLook& look,
   const HandleMarks& marks, HandleShapes& solid, HandleShapes& outline);
 
@@ -43,7 +43,7 @@ void draw_handles(const ScreenView& view, const std::vector<HandlePlace>& places
 /// next to its middle, on the side of the bone that faces right, so that the name does not cover
 /// the bone.
 /// @param ball  radius of a ball in pixels
-Eigen::Vector2d label_place(const ScreenView& view, const HandlePlace& place, double ball);
+Eigen::Vector2d label_anchor(const ScreenView& view, const HandleRecord& record, double ball);
 
 } // namespace bindpose
 

@@ -18,7 +18,7 @@ double HandleSizes::half_width(double length, double pixel) const
   return std::clamp(this->bone_width * length, 0.5 * this->ball * pixel, 2.0 * this->ball * pixel);
 }
 
-HandlePick pick_handle(const ScreenView& view, const std::vector<HandlePlace>& places,
+HandlePick pick_handle(const ScreenView& view, const std::vector<HandleRecord>& records,
   const Vector2d& mouse, const HandleSizes& sizes)
 {
   HandlePick best;
@@ -35,16 +35,16 @@ HandlePick pick_handle(const ScreenView& view, const std::vector<HandlePlace>& p
   };
   const double ball = sizes.ball + sizes.tolerance;
   const double end = sizes.end() + sizes.tolerance;
-  for (const HandlePlace& place : places)
+  for (const HandleRecord& record : records)
   {
     ++cell;
-    if (!place.is_handle() || view.pixel_at(place.head) == 0.0)
+    if (!record.is_handle() || view.pixel_length_at(record.head) == 0.0)
     {
       continue;
     }
-    const Vector3d head = view.to_display(place.head);
+    const Vector3d head = view.to_display(record.head);
     const double to_head = (head.head<2>() - mouse).norm();
-    if (!place.is_bone())
+    if (!record.is_bone())
     {
       if (to_head <= ball)
       {
@@ -52,11 +52,11 @@ HandlePick pick_handle(const ScreenView& view, const std::vector<HandlePlace>& p
       }
       continue;
     }
-    if (view.pixel_at(place.tail) == 0.0)
+    if (view.pixel_length_at(record.tail) == 0.0)
     {
       continue;
     }
-    const Vector3d tail = view.to_display(place.tail);
+    const Vector3d tail = view.to_display(record.tail);
     const double to_tail = (tail.head<2>() - mouse).norm();
     // At a joint of two bones, prefer the tail. Users usually want to rotate the upper bone, and
     // rarely to move the lower bone away from it.

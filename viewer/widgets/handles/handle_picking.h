@@ -40,7 +40,7 @@ struct HandlePick
 /// Return the part of a handle under the mouse. The order of priority is: balls of points, tails,
 /// heads, bodies. Among parts of equal priority, the nearest to the mouse wins, then the nearest to
 /// the camera. Parts behind the eye are ignored.
-HandlePick pick_handle(const ScreenView& view, const std::vector<HandlePlace>& places,
+HandlePick pick_handle(const ScreenView& view, const std::vector<HandleRecord>& records,
   const Eigen::Vector2d& mouse, const HandleSizes& sizes);
 
 } // namespace bindpose

@@ -16,7 +16,7 @@ namespace bindpose
 {
 namespace
 {
-Affine after(const Affine3d& motion, const Affine& transform)
+Affine compose(const Affine3d& motion, const Affine& transform)
 {
   Affine moved = motion.linear() * transform;
   moved.col(3) += motion.translation();
@@ -26,58 +26,59 @@ Affine after(const Affine3d& motion, const Affine& transform)
 /// Return the position on the first grabbed bone at which a follower is attached, directly or
 /// through its ancestors: 0 at the bone's head, 1 at its tail. Followers are handles below the
 /// grabbed handles in the hierarchy.
-double attachment(const std::vector<HandlePlace>& places, const HandleGroup& group, vtkIdType cell)
+double attachment(
+  const std::vector<HandleRecord>& records, const HandleGroup& group, vtkIdType cell)
 {
-  const HandlePlace& bone = places[static_cast<std::size_t>(group.cells.front())];
+  const HandleRecord& bone = records[static_cast<std::size_t>(group.cells.front())];
   vtkIdType child = cell;
-  for (std::size_t step = 0; step < places.size(); ++step)
+  for (std::size_t step = 0; step < records.size(); ++step)
   {
-    const vtkIdType parent = places[static_cast<std::size_t>(child)].parent;
+    const vtkIdType parent = records[static_cast<std::size_t>(child)].parent;
     if (parent < 0 || parent == group.cells.front())
     {
       break;
     }
     child = parent;
   }
-  return fraction_along_bone(places[static_cast<std::size_t>(child)].rest_head, bone.rest_head,
+  return fraction_along_bone(records[static_cast<std::size_t>(child)].rest_head, bone.rest_head,
     bone.rest_tail - bone.rest_head);
 }
 
-Matrix3d turn(const Vec3& axis, double degrees)
+Matrix3d axis_rotation(const Vec3& axis, double degrees)
 {
   return Eigen::AngleAxisd(degrees * EIGEN_PI / 180.0, axis).toRotationMatrix();
 }
 } // namespace
 
-Matrix3d rest_axes(const HandlePlace& place)
+Matrix3d rest_axes(const HandleRecord& record)
 {
   Matrix3d axes = Matrix3d::Identity();
-  const Vec3 bone = place.rest_tail - place.rest_head;
-  if (place.is_bone() && bone.norm() > 0.0)
+  const Vec3 bone = record.rest_tail - record.rest_head;
+  if (record.is_bone() && bone.norm() > 0.0)
   {
     axes = rotation_between(Vec3::UnitY(), bone).toRotationMatrix();
   }
   return axes;
 }
 
-Matrix3d posed_axes(const HandlePlace& place)
+Matrix3d posed_axes(const HandleRecord& record)
 {
-  return parts_of(place.transform, place.rest_head).rotation * rest_axes(place);
+  return parts_of(record.transform, record.rest_head).rotation * rest_axes(record);
 }
 
-HandleGroup make_group(
-  const std::vector<HandlePlace>& places, const std::vector<vtkIdType>& grabbed, bool descend)
+HandleGroup make_group(const std::vector<HandleRecord>& records,
+  const std::vector<vtkIdType>& grabbed, bool with_descendants)
 {
   HandleGroup group;
   group.cells = grabbed;
   group.grabbed = grabbed.size();
-  const auto count = static_cast<vtkIdType>(places.size());
+  const auto count = static_cast<vtkIdType>(records.size());
   const auto is_grabbed = [&](vtkIdType cell)
   { return std::find(grabbed.begin(), grabbed.end(), cell) != grabbed.end(); };
-  for (vtkIdType cell = 0; descend && cell < count; ++cell)
+  for (vtkIdType cell = 0; with_descendants && cell < count; ++cell)
   {
     // Walk up the hierarchy. The loop is bounded, in case the file contains a cycle of parents.
-    vtkIdType ancestor = places[static_cast<std::size_t>(cell)].parent;
+    vtkIdType ancestor = records[static_cast<std::size_t>(cell)].parent;
     for (vtkIdType step = 0; step < count && ancestor >= 0 && ancestor < count; ++step)
     {
       if (is_grabbed(ancestor))
@@ -88,18 +89,18 @@ HandleGroup make_group(
         }
         break;
       }
-      ancestor = places[static_cast<std::size_t>(ancestor)].parent;
+      ancestor = records[static_cast<std::size_t>(ancestor)].parent;
     }
   }
   for (const vtkIdType cell : group.cells)
   {
-    const HandlePlace& place = places[static_cast<std::size_t>(cell)];
-    group.start.push_back({ place.transform, place.stretch, place.twist });
+    const HandleRecord& record = records[static_cast<std::size_t>(cell)];
+    group.start.push_back({ record.transform, record.stretch, record.twist });
   }
   return group;
 }
 
-std::vector<HandleData::CellPose> moved_poses(const std::vector<HandlePlace>& places,
+std::vector<HandleData::CellPose> moved_poses(const std::vector<HandleRecord>& records,
   const HandleGroup& group, const Affine3d& motion, const GrabbedChange& change)
 {
   std::vector<HandleData::CellPose> poses = group.start;
@@ -107,43 +108,43 @@ std::vector<HandleData::CellPose> moved_poses(const std::vector<HandlePlace>& pl
   {
     return poses;
   }
-  const HandlePlace& bone = places[static_cast<std::size_t>(group.cells.front())];
+  const HandleRecord& bone = records[static_cast<std::size_t>(group.cells.front())];
   const Vec3 head = motion * bone.head;
   const Vec3 arm = motion.linear() * (bone.tail - bone.head);
   const bool is_bone = bone.is_bone() && arm.norm() > 0.0;
   const Vec3 axis = is_bone ? Vec3(arm.normalized()) : Vec3::UnitY();
   // Followers (the handles below the grabbed handles in the hierarchy) inherit stretch and twist as
   // in transform_for_child().
-  const auto following = [&](vtkIdType cell)
+  const auto follower_motion = [&](vtkIdType cell)
   {
-    const double along = attachment(places, group, cell);
-    const double degrees = change.to_arrays
+    const double along = attachment(records, group, cell);
+    const double degrees = change.writes_arrays
       ? (1.0 - along) * change.twist[0] + along * change.twist[1]
       : change.twist.sum();
-    Affine3d motion_there = motion_about(head, turn(axis, degrees));
+    Affine3d motion_there = motion_about(head, axis_rotation(axis, degrees));
     motion_there.translation() += along * (change.factor - 1.0) * arm;
     return motion_there;
   };
   for (std::size_t i = 0; i < group.cells.size(); ++i)
   {
-    const HandlePlace& place = places[static_cast<std::size_t>(group.cells[i])];
+    const HandleRecord& record = records[static_cast<std::size_t>(group.cells[i])];
     HandleData::CellPose& pose = poses[i];
-    Affine3d whole =
-      i < group.grabbed || !is_bone ? motion : Affine3d(following(group.cells[i]) * motion);
-    if (i == 0 && is_bone && !change.to_arrays)
+    Affine3d total_motion =
+      i < group.grabbed || !is_bone ? motion : Affine3d(follower_motion(group.cells[i]) * motion);
+    if (i == 0 && is_bone && !change.writes_arrays)
     {
       const Matrix3d along = Matrix3d::Identity() + (change.factor - 1.0) * axis * axis.transpose();
-      whole = motion_about(head, turn(axis, change.twist.sum()) * along) * motion;
+      total_motion = motion_about(head, axis_rotation(axis, change.twist.sum()) * along) * motion;
     }
-    if (place.only_moves())
+    if (record.only_moves())
     {
-      pose.transform.col(3) += whole * place.head - place.head;
+      pose.transform.col(3) += total_motion * record.head - record.head;
     }
     else
     {
-      pose.transform = after(whole, pose.transform);
+      pose.transform = compose(total_motion, pose.transform);
     }
-    if (i == 0 && is_bone && change.to_arrays)
+    if (i == 0 && is_bone && change.writes_arrays)
     {
       pose.stretch *= change.factor;
       pose.twist += change.twist;

@@ -10,9 +10,9 @@ namespace bindpose
 
 /// Return a handle's own axes at rest, as columns. The y axis of a bone is along the bone; all
 /// other handles have the world's axes.
-Eigen::Matrix3d rest_axes(const HandlePlace& place);
+Eigen::Matrix3d rest_axes(const HandleRecord& record);
 /// Return the axes of rest_axes(), rotated by the pose.
-Eigen::Matrix3d posed_axes(const HandlePlace& place);
+Eigen::Matrix3d posed_axes(const HandleRecord& record);
 
 /// Handles that move together: the grabbed handles and their followers, i.e. the handles below them
 /// in the hierarchy of `Parent`.
@@ -23,9 +23,9 @@ struct HandleGroup
   std::vector<HandleData::CellPose> start; ///< pose of each cell at the start of the drag
 };
 /// Create a group from the grabbed handles.
-/// @param descend  true to include followers
-HandleGroup make_group(
-  const std::vector<HandlePlace>& places, const std::vector<vtkIdType>& grabbed, bool descend);
+/// @param with_descendants  true to include followers
+HandleGroup make_group(const std::vector<HandleRecord>& records,
+  const std::vector<vtkIdType>& grabbed, bool with_descendants);
 
 /// Changes to the first grabbed handle of a group, in addition to the motion of the whole group.
 struct GrabbedChange
@@ -35,13 +35,13 @@ struct GrabbedChange
   Eigen::Vector2d twist = Eigen::Vector2d::Zero();
   /// True: write the changes to the arrays Stretch and Twist. False: multiply them into the
   /// transform.
-  bool to_arrays = true;
+  bool writes_arrays = true;
 };
 
 /// Return the poses after a motion in world coordinates. A handle whose mode is position moves with
 /// its pivot and does not rotate. If a bone stretches or twists, its followers move with the
 /// cross-section to which they are attached, as in transform_for_child().
-std::vector<HandleData::CellPose> moved_poses(const std::vector<HandlePlace>& places,
+std::vector<HandleData::CellPose> moved_poses(const std::vector<HandleRecord>& records,
   const HandleGroup& group, const Eigen::Affine3d& motion, const GrabbedChange& change = {});
 
 } // namespace bindpose

@@ -74,11 +74,11 @@ Ball make_ball(int levels)
 } // namespace
 
 long long HandleShapes::add_vertex(
-  const Eigen::Vector3d& place, const Eigen::Vector3d& normal, const Color& color)
+  const Eigen::Vector3d& position, const Eigen::Vector3d& normal, const Color& color)
 {
   for (int k = 0; k < 3; ++k)
   {
-    this->points_.push_back(static_cast<float>(place[k]));
+    this->points_.push_back(static_cast<float>(position[k]));
     this->normals_.push_back(static_cast<float>(normal[k]));
     this->colors_.push_back(
       static_cast<unsigned char>(std::lround(255.0 * std::clamp(color[k], 0.0, 1.0))));
@@ -255,10 +255,10 @@ void HandleShapes::add_box(const Eigen::Vector3d& center, const Eigen::Matrix3d&
 vtkSmartPointer<vtkPolyData> HandleShapes::polydata() const
 {
   const auto count = static_cast<vtkIdType>(this->points_.size() / 3);
-  vtkNew<vtkFloatArray> places;
-  places->SetNumberOfComponents(3);
-  places->SetNumberOfTuples(count);
-  std::copy(this->points_.begin(), this->points_.end(), places->GetPointer(0));
+  vtkNew<vtkFloatArray> coordinates;
+  coordinates->SetNumberOfComponents(3);
+  coordinates->SetNumberOfTuples(count);
+  std::copy(this->points_.begin(), this->points_.end(), coordinates->GetPointer(0));
   vtkNew<vtkFloatArray> normals;
   normals->SetNumberOfComponents(3);
   normals->SetNumberOfTuples(count);
@@ -281,7 +281,7 @@ vtkSmartPointer<vtkPolyData> HandleShapes::polydata() const
 
   auto result = vtkSmartPointer<vtkPolyData>::New();
   vtkNew<vtkPoints> points;
-  points->SetData(places);
+  points->SetData(coordinates);
   vtkNew<vtkCellArray> cells;
   cells->SetData(offsets, connectivity);
   result->SetPoints(points);

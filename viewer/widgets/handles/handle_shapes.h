@@ -48,7 +48,7 @@ private:
   void add_triangle(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c,
     const Color& color);
   long long add_vertex(
-    const Eigen::Vector3d& place, const Eigen::Vector3d& normal, const Color& color);
+    const Eigen::Vector3d& position, const Eigen::Vector3d& normal, const Color& color);
 
   bool fine_;
   std::vector<float> points_;

@@ -15,7 +15,7 @@ RestSurface::~RestSurface() = default;
 void RestSurface::set(vtkPolyData* data)
 {
   this->data_ = data;
-  this->read_.clear();
+  this->probe_inputs_.clear();
   this->probe_.reset();
 }
 
@@ -30,17 +30,17 @@ const SurfaceProbe* RestSurface::probe()
   {
     return nullptr;
   }
-  std::vector<std::pair<const void*, vtkMTimeType>> now;
+  std::vector<std::pair<const void*, vtkMTimeType>> inputs;
   for (vtkObject* object : std::initializer_list<vtkObject*>{
          this->data_->GetPoints() ? this->data_->GetPoints()->GetData() : nullptr,
          this->data_->GetPolys(), this->data_->GetStrips() })
   {
-    now.emplace_back(object, object ? object->GetMTime() : 0);
+    inputs.emplace_back(object, object ? object->GetMTime() : 0);
   }
-  if (now != this->read_)
+  if (inputs != this->probe_inputs_)
   {
-    this->read_ = now;
-    ++this->builds_;
+    this->probe_inputs_ = inputs;
+    ++this->build_count_;
     this->probe_.reset();
     if (this->data_->GetNumberOfCells() > 0 && to_surface(this->data_, this->input_).ok())
     {
@@ -51,16 +51,16 @@ const SurfaceProbe* RestSurface::probe()
   return this->probe_.get();
 }
 
-Vec3 RestSurface::nearest_vertex(Index triangle, const Vec3& place) const
+Vec3 RestSurface::nearest_vertex(Index triangle, const Vec3& position) const
 {
   const auto points = this->input_.points.view();
   const auto triangles = this->input_.triangles.view();
-  Vec3 best = place;
+  Vec3 best = position;
   double nearest = -1.0;
   for (int k = 0; k < 3; ++k)
   {
     const Vec3 vertex = points.row(triangles(triangle, k));
-    const double distance = (vertex - place).norm();
+    const double distance = (vertex - position).norm();
     if (nearest < 0.0 || distance < nearest)
     {
       best = vertex;

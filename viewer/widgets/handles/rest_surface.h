@@ -30,21 +30,21 @@ public:
   /// be read.
   const SurfaceProbe* probe();
   /// Number of times that a probe was built. It increases when points or triangles have changed.
-  int builds() const { return this->builds_; }
+  int build_count() const { return this->build_count_; }
   /// Return the points of the surface; valid after probe() has returned a probe.
   PointsView points() const { return this->input_.points.view(); }
   TrianglesView triangles() const { return this->input_.triangles.view(); }
   /// Return the vertex of a triangle that is nearest to a position.
-  Vec3 nearest_vertex(Index triangle, const Vec3& place) const;
+  Vec3 nearest_vertex(Index triangle, const Vec3& position) const;
   /// Return the center of the surface's bounding box; the origin without a surface.
   Vec3 center();
 
 private:
   vtkSmartPointer<vtkPolyData> data_;
   // The objects from which the probe was built, and their modification times at that moment.
-  std::vector<std::pair<const void*, vtkMTimeType>> read_;
+  std::vector<std::pair<const void*, vtkMTimeType>> probe_inputs_;
   SurfaceInput input_;
-  int builds_ = 0;
+  int build_count_ = 0;
   std::unique_ptr<SurfaceProbe> probe_;
 };
 

@@ -38,6 +38,9 @@ struct SkinningMethodOptions
   EndpointMethod endpoints = EndpointMethod::projection;
 };
 
+/// Report whether a handle is a bone. Only bones stretch and twist.
+bool has_bones(const Handles& handles);
+
 /// Views of a shape and its handles, valid during a call.
 struct SkinnedShape
 {
@@ -50,7 +53,7 @@ struct SkinnedShape
 /// All skinning methods with the data that they compute once per shape: sparse weights, pivots,
 /// centers of rotation, endpoint weights and automatic pseudo-edges. A bind computes only what its
 /// method needs and what is missing.
-class SkinningMethods
+class SkinningBind
 {
 public:
   /// Discard the bind, because the shape has changed.
@@ -59,9 +62,13 @@ public:
   /// Report whether the bind contains everything that pose() needs for these options.
   bool is_bound(const SkinnedShape& shape, const SkinningMethodOptions& options) const;
 
+  /// Report whether bind() reads the elements of the shape for what is missing: centers, automatic
+  /// pseudo-edges and endpoint weights.
+  bool needs_elements(const SkinnedShape& shape, const SkinningMethodOptions& options) const;
+
   /// Compute what is missing. Centers of rotation take seconds for a large shape; endpoint weights
-  /// that are not projections take as long as weights. The phases are "bind", "edges", "centers"
-  /// and "endpoints".
+  /// that are not projections take as long as weights. The phases are "edges", "centers" and
+  /// "endpoints".
   /// @param tets, triangles  the elements of the shape. If there are tets, triangles are ignored.
   Status bind(ExecutionContext& context, const SkinnedShape& shape, TetsView tets,
     TrianglesView triangles, const SkinningMethodOptions& options);

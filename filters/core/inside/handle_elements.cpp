@@ -1,7 +1,7 @@
 // Samples of handles at a local edge length. A line is divided into segments of equal length
 // relative to the local edge length. A triangle is bisected at its longest edge until that edge is
 // short enough; the samples are the midpoints of the bisected edges.
-#include "inside/handle_places.h"
+#include "inside/handle_elements.h"
 
 #include "geometry/line_pieces.h"
 
@@ -78,7 +78,7 @@ public:
   HandleSamples result() const
   {
     HandleSamples samples;
-    samples.chosen = this->chosen_;
+    samples.handle_point_count = this->chosen_;
     samples.points.resize(static_cast<Index>(this->list_.size()), 3);
     for (std::size_t i = 0; i < this->list_.size(); ++i)
     {
@@ -121,29 +121,32 @@ Status check_ids(const Matrix& ids, Index count, const char* what)
 }
 } // namespace
 
-Status check_places(const HandlePlaces& places)
+Status check_handle_elements(const HandleElements& handle_elements)
 {
-  if (!places.points.allFinite())
+  if (!handle_elements.points.allFinite())
   {
     return Status::invalid_input("a handle has a coordinate that is not finite");
   }
-  Status status = check_ids(places.segments, places.points.rows(), "segment");
-  return status.ok() ? check_ids(places.triangles, places.points.rows(), "triangle") : status;
+  Status status = check_ids(handle_elements.segments, handle_elements.points.rows(), "segment");
+  return status.ok()
+    ? check_ids(handle_elements.triangles, handle_elements.points.rows(), "triangle")
+    : status;
 }
 
-HandleSamples sample_places(
-  const HandlePlaces& places, const std::function<double(const Vec3&)>& length)
+HandleSamples sample_handle_elements(
+  const HandleElements& handle_elements, const std::function<double(const Vec3&)>& length)
 {
-  Sampler sampler(places.points, length);
-  for (Index s = 0; s < places.segments.rows(); ++s)
+  Sampler sampler(handle_elements.points, length);
+  for (Index s = 0; s < handle_elements.segments.rows(); ++s)
   {
-    sampler.line(
-      places.points.row(places.segments(s, 0)), places.points.row(places.segments(s, 1)));
+    sampler.line(handle_elements.points.row(handle_elements.segments(s, 0)),
+      handle_elements.points.row(handle_elements.segments(s, 1)));
   }
-  for (Index t = 0; t < places.triangles.rows(); ++t)
+  for (Index t = 0; t < handle_elements.triangles.rows(); ++t)
   {
-    sampler.triangle(places.points.row(places.triangles(t, 0)),
-      places.points.row(places.triangles(t, 1)), places.points.row(places.triangles(t, 2)));
+    sampler.triangle(handle_elements.points.row(handle_elements.triangles(t, 0)),
+      handle_elements.points.row(handle_elements.triangles(t, 1)),
+      handle_elements.points.row(handle_elements.triangles(t, 2)));
   }
   return sampler.result();
 }

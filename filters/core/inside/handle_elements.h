@@ -1,5 +1,5 @@
-#ifndef bindpose_inside_handle_places_h
-#define bindpose_inside_handle_places_h
+#ifndef bindpose_inside_handle_elements_h
+#define bindpose_inside_handle_elements_h
 
 #include "geometry/mesh.h"
 #include "winding/curve_winding_number.h"
@@ -10,7 +10,7 @@ namespace bindpose
 {
 
 /// Points, segments and triangles of handles, at which a mesher creates vertices.
-struct HandlePlaces
+struct HandleElements
 {
   Points points; ///< #H x 3: point handles, ends of bones, vertices of cages
   Segments segments; ///< #S x 2: bones, edges of cages
@@ -20,20 +20,20 @@ struct HandlePlaces
 };
 
 /// Return invalid_input for coordinates that are not finite and for ids out of range.
-Status check_places(const HandlePlaces& places);
+Status check_handle_elements(const HandleElements& handle_elements);
 
-/// Result of sample_places().
+/// Result of sample_handle_elements().
 struct HandleSamples
 {
   Points points; ///< sample points without duplicates
-  Index chosen = 0; ///< number of points of the handles themselves; they come first
+  Index handle_point_count = 0; ///< number of points of the handles themselves; they come first
 };
 
 /// Return the handles' points, followed by points on segments (at least one per segment) and
 /// triangles. `length` must return the target distance between neighboring samples at a point (>
 /// 0). There are at most 1,000 samples per line.
-HandleSamples sample_places(
-  const HandlePlaces& places, const std::function<double(const Vec3&)>& length);
+HandleSamples sample_handle_elements(
+  const HandleElements& handle_elements, const std::function<double(const Vec3&)>& length);
 
 } // namespace bindpose
 

@@ -1,4 +1,4 @@
-#include "poser/skinning_methods.h"
+#include "poser/skinning_bind.h"
 
 #include "poser/bone_endpoints.h"
 #include "skinning/rotation_centers.h"
@@ -11,12 +11,6 @@ namespace bindpose
 
 namespace
 {
-bool has_bones(const Handles& handles)
-{
-  return std::any_of(handles.begin(), handles.end(),
-    [](const Handle& handle) { return handle.kind == HandleKind::bone; });
-}
-
 bool same_weights(const SkinningOptions& a, const SkinningOptions& b)
 {
   return std::tie(a.single_precision, a.smallest_weight, a.influences) ==
@@ -29,7 +23,13 @@ void add_warnings(const Status& step, Status& status)
 }
 } // namespace
 
-bool SkinningMethods::has_endpoints(
+bool has_bones(const Handles& handles)
+{
+  return std::any_of(handles.begin(), handles.end(),
+    [](const Handle& handle) { return handle.kind == HandleKind::bone; });
+}
+
+bool SkinningBind::has_endpoints(
   const SkinnedShape& shape, const SkinningMethodOptions& options) const
 {
   return options.method != SkinningMethod::stretchable_bones ||
@@ -37,22 +37,27 @@ bool SkinningMethods::has_endpoints(
     !has_bones(shape.handles) || this->endpoint_method_ == options.endpoints;
 }
 
-bool SkinningMethods::is_bound(
+bool SkinningBind::needs_elements(
   const SkinnedShape& shape, const SkinningMethodOptions& options) const
 {
-  return this->bound_ && same_weights(*this->bound_, options.weights) &&
-    this->has_endpoints(shape, options) &&
-    (options.method != SkinningMethod::rotation_centers || this->centers_.rows() > 0) &&
-    (options.pseudo_edges != PseudoEdgeChoice::automatic || this->automatic_edges_);
+  return !this->has_endpoints(shape, options) ||
+    (options.method == SkinningMethod::rotation_centers && this->centers_.rows() == 0) ||
+    (options.pseudo_edges == PseudoEdgeChoice::automatic && !this->automatic_edges_);
 }
 
-Status SkinningMethods::bind(ExecutionContext& context, const SkinnedShape& shape, TetsView tets,
+bool SkinningBind::is_bound(const SkinnedShape& shape, const SkinningMethodOptions& options) const
+{
+  return this->bound_ && same_weights(*this->bound_, options.weights) &&
+    !this->needs_elements(shape, options);
+}
+
+Status SkinningBind::bind(ExecutionContext& context, const SkinnedShape& shape, TetsView tets,
   TrianglesView triangles, const SkinningMethodOptions& options)
 {
   Status status;
   if (!this->bound_ || !same_weights(*this->bound_, options.weights))
   {
-    Phase phase(context, "bind", 0.0, 0.05);
+    const ProgressRange range(context, 0.0, this->needs_elements(shape, options) ? 0.05 : 1.0);
     this->bound_.reset();
     status = this->skinning_.bind(context, shape.weights, options.weights);
     if (!status.usable())
@@ -96,7 +101,7 @@ Status SkinningMethods::bind(ExecutionContext& context, const SkinnedShape& shap
   return status;
 }
 
-Status SkinningMethods::bind_centers(
+Status SkinningBind::bind_centers(
   ExecutionContext& context, const SkinnedShape& shape, TetsView tets, TrianglesView triangles)
 {
   Phase phase(context, "centers", 0.1, 1.0);
@@ -112,7 +117,7 @@ Status SkinningMethods::bind_centers(
   return status;
 }
 
-Status SkinningMethods::bind_endpoints(ExecutionContext& context, const SkinnedShape& shape,
+Status SkinningBind::bind_endpoints(ExecutionContext& context, const SkinnedShape& shape,
   TetsView tets, TrianglesView triangles, EndpointMethod method)
 {
   Phase phase(context, "endpoints", 0.1, 1.0);
@@ -131,7 +136,7 @@ Status SkinningMethods::bind_endpoints(ExecutionContext& context, const SkinnedS
   return status;
 }
 
-WeightsView SkinningMethods::endpoints(const SkinnedShape& shape, EndpointMethod method) const
+WeightsView SkinningBind::endpoints(const SkinnedShape& shape, EndpointMethod method) const
 {
   // If the shape has no endpoint weights, its view has size 0, which selects the projection.
   return shape.endpoints.rows() == 0 && this->endpoint_method_ == method
@@ -139,9 +144,8 @@ WeightsView SkinningMethods::endpoints(const SkinnedShape& shape, EndpointMethod
     : shape.endpoints;
 }
 
-Status SkinningMethods::pose(ExecutionContext& context, const SkinnedShape& shape,
-  const Pose& given, const PseudoEdges& given_edges, const SkinningMethodOptions& options,
-  Points& posed)
+Status SkinningBind::pose(ExecutionContext& context, const SkinnedShape& shape, const Pose& given,
+  const PseudoEdges& given_edges, const SkinningMethodOptions& options, Points& posed)
 {
   Pose pose = given;
   const PseudoEdges& edges =
@@ -149,7 +153,7 @@ Status SkinningMethods::pose(ExecutionContext& context, const SkinnedShape& shap
   const bool turned = options.pseudo_edges != PseudoEdgeChoice::none && !edges.empty();
   if (turned)
   {
-    turn_by_pseudo_edges(shape.handles, edges, options.pseudo_edge_stretch, pose);
+    rotate_by_pseudo_edges(shape.handles, edges, options.pseudo_edge_stretch, pose);
   }
   const Status found = skinning_transforms(shape.handles, pose, this->transforms_);
   if (!found.usable())
@@ -166,14 +170,9 @@ Status SkinningMethods::pose(ExecutionContext& context, const SkinnedShape& shap
     case SkinningMethod::stretchable_bones:
       status = this->skinning_.stretchable_bones(context, shape.points, this->transforms_,
         bone_changes(shape.handles, given), this->endpoints(shape, options.endpoints), posed);
-      if (!has_bones(shape.handles))
-      {
-        status.warnings.emplace_back("no handle is a bone that can stretch or twist, so the result "
-                                     "equals linear blend skinning");
-      }
       break;
     case SkinningMethod::rotation_centers:
-      status = this->skinning_.about_centers(
+      status = this->skinning_.centers_of_rotation(
         context, shape.points, this->transforms_, this->centers_, posed);
       status.report.merge(this->centers_report_);
       break;
@@ -189,7 +188,7 @@ Status SkinningMethods::pose(ExecutionContext& context, const SkinnedShape& shap
   return status;
 }
 
-Status SkinningMethods::pose_normals(
+Status SkinningBind::pose_normals(
   ExecutionContext& context, PointsView rest, SkinningMethod method, Points& posed) const
 {
   switch (method)
@@ -198,7 +197,7 @@ Status SkinningMethods::pose_normals(
       return this->skinning_.dual_quaternion_normals(
         context, rest, this->transforms_, this->pivots_, posed);
     case SkinningMethod::rotation_centers:
-      return this->skinning_.about_centers_normals(context, rest, this->transforms_, posed);
+      return this->skinning_.centers_of_rotation_normals(context, rest, this->transforms_, posed);
     default:
       return this->skinning_.linear_blend_normals(context, rest, this->transforms_, posed);
   }

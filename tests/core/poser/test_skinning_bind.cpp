@@ -1,0 +1,209 @@
+// All skinning methods with their bind, compared with direct calls of the kernels, on a surface and
+// on tets. A bind computes only what its method needs and what is missing.
+#include "poser/bone_endpoints.h"
+#include "poser/skinning_bind.h"
+
+#include "skinning/rotation_centers.h"
+
+#include "support/handles.h"
+#include "support/meshes.h"
+
+#include <gtest/gtest.h>
+
+using namespace bindpose;
+
+namespace
+{
+class SkinningBindTest : public testing::Test
+{
+protected:
+  void SetUp() override
+  {
+    this->box_ = test::tet_box(8, 2, 2, Vec3(0, 0, 0), Vec3(4, 1, 1));
+    this->triangles_ = boundary_triangles(this->box_.tets);
+    this->handles_ = { test::point_handle("left", Vec3(0, 0, 0)),
+      test::point_handle("right", Vec3(4, 1, 1)),
+      test::bone_handle("upper", Vec3(0.1, 0.5, 0.5), Vec3(2, 0.5, 0.5)),
+      test::bone_handle("lower", Vec3(2, 0.5, 0.5), Vec3(3.9, 0.5, 0.5)) };
+    this->weights_.resize(this->box_.points.rows(), 4);
+    for (Index v = 0; v < this->weights_.rows(); ++v)
+    {
+      for (std::size_t j = 0; j < this->handles_.size(); ++j)
+      {
+        const Vec3 middle = 0.5 * (this->handles_[j].head + this->handles_[j].tail);
+        this->weights_(v, static_cast<Index>(j)) =
+          1.0 / (1e-3 + (this->box_.points.row(v).transpose() - middle).squaredNorm());
+      }
+      this->weights_.row(v) /= this->weights_.row(v).sum();
+    }
+    this->pose_.resize(4);
+    for (std::size_t j = 0; j < 4; ++j)
+    {
+      const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(0.4 * static_cast<double>(j + 1), Vec3(0.3, 1, 0.2).normalized())
+          .toRotationMatrix();
+      this->pose_[j].transform.leftCols<3>() = turn;
+      this->pose_[j].transform.col(3) =
+        this->handles_[j].head - turn * this->handles_[j].head + Vec3(0.1, 0.2, 0);
+    }
+    this->pose_[2].stretch = 1.3;
+    this->pose_[3].twist = Eigen::Vector2d(0, 40.0);
+  }
+
+  SkinnedShape shape() const
+  {
+    return { this->box_.points, this->weights_, this->handles_, this->endpoints_ };
+  }
+  /// Bind and pose by `bind_`.
+  Points posed(const SkinningMethodOptions& options, bool tets)
+  {
+    EXPECT_TRUE(this->bind_
+                  .bind(this->context_, this->shape(), tets ? this->box_.tets : Tets(),
+                    this->triangles_, options)
+                  .ok());
+    EXPECT_TRUE(this->bind_.is_bound(this->shape(), options));
+    Points posed;
+    const Status status = this->bind_.pose(
+      this->context_, this->shape(), this->pose_, this->given_edges_, options, posed);
+    EXPECT_TRUE(status.ok()) << status.message;
+    return posed;
+  }
+  /// Bind the kernel with the weights, and compute the transforms of the pose.
+  std::vector<Affine> bind_kernel(Skinning& skinning, const Pose& pose)
+  {
+    EXPECT_TRUE(skinning.bind(this->context_, this->weights_).ok());
+    std::vector<Affine> transforms;
+    EXPECT_TRUE(skinning_transforms(this->handles_, pose, transforms).ok());
+    return transforms;
+  }
+
+  ExecutionContext context_;
+  TetMesh box_;
+  Triangles triangles_;
+  Handles handles_;
+  Weights weights_, endpoints_;
+  Pose pose_;
+  PseudoEdges given_edges_{ { 0, 1 } };
+  SkinningBind bind_;
+};
+} // namespace
+
+TEST_F(SkinningBindTest, MethodsGiveTheBitsOfTheirKernels)
+{
+  Skinning skinning;
+  const std::vector<Affine> transforms = this->bind_kernel(skinning, this->pose_);
+  const Points& rest = this->box_.points;
+  Points expected;
+  SkinningMethodOptions options;
+  ASSERT_TRUE(skinning.linear_blend(this->context_, rest, transforms, expected).ok());
+  EXPECT_EQ(this->posed(options, false), expected);
+  EXPECT_FALSE(this->bind_.needs_elements(this->shape(), options));
+
+  options.method = SkinningMethod::dual_quaternion;
+  ASSERT_TRUE(
+    skinning
+      .dual_quaternion(this->context_, rest, transforms, handle_pivots(this->handles_), expected)
+      .ok());
+  EXPECT_EQ(this->posed(options, false), expected);
+
+  options.method = SkinningMethod::stretchable_bones;
+  ASSERT_TRUE(skinning
+                .stretchable_bones(this->context_, rest, transforms,
+                  bone_changes(this->handles_, this->pose_), Weights(), expected)
+                .ok());
+  EXPECT_EQ(this->posed(options, false), expected);
+}
+
+TEST_F(SkinningBindTest, CentersAreThoseOfTheElements)
+{
+  Skinning skinning;
+  const std::vector<Affine> transforms = this->bind_kernel(skinning, this->pose_);
+  const Points& rest = this->box_.points;
+  SkinningMethodOptions options;
+  options.method = SkinningMethod::rotation_centers;
+  for (const bool tets : { false, true })
+  {
+    Points centers, expected;
+    ASSERT_TRUE(
+      (tets ? rotation_centers(this->context_, {}, rest, this->box_.tets, this->weights_, centers)
+            : rotation_centers(this->context_, {}, rest, this->triangles_, this->weights_, centers))
+        .ok());
+    ASSERT_TRUE(
+      skinning.centers_of_rotation(this->context_, rest, transforms, centers, expected).ok());
+    this->bind_.reset();
+    EXPECT_TRUE(this->bind_.needs_elements(this->shape(), options));
+    EXPECT_EQ(this->posed(options, tets), expected);
+    EXPECT_FALSE(this->bind_.needs_elements(this->shape(), options));
+  }
+}
+
+TEST_F(SkinningBindTest, PseudoEdgesTurnPoints)
+{
+  const Points& rest = this->box_.points;
+  SkinningMethodOptions options;
+  for (const PseudoEdgeChoice choice : { PseudoEdgeChoice::given, PseudoEdgeChoice::automatic })
+  {
+    PseudoEdges edges = this->given_edges_;
+    if (choice == PseudoEdgeChoice::automatic)
+    {
+      ASSERT_TRUE(
+        automatic_pseudo_edges(this->context_, rest, this->triangles_, this->handles_, edges).ok());
+    }
+    Pose turned = this->pose_;
+    rotate_by_pseudo_edges(this->handles_, edges, false, turned);
+    Skinning skinning;
+    const std::vector<Affine> transforms = this->bind_kernel(skinning, turned);
+    Points expected;
+    ASSERT_TRUE(skinning.linear_blend(this->context_, rest, transforms, expected).ok());
+    options.pseudo_edges = choice;
+    EXPECT_EQ(this->posed(options, false), expected);
+  }
+}
+
+TEST_F(SkinningBindTest, EndpointWeightsAreSolvedOnceAndThoseOfTheShapeComeFirst)
+{
+  Skinning skinning;
+  const std::vector<Affine> transforms = this->bind_kernel(skinning, this->pose_);
+  const Points& rest = this->box_.points;
+  SkinningMethodOptions options;
+  options.method = SkinningMethod::stretchable_bones;
+  options.endpoints = EndpointMethod::joints;
+  Domain domain;
+  domain.points = rest;
+  domain.triangles = this->triangles_;
+  Weights endpoints;
+  ASSERT_TRUE(solve_endpoint_weights(this->context_, domain, this->handles_, EndpointMethod::joints,
+    WeightsDomain::automatic, endpoints)
+                .usable());
+  const auto expected = [&](const Weights& from)
+  {
+    Points points;
+    EXPECT_TRUE(skinning
+                  .stretchable_bones(this->context_, rest, transforms,
+                    bone_changes(this->handles_, this->pose_), from, points)
+                  .ok());
+    return points;
+  };
+  EXPECT_EQ(this->posed(options, false), expected(endpoints));
+  EXPECT_FALSE(this->bind_.needs_elements(this->shape(), options));
+  // Projections need no solve, and weights of the shape replace both.
+  options.endpoints = EndpointMethod::projection;
+  EXPECT_EQ(this->posed(options, false), expected(Weights()));
+  this->endpoints_ = Weights::Constant(rest.rows(), 4, 0.25);
+  EXPECT_EQ(this->posed(options, false), expected(this->endpoints_));
+}
+
+TEST_F(SkinningBindTest, ACanceledBindIsNotBound)
+{
+  ExecutionContext stopped;
+  stopped.request_cancel();
+  SkinningMethodOptions options;
+  options.method = SkinningMethod::rotation_centers;
+  EXPECT_EQ(
+    this->bind_.bind(stopped, this->shape(), this->box_.tets, this->triangles_, options).code,
+    StatusCode::canceled);
+  EXPECT_FALSE(this->bind_.is_bound(this->shape(), options));
+  EXPECT_TRUE(
+    this->bind_.bind(this->context_, this->shape(), this->box_.tets, this->triangles_, options)
+      .ok());
+}

@@ -10,6 +10,7 @@
 #include "output_type.h"
 #include "pose/found_rotations.h"
 #include "pose_input.h"
+#include "vtkArapEnergy.h"
 #include "vtkReducedPoseAlgorithm.h"
 
 #include "vtkAppendFilter.h"
@@ -120,7 +121,7 @@ int vtkCrowdDeformation::RequestDataObject(
 
 void vtkCrowdDeformation::SetEnergy(int energy)
 {
-  energy = std::clamp<int>(energy, vtkReducedPoseAlgorithm::AUTO, vtkReducedPoseAlgorithm::SPOKES);
+  energy = std::clamp<int>(energy, vtkArapEnergy::AUTO, vtkArapEnergy::SPOKES);
   this->SetBindParameter(this->Energy, energy);
 }
 

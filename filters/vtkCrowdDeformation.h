@@ -60,7 +60,8 @@ public:
 
   ///@{
   /// Energy, number of clusters, and number and type of extra weights; see the setters of the same
-  /// names in vtkReducedPoseAlgorithm. All four are bind parameters: a change runs the bind again.
+  /// names in vtkArapAlgorithm and vtkReducedPoseAlgorithm. All four are bind parameters: a change
+  /// runs the bind again.
   void SetEnergy(int energy);
   vtkGetMacro(Energy, int);
   void SetNumberOfClusters(int clusters);

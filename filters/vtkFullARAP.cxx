@@ -25,12 +25,6 @@ vtkFullARAP::vtkFullARAP() : Internal(new Internals) {}
 
 vtkFullARAP::~vtkFullARAP() = default;
 
-void vtkFullARAP::SetEnergy(int energy)
-{
-  energy = std::clamp<int>(energy, AUTO, SPOKES);
-  this->SetBindParameter(this->Energy, energy);
-}
-
 void vtkFullARAP::SetRegionArrayName(const std::string& name)
 {
   this->SetBindParameter(this->RegionArrayName, name);
@@ -45,7 +39,7 @@ Status vtkFullARAP::Bind(ExecutionContext& context, const PoseInput& input)
 {
   FullArapOptions options;
   ArapElements elements;
-  Status status = to_arap(input.mesh, this->Energy, elements, options.energy);
+  Status status = to_arap(input.mesh, this->GetEnergy(), elements, options.energy);
   const bool regions = std::any_of(input.handles.begin(), input.handles.end(),
     [](const Handle& handle) { return handle.kind == HandleKind::region; });
   if (status.ok() && regions)
@@ -73,7 +67,7 @@ Status vtkFullARAP::Deform(ExecutionContext& context, const PoseInput& input, Po
   FullArap& arap = this->Internal->arap;
   const Status status = arap.solve(context, input.pose, options);
   posed.points = arap.posed();
-  if (this->RotationArrays && status.usable())
+  if (this->GetRotationArrays() && status.usable())
   {
     posed.groups = &arap.groups();
     posed.rotations = arap.rotations();
@@ -84,11 +78,9 @@ Status vtkFullARAP::Deform(ExecutionContext& context, const PoseInput& input, Po
 void vtkFullARAP::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Energy: " << arap_energy_name(this->Energy) << "\n";
   os << indent << "RegionArrayName: " << this->RegionArrayName << "\n";
   os << indent << "MaximumIterations: " << this->MaximumIterations << "\n";
   os << indent << "Tolerance: " << this->Tolerance << "\n";
   os << indent << "AndersonWindow: " << this->AndersonWindow << "\n";
   os << indent << "WarmStart: " << (this->WarmStart ? "on" : "off") << "\n";
-  os << indent << "RotationArrays: " << (this->RotationArrays ? "on" : "off") << "\n";
 }

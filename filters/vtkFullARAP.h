@@ -43,36 +43,14 @@
 #define vtkFullARAP_h
 
 #include "BindposeFiltersModule.h" // for export macro
-#include "vtkArapEnergy.h"
-#include "vtkPoseAlgorithm.h"
+#include "vtkArapAlgorithm.h"
 
-class BINDPOSEFILTERS_EXPORT vtkFullARAP : public vtkPoseAlgorithm
+class BINDPOSEFILTERS_EXPORT vtkFullARAP : public vtkArapAlgorithm
 {
 public:
   static vtkFullARAP* New();
-  vtkTypeMacro(vtkFullARAP, vtkPoseAlgorithm);
+  vtkTypeMacro(vtkFullARAP, vtkArapAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  enum EnergyType
-  {
-    AUTO = vtkArapEnergy::AUTO,
-    SPOKES_AND_RIMS = vtkArapEnergy::SPOKES_AND_RIMS,
-    TETRAHEDRA = vtkArapEnergy::TETRAHEDRA,
-    TRIANGLES = vtkArapEnergy::TRIANGLES,
-    SPOKES = vtkArapEnergy::SPOKES
-  };
-
-  ///@{
-  /**
-   * Sets of edges that share a rotation. SPOKES_AND_RIMS: the edges of the elements around a
-   * vertex. SPOKES: the edges that end at a vertex, without edges of negative cotangent weight.
-   * TETRAHEDRA: the edges of a tet. TRIANGLES: the edges of a triangle. AUTO (default): TETRAHEDRA
-   * on tets, SPOKES_AND_RIMS on surfaces. TETRAHEDRA on a surface and TRIANGLES on tets are errors.
-   * This is a bind parameter: a change runs the bind again.
-   */
-  void SetEnergy(int energy);
-  vtkGetMacro(Energy, int);
-  ///@}
 
   ///@{
   /// Name of the mesh's point array of region labels; vertices with label 0 belong to no region.
@@ -114,17 +92,6 @@ public:
   vtkBooleanMacro(WarmStart, bool);
   ///@}
 
-  ///@{
-  /**
-   * Add two point arrays to the output: `RotationCluster`, the index of the rotation that a vertex
-   * follows, and `Rotation`, its axis times its angle in degrees, 0 to 180. See vtkReducedARAP.
-   * Default off.
-   */
-  vtkSetMacro(RotationArrays, bool);
-  vtkGetMacro(RotationArrays, bool);
-  vtkBooleanMacro(RotationArrays, bool);
-  ///@}
-
 protected:
   vtkFullARAP();
   ~vtkFullARAP() override;
@@ -133,7 +100,6 @@ protected:
   std::vector<std::string> BindArrays() override;
   bindpose::Status Bind(
     bindpose::ExecutionContext& context, const bindpose::PoseInput& input) override;
-  bool FindsRotations() override { return true; }
   bindpose::Status Deform(bindpose::ExecutionContext& context, const bindpose::PoseInput& input,
     bindpose::PosedPoints& posed) override;
 
@@ -141,13 +107,11 @@ private:
   vtkFullARAP(const vtkFullARAP&) = delete;
   void operator=(const vtkFullARAP&) = delete;
 
-  int Energy = AUTO;
   std::string RegionArrayName = "RegionId";
   int MaximumIterations = 500;
   double Tolerance = 1e-6;
   int AndersonWindow = 5;
   bool WarmStart = true;
-  bool RotationArrays = false;
   struct Internals;
   std::unique_ptr<Internals> Internal;
 };

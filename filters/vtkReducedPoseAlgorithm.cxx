@@ -1,16 +1,8 @@
 #include "vtkReducedPoseAlgorithm.h"
 
-#include "arap_input.h"
-
 #include <algorithm>
 
 using namespace bindpose;
-
-void vtkReducedPoseAlgorithm::SetEnergy(int energy)
-{
-  energy = std::clamp<int>(energy, AUTO, SPOKES);
-  this->SetBindParameter(this->Energy, energy);
-}
 
 void vtkReducedPoseAlgorithm::SetNumberOfClusters(int clusters)
 {
@@ -33,11 +25,9 @@ void vtkReducedPoseAlgorithm::SetExtraWeightsKind(int kind)
 void vtkReducedPoseAlgorithm::PrintSelf(ostream& os, vtkIndent indent)
 {
   this->Superclass::PrintSelf(os, indent);
-  os << indent << "Energy: " << arap_energy_name(this->Energy) << "\n";
   os << indent << "NumberOfClusters: " << this->NumberOfClusters << "\n";
   os << indent << "NumberOfExtraWeights: " << this->NumberOfExtraWeights << "\n";
   os << indent
      << "ExtraWeightsKind: " << (this->ExtraWeightsKind == EIGENMODES ? "eigenmodes" : "bumps")
      << "\n";
-  os << indent << "RotationArrays: " << (this->RotationArrays ? "on" : "off") << "\n";
 }

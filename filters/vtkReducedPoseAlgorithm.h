@@ -2,8 +2,8 @@
  * @class   vtkReducedPoseAlgorithm
  * @brief   base class of filters that pose by reduced as-rigid-as-possible deformation
  *
- * It has the parameters of the reduced space (Jacobson et al. 2012): the energy, the clusters of
- * vertices that share a rotation, and additional weight functions. Subclasses compute the
+ * It has the parameters of the reduced space (Jacobson et al. 2012): the clusters of vertices that
+ * share a rotation, and additional weight functions. Subclasses compute the
  * transforms: vtkReducedARAP without inertia, vtkReducedDynamics with inertia.
  */
 
@@ -11,35 +11,13 @@
 #define vtkReducedPoseAlgorithm_h
 
 #include "BindposeFiltersModule.h" // for export macro
-#include "vtkArapEnergy.h"
-#include "vtkPoseAlgorithm.h"
+#include "vtkArapAlgorithm.h"
 
-class BINDPOSEFILTERS_EXPORT vtkReducedPoseAlgorithm : public vtkPoseAlgorithm
+class BINDPOSEFILTERS_EXPORT vtkReducedPoseAlgorithm : public vtkArapAlgorithm
 {
 public:
-  vtkAbstractTypeMacro(vtkReducedPoseAlgorithm, vtkPoseAlgorithm);
+  vtkAbstractTypeMacro(vtkReducedPoseAlgorithm, vtkArapAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
-
-  enum EnergyType
-  {
-    AUTO = vtkArapEnergy::AUTO,
-    SPOKES_AND_RIMS = vtkArapEnergy::SPOKES_AND_RIMS,
-    TETRAHEDRA = vtkArapEnergy::TETRAHEDRA,
-    TRIANGLES = vtkArapEnergy::TRIANGLES,
-    SPOKES = vtkArapEnergy::SPOKES
-  };
-
-  ///@{
-  /**
-   * Sets of edges that share a rotation. SPOKES_AND_RIMS: the edges of the elements around a
-   * vertex. SPOKES: the edges that end at a vertex, without edges of negative cotangent weight.
-   * TETRAHEDRA: the edges of a tet. TRIANGLES: the edges of a triangle. AUTO (default): TETRAHEDRA
-   * on tets, SPOKES_AND_RIMS on surfaces. TETRAHEDRA on a surface and TRIANGLES on tets are errors.
-   * This is a bind parameter: a change runs the bind again.
-   */
-  void SetEnergy(int energy);
-  vtkGetMacro(Energy, int);
-  ///@}
 
   ///@{
   /// Number of clusters, sets of vertices with similar weights; one rotation is fitted per cluster
@@ -74,33 +52,17 @@ public:
   vtkGetMacro(ExtraWeightsKind, int);
   ///@}
 
-  ///@{
-  /**
-   * Add two point arrays to the output: `RotationCluster`, the index of the rotation that a vertex
-   * follows, and `Rotation`, its axis times its angle in degrees, 0 to 180. If rotations belong to
-   * elements, a vertex follows the rotation of most of its elements; a vertex without elements gets
-   * the index -1 and the rotation 0. Default off.
-   */
-  vtkSetMacro(RotationArrays, bool);
-  vtkGetMacro(RotationArrays, bool);
-  vtkBooleanMacro(RotationArrays, bool);
-  ///@}
-
 protected:
   vtkReducedPoseAlgorithm() = default;
   ~vtkReducedPoseAlgorithm() override = default;
-
-  bool FindsRotations() override { return true; }
 
 private:
   vtkReducedPoseAlgorithm(const vtkReducedPoseAlgorithm&) = delete;
   void operator=(const vtkReducedPoseAlgorithm&) = delete;
 
-  int Energy = AUTO;
   int NumberOfClusters = 0;
   int NumberOfExtraWeights = 0;
   int ExtraWeightsKind = BUMPS;
-  bool RotationArrays = false;
 };
 
 #endif

@@ -32,6 +32,19 @@ namespace
 constexpr const char* method_names[] = { "linear_blend", "dual_quaternion", "stretchable_bones",
   "centers_of_rotation" };
 constexpr const char* pseudo_edges_names[] = { "none", "given", "automatic" };
+
+/// Return the options of the filter in the types of the kernel.
+SkinningMethodOptions options_of(vtkSkinningDeformation& filter)
+{
+  SkinningMethodOptions options;
+  options.method = static_cast<SkinningMethod>(filter.GetMethod());
+  options.weights.single_precision = filter.GetSinglePrecision();
+  options.weights.smallest_weight = filter.GetSmallestWeight();
+  options.weights.influences = filter.GetMaximumInfluences();
+  options.pseudo_edges = static_cast<PseudoEdgeChoice>(filter.GetPseudoEdges());
+  options.pseudo_edge_stretch = filter.GetPseudoEdgeStretch();
+  return options;
+}
 } // namespace
 
 struct vtkSkinningDeformation::Internals
@@ -76,19 +89,6 @@ std::vector<std::string> vtkSkinningDeformation::BindArrays()
   return names;
 }
 
-/// Return the options of the filter in the types of the kernel.
-SkinningMethodOptions vtkSkinningDeformation::MakeOptions() const
-{
-  SkinningMethodOptions options;
-  options.method = static_cast<SkinningMethod>(this->Method);
-  options.weights.single_precision = this->SinglePrecision;
-  options.weights.smallest_weight = this->SmallestWeight;
-  options.weights.influences = this->MaximumInfluences;
-  options.pseudo_edges = static_cast<PseudoEdgeChoice>(this->PseudoEdges);
-  options.pseudo_edge_stretch = this->PseudoEdgeStretch;
-  return options;
-}
-
 Status vtkSkinningDeformation::Bind(ExecutionContext& context, const PoseInput& input)
 {
   Internals& internal = *this->Internal;
@@ -119,7 +119,7 @@ Status vtkSkinningDeformation::BindMissing(ExecutionContext& context, const Pose
 {
   Internals& internal = *this->Internal;
   const SkinnedShape shape = internal.shape(input);
-  const SkinningMethodOptions options = this->MakeOptions();
+  const SkinningMethodOptions options = options_of(*this);
   if (internal.bind.is_bound(shape, options))
   {
     return {};
@@ -157,7 +157,7 @@ Status vtkSkinningDeformation::Deform(
     return bound;
   }
   Status status = internal.bind.pose(
-    context, internal.shape(input), input.pose, edges, this->MakeOptions(), posed.points);
+    context, internal.shape(input), input.pose, edges, options_of(*this), posed.points);
   posed.transforms = internal.bind.transforms();
   status.warnings.insert(status.warnings.end(), bound.warnings.begin(), bound.warnings.end());
   status.report.set("method", method_names[this->Method]);

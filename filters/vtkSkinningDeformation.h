@@ -42,11 +42,6 @@
 #include "BindposeFiltersModule.h" // for export macro
 #include "vtkPoseAlgorithm.h"
 
-namespace bindpose
-{
-struct SkinningMethodOptions;
-} // namespace bindpose
-
 class BINDPOSEFILTERS_EXPORT vtkSkinningDeformation : public vtkPoseAlgorithm
 {
 public:
@@ -149,7 +144,6 @@ private:
   vtkSkinningDeformation(const vtkSkinningDeformation&) = delete;
   void operator=(const vtkSkinningDeformation&) = delete;
 
-  bindpose::SkinningMethodOptions MakeOptions() const;
   bindpose::Status BindMissing(
     bindpose::ExecutionContext& context, const bindpose::PoseInput& input);
 

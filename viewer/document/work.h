@@ -3,7 +3,7 @@
 
 #include "document/options.h"
 #include "pose/pose.h"
-#include "poses/pose_shelf.h"
+#include "poses/stored_poses.h"
 
 #include "vtkImageData.h"
 #include "vtkPolyData.h"

@@ -71,6 +71,12 @@ Status check_cages(const Handles& handles)
 }
 } // namespace
 
+bool has_bones(const Handles& handles)
+{
+  return std::any_of(handles.begin(), handles.end(),
+    [](const Handle& handle) { return handle.kind == HandleKind::bone; });
+}
+
 std::string quoted_names(const Handles& handles, const std::vector<Index>& list)
 {
   std::string names;

@@ -65,6 +65,9 @@ using Handles = std::vector<Handle>;
 /// Return "point", "bone", "cage_vertex", "region" or "cage_element".
 const char* to_string(HandleKind kind);
 
+/// Report whether a handle is a bone. Only bones stretch and twist.
+bool has_bones(const Handles& handles);
+
 /// Return the quoted names of the listed handles for use in a sentence: 'a', 'b'.
 std::string quoted_names(const Handles& handles, const std::vector<Index>& list);
 /// Like quoted_names(), but abbreviate a long list: 'a', 'b', 'c' and 12 more.

@@ -151,40 +151,39 @@ std::vector<int> postorder(const std::vector<int>& parent)
   return { reversed.rbegin(), reversed.rend() };
 }
 
-/// Restrict the supernodes to the unknowns of a block. If row i is in column j of the factor, each
-/// later row of column j is also in column i. So the parent of a restricted supernode is the
-/// supernode of its first remaining row below, even if the former parent has no column left. The
-/// remaining supernodes are sorted into a postorder of the new tree.
-void restrict_fronts(
-  const Analysis& analysis, const std::vector<char>& excluded, BlockFronts& block)
+/// The supernodes that have a column in a block, in a postorder of the block's tree.
+struct BlockTree
 {
-  const Fronts& whole = analysis.fronts;
-  const Supernodes& nodes = whole.nodes;
-  const auto kept = [&](int step) { return !excluded[nodes.order[step]]; };
-  std::vector<int> kept_nodes, parent;
-  std::vector<int> kept_of_node(static_cast<std::size_t>(whole.count()), -1);
-  for (int s = 0; s < whole.count(); ++s)
+  std::vector<int> node; // index of each supernode in the whole factor
+  std::vector<int> parent; // index in this list; -1: no parent
+};
+
+/// Return the tree of a block. If row i is in column j of the factor, each later row of column j is
+/// also in column i. So the parent of a supernode is the supernode of its first row below in the
+/// block, even if its parent in the whole factor has no column in the block.
+/// @param in_block  whether the unknown of a step is in the block
+template <typename InBlock>
+BlockTree tree_of_block(const Analysis& analysis, const InBlock& in_block)
+{
+  const Supernodes& nodes = analysis.fronts.nodes;
+  std::vector<int> kept;
+  std::vector<int> kept_of_node(static_cast<std::size_t>(analysis.fronts.count()), -1);
+  for (int j = 0; j < analysis.size(); ++j)
   {
-    bool any = false;
-    for (int j = nodes.first_column[s]; j < nodes.first_column[s + 1] && !any; ++j)
+    const int s = analysis.node_of_column[j];
+    if (in_block(j) && kept_of_node[s] < 0)
     {
-      any = kept(j);
-    }
-    if (any)
-    {
-      kept_of_node[s] = static_cast<int>(kept_nodes.size());
-      kept_nodes.push_back(s);
+      kept_of_node[s] = static_cast<int>(kept.size());
+      kept.push_back(s);
     }
   }
-  for (const int s : kept_nodes)
+  std::vector<int> parent;
+  for (const int s : kept)
   {
-    int above = -1;
-    for (int r = nodes.first_row[s] + whole.columns(s); r < nodes.first_row[s + 1] && above < 0;
-         ++r)
-    {
-      above = kept(nodes.rows[r]) ? kept_of_node[analysis.node_of_column[nodes.rows[r]]] : -1;
-    }
-    parent.push_back(above);
+    const auto begin = nodes.rows.begin() + nodes.first_row[s] + analysis.fronts.columns(s);
+    const auto end = nodes.rows.begin() + nodes.first_row[s + 1];
+    const auto row = std::find_if(begin, end, in_block);
+    parent.push_back(row == end ? -1 : kept_of_node[analysis.node_of_column[*row]]);
   }
   const std::vector<int> sorted = postorder(parent);
   std::vector<int> rank(sorted.size());
@@ -192,19 +191,31 @@ void restrict_fronts(
   {
     rank[sorted[i]] = static_cast<int>(i);
   }
-
-  Supernodes& mine = block.fronts.nodes;
-  mine = Supernodes();
-  block.fronts.parent.clear();
-  block.step_in_whole.clear();
-  block.step_in_block.assign(static_cast<std::size_t>(analysis.size()), -1);
-  mine.first_column.push_back(0);
+  BlockTree tree;
   for (const int k : sorted)
   {
-    const int s = kept_nodes[k];
+    tree.node.push_back(kept[k]);
+    tree.parent.push_back(parent[k] < 0 ? -1 : rank[parent[k]]);
+  }
+  return tree;
+}
+
+/// Restrict the supernodes to the unknowns that are not excluded.
+void restrict_fronts(
+  const Analysis& analysis, const std::vector<char>& excluded, BlockFronts& block)
+{
+  const Supernodes& nodes = analysis.fronts.nodes;
+  const auto in_block = [&](int step) { return !excluded[nodes.order[step]]; };
+  BlockTree tree = tree_of_block(analysis, in_block);
+  block = BlockFronts();
+  block.step_in_block.assign(static_cast<std::size_t>(analysis.size()), -1);
+  Supernodes& mine = block.fronts.nodes;
+  mine.first_column.push_back(0);
+  for (const int s : tree.node)
+  {
     for (int j = nodes.first_column[s]; j < nodes.first_column[s + 1]; ++j)
     {
-      if (kept(j))
+      if (in_block(j))
       {
         block.step_in_block[j] = static_cast<int>(mine.order.size());
         block.step_in_whole.push_back(j);
@@ -212,13 +223,10 @@ void restrict_fronts(
       }
     }
     mine.first_column.push_back(static_cast<int>(mine.order.size()));
-    block.fronts.parent.push_back(parent[k] < 0 ? -1 : rank[parent[k]]);
   }
   mine.first_row.push_back(0);
-  mine.first_value.push_back(0);
-  for (std::size_t i = 0; i < sorted.size(); ++i)
+  for (const int s : tree.node)
   {
-    const int s = kept_nodes[sorted[i]];
     for (int r = nodes.first_row[s]; r < nodes.first_row[s + 1]; ++r)
     {
       const int row = block.step_in_block[nodes.rows[r]];
@@ -228,9 +236,13 @@ void restrict_fronts(
       }
     }
     mine.first_row.push_back(static_cast<int>(mine.rows.size()));
-    const int columns = mine.first_column[i + 1] - mine.first_column[i];
+  }
+  block.fronts.parent = std::move(tree.parent);
+  mine.first_value.push_back(0);
+  for (int s = 0; s < block.fronts.count(); ++s)
+  {
     mine.first_value.push_back(
-      mine.first_value.back() + columns * (mine.first_row[i + 1] - mine.first_row[i]));
+      mine.first_value.back() + block.fronts.columns(s) * block.fronts.rows(s));
   }
   block.fronts.measure_stacks();
 }

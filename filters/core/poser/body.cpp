@@ -77,24 +77,16 @@ Status Body::bind(ExecutionContext& context, const PoseOptions& options)
   {
     return status;
   }
-  const ReducedArapOptions reduced = reduced_options(options);
-  status = options.in_tets ? this->body_.bind(context, source.tet_points, source.tets,
-                               source.tet_weights, source.handles, reduced)
-                           : this->body_.bind(context, source.points, source.triangles,
-                               source.weights, source.handles, reduced);
+  status = bind_to_source(context, source, options, this->body_);
   if (status.usable() && options.in_tets)
   {
     // The surface and the tets get the same extra weights as in posing, because both are computed
     // from the same columns.
     ReducedArap arap;
-    Weights columns, weights;
-    Status surface_status = arap.bind(
-      context, source.tet_points, source.tets, source.tet_weights, source.handles, reduced);
-    surface_status = surface_status.usable() ? arap.weights(context, columns) : surface_status;
-    surface_status = surface_status.usable() ? weights_on_surface(context, source, columns, weights)
-                                             : surface_status;
-    surface_status =
-      surface_status.usable() ? this->surface_skinning_.bind(context, weights) : surface_status;
+    Status surface_status = bind_to_source(context, source, options, arap);
+    surface_status = surface_status.usable()
+      ? bind_surface_skinning(context, source, arap, this->surface_skinning_)
+      : surface_status;
     status = surface_status.usable() ? status : surface_status;
   }
   if (status.usable())

@@ -3,50 +3,31 @@
 namespace bindpose
 {
 
-bool FullPoser::is_bound(const PoseOptions& options) const
-{
-  return this->bound_ && same_bind(*this->bound_, options);
-}
-
 const PoseRotations* FullPoser::rotations()
 {
-  if (!this->bound_)
+  if (!this->bound())
   {
     return nullptr;
   }
   update_rotations(this->source(), this->arap_.groups(), this->arap_.rotations(),
-    this->bound_->in_tets, this->rotations_);
+    this->bound()->in_tets, this->rotations_);
   return &this->rotations_;
 }
 
 Status FullPoser::bind_missing(ExecutionContext& context, const PoseOptions& options)
 {
   const PoseSource& source = this->source();
-  this->bound_.reset();
   this->rotations_ = PoseRotations();
-  Status status = check_tets(source, options);
-  if (!status.ok())
-  {
-    return status;
-  }
   Phase phase(context, "bind");
   FullArapOptions full;
   full.energy = options.energy;
   if (options.in_tets)
   {
-    status = this->arap_.bind(context, source.tet_points, source.tets, source.handles, full);
     this->anchors_ = TetAnchors(source.points, source.tet_points, source.tets);
+    return this->arap_.bind(context, source.tet_points, source.tets, source.handles, full);
   }
-  else
-  {
-    full.region_ids = source.arrays.region_ids;
-    status = this->arap_.bind(context, source.points, source.triangles, source.handles, full);
-  }
-  if (status.usable())
-  {
-    this->bound_ = options;
-  }
-  return status;
+  full.region_ids = source.arrays.region_ids;
+  return this->arap_.bind(context, source.points, source.triangles, source.handles, full);
 }
 
 Status FullPoser::pose(ExecutionContext& context, const Pose& pose, const PoseOptions& options,
@@ -73,26 +54,14 @@ Status FullPoser::pose(ExecutionContext& context, const Pose& pose, const PoseOp
   return status;
 }
 
-bool VariationalPoser::is_bound(const PoseOptions& options) const
-{
-  return this->bound_ && same_bind(*this->bound_, options);
-}
-
 Status VariationalPoser::bind_missing(ExecutionContext& context, const PoseOptions& options)
 {
   const PoseSource& source = this->source();
-  this->bound_.reset();
   Phase phase(context, "bind");
   VariationalSurfaceOptions variational = source.arrays;
   variational.order = options.order;
   variational.boundary = options.boundary;
-  const Status status =
-    this->surface_.bind(context, source.points, source.triangles, source.handles, variational);
-  if (status.usable())
-  {
-    this->bound_ = options;
-  }
-  return status;
+  return this->surface_.bind(context, source.points, source.triangles, source.handles, variational);
 }
 
 Status VariationalPoser::pose(ExecutionContext& context, const Pose& pose,

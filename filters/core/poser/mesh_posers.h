@@ -6,8 +6,6 @@
 #include "poser/poser.h"
 #include "poser/tet_anchors.h"
 
-#include <optional>
-
 namespace bindpose
 {
 
@@ -18,7 +16,6 @@ class FullPoser : public Poser
 {
 public:
   explicit FullPoser(std::shared_ptr<const PoseSource> source) : Poser(std::move(source)) {}
-  bool is_bound(const PoseOptions& options) const override;
   const PoseRotations* rotations() override;
 
 protected:
@@ -27,7 +24,6 @@ protected:
     Index maximum_iterations, Points& posed) override;
 
 private:
-  std::optional<PoseOptions> bound_;
   FullArap arap_;
   PoseRotations rotations_; ///< cache for rotations()
   TetAnchors anchors_;
@@ -39,7 +35,6 @@ class VariationalPoser : public Poser
 {
 public:
   explicit VariationalPoser(std::shared_ptr<const PoseSource> source) : Poser(std::move(source)) {}
-  bool is_bound(const PoseOptions& options) const override;
 
 protected:
   Status bind_missing(ExecutionContext& context, const PoseOptions& options) override;
@@ -47,7 +42,6 @@ protected:
     Index maximum_iterations, Points& posed) override;
 
 private:
-  std::optional<PoseOptions> bound_;
   VariationalSurface surface_;
 };
 

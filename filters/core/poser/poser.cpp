@@ -5,6 +5,11 @@
 namespace bindpose
 {
 
+bool Poser::is_bound(const PoseOptions& options) const
+{
+  return this->bound_ && same_bind(*this->bound_, options);
+}
+
 Status Poser::bind(ExecutionContext& context, const PoseOptions& options)
 {
   if (this->is_bound(options))
@@ -15,8 +20,17 @@ Status Poser::bind(ExecutionContext& context, const PoseOptions& options)
   {
     return Status::invalid_input("this method needs weights: bind first");
   }
-  const Status status = this->bind_missing(context, options);
-  this->binds_ += status.usable() ? 1 : 0;
+  this->bound_.reset();
+  Status status = finds_rotations(options.method) ? check_tets(this->source(), options) : Status();
+  if (status.ok())
+  {
+    status = this->bind_missing(context, options);
+  }
+  if (status.usable())
+  {
+    this->bound_ = options;
+    this->binds_ += 1;
+  }
   return status;
 }
 

@@ -7,6 +7,7 @@
 #include "poser/pose_source.h"
 
 #include <memory>
+#include <optional>
 
 namespace bindpose
 {
@@ -22,8 +23,9 @@ class Poser
 public:
   virtual ~Poser() = default;
 
-  /// Report whether the bind contains everything that solve() needs for these options.
-  virtual bool is_bound(const PoseOptions& options) const = 0;
+  /// Report whether the bind contains everything that solve() needs for these options. By default
+  /// it does if the last bind succeeded with options that need the same bind.
+  virtual bool is_bound(const PoseOptions& options) const;
   /// Compute the missing data of the bind, and keep the existing data. Return the warnings of the
   /// bind.
   Status bind(ExecutionContext& context, const PoseOptions& options);
@@ -45,12 +47,15 @@ public:
 protected:
   explicit Poser(std::shared_ptr<const PoseSource> source) : source_(std::move(source)) {}
   const PoseSource& source() const { return *this->source_; }
+  /// Return the options of the last bind; empty if it failed or there was none.
+  const std::optional<PoseOptions>& bound() const { return this->bound_; }
   virtual Status bind_missing(ExecutionContext& context, const PoseOptions& options) = 0;
   virtual Status pose(ExecutionContext& context, const Pose& pose, const PoseOptions& options,
     Index maximum_iterations, Points& posed) = 0;
 
 private:
   std::shared_ptr<const PoseSource> source_;
+  std::optional<PoseOptions> bound_;
   Index binds_ = 0;
 };
 

@@ -14,66 +14,52 @@ ReducedArapOptions reduced_options(const PoseOptions& options)
   return reduced;
 }
 
-Status weights_on_surface(
-  ExecutionContext& context, const PoseSource& source, const Weights& in_tets, Weights& weights)
+Status bind_surface_skinning(
+  ExecutionContext& context, const PoseSource& source, const ReducedArap& arap, Skinning& skinning)
 {
+  Weights columns;
+  Status status = arap.weights(context, columns);
+  if (!status.usable())
+  {
+    return status;
+  }
+  // The columns of handles are the source's own weights; extra columns are interpolated from the
+  // tets' vertices.
   Domain domain;
   domain.points = source.tet_points;
   domain.tets = source.tets;
+  Weights weights;
   TransferCounts counts;
-  const Status status = transfer(context, domain, in_tets, source.points, {}, weights, counts);
-  if (status.usable())
+  status = transfer(context, domain, columns, source.points, {}, weights, counts);
+  if (!status.usable())
   {
-    weights.leftCols(source.weights.cols()) = source.weights;
+    return status;
   }
-  return status;
+  weights.leftCols(source.weights.cols()) = source.weights;
+  return skinning.bind(context, weights);
 }
 
 const PoseRotations* ReducedPoser::rotations()
 {
-  if (!this->bound_)
+  if (!this->bound())
   {
     return nullptr;
   }
   update_rotations(this->source(), this->arap_.groups(), this->arap_.rotations(),
-    this->bound_->in_tets, this->rotations_);
+    this->bound()->in_tets, this->rotations_);
   return &this->rotations_;
-}
-
-bool ReducedPoser::is_bound(const PoseOptions& options) const
-{
-  return this->bound_ && same_bind(*this->bound_, options);
 }
 
 Status ReducedPoser::bind_missing(ExecutionContext& context, const PoseOptions& options)
 {
-  const PoseSource& source = this->source();
-  this->bound_.reset();
   this->rotations_ = PoseRotations();
-  Status status = check_tets(source, options);
-  if (!status.ok())
-  {
-    return status;
-  }
   Phase phase(context, "bind");
-  const ReducedArapOptions reduced = reduced_options(options);
-  status = options.in_tets ? this->arap_.bind(context, source.tet_points, source.tets,
-                               source.tet_weights, source.handles, reduced)
-                           : this->arap_.bind(context, source.points, source.triangles,
-                               source.weights, source.handles, reduced);
+  Status status = bind_to_source(context, this->source(), options, this->arap_);
   if (status.usable() && options.in_tets)
   {
-    Weights columns, weights;
-    Status surface_status = this->arap_.weights(context, columns);
-    surface_status =
-      surface_status.ok() ? weights_on_surface(context, source, columns, weights) : surface_status;
-    surface_status =
-      surface_status.usable() ? this->surface_skinning_.bind(context, weights) : surface_status;
+    const Status surface_status =
+      bind_surface_skinning(context, this->source(), this->arap_, this->surface_skinning_);
     status = surface_status.usable() ? status : surface_status;
-  }
-  if (status.usable())
-  {
-    this->bound_ = options;
   }
   return status;
 }

@@ -4,8 +4,6 @@
 #include "arap/reduced_arap.h"
 #include "poser/poser.h"
 
-#include <optional>
-
 namespace bindpose
 {
 
@@ -15,7 +13,6 @@ class ReducedPoser : public Poser
 {
 public:
   explicit ReducedPoser(std::shared_ptr<const PoseSource> source) : Poser(std::move(source)) {}
-  bool is_bound(const PoseOptions& options) const override;
   const std::vector<Affine>* found() const override { return &this->arap_.transforms(); }
   const PoseRotations* rotations() override;
 
@@ -25,7 +22,6 @@ protected:
     Index maximum_iterations, Points& posed) override;
 
 private:
-  std::optional<PoseOptions> bound_;
   ReducedArap arap_;
   PoseRotations rotations_; ///< cache for rotations()
   Skinning surface_skinning_; ///< blends the surface's points by all columns; used only with tets
@@ -33,11 +29,23 @@ private:
 
 /// Return the options of the reduced as-rigid-as-possible kernels.
 ReducedArapOptions reduced_options(const PoseOptions& options);
-/// Compute the surface's weights for all columns of a reduced space in the source's tets. The
-/// columns of handles are the source's own weights; extra columns are interpolated from the tets'
-/// vertices.
-Status weights_on_surface(
-  ExecutionContext& context, const PoseSource& source, const Weights& in_tets, Weights& weights);
+/// Bind a kernel of reduced as-rigid-as-possible deformation to the source's surface, or to its
+/// tets if the options require them.
+template <typename Kernel>
+Status bind_to_source(
+  ExecutionContext& context, const PoseSource& source, const PoseOptions& options, Kernel& kernel)
+{
+  const ReducedArapOptions reduced = reduced_options(options);
+  return options.in_tets ? kernel.bind(context, source.tet_points, source.tets, source.tet_weights,
+                             source.handles, reduced)
+                         : kernel.bind(context, source.points, source.triangles, source.weights,
+                             source.handles, reduced);
+}
+/// Bind linear blend skinning of the source's surface to the columns of a reduced space in its
+/// tets.
+/// @param arap  bound to the source's tets
+Status bind_surface_skinning(
+  ExecutionContext& context, const PoseSource& source, const ReducedArap& arap, Skinning& skinning);
 
 } // namespace bindpose
 

@@ -3,7 +3,6 @@
 #include "poser/bone_endpoints.h"
 #include "skinning/rotation_centers.h"
 
-#include <algorithm>
 #include <tuple>
 
 namespace bindpose
@@ -22,12 +21,6 @@ void add_warnings(const Status& step, Status& status)
   status.warnings.insert(status.warnings.end(), step.warnings.begin(), step.warnings.end());
 }
 } // namespace
-
-bool has_bones(const Handles& handles)
-{
-  return std::any_of(handles.begin(), handles.end(),
-    [](const Handle& handle) { return handle.kind == HandleKind::bone; });
-}
 
 bool SkinningBind::has_endpoints(
   const SkinnedShape& shape, const SkinningMethodOptions& options) const

@@ -38,9 +38,6 @@ struct SkinningMethodOptions
   EndpointMethod endpoints = EndpointMethod::projection;
 };
 
-/// Report whether a handle is a bone. Only bones stretch and twist.
-bool has_bones(const Handles& handles);
-
 /// Views of a shape and its handles, valid during a call.
 struct SkinnedShape
 {

@@ -7,6 +7,7 @@
 
 #include "support/handles.h"
 #include "support/meshes.h"
+#include "support/poses.h"
 
 #include <gtest/gtest.h>
 
@@ -25,29 +26,8 @@ protected:
       test::point_handle("right", Vec3(4, 1, 1)),
       test::bone_handle("upper", Vec3(0.1, 0.5, 0.5), Vec3(2, 0.5, 0.5)),
       test::bone_handle("lower", Vec3(2, 0.5, 0.5), Vec3(3.9, 0.5, 0.5)) };
-    this->weights_.resize(this->box_.points.rows(), 4);
-    for (Index v = 0; v < this->weights_.rows(); ++v)
-    {
-      for (std::size_t j = 0; j < this->handles_.size(); ++j)
-      {
-        const Vec3 middle = 0.5 * (this->handles_[j].head + this->handles_[j].tail);
-        this->weights_(v, static_cast<Index>(j)) =
-          1.0 / (1e-3 + (this->box_.points.row(v).transpose() - middle).squaredNorm());
-      }
-      this->weights_.row(v) /= this->weights_.row(v).sum();
-    }
-    this->pose_.resize(4);
-    for (std::size_t j = 0; j < 4; ++j)
-    {
-      const Eigen::Matrix3d turn =
-        Eigen::AngleAxisd(0.4 * static_cast<double>(j + 1), Vec3(0.3, 1, 0.2).normalized())
-          .toRotationMatrix();
-      this->pose_[j].transform.leftCols<3>() = turn;
-      this->pose_[j].transform.col(3) =
-        this->handles_[j].head - turn * this->handles_[j].head + Vec3(0.1, 0.2, 0);
-    }
-    this->pose_[2].stretch = 1.3;
-    this->pose_[3].twist = Eigen::Vector2d(0, 40.0);
+    this->weights_ = test::distance_weights(this->box_.points, this->handles_);
+    this->pose_ = test::some_pose(this->handles_);
   }
 
   SkinnedShape shape() const

@@ -5,7 +5,7 @@
 #include "app/posing/pose_panel.h"
 #include "app/posing/posing.h"
 #include "app/posing/sequence_export.h"
-#include "app/tets/inspection.h"
+#include "app/tets/tet_inspection.h"
 #include "app/view/viewport.h"
 #include "app/volume/winding_volume.h"
 #include "app/weights/binding.h"

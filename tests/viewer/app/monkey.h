@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_viewer_app_monkey_h
 #define bindpose_tests_viewer_app_monkey_h
 
-#include "app/tour/window_hand.h"
+#include "app/tour/simulated_user.h"
 
 #include <functional>
 #include <map>

@@ -4,7 +4,7 @@
 #include "window_test.h"
 
 #include "app/parts/value_row.h"
-#include "app/tets/inspection.h"
+#include "app/tets/tet_inspection.h"
 #include "app/tets/tet_panel.h"
 #include "app/view/plane_handle.h"
 #include "app/volume/volume_panel.h"

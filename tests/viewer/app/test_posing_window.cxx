@@ -9,7 +9,7 @@
 #include "app/posing/distance_view.h"
 #include "app/posing/handle_fields.h"
 #include "app/posing/key_strip.h"
-#include "app/posing/pose_list.h"
+#include "app/posing/pose_list_widget.h"
 #include "app/posing/pose_panel.h"
 #include "app/posing/posing.h"
 #include "app/posing/rotation_view.h"

@@ -4,7 +4,7 @@
 
 #include "app/posing/deformation.h"
 #include "app/posing/posing.h"
-#include "app/tets/inspection.h"
+#include "app/tets/tet_inspection.h"
 #include "app/tets/tet_view.h"
 #include "app/weights/weight_inspection.h"
 #include "app/weights/weight_view.h"

@@ -6,7 +6,7 @@
 
 #include "app/handles/side_panel.h"
 #include "app/parts/notice_bar.h"
-#include "app/tets/inspection.h"
+#include "app/tets/tet_inspection.h"
 #include "app/weights/weight_panel.h"
 #include "app/window/window_sessions.h"
 #include "document/autosave.h"

@@ -6,7 +6,7 @@
 #include "app/handles/side_panel.h"
 #include "app/parts/value_row.h"
 #include "app/posing/posing.h"
-#include "app/tets/inspection.h"
+#include "app/tets/tet_inspection.h"
 #include "app/tets/tet_panel.h"
 #include "document/document.h"
 

@@ -4,7 +4,7 @@
 // Functions that operate the window like a user: Qt mouse events on the view, and buttons found by
 // their texts.
 
-#include "app/tour/window_hand.h"
+#include "app/tour/simulated_user.h"
 #include "app/view/viewport.h"
 #include "app/window/main_window.h"
 #include "app/window/panel_column.h"

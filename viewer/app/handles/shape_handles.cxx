@@ -12,8 +12,6 @@
 #include <QInputDialog>
 #include <QMenu>
 
-#include <algorithm>
-
 using namespace bindpose;
 
 namespace
@@ -136,9 +134,7 @@ void ShapeHandles::finish()
     return; // canceled, or another shape was opened meanwhile
   }
   const bool points = this->method_ == AutomaticMethod::points;
-  const bool has_bones = std::any_of(this->new_handles_->begin(), this->new_handles_->end(),
-    [](const Handle& handle) { return handle.kind == HandleKind::bone; });
-  if (this->rigging_ && !points && !(status.usable() && has_bones))
+  if (this->rigging_ && !points && !(status.usable() && has_bones(*this->new_handles_)))
   {
     AutomaticHandlesOptions instead;
     instead.method = AutomaticMethod::points;

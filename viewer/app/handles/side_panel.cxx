@@ -2,7 +2,7 @@
 
 #include "app/parts/panel_parts.h"
 #include "app/posing/handle_fields.h"
-#include "app/posing/pose_list.h"
+#include "app/posing/pose_list_widget.h"
 #include "app/posing/pose_panel.h"
 #include "app/view/section.h"
 

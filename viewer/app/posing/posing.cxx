@@ -4,7 +4,7 @@
 #include "app/posing/body_motion.h"
 #include "app/posing/handle_fields.h"
 #include "app/posing/pose_ghost.h"
-#include "app/posing/pose_keeper.h"
+#include "app/posing/stored_pose_manager.h"
 #include "app/posing/pose_panel.h"
 #include "app/posing/sequence_export.h"
 #include "app/view/viewport.h"
@@ -158,8 +158,7 @@ void Posing::show_state()
   {
     state.tets = this->source_->has_tets();
     state.endpoints = this->source_->endpoints.rows() > 0;
-    state.bones = std::any_of(this->source_->handles.begin(), this->source_->handles.end(),
-      [](const Handle& handle) { return handle.kind == HandleKind::bone; });
+    state.bones = has_bones(this->source_->handles);
   }
   this->panels_.pose->set_state(state);
   this->pose_manager_->set_handles(this->source_

@@ -3,7 +3,7 @@
 
 #include "app/posing/deformation.h"
 #include "app/posing/pose_ghost.h"
-#include "app/posing/pose_keeper.h"
+#include "app/posing/stored_pose_manager.h"
 
 #include "vtkPolyData.h"
 #include "vtkSmartPointer.h"

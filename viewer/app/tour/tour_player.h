@@ -2,7 +2,7 @@
 #define app_tour_tour_player_h
 
 #include "app/tour/tour.h"
-#include "app/tour/window_hand.h"
+#include "app/tour/simulated_user.h"
 
 #include <QElapsedTimer>
 #include <QImage>

@@ -16,7 +16,7 @@
 #include "app/posing/key_strip.h"
 #include "app/posing/posing.h"
 #include "app/posing/rotation_view.h"
-#include "app/tets/inspection.h"
+#include "app/tets/tet_inspection.h"
 #include "app/view/viewport.h"
 #include "app/volume/volume_panel.h"
 #include "app/volume/volume_view.h"

@@ -1,4 +1,4 @@
-#include "poses/pose_shelf.h"
+#include "poses/stored_poses.h"
 
 #include "poses/json_fields.h"
 

@@ -1,5 +1,5 @@
-#ifndef app_tour_window_hand_h
-#define app_tour_window_hand_h
+#ifndef app_tour_simulated_user_h
+#define app_tour_simulated_user_h
 
 #include <QEvent>
 #include <QPoint>

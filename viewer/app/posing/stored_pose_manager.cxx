@@ -1,7 +1,7 @@
-#include "app/posing/pose_keeper.h"
+#include "app/posing/stored_pose_manager.h"
 
 #include "app/posing/key_strip.h"
-#include "app/posing/pose_list.h"
+#include "app/posing/pose_list_widget.h"
 
 #include "poses/pose_blend.h"
 

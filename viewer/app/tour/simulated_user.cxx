@@ -1,4 +1,4 @@
-#include "app/tour/window_hand.h"
+#include "app/tour/simulated_user.h"
 
 #include "app/handles/handle_commands.h"
 #include "app/handles/handle_editing.h"
@@ -11,7 +11,7 @@
 #include "app/posing/pose_panel.h"
 #include "app/posing/posing.h"
 #include "app/posing/sequence_export.h"
-#include "app/tets/inspection.h"
+#include "app/tets/tet_inspection.h"
 #include "app/view/viewport.h"
 #include "app/volume/winding_volume.h"
 #include "app/weights/binding.h"

@@ -1,4 +1,4 @@
-#include "app/posing/pose_list.h"
+#include "app/posing/pose_list_widget.h"
 
 #include "app/parts/panel_parts.h"
 

@@ -1,5 +1,5 @@
-#ifndef bindpose_poses_pose_shelf_h
-#define bindpose_poses_pose_shelf_h
+#ifndef bindpose_poses_stored_poses_h
+#define bindpose_poses_stored_poses_h
 
 #include "poses/key_frames.h"
 #include "poses/pose_library.h"

@@ -1,7 +1,7 @@
-#ifndef app_posing_pose_keeper_h
-#define app_posing_pose_keeper_h
+#ifndef app_posing_stored_pose_manager_h
+#define app_posing_stored_pose_manager_h
 
-#include "poses/pose_shelf.h"
+#include "poses/stored_poses.h"
 
 #include <QElapsedTimer>
 #include <QObject>

@@ -1,4 +1,4 @@
-#include "app/tets/inspection.h"
+#include "app/tets/tet_inspection.h"
 
 #include "app/tets/tet_panel.h"
 #include "app/view/viewport.h"

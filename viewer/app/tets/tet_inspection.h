@@ -1,5 +1,5 @@
-#ifndef app_tets_inspection_h
-#define app_tets_inspection_h
+#ifndef app_tets_tet_inspection_h
+#define app_tets_tet_inspection_h
 
 #include "app/parts/kernel_job.h"
 #include "app/tets/defect_view.h"

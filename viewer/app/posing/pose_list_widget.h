@@ -1,5 +1,5 @@
-#ifndef app_posing_pose_list_h
-#define app_posing_pose_list_h
+#ifndef app_posing_pose_list_widget_h
+#define app_posing_pose_list_widget_h
 
 #include <QStringList>
 #include <QWidget>

@@ -265,7 +265,7 @@ struct RowRun
 struct FloatCholesky::Impl
 {
   std::shared_ptr<Analysis> analysis;
-  BlockFronts block; // of the last factor_block()
+  BlockFronts block_fronts; // of the last factor_block()
   bool is_block = false; // true: the factor is that of a block
   std::vector<float> values;
   std::vector<float> stack[2];
@@ -278,7 +278,7 @@ struct FloatCholesky::Impl
 
   const Fronts& fronts() const
   {
-    return this->is_block ? this->block.fronts : this->analysis->fronts;
+    return this->is_block ? this->block_fronts.fronts : this->analysis->fronts;
   }
   Status factor(const ExecutionContext& context, const SparseMatrix& matrix, double shift);
   void scatter(const SparseMatrix& matrix, double shift, int s);
@@ -434,11 +434,11 @@ void FloatCholesky::Impl::scatter(const SparseMatrix& matrix, double shift, int 
   for (int c = 0; c < fronts.columns(s); ++c)
   {
     const int step = fronts.nodes.first_column[s] + c;
-    const int column = this->is_block ? this->block.step_in_whole[step] : step;
+    const int column = this->is_block ? this->block_fronts.step_in_whole[step] : step;
     for (int e = shared.first_entry[column]; e < shared.first_entry[column + 1]; ++e)
     {
       const int in_whole = shared.entry_row[e];
-      const int row = this->is_block ? this->block.step_in_block[in_whole] : in_whole;
+      const int row = this->is_block ? this->block_fronts.step_in_block[in_whole] : in_whole;
       if (row < 0)
       {
         continue;
@@ -653,7 +653,7 @@ Status FloatCholesky::factor_block(
   {
     return wrong_pattern();
   }
-  restrict_fronts(*this->impl_->analysis, excluded, this->impl_->block);
+  restrict_fronts(*this->impl_->analysis, excluded, this->impl_->block_fronts);
   this->impl_->is_block = true;
   return this->impl_->factor(context, matrix, 0.0);
 }

@@ -27,6 +27,10 @@ namespace bindpose
 namespace
 {
 constexpr double minimum_fraction = 0.03;
+/// After smoothing, values smaller than this are set to 0. Smoothing spreads each value over the
+/// whole surface. Far away, the values are too small to matter, but posing costs time for each
+/// nonzero weight.
+constexpr double negligible_value = 1e-12;
 
 /// Return the gradients of the columns at the vertices, #V x (3 #columns): the x components of all
 /// columns, then the y components, then the z components. The gradient at a vertex is the mean over
@@ -334,6 +338,7 @@ Status EmbeddedSurface::smooth(ExecutionContext& context, const std::vector<Inde
       result.row(i) = smooth.row(v).cwiseMax(lowest).cwiseMin(highest);
     }
   }
+  result = (result.array().abs() < negligible_value).select(0.0, result);
   return {};
 }
 

@@ -135,6 +135,20 @@ TEST(SurfaceWeights, OfTheEmbeddingAreNearThoseOfAFineVolume)
   }
 }
 
+TEST(SurfaceWeights, NoneIsAlmostZero)
+{
+  const TriangleMesh mesh = long_box();
+  SurfaceWeights result;
+  const Status status =
+    solve_surface_weights(mesh, three_along(), options_for(WeightsDomain::embedding), result);
+  ASSERT_TRUE(status.ok()) << status.message;
+  const Index zeros = (result.weights.array() == 0.0).count();
+  // The limit is 1e-12, but rows are divided by their sums afterwards.
+  const Index almost_zeros = (result.weights.array() < 5e-13).count() - zeros;
+  EXPECT_GT(zeros, 0);
+  EXPECT_EQ(almost_zeros, 0);
+}
+
 TEST(SurfaceWeights, ProngsThatAreNearButNotConnectedDoNotShareWeights)
 {
   // The shape is a fork with two prongs at a distance of 1/20. The prongs are connected only at

@@ -25,6 +25,9 @@ constexpr double largest_cell = 1.1;
 constexpr double clearance = 0.5;
 constexpr int deepest = 19; // maximum number of octree levels
 constexpr Index cells_per_block = 256;
+// Maximum number of cells on one level, in units of the allowed number of cells inside. A shape
+// that is much thinner than the requested edge length contains no cells, but intersects millions.
+constexpr Index most_cells_per_cell_inside = 40;
 
 /// Integer coordinates in units of half of the smallest cell's side: 21 bits per coordinate.
 using LatticePosition = std::array<std::uint64_t, 3>;
@@ -45,8 +48,9 @@ public:
     this->lower_ = box.center() - Vec3::Constant(0.5 * whole);
   }
 
-  /// Build the octree and choose its points. @return false if canceled, or if more than
-  /// `maximum_count` cells are inside; then points() is empty.
+  /// Build the octree and choose its points. @return false if canceled, if more than
+  /// `maximum_count` cells are inside, or if there are too many cells at the surface; then points()
+  /// is empty.
   bool build(Index maximum_count)
   {
     std::vector<Cell> cells{ Cell() };
@@ -170,7 +174,8 @@ private:
       }
     }
     cells = std::move(parts);
-    return this->cells_inside_ <= maximum_count;
+    return this->cells_inside_ <= maximum_count &&
+      static_cast<Index>(cells.size()) <= most_cells_per_cell_inside * maximum_count;
   }
 
   /// Keep the positions that are inside and far enough from the surface.

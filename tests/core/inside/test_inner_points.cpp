@@ -4,10 +4,12 @@
 #include "base/constants.h"
 
 #include "support/meshes.h"
+#include "support/sanitized.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
@@ -104,6 +106,18 @@ TEST(InnerPoints, EvenGridsGiveSomePointsAndNotTooMany)
       EXPECT_LE(inner.rows(), 2 * maximum_count) << height << " " << maximum_count;
     }
   }
+}
+
+TEST(InnerPoints, AShapeMuchThinnerThanTheRequestedLengthTakesLittleTime)
+{
+  // The surface intersects 20 million cells of the requested size, and none of them is inside.
+  TriangleMesh disk = test::sphere(3);
+  disk.points.col(2) *= 1e-8;
+  const auto start = std::chrono::steady_clock::now();
+  const Points inner = points_in(disk, everywhere(4e-4), 200);
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+  EXPECT_LE(inner.rows(), 400);
+  EXPECT_LT(elapsed.count(), test::sanitized ? 60.0 : 10.0);
 }
 
 TEST(InnerPoints, AHollowStaysEmpty)

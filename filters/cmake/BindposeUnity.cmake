@@ -1,9 +1,8 @@
 # Unity builds, with -DCMAKE_UNITY_BUILD=ON: several sources are compiled as one file, which shortens a clean build.
 # Only files of one folder are compiled together. So a name in an anonymous namespace must be unique in its folder.
-set(bindpose_largest_group 8)
 
-# bindpose_unity_groups(TARGET): divide the sources of each folder into equal groups.
-function(bindpose_unity_groups target)
+# bindpose_unity_groups(TARGET LARGEST): divide the sources of each folder into equal groups of at most LARGEST files.
+function(bindpose_unity_groups target largest)
   get_target_property(sources ${target} SOURCES)
   get_target_property(target_folder ${target} SOURCE_DIR)
   list(FILTER sources INCLUDE REGEX "\\.(cpp|cxx)$")
@@ -18,7 +17,7 @@ function(bindpose_unity_groups target)
   list(REMOVE_DUPLICATES folders)
   foreach(folder IN LISTS folders)
     list(LENGTH sources_of_${folder} count)
-    math(EXPR groups "(${count} + ${bindpose_largest_group} - 1) / ${bindpose_largest_group}")
+    math(EXPR groups "(${count} + ${largest} - 1) / ${largest}")
     set(index 0)
     foreach(source IN LISTS sources_of_${folder})
       math(EXPR group "${index} * ${groups} / ${count}")
@@ -31,17 +30,16 @@ function(bindpose_unity_groups target)
   target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
 endfunction()
 
+# Groups of kernels are small: a change of a kernel is tested in seconds.
+bindpose_unity_groups(bindpose_core 4)
 foreach(target IN ITEMS Filters Widgets bindpose_scene bindpose_document bindpose_poses bindpose_app bindpose_tour bindpose
     bindpose_benchmarks bindpose_test_support bindpose_core_tests bindpose_filter_tests bindpose_render_tests
     bindpose_scene_tests bindpose_widget_tests bindpose_poses_tests bindpose_document_tests bindpose_app_tests)
   if(TARGET ${target})
-    bindpose_unity_groups(${target})
+    bindpose_unity_groups(${target} 8)
   endif()
 endforeach()
-# Kernels are compiled one by one: a change of a kernel is tested in seconds, and the linker takes from the archive only what
-# the helper bindpose-mesher calls (not CHOLMOD and OpenBLAS). A group of the sources with CGAL would need too much memory.
-foreach(target IN ITEMS bindpose_core bindpose-mesher)
-  if(TARGET ${target})
-    set_target_properties(${target} PROPERTIES UNITY_BUILD OFF)
-  endif()
-endforeach()
+if(TARGET bindpose-mesher)
+  # A group of the sources with CGAL would need too much memory.
+  set_target_properties(bindpose-mesher PROPERTIES UNITY_BUILD OFF)
+endif()

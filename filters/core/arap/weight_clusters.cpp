@@ -14,13 +14,13 @@ namespace bindpose
 
 namespace
 {
-constexpr Index rows_per_block = 512;
+constexpr Index rows_per_task = 512;
 constexpr Index lloyd_rounds = 100;
 /// Number of sampled rows per cluster from which the means are computed. At the end all rows are
 /// assigned to the means.
 constexpr Index rows_per_cluster = 25;
 /// Rows are equal if their distance is at most this.
-constexpr double equal_row_tolerance = 1e-12;
+constexpr double same_row_tolerance = 1e-12;
 
 /// Return a pseudo-random number that is the same on every machine (splitmix64).
 std::uint64_t scramble(std::uint64_t x)
@@ -38,7 +38,7 @@ bool assign_rows(
 {
   const Eigen::RowVectorXd mean_norms = means.rowwise().squaredNorm().transpose();
   const Weights transposed = -2.0 * means.transpose();
-  return parallel_for(context, rows.rows(), rows_per_block,
+  return parallel_for(context, rows.rows(), rows_per_task,
     [&](Index begin, Index end)
     {
       const Index width = rows.cols();
@@ -63,7 +63,7 @@ void farthest_rows(
   {
     return;
   }
-  const Index blocks = (rows.rows() + rows_per_block - 1) / rows_per_block;
+  const Index blocks = (rows.rows() + rows_per_task - 1) / rows_per_task;
   std::vector<double> distance(
     static_cast<std::size_t>(rows.rows()), std::numeric_limits<double>::infinity());
   std::vector<Index> farthest_in_block(static_cast<std::size_t>(blocks), 0);
@@ -80,7 +80,7 @@ void farthest_rows(
   };
   const auto shrink = [&](Index seed)
   {
-    return parallel_for(context, rows.rows(), rows_per_block,
+    return parallel_for(context, rows.rows(), rows_per_task,
       [&](Index begin, Index end)
       {
         Index best = begin;
@@ -90,7 +90,7 @@ void farthest_rows(
           d = std::min(d, (rows.row(i) - rows.row(seed)).squaredNorm());
           best = d > distance[static_cast<std::size_t>(best)] ? i : best;
         }
-        farthest_in_block[static_cast<std::size_t>(begin / rows_per_block)] = best;
+        farthest_in_block[static_cast<std::size_t>(begin / rows_per_task)] = best;
       });
   };
   Index added = 0;
@@ -111,7 +111,7 @@ void farthest_rows(
   for (; added < count; ++added)
   {
     const Index next = pick();
-    if (distance[static_cast<std::size_t>(next)] <= equal_row_tolerance * equal_row_tolerance)
+    if (distance[static_cast<std::size_t>(next)] <= same_row_tolerance * same_row_tolerance)
     {
       return;
     }

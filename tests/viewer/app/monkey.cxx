@@ -255,7 +255,8 @@ void Monkey::act()
       break;
     case 22:
       this->note("bind", QString());
-      this->pick(3) == 0 ? this->window_->binding()->cancel() : this->window_->binding()->start();
+      this->pick(3) == 0 ? this->window_->findChild<Binding*>()->cancel()
+                         : this->window_->findChild<Binding*>()->start();
       break;
     case 23:
       for (int steps = this->pick(6); steps >= 0; --steps)
@@ -290,7 +291,7 @@ void Monkey::act()
       {
         const int handle = this->pick(handles);
         this->note("select, mode", QString::number(handle));
-        this->window_->panel()->select_handle(handle);
+        this->window_->findChild<SidePanel*>()->select_handle(handle);
         if (this->pick(2) == 0)
         {
           this->window_->set_mode(handle, this->pick(3));
@@ -336,13 +337,13 @@ void Monkey::rest()
     }
   }
   this->user_.press_key("Esc"); // Esc ends a drag that was started by a key
-  this->window_->binding()->cancel();
-  this->window_->tet_inspection()->cancel();
-  this->window_->weights()->cancel();
-  this->window_->winding_volume()->cancel();
-  this->window_->posing()->pose_manager()->play(false);
-  this->window_->posing()->motion()->play(false);
-  this->window_->posing()->sequence_export()->cancel();
+  this->window_->findChild<Binding*>()->cancel();
+  this->window_->findChild<TetInspection*>()->cancel();
+  this->window_->findChild<WeightInspection*>()->cancel();
+  this->window_->findChild<WindingVolume*>()->cancel();
+  this->window_->findChild<Posing*>()->pose_manager()->play(false);
+  this->window_->findChild<Posing*>()->motion()->play(false);
+  this->window_->findChild<Posing*>()->sequence_export()->cancel();
 }
 
 } // namespace bindpose::test

@@ -110,10 +110,10 @@ protected:
     EXPECT_EQ(this->user.trigger(name), QString()) << name;
     EXPECT_EQ(answered, 1) << name;
   }
-  QString bar_message() { return this->window.export_bar()->message(); }
+  QString bar_message() { return this->bar("export_bar")->message(); }
   void press(const QString& text)
   {
-    for (QPushButton* button : this->window.export_bar()->findChildren<QPushButton*>())
+    for (QPushButton* button : this->bar("export_bar")->findChildren<QPushButton*>())
     {
       if (button->text() == text && button->isVisible())
       {
@@ -194,7 +194,7 @@ TEST_F(ExportWindow, TheRigHasTheSkinAndStandsAsTheHandlesDo)
   EXPECT_TRUE(this->bar_message().contains("ball.glb"));
   // A method that glTF does not support is reported.
   this->window.set_method(1);
-  ASSERT_TRUE(this->window.exports()->save_rig(to_qt(path)));
+  ASSERT_TRUE(this->part<Exports>()->save_rig(to_qt(path)));
   EXPECT_TRUE(this->bar_message().contains("linear blend skinning"))
     << this->bar_message().toStdString();
 }
@@ -214,12 +214,12 @@ TEST_F(ExportWindow, PoseAndPictureAreExportedByTheMenu)
 TEST_F(ExportWindow, AFilmNeedsKeyFramesAndSaysSo)
 {
   this->open_bound();
-  EXPECT_FALSE(this->window.strip()->isVisible());
+  EXPECT_FALSE(this->part<KeyStrip>()->isVisible());
   EXPECT_EQ(this->user.trigger("file.export_film"), QString());
   EXPECT_TRUE(this->bar_message().contains("key frames")) << this->bar_message().toStdString();
   EXPECT_EQ(this->window.error(), QString());
   this->press("Show the timeline");
-  EXPECT_TRUE(this->window.strip()->isVisible());
+  EXPECT_TRUE(this->part<KeyStrip>()->isVisible());
   EXPECT_EQ(this->bar_message(), QString());
   // Two key frames are enough for the export of a film. The export of a pose file needs no other
   // program.
@@ -229,7 +229,7 @@ TEST_F(ExportWindow, AFilmNeedsKeyFramesAndSaysSo)
   EXPECT_EQ(this->user.press_key("K"), QString());
   const std::string path = this->folder / "film.json";
   this->export_by_menu("file.export_film", path);
-  ASSERT_TRUE(wait_for([this] { return !this->window.posing()->sequence_export()->is_running(); }));
+  ASSERT_TRUE(wait_for([this] { return !this->part<Posing>()->sequence_export()->is_running(); }));
   EXPECT_TRUE(std::filesystem::exists(path));
   EXPECT_TRUE(this->bar_message().contains("film.json")) << this->bar_message().toStdString();
   EXPECT_TRUE(this->bar_message().contains("7 frames"));
@@ -238,7 +238,7 @@ TEST_F(ExportWindow, AFilmNeedsKeyFramesAndSaysSo)
 TEST_F(ExportWindow, TheFolderOfWhatWasWrittenIsOpened)
 {
   this->open_mesh();
-  ASSERT_TRUE(this->window.exports()->save_shape(to_qt(this->folder / "ball.obj")));
+  ASSERT_TRUE(this->part<Exports>()->save_shape(to_qt(this->folder / "ball.obj")));
   EXPECT_TRUE(this->bar_message().contains("ball.obj"));
   OpenedFolders folders;
   this->press("Show in folder");
@@ -251,25 +251,25 @@ TEST_F(ExportWindow, TheFolderOfWhatWasWrittenIsOpened)
 TEST_F(ExportWindow, AnErrorLeavesWhenTheSameKindSucceeds)
 {
   this->open_bound();
-  EXPECT_FALSE(this->window.exports()->save_shape("/no/such/folder/ball.ply"));
+  EXPECT_FALSE(this->part<Exports>()->save_shape("/no/such/folder/ball.ply"));
   EXPECT_TRUE(this->window.error().contains("Cannot export")) << this->window.error().toStdString();
   EXPECT_EQ(this->bar_message(), QString());
-  ASSERT_TRUE(this->window.exports()->save_shape(to_qt(this->folder / "ball.ply")));
+  ASSERT_TRUE(this->part<Exports>()->save_shape(to_qt(this->folder / "ball.ply")));
   EXPECT_EQ(this->window.error(), QString());
   // If an action of another kind succeeds, the error message stays.
-  EXPECT_FALSE(this->window.editing()->commands()->rename(0, "top"));
+  EXPECT_FALSE(this->part<HandleEditing>()->commands()->rename(0, "top"));
   const QString refused = this->window.error();
   EXPECT_FALSE(refused.isEmpty());
-  ASSERT_TRUE(this->window.exports()->save_shape(to_qt(this->folder / "ball.ply")));
+  ASSERT_TRUE(this->part<Exports>()->save_shape(to_qt(this->folder / "ball.ply")));
   this->bend();
   EXPECT_EQ(this->window.error(), refused);
-  EXPECT_TRUE(this->window.editing()->commands()->rename(0, "foot"));
+  EXPECT_TRUE(this->part<HandleEditing>()->commands()->rename(0, "foot"));
   EXPECT_EQ(this->window.error(), QString());
   // The first export of key frames cannot be written, the second one can.
   EXPECT_EQ(this->user.press_key("K"), QString());
-  this->window.posing()->export_to("/no/such/folder/ball.json");
+  this->part<Posing>()->export_to("/no/such/folder/ball.json");
   ASSERT_TRUE(wait_for([this] { return !this->window.error().isEmpty(); }));
-  this->window.posing()->export_to(to_qt(this->folder / "ball.json"));
+  this->part<Posing>()->export_to(to_qt(this->folder / "ball.json"));
   ASSERT_TRUE(wait_for(
     [this] { return !this->bar_message().isEmpty() && this->bar_message().contains("Wrote"); }));
   EXPECT_EQ(this->window.error(), QString());

@@ -69,7 +69,7 @@ protected:
     mesh.points.col(1) *= 0.4;
     this->surface = to_polydata(mesh.points, mesh.triangles);
     ASSERT_TRUE(this->window.set_mesh(this->surface, "pole"));
-    this->window.history()->clear();
+    this->window.document()->history()->clear();
     this->render();
   }
 
@@ -97,15 +97,15 @@ protected:
     ASSERT_TRUE(this->window.set_mesh(this->surface, "pole"));
     ASSERT_TRUE(this->window.set_handles(to_polydata(list), "handles"));
     ASSERT_TRUE(this->window.is_bound());
-    this->window.history()->clear();
+    this->window.document()->history()->clear();
     this->render();
   }
 
-  HandleEditing* editing() { return this->window.editing(); }
+  HandleEditing* editing() { return this->part<HandleEditing>(); }
   HandleCommands* commands() { return this->editing()->commands(); }
   Document* document() { return this->window.document(); }
-  QUndoStack* history() { return this->window.history(); }
-  Viewport* viewport() { return this->window.viewport(); }
+  QUndoStack* history() { return this->window.document()->history(); }
+  Viewport* viewport() { return this->part<Viewport>(); }
   vtkHandleSetWidget* widget() { return this->viewport()->handle_widget(); }
   Drawn* representation() { return this->widget()->GetHandleSetRepresentation(); }
   const Handle& handle(const std::string& name)
@@ -250,15 +250,15 @@ protected:
 TEST_F(HandleWindow, HandlesComeFromTheShape)
 {
   this->open_mesh();
-  ShapeHandles* handle_creator = this->window.shape_handles();
+  ShapeHandles* handle_creator = this->part<ShapeHandles>();
   const auto wait = [handle_creator]
   { return wait_for([handle_creator] { return !handle_creator->is_running(); }); };
   handle_creator->start(AutomaticMethod::points, 5);
   EXPECT_TRUE(handle_creator->is_running());
-  EXPECT_FALSE(this->window.note_bar()->message().isEmpty());
+  EXPECT_FALSE(this->bar("note_bar")->message().isEmpty());
   ASSERT_TRUE(wait());
   EXPECT_EQ(this->window.error(), QString());
-  EXPECT_EQ(this->window.note_bar()->message(), QString());
+  EXPECT_EQ(this->bar("note_bar")->message(), QString());
   EXPECT_EQ(this->names(), QStringList({ "p1", "p2", "p3", "p4", "p5" }));
   EXPECT_EQ(this->history()->undoText(), "points spread over the shape");
   for (const Handle& each : this->document()->handles())
@@ -291,11 +291,11 @@ TEST_F(HandleWindow, HandlesComeFromTheShape)
 TEST_F(HandleWindow, AutoRigMakesBonesAndBindsThem)
 {
   this->open_mesh();
-  ShapeHandles* handle_creator = this->window.shape_handles();
+  ShapeHandles* handle_creator = this->part<ShapeHandles>();
   const auto wait = [&]
   {
     return wait_for(
-      [&] { return !handle_creator->is_running() && !this->window.binding()->is_running(); });
+      [&] { return !handle_creator->is_running() && !this->part<Binding>()->is_running(); });
   };
   handle_creator->auto_rig_action()->trigger();
   EXPECT_TRUE(handle_creator->is_running());
@@ -343,14 +343,14 @@ TEST_F(HandleWindow, PointsAreAddedToAMeshWithoutHandlesAndBound)
   this->check("add point p3", [&] { this->click(this->pixel(Vec3(0, 0, 0.0))); });
   const Vec3 on = this->handle("p3").head;
   EXPECT_NEAR(Vec3(on.x() / 0.4, on.y() / 0.4, on.z()).norm(), 1.0, 0.02);
-  EXPECT_EQ(this->window.panel()->selected_handle(), 2);
+  EXPECT_EQ(this->part<SidePanel>()->selected_handle(), 2);
   this->key(Qt::Key_Escape);
   EXPECT_EQ(this->editing()->mode(), HandleEditing::pose);
   // A bar in the window offers a bind, but the bind does not start by itself. After the bind, the
   // handles bend the shape.
   EXPECT_FALSE(this->window.is_bound());
-  this->window.binding()->start();
-  ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
+  this->part<Binding>()->start();
+  ASSERT_TRUE(wait_for([this] { return !this->part<Binding>()->is_running(); }));
   ASSERT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
   this->render();
   const Points rest = this->points();
@@ -554,7 +554,7 @@ TEST_F(HandleWindow, ANewPointMovesNumbersAndNothingElse)
   this->open_bound();
   this->document()->set_mode(2, static_cast<int>(HandleMode::ends));
   this->editing()->selection()->select({ 2 });
-  this->window.panel()->show_column(2);
+  this->part<SidePanel>()->show_column(2);
   Pose pose = this->document()->pose();
   pose[2].transform.col(3) = Vec3(0.1, 0, 0);
   this->document()->set_pose(pose, "pose");
@@ -566,20 +566,20 @@ TEST_F(HandleWindow, ANewPointMovesNumbersAndNothingElse)
   EXPECT_EQ(this->document()->pose()[3].mode, HandleMode::ends);
   EXPECT_EQ(this->document()->pose()[3].transform, pose[2].transform);
   // The column of the bone "spine" is still shown.
-  EXPECT_EQ(this->window.panel()->shown_column(), 3);
+  EXPECT_EQ(this->part<SidePanel>()->shown_column(), 3);
   this->editing()->set_mode(HandleEditing::pose);
   EXPECT_LT((this->points() - posed).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_FALSE(this->window.rebind_bar()->isHidden()); // the window offers a new bind
+  EXPECT_FALSE(this->bar("rebind_bar")->isHidden()); // the window offers a new bind
   // After undo and redo, the handles with the same names are selected.
   this->editing()->selection()->select({ 3 });
   this->history()->undo();
   ASSERT_EQ(this->names().size(), 3);
   EXPECT_EQ(this->editing()->selection()->selected(), std::vector<int>{ 2 });
-  EXPECT_EQ(this->window.panel()->selected_handle(), 2);
+  EXPECT_EQ(this->part<SidePanel>()->selected_handle(), 2);
   EXPECT_EQ(this->document()->pose()[2].mode, HandleMode::ends);
   this->history()->redo();
   EXPECT_EQ(this->editing()->selection()->selected(), std::vector<int>{ 3 });
-  EXPECT_EQ(this->window.panel()->selected_handle(), 3);
+  EXPECT_EQ(this->part<SidePanel>()->selected_handle(), 3);
 }
 
 TEST_F(HandleWindow, RestPlacesAreMovedAndARebindIsOffered)
@@ -593,10 +593,10 @@ TEST_F(HandleWindow, RestPlacesAreMovedAndARebindIsOffered)
   this->render();
   EXPECT_EQ(this->points(), rest); // the shape is shown at rest
   const QPoint position = this->pixel(this->handle("left").head);
-  EXPECT_TRUE(this->window.rebind_bar()->isHidden());
+  EXPECT_TRUE(this->bar("rebind_bar")->isHidden());
   this->check("move at rest left", [&] { this->drag(position, position + QPoint(0, 30)); });
   EXPECT_GT((this->handle("left").head - Vec3(-0.3, 0, 0.5)).norm(), 0.02);
-  EXPECT_FALSE(this->window.rebind_bar()->isHidden());
+  EXPECT_FALSE(this->bar("rebind_bar")->isHidden());
   this->render(); // the bar that offers a bind takes up space in the window
   // Esc during the drag restores the state bit by bit.
   const std::string before = this->state();
@@ -696,13 +696,13 @@ TEST_F(HandleWindow, KeysOfADragAreNoShortcuts)
   // R rotates the selected handle, and T shows the shape at rest.
   this->key(Qt::Key_R);
   EXPECT_TRUE(this->widget()->IsDragging());
-  EXPECT_FALSE(this->window.posing()->is_rest_view());
+  EXPECT_FALSE(this->part<Posing>()->is_rest_view());
   this->key(Qt::Key_Escape);
   EXPECT_FALSE(this->widget()->IsDragging());
   this->key(Qt::Key_T);
-  EXPECT_TRUE(this->window.posing()->is_rest_view());
+  EXPECT_TRUE(this->part<Posing>()->is_rest_view());
   this->key(Qt::Key_T);
-  EXPECT_FALSE(this->window.posing()->is_rest_view());
+  EXPECT_FALSE(this->part<Posing>()->is_rest_view());
 }
 
 TEST_F(HandleWindow, ARefusedDragSaysWhy)
@@ -841,7 +841,7 @@ TEST_F(HandleWindow, NamesThatCannotBeAreOneSentence)
   box->setTextValue("claw");
   box->accept();
   EXPECT_EQ(this->names()[0], "claw");
-  EXPECT_EQ(this->window.panel()->handle_list()->item(0)->text(0), "claw");
+  EXPECT_EQ(this->part<SidePanel>()->handle_list()->item(0)->text(0), "claw");
 }
 
 TEST_F(HandleWindow, TheRightButtonShowsWhatCanBeDoneWithAHandle)
@@ -884,7 +884,7 @@ TEST_F(HandleWindow, TheRightButtonShowsWhatCanBeDoneWithAHandle)
   this->mouse(QEvent::MouseButtonRelease, position, Qt::RightButton, Qt::NoButton);
   this->release(position);
   // The list of handles has the same context menu.
-  const HandleTree* handles = this->window.panel()->handle_list();
+  const HandleTree* handles = this->part<SidePanel>()->handle_list();
   QTreeWidget* list = handles->tree();
   Q_EMIT list->customContextMenuRequested(list->visualItemRect(handles->item(2)).center());
   EXPECT_TRUE(menu->isVisible());
@@ -1004,12 +1004,12 @@ TEST_F(HandleWindow, TheSheetTellsTheKeysThatThereAre)
 TEST_F(HandleWindow, RegionsAndWeightsAreNotShownAtOnce)
 {
   this->open_bound();
-  this->window.panels()->show_panel(PanelColumn::weights);
+  this->part<PanelColumn>()->show_panel(PanelColumn::weights);
   const QImage weights = this->picture();
   const QSize size = this->window.size();
   this->editing()->set_mode(HandleEditing::paint_regions);
-  EXPECT_EQ(this->window.panels()->shown_panel(), PanelColumn::bind_and_pose);
-  this->window.panels()->show_panel(PanelColumn::weights);
+  EXPECT_EQ(this->part<PanelColumn>()->shown_panel(), PanelColumn::bind_and_pose);
+  this->part<PanelColumn>()->show_panel(PanelColumn::weights);
   EXPECT_EQ(this->editing()->mode(), HandleEditing::pose);
   // The size of the window does not change, because two panels are never visible at the same time.
   EXPECT_EQ(this->window.size(), size);
@@ -1104,8 +1104,8 @@ TEST_F(HandleWindow, EveryModeHasAPictureOfItsOwn)
   this->hover(this->pixel(this->handle("p1").head));
   save("rest");
   this->key(Qt::Key_Escape);
-  this->window.binding()->start();
-  ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
+  this->part<Binding>()->start();
+  ASSERT_TRUE(wait_for([this] { return !this->part<Binding>()->is_running(); }));
   this->editing()->selection()->select({ this->number("b2") });
   const std::pair<Qt::Key, const char*> gizmos[] = { { Qt::Key_W, "move" }, { Qt::Key_E, "turn" },
     { Qt::Key_D, "scale" }, { Qt::Key_F, "all" } };

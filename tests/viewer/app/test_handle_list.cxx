@@ -62,7 +62,7 @@ protected:
     this->render();
   }
 
-  HandleTree* list() { return this->window.panel()->handle_list(); }
+  HandleTree* list() { return this->part<SidePanel>()->handle_list(); }
   void click(int row, Qt::KeyboardModifiers modifiers = Qt::NoModifier)
   {
     QTreeWidget* tree = this->list()->tree();
@@ -73,15 +73,15 @@ protected:
   /// Return the selected handles. Expect that the list, the panel and the view show this selection.
   std::vector<int> selected()
   {
-    const std::vector<int> result = this->window.editing()->selection()->selected();
-    auto* representation = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
+    const std::vector<int> result = this->part<HandleEditing>()->selection()->selected();
+    auto* representation = this->part<Viewport>()->handle_widget()->GetHandleSetRepresentation();
     for (int k = 0; k < static_cast<int>(this->list()->rows().size()); ++k)
     {
       const bool is = std::find(result.begin(), result.end(), k) != result.end();
       EXPECT_EQ(this->list()->item(k)->isSelected(), is) << k;
       EXPECT_EQ(representation->IsSelected(this->window.document()->handle_cells()[k]), is) << k;
     }
-    EXPECT_EQ(this->window.panel()->selected_handles(), result);
+    EXPECT_EQ(this->part<SidePanel>()->selected_handles(), result);
     return result;
   }
   /// Click a handle in the view.
@@ -96,9 +96,9 @@ protected:
   }
   QString note()
   {
-    for (const QLabel* label : this->window.panel()->fields()->findChildren<QLabel*>("note"))
+    for (const QLabel* label : this->part<SidePanel>()->fields()->findChildren<QLabel*>("note"))
     {
-      if (label->text().contains("selected") && label->isVisibleTo(this->window.panel()))
+      if (label->text().contains("selected") && label->isVisibleTo(this->part<SidePanel>()))
       {
         return label->text();
       }
@@ -107,7 +107,7 @@ protected:
   }
   QComboBox* modes()
   {
-    for (QComboBox* box : this->window.panel()->findChildren<QComboBox*>())
+    for (QComboBox* box : this->part<SidePanel>()->findChildren<QComboBox*>())
     {
       if (box->findText("position only") >= 0)
       {
@@ -180,7 +180,7 @@ TEST_F(HandleList, TheFieldsAreThoseOfTheFirstAndSayHowMany)
   this->window.document()->set_pose(pose, "moved");
   this->click(2);
   this->click(0, Qt::ControlModifier);
-  QDoubleSpinBox* along_x = this->window.panel()->fields()->field(0);
+  QDoubleSpinBox* along_x = this->part<SidePanel>()->fields()->field(0);
   EXPECT_EQ(along_x->value(), 0.25);
   EXPECT_EQ(this->note(), "2 selected; values of top:");
   along_x->setValue(0.5);
@@ -193,13 +193,13 @@ TEST_F(HandleList, TheFieldsAreThoseOfTheFirstAndSayHowMany)
 
 TEST_F(HandleList, AModeIsForAllThatAreSelectedAndOneStep)
 {
-  const int before = this->window.history()->index();
+  const int before = this->window.document()->history()->index();
   this->click(0);
   this->click(2, Qt::ControlModifier);
-  EXPECT_EQ(this->window.history()->index(), before) << "to select is no step";
+  EXPECT_EQ(this->window.document()->history()->index(), before) << "to select is no step";
   this->modes()->setCurrentIndex(this->entry_of(HandleMode::position));
-  EXPECT_EQ(this->window.history()->index(), before + 1);
-  EXPECT_EQ(this->window.history()->undoText(), "mode of 2 handles");
+  EXPECT_EQ(this->window.document()->history()->index(), before + 1);
+  EXPECT_EQ(this->window.document()->history()->undoText(), "mode of 2 handles");
   EXPECT_EQ(this->mode(0), HandleMode::position);
   EXPECT_EQ(this->mode(1), HandleMode::automatic);
   EXPECT_EQ(this->mode(2), HandleMode::position);
@@ -224,9 +224,9 @@ TEST_F(HandleList, AModeIsForAllThatAreSelectedAndOneStep)
 
 TEST_F(HandleList, TheWeightsPanelAndTheSelectionFollowEachOther)
 {
-  WeightPanel* weights = this->window.panels()->weight();
+  WeightPanel* weights = this->part<PanelColumn>()->weight();
   this->click(2);
-  this->window.panels()->show_panel(PanelColumn::weights);
+  this->part<PanelColumn>()->show_panel(PanelColumn::weights);
   EXPECT_EQ(weights->column(), 2) << "what was selected before";
   this->pick("bottom");
   EXPECT_EQ(this->selected(), Indices({ 0 }));
@@ -287,7 +287,7 @@ protected:
     ASSERT_TRUE(this->window.set_handles(to_polydata(this->handles), "rig"));
     this->render();
   }
-  HandleTree* list() { return this->window.panel()->handle_list(); }
+  HandleTree* list() { return this->part<SidePanel>()->handle_list(); }
   QString text(int handle) { return this->list()->item(handle)->text(0); }
   int number(const std::string& name)
   {
@@ -332,14 +332,14 @@ TEST_F(HandleTreeWindow, ChildrenAreBelowTheirParents)
   // The function of the context menu sets a new parent, which moves the row. Collapsed rows stay
   // collapsed.
   this->list()->item(this->number("right_hand"))->setExpanded(false);
-  this->window.panel()->select_handle(this->number("left_hand"));
-  this->window.editing()->commands()->set_parent(this->number("hips"));
+  this->part<SidePanel>()->select_handle(this->number("left_hand"));
+  this->part<HandleEditing>()->commands()->set_parent(this->number("hips"));
   QTreeWidgetItem* moved = this->list()->item(this->number("left_hand"));
   ASSERT_NE(moved->parent(), nullptr);
   EXPECT_EQ(moved->parent()->text(0), "hips");
   EXPECT_FALSE(this->list()->item(this->number("right_hand"))->isExpanded());
   // If a handle is selected in the view, the tree expands the rows above it.
-  this->window.panel()->select_handle(this->number("right_finger_2"));
+  this->part<SidePanel>()->select_handle(this->number("right_finger_2"));
   EXPECT_TRUE(this->list()->item(this->number("right_hand"))->isExpanded());
 }
 
@@ -352,13 +352,13 @@ TEST_F(HandleTreeWindow, TheSearchShowsMatchesBelowTheirParents)
   EXPECT_EQ(this->seen(),
     QStringList({ "hips", "chest", "right_arm", "right_hand", "right_finger_0", "right_finger_1",
       "right_finger_2", "right_finger_3", "right_finger_4" }));
-  EXPECT_EQ(this->window.editing()->mode(), HandleEditing::pose)
+  EXPECT_EQ(this->part<HandleEditing>()->mode(), HandleEditing::pose)
     << "letters are no shortcuts there";
   QTest::keyClick(search, Qt::Key_Return);
-  EXPECT_EQ(
-    this->window.editing()->selection()->selected(), Indices({ this->number("right_finger_0") }));
+  EXPECT_EQ(this->part<HandleEditing>()->selection()->selected(),
+    Indices({ this->number("right_finger_0") }));
   // If a handle is selected elsewhere, its row is visible for any search text.
-  this->window.panel()->select_handle(this->number("nose"));
+  this->part<SidePanel>()->select_handle(this->number("nose"));
   EXPECT_TRUE(this->seen().contains("nose"));
   search->setFocus();
   QTest::keyClick(search, Qt::Key_Escape);
@@ -369,7 +369,7 @@ TEST_F(HandleTreeWindow, TheSearchShowsMatchesBelowTheirParents)
     EXPECT_FALSE(this->list()->item(k)->isHidden()) << k;
   }
   QTest::keyClicks(search, "no such name");
-  this->window.panel()->select_handles({});
+  this->part<SidePanel>()->select_handles({});
   search->setText("no such name at all");
   EXPECT_EQ(this->seen(), QStringList());
 }
@@ -382,7 +382,7 @@ TEST_F(HandleTreeWindow, ALargeScreenShowsADozenRowsAndTheHeightCanBeDragged)
   this->resize(QSize(1280, 760));
   EXPECT_GE(this->seen().size(), 4);
   const int before = this->list()->height();
-  auto* splitter = this->window.panels()->findChild<QSplitter*>();
+  auto* splitter = this->part<PanelColumn>()->findChild<QSplitter*>();
   QWidget* grip = splitter->handle(1);
   const QPoint at = grip->rect().center();
   const auto send = [grip](QEvent::Type type, const QPoint& place, Qt::MouseButton button)
@@ -397,9 +397,9 @@ TEST_F(HandleTreeWindow, ALargeScreenShowsADozenRowsAndTheHeightCanBeDragged)
   QApplication::processEvents();
   EXPECT_GT(this->list()->height(), before + 50);
   const int dragged = this->list()->height();
-  this->window.panels()->show_panel(PanelColumn::tets);
+  this->part<PanelColumn>()->show_panel(PanelColumn::tets);
   EXPECT_FALSE(this->list()->isVisible());
-  this->window.panels()->show_panel(PanelColumn::weights);
+  this->part<PanelColumn>()->show_panel(PanelColumn::weights);
   EXPECT_TRUE(this->list()->isVisible());
   EXPECT_NEAR(this->list()->height(), dragged, 3) << "a person's choice stays";
 }

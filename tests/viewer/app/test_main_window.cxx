@@ -87,37 +87,31 @@ int blue_pixels(const QImage& image)
   return count;
 }
 
-class Window : public testing::Test
+class Window : public test::WindowTest
 {
 protected:
-  Window()
-  {
-    this->window.show();
-    QApplication::processEvents();
-  }
-
   void open_bound()
   {
     ASSERT_TRUE(this->window.set_mesh(with_linear_weights(column(3)), "column"));
     ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
     ASSERT_TRUE(this->window.is_bound());
-    this->window.history()->clear(); // discard the undo steps of opening the files
+    this->window.document()->history()->clear(); // discard the undo steps of opening the files
     this->render();
   }
 
   void render()
   {
     QApplication::processEvents();
-    this->window.viewport()->renderWindow()->Render();
+    this->part<Viewport>()->renderWindow()->Render();
   }
 
   /// Return the pixel of a handle in the window, in VTK's coordinates (y upward).
   Eigen::Vector2i pixel_of(vtkIdType handle)
   {
-    auto* representation = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
+    auto* representation = this->part<Viewport>()->handle_widget()->GetHandleSetRepresentation();
     double p[3];
     representation->GetPosedHead(handle, p);
-    vtkRenderer* renderer = this->window.viewport()->renderer();
+    vtkRenderer* renderer = this->part<Viewport>()->renderer();
     renderer->SetWorldPoint(p[0], p[1], p[2], 1.0);
     renderer->WorldToDisplay();
     const double* d = renderer->GetDisplayPoint();
@@ -126,7 +120,7 @@ protected:
 
   void mouse(const Eigen::Vector2i& at, unsigned long event)
   {
-    vtkRenderWindowInteractor* interactor = this->window.viewport()->interactor();
+    vtkRenderWindowInteractor* interactor = this->part<Viewport>()->interactor();
     interactor->SetEventInformation(at.x(), at.y(), 0, 0, 0, 0, nullptr);
     interactor->InvokeEvent(event);
   }
@@ -148,8 +142,6 @@ protected:
     this->press_and_move(handle, offset);
     this->mouse(at + offset, vtkCommand::LeftButtonReleaseEvent);
   }
-
-  MainWindow window;
 };
 } // namespace
 
@@ -160,11 +152,11 @@ TEST_F(Window, ADragMovesVerticesAndUndoTakesItBack)
   this->drag(1, { 80, 0 });
   const Vec3 moved = highest_point(this->window.shown());
   EXPECT_GT((moved - rest).norm(), 0.1);
-  ASSERT_EQ(this->window.history()->count(), 1);
-  EXPECT_NE(this->window.history()->undoText().indexOf("top"), -1);
-  this->window.history()->undo();
+  ASSERT_EQ(this->window.document()->history()->count(), 1);
+  EXPECT_NE(this->window.document()->history()->undoText().indexOf("top"), -1);
+  this->window.document()->history()->undo();
   EXPECT_EQ(highest_point(this->window.shown()), rest);
-  this->window.history()->redo();
+  this->window.document()->history()->redo();
   EXPECT_EQ(highest_point(this->window.shown()), moved);
 }
 
@@ -219,11 +211,11 @@ TEST_F(Window, EscapeTakesTheDragBackAndLeavesNoHistory)
   const Vec3 rest = highest_point(this->window.shown());
   this->press_and_move(1, { 80, 0 });
   EXPECT_GT((highest_point(this->window.shown()) - rest).norm(), 0.1);
-  vtkRenderWindowInteractor* interactor = this->window.viewport()->interactor();
+  vtkRenderWindowInteractor* interactor = this->part<Viewport>()->interactor();
   interactor->SetKeySym("Escape");
   interactor->InvokeEvent(vtkCommand::KeyPressEvent);
   EXPECT_EQ(highest_point(this->window.shown()), rest);
-  EXPECT_EQ(this->window.history()->count(), 0);
+  EXPECT_EQ(this->window.document()->history()->count(), 0);
 }
 
 TEST_F(Window, AllMethodsFollowTheHandles)
@@ -251,16 +243,16 @@ TEST_F(Window, ModesAreRememberedAndUndone)
   this->open_bound();
   this->window.set_method(2);
   this->window.set_mode(1, 1);
-  EXPECT_EQ(this->window.history()->count(), 2);
+  EXPECT_EQ(this->window.document()->history()->count(), 2);
   this->drag(1, { 60, 0 });
   EXPECT_EQ(this->window.error(), QString());
   this->window.back_to_rest();
-  EXPECT_EQ(this->window.history()->count(), 4);
+  EXPECT_EQ(this->window.document()->history()->count(), 4);
   for (int step = 0; step < 4; ++step)
   {
-    this->window.history()->undo();
+    this->window.document()->history()->undo();
   }
-  auto* representation = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
+  auto* representation = this->part<Viewport>()->handle_widget()->GetHandleSetRepresentation();
   EXPECT_EQ(representation->GetHandleMode(1), static_cast<int>(HandleMode::automatic));
 }
 
@@ -284,9 +276,9 @@ TEST_F(Window, BindsOffTheUiThreadWithProgress)
       last = fraction;
       ++steps;
     });
-  this->window.binding()->start();
-  EXPECT_TRUE(this->window.binding()->is_running());
-  ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
+  this->part<Binding>()->start();
+  EXPECT_TRUE(this->part<Binding>()->is_running());
+  ASSERT_TRUE(wait_for([this] { return !this->part<Binding>()->is_running(); }));
   EXPECT_EQ(this->window.error(), QString());
   ASSERT_TRUE(this->window.is_bound());
   EXPECT_EQ(backward, "");
@@ -302,12 +294,12 @@ TEST_F(Window, ACanceledBindLeavesAtMostItsPreview)
   TriangleMesh mesh = test::sphere(5);
   ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "ball"));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
-  this->window.binding()->start();
+  this->part<Binding>()->start();
   wait_for([] { return false; }, 1);
   QElapsedTimer clock;
   clock.start();
-  this->window.binding()->cancel();
-  ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
+  this->part<Binding>()->cancel();
+  ASSERT_TRUE(wait_for([this] { return !this->part<Binding>()->is_running(); }));
   EXPECT_LT(clock.elapsed(), 5000);
   EXPECT_FALSE(this->window.document()->has_preview());
   EXPECT_EQ(this->window.error(), QString());
@@ -318,30 +310,30 @@ TEST_F(Window, APreviewIsThereToPoseWithBeforeTheBindEnds)
   TriangleMesh mesh = test::sphere(5);
   ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "ball"));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
-  this->window.binding()->start();
+  this->part<Binding>()->start();
   ASSERT_TRUE(wait_for([this] { return this->window.is_bound(); }));
-  EXPECT_TRUE(this->window.binding()->is_running());
-  ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
+  EXPECT_TRUE(this->part<Binding>()->is_running());
+  ASSERT_TRUE(wait_for([this] { return !this->part<Binding>()->is_running(); }));
   EXPECT_TRUE(this->window.is_bound());
 
   // If the first bind is canceled after its preview, the weights of the preview stay. They are a
   // step that can be undone.
   ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "ball"));
   EXPECT_FALSE(this->window.is_bound());
-  this->window.binding()->start();
+  this->part<Binding>()->start();
   ASSERT_TRUE(wait_for([this] { return this->window.is_bound(); }));
-  ASSERT_TRUE(this->window.binding()->is_running());
-  this->window.binding()->cancel();
-  ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
+  ASSERT_TRUE(this->part<Binding>()->is_running());
+  this->part<Binding>()->cancel();
+  ASSERT_TRUE(wait_for([this] { return !this->part<Binding>()->is_running(); }));
   EXPECT_TRUE(this->window.is_bound());
   EXPECT_FALSE(this->window.document()->has_preview());
   EXPECT_EQ(this->window.error(), QString());
   // If the next bind is canceled, the existing weights stay.
   vtkDataArray* kept = this->window.shown()->GetPointData()->GetArray("Weights");
-  this->window.binding()->start();
+  this->part<Binding>()->start();
   ASSERT_TRUE(wait_for([this] { return this->window.document()->has_preview(); }));
-  this->window.binding()->cancel();
-  ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
+  this->part<Binding>()->cancel();
+  ASSERT_TRUE(wait_for([this] { return !this->part<Binding>()->is_running(); }));
   EXPECT_EQ(this->window.shown()->GetPointData()->GetArray("Weights"), kept);
   this->window.document()->history()->undo();
   EXPECT_FALSE(this->window.is_bound());
@@ -375,10 +367,10 @@ TEST_F(Window, WeightsOfOtherHandlesAreNotUsed)
 TEST_F(Window, AColumnOfTheWeightsColorsTheSurface)
 {
   this->open_bound();
-  const QImage shaded = this->window.viewport()->grabFramebuffer();
-  this->window.panel()->show_column(1);
+  const QImage shaded = this->part<Viewport>()->grabFramebuffer();
+  this->part<SidePanel>()->show_column(1);
   this->render();
-  const QImage colored = this->window.viewport()->grabFramebuffer();
+  const QImage colored = this->part<Viewport>()->grabFramebuffer();
   EXPECT_GT(blue_pixels(colored), 2000 + blue_pixels(shaded));
 }
 
@@ -397,12 +389,12 @@ TEST_F(Window, AnotherMeshTakesTheColorsAndTheLegendAway)
 {
   this->open_bound();
   const TriangleMesh mesh = column(3);
-  this->window.panel()->show_column(1);
+  this->part<SidePanel>()->show_column(1);
   this->render();
   ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "plain"));
   this->render();
-  EXPECT_EQ(this->window.panel()->shown_column(), -1);
-  EXPECT_EQ(blue_pixels(this->window.viewport()->grabFramebuffer()), 0);
+  EXPECT_EQ(this->part<SidePanel>()->shown_column(), -1);
+  EXPECT_EQ(blue_pixels(this->part<Viewport>()->grabFramebuffer()), 0);
 }
 
 TEST_F(Window, AClickOnAHandleSelectsItInTheListEvenIfItIsFree)
@@ -413,7 +405,7 @@ TEST_F(Window, AClickOnAHandleSelectsItInTheListEvenIfItIsFree)
   this->mouse(at, vtkCommand::MouseMoveEvent);
   this->mouse(at, vtkCommand::LeftButtonPressEvent);
   this->mouse(at, vtkCommand::LeftButtonReleaseEvent);
-  EXPECT_EQ(this->window.panel()->selected_handle(), 1);
+  EXPECT_EQ(this->part<SidePanel>()->selected_handle(), 1);
 }
 
 TEST_F(Window, ABindKeepsTheSelectedHandle)
@@ -421,12 +413,12 @@ TEST_F(Window, ABindKeepsTheSelectedHandle)
   const TriangleMesh mesh = column(3);
   ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "column"));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
-  this->window.panel()->select_handle(1);
-  this->window.binding()->start();
-  EXPECT_EQ(this->window.panel()->selected_handle(), 1);
-  ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
-  EXPECT_EQ(this->window.panel()->selected_handle(), 1);
-  auto* representation = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
+  this->part<SidePanel>()->select_handle(1);
+  this->part<Binding>()->start();
+  EXPECT_EQ(this->part<SidePanel>()->selected_handle(), 1);
+  ASSERT_TRUE(wait_for([this] { return !this->part<Binding>()->is_running(); }));
+  EXPECT_EQ(this->part<SidePanel>()->selected_handle(), 1);
+  auto* representation = this->part<Viewport>()->handle_widget()->GetHandleSetRepresentation();
   EXPECT_EQ(representation->GetSelectedHandle(), 1);
 }
 
@@ -441,7 +433,7 @@ TEST_F(Window, TheKeyboardBindsAndCancelsWithoutChoosingAHandle)
     auto* at = qobject_cast<QPushButton*>(QApplication::focusWidget());
     return at ? at->text() : QString();
   };
-  for (QPushButton* button : this->window.panel()->findChildren<QPushButton*>("primary"))
+  for (QPushButton* button : this->part<SidePanel>()->findChildren<QPushButton*>("primary"))
   {
     button->setFocus();
     ASSERT_EQ(focused(), "Bind");
@@ -449,9 +441,9 @@ TEST_F(Window, TheKeyboardBindsAndCancelsWithoutChoosingAHandle)
   }
   EXPECT_EQ(focused(), "Cancel");
   qobject_cast<QPushButton*>(QApplication::focusWidget())->click();
-  ASSERT_TRUE(wait_for([this] { return !this->window.binding()->is_running(); }));
+  ASSERT_TRUE(wait_for([this] { return !this->part<Binding>()->is_running(); }));
   EXPECT_EQ(focused(), "Bind");
-  EXPECT_EQ(this->window.panel()->selected_handle(), -1);
+  EXPECT_EQ(this->part<SidePanel>()->selected_handle(), -1);
 }
 
 TEST_F(Window, UndoDuringADragEndsTheDrag)
@@ -460,8 +452,8 @@ TEST_F(Window, UndoDuringADragEndsTheDrag)
   const Vec3 rest = highest_point(this->window.shown());
   this->drag(1, { 80, 0 });
   this->press_and_move(1, { 0, 40 });
-  this->window.history()->undo();
-  EXPECT_FALSE(this->window.viewport()->handle_widget()->IsDragging());
+  this->window.document()->history()->undo();
+  EXPECT_FALSE(this->part<Viewport>()->handle_widget()->IsDragging());
   EXPECT_EQ(highest_point(this->window.shown()), rest);
 }
 
@@ -472,7 +464,7 @@ TEST_F(Window, HandlesWithoutAMeshAreInView)
   for (const vtkIdType handle : { 0, 1 })
   {
     const Eigen::Vector2i at = this->pixel_of(handle);
-    const int* size = this->window.viewport()->renderer()->GetSize();
+    const int* size = this->part<Viewport>()->renderer()->GetSize();
     EXPECT_GT(at.x(), 0);
     EXPECT_LT(at.x(), size[0]);
     EXPECT_GT(at.y(), 0);
@@ -527,9 +519,9 @@ TEST_F(Window, NoTextOfThePanelIsClipped)
     this->window.resize(size);
     QApplication::processEvents();
     EXPECT_EQ(this->window.size(), size);
-    test::expect_unclipped_items(this->window.panel());
-    test::expect_unclipped_buttons(this->window.panel());
-    for (QLabel* label : this->window.panel()->findChildren<QLabel*>())
+    test::expect_unclipped_items(this->part<SidePanel>());
+    test::expect_unclipped_buttons(this->part<SidePanel>());
+    for (QLabel* label : this->part<SidePanel>()->findChildren<QLabel*>())
     {
       if (!label->isVisible())
       {
@@ -539,7 +531,7 @@ TEST_F(Window, NoTextOfThePanelIsClipped)
         << label->text().toStdString();
       EXPECT_GT(label->height(), 0);
     }
-    EXPECT_GT(this->window.panel()->handle_list()->tree()->height(), 60);
+    EXPECT_GT(this->part<SidePanel>()->handle_list()->tree()->height(), 60);
   }
 }
 
@@ -550,9 +542,9 @@ TEST_F(Window, ChoosingPanelsKeepsTheSize)
   for (const int panel : { PanelColumn::tets, PanelColumn::bind_and_pose, PanelColumn::weights,
          PanelColumn::tets, PanelColumn::weights, PanelColumn::bind_and_pose })
   {
-    this->window.panels()->show_panel(panel);
+    this->part<PanelColumn>()->show_panel(panel);
     QApplication::processEvents();
-    EXPECT_EQ(this->window.panels()->shown_panel(), panel);
+    EXPECT_EQ(this->part<PanelColumn>()->shown_panel(), panel);
     EXPECT_EQ(this->window.size(), QSize(1100, 700)) << "panel " << panel;
   }
 }
@@ -574,19 +566,20 @@ TEST_F(Window, HandlesAreDraggedBesideAnOpenVolumeInThePanelPose)
   ASSERT_TRUE(this->window.set_volume(volume, "field"));
   EXPECT_TRUE(this->window.is_bound());
   this->render();
-  const double slice = this->window.volume_view()->position();
+  const double slice = this->part<VolumeView>()->position();
   const Vec3 rest = highest_point(this->window.shown());
   // While the slice is shown, the shape is at rest. A drag moves neither the handles nor the slice
   // behind them.
   this->drag(1, { 80, 0 });
   EXPECT_EQ(highest_point(this->window.shown()), rest);
-  EXPECT_EQ(this->window.volume_view()->position(), slice);
-  this->window.panels()->show_panel(PanelColumn::bind_and_pose);
+  EXPECT_EQ(this->part<VolumeView>()->position(), slice);
+  this->part<PanelColumn>()->show_panel(PanelColumn::bind_and_pose);
   this->render();
   this->drag(1, { 80, 0 });
   EXPECT_GT((highest_point(this->window.shown()) - rest).norm(), 0.1);
-  EXPECT_EQ(this->window.volume_view()->position(), slice);
-  EXPECT_EQ(this->window.history()->count(), 2); // the two steps are the volume and the drag
+  EXPECT_EQ(this->part<VolumeView>()->position(), slice);
+  EXPECT_EQ(
+    this->window.document()->history()->count(), 2); // the two steps are the volume and the drag
 }
 
 TEST_F(Window, ALongErrorDoesNotWidenTheWindow)
@@ -602,7 +595,7 @@ TEST_F(Window, ALongErrorDoesNotWidenTheWindow)
 TEST_F(Window, TurnsDarkAndLightAgain)
 {
   this->open_bound();
-  this->window.panel()->show_column(1);
+  this->part<SidePanel>()->show_column(1);
   this->render();
   const QImage light = this->window.grab().toImage();
   const auto tools = this->window.findChild<EditTools*>()->findChildren<QToolButton*>();
@@ -638,9 +631,9 @@ TEST_F(Window, TurnsDarkAndLightAgain)
     }
     return static_cast<double>(light_pixels) / all;
   };
-  for (const QWidget* part : { static_cast<const QWidget*>(this->window.panel()),
+  for (const QWidget* part : { static_cast<const QWidget*>(this->part<SidePanel>()),
          static_cast<const QWidget*>(this->window.menuBar()),
-         static_cast<const QWidget*>(this->window.viewport()) })
+         static_cast<const QWidget*>(this->part<Viewport>()) })
   {
     const QRect at(part->mapTo(&this->window, QPoint()), part->size());
     EXPECT_LT(light_fraction(dark, at), 0.3) << part->metaObject()->className();

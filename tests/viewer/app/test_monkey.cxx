@@ -96,7 +96,7 @@ void check_window(MainWindow& window)
   EXPECT_TRUE(same_pose(fixed(document.pose()), fixed(document.work().pose)))
     << "a pose that is in no step";
   EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
-  EXPECT_FALSE(window.viewport()->handle_widget()->IsDragging());
+  EXPECT_FALSE(window.findChild<Viewport*>()->handle_widget()->IsDragging());
   EXPECT_TRUE(window.isVisible());
 }
 
@@ -132,7 +132,7 @@ std::string steps_of(const QUndoStack* history)
 /// Undo all steps and redo them again; both must restore every bit.
 void check_history(MainWindow& window, const Fingerprints& beginning)
 {
-  QUndoStack* history = window.history();
+  QUndoStack* history = window.document()->history();
   SCOPED_TRACE("steps" + steps_of(history));
   const Fingerprints now = own_fingerprints(*window.document());
   const int index = history->index();
@@ -174,7 +174,7 @@ TEST(Monkey, AWindowThatIsPlayedWithStaysSound)
       ASSERT_TRUE(window.open(data("figure_weights.vtp")));
       ASSERT_TRUE(window.open(data("figure.tgf")));
     }
-    window.history()->clear();
+    window.document()->history()->clear();
     const Fingerprints beginning = own_fingerprints(*window.document());
     test::Monkey monkey(&window, seed, files);
     for (int burst = 0; burst < 6 && !testing::Test::HasFailure() &&
@@ -187,12 +187,12 @@ TEST(Monkey, AWindowThatIsPlayedWithStaysSound)
       QElapsedTimer answer; // duration of one frame and of all pending events
       answer.start();
       QApplication::processEvents();
-      window.viewport()->renderWindow()->Render();
+      window.findChild<Viewport*>()->renderWindow()->Render();
       slowest = std::max(slowest, 1e-3 * static_cast<double>(answer.elapsed()));
       check_window(window);
       check_history(window, beginning);
       ++bursts;
-      steps = std::max(steps, window.history()->count());
+      steps = std::max(steps, window.document()->history()->count());
       if (testing::Test::HasFailure())
       {
         std::printf("seed %u, after:\n%s", seed, monkey.story().c_str());

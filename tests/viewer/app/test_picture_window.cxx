@@ -111,14 +111,14 @@ protected:
     weights.col(1) = 0.5 * (ball.points.col(2).array() + 1.0);
     weights.col(0) = 1.0 - weights.col(1).array();
     ASSERT_TRUE(this->window.document()->set_weights(weights, "heights").ok());
-    this->window.panels()->show_panel(PanelColumn::weights);
+    this->part<PanelColumn>()->show_panel(PanelColumn::weights);
     this->resize({ 900, 700 });
   }
 
   vtkSmartPointer<vtkImageData> take(int scale, bool transparent)
   {
     vtkSmartPointer<vtkImageData> picture;
-    const Status status = this->window.viewport()->take_picture(scale, transparent, picture);
+    const Status status = this->part<Viewport>()->take_picture(scale, transparent, picture);
     EXPECT_TRUE(status.ok()) << status.message;
     return picture;
   }
@@ -130,7 +130,7 @@ protected:
   {
     const auto transparent_picture = this->take(scale, true);
     ASSERT_EQ(transparent_picture->GetNumberOfScalarComponents(), 4);
-    vtkRenderer* renderer = this->window.viewport()->renderer();
+    vtkRenderer* renderer = this->part<Viewport>()->renderer();
     const Rgb grounds[] = { { 1.0, 1.0, 1.0 }, { 0.0, 0.0, 0.0 }, { 0.8, 0.2, 0.6 } };
     int part = 0; // number of pixels that are partly covered
     for (const Rgb& background : grounds)
@@ -164,14 +164,14 @@ protected:
 TEST_F(PictureWindow, IsSoManyTimesAsLarge)
 {
   this->open_weighted();
-  const int* size = this->window.viewport()->renderWindow()->GetSize();
+  const int* size = this->part<Viewport>()->renderWindow()->GetSize();
   for (const int scale : { 1, 3 })
   {
     const auto picture = this->take(scale, false);
     EXPECT_EQ(picture->GetDimensions()[0], scale * size[0]);
     EXPECT_EQ(picture->GetDimensions()[1], scale * size[1]);
     EXPECT_EQ(picture->GetNumberOfScalarComponents(), 3);
-    EXPECT_EQ(this->window.viewport()->picture_size(scale), scale * QSize(size[0], size[1]));
+    EXPECT_EQ(this->part<Viewport>()->picture_size(scale), scale * QSize(size[0], size[1]));
   }
 }
 
@@ -193,11 +193,11 @@ TEST_F(PictureWindow, OfEveryScaleIsWhatIsSeenOnlyFiner)
 TEST_F(PictureWindow, LeavesTheWindowAsItWas)
 {
   this->open_weighted();
-  vtkCamera* camera = this->window.viewport()->renderer()->GetActiveCamera();
+  vtkCamera* camera = this->part<Viewport>()->renderer()->GetActiveCamera();
   const QImage before = this->picture();
   const Vec3 from(camera->GetPosition());
   this->take(5, true);
-  EXPECT_EQ(this->window.viewport()->renderer()->GetActiveCamera(), camera);
+  EXPECT_EQ(this->part<Viewport>()->renderer()->GetActiveCamera(), camera);
   EXPECT_EQ(Vec3(camera->GetPosition()), from);
   EXPECT_EQ(this->picture(), before);
 }
@@ -215,7 +215,7 @@ TEST_F(PictureWindow, HasNoFringeWhereItIsTransparent)
 TEST_F(PictureWindow, KeepsSeeThroughThingsSeeThrough)
 {
   this->open_weighted();
-  this->window.viewport()->set_surface_look(Viewport::see_through);
+  this->part<Viewport>()->set_surface_look(Viewport::see_through);
   this->expect_right_over_any_color(1);
   const auto transparent_picture = this->take(1, true);
   const QPoint beside = this->pixel(Vec3(0.4, 0.3, 0));
@@ -228,14 +228,14 @@ TEST_F(PictureWindow, IsWrittenWithItsAlpha)
   this->open_weighted();
   const test::Folder folder;
   const QString path = QString::fromStdString(folder / "ball.png");
-  ASSERT_TRUE(this->window.exports()->save_picture(path, 2, true));
+  ASSERT_TRUE(this->part<Exports>()->save_picture(path, 2, true));
   const QImage read(path);
   EXPECT_TRUE(read.hasAlphaChannel());
-  EXPECT_EQ(read.size(), this->window.viewport()->picture_size(2));
+  EXPECT_EQ(read.size(), this->part<Viewport>()->picture_size(2));
   EXPECT_EQ(qAlpha(read.pixel(read.width() - 3, 3)), 0);
-  ASSERT_TRUE(this->window.exports()->save_picture(path, 1, false));
+  ASSERT_TRUE(this->part<Exports>()->save_picture(path, 1, false));
   EXPECT_FALSE(QImage(path).hasAlphaChannel());
-  EXPECT_FALSE(this->window.exports()->save_picture("/no/such/folder/ball.png", 1, false));
+  EXPECT_FALSE(this->part<Exports>()->save_picture("/no/such/folder/ball.png", 1, false));
   EXPECT_EQ(this->window.error().count('\n'), 0);
   EXPECT_FALSE(this->window.error().isEmpty());
 }
@@ -243,9 +243,9 @@ TEST_F(PictureWindow, IsWrittenWithItsAlpha)
 TEST_F(PictureWindow, TheDialogTellsTheSizeAndRemembers)
 {
   this->open_weighted();
-  const QSize size = this->window.viewport()->picture_size(1);
+  const QSize size = this->part<Viewport>()->picture_size(1);
   {
-    PictureDialog dialog(this->window.viewport(), &this->window);
+    PictureDialog dialog(this->part<Viewport>(), &this->window);
     dialog.show();
     QApplication::processEvents();
     EXPECT_EQ(dialog.scale(), 1);
@@ -270,13 +270,13 @@ TEST_F(PictureWindow, TheDialogTellsTheSizeAndRemembers)
     dialog.reject(); // a rejected dialog stores no choice
   }
   {
-    PictureDialog dialog(this->window.viewport(), &this->window);
+    PictureDialog dialog(this->part<Viewport>(), &this->window);
     EXPECT_EQ(dialog.scale(), 1);
     dialog.findChild<QComboBox*>()->setCurrentIndex(3);
     dialog.findChild<QCheckBox*>()->setChecked(true);
     dialog.accept();
   }
-  PictureDialog dialog(this->window.viewport(), &this->window);
+  PictureDialog dialog(this->part<Viewport>(), &this->window);
   EXPECT_EQ(dialog.scale(), 4);
   EXPECT_TRUE(dialog.is_transparent());
   user_settings()->remove("picture");

@@ -82,9 +82,9 @@ vtkSmartPointer<vtkImageData> samples()
 
 PlaneHandle* plane_of(MainWindow& window, const std::string& name)
 {
-  return name == "volume" ? window.volume_view()->plane()
-    : name == "tets"      ? window.tet_inspection()->tet_view()->plane()
-                          : window.weights()->view()->plane();
+  return name == "volume" ? window.findChild<VolumeView*>()->plane()
+    : name == "tets"      ? window.findChild<TetInspection*>()->tet_view()->plane()
+                          : window.findChild<WeightInspection*>()->view()->plane();
 }
 
 class PlaneWindow : public test::WindowTest, public testing::WithParamInterface<PlaneCase>
@@ -102,7 +102,7 @@ protected:
       test::write_with<vtkXMLUnstructuredGridWriter>(box_with_weights(), this->folder / "box.vtu");
       this->open("box.vtu");
     }
-    this->window.panels()->show_panel(GetParam().panel);
+    this->part<PanelColumn>()->show_panel(GetParam().panel);
     this->render();
     const std::string name = GetParam().name;
     if (name == "weights")
@@ -110,7 +110,7 @@ protected:
       this->find<QCheckBox>("Slice through the volume")->click();
       this->render();
     }
-    this->begin = this->window.history()->index();
+    this->begin = this->window.document()->history()->index();
   }
 
   void open(const char* file)
@@ -121,9 +121,9 @@ protected:
   PlaneHandle* plane() { return plane_of(this->window, GetParam().name); }
   QString key(const char* of) { return QString("%1.%2").arg(GetParam().name, of); }
   QVariant option(const char* of) { return this->window.document()->option(this->key(of)); }
-  ValueRow* row() { return this->window.panels()->findChild<ValueRow*>(this->key("place")); }
-  int steps() { return this->window.history()->index() - this->begin; }
-  std::string undo_text() { return this->window.history()->undoText().toStdString(); }
+  ValueRow* row() { return this->part<PanelColumn>()->findChild<ValueRow*>(this->key("place")); }
+  int steps() { return this->window.document()->history()->index() - this->begin; }
+  std::string undo_text() { return this->window.document()->history()->undoText().toStdString(); }
   void undo() { this->user.trigger("edit.undo"); }
   void redo() { this->user.trigger("edit.redo"); }
 
@@ -182,7 +182,7 @@ INSTANTIATE_TEST_SUITE_P(All, PlaneWindow,
 TEST(PlaneShare, IsNotWornAwayByPositionsGivenBack)
 {
   MainWindow window;
-  PlaneHandle* plane = window.weights()->view()->plane();
+  PlaneHandle* plane = window.findChild<WeightInspection*>()->view()->plane();
   test::Random random(11);
   for (int k = 0; k < 200; ++k)
   {
@@ -252,11 +252,12 @@ TEST_P(PlaneWindow, EscDuringADragTakesItBack)
   this->end_drag();
   this->expect_position(0.0, "undo");
   EXPECT_EQ(this->steps(), 0);
-  EXPECT_EQ(this->window.history()->count(), this->begin + 1) << "the step can be done again";
+  EXPECT_EQ(this->window.document()->history()->count(), this->begin + 1)
+    << "the step can be done again";
   // Saving during a drag saves the state before the drag.
   this->begin_drag(0.0, 0.5);
   ASSERT_TRUE(
-    this->window.sessions()->write(QString::fromStdString(this->folder / "half.bindpose")));
+    this->part<WindowSessions>()->write(QString::fromStdString(this->folder / "half.bindpose")));
   EXPECT_EQ(this->option("place").toDouble(), 0.5);
   this->end_drag();
   EXPECT_EQ(this->undo_text(), GetParam().move);
@@ -344,7 +345,7 @@ TEST_P(PlaneWindow, SessionsKeepThePlane)
   const Vec3 turned = this->plane()->normal();
   ASSERT_LT(turned.z(), 0.99);
   const std::string path = this->folder / "work.bindpose";
-  ASSERT_TRUE(this->window.sessions()->write(QString::fromStdString(path)));
+  ASSERT_TRUE(this->part<WindowSessions>()->write(QString::fromStdString(path)));
   {
     MainWindow other;
     other.show();
@@ -353,8 +354,9 @@ TEST_P(PlaneWindow, SessionsKeepThePlane)
     EXPECT_EQ(plane->orientation(), PlaneHandle::free_plane);
     EXPECT_EQ(plane->normal(), turned);
     EXPECT_NEAR(plane->position(), 0.3, 1e-9);
-    EXPECT_NEAR(other.panels()->findChild<ValueRow*>(this->key("place"))->value(), 0.3, 0.002);
-    EXPECT_EQ(other.history()->count(), 0) << "to open a session is no step";
+    EXPECT_NEAR(other.findChild<PanelColumn*>()->findChild<ValueRow*>(this->key("place"))->value(),
+      0.3, 0.002);
+    EXPECT_EQ(other.document()->history()->count(), 0) << "to open a session is no step";
     EXPECT_FALSE(other.isWindowModified());
   }
   // A session that was saved before these options existed gives the same plane as a new window.

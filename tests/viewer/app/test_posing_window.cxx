@@ -130,8 +130,8 @@ protected:
     this->render();
   }
 
-  Posing* posing() { return this->window.posing(); }
-  PosePanel* panel() { return this->window.panel()->pose(); }
+  Posing* posing() { return this->part<Posing>(); }
+  PosePanel* panel() { return this->part<SidePanel>()->pose(); }
   KeyStrip* strip() { return this->window.findChild<KeyStrip*>(); }
   template <typename Widget>
   Widget* option(const char* key)
@@ -173,10 +173,10 @@ protected:
   /// Return the pixel of a handle's head or tail in the window, in VTK's coordinates (y upward).
   Eigen::Vector2i pixel_of(vtkIdType cell, bool tail)
   {
-    auto* drawn = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
+    auto* drawn = this->part<Viewport>()->handle_widget()->GetHandleSetRepresentation();
     double p[3];
     tail ? drawn->GetPosedTail(cell, p) : drawn->GetPosedHead(cell, p);
-    vtkRenderer* renderer = this->window.viewport()->renderer();
+    vtkRenderer* renderer = this->part<Viewport>()->renderer();
     renderer->SetWorldPoint(p[0], p[1], p[2], 1.0);
     renderer->WorldToDisplay();
     const double* d = renderer->GetDisplayPoint();
@@ -184,7 +184,7 @@ protected:
   }
   void event(const Eigen::Vector2i& at, unsigned long what)
   {
-    vtkRenderWindowInteractor* interactor = this->window.viewport()->interactor();
+    vtkRenderWindowInteractor* interactor = this->part<Viewport>()->interactor();
     interactor->SetEventInformation(at.x(), at.y(), 0, 0, 0, 0, nullptr);
     interactor->InvokeEvent(what);
   }
@@ -243,7 +243,7 @@ TEST_F(PosingWindow, LinearBlendIsTheFilters)
   this->drag_handle(1, { 60, 20 });
   vtkNew<vtkSkinningDeformation> filter;
   filter->SetInputData(0, this->surface);
-  filter->SetInputData(1, this->window.viewport()->handle_widget()->GetHandles());
+  filter->SetInputData(1, this->part<Viewport>()->handle_widget()->GetHandles());
   filter->Update();
   EXPECT_EQ(this->points(), Points(to_points(filter->GetOutput()).view()));
 }
@@ -375,7 +375,7 @@ TEST_F(PosingWindow, OnlyTheOptionsOfTheMethodAreShown)
 TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
 {
   this->open();
-  Viewport* viewport = this->window.viewport();
+  Viewport* viewport = this->part<Viewport>();
   vtkPolyData* drawn = viewport->drawn();
   const auto on_points = [&] { return drawn->GetPointData()->GetArray(color_array_name); };
   const auto on_cells = [&] { return drawn->GetCellData()->GetArray(color_array_name); };
@@ -453,10 +453,10 @@ TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
 
   // Other panels use their own coloring. Methods without rotations have no coloring by rotation. If
   // the change of the method is undone, the coloring by rotation is shown again.
-  this->window.panels()->show_panel(PanelColumn::weights);
+  this->part<PanelColumn>()->show_panel(PanelColumn::weights);
   this->render();
   EXPECT_FALSE(viewport->shows_values(vtkDoubleArray::SafeDownCast(angles)));
-  this->window.panels()->show_panel(PanelColumn::bind_and_pose);
+  this->part<PanelColumn>()->show_panel(PanelColumn::bind_and_pose);
   this->render();
   ASSERT_TRUE(viewport->shows_values(vtkDoubleArray::SafeDownCast(on_points())));
   EXPECT_NEAR(on_points()->GetComponent(7, 0), 35.0, 1.0);
@@ -489,7 +489,7 @@ TEST_F(PosingWindow, FullArapTurnsEachVertexByItsOwnRotation)
   const PoseRotations* found = this->posing()->rotations();
   ASSERT_NE(found, nullptr);
   EXPECT_EQ(static_cast<Index>(found->rotations.size()), this->posing()->points().rows());
-  Viewport* viewport = this->window.viewport();
+  Viewport* viewport = this->part<Viewport>();
   const auto angles = [viewport]
   { return viewport->drawn()->GetPointData()->GetArray(color_array_name); };
   ASSERT_TRUE(viewport->shows_values(vtkDoubleArray::SafeDownCast(angles())));
@@ -526,8 +526,8 @@ TEST_F(PosingWindow, ABodyThatMovesShowsItsOwnRotations)
   ASSERT_NE(found, nullptr);
   this->render();
   vtkDataArray* angles =
-    this->window.viewport()->drawn()->GetPointData()->GetArray(color_array_name);
-  ASSERT_TRUE(this->window.viewport()->shows_values(vtkDoubleArray::SafeDownCast(angles)));
+    this->part<Viewport>()->drawn()->GetPointData()->GetArray(color_array_name);
+  ASSERT_TRUE(this->part<Viewport>()->shows_values(vtkDoubleArray::SafeDownCast(angles)));
   for (vtkIdType v = 0; v < angles->GetNumberOfTuples(); ++v)
   {
     const auto k =
@@ -628,11 +628,11 @@ TEST_F(PosingWindow, TwoMethodsAreComparedOverAndBesideEachOther)
   this->find<QPushButton>("Beside it")->click();
   this->render();
   EXPECT_EQ(this->posing()->ghost()->renderer()->GetActiveCamera(),
-    this->window.viewport()->renderer()->GetActiveCamera());
-  EXPECT_EQ(this->window.viewport()->renderer()->GetViewport()[2], 0.5);
+    this->part<Viewport>()->renderer()->GetActiveCamera());
+  EXPECT_EQ(this->part<Viewport>()->renderer()->GetViewport()[2], 0.5);
   with->setCurrentIndex(0);
   this->render();
-  EXPECT_EQ(this->window.viewport()->renderer()->GetViewport()[2], 1.0);
+  EXPECT_EQ(this->part<Viewport>()->renderer()->GetViewport()[2], 1.0);
   // Lines on the surface may differ, because their depth offset depends on the view.
   const QImage again = this->picture();
   ASSERT_EQ(again.size(), alone.size());
@@ -651,7 +651,7 @@ TEST_F(PosingWindow, ADistanceIsSeenInTheColorsOfItsScale)
 {
   this->open();
   this->apply_pose(this->bent());
-  Viewport* viewport = this->window.viewport();
+  Viewport* viewport = this->part<Viewport>();
   this->option<QComboBox>("pose.compared")
     ->setCurrentIndex(1 + static_cast<int>(PoseMethod::dual_quaternion));
   const auto colors = [&]() -> vtkDataArray*
@@ -688,9 +688,9 @@ TEST_F(PosingWindow, ADistanceIsSeenInTheColorsOfItsScale)
   // Other panels use their own coloring. The coloring by distance returns with the panel, and ends
   // with the comparison.
   this->apply_pose(this->bent());
-  this->window.panels()->show_panel(PanelColumn::weights);
+  this->part<PanelColumn>()->show_panel(PanelColumn::weights);
   EXPECT_NE(viewport->legend(Viewport::weight_legend), "Distance (% of diagonal)");
-  this->window.panels()->show_panel(PanelColumn::bind_and_pose);
+  this->part<PanelColumn>()->show_panel(PanelColumn::bind_and_pose);
   expect_distances("back");
   this->option<QComboBox>("pose.compared")->setCurrentIndex(0);
   EXPECT_EQ(viewport->legend(Viewport::weight_legend), QString());
@@ -827,11 +827,11 @@ TEST_F(PosingWindow, RestAndPoseAreOneKeyApart)
 TEST_F(PosingWindow, TypedValuesMoveTheSelectedHandle)
 {
   this->open();
-  this->window.panel()->select_handle(3);
-  HandleFields* fields = this->window.panel()->fields();
-  const int steps = this->window.history()->count();
+  this->part<SidePanel>()->select_handle(3);
+  HandleFields* fields = this->part<SidePanel>()->fields();
+  const int steps = this->window.document()->history()->count();
   fields->field(4)->setValue(40.0);
-  EXPECT_EQ(this->window.history()->count(), steps + 1);
+  EXPECT_EQ(this->window.document()->history()->count(), steps + 1);
   fields->field(0)->setValue(0.25);
   fields->field(6)->setValue(1.2);
   Pose pose(4);
@@ -843,9 +843,9 @@ TEST_F(PosingWindow, TypedValuesMoveTheSelectedHandle)
   const Points typed = this->points();
   this->apply_pose(pose);
   EXPECT_LT((this->points() - typed).cwiseAbs().maxCoeff(), 1e-12);
-  while (this->window.history()->index() > steps)
+  while (this->window.document()->history()->index() > steps)
   {
-    this->window.history()->undo();
+    this->window.document()->history()->undo();
   }
   EXPECT_EQ(fields->field(4)->value(), 0.0);
   EXPECT_EQ(this->points(), Points(to_points(this->surface).view()));
@@ -855,14 +855,14 @@ TEST_F(PosingWindow, TypedValuesTakeTheChildrenAlong)
 {
   this->list[1].parent = 3;
   this->open();
-  this->window.panel()->select_handle(3);
-  HandleFields* fields = this->window.panel()->fields();
+  this->part<SidePanel>()->select_handle(3);
+  HandleFields* fields = this->part<SidePanel>()->fields();
   fields->field(4)->setValue(40.0);
   const Pose pose = this->window.document()->pose();
   EXPECT_EQ(pose[1].transform, pose[3].transform);
   EXPECT_EQ(pose[0].transform, identity_affine());
   // The fields of a child handle show numbers relative to its parent.
-  this->window.panel()->select_handle(1);
+  this->part<SidePanel>()->select_handle(1);
   EXPECT_EQ(fields->field(4)->value(), 0.0);
   fields->field(2)->setValue(0.5);
   EXPECT_EQ(fields->field(2)->value(), 0.5);
@@ -873,11 +873,11 @@ TEST_F(PosingWindow, TheWheelTurnsNothingButTheFieldWithTheFocus)
 {
   this->open();
   QApplication::setActiveWindow(&this->window);
-  this->window.panel()->select_handle(3);
-  QDoubleSpinBox* field = this->window.panel()->fields()->field(1);
-  auto* methods = this->window.panel()->findChild<QComboBox*>();
+  this->part<SidePanel>()->select_handle(3);
+  QDoubleSpinBox* field = this->part<SidePanel>()->fields()->field(1);
+  auto* methods = this->part<SidePanel>()->findChild<QComboBox*>();
   ASSERT_NE(methods, nullptr);
-  const int steps = this->window.history()->count();
+  const int steps = this->window.document()->history()->count();
   const int method = methods->currentIndex();
   const auto roll = [](QWidget* widget)
   {
@@ -894,7 +894,7 @@ TEST_F(PosingWindow, TheWheelTurnsNothingButTheFieldWithTheFocus)
   EXPECT_EQ(field->value(), 0.0);
   EXPECT_FALSE(field->hasFocus());
   EXPECT_EQ(methods->currentIndex(), method);
-  EXPECT_EQ(this->window.history()->count(), steps);
+  EXPECT_EQ(this->window.document()->history()->count(), steps);
   // While the field has the focus, all steps of the mouse wheel are one undo step.
   field->setFocus();
   ASSERT_TRUE(field->hasFocus());
@@ -903,13 +903,13 @@ TEST_F(PosingWindow, TheWheelTurnsNothingButTheFieldWithTheFocus)
     roll(field);
   }
   EXPECT_NEAR(field->value(), -0.05, 1e-12);
-  EXPECT_EQ(this->window.history()->count(), steps + 1);
-  this->window.viewport()->setFocus();
+  EXPECT_EQ(this->window.document()->history()->count(), steps + 1);
+  this->part<Viewport>()->setFocus();
   field->setFocus();
   roll(field);
-  EXPECT_EQ(this->window.history()->count(), steps + 2);
-  this->window.history()->undo();
-  this->window.history()->undo();
+  EXPECT_EQ(this->window.document()->history()->count(), steps + 2);
+  this->window.document()->history()->undo();
+  this->window.document()->history()->undo();
   EXPECT_EQ(field->value(), 0.0);
 }
 
@@ -925,12 +925,12 @@ TEST_F(PosingWindow, PosesAreStoredNamedAppliedAndBlended)
   names->item(0)->setText("bow");
   EXPECT_EQ(this->posing()->stored_poses().library.entries()[0].name, "bow");
   names->setCurrentRow(0);
-  const int steps = this->window.history()->count();
+  const int steps = this->window.document()->history()->count();
   this->find<QPushButton>("Apply")->click();
   EXPECT_EQ(this->points(), posed);
-  EXPECT_EQ(this->window.history()->count(), steps + 1);
-  this->window.history()->undo();
-  auto* slider = this->window.panel()->poses()->findChild<QSlider*>();
+  EXPECT_EQ(this->window.document()->history()->count(), steps + 1);
+  this->window.document()->history()->undo();
+  auto* slider = this->part<SidePanel>()->poses()->findChild<QSlider*>();
   slider->setValue(50);
   const Points half = this->points();
   slider->setValue(100);
@@ -942,7 +942,7 @@ TEST_F(PosingWindow, PosesAreStoredNamedAppliedAndBlended)
   Q_EMIT slider->sliderReleased();
   EXPECT_EQ(slider->value(), 0);
   EXPECT_EQ(this->points(), half);
-  EXPECT_EQ(this->window.history()->undoText(), "blend poses");
+  EXPECT_EQ(this->window.document()->history()->undoText(), "blend poses");
   this->find<QPushButton>("Delete")->click();
   EXPECT_TRUE(this->posing()->stored_poses().library.entries().empty());
 }
@@ -953,10 +953,10 @@ TEST_F(PosingWindow, UndoTakesTheFirstKeptPoseBack)
   this->find<QPushButton>("Store")->click();
   auto* names = this->option<QListWidget>("poses");
   ASSERT_EQ(names->count(), 1);
-  this->window.history()->undo();
+  this->window.document()->history()->undo();
   EXPECT_TRUE(this->posing()->stored_poses().library.entries().empty());
   EXPECT_EQ(names->count(), 0);
-  this->window.history()->redo();
+  this->window.document()->history()->redo();
   EXPECT_EQ(names->count(), 1);
 }
 
@@ -978,7 +978,7 @@ TEST_F(PosingWindow, CurvesOfTheRestShapeAreSeenWithItAlone)
   const auto are_seen = [this]
   {
     this->render();
-    vtkActorCollection* actors = this->window.viewport()->renderer()->GetActors();
+    vtkActorCollection* actors = this->part<Viewport>()->renderer()->GetActors();
     for (int k = 0; k < actors->GetNumberOfItems(); ++k)
     {
       auto* actor = vtkActor::SafeDownCast(actors->GetItemAsObject(k));
@@ -1011,7 +1011,7 @@ TEST_F(PosingWindow, BonesMayBeHeldByAnEnd)
   const auto texts = [this]
   {
     QStringList all;
-    const HandleTree* tree = this->window.panel()->handle_list();
+    const HandleTree* tree = this->part<SidePanel>()->handle_list();
     for (int k = 0; k < static_cast<int>(tree->rows().size()); ++k)
     {
       all << tree->item(k)->text(0);
@@ -1026,15 +1026,15 @@ TEST_F(PosingWindow, BonesMayBeHeldByAnEnd)
   EXPECT_TRUE(texts().contains("lower   (tail)")) << texts().join(", ").toStdString();
   EXPECT_TRUE(texts().contains("upper   (ends)"));
   // Modes tail and ends can be chosen for bones only.
-  for (QComboBox* box : this->window.panel()->findChildren<QComboBox*>())
+  for (QComboBox* box : this->part<SidePanel>()->findChildren<QComboBox*>())
   {
     const int ends = box->findText("a bone's ends");
     if (ends >= 0)
     {
-      this->window.panel()->select_handle(3);
+      this->part<SidePanel>()->select_handle(3);
       EXPECT_EQ(box->currentIndex(), ends);
       EXPECT_TRUE(box->model()->flags(box->model()->index(ends, 0)) & Qt::ItemIsEnabled);
-      this->window.panel()->select_handle(0);
+      this->part<SidePanel>()->select_handle(0);
       EXPECT_FALSE(box->model()->flags(box->model()->index(ends, 0)) & Qt::ItemIsEnabled);
       return;
     }
@@ -1061,13 +1061,13 @@ TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
   Pose folded(2);
   folded[1].transform.leftCols<3>() = Eigen::AngleAxisd(EIGEN_PI, Vec3::UnitZ()).toRotationMatrix();
   this->apply_pose(folded);
-  this->window.panel()->select_handle(1);
-  this->window.panel()->show_column(1);
+  this->part<SidePanel>()->select_handle(1);
+  this->part<SidePanel>()->show_column(1);
   this->render();
   auto* fields = this->window.findChild<HandleFields*>();
   EXPECT_TRUE(fields->layer()->isVisible());
   // Viewed from the front, the color in the overlap is that of the half in front.
-  vtkRenderer* renderer = this->window.viewport()->renderer();
+  vtkRenderer* renderer = this->part<Viewport>()->renderer();
   const auto right_is_seen = [&]
   {
     EXPECT_TRUE(this->wait_until_settled());
@@ -1078,7 +1078,7 @@ TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
     camera->SetViewUp(0, 1, 0);
     renderer->ResetCameraClippingRange();
     this->render();
-    const QImage seen = this->window.viewport()->grabFramebuffer();
+    const QImage seen = this->part<Viewport>()->grabFramebuffer();
     const QColor middle = seen.pixelColor(seen.width() / 2, seen.height() / 2);
     return middle.blue() > middle.red() + 20; // deep blue is weight 1, pale is weight 0
   };
@@ -1087,10 +1087,10 @@ TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
   fields->layer()->setValue(-1.0);
   EXPECT_FALSE(right_is_seen());
   EXPECT_EQ(this->points(), posed) << "only what is drawn is ordered";
-  EXPECT_EQ(this->window.history()->undoText(), "layer of right");
+  EXPECT_EQ(this->window.document()->history()->undoText(), "layer of right");
   fields->layer()->setValue(2.0);
   EXPECT_TRUE(right_is_seen());
-  this->window.history()->undo();
+  this->window.document()->history()->undo();
   EXPECT_EQ(fields->layer()->value(), 0.0) << "both numbers are one step";
   EXPECT_TRUE(right_is_seen());
   // A change of a layer does not cause a bind, so a moving body continues to move.
@@ -1098,15 +1098,15 @@ TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
   const Body* body = this->posing()->motion()->body();
   ASSERT_NE(body, nullptr);
   fields->layer()->setValue(-1.0);
-  EXPECT_EQ(this->window.history()->undoText(), "layer of right");
+  EXPECT_EQ(this->window.document()->history()->undoText(), "layer of right");
   EXPECT_EQ(this->posing()->motion()->body(), body);
-  this->window.history()->undo();
+  this->window.document()->history()->undo();
   EXPECT_EQ(fields->layer()->value(), 0.0);
   EXPECT_EQ(this->posing()->motion()->body(), body);
   this->option<QCheckBox>("pose.moves")->setChecked(false);
   // A session stores the layers with the handles. Solid shapes have no layers.
   this->open();
-  this->window.panel()->select_handle(1);
+  this->part<SidePanel>()->select_handle(1);
   EXPECT_FALSE(fields->layer()->isVisible());
 }
 
@@ -1255,7 +1255,7 @@ TEST_F(PosingWindow, NoTextIsClipped)
 {
   this->open();
   this->window.show_timeline(true);
-  this->window.panel()->select_handle(3);
+  this->part<SidePanel>()->select_handle(3);
   for (const char* section : { "▸  Compare", "▸  Motion", "▸  Poses" })
   {
     this->find<QPushButton>(QString::fromUtf8(section))->click();
@@ -1268,10 +1268,10 @@ TEST_F(PosingWindow, NoTextIsClipped)
     for (const QSize& size : { QSize(900, 600), QSize(1280, 800) })
     {
       this->resize(size);
-      test::expect_unclipped_items(this->window.panel());
-      test::expect_unclipped_buttons(this->window.panel());
+      test::expect_unclipped_items(this->part<SidePanel>());
+      test::expect_unclipped_buttons(this->part<SidePanel>());
       test::expect_unclipped_buttons(this->strip());
-      for (QLabel* label : this->window.panel()->findChildren<QLabel*>())
+      for (QLabel* label : this->part<SidePanel>()->findChildren<QLabel*>())
       {
         if (label->isVisible())
         {
@@ -1282,7 +1282,7 @@ TEST_F(PosingWindow, NoTextIsClipped)
             << label->width();
         }
       }
-      auto* scroll = this->window.panel()->findChild<QScrollArea*>();
+      auto* scroll = this->part<SidePanel>()->findChild<QScrollArea*>();
       EXPECT_LE(scroll->widget()->minimumSizeHint().width(), scroll->viewport()->width());
     }
   }
@@ -1294,7 +1294,7 @@ TEST_F(PosingWindow, EveryStateHasAPictureOfItsOwn)
 {
   const char* folder = std::getenv("BINDPOSE_PICTURES");
   this->open(5);
-  this->window.panel()->select_handle(3);
+  this->part<SidePanel>()->select_handle(3);
   QImage last;
   const auto save = [&](const char* name)
   {
@@ -1351,7 +1351,7 @@ TEST_F(PosingWindow, AScrubEndsADragWithoutAButton)
   this->open();
   Q_EMIT this->strip()->set_key_requested();
   this->apply_pose(this->bent());
-  vtkHandleSetWidget* widget = this->window.viewport()->handle_widget();
+  vtkHandleSetWidget* widget = this->part<Viewport>()->handle_widget();
   widget->GetHandleSetRepresentation()->SetSelectedHandle(0);
   ASSERT_TRUE(widget->StartDrag(vtkHandleSetRepresentation::GIZMO_MOVE));
   ASSERT_TRUE(widget->IsDragging());
@@ -1386,17 +1386,17 @@ protected:
     for (int frame = 0; frame < frames; ++frame)
     {
       pose[0].transform.col(3) = Vec3(0, 0, -0.01 * frame);
-      set_pose(this->window.viewport()->handle_widget()->GetHandles(), cells, pose);
+      set_pose(this->part<Viewport>()->handle_widget()->GetHandles(), cells, pose);
       QElapsedTimer clock;
       clock.start();
       this->posing()->handles_moved();
       const double solved = 1e-6 * static_cast<double>(clock.nsecsElapsed());
       clock.restart();
       this->posing()->draw();
-      this->window.rotations()->update();
+      this->part<RotationView>()->update();
       const double drawn = 1e-6 * static_cast<double>(clock.nsecsElapsed());
-      this->window.viewport()->renderWindow()->Render();
-      const double uploaded = 1e-3 * this->window.viewport()->upload_microseconds();
+      this->part<Viewport>()->renderWindow()->Render();
+      const double uploaded = 1e-3 * this->part<Viewport>()->upload_microseconds();
       const Report& report = this->posing()->deformation()->status().report;
       solve += 1e3 * report.number("seconds.solve", 0.0) / frames;
       skin += 1e3 * report.number("seconds.skin", 0.0) / frames;

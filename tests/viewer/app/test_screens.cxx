@@ -62,9 +62,9 @@ protected:
     this->observer_->SetClientData(&this->frames);
     this->observer_->SetCallback(
       [](vtkObject*, unsigned long, void* number, void*) { ++*static_cast<int*>(number); });
-    this->window.viewport()->renderer()->AddObserver(vtkCommand::EndEvent, this->observer_);
+    this->part<Viewport>()->renderer()->AddObserver(vtkCommand::EndEvent, this->observer_);
   }
-  ~Screens() override { this->window.viewport()->renderer()->RemoveObserver(this->observer_); }
+  ~Screens() override { this->part<Viewport>()->renderer()->RemoveObserver(this->observer_); }
 
   /// Open files of the tours, so that all panels have data.
   void open_everything()
@@ -147,7 +147,7 @@ TEST_F(Screens, WhatIsSeenAtRestHasSmoothEdges)
   QElapsedTimer clock;
   clock.start();
   wait_for([&clock] { return clock.elapsed() > 1000; });
-  const QImage seen = this->window.viewport()->grabFramebuffer();
+  const QImage seen = this->part<Viewport>()->grabFramebuffer();
   EXPECT_EQ(seen, this->picture()); // the view has all samples of antialiasing
 }
 
@@ -194,7 +194,7 @@ TEST_F(Screens, ABackupAfterABindDoesNotHoldTheWindow)
   ASSERT_TRUE(this->window.document()->set_bound(bound, nullptr));
   const double shown = 1e-6 * static_cast<double>(clock.nsecsElapsed());
   const double shown_cpu = 1e3 * (thread_cpu_seconds() - cpu);
-  Autosave* autosave = this->window.sessions()->autosave();
+  Autosave* autosave = this->part<WindowSessions>()->autosave();
   autosave->begin_save();
   EXPECT_TRUE(autosave->is_saving()) << "the caller goes on";
   double longest = 0.0;
@@ -239,7 +239,7 @@ TEST_F(Screens, NoLabelIsClippedInAnyPanel)
       this->resize(size);
       for (int panel = 0; panel < 4; ++panel)
       {
-        this->window.panels()->show_panel(panel);
+        this->part<PanelColumn>()->show_panel(panel);
         QApplication::processEvents();
         expect_nothing_clipped(
           &this->window, "panel " + std::to_string(panel) + " at " + std::to_string(size.width()));
@@ -254,7 +254,7 @@ TEST_F(Screens, TheStatusLineEndsInDotsWhereItHasNoRoomAndTheTipSaysAll)
   this->open_everything();
   this->window.set_method(2);
   ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
-  const ElidedLabel* line = this->window.hint();
+  const ElidedLabel* line = this->part<ElidedLabel>();
   // The width is a floating-point number, because a text may end within a pixel of the available
   // space.
   const auto width = [line](const QString& text)
@@ -289,7 +289,7 @@ TEST_F(Screens, EveryButtonListAndFieldOfThePanelsHasATip)
 {
   this->open_everything();
   QStringList without;
-  for (const QWidget* widget : this->window.panels()->findChildren<QWidget*>())
+  for (const QWidget* widget : this->part<PanelColumn>()->findChildren<QWidget*>())
   {
     const bool chooses = qobject_cast<const QComboBox*>(widget) ||
       qobject_cast<const QCheckBox*>(widget) || widget->objectName() == "segment";

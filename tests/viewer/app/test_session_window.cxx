@@ -164,11 +164,11 @@ TEST_F(SessionWindow, ASessionOpensAsItWasSaved)
   this->pose();
   this->window.set_method(1);
   this->window.set_mode(0, 2);
-  this->window.viewport()->renderer()->GetActiveCamera()->Azimuth(33);
+  this->part<Viewport>()->renderer()->GetActiveCamera()->Azimuth(33);
   const double top = top_of(this->window.shown());
   double camera[3];
-  this->window.viewport()->renderer()->GetActiveCamera()->GetPosition(camera);
-  ASSERT_TRUE(this->window.sessions()->write(to_qt(this->folder / "work.bindpose")));
+  this->part<Viewport>()->renderer()->GetActiveCamera()->GetPosition(camera);
+  ASSERT_TRUE(this->part<WindowSessions>()->write(to_qt(this->folder / "work.bindpose")));
 
   MainWindow other;
   other.show();
@@ -177,10 +177,11 @@ TEST_F(SessionWindow, ASessionOpensAsItWasSaved)
   EXPECT_EQ(top_of(other.shown()), top);
   EXPECT_EQ(other.document()->number("pose.method"), 1);
   EXPECT_EQ(other.document()->pose()[0].mode, HandleMode::free);
-  EXPECT_EQ(other.history()->count(), 0);
+  EXPECT_EQ(other.document()->history()->count(), 0);
   for (int k = 0; k < 3; ++k)
   {
-    EXPECT_EQ(other.viewport()->renderer()->GetActiveCamera()->GetPosition()[k], camera[k]);
+    EXPECT_EQ(
+      other.findChild<Viewport*>()->renderer()->GetActiveCamera()->GetPosition()[k], camera[k]);
   }
   EXPECT_TRUE(other.windowTitle().startsWith("work")) << other.windowTitle().toStdString();
 }
@@ -192,12 +193,12 @@ TEST_F(SessionWindow, TheTitleMarksWhatIsNotSaved)
   EXPECT_FALSE(this->window.isWindowModified()); // nothing has been changed yet
   this->pose();
   EXPECT_TRUE(this->window.isWindowModified());
-  ASSERT_TRUE(this->window.sessions()->write(to_qt(this->folder / "work.bindpose")));
+  ASSERT_TRUE(this->part<WindowSessions>()->write(to_qt(this->folder / "work.bindpose")));
   EXPECT_FALSE(this->window.isWindowModified());
   EXPECT_TRUE(this->window.windowTitle().startsWith("work"));
-  this->window.history()->undo();
+  this->window.document()->history()->undo();
   EXPECT_TRUE(this->window.isWindowModified());
-  this->window.history()->redo();
+  this->window.document()->history()->redo();
   EXPECT_FALSE(this->window.isWindowModified());
 }
 
@@ -208,7 +209,7 @@ TEST_F(SessionWindow, ClosingAsksWhenSomethingWouldBeLost)
   this->pose();
   EXPECT_TRUE(this->close_and_answer(QMessageBox::Cancel, &closed));
   EXPECT_FALSE(closed);
-  ASSERT_TRUE(this->window.sessions()->write(to_qt(this->folder / "work.bindpose")));
+  ASSERT_TRUE(this->part<WindowSessions>()->write(to_qt(this->folder / "work.bindpose")));
   this->window.set_mode(0, 1);
   EXPECT_TRUE(this->close_and_answer(QMessageBox::Save, &closed));
   EXPECT_TRUE(closed);
@@ -239,13 +240,13 @@ TEST_F(SessionWindow, ABrokenSessionLeavesTheWork)
   this->open_files();
   this->pose();
   vtkPolyData* before = this->window.shown();
-  const int steps = this->window.history()->count();
+  const int steps = this->window.document()->history()->count();
   const std::string path = this->folder.write("bad.bindpose", R"({"bindpose": {"schema": 1}})");
   EXPECT_FALSE(this->window.open(to_qt(path)));
   EXPECT_NE(this->window.error().indexOf("bad.bindpose cannot be opened"), -1)
     << this->window.error().toStdString();
   EXPECT_EQ(this->window.shown(), before);
-  EXPECT_EQ(this->window.history()->count(), steps);
+  EXPECT_EQ(this->window.document()->history()->count(), steps);
   EXPECT_TRUE(this->window.is_bound());
 }
 
@@ -254,12 +255,12 @@ TEST_F(SessionWindow, AMissingInputIsSaidAndCanBeLocated)
   write_mesh(column_data(false), this->folder / "column.off");
   ASSERT_TRUE(this->window.open(to_qt(this->folder / "column.off")));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
-  ASSERT_TRUE(this->window.sessions()->write(to_qt(this->folder / "work.bindpose")));
+  ASSERT_TRUE(this->part<WindowSessions>()->write(to_qt(this->folder / "work.bindpose")));
   std::filesystem::rename(this->folder / "column.off", this->folder / "moved.off");
   ASSERT_TRUE(this->window.open(to_qt(this->folder / "work.bindpose")));
-  EXPECT_EQ(this->window.note_bar()->message(),
-    "column.off is missing; the session was opened without it.");
-  EXPECT_NE(button_of(this->window.note_bar(), "Locate…"), nullptr);
+  EXPECT_EQ(
+    this->bar("note_bar")->message(), "column.off is missing; the session was opened without it.");
+  EXPECT_NE(button_of(this->bar("note_bar"), "Locate…"), nullptr);
   EXPECT_EQ(this->window.document()->surface(), nullptr);
   EXPECT_NE(this->window.document()->handle_data(), nullptr);
 }
@@ -267,18 +268,18 @@ TEST_F(SessionWindow, AMissingInputIsSaidAndCanBeLocated)
 TEST_F(SessionWindow, PanelsFollowUndo)
 {
   this->open_files();
-  this->window.panels()->show_panel(PanelColumn::weights);
+  this->part<PanelColumn>()->show_panel(PanelColumn::weights);
   auto* isolines = this->find<QCheckBox>("Isolines");
   ASSERT_TRUE(isolines->isChecked());
   isolines->click();
-  EXPECT_EQ(this->window.history()->undoText(), "isolines");
-  this->window.history()->undo();
+  EXPECT_EQ(this->window.document()->history()->undoText(), "isolines");
+  this->window.document()->history()->undo();
   EXPECT_TRUE(isolines->isChecked());
-  this->window.history()->redo();
+  this->window.document()->history()->redo();
   EXPECT_FALSE(isolines->isChecked());
   this->window.set_method(2);
-  this->window.history()->undo();
-  this->window.history()->undo();
+  this->window.document()->history()->undo();
+  this->window.document()->history()->undo();
   EXPECT_TRUE(isolines->isChecked());
   EXPECT_EQ(this->window.document()->number("pose.method"), 0);
 }
@@ -287,50 +288,50 @@ TEST_F(SessionWindow, ABindIsOneStepAndIsBackedUpAtOnce)
 {
   ASSERT_TRUE(this->window.set_mesh(column_data(false), "column"));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
-  EXPECT_EQ(this->window.sessions()->autosave()->path(), "");
-  this->window.binding()->start();
+  EXPECT_EQ(this->part<WindowSessions>()->autosave()->path(), "");
+  this->part<Binding>()->start();
   QElapsedTimer clock;
   clock.start();
-  while (this->window.binding()->is_running() && clock.elapsed() < 60000)
+  while (this->part<Binding>()->is_running() && clock.elapsed() < 60000)
   {
     QApplication::processEvents(QEventLoop::AllEvents, 20);
   }
   ASSERT_TRUE(this->window.is_bound());
-  EXPECT_EQ(this->window.history()->undoText(), "bind");
-  ASSERT_TRUE(this->window.sessions()->autosave()->wait().ok());
+  EXPECT_EQ(this->window.document()->history()->undoText(), "bind");
+  ASSERT_TRUE(this->part<WindowSessions>()->autosave()->wait().ok());
   Session backup;
-  ASSERT_TRUE(read_session(this->window.sessions()->autosave()->path(), backup).ok());
+  ASSERT_TRUE(read_session(this->part<WindowSessions>()->autosave()->path(), backup).ok());
   EXPECT_TRUE(backup.work.surface->GetPointData()->HasArray("Weights"));
-  this->window.history()->undo();
+  this->window.document()->history()->undo();
   EXPECT_FALSE(this->window.is_bound());
-  this->window.history()->redo();
+  this->window.document()->history()->redo();
   EXPECT_TRUE(this->window.is_bound());
 }
 
 TEST_F(SessionWindow, ARebindIsOfferedAndPosingGoesOn)
 {
   this->open_files();
-  EXPECT_EQ(this->window.rebind_bar()->message(), "");
+  EXPECT_EQ(this->bar("rebind_bar")->message(), "");
   this->window.document()->handle_data()->GetPoints()->SetPoint(0, 0, 0, -0.5);
   ASSERT_TRUE(this->window.document()->commit_handles("move at rest").ok());
-  EXPECT_EQ(this->window.rebind_bar()->message(), "Since the last bind, 1 handle was moved.");
+  EXPECT_EQ(this->bar("rebind_bar")->message(), "Since the last bind, 1 handle was moved.");
   const double before = top_of(this->window.shown());
   this->pose();
   EXPECT_GT(top_of(this->window.shown()), before + 0.3);
   EXPECT_EQ(this->window.error(), "");
-  this->window.history()->undo();
-  this->window.history()->undo();
-  EXPECT_EQ(this->window.rebind_bar()->message(), "");
-  this->window.history()->redo();
-  button_of(this->window.rebind_bar(), "Bind again")->click();
-  EXPECT_TRUE(this->window.binding()->is_running());
-  EXPECT_EQ(this->window.rebind_bar()->message(), "");
-  this->window.binding()->cancel();
-  while (this->window.binding()->is_running())
+  this->window.document()->history()->undo();
+  this->window.document()->history()->undo();
+  EXPECT_EQ(this->bar("rebind_bar")->message(), "");
+  this->window.document()->history()->redo();
+  button_of(this->bar("rebind_bar"), "Bind again")->click();
+  EXPECT_TRUE(this->part<Binding>()->is_running());
+  EXPECT_EQ(this->bar("rebind_bar")->message(), "");
+  this->part<Binding>()->cancel();
+  while (this->part<Binding>()->is_running())
   {
     QApplication::processEvents(QEventLoop::AllEvents, 20);
   }
-  EXPECT_NE(this->window.rebind_bar()->message(), ""); // a new bind is still offered
+  EXPECT_NE(this->bar("rebind_bar")->message(), ""); // a new bind is still offered
 }
 
 // ---- After a crash -----------------------------------------------------------------------------
@@ -367,16 +368,16 @@ TEST_F(SessionWindow, AKilledProgramsWorkIsOfferedAndRestored)
     QThread::msleep(50);
   }
   ASSERT_TRUE(is_saved());
-  this->window.sessions()->offer_recovery(root);
-  EXPECT_EQ(this->window.recovery_bar()->message(), ""); // the other program is still running
+  this->part<WindowSessions>()->offer_recovery(root);
+  EXPECT_EQ(this->bar("recovery_bar")->message(), ""); // the other program is still running
   program.kill();
   program.waitForFinished();
 
-  this->window.sessions()->offer_recovery(root);
-  EXPECT_NE(this->window.recovery_bar()->message().indexOf("did not close properly"), -1);
+  this->part<WindowSessions>()->offer_recovery(root);
+  EXPECT_NE(this->bar("recovery_bar")->message().indexOf("did not close properly"), -1);
   EXPECT_TRUE(this->window.is_empty()); // work is restored only after the user has agreed
-  button_of(this->window.recovery_bar(), "&Restore")->click();
-  EXPECT_EQ(this->window.recovery_bar()->message(), "");
+  button_of(this->bar("recovery_bar"), "&Restore")->click();
+  EXPECT_EQ(this->bar("recovery_bar")->message(), "");
   EXPECT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
   EXPECT_EQ(this->window.document()->handles().size(), 2u);
   EXPECT_TRUE(this->window.isWindowModified());
@@ -391,14 +392,14 @@ TEST_F(SessionWindow, DiscardedWorkIsGoneAndTheNextIsOffered)
     QDir().mkpath(root + '/' + name);
     ASSERT_TRUE(SessionFile().write(root + '/' + name + "/work.bindpose", Session()).ok());
   }
-  this->window.sessions()->offer_recovery(root);
+  this->part<WindowSessions>()->offer_recovery(root);
   for (int left = 2; left > 0; --left)
   {
     EXPECT_EQ(QDir(root).entryList(QDir::Dirs | QDir::NoDotAndDotDot).size(), left);
-    ASSERT_NE(this->window.recovery_bar()->message(), "");
-    button_of(this->window.recovery_bar(), "Discard")->click();
+    ASSERT_NE(this->bar("recovery_bar")->message(), "");
+    button_of(this->bar("recovery_bar"), "Discard")->click();
   }
-  EXPECT_EQ(this->window.recovery_bar()->message(), "");
+  EXPECT_EQ(this->bar("recovery_bar")->message(), "");
   EXPECT_TRUE(QDir(root).isEmpty());
 }
 
@@ -417,7 +418,7 @@ TEST_F(SessionWindow, EveryKindOfMeshCanBeDropped)
     ASSERT_NE(this->window.document()->surface(), nullptr);
     EXPECT_EQ(this->window.document()->surface()->GetNumberOfPolys(), mesh->GetNumberOfPolys());
     EXPECT_EQ(this->window.document()->work().mesh_source.path, to_qt(path));
-    this->window.history()->undo();
+    this->window.document()->history()->undo();
     EXPECT_EQ(this->window.document()->surface(), nullptr);
   }
 }
@@ -458,7 +459,7 @@ TEST_F(SessionWindow, TetsRigsHandlesWeightsVolumesAndSessionsCanBeDropped)
   EXPECT_EQ(this->window.error(), "");
   EXPECT_NE(this->window.document()->work().mesh_tets, nullptr);
   // This file is a session.
-  ASSERT_TRUE(this->window.sessions()->write(to_qt(this->folder / "s.bindpose")));
+  ASSERT_TRUE(this->part<WindowSessions>()->write(to_qt(this->folder / "s.bindpose")));
   this->drop(this->folder / "s.bindpose");
   EXPECT_NE(this->window.document()->work().mesh_tets, nullptr);
   // This file has an unknown type.
@@ -490,7 +491,7 @@ TEST_F(SessionWindow, APictureIsCutOutShownAndBent)
   this->drop(write_picture(this->folder));
   ASSERT_EQ(this->window.error(), "");
   ASSERT_NE(this->window.document()->surface(), nullptr);
-  EXPECT_NE(this->window.note_bar()->message().indexOf("cut out"), -1);
+  EXPECT_NE(this->bar("note_bar")->message().indexOf("cut out"), -1);
   const auto red = [](const QColor& c) { return c.red() > 180 && c.green() < 80 && c.blue() < 80; };
   const auto blue = [](const QColor& c)
   { return c.blue() > 180 && c.green() < 80 && c.red() < 80; };
@@ -498,7 +499,7 @@ TEST_F(SessionWindow, APictureIsCutOutShownAndBent)
   const int as_many = this->count(rest, red);
   EXPECT_GT(as_many, 5000);
   EXPECT_NEAR(this->count(rest, blue), as_many, 0.1 * as_many);
-  EXPECT_TRUE(this->window.viewport()->renderer()->GetActiveCamera()->GetParallelProjection() != 0);
+  EXPECT_TRUE(this->part<Viewport>()->renderer()->GetActiveCamera()->GetParallelProjection() != 0);
   const double* bounds = this->window.document()->surface()->GetBounds();
   EXPECT_NEAR(bounds[1] - bounds[0], 48, 2);
   // The texture moves with the shape: after a rotation by 180 degrees about the center, blue is on
@@ -527,20 +528,19 @@ TEST_F(SessionWindow, APictureIsCutOutShownAndBent)
   EXPECT_GT(middle_of_red(this->picture()), middle_of_red(rest) + 100);
   for (int step = 0; step < 3; ++step)
   {
-    this->window.history()->undo();
+    this->window.document()->history()->undo();
   }
   // The user can request the whole rectangle of the image instead of its outline.
-  button_of(this->window.note_bar(), "Take the whole picture")->click();
+  button_of(this->bar("note_bar"), "Take the whole picture")->click();
   ASSERT_EQ(this->window.error(), "");
   const double* whole = this->window.document()->surface()->GetBounds();
   EXPECT_NEAR(whole[1] - whole[0], 64, 1e-6);
-  this->window.history()->undo();
-  this->window.history()->undo();
-  EXPECT_FALSE(
-    this->window.viewport()->renderer()->GetActiveCamera()->GetParallelProjection() != 0);
+  this->window.document()->history()->undo();
+  this->window.document()->history()->undo();
+  EXPECT_FALSE(this->part<Viewport>()->renderer()->GetActiveCamera()->GetParallelProjection() != 0);
   // A session also restores the texture.
-  this->window.history()->redo();
-  ASSERT_TRUE(this->window.sessions()->write(to_qt(this->folder / "flag.bindpose")));
+  this->window.document()->history()->redo();
+  ASSERT_TRUE(this->part<WindowSessions>()->write(to_qt(this->folder / "flag.bindpose")));
   ASSERT_TRUE(this->window.open(to_qt(this->folder / "flag.bindpose")));
   EXPECT_GT(this->count(this->picture(), red), 5000);
 }
@@ -551,15 +551,15 @@ TEST_F(SessionWindow, AnUncleanSurfaceIsToldAboutAndShown)
   ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "box"));
   QElapsedTimer clock;
   clock.start();
-  while (this->window.note_bar()->message().isEmpty() && clock.elapsed() < 20000)
+  while (this->bar("note_bar")->message().isEmpty() && clock.elapsed() < 20000)
   {
     QApplication::processEvents(QEventLoop::AllEvents, 20);
   }
-  EXPECT_NE(this->window.note_bar()->message().indexOf("4"), -1) // the four edges around the hole
-    << this->window.note_bar()->message().toStdString();
-  button_of(this->window.note_bar(), "Show where")->click();
-  EXPECT_EQ(this->window.panels()->shown_panel(), PanelColumn::tets);
-  EXPECT_TRUE(this->window.tet_inspection()->defect_view().is_shown());
+  EXPECT_NE(this->bar("note_bar")->message().indexOf("4"), -1) // the four edges around the hole
+    << this->bar("note_bar")->message().toStdString();
+  button_of(this->bar("note_bar"), "Show where")->click();
+  EXPECT_EQ(this->part<PanelColumn>()->shown_panel(), PanelColumn::tets);
+  EXPECT_TRUE(this->part<TetInspection>()->defect_view().is_shown());
 }
 
 TEST_F(SessionWindow, WhatAFileLosesIsToldAbout)
@@ -575,18 +575,18 @@ TEST_F(SessionWindow, WhatAFileLosesIsToldAbout)
   this->folder.write("character.gltf", file);
   ASSERT_TRUE(this->window.open(to_qt(path))) << this->window.error().toStdString();
   const QString lost = "character.gltf: Bindpose does not keep 2 materials.";
-  EXPECT_TRUE(this->window.note_bar()->message().startsWith(lost))
-    << this->window.note_bar()->message().toStdString();
+  EXPECT_TRUE(this->bar("note_bar")->message().startsWith(lost))
+    << this->bar("note_bar")->message().toStdString();
   // The search for defects ends later. It must not remove the sentence about the lost materials.
   ASSERT_TRUE(
-    test::wait_for([this] { return this->window.note_bar()->message().contains("has defects"); }));
-  EXPECT_TRUE(this->window.note_bar()->message().startsWith(lost));
+    test::wait_for([this] { return this->bar("note_bar")->message().contains("has defects"); }));
+  EXPECT_TRUE(this->bar("note_bar")->message().startsWith(lost));
   // After another mesh is opened, the sentence about the lost materials disappears.
   const TriangleMesh other = test::open_cube();
   test::write_with<vtkXMLPolyDataWriter>(
     to_polydata(other.points, other.triangles), this->folder / "other.vtp");
   ASSERT_TRUE(this->window.open(to_qt(this->folder / "other.vtp")));
-  EXPECT_FALSE(this->window.note_bar()->message().contains("does not keep"));
+  EXPECT_FALSE(this->bar("note_bar")->message().contains("does not keep"));
 }
 
 TEST_F(SessionWindow, WeightsWithoutAMeshAreOneSentence)
@@ -607,9 +607,9 @@ TEST_F(SessionWindow, RecentFilesAreListedAndMissingOnesGrayed)
   EXPECT_FALSE(recent->actions()[0]->isEnabled());
   EXPECT_TRUE(recent->actions()[1]->text().startsWith("column.vtp"));
   EXPECT_TRUE(recent->actions()[1]->isEnabled());
-  const int steps = this->window.history()->count();
+  const int steps = this->window.document()->history()->count();
   recent->actions()[1]->trigger();
-  EXPECT_EQ(this->window.history()->count(), steps + 1);
+  EXPECT_EQ(this->window.document()->history()->count(), steps + 1);
   EXPECT_EQ(RecentFiles::list().size(), 2);
   EXPECT_EQ(RecentFiles::list().front(), to_qt(this->folder / "column.vtp"));
   for (int k = 0; k < 20; ++k)
@@ -624,7 +624,7 @@ TEST_F(SessionWindow, BarsAreNeverClippedAndNeverWidenTheWindow)
   this->window.resize(900, 600);
   QApplication::processEvents();
   for (NoticeBar* bar :
-    { this->window.recovery_bar(), this->window.note_bar(), this->window.rebind_bar() })
+    { this->bar("recovery_bar"), this->bar("note_bar"), this->bar("rebind_bar") })
   {
     bar->offer(QString("A sentence that is so long that no line of this window holds it, with a "
                        "name like %1 in it, and then some more of it.")
@@ -634,7 +634,7 @@ TEST_F(SessionWindow, BarsAreNeverClippedAndNeverWidenTheWindow)
   this->render();
   EXPECT_EQ(this->window.width(), 900);
   for (NoticeBar* bar :
-    { this->window.recovery_bar(), this->window.note_bar(), this->window.rebind_bar() })
+    { this->bar("recovery_bar"), this->bar("note_bar"), this->bar("rebind_bar") })
   {
     test::expect_unclipped_buttons(bar);
     auto* label = bar->findChild<QLabel*>();

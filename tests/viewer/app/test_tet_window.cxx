@@ -80,9 +80,9 @@ bool is_cut(const QColor& c)
 class TetWindow : public test::WindowTest
 {
 protected:
-  TetInspection* tet_inspection() { return this->window.tet_inspection(); }
+  TetInspection* tet_inspection() { return this->part<TetInspection>(); }
   TetView* view() { return this->tet_inspection()->tet_view(); }
-  TetPanel* panel() { return this->window.panels()->tet(); }
+  TetPanel* panel() { return this->part<PanelColumn>()->tet(); }
   /// Return a row of the panel: row 0 is the position of the cut, row 1 the size of the tets.
   ValueRow* row(int which) { return this->panel()->findChildren<ValueRow*>()[which]; }
   QComboBox* list(const QString& item)
@@ -102,7 +102,7 @@ protected:
   void open(vtkDataSet* mesh, int panel = PanelColumn::tets)
   {
     ASSERT_TRUE(this->window.set_mesh(mesh, "mesh")) << this->window.error().toStdString();
-    this->window.panels()->show_panel(panel);
+    this->part<PanelColumn>()->show_panel(panel);
     this->render();
   }
 
@@ -129,7 +129,7 @@ TEST_F(TetWindow, TetsAreOpenedCutOpen)
   EXPECT_EQ(this->view()->shown_count(),
     count_tets_behind(mesh, this->view()->plane()->origin(), this->view()->plane()->normal()));
   EXPECT_LT(this->view()->shown_count(), mesh.tets.rows());
-  EXPECT_FALSE(this->window.viewport()->surface_actor()->GetVisibility());
+  EXPECT_FALSE(this->part<Viewport>()->surface_actor()->GetVisibility());
   const QImage image = this->picture();
   // The plane is in the middle of a layer of cells. The exposed facets are at most one cell away
   // from it.
@@ -160,14 +160,15 @@ TEST_F(TetWindow, TheFirstCutShowsTheInside)
     other.show();
     ASSERT_TRUE(other.set_mesh(to_tet_grid(mesh), "box"));
     QApplication::processEvents();
-    other.viewport()->renderWindow()->Render();
-    const TetView* tets = other.tet_inspection()->tet_view();
+    other.findChild<Viewport*>()->renderWindow()->Render();
+    const TetView* tets = other.findChild<TetInspection*>()->tet_view();
     const Vec3 normal = tets->plane()->normal();
     const Vec3 view_direction(
-      other.viewport()->renderer()->GetActiveCamera()->GetDirectionOfProjection());
+      other.findChild<Viewport*>()->renderer()->GetActiveCamera()->GetDirectionOfProjection());
     EXPECT_EQ(std::abs(normal.dot(view_direction)), view_direction.cwiseAbs().maxCoeff())
       << size.transpose();
-    EXPECT_GT(count(other.viewport()->grabFramebuffer(), is_cut), 5000) << size.transpose();
+    EXPECT_GT(count(other.findChild<Viewport*>()->grabFramebuffer(), is_cut), 5000)
+      << size.transpose();
     // The cut is through the middle, so about half of the tets remain.
     const double kept = static_cast<double>(tets->shown_count());
     EXPECT_NEAR(kept / static_cast<double>(mesh.tets.rows()), 0.5, 0.15) << size.transpose();
@@ -206,22 +207,22 @@ TEST_F(TetWindow, NothingIsPosedAroundTetsAtRest)
   Pose pose(2);
   pose[0].transform.col(3) = pose[1].transform.col(3) = Vec3(0, 1, 0);
   this->window.document()->set_pose(pose, "up");
-  auto* handles = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
+  auto* handles = this->part<Viewport>()->handle_widget()->GetHandleSetRepresentation();
   const auto heights = [&]
   {
     double shape[6];
-    this->window.viewport()->drawn()->GetBounds(shape);
+    this->part<Viewport>()->drawn()->GetBounds(shape);
     return std::pair(shape[3], handles->GetBounds()[3]);
   };
   const auto expect = [&](bool rest, const char* when)
   {
     EXPECT_NEAR(heights().first, rest ? 1.0 : 2.0, 1e-9) << when;
     EXPECT_NEAR(heights().second, rest ? 0.0 : 1.0, 1e-9) << when;
-    EXPECT_EQ(this->window.viewport()->state_name().startsWith("Rest shape: "), rest) << when;
+    EXPECT_EQ(this->part<Viewport>()->state_name().startsWith("Rest shape: "), rest) << when;
     EXPECT_NEAR(this->window.document()->pose()[1].transform(1, 3), 1.0, 1e-12) << when;
   };
   expect(false, "posed");
-  this->window.panels()->show_panel(PanelColumn::tets);
+  this->part<PanelColumn>()->show_panel(PanelColumn::tets);
   ASSERT_GT(this->view()->shown_count(), 0);
   expect(true, "tets");
   // While the shape is at rest, handles cannot be dragged. A click selects them.
@@ -232,14 +233,14 @@ TEST_F(TetWindow, NothingIsPosedAroundTetsAtRest)
   this->find<QCheckBox>("Show its defects")->setChecked(true);
   this->wait();
   expect(true, "defects");
-  this->window.panels()->show_panel(PanelColumn::bind_and_pose);
+  this->part<PanelColumn>()->show_panel(PanelColumn::bind_and_pose);
   expect(false, "the panel Pose");
-  this->window.posing()->set_rest_view(true);
+  this->part<Posing>()->set_rest_view(true);
   expect(true, "T");
-  this->window.posing()->set_rest_view(false);
+  this->part<Posing>()->set_rest_view(false);
   expect(false, "T again");
   // Exports and the undo history use the posed shape, even while tets or defects are shown at rest.
-  this->window.panels()->show_panel(PanelColumn::tets);
+  this->part<PanelColumn>()->show_panel(PanelColumn::tets);
   double bounds[6];
   this->window.shown()->GetBounds(bounds);
   EXPECT_NEAR(bounds[3], 2.0, 1e-9);
@@ -363,7 +364,7 @@ TEST_F(TetWindow, DefectsAreThoseOfTheFilter)
   filter->SetInputData(surface);
   filter->Update();
   this->open(surface);
-  EXPECT_EQ(this->window.viewport()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
+  EXPECT_EQ(this->part<Viewport>()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
   this->find<QCheckBox>("Show its defects")->setChecked(true);
   this->wait();
   vtkPolyData* shown = this->tet_inspection()->defect_view().defects();
@@ -392,7 +393,7 @@ TEST_F(TetWindow, DefectsAreThoseOfTheFilter)
     << "components, as bindpose info counts them";
   EXPECT_EQ(seen[8].count, 1);
   EXPECT_NE(this->find<QLabel>(QString("%1 defects").arg(all)), nullptr);
-  EXPECT_LT(this->window.viewport()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
+  EXPECT_LT(this->part<Viewport>()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
   // The edge of the opening is green in the view.
   const QColor edge = this->picture().pixelColor(this->pixel(Vec3(-1.0, -0.4, 1.0)));
   EXPECT_GT(edge.green(), edge.red() + 30);
@@ -403,7 +404,7 @@ TEST_F(TetWindow, DefectsAreThoseOfTheFilter)
   ASSERT_NE(this->tet_inspection()->defect_view().defects(), nullptr);
   EXPECT_EQ(this->tet_inspection()->defect_view().defects()->GetNumberOfCells(), 0);
   this->find<QPushButton>("Pose")->click();
-  EXPECT_EQ(this->window.viewport()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
+  EXPECT_EQ(this->part<Viewport>()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
 }
 
 TEST_F(TetWindow, TetsAreMadeAndAFailureKeepsThem)
@@ -436,21 +437,21 @@ TEST_F(TetWindow, TetsAreMadeAndAFailureKeepsThem)
   ASSERT_TRUE(this->window.set_mesh(to_polydata(ball.points, ball.triangles), "ball"));
   this->wait();
   EXPECT_EQ(this->view()->tets(), nullptr);
-  EXPECT_TRUE(this->window.viewport()->surface_actor()->GetVisibility());
+  EXPECT_TRUE(this->part<Viewport>()->surface_actor()->GetVisibility());
 }
 
 TEST_F(TetWindow, ThePanelDecidesWhatIsSeen)
 {
   this->open(to_tet_grid(box_of(3)));
-  EXPECT_FALSE(this->window.viewport()->surface_actor()->GetVisibility());
+  EXPECT_FALSE(this->part<Viewport>()->surface_actor()->GetVisibility());
   this->find<QPushButton>("Pose")->click();
-  EXPECT_TRUE(this->window.panel()->isVisible());
-  EXPECT_TRUE(this->window.viewport()->surface_actor()->GetVisibility());
+  EXPECT_TRUE(this->part<SidePanel>()->isVisible());
+  EXPECT_TRUE(this->part<Viewport>()->surface_actor()->GetVisibility());
   EXPECT_EQ(this->view()->shown_count(), 0);
   this->find<QPushButton>("Tets")->click();
   EXPECT_GT(this->view()->shown_count(), 0);
   this->find<QCheckBox>("Show the tets")->setChecked(false);
-  EXPECT_TRUE(this->window.viewport()->surface_actor()->GetVisibility());
+  EXPECT_TRUE(this->part<Viewport>()->surface_actor()->GetVisibility());
   EXPECT_FALSE(this->find<QCheckBox>("Cut the tets")->isEnabled());
 }
 
@@ -462,7 +463,7 @@ TEST_F(TetWindow, NoTextOfTheTetPanelIsClipped)
   for (const QSize& size : { QSize(900, 680), QSize(1280, 800), QSize(1920, 1080) })
   {
     this->resize(size);
-    test::expect_unclipped_buttons(this->window.panels());
+    test::expect_unclipped_buttons(this->part<PanelColumn>());
     for (QCheckBox* box : this->panel()->findChildren<QCheckBox*>())
     {
       EXPECT_LE(box->sizeHint().width(), box->width()) << box->text().toStdString();

@@ -109,11 +109,11 @@ double hue_distance(const QColor& c, const Rgb& color)
 class WeightWindow : public test::WindowTest
 {
 protected:
-  WeightInspection* weights() { return this->window.weights(); }
+  WeightInspection* weights() { return this->part<WeightInspection>(); }
   WeightView* view() { return this->weights()->view(); }
-  WeightPanel* panel() { return this->window.panels()->weight(); }
+  WeightPanel* panel() { return this->part<PanelColumn>()->weight(); }
   ValueRow* row() { return this->panel()->findChild<ValueRow*>(); }
-  vtkActor* surface() { return this->window.viewport()->surface_actor(); }
+  vtkActor* surface() { return this->part<Viewport>()->surface_actor(); }
   QComboBox* list(const QString& item)
   {
     for (QComboBox* candidate : this->panel()->findChildren<QComboBox*>())
@@ -154,7 +154,7 @@ protected:
   void open(vtkDataSet* mesh)
   {
     ASSERT_TRUE(this->window.set_mesh(mesh, "mesh")) << this->window.error().toStdString();
-    this->window.panels()->show_panel(PanelColumn::weights);
+    this->part<PanelColumn>()->show_panel(PanelColumn::weights);
     this->render();
   }
   template <typename Condition>
@@ -212,7 +212,7 @@ TEST_F(WeightWindow, AllShowsTheStrongestHandle)
   this->choose("All: strongest handle");
   const std::vector<Category> handles = handle_categories({ "bottom", "top" });
   // Viewed from the side, each handle has one half of the view.
-  this->window.viewport()->renderer()->GetActiveCamera()->Azimuth(90.0);
+  this->part<Viewport>()->renderer()->GetActiveCamera()->Azimuth(90.0);
   const QImage image = this->picture();
   int of_bottom = 0;
   int of_top = 0;
@@ -304,10 +304,10 @@ TEST_F(WeightWindow, ExtremaAreCountedAndSeen)
     }
     return seen;
   };
-  const Vec3 eye(this->window.viewport()->renderer()->GetActiveCamera()->GetPosition());
+  const Vec3 eye(this->part<Viewport>()->renderer()->GetActiveCamera()->GetPosition());
   if (eye.dot(bump) < 0.0)
   {
-    this->window.viewport()->renderer()->GetActiveCamera()->Azimuth(180.0);
+    this->part<Viewport>()->renderer()->GetActiveCamera()->Azimuth(180.0);
   }
   EXPECT_GT(reds(), 20);
   this->find<QCheckBox>("Extrema away from handles")->setChecked(false);
@@ -460,11 +460,11 @@ TEST_F(WeightWindow, CertificatesNameTheirMethod)
   // Certificates are also shown in the panel Pose, where the next method is chosen.
   const auto note = [this](const QString& words)
   {
-    const auto labels = this->window.panel()->findChildren<QLabel*>();
+    const auto labels = this->part<SidePanel>()->findChildren<QLabel*>();
     return std::any_of(
       labels.begin(), labels.end(), [&](const QLabel* label) { return label->text() == words; });
   };
-  auto* chosen = this->window.panel()->findChild<QComboBox*>("bind.method");
+  auto* chosen = this->part<SidePanel>()->findChild<QComboBox*>("bind.method");
   EXPECT_TRUE(note("Bound: bounded biharmonic. Optimal to within 2.0e-08."));
   chosen->setCurrentIndex(1);
   EXPECT_TRUE(
@@ -490,8 +490,8 @@ TEST_F(WeightWindow, ABindGivesVolumeRawColumnsAndCertificates)
   this->open(to_polydata(mesh.points, mesh.triangles));
   EXPECT_TRUE(this->says("There are no weights yet."));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
-  this->window.binding()->start();
-  this->wait_while([this] { return this->window.binding()->is_running(); });
+  this->part<Binding>()->start();
+  this->wait_while([this] { return this->part<Binding>()->is_running(); });
   ASSERT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
   this->choose("top");
   vtkFieldData* proof = this->window.shown()->GetFieldData();
@@ -511,8 +511,8 @@ TEST_F(WeightWindow, ABindGivesVolumeRawColumnsAndCertificates)
     EXPECT_LE(values->GetComponent(v, 0), 1.0 + 1e-9);
   }
   // A new bind does not change the choices in the panel.
-  this->window.binding()->start();
-  this->wait_while([this] { return this->window.binding()->is_running(); });
+  this->part<Binding>()->start();
+  this->wait_while([this] { return this->part<Binding>()->is_running(); });
   EXPECT_TRUE(this->view()->is_sliced());
   EXPECT_EQ(this->list("top")->currentText(), QString("top"));
   // After the mesh is saved and opened, everything except the tets is restored.
@@ -542,7 +542,7 @@ TEST_F(WeightWindow, IsolinesAndSlicesKnowThePose)
   EXPECT_NEAR(reach(this->view()->isolines()), 0.8, 1e-5);
   // The whole shape moves up by one.
   vtkDataArray* transforms =
-    this->window.viewport()->handle_widget()->GetHandles()->GetCellData()->GetArray("Transform");
+    this->part<Viewport>()->handle_widget()->GetHandles()->GetCellData()->GetArray("Transform");
   for (int handle : { 0, 1 })
   {
     transforms->SetComponent(handle, 11, 1.0);
@@ -550,18 +550,18 @@ TEST_F(WeightWindow, IsolinesAndSlicesKnowThePose)
   transforms->Modified();
   this->window.set_method(0);
   EXPECT_NEAR(reach(this->view()->isolines()), 1.8, 1e-5);
-  EXPECT_NEAR(reach(this->window.viewport()->drawn()), 2.0, 1e-5);
+  EXPECT_NEAR(reach(this->part<Viewport>()->drawn()), 2.0, 1e-5);
   // While the slice is shown, the shape is at rest.
   this->find<QCheckBox>("Slice through the volume")->setChecked(true);
-  auto* handles = this->window.viewport()->handle_widget()->GetHandleSetRepresentation();
-  EXPECT_NEAR(reach(this->window.viewport()->drawn()), 1.0, 1e-5);
+  auto* handles = this->part<Viewport>()->handle_widget()->GetHandleSetRepresentation();
+  EXPECT_NEAR(reach(this->part<Viewport>()->drawn()), 1.0, 1e-5);
   EXPECT_NEAR(handles->GetBounds()[5], 0.9, 1e-5);
   EXPECT_EQ(
-    this->window.viewport()->state_name(), "Rest shape: the slice of weights is shown at rest");
+    this->part<Viewport>()->state_name(), "Rest shape: the slice of weights is shown at rest");
   this->find<QCheckBox>("Slice through the volume")->setChecked(false);
-  EXPECT_NEAR(reach(this->window.viewport()->drawn()), 2.0, 1e-5);
+  EXPECT_NEAR(reach(this->part<Viewport>()->drawn()), 2.0, 1e-5);
   EXPECT_NEAR(handles->GetBounds()[5], 1.9, 1e-5);
-  EXPECT_EQ(this->window.viewport()->state_name(), QString());
+  EXPECT_EQ(this->part<Viewport>()->state_name(), QString());
 }
 
 TEST_F(WeightWindow, WhatCannotBeChosenSaysWhy)
@@ -616,7 +616,7 @@ TEST_F(WeightWindow, NoTextOfTheWeightPanelIsClipped)
   for (const QSize& size : { QSize(900, 680), QSize(1280, 800), QSize(1920, 1080) })
   {
     this->resize(size);
-    test::expect_unclipped_buttons(this->window.panels());
+    test::expect_unclipped_buttons(this->part<PanelColumn>());
     for (QCheckBox* check : this->panel()->findChildren<QCheckBox*>())
     {
       EXPECT_LE(check->sizeHint().width(), check->width()) << check->text().toStdString();

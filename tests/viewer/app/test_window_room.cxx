@@ -60,7 +60,7 @@ protected:
   QRect picture_place()
   {
     QApplication::processEvents();
-    const Viewport* viewport = this->window.viewport();
+    const Viewport* viewport = this->part<Viewport>();
     return { viewport->mapTo(&this->window, QPoint()), viewport->size() };
   }
 
@@ -95,8 +95,8 @@ TEST_F(WindowRoom, BarsNeitherMoveNorResizeThePicture)
     EXPECT_EQ(this->pixel(Vec3(0, 0, 0.9)), seen) << what;
   };
   int bars = 0;
-  for (NoticeBar* bar : { this->window.note_bar(), this->window.rebind_bar(),
-         this->window.recovery_bar(), this->window.export_bar() })
+  for (NoticeBar* bar : { this->bar("note_bar"), this->bar("rebind_bar"), this->bar("recovery_bar"),
+         this->bar("export_bar") })
   {
     bar->offer("A sentence that is long enough for two lines in a window of this size, for it goes "
                "on and on, and then some more, so that there are surely two of them.",
@@ -113,10 +113,10 @@ TEST_F(WindowRoom, BarsNeitherMoveNorResizeThePicture)
   EXPECT_EQ(this->user.press_key("A"), QString());
   expect_still("a mode began");
   QList<QRect> places;
-  for (const QWidget* bar : { static_cast<QWidget*>(this->window.error_bar()),
-         static_cast<QWidget*>(this->window.note_bar()),
-         static_cast<QWidget*>(this->window.rebind_bar()),
-         static_cast<QWidget*>(this->window.viewport()->findChild<QFrame*>("mode")) })
+  for (const QWidget* bar :
+    { static_cast<QWidget*>(this->part<ErrorBar>()), static_cast<QWidget*>(this->bar("note_bar")),
+      static_cast<QWidget*>(this->bar("rebind_bar")),
+      static_cast<QWidget*>(this->part<Viewport>()->findChild<QFrame*>("mode")) })
   {
     const QRect at(bar->mapTo(&this->window, QPoint()), bar->size());
     for (const QRect& other : places)
@@ -125,8 +125,8 @@ TEST_F(WindowRoom, BarsNeitherMoveNorResizeThePicture)
     }
     places << at;
   }
-  for (NoticeBar* bar : { this->window.note_bar(), this->window.rebind_bar(),
-         this->window.recovery_bar(), this->window.export_bar() })
+  for (NoticeBar* bar : { this->bar("note_bar"), this->bar("rebind_bar"), this->bar("recovery_bar"),
+         this->bar("export_bar") })
   {
     bar->hide();
     expect_still("a notice left");
@@ -135,9 +135,9 @@ TEST_F(WindowRoom, BarsNeitherMoveNorResizeThePicture)
   this->hover(seen);
   expect_still("a hint came");
   // After a bar is hidden, the view receives mouse events at its position.
-  this->window.error_bar()->hide();
+  this->part<ErrorBar>()->hide();
   QApplication::processEvents();
-  const QWidget* there = this->window.viewport()->childAt(this->window.viewport()->width() / 2, 60);
+  const QWidget* there = this->part<Viewport>()->childAt(this->part<Viewport>()->width() / 2, 60);
   EXPECT_EQ(there, nullptr) << there->metaObject()->className();
 }
 
@@ -153,7 +153,7 @@ TEST_F(WindowRoom, ABarDoesNotEndADrag)
   QApplication::processEvents();
   this->user.move(at + QPoint(0, -60), Qt::NoModifier);
   this->user.release(at + QPoint(0, -60), Qt::LeftButton, Qt::NoModifier);
-  EXPECT_EQ(this->window.history()->undoText(), "move left_hand");
+  EXPECT_EQ(this->window.document()->history()->undoText(), "move left_hand");
   QPoint now;
   ASSERT_EQ(this->user.find_handle_position("left_hand", 0.0, now), QString());
   EXPECT_NEAR(now.y(), at.y() - 60, 3);
@@ -166,8 +166,8 @@ TEST_F(WindowRoom, TheTimelineComesWithTheFirstKeyOrOnDemand)
   {
     QApplication::processEvents();
     const QAction* entry = this->user.action("view.timeline");
-    EXPECT_EQ(entry->isChecked(), this->window.strip()->isVisible());
-    return this->window.strip()->isVisible();
+    EXPECT_EQ(entry->isChecked(), this->part<KeyStrip>()->isVisible());
+    return this->part<KeyStrip>()->isVisible();
   };
   EXPECT_FALSE(shown());
   EXPECT_EQ(this->user.press_key("K"), QString());
@@ -178,7 +178,7 @@ TEST_F(WindowRoom, TheTimelineComesWithTheFirstKeyOrOnDemand)
   EXPECT_FALSE(shown()) << "a person has sent it away";
   EXPECT_EQ(this->user.trigger("edit.undo"), QString());
   EXPECT_EQ(this->user.trigger("edit.undo"), QString());
-  EXPECT_TRUE(this->window.posing()->stored_poses().keys.keys().empty());
+  EXPECT_TRUE(this->part<Posing>()->stored_poses().keys.keys().empty());
   EXPECT_EQ(this->user.trigger("view.timeline"), QString());
   EXPECT_TRUE(shown()) << "there is none, but it was asked for";
 }
@@ -191,20 +191,20 @@ TEST_F(WindowRoom, AScreenOf1280By800FitsAllOfIt)
   const QSize room(1280, 720);
   for (int panel = 0; panel < 4; ++panel)
   {
-    this->window.panels()->show_panel(panel);
+    this->part<PanelColumn>()->show_panel(panel);
     QApplication::processEvents();
     const QSize least = this->window.minimumSizeHint();
     EXPECT_LE(least.width(), room.width()) << panel;
     EXPECT_LE(least.height(), room.height()) << panel;
     this->resize(room);
     EXPECT_EQ(outside(this->window,
-                { this->window.menuBar(), this->window.statusBar(), this->window.viewport(),
-                  this->window.strip(), this->window.panels() }),
+                { this->window.menuBar(), this->window.statusBar(), this->part<Viewport>(),
+                  this->part<KeyStrip>(), this->part<PanelColumn>() }),
       QStringList())
       << panel;
-    EXPECT_GT(this->window.viewport()->height(), 400) << panel;
+    EXPECT_GT(this->part<Viewport>()->height(), 400) << panel;
     // Panels scroll vertically only.
-    for (const QScrollArea* area : this->window.panels()->findChildren<QScrollArea*>())
+    for (const QScrollArea* area : this->part<PanelColumn>()->findChildren<QScrollArea*>())
     {
       if (area->isVisible())
       {
@@ -218,7 +218,7 @@ TEST_F(WindowRoom, TheDomainOfABindIsChosen)
 {
   this->open_ball();
   EXPECT_EQ(this->user.choose("bind.domain", 4), QString()); // surface
-  EXPECT_EQ(this->window.panel()->domain(), WeightsDomain::surface);
+  EXPECT_EQ(this->part<SidePanel>()->domain(), WeightsDomain::surface);
   EXPECT_EQ(this->user.trigger("edit.bind"), QString());
   ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
   ASSERT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
@@ -238,9 +238,9 @@ TEST_F(WindowRoom, WindingNumbersOfASurfaceAreComputedThere)
   EXPECT_EQ(this->user.choose("volume.samples", 0), QString());
   ASSERT_EQ(this->user.push("Compute"), QString());
   ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
-  vtkImageData* volume = this->window.volume_view()->volume();
+  vtkImageData* volume = this->part<VolumeView>()->volume();
   ASSERT_NE(volume, nullptr) << this->window.error().toStdString();
-  EXPECT_EQ(this->window.history()->undoText(), "compute winding numbers");
+  EXPECT_EQ(this->window.document()->history()->undoText(), "compute winding numbers");
   int size[3];
   volume->GetDimensions(size);
   EXPECT_EQ(*std::max_element(size, size + 3), 48);
@@ -273,7 +273,7 @@ TEST_F(WindowRoom, WindingNumbersOfASurfaceAreComputedThere)
   EXPECT_EQ(back.work.volume->GetPointData()->GetArray("WindingNumber")->GetComponent(1000, 0),
     values->GetComponent(1000, 0));
   EXPECT_EQ(this->user.push("Close the volume"), QString());
-  EXPECT_EQ(this->window.volume_view()->volume(), nullptr);
+  EXPECT_EQ(this->part<VolumeView>()->volume(), nullptr);
   EXPECT_EQ(this->user.trigger("edit.undo"), QString());
-  EXPECT_EQ(this->window.volume_view()->volume(), volume);
+  EXPECT_EQ(this->part<VolumeView>()->volume(), volume);
 }

@@ -4,6 +4,7 @@
 // Functions that operate the window like a user: Qt mouse events on the view, and buttons found by
 // their texts.
 
+#include "app/parts/notice_bar.h"
 #include "app/tour/simulated_user.h"
 #include "app/view/viewport.h"
 #include "app/window/main_window.h"
@@ -84,12 +85,24 @@ protected:
     QApplication::processEvents();
   }
 
+  /// Return a part of the window by its type.
+  template <typename Part>
+  Part* part()
+  {
+    Part* found = this->window.findChild<Part*>();
+    EXPECT_NE(found, nullptr) << Part::staticMetaObject.className();
+    return found;
+  }
+
+  /// Return a bar above the 3D view by its name.
+  NoticeBar* bar(const QString& name) { return this->window.findChild<NoticeBar*>(name); }
+
   /// Return the widget with this text. If several widgets have this text, return a visible one.
   template <typename Widget>
   Widget* find(const QString& text)
   {
     Widget* found = nullptr;
-    for (Widget* widget : this->window.panels()->findChildren<Widget*>())
+    for (Widget* widget : this->part<PanelColumn>()->findChildren<Widget*>())
     {
       if (widget->text() == text && (!found || widget->isVisible()))
       {
@@ -102,7 +115,7 @@ protected:
   void render()
   {
     QApplication::processEvents();
-    this->window.viewport()->renderWindow()->Render();
+    this->part<Viewport>()->renderWindow()->Render();
     QApplication::processEvents();
   }
 
@@ -116,18 +129,18 @@ protected:
   /// Return the pixel of a position in the view, in Qt's pixels from the upper left.
   QPoint pixel(const Vec3& place)
   {
-    vtkRenderer* renderer = this->window.viewport()->renderer();
+    vtkRenderer* renderer = this->part<Viewport>()->renderer();
     renderer->SetWorldPoint(place.x(), place.y(), place.z(), 1.0);
     renderer->WorldToDisplay();
     const double* d = renderer->GetDisplayPoint();
     return { static_cast<int>(d[0]),
-      this->window.viewport()->height() - 1 - static_cast<int>(d[1]) };
+      this->part<Viewport>()->height() - 1 - static_cast<int>(d[1]) };
   }
 
   void mouse(
     QEvent::Type type, const QPoint& position, Qt::MouseButton button, Qt::MouseButtons held)
   {
-    Viewport* viewport = this->window.viewport();
+    Viewport* viewport = this->part<Viewport>();
     QMouseEvent event(
       type, position, viewport->mapToGlobal(position), button, held, Qt::NoModifier);
     QApplication::sendEvent(viewport, &event);
@@ -154,7 +167,7 @@ protected:
   QImage picture()
   {
     this->render();
-    return this->window.viewport()->grabFramebuffer();
+    return this->part<Viewport>()->grabFramebuffer();
   }
 
   static int count(const QImage& image, const std::function<bool(const QColor&)>& which)

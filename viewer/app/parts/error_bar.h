@@ -22,6 +22,8 @@ enum class ErrorKind
 /// the error is out of date.
 class ErrorBar : public QFrame
 {
+  Q_OBJECT
+
 public:
   explicit ErrorBar(QWidget* parent);
 

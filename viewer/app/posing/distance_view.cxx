@@ -31,7 +31,7 @@ double distance_scale(double largest)
 }
 
 DistanceView::DistanceView(Viewport* viewport, Posing* posing)
-  : viewport_(viewport), posing_(posing)
+  : QObject(viewport), viewport_(viewport), posing_(posing)
 {
 }
 

@@ -4,14 +4,18 @@
 #include "vtkDoubleArray.h"
 #include "vtkSmartPointer.h"
 
+#include <QObject>
+
 class Posing;
 class Viewport;
 
 /// Shows the distance between the displayed shape and the shape of the compared method. The
 /// distance is shown as colors on the displayed shape, with a scale in percent of the rest shape's
 /// bounding-box diagonal.
-class DistanceView
+class DistanceView : public QObject
 {
+  Q_OBJECT
+
 public:
   DistanceView(Viewport* viewport, Posing* posing);
 

@@ -20,7 +20,7 @@
 using namespace bindpose;
 
 RotationView::RotationView(Viewport* viewport, const PosePanel* panel, Posing* posing)
-  : viewport_(viewport), panel_(panel), posing_(posing)
+  : QObject(viewport), viewport_(viewport), panel_(panel), posing_(posing)
 {
 }
 

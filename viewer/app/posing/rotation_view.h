@@ -6,6 +6,7 @@
 #include "vtkDoubleArray.h"
 #include "vtkSmartPointer.h"
 
+#include <QObject>
 #include <QString>
 
 #include <memory>
@@ -21,8 +22,10 @@ class Viewport;
 /// Shows the rotations of as-rigid-as-possible methods as colors on the shape. The panel selects
 /// what the colors show: the clusters of points with the same rotation, or the angle of each
 /// rotation.
-class RotationView
+class RotationView : public QObject
 {
+  Q_OBJECT
+
 public:
   RotationView(Viewport* viewport, const PosePanel* panel, Posing* posing);
 

@@ -72,7 +72,7 @@ void scroll_to(QWidget* widget)
 
 QPoint SimulatedUser::place(double x, double y) const
 {
-  const Viewport* viewport = this->window_->viewport();
+  const Viewport* viewport = this->window_->findChild<Viewport*>();
   return { static_cast<int>(std::lround(x * (viewport->width() - 1))),
     static_cast<int>(std::lround(y * (viewport->height() - 1))) };
 }
@@ -93,7 +93,7 @@ QString SimulatedUser::find_handle_position(
   {
     return QObject::tr("unknown handle '%1'").arg(handle);
   }
-  Viewport* viewport = this->window_->viewport();
+  Viewport* viewport = this->window_->findChild<Viewport*>();
   auto* representation = viewport->handle_widget()->GetHandleSetRepresentation();
   const Index cell = this->window_->document()->handle_cells()[static_cast<std::size_t>(number)];
   Vec3 head, tail;
@@ -109,7 +109,8 @@ QString SimulatedUser::find_handle_position(
 
 QString SimulatedUser::find_gizmo_position(int part, QPoint& position) const
 {
-  auto* representation = this->window_->viewport()->handle_widget()->GetHandleSetRepresentation();
+  auto* representation =
+    this->window_->findChild<Viewport*>()->handle_widget()->GetHandleSetRepresentation();
   double pixel[2] = { 0.0, 0.0 };
   if (!representation->GetGizmoGrip(part, pixel))
   {
@@ -121,7 +122,7 @@ QString SimulatedUser::find_gizmo_position(int part, QPoint& position) const
 
 QPoint SimulatedUser::from_display(const double* pixel) const
 {
-  const Viewport* viewport = this->window_->viewport();
+  const Viewport* viewport = this->window_->findChild<Viewport*>();
   const double scale = viewport->devicePixelRatioF();
   return { static_cast<int>(std::floor(pixel[0] / scale)),
     viewport->height() - 1 - static_cast<int>(std::floor(pixel[1] / scale)) };
@@ -130,7 +131,7 @@ QPoint SimulatedUser::from_display(const double* pixel) const
 void SimulatedUser::send(QEvent::Type type, const QPoint& position, Qt::MouseButton button,
   Qt::MouseButtons held, Qt::KeyboardModifiers keys)
 {
-  Viewport* viewport = this->window_->viewport();
+  Viewport* viewport = this->window_->findChild<Viewport*>();
   QMouseEvent event(type, position, viewport->mapToGlobal(position), button, held, keys);
   QApplication::sendEvent(viewport, &event);
 }
@@ -139,7 +140,7 @@ void SimulatedUser::press(
   const QPoint& position, Qt::MouseButton button, Qt::KeyboardModifiers held)
 {
   // a click on the 3D view gives it the focus
-  this->window_->viewport()->setFocus(Qt::MouseFocusReason);
+  this->window_->findChild<Viewport*>()->setFocus(Qt::MouseFocusReason);
   this->buttons_ |= button;
   this->send(QEvent::MouseButtonPress, position, button, this->buttons_, held);
 }
@@ -168,7 +169,7 @@ void SimulatedUser::double_click(
 
 void SimulatedUser::wheel(const QPoint& position, double turns, Qt::KeyboardModifiers held)
 {
-  Viewport* viewport = this->window_->viewport();
+  Viewport* viewport = this->window_->findChild<Viewport*>();
   constexpr int notch = 120; // angle of one wheel notch in eighths of a degree (Qt's unit)
   const QPoint angle(0, static_cast<int>(std::lround(notch * turns)));
   QWheelEvent event(position, viewport->mapToGlobal(position), QPoint(), angle, this->buttons_,
@@ -182,14 +183,14 @@ void SimulatedUser::leave()
   if (this->buttons_ == Qt::NoButton)
   {
     QEvent event(QEvent::Leave);
-    QApplication::sendEvent(this->window_->viewport(), &event);
+    QApplication::sendEvent(this->window_->findChild<Viewport*>(), &event);
   }
 }
 
 void SimulatedUser::scrub(double seconds)
 {
   this->leave();
-  KeyTrack* track = this->window_->strip()->track();
+  KeyTrack* track = this->window_->findChild<KeyStrip*>()->track();
   const QPoint position(track->pixel(seconds), track->height() / 2);
   for (const QEvent::Type type : { QEvent::MouseButtonPress, QEvent::MouseButtonRelease })
   {
@@ -263,7 +264,7 @@ QString SimulatedUser::press_key(const QString& keys)
   const auto held = Qt::KeyboardModifiers(sequence[0] & Qt::KeyboardModifierMask);
   const int key = sequence[0] & ~static_cast<int>(Qt::KeyboardModifierMask);
   QWidget* focus = QApplication::focusWidget();
-  focus = focus ? focus : this->window_->viewport();
+  focus = focus ? focus : this->window_->findChild<Viewport*>();
   const bool letter =
     key >= Qt::Key_Space && key <= Qt::Key_AsciiTilde && !(held & Qt::ControlModifier);
   const QString text = letter
@@ -369,7 +370,7 @@ QString SimulatedUser::choose(const QString& key, const QVariant& value)
   {
     return QObject::tr("the option '%1' cannot have the value %2").arg(key, value.toString());
   }
-  QObject* found = this->window_->panels()->findChild<QObject*>(key);
+  QObject* found = this->window_->findChild<PanelColumn*>()->findChild<QObject*>(key);
   auto* widget = qobject_cast<QWidget*>(found);
   const QString disabled = QObject::tr("the option '%1' is disabled").arg(key);
   const QString missing =
@@ -440,8 +441,8 @@ QString SimulatedUser::show_panel(const QString& name)
     return QObject::tr("unknown panel '%1': expected one of %2")
       .arg(name, panel_names().join(", "));
   }
-  this->window_->panels()->show_panel(panel);
-  return this->window_->panels()->shown_panel() == panel
+  this->window_->findChild<PanelColumn*>()->show_panel(panel);
+  return this->window_->findChild<PanelColumn*>()->shown_panel() == panel
     ? QString()
     : QObject::tr("the panel '%1' is not available").arg(name);
 }
@@ -454,14 +455,14 @@ QString SimulatedUser::select(const QString& handle)
   {
     return QObject::tr("unknown handle '%1'").arg(handle);
   }
-  this->window_->panel()->select_handle(number);
+  this->window_->findChild<SidePanel*>()->select_handle(number);
   return {};
 }
 
 QString SimulatedUser::set_mode(const QString& mode)
 {
   this->leave();
-  const std::vector<int> selected = this->window_->panel()->selected_handles();
+  const std::vector<int> selected = this->window_->findChild<SidePanel*>()->selected_handles();
   if (selected.empty())
   {
     return QObject::tr("no handle is selected");
@@ -478,7 +479,8 @@ QString SimulatedUser::set_mode(const QString& mode)
       ? QObject::tr("the mode '%1' is not available for these handles").arg(mode)
       : QObject::tr("the mode '%1' is not available for this handle").arg(mode);
   }
-  this->window_->editing()->commands()->set_handle_mode(static_cast<HandleMode>(number));
+  this->window_->findChild<HandleEditing*>()->commands()->set_handle_mode(
+    static_cast<HandleMode>(number));
   return {};
 }
 
@@ -496,12 +498,14 @@ bool is_busy(Deformation* deformation)
 
 bool is_idle(const MainWindow* window)
 {
-  const Posing* posing = window->posing();
-  const bool simulates_motion = window->panel()->pose()->simulates_motion();
+  const Posing* posing = window->findChild<Posing*>();
+  const bool simulates_motion = window->findChild<SidePanel*>()->pose()->simulates_motion();
   const bool compares = posing->ghost()->place() != PoseGhost::hidden;
-  return !window->binding()->is_running() && !window->tet_inspection()->is_busy() &&
-    !window->weights()->is_busy() && !window->winding_volume()->is_running() &&
-    !window->shape_handles()->is_running() && !posing->pose_manager()->is_playing() &&
+  return !window->findChild<Binding*>()->is_running() &&
+    !window->findChild<TetInspection*>()->is_busy() &&
+    !window->findChild<WeightInspection*>()->is_busy() &&
+    !window->findChild<WindingVolume*>()->is_running() &&
+    !window->findChild<ShapeHandles*>()->is_running() && !posing->pose_manager()->is_playing() &&
     !posing->motion()->is_playing() && !posing->sequence_export()->is_running() &&
     (simulates_motion || !is_busy(posing->deformation())) &&
     (!simulates_motion || !posing->motion()->body() || posing->motion()->has_started()) &&

@@ -134,7 +134,7 @@ TourPlayer::TourPlayer(MainWindow* window, const Tour& tour, const std::string& 
     real_input_filter_(std::make_unique<RealInputFilter>())
 {
   QApplication::instance()->installEventFilter(this->real_input_filter_.get());
-  QObject::connect(window->viewport(), &QOpenGLWidget::frameSwapped, &this->context_,
+  QObject::connect(window->findChild<Viewport*>(), &QOpenGLWidget::frameSwapped, &this->context_,
     [this]
     {
       if (this->first_picture_ < 0.0 && !this->window_->is_empty())
@@ -460,7 +460,8 @@ QString TourPlayer::wait(const TourStep& step)
 {
   if (step.text == "bind")
   {
-    return wait_until([this] { return !this->window_->binding()->is_running(); }, this->left())
+    return wait_until(
+             [this] { return !this->window_->findChild<Binding*>()->is_running(); }, this->left())
       ? QString()
       : QString("the bind did not end within the time limit");
   }
@@ -563,7 +564,7 @@ QImage TourPlayer::grab(TourPart part, int width)
     dialog = candidate->isVisible() ? candidate : dialog;
   }
   this->process_drawing();
-  Viewport* viewport = this->window_->viewport();
+  Viewport* viewport = this->window_->findChild<Viewport*>();
   viewport->renderWindow()->Render();
   QApplication::processEvents();
   const QImage picture = part == TourPart::view ? viewport->grabFramebuffer()
@@ -599,13 +600,13 @@ QString TourPlayer::fit_view()
   {
     return {};
   }
-  const auto missing = [&] { return expected - this->window_->viewport()->size(); };
+  const auto missing = [&] { return expected - this->window_->findChild<Viewport*>()->size(); };
   for (int tries = 0; tries < 3 && missing() != QSize(0, 0); ++tries)
   {
     this->window_->resize(this->window_->size() + missing());
     this->process_drawing();
   }
-  const QSize now = this->window_->viewport()->size();
+  const QSize now = this->window_->findChild<Viewport*>()->size();
   return now == expected
     ? QString()
     : QString("cannot resize the view: its size is %1 x %2").arg(now.width()).arg(now.height());
@@ -622,14 +623,14 @@ QString TourPlayer::screenshot(const TourStep& step)
   {
     vtkSmartPointer<vtkImageData> taken;
     const Status status =
-      this->window_->viewport()->take_picture(step.scale, step.transparent, taken);
+      this->window_->findChild<Viewport*>()->take_picture(step.scale, step.transparent, taken);
     if (!status.ok())
     {
       return QString::fromStdString(status.message);
     }
     picture = at_most(to_image(taken), step.width);
   }
-  const double drawn = drawn_fraction(this->window_->viewport()->grabFramebuffer());
+  const double drawn = drawn_fraction(this->window_->findChild<Viewport*>()->grabFramebuffer());
   if (picture.isNull() || (drawn == 0.0 && !this->window_->is_empty()))
   {
     return QString("the picture is empty");

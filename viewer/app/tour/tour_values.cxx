@@ -74,19 +74,20 @@ void add_work(Json& values, MainWindow* window)
   values["points"] = work.surface ? work.surface->GetNumberOfPoints() : 0;
   values["handles"] = static_cast<int>(document->handles().size());
   values["bound"] = window->is_bound();
-  values["binding"] = window->binding()->is_running();
+  values["binding"] = window->findChild<Binding*>()->is_running();
   values["idle"] = is_idle(window);
-  values["panel"] =
-    SimulatedUser::panel_names().value(window->panels()->shown_panel()).toStdString();
-  values["steps"] = window->history()->index();
-  values["undo"] = window->history()->undoText().toStdString();
-  values["redo"] = window->history()->redoText().toStdString();
+  values["panel"] = SimulatedUser::panel_names()
+                      .value(window->findChild<PanelColumn*>()->shown_panel())
+                      .toStdString();
+  values["steps"] = window->document()->history()->index();
+  values["undo"] = window->document()->history()->undoText().toStdString();
+  values["redo"] = window->document()->history()->redoText().toStdString();
   values["error"] = window->error().toStdString();
-  values["note"] = window->note_bar()->message().toStdString();
-  values["rebind"] = window->rebind_bar()->message().toStdString();
+  values["note"] = window->findChild<NoticeBar*>("note_bar")->message().toStdString();
+  values["rebind"] = window->findChild<NoticeBar*>("rebind_bar")->message().toStdString();
   values["dialog"] = QApplication::activeModalWidget() != nullptr;
   values["reading"] = window->reading().toStdString();
-  values["state"] = window->viewport()->state_name().toStdString();
+  values["state"] = window->findChild<Viewport*>()->state_name().toStdString();
   values["title"] = window->windowTitle().toStdString();
 }
 
@@ -102,12 +103,14 @@ void add_options(Json& values, const Document* document)
 void add_handles(Json& values, MainWindow* window)
 {
   const Document* document = window->document();
-  auto* representation = window->viewport()->handle_widget()->GetHandleSetRepresentation();
-  const int selected = window->panel()->selected_handle();
+  auto* representation =
+    window->findChild<Viewport*>()->handle_widget()->GetHandleSetRepresentation();
+  const int selected = window->findChild<SidePanel*>()->selected_handle();
   const Handles& handles = document->handles();
   values["selected"] =
     selected >= 0 && selected < static_cast<int>(handles.size()) ? handles[selected].name : "";
-  values["selected.count"] = static_cast<int>(window->panel()->selected_handles().size());
+  values["selected.count"] =
+    static_cast<int>(window->findChild<SidePanel*>()->selected_handles().size());
   const Pose pose = document->pose();
   for (std::size_t k = 0; k < handles.size(); ++k)
   {
@@ -138,7 +141,7 @@ void add_shape(Json& values, MainWindow* window)
   values["shape.lower"] = to_json(posed.view().colwise().minCoeff().transpose());
   values["shape.upper"] = to_json(posed.view().colwise().maxCoeff().transpose());
   add_distance(values, "moved", at_rest.view(), posed.view());
-  Posing* posing = window->posing();
+  Posing* posing = window->findChild<Posing*>();
   if (!posing->can_pose())
   {
     return;
@@ -199,7 +202,7 @@ void add_weights(Json& values, MainWindow* window)
       values[key] = certificate->GetRange()[1]; // the value of the worst column
     }
   }
-  const WeightView* view = window->weights()->view();
+  const WeightView* view = window->findChild<WeightInspection*>()->view();
   if (view->is_shown())
   {
     values["weights.extrema"] = static_cast<int>(view->extrema().size());
@@ -214,7 +217,7 @@ void add_weights(Json& values, MainWindow* window)
 
 void add_volume(Json& values, MainWindow* window)
 {
-  VolumeView* view = window->volume_view();
+  VolumeView* view = window->findChild<VolumeView*>();
   if (!view->volume())
   {
     return;
@@ -230,7 +233,7 @@ void add_volume(Json& values, MainWindow* window)
 
 void add_tets(Json& values, MainWindow* window)
 {
-  const TetView* view = window->tet_inspection()->tet_view();
+  const TetView* view = window->findChild<TetInspection*>()->tet_view();
   if (view->tets())
   {
     values["tets"] = view->tets()->GetNumberOfCells();
@@ -241,17 +244,17 @@ void add_tets(Json& values, MainWindow* window)
 
 void add_keys(Json& values, MainWindow* window)
 {
-  const StoredPoses& stored_poses = window->posing()->stored_poses();
+  const StoredPoses& stored_poses = window->findChild<Posing*>()->stored_poses();
   values["keys"] = static_cast<int>(stored_poses.keys.keys().size());
   values["keys.seconds"] = stored_poses.keys.duration();
-  values["keys.time"] = window->strip()->time();
-  values["keys.playing"] = window->posing()->pose_manager()->is_playing();
+  values["keys.time"] = window->findChild<KeyStrip*>()->time();
+  values["keys.playing"] = window->findChild<Posing*>()->pose_manager()->is_playing();
   values["poses"] = static_cast<int>(stored_poses.library.entries().size());
 }
 
 void add_view(Json& values, MainWindow* window)
 {
-  vtkCamera* camera = window->viewport()->renderer()->GetActiveCamera();
+  vtkCamera* camera = window->findChild<Viewport*>()->renderer()->GetActiveCamera();
   values["camera.position"] = to_json(Vec3(Eigen::Map<const Vec3>(camera->GetPosition())));
   values["camera.focus"] = to_json(Vec3(Eigen::Map<const Vec3>(camera->GetFocalPoint())));
   values["camera.distance"] = camera->GetDistance();

@@ -67,11 +67,11 @@ int run_viewer(const std::vector<InitialFile>& files, bool auto_rig)
   const Application application;
   MainWindow window;
   window.show();
-  window.sessions()->offer_recovery();
+  window.findChild<WindowSessions*>()->offer_recovery();
   open_initial_files(window, files);
   if (auto_rig)
   {
-    window.shape_handles()->auto_rig();
+    window.findChild<ShapeHandles*>()->auto_rig();
   }
   return QApplication::exec();
 }
@@ -104,7 +104,7 @@ bindpose::Status play_tour(
   }
   if (auto_rig)
   {
-    window.shape_handles()->auto_rig();
+    window.findChild<ShapeHandles*>()->auto_rig();
   }
   return player.play(request);
 }

@@ -136,7 +136,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), document_(new Doc
     &HandleEditing::cancel_interaction);
   QObject::connect(this->document_, &Document::changed, this, &MainWindow::document_changed);
   // The history updates its saved state only at the end of a step; update the title then.
-  QObject::connect(this->history(), &QUndoStack::indexChanged, this, &MainWindow::update_title);
+  QObject::connect(
+    this->document_->history(), &QUndoStack::indexChanged, this, &MainWindow::update_title);
   QObject::connect(this->document_, &Document::option_changed, this, &MainWindow::option_changed);
   this->update_title();
   this->update_panel();
@@ -148,12 +149,7 @@ MainWindow::~MainWindow()
   // Disconnect the document and its history. They are destroyed after the views, and would send
   // signals to destroyed objects.
   this->document_->disconnect(this);
-  this->history()->disconnect(this);
-}
-
-QUndoStack* MainWindow::history() const
-{
-  return this->document_->history();
+  this->document_->history()->disconnect(this);
 }
 
 // ---- Layout and wiring -------------------------------------------------------------------------
@@ -171,12 +167,17 @@ void MainWindow::make_layout()
   this->bars_ = new BarStack(this->viewport_);
   this->error_bar_ = new ErrorBar(this->bars_);
   this->bars_->add(this->error_bar_);
-  for (NoticeBar** bar :
-    { &this->recovery_bar_, &this->note_bar_, &this->rebind_bar_, &this->export_bar_ })
+  const auto add_bar = [this](const QString& name)
   {
-    *bar = new NoticeBar(this->bars_);
-    this->bars_->add(*bar);
-  }
+    auto* bar = new NoticeBar(this->bars_);
+    bar->setObjectName(name);
+    this->bars_->add(bar);
+    return bar;
+  };
+  this->recovery_bar_ = add_bar("recovery_bar");
+  this->note_bar_ = add_bar("note_bar");
+  this->rebind_bar_ = add_bar("rebind_bar");
+  this->export_bar_ = add_bar("export_bar");
   auto* over = new QVBoxLayout(this->viewport_);
   this->empty_ = new EmptyState(this->viewport_);
   QObject::connect(this->empty_, &EmptyState::open_and_rig_requested, this,
@@ -245,11 +246,10 @@ void MainWindow::make_inspections()
       this->update_pose(); // draw the shape at rest: a slice belongs to it
     });
   this->rotations_ =
-    std::make_unique<RotationView>(this->viewport_, this->panels_->side()->pose(), this->posing_);
-  this->distances_ = std::make_unique<DistanceView>(this->viewport_, this->posing_);
+    new RotationView(this->viewport_, this->panels_->side()->pose(), this->posing_);
+  this->distances_ = new DistanceView(this->viewport_, this->posing_);
   this->probe_ = new Probe({ this->viewport_, this->volume_view_, this->tet_inspection_->tet_view(),
-    this->weights_->view(), &this->tet_inspection_->defect_view(), this->posing_,
-    this->rotations_.get(),
+    this->weights_->view(), &this->tet_inspection_->defect_view(), this->posing_, this->rotations_,
     [this] { return this->document_->surface() ? this->posing_->displayed_shape() : nullptr; } });
   QObject::connect(this->panels_, &PanelColumn::panel_shown, this->tet_inspection_,
     [this](int panel)

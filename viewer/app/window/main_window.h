@@ -13,7 +13,6 @@
 #include <optional>
 
 class QLabel;
-class QUndoStack;
 class BarStack;
 class Binding;
 class DistanceView;
@@ -56,10 +55,6 @@ public:
   ~MainWindow() override;
 
   Document* document() const { return this->document_; }
-  QUndoStack* history() const;
-
-  WindowSessions* sessions() const { return this->sessions_; }
-  Exports* exports() const { return this->exports_; }
 
   /// Open a mesh, handles, weights, an image, a volume, curves or a session. If the file cannot be
   /// used, show a sentence in the error bar, keep what is open, and return false.
@@ -82,39 +77,15 @@ public:
 
   /// Return the current shape, see Posing::shape(): posed, or at rest if it cannot be posed.
   vtkPolyData* shown() const;
-  Viewport* viewport() const { return this->viewport_; }
-  SidePanel* panel() const { return this->panel_; }
-  RotationView* rotations() const { return this->rotations_.get(); }
-  PanelColumn* panels() const { return this->panels_; }
-  VolumeView* volume_view() const { return this->volume_view_; }
-  TetInspection* tet_inspection() const { return this->tet_inspection_; }
-  Probe* probe() const { return this->probe_; }
   /// Show or hide outlines, as an undo step.
   void show_outlines(bool shown);
-  WeightInspection* weights() const { return this->weights_; }
-  Posing* posing() const { return this->posing_; }
-  Binding* binding() const { return this->binding_; }
-  HandleEditing* editing() const { return this->editing_; }
-  ShapeHandles* shape_handles() const { return this->shape_handles_; }
-  KeyStrip* strip() const { return this->strip_; }
-  WindingVolume* winding_volume() const { return this->winding_volume_; }
   /// Show or hide the key frames below the 3D view.
   void show_timeline(bool shown);
-  /// Return the status line. It describes the current interaction, or the last pose.
-  const ElidedLabel* hint() const { return this->hint_; }
   /// Return the text of the label about the point under the mouse, in one line.
   QString reading() const;
   /// Return the sentence in the error bar; empty if the bar is hidden.
   QString error() const;
   void show_error(const QString& message, ErrorKind kind = ErrorKind::other);
-  ErrorBar* error_bar() const { return this->error_bar_; }
-  NoticeBar* rebind_bar() const { return this->rebind_bar_; }
-  NoticeBar* recovery_bar() const { return this->recovery_bar_; }
-  /// Return the bar for notes about missing files of a session, the outline of an image, and
-  /// defects of a surface.
-  NoticeBar* note_bar() const { return this->note_bar_; }
-  /// Return the bar that shows what was exported and to which path.
-  NoticeBar* export_bar() const { return this->export_bar_; }
 
 protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
@@ -161,6 +132,7 @@ private:
   void update_title();
 
   Document* document_;
+  // Parts of the window. Tours and tests find them by their type, and the bars by their names.
   Viewport* viewport_ = nullptr;
   VolumeView* volume_view_ = nullptr;
   TetInspection* tet_inspection_ = nullptr;
@@ -177,8 +149,8 @@ private:
   ShapeHandles* shape_handles_ = nullptr;
   KeyStrip* strip_ = nullptr; // below the 3D view
   PanelColumn* panels_ = nullptr;
-  std::unique_ptr<RotationView> rotations_;
-  std::unique_ptr<DistanceView> distances_;
+  RotationView* rotations_ = nullptr;
+  DistanceView* distances_ = nullptr;
   SidePanel* panel_ = nullptr; // part of panels_
   OptionLinks* links_ = nullptr;
   WindowMenus* menus_ = nullptr;
@@ -188,9 +160,11 @@ private:
   BarStack* bars_ = nullptr; // stack of bars over the 3D view; contains the next four bars
   ErrorBar* error_bar_ = nullptr;
   NoticeBar* recovery_bar_ = nullptr;
+  /// Notes about missing files of a session, the outline of an image, and defects of a surface.
   NoticeBar* note_bar_ = nullptr;
   NoticeBar* rebind_bar_ = nullptr;
-  NoticeBar* export_bar_ = nullptr;
+  NoticeBar* export_bar_ = nullptr; // shows what was exported and to which path
+  /// The status line. It describes the current interaction, or the last pose.
   ElidedLabel* hint_ = nullptr;
   EmptyState* empty_ = nullptr; // in the middle of the 3D view while no file is open
   vtkSmartPointer<vtkPolyData> drawn_surface_; // the surface that the viewport shows

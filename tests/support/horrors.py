@@ -496,8 +496,8 @@ def wavy_sheet():
 
 
 def there_and_back():
-    """Return a sphere and its reversed copy, so that the winding number is 0 everywhere."""
-    return Horror(*join(sphere(), flipped(sphere())), encloses=False)
+    """Return a sphere and its reversed copy. The winding number is 0 everywhere, but the program ignores such back sides."""
+    return Horror(*join(sphere(), flipped(sphere())), volume(sphere()))
 
 
 HORRORS = [two_overlapping_spheres, open_cube, internal_wall, doubled_faces, flipped_face, torus_through_sphere, unwelded_soup,

@@ -2,7 +2,7 @@
 """Check the format of every source with clang-format, and the names in core with clang-tidy.
 
 --tidy changed   the core files of the last commit (default; none outside of a git checkout)
---tidy all       all files of core
+--tidy all       all files of core, or those of a slice: files K, K + N, K + 2 N, … in the order of their names
 --tidy none      format only
 """
 
@@ -32,7 +32,9 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--build", type=pathlib.Path, required=True)
     parser.add_argument("--tidy", choices=["changed", "all", "none"], default="changed")
+    parser.add_argument("--slice", default="1/1", metavar="K/N")
     options = parser.parse_args()
+    first, step = (int(number) for number in options.slice.split("/"))
 
     sources = sorted(str(path.relative_to(ROOT)) for folder in FOLDERS for path in (ROOT / folder).rglob("*")
                      if path.suffix in (".h", ".cpp", ".cxx"))
@@ -41,9 +43,10 @@ def main():
 
     core = {name for name in sources if name.startswith("filters/core/") and name.endswith(".cpp")}
     if options.tidy == "none":
-        core = set()
+        core.clear()
     elif options.tidy == "changed":
         core &= changed_files()
+    core = sorted(core)[first - 1::step]
 
     def tidy(path):
         return subprocess.run(["clang-tidy-14", "--quiet", "-p", options.build, path], cwd=ROOT,
@@ -51,7 +54,7 @@ def main():
 
     wrong = 0
     with ThreadPoolExecutor(2) as pool:
-        for result in pool.map(tidy, sorted(core)):
+        for result in pool.map(tidy, core):
             if result.returncode != 0:
                 wrong += 1
                 print(result.stdout)

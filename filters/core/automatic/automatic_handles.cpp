@@ -30,7 +30,7 @@ struct SortedSurface
   std::vector<Index> original; ///< #vertices: the lowest original id of the equal vertices
 };
 
-SortedSurface sorted(PointsView points, TrianglesView triangles)
+SortedSurface sort_surface(PointsView points, TrianglesView triangles)
 {
   std::vector<char> used(static_cast<std::size_t>(points.rows()), 0);
   for (Index k = 0; k < triangles.size(); ++k)
@@ -152,11 +152,11 @@ Status make_bones(ExecutionContext& context, const SortedSurface& surface,
     return built;
   }
   constexpr double half = 0.5;
-  SkeletonBonesOptions to_bones = options.bones;
-  to_bones.inside = [&winding](const Vec3& p) { return winding.evaluate_at(p) >= half; };
+  SkeletonBonesOptions bones_options = options.bones;
+  bones_options.inside = [&winding](const Vec3& p) { return winding.evaluate_at(p) >= half; };
   SkeletonBones bones;
   const double diagonal = bounding_box(solid.points, solid.triangles).diagonal();
-  Status simplified = skeleton_bones(skeleton, diagonal, to_bones, bones);
+  Status simplified = skeleton_bones(skeleton, diagonal, bones_options, bones);
   if (!simplified.ok())
   {
     return simplified;
@@ -169,7 +169,7 @@ Status make_bones(ExecutionContext& context, const SortedSurface& surface,
   status.report.set("counts.cut_cycles", bones.cut_cycles);
   status.report.set("counts.pruned_branches", bones.pruned_branches);
   status.report.set("counts.merged_branches", bones.merged_branches);
-  report_outside(bones, to_bones.inside, status);
+  report_outside(bones, bones_options.inside, status);
   handles = std::move(bones.handles);
   return status;
 }
@@ -188,7 +188,7 @@ Status automatic_handles(ExecutionContext& context, PointsView points, Triangles
   {
     return Status::invalid_input("the surface has no triangles");
   }
-  const SortedSurface surface = sorted(points, triangles);
+  const SortedSurface surface = sort_surface(points, triangles);
   status = options.method == AutomaticMethod::points
     ? make_points(context, surface, options.points, handles)
     : make_bones(context, surface, options, handles);

@@ -39,7 +39,7 @@ Status check_options(const CurveSkeletonOptions& options)
 /// A clean surface is replaced by a closed surface from a lattice if it has more than this factor
 /// times the number of triangles to contract. For such surfaces the lattice is faster than
 /// decimation.
-constexpr Index dense = 10;
+constexpr Index dense_factor = 10;
 
 /// Compute a closed surface around the volume that the given surface encloses. Hollows are not
 /// filled here.
@@ -58,7 +58,7 @@ Status close_surface(ExecutionContext& context, PointsView points, TrianglesView
   }
   RepairedSurface& surface = prepared.surface;
   const bool clean = surface.clean() && surface.found.nonmanifold_edges == 0;
-  if (clean && surface.triangles.rows() <= dense * options.triangles)
+  if (clean && surface.triangles.rows() <= dense_factor * options.triangles)
   {
     status.report.set("surface", "clean");
     solid.points = std::move(surface.points);
@@ -68,15 +68,15 @@ Status close_surface(ExecutionContext& context, PointsView points, TrianglesView
   status.warnings = prepared.warnings;
   status.report.merge(prepared.report);
   status.report.set("surface", "lattice");
-  ThickSolidOptions thick;
-  thick.winding_threshold = options.winding_threshold;
+  ThickSolidOptions thick_options;
+  thick_options.winding_threshold = options.winding_threshold;
   // Parts of a surface with defects that touch or almost touch are joined; the gaps of a clean
   // surface are kept.
-  thick.join_near_parts = !clean;
-  thick.triangles = (clean ? 4 : 2) * options.triangles;
+  thick_options.join_near_parts = !clean;
+  thick_options.triangles = (clean ? 4 : 2) * options.triangles;
   const ProgressRange range(context, 0.6, 1.0);
   Status made = thick_solid(
-    context, surface.points, surface.triangles, prepared.inside.winding(), thick, solid);
+    context, surface.points, surface.triangles, prepared.inside.winding(), thick_options, solid);
   status.report.merge(made.report);
   status.code = made.code;
   status.message = made.message;
@@ -139,7 +139,7 @@ std::vector<Solid> solids_of(const TriangleMesh& surface)
 }
 
 /// Return the component of each skeleton point. Components are numbered by their first points.
-std::vector<Index> parts_of(const CurveSkeleton& skeleton, Index& count)
+std::vector<Index> find_parts(const CurveSkeleton& skeleton, Index& count)
 {
   std::vector<std::vector<Index>> next(static_cast<std::size_t>(skeleton.points.rows()));
   for (Index s = 0; s < skeleton.segments.rows(); ++s)
@@ -187,7 +187,7 @@ void measure(const TriangleMesh& surface, CurveSkeleton& skeleton)
     skeleton.radii[v] = tree.distance(skeleton.points.row(v), any);
   }
   Index count = 0;
-  skeleton.part_of_point = parts_of(skeleton, count);
+  skeleton.part_of_point = find_parts(skeleton, count);
   std::vector<Index> widest(static_cast<std::size_t>(count), -1);
   for (Index v = 0; v < skeleton.points.rows(); ++v)
   {
@@ -212,7 +212,7 @@ void measure(const TriangleMesh& surface, CurveSkeleton& skeleton)
 }
 
 /// Remove duplicate segments and segments with two equal ends.
-Segments tidy(const Segments& segments)
+Segments unique_segments(const Segments& segments)
 {
   std::set<std::array<Index, 2>> pairs;
   for (Index s = 0; s < segments.rows(); ++s)
@@ -283,19 +283,19 @@ Status curve_skeleton(ExecutionContext& context, PointsView points, TrianglesVie
   }
   const Phase phase(context, "measure", 0.98, 1.0);
   skeleton.points = frame.back(answer.data.points);
-  skeleton.segments = tidy(answer.data.segments);
+  skeleton.segments = unique_segments(answer.data.segments);
   measure(solid, skeleton);
   const auto reported = [&](const char* key)
   { return static_cast<Index>(answer.report.number(key, 0.0)); };
-  const Index left_out = reported("crumbs") + reported("open");
+  const Index omitted = reported("crumbs") + reported("open");
   status.report.set("counts.parts", reported("parts"));
   status.report.set("counts.contracted_triangles", reported("triangles"));
   status.report.set("counts.iterations", reported("iterations"));
-  status.report.set("counts.left_out_parts", left_out);
-  if (left_out > 0)
+  status.report.set("counts.left_out_parts", omitted);
+  if (omitted > 0)
   {
-    status.warnings.push_back(std::to_string(left_out) +
-      (left_out == 1 ? " component has" : " components have") +
+    status.warnings.push_back(std::to_string(omitted) +
+      (omitted == 1 ? " component has" : " components have") +
       " no skeleton because a component must be closed and not much smaller than the largest one");
   }
   return status;

@@ -47,7 +47,7 @@ public:
 
   Index size() const { return static_cast<Index>(this->next_.size()); }
   bool is_inside(const Vec3& p) const { return !this->inside_ || this->inside_(p); }
-  bool leaves(const Vec3& head, const Vec3& tail) const
+  bool leaves_shape(const Vec3& head, const Vec3& tail) const
   {
     constexpr int pieces = 16;
     for (int i = 1; i < pieces; ++i)
@@ -67,7 +67,7 @@ public:
   bool is_alive(Index v) const { return this->alive_[v] != 0; }
   bool is_root(Index v) const { return this->is_root_[v] != 0; }
   Index degree(Index v) const { return static_cast<Index>(this->next_[v].size()); }
-  bool joint(Index v) const
+  bool is_joint(Index v) const
   {
     return this->is_alive(v) && (this->degree(v) != 2 || this->is_root(v));
   }
@@ -82,7 +82,7 @@ public:
       for (Index v = 0; v < this->size() && (joints_only || best < 0); ++v)
       {
         const double distance = (this->position(v) - this->centroid(part)).norm();
-        if (this->part(v) == part && this->is_alive(v) && (!joints_only || this->joint(v)) &&
+        if (this->part(v) == part && this->is_alive(v) && (!joints_only || this->is_joint(v)) &&
           distance < least)
         {
           least = distance;
@@ -129,13 +129,13 @@ public:
       open.erase(open.begin());
       for (const Index w : this->next_[v])
       {
-        const double way = distance[v] + (this->position(v) - this->position(w)).norm();
-        if (way < distance[w])
+        const double path_length = distance[v] + (this->position(v) - this->position(w)).norm();
+        if (path_length < distance[w])
         {
           open.erase({ distance[w], w });
-          distance[w] = way;
+          distance[w] = path_length;
           from[w] = v;
-          open.insert({ way, w });
+          open.insert({ path_length, w });
         }
       }
     }
@@ -162,7 +162,7 @@ public:
     std::vector<Branch> all;
     for (Index v = 0; v < this->size(); ++v)
     {
-      if (!this->joint(v))
+      if (!this->is_joint(v))
       {
         continue;
       }
@@ -176,7 +176,7 @@ public:
         {
           branch.path.push_back(at);
           branch.length += (this->position(at) - this->position(before)).norm();
-          if (this->joint(at))
+          if (this->is_joint(at))
           {
             break;
           }
@@ -313,7 +313,7 @@ private:
 /// junctions, the larger radius is used. Return infinity if the branch must be kept. If the value
 /// is below 1, the branch is inside the ball of this radius around the junction.
 /// @param inner set to true if the branch is between two junctions.
-double reach(const Graph& graph, const Branch& branch, bool& inner)
+double relative_length(const Graph& graph, const Branch& branch, bool& inner)
 {
   const Index a = branch.path.front();
   const Index b = branch.path.back();
@@ -368,29 +368,29 @@ void simplify(Graph& graph, const SkeletonBonesOptions& options, SkeletonBones& 
   {
     const std::vector<Branch> branches = graph.branches();
     const Branch* least = nullptr;
-    const Branch* least_limb = nullptr;
+    const Branch* shortest_limb = nullptr;
     double score = infinite;
     double limb_score = infinite;
-    bool least_inner = false;
+    bool shortest_is_inner = false;
     for (const Branch& branch : branches)
     {
       bool inner = false;
-      const double r = reach(graph, branch, inner);
+      const double r = relative_length(graph, branch, inner);
       if (r < score)
       {
         score = r;
         least = &branch;
-        least_inner = inner;
+        shortest_is_inner = inner;
       }
       if (!inner && r < limb_score)
       {
         limb_score = r;
-        least_limb = &branch;
+        shortest_limb = &branch;
       }
     }
     if (least && score < options.prune)
     {
-      if (least_inner)
+      if (shortest_is_inner)
       {
         graph.contract(*least);
         ++result.merged_branches;
@@ -401,10 +401,10 @@ void simplify(Graph& graph, const SkeletonBonesOptions& options, SkeletonBones& 
         ++result.pruned_branches;
       }
     }
-    else if (options.maximum_bones > 0 && least_limb &&
+    else if (options.maximum_bones > 0 && shortest_limb &&
       static_cast<Index>(branches.size()) > options.maximum_bones)
     {
-      graph.prune(*least_limb);
+      graph.prune(*shortest_limb);
       ++result.pruned_branches;
     }
     else
@@ -435,8 +435,8 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
   double length = 0.0;
   std::vector<double> along{ 0.0 };
   // Minimum deviation at which a piece may be split, as a fraction of the tolerance.
-  constexpr double slight = 0.25;
-  double farthest = slight * tolerance;
+  constexpr double minimum_deviation = 0.25;
+  double farthest = minimum_deviation * tolerance;
   for (std::size_t i = 1; i < piece.path.size(); ++i)
   {
     const Vec3& p = graph.position(piece.path[i]);
@@ -459,7 +459,7 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
   if (piece.at > 0)
   {
     piece.split_priority = farthest / tolerance;
-    if (piece.split_priority <= 1.0 && graph.leaves(head, head + chord))
+    if (piece.split_priority <= 1.0 && graph.leaves_shape(head, head + chord))
     {
       piece.split_priority += 1.0;
     }
@@ -503,7 +503,7 @@ std::vector<Index> outside_of_junctions(const Graph& graph, const std::vector<In
   return kept;
 }
 
-std::vector<Piece> split(const Graph& graph, double tolerance, double longest, Index most)
+std::vector<Piece> split(const Graph& graph, double tolerance, double longest, Index maximum_pieces)
 {
   std::vector<Piece> pieces;
   for (const Branch& branch : graph.branches())
@@ -511,17 +511,17 @@ std::vector<Piece> split(const Graph& graph, double tolerance, double longest, I
     pieces.push_back(
       make_piece(graph, outside_of_junctions(graph, branch.path), tolerance, longest));
   }
-  while (most == 0 || static_cast<Index>(pieces.size()) < most)
+  while (maximum_pieces == 0 || static_cast<Index>(pieces.size()) < maximum_pieces)
   {
-    const auto neediest = std::max_element(pieces.begin(), pieces.end(),
+    const auto next_piece = std::max_element(pieces.begin(), pieces.end(),
       [](const Piece& a, const Piece& b) { return a.split_priority < b.split_priority; });
-    if (neediest == pieces.end() || neediest->split_priority <= 1.0)
+    if (next_piece == pieces.end() || next_piece->split_priority <= 1.0)
     {
       break;
     }
-    const std::vector<Index> path = neediest->path;
-    const auto at = path.begin() + static_cast<std::ptrdiff_t>(neediest->at);
-    *neediest = make_piece(graph, { path.begin(), at + 1 }, tolerance, longest);
+    const std::vector<Index> path = next_piece->path;
+    const auto at = path.begin() + static_cast<std::ptrdiff_t>(next_piece->at);
+    *next_piece = make_piece(graph, { path.begin(), at + 1 }, tolerance, longest);
     pieces.push_back(make_piece(graph, { at, path.end() }, tolerance, longest));
   }
   return pieces;
@@ -577,7 +577,8 @@ public:
       const Index root = this->root_of(part);
       if (root >= 0)
       {
-        this->grow(root, this->nearest(this->graph_.position(root), first_bone, last_bone));
+        this->add_bones_from(
+          root, this->nearest(this->graph_.position(root), first_bone, last_bone));
         last_bone =
           last_bone > first_bone ? last_bone : static_cast<Index>(this->result_.handles.size());
       }
@@ -646,7 +647,7 @@ private:
   /// Create the bones of one component. The bone with the largest volume at the root is the parent
   /// of the other bones there.
   /// @param carrier parent of the first bone, or -1.
-  void grow(Index root, Index carrier)
+  void add_bones_from(Index root, Index trunk_parent)
   {
     std::vector<Index>& first = this->pieces_at_joint_[root];
     std::iter_swap(first.begin(),
@@ -680,7 +681,7 @@ private:
         bone.name = "b" + std::to_string(++this->bones_);
         bone.head = this->graph_.position(head);
         bone.tail = this->graph_.position(tail);
-        bone.parent = number == trunk ? carrier : parent;
+        bone.parent = number == trunk ? trunk_parent : parent;
         open.push({ tail, number });
         this->result_.handles.push_back(std::move(bone));
       }

@@ -30,13 +30,13 @@ struct Component
   std::vector<Index> vertices;
   double area = 0.0;
   Index points = 0;
-  bool full = false; ///< whether every vertex of the component is chosen
+  bool is_exhausted = false; ///< whether every vertex of the component is chosen
 };
 
-class Spread
+class PointSpreader
 {
 public:
-  Spread(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  PointSpreader(ExecutionContext& context, PointsView points, TrianglesView triangles,
     const SpreadPointsOptions& options)
     : points_(points), triangles_(triangles), options_(options), context_(context)
   {
@@ -59,7 +59,7 @@ public:
     return this->winding_.build(this->context_, this->points_, this->triangles_);
   }
 
-  Status choose(SpreadPoints& result)
+  Status choose_points(SpreadPoints& result)
   {
     result.components = static_cast<Index>(this->components_.size());
     const SurfaceProbe probe(this->points_, this->triangles_);
@@ -79,7 +79,7 @@ public:
             " requested points");
         }
         vertex = this->farthest(*component);
-        component->full = vertex < 0;
+        component->is_exhausted = vertex < 0;
       }
       ++component->points;
       result.covered_components += component->points == 1 ? 1 : 0;
@@ -115,11 +115,11 @@ private:
     {
       finite[static_cast<std::size_t>(v)] = this->points_.row(v).allFinite();
     }
-    const std::vector<Index> weld = find_representatives(this->points_, finite);
+    const std::vector<Index> welded_ids = find_representatives(this->points_, finite);
     this->welded_ = this->triangles_;
     for (Index k = 0; k < this->welded_.size(); ++k)
     {
-      this->welded_.data()[k] = weld[this->welded_.data()[k]];
+      this->welded_.data()[k] = welded_ids[this->welded_.data()[k]];
     }
     const Components parts =
       connected_components(this->points_.rows(), TrianglesView(this->welded_));
@@ -175,17 +175,18 @@ private:
   /// point. Then points are assigned by area. Return null if all components are full.
   Component* next_component()
   {
-    constexpr double crumb = 0.01;
+    constexpr double minimum_area_fraction = 0.01;
     Component* best = nullptr;
     double most = -1.0;
     bool best_first = false;
     for (Component& component : this->components_)
     {
-      if (component.full)
+      if (component.is_exhausted)
       {
         continue;
       }
-      const bool first = component.points == 0 && component.area >= crumb * this->largest_area_;
+      const bool first =
+        component.points == 0 && component.area >= minimum_area_fraction * this->largest_area_;
       const double area_per_point = component.area / static_cast<double>(component.points + 1);
       if ((first && !best_first) || (first == best_first && area_per_point > most))
       {
@@ -235,7 +236,7 @@ private:
   /// Move a point from its vertex into the middle of the shape, unless another point is already at
   /// the new position. Return whether the point was moved.
   /// @param depth set to the distance of the moved point from the surface.
-  bool move_inside(const SurfaceProbe& probe, Index vertex, const std::vector<Vec3>& taken,
+  bool move_inside(const SurfaceProbe& probe, Index vertex, const std::vector<Vec3>& earlier_points,
     Vec3& position, double& depth) const
   {
     // The inside is tested at one point on each side of the surface. This is the distance of these
@@ -293,7 +294,7 @@ private:
     }
     const Vec3 inner = origin + best * direction;
     constexpr double same = 1e-6;
-    const bool free = std::none_of(taken.begin(), taken.end(),
+    const bool free = std::none_of(earlier_points.begin(), earlier_points.end(),
       [&](const Vec3& other) { return (other - inner).norm() <= same * this->diagonal_; });
     if (!free || !this->is_inside(inner))
     {
@@ -333,7 +334,7 @@ private:
     }
     using Entry = std::pair<double, Index>;
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
-    const auto bring = [&](double distance, Index v)
+    const auto relax = [&](double distance, Index v)
     {
       if (distance < this->distance_[v])
       {
@@ -343,12 +344,12 @@ private:
     };
     for (const auto& [distance, v] : near)
     {
-      bring(distance, v);
+      relax(distance, v);
     }
-    constexpr Index seldom = 4096;
+    constexpr Index report_interval = 4096;
     for (Index count = 1; !open.empty(); ++count)
     {
-      if (count % seldom == 0 && this->context_.canceled())
+      if (count % report_interval == 0 && this->context_.canceled())
       {
         return false;
       }
@@ -360,7 +361,7 @@ private:
       }
       for (const Index w : this->neighbors_[v])
       {
-        bring(distance + (this->points_.row(v) - this->points_.row(w)).norm(), w);
+        relax(distance + (this->points_.row(v) - this->points_.row(w)).norm(), w);
       }
     }
     return !this->context_.canceled();
@@ -400,7 +401,7 @@ Status spread_points(ExecutionContext& context, PointsView points, TrianglesView
   {
     return status;
   }
-  Spread spread(context, points, triangles, options);
+  PointSpreader spread(context, points, triangles, options);
   {
     const Phase phase(context, "build", 0.0, 0.3);
     status = spread.build();
@@ -410,7 +411,7 @@ Status spread_points(ExecutionContext& context, PointsView points, TrianglesView
     return status;
   }
   const Phase phase(context, "choose", 0.3, 1.0);
-  status = spread.choose(result);
+  status = spread.choose_points(result);
   if (!status.ok())
   {
     result = SpreadPoints();

@@ -18,11 +18,11 @@ namespace bindpose
 namespace
 {
 /// Points nearer to a bone than this fraction of the mesh's diagonal are on the bone.
-constexpr double on_bone = 1e-6;
+constexpr double bone_tolerance = 1e-6;
 
 using EdgeKey = std::pair<Index, Index>;
 
-EdgeKey key_of(Index a, Index b)
+EdgeKey edge_key(Index a, Index b)
 {
   return { std::min(a, b), std::max(a, b) };
 }
@@ -42,8 +42,8 @@ std::vector<Index> vertices_along(PointsView points, const Handle& bone, double 
   {
     const Eigen::Vector2d offset = points.row(v).head<2>().transpose() - head;
     const double at = offset.dot(along) / length;
-    const double aside = (along[0] * offset[1] - along[1] * offset[0]) / length;
-    if (std::abs(aside) <= tolerance && at >= -tolerance && at <= length + tolerance)
+    const double line_distance = (along[0] * offset[1] - along[1] * offset[0]) / length;
+    if (std::abs(line_distance) <= tolerance && at >= -tolerance && at <= length + tolerance)
     {
       found.emplace_back(at, v);
     }
@@ -81,7 +81,7 @@ std::vector<std::vector<Index>> groups_around(Index vertex,
     for (int k = 0; k < 3; ++k)
     {
       const Index other = triangles(adjacent_triangles[i], k);
-      if (other == vertex || bones.count(key_of(vertex, other)))
+      if (other == vertex || bones.count(edge_key(vertex, other)))
       {
         continue;
       }
@@ -125,7 +125,7 @@ Index side_of(Index vertex, const std::vector<Index>& group, PointsView points,
     for (int k = 0; k < 3; ++k)
     {
       const Index other = triangles(t, k);
-      const auto bone = other == vertex ? bones.end() : bones.find(key_of(vertex, other));
+      const auto bone = other == vertex ? bones.end() : bones.find(edge_key(vertex, other));
       if (bone != bones.end())
       {
         const Index third = triangles.row(t).sum() - vertex - other;
@@ -156,7 +156,7 @@ Status cut_along_bones(ExecutionContext& context, PointsView points, TrianglesVi
     return status;
   }
   const Box box = bounding_box(points);
-  const double tolerance = on_bone * box.diagonal();
+  const double tolerance = bone_tolerance * box.diagonal();
   if (triangles.rows() == 0 || box.size()[2] > tolerance)
   {
     return Status::invalid_input("a mesh must be in a plane z = const to be cut along bones");
@@ -164,7 +164,7 @@ Status cut_along_bones(ExecutionContext& context, PointsView points, TrianglesVi
   BoneEdges edges;
   for (const Edge& edge : mesh_edges(triangles))
   {
-    edges.emplace(key_of(edge.a, edge.b), -1);
+    edges.emplace(edge_key(edge.a, edge.b), -1);
   }
   std::vector<Index> curve_of = curves;
   for (std::size_t b = curve_of.size(); b < handles.size(); ++b)
@@ -185,13 +185,13 @@ Status cut_along_bones(ExecutionContext& context, PointsView points, TrianglesVi
     }
     bones += 1;
     const std::vector<Index> along = vertices_along(points, handles[b], tolerance);
-    bool is_row = along.size() > 1;
+    bool is_edge_chain = along.size() > 1;
     for (std::size_t i = 1; i < along.size(); ++i)
     {
-      is_row = is_row && edges.count(key_of(along[i - 1], along[i])) > 0;
-      cut.emplace(key_of(along[i - 1], along[i]), static_cast<Index>(b));
+      is_edge_chain = is_edge_chain && edges.count(edge_key(along[i - 1], along[i])) > 0;
+      cut.emplace(edge_key(along[i - 1], along[i]), static_cast<Index>(b));
     }
-    if (!is_row)
+    if (!is_edge_chain)
     {
       return Status::invalid_input("bone '" + handles[b].name +
         "' must consist of edges of the mesh; create the mesh with these handles");
@@ -237,7 +237,7 @@ Status cut_along_bones(ExecutionContext& context, PointsView points, TrianglesVi
       {
         for (int k = 0; k < 3; ++k)
         {
-          const auto bone = cut.find(key_of(vertex, triangles(t, k)));
+          const auto bone = cut.find(edge_key(vertex, triangles(t, k)));
           if (bone != cut.end())
           {
             opened[static_cast<std::size_t>(bone->second)] = true;

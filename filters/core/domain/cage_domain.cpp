@@ -14,7 +14,7 @@ namespace
 /// Orient the edges of a cage, whose given directions are arbitrary. Each edge is reversed if
 /// necessary, so that it begins where the previous edge ends. Then all edges are reversed if they
 /// enclose a negative area.
-void run_around(PlanePointsView points, Segments& edges)
+void orient_outline(PlanePointsView points, Segments& edges)
 {
   std::vector<std::vector<Index>> at(static_cast<std::size_t>(points.rows()));
   for (Index e = 0; e < edges.rows(); ++e)
@@ -96,11 +96,11 @@ Status fill_edges(ExecutionContext& context, const std::vector<CageElement>& edg
   PointsView points, TrianglesView triangles, const Handles& handles, const CageOptions& cage,
   CageDomain& result)
 {
-  const char* needs = "domain cage needs handles with a closed cage of faces, or of edges in "
-                      "the plane of a flat shape";
+  const char* requirement = "domain cage needs handles with a closed cage of faces, or of edges in "
+                            "the plane of a flat shape";
   if (edges.empty())
   {
-    return Status::invalid_input(needs);
+    return Status::invalid_input(requirement);
   }
   // The rows are, in this order: heads of all handles, tails of all handles (bones), points of the
   // shape.
@@ -126,7 +126,8 @@ Status fill_edges(ExecutionContext& context, const std::vector<CageElement>& edg
   Vec3 normal;
   if (!is_flat(positions, bounding_box(positions).diagonal(), normal))
   {
-    return Status::invalid_input(std::string(needs) + "; these handles and the shape are not flat");
+    return Status::invalid_input(
+      std::string(requirement) + "; these handles and the shape are not flat");
   }
   // Orient the normal so that the shape's triangles are counter-clockwise around it.
   Vec3 area = Vec3::Zero();
@@ -148,7 +149,7 @@ Status fill_edges(ExecutionContext& context, const std::vector<CageElement>& edg
   {
     outline.row(e) << edges[static_cast<std::size_t>(e)][0], edges[static_cast<std::size_t>(e)][1];
   }
-  run_around(corners, outline);
+  orient_outline(corners, outline);
   PlanarShapeOptions options;
   options.winding_threshold = cage.winding_threshold;
   PlanarShape shape;

@@ -16,18 +16,18 @@ namespace
 {
 /// Maximum number of triangles for conforming tets. For surfaces with more triangles, a lattice of
 /// about 30,000 tets is cheaper.
-constexpr Index most_triangles = 20000;
+constexpr Index maximum_triangles = 20000;
 /// A triangle with an angle below this counts as badly shaped. A tet at such a triangle is badly
 /// shaped, too.
 constexpr double bad_angle = 2.0; // degrees
 /// Maximum fractions of badly shaped triangles and of badly shaped tets. Measured on real furniture
 /// models: all tet meshes on which solves failed exceeded these fractions.
-constexpr double most_bad_triangles = 0.02;
-constexpr double most_bad_tets = 0.03;
+constexpr double maximum_bad_triangles = 0.02;
+constexpr double maximum_bad_tets = 0.03;
 /// Approximate number of vertices of a lattice, and the factor by which solving on two lattices
 /// (the guard) takes longer than solving on the finer lattice alone.
-constexpr Index lattice_vertices = 9000;
-constexpr double both_resolutions = 1.3;
+constexpr Index typical_lattice_vertices = 9000;
+constexpr double two_lattice_factor = 1.3;
 
 std::string percent_of(Index part, Index whole)
 {
@@ -46,12 +46,12 @@ std::string reason_against_volume(const RepairedSurface& surface)
   {
     return "triangles cross or coincide";
   }
-  if (count > most_triangles)
+  if (count > maximum_triangles)
   {
     return "the surface has many triangles";
   }
   const Index bad = count_needles(surface.points, surface.triangles, bad_angle);
-  return static_cast<double>(bad) > most_bad_triangles * static_cast<double>(count)
+  return static_cast<double>(bad) > maximum_bad_triangles * static_cast<double>(count)
     ? percent_of(bad, count) + " of the triangles have an angle below " + short_number(bad_angle) +
       " degrees"
     : std::string();
@@ -61,27 +61,29 @@ std::string reason_against_tets(const TetMesh& tets, Index handle_count)
 {
   const Index count = tets.tets.rows();
   const TetQuality quality = measure_tets(tets.points, tets.tets);
-  if (static_cast<double>(quality.below_5_degrees) > most_bad_tets * static_cast<double>(count))
+  if (static_cast<double>(quality.below_5_degrees) > maximum_bad_tets * static_cast<double>(count))
   {
     return percent_of(quality.below_5_degrees, count) +
       " of the tets have a dihedral angle below 5 degrees";
   }
-  const double in_tets = predicted_seconds(tets.points.rows(), handle_count);
-  const double in_lattice = both_resolutions * predicted_seconds(lattice_vertices, handle_count);
+  const double tet_seconds = predicted_seconds(tets.points.rows(), handle_count);
+  const double lattice_seconds =
+    two_lattice_factor * predicted_seconds(typical_lattice_vertices, handle_count);
   // Conforming tets are preferred up to this multiple of the predicted time of lattices, because
   // such tets preserve the surface.
-  constexpr double worth = 2.0;
-  return in_tets > worth * in_lattice ? std::to_string(count) + " tets would take about " +
-      short_number(in_tets, 2) + " s, a lattice " + short_number(in_lattice, 2) + " s"
-                                      : std::string();
+  constexpr double minimum_speedup = 2.0;
+  return tet_seconds > minimum_speedup * lattice_seconds
+    ? std::to_string(count) + " tets would take about " + short_number(tet_seconds, 2) +
+      " s, a lattice " + short_number(lattice_seconds, 2) + " s"
+    : std::string();
 }
 
 double predicted_seconds(Index vertices, Index handle_count)
 {
-  const double thousands = static_cast<double>(vertices) / 12000.0;
+  const double relative_size = static_cast<double>(vertices) / 12000.0;
   constexpr double factorization = 0.1;
   constexpr double per_column = 6.0;
-  return factorization * thousands * thousands *
+  return factorization * relative_size * relative_size *
     (2.0 + per_column * static_cast<double>(handle_count));
 }
 

@@ -48,7 +48,7 @@ Eigen::MatrixXd corner_gradients(const Domain& domain, WeightsView values)
     const double volume_times_six = a.cross(b).dot(c);
     const double volume =
       volume_times_six * (domain.inside_fractions.size() > 0 ? domain.inside_fractions[t] : 1.0);
-    const Vec3 of_hat[3] = { b.cross(c) / volume_times_six, c.cross(a) / volume_times_six,
+    const Vec3 hat_gradients[3] = { b.cross(c) / volume_times_six, c.cross(a) / volume_times_six,
       a.cross(b) / volume_times_six };
     const auto row = [&](int k) { return values.row(domain.tets(t, k)); };
     for (int axis = 0; axis < 3; ++axis)
@@ -56,7 +56,7 @@ Eigen::MatrixXd corner_gradients(const Domain& domain, WeightsView values)
       Eigen::RowVectorXd g = Eigen::RowVectorXd::Zero(m);
       for (int k = 1; k < 4; ++k)
       {
-        g += of_hat[k - 1][axis] * (row(k) - row(0));
+        g += hat_gradients[k - 1][axis] * (row(k) - row(0));
       }
       for (int k = 0; k < 4; ++k)
       {
@@ -128,7 +128,7 @@ EmbeddedSurface::EmbeddedSurface(PointsView points, TrianglesView triangles,
   }
   group_by_key(
     lattice.points.rows(), lattice.tets.size(), [&](Index i) { return lattice.tets.data()[i]; },
-    this->first_corner_, this->corners_at_);
+    this->first_corner_, this->corners_of_vertex_);
 }
 
 EmbeddedSurface::LatticePosition EmbeddedSurface::center_of(Index tet) const
@@ -191,7 +191,7 @@ Index EmbeddedSurface::tet_of(const Vec3& position) const
       const Index v = this->lattice_.tets(queue[i], k);
       for (Index at = this->first_corner_[v]; at < this->first_corner_[v + 1]; ++at)
       {
-        const Index tet = this->corners_at_[at] / 4;
+        const Index tet = this->corners_of_vertex_[at] / 4;
         if (visited.insert(tet).second)
         {
           queue.push_back(tet);

@@ -77,7 +77,8 @@ private:
   double spacing_ = 0.0; ///< edge length of a lattice cube, which is the longest edge of a tet
   /// For each center that several tets have in common: the ids of these tets (copies).
   std::unordered_map<LatticePosition, std::vector<Index>, LatticePositionHash> copies_;
-  std::vector<Index> first_corner_, corners_at_; ///< corners grouped by vertex, as 4 * tet + corner
+  /// Corners grouped by vertex, as 4 * tet + corner.
+  std::vector<Index> first_corner_, corners_of_vertex_;
 };
 
 } // namespace bindpose

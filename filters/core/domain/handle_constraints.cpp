@@ -194,12 +194,12 @@ std::string advice_about(const Handle& handle, const Box& box)
 {
   const auto distance = [&](const Vec3& p)
   { return (p - p.cwiseMax(box.lower).cwiseMin(box.upper)).norm() / box.diagonal(); };
-  const double away = std::min(distance(handle.head), distance(handle.tail));
+  const double distance_outside = std::min(distance(handle.head), distance(handle.tail));
   constexpr double near = 0.05;
-  return away > near ? "it is " + short_number(away) +
+  return distance_outside > near ? "it is " + short_number(distance_outside) +
       " bounding-box diagonals outside the mesh, so check the units and the position of the "
       "handles"
-                     : "move it, or refine the mesh there";
+                                 : "move it, or refine the mesh there";
 }
 
 /// Give every handle a vertex of its own, which is a vertex on no other handle. Without such a

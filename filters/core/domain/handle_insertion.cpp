@@ -43,7 +43,7 @@ struct Sample
 
 /// An edge or face of a cage with the positions of its corners. The third corner of an edge repeats
 /// its second.
-struct PlacedElement
+struct CageElementShape
 {
   CageElement element;
   Vec3 corners[3];
@@ -82,8 +82,8 @@ public:
 private:
   void copy_mesh();
   void add_bone_samples(
-    Index handle, std::vector<Sample>& on_vertices, std::vector<Sample>& between);
-  void add_cage_samples(std::vector<Sample>& on_vertices, std::vector<Sample>& between);
+    Index handle, std::vector<Sample>& on_vertices, std::vector<Sample>& between_vertices);
+  void add_cage_samples(std::vector<Sample>& on_vertices, std::vector<Sample>& between_vertices);
   void add_cage_vertex(Index number, Index vertex);
   HandlePlacement& placement_of(Index handle)
   {
@@ -92,7 +92,7 @@ private:
   SimplexLocation root(const Vec3& p) const;
   bool is_in_located_element(Index v) const;
   SimplexLocation locate(const Vec3& p, Vec3& position) const;
-  void take_corners(Sample& sample);
+  void constrain_corners(Sample& sample);
   void insert(Sample& sample, const std::vector<Sample>& earlier);
   Index split(const std::vector<Index>& span, const Vec3& position, Index root);
   void finish();
@@ -110,7 +110,7 @@ private:
   std::vector<Element> elements_;
   // Elements at every vertex, including elements that were split.
   std::vector<std::vector<Index>> incident_;
-  std::vector<PlacedElement> cage_;
+  std::vector<CageElementShape> cage_;
   HandlePlacement on_cage_; // common placement of all samples on edges and faces of cages
   Index cage_samples_outside_ = 0;
 };
@@ -147,13 +147,13 @@ SimplexLocation Inserter::nearest(const Element& element, const Vec3& p) const
 /// element.
 SimplexLocation Inserter::root(const Vec3& p) const
 {
-  const Index known = this->options_.element_of ? this->options_.element_of(p) : -1;
-  if (known < 0)
+  const Index given_element = this->options_.element_of ? this->options_.element_of(p) : -1;
+  if (given_element < 0)
   {
     return this->locator_->locate(p);
   }
-  SimplexLocation at = this->nearest(this->elements_[known], p);
-  at.element = known;
+  SimplexLocation at = this->nearest(this->elements_[given_element], p);
+  at.element = given_element;
   return at;
 }
 
@@ -201,35 +201,36 @@ SimplexLocation Inserter::locate(const Vec3& p, Vec3& position) const
 }
 
 void Inserter::add_bone_samples(
-  Index handle, std::vector<Sample>& on_vertices, std::vector<Sample>& between)
+  Index handle, std::vector<Sample>& on_vertices, std::vector<Sample>& between_vertices)
 {
   const Vec3 head = this->handles_[handle].head;
   const Vec3 axis = this->handles_[handle].tail - head;
   const double length = axis.norm();
   // Positions of vertices that are already on the bone, as fractions of its length.
-  std::vector<double> stops{ 0.0, 1.0 };
-  const double on = 1e-7 * this->diagonal_;
+  std::vector<double> parameters{ 0.0, 1.0 };
+  const double tolerance = 1e-7 * this->diagonal_;
   for (std::size_t v = 0; v < this->points_.size(); ++v)
   {
     const Vec3 d = this->points_[v] - head;
     const double t = d.dot(axis) / (length * length);
-    if (t < -on / length || t > 1.0 + on / length || (d - t * axis).norm() > on ||
-      this->incident_[v].empty() || !this->is_in_located_element(static_cast<Index>(v)))
+    if (t < -tolerance / length || t > 1.0 + tolerance / length ||
+      (d - t * axis).norm() > tolerance || this->incident_[v].empty() ||
+      !this->is_in_located_element(static_cast<Index>(v)))
     {
       continue;
     }
     this->result_.handles[handle].vertices.push_back(static_cast<Index>(v));
     on_vertices.push_back({ this->points_[v], handle, static_cast<Index>(v) });
-    stops.push_back(std::clamp(t, 0.0, 1.0));
+    parameters.push_back(std::clamp(t, 0.0, 1.0));
   }
-  std::sort(stops.begin(), stops.end());
+  std::sort(parameters.begin(), parameters.end());
   // A bone without a vertex between its ends gets at least one sample between its ends.
-  const bool bare = std::none_of(stops.begin(), stops.end(),
-    [&](double t) { return t * length > on && (1.0 - t) * length > on; });
-  for (std::size_t i = 0; i + 1 < stops.size(); ++i)
+  const bool bare = std::none_of(parameters.begin(), parameters.end(),
+    [&](double t) { return t * length > tolerance && (1.0 - t) * length > tolerance; });
+  for (std::size_t i = 0; i + 1 < parameters.size(); ++i)
   {
-    const double gap = stops[i + 1] - stops[i];
-    if (gap * length <= on)
+    const double gap = parameters[i + 1] - parameters[i];
+    if (gap * length <= tolerance)
     {
       continue;
     }
@@ -241,20 +242,20 @@ void Inserter::add_bone_samples(
     };
     const auto pieces = [&](double edges)
     { return std::max(bare ? 2 : 1, static_cast<int>(std::lround(edges))); };
-    for (const double cut : line_cuts(stops[i], stops[i + 1], edge_at, pieces))
+    for (const double cut : line_cuts(parameters[i], parameters[i + 1], edge_at, pieces))
     {
-      between.push_back({ head + cut * axis, handle, -1 });
+      between_vertices.push_back({ head + cut * axis, handle, -1 });
     }
   }
 }
 
 void Inserter::add_cage_vertex(Index number, Index vertex)
 {
-  const PlacedElement& placed = this->cage_[-1 - number];
-  const SimplexLocation at = placed.nearest(this->points_[vertex]);
-  CageVertex on_cage{ vertex, placed.element,
+  const CageElementShape& shape = this->cage_[-1 - number];
+  const SimplexLocation at = shape.nearest(this->points_[vertex]);
+  CageVertex on_cage{ vertex, shape.element,
     { at.barycentric[0], at.barycentric[1], at.barycentric[2] } };
-  if (placed.element[2] < 0)
+  if (shape.element[2] < 0)
   {
     on_cage.barycentric[1] += on_cage.barycentric[2];
     on_cage.barycentric[2] = 0.0;
@@ -262,9 +263,10 @@ void Inserter::add_cage_vertex(Index number, Index vertex)
   this->result_.cage.push_back(on_cage);
 }
 
-void Inserter::add_cage_samples(std::vector<Sample>& on_vertices, std::vector<Sample>& between)
+void Inserter::add_cage_samples(
+  std::vector<Sample>& on_vertices, std::vector<Sample>& between_vertices)
 {
-  const double on = 1e-7 * this->diagonal_;
+  const double tolerance = 1e-7 * this->diagonal_;
   for (const Handle& handle : this->handles_)
   {
     for (const CageElement& element : handle.cage)
@@ -276,14 +278,14 @@ void Inserter::add_cage_samples(std::vector<Sample>& on_vertices, std::vector<Sa
   }
   for (std::size_t i = 0; i < this->cage_.size(); ++i)
   {
-    const PlacedElement& placed = this->cage_[i];
+    const CageElementShape& shape = this->cage_[i];
     const Index number = -1 - static_cast<Index>(i);
-    const bool face = placed.element[2] >= 0;
+    const bool face = shape.element[2] >= 0;
     HandleElements handle_elements;
     handle_elements.points.resize(face ? 3 : 2, 3);
     for (Index k = 0; k < handle_elements.points.rows(); ++k)
     {
-      handle_elements.points.row(k) = placed.corners[k];
+      handle_elements.points.row(k) = shape.corners[k];
     }
     handle_elements.segments.resize(face ? 3 : 1, 2);
     handle_elements.segments.row(0) << 0, 1;
@@ -301,7 +303,7 @@ void Inserter::add_cage_samples(std::vector<Sample>& on_vertices, std::vector<Sa
     const std::size_t first = on_vertices.size();
     for (std::size_t v = 0; v < this->points_.size(); ++v)
     {
-      if (!this->incident_[v].empty() && placed.nearest(this->points_[v]).distance <= on &&
+      if (!this->incident_[v].empty() && shape.nearest(this->points_[v]).distance <= tolerance &&
         this->is_in_located_element(static_cast<Index>(v)))
       {
         on_vertices.push_back({ this->points_[v], number, static_cast<Index>(v) });
@@ -321,7 +323,7 @@ void Inserter::add_cage_samples(std::vector<Sample>& on_vertices, std::vector<Sa
       }
       if (this->root(position).distance <= 1e-6 * this->diagonal_)
       {
-        between.push_back({ position, number, -1 });
+        between_vertices.push_back({ position, number, -1 });
       }
       else
       {
@@ -333,7 +335,7 @@ void Inserter::add_cage_samples(std::vector<Sample>& on_vertices, std::vector<Sa
 
 /// For option keep_mesh: assign to the handle those corners of the sample's element at which the
 /// sample has a nonzero barycentric coordinate.
-void Inserter::take_corners(Sample& sample)
+void Inserter::constrain_corners(Sample& sample)
 {
   Vec3 position;
   const SimplexLocation at = this->locate(sample.position, position);
@@ -371,7 +373,7 @@ void Inserter::insert(Sample& sample, const std::vector<Sample>& earlier)
     }
   }
   const Element& element = this->elements_[at.element];
-  const auto taken_by_other = [&](Index v)
+  const auto used_by_other_handle = [&](Index v)
   {
     return std::any_of(earlier.begin(), earlier.end(),
       [&](const Sample& other) { return other.vertex == v && other.handle != sample.handle; });
@@ -393,7 +395,7 @@ void Inserter::insert(Sample& sample, const std::vector<Sample>& earlier)
       }
     }
     target /= sum;
-    if (span.size() > 1 || !taken_by_other(span[0]))
+    if (span.size() > 1 || !used_by_other_handle(span[0]))
     {
       break;
     }
@@ -409,7 +411,7 @@ void Inserter::insert(Sample& sample, const std::vector<Sample>& earlier)
 
 Index Inserter::split(const std::vector<Index>& span, const Vec3& position, Index root)
 {
-  const auto fresh = static_cast<Index>(this->points_.size());
+  const auto new_vertex = static_cast<Index>(this->points_.size());
   InsertedVertex inserted;
   const SimplexLocation in_root = [&]
   {
@@ -427,7 +429,7 @@ Index Inserter::split(const std::vector<Index>& span, const Vec3& position, Inde
   this->points_.push_back(position);
   this->incident_.emplace_back();
 
-  std::vector<Index> around;
+  std::vector<Index> incident_elements;
   for (const Index e : this->incident_[span[0]])
   {
     const Element& element = this->elements_[e];
@@ -436,10 +438,10 @@ Index Inserter::split(const std::vector<Index>& span, const Vec3& position, Inde
       [&](Index v) { return std::find(element.ids.begin(), end, v) != end; });
     if (element.children.empty() && has_all)
     {
-      around.push_back(e);
+      incident_elements.push_back(e);
     }
   }
-  for (const Index e : around)
+  for (const Index e : incident_elements)
   {
     for (const Index v : span)
     {
@@ -447,7 +449,7 @@ Index Inserter::split(const std::vector<Index>& span, const Vec3& position, Inde
       Element part;
       part.ids = this->elements_[e].ids;
       part.root = this->elements_[e].root;
-      std::replace(part.ids.begin(), part.ids.begin() + this->corners_, v, fresh);
+      std::replace(part.ids.begin(), part.ids.begin() + this->corners_, v, new_vertex);
       for (int k = 0; k < this->corners_; ++k)
       {
         this->incident_[part.ids[k]].push_back(child);
@@ -456,7 +458,7 @@ Index Inserter::split(const std::vector<Index>& span, const Vec3& position, Inde
       this->elements_.push_back(std::move(part));
     }
   }
-  return fresh;
+  return new_vertex;
 }
 
 void Inserter::finish()
@@ -534,7 +536,7 @@ Status Inserter::run(ExecutionContext& context)
   // samples whose positions along a bone or cage are arbitrary.
   std::vector<Sample> samples;
   std::vector<Sample> ends;
-  std::vector<Sample> between;
+  std::vector<Sample> between_vertices;
   std::vector<Sample> earlier; // samples that already have a vertex
   for (std::size_t i = 0; i < this->handles_.size(); ++i)
   {
@@ -552,16 +554,16 @@ Status Inserter::run(ExecutionContext& context)
     {
       ends.push_back({ handle.head, at, -1 });
       ends.push_back({ handle.tail, at, -1 });
-      this->add_bone_samples(at, earlier, between);
+      this->add_bone_samples(at, earlier, between_vertices);
     }
     if (context.canceled())
     {
       return Status::canceled();
     }
   }
-  this->add_cage_samples(earlier, between);
+  this->add_cage_samples(earlier, between_vertices);
   samples.insert(samples.end(), ends.begin(), ends.end());
-  samples.insert(samples.end(), between.begin(), between.end());
+  samples.insert(samples.end(), between_vertices.begin(), between_vertices.end());
   // Samples that are exactly at a vertex come first. Otherwise a nearby sample of another handle
   // could snap to that vertex first.
   std::stable_partition(samples.begin(), samples.end(),
@@ -574,7 +576,7 @@ Status Inserter::run(ExecutionContext& context)
   {
     if (this->options_.keep_mesh)
     {
-      this->take_corners(samples[i]);
+      this->constrain_corners(samples[i]);
     }
     else
     {

@@ -10,7 +10,7 @@ namespace
 {
 /// Maximum distance of touching components, as a fraction of the surface's diagonal.
 constexpr double touching = 1.0 / 500.0;
-constexpr Index most_loose_components = 20000;
+constexpr Index maximum_loose_components = 20000;
 
 /// For each part of the lattice, return 1 if the part contains a handle, else 0.
 std::vector<char> parts_with_handles(
@@ -91,7 +91,7 @@ Status find_loose_parts(ExecutionContext& context, PointsView points, TrianglesV
       tet < 0 || has_handle[parts.component_of_vertex[tets.tets(tet, 0)]] ? 1 : 0;
   }
   const auto loose = std::count(is_attached.begin(), is_attached.end(), 0);
-  if (loose == 0 || loose == components.count || loose > most_loose_components)
+  if (loose == 0 || loose == components.count || loose > maximum_loose_components)
   {
     return {};
   }

@@ -41,7 +41,7 @@ public:
     : free_(VectorXd::Ones(points.rows()))
   {
     const Points scaled = (points.rowwise() - points.row(0)) / length;
-    this->stiffness_ = stiffness_matrix(scaled, triangles, shares_of(scaled, triangles));
+    this->stiffness_ = stiffness_matrix(scaled, triangles, triangle_factors(scaled, triangles));
     this->mass_ = lumped_mass(scaled, triangles);
     // Raise tiny masses, because points of needle triangles would otherwise increase the number of
     // iterations.
@@ -53,11 +53,11 @@ public:
     }
     if (this->factor(context))
     {
-      this->count_fixed(context, fixed);
+      this->prepare_correction(context, fixed);
     }
     else
     {
-      this->take_diagonal();
+      this->use_diagonal();
     }
   }
 
@@ -80,39 +80,39 @@ public:
     Lanes rz = this->precondition(r, z, work);
     p = z;
     const Lanes first = rz;
-    const Lanes enough = reduction * reduction * first;
+    const Lanes target_rz = reduction * reduction * first;
     // A column no longer changes after it has converged, or after round-off prevents an
     // improvement.
-    Eigen::Array<bool, 1, lanes> goes_on = rz > enough;
-    for (int i = 0; i < most_iterations && goes_on.any() && !context.canceled(); ++i)
+    Eigen::Array<bool, 1, lanes> is_active = rz > target_rz;
+    for (int i = 0; i < most_iterations && is_active.any() && !context.canceled(); ++i)
     {
       this->find_curvature(p, curvature);
-      Lanes along = Lanes::Zero();
+      Lanes p_ap = Lanes::Zero();
       for (Index v = 0; v < count; ++v)
       {
         const Lanes p_v = p.row(v);
         const Lanes ap_v =
           this->free_[v] * (this->mass_[v] * p_v + this->times_stiffness(curvature, v));
         ap.row(v) = ap_v;
-        along += p_v * ap_v;
+        p_ap += p_v * ap_v;
       }
-      goes_on = goes_on && along > 0.0;
-      const Lanes step = goes_on.select(rz / along, 0.0);
+      is_active = is_active && p_ap > 0.0;
+      const Lanes step = is_active.select(rz / p_ap, 0.0);
       for (Index v = 0; v < count; ++v)
       {
         w.row(v) += step * p.row(v);
         r.row(v) -= step * ap.row(v);
       }
       const Lanes next = this->precondition(r, z, work);
-      const Lanes again = goes_on.select(next / rz, 0.0);
+      const Lanes beta = is_active.select(next / rz, 0.0);
       for (Index v = 0; v < count; ++v)
       {
-        p.row(v) = z.row(v) + again * p.row(v);
+        p.row(v) = z.row(v) + beta * p.row(v);
       }
       rz = next;
-      goes_on = goes_on && rz > enough;
+      is_active = is_active && rz > target_rz;
       const Lanes done_fraction =
-        goes_on.select((rz / first).log() / std::log(reduction * reduction), 1.0);
+        is_active.select((rz / first).log() / std::log(reduction * reduction), 1.0);
       advance(done_fraction.minCoeff());
     }
   }
@@ -128,7 +128,7 @@ private:
   /// almost no height, entries are up to 1e16, and their round-off would exceed the smoothed
   /// values. The factors limit all entries to the entries at an angle of 2 degrees. The matrix
   /// stays positive semi-definite.
-  static VectorXd shares_of(const Points& points, TrianglesView triangles)
+  static VectorXd triangle_factors(const Points& points, TrianglesView triangles)
   {
     // Limit of the matrix entries: half of the cotangent of 2 degrees, rounded up.
     constexpr double most = 15.0;
@@ -194,12 +194,12 @@ private:
 
   /// Correct the preconditioner: add the terms of the energy that belong to the curvature at fixed
   /// points.
-  void count_fixed(ExecutionContext& context, const std::vector<Index>& fixed)
+  void prepare_correction(ExecutionContext& context, const std::vector<Index>& fixed)
   {
     const ProgressRange range(context, factored, preparation_end);
-    constexpr Index most_numbers = 40'000'000; // 160 MB
+    constexpr Index maximum_entries = 40'000'000; // 160 MB
     const Index n = this->mass_.size();
-    const Index most = std::min(static_cast<Index>(fixed.size()), most_numbers / n);
+    const Index most = std::min(static_cast<Index>(fixed.size()), maximum_entries / n);
     this->corrected_points_.assign(fixed.begin(), fixed.begin() + most);
     this->responses_.resize(n, most);
     const bool completed = parallel_for(context, most, lanes,
@@ -227,8 +227,8 @@ private:
         [&](Index v, double value)
         { small.row(c) += value * this->responses_.row(v).cast<double>(); });
     }
-    this->small_.compute(0.5 * (small + small.transpose()));
-    if (this->small_.info() != Eigen::Success)
+    this->correction_factor_.compute(0.5 * (small + small.transpose()));
+    if (this->correction_factor_.info() != Eigen::Success)
     {
       // Single precision is not accurate enough for the corrections. Without them, more iterations
       // are needed.
@@ -254,7 +254,7 @@ private:
 
   /// Use the inverse diagonal as preconditioner if there is no factor:
   /// (K M⁻¹ K)_ii = sum_j K_ij² / m_j.
-  void take_diagonal()
+  void use_diagonal()
   {
     this->factor_ = FloatCholesky();
     VectorXd diagonal = this->mass_;
@@ -292,7 +292,7 @@ private:
         c, [&](Index v, double value) { at_fixed.row(c) += value * z.row(v).matrix(); });
     }
     const FlushDenormals flush; // responses decay with the distance
-    const Responses factors = this->small_.solve(at_fixed).cast<float>();
+    const Responses factors = this->correction_factor_.solve(at_fixed).cast<float>();
     // A general matrix product would spend most of its time on rearranging the responses.
     for (Index v = 0; v < z.rows(); ++v)
     {
@@ -339,7 +339,7 @@ private:
   // #V x #counted: (M + K)⁻¹ M (M + K)⁻¹ u for each of these points
   Responses responses_;
   // Factor of 1 + Uᵀ (M + K)⁻¹ M (M + K)⁻¹ U, where the columns of U are the vectors u.
-  Eigen::LLT<Eigen::MatrixXd> small_;
+  Eigen::LLT<Eigen::MatrixXd> correction_factor_;
   // The preconditioner if there is no factor: the inverse of the diagonal of the energy's matrix; 0
   // for fixed points.
   VectorXd inverse_diagonal_;

@@ -38,7 +38,7 @@ Status refuse(const Handles& before, EditedHandles& after, const std::string& wh
   return Status::invalid_input(why);
 }
 
-bool is_number(const Handles& handles, Index which)
+bool is_valid_index(const Handles& handles, Index which)
 {
   return which >= 0 && which < static_cast<Index>(handles.size());
 }
@@ -54,7 +54,7 @@ bool has_name(const Handles& handles, const std::string& name)
     handles.begin(), handles.end(), [&](const Handle& handle) { return handle.name == name; });
 }
 
-std::vector<Index> all_or(const Handles& handles, const std::vector<Index>& which)
+std::vector<Index> selected_or_all(const Handles& handles, const std::vector<Index>& which)
 {
   return which.empty() ? copy_unedited(handles).source : which;
 }
@@ -76,7 +76,7 @@ Vec3& end_of(Handles& handles, const HandleEnd& end)
   return end.tail ? handle.tail : handle.head;
 }
 
-bool same_set(const CageElement& a, CageElement b)
+bool same_corners(const CageElement& a, CageElement b)
 {
   CageElement sorted = a;
   std::sort(sorted.begin(), sorted.end());
@@ -90,7 +90,7 @@ bool has_element(const Handles& handles, const CageElement& element)
     [&](const Handle& handle)
     {
       return std::any_of(handle.cage.begin(), handle.cage.end(),
-        [&](const CageElement& other) { return same_set(element, other); });
+        [&](const CageElement& other) { return same_corners(element, other); });
     });
 }
 } // namespace
@@ -179,7 +179,7 @@ std::string mirrored_name(const std::string& name)
 Status rename_handle(
   const Handles& before, Index which, const std::string& name, EditedHandles& after)
 {
-  if (!is_number(before, which))
+  if (!is_valid_index(before, which))
   {
     return refuse(before, after, missing_handle_message(which));
   }
@@ -215,20 +215,20 @@ Status add_handle(const Handles& before, Handle handle, EditedHandles& after)
 
 Status remove_handles(const Handles& before, const std::vector<Index>& which, EditedHandles& after)
 {
-  std::vector<bool> gone(before.size(), false);
+  std::vector<bool> is_removed(before.size(), false);
   for (const Index h : which)
   {
-    if (!is_number(before, h))
+    if (!is_valid_index(before, h))
     {
       return refuse(before, after, missing_handle_message(h));
     }
-    gone[static_cast<std::size_t>(h)] = true;
+    is_removed[static_cast<std::size_t>(h)] = true;
   }
   std::vector<Index> number(before.size(), -1); // index after the edit; -1: removed
   EditedHandles edited;
   for (std::size_t i = 0; i < before.size(); ++i)
   {
-    if (!gone[i])
+    if (!is_removed[i])
     {
       number[i] = static_cast<Index>(edited.handles.size());
       edited.handles.push_back(before[i]);
@@ -237,7 +237,7 @@ Status remove_handles(const Handles& before, const std::vector<Index>& which, Ed
   }
   for (Handle& handle : edited.handles)
   {
-    while (handle.parent >= 0 && gone[static_cast<std::size_t>(handle.parent)])
+    while (handle.parent >= 0 && is_removed[static_cast<std::size_t>(handle.parent)])
     {
       handle.parent = before[static_cast<std::size_t>(handle.parent)].parent;
     }
@@ -245,14 +245,14 @@ Status remove_handles(const Handles& before, const std::vector<Index>& which, Ed
     std::vector<CageElement> kept;
     for (CageElement element : handle.cage)
     {
-      bool whole = true;
+      bool is_complete = true;
       for (Index& corner : element)
       {
-        const Index now = corner < 0 ? -1 : number[static_cast<std::size_t>(corner)];
-        whole = whole && (corner < 0 || now >= 0);
-        corner = now;
+        const Index new_corner = corner < 0 ? -1 : number[static_cast<std::size_t>(corner)];
+        is_complete = is_complete && (corner < 0 || new_corner >= 0);
+        corner = new_corner;
       }
-      if (whole)
+      if (is_complete)
       {
         kept.push_back(element);
       }
@@ -265,9 +265,10 @@ Status remove_handles(const Handles& before, const std::vector<Index>& which, Ed
 
 Status set_parent(const Handles& before, Index which, Index parent, EditedHandles& after)
 {
-  if (!is_number(before, which) || (parent != -1 && !is_number(before, parent)))
+  if (!is_valid_index(before, which) || (parent != -1 && !is_valid_index(before, parent)))
   {
-    return refuse(before, after, missing_handle_message(is_number(before, which) ? parent : which));
+    return refuse(
+      before, after, missing_handle_message(is_valid_index(before, which) ? parent : which));
   }
   EditedHandles edited = copy_unedited(before);
   edited.handles[static_cast<std::size_t>(which)].parent = parent;
@@ -276,9 +277,9 @@ Status set_parent(const Handles& before, Index which, Index parent, EditedHandle
 
 Status toggle_cage_edge(const Handles& before, Index a, Index b, EditedHandles& after)
 {
-  if (!is_number(before, a) || !is_number(before, b))
+  if (!is_valid_index(before, a) || !is_valid_index(before, b))
   {
-    return refuse(before, after, missing_handle_message(is_number(before, a) ? b : a));
+    return refuse(before, after, missing_handle_message(is_valid_index(before, a) ? b : a));
   }
   EditedHandles edited = copy_unedited(before);
   const CageElement edge{ a, b, -1 };
@@ -287,7 +288,7 @@ Status toggle_cage_edge(const Handles& before, Index a, Index b, EditedHandles& 
     for (Handle& handle : edited.handles)
     {
       handle.cage.erase(std::remove_if(handle.cage.begin(), handle.cage.end(),
-                          [&](const CageElement& other) { return same_set(edge, other); }),
+                          [&](const CageElement& other) { return same_corners(edge, other); }),
         handle.cage.end());
     }
   }
@@ -303,7 +304,7 @@ Status toggle_cage_edge(const Handles& before, Index a, Index b, EditedHandles& 
 std::vector<HandleEnd> ends_at_joint(const Handles& handles, const HandleEnd& end)
 {
   std::vector<HandleEnd> joint{ end };
-  if (!is_number(handles, end.handle) ||
+  if (!is_valid_index(handles, end.handle) ||
     handles[static_cast<std::size_t>(end.handle)].kind != HandleKind::bone)
   {
     return joint;
@@ -333,7 +334,7 @@ Status move_ends(const Handles& before, const std::vector<HandleEnd>& ends,
   EditedHandles edited = copy_unedited(before);
   for (std::size_t i = 0; i < ends.size() && i < positions.size(); ++i)
   {
-    if (!is_number(before, ends[i].handle))
+    if (!is_valid_index(before, ends[i].handle))
     {
       return refuse(before, after, missing_handle_message(ends[i].handle));
     }
@@ -355,9 +356,9 @@ Status snap_to_surface(const Handles& before, const std::vector<Index>& which,
 {
   std::vector<HandleEnd> ends;
   std::vector<Vec3> positions;
-  for (const Index h : all_or(before, which))
+  for (const Index h : selected_or_all(before, which))
   {
-    if (!is_number(before, h))
+    if (!is_valid_index(before, h))
     {
       return refuse(before, after, missing_handle_message(h));
     }
@@ -399,12 +400,12 @@ Status mirror_handles(const Handles& before, const std::vector<Index>& which, co
   {
     by_name[before[i].name] = static_cast<Index>(i);
   }
-  const std::vector<Index> list = all_or(before, which);
+  const std::vector<Index> list = selected_or_all(before, which);
   EditedHandles edited = copy_unedited(before);
   std::vector<Index> image(before.size(), -1); // index of each handle's mirror image; -1: none
   for (const Index h : list)
   {
-    if (!is_number(before, h))
+    if (!is_valid_index(before, h))
     {
       return refuse(before, after, missing_handle_message(h));
     }
@@ -436,15 +437,15 @@ Status mirror_handles(const Handles& before, const std::vector<Index>& which, co
     }
     // A handle of the same kind that is already at the mirrored position is the image. Its name
     // does not matter.
-    const auto there = std::find_if(before.begin(), before.end(),
+    const auto existing_image = std::find_if(before.begin(), before.end(),
       [&](const Handle& other)
       {
         return other.kind == handle.kind && near(other.head, mirrored(handle.head)) &&
           near(other.tail, mirrored(handle.tail));
       });
-    if (there != before.end())
+    if (existing_image != before.end())
     {
-      image[static_cast<std::size_t>(h)] = there - before.begin();
+      image[static_cast<std::size_t>(h)] = existing_image - before.begin();
       continue;
     }
     Handle copy = handle;

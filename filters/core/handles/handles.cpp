@@ -33,12 +33,12 @@ Status check_parents(const Handles& handles)
   for (const Handle& handle : handles)
   {
     Index steps = 0;
-    for (Index up = handle.parent; up != -1; up = handles[up].parent)
+    for (Index ancestor = handle.parent; ancestor != -1; ancestor = handles[ancestor].parent)
     {
-      if (up < 0 || up >= count)
+      if (ancestor < 0 || ancestor >= count)
       {
         return Status::invalid_input("handle '" + handle.name + "' has the parent " +
-          std::to_string(up) + ", but there are " + std::to_string(count) + " handles");
+          std::to_string(ancestor) + ", but there are " + std::to_string(count) + " handles");
       }
       if (++steps > count)
       {

@@ -59,7 +59,7 @@ namespace
 {
 
 /// Map an integer to a number in [-1, 1), identically on every machine (splitmix64).
-double scatter(std::uint64_t n)
+double pseudo_random(std::uint64_t n)
 {
   std::uint64_t z = (n + 1) * 0x9e3779b97f4a7c15ull;
   z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
@@ -104,7 +104,7 @@ CdtTets::CdtTets(ExecutionContext& context, const RepairedSurface& surface, Encl
 Status CdtTets::build(double seconds)
 {
   this->deadline_ = this->context_.elapsed_seconds() + seconds;
-  const Perturbation no_move{ "", 0.0, 0.0 };
+  const Perturbation no_perturbation{ "", 0.0, 0.0 };
   Status status;
   if (this->surface_.clean())
   {
@@ -114,8 +114,8 @@ Status CdtTets::build(double seconds)
     data.points = this->surface_.points;
     data.triangles = this->surface_.triangles;
     // Without the switch `c`, TetGen removes the tets outside the surface.
-    status =
-      this->try_tetgen({ this->options_.keep_outside ? "pYcA" : "pYA", false }, no_move, data);
+    status = this->try_tetgen(
+      { this->options_.keep_outside ? "pYcA" : "pYA", false }, no_perturbation, data);
     if (status.ok() || this->final(status))
     {
       return status;
@@ -123,7 +123,7 @@ Status CdtTets::build(double seconds)
   }
   MesherData first_refined;
   std::vector<Index> first_original;
-  const Perturbation moves[] = { no_move, { ", vertices rounded", 0x1p-20, 0.0 },
+  const Perturbation moves[] = { no_perturbation, { ", vertices rounded", 0x1p-20, 0.0 },
     { ", vertices moved by 1e-5", 0.0, 1e-5 } };
   for (const Perturbation& move : moves)
   {
@@ -148,7 +148,7 @@ Status CdtTets::build(double seconds)
     {
       return status;
     }
-    if (this->too_many_crossings_ || this->out_of_patience())
+    if (this->too_many_crossings_ || this->time_budget_is_used())
     {
       break; // moving vertices would not remove crossings, or the time budget is used up
     }
@@ -168,12 +168,12 @@ Status CdtTets::build(double seconds)
 
 /// Report whether the refinements and TetGen runs have used up their time budget. The last attempt,
 /// a Delaunay triangulation, does not count; it takes about a tenth of the budget.
-bool CdtTets::out_of_patience() const
+bool CdtTets::time_budget_is_used() const
 {
-  constexpr double patience = 8.0; // seconds
-  constexpr double per_triangle = 8e-5;
+  constexpr double base_limit = 8.0; // seconds
+  constexpr double seconds_per_triangle = 8e-5;
   return this->job_seconds_ >
-    patience + per_triangle * static_cast<double>(this->surface_.triangles.rows());
+    base_limit + seconds_per_triangle * static_cast<double>(this->surface_.triangles.rows());
 }
 
 /// Run TetGen on refined triangles with each set of switches in turn. If the surface has wide
@@ -184,10 +184,11 @@ bool CdtTets::out_of_patience() const
 Status CdtTets::try_switches(const Perturbation& move, const MesherData& refined)
 {
   const Phase phase(this->context_, "tetgen", 0.4, 1.0);
-  constexpr double wide_open = 1.5;
-  constexpr double sheet = 14.0;
+  constexpr double minimum_near_fraction = 1.5;
+  constexpr double maximum_near_fraction = 14.0;
   const double near_fraction = this->inside_.near_threshold_fraction();
-  const bool fine_first = near_fraction > wide_open && near_fraction < sheet;
+  const bool fine_first =
+    near_fraction > minimum_near_fraction && near_fraction < maximum_near_fraction;
   bool fine_tried = false;
   bool fine_is_wrong = false;
   Status status;
@@ -217,11 +218,12 @@ Status CdtTets::try_switches(const Perturbation& move, const MesherData& refined
   }
   // If the first set of switches takes long, the run with the last set is started in parallel,
   // provided that two processes do not need too much memory.
-  constexpr Index most_triangles = 1000000;
-  constexpr double long_time = 1.0; // seconds
-  constexpr double never = 1e6;
-  const bool large = refined.triangles.rows() > most_triangles || this->options_.memory_limit > 0;
-  const double delay = large ? never : long_time;
+  constexpr Index maximum_triangles = 1000000;
+  constexpr double usual_delay = 1.0; // seconds
+  constexpr double unlimited_delay = 1e6;
+  const bool large =
+    refined.triangles.rows() > maximum_triangles || this->options_.memory_limit > 0;
+  const double delay = large ? unlimited_delay : usual_delay;
   TetgenRun last_run;
   SideTask last(this->context_, delay,
     [&](ExecutionContext& side) { last_run = this->run_tetgen(side, setups.back(), refined); });
@@ -236,7 +238,7 @@ Status CdtTets::try_switches(const Perturbation& move, const MesherData& refined
       last.finish();
       status = this->evaluate_run(setups[i], move, last_run);
     }
-    if (this->timed_out_ || (!status.ok() && this->out_of_patience()))
+    if (this->timed_out_ || (!status.ok() && this->time_budget_is_used()))
     {
       break; // other switches would reach the time limit too, or the time budget is used up
     }
@@ -265,9 +267,10 @@ Status CdtTets::try_fine_tets(const Perturbation& move, const MesherData& refine
   }
   const double box = bounding_box(refined.points).size().prod();
   constexpr double tets_inside = 400.0;
-  constexpr double most_tets = 2e4; // maximum number of tets in the box, before TetGen grades them
-  const double bound =
-    std::max(std::min(this->volume_bound(), this->inside_.volume() / tets_inside), box / most_tets);
+  // Maximum number of tets in the box, before TetGen grades them.
+  constexpr double maximum_tets = 2e4;
+  const double bound = std::max(
+    std::min(this->volume_bound(), this->inside_.volume() / tets_inside), box / maximum_tets);
   const Status status = this->try_tetgen({ "pAq2a" + short_number(bound), true }, move, refined);
   this->fine_fails_ = !status.ok() && !this->wrong_volume_;
   this->timed_out_ = false; // TetGen may finish in time if no small tets are requested
@@ -316,7 +319,7 @@ Status CdtTets::try_delaunay(const MesherData& refined)
   MesherData input = refined;
   std::set<std::array<double, 3>> boxes;
   Index kept = 0;
-  Index originals = 0;
+  Index original_count = 0;
   for (Index v = 0; v < refined.points.rows(); ++v)
   {
     std::array<double, 3> box{};
@@ -330,14 +333,14 @@ Status CdtTets::try_delaunay(const MesherData& refined)
       if (v < static_cast<Index>(this->original_.size()))
       {
         this->original_[kept] = this->original_[v];
-        originals = kept + 1;
+        original_count = kept + 1;
       }
       ++kept;
     }
   }
   input.points.conservativeResize(kept, 3);
   input.triangles.resize(0, 3);
-  this->original_.resize(static_cast<std::size_t>(originals));
+  this->original_.resize(static_cast<std::size_t>(original_count));
   MesherResult answer;
   const double seconds = 5.0 + 2e-4 * static_cast<double>(input.points.rows());
   Status status = this->run_job(this->context_, { "delaunay" }, input, seconds, answer);
@@ -413,7 +416,7 @@ Status CdtTets::move_vertices(const Perturbation& move, RepairedSurface& moved)
   const double size = move.jitter * this->diagonal_;
   for (Index k = 0; size > 0.0 && k < moved.points.size(); ++k)
   {
-    moved.points.data()[k] += size * scatter(static_cast<std::uint64_t>(k));
+    moved.points.data()[k] += size * pseudo_random(static_cast<std::uint64_t>(k));
   }
   return {};
 }
@@ -469,20 +472,20 @@ Status CdtTets::keep_inside(const MesherData& data)
   if (this->inside_.labels_are_exact() ||
     this->options_.segmentation.method == SegmentationMethod::threshold)
   {
-    return this->take_inside(data, w, SegmentationMethod::threshold);
+    return this->segment_and_store(data, w, SegmentationMethod::threshold);
   }
   const double start = this->context_.elapsed_seconds();
-  status = this->take_inside(data, w, SegmentationMethod::graph_cut);
+  status = this->segment_and_store(data, w, SegmentationMethod::graph_cut);
   if (status.ok() || !this->wrong_volume_)
   {
     return status;
   }
   // The graph cut changes the volume too much if the surface consists mostly of holes, or is thin.
   this->log_.add("graph cut", this->context_.elapsed_seconds() - start, status);
-  return this->take_inside(data, w, SegmentationMethod::threshold);
+  return this->segment_and_store(data, w, SegmentationMethod::threshold);
 }
 
-Status CdtTets::take_inside(
+Status CdtTets::segment_and_store(
   const MesherData& data, const Eigen::VectorXd& w, SegmentationMethod method)
 {
   SegmentationOptions options = this->options_.segmentation;
@@ -524,9 +527,9 @@ Status CdtTets::take_inside(
   const double misfit = this->inside_.misfit(volume);
   // The graph cut may choose a smooth boundary at the cost of a wrong volume. If the misfit exceeds
   // this, the labels of the threshold are used.
-  constexpr double price_of_smoothness = 0.05;
+  constexpr double maximum_cut_misfit = 0.05;
   const bool fits = this->inside_.fits(volume) &&
-    (method == SegmentationMethod::threshold || misfit <= price_of_smoothness);
+    (method == SegmentationMethod::threshold || misfit <= maximum_cut_misfit);
   this->wrong_volume_ = !fits;
   if (fits || misfit < this->misfit_)
   {
@@ -537,7 +540,7 @@ Status CdtTets::take_inside(
     this->mesh_.tets = kept;
     if (this->options_.keep_outside)
     {
-      this->take_all(data, w, segmentation.inside);
+      this->store_all_tets(data, w, segmentation.inside);
     }
     this->mesh_original_ = this->original_;
     this->report_ = Report();
@@ -587,7 +590,7 @@ Status CdtTets::swap_flat(const Points& points, Tets& tets, std::vector<TetFacet
 }
 
 /// Take all tets inside and outside, except those that rounding has flattened.
-void CdtTets::take_all(
+void CdtTets::store_all_tets(
   const MesherData& data, const Eigen::VectorXd& w, const std::vector<char>& inside)
 {
   const double flat = 1e-15 * std::pow(this->diagonal_, 3.0);
@@ -674,7 +677,7 @@ void CdtTets::renumber()
   {
     used[this->mesh_.tets.data()[k]] = 1;
   }
-  const auto originals = static_cast<Index>(this->mesh_original_.size());
+  const auto original_count = static_cast<Index>(this->mesh_original_.size());
   std::vector<Index> id(used.size(), -1);
   std::vector<Index> original_vertices;
   for (std::size_t v = 0; v < used.size(); ++v)
@@ -682,7 +685,8 @@ void CdtTets::renumber()
     if (used[v])
     {
       id[v] = static_cast<Index>(original_vertices.size());
-      original_vertices.push_back(static_cast<Index>(v) < originals ? this->mesh_original_[v] : -1);
+      original_vertices.push_back(
+        static_cast<Index>(v) < original_count ? this->mesh_original_[v] : -1);
     }
   }
   Points points(static_cast<Index>(original_vertices.size()), 3);

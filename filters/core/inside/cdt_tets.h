@@ -108,15 +108,17 @@ private:
   Status run_job(ExecutionContext& context, const std::vector<std::string>& arguments,
     const MesherData& input, double seconds, MesherResult& answer) const;
   bool final(const Status& status) const;
-  bool out_of_patience() const;
+  bool time_budget_is_used() const;
   Status keep_inside(const MesherData& data);
-  Status take_inside(const MesherData& data, const Eigen::VectorXd& w, SegmentationMethod method);
+  Status segment_and_store(
+    const MesherData& data, const Eigen::VectorXd& w, SegmentationMethod method);
   Status swap_flat(const Points& points, Tets& tets, std::vector<TetFacet>& facets);
-  void take_all(const MesherData& data, const Eigen::VectorXd& w, const std::vector<char>& inside);
+  void store_all_tets(
+    const MesherData& data, const Eigen::VectorXd& w, const std::vector<char>& inside);
   Status fill();
   Status find_positions(FillState& inside);
   Status find_even_positions(
-    double length, double long_edge, Index most_tets, Index most, FillState& inside);
+    double length, double long_edge, Index maximum_tets, Index most, FillState& inside);
   Status find_inner_positions(Index most, FillState& inside);
   Status prepare_interior(double longest, FillState& inside);
   Points positions_on_handles(FillState& inside) const;

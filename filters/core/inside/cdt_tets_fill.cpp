@@ -27,24 +27,24 @@ namespace
 /// bounding-box diagonals.
 constexpr double coplanar = 1e-10;
 /// Approximate minimum number of tets if no interior edge length is requested.
-constexpr Index fewest_tets = 1500;
+constexpr Index minimum_tets = 1500;
 /// Approximate number of tets per triangle of the surface if no interior edge length is requested.
 constexpr double tets_per_triangle = 4.2;
 /// Largest number of tets if an interior edge length is requested.
-constexpr Index most_tets_on_request = 20000000;
+constexpr Index maximum_requested_tets = 20000000;
 /// Approximate number of tets per inner vertex and per boundary triangle, used for estimates.
 constexpr Index tets_per_vertex = 6;
 constexpr Index tets_per_boundary_triangle = 2;
 
-/// Return the maximum number of new vertices. It is chosen such that the mesh gets `fewest_tets` or
-/// `tets_per_triangle` times #triangles tets, whichever is more. If the boundary alone already
+/// Return the maximum number of new vertices. It is chosen such that the mesh gets `minimum_tets`
+/// or `tets_per_triangle` times #triangles tets, whichever is more. If the boundary alone already
 /// requires so many tets, a small number of vertices is still allowed.
-Index most_inner_vertices(Index surface_triangles, Index boundary_triangles)
+Index maximum_inner_vertices(Index surface_triangles, Index boundary_triangles)
 {
   // Number of new vertices that is always allowed, per triangle of the surface.
   constexpr double least = 0.1;
   const double triangles = static_cast<double>(surface_triangles);
-  const double tets = std::max(static_cast<double>(fewest_tets), tets_per_triangle * triangles) -
+  const double tets = std::max(static_cast<double>(minimum_tets), tets_per_triangle * triangles) -
     static_cast<double>(tets_per_boundary_triangle * boundary_triangles);
   return static_cast<Index>(std::max(least * triangles, tets / tets_per_vertex));
 }
@@ -129,43 +129,43 @@ Status CdtTets::fill()
 /// inside are split.
 Status CdtTets::find_positions(FillState& inside)
 {
-  const double wanted = this->options_.interior_edge * this->diagonal_;
-  if (wanted > 0.0)
+  const double target_length = this->options_.interior_edge * this->diagonal_;
+  if (target_length > 0.0)
   {
     // Length above which a boundary edge is split, in units of the requested length.
     constexpr double long_edge = 3.0;
-    return this->find_even_positions(
-      wanted, long_edge * wanted, most_tets_on_request, most_tets_on_request, inside);
+    return this->find_even_positions(target_length, long_edge * target_length,
+      maximum_requested_tets, maximum_requested_tets, inside);
   }
   Status status = this->prepare_interior(this->diagonal_, inside);
   if (status.ok())
   {
     status = this->find_inner_positions(
-      most_inner_vertices(this->surface_.triangles.rows(), inside.boundary_triangles), inside);
+      maximum_inner_vertices(this->surface_.triangles.rows(), inside.boundary_triangles), inside);
   }
   const Index expected = tets_per_boundary_triangle * inside.boundary_triangles +
     tets_per_vertex * inside.positions.rows();
-  if (!status.ok() || expected >= fewest_tets)
+  if (!status.ok() || expected >= minimum_tets)
   {
     return status;
   }
   // Use one edge length everywhere, so that there are enough tets.
   const double length =
-    std::cbrt(this->volume_ / (static_cast<double>(fewest_tets) * regular_tet_volume));
+    std::cbrt(this->volume_ / (static_cast<double>(minimum_tets) * regular_tet_volume));
   constexpr double long_edge = 2.0;
   // Maximum fraction of the tets that may result from splitting boundary edges.
-  constexpr double share = 0.6;
+  constexpr double split_fraction = 0.6;
   return this->find_even_positions(length, long_edge * length,
-    static_cast<Index>(share * static_cast<double>(fewest_tets)), fewest_tets / tets_per_vertex,
-    inside);
+    static_cast<Index>(split_fraction * static_cast<double>(minimum_tets)),
+    minimum_tets / tets_per_vertex, inside);
 }
 
 /// Find up to about `most` positions, at distances of up to about `length` from each other. First,
-/// boundary edges longer than `long_edge` are split until there are `most_tets` tets.
+/// boundary edges longer than `long_edge` are split until there are `maximum_tets` tets.
 Status CdtTets::find_even_positions(
-  double length, double long_edge, Index most_tets, Index most, FillState& inside)
+  double length, double long_edge, Index maximum_tets, Index most, FillState& inside)
 {
-  if (!split_long_edges(this->context_, this->mesh_, long_edge, most_tets))
+  if (!split_long_edges(this->context_, this->mesh_, long_edge, maximum_tets))
   {
     return Status::canceled();
   }

@@ -21,7 +21,7 @@ double cosine(double degrees)
 
 /// Report whether the triangle bounds the region at one of its edges. The test point is near the
 /// middle of the edge, inside the triangle.
-bool bounds(const RegionBoundary& region, const TriangleSide& side)
+bool is_boundary_side(const RegionBoundary& region, const TriangleSide& side)
 {
   const Vec3 middle = 0.5 *
     (region.corner(side.triangle, side.corner) +
@@ -49,7 +49,7 @@ CreasePoints find_creases(const RegionBoundary& region, const SizingField& field
     }
     if (std::none_of(sides.begin() + static_cast<std::ptrdiff_t>(i),
           sides.begin() + static_cast<std::ptrdiff_t>(j),
-          [&](const TriangleSide& side) { return bounds(region, side); }))
+          [&](const TriangleSide& side) { return is_boundary_side(region, side); }))
     {
       continue;
     }
@@ -60,8 +60,9 @@ CreasePoints find_creases(const RegionBoundary& region, const SizingField& field
     constexpr double most = 1000.0;
     // The spacing is smaller than the requested length, so that few facets next to the crease cut
     // it.
-    constexpr double dense = 0.7;
-    const double length = dense * std::min({ field.at(a), field.at(b), field.at(0.5 * (a + b)) });
+    constexpr double spacing_factor = 0.7;
+    const double length =
+      spacing_factor * std::min({ field.at(a), field.at(b), field.at(0.5 * (a + b)) });
     const double parts = std::min(std::ceil((b - a).norm() / length), most);
     for (double part = 1.0; part < parts; ++part)
     {

@@ -28,7 +28,7 @@ constexpr double undecided_margin = 0.25;
 
 /// Return points spread evenly over a box, by an additive recurrence with the powers of 1 / x,
 /// where x is the positive root of x^4 = x + 1. The points are the same in every run.
-Points spread_points(const Box& box, Index count)
+Points quasi_random_points(const Box& box, Index count)
 {
   const Vec3 step(0.8191725133961645, 0.6710436067037893, 0.5497004779019703);
   const Vec3 size = box.size();
@@ -88,8 +88,8 @@ Status EnclosedRegion::sample(
   const double cost = this->winding_.method() == WindingMethod::fast
     ? 1.0
     : 0.1 + 0.015 * static_cast<double>(surface.found.boundary_edges);
-  constexpr double affordable = 2e6; // microseconds
-  constexpr double most_samples = 1e6;
+  constexpr double maximum_cost = 2e6; // microseconds
+  constexpr double maximum_samples = 1e6;
   // The initial number of points is that of a grid with 40 points along the longest side. The
   // points do not form a grid, because faces of boxes and of CAD models may be aligned with the
   // planes of a grid. Then a whole layer of points would be counted wrongly.
@@ -100,7 +100,7 @@ Status EnclosedRegion::sample(
   auto samples = static_cast<Index>((40.0 * size / size.maxCoeff()).array().ceil().max(1.0).prod());
   for (;; samples = static_cast<Index>(growth * static_cast<double>(samples)))
   {
-    const Points points = spread_points(this->box_, samples);
+    const Points points = quasi_random_points(this->box_, samples);
     Eigen::VectorXd w;
     status = this->winding_.evaluate(context, points, w);
     if (!status.ok())
@@ -118,8 +118,8 @@ Status EnclosedRegion::sample(
       std::max(hits, 1.0);
     this->largest_winding_ = std::max(this->largest_winding_, w.maxCoeff());
     const double next_samples = growth * static_cast<double>(w.size());
-    if (hits >= enough || negative > this->volume_ || next_samples > most_samples ||
-      next_samples * cost > affordable)
+    if (hits >= enough || negative > this->volume_ || next_samples > maximum_samples ||
+      next_samples * cost > maximum_cost)
     {
       break;
     }
@@ -158,14 +158,14 @@ Status EnclosedRegion::no_tets_error() const
 
 Status EnclosedRegion::check_not_specks(const RepairedSurface& surface) const
 {
-  constexpr Index fewest_triangles = 10000;
+  constexpr Index minimum_triangles = 10000;
   constexpr double loose = 0.9; // minimum fraction of the triangle sides that are boundary edges
-  constexpr double largest_share = 1e-3; // maximum volume, as a fraction of the box volume
+  constexpr double maximum_fraction = 1e-3; // maximum volume, as a fraction of the box volume
   // Maximum thickness, relative to the mean size of a triangle.
   constexpr double largest_thickness = 0.1;
   const Index count = surface.triangles.rows();
   const double fraction = this->volume_ / this->box_.size().prod();
-  if (count < fewest_triangles || fraction > largest_share ||
+  if (count < minimum_triangles || fraction > maximum_fraction ||
     static_cast<double>(surface.found.boundary_edges) < loose * 3.0 * static_cast<double>(count))
   {
     return {};
@@ -214,7 +214,7 @@ Status EnclosedRegion::label_regions(
       entry->second = t;
     }
   }
-  std::map<Index, double> of_region;
+  std::map<Index, double> winding_of_region;
   for (const auto& [region, t] : largest)
   {
     Vec3 center = Vec3::Zero();
@@ -222,12 +222,12 @@ Status EnclosedRegion::label_regions(
     {
       center += 0.25 * data.points.row(data.tets(t, k)).transpose();
     }
-    of_region[region] = this->winding_.evaluate_at(center);
+    winding_of_region[region] = this->winding_.evaluate_at(center);
   }
   w.resize(data.tets.rows());
   for (Index t = 0; t < data.tets.rows(); ++t)
   {
-    w[t] = of_region[data.regions[t]];
+    w[t] = winding_of_region[data.regions[t]];
   }
   return context.canceled() ? Status::canceled() : Status();
 }
@@ -278,7 +278,7 @@ Status EnclosedRegion::label_tets(
       tets.push_back(t);
     }
   }
-  Points more(4 * static_cast<Index>(tets.size()), 3);
+  Points sample_points(4 * static_cast<Index>(tets.size()), 3);
   for (std::size_t i = 0; i < tets.size(); ++i)
   {
     for (int k = 0; k < 4; ++k)
@@ -286,12 +286,12 @@ Status EnclosedRegion::label_tets(
       // Quadrature rule of degree 2 with four points.
       constexpr double near = 0.5854101966249685;
       constexpr double others = 0.1381966011250105;
-      more.row(4 * static_cast<Index>(i) + k) = 4.0 * others * centers.row(tets[i]) +
+      sample_points.row(4 * static_cast<Index>(i) + k) = 4.0 * others * centers.row(tets[i]) +
         (near - others) * data.points.row(data.tets(tets[i], k));
     }
   }
   Eigen::VectorXd values;
-  status = this->winding_.evaluate(context, more, values);
+  status = this->winding_.evaluate(context, sample_points, values);
   for (std::size_t i = 0; i < tets.size() && status.usable(); ++i)
   {
     w[tets[i]] = 0.25 * values.segment(4 * static_cast<Index>(i), 4).sum();

@@ -20,8 +20,8 @@ namespace bindpose
 
 namespace
 {
-constexpr const char* variable = "BINDPOSE_FTETWILD";
-constexpr const char* missing =
+constexpr const char* environment_variable = "BINDPOSE_FTETWILD";
+constexpr const char* missing_message =
   "the executable FloatTetwild_bin (or ftetwild) of fTetWild was not found; add it to PATH or name "
   "it in the environment variable BINDPOSE_FTETWILD; the source code is at "
   "https://github.com/wildmeshing/fTetWild";
@@ -44,7 +44,7 @@ Status check_options(const FtetwildOptions& options)
 }
 
 /// Parses the output of fTetWild: updates the progress and stores the last line.
-class Lines
+class OutputLines
 {
 public:
   void take(ExecutionContext& context, const std::string& line)
@@ -76,14 +76,14 @@ private:
 };
 
 /// Return the tets, oriented positively and without unused vertices.
-TetMesh clean_up(const MeditMesh& read)
+TetMesh clean_up(const MeditMesh& medit_mesh)
 {
-  TetMesh mesh{ Points(0, 3), read.tets };
-  if (tet_volumes(read.points, mesh.tets).sum() < 0.0)
+  TetMesh mesh{ Points(0, 3), medit_mesh.tets };
+  if (tet_volumes(medit_mesh.points, mesh.tets).sum() < 0.0)
   {
     mesh.tets.col(0).swap(mesh.tets.col(1)); // if one tet is negative, all are negative
   }
-  std::vector<Index> number(static_cast<std::size_t>(read.points.rows()), -1);
+  std::vector<Index> number(static_cast<std::size_t>(medit_mesh.points.rows()), -1);
   std::vector<Index> used;
   for (Index k = 0; k < mesh.tets.size(); ++k)
   {
@@ -98,7 +98,7 @@ TetMesh clean_up(const MeditMesh& read)
   mesh.points.resize(static_cast<Index>(used.size()), 3);
   for (std::size_t v = 0; v < used.size(); ++v)
   {
-    mesh.points.row(static_cast<Index>(v)) = read.points.row(used[v]);
+    mesh.points.row(static_cast<Index>(v)) = medit_mesh.points.row(used[v]);
   }
   return mesh;
 }
@@ -106,7 +106,7 @@ TetMesh clean_up(const MeditMesh& read)
 
 std::string find_ftetwild()
 {
-  if (const char* configured_path = std::getenv(variable))
+  if (const char* configured_path = std::getenv(environment_variable))
   {
     return is_executable_file(configured_path) ? std::string(configured_path) : std::string();
   }
@@ -132,11 +132,11 @@ Status run_ftetwild(ExecutionContext& context, PointsView points, TrianglesView 
   request.path = find_ftetwild();
   if (request.path.empty())
   {
-    const char* configured_path = std::getenv(variable);
+    const char* configured_path = std::getenv(environment_variable);
     return Status::failure(StatusCode::unavailable,
-      configured_path ? "the environment variable " + std::string(variable) +
+      configured_path ? "the environment variable " + std::string(environment_variable) +
           " must name an executable file, but is set to " + configured_path
-                      : std::string(missing));
+                      : std::string(missing_message));
   }
   ScratchFolder folder("ftetwild");
   if (folder.path().empty())
@@ -168,7 +168,7 @@ Status run_ftetwild(ExecutionContext& context, PointsView points, TrianglesView 
   request.time_limit = options.time_limit;
   request.memory_limit = options.memory_limit;
   request.started = [&](int group) { folder.guard_group(group); };
-  Lines lines;
+  OutputLines lines;
   ChildEnd end;
   status = run_child(
     context, request, [&](const std::string& line) { lines.take(context, line); }, end);
@@ -182,14 +182,14 @@ Status run_ftetwild(ExecutionContext& context, PointsView points, TrianglesView 
       request.name + " " + end.failure + memory_limit_phrase(options.memory_limit) +
         (lines.last().empty() ? "" : "; last output: " + lines.last()));
   }
-  MeditMesh read;
-  status = read_medit(tets, read);
+  MeditMesh medit_mesh;
+  status = read_medit(tets, medit_mesh);
   if (!status.ok())
   {
     return Status::failure(
       StatusCode::internal_error, request.name + " did not write a valid mesh: " + status.message);
   }
-  mesh = clean_up(read);
+  mesh = clean_up(medit_mesh);
   mesh.points = frame.back(mesh.points);
   status = check_tets(mesh.points, mesh.tets);
   if (!status.ok())

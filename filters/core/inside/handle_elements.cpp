@@ -32,13 +32,13 @@ public:
 
   void line(const Vec3& a, const Vec3& b)
   {
-    const double whole = (b - a).norm();
-    if (!(whole > 0.0))
+    const double segment_length = (b - a).norm();
+    if (!(segment_length > 0.0))
     {
       return;
     }
     const auto length = [&](double t)
-    { return std::max(this->length_(a + t * (b - a)) / whole, 1.0 / most); };
+    { return std::max(this->length_(a + t * (b - a)) / segment_length, 1.0 / most); };
     const auto pieces = [](double lengths)
     { return std::max(2, static_cast<int>(std::ceil(lengths))); };
     for (const double cut : line_cuts(0.0, 1.0, length, pieces))

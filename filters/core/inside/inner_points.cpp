@@ -23,7 +23,7 @@ namespace
 constexpr double largest_cell = 1.1;
 // Minimum distance of points from the surface, relative to the requested edge length there.
 constexpr double clearance = 0.5;
-constexpr int deepest = 19; // maximum number of octree levels
+constexpr int maximum_level = 19; // maximum number of octree levels
 constexpr Index cells_per_block = 256;
 // Maximum number of cells on one level, in units of the allowed number of cells inside. A shape
 // that is much thinner than the requested edge length contains no cells, but intersects millions.
@@ -44,7 +44,7 @@ public:
     double whole = largest_cell * sizes.largest();
     whole =
       whole < side ? std::ldexp(whole, static_cast<int>(std::ceil(std::log2(side / whole)))) : side;
-    this->unit_ = std::ldexp(whole, -deepest - 1);
+    this->unit_ = std::ldexp(whole, -maximum_level - 1);
     this->lower_ = box.center() - Vec3::Constant(0.5 * whole);
   }
 
@@ -64,14 +64,14 @@ public:
         static_cast<double>(cells.size()) / static_cast<double>(maximum_count);
       const double next = std::min(0.5 * (1.0 + done), done + fraction);
       const ProgressRange range(this->context_, chosen * done, chosen * next);
-      if (!this->look_at(cells, level) || !this->cut(cells, level, maximum_count))
+      if (!this->classify(cells, level) || !this->subdivide(cells, level, maximum_count))
       {
         return false;
       }
       done = next;
     }
     const ProgressRange range(this->context_, chosen, 1.0);
-    return this->choose();
+    return this->select_points();
   }
 
   const Points& points() const { return this->points_; }
@@ -111,7 +111,10 @@ private:
     return this->lower_ + this->unit_ * units;
   }
 
-  static std::uint64_t side_of(int level) { return std::uint64_t(1) << (deepest + 1 - level); }
+  static std::uint64_t side_of(int level)
+  {
+    return std::uint64_t(1) << (maximum_level + 1 - level);
+  }
 
   static LatticePosition moved(LatticePosition coordinates, int corner, std::uint64_t step)
   {
@@ -122,7 +125,7 @@ private:
     return coordinates;
   }
 
-  bool look_at(std::vector<Cell>& cells, int level)
+  bool classify(std::vector<Cell>& cells, int level)
   {
     const std::uint64_t units = side_of(level);
     const double side = this->unit_ * static_cast<double>(units);
@@ -140,14 +143,14 @@ private:
             cell.outside = !cell.inside;
           }
           cell.large =
-            level < deepest && !cell.outside && side > largest_cell * this->sizes_.at(center);
+            level < maximum_level && !cell.outside && side > largest_cell * this->sizes_.at(center);
         }
       });
   }
 
   /// Compute the cells of the next level. The corners and centers of cells that are not divided are
   /// added to keys_.
-  bool cut(std::vector<Cell>& cells, int level, Index maximum_count)
+  bool subdivide(std::vector<Cell>& cells, int level, Index maximum_count)
   {
     const std::uint64_t units = side_of(level);
     std::vector<Cell> parts;
@@ -179,7 +182,7 @@ private:
   }
 
   /// Keep the positions that are inside and far enough from the surface.
-  bool choose()
+  bool select_points()
   {
     std::vector<Key>& keys = this->keys_;
     std::sort(keys.begin(), keys.end());
@@ -249,7 +252,7 @@ bool Interior::has_clearance(const Vec3& p, double distance) const
   return this->tree_->distance(p, distance) > distance;
 }
 
-double Interior::layer(const SizingField& sizes) const
+double Interior::estimate_layer_cells(const SizingField& sizes) const
 {
   constexpr Index samples = 1024;
   const Index step = std::max<Index>(1, this->boundary_.rows() / samples);
@@ -275,21 +278,21 @@ namespace
 class ScaleSearch
 {
 public:
-  ScaleSearch(double first, double target) : target_(target), least_(first) {}
+  ScaleSearch(double first, double target) : target_(target), minimum_scale_(first) {}
 
   /// Add a measurement: the number of points at a scale, or infinity if there were too many to
   /// count.
   void add(double scale, double points)
   {
-    Sample& known = points > this->target_ ? this->many_ : this->few_;
-    if (std::isfinite(points) && points > this->target_ && std::isfinite(this->many_.points) &&
-      this->many_.scale > 0.0)
+    Sample& known = points > this->target_ ? this->above_target_ : this->below_target_;
+    if (std::isfinite(points) && points > this->target_ &&
+      std::isfinite(this->above_target_.points) && this->above_target_.scale > 0.0)
     {
       constexpr double least_power = 0.4;
       constexpr double largest_power = 3.0;
-      this->power_ =
-        std::clamp(std::log(this->many_.points / points) / std::log(scale / this->many_.scale),
-          least_power, largest_power);
+      this->power_ = std::clamp(
+        std::log(this->above_target_.points / points) / std::log(scale / this->above_target_.scale),
+        least_power, largest_power);
     }
     known = { scale, points };
   }
@@ -297,8 +300,8 @@ public:
   /// Return the scale to try next.
   double next() const
   {
-    const Sample& many = this->many_;
-    const Sample& few = this->few_;
+    const Sample& many = this->above_target_;
+    const Sample& few = this->below_target_;
     // Factor by which the scale changes if there is no finite measurement.
     constexpr double blind = 12.0;
     constexpr double largest_step = 12.0;
@@ -314,7 +317,7 @@ public:
     {
       constexpr double largest_step_back = 0.1;
       return std::max(
-        this->least_, few.scale * std::max(largest_step_back, few.points / this->target_));
+        this->minimum_scale_, few.scale * std::max(largest_step_back, few.points / this->target_));
     }
     // Position of the next scale between those of many_ and few_, on a logarithmic axis.
     double fraction = 0.5;
@@ -331,9 +334,10 @@ public:
   /// Report whether the interval between the two measured scales is too small to continue.
   bool ended() const
   {
-    constexpr double alike = 1.05;
-    return this->few_.scale > 0.0 &&
-      this->few_.scale < alike * std::max(this->least_, this->many_.scale);
+    constexpr double close_ratio = 1.05;
+    return this->below_target_.scale > 0.0 &&
+      this->below_target_.scale <
+      close_ratio * std::max(this->minimum_scale_, this->above_target_.scale);
   }
 
 private:
@@ -343,14 +347,15 @@ private:
     double points = 0.0;
   };
   double target_;
-  double least_; ///< smallest scale that may be tried
+  double minimum_scale_; ///< smallest scale that may be tried
   double power_ = 1.0;
-  Sample many_; ///< measurement at the largest scale with more points than wanted
-  Sample few_; ///< measurement at the smallest scale with at most the wanted number of points
+  Sample above_target_; ///< measurement at the largest scale with more points than wanted
+  /// Measurement at the smallest scale with at most the wanted number of points.
+  Sample below_target_;
 };
 
 /// Return a subset of `target` points, at equal intervals in the order of the points.
-Points thinned(const Points& points, Index target)
+Points subsample(const Points& points, Index target)
 {
   Points kept(target, 3);
   for (Index i = 0; i < target; ++i)
@@ -384,7 +389,7 @@ bool inner_points(ExecutionContext& context, const Interior& interior, SizingFie
     constexpr double points_per_cell = 3.0;
     constexpr double largest_guess = 30.0;
     constexpr double step = 1.5;
-    while (points_per_cell * interior.layer(sizes) > enough * target &&
+    while (points_per_cell * interior.estimate_layer_cells(sizes) > enough * target &&
       sizes.scale() < largest_guess * first_scale)
     {
       if (sizes.growth() < most_growth)
@@ -451,7 +456,7 @@ bool inner_points(ExecutionContext& context, const Interior& interior, SizingFie
   // few to too many at this scale, so a subset of the larger set is used.
   constexpr double too_few = 0.3;
   const bool thin_out = more.rows() > 0 && static_cast<double>(fewer.rows()) < too_few * target;
-  inner = thin_out ? thinned(more, static_cast<Index>(target)) : std::move(fewer);
+  inner = thin_out ? subsample(more, static_cast<Index>(target)) : std::move(fewer);
   return true;
 }
 

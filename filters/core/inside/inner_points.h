@@ -27,7 +27,7 @@ public:
   /// little on the edge lengths. A part of the surface with area A contributes A / (2 growth
   /// size^2), where size is the edge length there. Cost: at most 2,047 evaluations of the sizing
   /// field.
-  double layer(const SizingField& sizes) const;
+  double estimate_layer_cells(const SizingField& sizes) const;
 
 private:
   Points points_;

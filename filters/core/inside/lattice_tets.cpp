@@ -27,7 +27,7 @@ namespace bindpose
 namespace
 {
 using Tet = std::array<Index, 4>;
-using Edge2 = std::pair<Index, Index>;
+using LatticeEdge = std::pair<Index, Index>;
 
 // The largest distances, in edge lengths, at which a vertex moves to a cut point. With these
 // distances, all dihedral angles are above 10.78 degrees (Labelle and Shewchuk, table 1).
@@ -76,7 +76,7 @@ public:
       this->lattice_.spacing * Vec3(location[0] + shift, location[1] + shift, location[2] + shift);
   }
   /// Return the parity of a vertex. The two ends of a long edge have different parities.
-  bool even(Index v) const
+  bool is_even(Index v) const
   {
     const auto location = this->position(v);
     return (location[0] + location[1] + location[2]) % 2 == 0;
@@ -87,8 +87,8 @@ public:
 
   /// Call body(tet) for the tets that cube (i, j, k) shares with its next cube along each of the
   /// three axes. The first two vertices of a tet are centers, the last two are corners.
-  template <typename Body>
-  void tets_of_cube(Index i, Index j, Index k, const Body& body) const
+  template <typename Visitor>
+  void tets_of_cube(Index i, Index j, Index k, const Visitor& visit) const
   {
     const std::array<Index, 3> location{ i, j, k };
     for (int axis = 0; axis < 3; ++axis)
@@ -115,17 +115,17 @@ public:
       }
       for (int r = 0; r < 4; ++r)
       {
-        body(Tet{ c0, c1, corners[r], corners[(r + 1) % 4] });
+        visit(Tet{ c0, c1, corners[r], corners[(r + 1) % 4] });
       }
     }
   }
 
   /// Collect all tets for which keep() returns true, in order.
   template <typename Keep>
-  bool collect(ExecutionContext& context, const Keep& keep, std::vector<Tet>& tets) const
+  bool collect_tets(ExecutionContext& context, const Keep& keep, std::vector<Tet>& tets) const
   {
     const auto& n = this->lattice_.cubes;
-    std::vector<std::vector<Tet>> of_layer(static_cast<std::size_t>(n[2] * n[1]));
+    std::vector<std::vector<Tet>> tets_of_row(static_cast<std::size_t>(n[2] * n[1]));
     const bool completed = parallel_for(context, n[2] * n[1], 4,
       [&](Index begin, Index end)
       {
@@ -138,13 +138,13 @@ public:
               {
                 if (keep(tet))
                 {
-                  of_layer[row].push_back(tet);
+                  tets_of_row[row].push_back(tet);
                 }
               });
           }
         }
       });
-    for (const auto& list : of_layer)
+    for (const auto& list : tets_of_row)
     {
       tets.insert(tets.end(), list.begin(), list.end());
     }
@@ -230,7 +230,8 @@ public:
     std::vector<Tet> tets;
     const auto any_inside = [&](const Tet& tet)
     { return std::any_of(tet.begin(), tet.end(), [&](Index v) { return this->sign_[v] > 0; }); };
-    if (!this->numbering_.collect(context, any_inside, tets) || !this->find_cuts(context, tets))
+    if (!this->numbering_.collect_tets(context, any_inside, tets) ||
+      !this->find_cuts(context, tets))
     {
       return Status::canceled();
     }
@@ -276,7 +277,7 @@ private:
 
   /// Return the position at which the edge crosses the boundary of the region, from 0 at the first
   /// vertex of the edge to 1 at the second.
-  double cut_of(const Edge2& edge) const
+  double cut_of(const LatticeEdge& edge) const
   {
     const bool first_inside = this->sign_[edge.first] > 0;
     double lower = 0.0;
@@ -293,14 +294,14 @@ private:
   /// Move each vertex that has a cut point within the snapping distance to the nearest cut point.
   void snap()
   {
-    struct End
+    struct EdgeEnd
     {
       Index vertex, edge;
       // Distance of the vertex from the cut point, in units of the length of a long edge.
       double distance;
       bool too_near;
     };
-    std::vector<End> ends;
+    std::vector<EdgeEnd> ends;
     for (std::size_t e = 0; e < this->edges_.size(); ++e)
     {
       const auto [v, w] = this->edges_[e];
@@ -314,7 +315,7 @@ private:
         1.0 - this->cut_parameters_[e] < alpha });
     }
     std::sort(ends.begin(), ends.end(),
-      [](const End& x, const End& y)
+      [](const EdgeEnd& x, const EdgeEnd& y)
       { return x.vertex != y.vertex ? x.vertex < y.vertex : x.edge < y.edge; });
     std::vector<Vec3> cut_points(this->edges_.size());
     for (std::size_t e = 0; e < this->edges_.size(); ++e)
@@ -325,7 +326,7 @@ private:
     }
     for (std::size_t i = 0; i < ends.size();)
     {
-      const End* nearest = nullptr;
+      const EdgeEnd* nearest = nullptr;
       std::size_t j = i;
       for (; j < ends.size() && ends[j].vertex == ends[i].vertex; ++j)
       {
@@ -358,7 +359,7 @@ private:
 
   Index cut_vertex(Index v, Index w) const
   {
-    const Edge2 edge = std::minmax(v, w);
+    const LatticeEdge edge = std::minmax(v, w);
     const auto location = std::lower_bound(this->edges_.begin(), this->edges_.end(), edge);
     return this->cut_vertex_[static_cast<std::size_t>(location - this->edges_.begin())];
   }
@@ -373,7 +374,7 @@ private:
   {
     if (this->numbering_.is_long(a, b))
     {
-      return this->numbering_.even(a);
+      return this->numbering_.is_even(a);
     }
     return this->numbering_.is_long(b, c);
   }
@@ -519,7 +520,7 @@ private:
   const LatticeRegion& region_;
   std::vector<signed char> sign_;
   std::vector<Vec3> points_;
-  std::vector<Edge2> edges_; // lattice edges that the boundary of the region cuts, sorted
+  std::vector<LatticeEdge> edges_; // lattice edges that the boundary of the region cuts, sorted
   // Position of the cut point on each edge, from 0 at the first vertex to 1 at the second.
   std::vector<double> cut_parameters_;
   std::vector<Index> cut_vertex_;

@@ -10,12 +10,13 @@ namespace bindpose
 namespace
 {
 /// Return a phrase such as "1 triangle was" or "2 triangles were".
-std::string count_phrase(Index count, const char* one, const char* many)
+std::string count_phrase(Index count, const char* singular, const char* plural)
 {
-  return std::to_string(count) + " " + (count == 1 ? one : many) + (count == 1 ? " was" : " were");
+  return std::to_string(count) + " " + (count == 1 ? singular : plural) +
+    (count == 1 ? " was" : " were");
 }
 
-void report_turned(PreparedSurface& prepared)
+void report_flipped(PreparedSurface& prepared)
 {
   const RepairedSurface& surface = prepared.surface;
   if (surface.flipped_triangles > 0)
@@ -102,7 +103,7 @@ Status prepare_surface(ExecutionContext& context, PointsView points, TrianglesVi
       return status;
     }
   }
-  report_turned(prepared);
+  report_flipped(prepared);
   const Phase phase(context, "winding", 0.3, 1.0);
   bool flipped = false;
   const Status status =

@@ -64,13 +64,13 @@ Status check_input(PointsView points, TrianglesView triangles, const RemeshOptio
   return {};
 }
 
-using Ids = std::map<std::array<double, 3>, Index>;
+using IdsByPosition = std::map<std::array<double, 3>, Index>;
 
 /// Map coordinates to vertex ids. If several vertices have the same coordinates, the lowest id is
 /// used.
-Ids ids_of(PointsView points, TrianglesView triangles)
+IdsByPosition ids_by_position(PointsView points, TrianglesView triangles)
 {
-  Ids ids;
+  IdsByPosition ids;
   for (Index k = 0; k < triangles.size(); ++k)
   {
     const Index v = triangles.data()[k];
@@ -81,8 +81,8 @@ Ids ids_of(PointsView points, TrianglesView triangles)
   return ids;
 }
 
-bool improve(
-  ExecutionContext& context, const Ids& ids, const RegionBoundary& region, MesherResult& answer)
+bool improve(ExecutionContext& context, const IdsByPosition& ids, const RegionBoundary& region,
+  MesherResult& answer)
 {
   MesherData& data = answer.data;
   for (Index t = 0; t < data.tets.rows(); ++t)
@@ -111,7 +111,7 @@ bool improve(
 }
 
 /// Remove unused vertices and renumber the others so that the input's vertices come first.
-void number_vertices(const Ids& ids, const MesherData& data, RemeshResult& result)
+void number_vertices(const IdsByPosition& ids, const MesherData& data, RemeshResult& result)
 {
   constexpr Index unused = -2;
   std::vector<Index> original(static_cast<std::size_t>(data.points.rows()), unused);
@@ -129,9 +129,10 @@ void number_vertices(const Ids& ids, const MesherData& data, RemeshResult& resul
   std::stable_sort(order.begin(), order.end(),
     [&](Index a, Index b)
     {
-      const bool a_kept = original[a] >= 0;
-      const bool b_kept = original[b] >= 0;
-      return a_kept != b_kept ? a_kept : a_kept && original[a] < original[b];
+      const bool a_is_original = original[a] >= 0;
+      const bool b_is_original = original[b] >= 0;
+      return a_is_original != b_is_original ? a_is_original
+                                            : a_is_original && original[a] < original[b];
     });
   std::vector<Index> number(original.size(), -1);
   result.mesh.points.resize(static_cast<Index>(order.size()), 3);
@@ -186,7 +187,7 @@ Status remesh_tets(ExecutionContext& context, PointsView points, TrianglesView t
       "the winding number is on the same side of the threshold of " +
       short_number(options.winding_threshold) + " on both sides of every triangle");
   }
-  const Ids ids = ids_of(points, triangles);
+  const IdsByPosition ids = ids_by_position(points, triangles);
   if (!improve(context, ids, region, answer))
   {
     return Status::canceled();

@@ -25,7 +25,7 @@ struct Sample
 /// Collect the center and the corners of each triangle as samples. The center represents two thirds
 /// of the triangle's area, and the three corners together represent one third.
 template <typename AtCenter, typename AtCorner>
-bool collect(ExecutionContext& context, PointsView points, TrianglesView triangles,
+bool collect_samples(ExecutionContext& context, PointsView points, TrianglesView triangles,
   const AtCenter& at_center, const AtCorner& at_corner, std::vector<Sample>& samples)
 {
   const Index n = triangles.rows();
@@ -41,11 +41,11 @@ bool collect(ExecutionContext& context, PointsView points, TrianglesView triangl
         const Vec3 b = points.row(triangles(f, 1));
         const Vec3 c = points.row(triangles(f, 2));
         const Vec3 center = (a + b + c) / 3.0;
-        const bool counts = at_center(f, center);
-        samples[f] = { center, counts ? (b - a).cross(c - a).norm() / 3.0 : 0.0 };
+        const bool is_counted = at_center(f, center);
+        samples[f] = { center, is_counted ? (b - a).cross(c - a).norm() / 3.0 : 0.0 };
         for (int k = 0; k < 3; ++k)
         {
-          corners[f][k] = at_corner(f, k, counts);
+          corners[f][k] = at_corner(f, k, is_counted);
         }
       }
     });
@@ -129,25 +129,25 @@ bool measure_distance(ExecutionContext& context, const TetMesh& mesh, const Regi
     return true;
   }
   const TriangleTree surface_tree(region.points(), region.triangles());
-  const TriangleTree skin_tree(mesh.points, boundary);
+  const TriangleTree boundary_tree(mesh.points, boundary);
   std::vector<Sample> samples;
   {
     const ProgressRange range(context, 0.0, 0.5);
-    if (!collect(
+    if (!collect_samples(
           context, region.points(), region.triangles(),
           [&](Index f, const Vec3& center) { return region.bounds_region_at(f, center); },
           [&](Index f, int k, bool) { return region.bounded_at_corner(f, k); }, samples) ||
-      !measure(context, samples, skin_tree, distance))
+      !measure(context, samples, boundary_tree, distance))
     {
       return false;
     }
   }
   const ProgressRange range(context, 0.5, 1.0);
-  const HoleCaps lids(region, surface_tree);
-  const bool may_have_lids = !region.closed();
+  const HoleCaps hole_caps(region, surface_tree);
+  const bool may_have_caps = !region.closed();
   const auto on_surface = [&](Index f, const Vec3& center)
   {
-    if (!may_have_lids)
+    if (!may_have_caps)
     {
       return true;
     }
@@ -155,13 +155,13 @@ bool measure_distance(ExecutionContext& context, const TetMesh& mesh, const Regi
     const Vec3 b = mesh.points.row(boundary(f, 1));
     const Vec3 c = mesh.points.row(boundary(f, 2));
     const double size = std::sqrt(std::max((b - a).squaredNorm(), (c - a).squaredNorm()));
-    return !lids.contain(center, (b - a).cross(c - a).normalized(), 0.5 * size);
+    return !hole_caps.contain(center, (b - a).cross(c - a).normalized(), 0.5 * size);
   };
   // A vertex is a sample if one of its triangles is not part of a lid. This includes the vertices
   // at the border of a lid, which is acceptable because the surface is near them.
-  return collect(
+  return collect_samples(
            context, mesh.points, boundary, on_surface,
-           [](Index, int, bool counts) { return counts; }, samples) &&
+           [](Index, int, bool is_counted) { return is_counted; }, samples) &&
     measure(context, samples, surface_tree, distance);
 }
 

@@ -33,11 +33,11 @@ namespace bindpose
 namespace
 {
 /// Fraction of the work of method cdt for CdtTets::build(); the rest is for complete().
-constexpr double cdt_built = 0.45;
+constexpr double cdt_build_end = 0.45;
 
 /// Return the failure status if neither cdt nor remesh succeeds. The message recommends method
 /// embed for every reason.
-Status no_method_fits(Status status)
+Status recommend_embedding(Status status)
 {
   if (status.code == StatusCode::canceled)
   {
@@ -58,9 +58,9 @@ public:
       box_(bounding_box(prepared.surface.points)),
       time_limit_(options.time_limit > 0.0
           ? options.time_limit
-          : std::max(least_time_limit,
+          : std::max(minimum_time_limit,
               time_limit_per_triangle * static_cast<double>(prepared.surface.triangles.rows()))),
-      diagnosis_(prepared.report), report_(prepared.report), warnings_(prepared.warnings)
+      preparation_report_(prepared.report), report_(prepared.report), warnings_(prepared.warnings)
   {
     result.defects = prepared.defects;
   }
@@ -79,7 +79,7 @@ private:
   template <typename MakeTets>
   Status make_and_check(const MakeTets& make_tets)
   {
-    Status status = this->check_shape();
+    Status status = this->check_not_flat();
     if (status.ok())
     {
       const Phase phase(this->context_, "tetrahedralize", 0.0, 0.95);
@@ -102,11 +102,11 @@ private:
     return status;
   }
 
-  Status check_shape() const
+  Status check_not_flat() const
   {
-    const bool holds_anything =
+    const bool accepts_flat_surface =
       this->options_.method == TetMethod::embed || this->options_.method == TetMethod::wrap;
-    return this->surface_.found.flat && !holds_anything
+    return this->surface_.found.flat && !accepts_flat_surface
       ? Status::invalid_input(
           "the surface is flat: all its points are in one plane, so it encloses no volume")
       : Status();
@@ -116,7 +116,7 @@ private:
 
   Status run_method()
   {
-    this->climb_start_ = this->context_.elapsed_seconds();
+    this->method_start_ = this->context_.elapsed_seconds();
     if (this->options_.method == TetMethod::embed)
     {
       return this->embed();
@@ -144,13 +144,13 @@ private:
     const Status specks = automatic ? this->inside_.check_not_specks(this->surface_) : Status();
     if (!specks.ok())
     {
-      return no_method_fits(specks);
+      return recommend_embedding(specks);
     }
     const CdtOptions options = this->cdt_options();
     CdtTets cdt(this->context_, this->surface_, this->inside_, options, this->log_);
     Status status;
     {
-      const Phase phase(this->context_, "cdt", 0.0, cdt_built);
+      const Phase phase(this->context_, "cdt", 0.0, cdt_build_end);
       // Fraction of the time limit for build(); the rest is for inserting vertices inside.
       constexpr double fraction = 0.75;
       status = cdt.build(fraction * this->time_limit_);
@@ -161,13 +161,13 @@ private:
       return automatic && status.ok() && !this->is_good_enough() ? this->improve_cdt_by_remesh()
                                                                  : status;
     }
-    const std::string why = status.message;
+    const std::string cdt_failure = status.message;
     if (automatic)
     {
       status = this->remesh(true);
       if (status.ok())
       {
-        this->warn("method remesh replaced method cdt (" + why +
+        this->warn("method remesh replaced method cdt (" + cdt_failure +
           "); its tets do not preserve the surface's triangles");
       }
       if (status.ok() || status.code == StatusCode::canceled)
@@ -176,13 +176,13 @@ private:
       }
     }
     // If no attempt has the right volume, use the tets with the smallest misfit.
-    if (cdt.misfit() < worst_misfit && cdt.misfit() <= this->lattice_misfit_)
+    if (cdt.misfit() < maximum_misfit && cdt.misfit() <= this->lattice_misfit_)
     {
       this->warn(wrong_volume_error(cdt.volume(), this->inside_).message);
       return this->use_cdt_tets(cdt);
     }
     status = this->use_lattice_tets(status);
-    return automatic && !status.ok() ? no_method_fits(status) : status;
+    return automatic && !status.ok() ? recommend_embedding(status) : status;
   }
 
   CdtOptions cdt_options() const
@@ -199,7 +199,7 @@ private:
     return options;
   }
 
-  Status use_cdt_tets(CdtTets& cdt, double begin = cdt_built, double end = 1.0)
+  Status use_cdt_tets(CdtTets& cdt, double begin = cdt_build_end, double end = 1.0)
   {
     const Phase phase(this->context_, "cdt", begin, end);
     Status status = cdt.complete();
@@ -243,7 +243,7 @@ private:
   /// lattice tets.
   Status use_lattice_tets(const Status& status)
   {
-    if (this->lattice_misfit_ > worst_misfit || status.code == StatusCode::canceled)
+    if (this->lattice_misfit_ > maximum_misfit || status.code == StatusCode::canceled)
     {
       return status;
     }
@@ -267,10 +267,10 @@ private:
   /// larger than that of the present tets.
   /// @return ok or canceled.
   template <typename Attempt>
-  Status improve_by(const Attempt& attempt)
+  Status keep_if_better(const Attempt& attempt)
   {
     const double angle = this->angle();
-    const Report report = std::exchange(this->report_, this->diagnosis_);
+    const Report report = std::exchange(this->report_, this->preparation_report_);
     TetrahedralizeResult result;
     result.defects = this->result_.defects;
     std::swap(result, this->result_);
@@ -291,7 +291,7 @@ private:
   Status improve_cdt_by_remesh()
   {
     const double angle = this->angle();
-    const Status status = this->improve_by([&] { return this->remesh(true); });
+    const Status status = this->keep_if_better([&] { return this->remesh(true); });
     if (status.ok() && this->report_.text("method") == to_string(TetMethod::remesh))
     {
       this->warn("method remesh replaced method cdt (the smallest dihedral angle was " +
@@ -300,25 +300,25 @@ private:
     return status;
   }
 
-  Status remesh(bool finer_when_needed)
+  Status remesh(bool allow_finer)
   {
     Status refined;
     {
       const Phase phase(this->context_, "remesh", 0.0, 0.7);
-      refined = this->refine_inside();
+      refined = this->remesh_by_refinement();
     }
     if (refined.code == StatusCode::canceled || (refined.ok() && this->is_good_enough()))
     {
       return refined;
     }
     const ProgressRange range(this->context_, 0.7, 1.0);
-    const auto cut = [&] { return this->cut_lattice(finer_when_needed); };
-    return refined.ok() ? this->improve_by(cut) : cut();
+    const auto cut = [&] { return this->remesh_by_lattice(allow_finer); };
+    return refined.ok() ? this->keep_if_better(cut) : cut();
   }
 
-  Status cut_lattice(bool finer_when_needed)
+  Status remesh_by_lattice(bool allow_finer)
   {
-    constexpr double most_cubes = 4e6;
+    constexpr double maximum_cubes = 4e6;
     for (Index resolution = this->remesh_resolution();; resolution *= 2)
     {
       const double start = this->context_.elapsed_seconds();
@@ -357,9 +357,9 @@ private:
       }
       const double finer_cubes = 8.0 * static_cast<double>(lattice.cubes[0]) *
         static_cast<double>(lattice.cubes[1]) * static_cast<double>(lattice.cubes[2]);
-      constexpr Index finest = 4; // finest resolution, in units of the first resolution
-      if (!finer_when_needed || this->inside_.volume() <= 0.0 || finer_cubes > most_cubes ||
-        resolution >= finest * this->remesh_resolution())
+      constexpr Index maximum_refinement = 4; // finest resolution, in units of the first resolution
+      if (!allow_finer || this->inside_.volume() <= 0.0 || finer_cubes > maximum_cubes ||
+        resolution >= maximum_refinement * this->remesh_resolution())
       {
         return status;
       }
@@ -375,7 +375,7 @@ private:
   /// Run the helper's Delaunay refinement. Edges are as long as the edges of the surface, within
   /// bounds that depend on the resolution. By default the bounds are 0.005 and 0.035 of the box's
   /// longest side.
-  Status refine_inside()
+  Status remesh_by_refinement()
   {
     const double start = this->context_.elapsed_seconds();
     const double cube = this->box_.size().maxCoeff() /
@@ -389,18 +389,18 @@ private:
     options.memory_limit = this->options_.memory_limit;
     // Time limit: the time that remains after method cdt, minus some time for the lattice.
     constexpr double minimum_fraction = 0.25;
-    constexpr double lattice_share = 0.1;
-    options.time_limit = std::max(
-      this->time_left() - lattice_share * this->time_limit_, minimum_fraction * this->time_limit_);
+    constexpr double lattice_fraction = 0.1;
+    options.time_limit = std::max(this->time_left() - lattice_fraction * this->time_limit_,
+      minimum_fraction * this->time_limit_);
     if (this->options_.method == TetMethod::automatic)
     {
       // This limit is several times the duration for most surfaces. A surface of needle-shaped
       // triangles would take minutes.
-      constexpr double patience = 8.0; // seconds
-      constexpr double per_triangle = 1e-4;
-      constexpr double most_patience = 14.0;
-      options.time_limit = std::min({ options.time_limit, most_patience,
-        patience + per_triangle * static_cast<double>(this->surface_.triangles.rows()) });
+      constexpr double base_limit = 8.0; // seconds
+      constexpr double seconds_per_triangle = 1e-4;
+      constexpr double maximum_limit = 14.0;
+      options.time_limit = std::min({ options.time_limit, maximum_limit,
+        base_limit + seconds_per_triangle * static_cast<double>(this->surface_.triangles.rows()) });
     }
     RemeshResult result;
     Status status = remesh_tets(this->context_, this->surface_.points, this->surface_.triangles,
@@ -529,9 +529,9 @@ private:
     const ProgressRange range(this->context_, 0.8, 1.0);
     if (status.ok())
     {
-      RepairOptions as_it_is;
-      as_it_is.orient = false;
-      status = repair_surface(this->context_, points, triangles, as_it_is, wrap);
+      RepairOptions repair_options;
+      repair_options.orient = false;
+      status = repair_surface(this->context_, points, triangles, repair_options, wrap);
     }
     bool flipped = false;
     return status.ok() ? around.build(this->context_, wrap, wrap_threshold, flipped) : status;
@@ -553,7 +553,7 @@ private:
     }
     if (status.ok())
     {
-      status = this->judge_volume();
+      status = this->check_volume();
     }
     this->log("fTetWild", start, status);
     if (!status.ok())
@@ -566,7 +566,7 @@ private:
 
   /// Check the volume. A wrong volume is accepted with a warning if it differs by at most a factor
   /// of two.
-  Status judge_volume()
+  Status check_volume()
   {
     const TetMesh& mesh = this->result_.mesh;
     if (mesh.tets.rows() == 0)
@@ -579,7 +579,7 @@ private:
       return {};
     }
     const Status wrong = wrong_volume_error(volume, this->inside_);
-    if (this->inside_.misfit(volume) > worst_misfit)
+    if (this->inside_.misfit(volume) > maximum_misfit)
     {
       return wrong;
     }
@@ -605,7 +605,7 @@ private:
 
   double time_left() const
   {
-    return this->time_limit_ - (this->context_.elapsed_seconds() - this->climb_start_);
+    return this->time_limit_ - (this->context_.elapsed_seconds() - this->method_start_);
   }
 
   Status mark_all_vertices_new(TetMethod method)
@@ -688,7 +688,7 @@ private:
   {
     const TetMesh& mesh = this->result_.mesh;
     const Eigen::VectorXd volumes = tet_volumes(mesh.points, mesh.tets);
-    const bool all_stay = this->options_.method != TetMethod::embed;
+    const bool all_inside = this->options_.method != TetMethod::embed;
     this->result_.labels.resize(static_cast<std::size_t>(mesh.tets.rows()));
     this->result_.min_dihedral_angles.resize(mesh.tets.rows());
     double volume = 0.0;
@@ -696,7 +696,7 @@ private:
     for (Index t = 0; t < mesh.tets.rows(); ++t)
     {
       const bool above = this->result_.winding_numbers[t] >= this->options_.winding_threshold;
-      const bool inside = this->inside_tets_.empty() ? above || all_stay : this->inside_tets_[t];
+      const bool inside = this->inside_tets_.empty() ? above || all_inside : this->inside_tets_[t];
       this->result_.labels[t] = inside ? (above ? TetLabel::inside : TetLabel::inside_below)
         : above                        ? TetLabel::outside_above
                                        : TetLabel::outside;
@@ -721,7 +721,7 @@ private:
   }
 
   /// Largest misfit of a usable result: a factor of two in volume.
-  static constexpr double worst_misfit = 0.6931471805599453;
+  static constexpr double maximum_misfit = 0.6931471805599453;
   /// The winding number of a wrap is 1 inside, for every surface.
   static constexpr double wrap_threshold = 0.5;
 
@@ -734,14 +734,14 @@ private:
   const RepairedSurface& surface_;
   EnclosedRegion& inside_;
   const Box box_;
-  static constexpr double least_time_limit = 120.0; ///< seconds
+  static constexpr double minimum_time_limit = 120.0; ///< seconds
   static constexpr double time_limit_per_triangle = 1.2e-4;
   const double time_limit_;
-  double climb_start_ = 0.0;
+  double method_start_ = 0.0;
   std::vector<char> inside_tets_; ///< with keep_outside, #T: 1 for tets inside; otherwise empty
   TetMesh lattice_mesh_; ///< lattice tets of method remesh with a wrong volume
   double lattice_misfit_ = std::numeric_limits<double>::infinity();
-  const Report& diagnosis_; ///< report of the preparation, before the first attempt
+  const Report& preparation_report_; ///< report of the preparation, before the first attempt
   Report report_;
   AttemptLog log_;
   std::vector<std::string> warnings_;
@@ -786,8 +786,8 @@ Status check_options(const TetrahedralizeOptions& options)
     return Status::invalid_input(
       "keep_outside needs method cdt, the only method that fills the convex hull");
   }
-  constexpr double best_quality = 20.0;
-  if (!(options.quality >= 0.0 && options.quality <= best_quality))
+  constexpr double maximum_quality = 20.0;
+  if (!(options.quality >= 0.0 && options.quality <= maximum_quality))
   {
     return Status::invalid_input(
       "quality must be from 0 to 20 degrees, not " + short_number(options.quality));
@@ -801,8 +801,8 @@ Status check_options(const TetrahedralizeOptions& options)
   {
     return Status::invalid_input("interior_edge and quality must be 0 if bare is on");
   }
-  constexpr double ftetwilds_threshold = 0.5;
-  if (options.method == TetMethod::ftetwild && options.winding_threshold != ftetwilds_threshold)
+  constexpr double ftetwild_threshold = 0.5;
+  if (options.method == TetMethod::ftetwild && options.winding_threshold != ftetwild_threshold)
   {
     return Status::invalid_input("winding_threshold must be 0.5 for method ftetwild, not " +
       short_number(options.winding_threshold));
@@ -814,8 +814,8 @@ Status check_options(const TetrahedralizeOptions& options)
 double interior_edge_of_weights(double volume, double diagonal)
 {
   constexpr double most = 0.04;
-  constexpr double fewest_tets = 10000.0;
-  const double edge = std::cbrt(volume / (fewest_tets * regular_tet_volume)) / diagonal;
+  constexpr double minimum_tets = 10000.0;
+  const double edge = std::cbrt(volume / (minimum_tets * regular_tet_volume)) / diagonal;
   return edge > 0.0 ? std::min(most, edge) : most;
 }
 
@@ -843,7 +843,7 @@ namespace
 {
 /// Return a failure with the warnings and the report of the preparation, in the same form as the
 /// failures of the class Tetrahedralizer.
-Status failed(Status status, const PreparedSurface& prepared)
+Status with_preparation_report(Status status, const PreparedSurface& prepared)
 {
   status.warnings.insert(
     status.warnings.begin(), prepared.warnings.begin(), prepared.warnings.end());
@@ -870,7 +870,7 @@ Status tetrahedralize(ExecutionContext& context, PointsView points, TrianglesVie
   }
   if (!status.ok())
   {
-    return failed(std::move(status), prepared);
+    return with_preparation_report(std::move(status), prepared);
   }
   const ProgressRange range(context, 0.15, 1.0);
   return tetrahedralize(context, points, triangles, prepared, options, result);

@@ -23,20 +23,21 @@ Index resolution_for(const Box& box, double area, Index triangles)
   // Isosurface stuffing creates 3.8 triangles for each surface area of one cube face, measured on a
   // sphere.
   constexpr double triangles_per_face = 3.8;
-  constexpr double fewest = 16.0;
-  constexpr double most = 400.0;
-  constexpr double most_cubes = 2e6;
+  constexpr double minimum_resolution = 16.0;
+  constexpr double maximum_resolution = 400.0;
+  constexpr double maximum_cubes = 2e6;
   const double longest = box.size().maxCoeff();
   const double spacing = std::sqrt(triangles_per_face * area / static_cast<double>(triangles));
-  double resolution = std::clamp(spacing > 0.0 ? longest / spacing : most, fewest, most);
+  double resolution = std::clamp(
+    spacing > 0.0 ? longest / spacing : maximum_resolution, minimum_resolution, maximum_resolution);
   // The margin of the lattice is two cubes on every side.
   constexpr double margin = 4.0;
   const auto cubes = [&] { return (box.size().array() / longest * resolution + margin).prod(); };
-  while (resolution > fewest && cubes() > most_cubes)
+  while (resolution > minimum_resolution && cubes() > maximum_cubes)
   {
     resolution *= 0.9;
   }
-  return static_cast<Index>(std::lround(std::max(resolution, fewest)));
+  return static_cast<Index>(std::lround(std::max(resolution, minimum_resolution)));
 }
 
 /// Return the triangles that are too far from the lattice vertices inside. The test points of a
@@ -48,7 +49,7 @@ Triangles missed_triangles(PointsView points, TrianglesView triangles, const Lat
   const Index nx = lattice.cubes[0];
   const Index ny = lattice.cubes[1];
   const Index corners = (nx + 1) * (ny + 1) * (lattice.cubes[2] + 1);
-  const auto is_met = [&](const Vec3& p)
+  const auto reaches_lattice = [&](const Vec3& p)
   {
     std::array<Index, 3> at{};
     for (int axis = 0; axis < 3; ++axis)
@@ -56,15 +57,15 @@ Triangles missed_triangles(PointsView points, TrianglesView triangles, const Lat
       const double cube = std::floor((p[axis] - lattice.origin[axis]) / lattice.spacing);
       at[axis] = std::clamp<Index>(static_cast<Index>(cube), 0, lattice.cubes[axis] - 1);
     }
-    bool met = inside[corners + (at[2] * ny + at[1]) * nx + at[0]] != 0;
-    for (int corner = 0; corner < 8 && !met; ++corner)
+    bool reached = inside[corners + (at[2] * ny + at[1]) * nx + at[0]] != 0;
+    for (int corner = 0; corner < 8 && !reached; ++corner)
     {
       const Index x = at[0] + (corner & 1);
       const Index y = at[1] + (corner >> 1 & 1);
       const Index z = at[2] + (corner >> 2 & 1);
-      met = inside[(z * (ny + 1) + y) * (nx + 1) + x] != 0;
+      reached = inside[(z * (ny + 1) + y) * (nx + 1) + x] != 0;
     }
-    return met;
+    return reached;
   };
   std::vector<Index> missed;
   for (Index f = 0; f < triangles.rows(); ++f)
@@ -74,17 +75,17 @@ Triangles missed_triangles(PointsView points, TrianglesView triangles, const Lat
     const Vec3 c = points.row(triangles(f, 2));
     const double longest = std::max({ (b - a).norm(), (c - b).norm(), (a - c).norm() });
     const auto steps = static_cast<Index>(std::ceil(2.0 * longest / lattice.spacing)) + 1;
-    bool met = true;
-    for (Index i = 0; i <= steps && met; ++i)
+    bool reached = true;
+    for (Index i = 0; i <= steps && reached; ++i)
     {
-      for (Index j = 0; i + j <= steps && met; ++j)
+      for (Index j = 0; i + j <= steps && reached; ++j)
       {
         const double u = static_cast<double>(i) / static_cast<double>(steps);
         const double v = static_cast<double>(j) / static_cast<double>(steps);
-        met = is_met(a + u * (b - a) + v * (c - a));
+        reached = reaches_lattice(a + u * (b - a) + v * (c - a));
       }
     }
-    if (!met)
+    if (!reached)
     {
       missed.push_back(f);
     }

@@ -85,7 +85,7 @@ struct Soup
       CGAL::collinear(this->inexact(f[0]), this->inexact(f[1]), this->inexact(f[2]));
   }
   /// Weld vertices with equal coordinates. Remove faces without area and duplicate faces.
-  void tidy()
+  void remove_degenerate()
   {
     std::set<Face> seen;
     std::vector<Face> kept;
@@ -108,7 +108,7 @@ struct Soup
 
 /// Report whether the intersection of two triangles with positive area contains more than the
 /// vertices and edges that they share.
-bool cross(const Soup& soup, const Face& f, const Face& g)
+bool faces_cross(const Soup& soup, const Face& f, const Face& g)
 {
   // Move shared vertices to the front of both triangles.
   Face a = f;
@@ -163,7 +163,7 @@ std::vector<Pair> crossing_pairs(const Soup& soup, std::size_t most)
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(),
     [&](const Box& a, const Box& b)
     {
-      if (pairs.size() <= most && cross(soup, soup.faces[a.info()], soup.faces[b.info()]))
+      if (pairs.size() <= most && faces_cross(soup, soup.faces[a.info()], soup.faces[b.info()]))
       {
         pairs.push_back(std::minmax(a.info(), b.info()));
       }
@@ -181,7 +181,7 @@ struct Cuts
 
 /// Append the intersection of an edge of one triangle with the other triangle to `points` or
 /// `segments`.
-void note(const Exact::Segment_3& edge, const Exact::Triangle_3& triangle,
+void add_intersection(const Exact::Segment_3& edge, const Exact::Triangle_3& triangle,
   std::vector<Exact::Point_3>& points, std::vector<Exact::Segment_3>& segments)
 {
   const auto meet = CGAL::intersection(edge, triangle);
@@ -202,7 +202,8 @@ void note(const Exact::Segment_3& edge, const Exact::Triangle_3& triangle,
   }
 }
 
-void note_pair(const Soup& soup, const Face& f, const Face& g, Cuts& at_f, Cuts& at_g)
+void add_pair_intersections(
+  const Soup& soup, const Face& f, const Face& g, Cuts& cuts_of_f, Cuts& cuts_of_g)
 {
   const Exact::Triangle_3 a = soup.exact(f);
   const Exact::Triangle_3 b = soup.exact(g);
@@ -210,8 +211,8 @@ void note_pair(const Soup& soup, const Face& f, const Face& g, Cuts& at_f, Cuts&
   std::vector<Exact::Segment_3> segments;
   for (int k = 0; k < 3; ++k)
   {
-    note(Exact::Segment_3(a.vertex(k), a.vertex(k + 1)), b, points, segments);
-    note(Exact::Segment_3(b.vertex(k), b.vertex(k + 1)), a, points, segments);
+    add_intersection(Exact::Segment_3(a.vertex(k), a.vertex(k + 1)), b, points, segments);
+    add_intersection(Exact::Segment_3(b.vertex(k), b.vertex(k + 1)), a, points, segments);
   }
   // For triangles in different planes, there are at most two points, the ends of the intersection
   // segment. For triangles in one plane, the segments are the outline of the intersection polygon,
@@ -220,7 +221,7 @@ void note_pair(const Soup& soup, const Face& f, const Face& g, Cuts& at_f, Cuts&
   {
     segments.emplace_back(points[0], points[1]);
   }
-  for (Cuts* cuts : { &at_f, &at_g })
+  for (Cuts* cuts : { &cuts_of_f, &cuts_of_g })
   {
     cuts->points.insert(cuts->points.end(), points.begin(), points.end());
     cuts->segments.insert(cuts->segments.end(), segments.begin(), segments.end());
@@ -277,11 +278,11 @@ void cut(Soup& soup, const Face& face, const Cuts& cuts, std::vector<Face>& piec
   }
   // The positions of the recorded points in space are known. Only the vertices at which segments
   // cross each other must be lifted from the plane.
-  std::map<Planar::Vertex_handle, Exact::Point_3> known;
+  std::map<Planar::Vertex_handle, Exact::Point_3> exact_points;
   const auto insert = [&](const Exact::Point_3& p)
   {
     const Planar::Vertex_handle vertex = planar.insert(project(p));
-    known.emplace(vertex, p);
+    exact_points.emplace(vertex, p);
     return vertex;
   };
   for (const Exact::Point_3& p : cuts.points)
@@ -305,7 +306,7 @@ void cut(Soup& soup, const Face& face, const Cuts& cuts, std::vector<Face>& piec
       continue;
     }
     Coordinates p{};
-    if (const auto entry = known.find(vertex); entry != known.end())
+    if (const auto entry = exact_points.find(vertex); entry != exact_points.end())
     {
       for (int k = 0; k < 3; ++k)
       {
@@ -331,15 +332,15 @@ void cut(Soup& soup, const Face& face, const Cuts& cuts, std::vector<Face>& piec
   }
 }
 
-std::string too_many(const std::string& why)
+std::string too_many_crossings(const std::string& why)
 {
   report_value("too_many", 1.0);
   return why;
 }
 
-std::string too_long(double limit)
+std::string time_limit_reached(double limit)
 {
-  return too_many(
+  return too_many_crossings(
     "still splitting crossing triangles after " + std::to_string(static_cast<int>(limit)) + " s");
 }
 
@@ -353,10 +354,10 @@ std::string split(Soup& soup, const std::vector<Pair>& pairs, const Stopwatch& c
   for (std::size_t p = 0; p < pairs.size(); ++p)
   {
     const auto [f, g] = pairs[p];
-    note_pair(soup, soup.faces[f], soup.faces[g], cuts[f], cuts[g]);
+    add_pair_intersections(soup, soup.faces[f], soup.faces[g], cuts[f], cuts[g]);
     if (p % check_interval == 0 && clock.seconds() > options.time_limit)
     {
-      return too_long(options.time_limit);
+      return time_limit_reached(options.time_limit);
     }
   }
   std::vector<Face> next;
@@ -377,16 +378,16 @@ std::string split(Soup& soup, const std::vector<Pair>& pairs, const Stopwatch& c
     }
     if (next.size() > face_limit)
     {
-      return too_many("crossing triangles would be split into more than " +
+      return too_many_crossings("crossing triangles would be split into more than " +
         std::to_string(face_limit) + " pieces");
     }
     if (clock.seconds() > options.time_limit)
     {
-      return too_long(options.time_limit);
+      return time_limit_reached(options.time_limit);
     }
   }
   soup.faces = std::move(next);
-  soup.tidy();
+  soup.remove_degenerate();
   return {};
 }
 
@@ -403,7 +404,7 @@ Soup soup_of(const MesherData& data)
   {
     soup.faces.push_back({ data.triangles(f, 0), data.triangles(f, 1), data.triangles(f, 2) });
   }
-  soup.tidy();
+  soup.remove_degenerate();
   return soup;
 }
 
@@ -426,9 +427,10 @@ std::string refine(MesherData& data, const RefineOptions& options)
   constexpr std::size_t small = 10000;
   const auto face_limit = static_cast<std::size_t>(
     options.growth_limit * static_cast<double>(std::max(soup.faces.size(), small)));
-  constexpr std::size_t few = 64; // number of pairs below which an increase is ignored
+  // Number of pairs below which an increase is ignored.
+  constexpr std::size_t minimum_crossings = 64;
   // The job gives up after this many rounds in which the number of crossings increased.
-  constexpr int patience = 3;
+  constexpr int maximum_growing_rounds = 3;
   // Maximum number of crossing pairs. More pairs would exceed the time limit or the growth limit,
   // because each pair adds at least two triangles.
   constexpr double seconds_per_pair = 2.5e-4;
@@ -436,7 +438,7 @@ std::string refine(MesherData& data, const RefineOptions& options)
     face_limit / 2 - std::min(face_limit, soup.faces.size()) / 2);
   bool rounded = false;
   std::size_t before = std::numeric_limits<std::size_t>::max();
-  int growing = 0; // number of rounds with more crossings than the round before
+  int growing_rounds = 0; // number of rounds with more crossings than the round before
   int round = 0;
   for (; round < options.round_limit; ++round)
   {
@@ -446,7 +448,7 @@ std::string refine(MesherData& data, const RefineOptions& options)
     report_progress(first_found);
     if (pairs.size() > pair_limit)
     {
-      return too_many("more than " + std::to_string(pair_limit) +
+      return too_many_crossings("more than " + std::to_string(pair_limit) +
         " pairs of triangles cross, too many to split them");
     }
     if (round == 0 && !rounded)
@@ -457,19 +459,19 @@ std::string refine(MesherData& data, const RefineOptions& options)
     {
       break;
     }
-    growing += pairs.size() > std::max(before, few) ? 1 : 0;
-    before = std::max(pairs.size(), few);
-    if (growing > 0 && !rounded)
+    growing_rounds += pairs.size() > std::max(before, minimum_crossings) ? 1 : 0;
+    before = std::max(pairs.size(), minimum_crossings);
+    if (growing_rounds > 0 && !rounded)
     {
       round_points(data);
       soup = soup_of(data);
       rounded = true;
-      growing = 0;
+      growing_rounds = 0;
       before = std::numeric_limits<std::size_t>::max();
       round = -1;
       continue;
     }
-    if (growing == patience)
+    if (growing_rounds == maximum_growing_rounds)
     {
       return "the number of crossing triangles increases with every round of splitting";
     }

@@ -40,7 +40,7 @@ namespace
 
 /// Make this process end when its parent ends. If the parent ended before this request, the parent
 /// id is different and the job fails.
-void die_with(pid_t parent)
+void exit_with_parent(pid_t parent)
 {
   ::prctl(PR_SET_PDEATHSIG, SIGKILL);
   if (parent > 0 && ::getppid() != parent)
@@ -147,7 +147,7 @@ int main(int argc, char* argv[])
   {
     options[argv[i]] = argv[i + 1];
   }
-  die_with(static_cast<pid_t>(number(options, "--parent", 0.0)));
+  exit_with_parent(static_cast<pid_t>(number(options, "--parent", 0.0)));
   set_limits(number(options, "--memory", 0.0));
   leave_working_folder();
   // Libraries print to standard output. It is redirected to standard error, so that only the result

@@ -90,7 +90,8 @@ double snapped(double x, double grid)
 
 /// If an edge passes a vertex at less than half of the grid spacing, replace it by two edges
 /// through the vertex. @return whether an edge was replaced.
-bool bend(const Arrangement& arrangement, const Plane& plane, double grid, Pairs& edges)
+bool snap_edges_to_points(
+  const Arrangement& arrangement, const Plane& plane, double grid, Pairs& edges)
 {
   bool any = false;
   for (auto f = arrangement.finite_faces_begin(); f != arrangement.finite_faces_end(); ++f)
@@ -113,9 +114,9 @@ bool bend(const Arrangement& arrangement, const Plane& plane, double grid, Pairs
       const Coordinates along = difference(a, b);
       const Coordinates to_v = difference(a, v);
       const double length = std::hypot(along[0], along[1]);
-      const double way = (along[0] * to_v[0] + along[1] * to_v[1]) / length;
-      const double beside = std::abs(along[0] * to_v[1] - along[1] * to_v[0]) / length;
-      if (beside < 0.5 * grid && way > 0.0 && way < length)
+      const double along_edge = (along[0] * to_v[0] + along[1] * to_v[1]) / length;
+      const double edge_distance = std::abs(along[0] * to_v[1] - along[1] * to_v[0]) / length;
+      if (edge_distance < 0.5 * grid && along_edge > 0.0 && along_edge < length)
       {
         edges.erase(edge);
         edges.insert(ordered_pair(a, v));
@@ -179,7 +180,7 @@ public:
   Criteria(double sine_squared, double longest_edge, double smallest_side)
     // The constructor is called here, because the class is a virtual base.
     : CGAL::Delaunay_mesh_criteria_2<Filling>(sine_squared), Base(sine_squared, longest_edge),
-      floor_(smallest_side)
+      smallest_side_(smallest_side)
   {
   }
 
@@ -189,7 +190,7 @@ public:
     using BaseIsBad = Base::Is_bad;
 
     Is_bad(const BaseIsBad& base, double smallest_side)
-      : BaseIsBad(base), floor_squared_(smallest_side * smallest_side)
+      : BaseIsBad(base), smallest_side_squared_(smallest_side * smallest_side)
     {
     }
 
@@ -210,7 +211,7 @@ public:
       {
         const auto& a = face->vertex(k)->point();
         const auto& b = face->vertex(Filling::ccw(k))->point();
-        if (CGAL::squared_distance(a, b) < this->floor_squared_)
+        if (CGAL::squared_distance(a, b) < this->smallest_side_squared_)
         {
           return true;
         }
@@ -218,13 +219,13 @@ public:
       return false;
     }
 
-    double floor_squared_;
+    double smallest_side_squared_;
   };
 
-  Is_bad is_bad_object() const { return { Base::is_bad_object(), this->floor_ }; }
+  Is_bad is_bad_object() const { return { Base::is_bad_object(), this->smallest_side_ }; }
 
 private:
-  double floor_;
+  double smallest_side_;
 };
 
 /// Triangulate the region and mark the faces inside it.
@@ -275,7 +276,7 @@ std::string build(const MesherData& data, Filling& filling)
     f->set_in_domain(false);
   }
   std::vector<Filling::Face_handle> front;
-  const auto enter = [&](Filling::Face_handle face)
+  const auto add_face = [&](Filling::Face_handle face)
   {
     if (!face->is_in_domain() && !filling.is_infinite(face))
     {
@@ -292,7 +293,7 @@ std::string build(const MesherData& data, Filling& filling)
       return "the outline of the region is not a set of edges";
     }
     const bool left = face->vertex(Filling::ccw(side))->info().value == a;
-    enter(left ? face : face->neighbor(side));
+    add_face(left ? face : face->neighbor(side));
   }
   while (!front.empty())
   {
@@ -304,7 +305,7 @@ std::string build(const MesherData& data, Filling& filling)
       const Index b = face->vertex(Filling::cw(k))->info().value;
       if (outline.count({ a, b }) == 0)
       {
-        enter(face->neighbor(k));
+        add_face(face->neighbor(k));
       }
     }
   }
@@ -349,7 +350,7 @@ bool refine(Filling& filling, double min_angle, const FillOptions& options, std:
   return true;
 }
 
-void collect(const Filling& filling, MesherData& data)
+void collect_triangles(const Filling& filling, MesherData& data)
 {
   std::vector<Inexact::Point_2> fresh;
   std::map<Filling::Vertex_handle, Index> ids;
@@ -441,7 +442,7 @@ std::string arrange(MesherData& data, double grid)
         edges.insert(ordered_pair(a, b));
       }
     }
-    fresh = (grid > 0.0 && bend(arrangement, plane, grid, edges)) || fresh;
+    fresh = (grid > 0.0 && snap_edges_to_points(arrangement, plane, grid, edges)) || fresh;
     if (!fresh)
     {
       report_value("rounds", round);
@@ -488,7 +489,7 @@ std::string fill_plane(MesherData& data, const FillOptions& options)
   constexpr double growth = 30.0;
   const auto limit =
     static_cast<std::size_t>(many + triangles + growth * static_cast<double>(data.points.rows()));
-  constexpr double always = 20.6; // degrees; this bound can always be satisfied
+  constexpr double guaranteed_angle = 20.6; // degrees; this bound can always be satisfied
   Filling filling;
   double angle = options.min_angle;
   bool done = false;
@@ -500,14 +501,14 @@ std::string fill_plane(MesherData& data, const FillOptions& options)
       return error;
     }
     done = refine(filling, angle, options, limit, clock);
-    if (done || angle <= always || clock.seconds() > options.time_limit)
+    if (done || angle <= guaranteed_angle || clock.seconds() > options.time_limit)
     {
       break;
     }
-    angle = always;
+    angle = guaranteed_angle;
     filling.clear();
   }
-  collect(filling, data);
+  collect_triangles(filling, data);
   report_value("min_angle", angle);
   report_value("stopped", done ? 0.0 : 1.0);
   return {};

@@ -54,7 +54,7 @@ Kernel::Point_3 to_point(const Vec3& p)
 }
 
 /// A multiple of the sizing field, with the interface that CGAL requires.
-struct Size
+struct ScaledSizing
 {
   using FT = Kernel::FT;
   using Point_3 = Kernel::Point_3;
@@ -88,7 +88,8 @@ public:
   using Has_manifold_criterion = CGAL::Tag_true;
 
   explicit BoundedFacetCriteria(const SizingField& field)
-    : criteria_(facet_angle, Size{ &field, facet_radius }, Size{ &field, facet_distance }),
+    : criteria_(
+        facet_angle, ScaledSizing{ &field, facet_radius }, ScaledSizing{ &field, facet_distance }),
       field_(field)
   {
   }
@@ -122,7 +123,7 @@ public:
   using Is_cell_bad = CellCriteria::Is_cell_bad;
 
   explicit BoundedCellCriteria(const SizingField& field)
-    : criteria_(radius_edge, Size{ &field, cell_radius }), field_(field)
+    : criteria_(radius_edge, ScaledSizing{ &field, cell_radius }), field_(field)
   {
   }
   Is_cell_bad operator()(const Triangulation& t, const Triangulation::Cell_handle& cell) const
@@ -181,21 +182,21 @@ SizingField make_field(const BoundarySites& sites, RemeshJobOptions& options)
   }
 }
 
-class Start
+class InitialMesh
 {
 public:
-  Start(Complex& complex, const Domain::Index& index, const SizingField& field)
+  InitialMesh(Complex& complex, const Domain::Index& index, const SizingField& field)
     : complex_(complex), index_(index), field_(field)
   {
   }
-  void insert(const Vec3& p, double apart)
+  void insert(const Vec3& p, double point_spacing)
   {
     Triangulation& t = this->complex_.triangulation();
     const Triangulation::Weighted_point point(to_point(p));
     if (t.number_of_vertices() > 0)
     {
       const auto near = t.nearest_power_vertex(point.point());
-      const double least = apart * this->field_.at(p);
+      const double least = point_spacing * this->field_.at(p);
       if (CGAL::squared_distance(near->point().point(), point.point()) < least * least)
       {
         return;
@@ -215,7 +216,7 @@ private:
   const SizingField& field_;
 };
 
-void take_result(const Complex& complex, MesherData& data)
+void copy_result(const Complex& complex, MesherData& data)
 {
   std::map<Triangulation::Vertex_handle, Index> ids;
   std::vector<Vec3> points;
@@ -284,27 +285,27 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
   Complex complex;
   const Domain::Index on_surface =
     domain.index_from_surface_patch_index(Domain::Surface_patch_index(0, 1));
-  Start start(complex, on_surface, field);
-  constexpr double apart = 0.5;
+  InitialMesh initial_mesh(complex, on_surface, field);
+  constexpr double point_spacing = 0.5;
   for (const auto* vertices : { &creases.corners, &creases.vertices })
   {
     for (const Index v : *vertices)
     {
-      start.insert(region.points().row(v), apart);
+      initial_mesh.insert(region.points().row(v), point_spacing);
     }
   }
   for (Index i = 0; i < creases.edge_points.rows(); ++i)
   {
-    start.insert(creases.edge_points.row(i), apart);
+    initial_mesh.insert(creases.edge_points.row(i), point_spacing);
   }
   for (const Index v : sites.vertices)
   {
-    start.insert(region.points().row(v), apart);
+    initial_mesh.insert(region.points().row(v), point_spacing);
   }
   for (Index i = static_cast<Index>(sites.vertices.size()); i < sites.points.rows(); ++i)
   {
-    constexpr double sparse = 1.0;
-    start.insert(sites.points.row(i), sparse);
+    constexpr double wide_spacing = 1.0;
+    initial_mesh.insert(sites.points.row(i), wide_spacing);
   }
   // If the surface is open, the part that bounds the region may lie in one plane. Then the initial
   // triangulation needs points in other planes.
@@ -316,8 +317,8 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
   }
   for (const auto& [p, index] : more)
   {
-    constexpr double anywhere = 0.0;
-    start.insert(to_vec3(p), anywhere);
+    constexpr double no_spacing = 0.0;
+    initial_mesh.insert(to_vec3(p), no_spacing);
   }
   if (complex.triangulation().dimension() < 3)
   {
@@ -327,23 +328,25 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
 
   // A mesh has about five tets per vertex, so this limit is far above the expected number of
   // vertices. The limit stops refinements that would not end by themselves.
-  const auto most_vertices =
+  const auto maximum_vertices =
     static_cast<std::size_t>(options.tet_limit) + 2 * complex.triangulation().number_of_vertices();
   CGAL::Mesh_error_code code = CGAL::CGAL_MESH_3_NO_ERROR;
   CGAL::refine_mesh_3(complex, domain, Criteria(field), CGAL::parameters::no_reset_c3t3(),
     CGAL::parameters::no_perturb(), CGAL::parameters::no_exude(), CGAL::parameters::manifold(),
-    CGAL::parameters::mesh_3_options(CGAL::parameters::maximal_number_of_vertices = most_vertices,
+    CGAL::parameters::mesh_3_options(
+      CGAL::parameters::maximal_number_of_vertices = maximum_vertices,
       CGAL::parameters::pointer_to_error_code = &code));
   if (code != CGAL::CGAL_MESH_3_NO_ERROR)
   {
-    return "the refinement did not terminate after " + std::to_string(most_vertices) + " vertices";
+    return "the refinement did not terminate after " + std::to_string(maximum_vertices) +
+      " vertices";
   }
   report_value("seconds.refine", clock.seconds());
   if (complex.number_of_cells_in_complex() == 0)
   {
     return "the refinement found no cells inside the surface";
   }
-  take_result(complex, data);
+  copy_result(complex, data);
   return {};
 }
 

@@ -99,7 +99,7 @@ std::vector<Part> closed_parts(const Mesh& mesh, Index& open, Index& hollow)
 }
 
 /// Remesh to about `triangles` triangles of even size.
-void even_out(Mesh& mesh, double triangles)
+void remesh_uniformly(Mesh& mesh, double triangles)
 {
   constexpr double edges_per_triangle = 1.5;
   if (static_cast<double>(mesh.number_of_faces()) > triangles)
@@ -126,7 +126,7 @@ void contract(const Mesh& mesh, const SkeletonJobOptions& options, double begin,
   Flow flow(mesh);
   const double whole = CGAL::to_double(pmp::area(mesh));
   double last = whole;
-  double furthest = 0.0;
+  double contraction = 0.0;
   for (Index i = 0; i < options.iteration_limit; ++i)
   {
     flow.contract_geometry();
@@ -143,9 +143,9 @@ void contract(const Mesh& mesh, const SkeletonJobOptions& options, double begin,
     }
     // The change in area decreases approximately as a power of the step number, so the logarithm of
     // the change is used as progress.
-    furthest =
-      std::max(furthest, std::log(std::min(change, 1.0)) / std::log(flow.area_variation_factor()));
-    report_progress(begin + (end - begin) * std::min(furthest, 1.0));
+    contraction = std::max(
+      contraction, std::log(std::min(change, 1.0)) / std::log(flow.area_variation_factor()));
+    report_progress(begin + (end - begin) * std::min(contraction, 1.0));
   }
   Flow::Skeleton skeleton;
   flow.convert_to_skeleton(skeleton);
@@ -198,7 +198,7 @@ std::string skeleton(MesherData& data, const SkeletonJobOptions& options)
     const double fraction = CGAL::to_double(pmp::area(part.mesh)) / area;
     // A small component needs a minimum number of triangles to represent its shape.
     constexpr double least = 1000.0;
-    even_out(part.mesh, std::max(least, fraction * options.triangles));
+    remesh_uniformly(part.mesh, std::max(least, fraction * options.triangles));
     triangles += static_cast<Index>(part.mesh.number_of_faces());
     constexpr double evened = 0.2;
     report_progress(done + evened * fraction);

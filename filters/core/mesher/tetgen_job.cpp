@@ -170,23 +170,24 @@ std::string tetgen(MesherData& data, const TetgenOptions& options)
     ids.emplace(key_of(points.data() + 3 * v), v);
   }
   std::vector<Index> id_of(static_cast<std::size_t>(out.numberofpoints));
-  std::vector<Key> fresh;
+  std::vector<Key> new_points;
   for (int v = 0; v < out.numberofpoints; ++v)
   {
     const Key key = key_of(out.pointlist + 3 * v);
     const auto entry = ids.find(key);
     id_of[v] =
-      entry != ids.end() ? entry->second : points.rows() + static_cast<Index>(fresh.size());
+      entry != ids.end() ? entry->second : points.rows() + static_cast<Index>(new_points.size());
     if (entry == ids.end())
     {
-      fresh.push_back(key);
+      new_points.push_back(key);
     }
   }
-  data.points.resize(points.rows() + static_cast<Index>(fresh.size()), 3);
+  data.points.resize(points.rows() + static_cast<Index>(new_points.size()), 3);
   data.points.topRows(points.rows()) = points;
-  for (std::size_t v = 0; v < fresh.size(); ++v)
+  for (std::size_t v = 0; v < new_points.size(); ++v)
   {
-    data.points.row(points.rows() + static_cast<Index>(v)) << fresh[v][0], fresh[v][1], fresh[v][2];
+    data.points.row(points.rows() + static_cast<Index>(v)) << new_points[v][0], new_points[v][1],
+      new_points[v][2];
   }
   data.tets.resize(out.numberoftetrahedra, 4);
   for (Index t = 0; t < data.tets.rows(); ++t)

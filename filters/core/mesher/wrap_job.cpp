@@ -32,8 +32,8 @@ public:
   template <typename Wrapper, typename VertexHandle>
   void after_Steiner_point_insertion(const Wrapper&, VertexHandle)
   {
-    constexpr int seldom = 512;
-    if (++this->count_ % seldom == 0)
+    constexpr int report_interval = 512;
+    if (++this->count_ % report_interval == 0)
     {
       const double done = static_cast<double>(this->count_);
       report_progress(0.95 * done / (done + this->expected_));

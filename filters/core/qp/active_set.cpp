@@ -36,11 +36,12 @@ BoxQpSolution active_set(ExecutionContext& context, const SplitForm& matrices,
   const InverseForm& inverse, BoxQpWorkspace& workspace)
 {
   const Stopwatch watch;
-  constexpr int most_factorizations = 10;
-  constexpr int sure = 2; // number of factorizations that are exempt from the test for stalling
+  constexpr int maximum_factorizations = 10;
+  // Number of factorizations that are exempt from the test for stalling.
+  constexpr int unchecked_factorizations = 2;
   // After each later factorization, the largest change of a weight in the last Newton round must be
   // below this factor times the smallest such change after any earlier factorization.
-  constexpr double nearer = 0.5;
+  constexpr double required_ratio = 0.5;
   constexpr int rounds = 6; // maximum number of Newton rounds per factorization
   const double tolerance = options.tolerance;
   const double small_change = converged_newton_change(tolerance);
@@ -48,11 +49,11 @@ BoxQpSolution active_set(ExecutionContext& context, const SplitForm& matrices,
   BoxQpSolution solution;
   VectorXd x = start.x;
   std::vector<char> at_bound = start.at_bound;
-  const int most = std::min(most_factorizations, options.maximum_iterations);
-  const bool given = std::all_of(
+  const int most = std::min(maximum_factorizations, options.maximum_iterations);
+  const bool all_pinned = std::all_of(
     problem.pinned.begin(), problem.pinned.end(), [](char pinned) { return pinned != 0; });
-  double largest_change = given ? 0.0 : 1e300;
-  double least_move = 1e300;
+  double largest_change = all_pinned ? 0.0 : 1e300;
+  double smallest_change = 1e300;
   const auto certified = [&]
   {
     solution.w = problem.extend_to_all(matrices, x);
@@ -63,13 +64,14 @@ BoxQpSolution active_set(ExecutionContext& context, const SplitForm& matrices,
   };
   while (!(largest_change <= small_change && certified()))
   {
-    const bool stalled = solution.iterations > sure && !(largest_change < nearer * least_move);
+    const bool stalled = solution.iterations > unchecked_factorizations &&
+      !(largest_change < required_ratio * smallest_change);
     if (stalled || solution.iterations >= most || context.canceled())
     {
       solution.status = Status::failure(StatusCode::not_converged, "");
       break;
     }
-    least_move = std::min(least_move, largest_change);
+    smallest_change = std::min(smallest_change, largest_change);
     if (solution.iterations > 0)
     {
       at_bound = vertices_at_bounds(matrices, problem, matrices.a.transpose() * x + problem.c, x);

@@ -33,27 +33,28 @@ using Eigen::VectorXd;
 
 /// Relative residuals of linear systems in A: the target of the refinement, and the largest
 /// acceptable residual.
-constexpr double wanted_accuracy = 1e-14;
+constexpr double target_accuracy = 1e-14;
 constexpr double good_accuracy = 1e-12;
 
 /// Limit the number of threads of a context while this object exists; 0: no limit.
 class ThreadLimit
 {
 public:
-  ThreadLimit(ExecutionContext& context, int most) : context_(context), asked_(context.threads())
+  ThreadLimit(ExecutionContext& context, int most)
+    : context_(context), previous_threads_(context.threads())
   {
     if (most > 0)
     {
-      context.set_threads(std::min(thread_count(this->asked_), most));
+      context.set_threads(std::min(thread_count(this->previous_threads_), most));
     }
   }
-  ~ThreadLimit() { this->context_.set_threads(this->asked_); }
+  ~ThreadLimit() { this->context_.set_threads(this->previous_threads_); }
   ThreadLimit(const ThreadLimit&) = delete;
   ThreadLimit& operator=(const ThreadLimit&) = delete;
 
 private:
   ExecutionContext& context_;
-  const int asked_;
+  const int previous_threads_;
 };
 } // namespace
 
@@ -67,14 +68,14 @@ struct BoxQp::Impl : SplitForm
   // Single precision, with the analysis of `solver`; not analyzed if single precision is
   // unavailable.
   FloatCholesky single;
-  FloatCholesky single_of_a; // A's factor, if single precision is accurate enough
+  FloatCholesky float_factor; // A's factor, if single precision is accurate enough
   bool float_is_accurate = false;
-  mutable bool in_double = false; // whether `solver` contains A's factor
+  mutable bool has_double_factor = false; // whether `solver` contains A's factor
   VectorXd inverse_diagonal; // 1 / diagonal of A
   double memory_estimate = 0.0;
-  int most_threads = 0; // maximum number of threads that the memory allows; 0: no limit
+  int maximum_threads = 0; // maximum number of threads that the memory allows; 0: no limit
   mutable std::mutex solver_mutex;
-  mutable PerThread<BoxQpWorkspace> of_threads;
+  mutable PerThread<BoxQpWorkspace> thread_workspaces;
 
   /// Estimate the memory of the factors and limit the number of threads, because each thread needs
   /// a workspace. Return an error if the memory does not suffice for one workspace.
@@ -98,11 +99,13 @@ struct BoxQp::Impl : SplitForm
         this->single.workspace_bytes() +
         (ordered || !this->single.analyzed() ? in_double_precision : 0.0);
     const double left = remaining_memory(this->options.solver.memory_limit);
-    const double wanted = std::min(count, static_cast<double>(thread_count(threads)));
-    const double fitting =
-      bytes_per_column > 0.0 ? std::floor((left - shared_bytes) / bytes_per_column) : wanted;
-    const double workspaces = std::clamp(fitting, std::min(1.0, count), std::max(wanted, 1.0));
-    this->most_threads = static_cast<int>(workspaces);
+    const double target_threads = std::min(count, static_cast<double>(thread_count(threads)));
+    const double affordable_threads = bytes_per_column > 0.0
+      ? std::floor((left - shared_bytes) / bytes_per_column)
+      : target_threads;
+    const double workspaces =
+      std::clamp(affordable_threads, std::min(1.0, count), std::max(target_threads, 1.0));
+    this->maximum_threads = static_cast<int>(workspaces);
     this->memory_estimate = resident_memory() + shared_bytes + workspaces * bytes_per_column;
     return check_memory("solving for " + std::to_string(columns.size()) + " columns on " +
         std::to_string(this->q.rows()) + " vertices",
@@ -130,16 +133,16 @@ struct BoxQp::Impl : SplitForm
       return true;
     }
     const std::lock_guard<std::mutex> lock(this->solver_mutex);
-    if (!this->in_double && !(context && context->canceled()))
+    if (!this->has_double_factor && !(context && context->canceled()))
     {
-      this->in_double = this->solver.factor(this->lower).ok();
+      this->has_double_factor = this->solver.factor(this->lower).ok();
     }
-    if (this->in_double)
+    if (this->has_double_factor)
     {
       x = this->solver.solve(rhs);
       x += this->solver.solve(rhs - this->a * x);
     }
-    return this->in_double;
+    return this->has_double_factor;
   }
   /// Like solve_a(), for certificates: NaN if the accuracy is not reached.
   Eigen::MatrixXd inverse_of_a(const Eigen::MatrixXd& rhs) const
@@ -158,9 +161,9 @@ struct BoxQp::Impl : SplitForm
   {
     constexpr int most_steps = 40;
     return refined_solve(
-      this->single_of_a,
+      this->float_factor,
       [this](const Eigen::MatrixXd& p) { return Eigen::MatrixXd(this->a.transpose() * p); },
-      this->inverse_diagonal, rhs, { wanted_accuracy, most_steps, context }, x);
+      this->inverse_diagonal, rhs, { target_accuracy, most_steps, context }, x);
   }
   /// Factor A in single precision. Discard the factor if it is not accurate enough for a typical
   /// right-hand side.
@@ -171,16 +174,16 @@ struct BoxQp::Impl : SplitForm
     {
       this->inverse_diagonal[i] = 1.0 / this->lower.valuePtr()[this->diagonal[i]];
     }
-    this->single_of_a = this->single.clone();
-    const Status status = this->single_of_a.factor(context, this->lower, 0.0);
-    this->single_of_a.release_workspace();
+    this->float_factor = this->single.clone();
+    const Status status = this->float_factor.factor(context, this->lower, 0.0);
+    this->float_factor.release_workspace();
     Eigen::MatrixXd x;
     const VectorXd ones = VectorXd::Ones(this->fixed_block.cols());
     this->float_is_accurate =
       status.ok() && this->refined(&context, this->fixed_block * ones, x) <= good_accuracy;
     if (!this->float_is_accurate)
     {
-      this->single_of_a = FloatCholesky();
+      this->float_factor = FloatCholesky();
     }
     return status.code == StatusCode::canceled ? status : Status();
   }
@@ -239,7 +242,7 @@ public:
       {
         (starts[j].x.size() > 0 ? started : left).push_back(j);
       }
-      const ProgressRange solving(this->context_, start_share, 1.0);
+      const ProgressRange solving(this->context_, start_fraction, 1.0);
       this->solve_each(started,
         [&](std::size_t j, BoxQpWorkspace& workspace)
         {
@@ -263,7 +266,7 @@ public:
     }
     const ProgressRange range(this->context_, at_bounds, 1.0);
     const std::vector<ColumnStart> starts = this->find_starts(left, true);
-    const ProgressRange solving(this->context_, start_share, 1.0);
+    const ProgressRange solving(this->context_, start_fraction, 1.0);
     this->solve_each(left,
       [&](std::size_t j, BoxQpWorkspace& workspace)
       {
@@ -278,7 +281,7 @@ public:
 private:
   // Progress at the end of computing the starts, as a fraction of the progress of one method
   // (active set or interior point).
-  static constexpr double start_share = 0.3;
+  static constexpr double start_fraction = 0.3;
 
   /// Report whether a start can be computed for the column: the caller gives no start, there are no
   /// ordered pairs, and the bounds are finite.
@@ -297,7 +300,7 @@ private:
     const Stopwatch watch;
     std::vector<ColumnStart> starts(this->columns_.size());
     std::vector<std::size_t> chosen;
-    std::vector<BoxQpColumn> some;
+    std::vector<BoxQpColumn> start_columns;
     Eigen::MatrixXd unconstrained(
       this->unconstrained_.rows(), static_cast<Index>(requested.size()));
     for (const std::size_t j : requested)
@@ -307,17 +310,17 @@ private:
         unconstrained.col(static_cast<Index>(chosen.size())) =
           this->unconstrained_.col(static_cast<Index>(j));
         chosen.push_back(j);
-        some.push_back(this->columns_[j]);
+        start_columns.push_back(this->columns_[j]);
       }
     }
     if (chosen.empty())
     {
       return starts;
     }
-    const ProgressRange range(this->context_, 0.0, start_share);
+    const ProgressRange range(this->context_, 0.0, start_fraction);
     FloatCholesky own = this->qp_.single.clone();
     std::vector<ColumnStart> found =
-      splitting_start(this->context_, this->qp_, some, barriers, unconstrained, own);
+      splitting_start(this->context_, this->qp_, start_columns, barriers, unconstrained, own);
     const double seconds = watch.seconds() / static_cast<double>(chosen.size());
     for (std::size_t k = 0; k < chosen.size(); ++k)
     {
@@ -338,7 +341,7 @@ private:
       {
         for (Index k = begin; k < end; ++k)
         {
-          this->qp_.of_threads.with([&] { return this->qp_.make_workspace(); },
+          this->qp_.thread_workspaces.with([&] { return this->qp_.make_workspace(); },
             [&](BoxQpWorkspace& workspace)
             {
               BoxQpSolution& before = this->solutions_[chosen[k]];
@@ -401,7 +404,7 @@ Status BoxQp::prepare(ExecutionContext& context, const std::vector<BoxQpColumn>&
   {
     status = impl.plan_memory(columns, context.threads(), false);
     status = status.ok() ? explain_no_minimum(impl.solver.factor(impl.lower)) : status;
-    impl.in_double = status.ok();
+    impl.has_double_factor = status.ok();
   }
   context.add_seconds("factor", watch.seconds());
   return status.ok() && context.canceled() ? Status::canceled() : status;
@@ -436,8 +439,8 @@ std::vector<BoxQpSolution> BoxQp::solve_unbounded(
       pinned[columns[j].pinned[i]] = 1;
       solution.w[columns[j].pinned[i]] = columns[j].pinned_values[static_cast<Index>(i)];
     }
-    std::vector<char> nowhere(pinned.size(), 0);
-    solution.certificate = certify({ impl.q, nowhere }, solution.w);
+    std::vector<char> no_free_vertices(pinned.size(), 0);
+    solution.certificate = certify({ impl.q, no_free_vertices }, solution.w);
     VectorXd g = impl.q.transpose() * solution.w;
     for (Index v = 0; v < g.size(); ++v)
     {
@@ -473,11 +476,11 @@ std::vector<BoxQpSolution> BoxQp::solve_all(
     solutions[j].status = Status::canceled();
     solutions[j].w = VectorXd::Zero(impl.q.rows());
   }
-  Eigen::MatrixXd free_of_bounds = impl.minimizers(&context, impl.fixed_values_of(columns));
+  Eigen::MatrixXd unbounded = impl.minimizers(&context, impl.fixed_values_of(columns));
   if (!context.canceled())
   {
-    const ThreadLimit fewer(context, impl.most_threads);
-    Impl::ColumnsSolve(context, impl, columns, std::move(free_of_bounds), solutions).run();
+    const ThreadLimit fewer(context, impl.maximum_threads);
+    Impl::ColumnsSolve(context, impl, columns, std::move(unbounded), solutions).run();
   }
   return solutions;
 }

@@ -105,7 +105,7 @@ void project(Row& row)
 /// Minimize gradient . x over all rows x that are within the bounds and have the required sum:
 /// raise the entries from their lower bounds, in the order of ascending gradients.
 /// @return the gradient of the entry that is raised only in part.
-double fill_up(const Row& row, std::vector<std::size_t>& order, std::vector<double>& x)
+double minimize_over_row(const Row& row, std::vector<std::size_t>& order, std::vector<double>& x)
 {
   order.resize(row.value.size());
   std::iota(order.begin(), order.end(), std::size_t(0));
@@ -180,7 +180,7 @@ private:
   VectorXd rp_;
   MatrixXd d_; // n x m: terms added to A's diagonal
   // n: for the preconditioner, the diagonal scaling and the smallest entry of d_ per vertex.
-  VectorXd row_scale_, least_d_;
+  VectorXd row_scale_, smallest_d_;
   std::vector<SparseSolver> solvers_;
   CoupledSolution result_, best_;
   double factor_seconds_ = 0.0;
@@ -313,8 +313,8 @@ void CoupledQp::set_start(const MatrixXd& start)
   // The barrier weight mu is computed from the whole energy. With a tenth or a hundredth of the
   // energy, 1.5 times as many iterations are needed (measured).
   constexpr double least = 1e-2;
-  constexpr double of_energy = 1.0;
-  const double mu = of_energy * std::abs(energy) / std::max(1.0, this->is_solved_.sum());
+  constexpr double mu_per_energy = 1.0;
+  const double mu = mu_per_energy * std::abs(energy) / std::max(1.0, this->is_solved_.sum());
   this->s_ = (this->x_ - this->lower_).cwiseMax(least * (this->upper_ - this->lower_));
   this->t_ = (this->upper_ - this->x_).cwiseMax(least * (this->upper_ - this->lower_));
   this->z_ = (mu * this->s_.cwiseInverse()).cwiseProduct(this->is_solved_);
@@ -379,7 +379,7 @@ Status CoupledQp::factor()
   // number of columns, both over the columns in which the vertex is solved for.
   const VectorXd diagonal = this->matrices_.a.diagonal();
   this->row_scale_ = VectorXd::Zero(this->n_);
-  this->least_d_ = VectorXd::Zero(this->n_);
+  this->smallest_d_ = VectorXd::Zero(this->n_);
   for (Index i = 0; i < this->n_; ++i)
   {
     double least = 1e300;
@@ -392,7 +392,7 @@ Status CoupledQp::factor()
     {
       count += this->is_solved_(i, j) * (diagonal[i] + least) / (diagonal[i] + this->d_(i, j));
     }
-    this->least_d_[i] = this->is_coupled_[i] ? least : 0.0;
+    this->smallest_d_[i] = this->is_coupled_[i] ? least : 0.0;
     this->row_scale_[i] = count > 0.0 ? 1.0 / std::sqrt(count) : 0.0;
   }
   this->factor_seconds_ += watch.seconds();
@@ -436,7 +436,7 @@ void CoupledQp::find_multipliers(const VectorXd& rhs, double accuracy, VectorXd&
   const auto precondition = [&](const VectorXd& r) -> VectorXd
   {
     const VectorXd scaled = r.cwiseProduct(this->row_scale_);
-    return (this->matrices_.a.transpose() * scaled + this->least_d_.cwiseProduct(scaled))
+    return (this->matrices_.a.transpose() * scaled + this->smallest_d_.cwiseProduct(scaled))
       .cwiseProduct(this->row_scale_);
   };
   VectorXd r = rhs - this->sums_of_inverse(y);
@@ -575,7 +575,7 @@ void CoupledQp::certify_iterate()
     }
     diagonal_sum += diagonal[i];
     this->row_of(i, inside, &g, row);
-    const double critical = fill_up(row, order, x);
+    const double critical = minimize_over_row(row, order, x);
     this->result_.multipliers[free[i]] = -critical;
     for (std::size_t k = 0; k < x.size(); ++k)
     {

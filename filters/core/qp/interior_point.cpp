@@ -94,7 +94,7 @@ private:
   MatrixXd multiply(const MatrixXd& x) const;
   bool solve_refined(const VectorXd& rhs, double accuracy, VectorXd& x);
   Direction solve(const VectorXd& target, double accuracy);
-  double finish(double small_change);
+  double finish_by_newton(double small_change);
   static double longest_step(const VectorXd& at, const VectorXd& direction);
   void step_lengths(const Direction& d, double& primal, double& dual) const;
   Direction find_direction();
@@ -118,9 +118,9 @@ private:
   VectorXd h_; // constant terms h of the constraints
   VectorXd x_, s_, z_;
   VectorXd rd_, rp_; // residuals of the first two optimality conditions
-  VectorXd quotient_; // z / s
+  VectorXd z_over_s_; // z / s
   // Terms that the bounds add to A's diagonal, and the weights z / s of the pairs.
-  VectorXd extra_, of_pairs_;
+  VectorXd bound_diagonal_, pair_diagonal_;
   VectorXd inverse_diagonal_; // 1 / diagonal of the factored matrix
   double shift_ = 0.0; // largest diagonal shift that a factorization in single precision has needed
   bool in_single_ = false; // whether the last factorization is in single precision
@@ -273,12 +273,12 @@ Status InteriorPoint::factor(const VectorXd& d)
   this->in_single_ = false;
   if (this->workspace_.single.analyzed() && this->float_is_accurate_)
   {
-    this->extra_ = VectorXd::Zero(this->problem_.c.size());
+    this->bound_diagonal_ = VectorXd::Zero(this->problem_.c.size());
     for (Index i = 0; i < nb; ++i)
     {
-      this->extra_[this->bounded_[i]] = d[i] + d[nb + i];
+      this->bound_diagonal_[this->bounded_[i]] = d[i] + d[nb + i];
     }
-    this->of_pairs_ = d.tail(static_cast<Index>(this->rows_.size()));
+    this->pair_diagonal_ = d.tail(static_cast<Index>(this->rows_.size()));
     this->inverse_diagonal_.resize(this->problem_.c.size());
     for (Index i = 0; i < this->problem_.c.size(); ++i)
     {
@@ -333,13 +333,13 @@ Status InteriorPoint::factor_double()
 /// Multiply x by the matrix that was factored.
 MatrixXd InteriorPoint::multiply(const MatrixXd& x) const
 {
-  MatrixXd y = this->matrices_.a.transpose() * x + this->extra_.asDiagonal() * x;
+  MatrixXd y = this->matrices_.a.transpose() * x + this->bound_diagonal_.asDiagonal() * x;
   for (std::size_t r = 0; r < this->rows_.size(); ++r)
   {
     const PairRow& row = this->rows_[r];
     for (Index j = 0; j < x.cols(); ++j)
     {
-      const double pull = this->of_pairs_[static_cast<Index>(r)] *
+      const double pull = this->pair_diagonal_[static_cast<Index>(r)] *
         ((row.high >= 0 ? x(row.high, j) : 0.0) - (row.low >= 0 ? x(row.low, j) : 0.0));
       if (row.high >= 0)
       {
@@ -379,7 +379,7 @@ InteriorPoint::Direction InteriorPoint::solve(const VectorXd& target, double acc
 {
   const VectorXd per_s = target.cwiseQuotient(this->s_);
   VectorXd rhs =
-    this->apply_transposed(per_s - this->quotient_.cwiseProduct(this->rp_)) - this->rd_;
+    this->apply_transposed(per_s - this->z_over_s_.cwiseProduct(this->rp_)) - this->rd_;
   for (std::size_t i = 0; i < this->problem_.pinned.size(); ++i)
   {
     if (this->problem_.pinned[i])
@@ -402,7 +402,7 @@ InteriorPoint::Direction InteriorPoint::solve(const VectorXd& target, double acc
     this->workspace_.solver.solve(rhs, d.x);
   }
   d.s = this->apply(d.x) + this->rp_;
-  d.z = per_s - this->quotient_.cwiseProduct(d.s);
+  d.z = per_s - this->z_over_s_.cwiseProduct(d.s);
   return d;
 }
 
@@ -443,9 +443,9 @@ InteriorPoint::Direction InteriorPoint::find_direction()
   this->step_lengths(d, primal, dual);
   const double affine = (this->s_ + primal * d.s).dot(this->z_ + dual * d.z) / count;
   const double sigma = std::pow(affine / this->mu_, 3.0);
-  const double wanted = sigma * this->mu_;
-  VectorXd target =
-    VectorXd::Constant(products.size(), wanted) - products - primal * dual * d.s.cwiseProduct(d.z);
+  const double target_mu = sigma * this->mu_;
+  VectorXd target = VectorXd::Constant(products.size(), target_mu) - products -
+    primal * dual * d.s.cwiseProduct(d.z);
   d = this->solve(target, step_accuracy);
   this->step_lengths(d, primal, dual);
 
@@ -459,8 +459,8 @@ InteriorPoint::Direction InteriorPoint::find_direction()
     for (Index i = 0; i < change.size(); ++i)
     {
       const double v = (this->s_[i] + p * d.s[i]) * (this->z_[i] + q * d.z[i]);
-      const double lowest = 0.1 * wanted;
-      const double highest = 10.0 * wanted;
+      const double lowest = 0.1 * target_mu;
+      const double highest = 10.0 * target_mu;
       change[i] = v < lowest ? lowest - v : v > highest ? std::max(highest - v, -highest) : 0.0;
     }
     const VectorXd next_target = target + change;
@@ -498,13 +498,13 @@ void InteriorPoint::set_start(bool central)
   double energy = this->column_.energy > 0.0
     ? this->column_.energy
     : 0.5 * this->unconstrained_.dot(matrices.q.transpose() * this->unconstrained_);
-  const VectorXd within = this->problem_.extend_to_all(matrices, this->x_);
-  const double energy_within = 0.5 * within.dot(matrices.q.transpose() * within);
-  if (!(energy > 1e-9 * energy_within))
+  const VectorXd feasible = this->problem_.extend_to_all(matrices, this->x_);
+  const double feasible_energy = 0.5 * feasible.dot(matrices.q.transpose() * feasible);
+  if (!(energy > 1e-9 * feasible_energy))
   {
     // The minimum energy without bounds is zero, because the minimizer is constant. Use the energy
     // of the start, which satisfies bounds and pins.
-    energy = energy_within;
+    energy = feasible_energy;
   }
   // The values of `least` and of the factor 10 below were measured on boxes and on real shapes.
   // With them, half as many iterations are needed as with mu = E / n.
@@ -525,12 +525,12 @@ void InteriorPoint::balance_start()
   constexpr double far = 1.0;
   constexpr double least_slack = 1e-3;
   // Factor of mu = factor * energy / number of slacks; 1 to 10 are equally good (measured).
-  constexpr double mu_of_energy = 3.0;
+  constexpr double mu_per_energy = 3.0;
   if (this->start_.mu > 0.0 && gap > far)
   {
     this->raise_slacks(least_slack);
     const double mu =
-      mu_of_energy * this->result_.certificate.energy / static_cast<double>(this->s_.size());
+      mu_per_energy * this->result_.certificate.energy / static_cast<double>(this->s_.size());
     this->z_ = std::max(mu, this->start_.mu) * this->s_.cwiseInverse();
   }
 }
@@ -601,7 +601,7 @@ void InteriorPoint::certify_iterate(bool second_bound)
 /// @param small_change largest change of a weight in one round that counts as converged.
 /// @return the largest change in the last round. If it is at most `small_change`, result_ contains
 /// the new point and its certificate.
-double InteriorPoint::finish(double small_change)
+double InteriorPoint::finish_by_newton(double small_change)
 {
   constexpr int rounds = 6;
   VectorXd x = this->x_;
@@ -647,7 +647,7 @@ BoxQpSolution InteriorPoint::run()
   }
   // After an iterate is certified, a few more iterations let the weights converge. These iterations
   // do not affect the status.
-  constexpr int most_settling = 6;
+  constexpr int maximum_settling = 6;
   const double settled = converged_change(tolerance);
   int settling = 0;
   // The projected Newton method is tried if no weight changed by more than `near` in the last
@@ -658,9 +658,9 @@ BoxQpSolution InteriorPoint::run()
   int tries = 0;
   // 5 to 15 iterations are usual. If the form is very ill-conditioned (triharmonic energies of fine
   // meshes), all step lengths can be too short after the start that was computed for all columns
-  // together. Then the solve begins again without this start after begin_anew_after iterations. If
+  // together. Then the solve begins again without this start after restart_after iterations. If
   // it still has not converged after double_after iterations, it continues in double precision.
-  constexpr int begin_anew_after = 25;
+  constexpr int restart_after = 25;
   constexpr int double_after = 60;
   // With ordered pairs, the method stalls near the end if its factors are in single precision.
   // After this number of iterations without an improvement, double precision is used.
@@ -670,7 +670,7 @@ BoxQpSolution InteriorPoint::run()
   const auto done = [&]
   {
     return worst(this->best_.certificate) <= tolerance &&
-      (largest_change <= settled || settling > most_settling);
+      (largest_change <= settled || settling > maximum_settling);
   };
   while (status.ok() && !done() && this->result_.iterations < this->options_.maximum_iterations)
   {
@@ -679,7 +679,7 @@ BoxQpSolution InteriorPoint::run()
       status = Status::canceled();
       break;
     }
-    if (this->result_.iterations == begin_anew_after && this->start_.mu > 0.0 &&
+    if (this->result_.iterations == restart_after && this->start_.mu > 0.0 &&
       worst(this->best_.certificate) > tolerance)
     {
       this->set_start(false);
@@ -689,8 +689,8 @@ BoxQpSolution InteriorPoint::run()
     this->rd_ = this->matrices_.a.transpose() * this->x_ + this->problem_.c -
       this->apply_transposed(this->z_);
     this->mu_ = this->s_.dot(this->z_) / static_cast<double>(this->s_.size());
-    this->quotient_ = this->z_.cwiseQuotient(this->s_);
-    status = this->factor(this->quotient_);
+    this->z_over_s_ = this->z_.cwiseQuotient(this->s_);
+    status = this->factor(this->z_over_s_);
     if (!status.ok() || this->context_.canceled())
     {
       continue;
@@ -729,7 +729,7 @@ BoxQpSolution InteriorPoint::run()
     {
       const BoxQpSolution iterate = this->result_;
       const double small_change = converged_newton_change(tolerance);
-      const double left = this->finish(small_change);
+      const double left = this->finish_by_newton(small_change);
       if (left <= small_change && worst(this->result_.certificate) <= tolerance)
       {
         this->best_ = this->result_;

@@ -52,29 +52,29 @@ void sort_pairs(std::vector<OrderedPair>& pairs)
 
 std::vector<Index> topological_order(const std::vector<OrderedPair>& pairs, Index count)
 {
-  std::vector<std::vector<Index>> above(static_cast<std::size_t>(count));
+  std::vector<std::vector<Index>> successors(static_cast<std::size_t>(count));
   // For each vertex, the number of pairs in which this vertex is `high` and whose `low` vertex is
   // not yet in the order.
-  std::vector<Index> open(static_cast<std::size_t>(count), 0);
+  std::vector<Index> open_predecessors(static_cast<std::size_t>(count), 0);
   for (const OrderedPair& pair : pairs)
   {
-    above[pair.low].push_back(pair.high);
-    open[pair.high] += 1;
+    successors[pair.low].push_back(pair.high);
+    open_predecessors[pair.high] += 1;
   }
   std::vector<Index> order;
-  order.reserve(above.size());
+  order.reserve(successors.size());
   for (Index v = 0; v < count; ++v)
   {
-    if (open[v] == 0)
+    if (open_predecessors[v] == 0)
     {
       order.push_back(v);
     }
   }
   for (std::size_t i = 0; i < order.size(); ++i)
   {
-    for (const Index v : above[order[i]])
+    for (const Index v : successors[order[i]])
     {
-      if (--open[v] == 0)
+      if (--open_predecessors[v] == 0)
       {
         order.push_back(v);
       }
@@ -102,18 +102,19 @@ void enforce_order(const std::vector<OrderedPair>& sorted_pairs, const std::vect
 {
   // Upper limits of the values that also satisfy the pairs. The limit of a vertex is at most the
   // limit of each vertex that must be above it, minus the minimum difference of that pair.
-  Eigen::VectorXd cap = highest;
+  Eigen::VectorXd highest_feasible = highest;
   for (Index v = 0; v < values.size(); ++v)
   {
-    cap[v] = is_free[v] ? highest[v] : values[v];
+    highest_feasible[v] = is_free[v] ? highest[v] : values[v];
   }
   for (auto pair = sorted_pairs.rbegin(); pair != sorted_pairs.rend(); ++pair)
   {
-    cap[pair->low] = std::min(cap[pair->low], cap[pair->high] - pair->minimum_difference);
+    highest_feasible[pair->low] = std::min(
+      highest_feasible[pair->low], highest_feasible[pair->high] - pair->minimum_difference);
   }
   for (Index v = 0; v < values.size(); ++v)
   {
-    values[v] = is_free[v] ? std::min(values[v], cap[v]) : values[v];
+    values[v] = is_free[v] ? std::min(values[v], highest_feasible[v]) : values[v];
   }
   for (const OrderedPair& pair : sorted_pairs)
   {

@@ -45,7 +45,7 @@ double projected_newton(const ExecutionContext& context, const SplitForm& matric
   // A is symmetric. Products with its transpose are faster.
   const SparseMatrix& a = matrices.a;
   std::vector<char> at_bound;
-  const auto release = [&](VectorXd& v)
+  const auto zero_at_bounds = [&](VectorXd& v)
   {
     for (Index i = 0; i < n; ++i)
     {
@@ -73,14 +73,14 @@ double projected_newton(const ExecutionContext& context, const SplitForm& matric
       }
     }
     r = -(g + a.transpose() * (start - x));
-    release(r);
+    zero_at_bounds(r);
     VectorXd next = start;
     double first = 0.0;
     double last_rz = 0.0;
     for (int k = 0; k < steps; ++k)
     {
       preconditioner(r, z);
-      release(z);
+      zero_at_bounds(z);
       const double rz = r.dot(z);
       if (!(rz > 0.0) || rz <= reduction * reduction * first)
       {
@@ -90,7 +90,7 @@ double projected_newton(const ExecutionContext& context, const SplitForm& matric
       p = k == 0 ? z : VectorXd(z + (rz / last_rz) * p);
       last_rz = rz;
       ap = a.transpose() * p;
-      release(ap);
+      zero_at_bounds(ap);
       const double curvature = p.dot(ap);
       if (!(curvature > 0.0))
       {

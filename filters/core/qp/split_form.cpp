@@ -11,11 +11,11 @@ SplitForm::SplitForm(const SparseMatrix& form, std::vector<Index> given)
 {
   this->q.makeCompressed();
   this->is_free.assign(static_cast<std::size_t>(form.rows()), 1);
-  std::vector<Index> fixed_of_vertex(static_cast<std::size_t>(form.rows()), -1);
+  std::vector<Index> fixed_index(static_cast<std::size_t>(form.rows()), -1);
   for (std::size_t i = 0; i < this->fixed.size(); ++i)
   {
     this->is_free[this->fixed[i]] = 0;
-    fixed_of_vertex[this->fixed[i]] = static_cast<Index>(i);
+    fixed_index[this->fixed[i]] = static_cast<Index>(i);
   }
   this->free_index.assign(static_cast<std::size_t>(form.rows()), -1);
   for (Index v = 0; v < form.rows(); ++v)
@@ -41,7 +41,7 @@ SplitForm::SplitForm(const SparseMatrix& form, std::vector<Index> given)
       }
       else if (i >= 0)
       {
-        outer.emplace_back(i, static_cast<int>(fixed_of_vertex[v]), entry.value());
+        outer.emplace_back(i, static_cast<int>(fixed_index[v]), entry.value());
       }
     }
   }

@@ -168,8 +168,8 @@ std::vector<ColumnStart> splitting_start(ExecutionContext& context, const SplitF
     return starts;
   }
   const VectorXd weights = p.cwiseSqrt();
-  const Index largest_block = count < many_columns ? narrow_block : maximum_solve_columns;
-  const Index blocks = (count + largest_block - 1) / largest_block;
+  const Index maximum_block = count < many_columns ? narrow_block : maximum_solve_columns;
+  const Index blocks = (count + maximum_block - 1) / maximum_block;
   const Index block = (count + blocks - 1) / blocks;
   parallel_for(context, blocks, 1,
     [&](Index begin, Index)
@@ -183,10 +183,10 @@ std::vector<ColumnStart> splitting_start(ExecutionContext& context, const SplitF
       std::vector<Anderson> anderson;
       for (Index k = 0; k < width; ++k)
       {
-        const VectorXd free_of_bounds = unconstrained.col(first + k);
+        const VectorXd unbounded = unconstrained.col(first + k);
         problems.emplace_back(matrices, columns[static_cast<std::size_t>(first + k)]);
-        z.col(k) = problems.back().clamp_to_bounds(matrices, free_of_bounds);
-        energy[k] = 0.5 * free_of_bounds.dot(matrices.q.transpose() * free_of_bounds);
+        z.col(k) = problems.back().clamp_to_bounds(matrices, unbounded);
+        energy[k] = 0.5 * unbounded.dot(matrices.q.transpose() * unbounded);
         mu[k] = barriers ? relative_mu * energy[k] / static_cast<double>(2 * n) : 0.0;
         anderson.emplace_back(n);
       }

@@ -36,7 +36,7 @@ Status depth_order(ExecutionContext& context, WeightsView weights, const Eigen::
   {
     return Status::invalid_input("the tie must be at least 0");
   }
-  const Eigen::VectorXd beyond_first = layers.array() - layers[0];
+  const Eigen::VectorXd relative_layers = layers.array() - layers[0];
   const Eigen::VectorXd rank =
     Eigen::VectorXd::LinSpaced(handles, 0.0, handles > 1 ? options.tie : 0.0);
   result.depth.setZero(rows);
@@ -54,7 +54,7 @@ Status depth_order(ExecutionContext& context, WeightsView weights, const Eigen::
         }
         else if (std::abs(sum) > 1e-12)
         {
-          result.depth[v] = layers[0] + weights.row(v).dot(beyond_first) / sum;
+          result.depth[v] = layers[0] + weights.row(v).dot(relative_layers) / sum;
           result.front[v] = result.depth[v] + weights.row(v).dot(rank) / sum;
         }
       }

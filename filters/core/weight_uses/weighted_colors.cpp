@@ -92,8 +92,8 @@ Status weighted_colors(ExecutionContext& context, WeightsView weights, ColorsVie
   {
     blended = blended.unaryExpr(&to_linear_light);
   }
-  const Vec3 least = blended.colwise().minCoeff().transpose();
-  const Vec3 most = blended.colwise().maxCoeff().transpose();
+  const Vec3 minimum_color = blended.colwise().minCoeff().transpose();
+  const Vec3 maximum_color = blended.colwise().maxCoeff().transpose();
 
   result.colors.resize(rows, 3);
   result.out_of_gamut.assign(static_cast<std::size_t>(rows), 0);
@@ -112,7 +112,7 @@ Status weighted_colors(ExecutionContext& context, WeightsView weights, ColorsVie
           continue;
         }
         const double gamut = distance_outside(color, Vec3::Zero(), Vec3::Ones());
-        const double overshoot = distance_outside(color, least, most);
+        const double overshoot = distance_outside(color, minimum_color, maximum_color);
         result.out_of_gamut[static_cast<std::size_t>(v)] = gamut > gamut_tolerance;
         tally.out_of_gamut += gamut > gamut_tolerance;
         tally.beyond_handles += overshoot > gamut_tolerance;

@@ -135,10 +135,11 @@ Status inverse_distances(
           d[j] = distances.from(j, p);
         }
         // Divide all distances by the smallest distance, so that the powers do not overflow.
-        const double least = d.minCoeff();
+        const double smallest_distance = d.minCoeff();
         for (Index j = 0; j < m; ++j)
         {
-          w(v, j) = least > 0.0 ? std::pow(least / d[j], power) : double(d[j] == 0.0);
+          w(v, j) = smallest_distance > 0.0 ? std::pow(smallest_distance / d[j], power)
+                                            : double(d[j] == 0.0);
         }
         w.row(v) /= w.row(v).sum();
       }
@@ -198,7 +199,7 @@ struct Occluders
   std::vector<std::array<Index, 3>> vertices;
 };
 
-Occluders walls_of(const WeightsProblem& problem)
+Occluders make_occluders(const WeightsProblem& problem)
 {
   const Domain& domain = problem.mesh.domain;
   Occluders occluders;
@@ -240,9 +241,9 @@ Occluders walls_of(const WeightsProblem& problem)
 /// Compute H and p (see the top of this file) for every vertex. H is 0 if none of the nearest
 /// handles is visible.
 Status heat_sources(ExecutionContext& context, const WeightsProblem& problem, double heat,
-  VectorXd& h, MatrixXd& p, Index& heated)
+  VectorXd& h, MatrixXd& p, Index& heated_count)
 {
-  const Occluders occluders = walls_of(problem);
+  const Occluders occluders = make_occluders(problem);
   const TriangleTree tree(occluders.points, occluders.triangles);
   const HandleDistances distances(problem);
   const Index m = problem.handle_count();
@@ -263,21 +264,21 @@ Status heat_sources(ExecutionContext& context, const WeightsProblem& problem, do
         {
           d[j] = distances.from(j, position);
         }
-        constexpr double equally_near = 1.0001;
-        const double least = std::max(d.minCoeff(), 1e-6 * problem.diagonal);
+        constexpr double tie_factor = 1.0001;
+        const double smallest_distance = std::max(d.minCoeff(), 1e-6 * problem.diagonal);
         for (Index j = 0; j < m; ++j)
         {
-          if (d[j] > equally_near * least)
+          if (d[j] > tie_factor * smallest_distance)
           {
             continue;
           }
           const Vec3 to = distances.nearest(static_cast<std::size_t>(j), position);
           // Shorten the segment at both ends, because its ends touch a wall if they are on the
           // surface.
-          constexpr double short_of = 1e-3;
-          const Vec3 from = position + short_of * (to - position);
-          const Vec3 until = to + short_of * (position - to);
-          const bool hidden = tree.segment_meets(from, until,
+          constexpr double end_gap = 1e-3;
+          const Vec3 from = position + end_gap * (to - position);
+          const Vec3 segment_end = to + end_gap * (position - to);
+          const bool hidden = tree.segment_meets(from, segment_end,
             [&](Index f)
             {
               const auto& own = occluders.vertices[f];
@@ -289,21 +290,21 @@ Status heat_sources(ExecutionContext& context, const WeightsProblem& problem, do
         if (sum > 0.0)
         {
           p.row(v) /= sum;
-          const double distance = least / problem.diagonal;
+          const double distance = smallest_distance / problem.diagonal;
           h[v] = heat / (distance * distance);
         }
       }
     });
-  heated = (h.array() > 0.0).count();
+  heated_count = (h.array() > 0.0).count();
   return completed ? Status() : Status::canceled();
 }
 
 Status bone_heat(ExecutionContext& context, const WeightsProblem& problem,
-  const WeightsOptions& options, MatrixXd& w, VectorXd& residuals, Index& heated)
+  const WeightsOptions& options, MatrixXd& w, VectorXd& residuals, Index& heated_count)
 {
   VectorXd h;
   MatrixXd p;
-  Status status = heat_sources(context, problem, options.heat, h, p, heated);
+  Status status = heat_sources(context, problem, options.heat, h, p, heated_count);
   if (!status.ok())
   {
     return status;
@@ -392,20 +393,20 @@ Status bone_heat_weights(ExecutionContext& context, const WeightsProblem& proble
 {
   MatrixXd w;
   VectorXd residuals = VectorXd::Zero(problem.handle_count());
-  Index heated = -1;
+  Index heated_count = -1;
   Status status = begin(problem, options, result, w);
   if (status.ok())
   {
     const Phase phase(context, "weights", 0.1, 0.95);
-    status = bone_heat(context, problem, options, w, residuals, heated);
+    status = bone_heat(context, problem, options, w, residuals, heated_count);
   }
   if (status.ok())
   {
     status = finish(context, problem, "bone-heat", options, w, residuals, result);
   }
-  if (heated >= 0 && status.usable())
+  if (heated_count >= 0 && status.usable())
   {
-    status.report.set("counts.heated_vertices", Report::Value(heated));
+    status.report.set("counts.heated_vertices", Report::Value(heated_count));
   }
   return status;
 }

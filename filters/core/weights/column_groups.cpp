@@ -133,17 +133,17 @@ private:
 
   void find_fixed()
   {
-    this->row_of_.assign(static_cast<std::size_t>(this->n_), -1);
+    this->fixed_row_.assign(static_cast<std::size_t>(this->n_), -1);
     for (std::size_t i = 0; i < this->problem_.fixed.size(); ++i)
     {
-      this->row_of_[this->problem_.fixed[i]] = static_cast<Index>(i);
+      this->fixed_row_[this->problem_.fixed[i]] = static_cast<Index>(i);
     }
     this->is_fixed_.assign(static_cast<std::size_t>(this->group_.count), 0);
     for (Index u = 0; u < this->group_.count; ++u)
     {
       for (const Index member : this->members_[u])
       {
-        this->is_fixed_[u] = this->is_fixed_[u] || this->row_of_[member % this->n_] >= 0;
+        this->is_fixed_[u] = this->is_fixed_[u] || this->fixed_row_[member % this->n_] >= 0;
       }
       if (this->is_fixed_[u])
       {
@@ -159,7 +159,7 @@ private:
   Index owner(Index vertex) const
   {
     Index best = 0;
-    this->problem_.fixed_values.row(this->row_of_[vertex]).maxCoeff(&best);
+    this->problem_.fixed_values.row(this->fixed_row_[vertex]).maxCoeff(&best);
     return best;
   }
 
@@ -184,7 +184,7 @@ private:
       {
         const Index v = member % this->n_;
         const Index handle = handles[member / this->n_];
-        const Index row = this->row_of_[v];
+        const Index row = this->fixed_row_[v];
         double value = row >= 0 ? this->problem_.fixed_values(row, handle) : std::nan("");
         const double pin = this->terms_.pinned.size() > 0 && this->component_of_unknown_[u] >= 0 &&
             !(this->inserted(v) && row >= 0)
@@ -265,7 +265,7 @@ private:
 
   Status intersect_bounds(Index v, Index handle, double value, Index u, Bounds& bounds) const
   {
-    const bool on_inserted_handle = this->inserted(v) && this->row_of_[v] >= 0;
+    const bool on_inserted_handle = this->inserted(v) && this->fixed_row_[v] >= 0;
     const auto [low, high] =
       on_inserted_handle ? this->terms_.bounds_of(handle) : this->terms_.bounds_of(handle, v);
     const std::string what = "'" + this->handle_name(handle) + "' at vertex " + std::to_string(v);
@@ -277,8 +277,8 @@ private:
     if (!std::isnan(value) && (value < low - same_value || value > high + same_value))
     {
       return Status::invalid_input("the weight of " + what + " is " +
-        (this->row_of_[v] >= 0 ? "set by the handle '" + this->handle_name(this->owner(v)) + "'"
-                               : std::string("pinned")) +
+        (this->fixed_row_[v] >= 0 ? "set by the handle '" + this->handle_name(this->owner(v)) + "'"
+                                  : std::string("pinned")) +
         " to " + text(value) + ", outside its bounds " + text(low) + " and " + text(high));
     }
     bounds.lower[u] = std::max(bounds.lower[u], low);
@@ -297,7 +297,7 @@ private:
   {
     const Index v = a % this->n_;
     const Index w = b % this->n_;
-    const bool on_handles = this->row_of_[v] >= 0 && this->row_of_[w] >= 0;
+    const bool on_handles = this->fixed_row_[v] >= 0 && this->fixed_row_[w] >= 0;
     const Index set = this->terms_.rigid_sets.empty() ? 0 : this->terms_.rigid_sets[v];
     if (on_handles && set > 0 && set == this->terms_.rigid_sets[w])
     {
@@ -388,7 +388,7 @@ private:
   std::vector<Index> component_of_unknown_; // component of every unknown; -1: in no component
   Index part_count_ = 0;
   // Index of every vertex in the rows of problem.fixed_values; -1: not fixed.
-  std::vector<Index> row_of_;
+  std::vector<Index> fixed_row_;
   std::vector<char> is_fixed_; // 1 for fixed unknowns
   // One entry per column:
   std::vector<std::vector<double>> given_; // given values of the unknowns; NaN: solved for
@@ -402,7 +402,7 @@ Status make_column_groups(const WeightsProblem& problem, const Exclusions& exclu
   const Index m = problem.handle_count();
   const std::vector<Index> partner =
     mirrored_handles(problem.terms, problem.constraints, problem.handle_count());
-  ColumnGroup plain, own_image, pairs;
+  ColumnGroup plain, self_mirrored, pairs;
   pairs.copies = 2;
   for (Index j = 0; j < m; ++j)
   {
@@ -412,7 +412,7 @@ Status make_column_groups(const WeightsProblem& problem, const Exclusions& exclu
     }
     else if (partner[j] == j)
     {
-      own_image.handles.push_back({ j });
+      self_mirrored.handles.push_back({ j });
     }
     else if (partner[j] > j)
     {
@@ -420,7 +420,7 @@ Status make_column_groups(const WeightsProblem& problem, const Exclusions& exclu
     }
   }
   groups.clear();
-  for (ColumnGroup* group : { &plain, &own_image, &pairs })
+  for (ColumnGroup* group : { &plain, &self_mirrored, &pairs })
   {
     if (!group->handles.empty())
     {

@@ -51,7 +51,7 @@ void sweep(const VertexGraph& graph, const Eigen::VectorXd& values, const std::v
     }
     return v;
   };
-  const auto end_at = [&](Index minimum, double persistence)
+  const auto add_extremum = [&](Index minimum, double persistence)
   {
     if (!exempt[minimum])
     {
@@ -86,7 +86,7 @@ void sweep(const VertexGraph& graph, const Eigen::VectorXd& values, const std::v
       }
       if (birth[b] != v)
       {
-        end_at(birth[b], sign * (values[v] - values[birth[b]]) / range);
+        add_extremum(birth[b], sign * (values[v] - values[birth[b]]) / range);
       }
       parent[b] = a;
     }
@@ -95,7 +95,7 @@ void sweep(const VertexGraph& graph, const Eigen::VectorXd& values, const std::v
   {
     if (parent[v] == v)
     {
-      end_at(birth[v], 1.0);
+      add_extremum(birth[v], 1.0);
     }
   }
 }

@@ -150,7 +150,7 @@ int order_with_extrema(const ExecutionContext& context, const VertexGraph& graph
   const std::vector<char>& is_included, const ExtremaList& list, const Eigen::VectorXd& values,
   std::vector<Index>& rank)
 {
-  constexpr int most_floods = 1000;
+  constexpr int maximum_floods = 1000;
   const Index n = values.size();
   rank.assign(static_cast<std::size_t>(n), -1);
   std::vector<Index> order;
@@ -163,7 +163,7 @@ int order_with_extrema(const ExecutionContext& context, const VertexGraph& graph
   }
   std::sort(order.begin(), order.end(),
     [&](Index a, Index b) { return values[a] != values[b] ? values[a] < values[b] : a < b; });
-  for (int floods = 1; floods <= most_floods && !context.canceled(); ++floods)
+  for (int floods = 1; floods <= maximum_floods && !context.canceled(); ++floods)
   {
     const bool upwards = floods % 2 == 1;
     flood(graph, list, upwards ? -1 : 1, rank, order);

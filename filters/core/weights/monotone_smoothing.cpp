@@ -49,11 +49,11 @@ public:
 
 private:
   Status check() const;
-  void take_measurable();
+  void remove_degenerate();
   bool scale_data();
-  Status find_list();
-  void choose_list();
-  Status check_list();
+  Status find_extrema();
+  void choose_extrema();
+  Status check_extrema();
   void scale_to_size();
   void assemble();
   double expected_energy(const BoxQpColumn& column, const BoxQpSolution& unconstrained) const;
@@ -74,7 +74,7 @@ private:
   std::vector<char> used_; // #V: 1 for vertices in elements of positive measure
   std::vector<char> is_included_; // #V: 1 for used vertices in parts that are not constant
   VertexGraph graph_;
-  double middle_ = 0.0, range_ = 0.0; // center and range of the data
+  double center_ = 0.0, range_ = 0.0; // center and range of the data
   VectorXd f_; // data scaled to the range -1/2 … 1/2; 0 at unused vertices
   ScaledMesh scaled_; // the mesh scaled to size 1
   std::vector<Index> fixed_; // fixed vertices, then the additional unknown, whose index is #V
@@ -130,7 +130,7 @@ Status Smoothing::check() const
   return status;
 }
 
-void Smoothing::take_measurable()
+void Smoothing::remove_degenerate()
 {
   this->measurable_ = this->domain_;
   this->measurable_.triangles = measurable_triangles(this->domain_);
@@ -166,12 +166,12 @@ bool Smoothing::scale_data()
       high = std::max(high, this->data_[v]);
     }
   }
-  this->middle_ = 0.5 * low + 0.5 * high;
+  this->center_ = 0.5 * low + 0.5 * high;
   this->range_ = high - low;
   this->f_ = VectorXd::Zero(this->data_.size());
   for (Index v = 0; v < this->data_.size() && this->range_ > 0.0; ++v)
   {
-    this->f_[v] = this->used_[v] ? (this->data_[v] - this->middle_) / this->range_ : 0.0;
+    this->f_[v] = this->used_[v] ? (this->data_[v] - this->center_) / this->range_ : 0.0;
   }
   return this->range_ > 0.0;
 }
@@ -180,7 +180,7 @@ bool Smoothing::scale_data()
 /// the mesh, for example if a listed vertex is the only connection. Such a region also needs a
 /// minimum, so its lowest vertex is added to the list. The same applies to regions that listed
 /// minima separate.
-void Smoothing::choose_list()
+void Smoothing::choose_extrema()
 {
   ExtremaList& list = this->result_.list;
   list.assign(this->used_.size(), 0);
@@ -190,9 +190,9 @@ void Smoothing::choose_list()
     interior_extrema(this->graph_, this->f_, none, count > 0 ? 0.0 : this->options_.persistence);
   for (std::size_t i = 0; i < found.size(); ++i)
   {
-    const bool eldest = found[i].persistence >= 1.0;
+    const bool is_global = found[i].persistence >= 1.0;
     if (this->is_included_[found[i].vertex] &&
-      (eldest || count == 0 || static_cast<Index>(i) < count))
+      (is_global || count == 0 || static_cast<Index>(i) < count))
     {
       list[found[i].vertex] = found[i].maximum ? 1 : -1;
     }
@@ -215,14 +215,14 @@ void Smoothing::choose_list()
 
 /// Check that the list has a maximum and a minimum in every part that is not constant (see
 /// parts_without_extremum).
-Status Smoothing::check_list()
+Status Smoothing::check_extrema()
 {
   const ExtremaList& list = this->result_.list;
   for (const int kind : { -1, 1 })
   {
     for (const auto& part : parts_without_extremum(this->graph_, this->is_included_, list, kind))
     {
-      const char* wanted = kind > 0 ? "maximum" : "minimum";
+      const char* missing_kind = kind > 0 ? "maximum" : "minimum";
       const char* other = kind > 0 ? "minima" : "maxima";
       const Index c = this->components_.component_of_vertex[part.front()];
       bool whole = true;
@@ -230,17 +230,18 @@ Status Smoothing::check_list()
       {
         whole = this->components_.component_of_vertex[v] != c || list[v] * kind <= 0;
       }
-      return Status::invalid_input(whole ? "the list of extrema has no " + std::string(wanted) +
+      return Status::invalid_input(whole
+          ? "the list of extrema has no " + std::string(missing_kind) +
             " in the connected part of vertex " + std::to_string(part.front()) + ", only " + other
-                                         : "the list of extrema has no " + std::string(wanted) +
-            " among " + vertex_phrase(part.size(), "that ") + other +
+          : "the list of extrema has no " + std::string(missing_kind) + " among " +
+            vertex_phrase(part.size(), "that ") + other +
             " separate from the rest, including vertex " + std::to_string(part.front()));
     }
   }
   return {};
 }
 
-Status Smoothing::find_list()
+Status Smoothing::find_extrema()
 {
   ExtremaList& list = this->result_.list;
   const auto n = static_cast<Index>(this->used_.size());
@@ -285,9 +286,9 @@ Status Smoothing::find_list()
   }
   if (!given)
   {
-    this->choose_list();
+    this->choose_extrema();
   }
-  return this->check_list();
+  return this->check_extrema();
 }
 
 /// Scale the mesh to size 1 (see monotone_smoothing). Unlike the diagonal of the bounding box, this
@@ -336,14 +337,14 @@ void Smoothing::assemble()
       entries.emplace_back(static_cast<int>(it.row()), j, it.value());
     }
   }
-  const int one = static_cast<int>(n);
-  for (int v = 0; v < one; ++v)
+  const int constant_id = static_cast<int>(n);
+  for (int v = 0; v < constant_id; ++v)
   {
     entries.emplace_back(v, v, this->data_diagonal_[v]);
-    entries.emplace_back(v, one, -this->data_diagonal_[v] * this->f_[v]);
-    entries.emplace_back(one, v, -this->data_diagonal_[v] * this->f_[v]);
+    entries.emplace_back(v, constant_id, -this->data_diagonal_[v] * this->f_[v]);
+    entries.emplace_back(constant_id, v, -this->data_diagonal_[v] * this->f_[v]);
   }
-  entries.emplace_back(one, one, this->data_diagonal_.dot(this->f_.cwiseAbs2()));
+  entries.emplace_back(constant_id, constant_id, this->data_diagonal_.dot(this->f_.cwiseAbs2()));
   SparseMatrix form(n + 1, n + 1);
   form.setFromTriplets(entries.begin(), entries.end());
 
@@ -564,7 +565,7 @@ void Smoothing::finish(Status& status)
     const bool kept = this->keep_values_ && result.list[v] != 0;
     if (this->used_[v] && !kept)
     {
-      result.values[v] = this->middle_ + this->range_ * w[v];
+      result.values[v] = this->center_ + this->range_ * w[v];
     }
     if (this->used_[v])
     {
@@ -657,7 +658,7 @@ Status Smoothing::run()
     return status;
   }
   this->keep_values_ = this->options_.keep_values || this->options_.data_weight == 0.0;
-  this->take_measurable();
+  this->remove_degenerate();
   for (Index v = 0; v < this->data_.size(); ++v)
   {
     if (this->used_[v] && !std::isfinite(this->data_[v]))
@@ -690,7 +691,7 @@ Status Smoothing::run()
     status.report.set("counts.data_extrema",
       static_cast<std::int64_t>(
         interior_extrema(this->graph_, this->f_, std::vector<char>(this->used_.size(), 0)).size()));
-    Status listed = this->find_list();
+    Status listed = this->find_extrema();
     if (!listed.ok())
     {
       return listed;

@@ -108,13 +108,13 @@ Status monotone_guide(ExecutionContext& context, const WeightsProblem& problem, 
   // If the group contains all columns, all guides together sum to one. Then column j of `later_sum`
   // is the sum of the guides after j, `earlier_sum` is the sum of the guides before j, and both
   // together are 1 - u. Otherwise, `earlier_sum` is zero, and `later_sum` is 1 - u.
-  const bool whole = m == problem.handle_count();
+  const bool has_all_handles = m == problem.handle_count();
   Eigen::MatrixXd later_sum = Eigen::MatrixXd::Zero(n, m);
-  for (Index j = m - 1; j-- > 0 && whole;)
+  for (Index j = m - 1; j-- > 0 && has_all_handles;)
   {
     later_sum.col(j) = later_sum.col(j + 1) + result.guide.col(j + 1);
   }
-  if (!whole)
+  if (!has_all_handles)
   {
     later_sum = solver.minimizers((1.0 - fixed_values.array()).matrix());
   }
@@ -125,7 +125,7 @@ Status monotone_guide(ExecutionContext& context, const WeightsProblem& problem, 
     BoxQpColumn& column = group.columns[static_cast<std::size_t>(j)];
     Eigen::VectorXd u = result.guide.col(j);
     Eigen::VectorXd complement = earlier_sum + later_sum.col(j);
-    if (whole)
+    if (has_all_handles)
     {
       earlier_sum += u;
     }
@@ -194,13 +194,13 @@ Status monotone_guide(ExecutionContext& context, const WeightsProblem& problem, 
         lowest = below(other, lowest) ? other : lowest;
         highest = below(highest, other) ? other : highest;
       }
-      const bool above_zero = column.bounds.low(v) >= 0.0;
-      const bool below_one = column.bounds.high(v) <= 1.0;
-      if (lowest != v && !(above_zero && given(lowest) && u[lowest] <= 0.0))
+      const bool at_least_zero = column.bounds.low(v) >= 0.0;
+      const bool at_most_one = column.bounds.high(v) <= 1.0;
+      if (lowest != v && !(at_least_zero && given(lowest) && u[lowest] <= 0.0))
       {
         pairs.push_back({ lowest, v });
       }
-      if (highest != v && !(below_one && given(highest) && u[highest] >= 1.0))
+      if (highest != v && !(at_most_one && given(highest) && u[highest] >= 1.0))
       {
         pairs.push_back({ v, highest });
       }

@@ -100,8 +100,8 @@ public:
     const Eigen::MatrixXd start = this->form_.free_rows(harmonic);
     Eigen::MatrixXd x;
     const bool done = rank <= solves_of_gradients * m
-      ? this->by_rank(context, u, mass, fixed_flux, start, x)
-      : this->by_gradients(context, u, mass, fixed_flux, start, x);
+      ? this->solve_by_woodbury(context, u, mass, fixed_flux, start, x)
+      : this->solve_by_gradients(context, u, mass, fixed_flux, start, x);
     w = done ? this->form_.extend_to_all(x, this->problem_.fixed_values) : Eigen::MatrixXd();
     return done;
   }
@@ -112,15 +112,16 @@ private:
     return rhs.rows() == 0 ? rhs : this->solver_.solve(rhs);
   }
   /// Return P r.
-  Eigen::MatrixXd product(const Eigen::MatrixXd& r) const
+  Eigen::MatrixXd apply_inverse(const Eigen::MatrixXd& r) const
   {
     return this->solve(this->mass_.asDiagonal() * this->solve(r));
   }
 
   /// Solve by a low-rank update (Woodbury).
   /// @param start -K_ff^-1 U e, the harmonic weights.
-  bool by_rank(ExecutionContext& context, const SparseMatrix& u, const Eigen::VectorXd& mass,
-    const Eigen::MatrixXd& fixed_flux, const Eigen::MatrixXd& start, Eigen::MatrixXd& x) const
+  bool solve_by_woodbury(ExecutionContext& context, const SparseMatrix& u,
+    const Eigen::VectorXd& mass, const Eigen::MatrixXd& fixed_flux, const Eigen::MatrixXd& start,
+    Eigen::MatrixXd& x) const
   {
     const Index rank = u.cols();
     Eigen::MatrixXd g(u.rows(), rank);
@@ -128,7 +129,7 @@ private:
     for (Index begin = 0; begin < rank; begin += block)
     {
       const Index width = std::min(block, rank - begin);
-      g.middleCols(begin, width) = this->product(Eigen::MatrixXd(u.middleCols(begin, width)));
+      g.middleCols(begin, width) = this->apply_inverse(Eigen::MatrixXd(u.middleCols(begin, width)));
       context.progress(static_cast<double>(begin + width) / static_cast<double>(rank));
       if (context.canceled())
       {
@@ -142,8 +143,9 @@ private:
     return true;
   }
 
-  bool by_gradients(ExecutionContext& context, const SparseMatrix& u, const Eigen::VectorXd& mass,
-    const Eigen::MatrixXd& fixed_flux, const Eigen::MatrixXd& start, Eigen::MatrixXd& x) const
+  bool solve_by_gradients(ExecutionContext& context, const SparseMatrix& u,
+    const Eigen::VectorXd& mass, const Eigen::MatrixXd& fixed_flux, const Eigen::MatrixXd& start,
+    Eigen::MatrixXd& x) const
   {
     const SparseMatrix& k = this->form_.a;
     const Eigen::VectorXd inverse = this->mass_.cwiseInverse();
@@ -156,7 +158,7 @@ private:
     x = start;
     Eigen::MatrixXd r =
       -(u * (mass.cwiseInverse().asDiagonal() * (u.transpose() * start))) - u * fixed_flux;
-    Eigen::MatrixXd z = this->product(r);
+    Eigen::MatrixXd z = this->apply_inverse(r);
     Eigen::MatrixXd p = z;
     Eigen::VectorXd rz = r.cwiseProduct(z).colwise().sum().transpose();
     constexpr int most = 60;
@@ -178,10 +180,10 @@ private:
       {
         break;
       }
-      z = this->product(r);
+      z = this->apply_inverse(r);
       const Eigen::VectorXd next = r.cwiseProduct(z).colwise().sum().transpose();
-      const Eigen::VectorXd share = (rz.array() > 0.0).select(next.array() / rz.array(), 0.0);
-      p = z + p * share.asDiagonal();
+      const Eigen::VectorXd beta = (rz.array() > 0.0).select(next.array() / rz.array(), 0.0);
+      p = z + p * beta.asDiagonal();
       rz = next;
     }
     return true;

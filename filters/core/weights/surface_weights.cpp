@@ -27,25 +27,25 @@ namespace
 /// The weights of two lattices are trusted if their rms difference is at most this. Measured on
 /// figures and furniture: the weights of the finer lattice are then within 0.012 rms of the weights
 /// of much finer lattices.
-constexpr double largest_rms = 0.016;
+constexpr double maximum_rms = 0.016;
 /// Approximate number of tets of the first lattice. The second lattice has 3/2 times its resolution
 /// and about three times as many tets.
-constexpr Index first_tets = 4500;
+constexpr Index first_lattice_tets = 4500;
 /// Target number of tets of the third lattice. Its resolution is limited to 5/4 … 3/2 times the
 /// resolution of the second lattice.
-constexpr double third_tets = 36000.0;
+constexpr double third_lattice_tets = 36000.0;
 /// Number of tets of the only lattice if the guard is off.
 constexpr Index unguarded_tets = 12000;
-constexpr int most_lattices = 3;
+constexpr int maximum_lattices = 3;
 /// Progress after the work on each lattice, as a fraction of all work. Each lattice takes about
 /// four times as long as the previous lattice. Measured on furniture with 8 point handles and with
 /// 14 to 38 bones.
-constexpr double lattice_ends[most_lattices] = { 0.06, 0.22, 1.0 };
+constexpr double lattice_progress_ends[maximum_lattices] = { 0.06, 0.22, 1.0 };
 /// Progress at the end of meshing and at the end of solving, as fractions of one domain's work.
 constexpr double meshing_end = 0.2;
 constexpr double solving_end = 0.97;
 /// Maximum predicted time of a third lattice, in seconds on one thread.
-constexpr double most_seconds = 20.0;
+constexpr double maximum_seconds = 20.0;
 
 /// One lattice that contains the surface, and its solution.
 struct Lattice
@@ -68,15 +68,16 @@ struct Lattice
 
 using LatticePtr = std::unique_ptr<Lattice>;
 
-/// The numbers of tets and vertices are estimated to be proportional to resolution^power_of_tets.
+/// The numbers of tets and vertices are estimated to be proportional to resolution^tet_exponent.
 /// The exponent is between 2 (sheets) and 3 (solids).
-constexpr double power_of_tets = 2.5;
+constexpr double tet_exponent = 2.5;
 
 /// Return the resolution of the third lattice, divided by the resolution of the second lattice.
 double growth_to_third(const Lattice& second)
 {
-  const double tets = second.status.report.number("counts.tets", third_tets);
-  return std::clamp(std::pow(third_tets / std::max(tets, 1.0), 1.0 / power_of_tets), 1.25, 1.5);
+  const double tets = second.status.report.number("counts.tets", third_lattice_tets);
+  return std::clamp(
+    std::pow(third_lattice_tets / std::max(tets, 1.0), 1.0 / tet_exponent), 1.25, 1.5);
 }
 
 class Solver
@@ -634,7 +635,7 @@ LatticePtr Solver::best_lattice()
           best->result.weights, finer->result.weights, "guard", lattice->status.report);
         const Lattice& other = lattice == finer.get() ? *best : *finer;
         lattice->status.report.set("guard.resolution", other.resolution);
-        has_converged = rms <= largest_rms;
+        has_converged = rms <= maximum_rms;
       }
     }
     if (finer->status.ok() || !best->status.usable() ||
@@ -645,8 +646,9 @@ LatticePtr Solver::best_lattice()
   };
   LatticePtr best;
   {
-    const ProgressRange range(this->context_, 0.0, lattice_ends[0]);
-    best = this->embed(requested > 0 ? std::max<Index>(4, (2 * requested + 1) / 3) : 0, first_tets);
+    const ProgressRange range(this->context_, 0.0, lattice_progress_ends[0]);
+    best = this->embed(
+      requested > 0 ? std::max<Index>(4, (2 * requested + 1) / 3) : 0, first_lattice_tets);
   }
   if (best->resolution == 0 || best->status.code == StatusCode::canceled)
   {
@@ -654,7 +656,7 @@ LatticePtr Solver::best_lattice()
   }
   // Resolution of the last lattice. The solve on this lattice may have failed.
   Index resolution = best->resolution;
-  for (int level = 1; level < most_lattices && !has_converged; ++level)
+  for (int level = 1; level < maximum_lattices && !has_converged; ++level)
   {
     const double growth = level == 1 ? 1.5 : growth_to_third(*best);
     resolution = requested > 0
@@ -662,14 +664,15 @@ LatticePtr Solver::best_lattice()
       : static_cast<Index>(std::ceil(growth * static_cast<double>(resolution)));
     const auto vertices = static_cast<double>(best->result.problem.vertex_count());
     const double seconds =
-      predicted_seconds(static_cast<Index>(std::pow(growth, power_of_tets) * vertices),
+      predicted_seconds(static_cast<Index>(std::pow(growth, tet_exponent) * vertices),
         static_cast<Index>(this->handles_.size()));
-    if (level > 1 && (requested > 0 || seconds > most_seconds))
+    if (level > 1 && (requested > 0 || seconds > maximum_seconds))
     {
       break;
     }
-    const ProgressRange range(this->context_, lattice_ends[level - 1], lattice_ends[level]);
-    LatticePtr finer = this->embed(resolution, first_tets);
+    const ProgressRange range(
+      this->context_, lattice_progress_ends[level - 1], lattice_progress_ends[level]);
+    LatticePtr finer = this->embed(resolution, first_lattice_tets);
     if (finer->status.code == StatusCode::canceled)
     {
       return finer;

@@ -40,7 +40,7 @@ Status transfer(ExecutionContext& context, const Domain& mesh, WeightsView value
   }
   const double coincident = options.coincident * box.diagonal();
   const double reach = options.reach * box.diagonal();
-  enum How : char
+  enum PointClass : char
   {
     exact,
     inside,

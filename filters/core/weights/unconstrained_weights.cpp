@@ -77,8 +77,8 @@ SparseMatrix linear_subspace_energy(const WeightsProblem& problem, bool spanned)
   SparseMatrix q = SparseMatrix(inside.transpose()) * inverse_mass.asDiagonal() * inside;
   if (!spanned)
   {
-    constexpr double little = 1e-6;
-    q += little * harmonic_energy(problem.stiffness, problem.mass, 2);
+    constexpr double biharmonic_factor = 1e-6;
+    q += biharmonic_factor * harmonic_energy(problem.stiffness, problem.mass, 2);
   }
   return 0.5 * (q + SparseMatrix(q.transpose()));
 }

@@ -77,7 +77,7 @@ void expect_same(const Handles& a, const Handles& b)
 }
 
 const std::vector<Block> cross_arms{ { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 } };
-const std::vector<Block> tee{ { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 } };
+const std::vector<Block> t_arms{ { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 } };
 } // namespace
 
 TEST_F(AutomaticHandles, ABarIsOneBone)
@@ -95,7 +95,7 @@ TEST_F(AutomaticHandles, ABarIsOneBone)
 
 TEST_F(AutomaticHandles, JunctionsHaveTheDegreeOfTheShape)
 {
-  for (const auto& arms : { cross_arms, tee })
+  for (const auto& arms : { cross_arms, t_arms })
   {
     Handles handles;
     const Status status =
@@ -129,7 +129,7 @@ TEST_F(AutomaticHandles, ATorusIsCutOnce)
 
 TEST_F(AutomaticHandles, DoNotDependOnOrderOrThreads)
 {
-  const TriangleMesh mesh = test::star(tee, 3);
+  const TriangleMesh mesh = test::star(t_arms, 3);
   AutomaticHandlesOptions options;
   for (const AutomaticMethod method : { AutomaticMethod::skeleton, AutomaticMethod::points })
   {

@@ -30,7 +30,7 @@ SpreadPoints run_spread_points(
   return result;
 }
 
-Status fail(const TriangleMesh& mesh, const SpreadPointsOptions& options)
+Status failing_status(const TriangleMesh& mesh, const SpreadPointsOptions& options)
 {
   ExecutionContext context;
   SpreadPoints result;
@@ -277,19 +277,20 @@ TEST(SpreadPoints, BadInputIsOneSentence)
     EXPECT_EQ(status.code, StatusCode::invalid_input);
     return status.message;
   };
-  EXPECT_THAT(message(fail(mesh, surface_options(0, PointDistance::straight))), HasSubstr("not 0"));
+  EXPECT_THAT(
+    message(failing_status(mesh, surface_options(0, PointDistance::straight))), HasSubstr("not 0"));
   for (const PointDistance metric : { PointDistance::along_edges, PointDistance::straight })
   {
     EXPECT_EQ(run_spread_points(mesh, surface_options(8, metric)).vertices.size(), 8u);
-    EXPECT_THAT(
-      message(fail(mesh, surface_options(9, metric))), HasSubstr("only 8 distinct vertices"));
+    EXPECT_THAT(message(failing_status(mesh, surface_options(9, metric))),
+      HasSubstr("only 8 distinct vertices"));
   }
   SpreadPointsOptions options;
   options.winding_threshold = 0.0;
-  EXPECT_THAT(message(fail(mesh, options)), HasSubstr("winding_threshold"));
+  EXPECT_THAT(message(failing_status(mesh, options)), HasSubstr("winding_threshold"));
   mesh.points(3, 1) = std::nan("");
-  EXPECT_THAT(message(fail(mesh, SpreadPointsOptions())), HasSubstr("finite"));
-  EXPECT_THAT(message(fail(TriangleMesh(), SpreadPointsOptions())), HasSubstr("only 0"));
+  EXPECT_THAT(message(failing_status(mesh, SpreadPointsOptions())), HasSubstr("finite"));
+  EXPECT_THAT(message(failing_status(TriangleMesh(), SpreadPointsOptions())), HasSubstr("only 0"));
 }
 
 TEST(SpreadPoints, CanBeCanceled)

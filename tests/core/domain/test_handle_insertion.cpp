@@ -71,7 +71,7 @@ void expect_sound(const Domain& before, const HandleInsertion& after)
   }
 }
 
-Vec3 place_of_handle(const HandleInsertion& mesh, Index handle)
+Vec3 handle_position(const HandleInsertion& mesh, Index handle)
 {
   return mesh.domain.points.row(mesh.handles[handle].vertices.at(0));
 }
@@ -90,11 +90,11 @@ TEST(HandleInsertion, PointsInsideCellsFacesAndEdgesBecomeVertices)
   for (Index h = 0; h < 4; ++h)
   {
     ASSERT_EQ(mesh.handles[h].vertices.size(), 1u);
-    EXPECT_NEAR((place_of_handle(mesh, h) - handles[h].head).norm(), mesh.handles[h].snap, 1e-12);
+    EXPECT_NEAR((handle_position(mesh, h) - handles[h].head).norm(), mesh.handles[h].snap, 1e-12);
     EXPECT_LE(mesh.handles[h].snap, 3 * 0.1 * edge);
     EXPECT_EQ(mesh.handles[h].outside, 0.0);
   }
-  EXPECT_LT((place_of_handle(mesh, 2) - handles[2].head).norm(), 1e-12);
+  EXPECT_LT((handle_position(mesh, 2) - handles[2].head).norm(), 1e-12);
   EXPECT_LT(mesh.handles[3].vertices[0], box.points.rows());
 }
 
@@ -192,7 +192,7 @@ TEST(HandleInsertion, OutsideIsMovedToTheSurfaceAndSaid)
   EXPECT_NEAR(mesh.handles[0].outside, 0.25, 1e-12);
   EXPECT_EQ(mesh.handles[1].outside, 0.0);
   EXPECT_NEAR(mesh.handles[2].outside, 0.5, 1e-12);
-  EXPECT_LE((place_of_handle(mesh, 0) - Vec3(0.5, 0.5, 1.0)).norm(), mesh.handles[0].snap + 1e-12);
+  EXPECT_LE((handle_position(mesh, 0) - Vec3(0.5, 0.5, 1.0)).norm(), mesh.handles[0].snap + 1e-12);
   ASSERT_EQ(mesh.warnings.size(), 1u);
   EXPECT_NE(mesh.warnings[0].find("'p1' by 0.25"), std::string::npos) << mesh.warnings[0];
   EXPECT_NE(mesh.warnings[0].find("'p3' by 0.5"), std::string::npos);

@@ -534,7 +534,7 @@ TEST(EmbeddingTets, HostilePlaces)
   for (int round = 0; round < 30; ++round)
   {
     SCOPED_TRACE(round);
-    const TriangleMesh mesh = test::placed(random, test::hostile_surface(random, 60));
+    const TriangleMesh mesh = test::randomly_transformed(random, test::hostile_surface(random, 60));
     if (mesh.triangles.rows() == 0)
     {
       continue;

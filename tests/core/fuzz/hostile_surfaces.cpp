@@ -16,7 +16,7 @@ double power_of_ten(Random& random, double lower, double upper)
   return std::pow(10.0, random.uniform(lower, upper));
 }
 
-Vec3 on_lattice(Random& random, Index size)
+Vec3 lattice_point(Random& random, Index size)
 {
   const auto whole = [&] { return static_cast<double>(random.below(size)); };
   return Vec3(whole(), whole(), whole()) / static_cast<double>(size);
@@ -24,7 +24,7 @@ Vec3 on_lattice(Random& random, Index size)
 
 /// Return triangles between random vertices. Some triangles are repeated or reversed.
 template <typename MakePoint>
-TriangleMesh random_heap(
+TriangleMesh random_soup(
   Random& random, Index triangles, Index vertices, const MakePoint& random_point)
 {
   TriangleMesh mesh{ Points(vertices, 3), Triangles(triangles, 3) };
@@ -51,7 +51,7 @@ TriangleMesh random_heap(
 }
 
 /// Return separate triangles of sizes from 1 to 1e-6: needles, slivers and degenerate ones.
-TriangleMesh splinters(Random& random, Index triangles)
+TriangleMesh random_needles(Random& random, Index triangles)
 {
   TriangleMesh mesh{ Points(3 * triangles, 3), Triangles(triangles, 3) };
   for (Index t = 0; t < triangles; ++t)
@@ -70,13 +70,13 @@ TriangleMesh splinters(Random& random, Index triangles)
 }
 
 /// Return sheets above each other, at distances from 1e-1 to 1e-15, axis-aligned or not.
-TriangleMesh layers(Random& random, Index most)
+TriangleMesh layers(Random& random, Index maximum_triangles)
 {
   const int n = 1 + static_cast<int>(random.below(6));
   TriangleMesh mesh;
   const bool aligned = chance(random, 0.5);
   const Vec3 up = aligned ? Vec3(0.0, 0.0, 1.0) : random.in_cube();
-  while (mesh.triangles.rows() + 2 * n * n <= std::max<Index>(most, 2 * n * n))
+  while (mesh.triangles.rows() + 2 * n * n <= std::max<Index>(maximum_triangles, 2 * n * n))
   {
     TriangleMesh sheet = translated(grid(n, n), power_of_ten(random, -15.0, -1.0) * up);
     mesh = join(mesh, chance(random, 0.4) ? flipped(sheet) : sheet);
@@ -205,14 +205,15 @@ TriangleMesh tets(Random& random, Index count, Index vertices, const MakePoint& 
 
 /// Return a sphere or a torus. It may be flattened, have tiny bumps, or have bumps so large that it
 /// crosses itself.
-TriangleMesh blob(Random& random, Index most)
+TriangleMesh deformed_surface(Random& random, Index maximum_triangles)
 {
   int levels = 0;
-  while (levels < 5 && 80 << (2 * levels) <= most)
+  while (levels < 5 && 80 << (2 * levels) <= maximum_triangles)
   {
     ++levels;
   }
-  const int around = std::max(3, static_cast<int>(std::sqrt(static_cast<double>(most))));
+  const int around =
+    std::max(3, static_cast<int>(std::sqrt(static_cast<double>(maximum_triangles))));
   TriangleMesh mesh = chance(random, 0.5)
     ? sphere(static_cast<int>(random.below(levels + 1)))
     : torus(around, std::max(3, around / 2), random.uniform(0.2, 1.0), random.uniform(0.05, 0.6));
@@ -240,7 +241,7 @@ TriangleMesh blob(Random& random, Index most)
 }
 
 /// Add typical defects to a surface: holes, reversed and repeated triangles, seams.
-void spoil(Random& random, TriangleMesh& mesh)
+void add_defects(Random& random, TriangleMesh& mesh)
 {
   const double probability = random.uniform(0.0, 0.3);
   std::vector<std::array<Index, 3>> kept;
@@ -356,32 +357,34 @@ Vec3 any_point(Random& random, const TriangleMesh& mesh)
 }
 } // namespace
 
-TriangleMesh hostile_closed_surface(Random& random, Index most)
+TriangleMesh hostile_closed_surface(Random& random, Index maximum_triangles)
 {
   switch (random.below(6))
   {
     case 0:
-      return random_cubes(random, std::max<Index>(1, static_cast<Index>(std::cbrt(most / 4.0))));
+      return random_cubes(
+        random, std::max<Index>(1, static_cast<Index>(std::cbrt(maximum_triangles / 4.0))));
     case 1:
     {
       const Index size = 2 + random.below(9);
-      return tets(
-        random, 1 + most / 4, 4 + random.below(most), [&] { return on_lattice(random, size); });
+      return tets(random, 1 + maximum_triangles / 4, 4 + random.below(maximum_triangles),
+        [&] { return lattice_point(random, size); });
     }
     case 2:
     {
       const double size = chance(random, 0.5) ? 1.0 : power_of_ten(random, -6.0, 0.0);
-      return tets(random, 1 + most / 4, 4 + random.below(most),
+      return tets(random, 1 + maximum_triangles / 4, 4 + random.below(maximum_triangles),
         [&] { return Vec3(random.in_cube(chance(random, 0.5) ? 1.0 : size)); });
     }
     case 3:
-      return random_fan(random, most, true);
+      return random_fan(random, maximum_triangles, true);
     default:
     {
-      TriangleMesh mesh = blob(random, most);
-      while (chance(random, 0.6) && mesh.triangles.rows() < most)
+      TriangleMesh mesh = deformed_surface(random, maximum_triangles);
+      while (chance(random, 0.6) && mesh.triangles.rows() < maximum_triangles)
       {
-        TriangleMesh part = blob(random, std::max<Index>(20, most - mesh.triangles.rows()));
+        TriangleMesh part =
+          deformed_surface(random, std::max<Index>(20, maximum_triangles - mesh.triangles.rows()));
         part.points *= chance(random, 0.5) ? 1.0 : power_of_ten(random, -5.0, 0.0);
         part = translated(part, random.in_cube(chance(random, 0.3) ? 0.0 : 1.0));
         mesh = join(mesh, chance(random, 0.3) ? flipped(part) : part);
@@ -391,28 +394,28 @@ TriangleMesh hostile_closed_surface(Random& random, Index most)
   }
 }
 
-TriangleMesh hostile_surface(Random& random, Index most)
+TriangleMesh hostile_surface(Random& random, Index maximum_triangles)
 {
-  const Index few = 1 + random.below(chance(random, 0.5) ? 12 : most);
+  const Index few = 1 + random.below(chance(random, 0.5) ? 12 : maximum_triangles);
   switch (random.below(7))
   {
     case 0:
     {
       const Index size = 2 + random.below(7);
-      return random_heap(
-        random, few, 3 + random.below(few + 3), [&] { return on_lattice(random, size); });
+      return random_soup(
+        random, few, 3 + random.below(few + 3), [&] { return lattice_point(random, size); });
     }
     case 1:
-      return random_heap(random, few, 3 + random.below(few + 3), [&] { return random.in_cube(); });
+      return random_soup(random, few, 3 + random.below(few + 3), [&] { return random.in_cube(); });
     case 2:
-      return splinters(random, few);
+      return random_needles(random, few);
     case 3:
       return layers(random, few);
     case 4:
       return random_fan(random, few, false);
     case 5:
-      return random_heap(random, 1 + random.below(2), 3 + random.below(3),
-        [&] { return chance(random, 0.5) ? on_lattice(random, 4) : random.in_cube(); });
+      return random_soup(random, 1 + random.below(2), 3 + random.below(3),
+        [&] { return chance(random, 0.5) ? lattice_point(random, 4) : random.in_cube(); });
     default:
     {
       TriangleMesh mesh = hostile_closed_surface(random, few);
@@ -420,13 +423,13 @@ TriangleMesh hostile_surface(Random& random, Index most)
       {
         return cube();
       }
-      spoil(random, mesh);
+      add_defects(random, mesh);
       return mesh;
     }
   }
 }
 
-TriangleMesh placed(Random& random, TriangleMesh mesh)
+TriangleMesh randomly_transformed(Random& random, TriangleMesh mesh)
 {
   const double size = bounding_box(mesh.points, mesh.triangles).diagonal();
   switch (random.below(10))

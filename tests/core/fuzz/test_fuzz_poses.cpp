@@ -19,7 +19,7 @@ using namespace bindpose::test;
 namespace
 {
 /// Return 10^x with |x| <= exponent, and exactly 1 in one of three cases.
-double magnitude(Random& random, double exponent)
+double random_scale(Random& random, double exponent)
 {
   return chance(random, 0.33) ? 1.0 : std::pow(10.0, random.uniform(-exponent, exponent));
 }
@@ -36,11 +36,11 @@ Affine transform(Random& random, double exponent)
     chance(random, 0.4) ? special[random.below(6)] : random.uniform(-360.0, 360.0);
   const Vec3 axis =
     chance(random, 0.3) ? Vec3(Vec3::Unit(random.below(3))) : random.in_box(-ones, ones);
-  Affine t = rigid(degrees, axis, magnitude(random, exponent) * random.in_box(-ones, ones));
+  Affine t = rigid(degrees, axis, random_scale(random, exponent) * random.in_box(-ones, ones));
   switch (random.below(6))
   {
     case 0:
-      t.leftCols<3>() *= magnitude(random, exponent);
+      t.leftCols<3>() *= random_scale(random, exponent);
       break;
     case 1: // non-uniform scaling, mirrored, or collapsed to a plane or line
       for (int k = 0; k < 3; ++k)
@@ -127,7 +127,7 @@ double size_of_pose(const Pose& pose)
 }
 
 /// Return the given weights, unchanged or damaged at random.
-Weights spoilt_weights(Random& random, const Weights& good)
+Weights defective_weights(Random& random, const Weights& good)
 {
   Weights weights = good;
   const Index m = weights.cols(), a = random.below(m), b = random.below(m);
@@ -179,7 +179,7 @@ TEST(FuzzPoses, Skinning)
       Rig shape = small_rig(random.below(2));
       make_bones(random, shape.mesh, shape.handles);
       const Points& rest = shape.mesh.points;
-      const Weights weights = spoilt_weights(random, shape.weights);
+      const Weights weights = defective_weights(random, shape.weights);
       const double exponent = chance(random, 0.2) ? 90.0 : 6.0;
       Pose pose(shape.handles.size());
       for (std::size_t h = 0; h < pose.size(); ++h)
@@ -286,7 +286,7 @@ struct ReducedCase
 
   explicit ReducedCase(Random& random) : shape(small_rig(random.below(2)))
   {
-    this->shape.weights = spoilt_weights(random, this->shape.weights);
+    this->shape.weights = defective_weights(random, this->shape.weights);
     make_bones(random, this->shape.mesh, this->shape.handles);
     this->options.energy = static_cast<ArapEnergy>(random.below(3));
     this->options.clusters = random.below(3) == 0 ? 1000 : random.below(9);
@@ -406,7 +406,7 @@ struct FullCase
   Triangles surface; ///< used if the case is bound as a surface
   Handles handles;
   FullArapOptions options;
-  bool vertices_alone = true; ///< only vertices are constrained, no points inside of elements
+  bool only_vertices = true; ///< only vertices are constrained, no points inside of elements
 
   explicit FullCase(Random& random) : mesh(small_rig(random.below(2)).mesh)
   {
@@ -426,7 +426,7 @@ struct FullCase
       const Vec3 at = on_vertex ? Vec3(this->mesh.points.row(v))
                                 : random.in_box(1.1 * box.lower, 1.1 * box.upper);
       const Index kind = random.below(4);
-      this->vertices_alone = this->vertices_alone && on_vertex && kind > 1;
+      this->only_vertices = this->only_vertices && on_vertex && kind > 1;
       switch (kind)
       {
         case 0:
@@ -510,7 +510,7 @@ TEST(FuzzPoses, FullArap)
         // the total decrease is checked.
         const double size = size_of_pose(pose);
         const double unit = 1e-12 * arap.rest_energy() * size * size;
-        for (std::size_t i = 1; shape.vertices_alone && i < arap.energies().size(); ++i)
+        for (std::size_t i = 1; shape.only_vertices && i < arap.energies().size(); ++i)
         {
           ASSERT_LE(arap.energies()[i],
             arap.energies()[i - 1] + unit + 1e-12 * std::abs(arap.energies()[i - 1]))

@@ -77,7 +77,7 @@ void replace_number(test::Random& random, std::string& text)
 }
 
 /// Replace one raw number of a binary file by an invalid, too large, negative or ordinary number.
-void replace_raw(test::Random& random, std::string& text)
+void replace_binary(test::Random& random, std::string& text)
 {
   const double reals[] = { std::nan(""), HUGE_VAL, -HUGE_VAL, 1e300, -1.0, 0.0, 1e-310 };
   const float floats[] = { std::nanf(""), HUGE_VALF, -HUGE_VALF, 3e38f, -1.0f, 1e9f, 1e-40f };
@@ -96,7 +96,7 @@ void replace_raw(test::Random& random, std::string& text)
   }
 }
 
-void spoil_lines(test::Random& random, std::string& text)
+void corrupt_lines(test::Random& random, std::string& text)
 {
   const std::vector<std::size_t> begins = line_begins(text);
   const std::size_t lines = begins.size() - 1;
@@ -119,7 +119,7 @@ void spoil_lines(test::Random& random, std::string& text)
 }
 
 /// Apply one to four random changes to a file.
-std::string spoilt_file(test::Random& random, std::string text)
+std::string corrupted_file(test::Random& random, std::string text)
 {
   const Index count = 1 + random.below(4);
   for (Index k = 0; k < count && !text.empty(); ++k)
@@ -143,10 +143,10 @@ std::string spoilt_file(test::Random& random, std::string text)
         text.erase(at, static_cast<std::size_t>(1 + random.below(20)));
         break;
       case 5:
-        replace_raw(random, text);
+        replace_binary(random, text);
         break;
       case 6:
-        spoil_lines(random, text);
+        corrupt_lines(random, text);
         break;
       default:
         replace_number(random, text);
@@ -195,7 +195,7 @@ void fuzz_texts(const char* what, Index rounds, const std::vector<std::string>& 
     [&](test::Random& random)
     {
       const std::string& text = valid[random_index(random, valid.size())];
-      const std::string path = folder.write("file", spoilt_file(random, text));
+      const std::string path = folder.write("file", corrupted_file(random, text));
       read(path);
       if (testing::Test::HasFailure())
       {
@@ -236,7 +236,7 @@ std::string written(Status (*write)(const std::string&, const PolygonMesh&))
 }
 
 template <typename T>
-void append_raw(std::string& text, T value, bool swap)
+void append_binary(std::string& text, T value, bool swap)
 {
   char raw[sizeof(T)];
   std::memcpy(raw, &value, sizeof(T));
@@ -257,22 +257,22 @@ std::string binary_ply(bool big_endian)
     "property double quality\nproperty list uchar int vertex_indices\nend_header\n";
   for (int v = 0; v < 4; ++v)
   {
-    append_raw(text, v % 2 ? 1.0f : 0.0f, big_endian);
-    append_raw(text, v > 1 ? 1.0f : 0.0f, big_endian);
-    append_raw(text, 0.25f, big_endian);
-    append_raw(text, std::uint8_t(200), big_endian);
-    append_raw(text, std::uint8_t(2), big_endian);
-    append_raw(text, std::int16_t(7), big_endian);
-    append_raw(text, std::int16_t(-7), big_endian);
+    append_binary(text, v % 2 ? 1.0f : 0.0f, big_endian);
+    append_binary(text, v > 1 ? 1.0f : 0.0f, big_endian);
+    append_binary(text, 0.25f, big_endian);
+    append_binary(text, std::uint8_t(200), big_endian);
+    append_binary(text, std::uint8_t(2), big_endian);
+    append_binary(text, std::int16_t(7), big_endian);
+    append_binary(text, std::int16_t(-7), big_endian);
   }
   const std::int32_t corners[2][3] = { { 0, 1, 3 }, { 0, 3, 2 } };
   for (const auto& face : corners)
   {
-    append_raw(text, 0.5, big_endian);
-    append_raw(text, std::uint8_t(3), big_endian);
+    append_binary(text, 0.5, big_endian);
+    append_binary(text, std::uint8_t(3), big_endian);
     for (const std::int32_t corner : face)
     {
-      append_raw(text, corner, big_endian);
+      append_binary(text, corner, big_endian);
     }
   }
   return text;
@@ -533,7 +533,7 @@ TEST(FuzzReaders, Poses)
   test::fuzz("pose texts", 12000,
     [&](test::Random& random)
     {
-      const std::string text = spoilt_file(random, valid[random_index(random, 2)]);
+      const std::string text = corrupted_file(random, valid[random_index(random, 2)]);
       SCOPED_TRACE(text);
       PoseSequence sequence;
       const Status status = parse_pose_file(text, handles, sequence);

@@ -44,7 +44,7 @@ void select(TriangleMesh& mesh, const std::vector<Index>& ids)
   mesh.triangles = kept;
 }
 
-void drop_some(test::Random& random, TriangleMesh& mesh, double probability)
+void drop_triangles(test::Random& random, TriangleMesh& mesh, double probability)
 {
   std::vector<Index> ids;
   for (Index t = 0; t < mesh.triangles.rows(); ++t)
@@ -57,7 +57,7 @@ void drop_some(test::Random& random, TriangleMesh& mesh, double probability)
   select(mesh, ids);
 }
 
-void double_some(test::Random& random, TriangleMesh& mesh, double probability)
+void duplicate_triangles(test::Random& random, TriangleMesh& mesh, double probability)
 {
   std::vector<Index> ids(static_cast<std::size_t>(mesh.triangles.rows()));
   std::iota(ids.begin(), ids.end(), Index(0));
@@ -71,7 +71,7 @@ void double_some(test::Random& random, TriangleMesh& mesh, double probability)
   select(mesh, ids);
 }
 
-void flip_some(test::Random& random, TriangleMesh& mesh, double probability)
+void flip_triangles(test::Random& random, TriangleMesh& mesh, double probability)
 {
   for (Index t = 0; t < mesh.triangles.rows(); ++t)
   {
@@ -113,13 +113,13 @@ TriangleMesh defective_surface(test::Random& random)
     switch (random.below(8))
     {
       case 0:
-        drop_some(random, mesh, probability);
+        drop_triangles(random, mesh, probability);
         break;
       case 1:
-        flip_some(random, mesh, probability);
+        flip_triangles(random, mesh, probability);
         break;
       case 2:
-        double_some(random, mesh, probability);
+        duplicate_triangles(random, mesh, probability);
         break;
       case 3:
         jitter(random, mesh, std::pow(10.0, random.uniform(-12.0, -0.7)));
@@ -190,7 +190,7 @@ std::vector<std::pair<std::string, std::string>> attempts(const Status& status)
 /// Return the largest permitted displacement of input vertices, as a fraction of the bounding-box
 /// diagonal. Some meshing attempts round the vertices or move them by a fixed amount. The name of
 /// the attempt contains this amount.
-double allowed_move(const Status& status)
+double allowed_displacement(const Status& status)
 {
   double allowed = 1e-12;
   for (const auto& [name, outcome] : attempts(status))
@@ -210,7 +210,7 @@ void expect_kept_vertices(
   const auto& ids = result.original_vertices;
   ASSERT_EQ(static_cast<Index>(ids.size()), mesh.points.rows());
   const double near =
-    allowed_move(status) * bounding_box(surface.points, surface.triangles).diagonal();
+    allowed_displacement(status) * bounding_box(surface.points, surface.triangles).diagonal();
   bool ended = false;
   Index last = -1;
   for (std::size_t v = 0; v < ids.size(); ++v)
@@ -312,19 +312,19 @@ void expect_repeatable(const TriangleMesh& surface, const TetrahedralizeOptions&
   {
     return; // a second run would take too long
   }
-  const auto clock_decided = [](const Status& run)
+  const auto depends_on_time = [](const Status& run)
   {
     const auto of_run = attempts(run);
     return std::any_of(of_run.begin(), of_run.end(),
       [](const auto& attempt) { return attempt.second.find("time") != std::string::npos; });
   };
-  if (clock_decided(status))
+  if (depends_on_time(status))
   {
     return;
   }
   TetrahedralizeResult again;
   const Status second = fill(surface, options, again, 3);
-  if (clock_decided(second))
+  if (depends_on_time(second))
   {
     return;
   }
@@ -493,7 +493,7 @@ TEST(FuzzTetrahedralize, HostileSurfaces)
     [&](test::Random& random)
     {
       const Index most = 80;
-      const TriangleMesh surface = test::placed(random,
+      const TriangleMesh surface = test::randomly_transformed(random,
         test::chance(random, 0.5) ? test::hostile_closed_surface(random, most)
                                   : test::hostile_surface(random, most));
       TetrahedralizeOptions options;

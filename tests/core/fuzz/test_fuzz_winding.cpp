@@ -44,7 +44,7 @@ struct WindingCase
   WindingMethod method;
   double tolerance;
 };
-constexpr WindingCase all_ways_and_tolerances[] = { { WindingMethod::automatic, 1e-3 },
+constexpr WindingCase winding_cases[] = { { WindingMethod::automatic, 1e-3 },
   { WindingMethod::exact, 1e-3 }, { WindingMethod::direct, 1e-3 },
   { WindingMethod::crossings, 1e-3 }, { WindingMethod::hierarchical, 1e-3 },
   { WindingMethod::fast, 1e-2 }, { WindingMethod::fast, 1e-3 }, { WindingMethod::fast, 1e-5 } };
@@ -247,11 +247,11 @@ TEST(FuzzWinding, AllMethodsOnSurfacesOfAllKinds)
       {
         return;
       }
-      mesh = placed(random, mesh);
+      mesh = randomly_transformed(random, mesh);
       const ReferenceValues points(mesh, 64, [&](Index) { return hostile_point(random, mesh); });
       const SampleGrid grid = hostile_grid(random, mesh);
       const ReferenceValues samples(mesh, grid.count(), points_of(grid));
-      for (const WindingCase& winding_case : all_ways_and_tolerances)
+      for (const WindingCase& winding_case : winding_cases)
       {
         compare(random, mesh, winding_case, points, grid, samples, tally);
         if (testing::Test::HasFailure())
@@ -286,7 +286,7 @@ TriangleMesh scattered(Random& random, const TriangleMesh& part, Index most)
 // with the plain sum.
 TEST(FuzzWinding, CellsOfLargeClosedSurfaces)
 {
-  Index queries = 0, compared = 0, touching = 0, plain = 0, largest = 0;
+  Index queries = 0, compared = 0, touching = 0, direct_count = 0, largest = 0;
   fuzz("closed surfaces", 30,
     [&](Random& random)
     {
@@ -296,7 +296,8 @@ TEST(FuzzWinding, CellsOfLargeClosedSurfaces)
       {
         return;
       }
-      mesh = placed(random, chance(random, 0.5) ? scattered(random, mesh, most) : mesh);
+      mesh =
+        randomly_transformed(random, chance(random, 0.5) ? scattered(random, mesh, most) : mesh);
       largest = std::max(largest, mesh.triangles.rows());
       const WindingNumber cells = random_winding(random, mesh, { WindingMethod::crossings, 1e-3 });
       const WindingNumber tree =
@@ -323,7 +324,7 @@ TEST(FuzzWinding, CellsOfLargeClosedSurfaces)
         {
           const double sum = winding_number_direct(mesh.points, mesh.triangles, p);
           ASSERT_NEAR(value, sum, 1e-10) << p.transpose();
-          ++plain;
+          ++direct_count;
         }
       };
       SerialContext context;
@@ -356,7 +357,7 @@ TEST(FuzzWinding, CellsOfLargeClosedSurfaces)
       }
     });
   std::cout << "[ fuzz ] " << queries << " queries, " << touching << " of them touching, "
-            << compared << " against the tree, " << plain << " against the plain sum; up to "
+            << compared << " against the tree, " << direct_count << " against the plain sum; up to "
             << largest << " triangles\n";
 }
 

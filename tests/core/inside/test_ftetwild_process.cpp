@@ -57,7 +57,7 @@ echo scratch > "${output}_sf.obj"
 
 /// Return the tets of the cube in the normalized frame of fTetWild, in the format of its
 /// MeshIO.cpp, with an unused vertex.
-std::string the_cube()
+std::string cube_in_medit_format()
 {
   const TetMesh box = test::tet_box(2, 2, 2, Vec3::Constant(-0.5), Vec3::Constant(0.5));
   std::ostringstream text;
@@ -87,7 +87,7 @@ public:
   explicit FakeFtetwild(const std::string& script)
     : WatchedStandIn("BINDPOSE_FTETWILD", parse_arguments + script)
   {
-    this->folder().write("tets.mesh", the_cube());
+    this->folder().write("tets.mesh", cube_in_medit_format());
   }
 
   Status run(const TriangleMesh& surface, const FtetwildOptions& options = {},
@@ -103,12 +103,12 @@ public:
   TetMesh mesh;
 };
 
-constexpr const char* writes_the_cube = "cp \"$here/tets.mesh\" \"$output\"\n";
+constexpr const char* copy_cube_script = "cp \"$here/tets.mesh\" \"$output\"\n";
 } // namespace
 
 TEST(Ftetwild, SurfacesGoAndTetsComeInTheirOwnPlace)
 {
-  FakeFtetwild fake(writes_the_cube);
+  FakeFtetwild fake(copy_cube_script);
   const Vec3 at(1000.0, -20.0, 3.0);
   const TriangleMesh cube = test::translated(test::cube(), at);
   const Status status = fake.run(cube, { 0.001953125, 0.03125, 10.0, 0 });
@@ -143,7 +143,7 @@ TEST(Ftetwild, ItsStagesAreProgress)
     [&](double fraction, const std::string&) { reported_fractions.push_back(fraction); }, {});
   FakeFtetwild fake(std::string("sleep 0.1; echo '[float-tetwild] [info] preprocessing 0.1s'; "
                                 "sleep 0.1; echo '[float-tetwild] [info] mesh optimization 2s'\n") +
-    writes_the_cube);
+    copy_cube_script);
   ASSERT_TRUE(fake.run(test::cube(), {}, &context).ok());
   EXPECT_THAT(reported_fractions, testing::ElementsAre(0.1, 0.9));
 }
@@ -253,7 +253,7 @@ TEST(Ftetwild, NothingIsLeftWhenThisProcessIsKilled)
 
 TEST(Ftetwild, BadInputIsOneSentence)
 {
-  FakeFtetwild fake(writes_the_cube);
+  FakeFtetwild fake(copy_cube_script);
   const auto message = [&](const TriangleMesh& mesh, const FtetwildOptions& options = {})
   {
     const Status status = fake.run(mesh, options);

@@ -12,7 +12,7 @@ using testing::HasSubstr;
 
 namespace
 {
-HandleElements three_places()
+HandleElements three_handle_points()
 {
   HandleElements handle_elements;
   handle_elements.points.resize(3, 3);
@@ -23,7 +23,7 @@ HandleElements three_places()
 
 TEST(HandleElements, ALineIsCutIntoPiecesOfTheLocalLength)
 {
-  HandleElements handle_elements = three_places();
+  HandleElements handle_elements = three_handle_points();
   handle_elements.segments.resize(1, 2);
   handle_elements.segments << 0, 1;
   const HandleSamples even =
@@ -52,7 +52,7 @@ TEST(HandleElements, ALineIsCutIntoPiecesOfTheLocalLength)
 
 TEST(HandleElements, ABoneHasAPointBetweenItsEndsAndNeverTooMany)
 {
-  HandleElements handle_elements = three_places();
+  HandleElements handle_elements = three_handle_points();
   handle_elements.segments.resize(1, 2);
   handle_elements.segments << 0, 1;
   EXPECT_EQ(
@@ -64,7 +64,7 @@ TEST(HandleElements, ABoneHasAPointBetweenItsEndsAndNeverTooMany)
 
 TEST(HandleElements, ATriangleIsCoveredAndEveryPlaceIsThereOnce)
 {
-  HandleElements handle_elements = three_places();
+  HandleElements handle_elements = three_handle_points();
   handle_elements.segments.resize(3, 2);
   handle_elements.segments << 0, 1, 1, 2, 2, 0;
   handle_elements.triangles.resize(1, 3);
@@ -94,7 +94,7 @@ TEST(HandleElements, ATriangleIsCoveredAndEveryPlaceIsThereOnce)
 
 TEST(HandleElements, EndsAtOnePlace)
 {
-  HandleElements handle_elements = three_places();
+  HandleElements handle_elements = three_handle_points();
   handle_elements.points.row(1) = handle_elements.points.row(0);
   handle_elements.segments.resize(1, 2);
   handle_elements.segments << 0, 1;
@@ -108,7 +108,7 @@ TEST(HandleElements, EndsAtOnePlace)
 
 TEST(HandleElements, BadOnesAreRefused)
 {
-  HandleElements handle_elements = three_places();
+  HandleElements handle_elements = three_handle_points();
   EXPECT_TRUE(check_handle_elements(handle_elements).ok());
   handle_elements.triangles.resize(1, 3);
   handle_elements.triangles << 0, 1, 3;

@@ -17,7 +17,7 @@ using namespace bindpose;
 
 namespace
 {
-SizingField everywhere(double length)
+SizingField constant_sizes(double length)
 {
   return SizingField(Points(0, 3), Eigen::VectorXd(0), 0.0, length);
 }
@@ -49,7 +49,7 @@ TEST(InnerPoints, AreInsideAndAsFarApartAsTheSizesSay)
 {
   const TriangleMesh sphere = test::sphere(4); // of radius 1
   const double length = 0.2;
-  const Points inner = points_in(sphere, everywhere(length), 100000);
+  const Points inner = points_in(sphere, constant_sizes(length), 100000);
   for (Index i = 0; i < inner.rows(); ++i)
   {
     EXPECT_LE(inner.row(i).norm(), 1.0 - 0.5 * length + 1e-3);
@@ -114,7 +114,7 @@ TEST(InnerPoints, AShapeMuchThinnerThanTheRequestedLengthTakesLittleTime)
   TriangleMesh disk = test::sphere(3);
   disk.points.col(2) *= 1e-8;
   const auto start = std::chrono::steady_clock::now();
-  const Points inner = points_in(disk, everywhere(4e-4), 200);
+  const Points inner = points_in(disk, constant_sizes(4e-4), 200);
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
   EXPECT_LE(inner.rows(), 400);
   EXPECT_LT(elapsed.count(), test::sanitized ? 60.0 : 10.0);
@@ -131,7 +131,7 @@ TEST(InnerPoints, AHollowStaysEmpty)
   shell.triangles.conservativeResize(2 * triangles, 3);
   shell.triangles.bottomRows(triangles) =
     inner.triangles.rowwise().reverse().array() + vertices; // reversed orientation
-  const Points points = points_in(shell, everywhere(0.1), 100000);
+  const Points points = points_in(shell, constant_sizes(0.1), 100000);
   ASSERT_GT(points.rows(), 1000);
   EXPECT_GT(points.rowwise().norm().minCoeff(), 0.5);
 }
@@ -151,7 +151,7 @@ TEST(InnerPoints, CancelEndsTheSearch)
   Interior interior;
   ASSERT_TRUE(interior.build(context, sphere.points, sphere.triangles).ok());
   context.request_cancel();
-  SizingField sizes = everywhere(0.01);
+  SizingField sizes = constant_sizes(0.01);
   Points inner;
   EXPECT_FALSE(inner_points(context, interior, sizes, 1000000, inner));
 }

@@ -60,7 +60,7 @@ RemeshOutcome run_remesh(
 }
 
 /// Report whether the triangles form one ring around every vertex of a closed surface.
-bool manifold(const Triangles& skin)
+bool is_manifold(const Triangles& skin)
 {
   for (const Edge& edge : mesh_edges(skin))
   {
@@ -105,7 +105,7 @@ void expect_valid_remesh(
   ASSERT_TRUE(check_mesh(mesh.points, mesh.tets).ok());
   EXPECT_TRUE(check_tets(mesh.points, mesh.tets).ok());
   EXPECT_GE(outcome.angle(), angle);
-  EXPECT_TRUE(manifold(boundary_triangles(mesh.tets)));
+  EXPECT_TRUE(is_manifold(boundary_triangles(mesh.tets)));
   const Components components = connected_components(mesh.points.rows(), mesh.tets);
   EXPECT_EQ(
     std::count(components.component_of_vertex.begin(), components.component_of_vertex.end(), -1),
@@ -160,7 +160,7 @@ TriangleMesh shaken_soup(const TriangleMesh& mesh, double by)
   return soup;
 }
 
-constexpr const char* sleeps = "exec sleep 60\n";
+constexpr const char* sleep_script = "exec sleep 60\n";
 
 class Remesh : public test::NeedsMesher
 {
@@ -175,7 +175,7 @@ TEST_F(Remesh, ClosedSurfacesKeepVolumeVerticesAndShape)
   {
     const char* name;
     TriangleMesh mesh;
-    double share; ///< fraction of the input vertices that must be kept
+    double kept_fraction; ///< fraction of the input vertices that must be kept
   };
   const TriangleMesh shell = test::join(test::sphere(3), test::flipped(test::sphere(2, 0.5)));
   for (const Case& c : { Case{ "cube", test::cube(), 1.0 }, Case{ "sphere", test::sphere(3), 0.99 },
@@ -187,7 +187,7 @@ TEST_F(Remesh, ClosedSurfacesKeepVolumeVerticesAndShape)
     expect_valid_remesh(outcome, c.mesh, 11.0);
     const double volume = signed_volume(c.mesh.points, c.mesh.triangles);
     EXPECT_NEAR(outcome.volume(), volume, 0.004 * volume);
-    EXPECT_GE(outcome.kept_vertices(), static_cast<Index>(c.share * c.mesh.points.rows()));
+    EXPECT_GE(outcome.kept_vertices(), static_cast<Index>(c.kept_fraction * c.mesh.points.rows()));
     EXPECT_EQ(outcome.result.boundary_vertices, c.mesh.points.rows());
     EXPECT_LT(outcome.status.report.number("distance_max", 100.0), 0.5);
     EXPECT_LT(outcome.status.report.number("distance_mean", 100.0), 0.03);
@@ -411,7 +411,7 @@ TEST(RemeshTets, WithoutHelperTheLadderCutsALattice)
 
 TEST(RemeshTets, ASlowHelperIsStoppedAtTheLimit)
 {
-  const test::StandIn helper("BINDPOSE_MESHER", sleeps);
+  const test::StandIn helper("BINDPOSE_MESHER", sleep_script);
   RemeshOptions options;
   options.time_limit = 0.3;
   const RemeshOutcome outcome = run_remesh(test::sphere(2), options);
@@ -422,7 +422,7 @@ TEST(RemeshTets, ASlowHelperIsStoppedAtTheLimit)
 
 TEST(RemeshTets, CancelKillsTheHelper)
 {
-  const test::StandIn helper("BINDPOSE_MESHER", sleeps);
+  const test::StandIn helper("BINDPOSE_MESHER", sleep_script);
   const TriangleMesh mesh = test::sphere(2);
   const WindingNumber winding(mesh.points, mesh.triangles);
   ExecutionContext context;

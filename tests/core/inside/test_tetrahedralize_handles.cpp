@@ -23,7 +23,7 @@ namespace
 {
 /// Return the positions of the vertices on the segment between two points, as sorted fractions of
 /// its length.
-std::vector<double> vertices_on(const Points& points, const Vec3& a, const Vec3& b)
+std::vector<double> parameters_on_segment(const Points& points, const Vec3& a, const Vec3& b)
 {
   std::vector<double> at;
   for (Index v = 0; v < points.rows(); ++v)
@@ -85,7 +85,7 @@ TEST_F(Cdt, BonesAndCagesGetVerticesAtTheLocalEdgeLength)
   const Outcome outcome = run(ball, options);
   expect_valid(outcome, ball);
   const TetMesh& mesh = outcome.result.mesh;
-  const std::vector<double> on = vertices_on(mesh.points, head, tail);
+  const std::vector<double> on = parameters_on_segment(mesh.points, head, tail);
   ASSERT_GE(on.size(), 8u);
   EXPECT_NEAR(on.front(), 0.0, 1e-12);
   EXPECT_NEAR(on.back(), 1.0, 1e-12);

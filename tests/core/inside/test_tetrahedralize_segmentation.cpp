@@ -17,7 +17,7 @@ using Outcome = test::TetOutcome;
 namespace
 {
 /// Remove every fifth triangle of a surface.
-TriangleMesh ragged(TriangleMesh mesh)
+TriangleMesh with_missing_triangles(TriangleMesh mesh)
 {
   Index kept = 0;
   for (Index t = 0; t < mesh.triangles.rows(); ++t)
@@ -35,7 +35,7 @@ TriangleMesh ragged(TriangleMesh mesh)
 TEST_F(Cdt, AnOpenSurfaceIsCutWithLessEnergy)
 {
   const TriangleMesh closed = test::sphere(3);
-  const TriangleMesh mesh = ragged(closed);
+  const TriangleMesh mesh = with_missing_triangles(closed);
   TetrahedralizeOptions options;
   options.method = TetMethod::cdt;
   const Outcome cut = run(mesh, options);
@@ -104,7 +104,7 @@ TEST_F(Cdt, TheWholeHullCanBeKept)
 
 TEST_F(Cdt, ACutThatLosesTheVolumeIsLeftForTheThreshold)
 {
-  const TriangleMesh mesh = ragged(test::torus(40, 20, 1.0, 0.4));
+  const TriangleMesh mesh = with_missing_triangles(test::torus(40, 20, 1.0, 0.4));
   TetrahedralizeOptions options;
   options.method = TetMethod::cdt;
   options.segmentation = SegmentationMethod::threshold;

@@ -32,7 +32,7 @@ class Wrap : public test::NeedsMesher
 
 /// Expect that every vertex and triangle center of the surface is in a tet or on the boundary of
 /// the tets.
-void expect_to_hold(const TetMesh& mesh, const TriangleMesh& surface)
+void expect_wrap_contains(const TetMesh& mesh, const TriangleMesh& surface)
 {
   ExecutionContext context;
   WindingNumber winding;
@@ -89,7 +89,7 @@ TEST_F(Wrap, HoldsAnySurface)
     const Outcome outcome = run(c.mesh, options);
     expect_valid(outcome, c.mesh);
     EXPECT_EQ(outcome.method(), "wrap");
-    expect_to_hold(outcome.result.mesh, c.mesh);
+    expect_wrap_contains(outcome.result.mesh, c.mesh);
     EXPECT_EQ(test::euler_characteristic(outcome.result.mesh), c.characteristic);
     EXPECT_EQ(outcome.number("counts.kept_vertices"), 0.0);
     EXPECT_EQ(outcome.result.original_vertices.front(), -1);

@@ -36,7 +36,7 @@ SolidOutcome make_solid(const TriangleMesh& mesh, const ThickSolidOptions& optio
 
 /// Return the size of a lattice cube of the solid. `longest` is the longest side of the mesh's
 /// bounding box.
-double cube_of(const SolidOutcome& outcome, double longest)
+double cube_size(const SolidOutcome& outcome, double longest)
 {
   return longest / outcome.status.report.number("resolution", 0.0);
 }
@@ -58,7 +58,7 @@ TEST(ThickSolid, ASheetBecomesAPlateOfTwiceTheLayer)
   const TriangleMesh sheet = test::grid(10, 10);
   const SolidOutcome outcome = make_solid(sheet, {});
   EXPECT_EQ(outcome.parts, 1);
-  const double layer = 0.6 * cube_of(outcome, 1.0);
+  const double layer = 0.6 * cube_size(outcome, 1.0);
   // The solid should be a plate with a half cylinder at each of its four edges, and a quarter of a
   // ball at each corner.
   const double pi = std::acos(-1.0);
@@ -73,7 +73,7 @@ TEST(ThickSolid, ThinWallsStay)
   const TriangleMesh plate = test::box(Vec3(0.0, 0.0, 0.0), Vec3(1.0, 1.0, 1e-4));
   const SolidOutcome outcome = make_solid(plate, {});
   EXPECT_EQ(outcome.parts, 1);
-  EXPECT_GT(outcome.volume, cube_of(outcome, 1.0));
+  EXPECT_GT(outcome.volume, cube_size(outcome, 1.0));
 }
 
 TEST(ThickSolid, NarrowGapsCloseWherePartsAreJoinedOnly)
@@ -83,7 +83,7 @@ TEST(ThickSolid, NarrowGapsCloseWherePartsAreJoinedOnly)
   const TriangleMesh left = test::cube(0.0, 1.0);
   const auto both = [&](double gap)
   { return test::join(left, test::translated(left, Vec3(1.0 + gap, 0.0, 0.0))); };
-  const double cube = cube_of(make_solid(both(0.05), options), 2.05);
+  const double cube = cube_size(make_solid(both(0.05), options), 2.05);
   const TriangleMesh apart = both(0.9 * cube);
   options.join_near_parts = true;
   EXPECT_EQ(make_solid(apart, options).parts, 1);

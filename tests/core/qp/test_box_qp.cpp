@@ -136,8 +136,8 @@ TEST(BoxQp, MinimizersWithoutBoundsHaveNoGradient)
     SplitForm form(q, fixed);
     Eigen::MatrixXd some = Eigen::MatrixXd::Zero(form.a.rows(), 2);
     some(5, 0) = some(100, 1) = 1.0;
-    const Eigen::MatrixXd there_and_back = qp.inverse(form.a * some);
-    EXPECT_LE((there_and_back - some).cwiseAbs().maxCoeff(), order < 3 ? 1e-8 : 1e-4);
+    const Eigen::MatrixXd round_trip = qp.inverse(form.a * some);
+    EXPECT_LE((round_trip - some).cwiseAbs().maxCoeff(), order < 3 ? 1e-8 : 1e-4);
   }
 }
 
@@ -342,7 +342,7 @@ TEST_P(BoxQpStarts, FoundTogetherEndWhereOthersEnd)
   {
     free[v] = 0;
   }
-  std::vector<Eigen::VectorXd> at_scale_one;
+  std::vector<Eigen::VectorXd> unscaled_weights;
   for (const double scale : { 1.0, 1e6, 1e-6 })
   {
     const SparseMatrix scaled = scale * q;
@@ -377,15 +377,15 @@ TEST_P(BoxQpStarts, FoundTogetherEndWhereOthersEnd)
       }
       if (scale == 1.0)
       {
-        at_scale_one.clear();
+        unscaled_weights.clear();
         for (const BoxQpSolution& solution : together)
         {
-          at_scale_one.push_back(solution.w);
+          unscaled_weights.push_back(solution.w);
         }
       }
       for (std::size_t j = 0; j < columns.size() && tolerance < 1e-8; ++j)
       {
-        EXPECT_LT((together[j].w - at_scale_one[j]).cwiseAbs().maxCoeff(), same) << j;
+        EXPECT_LT((together[j].w - unscaled_weights[j]).cwiseAbs().maxCoeff(), same) << j;
       }
     }
   }

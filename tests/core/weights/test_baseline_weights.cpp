@@ -66,7 +66,7 @@ double difference_of_weights(const WeightsResult& a, const WeightsResult& b)
 }
 
 /// Return the domain without vertices that no element uses.
-Domain without_stray(const Domain& domain)
+Domain without_unused_vertices(const Domain& domain)
 {
   std::vector<Index> id(static_cast<std::size_t>(domain.points.rows()), -1);
   Domain result = domain;
@@ -111,7 +111,7 @@ Domain slotted_square(int n)
     }
   }
   domain.triangles.conservativeResize(count, 3);
-  return without_stray(domain);
+  return without_unused_vertices(domain);
 }
 } // namespace
 
@@ -320,7 +320,7 @@ TEST(BoneHeat, HandlesHideBehindWalls)
     }
   }
   u.tets.conservativeResize(count, 4);
-  u = without_stray(u);
+  u = without_unused_vertices(u);
   const Handles bones = { test::bone_handle("left", Vec3(0.3, 0.9, 0.1), Vec3(0.3, 0.5, 0.1)),
     test::bone_handle("below", Vec3(0.8, 0.1, 0.1), Vec3(0.6, 0.1, 0.1)) };
   const WeightsProblem problem = problem_of(u, bones);

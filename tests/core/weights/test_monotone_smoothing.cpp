@@ -213,12 +213,12 @@ TEST(MonotoneSmoothing, AgreesWithADenseTwin)
       const double size = std::sqrt(12.0 *
         scaled.mass.dot((scaled.points.rowwise() - centroid).rowwise().squaredNorm()) /
         scaled.mass.sum());
-      const VectorXd pull =
+      const VectorXd data_diagonal =
         options.data_weight * std::pow(unit, order) * scaled.mass / std::pow(size, 2 * order);
       Eigen::MatrixXd form = harmonic_energy(scaled.stiffness, scaled.mass, order);
-      form.diagonal() += pull;
+      form.diagonal() += data_diagonal;
       const Eigen::MatrixXd inverse = form.llt().solve(Eigen::MatrixXd::Identity(n, n));
-      VectorXd w = inverse * pull.cwiseProduct(f);
+      VectorXd w = inverse * data_diagonal.cwiseProduct(f);
       ExecutionContext context;
       std::vector<Index> rank;
       ASSERT_GT(order_with_extrema(
@@ -242,8 +242,8 @@ TEST(MonotoneSmoothing, AgreesWithADenseTwin)
       }
       EXPECT_GT(multipliers.maxCoeff(), 0.0);
       EXPECT_LE((result.values - w).cwiseAbs().maxCoeff(), 1e-6);
-      const double energy =
-        (w.dot(form * w) - 2.0 * w.dot(pull.cwiseProduct(f)) + f.dot(pull.cwiseProduct(f))) /
+      const double energy = (w.dot(form * w) - 2.0 * w.dot(data_diagonal.cwiseProduct(f)) +
+                              f.dot(data_diagonal.cwiseProduct(f))) /
         std::pow(unit, order - 1) / std::pow(f.maxCoeff() - f.minCoeff(), 2) *
         std::pow(size, 2 * order - 2);
       EXPECT_NEAR(result.energies.back(), energy, 1e-6 * energy);

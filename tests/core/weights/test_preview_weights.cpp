@@ -80,17 +80,17 @@ TEST(PreviewWeights, CertificateBoundsTheDistanceFromBoundedWeights)
 {
   const WeightsProblem problem =
     problem_of(test::to_domain(test::grid(24, 24)), test::five_points());
-  const WeightsResult soon = preview(problem);
+  const WeightsResult preview_result = preview(problem);
   ExecutionContext context;
   WeightsResult exact;
   ASSERT_TRUE(bounded_biharmonic_weights(context, problem, {}, exact).ok());
-  for (std::size_t j = 0; j < soon.columns.size(); ++j)
+  for (std::size_t j = 0; j < preview_result.columns.size(); ++j)
   {
-    const Certificate& of_preview = soon.columns[j].certificate;
-    EXPECT_GE(of_preview.energy - exact.columns[j].certificate.energy, -1e-9);
-    EXPECT_LE(of_preview.energy - exact.columns[j].certificate.energy,
-      of_preview.relative_gap * of_preview.energy * (1.0 + 1e-9));
-    EXPECT_GT(of_preview.relative_gap, 1e-6) << "clamping alone is no solution";
+    const Certificate& preview_certificate = preview_result.columns[j].certificate;
+    EXPECT_GE(preview_certificate.energy - exact.columns[j].certificate.energy, -1e-9);
+    EXPECT_LE(preview_certificate.energy - exact.columns[j].certificate.energy,
+      preview_certificate.relative_gap * preview_certificate.energy * (1.0 + 1e-9));
+    EXPECT_GT(preview_certificate.relative_gap, 1e-6) << "clamping alone is no solution";
   }
 }
 

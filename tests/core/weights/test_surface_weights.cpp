@@ -114,10 +114,11 @@ TEST(SurfaceWeights, OfTheEmbeddingAreNearThoseOfAFineVolume)
     make_weights_problem(context, test::to_domain(fine), {}, three_along(), {}, problem).ok());
   WeightsResult solved;
   ASSERT_TRUE(bounded_method(context, problem, solved).ok());
-  Weights truth;
+  Weights reference;
   TransferCounts counts;
   ASSERT_TRUE(
-    transfer(context, problem.mesh.domain, solved.weights, mesh.points, {}, truth, counts).ok());
+    transfer(context, problem.mesh.domain, solved.weights, mesh.points, {}, reference, counts)
+      .ok());
 
   SurfaceWeights result;
   const Status status =
@@ -125,7 +126,7 @@ TEST(SurfaceWeights, OfTheEmbeddingAreNearThoseOfAFineVolume)
   ASSERT_TRUE(status.ok()) << status.message;
   EXPECT_EQ(status.report.text("domain"), "embedding");
   expect_weights(result.weights, mesh.points.rows(), 3);
-  EXPECT_LE(rms(result.weights, truth), 0.015);
+  EXPECT_LE(rms(result.weights, reference), 0.015);
   EXPECT_LE(status.report.number("guard.rms_difference", 1.0), 0.02);
   EXPECT_LT(status.report.number("guard.resolution", 0.0),
     status.report.number("embedding.resolution", 0.0));

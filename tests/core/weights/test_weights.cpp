@@ -317,12 +317,13 @@ TEST(Weights, UnitsAndRotationDoNotMatter)
   {
     TetMesh moved = box;
     moved.points = (box.points * map.transpose()).rowwise() + shift.transpose();
-    std::vector<Vec3> moved_places;
+    std::vector<Vec3> moved_positions;
     for (const Vec3& place : positions)
     {
-      moved_places.emplace_back(map * place + shift);
+      moved_positions.emplace_back(map * place + shift);
     }
-    return bounded(problem_of(test::to_domain(moved), test::point_handles(moved_places)), 2, 1e-9)
+    return bounded(
+      problem_of(test::to_domain(moved), test::point_handles(moved_positions)), 2, 1e-9)
       .weights;
   };
   const Weights rest = solve(Eigen::Matrix3d::Identity(), Vec3::Zero());
@@ -496,16 +497,16 @@ TEST(Weights, BudgetCancelAndBadOptions)
 
   // Cancel when the flag has been checked a given number of times. Both methods must return the
   // status canceled.
-  for (const int looks : { 0, 1, 3, 10, 40 })
+  for (const int allowed_polls : { 0, 1, 3, 10, 40 })
   {
     int poll_count = 0;
-    ExecutionContext stopped(nullptr, [&] { return ++poll_count > looks; });
+    ExecutionContext stopped(nullptr, [&] { return ++poll_count > allowed_polls; });
     stopped.set_threads(1);
     options = {};
     EXPECT_EQ(
       bounded_biharmonic_weights(stopped, problem, options, result).code, StatusCode::canceled);
     poll_count = 0;
-    ExecutionContext stopped_too(nullptr, [&] { return ++poll_count > looks; });
+    ExecutionContext stopped_too(nullptr, [&] { return ++poll_count > allowed_polls; });
     stopped_too.set_threads(1);
     EXPECT_EQ(monotone_weights(stopped_too, problem, {}, result).code, StatusCode::canceled);
   }

@@ -34,8 +34,8 @@ inline void add_linear_weights(vtkDataSet* data)
   weights->SetNumberOfComponents(2);
   for (vtkIdType v = 0; v < data->GetNumberOfPoints(); ++v)
   {
-    const double up = 0.5 * (1.0 + data->GetPoint(v)[2]);
-    weights->InsertNextTuple2(1.0 - up, up);
+    const double height_fraction = 0.5 * (1.0 + data->GetPoint(v)[2]);
+    weights->InsertNextTuple2(1.0 - height_fraction, height_fraction);
   }
   data->GetPointData()->AddArray(weights);
 }

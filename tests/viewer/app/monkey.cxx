@@ -26,7 +26,7 @@ namespace bindpose::test
 namespace
 {
 /// Report whether an action is excluded because it would open a file dialog or quit.
-bool is_left_alone(const QString& name)
+bool is_excluded(const QString& name)
 {
   return name == "file.quit" || name == "file.open" || name.startsWith("file.save");
 }
@@ -48,26 +48,26 @@ void Monkey::note(const std::string& kind, const QString& what)
   ++this->events_;
   ++this->counts_[kind];
   this->last_.push_back(kind + " " + what.toStdString());
-  constexpr std::size_t most = 60;
-  if (this->last_.size() > most)
+  constexpr std::size_t maximum_events = 60;
+  if (this->last_.size() > maximum_events)
   {
     this->last_.erase(this->last_.begin());
   }
 }
 
-std::string Monkey::story() const
+std::string Monkey::event_log() const
 {
-  std::string story;
+  std::string event_log;
   for (const std::string& event : this->last_)
   {
-    story += "  " + event + '\n';
+    event_log += "  " + event + '\n';
   }
-  return story;
+  return event_log;
 }
 
 /// Return a random position in the view, or sometimes outside of it. Half of the positions are on
 /// handles.
-QPoint Monkey::anywhere()
+QPoint Monkey::random_position()
 {
   const Handles& handles = this->window_->document()->handles();
   QPoint position = this->user_.place(this->number(-0.05, 1.05), this->number(-0.05, 1.05));
@@ -81,13 +81,13 @@ QPoint Monkey::anywhere()
   return position;
 }
 
-Qt::MouseButton Monkey::any_button()
+Qt::MouseButton Monkey::random_button()
 {
   const int which = this->pick(10);
   return which < 8 ? Qt::LeftButton : which == 8 ? Qt::RightButton : Qt::MiddleButton;
 }
 
-Qt::KeyboardModifiers Monkey::any_held()
+Qt::KeyboardModifiers Monkey::random_modifiers()
 {
   const int which = this->pick(12);
   return which == 0 ? Qt::ShiftModifier
@@ -98,30 +98,31 @@ Qt::KeyboardModifiers Monkey::any_held()
 
 void Monkey::drag()
 {
-  const QPoint from = this->anywhere();
-  const QPoint by(this->pick(241) - 120, this->pick(241) - 120);
-  const Qt::MouseButton button = this->any_button();
-  const Qt::KeyboardModifiers modifiers = this->any_held();
+  const QPoint from = this->random_position();
+  const QPoint offset(this->pick(241) - 120, this->pick(241) - 120);
+  const Qt::MouseButton button = this->random_button();
+  const Qt::KeyboardModifiers modifiers = this->random_modifiers();
   const int moves = 1 + this->pick(6);
-  this->note("drag", QString("%1 %2 by %3 %4").arg(from.x()).arg(from.y()).arg(by.x()).arg(by.y()));
+  this->note(
+    "drag", QString("%1 %2 by %3 %4").arg(from.x()).arg(from.y()).arg(offset.x()).arg(offset.y()));
   this->user_.move(from, modifiers);
   this->user_.press(from, button, modifiers);
   for (int k = 1; k <= moves; ++k)
   {
-    this->user_.move(from + by * k / moves, modifiers);
+    this->user_.move(from + offset * k / moves, modifiers);
     QApplication::processEvents();
     if (this->pick(25) == 0)
     {
-      this->any_key(); // press a key during the drag
+      this->press_random_key(); // press a key during the drag
     }
   }
   if (this->pick(12) != 0) // otherwise the mouse button stays down for a while
   {
-    this->user_.release(from + by, button, modifiers);
+    this->user_.release(from + offset, button, modifiers);
   }
 }
 
-void Monkey::any_key()
+void Monkey::press_random_key()
 {
   static const char* const keys[] = { "Esc", "Return", "Tab", "Backspace", "Delete", "Home", "Left",
     "Right", "Up", "Down", "Space", "1", "2", "3", "4", "5", "6", "7", "8", "9", "0", ".", "-", "G",
@@ -132,18 +133,18 @@ void Monkey::any_key()
   this->user_.press_key(key);
 }
 
-void Monkey::any_action()
+void Monkey::trigger_random_action()
 {
   const QStringList names = this->user_.actions();
   const QString name = names.isEmpty() ? QString() : names[this->pick(names.size())];
-  if (!is_left_alone(name))
+  if (!is_excluded(name))
   {
     this->note("action", name);
     this->user_.trigger(name);
   }
 }
 
-void Monkey::any_option()
+void Monkey::choose_random_option()
 {
   const OptionInfo& option =
     option_table()[static_cast<std::size_t>(this->pick(static_cast<int>(option_table().size())))];
@@ -161,7 +162,7 @@ void Monkey::any_option()
 }
 
 /// Click a random visible button. Buttons that open a file dialog are excluded.
-void Monkey::any_button_of_panels()
+void Monkey::click_random_button()
 {
   QStringList texts;
   for (const QAbstractButton* each : this->window_->findChildren<QAbstractButton*>())
@@ -201,24 +202,24 @@ void Monkey::act()
     case 6:
     case 7:
     {
-      const QPoint position = this->anywhere();
+      const QPoint position = this->random_position();
       this->note("click", QString("%1 %2").arg(position.x()).arg(position.y()));
-      const Qt::MouseButton button = this->any_button();
+      const Qt::MouseButton button = this->random_button();
       this->user_.move(position);
-      this->user_.press(position, button, this->any_held());
+      this->user_.press(position, button, this->random_modifiers());
       this->user_.release(position, button);
       break;
     }
     case 8:
     {
-      const QPoint position = this->anywhere();
+      const QPoint position = this->random_position();
       this->note("double click", QString("%1 %2").arg(position.x()).arg(position.y()));
       this->user_.double_click(position, Qt::LeftButton);
       break;
     }
     case 9:
       this->note("wheel", QString());
-      this->user_.wheel(this->anywhere(), this->number(-3.0, 3.0));
+      this->user_.wheel(this->random_position(), this->number(-3.0, 3.0));
       break;
     case 10:
     case 11:
@@ -227,23 +228,23 @@ void Monkey::act()
       {
         if (this->user_.buttons() & button)
         {
-          this->user_.release(this->anywhere(), button);
+          this->user_.release(this->random_position(), button);
         }
       }
       break;
     case 12:
     case 13:
     case 14:
-      this->any_key();
+      this->press_random_key();
       break;
     case 15:
     case 16:
-      this->any_action();
+      this->trigger_random_action();
       break;
     case 17:
     case 18:
     case 19:
-      this->any_option();
+      this->choose_random_option();
       break;
     case 20:
       this->note("panel", QString());
@@ -251,7 +252,7 @@ void Monkey::act()
         SimulatedUser::panel_names()[this->pick(SimulatedUser::panel_names().size())]);
       break;
     case 21:
-      this->any_button_of_panels();
+      this->click_random_button();
       break;
     case 22:
       this->note("bind", QString());
@@ -327,7 +328,7 @@ void Monkey::play(int events)
   }
 }
 
-void Monkey::rest()
+void Monkey::stop_activity()
 {
   for (const Qt::MouseButton button : { Qt::LeftButton, Qt::RightButton, Qt::MiddleButton })
   {

@@ -25,27 +25,27 @@ public:
   void play(int events);
   /// Release the mouse buttons, stop playback and cancel all computations, so that the window can
   /// be inspected.
-  void rest();
+  void stop_activity();
 
   long long events() const { return this->events_; }
   /// Return the number of events of each kind.
   const std::map<std::string, long long>& counts() const { return this->counts_; }
   /// Return a text that lists the most recent events in the order in which they were sent.
-  std::string story() const;
+  std::string event_log() const;
 
 private:
   void act();
   int pick(int count) { return static_cast<int>(this->random_() % static_cast<unsigned>(count)); }
   double number(double lowest, double highest);
-  QPoint anywhere();
-  Qt::MouseButton any_button();
-  Qt::KeyboardModifiers any_held();
+  QPoint random_position();
+  Qt::MouseButton random_button();
+  Qt::KeyboardModifiers random_modifiers();
   void note(const std::string& kind, const QString& what);
   void drag();
-  void any_key();
-  void any_action();
-  void any_option();
-  void any_button_of_panels();
+  void press_random_key();
+  void trigger_random_action();
+  void choose_random_option();
+  void click_random_button();
 
   MainWindow* window_;
   SimulatedUser user_;

@@ -52,7 +52,7 @@
 
 using namespace bindpose;
 using test::wait_for;
-using Drawn = vtkHandleSetRepresentation;
+using Representation = vtkHandleSetRepresentation;
 
 namespace
 {
@@ -107,7 +107,7 @@ protected:
   QUndoStack* history() { return this->window.document()->history(); }
   Viewport* viewport() { return this->part<Viewport>(); }
   vtkHandleSetWidget* widget() { return this->viewport()->handle_widget(); }
-  Drawn* representation() { return this->widget()->GetHandleSetRepresentation(); }
+  Representation* representation() { return this->widget()->GetHandleSetRepresentation(); }
   const Handle& handle(const std::string& name)
   {
     for (const Handle& each : this->document()->handles())
@@ -341,8 +341,9 @@ TEST_F(HandleWindow, PointsAreAddedToAMeshWithoutHandlesAndBound)
   // With PlaceInside off, the point is on the surface of the ellipsoid.
   this->key(Qt::Key_I);
   this->check("add point p3", [&] { this->click(this->pixel(Vec3(0, 0, 0.0))); });
-  const Vec3 on = this->handle("p3").head;
-  EXPECT_NEAR(Vec3(on.x() / 0.4, on.y() / 0.4, on.z()).norm(), 1.0, 0.02);
+  const Vec3 surface_point = this->handle("p3").head;
+  EXPECT_NEAR(
+    Vec3(surface_point.x() / 0.4, surface_point.y() / 0.4, surface_point.z()).norm(), 1.0, 0.02);
   EXPECT_EQ(this->part<SidePanel>()->selected_handle(), 2);
   this->key(Qt::Key_Escape);
   EXPECT_EQ(this->editing()->mode(), HandleEditing::pose);
@@ -465,7 +466,7 @@ TEST_F(HandleWindow, RegionsArePaintedErasedAndUndone)
   this->open_mesh(4);
   this->key(Qt::Key_P);
   ASSERT_EQ(this->editing()->mode(), HandleEditing::paint_regions);
-  const auto labeled = [this](int label)
+  const auto count_labeled = [this](int label)
   {
     vtkDataArray* labels = this->document()->work().surface->GetPointData()->GetArray("RegionId");
     int count = 0;
@@ -482,7 +483,7 @@ TEST_F(HandleWindow, RegionsArePaintedErasedAndUndone)
   EXPECT_NE(this->picture(), plain);
   EXPECT_EQ(this->handle("r1").kind, HandleKind::region);
   EXPECT_EQ(this->handle("r1").region_id, 1);
-  const int first = labeled(1);
+  const int first = count_labeled(1);
   EXPECT_GT(first, 3);
   Vec3 middle = Vec3::Zero();
   vtkPolyData* painted = this->document()->work().surface;
@@ -497,7 +498,7 @@ TEST_F(HandleWindow, RegionsArePaintedErasedAndUndone)
   // The next stroke paints the same label. After a click on "New region", a stroke paints another
   // label.
   this->check("paint region r1", [&] { this->drag(top, top + QPoint(0, 40)); });
-  EXPECT_GT(labeled(1), first);
+  EXPECT_GT(count_labeled(1), first);
   for (QPushButton* button : this->window.findChild<ModeBar*>()->findChildren<QPushButton*>())
   {
     if (button->text() == "New region")
@@ -508,7 +509,7 @@ TEST_F(HandleWindow, RegionsArePaintedErasedAndUndone)
   }
   this->check("paint region r2", [&] { this->drag(bottom, bottom + QPoint(5, 0)); });
   EXPECT_EQ(this->handle("r2").region_id, 2);
-  EXPECT_GT(labeled(2), 0);
+  EXPECT_GT(count_labeled(2), 0);
   // A stroke that is canceled with Esc has no effect, and the edit mode continues.
   const std::string before = this->state();
   this->press(bottom, bottom + QPoint(0, -60));
@@ -519,7 +520,7 @@ TEST_F(HandleWindow, RegionsArePaintedErasedAndUndone)
   // Deleting a region also deletes its labels.
   this->editing()->selection()->select({ this->number("r2") });
   this->check("delete r2", [&] { this->key(Qt::Key_Delete); });
-  EXPECT_EQ(labeled(2), 0);
+  EXPECT_EQ(count_labeled(2), 0);
   // A key and a slider change the size of the brush.
   auto* brush = this->viewport()->brush_widget()->GetRegionBrushRepresentation();
   const double radius = brush->GetDiscRadius();
@@ -619,21 +620,21 @@ TEST_F(HandleWindow, TheGizmoDragsAlongAnAxisAndIsCanceledBitByBit)
   this->click(this->pixel(this->handle("right").head));
   ASSERT_EQ(this->editing()->selection()->selected(), std::vector<int>{ 1 });
   this->key(Qt::Key_W);
-  EXPECT_EQ(this->representation()->GetGizmo(), Drawn::GIZMO_MOVE);
+  EXPECT_EQ(this->representation()->GetGizmo(), Representation::GIZMO_MOVE);
   this->render();
   // The drag follows the projected axis, with some deviation from it.
-  const QPoint z = this->grip(Drawn::MOVE_Z);
+  const QPoint z = this->grip(Representation::MOVE_Z);
   const Vec3 head = this->handle("right").head;
   const QPoint along = this->pixel(head + Vec3(0, 0, 0.3)) - this->pixel(head);
   this->check("move right", [&] { this->drag(z, z + along + QPoint(5, -9)); });
-  Vec3 way = this->document()->pose()[1].transform.col(3);
-  EXPECT_GT(way.z(), 0.05);
-  EXPECT_EQ(way.x(), 0.0);
-  EXPECT_EQ(way.y(), 0.0);
+  Vec3 translation = this->document()->pose()[1].transform.col(3);
+  EXPECT_GT(translation.z(), 0.05);
+  EXPECT_EQ(translation.x(), 0.0);
+  EXPECT_EQ(translation.y(), 0.0);
   // A canceled drag restores the state bit by bit.
   const std::string before = this->state();
   const Points posed = this->points();
-  const QPoint x = this->grip(Drawn::MOVE_X);
+  const QPoint x = this->grip(Representation::MOVE_X);
   this->press(x, x + QPoint(40, 10));
   EXPECT_NE(this->state(), before);
   EXPECT_TRUE(this->hint().startsWith("Move X")) << this->hint().toStdString();
@@ -646,11 +647,11 @@ TEST_F(HandleWindow, TheGizmoDragsAlongAnAxisAndIsCanceledBitByBit)
   // The rings of the gizmo rotate, and its boxes scale.
   this->key(Qt::Key_E);
   this->render();
-  const QPoint ring = this->grip(Drawn::TURN_VIEW);
+  const QPoint ring = this->grip(Representation::TURN_VIEW);
   this->check("turn right", [&] { this->drag(ring, ring + QPoint(20, 20)); });
   this->key(Qt::Key_D);
   this->render();
-  const QPoint box = this->grip(Drawn::SCALE_X);
+  const QPoint box = this->grip(Representation::SCALE_X);
   this->check("scale right", [&] { this->drag(box, box + QPoint(20, 0)); });
   EXPECT_NE(this->editing()->action("gizmo.scale"), nullptr);
   EXPECT_TRUE(this->editing()->action("gizmo.scale")->isChecked());
@@ -751,8 +752,9 @@ TEST_F(HandleWindow, CommandsAreStepsWithNames)
   EXPECT_TRUE(commands->action("fixes.position")->isChecked());
   EXPECT_FALSE(commands->action("fixes.tail")->isEnabled()); // the handle "left" is not a bone
   this->check("snap to the surface: left", [&] { commands->action("snap")->trigger(); });
-  const Vec3 on = this->handle("left").head;
-  EXPECT_NEAR(Vec3(on.x() / 0.4, on.y() / 0.4, on.z()).norm(), 1.0, 0.03);
+  const Vec3 surface_point = this->handle("left").head;
+  EXPECT_NEAR(
+    Vec3(surface_point.x() / 0.4, surface_point.y() / 0.4, surface_point.z()).norm(), 1.0, 0.03);
   this->check("parent of left", [&] { commands->set_parent(this->number("spine")); });
   EXPECT_EQ(this->handle("left").parent, this->number("spine"));
   Pose pose = this->document()->pose();
@@ -808,10 +810,10 @@ TEST_F(HandleWindow, NamesThatCannotBeAreOneSentence)
   this->open_bound();
   // Stored poses also get the new name.
   StoredPoses stored_poses;
-  Pose kept(3);
-  kept[0].transform.col(3) = Vec3(0.5, 0, 0);
-  stored_poses.library.store("wave", NamedPose(this->document()->handles(), kept));
-  stored_poses.keys.set(0.5, NamedPose(this->document()->handles(), kept));
+  Pose stored_pose(3);
+  stored_pose[0].transform.col(3) = Vec3(0.5, 0, 0);
+  stored_poses.library.store("wave", NamedPose(this->document()->handles(), stored_pose));
+  stored_poses.keys.set(0.5, NamedPose(this->document()->handles(), stored_pose));
   this->document()->set_stored_poses(stored_poses, "keep");
   this->editing()->selection()->select({ 0 });
   this->check("rename left", [&] { EXPECT_TRUE(this->commands()->rename(0, " paw ")); });
@@ -820,9 +822,9 @@ TEST_F(HandleWindow, NamesThatCannotBeAreOneSentence)
   const StoredPoses& now = *this->document()->work().stored_poses;
   EXPECT_EQ(
     now.library.entries()[0].pose.for_handles(this->document()->handles(), Pose(3))[0].transform,
-    kept[0].transform);
-  EXPECT_EQ(
-    now.keys.pose_at(0.5, this->document()->handles(), Pose(3))[0].transform, kept[0].transform);
+    stored_pose[0].transform);
+  EXPECT_EQ(now.keys.pose_at(0.5, this->document()->handles(), Pose(3))[0].transform,
+    stored_pose[0].transform);
   const std::string before = this->state();
   const int steps = this->history()->count();
   for (const char* bad : { "", "   ", "right", "spine" })
@@ -977,7 +979,7 @@ TEST_F(HandleWindow, TheSheetTellsTheKeysThatThereAre)
   EXPECT_LT(shown, 12);
   sheet->close();
   // Every key of the table belongs to exactly one action.
-  QMap<QString, QString> owner;
+  QMap<QString, QString> action_of_key;
   for (const WindowKey& key : window_keys)
   {
     if (key.action[0] == '\0' || QString(key.action) == "mode.pose")
@@ -989,8 +991,8 @@ TEST_F(HandleWindow, TheSheetTellsTheKeysThatThereAre)
       const QKeySequence sequence(keys);
       ASSERT_FALSE(sequence.isEmpty()) << key.input;
       EXPECT_NE(sequence[0] & ~Qt::KeyboardModifierMask, Qt::Key_unknown) << key.input;
-      EXPECT_FALSE(owner.contains(sequence.toString())) << key.input;
-      owner[sequence.toString()] = key.action;
+      EXPECT_FALSE(action_of_key.contains(sequence.toString())) << key.input;
+      action_of_key[sequence.toString()] = key.action;
       int found = 0;
       for (QAction* action : this->window.findChildren<QAction*>())
       {
@@ -1050,10 +1052,10 @@ TEST_F(HandleWindow, NothingIsClippedInASmallWindow)
 TEST_F(HandleWindow, EveryModeHasAPictureOfItsOwn)
 {
   const char* folder = std::getenv("BINDPOSE_PICTURES");
-  const char* wide = std::getenv("BINDPOSE_PICTURE_SIZE"); // width and height, as WxH
-  if (wide)
+  const char* size_text = std::getenv("BINDPOSE_PICTURE_SIZE"); // width and height, as WxH
+  if (size_text)
   {
-    const QStringList size = QString(wide).split('x');
+    const QStringList size = QString(size_text).split('x');
     this->window.resize(size[0].toInt(), size[1].toInt());
   }
   QImage last;
@@ -1116,7 +1118,7 @@ TEST_F(HandleWindow, EveryModeHasAPictureOfItsOwn)
   }
   this->key(Qt::Key_E);
   this->render();
-  const QPoint ring = this->grip(Drawn::TURN_Y);
+  const QPoint ring = this->grip(Representation::TURN_Y);
   this->press(ring, ring + QPoint(60, 40));
   save("drag");
   this->release(ring + QPoint(60, 40));

@@ -77,15 +77,16 @@ protected:
     auto* representation = this->part<Viewport>()->handle_widget()->GetHandleSetRepresentation();
     for (int k = 0; k < static_cast<int>(this->list()->rows().size()); ++k)
     {
-      const bool is = std::find(result.begin(), result.end(), k) != result.end();
-      EXPECT_EQ(this->list()->item(k)->isSelected(), is) << k;
-      EXPECT_EQ(representation->IsSelected(this->window.document()->handle_cells()[k]), is) << k;
+      const bool is_selected = std::find(result.begin(), result.end(), k) != result.end();
+      EXPECT_EQ(this->list()->item(k)->isSelected(), is_selected) << k;
+      EXPECT_EQ(representation->IsSelected(this->window.document()->handle_cells()[k]), is_selected)
+        << k;
     }
     EXPECT_EQ(this->part<SidePanel>()->selected_handles(), result);
     return result;
   }
   /// Click a handle in the view.
-  void pick(const char* name, Qt::KeyboardModifiers modifiers = Qt::NoModifier)
+  void click_handle(const char* name, Qt::KeyboardModifiers modifiers = Qt::NoModifier)
   {
     QPoint at;
     ASSERT_EQ(this->user.find_handle_position(name, 0.0, at), QString());
@@ -117,7 +118,7 @@ protected:
     return nullptr;
   }
   int entry_of(HandleMode mode) { return this->modes()->findData(static_cast<int>(mode)); }
-  bool offers(HandleMode mode)
+  bool is_mode_available(HandleMode mode)
   {
     const QAbstractItemModel* model = this->modes()->model();
     return model->flags(model->index(this->entry_of(mode), 0)) & Qt::ItemIsEnabled;
@@ -156,13 +157,13 @@ TEST_F(HandleList, ClicksWithCtrlAndShiftSelectSeveralInThePicture)
 
 TEST_F(HandleList, WhatIsSelectedInThePictureIsSelectedInTheList)
 {
-  this->pick("top");
+  this->click_handle("top");
   EXPECT_EQ(this->selected(), Indices({ 2 }));
-  this->pick("bottom", Qt::ShiftModifier);
+  this->click_handle("bottom", Qt::ShiftModifier);
   EXPECT_EQ(this->selected(), Indices({ 2, 0 }));
   this->user.trigger("select_all");
   EXPECT_EQ(this->selected(), Indices({ 0, 1, 2, 3 }));
-  this->pick("middle", Qt::ShiftModifier);
+  this->click_handle("middle", Qt::ShiftModifier);
   EXPECT_EQ(this->selected(), Indices({ 0, 2, 3 }));
   // Undo of a deletion selects the handles that it restores, by name.
   this->user.trigger("delete");
@@ -209,11 +210,11 @@ TEST_F(HandleList, AModeIsForAllThatAreSelectedAndOneStep)
   EXPECT_EQ(this->mode(2), HandleMode::automatic);
   EXPECT_EQ(this->modes()->currentIndex(), this->entry_of(HandleMode::automatic));
   // Mode tail is available for bones only.
-  EXPECT_FALSE(this->offers(HandleMode::tail));
+  EXPECT_FALSE(this->is_mode_available(HandleMode::tail));
   this->click(3);
-  EXPECT_TRUE(this->offers(HandleMode::tail));
+  EXPECT_TRUE(this->is_mode_available(HandleMode::tail));
   this->click(2, Qt::ControlModifier);
-  EXPECT_FALSE(this->offers(HandleMode::tail)) << "one of them is a point";
+  EXPECT_FALSE(this->is_mode_available(HandleMode::tail)) << "one of them is a point";
   EXPECT_NE(this->user.set_mode("tail"), QString());
   EXPECT_EQ(this->user.set_mode("free"), QString());
   EXPECT_EQ(this->mode(2), HandleMode::free);
@@ -228,7 +229,7 @@ TEST_F(HandleList, TheWeightsPanelAndTheSelectionFollowEachOther)
   this->click(2);
   this->part<PanelColumn>()->show_panel(PanelColumn::weights);
   EXPECT_EQ(weights->column(), 2) << "what was selected before";
-  this->pick("bottom");
+  this->click_handle("bottom");
   EXPECT_EQ(this->selected(), Indices({ 0 }));
   EXPECT_EQ(weights->column(), 0);
   this->click(3);
@@ -297,7 +298,7 @@ protected:
       now.begin());
   }
   /// Return the names of the handles whose rows are visible without scrolling.
-  QStringList seen()
+  QStringList visible_names()
   {
     QApplication::processEvents();
     QStringList names;
@@ -349,7 +350,7 @@ TEST_F(HandleTreeWindow, TheSearchShowsMatchesBelowTheirParents)
   QLineEdit* search = this->list()->search();
   search->setFocus();
   QTest::keyClicks(search, "RIGHT_F");
-  EXPECT_EQ(this->seen(),
+  EXPECT_EQ(this->visible_names(),
     QStringList({ "hips", "chest", "right_arm", "right_hand", "right_finger_0", "right_finger_1",
       "right_finger_2", "right_finger_3", "right_finger_4" }));
   EXPECT_EQ(this->part<HandleEditing>()->mode(), HandleEditing::pose)
@@ -359,11 +360,11 @@ TEST_F(HandleTreeWindow, TheSearchShowsMatchesBelowTheirParents)
     Indices({ this->number("right_finger_0") }));
   // If a handle is selected elsewhere, its row is visible for any search text.
   this->part<SidePanel>()->select_handle(this->number("nose"));
-  EXPECT_TRUE(this->seen().contains("nose"));
+  EXPECT_TRUE(this->visible_names().contains("nose"));
   search->setFocus();
   QTest::keyClick(search, Qt::Key_Escape);
   EXPECT_EQ(search->text(), QString());
-  EXPECT_GE(this->seen().size(), 12);
+  EXPECT_GE(this->visible_names().size(), 12);
   for (int k = 0; k < 17; ++k)
   {
     EXPECT_FALSE(this->list()->item(k)->isHidden()) << k;
@@ -371,16 +372,16 @@ TEST_F(HandleTreeWindow, TheSearchShowsMatchesBelowTheirParents)
   QTest::keyClicks(search, "no such name");
   this->part<SidePanel>()->select_handles({});
   search->setText("no such name at all");
-  EXPECT_EQ(this->seen(), QStringList());
+  EXPECT_EQ(this->visible_names(), QStringList());
 }
 
 TEST_F(HandleTreeWindow, ALargeScreenShowsADozenRowsAndTheHeightCanBeDragged)
 {
   // A desktop leaves this space for a window on a screen of 1920 x 1080 pixels.
   this->resize(QSize(1920, 1040));
-  EXPECT_GE(this->seen().size(), 12);
+  EXPECT_GE(this->visible_names().size(), 12);
   this->resize(QSize(1280, 760));
-  EXPECT_GE(this->seen().size(), 4);
+  EXPECT_GE(this->visible_names().size(), 4);
   const int before = this->list()->height();
   auto* splitter = this->part<PanelColumn>()->findChild<QSplitter*>();
   QWidget* grip = splitter->handle(1);

@@ -263,14 +263,14 @@ TEST_F(Window, BindsOffTheUiThreadWithProgress)
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
   EXPECT_FALSE(this->window.is_bound());
   double last = 0.0;
-  std::string backward; // phases whose progress decreased, and by how much
+  std::string decreases; // phases whose progress decreased, and by how much
   int steps = 0;
   QObject::connect(this->window.findChild<BindJob*>(), &BindJob::progress,
     [&](double fraction, const QString& phase)
     {
       if (fraction < last)
       {
-        backward += phase.toStdString() + ": " + std::to_string(last) + " to " +
+        decreases += phase.toStdString() + ": " + std::to_string(last) + " to " +
           std::to_string(fraction) + "; ";
       }
       last = fraction;
@@ -281,7 +281,7 @@ TEST_F(Window, BindsOffTheUiThreadWithProgress)
   ASSERT_TRUE(wait_for([this] { return !this->part<Binding>()->is_running(); }));
   EXPECT_EQ(this->window.error(), QString());
   ASSERT_TRUE(this->window.is_bound());
-  EXPECT_EQ(backward, "");
+  EXPECT_EQ(decreases, "");
   EXPECT_GT(steps, 3);
   this->render();
   const Vec3 rest = highest_point(this->window.shown());
@@ -357,9 +357,9 @@ TEST_F(Window, WhatCannotBeOpenedIsSaidAndTheWorkStays)
 TEST_F(Window, WeightsOfOtherHandlesAreNotUsed)
 {
   this->open_bound();
-  Handles one(1);
-  one[0].name = "only";
-  EXPECT_TRUE(this->window.set_handles(to_polydata(one), "one"));
+  Handles single_handle(1);
+  single_handle[0].name = "only";
+  EXPECT_TRUE(this->window.set_handles(to_polydata(single_handle), "one"));
   EXPECT_FALSE(this->window.is_bound());
   EXPECT_NE(this->window.error().indexOf("weights for 2 handles"), -1);
 }
@@ -489,16 +489,16 @@ TEST_F(Window, WhatCannotBeDoneYetIsDisabledInTheMenus)
     ADD_FAILURE() << "no entry " << text;
     return false;
   };
-  const std::vector<const char*> later = { "Export shape", "Export rig", "Export pose",
+  const std::vector<const char*> disabled_entries = { "Export shape", "Export rig", "Export pose",
     "Export film", "Bind", "Back to rest", "Linear", "Dual", "Reduced", "Full" };
   EXPECT_TRUE(enabled("Open"));
   EXPECT_TRUE(enabled("Export picture"));
-  for (const char* text : later)
+  for (const char* text : disabled_entries)
   {
     EXPECT_FALSE(enabled(text)) << text;
   }
   this->open_bound();
-  for (const char* text : later)
+  for (const char* text : disabled_entries)
   {
     EXPECT_TRUE(enabled(text)) << text;
   }

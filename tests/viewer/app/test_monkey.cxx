@@ -27,10 +27,10 @@ using test::fingerprints;
 namespace
 {
 /// Return the number in an environment variable, or a default.
-double setting(const char* name, double otherwise)
+double setting(const char* name, double default_value)
 {
   const char* text = std::getenv(name);
-  return text ? std::atof(text) : otherwise;
+  return text ? std::atof(text) : default_value;
 }
 
 QString data(const char* name)
@@ -53,7 +53,7 @@ bool is_finite(vtkPolyData* data)
 
 /// Reset the transforms of free handles. They were found by the solver and are not the work of the
 /// user.
-Pose fixed(Pose pose)
+Pose without_free_transforms(Pose pose)
 {
   for (HandlePose& each : pose)
   {
@@ -67,17 +67,17 @@ Pose fixed(Pose pose)
 
 /// Options that the program also sets by itself. A change of such an option is not an undo step, so
 /// undo does not revert it.
-const char* const chosen_by_the_program[] = { "show.column", "weights.column", "weights.what",
+const char* const automatic_options[] = { "show.column", "weights.column", "weights.what",
   "weights.raw", "tets.shown", "tets.colors", "defects.shown", "volume.level",
   "volume.isosurface" };
 
 using Fingerprints = std::map<std::string, std::string>;
 
 /// Return fingerprints of everything that the user has made or chosen.
-Fingerprints own_fingerprints(const Document& document)
+Fingerprints user_fingerprints(const Document& document)
 {
   Work work = document.work();
-  for (const char* key : chosen_by_the_program)
+  for (const char* key : automatic_options)
   {
     work.options.remove(key);
   }
@@ -93,7 +93,8 @@ void check_window(MainWindow& window)
   EXPECT_TRUE(is_finite(document.handle_data()));
   EXPECT_TRUE(is_finite(window.shown()));
   EXPECT_EQ(document.pose().size(), document.handles().size());
-  EXPECT_TRUE(same_pose(fixed(document.pose()), fixed(document.work().pose)))
+  EXPECT_TRUE(same_pose(
+    without_free_transforms(document.pose()), without_free_transforms(document.work().pose)))
     << "a pose that is in no step";
   EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
   EXPECT_FALSE(window.findChild<Viewport*>()->handle_widget()->IsDragging());
@@ -101,9 +102,9 @@ void check_window(MainWindow& window)
 }
 
 /// Return a sentence that lists the parts of the work that have changed.
-std::string other_parts(const Fingerprints& before, const Fingerprints& now)
+std::string changed_parts(const Fingerprints& before, const Fingerprints& now)
 {
-  const auto part_of = [](const Fingerprints& all, const std::string& name)
+  const auto fingerprint_of = [](const Fingerprints& all, const std::string& name)
   {
     const auto found = all.find(name);
     return found == all.end() ? std::string("nothing") : found->second;
@@ -113,8 +114,9 @@ std::string other_parts(const Fingerprints& before, const Fingerprints& now)
   std::string text;
   for (const auto& [name, part] : all)
   {
-    const std::string was = part_of(before, name), is = part_of(now, name);
-    text += was != is ? "  " + name + ": " + was + " to " + is : "";
+    const std::string old_value = fingerprint_of(before, name),
+                      new_value = fingerprint_of(now, name);
+    text += old_value != new_value ? "  " + name + ": " + old_value + " to " + new_value : "";
   }
   return text;
 }
@@ -130,17 +132,17 @@ std::string steps_of(const QUndoStack* history)
 }
 
 /// Undo all steps and redo them again; both must restore every bit.
-void check_history(MainWindow& window, const Fingerprints& beginning)
+void check_history(MainWindow& window, const Fingerprints& initial_fingerprints)
 {
   QUndoStack* history = window.document()->history();
   SCOPED_TRACE("steps" + steps_of(history));
-  const Fingerprints now = own_fingerprints(*window.document());
+  const Fingerprints now = user_fingerprints(*window.document());
   const int index = history->index();
   history->setIndex(0);
-  EXPECT_EQ(other_parts(beginning, own_fingerprints(*window.document())), "")
+  EXPECT_EQ(changed_parts(initial_fingerprints, user_fingerprints(*window.document())), "")
     << "undo of everything";
   history->setIndex(index);
-  EXPECT_EQ(other_parts(now, own_fingerprints(*window.document())), "") << "redo of everything";
+  EXPECT_EQ(changed_parts(now, user_fingerprints(*window.document())), "") << "redo of everything";
 }
 } // namespace
 
@@ -175,14 +177,14 @@ TEST(Monkey, AWindowThatIsPlayedWithStaysSound)
       ASSERT_TRUE(window.open(data("figure.tgf")));
     }
     window.document()->history()->clear();
-    const Fingerprints beginning = own_fingerprints(*window.document());
+    const Fingerprints initial_fingerprints = user_fingerprints(*window.document());
     test::Monkey monkey(&window, seed, files);
     for (int burst = 0; burst < 6 && !testing::Test::HasFailure() &&
          1e-3 * static_cast<double>(clock.elapsed()) < seconds;
          ++burst)
     {
       monkey.play(50);
-      monkey.rest();
+      monkey.stop_activity();
       EXPECT_TRUE(wait_until([&] { return is_idle(&window); }, 60.0)) << "it never rests";
       QElapsedTimer answer; // duration of one frame and of all pending events
       answer.start();
@@ -190,12 +192,12 @@ TEST(Monkey, AWindowThatIsPlayedWithStaysSound)
       window.findChild<Viewport*>()->renderWindow()->Render();
       slowest = std::max(slowest, 1e-3 * static_cast<double>(answer.elapsed()));
       check_window(window);
-      check_history(window, beginning);
+      check_history(window, initial_fingerprints);
       ++bursts;
       steps = std::max(steps, window.document()->history()->count());
       if (testing::Test::HasFailure())
       {
-        std::printf("seed %u, after:\n%s", seed, monkey.story().c_str());
+        std::printf("seed %u, after:\n%s", seed, monkey.event_log().c_str());
       }
     }
     events += monkey.events();

@@ -73,7 +73,7 @@ double differing_fraction(const QImage& a, const QImage& b, int level)
 /// Return the difference in lightness between the background and the letters and lines of the
 /// scalar bar, summed over all pixels. The sum is proportional to the thickness of letters and
 /// lines.
-double ink(const QImage& image)
+double darkness_sum(const QImage& image)
 {
   double sum = 0.0;
   for (int y = 0; y < image.height(); ++y)
@@ -89,7 +89,7 @@ double ink(const QImage& image)
 }
 
 /// Return the color of a pixel that is composited over a ground color.
-QColor over(const QColor& pixel, const Rgb& background)
+QColor composite(const QColor& pixel, const Rgb& background)
 {
   const double alpha = pixel.alphaF();
   const auto mixed = [alpha](int value, double below)
@@ -126,14 +126,14 @@ protected:
   /// Expect that the transparent picture, composited over plain colors, equals the opaque picture
   /// on such a background. The pictures must be equal at every pixel, including antialiased edges,
   /// see-through objects and letters.
-  void expect_right_over_any_color(int scale)
+  void expect_correct_compositing(int scale)
   {
     const auto transparent_picture = this->take(scale, true);
     ASSERT_EQ(transparent_picture->GetNumberOfScalarComponents(), 4);
     vtkRenderer* renderer = this->part<Viewport>()->renderer();
-    const Rgb grounds[] = { { 1.0, 1.0, 1.0 }, { 0.0, 0.0, 0.0 }, { 0.8, 0.2, 0.6 } };
-    int part = 0; // number of pixels that are partly covered
-    for (const Rgb& background : grounds)
+    const Rgb backgrounds[] = { { 1.0, 1.0, 1.0 }, { 0.0, 0.0, 0.0 }, { 0.8, 0.2, 0.6 } };
+    int partly_covered = 0; // number of pixels that are partly covered
+    for (const Rgb& background : backgrounds)
     {
       renderer->GradientBackgroundOff();
       renderer->SetBackground(background[0], background[1], background[2]);
@@ -146,14 +146,14 @@ protected:
         for (int x = 0; x < size[0]; ++x)
         {
           const QColor pixel = pixel_of(transparent_picture, x, y);
-          part += pixel.alpha() > 30 && pixel.alpha() < 225;
-          worst = std::max(worst, distance(over(pixel, background), pixel_of(drawn, x, y)));
+          partly_covered += pixel.alpha() > 30 && pixel.alpha() < 225;
+          worst = std::max(worst, distance(composite(pixel, background), pixel_of(drawn, x, y)));
         }
       }
       EXPECT_LE(worst, 4) << "of 255, over " << background[0] << " " << background[1] << " "
                           << background[2];
     }
-    EXPECT_GT(part, 500) << "edges are partly covered";
+    EXPECT_GT(partly_covered, 500) << "edges are partly covered";
     // The background is clear.
     EXPECT_EQ(
       pixel_of(transparent_picture, transparent_picture->GetDimensions()[0] - 4, 4).alpha(), 0);
@@ -186,7 +186,9 @@ TEST_F(PictureWindow, OfEveryScaleIsWhatIsSeenOnlyFiner)
     // Only the pixels at the edges of letters and lines may differ.
     EXPECT_LT(differing_fraction(small, seen, 24), 0.02) << scale;
     EXPECT_LT(differing_fraction(small, seen, 80), 0.004) << scale;
-    EXPECT_NEAR(ink(taken) / (scale * scale), ink(seen), 0.15 * ink(seen)) << scale;
+    EXPECT_NEAR(
+      darkness_sum(taken) / (scale * scale), darkness_sum(seen), 0.15 * darkness_sum(seen))
+      << scale;
   }
 }
 
@@ -205,8 +207,8 @@ TEST_F(PictureWindow, LeavesTheWindowAsItWas)
 TEST_F(PictureWindow, HasNoFringeWhereItIsTransparent)
 {
   this->open_weighted();
-  this->expect_right_over_any_color(1);
-  this->expect_right_over_any_color(2);
+  this->expect_correct_compositing(1);
+  this->expect_correct_compositing(2);
   const auto transparent_picture = this->take(2, true);
   const QPoint middle = 2 * this->pixel(Vec3(0, 0, 0));
   EXPECT_EQ(pixel_of(transparent_picture, middle.x(), middle.y()).alpha(), 255);
@@ -216,7 +218,7 @@ TEST_F(PictureWindow, KeepsSeeThroughThingsSeeThrough)
 {
   this->open_weighted();
   this->part<Viewport>()->set_surface_look(Viewport::see_through);
-  this->expect_right_over_any_color(1);
+  this->expect_correct_compositing(1);
   const auto transparent_picture = this->take(1, true);
   const QPoint beside = this->pixel(Vec3(0.4, 0.3, 0));
   EXPECT_GT(pixel_of(transparent_picture, beside.x(), beside.y()).alpha(), 60);

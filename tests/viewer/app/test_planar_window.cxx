@@ -32,11 +32,11 @@ class PlanarWindow : public test::WindowTest
 {
 protected:
   /// Open a flat rectangle, rotated by `turn` and centered at `center`.
-  void open(const Eigen::Matrix3d& turn, const Vec3& center = Vec3(1, 2, 3))
+  void open(const Eigen::Matrix3d& rotation, const Vec3& center = Vec3(1, 2, 3))
   {
     this->mesh = test::grid(16, 8, 2.0, 1.0);
     this->mesh.points =
-      ((this->mesh.points.rowwise() - Eigen::RowVector3d(1.0, 0.5, 0.0)) * turn.transpose())
+      ((this->mesh.points.rowwise() - Eigen::RowVector3d(1.0, 0.5, 0.0)) * rotation.transpose())
         .rowwise() +
       center.transpose();
     ASSERT_TRUE(
@@ -45,7 +45,7 @@ protected:
   }
   vtkCamera* camera() { return this->part<Viewport>()->renderer()->GetActiveCamera(); }
   Vec3 view_direction() { return Vec3(this->camera()->GetDirectionOfProjection()); }
-  QAction* entry() { return SimulatedUser(&this->window).action("view.2d_view"); }
+  QAction* flat_view_action() { return SimulatedUser(&this->window).action("view.2d_view"); }
   void choose(const char* option, const QVariant& value)
   {
     const QString refused = SimulatedUser(&this->window).choose(option, value);
@@ -56,24 +56,24 @@ protected:
   TriangleMesh mesh;
 };
 
-Eigen::Matrix3d turned(double degrees, const Vec3& axis)
+Eigen::Matrix3d rotation_about(double degrees, const Vec3& axis)
 {
   return Eigen::AngleAxisd(degrees * M_PI / 180.0, axis.normalized()).toRotationMatrix();
 }
 
-const Eigen::Matrix3d tilted_rotation = turned(35.0, Vec3(1.0, 0.4, 0.2));
+const Eigen::Matrix3d tilted_rotation = rotation_about(35.0, Vec3(1.0, 0.4, 0.2));
 } // namespace
 
 TEST_F(PlanarWindow, AShapeInAPlaneIsSeenFromInFrontWithoutPerspective)
 {
-  for (const auto& [turn, normal, up] :
+  for (const auto& [rotation, normal, up] :
     { std::tuple(Eigen::Matrix3d(Eigen::Matrix3d::Identity()), Vec3(0, 0, 1), Vec3(0, 1, 0)),
-      std::tuple(turned(90.0, Vec3::UnitY()), Vec3(1, 0, 0), Vec3(0, 1, 0)),
-      std::tuple(turned(90.0, Vec3::UnitX()), Vec3(0, -1, 0), Vec3(0, 0, 1)),
+      std::tuple(rotation_about(90.0, Vec3::UnitY()), Vec3(1, 0, 0), Vec3(0, 1, 0)),
+      std::tuple(rotation_about(90.0, Vec3::UnitX()), Vec3(0, -1, 0), Vec3(0, 0, 1)),
       std::tuple(tilted_rotation, Vec3(tilted_rotation.col(2)),
         Vec3((Vec3::UnitY() - tilted_rotation(1, 2) * tilted_rotation.col(2)).normalized())) })
   {
-    this->open(turn);
+    this->open(rotation);
     EXPECT_TRUE(this->part<Viewport>()->is_flat());
     EXPECT_TRUE(this->camera()->GetParallelProjection() != 0);
     EXPECT_LT((this->view_direction() + normal).norm(), 1e-9) << normal.transpose();
@@ -105,17 +105,17 @@ TEST_F(PlanarWindow, DraggingMovesItAndTheMenuLetsItBeTurned)
   EXPECT_LT((this->view_direction() - view_direction).norm(), 1e-9);
   EXPECT_LE((this->pixel(middle) - before - QPoint(60, 25)).manhattanLength(), 3);
   // Leave the 2D mode and return to it.
-  ASSERT_TRUE(this->entry()->isEnabled());
-  EXPECT_TRUE(this->entry()->isChecked());
-  this->entry()->trigger();
+  ASSERT_TRUE(this->flat_view_action()->isEnabled());
+  EXPECT_TRUE(this->flat_view_action()->isChecked());
+  this->flat_view_action()->trigger();
   this->render();
   EXPECT_FALSE(this->part<Viewport>()->is_flat());
-  EXPECT_FALSE(this->entry()->isChecked());
+  EXPECT_FALSE(this->flat_view_action()->isChecked());
   EXPECT_FALSE(this->camera()->GetParallelProjection() != 0);
-  const Vec3 turned_from = this->view_direction();
+  const Vec3 direction_before = this->view_direction();
   this->drag(position, position + QPoint(60, 25));
-  EXPECT_GT((this->view_direction() - turned_from).norm(), 0.05);
-  this->entry()->trigger();
+  EXPECT_GT((this->view_direction() - direction_before).norm(), 0.05);
+  this->flat_view_action()->trigger();
   this->render();
   EXPECT_TRUE(this->part<Viewport>()->is_flat());
   EXPECT_LT((this->view_direction() + tilted_rotation.col(2)).norm(), 1e-9);
@@ -123,7 +123,7 @@ TEST_F(PlanarWindow, DraggingMovesItAndTheMenuLetsItBeTurned)
   const TriangleMesh ball = test::sphere(3);
   ASSERT_TRUE(this->window.set_mesh(to_polydata(ball.points, ball.triangles), "ball"));
   EXPECT_FALSE(this->part<Viewport>()->is_flat());
-  EXPECT_FALSE(this->entry()->isEnabled());
+  EXPECT_FALSE(this->flat_view_action()->isEnabled());
   EXPECT_FALSE(this->camera()->GetParallelProjection() != 0);
 }
 
@@ -155,16 +155,16 @@ TEST_F(PlanarWindow, ATiltedPlaneIsBoundPosedInItselfAndLayered)
   this->render();
   vtkPolyData* drawn = this->part<Viewport>()->drawn();
   const auto& from = this->part<Viewport>()->drawn_points();
-  double least = 1e300, most = -1e300;
+  double minimum_offset = 1e300, maximum_offset = -1e300;
   for (vtkIdType v = 0; v < drawn->GetNumberOfPoints(); ++v)
   {
-    const Vec3 off = Vec3(drawn->GetPoint(v)) -
+    const Vec3 offset = Vec3(drawn->GetPoint(v)) -
       Vec3(this->window.shown()->GetPoint(from[static_cast<std::size_t>(v)]));
-    EXPECT_LT((off - off.dot(normal) * normal).norm(), 1e-9);
-    least = std::min(least, off.dot(normal));
-    most = std::max(most, off.dot(normal));
+    EXPECT_LT((offset - offset.dot(normal) * normal).norm(), 1e-9);
+    minimum_offset = std::min(minimum_offset, offset.dot(normal));
+    maximum_offset = std::max(maximum_offset, offset.dot(normal));
   }
-  EXPECT_GT(most - least, 1e-4);
+  EXPECT_GT(maximum_offset - minimum_offset, 1e-4);
 }
 
 TEST_F(PlanarWindow, WeightsLieOverThePictureAsMuchAsIsWanted)
@@ -191,7 +191,7 @@ TEST_F(PlanarWindow, WeightsLieOverThePictureAsMuchAsIsWanted)
   this->choose("weights.over_picture", 0.5);
   const QImage both = this->picture();
   const Rgb band = color_of(weight_map(), 0.35);
-  int covered = 0, wrong = 0;
+  int covered_pixels = 0, wrong_pixels = 0;
   const auto channel = [](const QColor& c, int k) {
     return k == 0 ? c.red() : k == 1 ? c.green() : c.blue();
   };
@@ -202,16 +202,16 @@ TEST_F(PlanarWindow, WeightsLieOverThePictureAsMuchAsIsWanted)
       const QColor c = colors.pixelColor(x, y);
       const bool inside = std::abs(c.red() - 255.0 * band[0]) < 3 &&
         std::abs(c.green() - 255.0 * band[1]) < 3 && std::abs(c.blue() - 255.0 * band[2]) < 3;
-      covered += inside;
+      covered_pixels += inside;
       for (int k = 0; inside && k < 3; ++k)
       {
-        wrong += std::abs(channel(both.pixelColor(x, y), k) -
-                   0.5 * (channel(picture.pixelColor(x, y), k) + channel(c, k))) > 3.0;
+        wrong_pixels += std::abs(channel(both.pixelColor(x, y), k) -
+                          0.5 * (channel(picture.pixelColor(x, y), k) + channel(c, k))) > 3.0;
       }
     }
   }
-  EXPECT_GT(covered, 20000);
-  EXPECT_EQ(wrong, 0);
+  EXPECT_GT(covered_pixels, 20000);
+  EXPECT_EQ(wrong_pixels, 0);
   // If only the texture is shown, the view does not depend on which column of weights is chosen.
   this->part<PanelColumn>()->show_panel(PanelColumn::bind_and_pose);
   this->choose("show.column", 0);
@@ -233,29 +233,30 @@ TEST_F(PlanarWindow, BesideEachOtherBothShapesHaveThePicture)
   ASSERT_TRUE(this->window.open(QString(BINDPOSE_TOURS) + "/data/doll.tgf"));
   const Index points = this->window.document()->surface()->GetNumberOfPoints();
   const auto columns = static_cast<Index>(this->window.document()->handles().size());
-  const Weights even = Weights::Constant(points, columns, 1.0 / static_cast<double>(columns));
-  ASSERT_TRUE(this->window.document()->set_weights(even, "even").ok());
+  const Weights equal_weights =
+    Weights::Constant(points, columns, 1.0 / static_cast<double>(columns));
+  ASSERT_TRUE(this->window.document()->set_weights(equal_weights, "even").ok());
   this->resize({ 1100, 700 });
   this->choose("pose.compared", 2);
   this->choose("pose.ghost", 1);
   this->part<Viewport>()->handle_widget()->SetEnabled(false);
   const QImage seen = this->picture();
   // Exclude the names at the bottom of the view.
-  const int half = seen.width() / 2, below = seen.height() - 60;
-  int colored = 0, differing_pixels = 0;
-  for (int y = 0; y < below; ++y)
+  const int half = seen.width() / 2, image_bottom = seen.height() - 60;
+  int colored_pixels = 0, differing_pixels = 0;
+  for (int y = 0; y < image_bottom; ++y)
   {
     for (int x = 0; x < half; ++x)
     {
       const QColor a = seen.pixelColor(x, y), b = seen.pixelColor(x + half, y);
-      colored += b.saturation() > 60;
+      colored_pixels += b.saturation() > 60;
       differing_pixels += std::max({ std::abs(a.red() - b.red()), std::abs(a.green() - b.green()),
                             std::abs(a.blue() - b.blue()) }) > 24;
     }
   }
-  EXPECT_GT(colored, 5000);
+  EXPECT_GT(colored_pixels, 5000);
   // At rest both halves are equal; if the width is odd, one half is shifted by half a pixel.
-  EXPECT_LT(differing_pixels, colored / 10);
+  EXPECT_LT(differing_pixels, colored_pixels / 10);
   // The compared shape is drawn over the shape, see-through and blue. It is visible wherever it
   // differs from the shape.
   this->choose("pose.ghost", 0);
@@ -283,19 +284,19 @@ TEST_F(PlanarWindow, IsolinesStayOnTopOfThePicture)
   this->resize({ 1000, 700 });
   this->choose("weights.column", 2);
   this->part<Viewport>()->handle_widget()->SetEnabled(false);
-  for (const double share : { 0.0, 0.6, 1.0 })
+  for (const double opacity : { 0.0, 0.6, 1.0 })
   {
-    this->choose("weights.over_picture", share);
+    this->choose("weights.over_picture", opacity);
     this->choose("weights.isolines", true);
     const QImage with = this->picture();
     if (const char* folder = std::getenv("BINDPOSE_PICTURES"))
     {
-      EXPECT_TRUE(with.save(QString(folder) + QString("/over_%1.png").arg(share)));
+      EXPECT_TRUE(with.save(QString(folder) + QString("/over_%1.png").arg(opacity)));
     }
     this->choose("weights.isolines", false);
     const QImage without = this->picture();
     EXPECT_GT(count(with, [](const QColor& c) { return c.lightness() < 60; }),
       count(without, [](const QColor& c) { return c.lightness() < 60; }) + 200)
-      << share;
+      << opacity;
   }
 }

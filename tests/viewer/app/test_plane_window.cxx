@@ -119,8 +119,14 @@ protected:
       << this->window.error().toStdString();
   }
   PlaneHandle* plane() { return plane_of(this->window, GetParam().name); }
-  QString key(const char* of) { return QString("%1.%2").arg(GetParam().name, of); }
-  QVariant option(const char* of) { return this->window.document()->option(this->key(of)); }
+  QString key(const char* option_name)
+  {
+    return QString("%1.%2").arg(GetParam().name, option_name);
+  }
+  QVariant option(const char* option_name)
+  {
+    return this->window.document()->option(this->key(option_name));
+  }
   ValueRow* row() { return this->part<PanelColumn>()->findChild<ValueRow*>(this->key("place")); }
   int steps() { return this->window.document()->history()->index() - this->begin; }
   std::string undo_text() { return this->window.document()->history()->undoText().toStdString(); }
@@ -270,10 +276,11 @@ TEST_P(PlaneWindow, TheSliderIsOneStepUntilItIsLetGo)
   for (const int end : { 700, 300 })
   {
     slider->setSliderDown(true);
-    for (int at = 500; at != end; at += end > 500 ? 50 : -50)
+    for (int slider_value = 500; slider_value != end; slider_value += end > 500 ? 50 : -50)
     {
-      slider->setValue(at + (end > 500 ? 50 : -50));
-      EXPECT_EQ(slider->value(), at + (end > 500 ? 50 : -50)) << "it stays under the mouse";
+      slider->setValue(slider_value + (end > 500 ? 50 : -50));
+      EXPECT_EQ(slider->value(), slider_value + (end > 500 ? 50 : -50))
+        << "it stays under the mouse";
     }
     slider->setSliderDown(false);
     this->expect_position(-1.0 + 0.002 * end, "slider");
@@ -308,11 +315,11 @@ TEST_P(PlaneWindow, AFreePlaneIsTurnedInOneStep)
   ASSERT_LT(turned.z(), 0.99);
   ASSERT_EQ(this->steps(), before + 1);
   EXPECT_EQ(this->undo_text(), GetParam().turn);
-  const QVariantList kept = this->option("normal").toList();
-  ASSERT_EQ(kept.size(), 3);
+  const QVariantList stored_normal = this->option("normal").toList();
+  ASSERT_EQ(stored_normal.size(), 3);
   for (int k = 0; k < 3; ++k)
   {
-    EXPECT_EQ(kept[k].toDouble(), turned[k]);
+    EXPECT_EQ(stored_normal[k].toDouble(), turned[k]);
   }
   // Choose an axis for the plane, then undo. The free plane has its previous orientation again.
   EXPECT_EQ(this->user.choose(this->key("orientation"), PlaneHandle::y_axis), QString());
@@ -362,9 +369,9 @@ TEST_P(PlaneWindow, SessionsKeepThePlane)
   // A session that was saved before these options existed gives the same plane as a new window.
   std::ifstream file(path);
   nlohmann::json old = nlohmann::json::parse(file);
-  for (const char* of : { "place", "normal", "orientation" })
+  for (const char* option_name : { "place", "normal", "orientation" })
   {
-    ASSERT_EQ(old["options"].erase(this->key(of).toStdString()), 1u);
+    ASSERT_EQ(old["options"].erase(this->key(option_name).toStdString()), 1u);
   }
   this->folder.write("old.bindpose", old.dump());
   ASSERT_TRUE(this->window.open(QString::fromStdString(this->folder / "old.bindpose")))

@@ -292,9 +292,9 @@ TEST_F(PosingWindow, FullArapFollowsTheMouseAndStartsAgainWhenItMovesOn)
     if (move % 2 == 0)
     {
       wait_for([] { return false; }, 0);
-      QElapsedTimer rest;
-      rest.start();
-      wait_for([&] { return rest.elapsed() > 300 || deformation->is_settled(); });
+      QElapsedTimer pause_clock;
+      pause_clock.start();
+      wait_for([&] { return pause_clock.elapsed() > 300 || deformation->is_settled(); });
     }
   }
   std::printf(
@@ -785,9 +785,9 @@ TEST_F(PosingWindow, TheBodyMovesPausesAndReplaysBitByBit)
   EXPECT_NE(paused, start);
   // While the motion is paused, no point moves.
   this->render();
-  QElapsedTimer rest;
-  rest.start();
-  wait_for([&] { return rest.elapsed() > 300; });
+  QElapsedTimer pause_clock;
+  pause_clock.start();
+  wait_for([&] { return pause_clock.elapsed() > 300; });
   EXPECT_EQ(body->run().steps.size(), steps);
   EXPECT_EQ(this->points(), paused);
   // Playing the recorded run again gives the same bits.
@@ -879,7 +879,7 @@ TEST_F(PosingWindow, TheWheelTurnsNothingButTheFieldWithTheFocus)
   ASSERT_NE(methods, nullptr);
   const int steps = this->window.document()->history()->count();
   const int method = methods->currentIndex();
-  const auto roll = [](QWidget* widget)
+  const auto send_wheel = [](QWidget* widget)
   {
     const QPointF at = widget->rect().center();
     QWheelEvent wheel(at, widget->mapToGlobal(at.toPoint()), QPoint(), QPoint(0, -120),
@@ -888,8 +888,8 @@ TEST_F(PosingWindow, TheWheelTurnsNothingButTheFieldWithTheFocus)
   };
   for (int turn = 0; turn < 5; ++turn)
   {
-    roll(field);
-    roll(methods);
+    send_wheel(field);
+    send_wheel(methods);
   }
   EXPECT_EQ(field->value(), 0.0);
   EXPECT_FALSE(field->hasFocus());
@@ -900,13 +900,13 @@ TEST_F(PosingWindow, TheWheelTurnsNothingButTheFieldWithTheFocus)
   ASSERT_TRUE(field->hasFocus());
   for (int turn = 0; turn < 5; ++turn)
   {
-    roll(field);
+    send_wheel(field);
   }
   EXPECT_NEAR(field->value(), -0.05, 1e-12);
   EXPECT_EQ(this->window.document()->history()->count(), steps + 1);
   this->part<Viewport>()->setFocus();
   field->setFocus();
-  roll(field);
+  send_wheel(field);
   EXPECT_EQ(this->window.document()->history()->count(), steps + 2);
   this->window.document()->history()->undo();
   this->window.document()->history()->undo();
@@ -964,18 +964,18 @@ TEST_F(PosingWindow, CurvesOfTheRestShapeAreSeenWithItAlone)
 {
   this->open();
   vtkNew<vtkPolyData> circle; // for example, a boundary curve
-  vtkNew<vtkPoints> places;
+  vtkNew<vtkPoints> curve_points;
   vtkNew<vtkCellArray> lines;
   const vtkIdType ids[] = { 0, 1, 2 };
   for (const vtkIdType k : ids)
   {
-    places->InsertNextPoint(0.4 * std::cos(k), 0.4 * std::sin(k), 0.0);
+    curve_points->InsertNextPoint(0.4 * std::cos(k), 0.4 * std::sin(k), 0.0);
   }
   lines->InsertNextCell(3, ids);
-  circle->SetPoints(places);
+  circle->SetPoints(curve_points);
   circle->SetLines(lines);
   ASSERT_TRUE(this->window.set_curves(circle));
-  const auto are_seen = [this]
+  const auto are_curves_visible = [this]
   {
     this->render();
     vtkActorCollection* actors = this->part<Viewport>()->renderer()->GetActors();
@@ -991,17 +991,17 @@ TEST_F(PosingWindow, CurvesOfTheRestShapeAreSeenWithItAlone)
     ADD_FAILURE() << "there are no curves";
     return false;
   };
-  EXPECT_TRUE(are_seen());
+  EXPECT_TRUE(are_curves_visible());
   Pose pose(4);
   pose[3].transform.col(3) = Vec3(0.3, 0, 0);
   this->apply_pose(pose);
-  EXPECT_FALSE(are_seen());
+  EXPECT_FALSE(are_curves_visible());
   this->posing()->set_rest_view(true);
-  EXPECT_TRUE(are_seen());
+  EXPECT_TRUE(are_curves_visible());
   this->posing()->set_rest_view(false);
-  EXPECT_FALSE(are_seen());
+  EXPECT_FALSE(are_curves_visible());
   this->window.back_to_rest();
-  EXPECT_TRUE(are_seen());
+  EXPECT_TRUE(are_curves_visible());
 }
 
 TEST_F(PosingWindow, BonesMayBeHeldByAnEnd)
@@ -1048,14 +1048,14 @@ TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
   const TriangleMesh strip = test::translated(test::grid(40, 10, 2.0, 0.5), Vec3(-1, -0.25, 0));
   const Handles ends = { test::point_handle("left", Vec3(-1, 0, 0)),
     test::point_handle("right", Vec3(1, 0, 0)) };
-  Weights halves(strip.points.rows(), 2);
+  Weights half_weights(strip.points.rows(), 2);
   for (Index v = 0; v < strip.points.rows(); ++v)
   {
     const double right = std::clamp(5.0 * strip.points(v, 0) + 0.5, 0.0, 1.0);
-    halves.row(v) << 1.0 - right, right;
+    half_weights.row(v) << 1.0 - right, right;
   }
   vtkSmartPointer<vtkPolyData> flat = to_polydata(strip.points, strip.triangles);
-  flat->GetPointData()->AddArray(to_weights_array("Weights", halves, ends));
+  flat->GetPointData()->AddArray(to_weights_array("Weights", half_weights, ends));
   ASSERT_TRUE(this->window.set_mesh(flat, "strip"));
   ASSERT_TRUE(this->window.set_handles(to_polydata(ends), "ends"));
   Pose folded(2);
@@ -1068,7 +1068,7 @@ TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
   EXPECT_TRUE(fields->layer()->isVisible());
   // Viewed from the front, the color in the overlap is that of the half in front.
   vtkRenderer* renderer = this->part<Viewport>()->renderer();
-  const auto right_is_seen = [&]
+  const auto is_right_in_front = [&]
   {
     EXPECT_TRUE(this->wait_until_settled());
     this->render();
@@ -1082,17 +1082,17 @@ TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
     const QColor middle = seen.pixelColor(seen.width() / 2, seen.height() / 2);
     return middle.blue() > middle.red() + 20; // deep blue is weight 1, pale is weight 0
   };
-  EXPECT_TRUE(right_is_seen()) << "of equal layers the later handle is in front";
+  EXPECT_TRUE(is_right_in_front()) << "of equal layers the later handle is in front";
   const Points posed = this->points();
   fields->layer()->setValue(-1.0);
-  EXPECT_FALSE(right_is_seen());
+  EXPECT_FALSE(is_right_in_front());
   EXPECT_EQ(this->points(), posed) << "only what is drawn is ordered";
   EXPECT_EQ(this->window.document()->history()->undoText(), "layer of right");
   fields->layer()->setValue(2.0);
-  EXPECT_TRUE(right_is_seen());
+  EXPECT_TRUE(is_right_in_front());
   this->window.document()->history()->undo();
   EXPECT_EQ(fields->layer()->value(), 0.0) << "both numbers are one step";
-  EXPECT_TRUE(right_is_seen());
+  EXPECT_TRUE(is_right_in_front());
   // A change of a layer does not cause a bind, so a moving body continues to move.
   this->option<QCheckBox>("pose.moves")->setChecked(true);
   const Body* body = this->posing()->motion()->body();
@@ -1435,11 +1435,11 @@ TEST_P(DragFrame, TakesMilliseconds)
   ASSERT_TRUE(this->wait_until_settled());
   this->render();
   // Limit in milliseconds on a busy machine; an idle machine needs a tenth of it.
-  constexpr double busy = 50.0;
-  EXPECT_LT(this->drag(mesh, ""), busy);
+  constexpr double limit_milliseconds = 50.0;
+  EXPECT_LT(this->drag(mesh, ""), limit_milliseconds);
   this->option<QComboBox>("pose.rotations")->setCurrentIndex(2);
   this->render();
-  EXPECT_LT(this->drag(mesh, ", angles shown"), busy);
+  EXPECT_LT(this->drag(mesh, ", angles shown"), limit_milliseconds);
 }
 
 INSTANTIATE_TEST_SUITE_P(Of12kTo500kTriangles, DragFrame, testing::Values(60, 430, 2500));

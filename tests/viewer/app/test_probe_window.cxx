@@ -40,11 +40,11 @@ protected:
   /// Return the reading at a pixel. A window of another test on the same screen may cover this
   /// window, and the mouse then counts as outside of it. The function therefore moves the mouse
   /// again.
-  std::string read(const QPoint& at)
+  std::string read(const QPoint& mouse_position)
   {
     for (int attempt = 0; attempt < 20; ++attempt)
     {
-      this->hover(at);
+      this->hover(mouse_position);
       if (!this->window.reading().isEmpty())
       {
         break;
@@ -63,7 +63,7 @@ protected:
     this->resize({ 1000, 700 });
   }
   /// Add two handles and set their weights, which are linear along z.
-  void weigh()
+  void set_ball_weights()
   {
     ASSERT_TRUE(this->window.set_handles(test::two_points(), "points"));
     Weights weights(this->ball.points.rows(), 2);
@@ -155,18 +155,18 @@ TEST(RayCast, FindsWhatATwinThatTestsEveryTriangleFinds)
 TEST_F(ProbeWindow, ASurfaceIsReadWithTriangleVertexAndPlace)
 {
   this->open_ball();
-  int read_places = 0;
+  int reading_count = 0;
   for (const QPoint& offset : { QPoint(0, 0), QPoint(60, 20), QPoint(-80, 90), QPoint(30, -120) })
   {
-    const QPoint at = this->pixel(Vec3::Zero()) + offset;
+    const QPoint mouse_position = this->pixel(Vec3::Zero()) + offset;
     SurfaceReading reading;
-    const std::string text = this->read(at);
+    const std::string text = this->read(mouse_position);
     ASSERT_TRUE(parse(text, reading)) << text;
     // The reported position is under the mouse and on the near side of the shape. It is in the
     // reported triangle and next to the reported vertex.
-    EXPECT_LE((this->pixel(reading.position) - at).manhattanLength(), 2) << text;
+    EXPECT_LE((this->pixel(reading.position) - mouse_position).manhattanLength(), 2) << text;
     ASSERT_LT(reading.triangle, this->ball.triangles.rows());
-    double least = 1e300;
+    double minimum_distance = 1e300;
     Index nearest = -1;
     Vec3 middle = Vec3::Zero();
     double size = 0.0;
@@ -177,18 +177,18 @@ TEST_F(ProbeWindow, ASurfaceIsReadWithTriangleVertexAndPlace)
       middle += corner / 3.0;
       size =
         std::max(size, (corner - Vec3(this->ball.points.row(nearest < 0 ? v : nearest))).norm());
-      if ((corner - reading.position).norm() < least)
+      if ((corner - reading.position).norm() < minimum_distance)
       {
-        least = (corner - reading.position).norm();
+        minimum_distance = (corner - reading.position).norm();
         nearest = v;
       }
     }
     EXPECT_EQ(reading.vertex, nearest);
     EXPECT_LT((reading.position - middle).norm(), size);
     EXPECT_GT(reading.position.norm(), 0.99);
-    ++read_places;
+    ++reading_count;
   }
-  EXPECT_EQ(read_places, 4);
+  EXPECT_EQ(reading_count, 4);
   EXPECT_TRUE(this->part<Probe>()->label()->isVisible());
   this->hover(QPoint(3, 3));
   EXPECT_EQ(this->window.reading(), QString());
@@ -198,7 +198,7 @@ TEST_F(ProbeWindow, ASurfaceIsReadWithTriangleVertexAndPlace)
 TEST_F(ProbeWindow, WeightsAreReadWithTheStrongestHandle)
 {
   this->open_ball();
-  this->weigh();
+  this->set_ball_weights();
   this->part<PanelColumn>()->show_panel(PanelColumn::weights);
   this->choose("weights.column", 2);
   for (const Vec3& position : { Vec3(0.3, 0.2, 0.7), Vec3(0.5, -0.3, -0.4), Vec3(0.1, 0.6, 0.3) })
@@ -227,7 +227,7 @@ TEST_F(ProbeWindow, WeightsAreReadWithTheStrongestHandle)
 TEST_F(ProbeWindow, RotationsAreReadWithTheirCluster)
 {
   this->open_ball();
-  this->weigh();
+  this->set_ball_weights();
   const Vec3 position(0.3, 0.2, 0.7);
   EXPECT_EQ(this->read(position).find("otation"), std::string::npos);
   this->window.set_method(static_cast<int>(PoseMethod::reduced_arap));
@@ -247,7 +247,7 @@ TEST_F(ProbeWindow, RotationsAreReadWithTheirCluster)
 TEST_F(ProbeWindow, TheDifferenceOfTwoMethodsIsReadInUnitsAndShares)
 {
   this->open_ball();
-  this->weigh();
+  this->set_ball_weights();
   Pose pose = this->window.document()->pose();
   // The handle "top" is rotated by 90 degrees about z.
   pose[1].transform << 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0;
@@ -261,23 +261,23 @@ TEST_F(ProbeWindow, TheDifferenceOfTwoMethodsIsReadInUnitsAndShares)
   Index widest = 0;
   const double largest = (a - b).rowwise().norm().maxCoeff(&widest);
   ASSERT_GT(largest, 0.1);
-  int seen = 0;
+  int reading_count = 0;
   for (const Vec3& position : { Vec3(0.3, 0.2, 0.4), Vec3(0.2, 0.1, 0.2), Vec3(0.3, 0.0, -0.1) })
   {
     const std::string text = this->read(position);
     SurfaceReading reading;
     ASSERT_TRUE(parse(text, reading)) << text;
     const double units = number_after(text, "Distance ");
-    const double share = number_after(text, " units, ");
+    const double percent = number_after(text, " units, ");
     const double diagonal =
       (this->ball.points.colwise().maxCoeff() - this->ball.points.colwise().minCoeff()).norm();
-    EXPECT_NEAR(share, 100.0 * units / diagonal, 0.06) << text;
+    EXPECT_NEAR(percent, 100.0 * units / diagonal, 0.06) << text;
     EXPECT_LE(units, largest * 1.001);
     // The reported distance between the shapes is close to that at the nearest vertex.
     EXPECT_NEAR(units, (a.row(reading.vertex) - b.row(reading.vertex)).norm(), 0.15 * largest);
-    ++seen;
+    ++reading_count;
   }
-  EXPECT_EQ(seen, 3);
+  EXPECT_EQ(reading_count, 3);
 }
 
 TEST_F(ProbeWindow, ATetIsReadWithItsQuality)
@@ -293,11 +293,11 @@ TEST_F(ProbeWindow, ATetIsReadWithItsQuality)
   for (const double size : { 1.0, 0.7 })
   {
     this->choose("tets.shrink", size);
-    int seen = 0;
+    int reading_count = 0;
     for (const QPoint& offset : { QPoint(0, 0), QPoint(8, 40), QPoint(-12, -60), QPoint(5, -30) })
     {
-      const QPoint at = this->pixel(Vec3(0, 0.2, 0)) + offset;
-      this->hover(at);
+      const QPoint mouse_position = this->pixel(Vec3(0, 0.2, 0)) + offset;
+      this->hover(mouse_position);
       const std::string text = this->window.reading().toStdString();
       if (text.empty() && size < 1.0)
       {
@@ -319,10 +319,10 @@ TEST_F(ProbeWindow, ATetIsReadWithItsQuality)
       }
       const Eigen::Vector4d barycentric = system.partialPivLu().solve(position.homogeneous());
       EXPECT_GT(barycentric.minCoeff(), -0.02) << text;
-      EXPECT_LE((this->pixel(position) - at).manhattanLength(), 2) << text;
-      ++seen;
+      EXPECT_LE((this->pixel(position) - mouse_position).manhattanLength(), 2) << text;
+      ++reading_count;
     }
-    EXPECT_GE(seen, 2);
+    EXPECT_GE(reading_count, 2);
   }
 }
 
@@ -412,17 +412,17 @@ TEST_F(ProbeWindow, AMoveIsCheapOnAHundredThousandTriangles)
   const Triangles part = this->ball.triangles.topRows(100000);
   ASSERT_TRUE(this->window.set_mesh(to_polydata(this->ball.points, part), "ball"));
   this->resize({ 1000, 700 });
-  std::vector<double> taken;
+  std::vector<double> durations;
   for (int k = 0; k < 40; ++k)
   {
     this->hover(this->pixel(Vec3::Zero()) + QPoint(3 * k - 60, k));
-    taken.push_back(this->part<Probe>()->milliseconds());
+    durations.push_back(this->part<Probe>()->milliseconds());
   }
-  std::sort(taken.begin(), taken.end());
+  std::sort(durations.begin(), durations.end());
   std::printf("a move over 100,000 triangles: %.2f ms (median), %.2f ms (least)\n",
-    taken[taken.size() / 2], taken.front());
+    durations[durations.size() / 2], durations.front());
   if (!test::sanitized)
   {
-    EXPECT_LT(taken.front(), 2.0); // use the minimum, because other processes share the machine
+    EXPECT_LT(durations.front(), 2.0); // use the minimum, because other processes share the machine
   }
 }

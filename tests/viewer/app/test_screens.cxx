@@ -135,10 +135,10 @@ TEST_F(Screens, AnOpeningIsOnePictureHoweverOftenThePictureIsResized)
   clock.start();
   wait_for([&clock] { return clock.elapsed() > 700; });
   EXPECT_LE(this->frames, 4);
-  const int settled = this->frames;
+  const int frames_at_rest = this->frames;
   clock.restart();
   wait_for([&clock] { return clock.elapsed() > 700; });
-  EXPECT_EQ(this->frames, settled) << "a window that rests draws nothing";
+  EXPECT_EQ(this->frames, frames_at_rest) << "a window that rests draws nothing";
 }
 
 TEST_F(Screens, WhatIsSeenAtRestHasSmoothEdges)
@@ -198,17 +198,17 @@ TEST_F(Screens, ABackupAfterABindDoesNotHoldTheWindow)
   autosave->begin_save();
   EXPECT_TRUE(autosave->is_saving()) << "the caller goes on";
   double longest = 0.0;
-  int turns = 0;
+  int event_loop_turns = 0;
   clock.restart();
-  QTimer beats;
-  QObject::connect(&beats, &QTimer::timeout,
+  QTimer timer;
+  QObject::connect(&timer, &QTimer::timeout,
     [&]
     {
       longest = std::max(longest, 1e-6 * static_cast<double>(clock.nsecsElapsed()));
       clock.restart();
-      ++turns;
+      ++event_loop_turns;
     });
-  beats.start(0);
+  timer.start(0);
   ASSERT_TRUE(wait_for([autosave] { return !autosave->is_saving(); }));
   std::printf("bound weights shown in %.1f ms (%.1f of a processor); backup %.1f ms of the window "
               "and %.1f ms beside it, "
@@ -216,7 +216,7 @@ TEST_F(Screens, ABackupAfterABindDoesNotHoldTheWindow)
     shown, shown_cpu, autosave->milliseconds(), autosave->writing_milliseconds(), longest);
   // Expect at least one turn of the event loop, even on a busy machine. On an idle machine there
   // are dozens of turns.
-  EXPECT_GT(turns, 0);
+  EXPECT_GT(event_loop_turns, 0);
   EXPECT_LT(autosave->milliseconds(), 0.5 * autosave->writing_milliseconds());
   Session backup;
   ASSERT_TRUE(read_session(autosave->path(), backup).ok());
@@ -288,7 +288,7 @@ TEST_F(Screens, TheStatusLineEndsInDotsWhereItHasNoRoomAndTheTipSaysAll)
 TEST_F(Screens, EveryButtonListAndFieldOfThePanelsHasATip)
 {
   this->open_everything();
-  QStringList without;
+  QStringList widgets_without_tip;
   for (const QWidget* widget : this->part<PanelColumn>()->findChildren<QWidget*>())
   {
     const bool chooses = qobject_cast<const QComboBox*>(widget) ||
@@ -297,9 +297,9 @@ TEST_F(Screens, EveryButtonListAndFieldOfThePanelsHasATip)
     if (chooses && own && widget->toolTip().isEmpty())
     {
       const auto* button = qobject_cast<const QAbstractButton*>(widget);
-      without << QString(widget->metaObject()->className()) + ' ' + widget->objectName() + ' ' +
-          (button ? button->text() : QString());
+      widgets_without_tip << QString(widget->metaObject()->className()) + ' ' +
+          widget->objectName() + ' ' + (button ? button->text() : QString());
     }
   }
-  EXPECT_TRUE(without.isEmpty()) << without.join("; ").toStdString();
+  EXPECT_TRUE(widgets_without_tip.isEmpty()) << widgets_without_tip.join("; ").toStdString();
 }

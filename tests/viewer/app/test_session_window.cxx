@@ -86,7 +86,7 @@ protected:
     this->render();
   }
 
-  static double top_of(vtkPolyData* data) { return data->GetBounds()[5]; }
+  static double maximum_z(vtkPolyData* data) { return data->GetBounds()[5]; }
 
   void pose()
   {
@@ -138,19 +138,19 @@ protected:
     QApplication::sendEvent(&this->window, &event);
   }
 
-  QAction* menu_entry(const QString& starts)
+  QAction* menu_entry(const QString& prefix)
   {
     for (QAction* menu : this->window.menuBar()->actions())
     {
       for (QAction* entry : menu->menu()->actions())
       {
-        if (entry->text().remove('&').startsWith(starts))
+        if (entry->text().remove('&').startsWith(prefix))
         {
           return entry;
         }
       }
     }
-    ADD_FAILURE() << "no entry " << starts.toStdString();
+    ADD_FAILURE() << "no entry " << prefix.toStdString();
     return nullptr;
   }
 
@@ -165,7 +165,7 @@ TEST_F(SessionWindow, ASessionOpensAsItWasSaved)
   this->window.set_method(1);
   this->window.set_mode(0, 2);
   this->part<Viewport>()->renderer()->GetActiveCamera()->Azimuth(33);
-  const double top = top_of(this->window.shown());
+  const double top = maximum_z(this->window.shown());
   double camera[3];
   this->part<Viewport>()->renderer()->GetActiveCamera()->GetPosition(camera);
   ASSERT_TRUE(this->part<WindowSessions>()->write(to_qt(this->folder / "work.bindpose")));
@@ -174,7 +174,7 @@ TEST_F(SessionWindow, ASessionOpensAsItWasSaved)
   other.show();
   ASSERT_TRUE(other.open(to_qt(this->folder / "work.bindpose"))) << other.error().toStdString();
   EXPECT_TRUE(other.is_bound());
-  EXPECT_EQ(top_of(other.shown()), top);
+  EXPECT_EQ(maximum_z(other.shown()), top);
   EXPECT_EQ(other.document()->number("pose.method"), 1);
   EXPECT_EQ(other.document()->pose()[0].mode, HandleMode::free);
   EXPECT_EQ(other.document()->history()->count(), 0);
@@ -315,9 +315,9 @@ TEST_F(SessionWindow, ARebindIsOfferedAndPosingGoesOn)
   this->window.document()->handle_data()->GetPoints()->SetPoint(0, 0, 0, -0.5);
   ASSERT_TRUE(this->window.document()->commit_handles("move at rest").ok());
   EXPECT_EQ(this->bar("rebind_bar")->message(), "Since the last bind, 1 handle was moved.");
-  const double before = top_of(this->window.shown());
+  const double before = maximum_z(this->window.shown());
   this->pose();
-  EXPECT_GT(top_of(this->window.shown()), before + 0.3);
+  EXPECT_GT(maximum_z(this->window.shown()), before + 0.3);
   EXPECT_EQ(this->window.error(), "");
   this->window.document()->history()->undo();
   this->window.document()->history()->undo();
@@ -496,9 +496,9 @@ TEST_F(SessionWindow, APictureIsCutOutShownAndBent)
   const auto blue = [](const QColor& c)
   { return c.blue() > 180 && c.green() < 80 && c.red() < 80; };
   const QImage rest = this->picture();
-  const int as_many = this->count(rest, red);
-  EXPECT_GT(as_many, 5000);
-  EXPECT_NEAR(this->count(rest, blue), as_many, 0.1 * as_many);
+  const int red_pixels = this->count(rest, red);
+  EXPECT_GT(red_pixels, 5000);
+  EXPECT_NEAR(this->count(rest, blue), red_pixels, 0.1 * red_pixels);
   EXPECT_TRUE(this->part<Viewport>()->renderer()->GetActiveCamera()->GetParallelProjection() != 0);
   const double* bounds = this->window.document()->surface()->GetBounds();
   EXPECT_NEAR(bounds[1] - bounds[0], 48, 2);
@@ -533,8 +533,8 @@ TEST_F(SessionWindow, APictureIsCutOutShownAndBent)
   // The user can request the whole rectangle of the image instead of its outline.
   button_of(this->bar("note_bar"), "Take the whole picture")->click();
   ASSERT_EQ(this->window.error(), "");
-  const double* whole = this->window.document()->surface()->GetBounds();
-  EXPECT_NEAR(whole[1] - whole[0], 64, 1e-6);
+  const double* whole_bounds = this->window.document()->surface()->GetBounds();
+  EXPECT_NEAR(whole_bounds[1] - whole_bounds[0], 64, 1e-6);
   this->window.document()->history()->undo();
   this->window.document()->history()->undo();
   EXPECT_FALSE(this->part<Viewport>()->renderer()->GetActiveCamera()->GetParallelProjection() != 0);
@@ -574,13 +574,13 @@ TEST_F(SessionWindow, WhatAFileLosesIsToldAbout)
   file.insert(file.find('{') + 1, R"("materials": [{"name": "skin"}, {"name": "cloth"}],)");
   this->folder.write("character.gltf", file);
   ASSERT_TRUE(this->window.open(to_qt(path))) << this->window.error().toStdString();
-  const QString lost = "character.gltf: Bindpose does not keep 2 materials.";
-  EXPECT_TRUE(this->bar("note_bar")->message().startsWith(lost))
+  const QString lost_message = "character.gltf: Bindpose does not keep 2 materials.";
+  EXPECT_TRUE(this->bar("note_bar")->message().startsWith(lost_message))
     << this->bar("note_bar")->message().toStdString();
   // The search for defects ends later. It must not remove the sentence about the lost materials.
   ASSERT_TRUE(
     test::wait_for([this] { return this->bar("note_bar")->message().contains("has defects"); }));
-  EXPECT_TRUE(this->bar("note_bar")->message().startsWith(lost));
+  EXPECT_TRUE(this->bar("note_bar")->message().startsWith(lost_message));
   // After another mesh is opened, the sentence about the lost materials disappears.
   const TriangleMesh other = test::open_cube();
   test::write_with<vtkXMLPolyDataWriter>(

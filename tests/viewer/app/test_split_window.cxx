@@ -233,18 +233,18 @@ TEST_F(SplitWindow, HandlesAreTakenHoldOfInTheLeftHalfAlone)
   this->drag(position, position + QPoint(-20, -60));
   EXPECT_EQ(this->window.document()->history()->undoText(), "move right");
   EXPECT_EQ(this->window.document()->history()->index(), steps + 1);
-  QPoint now;
-  ASSERT_EQ(this->user.find_handle_position("right", 0.0, now), QString());
-  EXPECT_NEAR(now.x(), position.x() - 20, 2);
-  EXPECT_NEAR(now.y(), position.y() - 60, 2);
+  QPoint new_position;
+  ASSERT_EQ(this->user.find_handle_position("right", 0.0, new_position), QString());
+  EXPECT_NEAR(new_position.x(), position.x() - 20, 2);
+  EXPECT_NEAR(new_position.y(), position.y() - 60, 2);
   EXPECT_GT((this->posing()->compared_deformation()->points() - before).cwiseAbs().maxCoeff(), 0.1)
     << "the other method has the same pose";
   // A handle beyond the border is not drawn in the other half, so it cannot be picked there.
   this->camera()->Dolly(2.0);
   this->left()->ResetCameraClippingRange();
   this->render();
-  ASSERT_EQ(this->user.find_handle_position("right", 0.0, now), QString());
-  ASSERT_GT(now.x(), half);
-  this->hover(now);
+  ASSERT_EQ(this->user.find_handle_position("right", 0.0, new_position), QString());
+  ASSERT_GT(new_position.x(), half);
+  this->hover(new_position);
   EXPECT_LT(drawn->GetHoveredHandle(), 0);
 }

@@ -47,7 +47,7 @@ using namespace bindpose;
 namespace
 {
 /// Return a box around the origin with n^3 cells of six tets each.
-TetMesh box_of(int n)
+TetMesh make_tet_box(int n)
 {
   return test::tet_box(n, n, n, Vec3(-1, -1, -1), Vec3(1, 1, 1));
 }
@@ -123,7 +123,7 @@ protected:
 
 TEST_F(TetWindow, TetsAreOpenedCutOpen)
 {
-  const TetMesh mesh = box_of(5);
+  const TetMesh mesh = make_tet_box(5);
   ASSERT_TRUE(this->window.set_mesh(to_tet_grid(mesh), "box"));
   EXPECT_TRUE(this->panel()->isVisible());
   EXPECT_EQ(this->view()->shown_count(),
@@ -142,9 +142,9 @@ TEST_F(TetWindow, TetsAreOpenedCutOpen)
   // Each tet is on at least one side of the plane. Tets with their center on the plane belong to
   // both sides.
   this->find<QCheckBox>("Cut the tets")->setChecked(true);
-  const Index behind = this->view()->shown_count();
+  const Index shown_behind = this->view()->shown_count();
   this->find<QCheckBox>("Keep the other side")->setChecked(true);
-  EXPECT_GE(this->view()->shown_count() + behind, mesh.tets.rows());
+  EXPECT_GE(this->view()->shown_count() + shown_behind, mesh.tets.rows());
   EXPECT_EQ(this->view()->shown_count(),
     count_tets_behind(mesh, this->view()->plane()->origin(), -this->view()->plane()->normal()));
 }
@@ -170,8 +170,8 @@ TEST_F(TetWindow, TheFirstCutShowsTheInside)
     EXPECT_GT(count(other.findChild<Viewport*>()->grabFramebuffer(), is_cut), 5000)
       << size.transpose();
     // The cut is through the middle, so about half of the tets remain.
-    const double kept = static_cast<double>(tets->shown_count());
-    EXPECT_NEAR(kept / static_cast<double>(mesh.tets.rows()), 0.5, 0.15) << size.transpose();
+    const double shown_tets = static_cast<double>(tets->shown_count());
+    EXPECT_NEAR(shown_tets / static_cast<double>(mesh.tets.rows()), 0.5, 0.15) << size.transpose();
   }
 }
 
@@ -189,14 +189,14 @@ TEST_F(TetWindow, AChosenCutStaysForOtherTets)
 /// the same time.
 TEST_F(TetWindow, NothingIsPosedAroundTetsAtRest)
 {
-  const auto grid = to_tet_grid(box_of(4));
+  const auto grid = to_tet_grid(make_tet_box(4));
   vtkNew<vtkDoubleArray> weights;
   weights->SetName("Weights");
   weights->SetNumberOfComponents(2);
   for (vtkIdType v = 0; v < grid->GetNumberOfPoints(); ++v)
   {
-    const double up = 0.5 * (1.0 + grid->GetPoint(v)[2]);
-    weights->InsertNextTuple2(1.0 - up, up);
+    const double height_fraction = 0.5 * (1.0 + grid->GetPoint(v)[2]);
+    weights->InsertNextTuple2(1.0 - height_fraction, height_fraction);
   }
   weights->SetComponentName(0, "bottom");
   weights->SetComponentName(1, "top");
@@ -248,7 +248,7 @@ TEST_F(TetWindow, NothingIsPosedAroundTetsAtRest)
 
 TEST_F(TetWindow, TheMouseDragsThePlane)
 {
-  const TetMesh mesh = box_of(6);
+  const TetMesh mesh = make_tet_box(6);
   this->open(to_tet_grid(mesh));
   this->row(0)->field()->setValue(0.1);
   this->render();
@@ -275,7 +275,7 @@ TEST_F(TetWindow, TheMouseDragsThePlane)
 
 TEST_F(TetWindow, AHundredThousandTetsFollowTheMouse)
 {
-  const TetMesh mesh = box_of(26);
+  const TetMesh mesh = make_tet_box(26);
   ASSERT_GT(mesh.tets.rows(), 100000);
   this->open(to_tet_grid(mesh));
   this->choose("By quality");
@@ -297,33 +297,33 @@ TEST_F(TetWindow, AHundredThousandTetsFollowTheMouse)
 
 TEST_F(TetWindow, ShrunkTetsStandApart)
 {
-  this->open(to_tet_grid(box_of(3)));
+  this->open(to_tet_grid(make_tet_box(3)));
   this->find<QCheckBox>("Cut the tets")->setChecked(false);
-  const auto backgrounds = [this]
+  const auto count_background = [this]
   {
     // The point is on the face z = 1, which is viewed obliquely.
     const QImage image = this->picture();
-    int bright = 0;
+    int background_pixels = 0;
     for (int i = 1; i < 100; ++i)
     {
       for (int j = 1; j < 100; ++j)
       {
         const QColor c = image.pixelColor(this->pixel(Vec3(0.018 * i - 0.9, 0.018 * j - 0.9, 1.0)));
-        bright += c.red() > 218 && c.green() > 218 && c.blue() > 218;
+        background_pixels += c.red() > 218 && c.green() > 218 && c.blue() > 218;
       }
     }
-    return bright;
+    return background_pixels;
   };
-  EXPECT_LT(backgrounds(), 30);
+  EXPECT_LT(count_background(), 30);
   this->row(1)->field()->setValue(0.3);
-  EXPECT_GT(backgrounds(), 1000);
+  EXPECT_GT(count_background(), 1000);
   this->row(1)->field()->setValue(1.0);
-  EXPECT_LT(backgrounds(), 30);
+  EXPECT_LT(count_background(), 30);
 }
 
 TEST_F(TetWindow, ColorsAreThoseOfTheLegend)
 {
-  const TetMesh mesh = box_of(4);
+  const TetMesh mesh = make_tet_box(4);
   const auto grid = to_tet_grid(mesh);
   vtkNew<vtkIntArray> labels;
   labels->SetName("Label");
@@ -416,8 +416,8 @@ TEST_F(TetWindow, TetsAreMadeAndAFailureKeepsThem)
   EXPECT_TRUE(this->tet_inspection()->is_busy());
   this->wait();
   ASSERT_NE(this->view()->tets(), nullptr) << this->window.error().toStdString();
-  const Index made = this->view()->tets()->GetNumberOfCells();
-  EXPECT_GT(made, 100);
+  const Index tet_count = this->view()->tets()->GetNumberOfCells();
+  EXPECT_GT(tet_count, 100);
   EXPECT_GT(this->view()->shown_count(), 0);
   this->choose("By method");
   EXPECT_EQ(this->window.error(), QString());
@@ -442,7 +442,7 @@ TEST_F(TetWindow, TetsAreMadeAndAFailureKeepsThem)
 
 TEST_F(TetWindow, ThePanelDecidesWhatIsSeen)
 {
-  this->open(to_tet_grid(box_of(3)));
+  this->open(to_tet_grid(make_tet_box(3)));
   EXPECT_FALSE(this->part<Viewport>()->surface_actor()->GetVisibility());
   this->find<QPushButton>("Pose")->click();
   EXPECT_TRUE(this->part<SidePanel>()->isVisible());
@@ -457,7 +457,7 @@ TEST_F(TetWindow, ThePanelDecidesWhatIsSeen)
 
 TEST_F(TetWindow, NoTextOfTheTetPanelIsClipped)
 {
-  this->open(to_tet_grid(box_of(20)));
+  this->open(to_tet_grid(make_tet_box(20)));
   this->find<QCheckBox>("Show its defects")->setChecked(true);
   this->wait();
   for (const QSize& size : { QSize(900, 680), QSize(1280, 800), QSize(1920, 1080) })

@@ -196,22 +196,23 @@ TEST(Tour, AnotherFileIsRefused)
 /// A file with any content is either read or refused with one sentence.
 TEST(Tour, BrokenTextsNeverCrash)
 {
-  const std::string whole = with_steps(
+  const std::string valid_text = with_steps(
     R"({"open": "a.off"}, {"drag": {"handle": "top", "offset": [1, 2]}, "to": [0.1, 0.2], "moves": 3},
        {"screenshot": "one"}, {"check": "x", "as_at": "one", "tolerance": 0.1})");
   std::mt19937 random(7);
   Tour tour;
-  ASSERT_TRUE(parse_tour(whole, tour).ok());
+  ASSERT_TRUE(parse_tour(valid_text, tour).ok());
   int refused = 0;
   for (int round = 0; round < 20000; ++round)
   {
-    std::string text = whole;
+    std::string text = valid_text;
     for (int change = 0; change < 1 + static_cast<int>(random() % 4); ++change)
     {
       const std::size_t position = random() % text.size();
-      const char any[] = "{}[]\",:0129.eE-tfn\\\xff";
+      const char random_characters[] = "{}[]\",:0129.eE-tfn\\\xff";
       random() % 3 == 0 ? text.erase(position, 1 + random() % 8)
-                        : text.replace(position, 1, 1, any[random() % (sizeof(any) - 1)]);
+                        : text.replace(position, 1, 1,
+                            random_characters[random() % (sizeof(random_characters) - 1)]);
     }
     const Status status = parse_tour(text, tour);
     refused += !status.ok();

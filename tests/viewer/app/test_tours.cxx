@@ -26,8 +26,8 @@ using Json = nlohmann::json;
 constexpr int small_width = 200;
 // Two pixels differ if a channel differs by more than this many of the 255 levels. Antialiasing
 // differs by less between drivers.
-constexpr int level = 24;
-constexpr double most_different = 0.01; // fraction of the pixels that may differ
+constexpr int channel_tolerance = 24;
+constexpr double maximum_difference = 0.01; // fraction of the pixels that may differ
 
 struct Outcome
 {
@@ -38,8 +38,8 @@ struct Outcome
 };
 
 /// Play a tour with the program and save its pictures in the folder.
-Outcome play(const std::string& tour, const std::string& folder, const QStringList& more = {},
-  const std::string& from = {})
+Outcome play(const std::string& tour, const std::string& folder,
+  const QStringList& extra_arguments = {}, const std::string& from = {})
 {
   QProcess program;
   if (!from.empty())
@@ -49,16 +49,16 @@ Outcome play(const std::string& tour, const std::string& folder, const QStringLi
   program.start(BINDPOSE_PROGRAM,
     QStringList{ "view", "--play", QString::fromStdString(tour), "--screenshot-dir",
       QString::fromStdString(folder) } +
-      more);
+      extra_arguments);
   Outcome outcome;
   EXPECT_TRUE(program.waitForFinished(110000));
   outcome.code = program.exitStatus() == QProcess::NormalExit ? program.exitCode() : -1;
   for (const QByteArray& line : program.readAllStandardError().split('\n'))
   {
     // Ignore the messages of Qt itself, for example about displays without a window manager.
-    const bool of_qt = line.startsWith("QStandardPaths") || line.startsWith("qt.qpa") ||
+    const bool is_qt_message = line.startsWith("QStandardPaths") || line.startsWith("qt.qpa") ||
       line.startsWith("QGestureManager");
-    if (!line.isEmpty() && !of_qt)
+    if (!line.isEmpty() && !is_qt_message)
     {
       outcome.error += QString::fromUtf8(line) + '\n';
     }
@@ -72,7 +72,7 @@ Outcome play(const std::string& tour, const std::string& folder, const QStringLi
   return outcome;
 }
 
-QImage made_small(const QImage& picture)
+QImage scaled_down(const QImage& picture)
 {
   return picture.convertToFormat(QImage::Format_RGB32)
     .scaledToWidth(small_width, Qt::SmoothTransformation);
@@ -92,7 +92,7 @@ double difference(const QImage& a, const QImage& b)
     {
       const QColor p = a.pixelColor(x, y), q = b.pixelColor(x, y);
       different += std::max({ std::abs(p.red() - q.red()), std::abs(p.green() - q.green()),
-                     std::abs(p.blue() - q.blue()) }) > level;
+                     std::abs(p.blue() - q.blue()) }) > channel_tolerance;
     }
   }
   return static_cast<double>(different) / (static_cast<double>(a.width()) * a.height());
@@ -104,7 +104,7 @@ void expect_reference(const QImage& drawn, const std::string& name)
 {
   const QString path = QString::fromStdString(BINDPOSE_TOUR_PICTURES + ("/" + name + ".png"));
   const char* bless = std::getenv("BINDPOSE_BLESS");
-  const QImage small = made_small(drawn);
+  const QImage small = scaled_down(drawn);
   if (bless && std::string(bless) == "tours")
   {
     ASSERT_FALSE(testing::Test::HasFailure()) << "a picture of a failed tour is not blessed";
@@ -115,9 +115,9 @@ void expect_reference(const QImage& drawn, const std::string& name)
   ASSERT_FALSE(reference.isNull()) << "there is no " << path.toStdString()
                                    << "; look at the tour's picture, then bless it "
                                       "(tests/README.md)";
-  const double share = difference(small, reference);
-  std::printf("%s: %.2f %% of the pixels differ\n", name.c_str(), 100.0 * share);
-  if (share > most_different)
+  const double differing_fraction = difference(small, reference);
+  std::printf("%s: %.2f %% of the pixels differ\n", name.c_str(), 100.0 * differing_fraction);
+  if (differing_fraction > maximum_difference)
   {
     const QString actual =
       QString::fromStdString(BINDPOSE_TOUR_OUTPUT + ("/" + name + ".actual.png"));
@@ -131,7 +131,7 @@ struct TourCase
 {
   const char* name;
   std::vector<const char*> pictures; ///< pictures to compare
-  const char* needs = nullptr; ///< mesh of the Debian package libcgal-demo, or null
+  const char* demo_mesh = nullptr; ///< mesh of the Debian package libcgal-demo, or null
   std::vector<const char*> files = {}; ///< other files that the tour writes
 };
 
@@ -151,9 +151,9 @@ TEST_P(Tours, Play)
   const test::Folder folder;
   const std::string path = std::string(BINDPOSE_TOURS) + "/" + tour.name + ".json";
   std::string from = folder.path();
-  if (tour.needs)
+  if (tour.demo_mesh)
   {
-    const std::string mesh = test::demo_mesh_path(tour.needs);
+    const std::string mesh = test::demo_mesh_path(tour.demo_mesh);
     ASSERT_FALSE(mesh.empty()) << "install the package libcgal-demo";
     from = std::filesystem::path(mesh).parent_path().string();
   }
@@ -219,10 +219,11 @@ TEST(Scaled, ALegendIsAsLargeAtTwiceThePixels)
   const QImage reference(BINDPOSE_TOUR_PICTURES "/weights_left_hand.png");
   const QRect legend(
     0, reference.height() / 2, reference.width() / 4, reference.height() - reference.height() / 2);
-  const double share =
-    difference(made_small(picture).copy(legend), made_small(reference).copy(legend));
-  std::printf("legend at twice the pixels: %.2f %% of the pixels differ\n", 100.0 * share);
-  EXPECT_LT(share, 0.05);
+  const double differing_fraction =
+    difference(scaled_down(picture).copy(legend), scaled_down(reference).copy(legend));
+  std::printf(
+    "legend at twice the pixels: %.2f %% of the pixels differ\n", 100.0 * differing_fraction);
+  EXPECT_LT(differing_fraction, 0.05);
 }
 
 /// The tutorial contains the texts and the steps of its tour in their order, and its pictures
@@ -236,12 +237,12 @@ TEST(Tutorial, TellsWhatItsTourDoes)
   const std::string page(
     (std::istreambuf_iterator<char>(page_file)), std::istreambuf_iterator<char>());
   std::size_t at = 0; // the texts must be in this order
-  int said = 0;
+  int text_count = 0;
   for (const Json& step : tour["steps"])
   {
     if (step.contains("say"))
     {
-      ++said;
+      ++text_count;
       at = page.find(step["say"].get<std::string>(), at);
       ASSERT_NE(at, std::string::npos) << step["say"] << "; run examples/tours/make_pictures.py";
     }
@@ -253,7 +254,7 @@ TEST(Tutorial, TellsWhatItsTourDoes)
       EXPECT_FALSE(QImage(QString::fromStdString(folder + picture)).isNull()) << picture;
     }
   }
-  EXPECT_GE(said, 9);
+  EXPECT_GE(text_count, 9);
 }
 
 TEST(Films, HaveAPictureForEveryMove)
@@ -286,12 +287,13 @@ TEST(Films, HaveAPictureForEveryMove)
 namespace
 {
 /// Return the error message of a tour with these steps. The tour must fail.
-std::string failure(const std::string& steps, int* code = nullptr, const QStringList& more = {})
+std::string failure(
+  const std::string& steps, int* code = nullptr, const QStringList& extra_arguments = {})
 {
   const test::Folder folder;
   const std::string tour = folder.write(
     "wrong.json", R"({"tour": {"schema": 1, "size": [800, 600]}, "steps": [)" + steps + "]}");
-  const Outcome outcome = play(tour, folder / "pictures", more, BINDPOSE_TOURS);
+  const Outcome outcome = play(tour, folder / "pictures", extra_arguments, BINDPOSE_TOURS);
   EXPECT_NE(outcome.code, 0);
   EXPECT_EQ(outcome.error.count('\n'), 1) << outcome.error.toStdString();
   if (code)
@@ -347,8 +349,8 @@ TEST(FailedTours, NothingIsReplacedUnasked)
     R"({"tour": {"schema": 1}, "steps": [{"open": "data/figure.off"}, {"screenshot": "one"}]})");
   const std::string pictures = folder / "pictures";
   ASSERT_EQ(play(tour, pictures, {}, BINDPOSE_TOURS).code, 0);
-  const Outcome again = play(tour, pictures, {}, BINDPOSE_TOURS);
-  EXPECT_EQ(again.code, 2);
-  EXPECT_NE(again.error.indexOf("exists"), -1) << again.error.toStdString();
+  const Outcome second_outcome = play(tour, pictures, {}, BINDPOSE_TOURS);
+  EXPECT_EQ(second_outcome.code, 2);
+  EXPECT_NE(second_outcome.error.indexOf("exists"), -1) << second_outcome.error.toStdString();
   EXPECT_EQ(play(tour, pictures, { "--overwrite" }, BINDPOSE_TOURS).code, 0);
 }

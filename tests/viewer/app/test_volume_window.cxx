@@ -132,7 +132,7 @@ protected:
 };
 
 /// Return the part of a reading that contains the coordinates.
-const char* place_in(const std::string& reading)
+const char* coordinates_in(const std::string& reading)
 {
   const std::size_t begin = reading.find("  x ");
   return begin == std::string::npos ? "" : reading.c_str() + begin + 2;
@@ -165,14 +165,14 @@ TEST_F(VolumeWindow, TheMouseDragsTheSliceAndTheStatusBarReadsTheField)
 {
   this->open();
   const QPoint grip = this->pixel(Vec3(0.5, 0.4, 0));
-  const QPoint there = this->pixel(Vec3(0.5, 0.4, 0.6));
-  this->drag(grip, there);
+  const QPoint drag_end = this->pixel(Vec3(0.5, 0.4, 0.6));
+  this->drag(grip, drag_end);
   // The drag has moved the slice along its normal. The panel shows the position of the slice.
   EXPECT_NEAR(this->view()->position(), 0.6, 0.08);
   EXPECT_EQ(this->view()->slice_normal(), Vec3(0, 0, 1));
   EXPECT_NEAR(this->row(0)->value(), this->view()->position(), 0.01);
   // The reading under the mouse equals the field at that position.
-  int read = 0;
+  int reading_count = 0;
   for (const Vec3& position : { Vec3(0.3, 0.2, 0.6), Vec3(-0.9, 0.5, 0.6), Vec3(1.0, -1.0, 0.6) })
   {
     const std::string reading = this->reading_at(position).toStdString();
@@ -181,13 +181,13 @@ TEST_F(VolumeWindow, TheMouseDragsTheSliceAndTheStatusBarReadsTheField)
     double z = 0;
     double w = 0;
     ASSERT_EQ(std::sscanf(reading.c_str(), "Slice: winding number w = %lf", &w), 1) << reading;
-    ASSERT_EQ(std::sscanf(place_in(reading), "x %lf y %lf z %lf", &x, &y, &z), 3) << reading;
+    ASSERT_EQ(std::sscanf(coordinates_in(reading), "x %lf y %lf z %lf", &x, &y, &z), 3) << reading;
     EXPECT_NEAR(z, this->view()->position(), 1e-3);
     EXPECT_NEAR(x, position.x(), 0.1);
     EXPECT_NEAR(w, cone(Vec3(x, y, z)), 0.005);
-    ++read;
+    ++reading_count;
   }
-  EXPECT_EQ(read, 3);
+  EXPECT_EQ(reading_count, 3);
   this->hover(QPoint(3, 3));
   EXPECT_EQ(this->window.reading(), QString()) << "beside the slice";
 }
@@ -246,8 +246,8 @@ TEST_F(VolumeWindow, TheLevelsSliderGivesTheSphereOfThatLevel)
   double level = 0.0;
   ASSERT_EQ(std::sscanf(reading.c_str(), "Isosurface: winding number w = %lf", &level), 1)
     << reading;
-  ASSERT_EQ(std::sscanf(
-              place_in(reading), "x %lf y %lf z %lf", &position.x(), &position.y(), &position.z()),
+  ASSERT_EQ(std::sscanf(coordinates_in(reading), "x %lf y %lf z %lf", &position.x(), &position.y(),
+              &position.z()),
     3)
     << reading;
   EXPECT_NEAR(level, 0.5, 1e-9);

@@ -100,10 +100,11 @@ vtkSmartPointer<vtkUnstructuredGrid> box_with_named_weights()
 
 double hue_distance(const QColor& c, const Rgb& color)
 {
-  const double its = std::max(1, c.red() + c.green() + c.blue());
+  const double component_sum = std::max(1, c.red() + c.green() + c.blue());
   const double sum = color[0] + color[1] + color[2];
-  return std::max({ std::abs(c.red() / its - color[0] / sum),
-    std::abs(c.green() / its - color[1] / sum), std::abs(c.blue() / its - color[2] / sum) });
+  return std::max({ std::abs(c.red() / component_sum - color[0] / sum),
+    std::abs(c.green() / component_sum - color[1] / sum),
+    std::abs(c.blue() / component_sum - color[2] / sum) });
 }
 
 class WeightWindow : public test::WindowTest
@@ -214,19 +215,19 @@ TEST_F(WeightWindow, AllShowsTheStrongestHandle)
   // Viewed from the side, each handle has one half of the view.
   this->part<Viewport>()->renderer()->GetActiveCamera()->Azimuth(90.0);
   const QImage image = this->picture();
-  int of_bottom = 0;
-  int of_top = 0;
+  int bottom_pixels = 0;
+  int top_pixels = 0;
   for (int y = 0; y < image.height(); y += 2)
   {
     for (int x = image.width() / 3; x < 2 * image.width() / 3; x += 2)
     {
       const QColor c = image.pixelColor(x, y);
-      of_bottom += hue_distance(c, handles[0].color) < 0.06;
-      of_top += hue_distance(c, handles[1].color) < 0.06;
+      bottom_pixels += hue_distance(c, handles[0].color) < 0.06;
+      top_pixels += hue_distance(c, handles[1].color) < 0.06;
     }
   }
-  EXPECT_GT(of_bottom, 2000);
-  EXPECT_GT(of_top, 2000);
+  EXPECT_GT(bottom_pixels, 2000);
+  EXPECT_GT(top_pixels, 2000);
   EXPECT_FALSE(this->find<QCheckBox>("Bands")->isEnabled());
   EXPECT_FALSE(this->find<QCheckBox>("Bands")->toolTip().isEmpty());
 }
@@ -290,7 +291,7 @@ TEST_F(WeightWindow, ExtremaAreCountedAndSeen)
   // The ball that marks the extremum is visible at the position of the extremum. Clearing the check
   // box hides the ball.
   const Rgb red = extremum_categories()[1].color;
-  const auto reds = [&]
+  const auto count_red_pixels = [&]
   {
     const QImage image = this->picture();
     const QPoint middle = this->pixel(bump);
@@ -309,9 +310,9 @@ TEST_F(WeightWindow, ExtremaAreCountedAndSeen)
   {
     this->part<Viewport>()->renderer()->GetActiveCamera()->Azimuth(180.0);
   }
-  EXPECT_GT(reds(), 20);
+  EXPECT_GT(count_red_pixels(), 20);
   this->find<QCheckBox>("Extrema away from handles")->setChecked(false);
-  EXPECT_EQ(reds(), 0);
+  EXPECT_EQ(count_red_pixels(), 0);
 }
 
 TEST_F(WeightWindow, ASliceThroughTheVolumeFollowsTheMouse)
@@ -441,13 +442,13 @@ TEST_F(WeightWindow, TheOtherMethodIsSolvedBesideTheWindow)
 TEST_F(WeightWindow, CertificatesNameTheirMethod)
 {
   const auto mesh = ball_with_named_weights();
-  vtkNew<vtkDoubleArray> proof;
-  proof->SetName("WeightsRelativeGap");
-  proof->InsertNextValue(1e-8);
-  proof->InsertNextValue(2e-8);
-  mesh->GetFieldData()->AddArray(proof);
+  vtkNew<vtkDoubleArray> certificate;
+  certificate->SetName("WeightsRelativeGap");
+  certificate->InsertNextValue(1e-8);
+  certificate->InsertNextValue(2e-8);
+  mesh->GetFieldData()->AddArray(certificate);
   vtkNew<vtkDoubleArray> residual;
-  residual->DeepCopy(proof);
+  residual->DeepCopy(certificate);
   residual->SetName("WeightsKKTResidual");
   mesh->GetFieldData()->AddArray(residual);
   Report report;
@@ -494,9 +495,9 @@ TEST_F(WeightWindow, ABindGivesVolumeRawColumnsAndCertificates)
   this->wait_while([this] { return this->part<Binding>()->is_running(); });
   ASSERT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
   this->choose("top");
-  vtkFieldData* proof = this->window.shown()->GetFieldData();
-  ASSERT_NE(proof->GetArray("WeightsRelativeGap"), nullptr);
-  const double gap = proof->GetArray("WeightsRelativeGap")->GetComponent(1, 0);
+  vtkFieldData* certificate = this->window.shown()->GetFieldData();
+  ASSERT_NE(certificate->GetArray("WeightsRelativeGap"), nullptr);
+  const double gap = certificate->GetArray("WeightsRelativeGap")->GetComponent(1, 0);
   EXPECT_LE(gap, 1e-6);
   EXPECT_TRUE(this->says(QString("Gap %1, residual").arg(gap, 0, 'g', 2)));
   EXPECT_TRUE(this->button("Row sums")->isEnabled());
@@ -533,13 +534,13 @@ TEST_F(WeightWindow, IsolinesAndSlicesKnowThePose)
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
   ASSERT_TRUE(this->window.is_bound());
   this->choose("top");
-  const auto reach = [](vtkPolyData* data)
+  const auto maximum_z = [](vtkPolyData* data)
   {
     double bounds[6];
     data->GetBounds(bounds);
     return bounds[5];
   };
-  EXPECT_NEAR(reach(this->view()->isolines()), 0.8, 1e-5);
+  EXPECT_NEAR(maximum_z(this->view()->isolines()), 0.8, 1e-5);
   // The whole shape moves up by one.
   vtkDataArray* transforms =
     this->part<Viewport>()->handle_widget()->GetHandles()->GetCellData()->GetArray("Transform");
@@ -549,17 +550,17 @@ TEST_F(WeightWindow, IsolinesAndSlicesKnowThePose)
   }
   transforms->Modified();
   this->window.set_method(0);
-  EXPECT_NEAR(reach(this->view()->isolines()), 1.8, 1e-5);
-  EXPECT_NEAR(reach(this->part<Viewport>()->drawn()), 2.0, 1e-5);
+  EXPECT_NEAR(maximum_z(this->view()->isolines()), 1.8, 1e-5);
+  EXPECT_NEAR(maximum_z(this->part<Viewport>()->drawn()), 2.0, 1e-5);
   // While the slice is shown, the shape is at rest.
   this->find<QCheckBox>("Slice through the volume")->setChecked(true);
   auto* handles = this->part<Viewport>()->handle_widget()->GetHandleSetRepresentation();
-  EXPECT_NEAR(reach(this->part<Viewport>()->drawn()), 1.0, 1e-5);
+  EXPECT_NEAR(maximum_z(this->part<Viewport>()->drawn()), 1.0, 1e-5);
   EXPECT_NEAR(handles->GetBounds()[5], 0.9, 1e-5);
   EXPECT_EQ(
     this->part<Viewport>()->state_name(), "Rest shape: the slice of weights is shown at rest");
   this->find<QCheckBox>("Slice through the volume")->setChecked(false);
-  EXPECT_NEAR(reach(this->part<Viewport>()->drawn()), 2.0, 1e-5);
+  EXPECT_NEAR(maximum_z(this->part<Viewport>()->drawn()), 2.0, 1e-5);
   EXPECT_NEAR(handles->GetBounds()[5], 1.9, 1e-5);
   EXPECT_EQ(this->part<Viewport>()->state_name(), QString());
 }

@@ -57,7 +57,7 @@ protected:
     ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
     this->render();
   }
-  QRect picture_place()
+  QRect viewport_rectangle()
   {
     QApplication::processEvents();
     const Viewport* viewport = this->part<Viewport>();
@@ -68,7 +68,7 @@ protected:
 };
 
 /// Return the class names of the parts that are hidden or extend beyond the window.
-QStringList outside(const QWidget& window, const QList<const QWidget*>& parts)
+QStringList parts_outside(const QWidget& window, const QList<const QWidget*>& parts)
 {
   QStringList names;
   for (const QWidget* part : parts)
@@ -86,13 +86,13 @@ QStringList outside(const QWidget& window, const QList<const QWidget*>& parts)
 TEST_F(WindowRoom, BarsNeitherMoveNorResizeThePicture)
 {
   this->open_ball();
-  const QRect place = this->picture_place();
-  const QPoint seen = this->pixel(Vec3(0, 0, 0.9));
-  const auto expect_still = [&](const char* what)
+  const QRect view_rectangle = this->viewport_rectangle();
+  const QPoint handle_pixel = this->pixel(Vec3(0, 0, 0.9));
+  const auto expect_view_unchanged = [&](const char* what)
   {
-    EXPECT_EQ(this->picture_place(), place) << what;
+    EXPECT_EQ(this->viewport_rectangle(), view_rectangle) << what;
     this->render();
-    EXPECT_EQ(this->pixel(Vec3(0, 0, 0.9)), seen) << what;
+    EXPECT_EQ(this->pixel(Vec3(0, 0, 0.9)), handle_pixel) << what;
   };
   int bars = 0;
   for (NoticeBar* bar : { this->bar("note_bar"), this->bar("rebind_bar"), this->bar("recovery_bar"),
@@ -101,44 +101,45 @@ TEST_F(WindowRoom, BarsNeitherMoveNorResizeThePicture)
     bar->offer("A sentence that is long enough for two lines in a window of this size, for it goes "
                "on and on, and then some more, so that there are surely two of them.",
       { { "Do it", [] {} } }, "Close");
-    expect_still("a notice came");
+    expect_view_unchanged("a notice came");
     EXPECT_TRUE(bar->isVisible());
-    EXPECT_TRUE(place.contains(QRect(bar->mapTo(&this->window, QPoint()), bar->size())));
+    EXPECT_TRUE(view_rectangle.contains(QRect(bar->mapTo(&this->window, QPoint()), bar->size())));
     ++bars;
   }
   this->window.show_error("Something has gone wrong.");
-  expect_still("an error came");
+  expect_view_unchanged("an error came");
   EXPECT_EQ(bars, 4);
   // The bars overlap neither each other nor the title of the edit mode.
   EXPECT_EQ(this->user.press_key("A"), QString());
-  expect_still("a mode began");
-  QList<QRect> places;
+  expect_view_unchanged("a mode began");
+  QList<QRect> bar_rectangles;
   for (const QWidget* bar :
     { static_cast<QWidget*>(this->part<ErrorBar>()), static_cast<QWidget*>(this->bar("note_bar")),
       static_cast<QWidget*>(this->bar("rebind_bar")),
       static_cast<QWidget*>(this->part<Viewport>()->findChild<QFrame*>("mode")) })
   {
     const QRect at(bar->mapTo(&this->window, QPoint()), bar->size());
-    for (const QRect& other : places)
+    for (const QRect& other : bar_rectangles)
     {
       EXPECT_FALSE(at.intersects(other));
     }
-    places << at;
+    bar_rectangles << at;
   }
   for (NoticeBar* bar : { this->bar("note_bar"), this->bar("rebind_bar"), this->bar("recovery_bar"),
          this->bar("export_bar") })
   {
     bar->hide();
-    expect_still("a notice left");
+    expect_view_unchanged("a notice left");
   }
   // The status line shows a hint about the mouse.
-  this->hover(seen);
-  expect_still("a hint came");
+  this->hover(handle_pixel);
+  expect_view_unchanged("a hint came");
   // After a bar is hidden, the view receives mouse events at its position.
   this->part<ErrorBar>()->hide();
   QApplication::processEvents();
-  const QWidget* there = this->part<Viewport>()->childAt(this->part<Viewport>()->width() / 2, 60);
-  EXPECT_EQ(there, nullptr) << there->metaObject()->className();
+  const QWidget* widget_under_point =
+    this->part<Viewport>()->childAt(this->part<Viewport>()->width() / 2, 60);
+  EXPECT_EQ(widget_under_point, nullptr) << widget_under_point->metaObject()->className();
 }
 
 TEST_F(WindowRoom, ABarDoesNotEndADrag)
@@ -154,9 +155,9 @@ TEST_F(WindowRoom, ABarDoesNotEndADrag)
   this->user.move(at + QPoint(0, -60), Qt::NoModifier);
   this->user.release(at + QPoint(0, -60), Qt::LeftButton, Qt::NoModifier);
   EXPECT_EQ(this->window.document()->history()->undoText(), "move left_hand");
-  QPoint now;
-  ASSERT_EQ(this->user.find_handle_position("left_hand", 0.0, now), QString());
-  EXPECT_NEAR(now.y(), at.y() - 60, 3);
+  QPoint new_position;
+  ASSERT_EQ(this->user.find_handle_position("left_hand", 0.0, new_position), QString());
+  EXPECT_NEAR(new_position.y(), at.y() - 60, 3);
 }
 
 TEST_F(WindowRoom, TheTimelineComesWithTheFirstKeyOrOnDemand)
@@ -188,16 +189,16 @@ TEST_F(WindowRoom, AScreenOf1280By800FitsAllOfIt)
   this->open_figure();
   EXPECT_EQ(this->user.press_key("K"), QString());
   // A desktop leaves this space for a window on a screen of 1280 x 800 pixels.
-  const QSize room(1280, 720);
+  const QSize available_size(1280, 720);
   for (int panel = 0; panel < 4; ++panel)
   {
     this->part<PanelColumn>()->show_panel(panel);
     QApplication::processEvents();
-    const QSize least = this->window.minimumSizeHint();
-    EXPECT_LE(least.width(), room.width()) << panel;
-    EXPECT_LE(least.height(), room.height()) << panel;
-    this->resize(room);
-    EXPECT_EQ(outside(this->window,
+    const QSize minimum_size = this->window.minimumSizeHint();
+    EXPECT_LE(minimum_size.width(), available_size.width()) << panel;
+    EXPECT_LE(minimum_size.height(), available_size.height()) << panel;
+    this->resize(available_size);
+    EXPECT_EQ(parts_outside(this->window,
                 { this->window.menuBar(), this->window.statusBar(), this->part<Viewport>(),
                   this->part<KeyStrip>(), this->part<PanelColumn>() }),
       QStringList())
@@ -264,13 +265,13 @@ TEST_F(WindowRoom, WindingNumbersOfASurfaceAreComputedThere)
   Session session;
   session.work = this->window.document()->work();
   ASSERT_TRUE(file.write(path, session).ok());
-  Session back;
-  ASSERT_TRUE(read_session(path, back).ok());
-  EXPECT_EQ(back.notes, QStringList());
-  ASSERT_NE(back.work.volume, nullptr);
-  EXPECT_EQ(back.work.volume->GetNumberOfPoints(), volume->GetNumberOfPoints());
-  EXPECT_EQ(Vec3(back.work.volume->GetOrigin()), Vec3(volume->GetOrigin()));
-  EXPECT_EQ(back.work.volume->GetPointData()->GetArray("WindingNumber")->GetComponent(1000, 0),
+  Session restored;
+  ASSERT_TRUE(read_session(path, restored).ok());
+  EXPECT_EQ(restored.notes, QStringList());
+  ASSERT_NE(restored.work.volume, nullptr);
+  EXPECT_EQ(restored.work.volume->GetNumberOfPoints(), volume->GetNumberOfPoints());
+  EXPECT_EQ(Vec3(restored.work.volume->GetOrigin()), Vec3(volume->GetOrigin()));
+  EXPECT_EQ(restored.work.volume->GetPointData()->GetArray("WindingNumber")->GetComponent(1000, 0),
     values->GetComponent(1000, 0));
   EXPECT_EQ(this->user.push("Close the volume"), QString());
   EXPECT_EQ(this->part<VolumeView>()->volume(), nullptr);

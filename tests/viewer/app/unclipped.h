@@ -16,9 +16,9 @@ namespace bindpose::test
 {
 
 /// Check the visible buttons.
-inline void expect_unclipped_buttons(const QWidget* in)
+inline void expect_unclipped_buttons(const QWidget* parent)
 {
-  for (const QPushButton* button : in->findChildren<QPushButton*>())
+  for (const QPushButton* button : parent->findChildren<QPushButton*>())
   {
     if (button->isVisible())
     {
@@ -29,9 +29,9 @@ inline void expect_unclipped_buttons(const QWidget* in)
 }
 
 /// Check the visible combo boxes: each item must fit when it is chosen.
-inline void expect_unclipped_items(const QWidget* in)
+inline void expect_unclipped_items(const QWidget* parent)
 {
-  for (const QComboBox* box : in->findChildren<QComboBox*>())
+  for (const QComboBox* box : parent->findChildren<QComboBox*>())
   {
     if (!box->isVisible())
     {
@@ -40,13 +40,13 @@ inline void expect_unclipped_items(const QWidget* in)
     QStyleOptionComboBox option;
     option.initFrom(box);
     option.editable = false;
-    const int room =
+    const int available_width =
       box->style()
         ->subControlRect(QStyle::CC_ComboBox, &option, QStyle::SC_ComboBoxEditField, box)
         .width();
     for (int item = 0; item < box->count(); ++item)
     {
-      EXPECT_LE(box->fontMetrics().horizontalAdvance(box->itemText(item)), room)
+      EXPECT_LE(box->fontMetrics().horizontalAdvance(box->itemText(item)), available_width)
         << box->itemText(item).toStdString();
     }
   }

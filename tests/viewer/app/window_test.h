@@ -127,10 +127,10 @@ protected:
   }
 
   /// Return the pixel of a position in the view, in Qt's pixels from the upper left.
-  QPoint pixel(const Vec3& place)
+  QPoint pixel(const Vec3& position)
   {
     vtkRenderer* renderer = this->part<Viewport>()->renderer();
-    renderer->SetWorldPoint(place.x(), place.y(), place.z(), 1.0);
+    renderer->SetWorldPoint(position.x(), position.y(), position.z(), 1.0);
     renderer->WorldToDisplay();
     const double* d = renderer->GetDisplayPoint();
     return { static_cast<int>(d[0]),
@@ -138,11 +138,11 @@ protected:
   }
 
   void mouse(
-    QEvent::Type type, const QPoint& position, Qt::MouseButton button, Qt::MouseButtons held)
+    QEvent::Type type, const QPoint& position, Qt::MouseButton button, Qt::MouseButtons buttons)
   {
     Viewport* viewport = this->part<Viewport>();
     QMouseEvent event(
-      type, position, viewport->mapToGlobal(position), button, held, Qt::NoModifier);
+      type, position, viewport->mapToGlobal(position), button, buttons, Qt::NoModifier);
     QApplication::sendEvent(viewport, &event);
     QApplication::processEvents();
   }

@@ -18,8 +18,8 @@
 namespace
 {
 constexpr int row_margin = 5;
-constexpr int gap = 6; // pixels between groups of buttons
-constexpr int between = 2; // pixels between buttons of a group
+constexpr int group_spacing = 6; // pixels between groups of buttons
+constexpr int button_spacing = 2; // pixels between buttons of a group
 
 /// Range of the logarithmic slider for the radius of the brush, as fractions of the shape's
 /// diagonal.
@@ -27,7 +27,7 @@ constexpr double minimum_radius = 0.002;
 constexpr double maximum_radius = 0.5;
 constexpr int radius_steps = 200;
 
-int step_of(double radius)
+int radius_to_step(double radius)
 {
   const double fraction =
     std::log(radius / minimum_radius) / std::log(maximum_radius / minimum_radius);
@@ -42,12 +42,12 @@ EditTools::EditTools(const QList<QList<QAction*>>& groups, QWidget* parent) : QF
   this->setObjectName("tools");
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(row_margin, 5, row_margin, 5);
-  row->setSpacing(between);
+  row->setSpacing(button_spacing);
   for (const QList<QAction*>& group : groups)
   {
     if (!this->buttons_.empty())
     {
-      row->addSpacing(gap);
+      row->addSpacing(group_spacing);
     }
     QList<QToolButton*> buttons;
     for (QAction* action : group)
@@ -81,14 +81,14 @@ void EditTools::show_words(int groups)
 
 int EditTools::width_with_words(int groups) const
 {
-  int width = 2 * row_margin + (this->buttons_.size() - 1) * gap;
+  int width = 2 * row_margin + (this->buttons_.size() - 1) * group_spacing;
   for (int group = 0; group < this->buttons_.size(); ++group)
   {
     for (const QToolButton* button : this->buttons_[group])
     {
       // Width of a button: spacing, padding of the style sheet, icon, and text with its gap.
       const int text = button->fontMetrics().horizontalAdvance(button->text()) + 8;
-      width += between + 20 + 14 + 4 + (group < groups ? text : 0);
+      width += button_spacing + 20 + 14 + 4 + (group < groups ? text : 0);
     }
   }
   return width;
@@ -185,6 +185,6 @@ void ModeBar::show_state(const State& state)
   this->new_region_->setVisible(state.shows_brush);
   this->new_region_->setEnabled(state.has_region);
   const QSignalBlocker blocker(this->radius_);
-  this->radius_->setValue(step_of(state.radius));
+  this->radius_->setValue(radius_to_step(state.radius));
   this->setVisible(!state.title.isEmpty());
 }

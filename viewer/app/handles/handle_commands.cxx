@@ -35,7 +35,7 @@ std::string name_of(HandleMode mode)
 }
 
 /// Convert indices of handles to the kernels' type.
-std::vector<Index> to_list(const std::vector<int>& handles)
+std::vector<Index> to_indices(const std::vector<int>& handles)
 {
   return { handles.begin(), handles.end() };
 }
@@ -310,7 +310,7 @@ void HandleCommands::remove()
   this->selection_->edit(
     this->selection_->step_name(tr("delete"), selected),
     [&](const Handles& before, EditedHandles& after)
-    { return remove_handles(before, to_list(selected), after); },
+    { return remove_handles(before, to_indices(selected), after); },
     remaining_labels);
 }
 
@@ -322,8 +322,8 @@ double HandleCommands::center_coordinate(int axis) const
   const double lower = bounds[2 * axis];
   const double upper = bounds[2 * axis + 1];
   const double center_coordinate = 0.5 * (lower + upper);
-  constexpr double near = 0.02;
-  return std::abs(center_coordinate) <= near * (upper - lower) ? 0.0 : center_coordinate;
+  constexpr double tolerance = 0.02;
+  return std::abs(center_coordinate) <= tolerance * (upper - lower) ? 0.0 : center_coordinate;
 }
 
 void HandleCommands::mirror(int axis)
@@ -334,10 +334,10 @@ void HandleCommands::mirror(int axis)
     return;
   }
   const Vec3 normal = Vec3::Unit(axis);
-  const Vec3 place = this->center_coordinate(axis) * normal;
+  const Vec3 plane_point = this->center_coordinate(axis) * normal;
   this->selection_->edit(this->selection_->step_name(tr("mirror"), selected),
     [&](const Handles& before, EditedHandles& after)
-    { return mirror_handles(before, to_list(selected), place, normal, after); });
+    { return mirror_handles(before, to_indices(selected), plane_point, normal, after); });
 }
 
 void HandleCommands::snap()
@@ -351,7 +351,7 @@ void HandleCommands::snap()
   const SurfaceProbe probe(surface.points.view(), surface.triangles.view());
   this->selection_->edit(this->selection_->step_name(tr("snap to the surface:"), selected),
     [&](const Handles& before, EditedHandles& after)
-    { return snap_to_surface(before, to_list(selected), probe, after); });
+    { return snap_to_surface(before, to_indices(selected), probe, after); });
 }
 
 void HandleCommands::set_parent(int parent)

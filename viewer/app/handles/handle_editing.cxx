@@ -491,11 +491,11 @@ QString HandleEditing::drag_hint() const
   {
     return tr("%1: release the button to place it; Ctrl snaps, Esc cancels.").arg(interaction);
   }
-  const QString much = QString::fromStdString(this->representation()->GetInteractionText());
+  const QString amount = QString::fromStdString(this->representation()->GetInteractionText());
   const QString keys = this->mode_ == pose
     ? tr("X Y Z: axis; digits: value; Shift: fine; Ctrl: snap; Enter: end; Esc: cancel")
     : tr("X Y Z: axis; Shift: fine; Ctrl: snap; Esc: cancel");
-  return QString("%1 %2   ·   %3").arg(interaction, much, keys);
+  return QString("%1 %2   ·   %3").arg(interaction, amount, keys);
 }
 
 /// Return the reason why the handle under the mouse cannot be dragged.

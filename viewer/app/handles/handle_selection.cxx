@@ -104,9 +104,10 @@ bool HandleSelection::edit(const QString& step, const HandleListEdit& edit, vtkD
 {
   Q_EMIT this->about_to_edit();
   this->representation()->FinishCage(); // the edit may change the vertices of an unfinished cage
-  std::vector<Index> cell_of;
+  std::vector<Index> new_cell_of_cell;
   std::vector<Index> added;
-  const Status status = edit_handles(this->document_->editable_handles(), edit, &cell_of, &added);
+  const Status status =
+    edit_handles(this->document_->editable_handles(), edit, &new_cell_of_cell, &added);
   if (!status.ok())
   {
     this->refuse(status);
@@ -116,9 +117,9 @@ bool HandleSelection::edit(const QString& step, const HandleListEdit& edit, vtkD
   for (int k = 0; added.empty() && k < this->representation()->GetNumberOfSelectedHandles(); ++k)
   {
     const auto cell = static_cast<std::size_t>(this->representation()->GetSelectedHandle(k));
-    if (cell < cell_of.size() && cell_of[cell] >= 0)
+    if (cell < new_cell_of_cell.size() && new_cell_of_cell[cell] >= 0)
     {
-      selected.push_back(cell_of[cell]);
+      selected.push_back(new_cell_of_cell[cell]);
     }
   }
   this->representation()->SetSelectedHandle(-1);

@@ -72,7 +72,7 @@ QIcon kind_icon(HandleKind kind)
 
 /// Return the parent of each row; -1: no parent. The parents in a dataset may form a cycle. A row
 /// whose ancestors form a cycle gets no parent.
-std::vector<int> checked_parents(const std::vector<HandleTree::Row>& rows)
+std::vector<int> acyclic_parents(const std::vector<HandleTree::Row>& rows)
 {
   const int count = static_cast<int>(rows.size());
   std::vector<int> parents(rows.size(), -1);
@@ -85,16 +85,16 @@ std::vector<int> checked_parents(const std::vector<HandleTree::Row>& rows)
       ancestor = rows[static_cast<std::size_t>(ancestor)].parent;
       ++steps;
     }
-    const int direct = rows[static_cast<std::size_t>(k)].parent;
-    if ((ancestor < 0 || ancestor >= count) && direct < count)
+    const int direct_parent = rows[static_cast<std::size_t>(k)].parent;
+    if ((ancestor < 0 || ancestor >= count) && direct_parent < count)
     {
-      parents[static_cast<std::size_t>(k)] = direct;
+      parents[static_cast<std::size_t>(k)] = direct_parent;
     }
   }
   return parents;
 }
 
-QString text_of(const HandleTree::Row& row)
+QString row_text(const HandleTree::Row& row)
 {
   return row.mode == static_cast<int>(HandleMode::automatic)
     ? row.name
@@ -176,12 +176,12 @@ void HandleTree::set_rows(const std::vector<Row>& rows)
   this->rows_ = rows;
   for (std::size_t k = 0; k < rows.size(); ++k)
   {
-    auto* item = new QTreeWidgetItem({ text_of(rows[k]) });
+    auto* item = new QTreeWidgetItem({ row_text(rows[k]) });
     item->setToolTip(0, rows[k].name);
     item->setData(0, handle_role, static_cast<int>(k));
     this->items_.push_back(item);
   }
-  const std::vector<int> parents = checked_parents(rows);
+  const std::vector<int> parents = acyclic_parents(rows);
   for (std::size_t k = 0; k < rows.size(); ++k)
   {
     if (parents[k] >= 0)
@@ -240,7 +240,7 @@ void HandleTree::set_mode(int handle, int mode)
 {
   Row& row = this->rows_[static_cast<std::size_t>(handle)];
   row.mode = mode;
-  this->item(handle)->setText(0, text_of(row));
+  this->item(handle)->setText(0, row_text(row));
 }
 
 // ---- The selection -----------------------------------------------------------------------------
@@ -275,14 +275,15 @@ void HandleTree::select(const std::vector<int>& handles)
 /// selection, so the order is kept here.
 void HandleTree::read_selection()
 {
-  const auto is_gone = [this](int k) { return !this->item(k)->isSelected(); };
+  const auto is_unselected = [this](int k) { return !this->item(k)->isSelected(); };
   this->selected_.erase(
-    std::remove_if(this->selected_.begin(), this->selected_.end(), is_gone), this->selected_.end());
+    std::remove_if(this->selected_.begin(), this->selected_.end(), is_unselected),
+    this->selected_.end());
   for (int k = 0; k < static_cast<int>(this->items_.size()); ++k)
   {
     const bool known =
       std::find(this->selected_.begin(), this->selected_.end(), k) != this->selected_.end();
-    if (!known && !is_gone(k))
+    if (!known && !is_unselected(k))
     {
       this->selected_.push_back(k);
     }

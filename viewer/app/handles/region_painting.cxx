@@ -50,7 +50,7 @@ std::set<int> labels_in(vtkDataArray* labels)
 }
 
 /// Return the mean of a region's vertices. `nearest` becomes the vertex that is nearest to it.
-Vec3 middle_of(vtkPolyData* surface, vtkDataArray* labels, int label, Vec3& nearest)
+Vec3 region_center(vtkPolyData* surface, vtkDataArray* labels, int label, Vec3& nearest)
 {
   Vec3 sum = Vec3::Zero();
   Index count = 0;
@@ -148,14 +148,14 @@ void RegionPainting::document_changed()
   }
   // Copy the labels to a separate int array. In the file they may have another type.
   vtkDataArray* labels = surface->GetPointData()->GetArray("RegionId");
-  vtkNew<vtkIntArray> own;
-  own->SetName("RegionId");
-  own->SetNumberOfTuples(surface->GetNumberOfPoints());
+  vtkNew<vtkIntArray> int_labels;
+  int_labels->SetName("RegionId");
+  int_labels->SetNumberOfTuples(surface->GetNumberOfPoints());
   for (vtkIdType v = 0; v < surface->GetNumberOfPoints(); ++v)
   {
-    own->SetValue(v, label_at(labels, v));
+    int_labels->SetValue(v, label_at(labels, v));
   }
-  this->painted_surface_->GetPointData()->AddArray(own);
+  this->painted_surface_->GetPointData()->AddArray(int_labels);
   this->brush()->SetSurface(this->painted_surface_);
   this->show_labels();
 }
@@ -241,39 +241,40 @@ bool RegionPainting::commit_stroke(std::string& region)
 {
   QString step = QString::fromStdString(this->viewport_->brush_widget()->GetInteractionName());
   const int label = this->brush()->GetRegionId();
-  const std::set<int> before =
+  const std::set<int> previous_labels =
     labels_in(this->document_->work().surface->GetPointData()->GetArray("RegionId"));
-  const std::set<int> now = labels_in(this->labels());
+  const std::set<int> current_labels = labels_in(this->labels());
   const Handles& handles = this->document_->handles();
-  const auto has_label = [](const Handle& handle, int its)
-  { return handle.kind == HandleKind::region && handle.region_id == its; };
-  std::vector<Index> gone;
+  const auto has_label = [](const Handle& handle, int region_label)
+  { return handle.kind == HandleKind::region && handle.region_id == region_label; };
+  std::vector<Index> removed_handles;
   std::string name;
   for (std::size_t k = 0; k < handles.size(); ++k)
   {
-    for (const int its : before)
+    for (const int region_label : previous_labels)
     {
-      if (has_label(handles[k], its) && now.count(its) == 0)
+      if (has_label(handles[k], region_label) && current_labels.count(region_label) == 0)
       {
-        gone.push_back(static_cast<Index>(k));
+        removed_handles.push_back(static_cast<Index>(k));
       }
     }
     name = has_label(handles[k], label) ? handles[k].name : name;
   }
   vtkPolyData* live = this->document_->editable_handles();
   Status status;
-  if (!gone.empty())
+  if (!removed_handles.empty())
   {
     status = edit_handles(live,
-      [&](const Handles& list, EditedHandles& after) { return remove_handles(list, gone, after); });
+      [&](const Handles& list, EditedHandles& after)
+      { return remove_handles(list, removed_handles, after); });
   }
-  if (status.ok() && name.empty() && now.count(label) > 0)
+  if (status.ok() && name.empty() && current_labels.count(label) > 0)
   {
     Handle handle;
     handle.kind = HandleKind::region;
     handle.region_id = label;
     Vec3 nearest;
-    handle.head = middle_of(this->painted_surface_, this->labels(), label, nearest);
+    handle.head = region_center(this->painted_surface_, this->labels(), label, nearest);
     for (int attempt = 0; attempt < 2; ++attempt)
     {
       handle.tail = handle.head;
@@ -291,7 +292,7 @@ bool RegionPainting::commit_stroke(std::string& region)
       handle.head = nearest; // the mean position is already used by another handle
     }
   }
-  const bool paints = now.count(label) > 0 && !this->brush()->GetErase();
+  const bool paints = current_labels.count(label) > 0 && !this->brush()->GetErase();
   if (paints)
   {
     step += " " + QString::fromStdString(name);
@@ -336,16 +337,16 @@ void RegionPainting::show_labels()
       names[static_cast<int>(handle.region_id)] = handle.name;
     }
   }
-  std::vector<std::string> in_order;
-  std::map<int, int> category_of;
+  std::vector<std::string> category_names;
+  std::map<int, int> category_of_label;
   for (const auto& [label, name] : names)
   {
-    category_of[label] = static_cast<int>(in_order.size());
-    in_order.push_back(name);
+    category_of_label[label] = static_cast<int>(category_names.size());
+    category_names.push_back(name);
   }
-  std::vector<Category> categories = handle_categories(in_order);
+  std::vector<Category> categories = handle_categories(category_names);
   const std::vector<Index>& vertices = this->viewport_->drawn_points();
-  std::vector<int> of_cell;
+  std::vector<int> category_of_cell;
   const auto cells = vtk::TakeSmartPointer(drawn->GetPolys()->NewIterator());
   for (cells->GoToFirstCell(); !cells->IsDoneWithTraversal(); cells->GoToNextCell())
   {
@@ -364,18 +365,18 @@ void RegionPainting::show_labels()
       }
       label = 2 * votes > size ? label_of(k) : 0;
     }
-    of_cell.push_back(label == 0 ? -1 : category_of[label]);
-    if (of_cell.back() >= 0)
+    category_of_cell.push_back(label == 0 ? -1 : category_of_label[label]);
+    if (category_of_cell.back() >= 0)
     {
-      ++categories[static_cast<std::size_t>(of_cell.back())].count;
+      ++categories[static_cast<std::size_t>(category_of_cell.back())].count;
     }
   }
-  const std::vector<double> shown = category_values(categories);
+  const std::vector<double> category_scalars = category_values(categories);
   vtkNew<vtkDoubleArray> values;
-  for (const int category : of_cell)
+  for (const int category : category_of_cell)
   {
     values->InsertNextValue(category < 0 ? std::numeric_limits<double>::quiet_NaN()
-                                         : shown[static_cast<std::size_t>(category)]);
+                                         : category_scalars[static_cast<std::size_t>(category)]);
   }
   ColorMap map = category_map(categories);
   const Rgb& plain = palette::surface;

@@ -18,7 +18,7 @@ namespace
 {
 /// Number of triangles from which auto_rig() computes the skeleton. The computation then takes half
 /// as long as with the default number, but the skeleton may miss fingers.
-constexpr Index quick_triangles = 5000;
+constexpr Index auto_rig_triangles = 5000;
 } // namespace
 
 ShapeHandles::ShapeHandles(Document* document, NoticeBar* bar, QWidget* window)
@@ -77,7 +77,7 @@ void ShapeHandles::auto_rig()
   {
     this->rigging_ = true;
     AutomaticHandlesOptions options;
-    options.skeleton.triangles = quick_triangles;
+    options.skeleton.triangles = auto_rig_triangles;
     this->start_job(options);
   }
 }

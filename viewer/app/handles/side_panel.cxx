@@ -48,8 +48,8 @@ QComboBox* combo(QWidget* parent)
 }
 } // namespace
 
-SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
-  : QFrame(parent), handles_(handles_of_all)
+SidePanel::SidePanel(HandleTree* handle_tree, QWidget* parent)
+  : QFrame(parent), handles_(handle_tree)
 {
   this->setObjectName("panel");
   this->setSizePolicy(QSizePolicy::Fixed, QSizePolicy::Preferred);
@@ -114,9 +114,9 @@ SidePanel::SidePanel(HandleTree* handles_of_all, QWidget* parent)
   this->note_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
   // Keep the space of the text when it is empty, so that nothing below it moves.
   this->note_->setFixedHeight(2 * this->note_->fontMetrics().lineSpacing() + 2);
-  QSizePolicy keeps_place = this->bar_->sizePolicy();
-  keeps_place.setRetainSizeWhenHidden(true);
-  this->bar_->setSizePolicy(keeps_place);
+  QSizePolicy size_policy = this->bar_->sizePolicy();
+  size_policy.setRetainSizeWhenHidden(true);
+  this->bar_->setSizePolicy(size_policy);
   column->addWidget(this->note_);
 
   auto* shown_row = new QHBoxLayout;
@@ -268,9 +268,9 @@ void SidePanel::show_mode()
   auto* items = qobject_cast<QStandardItemModel*>(this->mode_->model());
   for (int entry = 0; entry < this->mode_->count(); ++entry)
   {
-    const auto of_entry = static_cast<bindpose::HandleMode>(this->mode_->itemData(entry).toInt());
-    const bool of_bones = bindpose::constrains_tail(of_entry);
-    items->item(entry)->setEnabled(!of_bones || (handle >= 0 && bones));
+    const auto entry_mode = static_cast<bindpose::HandleMode>(this->mode_->itemData(entry).toInt());
+    const bool requires_bone = bindpose::constrains_tail(entry_mode);
+    items->item(entry)->setEnabled(!requires_bone || (handle >= 0 && bones));
   }
 }
 
@@ -299,7 +299,7 @@ void SidePanel::set_state(bool ready, bool binding, bool bound)
   // If the button Bind has the keyboard focus when a bind begins, move the focus to Cancel, and
   // after the bind back to Bind. Other widgets lose the focus before they are disabled. Otherwise
   // Qt would move the focus to the list, which would select a handle.
-  const bool keyboard = this->bind_->hasFocus() || this->cancel_->hasFocus();
+  const bool had_focus = this->bind_->hasFocus() || this->cancel_->hasFocus();
   const auto enable = [](QWidget* widget, bool on)
   {
     if (!on)
@@ -312,7 +312,7 @@ void SidePanel::set_state(bool ready, bool binding, bool bound)
   enable(this->bind_, ready && !binding);
   enable(this->cancel_, binding);
   this->cancel_->setVisible(binding);
-  if (keyboard)
+  if (had_focus)
   {
     (binding ? this->cancel_ : this->bind_)->setFocus();
   }

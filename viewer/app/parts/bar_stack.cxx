@@ -25,7 +25,7 @@ void BarStack::add(QWidget* bar)
 
 void BarStack::begin_below(QWidget* widget)
 {
-  this->above_ = widget;
+  this->widget_above_ = widget;
   widget->installEventFilter(this);
 }
 
@@ -42,7 +42,7 @@ bool BarStack::event(QEvent* event)
 bool BarStack::eventFilter(QObject* watched, QEvent* event)
 {
   const QEvent::Type type = event->type();
-  const bool is_bar = watched != this->above_ && watched != this->parentWidget();
+  const bool is_bar = watched != this->widget_above_ && watched != this->parentWidget();
   if (is_bar ? type == QEvent::ShowToParent || type == QEvent::HideToParent
              : type == QEvent::Resize || type == QEvent::Move || type == QEvent::Show ||
         type == QEvent::Hide)
@@ -54,16 +54,18 @@ bool BarStack::eventFilter(QObject* watched, QEvent* event)
 
 void BarStack::arrange()
 {
-  bool some = false;
+  bool any_visible = false;
   for (int k = 0; k < this->column_->count(); ++k)
   {
-    some = some || !this->column_->itemAt(k)->widget()->isHidden();
+    any_visible = any_visible || !this->column_->itemAt(k)->widget()->isHidden();
   }
-  this->setVisible(some);
-  if (some)
+  this->setVisible(any_visible);
+  if (any_visible)
   {
     const int top = bar_margin +
-      (this->above_ && this->above_->isVisible() ? this->above_->geometry().bottom() : 0);
+      (this->widget_above_ && this->widget_above_->isVisible()
+          ? this->widget_above_->geometry().bottom()
+          : 0);
     const int width = this->parentWidget()->width() - 2 * bar_margin;
     this->column_->invalidate();
     this->setGeometry(bar_margin, top, width, this->column_->totalHeightForWidth(width));

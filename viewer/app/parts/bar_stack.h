@@ -25,7 +25,7 @@ private:
   void arrange();
 
   QVBoxLayout* column_;
-  QWidget* above_ = nullptr;
+  QWidget* widget_above_ = nullptr;
 };
 
 #endif

@@ -9,8 +9,8 @@
 #include <QLineEdit>
 #include <QScrollBar>
 
-FieldGuard::FieldGuard(QWidget* parent, std::function<void()> entered)
-  : QObject(parent), entered_(std::move(entered))
+FieldGuard::FieldGuard(QWidget* parent, std::function<void()> on_enter)
+  : QObject(parent), on_enter_(std::move(on_enter))
 {
   qApp->installEventFilter(this);
 }
@@ -59,7 +59,7 @@ void FieldGuard::polish(QWidget* widget) const
       {
         if (box->window() == this->parent())
         {
-          this->entered_();
+          this->on_enter_();
         }
       });
   }

@@ -19,7 +19,7 @@ public:
   /// Install the filter for the events of all widgets of the application. The filter is removed
   /// when the parent is destroyed.
   /// @param entered  called after Enter in a number field of the parent, but not of a dialog
-  FieldGuard(QWidget* parent, std::function<void()> entered);
+  FieldGuard(QWidget* parent, std::function<void()> on_enter);
 
   bool eventFilter(QObject* watched, QEvent* event) override;
 
@@ -28,7 +28,7 @@ private:
   bool block_wheel(QWidget* widget, QEvent* event) const;
   bool block_undo(QAbstractSpinBox* box, QEvent* event) const;
 
-  std::function<void()> entered_;
+  std::function<void()> on_enter_;
 };
 
 #endif

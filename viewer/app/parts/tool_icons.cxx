@@ -14,17 +14,17 @@
 
 namespace
 {
-constexpr double side = 20.0;
+constexpr double icon_units = 20.0;
 
 /// Draw a line with an arrowhead at its end.
 void arrow(QPainter& painter, const QPointF& from, const QPointF& to)
 {
   painter.drawLine(from, to);
-  const QPointF way = to - from;
-  const QPointF along = way / std::hypot(way.x(), way.y());
-  const QPointF across(-along.y(), along.x());
+  const QPointF offset = to - from;
+  const QPointF direction = offset / std::hypot(offset.x(), offset.y());
+  const QPointF across(-direction.y(), direction.x());
   painter.drawPolyline(
-    QPolygonF({ to - 3.2 * along + 2.6 * across, to, to - 3.2 * along - 2.6 * across }));
+    QPolygonF({ to - 3.2 * direction + 2.6 * across, to, to - 3.2 * direction - 2.6 * across }));
 }
 
 void dot(QPainter& painter, const QPointF& center, double radius)
@@ -42,11 +42,11 @@ void plus(QPainter& painter, const QPointF& center)
   painter.drawLine(center - QPointF(0, 2.8), center + QPointF(0, 2.8));
 }
 
-void ring(QPainter& painter, const QRectF& in)
+void ring(QPainter& painter, const QRectF& rectangle)
 {
-  painter.drawArc(in, 60 * 16, 285 * 16);
-  const QPointF end(in.center().x() + 0.5 * in.width() * std::cos(1.047),
-    in.center().y() - 0.5 * in.height() * std::sin(1.047));
+  painter.drawArc(rectangle, 60 * 16, 285 * 16);
+  const QPointF end(rectangle.center().x() + 0.5 * rectangle.width() * std::cos(1.047),
+    rectangle.center().y() - 0.5 * rectangle.height() * std::sin(1.047));
   painter.drawPolyline(QPolygonF({ end + QPointF(-0.2, -3.4), end, end + QPointF(-3.5, 0.6) }));
 }
 
@@ -167,9 +167,9 @@ void draw_auto_rig(QPainter& painter)
   painter.drawLine(QPointF(13.5, 4), QPointF(18.5, 4));
 }
 
-QPixmap drawn(void (*draw)(QPainter&), const QColor& color, int scale)
+QPixmap render_icon(void (*draw)(QPainter&), const QColor& color, int scale)
 {
-  QPixmap pixmap(static_cast<int>(side) * scale, static_cast<int>(side) * scale);
+  QPixmap pixmap(static_cast<int>(icon_units) * scale, static_cast<int>(icon_units) * scale);
   pixmap.setDevicePixelRatio(scale);
   pixmap.fill(Qt::transparent);
   QPainter painter(&pixmap);
@@ -182,21 +182,24 @@ QPixmap drawn(void (*draw)(QPainter&), const QColor& color, int scale)
 
 QIcon tool_icon(const char* action)
 {
-  static const std::map<std::string, void (*)(QPainter&)> drawings = { { "gizmo.none", draw_none },
+  static const std::map<std::string, void (*)(QPainter&)> draw_functions = { { "gizmo.none",
+                                                                               draw_none },
     { "gizmo.move", draw_move }, { "gizmo.turn", draw_turn }, { "gizmo.scale", draw_scale },
     { "gizmo.all", draw_all }, { "gizmo.local", draw_local }, { "mode.pose", draw_pose },
     { "mode.rest", draw_rest }, { "mode.points", draw_points }, { "mode.bones", draw_bones },
     { "mode.cage", draw_cage }, { "mode.regions", draw_regions }, { "auto_rig", draw_auto_rig } };
   QIcon icon;
-  const auto drawing = drawings.find(action);
-  for (int scale = 1; drawing != drawings.end() && scale <= 3; ++scale)
+  const auto drawing = draw_functions.find(action);
+  for (int scale = 1; drawing != draw_functions.end() && scale <= 3; ++scale)
   {
-    icon.addPixmap(drawn(drawing->second, theme_color("ink"), scale), QIcon::Normal, QIcon::Off);
     icon.addPixmap(
-      drawn(drawing->second, theme_color("on_accent"), scale), QIcon::Normal, QIcon::On);
-    icon.addPixmap(drawn(drawing->second, theme_color("off"), scale), QIcon::Disabled, QIcon::Off);
+      render_icon(drawing->second, theme_color("ink"), scale), QIcon::Normal, QIcon::Off);
     icon.addPixmap(
-      drawn(drawing->second, theme_color("accent_off_ink"), scale), QIcon::Disabled, QIcon::On);
+      render_icon(drawing->second, theme_color("on_accent"), scale), QIcon::Normal, QIcon::On);
+    icon.addPixmap(
+      render_icon(drawing->second, theme_color("off"), scale), QIcon::Disabled, QIcon::Off);
+    icon.addPixmap(render_icon(drawing->second, theme_color("accent_off_ink"), scale),
+      QIcon::Disabled, QIcon::On);
   }
   return icon;
 }

@@ -10,7 +10,7 @@
 
 namespace
 {
-constexpr int steps = 1000;
+constexpr int slider_steps = 1000;
 } // namespace
 
 ValueRow::ValueRow(QWidget* parent)
@@ -19,8 +19,8 @@ ValueRow::ValueRow(QWidget* parent)
   auto* row = new QHBoxLayout(this);
   row->setContentsMargins(0, 0, 0, 0);
   row->setSpacing(8);
-  this->slider_->setRange(0, steps);
-  this->slider_->setPageStep(steps / 20);
+  this->slider_->setRange(0, slider_steps);
+  this->slider_->setPageStep(slider_steps / 20);
   this->slider_->setMinimumWidth(80);
   this->field_->setButtonSymbols(QAbstractSpinBox::NoButtons);
   this->field_->setKeyboardTracking(false); // emit no signals while a number is being typed
@@ -33,7 +33,7 @@ ValueRow::ValueRow(QWidget* parent)
     {
       const double span = this->field_->maximum() - this->field_->minimum();
       const QSignalBlocker blocker(this->field_);
-      this->field_->setValue(this->field_->minimum() + span * step / steps);
+      this->field_->setValue(this->field_->minimum() + span * step / slider_steps);
       Q_EMIT this->value_chosen(this->field_->value());
     });
   QObject::connect(this->field_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
@@ -48,7 +48,7 @@ void ValueRow::set_range(double lowest, double highest)
 {
   const QSignalBlocker blocker(this->field_);
   // Use enough digits to show the smallest change of the slider.
-  const double step = (highest - lowest) / steps;
+  const double step = (highest - lowest) / slider_steps;
   const int digits =
     step > 0.0 ? std::clamp(static_cast<int>(std::ceil(-std::log10(step))), 0, 8) : 3;
   this->field_->setDecimals(digits);
@@ -65,7 +65,7 @@ void ValueRow::set_value(double value)
   if (!this->slider_->isSliderDown()) // a slider that is dragged must stay under the mouse
   {
     this->slider_->setValue(span > 0.0
-        ? static_cast<int>(std::lround(steps * (value - this->field_->minimum()) / span))
+        ? static_cast<int>(std::lround(slider_steps * (value - this->field_->minimum()) / span))
         : 0);
   }
 }

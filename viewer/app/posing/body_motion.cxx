@@ -18,7 +18,7 @@ constexpr int frame_interval = 16; // milliseconds
 constexpr int maximum_steps = 4;
 /// A body is bound immediately, not in the background, if its number of vertices times its number
 /// of handles is less than this value and the body is not simulated in tets.
-constexpr Index bound_at_once = 20000;
+constexpr Index immediate_bind_limit = 20000;
 } // namespace
 
 BodyMotion::BodyMotion(PosePanel* panel, std::function<Pose(bool for_step)> pose, QObject* parent)
@@ -60,7 +60,7 @@ void BodyMotion::begin()
   this->body_ = std::make_shared<Body>(this->source_);
   const Index size =
     this->source_->points.rows() * static_cast<Index>(this->source_->handles.size());
-  if (size < bound_at_once && !options.in_tets)
+  if (size < immediate_bind_limit && !options.in_tets)
   {
     ExecutionContext context;
     const Status status = this->body_->bind(context, options);
@@ -91,9 +91,9 @@ void BodyMotion::bound()
 {
   this->panel_->set_binding(false);
   const Status status = this->job_.status();
-  const bool other =
+  const bool needs_rebind =
     !this->body_ || (status.usable() && !this->body_->is_bound(this->panel_->options()));
-  if (other && this->panel_->simulates_motion())
+  if (needs_rebind && this->panel_->simulates_motion())
   {
     this->begin(); // the source or the options have changed during the bind
   }
@@ -148,11 +148,12 @@ void BodyMotion::tick()
 {
   const double step = 1.0 / this->panel_->body_options().steps_per_second;
   const double now = 1e-9 * static_cast<double>(this->clock_.nsecsElapsed());
-  const int due = static_cast<int>(std::floor((now - this->simulated_until_) / step));
-  if (due > 0)
+  const int due_steps = static_cast<int>(std::floor((now - this->simulated_until_) / step));
+  if (due_steps > 0)
   {
-    this->simulated_until_ = due > maximum_steps ? now : this->simulated_until_ + due * step;
-    this->step(std::min(due, maximum_steps));
+    this->simulated_until_ =
+      due_steps > maximum_steps ? now : this->simulated_until_ + due_steps * step;
+    this->step(std::min(due_steps, maximum_steps));
   }
 }
 

@@ -21,7 +21,7 @@ constexpr Index maximum_iterations = 500;
 
 /// Report whether a bind is so small (vertices times columns) that the user does not notice its
 /// duration.
-bool binds_at_once(const PoseSource& source, const PoseOptions& options)
+bool binds_immediately(const PoseSource& source, const PoseOptions& options)
 {
   const auto columns = static_cast<Index>(source.handles.size()) + options.extra_weights;
   const Index vertices = options.in_tets ? source.tet_points.rows() : source.points.rows();
@@ -182,7 +182,7 @@ void Deformation::advance()
   }
   if (!poser->is_bound(this->options_))
   {
-    if (!binds_at_once(*this->source_, this->options_))
+    if (!binds_immediately(*this->source_, this->options_))
     {
       this->set_binding(true);
       this->bind_in_background(poser);

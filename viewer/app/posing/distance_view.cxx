@@ -16,8 +16,8 @@ using namespace bindpose;
 
 double distance_scale(double largest)
 {
-  constexpr double least = 0.01;
-  const double value = std::max(largest, least);
+  constexpr double minimum = 0.01;
+  const double value = std::max(largest, minimum);
   const double power = std::pow(10.0, std::floor(std::log10(value)));
   constexpr double round_off = 1e-9;
   for (const double factor : { 1.0, 2.0, 5.0 })

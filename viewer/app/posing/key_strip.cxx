@@ -22,7 +22,7 @@ namespace
 {
 constexpr int strip_margin = 14;
 // distance in pixels from the center of a key mark within which the mouse grabs the key
-constexpr int reach = 6;
+constexpr int grab_distance = 6;
 
 QString seconds_text(double seconds)
 {
@@ -42,10 +42,10 @@ KeyStrip::KeyStrip(QWidget* parent) : QFrame(parent), track_(new KeyTrack(this))
   line->setSpacing(4);
   const auto add = [&](const QString& text, const QString& tip)
   {
-    QPushButton* made = button(text, this);
-    made->setToolTip(tip);
-    line->addWidget(made);
-    return made;
+    QPushButton* new_button = button(text, this);
+    new_button->setToolTip(tip);
+    line->addWidget(new_button);
+    return new_button;
   };
   this->play_ = add(tr("Play"), tr("Play the key frames (Space)"));
   this->play_->setMinimumWidth(this->play_->fontMetrics().horizontalAdvance(tr("Pause")) + 26);
@@ -53,10 +53,10 @@ KeyStrip::KeyStrip(QWidget* parent) : QFrame(parent), track_(new KeyTrack(this))
   this->loop_->setObjectName("toggle");
   this->loop_->setCheckable(true);
   this->loop_->setChecked(true);
-  this->clock_ = new QLabel(seconds_text(0.0), this);
-  this->clock_->setMinimumWidth(this->clock_->fontMetrics().horizontalAdvance("00.00 s"));
-  this->clock_->setAlignment(Qt::AlignCenter);
-  line->addWidget(this->clock_);
+  this->time_label_ = new QLabel(seconds_text(0.0), this);
+  this->time_label_->setMinimumWidth(this->time_label_->fontMetrics().horizontalAdvance("00.00 s"));
+  this->time_label_->setAlignment(Qt::AlignCenter);
+  line->addWidget(this->time_label_);
   this->add_ = add(tr("Set key"), tr("Store the current pose as a key at this time (K)"));
   this->remove_ = add(tr("Delete"), tr("Delete the key at this time"));
   line->addStretch(1);
@@ -109,7 +109,7 @@ void KeyStrip::set_keys(const KeyFrames& keys)
 void KeyStrip::set_time(double seconds)
 {
   this->time_ = seconds;
-  this->clock_->setText(seconds_text(seconds));
+  this->time_label_->setText(seconds_text(seconds));
   this->track_->set_time(seconds);
   this->enable();
 }
@@ -175,7 +175,7 @@ int KeyTrack::key_at(const QPoint& at) const
 {
   for (std::size_t k = 0; k < this->keys_.keys().size(); ++k)
   {
-    if (std::abs(this->pixel(this->keys_.keys()[k].time) - at.x()) <= reach)
+    if (std::abs(this->pixel(this->keys_.keys()[k].time) - at.x()) <= grab_distance)
     {
       return static_cast<int>(k);
     }
@@ -205,11 +205,11 @@ void KeyTrack::paintEvent(QPaintEvent* /*event*/)
   painter.setPen(QPen(line, 2));
   painter.drawLine(strip_margin, middle, this->width() - strip_margin, middle);
   // Draw as many time labels as there is space for.
-  const double room = this->length() / (this->width() - 2.0 * strip_margin) *
+  const double seconds_per_label = this->length() / (this->width() - 2.0 * strip_margin) *
     (this->fontMetrics().horizontalAdvance("000 s") + 14);
   const double steps[] = { 0.25, 0.5, 1.0, 2.0, 5.0, 10.0, 30.0, 60.0, 300.0, 1800.0 };
-  const double* step =
-    std::find_if(std::begin(steps), std::end(steps) - 1, [&](double each) { return each >= room; });
+  const double* step = std::find_if(
+    std::begin(steps), std::end(steps) - 1, [&](double each) { return each >= seconds_per_label; });
   for (double t = 0.0; t <= this->length() + 1e-9; t += *step)
   {
     const int x = this->pixel(t);
@@ -233,18 +233,19 @@ void KeyTrack::paintEvent(QPaintEvent* /*event*/)
       hint = tr("Pose the shape, then Set key.");
       width = this->fontMetrics().horizontalAdvance(hint) + 12;
     }
-    const QRect plate(below.left(), below.top(), std::min(width, below.width()), below.height());
-    painter.fillRect(plate, this->palette().window());
-    painter.drawText(plate, Qt::AlignCenter, hint);
+    const QRect hint_rectangle(
+      below.left(), below.top(), std::min(width, below.width()), below.height());
+    painter.fillRect(hint_rectangle, this->palette().window());
+    painter.drawText(hint_rectangle, Qt::AlignCenter, hint);
   }
   for (std::size_t k = 0; k < this->keys_.keys().size(); ++k)
   {
-    const bool held = static_cast<int>(k) == this->dragged_key_ && this->moved_;
-    const double time = held ? this->dragged_time_ : this->keys_.keys()[k].time;
+    const bool is_dragged = static_cast<int>(k) == this->dragged_key_ && this->moved_;
+    const double time = is_dragged ? this->dragged_time_ : this->keys_.keys()[k].time;
     const int x = this->pixel(time);
-    const bool here = std::abs(time - this->time_) < 5e-4;
+    const bool is_current = std::abs(time - this->time_) < 5e-4;
     painter.setPen(QPen(theme_color("key_edge"), 1.2));
-    painter.setBrush(theme_color(here || held ? "key_now" : "key"));
+    painter.setBrush(theme_color(is_current || is_dragged ? "key_now" : "key"));
     const QPoint diamond[4] = { { x, middle - 6 }, { x + 6, middle }, { x, middle + 6 },
       { x - 6, middle } };
     painter.drawPolygon(diamond, 4);

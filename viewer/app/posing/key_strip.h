@@ -48,7 +48,7 @@ private:
   QPushButton* loop_;
   QPushButton* smooth_;
   QDoubleSpinBox* rate_;
-  QLabel* clock_;
+  QLabel* time_label_;
   bindpose::KeyFrames keys_;
   double time_ = 0.0;
   bool ready_ = false;

@@ -25,7 +25,7 @@ namespace
 constexpr bindpose::Rgb ghost_color{ 0.20, 0.50, 0.76 };
 constexpr double ghost_opacity = 0.38;
 /// Distance between both shapes at which the ghost becomes fully opaque, in bounding-box diagonals.
-constexpr double whole_from = 0.02;
+constexpr double opaque_distance = 0.02;
 constexpr const char* distance_name = "bindpose.Distance";
 } // namespace
 
@@ -40,7 +40,7 @@ PoseGhost::PoseGhost(Viewport* viewport) : viewport_(viewport)
   this->mapper_->UseLookupTableScalarRangeOn();
   constexpr int steps = 64;
   this->opacity_table_->SetNumberOfTableValues(steps);
-  this->opacity_table_->SetTableRange(0.0, whole_from);
+  this->opacity_table_->SetTableRange(0.0, opaque_distance);
   for (int k = 0; k < steps; ++k)
   {
     this->opacity_table_->SetTableValue(
@@ -110,7 +110,7 @@ void PoseGhost::move(bindpose::PointsView points, bindpose::PointsView first)
   {
     if (this->place_ == beside)
     {
-      this->look_as_beside();
+      this->match_first_shape();
     }
     else
     {
@@ -142,7 +142,7 @@ void PoseGhost::fade(bindpose::PointsView points, bindpose::PointsView first)
 
 /// Give a ghost in the right half of a split view the look of the first shape: the same outlines,
 /// or the same texture.
-void PoseGhost::look_as_beside()
+void PoseGhost::match_first_shape()
 {
   vtkTexture* picture = this->viewport_->surface_actor()->GetTexture();
   const bindpose::Rgb& color = picture ? bindpose::palette::white : bindpose::palette::surface;
@@ -175,13 +175,13 @@ void PoseGhost::update()
   else if (place == beside)
   {
     property->SetOpacity(1.0);
-    this->look_as_beside();
+    this->match_first_shape();
     this->renderer_->AddActor(this->actor_);
   }
   const bool beside_it = place == beside;
-  if (beside_it != this->in_window_)
+  if (beside_it != this->is_renderer_added_)
   {
-    this->in_window_ = beside_it;
+    this->is_renderer_added_ = beside_it;
     if (beside_it)
     {
       window->AddRenderer(this->renderer_);
@@ -200,11 +200,11 @@ void PoseGhost::update()
 /// that contains both shapes.
 void PoseGhost::clipping_range_changed()
 {
-  if (this->place_ != beside || this->clips_)
+  if (this->place_ != beside || this->is_updating_clipping_)
   {
     return;
   }
-  this->clips_ = true;
+  this->is_updating_clipping_ = true;
   vtkBoundingBox both;
   for (vtkRenderer* half : { this->viewport_->renderer(), this->renderer_.Get() })
   {
@@ -218,5 +218,5 @@ void PoseGhost::clipping_range_changed()
     both.GetBounds(bounds);
     this->renderer_->ResetCameraClippingRange(bounds);
   }
-  this->clips_ = false;
+  this->is_updating_clipping_ = false;
 }

@@ -55,7 +55,7 @@ private:
   void make_shape();
   void fade(bindpose::PointsView points, bindpose::PointsView first);
   void update();
-  void look_as_beside();
+  void match_first_shape();
   void clipping_range_changed();
 
   Viewport* viewport_;
@@ -71,8 +71,8 @@ private:
   std::unique_ptr<bindpose::ShadedSurface> shaded_;
   /// Outline of the ghost in the right half of the split view.
   std::unique_ptr<bindpose::Outline> outline_;
-  bool in_window_ = false;
-  bool clips_ = false; // true while clipped() sets the clipping range of both halves
+  bool is_renderer_added_ = false;
+  bool is_updating_clipping_ = false; // true while clipped() sets the clipping range of both halves
 };
 
 #endif

@@ -94,9 +94,9 @@ void PoseListWidget::set_ready(bool ready)
 
 void PoseListWidget::enable()
 {
-  const bool some = this->ready_ && this->selected_entry() >= 0;
+  const bool has_selection = this->ready_ && this->selected_entry() >= 0;
   this->store_->setEnabled(this->ready_);
-  this->apply_->setEnabled(some);
+  this->apply_->setEnabled(has_selection);
   this->remove_->setEnabled(this->selected_entry() >= 0);
-  this->slider_->setEnabled(some);
+  this->slider_->setEnabled(has_selection);
 }

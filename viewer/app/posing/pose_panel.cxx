@@ -62,7 +62,7 @@ const struct
 };
 
 /// The methods that fit rotations (as-rigid-as-possible).
-const std::vector<PoseMethod> rigid = { PoseMethod::reduced_arap, PoseMethod::full_arap };
+const std::vector<PoseMethod> arap_methods = { PoseMethod::reduced_arap, PoseMethod::full_arap };
 
 QString translated(const char* text)
 {
@@ -112,8 +112,8 @@ PosePanel::PosePanel(QWidget* parent) : QWidget(parent)
   column->setSpacing(6);
   this->add_methods(column);
   this->add_options(column);
-  this->middle_ = new QVBoxLayout;
-  column->addLayout(this->middle_);
+  this->inserted_layout_ = new QVBoxLayout;
+  column->addLayout(this->inserted_layout_);
   this->add_comparison(column);
   this->add_motion(column);
   this->show_options();
@@ -226,12 +226,12 @@ void PosePanel::add_options(QVBoxLayout* column)
     PoseMethod::stretchable_bones, PoseMethod::rotation_centers };
   const std::vector<PoseMethod> reduced = { PoseMethod::reduced_arap };
   const std::vector<PoseMethod> smooth = { PoseMethod::variational };
-  const auto value = [this](const char* key, double lowest, double highest, double at)
+  const auto value = [this](const char* key, double lowest, double highest, double initial_value)
   {
     auto* row = new ValueRow(this);
     row->setObjectName(key);
     row->set_range(lowest, highest);
-    row->set_value(at);
+    row->set_value(initial_value);
     row->slider()->setMinimumWidth(50); // the slider is in a row with its name
     return row;
   };
@@ -265,13 +265,13 @@ void PosePanel::add_options(QVBoxLayout* column)
   this->option(column, QString(), this->in_tets_,
     tr("Use the energy of the tets on which the weights were solved, instead of the energy of the "
        "surface"),
-    rigid);
+    arap_methods);
   this->energy_ = combo(
     this, "pose.energy", { tr("automatic"), tr("spokes and rims"), tr("elements"), tr("spokes") });
   this->option(column, tr("Rigid parts"), this->energy_,
     tr("Parts that keep their shape: the neighborhood of each vertex (spokes and rims; spokes:\n"
        "only the edges at the vertex), or each triangle or tet (elements)"),
-    rigid);
+    arap_methods);
   this->extra_ = value("pose.extra_weights", 0.0, 30.0, 0.0);
   this->extra_->field()->setDecimals(0);
   this->option(column, tr("Extra weights"), this->extra_,
@@ -299,7 +299,7 @@ void PosePanel::add_options(QVBoxLayout* column)
     tr(
       "Color the shape by rotation angles, or by rotation clusters: vertices with similar weights\n"
       "that share a rotation in reduced ARAP, single vertices in full ARAP"),
-    rigid);
+    arap_methods);
 
   this->order_ = combo(this, "pose.order", { tr("membrane"), tr("thin plate"), tr("smoother") });
   this->order_->setCurrentIndex(1);
@@ -397,13 +397,13 @@ void PosePanel::add_motion(QVBoxLayout* column)
   this->time_ = new QLabel(this->motion_);
   this->time_->setObjectName("note");
   rows->addWidget(this->time_);
-  const auto row =
-    [&](const char* key, const QString& name, double highest, double at, const QString& tip)
+  const auto row = [&](const char* key, const QString& name, double highest, double initial_value,
+                     const QString& tip)
   {
     auto* value = new ValueRow(this->motion_);
     value->setObjectName(key);
     value->set_range(0.0, highest);
-    value->set_value(at);
+    value->set_value(initial_value);
     value->slider()->setMinimumWidth(50);
     value->setToolTip(tip);
     auto* line = new QHBoxLayout;
@@ -416,20 +416,21 @@ void PosePanel::add_motion(QVBoxLayout* column)
     QObject::connect(value, &ValueRow::value_chosen, this, &PosePanel::body_changed);
     return value;
   };
-  const bindpose::BodyOptions usual;
-  this->gravity_ = row("motion.gravity", tr("Gravity"), 5.0, usual.gravity,
+  const bindpose::BodyOptions default_options;
+  this->gravity_ = row("motion.gravity", tr("Gravity"), 5.0, default_options.gravity,
     tr("Gravitational acceleration in bounding-box diagonals of the shape per s²"));
   this->down_ = combo(this->motion_, "motion.down", { tr("-x"), tr("-y"), tr("-z") });
   this->down_->setToolTip(tr("World direction in which gravity acts"));
-  this->down_->setCurrentIndex(usual.down);
+  this->down_->setCurrentIndex(default_options.down);
   auto* line = new QHBoxLayout;
   line->setSpacing(8);
   line->addWidget(new QLabel(tr("Direction"), this->motion_));
   line->addWidget(this->down_, 1);
   rows->addLayout(line);
-  this->stiffness_ = row("motion.stiffness", tr("Stiffness"), 5.0, std::log10(usual.stiffness),
-    tr("Exponent of ten; at 2, waves cross the shape ten times per second"));
-  this->damping_ = row("motion.damping", tr("Damping"), 20.0, usual.damping,
+  this->stiffness_ =
+    row("motion.stiffness", tr("Stiffness"), 5.0, std::log10(default_options.stiffness),
+      tr("Exponent of ten; at 2, waves cross the shape ten times per second"));
+  this->damping_ = row("motion.damping", tr("Damping"), 20.0, default_options.damping,
     tr("Damping rate of the velocity in 1/s"));
   section->column()->addWidget(this->motion_);
   this->motion_->hide();
@@ -449,7 +450,7 @@ void PosePanel::add_motion(QVBoxLayout* column)
 
 void PosePanel::insert(QWidget* widget)
 {
-  this->middle_->addWidget(widget);
+  this->inserted_layout_->addWidget(widget);
 }
 
 PoseMethod PosePanel::method() const
@@ -526,7 +527,7 @@ bool PosePanel::simulates_motion() const
 
 PosePanel::RotationDisplay PosePanel::shown_rotations() const
 {
-  return std::count(rigid.begin(), rigid.end(), this->method()) > 0
+  return std::count(arap_methods.begin(), arap_methods.end(), this->method()) > 0
     ? static_cast<RotationDisplay>(this->rotations_->currentIndex())
     : no_rotations;
 }

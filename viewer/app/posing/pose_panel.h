@@ -93,7 +93,7 @@ private:
     std::vector<bindpose::PoseMethod> methods;
   };
   std::vector<Option> options_;
-  QVBoxLayout* middle_;
+  QVBoxLayout* inserted_layout_;
   State state_;
   QButtonGroup* methods_;
   QLabel* note_;

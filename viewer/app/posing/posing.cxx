@@ -357,13 +357,13 @@ void Posing::follow_free_handles()
   {
     return;
   }
-  const vtkIdType held =
+  const vtkIdType dragged_cell =
     this->viewport_->handle_widget()->GetHandleSetRepresentation()->GetActiveHandle();
   for (std::size_t k = 0; k < this->cells_.size(); ++k)
   {
     const vtkIdType cell = this->cells_[k];
     if (static_cast<int>(modes->GetComponent(cell, 0)) == static_cast<int>(HandleMode::free) &&
-      cell != held)
+      cell != dragged_cell)
     {
       transforms->SetTuple(cell, (*found)[k].data());
       transforms->Modified();
@@ -651,13 +651,13 @@ void Posing::drag_began()
 Pose Posing::constraint_pose() const
 {
   Pose pose = this->pose();
-  const vtkIdType held =
+  const vtkIdType dragged_cell =
     this->viewport_->handle_widget()->GetHandleSetRepresentation()->GetActiveHandle();
   for (std::size_t k = 0; k < pose.size(); ++k)
   {
     if (pose[k].mode == HandleMode::free)
     {
-      if (this->cells_[k] == held)
+      if (this->cells_[k] == dragged_cell)
       {
         pose[k].mode = HandleMode::position;
       }

@@ -33,10 +33,10 @@ void RotationView::set_active(bool active)
 void RotationView::update()
 {
   // The colors of distances between methods have priority (DistanceView).
-  const bool free = this->active_ && this->posing_->ghost()->place() != PoseGhost::in_colors;
-  const PosePanel::RotationDisplay wanted =
-    free ? this->panel_->shown_rotations() : PosePanel::no_rotations;
-  const PoseRotations* found = wanted ? this->posing_->rotations() : nullptr;
+  const bool may_color = this->active_ && this->posing_->ghost()->place() != PoseGhost::in_colors;
+  const PosePanel::RotationDisplay requested =
+    may_color ? this->panel_->shown_rotations() : PosePanel::no_rotations;
+  const PoseRotations* found = requested ? this->posing_->rotations() : nullptr;
   if (!found || !this->viewport_->drawn() ||
     static_cast<Index>(found->cluster_of_point->size()) != this->posing_->points().rows())
   {
@@ -59,7 +59,7 @@ void RotationView::update()
     this->values_ = nullptr; // another surface was set, or other values were shown meanwhile
     this->cluster_of_point_ = found->cluster_of_point;
   }
-  if (wanted == PosePanel::clusters)
+  if (requested == PosePanel::clusters)
   {
     this->show_clusters(*found);
   }
@@ -101,9 +101,9 @@ void RotationView::show_clusters(const PoseRotations& found)
 void RotationView::show_angles(const PoseRotations& found)
 {
   std::vector<double> degrees;
-  for (const Vec3& turn : this->axis_angles_)
+  for (const Vec3& axis_angle : this->axis_angles_)
   {
-    degrees.push_back(turn.norm());
+    degrees.push_back(axis_angle.norm());
   }
   const double scale =
     angle_scale(degrees.empty() ? 0.0 : *std::max_element(degrees.begin(), degrees.end()));
@@ -143,16 +143,17 @@ QString RotationView::reading(Index point) const
   {
     return Posing::tr("No rotation cluster");
   }
-  const Vec3& turn = this->axis_angles_[static_cast<std::size_t>(cluster)];
-  const double degrees = turn.norm();
-  constexpr double least = 0.05; // smaller angles would be displayed as 0.0, so they are omitted
-  const Vec3 axis = turn.normalized();
+  const Vec3& axis_angle = this->axis_angles_[static_cast<std::size_t>(cluster)];
+  const double degrees = axis_angle.norm();
+  // Smaller angles would be displayed as 0.0, so they are omitted.
+  constexpr double minimum_angle = 0.05;
+  const Vec3 axis = axis_angle.normalized();
   const auto number = [](double x) { return QString::number(x, 'f', 2); };
   return Posing::tr("Rotation cluster %1 of %2: %3°%4")
     .arg(cluster)
     .arg(this->axis_angles_.size())
     .arg(degrees, 0, 'f', 1)
-    .arg(degrees < least ? QString()
-                         : Posing::tr(" about %1, %2, %3")
-                             .arg(number(axis.x()), number(axis.y()), number(axis.z())));
+    .arg(degrees < minimum_angle ? QString()
+                                 : Posing::tr(" about %1, %2, %3")
+                                     .arg(number(axis.x()), number(axis.y()), number(axis.z())));
 }

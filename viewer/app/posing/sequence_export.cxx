@@ -161,9 +161,9 @@ vtkSmartPointer<vtkPolyData> SequenceExport::posed_surface(std::size_t frame) co
 {
   auto result = vtkSmartPointer<vtkPolyData>::New();
   result->ShallowCopy(this->input_.surface);
-  vtkNew<vtkFieldData> own;
-  own->ShallowCopy(this->input_.surface->GetFieldData());
-  result->SetFieldData(own);
+  vtkNew<vtkFieldData> own_fields;
+  own_fields->ShallowCopy(this->input_.surface->GetFieldData());
+  result->SetFieldData(own_fields);
   result->SetPoints(to_vtk_points(this->frames_->points[frame]));
   result->GetPointData()->SetNormals(nullptr); // remove the normals of the rest shape
   if (frame < this->frames_->transforms.size())
@@ -175,7 +175,7 @@ vtkSmartPointer<vtkPolyData> SequenceExport::posed_surface(std::size_t frame) co
     {
       transforms->InsertNextTuple(transform.data());
     }
-    own->AddArray(transforms);
+    own_fields->AddArray(transforms);
   }
   return result;
 }
@@ -216,10 +216,10 @@ Status SequenceExport::write_rig(const std::string& path)
 {
   vtkNew<vtkGLTFSkinWriter> writer;
   // Add observers, so that VTK does not print the errors. The writer's status contains them, too.
-  vtkNew<vtkCallbackCommand> nothing;
-  nothing->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
-  writer->AddObserver(vtkCommand::ErrorEvent, nothing);
-  writer->AddObserver(vtkCommand::WarningEvent, nothing);
+  vtkNew<vtkCallbackCommand> silent_observer;
+  silent_observer->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  writer->AddObserver(vtkCommand::ErrorEvent, silent_observer);
+  writer->AddObserver(vtkCommand::WarningEvent, silent_observer);
   const bool joints = !this->frames_->transforms.empty() && this->input_.source->has_weights();
   writer->SetInputData(0, this->input_.surface);
   if (this->input_.source->has_weights())
@@ -251,28 +251,32 @@ Status SequenceExport::write_contact_sheet(const std::string& path)
   const bool shown = handles->GetEnabled();
   // hide the handles, because their pose is not the pose of the frame
   handles->SetEnabled(false);
-  QImage strip;
-  const std::vector<std::size_t> taken = evenly_spaced(this->frames_->points.size(), maximum_tiles);
-  const int columns = static_cast<int>(std::min<std::size_t>(taken.size(), 4));
-  for (std::size_t k = 0; k < taken.size(); ++k)
+  QImage contact_sheet;
+  const std::vector<std::size_t> frame_indices =
+    evenly_spaced(this->frames_->points.size(), maximum_tiles);
+  const int columns = static_cast<int>(std::min<std::size_t>(frame_indices.size(), 4));
+  for (std::size_t k = 0; k < frame_indices.size(); ++k)
   {
-    const QImage tile = this->picture(taken[k]).scaledToWidth(tile_width, Qt::SmoothTransformation);
-    if (strip.isNull())
+    const QImage tile =
+      this->picture(frame_indices[k]).scaledToWidth(tile_width, Qt::SmoothTransformation);
+    if (contact_sheet.isNull())
     {
-      const int rows = (static_cast<int>(taken.size()) + columns - 1) / columns;
-      strip = QImage(columns * tile.width(), rows * tile.height(), QImage::Format_RGB32);
-      strip.fill(Qt::white);
+      const int rows = (static_cast<int>(frame_indices.size()) + columns - 1) / columns;
+      contact_sheet = QImage(columns * tile.width(), rows * tile.height(), QImage::Format_RGB32);
+      contact_sheet.fill(Qt::white);
     }
-    const int at = static_cast<int>(k);
-    QPainter(&strip).drawImage(at % columns * tile.width(), at / columns * tile.height(), tile);
+    const int tile_index = static_cast<int>(k);
+    QPainter(&contact_sheet)
+      .drawImage(tile_index % columns * tile.width(), tile_index / columns * tile.height(), tile);
   }
   handles->SetEnabled(shown);
   AtomicFile file;
   Status status = file.open(path, true);
   if (status.ok())
   {
-    status = strip.save(QString::fromStdString(file.temporary()), "PNG") ? file.commit()
-                                                                         : cannot_write(path);
+    status = contact_sheet.save(QString::fromStdString(file.temporary()), "PNG")
+      ? file.commit()
+      : cannot_write(path);
   }
   return status;
 }

@@ -48,9 +48,10 @@ void StoredPoseManager::connect_list()
   QObject::connect(list, &PoseListWidget::apply_requested, this,
     [this](int entry)
     {
-      const auto& kept = this->stored_poses_.library.entries()[static_cast<std::size_t>(entry)];
-      Q_EMIT this->pose_requested(kept.pose.for_handles(*this->handles_, this->get_pose_()),
-        tr("apply %1").arg(QString::fromStdString(kept.name)));
+      const auto& stored_entry =
+        this->stored_poses_.library.entries()[static_cast<std::size_t>(entry)];
+      Q_EMIT this->pose_requested(stored_entry.pose.for_handles(*this->handles_, this->get_pose_()),
+        tr("apply %1").arg(QString::fromStdString(stored_entry.name)));
     });
   QObject::connect(list, &PoseListWidget::remove_requested, this,
     [this](int entry)
@@ -207,9 +208,9 @@ void StoredPoseManager::scrub(double seconds)
 
 void StoredPoseManager::play(bool play)
 {
-  const bool was = this->play_timer_.isActive();
-  const bool can = this->handles_ && this->stored_poses_.keys.keys().size() > 1;
-  if (play && can && !was)
+  const bool was_playing = this->play_timer_.isActive();
+  const bool can_play = this->handles_ && this->stored_poses_.keys.keys().size() > 1;
+  if (play && can_play && !was_playing)
   {
     if (this->key_time_ >= this->stored_poses_.keys.duration())
     {
@@ -218,7 +219,7 @@ void StoredPoseManager::play(bool play)
     this->key_clock_.start();
     this->play_timer_.start();
   }
-  else if (!play && was)
+  else if (!play && was_playing)
   {
     this->play_timer_.stop();
     Q_EMIT this->pose_step_requested(tr("play"));
@@ -231,12 +232,12 @@ void StoredPoseManager::tick()
   const double length = this->stored_poses_.keys.duration();
   double time = this->key_time_ + 1e-9 * static_cast<double>(this->key_clock_.nsecsElapsed());
   this->key_clock_.restart();
-  const bool ends = time >= length && !this->stored_poses_.keys.loop;
-  time = ends ? length : time >= length ? std::fmod(time, length) : time;
+  const bool reached_end = time >= length && !this->stored_poses_.keys.loop;
+  time = reached_end ? length : time >= length ? std::fmod(time, length) : time;
   this->key_time_ = time;
   this->strip_->set_time(time);
   Q_EMIT this->pose_requested(this->key_pose(time), QString());
-  if (ends)
+  if (reached_end)
   {
     this->play(false);
   }

@@ -69,7 +69,7 @@ qlonglong count_all(vtkPolyData* defects)
 
 /// Return a text with the number of defects per type, like "boundary: 12, fold: 3"; empty if there
 /// are no defects.
-QString counts_of(vtkPolyData* defects)
+QString format_counts(vtkPolyData* defects)
 {
   std::vector<Category> categories = defect_categories();
   count_defects(defects, categories);
@@ -175,14 +175,14 @@ void TetInspection::make_tets(int method)
   }
   this->new_tets_ = std::make_shared<vtkSmartPointer<vtkUnstructuredGrid>>();
   this->tet_job_.start(
-    [made = this->new_tets_, mesh = copy_of(surface), options = options_of(method)](
+    [output = this->new_tets_, mesh = copy_of(surface), options = options_of(method)](
       ExecutionContext& context)
     {
       TetrahedralizeResult result;
       Status done = tetrahedralize(context, mesh.points, mesh.triangles, options, result);
       if (done.usable())
       {
-        *made = to_unstructured_grid(result, done.report.text("method"));
+        *output = to_unstructured_grid(result, done.report.text("method"));
       }
       return done;
     });
@@ -312,8 +312,8 @@ void TetInspection::start_defect_search()
   {
     this->new_defects_ = std::make_shared<vtkSmartPointer<vtkPolyData>>();
     this->defect_job_.start(
-      [made = this->new_defects_, mesh = copy_of(surface)](ExecutionContext& context)
-      { return find_defects(context, mesh, *made); });
+      [output = this->new_defects_, mesh = copy_of(surface)](ExecutionContext& context)
+      { return find_defects(context, mesh, *output); });
   }
 }
 
@@ -343,7 +343,7 @@ void TetInspection::defects_finished()
   }
   this->defects_.set_defects(*this->new_defects_);
   this->update_defects();
-  const QString counts = counts_of(this->defects_.defects());
+  const QString counts = format_counts(this->defects_.defects());
   if (this->reports_defects_ && !counts.isEmpty())
   {
     Q_EMIT this->defects_found(counts);

@@ -19,7 +19,7 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(16, 14, 16, 14);
   column->setSpacing(7);
-  const auto keep_place = [](QWidget* widget)
+  const auto keep_size_when_hidden = [](QWidget* widget)
   {
     // Hidden widgets keep their space, so that the widgets below them do not move.
     QSizePolicy policy = widget->sizePolicy();
@@ -63,7 +63,7 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   this->bar_ = new QProgressBar(this);
   this->bar_->setRange(0, 1000);
   this->bar_->setTextVisible(false);
-  keep_place(this->bar_);
+  keep_size_when_hidden(this->bar_);
   column->addWidget(this->bar_);
   this->note_ = note();
   this->note_->setWordWrap(true);
@@ -110,7 +110,7 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
     tr("Show the tets in front of the plane instead of those behind it"));
   column->addWidget(this->other_side_);
   this->count_ = note();
-  keep_place(this->count_);
+  keep_size_when_hidden(this->count_);
   column->addWidget(this->count_);
 
   column->addSpacing(10);
@@ -131,7 +131,7 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   this->defects_->setObjectName("defects.shown");
   column->addWidget(this->defects_);
   this->defects_note_ = note();
-  keep_place(this->defects_note_);
+  keep_size_when_hidden(this->defects_note_);
   column->addWidget(this->defects_note_);
   column->addStretch(1);
 

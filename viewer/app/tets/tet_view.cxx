@@ -48,9 +48,9 @@ TetView::TetView(Viewport* viewport)
     viewport->renderer()->AddActor(actor);
   }
   this->plane_->draw_box(false); // not needed, because the tets show the extent of the box
-  this->settle_.setSingleShot(true);
-  this->settle_.setInterval(250);
-  QObject::connect(&this->settle_, &QTimer::timeout, this, &TetView::update);
+  this->settle_timer_.setSingleShot(true);
+  this->settle_timer_.setInterval(250);
+  QObject::connect(&this->settle_timer_, &QTimer::timeout, this, &TetView::update);
   QObject::connect(this->plane_, &PlaneHandle::moved, this,
     [this]
     {
@@ -171,21 +171,21 @@ void TetView::draw(
 void TetView::draw_shrunk()
 {
   const bool dragging = QApplication::mouseButtons() != Qt::NoButton;
-  std::vector<char> wanted = this->cut_.kept();
+  std::vector<char> drawn_tets = this->cut_.kept();
   if (dragging)
   {
-    wanted.assign(wanted.size(), 0);
-    for (const auto* sides : { &this->cut_.boundary_faces(), &this->cut_.exposed_faces() })
+    drawn_tets.assign(drawn_tets.size(), 0);
+    for (const auto* face_sets : { &this->cut_.boundary_faces(), &this->cut_.exposed_faces() })
     {
-      for (const Index t : sides->tets)
+      for (const Index t : face_sets->tets)
       {
-        wanted[t] = 1;
+        drawn_tets[t] = 1;
       }
     }
-    this->settle_.start();
+    this->settle_timer_.start();
   }
   const ShrunkTets shrunk =
-    shrink_tets(this->input_.points.view(), this->input_.tets.view(), wanted, this->shrink_);
+    shrink_tets(this->input_.points.view(), this->input_.tets.view(), drawn_tets, this->shrink_);
   this->draw(1, shrunk.triangles, shrunk.tets, to_vtk_points(shrunk.points));
   this->actors_[0]->VisibilityOff();
 }
@@ -209,8 +209,8 @@ void TetView::update()
   const auto start = std::chrono::steady_clock::now();
   if (this->cut_open_)
   {
-    const double side = this->other_side_ ? -1.0 : 1.0;
-    this->cut_.keep_behind(this->plane_->origin(), side * this->plane_->normal());
+    const double normal_sign = this->other_side_ ? -1.0 : 1.0;
+    this->cut_.keep_behind(this->plane_->origin(), normal_sign * this->plane_->normal());
   }
   else
   {

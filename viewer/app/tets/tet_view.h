@@ -84,7 +84,7 @@ private:
   bool other_side_ = false;
   double shrink_ = 1.0;
   double milliseconds_ = 0.0;
-  QTimer settle_; // single-shot timer that starts after a drag
+  QTimer settle_timer_; // single-shot timer that starts after a drag
   // Mapper 0 draws faces on the boundary. Mapper 1 draws faces that the cut exposes, or shrunk
   // tets.
   std::array<vtkNew<vtkPolyDataMapper>, 2> mappers_;

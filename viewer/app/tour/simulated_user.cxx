@@ -61,8 +61,8 @@ void scroll_to(QWidget* widget)
   {
     if (auto* area = qobject_cast<QScrollArea*>(each))
     {
-      constexpr int after = 150; // margin in pixels
-      area->ensureWidgetVisible(widget, 0, after);
+      constexpr int margin = 150; // margin in pixels
+      area->ensureWidgetVisible(widget, 0, margin);
     }
   }
 }
@@ -331,7 +331,7 @@ QString SimulatedUser::trigger(const QString& name)
 QString SimulatedUser::push(const QString& text)
 {
   this->leave();
-  bool seen = false;
+  bool found_button = false;
   for (QAbstractButton* each : this->window_->findChildren<QAbstractButton*>())
   {
     QString name = each->text();
@@ -344,7 +344,7 @@ QString SimulatedUser::push(const QString& text)
     {
       continue;
     }
-    seen = true;
+    found_button = true;
     if (each->isEnabled())
     {
       each->click();
@@ -353,8 +353,8 @@ QString SimulatedUser::push(const QString& text)
       return {};
     }
   }
-  return seen ? QObject::tr("the button '%1' is disabled").arg(text)
-              : QObject::tr("no button '%1' is visible").arg(text);
+  return found_button ? QObject::tr("the button '%1' is disabled").arg(text)
+                      : QObject::tr("no button '%1' is visible").arg(text);
 }
 
 QString SimulatedUser::choose(const QString& key, const QVariant& value)

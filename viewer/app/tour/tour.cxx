@@ -20,7 +20,7 @@ namespace
 constexpr int schema = 1;
 constexpr std::size_t maximum_steps = 10000;
 constexpr std::size_t maximum_bytes = 16 << 20;
-constexpr double any = std::numeric_limits<double>::max();
+constexpr double unlimited = std::numeric_limits<double>::max();
 const char* const buttons[] = { "left", "middle", "right" };
 
 /// The type of the argument of a verb.
@@ -75,9 +75,9 @@ const VerbInfo* find_verb(const std::string& word)
 bool has_word(const std::string& words, const std::string& word)
 {
   std::istringstream list(words);
-  for (std::string one; list >> one;)
+  for (std::string item; list >> item;)
   {
-    if (one == word)
+    if (item == word)
     {
       return true;
     }
@@ -126,7 +126,7 @@ Status read_position(const Json& json, const std::string& prefix, TourPosition& 
   }
   JsonFields fields(json, prefix);
   fields.read("handle", place.handle);
-  fields.read("along", place.along, -any, any);
+  fields.read("along", place.along, -unlimited, unlimited);
   fields.read("offset", place.position.data(), 2);
   std::string part;
   fields.read("gizmo", part);
@@ -314,7 +314,7 @@ Status read_step(const Json& json, std::size_t index, TourStep& step)
   fields.read("button", step.button, buttons);
   fields.read("moves", step.moves, 1, 1000);
   fields.read("turns", step.turns, -100.0, 100.0);
-  fields.read("tolerance", step.tolerance, 0.0, any);
+  fields.read("tolerance", step.tolerance, 0.0, unlimited);
   fields.read("width", step.width, 16, 8000);
   const char* const parts[] = { "window", "view", "dialog" };
   fields.read("of", step.part, parts);

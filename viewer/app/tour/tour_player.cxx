@@ -36,7 +36,7 @@ constexpr double film_rate = 20.0;
 // A pixel belongs to the background if no color component differs by more than this value from the
 // background color of its row. Components are from 0 to 255. Within a row, the background color
 // varies by less than this value.
-constexpr int drawn_level = 12;
+constexpr int background_tolerance = 12;
 
 Qt::MouseButton button_of(const TourStep& step)
 {
@@ -84,7 +84,7 @@ double drawn_fraction(const QImage& picture)
     {
       const QRgb here = picture.pixel(x, y);
       drawn += std::max({ std::abs(qRed(here) - qRed(back)), std::abs(qGreen(here) - qGreen(back)),
-                 std::abs(qBlue(here) - qBlue(back)) }) > drawn_level;
+                 std::abs(qBlue(here) - qBlue(back)) }) > background_tolerance;
     }
   }
   const double all = static_cast<double>(picture.width()) * picture.height();
@@ -361,9 +361,10 @@ QString TourPlayer::perform(const TourStep& step)
 QString TourPlayer::open(const std::string& file)
 {
   const QString name = QString::fromStdString(file);
-  const QString beside = QDir(QString::fromStdString(this->tour_folder_)).filePath(name);
+  const QString path_beside_tour = QDir(QString::fromStdString(this->tour_folder_)).filePath(name);
   const QString before = this->window_->error();
-  const QString message = this->user_.drop(QFileInfo::exists(beside) ? beside : name);
+  const QString message =
+    this->user_.drop(QFileInfo::exists(path_beside_tour) ? path_beside_tour : name);
   const QString error = this->window_->error();
   return message.isEmpty() || error.isEmpty() || error == before ? message : error;
 }
@@ -526,13 +527,13 @@ QString TourPlayer::check(const TourStep& step)
   QString where;
   if (step.relation == TourRelation::as_at)
   {
-    const Json& then = this->record_["screenshots"][step.expected_text]["values"];
-    if (!then.contains(step.text))
+    const Json& earlier_values = this->record_["screenshots"][step.expected_text]["values"];
+    if (!earlier_values.contains(step.text))
     {
       return QString("the value did not exist at the screenshot '%1'")
         .arg(QString::fromStdString(step.expected_text));
     }
-    expected = then[step.text];
+    expected = earlier_values[step.text];
     where = QString(" as at the screenshot '%1'").arg(QString::fromStdString(step.expected_text));
   }
   if (step.relation == TourRelation::at_least || step.relation == TourRelation::at_most)
@@ -540,11 +541,11 @@ QString TourPlayer::check(const TourStep& step)
     const bool least = step.relation == TourRelation::at_least;
     const double limit = step.expected[0];
     const double value = found->is_number() ? found->get<double>() : std::nan("");
-    const bool kept = least ? value >= limit : value <= limit;
-    return kept ? QString()
-                : QString("the value is %1, expected at %2 %3")
-                    .arg(json_text(*found), least ? "least" : "most")
-                    .arg(limit);
+    const bool is_satisfied = least ? value >= limit : value <= limit;
+    return is_satisfied ? QString()
+                        : QString("the value is %1, expected at %2 %3")
+                            .arg(json_text(*found), least ? "least" : "most")
+                            .arg(limit);
   }
   if (distance(*found, expected) <= step.tolerance)
   {

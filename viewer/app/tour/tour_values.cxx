@@ -59,9 +59,10 @@ void add_distance(Json& values, const std::string& name, PointsView a, PointsVie
 {
   if (a.rows() == b.rows() && a.rows() > 0)
   {
-    const Eigen::VectorXd moved = (a - b).rowwise().norm();
-    values[name + ".largest"] = moved.maxCoeff();
-    values[name + ".rms"] = std::sqrt(moved.squaredNorm() / static_cast<double>(moved.size()));
+    const Eigen::VectorXd distances = (a - b).rowwise().norm();
+    values[name + ".largest"] = distances.maxCoeff();
+    values[name + ".rms"] =
+      std::sqrt(distances.squaredNorm() / static_cast<double>(distances.size()));
   }
 }
 
@@ -282,8 +283,8 @@ double distance(const Json& a, const Json& b)
   constexpr double infinite = std::numeric_limits<double>::infinity();
   if (a.is_number() && b.is_number())
   {
-    const double apart = std::abs(a.get<double>() - b.get<double>());
-    return std::isfinite(apart) ? apart : infinite;
+    const double difference = std::abs(a.get<double>() - b.get<double>());
+    return std::isfinite(difference) ? difference : infinite;
   }
   if (a.is_array() && b.is_array() && a.size() == b.size())
   {
@@ -310,9 +311,10 @@ double seconds_since_start()
     return -1.0;
   }
   std::istringstream fields(text.substr(name_end + 1));
-  constexpr int before = 19; // number of fields from the third (state) to the 22nd (start time)
+  // Number of fields from the third (state) to the 22nd (start time).
+  constexpr int skipped_field_count = 19;
   std::string skipped;
-  for (int k = 0; k < before; ++k)
+  for (int k = 0; k < skipped_field_count; ++k)
   {
     fields >> skipped;
   }

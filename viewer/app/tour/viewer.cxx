@@ -85,10 +85,10 @@ bindpose::Status play_tour(
   {
     return status;
   }
-  const QTemporaryDir own;
+  const QTemporaryDir settings_folder;
   for (const char* variable : { "XDG_CONFIG_HOME", "XDG_DATA_HOME" })
   {
-    qputenv(variable, own.path().toLocal8Bit());
+    qputenv(variable, settings_folder.path().toLocal8Bit());
   }
   QApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
   const Application application;

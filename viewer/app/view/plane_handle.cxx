@@ -194,15 +194,16 @@ std::pair<double, double> PlaneHandle::positions() const
 void PlaneHandle::place_widget()
 {
   const int orientation = this->state_.orientation;
-  const bool turns = orientation == free_plane;
+  const bool can_rotate = orientation == free_plane;
   this->plane_->SetNormalToXAxis(orientation == x_axis);
   this->plane_->SetNormalToYAxis(orientation == y_axis);
   this->plane_->SetNormalToZAxis(orientation == z_axis);
   this->plane_->SetNormal(this->normal().data());
   this->plane_->SetOrigin(this->state_.origin.data());
   const bindpose::Rgb arrow{ 0.17, 0.42, 0.66 }; // the accent color of the window
-  set_look(this->plane_->GetNormalProperty(), arrow, turns ? 1.0 : 0.0);
-  set_look(this->plane_->GetSelectedNormalProperty(), bindpose::palette::line, turns ? 1.0 : 0.0);
+  set_look(this->plane_->GetNormalProperty(), arrow, can_rotate ? 1.0 : 0.0);
+  set_look(
+    this->plane_->GetSelectedNormalProperty(), bindpose::palette::line, can_rotate ? 1.0 : 0.0);
   this->widget_->SetEnabled(this->shown_ && !this->box_.empty());
 }
 
@@ -252,13 +253,13 @@ void PlaneHandle::drag_continued()
     Vec3 ray_direction;
     this->mouse_ray(ray_origin, ray_direction);
     const double cosine = ray_direction.dot(normal);
-    const double steep = 1.0 - cosine * cosine;
+    const double sine_squared = 1.0 - cosine * cosine;
     // If the view direction is nearly parallel to the normal, keep the widget's result.
-    if (steep > 0.01)
+    if (sine_squared > 0.01)
     {
       const Vec3 gap = ray_origin - this->grabbed_point_;
       position = this->grabbed_point_.dot(normal) +
-        (gap.dot(normal) - gap.dot(ray_direction) * cosine) / steep;
+        (gap.dot(normal) - gap.dot(ray_direction) * cosine) / sine_squared;
     }
   }
   position = std::isfinite(position) ? std::clamp(position, first, last) : before;

@@ -52,7 +52,7 @@ namespace
 {
 constexpr int smooth_samples = 4; // samples per pixel
 
-bool same_place(vtkCamera* a, vtkCamera* b)
+bool same_view(vtkCamera* a, vtkCamera* b)
 {
   const auto same = [](const double* x, const double* y) { return std::equal(x, x + 3, y); };
   return same(a->GetPosition(), b->GetPosition()) && same(a->GetFocalPoint(), b->GetFocalPoint()) &&
@@ -71,7 +71,7 @@ public:
   void OnChar() override {}
   void OnLeftButtonDown() override
   {
-    if (!this->Flat)
+    if (!this->Is2D)
     {
       this->vtkInteractorStyleTrackballCamera::OnLeftButtonDown();
       return;
@@ -81,7 +81,7 @@ public:
     this->StartPan();
   }
 
-  bool Flat = false; ///< true: 2D mode, in which dragging pans the view
+  bool Is2D = false; ///< true: 2D mode, in which dragging pans the view
 };
 vtkStandardNewMacro(CameraStyle);
 } // namespace
@@ -92,9 +92,9 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
   this->window_->AddRenderer(this->renderer_);
   this->window_->SetMultiSamples(smooth_samples);
   this->setMinimumSize(320, 240);
-  this->settle_.setSingleShot(true);
-  this->settle_.setInterval(250);
-  QObject::connect(&this->settle_, &QTimer::timeout, this, &Viewport::refresh);
+  this->settle_timer_.setSingleShot(true);
+  this->settle_timer_.setInterval(250);
+  QObject::connect(&this->settle_timer_, &QTimer::timeout, this, &Viewport::refresh);
   vtkNew<CameraStyle> style;
   this->interactor()->SetInteractorStyle(style);
 
@@ -193,11 +193,11 @@ void Viewport::set_surface_look(int look)
     bindpose::outline_width * this->devicePixelRatioF());
   this->show_tint();
   // Sorting translucent triangles by depth requires one sample per pixel.
-  const bool sorts = (look == see_through || this->ghosted_) && this->shaded_;
-  this->renderer_->SetUseDepthPeeling(sorts);
+  const bool sorts_by_depth = (look == see_through || this->ghosted_) && this->shaded_;
+  this->renderer_->SetUseDepthPeeling(sorts_by_depth);
   this->renderer_->SetMaximumNumberOfPeels(6);
-  this->renderer_->SetUseFXAA(sorts);
-  this->window_->SetMultiSamples(sorts ? 0 : smooth_samples);
+  this->renderer_->SetUseFXAA(sorts_by_depth);
+  this->window_->SetMultiSamples(sorts_by_depth ? 0 : smooth_samples);
   this->refresh();
 }
 
@@ -259,7 +259,7 @@ void Viewport::show_tint()
 void Viewport::set_plane(const std::optional<bindpose::Vec3>& normal)
 {
   this->plane_ = normal;
-  CameraStyle::SafeDownCast(this->interactor()->GetInteractorStyle())->Flat = normal.has_value();
+  CameraStyle::SafeDownCast(this->interactor()->GetInteractorStyle())->Is2D = normal.has_value();
   this->renderer_->GetActiveCamera()->SetParallelProjection(normal.has_value());
 }
 
@@ -362,7 +362,7 @@ void Viewport::set_split(vtkRenderer* right_renderer, vtkPolyData* shape)
     this->draw_legend();
     // If the user has not moved the camera, restore the camera from before the split.
     vtkCamera* camera = this->renderer_->GetActiveCamera();
-    if (!right_renderer && same_place(camera, this->camera_after_split_))
+    if (!right_renderer && same_view(camera, this->camera_after_split_))
     {
       camera->DeepCopy(this->camera_before_split_);
       this->renderer_->ResetCameraClippingRange();
@@ -529,21 +529,21 @@ bool Viewport::shows_values(vtkDoubleArray* values) const
 void Viewport::use_appearance()
 {
   using namespace bindpose::palette;
-  const bindpose::Rgb& below = is_dark() ? dark_gradient_bottom : gradient_bottom;
+  const bindpose::Rgb& bottom_color = is_dark() ? dark_gradient_bottom : gradient_bottom;
   const bindpose::Rgb& above = is_dark() ? dark_gradient_top : gradient_top;
   for (vtkRenderer* renderer : { this->renderer_.Get(), this->right_renderer_ })
   {
     if (renderer)
     {
-      renderer->SetBackground(below[0], below[1], below[2]);
+      renderer->SetBackground(bottom_color[0], bottom_color[1], bottom_color[2]);
       renderer->SetBackground2(above[0], above[1], above[2]);
     }
   }
-  const bindpose::Rgb& ink = is_dark() ? dark_text : text;
-  const bindpose::Rgb& plate = is_dark() ? dark_gradient_bottom : white;
+  const bindpose::Rgb& text_color = is_dark() ? dark_text : text;
+  const bindpose::Rgb& label_background = is_dark() ? dark_gradient_bottom : white;
   vtkTextProperty* name = this->handles_->GetHandleSetRepresentation()->GetLabelTextProperty();
-  name->SetColor(ink[0], ink[1], ink[2]);
-  name->SetBackgroundColor(plate[0], plate[1], plate[2]);
+  name->SetColor(text_color[0], text_color[1], text_color[2]);
+  name->SetBackgroundColor(label_background[0], label_background[1], label_background[2]);
 }
 
 void Viewport::changeEvent(QEvent* event)
@@ -568,15 +568,16 @@ void Viewport::draw_legend()
   // The number of lines determines the height of a legend with texts. If there are too many lines,
   // the last line states how many are omitted. `line` is the height of a line and `around` the
   // total margin, both in units of the font size.
-  constexpr double line = 1.7, around = 2.5;
-  const double room = scale * this->height() - 2 * box.y;
-  const int most = std::max(2, static_cast<int>((room / font - around) / line));
+  constexpr double line_height = 1.7, margin = 2.5;
+  const double available_height = scale * this->height() - 2 * box.y;
+  const int maximum_lines =
+    std::max(2, static_cast<int>((available_height / font - margin) / line_height));
   const auto add = [&](const bindpose::ColorMap& all, const QString& name)
   {
-    const bindpose::ColorMap map = bindpose::shorten_legend(all, most);
+    const bindpose::ColorMap map = bindpose::shorten_legend(all, maximum_lines);
     box.height = map.texts.empty() && !map.ticks.empty()
       ? static_cast<int>(240 * scale)
-      : static_cast<int>((around + line * static_cast<double>(map.texts.size())) * font);
+      : static_cast<int>((margin + line_height * static_cast<double>(map.texts.size())) * font);
     box.width = bindpose::legend_width(map, name.toStdString(), font);
     bindpose::add_legend(this->legend_, map, name.toStdString(), box, font,
       is_dark() ? bindpose::palette::dark_text : bindpose::palette::text);
@@ -779,7 +780,7 @@ void Viewport::refresh()
       this->window_->SetMultiSamples(samples);
       if (dragging || coarse)
       {
-        this->settle_.start();
+        this->settle_timer_.start();
       }
     });
 }
@@ -814,7 +815,7 @@ bindpose::Status Viewport::take_picture(
   request.height = size.height();
   request.transparent = transparent;
   this->window_->Render(); // apply all changes since the last rendering
-  const bool smoothed = this->renderer_->GetUseFXAA();
+  const bool used_fxaa = this->renderer_->GetUseFXAA();
   // Disable FXAA (antialiasing by filtering), because draw_in_tiles() averages several samples.
   this->renderer_->UseFXAAOff();
   this->picture_scale_ = scale * request.samples;
@@ -826,7 +827,7 @@ bindpose::Status Viewport::take_picture(
   }
   this->picture_scale_ = 1.0;
   this->set_pixel_scale();
-  this->renderer_->SetUseFXAA(smoothed);
+  this->renderer_->SetUseFXAA(used_fxaa);
   this->window_->Render();
   return status;
 }

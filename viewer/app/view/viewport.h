@@ -232,7 +232,7 @@ private:
   bool resizing_ = false;
   bool uses_software_rendering_ = false;
   bool first_picture_ = false; // true: the next frame is the first frame of its surface
-  QTimer settle_; // single-shot timer that starts after a drag
+  QTimer settle_timer_; // single-shot timer that starts after a drag
 };
 
 #endif

@@ -18,18 +18,18 @@
 
 namespace
 {
-struct Fineness
+struct Resolution
 {
   int samples; // number of samples along the longest side of the grid
   const char* name;
 };
-constexpr Fineness finenesses[] = {
+constexpr Resolution resolutions[] = {
   { 48, QT_TRANSLATE_NOOP("VolumePanel", "Coarse: 48 samples") },
   { 96, QT_TRANSLATE_NOOP("VolumePanel", "Medium: 96 samples") },
   { 192, QT_TRANSLATE_NOOP("VolumePanel", "Fine: 192 samples") },
 };
 
-void keep_place(QWidget* widget)
+void keep_size_when_hidden(QWidget* widget)
 {
   // Hidden widgets keep their space, so that the widgets below them do not move.
   QSizePolicy policy = widget->sizePolicy();
@@ -48,9 +48,9 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   column->addWidget(heading(tr("Winding numbers"), this));
   this->samples_ = new QComboBox(this);
   this->samples_->setObjectName("volume.samples");
-  for (const Fineness& fineness : finenesses)
+  for (const Resolution& resolution : resolutions)
   {
-    this->samples_->addItem(tr(fineness.name));
+    this->samples_->addItem(tr(resolution.name));
   }
   this->samples_->setCurrentIndex(1);
   this->samples_->setToolTip(tr("Samples along the longest side of the grid around the surface; "
@@ -69,7 +69,7 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   this->bar_ = new QProgressBar(this);
   this->bar_->setRange(0, 1000);
   this->bar_->setTextVisible(false);
-  keep_place(this->bar_);
+  keep_size_when_hidden(this->bar_);
   column->addWidget(this->bar_);
   this->note_ = new QLabel(this);
   this->note_->setObjectName("note");
@@ -166,7 +166,7 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   QObject::connect(this->surface_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
     &VolumePanel::surface_look_chosen);
   QObject::connect(this->close_, &QPushButton::clicked, this, &VolumePanel::close_requested);
-  keep_place(this->area_);
+  keep_size_when_hidden(this->area_);
   this->area_->hide();
   this->set_area(0.0);
   this->set_state(false, false, false);
@@ -223,7 +223,7 @@ void VolumePanel::set_note(const QString& text)
 
 int VolumePanel::samples() const
 {
-  return finenesses[this->samples_->currentIndex()].samples;
+  return resolutions[this->samples_->currentIndex()].samples;
 }
 
 void VolumePanel::set_values(double lowest, double highest)

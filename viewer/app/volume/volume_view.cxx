@@ -135,10 +135,10 @@ void VolumeView::update_slice()
     // Move a slice on the border of the volume slightly inside, because flying edges (VTK's filter)
     // find no cell exactly on the border.
     const auto [first, last] = this->positions();
-    const double inside =
+    const double clamped_position =
       std::clamp(this->position(), first + 1e-6 * (last - first), last - 1e-6 * (last - first));
     const Vec3 normal = this->slice_normal();
-    const Vec3 origin = this->slice_origin() + (inside - this->position()) * normal;
+    const Vec3 origin = this->slice_origin() + (clamped_position - this->position()) * normal;
     const auto cut = bindpose::slice(this->image_, array_name, origin, normal);
     this->slice_mapper_->SetInputData(cut);
     vtkNew<vtkContourFilter> contour;

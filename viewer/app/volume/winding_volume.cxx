@@ -25,10 +25,10 @@ Status compute(ExecutionContext& context, const TriangleMesh& mesh, int samples,
   SampleGrid grid;
   Status status = make_grid(request, bounding_box(mesh.points), grid);
   WindingNumber field;
-  const double built = winding_build_fraction(mesh.triangles.rows(), grid.count());
+  const double build_fraction = winding_build_fraction(mesh.triangles.rows(), grid.count());
   if (status.ok())
   {
-    const Phase phase(context, "build", 0.0, built);
+    const Phase phase(context, "build", 0.0, build_fraction);
     WindingNumber::Options options;
     options.expected_queries = grid.count();
     status = field.build(context, mesh.points, mesh.triangles, options);
@@ -37,7 +37,7 @@ Status compute(ExecutionContext& context, const TriangleMesh& mesh, int samples,
   {
     return status;
   }
-  const Phase phase(context, "evaluate", built, 1.0);
+  const Phase phase(context, "evaluate", build_fraction, 1.0);
   vtkNew<vtkDoubleArray> values;
   values->SetName("WindingNumber");
   values->SetNumberOfTuples(grid.count());
@@ -118,10 +118,10 @@ void WindingVolume::finish()
     const int* size = volume->GetDimensions();
     double range[2];
     volume->GetScalarRange(range);
-    constexpr double noise = 1e-6;
+    constexpr double minimum_range = 1e-6;
     this->document_->set_volume(volume, tr("winding numbers"), {}, tr("compute winding numbers"));
     const double seconds = status.report.number("seconds.total", 0.0);
-    this->panel_->set_note(range[1] - range[0] < noise
+    this->panel_->set_note(range[1] - range[0] < minimum_range
         // In this case each triangle exists twice, with opposite orientations.
         ? tr("w is 0 everywhere: triangles cancel.")
         : tr("%1 × %2 × %3 samples in %4.")

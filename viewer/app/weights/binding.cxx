@@ -102,9 +102,9 @@ vtkSmartPointer<vtkPolyData> Binding::with_weights(const BindResult& result) con
   }
   auto bound = vtkSmartPointer<vtkPolyData>::New();
   bound->ShallowCopy(surface);
-  vtkNew<vtkFieldData> own; // the shallow copy shares its field data with the original
-  own->ShallowCopy(surface->GetFieldData());
-  bound->SetFieldData(own);
+  vtkNew<vtkFieldData> own_fields; // the shallow copy shares its field data with the original
+  own_fields->ShallowCopy(surface->GetFieldData());
+  bound->SetFieldData(own_fields);
   add_weights(result, handles, bound);
   return bound;
 }

@@ -27,7 +27,7 @@ QString short_number(double value)
   return QString::number(value, 'g', 2);
 }
 
-QString counts_of(const std::vector<Extremum>& extrema)
+QString format_counts(const std::vector<Extremum>& extrema)
 {
   const auto maxima = std::count_if(
     extrema.begin(), extrema.end(), [](const Extremum& extremum) { return extremum.maximum; });
@@ -202,7 +202,7 @@ void WeightInspection::update()
   }
   this->panel_->set_certificate(this->certificate(quantity == WeightPanel::row_sums ? -1 : column));
   this->panel_->set_extrema(this->view_->is_shown() && this->panel_->extrema()
-      ? counts_of(this->view_->extrema())
+      ? format_counts(this->view_->extrema())
       : QString());
   if (this->view_->is_shown() && quantity == WeightPanel::difference)
   {
@@ -274,10 +274,10 @@ void WeightInspection::compare(int method)
   input.preview = false;
   // Use the domain of the existing weights, if it is known.
   const std::string domain = read_report(this->surface_).text("domain");
-  for (const WeightsDomain its :
+  for (const WeightsDomain candidate :
     { WeightsDomain::surface, WeightsDomain::volume, WeightsDomain::embedding })
   {
-    input.domain = domain == to_string(its) ? its : input.domain;
+    input.domain = domain == to_string(candidate) ? candidate : input.domain;
   }
   this->job_.start(std::move(input));
   this->panel_->set_comparison(tr("Starting …"));

@@ -20,7 +20,7 @@
 namespace
 {
 /// Enable a widget if `reason` is empty. Otherwise disable it and show the reason as its tooltip.
-void enable_or_say(QWidget* widget, const QString& reason)
+void enable_or_explain(QWidget* widget, const QString& reason)
 {
   if (widget->property("tip").isNull())
   {
@@ -146,9 +146,9 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   this->bar_->setRange(0, 1000);
   this->bar_->setTextVisible(false);
   // Hidden widgets keep their space, so that the widgets below them do not move.
-  QSizePolicy keeps_place = this->bar_->sizePolicy();
-  keeps_place.setRetainSizeWhenHidden(true);
-  this->bar_->setSizePolicy(keeps_place);
+  QSizePolicy size_policy = this->bar_->sizePolicy();
+  size_policy.setRetainSizeWhenHidden(true);
+  this->bar_->setSizePolicy(size_policy);
   column->addWidget(this->bar_);
   this->comparison_ = note(2);
   column->addWidget(this->comparison_);
@@ -260,59 +260,64 @@ void WeightPanel::set_state(const State& state)
 /// widgets state the reason.
 void WeightPanel::enable()
 {
-  const QString none = this->state_.has_weights
+  const QString no_weights_reason = this->state_.has_weights
     ? QString()
     : tr("There are no weights: bind, or open a mesh with weights");
-  const auto first = [&none](const QString& reason) { return none.isEmpty() ? reason : none; };
-  const QString no_raw = this->state_.has_raw_weights
+  const auto first = [&no_weights_reason](const QString& reason)
+  { return no_weights_reason.isEmpty() ? reason : no_weights_reason; };
+  const QString no_raw_reason = this->state_.has_raw_weights
     ? QString()
     : tr("There are no raw weights: bind here, or write them with bindpose weights --keep-raw");
   const bool all = this->column() < 0;
-  const bool sums = this->quantity() == row_sums;
-  const bool differs = this->quantity() == difference;
-  enable_or_say(this->column_, first(sums ? tr("Row sums include all handles") : QString()));
-  enable_or_say(this->quantity_group_->button(weights), none);
-  enable_or_say(this->quantity_group_->button(row_sums), first(no_raw));
-  enable_or_say(this->quantity_group_->button(difference),
+  const bool shows_sums = this->quantity() == row_sums;
+  const bool shows_difference = this->quantity() == difference;
+  enable_or_explain(
+    this->column_, first(shows_sums ? tr("Row sums include all handles") : QString()));
+  enable_or_explain(this->quantity_group_->button(weights), no_weights_reason);
+  enable_or_explain(this->quantity_group_->button(row_sums), first(no_raw_reason));
+  enable_or_explain(this->quantity_group_->button(difference),
     first(this->state_.compared ? QString() : tr("Compare with another method first, below")));
-  const QString of_all = all && !sums
+  const QString all_handles_reason = all && !shows_sums
     ? tr("The strongest handle is the same for raw and normalized weights")
     : QString();
-  enable_or_say(this->normalization_group_->button(0),
-    first(sums ? tr("Row sums are always sums of raw weights") : of_all));
-  enable_or_say(this->normalization_group_->button(1), first(no_raw.isEmpty() ? of_all : no_raw));
-  const QString not_a_column = sums ? tr("Row sums have their own colors: white is 1")
-    : differs                       ? tr("Differences have their own colors: white is 0")
+  enable_or_explain(this->normalization_group_->button(0),
+    first(shows_sums ? tr("Row sums are always sums of raw weights") : all_handles_reason));
+  enable_or_explain(this->normalization_group_->button(1),
+    first(no_raw_reason.isEmpty() ? all_handles_reason : no_raw_reason));
+  const QString no_column_reason = shows_sums ? tr("Row sums have their own colors: white is 1")
+    : shows_difference                        ? tr("Differences have their own colors: white is 0")
     : all ? tr("Choose one handle: this requires the weights of a single handle")
           : QString();
-  enable_or_say(this->bands_, first(not_a_column));
-  enable_or_say(this->isolines_, first(not_a_column));
-  enable_or_say(this->extrema_,
-    first(all && !sums ? tr("Choose one handle: extrema require the weights of a single handle")
-                       : QString()));
+  enable_or_explain(this->bands_, first(no_column_reason));
+  enable_or_explain(this->isolines_, first(no_column_reason));
+  enable_or_explain(this->extrema_,
+    first(all && !shows_sums
+        ? tr("Choose one handle: extrema require the weights of a single handle")
+        : QString()));
   this->extrema_note_->setEnabled(this->extrema_->isEnabled());
-  const QString no_comparison = this->state_.comparing ? tr("A comparison is running")
+  const QString no_comparison_reason = this->state_.comparing ? tr("A comparison is running")
     : this->state_.has_handles
     ? QString()
     : tr("Open the handles of these weights: another method requires them");
-  enable_or_say(this->method_, first(no_comparison));
+  enable_or_explain(this->method_, first(no_comparison_reason));
   const QString same = tr("The weights already come from this method: choose another method");
   const bool is_same = this->method_->currentIndex() == this->state_.method;
-  enable_or_say(this->compare_, first(no_comparison.isEmpty() && is_same ? same : no_comparison));
+  enable_or_explain(
+    this->compare_, first(no_comparison_reason.isEmpty() && is_same ? same : no_comparison_reason));
   enable_all_but(this->method_, this->state_.method, same);
-  const QString no_slice = differs
+  const QString no_slice_reason = shows_difference
     ? tr("The other method was solved on different tets: the difference exists only on the surface")
     : this->state_.has_volume
     ? QString()
     : tr("There is no volume: bind here, or open the tets (.vtu) that bindpose weights writes");
-  enable_or_say(this->slice_, first(no_slice));
-  const QString no_plane = this->slice_->isEnabled() && this->slice_->isChecked()
+  enable_or_explain(this->slice_, first(no_slice_reason));
+  const QString no_plane_reason = this->slice_->isEnabled() && this->slice_->isChecked()
     ? QString()
     : tr("There is no slice to move: switch it on above");
-  enable_or_say(this->position_, no_plane);
+  enable_or_explain(this->position_, no_plane_reason);
   for (QAbstractButton* orientation : this->orientations_->buttons())
   {
-    enable_or_say(orientation, no_plane);
+    enable_or_explain(orientation, no_plane_reason);
   }
 }
 

@@ -197,11 +197,11 @@ void WeightView::update_slice()
     // Move the plane slightly inside of the box, because at its lower end the tets only touch the
     // plane.
     const auto [first, last] = this->plane_->positions();
-    const double inside = std::clamp(
+    const double clamped_position = std::clamp(
       this->plane_->position(), first + 1e-6 * (last - first), last - 1e-6 * (last - first));
     const Vec3 normal = this->plane_->normal();
     this->slice_ = slice_tets(this->volume_values_,
-      this->plane_->origin() + (inside - this->plane_->position()) * normal, normal);
+      this->plane_->origin() + (clamped_position - this->plane_->position()) * normal, normal);
     const bool on_points = this->slice_->GetPointData()->HasArray(color_array_name) != 0;
     if (on_points)
     {

@@ -42,10 +42,10 @@ Status write_rig(vtkPolyData* surface, vtkPolyData* handles, const QString& path
 {
   vtkNew<vtkGLTFSkinWriter> writer;
   // Add observers, so that VTK does not print the errors. The writer's status contains them, too.
-  vtkNew<vtkCallbackCommand> nothing;
-  nothing->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
-  writer->AddObserver(vtkCommand::ErrorEvent, nothing);
-  writer->AddObserver(vtkCommand::WarningEvent, nothing);
+  vtkNew<vtkCallbackCommand> silent_observer;
+  silent_observer->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  writer->AddObserver(vtkCommand::ErrorEvent, silent_observer);
+  writer->AddObserver(vtkCommand::WarningEvent, silent_observer);
   writer->SetInputData(0, surface);
   writer->SetHandlesData(handles);
   writer->SetFileName(path.toStdString().c_str());

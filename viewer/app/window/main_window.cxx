@@ -107,9 +107,9 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), document_(new Doc
   this->setAcceptDrops(true);
   new FieldGuard(this, [this] { this->viewport_->setFocus(Qt::OtherFocusReason); });
   // Fit the whole window on a small screen, including the title bar of the desktop.
-  constexpr int title = 40; // pixels
-  const QSize room = QGuiApplication::primaryScreen()->availableGeometry().size();
-  this->resize(QSize(1280, 800).boundedTo(room - QSize(0, title)));
+  constexpr int title_bar_height = 40; // pixels
+  const QSize available_size = QGuiApplication::primaryScreen()->availableGeometry().size();
+  this->resize(QSize(1280, 800).boundedTo(available_size - QSize(0, title_bar_height)));
   this->make_layout();
   this->make_inspections();
   this->links_ = new OptionLinks(this->document_, this->panels_);
@@ -414,20 +414,20 @@ void MainWindow::connect_errors()
     QObject::connect(part, signal, this,
       [this, kind](const QString& message) { this->show_error(message, kind); });
   };
-  const auto succeeds = [this](auto* part, auto signal, ErrorKind kind)
+  const auto connect_success = [this](auto* part, auto signal, ErrorKind kind)
   { QObject::connect(part, signal, this, [this, kind] { this->error_bar_->succeeded(kind); }); };
   // an error of a bind is hidden by the next bind
   connect_failure(this->binding_, &Binding::failed, ErrorKind::other);
   connect_failure(this->shape_handles_, &ShapeHandles::failed, ErrorKind::edit_handles);
   connect_failure(this->editing_, &HandleEditing::refused, ErrorKind::edit_handles);
   connect_failure(this->posing_, &Posing::failed, ErrorKind::pose);
-  succeeds(this->posing_, &Posing::succeeded, ErrorKind::pose);
+  connect_success(this->posing_, &Posing::succeeded, ErrorKind::pose);
   connect_failure(this->tet_inspection_, &TetInspection::failed, ErrorKind::tets);
-  succeeds(this->tet_inspection_, &TetInspection::succeeded, ErrorKind::tets);
+  connect_success(this->tet_inspection_, &TetInspection::succeeded, ErrorKind::tets);
   connect_failure(this->weights_, &WeightInspection::failed, ErrorKind::weights);
-  succeeds(this->weights_, &WeightInspection::succeeded, ErrorKind::weights);
+  connect_success(this->weights_, &WeightInspection::succeeded, ErrorKind::weights);
   connect_failure(this->winding_volume_, &WindingVolume::failed, ErrorKind::volume);
-  succeeds(this->winding_volume_, &WindingVolume::succeeded, ErrorKind::volume);
+  connect_success(this->winding_volume_, &WindingVolume::succeeded, ErrorKind::volume);
 }
 
 // ---- Changes of the document -------------------------------------------------------------------
@@ -691,8 +691,8 @@ bool MainWindow::open_file(const QString& path, const OpenedFile* read)
     this->error_bar_->hide();
     return this->sessions_->open(path);
   }
-  OpenedFile here;
-  const Status status = read ? Status() : read_file(path.toStdString(), here);
+  OpenedFile own_file;
+  const Status status = read ? Status() : read_file(path.toStdString(), own_file);
   if (!status.ok())
   {
     // Show only the file name; the readers report the whole path.
@@ -700,7 +700,7 @@ bool MainWindow::open_file(const QString& path, const OpenedFile* read)
       QString::fromStdString(status.message).replace(path, name), ErrorKind::other, path);
     return false;
   }
-  const OpenedFile& file = read ? *read : here;
+  const OpenedFile& file = read ? *read : own_file;
   this->read_notice_.clear();
   for (const std::string& warning : file.warnings)
   {
@@ -801,9 +801,9 @@ bool MainWindow::set_volume(vtkImageData* volume, const QString& name, const Sou
 bool MainWindow::set_curves(vtkPolyData* curves, const Source& source)
 {
   this->error_bar_->hide();
-  const bool alone = this->is_empty();
+  const bool was_empty = this->is_empty();
   this->document_->set_curves(curves, tr("curves"), source);
-  if (alone)
+  if (was_empty)
   {
     this->viewport_->reset_view();
   }
@@ -916,15 +916,16 @@ void MainWindow::draw_pose()
   vtkPolyData* rest = this->document_->surface();
   const bool handles = this->document_->handle_data();
   this->show_state();
-  const bool cuts = this->tet_inspection_->tet_view()->is_shown();
-  const bool slices = this->volume_view_->is_slice_shown() || this->weights_->requires_rest_shape();
-  QString reading = cuts ? tr("Drag the cut to move it; drag elsewhere to turn the view.")
-    : slices             ? tr("Drag the slice to move it; drag elsewhere to turn the view.")
-    : !rest              ? tr("Open a mesh (Ctrl+O) or drop one here.")
-    : !handles           ? tr("Add handles (?: all keys), or open a handle file (.tgf or .vtp).")
+  const bool shows_tets = this->tet_inspection_->tet_view()->is_shown();
+  const bool shows_slice =
+    this->volume_view_->is_slice_shown() || this->weights_->requires_rest_shape();
+  QString reading = shows_tets ? tr("Drag the cut to move it; drag elsewhere to turn the view.")
+    : shows_slice              ? tr("Drag the slice to move it; drag elsewhere to turn the view.")
+    : !rest                    ? tr("Open a mesh (Ctrl+O) or drop one here.")
+    : !handles ? tr("Add handles (?: all keys), or open a handle file (.tgf or .vtp).")
     : this->binding_->is_running() ? tr("Binding; the view can be turned meanwhile.")
                                    : tr("Bind (Ctrl+B), then drag the handles.");
-  if (this->posing_->can_pose() && !cuts && !slices)
+  if (this->posing_->can_pose() && !shows_tets && !shows_slice)
   {
     reading = this->posing_->reading();
   }
@@ -953,16 +954,17 @@ void MainWindow::show_state()
     : this->weights_->requires_rest_shape()           ? tr("the slice of weights is shown at rest")
     : this->volume_view_->is_shown()                  ? tr("winding numbers are shown at rest")
                                                       : QString();
-  const bool looks = this->posing_->is_rest_view();
+  const bool rest_view = this->posing_->is_rest_view();
   this->posing_->inspect_at_rest(!inspected.isEmpty());
-  this->editing_->show_rest(!inspected.isEmpty() || looks);
+  this->editing_->show_rest(!inspected.isEmpty() || rest_view);
   const bool edits = this->posing_->edits_at_rest() && this->posing_->is_posed();
-  const QString why = !inspected.isEmpty() ? inspected
-    : looks                                ? tr("T shows the pose")
-    : edits                                ? tr("handles are edited at rest")
-                                           : QString();
-  this->viewport_->set_state_name(
-    this->document_->handle_data() && !why.isEmpty() ? tr("Rest shape: %1").arg(why) : QString());
+  const QString reason = !inspected.isEmpty() ? inspected
+    : rest_view                               ? tr("T shows the pose")
+    : edits                                   ? tr("handles are edited at rest")
+                                              : QString();
+  this->viewport_->set_state_name(this->document_->handle_data() && !reason.isEmpty()
+      ? tr("Rest shape: %1").arg(reason)
+      : QString());
 }
 
 /// Orient the cutting planes perpendicular to the axis that is nearest to the line of sight, so
@@ -976,11 +978,12 @@ void MainWindow::orient_planes()
   for (const QString name : { "volume", "tets", "weights" })
   {
     const QString key = name + ".orientation";
-    int& faced = this->automatic_orientations_.try_emplace(name, find_option(key)->initial.toInt())
-                   .first->second;
-    if (this->document_->number(key) == faced)
+    int& automatic_orientation =
+      this->automatic_orientations_.try_emplace(name, find_option(key)->initial.toInt())
+        .first->second;
+    if (this->document_->number(key) == automatic_orientation)
     {
-      faced = axis;
+      automatic_orientation = axis;
       this->links_->note(key, axis);
       if (name == "tets")
       {

@@ -19,13 +19,13 @@ OptionLinks::OptionLinks(Document* document, QWidget* root) : QObject(root), doc
   {
     const QString key = option.key;
     QObject* found = root->findChild<QObject*>(key);
-    const auto tell = [this, key] { this->chosen(key); };
+    const auto store_choice = [this, key] { this->chosen(key); };
     if (auto* box = qobject_cast<QCheckBox*>(found))
     {
       this->link_option(
         key, [box] { return box->isChecked(); },
         [box](const QVariant& value) { box->setChecked(value.toBool()); });
-      QObject::connect(box, &QCheckBox::clicked, this, tell);
+      QObject::connect(box, &QCheckBox::clicked, this, store_choice);
     }
     else if (auto* list = qobject_cast<QComboBox*>(found))
     {
@@ -38,7 +38,7 @@ OptionLinks::OptionLinks(Document* document, QWidget* root) : QObject(root), doc
             list->setCurrentIndex(value.toInt());
           }
         });
-      QObject::connect(list, QOverload<int>::of(&QComboBox::activated), this, tell);
+      QObject::connect(list, QOverload<int>::of(&QComboBox::activated), this, store_choice);
     }
     else if (auto* group = qobject_cast<QButtonGroup*>(found))
     {
@@ -52,14 +52,14 @@ OptionLinks::OptionLinks(Document* document, QWidget* root) : QObject(root), doc
             Q_EMIT group->idClicked(value.toInt());
           }
         });
-      QObject::connect(group, &QButtonGroup::idClicked, this, tell);
+      QObject::connect(group, &QButtonGroup::idClicked, this, store_choice);
     }
     else if (auto* row = qobject_cast<ValueRow*>(found))
     {
       this->link_option(
         key, [row] { return row->value(); },
         [row](const QVariant& value) { row->choose(value.toDouble()); });
-      QObject::connect(row, &ValueRow::value_chosen, this, tell);
+      QObject::connect(row, &ValueRow::value_chosen, this, store_choice);
       QObject::connect(
         row->slider(), &QSlider::sliderReleased, this, [this] { this->document_->end_merge(); });
     }

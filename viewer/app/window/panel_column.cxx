@@ -25,7 +25,7 @@ constexpr int panel_count = 4;
 } // namespace
 
 PanelColumn::PanelColumn(QWidget* parent)
-  : QWidget(parent), choice_(new QFrame(this)), splitter_(new QSplitter(Qt::Vertical, this)),
+  : QWidget(parent), button_row_(new QFrame(this)), splitter_(new QSplitter(Qt::Vertical, this)),
     handles_(new HandleTree(this)), buttons_(new QButtonGroup(this)),
     side_(new SidePanel(this->handles_, this)), weight_(new WeightPanel(this)),
     tet_(new TetPanel(this)), volume_(new VolumePanel(this))
@@ -33,8 +33,8 @@ PanelColumn::PanelColumn(QWidget* parent)
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
-  this->choice_->setObjectName("panel");
-  auto* row = new QHBoxLayout(this->choice_);
+  this->button_row_->setObjectName("panel");
+  auto* row = new QHBoxLayout(this->button_row_);
   row->setContentsMargins(16, 14, 16, 0);
   row->setSpacing(0);
   const char* const names[] = { QT_TR_NOOP("Pose"), QT_TR_NOOP("Weights"), QT_TR_NOOP("Tets"),
@@ -45,7 +45,7 @@ PanelColumn::PanelColumn(QWidget* parent)
     QT_TR_NOOP("Slices and isosurfaces of winding numbers") };
   for (int k = 0; k < panel_count; ++k)
   {
-    QPushButton* segment = button(tr(names[k]), this->choice_);
+    QPushButton* segment = button(tr(names[k]), this->button_row_);
     segment->setObjectName("segment");
     segment->setCheckable(true);
     segment->setToolTip(tr(tips[k]));
@@ -53,7 +53,7 @@ PanelColumn::PanelColumn(QWidget* parent)
     // The widths are proportional to the texts, because four texts fill the row.
     row->addWidget(segment, segment->sizeHint().width());
   }
-  column->addWidget(this->choice_);
+  column->addWidget(this->button_row_);
   this->splitter_->setChildrenCollapsible(false);
   this->splitter_->addWidget(this->handles_);
   auto* panels = new QWidget(this->splitter_);
@@ -97,12 +97,12 @@ QWidget* PanelColumn::scrolled(QFrame* panel, int width)
 void PanelColumn::distribute_height()
 {
   constexpr int panel_height = 540;
-  constexpr int least = 180;
+  constexpr int minimum_height = 180;
   if (!this->height_set_by_user_ && !this->handles_->isHidden())
   {
     const int height = this->splitter_->height();
-    const int list = std::max(least, std::min(height - panel_height, height / 2));
-    this->splitter_->setSizes({ list, std::max(least, height - list) });
+    const int list = std::max(minimum_height, std::min(height - panel_height, height / 2));
+    this->splitter_->setSizes({ list, std::max(minimum_height, height - list) });
   }
 }
 
@@ -116,7 +116,7 @@ void PanelColumn::set_open(bool volume, bool shape, bool surface)
 {
   this->has_shape_ = shape;
   const bool open[] = { shape, surface, surface, surface || volume };
-  this->choice_->setVisible(surface || (shape && volume));
+  this->button_row_->setVisible(surface || (shape && volume));
   const auto buttons = this->buttons_->buttons();
   QList<QAbstractButton*> row;
   for (int k = 0; k < panel_count; ++k)

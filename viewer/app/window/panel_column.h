@@ -54,7 +54,7 @@ private:
   void show_handles();
   void distribute_height();
 
-  QFrame* choice_;
+  QFrame* button_row_;
   QSplitter* splitter_;
   HandleTree* handles_;
   QButtonGroup* buttons_;

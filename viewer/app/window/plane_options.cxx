@@ -8,14 +8,14 @@ using bindpose::Vec3;
 
 void link_plane(OptionLinks* links, Document* document, const QString& name, PlaneHandle* plane)
 {
-  const QString place = name + ".place";
-  const QString normal = name + ".normal";
+  const QString position_key = name + ".place";
+  const QString normal_key = name + ".normal";
   // During a drag, store the values from before the drag, because a session may be saved then.
   links->link_option(
-    place, [plane] { return plane->relative_position_before_drag(); },
+    position_key, [plane] { return plane->relative_position_before_drag(); },
     [plane](const QVariant& value) { plane->set_place(value.toDouble()); });
   links->link_option(
-    normal,
+    normal_key,
     [plane]
     {
       const Vec3 direction = plane->free_normal_before_drag();
@@ -28,12 +28,12 @@ void link_plane(OptionLinks* links, Document* document, const QString& name, Pla
     });
   // Undo these options together: choosing an axis changes the normal of the free plane, and
   // rotating the plane changes its relative position.
-  links->group_options({ name + ".orientation", place, normal });
+  links->group_options({ name + ".orientation", position_key, normal_key });
   QObject::connect(plane, &PlaneHandle::dragged, links,
-    [links, document, place, normal](bool turned)
+    [links, document, position_key, normal_key](bool turned)
     {
       document->end_merge();
-      links->chosen(turned ? normal : place);
+      links->chosen(turned ? normal_key : position_key);
       document->end_merge();
     });
   QObject::connect(document, &Document::about_to_change, plane, &PlaneHandle::cancel);

@@ -44,7 +44,7 @@ namespace
 {
 constexpr const char* winding_name = "WindingNumber";
 // maximum distance in pixels between the mouse and the edge or dot of a defect
-constexpr double near_enough = 6.0;
+constexpr double pick_tolerance = 6.0;
 constexpr int label_margin = 10; // distance in pixels between the label and the border
 
 QString number(double value)
@@ -59,12 +59,12 @@ QString format_position(const Vec3& place)
 }
 
 /// Return the name of a category, or the value if the coloring has no categories.
-QString value_words(const Coloring& coloring, double value)
+QString format_value(const Coloring& coloring, double value)
 {
-  const std::vector<double> shown = category_values(coloring.categories);
-  for (std::size_t k = 0; k < shown.size(); ++k)
+  const std::vector<double> category_scalars = category_values(coloring.categories);
+  for (std::size_t k = 0; k < category_scalars.size(); ++k)
   {
-    if (shown[k] == value)
+    if (category_scalars[k] == value)
     {
       return QString::fromStdString(coloring.categories[k].name);
     }
@@ -77,7 +77,7 @@ QString named_value(const Coloring& coloring, double value)
   const QString name = QString::fromStdString(coloring.legend_name());
   // omit the smallest angle, because the text of every tet already contains it
   return name == "Min. angle (°)" ? QString()
-                                  : Probe::tr("%1: %2").arg(name, value_words(coloring, value));
+                                  : Probe::tr("%1: %2").arg(name, format_value(coloring, value));
 }
 
 /// Return the value that is displayed as a color: interpolated linearly between a triangle's
@@ -101,7 +101,7 @@ std::optional<double> shown_value(vtkPolyData* data, const Index* corners, const
 
 /// Compute the part of the ray that is inside a box, as distances `from` and `to` from its origin.
 /// Return false if the ray misses the box.
-bool stretch_in(const ViewRay& ray, const double* bounds, double& from, double& to)
+bool clip_to_box(const ViewRay& ray, const double* bounds, double& from, double& to)
 {
   from = 0.0;
   to = 1e300;
@@ -126,12 +126,12 @@ Vec3 point_on_ray(const ViewRay& ray, double distance)
 
 /// Call `what` with the distance and the value at points along a ray through a volume, until `what`
 /// returns false. The number of points is twice the number of samples along the longest side.
-template <typename What>
-void walk(const ViewRay& ray, vtkImageData* image, const What& what)
+template <typename Visitor>
+void sample_ray(const ViewRay& ray, vtkImageData* image, const Visitor& visit)
 {
   double from = 0.0;
   double to = 0.0;
-  if (!stretch_in(ray, image->GetBounds(), from, to))
+  if (!clip_to_box(ray, image->GetBounds(), from, to))
   {
     return;
   }
@@ -141,7 +141,8 @@ void walk(const ViewRay& ray, vtkImageData* image, const What& what)
   {
     const double distance = from + (to - from) * (k + 1e-6) / (steps + 2e-6);
     double value = 0.0;
-    if (value_at(image, winding_name, point_on_ray(ray, distance), value) && !what(distance, value))
+    if (value_at(image, winding_name, point_on_ray(ray, distance), value) &&
+      !visit(distance, value))
     {
       return;
     }
@@ -225,10 +226,10 @@ void Probe::move_label_away(const QPoint& mouse)
   QRect place(QPoint(), this->label_->size());
   const auto is_free = [&]
   {
-    const QRect around =
+    const QRect label_area =
       place.adjusted(-2 * label_margin, -label_margin, label_margin, 2 * label_margin);
     const auto others = viewport->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly);
-    return !around.contains(mouse) &&
+    return !label_area.contains(mouse) &&
       std::none_of(others.begin(), others.end(),
         [&](const QWidget* other) {
           return other != this->label_ && other->isVisible() && other->geometry().intersects(place);
@@ -299,15 +300,15 @@ Probe::OptionalHit Probe::surface(const ViewRay& ray, bool other) const
   const Vec3 seen = point_on_ray(ray, hit.distance);
   Vec3 place = Vec3::Zero();
   Index nearest = -1;
-  double least = 1e300;
+  double minimum_distance = 1e300;
   for (int k = 0; k < 3; ++k)
   {
     const Index drawn = shaded->triangles()(hit.element, k);
     const Index vertex = shaded->input_points()[static_cast<std::size_t>(drawn)];
     place += hit.barycentric[k] * Vec3(shape->GetPoint(vertex));
     const double distance = (Vec3(shaded->polydata()->GetPoint(drawn)) - seen).norm();
-    nearest = distance < least ? vertex : nearest;
-    least = std::min(least, distance);
+    nearest = distance < minimum_distance ? vertex : nearest;
+    minimum_distance = std::min(minimum_distance, distance);
   }
   if (other)
   {
@@ -349,8 +350,9 @@ QStringList Probe::weights(vtkPolyData* shape, const RayHit& hit) const
   };
   const auto name = [array](int column)
   {
-    const char* its = array->GetComponentName(column);
-    return its && *its ? QString::fromUtf8(its) : QString::number(column);
+    const char* component_name = array->GetComponentName(column);
+    return component_name && *component_name ? QString::fromUtf8(component_name)
+                                             : QString::number(column);
   };
   const WeightView* view = this->views_.weights;
   const int column = this->views_.viewport->shown_column();
@@ -385,17 +387,17 @@ QString Probe::difference(const RayHit& hit) const
   {
     return {};
   }
-  Vec3 apart = Vec3::Zero();
+  Vec3 displacement = Vec3::Zero();
   for (int k = 0; k < 3; ++k)
   {
     const Index vertex =
       shaded->input_points()[static_cast<std::size_t>(shaded->triangles()(hit.element, k))];
-    apart += hit.barycentric[k] * (a.row(vertex) - b.row(vertex)).transpose();
+    displacement += hit.barycentric[k] * (a.row(vertex) - b.row(vertex)).transpose();
   }
   const double diagonal = posing->rest_diagonal();
   return tr("Distance %1 units, %2 % of the diagonal")
-    .arg(apart.norm(), 0, 'g', 3)
-    .arg(100.0 * apart.norm() / diagonal, 0, 'g', 3);
+    .arg(displacement.norm(), 0, 'g', 3)
+    .arg(100.0 * displacement.norm() / diagonal, 0, 'g', 3);
 }
 
 Probe::OptionalHit Probe::tets(const ViewRay& ray) const
@@ -478,7 +480,7 @@ Probe::OptionalHit Probe::isosurface(const ViewRay& ray) const
   OptionalHit found;
   const double level = view->level();
   std::optional<std::pair<double, double>> previous;
-  walk(ray, view->volume(),
+  sample_ray(ray, view->volume(),
     [&](double distance, double value)
     {
       if (previous && (previous->second < level) != (value < level))
@@ -505,7 +507,7 @@ Probe::OptionalHit Probe::cloud(const ViewRay& ray) const
   }
   double lowest = 1e300;
   double highest = -1e300;
-  walk(ray, view->volume(),
+  sample_ray(ray, view->volume(),
     [&](double, double value)
     {
       lowest = std::min(lowest, value);
@@ -536,13 +538,13 @@ QString Probe::defect(const ViewRay& ray) const
   vtkCamera* camera = renderer->GetActiveCamera();
   const double height = std::max(renderer->GetSize()[1], 1);
   const bool parallel = camera->GetParallelProjection() != 0;
-  const double slope = 2.0 * near_enough * this->views_.viewport->devicePixelRatioF() *
+  const double slope = 2.0 * pick_tolerance * this->views_.viewport->devicePixelRatioF() *
     (parallel ? camera->GetParallelScale()
               : std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()))) /
     height;
   const double eye = (ray.origin - Vec3(camera->GetPosition())).norm();
   const Points seen = to_ray_coordinates(ray, to_points(defects).view());
-  const auto reach = [&](double depth) { return parallel ? slope : slope * (eye + depth); };
+  const auto pick_radius = [&](double depth) { return parallel ? slope : slope * (eye + depth); };
   Index best = -1;
   int best_kind = 4; // kind of the best candidate: 1 for a dot or edge, 3 for a face, 4 for none
   double best_depth = 1e300;
@@ -557,26 +559,26 @@ QString Probe::defect(const ViewRay& ray) const
       const Vec3 a = seen.row(ids->GetId(0));
       const Vec3 b = seen.row(ids->GetId(corners > 1 ? 1 : 0));
       const Vec3 c = seen.row(ids->GetId(corners > 2 ? 2 : 0));
-      bool met = false;
+      bool is_hit = false;
       double depth = a.z();
       if (corners < 3)
       {
-        const Vec3 way = b - a;
-        const double length = way.head<2>().squaredNorm();
+        const Vec3 edge = b - a;
+        const double length = edge.head<2>().squaredNorm();
         const double fraction =
-          length > 0.0 ? std::clamp(-a.head<2>().dot(way.head<2>()) / length, 0.0, 1.0) : 0.0;
-        const Vec3 near = a + fraction * way;
-        depth = near.z();
-        met = depth > 0.0 && near.head<2>().norm() < reach(depth);
+          length > 0.0 ? std::clamp(-a.head<2>().dot(edge.head<2>()) / length, 0.0, 1.0) : 0.0;
+        const Vec3 nearest_point = a + fraction * edge;
+        depth = nearest_point.z();
+        is_hit = depth > 0.0 && nearest_point.head<2>().norm() < pick_radius(depth);
       }
       else
       {
         Vec3 areas;
-        met = surrounds_ray(a.data(), b.data(), c.data(), areas);
+        is_hit = surrounds_ray(a.data(), b.data(), c.data(), areas);
         depth = std::min({ a.z(), b.z(), c.z() });
       }
       const int kind = corners < 3 ? 1 : 3;
-      if (met && std::make_pair(kind, depth) < std::make_pair(best_kind, best_depth))
+      if (is_hit && std::make_pair(kind, depth) < std::make_pair(best_kind, best_depth))
       {
         best = cell;
         best_kind = kind;

@@ -34,13 +34,13 @@ ShortcutSheet::ShortcutSheet(QWidget* parent) : QDialog(parent)
   bold.setBold(true);
   for (const bindpose::KeyGroup& group : bindpose::all_keys())
   {
-    const int heading = this->table_->rowCount();
-    this->table_->insertRow(heading);
+    const int heading_row = this->table_->rowCount();
+    this->table_->insertRow(heading_row);
     auto* title = new QTableWidgetItem(capitalized(QString::fromStdString(group.when)));
     title->setFont(bold);
     title->setForeground(theme_color(is_dark() ? "accent_ring" : "accent"));
-    this->table_->setItem(heading, 0, title);
-    this->table_->setSpan(heading, 0, 1, 2);
+    this->table_->setItem(heading_row, 0, title);
+    this->table_->setSpan(heading_row, 0, 1, 2);
     for (const auto& [input, text] : group.rows)
     {
       const int row = this->table_->rowCount();
@@ -49,9 +49,9 @@ ShortcutSheet::ShortcutSheet(QWidget* parent) : QDialog(parent)
       keys->setFont(bold);
       keys->setTextAlignment(Qt::AlignLeft | Qt::AlignTop);
       this->table_->setItem(row, 0, keys);
-      auto* what = new QTableWidgetItem(QString::fromStdString(text));
-      what->setTextAlignment(Qt::AlignLeft | Qt::AlignTop);
-      this->table_->setItem(row, 1, what);
+      auto* effect_item = new QTableWidgetItem(QString::fromStdString(text));
+      effect_item->setTextAlignment(Qt::AlignLeft | Qt::AlignTop);
+      this->table_->setItem(row, 1, effect_item);
     }
   }
   this->table_->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Fixed);
@@ -68,26 +68,26 @@ ShortcutSheet::ShortcutSheet(QWidget* parent) : QDialog(parent)
 
 void ShortcutSheet::apply_search(const QString& words)
 {
-  const QStringList wanted = words.split(' ', Qt::SkipEmptyParts);
-  int heading = -1;
+  const QStringList search_words = words.split(' ', Qt::SkipEmptyParts);
+  int heading_row = -1;
   QString title;
-  bool any = false;
+  bool any_row_shown = false;
   for (int row = 0; row < this->table_->rowCount(); ++row)
   {
     if (this->table_->columnSpan(row, 0) == 2)
     {
-      heading = row;
+      heading_row = row;
       title = this->table_->item(row, 0)->text();
-      any = false;
+      any_row_shown = false;
       this->table_->hideRow(row);
       continue;
     }
     const QString text =
       title + ' ' + this->table_->item(row, 0)->text() + ' ' + this->table_->item(row, 1)->text();
-    const bool shown = std::all_of(wanted.begin(), wanted.end(),
+    const bool shown = std::all_of(search_words.begin(), search_words.end(),
       [&](const QString& word) { return text.contains(word, Qt::CaseInsensitive); });
     this->table_->setRowHidden(row, !shown);
-    any = any || shown;
-    this->table_->setRowHidden(heading, !any);
+    any_row_shown = any_row_shown || shown;
+    this->table_->setRowHidden(heading_row, !any_row_shown);
   }
 }

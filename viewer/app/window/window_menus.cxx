@@ -42,7 +42,7 @@ QList<QKeySequence> shortcuts(const char* name)
   return result;
 }
 
-QString word_of(QString text)
+QString to_identifier(QString text)
 {
   static const QRegularExpression other("[^a-z0-9]+");
   text = text.remove('&').toLower().replace(other, "_");
@@ -56,7 +56,7 @@ void name_actions(const QList<QAction*>& entries, const QString& menu)
   for (QAction* entry : entries)
   {
     const QString name =
-      menu.isEmpty() ? word_of(entry->text()) : menu + '.' + word_of(entry->text());
+      menu.isEmpty() ? to_identifier(entry->text()) : menu + '.' + to_identifier(entry->text());
     if (entry->menu())
     {
       name_actions(entry->menu()->actions(), name);
@@ -194,7 +194,7 @@ void WindowMenus::add_view_menu()
   this->show_method(0);
   view->addSeparator();
   QMenu* appearance = view->addMenu(tr("&Appearance"));
-  auto* looks = new QActionGroup(this);
+  auto* appearance_group = new QActionGroup(this);
   for (const auto& [text, look] : { std::pair(tr("Same as the &desktop"), Appearance::system),
          std::pair(tr("&Light"), Appearance::light), std::pair(tr("D&ark"), Appearance::dark) })
   {
@@ -202,7 +202,7 @@ void WindowMenus::add_view_menu()
       this->add(appearance, text, "", [look = look] { choose_appearance(*qApp, look); });
     entry->setCheckable(true);
     entry->setChecked(look == chosen_appearance());
-    looks->addAction(entry);
+    appearance_group->addAction(entry);
   }
 }
 

@@ -119,10 +119,10 @@ hostile()
 real()
 { # on as many models at once as there are cores: tests/real_meshes.md comes from a run with one at a time
   local slice=${BINDPOSE_REAL_SLICE:-$(slice_of 8)/8} # 1/1: all models
-  /usr/bin/python3 "$root/tests/real_meshes.py" --build "$build_dir" --jobs "$(nproc)" --threads 1 --accuracy 12 \
+  /usr/bin/python3 "$root/tests/real_meshes.py" --build "$build_dir" --jobs "$(nproc)" --threads 1 --accuracy 4 \
     --slice "$slice" \
     --csv "$build_dir/nightly-real.csv" --markdown "$build_dir/nightly-real.md" \
-    --check 'accuracy_rms_median<=0.015' 'weights_leak_max<=0.01'
+    --check 'accuracy_rms_median<=0.03' 'weights_leak_max<=0.01'
 }
 
 paraview()

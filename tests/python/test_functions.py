@@ -2,8 +2,6 @@
 exceptions.
 """
 
-import contextlib
-import ctypes
 import json
 import os
 import subprocess
@@ -23,15 +21,7 @@ BONES = [[[0.5, 0.5, 0.5], [3, 0.5, 0.5]], [[3, 0.5, 0.5], [5.5, 0.5, 0.5]]]
 
 
 def program(folder, *words):
-    """Run the program with the kernels that OpenBLAS has chosen in this process, so that the bits are the same. The
-    program would choose faster ones on a processor that OpenBLAS does not know.
-    """
-    environment = dict(os.environ)
-    with contextlib.suppress(OSError, AttributeError):  # no BLAS, or another one
-        core_name = ctypes.CDLL("libblas.so.3").openblas_get_corename
-        core_name.restype = ctypes.c_char_p
-        environment["OPENBLAS_CORETYPE"] = core_name().decode()
-    subprocess.run([PROGRAM, *map(str, words)], cwd=folder, check=True, capture_output=True, env=environment)
+    subprocess.run([PROGRAM, *map(str, words)], cwd=folder, check=True, capture_output=True)
 
 
 def test_winding_number_at_points():

@@ -1,7 +1,6 @@
 // The program bindpose: parses the command line, runs the verb (subcommand), and returns the exit
 // code: 0 success, 1 usage error, 2 invalid input, 3 not converged, 4 canceled, 5 internal error.
 #include "cli/arguments.h"
-#include "cli/fast_blas.h"
 #include "cli/interrupt.h"
 #include "cli/key_table.h"
 #include "cli/session.h"
@@ -77,13 +76,6 @@ int main(int argc, char** argv)
   {
     std::cout << key_table_markdown();
     return 0;
-  }
-  for (const char* verb : { "weights", "smooth", "deform", "view" })
-  {
-    if (arguments.verb == verb) // the other verbs factorize no matrices
-    {
-      restart_with_fast_blas(argv);
-    }
   }
   Session session(arguments);
   try

@@ -24,8 +24,8 @@ int exit_code(StatusCode code);
 enum class Merge
 {
   nothing, ///< only the warnings, and the total time as seconds.STAGE
-  numbers, ///< as `nothing`, and all other entries except the times of phases
-  all ///< the warnings and all other entries, including the times of phases
+  numbers, ///< the warnings and all entries, except the times of phases
+  all ///< the warnings and all entries
 };
 
 /// One run of a verb (a subcommand such as `weights`). The session runs algorithms, shows their

@@ -1,8 +1,5 @@
 """bindpose weights: properties of all valid weights, on the surface's own points and on tets."""
 
-import pathlib
-import re
-
 import bindpose
 import numpy as np
 import pytest
@@ -332,20 +329,3 @@ def test_endpoints_are_taken_by_stretchable_bones(bar):
                    f"{method}.vtp").is_good()
         assert abs(points_of(bindpose.read(folder / f"{method}.vtp"))[:, 0].max() - end) < 0.3
     folder.run("weights", "bar.off", "--handles", "auto:3", "--endpoints", "bounded", "-o", "n.vtp").is_refused("no bone")
-
-
-def test_a_processor_that_openblas_does_not_know(bar):
-    """For a processor that is newer than OpenBLAS, OpenBLAS chooses the kernels of the Prescott, which are slow. The
-    program then starts again with kernels for AVX2. A choice of the user is kept.
-    """
-    def cores(**variables):
-        run = bar.run("weights", "bar.off", "--handles", "bones.tgf", "-o", "w.vtp", "--overwrite",
-                      environment={"OPENBLAS_VERBOSE": "2", **variables}).is_good()
-        return re.findall(r"^Core: (\w+)", run.err, re.MULTILINE)
-
-    chosen = cores()
-    if not chosen:
-        pytest.skip("another BLAS, or an OpenBLAS for one processor")
-    if re.search(r"^flags\b.* avx2\b", pathlib.Path("/proc/cpuinfo").read_text(), re.MULTILINE):
-        assert chosen[-1] != "Prescott" and len(chosen) == (2 if chosen[0] == "Prescott" else 1)
-    assert cores(OPENBLAS_CORETYPE="Prescott") == ["Prescott"]

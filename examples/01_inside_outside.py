@@ -320,7 +320,7 @@ def main(options):
         fast = bindpose.winding_number(surface, few, method="fast", tolerance=tolerance)
         numbers["tolerance"][str(tolerance)] = float(np.abs(fast - exact).max())
         print(f"  within {tolerance:.0e}: {1e6 * fast.report['seconds']['evaluate'] / len(few):8.2f} µs a point, "
-              f"errs by {np.abs(fast - exact).max():.1e}")
+              f"maximum error {np.abs(fast - exact).max():.1e}")
 
     # Compare the gradient with finite differences of the field.
     _, gradient = bindpose.winding_number(surface, few, compute_gradient=True, method="exact")

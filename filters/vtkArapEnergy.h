@@ -1,8 +1,8 @@
 #ifndef vtkArapEnergy_h
 #define vtkArapEnergy_h
 
-/// Sets of edges that share a rotation in as-rigid-as-possible deformation: the values of Energy of
-/// vtkReducedARAP, vtkFullARAP, vtkReducedDynamics and vtkCrowdDeformation.
+/// Values of the property Energy of vtkReducedARAP, vtkFullARAP, vtkReducedDynamics and
+/// vtkCrowdDeformation. Each value selects the sets of edges that share a rotation.
 struct vtkArapEnergy
 {
   enum EnergyType

@@ -203,8 +203,8 @@ Status vtkReducedDynamics::Deform(
   options.solve.mixed_precision = this->MixedPrecision;
   if (!state.started && state.next > 0)
   {
-    // A new bind restarts the simulation at time 0, but the handles of this request are those of a
-    // later time.
+    // A new bind restarts the simulation at time 0, but the pose of this request belongs to a later
+    // time.
     state.must_continue = true;
   }
   else

@@ -90,7 +90,7 @@ def make(options):
         "pixels of the arm, in front": int(owned["in front"].sum()),
         "pixels of the arm, behind": int(owned["behind"].sum()),
         "pixels that change with the layers": int((owned["in front"] ^ owned["behind"]).sum()),
-        "of these, shown as arm when the arm is in front": int((owned["in front"] & ~owned["behind"]).sum()),
+        "of these, pixels of the arm when it is in front": int((owned["in front"] & ~owned["behind"]).sum()),
         "equal layers: lowest and highest depth": [float(equal.min()), float(equal.max())],
         "layer 1: lowest and highest depth": [float(depth.min()), float(depth.max())],
     }

@@ -360,7 +360,7 @@ def test_near_limbs(tmp_path):
 def test_limbs_in_front(tmp_path):
     numbers = numbers_of("gallery/limbs_in_front.py", tmp_path)
     assert numbers["pixels that change with the layers"] > 300
-    assert numbers["of these, shown as arm when the arm is in front"] == numbers["pixels that change with the layers"]
+    assert numbers["of these, pixels of the arm when it is in front"] == numbers["pixels that change with the layers"]
     seen, covered = numbers["pixels of the arm, in front"], numbers["pixels of the arm, behind"]
     assert seen - covered == numbers["pixels that change with the layers"]
     assert numbers["equal layers: lowest and highest depth"] == [0, 0]

@@ -170,7 +170,7 @@ private:
   Work saved_;
   QUndoStack* history_;
   vtkSmartPointer<vtkPolyData> edited_handles_; // the handles, edited in place
-  bindpose::Handles handles_; // live_ as handles of the kernels
+  bindpose::Handles handles_; // edited_handles_ as handles of the kernels
   std::vector<bindpose::Index> cells_;
   // surface whose weights have one column per handle, in the order of the handles
   vtkSmartPointer<vtkPolyData> surface_;

@@ -412,7 +412,7 @@ bool RestEditor::press_rest(const ScreenView& view, const MouseState& mouse_stat
     this->ends_.push_back(end);
     this->start_positions_.push_back(tail ? record.tail : record.head);
   };
-  const auto add_whole = [&](vtkIdType cell)
+  const auto add_head_and_tail = [&](vtkIdType cell)
   {
     const HandleRecord& record = records[static_cast<std::size_t>(cell)];
     if (record.is_handle() && !record.locked)
@@ -431,12 +431,12 @@ bool RestEditor::press_rest(const ScreenView& view, const MouseState& mouse_stat
   {
     for (const vtkIdType cell : selected)
     {
-      add_whole(cell);
+      add_head_and_tail(cell);
     }
   }
   else if (pick.part == HandlePart::body)
   {
-    add_whole(pick.handle);
+    add_head_and_tail(pick.handle);
   }
   else
   {

@@ -41,7 +41,7 @@ class vtkRegionBrushRepresentation::Internals
 public:
   bindpose::RestSurface Surface;
   std::unique_ptr<bindpose::SurfaceDisc> Disc;
-  int DiscBuild = -1; // RestSurface::builds() of the surface for which Disc was created
+  int DiscBuild = -1; // RestSurface::build_count() of the surface for which Disc was created
 
   bool HasHit = false;
   Vector3d HitPosition = Vector3d::Zero();

@@ -34,8 +34,8 @@ public:
   {
     Index handle;
     MeshPoint point;
-    Index prescribed = -1; ///< index in given(), or -1
-    Index constrained = -1; ///< index in held(), or -1
+    Index prescribed = -1; ///< index in prescribed(), or -1
+    Index constrained = -1; ///< index in constrained(), or -1
     bool tail = false; ///< whether the point is the tail of a bone in mode tail or ends
   };
 
@@ -54,17 +54,18 @@ public:
   /// them.
   void choose(const Pose& pose, const std::vector<Index>& fixed_vertices = {});
 
-  /// given() returns the ids of constrained vertices, ascending. held() returns the constrained
-  /// points that are not vertices.
+  /// prescribed() returns the ids of constrained vertices, ascending. constrained() returns the
+  /// constrained points that are not vertices.
   const std::vector<Index>& prescribed() const { return this->prescribed_; }
   const std::vector<MeshPoint>& constrained() const { return this->constrained_; }
   const std::vector<Constraint>& constraints() const { return this->constraints_; }
 
   /// Compute the target displacements for a pose with the chosen modes, one row per entry of
-  /// given() and held().
+  /// prescribed() and constrained().
   void targets(const Pose& pose, Rows& prescribed, Rows& constrained) const;
   /// Return a warning about redundant position handles, or an empty list.
-  /// @param points indices in held() of the redundant points that ConstrainedStiffness found.
+  /// @param points indices in constrained() of the redundant points that ConstrainedStiffness
+  /// found.
   std::vector<std::string> redundancy(const Pose& pose, const std::vector<Index>& points) const;
   /// Return the largest violation of a constraint by the displacements (#V x 3), in bounding-box
   /// diagonals. If handles contradict each other, append a warning.

@@ -136,7 +136,7 @@ private:
   // constraint is rho t + lever z = g_0. The others are R^T (Q^T z) = h, where h contains the g_i
   // with i > 0.
   FullFactorization factorization_;
-  std::vector<Index> free_indices_; ///< indices of the open unknowns in whole_.rows
+  std::vector<Index> free_indices_; ///< indices of the open unknowns in factorization_.rows
   Index constraints_ = 0;
   Eigen::VectorXd householder_; ///< the reflection of the constraints is I - mirror mirror^T
   Eigen::VectorXd shift_coupling_;

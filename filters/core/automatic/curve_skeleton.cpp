@@ -36,9 +36,8 @@ Status check_options(const CurveSkeletonOptions& options)
   return check_limits(options.time_limit, options.memory_limit);
 }
 
-/// A clean surface is replaced by a closed surface from a lattice if it has more than this factor
-/// times the number of triangles to contract. For such surfaces the lattice is faster than
-/// decimation.
+/// If a clean surface has more triangles than this factor times the number that is contracted, a
+/// closed surface is built from a lattice. For such surfaces the lattice is faster than decimation.
 constexpr Index dense_factor = 10;
 
 /// Compute a closed surface around the volume that the given surface encloses. Hollows are not

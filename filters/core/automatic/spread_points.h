@@ -9,7 +9,7 @@
 namespace bindpose
 {
 
-/// The distance that is used to spread points. vtkAutomaticHandles uses the same order.
+/// The distance that is used to spread points. The integers are those of vtkAutomaticHandles.
 enum class PointDistance
 {
   along_edges, ///< distance along edges of the surface: neighboring limbs are far from each other

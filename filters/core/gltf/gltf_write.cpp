@@ -587,15 +587,18 @@ bool fits_in_float(const Matrix& matrix)
 
 Status check_frames(const GltfSkin& skin, const GltfOptions& options)
 {
-  for (const GltfFrame& frame : skin.frames)
+  for (std::size_t i = 0; i < skin.frames.size(); ++i)
   {
+    const GltfFrame& frame = skin.frames[i];
     const bool morph = options.animation == GltfAnimation::morph;
     if ((!morph && frame.posed.size() != skin.joints.size()) ||
       (frame.points.rows() != skin.points.rows() && (morph || frame.points.rows() != 0)) ||
       (frame.normals.rows() != skin.points.rows() && frame.normals.rows() != 0))
     {
-      return Status::invalid_input(
-        "the number of points or joints of an animation frame differs from the mesh");
+      return Status::invalid_input("animation frame " + std::to_string(i + 1) + " has " +
+        std::to_string(frame.posed.size()) + " joints and " + std::to_string(frame.points.rows()) +
+        " points; expected " + std::to_string(skin.joints.size()) + " joints and " +
+        std::to_string(skin.points.rows()) + " points");
     }
     bool finite = fits_in_float(frame.points) && fits_in_float(frame.normals);
     for (const Eigen::Affine3d& map : frame.posed)

@@ -319,7 +319,8 @@ public:
       return std::max(
         this->minimum_scale_, few.scale * std::max(largest_step_back, few.points / this->target_));
     }
-    // Position of the next scale between those of many_ and few_, on a logarithmic axis.
+    // Position of the next scale between those of above_target_ and below_target_, on a logarithmic
+    // axis.
     double fraction = 0.5;
     if (std::isfinite(many.points) && few.points > 0.0)
     {

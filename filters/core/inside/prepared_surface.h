@@ -18,8 +18,8 @@ struct PreparedSurface
   EnclosedRegion inside;
   std::vector<DefectOccurrence> defects;
   double winding_threshold = 0.5;
-  /// counts.* of the diagnosis of surface defects, counts.back_triangles, counts.turned_triangles,
-  /// counts.turned_components.
+  /// Contains the counts of the diagnosis of surface defects (counts.*), and counts.back_triangles,
+  /// counts.turned_triangles and counts.turned_components.
   Report report;
   /// One sentence per type of triangles that were removed or flipped.
   std::vector<std::string> warnings;

@@ -1,7 +1,7 @@
 #ifndef bindpose_inside_remesh_tets_h
 #define bindpose_inside_remesh_tets_h
 
-// Method remesh of tetrahedralize(): tets by Delaunay refinement with graded edge lengths.
+// The method `remesh` of tetrahedralize(): tets by Delaunay refinement with graded edge lengths.
 
 #include "base/execution.h"
 #include "geometry/mesh.h"

@@ -158,9 +158,10 @@ struct BlockTree
   std::vector<int> parent; // index in this list; -1: no parent
 };
 
-/// Return the tree of a block. If row i is in column j of the factor, each later row of column j is
-/// also in column i. So the parent of a supernode is the supernode of its first row below in the
-/// block, even if its parent in the whole factor has no column in the block.
+/// Return the elimination tree of a block. If row i is in column j of the factor, each later row of
+/// column j is also in column i. So the parent of a supernode s is the supernode that contains the
+/// first row of s in the block below s. This is also correct if the parent of s in the whole factor
+/// has no column in the block.
 /// @param in_block  whether the unknown of a step is in the block
 template <typename InBlock>
 BlockTree tree_of_block(const Analysis& analysis, const InBlock& in_block)

@@ -48,7 +48,7 @@ double refined_solve(const FloatCholesky& factor,
     previous_rho = rho;
     const MatrixXd product = multiply(p);
     const VectorXd curvature = p.cwiseProduct(product).colwise().sum();
-    std::vector<Index> remaining; // columns of r that stay open
+    std::vector<Index> remaining; // columns of r that have not converged
     for (Index k = 0; k < static_cast<Index>(active.size()); ++k)
     {
       bool finished = !(curvature[k] > 0.0) || !std::isfinite(rho[k]);

@@ -145,7 +145,7 @@ private:
   MergedVertices merged_;
   Segments curves_; ///< segments of the curves, oriented with the inside on the left
   Segments bones_;
-  std::vector<Index> handles_; ///< index in gathered_ of each handle point
+  std::vector<Index> handles_; ///< index in merged_ of each handle point
   int exponent_ = 0;
   Vec2 shift_ = Vec2::Zero(); ///< input point that is mapped to the scaled origin
   double rounding_ = 0.0; ///< 8 units in the last place of the coordinates, scaled

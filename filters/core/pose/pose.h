@@ -18,7 +18,7 @@ enum class HandleMode : int
   free = 2, ///< no constraint
   tail = 3, ///< bones: the position of the tail is constrained
   ends = 4, ///< bones: the positions of both ends are constrained
-  /// Like `full`, but methods that compute rotations use the mode that with_found_rotations()
+  /// Like `full`, but methods that compute rotations use the mode that resolve_automatic_modes()
   /// chooses.
   automatic = 5
 };

@@ -44,8 +44,8 @@ struct PoseSequence
   bool has_expressions = false; ///< whether any value in the file is an expression
 };
 
-/// Function that computes the value of an expression in t (seconds). Return invalid_input with one
-/// clause about the error if the expression is not valid.
+/// Function that computes the value of an expression in t (seconds). If the expression is not
+/// valid, it returns invalid_input with a short description of the error.
 using PoseExpression = std::function<Status(const std::string& text, double t, double& value)>;
 
 /// Read the text of a POSE.json: one pose
@@ -104,7 +104,7 @@ bool read_pose_times(const std::string& text, PoseTimes& times);
 /// A handle without "mode" keeps its mode of the base pose. If this mode is automatic and the frame
 /// has one of the keys rotate, scale, head, tail, stretch and twist for the handle, its mode
 /// becomes full. Methods that compute rotations choose the constraints of handles that remain
-/// automatic (with_found_rotations()).
+/// automatic (resolve_automatic_modes()).
 ///
 /// Version 1: the default space is "world". With "parent", `head` and `tail` are applied before the
 /// parent's transform. A handle that is not in the frame keeps its transform of the base pose.

@@ -33,7 +33,7 @@ private:
 
   PointsView points_;
   TrianglesView triangles_;
-  std::vector<Index> first_; // #V + 1: index in around_ of each vertex's first triangle
+  std::vector<Index> first_; // #V + 1: index in vertex_triangles_ of each vertex's first triangle
   std::vector<Index> vertex_triangles_; // triangles around each vertex
   mutable std::vector<double> distance_; // #V: distances; infinity, except while within() runs
   mutable std::vector<char> done_;

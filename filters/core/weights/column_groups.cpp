@@ -446,7 +446,7 @@ std::vector<BoxQpColumn> columns_without_terms(const WeightsProblem& problem)
   }
   const WeightTerms none;
   const Exclusions nothing;
-  // make() cannot fail without optional terms.
+  // If there are no optional terms, make() cannot fail.
   GroupMaker(problem, none, nothing, false, group).make(false);
   return std::move(group.columns);
 }

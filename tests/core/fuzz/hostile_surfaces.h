@@ -9,10 +9,10 @@
 namespace bindpose::test
 {
 
-/// Return a random surface of size about 1 near the origin, with approximately `most` triangles or
-/// fewer. The type is random: triangles with corners on a lattice or anywhere, needles and slivers,
-/// layers, a fan, one or two triangles, or a damaged closed surface. A damaged surface has holes,
-/// reversed or repeated triangles, or separated corners.
+/// Return a random surface of size about 1 near the origin, with approximately `maximum_triangles`
+/// triangles or fewer. The type is random: triangles with corners on a lattice or anywhere, needles
+/// and slivers, layers, a fan, one or two triangles, or a damaged closed surface. A damaged surface
+/// has holes, reversed or repeated triangles, or separated corners.
 TriangleMesh hostile_surface(Random& random, Index maximum_triangles);
 
 /// Return a closed surface: each edge has equally many triangles in both directions. The types are

@@ -31,7 +31,7 @@ namespace
 class PlanarWindow : public test::WindowTest
 {
 protected:
-  /// Open a flat rectangle, rotated by `turn` and centered at `center`.
+  /// Open a flat rectangle, rotated by `rotation` and centered at `center`.
   void open(const Eigen::Matrix3d& rotation, const Vec3& center = Vec3(1, 2, 3))
   {
     this->mesh = test::grid(16, 8, 2.0, 1.0);

@@ -78,7 +78,8 @@ QImage scaled_down(const QImage& picture)
     .scaledToWidth(small_width, Qt::SmoothTransformation);
 }
 
-/// Return the fraction of the pixels that differ by more than `level`, or 1 if the sizes differ.
+/// Return the fraction of the pixels that differ by more than `channel_tolerance`, or 1 if the
+/// sizes differ.
 double difference(const QImage& a, const QImage& b)
 {
   if (a.size() != b.size())

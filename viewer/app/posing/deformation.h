@@ -98,8 +98,8 @@ private:
   bool binding_ = false;
   bool settled_ = false;
   bool canceled_ = false;
-  /// True while set_pose() runs. The signals arrived() and failed() are not emitted then, because
-  /// the caller of set_pose() reads the points itself.
+  /// True while set_pose() runs. The signals points_computed() and failed() are not emitted then,
+  /// because the caller of set_pose() reads the points itself.
   bool is_setting_pose_ = false;
   int restarts_ = 0;
 

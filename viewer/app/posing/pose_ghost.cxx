@@ -140,8 +140,8 @@ void PoseGhost::fade(bindpose::PointsView points, bindpose::PointsView first)
   this->shaded_->polydata()->GetPointData()->AddArray(this->distances_);
 }
 
-/// Give a ghost in the right half of a split view the look of the first shape: the same outlines,
-/// or the same texture.
+/// In the right half of a split view, draw the ghost with the outlines or the texture of the first
+/// shape.
 void PoseGhost::match_first_shape()
 {
   vtkTexture* picture = this->viewport_->surface_actor()->GetTexture();

@@ -566,8 +566,8 @@ void Viewport::draw_legend()
   box.x = static_cast<int>(20 * scale);
   box.y = static_cast<int>(24 * scale);
   // The number of lines determines the height of a legend with texts. If there are too many lines,
-  // the last line states how many are omitted. `line` is the height of a line and `around` the
-  // total margin, both in units of the font size.
+  // the last line states how many are omitted. `line_height` is the height of a line and `margin`
+  // the total margin, both in units of the font size.
   constexpr double line_height = 1.7, margin = 2.5;
   const double available_height = scale * this->height() - 2 * box.y;
   const int maximum_lines =

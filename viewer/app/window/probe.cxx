@@ -124,8 +124,9 @@ Vec3 point_on_ray(const ViewRay& ray, double distance)
   return ray.origin + distance * ray.direction;
 }
 
-/// Call `what` with the distance and the value at points along a ray through a volume, until `what`
-/// returns false. The number of points is twice the number of samples along the longest side.
+/// Call `visit` with the distance and the value at points along a ray through a volume, until
+/// `visit` returns false. The number of points is twice the number of samples along the longest
+/// side.
 template <typename Visitor>
 void sample_ray(const ViewRay& ray, vtkImageData* image, const Visitor& visit)
 {

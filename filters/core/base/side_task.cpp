@@ -42,12 +42,17 @@ void SideTask::run()
 {
   {
     std::unique_lock<std::mutex> lock(this->mutex_);
-    this->condition_.wait_for(lock, std::chrono::duration<double>(this->delay_),
-      [this] { return this->finish_requested_ || this->destroyed_; });
+    const auto is_called = [this] { return this->finish_requested_ || this->destroyed_; };
+    this->condition_.wait_for(lock, std::chrono::duration<double>(this->delay_), is_called);
+    if (this->delayed_until_finish_)
+    {
+      this->condition_.wait(lock, is_called);
+    }
     if (this->destroyed_)
     {
       return;
     }
+    this->started_ = true;
   }
   ExecutionContext context({}, [this] { return this->destroyed_ || this->context_.canceled(); });
   context.set_threads(1);
@@ -59,6 +64,13 @@ void SideTask::run()
   {
     this->failure_ = std::current_exception();
   }
+}
+
+bool SideTask::started()
+{
+  const std::lock_guard<std::mutex> lock(this->mutex_);
+  this->delayed_until_finish_ = true;
+  return this->started_;
 }
 
 void SideTask::finish()

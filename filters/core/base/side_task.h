@@ -31,6 +31,9 @@ public:
   SideTask(const SideTask&) = delete;
   SideTask& operator=(const SideTask&) = delete;
 
+  /// Report whether the work has started. If it has not, it only starts in finish(). Then the owner
+  /// can do the work itself, with its own threads and progress.
+  bool started();
   /// Start the work if it has not started, wait for its end, and rethrow its exception.
   void finish();
 
@@ -42,6 +45,8 @@ private:
   const Work work_;
   std::mutex mutex_;
   std::condition_variable condition_;
+  bool started_ = false;
+  bool delayed_until_finish_ = false; ///< set by started(): the delay no longer starts the work
   bool finish_requested_ = false; ///< true after finish() was called
   std::atomic<bool> destroyed_{ false }; ///< set by the destructor
   bool finished_ = false;

@@ -9,6 +9,7 @@
 #include "inside/tetrahedralize.h"
 
 #include "base/number_text.h"
+#include "base/side_task.h"
 #include "embedding/embedding_tets.h"
 #include "helper/child_process.h"
 #include "inside/cdt_tets.h"
@@ -25,6 +26,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <memory>
 #include <utility>
 
 namespace bindpose
@@ -148,12 +150,20 @@ private:
     }
     const CdtOptions options = this->cdt_options();
     CdtTets cdt(this->context_, this->surface_, this->inside_, options, this->log_);
+    if (automatic)
+    {
+      this->prepare_refinement();
+    }
     Status status;
     {
       const Phase phase(this->context_, "cdt", 0.0, cdt_build_end);
       // Fraction of the time limit for build(); the rest is for inserting vertices inside.
       constexpr double fraction = 0.75;
       status = cdt.build(fraction * this->time_limit_);
+    }
+    if (status.ok() && this->options_.quality == 0.0)
+    {
+      this->refinement_task_.reset(); // remesh is not needed
     }
     if (status.ok() || status.code == StatusCode::canceled)
     {
@@ -372,10 +382,23 @@ private:
     return this->options_.resolution == 0 ? automatic : this->options_.resolution;
   }
 
+  /// If method cdt takes long, start the Delaunay refinement in parallel, because method cdt may
+  /// fail. The memory of two processes must not be too much.
+  void prepare_refinement()
+  {
+    constexpr double delay = 10.0; // seconds
+    constexpr Index maximum_triangles = 1000000;
+    if (this->surface_.triangles.rows() <= maximum_triangles && this->options_.memory_limit == 0)
+    {
+      this->refinement_task_ = std::make_unique<SideTask>(
+        this->context_, delay, [this](ExecutionContext& side) { this->run_refinement(side); });
+    }
+  }
+
   /// Run the helper's Delaunay refinement. Edges are as long as the edges of the surface, within
   /// bounds that depend on the resolution. By default the bounds are 0.005 and 0.035 of the box's
   /// longest side.
-  Status remesh_by_refinement()
+  void run_refinement(ExecutionContext& context)
   {
     const double start = this->context_.elapsed_seconds();
     const double cube = this->box_.size().maxCoeff() /
@@ -402,9 +425,23 @@ private:
       options.time_limit = std::min({ options.time_limit, maximum_limit,
         base_limit + seconds_per_triangle * static_cast<double>(this->surface_.triangles.rows()) });
     }
-    RemeshResult result;
-    Status status = remesh_tets(this->context_, this->surface_.points, this->surface_.triangles,
-      this->inside_.winding(), options, result);
+    this->refinement_.status = remesh_tets(context, this->surface_.points, this->surface_.triangles,
+      this->inside_.winding(), options, this->refinement_.result);
+    this->refinement_.seconds = this->context_.elapsed_seconds() - start;
+  }
+
+  Status remesh_by_refinement()
+  {
+    if (this->refinement_task_ && this->refinement_task_->started())
+    {
+      this->refinement_task_->finish();
+    }
+    else
+    {
+      this->run_refinement(this->context_);
+    }
+    Status status = this->refinement_.status;
+    RemeshResult& result = this->refinement_.result;
     if (status.ok())
     {
       const double volume = tet_volumes(result.mesh.points, result.mesh.tets).sum();
@@ -413,7 +450,7 @@ private:
         status = wrong_volume_error(volume, this->inside_);
       }
     }
-    this->log("Delaunay refinement of the inside", start, status);
+    this->log_.add("Delaunay refinement of the inside", this->refinement_.seconds, status);
     if (!status.ok())
     {
       return status;
@@ -741,6 +778,15 @@ private:
   std::vector<char> inside_tets_; ///< with keep_outside, #T: 1 for tets inside; otherwise empty
   TetMesh lattice_mesh_; ///< lattice tets of method remesh with a wrong volume
   double lattice_misfit_ = std::numeric_limits<double>::infinity();
+  /// Result of run_refinement().
+  struct Refinement
+  {
+    Status status;
+    RemeshResult result;
+    double seconds = 0.0;
+  };
+  Refinement refinement_;
+  std::unique_ptr<SideTask> refinement_task_; ///< runs run_refinement(); null if it is not needed
   const Report& preparation_report_; ///< report of the preparation, before the first attempt
   Report report_;
   AttemptLog log_;

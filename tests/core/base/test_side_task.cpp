@@ -52,6 +52,33 @@ TEST(SideTask, FinishBeginsItAtOnceAndWaitsForItsEnd)
   }
 }
 
+TEST(SideTask, AfterStartedItIsRunningOrWaitsForFinish)
+{
+  ExecutionContext context;
+  context.set_threads(2);
+  std::atomic<bool> begun{ false };
+  SideTask late(context, 0.05, [&](ExecutionContext&) { begun = true; });
+  EXPECT_FALSE(late.started());
+  sleep_for(0.2);
+  EXPECT_FALSE(begun); // the delay has passed, but started() was called before
+  late.finish();
+  EXPECT_TRUE(begun);
+
+  begun = false;
+  SideTask early(context, 0.0,
+    [&](ExecutionContext&)
+    {
+      begun = true;
+      sleep_for(0.1);
+    });
+  for (int i = 0; i < 1000 && !begun; ++i)
+  {
+    sleep_for(0.01);
+  }
+  EXPECT_TRUE(early.started() || std::thread::hardware_concurrency() == 1);
+  early.finish();
+}
+
 TEST(SideTask, WithOneThreadItWaitsForFinish)
 {
   ExecutionContext context;

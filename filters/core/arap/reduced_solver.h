@@ -13,8 +13,8 @@ namespace bindpose
 /// Initial rotations of a solve.
 enum class ReducedStart
 {
-  /// Rotations of the last solve (`guess` in the first solve). Few iterations are needed, and
-  /// twists of more than half a turn can accumulate.
+  /// Rotations of the last solve (`guess` in the first solve). A drag then needs few iterations per
+  /// solve, and can build up twists of more than half a turn.
   last,
   /// Rotations of the full handles nearby; elsewhere the rotation that best fits all pivots.
   /// Depends on the pose only.

@@ -2,7 +2,7 @@
 #define bindpose_arap_weight_clusters_h
 
 // Clusters of vertices with similar weights, and extra weights for reduced as-rigid-as-possible
-// (Jacobson et al. 2012).
+// deformation (Jacobson et al. 2012).
 
 #include "base/execution.h"
 #include "geometry/mesh.h"

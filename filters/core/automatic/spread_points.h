@@ -24,8 +24,8 @@ struct SpreadPointsOptions
 {
   Index count = 8; ///< number of points, >= 1
   PointDistance distance = PointDistance::along_edges;
-  /// Move each point from its vertex into the middle of the shape. A point is not moved if both
-  /// sides of the surface are outside at the vertex.
+  /// Move each point from its vertex into the middle of the shape. A point is not moved if neither
+  /// side of the surface is inside at the vertex.
   bool inside = true;
   double winding_threshold = 0.5; ///< a point is inside if its winding number is at least this, > 0
 };

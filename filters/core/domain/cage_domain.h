@@ -16,8 +16,8 @@ struct CageOptions
   double winding_threshold = 0.5;
   /// The points of this handle geometry become vertices of the tets. Used only for a cage of faces.
   HandleElements handle_elements;
-  /// The points of the surface become vertices of the domain if their number is at most this limit;
-  /// otherwise no point of the surface does.
+  /// Maximum number of surface points that become vertices of the domain. If the surface has more
+  /// points, none of them becomes a vertex.
   Index maximum_points = 20000;
 };
 

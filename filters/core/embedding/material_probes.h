@@ -28,7 +28,7 @@ public:
   struct Side
   {
     Id root; ///< identifies the copy (root of its union-find class)
-    std::vector<Vec3> positions; ///< positions in the atoms, in units of cubes
+    std::vector<Vec3> positions; ///< one position in each atom; unit: edge length of a cube
   };
   /// Append pairs of roots for copies that are connected by a probe.
   /// @param sides all copies of one node.

@@ -142,7 +142,7 @@ private:
   bool finer_is_no_better_ = false; ///< whether finer tets cannot improve the result
   bool timed_out_ = false; ///< whether the last run of TetGen reached its time limit
   double job_seconds_ = 0.0; ///< total duration of the refinements and the TetGen runs
-  /// Whether the refinement was stopped because too many triangles cross.
+  /// Whether the refinement was stopped because too many triangles cross each other.
   bool too_many_crossings_ = false;
   bool fine_fails_ = false; ///< whether small tets were tried and TetGen returned none
   TetMesh mesh_;

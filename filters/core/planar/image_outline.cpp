@@ -479,8 +479,8 @@ private:
     this->previous_[n] = p;
   }
 
-  /// Return the largest distance of the contour points between p and n from the segment between p
-  /// and n. The search ends when the limit is exceeded.
+  /// Return the largest distance from the segment pn to the contour points between p and n. The
+  /// search ends when the limit is exceeded.
   double deviation(std::size_t loop, Index p, Index n, double limit) const
   {
     const std::vector<Vec2>& points = this->loops_.points;

@@ -384,7 +384,7 @@ private:
   /// Memory for up to half as many replaced tets is allowed.
   static Index maximum_ids_for(Index tets)
   {
-    // Number of ids of replaced tets that is always allowed, because they take little memory.
+    // Up to this number, ids of replaced tets are always allowed, because they take little memory.
     constexpr Index few = 100000;
     return few + tets + tets / 2;
   }

@@ -29,7 +29,7 @@ constexpr double minimum_gain = 0.02;
 constexpr double infinite_cost = std::numeric_limits<double>::infinity();
 // Cosines of limits for the angle between the normals of boundary triangles.
 constexpr double flat_cosine = 0.966; // 15 degrees: below this angle an edge may be swapped
-constexpr double crease_cosine = 0.766; // 40 degrees: above this angle a vertex may not move
+constexpr double crease_cosine = 0.766; // 40 degrees: above this angle a vertex is fixed
 
 bool is_angle_below(const Vec3& one, const Vec3& other, double cosine)
 {

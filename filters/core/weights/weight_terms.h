@@ -62,8 +62,8 @@ double rigidity_unit(int order);
 /// - a rigidity is not in 0 … 1e12;
 /// - a value is infinite, or the lower bound of a handle is above its upper bound;
 /// - a mirror entry is not a vertex or -1, or mirror[mirror[v]] is not v;
-/// - the prescribed weights of a vertex sum to more than 1 and no weight is negative, or the
-///   weights of all handles are prescribed and do not sum to 1.
+/// - no prescribed weight of a vertex is negative, and they sum to more than 1;
+/// - the weights of all handles are prescribed at a vertex and do not sum to 1.
 Status check_terms(const WeightTerms& terms, Index vertex_count, const Handles& handles);
 
 /// Extend the terms to inserted vertices. A mirror plane is replaced by mirror vertices.

@@ -246,7 +246,7 @@ struct Degree
   Id in = 0, out = 0;
 };
 
-/// A closed curve of segments, which may end with a chord.
+/// A closed polyline. If the path is open, the last segment is the chord between its ends.
 struct Loop
 {
   Id first, last; ///< indices of the two ends on the path; both ends are the same vertex

@@ -560,7 +560,7 @@ Status WindingNumber::evaluate_points(ExecutionContext& context, Index count,
     }
   }
   const ProgressRange range(context, use_rays ? 0.5 : 0.0, 1.0);
-  // The estimate for the tree is the worst case, in which the tree takes the time of the plain sum.
+  // The estimate of the time assumes the worst case: a tree is as slow as the plain sum.
   const double nanoseconds = impl.method == WindingMethod::fast ? 500.0
     : impl.method == WindingMethod::crossings ? 100.0 + 20.0 * static_cast<double>(impl.caps.rows())
                                               : 20.0 * static_cast<double>(impl.triangles.rows());

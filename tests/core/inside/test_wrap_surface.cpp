@@ -73,8 +73,8 @@ void expect_clean(const TriangleMesh& wrap)
   EXPECT_GT(signed_volume(wrap.points, wrap.triangles), 0.0);
 }
 
-/// Expect that every vertex and triangle center of the surface is inside of the wrap. At corners
-/// they may be on the wrap. Expect that the distance of the wrap's vertices from the surface is the
+/// Expect that every vertex and triangle center of the surface is inside of the wrap or, at
+/// corners, on it. Expect that the distance of the wrap's vertices from the surface is the
 /// offset.
 void expect_around(const TriangleMesh& wrap, const TriangleMesh& mesh, double offset)
 {

@@ -39,7 +39,7 @@ public:
   explicit PoseGhost(Viewport* viewport);
   ~PoseGhost();
 
-  /// Set the surface at rest of which the ghost shows a pose; null: no ghost.
+  /// Set the rest surface. The ghost shows this surface in another pose. Null hides the ghost.
   void set_surface(vtkPolyData* surface);
   /// Set where the ghost is drawn. `points` are the points of the ghost, and `first` the points of
   /// the viewport's shape. If `points` is empty, the ghost keeps its points.

@@ -21,6 +21,7 @@
 
 #include "support/handles.h"
 #include "support/meshes.h"
+#include "support/poses.h"
 
 #include "file_kind.h"
 #include "pictures/sequence_file.h"
@@ -97,22 +98,6 @@ Handles handles_of_pole()
     test::bone_handle("upper", Vec3(0, 0, 0.05), Vec3(0, 0, 0.8)) };
 }
 
-Weights weights_of(const Points& points, const Handles& handles)
-{
-  Weights weights(points.rows(), static_cast<Index>(handles.size()));
-  for (Index v = 0; v < points.rows(); ++v)
-  {
-    for (Index j = 0; j < weights.cols(); ++j)
-    {
-      const Handle& handle = handles[static_cast<std::size_t>(j)];
-      const Vec3 middle = 0.5 * (handle.head + handle.tail);
-      weights(v, j) = 1.0 / (1e-3 + (points.row(v).transpose() - middle).squaredNorm());
-    }
-    weights.row(v) /= weights.row(v).sum();
-  }
-  return weights;
-}
-
 class PosingWindow : public test::WindowTest
 {
 protected:
@@ -122,7 +107,7 @@ protected:
 
     this->surface = to_polydata(mesh.points, mesh.triangles);
     this->surface->GetPointData()->AddArray(
-      to_weights_array("Weights", weights_of(mesh.points, this->list), this->list));
+      to_weights_array("Weights", test::distance_weights(mesh.points, this->list), this->list));
     this->handles = to_polydata(this->list);
     ASSERT_TRUE(this->window.set_mesh(this->surface, "pole"));
     ASSERT_TRUE(this->window.set_handles(this->handles, "handles"));
@@ -545,7 +530,7 @@ TEST_F(PosingWindow, ABodyOfAnotherShapeFollowsTheOneThatWasBeingBound)
   const TriangleMesh other = pole(4);
   const auto second = to_polydata(other.points, other.triangles);
   second->GetPointData()->AddArray(
-    to_weights_array("Weights", weights_of(other.points, this->list), this->list));
+    to_weights_array("Weights", test::distance_weights(other.points, this->list), this->list));
   ASSERT_TRUE(this->window.set_mesh(second, "second"));
   ASSERT_TRUE(this->option<QCheckBox>("pose.moves")->isChecked());
   ASSERT_TRUE(wait_for([motion] { return motion->has_started(); }));
@@ -1424,7 +1409,7 @@ TEST_P(DragFrame, TakesMilliseconds)
       test::point_handle("p" + std::to_string(k), Vec3(std::cos(angle), std::sin(angle), side)));
   }
   const auto data = to_polydata(mesh.points, mesh.triangles);
-  Weights weights = weights_of(mesh.points, twenty);
+  Weights weights = test::distance_weights(mesh.points, twenty);
   weights = weights.array().pow(3.0).matrix(); // the weights become local, like bounded weights
   weights = (weights.array() < 1e-3 * weights.maxCoeff()).select(0.0, weights);
   weights = (weights.array().colwise() / weights.rowwise().sum().array()).matrix();

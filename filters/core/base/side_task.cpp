@@ -29,7 +29,7 @@ SideTask::~SideTask()
 {
   {
     const std::lock_guard<std::mutex> lock(this->mutex_);
-    this->destroyed_ = true;
+    this->canceled_ = true;
   }
   this->condition_.notify_all();
   if (this->thread_.joinable())
@@ -42,19 +42,15 @@ void SideTask::run()
 {
   {
     std::unique_lock<std::mutex> lock(this->mutex_);
-    const auto is_called = [this] { return this->finish_requested_ || this->destroyed_; };
-    this->condition_.wait_for(lock, std::chrono::duration<double>(this->delay_), is_called);
-    if (this->delayed_until_finish_)
-    {
-      this->condition_.wait(lock, is_called);
-    }
-    if (this->destroyed_)
+    this->condition_.wait_for(lock, std::chrono::duration<double>(this->delay_),
+      [this] { return this->finish_requested_ || this->canceled_; });
+    if (this->canceled_)
     {
       return;
     }
     this->started_ = true;
   }
-  ExecutionContext context({}, [this] { return this->destroyed_ || this->context_.canceled(); });
+  ExecutionContext context({}, [this] { return this->canceled_ || this->context_.canceled(); });
   context.set_threads(1);
   try
   {
@@ -66,11 +62,18 @@ void SideTask::run()
   }
 }
 
-bool SideTask::started()
+bool SideTask::drop_unless_started()
 {
-  const std::lock_guard<std::mutex> lock(this->mutex_);
-  this->delayed_until_finish_ = true;
-  return this->started_;
+  {
+    const std::lock_guard<std::mutex> lock(this->mutex_);
+    if (this->started_)
+    {
+      return false;
+    }
+    this->canceled_ = true;
+  }
+  this->condition_.notify_all();
+  return true;
 }
 
 void SideTask::finish()

@@ -31,9 +31,9 @@ public:
   SideTask(const SideTask&) = delete;
   SideTask& operator=(const SideTask&) = delete;
 
-  /// Report whether the work has started. If it has not, it only starts in finish(). Then the owner
-  /// can do the work itself, with its own threads and progress.
-  bool started();
+  /// Drop the work if it has not started: then it never starts, and the owner can do it with its
+  /// own threads and progress. @return Whether the work was dropped.
+  bool drop_unless_started();
   /// Start the work if it has not started, wait for its end, and rethrow its exception.
   void finish();
 
@@ -46,9 +46,8 @@ private:
   std::mutex mutex_;
   std::condition_variable condition_;
   bool started_ = false;
-  bool delayed_until_finish_ = false; ///< set by started(): the delay no longer starts the work
   bool finish_requested_ = false; ///< true after finish() was called
-  std::atomic<bool> destroyed_{ false }; ///< set by the destructor
+  std::atomic<bool> canceled_{ false }; ///< set when the work is dropped, and by the destructor
   bool finished_ = false;
   std::exception_ptr failure_;
   std::thread thread_; ///< not started if the context has only one thread

@@ -106,6 +106,12 @@ Status check_end(const ChildEnd& end, const HelperOutput& lines, const MesherReq
 }
 } // namespace
 
+bool can_run_two_meshers(Index triangle_count, Index memory_limit)
+{
+  constexpr Index maximum_triangles = 1000000;
+  return triangle_count <= maximum_triangles && memory_limit == 0;
+}
+
 std::string find_mesher()
 {
   if (const char* chosen = std::getenv("BINDPOSE_MESHER"))

@@ -38,6 +38,10 @@ struct MesherResult
 /// build tree.
 std::string find_mesher();
 
+/// Report whether two jobs for a surface may run at the same time without using too much memory.
+/// @param memory_limit the user's limit in MiB, 0: no limit. With a limit, only one job may run.
+bool can_run_two_meshers(Index triangle_count, Index memory_limit);
+
 /// Run one job in a separate process and wait for its end. CGAL and TetGen may crash, hang or use
 /// all memory if the input is bad. This function converts these failures to a status:
 /// - unavailable: the helper is not found; the message contains the packages that are needed to

@@ -216,14 +216,12 @@ Status CdtTets::try_switches(const Perturbation& move, const MesherData& refined
   {
     setups.erase(setups.begin()); // after random displacements no triangles are coplanar
   }
-  // If the first set of switches takes long, the run with the last set is started in parallel,
-  // provided that two processes do not need too much memory.
-  constexpr Index maximum_triangles = 1000000;
+  // If the first set of switches takes long, the run with the last set is started in parallel.
   constexpr double usual_delay = 1.0; // seconds
   constexpr double unlimited_delay = 1e6;
-  const bool large =
-    refined.triangles.rows() > maximum_triangles || this->options_.memory_limit > 0;
-  const double delay = large ? unlimited_delay : usual_delay;
+  const double delay = can_run_two_meshers(refined.triangles.rows(), this->options_.memory_limit)
+    ? usual_delay
+    : unlimited_delay;
   TetgenRun last_run;
   SideTask last(this->context_, delay,
     [&](ExecutionContext& side) { last_run = this->run_tetgen(side, setups.back(), refined); });

@@ -12,6 +12,7 @@
 #include "base/side_task.h"
 #include "embedding/embedding_tets.h"
 #include "helper/child_process.h"
+#include "helper/mesher_process.h"
 #include "inside/cdt_tets.h"
 #include "inside/enclosed_region.h"
 #include "inside/ftetwild_process.h"
@@ -383,12 +384,11 @@ private:
   }
 
   /// If method cdt takes long, start the Delaunay refinement in parallel, because method cdt may
-  /// fail. The memory of two processes must not be too much.
+  /// fail.
   void prepare_refinement()
   {
     constexpr double delay = 10.0; // seconds
-    constexpr Index maximum_triangles = 1000000;
-    if (this->surface_.triangles.rows() <= maximum_triangles && this->options_.memory_limit == 0)
+    if (can_run_two_meshers(this->surface_.triangles.rows(), this->options_.memory_limit))
     {
       this->refinement_task_ = std::make_unique<SideTask>(
         this->context_, delay, [this](ExecutionContext& side) { this->run_refinement(side); });
@@ -432,13 +432,13 @@ private:
 
   Status remesh_by_refinement()
   {
-    if (this->refinement_task_ && this->refinement_task_->started())
+    if (!this->refinement_task_ || this->refinement_task_->drop_unless_started())
     {
-      this->refinement_task_->finish();
+      this->run_refinement(this->context_);
     }
     else
     {
-      this->run_refinement(this->context_);
+      this->refinement_task_->finish();
     }
     Status status = this->refinement_.status;
     RemeshResult& result = this->refinement_.result;

@@ -52,31 +52,31 @@ TEST(SideTask, FinishBeginsItAtOnceAndWaitsForItsEnd)
   }
 }
 
-TEST(SideTask, AfterStartedItIsRunningOrWaitsForFinish)
+TEST(SideTask, IsDroppedOnlyBeforeItStarts)
 {
   ExecutionContext context;
   context.set_threads(2);
   std::atomic<bool> begun{ false };
   SideTask late(context, 0.05, [&](ExecutionContext&) { begun = true; });
-  EXPECT_FALSE(late.started());
+  EXPECT_TRUE(late.drop_unless_started());
   sleep_for(0.2);
-  EXPECT_FALSE(begun); // the delay has passed, but started() was called before
-  late.finish();
-  EXPECT_TRUE(begun);
+  EXPECT_FALSE(begun); // the delay has passed, but the work was dropped before
 
-  begun = false;
+  std::atomic<bool> finished{ false };
   SideTask early(context, 0.0,
     [&](ExecutionContext&)
     {
       begun = true;
       sleep_for(0.1);
+      finished = true;
     });
   for (int i = 0; i < 1000 && !begun; ++i)
   {
     sleep_for(0.01);
   }
-  EXPECT_TRUE(early.started() || std::thread::hardware_concurrency() == 1);
+  EXPECT_TRUE(!early.drop_unless_started() || std::thread::hardware_concurrency() == 1);
   early.finish();
+  EXPECT_TRUE(finished || std::thread::hardware_concurrency() == 1);
 }
 
 TEST(SideTask, WithOneThreadItWaitsForFinish)

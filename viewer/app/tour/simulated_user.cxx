@@ -68,11 +68,16 @@ void scroll_to(QWidget* widget)
 }
 } // namespace
 
+Viewport* SimulatedUser::viewport() const
+{
+  return this->window_->findChild<Viewport*>();
+}
+
 // ---- The mouse ---------------------------------------------------------------------------------
 
 QPoint SimulatedUser::place(double x, double y) const
 {
-  const Viewport* viewport = this->window_->findChild<Viewport*>();
+  const Viewport* viewport = this->viewport();
   return { static_cast<int>(std::lround(x * (viewport->width() - 1))),
     static_cast<int>(std::lround(y * (viewport->height() - 1))) };
 }
@@ -93,7 +98,7 @@ QString SimulatedUser::find_handle_position(
   {
     return QObject::tr("unknown handle '%1'").arg(handle);
   }
-  Viewport* viewport = this->window_->findChild<Viewport*>();
+  Viewport* viewport = this->viewport();
   auto* representation = viewport->handle_widget()->GetHandleSetRepresentation();
   const Index cell = this->window_->document()->handle_cells()[static_cast<std::size_t>(number)];
   Vec3 head, tail;
@@ -109,8 +114,7 @@ QString SimulatedUser::find_handle_position(
 
 QString SimulatedUser::find_gizmo_position(int part, QPoint& position) const
 {
-  auto* representation =
-    this->window_->findChild<Viewport*>()->handle_widget()->GetHandleSetRepresentation();
+  auto* representation = this->viewport()->handle_widget()->GetHandleSetRepresentation();
   double pixel[2] = { 0.0, 0.0 };
   if (!representation->GetGizmoGrip(part, pixel))
   {
@@ -122,7 +126,7 @@ QString SimulatedUser::find_gizmo_position(int part, QPoint& position) const
 
 QPoint SimulatedUser::from_display(const double* pixel) const
 {
-  const Viewport* viewport = this->window_->findChild<Viewport*>();
+  const Viewport* viewport = this->viewport();
   const double scale = viewport->devicePixelRatioF();
   return { static_cast<int>(std::floor(pixel[0] / scale)),
     viewport->height() - 1 - static_cast<int>(std::floor(pixel[1] / scale)) };
@@ -131,7 +135,7 @@ QPoint SimulatedUser::from_display(const double* pixel) const
 void SimulatedUser::send(QEvent::Type type, const QPoint& position, Qt::MouseButton button,
   Qt::MouseButtons held, Qt::KeyboardModifiers keys)
 {
-  Viewport* viewport = this->window_->findChild<Viewport*>();
+  Viewport* viewport = this->viewport();
   QMouseEvent event(type, position, viewport->mapToGlobal(position), button, held, keys);
   QApplication::sendEvent(viewport, &event);
 }
@@ -140,7 +144,7 @@ void SimulatedUser::press(
   const QPoint& position, Qt::MouseButton button, Qt::KeyboardModifiers held)
 {
   // a click on the 3D view gives it the focus
-  this->window_->findChild<Viewport*>()->setFocus(Qt::MouseFocusReason);
+  this->viewport()->setFocus(Qt::MouseFocusReason);
   this->buttons_ |= button;
   this->send(QEvent::MouseButtonPress, position, button, this->buttons_, held);
 }
@@ -169,7 +173,7 @@ void SimulatedUser::double_click(
 
 void SimulatedUser::wheel(const QPoint& position, double turns, Qt::KeyboardModifiers held)
 {
-  Viewport* viewport = this->window_->findChild<Viewport*>();
+  Viewport* viewport = this->viewport();
   constexpr int notch = 120; // angle of one wheel notch in eighths of a degree (Qt's unit)
   const QPoint angle(0, static_cast<int>(std::lround(notch * turns)));
   QWheelEvent event(position, viewport->mapToGlobal(position), QPoint(), angle, this->buttons_,
@@ -183,7 +187,7 @@ void SimulatedUser::leave()
   if (this->buttons_ == Qt::NoButton)
   {
     QEvent event(QEvent::Leave);
-    QApplication::sendEvent(this->window_->findChild<Viewport*>(), &event);
+    QApplication::sendEvent(this->viewport(), &event);
   }
 }
 
@@ -264,7 +268,7 @@ QString SimulatedUser::press_key(const QString& keys)
   const auto held = Qt::KeyboardModifiers(sequence[0] & Qt::KeyboardModifierMask);
   const int key = sequence[0] & ~static_cast<int>(Qt::KeyboardModifierMask);
   QWidget* focus = QApplication::focusWidget();
-  focus = focus ? focus : this->window_->findChild<Viewport*>();
+  focus = focus ? focus : this->viewport();
   const bool letter =
     key >= Qt::Key_Space && key <= Qt::Key_AsciiTilde && !(held & Qt::ControlModifier);
   const QString text = letter

@@ -12,6 +12,7 @@
 
 class MainWindow;
 class QAction;
+class Viewport;
 
 /// Simulates a user of the window, for tours and tests: mouse events on the 3D view, keys, menu
 /// entries, buttons and options. Each action uses the widget that a user would use. If a user could
@@ -21,6 +22,9 @@ class SimulatedUser
 {
 public:
   explicit SimulatedUser(MainWindow* window) : window_(window) {}
+
+  /// Return the 3D view of the window.
+  Viewport* viewport() const;
 
   // ---- The mouse on the 3D view; positions in pixels from its upper left corner ----
   QPoint place(double x, double y) const; ///< convert fractions of the view's width and height

@@ -565,7 +565,7 @@ QImage TourPlayer::grab(TourPart part, int width)
     dialog = candidate->isVisible() ? candidate : dialog;
   }
   this->process_drawing();
-  Viewport* viewport = this->window_->findChild<Viewport*>();
+  Viewport* viewport = this->user_.viewport();
   viewport->renderWindow()->Render();
   QApplication::processEvents();
   const QImage picture = part == TourPart::view ? viewport->grabFramebuffer()
@@ -601,13 +601,13 @@ QString TourPlayer::fit_view()
   {
     return {};
   }
-  const auto missing = [&] { return expected - this->window_->findChild<Viewport*>()->size(); };
+  const auto missing = [&] { return expected - this->user_.viewport()->size(); };
   for (int tries = 0; tries < 3 && missing() != QSize(0, 0); ++tries)
   {
     this->window_->resize(this->window_->size() + missing());
     this->process_drawing();
   }
-  const QSize now = this->window_->findChild<Viewport*>()->size();
+  const QSize now = this->user_.viewport()->size();
   return now == expected
     ? QString()
     : QString("cannot resize the view: its size is %1 x %2").arg(now.width()).arg(now.height());
@@ -623,15 +623,14 @@ QString TourPlayer::screenshot(const TourStep& step)
   else
   {
     vtkSmartPointer<vtkImageData> taken;
-    const Status status =
-      this->window_->findChild<Viewport*>()->take_picture(step.scale, step.transparent, taken);
+    const Status status = this->user_.viewport()->take_picture(step.scale, step.transparent, taken);
     if (!status.ok())
     {
       return QString::fromStdString(status.message);
     }
     picture = at_most(to_image(taken), step.width);
   }
-  const double drawn = drawn_fraction(this->window_->findChild<Viewport*>()->grabFramebuffer());
+  const double drawn = drawn_fraction(this->user_.viewport()->grabFramebuffer());
   if (picture.isNull() || (drawn == 0.0 && !this->window_->is_empty()))
   {
     return QString("the picture is empty");

@@ -3,8 +3,8 @@
  * @brief   base class of filters that pose by reduced as-rigid-as-possible deformation
  *
  * It has the parameters of the reduced space (Jacobson et al. 2012): the clusters of vertices that
- * share a rotation, and additional weight functions. Subclasses compute the
- * transforms: vtkReducedARAP without inertia, vtkReducedDynamics with inertia.
+ * share a rotation, and additional weight functions. Subclasses compute the transforms:
+ * vtkReducedARAP without inertia, vtkReducedDynamics with inertia.
  */
 
 #ifndef vtkReducedPoseAlgorithm_h

@@ -17,7 +17,7 @@ struct CageOptions
   /// The points of this handle geometry become vertices of the tets. Used only for a cage of faces.
   HandleElements handle_elements;
   /// Maximum number of surface points that become vertices of the domain. If the surface has more
-  /// points, none of them becomes a vertex.
+  /// points, no point becomes a vertex.
   Index maximum_points = 20000;
 };
 

@@ -27,7 +27,7 @@ constexpr int maximum_level = 19; // maximum number of octree levels
 constexpr Index cells_per_block = 256;
 // Maximum number of cells on one level, in units of the allowed number of cells inside. A shape
 // that is much thinner than the requested edge length contains no cells, but intersects millions.
-constexpr Index most_cells_per_cell_inside = 40;
+constexpr Index maximum_cells_per_cell_inside = 40;
 
 /// Integer coordinates in units of half of the smallest cell's side: 21 bits per coordinate.
 using LatticePosition = std::array<std::uint64_t, 3>;
@@ -178,7 +178,7 @@ private:
     }
     cells = std::move(parts);
     return this->cells_inside_ <= maximum_count &&
-      static_cast<Index>(cells.size()) <= most_cells_per_cell_inside * maximum_count;
+      static_cast<Index>(cells.size()) <= maximum_cells_per_cell_inside * maximum_count;
   }
 
   /// Keep the positions that are inside and far enough from the surface.

@@ -110,7 +110,7 @@ TEST(InnerPoints, EvenGridsGiveSomePointsAndNotTooMany)
 
 TEST(InnerPoints, AShapeMuchThinnerThanTheRequestedLengthTakesLittleTime)
 {
-  // The surface intersects 20 million cells of the requested size, and none of them is inside.
+  // The surface intersects 20 million cells of the requested size. No cell is inside.
   TriangleMesh disk = test::sphere(3);
   disk.points.col(2) *= 1e-8;
   const auto start = std::chrono::steady_clock::now();

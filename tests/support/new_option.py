@@ -7,10 +7,12 @@ tetrahedralize --help`, in the Python signature and stub, in the ParaView proper
 viewer/command_line.md. Its value must arrive in the kernel from the command line and from Python.
 
 usage: new_option.py FOLDER [CMAKE_OPTION…]      FOLDER gets the copy and its build; it must not exist
+       new_option.py --edit-only FOLDER            test only that the three edits can be made in the sources
 """
 
 import json
 import pathlib
+import shutil
 import subprocess
 import sys
 
@@ -71,12 +73,13 @@ protected:
             "  options.bare = this->Bare;\n  options.made_up = this->MadeUp;")
     replace(core / "tetrahedralize.h", "  bool bare = false;", "  bool bare = false;\n  double made_up = 0.25;")
     replace(core / "tetrahedralize.cpp",
-            "  return status.ok() ? Ladder(points, triangles, prepared, options, result, context).run() : status;",
+            "  return status.ok() ? Tetrahedralizer(context, points, triangles, prepared, options, result).run()\n"
+            "                     : status;",
             '''  if (!status.ok())
   {
     return status;
   }
-  status = Ladder(points, triangles, prepared, options, result, context).run();
+  status = Tetrahedralizer(context, points, triangles, prepared, options, result).run();
   status.report.set("made_up", options.made_up);
   return status;''')
 
@@ -89,9 +92,14 @@ def expect(condition, sentence):
 def main():
     if len(sys.argv) < 2:
         sys.exit(__doc__)
-    folder = pathlib.Path(sys.argv[1]).resolve()
+    edit_only = sys.argv[1] == "--edit-only"
+    folder = pathlib.Path(sys.argv[2 if edit_only else 1]).resolve()
     folder.mkdir(parents=True)
     copy, build = folder / "copy", folder / "build"
+    if edit_only:
+        shutil.copytree(ROOT / "filters", copy / "filters")
+        add_the_option(copy)
+        return
     run("git", "clone", "--quiet", ROOT, copy)
     add_the_option(copy)
     run("cmake", "-S", copy, "-B", build, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",

@@ -3,6 +3,7 @@
 // residual.
 #include "linear/refined_solve.h"
 
+#include "geometry/laplacian.h"
 #include "support/meshes.h"
 
 #include <Eigen/Cholesky>

@@ -36,7 +36,7 @@
 #include "base/stopwatch.h"
 #include "linear/refined_solve.h"
 #include "qp/column_problem.h"
-#include "qp/ordered_pairs.h"
+#include "qp/pair_rows.h"
 #include "qp/projected_newton.h"
 
 #include <algorithm>
@@ -50,17 +50,6 @@ namespace
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// An ordered pair as a row of B, with the free indices of its two vertices; -1 for a vertex with a
-/// given value.
-struct PairRow
-{
-  Index low = -1;
-  Index high = -1;
-  double offset = 0.0; // constant term of the row, from given values and OrderedPair::least
-  int position = -1; // index of the entry (low, high) in the values of SplitForm::lower
-  Index pair = 0; // index of the pair in the column's list
-};
-
 /// The solve of one column. Vectors over constraints have one entry per constraint: first x >= l
 /// for each bounded vertex, then x <= u for each bounded vertex, then each pair.
 class InteriorPoint
@@ -72,7 +61,7 @@ public:
     const InverseForm& inverse, BoxQpWorkspace& workspace, bool in_single)
     : matrices_(matrices), options_(options), column_(column), unconstrained_(unconstrained),
       start_(start), inverse_(inverse), workspace_(workspace), context_(context),
-      problem_(matrices, column), float_is_accurate_(in_single)
+      problem_(matrices, column), pairs_(matrices, problem_, column), float_is_accurate_(in_single)
   {
   }
 
@@ -99,7 +88,6 @@ private:
   void step_lengths(const Direction& d, double& primal, double& dual) const;
   Direction find_direction();
   void certify_iterate(bool second_bound = false);
-  void enforce_pairs(VectorXd& w) const;
 
   const SplitForm& matrices_;
   const BoxQpOptions& options_;
@@ -113,8 +101,7 @@ private:
   const ColumnProblem problem_;
   std::vector<Index> unpinned_; // free indices of vertices that are not pinned
   std::vector<Index> bounded_; // the entries of unpinned_ whose vertices have bounds
-  std::vector<PairRow> rows_;
-  std::vector<OrderedPair> sorted_pairs_; // the column's pairs, sorted by sort_pairs_by_order()
+  PairRows pairs_;
   VectorXd h_; // constant terms h of the constraints
   VectorXd x_, s_, z_;
   VectorXd rd_, rp_; // residuals of the first two optimality conditions
@@ -133,7 +120,6 @@ private:
 
 Status InteriorPoint::set_up()
 {
-  const auto& matrices = this->matrices_;
   const ColumnProblem& problem = this->problem_;
   for (Index i = 0; i < problem.c.size(); ++i)
   {
@@ -146,50 +132,19 @@ Status InteriorPoint::set_up()
       }
     }
   }
-  for (std::size_t k = 0; k < this->column_.pairs.size(); ++k)
+  const Status status = this->pairs_.prepare();
+  if (!status.ok())
   {
-    const OrderedPair& pair = this->column_.pairs[k];
-    PairRow row;
-    row.pair = static_cast<Index>(k);
-    row.low = this->problem_.is_column_free[pair.low] ? matrices.free_index[pair.low] : -1;
-    row.high = this->problem_.is_column_free[pair.high] ? matrices.free_index[pair.high] : -1;
-    row.offset = (row.high < 0 ? this->problem_.given_values[pair.high] : 0.0) -
-      (row.low < 0 ? this->problem_.given_values[pair.low] : 0.0) - pair.minimum_difference;
-    if (row.low < 0 && row.high < 0)
-    {
-      continue;
-    }
-    if (row.low >= 0 && row.high >= 0)
-    {
-      row.position = matrices.position(std::max(row.low, row.high), std::min(row.low, row.high));
-      if (row.position < 0)
-      {
-        return Status::failure(StatusCode::internal_error, "an ordered pair is not an entry of Q");
-      }
-    }
-    this->rows_.push_back(row);
+    return status;
   }
   const auto nb = static_cast<Index>(this->bounded_.size());
-  this->h_.resize(2 * nb + static_cast<Index>(this->rows_.size()));
+  this->h_.resize(2 * nb + this->pairs_.count());
   for (Index i = 0; i < nb; ++i)
   {
     this->h_[i] = -this->problem_.lower[this->bounded_[i]];
     this->h_[nb + i] = this->problem_.upper[this->bounded_[i]];
   }
-  for (std::size_t r = 0; r < this->rows_.size(); ++r)
-  {
-    this->h_[2 * nb + static_cast<Index>(r)] = this->rows_[r].offset;
-  }
-
-  if (!this->rows_.empty())
-  {
-    const std::vector<Index> order = topological_order(this->column_.pairs, matrices.q.rows());
-    if (static_cast<Index>(order.size()) != matrices.q.rows())
-    {
-      return Status::failure(StatusCode::internal_error, "the ordered pairs contain a cycle");
-    }
-    this->sorted_pairs_ = sort_pairs_by_order(this->column_.pairs, order);
-  }
+  this->h_.tail(this->pairs_.count()) = this->pairs_.constants();
   return {};
 }
 
@@ -202,12 +157,7 @@ VectorXd InteriorPoint::apply(const VectorXd& x) const
     y[i] = x[this->bounded_[i]];
     y[nb + i] = -y[i];
   }
-  for (std::size_t r = 0; r < this->rows_.size(); ++r)
-  {
-    const PairRow& row = this->rows_[r];
-    y[2 * nb + static_cast<Index>(r)] =
-      (row.high >= 0 ? x[row.high] : 0.0) - (row.low >= 0 ? x[row.low] : 0.0);
-  }
+  y.tail(this->pairs_.count()) = this->pairs_.apply(x);
   return y;
 }
 
@@ -219,19 +169,7 @@ VectorXd InteriorPoint::apply_transposed(const VectorXd& y) const
   {
     x[this->bounded_[i]] = y[i] - y[nb + i];
   }
-  for (std::size_t r = 0; r < this->rows_.size(); ++r)
-  {
-    const PairRow& row = this->rows_[r];
-    const double value = y[2 * nb + static_cast<Index>(r)];
-    if (row.high >= 0)
-    {
-      x[row.high] += value;
-    }
-    if (row.low >= 0)
-    {
-      x[row.low] -= value;
-    }
-  }
+  this->pairs_.add_transposed(y.tail(this->pairs_.count()), x);
   return x;
 }
 
@@ -248,23 +186,7 @@ Status InteriorPoint::factor(const VectorXd& d)
   {
     values[matrices.diagonal[this->bounded_[i]]] += d[i] + d[nb + i];
   }
-  for (std::size_t r = 0; r < this->rows_.size(); ++r)
-  {
-    const PairRow& row = this->rows_[r];
-    const double value = d[2 * nb + static_cast<Index>(r)];
-    if (row.high >= 0)
-    {
-      values[matrices.diagonal[row.high]] += value;
-    }
-    if (row.low >= 0)
-    {
-      values[matrices.diagonal[row.low]] += value;
-    }
-    if (row.position >= 0)
-    {
-      values[row.position] -= value;
-    }
-  }
+  this->pairs_.add_to_matrix(d.tail(this->pairs_.count()), matrix);
   if (static_cast<Index>(this->unpinned_.size()) < matrix.cols())
   {
     SplitForm::decouple(this->problem_.pinned, matrix);
@@ -278,7 +200,7 @@ Status InteriorPoint::factor(const VectorXd& d)
     {
       this->bound_diagonal_[this->bounded_[i]] = d[i] + d[nb + i];
     }
-    this->pair_diagonal_ = d.tail(static_cast<Index>(this->rows_.size()));
+    this->pair_diagonal_ = d.tail(this->pairs_.count());
     this->inverse_diagonal_.resize(this->problem_.c.size());
     for (Index i = 0; i < this->problem_.c.size(); ++i)
     {
@@ -334,23 +256,7 @@ Status InteriorPoint::factor_double()
 MatrixXd InteriorPoint::multiply(const MatrixXd& x) const
 {
   MatrixXd y = this->matrices_.a.transpose() * x + this->bound_diagonal_.asDiagonal() * x;
-  for (std::size_t r = 0; r < this->rows_.size(); ++r)
-  {
-    const PairRow& row = this->rows_[r];
-    for (Index j = 0; j < x.cols(); ++j)
-    {
-      const double pull = this->pair_diagonal_[static_cast<Index>(r)] *
-        ((row.high >= 0 ? x(row.high, j) : 0.0) - (row.low >= 0 ? x(row.low, j) : 0.0));
-      if (row.high >= 0)
-      {
-        y(row.high, j) += pull;
-      }
-      if (row.low >= 0)
-      {
-        y(row.low, j) -= pull;
-      }
-    }
-  }
+  this->pairs_.add_product(this->pair_diagonal_, x, y);
   for (std::size_t i = 0; i < this->problem_.pinned.size(); ++i)
   {
     if (this->problem_.pinned[i])
@@ -423,7 +329,7 @@ void InteriorPoint::step_lengths(const Direction& d, double& primal, double& dua
 {
   primal = std::min(1.0, longest_step(this->s_, d.s));
   dual = std::min(1.0, longest_step(this->z_, d.z));
-  if (!this->rows_.empty())
+  if (this->pairs_.count() > 0)
   {
     primal = dual = std::min(primal, dual);
   }
@@ -436,7 +342,7 @@ InteriorPoint::Direction InteriorPoint::find_direction()
   // Relative accuracy of the linear solve for the predictor. A smaller value saves no iteration
   // (measured).
   constexpr double predictor_accuracy = 1e-2;
-  const double step_accuracy = this->rows_.empty() ? 1e-3 : 1e-5;
+  const double step_accuracy = this->pairs_.count() == 0 ? 1e-3 : 1e-5;
   Direction d = this->solve(-products, predictor_accuracy);
   double primal;
   double dual;
@@ -551,35 +457,14 @@ void InteriorPoint::raise_slacks(double least)
   this->s_ = this->s_.cwiseMax(floor);
 }
 
-/// Change values as little as necessary to satisfy the order of the pairs. Given values do not
-/// change.
-void InteriorPoint::enforce_pairs(VectorXd& w) const
-{
-  if (this->sorted_pairs_.empty())
-  {
-    return;
-  }
-  VectorXd highest(w.size());
-  for (Index v = 0; v < w.size(); ++v)
-  {
-    highest[v] = this->column_.bounds.high(v);
-  }
-  enforce_order(this->sorted_pairs_, this->problem_.is_column_free, highest, w);
-}
-
 /// Project the iterate and compute its certificate.
 /// @param second_bound compute the second bound in any case (see Certificate).
 void InteriorPoint::certify_iterate(bool second_bound)
 {
   const auto& matrices = this->matrices_;
   this->result_.w = this->problem_.extend_to_all(matrices, this->x_);
-  this->enforce_pairs(this->result_.w);
-  const auto nb = static_cast<Index>(this->bounded_.size());
-  this->result_.multipliers = VectorXd::Zero(static_cast<Index>(this->column_.pairs.size()));
-  for (std::size_t r = 0; r < this->rows_.size(); ++r)
-  {
-    this->result_.multipliers[this->rows_[r].pair] = this->z_[2 * nb + static_cast<Index>(r)];
-  }
+  this->pairs_.enforce(this->result_.w);
+  this->result_.multipliers = this->pairs_.extend_to_all_pairs(this->z_.tail(this->pairs_.count()));
   const BoundedEnergy problem{ matrices.q, this->problem_.is_column_free, this->column_.bounds };
   Certificate& certificate = this->result_.certificate;
   const bool bounds_everywhere = this->bounded_.size() == this->unpinned_.size();
@@ -720,11 +605,11 @@ BoxQpSolution InteriorPoint::run()
       this->best_ = this->result_;
       stalled = 0;
     }
-    else if (++stalled >= most_stalled && !this->rows_.empty())
+    else if (++stalled >= most_stalled && this->pairs_.count() > 0)
     {
       this->float_is_accurate_ = false;
     }
-    if (!done() && this->rows_.empty() &&
+    if (!done() && this->pairs_.count() == 0 &&
       (largest_change <= near || (tries == 0 && worst(this->best_.certificate) <= tolerance)))
     {
       const BoxQpSolution iterate = this->result_;

@@ -14,6 +14,8 @@
 #include "base/stopwatch.h"
 #include "linear/refined_solve.h"
 #include "qp/active_set.h"
+#include "qp/augmented_lagrangian.h"
+#include "qp/column_problem.h"
 #include "qp/interior_point.h"
 #include "qp/splitting_start.h"
 
@@ -215,8 +217,9 @@ struct BoxQp::Impl : SplitForm
   }
 };
 
-/// Solve all columns. The active-set method solves the columns that have a start. The
-/// interior-point method then solves all columns that have no start or did not converge.
+/// Solve all columns. The active-set method solves the columns that have a start, or the augmented
+/// Lagrangian method if the column has ordered pairs. The interior-point method then solves all
+/// columns that have no start or did not converge.
 class BoxQp::Impl::ColumnsSolve
 {
 public:
@@ -246,8 +249,12 @@ public:
       this->solve_each(started,
         [&](std::size_t j, BoxQpWorkspace& workspace)
         {
-          return active_set(this->context_, this->qp_, this->qp_.options, this->columns_[j],
-            starts[j], this->inverse_, workspace);
+          const BoxQpColumn& column = this->columns_[j];
+          return column.pairs.empty()
+            ? active_set(this->context_, this->qp_, this->qp_.options, column, starts[j],
+                this->inverse_, workspace)
+            : augmented_lagrangian(this->context_, this->qp_, this->qp_.options, column,
+                starts[j].x, this->inverse_, workspace);
         });
       for (const std::size_t j : started)
       {
@@ -283,18 +290,33 @@ private:
   // (active set or interior point).
   static constexpr double start_fraction = 0.3;
 
-  /// Report whether a start can be computed for the column: the caller gives no start, there are no
-  /// ordered pairs, and the bounds are finite.
-  bool may_start(const BoxQpColumn& column) const
+  /// Report whether splitting_start() can compute a start for the column: the caller gives no
+  /// start, the bounds are finite, and there are no ordered pairs or no barriers.
+  bool may_split(const BoxQpColumn& column, bool barriers) const
   {
-    return this->qp_.single.analyzed() && column.pairs.empty() && column.start.size() == 0 &&
-      column.bounds.lower.allFinite() && column.bounds.upper.allFinite();
+    return this->qp_.single.analyzed() && (column.pairs.empty() || !barriers) &&
+      column.start.size() == 0 && column.bounds.lower.allFinite() &&
+      column.bounds.upper.allFinite();
+  }
+
+  /// Return the start of a column with ordered pairs that splitting_start() cannot compute: the
+  /// caller's start or the minimizer without bounds, clamped to the bounds.
+  ColumnStart clamped_start(std::size_t j) const
+  {
+    const BoxQpColumn& column = this->columns_[j];
+    ColumnStart start;
+    start.x =
+      ColumnProblem(this->qp_, column)
+        .clamp_to_bounds(this->qp_,
+          column.start.size() > 0 ? column.start : this->unconstrained_.col(static_cast<Index>(j)));
+    return start;
   }
 
   /// Compute starts for the requested columns.
   /// @param requested indices of the columns.
   /// @param barriers compute starts for the interior-point method (see splitting_start).
-  /// @return #columns; a start is empty if its column was not requested or cannot have a start.
+  /// @return #columns; a start is empty if its column was not requested or cannot have a start, or
+  /// if the call was canceled.
   std::vector<ColumnStart> find_starts(const std::vector<std::size_t>& requested, bool barriers)
   {
     const Stopwatch watch;
@@ -305,12 +327,16 @@ private:
       this->unconstrained_.rows(), static_cast<Index>(requested.size()));
     for (const std::size_t j : requested)
     {
-      if (this->may_start(this->columns_[j]))
+      if (this->may_split(this->columns_[j], barriers))
       {
         unconstrained.col(static_cast<Index>(chosen.size())) =
           this->unconstrained_.col(static_cast<Index>(j));
         chosen.push_back(j);
         start_columns.push_back(this->columns_[j]);
+      }
+      else if (this->qp_.single.analyzed() && !this->columns_[j].pairs.empty() && !barriers)
+      {
+        starts[j] = this->clamped_start(j);
       }
     }
     if (chosen.empty())

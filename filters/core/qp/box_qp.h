@@ -13,8 +13,9 @@ namespace bindpose
 /// Solve min 1/2 w' Q w subject to l <= w <= u (0 and 1 by default) and given values at the fixed
 /// vertices, for many columns w. One symbolic analysis serves all columns. A splitting method
 /// guesses the solutions and the active bounds of all columns together. An active-set method then
-/// solves each column, starting from its guess. A primal-dual interior-point method solves the
-/// columns with ordered pairs and the columns that the active-set method does not solve.
+/// solves each column, starting from its guess. For a column with ordered pairs, an augmented
+/// Lagrangian method starts from the guess. A primal-dual interior-point method solves the columns
+/// that these methods do not solve, and all columns if single precision is unavailable.
 /// A column has converged if its optimality certificate (see Certificate) is within the tolerance.
 /// If it has not converged after maximum_iterations, the status is not_converged, and the result is
 /// the best iterate with its certificate.
@@ -28,11 +29,11 @@ namespace bindpose
 ///
 /// Memory, in units of one factor of Q in single precision: one for the common factor, one per
 /// thread for the factor of that thread, and one third per thread for the workspace of that thread
-/// (63k vertices: 1.4 GB in total with one thread). With ordered pairs, or if single precision
-/// fails, each thread also stores a factor in double precision.
+/// (63k vertices: 1.4 GB in total with one thread). If single precision fails, each thread also
+/// stores a factor in double precision.
 ///
-/// Hintermueller, Ito and Kunisch 2003; Mehrotra 1992; Gondzio 1996; Jacobson et al. 2011 and 2012
-/// for the problems.
+/// Hintermueller, Ito and Kunisch 2003; Bertsekas 1982; Mehrotra 1992; Gondzio 1996; Jacobson et
+/// al. 2011 and 2012 for the problems.
 class BoxQp
 {
 public:

@@ -16,7 +16,7 @@ struct BoxQpOptions
   /// near the limit of double precision on fine meshes.
   double tolerance = 1e-6;
   /// Largest number of iterations per column, each with one factorization. Usual numbers are 1 to
-  /// 3, or 5 to 20 if the guess of the active bounds is poor, or 25 with ordered pairs.
+  /// 3, or 5 to 20 with ordered pairs or if the guess of the active bounds is poor.
   int maximum_iterations = 100;
   SparseSolver::Options solver;
 };

@@ -128,6 +128,20 @@ void PairRows::add_to_matrix(const Eigen::Ref<const VectorXd>& weights, SparseMa
   }
 }
 
+void PairRows::add_diagonal(const VectorXd& weights, VectorXd& diagonal) const
+{
+  for (Index r = 0; r < weights.size(); ++r)
+  {
+    for (const Index i : { this->rows_[r].low, this->rows_[r].high })
+    {
+      if (i >= 0)
+      {
+        diagonal[i] += weights[r];
+      }
+    }
+  }
+}
+
 VectorXd PairRows::smallest_diagonals() const
 {
   const auto diagonal = [this](Index i)

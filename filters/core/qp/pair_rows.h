@@ -34,6 +34,8 @@ public:
     const Eigen::VectorXd& weights, const Eigen::MatrixXd& p, Eigen::Ref<Eigen::MatrixXd> y) const;
   /// Add B' diag(weights) B to the values of a matrix with the pattern of SplitForm::lower.
   void add_to_matrix(const Eigen::Ref<const Eigen::VectorXd>& weights, SparseMatrix& matrix) const;
+  /// Add the diagonal of B' diag(weights) B.
+  void add_diagonal(const Eigen::VectorXd& weights, Eigen::VectorXd& diagonal) const;
   /// Return the smallest diagonal entry of A at the free vertices of each row.
   Eigen::VectorXd smallest_diagonals() const;
 

@@ -648,10 +648,20 @@ TEST(EmbeddingTets, CancelEndsSoon)
   const WindingNumber winding(mesh.points, mesh.triangles);
   for (const int after : { 0, 1, 5, 20, 60 })
   {
-    // Cancel at the n-th progress report.
+    // Cancel at the n-th progress report. How many reports there are depends on the time. A request
+    // at one of the last reports can come too late.
     std::atomic<bool> stop{ after == 0 };
+    std::atomic<bool> in_time{ after == 0 };
     std::atomic<int> signs{ 0 };
-    ExecutionContext context([&](double, const std::string&) { stop = stop || ++signs >= after; },
+    ExecutionContext context(
+      [&](double fraction, const std::string&)
+      {
+        if (!stop && ++signs >= after)
+        {
+          in_time = fraction < 0.9;
+          stop = true;
+        }
+      },
       [&] { return stop.load(); });
     EmbeddingOptions options;
     options.resolution = 40;
@@ -659,7 +669,8 @@ TEST(EmbeddingTets, CancelEndsSoon)
     const Status status =
       embed_surface(context, mesh.points, mesh.triangles, winding, options, result);
     EXPECT_TRUE(status.ok() || status.code == StatusCode::canceled);
-    EXPECT_EQ(status.ok(), !stop) << after;
+    EXPECT_TRUE(status.ok() || stop) << after;
+    EXPECT_FALSE(status.ok() && in_time) << after;
     EXPECT_EQ(status.ok(), result.mesh.tets.rows() > 0);
   }
 }

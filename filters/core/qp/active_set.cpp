@@ -5,6 +5,7 @@
 // next factor is computed for the active set at that time.
 #include "qp/active_set.h"
 
+#include "linear/symmetric_product.h"
 #include "base/stopwatch.h"
 #include "qp/projected_newton.h"
 
@@ -47,8 +48,15 @@ BoxQpSolution active_set(ExecutionContext& context, const SplitForm& matrices,
   const double small_change = converged_newton_change(tolerance);
   const ColumnProblem problem(matrices, column);
   BoxQpSolution solution;
+  // A start has errors of about this size. So smaller values may be at a bound.
+  constexpr double start_error = 1e-4;
   VectorXd x = start.x;
   std::vector<char> at_bound = start.at_bound;
+  for (Index i = 0; i < x.size(); ++i)
+  {
+    at_bound[i] =
+      at_bound[i] || x[i] < problem.lower[i] + start_error || x[i] > problem.upper[i] - start_error;
+  }
   const int most = std::min(maximum_factorizations, options.maximum_iterations);
   const bool all_pinned = std::all_of(
     problem.pinned.begin(), problem.pinned.end(), [](char pinned) { return pinned != 0; });
@@ -74,7 +82,8 @@ BoxQpSolution active_set(ExecutionContext& context, const SplitForm& matrices,
     smallest_change = std::min(smallest_change, largest_change);
     if (solution.iterations > 0)
     {
-      at_bound = vertices_at_bounds(matrices, problem, matrices.a.transpose() * x + problem.c, x);
+      at_bound = vertices_at_bounds(matrices, problem, symmetric_product(matrices.a, x) + problem.c,
+        x, near_bound(small_change));
     }
     const Stopwatch factor_watch;
     const Status factored = workspace.single.factor_block(context, matrices.lower, at_bound);

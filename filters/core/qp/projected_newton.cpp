@@ -1,8 +1,10 @@
-// A projected Newton method with inexact solves (see projected_newton.h). In each round, the
-// vertices of the active set move to their bounds. For the other vertices, a few iterations of
-// preconditioned conjugate gradients reduce the gradient. Values outside of the bounds are
-// projected back to them.
+// A projected Newton method with inexact solves (see projected_newton.h). In each round, each
+// vertex of the active set makes a Newton step of its own, which usually moves it to its bound. For
+// the other vertices, a few iterations of preconditioned conjugate gradients reduce the gradient.
+// Values outside of the bounds are projected back to them.
 #include "qp/projected_newton.h"
+
+#include "linear/symmetric_product.h"
 
 #include <algorithm>
 #include <cmath>
@@ -23,13 +25,13 @@ double newton_step(const SplitForm& matrices, const VectorXd& gradient, const Ve
 } // namespace
 
 std::vector<char> vertices_at_bounds(const SplitForm& matrices, const ColumnProblem& problem,
-  const VectorXd& gradient, const VectorXd& x)
+  const VectorXd& gradient, const VectorXd& x, double near)
 {
   std::vector<char> at_bound(problem.pinned);
   for (Index i = 0; i < x.size(); ++i)
   {
     const double to = newton_step(matrices, gradient, x, i);
-    at_bound[i] = at_bound[i] || to <= problem.lower[i] || to >= problem.upper[i];
+    at_bound[i] = at_bound[i] || to <= problem.lower[i] + near || to >= problem.upper[i] - near;
   }
   return at_bound;
 }
@@ -42,7 +44,6 @@ double projected_newton(const ExecutionContext& context, const SplitForm& matric
   // Conjugate gradients end earlier if the energy norm of the error has decreased to this fraction.
   constexpr double reduction = 0.05;
   const Index n = x.size();
-  // A is symmetric. Products with its transpose are faster.
   const SparseMatrix& a = matrices.a;
   std::vector<char> at_bound;
   const auto zero_at_bounds = [&](VectorXd& v)
@@ -52,7 +53,7 @@ double projected_newton(const ExecutionContext& context, const SplitForm& matric
       v[i] = at_bound[i] ? 0.0 : v[i];
     }
   };
-  VectorXd g = a.transpose() * x + problem.c;
+  VectorXd g = symmetric_product(a, x) + problem.c;
   VectorXd r, z, p, ap;
   double largest_change = 1.0;
   double before = 1e300;
@@ -63,7 +64,7 @@ double projected_newton(const ExecutionContext& context, const SplitForm& matric
        ++round)
   {
     before = round == 0 ? 1e300 : largest_change;
-    at_bound = vertices_at_bounds(matrices, problem, g, x);
+    at_bound = vertices_at_bounds(matrices, problem, g, x, near_bound(small_change));
     VectorXd start = x;
     for (Index i = 0; i < n; ++i)
     {
@@ -72,7 +73,7 @@ double projected_newton(const ExecutionContext& context, const SplitForm& matric
         start[i] = std::clamp(newton_step(matrices, g, x, i), problem.lower[i], problem.upper[i]);
       }
     }
-    r = -(g + a.transpose() * (start - x));
+    r = -(g + symmetric_product(a, start - x));
     zero_at_bounds(r);
     VectorXd next = start;
     double first = 0.0;
@@ -89,7 +90,7 @@ double projected_newton(const ExecutionContext& context, const SplitForm& matric
       first = k == 0 ? rz : first;
       p = k == 0 ? z : VectorXd(z + (rz / last_rz) * p);
       last_rz = rz;
-      ap = a.transpose() * p;
+      ap = symmetric_product(a, p);
       zero_at_bounds(ap);
       const double curvature = p.dot(ap);
       if (!(curvature > 0.0))
@@ -104,7 +105,7 @@ double projected_newton(const ExecutionContext& context, const SplitForm& matric
       next[i] = problem.pinned[i] ? x[i] : std::clamp(next[i], problem.lower[i], problem.upper[i]);
     }
     largest_change = (next - x).cwiseAbs().maxCoeff();
-    g += a.transpose() * (next - x);
+    g += symmetric_product(a, next - x);
     x = next;
     if (round > 0 &&
       largest_change * std::pow(largest_change / before, rounds - 1 - round) > small_change)

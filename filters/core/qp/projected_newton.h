@@ -14,13 +14,23 @@ namespace bindpose
 /// definite.
 using Preconditioner = std::function<void(const Eigen::VectorXd& r, Eigen::VectorXd& z)>;
 
-/// Return the vertices whose value is kept at a bound during a Newton step. A vertex is kept if a
-/// Newton step of this vertex alone, starting from x, would reach or cross a bound.
+/// Return the vertices whose value is kept at or near a bound during a Newton step. A vertex is
+/// kept if a Newton step of this vertex alone, starting from x, would end near a bound or cross it.
 /// Pinned vertices are included.
 /// @param gradient Ax + c.
-/// @return one entry per free vertex: 1 for vertices at a bound.
+/// @param near distance from a bound that counts as near. Far from its handle a weight is tiny but
+/// rarely 0. A Newton step of each such vertex alone is accurate enough, and the linear system of
+/// the other vertices is much smaller.
+/// @return one entry per free vertex: 1 for vertices at or near a bound.
 std::vector<char> vertices_at_bounds(const SplitForm& matrices, const ColumnProblem& problem,
-  const Eigen::VectorXd& gradient, const Eigen::VectorXd& x);
+  const Eigen::VectorXd& gradient, const Eigen::VectorXd& x, double near);
+
+/// Return the distance from a bound that counts as near, for a projected Newton method that
+/// converges to this accuracy.
+inline double near_bound(double small_change)
+{
+  return 1e-2 * small_change;
+}
 
 /// Improve a point that is already close to the minimizer of 1/2 x'Ax + c'x subject to l <= x <= u,
 /// by a projected Newton method. The linear systems are solved by a few iterations of conjugate

@@ -1,0 +1,17 @@
+#ifndef bindpose_linear_symmetric_product_h
+#define bindpose_linear_symmetric_product_h
+
+#include "linear/sparse_matrix.h"
+
+#include <Eigen/Core>
+
+namespace bindpose
+{
+
+/// Return A x for a symmetric matrix A whose triangular halves are both stored. If most entries of
+/// x are zero, the time is proportional to the number of nonzero entries.
+Eigen::VectorXd symmetric_product(const SparseMatrix& a, const Eigen::VectorXd& x);
+
+} // namespace bindpose
+
+#endif

@@ -48,14 +48,14 @@ BoxQpSolution active_set(ExecutionContext& context, const SplitForm& matrices,
   const double small_change = converged_newton_change(tolerance);
   const ColumnProblem problem(matrices, column);
   BoxQpSolution solution;
-  // A start has errors of about this size. So smaller values may be at a bound.
+  // The start has errors of about this size, so a vertex that is closer to a bound may be at it.
   constexpr double start_error = 1e-4;
   VectorXd x = start.x;
   std::vector<char> at_bound = start.at_bound;
   for (Index i = 0; i < x.size(); ++i)
   {
-    at_bound[i] =
-      at_bound[i] || x[i] < problem.lower[i] + start_error || x[i] > problem.upper[i] - start_error;
+    const double error = start_error * std::min(1.0, problem.upper[i] - problem.lower[i]);
+    at_bound[i] = at_bound[i] || x[i] < problem.lower[i] + error || x[i] > problem.upper[i] - error;
   }
   const int most = std::min(maximum_factorizations, options.maximum_iterations);
   const bool all_pinned = std::all_of(

@@ -18,8 +18,8 @@
 // ignored). The penalties make every step well-defined nevertheless. An active-set method that
 // treats active pairs as equations would have to remove redundant pairs.
 //
-// The result is the projection of x to the order of the pairs. The certificate is computed for that
-// projection.
+// The result is x, changed as little as necessary to satisfy the pairs. The certificate is computed
+// for the result.
 #include "qp/augmented_lagrangian.h"
 
 #include "base/stopwatch.h"
@@ -45,9 +45,9 @@ using Eigen::VectorXd;
 
 /// Penalties, as multiples of the smaller diagonal entry of A at the two vertices of a pair.
 constexpr double first_penalty = 3.0;
-constexpr double largest_penalty = 1e3;
-/// Penalties are raised by a factor if the largest violation of a pair has decreased to no less
-/// than this fraction, and the minimization took no more than a few Newton steps.
+constexpr double largest_penalty = 3e3;
+/// The penalties are raised by a factor if the largest violation of a pair is still more than this
+/// fraction of the previous one, and if the minimization took few Newton steps.
 constexpr double slow_decrease = 0.2;
 constexpr double penalty_factor = 4.0;
 constexpr int few_newton_steps = 3;
@@ -57,7 +57,7 @@ constexpr int maximum_cg_steps = 8;
 constexpr double cg_reduction = 0.05;
 constexpr int maximum_factorizations = 50;
 /// Maximum number of Newton steps in total (the multipliers of contradictory pairs grow without
-/// end), and of successive Newton steps that do not reduce the residual.
+/// limit), and of successive Newton steps that do not reduce the residual.
 constexpr int maximum_newton_steps = 300;
 constexpr int maximum_idle_steps = 40;
 
@@ -108,9 +108,8 @@ private:
   std::vector<char> at_bound_; // per free vertex: 1 if it moves to a bound
   bool needs_factor_ = true;
   std::vector<char> excluded_; // per free vertex: 1 if it is not in the last factor
-  // Only vertices whose value is already at a bound stay there in the following Newton steps.
+  // If true, a vertex stays at a bound only if its value is already there.
   bool only_reached_bounds_ = false;
-  bool is_full_step_ = false; // whether the last Newton step was not shortened
   BoxQpSolution solution_;
 };
 
@@ -257,7 +256,7 @@ VectorXd AugmentedLagrangian::move(const VectorXd& direction, double step) const
   return x;
 }
 
-/// Reduce the augmented Lagrangian by one projected Newton step.
+/// Try one projected Newton step.
 Status AugmentedLagrangian::newton_step()
 {
   this->active_rho_ = (this->next_lambda_.array() > 0.0).select(this->rho_, 0.0);
@@ -278,7 +277,7 @@ Status AugmentedLagrangian::newton_step()
     this->only_reached_bounds_ = true;
     return {};
   }
-  // Armijo's rule. Differences below the round-off of the energy are ignored.
+  // Armijo's rule. Ignore differences below the round-off of the energy.
   constexpr double sufficient_decrease = 1e-4;
   constexpr double round_off = 1e-15;
   constexpr double smallest_step = 1e-3;
@@ -291,7 +290,6 @@ Status AugmentedLagrangian::newton_step()
     step *= 0.5;
     next = this->move(direction, step);
   }
-  this->is_full_step_ = step == 1.0;
   this->x_ = std::move(next);
   return {};
 }
@@ -306,8 +304,8 @@ bool AugmentedLagrangian::certify_iterate()
   const BoundedEnergy energy{ this->matrices_.q, this->problem_.is_column_free,
     this->column_.bounds };
   Certificate& certificate = this->solution_.certificate;
-  certificate = certify(
-    energy, this->solution_.w, this->column_.pairs, this->solution_.multipliers, this->inverse_);
+  certificate = certify(energy, this->solution_.w, this->column_.pairs, this->solution_.multipliers,
+    this->context_.canceled() ? InverseForm() : this->inverse_);
   return std::max(certificate.relative_gap, certificate.kkt_residual) <= this->options_.tolerance;
 }
 
@@ -351,7 +349,7 @@ BoxQpSolution AugmentedLagrangian::run()
       if (this->violation_ <= tolerance && change <= settled)
       {
         has_converged = this->certify_iterate();
-        required_residual *= 0.2; // if the certificate is not good enough
+        required_residual *= 0.2; // before the next certificate
       }
       if (has_converged)
       {
@@ -360,7 +358,7 @@ BoxQpSolution AugmentedLagrangian::run()
       if (this->violation_ > tolerance && this->violation_ > slow_decrease * previous_violation &&
         steps <= few_newton_steps && penalty < largest_penalty)
       {
-        penalty *= penalty_factor;
+        penalty = std::min(penalty * penalty_factor, largest_penalty);
         this->rho_ = penalty * penalty_unit;
         this->needs_factor_ = true;
       }
@@ -373,8 +371,8 @@ BoxQpSolution AugmentedLagrangian::run()
     }
     idle_steps = this->residual_ < smallest_residual ? 0 : idle_steps + 1;
     smallest_residual = std::min(smallest_residual, this->residual_);
-    if (this->context_.canceled() || newton_steps >= maximum_newton_steps ||
-      idle_steps > maximum_idle_steps ||
+    if (this->context_.canceled() || !this->gradient_.allFinite() ||
+      newton_steps >= maximum_newton_steps || idle_steps > maximum_idle_steps ||
       (this->needs_factor_ && this->solution_.factorizations >= most_factorizations))
     {
       break;
@@ -388,9 +386,13 @@ BoxQpSolution AugmentedLagrangian::run()
   }
   if (!has_converged)
   {
-    this->certify_iterate();
-    this->solution_.status = this->context_.canceled()
-      ? Status::canceled()
+    // After the maximum number of iterations, a certified iterate is a valid result even if the
+    // weights still change.
+    this->lambda_ = this->next_lambda_;
+    const bool certified = this->certify_iterate();
+    this->solution_.status = this->context_.canceled() ? Status::canceled()
+      : certified && this->solution_.iterations >= this->options_.maximum_iterations
+      ? Status()
       : Status::failure(StatusCode::not_converged, status.message);
   }
   this->solution_.solve_seconds = watch.seconds() - this->solution_.factor_seconds;

@@ -217,9 +217,9 @@ struct BoxQp::Impl : SplitForm
   }
 };
 
-/// Solve all columns. The active-set method solves the columns that have a start, or the augmented
-/// Lagrangian method if the column has ordered pairs. The interior-point method then solves all
-/// columns that have no start or did not converge.
+/// Solve all columns. The active-set method solves the columns with a start and without ordered
+/// pairs. The augmented Lagrangian method solves the columns with a start and ordered pairs. The
+/// interior-point method solves all columns that are left.
 class BoxQp::Impl::ColumnsSolve
 {
 public:
@@ -291,7 +291,7 @@ private:
   static constexpr double start_fraction = 0.3;
 
   /// Report whether splitting_start() can compute a start for the column: the caller gives no
-  /// start, the bounds are finite, and there are no ordered pairs or no barriers.
+  /// start, and the bounds are finite. Columns with ordered pairs have no start with barriers.
   bool may_split(const BoxQpColumn& column, bool barriers) const
   {
     return this->qp_.single.analyzed() && (column.pairs.empty() || !barriers) &&

@@ -1,7 +1,7 @@
 #ifndef bindpose_qp_column_problem_h
 #define bindpose_qp_column_problem_h
 
-#include "qp/box_qp.h"
+#include "qp/box_qp_column.h"
 #include "qp/split_form.h"
 
 #include <vector>

@@ -86,22 +86,23 @@ void PairRows::add_transposed(const Eigen::Ref<const VectorXd>& y, VectorXd& x) 
   }
 }
 
-void PairRows::add_product(const VectorXd& weights, const MatrixXd& p, Eigen::Ref<MatrixXd> y) const
+void PairRows::add_product(
+  const VectorXd& weights, const Eigen::Ref<const MatrixXd>& p, Eigen::Ref<MatrixXd> y) const
 {
   for (Index r = 0; r < weights.size(); ++r)
   {
     const Row& row = this->rows_[r];
     for (Index j = 0; j < p.cols() && weights[r] != 0.0; ++j)
     {
-      const double pull = weights[r] *
+      const double weighted_difference = weights[r] *
         ((row.high >= 0 ? p(row.high, j) : 0.0) - (row.low >= 0 ? p(row.low, j) : 0.0));
       if (row.high >= 0)
       {
-        y(row.high, j) += pull;
+        y(row.high, j) += weighted_difference;
       }
       if (row.low >= 0)
       {
-        y(row.low, j) -= pull;
+        y(row.low, j) -= weighted_difference;
       }
     }
   }

@@ -29,9 +29,9 @@ public:
   Eigen::VectorXd apply(const Eigen::VectorXd& x) const;
   /// Add B' y to x.
   void add_transposed(const Eigen::Ref<const Eigen::VectorXd>& y, Eigen::VectorXd& x) const;
-  /// Add B' diag(weights) B p to y. Both have one row per free vertex and any number of columns.
-  void add_product(
-    const Eigen::VectorXd& weights, const Eigen::MatrixXd& p, Eigen::Ref<Eigen::MatrixXd> y) const;
+  /// Add B' diag(weights) B p to y. p and y have one row per free vertex and any number of columns.
+  void add_product(const Eigen::VectorXd& weights, const Eigen::Ref<const Eigen::MatrixXd>& p,
+    Eigen::Ref<Eigen::MatrixXd> y) const;
   /// Add B' diag(weights) B to the values of a matrix with the pattern of SplitForm::lower.
   void add_to_matrix(const Eigen::Ref<const Eigen::VectorXd>& weights, SparseMatrix& matrix) const;
   /// Add the diagonal of B' diag(weights) B.

@@ -5,8 +5,8 @@
 // next factor is computed for the active set at that time.
 #include "qp/active_set.h"
 
-#include "linear/symmetric_product.h"
 #include "base/stopwatch.h"
+#include "linear/symmetric_product.h"
 #include "qp/projected_newton.h"
 
 #include <algorithm>

@@ -25,6 +25,7 @@
 #include "base/stopwatch.h"
 #include "linear/symmetric_product.h"
 #include "qp/column_problem.h"
+#include "qp/free_conjugate_gradients.h"
 #include "qp/pair_rows.h"
 
 #include <algorithm>
@@ -51,10 +52,8 @@ constexpr double largest_penalty = 3e3;
 constexpr double slow_decrease = 0.2;
 constexpr double penalty_factor = 4.0;
 constexpr int few_newton_steps = 3;
-/// Conjugate gradients per Newton step: the maximum number of steps, and the fraction to which the
-/// energy norm of the error is reduced.
-constexpr int maximum_cg_steps = 8;
-constexpr double cg_reduction = 0.05;
+/// Conjugate gradients per Newton step.
+constexpr FreeConjugateGradientsOptions cg_options{ 8, 0.05 };
 constexpr int maximum_factorizations = 50;
 /// Maximum number of Newton steps in total (the multipliers of contradictory pairs grow without
 /// limit), and of successive Newton steps that do not reduce the residual.
@@ -69,7 +68,7 @@ public:
     const InverseForm& inverse, BoxQpWorkspace& workspace)
     : matrices_(matrices), options_(options), column_(column), inverse_(inverse),
       workspace_(workspace), context_(context), problem_(matrices, column),
-      pairs_(matrices, problem_, column), x_(start)
+      pairs_(matrices, problem_, column), own_diagonal_(matrices.a.diagonal()), x_(start)
   {
   }
 
@@ -94,6 +93,7 @@ private:
   ExecutionContext& context_;
   const ColumnProblem problem_;
   PairRows pairs_;
+  const VectorXd own_diagonal_; // diagonal of A
 
   VectorXd x_; // one entry per free vertex, within the bounds
   VectorXd lambda_, rho_; // multipliers and penalties, one entry per row of B
@@ -126,8 +126,7 @@ void AugmentedLagrangian::evaluate()
   {
     if (!this->problem_.pinned[i])
     {
-      const double diagonal = this->matrices_.lower.valuePtr()[this->matrices_.diagonal[i]];
-      const double to = std::clamp(this->x_[i] - this->gradient_[i] / diagonal,
+      const double to = std::clamp(this->x_[i] - this->gradient_[i] / this->own_diagonal_[i],
         this->problem_.lower[i], this->problem_.upper[i]);
       this->residual_ = std::max(this->residual_, std::abs(this->x_[i] - to));
     }
@@ -190,13 +189,6 @@ Status AugmentedLagrangian::factor()
 VectorXd AugmentedLagrangian::newton_direction()
 {
   const Index n = this->x_.size();
-  const auto zero_at_bounds = [&](VectorXd& v)
-  {
-    for (Index i = 0; i < n; ++i)
-    {
-      v[i] = this->at_bound_[i] ? 0.0 : v[i];
-    }
-  };
   VectorXd direction = VectorXd::Zero(n);
   for (Index i = 0; i < n; ++i)
   {
@@ -207,39 +199,19 @@ VectorXd AugmentedLagrangian::newton_direction()
         this->x_[i];
     }
   }
-  VectorXd r = -(this->gradient_ + this->multiply(direction));
-  zero_at_bounds(r);
-  VectorXd z, p;
-  double first = 0.0;
-  double last_rz = 0.0;
-  int step = 0;
-  for (; step < maximum_cg_steps; ++step)
-  {
-    this->workspace_.single.solve(r, z);
-    for (Index i = 0; i < n; ++i)
-    {
-      // Vertices that have left a bound are not in the factor.
-      z[i] = this->at_bound_[i] ? 0.0 : this->excluded_[i] ? r[i] / this->diagonal_[i] : z[i];
-    }
-    const double rz = r.dot(z);
-    if (!(rz > 0.0) || rz <= cg_reduction * cg_reduction * first)
-    {
-      break;
-    }
-    first = step == 0 ? rz : first;
-    p = step == 0 ? z : VectorXd(z + (rz / last_rz) * p);
-    last_rz = rz;
-    VectorXd product = this->multiply(p);
-    zero_at_bounds(product);
-    const double curvature = p.dot(product);
-    if (!(curvature > 0.0))
-    {
-      break;
-    }
-    direction += (rz / curvature) * p;
-    r -= (rz / curvature) * product;
-  }
-  this->needs_factor_ = step == maximum_cg_steps;
+  const int steps =
+    free_conjugate_gradients([this](const VectorXd& p) { return this->multiply(p); },
+      [&](const VectorXd& r, VectorXd& z)
+      {
+        this->workspace_.single.solve(r, z);
+        for (Index i = 0; i < n; ++i)
+        {
+          // Vertices that have left a bound are not in the factor.
+          z[i] = this->excluded_[i] ? r[i] / this->diagonal_[i] : z[i];
+        }
+      },
+      this->at_bound_, cg_options, -(this->gradient_ + this->multiply(direction)), direction);
+  this->needs_factor_ = steps == cg_options.maximum_steps;
   return direction;
 }
 
@@ -260,7 +232,7 @@ VectorXd AugmentedLagrangian::move(const VectorXd& direction, double step) const
 Status AugmentedLagrangian::newton_step()
 {
   this->active_rho_ = (this->next_lambda_.array() > 0.0).select(this->rho_, 0.0);
-  this->diagonal_ = this->matrices_.a.diagonal();
+  this->diagonal_ = this->own_diagonal_;
   this->pairs_.add_diagonal(this->active_rho_, this->diagonal_);
   this->find_bounds();
   const Status status = this->needs_factor_ ? this->factor() : Status();

@@ -40,21 +40,11 @@ double projected_newton(const ExecutionContext& context, const SplitForm& matric
   const ColumnProblem& problem, const Preconditioner& preconditioner, int rounds,
   double small_change, VectorXd& x)
 {
-  constexpr int steps = 4; // maximum iterations of conjugate gradients per round
-  // Conjugate gradients end earlier if the energy norm of the error has decreased to this fraction.
-  constexpr double reduction = 0.05;
+  constexpr FreeConjugateGradientsOptions cg_options{ 4, 0.05 };
   const Index n = x.size();
   const SparseMatrix& a = matrices.a;
   std::vector<char> at_bound;
-  const auto zero_at_bounds = [&](VectorXd& v)
-  {
-    for (Index i = 0; i < n; ++i)
-    {
-      v[i] = at_bound[i] ? 0.0 : v[i];
-    }
-  };
   VectorXd g = symmetric_product(a, x) + problem.c;
-  VectorXd r, z, p, ap;
   double largest_change = 1.0;
   double before = 1e300;
   // Stop if the largest change does not decrease, because then the active set is still
@@ -73,33 +63,9 @@ double projected_newton(const ExecutionContext& context, const SplitForm& matric
         start[i] = std::clamp(newton_step(matrices, g, x, i), problem.lower[i], problem.upper[i]);
       }
     }
-    r = -(g + symmetric_product(a, start - x));
-    zero_at_bounds(r);
     VectorXd next = start;
-    double first = 0.0;
-    double last_rz = 0.0;
-    for (int k = 0; k < steps; ++k)
-    {
-      preconditioner(r, z);
-      zero_at_bounds(z);
-      const double rz = r.dot(z);
-      if (!(rz > 0.0) || rz <= reduction * reduction * first)
-      {
-        break;
-      }
-      first = k == 0 ? rz : first;
-      p = k == 0 ? z : VectorXd(z + (rz / last_rz) * p);
-      last_rz = rz;
-      ap = symmetric_product(a, p);
-      zero_at_bounds(ap);
-      const double curvature = p.dot(ap);
-      if (!(curvature > 0.0))
-      {
-        break;
-      }
-      next += (rz / curvature) * p;
-      r -= (rz / curvature) * ap;
-    }
+    free_conjugate_gradients([&a](const VectorXd& p) { return symmetric_product(a, p); },
+      preconditioner, at_bound, cg_options, -(g + symmetric_product(a, start - x)), next);
     for (Index i = 0; i < n; ++i)
     {
       next[i] = problem.pinned[i] ? x[i] : std::clamp(next[i], problem.lower[i], problem.upper[i]);

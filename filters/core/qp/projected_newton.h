@@ -3,16 +3,12 @@
 
 #include "base/execution.h"
 #include "qp/column_problem.h"
+#include "qp/free_conjugate_gradients.h"
 
-#include <functional>
 #include <vector>
 
 namespace bindpose
 {
-
-/// A map r -> z, where z approximates A^-1 r. The map must be linear, symmetric and positive
-/// definite.
-using Preconditioner = std::function<void(const Eigen::VectorXd& r, Eigen::VectorXd& z)>;
 
 /// Return the vertices whose value is kept at or near a bound during a Newton step. A vertex is
 /// kept if a Newton step of this vertex alone, starting from x, would end near a bound or cross it.

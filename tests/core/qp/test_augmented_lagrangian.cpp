@@ -3,8 +3,8 @@
 // unavailable. Multipliers and certificate must prove each result.
 #include "qp/augmented_lagrangian.h"
 
-#include "qp/box_qp.h"
 #include "geometry/laplacian.h"
+#include "qp/box_qp.h"
 #include "qp/split_form.h"
 #include "support/meshes.h"
 

@@ -12,10 +12,11 @@ SOURCE = pathlib.Path(__file__).resolve().parents[2]
 LAYERS = ("vtk", "paraview", "python", "cli")
 STAGE_TYPES = {"flag", "integer", "id", "number", "integers", "numbers", "choice", "word",
                "point_array", "cell_array"}
+NUMBER_TYPES = ("integer", "id", "number")
 VERB_TYPES = STAGE_TYPES | {"text", "path"}
 SET_FIELDS = {"filter", "also", "methods_of", "methods", "options"}
 OPTION_FIELDS = {"name", "type", "default", "help", "choices", "words", "labels", "minimum", "above", "maximum", "below", "unit",
-                 "length", "advanced", "layers", "methods", "layer_defaults", "why", "defaults", "minimums", "columns",
+                 "slider", "length", "advanced", "layers", "methods", "layer_defaults", "why", "defaults", "minimums", "columns",
                  "integers"}
 VERB_OPTION_FIELDS = OPTION_FIELDS | {"short", "value", "required", "repeated", "optional", "unless", "set"}
 UNITS = {"diagonals": "bounding-box diagonals"}
@@ -50,7 +51,8 @@ class Option:
 
     def label(self, word):
         """The text of a choice in ParaView and in the window."""
-        return self.fields.get("labels", {}).get(word, word.replace("-", " ").capitalize())
+        default = "Automatic" if word == "auto" else word.replace("-", " ").capitalize()
+        return self.fields.get("labels", {}).get(word, default)
 
     def methods(self):
         """Return the names of the methods that use the option; empty if all methods use it."""
@@ -164,6 +166,14 @@ def check_option(option, allowed_fields, types):
     require("layer_defaults" not in fields or fields.get("why"), where, "layer_defaults need a reason, 'why'")
     require("minimum" not in fields or "above" not in fields, where, "minimum and above exclude each other")
     require("maximum" not in fields or "below" not in fields, where, "maximum and below exclude each other")
+    require(set(fields.get("layer_defaults", {})) <= {*LAYERS, "window"}, where,
+            f"layer_defaults are of {', '.join(LAYERS)}, window")
+    if "slider" in fields:
+        require(option.type in NUMBER_TYPES, where, f"a slider belongs to the types {', '.join(NUMBER_TYPES)}")
+        lowest, highest = fields["slider"]
+        require(lowest <= option.default_of("window") <= highest, where, "the slider must contain the default")
+        require(lowest >= fields.get("minimum", lowest) and highest <= fields.get("maximum", highest), where,
+                "the slider is out of the range")
     for default in [option.default, *fields.get("layer_defaults", {}).values(), *option.defaults.values()]:
         if default is not None:
             check_default(option, default)

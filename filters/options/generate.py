@@ -4,6 +4,7 @@
 usage: generate.py check                              read and check all descriptions
        generate.py option-table OUT.cxx               the table of the command line
        generate.py set-options OUT.h                  functions that pass typed options to filters
+       generate.py window OUT.h                       words, labels and ranges of options in the window
        generate.py paraview TEMPLATE.xml OUT.xml      proxies with their properties
        generate.py python-table OUT.py                the table of the Python package
        generate.py python-stub MODULE.py OUT.pyi      the stub of a module
@@ -17,6 +18,7 @@ import command_line
 import documentation
 import paraview
 import python_package
+import window
 from descriptions import DescriptionError, read_sets, read_verbs
 
 
@@ -26,6 +28,8 @@ def read(path):
 
 def generated(kind, inputs):
     sets = read_sets()
+    if kind == "window":
+        return window.header(sets)
     if kind == "paraview":
         return paraview.fill(read(inputs[0]), sets)
     if kind == "python-table":
@@ -43,7 +47,7 @@ def generated(kind, inputs):
 
 
 def main():
-    inputs = {"check": 0, "option-table": 0, "set-options": 0, "paraview": 1, "python-table": 0, "python-stub": 1,
+    inputs = {"check": 0, "option-table": 0, "set-options": 0, "window": 0, "paraview": 1, "python-table": 0, "python-stub": 1,
               "page": 1}
     arguments = sys.argv[1:]
     kind = arguments[0] if arguments else ""

@@ -153,7 +153,7 @@ def deformation():
     posed_handles = PoseHandles(Input=handles)
     posed = {name: globals()[name](Input=bound, Handles=posed_handles)
              for name in ("SkinningDeformation", "ReducedARAP", "FullARAP", "MovingLeastSquaresWarp")}
-    skinned = SkinningDeformation(Input=skin, Handles=posed_handles, Method="Dual Quaternions")
+    skinned = SkinningDeformation(Input=skin, Handles=posed_handles, Method="Dual quaternions")
     for name, proxy in posed.items():
         assert np.abs(points_of(fetch(proxy)) - rest).max() < 1e-12, f"{name}: the rest pose moves"
     shift = np.array([0.25, -1.0, 2.0])

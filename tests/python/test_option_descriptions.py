@@ -168,9 +168,9 @@ def add_option(path, **fields):
 
 
 def test_a_described_option_is_everywhere(tmp_path):
-    add_option(copy_of_the_descriptions(tmp_path))
+    add_option(copy_of_the_descriptions(tmp_path), slider=[0, 1])
     out = tmp_path / "out"
-    for words in (["option-table", out], ["set-options", tmp_path / "set"],
+    for words in (["option-table", out], ["set-options", tmp_path / "set"], ["window", tmp_path / "window"],
                   ["paraview", tmp_path / "filters" / "paraview" / "plugin" / "inside.xml", tmp_path / "xml"],
                   ["python-table", tmp_path / "table.py"],
                   ["python-stub", tmp_path / "python" / "bindpose" / "functions.py", tmp_path / "stub"],
@@ -179,6 +179,7 @@ def test_a_described_option_is_everywhere(tmp_path):
         assert done.returncode == 0, done.stderr
     assert '"--made-up", "DEGREES", OptionKind::number, "0.25"' in out.read_text()
     assert 'filter->SetMadeUp(arguments.number("made-up"))' in (tmp_path / "set").read_text()
+    assert "const Number made_up{ 0.25, 0, 1 };" in (tmp_path / "window").read_text()
     proxies = xml.etree.ElementTree.parse(tmp_path / "xml")
     element = proxies.find(".//DoubleVectorProperty[@name='MadeUp']")
     assert element.get("default_values") == "0.25" and element.find("DoubleRangeDomain").get("max") == "2"
@@ -198,6 +199,10 @@ def test_a_described_option_is_everywhere(tmp_path):
     ({"help": "See `nothing`."}, "help mentions 'nothing', which is not an option of the set"),
     ({"methods": ["best"]}, "unknown method 'best'"),
     ({"layer_defaults": {"vtk": 1}}, "layer_defaults need a reason, 'why'"),
+    ({"layer_defaults": {"windows": 1}, "why": "It is."}, "layer_defaults are of vtk, paraview, python, cli, window"),
+    ({"slider": [1, 2]}, "the slider must contain the default"),
+    ({"slider": [0, 3]}, "the slider is out of the range"),
+    ({"slider": [0, 1], "type": "flag", "default": True}, "a slider belongs to the types integer, id, number"),
     ({"above": 0}, "minimum and above exclude each other"),
     ({"choices": {"a": 0}}, "choices belong to the type choice"),
 ])

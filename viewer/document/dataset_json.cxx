@@ -354,9 +354,9 @@ json options_to_json(const Options& options)
       {
         const OptionInfo* info = find_option(option.key());
         const int number = option.value().toInt();
-        if (info && number >= 0 && number < static_cast<int>(info->words.size()))
+        if (info && number >= 0 && number < static_cast<int>(info->choices.size()))
         {
-          value = info->words[static_cast<std::size_t>(number)];
+          value = info->choices[static_cast<std::size_t>(number)].word;
         }
         else
         {

@@ -7,6 +7,14 @@
 
 #include <vector>
 
+/// One value of an option that is a choice.
+struct OptionChoice
+{
+  const char* word; ///< the value in session files
+  const char* label; ///< text in the window, in the translation context Document
+  int value = 0; ///< options of stages: integer of the enumeration in the kernel
+};
+
 /// One option that the user can choose. Undo and sessions include options. The type of the option
 /// is that of `initial`: bool, int, double, or a direction (a list of three doubles of length one).
 struct OptionInfo
@@ -16,13 +24,13 @@ struct OptionInfo
   QVariant initial;
   double lowest = 0.0;
   double highest = 1.0;
-  /// If the option is a choice: the word for each int value. Session files contain the word.
-  std::vector<const char*> words = {};
+  std::vector<OptionChoice> choices = {}; ///< if the option is a choice: one for each int value
   const char* former_key = ""; ///< key in the files of earlier versions
 };
 
-/// Return all options. A new option needs a row in this table. It also needs a widget whose object
-/// name is the key, or another link (option_links.h).
+/// Return all options. Words, labels, ranges and defaults of options that belong to a stage come
+/// from its description (filters/options/README.md). A new option needs a row in this table. It
+/// also needs a widget (app/parts/option_widgets.h) or another link (option_links.h).
 const std::vector<OptionInfo>& option_table();
 /// Return the option with a key or former key; null if it is unknown.
 const OptionInfo* find_option(const QString& key);

@@ -149,7 +149,8 @@ TEST(Sessions, ChoicesAreWordsInTheFile)
   for (const OptionInfo& option : option_table())
   {
     const bool is_choice = option.initial.type() == QVariant::Int && option.highest < 100;
-    EXPECT_EQ(option.words.size(), is_choice ? std::size_t(option.highest) + 1 : 0u) << option.key;
+    EXPECT_EQ(option.choices.size(), is_choice ? std::size_t(option.highest) + 1 : 0u)
+      << option.key;
   }
 }
 

@@ -1,10 +1,12 @@
 #include "app/handles/side_panel.h"
 
+#include "app/parts/option_widgets.h"
 #include "app/parts/panel_parts.h"
 #include "app/posing/handle_fields.h"
 #include "app/posing/pose_list_widget.h"
 #include "app/posing/pose_panel.h"
 #include "app/view/section.h"
+#include "document/options.h"
 
 #include "pose/pose.h"
 
@@ -24,24 +26,9 @@
 
 namespace
 {
-struct DomainChoice
+/// Make the width of a combo box independent of its items, because names of handles may be long.
+QComboBox* of_any_width(QComboBox* box)
 {
-  bindpose::WeightsDomain domain;
-  const char* name;
-};
-constexpr DomainChoice domain_choices[] = {
-  { bindpose::WeightsDomain::automatic, QT_TRANSLATE_NOOP("SidePanel", "Automatic") },
-  { bindpose::WeightsDomain::volume, QT_TRANSLATE_NOOP("SidePanel", "Tets of the inside") },
-  { bindpose::WeightsDomain::embedding, QT_TRANSLATE_NOOP("SidePanel", "Embedding lattice") },
-  { bindpose::WeightsDomain::cage, QT_TRANSLATE_NOOP("SidePanel", "Cage of the handles") },
-  { bindpose::WeightsDomain::surface, QT_TRANSLATE_NOOP("SidePanel", "Surface") },
-};
-
-/// Return a combo box whose width does not depend on its items, because names of handles may be
-/// long.
-QComboBox* combo(QWidget* parent)
-{
-  auto* box = new QComboBox(parent);
   box->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
   box->setMinimumContentsLength(8);
   return box;
@@ -58,18 +45,12 @@ SidePanel::SidePanel(HandleTree* handle_tree, QWidget* parent)
   column->setSpacing(7);
 
   column->addWidget(heading(tr("Bind"), this));
-  this->method_box_ = combo(this);
-  this->method_box_->setObjectName("bind.method");
-  for (const bindpose::WeightMethod& method : bindpose::weight_methods())
+  this->method_box_ = option_box("bind.method", this);
+  for (int k = 0; k < this->method_box_->count(); ++k)
   {
-    if (method.constrained)
-    {
-      this->method_box_->addItem(
-        tr("%1 weights").arg(QCoreApplication::translate("WeightPanel", method.label)));
-    }
+    this->method_box_->setItemText(k, tr("%1 weights").arg(this->method_box_->itemText(k)));
   }
   // This combo box determines the width of the panel, in any font.
-  this->method_box_->setMinimumContentsLength(0);
   this->method_box_->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   this->method_box_->setToolTip(
     tr("Bounded: smooth functions between 0 and 1.\n"
@@ -79,19 +60,14 @@ SidePanel::SidePanel(HandleTree* handle_tree, QWidget* parent)
   column->addWidget(this->method_box_);
   auto* domain_row = new QHBoxLayout;
   domain_row->addWidget(new QLabel(tr("Domain"), this));
-  this->domain_ = combo(this);
-  this->domain_->setObjectName("bind.domain");
-  for (const DomainChoice& choice : domain_choices)
-  {
-    this->domain_->addItem(tr(choice.name));
-  }
+  this->domain_ = of_any_width(option_box("bind.domain", this));
   this->domain_->setToolTip(
     tr("Mesh on which the weights are solved.\n"
        "Automatic: the surface of flat shapes; tets of the inside of closed and clean shapes if\n"
        "that is fast; a lattice for all others.\n"
        "Tets of the inside: keep the triangles of the surface.\n"
        "Embedding lattice: cubes that contain the surface, even if it has defects.\n"
-       "Cage: the inside of the closed cage of the handles.\n"
+       "Cage of the handles: the inside of the handles' closed cage.\n"
        "Surface: the triangles; near but unconnected parts do not influence each other."));
   domain_row->addWidget(this->domain_, 1);
   column->addLayout(domain_row);
@@ -122,7 +98,7 @@ SidePanel::SidePanel(HandleTree* handle_tree, QWidget* parent)
   auto* shown_row = new QHBoxLayout;
   this->shown_label_ = new QLabel(tr("Show"), this);
   shown_row->addWidget(this->shown_label_);
-  this->column_box_ = combo(this);
+  this->column_box_ = of_any_width(new QComboBox(this));
   this->column_box_->setObjectName("show.column");
   this->column_box_->setToolTip(tr("Show the shaded surface, or the weights of one handle on it"));
   shown_row->addWidget(this->column_box_, 1);
@@ -155,7 +131,7 @@ SidePanel::SidePanel(HandleTree* handle_tree, QWidget* parent)
   auto* mode_row = new QHBoxLayout;
   this->mode_label_ = new QLabel(tr("Fixes"), handles);
   mode_row->addWidget(this->mode_label_);
-  this->mode_ = combo(handles);
+  this->mode_ = of_any_width(new QComboBox(handles));
   using bindpose::HandleMode;
   const std::pair<HandleMode, QString> modes[] = { { HandleMode::automatic, tr("automatic") },
     { HandleMode::full, tr("position and rotation") },
@@ -351,7 +327,8 @@ const bindpose::WeightMethod& SidePanel::method() const
 
 bindpose::WeightsDomain SidePanel::domain() const
 {
-  return domain_choices[this->domain_->currentIndex()].domain;
+  const auto index = static_cast<std::size_t>(this->domain_->currentIndex());
+  return static_cast<bindpose::WeightsDomain>(find_option("bind.domain")->choices[index].value);
 }
 
 int SidePanel::shown_column() const

@@ -45,24 +45,6 @@ QButtonGroup* add_segments(
   return group;
 }
 
-QButtonGroup* add_orientations(QBoxLayout* column, QWidget* parent)
-{
-  const auto translated = [](const char* text)
-  { return QCoreApplication::translate("Panel", text); };
-  QButtonGroup* group = add_segments(column, parent,
-    { translated(QT_TRANSLATE_NOOP("Panel", "X")), translated(QT_TRANSLATE_NOOP("Panel", "Y")),
-      translated(QT_TRANSLATE_NOOP("Panel", "Z")), translated(QT_TRANSLATE_NOOP("Panel", "Free")) },
-    { translated(QT_TRANSLATE_NOOP("Panel", "Perpendicular to the x axis")),
-      translated(QT_TRANSLATE_NOOP("Panel", "Perpendicular to the y axis")),
-      translated(QT_TRANSLATE_NOOP("Panel", "Perpendicular to the z axis")),
-      translated(
-        QT_TRANSLATE_NOOP("Panel", "Any orientation; drag the arrow of the plane to rotate it")) });
-  // Style: no right border, as the second of four buttons.
-  group->button(1)->setProperty("place", "second");
-  group->button(2)->setChecked(true);
-  return group;
-}
-
 void enable_all_but(QComboBox* list, int item, const QString& reason)
 {
   auto* items = qobject_cast<QStandardItemModel*>(list->model());

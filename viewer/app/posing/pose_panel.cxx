@@ -1,5 +1,6 @@
 #include "app/posing/pose_panel.h"
 
+#include "app/parts/option_widgets.h"
 #include "app/parts/panel_parts.h"
 #include "app/parts/value_row.h"
 #include "app/view/section.h"
@@ -28,35 +29,27 @@ const struct
 {
   PoseMethod method;
   const char* button;
-  const char* name;
   const char* purpose;
 } methods[] = {
   { PoseMethod::linear_blend, QT_TRANSLATE_NOOP("PosePanel", "Linear"),
-    QT_TRANSLATE_NOOP("PosePanel", "Linear blend"),
     QT_TRANSLATE_NOOP(
       "PosePanel", "Blends the transforms of the handles. Fastest; strong twists become thin.") },
   { PoseMethod::dual_quaternion, QT_TRANSLATE_NOOP("PosePanel", "Dual q."),
-    QT_TRANSLATE_NOOP("PosePanel", "Dual quaternions"),
     QT_TRANSLATE_NOOP(
       "PosePanel", "Blends rigid transforms. Twists keep their thickness; bends bulge.") },
   { PoseMethod::stretchable_bones, QT_TRANSLATE_NOOP("PosePanel", "Stretch"),
-    QT_TRANSLATE_NOOP("PosePanel", "Stretchable bones"),
     QT_TRANSLATE_NOOP(
       "PosePanel", "Bones stretch and twist along their length, without bulges at their ends.") },
   { PoseMethod::rotation_centers, QT_TRANSLATE_NOOP("PosePanel", "Centers"),
-    QT_TRANSLATE_NOOP("PosePanel", "Centers of rotation"),
     QT_TRANSLATE_NOOP("PosePanel",
       "Rotates every vertex about its own center: twists stay thick, bends do not bulge.") },
   { PoseMethod::reduced_arap, QT_TRANSLATE_NOOP("PosePanel", "ARAP"),
-    QT_TRANSLATE_NOOP("PosePanel", "Reduced ARAP"),
     QT_TRANSLATE_NOOP(
       "PosePanel", "As rigid as possible, restricted to the weights; solves in microseconds.") },
   { PoseMethod::full_arap, QT_TRANSLATE_NOOP("PosePanel", "Full ARAP"),
-    QT_TRANSLATE_NOOP("PosePanel", "Full ARAP"),
     QT_TRANSLATE_NOOP("PosePanel",
       "As rigid as possible, with every vertex free to move. Needs no weights; slower.") },
-  { PoseMethod::variational, QT_TRANSLATE_NOOP("PosePanel", "Fair"),
-    QT_TRANSLATE_NOOP("PosePanel", "Fair surface"),
+  { PoseMethod::variational, QT_TRANSLATE_NOOP("PosePanel", "Variational"),
     QT_TRANSLATE_NOOP(
       "PosePanel", "The smoothest surface through the constrained vertices. Needs no weights.") },
 };
@@ -69,13 +62,11 @@ QString translated(const char* text)
   return QCoreApplication::translate("PosePanel", text);
 }
 
-QComboBox* combo(QWidget* parent, const char* key, const QStringList& items)
+QComboBox* box(const char* key, QWidget* parent)
 {
-  auto* box = new QComboBox(parent);
-  box->setObjectName(key);
-  box->addItems(items);
-  box->setSizeAdjustPolicy(QComboBox::AdjustToContents);
-  return box;
+  QComboBox* result = option_box(key, parent);
+  result->setSizeAdjustPolicy(QComboBox::AdjustToContents);
+  return result;
 }
 } // namespace
 
@@ -91,10 +82,7 @@ std::vector<PoseMethod> pose_methods_in_order()
 
 QString method_name(PoseMethod method)
 {
-  return translated(std::find_if(std::begin(methods), std::end(methods),
-    [&](const auto& entry) {
-      return entry.method == method;
-    })->name);
+  return option_labels("pose.method")[static_cast<int>(method)];
 }
 
 QString method_purpose(PoseMethod method)
@@ -226,14 +214,11 @@ void PosePanel::add_options(QVBoxLayout* column)
     PoseMethod::stretchable_bones, PoseMethod::rotation_centers };
   const std::vector<PoseMethod> reduced = { PoseMethod::reduced_arap };
   const std::vector<PoseMethod> smooth = { PoseMethod::variational };
-  const auto value = [this](const char* key, double lowest, double highest, double initial_value)
+  const auto row = [this](const char* key)
   {
-    auto* row = new ValueRow(this);
-    row->setObjectName(key);
-    row->set_range(lowest, highest);
-    row->set_value(initial_value);
-    row->slider()->setMinimumWidth(50); // the slider is in a row with its name
-    return row;
+    ValueRow* result = option_row(key, this);
+    result->slider()->setMinimumWidth(50); // the slider is in a row with its name
+    return result;
   };
   const auto check = [this](const char* key, const QString& text)
   {
@@ -242,19 +227,16 @@ void PosePanel::add_options(QVBoxLayout* column)
     return box;
   };
 
-  this->endpoints_ =
-    combo(this, "pose.endpoints", { tr("nearest point"), tr("joints"), tr("bounded") });
+  this->endpoints_ = box("pose.endpoints", this);
   this->option(column, tr("Along bones"), this->endpoints_,
     tr("Position of a vertex along a bone, from head to tail.\n"
-       "Nearest point: available immediately. Joints and bounded: follow the shape,\n"
+       "Projection: available immediately. Joints and Bounded: follow the shape,\n"
        "computed when they are chosen. An array EndpointWeights takes precedence."),
     { PoseMethod::stretchable_bones });
-  this->pseudo_edges_ =
-    combo(this, "pose.pseudo_edges", { tr("none"), tr("file's edges"), tr("automatic edges") });
-  this->pseudo_edges_->setCurrentIndex(1);
+  this->pseudo_edges_ = box("pose.pseudo_edges", this);
   this->option(column, tr("Pseudo-edges"), this->pseudo_edges_,
     tr("Point handles that are only moved rotate with the edges between them:\n"
-       "pseudo-edges of the handle file, or automatic edges along the shape."),
+       "those of the handle file (Given), or edges along the shape (Automatic)."),
     skinning);
   this->single_ = check("pose.single_precision", tr("Single precision"));
   this->option(column, QString(), this->single_,
@@ -266,51 +248,48 @@ void PosePanel::add_options(QVBoxLayout* column)
     tr("Use the energy of the tets on which the weights were solved, instead of the energy of the "
        "surface"),
     arap_methods);
-  this->energy_ = combo(
-    this, "pose.energy", { tr("automatic"), tr("spokes and rims"), tr("elements"), tr("spokes") });
+  this->energy_ = box("pose.energy", this);
   this->option(column, tr("Rigid parts"), this->energy_,
     tr("Parts that keep their shape: the neighborhood of each vertex (spokes and rims; spokes:\n"
        "only the edges at the vertex), or each triangle or tet (elements)"),
     arap_methods);
-  this->extra_ = value("pose.extra_weights", 0.0, 30.0, 0.0);
+  this->extra_ = row("pose.extra_weights");
   this->extra_->field()->setDecimals(0);
   this->option(column, tr("Extra weights"), this->extra_,
     tr("Number of extra weights, which let the shape bend where there is no handle; 15 is a good "
        "value"),
     reduced);
-  this->extra_kind_ = combo(this, "pose.extra_kind", { tr("bumps"), tr("eigenmodes") });
+  this->extra_kind_ = box("pose.extra_kind", this);
   this->extra_kind_row_ = this->option(column, tr("Extra type"), this->extra_kind_,
     tr("Type of the extra weights: bumps around points that are far apart, or the smoothest "
        "functions that vanish at handles"),
     reduced);
-  this->iterations_ = value("pose.iterations", 1.0, 200.0, 100.0);
+  this->iterations_ = row("pose.iterations");
   this->iterations_->field()->setDecimals(0);
   this->option(column, tr("Iterations"), this->iterations_,
     tr("Maximum number of iterations per frame; the solver stops when it has converged"), reduced);
-  this->budget_ = value("pose.budget_us", 0.0, 5000.0, 0.0);
+  this->budget_ = row("pose.budget_us");
   this->budget_->field()->setDecimals(0);
   this->budget_->field()->setSpecialValueText(tr("no limit"));
   this->option(column, tr("Budget, µs"), this->budget_,
     tr("Time limit of the solve per frame, in microseconds; 0: no limit"), reduced);
 
-  this->rotations_ =
-    combo(this, "pose.rotations", { tr("not shown"), tr("clusters"), tr("angles") });
+  this->rotations_ = box("pose.rotations", this);
   this->option(column, tr("Rotations"), this->rotations_,
     tr(
       "Color the shape by rotation angles, or by rotation clusters: vertices with similar weights\n"
       "that share a rotation in reduced ARAP, single vertices in full ARAP"),
     arap_methods);
 
-  this->order_ = combo(this, "pose.order", { tr("membrane"), tr("thin plate"), tr("smoother") });
-  this->order_->setCurrentIndex(1);
+  this->order_ = box("pose.order", this);
   this->option(column, tr("Model"), this->order_,
     tr("Membrane: only positions continue at constrained vertices.\n"
-       "Thin plate: tangents continue, too. Smoother: curvatures continue, too."),
+       "Thin plate: tangents continue, too. Third order: curvatures continue, too."),
     smooth);
-  this->boundary_ = combo(this, "pose.boundary", { tr("smooth"), tr("hinged"), tr("clamped") });
+  this->boundary_ = box("pose.boundary", this);
   this->option(column, tr("Boundary"), this->boundary_,
-    tr("Smooth: continues smoothly into the constrained region.\n"
-       "Hinged: only positions are constrained. Clamped: positions and slopes are constrained."),
+    tr("Region: continues smoothly into the constrained region.\n"
+       "Curve: only positions are constrained. Tangent: positions and slopes are constrained."),
     smooth);
 }
 
@@ -320,12 +299,7 @@ void PosePanel::add_comparison(QVBoxLayout* column)
     new Section(tr("Compare"), tr("Compare with the shape of a second method"), false, this);
   column->addSpacing(4);
   column->addWidget(section);
-  QStringList names = { tr("nothing") };
-  for (int k = 0; k < bindpose::pose_method_count; ++k)
-  {
-    names << method_name(static_cast<PoseMethod>(k));
-  }
-  this->compared_ = combo(this, "pose.compared", names);
+  this->compared_ = box("pose.compared", this);
   this->compared_->setToolTip(
     tr("Second method for the same pose, to show where both shapes differ"));
   auto* line = new QHBoxLayout;
@@ -335,15 +309,12 @@ void PosePanel::add_comparison(QVBoxLayout* column)
   this->place_row_ = new QWidget(this);
   auto* places = new QVBoxLayout(this->place_row_);
   places->setContentsMargins(0, 0, 0, 0);
-  this->ghost_group_ =
-    add_segments(places, this->place_row_, { tr("Over it"), tr("Beside it"), tr("Distance") },
-      { tr("Draw the second shape in see-through blue where both shapes differ"),
-        tr("Draw each shape in one half of the picture, from the same view"),
-        tr("Color the shape by its distance from the second shape,\n"
-           "in percent of the bounding-box diagonal of the rest shape") });
-  // Default: Distance, which shows the size of the differences.
-  this->ghost_group_->button(2)->setChecked(true);
-  this->ghost_group_->setObjectName("pose.ghost");
+  // The default is Distance, which shows the size of the differences.
+  this->ghost_group_ = option_segments(places, this->place_row_, "pose.ghost",
+    { tr("Draw the second shape in see-through blue where both shapes differ"),
+      tr("Draw each shape in one half of the picture, from the same view"),
+      tr("Color the shape by its distance from the second shape,\n"
+         "in percent of the bounding-box diagonal of the rest shape") });
   this->difference_ = new QLabel(this->place_row_);
   this->difference_->setObjectName("note");
   this->difference_->setWordWrap(true);
@@ -397,13 +368,9 @@ void PosePanel::add_motion(QVBoxLayout* column)
   this->time_ = new QLabel(this->motion_);
   this->time_->setObjectName("note");
   rows->addWidget(this->time_);
-  const auto row = [&](const char* key, const QString& name, double highest, double initial_value,
-                     const QString& tip)
+  const auto row = [&](const char* key, const QString& name, const QString& tip)
   {
-    auto* value = new ValueRow(this->motion_);
-    value->setObjectName(key);
-    value->set_range(0.0, highest);
-    value->set_value(initial_value);
+    ValueRow* value = option_row(key, this->motion_);
     value->slider()->setMinimumWidth(50);
     value->setToolTip(tip);
     auto* line = new QHBoxLayout;
@@ -416,22 +383,18 @@ void PosePanel::add_motion(QVBoxLayout* column)
     QObject::connect(value, &ValueRow::value_chosen, this, &PosePanel::body_changed);
     return value;
   };
-  const bindpose::BodyOptions default_options;
-  this->gravity_ = row("motion.gravity", tr("Gravity"), 5.0, default_options.gravity,
+  this->gravity_ = row("motion.gravity", tr("Gravity"),
     tr("Gravitational acceleration in bounding-box diagonals of the shape per s²"));
-  this->down_ = combo(this->motion_, "motion.down", { tr("-x"), tr("-y"), tr("-z") });
+  this->down_ = box("motion.down", this->motion_);
   this->down_->setToolTip(tr("World direction in which gravity acts"));
-  this->down_->setCurrentIndex(default_options.down);
   auto* line = new QHBoxLayout;
   line->setSpacing(8);
   line->addWidget(new QLabel(tr("Direction"), this->motion_));
   line->addWidget(this->down_, 1);
   rows->addLayout(line);
-  this->stiffness_ =
-    row("motion.stiffness", tr("Stiffness"), 5.0, std::log10(default_options.stiffness),
-      tr("Exponent of ten; at 2, waves cross the shape ten times per second"));
-  this->damping_ = row("motion.damping", tr("Damping"), 20.0, default_options.damping,
-    tr("Damping rate of the velocity in 1/s"));
+  this->stiffness_ = row("motion.stiffness", tr("Stiffness"),
+    tr("Exponent of ten; at 2, waves cross the shape ten times per second"));
+  this->damping_ = row("motion.damping", tr("Damping"), tr("Damping rate of the velocity in 1/s"));
   section->column()->addWidget(this->motion_);
   this->motion_->hide();
   QObject::connect(this->down_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,

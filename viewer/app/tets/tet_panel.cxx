@@ -1,5 +1,6 @@
 #include "app/tets/tet_panel.h"
 
+#include "app/parts/option_widgets.h"
 #include "app/parts/panel_parts.h"
 #include "app/parts/value_row.h"
 
@@ -34,15 +35,7 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   };
 
   column->addWidget(heading(tr("Tets"), this));
-  this->method_ = new QComboBox(this);
-  this->method_->setObjectName("tets.method");
-  this->method_->addItem(tr("Automatic"));
-  this->method_->addItem(tr("Constrained (cdt)"));
-  this->method_->addItem(tr("Remeshed"));
-  this->method_->addItem(tr("Embedding lattice"));
-  this->method_->addItem(tr("Alpha wrap"));
-  this->method_->addItem(tr("fTetWild"));
-  this->method_->addItem(tr("Whole hull (cdt)"));
+  this->method_ = option_box("tets.method", this);
   this->method_->setToolTip(
     tr("Constrained: keeps the triangles of the surface.\n"
        "Remeshed: well-shaped tets.\n"
@@ -75,13 +68,7 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   this->tets_->setObjectName("tets.shown");
   this->tets_->setToolTip(tr("Show the tets (tetrahedra) at rest instead of the surface"));
   column->addWidget(this->tets_);
-  this->colors_ = new QComboBox(this);
-  this->colors_->setObjectName("tets.colors");
-  this->colors_->addItem(tr("Plain"));
-  this->colors_->addItem(tr("By winding number"));
-  this->colors_->addItem(tr("By label"));
-  this->colors_->addItem(tr("By quality"));
-  this->colors_->addItem(tr("By method"));
+  this->colors_ = option_box("tets.colors", this);
   this->colors_->setToolTip(
     tr("Winding number: at the center of each tet.\n"
        "Label: inside or outside, and where the label contradicts the winding number.\n"
@@ -96,8 +83,7 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   this->cut_->setObjectName("tets.cut");
   this->cut_->setToolTip(tr("Hide the whole tets in front of a plane that the mouse can drag"));
   column->addWidget(this->cut_);
-  this->orientations_ = add_orientations(column, this);
-  this->orientations_->setObjectName("tets.orientation");
+  this->orientations_ = orientation_segments(column, this, "tets.orientation");
   this->position_ = new ValueRow(this);
   this->position_->setObjectName("tets.place");
   this->position_->set_option_is_fraction();
@@ -116,10 +102,7 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   column->addSpacing(10);
   this->shrink_label_ = heading(tr("Size of each tet"), this);
   column->addWidget(this->shrink_label_);
-  this->shrink_ = new ValueRow(this);
-  this->shrink_->setObjectName("tets.shrink");
-  this->shrink_->set_range(0.1, 1.0);
-  this->shrink_->set_value(1.0);
+  this->shrink_ = option_row("tets.shrink", this);
   this->shrink_->setToolTip(tr("Scale of each tet; below 1 there are gaps between the tets"));
   column->addWidget(this->shrink_);
 

@@ -1,5 +1,6 @@
 #include "app/volume/volume_panel.h"
 
+#include "app/parts/option_widgets.h"
 #include "app/parts/panel_parts.h"
 #include "app/parts/value_row.h"
 #include "app/view/viewport.h"
@@ -18,16 +19,8 @@
 
 namespace
 {
-struct Resolution
-{
-  int samples; // number of samples along the longest side of the grid
-  const char* name;
-};
-constexpr Resolution resolutions[] = {
-  { 48, QT_TRANSLATE_NOOP("VolumePanel", "Coarse: 48 samples") },
-  { 96, QT_TRANSLATE_NOOP("VolumePanel", "Medium: 96 samples") },
-  { 192, QT_TRANSLATE_NOOP("VolumePanel", "Fine: 192 samples") },
-};
+/// Numbers of samples along the longest side of the grid: coarse, medium, fine.
+constexpr int resolutions[] = { 48, 96, 192 };
 
 void keep_size_when_hidden(QWidget* widget)
 {
@@ -46,13 +39,12 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   column->setSpacing(7);
 
   column->addWidget(heading(tr("Winding numbers"), this));
-  this->samples_ = new QComboBox(this);
-  this->samples_->setObjectName("volume.samples");
-  for (const Resolution& resolution : resolutions)
+  this->samples_ = option_box("volume.samples", this);
+  for (int k = 0; k < this->samples_->count(); ++k)
   {
-    this->samples_->addItem(tr(resolution.name));
+    this->samples_->setItemText(
+      k, tr("%1: %2 samples").arg(this->samples_->itemText(k)).arg(resolutions[k]));
   }
-  this->samples_->setCurrentIndex(1);
   this->samples_->setToolTip(tr("Samples along the longest side of the grid around the surface; "
                                 "twice as many samples need eight times the memory"));
   column->addWidget(this->samples_);
@@ -83,8 +75,7 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   this->slice_->setObjectName("volume.slice");
   this->slice_->setToolTip(tr("Show winding numbers on a plane that the mouse can drag"));
   column->addWidget(this->slice_);
-  this->orientations_ = add_orientations(column, this);
-  this->orientations_->setObjectName("volume.orientation");
+  this->orientations_ = orientation_segments(column, this, "volume.orientation");
   this->position_ = new ValueRow(this);
   this->position_->setObjectName("volume.place");
   this->position_->set_option_is_fraction();
@@ -118,14 +109,8 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   column->addSpacing(10);
   this->surface_heading_ = heading(tr("Surface"), this);
   column->addWidget(this->surface_heading_);
-  this->surface_ = new QComboBox(this);
-  this->surface_->setObjectName("volume.surface_look");
+  this->surface_ = option_box("volume.surface_look", this);
   this->surface_->setToolTip(tr("Drawing style of the surface around the slice"));
-  this->surface_->addItem(tr("Solid"));
-  this->surface_->addItem(tr("See-through"));
-  this->surface_->addItem(tr("Edges only"));
-  this->surface_->addItem(tr("Hidden"));
-  this->surface_->setCurrentIndex(Viewport::see_through);
   column->addWidget(this->surface_);
 
   column->addStretch(1);
@@ -223,7 +208,7 @@ void VolumePanel::set_note(const QString& text)
 
 int VolumePanel::samples() const
 {
-  return resolutions[this->samples_->currentIndex()].samples;
+  return resolutions[this->samples_->currentIndex()];
 }
 
 void VolumePanel::set_values(double lowest, double highest)

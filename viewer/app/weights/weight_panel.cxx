@@ -1,5 +1,6 @@
 #include "app/weights/weight_panel.h"
 
+#include "app/parts/option_widgets.h"
 #include "app/parts/panel_parts.h"
 #include "app/parts/value_row.h"
 
@@ -75,16 +76,14 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   this->column_->setToolTip(
     tr("Show the weights of one handle, or color every triangle by its strongest handle"));
   column->addWidget(this->column_);
-  this->quantity_group_ = this->add_choice({ tr("Weights"), tr("Row sums"), tr("Difference") },
+  this->quantity_group_ = this->add_choice("weights.what",
     { tr("Show the weights of the handles"),
       tr("Show the sum of the raw weights at each point; where it is 1, normalization changes "
          "nothing"),
       tr("Show the difference from the weights of the other method below") });
-  this->normalization_group_ = this->add_choice({ tr("Normalized"), tr("Raw") },
+  this->normalization_group_ = this->add_choice("weights.raw",
     { tr("Weights divided by their sum at each vertex; these weights deform the shape"),
       tr("Weights as solved, before normalization; the certificate applies to these weights") });
-  this->quantity_group_->setObjectName("weights.what");
-  this->normalization_group_->setObjectName("weights.raw");
   this->certificate_ = note(3);
   this->certificate_->setToolTip(
     tr("Optimality certificate of the column. Gap: its energy exceeds the minimum by at most this "
@@ -111,24 +110,15 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   tint->setContentsMargins(0, 0, 0, 0);
   tint->setSpacing(4);
   tint->addWidget(new QLabel(tr("Colors over the picture"), this->tint_row_));
-  this->tint_ = new ValueRow(this->tint_row_);
-  this->tint_->setObjectName("weights.over_picture");
+  this->tint_ = option_row("weights.over_picture", this->tint_row_);
   this->tint_->setToolTip(tr(
     "Opacity of the colors: 0 shows only the picture, 1 only the colors; isolines remain visible"));
-  this->tint_->set_range(0.0, 1.0);
-  this->tint_->set_value(0.5);
   tint->addWidget(this->tint_);
   column->addWidget(this->tint_row_);
 
   column->addSpacing(10);
   column->addWidget(heading(tr("Other method"), this));
-  this->method_ = new QComboBox(this);
-  this->method_->setObjectName("weights.compare_with");
-  for (const bindpose::WeightMethod& method : bindpose::weight_methods())
-  {
-    this->method_->addItem(tr(method.label));
-  }
-  this->method_->setCurrentIndex(1);
+  this->method_ = option_box("weights.compare_with", this);
   this->method_->setToolTip(tr("Method to compare with; the weights of the shape do not change"));
   QObject::connect(
     this->method_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &WeightPanel::enable);
@@ -160,8 +150,7 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
     tr("Show the weights on a plane through the rest shape; the mouse can drag the plane"));
   this->slice_->setObjectName("weights.slice");
   column->addWidget(this->slice_);
-  this->orientations_ = add_orientations(column, this);
-  this->orientations_->setObjectName("weights.orientation");
+  this->orientations_ = orientation_segments(column, this, "weights.orientation");
   this->position_ = new ValueRow(this);
   this->position_->setObjectName("weights.place");
   this->position_->set_option_is_fraction();
@@ -193,9 +182,9 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   this->set_state({});
 }
 
-QButtonGroup* WeightPanel::add_choice(const QStringList& names, const QStringList& tips)
+QButtonGroup* WeightPanel::add_choice(const char* key, const QStringList& tips)
 {
-  QButtonGroup* group = add_segments(static_cast<QBoxLayout*>(this->layout()), this, names, tips);
+  QButtonGroup* group = option_segments(static_cast<QBoxLayout*>(this->layout()), this, key, tips);
   QObject::connect(group, &QButtonGroup::idClicked, this,
     [this]
     {

@@ -90,7 +90,7 @@ Q_SIGNALS:
   void position_chosen(double position);
 
 private:
-  QButtonGroup* add_choice(const QStringList& names, const QStringList& tips);
+  QButtonGroup* add_choice(const char* key, const QStringList& tips);
   void enable();
 
   QComboBox* column_;

@@ -1,0 +1,29 @@
+#ifndef app_parts_option_widgets_h
+#define app_parts_option_widgets_h
+
+#include <QStringList>
+
+class QBoxLayout;
+class QButtonGroup;
+class QComboBox;
+class QWidget;
+class ValueRow;
+
+// Functions that create the widget of an option of the document (document/options.h). Labels, range
+// and initial value come from the table of options. The object name of the widget is the key of the
+// option, so that OptionLinks finds it.
+
+/// Return the labels of a choice.
+QStringList option_labels(const char* key);
+/// Return a combo box with the labels of a choice.
+QComboBox* option_box(const char* key, QWidget* parent);
+/// Add a row of buttons with the labels of a choice. Exactly one of them is pressed. Ids count
+/// from 0.
+QButtonGroup* option_segments(
+  QBoxLayout* column, QWidget* parent, const char* key, const QStringList& tips);
+/// Add the segments of an orientation, with PlaneHandle::Orientation as ids.
+QButtonGroup* orientation_segments(QBoxLayout* column, QWidget* parent, const char* key);
+/// Return a row of a slider and a field for a number.
+ValueRow* option_row(const char* key, QWidget* parent);
+
+#endif

@@ -2,8 +2,8 @@
 """Run `bindpose tetrahedralize` on every surface of the Debian package libcgal-demo and on the synthetic surfaces of
 horrors.py.
 
-The script prints a table and summary lines for each requested method, and writes them as markdown if requested. It
-fails if a result is wrong:
+The script prints a table and summary lines for each requested method. If requested, it writes a summary as markdown and
+all rows as CSV. It fails if a result is wrong:
 - the program crashes or hangs, or takes more than 120 s for up to 100,000 triangles;
 - a tet is flat, inverted or duplicated, or the boundary is not closed;
 - the volume is wrong and no warning reports it;
@@ -17,6 +17,7 @@ evaluates `bindpose winding` at four million points.
 
 import argparse
 import collections
+import csv
 import dataclasses
 import json
 import math
@@ -99,6 +100,7 @@ class Row:
                 number(get("min_dihedral_angle"), ".1f")]
 
 
+SHOWN = 10  # number of rows in the markdown file
 HEADS = ["surface", "triangles", "rung", "left", "tets", "s", "volume %", "far %", "mean %", "angle"]
 
 
@@ -362,20 +364,41 @@ def as_text(cells):
     return " ".join(cell.ljust(w) if k in (0, 2) else cell.rjust(w) for k, (cell, w) in enumerate(zip(cells, widths)))
 
 
+def percentiles(name, values):
+    middle, high, highest = np.percentile(values, [50, 95, 100])
+    return f"| {name} | {middle:.3g} | {high:.3g} | {highest:.3g} |"
+
+
 def as_markdown(results, command):
     lines = ["# Every surface to tets", "", "Measured by", "", f"    {command}", "",
-             "on a machine with 2 cores that others used, too; the seconds are of the whole program, from reading to",
-             "writing. *rung*: which method answered; *left*: how many attempts were left before; *volume %*: of the tets",
-             "against that of {winding number >= 0.5}, which is sampled to about 1 % for unclean surfaces; *far*, *mean*:",
-             "distance to the surface in % of its diagonal, where the method measures it (remesh; cdt keeps the triangles);",
-             "*angle*: the smallest dihedral angle, degrees."]
+             "on a machine with 2 cores. `--csv FILE` writes a row for each surface. The seconds are those of the whole program, from",
+             "reading to writing. Columns: *rung*, the method that succeeded; *left*, the number of attempts that failed before;",
+             "*volume %*, the difference of the tets' volume from that of {winding number >= 0.5}, which is sampled to about 1 % for",
+             "unclean surfaces; *far* and *mean*, the distance to the surface in % of its diagonal, if the method measures it (remesh;",
+             "cdt keeps the triangles); *angle*, the smallest dihedral angle in degrees."]
     for method, (rows, text) in results.items():
+        answered = [row for row in rows if row.answered]
         lines += ["", f"## --method {method}", "", *(f"- {line}" for line in text), "",
-                  "| " + " | ".join(HEADS) + " |", "|---|--:|---|" + "--:|" * 7]
-        lines += ["| " + " | ".join(row.cells()) + " |" for row in rows]
-        lines += ["", *(f"- {row.surface.name}: exit {row.code}, {row.sentence.removeprefix('bindpose tetrahedralize: ')}"
-                        for row in rows if not row.answered)]
-    return "\n".join(lines) + "\n"
+                  "| | median | 95 % | largest |", "|---|--:|--:|--:|",
+                  percentiles("seconds", [row.seconds for row in rows]),
+                  percentiles("tets per triangle", [row.report["counts"]["tets"] / row.triangles for row in answered])]
+        lines += ["", f"The {SHOWN} slowest:", "", "| " + " | ".join(HEADS) + " |", "|---|--:|---|" + "--:|" * 7]
+        lines += ["| " + " | ".join(row.cells()) + " |" for row in sorted(rows, key=lambda row: -row.seconds)[:SHOWN]]
+        sentences = collections.defaultdict(list)
+        for row in rows:
+            if not row.answered:
+                sentences[row.sentence.removeprefix("bindpose tetrahedralize: ")].append(row.surface.name)
+        lines += ["", "Refusals:" if sentences else "No refusals.", "",
+                  *(f"- {', '.join(names)}: {sentence}" for sentence, names in sentences.items())]
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def write_csv(path, results):
+    with open(path, "w", newline="", encoding="utf-8") as file:
+        table = csv.writer(file)
+        table.writerow(["method", *HEADS, "exit", "sentence"])
+        for method, (rows, _) in results.items():
+            table.writerows([method, *row.cells(), row.code, row.sentence] for row in rows)
 
 
 def main():
@@ -385,7 +408,8 @@ def main():
                         help="may be given several times (default: auto)")
     parser.add_argument("--only", default="", help="surfaces whose names contain this")
     parser.add_argument("--largest", type=int, default=20_000_000, help="bytes; larger files are left out")
-    parser.add_argument("--markdown", type=pathlib.Path, help="write the tables to this file, too")
+    parser.add_argument("--markdown", type=pathlib.Path, help="write the summary to this file, too")
+    parser.add_argument("--csv", type=pathlib.Path, help="write a row for each surface and method to this file")
     options = parser.parse_args()
     program = options.build.resolve() / "bin" / "bindpose"
     if not ARCHIVE.exists():
@@ -412,6 +436,8 @@ def main():
         print(f"\n--method {method}")
         print("\n".join("  " + line for line in text))
         print("\n".join(f"  BROKEN {row.surface.name}: {text}" for row in rows for text in row.broken))
+    if options.csv:
+        write_csv(options.csv, results)
     if options.markdown:
         words = " ".join(f"--method {method}" for method in results)
         options.markdown.write_text(as_markdown(results, f"/usr/bin/python3 tests/support/all_surfaces.py --build build {words}"))

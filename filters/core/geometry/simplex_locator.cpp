@@ -2,6 +2,8 @@
 // elements' centers along the longest side. The search visits the nearest box first.
 #include "geometry/simplex_locator.h"
 
+#include "geometry/median_split.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -163,14 +165,9 @@ Index SimplexLocator::build(Index begin, Index end)
     int axis;
     centers.size().maxCoeff(&axis);
     const Index middle = (begin + end) / 2;
-    std::nth_element(this->order_.begin() + begin, this->order_.begin() + middle,
-      this->order_.begin() + end,
-      [&](Index x, Index y)
-      {
-        const double cx = this->lower_[x][axis] + this->upper_[x][axis];
-        const double cy = this->lower_[y][axis] + this->upper_[y][axis];
-        return cx != cy ? cx < cy : x < y;
-      });
+    const auto first = this->order_.begin();
+    split_at(first + begin, first + middle, first + end,
+      [&](Index e) { return std::pair(this->lower_[e][axis] + this->upper_[e][axis], e); });
     this->build(begin, middle);
     const Index right = this->build(middle, end);
     this->nodes_[node_id].right = right;

@@ -3,6 +3,8 @@
 // least the best value so far.
 #include "inside/sizing_field.h"
 
+#include "geometry/median_split.h"
+
 #include <algorithm>
 #include <array>
 #include <numeric>
@@ -56,14 +58,9 @@ void SizingField::build(Index begin, Index end)
   Index axis = 0;
   node.box.size().maxCoeff(&axis);
   const Index middle = begin + (end - begin) / 2;
-  std::nth_element(this->order_.begin() + begin, this->order_.begin() + middle,
-    this->order_.begin() + end,
-    [&](Index a, Index b)
-    {
-      const double x = this->sites_(a, axis);
-      const double y = this->sites_(b, axis);
-      return x != y ? x < y : a < b;
-    });
+  const auto first = this->order_.begin();
+  split_at(first + begin, first + middle, first + end,
+    [&](Index site) { return std::pair(this->sites_(site, axis), site); });
   this->build(begin, middle);
   this->nodes_[self].right = static_cast<Index>(this->nodes_.size());
   this->build(middle, end);

@@ -5,6 +5,7 @@
 #include "surface/triangle_tree.h"
 
 #include "base/parallel.h"
+#include "geometry/median_split.h"
 #include "surface/triangle_predicates.h"
 
 #include <algorithm>
@@ -86,12 +87,8 @@ Box TriangleTree::build(std::vector<Item>& items, Index begin, Index end)
     Index axis = 0;
     centers.size().maxCoeff(&axis);
     const Index middle = begin + (end - begin) / 2;
-    std::nth_element(items.begin() + begin, items.begin() + middle, items.begin() + end,
-      [axis](const Item& a, const Item& b)
-      {
-        return a.center[axis] != b.center[axis] ? a.center[axis] < b.center[axis]
-                                                : a.triangle < b.triangle;
-      });
+    split_at(items.begin() + begin, items.begin() + middle, items.begin() + end,
+      [axis](const Item& item) { return std::pair(item.center[axis], item.triangle); });
     box = this->build(items, begin, middle);
     this->nodes_[node_id].right = static_cast<Index>(this->nodes_.size());
     const Box right = this->build(items, middle, end);

@@ -28,6 +28,7 @@
 #include "base/constants.h"
 #include "base/parallel_sort.h"
 #include "geometry/exact.h"
+#include "geometry/median_split.h"
 #include "winding/exact_frame.h"
 #include "winding/point_values.h"
 
@@ -390,14 +391,9 @@ private:
     int axis = 0;
     (upper - lower).maxCoeff(&axis);
     const Id middle = begin + (end - begin) / 2;
-    std::nth_element(this->order_.begin() + begin, this->order_.begin() + middle,
-      this->order_.begin() + end,
-      [&](Id x, Id y)
-      {
-        const double cx = this->twice_centers_[x][axis];
-        const double cy = this->twice_centers_[y][axis];
-        return cx != cy ? cx < cy : x < y;
-      });
+    const auto first = this->order_.begin();
+    split_at(first + begin, first + middle, first + end,
+      [&](Id loop) { return std::pair(this->twice_centers_[loop][axis], loop); });
     const std::size_t node = this->nodes_.size();
     this->nodes_.push_back({});
     this->add_loops(begin, middle);

@@ -8,6 +8,8 @@
 // that cannot contain a nearer point.
 #include "winding/point_tree.h"
 
+#include "geometry/median_split.h"
+
 #include <algorithm>
 
 namespace bindpose
@@ -97,12 +99,8 @@ void PointTree::add_children(
   int axis = 0;
   (upper - lower).maxCoeff(&axis);
   const Id half = (count / 2 + width - 1) / width * width;
-  std::nth_element(begin, begin + half, begin + count,
-    [axis](const Item& x, const Item& y)
-    {
-      return x.position[axis] != y.position[axis] ? x.position[axis] < y.position[axis]
-                                                  : x.id < y.id;
-    });
+  split_at(begin, begin + half, begin + count,
+    [axis](const Item& item) { return std::pair(item.position[axis], item.id); });
   this->add_children(items, group, first, half, halvings - 1);
   this->add_children(items, group, first + half, count - half, halvings - 1);
 }

@@ -7,6 +7,8 @@
 // closed. Outside the box the winding number of this closed surface is zero.
 #include "winding/winding_tree.h"
 
+#include "geometry/median_split.h"
+
 #include <algorithm>
 #include <numeric>
 
@@ -107,13 +109,8 @@ bool WindingTree::build_node(ExecutionContext& context, Id id, std::vector<NetEd
   else
   {
     const auto begin = this->order_.begin() + first;
-    std::nth_element(begin, begin + count / 2, begin + count,
-      [&](Id s, Id t)
-      {
-        const double x = this->centers_[s][axis];
-        const double y = this->centers_[t][axis];
-        return x != y ? x < y : s < t;
-      });
+    split_at(begin, begin + count / 2, begin + count,
+      [&](Id t) { return std::pair(this->centers_[t][axis], t); });
     const Id left = static_cast<Id>(this->nodes_.size());
     this->nodes_.resize(this->nodes_.size() + 2);
     this->nodes_[id].left = left;

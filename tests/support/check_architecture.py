@@ -4,8 +4,9 @@
 The library core includes no VTK header. A folder of core or of the window includes only from itself and from the
 folders that CORE_ARROWS or APP_ARROWS list for it; there are no cycles. Filters include nothing from the viewer. Nothing
 outside of the tests includes a header of the tests. The ParaView plugin has no sources, and has a proxy for every filter
-that can be instantiated. A parameter ExecutionContext is the first one. No two units (a header and its source) include each other. No folder has more than 30 source
-files, except the flat list of VTK classes in filters.
+that can be instantiated. A parameter ExecutionContext is the first one. No two units (a header and its source) include each
+other. Each file of the window has the namespace of its folder. No folder has more than 30 source files, except the flat list
+of VTK classes in filters.
 """
 
 import pathlib
@@ -122,6 +123,12 @@ def late_contexts():
             for found in LATE_CONTEXT.finditer(text)]
 
 
+def outside_of_namespace():
+    """Return one sentence for each file in viewer/app/FOLDER without the namespace app::FOLDER."""
+    return [f"{path.relative_to(ROOT)} has no namespace app::{path.parent.name}" for path, _ in sources("viewer/app")
+            if f"namespace app::{path.parent.name}\n{{" not in path.read_text()]
+
+
 def large_folders():
     """Return one sentence for each folder with too many source files."""
     counts = {}
@@ -140,6 +147,7 @@ def main():
     wrong += against_arrows("filters/core", "", CORE_ARROWS)
     wrong += against_arrows("viewer/app", "app/", APP_ARROWS)
     wrong += late_contexts()
+    wrong += outside_of_namespace()
     wrong += large_folders()
     for folder, forbidden in (
         ("filters", ("viewer/", "scene/", "shapes/", "pictures/", "poses/", "document/", "app/", "cli/", "widgets/",

@@ -12,7 +12,7 @@ namespace bindpose::cli
 std::string key_table_markdown()
 {
   std::string text;
-  for (const KeyGroup& group : all_keys())
+  for (const app::parts::KeyGroup& group : app::parts::all_keys())
   {
     std::string when = group.when;
     when[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(when[0])));

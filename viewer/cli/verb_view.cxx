@@ -22,7 +22,7 @@ namespace
 {
 /// Read the option --play, and --screenshot-dir and --time-limit, which are only allowed with
 /// --play.
-bool tour_request(Session& session, TourRequest& request)
+bool tour_request(Session& session, app::tour::TourRequest& request)
 {
   const Arguments& arguments = session.arguments();
   request.path = arguments.text("play");
@@ -40,7 +40,7 @@ bool tour_request(Session& session, TourRequest& request)
 /// Read the files before the window opens, with progress on a terminal. A program that is started
 /// from a desktop has no visible terminal, so the window shows errors of files; they are also
 /// printed to the standard error. Only a tour, which has no user, ends with an error.
-bool read_files(Session& session, std::vector<InitialFile>& files)
+bool read_files(Session& session, std::vector<app::tour::InitialFile>& files)
 {
   const bool is_tour = session.arguments().has("play");
   for (const std::string& path : session.arguments().list("FILE"))
@@ -74,7 +74,7 @@ bool read_files(Session& session, std::vector<InitialFile>& files)
 void run_view(Session& session)
 {
 #ifdef BINDPOSE_HAS_QT
-  TourRequest request;
+  app::tour::TourRequest request;
   if (!tour_request(session, request))
   {
     return;
@@ -90,7 +90,7 @@ void run_view(Session& session)
       "use bindpose render to draw pictures without a window"));
     return;
   }
-  std::vector<InitialFile> files;
+  std::vector<app::tour::InitialFile> files;
   if (!read_files(session, files))
   {
     return;
@@ -99,9 +99,9 @@ void run_view(Session& session)
   release_interrupts();
   if (!request.path.empty())
   {
-    session.fail(play_tour(files, auto_rig, request));
+    session.fail(app::tour::play_tour(files, auto_rig, request));
   }
-  else if (run_viewer(files, auto_rig) != 0)
+  else if (app::tour::run_viewer(files, auto_rig) != 0)
   {
     session.fail(Status::failure(StatusCode::internal_error, "the window ended with an error"));
   }

@@ -32,7 +32,7 @@ bool is_excluded(const QString& name)
 }
 } // namespace
 
-Monkey::Monkey(MainWindow* window, unsigned seed, std::vector<QString> files)
+Monkey::Monkey(app::window::MainWindow* window, unsigned seed, std::vector<QString> files)
   : window_(window), user_(window), random_(seed), files_(std::move(files))
 {
 }
@@ -248,16 +248,16 @@ void Monkey::act()
       break;
     case 20:
       this->note("panel", QString());
-      this->user_.show_panel(
-        SimulatedUser::panel_names()[this->pick(SimulatedUser::panel_names().size())]);
+      this->user_.show_panel(app::tour::SimulatedUser::panel_names()[this->pick(
+        app::tour::SimulatedUser::panel_names().size())]);
       break;
     case 21:
       this->click_random_button();
       break;
     case 22:
       this->note("bind", QString());
-      this->pick(3) == 0 ? this->window_->findChild<Binding*>()->cancel()
-                         : this->window_->findChild<Binding*>()->start();
+      this->pick(3) == 0 ? this->window_->findChild<app::weights::Binding*>()->cancel()
+                         : this->window_->findChild<app::weights::Binding*>()->start();
       break;
     case 23:
       for (int steps = this->pick(6); steps >= 0; --steps)
@@ -292,7 +292,7 @@ void Monkey::act()
       {
         const int handle = this->pick(handles);
         this->note("select, mode", QString::number(handle));
-        this->window_->findChild<SidePanel*>()->select_handle(handle);
+        this->window_->findChild<app::handles::SidePanel*>()->select_handle(handle);
         if (this->pick(2) == 0)
         {
           this->window_->set_mode(handle, this->pick(3));
@@ -338,13 +338,13 @@ void Monkey::stop_activity()
     }
   }
   this->user_.press_key("Esc"); // Esc ends a drag that was started by a key
-  this->window_->findChild<Binding*>()->cancel();
-  this->window_->findChild<TetInspection*>()->cancel();
-  this->window_->findChild<WeightInspection*>()->cancel();
-  this->window_->findChild<WindingVolume*>()->cancel();
-  this->window_->findChild<Posing*>()->pose_manager()->play(false);
-  this->window_->findChild<Posing*>()->motion()->play(false);
-  this->window_->findChild<Posing*>()->sequence_export()->cancel();
+  this->window_->findChild<app::weights::Binding*>()->cancel();
+  this->window_->findChild<app::tets::TetInspection*>()->cancel();
+  this->window_->findChild<app::weights::WeightInspection*>()->cancel();
+  this->window_->findChild<app::volume::WindingVolume*>()->cancel();
+  this->window_->findChild<app::posing::Posing*>()->pose_manager()->play(false);
+  this->window_->findChild<app::posing::Posing*>()->motion()->play(false);
+  this->window_->findChild<app::posing::Posing*>()->sequence_export()->cancel();
 }
 
 } // namespace bindpose::test

@@ -19,7 +19,7 @@ namespace bindpose::test
 class Monkey
 {
 public:
-  Monkey(MainWindow* window, unsigned seed, std::vector<QString> files);
+  Monkey(app::window::MainWindow* window, unsigned seed, std::vector<QString> files);
 
   /// Send `events` random events and process their effects.
   void play(int events);
@@ -47,8 +47,8 @@ private:
   void choose_random_option();
   void click_random_button();
 
-  MainWindow* window_;
-  SimulatedUser user_;
+  app::window::MainWindow* window_;
+  app::tour::SimulatedUser user_;
   std::mt19937 random_;
   std::vector<QString> files_;
   long long events_ = 0;

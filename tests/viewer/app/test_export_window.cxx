@@ -124,7 +124,7 @@ protected:
     ADD_FAILURE() << "no button " << text.toStdString();
   }
 
-  SimulatedUser user{ &this->window };
+  app::tour::SimulatedUser user{ &this->window };
   vtkSmartPointer<vtkPolyData> ball;
   test::Folder folder;
 };
@@ -179,7 +179,7 @@ TEST_F(ExportWindow, TheRigHasTheSkinAndStandsAsTheHandlesDo)
   this->bend();
   const std::string path = this->folder / "ball.glb";
   this->export_by_menu("file.export_rig_glb", path);
-  MainWindow other;
+  app::window::MainWindow other;
   ASSERT_TRUE(other.open(to_qt(path))) << other.error().toStdString();
   EXPECT_TRUE(other.is_bound());
   ASSERT_EQ(other.document()->handles().size(), 2U);
@@ -194,7 +194,7 @@ TEST_F(ExportWindow, TheRigHasTheSkinAndStandsAsTheHandlesDo)
   EXPECT_TRUE(this->bar_message().contains("ball.glb"));
   // A method that glTF does not support is reported.
   this->window.set_method(1);
-  ASSERT_TRUE(this->part<Exports>()->save_rig(to_qt(path)));
+  ASSERT_TRUE(this->part<app::window::Exports>()->save_rig(to_qt(path)));
   EXPECT_TRUE(this->bar_message().contains("linear blend skinning"))
     << this->bar_message().toStdString();
 }
@@ -214,12 +214,12 @@ TEST_F(ExportWindow, PoseAndPictureAreExportedByTheMenu)
 TEST_F(ExportWindow, AFilmNeedsKeyFramesAndSaysSo)
 {
   this->open_bound();
-  EXPECT_FALSE(this->part<KeyStrip>()->isVisible());
+  EXPECT_FALSE(this->part<app::posing::KeyStrip>()->isVisible());
   EXPECT_EQ(this->user.trigger("file.export_film"), QString());
   EXPECT_TRUE(this->bar_message().contains("key frames")) << this->bar_message().toStdString();
   EXPECT_EQ(this->window.error(), QString());
   this->press("Show the timeline");
-  EXPECT_TRUE(this->part<KeyStrip>()->isVisible());
+  EXPECT_TRUE(this->part<app::posing::KeyStrip>()->isVisible());
   EXPECT_EQ(this->bar_message(), QString());
   // Two key frames are enough for the export of a film. The export of a pose file needs no other
   // program.
@@ -229,7 +229,8 @@ TEST_F(ExportWindow, AFilmNeedsKeyFramesAndSaysSo)
   EXPECT_EQ(this->user.press_key("K"), QString());
   const std::string path = this->folder / "film.json";
   this->export_by_menu("file.export_film", path);
-  ASSERT_TRUE(wait_for([this] { return !this->part<Posing>()->sequence_export()->is_running(); }));
+  ASSERT_TRUE(wait_for(
+    [this] { return !this->part<app::posing::Posing>()->sequence_export()->is_running(); }));
   EXPECT_TRUE(std::filesystem::exists(path));
   EXPECT_TRUE(this->bar_message().contains("film.json")) << this->bar_message().toStdString();
   EXPECT_TRUE(this->bar_message().contains("7 frames"));
@@ -238,7 +239,7 @@ TEST_F(ExportWindow, AFilmNeedsKeyFramesAndSaysSo)
 TEST_F(ExportWindow, TheFolderOfWhatWasWrittenIsOpened)
 {
   this->open_mesh();
-  ASSERT_TRUE(this->part<Exports>()->save_shape(to_qt(this->folder / "ball.obj")));
+  ASSERT_TRUE(this->part<app::window::Exports>()->save_shape(to_qt(this->folder / "ball.obj")));
   EXPECT_TRUE(this->bar_message().contains("ball.obj"));
   OpenedFolders folders;
   this->press("Show in folder");
@@ -251,25 +252,25 @@ TEST_F(ExportWindow, TheFolderOfWhatWasWrittenIsOpened)
 TEST_F(ExportWindow, AnErrorLeavesWhenTheSameKindSucceeds)
 {
   this->open_bound();
-  EXPECT_FALSE(this->part<Exports>()->save_shape("/no/such/folder/ball.ply"));
+  EXPECT_FALSE(this->part<app::window::Exports>()->save_shape("/no/such/folder/ball.ply"));
   EXPECT_TRUE(this->window.error().contains("Cannot export")) << this->window.error().toStdString();
   EXPECT_EQ(this->bar_message(), QString());
-  ASSERT_TRUE(this->part<Exports>()->save_shape(to_qt(this->folder / "ball.ply")));
+  ASSERT_TRUE(this->part<app::window::Exports>()->save_shape(to_qt(this->folder / "ball.ply")));
   EXPECT_EQ(this->window.error(), QString());
   // If an action of another kind succeeds, the error message stays.
-  EXPECT_FALSE(this->part<HandleEditing>()->commands()->rename(0, "top"));
+  EXPECT_FALSE(this->part<app::handles::HandleEditing>()->commands()->rename(0, "top"));
   const QString refused = this->window.error();
   EXPECT_FALSE(refused.isEmpty());
-  ASSERT_TRUE(this->part<Exports>()->save_shape(to_qt(this->folder / "ball.ply")));
+  ASSERT_TRUE(this->part<app::window::Exports>()->save_shape(to_qt(this->folder / "ball.ply")));
   this->bend();
   EXPECT_EQ(this->window.error(), refused);
-  EXPECT_TRUE(this->part<HandleEditing>()->commands()->rename(0, "foot"));
+  EXPECT_TRUE(this->part<app::handles::HandleEditing>()->commands()->rename(0, "foot"));
   EXPECT_EQ(this->window.error(), QString());
   // The first export of key frames cannot be written, the second one can.
   EXPECT_EQ(this->user.press_key("K"), QString());
-  this->part<Posing>()->export_to("/no/such/folder/ball.json");
+  this->part<app::posing::Posing>()->export_to("/no/such/folder/ball.json");
   ASSERT_TRUE(wait_for([this] { return !this->window.error().isEmpty(); }));
-  this->part<Posing>()->export_to(to_qt(this->folder / "ball.json"));
+  this->part<app::posing::Posing>()->export_to(to_qt(this->folder / "ball.json"));
   ASSERT_TRUE(wait_for(
     [this] { return !this->bar_message().isEmpty() && this->bar_message().contains("Wrote"); }));
   EXPECT_EQ(this->window.error(), QString());

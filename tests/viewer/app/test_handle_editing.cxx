@@ -101,11 +101,11 @@ protected:
     this->render();
   }
 
-  HandleEditing* editing() { return this->part<HandleEditing>(); }
-  HandleCommands* commands() { return this->editing()->commands(); }
+  app::handles::HandleEditing* editing() { return this->part<app::handles::HandleEditing>(); }
+  app::handles::HandleCommands* commands() { return this->editing()->commands(); }
   Document* document() { return this->window.document(); }
   QUndoStack* history() { return this->window.document()->history(); }
-  Viewport* viewport() { return this->part<Viewport>(); }
+  app::view::Viewport* viewport() { return this->part<app::view::Viewport>(); }
   vtkHandleSetWidget* widget() { return this->viewport()->handle_widget(); }
   Representation* representation() { return this->widget()->GetHandleSetRepresentation(); }
   const Handle& handle(const std::string& name)
@@ -250,7 +250,7 @@ protected:
 TEST_F(HandleWindow, HandlesComeFromTheShape)
 {
   this->open_mesh();
-  ShapeHandles* handle_creator = this->part<ShapeHandles>();
+  app::handles::ShapeHandles* handle_creator = this->part<app::handles::ShapeHandles>();
   const auto wait = [handle_creator]
   { return wait_for([handle_creator] { return !handle_creator->is_running(); }); };
   handle_creator->start(AutomaticMethod::points, 5);
@@ -291,11 +291,13 @@ TEST_F(HandleWindow, HandlesComeFromTheShape)
 TEST_F(HandleWindow, AutoRigMakesBonesAndBindsThem)
 {
   this->open_mesh();
-  ShapeHandles* handle_creator = this->part<ShapeHandles>();
+  app::handles::ShapeHandles* handle_creator = this->part<app::handles::ShapeHandles>();
   const auto wait = [&]
   {
     return wait_for(
-      [&] { return !handle_creator->is_running() && !this->part<Binding>()->is_running(); });
+      [&] {
+        return !handle_creator->is_running() && !this->part<app::weights::Binding>()->is_running();
+      });
   };
   handle_creator->auto_rig_action()->trigger();
   EXPECT_TRUE(handle_creator->is_running());
@@ -328,7 +330,7 @@ TEST_F(HandleWindow, PointsAreAddedToAMeshWithoutHandlesAndBound)
   auto* nothing = this->window.findChild<QWidget*>("nothing");
   EXPECT_TRUE(nothing->isVisible());
   this->key(Qt::Key_A);
-  EXPECT_EQ(this->editing()->mode(), HandleEditing::add_points);
+  EXPECT_EQ(this->editing()->mode(), app::handles::HandleEditing::add_points);
   EXPECT_FALSE(nothing->isVisible());
   const QPoint top = this->pixel(Vec3(0, 0, 0.6));
   const QPoint bottom = this->pixel(Vec3(0, 0, -0.6));
@@ -344,14 +346,14 @@ TEST_F(HandleWindow, PointsAreAddedToAMeshWithoutHandlesAndBound)
   const Vec3 surface_point = this->handle("p3").head;
   EXPECT_NEAR(
     Vec3(surface_point.x() / 0.4, surface_point.y() / 0.4, surface_point.z()).norm(), 1.0, 0.02);
-  EXPECT_EQ(this->part<SidePanel>()->selected_handle(), 2);
+  EXPECT_EQ(this->part<app::handles::SidePanel>()->selected_handle(), 2);
   this->key(Qt::Key_Escape);
-  EXPECT_EQ(this->editing()->mode(), HandleEditing::pose);
+  EXPECT_EQ(this->editing()->mode(), app::handles::HandleEditing::pose);
   // A bar in the window offers a bind, but the bind does not start by itself. After the bind, the
   // handles bend the shape.
   EXPECT_FALSE(this->window.is_bound());
-  this->part<Binding>()->start();
-  ASSERT_TRUE(wait_for([this] { return !this->part<Binding>()->is_running(); }));
+  this->part<app::weights::Binding>()->start();
+  ASSERT_TRUE(wait_for([this] { return !this->part<app::weights::Binding>()->is_running(); }));
   ASSERT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
   this->render();
   const Points rest = this->points();
@@ -400,7 +402,7 @@ TEST_F(HandleWindow, BonesAreDrawnAsAChain)
   this->release(top);
   EXPECT_EQ(this->state(), before);
   EXPECT_EQ(this->history()->count(), steps);
-  EXPECT_EQ(this->editing()->mode(), HandleEditing::add_bones);
+  EXPECT_EQ(this->editing()->mode(), app::handles::HandleEditing::add_bones);
 }
 
 TEST_F(HandleWindow, CagesAreClosedLeftOpenAndTakenBackVertexByVertex)
@@ -425,7 +427,7 @@ TEST_F(HandleWindow, CagesAreClosedLeftOpenAndTakenBackVertexByVertex)
   };
   EXPECT_EQ(edges(), 3U);
   this->key(Qt::Key_Escape);
-  EXPECT_EQ(this->editing()->mode(), HandleEditing::pose);
+  EXPECT_EQ(this->editing()->mode(), app::handles::HandleEditing::pose);
   while (this->history()->canUndo())
   {
     this->history()->undo();
@@ -451,7 +453,7 @@ TEST_F(HandleWindow, CagesAreClosedLeftOpenAndTakenBackVertexByVertex)
   EXPECT_EQ(this->history()->undoText(), "remove cage vertex");
   EXPECT_EQ(this->state(), closed);
   this->key(Qt::Key_Escape);
-  EXPECT_EQ(this->editing()->mode(), HandleEditing::pose);
+  EXPECT_EQ(this->editing()->mode(), app::handles::HandleEditing::pose);
   // Enter ends a cage without closing it.
   this->key(Qt::Key_C);
   this->click(this->pixel(Vec3(-0.9, 0, 0.3)));
@@ -465,7 +467,7 @@ TEST_F(HandleWindow, RegionsArePaintedErasedAndUndone)
 {
   this->open_mesh(4);
   this->key(Qt::Key_P);
-  ASSERT_EQ(this->editing()->mode(), HandleEditing::paint_regions);
+  ASSERT_EQ(this->editing()->mode(), app::handles::HandleEditing::paint_regions);
   const auto count_labeled = [this](int label)
   {
     vtkDataArray* labels = this->document()->work().surface->GetPointData()->GetArray("RegionId");
@@ -499,7 +501,8 @@ TEST_F(HandleWindow, RegionsArePaintedErasedAndUndone)
   // label.
   this->check("paint region r1", [&] { this->drag(top, top + QPoint(0, 40)); });
   EXPECT_GT(count_labeled(1), first);
-  for (QPushButton* button : this->window.findChild<ModeBar*>()->findChildren<QPushButton*>())
+  for (QPushButton* button :
+    this->window.findChild<app::handles::ModeBar*>()->findChildren<QPushButton*>())
   {
     if (button->text() == "New region")
     {
@@ -516,7 +519,7 @@ TEST_F(HandleWindow, RegionsArePaintedErasedAndUndone)
   this->key(Qt::Key_Escape);
   this->release(bottom + QPoint(0, -60));
   EXPECT_EQ(this->state(), before);
-  EXPECT_EQ(this->editing()->mode(), HandleEditing::paint_regions);
+  EXPECT_EQ(this->editing()->mode(), app::handles::HandleEditing::paint_regions);
   // Deleting a region also deletes its labels.
   this->editing()->selection()->select({ this->number("r2") });
   this->check("delete r2", [&] { this->key(Qt::Key_Delete); });
@@ -526,10 +529,10 @@ TEST_F(HandleWindow, RegionsArePaintedErasedAndUndone)
   const double radius = brush->GetDiscRadius();
   this->key(Qt::Key_BracketRight);
   EXPECT_GT(brush->GetDiscRadius(), radius);
-  this->window.findChild<ModeBar*>()->findChild<QSlider*>()->setValue(60);
+  this->window.findChild<app::handles::ModeBar*>()->findChild<QSlider*>()->setValue(60);
   EXPECT_LT(brush->GetDiscRadius(), radius);
   this->key(Qt::Key_Escape);
-  EXPECT_EQ(this->editing()->mode(), HandleEditing::pose);
+  EXPECT_EQ(this->editing()->mode(), app::handles::HandleEditing::pose);
 }
 
 TEST_F(HandleWindow, WhatCannotBePlacedIsOneSentence)
@@ -555,20 +558,20 @@ TEST_F(HandleWindow, ANewPointMovesNumbersAndNothingElse)
   this->open_bound();
   this->document()->set_mode(2, static_cast<int>(HandleMode::ends));
   this->editing()->selection()->select({ 2 });
-  this->part<SidePanel>()->show_column(2);
+  this->part<app::handles::SidePanel>()->show_column(2);
   Pose pose = this->document()->pose();
   pose[2].transform.col(3) = Vec3(0.1, 0, 0);
   this->document()->set_pose(pose, "pose");
   const Points posed = this->points();
-  this->editing()->set_mode(HandleEditing::add_points);
+  this->editing()->set_mode(app::handles::HandleEditing::add_points);
   this->render();
   this->click(this->pixel(Vec3(0, 0, 0.85)));
   ASSERT_EQ(this->names(), QStringList({ "left", "right", "p1", "spine" }));
   EXPECT_EQ(this->document()->pose()[3].mode, HandleMode::ends);
   EXPECT_EQ(this->document()->pose()[3].transform, pose[2].transform);
   // The column of the bone "spine" is still shown.
-  EXPECT_EQ(this->part<SidePanel>()->shown_column(), 3);
-  this->editing()->set_mode(HandleEditing::pose);
+  EXPECT_EQ(this->part<app::handles::SidePanel>()->shown_column(), 3);
+  this->editing()->set_mode(app::handles::HandleEditing::pose);
   EXPECT_LT((this->points() - posed).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_FALSE(this->bar("rebind_bar")->isHidden()); // the window offers a new bind
   // After undo and redo, the handles with the same names are selected.
@@ -576,11 +579,11 @@ TEST_F(HandleWindow, ANewPointMovesNumbersAndNothingElse)
   this->history()->undo();
   ASSERT_EQ(this->names().size(), 3);
   EXPECT_EQ(this->editing()->selection()->selected(), std::vector<int>{ 2 });
-  EXPECT_EQ(this->part<SidePanel>()->selected_handle(), 2);
+  EXPECT_EQ(this->part<app::handles::SidePanel>()->selected_handle(), 2);
   EXPECT_EQ(this->document()->pose()[2].mode, HandleMode::ends);
   this->history()->redo();
   EXPECT_EQ(this->editing()->selection()->selected(), std::vector<int>{ 3 });
-  EXPECT_EQ(this->part<SidePanel>()->selected_handle(), 3);
+  EXPECT_EQ(this->part<app::handles::SidePanel>()->selected_handle(), 3);
 }
 
 TEST_F(HandleWindow, RestPlacesAreMovedAndARebindIsOffered)
@@ -610,7 +613,7 @@ TEST_F(HandleWindow, RestPlacesAreMovedAndARebindIsOffered)
   EXPECT_EQ(this->state(), before);
   EXPECT_EQ(this->history()->count(), steps);
   this->key(Qt::Key_Escape);
-  EXPECT_EQ(this->editing()->mode(), HandleEditing::pose);
+  EXPECT_EQ(this->editing()->mode(), app::handles::HandleEditing::pose);
   EXPECT_NE(this->points(), rest);
 }
 
@@ -684,7 +687,7 @@ TEST_F(HandleWindow, KeysOfADragAreNoShortcuts)
   this->key(Qt::Key_5);
   this->key(Qt::Key_A); // this key must not start an edit mode
   this->key(Qt::Key_Space); // this key must not start playback
-  EXPECT_EQ(this->editing()->mode(), HandleEditing::pose);
+  EXPECT_EQ(this->editing()->mode(), app::handles::HandleEditing::pose);
   EXPECT_EQ(this->document()->number("pose.method"), method);
   EXPECT_TRUE(this->hint().contains("Z .25")) << this->hint().toStdString();
   this->key(Qt::Key_Return);
@@ -697,13 +700,13 @@ TEST_F(HandleWindow, KeysOfADragAreNoShortcuts)
   // R rotates the selected handle, and T shows the shape at rest.
   this->key(Qt::Key_R);
   EXPECT_TRUE(this->widget()->IsDragging());
-  EXPECT_FALSE(this->part<Posing>()->is_rest_view());
+  EXPECT_FALSE(this->part<app::posing::Posing>()->is_rest_view());
   this->key(Qt::Key_Escape);
   EXPECT_FALSE(this->widget()->IsDragging());
   this->key(Qt::Key_T);
-  EXPECT_TRUE(this->part<Posing>()->is_rest_view());
+  EXPECT_TRUE(this->part<app::posing::Posing>()->is_rest_view());
   this->key(Qt::Key_T);
-  EXPECT_FALSE(this->part<Posing>()->is_rest_view());
+  EXPECT_FALSE(this->part<app::posing::Posing>()->is_rest_view());
 }
 
 TEST_F(HandleWindow, ARefusedDragSaysWhy)
@@ -743,7 +746,7 @@ TEST_F(HandleWindow, CommandsAreStepsWithNames)
 {
   this->open_bound();
   this->editing()->selection()->select({ 0 });
-  HandleCommands* commands = this->commands();
+  app::handles::HandleCommands* commands = this->commands();
   this->check("color left", [&] { commands->set_color(QColor(255, 0, 0)); });
   this->check("lock left", [&] { commands->action("lock")->trigger(); });
   EXPECT_TRUE(commands->action("lock")->isChecked());
@@ -843,7 +846,7 @@ TEST_F(HandleWindow, NamesThatCannotBeAreOneSentence)
   box->setTextValue("claw");
   box->accept();
   EXPECT_EQ(this->names()[0], "claw");
-  EXPECT_EQ(this->part<SidePanel>()->handle_list()->item(0)->text(0), "claw");
+  EXPECT_EQ(this->part<app::handles::SidePanel>()->handle_list()->item(0)->text(0), "claw");
 }
 
 TEST_F(HandleWindow, TheRightButtonShowsWhatCanBeDoneWithAHandle)
@@ -886,7 +889,7 @@ TEST_F(HandleWindow, TheRightButtonShowsWhatCanBeDoneWithAHandle)
   this->mouse(QEvent::MouseButtonRelease, position, Qt::RightButton, Qt::NoButton);
   this->release(position);
   // The list of handles has the same context menu.
-  const HandleTree* handles = this->part<SidePanel>()->handle_list();
+  const app::handles::HandleTree* handles = this->part<app::handles::SidePanel>()->handle_list();
   QTreeWidget* list = handles->tree();
   Q_EMIT list->customContextMenuRequested(list->visualItemRect(handles->item(2)).center());
   EXPECT_TRUE(menu->isVisible());
@@ -911,14 +914,14 @@ TEST_F(HandleWindow, UndoWhileSomethingIsDrawnEndsThat)
   this->open_mesh();
   this->key(Qt::Key_A);
   this->click(this->pixel(Vec3(0, 0, 0.5)));
-  this->editing()->set_mode(HandleEditing::add_bones);
+  this->editing()->set_mode(app::handles::HandleEditing::add_bones);
   this->press(this->pixel(Vec3(0, 0, -0.8)), this->pixel(Vec3(0, 0, 0)));
   this->history()->undo();
   EXPECT_FALSE(this->widget()->IsDragging());
   EXPECT_EQ(this->document()->handle_data(), nullptr);
   this->release(this->pixel(Vec3(0, 0, 0)));
   EXPECT_EQ(this->document()->handle_data(), nullptr);
-  this->editing()->set_mode(HandleEditing::paint_regions);
+  this->editing()->set_mode(app::handles::HandleEditing::paint_regions);
   this->press(this->pixel(Vec3(0, 0, -0.8)), this->pixel(Vec3(0, 0, 0)));
   this->history()->redo();
   EXPECT_FALSE(this->viewport()->brush_widget()->IsPainting());
@@ -949,7 +952,7 @@ TEST_F(HandleWindow, TheSheetTellsTheKeysThatThereAre)
   this->viewport()->setFocus();
   QTest::keyClick(this->viewport(), Qt::Key_Question);
   QApplication::processEvents();
-  auto* sheet = this->window.findChild<ShortcutSheet*>();
+  auto* sheet = this->window.findChild<app::window::ShortcutSheet*>();
   ASSERT_NE(sheet, nullptr);
   EXPECT_TRUE(sheet->isVisible());
   QString all;
@@ -980,7 +983,7 @@ TEST_F(HandleWindow, TheSheetTellsTheKeysThatThereAre)
   sheet->close();
   // Every key of the table belongs to exactly one action.
   QMap<QString, QString> action_of_key;
-  for (const WindowKey& key : window_keys)
+  for (const app::parts::WindowKey& key : app::parts::window_keys)
   {
     if (key.action[0] == '\0' || QString(key.action) == "mode.pose")
     {
@@ -1006,13 +1009,14 @@ TEST_F(HandleWindow, TheSheetTellsTheKeysThatThereAre)
 TEST_F(HandleWindow, RegionsAndWeightsAreNotShownAtOnce)
 {
   this->open_bound();
-  this->part<PanelColumn>()->show_panel(PanelColumn::weights);
+  this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::weights);
   const QImage weights = this->picture();
   const QSize size = this->window.size();
-  this->editing()->set_mode(HandleEditing::paint_regions);
-  EXPECT_EQ(this->part<PanelColumn>()->shown_panel(), PanelColumn::bind_and_pose);
-  this->part<PanelColumn>()->show_panel(PanelColumn::weights);
-  EXPECT_EQ(this->editing()->mode(), HandleEditing::pose);
+  this->editing()->set_mode(app::handles::HandleEditing::paint_regions);
+  EXPECT_EQ(
+    this->part<app::window::PanelColumn>()->shown_panel(), app::window::PanelColumn::bind_and_pose);
+  this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::weights);
+  EXPECT_EQ(this->editing()->mode(), app::handles::HandleEditing::pose);
   // The size of the window does not change, because two panels are never visible at the same time.
   EXPECT_EQ(this->window.size(), size);
   EXPECT_EQ(this->picture(), weights);
@@ -1026,13 +1030,14 @@ TEST_F(HandleWindow, NothingIsClippedInASmallWindow)
   for (const QSize& size : { QSize(900, 600), QSize(1280, 800) })
   {
     this->resize(size);
-    for (int mode = HandleEditing::pose; mode <= HandleEditing::paint_regions; ++mode)
+    for (int mode = app::handles::HandleEditing::pose;
+         mode <= app::handles::HandleEditing::paint_regions; ++mode)
     {
       this->editing()->set_mode(mode);
       this->render();
       EXPECT_EQ(this->window.size(), size);
-      auto* bar = this->window.findChild<ModeBar*>();
-      EXPECT_EQ(bar->isVisible(), mode != HandleEditing::pose);
+      auto* bar = this->window.findChild<app::handles::ModeBar*>();
+      EXPECT_EQ(bar->isVisible(), mode != app::handles::HandleEditing::pose);
       test::expect_unclipped_buttons(bar);
       for (QToolButton* button : this->editing()->tools()->findChildren<QToolButton*>())
       {
@@ -1043,7 +1048,7 @@ TEST_F(HandleWindow, NothingIsClippedInASmallWindow)
       }
       EXPECT_LE(bar->width(), this->viewport()->width());
     }
-    this->editing()->set_mode(HandleEditing::pose);
+    this->editing()->set_mode(app::handles::HandleEditing::pose);
   }
 }
 
@@ -1106,8 +1111,8 @@ TEST_F(HandleWindow, EveryModeHasAPictureOfItsOwn)
   this->hover(this->pixel(this->handle("p1").head));
   save("rest");
   this->key(Qt::Key_Escape);
-  this->part<Binding>()->start();
-  ASSERT_TRUE(wait_for([this] { return !this->part<Binding>()->is_running(); }));
+  this->part<app::weights::Binding>()->start();
+  ASSERT_TRUE(wait_for([this] { return !this->part<app::weights::Binding>()->is_running(); }));
   this->editing()->selection()->select({ this->number("b2") });
   const std::pair<Qt::Key, const char*> gizmos[] = { { Qt::Key_W, "move" }, { Qt::Key_E, "turn" },
     { Qt::Key_D, "scale" }, { Qt::Key_F, "all" } };
@@ -1129,7 +1134,7 @@ TEST_F(HandleWindow, EveryModeHasAPictureOfItsOwn)
     EXPECT_TRUE(this->commands()->menu()->grab().save(QString("%1/hands_menu.png").arg(folder)));
   }
   this->commands()->menu()->hide();
-  ShortcutSheet sheet(&this->window);
+  app::window::ShortcutSheet sheet(&this->window);
   sheet.setAttribute(Qt::WA_DeleteOnClose, false);
   sheet.show();
   QApplication::processEvents();

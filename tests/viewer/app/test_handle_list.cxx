@@ -62,7 +62,7 @@ protected:
     this->render();
   }
 
-  HandleTree* list() { return this->part<SidePanel>()->handle_list(); }
+  app::handles::HandleTree* list() { return this->part<app::handles::SidePanel>()->handle_list(); }
   void click(int row, Qt::KeyboardModifiers modifiers = Qt::NoModifier)
   {
     QTreeWidget* tree = this->list()->tree();
@@ -73,8 +73,10 @@ protected:
   /// Return the selected handles. Expect that the list, the panel and the view show this selection.
   std::vector<int> selected()
   {
-    const std::vector<int> result = this->part<HandleEditing>()->selection()->selected();
-    auto* representation = this->part<Viewport>()->handle_widget()->GetHandleSetRepresentation();
+    const std::vector<int> result =
+      this->part<app::handles::HandleEditing>()->selection()->selected();
+    auto* representation =
+      this->part<app::view::Viewport>()->handle_widget()->GetHandleSetRepresentation();
     for (int k = 0; k < static_cast<int>(this->list()->rows().size()); ++k)
     {
       const bool is_selected = std::find(result.begin(), result.end(), k) != result.end();
@@ -82,7 +84,7 @@ protected:
       EXPECT_EQ(representation->IsSelected(this->window.document()->handle_cells()[k]), is_selected)
         << k;
     }
-    EXPECT_EQ(this->part<SidePanel>()->selected_handles(), result);
+    EXPECT_EQ(this->part<app::handles::SidePanel>()->selected_handles(), result);
     return result;
   }
   /// Click a handle in the view.
@@ -97,9 +99,11 @@ protected:
   }
   QString note()
   {
-    for (const QLabel* label : this->part<SidePanel>()->fields()->findChildren<QLabel*>("note"))
+    for (const QLabel* label :
+      this->part<app::handles::SidePanel>()->fields()->findChildren<QLabel*>("note"))
     {
-      if (label->text().contains("selected") && label->isVisibleTo(this->part<SidePanel>()))
+      if (label->text().contains("selected") &&
+        label->isVisibleTo(this->part<app::handles::SidePanel>()))
       {
         return label->text();
       }
@@ -108,7 +112,7 @@ protected:
   }
   QComboBox* modes()
   {
-    for (QComboBox* box : this->part<SidePanel>()->findChildren<QComboBox*>())
+    for (QComboBox* box : this->part<app::handles::SidePanel>()->findChildren<QComboBox*>())
     {
       if (box->findText("position only") >= 0)
       {
@@ -128,7 +132,7 @@ protected:
     return this->window.document()->pose()[static_cast<std::size_t>(handle)].mode;
   }
 
-  SimulatedUser user{ &this->window };
+  app::tour::SimulatedUser user{ &this->window };
 };
 
 using Indices = std::vector<int>;
@@ -181,7 +185,7 @@ TEST_F(HandleList, TheFieldsAreThoseOfTheFirstAndSayHowMany)
   this->window.document()->set_pose(pose, "moved");
   this->click(2);
   this->click(0, Qt::ControlModifier);
-  QDoubleSpinBox* along_x = this->part<SidePanel>()->fields()->field(0);
+  QDoubleSpinBox* along_x = this->part<app::handles::SidePanel>()->fields()->field(0);
   EXPECT_EQ(along_x->value(), 0.25);
   EXPECT_EQ(this->note(), "2 selected; values of top:");
   along_x->setValue(0.5);
@@ -225,9 +229,9 @@ TEST_F(HandleList, AModeIsForAllThatAreSelectedAndOneStep)
 
 TEST_F(HandleList, TheWeightsPanelAndTheSelectionFollowEachOther)
 {
-  WeightPanel* weights = this->part<PanelColumn>()->weight();
+  app::weights::WeightPanel* weights = this->part<app::window::PanelColumn>()->weight();
   this->click(2);
-  this->part<PanelColumn>()->show_panel(PanelColumn::weights);
+  this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::weights);
   EXPECT_EQ(weights->column(), 2) << "what was selected before";
   this->click_handle("bottom");
   EXPECT_EQ(this->selected(), Indices({ 0 }));
@@ -288,7 +292,7 @@ protected:
     ASSERT_TRUE(this->window.set_handles(to_polydata(this->handles), "rig"));
     this->render();
   }
-  HandleTree* list() { return this->part<SidePanel>()->handle_list(); }
+  app::handles::HandleTree* list() { return this->part<app::handles::SidePanel>()->handle_list(); }
   QString text(int handle) { return this->list()->item(handle)->text(0); }
   int number(const std::string& name)
   {
@@ -326,21 +330,22 @@ TEST_F(HandleTreeWindow, ChildrenAreBelowTheirParents)
   {
     const auto& handle = now[static_cast<std::size_t>(k)];
     QTreeWidgetItem* above = this->list()->item(k)->parent();
-    EXPECT_EQ(above ? HandleTree::handle_of(above) : -1, handle.parent) << handle.name;
+    EXPECT_EQ(above ? app::handles::HandleTree::handle_of(above) : -1, handle.parent)
+      << handle.name;
     EXPECT_EQ(this->text(k).toStdString(), handle.name);
     EXPECT_TRUE(this->list()->item(k)->isExpanded());
   }
   // The function of the context menu sets a new parent, which moves the row. Collapsed rows stay
   // collapsed.
   this->list()->item(this->number("right_hand"))->setExpanded(false);
-  this->part<SidePanel>()->select_handle(this->number("left_hand"));
-  this->part<HandleEditing>()->commands()->set_parent(this->number("hips"));
+  this->part<app::handles::SidePanel>()->select_handle(this->number("left_hand"));
+  this->part<app::handles::HandleEditing>()->commands()->set_parent(this->number("hips"));
   QTreeWidgetItem* moved = this->list()->item(this->number("left_hand"));
   ASSERT_NE(moved->parent(), nullptr);
   EXPECT_EQ(moved->parent()->text(0), "hips");
   EXPECT_FALSE(this->list()->item(this->number("right_hand"))->isExpanded());
   // If a handle is selected in the view, the tree expands the rows above it.
-  this->part<SidePanel>()->select_handle(this->number("right_finger_2"));
+  this->part<app::handles::SidePanel>()->select_handle(this->number("right_finger_2"));
   EXPECT_TRUE(this->list()->item(this->number("right_hand"))->isExpanded());
 }
 
@@ -353,13 +358,13 @@ TEST_F(HandleTreeWindow, TheSearchShowsMatchesBelowTheirParents)
   EXPECT_EQ(this->visible_names(),
     QStringList({ "hips", "chest", "right_arm", "right_hand", "right_finger_0", "right_finger_1",
       "right_finger_2", "right_finger_3", "right_finger_4" }));
-  EXPECT_EQ(this->part<HandleEditing>()->mode(), HandleEditing::pose)
+  EXPECT_EQ(this->part<app::handles::HandleEditing>()->mode(), app::handles::HandleEditing::pose)
     << "letters are no shortcuts there";
   QTest::keyClick(search, Qt::Key_Return);
-  EXPECT_EQ(this->part<HandleEditing>()->selection()->selected(),
+  EXPECT_EQ(this->part<app::handles::HandleEditing>()->selection()->selected(),
     Indices({ this->number("right_finger_0") }));
   // If a handle is selected elsewhere, its row is visible for any search text.
-  this->part<SidePanel>()->select_handle(this->number("nose"));
+  this->part<app::handles::SidePanel>()->select_handle(this->number("nose"));
   EXPECT_TRUE(this->visible_names().contains("nose"));
   search->setFocus();
   QTest::keyClick(search, Qt::Key_Escape);
@@ -370,7 +375,7 @@ TEST_F(HandleTreeWindow, TheSearchShowsMatchesBelowTheirParents)
     EXPECT_FALSE(this->list()->item(k)->isHidden()) << k;
   }
   QTest::keyClicks(search, "no such name");
-  this->part<SidePanel>()->select_handles({});
+  this->part<app::handles::SidePanel>()->select_handles({});
   search->setText("no such name at all");
   EXPECT_EQ(this->visible_names(), QStringList());
 }
@@ -383,7 +388,7 @@ TEST_F(HandleTreeWindow, ALargeScreenShowsADozenRowsAndTheHeightCanBeDragged)
   this->resize(QSize(1280, 760));
   EXPECT_GE(this->visible_names().size(), 4);
   const int before = this->list()->height();
-  auto* splitter = this->part<PanelColumn>()->findChild<QSplitter*>();
+  auto* splitter = this->part<app::window::PanelColumn>()->findChild<QSplitter*>();
   QWidget* grip = splitter->handle(1);
   const QPoint at = grip->rect().center();
   const auto send = [grip](QEvent::Type type, const QPoint& place, Qt::MouseButton button)
@@ -398,16 +403,16 @@ TEST_F(HandleTreeWindow, ALargeScreenShowsADozenRowsAndTheHeightCanBeDragged)
   QApplication::processEvents();
   EXPECT_GT(this->list()->height(), before + 50);
   const int dragged = this->list()->height();
-  this->part<PanelColumn>()->show_panel(PanelColumn::tets);
+  this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::tets);
   EXPECT_FALSE(this->list()->isVisible());
-  this->part<PanelColumn>()->show_panel(PanelColumn::weights);
+  this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::weights);
   EXPECT_TRUE(this->list()->isVisible());
   EXPECT_NEAR(this->list()->height(), dragged, 3) << "a person's choice stays";
 }
 
 TEST_F(HandleTreeWindow, ParentsInACircleAreNoParents)
 {
-  HandleTree tree;
+  app::handles::HandleTree tree;
   tree.set_rows({ { "a", HandleKind::bone, 1, 0 }, { "b", HandleKind::bone, 0, 0 },
     { "c", HandleKind::bone, 2, 0 }, { "d", HandleKind::bone, 99, 0 },
     { "e", HandleKind::bone, 3, 0 } });

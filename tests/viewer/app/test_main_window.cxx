@@ -102,16 +102,17 @@ protected:
   void render()
   {
     QApplication::processEvents();
-    this->part<Viewport>()->renderWindow()->Render();
+    this->part<app::view::Viewport>()->renderWindow()->Render();
   }
 
   /// Return the pixel of a handle in the window, in VTK's coordinates (y upward).
   Eigen::Vector2i pixel_of(vtkIdType handle)
   {
-    auto* representation = this->part<Viewport>()->handle_widget()->GetHandleSetRepresentation();
+    auto* representation =
+      this->part<app::view::Viewport>()->handle_widget()->GetHandleSetRepresentation();
     double p[3];
     representation->GetPosedHead(handle, p);
-    vtkRenderer* renderer = this->part<Viewport>()->renderer();
+    vtkRenderer* renderer = this->part<app::view::Viewport>()->renderer();
     renderer->SetWorldPoint(p[0], p[1], p[2], 1.0);
     renderer->WorldToDisplay();
     const double* d = renderer->GetDisplayPoint();
@@ -120,7 +121,7 @@ protected:
 
   void mouse(const Eigen::Vector2i& at, unsigned long event)
   {
-    vtkRenderWindowInteractor* interactor = this->part<Viewport>()->interactor();
+    vtkRenderWindowInteractor* interactor = this->part<app::view::Viewport>()->interactor();
     interactor->SetEventInformation(at.x(), at.y(), 0, 0, 0, 0, nullptr);
     interactor->InvokeEvent(event);
   }
@@ -170,12 +171,12 @@ TEST_F(Window, FilesThatCannotBeReadAreNamedInTheErrorBar)
   const TriangleMesh mesh = column(3);
   const auto surface = to_polydata(mesh.points, mesh.triangles);
   ASSERT_TRUE(write_shape(surface, folder / "good.vtp").ok());
-  std::vector<InitialFile> files(4);
+  std::vector<app::tour::InitialFile> files(4);
   files[0] = { folder / "gone.off", {}, "cannot open gone.off: No such file or directory" };
   files[1] = { noise, {}, {} };
   files[2] = { session, {}, {} };
   files[3] = { folder / "good.vtp", {}, {} };
-  open_initial_files(this->window, files);
+  app::tour::open_initial_files(this->window, files);
   const QStringList said = this->window.error().split('\n');
   ASSERT_EQ(said.size(), 3) << this->window.error().toStdString();
   EXPECT_EQ(said[0], "cannot open gone.off: No such file or directory");
@@ -211,7 +212,7 @@ TEST_F(Window, EscapeTakesTheDragBackAndLeavesNoHistory)
   const Vec3 rest = highest_point(this->window.shown());
   this->press_and_move(1, { 80, 0 });
   EXPECT_GT((highest_point(this->window.shown()) - rest).norm(), 0.1);
-  vtkRenderWindowInteractor* interactor = this->part<Viewport>()->interactor();
+  vtkRenderWindowInteractor* interactor = this->part<app::view::Viewport>()->interactor();
   interactor->SetKeySym("Escape");
   interactor->InvokeEvent(vtkCommand::KeyPressEvent);
   EXPECT_EQ(highest_point(this->window.shown()), rest);
@@ -252,7 +253,8 @@ TEST_F(Window, ModesAreRememberedAndUndone)
   {
     this->window.document()->history()->undo();
   }
-  auto* representation = this->part<Viewport>()->handle_widget()->GetHandleSetRepresentation();
+  auto* representation =
+    this->part<app::view::Viewport>()->handle_widget()->GetHandleSetRepresentation();
   EXPECT_EQ(representation->GetHandleMode(1), static_cast<int>(HandleMode::automatic));
 }
 
@@ -265,7 +267,8 @@ TEST_F(Window, BindsOffTheUiThreadWithProgress)
   double last = 0.0;
   std::string decreases; // phases whose progress decreased, and by how much
   int steps = 0;
-  QObject::connect(this->window.findChild<BindJob*>(), &BindJob::progress,
+  QObject::connect(this->window.findChild<app::weights::BindJob*>(),
+    &app::weights::BindJob::progress,
     [&](double fraction, const QString& phase)
     {
       if (fraction < last)
@@ -276,9 +279,9 @@ TEST_F(Window, BindsOffTheUiThreadWithProgress)
       last = fraction;
       ++steps;
     });
-  this->part<Binding>()->start();
-  EXPECT_TRUE(this->part<Binding>()->is_running());
-  ASSERT_TRUE(wait_for([this] { return !this->part<Binding>()->is_running(); }));
+  this->part<app::weights::Binding>()->start();
+  EXPECT_TRUE(this->part<app::weights::Binding>()->is_running());
+  ASSERT_TRUE(wait_for([this] { return !this->part<app::weights::Binding>()->is_running(); }));
   EXPECT_EQ(this->window.error(), QString());
   ASSERT_TRUE(this->window.is_bound());
   EXPECT_EQ(decreases, "");
@@ -294,12 +297,12 @@ TEST_F(Window, ACanceledBindLeavesAtMostItsPreview)
   TriangleMesh mesh = test::sphere(5);
   ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "ball"));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
-  this->part<Binding>()->start();
+  this->part<app::weights::Binding>()->start();
   wait_for([] { return false; }, 1);
   QElapsedTimer clock;
   clock.start();
-  this->part<Binding>()->cancel();
-  ASSERT_TRUE(wait_for([this] { return !this->part<Binding>()->is_running(); }));
+  this->part<app::weights::Binding>()->cancel();
+  ASSERT_TRUE(wait_for([this] { return !this->part<app::weights::Binding>()->is_running(); }));
   EXPECT_LT(clock.elapsed(), 5000);
   EXPECT_FALSE(this->window.document()->has_preview());
   EXPECT_EQ(this->window.error(), QString());
@@ -310,30 +313,30 @@ TEST_F(Window, APreviewIsThereToPoseWithBeforeTheBindEnds)
   TriangleMesh mesh = test::sphere(5);
   ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "ball"));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
-  this->part<Binding>()->start();
+  this->part<app::weights::Binding>()->start();
   ASSERT_TRUE(wait_for([this] { return this->window.is_bound(); }));
-  EXPECT_TRUE(this->part<Binding>()->is_running());
-  ASSERT_TRUE(wait_for([this] { return !this->part<Binding>()->is_running(); }));
+  EXPECT_TRUE(this->part<app::weights::Binding>()->is_running());
+  ASSERT_TRUE(wait_for([this] { return !this->part<app::weights::Binding>()->is_running(); }));
   EXPECT_TRUE(this->window.is_bound());
 
   // If the first bind is canceled after its preview, the weights of the preview stay. They are a
   // step that can be undone.
   ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "ball"));
   EXPECT_FALSE(this->window.is_bound());
-  this->part<Binding>()->start();
+  this->part<app::weights::Binding>()->start();
   ASSERT_TRUE(wait_for([this] { return this->window.is_bound(); }));
-  ASSERT_TRUE(this->part<Binding>()->is_running());
-  this->part<Binding>()->cancel();
-  ASSERT_TRUE(wait_for([this] { return !this->part<Binding>()->is_running(); }));
+  ASSERT_TRUE(this->part<app::weights::Binding>()->is_running());
+  this->part<app::weights::Binding>()->cancel();
+  ASSERT_TRUE(wait_for([this] { return !this->part<app::weights::Binding>()->is_running(); }));
   EXPECT_TRUE(this->window.is_bound());
   EXPECT_FALSE(this->window.document()->has_preview());
   EXPECT_EQ(this->window.error(), QString());
   // If the next bind is canceled, the existing weights stay.
   vtkDataArray* kept = this->window.shown()->GetPointData()->GetArray("Weights");
-  this->part<Binding>()->start();
+  this->part<app::weights::Binding>()->start();
   ASSERT_TRUE(wait_for([this] { return this->window.document()->has_preview(); }));
-  this->part<Binding>()->cancel();
-  ASSERT_TRUE(wait_for([this] { return !this->part<Binding>()->is_running(); }));
+  this->part<app::weights::Binding>()->cancel();
+  ASSERT_TRUE(wait_for([this] { return !this->part<app::weights::Binding>()->is_running(); }));
   EXPECT_EQ(this->window.shown()->GetPointData()->GetArray("Weights"), kept);
   this->window.document()->history()->undo();
   EXPECT_FALSE(this->window.is_bound());
@@ -367,10 +370,10 @@ TEST_F(Window, WeightsOfOtherHandlesAreNotUsed)
 TEST_F(Window, AColumnOfTheWeightsColorsTheSurface)
 {
   this->open_bound();
-  const QImage shaded = this->part<Viewport>()->grabFramebuffer();
-  this->part<SidePanel>()->show_column(1);
+  const QImage shaded = this->part<app::view::Viewport>()->grabFramebuffer();
+  this->part<app::handles::SidePanel>()->show_column(1);
   this->render();
-  const QImage colored = this->part<Viewport>()->grabFramebuffer();
+  const QImage colored = this->part<app::view::Viewport>()->grabFramebuffer();
   EXPECT_GT(blue_pixels(colored), 2000 + blue_pixels(shaded));
 }
 
@@ -389,12 +392,12 @@ TEST_F(Window, AnotherMeshTakesTheColorsAndTheLegendAway)
 {
   this->open_bound();
   const TriangleMesh mesh = column(3);
-  this->part<SidePanel>()->show_column(1);
+  this->part<app::handles::SidePanel>()->show_column(1);
   this->render();
   ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "plain"));
   this->render();
-  EXPECT_EQ(this->part<SidePanel>()->shown_column(), -1);
-  EXPECT_EQ(blue_pixels(this->part<Viewport>()->grabFramebuffer()), 0);
+  EXPECT_EQ(this->part<app::handles::SidePanel>()->shown_column(), -1);
+  EXPECT_EQ(blue_pixels(this->part<app::view::Viewport>()->grabFramebuffer()), 0);
 }
 
 TEST_F(Window, AClickOnAHandleSelectsItInTheListEvenIfItIsFree)
@@ -405,7 +408,7 @@ TEST_F(Window, AClickOnAHandleSelectsItInTheListEvenIfItIsFree)
   this->mouse(at, vtkCommand::MouseMoveEvent);
   this->mouse(at, vtkCommand::LeftButtonPressEvent);
   this->mouse(at, vtkCommand::LeftButtonReleaseEvent);
-  EXPECT_EQ(this->part<SidePanel>()->selected_handle(), 1);
+  EXPECT_EQ(this->part<app::handles::SidePanel>()->selected_handle(), 1);
 }
 
 TEST_F(Window, ABindKeepsTheSelectedHandle)
@@ -413,12 +416,13 @@ TEST_F(Window, ABindKeepsTheSelectedHandle)
   const TriangleMesh mesh = column(3);
   ASSERT_TRUE(this->window.set_mesh(to_polydata(mesh.points, mesh.triangles), "column"));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
-  this->part<SidePanel>()->select_handle(1);
-  this->part<Binding>()->start();
-  EXPECT_EQ(this->part<SidePanel>()->selected_handle(), 1);
-  ASSERT_TRUE(wait_for([this] { return !this->part<Binding>()->is_running(); }));
-  EXPECT_EQ(this->part<SidePanel>()->selected_handle(), 1);
-  auto* representation = this->part<Viewport>()->handle_widget()->GetHandleSetRepresentation();
+  this->part<app::handles::SidePanel>()->select_handle(1);
+  this->part<app::weights::Binding>()->start();
+  EXPECT_EQ(this->part<app::handles::SidePanel>()->selected_handle(), 1);
+  ASSERT_TRUE(wait_for([this] { return !this->part<app::weights::Binding>()->is_running(); }));
+  EXPECT_EQ(this->part<app::handles::SidePanel>()->selected_handle(), 1);
+  auto* representation =
+    this->part<app::view::Viewport>()->handle_widget()->GetHandleSetRepresentation();
   EXPECT_EQ(representation->GetSelectedHandle(), 1);
 }
 
@@ -433,7 +437,8 @@ TEST_F(Window, TheKeyboardBindsAndCancelsWithoutChoosingAHandle)
     auto* at = qobject_cast<QPushButton*>(QApplication::focusWidget());
     return at ? at->text() : QString();
   };
-  for (QPushButton* button : this->part<SidePanel>()->findChildren<QPushButton*>("primary"))
+  for (QPushButton* button :
+    this->part<app::handles::SidePanel>()->findChildren<QPushButton*>("primary"))
   {
     button->setFocus();
     ASSERT_EQ(focused(), "Bind");
@@ -441,9 +446,9 @@ TEST_F(Window, TheKeyboardBindsAndCancelsWithoutChoosingAHandle)
   }
   EXPECT_EQ(focused(), "Cancel");
   qobject_cast<QPushButton*>(QApplication::focusWidget())->click();
-  ASSERT_TRUE(wait_for([this] { return !this->part<Binding>()->is_running(); }));
+  ASSERT_TRUE(wait_for([this] { return !this->part<app::weights::Binding>()->is_running(); }));
   EXPECT_EQ(focused(), "Bind");
-  EXPECT_EQ(this->part<SidePanel>()->selected_handle(), -1);
+  EXPECT_EQ(this->part<app::handles::SidePanel>()->selected_handle(), -1);
 }
 
 TEST_F(Window, UndoDuringADragEndsTheDrag)
@@ -453,7 +458,7 @@ TEST_F(Window, UndoDuringADragEndsTheDrag)
   this->drag(1, { 80, 0 });
   this->press_and_move(1, { 0, 40 });
   this->window.document()->history()->undo();
-  EXPECT_FALSE(this->part<Viewport>()->handle_widget()->IsDragging());
+  EXPECT_FALSE(this->part<app::view::Viewport>()->handle_widget()->IsDragging());
   EXPECT_EQ(highest_point(this->window.shown()), rest);
 }
 
@@ -464,7 +469,7 @@ TEST_F(Window, HandlesWithoutAMeshAreInView)
   for (const vtkIdType handle : { 0, 1 })
   {
     const Eigen::Vector2i at = this->pixel_of(handle);
-    const int* size = this->part<Viewport>()->renderer()->GetSize();
+    const int* size = this->part<app::view::Viewport>()->renderer()->GetSize();
     EXPECT_GT(at.x(), 0);
     EXPECT_LT(at.x(), size[0]);
     EXPECT_GT(at.y(), 0);
@@ -519,9 +524,9 @@ TEST_F(Window, NoTextOfThePanelIsClipped)
     this->window.resize(size);
     QApplication::processEvents();
     EXPECT_EQ(this->window.size(), size);
-    test::expect_unclipped_items(this->part<SidePanel>());
-    test::expect_unclipped_buttons(this->part<SidePanel>());
-    for (QLabel* label : this->part<SidePanel>()->findChildren<QLabel*>())
+    test::expect_unclipped_items(this->part<app::handles::SidePanel>());
+    test::expect_unclipped_buttons(this->part<app::handles::SidePanel>());
+    for (QLabel* label : this->part<app::handles::SidePanel>()->findChildren<QLabel*>())
     {
       if (!label->isVisible())
       {
@@ -531,7 +536,7 @@ TEST_F(Window, NoTextOfThePanelIsClipped)
         << label->text().toStdString();
       EXPECT_GT(label->height(), 0);
     }
-    EXPECT_GT(this->part<SidePanel>()->handle_list()->tree()->height(), 60);
+    EXPECT_GT(this->part<app::handles::SidePanel>()->handle_list()->tree()->height(), 60);
   }
 }
 
@@ -539,12 +544,13 @@ TEST_F(Window, ChoosingPanelsKeepsTheSize)
 {
   this->window.resize(1100, 700);
   this->open_bound();
-  for (const int panel : { PanelColumn::tets, PanelColumn::bind_and_pose, PanelColumn::weights,
-         PanelColumn::tets, PanelColumn::weights, PanelColumn::bind_and_pose })
+  for (const int panel : { app::window::PanelColumn::tets, app::window::PanelColumn::bind_and_pose,
+         app::window::PanelColumn::weights, app::window::PanelColumn::tets,
+         app::window::PanelColumn::weights, app::window::PanelColumn::bind_and_pose })
   {
-    this->part<PanelColumn>()->show_panel(panel);
+    this->part<app::window::PanelColumn>()->show_panel(panel);
     QApplication::processEvents();
-    EXPECT_EQ(this->part<PanelColumn>()->shown_panel(), panel);
+    EXPECT_EQ(this->part<app::window::PanelColumn>()->shown_panel(), panel);
     EXPECT_EQ(this->window.size(), QSize(1100, 700)) << "panel " << panel;
   }
 }
@@ -566,18 +572,18 @@ TEST_F(Window, HandlesAreDraggedBesideAnOpenVolumeInThePanelPose)
   ASSERT_TRUE(this->window.set_volume(volume, "field"));
   EXPECT_TRUE(this->window.is_bound());
   this->render();
-  const double slice = this->part<VolumeView>()->position();
+  const double slice = this->part<app::volume::VolumeView>()->position();
   const Vec3 rest = highest_point(this->window.shown());
   // While the slice is shown, the shape is at rest. A drag moves neither the handles nor the slice
   // behind them.
   this->drag(1, { 80, 0 });
   EXPECT_EQ(highest_point(this->window.shown()), rest);
-  EXPECT_EQ(this->part<VolumeView>()->position(), slice);
-  this->part<PanelColumn>()->show_panel(PanelColumn::bind_and_pose);
+  EXPECT_EQ(this->part<app::volume::VolumeView>()->position(), slice);
+  this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::bind_and_pose);
   this->render();
   this->drag(1, { 80, 0 });
   EXPECT_GT((highest_point(this->window.shown()) - rest).norm(), 0.1);
-  EXPECT_EQ(this->part<VolumeView>()->position(), slice);
+  EXPECT_EQ(this->part<app::volume::VolumeView>()->position(), slice);
   EXPECT_EQ(
     this->window.document()->history()->count(), 2); // the two steps are the volume and the drag
 }
@@ -595,18 +601,19 @@ TEST_F(Window, ALongErrorDoesNotWidenTheWindow)
 TEST_F(Window, TurnsDarkAndLightAgain)
 {
   this->open_bound();
-  this->part<SidePanel>()->show_column(1);
+  this->part<app::handles::SidePanel>()->show_column(1);
   this->render();
   const QImage light = this->window.grab().toImage();
-  const auto tools = this->window.findChild<EditTools*>()->findChildren<QToolButton*>();
+  const auto tools =
+    this->window.findChild<app::handles::EditTools*>()->findChildren<QToolButton*>();
   std::vector<QImage> light_icons;
   for (const QToolButton* tool : tools)
   {
     light_icons.push_back(tool->icon().pixmap(20).toImage());
   }
-  choose_appearance(*qApp, Appearance::dark);
-  EXPECT_EQ(chosen_appearance(), Appearance::dark);
-  EXPECT_TRUE(is_dark());
+  app::parts::choose_appearance(*qApp, app::parts::Appearance::dark);
+  EXPECT_EQ(app::parts::chosen_appearance(), app::parts::Appearance::dark);
+  EXPECT_TRUE(app::parts::is_dark());
   this->render();
   const QImage dark = this->window.grab().toImage();
   for (int k = 0; k < tools.size(); ++k)
@@ -631,19 +638,19 @@ TEST_F(Window, TurnsDarkAndLightAgain)
     }
     return static_cast<double>(light_pixels) / all;
   };
-  for (const QWidget* part : { static_cast<const QWidget*>(this->part<SidePanel>()),
+  for (const QWidget* part : { static_cast<const QWidget*>(this->part<app::handles::SidePanel>()),
          static_cast<const QWidget*>(this->window.menuBar()),
-         static_cast<const QWidget*>(this->part<Viewport>()) })
+         static_cast<const QWidget*>(this->part<app::view::Viewport>()) })
   {
     const QRect at(part->mapTo(&this->window, QPoint()), part->size());
     EXPECT_LT(light_fraction(dark, at), 0.3) << part->metaObject()->className();
     EXPECT_GT(light_fraction(dark, at), 0.0005) << part->metaObject()->className();
     EXPECT_GT(light_fraction(light, at), 0.7) << part->metaObject()->className();
   }
-  choose_appearance(*qApp, Appearance::light);
-  EXPECT_FALSE(is_dark());
-  choose_appearance(*qApp, Appearance::system);
-  EXPECT_FALSE(is_dark()) << "the desktop of the tests is light";
+  app::parts::choose_appearance(*qApp, app::parts::Appearance::light);
+  EXPECT_FALSE(app::parts::is_dark());
+  app::parts::choose_appearance(*qApp, app::parts::Appearance::system);
+  EXPECT_FALSE(app::parts::is_dark()) << "the desktop of the tests is light";
 }
 
 int main(int argc, char** argv)
@@ -659,6 +666,6 @@ int main(int argc, char** argv)
   qputenv("XDG_DATA_HOME", QByteArray::fromStdString(folder / "data"));
   QSurfaceFormat::setDefaultFormat(QVTKOpenGLNativeWidget::defaultFormat());
   QApplication application(argc, argv);
-  apply_style(application);
+  app::parts::apply_style(application);
   return RUN_ALL_TESTS();
 }

@@ -85,7 +85,7 @@ Fingerprints user_fingerprints(const Document& document)
 }
 
 /// Check the invariants of a window without pending work.
-void check_window(MainWindow& window)
+void check_window(app::window::MainWindow& window)
 {
   const Document& document = *window.document();
   EXPECT_TRUE(is_finite(document.pose()));
@@ -97,7 +97,7 @@ void check_window(MainWindow& window)
     without_free_transforms(document.pose()), without_free_transforms(document.work().pose)))
     << "a pose that is in no step";
   EXPECT_EQ(QApplication::activeModalWidget(), nullptr);
-  EXPECT_FALSE(window.findChild<Viewport*>()->handle_widget()->IsDragging());
+  EXPECT_FALSE(window.findChild<app::view::Viewport*>()->handle_widget()->IsDragging());
   EXPECT_TRUE(window.isVisible());
 }
 
@@ -132,7 +132,7 @@ std::string steps_of(const QUndoStack* history)
 }
 
 /// Undo all steps and redo them again; both must restore every bit.
-void check_history(MainWindow& window, const Fingerprints& initial_fingerprints)
+void check_history(app::window::MainWindow& window, const Fingerprints& initial_fingerprints)
 {
   QUndoStack* history = window.document()->history();
   SCOPED_TRACE("steps" + steps_of(history));
@@ -166,7 +166,7 @@ TEST(Monkey, AWindowThatIsPlayedWithStaysSound)
        ++seed)
   {
     SCOPED_TRACE("seed " + std::to_string(seed));
-    MainWindow window;
+    app::window::MainWindow window;
     window.resize(720, 560);
     window.show();
     QApplication::setActiveWindow(&window);
@@ -185,11 +185,12 @@ TEST(Monkey, AWindowThatIsPlayedWithStaysSound)
     {
       monkey.play(50);
       monkey.stop_activity();
-      EXPECT_TRUE(wait_until([&] { return is_idle(&window); }, 60.0)) << "it never rests";
+      EXPECT_TRUE(app::tour::wait_until([&] { return app::tour::is_idle(&window); }, 60.0))
+        << "it never rests";
       QElapsedTimer answer; // duration of one frame and of all pending events
       answer.start();
       QApplication::processEvents();
-      window.findChild<Viewport*>()->renderWindow()->Render();
+      window.findChild<app::view::Viewport*>()->renderWindow()->Render();
       slowest = std::max(slowest, 1e-3 * static_cast<double>(answer.elapsed()));
       check_window(window);
       check_history(window, initial_fingerprints);

@@ -111,14 +111,15 @@ protected:
     weights.col(1) = 0.5 * (ball.points.col(2).array() + 1.0);
     weights.col(0) = 1.0 - weights.col(1).array();
     ASSERT_TRUE(this->window.document()->set_weights(weights, "heights").ok());
-    this->part<PanelColumn>()->show_panel(PanelColumn::weights);
+    this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::weights);
     this->resize({ 900, 700 });
   }
 
   vtkSmartPointer<vtkImageData> take(int scale, bool transparent)
   {
     vtkSmartPointer<vtkImageData> picture;
-    const Status status = this->part<Viewport>()->take_picture(scale, transparent, picture);
+    const Status status =
+      this->part<app::view::Viewport>()->take_picture(scale, transparent, picture);
     EXPECT_TRUE(status.ok()) << status.message;
     return picture;
   }
@@ -130,7 +131,7 @@ protected:
   {
     const auto transparent_picture = this->take(scale, true);
     ASSERT_EQ(transparent_picture->GetNumberOfScalarComponents(), 4);
-    vtkRenderer* renderer = this->part<Viewport>()->renderer();
+    vtkRenderer* renderer = this->part<app::view::Viewport>()->renderer();
     const Rgb backgrounds[] = { { 1.0, 1.0, 1.0 }, { 0.0, 0.0, 0.0 }, { 0.8, 0.2, 0.6 } };
     int partly_covered = 0; // number of pixels that are partly covered
     for (const Rgb& background : backgrounds)
@@ -147,7 +148,8 @@ protected:
         {
           const QColor pixel = pixel_of(transparent_picture, x, y);
           partly_covered += pixel.alpha() > 30 && pixel.alpha() < 225;
-          worst = std::max(worst, distance(composite(pixel, background), pixel_of(drawn, x, y)));
+          worst = std::max(
+            worst, distance(composite(pixel, background), pixel_of(drawn, x, y)));
         }
       }
       EXPECT_LE(worst, 4) << "of 255, over " << background[0] << " " << background[1] << " "
@@ -164,14 +166,15 @@ protected:
 TEST_F(PictureWindow, IsSoManyTimesAsLarge)
 {
   this->open_weighted();
-  const int* size = this->part<Viewport>()->renderWindow()->GetSize();
+  const int* size = this->part<app::view::Viewport>()->renderWindow()->GetSize();
   for (const int scale : { 1, 3 })
   {
     const auto picture = this->take(scale, false);
     EXPECT_EQ(picture->GetDimensions()[0], scale * size[0]);
     EXPECT_EQ(picture->GetDimensions()[1], scale * size[1]);
     EXPECT_EQ(picture->GetNumberOfScalarComponents(), 3);
-    EXPECT_EQ(this->part<Viewport>()->picture_size(scale), scale * QSize(size[0], size[1]));
+    EXPECT_EQ(
+      this->part<app::view::Viewport>()->picture_size(scale), scale * QSize(size[0], size[1]));
   }
 }
 
@@ -195,11 +198,11 @@ TEST_F(PictureWindow, OfEveryScaleIsWhatIsSeenOnlyFiner)
 TEST_F(PictureWindow, LeavesTheWindowAsItWas)
 {
   this->open_weighted();
-  vtkCamera* camera = this->part<Viewport>()->renderer()->GetActiveCamera();
+  vtkCamera* camera = this->part<app::view::Viewport>()->renderer()->GetActiveCamera();
   const QImage before = this->picture();
   const Vec3 from(camera->GetPosition());
   this->take(5, true);
-  EXPECT_EQ(this->part<Viewport>()->renderer()->GetActiveCamera(), camera);
+  EXPECT_EQ(this->part<app::view::Viewport>()->renderer()->GetActiveCamera(), camera);
   EXPECT_EQ(Vec3(camera->GetPosition()), from);
   EXPECT_EQ(this->picture(), before);
 }
@@ -217,7 +220,7 @@ TEST_F(PictureWindow, HasNoFringeWhereItIsTransparent)
 TEST_F(PictureWindow, KeepsSeeThroughThingsSeeThrough)
 {
   this->open_weighted();
-  this->part<Viewport>()->set_surface_look(Viewport::see_through);
+  this->part<app::view::Viewport>()->set_surface_look(app::view::Viewport::see_through);
   this->expect_correct_compositing(1);
   const auto transparent_picture = this->take(1, true);
   const QPoint beside = this->pixel(Vec3(0.4, 0.3, 0));
@@ -230,14 +233,15 @@ TEST_F(PictureWindow, IsWrittenWithItsAlpha)
   this->open_weighted();
   const test::Folder folder;
   const QString path = QString::fromStdString(folder / "ball.png");
-  ASSERT_TRUE(this->part<Exports>()->save_picture(path, 2, true));
+  ASSERT_TRUE(this->part<app::window::Exports>()->save_picture(path, 2, true));
   const QImage read(path);
   EXPECT_TRUE(read.hasAlphaChannel());
-  EXPECT_EQ(read.size(), this->part<Viewport>()->picture_size(2));
+  EXPECT_EQ(read.size(), this->part<app::view::Viewport>()->picture_size(2));
   EXPECT_EQ(qAlpha(read.pixel(read.width() - 3, 3)), 0);
-  ASSERT_TRUE(this->part<Exports>()->save_picture(path, 1, false));
+  ASSERT_TRUE(this->part<app::window::Exports>()->save_picture(path, 1, false));
   EXPECT_FALSE(QImage(path).hasAlphaChannel());
-  EXPECT_FALSE(this->part<Exports>()->save_picture("/no/such/folder/ball.png", 1, false));
+  EXPECT_FALSE(
+    this->part<app::window::Exports>()->save_picture("/no/such/folder/ball.png", 1, false));
   EXPECT_EQ(this->window.error().count('\n'), 0);
   EXPECT_FALSE(this->window.error().isEmpty());
 }
@@ -245,9 +249,9 @@ TEST_F(PictureWindow, IsWrittenWithItsAlpha)
 TEST_F(PictureWindow, TheDialogTellsTheSizeAndRemembers)
 {
   this->open_weighted();
-  const QSize size = this->part<Viewport>()->picture_size(1);
+  const QSize size = this->part<app::view::Viewport>()->picture_size(1);
   {
-    PictureDialog dialog(this->part<Viewport>(), &this->window);
+    app::window::PictureDialog dialog(this->part<app::view::Viewport>(), &this->window);
     dialog.show();
     QApplication::processEvents();
     EXPECT_EQ(dialog.scale(), 1);
@@ -272,13 +276,13 @@ TEST_F(PictureWindow, TheDialogTellsTheSizeAndRemembers)
     dialog.reject(); // a rejected dialog stores no choice
   }
   {
-    PictureDialog dialog(this->part<Viewport>(), &this->window);
+    app::window::PictureDialog dialog(this->part<app::view::Viewport>(), &this->window);
     EXPECT_EQ(dialog.scale(), 1);
     dialog.findChild<QComboBox*>()->setCurrentIndex(3);
     dialog.findChild<QCheckBox*>()->setChecked(true);
     dialog.accept();
   }
-  PictureDialog dialog(this->part<Viewport>(), &this->window);
+  app::window::PictureDialog dialog(this->part<app::view::Viewport>(), &this->window);
   EXPECT_EQ(dialog.scale(), 4);
   EXPECT_TRUE(dialog.is_transparent());
   user_settings()->remove("picture");

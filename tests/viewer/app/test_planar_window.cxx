@@ -43,12 +43,15 @@ protected:
       this->window.set_mesh(to_polydata(this->mesh.points, this->mesh.triangles), "rectangle"));
     this->resize({ 1000, 700 });
   }
-  vtkCamera* camera() { return this->part<Viewport>()->renderer()->GetActiveCamera(); }
+  vtkCamera* camera() { return this->part<app::view::Viewport>()->renderer()->GetActiveCamera(); }
   Vec3 view_direction() { return Vec3(this->camera()->GetDirectionOfProjection()); }
-  QAction* flat_view_action() { return SimulatedUser(&this->window).action("view.2d_view"); }
+  QAction* flat_view_action()
+  {
+    return app::tour::SimulatedUser(&this->window).action("view.2d_view");
+  }
   void choose(const char* option, const QVariant& value)
   {
-    const QString refused = SimulatedUser(&this->window).choose(option, value);
+    const QString refused = app::tour::SimulatedUser(&this->window).choose(option, value);
     EXPECT_TRUE(refused.isEmpty()) << refused.toStdString();
     this->render();
   }
@@ -74,7 +77,7 @@ TEST_F(PlanarWindow, AShapeInAPlaneIsSeenFromInFrontWithoutPerspective)
         Vec3((Vec3::UnitY() - tilted_rotation(1, 2) * tilted_rotation.col(2)).normalized())) })
   {
     this->open(rotation);
-    EXPECT_TRUE(this->part<Viewport>()->is_flat());
+    EXPECT_TRUE(this->part<app::view::Viewport>()->is_flat());
     EXPECT_TRUE(this->camera()->GetParallelProjection() != 0);
     EXPECT_LT((this->view_direction() + normal).norm(), 1e-9) << normal.transpose();
     EXPECT_LT((Vec3(this->camera()->GetViewUp()) - up).norm(), 1e-9) << normal.transpose();
@@ -84,7 +87,7 @@ TEST_F(PlanarWindow, AShapeInAPlaneIsSeenFromInFrontWithoutPerspective)
     {
       seen |= QRect(this->pixel(this->mesh.points.row(v)), QSize(1, 1));
     }
-    const QRect view = this->part<Viewport>()->rect();
+    const QRect view = this->part<app::view::Viewport>()->rect();
     EXPECT_TRUE(view.contains(seen));
     EXPECT_LE((seen.center() - view.center()).manhattanLength(), 3);
     EXPECT_GT(
@@ -98,7 +101,7 @@ TEST_F(PlanarWindow, DraggingMovesItAndTheMenuLetsItBeTurned)
 {
   this->open(tilted_rotation);
   const Vec3 view_direction = this->view_direction();
-  const QPoint position = this->part<Viewport>()->rect().center();
+  const QPoint position = this->part<app::view::Viewport>()->rect().center();
   const Vec3 middle(1, 2, 3);
   const QPoint before = this->pixel(middle);
   this->drag(position, position + QPoint(60, 25));
@@ -109,7 +112,7 @@ TEST_F(PlanarWindow, DraggingMovesItAndTheMenuLetsItBeTurned)
   EXPECT_TRUE(this->flat_view_action()->isChecked());
   this->flat_view_action()->trigger();
   this->render();
-  EXPECT_FALSE(this->part<Viewport>()->is_flat());
+  EXPECT_FALSE(this->part<app::view::Viewport>()->is_flat());
   EXPECT_FALSE(this->flat_view_action()->isChecked());
   EXPECT_FALSE(this->camera()->GetParallelProjection() != 0);
   const Vec3 direction_before = this->view_direction();
@@ -117,12 +120,12 @@ TEST_F(PlanarWindow, DraggingMovesItAndTheMenuLetsItBeTurned)
   EXPECT_GT((this->view_direction() - direction_before).norm(), 0.05);
   this->flat_view_action()->trigger();
   this->render();
-  EXPECT_TRUE(this->part<Viewport>()->is_flat());
+  EXPECT_TRUE(this->part<app::view::Viewport>()->is_flat());
   EXPECT_LT((this->view_direction() + tilted_rotation.col(2)).norm(), 1e-9);
   // A ball has no 2D mode.
   const TriangleMesh ball = test::sphere(3);
   ASSERT_TRUE(this->window.set_mesh(to_polydata(ball.points, ball.triangles), "ball"));
-  EXPECT_FALSE(this->part<Viewport>()->is_flat());
+  EXPECT_FALSE(this->part<app::view::Viewport>()->is_flat());
   EXPECT_FALSE(this->flat_view_action()->isEnabled());
   EXPECT_FALSE(this->camera()->GetParallelProjection() != 0);
 }
@@ -136,8 +139,9 @@ TEST_F(PlanarWindow, ATiltedPlaneIsBoundPosedInItselfAndLayered)
   handles[1].name = "right";
   handles[1].head = handles[1].tail = Vec3(1, 2, 3) + 0.9 * tilted_rotation.col(0);
   ASSERT_TRUE(this->window.set_handles(to_polydata(handles), "points"));
-  this->part<Binding>()->start();
-  ASSERT_TRUE(test::wait_for([this] { return !this->part<Binding>()->is_running(); }));
+  this->part<app::weights::Binding>()->start();
+  ASSERT_TRUE(
+    test::wait_for([this] { return !this->part<app::weights::Binding>()->is_running(); }));
   ASSERT_EQ(this->window.error(), QString());
   ASSERT_TRUE(this->window.is_bound());
   // The mouse moves the handle within the plane of the shape.
@@ -153,8 +157,8 @@ TEST_F(PlanarWindow, ATiltedPlaneIsBoundPosedInItselfAndLayered)
     this->window.document()->handle_data(), this->window.document()->handle_cells()[1], 3.0);
   this->window.document()->commit_handles("layer", "layer");
   this->render();
-  vtkPolyData* drawn = this->part<Viewport>()->drawn();
-  const auto& from = this->part<Viewport>()->drawn_points();
+  vtkPolyData* drawn = this->part<app::view::Viewport>()->drawn();
+  const auto& from = this->part<app::view::Viewport>()->drawn_points();
   double minimum_offset = 1e300, maximum_offset = -1e300;
   for (vtkIdType v = 0; v < drawn->GetNumberOfPoints(); ++v)
   {
@@ -171,16 +175,16 @@ TEST_F(PlanarWindow, WeightsLieOverThePictureAsMuchAsIsWanted)
 {
   ASSERT_TRUE(this->window.open(QString(BINDPOSE_TOURS) + "/data/doll.png"));
   ASSERT_TRUE(this->window.open(QString(BINDPOSE_TOURS) + "/data/doll.tgf"));
-  ASSERT_TRUE(this->part<Viewport>()->is_flat());
-  this->part<Viewport>()->handle_widget()->SetEnabled(false);
+  ASSERT_TRUE(this->part<app::view::Viewport>()->is_flat());
+  this->part<app::view::Viewport>()->handle_widget()->SetEnabled(false);
   const Index points = this->window.document()->surface()->GetNumberOfPoints();
   const auto columns = static_cast<Index>(this->window.document()->handles().size());
   // Weights that are equal everywhere give one color and no isolines.
   Weights weights = Weights::Constant(points, columns, 0.65 / (columns - 1));
   weights.col(0).setConstant(0.35);
   ASSERT_TRUE(this->window.document()->set_weights(weights, "even").ok());
-  this->part<Viewport>()->handle_widget()->SetEnabled(false);
-  this->part<PanelColumn>()->show_panel(PanelColumn::weights);
+  this->part<app::view::Viewport>()->handle_widget()->SetEnabled(false);
+  this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::weights);
   this->resize({ 1000, 700 });
   this->choose("weights.column", 1);
   this->choose("weights.over_picture", 0.0);
@@ -213,7 +217,7 @@ TEST_F(PlanarWindow, WeightsLieOverThePictureAsMuchAsIsWanted)
   EXPECT_GT(covered_pixels, 20000);
   EXPECT_EQ(wrong_pixels, 0);
   // If only the texture is shown, the view does not depend on which column of weights is chosen.
-  this->part<PanelColumn>()->show_panel(PanelColumn::bind_and_pose);
+  this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::bind_and_pose);
   this->choose("show.column", 0);
   const QImage plain = this->picture();
   int differing_pixels = 0;
@@ -239,7 +243,7 @@ TEST_F(PlanarWindow, BesideEachOtherBothShapesHaveThePicture)
   this->resize({ 1100, 700 });
   this->choose("pose.compared", 2);
   this->choose("pose.ghost", 1);
-  this->part<Viewport>()->handle_widget()->SetEnabled(false);
+  this->part<app::view::Viewport>()->handle_widget()->SetEnabled(false);
   const QImage seen = this->picture();
   // Exclude the names at the bottom of the view.
   const int half = seen.width() / 2, image_bottom = seen.height() - 60;
@@ -280,10 +284,10 @@ TEST_F(PlanarWindow, IsolinesStayOnTopOfThePicture)
   weights.col(1) = (rest.view().col(1).array() - low) / (high - low);
   weights.col(0) = 1.0 - weights.col(1).array();
   ASSERT_TRUE(this->window.document()->set_weights(weights, "heights").ok());
-  this->part<PanelColumn>()->show_panel(PanelColumn::weights);
+  this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::weights);
   this->resize({ 1000, 700 });
   this->choose("weights.column", 2);
-  this->part<Viewport>()->handle_widget()->SetEnabled(false);
+  this->part<app::view::Viewport>()->handle_widget()->SetEnabled(false);
   for (const double opacity : { 0.0, 0.6, 1.0 })
   {
     this->choose("weights.over_picture", opacity);

@@ -80,11 +80,11 @@ vtkSmartPointer<vtkImageData> samples()
   return image;
 }
 
-PlaneHandle* plane_of(MainWindow& window, const std::string& name)
+app::view::PlaneHandle* plane_of(app::window::MainWindow& window, const std::string& name)
 {
-  return name == "volume" ? window.findChild<VolumeView*>()->plane()
-    : name == "tets"      ? window.findChild<TetInspection*>()->tet_view()->plane()
-                          : window.findChild<WeightInspection*>()->view()->plane();
+  return name == "volume" ? window.findChild<app::volume::VolumeView*>()->plane()
+    : name == "tets"      ? window.findChild<app::tets::TetInspection*>()->tet_view()->plane()
+                          : window.findChild<app::weights::WeightInspection*>()->view()->plane();
 }
 
 class PlaneWindow : public test::WindowTest, public testing::WithParamInterface<PlaneCase>
@@ -102,7 +102,7 @@ protected:
       test::write_with<vtkXMLUnstructuredGridWriter>(box_with_weights(), this->folder / "box.vtu");
       this->open("box.vtu");
     }
-    this->part<PanelColumn>()->show_panel(GetParam().panel);
+    this->part<app::window::PanelColumn>()->show_panel(GetParam().panel);
     this->render();
     const std::string name = GetParam().name;
     if (name == "weights")
@@ -118,7 +118,7 @@ protected:
     ASSERT_TRUE(this->window.open(QString::fromStdString(this->folder / file)))
       << this->window.error().toStdString();
   }
-  PlaneHandle* plane() { return plane_of(this->window, GetParam().name); }
+  app::view::PlaneHandle* plane() { return plane_of(this->window, GetParam().name); }
   QString key(const char* option_name)
   {
     return QString("%1.%2").arg(GetParam().name, option_name);
@@ -127,7 +127,11 @@ protected:
   {
     return this->window.document()->option(this->key(option_name));
   }
-  ValueRow* row() { return this->part<PanelColumn>()->findChild<ValueRow*>(this->key("place")); }
+  app::parts::ValueRow* row()
+  {
+    return this->part<app::window::PanelColumn>()->findChild<app::parts::ValueRow*>(
+      this->key("place"));
+  }
   int steps() { return this->window.document()->history()->index() - this->begin; }
   std::string undo_text() { return this->window.document()->history()->undoText().toStdString(); }
   void undo() { this->user.trigger("edit.undo"); }
@@ -170,25 +174,26 @@ protected:
   }
 
   test::Folder folder;
-  SimulatedUser user{ &this->window };
+  app::tour::SimulatedUser user{ &this->window };
   QPoint last;
   int begin = 0;
 };
 } // namespace
 
 INSTANTIATE_TEST_SUITE_P(All, PlaneWindow,
-  testing::Values(PlaneCase{ "volume", PanelColumn::volume_slice, "move the slice",
+  testing::Values(PlaneCase{ "volume", app::window::PanelColumn::volume_slice, "move the slice",
                     "turn the slice", "orientation of the slice" },
-    PlaneCase{
-      "tets", PanelColumn::tets, "move the cut", "turn the cut", "orientation of the cut" },
-    PlaneCase{ "weights", PanelColumn::weights, "move the slice of weights",
+    PlaneCase{ "tets", app::window::PanelColumn::tets, "move the cut", "turn the cut",
+      "orientation of the cut" },
+    PlaneCase{ "weights", app::window::PanelColumn::weights, "move the slice of weights",
       "turn the slice of weights", "orientation of the slice of weights" }),
   [](const auto& each) { return std::string(each.param.name); });
 
 TEST(PlaneShare, IsNotWornAwayByPositionsGivenBack)
 {
-  MainWindow window;
-  PlaneHandle* plane = window.findChild<WeightInspection*>()->view()->plane();
+  app::window::MainWindow window;
+  app::view::PlaneHandle* plane =
+    window.findChild<app::weights::WeightInspection*>()->view()->plane();
   test::Random random(11);
   for (int k = 0; k < 200; ++k)
   {
@@ -262,8 +267,8 @@ TEST_P(PlaneWindow, EscDuringADragTakesItBack)
     << "the step can be done again";
   // Saving during a drag saves the state before the drag.
   this->begin_drag(0.0, 0.5);
-  ASSERT_TRUE(
-    this->part<WindowSessions>()->write(QString::fromStdString(this->folder / "half.bindpose")));
+  ASSERT_TRUE(this->part<app::window::WindowSessions>()->write(
+    QString::fromStdString(this->folder / "half.bindpose")));
   EXPECT_EQ(this->option("place").toDouble(), 0.5);
   this->end_drag();
   EXPECT_EQ(this->undo_text(), GetParam().move);
@@ -299,14 +304,16 @@ TEST_P(PlaneWindow, TheSliderIsOneStepUntilItIsLetGo)
 
 TEST_P(PlaneWindow, AFreePlaneIsTurnedInOneStep)
 {
-  EXPECT_EQ(this->user.choose(this->key("orientation"), PlaneHandle::x_axis), QString());
+  EXPECT_EQ(this->user.choose(this->key("orientation"), app::view::PlaneHandle::x_axis), QString());
   EXPECT_EQ(this->undo_text(), GetParam().axis);
   this->row()->field()->setValue(0.1);
-  EXPECT_EQ(this->user.choose(this->key("orientation"), PlaneHandle::free_plane), QString());
+  EXPECT_EQ(
+    this->user.choose(this->key("orientation"), app::view::PlaneHandle::free_plane), QString());
   EXPECT_EQ(this->plane()->normal(), Vec3(1, 0, 0)) << "it begins where the axis was";
   EXPECT_NEAR(this->plane()->position(), 0.1, 1e-9);
-  EXPECT_EQ(this->user.choose(this->key("orientation"), PlaneHandle::z_axis), QString());
-  EXPECT_EQ(this->user.choose(this->key("orientation"), PlaneHandle::free_plane), QString());
+  EXPECT_EQ(this->user.choose(this->key("orientation"), app::view::PlaneHandle::z_axis), QString());
+  EXPECT_EQ(
+    this->user.choose(this->key("orientation"), app::view::PlaneHandle::free_plane), QString());
   this->render();
   const int before = this->steps();
   this->turn({ 70, 30 });
@@ -322,14 +329,14 @@ TEST_P(PlaneWindow, AFreePlaneIsTurnedInOneStep)
     EXPECT_EQ(stored_normal[k].toDouble(), turned[k]);
   }
   // Choose an axis for the plane, then undo. The free plane has its previous orientation again.
-  EXPECT_EQ(this->user.choose(this->key("orientation"), PlaneHandle::y_axis), QString());
+  EXPECT_EQ(this->user.choose(this->key("orientation"), app::view::PlaneHandle::y_axis), QString());
   EXPECT_EQ(this->plane()->normal(), Vec3(0, 1, 0));
   this->undo();
   EXPECT_EQ(this->plane()->normal(), turned);
   this->expect_position(moved, "undo of an axis");
   this->undo();
   EXPECT_EQ(this->plane()->normal(), Vec3(0, 0, 1));
-  EXPECT_EQ(this->plane()->orientation(), PlaneHandle::free_plane);
+  EXPECT_EQ(this->plane()->orientation(), app::view::PlaneHandle::free_plane);
   this->redo();
   EXPECT_EQ(this->plane()->normal(), turned);
   this->expect_position(moved, "redo of the turn");
@@ -339,29 +346,32 @@ TEST_P(PlaneWindow, AFreePlaneIsTurnedInOneStep)
   {
     this->undo();
   }
-  EXPECT_EQ(this->plane()->orientation(), PlaneHandle::z_axis);
+  EXPECT_EQ(this->plane()->orientation(), app::view::PlaneHandle::z_axis);
   this->expect_position(0.0, "undo of all");
 }
 
 TEST_P(PlaneWindow, SessionsKeepThePlane)
 {
-  EXPECT_EQ(this->user.choose(this->key("orientation"), PlaneHandle::free_plane), QString());
+  EXPECT_EQ(
+    this->user.choose(this->key("orientation"), app::view::PlaneHandle::free_plane), QString());
   this->render();
   this->turn({ 70, 30 });
   this->row()->field()->setValue(0.3);
   const Vec3 turned = this->plane()->normal();
   ASSERT_LT(turned.z(), 0.99);
   const std::string path = this->folder / "work.bindpose";
-  ASSERT_TRUE(this->part<WindowSessions>()->write(QString::fromStdString(path)));
+  ASSERT_TRUE(this->part<app::window::WindowSessions>()->write(QString::fromStdString(path)));
   {
-    MainWindow other;
+    app::window::MainWindow other;
     other.show();
     ASSERT_TRUE(other.open(QString::fromStdString(path))) << other.error().toStdString();
-    PlaneHandle* plane = plane_of(other, GetParam().name);
-    EXPECT_EQ(plane->orientation(), PlaneHandle::free_plane);
+    app::view::PlaneHandle* plane = plane_of(other, GetParam().name);
+    EXPECT_EQ(plane->orientation(), app::view::PlaneHandle::free_plane);
     EXPECT_EQ(plane->normal(), turned);
     EXPECT_NEAR(plane->position(), 0.3, 1e-9);
-    EXPECT_NEAR(other.findChild<PanelColumn*>()->findChild<ValueRow*>(this->key("place"))->value(),
+    EXPECT_NEAR(other.findChild<app::window::PanelColumn*>()
+                  ->findChild<app::parts::ValueRow*>(this->key("place"))
+                  ->value(),
       0.3, 0.002);
     EXPECT_EQ(other.document()->history()->count(), 0) << "to open a session is no step";
     EXPECT_FALSE(other.isWindowModified());
@@ -376,6 +386,6 @@ TEST_P(PlaneWindow, SessionsKeepThePlane)
   this->folder.write("old.bindpose", old.dump());
   ASSERT_TRUE(this->window.open(QString::fromStdString(this->folder / "old.bindpose")))
     << this->window.error().toStdString();
-  EXPECT_EQ(this->plane()->orientation(), PlaneHandle::z_axis);
+  EXPECT_EQ(this->plane()->orientation(), app::view::PlaneHandle::z_axis);
   this->expect_position(0.0, "an old session");
 }

@@ -115,9 +115,9 @@ protected:
     this->render();
   }
 
-  Posing* posing() { return this->part<Posing>(); }
-  PosePanel* panel() { return this->part<SidePanel>()->pose(); }
-  KeyStrip* strip() { return this->window.findChild<KeyStrip*>(); }
+  app::posing::Posing* posing() { return this->part<app::posing::Posing>(); }
+  app::posing::PosePanel* panel() { return this->part<app::handles::SidePanel>()->pose(); }
+  app::posing::KeyStrip* strip() { return this->window.findChild<app::posing::KeyStrip*>(); }
   template <typename Widget>
   Widget* option(const char* key)
   {
@@ -158,10 +158,10 @@ protected:
   /// Return the pixel of a handle's head or tail in the window, in VTK's coordinates (y upward).
   Eigen::Vector2i pixel_of(vtkIdType cell, bool tail)
   {
-    auto* drawn = this->part<Viewport>()->handle_widget()->GetHandleSetRepresentation();
+    auto* drawn = this->part<app::view::Viewport>()->handle_widget()->GetHandleSetRepresentation();
     double p[3];
     tail ? drawn->GetPosedTail(cell, p) : drawn->GetPosedHead(cell, p);
-    vtkRenderer* renderer = this->part<Viewport>()->renderer();
+    vtkRenderer* renderer = this->part<app::view::Viewport>()->renderer();
     renderer->SetWorldPoint(p[0], p[1], p[2], 1.0);
     renderer->WorldToDisplay();
     const double* d = renderer->GetDisplayPoint();
@@ -169,7 +169,7 @@ protected:
   }
   void event(const Eigen::Vector2i& at, unsigned long what)
   {
-    vtkRenderWindowInteractor* interactor = this->part<Viewport>()->interactor();
+    vtkRenderWindowInteractor* interactor = this->part<app::view::Viewport>()->interactor();
     interactor->SetEventInformation(at.x(), at.y(), 0, 0, 0, 0, nullptr);
     interactor->InvokeEvent(what);
   }
@@ -228,7 +228,7 @@ TEST_F(PosingWindow, LinearBlendIsTheFilters)
   this->drag_handle(1, { 60, 20 });
   vtkNew<vtkSkinningDeformation> filter;
   filter->SetInputData(0, this->surface);
-  filter->SetInputData(1, this->part<Viewport>()->handle_widget()->GetHandles());
+  filter->SetInputData(1, this->part<app::view::Viewport>()->handle_widget()->GetHandles());
   filter->Update();
   EXPECT_EQ(this->points(), Points(to_points(filter->GetOutput()).view()));
 }
@@ -263,7 +263,7 @@ TEST_F(PosingWindow, FullArapFollowsTheMouseAndStartsAgainWhenItMovesOn)
   this->open(5); // a slice of the solve takes a while with 20480 triangles
   this->choose(PoseMethod::full_arap);
   ASSERT_TRUE(this->wait_until_settled());
-  Deformation* deformation = this->posing()->deformation();
+  app::posing::Deformation* deformation = this->posing()->deformation();
   double longest = 0.0;
   for (int move = 1; move <= 12; ++move)
   {
@@ -348,7 +348,7 @@ TEST_F(PosingWindow, OnlyTheOptionsOfTheMethodAreShown)
   EXPECT_TRUE(shown("pose.extra_weights"));
   // The list of kinds is hidden if there are no extra weights.
   EXPECT_FALSE(shown("pose.extra_kind"));
-  this->option<ValueRow>("pose.extra_weights")->field()->setValue(5);
+  this->option<app::parts::ValueRow>("pose.extra_weights")->field()->setValue(5);
   EXPECT_TRUE(shown("pose.extra_kind"));
   EXPECT_EQ(this->panel()->options().extra_weights, 5);
   EXPECT_EQ(this->window.error(), QString());
@@ -360,7 +360,7 @@ TEST_F(PosingWindow, OnlyTheOptionsOfTheMethodAreShown)
 TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
 {
   this->open();
-  Viewport* viewport = this->part<Viewport>();
+  app::view::Viewport* viewport = this->part<app::view::Viewport>();
   vtkPolyData* drawn = viewport->drawn();
   const auto on_points = [&] { return drawn->GetPointData()->GetArray(color_array_name); };
   const auto on_cells = [&] { return drawn->GetCellData()->GetArray(color_array_name); };
@@ -438,10 +438,10 @@ TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
 
   // Other panels use their own coloring. Methods without rotations have no coloring by rotation. If
   // the change of the method is undone, the coloring by rotation is shown again.
-  this->part<PanelColumn>()->show_panel(PanelColumn::weights);
+  this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::weights);
   this->render();
   EXPECT_FALSE(viewport->shows_values(vtkDoubleArray::SafeDownCast(angles)));
-  this->part<PanelColumn>()->show_panel(PanelColumn::bind_and_pose);
+  this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::bind_and_pose);
   this->render();
   ASSERT_TRUE(viewport->shows_values(vtkDoubleArray::SafeDownCast(on_points())));
   EXPECT_NEAR(on_points()->GetComponent(7, 0), 35.0, 1.0);
@@ -474,7 +474,7 @@ TEST_F(PosingWindow, FullArapTurnsEachVertexByItsOwnRotation)
   const PoseRotations* found = this->posing()->rotations();
   ASSERT_NE(found, nullptr);
   EXPECT_EQ(static_cast<Index>(found->rotations.size()), this->posing()->points().rows());
-  Viewport* viewport = this->part<Viewport>();
+  app::view::Viewport* viewport = this->part<app::view::Viewport>();
   const auto angles = [viewport]
   { return viewport->drawn()->GetPointData()->GetArray(color_array_name); };
   ASSERT_TRUE(viewport->shows_values(vtkDoubleArray::SafeDownCast(angles())));
@@ -511,8 +511,9 @@ TEST_F(PosingWindow, ABodyThatMovesShowsItsOwnRotations)
   ASSERT_NE(found, nullptr);
   this->render();
   vtkDataArray* angles =
-    this->part<Viewport>()->drawn()->GetPointData()->GetArray(color_array_name);
-  ASSERT_TRUE(this->part<Viewport>()->shows_values(vtkDoubleArray::SafeDownCast(angles)));
+    this->part<app::view::Viewport>()->drawn()->GetPointData()->GetArray(color_array_name);
+  ASSERT_TRUE(
+    this->part<app::view::Viewport>()->shows_values(vtkDoubleArray::SafeDownCast(angles)));
   for (vtkIdType v = 0; v < angles->GetNumberOfTuples(); ++v)
   {
     const auto k =
@@ -525,7 +526,7 @@ TEST_F(PosingWindow, ABodyOfAnotherShapeFollowsTheOneThatWasBeingBound)
 {
   this->open(5); // this mesh is too large to be bound immediately
   this->option<QCheckBox>("pose.moves")->setChecked(true);
-  BodyMotion* motion = this->posing()->motion();
+  app::posing::BodyMotion* motion = this->posing()->motion();
   ASSERT_FALSE(motion->has_started());
   const TriangleMesh other = pole(4);
   const auto second = to_polydata(other.points, other.triangles);
@@ -548,7 +549,7 @@ TEST_F(PosingWindow, TheReadingSaysWhenASolveFallsShort)
   EXPECT_TRUE(this->posing()->reading().contains("converged"));
   EXPECT_TRUE(this->posing()->reading().contains("iterations in"));
   EXPECT_TRUE(this->posing()->reading().contains("energy"));
-  this->option<ValueRow>("pose.iterations")->field()->setValue(1);
+  this->option<app::parts::ValueRow>("pose.iterations")->field()->setValue(1);
   this->apply_pose(Pose(4));
   pose[3].transform.col(3) += Vec3(0.5, 0.4, 0);
   this->apply_pose(pose);
@@ -585,9 +586,9 @@ TEST_F(PosingWindow, TwoMethodsAreComparedOverAndBesideEachOther)
   const QImage alone = this->picture();
   auto* with = this->option<QComboBox>("pose.compared");
   with->setCurrentIndex(1 + static_cast<int>(PoseMethod::dual_quaternion));
-  EXPECT_EQ(this->posing()->ghost()->place(), PoseGhost::in_colors);
+  EXPECT_EQ(this->posing()->ghost()->place(), app::posing::PoseGhost::in_colors);
   this->option<QButtonGroup>("pose.ghost")->button(0)->click();
-  EXPECT_EQ(this->posing()->ghost()->place(), PoseGhost::over);
+  EXPECT_EQ(this->posing()->ghost()->place(), app::posing::PoseGhost::over);
   auto source = std::make_shared<PoseSource>();
   ASSERT_TRUE(to_pose_source(this->surface, nullptr, this->handles, *source).ok());
   ExecutionContext context;
@@ -613,11 +614,11 @@ TEST_F(PosingWindow, TwoMethodsAreComparedOverAndBesideEachOther)
   this->find<QPushButton>("Beside it")->click();
   this->render();
   EXPECT_EQ(this->posing()->ghost()->renderer()->GetActiveCamera(),
-    this->part<Viewport>()->renderer()->GetActiveCamera());
-  EXPECT_EQ(this->part<Viewport>()->renderer()->GetViewport()[2], 0.5);
+    this->part<app::view::Viewport>()->renderer()->GetActiveCamera());
+  EXPECT_EQ(this->part<app::view::Viewport>()->renderer()->GetViewport()[2], 0.5);
   with->setCurrentIndex(0);
   this->render();
-  EXPECT_EQ(this->part<Viewport>()->renderer()->GetViewport()[2], 1.0);
+  EXPECT_EQ(this->part<app::view::Viewport>()->renderer()->GetViewport()[2], 1.0);
   // Lines on the surface may differ, because their depth offset depends on the view.
   const QImage again = this->picture();
   ASSERT_EQ(again.size(), alone.size());
@@ -636,7 +637,7 @@ TEST_F(PosingWindow, ADistanceIsSeenInTheColorsOfItsScale)
 {
   this->open();
   this->apply_pose(this->bent());
-  Viewport* viewport = this->part<Viewport>();
+  app::view::Viewport* viewport = this->part<app::view::Viewport>();
   this->option<QComboBox>("pose.compared")
     ->setCurrentIndex(1 + static_cast<int>(PoseMethod::dual_quaternion));
   const auto colors = [&]() -> vtkDataArray*
@@ -663,7 +664,7 @@ TEST_F(PosingWindow, ADistanceIsSeenInTheColorsOfItsScale)
   };
   expect_distances("bent");
   EXPECT_GT(colors()->GetRange()[1], 0.5);
-  EXPECT_EQ(viewport->legend(Viewport::weight_legend), "Distance (% of diagonal)");
+  EXPECT_EQ(viewport->legend(app::view::Viewport::weight_legend), "Distance (% of diagonal)");
   this->apply_pose(this->bent(0.5));
   expect_distances("less bent");
   // Shapes that coincide have one color, the lowest of the color scale.
@@ -673,12 +674,12 @@ TEST_F(PosingWindow, ADistanceIsSeenInTheColorsOfItsScale)
   // Other panels use their own coloring. The coloring by distance returns with the panel, and ends
   // with the comparison.
   this->apply_pose(this->bent());
-  this->part<PanelColumn>()->show_panel(PanelColumn::weights);
-  EXPECT_NE(viewport->legend(Viewport::weight_legend), "Distance (% of diagonal)");
-  this->part<PanelColumn>()->show_panel(PanelColumn::bind_and_pose);
+  this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::weights);
+  EXPECT_NE(viewport->legend(app::view::Viewport::weight_legend), "Distance (% of diagonal)");
+  this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::bind_and_pose);
   expect_distances("back");
   this->option<QComboBox>("pose.compared")->setCurrentIndex(0);
-  EXPECT_EQ(viewport->legend(Viewport::weight_legend), QString());
+  EXPECT_EQ(viewport->legend(app::view::Viewport::weight_legend), QString());
   EXPECT_FALSE(viewport->surface_actor()->GetMapper()->GetScalarVisibility());
 }
 
@@ -687,7 +688,7 @@ TEST(DistanceScale, EndsAtARoundNumberThatHoldsTheLargest)
   for (const auto& [largest, end] : { std::pair(0.0, 0.01), std::pair(0.01, 0.01),
          std::pair(0.011, 0.02), std::pair(0.3, 0.5), std::pair(2.0, 2.0), std::pair(7.0, 10.0) })
   {
-    EXPECT_DOUBLE_EQ(distance_scale(largest), end) << largest;
+    EXPECT_DOUBLE_EQ(app::posing::distance_scale(largest), end) << largest;
   }
 }
 
@@ -703,7 +704,7 @@ TEST_F(PosingWindow, WhereTwoShapesCoincideThereAreNoSpeckles)
   this->option<QButtonGroup>("pose.ghost")->button(0)->click();
   this->option<QComboBox>("pose.compared")
     ->setCurrentIndex(1 + static_cast<int>(PoseMethod::dual_quaternion));
-  ASSERT_EQ(this->posing()->ghost()->place(), PoseGhost::over);
+  ASSERT_EQ(this->posing()->ghost()->place(), app::posing::PoseGhost::over);
   EXPECT_LE(blue(), alone + 20) << "at rest";
   // After a rotation by 180 degrees about its axis, the pole coincides with itself, but every point
   // has another position.
@@ -728,22 +729,22 @@ TEST_F(PosingWindow, NoMethodIsComparedWithItself)
   };
   EXPECT_FALSE(is_enabled(PoseMethod::linear_blend));
   EXPECT_TRUE(is_enabled(PoseMethod::dual_quaternion));
-  SimulatedUser user(&this->window);
+  app::tour::SimulatedUser user(&this->window);
   EXPECT_NE(user.choose("pose.compared", 1), QString());
   ASSERT_EQ(user.choose("pose.compared", 2), QString());
-  EXPECT_EQ(this->posing()->ghost()->place(), PoseGhost::in_colors);
+  EXPECT_EQ(this->posing()->ghost()->place(), app::posing::PoseGhost::in_colors);
   // If the method of the shape is also chosen as the compared method, nothing can be compared. A
   // label says this.
   user.press_key("2");
   ASSERT_EQ(this->window.document()->number("pose.method"), 1);
-  EXPECT_EQ(this->posing()->ghost()->place(), PoseGhost::hidden);
+  EXPECT_EQ(this->posing()->ghost()->place(), app::posing::PoseGhost::hidden);
   EXPECT_FALSE(is_enabled(PoseMethod::dual_quaternion));
   EXPECT_TRUE(is_enabled(PoseMethod::linear_blend));
   const auto labels = this->panel()->findChildren<QLabel*>();
   EXPECT_TRUE(std::any_of(labels.begin(), labels.end(),
     [](const QLabel* label) { return label->text().contains("choose another method"); }));
   user.trigger("edit.undo");
-  EXPECT_EQ(this->posing()->ghost()->place(), PoseGhost::in_colors);
+  EXPECT_EQ(this->posing()->ghost()->place(), app::posing::PoseGhost::in_colors);
 }
 
 TEST_F(PosingWindow, TheBodyMovesPausesAndReplaysBitByBit)
@@ -812,8 +813,8 @@ TEST_F(PosingWindow, RestAndPoseAreOneKeyApart)
 TEST_F(PosingWindow, TypedValuesMoveTheSelectedHandle)
 {
   this->open();
-  this->part<SidePanel>()->select_handle(3);
-  HandleFields* fields = this->part<SidePanel>()->fields();
+  this->part<app::handles::SidePanel>()->select_handle(3);
+  app::posing::HandleFields* fields = this->part<app::handles::SidePanel>()->fields();
   const int steps = this->window.document()->history()->count();
   fields->field(4)->setValue(40.0);
   EXPECT_EQ(this->window.document()->history()->count(), steps + 1);
@@ -840,14 +841,14 @@ TEST_F(PosingWindow, TypedValuesTakeTheChildrenAlong)
 {
   this->list[1].parent = 3;
   this->open();
-  this->part<SidePanel>()->select_handle(3);
-  HandleFields* fields = this->part<SidePanel>()->fields();
+  this->part<app::handles::SidePanel>()->select_handle(3);
+  app::posing::HandleFields* fields = this->part<app::handles::SidePanel>()->fields();
   fields->field(4)->setValue(40.0);
   const Pose pose = this->window.document()->pose();
   EXPECT_EQ(pose[1].transform, pose[3].transform);
   EXPECT_EQ(pose[0].transform, identity_affine());
   // The fields of a child handle show numbers relative to its parent.
-  this->part<SidePanel>()->select_handle(1);
+  this->part<app::handles::SidePanel>()->select_handle(1);
   EXPECT_EQ(fields->field(4)->value(), 0.0);
   fields->field(2)->setValue(0.5);
   EXPECT_EQ(fields->field(2)->value(), 0.5);
@@ -858,9 +859,9 @@ TEST_F(PosingWindow, TheWheelTurnsNothingButTheFieldWithTheFocus)
 {
   this->open();
   QApplication::setActiveWindow(&this->window);
-  this->part<SidePanel>()->select_handle(3);
-  QDoubleSpinBox* field = this->part<SidePanel>()->fields()->field(1);
-  auto* methods = this->part<SidePanel>()->findChild<QComboBox*>();
+  this->part<app::handles::SidePanel>()->select_handle(3);
+  QDoubleSpinBox* field = this->part<app::handles::SidePanel>()->fields()->field(1);
+  auto* methods = this->part<app::handles::SidePanel>()->findChild<QComboBox*>();
   ASSERT_NE(methods, nullptr);
   const int steps = this->window.document()->history()->count();
   const int method = methods->currentIndex();
@@ -889,7 +890,7 @@ TEST_F(PosingWindow, TheWheelTurnsNothingButTheFieldWithTheFocus)
   }
   EXPECT_NEAR(field->value(), -0.05, 1e-12);
   EXPECT_EQ(this->window.document()->history()->count(), steps + 1);
-  this->part<Viewport>()->setFocus();
+  this->part<app::view::Viewport>()->setFocus();
   field->setFocus();
   send_wheel(field);
   EXPECT_EQ(this->window.document()->history()->count(), steps + 2);
@@ -915,7 +916,7 @@ TEST_F(PosingWindow, PosesAreStoredNamedAppliedAndBlended)
   EXPECT_EQ(this->points(), posed);
   EXPECT_EQ(this->window.document()->history()->count(), steps + 1);
   this->window.document()->history()->undo();
-  auto* slider = this->part<SidePanel>()->poses()->findChild<QSlider*>();
+  auto* slider = this->part<app::handles::SidePanel>()->poses()->findChild<QSlider*>();
   slider->setValue(50);
   const Points half = this->points();
   slider->setValue(100);
@@ -963,7 +964,7 @@ TEST_F(PosingWindow, CurvesOfTheRestShapeAreSeenWithItAlone)
   const auto are_curves_visible = [this]
   {
     this->render();
-    vtkActorCollection* actors = this->part<Viewport>()->renderer()->GetActors();
+    vtkActorCollection* actors = this->part<app::view::Viewport>()->renderer()->GetActors();
     for (int k = 0; k < actors->GetNumberOfItems(); ++k)
     {
       auto* actor = vtkActor::SafeDownCast(actors->GetItemAsObject(k));
@@ -996,7 +997,7 @@ TEST_F(PosingWindow, BonesMayBeHeldByAnEnd)
   const auto texts = [this]
   {
     QStringList all;
-    const HandleTree* tree = this->part<SidePanel>()->handle_list();
+    const app::handles::HandleTree* tree = this->part<app::handles::SidePanel>()->handle_list();
     for (int k = 0; k < static_cast<int>(tree->rows().size()); ++k)
     {
       all << tree->item(k)->text(0);
@@ -1011,15 +1012,15 @@ TEST_F(PosingWindow, BonesMayBeHeldByAnEnd)
   EXPECT_TRUE(texts().contains("lower   (tail)")) << texts().join(", ").toStdString();
   EXPECT_TRUE(texts().contains("upper   (ends)"));
   // Modes tail and ends can be chosen for bones only.
-  for (QComboBox* box : this->part<SidePanel>()->findChildren<QComboBox*>())
+  for (QComboBox* box : this->part<app::handles::SidePanel>()->findChildren<QComboBox*>())
   {
     const int ends = box->findText("a bone's ends");
     if (ends >= 0)
     {
-      this->part<SidePanel>()->select_handle(3);
+      this->part<app::handles::SidePanel>()->select_handle(3);
       EXPECT_EQ(box->currentIndex(), ends);
       EXPECT_TRUE(box->model()->flags(box->model()->index(ends, 0)) & Qt::ItemIsEnabled);
-      this->part<SidePanel>()->select_handle(0);
+      this->part<app::handles::SidePanel>()->select_handle(0);
       EXPECT_FALSE(box->model()->flags(box->model()->index(ends, 0)) & Qt::ItemIsEnabled);
       return;
     }
@@ -1046,13 +1047,13 @@ TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
   Pose folded(2);
   folded[1].transform.leftCols<3>() = Eigen::AngleAxisd(EIGEN_PI, Vec3::UnitZ()).toRotationMatrix();
   this->apply_pose(folded);
-  this->part<SidePanel>()->select_handle(1);
-  this->part<SidePanel>()->show_column(1);
+  this->part<app::handles::SidePanel>()->select_handle(1);
+  this->part<app::handles::SidePanel>()->show_column(1);
   this->render();
-  auto* fields = this->window.findChild<HandleFields*>();
+  auto* fields = this->window.findChild<app::posing::HandleFields*>();
   EXPECT_TRUE(fields->layer()->isVisible());
   // Viewed from the front, the color in the overlap is that of the half in front.
-  vtkRenderer* renderer = this->part<Viewport>()->renderer();
+  vtkRenderer* renderer = this->part<app::view::Viewport>()->renderer();
   const auto is_right_in_front = [&]
   {
     EXPECT_TRUE(this->wait_until_settled());
@@ -1063,7 +1064,7 @@ TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
     camera->SetViewUp(0, 1, 0);
     renderer->ResetCameraClippingRange();
     this->render();
-    const QImage seen = this->part<Viewport>()->grabFramebuffer();
+    const QImage seen = this->part<app::view::Viewport>()->grabFramebuffer();
     const QColor middle = seen.pixelColor(seen.width() / 2, seen.height() / 2);
     return middle.blue() > middle.red() + 20; // deep blue is weight 1, pale is weight 0
   };
@@ -1091,14 +1092,14 @@ TEST_F(PosingWindow, LayersSayWhatIsInFrontInAPlane)
   this->option<QCheckBox>("pose.moves")->setChecked(false);
   // A session stores the layers with the handles. Solid shapes have no layers.
   this->open();
-  this->part<SidePanel>()->select_handle(1);
+  this->part<app::handles::SidePanel>()->select_handle(1);
   EXPECT_FALSE(fields->layer()->isVisible());
 }
 
 TEST_F(PosingWindow, KeyFramesPlayAndScrubThroughTheirKeys)
 {
   this->open();
-  KeyStrip* strip = this->strip();
+  app::posing::KeyStrip* strip = this->strip();
   Q_EMIT strip->set_key_requested();
   Q_EMIT strip->scrubbed(0.5);
   Q_EMIT strip->scrub_ended();
@@ -1131,7 +1132,7 @@ TEST_F(PosingWindow, KeyFramesPlayAndScrubThroughTheirKeys)
   EXPECT_FALSE(this->posing()->pose_manager()->is_playing());
   // The mouse drags a key to another time.
   this->render();
-  KeyTrack* track = strip->track();
+  app::posing::KeyTrack* track = strip->track();
   const int y = track->height() - 12;
   const QPoint from(track->pixel(0.5), y), to(track->pixel(1.0), y);
   const auto send = [&](QEvent::Type type, const QPoint& at, Qt::MouseButton pressed)
@@ -1149,7 +1150,7 @@ TEST_F(PosingWindow, KeyFramesPlayAndScrubThroughTheirKeys)
 TEST_F(PosingWindow, AnimationsAreExportedAndReadBack)
 {
   this->open(2);
-  KeyStrip* strip = this->strip();
+  app::posing::KeyStrip* strip = this->strip();
   Q_EMIT strip->set_key_requested();
   Q_EMIT strip->scrubbed(0.25);
   this->apply_pose(this->bent());
@@ -1206,11 +1207,11 @@ TEST_F(PosingWindow, AnimationsAreExportedAndReadBack)
     EXPECT_GT(std::filesystem::file_size(write("bow.gif")), 1000U);
     // A film is encoded in the background. The export can be canceled, and it does not change the
     // shown shape.
-    SequenceExport* film = this->posing()->sequence_export();
+    app::posing::SequenceExport* film = this->posing()->sequence_export();
     const std::string unwanted = folder / "unwanted.webm";
     int taken = 0;
     QObject listener;
-    QObject::connect(film, &SequenceExport::rendering_finished, &listener,
+    QObject::connect(film, &app::posing::SequenceExport::rendering_finished, &listener,
       [film, &taken]
       {
         ++taken;
@@ -1240,7 +1241,7 @@ TEST_F(PosingWindow, NoTextIsClipped)
 {
   this->open();
   this->window.show_timeline(true);
-  this->part<SidePanel>()->select_handle(3);
+  this->part<app::handles::SidePanel>()->select_handle(3);
   for (const char* section : { "▸  Compare", "▸  Motion", "▸  Poses" })
   {
     this->find<QPushButton>(QString::fromUtf8(section))->click();
@@ -1253,10 +1254,10 @@ TEST_F(PosingWindow, NoTextIsClipped)
     for (const QSize& size : { QSize(900, 600), QSize(1280, 800) })
     {
       this->resize(size);
-      test::expect_unclipped_items(this->part<SidePanel>());
-      test::expect_unclipped_buttons(this->part<SidePanel>());
+      test::expect_unclipped_items(this->part<app::handles::SidePanel>());
+      test::expect_unclipped_buttons(this->part<app::handles::SidePanel>());
       test::expect_unclipped_buttons(this->strip());
-      for (QLabel* label : this->part<SidePanel>()->findChildren<QLabel*>())
+      for (QLabel* label : this->part<app::handles::SidePanel>()->findChildren<QLabel*>())
       {
         if (label->isVisible())
         {
@@ -1267,7 +1268,7 @@ TEST_F(PosingWindow, NoTextIsClipped)
             << label->width();
         }
       }
-      auto* scroll = this->part<SidePanel>()->findChild<QScrollArea*>();
+      auto* scroll = this->part<app::handles::SidePanel>()->findChild<QScrollArea*>();
       EXPECT_LE(scroll->widget()->minimumSizeHint().width(), scroll->viewport()->width());
     }
   }
@@ -1279,7 +1280,7 @@ TEST_F(PosingWindow, EveryStateHasAPictureOfItsOwn)
 {
   const char* folder = std::getenv("BINDPOSE_PICTURES");
   this->open(5);
-  this->part<SidePanel>()->select_handle(3);
+  this->part<app::handles::SidePanel>()->select_handle(3);
   QImage last;
   const auto save = [&](const char* name)
   {
@@ -1336,7 +1337,7 @@ TEST_F(PosingWindow, AScrubEndsADragWithoutAButton)
   this->open();
   Q_EMIT this->strip()->set_key_requested();
   this->apply_pose(this->bent());
-  vtkHandleSetWidget* widget = this->part<Viewport>()->handle_widget();
+  vtkHandleSetWidget* widget = this->part<app::view::Viewport>()->handle_widget();
   widget->GetHandleSetRepresentation()->SetSelectedHandle(0);
   ASSERT_TRUE(widget->StartDrag(vtkHandleSetRepresentation::GIZMO_MOVE));
   ASSERT_TRUE(widget->IsDragging());
@@ -1371,17 +1372,17 @@ protected:
     for (int frame = 0; frame < frames; ++frame)
     {
       pose[0].transform.col(3) = Vec3(0, 0, -0.01 * frame);
-      set_pose(this->part<Viewport>()->handle_widget()->GetHandles(), cells, pose);
+      set_pose(this->part<app::view::Viewport>()->handle_widget()->GetHandles(), cells, pose);
       QElapsedTimer clock;
       clock.start();
       this->posing()->handles_moved();
       const double solved = 1e-6 * static_cast<double>(clock.nsecsElapsed());
       clock.restart();
       this->posing()->draw();
-      this->part<RotationView>()->update();
+      this->part<app::posing::RotationView>()->update();
       const double drawn = 1e-6 * static_cast<double>(clock.nsecsElapsed());
-      this->part<Viewport>()->renderWindow()->Render();
-      const double uploaded = 1e-3 * this->part<Viewport>()->upload_microseconds();
+      this->part<app::view::Viewport>()->renderWindow()->Render();
+      const double uploaded = 1e-3 * this->part<app::view::Viewport>()->upload_microseconds();
       const Report& report = this->posing()->deformation()->status().report;
       solve += 1e3 * report.number("seconds.solve", 0.0) / frames;
       skin += 1e3 * report.number("seconds.skin", 0.0) / frames;

@@ -73,7 +73,7 @@ protected:
   }
   void choose(const char* option, const QVariant& value)
   {
-    const QString refused = SimulatedUser(&this->window).choose(option, value);
+    const QString refused = app::tour::SimulatedUser(&this->window).choose(option, value);
     EXPECT_TRUE(refused.isEmpty()) << refused.toStdString();
     this->render();
   }
@@ -189,17 +189,17 @@ TEST_F(ProbeWindow, ASurfaceIsReadWithTriangleVertexAndPlace)
     ++reading_count;
   }
   EXPECT_EQ(reading_count, 4);
-  EXPECT_TRUE(this->part<Probe>()->label()->isVisible());
+  EXPECT_TRUE(this->part<app::window::Probe>()->label()->isVisible());
   this->hover(QPoint(3, 3));
   EXPECT_EQ(this->window.reading(), QString());
-  EXPECT_FALSE(this->part<Probe>()->label()->isVisible());
+  EXPECT_FALSE(this->part<app::window::Probe>()->label()->isVisible());
 }
 
 TEST_F(ProbeWindow, WeightsAreReadWithTheStrongestHandle)
 {
   this->open_ball();
   this->set_ball_weights();
-  this->part<PanelColumn>()->show_panel(PanelColumn::weights);
+  this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::weights);
   this->choose("weights.column", 2);
   for (const Vec3& position : { Vec3(0.3, 0.2, 0.7), Vec3(0.5, -0.3, -0.4), Vec3(0.1, 0.6, 0.3) })
   {
@@ -219,7 +219,7 @@ TEST_F(ProbeWindow, WeightsAreReadWithTheStrongestHandle)
   EXPECT_NE(this->read(Vec3(0.3, 0.2, 0.7)).find("Handle: top"), std::string::npos)
     << this->window.reading().toStdString();
   // If the surface has no colors, the reading still contains the strongest handle.
-  this->part<PanelColumn>()->show_panel(PanelColumn::bind_and_pose);
+  this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::bind_and_pose);
   this->render();
   EXPECT_NE(this->read(Vec3(0.3, 0.2, 0.7)).find("Strongest handle: top"), std::string::npos);
 }
@@ -232,7 +232,7 @@ TEST_F(ProbeWindow, RotationsAreReadWithTheirCluster)
   EXPECT_EQ(this->read(position).find("otation"), std::string::npos);
   this->window.set_method(static_cast<int>(PoseMethod::reduced_arap));
   this->choose("pose.rotations", 1);
-  const PoseRotations* found = this->part<Posing>()->rotations();
+  const PoseRotations* found = this->part<app::posing::Posing>()->rotations();
   ASSERT_NE(found, nullptr);
   const std::string text = this->read(position);
   SurfaceReading reading;
@@ -254,7 +254,7 @@ TEST_F(ProbeWindow, TheDifferenceOfTwoMethodsIsReadInUnitsAndShares)
   this->window.document()->set_pose(pose, "turn");
   this->choose("pose.compared", 2); // dual quaternion skinning, which preserves the waist
   this->render();
-  Posing* posing = this->part<Posing>();
+  app::posing::Posing* posing = this->part<app::posing::Posing>();
   const Points& a = posing->points();
   const Points& b = posing->compared_deformation()->points();
   ASSERT_EQ(a.rows(), b.rows());
@@ -286,7 +286,7 @@ TEST_F(ProbeWindow, ATetIsReadWithItsQuality)
   this->resize({ 1000, 700 });
   this->choose("tets.shown", true);
   this->choose("tets.colors", 1); // this coloring is not by quality
-  TetView* view = this->part<TetInspection>()->tet_view();
+  app::tets::TetView* view = this->part<app::tets::TetInspection>()->tet_view();
   ASSERT_TRUE(view->is_shown());
   const PointsView points = view->input().points.view();
   const TetsView tets = view->input().tets.view();
@@ -341,11 +341,11 @@ TEST_F(ProbeWindow, ASliceOfWeightsIsRead)
   grid->GetPointData()->AddArray(to_weights_array("Weights", weights, handles));
   ASSERT_TRUE(this->window.set_mesh(grid, "weighted"));
   this->resize({ 1000, 700 });
-  this->part<PanelColumn>()->show_panel(PanelColumn::weights);
+  this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::weights);
   this->choose("weights.column", 2);
   this->choose("weights.slice", true);
-  ASSERT_TRUE(this->part<WeightInspection>()->view()->is_sliced());
-  const double z = this->part<WeightInspection>()->view()->plane()->position();
+  ASSERT_TRUE(this->part<app::weights::WeightInspection>()->view()->is_sliced());
+  const double z = this->part<app::weights::WeightInspection>()->view()->plane()->position();
   for (const double y : { 0.1, 0.25, 0.8 })
   {
     const std::string text = this->read(Vec3(0.02, y, z));
@@ -361,13 +361,13 @@ TEST_F(ProbeWindow, ADefectIsReadByItsName)
 {
   const TriangleMesh cube = test::open_cube();
   ASSERT_TRUE(this->window.set_mesh(to_polydata(cube.points, cube.triangles), "cube"));
-  this->part<PanelColumn>()->show_panel(PanelColumn::tets);
-  this->part<TetInspection>()->show_defects();
-  ASSERT_TRUE(
-    test::wait_for([this] { return this->part<TetInspection>()->defect_view().is_shown(); }));
+  this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::tets);
+  this->part<app::tets::TetInspection>()->show_defects();
+  ASSERT_TRUE(test::wait_for(
+    [this] { return this->part<app::tets::TetInspection>()->defect_view().is_shown(); }));
   this->resize({ 1000, 700 });
   // Take the ends of an edge with only one triangle.
-  vtkPolyData* defects = this->part<TetInspection>()->defect_view().defects();
+  vtkPolyData* defects = this->part<app::tets::TetInspection>()->defect_view().defects();
   ASSERT_GT(defects->GetNumberOfLines(), 0);
   const Vec3 a(defects->GetPoint(defects->GetCell(0)->GetPointId(0)));
   const Vec3 b(defects->GetPoint(defects->GetCell(0)->GetPointId(1)));
@@ -386,8 +386,8 @@ TEST_F(ProbeWindow, NothingIsReadDuringADragAndTheLabelKeepsOutOfTheWay)
   EXPECT_EQ(this->window.reading(), QString());
   this->mouse(QEvent::MouseButtonRelease, middle + QPoint(3, 2), Qt::LeftButton, Qt::NoButton);
   EXPECT_FALSE(this->read(middle).empty());
-  const QLabel* label = this->part<Probe>()->label();
-  EXPECT_TRUE(this->part<Viewport>()->rect().contains(label->geometry()));
+  const QLabel* label = this->part<app::window::Probe>()->label();
+  EXPECT_TRUE(this->part<app::view::Viewport>()->rect().contains(label->geometry()));
   EXPECT_LE(label->sizeHint().width(), label->width());
   if (const char* folder = std::getenv("BINDPOSE_PICTURES"))
   {
@@ -397,13 +397,13 @@ TEST_F(ProbeWindow, NothingIsReadDuringADragAndTheLabelKeepsOutOfTheWay)
   // Zoom in until the ball also covers the corner of the view.
   for (int k = 0; k < 12; ++k)
   {
-    SimulatedUser(&this->window).wheel(middle, 1.0);
+    app::tour::SimulatedUser(&this->window).wheel(middle, 1.0);
   }
   this->render();
-  const QPoint corner(this->part<Viewport>()->width() - 40, 20);
+  const QPoint corner(this->part<app::view::Viewport>()->width() - 40, 20);
   EXPECT_FALSE(this->read(corner).empty());
   EXPECT_FALSE(label->geometry().contains(corner));
-  EXPECT_TRUE(this->part<Viewport>()->rect().contains(label->geometry()));
+  EXPECT_TRUE(this->part<app::view::Viewport>()->rect().contains(label->geometry()));
 }
 
 TEST_F(ProbeWindow, AMoveIsCheapOnAHundredThousandTriangles)
@@ -416,7 +416,7 @@ TEST_F(ProbeWindow, AMoveIsCheapOnAHundredThousandTriangles)
   for (int k = 0; k < 40; ++k)
   {
     this->hover(this->pixel(Vec3::Zero()) + QPoint(3 * k - 60, k));
-    durations.push_back(this->part<Probe>()->milliseconds());
+    durations.push_back(this->part<app::window::Probe>()->milliseconds());
   }
   std::sort(durations.begin(), durations.end());
   std::printf("a move over 100,000 triangles: %.2f ms (median), %.2f ms (least)\n",

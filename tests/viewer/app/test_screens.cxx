@@ -62,9 +62,13 @@ protected:
     this->observer_->SetClientData(&this->frames);
     this->observer_->SetCallback(
       [](vtkObject*, unsigned long, void* number, void*) { ++*static_cast<int*>(number); });
-    this->part<Viewport>()->renderer()->AddObserver(vtkCommand::EndEvent, this->observer_);
+    this->part<app::view::Viewport>()->renderer()->AddObserver(
+      vtkCommand::EndEvent, this->observer_);
   }
-  ~Screens() override { this->part<Viewport>()->renderer()->RemoveObserver(this->observer_); }
+  ~Screens() override
+  {
+    this->part<app::view::Viewport>()->renderer()->RemoveObserver(this->observer_);
+  }
 
   /// Open files of the tours, so that all panels have data.
   void open_everything()
@@ -73,7 +77,7 @@ protected:
     {
       ASSERT_TRUE(this->window.open(QString(BINDPOSE_TOURS "/data/") + name)) << name;
     }
-    ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
+    ASSERT_TRUE(wait_for([this] { return app::tour::is_idle(&this->window); }));
   }
 
   static void expect_nothing_clipped(QWidget* in, const std::string& where)
@@ -83,7 +87,8 @@ protected:
     test::expect_unclipped_items(in);
     for (const QLabel* label : in->findChildren<QLabel*>())
     {
-      if (!label->isVisible() || label->text().isEmpty() || qobject_cast<const ElidedLabel*>(label))
+      if (!label->isVisible() || label->text().isEmpty() ||
+        qobject_cast<const app::parts::ElidedLabel*>(label))
       {
         continue;
       }
@@ -121,7 +126,7 @@ private:
 
 TEST_F(Screens, AnOpeningIsOnePictureHoweverOftenThePictureIsResized)
 {
-  ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
+  ASSERT_TRUE(wait_for([this] { return app::tour::is_idle(&this->window); }));
   this->frames = 0;
   ASSERT_TRUE(this->window.set_mesh(ball_with_equal_weights(3, 2), "ball"));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
@@ -130,7 +135,7 @@ TEST_F(Screens, AnOpeningIsOnePictureHoweverOftenThePictureIsResized)
   EXPECT_GE(this->frames, 1);
   EXPECT_LE(this->frames, 2);
   // With software rendering, the view is rendered once more, with antialiased edges.
-  ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
+  ASSERT_TRUE(wait_for([this] { return app::tour::is_idle(&this->window); }));
   QElapsedTimer clock;
   clock.start();
   wait_for([&clock] { return clock.elapsed() > 700; });
@@ -147,7 +152,7 @@ TEST_F(Screens, WhatIsSeenAtRestHasSmoothEdges)
   QElapsedTimer clock;
   clock.start();
   wait_for([&clock] { return clock.elapsed() > 1000; });
-  const QImage seen = this->part<Viewport>()->grabFramebuffer();
+  const QImage seen = this->part<app::view::Viewport>()->grabFramebuffer();
   EXPECT_EQ(seen, this->picture()); // the view has all samples of antialiasing
 }
 
@@ -181,7 +186,7 @@ TEST_F(Screens, ABackupAfterABindDoesNotHoldTheWindow)
   surface->GetPointData()->RemoveArray("Weights");
   ASSERT_TRUE(this->window.set_mesh(surface, "ball"));
   ASSERT_TRUE(this->window.set_handles(to_polydata(handles), "points"));
-  ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
+  ASSERT_TRUE(wait_for([this] { return app::tour::is_idle(&this->window); }));
   this->window.document()->begin_bind();
   // The bound surface is the same mesh, with arrays as a bind returns them.
   const auto bound = vtkSmartPointer<vtkPolyData>::New();
@@ -190,11 +195,11 @@ TEST_F(Screens, ABackupAfterABindDoesNotHoldTheWindow)
     ball_with_equal_weights(6, 20)->GetPointData()->GetArray("Weights"));
   QElapsedTimer clock;
   clock.start();
-  const double cpu = thread_cpu_seconds();
+  const double cpu = app::tour::thread_cpu_seconds();
   ASSERT_TRUE(this->window.document()->set_bound(bound, nullptr));
   const double shown = 1e-6 * static_cast<double>(clock.nsecsElapsed());
-  const double shown_cpu = 1e3 * (thread_cpu_seconds() - cpu);
-  Autosave* autosave = this->part<WindowSessions>()->autosave();
+  const double shown_cpu = 1e3 * (app::tour::thread_cpu_seconds() - cpu);
+  Autosave* autosave = this->part<app::window::WindowSessions>()->autosave();
   autosave->begin_save();
   EXPECT_TRUE(autosave->is_saving()) << "the caller goes on";
   double longest = 0.0;
@@ -231,30 +236,31 @@ TEST_F(Screens, ABackupAfterABindDoesNotHoldTheWindow)
 TEST_F(Screens, NoLabelIsClippedInAnyPanel)
 {
   this->open_everything();
-  for (const Appearance look : { Appearance::light, Appearance::dark })
+  for (const app::parts::Appearance look :
+    { app::parts::Appearance::light, app::parts::Appearance::dark })
   {
-    choose_appearance(*qApp, look);
+    app::parts::choose_appearance(*qApp, look);
     for (const QSize& size : { QSize(1280, 800), QSize(900, 700) })
     {
       this->resize(size);
       for (int panel = 0; panel < 4; ++panel)
       {
-        this->part<PanelColumn>()->show_panel(panel);
+        this->part<app::window::PanelColumn>()->show_panel(panel);
         QApplication::processEvents();
         expect_nothing_clipped(
           &this->window, "panel " + std::to_string(panel) + " at " + std::to_string(size.width()));
       }
     }
   }
-  choose_appearance(*qApp, Appearance::system);
+  app::parts::choose_appearance(*qApp, app::parts::Appearance::system);
 }
 
 TEST_F(Screens, TheStatusLineEndsInDotsWhereItHasNoRoomAndTheTipSaysAll)
 {
   this->open_everything();
   this->window.set_method(2);
-  ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
-  const ElidedLabel* line = this->part<ElidedLabel>();
+  ASSERT_TRUE(wait_for([this] { return app::tour::is_idle(&this->window); }));
+  const app::parts::ElidedLabel* line = this->part<app::parts::ElidedLabel>();
   // The width is a floating-point number, because a text may end within a pixel of the available
   // space.
   const auto width = [line](const QString& text)
@@ -268,7 +274,7 @@ TEST_F(Screens, TheStatusLineEndsInDotsWhereItHasNoRoomAndTheTipSaysAll)
     EXPECT_TRUE(fits || line->shown().endsWith(QStringLiteral("…")));
     EXPECT_TRUE(fits || size.width() == 900) << line->text().toStdString();
   }
-  ElidedLabel small;
+  app::parts::ElidedLabel small;
   small.setText("Reduced ARAP, 3 iterations");
   EXPECT_EQ(small.minimumSizeHint().width(), 0) << "a long sentence never widens the window";
   small.setFont(line->font());
@@ -289,7 +295,7 @@ TEST_F(Screens, EveryButtonListAndFieldOfThePanelsHasATip)
 {
   this->open_everything();
   QStringList widgets_without_tip;
-  for (const QWidget* widget : this->part<PanelColumn>()->findChildren<QWidget*>())
+  for (const QWidget* widget : this->part<app::window::PanelColumn>()->findChildren<QWidget*>())
   {
     const bool chooses = qobject_cast<const QComboBox*>(widget) ||
       qobject_cast<const QCheckBox*>(widget) || widget->objectName() == "segment";

@@ -164,13 +164,14 @@ TEST_F(SessionWindow, ASessionOpensAsItWasSaved)
   this->pose();
   this->window.set_method(1);
   this->window.set_mode(0, 2);
-  this->part<Viewport>()->renderer()->GetActiveCamera()->Azimuth(33);
+  this->part<app::view::Viewport>()->renderer()->GetActiveCamera()->Azimuth(33);
   const double top = maximum_z(this->window.shown());
   double camera[3];
-  this->part<Viewport>()->renderer()->GetActiveCamera()->GetPosition(camera);
-  ASSERT_TRUE(this->part<WindowSessions>()->write(to_qt(this->folder / "work.bindpose")));
+  this->part<app::view::Viewport>()->renderer()->GetActiveCamera()->GetPosition(camera);
+  ASSERT_TRUE(
+    this->part<app::window::WindowSessions>()->write(to_qt(this->folder / "work.bindpose")));
 
-  MainWindow other;
+  app::window::MainWindow other;
   other.show();
   ASSERT_TRUE(other.open(to_qt(this->folder / "work.bindpose"))) << other.error().toStdString();
   EXPECT_TRUE(other.is_bound());
@@ -181,7 +182,8 @@ TEST_F(SessionWindow, ASessionOpensAsItWasSaved)
   for (int k = 0; k < 3; ++k)
   {
     EXPECT_EQ(
-      other.findChild<Viewport*>()->renderer()->GetActiveCamera()->GetPosition()[k], camera[k]);
+      other.findChild<app::view::Viewport*>()->renderer()->GetActiveCamera()->GetPosition()[k],
+      camera[k]);
   }
   EXPECT_TRUE(other.windowTitle().startsWith("work")) << other.windowTitle().toStdString();
 }
@@ -193,7 +195,8 @@ TEST_F(SessionWindow, TheTitleMarksWhatIsNotSaved)
   EXPECT_FALSE(this->window.isWindowModified()); // nothing has been changed yet
   this->pose();
   EXPECT_TRUE(this->window.isWindowModified());
-  ASSERT_TRUE(this->part<WindowSessions>()->write(to_qt(this->folder / "work.bindpose")));
+  ASSERT_TRUE(
+    this->part<app::window::WindowSessions>()->write(to_qt(this->folder / "work.bindpose")));
   EXPECT_FALSE(this->window.isWindowModified());
   EXPECT_TRUE(this->window.windowTitle().startsWith("work"));
   this->window.document()->history()->undo();
@@ -209,7 +212,8 @@ TEST_F(SessionWindow, ClosingAsksWhenSomethingWouldBeLost)
   this->pose();
   EXPECT_TRUE(this->close_and_answer(QMessageBox::Cancel, &closed));
   EXPECT_FALSE(closed);
-  ASSERT_TRUE(this->part<WindowSessions>()->write(to_qt(this->folder / "work.bindpose")));
+  ASSERT_TRUE(
+    this->part<app::window::WindowSessions>()->write(to_qt(this->folder / "work.bindpose")));
   this->window.set_mode(0, 1);
   EXPECT_TRUE(this->close_and_answer(QMessageBox::Save, &closed));
   EXPECT_TRUE(closed);
@@ -255,7 +259,8 @@ TEST_F(SessionWindow, AMissingInputIsSaidAndCanBeLocated)
   write_mesh(column_data(false), this->folder / "column.off");
   ASSERT_TRUE(this->window.open(to_qt(this->folder / "column.off")));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
-  ASSERT_TRUE(this->part<WindowSessions>()->write(to_qt(this->folder / "work.bindpose")));
+  ASSERT_TRUE(
+    this->part<app::window::WindowSessions>()->write(to_qt(this->folder / "work.bindpose")));
   std::filesystem::rename(this->folder / "column.off", this->folder / "moved.off");
   ASSERT_TRUE(this->window.open(to_qt(this->folder / "work.bindpose")));
   EXPECT_EQ(
@@ -268,7 +273,7 @@ TEST_F(SessionWindow, AMissingInputIsSaidAndCanBeLocated)
 TEST_F(SessionWindow, PanelsFollowUndo)
 {
   this->open_files();
-  this->part<PanelColumn>()->show_panel(PanelColumn::weights);
+  this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::weights);
   auto* isolines = this->find<QCheckBox>("Isolines");
   ASSERT_TRUE(isolines->isChecked());
   isolines->click();
@@ -288,19 +293,20 @@ TEST_F(SessionWindow, ABindIsOneStepAndIsBackedUpAtOnce)
 {
   ASSERT_TRUE(this->window.set_mesh(column_data(false), "column"));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
-  EXPECT_EQ(this->part<WindowSessions>()->autosave()->path(), "");
-  this->part<Binding>()->start();
+  EXPECT_EQ(this->part<app::window::WindowSessions>()->autosave()->path(), "");
+  this->part<app::weights::Binding>()->start();
   QElapsedTimer clock;
   clock.start();
-  while (this->part<Binding>()->is_running() && clock.elapsed() < 60000)
+  while (this->part<app::weights::Binding>()->is_running() && clock.elapsed() < 60000)
   {
     QApplication::processEvents(QEventLoop::AllEvents, 20);
   }
   ASSERT_TRUE(this->window.is_bound());
   EXPECT_EQ(this->window.document()->history()->undoText(), "bind");
-  ASSERT_TRUE(this->part<WindowSessions>()->autosave()->wait().ok());
+  ASSERT_TRUE(this->part<app::window::WindowSessions>()->autosave()->wait().ok());
   Session backup;
-  ASSERT_TRUE(read_session(this->part<WindowSessions>()->autosave()->path(), backup).ok());
+  ASSERT_TRUE(
+    read_session(this->part<app::window::WindowSessions>()->autosave()->path(), backup).ok());
   EXPECT_TRUE(backup.work.surface->GetPointData()->HasArray("Weights"));
   this->window.document()->history()->undo();
   EXPECT_FALSE(this->window.is_bound());
@@ -324,10 +330,10 @@ TEST_F(SessionWindow, ARebindIsOfferedAndPosingGoesOn)
   EXPECT_EQ(this->bar("rebind_bar")->message(), "");
   this->window.document()->history()->redo();
   button_of(this->bar("rebind_bar"), "Bind again")->click();
-  EXPECT_TRUE(this->part<Binding>()->is_running());
+  EXPECT_TRUE(this->part<app::weights::Binding>()->is_running());
   EXPECT_EQ(this->bar("rebind_bar")->message(), "");
-  this->part<Binding>()->cancel();
-  while (this->part<Binding>()->is_running())
+  this->part<app::weights::Binding>()->cancel();
+  while (this->part<app::weights::Binding>()->is_running())
   {
     QApplication::processEvents(QEventLoop::AllEvents, 20);
   }
@@ -368,12 +374,12 @@ TEST_F(SessionWindow, AKilledProgramsWorkIsOfferedAndRestored)
     QThread::msleep(50);
   }
   ASSERT_TRUE(is_saved());
-  this->part<WindowSessions>()->offer_recovery(root);
+  this->part<app::window::WindowSessions>()->offer_recovery(root);
   EXPECT_EQ(this->bar("recovery_bar")->message(), ""); // the other program is still running
   program.kill();
   program.waitForFinished();
 
-  this->part<WindowSessions>()->offer_recovery(root);
+  this->part<app::window::WindowSessions>()->offer_recovery(root);
   EXPECT_NE(this->bar("recovery_bar")->message().indexOf("did not close properly"), -1);
   EXPECT_TRUE(this->window.is_empty()); // work is restored only after the user has agreed
   button_of(this->bar("recovery_bar"), "&Restore")->click();
@@ -392,7 +398,7 @@ TEST_F(SessionWindow, DiscardedWorkIsGoneAndTheNextIsOffered)
     QDir().mkpath(root + '/' + name);
     ASSERT_TRUE(SessionFile().write(root + '/' + name + "/work.bindpose", Session()).ok());
   }
-  this->part<WindowSessions>()->offer_recovery(root);
+  this->part<app::window::WindowSessions>()->offer_recovery(root);
   for (int left = 2; left > 0; --left)
   {
     EXPECT_EQ(QDir(root).entryList(QDir::Dirs | QDir::NoDotAndDotDot).size(), left);
@@ -459,7 +465,7 @@ TEST_F(SessionWindow, TetsRigsHandlesWeightsVolumesAndSessionsCanBeDropped)
   EXPECT_EQ(this->window.error(), "");
   EXPECT_NE(this->window.document()->work().mesh_tets, nullptr);
   // This file is a session.
-  ASSERT_TRUE(this->part<WindowSessions>()->write(to_qt(this->folder / "s.bindpose")));
+  ASSERT_TRUE(this->part<app::window::WindowSessions>()->write(to_qt(this->folder / "s.bindpose")));
   this->drop(this->folder / "s.bindpose");
   EXPECT_NE(this->window.document()->work().mesh_tets, nullptr);
   // This file has an unknown type.
@@ -499,7 +505,8 @@ TEST_F(SessionWindow, APictureIsCutOutShownAndBent)
   const int red_pixels = this->count(rest, red);
   EXPECT_GT(red_pixels, 5000);
   EXPECT_NEAR(this->count(rest, blue), red_pixels, 0.1 * red_pixels);
-  EXPECT_TRUE(this->part<Viewport>()->renderer()->GetActiveCamera()->GetParallelProjection() != 0);
+  EXPECT_TRUE(
+    this->part<app::view::Viewport>()->renderer()->GetActiveCamera()->GetParallelProjection() != 0);
   const double* bounds = this->window.document()->surface()->GetBounds();
   EXPECT_NEAR(bounds[1] - bounds[0], 48, 2);
   // The texture moves with the shape: after a rotation by 180 degrees about the center, blue is on
@@ -537,10 +544,12 @@ TEST_F(SessionWindow, APictureIsCutOutShownAndBent)
   EXPECT_NEAR(whole_bounds[1] - whole_bounds[0], 64, 1e-6);
   this->window.document()->history()->undo();
   this->window.document()->history()->undo();
-  EXPECT_FALSE(this->part<Viewport>()->renderer()->GetActiveCamera()->GetParallelProjection() != 0);
+  EXPECT_FALSE(
+    this->part<app::view::Viewport>()->renderer()->GetActiveCamera()->GetParallelProjection() != 0);
   // A session also restores the texture.
   this->window.document()->history()->redo();
-  ASSERT_TRUE(this->part<WindowSessions>()->write(to_qt(this->folder / "flag.bindpose")));
+  ASSERT_TRUE(
+    this->part<app::window::WindowSessions>()->write(to_qt(this->folder / "flag.bindpose")));
   ASSERT_TRUE(this->window.open(to_qt(this->folder / "flag.bindpose")));
   EXPECT_GT(this->count(this->picture(), red), 5000);
 }
@@ -558,8 +567,8 @@ TEST_F(SessionWindow, AnUncleanSurfaceIsToldAboutAndShown)
   EXPECT_NE(this->bar("note_bar")->message().indexOf("4"), -1) // the four edges around the hole
     << this->bar("note_bar")->message().toStdString();
   button_of(this->bar("note_bar"), "Show where")->click();
-  EXPECT_EQ(this->part<PanelColumn>()->shown_panel(), PanelColumn::tets);
-  EXPECT_TRUE(this->part<TetInspection>()->defect_view().is_shown());
+  EXPECT_EQ(this->part<app::window::PanelColumn>()->shown_panel(), app::window::PanelColumn::tets);
+  EXPECT_TRUE(this->part<app::tets::TetInspection>()->defect_view().is_shown());
 }
 
 TEST_F(SessionWindow, WhatAFileLosesIsToldAbout)
@@ -623,7 +632,7 @@ TEST_F(SessionWindow, BarsAreNeverClippedAndNeverWidenTheWindow)
 {
   this->window.resize(900, 600);
   QApplication::processEvents();
-  for (NoticeBar* bar :
+  for (app::parts::NoticeBar* bar :
     { this->bar("recovery_bar"), this->bar("note_bar"), this->bar("rebind_bar") })
   {
     bar->offer(QString("A sentence that is so long that no line of this window holds it, with a "
@@ -633,7 +642,7 @@ TEST_F(SessionWindow, BarsAreNeverClippedAndNeverWidenTheWindow)
   }
   this->render();
   EXPECT_EQ(this->window.width(), 900);
-  for (NoticeBar* bar :
+  for (app::parts::NoticeBar* bar :
     { this->bar("recovery_bar"), this->bar("note_bar"), this->bar("rebind_bar") })
   {
     test::expect_unclipped_buttons(bar);

@@ -54,8 +54,8 @@ protected:
     this->render();
   }
 
-  Posing* posing() { return this->part<Posing>(); }
-  vtkRenderer* left() { return this->part<Viewport>()->renderer(); }
+  app::posing::Posing* posing() { return this->part<app::posing::Posing>(); }
+  vtkRenderer* left() { return this->part<app::view::Viewport>()->renderer(); }
   vtkRenderer* right() { return this->posing()->ghost()->renderer(); }
   vtkCamera* camera() { return this->left()->GetActiveCamera(); }
   void choose(const char* option, int value)
@@ -126,7 +126,7 @@ protected:
     return count;
   }
 
-  SimulatedUser user{ &this->window };
+  app::tour::SimulatedUser user{ &this->window };
 };
 } // namespace
 
@@ -138,7 +138,7 @@ TEST_F(SplitWindow, EachShapeFitsIntoItsHalf)
   const Vec3 view_direction(this->camera()->GetDirectionOfProjection());
   this->compare();
   this->beside();
-  ASSERT_TRUE(this->part<Viewport>()->is_split());
+  ASSERT_TRUE(this->part<app::view::Viewport>()->is_split());
   this->expect_both_in_view("beside");
   EXPECT_NEAR(this->extent_left(), whole, 0.12) << "as much of the half as of the whole";
   EXPECT_LT((Vec3(this->camera()->GetDirectionOfProjection()) - view_direction).norm(), 1e-9);
@@ -151,11 +151,11 @@ TEST_F(SplitWindow, EachShapeFitsIntoItsHalf)
   // After the comparison ends, the view is as before.
   this->user.trigger("edit.undo");
   this->render();
-  EXPECT_FALSE(this->part<Viewport>()->is_split());
+  EXPECT_FALSE(this->part<app::view::Viewport>()->is_split());
   EXPECT_LT((Vec3(this->camera()->GetPosition()) - before).norm(), 1e-6);
   this->user.trigger("edit.redo");
   this->render();
-  EXPECT_TRUE(this->part<Viewport>()->is_split());
+  EXPECT_TRUE(this->part<app::view::Viewport>()->is_split());
   this->expect_both_in_view("redo");
 }
 
@@ -197,7 +197,7 @@ TEST_F(SplitWindow, AZoomStaysAndAShiftedShapeComesBack)
   EXPECT_NEAR(this->extent_left(), detail, 1e-6 * detail);
   // A shape that is completely visible but not centered is still completely visible after the view
   // is split.
-  this->part<Viewport>()->reset_view();
+  this->part<app::view::Viewport>()->reset_view();
   this->camera()->Dolly(0.5);
   vtkCamera* camera = this->camera();
   const Vec3 right = Vec3(camera->GetDirectionOfProjection()).cross(Vec3(camera->GetViewUp()));
@@ -216,9 +216,9 @@ TEST_F(SplitWindow, HandlesAreTakenHoldOfInTheLeftHalfAlone)
   this->beside();
   QPoint position;
   ASSERT_EQ(this->user.find_handle_position("right", 0.0, position), QString());
-  const int half = this->part<Viewport>()->width() / 2;
+  const int half = this->part<app::view::Viewport>()->width() / 2;
   ASSERT_LT(position.x(), half);
-  auto* drawn = this->part<Viewport>()->handle_widget()->GetHandleSetRepresentation();
+  auto* drawn = this->part<app::view::Viewport>()->handle_widget()->GetHandleSetRepresentation();
   // At the same position in the right half there is no handle.
   this->hover(position + QPoint(half, 0));
   EXPECT_LT(drawn->GetHoveredHandle(), 0);

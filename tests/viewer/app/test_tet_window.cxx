@@ -80,11 +80,14 @@ bool is_cut(const QColor& c)
 class TetWindow : public test::WindowTest
 {
 protected:
-  TetInspection* tet_inspection() { return this->part<TetInspection>(); }
-  TetView* view() { return this->tet_inspection()->tet_view(); }
-  TetPanel* panel() { return this->part<PanelColumn>()->tet(); }
+  app::tets::TetInspection* tet_inspection() { return this->part<app::tets::TetInspection>(); }
+  app::tets::TetView* view() { return this->tet_inspection()->tet_view(); }
+  app::tets::TetPanel* panel() { return this->part<app::window::PanelColumn>()->tet(); }
   /// Return a row of the panel: row 0 is the position of the cut, row 1 the size of the tets.
-  ValueRow* row(int which) { return this->panel()->findChildren<ValueRow*>()[which]; }
+  app::parts::ValueRow* row(int which)
+  {
+    return this->panel()->findChildren<app::parts::ValueRow*>()[which];
+  }
   QComboBox* list(const QString& item)
   {
     for (QComboBox* box : this->panel()->findChildren<QComboBox*>())
@@ -99,10 +102,10 @@ protected:
   }
   void choose(const QString& item) { this->list(item)->setCurrentText(item); }
 
-  void open(vtkDataSet* mesh, int panel = PanelColumn::tets)
+  void open(vtkDataSet* mesh, int panel = app::window::PanelColumn::tets)
   {
     ASSERT_TRUE(this->window.set_mesh(mesh, "mesh")) << this->window.error().toStdString();
-    this->part<PanelColumn>()->show_panel(panel);
+    this->part<app::window::PanelColumn>()->show_panel(panel);
     this->render();
   }
 
@@ -129,7 +132,7 @@ TEST_F(TetWindow, TetsAreOpenedCutOpen)
   EXPECT_EQ(this->view()->shown_count(),
     count_tets_behind(mesh, this->view()->plane()->origin(), this->view()->plane()->normal()));
   EXPECT_LT(this->view()->shown_count(), mesh.tets.rows());
-  EXPECT_FALSE(this->part<Viewport>()->surface_actor()->GetVisibility());
+  EXPECT_FALSE(this->part<app::view::Viewport>()->surface_actor()->GetVisibility());
   const QImage image = this->picture();
   // The plane is in the middle of a layer of cells. The exposed facets are at most one cell away
   // from it.
@@ -156,18 +159,20 @@ TEST_F(TetWindow, TheFirstCutShowsTheInside)
   for (const Vec3& size : { Vec3(0.5, 1, 1), Vec3(1, 1, 0.5), Vec3(0.3, 1, 0.6) })
   {
     const TetMesh mesh = test::tet_box(5, 5, 5, -size, size);
-    MainWindow other;
+    app::window::MainWindow other;
     other.show();
     ASSERT_TRUE(other.set_mesh(to_tet_grid(mesh), "box"));
     QApplication::processEvents();
-    other.findChild<Viewport*>()->renderWindow()->Render();
-    const TetView* tets = other.findChild<TetInspection*>()->tet_view();
+    other.findChild<app::view::Viewport*>()->renderWindow()->Render();
+    const app::tets::TetView* tets = other.findChild<app::tets::TetInspection*>()->tet_view();
     const Vec3 normal = tets->plane()->normal();
-    const Vec3 view_direction(
-      other.findChild<Viewport*>()->renderer()->GetActiveCamera()->GetDirectionOfProjection());
+    const Vec3 view_direction(other.findChild<app::view::Viewport*>()
+                                ->renderer()
+                                ->GetActiveCamera()
+                                ->GetDirectionOfProjection());
     EXPECT_EQ(std::abs(normal.dot(view_direction)), view_direction.cwiseAbs().maxCoeff())
       << size.transpose();
-    EXPECT_GT(count(other.findChild<Viewport*>()->grabFramebuffer(), is_cut), 5000)
+    EXPECT_GT(count(other.findChild<app::view::Viewport*>()->grabFramebuffer(), is_cut), 5000)
       << size.transpose();
     // The cut is through the middle, so about half of the tets remain.
     const double shown_tets = static_cast<double>(tets->shown_count());
@@ -179,10 +184,10 @@ TEST_F(TetWindow, TheFirstCutShowsTheInside)
 TEST_F(TetWindow, AChosenCutStaysForOtherTets)
 {
   this->open(to_tet_grid(test::tet_box(3, 3, 3, Vec3(-1, -1, -0.5), Vec3(1, 1, 0.5))));
-  EXPECT_EQ(this->view()->plane()->orientation(), PlaneHandle::z_axis);
+  EXPECT_EQ(this->view()->plane()->orientation(), app::view::PlaneHandle::z_axis);
   this->find<QPushButton>("Y")->click();
   this->open(to_tet_grid(test::tet_box(3, 3, 3, Vec3(-0.5, -1, -1), Vec3(0.5, 1, 1))));
-  EXPECT_EQ(this->view()->plane()->orientation(), PlaneHandle::y_axis);
+  EXPECT_EQ(this->view()->plane()->orientation(), app::view::PlaneHandle::y_axis);
 }
 
 /// Tets and defects are shown at the positions of the shape at rest, so the shape is not posed at
@@ -201,28 +206,29 @@ TEST_F(TetWindow, NothingIsPosedAroundTetsAtRest)
   weights->SetComponentName(0, "bottom");
   weights->SetComponentName(1, "top");
   grid->GetPointData()->AddArray(weights);
-  this->open(grid, PanelColumn::bind_and_pose);
+  this->open(grid, app::window::PanelColumn::bind_and_pose);
   ASSERT_TRUE(this->window.set_handles(test::two_points(), "points"));
   ASSERT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
   Pose pose(2);
   pose[0].transform.col(3) = pose[1].transform.col(3) = Vec3(0, 1, 0);
   this->window.document()->set_pose(pose, "up");
-  auto* handles = this->part<Viewport>()->handle_widget()->GetHandleSetRepresentation();
+  auto* handles = this->part<app::view::Viewport>()->handle_widget()->GetHandleSetRepresentation();
   const auto heights = [&]
   {
     double shape[6];
-    this->part<Viewport>()->drawn()->GetBounds(shape);
+    this->part<app::view::Viewport>()->drawn()->GetBounds(shape);
     return std::pair(shape[3], handles->GetBounds()[3]);
   };
   const auto expect = [&](bool rest, const char* when)
   {
     EXPECT_NEAR(heights().first, rest ? 1.0 : 2.0, 1e-9) << when;
     EXPECT_NEAR(heights().second, rest ? 0.0 : 1.0, 1e-9) << when;
-    EXPECT_EQ(this->part<Viewport>()->state_name().startsWith("Rest shape: "), rest) << when;
+    EXPECT_EQ(this->part<app::view::Viewport>()->state_name().startsWith("Rest shape: "), rest)
+      << when;
     EXPECT_NEAR(this->window.document()->pose()[1].transform(1, 3), 1.0, 1e-12) << when;
   };
   expect(false, "posed");
-  this->part<PanelColumn>()->show_panel(PanelColumn::tets);
+  this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::tets);
   ASSERT_GT(this->view()->shown_count(), 0);
   expect(true, "tets");
   // While the shape is at rest, handles cannot be dragged. A click selects them.
@@ -233,14 +239,14 @@ TEST_F(TetWindow, NothingIsPosedAroundTetsAtRest)
   this->find<QCheckBox>("Show its defects")->setChecked(true);
   this->wait();
   expect(true, "defects");
-  this->part<PanelColumn>()->show_panel(PanelColumn::bind_and_pose);
+  this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::bind_and_pose);
   expect(false, "the panel Pose");
-  this->part<Posing>()->set_rest_view(true);
+  this->part<app::posing::Posing>()->set_rest_view(true);
   expect(true, "T");
-  this->part<Posing>()->set_rest_view(false);
+  this->part<app::posing::Posing>()->set_rest_view(false);
   expect(false, "T again");
   // Exports and the undo history use the posed shape, even while tets or defects are shown at rest.
-  this->part<PanelColumn>()->show_panel(PanelColumn::tets);
+  this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::tets);
   double bounds[6];
   this->window.shown()->GetBounds(bounds);
   EXPECT_NEAR(bounds[3], 2.0, 1e-9);
@@ -364,7 +370,7 @@ TEST_F(TetWindow, DefectsAreThoseOfTheFilter)
   filter->SetInputData(surface);
   filter->Update();
   this->open(surface);
-  EXPECT_EQ(this->part<Viewport>()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
+  EXPECT_EQ(this->part<app::view::Viewport>()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
   this->find<QCheckBox>("Show its defects")->setChecked(true);
   this->wait();
   vtkPolyData* shown = this->tet_inspection()->defect_view().defects();
@@ -393,7 +399,7 @@ TEST_F(TetWindow, DefectsAreThoseOfTheFilter)
     << "components, as bindpose info counts them";
   EXPECT_EQ(seen[8].count, 1);
   EXPECT_NE(this->find<QLabel>(QString("%1 defects").arg(all)), nullptr);
-  EXPECT_LT(this->part<Viewport>()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
+  EXPECT_LT(this->part<app::view::Viewport>()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
   // The edge of the opening is green in the view.
   const QColor edge = this->picture().pixelColor(this->pixel(Vec3(-1.0, -0.4, 1.0)));
   EXPECT_GT(edge.green(), edge.red() + 30);
@@ -404,7 +410,7 @@ TEST_F(TetWindow, DefectsAreThoseOfTheFilter)
   ASSERT_NE(this->tet_inspection()->defect_view().defects(), nullptr);
   EXPECT_EQ(this->tet_inspection()->defect_view().defects()->GetNumberOfCells(), 0);
   this->find<QPushButton>("Pose")->click();
-  EXPECT_EQ(this->part<Viewport>()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
+  EXPECT_EQ(this->part<app::view::Viewport>()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
 }
 
 TEST_F(TetWindow, TetsAreMadeAndAFailureKeepsThem)
@@ -437,21 +443,21 @@ TEST_F(TetWindow, TetsAreMadeAndAFailureKeepsThem)
   ASSERT_TRUE(this->window.set_mesh(to_polydata(ball.points, ball.triangles), "ball"));
   this->wait();
   EXPECT_EQ(this->view()->tets(), nullptr);
-  EXPECT_TRUE(this->part<Viewport>()->surface_actor()->GetVisibility());
+  EXPECT_TRUE(this->part<app::view::Viewport>()->surface_actor()->GetVisibility());
 }
 
 TEST_F(TetWindow, ThePanelDecidesWhatIsSeen)
 {
   this->open(to_tet_grid(make_tet_box(3)));
-  EXPECT_FALSE(this->part<Viewport>()->surface_actor()->GetVisibility());
+  EXPECT_FALSE(this->part<app::view::Viewport>()->surface_actor()->GetVisibility());
   this->find<QPushButton>("Pose")->click();
-  EXPECT_TRUE(this->part<SidePanel>()->isVisible());
-  EXPECT_TRUE(this->part<Viewport>()->surface_actor()->GetVisibility());
+  EXPECT_TRUE(this->part<app::handles::SidePanel>()->isVisible());
+  EXPECT_TRUE(this->part<app::view::Viewport>()->surface_actor()->GetVisibility());
   EXPECT_EQ(this->view()->shown_count(), 0);
   this->find<QPushButton>("Tets")->click();
   EXPECT_GT(this->view()->shown_count(), 0);
   this->find<QCheckBox>("Show the tets")->setChecked(false);
-  EXPECT_TRUE(this->part<Viewport>()->surface_actor()->GetVisibility());
+  EXPECT_TRUE(this->part<app::view::Viewport>()->surface_actor()->GetVisibility());
   EXPECT_FALSE(this->find<QCheckBox>("Cut the tets")->isEnabled());
 }
 
@@ -463,7 +469,7 @@ TEST_F(TetWindow, NoTextOfTheTetPanelIsClipped)
   for (const QSize& size : { QSize(900, 680), QSize(1280, 800), QSize(1920, 1080) })
   {
     this->resize(size);
-    test::expect_unclipped_buttons(this->part<PanelColumn>());
+    test::expect_unclipped_buttons(this->part<app::window::PanelColumn>());
     for (QCheckBox* box : this->panel()->findChildren<QCheckBox*>())
     {
       EXPECT_LE(box->sizeHint().width(), box->width()) << box->text().toStdString();

@@ -17,15 +17,15 @@ std::string with_steps(const std::string& steps)
   return R"({"tour": {"schema": 1}, "steps": [)" + steps + "]}";
 }
 
-Status parse_steps(const std::string& steps, Tour& tour)
+Status parse_steps(const std::string& steps, app::tour::Tour& tour)
 {
-  return parse_tour(with_steps(steps), tour);
+  return app::tour::parse_tour(with_steps(steps), tour);
 }
 
 /// Return the error message for a tour with these steps.
 std::string refusal(const std::string& steps)
 {
-  Tour tour;
+  app::tour::Tour tour;
   const Status status = parse_steps(steps, tour);
   EXPECT_EQ(status.code, StatusCode::invalid_input) << steps;
   EXPECT_EQ(status.message.find('\n'), std::string::npos);
@@ -35,8 +35,8 @@ std::string refusal(const std::string& steps)
 
 TEST(Tour, EveryVerbIsRead)
 {
-  Tour tour;
-  const Status status = parse_tour(R"({
+  app::tour::Tour tour;
+  const Status status = app::tour::parse_tour(R"({
     "tour": {"schema": 1, "name": "all", "size": [900, 600], "seconds": 12.5},
     "steps": [
       {"open": "a.off", "say": "Open it."},
@@ -78,7 +78,7 @@ TEST(Tour, EveryVerbIsRead)
   EXPECT_EQ(s[3].expected, std::vector<double>{ 0.5 });
   EXPECT_TRUE(s[4].expects_bool);
   EXPECT_EQ(s[4].expected, std::vector<double>{ 0.0 });
-  EXPECT_EQ(s[7].button, TourButton::right);
+  EXPECT_EQ(s[7].button, app::tour::TourButton::right);
   EXPECT_TRUE(s[7].shift && s[7].ctrl && !s[7].alt);
   EXPECT_EQ(s[7].place.position, (std::array<double, 2>{ 0.25, 0.75 }));
   EXPECT_EQ(s[8].place.handle, "top");
@@ -92,16 +92,16 @@ TEST(Tour, EveryVerbIsRead)
   EXPECT_EQ(s[16].size, (std::array<int, 2>{ 1000, 700 }));
   EXPECT_EQ(s[17].text, "bind");
   EXPECT_EQ(s[19].seconds, 0.25);
-  EXPECT_EQ(s[20].part, TourPart::view);
+  EXPECT_EQ(s[20].part, app::tour::TourPart::view);
   EXPECT_EQ(s[23].width, 320);
-  EXPECT_EQ(s[23].part, TourPart::window);
+  EXPECT_EQ(s[23].part, app::tour::TourPart::window);
   EXPECT_EQ(s[24].text, "free");
   EXPECT_EQ(s[25].tolerance, 1e-3);
   EXPECT_EQ(s[26].expected.size(), 3u);
   EXPECT_TRUE(s[27].expects_text);
-  EXPECT_EQ(s[29].relation, TourRelation::at_least);
-  EXPECT_EQ(s[31].relation, TourRelation::as_at);
-  for (const TourStep& step : s)
+  EXPECT_EQ(s[29].relation, app::tour::TourRelation::at_least);
+  EXPECT_EQ(s[31].relation, app::tour::TourRelation::as_at);
+  for (const app::tour::TourStep& step : s)
   {
     EXPECT_NE(to_string(step.verb), nullptr);
   }
@@ -165,31 +165,35 @@ TEST(Tour, AMistakeIsOneSentenceThatNamesTheStep)
 
 TEST(Tour, AnotherFileIsRefused)
 {
-  Tour tour;
-  EXPECT_EQ(parse_tour("no JSON", tour).message, "expected a JSON object");
-  EXPECT_EQ(parse_tour("[1]", tour).message, "expected a JSON object");
-  EXPECT_EQ(parse_tour(R"({"steps": []})", tour).message,
+  app::tour::Tour tour;
+  EXPECT_EQ(app::tour::parse_tour("no JSON", tour).message, "expected a JSON object");
+  EXPECT_EQ(app::tour::parse_tour("[1]", tour).message, "expected a JSON object");
+  EXPECT_EQ(app::tour::parse_tour(R"({"steps": []})", tour).message,
     "expected a tour: {\"tour\": {\"schema\": 1}, \"steps\": […]}");
-  EXPECT_EQ(parse_tour(R"({"tour": {"schema": 2}, "steps": []})", tour).message,
+  EXPECT_EQ(app::tour::parse_tour(R"({"tour": {"schema": 2}, "steps": []})", tour).message,
     "the schema of the tour is 2; expected 1");
-  EXPECT_EQ(parse_tour(R"({"tour": {"schema": 1, "speed": 2}, "steps": []})", tour).message,
-    "the head of a tour cannot have the field \"speed\"");
   EXPECT_EQ(
-    parse_tour(R"({"tour": {"schema": 1, "view": [760, 10]}, "steps": [{"wait": 0}]})", tour)
-      .message,
+    app::tour::parse_tour(R"({"tour": {"schema": 1, "speed": 2}, "steps": []})", tour).message,
+    "the head of a tour cannot have the field \"speed\"");
+  EXPECT_EQ(app::tour::parse_tour(
+              R"({"tour": {"schema": 1, "view": [760, 10]}, "steps": [{"wait": 0}]})", tour)
+              .message,
     "the head of the tour: a size must be two numbers from 200 to 8000");
-  ASSERT_TRUE(
-    parse_tour(R"({"tour": {"schema": 1, "view": [760, 560]}, "steps": [{"wait": 0}]})", tour)
-      .ok());
+  ASSERT_TRUE(app::tour::parse_tour(
+    R"({"tour": {"schema": 1, "view": [760, 560]}, "steps": [{"wait": 0}]})", tour)
+                .ok());
   EXPECT_EQ(tour.view, (std::array<int, 2>{ 760, 560 }));
-  EXPECT_EQ(parse_tour(R"({"tour": {"schema": 1}, "stops": []})", tour).message,
+  EXPECT_EQ(app::tour::parse_tour(R"({"tour": {"schema": 1}, "stops": []})", tour).message,
     "a tour cannot have the field \"stops\"");
-  EXPECT_EQ(read_tour("/no/such.json", tour).message, "tour '/no/such.json' cannot be read");
+  EXPECT_EQ(
+    app::tour::read_tour("/no/such.json", tour).message, "tour '/no/such.json' cannot be read");
 
   const test::Folder folder;
   const std::string bad = folder.write("bad.json", with_steps(R"({"wait": "x"})"));
-  EXPECT_EQ(read_tour(bad, tour).message.find("tour '" + bad + "': step 1 (wait): "), 0u);
-  ASSERT_TRUE(read_tour(folder.write("walk.json", with_steps(R"({"wait": 0})")), tour).ok());
+  EXPECT_EQ(
+    app::tour::read_tour(bad, tour).message.find("tour '" + bad + "': step 1 (wait): "), 0u);
+  ASSERT_TRUE(
+    app::tour::read_tour(folder.write("walk.json", with_steps(R"({"wait": 0})")), tour).ok());
   EXPECT_EQ(tour.name, "walk"); // without a name in the text, the name of the file is used
 }
 
@@ -200,8 +204,8 @@ TEST(Tour, BrokenTextsNeverCrash)
     R"({"open": "a.off"}, {"drag": {"handle": "top", "offset": [1, 2]}, "to": [0.1, 0.2], "moves": 3},
        {"screenshot": "one"}, {"check": "x", "as_at": "one", "tolerance": 0.1})");
   std::mt19937 random(7);
-  Tour tour;
-  ASSERT_TRUE(parse_tour(valid_text, tour).ok());
+  app::tour::Tour tour;
+  ASSERT_TRUE(app::tour::parse_tour(valid_text, tour).ok());
   int refused = 0;
   for (int round = 0; round < 20000; ++round)
   {
@@ -214,7 +218,7 @@ TEST(Tour, BrokenTextsNeverCrash)
                         : text.replace(position, 1, 1,
                             random_characters[random() % (sizeof(random_characters) - 1)]);
     }
-    const Status status = parse_tour(text, tour);
+    const Status status = app::tour::parse_tour(text, tour);
     refused += !status.ok();
     EXPECT_TRUE(status.ok() || !status.message.empty());
   }

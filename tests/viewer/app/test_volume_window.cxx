@@ -100,12 +100,15 @@ vtkSmartPointer<vtkPolyData> square_boundary()
 class VolumeWindow : public test::WindowTest
 {
 protected:
-  VolumeView* view() { return this->part<VolumeView>(); }
-  VolumePanel* panel() { return this->part<PanelColumn>()->volume(); }
+  app::volume::VolumeView* view() { return this->part<app::volume::VolumeView>(); }
+  app::volume::VolumePanel* panel() { return this->part<app::window::PanelColumn>()->volume(); }
 
   /// Return a row of the panel: row 0 is the position of the slice, row 1 the level of the
   /// isosurface.
-  ValueRow* row(int which) { return this->panel()->findChildren<ValueRow*>()[which]; }
+  app::parts::ValueRow* row(int which)
+  {
+    return this->panel()->findChildren<app::parts::ValueRow*>()[which];
+  }
 
   void open(const vtkSmartPointer<vtkImageData>& image = volume())
   {
@@ -148,7 +151,7 @@ TEST_F(VolumeWindow, ASliceHasTheColorsOfItsValues)
 {
   this->open();
   EXPECT_TRUE(this->panel()->isVisible());
-  EXPECT_FALSE(this->part<SidePanel>()->isVisible());
+  EXPECT_FALSE(this->part<app::handles::SidePanel>()->isVisible());
   const QImage image = this->picture();
   for (const Vec3& position :
     { Vec3(0.8, 0.1, 0), Vec3(-1.2, 0.3, 0), Vec3(0.2, 0.1, 0), Vec3(-1.3, -1.3, 0) })
@@ -280,29 +283,29 @@ TEST_F(VolumeWindow, ASurfaceAlongWithAVolumeIsSeeThrough)
   const TriangleMesh ball = test::sphere(3, 1.2);
   ASSERT_TRUE(this->window.set_mesh(to_polydata(ball.points, ball.triangles), "ball"));
   this->render();
-  EXPECT_TRUE(this->part<SidePanel>()->isVisible());
-  EXPECT_EQ(this->part<Viewport>()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
+  EXPECT_TRUE(this->part<app::handles::SidePanel>()->isVisible());
+  EXPECT_EQ(this->part<app::view::Viewport>()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
   this->open();
-  EXPECT_LT(this->part<Viewport>()->surface_actor()->GetProperty()->GetOpacity(), 0.5);
+  EXPECT_LT(this->part<app::view::Viewport>()->surface_actor()->GetProperty()->GetOpacity(), 0.5);
   // The surface is see-through: the orange of the slice is visible, and the reading is on the
   // slice.
   const QColor seen = this->picture().pixelColor(this->pixel(Vec3(0.3, 0.1, 0)));
   EXPECT_GT(seen.red(), seen.blue() + 40);
   EXPECT_NE(this->reading_at(Vec3(0.3, 0.1, 0)), QString());
   auto* look = this->panel()->findChild<QComboBox*>("volume.surface_look");
-  look->setCurrentIndex(Viewport::hidden);
-  EXPECT_FALSE(this->part<Viewport>()->surface_actor()->GetVisibility());
-  look->setCurrentIndex(Viewport::edges_only);
-  EXPECT_TRUE(this->part<Viewport>()->surface_actor()->GetVisibility());
+  look->setCurrentIndex(app::view::Viewport::hidden);
+  EXPECT_FALSE(this->part<app::view::Viewport>()->surface_actor()->GetVisibility());
+  look->setCurrentIndex(app::view::Viewport::edges_only);
+  EXPECT_TRUE(this->part<app::view::Viewport>()->surface_actor()->GetVisibility());
   // Both panels are available. After a click on "Close the volume", the surface is shown as before.
   this->find<QPushButton>("Pose")->click();
-  EXPECT_TRUE(this->part<SidePanel>()->isVisible());
+  EXPECT_TRUE(this->part<app::handles::SidePanel>()->isVisible());
   this->find<QPushButton>("Close the volume")->click();
   EXPECT_FALSE(this->panel()->isVisible());
-  EXPECT_TRUE(this->part<SidePanel>()->isVisible());
-  EXPECT_EQ(this->part<Viewport>()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
-  EXPECT_EQ(
-    this->part<Viewport>()->surface_actor()->GetProperty()->GetRepresentation(), VTK_SURFACE);
+  EXPECT_TRUE(this->part<app::handles::SidePanel>()->isVisible());
+  EXPECT_EQ(this->part<app::view::Viewport>()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
+  EXPECT_EQ(this->part<app::view::Viewport>()->surface_actor()->GetProperty()->GetRepresentation(),
+    VTK_SURFACE);
   EXPECT_EQ(this->reading_at(Vec3(0.3, 0.1, 0)).left(8), "Triangle");
 }
 
@@ -328,16 +331,17 @@ TEST_F(VolumeWindow, NoSliceLiesInAPosedShape)
   const auto top = [this]
   {
     double bounds[6];
-    this->part<Viewport>()->drawn()->GetBounds(bounds);
+    this->part<app::view::Viewport>()->drawn()->GetBounds(bounds);
     return bounds[3];
   };
-  auto* handles = this->part<Viewport>()->handle_widget()->GetHandleSetRepresentation();
+  auto* handles = this->part<app::view::Viewport>()->handle_widget()->GetHandleSetRepresentation();
   EXPECT_NEAR(top(), 2.2, 1e-3);
   this->open();
   EXPECT_TRUE(this->view()->is_slice_shown());
   EXPECT_NEAR(top(), 1.2, 1e-3);
   EXPECT_NEAR(handles->GetBounds()[3], 0.0, 1e-9);
-  EXPECT_EQ(this->part<Viewport>()->state_name(), "Rest shape: winding numbers are shown at rest");
+  EXPECT_EQ(this->part<app::view::Viewport>()->state_name(),
+    "Rest shape: winding numbers are shown at rest");
   // The shape is posed again if nothing of the volume is shown. It is also posed in the other
   // panel, which shows neither the slice nor its legend.
   this->find<QCheckBox>("Show the slice")->setChecked(false);
@@ -347,9 +351,9 @@ TEST_F(VolumeWindow, NoSliceLiesInAPosedShape)
   this->find<QPushButton>("Pose")->click();
   EXPECT_NEAR(top(), 2.2, 1e-3);
   EXPECT_NEAR(handles->GetBounds()[3], 1.0, 1e-9);
-  EXPECT_EQ(this->part<Viewport>()->state_name(), QString());
+  EXPECT_EQ(this->part<app::view::Viewport>()->state_name(), QString());
   EXPECT_FALSE(this->view()->is_slice_shown());
-  EXPECT_EQ(this->part<Viewport>()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
+  EXPECT_EQ(this->part<app::view::Viewport>()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
   this->find<QPushButton>("Volume")->click();
   EXPECT_TRUE(this->view()->is_slice_shown());
   EXPECT_NEAR(top(), 1.2, 1e-3);
@@ -373,7 +377,7 @@ TEST_F(VolumeWindow, BoundaryCurvesAreDrawnAndAreNoBones)
     EXPECT_TRUE(is_green(image.pixelColor(this->pixel(position)))) << position.transpose();
   }
   // If no curves were opened, the lines of a mesh with faces are also shown.
-  MainWindow other;
+  app::window::MainWindow other;
   other.show();
   const TriangleMesh ball = test::sphere(2, 0.5);
   const auto mesh = to_polydata(ball.points, ball.triangles);
@@ -383,8 +387,8 @@ TEST_F(VolumeWindow, BoundaryCurvesAreDrawnAndAreNoBones)
   mesh->SetLines(line);
   ASSERT_TRUE(other.set_mesh(mesh, "ball")) << other.error().toStdString();
   QApplication::processEvents();
-  other.findChild<Viewport*>()->renderWindow()->Render();
-  EXPECT_GT(count(other.findChild<Viewport*>()->grabFramebuffer(), is_green), 0);
+  other.findChild<app::view::Viewport*>()->renderWindow()->Render();
+  EXPECT_GT(count(other.findChild<app::view::Viewport*>()->grabFramebuffer(), is_green), 0);
 }
 
 TEST_F(VolumeWindow, WhatIsNoVolumeIsSaidAndTheWorkStays)
@@ -436,7 +440,7 @@ TEST_F(VolumeWindow, NoTextOfTheVolumePanelIsClipped)
   for (const QSize& size : { QSize(900, 600), QSize(1280, 800), QSize(1920, 1080) })
   {
     this->resize(size);
-    test::expect_unclipped_buttons(this->part<PanelColumn>());
+    test::expect_unclipped_buttons(this->part<app::window::PanelColumn>());
     for (QCheckBox* box : this->panel()->findChildren<QCheckBox*>())
     {
       EXPECT_LE(box->sizeHint().width(), box->width()) << box->text().toStdString();

@@ -110,11 +110,11 @@ double hue_distance(const QColor& c, const Rgb& color)
 class WeightWindow : public test::WindowTest
 {
 protected:
-  WeightInspection* weights() { return this->part<WeightInspection>(); }
-  WeightView* view() { return this->weights()->view(); }
-  WeightPanel* panel() { return this->part<PanelColumn>()->weight(); }
-  ValueRow* row() { return this->panel()->findChild<ValueRow*>(); }
-  vtkActor* surface() { return this->part<Viewport>()->surface_actor(); }
+  app::weights::WeightInspection* weights() { return this->part<app::weights::WeightInspection>(); }
+  app::weights::WeightView* view() { return this->weights()->view(); }
+  app::weights::WeightPanel* panel() { return this->part<app::window::PanelColumn>()->weight(); }
+  app::parts::ValueRow* row() { return this->panel()->findChild<app::parts::ValueRow*>(); }
+  vtkActor* surface() { return this->part<app::view::Viewport>()->surface_actor(); }
   QComboBox* list(const QString& item)
   {
     for (QComboBox* candidate : this->panel()->findChildren<QComboBox*>())
@@ -155,7 +155,7 @@ protected:
   void open(vtkDataSet* mesh)
   {
     ASSERT_TRUE(this->window.set_mesh(mesh, "mesh")) << this->window.error().toStdString();
-    this->part<PanelColumn>()->show_panel(PanelColumn::weights);
+    this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::weights);
     this->render();
   }
   template <typename Condition>
@@ -213,7 +213,7 @@ TEST_F(WeightWindow, AllShowsTheStrongestHandle)
   this->choose("All: strongest handle");
   const std::vector<Category> handles = handle_categories({ "bottom", "top" });
   // Viewed from the side, each handle has one half of the view.
-  this->part<Viewport>()->renderer()->GetActiveCamera()->Azimuth(90.0);
+  this->part<app::view::Viewport>()->renderer()->GetActiveCamera()->Azimuth(90.0);
   const QImage image = this->picture();
   int bottom_pixels = 0;
   int top_pixels = 0;
@@ -305,10 +305,10 @@ TEST_F(WeightWindow, ExtremaAreCountedAndSeen)
     }
     return seen;
   };
-  const Vec3 eye(this->part<Viewport>()->renderer()->GetActiveCamera()->GetPosition());
+  const Vec3 eye(this->part<app::view::Viewport>()->renderer()->GetActiveCamera()->GetPosition());
   if (eye.dot(bump) < 0.0)
   {
-    this->part<Viewport>()->renderer()->GetActiveCamera()->Azimuth(180.0);
+    this->part<app::view::Viewport>()->renderer()->GetActiveCamera()->Azimuth(180.0);
   }
   EXPECT_GT(count_red_pixels(), 20);
   this->find<QCheckBox>("Extrema away from handles")->setChecked(false);
@@ -461,11 +461,11 @@ TEST_F(WeightWindow, CertificatesNameTheirMethod)
   // Certificates are also shown in the panel Pose, where the next method is chosen.
   const auto note = [this](const QString& words)
   {
-    const auto labels = this->part<SidePanel>()->findChildren<QLabel*>();
+    const auto labels = this->part<app::handles::SidePanel>()->findChildren<QLabel*>();
     return std::any_of(
       labels.begin(), labels.end(), [&](const QLabel* label) { return label->text() == words; });
   };
-  auto* chosen = this->part<SidePanel>()->findChild<QComboBox*>("bind.method");
+  auto* chosen = this->part<app::handles::SidePanel>()->findChild<QComboBox*>("bind.method");
   EXPECT_TRUE(note("Bound: bounded biharmonic. Optimal to within 2.0e-08."));
   chosen->setCurrentIndex(1);
   EXPECT_TRUE(
@@ -491,8 +491,8 @@ TEST_F(WeightWindow, ABindGivesVolumeRawColumnsAndCertificates)
   this->open(to_polydata(mesh.points, mesh.triangles));
   EXPECT_TRUE(this->says("There are no weights yet."));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
-  this->part<Binding>()->start();
-  this->wait_while([this] { return this->part<Binding>()->is_running(); });
+  this->part<app::weights::Binding>()->start();
+  this->wait_while([this] { return this->part<app::weights::Binding>()->is_running(); });
   ASSERT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
   this->choose("top");
   vtkFieldData* certificate = this->window.shown()->GetFieldData();
@@ -512,8 +512,8 @@ TEST_F(WeightWindow, ABindGivesVolumeRawColumnsAndCertificates)
     EXPECT_LE(values->GetComponent(v, 0), 1.0 + 1e-9);
   }
   // A new bind does not change the choices in the panel.
-  this->part<Binding>()->start();
-  this->wait_while([this] { return this->part<Binding>()->is_running(); });
+  this->part<app::weights::Binding>()->start();
+  this->wait_while([this] { return this->part<app::weights::Binding>()->is_running(); });
   EXPECT_TRUE(this->view()->is_sliced());
   EXPECT_EQ(this->list("top")->currentText(), QString("top"));
   // After the mesh is saved and opened, everything except the tets is restored.
@@ -543,7 +543,8 @@ TEST_F(WeightWindow, IsolinesAndSlicesKnowThePose)
   EXPECT_NEAR(maximum_z(this->view()->isolines()), 0.8, 1e-5);
   // The whole shape moves up by one.
   vtkDataArray* transforms =
-    this->part<Viewport>()->handle_widget()->GetHandles()->GetCellData()->GetArray("Transform");
+    this->part<app::view::Viewport>()->handle_widget()->GetHandles()->GetCellData()->GetArray(
+      "Transform");
   for (int handle : { 0, 1 })
   {
     transforms->SetComponent(handle, 11, 1.0);
@@ -551,18 +552,18 @@ TEST_F(WeightWindow, IsolinesAndSlicesKnowThePose)
   transforms->Modified();
   this->window.set_method(0);
   EXPECT_NEAR(maximum_z(this->view()->isolines()), 1.8, 1e-5);
-  EXPECT_NEAR(maximum_z(this->part<Viewport>()->drawn()), 2.0, 1e-5);
+  EXPECT_NEAR(maximum_z(this->part<app::view::Viewport>()->drawn()), 2.0, 1e-5);
   // While the slice is shown, the shape is at rest.
   this->find<QCheckBox>("Slice through the volume")->setChecked(true);
-  auto* handles = this->part<Viewport>()->handle_widget()->GetHandleSetRepresentation();
-  EXPECT_NEAR(maximum_z(this->part<Viewport>()->drawn()), 1.0, 1e-5);
+  auto* handles = this->part<app::view::Viewport>()->handle_widget()->GetHandleSetRepresentation();
+  EXPECT_NEAR(maximum_z(this->part<app::view::Viewport>()->drawn()), 1.0, 1e-5);
   EXPECT_NEAR(handles->GetBounds()[5], 0.9, 1e-5);
-  EXPECT_EQ(
-    this->part<Viewport>()->state_name(), "Rest shape: the slice of weights is shown at rest");
+  EXPECT_EQ(this->part<app::view::Viewport>()->state_name(),
+    "Rest shape: the slice of weights is shown at rest");
   this->find<QCheckBox>("Slice through the volume")->setChecked(false);
-  EXPECT_NEAR(maximum_z(this->part<Viewport>()->drawn()), 2.0, 1e-5);
+  EXPECT_NEAR(maximum_z(this->part<app::view::Viewport>()->drawn()), 2.0, 1e-5);
   EXPECT_NEAR(handles->GetBounds()[5], 1.9, 1e-5);
-  EXPECT_EQ(this->part<Viewport>()->state_name(), QString());
+  EXPECT_EQ(this->part<app::view::Viewport>()->state_name(), QString());
 }
 
 TEST_F(WeightWindow, WhatCannotBeChosenSaysWhy)
@@ -574,7 +575,7 @@ TEST_F(WeightWindow, WhatCannotBeChosenSaysWhy)
     for (QWidget* widget : this->panel()->findChildren<QWidget*>())
     {
       const bool control = qobject_cast<QAbstractButton*>(widget) ||
-        qobject_cast<QComboBox*>(widget) || qobject_cast<ValueRow*>(widget);
+        qobject_cast<QComboBox*>(widget) || qobject_cast<app::parts::ValueRow*>(widget);
       if (control)
       {
         EXPECT_FALSE(widget->toolTip().isEmpty()) << widget->metaObject()->className();
@@ -617,7 +618,7 @@ TEST_F(WeightWindow, NoTextOfTheWeightPanelIsClipped)
   for (const QSize& size : { QSize(900, 680), QSize(1280, 800), QSize(1920, 1080) })
   {
     this->resize(size);
-    test::expect_unclipped_buttons(this->part<PanelColumn>());
+    test::expect_unclipped_buttons(this->part<app::window::PanelColumn>());
     for (QCheckBox* check : this->panel()->findChildren<QCheckBox*>())
     {
       EXPECT_LE(check->sizeHint().width(), check->width()) << check->text().toStdString();

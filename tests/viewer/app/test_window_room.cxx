@@ -45,7 +45,7 @@ protected:
     {
       ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
     }
-    ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
+    ASSERT_TRUE(wait_for([this] { return app::tour::is_idle(&this->window); }));
     this->render();
   }
   void open_figure()
@@ -54,17 +54,17 @@ protected:
     {
       ASSERT_TRUE(this->window.open(QString(BINDPOSE_TOURS "/data/") + name)) << name;
     }
-    ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
+    ASSERT_TRUE(wait_for([this] { return app::tour::is_idle(&this->window); }));
     this->render();
   }
   QRect viewport_rectangle()
   {
     QApplication::processEvents();
-    const Viewport* viewport = this->part<Viewport>();
+    const app::view::Viewport* viewport = this->part<app::view::Viewport>();
     return { viewport->mapTo(&this->window, QPoint()), viewport->size() };
   }
 
-  SimulatedUser user{ &this->window };
+  app::tour::SimulatedUser user{ &this->window };
 };
 
 /// Return the class names of the parts that are hidden or extend beyond the window.
@@ -95,8 +95,8 @@ TEST_F(WindowRoom, BarsNeitherMoveNorResizeThePicture)
     EXPECT_EQ(this->pixel(Vec3(0, 0, 0.9)), handle_pixel) << what;
   };
   int bars = 0;
-  for (NoticeBar* bar : { this->bar("note_bar"), this->bar("rebind_bar"), this->bar("recovery_bar"),
-         this->bar("export_bar") })
+  for (app::parts::NoticeBar* bar : { this->bar("note_bar"), this->bar("rebind_bar"),
+         this->bar("recovery_bar"), this->bar("export_bar") })
   {
     bar->offer("A sentence that is long enough for two lines in a window of this size, for it goes "
                "on and on, and then some more, so that there are surely two of them.",
@@ -114,9 +114,9 @@ TEST_F(WindowRoom, BarsNeitherMoveNorResizeThePicture)
   expect_view_unchanged("a mode began");
   QList<QRect> bar_rectangles;
   for (const QWidget* bar :
-    { static_cast<QWidget*>(this->part<ErrorBar>()), static_cast<QWidget*>(this->bar("note_bar")),
-      static_cast<QWidget*>(this->bar("rebind_bar")),
-      static_cast<QWidget*>(this->part<Viewport>()->findChild<QFrame*>("mode")) })
+    { static_cast<QWidget*>(this->part<app::parts::ErrorBar>()),
+      static_cast<QWidget*>(this->bar("note_bar")), static_cast<QWidget*>(this->bar("rebind_bar")),
+      static_cast<QWidget*>(this->part<app::view::Viewport>()->findChild<QFrame*>("mode")) })
   {
     const QRect at(bar->mapTo(&this->window, QPoint()), bar->size());
     for (const QRect& other : bar_rectangles)
@@ -125,8 +125,8 @@ TEST_F(WindowRoom, BarsNeitherMoveNorResizeThePicture)
     }
     bar_rectangles << at;
   }
-  for (NoticeBar* bar : { this->bar("note_bar"), this->bar("rebind_bar"), this->bar("recovery_bar"),
-         this->bar("export_bar") })
+  for (app::parts::NoticeBar* bar : { this->bar("note_bar"), this->bar("rebind_bar"),
+         this->bar("recovery_bar"), this->bar("export_bar") })
   {
     bar->hide();
     expect_view_unchanged("a notice left");
@@ -135,10 +135,10 @@ TEST_F(WindowRoom, BarsNeitherMoveNorResizeThePicture)
   this->hover(handle_pixel);
   expect_view_unchanged("a hint came");
   // After a bar is hidden, the view receives mouse events at its position.
-  this->part<ErrorBar>()->hide();
+  this->part<app::parts::ErrorBar>()->hide();
   QApplication::processEvents();
   const QWidget* widget_under_point =
-    this->part<Viewport>()->childAt(this->part<Viewport>()->width() / 2, 60);
+    this->part<app::view::Viewport>()->childAt(this->part<app::view::Viewport>()->width() / 2, 60);
   EXPECT_EQ(widget_under_point, nullptr) << widget_under_point->metaObject()->className();
 }
 
@@ -167,8 +167,8 @@ TEST_F(WindowRoom, TheTimelineComesWithTheFirstKeyOrOnDemand)
   {
     QApplication::processEvents();
     const QAction* entry = this->user.action("view.timeline");
-    EXPECT_EQ(entry->isChecked(), this->part<KeyStrip>()->isVisible());
-    return this->part<KeyStrip>()->isVisible();
+    EXPECT_EQ(entry->isChecked(), this->part<app::posing::KeyStrip>()->isVisible());
+    return this->part<app::posing::KeyStrip>()->isVisible();
   };
   EXPECT_FALSE(shown());
   EXPECT_EQ(this->user.press_key("K"), QString());
@@ -179,7 +179,7 @@ TEST_F(WindowRoom, TheTimelineComesWithTheFirstKeyOrOnDemand)
   EXPECT_FALSE(shown()) << "a person has sent it away";
   EXPECT_EQ(this->user.trigger("edit.undo"), QString());
   EXPECT_EQ(this->user.trigger("edit.undo"), QString());
-  EXPECT_TRUE(this->part<Posing>()->stored_poses().keys.keys().empty());
+  EXPECT_TRUE(this->part<app::posing::Posing>()->stored_poses().keys.keys().empty());
   EXPECT_EQ(this->user.trigger("view.timeline"), QString());
   EXPECT_TRUE(shown()) << "there is none, but it was asked for";
 }
@@ -192,20 +192,22 @@ TEST_F(WindowRoom, AScreenOf1280By800FitsAllOfIt)
   const QSize available_size(1280, 720);
   for (int panel = 0; panel < 4; ++panel)
   {
-    this->part<PanelColumn>()->show_panel(panel);
+    this->part<app::window::PanelColumn>()->show_panel(panel);
     QApplication::processEvents();
     const QSize minimum_size = this->window.minimumSizeHint();
     EXPECT_LE(minimum_size.width(), available_size.width()) << panel;
     EXPECT_LE(minimum_size.height(), available_size.height()) << panel;
     this->resize(available_size);
-    EXPECT_EQ(parts_outside(this->window,
-                { this->window.menuBar(), this->window.statusBar(), this->part<Viewport>(),
-                  this->part<KeyStrip>(), this->part<PanelColumn>() }),
+    EXPECT_EQ(
+      parts_outside(this->window,
+        { this->window.menuBar(), this->window.statusBar(), this->part<app::view::Viewport>(),
+          this->part<app::posing::KeyStrip>(), this->part<app::window::PanelColumn>() }),
       QStringList())
       << panel;
-    EXPECT_GT(this->part<Viewport>()->height(), 400) << panel;
+    EXPECT_GT(this->part<app::view::Viewport>()->height(), 400) << panel;
     // Panels scroll vertically only.
-    for (const QScrollArea* area : this->part<PanelColumn>()->findChildren<QScrollArea*>())
+    for (const QScrollArea* area :
+      this->part<app::window::PanelColumn>()->findChildren<QScrollArea*>())
     {
       if (area->isVisible())
       {
@@ -219,14 +221,14 @@ TEST_F(WindowRoom, TheDomainOfABindIsChosen)
 {
   this->open_ball();
   EXPECT_EQ(this->user.choose("bind.domain", 4), QString()); // surface
-  EXPECT_EQ(this->part<SidePanel>()->domain(), WeightsDomain::surface);
+  EXPECT_EQ(this->part<app::handles::SidePanel>()->domain(), WeightsDomain::surface);
   EXPECT_EQ(this->user.trigger("edit.bind"), QString());
-  ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
+  ASSERT_TRUE(wait_for([this] { return app::tour::is_idle(&this->window); }));
   ASSERT_TRUE(this->window.is_bound()) << this->window.error().toStdString();
   EXPECT_EQ(read_report(this->window.document()->surface()).text("domain"), "surface");
   EXPECT_EQ(this->user.choose("bind.domain", 2), QString()); // lattice
   EXPECT_EQ(this->user.trigger("edit.bind"), QString());
-  ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
+  ASSERT_TRUE(wait_for([this] { return app::tour::is_idle(&this->window); }));
   EXPECT_EQ(read_report(this->window.document()->surface()).text("domain"), "embedding");
   EXPECT_EQ(this->window.error(), QString());
 }
@@ -238,8 +240,8 @@ TEST_F(WindowRoom, WindingNumbersOfASurfaceAreComputedThere)
   ASSERT_EQ(this->user.show_panel("volume"), QString());
   EXPECT_EQ(this->user.choose("volume.samples", 0), QString());
   ASSERT_EQ(this->user.push("Compute"), QString());
-  ASSERT_TRUE(wait_for([this] { return is_idle(&this->window); }));
-  vtkImageData* volume = this->part<VolumeView>()->volume();
+  ASSERT_TRUE(wait_for([this] { return app::tour::is_idle(&this->window); }));
+  vtkImageData* volume = this->part<app::volume::VolumeView>()->volume();
   ASSERT_NE(volume, nullptr) << this->window.error().toStdString();
   EXPECT_EQ(this->window.document()->history()->undoText(), "compute winding numbers");
   int size[3];
@@ -274,7 +276,7 @@ TEST_F(WindowRoom, WindingNumbersOfASurfaceAreComputedThere)
   EXPECT_EQ(restored.work.volume->GetPointData()->GetArray("WindingNumber")->GetComponent(1000, 0),
     values->GetComponent(1000, 0));
   EXPECT_EQ(this->user.push("Close the volume"), QString());
-  EXPECT_EQ(this->part<VolumeView>()->volume(), nullptr);
+  EXPECT_EQ(this->part<app::volume::VolumeView>()->volume(), nullptr);
   EXPECT_EQ(this->user.trigger("edit.undo"), QString());
-  EXPECT_EQ(this->part<VolumeView>()->volume(), volume);
+  EXPECT_EQ(this->part<app::volume::VolumeView>()->volume(), volume);
 }

@@ -33,7 +33,7 @@ namespace bindpose::test
 template <typename Condition>
 bool wait_for(const Condition& condition, int seconds = 60)
 {
-  return wait_until(condition, seconds);
+  return app::tour::wait_until(condition, seconds);
 }
 
 /// Return a text of the standard library as a text of Qt.
@@ -95,14 +95,17 @@ protected:
   }
 
   /// Return a bar above the 3D view by its name.
-  NoticeBar* bar(const QString& name) { return this->window.findChild<NoticeBar*>(name); }
+  app::parts::NoticeBar* bar(const QString& name)
+  {
+    return this->window.findChild<app::parts::NoticeBar*>(name);
+  }
 
   /// Return the widget with this text. If several widgets have this text, return a visible one.
   template <typename Widget>
   Widget* find(const QString& text)
   {
     Widget* found = nullptr;
-    for (Widget* widget : this->part<PanelColumn>()->findChildren<Widget*>())
+    for (Widget* widget : this->part<app::window::PanelColumn>()->findChildren<Widget*>())
     {
       if (widget->text() == text && (!found || widget->isVisible()))
       {
@@ -115,7 +118,7 @@ protected:
   void render()
   {
     QApplication::processEvents();
-    this->part<Viewport>()->renderWindow()->Render();
+    this->part<app::view::Viewport>()->renderWindow()->Render();
     QApplication::processEvents();
   }
 
@@ -129,18 +132,18 @@ protected:
   /// Return the pixel of a position in the view, in Qt's pixels from the upper left.
   QPoint pixel(const Vec3& position)
   {
-    vtkRenderer* renderer = this->part<Viewport>()->renderer();
+    vtkRenderer* renderer = this->part<app::view::Viewport>()->renderer();
     renderer->SetWorldPoint(position.x(), position.y(), position.z(), 1.0);
     renderer->WorldToDisplay();
     const double* d = renderer->GetDisplayPoint();
     return { static_cast<int>(d[0]),
-      this->part<Viewport>()->height() - 1 - static_cast<int>(d[1]) };
+      this->part<app::view::Viewport>()->height() - 1 - static_cast<int>(d[1]) };
   }
 
   void mouse(
     QEvent::Type type, const QPoint& position, Qt::MouseButton button, Qt::MouseButtons buttons)
   {
-    Viewport* viewport = this->part<Viewport>();
+    app::view::Viewport* viewport = this->part<app::view::Viewport>();
     QMouseEvent event(
       type, position, viewport->mapToGlobal(position), button, buttons, Qt::NoModifier);
     QApplication::sendEvent(viewport, &event);
@@ -167,7 +170,7 @@ protected:
   QImage picture()
   {
     this->render();
-    return this->part<Viewport>()->grabFramebuffer();
+    return this->part<app::view::Viewport>()->grabFramebuffer();
   }
 
   static int count(const QImage& image, const std::function<bool(const QColor&)>& which)
@@ -184,7 +187,7 @@ protected:
   }
 
   PointerFilter pointer;
-  MainWindow window;
+  app::window::MainWindow window;
 };
 
 } // namespace bindpose::test

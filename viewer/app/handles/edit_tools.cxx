@@ -15,6 +15,9 @@
 #include <algorithm>
 #include <cmath>
 
+namespace app::handles
+{
+
 namespace
 {
 constexpr int row_margin = 5;
@@ -145,7 +148,7 @@ ModeBar::ModeBar(QAction* inside, QWidget* parent) : QFrame(parent)
   QObject::connect(this->inside_, &QCheckBox::clicked, inside, &QAction::trigger);
   QObject::connect(inside, &QAction::toggled, this->inside_, &QCheckBox::setChecked);
   row->addWidget(this->inside_);
-  this->end_cage_ = button(tr("Leave cage open"), this);
+  this->end_cage_ = parts::button(tr("Leave cage open"), this);
   this->end_cage_->setToolTip(tr("End the cage without closing it (Enter or double click)"));
   row->addWidget(this->end_cage_);
   this->brush_ = new QLabel(tr("Brush"), this);
@@ -156,10 +159,10 @@ ModeBar::ModeBar(QAction* inside, QWidget* parent) : QFrame(parent)
   this->radius_->setFocusPolicy(Qt::TabFocus);
   this->radius_->setToolTip(tr("Radius of the brush ([ and ], or Shift + wheel)"));
   row->addWidget(this->radius_);
-  this->new_region_ = button(tr("New region"), this);
+  this->new_region_ = parts::button(tr("New region"), this);
   this->new_region_->setToolTip(tr("Start a new region with the next stroke"));
   row->addWidget(this->new_region_);
-  QPushButton* done = button(tr("Done"), this);
+  QPushButton* done = parts::button(tr("Done"), this);
   done->setToolTip(tr("Back to posing (Esc)"));
   row->addWidget(done);
   QObject::connect(this->end_cage_, &QPushButton::clicked, this, &ModeBar::end_cage_requested);
@@ -188,3 +191,5 @@ void ModeBar::show_state(const State& state)
   this->radius_->setValue(radius_to_step(state.radius));
   this->setVisible(!state.title.isEmpty());
 }
+
+} // namespace app::handles

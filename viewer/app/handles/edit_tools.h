@@ -11,6 +11,9 @@ class QPushButton;
 class QSlider;
 class QToolButton;
 
+namespace app::handles
+{
+
 /// The row of tools above the 3D view: groups of buttons, one button per action. If the row is too
 /// narrow for all texts, only the buttons of the first group have text. If the row is too narrow
 /// for these texts, too, all buttons show only their icons.
@@ -71,5 +74,7 @@ private:
   QSlider* radius_;
   QPushButton* new_region_;
 };
+
+} // namespace app::handles
 
 #endif

@@ -21,6 +21,9 @@
 #include <algorithm>
 #include <cmath>
 
+namespace app::handles
+{
+
 using namespace bindpose;
 
 namespace
@@ -67,7 +70,7 @@ QAction* HandleCommands::add(const std::string& name, const QString& text, Actio
 {
   auto* new_action = new QAction(text, this);
   new_action->setObjectName(QString::fromStdString(name));
-  new_action->setShortcut(QKeySequence(QString::fromStdString(keys_of(name.c_str()))));
+  new_action->setShortcut(QKeySequence(QString::fromStdString(parts::keys_of(name.c_str()))));
   QObject::connect(new_action, &QAction::triggered, this, action);
   this->actions_[name] = new_action;
   return new_action;
@@ -434,3 +437,5 @@ void HandleCommands::select_all()
   }
   this->selection_->select(all);
 }
+
+} // namespace app::handles

@@ -13,11 +13,15 @@
 #include <vector>
 
 class Document;
-class HandleSelection;
 class QAction;
 class QMenu;
 class QString;
 class QWidget;
+
+namespace app::handles
+{
+
+class HandleSelection;
 
 /// Commands for the selected handles, available as menu entries, keys and functions. Drags with the
 /// mouse are not part of this class. Each command makes one undo step of the document. A command
@@ -78,5 +82,7 @@ private:
   QMenu* parents_;
   std::map<std::string, QAction*> actions_;
 };
+
+} // namespace app::handles
 
 #endif

@@ -34,6 +34,9 @@
 #include <QToolButton>
 #include <QTreeWidget>
 
+namespace app::handles
+{
+
 using namespace bindpose;
 
 namespace
@@ -41,8 +44,8 @@ namespace
 using Representation = vtkHandleSetRepresentation;
 } // namespace
 
-HandleEditing::HandleEditing(
-  Document* document, Viewport* viewport, Posing* posing, SidePanel* panel, QAction* auto_rig)
+HandleEditing::HandleEditing(Document* document, view::Viewport* viewport, posing::Posing* posing,
+  SidePanel* panel, QAction* auto_rig)
   : QObject(viewport), document_(document), viewport_(viewport), posing_(posing), panel_(panel),
     selection_(new HandleSelection(document, viewport)),
     painting_(new RegionPainting(document, viewport))
@@ -105,7 +108,7 @@ HandleEditing::HandleEditing(
     });
   // Leave the edit mode, so that poses that are typed or played are visible. Also stop a drag that
   // was started by a key: if the user canceled the drag later, the old pose would be restored.
-  QObject::connect(posing, &Posing::pose_changed, this,
+  QObject::connect(posing, &posing::Posing::pose_changed, this,
     [this]
     {
       this->cancel_interaction();
@@ -131,8 +134,8 @@ HandleEditing::HandleEditing(
 QAction* HandleEditing::add_action(
   QActionGroup* group, const char* name, const QString& text, int value)
 {
-  auto* action = new QAction(tool_icon(name), text, this);
-  const QString keys = QString::fromStdString(keys_of(name));
+  auto* action = new QAction(parts::tool_icon(name), text, this);
+  const QString keys = QString::fromStdString(parts::keys_of(name));
   action->setObjectName(name);
   action->setCheckable(true);
   action->setData(value);
@@ -140,7 +143,7 @@ QAction* HandleEditing::add_action(
   {
     action->setShortcut(QKeySequence(keys));
   }
-  for (const WindowKey& key : window_keys)
+  for (const parts::WindowKey& key : parts::window_keys)
   {
     if (QLatin1String(key.action) == name)
     {
@@ -393,7 +396,7 @@ void HandleEditing::drag_ended()
 
 void HandleEditing::show_warning(vtkObject* /*caller*/, unsigned long /*event*/, void* message)
 {
-  this->warning_ = capitalized(QString::fromUtf8(static_cast<const char*>(message))) + ".";
+  this->warning_ = parts::capitalized(QString::fromUtf8(static_cast<const char*>(message))) + ".";
   Q_EMIT this->status_text_changed();
 }
 
@@ -486,7 +489,7 @@ QString HandleEditing::message() const
 QString HandleEditing::drag_hint() const
 {
   const QString interaction =
-    capitalized(QString::fromStdString(this->widget()->GetInteractionName()));
+    parts::capitalized(QString::fromStdString(this->widget()->GetInteractionName()));
   if (this->mode_ > move_rest)
   {
     return tr("%1: release the button to place it; Ctrl snaps, Esc cancels.").arg(interaction);
@@ -514,7 +517,7 @@ QString HandleEditing::refusal() const
         .arg(name);
     case Representation::IS_LOCKED:
       return tr("%1 is locked; %2 unlocks it when it is selected.")
-        .arg(name, QString::fromStdString(keys_of("lock")));
+        .arg(name, QString::fromStdString(parts::keys_of("lock")));
     case Representation::IS_AT_REST:
       return tr("%1 is shown at rest and cannot be dragged; show the pose to drag it.").arg(name);
     default:
@@ -583,7 +586,7 @@ bool HandleEditing::eventFilter(QObject* watched, QEvent* event)
       for (const QToolButton* button : this->tools_->findChildren<QToolButton*>())
       {
         QAction* action = button->defaultAction();
-        action->setIcon(tool_icon(action->objectName().toLatin1()));
+        action->setIcon(parts::tool_icon(action->objectName().toLatin1()));
       }
       break;
     case QEvent::ShortcutOverride:
@@ -632,3 +635,5 @@ bool HandleEditing::eventFilter(QObject* watched, QEvent* event)
   }
   return QObject::eventFilter(watched, event);
 }
+
+} // namespace app::handles

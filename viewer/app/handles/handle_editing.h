@@ -5,22 +5,33 @@
 #include <QPoint>
 
 class Document;
-class EditTools;
-class HandleCommands;
-class HandleSelection;
-class ModeBar;
-class Posing;
 class QAction;
 class QActionGroup;
 class QKeyEvent;
 class QLabel;
 class QMenu;
-class RegionPainting;
-class SidePanel;
-class Viewport;
 class vtkHandleSetRepresentation;
 class vtkHandleSetWidget;
 class vtkObject;
+
+namespace app::posing
+{
+class Posing;
+} // namespace app::posing
+namespace app::view
+{
+class Viewport;
+} // namespace app::view
+
+namespace app::handles
+{
+
+class EditTools;
+class HandleCommands;
+class HandleSelection;
+class ModeBar;
+class RegionPainting;
+class SidePanel;
 
 /// Interactive editing of handles: the tools and edit modes of the handle widget and the region
 /// brush, and their messages. Each edit is one undo step of the document.
@@ -42,8 +53,8 @@ public:
     paint_regions = 5
   };
 
-  HandleEditing(
-    Document* document, Viewport* viewport, Posing* posing, SidePanel* panel, QAction* auto_rig);
+  HandleEditing(Document* document, view::Viewport* viewport, posing::Posing* posing,
+    SidePanel* panel, QAction* auto_rig);
 
   /// Return the row of tools, to be placed above the 3D view.
   EditTools* tools() const { return this->tools_; }
@@ -111,8 +122,8 @@ private:
   bool takes_key(const QKeyEvent* event) const;
 
   Document* document_;
-  Viewport* viewport_;
-  Posing* posing_;
+  view::Viewport* viewport_;
+  posing::Posing* posing_;
   SidePanel* panel_;
   HandleSelection* selection_;
   RegionPainting* painting_;
@@ -130,5 +141,7 @@ private:
   bool right_pressed_on_handle_ = false; ///< true: the right button was pressed on a handle
   QString warning_;
 };
+
+} // namespace app::handles
 
 #endif

@@ -9,9 +9,12 @@
 #include "vtkHandleSetWidget.h"
 #include "vtkPolyData.h"
 
+namespace app::handles
+{
+
 using namespace bindpose;
 
-HandleSelection::HandleSelection(Document* document, Viewport* viewport)
+HandleSelection::HandleSelection(Document* document, view::Viewport* viewport)
   : QObject(viewport), document_(document), viewport_(viewport)
 {
 }
@@ -133,7 +136,7 @@ bool HandleSelection::edit(const QString& step, const HandleListEdit& edit, vtkD
 
 void HandleSelection::refuse(const Status& status)
 {
-  Q_EMIT this->refused(capitalized(QString::fromStdString(status.message)) + ".");
+  Q_EMIT this->refused(parts::capitalized(QString::fromStdString(status.message)) + ".");
 }
 
 bool HandleSelection::commit(const QString& step, vtkDataArray* labels)
@@ -176,3 +179,5 @@ QString HandleSelection::step_name(const QString& step, const std::vector<int>& 
     ? QString("%1 %2").arg(step, QString::fromStdString(all[handles[0]].name))
     : tr("%1 %2 handles").arg(step).arg(handles.size());
 }
+
+} // namespace app::handles

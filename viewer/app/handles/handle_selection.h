@@ -10,9 +10,16 @@
 #include <vector>
 
 class Document;
-class Viewport;
 class vtkDataArray;
 class vtkHandleSetRepresentation;
+
+namespace app::view
+{
+class Viewport;
+} // namespace app::view
+
+namespace app::handles
+{
 
 /// The selected handles and edits of them. Each edit is one undo step of the document. Handles are
 /// selected in the 3D view or in the list. This class stores the names of the selected handles, so
@@ -22,7 +29,7 @@ class HandleSelection : public QObject
   Q_OBJECT
 
 public:
-  HandleSelection(Document* document, Viewport* viewport);
+  HandleSelection(Document* document, view::Viewport* viewport);
 
   /// Return the indices of the selected handles, in the order of their selection.
   std::vector<int> selected() const;
@@ -62,9 +69,11 @@ private:
   void refuse(const bindpose::Status& status);
 
   Document* document_;
-  Viewport* viewport_;
+  view::Viewport* viewport_;
   std::vector<std::string> names_; ///< names of the selected handles
   bool is_committing_ = false;
 };
+
+} // namespace app::handles
 
 #endif

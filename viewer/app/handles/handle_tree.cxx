@@ -19,6 +19,9 @@
 #include <algorithm>
 #include <functional>
 
+namespace app::handles
+{
+
 using namespace bindpose;
 
 namespace
@@ -41,7 +44,7 @@ QIcon kind_icon(HandleKind kind)
     QPainter painter(&pixmap);
     painter.setRenderHint(QPainter::Antialiasing);
     painter.scale(scale, scale);
-    painter.setPen(QPen(theme_color("note"), 1.2));
+    painter.setPen(QPen(parts::theme_color("note"), 1.2));
     switch (kind)
     {
       case HandleKind::bone:
@@ -54,11 +57,11 @@ QIcon kind_icon(HandleKind kind)
         painter.drawRect(QRectF(4.0, 4.0, 6.0, 6.0));
         break;
       case HandleKind::region:
-        painter.setBrush(theme_color("scroll"));
+        painter.setBrush(parts::theme_color("scroll"));
         painter.drawEllipse(QRectF(2.0, 4.0, 10.0, 7.0));
         break;
       default:
-        painter.setBrush(theme_color("note"));
+        painter.setBrush(parts::theme_color("note"));
         painter.drawEllipse(QRectF(4.5, 4.5, 5.0, 5.0));
         break;
     }
@@ -104,7 +107,7 @@ QString row_text(const HandleTree::Row& row)
 } // namespace
 
 HandleTree::HandleTree(QWidget* parent)
-  : QWidget(parent), heading_(heading(QString(), this)), search_(new QLineEdit(this)),
+  : QWidget(parent), heading_(parts::heading(QString(), this)), search_(new QLineEdit(this)),
     tree_(new QTreeWidget(this))
 {
   this->setAttribute(Qt::WA_StyledBackground);
@@ -317,7 +320,7 @@ void HandleTree::show_matches()
     {
       item->setExpanded(true);
     }
-    item->setForeground(0, !found ? QBrush(theme_color("off")) : QBrush());
+    item->setForeground(0, !found ? QBrush(parts::theme_color("off")) : QBrush());
     return shown;
   };
   for (int k = 0; k < this->tree_->topLevelItemCount(); ++k)
@@ -384,3 +387,5 @@ void HandleTree::changeEvent(QEvent* event)
     this->show_matches();
   }
 }
+
+} // namespace app::handles

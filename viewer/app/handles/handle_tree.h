@@ -13,6 +13,9 @@ class QLineEdit;
 class QTreeWidget;
 class QTreeWidgetItem;
 
+namespace app::handles
+{
+
 /// The handles as a tree, with children below their parents, and a search field for names. The
 /// window sets the contents; the tree reports the user's selection.
 class HandleTree : public QWidget
@@ -69,5 +72,7 @@ private:
   std::vector<int> selected_;
   int maximum_depth_ = 0;
 };
+
+} // namespace app::handles
 
 #endif

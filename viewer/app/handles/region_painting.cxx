@@ -27,6 +27,9 @@
 #include <map>
 #include <set>
 
+namespace app::handles
+{
+
 using namespace bindpose;
 
 namespace
@@ -73,7 +76,7 @@ Vec3 region_center(vtkPolyData* surface, vtkDataArray* labels, int label, Vec3& 
 }
 } // namespace
 
-RegionPainting::RegionPainting(Document* document, Viewport* viewport)
+RegionPainting::RegionPainting(Document* document, view::Viewport* viewport)
   : QObject(viewport), document_(document), viewport_(viewport)
 {
   vtkRegionBrushWidget* widget = viewport->brush_widget();
@@ -388,3 +391,5 @@ void RegionPainting::show_labels()
     any ? values.Get() : nullptr, false, any ? tr("Regions") : QString(), map);
   this->viewport_->refresh();
 }
+
+} // namespace app::handles

@@ -9,9 +9,16 @@
 #include <string>
 
 class Document;
-class Viewport;
 class vtkDataArray;
 class vtkRegionBrushRepresentation;
+
+namespace app::view
+{
+class Viewport;
+} // namespace app::view
+
+namespace app::handles
+{
 
 /// Painting of regions on the surface, with the brush of the viewport and one color per region.
 /// Every stroke is an undo step of the document. The first stroke of a region creates its handle,
@@ -22,7 +29,7 @@ class RegionPainting : public QObject
   Q_OBJECT
 
 public:
-  RegionPainting(Document* document, Viewport* viewport);
+  RegionPainting(Document* document, view::Viewport* viewport);
 
   void set_active(bool active);
   bool is_painting() const;
@@ -57,11 +64,13 @@ private:
   void radius_changed();
 
   Document* document_;
-  Viewport* viewport_;
+  view::Viewport* viewport_;
   bool active_ = false;
   vtkSmartPointer<vtkPolyData>
     painted_surface_; ///< shallow copy of the surface with its own labels
   std::string region_; ///< name of the region's handle
 };
+
+} // namespace app::handles
 
 #endif

@@ -12,6 +12,9 @@
 #include <QInputDialog>
 #include <QMenu>
 
+namespace app::handles
+{
+
 using namespace bindpose;
 
 namespace
@@ -21,17 +24,17 @@ namespace
 constexpr Index auto_rig_triangles = 5000;
 } // namespace
 
-ShapeHandles::ShapeHandles(Document* document, NoticeBar* bar, QWidget* window)
+ShapeHandles::ShapeHandles(Document* document, parts::NoticeBar* bar, QWidget* window)
   : QObject(window), document_(document), bar_(bar), window_(window),
-    auto_rig_(new QAction(tool_icon("auto_rig"), tr("Auto-&rig"), this))
+    auto_rig_(new QAction(parts::tool_icon("auto_rig"), tr("Auto-&rig"), this))
 {
   this->auto_rig_->setObjectName("auto_rig");
-  const QString keys = QString::fromStdString(keys_of("auto_rig"));
+  const QString keys = QString::fromStdString(parts::keys_of("auto_rig"));
   this->auto_rig_->setShortcut(QKeySequence(keys));
   this->auto_rig_->setToolTip(tr("Create bones along the shape and bind it (%1)").arg(keys));
   QObject::connect(this->auto_rig_, &QAction::triggered, this, &ShapeHandles::auto_rig);
-  QObject::connect(bar, &NoticeBar::closed, this, &ShapeHandles::cancel);
-  QObject::connect(&this->job_, &KernelJob::finished, this, &ShapeHandles::finish);
+  QObject::connect(bar, &parts::NoticeBar::closed, this, &ShapeHandles::cancel);
+  QObject::connect(&this->job_, &parts::KernelJob::finished, this, &ShapeHandles::finish);
 }
 
 void ShapeHandles::fill_menu(QMenu* menu)
@@ -163,3 +166,5 @@ void ShapeHandles::finish()
     this->bar_->offer(QString::fromStdString(status.warnings.front()) + '.', {}, tr("Close"));
   }
 }
+
+} // namespace app::handles

@@ -8,10 +8,17 @@
 #include <QObject>
 
 class Document;
-class NoticeBar;
 class QAction;
 class QMenu;
 class QWidget;
+
+namespace app::parts
+{
+class NoticeBar;
+} // namespace app::parts
+
+namespace app::handles
+{
 
 /// Creates handles that fit the shape, in the background: bones along its curve skeleton, or points
 /// spread over it. They replace the existing handles in one undo step of the document.
@@ -21,7 +28,7 @@ class ShapeHandles : public QObject
 
 public:
   /// `bar` shows which handles are being created, and has a button to cancel.
-  ShapeHandles(Document* document, NoticeBar* bar, QWidget* window);
+  ShapeHandles(Document* document, parts::NoticeBar* bar, QWidget* window);
 
   QAction* auto_rig_action() const { return this->auto_rig_; }
   void fill_menu(QMenu* menu);
@@ -49,7 +56,7 @@ private:
   void finish();
 
   Document* document_;
-  NoticeBar* bar_;
+  parts::NoticeBar* bar_;
   QWidget* window_;
   QAction* auto_rig_;
   QMenu* menu_ = nullptr;
@@ -57,7 +64,10 @@ private:
   bool rigging_ = false;
   std::shared_ptr<bindpose::Handles> new_handles_;
   const void* surface_ = nullptr; ///< the surface for which handles are being created
-  KernelJob job_; // last member, so that the job ends before the data that it uses is destroyed
+  parts::KernelJob
+    job_; // last member, so that the job ends before the data that it uses is destroyed
 };
+
+} // namespace app::handles
 
 #endif

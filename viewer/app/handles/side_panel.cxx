@@ -24,6 +24,9 @@
 
 #include <algorithm>
 
+namespace app::handles
+{
+
 namespace
 {
 /// Make the width of a combo box independent of its items, because names of handles may be long.
@@ -44,8 +47,8 @@ SidePanel::SidePanel(HandleTree* handle_tree, QWidget* parent)
   column->setContentsMargins(16, 14, 16, 14);
   column->setSpacing(7);
 
-  column->addWidget(heading(tr("Bind"), this));
-  this->method_box_ = option_box("bind.method", this);
+  column->addWidget(parts::heading(tr("Bind"), this));
+  this->method_box_ = parts::option_box("bind.method", this);
   for (int k = 0; k < this->method_box_->count(); ++k)
   {
     this->method_box_->setItemText(k, tr("%1 weights").arg(this->method_box_->itemText(k)));
@@ -60,7 +63,7 @@ SidePanel::SidePanel(HandleTree* handle_tree, QWidget* parent)
   column->addWidget(this->method_box_);
   auto* domain_row = new QHBoxLayout;
   domain_row->addWidget(new QLabel(tr("Domain"), this));
-  this->domain_ = of_any_width(option_box("bind.domain", this));
+  this->domain_ = of_any_width(parts::option_box("bind.domain", this));
   this->domain_->setToolTip(
     tr("Mesh on which the weights are solved.\n"
        "Automatic: the surface of flat shapes; tets of the inside of closed and clean shapes if\n"
@@ -72,10 +75,10 @@ SidePanel::SidePanel(HandleTree* handle_tree, QWidget* parent)
   domain_row->addWidget(this->domain_, 1);
   column->addLayout(domain_row);
   auto* buttons = new QHBoxLayout;
-  this->bind_ = button(tr("Bind"), this);
+  this->bind_ = parts::button(tr("Bind"), this);
   this->bind_->setObjectName("primary");
   this->bind_->setToolTip(tr("Compute the weights of all handles (Ctrl+B)"));
-  this->cancel_ = button(tr("Cancel"), this);
+  this->cancel_ = parts::button(tr("Cancel"), this);
   this->cancel_->setToolTip(tr("Cancel the bind; the weights are unchanged"));
   buttons->addWidget(this->bind_, 1);
   buttons->addWidget(this->cancel_);
@@ -117,17 +120,17 @@ SidePanel::SidePanel(HandleTree* handle_tree, QWidget* parent)
   auto* parts = new QVBoxLayout(content);
   parts->setContentsMargins(0, 0, scroll->verticalScrollBar()->sizeHint().width() + 2, 0);
   parts->setSpacing(6);
-  this->pose_ = new PosePanel(content);
+  this->pose_ = new posing::PosePanel(content);
   auto* poses =
-    new Section(tr("Poses"), tr("Stored poses, which can be applied again"), false, content);
-  this->poses_ = new PoseListWidget(content);
+    new view::Section(tr("Poses"), tr("Stored poses, which can be applied again"), false, content);
+  this->poses_ = new posing::PoseListWidget(content);
   poses->column()->addWidget(this->poses_);
 
   auto* handles = new QWidget(content);
   auto* list = new QVBoxLayout(handles);
   list->setContentsMargins(0, 4, 0, 0);
   list->setSpacing(6);
-  list->addWidget(heading(tr("Selected handle"), handles));
+  list->addWidget(parts::heading(tr("Selected handle"), handles));
   auto* mode_row = new QHBoxLayout;
   this->mode_label_ = new QLabel(tr("Fixes"), handles);
   mode_row->addWidget(this->mode_label_);
@@ -147,9 +150,9 @@ SidePanel::SidePanel(HandleTree* handle_tree, QWidget* parent)
        "if it was rotated, scaled, stretched or twisted, or is a bone at rest."));
   mode_row->addWidget(this->mode_, 1);
   list->addLayout(mode_row);
-  this->fields_ = new HandleFields(handles);
+  this->fields_ = new posing::HandleFields(handles);
   list->addWidget(this->fields_);
-  this->rest_ = button(tr("Back to rest"), handles);
+  this->rest_ = parts::button(tr("Back to rest"), handles);
   this->rest_->setToolTip(tr("Move all handles back to their rest positions (Ctrl+R)"));
   list->addWidget(this->rest_);
 
@@ -173,7 +176,7 @@ SidePanel::SidePanel(HandleTree* handle_tree, QWidget* parent)
       Q_EMIT this->cancel_requested();
     });
   QObject::connect(this->rest_, &QPushButton::clicked, this, &SidePanel::rest_requested);
-  QObject::connect(this->pose_, &PosePanel::method_chosen, this, &SidePanel::method_chosen);
+  QObject::connect(this->pose_, &posing::PosePanel::method_chosen, this, &SidePanel::method_chosen);
   QObject::connect(this->column_box_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
     [this](int index) { Q_EMIT this->column_chosen(index - 1); });
   QObject::connect(this->handles_, &HandleTree::selection_changed, this,
@@ -305,7 +308,7 @@ void SidePanel::set_progress(double fraction, const QString& phase)
   this->bar_->setValue(static_cast<int>(1000.0 * fraction));
   if (!this->stopping_)
   {
-    this->set_note(progress_note(fraction, phase));
+    this->set_note(parts::progress_note(fraction, phase));
   }
 }
 
@@ -340,3 +343,5 @@ void SidePanel::show_column(int column)
 {
   this->column_box_->setCurrentIndex(column + 1);
 }
+
+} // namespace app::handles

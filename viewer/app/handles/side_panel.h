@@ -14,9 +14,16 @@ class QComboBox;
 class QLabel;
 class QProgressBar;
 class QPushButton;
+
+namespace app::posing
+{
 class HandleFields;
 class PoseListWidget;
 class PosePanel;
+} // namespace app::posing
+
+namespace app::handles
+{
 
 /// The panel to the right of the 3D view for binding and posing, and for selecting the displayed
 /// weight. The panel stores no data of the document. It emits signals when the user requests
@@ -53,9 +60,9 @@ public:
   void set_note(const QString& text);
   void set_method(int method);
 
-  PosePanel* pose() const { return this->pose_; }
-  HandleFields* fields() const { return this->fields_; }
-  PoseListWidget* poses() const { return this->poses_; }
+  posing::PosePanel* pose() const { return this->pose_; }
+  posing::HandleFields* fields() const { return this->fields_; }
+  posing::PoseListWidget* poses() const { return this->poses_; }
 
   /// Return the chosen method of weights.
   const bindpose::WeightMethod& method() const;
@@ -94,10 +101,12 @@ private:
   QProgressBar* bar_;
   QLabel* note_;
   QPushButton* rest_;
-  PosePanel* pose_;
-  HandleFields* fields_;
-  PoseListWidget* poses_;
+  posing::PosePanel* pose_;
+  posing::HandleFields* fields_;
+  posing::PoseListWidget* poses_;
   bool stopping_ = false; // the user has pressed Cancel, but the bind has not ended yet
 };
+
+} // namespace app::handles
 
 #endif

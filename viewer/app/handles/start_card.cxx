@@ -7,12 +7,15 @@
 #include <QLabel>
 #include <QPushButton>
 
+namespace app::handles
+{
+
 StartCard::StartCard(QAction* auto_rig, QWidget* parent) : QFrame(parent)
 {
   this->setObjectName("nothing");
   auto* row = new QHBoxLayout(this); // a single row, so that the card covers little of the shape
   row->setSpacing(12);
-  QPushButton* rig = button(tr("Auto-rig"), this);
+  QPushButton* rig = parts::button(tr("Auto-rig"), this);
   rig->setObjectName("primary");
   rig->setToolTip(auto_rig->toolTip());
   rig->setEnabled(auto_rig->isEnabled());
@@ -24,3 +27,5 @@ StartCard::StartCard(QAction* auto_rig, QWidget* parent) : QFrame(parent)
                                "<b>By hand:</b> A points, B bones, C cage, P regions"),
     this));
 }
+
+} // namespace app::handles

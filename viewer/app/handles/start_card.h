@@ -5,6 +5,9 @@
 
 class QAction;
 
+namespace app::handles
+{
+
 /// A card over the 3D view while a mesh has no handles. It has a button that creates handles
 /// automatically, and shows the keys to add handles manually.
 class StartCard : public QFrame
@@ -14,5 +17,7 @@ class StartCard : public QFrame
 public:
   StartCard(QAction* auto_rig, QWidget* parent);
 };
+
+} // namespace app::handles
 
 #endif

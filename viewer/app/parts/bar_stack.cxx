@@ -3,6 +3,9 @@
 #include <QEvent>
 #include <QVBoxLayout>
 
+namespace app::parts
+{
+
 namespace
 {
 constexpr int bar_margin = 10; // pixels
@@ -73,3 +76,5 @@ void BarStack::arrange()
     this->raise();
   }
 }
+
+} // namespace app::parts

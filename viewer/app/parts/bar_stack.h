@@ -5,6 +5,9 @@
 
 class QVBoxLayout;
 
+namespace app::parts
+{
+
 /// A stack of bars over the upper edge of the 3D view. The view keeps its position and size when a
 /// bar appears or disappears, so that nothing moves under the mouse.
 class BarStack : public QWidget
@@ -27,5 +30,7 @@ private:
   QVBoxLayout* column_;
   QWidget* widget_above_ = nullptr;
 };
+
+} // namespace app::parts
 
 #endif

@@ -4,6 +4,9 @@
 #include <QPainter>
 #include <QToolTip>
 
+namespace app::parts
+{
+
 QString ElidedLabel::shown() const
 {
   return this->fontMetrics().elidedText(this->text(), Qt::ElideRight, this->contentsRect().width());
@@ -30,3 +33,5 @@ void ElidedLabel::paintEvent(QPaintEvent* /*event*/)
   painter.setPen(this->palette().color(this->foregroundRole()));
   painter.drawText(this->contentsRect(), Qt::AlignLeft | Qt::AlignVCenter, this->shown());
 }
+
+} // namespace app::parts

@@ -3,6 +3,9 @@
 
 #include <QLabel>
 
+namespace app::parts
+{
+
 /// A line of text that never makes its window wider. Text that does not fit ends in "…", and the
 /// tooltip shows all of it.
 class ElidedLabel : public QLabel
@@ -20,5 +23,7 @@ protected:
   bool event(QEvent* event) override;
   void paintEvent(QPaintEvent* event) override;
 };
+
+} // namespace app::parts
 
 #endif

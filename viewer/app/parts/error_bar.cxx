@@ -4,6 +4,9 @@
 #include <QLabel>
 #include <QPushButton>
 
+namespace app::parts
+{
+
 ErrorBar::ErrorBar(QWidget* parent) : QFrame(parent), text_(new QLabel(this))
 {
   this->setObjectName("error");
@@ -42,3 +45,5 @@ QString ErrorBar::message() const
 {
   return this->isHidden() ? QString() : this->text_->text();
 }
+
+} // namespace app::parts

@@ -5,6 +5,9 @@
 
 class QLabel;
 
+namespace app::parts
+{
+
 /// The type of the operation that failed.
 enum class ErrorKind
 {
@@ -40,5 +43,7 @@ private:
   QLabel* text_;
   ErrorKind kind_ = ErrorKind::other;
 };
+
+} // namespace app::parts
 
 #endif

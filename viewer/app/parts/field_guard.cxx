@@ -9,6 +9,9 @@
 #include <QLineEdit>
 #include <QScrollBar>
 
+namespace app::parts
+{
+
 FieldGuard::FieldGuard(QWidget* parent, std::function<void()> on_enter)
   : QObject(parent), on_enter_(std::move(on_enter))
 {
@@ -87,3 +90,5 @@ bool FieldGuard::block_undo(QAbstractSpinBox* box, QEvent* event) const
   event->ignore(); // The field ignores the key, so Qt searches for a shortcut of the window.
   return true;
 }
+
+} // namespace app::parts

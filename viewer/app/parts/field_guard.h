@@ -8,6 +8,9 @@
 class QAbstractSpinBox;
 class QWidget;
 
+namespace app::parts
+{
+
 /// Prevents fields from handling events that are meant for the window.
 /// - Number fields, combo boxes and sliders ignore the mouse wheel unless they have the keyboard
 ///   focus, and the wheel does not give them the focus. The wheel then scrolls the enclosing area.
@@ -30,5 +33,7 @@ private:
 
   std::function<void()> on_enter_;
 };
+
+} // namespace app::parts
 
 #endif

@@ -4,6 +4,9 @@
 
 #include <QString>
 
+namespace app::parts
+{
+
 using namespace bindpose;
 
 KernelJob::KernelJob(QObject* parent) : QObject(parent) {}
@@ -72,3 +75,5 @@ void KernelJob::cancel()
 {
   this->cancel_requested_ = true;
 }
+
+} // namespace app::parts

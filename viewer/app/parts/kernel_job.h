@@ -10,6 +10,9 @@
 #include <functional>
 #include <thread>
 
+namespace app::parts
+{
+
 /// Runs kernels on a separate thread. One job runs at a time. Destroying the object cancels the job
 /// and waits for its end.
 class KernelJob : public QObject
@@ -44,5 +47,7 @@ private:
   bool running_ = false;
   bindpose::Status status_;
 };
+
+} // namespace app::parts
 
 #endif

@@ -4,6 +4,9 @@
 #include <QLabel>
 #include <QPushButton>
 
+namespace app::parts
+{
+
 NoticeBar::NoticeBar(QWidget* parent)
   : QFrame(parent), text_(new QLabel(this)), row_(new QHBoxLayout(this))
 {
@@ -67,3 +70,5 @@ QString NoticeBar::message() const
 {
   return this->isHidden() ? QString() : this->text_->text();
 }
+
+} // namespace app::parts

@@ -10,6 +10,9 @@ class QHBoxLayout;
 class QLabel;
 class QPushButton;
 
+namespace app::parts
+{
+
 /// A sentence over the 3D view with buttons for actions. It is shown until an action is chosen or
 /// the bar is closed. It never blocks the window.
 class NoticeBar : public QFrame
@@ -43,5 +46,7 @@ private:
   QHBoxLayout* row_;
   QList<QPushButton*> buttons_;
 };
+
+} // namespace app::parts
 
 #endif

@@ -9,6 +9,9 @@
 #include <QComboBox>
 #include <QCoreApplication>
 
+namespace app::parts
+{
+
 QStringList option_labels(const char* key)
 {
   QStringList labels;
@@ -61,3 +64,5 @@ ValueRow* option_row(const char* key, QWidget* parent)
   row->set_value(option.initial.toDouble());
   return row;
 }
+
+} // namespace app::parts

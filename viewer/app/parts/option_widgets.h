@@ -7,6 +7,10 @@ class QBoxLayout;
 class QButtonGroup;
 class QComboBox;
 class QWidget;
+
+namespace app::parts
+{
+
 class ValueRow;
 
 // Functions that create the widget of an option of the document (document/options.h). Labels, range
@@ -25,5 +29,7 @@ QButtonGroup* option_segments(
 QButtonGroup* orientation_segments(QBoxLayout* column, QWidget* parent, const char* key);
 /// Return a row of a slider and a field for a number.
 ValueRow* option_row(const char* key, QWidget* parent);
+
+} // namespace app::parts
 
 #endif

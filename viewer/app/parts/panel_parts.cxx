@@ -10,6 +10,9 @@
 #include <QStringList>
 #include <QVariant>
 
+namespace app::parts
+{
+
 QLabel* heading(const QString& text, QWidget* parent)
 {
   auto* label = new QLabel(text, parent);
@@ -100,3 +103,5 @@ QString phase_description(const QString& phase)
   }
   return phase;
 }
+
+} // namespace app::parts

@@ -11,6 +11,9 @@ class QLabel;
 class QPushButton;
 class QWidget;
 
+namespace app::parts
+{
+
 // Functions that create the widgets and texts of the panels to the right of the 3D view.
 
 QLabel* heading(const QString& text, QWidget* parent);
@@ -30,5 +33,7 @@ QString shortened(const QString& text, int maximum_length);
 QString progress_note(double fraction, const QString& phase);
 /// Return a text for users that describes a phase of a kernel.
 QString phase_description(const QString& phase);
+
+} // namespace app::parts
 
 #endif

@@ -15,6 +15,9 @@
 #include <string_view>
 #include <vector>
 
+namespace app::parts
+{
+
 namespace
 {
 struct ThemeColor
@@ -266,3 +269,5 @@ void apply_style(QApplication& application)
   text.replace("@down", dark_now ? "down-light" : "down");
   application.setStyleSheet(text);
 }
+
+} // namespace app::parts

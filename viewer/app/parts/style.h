@@ -5,6 +5,9 @@
 
 class QApplication;
 
+namespace app::parts
+{
+
 /// Apply the look of the window: a light or dark palette with one accent color, and the matching
 /// style sheet. All colors of the window, apart from the 3D view, are defined here.
 void apply_style(QApplication& application);
@@ -23,5 +26,7 @@ enum class Appearance
 };
 Appearance chosen_appearance();
 void choose_appearance(QApplication& application, Appearance appearance);
+
+} // namespace app::parts
 
 #endif

@@ -12,6 +12,9 @@
 #include <map>
 #include <string>
 
+namespace app::parts
+{
+
 namespace
 {
 constexpr double icon_units = 20.0;
@@ -203,3 +206,5 @@ QIcon tool_icon(const char* action)
   }
   return icon;
 }
+
+} // namespace app::parts

@@ -8,6 +8,9 @@
 #include <algorithm>
 #include <cmath>
 
+namespace app::parts
+{
+
 namespace
 {
 constexpr int slider_steps = 1000;
@@ -81,3 +84,5 @@ void ValueRow::choose(double option)
   this->set_value(this->option_is_fraction_ ? this->field_->minimum() + option * span : option);
   Q_EMIT this->value_chosen(this->value());
 }
+
+} // namespace app::parts

@@ -6,6 +6,9 @@
 class QDoubleSpinBox;
 class QSlider;
 
+namespace app::parts
+{
+
 /// A row of a slider and a field that show and set a number in a range.
 class ValueRow : public QWidget
 {
@@ -35,5 +38,7 @@ private:
   QDoubleSpinBox* field_;
   bool option_is_fraction_ = false;
 };
+
+} // namespace app::parts
 
 #endif

@@ -13,7 +13,7 @@
 // the widgets. This header does not use Qt, because the program also uses it when the program is
 // built without the window.
 
-namespace bindpose
+namespace app::parts
 {
 
 struct WindowKey
@@ -126,17 +126,17 @@ inline std::vector<KeyGroup> all_keys()
   {
     add(key.when, key.input, key.text);
   }
-  for (const HandleBinding& binding : handle_bindings)
+  for (const bindpose::HandleBinding& binding : bindpose::handle_bindings)
   {
     add(binding.when, binding.input, binding.text);
   }
-  for (const BrushBinding& binding : brush_bindings)
+  for (const bindpose::BrushBinding& binding : bindpose::brush_bindings)
   {
     add(binding.when, binding.input, binding.text);
   }
   return groups;
 }
 
-} // namespace bindpose
+} // namespace app::parts
 
 #endif

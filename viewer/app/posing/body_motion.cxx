@@ -8,6 +8,9 @@
 #include <algorithm>
 #include <cmath>
 
+namespace app::posing
+{
+
 using namespace bindpose;
 
 namespace
@@ -27,8 +30,8 @@ BodyMotion::BodyMotion(PosePanel* panel, std::function<Pose(bool for_step)> pose
   this->play_timer_.setTimerType(Qt::PreciseTimer);
   this->play_timer_.setInterval(frame_interval);
   QObject::connect(&this->play_timer_, &QTimer::timeout, this, &BodyMotion::tick);
-  QObject::connect(&this->job_, &KernelJob::finished, this, &BodyMotion::bound);
-  QObject::connect(&this->job_, &KernelJob::progress, panel, &PosePanel::set_progress);
+  QObject::connect(&this->job_, &parts::KernelJob::finished, this, &BodyMotion::bound);
+  QObject::connect(&this->job_, &parts::KernelJob::progress, panel, &PosePanel::set_progress);
   QObject::connect(panel, &PosePanel::play_requested, this, &BodyMotion::play);
   QObject::connect(panel, &PosePanel::step_requested, this, [this] { this->step(1); });
   QObject::connect(panel, &PosePanel::restart_requested, this, &BodyMotion::restart);
@@ -190,3 +193,5 @@ void BodyMotion::show_time()
                                               : tr("; only the first 10 minutes are recorded"))
       : QString());
 }
+
+} // namespace app::posing

@@ -12,6 +12,9 @@
 #include <functional>
 #include <memory>
 
+namespace app::posing
+{
+
 class PosePanel;
 
 /// Moves the shape as a simulated body with mass, with the options of the panel. If the bind of the
@@ -74,7 +77,10 @@ private:
   QElapsedTimer clock_;
   double simulated_until_ =
     0.0; ///< time of clock_, in seconds, up to which time steps were computed
-  KernelJob job_; // last member, so that the job ends before the data that it uses is destroyed
+  parts::KernelJob
+    job_; // last member, so that the job ends before the data that it uses is destroyed
 };
+
+} // namespace app::posing
 
 #endif

@@ -8,6 +8,9 @@
 #include <algorithm>
 #include <thread>
 
+namespace app::posing
+{
+
 using namespace bindpose;
 
 namespace
@@ -37,8 +40,8 @@ bool binds_immediately(const PoseSource& source, const PoseOptions& options)
 
 Deformation::Deformation(QObject* parent) : QObject(parent)
 {
-  QObject::connect(&this->job_, &KernelJob::finished, this, &Deformation::job_finished);
-  QObject::connect(&this->job_, &KernelJob::progress, this,
+  QObject::connect(&this->job_, &parts::KernelJob::finished, this, &Deformation::job_finished);
+  QObject::connect(&this->job_, &parts::KernelJob::progress, this,
     [this](double fraction, const QString& phase)
     {
       if (this->task_.bind && !this->task_.stale)
@@ -325,3 +328,5 @@ void Deformation::fail(const Status& status)
     Q_EMIT this->failed();
   }
 }
+
+} // namespace app::posing

@@ -9,6 +9,9 @@
 #include <map>
 #include <memory>
 
+namespace app::posing
+{
+
 /// Poses the surface of the window with one method, fast or slow, without blocking the window.
 /// - Long binds run in the background.
 /// - After the bind, skinning and reduced as-rigid-as-possible pose immediately.
@@ -117,7 +120,10 @@ private:
   Task task_;
   bindpose::Index slice_ = 0; ///< iterations of the next slice
   bindpose::Index iterations_done_ = 0; ///< iterations that were computed for the current pose
-  KernelJob job_; // last member, so that the job ends before the data that it uses is destroyed
+  parts::KernelJob
+    job_; // last member, so that the job ends before the data that it uses is destroyed
 };
+
+} // namespace app::posing
 
 #endif

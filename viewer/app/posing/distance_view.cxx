@@ -12,6 +12,9 @@
 #include <algorithm>
 #include <cmath>
 
+namespace app::posing
+{
+
 using namespace bindpose;
 
 double distance_scale(double largest)
@@ -30,7 +33,7 @@ double distance_scale(double largest)
   return 10.0 * power;
 }
 
-DistanceView::DistanceView(Viewport* viewport, Posing* posing)
+DistanceView::DistanceView(view::Viewport* viewport, Posing* posing)
   : QObject(viewport), viewport_(viewport), posing_(posing)
 {
 }
@@ -81,3 +84,5 @@ void DistanceView::update()
       sequential_map(0.0, scale, 0));
   }
 }
+
+} // namespace app::posing

@@ -6,8 +6,15 @@
 
 #include <QObject>
 
-class Posing;
+namespace app::view
+{
 class Viewport;
+} // namespace app::view
+
+namespace app::posing
+{
+
+class Posing;
 
 /// Shows the distance between the displayed shape and the shape of the compared method. The
 /// distance is shown as colors on the displayed shape, with a scale in percent of the rest shape's
@@ -17,7 +24,7 @@ class DistanceView : public QObject
   Q_OBJECT
 
 public:
-  DistanceView(Viewport* viewport, Posing* posing);
+  DistanceView(view::Viewport* viewport, Posing* posing);
 
   /// Set whether the panel is visible. If not, other views determine the colors of the surface.
   void set_active(bool active);
@@ -25,7 +32,7 @@ public:
   void update();
 
 private:
-  Viewport* viewport_;
+  view::Viewport* viewport_;
   Posing* posing_;
   bool active_ = true;
   vtkSmartPointer<vtkDoubleArray> values_; ///< the displayed distances in percent; null: none
@@ -36,5 +43,7 @@ private:
 /// at least 0.01. Because of these steps, the scale changes rarely while a shape is bent. Because
 /// of the minimum, shapes that differ only by round-off have a single color.
 double distance_scale(double largest);
+
+} // namespace app::posing
 
 #endif

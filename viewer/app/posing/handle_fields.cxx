@@ -8,6 +8,9 @@
 
 #include <algorithm>
 
+namespace app::posing
+{
+
 using namespace bindpose;
 
 HandleFields::HandleFields(QWidget* parent) : QWidget(parent)
@@ -171,3 +174,5 @@ HandleValues HandleFields::values() const
   values.twist = Eigen::Vector2d(number(8), number(9));
   return values;
 }
+
+} // namespace app::posing

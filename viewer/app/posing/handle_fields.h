@@ -12,6 +12,9 @@
 class QDoubleSpinBox;
 class QLabel;
 
+namespace app::posing
+{
+
 /// Number fields of the selected handle: translation, rotation and scale, and for a bone its
 /// stretch and twist.
 class HandleFields : public QWidget
@@ -55,5 +58,7 @@ private:
   QLabel* shear_note_;
   std::vector<QLabel*> names_; ///< labels of the fields that are always visible
 };
+
+} // namespace app::posing
 
 #endif

@@ -16,6 +16,9 @@
 #include <algorithm>
 #include <cmath>
 
+namespace app::posing
+{
+
 using namespace bindpose;
 
 namespace
@@ -42,7 +45,7 @@ KeyStrip::KeyStrip(QWidget* parent) : QFrame(parent), track_(new KeyTrack(this))
   line->setSpacing(4);
   const auto add = [&](const QString& text, const QString& tip)
   {
-    QPushButton* new_button = button(text, this);
+    QPushButton* new_button = parts::button(text, this);
     new_button->setToolTip(tip);
     line->addWidget(new_button);
     return new_button;
@@ -201,7 +204,8 @@ void KeyTrack::paintEvent(QPaintEvent* /*event*/)
   painter.setRenderHint(QPainter::Antialiasing);
   const bool on = this->isEnabled();
   const int middle = this->height() - this->fontMetrics().lineSpacing() / 2 - 6;
-  const QColor line = theme_color(on ? "scroll" : "line"), ink = theme_color(on ? "note" : "off");
+  const QColor line = parts::theme_color(on ? "scroll" : "line"),
+               ink = parts::theme_color(on ? "note" : "off");
   painter.setPen(QPen(line, 2));
   painter.drawLine(strip_margin, middle, this->width() - strip_margin, middle);
   // Draw as many time labels as there is space for.
@@ -244,18 +248,18 @@ void KeyTrack::paintEvent(QPaintEvent* /*event*/)
     const double time = is_dragged ? this->dragged_time_ : this->keys_.keys()[k].time;
     const int x = this->pixel(time);
     const bool is_current = std::abs(time - this->time_) < 5e-4;
-    painter.setPen(QPen(theme_color("key_edge"), 1.2));
-    painter.setBrush(theme_color(is_current || is_dragged ? "key_now" : "key"));
+    painter.setPen(QPen(parts::theme_color("key_edge"), 1.2));
+    painter.setBrush(parts::theme_color(is_current || is_dragged ? "key_now" : "key"));
     const QPoint diamond[4] = { { x, middle - 6 }, { x + 6, middle }, { x, middle + 6 },
       { x - 6, middle } };
     painter.drawPolygon(diamond, 4);
   }
   const int now = this->pixel(std::min(this->time_, this->length()));
-  painter.setPen(QPen(theme_color(on ? "accent" : "accent_off"), 2));
+  painter.setPen(QPen(parts::theme_color(on ? "accent" : "accent_off"), 2));
   painter.drawLine(now, 2 + this->fontMetrics().lineSpacing(), now, this->height() - 1);
   if (this->hasFocus())
   {
-    painter.setPen(QPen(theme_color("accent"), 1));
+    painter.setPen(QPen(parts::theme_color("accent"), 1));
     painter.setBrush(Qt::NoBrush);
     painter.drawRoundedRect(this->rect().adjusted(0, 0, -1, -1), 4, 4);
   }
@@ -319,3 +323,5 @@ void KeyTrack::keyPressEvent(QKeyEvent* event)
   Q_EMIT this->scrubbed(std::clamp(this->time_ + direction * step, 0.0, this->length()));
   Q_EMIT this->scrub_ended();
 }
+
+} // namespace app::posing

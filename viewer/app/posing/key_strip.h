@@ -8,6 +8,10 @@
 class QDoubleSpinBox;
 class QLabel;
 class QPushButton;
+
+namespace app::posing
+{
+
 class KeyTrack;
 
 /// The strip of key frames below the 3D view: a track with one mark per key frame (key), and
@@ -93,5 +97,7 @@ private:
   bool moved_ = false;
   bool scrubbing_ = false;
 };
+
+} // namespace app::posing
 
 #endif

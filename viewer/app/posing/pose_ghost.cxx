@@ -20,6 +20,9 @@
 #include "vtkRenderer.h"
 #include "vtkTexture.h"
 
+namespace app::posing
+{
+
 namespace
 {
 constexpr bindpose::Rgb ghost_color{ 0.20, 0.50, 0.76 };
@@ -29,7 +32,7 @@ constexpr double opaque_distance = 0.02;
 constexpr const char* distance_name = "bindpose.Distance";
 } // namespace
 
-PoseGhost::PoseGhost(Viewport* viewport) : viewport_(viewport)
+PoseGhost::PoseGhost(view::Viewport* viewport) : viewport_(viewport)
 {
   this->actor_->SetMapper(this->mapper_);
   this->actor_->PickableOff();
@@ -220,3 +223,5 @@ void PoseGhost::clipping_range_changed()
   }
   this->is_updating_clipping_ = false;
 }
+
+} // namespace app::posing

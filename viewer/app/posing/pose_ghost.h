@@ -17,9 +17,16 @@ class Outline;
 class MovedSurfaceMapper;
 class ShadedSurface;
 } // namespace bindpose
-class Viewport;
 class vtkActor;
 class vtkRenderer;
+
+namespace app::view
+{
+class Viewport;
+} // namespace app::view
+
+namespace app::posing
+{
 
 /// The ghost is the viewport's surface as posed by a second method, for comparison. It is drawn
 /// semitransparent over the first shape where both shapes differ, or in the right half of a split
@@ -36,7 +43,7 @@ public:
     in_colors
   };
 
-  explicit PoseGhost(Viewport* viewport);
+  explicit PoseGhost(view::Viewport* viewport);
   ~PoseGhost();
 
   /// Set the rest surface. The ghost shows this surface in another pose. Null hides the ghost.
@@ -58,7 +65,7 @@ private:
   void match_first_shape();
   void clipping_range_changed();
 
-  Viewport* viewport_;
+  view::Viewport* viewport_;
   Place place_ = hidden;
   vtkNew<bindpose::MovedSurfaceMapper> mapper_;
   vtkNew<vtkActor> actor_;
@@ -74,5 +81,7 @@ private:
   bool is_renderer_added_ = false;
   bool is_updating_clipping_ = false; // true while clipped() sets the clipping range of both halves
 };
+
+} // namespace app::posing
 
 #endif

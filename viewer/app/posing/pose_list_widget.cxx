@@ -10,17 +10,20 @@
 #include <QSlider>
 #include <QVBoxLayout>
 
+namespace app::posing
+{
+
 PoseListWidget::PoseListWidget(QWidget* parent) : QWidget(parent)
 {
   auto* rows = new QVBoxLayout(this);
   rows->setContentsMargins(0, 0, 0, 0);
   rows->setSpacing(6);
   auto* buttons = new QHBoxLayout;
-  this->store_ = button(tr("Store"), this);
+  this->store_ = parts::button(tr("Store"), this);
   this->store_->setToolTip(tr("Store the current pose"));
-  this->apply_ = button(tr("Apply"), this);
+  this->apply_ = parts::button(tr("Apply"), this);
   this->apply_->setToolTip(tr("Apply the selected pose to all handles"));
-  this->remove_ = button(tr("Delete"), this);
+  this->remove_ = parts::button(tr("Delete"), this);
   this->remove_->setToolTip(tr("Delete the selected pose from the list"));
   for (QPushButton* each : { this->store_, this->apply_, this->remove_ })
   {
@@ -100,3 +103,5 @@ void PoseListWidget::enable()
   this->remove_->setEnabled(this->selected_entry() >= 0);
   this->slider_->setEnabled(has_selection);
 }
+
+} // namespace app::posing

@@ -8,6 +8,9 @@ class QListWidget;
 class QPushButton;
 class QSlider;
 
+namespace app::posing
+{
+
 /// The list of stored poses: store, rename (by a double click), apply, blend, delete.
 class PoseListWidget : public QWidget
 {
@@ -42,5 +45,7 @@ private:
   QSlider* slider_;
   bool ready_ = false;
 };
+
+} // namespace app::posing
 
 #endif

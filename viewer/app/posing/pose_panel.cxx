@@ -20,6 +20,9 @@
 #include <algorithm>
 #include <cmath>
 
+namespace app::posing
+{
+
 using bindpose::PoseMethod;
 using bindpose::PoseOptions;
 
@@ -64,7 +67,7 @@ QString translated(const char* text)
 
 QComboBox* box(const char* key, QWidget* parent)
 {
-  QComboBox* result = option_box(key, parent);
+  QComboBox* result = parts::option_box(key, parent);
   result->setSizeAdjustPolicy(QComboBox::AdjustToContents);
   return result;
 }
@@ -82,7 +85,7 @@ std::vector<PoseMethod> pose_methods_in_order()
 
 QString method_name(PoseMethod method)
 {
-  return option_labels("pose.method")[static_cast<int>(method)];
+  return parts::option_labels("pose.method")[static_cast<int>(method)];
 }
 
 QString method_purpose(PoseMethod method)
@@ -110,7 +113,7 @@ PosePanel::PosePanel(QWidget* parent) : QWidget(parent)
 
 void PosePanel::add_methods(QVBoxLayout* column)
 {
-  column->addWidget(heading(tr("Pose"), this));
+  column->addWidget(parts::heading(tr("Pose"), this));
   this->methods_ = new QButtonGroup(this);
   this->methods_->setObjectName("pose.method");
   QHBoxLayout* row = nullptr;
@@ -124,7 +127,7 @@ void PosePanel::add_methods(QVBoxLayout* column)
       row->setSpacing(0);
       column->addLayout(row);
     }
-    QPushButton* segment = button(translated(methods[k].button), this);
+    QPushButton* segment = parts::button(translated(methods[k].button), this);
     segment->setObjectName("segment");
     segment->setProperty("place", first ? "first" : last ? "last" : k == 1 ? "second" : "middle");
     segment->setCheckable(true);
@@ -156,7 +159,7 @@ void PosePanel::add_methods(QVBoxLayout* column)
   this->bar_ = new QProgressBar(this->bind_row_);
   this->bar_->setRange(0, 1000);
   this->bar_->setTextVisible(false);
-  this->cancel_ = button(tr("Stop"), this->bind_row_);
+  this->cancel_ = parts::button(tr("Stop"), this->bind_row_);
   this->cancel_->setToolTip(
     tr("Cancel the preparation of this method; choose the method again to prepare it"));
   bind->addWidget(this->bar_, 1);
@@ -201,9 +204,9 @@ QWidget* PosePanel::option(QVBoxLayout* column, const QString& name, QWidget* wi
   {
     QObject::connect(check, &QCheckBox::toggled, this, changed);
   }
-  else if (auto* value = qobject_cast<ValueRow*>(widget))
+  else if (auto* value = qobject_cast<parts::ValueRow*>(widget))
   {
-    QObject::connect(value, &ValueRow::value_chosen, this, changed);
+    QObject::connect(value, &parts::ValueRow::value_chosen, this, changed);
   }
   return row;
 }
@@ -216,7 +219,7 @@ void PosePanel::add_options(QVBoxLayout* column)
   const std::vector<PoseMethod> smooth = { PoseMethod::variational };
   const auto row = [this](const char* key)
   {
-    ValueRow* result = option_row(key, this);
+    parts::ValueRow* result = parts::option_row(key, this);
     result->slider()->setMinimumWidth(50); // the slider is in a row with its name
     return result;
   };
@@ -296,7 +299,7 @@ void PosePanel::add_options(QVBoxLayout* column)
 void PosePanel::add_comparison(QVBoxLayout* column)
 {
   auto* section =
-    new Section(tr("Compare"), tr("Compare with the shape of a second method"), false, this);
+    new view::Section(tr("Compare"), tr("Compare with the shape of a second method"), false, this);
   column->addSpacing(4);
   column->addWidget(section);
   this->compared_ = box("pose.compared", this);
@@ -310,7 +313,7 @@ void PosePanel::add_comparison(QVBoxLayout* column)
   auto* places = new QVBoxLayout(this->place_row_);
   places->setContentsMargins(0, 0, 0, 0);
   // The default is Distance, which shows the size of the differences.
-  this->ghost_group_ = option_segments(places, this->place_row_, "pose.ghost",
+  this->ghost_group_ = parts::option_segments(places, this->place_row_, "pose.ghost",
     { tr("Draw the second shape in see-through blue where both shapes differ"),
       tr("Draw each shape in one half of the picture, from the same view"),
       tr("Color the shape by its distance from the second shape,\n"
@@ -335,7 +338,7 @@ void PosePanel::add_comparison(QVBoxLayout* column)
 
 void PosePanel::add_motion(QVBoxLayout* column)
 {
-  auto* section = new Section(tr("Motion"),
+  auto* section = new view::Section(tr("Motion"),
     tr("Simulate the shape as a body with mass: its free parts swing and fall"), false, this);
   column->addWidget(section);
   this->simulate_box_ = new QCheckBox(tr("Simulate motion"), this);
@@ -349,9 +352,9 @@ void PosePanel::add_motion(QVBoxLayout* column)
   rows->setContentsMargins(0, 0, 0, 0);
   rows->setSpacing(6);
   auto* buttons = new QHBoxLayout;
-  this->play_ = button(tr("Play"), this->motion_);
-  this->step_ = button(tr("Step"), this->motion_);
-  this->restart_ = button(tr("Restart"), this->motion_);
+  this->play_ = parts::button(tr("Play"), this->motion_);
+  this->step_ = parts::button(tr("Step"), this->motion_);
+  this->restart_ = parts::button(tr("Restart"), this->motion_);
   this->play_->setToolTip(tr("Run or pause the simulation"));
   this->step_->setToolTip(tr("Advance the simulation by 1/60 s"));
   this->restart_->setToolTip(
@@ -370,7 +373,7 @@ void PosePanel::add_motion(QVBoxLayout* column)
   rows->addWidget(this->time_);
   const auto row = [&](const char* key, const QString& name, const QString& tip)
   {
-    ValueRow* value = option_row(key, this->motion_);
+    parts::ValueRow* value = parts::option_row(key, this->motion_);
     value->slider()->setMinimumWidth(50);
     value->setToolTip(tip);
     auto* line = new QHBoxLayout;
@@ -380,7 +383,7 @@ void PosePanel::add_motion(QVBoxLayout* column)
     line->addWidget(label);
     line->addWidget(value, 1);
     rows->addLayout(line);
-    QObject::connect(value, &ValueRow::value_chosen, this, &PosePanel::body_changed);
+    QObject::connect(value, &parts::ValueRow::value_chosen, this, &PosePanel::body_changed);
     return value;
   };
   this->gravity_ = row("motion.gravity", tr("Gravity"),
@@ -424,7 +427,7 @@ PoseMethod PosePanel::method() const
 void PosePanel::show_options()
 {
   this->note_->setText(method_purpose(this->method()));
-  enable_all_but(this->compared_, 1 + static_cast<int>(this->method()),
+  parts::enable_all_but(this->compared_, 1 + static_cast<int>(this->method()),
     tr("The shape already uses this method"));
   for (const Option& option : this->options_)
   {
@@ -555,3 +558,5 @@ void PosePanel::set_time(const QString& text)
 {
   this->time_->setText(text);
 }
+
+} // namespace app::posing

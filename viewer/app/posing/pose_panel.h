@@ -16,8 +16,18 @@ class QLabel;
 class QProgressBar;
 class QPushButton;
 class QVBoxLayout;
-class Section;
+
+namespace app::parts
+{
 class ValueRow;
+} // namespace app::parts
+namespace app::view
+{
+class Section;
+} // namespace app::view
+
+namespace app::posing
+{
 
 /// The panel for posing: the method with its options, a second method for comparison, and the
 /// simulated body. The object name of a widget that sets an option is the key of the option. The
@@ -104,11 +114,11 @@ private:
   QComboBox* endpoints_;
   QCheckBox* single_;
   QComboBox* energy_;
-  ValueRow* extra_;
+  parts::ValueRow* extra_;
   QComboBox* extra_kind_;
   QWidget* extra_kind_row_;
-  ValueRow* iterations_;
-  ValueRow* budget_;
+  parts::ValueRow* iterations_;
+  parts::ValueRow* budget_;
   QCheckBox* in_tets_;
   QComboBox* rotations_;
   QComboBox* order_;
@@ -123,10 +133,10 @@ private:
   QPushButton* step_;
   QPushButton* restart_;
   QLabel* time_;
-  ValueRow* gravity_;
+  parts::ValueRow* gravity_;
   QComboBox* down_;
-  ValueRow* stiffness_;
-  ValueRow* damping_;
+  parts::ValueRow* stiffness_;
+  parts::ValueRow* damping_;
 };
 
 /// Return the methods in the order of buttons, menu entries, keys (1 to 7) and `bindpose deform
@@ -135,5 +145,7 @@ std::vector<bindpose::PoseMethod> pose_methods_in_order();
 /// Return the name of a method for menus and lists, and one sentence about its purpose.
 QString method_name(bindpose::PoseMethod method);
 QString method_purpose(bindpose::PoseMethod method);
+
+} // namespace app::posing
 
 #endif

@@ -28,6 +28,9 @@
 #include <cmath>
 #include <cstring>
 
+namespace app::posing
+{
+
 using namespace bindpose;
 
 namespace
@@ -40,7 +43,7 @@ QString format_duration(double seconds)
 }
 } // namespace
 
-Posing::Posing(Viewport* viewport, const Panels& panels)
+Posing::Posing(view::Viewport* viewport, const Panels& panels)
   : QObject(viewport), viewport_(viewport), panels_(panels), deformation_(new Deformation(this)),
     compared_deformation_(new Deformation(this)), ghost_(new PoseGhost(viewport)),
     pose_manager_(new StoredPoseManager(
@@ -726,3 +729,5 @@ void Posing::export_to(const QString& path)
   }
   this->export_->start(input, path);
 }
+
+} // namespace app::posing

@@ -14,13 +14,20 @@
 #include <memory>
 #include <optional>
 
+namespace app::view
+{
+class Viewport;
+} // namespace app::view
+
+namespace app::posing
+{
+
 class BodyMotion;
 class HandleFields;
 class KeyStrip;
 class PoseListWidget;
 class PosePanel;
 class SequenceExport;
-class Viewport;
 
 /// Posing in the window: the current method and the method for comparison, the simulated body,
 /// playback of key frames, the stored poses, and the texts of the panels about them.
@@ -40,7 +47,7 @@ public:
     PoseListWidget* poses;
     KeyStrip* strip;
   };
-  Posing(Viewport* viewport, const Panels& panels);
+  Posing(view::Viewport* viewport, const Panels& panels);
   ~Posing() override;
 
   /// Set the data to pose; null: no data. The surface's weights are used only if `use_weights` is
@@ -153,7 +160,7 @@ private:
   void simulation_changed();
   bool has_motion() const;
 
-  Viewport* viewport_;
+  view::Viewport* viewport_;
   Panels panels_;
   Deformation* deformation_;
   Deformation* compared_deformation_;
@@ -174,5 +181,7 @@ private:
   PoseGhost::Place requested_place_ = PoseGhost::hidden;
   double drawing_microseconds_ = 0.0; ///< time that draw() took for points and normals
 };
+
+} // namespace app::posing
 
 #endif

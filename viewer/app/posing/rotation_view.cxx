@@ -17,9 +17,12 @@
 
 #include <algorithm>
 
+namespace app::posing
+{
+
 using namespace bindpose;
 
-RotationView::RotationView(Viewport* viewport, const PosePanel* panel, Posing* posing)
+RotationView::RotationView(view::Viewport* viewport, const PosePanel* panel, Posing* posing)
   : QObject(viewport), viewport_(viewport), panel_(panel), posing_(posing)
 {
 }
@@ -157,3 +160,5 @@ QString RotationView::reading(Index point) const
                                  : Posing::tr(" about %1, %2, %3")
                                      .arg(number(axis.x()), number(axis.y()), number(axis.z())));
 }
+
+} // namespace app::posing

@@ -15,9 +15,17 @@ namespace bindpose
 {
 struct PoseRotations;
 }
+
+namespace app::view
+{
+class Viewport;
+} // namespace app::view
+
+namespace app::posing
+{
+
 class PosePanel;
 class Posing;
-class Viewport;
 
 /// Shows the rotations of as-rigid-as-possible methods as colors on the shape. The panel selects
 /// what the colors show: the clusters of points with the same rotation, or the angle of each
@@ -27,7 +35,7 @@ class RotationView : public QObject
   Q_OBJECT
 
 public:
-  RotationView(Viewport* viewport, const PosePanel* panel, Posing* posing);
+  RotationView(view::Viewport* viewport, const PosePanel* panel, Posing* posing);
 
   /// Set whether the panel is visible. If not, other views determine the colors of the surface.
   void set_active(bool active);
@@ -40,7 +48,7 @@ private:
   void show_clusters(const bindpose::PoseRotations& found);
   void show_angles(const bindpose::PoseRotations& found);
 
-  Viewport* viewport_;
+  view::Viewport* viewport_;
   const PosePanel* panel_;
   Posing* posing_;
   bool active_ = true;
@@ -50,5 +58,7 @@ private:
   double scale_ = 0.0; ///< upper end of the angle scale in degrees; 0: clusters are shown
   std::vector<bindpose::Vec3> axis_angles_; ///< axis times angle in degrees, one per rotation
 };
+
+} // namespace app::posing
 
 #endif

@@ -29,6 +29,9 @@
 #include <deque>
 #include <memory>
 
+namespace app::posing
+{
+
 using namespace bindpose;
 
 namespace
@@ -44,15 +47,15 @@ Status cannot_write(const std::string& path)
 }
 } // namespace
 
-SequenceExport::SequenceExport(Viewport* viewport) : QObject(viewport), viewport_(viewport)
+SequenceExport::SequenceExport(view::Viewport* viewport) : QObject(viewport), viewport_(viewport)
 {
-  QObject::connect(&this->job_, &KernelJob::progress, this,
+  QObject::connect(&this->job_, &parts::KernelJob::progress, this,
     [this](double fraction) { Q_EMIT this->progress(0.7 * fraction); });
-  QObject::connect(&this->job_, &KernelJob::finished, this, &SequenceExport::frames_made);
-  QObject::connect(&this->encoder_, &KernelJob::progress, this,
+  QObject::connect(&this->job_, &parts::KernelJob::finished, this, &SequenceExport::frames_made);
+  QObject::connect(&this->encoder_, &parts::KernelJob::progress, this,
     [this](double fraction) { Q_EMIT this->progress(0.9 + 0.1 * fraction); });
-  QObject::connect(
-    &this->encoder_, &KernelJob::finished, this, [this] { this->end(this->encoder_.status()); });
+  QObject::connect(&this->encoder_, &parts::KernelJob::finished, this,
+    [this] { this->end(this->encoder_.status()); });
 }
 
 SequenceExport::~SequenceExport() = default;
@@ -317,3 +320,5 @@ Status SequenceExport::write_film(const std::string& path)
     });
   return {};
 }
+
+} // namespace app::posing

@@ -10,7 +10,14 @@
 #include <QObject>
 
 class QImage;
+
+namespace app::view
+{
 class Viewport;
+} // namespace app::view
+
+namespace app::posing
+{
 
 /// Writes an animation in the format of the file name's extension. The extension .json gives a pose
 /// file; extensions of mesh files give numbered datasets with a .pvd file; .glb and .gltf give one
@@ -23,7 +30,7 @@ class SequenceExport : public QObject
   Q_OBJECT
 
 public:
-  explicit SequenceExport(Viewport* viewport);
+  explicit SequenceExport(view::Viewport* viewport);
   ~SequenceExport() override;
 
   struct Input
@@ -67,14 +74,17 @@ private:
   vtkSmartPointer<vtkPolyData> posed_surface(std::size_t frame) const;
   QImage picture(std::size_t frame);
 
-  Viewport* viewport_;
+  view::Viewport* viewport_;
   Input input_;
   QString path_;
   std::shared_ptr<bindpose::PosedFrames> frames_;
   QString error_;
   QString summary_;
-  KernelJob encoder_;
-  KernelJob job_; // last member, so that the job ends before the data that it uses is destroyed
+  parts::KernelJob encoder_;
+  parts::KernelJob
+    job_; // last member, so that the job ends before the data that it uses is destroyed
 };
+
+} // namespace app::posing
 
 #endif

@@ -7,6 +7,9 @@
 
 #include <cmath>
 
+namespace app::posing
+{
+
 using namespace bindpose;
 
 namespace
@@ -242,3 +245,5 @@ void StoredPoseManager::tick()
     this->play(false);
   }
 }
+
+} // namespace app::posing

@@ -10,6 +10,9 @@
 #include <functional>
 #include <memory>
 
+namespace app::posing
+{
+
 class KeyStrip;
 class PoseListWidget;
 
@@ -62,5 +65,7 @@ private:
   QTimer play_timer_;
   QElapsedTimer key_clock_;
 };
+
+} // namespace app::posing
 
 #endif

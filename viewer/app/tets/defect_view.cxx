@@ -10,7 +10,10 @@
 
 #include <QCoreApplication>
 
-DefectView::DefectView(Viewport* viewport) : viewport_(viewport) {}
+namespace app::tets
+{
+
+DefectView::DefectView(view::Viewport* viewport) : viewport_(viewport) {}
 
 void DefectView::set_defects(vtkPolyData* defects)
 {
@@ -49,9 +52,11 @@ void DefectView::update()
     bindpose::count_defects(this->defects_, categories);
   }
   const bindpose::ColorMap map = bindpose::category_map(categories);
-  this->viewport_->show_legend(Viewport::defect_legend,
+  this->viewport_->show_legend(view::Viewport::defect_legend,
     !this->is_shown()     ? QString()
       : map.texts.empty() ? QCoreApplication::translate("DefectView", "No defects")
                           : QCoreApplication::translate("DefectView", "Defects"),
     map);
 }
+
+} // namespace app::tets

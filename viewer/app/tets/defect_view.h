@@ -6,14 +6,21 @@
 
 #include <vector>
 
-class Viewport;
 class vtkActor;
+
+namespace app::view
+{
+class Viewport;
+} // namespace app::view
+
+namespace app::tets
+{
 
 /// Shows the defects of a surface in the 3D view, with a legend of their types and counts.
 class DefectView
 {
 public:
-  explicit DefectView(Viewport* viewport);
+  explicit DefectView(view::Viewport* viewport);
 
   /// Set the defects, as vtkSurfaceDefects outputs them; null: none.
   void set_defects(vtkPolyData* defects);
@@ -24,10 +31,12 @@ public:
 private:
   void update();
 
-  Viewport* viewport_;
+  view::Viewport* viewport_;
   vtkSmartPointer<vtkPolyData> defects_;
   std::vector<vtkSmartPointer<vtkActor>> actors_;
   bool shown_ = false;
 };
+
+} // namespace app::tets
 
 #endif

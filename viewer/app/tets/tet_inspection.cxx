@@ -14,6 +14,9 @@
 
 #include <memory>
 
+namespace app::tets
+{
+
 using namespace bindpose;
 
 namespace
@@ -87,7 +90,7 @@ QString format_counts(vtkPolyData* defects)
 }
 } // namespace
 
-TetInspection::TetInspection(Viewport* viewport, TetPanel* panel)
+TetInspection::TetInspection(view::Viewport* viewport, TetPanel* panel)
   : QObject(viewport), viewport_(viewport), panel_(panel), tets_(new TetView(viewport)),
     defects_(viewport)
 {
@@ -97,18 +100,20 @@ TetInspection::TetInspection(Viewport* viewport, TetPanel* panel)
     panel, &TetPanel::show_tets_requested, this, [this] { this->set_active(this->active_); });
   QObject::connect(panel, &TetPanel::cut_requested, this->tets_, &TetView::set_cut);
   QObject::connect(panel, &TetPanel::other_side_requested, this->tets_, &TetView::set_other_side);
-  PlaneHandle* plane = this->tets_->plane();
-  QObject::connect(panel, &TetPanel::orientation_chosen, plane, &PlaneHandle::set_orientation);
-  QObject::connect(panel, &TetPanel::position_chosen, plane, &PlaneHandle::set_position);
+  view::PlaneHandle* plane = this->tets_->plane();
+  QObject::connect(
+    panel, &TetPanel::orientation_chosen, plane, &view::PlaneHandle::set_orientation);
+  QObject::connect(panel, &TetPanel::position_chosen, plane, &view::PlaneHandle::set_position);
   QObject::connect(panel, &TetPanel::shrink_chosen, this->tets_, &TetView::set_shrink);
   QObject::connect(panel, &TetPanel::colors_chosen, this, &TetInspection::choose_colors);
   QObject::connect(panel, &TetPanel::defects_requested, this, &TetInspection::update_defects);
   QObject::connect(this->tets_, &TetView::plane_moved, this, &TetInspection::show_position);
   QObject::connect(this->tets_, &TetView::count_changed, panel, &TetPanel::set_count);
-  QObject::connect(&this->tet_job_, &KernelJob::progress, panel, &TetPanel::set_progress);
-  QObject::connect(&this->tet_job_, &KernelJob::finished, this, &TetInspection::tets_finished);
+  QObject::connect(&this->tet_job_, &parts::KernelJob::progress, panel, &TetPanel::set_progress);
   QObject::connect(
-    &this->defect_job_, &KernelJob::finished, this, &TetInspection::defects_finished);
+    &this->tet_job_, &parts::KernelJob::finished, this, &TetInspection::tets_finished);
+  QObject::connect(
+    &this->defect_job_, &parts::KernelJob::finished, this, &TetInspection::defects_finished);
   QObject::connect(viewport, &QOpenGLWidget::frameSwapped, this, &TetInspection::view_drawn);
 }
 
@@ -145,9 +150,9 @@ void TetInspection::cancel()
 
 int TetInspection::surface_look() const
 {
-  return this->tets_->is_shown() ? Viewport::hidden
-    : this->defects_.is_shown()  ? Viewport::see_through
-                                 : Viewport::solid;
+  return this->tets_->is_shown() ? view::Viewport::hidden
+    : this->defects_.is_shown()  ? view::Viewport::see_through
+                                 : view::Viewport::solid;
 }
 
 void TetInspection::update_panel()
@@ -350,3 +355,5 @@ void TetInspection::defects_finished()
   }
   this->reports_defects_ = false;
 }
+
+} // namespace app::tets

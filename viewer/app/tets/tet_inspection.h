@@ -9,8 +9,15 @@
 
 #include <memory>
 
-class TetPanel;
+namespace app::view
+{
 class Viewport;
+} // namespace app::view
+
+namespace app::tets
+{
+
+class TetPanel;
 
 /// TetInspection of a surface's tets and defects, which are computed in the background. While the
 /// panel is visible, this class shows the tets and defects as the panel requests.
@@ -19,7 +26,7 @@ class TetInspection : public QObject
   Q_OBJECT
 
 public:
-  TetInspection(Viewport* viewport, TetPanel* panel);
+  TetInspection(view::Viewport* viewport, TetPanel* panel);
 
   /// Set the surface at rest, and the tets inside it that were opened from a file (null: no tets).
   void set_surface(vtkPolyData* surface, vtkUnstructuredGrid* tets);
@@ -69,7 +76,7 @@ private:
   void show_position();
   void update_panel();
 
-  Viewport* viewport_;
+  view::Viewport* viewport_;
   TetPanel* panel_;
   TetView* tets_;
   DefectView defects_;
@@ -81,8 +88,10 @@ private:
   int colors_ = 0; // the displayed values, one of TetPanel::Colors
   std::shared_ptr<vtkSmartPointer<vtkUnstructuredGrid>> new_tets_;
   std::shared_ptr<vtkSmartPointer<vtkPolyData>> new_defects_;
-  KernelJob tet_job_;
-  KernelJob defect_job_;
+  parts::KernelJob tet_job_;
+  parts::KernelJob defect_job_;
 };
+
+} // namespace app::tets
 
 #endif

@@ -14,6 +14,9 @@
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 
+namespace app::tets
+{
+
 TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
 {
   this->setObjectName("panel");
@@ -34,8 +37,8 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
     return line;
   };
 
-  column->addWidget(heading(tr("Tets"), this));
-  this->method_ = option_box("tets.method", this);
+  column->addWidget(parts::heading(tr("Tets"), this));
+  this->method_ = parts::option_box("tets.method", this);
   this->method_->setToolTip(
     tr("Constrained: keeps the triangles of the surface.\n"
        "Remeshed: well-shaped tets.\n"
@@ -45,10 +48,10 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
        "Whole hull: also contains the outside tets, to show how tets are classified."));
   column->addWidget(this->method_);
   auto* buttons = new QHBoxLayout;
-  this->make_ = button(tr("Make tets"), this);
+  this->make_ = parts::button(tr("Make tets"), this);
   this->make_->setObjectName("primary");
   this->make_->setToolTip(tr("Fill the surface with tets in the background"));
-  this->cancel_ = button(tr("Cancel"), this);
+  this->cancel_ = parts::button(tr("Cancel"), this);
   this->cancel_->setToolTip(tr("Cancel; the tets are unchanged"));
   buttons->addWidget(this->make_, 1);
   buttons->addWidget(this->cancel_);
@@ -68,7 +71,7 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   this->tets_->setObjectName("tets.shown");
   this->tets_->setToolTip(tr("Show the tets (tetrahedra) at rest instead of the surface"));
   column->addWidget(this->tets_);
-  this->colors_ = option_box("tets.colors", this);
+  this->colors_ = parts::option_box("tets.colors", this);
   this->colors_->setToolTip(
     tr("Winding number: at the center of each tet.\n"
        "Label: inside or outside, and where the label contradicts the winding number.\n"
@@ -77,14 +80,14 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   column->addWidget(this->colors_);
 
   column->addSpacing(10);
-  column->addWidget(heading(tr("Cut"), this));
+  column->addWidget(parts::heading(tr("Cut"), this));
   this->cut_ = new QCheckBox(tr("Cut the tets"), this);
   this->cut_->setChecked(true);
   this->cut_->setObjectName("tets.cut");
   this->cut_->setToolTip(tr("Hide the whole tets in front of a plane that the mouse can drag"));
   column->addWidget(this->cut_);
-  this->orientations_ = orientation_segments(column, this, "tets.orientation");
-  this->position_ = new ValueRow(this);
+  this->orientations_ = parts::orientation_segments(column, this, "tets.orientation");
+  this->position_ = new parts::ValueRow(this);
   this->position_->setObjectName("tets.place");
   this->position_->set_option_is_fraction();
   this->position_->setToolTip(
@@ -100,14 +103,14 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   column->addWidget(this->count_);
 
   column->addSpacing(10);
-  this->shrink_label_ = heading(tr("Size of each tet"), this);
+  this->shrink_label_ = parts::heading(tr("Size of each tet"), this);
   column->addWidget(this->shrink_label_);
-  this->shrink_ = option_row("tets.shrink", this);
+  this->shrink_ = parts::option_row("tets.shrink", this);
   this->shrink_->setToolTip(tr("Scale of each tet; below 1 there are gaps between the tets"));
   column->addWidget(this->shrink_);
 
   column->addSpacing(10);
-  column->addWidget(heading(tr("Surface"), this));
+  column->addWidget(parts::heading(tr("Surface"), this));
   this->defects_ = new QCheckBox(tr("Show its defects"), this);
   this->defects_->setToolTip(
     tr("Mark open, intersecting and duplicate parts, each type in its own color"));
@@ -141,8 +144,9 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   QObject::connect(this->other_side_, &QCheckBox::toggled, this, &TetPanel::other_side_requested);
   QObject::connect(
     this->orientations_, &QButtonGroup::idClicked, this, &TetPanel::orientation_chosen);
-  QObject::connect(this->position_, &ValueRow::value_chosen, this, &TetPanel::position_chosen);
-  QObject::connect(this->shrink_, &ValueRow::value_chosen, this, &TetPanel::shrink_chosen);
+  QObject::connect(
+    this->position_, &parts::ValueRow::value_chosen, this, &TetPanel::position_chosen);
+  QObject::connect(this->shrink_, &parts::ValueRow::value_chosen, this, &TetPanel::shrink_chosen);
   QObject::connect(this->colors_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
     &TetPanel::colors_chosen);
   QObject::connect(this->defects_, &QCheckBox::toggled, this, &TetPanel::defects_requested);
@@ -187,7 +191,7 @@ void TetPanel::set_progress(double fraction, const QString& phase)
   this->bar_->setValue(static_cast<int>(1000.0 * fraction));
   if (this->note_->text() != tr("Stopping …"))
   {
-    this->set_note(progress_note(fraction, phase));
+    this->set_note(parts::progress_note(fraction, phase));
   }
 }
 
@@ -239,3 +243,5 @@ void TetPanel::set_colors(int colors)
   const QSignalBlocker blocker(this->colors_);
   this->colors_->setCurrentIndex(colors);
 }
+
+} // namespace app::tets

@@ -9,7 +9,14 @@ class QComboBox;
 class QLabel;
 class QProgressBar;
 class QPushButton;
+
+namespace app::parts
+{
 class ValueRow;
+} // namespace app::parts
+
+namespace app::tets
+{
 
 /// The panel to the right of the 3D view for tets and defects of a surface. In it the user computes
 /// tets, cuts them open and inspects them. Like SidePanel, it emits signals when the user requests
@@ -82,13 +89,15 @@ private:
   QCheckBox* cut_;
   QCheckBox* other_side_;
   QButtonGroup* orientations_;
-  ValueRow* position_;
+  parts::ValueRow* position_;
   QLabel* count_;
   QLabel* shrink_label_;
-  ValueRow* shrink_;
+  parts::ValueRow* shrink_;
   QCheckBox* defects_;
   QLabel* defects_note_;
   bool has_tets_ = false;
 };
+
+} // namespace app::tets
 
 #endif

@@ -18,10 +18,13 @@
 
 #include <chrono>
 
+namespace app::tets
+{
+
 using namespace bindpose;
 
-TetView::TetView(Viewport* viewport)
-  : QObject(viewport), viewport_(viewport), plane_(new PlaneHandle(viewport, this))
+TetView::TetView(view::Viewport* viewport)
+  : QObject(viewport), viewport_(viewport), plane_(new view::PlaneHandle(viewport, this))
 {
   for (int part : { 0, 1 })
   {
@@ -51,7 +54,7 @@ TetView::TetView(Viewport* viewport)
   this->settle_timer_.setSingleShot(true);
   this->settle_timer_.setInterval(250);
   QObject::connect(&this->settle_timer_, &QTimer::timeout, this, &TetView::update);
-  QObject::connect(this->plane_, &PlaneHandle::moved, this,
+  QObject::connect(this->plane_, &view::PlaneHandle::moved, this,
     [this]
     {
       this->update();
@@ -194,7 +197,7 @@ void TetView::update()
 {
   const bool shown = this->is_shown();
   this->plane_->show(shown && this->cut_open_);
-  this->viewport_->show_legend(Viewport::tet_legend,
+  this->viewport_->show_legend(view::Viewport::tet_legend,
     shown && this->values_ ? QString::fromStdString(this->coloring_.legend_name()) : QString(),
     this->coloring_.map);
   if (!shown)
@@ -235,3 +238,5 @@ void TetView::update()
   this->viewport_->refresh();
   Q_EMIT this->count_changed(this->cut_.kept_count(), this->grid_->GetNumberOfCells());
 }
+
+} // namespace app::tets

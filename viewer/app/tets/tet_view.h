@@ -20,7 +20,13 @@
 #include <array>
 #include <optional>
 
+namespace app::view
+{
 class Viewport;
+} // namespace app::view
+
+namespace app::tets
+{
 
 /// Shows tets in the 3D view. They can be cut open by a plane that the mouse drags, shrunk, and
 /// colored by values. The cut removes whole tets and keeps those whose center is behind the plane.
@@ -29,7 +35,7 @@ class TetView : public QObject
   Q_OBJECT
 
 public:
-  explicit TetView(Viewport* viewport);
+  explicit TetView(view::Viewport* viewport);
 
   /// Set the tets; null: no tets. If bindpose::to_tets() cannot convert them, return its error. The
   /// plane keeps its relative position in the bounding box.
@@ -41,7 +47,7 @@ public:
   void set_cut(bool cut);
   /// Set whether the cut keeps the tets in front of the plane instead of the tets behind it.
   void set_other_side(bool other);
-  PlaneHandle* plane() const { return this->plane_; }
+  view::PlaneHandle* plane() const { return this->plane_; }
   /// Set the drawn size of each tet relative to its own size, in (0, 1].
   void set_shrink(double factor);
   /// Set the values that are displayed as colors; empty: all tets have the same color. If the tets
@@ -72,8 +78,8 @@ private:
   void draw(int part, const bindpose::Triangles& triangles,
     const std::vector<bindpose::Index>& tets, vtkPoints* points);
 
-  Viewport* viewport_;
-  PlaneHandle* plane_;
+  view::Viewport* viewport_;
+  view::PlaneHandle* plane_;
   vtkSmartPointer<vtkUnstructuredGrid> grid_;
   bindpose::TetInput input_;
   bindpose::TetCut cut_;
@@ -90,5 +96,7 @@ private:
   std::array<vtkNew<vtkPolyDataMapper>, 2> mappers_;
   std::array<vtkNew<vtkActor>, 2> actors_;
 };
+
+} // namespace app::tets
 
 #endif

@@ -50,6 +50,9 @@
 #include <algorithm>
 #include <cmath>
 
+namespace app::tour
+{
+
 using namespace bindpose;
 
 namespace
@@ -68,16 +71,16 @@ void scroll_to(QWidget* widget)
 }
 } // namespace
 
-Viewport* SimulatedUser::viewport() const
+view::Viewport* SimulatedUser::viewport() const
 {
-  return this->window_->findChild<Viewport*>();
+  return this->window_->findChild<view::Viewport*>();
 }
 
 // ---- The mouse ---------------------------------------------------------------------------------
 
 QPoint SimulatedUser::place(double x, double y) const
 {
-  const Viewport* viewport = this->viewport();
+  const view::Viewport* viewport = this->viewport();
   return { static_cast<int>(std::lround(x * (viewport->width() - 1))),
     static_cast<int>(std::lround(y * (viewport->height() - 1))) };
 }
@@ -98,7 +101,7 @@ QString SimulatedUser::find_handle_position(
   {
     return QObject::tr("unknown handle '%1'").arg(handle);
   }
-  Viewport* viewport = this->viewport();
+  view::Viewport* viewport = this->viewport();
   auto* representation = viewport->handle_widget()->GetHandleSetRepresentation();
   const Index cell = this->window_->document()->handle_cells()[static_cast<std::size_t>(number)];
   Vec3 head, tail;
@@ -126,7 +129,7 @@ QString SimulatedUser::find_gizmo_position(int part, QPoint& position) const
 
 QPoint SimulatedUser::from_display(const double* pixel) const
 {
-  const Viewport* viewport = this->viewport();
+  const view::Viewport* viewport = this->viewport();
   const double scale = viewport->devicePixelRatioF();
   return { static_cast<int>(std::floor(pixel[0] / scale)),
     viewport->height() - 1 - static_cast<int>(std::floor(pixel[1] / scale)) };
@@ -135,7 +138,7 @@ QPoint SimulatedUser::from_display(const double* pixel) const
 void SimulatedUser::send(QEvent::Type type, const QPoint& position, Qt::MouseButton button,
   Qt::MouseButtons held, Qt::KeyboardModifiers keys)
 {
-  Viewport* viewport = this->viewport();
+  view::Viewport* viewport = this->viewport();
   QMouseEvent event(type, position, viewport->mapToGlobal(position), button, held, keys);
   QApplication::sendEvent(viewport, &event);
 }
@@ -173,7 +176,7 @@ void SimulatedUser::double_click(
 
 void SimulatedUser::wheel(const QPoint& position, double turns, Qt::KeyboardModifiers held)
 {
-  Viewport* viewport = this->viewport();
+  view::Viewport* viewport = this->viewport();
   constexpr int notch = 120; // angle of one wheel notch in eighths of a degree (Qt's unit)
   const QPoint angle(0, static_cast<int>(std::lround(notch * turns)));
   QWheelEvent event(position, viewport->mapToGlobal(position), QPoint(), angle, this->buttons_,
@@ -194,7 +197,7 @@ void SimulatedUser::leave()
 void SimulatedUser::scrub(double seconds)
 {
   this->leave();
-  KeyTrack* track = this->window_->findChild<KeyStrip*>()->track();
+  posing::KeyTrack* track = this->window_->findChild<posing::KeyStrip*>()->track();
   const QPoint position(track->pixel(seconds), track->height() / 2);
   for (const QEvent::Type type : { QEvent::MouseButtonPress, QEvent::MouseButtonRelease })
   {
@@ -374,7 +377,7 @@ QString SimulatedUser::choose(const QString& key, const QVariant& value)
   {
     return QObject::tr("the option '%1' cannot have the value %2").arg(key, value.toString());
   }
-  QObject* found = this->window_->findChild<PanelColumn*>()->findChild<QObject*>(key);
+  QObject* found = this->window_->findChild<window::PanelColumn*>()->findChild<QObject*>(key);
   auto* widget = qobject_cast<QWidget*>(found);
   const QString disabled = QObject::tr("the option '%1' is disabled").arg(key);
   const QString missing =
@@ -418,7 +421,7 @@ QString SimulatedUser::choose(const QString& key, const QVariant& value)
     }
     button->click();
   }
-  else if (auto* row = qobject_cast<ValueRow*>(found))
+  else if (auto* row = qobject_cast<parts::ValueRow*>(found))
   {
     row->choose(checked.toDouble());
   }
@@ -445,8 +448,8 @@ QString SimulatedUser::show_panel(const QString& name)
     return QObject::tr("unknown panel '%1': expected one of %2")
       .arg(name, panel_names().join(", "));
   }
-  this->window_->findChild<PanelColumn*>()->show_panel(panel);
-  return this->window_->findChild<PanelColumn*>()->shown_panel() == panel
+  this->window_->findChild<window::PanelColumn*>()->show_panel(panel);
+  return this->window_->findChild<window::PanelColumn*>()->shown_panel() == panel
     ? QString()
     : QObject::tr("the panel '%1' is not available").arg(name);
 }
@@ -459,14 +462,15 @@ QString SimulatedUser::select(const QString& handle)
   {
     return QObject::tr("unknown handle '%1'").arg(handle);
   }
-  this->window_->findChild<SidePanel*>()->select_handle(number);
+  this->window_->findChild<handles::SidePanel*>()->select_handle(number);
   return {};
 }
 
 QString SimulatedUser::set_mode(const QString& mode)
 {
   this->leave();
-  const std::vector<int> selected = this->window_->findChild<SidePanel*>()->selected_handles();
+  const std::vector<int> selected =
+    this->window_->findChild<handles::SidePanel*>()->selected_handles();
   if (selected.empty())
   {
     return QObject::tr("no handle is selected");
@@ -483,7 +487,7 @@ QString SimulatedUser::set_mode(const QString& mode)
       ? QObject::tr("the mode '%1' is not available for these handles").arg(mode)
       : QObject::tr("the mode '%1' is not available for this handle").arg(mode);
   }
-  this->window_->findChild<HandleEditing*>()->commands()->set_handle_mode(
+  this->window_->findChild<handles::HandleEditing*>()->commands()->set_handle_mode(
     static_cast<HandleMode>(number));
   return {};
 }
@@ -492,7 +496,7 @@ QString SimulatedUser::set_mode(const QString& mode)
 
 namespace
 {
-bool is_busy(Deformation* deformation)
+bool is_busy(posing::Deformation* deformation)
 {
   return deformation->is_binding() ||
     (deformation->can_pose() && !deformation->is_settled() && !deformation->is_canceled() &&
@@ -500,17 +504,19 @@ bool is_busy(Deformation* deformation)
 }
 } // namespace
 
-bool is_idle(const MainWindow* window)
+bool is_idle(const window::MainWindow* window)
 {
-  const Posing* posing = window->findChild<Posing*>();
-  const bool simulates_motion = window->findChild<SidePanel*>()->pose()->simulates_motion();
-  const bool compares = posing->ghost()->place() != PoseGhost::hidden;
-  return !window->findChild<Binding*>()->is_running() &&
-    !window->findChild<TetInspection*>()->is_busy() &&
-    !window->findChild<WeightInspection*>()->is_busy() &&
-    !window->findChild<WindingVolume*>()->is_running() &&
-    !window->findChild<ShapeHandles*>()->is_running() && !posing->pose_manager()->is_playing() &&
-    !posing->motion()->is_playing() && !posing->sequence_export()->is_running() &&
+  const posing::Posing* posing = window->findChild<posing::Posing*>();
+  const bool simulates_motion =
+    window->findChild<handles::SidePanel*>()->pose()->simulates_motion();
+  const bool compares = posing->ghost()->place() != posing::PoseGhost::hidden;
+  return !window->findChild<weights::Binding*>()->is_running() &&
+    !window->findChild<tets::TetInspection*>()->is_busy() &&
+    !window->findChild<weights::WeightInspection*>()->is_busy() &&
+    !window->findChild<volume::WindingVolume*>()->is_running() &&
+    !window->findChild<handles::ShapeHandles*>()->is_running() &&
+    !posing->pose_manager()->is_playing() && !posing->motion()->is_playing() &&
+    !posing->sequence_export()->is_running() &&
     (simulates_motion || !is_busy(posing->deformation())) &&
     (!simulates_motion || !posing->motion()->body() || posing->motion()->has_started()) &&
     (!compares || !is_busy(posing->compared_deformation()));
@@ -532,3 +538,5 @@ bool wait_until(const std::function<bool()>& condition, double seconds)
   }
   return true;
 }
+
+} // namespace app::tour

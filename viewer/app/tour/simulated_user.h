@@ -10,9 +10,19 @@
 
 #include <functional>
 
-class MainWindow;
 class QAction;
+
+namespace app::view
+{
 class Viewport;
+} // namespace app::view
+namespace app::window
+{
+class MainWindow;
+} // namespace app::window
+
+namespace app::tour
+{
 
 /// Simulates a user of the window, for tours and tests: mouse events on the 3D view, keys, menu
 /// entries, buttons and options. Each action uses the widget that a user would use. If a user could
@@ -21,10 +31,10 @@ class Viewport;
 class SimulatedUser
 {
 public:
-  explicit SimulatedUser(MainWindow* window) : window_(window) {}
+  explicit SimulatedUser(window::MainWindow* window) : window_(window) {}
 
   /// Return the 3D view of the window.
-  Viewport* viewport() const;
+  view::Viewport* viewport() const;
 
   // ---- The mouse on the 3D view; positions in pixels from its upper left corner ----
   QPoint place(double x, double y) const; ///< convert fractions of the view's width and height
@@ -78,16 +88,18 @@ private:
   void send(QEvent::Type type, const QPoint& position, Qt::MouseButton button,
     Qt::MouseButtons held, Qt::KeyboardModifiers keys);
 
-  MainWindow* window_;
+  window::MainWindow* window_;
   Qt::MouseButtons buttons_;
 };
 
 /// Report whether nothing runs in the background, nothing plays, and the displayed shape is that of
 /// the current pose.
-bool is_idle(const MainWindow* window);
+bool is_idle(const window::MainWindow* window);
 
 /// Run the event loop until the condition is true. The condition is checked after every event and
 /// every few milliseconds. Return false if it is not true after this many seconds.
 bool wait_until(const std::function<bool()>& condition, double seconds);
+
+} // namespace app::tour
 
 #endif

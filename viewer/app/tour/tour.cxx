@@ -12,8 +12,10 @@
 #include <limits>
 #include <sstream>
 
-namespace bindpose
+namespace app::tour
 {
+
+using namespace bindpose;
 
 namespace
 {
@@ -521,4 +523,4 @@ Status read_tour(const std::string& path, Tour& tour)
   return status;
 }
 
-} // namespace bindpose
+} // namespace app::tour

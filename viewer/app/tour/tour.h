@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace bindpose
+namespace app::tour
 {
 
 /// A description of a mouse position in the 3D view. The position in pixels is computed when the
@@ -123,13 +123,13 @@ struct Tour
 /// Read a tour from JSON: {"tour": {"schema": 1, …}, "steps": [{"open": "a.off"}, …]}.
 /// viewer/sessions_and_tours.md documents the format. If the text does not follow the format, for
 /// example because of an unknown field, return invalid_input with a sentence that names the step.
-Status parse_tour(const std::string& text, Tour& tour);
+bindpose::Status parse_tour(const std::string& text, Tour& tour);
 /// Read a tour from a file. Messages begin with the name of the file.
-Status read_tour(const std::string& path, Tour& tour);
+bindpose::Status read_tour(const std::string& path, Tour& tour);
 
 /// Return the name of a step for messages, such as "step 3 (drag)".
 std::string step_name(std::size_t index, const TourStep& step);
 
-} // namespace bindpose
+} // namespace app::tour
 
 #endif

@@ -25,6 +25,9 @@
 
 #include <algorithm>
 
+namespace app::tour
+{
+
 using namespace bindpose;
 
 namespace
@@ -129,12 +132,13 @@ void wait_seconds(double seconds)
 }
 } // namespace
 
-TourPlayer::TourPlayer(MainWindow* window, const Tour& tour, const std::string& folder)
+TourPlayer::TourPlayer(window::MainWindow* window, const Tour& tour, const std::string& folder)
   : window_(window), tour_(tour), tour_folder_(folder), user_(window),
     real_input_filter_(std::make_unique<RealInputFilter>())
 {
   QApplication::instance()->installEventFilter(this->real_input_filter_.get());
-  QObject::connect(window->findChild<Viewport*>(), &QOpenGLWidget::frameSwapped, &this->context_,
+  QObject::connect(window->findChild<view::Viewport*>(), &QOpenGLWidget::frameSwapped,
+    &this->context_,
     [this]
     {
       if (this->first_picture_ < 0.0 && !this->window_->is_empty())
@@ -461,8 +465,9 @@ QString TourPlayer::wait(const TourStep& step)
 {
   if (step.text == "bind")
   {
-    return wait_until(
-             [this] { return !this->window_->findChild<Binding*>()->is_running(); }, this->left())
+    return wait_until([this]
+             { return !this->window_->findChild<weights::Binding*>()->is_running(); },
+             this->left())
       ? QString()
       : QString("the bind did not end within the time limit");
   }
@@ -565,7 +570,7 @@ QImage TourPlayer::grab(TourPart part, int width)
     dialog = candidate->isVisible() ? candidate : dialog;
   }
   this->process_drawing();
-  Viewport* viewport = this->user_.viewport();
+  view::Viewport* viewport = this->user_.viewport();
   viewport->renderWindow()->Render();
   QApplication::processEvents();
   const QImage picture = part == TourPart::view ? viewport->grabFramebuffer()
@@ -652,3 +657,5 @@ QString TourPlayer::film_frame()
   return this->write(this->grab(this->film_.part, this->film_.width),
     this->film_.text + "_" + number.toStdString() + ".png");
 }
+
+} // namespace app::tour

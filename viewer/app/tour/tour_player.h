@@ -14,7 +14,13 @@
 #include <memory>
 #include <string>
 
+namespace app::window
+{
 class MainWindow;
+} // namespace app::window
+
+namespace app::tour
+{
 
 /// The arguments of `bindpose view --play`.
 struct TourRequest
@@ -35,7 +41,7 @@ class TourPlayer
 public:
   /// @param folder  the folder of the tour. Files to open are searched there first, then in the
   /// working directory.
-  TourPlayer(MainWindow* window, const bindpose::Tour& tour, const std::string& folder);
+  TourPlayer(window::MainWindow* window, const Tour& tour, const std::string& folder);
 
   /// Play the tour. At the first failure, stop and return invalid_input with a sentence that names
   /// the step. Screenshots that were already written are kept, and tour.json is written.
@@ -45,27 +51,27 @@ public:
   const nlohmann::ordered_json& record() const { return this->record_; }
 
 private:
-  QString perform(const bindpose::TourStep& step);
+  QString perform(const TourStep& step);
   QString answer_dialogs(const std::function<QString()>& perform_step, const std::string& answer);
-  QString find(const bindpose::TourPosition& place, QPoint& position) const;
-  QString use_mouse(const bindpose::TourStep& step);
+  QString find(const TourPosition& place, QPoint& position) const;
+  QString use_mouse(const TourStep& step);
   QString open(const std::string& file);
-  QString choose(const bindpose::TourStep& step);
-  QString wait(const bindpose::TourStep& step);
-  QString check(const bindpose::TourStep& step);
-  QString screenshot(const bindpose::TourStep& step);
+  QString choose(const TourStep& step);
+  QString wait(const TourStep& step);
+  QString check(const TourStep& step);
+  QString screenshot(const TourStep& step);
   QString film_frame();
   QString write(const QImage& picture, const std::string& name);
   nlohmann::ordered_json values() const;
-  QImage grab(bindpose::TourPart part, int width);
+  QImage grab(TourPart part, int width);
   void process_drawing();
   QString fit_view();
   double left() const;
   QString timeout_message() const;
   bindpose::Status write_record(const TourRequest& request) const;
 
-  MainWindow* window_;
-  const bindpose::Tour& tour_;
+  window::MainWindow* window_;
+  const Tour& tour_;
   std::string tour_folder_;
   std::string folder_;
   bool overwrite_ = false;
@@ -76,12 +82,14 @@ private:
   double last_seconds_ = 0.0, last_cpu_seconds_ = 0.0;
   double first_picture_ = -1.0, first_picture_cpu_ = 0.0;
   /// The step that began the current film. Its text is empty if no film is being recorded.
-  bindpose::TourStep film_;
+  TourStep film_;
   int frames_ = 0;
   nlohmann::ordered_json record_;
   QObject context_; ///< context of connections
   std::unique_ptr<QObject>
     real_input_filter_; ///< filters out events of the real mouse and keyboard
 };
+
+} // namespace app::tour
 
 #endif

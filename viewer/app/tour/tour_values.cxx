@@ -42,8 +42,10 @@
 
 #include <unistd.h>
 
-namespace bindpose
+namespace app::tour
 {
+
+using namespace bindpose;
 
 namespace
 {
@@ -66,7 +68,7 @@ void add_distance(Json& values, const std::string& name, PointsView a, PointsVie
   }
 }
 
-void add_work(Json& values, MainWindow* window)
+void add_work(Json& values, window::MainWindow* window)
 {
   const Document* document = window->document();
   const Work& work = document->work();
@@ -75,20 +77,20 @@ void add_work(Json& values, MainWindow* window)
   values["points"] = work.surface ? work.surface->GetNumberOfPoints() : 0;
   values["handles"] = static_cast<int>(document->handles().size());
   values["bound"] = window->is_bound();
-  values["binding"] = window->findChild<Binding*>()->is_running();
+  values["binding"] = window->findChild<weights::Binding*>()->is_running();
   values["idle"] = is_idle(window);
   values["panel"] = SimulatedUser::panel_names()
-                      .value(window->findChild<PanelColumn*>()->shown_panel())
+                      .value(window->findChild<window::PanelColumn*>()->shown_panel())
                       .toStdString();
   values["steps"] = window->document()->history()->index();
   values["undo"] = window->document()->history()->undoText().toStdString();
   values["redo"] = window->document()->history()->redoText().toStdString();
   values["error"] = window->error().toStdString();
-  values["note"] = window->findChild<NoticeBar*>("note_bar")->message().toStdString();
-  values["rebind"] = window->findChild<NoticeBar*>("rebind_bar")->message().toStdString();
+  values["note"] = window->findChild<parts::NoticeBar*>("note_bar")->message().toStdString();
+  values["rebind"] = window->findChild<parts::NoticeBar*>("rebind_bar")->message().toStdString();
   values["dialog"] = QApplication::activeModalWidget() != nullptr;
   values["reading"] = window->reading().toStdString();
-  values["state"] = window->findChild<Viewport*>()->state_name().toStdString();
+  values["state"] = window->findChild<view::Viewport*>()->state_name().toStdString();
   values["title"] = window->windowTitle().toStdString();
 }
 
@@ -101,17 +103,17 @@ void add_options(Json& values, const Document* document)
   }
 }
 
-void add_handles(Json& values, MainWindow* window)
+void add_handles(Json& values, window::MainWindow* window)
 {
   const Document* document = window->document();
   auto* representation =
-    window->findChild<Viewport*>()->handle_widget()->GetHandleSetRepresentation();
-  const int selected = window->findChild<SidePanel*>()->selected_handle();
+    window->findChild<view::Viewport*>()->handle_widget()->GetHandleSetRepresentation();
+  const int selected = window->findChild<handles::SidePanel*>()->selected_handle();
   const Handles& handles = document->handles();
   values["selected"] =
     selected >= 0 && selected < static_cast<int>(handles.size()) ? handles[selected].name : "";
   values["selected.count"] =
-    static_cast<int>(window->findChild<SidePanel*>()->selected_handles().size());
+    static_cast<int>(window->findChild<handles::SidePanel*>()->selected_handles().size());
   const Pose pose = document->pose();
   for (std::size_t k = 0; k < handles.size(); ++k)
   {
@@ -128,7 +130,7 @@ void add_handles(Json& values, MainWindow* window)
   }
 }
 
-void add_shape(Json& values, MainWindow* window)
+void add_shape(Json& values, window::MainWindow* window)
 {
   vtkPolyData* rest = window->document()->surface();
   vtkPolyData* shown = window->shown();
@@ -142,7 +144,7 @@ void add_shape(Json& values, MainWindow* window)
   values["shape.lower"] = to_json(posed.view().colwise().minCoeff().transpose());
   values["shape.upper"] = to_json(posed.view().colwise().maxCoeff().transpose());
   add_distance(values, "moved", at_rest.view(), posed.view());
-  Posing* posing = window->findChild<Posing*>();
+  posing::Posing* posing = window->findChild<posing::Posing*>();
   if (!posing->can_pose())
   {
     return;
@@ -167,7 +169,7 @@ void add_shape(Json& values, MainWindow* window)
     values["rotations"] = static_cast<int>(found->rotations.size());
     values["rotations.largest"] = largest;
   }
-  if (posing->ghost()->place() != PoseGhost::hidden)
+  if (posing->ghost()->place() != posing::PoseGhost::hidden)
   {
     values["compared"] = to_string(posing->compared_deformation()->options().method);
     add_distance(values, "difference", posed.view(), posing->compared_deformation()->points());
@@ -178,7 +180,7 @@ void add_shape(Json& values, MainWindow* window)
   }
 }
 
-void add_weights(Json& values, MainWindow* window)
+void add_weights(Json& values, window::MainWindow* window)
 {
   vtkPolyData* surface = window->document()->surface();
   vtkDataArray* weights = surface ? surface->GetPointData()->GetArray("Weights") : nullptr;
@@ -203,7 +205,7 @@ void add_weights(Json& values, MainWindow* window)
       values[key] = certificate->GetRange()[1]; // the value of the worst column
     }
   }
-  const WeightView* view = window->findChild<WeightInspection*>()->view();
+  const weights::WeightView* view = window->findChild<weights::WeightInspection*>()->view();
   if (view->is_shown())
   {
     values["weights.extrema"] = static_cast<int>(view->extrema().size());
@@ -216,9 +218,9 @@ void add_weights(Json& values, MainWindow* window)
   }
 }
 
-void add_volume(Json& values, MainWindow* window)
+void add_volume(Json& values, window::MainWindow* window)
 {
-  VolumeView* view = window->findChild<VolumeView*>();
+  volume::VolumeView* view = window->findChild<volume::VolumeView*>();
   if (!view->volume())
   {
     return;
@@ -232,9 +234,9 @@ void add_volume(Json& values, MainWindow* window)
   values["isosurface.area"] = surface_area(view->isosurface());
 }
 
-void add_tets(Json& values, MainWindow* window)
+void add_tets(Json& values, window::MainWindow* window)
 {
-  const TetView* view = window->findChild<TetInspection*>()->tet_view();
+  const tets::TetView* view = window->findChild<tets::TetInspection*>()->tet_view();
   if (view->tets())
   {
     values["tets"] = view->tets()->GetNumberOfCells();
@@ -243,19 +245,19 @@ void add_tets(Json& values, MainWindow* window)
   }
 }
 
-void add_keys(Json& values, MainWindow* window)
+void add_keys(Json& values, window::MainWindow* window)
 {
-  const StoredPoses& stored_poses = window->findChild<Posing*>()->stored_poses();
+  const StoredPoses& stored_poses = window->findChild<posing::Posing*>()->stored_poses();
   values["keys"] = static_cast<int>(stored_poses.keys.keys().size());
   values["keys.seconds"] = stored_poses.keys.duration();
-  values["keys.time"] = window->findChild<KeyStrip*>()->time();
-  values["keys.playing"] = window->findChild<Posing*>()->pose_manager()->is_playing();
+  values["keys.time"] = window->findChild<posing::KeyStrip*>()->time();
+  values["keys.playing"] = window->findChild<posing::Posing*>()->pose_manager()->is_playing();
   values["poses"] = static_cast<int>(stored_poses.library.entries().size());
 }
 
-void add_view(Json& values, MainWindow* window)
+void add_view(Json& values, window::MainWindow* window)
 {
-  vtkCamera* camera = window->findChild<Viewport*>()->renderer()->GetActiveCamera();
+  vtkCamera* camera = window->findChild<view::Viewport*>()->renderer()->GetActiveCamera();
   values["camera.position"] = to_json(Vec3(Eigen::Map<const Vec3>(camera->GetPosition())));
   values["camera.focus"] = to_json(Vec3(Eigen::Map<const Vec3>(camera->GetFocalPoint())));
   values["camera.distance"] = camera->GetDistance();
@@ -263,7 +265,7 @@ void add_view(Json& values, MainWindow* window)
 }
 } // namespace
 
-Json tour_values(MainWindow* window)
+Json tour_values(window::MainWindow* window)
 {
   Json values = Json::object();
   add_work(values, window);
@@ -345,4 +347,4 @@ double thread_cpu_seconds()
   return seconds_of(CLOCK_THREAD_CPUTIME_ID);
 }
 
-} // namespace bindpose
+} // namespace app::tour

@@ -3,15 +3,18 @@
 
 #include <nlohmann/json.hpp>
 
+namespace app::window
+{
 class MainWindow;
+} // namespace app::window
 
-namespace bindpose
+namespace app::tour
 {
 
 /// Return the state that the window shows, as numbers and words with names. A tour compares these
 /// values with expected values, and writes them together with its screenshots.
 /// viewer/sessions_and_tours.md documents the names. Values that do not apply are absent.
-nlohmann::ordered_json tour_values(MainWindow* window);
+nlohmann::ordered_json tour_values(window::MainWindow* window);
 
 /// Return the distance between two values. For numbers it is the largest absolute difference of a
 /// component. For words it is 0 if they are equal, otherwise infinite. For values of different
@@ -24,6 +27,6 @@ double seconds_since_start();
 double cpu_seconds();
 double thread_cpu_seconds();
 
-} // namespace bindpose
+} // namespace app::tour
 
 #endif

@@ -11,6 +11,9 @@
 #include <QTemporaryDir>
 #include <QVTKOpenGLNativeWidget.h>
 
+namespace app::tour
+{
+
 namespace
 {
 /// Owns the QApplication, with the settings that the window needs.
@@ -21,7 +24,7 @@ public:
   {
     QApplication::setApplicationName("bindpose"); // part of the path of recovered work
     QApplication::setApplicationDisplayName("Bindpose");
-    apply_style(this->application_);
+    parts::apply_style(this->application_);
   }
 
 private:
@@ -40,7 +43,7 @@ private:
 };
 } // namespace
 
-void open_initial_files(MainWindow& window, const std::vector<InitialFile>& files)
+void open_initial_files(window::MainWindow& window, const std::vector<InitialFile>& files)
 {
   // Collect the errors, because opening a file without an error hides the previous error.
   QStringList errors;
@@ -65,13 +68,13 @@ void open_initial_files(MainWindow& window, const std::vector<InitialFile>& file
 int run_viewer(const std::vector<InitialFile>& files, bool auto_rig)
 {
   const Application application;
-  MainWindow window;
+  window::MainWindow window;
   window.show();
-  window.findChild<WindowSessions*>()->offer_recovery();
+  window.findChild<window::WindowSessions*>()->offer_recovery();
   open_initial_files(window, files);
   if (auto_rig)
   {
-    window.findChild<ShapeHandles*>()->auto_rig();
+    window.findChild<handles::ShapeHandles*>()->auto_rig();
   }
   return QApplication::exec();
 }
@@ -79,7 +82,7 @@ int run_viewer(const std::vector<InitialFile>& files, bool auto_rig)
 bindpose::Status play_tour(
   const std::vector<InitialFile>& files, bool auto_rig, const TourRequest& request)
 {
-  bindpose::Tour tour;
+  Tour tour;
   const bindpose::Status status = read_tour(request.path, tour);
   if (!status.ok())
   {
@@ -92,7 +95,7 @@ bindpose::Status play_tour(
   }
   QApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
   const Application application;
-  MainWindow window;
+  window::MainWindow window;
   window.resize(tour.size[0], tour.size[1]);
   TourPlayer player(
     &window, tour, QFileInfo(QString::fromStdString(request.path)).path().toStdString());
@@ -104,7 +107,9 @@ bindpose::Status play_tour(
   }
   if (auto_rig)
   {
-    window.findChild<ShapeHandles*>()->auto_rig();
+    window.findChild<handles::ShapeHandles*>()->auto_rig();
   }
   return player.play(request);
 }
+
+} // namespace app::tour

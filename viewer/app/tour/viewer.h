@@ -9,7 +9,13 @@
 #include <string>
 #include <vector>
 
+namespace app::window
+{
 class MainWindow;
+} // namespace app::window
+
+namespace app::tour
+{
 
 /// A file to open when the program starts. If this struct has neither data nor an error, the window
 /// reads the file.
@@ -26,11 +32,13 @@ struct InitialFile
 int run_viewer(const std::vector<InitialFile>& files, bool auto_rig);
 
 /// Open all files that can be opened. The error bar shows the errors of the other files.
-void open_initial_files(MainWindow& window, const std::vector<InitialFile>& files);
+void open_initial_files(window::MainWindow& window, const std::vector<InitialFile>& files);
 
 /// Run `bindpose view --play`: like run_viewer(), but a tour is played instead of user input. The
 /// user's list of recent files and recovered work are not read or changed.
 bindpose::Status play_tour(
   const std::vector<InitialFile>& files, bool auto_rig, const TourRequest& request);
+
+} // namespace app::tour
 
 #endif

@@ -19,6 +19,9 @@
 #include <algorithm>
 #include <cmath>
 
+namespace app::view
+{
+
 using bindpose::Vec3;
 
 namespace
@@ -310,3 +313,5 @@ bool PlaneHandle::eventFilter(QObject* watched, QEvent* event)
   }
   return QObject::eventFilter(watched, event);
 }
+
+} // namespace app::view

@@ -9,9 +9,13 @@
 
 #include <utility>
 
-class Viewport;
 class vtkImplicitPlaneRepresentation;
 class vtkImplicitPlaneWidget2;
+
+namespace app::view
+{
+
+class Viewport;
 
 /// A plane in the 3D view that the user moves along its normal with the mouse. If the plane is free
 /// (not perpendicular to an axis), the user can also rotate it. This class draws only the outline
@@ -112,5 +116,7 @@ private:
   vtkNew<vtkImplicitPlaneWidget2> widget_;
   vtkNew<vtkImplicitPlaneRepresentation> plane_;
 };
+
+} // namespace app::view
 
 #endif

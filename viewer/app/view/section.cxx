@@ -5,8 +5,11 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+namespace app::view
+{
+
 Section::Section(const QString& title, const QString& tip, bool open, QWidget* parent)
-  : QWidget(parent), title_(title), header_(button(title, this)), body_(new QWidget(this)),
+  : QWidget(parent), title_(title), header_(parts::button(title, this)), body_(new QWidget(this)),
     column_(new QVBoxLayout(body_))
 {
   auto* rows = new QVBoxLayout(this);
@@ -34,3 +37,5 @@ bool Section::is_open() const
 {
   return this->header_->isChecked();
 }
+
+} // namespace app::view

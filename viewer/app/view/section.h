@@ -6,6 +6,9 @@
 class QPushButton;
 class QVBoxLayout;
 
+namespace app::view
+{
+
 /// A heading that users click to show or hide the widgets below it.
 class Section : public QWidget
 {
@@ -26,5 +29,7 @@ private:
   QWidget* body_;
   QVBoxLayout* column_;
 };
+
+} // namespace app::view
 
 #endif

@@ -48,6 +48,9 @@
 #include <cmath>
 #include <utility>
 
+namespace app::view
+{
+
 namespace
 {
 constexpr int smooth_samples = 4; // samples per pixel
@@ -529,8 +532,8 @@ bool Viewport::shows_values(vtkDoubleArray* values) const
 void Viewport::use_appearance()
 {
   using namespace bindpose::palette;
-  const bindpose::Rgb& bottom_color = is_dark() ? dark_gradient_bottom : gradient_bottom;
-  const bindpose::Rgb& above = is_dark() ? dark_gradient_top : gradient_top;
+  const bindpose::Rgb& bottom_color = parts::is_dark() ? dark_gradient_bottom : gradient_bottom;
+  const bindpose::Rgb& above = parts::is_dark() ? dark_gradient_top : gradient_top;
   for (vtkRenderer* renderer : { this->renderer_.Get(), this->right_renderer_ })
   {
     if (renderer)
@@ -539,8 +542,8 @@ void Viewport::use_appearance()
       renderer->SetBackground2(above[0], above[1], above[2]);
     }
   }
-  const bindpose::Rgb& text_color = is_dark() ? dark_text : text;
-  const bindpose::Rgb& label_background = is_dark() ? dark_gradient_bottom : white;
+  const bindpose::Rgb& text_color = parts::is_dark() ? dark_text : text;
+  const bindpose::Rgb& label_background = parts::is_dark() ? dark_gradient_bottom : white;
   vtkTextProperty* name = this->handles_->GetHandleSetRepresentation()->GetLabelTextProperty();
   name->SetColor(text_color[0], text_color[1], text_color[2]);
   name->SetBackgroundColor(label_background[0], label_background[1], label_background[2]);
@@ -580,7 +583,7 @@ void Viewport::draw_legend()
       : static_cast<int>((margin + line_height * static_cast<double>(map.texts.size())) * font);
     box.width = bindpose::legend_width(map, name.toStdString(), font);
     bindpose::add_legend(this->legend_, map, name.toStdString(), box, font,
-      is_dark() ? bindpose::palette::dark_text : bindpose::palette::text);
+      parts::is_dark() ? bindpose::palette::dark_text : bindpose::palette::text);
     box.x += box.width + 2 * font;
   };
   if (!this->column_name_.isEmpty() && !this->has_values_)
@@ -613,7 +616,8 @@ void Viewport::add_name(double center_fraction, double above, const QString& nam
   vtkTextProperty* font = text->GetTextProperty();
   font->SetFontSize(static_cast<int>(14 * scale));
   font->SetJustificationToCentered();
-  const bindpose::Rgb& color = is_dark() ? bindpose::palette::dark_text : bindpose::palette::text;
+  const bindpose::Rgb& color =
+    parts::is_dark() ? bindpose::palette::dark_text : bindpose::palette::text;
   font->SetColor(color[0], color[1], color[2]);
   text->SetPosition(std::round(center_fraction * scale * this->width()), std::round(above * scale));
   this->legend_->AddViewProp(text);
@@ -831,3 +835,5 @@ bindpose::Status Viewport::take_picture(
   this->window_->Render();
   return status;
 }
+
+} // namespace app::view

@@ -34,6 +34,9 @@ class vtkPolyData;
 class vtkRegionBrushWidget;
 class vtkRenderer;
 
+namespace app::view
+{
+
 /// The 3D view of the window. It shows one surface, shaded or colored by a column of its weights.
 /// Handles, which the mouse drags, are drawn on top. The view also shows curves. Other classes, for
 /// example VolumeView, add their own actors.
@@ -234,5 +237,7 @@ private:
   bool first_picture_ = false; // true: the next frame is the first frame of its surface
   QTimer settle_timer_; // single-shot timer that starts after a drag
 };
+
+} // namespace app::view
 
 #endif

@@ -17,6 +17,9 @@
 
 #include <algorithm>
 
+namespace app::volume
+{
+
 namespace
 {
 /// Numbers of samples along the longest side of the grid: coarse, medium, fine.
@@ -38,8 +41,8 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   column->setContentsMargins(16, 14, 16, 14);
   column->setSpacing(7);
 
-  column->addWidget(heading(tr("Winding numbers"), this));
-  this->samples_ = option_box("volume.samples", this);
+  column->addWidget(parts::heading(tr("Winding numbers"), this));
+  this->samples_ = parts::option_box("volume.samples", this);
   for (int k = 0; k < this->samples_->count(); ++k)
   {
     this->samples_->setItemText(
@@ -49,11 +52,11 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
                                 "twice as many samples need eight times the memory"));
   column->addWidget(this->samples_);
   auto* buttons = new QHBoxLayout;
-  this->compute_ = button(tr("Compute"), this);
+  this->compute_ = parts::button(tr("Compute"), this);
   this->compute_->setObjectName("primary");
   this->compute_->setToolTip(tr("Compute in the background how many times the surface winds around "
                                 "each sample: 1 inside, 0 outside"));
-  this->cancel_ = button(tr("Cancel"), this);
+  this->cancel_ = parts::button(tr("Cancel"), this);
   this->cancel_->setToolTip(tr("Cancel; the volume is unchanged"));
   buttons->addWidget(this->compute_, 1);
   buttons->addWidget(this->cancel_);
@@ -69,14 +72,14 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   column->addWidget(this->note_);
 
   column->addSpacing(10);
-  column->addWidget(heading(tr("Slice"), this));
+  column->addWidget(parts::heading(tr("Slice"), this));
   this->slice_ = new QCheckBox(tr("Show the slice"), this);
   this->slice_->setChecked(true);
   this->slice_->setObjectName("volume.slice");
   this->slice_->setToolTip(tr("Show winding numbers on a plane that the mouse can drag"));
   column->addWidget(this->slice_);
-  this->orientations_ = orientation_segments(column, this, "volume.orientation");
-  this->position_ = new ValueRow(this);
+  this->orientations_ = parts::orientation_segments(column, this, "volume.orientation");
+  this->position_ = new parts::ValueRow(this);
   this->position_->setObjectName("volume.place");
   this->position_->set_option_is_fraction();
   this->position_->setToolTip(
@@ -84,13 +87,13 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   column->addWidget(this->position_);
 
   column->addSpacing(10);
-  column->addWidget(heading(tr("Isosurface"), this));
+  column->addWidget(parts::heading(tr("Isosurface"), this));
   this->isosurface_ = new QCheckBox(tr("Isosurface where w is"), this);
   this->isosurface_->setObjectName("volume.isosurface");
   this->isosurface_->setToolTip(
     tr("Show the surface where the winding number w (1 inside, 0 outside) has this value"));
   column->addWidget(this->isosurface_);
-  this->level_ = new ValueRow(this);
+  this->level_ = new parts::ValueRow(this);
   this->level_->setObjectName("volume.level");
   this->level_->setToolTip(tr("The winding number on the isosurface"));
   column->addWidget(this->level_);
@@ -99,7 +102,7 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   column->addWidget(this->area_);
 
   column->addSpacing(10);
-  column->addWidget(heading(tr("Volume"), this));
+  column->addWidget(parts::heading(tr("Volume"), this));
   this->cloud_ = new QCheckBox(tr("Show as a cloud"), this);
   this->cloud_->setToolTip(tr("Volume rendering: clear where w is 0, faint inside, dense where the "
                               "surface overlaps itself or is inside out"));
@@ -107,14 +110,14 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   column->addWidget(this->cloud_);
 
   column->addSpacing(10);
-  this->surface_heading_ = heading(tr("Surface"), this);
+  this->surface_heading_ = parts::heading(tr("Surface"), this);
   column->addWidget(this->surface_heading_);
-  this->surface_ = option_box("volume.surface_look", this);
+  this->surface_ = parts::option_box("volume.surface_look", this);
   this->surface_->setToolTip(tr("Drawing style of the surface around the slice"));
   column->addWidget(this->surface_);
 
   column->addStretch(1);
-  this->close_ = button(tr("Close the volume"), this);
+  this->close_ = parts::button(tr("Close the volume"), this);
   column->addWidget(this->close_);
 
   QObject::connect(this->compute_, &QPushButton::clicked, this, &VolumePanel::compute_requested);
@@ -132,14 +135,15 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
     });
   QObject::connect(
     this->orientations_, &QButtonGroup::idClicked, this, &VolumePanel::orientation_chosen);
-  QObject::connect(this->position_, &ValueRow::value_chosen, this, &VolumePanel::position_chosen);
+  QObject::connect(
+    this->position_, &parts::ValueRow::value_chosen, this, &VolumePanel::position_chosen);
   QObject::connect(this->isosurface_, &QCheckBox::toggled, this,
     [this](bool shown)
     {
       this->area_->setVisible(shown);
       Q_EMIT this->isosurface_requested(shown);
     });
-  QObject::connect(this->level_, &ValueRow::value_chosen, this,
+  QObject::connect(this->level_, &parts::ValueRow::value_chosen, this,
     [this](double level)
     {
       // Moving the level also shows the isosurface, because otherwise it would have no visible
@@ -197,7 +201,7 @@ void VolumePanel::set_progress(double fraction, const QString& phase)
   this->bar_->setValue(static_cast<int>(1000.0 * fraction));
   if (this->note_->text() != tr("Stopping …"))
   {
-    this->set_note(progress_note(fraction, phase));
+    this->set_note(parts::progress_note(fraction, phase));
   }
 }
 
@@ -238,3 +242,5 @@ int VolumePanel::surface_look() const
 {
   return this->surface_->currentIndex();
 }
+
+} // namespace app::volume

@@ -9,7 +9,14 @@ class QComboBox;
 class QLabel;
 class QProgressBar;
 class QPushButton;
+
+namespace app::parts
+{
 class ValueRow;
+} // namespace app::parts
+
+namespace app::volume
+{
 
 /// The panel to the right of the 3D view for a volume of winding numbers. With it the user computes
 /// the volume of a surface, and shows the volume as a slice, an isosurface and a cloud (volume
@@ -59,9 +66,9 @@ private:
   QLabel* note_;
   QCheckBox* slice_;
   QButtonGroup* orientations_;
-  ValueRow* position_;
+  parts::ValueRow* position_;
   QCheckBox* isosurface_;
-  ValueRow* level_;
+  parts::ValueRow* level_;
   QLabel* area_;
   QCheckBox* cloud_;
   QLabel* surface_heading_;
@@ -69,5 +76,7 @@ private:
   QPushButton* close_;
   bool has_volume_ = false;
 };
+
+} // namespace app::volume
 
 #endif

@@ -20,6 +20,9 @@
 #include <algorithm>
 #include <cmath>
 
+namespace app::volume
+{
+
 using bindpose::Vec3;
 
 namespace
@@ -28,8 +31,8 @@ constexpr const char* array_name = "WindingNumber";
 
 } // namespace
 
-VolumeView::VolumeView(Viewport* viewport)
-  : QObject(viewport), viewport_(viewport), plane_(new PlaneHandle(viewport, this))
+VolumeView::VolumeView(view::Viewport* viewport)
+  : QObject(viewport), viewport_(viewport), plane_(new view::PlaneHandle(viewport, this))
 {
   vtkRenderer* renderer = viewport->renderer();
   const bindpose::ColorMap map = bindpose::winding_map();
@@ -61,7 +64,7 @@ VolumeView::VolumeView(Viewport* viewport)
     renderer->AddActor(actor);
   }
 
-  QObject::connect(this->plane_, &PlaneHandle::moved, this,
+  QObject::connect(this->plane_, &view::PlaneHandle::moved, this,
     [this]
     {
       this->update_slice();
@@ -108,7 +111,7 @@ void VolumeView::set_active(bool active)
 
 void VolumeView::update()
 {
-  this->viewport_->show_legend(Viewport::volume_legend,
+  this->viewport_->show_legend(view::Viewport::volume_legend,
     this->is_active() ? tr("Winding number w") : QString(), bindpose::winding_map());
   this->plane_->show(this->is_slice_shown());
   this->update_slice();
@@ -204,3 +207,5 @@ void VolumeView::update_cloud()
   }
   this->viewport_->refresh();
 }
+
+} // namespace app::volume

@@ -11,10 +11,17 @@
 
 #include <QObject>
 
-class Viewport;
 class vtkActor;
 class vtkPolyDataMapper;
 class vtkVolume;
+
+namespace app::view
+{
+class Viewport;
+} // namespace app::view
+
+namespace app::volume
+{
 
 /// Shows a volume of winding numbers in the 3D view while its panel is visible: a slice that the
 /// mouse drags, an isosurface, and a cloud (volume rendering). Each of them can be shown or hidden;
@@ -24,7 +31,7 @@ class VolumeView : public QObject
   Q_OBJECT
 
 public:
-  explicit VolumeView(Viewport* viewport);
+  explicit VolumeView(view::Viewport* viewport);
 
   /// Set the volume, and its smallest and largest value. bindpose::check_volume() must accept the
   /// image. Null: no volume. The slice keeps its relative position.
@@ -41,7 +48,7 @@ public:
   }
 
   void show_slice(bool shown);
-  PlaneHandle* plane() const { return this->plane_; }
+  view::PlaneHandle* plane() const { return this->plane_; }
   bool is_slice_shown() const { return this->is_active() && this->slice_shown_; }
   double position() const { return this->plane_->position(); }
   /// Return the smallest and the largest position at which the slice touches the volume.
@@ -73,13 +80,13 @@ private:
   void update_isosurface();
   void update_cloud();
 
-  Viewport* viewport_;
+  view::Viewport* viewport_;
   vtkSmartPointer<vtkImageData> image_;
   double lowest_ = 0.0;
   double highest_ = 1.0;
   bool active_ = false;
 
-  PlaneHandle* plane_;
+  view::PlaneHandle* plane_;
   vtkNew<vtkPolyDataMapper> slice_mapper_;
   vtkNew<vtkActor> slice_actor_;
   vtkNew<vtkPolyDataMapper> contour_mapper_;
@@ -95,5 +102,7 @@ private:
   vtkSmartPointer<vtkVolume> cloud_; // created when it is shown for the first time
   bool cloud_shown_ = false;
 };
+
+} // namespace app::volume
 
 #endif

@@ -13,6 +13,9 @@
 #include "vtkPointData.h"
 #include "vtkPolyData.h"
 
+namespace app::volume
+{
+
 using namespace bindpose;
 
 namespace
@@ -60,8 +63,8 @@ WindingVolume::WindingVolume(Document* document, VolumePanel* panel, QObject* pa
 {
   QObject::connect(panel, &VolumePanel::compute_requested, this, &WindingVolume::start);
   QObject::connect(panel, &VolumePanel::cancel_requested, this, &WindingVolume::cancel);
-  QObject::connect(&this->job_, &KernelJob::progress, panel, &VolumePanel::set_progress);
-  QObject::connect(&this->job_, &KernelJob::finished, this, &WindingVolume::finish);
+  QObject::connect(&this->job_, &parts::KernelJob::progress, panel, &VolumePanel::set_progress);
+  QObject::connect(&this->job_, &parts::KernelJob::finished, this, &WindingVolume::finish);
 }
 
 void WindingVolume::update()
@@ -133,3 +136,5 @@ void WindingVolume::finish()
     Q_EMIT this->succeeded();
   }
 }
+
+} // namespace app::volume

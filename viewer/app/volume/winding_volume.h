@@ -11,6 +11,10 @@
 #include <memory>
 
 class Document;
+
+namespace app::volume
+{
+
 class VolumePanel;
 
 /// Computes the winding numbers of the open surface on a grid around it, as `bindpose winding`
@@ -41,7 +45,10 @@ private:
   VolumePanel* panel_;
   const void* surface_ = nullptr; ///< the surface for which the volume is computed
   std::shared_ptr<vtkSmartPointer<vtkImageData>> new_volume_;
-  KernelJob job_; // last member, so that the job ends before the data that it uses is destroyed
+  parts::KernelJob
+    job_; // last member, so that the job ends before the data that it uses is destroyed
 };
+
+} // namespace app::volume
 
 #endif

@@ -7,6 +7,9 @@
 #include <functional>
 #include <memory>
 
+namespace app::weights
+{
+
 using namespace bindpose;
 
 namespace
@@ -38,7 +41,7 @@ void run_bind(ExecutionContext& context, const BindInput& input,
 
 BindJob::BindJob(QObject* parent) : QObject(parent)
 {
-  QObject::connect(&this->job_, &KernelJob::progress, this, &BindJob::progress);
+  QObject::connect(&this->job_, &parts::KernelJob::progress, this, &BindJob::progress);
 }
 
 void BindJob::start(BindInput input)
@@ -48,8 +51,8 @@ void BindJob::start(BindInput input)
     return;
   }
   auto bind_result = std::make_shared<BindResult>();
-  QObject::disconnect(&this->job_, &KernelJob::finished, this, nullptr);
-  QObject::connect(&this->job_, &KernelJob::finished, this,
+  QObject::disconnect(&this->job_, &parts::KernelJob::finished, this, nullptr);
+  QObject::connect(&this->job_, &parts::KernelJob::finished, this,
     [this, bind_result]
     {
       this->result_ = BindResult();
@@ -75,3 +78,5 @@ void BindJob::start(BindInput input)
       return bind_result->status;
     });
 }
+
+} // namespace app::weights

@@ -11,6 +11,9 @@
 
 #include <QObject>
 
+namespace app::weights
+{
+
 /// Input of a bind. It consists of copies, so that the bind and the window share no data.
 struct BindInput
 {
@@ -66,7 +69,9 @@ Q_SIGNALS:
 
 private:
   BindResult result_;
-  KernelJob job_;
+  parts::KernelJob job_;
 };
+
+} // namespace app::weights
 
 #endif

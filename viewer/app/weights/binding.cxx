@@ -18,12 +18,16 @@
 #include "vtkPointData.h"
 #include "vtkUnstructuredGrid.h"
 
+namespace app::weights
+{
+
 using namespace bindpose;
 
-Binding::Binding(Document* document, SidePanel* panel, NoticeBar* bar, QObject* parent)
+Binding::Binding(
+  Document* document, handles::SidePanel* panel, parts::NoticeBar* bar, QObject* parent)
   : QObject(parent), document_(document), panel_(panel), bar_(bar), job_(new BindJob(this))
 {
-  QObject::connect(this->job_, &BindJob::progress, panel, &SidePanel::set_progress);
+  QObject::connect(this->job_, &BindJob::progress, panel, &handles::SidePanel::set_progress);
   QObject::connect(this->job_, &BindJob::preview, this, &Binding::show_preview);
   QObject::connect(this->job_, &BindJob::finished, this, &Binding::finish);
 }
@@ -172,3 +176,5 @@ void Binding::finish()
       tr("Bound with a warning: %1.").arg(QString::fromStdString(result.status.warnings.front())));
   }
 }
+
+} // namespace app::weights

@@ -9,8 +9,18 @@
 #include <QObject>
 
 class Document;
-class NoticeBar;
+
+namespace app::handles
+{
 class SidePanel;
+} // namespace app::handles
+namespace app::parts
+{
+class NoticeBar;
+} // namespace app::parts
+
+namespace app::weights
+{
 
 /// Binds the document's surface to its handles in the background. The bind first computes
 /// preliminary weights (the preview), then certified weights, which become an undo step of the
@@ -22,7 +32,7 @@ class Binding : public QObject
 
 public:
   /// `panel` shows the progress and the result; `bar` offers another bind.
-  Binding(Document* document, SidePanel* panel, NoticeBar* bar, QObject* parent);
+  Binding(Document* document, handles::SidePanel* panel, parts::NoticeBar* bar, QObject* parent);
 
   /// Start a bind with the panel's method and domain. Does nothing without a surface and handles,
   /// or while a bind runs.
@@ -52,11 +62,13 @@ private:
   void finish();
 
   Document* document_;
-  SidePanel* panel_;
-  NoticeBar* bar_;
+  handles::SidePanel* panel_;
+  parts::NoticeBar* bar_;
   BindJob* job_;
   vtkSmartPointer<vtkPolyData> preview_; ///< preview of the running job
   QString reason_; ///< the last reason for which a bind was offered
 };
+
+} // namespace app::weights
 
 #endif

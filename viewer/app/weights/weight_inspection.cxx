@@ -17,6 +17,9 @@
 
 #include <algorithm>
 
+namespace app::weights
+{
+
 using namespace bindpose;
 
 namespace
@@ -87,17 +90,19 @@ vtkSmartPointer<vtkUnstructuredGrid> make_weighted_tets(
   return grid;
 }
 
-WeightInspection::WeightInspection(Viewport* viewport, WeightPanel* panel, MakeInput make_input)
+WeightInspection::WeightInspection(
+  view::Viewport* viewport, WeightPanel* panel, MakeInput make_input)
   : QObject(viewport), viewport_(viewport), panel_(panel), view_(new WeightView(viewport)),
     make_input_(std::move(make_input))
 {
   QObject::connect(panel, &WeightPanel::look_changed, this, &WeightInspection::update);
-  QObject::connect(panel, &WeightPanel::tint_opacity_chosen, viewport, &Viewport::set_tint);
+  QObject::connect(panel, &WeightPanel::tint_opacity_chosen, viewport, &view::Viewport::set_tint);
   QObject::connect(panel, &WeightPanel::comparison_requested, this, &WeightInspection::compare);
   QObject::connect(panel, &WeightPanel::cancel_requested, this, &WeightInspection::cancel);
-  PlaneHandle* plane = this->view_->plane();
-  QObject::connect(panel, &WeightPanel::orientation_chosen, plane, &PlaneHandle::set_orientation);
-  QObject::connect(panel, &WeightPanel::position_chosen, plane, &PlaneHandle::set_position);
+  view::PlaneHandle* plane = this->view_->plane();
+  QObject::connect(
+    panel, &WeightPanel::orientation_chosen, plane, &view::PlaneHandle::set_orientation);
+  QObject::connect(panel, &WeightPanel::position_chosen, plane, &view::PlaneHandle::set_position);
   QObject::connect(this->view_, &WeightView::plane_moved, this, &WeightInspection::show_position);
   QObject::connect(&this->job_, &BindJob::progress, panel, &WeightPanel::set_progress);
   QObject::connect(&this->job_, &BindJob::finished, this, &WeightInspection::comparison_finished);
@@ -135,7 +140,7 @@ void WeightInspection::choose_column(int column)
 
 int WeightInspection::surface_look() const
 {
-  return this->view_->is_sliced() ? Viewport::see_through : Viewport::solid;
+  return this->view_->is_sliced() ? view::Viewport::see_through : view::Viewport::solid;
 }
 
 void WeightInspection::show_position()
@@ -324,3 +329,5 @@ void WeightInspection::comparison_finished()
   this->update_panel_state();
   this->panel_->show_quantity(WeightPanel::difference);
 }
+
+} // namespace app::weights

@@ -9,7 +9,14 @@
 
 #include <functional>
 
+namespace app::view
+{
 class Viewport;
+} // namespace app::view
+
+namespace app::weights
+{
+
 class WeightPanel;
 
 /// Inspection of a surface's weights. While the panel is visible, this class shows the data that
@@ -24,7 +31,7 @@ public:
   /// example without handles.
   using MakeInput = std::function<bool(BindInput&)>;
 
-  WeightInspection(Viewport* viewport, WeightPanel* panel, MakeInput make_input);
+  WeightInspection(view::Viewport* viewport, WeightPanel* panel, MakeInput make_input);
 
   /// Set the data to inspect. `surface` is the surface at rest; its array Weights is optional.
   /// `volume` are tets with weights of the same bind (null: no tets). `has_handles`: the handles to
@@ -62,7 +69,7 @@ private:
   void show_position();
   QString certificate(int column) const;
 
-  Viewport* viewport_;
+  view::Viewport* viewport_;
   WeightPanel* panel_;
   WeightView* view_;
   MakeInput make_input_;
@@ -86,5 +93,7 @@ void add_weights(const BindResult& result, const bindpose::Handles& handles, vtk
 /// solved on the surface itself.
 vtkSmartPointer<vtkUnstructuredGrid> make_weighted_tets(
   const BindResult& result, const bindpose::Handles& handles);
+
+} // namespace app::weights
 
 #endif

@@ -18,6 +18,9 @@
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 
+namespace app::weights
+{
+
 namespace
 {
 /// Enable a widget if `reason` is empty. Otherwise disable it and show the reason as its tooltip.
@@ -68,7 +71,7 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
     return result;
   };
 
-  column->addWidget(heading(tr("Show"), this));
+  column->addWidget(parts::heading(tr("Show"), this));
   this->column_ = new QComboBox(this);
   this->column_->setObjectName("weights.column");
   this->column_->setSizeAdjustPolicy(QComboBox::AdjustToMinimumContentsLengthWithIcon);
@@ -110,24 +113,24 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   tint->setContentsMargins(0, 0, 0, 0);
   tint->setSpacing(4);
   tint->addWidget(new QLabel(tr("Colors over the picture"), this->tint_row_));
-  this->tint_ = option_row("weights.over_picture", this->tint_row_);
+  this->tint_ = parts::option_row("weights.over_picture", this->tint_row_);
   this->tint_->setToolTip(tr(
     "Opacity of the colors: 0 shows only the picture, 1 only the colors; isolines remain visible"));
   tint->addWidget(this->tint_);
   column->addWidget(this->tint_row_);
 
   column->addSpacing(10);
-  column->addWidget(heading(tr("Other method"), this));
-  this->method_ = option_box("weights.compare_with", this);
+  column->addWidget(parts::heading(tr("Other method"), this));
+  this->method_ = parts::option_box("weights.compare_with", this);
   this->method_->setToolTip(tr("Method to compare with; the weights of the shape do not change"));
   QObject::connect(
     this->method_, QOverload<int>::of(&QComboBox::currentIndexChanged), this, &WeightPanel::enable);
   column->addWidget(this->method_);
   auto* buttons = new QHBoxLayout;
-  this->compare_ = button(tr("Compare"), this);
+  this->compare_ = parts::button(tr("Compare"), this);
   this->compare_->setToolTip(
     tr("Solve with the other method in the background and show the difference"));
-  this->cancel_ = button(tr("Cancel"), this);
+  this->cancel_ = parts::button(tr("Cancel"), this);
   this->cancel_->setToolTip(tr("Cancel; the displayed values do not change"));
   buttons->addWidget(this->compare_, 1);
   buttons->addWidget(this->cancel_);
@@ -144,14 +147,14 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   column->addWidget(this->comparison_);
 
   column->addSpacing(10);
-  this->inside_ = heading(tr("Inside"), this);
+  this->inside_ = parts::heading(tr("Inside"), this);
   column->addWidget(this->inside_);
   this->slice_ = box(tr("Slice through the volume"),
     tr("Show the weights on a plane through the rest shape; the mouse can drag the plane"));
   this->slice_->setObjectName("weights.slice");
   column->addWidget(this->slice_);
-  this->orientations_ = orientation_segments(column, this, "weights.orientation");
-  this->position_ = new ValueRow(this);
+  this->orientations_ = parts::orientation_segments(column, this, "weights.orientation");
+  this->position_ = new parts::ValueRow(this);
   this->position_->setObjectName("weights.place");
   this->position_->set_option_is_fraction();
   this->position_->setToolTip(
@@ -176,15 +179,18 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
     });
   QObject::connect(
     this->orientations_, &QButtonGroup::idClicked, this, &WeightPanel::orientation_chosen);
-  QObject::connect(this->position_, &ValueRow::value_chosen, this, &WeightPanel::position_chosen);
-  QObject::connect(this->tint_, &ValueRow::value_chosen, this, &WeightPanel::tint_opacity_chosen);
+  QObject::connect(
+    this->position_, &parts::ValueRow::value_chosen, this, &WeightPanel::position_chosen);
+  QObject::connect(
+    this->tint_, &parts::ValueRow::value_chosen, this, &WeightPanel::tint_opacity_chosen);
   this->set_columns({});
   this->set_state({});
 }
 
 QButtonGroup* WeightPanel::add_choice(const char* key, const QStringList& tips)
 {
-  QButtonGroup* group = option_segments(static_cast<QBoxLayout*>(this->layout()), this, key, tips);
+  QButtonGroup* group =
+    parts::option_segments(static_cast<QBoxLayout*>(this->layout()), this, key, tips);
   QObject::connect(group, &QButtonGroup::idClicked, this,
     [this]
     {
@@ -293,7 +299,7 @@ void WeightPanel::enable()
   const bool is_same = this->method_->currentIndex() == this->state_.method;
   enable_or_explain(
     this->compare_, first(no_comparison_reason.isEmpty() && is_same ? same : no_comparison_reason));
-  enable_all_but(this->method_, this->state_.method, same);
+  parts::enable_all_but(this->method_, this->state_.method, same);
   const QString no_slice_reason = shows_difference
     ? tr("The other method was solved on different tets: the difference exists only on the surface")
     : this->state_.has_volume
@@ -325,7 +331,7 @@ void WeightPanel::set_progress(double fraction, const QString& phase)
   this->bar_->setValue(static_cast<int>(1000.0 * fraction));
   if (this->comparison_->text() != tr("Stopping …"))
   {
-    this->set_comparison(progress_note(fraction, phase));
+    this->set_comparison(parts::progress_note(fraction, phase));
   }
 }
 
@@ -386,3 +392,5 @@ bool WeightPanel::slice() const
 {
   return this->slice_->isEnabled() && this->slice_->isChecked();
 }
+
+} // namespace app::weights

@@ -14,8 +14,15 @@ class QComboBox;
 class QLabel;
 class QProgressBar;
 class QPushButton;
-class ValueRow;
 class vtkDataSet;
+
+namespace app::parts
+{
+class ValueRow;
+} // namespace app::parts
+
+namespace app::weights
+{
 
 /// Return the method with which the weights of a surface were computed, according to their report.
 /// The result is an index of bindpose::weight_methods(); -1: unknown.
@@ -102,7 +109,7 @@ private:
   QCheckBox* extrema_;
   QLabel* extrema_note_;
   QWidget* tint_row_; ///< row with the slider of the opacity, shown for textured surfaces
-  ValueRow* tint_;
+  parts::ValueRow* tint_;
   QComboBox* method_;
   QPushButton* compare_;
   QPushButton* cancel_;
@@ -111,8 +118,10 @@ private:
   QLabel* inside_;
   QCheckBox* slice_;
   QButtonGroup* orientations_;
-  ValueRow* position_;
+  parts::ValueRow* position_;
   State state_;
 };
+
+} // namespace app::weights
 
 #endif

@@ -20,10 +20,13 @@
 
 #include <algorithm>
 
+namespace app::weights
+{
+
 using namespace bindpose;
 
-WeightView::WeightView(Viewport* viewport)
-  : QObject(viewport), viewport_(viewport), plane_(new PlaneHandle(viewport, this)),
+WeightView::WeightView(view::Viewport* viewport)
+  : QObject(viewport), viewport_(viewport), plane_(new view::PlaneHandle(viewport, this)),
     slice_(vtkSmartPointer<vtkPolyData>::New())
 {
   vtkRenderer* renderer = viewport->renderer();
@@ -59,7 +62,7 @@ WeightView::WeightView(Viewport* viewport)
   this->balls_.face_eye(Vec3::Zero()); // initialize; there are no balls yet
   renderer->AddObserver(vtkCommand::StartEvent, this, &WeightView::orient_balls);
   this->plane_->draw_box(false); // not needed, because the surface shows the extent of the box
-  QObject::connect(this->plane_, &PlaneHandle::moved, this,
+  QObject::connect(this->plane_, &view::PlaneHandle::moved, this,
     [this]
     {
       this->update_slice();
@@ -96,7 +99,7 @@ void WeightView::hide()
   this->extrema_.clear();
   this->volume_values_ = nullptr;
   this->viewport_->show_values(nullptr, true);
-  this->viewport_->show_legend(Viewport::extremum_legend, QString());
+  this->viewport_->show_legend(view::Viewport::extremum_legend, QString());
   this->draw_isolines(0, nullptr);
   this->update_slice();
   this->place_extrema();
@@ -141,7 +144,7 @@ Status WeightView::show(const PictureOptions& options)
     this->extrema_ = extrema.front();
     ColorMap map = category_map(count_extrema(extrema));
     this->viewport_->show_legend(
-      Viewport::extremum_legend, map.texts.empty() ? tr("No extrema") : tr("Extrema"), map);
+      view::Viewport::extremum_legend, map.texts.empty() ? tr("No extrema") : tr("Extrema"), map);
   }
   this->place_extrema();
   return status;
@@ -239,3 +242,5 @@ void WeightView::orient_balls()
     this->balls_.face_eye(Vec3(this->viewport_->renderer()->GetActiveCamera()->GetPosition()));
   }
 }
+
+} // namespace app::weights

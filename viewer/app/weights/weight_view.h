@@ -18,7 +18,13 @@
 
 #include <array>
 
+namespace app::view
+{
 class Viewport;
+} // namespace app::view
+
+namespace app::weights
+{
 
 /// Shows weights in the 3D view as colors, isolines and balls at their extrema. The weights are
 /// shown on the surface, posed or at rest, or on a slice through the tets that the mouse drags.
@@ -28,7 +34,7 @@ class WeightView : public QObject
   Q_OBJECT
 
 public:
-  explicit WeightView(Viewport* viewport);
+  explicit WeightView(view::Viewport* viewport);
 
   /// Set the data, both with weights; null: no data. `surface` is the surface at rest, and must be
   /// the surface of the viewport. `volume` are the tets on which the weights were solved.
@@ -44,7 +50,7 @@ public:
   bool is_shown() const { return this->shown_; }
   bool is_sliced() const { return this->shown_ && this->options_.slice; }
 
-  PlaneHandle* plane() const { return this->plane_; }
+  view::PlaneHandle* plane() const { return this->plane_; }
 
   const bindpose::Coloring& coloring() const { return this->coloring_; }
   /// Return statistics of the displayed data; see render_to_png().
@@ -67,8 +73,8 @@ private:
   void place_extrema();
   void orient_balls();
 
-  Viewport* viewport_;
-  PlaneHandle* plane_;
+  view::Viewport* viewport_;
+  view::PlaneHandle* plane_;
   vtkSmartPointer<vtkPolyData> surface_; // the surface at rest
   vtkSmartPointer<vtkPolyData> shape_; // posed
   vtkSmartPointer<vtkUnstructuredGrid> volume_;
@@ -88,5 +94,7 @@ private:
   std::array<vtkNew<vtkPolyDataMapper>, 2> isoline_mappers_;
   std::array<vtkNew<vtkActor>, 2> isoline_actors_;
 };
+
+} // namespace app::weights
 
 #endif

@@ -6,6 +6,9 @@
 #include <QPushButton>
 #include <QVBoxLayout>
 
+namespace app::window
+{
+
 EmptyState::EmptyState(QWidget* parent) : QWidget(parent)
 {
   this->setObjectName("empty");
@@ -14,7 +17,7 @@ EmptyState::EmptyState(QWidget* parent) : QWidget(parent)
   auto* title = new QLabel(tr("<p style='font-size:15pt'>Open a mesh, or drop one here</p>"), this);
   title->setAlignment(Qt::AlignCenter);
   column->addWidget(title);
-  QPushButton* open = button(tr("Open and auto-rig…"), this);
+  QPushButton* open = parts::button(tr("Open and auto-rig…"), this);
   open->setObjectName("primary");
   open->setToolTip(tr("Open a mesh, create bones along it and bind it"));
   QObject::connect(open, &QPushButton::clicked, this, &EmptyState::open_and_rig_requested);
@@ -28,3 +31,5 @@ EmptyState::EmptyState(QWidget* parent) : QWidget(parent)
   column->addWidget(text);
   column->addStretch(1);
 }
+
+} // namespace app::window

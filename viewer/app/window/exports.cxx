@@ -27,6 +27,9 @@
 #include <QFileInfo>
 #include <QUrl>
 
+namespace app::window
+{
+
 using namespace bindpose;
 
 namespace
@@ -35,7 +38,7 @@ namespace
 QString short_path(const QString& path)
 {
   constexpr int maximum_length = 70;
-  return shortened(QDir::toNativeSeparators(path), maximum_length);
+  return parts::shortened(QDir::toNativeSeparators(path), maximum_length);
 }
 
 Status write_rig(vtkPolyData* surface, vtkPolyData* handles, const QString& path)
@@ -56,10 +59,10 @@ Status write_rig(vtkPolyData* surface, vtkPolyData* handles, const QString& path
 
 Exports::Exports(const ExportParts& parts) : QObject(parts.window), parts_(parts)
 {
-  SequenceExport* film = parts.posing->sequence_export();
-  QObject::connect(film, &SequenceExport::progress, this, &Exports::show_progress);
-  QObject::connect(film, &SequenceExport::finished, this, &Exports::film_finished);
-  QObject::connect(parts.bar, &NoticeBar::closed, film, &SequenceExport::cancel);
+  posing::SequenceExport* film = parts.posing->sequence_export();
+  QObject::connect(film, &posing::SequenceExport::progress, this, &Exports::show_progress);
+  QObject::connect(film, &posing::SequenceExport::finished, this, &Exports::film_finished);
+  QObject::connect(parts.bar, &parts::NoticeBar::closed, film, &posing::SequenceExport::cancel);
 }
 
 // ---- Ask for a path ----------------------------------------------------------------------------
@@ -127,8 +130,8 @@ void Exports::ask_for_film()
       { { tr("Show the timeline"), [this] { Q_EMIT this->timeline_requested(); } } }, tr("Close"));
     return;
   }
-  const QString path =
-    this->ask(tr("Export the film"), tr("Animations (%1)").arg(SequenceExport::patterns()), "gif");
+  const QString path = this->ask(
+    tr("Export the film"), tr("Animations (%1)").arg(posing::SequenceExport::patterns()), "gif");
   if (!path.isEmpty())
   {
     this->parts_.posing->export_to(path);
@@ -152,7 +155,7 @@ bool Exports::save_rig(const QString& path)
   const bool other = method != PoseMethod::linear_blend && this->parts_.posing->is_posed();
   return this->finish(path, status,
     other ? tr("Other programs pose the rig by linear blend skinning, not by %1.")
-              .arg(method_name(method))
+              .arg(posing::method_name(method))
           : QString());
 }
 
@@ -191,17 +194,17 @@ void Exports::show_progress(double fraction)
 
 void Exports::film_finished()
 {
-  const SequenceExport* film = this->parts_.posing->sequence_export();
+  const posing::SequenceExport* film = this->parts_.posing->sequence_export();
   this->is_showing_progress_ = false;
   this->parts_.bar->hide();
   if (!film->error().isEmpty())
   {
     this->parts_.errors->show_message(
-      tr("Cannot export: %1.").arg(film->error()), ErrorKind::export_file);
+      tr("Cannot export: %1.").arg(film->error()), parts::ErrorKind::export_file);
   }
   else if (!film->said().isEmpty()) // the description is empty after a cancel
   {
-    this->show_result(film->path(), capitalized(film->said()) + '.');
+    this->show_result(film->path(), parts::capitalized(film->said()) + '.');
   }
 }
 
@@ -212,13 +215,15 @@ bool Exports::finish(const QString& path, const Status& status, const QString& r
   if (!status.ok())
   {
     this->parts_.errors->show_message(
-      tr("Cannot export: %1.").arg(QString::fromStdString(status.message)), ErrorKind::export_file);
+      tr("Cannot export: %1.").arg(QString::fromStdString(status.message)),
+      parts::ErrorKind::export_file);
     return false;
   }
   // The warnings name data that the file cannot represent.
   this->show_result(path,
-    status.warnings.empty() ? remark
-                            : capitalized(QString::fromStdString(status.warnings.front())) + '.');
+    status.warnings.empty()
+      ? remark
+      : parts::capitalized(QString::fromStdString(status.warnings.front())) + '.');
   return true;
 }
 
@@ -226,7 +231,7 @@ void Exports::show_result(const QString& path, const QString& remark)
 {
   const QString absolute = QFileInfo(path).absoluteFilePath();
   this->folder_ = QFileInfo(absolute).absolutePath();
-  this->parts_.errors->succeeded(ErrorKind::export_file);
+  this->parts_.errors->succeeded(parts::ErrorKind::export_file);
   this->parts_.bar->offer(QString(),
     { { tr("Show in folder"), [this, absolute] { this->show_in_folder(absolute); } } },
     tr("Close"));
@@ -243,6 +248,8 @@ void Exports::show_in_folder(const QString& path)
     this->parts_.errors->show_message(
       tr("Cannot open the folder %1: no suitable program was found.")
         .arg(QDir::toNativeSeparators(folder)),
-      ErrorKind::export_file);
+      parts::ErrorKind::export_file);
   }
 }
+
+} // namespace app::window

@@ -6,10 +6,24 @@
 #include <QObject>
 
 class Document;
+
+namespace app::parts
+{
 class ErrorBar;
 class NoticeBar;
+} // namespace app::parts
+namespace app::posing
+{
 class Posing;
+} // namespace app::posing
+namespace app::view
+{
 class Viewport;
+} // namespace app::view
+
+namespace app::window
+{
+
 class WindowSessions;
 
 /// The parts of the window that Exports uses.
@@ -17,11 +31,11 @@ struct ExportParts
 {
   QWidget* window; ///< parent of the dialogs
   Document* document;
-  Viewport* viewport;
-  Posing* posing;
+  view::Viewport* viewport;
+  posing::Posing* posing;
   const WindowSessions* sessions; ///< name of the open data
-  ErrorBar* errors;
-  NoticeBar* bar; ///< shows the path of the written file
+  parts::ErrorBar* errors;
+  parts::NoticeBar* bar; ///< shows the path of the written file
 };
 
 /// The exports of the menu File: the visible shape, the rig (mesh, weights and handles), the pose,
@@ -68,5 +82,7 @@ private:
   QString folder_; // folder of the last export
   bool is_showing_progress_ = false;
 };
+
+} // namespace app::window
 
 #endif

@@ -2,6 +2,9 @@
 
 #include <QMessageBox>
 
+namespace app::window
+{
+
 void show_about(QWidget* window)
 {
   QMessageBox::about(window, QObject::tr("About Bindpose"),
@@ -10,3 +13,5 @@ void show_about(QWidget* window)
       "<p>The code of Bindpose is under the BSD 3-clause license.</p>")
       .arg(BINDPOSE_VERSION));
 }
+
+} // namespace app::window

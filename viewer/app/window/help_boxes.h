@@ -3,8 +3,13 @@
 
 class QWidget;
 
+namespace app::window
+{
+
 // Show the dialogs of the menu Help.
 
 void show_about(QWidget* window);
+
+} // namespace app::window
 
 #endif

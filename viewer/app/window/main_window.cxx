@@ -65,6 +65,9 @@
 
 #include <algorithm>
 
+namespace app::window
+{
+
 using namespace bindpose;
 
 namespace
@@ -74,7 +77,7 @@ namespace
 QString short_name(const QString& path)
 {
   constexpr int maximum_length = 60;
-  return shortened(QFileInfo(path).fileName(), maximum_length);
+  return parts::shortened(QFileInfo(path).fileName(), maximum_length);
 }
 QString method_words(const WeightMethod& method)
 {
@@ -86,7 +89,7 @@ QString method_words(const WeightMethod& method)
 QString certificate_note(vtkPolyData* surface, const WeightMethod& chosen)
 {
   vtkDataArray* gaps = surface->GetFieldData()->GetArray("WeightsRelativeGap");
-  const int bound = method_of_weights(surface);
+  const int bound = weights::method_of_weights(surface);
   const QString name = bound < 0 ? MainWindow::tr("weights from the mesh file")
                                  : method_words(weight_methods()[bound]);
   QString note = gaps && gaps->GetNumberOfTuples() > 0
@@ -105,7 +108,7 @@ QString certificate_note(vtkPolyData* surface, const WeightMethod& chosen)
 MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), document_(new Document(this))
 {
   this->setAcceptDrops(true);
-  new FieldGuard(this, [this] { this->viewport_->setFocus(Qt::OtherFocusReason); });
+  new parts::FieldGuard(this, [this] { this->viewport_->setFocus(Qt::OtherFocusReason); });
   // Fit the whole window on a small screen, including the title bar of the desktop.
   constexpr int title_bar_height = 40; // pixels
   const QSize available_size = QGuiApplication::primaryScreen()->availableGeometry().size();
@@ -133,7 +136,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), document_(new Doc
   this->connect_posing();
   this->connect_errors();
   QObject::connect(this->document_, &Document::about_to_change, this->editing_,
-    &HandleEditing::cancel_interaction);
+    &handles::HandleEditing::cancel_interaction);
   QObject::connect(this->document_, &Document::changed, this, &MainWindow::document_changed);
   // The history updates its saved state only at the end of a step; update the title then.
   QObject::connect(
@@ -163,13 +166,13 @@ void MainWindow::make_layout()
   auto* rows = new QVBoxLayout;
   rows->setSpacing(0);
 
-  this->viewport_ = new Viewport(center);
-  this->bars_ = new BarStack(this->viewport_);
-  this->error_bar_ = new ErrorBar(this->bars_);
+  this->viewport_ = new view::Viewport(center);
+  this->bars_ = new parts::BarStack(this->viewport_);
+  this->error_bar_ = new parts::ErrorBar(this->bars_);
   this->bars_->add(this->error_bar_);
   const auto add_bar = [this](const QString& name)
   {
-    auto* bar = new NoticeBar(this->bars_);
+    auto* bar = new parts::NoticeBar(this->bars_);
     bar->setObjectName(name);
     this->bars_->add(bar);
     return bar;
@@ -190,33 +193,33 @@ void MainWindow::make_layout()
   this->panels_ = new PanelColumn(center);
   this->panel_ = this->panels_->side();
   rows->addWidget(this->viewport_, 1);
-  this->strip_ = new KeyStrip(center);
+  this->strip_ = new posing::KeyStrip(center);
   rows->addWidget(this->strip_);
-  this->posing_ = new Posing(this->viewport_,
+  this->posing_ = new posing::Posing(this->viewport_,
     { this->panel_->pose(), this->panel_->fields(), this->panel_->poses(), this->strip_ });
-  this->shape_handles_ = new ShapeHandles(this->document_, this->note_bar_, this);
-  this->editing_ = new HandleEditing(this->document_, this->viewport_, this->posing_, this->panel_,
-    this->shape_handles_->auto_rig_action());
+  this->shape_handles_ = new handles::ShapeHandles(this->document_, this->note_bar_, this);
+  this->editing_ = new handles::HandleEditing(this->document_, this->viewport_, this->posing_,
+    this->panel_, this->shape_handles_->auto_rig_action());
   rows->insertWidget(rows->indexOf(this->viewport_), this->editing_->tools());
   this->bars_->begin_below(this->editing_->mode_bar());
-  this->binding_ = new Binding(this->document_, this->panel_, this->rebind_bar_, this);
-  QObject::connect(
-    this->shape_handles_, &ShapeHandles::rigged, this, [this] { this->binding_->start(); });
+  this->binding_ = new weights::Binding(this->document_, this->panel_, this->rebind_bar_, this);
+  QObject::connect(this->shape_handles_, &handles::ShapeHandles::rigged, this,
+    [this] { this->binding_->start(); });
   // This must be the first connection to this signal: painting must end before another panel shows
   // its own colors.
   QObject::connect(this->panels_, &PanelColumn::panel_shown, this,
     [this](int panel)
     {
       if (panel != PanelColumn::bind_and_pose &&
-        this->editing_->mode() == HandleEditing::paint_regions)
+        this->editing_->mode() == handles::HandleEditing::paint_regions)
       {
-        this->editing_->set_mode(HandleEditing::pose);
+        this->editing_->set_mode(handles::HandleEditing::pose);
       }
     });
   columns->addLayout(rows, 1);
   columns->addWidget(this->panels_);
   this->setCentralWidget(center);
-  this->hint_ = new ElidedLabel(this);
+  this->hint_ = new parts::ElidedLabel(this);
   this->statusBar()->addWidget(this->hint_, 1);
   this->hint_->setContentsMargins(12, 3, 12, 4);
   this->statusBar()->setSizeGripEnabled(false);
@@ -224,30 +227,32 @@ void MainWindow::make_layout()
 
 void MainWindow::make_inspections()
 {
-  this->volume_view_ = new VolumeView(this->viewport_);
-  this->tet_inspection_ = new TetInspection(this->viewport_, this->panels_->tet());
-  QObject::connect(this->tet_inspection_, &TetInspection::surface_look_changed, this,
+  this->volume_view_ = new volume::VolumeView(this->viewport_);
+  this->tet_inspection_ = new tets::TetInspection(this->viewport_, this->panels_->tet());
+  QObject::connect(this->tet_inspection_, &tets::TetInspection::surface_look_changed, this,
     [this]
     {
       this->update_surface_look();
       this->draw_pose(); // draw the shape at rest: tets and defects belong to it
     });
+  QObject::connect(this->tet_inspection_, &tets::TetInspection::first_tets_computed, this,
+    &MainWindow::orient_planes);
   QObject::connect(
-    this->tet_inspection_, &TetInspection::first_tets_computed, this, &MainWindow::orient_planes);
-  QObject::connect(this->tet_inspection_, &TetInspection::noticed, this, &MainWindow::show_notice);
+    this->tet_inspection_, &tets::TetInspection::noticed, this, &MainWindow::show_notice);
   QObject::connect(
-    this->tet_inspection_, &TetInspection::defects_found, this, &MainWindow::offer_defects);
-  this->weights_ = new WeightInspection(this->viewport_, this->panels_->weight(),
-    [this](BindInput& input) { return this->is_bound() && this->binding_->make_input(input); });
-  QObject::connect(this->weights_, &WeightInspection::surface_look_changed, this,
+    this->tet_inspection_, &tets::TetInspection::defects_found, this, &MainWindow::offer_defects);
+  this->weights_ = new weights::WeightInspection(this->viewport_, this->panels_->weight(),
+    [this](weights::BindInput& input)
+    { return this->is_bound() && this->binding_->make_input(input); });
+  QObject::connect(this->weights_, &weights::WeightInspection::surface_look_changed, this,
     [this]
     {
       this->update_surface_look();
       this->update_pose(); // draw the shape at rest: a slice belongs to it
     });
   this->rotations_ =
-    new RotationView(this->viewport_, this->panels_->side()->pose(), this->posing_);
-  this->distances_ = new DistanceView(this->viewport_, this->posing_);
+    new posing::RotationView(this->viewport_, this->panels_->side()->pose(), this->posing_);
+  this->distances_ = new posing::DistanceView(this->viewport_, this->posing_);
   this->probe_ = new Probe({ this->viewport_, this->volume_view_, this->tet_inspection_->tet_view(),
     this->weights_->view(), &this->tet_inspection_->defect_view(), this->posing_, this->rotations_,
     [this] { return this->document_->surface() ? this->posing_->displayed_shape() : nullptr; } });
@@ -274,7 +279,7 @@ void MainWindow::make_inspections()
         this->show_selected_column();
       }
     });
-  QObject::connect(this->panels_->weight(), &WeightPanel::column_chosen, this,
+  QObject::connect(this->panels_->weight(), &weights::WeightPanel::column_chosen, this,
     [this](int column)
     {
       const std::vector<int> selected = this->editing_->selection()->selected();
@@ -286,7 +291,7 @@ void MainWindow::make_inspections()
         this->panel_->select_handle(column);
       }
     });
-  this->winding_volume_ = new WindingVolume(this->document_, this->panels_->volume(), this);
+  this->winding_volume_ = new volume::WindingVolume(this->document_, this->panels_->volume(), this);
 }
 
 void MainWindow::connect_menus()
@@ -313,9 +318,11 @@ void MainWindow::update_menus()
 
 void MainWindow::connect_panel()
 {
-  QObject::connect(this->panel_, &SidePanel::bind_requested, this->binding_, &Binding::start);
-  QObject::connect(this->panel_, &SidePanel::cancel_requested, this->binding_, &Binding::cancel);
-  QObject::connect(this->binding_, &Binding::changed, this,
+  QObject::connect(
+    this->panel_, &handles::SidePanel::bind_requested, this->binding_, &weights::Binding::start);
+  QObject::connect(
+    this->panel_, &handles::SidePanel::cancel_requested, this->binding_, &weights::Binding::cancel);
+  QObject::connect(this->binding_, &weights::Binding::changed, this,
     [this]
     {
       if (this->binding_->is_running())
@@ -325,10 +332,10 @@ void MainWindow::connect_panel()
       this->update_panel();
       this->update_pose();
     });
-  QObject::connect(this->binding_, &Binding::noticed, this, &MainWindow::show_notice);
+  QObject::connect(this->binding_, &weights::Binding::noticed, this, &MainWindow::show_notice);
   QObject::connect(
-    this->binding_, &Binding::bound, this->sessions_->autosave(), &Autosave::begin_save);
-  QObject::connect(this->panel_, &SidePanel::bind_method_changed, this,
+    this->binding_, &weights::Binding::bound, this->sessions_->autosave(), &Autosave::begin_save);
+  QObject::connect(this->panel_, &handles::SidePanel::bind_method_changed, this,
     [this]
     {
       if (this->is_bound() && !this->binding_->is_running())
@@ -336,37 +343,43 @@ void MainWindow::connect_panel()
         this->panel_->set_note(this->bound_note());
       }
     });
-  QObject::connect(this->panel_, &SidePanel::method_chosen, this, &MainWindow::set_method);
-  QObject::connect(this->panel_, &SidePanel::mode_chosen, this,
+  QObject::connect(this->panel_, &handles::SidePanel::method_chosen, this, &MainWindow::set_method);
+  QObject::connect(this->panel_, &handles::SidePanel::mode_chosen, this,
     [this](int mode)
     { this->editing_->commands()->set_handle_mode(static_cast<HandleMode>(mode)); });
-  QObject::connect(this->panel_, &SidePanel::rest_requested, this, &MainWindow::back_to_rest);
-  QObject::connect(this->panel_, &SidePanel::column_chosen, this, &MainWindow::show_column);
+  QObject::connect(
+    this->panel_, &handles::SidePanel::rest_requested, this, &MainWindow::back_to_rest);
+  QObject::connect(
+    this->panel_, &handles::SidePanel::column_chosen, this, &MainWindow::show_column);
 }
 
 void MainWindow::connect_volume()
 {
-  VolumePanel* panel = this->panels_->volume();
-  VolumeView* view = this->volume_view_;
-  QObject::connect(panel, &VolumePanel::slice_requested, view, &VolumeView::show_slice);
+  volume::VolumePanel* panel = this->panels_->volume();
+  volume::VolumeView* view = this->volume_view_;
   QObject::connect(
-    panel, &VolumePanel::orientation_chosen, view->plane(), &PlaneHandle::set_orientation);
-  QObject::connect(panel, &VolumePanel::position_chosen, view->plane(), &PlaneHandle::set_position);
-  QObject::connect(panel, &VolumePanel::isosurface_requested, view, &VolumeView::show_isosurface);
-  QObject::connect(panel, &VolumePanel::level_chosen, view, &VolumeView::set_level);
-  QObject::connect(panel, &VolumePanel::cloud_requested, view, &VolumeView::show_cloud);
+    panel, &volume::VolumePanel::slice_requested, view, &volume::VolumeView::show_slice);
+  QObject::connect(panel, &volume::VolumePanel::orientation_chosen, view->plane(),
+    &view::PlaneHandle::set_orientation);
   QObject::connect(
-    panel, &VolumePanel::surface_look_chosen, this, &MainWindow::update_surface_look);
-  QObject::connect(panel, &VolumePanel::close_requested, this, &MainWindow::close_volume);
+    panel, &volume::VolumePanel::position_chosen, view->plane(), &view::PlaneHandle::set_position);
+  QObject::connect(
+    panel, &volume::VolumePanel::isosurface_requested, view, &volume::VolumeView::show_isosurface);
+  QObject::connect(panel, &volume::VolumePanel::level_chosen, view, &volume::VolumeView::set_level);
+  QObject::connect(
+    panel, &volume::VolumePanel::cloud_requested, view, &volume::VolumeView::show_cloud);
+  QObject::connect(
+    panel, &volume::VolumePanel::surface_look_chosen, this, &MainWindow::update_surface_look);
+  QObject::connect(panel, &volume::VolumePanel::close_requested, this, &MainWindow::close_volume);
   const auto show_position = [panel, view]
   {
     const auto [lowest, highest] = view->positions();
     panel->set_position(view->position(), lowest, highest);
   };
-  QObject::connect(view, &VolumeView::slice_moved, panel, show_position);
-  QObject::connect(view, &VolumeView::volume_changed, panel, show_position);
-  QObject::connect(view, &VolumeView::area_changed, panel, &VolumePanel::set_area);
-  QObject::connect(view, &VolumeView::shown_changed, this,
+  QObject::connect(view, &volume::VolumeView::slice_moved, panel, show_position);
+  QObject::connect(view, &volume::VolumeView::volume_changed, panel, show_position);
+  QObject::connect(view, &volume::VolumeView::area_changed, panel, &volume::VolumePanel::set_area);
+  QObject::connect(view, &volume::VolumeView::shown_changed, this,
     [this]
     {
       this->update_surface_look();
@@ -376,19 +389,19 @@ void MainWindow::connect_volume()
 
 void MainWindow::connect_handles()
 {
-  QObject::connect(this->editing_, &HandleEditing::moved, this, &MainWindow::update_pose);
+  QObject::connect(this->editing_, &handles::HandleEditing::moved, this, &MainWindow::update_pose);
   QObject::connect(
-    this->editing_, &HandleEditing::status_text_changed, this, &MainWindow::update_hint);
+    this->editing_, &handles::HandleEditing::status_text_changed, this, &MainWindow::update_hint);
   // While regions are painted, the surface shows only the colors of regions.
-  QObject::connect(this->editing_, &HandleEditing::mode_changed, this,
+  QObject::connect(this->editing_, &handles::HandleEditing::mode_changed, this,
     [this](int mode)
     {
-      if (mode == HandleEditing::paint_regions)
+      if (mode == handles::HandleEditing::paint_regions)
       {
         this->panels_->show_panel(PanelColumn::bind_and_pose);
       }
     });
-  QObject::connect(this->editing_, &HandleEditing::handle_selected, this,
+  QObject::connect(this->editing_, &handles::HandleEditing::handle_selected, this,
     [this]
     {
       this->posing_->select_handles(this->editing_->selection()->selected());
@@ -409,25 +422,27 @@ void MainWindow::show_selected_column()
 /// Connect the error bar. An error is hidden when an operation of the same type succeeds.
 void MainWindow::connect_errors()
 {
-  const auto connect_failure = [this](auto* part, auto signal, ErrorKind kind)
+  const auto connect_failure = [this](auto* part, auto signal, parts::ErrorKind kind)
   {
     QObject::connect(part, signal, this,
       [this, kind](const QString& message) { this->show_error(message, kind); });
   };
-  const auto connect_success = [this](auto* part, auto signal, ErrorKind kind)
+  const auto connect_success = [this](auto* part, auto signal, parts::ErrorKind kind)
   { QObject::connect(part, signal, this, [this, kind] { this->error_bar_->succeeded(kind); }); };
   // an error of a bind is hidden by the next bind
-  connect_failure(this->binding_, &Binding::failed, ErrorKind::other);
-  connect_failure(this->shape_handles_, &ShapeHandles::failed, ErrorKind::edit_handles);
-  connect_failure(this->editing_, &HandleEditing::refused, ErrorKind::edit_handles);
-  connect_failure(this->posing_, &Posing::failed, ErrorKind::pose);
-  connect_success(this->posing_, &Posing::succeeded, ErrorKind::pose);
-  connect_failure(this->tet_inspection_, &TetInspection::failed, ErrorKind::tets);
-  connect_success(this->tet_inspection_, &TetInspection::succeeded, ErrorKind::tets);
-  connect_failure(this->weights_, &WeightInspection::failed, ErrorKind::weights);
-  connect_success(this->weights_, &WeightInspection::succeeded, ErrorKind::weights);
-  connect_failure(this->winding_volume_, &WindingVolume::failed, ErrorKind::volume);
-  connect_success(this->winding_volume_, &WindingVolume::succeeded, ErrorKind::volume);
+  connect_failure(this->binding_, &weights::Binding::failed, parts::ErrorKind::other);
+  connect_failure(
+    this->shape_handles_, &handles::ShapeHandles::failed, parts::ErrorKind::edit_handles);
+  connect_failure(this->editing_, &handles::HandleEditing::refused, parts::ErrorKind::edit_handles);
+  connect_failure(this->posing_, &posing::Posing::failed, parts::ErrorKind::pose);
+  connect_success(this->posing_, &posing::Posing::succeeded, parts::ErrorKind::pose);
+  connect_failure(this->tet_inspection_, &tets::TetInspection::failed, parts::ErrorKind::tets);
+  connect_success(this->tet_inspection_, &tets::TetInspection::succeeded, parts::ErrorKind::tets);
+  connect_failure(this->weights_, &weights::WeightInspection::failed, parts::ErrorKind::weights);
+  connect_success(this->weights_, &weights::WeightInspection::succeeded, parts::ErrorKind::weights);
+  connect_failure(this->winding_volume_, &volume::WindingVolume::failed, parts::ErrorKind::volume);
+  connect_success(
+    this->winding_volume_, &volume::WindingVolume::succeeded, parts::ErrorKind::volume);
 }
 
 // ---- Changes of the document -------------------------------------------------------------------
@@ -476,7 +491,7 @@ void MainWindow::document_changed(int parts)
   }
   if (parts & (handles_part | handle_looks_part))
   {
-    this->error_bar_->succeeded(ErrorKind::edit_handles);
+    this->error_bar_->succeeded(parts::ErrorKind::edit_handles);
   }
   this->editing_->document_changed(parts);
   this->update_title();
@@ -564,7 +579,7 @@ void MainWindow::show_handles()
   {
     this->viewport_->reset_view();
   }
-  std::vector<HandleTree::Row> rows;
+  std::vector<handles::HandleTree::Row> rows;
   const Pose pose = this->document_->pose();
   for (std::size_t k = 0; k < pose.size(); ++k)
   {
@@ -697,7 +712,7 @@ bool MainWindow::open_file(const QString& path, const OpenedFile* read)
   {
     // Show only the file name; the readers report the whole path.
     this->error_bar_->show_message(
-      QString::fromStdString(status.message).replace(path, name), ErrorKind::other, path);
+      QString::fromStdString(status.message).replace(path, name), parts::ErrorKind::other, path);
     return false;
   }
   const OpenedFile& file = read ? *read : own_file;
@@ -882,8 +897,8 @@ vtkPolyData* MainWindow::shown() const
 
 void MainWindow::connect_posing()
 {
-  QObject::connect(this->posing_, &Posing::moved, this, &MainWindow::draw_pose);
-  QObject::connect(this->posing_, &Posing::pose_changed, this,
+  QObject::connect(this->posing_, &posing::Posing::moved, this, &MainWindow::draw_pose);
+  QObject::connect(this->posing_, &posing::Posing::pose_changed, this,
     [this](const Pose& pose)
     {
       set_pose(this->document_->handle_data(), this->document_->handle_cells(), pose);
@@ -893,15 +908,15 @@ void MainWindow::connect_posing()
       }
       this->update_pose();
     });
-  QObject::connect(this->posing_, &Posing::pose_step_requested, this->document_,
+  QObject::connect(this->posing_, &posing::Posing::pose_step_requested, this->document_,
     [this](const QString& step, const QString& merge)
     { this->document_->commit_pose(step, merge); });
-  QObject::connect(
-    this->posing_, &Posing::edit_ended, this->document_, [this] { this->document_->end_merge(); });
-  QObject::connect(this->posing_, &Posing::stored_poses_changed, this->document_,
+  QObject::connect(this->posing_, &posing::Posing::edit_ended, this->document_,
+    [this] { this->document_->end_merge(); });
+  QObject::connect(this->posing_, &posing::Posing::stored_poses_changed, this->document_,
     [this](const QString& step)
     { this->document_->set_stored_poses(this->posing_->stored_poses(), step); });
-  QObject::connect(this->posing_, &Posing::handles_changed, this->document_,
+  QObject::connect(this->posing_, &posing::Posing::handles_changed, this->document_,
     [this](const QString& step) { this->document_->commit_handles(step, step); });
 }
 
@@ -1000,7 +1015,7 @@ void MainWindow::update_hint()
   const QString said = this->editing_->message();
   this->hint_->setText(said.isEmpty() ? this->hint_text_ : said);
   this->hint_->setStyleSheet(
-    this->editing_->is_warning() ? "color: " + theme_color("error_ink").name() : QString());
+    this->editing_->is_warning() ? "color: " + parts::theme_color("error_ink").name() : QString());
 }
 
 void MainWindow::update_panel()
@@ -1048,8 +1063,8 @@ void MainWindow::show_outlines(bool shown)
 void MainWindow::update_surface_look()
 {
   int look = this->tet_inspection_->surface_look();
-  look = look == Viewport::solid ? this->weights_->surface_look() : look;
-  this->viewport_->set_surface_look(look == Viewport::solid && this->volume_view_->is_active()
+  look = look == view::Viewport::solid ? this->weights_->surface_look() : look;
+  this->viewport_->set_surface_look(look == view::Viewport::solid && this->volume_view_->is_active()
       ? this->panels_->volume()->surface_look()
       : look);
 }
@@ -1065,7 +1080,7 @@ void MainWindow::show_column(int column)
 
 // ---- Errors -------------------------------------------------------------------------
 
-void MainWindow::show_error(const QString& message, ErrorKind kind)
+void MainWindow::show_error(const QString& message, parts::ErrorKind kind)
 {
   this->error_bar_->show_message(message, kind);
 }
@@ -1084,3 +1099,5 @@ QString MainWindow::error() const
 {
   return this->error_bar_->message();
 }
+
+} // namespace app::window

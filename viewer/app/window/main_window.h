@@ -13,33 +13,59 @@
 #include <optional>
 
 class QLabel;
-class BarStack;
-class Binding;
-class DistanceView;
 class Document;
-class ElidedLabel;
-class Exports;
 struct OpenedFile;
-class HandleEditing;
-class EmptyState;
-class ShapeHandles;
-class TetInspection;
-class KeyStrip;
-class NoticeBar;
-class OptionLinks;
-class PanelColumn;
-class Posing;
-class Probe;
-class RotationView;
-class SidePanel;
-class Viewport;
-class VolumeView;
-class WeightInspection;
-class WindowMenus;
-class WindowSessions;
-class WindingVolume;
 class vtkDataSet;
 class vtkImageData;
+
+namespace app::handles
+{
+class HandleEditing;
+class ShapeHandles;
+class SidePanel;
+} // namespace app::handles
+namespace app::parts
+{
+class BarStack;
+class ElidedLabel;
+class NoticeBar;
+} // namespace app::parts
+namespace app::posing
+{
+class DistanceView;
+class KeyStrip;
+class Posing;
+class RotationView;
+} // namespace app::posing
+namespace app::tets
+{
+class TetInspection;
+} // namespace app::tets
+namespace app::view
+{
+class Viewport;
+} // namespace app::view
+namespace app::volume
+{
+class VolumeView;
+class WindingVolume;
+} // namespace app::volume
+namespace app::weights
+{
+class Binding;
+class WeightInspection;
+} // namespace app::weights
+
+namespace app::window
+{
+
+class EmptyState;
+class Exports;
+class OptionLinks;
+class PanelColumn;
+class Probe;
+class WindowMenus;
+class WindowSessions;
 
 /// The window of `bindpose view`. In it users bind a surface to handles and pose the surface. They
 /// can also inspect volumes of winding numbers, and the weights, tets and defects of a surface.
@@ -85,7 +111,7 @@ public:
   QString reading() const;
   /// Return the sentence in the error bar; empty if the bar is hidden.
   QString error() const;
-  void show_error(const QString& message, ErrorKind kind = ErrorKind::other);
+  void show_error(const QString& message, parts::ErrorKind kind = parts::ErrorKind::other);
 
 protected:
   void dragEnterEvent(QDragEnterEvent* event) override;
@@ -133,39 +159,39 @@ private:
 
   Document* document_;
   // Parts of the window. Tours and tests find them by their type, and the bars by their names.
-  Viewport* viewport_ = nullptr;
-  VolumeView* volume_view_ = nullptr;
-  TetInspection* tet_inspection_ = nullptr;
-  WeightInspection* weights_ = nullptr;
+  view::Viewport* viewport_ = nullptr;
+  volume::VolumeView* volume_view_ = nullptr;
+  tets::TetInspection* tet_inspection_ = nullptr;
+  weights::WeightInspection* weights_ = nullptr;
   Probe* probe_ = nullptr;
   std::optional<bindpose::Vec3> plane_; // normal of a planar shape at rest; empty: not planar
   bool flat_requested_ = true;
   /// Last orientation that the program has chosen for each cutting plane. The key is the prefix of
   /// the plane's options: "volume", "tets" or "weights".
   std::map<QString, int> automatic_orientations_;
-  Posing* posing_ = nullptr;
-  HandleEditing* editing_ = nullptr;
-  Binding* binding_ = nullptr;
-  ShapeHandles* shape_handles_ = nullptr;
-  KeyStrip* strip_ = nullptr; // below the 3D view
+  posing::Posing* posing_ = nullptr;
+  handles::HandleEditing* editing_ = nullptr;
+  weights::Binding* binding_ = nullptr;
+  handles::ShapeHandles* shape_handles_ = nullptr;
+  posing::KeyStrip* strip_ = nullptr; // below the 3D view
   PanelColumn* panels_ = nullptr;
-  RotationView* rotations_ = nullptr;
-  DistanceView* distances_ = nullptr;
-  SidePanel* panel_ = nullptr; // part of panels_
+  posing::RotationView* rotations_ = nullptr;
+  posing::DistanceView* distances_ = nullptr;
+  handles::SidePanel* panel_ = nullptr; // part of panels_
   OptionLinks* links_ = nullptr;
   WindowMenus* menus_ = nullptr;
   WindowSessions* sessions_ = nullptr;
   Exports* exports_ = nullptr;
-  WindingVolume* winding_volume_ = nullptr;
-  BarStack* bars_ = nullptr; // stack of bars over the 3D view; contains the next four bars
-  ErrorBar* error_bar_ = nullptr;
-  NoticeBar* recovery_bar_ = nullptr;
+  volume::WindingVolume* winding_volume_ = nullptr;
+  parts::BarStack* bars_ = nullptr; // stack of bars over the 3D view; contains the next four bars
+  parts::ErrorBar* error_bar_ = nullptr;
+  parts::NoticeBar* recovery_bar_ = nullptr;
   /// Notes about missing files of a session, the outline of an image, and defects of a surface.
-  NoticeBar* note_bar_ = nullptr;
-  NoticeBar* rebind_bar_ = nullptr;
-  NoticeBar* export_bar_ = nullptr; // shows what was exported and to which path
+  parts::NoticeBar* note_bar_ = nullptr;
+  parts::NoticeBar* rebind_bar_ = nullptr;
+  parts::NoticeBar* export_bar_ = nullptr; // shows what was exported and to which path
   /// The status line. It describes the current interaction, or the last pose.
-  ElidedLabel* hint_ = nullptr;
+  parts::ElidedLabel* hint_ = nullptr;
   EmptyState* empty_ = nullptr; // in the middle of the 3D view while no file is open
   vtkSmartPointer<vtkPolyData> drawn_surface_; // the surface that the viewport shows
   bool timeline_ = false; // true: show the timeline, after the first key frame or on request
@@ -173,5 +199,7 @@ private:
   QString read_notice_; // warnings about data of the opened file that was not read
   QString hint_text_; // shown in the status line when there is no interaction
 };
+
+} // namespace app::window
 
 #endif

@@ -13,6 +13,9 @@
 #include <QSlider>
 #include <QWidget>
 
+namespace app::window
+{
+
 OptionLinks::OptionLinks(Document* document, QWidget* root) : QObject(root), document_(document)
 {
   for (const OptionInfo& option : option_table())
@@ -54,12 +57,12 @@ OptionLinks::OptionLinks(Document* document, QWidget* root) : QObject(root), doc
         });
       QObject::connect(group, &QButtonGroup::idClicked, this, store_choice);
     }
-    else if (auto* row = qobject_cast<ValueRow*>(found))
+    else if (auto* row = qobject_cast<parts::ValueRow*>(found))
     {
       this->link_option(
         key, [row] { return row->value(); },
         [row](const QVariant& value) { row->choose(value.toDouble()); });
-      QObject::connect(row, &ValueRow::value_chosen, this, store_choice);
+      QObject::connect(row, &parts::ValueRow::value_chosen, this, store_choice);
       QObject::connect(
         row->slider(), &QSlider::sliderReleased, this, [this] { this->document_->end_merge(); });
     }
@@ -125,3 +128,5 @@ void OptionLinks::option_changed(const QString& key, const QVariant& value)
     this->is_updating_widgets_ = false;
   }
 }
+
+} // namespace app::window

@@ -11,6 +11,9 @@
 class Document;
 class QWidget;
 
+namespace app::window
+{
+
 /// Connects widgets with the document's options (document/options.h). The object name of a widget
 /// is the key of its option. A choice of the user becomes an undo step. Undo, redo and sessions set
 /// the widgets, whose signals then update the views. Supported widgets are check boxes, combo boxes
@@ -56,5 +59,7 @@ private:
   /// not by the user.
   bool is_updating_widgets_ = false;
 };
+
+} // namespace app::window
 
 #endif

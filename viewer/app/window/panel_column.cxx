@@ -19,6 +19,9 @@
 
 #include <algorithm>
 
+namespace app::window
+{
+
 namespace
 {
 constexpr int panel_count = 4;
@@ -26,9 +29,9 @@ constexpr int panel_count = 4;
 
 PanelColumn::PanelColumn(QWidget* parent)
   : QWidget(parent), button_row_(new QFrame(this)), splitter_(new QSplitter(Qt::Vertical, this)),
-    handles_(new HandleTree(this)), buttons_(new QButtonGroup(this)),
-    side_(new SidePanel(this->handles_, this)), weight_(new WeightPanel(this)),
-    tet_(new TetPanel(this)), volume_(new VolumePanel(this))
+    handles_(new handles::HandleTree(this)), buttons_(new QButtonGroup(this)),
+    side_(new handles::SidePanel(this->handles_, this)), weight_(new weights::WeightPanel(this)),
+    tet_(new tets::TetPanel(this)), volume_(new volume::VolumePanel(this))
 {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(0, 0, 0, 0);
@@ -45,7 +48,7 @@ PanelColumn::PanelColumn(QWidget* parent)
     QT_TR_NOOP("Slices and isosurfaces of winding numbers") };
   for (int k = 0; k < panel_count; ++k)
   {
-    QPushButton* segment = button(tr(names[k]), this->button_row_);
+    QPushButton* segment = parts::button(tr(names[k]), this->button_row_);
     segment->setObjectName("segment");
     segment->setCheckable(true);
     segment->setToolTip(tr(tips[k]));
@@ -185,3 +188,5 @@ void PanelColumn::show_panel(int panel)
   this->show_handles();
   Q_EMIT this->panel_shown(panel);
 }
+
+} // namespace app::window

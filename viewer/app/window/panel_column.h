@@ -7,11 +7,27 @@
 class QButtonGroup;
 class QFrame;
 class QSplitter;
+
+namespace app::handles
+{
 class HandleTree;
 class SidePanel;
+} // namespace app::handles
+namespace app::tets
+{
 class TetPanel;
+} // namespace app::tets
+namespace app::volume
+{
 class VolumePanel;
+} // namespace app::volume
+namespace app::weights
+{
 class WeightPanel;
+} // namespace app::weights
+
+namespace app::window
+{
 
 /// The column to the right of the 3D view. Its panels are: bind and pose, weights, tets and
 /// defects, and volumes. If several panels apply, buttons at the top select one. The list of
@@ -32,11 +48,11 @@ public:
     volume_slice
   };
 
-  SidePanel* side() const { return this->side_; }
-  WeightPanel* weight() const { return this->weight_; }
-  TetPanel* tet() const { return this->tet_; }
-  VolumePanel* volume() const { return this->volume_; }
-  HandleTree* handles() const { return this->handles_; }
+  handles::SidePanel* side() const { return this->side_; }
+  weights::WeightPanel* weight() const { return this->weight_; }
+  tets::TetPanel* tet() const { return this->tet_; }
+  volume::VolumePanel* volume() const { return this->volume_; }
+  handles::HandleTree* handles() const { return this->handles_; }
   /// Set which types of data are open. They determine the panels that can be selected. `shape`: a
   /// surface or handles are open.
   void set_open(bool volume, bool shape, bool surface);
@@ -56,15 +72,17 @@ private:
 
   QFrame* button_row_;
   QSplitter* splitter_;
-  HandleTree* handles_;
+  handles::HandleTree* handles_;
   QButtonGroup* buttons_;
   QList<QWidget*> panels_; // one widget per Panel: the panel or its scroll area
-  SidePanel* side_;
-  WeightPanel* weight_;
-  TetPanel* tet_;
-  VolumePanel* volume_;
+  handles::SidePanel* side_;
+  weights::WeightPanel* weight_;
+  tets::TetPanel* tet_;
+  volume::VolumePanel* volume_;
   bool has_shape_ = false; ///< true: a surface or handles are open
   bool height_set_by_user_ = false;
 };
+
+} // namespace app::window
 
 #endif

@@ -13,16 +13,19 @@
 #include <QPushButton>
 #include <QSettings>
 
+namespace app::window
+{
+
 namespace
 {
 const char* const scale_key = "picture/scale";
 const char* const transparent_key = "picture/transparent";
 } // namespace
 
-PictureDialog::PictureDialog(Viewport* viewport, QWidget* parent)
+PictureDialog::PictureDialog(view::Viewport* viewport, QWidget* parent)
   : QDialog(parent), viewport_(viewport), scale_(new QComboBox(this)),
     transparent_(new QCheckBox(tr("Transparent background"), this)), size_(new QLabel(this)),
-    save_(button(tr("Export…"), this))
+    save_(parts::button(tr("Export…"), this))
 {
   this->setWindowTitle(tr("Export picture"));
   auto* rows = new QGridLayout(this);
@@ -51,7 +54,7 @@ PictureDialog::PictureDialog(Viewport* viewport, QWidget* parent)
   rows->addWidget(this->transparent_, 2, 0, 1, 3);
   rows->setColumnStretch(2, 1);
   auto* buttons = new QHBoxLayout;
-  auto* cancel = button(tr("Cancel"), this);
+  auto* cancel = parts::button(tr("Cancel"), this);
   this->save_->setObjectName("primary");
   this->save_->setDefault(true);
   buttons->setSpacing(8);
@@ -91,8 +94,9 @@ void PictureDialog::update_size()
   const QSize size = this->viewport_->picture_size(this->scale());
   const bindpose::Status status = bindpose::check_picture_size(size.width(), size.height());
   this->save_->setEnabled(status.ok());
-  this->size_->setText(status.ok() ? tr("%L1 × %L2 pixels").arg(size.width()).arg(size.height())
-                                   : capitalized(QString::fromStdString(status.message)) + '.');
+  this->size_->setText(status.ok()
+      ? tr("%L1 × %L2 pixels").arg(size.width()).arg(size.height())
+      : parts::capitalized(QString::fromStdString(status.message)) + '.');
 }
 
 void PictureDialog::accept()
@@ -102,3 +106,5 @@ void PictureDialog::accept()
   settings->setValue(transparent_key, this->is_transparent());
   this->QDialog::accept();
 }
+
+} // namespace app::window

@@ -7,7 +7,14 @@ class QCheckBox;
 class QComboBox;
 class QLabel;
 class QPushButton;
+
+namespace app::view
+{
 class Viewport;
+} // namespace app::view
+
+namespace app::window
+{
 
 /// A dialog that asks for the size of an image of the 3D view, as a multiple of the size on the
 /// screen, and for a transparent background. It shows the size in pixels. The next dialog begins
@@ -17,7 +24,7 @@ class PictureDialog : public QDialog
   Q_OBJECT
 
 public:
-  PictureDialog(Viewport* viewport, QWidget* parent);
+  PictureDialog(view::Viewport* viewport, QWidget* parent);
 
   int scale() const;
   bool is_transparent() const;
@@ -28,11 +35,13 @@ public:
 private:
   void update_size();
 
-  Viewport* viewport_;
+  view::Viewport* viewport_;
   QComboBox* scale_;
   QCheckBox* transparent_;
   QLabel* size_;
   QPushButton* save_;
 };
+
+} // namespace app::window
 
 #endif

@@ -4,9 +4,13 @@
 #include "app/window/option_links.h"
 #include "document/document.h"
 
+namespace app::window
+{
+
 using bindpose::Vec3;
 
-void link_plane(OptionLinks* links, Document* document, const QString& name, PlaneHandle* plane)
+void link_plane(
+  OptionLinks* links, Document* document, const QString& name, view::PlaneHandle* plane)
 {
   const QString position_key = name + ".place";
   const QString normal_key = name + ".normal";
@@ -29,12 +33,14 @@ void link_plane(OptionLinks* links, Document* document, const QString& name, Pla
   // Undo these options together: choosing an axis changes the normal of the free plane, and
   // rotating the plane changes its relative position.
   links->group_options({ name + ".orientation", position_key, normal_key });
-  QObject::connect(plane, &PlaneHandle::dragged, links,
+  QObject::connect(plane, &view::PlaneHandle::dragged, links,
     [links, document, position_key, normal_key](bool turned)
     {
       document->end_merge();
       links->chosen(turned ? normal_key : position_key);
       document->end_merge();
     });
-  QObject::connect(document, &Document::about_to_change, plane, &PlaneHandle::cancel);
+  QObject::connect(document, &Document::about_to_change, plane, &view::PlaneHandle::cancel);
 }
+
+} // namespace app::window

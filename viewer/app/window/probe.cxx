@@ -38,6 +38,9 @@
 #include <chrono>
 #include <cmath>
 
+namespace app::window
+{
+
 using namespace bindpose;
 
 namespace
@@ -221,7 +224,7 @@ void Probe::show_lines(const QStringList& lines)
 /// widget is there.
 void Probe::move_label_away(const QPoint& mouse)
 {
-  const Viewport* viewport = this->views_.viewport;
+  const view::Viewport* viewport = this->views_.viewport;
   const QRect room =
     viewport->rect().adjusted(label_margin, label_margin, -label_margin, -label_margin);
   QRect place(QPoint(), this->label_->size());
@@ -248,7 +251,7 @@ void Probe::move_label_away(const QPoint& mouse)
 
 QStringList Probe::read_at(int x, int y)
 {
-  Viewport* viewport = this->views_.viewport;
+  view::Viewport* viewport = this->views_.viewport;
   const int width = viewport->picture_size(1).width();
   // If the view is split, the right half shows the other shape with the same camera.
   const bool other = viewport->is_split() && 2 * x >= width;
@@ -261,7 +264,7 @@ QStringList Probe::read_at(int x, int y)
   const int look = viewport->surface_look();
   const OptionalHit surface = this->surface(ray, other);
   const QString defect = other ? QString() : this->defect(ray);
-  OptionalHit first = look == Viewport::solid ? surface : OptionalHit();
+  OptionalHit first = look == view::Viewport::solid ? surface : OptionalHit();
   for (const OptionalHit& each : other
       ? std::vector<OptionalHit>()
       : std::vector<OptionalHit>{ this->tets(ray), this->weight_slice(ray),
@@ -273,7 +276,7 @@ QStringList Probe::read_at(int x, int y)
     }
   }
   first = first || other ? first : this->cloud(ray);
-  first = first ? first : look == Viewport::hidden ? OptionalHit() : surface;
+  first = first ? first : look == view::Viewport::hidden ? OptionalHit() : surface;
   QStringList lines = first ? first->lines : QStringList();
   if (!defect.isEmpty())
   {
@@ -314,7 +317,8 @@ Probe::OptionalHit Probe::surface(const ViewRay& ray, bool other) const
   if (other)
   {
     place = seen;
-    found.lines << method_name(this->views_.posing->compared_deformation()->options().method);
+    found.lines << posing::method_name(
+      this->views_.posing->compared_deformation()->options().method);
   }
   found.lines << tr("Triangle %1, vertex %2").arg(hit.element).arg(nearest)
               << format_position(place);
@@ -355,7 +359,7 @@ QStringList Probe::weights(vtkPolyData* shape, const RayHit& hit) const
     return component_name && *component_name ? QString::fromUtf8(component_name)
                                              : QString::number(column);
   };
-  const WeightView* view = this->views_.weights;
+  const weights::WeightView* view = this->views_.weights;
   const int column = this->views_.viewport->shown_column();
   if (view->is_shown() && !view->is_sliced())
   {
@@ -379,11 +383,11 @@ QStringList Probe::weights(vtkPolyData* shape, const RayHit& hit) const
 /// Return the distance between the shape and the shape of the compared method.
 QString Probe::difference(const RayHit& hit) const
 {
-  const Posing* posing = this->views_.posing;
+  const posing::Posing* posing = this->views_.posing;
   const ShadedSurface* shaded = this->views_.viewport->shaded();
   const Points& a = posing->points();
   const Points& b = posing->compared_deformation()->points();
-  if (posing->ghost()->place() == PoseGhost::hidden || !shaded || a.rows() != b.rows() ||
+  if (posing->ghost()->place() == posing::PoseGhost::hidden || !shaded || a.rows() != b.rows() ||
     a.rows() == 0 || posing->shows_rest() || posing->compared_deformation()->is_binding())
   {
     return {};
@@ -403,7 +407,7 @@ QString Probe::difference(const RayHit& hit) const
 
 Probe::OptionalHit Probe::tets(const ViewRay& ray) const
 {
-  const TetView* view = this->views_.tets;
+  const tets::TetView* view = this->views_.tets;
   RayHit hit;
   if (!view->is_shown())
   {
@@ -431,7 +435,7 @@ Probe::OptionalHit Probe::tets(const ViewRay& ray) const
 
 Probe::OptionalHit Probe::weight_slice(const ViewRay& ray) const
 {
-  const WeightView* view = this->views_.weights;
+  const weights::WeightView* view = this->views_.weights;
   SurfaceInput slice;
   RayHit hit;
   if (!view->is_sliced() || view->slice()->GetNumberOfCells() == 0 ||
@@ -451,7 +455,7 @@ Probe::OptionalHit Probe::weight_slice(const ViewRay& ray) const
 
 Probe::OptionalHit Probe::winding_slice(const ViewRay& ray) const
 {
-  const VolumeView* view = this->views_.volume;
+  const volume::VolumeView* view = this->views_.volume;
   const double slope = ray.direction.dot(view->slice_normal());
   if (!view->volume() || !view->is_slice_shown() || std::abs(slope) < 1e-9)
   {
@@ -473,7 +477,7 @@ Probe::OptionalHit Probe::winding_slice(const ViewRay& ray) const
 /// winding number crosses the level.
 Probe::OptionalHit Probe::isosurface(const ViewRay& ray) const
 {
-  const VolumeView* view = this->views_.volume;
+  const volume::VolumeView* view = this->views_.volume;
   if (!view->volume() || view->isosurface()->GetNumberOfCells() == 0)
   {
     return {};
@@ -501,7 +505,7 @@ Probe::OptionalHit Probe::isosurface(const ViewRay& ray) const
 
 Probe::OptionalHit Probe::cloud(const ViewRay& ray) const
 {
-  const VolumeView* view = this->views_.volume;
+  const volume::VolumeView* view = this->views_.volume;
   if (!view->volume() || !view->is_cloud_shown())
   {
     return {};
@@ -604,3 +608,5 @@ QString Probe::defect(const ViewRay& ray) const
   return ids->GetNumberOfIds() == 1 ? tr("Defect: %1, vertex %2").arg(name, vertices.first())
                                     : tr("Defect: %1, vertices %2").arg(name, vertices.join(", "));
 }
+
+} // namespace app::window

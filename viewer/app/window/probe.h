@@ -9,16 +9,35 @@
 #include <functional>
 #include <optional>
 
-class DefectView;
-class Posing;
-class RotationView;
 class QLabel;
 class QMouseEvent;
-class TetView;
-class Viewport;
-class VolumeView;
-class WeightView;
 class vtkPolyData;
+
+namespace app::posing
+{
+class Posing;
+class RotationView;
+} // namespace app::posing
+namespace app::tets
+{
+class DefectView;
+class TetView;
+} // namespace app::tets
+namespace app::view
+{
+class Viewport;
+} // namespace app::view
+namespace app::volume
+{
+class VolumeView;
+} // namespace app::volume
+namespace app::weights
+{
+class WeightView;
+} // namespace app::weights
+
+namespace app::window
+{
 
 /// Shows names and values of the object under the mouse, in a small label in a corner of the 3D
 /// view.
@@ -36,13 +55,13 @@ class Probe : public QObject
 public:
   struct Views
   {
-    Viewport* viewport;
-    VolumeView* volume;
-    TetView* tets;
-    WeightView* weights;
-    const DefectView* defects;
-    Posing* posing;
-    const RotationView* rotations;
+    view::Viewport* viewport;
+    volume::VolumeView* volume;
+    tets::TetView* tets;
+    weights::WeightView* weights;
+    const tets::DefectView* defects;
+    posing::Posing* posing;
+    const posing::RotationView* rotations;
     /// Returns the surface as drawn, posed or at rest; null if there is no surface.
     std::function<vtkPolyData*()> surface;
   };
@@ -88,5 +107,7 @@ private:
   QStringList lines_;
   double milliseconds_ = 0.0;
 };
+
+} // namespace app::window
 
 #endif

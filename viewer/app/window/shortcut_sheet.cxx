@@ -11,6 +11,9 @@
 
 #include <algorithm>
 
+namespace app::window
+{
+
 ShortcutSheet::ShortcutSheet(QWidget* parent) : QDialog(parent)
 {
   this->setWindowTitle(tr("Mouse and keys"));
@@ -32,13 +35,13 @@ ShortcutSheet::ShortcutSheet(QWidget* parent) : QDialog(parent)
   this->table_->setFocusPolicy(Qt::NoFocus);
   QFont bold = this->font();
   bold.setBold(true);
-  for (const bindpose::KeyGroup& group : bindpose::all_keys())
+  for (const parts::KeyGroup& group : parts::all_keys())
   {
     const int heading_row = this->table_->rowCount();
     this->table_->insertRow(heading_row);
-    auto* title = new QTableWidgetItem(capitalized(QString::fromStdString(group.when)));
+    auto* title = new QTableWidgetItem(parts::capitalized(QString::fromStdString(group.when)));
     title->setFont(bold);
-    title->setForeground(theme_color(is_dark() ? "accent_ring" : "accent"));
+    title->setForeground(parts::theme_color(parts::is_dark() ? "accent_ring" : "accent"));
     this->table_->setItem(heading_row, 0, title);
     this->table_->setSpan(heading_row, 0, 1, 2);
     for (const auto& [input, text] : group.rows)
@@ -91,3 +94,5 @@ void ShortcutSheet::apply_search(const QString& words)
     this->table_->setRowHidden(heading_row, !any_row_shown);
   }
 }
+
+} // namespace app::window

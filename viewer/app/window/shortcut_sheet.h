@@ -6,6 +6,9 @@
 class QLineEdit;
 class QTableWidget;
 
+namespace app::window
+{
+
 /// A dialog with all keys and mouse buttons of the window and a search field. The keys are grouped
 /// by the situations in which they apply (window_keys.h).
 class ShortcutSheet : public QDialog
@@ -23,5 +26,7 @@ private:
   QLineEdit* search_field_;
   QTableWidget* table_;
 };
+
+} // namespace app::window
 
 #endif

@@ -29,13 +29,16 @@
 #include <QRegularExpression>
 #include <QUndoStack>
 
+namespace app::window
+{
+
 namespace
 {
 QList<QKeySequence> shortcuts(const char* name)
 {
   QList<QKeySequence> result;
   for (const QString& keys :
-    QString::fromStdString(bindpose::keys_of(name)).split(", ", Qt::SkipEmptyParts))
+    QString::fromStdString(parts::keys_of(name)).split(", ", Qt::SkipEmptyParts))
   {
     result << QKeySequence(keys);
   }
@@ -181,11 +184,11 @@ void WindowMenus::add_view_menu()
   view->addSeparator();
   this->methods_ = new QActionGroup(this);
   int key = Qt::Key_1;
-  for (const bindpose::PoseMethod each : pose_methods_in_order())
+  for (const bindpose::PoseMethod each : posing::pose_methods_in_order())
   {
     const auto number = static_cast<int>(each);
-    QAction* method = this->add(
-      view, method_name(each), "", [this, number] { Q_EMIT this->method_requested(number); });
+    QAction* method = this->add(view, posing::method_name(each), "",
+      [this, number] { Q_EMIT this->method_requested(number); });
     method->setData(number);
     method->setShortcut(QKeySequence(key++));
     method->setCheckable(true);
@@ -195,13 +198,15 @@ void WindowMenus::add_view_menu()
   view->addSeparator();
   QMenu* appearance = view->addMenu(tr("&Appearance"));
   auto* appearance_group = new QActionGroup(this);
-  for (const auto& [text, look] : { std::pair(tr("Same as the &desktop"), Appearance::system),
-         std::pair(tr("&Light"), Appearance::light), std::pair(tr("D&ark"), Appearance::dark) })
+  for (const auto& [text, look] :
+    { std::pair(tr("Same as the &desktop"), parts::Appearance::system),
+      std::pair(tr("&Light"), parts::Appearance::light),
+      std::pair(tr("D&ark"), parts::Appearance::dark) })
   {
     QAction* entry =
-      this->add(appearance, text, "", [look = look] { choose_appearance(*qApp, look); });
+      this->add(appearance, text, "", [look = look] { parts::choose_appearance(*qApp, look); });
     entry->setCheckable(true);
-    entry->setChecked(look == chosen_appearance());
+    entry->setChecked(look == parts::chosen_appearance());
     appearance_group->addAction(entry);
   }
 }
@@ -238,3 +243,5 @@ void WindowMenus::update(const State& state)
   this->timeline_->setChecked(state.shows_timeline);
   this->parts_.shape_handles->update();
 }
+
+} // namespace app::window

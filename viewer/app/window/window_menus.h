@@ -3,19 +3,36 @@
 
 #include <QObject>
 
-class Binding;
 class Document;
-class Exports;
-class HandleEditing;
-class KeyStrip;
-class PanelColumn;
-class Posing;
 class QAction;
 class QActionGroup;
 class QMainWindow;
 class QMenu;
+
+namespace app::handles
+{
+class HandleEditing;
 class ShapeHandles;
+} // namespace app::handles
+namespace app::posing
+{
+class KeyStrip;
+class Posing;
+} // namespace app::posing
+namespace app::view
+{
 class Viewport;
+} // namespace app::view
+namespace app::weights
+{
+class Binding;
+} // namespace app::weights
+
+namespace app::window
+{
+
+class Exports;
+class PanelColumn;
 class WindowSessions;
 
 /// The window, and the parts of the window whose commands are in the menus.
@@ -23,13 +40,13 @@ struct MenuParts
 {
   QMainWindow* window;
   Document* document;
-  Viewport* viewport;
+  view::Viewport* viewport;
   PanelColumn* panels;
-  HandleEditing* editing;
-  ShapeHandles* shape_handles;
-  Binding* binding;
-  Posing* posing;
-  KeyStrip* strip;
+  handles::HandleEditing* editing;
+  handles::ShapeHandles* shape_handles;
+  weights::Binding* binding;
+  posing::Posing* posing;
+  posing::KeyStrip* strip;
   WindowSessions* sessions;
   Exports* exports;
 };
@@ -83,5 +100,7 @@ private:
   QAction* rest_pose_ = nullptr;
   QActionGroup* methods_ = nullptr;
 };
+
+} // namespace app::window
 
 #endif

@@ -21,6 +21,9 @@
 
 #include <algorithm>
 
+namespace app::window
+{
+
 using namespace bindpose;
 
 WindowSessions::WindowSessions(const SessionParts& parts)
@@ -35,7 +38,7 @@ WindowSessions::WindowSessions(const SessionParts& parts)
   QObject::connect(parts.document, &Document::changed, &this->autosave_, &Autosave::note_change);
   QObject::connect(&this->autosave_, &Autosave::failed, parts.errors,
     [errors = parts.errors](const QString& message)
-    { errors->show_message(message, ErrorKind::save_session); });
+    { errors->show_message(message, parts::ErrorKind::save_session); });
 }
 
 WindowSessions::~WindowSessions() = default;
@@ -93,11 +96,11 @@ void WindowSessions::show_notes(const Session& session)
   {
     return;
   }
-  QList<NoticeBar::Choice> choices;
+  QList<parts::NoticeBar::Choice> choices;
   if (!session.missing_inputs.empty())
   {
     const QString path = session.missing_inputs.front().path;
-    choices << NoticeBar::Choice{ tr("Locate…"),
+    choices << parts::NoticeBar::Choice{ tr("Locate…"),
       [this, path]
       {
         const QString found = QFileDialog::getOpenFileName(this->parts_.window,
@@ -148,11 +151,11 @@ bool WindowSessions::write(const QString& path)
   {
     this->parts_.errors->show_message(
       tr("Cannot save the session: %1.").arg(QString::fromStdString(status.message)),
-      ErrorKind::save_session);
+      parts::ErrorKind::save_session);
     return false;
   }
   this->path_ = absolute;
-  this->parts_.errors->succeeded(ErrorKind::save_session);
+  this->parts_.errors->succeeded(parts::ErrorKind::save_session);
   this->parts_.document->set_saved();
   Q_EMIT this->changed();
   RecentFiles::add(absolute);
@@ -280,3 +283,5 @@ void WindowSessions::recover()
   }
   this->recovered_.reset();
 }
+
+} // namespace app::window

@@ -8,27 +8,41 @@
 
 #include <memory>
 
-class Binding;
 class Document;
+class QMenu;
+
+namespace app::parts
+{
 class ErrorBar;
 class NoticeBar;
+} // namespace app::parts
+namespace app::view
+{
+class Viewport;
+} // namespace app::view
+namespace app::weights
+{
+class Binding;
+} // namespace app::weights
+
+namespace app::window
+{
+
 class OptionLinks;
 class PanelColumn;
-class QMenu;
-class Viewport;
 
 /// The parts of the window that WindowSessions uses.
 struct SessionParts
 {
   QWidget* window; ///< parent of the dialogs
   Document* document;
-  Viewport* viewport;
+  view::Viewport* viewport;
   PanelColumn* panels;
-  Binding* binding;
+  weights::Binding* binding;
   OptionLinks* links;
-  ErrorBar* errors;
-  NoticeBar* recovery; ///< offers recovered work
-  NoticeBar* missing; ///< shows missing files
+  parts::ErrorBar* errors;
+  parts::NoticeBar* recovery; ///< offers recovered work
+  parts::NoticeBar* missing; ///< shows missing files
 };
 
 /// Manages the session files of the window. The class opens and saves sessions, and asks before
@@ -83,5 +97,7 @@ private:
   Autosave autosave_;
   std::unique_ptr<RecoveredWork> recovered_;
 };
+
+} // namespace app::window
 
 #endif

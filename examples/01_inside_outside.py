@@ -76,7 +76,7 @@ def compare(title, surface, points, numbers, truth=None):
     numbers[title] = {"inside": int(ours.sum()), "vtk_inside": int(theirs.sum()),
                       "disagree": int((ours != theirs).sum()), "vtk_refuses": refused}
     line = (f"  {title:<16} {ours.sum():>7} {theirs.sum():>7} {(ours != theirs).sum():>9}"
-            f"    {'refuses it' if refused else 'takes it'}")
+            f"    {'input rejected' if refused else 'input accepted'}")
     if truth is not None:
         numbers[title].update(wrong=int((ours != truth).sum()), vtk_wrong=int((theirs != truth).sum()))
         line += f"    wrong: {(ours != truth).sum()}, VTK {(theirs != truth).sum()}"
@@ -243,9 +243,9 @@ def write_picture(path, surface, points, ours, theirs):
     window.SetMultiSamples(0)
     window.SetAlphaBitPlanes(1)
     left = [solid, *cuts, legend(table), note("Winding number", (0.5, 0.94), bold=True),
-            note("a corner taken out, the field where it is beyond 0.04", (0.5, 0.03))]
+            note("one corner cut away; shown where |winding number| > 0.04", (0.5, 0.03))]
     right = [glass, *answers, note("Inside", (0.5, 0.94), bold=True),
-             note("black: where vtkSelectEnclosedPoints says otherwise", (0.5, 0.03))]
+             note("black: vtkSelectEnclosedPoints gives a different result", (0.5, 0.03))]
     for number, actors in enumerate((left, right)):
         renderer = vtkRenderer()
         renderer.SetViewport(0.5 * number, 0, 0.5 * (number + 1), 1)
@@ -285,7 +285,7 @@ def main(options):
     # a vtkPolyData; a pair of arrays (vertices #V x 3, triangles #F x 3) is also accepted
     surface = bindpose.read(mesh)
     if not surface.IsA("vtkPolyData"):
-        raise bindpose.InvalidInput(f"{mesh} holds a {surface.GetClassName()}, not a surface")
+        raise bindpose.InvalidInput(f"{mesh} contains a {surface.GetClassName()}; expected a vtkPolyData")
     bounds = np.reshape(surface.GetBounds(), (3, 2))
     random = np.random.default_rng(1)
     points = random.uniform(*bounds.T, (1000 if options.small else 20000, 3))
@@ -314,12 +314,12 @@ def main(options):
     # The tolerance is a parameter; the error is guaranteed to be smaller.
     few = points[:1000]
     exact = bindpose.winding_number(surface, few, method="exact")
-    print(f"\n  exact: {1e6 * exact.report['seconds']['evaluate'] / len(few):8.2f} µs a point ({exact.report['method']})")
+    print(f"\n  exact: {1e6 * exact.report['seconds']['evaluate'] / len(few):8.2f} µs per point ({exact.report['method']})")
     numbers["tolerance"] = {}
     for tolerance in (1e-2, 1e-4, 1e-6):
         fast = bindpose.winding_number(surface, few, method="fast", tolerance=tolerance)
         numbers["tolerance"][str(tolerance)] = float(np.abs(fast - exact).max())
-        print(f"  within {tolerance:.0e}: {1e6 * fast.report['seconds']['evaluate'] / len(few):8.2f} µs a point, "
+        print(f"  within {tolerance:.0e}: {1e6 * fast.report['seconds']['evaluate'] / len(few):8.2f} µs per point, "
               f"maximum error {np.abs(fast - exact).max():.1e}")
 
     # Compare the gradient with finite differences of the field.
@@ -338,10 +338,10 @@ def main(options):
     report = bindpose.report(grid)
     numbers["winding_volume"] = report["winding_volume"]
     print(f"  grid {' x '.join(map(str, grid.GetDimensions()))}: {time.perf_counter() - start:.2f} s, "
-          f"{report['winding_volume']:.4g} enclosed")
+          f"enclosed volume {report['winding_volume']:.4g}")
     # winding number of the surface at its own vertices: about 1/2
     at_vertices = bindpose.winding_number(surface, surface)
-    print(f"  at its own vertices on average "
+    print(f"  mean winding number at the surface's own vertices: "
           f"{vtk_to_numpy(at_vertices.GetPointData().GetArray('WindingNumber')).mean():.3f}")
 
     # Triangles with the wrong orientation have a negative winding number. Their contribution is subtracted, unless they

@@ -91,8 +91,8 @@ def write(readme, text):
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", type=pathlib.Path, default=FOLDER.parents[1] / "build" / "bin" / "bindpose_benchmarks")
-    parser.add_argument("--filter", default=FILTER, help="of the program's rows (default: those of the tables)")
-    parser.add_argument("--readme", action="store_true", help="write them to README.md, too")
+    parser.add_argument("--filter", default=FILTER, help="regular expression for the benchmarks to run (default: those of the tables)")
+    parser.add_argument("--readme", action="store_true", help="also write the tables to README.md")
     options = parser.parse_args()
     done = subprocess.run([options.program, f"--benchmark_filter={options.filter}", "--benchmark_format=json"],
                           stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=True)

@@ -85,8 +85,8 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build" / "bin" / "bindpose")
     parser.add_argument("--mesh", type=pathlib.Path, default=CAMEL,
-                        help="for Auto-rig (default: camel.off of libcgal-demo)")
-    parser.add_argument("--runs", type=int, default=5, help="of each first picture (default: 5)")
+                        help="mesh for Auto-rig (default: camel.off of libcgal-demo)")
+    parser.add_argument("--runs", type=int, default=5, help="number of runs for each first-picture time (default: 5)")
     options = parser.parse_args()
     with tempfile.TemporaryDirectory() as scratch:
         folder = pathlib.Path(scratch)

@@ -76,7 +76,7 @@ def make(options):
                    for k in range(0, len(vertices), 4096))
     numbers["points on the surface: distance by covering radius"] = float(apart.min() / covering)
 
-    tiles = [("bones", armadillo, bones, "bones along its curve skeleton", ["--azimuth", 20]),
+    tiles = [("bones", armadillo, bones, "bones along the curve skeleton", ["--azimuth", 20]),
              ("posed", posed, None, "all joints bent; colored by bone", ["--azimuth", 20, "--color", "handle"]),
              ("elephant", elephant, others, "mesh with many holes", ["--azimuth", 40]),
              ("points", armadillo, inside, "sixteen point handles inside", ["--azimuth", 20])]

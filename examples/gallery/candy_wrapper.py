@@ -60,7 +60,7 @@ def make(options):
             labels.append(f"{name} at {degrees}°: {kept:.2f}")
             bindpose.write(posed, options.scratch / files[-1])
     common.render(options, *files, "--columns", 3, "--size", "1500x1000", "--edges", "--azimuth", 15, "--elevation", 15,
-                  "--section", "none", "--labels", ",".join(labels), "--title", "A twisted joint: radius of the ring halfway")
+                  "--section", "none", "--labels", ",".join(labels), "--title", "A twisted cylinder: radius at the middle, 1 at rest")
     return numbers
 
 

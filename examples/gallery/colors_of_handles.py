@@ -97,7 +97,7 @@ def make(options):
         [("one color per bone, blended in linear light", [planar.painted(scaled(light, unit)), *planar.edges(scaled(light, unit), cat),
                                                        *planar.handle_actors(scaled(handles, unit), 0.009)]),
          ("blended in sRGB", [planar.painted(scaled(plain, unit)), *planar.edges(scaled(plain, unit), cat)]),
-         (f"{len(bones)} curves with two sides each", [planar.painted(drawn)])],
+         (f"{len(bones)} bones with one color per side", [planar.painted(drawn)])],
         box, tile=(560, 560), title="Colors of handles blended by weights")
     common.write_picture(window, options.picture)
     return {

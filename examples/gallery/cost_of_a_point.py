@@ -72,7 +72,7 @@ def make(options):
         numbers[f"{text}: ns"] = median["ns"]
     numbers["largest error minus the tolerance"] = beyond
     rows.reverse()  # the first row at the top
-    panel = charts.Panel("Cost of a query point, in triangles of the textbook sum", ("Y = one triangle of the textbook sum, about 20 ns", 0.05, 300),
+    panel = charts.Panel("Cost per query point, in units of Y", ("Y: cost of one triangle in the textbook sum, about 20 ns", 0.05, 300),
                          ("", 10 ** -0.7, 10 ** (len(rows) - 0.3)), log=True,
                          x_names={0.1: "0.1", 1: "1", 10: "10", 100: "100"},
                          y_names={10.0 ** i: text for i, (_, text, *_) in enumerate(rows)})

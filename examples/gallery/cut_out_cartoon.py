@@ -59,7 +59,7 @@ def make(options):
     box = (-0.06 * size, 1.06 * size, -0.03 * size, 1.03 * size)
     window = planar.show([
         ("a picture with alpha", [planar.textured(whole, planar.to_texture(on_paper))]),
-        (f"its mesh: {len(triangles)} triangles, angles from {report['min_angle']:.0f}°",
+        (f"mesh: {len(triangles)} triangles, smallest angle {report['min_angle']:.0f}°",
          [planar.textured(cut_out, texture), planar.wires(cut_out), *planar.handle_actors(handles, 0.011 * size)]),
         ("posed", [planar.textured(posed, texture)])], box, title="A cut-out picture bent as a mesh")
     common.write_picture(window, options.picture)

@@ -72,7 +72,7 @@ def make(options):
     labels += [f"{numbers[f'{name}: tets']} tets" for name in surfaces]
     common.render(options, *files, *tet_files, "--defects", "--columns", len(files), "--labels", ",".join(labels),
                   "--size", "1700x1000", "--section", "0.52",
-                  "--title", "Surfaces that meshers refuse, and their tets")
+                  "--title", "Surfaces with defects (above) and their tets (below)")
     return numbers
 
 

@@ -114,7 +114,7 @@ def make(options):
                 chosen.setdefault(name, []).append(field.chosen)
                 if name == "exact":
                     edges = field.open_edges
-        panel = charts.Panel(f"{title}, {edges:,} open edges at the end" if edges else title,
+        panel = charts.Panel(f"{title}, {edges:,} open edges in the largest mesh" if edges else title,
                              ("triangles", 5e3, 8e5), ("time per point", 1e-8, 1), log=True,
                              x_names={1e4: "10,000", 1e5: "100,000"},
                              y_names={1e-8: "10 ns", 1e-7: "100 ns", 1e-6: "1 µs", 1e-5: "10 µs", 1e-4: "100 µs",

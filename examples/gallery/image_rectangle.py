@@ -56,7 +56,7 @@ def make(options):
     radius = 0.012 * size
     box = (-0.04 * size, 1.04 * size, -0.02 * size, 1.02 * size)
     window = planar.show([
-        (f"the whole image: {len(triangles)} triangles, angles from {report['min_angle']:.0f}°",
+        (f"the whole image: {len(triangles)} triangles, smallest angle {report['min_angle']:.0f}°",
          [planar.textured(rectangle, texture), planar.wires(rectangle, opacity=0.45), *planar.handle_actors(handles, radius)]),
         ("points moved", [planar.textured(warped, texture), *planar.handle_actors(moved, radius)])],
         box, tile=(700, 700), title="A whole image bent as a rectangle mesh")

@@ -51,7 +51,7 @@ def make(options):
     common.render(options, *files, "--columns", 4, "--size", "1500x900", "--edges", "--up", "z", "--azimuth", 20,
                   "--elevation", 10, "--section", "none",
                   "--labels", ",".join(f"{k * STEP:.2f} s" for k in SHOWN),
-                  "--title", "Pulled aside, released after a quarter of a second")
+                  "--title", "A bar pulled aside and released after a quarter of a second")
     iterations = [report["iterations"] for report in reports[1:]]
     return {
         "aside": [float(aside[k] / 3) for k in SHOWN],

@@ -80,7 +80,7 @@ def make(options):
     scale = ((0, (0.93, 0.95, 0.98)), (0.5, (0.45, 0.68, 0.85)), (1, (0.05, 0.25, 0.55)))
     tiles = [("depth: arm and hand 1, all else 0", [planar.bands(weighted, np.clip(depth, 0, 1), scale, 10),
                                                     *planar.handle_actors(handles, 0.010 * size)])]
-    tiles += [(f"the arm {caption}" if caption != "equal" else "equal layers: the later bone wins",
+    tiles += [(f"the arm {caption}" if caption != "equal" else "equal layers: the later bone is in front",
                [planar.textured(mesh, texture), *planar.edges(mesh, shape, width=1.5)]) for caption, mesh in ordered.items()]
     window = planar.show(tiles, box, tile=(480, 480), title="One pose and one set of weights, different layers")
     common.write_picture(window, options.picture)

@@ -33,7 +33,7 @@ def circle(radius, count=64):
 
 
 def subdivided(mesh, times):
-    """Return the mesh with each triangle cut into four at its edge midpoints, `times` over: the same surface."""
+    """Split each triangle into four at its edge midpoints, `times` times. The surface does not change."""
     vertices, triangles = map(np.asarray, mesh)
     for _ in range(times):
         edges = np.sort(np.vstack([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)

@@ -90,7 +90,7 @@ def make(options):
                       [planar.bands(posed, np.clip(share, 0, 1), scale, 20),
                        *planar.edges(posed, shape, width=2.5), *planar.dots(moved, colors, radius)]))
     window = planar.show(tiles, (-0.04 * size, 0.84 * size, -0.07 * size, 1.0 * size), tile=(480, 580),
-                         title="Motion of the hand with a dragged fingertip; numbers: middle finger, half-way up")
+                         title="Displacement relative to that of the fingertip; percentages: middle finger, halfway up")
     common.write_picture(window, options.picture)
 
     slit = slit_square(60)

@@ -49,7 +49,7 @@ def make(options):
     common.render(options, *surfaces, *fields, "--columns", 4, "--azimuth", -20, "--elevation", -8, "--size", "1600x760",
                   "--labels", "pieces missing,two spheres crossing,a cap faces inwards,the same with orient_patches,"
                   "open,crossing,flipped,turned back",
-                  "--title", "Winding numbers of surfaces and below on a slice through their middle")
+                  "--title", "Surfaces (above) and their winding numbers on a slice (below)")
     return numbers
 
 

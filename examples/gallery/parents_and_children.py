@@ -21,7 +21,7 @@ STRETCH = 1.5
 
 
 def arm(around, along):
-    """Return points and triangles of a closed round arm along x, 1 thick at the shoulder, half of that at the tip."""
+    """Return points and triangles of a closed round arm along x, about twice as thick at the shoulder as at the tip."""
     turn = np.linspace(0, np.pi, along)
     x = 2.5 - 2.75 * np.cos(turn)
     radius = np.sqrt(np.sin(turn)) * np.linspace(0.55, 0.3, along)

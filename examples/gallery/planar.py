@@ -296,7 +296,7 @@ def snapshot(renderer, size):
 
 
 def difference(shape, pixels, inside):
-    """Return the largest difference (of 255) of the picture from the textured shape drawn pixel on pixel."""
+    """Return the largest difference (0 to 255) between the picture and the textured shape, rendered at the same size."""
     size = pixels.shape[0]
     renderer = vtkRenderer()
     renderer.AddActor(textured(shape, to_texture(pixels)))

@@ -51,7 +51,7 @@ def make(options):
         numbers[f"{name} minus {other}: other strongest handle, fraction"] = float(
             (found[name].argmax(axis=1) != found[other].argmax(axis=1)).mean())
         if abs(difference[:, SHOWN]).max() - shown["difference"]["largest"] > 1e-12:
-            raise common.Stop("the difference of the program does not match that of the arrays")
+            raise common.Stop("the difference that the program reports does not match the difference of the arrays")
     halves = options.picture
     options.picture = options.scratch / "below.png"
     common.side_by_side(options, pictures[:2], 2)

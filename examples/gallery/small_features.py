@@ -76,7 +76,7 @@ def make(options):
         numbers[f"{caption}: excess motion of the tip, fraction of the pull"] = float(ahead[1] / PULL[1])
         numbers[f"{caption}: largest stretch of an antenna's edge"] = float(abs(stretch).max())
         numbers[f"{caption}: extrema away from handles"] = int(its)
-        tiles.append((f"{caption}: tip {column[tip]:.2f}, {its} extrema",
+        tiles.append((f"{caption}: weight {column[tip]:.2f} at the tip, {its} extrema",
                       [planar.bands(posed, np.clip(column, 0, 1), scale, 20), *planar.edges(posed, shape), *dots(moved)]))
     window = planar.show(tiles, (-0.08, 3.08, -0.1, 2.62), tile=(460, 400),
                          title="Small features and the weights of the middle point")

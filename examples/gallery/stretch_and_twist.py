@@ -64,7 +64,7 @@ def mallets(options, numbers):
     numbers["twisted, largest change of a radius"] = float(np.abs(radii).max())
     picture = options.scratch / "mallets.png"
     common.render(options, *files, "--columns", 2, "--size", f"{WIDE}x640", "--edges", "--azimuth", 10, "--elevation", 15,
-                  "--labels", "at rest,scaled: linear blend,stretched: its bone,twisted by 180 degrees",
+                  "--labels", "at rest,bone scaled (linear blend),bone stretched,bone twisted by 180 degrees",
                   picture=picture)
     return picture
 
@@ -94,7 +94,7 @@ def cats(options, numbers):
         length = np.linalg.norm(ends[1] - ends[0]) / np.linalg.norm(rest[near[1]] - rest[near[0]])
         numbers[f"arm, {name}, length"] = float(length)
         numbers[f"arm, {name}, inside out"] = bindpose.report(posed)["counts"]["inverted_elements"]
-        tiles.append((f"the arm half as long: {name}", [planar.textured(posed, texture)]))
+        tiles.append((f"arm bone shortened to half: {name}", [planar.textured(posed, texture)]))
     window = planar.show(tiles, (-0.06 * size, 1.06 * size, -0.05 * size, 1.07 * size), tile=(WIDE // 3, WIDE // 3))
     picture = options.scratch / "cats.png"
     common.write_picture(window, picture)

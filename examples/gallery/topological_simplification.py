@@ -61,7 +61,7 @@ def make(options):
         bindpose.write(mesh, options.scratch / files[-1])
     span = f"{data.min():.2f},{data.max():.2f}"
     shown = common.render(options, *files, "--array", "Height", "--extrema", "--columns", 3, "--size", "1500x600",
-                          "--range", span, "--labels", "noisy data,the four most persistent extrema,one of each kind",
+                          "--range", span, "--labels", "noisy data,the four most persistent extrema,one maximum and one minimum",
                           "--title", "Data on a square, with all local extrema")
     for name, its in zip(("noisy data", *results), shown["extrema"]):
         numbers[f"{name}: maxima, minima in the picture"] = [its["maxima"], its["minima"]]

@@ -120,7 +120,7 @@ def vtk_name(option):
 
 
 def cli_name(option):
-    """winding_threshold -> winding-threshold; a flag that is on by default -> no-place-inside."""
+    """The name on the command line: winding_threshold -> winding-threshold; place_inside, on by default -> no-place-inside."""
     name = option.name.replace("_", "-")
     return f"no-{name}" if option.type == "flag" and option.default else name
 
@@ -140,7 +140,7 @@ def check_default(option, default):
         require(isinstance(default, bool), where, f"default {default!r} must be true or false")
         return
     if option.type in ("text", "path", "point_array", "cell_array"):
-        require(isinstance(default, str), where, f"default {default!r} must be a text")
+        require(isinstance(default, str), where, f"default {default!r} must be a string")
         return
     numbers = default if isinstance(default, list) else [default]
     require(len(numbers) == option.length, where, f"default needs {option.length} numbers")
@@ -159,10 +159,10 @@ def check_option(option, allowed_fields, types):
     require(not unknown, where, f"unknown field '{unknown[0] if unknown else ''}'")
     require(option.type in types, where, f"unknown type '{option.type}'")
     require(option.help.endswith(".") and option.help[0].isalnum(), where, "help must be one or more sentences")
-    require((option.type == "choice") == bool(option.choices), where, "choices belong to the type choice, and to no other")
-    require((option.type == "word") == ("words" in fields), where, "words belong to the type word, and to no other")
-    require(set(fields.get("labels", {})) <= set(option.choices), where, "a label belongs to no choice")
-    require(set(option.layers) <= set(LAYERS), where, f"layers must be of {', '.join(LAYERS)}")
+    require((option.type == "choice") == bool(option.choices), where, "choices are required for the type choice and not allowed for other types")
+    require((option.type == "word") == ("words" in fields), where, "words are required for the type word and not allowed for other types")
+    require(set(fields.get("labels", {})) <= set(option.choices), where, "labels must be given for names in 'choices' only")
+    require(set(option.layers) <= set(LAYERS), where, f"each layer must be one of {', '.join(LAYERS)}")
     require("layer_defaults" not in fields or fields.get("why"), where, "layer_defaults need a reason, 'why'")
     require("minimum" not in fields or "above" not in fields, where, "minimum and above exclude each other")
     require("maximum" not in fields or "below" not in fields, where, "maximum and below exclude each other")
@@ -243,7 +243,7 @@ class Verb:
                 self.options.append(verb_option(entry, f"{where}: verb '{self.name}'"))
         names = [cli_name(option) for option in self.options]
         twice = [name for name in names if names.count(name) > 1]
-        require(not twice, f"{where}: verb '{self.name}'", f"option '{twice[0] if twice else ''}' is there twice")
+        require(not twice, f"{where}: verb '{self.name}'", f"option '{twice[0] if twice else ''}' is listed twice")
 
 
 def verb_option(fields, where):

@@ -32,7 +32,7 @@ Status check_weights(vtkDataArray* weights, vtkIdType points, const Handles& han
     if (name && *name && handles[static_cast<std::size_t>(j)].name != name)
     {
       return Status::invalid_input(array + " has the handle name '" + name + "' at component " +
-        std::to_string(j) + ", but that handle is named '" +
+        std::to_string(j) + ", but the handle with this index is named '" +
         handles[static_cast<std::size_t>(j)].name +
         "'; use the handles for which the weights were computed");
     }

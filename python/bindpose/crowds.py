@@ -15,7 +15,7 @@ from .running import run
 
 
 def _placement(place):
-    """Return a placement as 3x4 numbers: a translation, a 3x4 or a 4x4 matrix."""
+    """Return a placement (a translation, a 3x4 or a 4x4 matrix) as a 3x4 array."""
     place = np.asarray(place, dtype=float)
     if place.shape == (3,):
         return np.column_stack([np.eye(3), place])

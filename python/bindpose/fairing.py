@@ -1,4 +1,4 @@
-"""Smooth surfaces between fixed points."""
+"""Compute smooth surfaces between fixed points."""
 
 import numpy as np
 

@@ -63,7 +63,7 @@ def to_image(pixels):
     """
     pixels = np.asarray(pixels)
     if pixels.ndim not in (2, 3) or pixels.dtype.kind not in "buif" or (pixels.ndim == 3 and not 1 <= pixels.shape[2] <= 4):
-        raise InvalidInput("an image must be an array of numbers: rows x columns of alpha, or rows x columns x 1 to 4 channels")
+        raise InvalidInput("an image must be an array of numbers: rows x columns (alpha only) or rows x columns x 1 to 4 channels")
     if pixels.size == 0:
         raise InvalidInput("the image has no pixels")
     if pixels.dtype == bool:

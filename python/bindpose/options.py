@@ -37,7 +37,7 @@ def _entry(option):
     if option["values"]:
         text += f" {option['values'][0].upper()}{option['values'][1:]}."
     if option["defaults"]:
-        text += " Default: that of the method."
+        text += " Default: the method's default."
     if option["type"] in _ARRAYS:
         text += f" Default: the array ``{option['array']}``, if it exists."
     if option["methods"]:

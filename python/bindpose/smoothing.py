@@ -1,4 +1,4 @@
-"""Data on a mesh with only the requested extrema."""
+"""Smooth data on a mesh so that only the requested extrema remain."""
 
 import numpy as np
 from vtkmodules.vtkCommonDataModel import vtkDataObject
@@ -76,7 +76,7 @@ def monotone_smoothing(mesh, data=None, *, maxima=None, minima=None, options, th
             name = _DATA
         smoother.SetInputArrayToProcess(0, 0, 0, vtkDataObject.FIELD_ASSOCIATION_POINTS, name)
     elif not is_dataset(mesh):
-        raise InvalidInput("a mesh of arrays needs data, one number per vertex")
+        raise InvalidInput("data is required for a mesh given as arrays: one number per vertex")
     extrema = options.extrema
     given = maxima is not None or minima is not None
     if given and extrema is not None:

@@ -1,4 +1,4 @@
-"""Uses of weights other than poses: colors, depth, curves with two sides."""
+"""Use weights for colors and depth, compute endpoint weights, and cut planar meshes along bones."""
 
 import numpy as np
 

@@ -204,7 +204,7 @@ def test_a_described_option_is_everywhere(tmp_path):
     ({"slider": [0, 3]}, "the slider is out of the range"),
     ({"slider": [0, 1], "type": "flag", "default": True}, "a slider belongs to the types integer, id, number"),
     ({"above": 0}, "minimum and above exclude each other"),
-    ({"choices": {"a": 0}}, "choices belong to the type choice"),
+    ({"choices": {"a": 0}}, "choices are required for the type choice"),
 ])
 def test_a_wrong_description_is_named(tmp_path, fields, sentence):
     add_option(copy_of_the_descriptions(tmp_path), **fields)

@@ -93,8 +93,8 @@ bool read_section(Session& session, PictureOptions& options)
     !parse_vector(text.substr(separator_offset + 1), plane.origin))
   {
     return session.invalid("--section '" + text +
-      "' is not valid: expected a number from 0 to 1, a plane such as x=0.2 or 1,0,0@0.2,0,0, or "
-      "none");
+      "' is not valid: expected none, a number from 0 to 1, or a plane such as x=0.2 or "
+      "1,0,0@0.2,0,0");
   }
   options.section_plane = plane;
   return true;

@@ -169,7 +169,7 @@ public:
     const json& companions = json_at(this->text_, "companions");
     if (!inputs.is_object() || !companions.is_object())
     {
-      throw SessionError("the inputs and companions must be objects");
+      throw SessionError("the values of 'inputs' and 'companions' must be objects");
     }
     if (this->text_.contains("saved_as"))
     {

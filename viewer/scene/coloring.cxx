@@ -592,7 +592,7 @@ Status choose_coloring(
     if (!coloring.array.empty() || !coloring.component.empty())
     {
       return Status::invalid_input(
-        "an array or a component cannot be combined with another choice of colors");
+        "an array or a component can only be combined with colors by array");
     }
     if (is_tet_quantity(coloring.by))
     {

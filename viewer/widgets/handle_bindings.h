@@ -63,17 +63,19 @@ using BrushBinding = InputBinding<BrushAction>;
 
 constexpr std::array<HandleBinding, 22> handle_bindings{ {
   { HandleAction::select, "pose", "Left button on a handle", "",
-    "Select and drag it: a ball, a bone or the head of a bone moves; the tail of a bone rotates "
+    "Select and drag the handle: a ball, a bone or the head of a bone moves; the tail of a bone "
+    "rotates "
     "the bone" },
   { HandleAction::toggle, "pose", "Shift + left button on a handle", "",
-    "Add it to the selection, or remove it" },
+    "Add the handle to the selection, or remove it from the selection" },
   { HandleAction::drag_gizmo, "pose", "Left button on the gizmo", "",
     "Move, turn, scale, stretch or twist all selected handles" },
   { HandleAction::start_move, "pose", "G", " g ", "Move the selected handles with the mouse" },
   { HandleAction::start_turn, "pose", "R", " r ", "Turn the selected handles with the mouse" },
   { HandleAction::start_scale, "pose", "S", " s ", "Scale the selected handles with the mouse" },
   { HandleAction::constrain_to_axis, "drag", "X, Y, Z", " x y z ",
-    "Constrain the drag to an axis; press again for the axis of the other space, a third time for "
+    "Constrain the drag to an axis; press again to switch between handle axis and world axis, a "
+    "third time for "
     "no axis" },
   { HandleAction::constrain_to_plane, "drag", "Shift + X, Y, Z", " x y z ",
     "Constrain the drag to the plane perpendicular to an axis" },
@@ -90,7 +92,8 @@ constexpr std::array<HandleBinding, 22> handle_bindings{ {
   { HandleAction::cancel, "drag", "Esc, right button", " Escape ",
     "Cancel the drag and restore the state before it" },
   { HandleAction::move_rest, "move rest", "Left button on a handle", "",
-    "Move its rest position: a point, a bone by its body, or a joint with all bones that share "
+    "Move the rest position of a point, a bone (drag its body), or a joint and all bones that "
+    "share "
     "it" },
   { HandleAction::add_point, "add points", "Left button on the surface", "",
     "Add a point, inside the shape or on its surface" },

@@ -149,7 +149,7 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
   if (!this->redundant_.empty())
   {
     status.warnings.push_back("the position constraints of these handles are redundant (other "
-                              "constraints determine them, or no weight is there): " +
+                              "constraints determine them, or all weights at them are zero): " +
       quoted_names(space.handles, this->redundant_));
   }
 

@@ -280,7 +280,7 @@ Status cut_along_bones(ExecutionContext& context, PointsView points, TrianglesVi
         "' cannot be cut because it has no vertex between its ends; use a finer mesh");
     }
     status.warnings.push_back("bone '" + handles[b].name +
-      "' has no vertex of its own between its neighbors and uses their sides; use a finer mesh");
+      "' has no vertex besides its ends and uses the sides of neighboring bones; use a finer mesh");
   }
   result.points.resize(static_cast<Index>(result.original.size()), 3);
   for (Index v = 0; v < result.points.rows(); ++v)

@@ -96,7 +96,7 @@ Status fill_edges(ExecutionContext& context, const std::vector<CageElement>& edg
   PointsView points, TrianglesView triangles, const Handles& handles, const CageOptions& cage,
   CageDomain& result)
 {
-  const char* requirement = "domain cage needs handles with a closed cage of faces, or of edges in "
+  const char* requirement = "domain cage needs a closed cage: either of faces, or of edges in "
                             "the plane of a flat shape";
   if (edges.empty())
   {

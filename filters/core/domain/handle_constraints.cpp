@@ -315,7 +315,7 @@ void warn_of_shared_vertices(const Handles& handles,
   {
     result.warnings.push_back(
       (pairs == 1 ? first
-                  : std::to_string(pairs) + " pairs of handles that do not touch share vertices (" +
+                  : std::to_string(pairs) + " pairs of handles share vertices but do not touch (" +
             list + (pairs > most ? "; …)" : ")")) +
       "; their weights are split evenly there");
   }

@@ -515,7 +515,7 @@ void Inserter::finish()
   {
     this->result_.warnings.push_back("the cage is outside the mesh at " +
       std::to_string(this->cage_samples_outside_) +
-      " of its samples, which were ignored; use domain cage for a cage around a shape");
+      " of its samples, which were ignored; if the cage surrounds the shape, use domain cage");
   }
   if (count_outside > most)
   {

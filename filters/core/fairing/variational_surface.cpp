@@ -264,7 +264,7 @@ Status VariationalSurface::solve(ExecutionContext& context, const Pose& pose)
   {
     char text[16];
     std::snprintf(text, sizeof(text), "%.0e", refinement);
-    status.warnings.push_back(std::string("the last refinement step changed the result by ") +
+    status.warnings.push_back(std::string("the solver's last correction changed the result by ") +
       text +
       " of the largest coordinate, so the result is inaccurate; use a lower order or a coarser "
       "mesh");

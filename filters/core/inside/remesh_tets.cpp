@@ -184,8 +184,8 @@ Status remesh_tets(ExecutionContext& context, PointsView points, TrianglesView t
   {
     return Status::invalid_input(
       "the surface encloses nothing: at a distance of a millionth of the bounding-box diagonal, "
-      "the winding number is on the same side of the threshold of " +
-      short_number(options.winding_threshold) + " on both sides of every triangle");
+      "the winding number does not cross the threshold of " +
+      short_number(options.winding_threshold) + " between the two sides of any triangle");
   }
   const IdsByPosition ids = ids_by_position(points, triangles);
   if (!improve(context, ids, region, answer))

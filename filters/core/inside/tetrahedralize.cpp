@@ -179,7 +179,7 @@ private:
       if (status.ok())
       {
         this->warn("method remesh replaced method cdt (" + cdt_failure +
-          "); its tets do not preserve the surface's triangles");
+          "); the new tets do not preserve the surface's triangles");
       }
       if (status.ok() || status.code == StatusCode::canceled)
       {
@@ -306,7 +306,7 @@ private:
     if (status.ok() && this->report_.text("method") == to_string(TetMethod::remesh))
     {
       this->warn("method remesh replaced method cdt (the smallest dihedral angle was " +
-        short_number(angle) + " degrees); its tets do not preserve the surface's triangles");
+        short_number(angle) + " degrees); the new tets do not preserve the surface's triangles");
     }
     return status;
   }
@@ -536,7 +536,7 @@ private:
       const TetMesh& mesh = this->result_.mesh;
       this->warn("the surface is open (" + std::to_string(this->surface_.found.boundary_edges) +
         " boundary edges), and the wrap is a thin shell where an opening is wider than two "
-        "wrap_alpha: its volume is " +
+        "wrap_alpha; the volume of the tets is " +
         short_number(tet_volumes(mesh.points, mesh.tets).sum()) +
         ", but the enclosed volume by winding number is " + short_number(this->inside_.volume()));
     }

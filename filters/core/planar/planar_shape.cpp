@@ -574,7 +574,7 @@ void Builder::report(const PlanarShape& shape, Status& status) const
   if (this->reversed_)
   {
     status.warnings.emplace_back(
-      "the curves were reversed because they are clockwise around their inside");
+      "the curves were reversed because they were clockwise around the region that they enclose");
   }
   if (!this->handles_.empty())
   {

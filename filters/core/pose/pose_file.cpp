@@ -312,7 +312,7 @@ PoseEdits read_pose(const Json& value, const std::string& where,
   }
   if (!value["handles"].is_object())
   {
-    fail(where, ".handles must be an object of handle names");
+    fail(where, ".handles must be an object whose keys are handle names");
   }
   PoseEdits edits;
   edits.children_follow = version > 1;

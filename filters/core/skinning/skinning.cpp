@@ -417,7 +417,7 @@ Status Skinning::bind(
     status.warnings.push_back("the weights of " + std::to_string(all.inexact_rows) + " of " +
       std::to_string(rows) + " vertices do not sum to one (worst: vertex " +
       std::to_string(all.worst) + ", off by " + std::to_string(all.error) +
-      "); the missing fraction of a vertex stays at rest");
+      "); the missing weight is applied to the rest position");
   }
   return status;
 }

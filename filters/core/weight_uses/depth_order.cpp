@@ -34,7 +34,7 @@ Status depth_order(ExecutionContext& context, WeightsView weights, const Eigen::
   }
   if (!(options.tie >= 0.0) || !std::isfinite(options.tie))
   {
-    return Status::invalid_input("the tie must be at least 0");
+    return Status::invalid_input("tie (the layer difference that breaks ties) must be at least 0");
   }
   const Eigen::VectorXd relative_layers = layers.array() - layers[0];
   const Eigen::VectorXd rank =

@@ -84,7 +84,7 @@ Status weighted_colors(ExecutionContext& context, WeightsView weights, ColorsVie
     if (!(color >= 0.0).all() || !(color <= 1.0).all())
     {
       return Status::invalid_input(
-        "the color of handle " + std::to_string(j) + " must be within 0 to 1");
+        "the color of handle " + std::to_string(j) + " must have components from 0 to 1");
     }
   }
   Colors blended = handle_colors;

@@ -286,7 +286,7 @@ private:
     if (bounds.lower[u] > bounds.upper[u])
     {
       return Status::invalid_input("the bounds of " + what +
-        " contradict the bounds of vertices with the same weight: at least " +
+        " contradict the bounds of vertices that must have the same weight: at least " +
         text(bounds.lower[u]) + " and at most " + text(bounds.upper[u]));
     }
     return {};

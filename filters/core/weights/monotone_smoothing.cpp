@@ -234,8 +234,8 @@ Status Smoothing::check_extrema()
           ? "the list of extrema has no " + std::string(missing_kind) +
             " in the connected part of vertex " + std::to_string(part.front()) + ", only " + other
           : "the list of extrema has no " + std::string(missing_kind) + " among " +
-            vertex_phrase(part.size(), "that ") + other +
-            " separate from the rest, including vertex " + std::to_string(part.front()));
+            vertex_phrase(part.size(), "that the listed ") + other +
+            " separate from the rest; the first such vertex is " + std::to_string(part.front()));
     }
   }
   return {};
@@ -520,7 +520,7 @@ Status Smoothing::solve()
   {
     return Status::invalid_input(
       "the values at the extrema cannot be kept without additional extrema (conflict at vertex " +
-      std::to_string(infeasible) + "); turn off the option to keep values, or list other extrema");
+      std::to_string(infeasible) + "); turn off keep_values, or list other extrema");
   }
   const bool ordered = std::all_of(column.pairs.begin(), column.pairs.end(),
     [&](const OrderedPair& pair)

@@ -526,7 +526,7 @@ Status Solver::embed_with_links(EmbeddingOptions options, Lattice& lattice)
     status.warnings.push_back(std::to_string(this->linked_parts_) +
       (this->linked_parts_ == 1 ? " connected part has no handle and is"
                                 : " connected parts have no handle and are") +
-      " linked to the parts that they touch or to the nearest parts");
+      " linked to touching parts, or else to the nearest part");
   }
   return status;
 }

@@ -159,8 +159,9 @@ Status linear_subspace_weights(ExecutionContext& context, const WeightsProblem& 
     context, problem, "linear-subspace", linear_subspace_energy(problem, spanned), options, result);
   if (!spanned && status.usable())
   {
-    status.warnings.emplace_back("the handles do not span the shape, so a millionth of the "
-                                 "biharmonic energy is added");
+    status.warnings.emplace_back(
+      "the handles of a part do not span space (or the plane, if it is flat); 1e-6 times the "
+      "biharmonic energy is added");
   }
   return status;
 }

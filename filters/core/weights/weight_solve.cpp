@@ -265,8 +265,9 @@ Status exclude_smallest(const WeightsProblem& problem, const Weights& weights, i
       if (needed(order[i]))
       {
         return Status::invalid_input("more than " + std::to_string(most) +
-          " influences are pinned to or bounded by a value above 0 at vertex " + std::to_string(v) +
-          ", including the influence of '" + problem.handles[order[i]].name + "'");
+          " influences are pinned to a value above 0 or have a lower bound above 0 at vertex " +
+          std::to_string(v) + ", including the influence of '" + problem.handles[order[i]].name +
+          "'");
       }
       excluded[v * m + order[i]] = 1;
       any = any || weights(v, order[i]) > 0.0;

@@ -295,7 +295,7 @@ Status check_input(PointsView points, PointsView normals, NumbersView areas,
   if (normals.rows() != count || (areas.size() != 0 && areas.size() != count))
   {
     return Status::invalid_input("a cloud of " + std::to_string(count) +
-      " points must have the same number of normals, and of areas if there are any, not " +
+      " points must have one normal per point (and one area per point if areas are given), not " +
       std::to_string(normals.rows()) + " normals and " + std::to_string(areas.size()) + " areas");
   }
   if (count > std::numeric_limits<Id>::max() / 4)
@@ -824,7 +824,7 @@ Status PointCloudWindingNumber::build(ExecutionContext& context, PointsView poin
   if (zero_areas > zero_normals && areas.size() == 0)
   {
     status.warnings.push_back(std::to_string(zero_areas) + " of " + std::to_string(count) +
-      " points have no area because many points have the same position, and are ignored");
+      " points are ignored: their area is 0 because many points have the same position");
   }
 
   impl.store_dipoles(framed, moments, tree);

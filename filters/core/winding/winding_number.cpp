@@ -194,7 +194,7 @@ void WindingNumber::Impl::choose(WindingMethod requested, Index open_edges)
     else
     {
       this->method = WindingMethod::hierarchical;
-      reason = numbers + "too many open edges for a sum at every point";
+      reason = numbers + "too many open edges to sum over all of them at every query point";
     }
   }
   this->status.report.set("method", to_string(this->method));

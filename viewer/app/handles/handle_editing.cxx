@@ -516,7 +516,7 @@ QString HandleEditing::refusal() const
       return tr("%1 is free: the solver computes its position. Fix its position to drag it.")
         .arg(name);
     case Representation::IS_LOCKED:
-      return tr("%1 is locked; %2 unlocks it when it is selected.")
+      return tr("%1 is locked; select it and press %2 to unlock it.")
         .arg(name, QString::fromStdString(parts::keys_of("lock")));
     case Representation::IS_AT_REST:
       return tr("%1 is shown at rest and cannot be dragged; show the pose to drag it.").arg(name);

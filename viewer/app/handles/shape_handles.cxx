@@ -41,11 +41,11 @@ void ShapeHandles::fill_menu(QMenu* menu)
 {
   menu->addAction(this->auto_rig_);
   this->menu_ = menu->addMenu(tr("From the &shape"));
-  QAction* bones = this->menu_->addAction(tr("&Bones along it"));
+  QAction* bones = this->menu_->addAction(tr("&Bones along the shape"));
   bones->setObjectName("handles.bones_along_it");
   QObject::connect(
     bones, &QAction::triggered, this, [this] { this->start(AutomaticMethod::skeleton, 0); });
-  QAction* points = this->menu_->addAction(tr("&Points spread over it…"));
+  QAction* points = this->menu_->addAction(tr("&Points spread over the shape…"));
   points->setObjectName("handles.points_spread_over_it");
   QObject::connect(points, &QAction::triggered, this, &ShapeHandles::ask_for_count);
 }

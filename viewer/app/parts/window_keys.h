@@ -43,11 +43,11 @@ constexpr std::array<WindowKey, 46> window_keys{ {
   { "keys", "anywhere", "?, F1", "Show this list of keys" },
   { "quit", "anywhere", "Ctrl+Q", "Quit" },
 
-  { "", "view", "Left button away from handles, drag",
-    "Turn the view (with a picture: move it); on a slice or cut: move the slice or cut (Esc: "
+  { "", "view", "Drag with the left button, away from handles",
+    "Turn the view (if a picture is open: move the view); on a slice or cut: move it (Esc: "
     "cancel)" },
-  { "", "view", "Shift + left button, middle button, drag", "Move the view" },
-  { "", "view", "Wheel, right button, drag", "Zoom" },
+  { "", "view", "Drag with Shift + left button or with the middle button", "Move the view" },
+  { "", "view", "Wheel, or drag with the right button", "Zoom" },
   { "whole_shape", "view", "Home", "Show the whole shape" },
   { "look_at_rest", "view", "T", "Show the rest shape, or the pose again" },
 
@@ -57,7 +57,7 @@ constexpr std::array<WindowKey, 46> window_keys{ {
   { "gizmo.scale", "tools", "D", "Gizmo for scaling: boxes" },
   { "gizmo.all", "tools", "F", "Gizmo with all parts; for a bone also stretch and twist" },
   { "gizmo.local", "tools", "L",
-    "Switch the gizmo and X, Y, Z between axes of the handle and of the world" },
+    "Switch between handle axes and world axes for the gizmo and the keys X, Y, Z" },
   { "mode.pose", "tools", "Esc", "Back to posing" },
   { "mode.rest", "tools", "M", "Move rest positions" },
   { "mode.points", "tools", "A", "Add points" },
@@ -79,9 +79,9 @@ constexpr std::array<WindowKey, 46> window_keys{ {
   { "cage_edge", "handles", "Ctrl+E", "Add or remove the edge between two cage vertices" },
   { "reset", "handles", "Ctrl+0", "Reset: back to rest" },
   { "fixes.auto", "handles", "Alt+0",
-    "Fix what was changed: its position, and its rotation if rotated" },
+    "Fix the position, and the rotation if the handle was rotated" },
   { "fixes.full", "handles", "Alt+1", "Fix position and rotation" },
-  { "fixes.position", "handles", "Alt+2", "Fix only its position" },
+  { "fixes.position", "handles", "Alt+2", "Fix only the position" },
   { "fixes.free", "handles", "Alt+3", "Fix nothing" },
 } };
 

@@ -96,15 +96,17 @@ HandleFields::HandleFields(QWidget* parent) : QWidget(parent)
   layer->setColumnStretch(2, 1);
   label(layer, 0, tr("Layer"), tr("Where the shape overlaps itself, the larger layer is in front"));
   this->layer_ = field(this->layer_row_, -1000.0, 1000.0, 1.0, 1);
-  this->layer_->setToolTip(tr("Layer: the larger one is in front"));
+  this->layer_->setToolTip(
+    tr("Layer of the handle: where the shape overlaps itself,\nthe larger layer is in front"));
   this->layer_->setAccessibleName(tr("Layer"));
   layer->addWidget(this->layer_, 0, 1);
   QObject::connect(this->layer_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
     &HandleFields::layer_chosen);
   rows->addWidget(this->layer_row_);
-  this->shear_note_ = new QLabel(tr("Also has a shear or nonuniform scale."), this);
+  this->shear_note_ = new QLabel(tr("The handle also has a shear or nonuniform scale."), this);
   this->shear_note_->setObjectName("note");
-  this->shear_note_->setToolTip(tr("Typing a number removes it"));
+  this->shear_note_->setToolTip(
+    tr("Typing a new position, rotation or scale removes the shear or nonuniform scale"));
   rows->addWidget(this->shear_note_);
   // Names for users of screen readers, who cannot see the grid.
   const char* const names[] = { QT_TR_NOOP("Move along x"), QT_TR_NOOP("Move along y"),

@@ -230,11 +230,12 @@ void KeyTrack::paintEvent(QPaintEvent* /*event*/)
     painter.setPen(ink);
     const QRect below(strip_margin + 20, middle - this->fontMetrics().lineSpacing() / 2 - 1,
       this->width() - 2 * strip_margin - 20, this->fontMetrics().lineSpacing() + 2);
-    QString hint = tr("Pose the shape, then Set key; move in time, pose again, set another.");
+    QString hint =
+      tr("Pose the shape and click Set key; choose another time, pose again and set another key.");
     int width = this->fontMetrics().horizontalAdvance(hint) + 12;
     if (width > below.width())
     {
-      hint = tr("Pose the shape, then Set key.");
+      hint = tr("Pose the shape, then click Set key.");
       width = this->fontMetrics().horizontalAdvance(hint) + 12;
     }
     const QRect hint_rectangle(

@@ -238,12 +238,12 @@ void PosePanel::add_options(QVBoxLayout* column)
     { PoseMethod::stretchable_bones });
   this->pseudo_edges_ = box("pose.pseudo_edges", this);
   this->option(column, tr("Pseudo-edges"), this->pseudo_edges_,
-    tr("Point handles that are only moved rotate with the edges between them:\n"
+    tr("Point handles that are only translated follow the rotation of the edges between them:\n"
        "those of the handle file (Given), or edges along the shape (Automatic)."),
     skinning);
   this->single_ = check("pose.single_precision", tr("Single precision"));
   this->option(column, QString(), this->single_,
-    tr("Half the memory and twice the speed; accurate to a millionth of the size of the shape"),
+    tr("Half the memory, up to twice as fast; accurate to about 1e-6 bounding-box diagonals"),
     skinning);
 
   this->in_tets_ = check("pose.in_tets", tr("Keep the volume"));
@@ -253,8 +253,8 @@ void PosePanel::add_options(QVBoxLayout* column)
     arap_methods);
   this->energy_ = box("pose.energy", this);
   this->option(column, tr("Rigid parts"), this->energy_,
-    tr("Parts that keep their shape: the neighborhood of each vertex (spokes and rims; spokes:\n"
-       "only the edges at the vertex), or each triangle or tet (elements)"),
+    tr("Parts that keep their shape: the elements around each vertex (spokes and rims), only the\n"
+       "edges that end at each vertex (spokes), or each triangle or tet (elements)"),
     arap_methods);
   this->extra_ = row("pose.extra_weights");
   this->extra_->field()->setDecimals(0);
@@ -286,12 +286,12 @@ void PosePanel::add_options(QVBoxLayout* column)
 
   this->order_ = box("pose.order", this);
   this->option(column, tr("Model"), this->order_,
-    tr("Membrane: only positions continue at constrained vertices.\n"
-       "Thin plate: tangents continue, too. Third order: curvatures continue, too."),
+    tr("Membrane: only positions are continuous at constrained vertices.\n"
+       "Thin plate: tangents are continuous, too. Third order: also curvatures."),
     smooth);
   this->boundary_ = box("pose.boundary", this);
   this->option(column, tr("Boundary"), this->boundary_,
-    tr("Region: continues smoothly into the constrained region.\n"
+    tr("Region: the surface continues smoothly into the constrained region.\n"
        "Curve: only positions are constrained. Tangent: positions and slopes are constrained."),
     smooth);
 }
@@ -344,7 +344,7 @@ void PosePanel::add_motion(QVBoxLayout* column)
   this->simulate_box_ = new QCheckBox(tr("Simulate motion"), this);
   this->simulate_box_->setObjectName("pose.moves");
   this->simulate_box_->setToolTip(
-    tr("Handles lead the motion; everything else follows inertia and gravity.\n"
+    tr("Handles drive the motion; the rest of the shape moves by inertia and gravity.\n"
        "A free handle can be pulled and released."));
   section->column()->addWidget(this->simulate_box_);
   this->motion_ = new QWidget(this);
@@ -396,7 +396,7 @@ void PosePanel::add_motion(QVBoxLayout* column)
   line->addWidget(this->down_, 1);
   rows->addLayout(line);
   this->stiffness_ = row("motion.stiffness", tr("Stiffness"),
-    tr("Exponent of ten; at 2, waves cross the shape ten times per second"));
+    tr("Base-10 logarithm of the stiffness; at 2, waves cross the shape ten times per second"));
   this->damping_ = row("motion.damping", tr("Damping"), tr("Damping rate of the velocity in 1/s"));
   section->column()->addWidget(this->motion_);
   this->motion_->hide();
@@ -521,7 +521,7 @@ void PosePanel::set_state(const State& state)
   }
   this->simulate_box_->setEnabled(state.bound);
   this->simulate_box_->setToolTip(state.bound
-      ? tr("Handles lead the motion; everything else follows inertia and gravity.\n"
+      ? tr("Handles drive the motion; the rest of the shape moves by inertia and gravity.\n"
            "A free handle can be pulled and released.")
       : tr("Bind first: the simulation requires weights"));
   this->in_tets_->setToolTip(state.tets

@@ -492,7 +492,7 @@ QString Posing::reading() const
     this->panels_.pose->simulates_motion() && this->motion_->has_started();
   if (this->deformation_->is_binding())
   {
-    return tr("Preparing %1; the shape is unchanged until then.")
+    return tr("Preparing %1; the shape does not change until the method is ready.")
       .arg(method_name(this->deformation_->options().method));
   }
   const Status& status = simulates_motion ? this->motion_->status() : this->deformation_->status();

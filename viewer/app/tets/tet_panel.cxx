@@ -42,7 +42,7 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   this->method_->setToolTip(
     tr("Constrained: keeps the triangles of the surface.\n"
        "Remeshed: well-shaped tets.\n"
-       "Embedding lattice: cubes that only contain the surface.\n"
+       "Embedding lattice: cubes that contain the surface but do not follow it.\n"
        "Alpha wrap: the inside of a wrapping surface; open surfaces become shells.\n"
        "fTetWild: available if that program is installed.\n"
        "Whole hull: also contains the outside tets, to show how tets are classified."));
@@ -84,7 +84,8 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   this->cut_ = new QCheckBox(tr("Cut the tets"), this);
   this->cut_->setChecked(true);
   this->cut_->setObjectName("tets.cut");
-  this->cut_->setToolTip(tr("Hide the whole tets in front of a plane that the mouse can drag"));
+  this->cut_->setToolTip(
+    tr("Hide the tets whose center is in front of a plane; the mouse can drag the plane"));
   column->addWidget(this->cut_);
   this->orientations_ = parts::orientation_segments(column, this, "tets.orientation");
   this->position_ = new parts::ValueRow(this);

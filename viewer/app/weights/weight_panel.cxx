@@ -83,7 +83,7 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
     { tr("Show the weights of the handles"),
       tr("Show the sum of the raw weights at each point; where it is 1, normalization changes "
          "nothing"),
-      tr("Show the difference from the weights of the other method below") });
+      tr("Show the difference from the weights of the method under 'Other method'") });
   this->normalization_group_ = this->add_choice("weights.raw",
     { tr("Weights divided by their sum at each vertex; these weights deform the shape"),
       tr("Weights as solved, before normalization; the certificate applies to these weights") });
@@ -103,7 +103,7 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   column->addLayout(lines);
   this->extrema_ = box(tr("Extrema away from handles"),
     tr("Draw balls at local maxima (red) and minima (blue) of the displayed values away from "
-       "handles, if they exceed a thousandth of the range of the values"));
+       "handles, if their persistence exceeds a thousandth of the range of the values"));
   this->extrema_->setObjectName("weights.extrema");
   column->addWidget(this->extrema_);
   this->extrema_note_ = note(1);
@@ -271,7 +271,9 @@ void WeightPanel::enable()
   enable_or_explain(this->quantity_group_->button(weights), no_weights_reason);
   enable_or_explain(this->quantity_group_->button(row_sums), first(no_raw_reason));
   enable_or_explain(this->quantity_group_->button(difference),
-    first(this->state_.compared ? QString() : tr("Compare with another method first, below")));
+    first(this->state_.compared
+        ? QString()
+        : tr("First choose a method under 'Other method' and click Compare")));
   const QString all_handles_reason = all && !shows_sums
     ? tr("The strongest handle is the same for raw and normalized weights")
     : QString();
@@ -293,7 +295,7 @@ void WeightPanel::enable()
   const QString no_comparison_reason = this->state_.comparing ? tr("A comparison is running")
     : this->state_.has_handles
     ? QString()
-    : tr("Open the handles of these weights: another method requires them");
+    : tr("Open the handles of these weights: solving with another method requires handles");
   enable_or_explain(this->method_, first(no_comparison_reason));
   const QString same = tr("The weights already come from this method: choose another method");
   const bool is_same = this->method_->currentIndex() == this->state_.method;

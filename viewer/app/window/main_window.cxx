@@ -937,7 +937,7 @@ void MainWindow::draw_pose()
   QString reading = shows_tets ? tr("Drag the cut to move it; drag elsewhere to turn the view.")
     : shows_slice              ? tr("Drag the slice to move it; drag elsewhere to turn the view.")
     : !rest                    ? tr("Open a mesh (Ctrl+O) or drop one here.")
-    : !handles ? tr("Add handles (?: all keys), or open a handle file (.tgf or .vtp).")
+    : !handles ? tr("Add handles (press ? to list all keys), or open a handle file (.tgf or .vtp).")
     : this->binding_->is_running() ? tr("Binding; the view can be turned meanwhile.")
                                    : tr("Bind (Ctrl+B), then drag the handles.");
   if (this->posing_->can_pose() && !shows_tets && !shows_slice)

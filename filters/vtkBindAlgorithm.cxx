@@ -6,7 +6,9 @@
 
 #include "base/execution.h"
 #include "bind_key.h"
+#include "expression_parser.h"
 #include "pose/found_rotations.h"
+#include "pose/pose_file.h"
 #include "pose_input.h"
 #include "weights_input.h"
 
@@ -46,6 +48,31 @@ namespace
 {
 /// Threshold below which a transform is singular: determinant / (norm of the linear part)^3.
 constexpr double volume_tolerance = 1e-12;
+
+/// Apply the text of a pose file to a pose. The text must contain one pose, for time 0.
+Status apply_pose_text(const std::string& text, const Handles& handles, Pose& pose)
+{
+  std::optional<ExpressionParser> parser; // its construction takes longer than most poses
+  PoseSequence sequence;
+  Status status = parse_pose_file(text, handles, sequence,
+    [&parser](const std::string& expression, double t, double& value)
+    {
+      if (!parser)
+      {
+        parser.emplace();
+      }
+      return parser->evaluate(expression, t, value);
+    });
+  if (status.ok() && sequence.sequence)
+  {
+    status = Status::invalid_input("the text has a sequence of frames; expected one pose");
+  }
+  if (status.ok())
+  {
+    pose = apply_edits(sequence.frames[0], handles, pose);
+  }
+  return status;
+}
 
 /// Return warnings that name the handles in mode full whose transform is a reflection or is
 /// singular.
@@ -132,7 +159,8 @@ int vtkBindAlgorithm::RequestInformation(
   return 1;
 }
 
-Status vtkBindAlgorithm::Prepare(ExecutionContext& context, vtkInformationVector** input)
+Status vtkBindAlgorithm::Prepare(
+  ExecutionContext& context, vtkInformationVector** input, const std::string& pose)
 {
   auto* mesh = vtkPointSet::GetData(input[0], 0);
   auto* handle_data = vtkPolyData::GetData(input[1], 0);
@@ -200,6 +228,10 @@ Status vtkBindAlgorithm::Prepare(ExecutionContext& context, vtkInformationVector
   if (handle_data)
   {
     status = to_pose(handle_data, bound.handles, bound.cells, bound.pose);
+    if (status.ok() && !pose.empty())
+    {
+      status = apply_pose_text(pose, bound.handles, bound.pose);
+    }
     if (status.ok() && this->FindsRotations())
     {
       bound.pose = resolve_automatic_modes(bound.handles, bound.pose);
@@ -210,6 +242,8 @@ Status vtkBindAlgorithm::Prepare(ExecutionContext& context, vtkInformationVector
     return status;
   }
   bound.pose_warnings = transform_warnings(bound.handles, bound.pose);
+  bound.pose_warnings.insert(
+    bound.pose_warnings.end(), status.warnings.begin(), status.warnings.end());
   bound.input.emplace(PoseInput{ mesh, bound.points.view(), bound.weights.view(), bound.handles,
     bound.pose, handle_data, bound.cells });
   bound.bound_now = bind;

@@ -98,8 +98,11 @@ protected:
   /**
    * Convert the inputs, and run Bind() unless the last bind is still valid. Subclasses call this in
    * Execute(). If the status is usable, GetPoseInput() is valid until Execute() returns.
+   * @param pose  text of a pose file (see vtkPoseHandles) with one pose, which is applied to the
+   * pose of the handles; empty: none
    */
-  bindpose::Status Prepare(bindpose::ExecutionContext& context, vtkInformationVector** input);
+  bindpose::Status Prepare(bindpose::ExecutionContext& context, vtkInformationVector** input,
+    const std::string& pose = {});
   const bindpose::PoseInput& GetPoseInput() const;
   ///@}
 

@@ -30,6 +30,33 @@
 #include <exception>
 #include <new>
 
+namespace
+{
+/// Return the status of some work. An exception becomes INTERNAL_ERROR.
+template <typename Work>
+bindpose::Status status_of(const Work& work)
+{
+  const auto failure = [](const char* message)
+  { return bindpose::Status::failure(bindpose::StatusCode::internal_error, message); };
+  try
+  {
+    return work();
+  }
+  catch (const std::bad_alloc&)
+  {
+    return failure("out of memory");
+  }
+  catch (const std::exception& error)
+  {
+    return failure(error.what());
+  }
+  catch (...)
+  {
+    return failure("caught an exception of unknown type");
+  }
+}
+} // namespace
+
 vtkBindposeAlgorithm::vtkBindposeAlgorithm() : LastStatus(new bindpose::Status)
 {
   this->SetNumberOfInputPorts(1);
@@ -51,6 +78,11 @@ std::string vtkBindposeAlgorithm::GetStatusAsString()
 std::string vtkBindposeAlgorithm::GetStatusMessage()
 {
   return this->LastStatus->message;
+}
+
+int vtkBindposeAlgorithm::GetNumberOfWarnings()
+{
+  return static_cast<int>(this->LastStatus->warnings.size());
 }
 
 std::string vtkBindposeAlgorithm::GetReportJSON()
@@ -206,23 +238,7 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
   }
   if (status.usable())
   {
-    try
-    {
-      status = this->Execute(context, input, output);
-    }
-    catch (const std::bad_alloc&)
-    {
-      status = bindpose::Status::failure(bindpose::StatusCode::internal_error, "out of memory");
-    }
-    catch (const std::exception& error)
-    {
-      status = bindpose::Status::failure(bindpose::StatusCode::internal_error, error.what());
-    }
-    catch (...)
-    {
-      status = bindpose::Status::failure(
-        bindpose::StatusCode::internal_error, "caught an exception of unknown type");
-    }
+    status = status_of([&]() { return this->Execute(context, input, output); });
   }
 
   bindpose::complete_report(context, status);
@@ -256,6 +272,17 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
     vtkWarningMacro(<< warning);
   }
   return 1;
+}
+
+bool vtkBindposeAlgorithm::ExecuteDirectly(
+  const std::function<bindpose::Status(bindpose::ExecutionContext& context)>& work)
+{
+  bindpose::ExecutionContext context({}, [this]() { return this->GetAbortExecute() != 0; });
+  context.set_threads(this->NumberOfThreads);
+  *this->LastStatus = status_of([&]() { return work(context); });
+  bindpose::add_outcome(*this->LastStatus);
+  this->LastStatus->report.merge(context.seconds());
+  return this->LastStatus->usable();
 }
 
 void vtkBindposeAlgorithm::PrintSelf(ostream& os, vtkIndent indent)

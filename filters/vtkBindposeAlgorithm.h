@@ -28,6 +28,7 @@
 
 #include "BindposeFiltersModule.h" // for export macro
 #include "vtkAlgorithm.h"
+#include <functional> // for std::function
 #include <memory> // for std::unique_ptr
 #include <string> // for std::string
 
@@ -66,6 +67,9 @@ public:
   std::string GetStatusAsString();
   std::string GetStatusMessage();
   ///@}
+
+  /// Return the number of warnings of the last execution; the report contains their texts.
+  int GetNumberOfWarnings();
 
   /// Return the report of the last execution as a JSON object, "{}" before the first execution.
   std::string GetReportJSON();
@@ -133,6 +137,16 @@ protected:
    */
   virtual bindpose::Status Execute(bindpose::ExecutionContext& context,
     vtkInformationVector** input, vtkInformationVector* output) = 0;
+
+  /**
+   * Do work outside of the pipeline, with the filter's number of threads and abort flag. The status
+   * becomes that of the filter. No error or warning event is invoked. The report has the status,
+   * the message, the warnings and the seconds per phase, but no memory, which would take longer to
+   * measure than short work takes.
+   * @return whether the status is usable
+   */
+  bool ExecuteDirectly(
+    const std::function<bindpose::Status(bindpose::ExecutionContext& context)>& work);
 
 private:
   vtkBindposeAlgorithm(const vtkBindposeAlgorithm&) = delete;

@@ -66,8 +66,12 @@ Status vtkFullARAP::Deform(ExecutionContext& context, const PoseInput& input, Po
   options.anderson_window = this->AndersonWindow;
   FullArap& arap = this->Internal->arap;
   const Status status = arap.solve(context, input.pose, options);
+  if (!status.usable())
+  {
+    return status;
+  }
   posed.points = arap.posed();
-  if (this->GetRotationArrays() && status.usable())
+  if (this->GetRotationArrays())
   {
     posed.groups = &arap.groups();
     posed.rotations = arap.rotations();

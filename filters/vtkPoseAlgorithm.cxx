@@ -9,7 +9,9 @@
 
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
+#include "vtkExecutive.h"
 #include "vtkFieldData.h"
+#include "vtkNew.h"
 #include "vtkPointData.h"
 #include "vtkPointSet.h"
 #include "vtkPoints.h"
@@ -40,6 +42,20 @@ vtkSmartPointer<vtkDoubleArray> to_array(const std::vector<Affine>& transforms)
   return array;
 }
 
+/// Return an array of `rows` points with undefined values, and its memory as a matrix.
+vtkSmartPointer<vtkDoubleArray> new_points(Index rows)
+{
+  auto points = vtkSmartPointer<vtkDoubleArray>::New();
+  points->SetNumberOfComponents(3);
+  points->SetNumberOfTuples(rows);
+  return points;
+}
+
+Eigen::Map<Points> memory_of(vtkDoubleArray* points)
+{
+  return { points->GetPointer(0), points->GetNumberOfTuples(), 3 };
+}
+
 vtkSmartPointer<vtkDataArray> to_normals(const Points& normals, vtkDataArray* like)
 {
   vtkSmartPointer<vtkDataArray> result;
@@ -63,27 +79,25 @@ Status vtkPoseAlgorithm::Execute(
   ExecutionContext& context, vtkInformationVector** input, vtkInformationVector* output)
 {
   auto* result = vtkPointSet::GetData(output, 0);
-  const int binds = this->GetNumberOfBinds();
-  const Status prepared = this->Prepare(context, input);
+  const Status prepared = this->PrepareRest(context, input, {});
   if (!prepared.usable())
   {
     return prepared;
   }
-  if (this->GetNumberOfBinds() != binds)
-  {
-    *this->RestCache = RestData();
-  }
   const PoseInput& pose_input = this->GetPoseInput();
   vtkPointSet* mesh = pose_input.mesh;
 
-  PosedPoints posed;
+  const vtkSmartPointer<vtkDoubleArray> points = new_points(mesh->GetNumberOfPoints());
+  PosedPoints posed(memory_of(points));
   Status deformed = this->Deform(context, pose_input, posed);
   if (!deformed.usable())
   {
     return deformed;
   }
   result->ShallowCopy(mesh);
-  result->SetPoints(to_vtk_points(posed.points));
+  vtkNew<vtkPoints> posed_points;
+  posed_points->SetData(points);
+  result->SetPoints(posed_points);
   if (!posed.transforms.empty())
   {
     result->GetFieldData()->AddArray(to_array(posed.transforms));
@@ -96,13 +110,14 @@ Status vtkPoseAlgorithm::Execute(
   auto* polydata = vtkPolyData::SafeDownCast(result);
   if (vtkDataArray* rest = polydata ? polydata->GetPointData()->GetNormals() : nullptr)
   {
-    PosedPoints normals;
-    const Status turned = this->DeformNormals(context, pose_input, posed, normals);
+    Points normals(posed.points.rows(), 3);
+    PosedPoints posed_normals({ normals.data(), normals.rows(), 3 });
+    const Status turned = this->DeformNormals(context, pose_input, posed, posed_normals);
     if (!turned.usable())
     {
       return turned;
     }
-    polydata->GetPointData()->SetNormals(to_normals(normals.points, rest));
+    polydata->GetPointData()->SetNormals(to_normals(normals, rest));
   }
 
   Status stretch;
@@ -133,6 +148,62 @@ Status vtkPoseAlgorithm::Execute(
   return this->WithBindReport(deformed);
 }
 
+/// Prepare() with a pose. A new bind clears the cached data of the rest shape.
+Status vtkPoseAlgorithm::PrepareRest(
+  ExecutionContext& context, vtkInformationVector** input, const std::string& pose)
+{
+  const int binds = this->GetNumberOfBinds();
+  const Status prepared = this->Prepare(context, input, pose);
+  if (this->GetNumberOfBinds() != binds)
+  {
+    *this->RestCache = RestData();
+  }
+  return prepared;
+}
+
+bool vtkPoseAlgorithm::PosePoints(const std::string& pose, vtkDoubleArray* points)
+{
+  return this->ExecuteDirectly(
+    [&](ExecutionContext& context)
+    {
+      if (!points)
+      {
+        return Status::invalid_input("PosePoints() needs an array for the points");
+      }
+      const Status prepared =
+        this->PrepareRest(context, this->GetExecutive()->GetInputInformation(), pose);
+      if (!prepared.usable())
+      {
+        return prepared;
+      }
+      const PoseInput& input = this->GetPoseInput();
+      if (points == input.mesh->GetPoints()->GetData())
+      {
+        return Status::invalid_input(
+          "the points of a pose cannot be written into the mesh at rest");
+      }
+      if (points->GetNumberOfComponents() != 3 ||
+        points->GetNumberOfTuples() != input.points.rows())
+      {
+        points->SetNumberOfComponents(3);
+        points->SetNumberOfTuples(input.points.rows());
+      }
+      PosedPoints posed(memory_of(points));
+      Status deformed = this->Deform(context, input, posed);
+      if (!deformed.usable())
+      {
+        return deformed;
+      }
+      const std::string unused = unused_stretch(input.pose, this->GetStretchUse());
+      if (!unused.empty())
+      {
+        deformed.warnings.push_back(unused);
+      }
+      points->Modified();
+      return this->WithBindReport(deformed);
+    });
+}
+
 StretchUse vtkPoseAlgorithm::GetStretchUse()
 {
   return StretchUse::ends;
@@ -148,9 +219,9 @@ Status vtkPoseAlgorithm::DeformNormals(
     return status;
   }
   const TrianglesView triangles = surface.triangles.view();
-  const Points& p = posed.points;
-  Points& n = normals.points;
-  n.setZero(p.rows(), 3);
+  const Eigen::Map<Points>& p = posed.points;
+  Eigen::Map<Points>& n = normals.points;
+  n.setZero();
   for (Index t = 0; t < triangles.rows(); ++t)
   {
     const Vec3 a = p.row(triangles(t, 0));

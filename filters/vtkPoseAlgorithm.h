@@ -27,6 +27,8 @@
 #include "vtkBindAlgorithm.h"
 #include <memory> // for std::unique_ptr
 
+class vtkDoubleArray;
+
 namespace bindpose
 {
 enum class StretchUse : int;
@@ -60,6 +62,20 @@ public:
   vtkBooleanMacro(StretchArray, bool);
   ///@}
 
+  /**
+   * Compute the points of a pose without updating the pipeline, for interactive use. The points
+   * have the same bits as those of Update(), but nothing else is computed: no output, no normals
+   * and no stretch. The inputs must be up to date. The filter binds if the last bind is not valid.
+   * Cost beyond solving and skinning: about 10 microseconds, and 1 microsecond per posed handle.
+   * @param pose  text of a pose file with one pose (see vtkPoseHandles), which is applied to the
+   * pose of the handles at port 1; empty: that pose
+   * @param points  the result, 3 components per point of the mesh; resized if it has another size.
+   * It must not be the array of the mesh's own points.
+   * @return whether there is a result; if not, see GetStatus() and GetStatusMessage(). No error or
+   * warning event is invoked.
+   */
+  bool PosePoints(const std::string& pose, vtkDoubleArray* points);
+
 protected:
   vtkPoseAlgorithm();
   ~vtkPoseAlgorithm() override;
@@ -85,6 +101,9 @@ protected:
 private:
   vtkPoseAlgorithm(const vtkPoseAlgorithm&) = delete;
   void operator=(const vtkPoseAlgorithm&) = delete;
+
+  bindpose::Status PrepareRest(bindpose::ExecutionContext& context, vtkInformationVector** input,
+    const std::string& pose);
 
   double StretchLimit = 2.0;
   bool StretchArray = false;

@@ -177,7 +177,10 @@ Status vtkVariationalSurface::Deform(
   ExecutionContext& context, const PoseInput& input, PosedPoints& posed)
 {
   const Status status = this->Internal->surface.solve(context, input.pose);
-  posed.points = this->Internal->surface.posed();
+  if (status.usable())
+  {
+    posed.points = this->Internal->surface.posed();
+  }
   return status;
 }
 

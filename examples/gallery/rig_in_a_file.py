@@ -52,7 +52,7 @@ def make(options):
         path = options.scratch / f"{name}.glb"
         report = bindpose.write_rig(weighted, handles, path, frames=exact, fps=8, maximum_influences=influences)
         rig = bindpose.read_rig(path)
-        back[name] = bindpose.deform(rig.mesh, rig.handles, rig.pose)
+        back[name] = bindpose.deform(rig.mesh, rig.handles, rig.animation)
         numbers[f"{name}: bytes"] = report["file_bytes"]
         numbers[f"{name}: sets of weights"] = report["sets"]
         numbers[f"{name}: largest dropped fraction of a vertex's weights"] = report["dropped_share"]

@@ -29,7 +29,10 @@ struct PoseInput
 /// Output of the subclasses of vtkPoseAlgorithm.
 struct PosedPoints
 {
-  Points points; ///< #V x 3
+  /// @param memory  destination of the points, #V x 3
+  explicit PosedPoints(const Eigen::Map<Points>& memory) : points(memory) {}
+
+  Eigen::Map<Points> points; ///< #V x 3
   /// The transforms that were used, one per handle. If empty, the output gets no array of
   /// transforms.
   std::vector<Affine> transforms;

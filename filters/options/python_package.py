@@ -62,13 +62,26 @@ def described_options(function, sets):
 
 
 def replace_argument(function, options):
-    """Replace the argument `options` by the described options."""
+    """Replace the argument `options` or `**options` by the described options."""
     arguments = function.args
-    at = [argument.arg for argument in arguments.kwonlyargs].index("options")
+    names = [argument.arg for argument in arguments.kwonlyargs]
+    at = names.index("options") if "options" in names else len(names)
+    if "options" not in names:
+        arguments.kwarg = None
     defaults = [entry(option)["default"] for option in options]
-    arguments.kwonlyargs[at:at + 1] = [
+    end = at + ("options" in names)
+    arguments.kwonlyargs[at:end] = [
         ast.arg(option.name, ast.parse(option_type(option), mode="eval").body) for option in options]
-    arguments.kw_defaults[at:at + 1] = [ast.parse(repr(default), mode="eval").body for default in defaults]
+    arguments.kw_defaults[at:end] = [ast.parse(repr(default), mode="eval").body for default in defaults]
+
+
+def without_body(function, sets):
+    """Replace the arguments, the decorator of options and the body of a function for a stub."""
+    options = described_options(function, sets)
+    if options is not None:
+        replace_argument(function, options)
+    function.decorator_list = [each for each in function.decorator_list if getattr(each, "id", "") == "property"]
+    function.body = [ast.Expr(ast.Constant(...))]
 
 
 def stub(source, sets):
@@ -80,15 +93,12 @@ def stub(source, sets):
         if isinstance(node, (ast.Import, ast.ImportFrom)):
             body.append(node)
         elif isinstance(node, ast.FunctionDef) and not node.name.startswith("_"):
-            options = described_options(node, sets)
-            if options is not None:
-                replace_argument(node, options)
-            node.decorator_list = []
-            node.body = [ast.Expr(ast.Constant(...))]
+            without_body(node, sets)
             body.append(node)
         elif isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
+            node.body = [child for child in node.body if not getattr(child, "name", "").startswith("_") or child.name == "__init__"]
             for child in node.body:
                 if isinstance(child, ast.FunctionDef):
-                    child.body = [ast.Expr(ast.Constant(...))]
+                    without_body(child, sets)
             body.append(node)
     return NOTE + ast.unparse(ast.fix_missing_locations(ast.Module(body, []))) + "\n"

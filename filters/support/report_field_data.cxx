@@ -171,7 +171,7 @@ Status upstream_failure(vtkDataObject* data)
   return status;
 }
 
-void complete_report(const ExecutionContext& context, Status& status)
+void add_outcome(Status& status)
 {
   Report report;
   report.set("status", to_string(status.code));
@@ -181,10 +181,15 @@ void complete_report(const ExecutionContext& context, Status& status)
     report.set("warnings[]", status.warnings);
   }
   report.merge(status.report);
-  report.merge(context.seconds());
-  report.set("seconds.total", context.elapsed_seconds());
-  report.set("peak_memory_bytes", static_cast<std::int64_t>(peak_memory()));
   status.report = std::move(report);
+}
+
+void complete_report(const ExecutionContext& context, Status& status)
+{
+  add_outcome(status);
+  status.report.merge(context.seconds());
+  status.report.set("seconds.total", context.elapsed_seconds());
+  status.report.set("peak_memory_bytes", static_cast<std::int64_t>(peak_memory()));
 }
 
 } // namespace bindpose

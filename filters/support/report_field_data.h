@@ -33,9 +33,11 @@ BINDPOSEFILTERS_EXPORT Report read_report(vtkDataObject* data);
 /// if the data is null or its report contains no failure.
 BINDPOSEFILTERS_EXPORT Status upstream_failure(vtkDataObject* data);
 
-/// Complete the status's report with the entries that all reports have. Status, message and
-/// warnings are inserted at the beginning; seconds per phase, their total and the peak memory are
-/// added at the end.
+/// Insert the status, the message and the warnings at the beginning of the status's report.
+BINDPOSEFILTERS_EXPORT void add_outcome(Status& status);
+
+/// Complete the status's report with the entries that all reports have: those of add_outcome(), and
+/// at the end seconds per phase, their total and the peak memory.
 BINDPOSEFILTERS_EXPORT void complete_report(const ExecutionContext& context, Status& status);
 
 } // namespace bindpose

@@ -6,8 +6,8 @@ Functions on numpy arrays and VTK datasets (PyVista's objects are VTK datasets):
 
     surface = bindpose.read("elephant.off")
     handles = bindpose.read_handles("elephant.tgf")
-    weights = bindpose.weights(surface, handles)
-    posed = bindpose.deform(weights, handles, "pose.json", method="reduced-arap")
+    rig = bindpose.bind(surface, handles)
+    posed = rig.pose({"b4": {"rotate": {"axis": [0, 0, 1], "degrees": 30}}}, method="reduced-arap")
     bindpose.write(posed, "posed.vtp")
 
 Every filter is also available as a VTK class (``bindpose.vtkWindingNumberField``, …), for persistent pipelines.
@@ -36,10 +36,11 @@ from .errors import (
     Unavailable,
 )
 from .fairing import fair
-from .files import Rig, read, read_handles, read_rig, write, write_rig
+from .files import read, read_handles, write
 from .functions import contains, deform, dynamics, planar_shape, tetrahedralize, weights, winding_number
 from .handle_sets import automatic_handles, farthest_point_handles, handles
 from .meshes import Array, PlanarShape, Tets
+from .rigs import Rig, bind, read_rig, write_rig
 from .running import report, run
 from .smoothing import monotone_smoothing
 from .weight_uses import cut_along_bones, depth_order, endpoint_weights, weighted_colors

@@ -354,7 +354,7 @@ def weights(mesh, handles, *, bounds=(0, 1), mirror=None, options, threads=0, pr
     return Array(point_array(result, "Weights"), report, names)
 
 
-def _make_deformation(options):
+def make_deformation(options):
     """Return the filter of a method, with the options that the method uses."""
     if options.method == "variational":
         surface = filters.vtkVariationalSurface()
@@ -436,7 +436,7 @@ def deform(mesh, handles, pose, *, weights=None, times=None, options, threads=0,
         Weights that do not match, an unknown handle in the pose, an invalid pose.
     """
     data, poser = _posed_handles(mesh, handles, pose, weights)
-    bender = _make_deformation(options)
+    bender = make_deformation(options)
     bender.SetInputData(0, data)
     bender.SetInputConnection(1, poser.GetOutputPort())
     options.apply(bender, "pose")

@@ -3,6 +3,7 @@
 import functools
 import inspect
 import operator
+import re
 import textwrap
 
 import numpy as np
@@ -42,8 +43,8 @@ def _entry(option):
         text += f" Default: the array ``{option['array']}``, if it exists."
     if option["methods"]:
         text += f" Used by method{'s' if len(option['methods']) > 1 else ''} {_listed(option['methods'])}."
-    body = textwrap.fill(text, 112, initial_indent=" " * 8, subsequent_indent=" " * 8, break_long_words=False)
-    return f"    {option['name']} : {_type_text(option)}\n{body}\n"
+    body = textwrap.fill(text, 108, initial_indent=" " * 4, subsequent_indent=" " * 4, break_long_words=False)
+    return f"{option['name']} : {_type_text(option)}\n{body}\n"
 
 
 def _number(option, value):
@@ -123,11 +124,26 @@ class Options:
                 yield option, value
 
 
+def _described(sets, only, without):
+    return {option["name"]: option for name in sets for option in SETS[name]
+            if (only is None or option["name"] in only) and option["name"] not in without}
+
+
+def checked_options(given, *sets):
+    """Return the options of some sets as `Options`. Raise TypeError for an unknown name, as a call does."""
+    described = _described(sets, None, ())
+    unknown = [name for name in given if name not in described]
+    if unknown:
+        raise TypeError(f"unexpected keyword argument {unknown[0]!r}")
+    return Options(described, given)
+
+
 def with_options(*sets, only=None, without=()):
     """Return a decorator that gives a function the options of some sets.
 
     The function has a keyword-only parameter ``options``, and a line ``{options}`` in the parameters of its docstring.
-    The described options replace both; the function gets their values as an `Options` object.
+    The described options replace both; the function gets their values as an `Options` object. A function with
+    ``**options`` gets the keywords as they were passed, and can check them by `checked_options` later.
 
     Parameters
     ----------
@@ -138,16 +154,18 @@ def with_options(*sets, only=None, without=()):
     without : sequence of str
         Options to leave out.
     """
-    described = {option["name"]: option for name in sets for option in SETS[name]
-                 if (only is None or option["name"] in only) and option["name"] not in without}
+    described = _described(sets, only, without)
 
     def decorate(function):
-        @functools.wraps(function)
-        def wrapper(*arguments, **keywords):
-            given = {name: keywords.pop(name) for name in described if name in keywords}
-            return function(*arguments, options=Options(described, given), **keywords)
-
         signature = inspect.signature(function)
+        if signature.parameters["options"].kind == inspect.Parameter.VAR_KEYWORD:
+            wrapper = function
+        else:
+            @functools.wraps(function)
+            def wrapper(*arguments, **keywords):
+                given = {name: keywords.pop(name) for name in described if name in keywords}
+                return function(*arguments, options=Options(described, given), **keywords)
+
         parameters = []
         for parameter in signature.parameters.values():
             if parameter.name == "options":
@@ -155,9 +173,11 @@ def with_options(*sets, only=None, without=()):
                                for name, option in described.items()]
             else:
                 parameters.append(parameter)
+        wrapper.option_sets = sets
         wrapper.__signature__ = signature.replace(parameters=parameters)
-        entries = "".join(_entry(option) for option in described.values())
-        wrapper.__doc__ = function.__doc__.replace("    {options}\n", entries)
+        indent = re.search(r"^( *)\{options\}\n", function.__doc__, re.MULTILINE)[1]
+        entries = textwrap.indent("".join(_entry(option) for option in described.values()), indent)
+        wrapper.__doc__ = function.__doc__.replace(f"{indent}{{options}}\n", entries)
         return wrapper
 
     return decorate

@@ -93,17 +93,34 @@ def run(algorithm, progress=None):
                 algorithm.RemoveObserver(observer)
     if failed:
         raise failed[0]
-    status = algorithm.GetStatusAsString()
     result = json.loads(algorithm.GetReportJSON())
     for port in range(algorithm.GetNumberOfOutputPorts()):
         remember_run(algorithm.GetOutputDataObject(port), result)
-    if status not in ("ok", "not_converged"):
-        raise _ERRORS[status](algorithm.GetStatusMessage(), result)
-    for sentence in result.get("warnings", []):
-        python_warnings.warn(sentence, BindposeWarning, stacklevel=_caller_level())
-    if status == "not_converged":
-        python_warnings.warn(algorithm.GetStatusMessage(), NotConvergedWarning, stacklevel=_caller_level())
+    check_status(algorithm, result)
     return result
+
+
+def check_status(algorithm, report):
+    """Raise the exception of a filter's status, and issue its warnings.
+
+    Parameters
+    ----------
+    algorithm : vtkBindposeAlgorithm
+    report : dict
+        The filter's report.
+    """
+    status = algorithm.GetStatusAsString()
+    if status not in ("ok", "not_converged"):
+        raise _ERRORS[status](algorithm.GetStatusMessage(), report)
+    for sentence in report.get("warnings", []):
+        warn(sentence, BindposeWarning)
+    if status == "not_converged":
+        warn(algorithm.GetStatusMessage(), NotConvergedWarning)
+
+
+def warn(sentence, category):
+    """Issue a warning that names the line of the user."""
+    python_warnings.warn(sentence, category, stacklevel=_caller_level())
 
 
 def report(result):

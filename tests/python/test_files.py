@@ -36,8 +36,8 @@ def test_rigs(tmp_path):
     rig = bindpose.read_rig(tmp_path / "rig.glb")
     assert points_of(rig.mesh) == pytest.approx(points, abs=1e-6)
     assert rig.handles.GetNumberOfCells() == 2
-    assert rig.pose["fps"] == 10 and len(rig.pose["frames"]) == 3
-    for again in (bindpose.deform(rig.mesh, rig.handles, rig.pose),
+    assert rig.animation["fps"] == 10 and len(rig.animation["frames"]) == 3
+    for again in (bindpose.deform(rig.mesh, rig.handles, rig.animation),
                   bindpose.deform(mesh, tmp_path / "h.tgf", tmp_path / "rig.glb")):
         for k in range(3):
             assert points_of(again[k]) == pytest.approx(points_of(posed[k]), abs=2e-6)
@@ -45,7 +45,7 @@ def test_rigs(tmp_path):
     assert len(bindpose.deform(mesh, tmp_path / "h.tgf", {"frames": pose["frames"][:1]})) == 1
     bindpose.write(shapes.cube(), tmp_path / "cube.gltf")
     assert bindpose.read(tmp_path / "cube.gltf").GetNumberOfCells() == 12
-    assert bindpose.read_rig(tmp_path / "cube.gltf").pose is None
+    assert bindpose.read_rig(tmp_path / "cube.gltf").animation is None
     with pytest.raises(bindpose.InvalidInput, match="the file exists"):
         bindpose.write_rig(mesh, tmp_path / "h.tgf", tmp_path / "rig.glb")
     with pytest.raises(bindpose.InvalidInput, match="animation"):

@@ -42,7 +42,7 @@ Status ReducedArap::solve(ExecutionContext& context, const Pose& pose, const Sol
   return status;
 }
 
-Status ReducedArap::deform(ExecutionContext& context, PointsView rest, Points& posed) const
+Status ReducedArap::deform(ExecutionContext& context, PointsView rest, PointsOutput posed) const
 {
   return this->space_.skinning.linear_blend(context, rest, this->transforms_, posed);
 }
@@ -74,7 +74,7 @@ Status ReducedArap::weights(ExecutionContext& context, Weights& weights) const
 }
 
 Status ReducedArap::deform_normals(
-  ExecutionContext& context, PointsView rest_normals, Points& posed_normals) const
+  ExecutionContext& context, PointsView rest_normals, PointsOutput posed_normals) const
 {
   return this->space_.skinning.linear_blend_normals(
     context, rest_normals, this->transforms_, posed_normals);

@@ -65,9 +65,9 @@ public:
   void forget() { this->solver_.forget(); }
 
   /// Compute the vertices in the last solved pose, V' = V + M D (see ReducedSpace).
-  Status deform(ExecutionContext& context, PointsView rest, Points& posed) const;
+  Status deform(ExecutionContext& context, PointsView rest, PointsOutput posed) const;
   Status deform_normals(
-    ExecutionContext& context, PointsView rest_normals, Points& posed_normals) const;
+    ExecutionContext& context, PointsView rest_normals, PointsOutput posed_normals) const;
   /// Return the weights that deform() uses, #V x (handles and extra weights). They can be
   /// transferred to other points of the shape, which then also move with transforms().
   Status weights(ExecutionContext& context, Weights& weights) const;

@@ -149,13 +149,13 @@ Status ReducedDynamics::step(
   return status;
 }
 
-Status ReducedDynamics::deform(ExecutionContext& context, PointsView rest, Points& posed) const
+Status ReducedDynamics::deform(ExecutionContext& context, PointsView rest, PointsOutput posed) const
 {
   return this->space_.skinning.linear_blend(context, rest, this->state_.transforms, posed);
 }
 
 Status ReducedDynamics::deform_normals(
-  ExecutionContext& context, PointsView rest_normals, Points& posed_normals) const
+  ExecutionContext& context, PointsView rest_normals, PointsOutput posed_normals) const
 {
   return this->space_.skinning.linear_blend_normals(
     context, rest_normals, this->state_.transforms, posed_normals);

@@ -84,9 +84,9 @@ public:
   /// Continue from a state of this body.
   void set_state(const State& state) { this->state_ = state; }
 
-  Status deform(ExecutionContext& context, PointsView rest, Points& posed) const;
+  Status deform(ExecutionContext& context, PointsView rest, PointsOutput posed) const;
   Status deform_normals(
-    ExecutionContext& context, PointsView rest_normals, Points& posed_normals) const;
+    ExecutionContext& context, PointsView rest_normals, PointsOutput posed_normals) const;
   /// Return the transforms of all columns of the weights, handles first.
   const std::vector<Affine>& transforms() const { return this->state_.transforms; }
   std::vector<Eigen::Matrix3d> rotations() const;

@@ -138,7 +138,7 @@ WeightsView SkinningBind::endpoints(const SkinnedShape& shape, EndpointMethod me
 }
 
 Status SkinningBind::pose(ExecutionContext& context, const SkinnedShape& shape, const Pose& given,
-  const PseudoEdges& given_edges, const SkinningMethodOptions& options, Points& posed)
+  const PseudoEdges& given_edges, const SkinningMethodOptions& options, PointsOutput posed)
 {
   Pose pose = given;
   const PseudoEdges& edges =
@@ -182,7 +182,7 @@ Status SkinningBind::pose(ExecutionContext& context, const SkinnedShape& shape, 
 }
 
 Status SkinningBind::pose_normals(
-  ExecutionContext& context, PointsView rest, SkinningMethod method, Points& posed) const
+  ExecutionContext& context, PointsView rest, SkinningMethod method, PointsOutput posed) const
 {
   switch (method)
   {

@@ -74,7 +74,7 @@ public:
   /// counts.pseudo_edges if pseudo-edges rotate handles.
   /// @param given  the pseudo-edges for PseudoEdgeChoice::given
   Status pose(ExecutionContext& context, const SkinnedShape& shape, const Pose& pose,
-    const PseudoEdges& given, const SkinningMethodOptions& options, Points& posed);
+    const PseudoEdges& given, const SkinningMethodOptions& options, PointsOutput posed);
 
   /// Report whether pose_normals() supports a method. It does not support stretchable bones: with a
   /// stretch the endpoint weights also change the slope of the surface.
@@ -84,7 +84,7 @@ public:
   }
   /// Compute the normals of the last pose, #V x 3, from those at rest.
   Status pose_normals(
-    ExecutionContext& context, PointsView rest, SkinningMethod method, Points& posed) const;
+    ExecutionContext& context, PointsView rest, SkinningMethod method, PointsOutput posed) const;
 
   /// Return the transforms of the last pose, one per handle.
   const std::vector<Affine>& transforms() const { return this->transforms_; }

@@ -213,7 +213,7 @@ Status MovingLeastSquares::bind(ExecutionContext& context, const MovingLeastSqua
 }
 
 Status MovingLeastSquares::warp(
-  ExecutionContext& context, const Handles& handles, const Pose& pose, Points& posed) const
+  ExecutionContext& context, const Handles& handles, const Pose& pose, PointsOutput output) const
 {
   const auto count = static_cast<Index>(handles.size());
   if (count != this->handles_ || pose.size() != handles.size())
@@ -239,7 +239,7 @@ Status MovingLeastSquares::warp(
   status.warnings.clear();
   if (active_handles.empty())
   {
-    posed = this->rest_;
+    output.resized(this->rest_.rows()) = this->rest_;
     status.warnings.emplace_back("all handles are free, so the mesh does not move");
     return status;
   }
@@ -253,7 +253,7 @@ Status MovingLeastSquares::warp(
   const bool planar =
     this->flat_ && is_flat(rest_rows, tolerance) && is_flat(posed_rows, tolerance);
 
-  posed.resize(this->rest_.rows(), 3);
+  Eigen::Map<Points> posed = output.resized(this->rest_.rows());
   const bool done = parallel_for(context, this->rest_.rows(), points_per_block,
     [&](Index begin, Index end)
     {

@@ -2,6 +2,7 @@
 #define bindpose_skinning_moving_least_squares_h
 
 #include "base/execution.h"
+#include "base/points_output.h"
 #include "handles/handles.h"
 #include "pose/pose.h"
 
@@ -53,7 +54,7 @@ public:
   /// Compute the posed positions of the bound points. The report contains planar (1 or 0). A
   /// warning is added if all handles are free.
   Status warp(
-    ExecutionContext& context, const Handles& handles, const Pose& pose, Points& posed) const;
+    ExecutionContext& context, const Handles& handles, const Pose& pose, PointsOutput posed) const;
 
   /// Weight of a handle at a vertex. The amount is the total weight (1 for the nearest handle if
   /// that handle is a point). For a bone, `mean` and `variance` are those of the weighted positions

@@ -447,13 +447,13 @@ Status Skinning::check_pivots(PointsView pivots) const
 
 template <typename Scalar>
 bool Skinning::blend_affine(ExecutionContext& context, PointsView rest,
-  const std::vector<Affine>& transforms, bool normals, Points& posed) const
+  const std::vector<Affine>& transforms, bool normals, PointsOutput output) const
 {
   const WeightTiles<Scalar>& tiles = this->tiles<Scalar>();
   constexpr Index lanes = WeightTiles<Scalar>::lanes;
   const Vec3 center = normals ? Vec3::Zero() : center_of(rest);
   const auto moves = displacements<Scalar>(transforms, center);
-  posed.resize(rest.rows(), 3);
+  Eigen::Map<Points> posed = output.resized(rest.rows());
   return parallel_for(context, rest.rows(), skinning_block,
     [&](Index begin, Index end)
     {
@@ -480,7 +480,7 @@ bool Skinning::blend_affine(ExecutionContext& context, PointsView rest,
 }
 
 Status Skinning::linear_blend(ExecutionContext& context, PointsView rest,
-  const std::vector<Affine>& transforms, Points& posed) const
+  const std::vector<Affine>& transforms, PointsOutput output) const
 {
   const Status status = this->check(rest, transforms);
   if (!status.ok())
@@ -488,8 +488,8 @@ Status Skinning::linear_blend(ExecutionContext& context, PointsView rest,
     return status;
   }
   const bool done = this->is_single_precision_
-    ? this->blend_affine<float>(context, rest, transforms, false, posed)
-    : this->blend_affine<double>(context, rest, transforms, false, posed);
+    ? this->blend_affine<float>(context, rest, transforms, false, output)
+    : this->blend_affine<double>(context, rest, transforms, false, output);
   return done ? status : Status::canceled();
 }
 
@@ -579,7 +579,7 @@ Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
 }
 
 Status Skinning::linear_blend_normals(ExecutionContext& context, PointsView rest_normals,
-  const std::vector<Affine>& transforms, Points& posed_normals) const
+  const std::vector<Affine>& transforms, PointsOutput posed_normals) const
 {
   const Status status = this->check(rest_normals, transforms);
   if (!status.ok())
@@ -595,14 +595,14 @@ Status Skinning::linear_blend_normals(ExecutionContext& context, PointsView rest
 template <typename Scalar>
 bool Skinning::blend_bones(ExecutionContext& context, PointsView rest,
   const std::vector<Affine>& transforms, const std::vector<BoneChange>& bones,
-  WeightsView endpoints, Points& posed) const
+  WeightsView endpoints, PointsOutput output) const
 {
   const WeightTiles<Scalar>& tiles = this->tiles<Scalar>();
   constexpr Index lanes = WeightTiles<Scalar>::lanes;
   const Vec3 center = center_of(rest);
   const auto moves = displacements<Scalar>(transforms, center);
   const auto frames = bone_frames<Scalar>(bones, transforms, center);
-  posed.resize(rest.rows(), 3);
+  Eigen::Map<Points> posed = output.resized(rest.rows());
   return parallel_for(context, rest.rows(), skinning_block,
     [&](Index begin, Index end)
     {
@@ -622,7 +622,7 @@ bool Skinning::blend_bones(ExecutionContext& context, PointsView rest,
 
 Status Skinning::stretchable_bones(ExecutionContext& context, PointsView rest,
   const std::vector<Affine>& transforms, const std::vector<BoneChange>& bones,
-  WeightsView endpoints, Points& posed) const
+  WeightsView endpoints, PointsOutput output) const
 {
   Status status = this->check(rest, transforms);
   if (status.ok() && bones.size() != transforms.size())
@@ -643,14 +643,14 @@ Status Skinning::stretchable_bones(ExecutionContext& context, PointsView rest,
     return status;
   }
   const bool done = this->is_single_precision_
-    ? this->blend_bones<float>(context, rest, transforms, bones, endpoints, posed)
-    : this->blend_bones<double>(context, rest, transforms, bones, endpoints, posed);
+    ? this->blend_bones<float>(context, rest, transforms, bones, endpoints, output)
+    : this->blend_bones<double>(context, rest, transforms, bones, endpoints, output);
   return done ? status : Status::canceled();
 }
 
 template <typename Scalar>
 bool Skinning::blend_dual(ExecutionContext& context, PointsView rest,
-  const std::vector<Affine>& transforms, PointsView pivots, bool normals, Points& posed) const
+  const std::vector<Affine>& transforms, PointsView pivots, bool normals, PointsOutput output) const
 {
   const WeightTiles<Scalar>& tiles = this->tiles<Scalar>();
   constexpr Index lanes = WeightTiles<Scalar>::lanes;
@@ -679,7 +679,7 @@ bool Skinning::blend_dual(ExecutionContext& context, PointsView rest,
   }
   set_signs(motions, quaternions);
   const auto shear_moves = displacements<Scalar>(shears, center);
-  posed.resize(rest.rows(), 3);
+  Eigen::Map<Points> posed = output.resized(rest.rows());
   return parallel_for(context, rest.rows(), skinning_block,
     [&](Index begin, Index end)
     {
@@ -731,7 +731,7 @@ bool Skinning::blend_dual(ExecutionContext& context, PointsView rest,
 }
 
 Status Skinning::dual_quaternion(ExecutionContext& context, PointsView rest,
-  const std::vector<Affine>& transforms, PointsView pivots, Points& posed) const
+  const std::vector<Affine>& transforms, PointsView pivots, PointsOutput output) const
 {
   Status status = this->check(rest, transforms);
   status = status.ok() ? this->check_pivots(pivots) : status;
@@ -740,13 +740,13 @@ Status Skinning::dual_quaternion(ExecutionContext& context, PointsView rest,
     return status;
   }
   const bool done = this->is_single_precision_
-    ? this->blend_dual<float>(context, rest, transforms, pivots, false, posed)
-    : this->blend_dual<double>(context, rest, transforms, pivots, false, posed);
+    ? this->blend_dual<float>(context, rest, transforms, pivots, false, output)
+    : this->blend_dual<double>(context, rest, transforms, pivots, false, output);
   return done ? status : Status::canceled();
 }
 
 Status Skinning::dual_quaternion_normals(ExecutionContext& context, PointsView rest_normals,
-  const std::vector<Affine>& transforms, PointsView pivots, Points& posed_normals) const
+  const std::vector<Affine>& transforms, PointsView pivots, PointsOutput posed_normals) const
 {
   Status status = this->check(rest_normals, transforms);
   status = status.ok() ? this->check_pivots(pivots) : status;
@@ -764,7 +764,7 @@ Status Skinning::dual_quaternion_normals(ExecutionContext& context, PointsView r
 /// @param centers if null, `rest` contains normals instead of points.
 template <typename Scalar>
 bool Skinning::blend_about(ExecutionContext& context, PointsView rest,
-  const std::vector<Affine>& transforms, const PointsView* centers, Points& posed) const
+  const std::vector<Affine>& transforms, const PointsView* centers, PointsOutput output) const
 {
   const WeightTiles<Scalar>& tiles = this->tiles<Scalar>();
   constexpr Index lanes = WeightTiles<Scalar>::lanes;
@@ -788,7 +788,7 @@ bool Skinning::blend_about(ExecutionContext& context, PointsView rest,
   }
   set_signs(motions, quaternions);
   const auto shear_moves = displacements<Scalar>(shears, Vec3::Zero());
-  posed.resize(rest.rows(), 3);
+  Eigen::Map<Points> posed = output.resized(rest.rows());
   return parallel_for(context, rest.rows(), skinning_block,
     [&](Index begin, Index end)
     {
@@ -840,7 +840,7 @@ bool Skinning::blend_about(ExecutionContext& context, PointsView rest,
 }
 
 Status Skinning::centers_of_rotation(ExecutionContext& context, PointsView rest,
-  const std::vector<Affine>& transforms, PointsView centers, Points& posed) const
+  const std::vector<Affine>& transforms, PointsView centers, PointsOutput output) const
 {
   Status status = this->check(rest, transforms);
   if (status.ok() && centers.rows() != rest.rows())
@@ -853,13 +853,13 @@ Status Skinning::centers_of_rotation(ExecutionContext& context, PointsView rest,
     return status;
   }
   const bool done = this->is_single_precision_
-    ? this->blend_about<float>(context, rest, transforms, &centers, posed)
-    : this->blend_about<double>(context, rest, transforms, &centers, posed);
+    ? this->blend_about<float>(context, rest, transforms, &centers, output)
+    : this->blend_about<double>(context, rest, transforms, &centers, output);
   return done ? status : Status::canceled();
 }
 
 Status Skinning::centers_of_rotation_normals(ExecutionContext& context, PointsView rest_normals,
-  const std::vector<Affine>& transforms, Points& posed_normals) const
+  const std::vector<Affine>& transforms, PointsOutput posed_normals) const
 {
   const Status status = this->check(rest_normals, transforms);
   if (!status.ok())

@@ -5,6 +5,7 @@
 // stretchable, twistable bones.
 
 #include "base/execution.h"
+#include "base/points_output.h"
 #include "handles/handles.h"
 #include "pose/bone_change.h"
 #include "pose/pose.h"
@@ -67,7 +68,7 @@ public:
   /// handle. `rest` and `posed` are #V x 3 and must be different arrays. The status is ok,
   /// canceled or invalid_input (sizes).
   Status linear_blend(ExecutionContext& context, PointsView rest,
-    const std::vector<Affine>& transforms, Points& posed) const;
+    const std::vector<Affine>& transforms, PointsOutput posed) const;
 
   /// Apply linear_blend() to many instances of the shape in one call. Each instance has its own
   /// transforms. Weights and points are read once for all instances. The weights must be bound in
@@ -85,7 +86,7 @@ public:
   /// of the blended linear part and normalize to unit length. A normal whose transformed length is
   /// zero keeps its rest direction.
   Status linear_blend_normals(ExecutionContext& context, PointsView rest_normals,
-    const std::vector<Affine>& transforms, Points& posed_normals) const;
+    const std::vector<Affine>& transforms, PointsOutput posed_normals) const;
 
   /// Deform by dual quaternion skinning (Kavan et al. 2008). Each transform is split into a scale
   /// and shear about its pivot, which is blended linearly first, and a rigid motion, which is
@@ -96,9 +97,9 @@ public:
   /// sum of the weights implicitly. A vertex whose weights are all zero does not move. `pivots` is
   /// #handles x 3.
   Status dual_quaternion(ExecutionContext& context, PointsView rest,
-    const std::vector<Affine>& transforms, PointsView pivots, Points& posed) const;
+    const std::vector<Affine>& transforms, PointsView pivots, PointsOutput posed) const;
   Status dual_quaternion_normals(ExecutionContext& context, PointsView rest_normals,
-    const std::vector<Affine>& transforms, PointsView pivots, Points& posed_normals) const;
+    const std::vector<Affine>& transforms, PointsView pivots, PointsOutput posed_normals) const;
 
   /// Deform by skinning about centers of rotation (Le and Hodgins 2016). A vertex rotates by the
   /// handles' blended quaternions (signs as in dual_quaternion) about its center, which moves by
@@ -108,9 +109,9 @@ public:
   /// exact if all handles have the same affine map.
   /// @param centers #V x 3 at rest, from rotation_centers().
   Status centers_of_rotation(ExecutionContext& context, PointsView rest,
-    const std::vector<Affine>& transforms, PointsView centers, Points& posed) const;
+    const std::vector<Affine>& transforms, PointsView centers, PointsOutput posed) const;
   Status centers_of_rotation_normals(ExecutionContext& context, PointsView rest_normals,
-    const std::vector<Affine>& transforms, Points& posed_normals) const;
+    const std::vector<Affine>& transforms, PointsOutput posed_normals) const;
 
   /// Deform by stretchable, twistable bones (Jacobson and Sorkine 2011). A bone with head a and
   /// tail b first moves a point p to a + K (p - a) + e (stretch - 1) (b - a). Here e is the
@@ -124,7 +125,7 @@ public:
   /// selects the position of the point along the bone (fraction_along_bone).
   Status stretchable_bones(ExecutionContext& context, PointsView rest,
     const std::vector<Affine>& transforms, const std::vector<BoneChange>& bones,
-    WeightsView endpoints, Points& posed) const;
+    WeightsView endpoints, PointsOutput posed) const;
 
   Index vertex_count() const { return this->vertices_; }
   Index handle_count() const { return this->handles_; }
@@ -141,17 +142,17 @@ private:
   const WeightTiles<Scalar>& tiles() const;
   template <typename Scalar>
   bool blend_affine(ExecutionContext& context, PointsView rest,
-    const std::vector<Affine>& transforms, bool normals, Points& posed) const;
+    const std::vector<Affine>& transforms, bool normals, PointsOutput posed) const;
   template <typename Scalar>
   bool blend_dual(ExecutionContext& context, PointsView rest, const std::vector<Affine>& transforms,
-    PointsView pivots, bool normals, Points& posed) const;
+    PointsView pivots, bool normals, PointsOutput posed) const;
   template <typename Scalar>
   bool blend_about(ExecutionContext& context, PointsView rest,
-    const std::vector<Affine>& transforms, const PointsView* centers, Points& posed) const;
+    const std::vector<Affine>& transforms, const PointsView* centers, PointsOutput posed) const;
   template <typename Scalar>
   bool blend_bones(ExecutionContext& context, PointsView rest,
     const std::vector<Affine>& transforms, const std::vector<BoneChange>& bones,
-    WeightsView endpoints, Points& posed) const;
+    WeightsView endpoints, PointsOutput posed) const;
 
   Index vertices_ = 0;
   Index handles_ = 0;

@@ -1,6 +1,7 @@
 """Conversion between numpy arrays and VTK datasets."""
 
 import contextlib
+import sys
 from typing import NamedTuple
 
 import numpy as np
@@ -196,6 +197,31 @@ def shallow_copy(data):
     copy.ShallowCopy(data)
     remember_run(copy, run_of(data))
     return copy
+
+
+def like(source, result):
+    """Return a result as the class of the source, if this is a Python class that derives from a VTK class, as PyVista's.
+
+    If the result is of another type (tets of a surface), the function ``wrap`` of the source's package is used, if the
+    package has one. All datasets in a list or tuple are converted.
+    """
+    kind = type(source)
+    if not is_dataset(source) or kind.__module__.startswith("vtkmodules"):
+        return result
+    if isinstance(result, (list, tuple)) and not hasattr(result, "_fields"):
+        return type(result)(like(source, each) for each in result)
+    if not is_dataset(result) or isinstance(result, kind):
+        return result
+    if issubclass(kind, type(result)):
+        converted = kind()
+        converted.ShallowCopy(result)
+    else:
+        wrap = getattr(sys.modules.get(kind.__module__.partition(".")[0]), "wrap", None)
+        if wrap is None:
+            return result
+        converted = wrap(result)
+    remember_run(converted, run_of(result))
+    return converted
 
 
 def remember_run(data, report):

@@ -9,6 +9,7 @@ import textwrap
 import numpy as np
 
 from .errors import InvalidInput
+from .meshes import like
 from .option_table import SETS
 
 _ARRAYS = ("point_array", "cell_array")
@@ -164,7 +165,8 @@ def with_options(*sets, only=None, without=()):
             @functools.wraps(function)
             def wrapper(*arguments, **keywords):
                 given = {name: keywords.pop(name) for name in described if name in keywords}
-                return function(*arguments, options=Options(described, given), **keywords)
+                result = function(*arguments, options=Options(described, given), **keywords)
+                return like(arguments[0], result) if arguments else result
 
         parameters = []
         for parameter in signature.parameters.values():

@@ -12,7 +12,7 @@ from .errors import BindposeWarning, InvalidInput
 from .files import read_handles
 from .functions import make_deformation, weights
 from .handle_sets import to_handles
-from .meshes import Array, add_point_array, is_dataset, point_array, shallow_copy, to_dataset
+from .meshes import Array, add_point_array, is_dataset, like, point_array, shallow_copy, to_dataset
 from .options import checked_options, with_options
 from .running import check_status, report, run, warn
 
@@ -168,7 +168,7 @@ class Rig:
         """Return the result of a pose, and the array of VTK for its points."""
         count = self.mesh.GetNumberOfPoints()
         if out is None and not self._gives_arrays:
-            out = shallow_copy(self.mesh)
+            out = like(self.mesh, shallow_copy(self.mesh))
             points = vtkPoints()
             points.SetData(vtkDoubleArray())
             out.SetPoints(points)

@@ -5,6 +5,7 @@ import numpy as np
 import pytest
 import shapes
 from bindpose import meshes
+from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid
 
 
 def test_triangles_and_tets():
@@ -40,3 +41,32 @@ def test_arrays_remember_their_report():
     assert array.names == ["a", "b"]
     assert (2 * array).tolist() == [[2.0, 4.0]]
     assert bindpose.report(array.copy()) == {"status": "ok"}
+
+
+class PolyData(vtkPolyData):
+    """A stand-in for a class of PyVista."""
+
+
+class Grid(vtkUnstructuredGrid):
+    """Another one."""
+
+
+def wrap(data):
+    """The stand-in for the function of PyVista, which is found by the package of a class."""
+    result = {"vtkPolyData": PolyData, "vtkUnstructuredGrid": Grid}[data.GetClassName()]()
+    result.ShallowCopy(data)
+    return result
+
+
+def test_results_have_the_class_of_their_source():
+    mesh = PolyData()
+    mesh.ShallowCopy(meshes.to_dataset(shapes.bar()))
+    handles = bindpose.handles(points=[[0, 0.5, 0.5], [6, 0.5, 0.5]])
+    weighted = bindpose.weights(mesh, handles, domain="surface")
+    assert type(weighted) is PolyData and bindpose.report(weighted)["seconds"]
+    frames = bindpose.deform(weighted, handles, {"frames": [{"handles": {}}] * 2})
+    assert [type(frame) for frame in frames] == [PolyData, PolyData]
+    assert type(bindpose.bind(mesh, handles, domain="surface").pose({})) is PolyData
+    tets = bindpose.tetrahedralize(mesh)
+    assert type(tets) is Grid and tets.GetNumberOfCells() > 0 and bindpose.report(tets)["method"] == "cdt"
+    assert type(bindpose.weights(meshes.to_dataset(shapes.bar()), handles, domain="surface")) is vtkPolyData

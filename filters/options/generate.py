@@ -32,11 +32,11 @@ def generated(kind, inputs):
         return window.header(sets)
     if kind == "paraview":
         return paraview.fill(read(inputs[0]), sets)
-    if kind == "python-table":
-        return python_package.table(sets)
-    if kind == "python-stub":
-        return python_package.stub(read(inputs[0]), sets)
     verbs, common = read_verbs(sets)
+    if kind == "python-table":
+        return python_package.table(sets, verbs)
+    if kind == "python-stub":
+        return python_package.stub(read(inputs[0]), sets, verbs)
     if kind == "option-table":
         return command_line.table(verbs, common)
     if kind == "set-options":

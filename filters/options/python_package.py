@@ -7,7 +7,8 @@ from descriptions import vtk_name
 
 NOTE = "# Generated from the descriptions of options; see filters/options/README.md. Do not edit.\n"
 TYPES = {"flag": "bool", "integer": "int", "id": "int", "number": "float", "integers": "Sequence[int]",
-         "numbers": "Sequence[float]", "point_array": "str | ArrayLike | None"}
+         "numbers": "Sequence[float]", "text": "str | float | Sequence[str] | Sequence[float] | None",
+         "point_array": "str | ArrayLike | None"}
 
 
 def python_word(word):
@@ -16,17 +17,25 @@ def python_word(word):
     return int(word) if word.isdigit() else word
 
 
+def of_render(verbs):
+    """Return the options of the verb `render` that are no files: those of the function `render`."""
+    render = next(verb for verb in verbs if verb.name == "render")
+    return [option for option in render.options if option.type != "path"]
+
+
 def entry(option):
     """Return the fields of an option that the package needs at run time."""
     fields = option.fields
     default = option.default_of("python")
+    if option.type == "flag" and default is None:
+        default = False
     if option.type == "choice":
         default = python_word(default)
-    if option.type == "number":
+    if option.type == "number" and default is not None:
         default = float(default)
     if option.defaults or option.type == "point_array":
         default = None  # the default of the filter itself
-    return {"name": option.name, "setter": f"Set{vtk_name(option)}", "type": option.type,
+    return {"name": option.name.replace("-", "_"), "setter": f"Set{vtk_name(option)}", "type": option.type,
             "default": tuple(default) if isinstance(default, list) else default,
             "choices": {python_word(word): value for word, value in option.choices.items()}, "length": option.length, "help": option.help, "values": option.values_text(),
             "methods": list(option.methods()), "defaults": dict(option.defaults), "array": option.default,
@@ -34,8 +43,9 @@ def entry(option):
             **{key: fields[key] for key in ("minimum", "above", "maximum", "below") if key in fields}}
 
 
-def table(sets):
+def table(sets, verbs):
     entries = {name: [entry(option) for option in group.of_layer("python")] for name, group in sets.items()}
+    entries["render"] = [entry(option) for option in of_render(verbs)]
     described = {name: options for name, options in entries.items() if options}
     return NOTE + '"""The options of the stages, by set."""\n\nSETS = ' + pprint.pformat(described, width=120, sort_dicts=False) + "\n"
 
@@ -46,17 +56,19 @@ def table(sets):
 def option_type(option):
     if option.type == "choice":
         return f"Literal[{', '.join(repr(python_word(word)) for word in option.choices)}]"
-    return TYPES[option.type] + (" | None" if option.defaults else "")
+    optional = option.defaults or (option.type == "number" and option.default is None)
+    return TYPES[option.type] + (" | None" if optional else "")
 
 
-def described_options(function, sets):
+def described_options(function, sets, verbs):
     """Return the options that the decorator @with_options("NAME", …, only=…, without=…) gives to a function; None
     without the decorator."""
     for decorator in function.decorator_list:
         if isinstance(decorator, ast.Call) and getattr(decorator.func, "id", "") == "with_options":
             names = [argument.value for argument in decorator.args]
             words = {keyword.arg: ast.literal_eval(keyword.value) for keyword in decorator.keywords}
-            return [option for name in names for option in sets[name].of_layer("python")
+            described = {**{name: group.of_layer("python") for name, group in sets.items()}, "render": of_render(verbs)}
+            return [option for name in names for option in described[name]
                     if option.name in words.get("only", [option.name]) and option.name not in words.get("without", ())]
     return None
 
@@ -71,20 +83,20 @@ def replace_argument(function, options):
     defaults = [entry(option)["default"] for option in options]
     end = at + ("options" in names)
     arguments.kwonlyargs[at:end] = [
-        ast.arg(option.name, ast.parse(option_type(option), mode="eval").body) for option in options]
+        ast.arg(option.name.replace("-", "_"), ast.parse(option_type(option), mode="eval").body) for option in options]
     arguments.kw_defaults[at:end] = [ast.parse(repr(default), mode="eval").body for default in defaults]
 
 
-def without_body(function, sets):
+def without_body(function, sets, verbs):
     """Replace the arguments, the decorator of options and the body of a function for a stub."""
-    options = described_options(function, sets)
+    options = described_options(function, sets, verbs)
     if options is not None:
         replace_argument(function, options)
     function.decorator_list = [each for each in function.decorator_list if getattr(each, "id", "") == "property"]
     function.body = [ast.Expr(ast.Constant(...))]
 
 
-def stub(source, sets):
+def stub(source, sets, verbs):
     """Return a stub of a module: its public functions and classes, with the options of their sets as parameters."""
     tree = ast.parse(source)
     body = [ast.parse(line).body[0] for line in
@@ -93,12 +105,12 @@ def stub(source, sets):
         if isinstance(node, (ast.Import, ast.ImportFrom)):
             body.append(node)
         elif isinstance(node, ast.FunctionDef) and not node.name.startswith("_"):
-            without_body(node, sets)
+            without_body(node, sets, verbs)
             body.append(node)
         elif isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
             node.body = [child for child in node.body if not getattr(child, "name", "").startswith("_") or child.name == "__init__"]
             for child in node.body:
                 if isinstance(child, ast.FunctionDef):
-                    without_body(child, sets)
+                    without_body(child, sets, verbs)
             body.append(node)
     return NOTE + ast.unparse(ast.fix_missing_locations(ast.Module(body, []))) + "\n"

@@ -20,6 +20,7 @@ from .meshes import (
     copy_report,
     is_dataset,
     is_tets,
+    like,
     point_array,
     points_of,
     shallow_copy,
@@ -131,6 +132,34 @@ def contains(surface, points, *, options, threads=0, progress=None):
     if is_dataset(values):
         values = Array(point_array(values, "WindingNumber"), report_of(values))
     return Array(np.asarray(values) >= options.winding_threshold, values.report)
+
+
+def defects(surface, *, threads=0, progress=None):
+    """Locate the defects of a surface: open and non-manifold edges, duplicates, intersections and more.
+
+    Parameters
+    ----------
+    surface : vtkDataSet or (vertices, triangles)
+    threads, progress
+        See `winding_number`.
+
+    Returns
+    -------
+    vtkPolyData
+        One cell per defect, with the cell arrays ``Defect`` (see `vtkSurfaceDefects`), ``DefectName``,
+        ``OriginalCellIds``, ``CrossedCellIds``, ``Component`` and ``InwardComponent``, and the point array
+        ``OriginalPointIds``. The report has the number of each defect and ``closed``.
+
+    Raises
+    ------
+    InvalidInput
+        Not a surface, coordinates that are not finite, vertex ids out of range.
+    """
+    finder = filters.vtkSurfaceDefects()
+    finder.SetInputData(0, to_dataset(surface))
+    finder.SetNumberOfThreads(threads)
+    run(finder, progress)
+    return like(surface, finder.GetOutput())
 
 
 @with_options("tetrahedralize")

@@ -13,7 +13,7 @@ from .meshes import like
 from .option_table import SETS
 
 _ARRAYS = ("point_array", "cell_array")
-_TYPE_NAMES = {"flag": "bool", "integer": "int", "id": "int", "number": "float", "point_array": "str or array_like, optional"}
+_TYPE_NAMES = {"flag": "bool", "integer": "int", "id": "int", "number": "float", "text": "str, number or sequence", "point_array": "str or array_like, optional"}
 
 
 def _type_text(option):
@@ -67,6 +67,10 @@ def _checked(option, value):
         return value
     if option["type"] == "flag":
         return bool(value)
+    if option["type"] == "text":
+        if not isinstance(value, (str, int, float, list, tuple, np.ndarray, np.generic)):
+            raise InvalidInput(f"{name} must be a text, a number or a sequence of them (got {value!r})")
+        return value.tolist() if isinstance(value, (np.ndarray, np.generic)) else value
     if option["type"] == "choice":
         word = value.item() if isinstance(value, np.generic) else value
         if not isinstance(word, (str, int)) or word not in option["choices"]:
@@ -116,6 +120,18 @@ class Options:
                 value = option["choices"][value]
             arguments = value if isinstance(value, tuple) else (value,)
             getattr(algorithm, option["setter"])(*arguments)
+
+    def words(self, name):
+        """Return the options of a set that differ from their defaults as words of the command line."""
+        words = []
+        for option in SETS[name]:
+            value = getattr(self, option["name"], option["default"])
+            if value == option["default"] or value is None:
+                continue
+            words.append("--" + option["name"].replace("_", "-"))
+            if option["type"] != "flag":
+                words.append(",".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value))
+        return words
 
     def arrays(self):
         """Yield (description, value) of each given option that names or contains an array."""

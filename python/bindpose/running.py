@@ -10,7 +10,7 @@ import warnings as python_warnings
 from .errors import BindposeError, BindposeWarning, Canceled, InvalidInput, NotConvergedWarning, Unavailable
 from .meshes import remember_run, run_of
 
-_ERRORS = {error.status: error for error in (InvalidInput, Canceled, Unavailable, BindposeError)}
+errors_by_status = {error.status: error for error in (InvalidInput, Canceled, Unavailable, BindposeError)}
 
 
 def _caller_level():
@@ -111,7 +111,7 @@ def check_status(algorithm, report):
     """
     status = algorithm.GetStatusAsString()
     if status not in ("ok", "not_converged"):
-        raise _ERRORS[status](algorithm.GetStatusMessage(), report)
+        raise errors_by_status[status](algorithm.GetStatusMessage(), report)
     for sentence in report.get("warnings", []):
         warn(sentence, BindposeWarning)
     if status == "not_converged":

@@ -92,6 +92,10 @@ def without_body(function, sets, verbs):
     options = described_options(function, sets, verbs)
     if options is not None:
         replace_argument(function, options)
+        names = [argument.arg for argument in function.args.kwonlyargs]
+        if "progress" in names and "progress_bar" not in names:
+            function.args.kwonlyargs.append(ast.arg("progress_bar", ast.Name("bool")))
+            function.args.kw_defaults.append(ast.Constant(False))
     function.decorator_list = [each for each in function.decorator_list if getattr(each, "id", "") == "property"]
     function.body = [ast.Expr(ast.Constant(...))]
 

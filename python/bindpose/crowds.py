@@ -42,7 +42,7 @@ def crowd(mesh, handles, poses, *, placements=None, weights=None, appended=False
     appended : bool
         For a dataset: return all instances in one dataset, with the point array ``Instance``.
     {options}
-    threads, progress
+    threads, progress, progress_bar
         See `winding_number`.
 
     Returns

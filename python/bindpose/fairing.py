@@ -29,7 +29,7 @@ def fair(mesh, fixed=None, *, tangents=None, parameters=None, load=None, options
     load : (#V, 3) array, optional
         Right side of the equation; default: zero.
     {options}
-    threads, progress
+    threads, progress, progress_bar
         See `winding_number`.
 
     Returns

@@ -52,6 +52,8 @@ def winding_number(surface, points_or_grid=None, *, options, threads=0, progress
         0 for all cores; the result does not depend on it.
     progress : callable, optional
         See `bindpose.run`.
+    progress_bar : bool
+        Draw a bar on the standard error.
 
     Returns
     -------
@@ -113,7 +115,7 @@ def contains(surface, points, *, options, threads=0, progress=None):
     surface : vtkDataSet or (vertices, triangles)
     points : (#P, 3) array or vtkDataSet
     {options}
-    threads, progress
+    threads, progress, progress_bar
         See `winding_number`.
 
     Returns
@@ -173,7 +175,7 @@ def tetrahedralize(surface, *, handles=None, options, threads=0, progress=None):
         Handle dataset or file. With cdt and wrap the points of handles inside become points of the tets, and points
         are added along bones and cages.
     {options}
-    threads, progress
+    threads, progress, progress_bar
         See `winding_number`.
 
     Returns
@@ -219,7 +221,7 @@ def planar_shape(image_or_curves, *, handles=None, options, threads=0, progress=
     handles : vtkPolyData, str or path-like, optional
         Handle dataset or file: points become points of the mesh, bones become chains of edges.
     {options}
-    threads, progress
+    threads, progress, progress_bar
         See `winding_number`.
 
     Returns
@@ -316,7 +318,7 @@ def weights(mesh, handles, *, bounds=(0, 1), mirror=None, options, threads=0, pr
         bounding box, perpendicular to this axis. Otherwise, an array (or the name of a point array) that contains the
         id of the mirror image of each point; -1: none.
     {options}
-    threads, progress
+    threads, progress, progress_bar
         See `winding_number`.
 
     Returns
@@ -450,7 +452,7 @@ def deform(mesh, handles, pose, *, weights=None, times=None, options, threads=0,
     times : sequence of floats, optional
         Times in seconds at which a pose with expressions is evaluated; default: 0.
     {options}
-    threads, progress
+    threads, progress, progress_bar
         See `winding_number`.
 
     Returns
@@ -500,7 +502,7 @@ def dynamics(mesh, handles, pose, *, frames, weights=None, options, threads=0, p
     frames : int
         Number of time steps to return; the first is the pose at time 0 without velocity.
     {options}
-    threads, progress
+    threads, progress, progress_bar
         See `winding_number`.
 
     Returns

@@ -127,7 +127,7 @@ def automatic_handles(mesh, *, options, threads=0, progress=None):
     mesh : vtkDataSet or (vertices, triangles)
         A surface, clean or not, or tets, whose boundary is used.
     {options}
-    threads, progress
+    threads, progress, progress_bar
         See `winding_number`.
 
     Returns

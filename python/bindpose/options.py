@@ -11,6 +11,7 @@ import numpy as np
 from .errors import InvalidInput
 from .meshes import like
 from .option_table import SETS
+from .running import ProgressBar
 
 _ARRAYS = ("point_array", "cell_array")
 _TYPE_NAMES = {"flag": "bool", "integer": "int", "id": "int", "number": "float", "text": "str, number or sequence", "point_array": "str or array_like, optional"}
@@ -159,7 +160,8 @@ def with_options(*sets, only=None, without=()):
     """Return a decorator that gives a function the options of some sets.
 
     The function has a keyword-only parameter ``options``, and a line ``{options}`` in the parameters of its docstring.
-    The described options replace both; the function gets their values as an `Options` object. A function with
+    The described options replace both; the function gets their values as an `Options` object. A function with a parameter
+    ``progress`` also gets ``progress_bar``: whether a bar is drawn on the standard error. A function with
     ``**options`` gets the keywords as they were passed, and can check them by `checked_options` later.
 
     Parameters
@@ -181,7 +183,14 @@ def with_options(*sets, only=None, without=()):
             @functools.wraps(function)
             def wrapper(*arguments, **keywords):
                 given = {name: keywords.pop(name) for name in described if name in keywords}
-                result = function(*arguments, options=Options(described, given), **keywords)
+                bar = None
+                if "progress" in signature.parameters and keywords.pop("progress_bar", False):
+                    bar = keywords["progress"] = ProgressBar(keywords.get("progress"))
+                try:
+                    result = function(*arguments, options=Options(described, given), **keywords)
+                finally:
+                    if bar:
+                        bar.close()
                 return like(arguments[0], result) if arguments else result
 
         parameters = []
@@ -191,6 +200,8 @@ def with_options(*sets, only=None, without=()):
                                for name, option in described.items()]
             else:
                 parameters.append(parameter)
+            if parameter.name == "progress" and "progress_bar" not in signature.parameters:
+                parameters.append(inspect.Parameter("progress_bar", inspect.Parameter.KEYWORD_ONLY, default=False))
         wrapper.option_sets = sets
         wrapper.__signature__ = signature.replace(parameters=parameters)
         indent = re.search(r"^( *)\{options\}\n", function.__doc__, re.MULTILINE)[1]

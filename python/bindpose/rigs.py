@@ -257,12 +257,12 @@ def _pose_text(pose):
 
 
 @with_options("weights_method", "bounded_weights", "weights", "weight_terms", without=("bounds",))
-def bind(mesh, handles, *, bounds=(0, 1), mirror=None, threads=0, progress=None, **options):
+def bind(mesh, handles, *, bounds=(0, 1), mirror=None, threads=0, progress=None, progress_bar=False, **options):
     """Compute weights of a mesh, once, and return a rig that can be posed many times.
 
     Parameters
     ----------
-    mesh, handles, bounds, mirror, threads, progress
+    mesh, handles, bounds, mirror, threads, progress, progress_bar
         See `weights`.
     {options}
 
@@ -288,7 +288,8 @@ def bind(mesh, handles, *, bounds=(0, 1), mirror=None, threads=0, progress=None,
     """
     data = to_dataset(mesh)
     handle_data = to_handles(handles, data)
-    weighted = weights(data, handle_data, bounds=bounds, mirror=mirror, threads=threads, progress=progress, **options)
+    weighted = weights(data, handle_data, bounds=bounds, mirror=mirror, threads=threads, progress=progress,
+                       progress_bar=progress_bar, **options)
     rig = Rig(weighted, handle_data)
     rig._gives_arrays = not is_dataset(mesh)
     return rig

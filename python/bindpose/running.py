@@ -42,6 +42,36 @@ def _deferred_interrupt():
             raise KeyboardInterrupt
 
 
+class ProgressBar:
+    """A callback for progress that draws a bar on the standard error, and calls another callback.
+
+    Parameters
+    ----------
+    progress : callable, optional
+        Called with the same arguments. Its result is returned.
+    """
+
+    _WIDTH = 30  # characters of the bar
+
+    def __init__(self, progress=None):
+        self._progress = progress
+        self._line = ""
+
+    def __call__(self, fraction, phase):
+        done = int(fraction * self._WIDTH)
+        line = f"[{'#' * done}{'-' * (self._WIDTH - done)}] {int(100 * fraction):3} % {phase}"
+        if line != self._line:
+            sys.stderr.write("\r" + line.ljust(len(self._line)))
+            sys.stderr.flush()
+            self._line = line
+        return self._progress(fraction, phase) if self._progress else None
+
+    def close(self):
+        """Delete the bar."""
+        sys.stderr.write("\r" + " " * len(self._line) + "\r")
+        sys.stderr.flush()
+
+
 def run(algorithm, progress=None):
     """Update a filter of Bindpose, and turn its status into exceptions and warnings.
 

@@ -48,7 +48,7 @@ def monotone_smoothing(mesh, data=None, *, maxima=None, minima=None, options, th
         Vertices that may be extrema. A connected component needs at least one maximum and one minimum, or no extrema at
         all. Without extrema, it becomes constant.
     {options}
-    threads, progress
+    threads, progress, progress_bar
         See `winding_number`.
 
     Returns

@@ -36,7 +36,7 @@ def weighted_colors(mesh, handles, colors=None, *, weights=None, array_name="Wei
     array_name : str
         Point array of weights, for example ``RawWeights``.
     {options}
-    threads, progress
+    threads, progress, progress_bar
         See `winding_number`.
 
     Returns
@@ -77,7 +77,7 @@ def endpoint_weights(mesh, handles, *, options, threads=0, progress=None):
     handles : vtkPolyData, str or path-like
         Handles with bones among them.
     {options}
-    threads, progress
+    threads, progress, progress_bar
         See `winding_number`.
 
     Returns
@@ -123,7 +123,7 @@ def depth_order(mesh, handles, layers=None, *, weights=None, array_name="Weights
     weights, array_name
         See `weighted_colors`.
     {options}
-    threads, progress
+    threads, progress, progress_bar
         See `winding_number`.
 
     Returns

@@ -1,0 +1,51 @@
+"""A stand-in for PyVista, which no package of Debian 12 contains: its dataset classes, and its registry of accessors, which
+finds entry points as PyVista 0.48 does. Tests of the plugin use it.
+"""
+
+import importlib
+import importlib.metadata
+
+from vtkmodules.vtkCommonDataModel import vtkImageData, vtkPolyData, vtkUnstructuredGrid
+
+
+class DataSet:
+    """The base class of all datasets."""
+
+    def __getattr__(self, name):
+        for point in importlib.metadata.entry_points(group="pyvista.accessors"):
+            if point.name == name:
+                importlib.import_module(point.value)
+                return getattr(self, name)
+        raise AttributeError(name)
+
+
+class PolyData(DataSet, vtkPolyData):
+    pass
+
+
+class UnstructuredGrid(DataSet, vtkUnstructuredGrid):
+    pass
+
+
+class ImageData(DataSet, vtkImageData):
+    pass
+
+
+def wrap(data):
+    result = {"vtkPolyData": PolyData, "vtkUnstructuredGrid": UnstructuredGrid, "vtkImageData": ImageData}[data.GetClassName()]()
+    result.ShallowCopy(data)
+    return result
+
+
+def register_dataset_accessor(name, target):
+    def register(accessor):
+        setattr(target, name, property(accessor))
+        return accessor
+
+    return register
+
+
+def handler(group, extension):
+    """Return the function that an entry point names, as pyvista.read and save find it."""
+    point = next(point for point in importlib.metadata.entry_points(group=group) if point.name == extension)
+    return point.load()

@@ -97,10 +97,10 @@ Status vtkPoseAlgorithm::Execute(
   if (vtkDataArray* rest = polydata ? polydata->GetPointData()->GetNormals() : nullptr)
   {
     PosedPoints normals;
-    const Status turned = this->DeformNormals(context, pose_input, posed, normals);
-    if (!turned.usable())
+    const Status normal_status = this->DeformNormals(context, pose_input, posed, normals);
+    if (!normal_status.usable())
     {
-      return turned;
+      return normal_status;
     }
     polydata->GetPointData()->SetNormals(to_normals(normals.points, rest));
   }

@@ -24,9 +24,9 @@ void vtkBoundedBiharmonicWeights::SetOrder(int value)
 Status vtkBoundedBiharmonicWeights::Solve(ExecutionContext& context, const WeightsProblem& problem,
   const WeightsOptions& options, WeightsResult& result)
 {
-  WeightsOptions own = options;
-  own.order = this->Order;
-  return bounded_biharmonic_weights(context, problem, own, result);
+  WeightsOptions filter_options = options;
+  filter_options.order = this->Order;
+  return bounded_biharmonic_weights(context, problem, filter_options, result);
 }
 
 void vtkBoundedBiharmonicWeights::PrintSelf(ostream& os, vtkIndent indent)

@@ -236,10 +236,10 @@ Status vtkCrowdDeformation::Execute(
     instance->GetFieldData()->AddArray(to_array(crowd.transforms()[i], bound.weights.cols()));
     if (rest_normals)
     {
-      vtkSmartPointer<vtkFloatArray> turned = make_vectors(normals[i].rows());
-      std::copy_n(normals[i].data(), normals[i].size(), turned->GetPointer(0));
-      turned->SetName(rest_normals->GetName());
-      instance->GetPointData()->SetNormals(turned);
+      vtkSmartPointer<vtkFloatArray> posed_normals = make_vectors(normals[i].rows());
+      std::copy_n(normals[i].data(), normals[i].size(), posed_normals->GetPointer(0));
+      posed_normals->SetName(rest_normals->GetName());
+      instance->GetPointData()->SetNormals(posed_normals);
     }
     posed.push_back(instance);
   }

@@ -215,8 +215,9 @@ Status vtkCutAlongBones::Execute(
     const Index original = cut.original[point];
     data->CopyData(mesh->GetPointData(), original, v);
     originals->InsertNextValue(original);
-    const Index old = old_labels ? static_cast<Index>(old_labels->GetComponent(original, 0)) : 0;
-    labels->InsertNextValue(cut.side[point] > 0 ? base + cut.side[point] : old);
+    const Index old_label =
+      old_labels ? static_cast<Index>(old_labels->GetComponent(original, 0)) : 0;
+    labels->InsertNextValue(cut.side[point] > 0 ? base + cut.side[point] : old_label);
   }
   data->AddArray(originals);
   data->AddArray(labels);

@@ -60,7 +60,7 @@ Status vtkDepthOrder::Execute(
     return status;
   }
   DepthOrderOptions options;
-  options.tie = this->Tie;
+  options.tie_offset = this->Tie;
   DepthOrder order;
   status = depth_order(context, weights.weights.view(), layers, options, order);
   if (!status.usable())

@@ -108,15 +108,15 @@ void read_rows(vtkDataArray* array, const Surface& surface, Matrix& rows)
 
 Status read_colors(vtkPointData* data, const char* name, const Surface& surface, GltfSkin& skin)
 {
-  const bool named = name && name[0];
+  const bool has_name = name && name[0];
   auto* array =
-    vtkUnsignedCharArray::SafeDownCast(named ? data->GetArray(name) : data->GetScalars());
+    vtkUnsignedCharArray::SafeDownCast(has_name ? data->GetArray(name) : data->GetScalars());
   const int components = array ? array->GetNumberOfComponents() : 0;
   if (components != 3 && components != 4)
   {
-    return named ? Status::invalid_input("the mesh has no point array '" + std::string(name) +
-                     "' of unsigned chars with 3 or 4 components")
-                 : Status();
+    return has_name ? Status::invalid_input("the mesh has no point array '" + std::string(name) +
+                        "' of unsigned chars with 3 or 4 components")
+                    : Status();
   }
   skin.colors.setConstant(static_cast<Index>(surface.points.size()), 4, 255);
   for (Index v = 0; v < skin.colors.rows(); ++v)
@@ -237,20 +237,21 @@ Status read_poses(const std::string& path, const Handles& handles, const Pose& b
     return status;
   }
   // Warnings of the last frame. Usually all frames have the same warnings.
-  std::vector<std::string> made_warnings;
+  std::vector<std::string> transform_warnings;
   std::string unused;
   for (const PoseEdits& edits : sequence.frames)
   {
     std::vector<Affine> transforms;
     const Pose pose = apply_edits(edits, handles, base);
-    const Status made = skinning_transforms(handles, pose, transforms);
-    made_warnings = made.warnings;
+    const Status transform_status = skinning_transforms(handles, pose, transforms);
+    transform_warnings = transform_status.warnings;
     unused = unused.empty() ? unused_stretch(pose, StretchUse::tails) : unused;
     GltfFrame frame;
     frame.posed = posed_joints(handles, transforms);
     skin.frames.push_back(std::move(frame));
   }
-  status.warnings.insert(status.warnings.end(), made_warnings.begin(), made_warnings.end());
+  status.warnings.insert(
+    status.warnings.end(), transform_warnings.begin(), transform_warnings.end());
   if (!unused.empty())
   {
     status.warnings.push_back(unused);

@@ -136,14 +136,14 @@ Status read_tgf(const std::string& path, vtkPolyData* output)
     bindpose::to_handles(output, list, &cells);
     bindpose::add_pseudo_edges(output, cells, pseudo_edges);
   }
-  Index others = -static_cast<Index>(pseudo_edges.size());
+  Index unused_edges = -static_cast<Index>(pseudo_edges.size());
   for (const auto& edge : graph.edges)
   {
-    others += !edge.bone && !edge.cage;
+    unused_edges += !edge.bone && !edge.cage;
   }
-  if (others > 0)
+  if (unused_edges > 0)
   {
-    status.warnings.push_back(path + ": " + std::to_string(others) +
+    status.warnings.push_back(path + ": " + std::to_string(unused_edges) +
       " edges are ignored because they are neither bones nor cage edges nor pseudo-edges between "
       "points");
   }

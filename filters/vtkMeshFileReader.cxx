@@ -48,16 +48,16 @@ using bindpose::Index;
 using bindpose::Status;
 
 /// Collects the first error or warning of a VTK reader instead of printing it.
-class ErrorCatcher
+class ErrorObserver
 {
 public:
-  ErrorCatcher()
+  ErrorObserver()
   {
     this->Command->SetClientData(this);
     this->Command->SetCallback(
       [](vtkObject*, unsigned long, void* self, void* text)
       {
-        auto& first = static_cast<ErrorCatcher*>(self)->First;
+        auto& first = static_cast<ErrorObserver*>(self)->First;
         if (first.empty() && text)
         {
           first = static_cast<const char*>(text);
@@ -165,7 +165,7 @@ Status read_gltf_mesh(const std::string& path, vtkDataObject* output)
 }
 
 template <typename Reader>
-void watch(ErrorCatcher& errors, Reader* reader)
+void watch(ErrorObserver& errors, Reader* reader)
 {
   errors.Watch(reader);
   // The executive reports a second error for the same failed request; catch it too.
@@ -182,7 +182,7 @@ void watch(ErrorCatcher& errors, Reader* reader)
 template <typename Reader>
 Status read_by_vtk(const std::string& path, vtkDataObject* output)
 {
-  ErrorCatcher errors;
+  ErrorObserver errors;
   vtkNew<Reader> reader;
   watch(errors, reader.Get());
   reader->SetFileName(path.c_str());
@@ -274,7 +274,7 @@ vtkSmartPointer<vtkDataObject> make_output(const std::string& path)
   }
   if (extension == "vtk")
   {
-    ErrorCatcher errors;
+    ErrorObserver errors;
     vtkNew<vtkGenericDataObjectReader> reader;
     errors.Watch(reader);
     reader->SetFileName(path.c_str());
@@ -331,7 +331,7 @@ int vtkMeshFileReader::RequestInformation(
   {
     return 1;
   }
-  ErrorCatcher errors;
+  ErrorObserver errors;
   vtkNew<vtkXMLImageDataReader> reader;
   watch(errors, reader.Get());
   reader->SetFileName(path.c_str());

@@ -124,11 +124,12 @@ Status write_dmat(vtkDataSet* data, const std::string& array_name, const std::st
   return bindpose::write_dmat(path, bindpose::to_matrix(array).view());
 }
 
-Status needs(vtkDataSet* data, const char* class_name, const std::string& format, const char* what)
+Status require_class(
+  vtkDataSet* data, const char* class_name, const std::string& format, const char* content_name)
 {
   return data->IsA(class_name) ? Status()
                                : Status::invalid_input("a ." + format + " file can only store " +
-                                   what + ", but the data is a " + data->GetClassName());
+                                   content_name + ", but the data is a " + data->GetClassName());
 }
 
 Status write(vtkDataSet* data, const std::string& format, const std::string& array_name,
@@ -137,17 +138,17 @@ Status write(vtkDataSet* data, const std::string& format, const std::string& arr
   Status status;
   if (format == "vtp")
   {
-    status = needs(data, "vtkPolyData", format, "surfaces and handles (vtkPolyData)");
+    status = require_class(data, "vtkPolyData", format, "surfaces and handles (vtkPolyData)");
     return status.ok() ? write_by_vtk<vtkXMLPolyDataWriter>(data, path) : status;
   }
   if (format == "vtu")
   {
-    status = needs(data, "vtkUnstructuredGrid", format, "tets (vtkUnstructuredGrid)");
+    status = require_class(data, "vtkUnstructuredGrid", format, "tets (vtkUnstructuredGrid)");
     return status.ok() ? write_by_vtk<vtkXMLUnstructuredGridWriter>(data, path) : status;
   }
   if (format == "vti")
   {
-    status = needs(data, "vtkImageData", format, "volumes (vtkImageData)");
+    status = require_class(data, "vtkImageData", format, "volumes (vtkImageData)");
     return status.ok() ? write_by_vtk<vtkXMLImageDataWriter>(data, path) : status;
   }
   if (format == "vtk")

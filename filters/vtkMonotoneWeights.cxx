@@ -24,9 +24,9 @@ void vtkMonotoneWeights::SetOrder(int value)
 Status vtkMonotoneWeights::Solve(ExecutionContext& context, const WeightsProblem& problem,
   const WeightsOptions& options, WeightsResult& result)
 {
-  WeightsOptions own = options;
-  own.order = this->Order;
-  return monotone_weights(context, problem, own, result);
+  WeightsOptions filter_options = options;
+  filter_options.order = this->Order;
+  return monotone_weights(context, problem, filter_options, result);
 }
 
 void vtkMonotoneWeights::PrintSelf(ostream& os, vtkIndent indent)

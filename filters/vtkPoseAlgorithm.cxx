@@ -112,10 +112,10 @@ Status vtkPoseAlgorithm::Execute(
   {
     Points normals(posed.points.rows(), 3);
     PosedPoints posed_normals({ normals.data(), normals.rows(), 3 });
-    const Status turned = this->DeformNormals(context, pose_input, posed, posed_normals);
-    if (!turned.usable())
+    const Status normal_status = this->DeformNormals(context, pose_input, posed, posed_normals);
+    if (!normal_status.usable())
     {
-      return turned;
+      return normal_status;
     }
     polydata->GetPointData()->SetNormals(to_normals(normals, rest));
   }

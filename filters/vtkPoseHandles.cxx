@@ -274,7 +274,7 @@ Status vtkPoseHandles::ReadGLTF(const Handles& handles, const double* time, Pose
       " frames, counted from 0");
   }
   const Pose base = pose;
-  std::size_t known = 0;
+  std::size_t posed_count = 0;
   for (const Index handle : parents_first(handles))
   {
     const auto h = static_cast<std::size_t>(handle);
@@ -287,9 +287,9 @@ Status vtkPoseHandles::ReadGLTF(const Handles& handles, const double* time, Pose
     }
     pose[h].mode = HandleMode::full;
     pose[h].transform = frames[frame][joint - data.handle_list.begin()].transform;
-    known += 1;
+    posed_count += 1;
   }
-  if (known == 0)
+  if (posed_count == 0)
   {
     return Status::invalid_input(path + ": none of its joints has the name of a handle");
   }

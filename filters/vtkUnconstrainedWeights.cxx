@@ -42,11 +42,11 @@ Status vtkUnconstrainedWeights::Solve(ExecutionContext& context, const WeightsPr
     return Status::invalid_input(
       "unknown method '" + this->Method + "': expected one of " + weight_method_words(false));
   }
-  WeightsOptions own = options;
-  own.power = this->Power;
-  own.smoothing = this->Smoothing;
-  own.heat = this->Heat;
-  return method->kernel(context, problem, own, result);
+  WeightsOptions filter_options = options;
+  filter_options.power = this->Power;
+  filter_options.smoothing = this->Smoothing;
+  filter_options.heat = this->Heat;
+  return method->kernel(context, problem, filter_options, result);
 }
 
 void vtkUnconstrainedWeights::PrintSelf(ostream& os, vtkIndent indent)

@@ -28,11 +28,11 @@ using bindpose::Status;
 vtkDataArray* find_array(vtkImageData* image, const char* name, Status& status)
 {
   vtkPointData* arrays = image->GetPointData();
-  const bool named = name && name[0];
-  vtkDataArray* array = named ? arrays->GetArray(name) : arrays->GetScalars();
+  const bool has_name = name && name[0];
+  vtkDataArray* array = has_name ? arrays->GetArray(name) : arrays->GetScalars();
   if (!array)
   {
-    status = Status::invalid_input(named
+    status = Status::invalid_input(has_name
         ? "the volume has no point array '" + std::string(name) + "' of numeric type"
         : "the volume has no active scalars; select a point array");
     return nullptr;

@@ -37,15 +37,15 @@ Status to_colors(vtkDataArray* array, const WeightsInput& input, Colors& colors)
   for (Index j = 0; j < colors.rows(); ++j)
   {
     const std::size_t handle = static_cast<std::size_t>(j);
-    double own[3];
-    array->GetTuple(input.cells[handle], own);
-    if (std::isnan(own[0]) && std::isnan(own[1]) && std::isnan(own[2]))
+    double handle_color[3];
+    array->GetTuple(input.cells[handle], handle_color);
+    if (std::isnan(handle_color[0]) && std::isnan(handle_color[1]) && std::isnan(handle_color[2]))
     {
       continue;
     }
     for (int k = 0; k < 3; ++k)
     {
-      colors(j, k) = own[k] / unit;
+      colors(j, k) = handle_color[k] / unit;
       if (!(colors(j, k) >= 0.0 && colors(j, k) <= 1.0))
       {
         return Status::invalid_input(name + " has a value outside the range 0 to 1 at handle '" +
@@ -100,10 +100,10 @@ Status vtkWeightedColors::Execute(
   }
   const auto count = static_cast<Index>(weights.handles.size());
   Colors handle_colors = categorical_colors(count);
-  vtkDataArray* given = handles->GetCellData()->GetArray(this->ColorArrayName.c_str());
-  if (given)
+  vtkDataArray* color_array = handles->GetCellData()->GetArray(this->ColorArrayName.c_str());
+  if (color_array)
   {
-    status = to_colors(given, weights, handle_colors);
+    status = to_colors(color_array, weights, handle_colors);
     if (!status.ok())
     {
       return status;
@@ -138,7 +138,7 @@ Status vtkWeightedColors::Execute(
   result->GetPointData()->SetActiveScalars("Color");
   status.report.set("counts.vertices", rows);
   status.report.set("counts.handles", count);
-  status.report.set("colors", given ? this->ColorArrayName : std::string("categorical"));
+  status.report.set("colors", color_array ? this->ColorArrayName : std::string("categorical"));
   return status;
 }
 

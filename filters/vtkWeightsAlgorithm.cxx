@@ -510,7 +510,7 @@ Status vtkWeightsAlgorithm::Bind(
   SurfaceWeightsOptions surface;
   surface.domain = static_cast<WeightsDomain>(this->Domain);
   surface.resolution = this->EmbeddingResolution;
-  surface.guard = this->Stage == CERTIFIED;
+  surface.check_resolution = this->Stage == CERTIFIED;
   surface.keep_raw = this->KeepRaw;
   surface.handle_elements = to_handle_elements(geometry);
   if (wants_preview)

@@ -56,7 +56,7 @@ namespace
 /// available only while an output uses them. With several processes, ParaView requests the field
 /// and then, in a second request, the boundary with ghost levels, which only unstructured outputs
 /// can have. Without this cache the second request would compute the field again.
-struct LastGrid
+struct CachedGrid
 {
   vtkMTimeType parameters = 0;
   std::array<bindpose::Index, 6> extent{};
@@ -75,7 +75,7 @@ struct vtkWindingNumberField::Cache
   int flat_axis = -1; // axis perpendicular to a curve's plane; -1: no curve
   bindpose::WindingField field;
   bindpose::Status status;
-  LastGrid last;
+  CachedGrid last;
 };
 
 namespace
@@ -191,13 +191,13 @@ void attach(const Arrays& arrays, vtkDataSetAttributes* attributes)
 
 /// Return the arrays of the last grid if the parameters and the extent are the same and the arrays
 /// still exist. Otherwise return no arrays.
-Arrays cached(const LastGrid& last, vtkMTimeType parameters, const SampleGrid& grid)
+Arrays cached(const CachedGrid& last, vtkMTimeType parameters, const SampleGrid& grid)
 {
-  const bool same = last.parameters == parameters && last.extent == grid.extent;
+  const bool is_same_grid = last.parameters == parameters && last.extent == grid.extent;
   Arrays arrays;
   for (const auto& array : last.arrays)
   {
-    if (!same || !array)
+    if (!is_same_grid || !array)
     {
       return {};
     }
@@ -249,8 +249,9 @@ Status evaluate(ExecutionContext& context, const WindingField& winding, const Sa
     const Index first = begin * layer_size;
     const Index number = (end - begin) * layer_size;
     const double done = layers ? static_cast<double>(begin) / static_cast<double>(layers) : 0.0;
-    const double then = layers ? static_cast<double>(end) / static_cast<double>(layers) : 1.0;
-    const bindpose::ProgressRange range(context, done, then);
+    const double end_fraction =
+      layers ? static_cast<double>(end) / static_cast<double>(layers) : 1.0;
+    const bindpose::ProgressRange range(context, done, end_fraction);
     unsigned char* const flags = outputs.on_surface->GetPointer(first);
     double* const values = output_buffer(outputs.values, first, number, buffer);
     Status status;
@@ -262,10 +263,10 @@ Status evaluate(ExecutionContext& context, const WindingField& winding, const Sa
     {
       return status;
     }
-    bindpose::ExecutionContext quiet;
-    quiet.set_threads(context.threads());
+    bindpose::ExecutionContext silent_context;
+    silent_context.set_threads(context.threads());
     unsigned char* const inside = outputs.inside ? outputs.inside->GetPointer(first) : nullptr;
-    sum += bindpose::parallel_sum(quiet, number, 65536,
+    sum += bindpose::parallel_sum(silent_context, number, 65536,
       [&](Index from, Index to)
       {
         double partial = 0.0;
@@ -416,14 +417,14 @@ int vtkWindingNumberField::RequestInformation(
     data = vtkDataObject::GetData(surface_info);
   }
 
-  int whole[6] = { 0, 0, 0, 0, 0, 0 };
+  int grid_extent[6] = { 0, 0, 0, 0, 0, 0 };
   SampleGrid grid;
   // If this fails, Execute() reports the error.
   if (this->Grid(vtkPointSet::SafeDownCast(data), grid).ok())
   {
-    std::copy(grid.extent.begin(), grid.extent.end(), whole);
+    std::copy(grid.extent.begin(), grid.extent.end(), grid_extent);
   }
-  info->Set(SDDP::WHOLE_EXTENT(), whole, 6);
+  info->Set(SDDP::WHOLE_EXTENT(), grid_extent, 6);
   info->Set(vtkDataObject::ORIGIN(), grid.origin.data(), 3);
   info->Set(vtkDataObject::SPACING(), grid.spacing.data(), 3);
   info->Set(CAN_PRODUCE_SUB_EXTENT(), 1);
@@ -528,17 +529,17 @@ bindpose::Status vtkWindingNumberField::Execute(
   vtkDataSet* points = vtkDataSet::GetData(input[1]);
   vtkInformation* info = output->GetInformationObject(0);
   vtkDataSet* result = vtkDataSet::GetData(info);
-  SampleGrid whole;
+  SampleGrid whole_grid;
   if (!points)
   {
     // Check the grid before the structure is built, because the build may take long.
-    const Status status = this->Grid(surface, whole);
+    const Status status = this->Grid(surface, whole_grid);
     if (!status.ok())
     {
       return status;
     }
   }
-  const Index queries = !points ? whole.count()
+  const Index queries = !points ? whole_grid.count()
     : this->SampleCellCenters   ? points->GetNumberOfCells()
                                 : points->GetNumberOfPoints();
   const double built = bindpose::winding_build_fraction(surface->GetNumberOfCells(), queries);
@@ -560,14 +561,14 @@ bindpose::Status vtkWindingNumberField::Execute(
   }
 
   const bindpose::Phase phase(context, "evaluate", built, 1.0);
-  SampleGrid grid = whole;
+  SampleGrid grid = whole_grid;
   if (!points)
   {
     int whole_extent[6] = { 0, -1, 0, -1, 0, -1 };
     int requested[6] = { 0, -1, 0, -1, 0, -1 };
     info->Get(SDDP::WHOLE_EXTENT(), whole_extent);
     info->Get(SDDP::UPDATE_EXTENT(), requested);
-    if (std::equal(whole.extent.begin(), whole.extent.end(), whole_extent))
+    if (std::equal(whole_grid.extent.begin(), whole_grid.extent.end(), whole_extent))
     {
       for (int k = 0; k < 3; ++k)
       {
@@ -585,7 +586,7 @@ bindpose::Status vtkWindingNumberField::Execute(
     return fits;
   }
   const vtkMTimeType parameters = this->MTime.GetMTime();
-  LastGrid& last = this->BuildCache->last;
+  CachedGrid& last = this->BuildCache->last;
   Arrays arrays = points ? Arrays() : cached(last, parameters, grid);
   Status evaluated = last.status;
   double sum = last.sum;
@@ -615,14 +616,14 @@ bindpose::Status vtkWindingNumberField::Execute(
   else
   {
     auto* image = vtkImageData::SafeDownCast(result);
-    image->SetOrigin(whole.origin.data());
-    image->SetSpacing(whole.spacing.data());
+    image->SetOrigin(whole_grid.origin.data());
+    image->SetSpacing(whole_grid.spacing.data());
     int extent[6];
     std::copy(grid.extent.begin(), grid.extent.end(), extent);
     image->SetExtent(extent);
-    if (grid.extent == whole.extent && !is_flat(whole))
+    if (grid.extent == whole_grid.extent && !is_flat(whole_grid))
     {
-      status.report.set("winding_volume", sum * whole.spacing.prod());
+      status.report.set("winding_volume", sum * whole_grid.spacing.prod());
     }
   }
   attach(arrays,

@@ -128,7 +128,7 @@ double processor_seconds(int calls, const Call& call)
 }
 
 /// Reset the peak of peak_memory() to the current memory (Linux only).
-void forget_peak()
+void reset_peak_memory()
 {
   std::ofstream("/proc/self/clear_refs") << "5";
 }
@@ -143,7 +143,7 @@ void measure_reduced(benchmark::State& state, const Points& points, const Elemen
   ExecutionContext context;
   context.set_threads(1);
   ReducedArap arap;
-  forget_peak();
+  reset_peak_memory();
   const double before = resident_memory();
   const double bind = processor_seconds(1,
     [&]()
@@ -313,11 +313,11 @@ void reduced_arap_to_energy(benchmark::State& state)
     least = std::min(least, arap.energies().back());
   }
   arap.solve(context, pose, { 0.0, 5000, ReducedArap::Start::rest, state.range(2) });
-  const auto iterations_to = [&](double share)
-  { return iterations_until(arap.energies(), (1.0 + share) * least); };
-  const Index iterations = iterations_to(1e-4);
-  state.counters["to_1e-6"] = static_cast<double>(iterations_to(1e-6));
-  state.counters["to_1e-8"] = static_cast<double>(iterations_to(1e-8));
+  const auto iterations_to_tolerance = [&](double relative_excess)
+  { return iterations_until(arap.energies(), (1.0 + relative_excess) * least); };
+  const Index iterations = iterations_to_tolerance(1e-4);
+  state.counters["to_1e-6"] = static_cast<double>(iterations_to_tolerance(1e-6));
+  state.counters["to_1e-8"] = static_cast<double>(iterations_to_tolerance(1e-8));
   for (auto _ : state)
   {
     arap.solve(context, pose, { 0.0, iterations, ReducedArap::Start::rest, state.range(2) });

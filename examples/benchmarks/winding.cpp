@@ -123,8 +123,8 @@ TriangleMesh soup(Index count)
 /// triangles), or one of the files. Each surface is created only once.
 const TriangleMesh& surface(const std::string& name, Index triangles)
 {
-  static std::map<std::pair<std::string, Index>, TriangleMesh> made;
-  const auto [entry, fresh] = made.try_emplace({ name, triangles });
+  static std::map<std::pair<std::string, Index>, TriangleMesh> surface_cache;
+  const auto [entry, fresh] = surface_cache.try_emplace({ name, triangles });
   if (fresh)
   {
     if (name == "closed")
@@ -227,8 +227,8 @@ SampleGrid grid_for(Index samples, const Box& box)
 /// Return the largest error at `count` points. All cores are used, because this part is not timed.
 double largest_error(Index count, Index triangles, const std::function<double(Index)>& error_at)
 {
-  const Index tried = std::min<Index>(10000, 1000000000 / std::max<Index>(1, triangles));
-  const Index step = std::max<Index>(1, count / tried);
+  const Index tested_count = std::min<Index>(10000, 1000000000 / std::max<Index>(1, triangles));
+  const Index step = std::max<Index>(1, count / tested_count);
   std::vector<double> errors(static_cast<std::size_t>((count + step - 1) / step));
   ExecutionContext context;
   parallel_for(context, static_cast<Index>(errors.size()), 16,
@@ -364,11 +364,11 @@ const bool registered = []
     { "closed", 320000, scattered, 0, M::automatic, 1e-3, 1 },
     { "closed", 1280000, scattered, 0, M::automatic, 1e-3, 1 },
   };
-  const auto is_there = [](const std::string& name, Index triangles)
+  const auto has_surface = [](const std::string& name, Index triangles)
   { return triangles > 0 || surface(name, triangles).triangles.rows() > 0; };
   for (const Row& row : rows)
   {
-    if (!is_there(row.surface, row.triangles))
+    if (!has_surface(row.surface, row.triangles))
     {
       continue;
     }
@@ -397,7 +397,7 @@ const bool registered = []
   {
     for (const int threads : { 1, 2 })
     {
-      if (!is_there(name, triangles))
+      if (!has_surface(name, triangles))
       {
         continue;
       }

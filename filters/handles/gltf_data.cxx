@@ -1,7 +1,7 @@
 // Conversion between handles and glTF joints. A glTF joint has a frame and a parent, but no tail
-// and no handle type. Bindpose stores these properties in the extras of the joint (`joint.note`),
-// as the record of the handle. For files of other programs the children of a joint determine the
-// end of its bone.
+// and no handle type. Bindpose stores these properties in the extras of the joint
+// (`joint.handle_extras`), as the record of the handle. For files of other programs the children of
+// a joint determine the end of its bone.
 #include "gltf_data.h"
 
 #include "pose/pose_file.h"
@@ -49,7 +49,7 @@ std::vector<GltfJoint> to_joints(const Handles& handles, const std::vector<Affin
     joint.parent = handle.parent;
     joint.rest = joint_frame(handle);
     joint.posed = to_affine(transforms[h]) * joint.rest;
-    joint.note = GltfHandleExtras{ to_string(handle.kind), handle.head, handle.tail,
+    joint.handle_extras = GltfHandleExtras{ to_string(handle.kind), handle.head, handle.tail,
       handle.region_id, handle.cage };
     joints.push_back(joint);
   }
@@ -114,10 +114,11 @@ public:
       handle.ownership = this->has_no_influence(j) ? Ownership::none : Ownership::optional;
       for (int k = 1; this->is_duplicate(handles, handle); ++k)
       {
-        const Vec3 along = this->skin_.joints[j].rest.linear().col(1).stableNormalized();
+        const Vec3 bone_direction = this->skin_.joints[j].rest.linear().col(1).stableNormalized();
         handle.kind = HandleKind::bone;
         handle.tail = handle.head +
-          0.01 * k * this->extent_ * (along.squaredNorm() > 0.5 ? along : Vec3(Vec3::UnitY()));
+          0.01 * k * this->extent_ *
+            (bone_direction.squaredNorm() > 0.5 ? bone_direction : Vec3(Vec3::UnitY()));
       }
       handles.push_back(handle);
     }
@@ -138,13 +139,13 @@ private:
     const GltfJoint& joint = this->skin_.joints[j];
     Handle handle;
     handle.head = handle.tail = joint.rest.translation();
-    if (joint.note && kind_of(joint.note->kind, handle.kind))
+    if (joint.handle_extras && kind_of(joint.handle_extras->kind, handle.kind))
     {
       Handle noted = handle;
-      noted.head = joint.note->head;
-      noted.tail = noted.kind == HandleKind::bone ? joint.note->tail : noted.head;
-      noted.region_id = joint.note->region;
-      noted.cage = joint.note->cage;
+      noted.head = joint.handle_extras->head;
+      noted.tail = noted.kind == HandleKind::bone ? joint.handle_extras->tail : noted.head;
+      noted.region_id = joint.handle_extras->region;
+      noted.cage = joint.handle_extras->cage;
       const bool usable = noted.kind != HandleKind::bone || noted.head != noted.tail;
       const double size = this->extent_ + joint.rest.translation().norm();
       if (usable &&
@@ -171,16 +172,16 @@ private:
 
   bool is_duplicate(const Handles& others, const Handle& handle) const
   {
-    const double same = 1e-8 * this->extent_;
+    const double coincidence_tolerance = 1e-8 * this->extent_;
     return handle.kind != HandleKind::region &&
       std::any_of(others.begin(), others.end(),
         [&](const Handle& other)
         {
           return other.kind == handle.kind &&
-            (((other.head - handle.head).norm() <= same &&
-               (other.tail - handle.tail).norm() <= same) ||
-              ((other.head - handle.tail).norm() <= same &&
-                (other.tail - handle.head).norm() <= same));
+            (((other.head - handle.head).norm() <= coincidence_tolerance &&
+               (other.tail - handle.tail).norm() <= coincidence_tolerance) ||
+              ((other.head - handle.tail).norm() <= coincidence_tolerance &&
+                (other.tail - handle.head).norm() <= coincidence_tolerance));
         });
   }
 
@@ -229,10 +230,10 @@ Affine transform_of(const Eigen::Affine3d& posed, const Eigen::Affine3d& rest, d
   const Eigen::Affine3d map = posed * rest.inverse();
   const double size = extent + rest.translation().norm();
   const Vec3 pivot = rest.translation();
-  const bool rests =
+  const bool is_at_rest =
     (map.linear() - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff() < float_error &&
     (map * pivot - pivot).norm() < float_error * size;
-  return rests ? identity_affine() : Affine(map.matrix().topRows<3>());
+  return is_at_rest ? identity_affine() : Affine(map.matrix().topRows<3>());
 }
 
 Pose to_pose(const std::vector<Eigen::Affine3d>& posed, const std::vector<Eigen::Affine3d>& rest,
@@ -317,9 +318,9 @@ Status read_gltf(const std::string& path, GltfData& data)
     const GltfJoint& joint = skin.joints[order[h]];
     const Eigen::Affine3d frame = joint_frame(handles[h]);
     const double size = std::max(maker.extent() + joint.rest.translation().norm(), 1.0);
-    const bool same =
+    const bool is_joint_frame =
       (frame.matrix() - joint.rest.matrix()).cwiseAbs().maxCoeff() <= float_error * size;
-    rest.push_back(same ? frame : joint.rest);
+    rest.push_back(is_joint_frame ? frame : joint.rest);
     posed.push_back(joint.posed);
     weights.col(static_cast<Index>(h)) = skin.weights.col(order[h]);
   }

@@ -18,7 +18,7 @@ Eigen::Affine3d joint_frame(const Handle& handle);
 Eigen::Affine3d to_affine(const Affine& transform);
 
 /// Return one joint per handle, in the order of the handles, posed by the transforms. The member
-/// `note` of a joint stores the properties of the handle that glTF cannot express.
+/// `handle_extras` of a joint stores the properties of the handle that glTF cannot express.
 std::vector<GltfJoint> to_joints(const Handles& handles, const std::vector<Affine>& transforms);
 
 /// Contents of a glTF file.

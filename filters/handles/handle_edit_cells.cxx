@@ -49,17 +49,17 @@ vtkDataArray* colors_of(vtkPolyData* data)
   {
     for (int k = 0; k < 3; ++k)
     {
-      const bool known = fits && cell < before->GetNumberOfTuples();
-      new_array->SetComponent(cell, k, known ? before->GetComponent(cell, k) / unit : none);
+      const bool has_value = fits && cell < before->GetNumberOfTuples();
+      new_array->SetComponent(cell, k, has_value ? before->GetComponent(cell, k) / unit : none);
     }
   }
   data->GetCellData()->AddArray(new_array);
   return data->GetCellData()->GetArray("Color");
 }
 
-/// Copy the arrays of `before` that `now` lacks. Also copy the values of the pose arrays, so that
-/// each handle keeps its values.
-void carry_arrays(vtkPolyData* before, vtkPolyData* now, const std::vector<Index>& source,
+/// Copy the arrays of `before` that `edited` lacks. Also copy the values of the pose arrays, so
+/// that each handle keeps its values.
+void carry_arrays(vtkPolyData* before, vtkPolyData* edited, const std::vector<Index>& source,
   const std::vector<Index>& copied_from)
 {
   vtkCellData* from = before->GetCellData();
@@ -72,7 +72,7 @@ void carry_arrays(vtkPolyData* before, vtkPolyData* now, const std::vector<Index
     vtkAbstractArray* array = from->GetAbstractArray(a);
     const std::string name = array->GetName() ? array->GetName() : "";
     const bool pose = is_pose_array(name);
-    vtkAbstractArray* target = now->GetCellData()->GetAbstractArray(name.c_str());
+    vtkAbstractArray* target = edited->GetCellData()->GetAbstractArray(name.c_str());
     if (name.empty() || (target && !pose))
     {
       continue;
@@ -83,15 +83,15 @@ void carry_arrays(vtkPolyData* before, vtkPolyData* now, const std::vector<Index
       new_array.TakeReference(array->NewInstance());
       new_array->SetName(name.c_str());
       new_array->SetNumberOfComponents(array->GetNumberOfComponents());
-      new_array->SetNumberOfTuples(now->GetNumberOfCells());
+      new_array->SetNumberOfTuples(edited->GetNumberOfCells());
       if (auto* numbers = vtkDataArray::SafeDownCast(new_array))
       {
         numbers->Fill(name == "Color" ? none : 0.0);
       }
-      now->GetCellData()->AddArray(new_array);
+      edited->GetCellData()->AddArray(new_array);
       target = new_array;
     }
-    for (vtkIdType cell = 0; cell < now->GetNumberOfCells(); ++cell)
+    for (vtkIdType cell = 0; cell < edited->GetNumberOfCells(); ++cell)
     {
       const Index other = (pose ? source : copied_from)[static_cast<std::size_t>(cell)];
       if (other >= 0 && other < array->GetNumberOfTuples())
@@ -130,7 +130,7 @@ Status edit_handles(vtkPolyData* data, const HandleListEdit& edit, std::vector<I
   {
     return status;
   }
-  const vtkSmartPointer<vtkPolyData> now = to_polydata(after.handles);
+  const vtkSmartPointer<vtkPolyData> edited = to_polydata(after.handles);
   // to_polydata() stores bones as the last cells, so cells and handles have different orders.
   std::vector<Index> cell_of_handle(after.handles.size(), -1);
   Index next = 0;
@@ -153,7 +153,7 @@ Status edit_handles(vtkPolyData* data, const HandleListEdit& edit, std::vector<I
     added->clear();
   }
   std::vector<Index> handle_now(before.size(), -1);
-  std::vector<Index> source(static_cast<std::size_t>(now->GetNumberOfCells()), -1);
+  std::vector<Index> source(static_cast<std::size_t>(edited->GetNumberOfCells()), -1);
   std::vector<Index> copied_from = source;
   for (std::size_t i = 0; i < after.handles.size(); ++i)
   {
@@ -164,12 +164,12 @@ Status edit_handles(vtkPolyData* data, const HandleListEdit& edit, std::vector<I
     }
     if (after.source[i] >= 0)
     {
-      const Index old = cells[static_cast<std::size_t>(after.source[i])];
-      source[cell] = old;
+      const Index old_cell = cells[static_cast<std::size_t>(after.source[i])];
+      source[cell] = old_cell;
       handle_now[static_cast<std::size_t>(after.source[i])] = static_cast<Index>(i);
       if (new_cell)
       {
-        (*new_cell)[static_cast<std::size_t>(old)] = static_cast<Index>(cell);
+        (*new_cell)[static_cast<std::size_t>(old_cell)] = static_cast<Index>(cell);
       }
     }
     else if (added)
@@ -177,7 +177,7 @@ Status edit_handles(vtkPolyData* data, const HandleListEdit& edit, std::vector<I
       added->push_back(static_cast<Index>(cell));
     }
   }
-  carry_arrays(data, now, source, copied_from);
+  carry_arrays(data, edited, source, copied_from);
   PseudoEdges kept;
   for (const PseudoEdge& edge : edges)
   {
@@ -188,12 +188,12 @@ Status edit_handles(vtkPolyData* data, const HandleListEdit& edit, std::vector<I
       kept.push_back({ std::min(a, b), std::max(a, b) });
     }
   }
-  if (!kept.empty() && now->GetNumberOfPolys() == 0)
+  if (!kept.empty() && edited->GetNumberOfPolys() == 0)
   {
-    add_pseudo_edges(now, cell_of_handle, kept);
+    add_pseudo_edges(edited, cell_of_handle, kept);
   }
-  now->GetFieldData()->ShallowCopy(data->GetFieldData());
-  data->ShallowCopy(now);
+  edited->GetFieldData()->ShallowCopy(data->GetFieldData());
+  data->ShallowCopy(edited);
   data->Modified();
   return status;
 }

@@ -81,20 +81,20 @@ Status to_tgf(const Handles& handles, Tgf& graph)
       graph.edges.push_back(edge);
     }
   }
-  std::vector<Index> lost_parents;
+  std::vector<Index> handles_without_stored_parent;
   for (std::size_t i = 0; i < handles.size(); ++i)
   {
     if (handles[i].parent != parent_by_joint(handles, handles[i]))
     {
-      lost_parents.push_back(static_cast<Index>(i));
+      handles_without_stored_parent.push_back(static_cast<Index>(i));
     }
   }
   Status status;
-  if (!lost_parents.empty())
+  if (!handles_without_stored_parent.empty())
   {
     status.warnings.push_back("a .tgf file stores parents only as shared joints of bones; the "
                               "parents of " +
-      quoted_names(handles, lost_parents) + " are not stored (use a .vtp file)");
+      quoted_names(handles, handles_without_stored_parent) + " are not stored (use a .vtp file)");
   }
   return status;
 }

@@ -51,9 +51,10 @@ bool same_handles(const Handles& a, const Handles& b)
     { return x.name == y.name && x.kind == y.kind && x.head == y.head && x.tail == y.tail; });
 }
 
-Status from_handles(vtkCompositeDataSet* data, const Handles& handles, InstancePoses& instances)
+Status read_handle_poses(
+  vtkCompositeDataSet* data, const Handles& handles, InstancePoses& instances)
 {
-  bool placed = false;
+  bool has_placements = false;
   vtkSmartPointer<vtkCompositeDataIterator> block;
   block.TakeReference(data->NewIterator());
   for (block->InitTraversal(); !block->IsDoneWithTraversal(); block->GoToNextItem())
@@ -66,17 +67,17 @@ Status from_handles(vtkCompositeDataSet* data, const Handles& handles, InstanceP
         "expected a vtkPolyData with handles, got a " +
         block->GetCurrentDataObject()->GetClassName());
     }
-    Handles own;
+    Handles instance_handles;
     std::vector<Index> cells;
     Pose pose;
-    Status status = to_handles(polydata, own, &cells);
-    if (status.ok() && !same_handles(own, handles))
+    Status status = to_handles(polydata, instance_handles, &cells);
+    if (status.ok() && !same_handles(instance_handles, handles))
     {
       status = Status::invalid_input("its handles differ from the handles of the mesh");
     }
     if (status.ok())
     {
-      status = to_pose(polydata, own, cells, pose);
+      status = to_pose(polydata, instance_handles, cells, pose);
     }
     vtkDataArray* placement = polydata->GetFieldData()->GetArray(placement_name);
     if (status.ok() && placement &&
@@ -92,18 +93,18 @@ Status from_handles(vtkCompositeDataSet* data, const Handles& handles, InstanceP
       status.message = instance_prefix(i) + status.message;
       return status;
     }
-    placed = placed || placement;
+    has_placements = has_placements || placement;
     instances.poses.push_back(std::move(pose));
     instances.placements.push_back(placement ? affine_of(placement, 0) : identity_affine());
   }
-  if (!placed)
+  if (!has_placements)
   {
     instances.placements.clear();
   }
   return {};
 }
 
-Status from_rows(vtkDataSetAttributes* arrays, vtkIdType rows, vtkPointSet* points,
+Status read_row_poses(vtkDataSetAttributes* arrays, vtkIdType rows, vtkPointSet* points,
   const Handles& handles, const Pose& base, InstancePoses& instances)
 {
   Status status;
@@ -189,16 +190,16 @@ Status to_instance_poses(
   Status status;
   if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
   {
-    status = from_handles(composite, handles, instances);
+    status = read_handle_poses(composite, handles, instances);
   }
   else if (auto* table = vtkTable::SafeDownCast(data))
   {
-    status =
-      from_rows(table->GetRowData(), table->GetNumberOfRows(), nullptr, handles, base, instances);
+    status = read_row_poses(
+      table->GetRowData(), table->GetNumberOfRows(), nullptr, handles, base, instances);
   }
   else if (auto* points = vtkPointSet::SafeDownCast(data))
   {
-    status = from_rows(
+    status = read_row_poses(
       points->GetPointData(), points->GetNumberOfPoints(), points, handles, base, instances);
   }
   if (!status.ok())

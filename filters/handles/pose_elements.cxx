@@ -62,7 +62,7 @@ PoseElements to_pose_elements(vtkPointSet* mesh)
     if (!corners.empty())
     {
       elements.volume = true;
-      elements.tets.own(
+      elements.tets.set_owned(
         Eigen::Map<const Tets>(corners.data(), static_cast<Index>(corners.size() / 4), 4));
       return elements;
     }

@@ -49,11 +49,12 @@ Status to_pseudo_edges(
       const vtkIdType point = ids->GetId(k);
       std::array<double, 3> position{};
       data->GetPoint(point, position.data());
-      const auto own = handle_at_point.find(point);
-      const auto same = handle_at_position.find(position);
-      edge[static_cast<std::size_t>(k)] = own != handle_at_point.end() ? own->second
-        : same != handle_at_position.end()                             ? same->second
-                                                                       : -1;
+      const auto handle_of_point = handle_at_point.find(point);
+      const auto handle_of_position = handle_at_position.find(position);
+      edge[static_cast<std::size_t>(k)] = handle_of_point != handle_at_point.end()
+        ? handle_of_point->second
+        : handle_of_position != handle_at_position.end() ? handle_of_position->second
+                                                         : -1;
     }
     if (edge[0] < 0 || edge[1] < 0 || edge[0] == edge[1])
     {
@@ -94,12 +95,12 @@ void add_pseudo_edges(vtkPolyData* data, const std::vector<Index>& cells, const 
   for (int i = 0; i < data->GetCellData()->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = data->GetCellData()->GetAbstractArray(i);
-    const vtkIdType old = array->GetNumberOfTuples();
+    const vtkIdType old_count = array->GetNumberOfTuples();
     array->Resize(count);
     array->SetNumberOfTuples(count);
     auto* numbers = vtkDataArray::SafeDownCast(array);
     const std::string name = array->GetName() ? array->GetName() : "";
-    for (vtkIdType cell = old; cell < count; ++cell)
+    for (vtkIdType cell = old_count; cell < count; ++cell)
     {
       if (auto* texts = vtkStringArray::SafeDownCast(array))
       {

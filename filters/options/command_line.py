@@ -128,7 +128,7 @@ def setters(sets, verbs):
             continue
         text += f"template <typename Filter>\nvoid set_{name}_options(const Arguments& arguments, Filter* filter)\n{{\n"
         for option in options:
-            text += f"  if (arguments.typed({json.dumps(cli_name(option))}))\n  {{\n"
+            text += f"  if (arguments.is_typed({json.dumps(cli_name(option))}))\n  {{\n"
             if option.length > 1:
                 text += f"    const std::vector<double> numbers = arguments.numbers({json.dumps(cli_name(option))});\n"
             text += f"    filter->Set{vtk_name(option)}({argument(option)});\n  }}\n"

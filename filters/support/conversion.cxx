@@ -46,7 +46,7 @@ bool share_connectivity(vtkCellArray* cells, SharedMatrix<Matrix>& matrix)
     return false;
   }
   auto* connectivity = cells->GetConnectivityArray64();
-  matrix.share(connectivity, reinterpret_cast<const Index*>(connectivity->GetPointer(0)),
+  matrix.set_shared(connectivity, reinterpret_cast<const Index*>(connectivity->GetPointer(0)),
     cells->GetNumberOfCells(), size);
   return true;
 }
@@ -146,7 +146,7 @@ Status split_cells(vtkPointSet* data, SurfaceInput& surface)
   {
     matrix.row(t) << triangles[t][0], triangles[t][1], triangles[t][2];
   }
-  surface.triangles.own(std::move(matrix));
+  surface.triangles.set_owned(std::move(matrix));
   return {};
 }
 } // namespace
@@ -158,7 +158,7 @@ SharedMatrix<Points> to_points(vtkDataSet* data)
   vtkDataArray* array = set && set->GetPoints() ? set->GetPoints()->GetData() : nullptr;
   if (auto* doubles = vtkDoubleArray::SafeDownCast(array))
   {
-    matrix.share(doubles, doubles->GetPointer(0), doubles->GetNumberOfTuples(), 3);
+    matrix.set_shared(doubles, doubles->GetPointer(0), doubles->GetNumberOfTuples(), 3);
     return matrix;
   }
   const vtkIdType count = data ? data->GetNumberOfPoints() : 0;
@@ -167,7 +167,7 @@ SharedMatrix<Points> to_points(vtkDataSet* data)
   {
     data->GetPoint(v, points.data() + 3 * v);
   }
-  matrix.own(std::move(points));
+  matrix.set_owned(std::move(points));
   return matrix;
 }
 
@@ -241,7 +241,7 @@ Status to_tets(vtkDataSet* data, TetInput& tets)
         matrix(cell, k) = ids->GetId(k);
       }
     }
-    tets.tets.own(std::move(matrix));
+    tets.tets.set_owned(std::move(matrix));
   }
   return check_mesh(tets.points.view(), tets.tets.view());
 }
@@ -296,7 +296,7 @@ SharedMatrix<Weights> to_matrix(vtkDataArray* array)
   SharedMatrix<Weights> matrix;
   if (auto* doubles = vtkDoubleArray::SafeDownCast(array))
   {
-    matrix.share(doubles, doubles->GetPointer(0), doubles->GetNumberOfTuples(),
+    matrix.set_shared(doubles, doubles->GetPointer(0), doubles->GetNumberOfTuples(),
       doubles->GetNumberOfComponents());
     return matrix;
   }
@@ -307,7 +307,7 @@ SharedMatrix<Weights> to_matrix(vtkDataArray* array)
     {
       array->GetTuple(v, copy.data() + v * copy.cols());
     }
-    matrix.own(std::move(copy));
+    matrix.set_owned(std::move(copy));
   }
   return matrix;
 }
@@ -419,14 +419,16 @@ Status add_cages(vtkPolyData* data, const std::vector<Index>& handle_of_cell, Ha
       }
       std::array<double, 3> position;
       data->GetPoint(point, position.data());
-      const auto own = handle_at_point.find(point);
-      const auto same = handle_at_position.find(position);
-      if (own == handle_at_point.end() && same == handle_at_position.end())
+      const auto handle_of_point = handle_at_point.find(point);
+      const auto handle_of_position = handle_at_position.find(position);
+      if (handle_of_point == handle_at_point.end() &&
+        handle_of_position == handle_at_position.end())
       {
         return Status::invalid_input("point " + std::to_string(point) + " of cage element " +
           std::to_string(cell) + " must be a cage vertex");
       }
-      corners.push_back(own != handle_at_point.end() ? own->second : same->second);
+      corners.push_back(handle_of_point != handle_at_point.end() ? handle_of_point->second
+                                                                 : handle_of_position->second);
     }
     if (corners.size() < 2)
     {
@@ -467,7 +469,7 @@ Status to_handles(vtkPolyData* data, Handles& handles, std::vector<Index>* cells
   {
     data->GetCellPoints(cell, ids);
     const vtkIdType size = ids->GetNumberOfIds();
-    const std::string where = "handle cell " + std::to_string(cell);
+    const std::string cell_name = "handle cell " + std::to_string(cell);
     const double fallback_kind = size == 2 ? 1 : 0;
     const int kind = static_cast<int>(cell_value(data, "HandleKind", cell, fallback_kind));
     if (kind == pseudo_edge_kind)
@@ -476,7 +478,8 @@ Status to_handles(vtkPolyData* data, Handles& handles, std::vector<Index>* cells
     }
     if (kind < -1 || kind > 3)
     {
-      return Status::invalid_input(where + " has the unknown HandleKind " + std::to_string(kind));
+      return Status::invalid_input(
+        cell_name + " has the unknown HandleKind " + std::to_string(kind));
     }
     Handle handle;
     handle.kind = static_cast<HandleKind>(kind);
@@ -488,7 +491,7 @@ Status to_handles(vtkPolyData* data, Handles& handles, std::vector<Index>* cells
     if (size != (bone ? 2 : 1) ||
       !ids_in_range(size, ids->GetPointer(0), data->GetNumberOfPoints()))
     {
-      return Status::invalid_input(where + " has " + std::to_string(size) +
+      return Status::invalid_input(cell_name + " has " + std::to_string(size) +
         " points; expected 2 for a bone and 1 for any other handle");
     }
     data->GetPoint(ids->GetId(0), handle.head.data());
@@ -504,7 +507,7 @@ Status to_handles(vtkPolyData* data, Handles& handles, std::vector<Index>* cells
     const double ownership = cell_value(data, "Ownership", cell, 0);
     if (ownership != 0.0 && ownership != 1.0 && ownership != 2.0)
     {
-      return Status::invalid_input(where + " has an unknown Ownership; expected 0, 1 or 2");
+      return Status::invalid_input(cell_name + " has an unknown Ownership; expected 0, 1 or 2");
     }
     handle.ownership = static_cast<Ownership>(static_cast<int>(ownership));
     parents.push_back(static_cast<Index>(cell_value(data, "Parent", cell, -1)));
@@ -632,15 +635,15 @@ Status to_layers(vtkPolyData* data, const Handles& handles, const std::vector<In
   const std::string& name, Eigen::VectorXd& layers)
 {
   layers = Eigen::VectorXd::Zero(static_cast<Index>(handles.size()));
-  vtkDataArray* given = data->GetCellData()->GetArray(name.c_str());
-  if (given && given->GetNumberOfComponents() != 1)
+  vtkDataArray* layer_array = data->GetCellData()->GetArray(name.c_str());
+  if (layer_array && layer_array->GetNumberOfComponents() != 1)
   {
     return Status::invalid_input("the handles' cell array '" + name + "' of layers has " +
-      std::to_string(given->GetNumberOfComponents()) + " components; expected 1");
+      std::to_string(layer_array->GetNumberOfComponents()) + " components; expected 1");
   }
-  for (std::size_t h = 0; given && h < handles.size(); ++h)
+  for (std::size_t h = 0; layer_array && h < handles.size(); ++h)
   {
-    const double layer = given->GetComponent(cells[h], 0);
+    const double layer = layer_array->GetComponent(cells[h], 0);
     if (!std::isfinite(layer))
     {
       return Status::invalid_input(

@@ -35,7 +35,7 @@ class SharedMatrix
 public:
   using View = MatrixView<Matrix>;
 
-  void share(
+  void set_shared(
     vtkSmartPointer<vtkObject> owner, const typename Matrix::Scalar* data, Index rows, Index cols)
   {
     this->owner_ = std::move(owner);
@@ -43,7 +43,7 @@ public:
     this->rows_ = rows;
     this->cols_ = cols;
   }
-  void own(Matrix matrix)
+  void set_owned(Matrix matrix)
   {
     this->owner_ = nullptr;
     this->matrix_ = std::move(matrix);

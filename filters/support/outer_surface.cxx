@@ -14,7 +14,7 @@ Status to_outer_surface(vtkDataSet* data, SurfaceInput& surface)
   }
   surface = SurfaceInput();
   surface.points = tets.points;
-  surface.triangles.own(boundary_triangles(tets.tets.view()));
+  surface.triangles.set_owned(boundary_triangles(tets.tets.view()));
   return {};
 }
 

@@ -32,10 +32,10 @@ struct Alpha
 Alpha alpha_of(vtkImageData* image)
 {
   vtkPointData* data = image->GetPointData();
-  vtkDataArray* named = data->GetArray("Alpha");
-  if (named && named->GetNumberOfComponents() == 1)
+  vtkDataArray* alpha_array = data->GetArray("Alpha");
+  if (alpha_array && alpha_array->GetNumberOfComponents() == 1)
   {
-    return { named, 0 };
+    return { alpha_array, 0 };
   }
   vtkDataArray* scalars = data->GetScalars();
   const int components = scalars ? scalars->GetNumberOfComponents() : 0;
@@ -201,8 +201,8 @@ Status to_planar_input(vtkPolyData* curves, PlanarInput& input)
     box.add(points.row(v).transpose());
   }
   // largest z deviation of a flat shape, as a fraction of the diagonal; files round coordinates
-  constexpr double flat = 1e-6;
-  if (box.upper.z() - box.lower.z() > flat * (box.upper - box.lower).head<2>().norm())
+  constexpr double flatness_tolerance = 1e-6;
+  if (box.upper.z() - box.lower.z() > flatness_tolerance * (box.upper - box.lower).head<2>().norm())
   {
     std::string range = std::to_string(box.lower.z()) + " to " + std::to_string(box.upper.z());
     return Status::invalid_input(

@@ -16,12 +16,12 @@
 namespace bindpose
 {
 
-vtkSmartPointer<vtkPolyData> to_polydata(const std::vector<DefectOccurrence>& places,
+vtkSmartPointer<vtkPolyData> to_polydata(const std::vector<DefectOccurrence>& occurrences,
   PointsView points, const std::vector<Index>& cell_of_triangle)
 {
   vtkNew<vtkPoints> used;
   used->SetDataTypeToDouble();
-  vtkNew<vtkIdTypeArray> point_ids, cell_ids, crossed_ids, components, inward;
+  vtkNew<vtkIdTypeArray> point_ids, cell_ids, crossed_ids, components, inward_indices;
   vtkNew<vtkIntArray> defects;
   vtkNew<vtkStringArray> names;
   point_ids->SetName("OriginalPointIds");
@@ -30,17 +30,17 @@ vtkSmartPointer<vtkPolyData> to_polydata(const std::vector<DefectOccurrence>& pl
   cell_ids->SetName("OriginalCellIds");
   crossed_ids->SetName("CrossedCellIds");
   components->SetName("Component");
-  inward->SetName("InwardComponent");
+  inward_indices->SetName("InwardComponent");
   std::array<vtkNew<vtkCellArray>, 3> cells; // cells of each type: vertices, lines and triangles
   std::unordered_map<Index, vtkIdType> id_of;
   const auto cell_of = [&](Index triangle)
   { return triangle < 0 || cell_of_triangle.empty() ? triangle : cell_of_triangle[triangle]; };
-  for (const DefectOccurrence& place : places)
+  for (const DefectOccurrence& occurrence : occurrences)
   {
     std::array<vtkIdType, 3> ids{};
-    for (std::size_t k = 0; k < place.vertices.size(); ++k)
+    for (std::size_t k = 0; k < occurrence.vertices.size(); ++k)
     {
-      const Index v = place.vertices[k];
+      const Index v = occurrence.vertices[k];
       const auto [entry, fresh] = id_of.emplace(v, used->GetNumberOfPoints());
       if (fresh)
       {
@@ -49,14 +49,14 @@ vtkSmartPointer<vtkPolyData> to_polydata(const std::vector<DefectOccurrence>& pl
       }
       ids[k] = entry->second;
     }
-    cells[place.vertices.size() - 1]->InsertNextCell(
-      static_cast<vtkIdType>(place.vertices.size()), ids.data());
-    defects->InsertNextValue(static_cast<int>(place.defect));
-    names->InsertNextValue(to_string(place.defect));
-    cell_ids->InsertNextValue(cell_of(place.triangle));
-    crossed_ids->InsertNextValue(cell_of(place.crossed));
-    components->InsertNextValue(place.component);
-    inward->InsertNextValue(place.inward);
+    cells[occurrence.vertices.size() - 1]->InsertNextCell(
+      static_cast<vtkIdType>(occurrence.vertices.size()), ids.data());
+    defects->InsertNextValue(static_cast<int>(occurrence.defect));
+    names->InsertNextValue(to_string(occurrence.defect));
+    cell_ids->InsertNextValue(cell_of(occurrence.triangle));
+    crossed_ids->InsertNextValue(cell_of(occurrence.crossed_triangle));
+    components->InsertNextValue(occurrence.component);
+    inward_indices->InsertNextValue(occurrence.inward_index);
   }
   auto result = vtkSmartPointer<vtkPolyData>::New();
   result->SetPoints(used);
@@ -65,9 +65,10 @@ vtkSmartPointer<vtkPolyData> to_polydata(const std::vector<DefectOccurrence>& pl
   result->SetPolys(cells[2]);
   result->GetPointData()->AddArray(point_ids);
   result->GetCellData()->SetScalars(defects);
-  for (vtkAbstractArray* array : { static_cast<vtkAbstractArray*>(names),
-         static_cast<vtkAbstractArray*>(cell_ids), static_cast<vtkAbstractArray*>(crossed_ids),
-         static_cast<vtkAbstractArray*>(components), static_cast<vtkAbstractArray*>(inward) })
+  for (vtkAbstractArray* array :
+    { static_cast<vtkAbstractArray*>(names), static_cast<vtkAbstractArray*>(cell_ids),
+      static_cast<vtkAbstractArray*>(crossed_ids), static_cast<vtkAbstractArray*>(components),
+      static_cast<vtkAbstractArray*>(inward_indices) })
   {
     result->GetCellData()->AddArray(array);
   }

@@ -17,7 +17,7 @@ namespace bindpose
 /// surface, -1: none), `Component`, `InwardComponent` (index of the component that is inside out,
 /// -1: none). `cell_of_triangle` may be empty, see SurfaceInput.
 BINDPOSEFILTERS_EXPORT vtkSmartPointer<vtkPolyData> to_polydata(
-  const std::vector<DefectOccurrence>& places, PointsView points,
+  const std::vector<DefectOccurrence>& occurrences, PointsView points,
   const std::vector<Index>& cell_of_triangle);
 
 } // namespace bindpose

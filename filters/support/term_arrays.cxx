@@ -102,14 +102,14 @@ Status to_terms(
 Status to_handle_bounds(vtkPolyData* handles, const std::vector<Index>& cells,
   const double (&everywhere)[2], WeightTerms& terms)
 {
-  vtkDataArray* given = handles->GetCellData()->GetArray(handle_bounds_name);
-  if (given && given->GetNumberOfComponents() != 2)
+  vtkDataArray* bounds_array = handles->GetCellData()->GetArray(handle_bounds_name);
+  if (bounds_array && bounds_array->GetNumberOfComponents() != 2)
   {
     return Status::invalid_input(std::string("the handles' array '") + handle_bounds_name +
-      "' has " + std::to_string(given->GetNumberOfComponents()) +
+      "' has " + std::to_string(bounds_array->GetNumberOfComponents()) +
       " components; expected 2, the smallest and the largest weight");
   }
-  if (!given && everywhere[0] == 0.0 && everywhere[1] == 1.0)
+  if (!bounds_array && everywhere[0] == 0.0 && everywhere[1] == 1.0)
   {
     return {};
   }
@@ -118,9 +118,10 @@ Status to_handle_bounds(vtkPolyData* handles, const std::vector<Index>& cells,
   {
     for (int k = 0; k < 2; ++k)
     {
-      const double own = given ? given->GetComponent(cells[static_cast<std::size_t>(j)], k)
-                               : std::numeric_limits<double>::quiet_NaN();
-      terms.handle_bounds(j, k) = std::isnan(own) ? everywhere[k] : own;
+      const double handle_bound = bounds_array
+        ? bounds_array->GetComponent(cells[static_cast<std::size_t>(j)], k)
+        : std::numeric_limits<double>::quiet_NaN();
+      terms.handle_bounds(j, k) = std::isnan(handle_bound) ? everywhere[k] : handle_bound;
     }
   }
   return {};

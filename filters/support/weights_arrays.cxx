@@ -51,8 +51,8 @@ std::vector<vtkSmartPointer<vtkDoubleArray>> to_certificate_arrays(
     arrays[2]->InsertNextValue(column.minimum);
     arrays[3]->InsertNextValue(column.maximum);
     arrays[4]->InsertNextValue(static_cast<double>(column.extrema.size()));
-    arrays[5]->InsertNextValue(column.zeros);
-    arrays[6]->InsertNextValue(column.ones);
+    arrays[5]->InsertNextValue(column.zero_fraction);
+    arrays[6]->InsertNextValue(column.one_fraction);
     arrays[7]->InsertNextValue(column.iterations);
   }
   arrays[8]->InsertNextValue(result.row_sum_error);

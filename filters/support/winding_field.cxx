@@ -50,7 +50,7 @@ Samples::Samples(vtkDataSet* data, bool cell_centers)
     centers->SetNumberOfComponents(3);
     centers->SetNumberOfTuples(data->GetNumberOfCells());
     vtkCellCenters::ComputeCellCenters(data, centers);
-    this->points_.share(centers.Get(), centers->GetPointer(0), data->GetNumberOfCells(), 3);
+    this->points_.set_shared(centers.Get(), centers->GetPointer(0), data->GetNumberOfCells(), 3);
     return;
   }
   auto* image = vtkImageData::SafeDownCast(data);
@@ -200,12 +200,12 @@ Status to_curve(vtkPointSet* input, CurveInput& curve)
 
 /// Return 2D coordinates in the plane perpendicular to an axis, counter-clockwise seen from the
 /// positive end of the axis.
-PlanePoints in_plane(PointsView points, int normal_axis)
+PlanePoints project_to_plane(PointsView points, int normal_axis)
 {
-  PlanePoints flat(points.rows(), 2);
-  flat.col(0) = points.col((normal_axis + 1) % 3);
-  flat.col(1) = points.col((normal_axis + 2) % 3);
-  return flat;
+  PlanePoints plane_points(points.rows(), 2);
+  plane_points.col(0) = points.col((normal_axis + 1) % 3);
+  plane_points.col(1) = points.col((normal_axis + 2) % 3);
+  return plane_points;
 }
 
 /// Return all samples as a list of points.
@@ -334,10 +334,10 @@ struct WindingField::Surface : GridKernel<WindingNumber>
       return status;
     }
     RepairedSurface repaired;
-    const double share = options.orient ? 0.5 : 0.0;
+    const double repair_fraction = options.orient ? 0.5 : 0.0;
     if (options.orient)
     {
-      const ProgressRange range(context, 0.0, share);
+      const ProgressRange range(context, 0.0, repair_fraction);
       RepairOptions repair;
       repair.count_self_intersections = false;
       status =
@@ -355,7 +355,7 @@ struct WindingField::Surface : GridKernel<WindingNumber>
     winding_options.tolerance = options.tolerance;
     winding_options.expected_queries = options.expected_queries;
     {
-      const ProgressRange range(context, share, 1.0);
+      const ProgressRange range(context, repair_fraction, 1.0);
       status = this->winding.build(context, points, triangles, winding_options);
     }
     if (!status.ok())
@@ -400,27 +400,27 @@ struct WindingField::Curve : Kernel
     }
     this->normal_axis = curve.normal_axis;
     return this->winding.build(
-      context, in_plane(curve.points.view(), this->normal_axis), curve.segments);
+      context, project_to_plane(curve.points.view(), this->normal_axis), curve.segments);
   }
 
   Status evaluate(ExecutionContext& context, const Samples& samples, double* out,
     unsigned char* on_surface) const override
   {
     return this->winding.evaluate(
-      context, in_plane(points_of(samples), this->normal_axis), out, on_surface);
+      context, project_to_plane(points_of(samples), this->normal_axis), out, on_surface);
   }
 
   Status evaluate_gradient(
     ExecutionContext& context, const Samples& samples, double* out) const override
   {
     const Index count = samples.count();
-    PlanePoints flat(count, 2);
+    PlanePoints gradients(count, 2);
     const Status status = this->winding.evaluate_gradient(
-      context, in_plane(points_of(samples), this->normal_axis), flat.data());
+      context, project_to_plane(points_of(samples), this->normal_axis), gradients.data());
     for (Index i = 0; i < count; ++i)
     {
-      out[3 * i + (this->normal_axis + 1) % 3] = flat(i, 0);
-      out[3 * i + (this->normal_axis + 2) % 3] = flat(i, 1);
+      out[3 * i + (this->normal_axis + 1) % 3] = gradients(i, 0);
+      out[3 * i + (this->normal_axis + 2) % 3] = gradients(i, 1);
       out[3 * i + this->normal_axis] = 0.0;
     }
     return status;
@@ -466,9 +466,9 @@ WindingField::~WindingField() = default;
 WindingField::WindingField(WindingField&&) noexcept = default;
 WindingField& WindingField::operator=(WindingField&&) noexcept = default;
 
-Status WindingField::extent(vtkPointSet* input, Box& box, int& flat)
+Status WindingField::extent(vtkPointSet* input, Box& box, int& flat_axis)
 {
-  flat = -1;
+  flat_axis = -1;
   box = Box();
   switch (kind_of(input))
   {
@@ -477,7 +477,7 @@ Status WindingField::extent(vtkPointSet* input, Box& box, int& flat)
       CurveInput curve;
       const Status status = to_curve(input, curve);
       box = curve.box;
-      flat = curve.normal_axis;
+      flat_axis = curve.normal_axis;
       return status;
     }
     case Kind::cloud:

@@ -77,10 +77,10 @@ public:
   WindingField(WindingField&&) noexcept;
   WindingField& operator=(WindingField&&) noexcept;
 
-  /// Compute the bounding box of the input without building an acceleration structure. `flat` is
-  /// the axis perpendicular to a curve's plane, -1 for other inputs. Return invalid_input in the
+  /// Compute the bounding box of the input without building an acceleration structure. `flat_axis`
+  /// is the axis perpendicular to a curve's plane, -1 for other inputs. Return invalid_input in the
   /// same cases as build().
-  static Status extent(vtkPointSet* input, Box& box, int& flat);
+  static Status extent(vtkPointSet* input, Box& box, int& flat_axis);
 
   Status build(ExecutionContext& context, vtkPointSet* input, const Options& options);
 

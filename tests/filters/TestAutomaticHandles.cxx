@@ -30,7 +30,7 @@ using testing::HasSubstr;
 
 namespace
 {
-class AutomaticBones : public test::NeedsMesher
+class AutomaticBones : public test::MesherTest
 {
 };
 

@@ -292,7 +292,7 @@ TEST(BindposeAlgorithm, AnotherThreadCancelsInTime)
     return Status();
   };
   std::chrono::steady_clock::time_point cancel_time;
-  std::thread user(
+  std::thread canceler(
     [&]
     {
       while (!running)
@@ -304,7 +304,7 @@ TEST(BindposeAlgorithm, AnotherThreadCancelsInTime)
     });
   filter->Update();
   const auto ended = std::chrono::steady_clock::now();
-  user.join();
+  canceler.join();
   EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::CANCELED);
   EXPECT_LT(std::chrono::duration<double>(ended - cancel_time).count(), 0.2);
 }

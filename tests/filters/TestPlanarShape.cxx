@@ -89,7 +89,7 @@ double area_of(vtkDataSet* data)
   return status.ok() ? surface_area(surface.points.view(), surface.triangles.view()) : 0.0;
 }
 
-class PlanarShapeFilter : public test::NeedsMesher
+class PlanarShapeFilter : public test::MesherTest
 {
 protected:
   void update(int expected = vtkPlanarShape::OK)

@@ -525,13 +525,13 @@ TEST_F(ReducedARAPFilter, ReflectionsAndCollapsedScalesAreNamedAndDestroyNothing
       EXPECT_LT(result.cwiseAbs().maxCoeff(), 100.0);
       const double volume = scale.prod();
       const std::string words = volume < 0.0 ? "are reflections" : "scale a direction to zero";
-      const bool said = std::any_of(quiet->warnings.begin(), quiet->warnings.end(),
+      const bool is_reported = std::any_of(quiet->warnings.begin(), quiet->warnings.end(),
         [&](const std::string& warning)
         {
           return warning.find(words) != std::string::npos &&
             warning.find("'" + list[2].name + "'") != std::string::npos;
         });
-      EXPECT_EQ(said, volume <= 0.0) << scale.transpose();
+      EXPECT_EQ(is_reported, volume <= 0.0) << scale.transpose();
     }
   }
 }

@@ -38,7 +38,7 @@ using testing::HasSubstr;
 namespace
 {
 /// Tests that require the helper program.
-class TetrahedralizeSurfaceByHelper : public test::NeedsMesher
+class TetrahedralizeSurfaceByHelper : public test::MesherTest
 {
 };
 
@@ -318,7 +318,7 @@ TEST(TetrahedralizeSurface, ErrorsAreOneSentenceAndAnEmptyOutput)
 
 TEST(TetrahedralizeSurface, AbortKillsTheHelper)
 {
-  std::optional<test::StandIn> helper(
+  std::optional<test::FakeProgram> helper(
     std::in_place, "BINDPOSE_MESHER", "while true; do echo progress 0.5 >&2; sleep 0.02; done\n");
   const TriangleMesh cube = test::cube();
   vtkNew<vtkTetrahedralizeSurface> filter;

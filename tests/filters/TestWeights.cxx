@@ -576,37 +576,37 @@ TEST(WeightsFilters, ExtremaComeAsPoints)
 TEST(WeightsFilters, APreviewIsThereBeforeTheWeights)
 {
   Pipeline<vtkBoundedBiharmonicWeights> weights(box_data(8), three_handles());
-  struct Seen
+  struct ReceivedPreview
   {
     int calls = 0;
     vtkSmartPointer<vtkDoubleArray> array;
-  } seen;
+  } received;
   vtkNew<vtkCallbackCommand> observer;
-  observer->SetClientData(&seen);
+  observer->SetClientData(&received);
   observer->SetCallback(
     [](vtkObject*, unsigned long, void* client, void* call)
     {
-      auto* to = static_cast<Seen*>(client);
+      auto* to = static_cast<ReceivedPreview*>(client);
       to->calls += 1;
       to->array = vtkDoubleArray::SafeDownCast(static_cast<vtkObject*>(call));
     });
   weights.filter->AddObserver(vtkWeightsAlgorithm::PreviewEvent, observer);
   weights.filter->Update();
-  EXPECT_EQ(seen.calls, 1);
-  ASSERT_TRUE(seen.array);
-  EXPECT_EQ(seen.array->GetNumberOfTuples(), 9 * 9 * 9);
-  EXPECT_EQ(seen.array->GetNumberOfComponents(), 3);
-  EXPECT_STREQ(seen.array->GetComponentName(2), "middle");
-  expect_rows_sum_to_one(seen.array);
+  EXPECT_EQ(received.calls, 1);
+  ASSERT_TRUE(received.array);
+  EXPECT_EQ(received.array->GetNumberOfTuples(), 9 * 9 * 9);
+  EXPECT_EQ(received.array->GetNumberOfComponents(), 3);
+  EXPECT_STREQ(received.array->GetComponentName(2), "middle");
+  expect_rows_sum_to_one(received.array);
   EXPECT_LE(weights.report().number("relative_gap", 1.0), 1e-6);
 
   Pipeline<vtkBoundedBiharmonicWeights> only(box_data(8), three_handles());
   only.filter->SetStageToPreview();
   only.filter->Update();
   EXPECT_EQ(only.report().text("stage"), "preview");
-  for (vtkIdType v = 0; v < seen.array->GetNumberOfTuples(); ++v)
+  for (vtkIdType v = 0; v < received.array->GetNumberOfTuples(); ++v)
   {
-    ASSERT_EQ(seen.array->GetComponent(v, 0), only.weights()->GetComponent(v, 0));
+    ASSERT_EQ(received.array->GetComponent(v, 0), only.weights()->GetComponent(v, 0));
   }
 }
 

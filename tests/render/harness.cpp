@@ -26,7 +26,7 @@ namespace
 {
 std::string test_name;
 long long allowed_differing_pixels = 0;
-bool bless = false;
+bool update_baselines = false;
 
 const unsigned char* pixel_pointer(vtkImageData* image, int x, int y)
 {
@@ -115,7 +115,7 @@ void expect_baseline(vtkImageData* actual)
   ASSERT_NE(actual, nullptr);
   const std::string baseline_path = std::string(BINDPOSE_BASELINES) + "/" + test_name + ".png";
   const std::string output = std::string(BINDPOSE_RENDER_OUTPUT) + "/" + test_name;
-  if (bless)
+  if (update_baselines)
   {
     ASSERT_FALSE(testing::Test::HasFailure()) << "a picture with wrong numbers is not blessed";
     const Status status = write_png(actual, baseline_path, true);
@@ -179,7 +179,7 @@ int main(int argc, char** argv)
   {
     if (std::strcmp(argv[i], "--bless") == 0)
     {
-      bless = true;
+      update_baselines = true;
     }
     else if (std::strcmp(argv[i], "--differing-pixels") == 0 && i + 1 < argc)
     {
@@ -191,7 +191,7 @@ int main(int argc, char** argv)
     }
   }
   const char* blessed = std::getenv("BINDPOSE_BLESS");
-  bless = bless || (blessed && test_name == blessed);
+  update_baselines = update_baselines || (blessed && test_name == blessed);
   if (!bindpose::can_render())
   {
     std::fprintf(stderr, "FAILED: %s\n", bindpose::no_display_message());

@@ -116,7 +116,7 @@ TEST(Render, no_facets_of_the_embedding)
     SurfaceWeightsOptions options;
     options.domain = domain;
     options.resolution = 12;
-    options.guard = false;
+    options.check_resolution = false;
     ExecutionContext context;
     const Status status = surface_weights(
       context, mesh.points, mesh.triangles, {}, three_handles_on_axis(), options, {},

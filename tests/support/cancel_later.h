@@ -10,11 +10,11 @@ namespace bindpose::test
 {
 
 /// Requests a cancel from another thread, a given time after construction.
-class CancelLater
+class DelayedCancel
 {
 public:
-  CancelLater(ExecutionContext& context, int milliseconds)
-    : user_(
+  DelayedCancel(ExecutionContext& context, int milliseconds)
+    : cancel_thread_(
         [this, &context, milliseconds]
         {
           std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
@@ -23,22 +23,22 @@ public:
         })
   {
   }
-  ~CancelLater()
+  ~DelayedCancel()
   {
-    if (this->user_.joinable())
+    if (this->cancel_thread_.joinable())
     {
-      this->user_.join();
+      this->cancel_thread_.join();
     }
   }
-  CancelLater(const CancelLater&) = delete;
-  CancelLater& operator=(const CancelLater&) = delete;
+  DelayedCancel(const DelayedCancel&) = delete;
+  DelayedCancel& operator=(const DelayedCancel&) = delete;
 
   /// Return the time in seconds since the cancel request. Call this function after the work has
   /// ended. The result is negative if the work ended before the request.
   double seconds_since_cancel()
   {
     const auto now = Clock::now();
-    this->user_.join();
+    this->cancel_thread_.join();
     return std::chrono::duration<double>(now - this->cancel_time_).count();
   }
 
@@ -46,7 +46,7 @@ private:
   using Clock = std::chrono::steady_clock;
 
   Clock::time_point cancel_time_; // must be declared before the thread that writes it
-  std::thread user_;
+  std::thread cancel_thread_;
 };
 
 } // namespace bindpose::test

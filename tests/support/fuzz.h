@@ -48,8 +48,8 @@ void fuzz(const char* what, Index base, const Body& body)
 {
   const Index single_seed = read_integer("BINDPOSE_FUZZ_SEED", 0);
   const Index rounds = single_seed > 0 ? 1 : fuzz_rounds(base);
-  const Index night = read_integer("BINDPOSE_FUZZ_NIGHT", 0);
-  const Index first = single_seed > 0 ? single_seed : night * rounds + 1;
+  const Index night_number = read_integer("BINDPOSE_FUZZ_NIGHT", 0);
+  const Index first = single_seed > 0 ? single_seed : night_number * rounds + 1;
   const Index last = first + rounds - 1;
   const bool trace = std::getenv("BINDPOSE_FUZZ_TRACE") != nullptr;
   constexpr double longest = sanitized ? 400.0 : 120.0;

@@ -100,24 +100,24 @@ TriangleMesh sphere(int levels, double radius, const Vec3& center)
   return mesh;
 }
 
-TriangleMesh torus(int around, int across, double radius, double tube)
+TriangleMesh torus(int major_segments, int minor_segments, double radius, double tube)
 {
   TriangleMesh mesh;
-  mesh.points.resize(Index(around) * across, 3);
+  mesh.points.resize(Index(major_segments) * minor_segments, 3);
   std::vector<std::array<Index, 3>> list;
-  for (int i = 0; i < around; ++i)
+  for (int i = 0; i < major_segments; ++i)
   {
-    for (int j = 0; j < across; ++j)
+    for (int j = 0; j < minor_segments; ++j)
     {
-      const double u = 2.0 * pi * i / around;
-      const double v = 2.0 * pi * j / across;
+      const double u = 2.0 * pi * i / major_segments;
+      const double v = 2.0 * pi * j / minor_segments;
       const double r = radius + tube * std::cos(v);
-      mesh.points.row(Index(i) * across + j) << r * std::cos(u), r * std::sin(u),
+      mesh.points.row(Index(i) * minor_segments + j) << r * std::cos(u), r * std::sin(u),
         tube * std::sin(v);
-      const Index a = Index(i) * across + j;
-      const Index b = Index((i + 1) % around) * across + j;
-      const Index c = Index((i + 1) % around) * across + (j + 1) % across;
-      const Index d = Index(i) * across + (j + 1) % across;
+      const Index a = Index(i) * minor_segments + j;
+      const Index b = Index((i + 1) % major_segments) * minor_segments + j;
+      const Index c = Index((i + 1) % major_segments) * minor_segments + (j + 1) % minor_segments;
+      const Index d = Index(i) * minor_segments + (j + 1) % minor_segments;
       list.push_back({ a, b, c });
       list.push_back({ a, c, d });
     }

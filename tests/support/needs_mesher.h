@@ -10,7 +10,7 @@ namespace bindpose::test
 
 /// Fixture of tests that run the helper program bindpose-mesher. If the program was not built, the
 /// tests are skipped.
-class NeedsMesher : public testing::Test
+class MesherTest : public testing::Test
 {
 protected:
   void SetUp() override

@@ -36,7 +36,7 @@ inline bool has_exited(pid_t process)
 }
 
 /// Wait until the condition is true, for at most 5 s. Return whether it is true.
-inline bool becomes_true(const std::function<bool()>& condition)
+inline bool wait_until(const std::function<bool()>& condition)
 {
   for (int i = 0; i < 500 && !condition(); ++i)
   {

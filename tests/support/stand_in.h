@@ -13,10 +13,10 @@ namespace bindpose::test
 
 /// Replaces a program by a shell script for the lifetime of the object. The constructor sets the
 /// environment variable that contains the path of the program to the path of the script.
-class StandIn
+class FakeProgram
 {
 public:
-  StandIn(const char* variable, const std::string& script)
+  FakeProgram(const char* variable, const std::string& script)
     : path_(this->folder_.write("stand-in", "#!/bin/sh\n" + script)),
       program_(variable, this->path_)
   {

@@ -16,17 +16,17 @@
 namespace bindpose::test
 {
 
-/// A script that replaces a program (StandIn). The destructor expects that the test has closed all
-/// file descriptors that it opened, and that no temporary file remains.
-class WatchedStandIn : public StandIn
+/// A script that replaces a program (FakeProgram). The destructor expects that the test has closed
+/// all file descriptors that it opened, and that no temporary file remains.
+class WatchedFakeProgram : public FakeProgram
 {
 public:
-  WatchedStandIn(const char* variable, const std::string& script)
-    : StandIn(variable, script), variable_("TMPDIR", this->temporary_.path()),
+  WatchedFakeProgram(const char* variable, const std::string& script)
+    : FakeProgram(variable, script), variable_("TMPDIR", this->temporary_.path()),
       descriptors_(open_descriptors())
   {
   }
-  ~WatchedStandIn()
+  ~WatchedFakeProgram()
   {
     EXPECT_EQ(open_descriptors(), this->descriptors_) << "a file, pipe or socket was left open";
     EXPECT_EQ(this->temporary_.number_of_files(), 0u) << "a temporary file was left";

@@ -9,7 +9,7 @@
 
 namespace
 {
-class NeedDisplay : public testing::Environment
+class DisplayEnvironment : public testing::Environment
 {
 public:
   void SetUp() override
@@ -22,5 +22,6 @@ public:
   }
 };
 
-const testing::Environment* const need_display = testing::AddGlobalTestEnvironment(new NeedDisplay);
+const testing::Environment* const need_display =
+  testing::AddGlobalTestEnvironment(new DisplayEnvironment);
 } // namespace

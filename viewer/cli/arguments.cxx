@@ -36,10 +36,10 @@ std::vector<double> parse_numbers(const std::string& text, bool integers)
   {
     double value = 0;
     Index integer = 0;
-    const bool good = integers
+    const bool is_valid = integers
       ? parse_index(word, integer) && std::abs(integer) <= std::numeric_limits<int>::max()
       : parse_number(word, value) && std::isfinite(value);
-    if (!good)
+    if (!is_valid)
     {
       return {};
     }
@@ -65,12 +65,13 @@ std::string number_error(const Option& option, const std::string& word)
 {
   const bool integers = option.kind == OptionKind::integer || option.kind == OptionKind::integers;
   const std::vector<double> numbers = parse_numbers(word, integers);
-  bool good = static_cast<int>(numbers.size()) == option.length;
+  bool is_valid = static_cast<int>(numbers.size()) == option.length;
   for (const double number : numbers)
   {
-    good = good && option.range.contains(number);
+    is_valid = is_valid && option.range.contains(number);
   }
-  return good ? std::string() : "'" + word + "' is not valid: expected " + expected_numbers(option);
+  return is_valid ? std::string()
+                  : "'" + word + "' is not valid: expected " + expected_numbers(option);
 }
 
 void add_check(CLI::Option* parsed, const Option& option)
@@ -160,7 +161,7 @@ std::vector<std::string> verb_names()
 }
 
 /// Return the error message for the first unknown option of the verb; empty if there is none.
-std::string unknown_option(const Verb& verb, const std::vector<std::string>& words)
+std::string unknown_option(const Verb& verb, const std::vector<std::string>& command_line)
 {
   std::vector<std::string> known{ "--help" };
   for (const std::vector<Option>* options : { &verb.options, &common_options() })
@@ -171,7 +172,7 @@ std::string unknown_option(const Verb& verb, const std::vector<std::string>& wor
       known.push_back(names.back());
     }
   }
-  for (const std::string& word : words)
+  for (const std::string& word : command_line)
   {
     const std::string name = word.substr(0, word.find('='));
     if (name.size() > 2 && name.compare(0, 2, "--") == 0 &&
@@ -215,7 +216,7 @@ std::string unused_option(const Verb& verb, const Arguments& arguments)
   for (const Option& option : verb.options)
   {
     const std::vector<std::string> using_methods = split(option.methods, '|');
-    if (arguments.typed(option.key()) && !using_methods.empty() &&
+    if (arguments.is_typed(option.key()) && !using_methods.empty() &&
       std::find(using_methods.begin(), using_methods.end(), method) == using_methods.end())
     {
       return std::string(option.name) + " is not used by --method " + method + "; it is used by " +
@@ -301,7 +302,7 @@ int parse_arguments(int argc, char** argv, Arguments& arguments)
               << " (see bindpose --help)\n";
     return 1;
   }
-  arguments.words.assign(argv + 1, argv + argc);
+  arguments.command_line.assign(argv + 1, argv + argc);
   try
   {
     app.parse(argc, argv);
@@ -322,7 +323,7 @@ int parse_arguments(int argc, char** argv, Arguments& arguments)
     {
       if (argv[1] == std::string(verb.name))
       {
-        std::string better_message = unknown_option(verb, arguments.words);
+        std::string better_message = unknown_option(verb, arguments.command_line);
         if (better_message.empty() && dynamic_cast<const CLI::ExtrasError*>(&error))
         {
           better_message = unexpected_argument(verb, app.remaining(true));

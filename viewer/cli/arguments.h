@@ -16,14 +16,14 @@ class Arguments
 public:
   std::string verb;
   /// The original command line without the program's name.
-  std::vector<std::string> words;
+  std::vector<std::string> command_line;
   std::map<std::string, std::vector<std::string>> values;
   /// Keys of the options that were typed.
   std::set<std::string> typed_keys;
 
   /// Report whether the option was typed or has a default.
   bool has(const std::string& key) const { return this->values.count(key) > 0; }
-  bool typed(const std::string& key) const { return this->typed_keys.count(key) > 0; }
+  bool is_typed(const std::string& key) const { return this->typed_keys.count(key) > 0; }
   /// Return the value; empty if the option was not typed and has no default.
   std::string text(const std::string& key) const;
   const std::vector<std::string>& list(const std::string& key) const;

@@ -14,9 +14,9 @@ std::string key_table_markdown()
   std::string text;
   for (const app::parts::KeyGroup& group : app::parts::all_keys())
   {
-    std::string when = group.when;
-    when[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(when[0])));
-    text += "| " + when + " | what it does |\n|---|---|\n";
+    std::string heading = group.heading;
+    heading[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(heading[0])));
+    text += "| " + heading + " | what it does |\n|---|---|\n";
     for (const auto& [input, what] : group.rows)
     {
       text += "| " + input + " | " + what + " |\n";

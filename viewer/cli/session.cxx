@@ -190,9 +190,9 @@ Status Session::try_stage(vtkBindposeAlgorithm* algorithm, const std::string& st
   for (const auto& [key, value] : status.report.entries())
   {
     const bool seconds = starts_with(key, "seconds.");
-    const bool own = key == "status" || key == "message" || key == "warnings[]" ||
+    const bool is_writer_entry = key == "status" || key == "message" || key == "warnings[]" ||
       key == "seconds.total" || key == "peak_memory_bytes";
-    if (own || merge == Merge::nothing || (seconds && merge != Merge::all))
+    if (is_writer_entry || merge == Merge::nothing || (seconds && merge != Merge::all))
     {
       continue;
     }
@@ -357,10 +357,10 @@ bool Session::write_rig(vtkDataSet* mesh, vtkPolyData* handles,
   writer->SetFileName(path.c_str());
   writer->SetOverwrite(this->arguments_.has("overwrite"));
   // The entries of the writer's report are kept apart from those of the verb.
-  const Report own = this->report_;
+  const Report verb_report = this->report_;
   this->report_ = Report();
   const bool written = this->run_stage(writer, "write", main_end_fraction, 1.0, Merge::numbers);
-  Report report = own;
+  Report report = verb_report;
   for (const auto& [key, value] : this->report_.entries())
   {
     report.set(starts_with(key, "seconds.") ? key : "gltf." + key, value);

@@ -48,9 +48,9 @@ public:
   /// Print and report a warning; repetitions are ignored.
   void warn(const std::string& sentence);
   /// Show the progress of work outside of algorithms, as a fraction of the verb's main work.
-  void show(double fraction, const std::string& what)
+  void show(double fraction, const std::string& phase)
   {
-    this->bar_.show(this->overall_fraction(fraction), what);
+    this->bar_.show(this->overall_fraction(fraction), phase);
   }
 
   /// Update the algorithm. Its progress covers the part [begin, end] of the verb's main work, as

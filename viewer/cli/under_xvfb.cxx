@@ -21,14 +21,15 @@ void run_again_under_xvfb(const std::vector<std::string>& command_line)
     return;
   }
   setenv(under_xvfb, "1", 1);
-  char self[4096];
-  const ssize_t length = readlink("/proc/self/exe", self, sizeof(self) - 1);
+  char executable_path[4096];
+  const ssize_t length = readlink("/proc/self/exe", executable_path, sizeof(executable_path) - 1);
   if (length <= 0)
   {
     return;
   }
-  self[length] = 0;
-  std::vector<std::string> words{ "xvfb-run", "-a", "-s", "-screen 0 1280x1024x24", self };
+  executable_path[length] = 0;
+  std::vector<std::string> words{ "xvfb-run", "-a", "-s", "-screen 0 1280x1024x24",
+    executable_path };
   words.insert(words.end(), command_line.begin(), command_line.end());
   std::vector<char*> argv;
   for (std::string& word : words)

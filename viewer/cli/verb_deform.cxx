@@ -258,9 +258,9 @@ void run_deform(Session& session)
     dynamic ? vtkSmartPointer<vtkPoseAlgorithm>(body) : make_deformation(arguments);
   set_pose_options(arguments, deformation.Get());
   // Suppress these error events: the downstream filter repeats errors of the pose.
-  vtkNew<vtkCallbackCommand> quiet;
-  quiet->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
-  pose->AddObserver(vtkCommand::ErrorEvent, quiet);
+  vtkNew<vtkCallbackCommand> error_suppressor;
+  error_suppressor->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
+  pose->AddObserver(vtkCommand::ErrorEvent, error_suppressor);
   deformation->SetInputData(0, mesh);
   deformation->SetInputConnection(1, pose->GetOutputPort());
   frames.deform = [&](int frame)

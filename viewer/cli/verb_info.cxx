@@ -52,7 +52,7 @@ private:
   std::ostringstream text_;
 };
 
-struct Facts
+struct InfoOutput
 {
   Table table;
   Report report;
@@ -69,7 +69,7 @@ struct Facts
   }
 };
 
-Status describe_surface(vtkDataSet* data, Facts& facts)
+Status describe_surface(vtkDataSet* data, InfoOutput& facts)
 {
   SurfaceInput surface;
   Status status = to_surface(data, surface);
@@ -119,7 +119,7 @@ Status describe_surface(vtkDataSet* data, Facts& facts)
   return {};
 }
 
-Status describe_tets(vtkDataSet* data, Facts& facts)
+Status describe_tets(vtkDataSet* data, InfoOutput& facts)
 {
   TetInput tets;
   Status status = to_tets(data, tets);
@@ -138,7 +138,7 @@ Status describe_tets(vtkDataSet* data, Facts& facts)
   return {};
 }
 
-void describe_bounds(vtkDataSet* data, Facts& facts)
+void describe_bounds(vtkDataSet* data, InfoOutput& facts)
 {
   const Box box = bounding_box(to_points(data).view());
   const char* axes[3] = { "x", "y", "z" };
@@ -155,7 +155,7 @@ void describe_bounds(vtkDataSet* data, Facts& facts)
   facts.measure("diagonal", box.diagonal());
 }
 
-void describe_arrays(vtkDataSet* data, Facts& facts)
+void describe_arrays(vtkDataSet* data, InfoOutput& facts)
 {
   std::vector<std::string> names;
   std::vector<std::string> associations;
@@ -198,7 +198,7 @@ void describe_arrays(vtkDataSet* data, Facts& facts)
   }
 }
 
-void describe_handles(const Handles& handles, Facts& facts)
+void describe_handles(const Handles& handles, InfoOutput& facts)
 {
   facts.count("handles", "handles", static_cast<Index>(handles.size()));
   std::vector<std::string> names;
@@ -218,7 +218,7 @@ void describe_handles(const Handles& handles, Facts& facts)
   facts.report.set("handles[].kind", kinds);
 }
 
-void describe_image(vtkImageData* image, Facts& facts)
+void describe_image(vtkImageData* image, InfoOutput& facts)
 {
   int dimensions[3];
   image->GetDimensions(dimensions);
@@ -244,7 +244,7 @@ bool looks_like_handles(vtkDataSet* data)
 
 /// Report the rig of a glTF file: its joints as handles, the number of weight sets, and the
 /// animation.
-bool describe_rig(Session& session, const std::string& path, Facts& facts)
+bool describe_rig(Session& session, const std::string& path, InfoOutput& facts)
 {
   vtkNew<vtkGLTFSkinReader> reader;
   reader->SetFileName(path.c_str());
@@ -269,7 +269,7 @@ bool describe_rig(Session& session, const std::string& path, Facts& facts)
   return true;
 }
 
-Status describe(vtkDataSet* data, Facts& facts)
+Status describe(vtkDataSet* data, InfoOutput& facts)
 {
   facts.count("points", "vertices", data->GetNumberOfPoints());
   Status status;
@@ -318,7 +318,7 @@ void run_info(Session& session)
   {
     return;
   }
-  Facts facts;
+  InfoOutput facts;
   Status status = describe(data, facts);
   if (!status.ok())
   {

@@ -418,7 +418,7 @@ void run_render(Session& session)
   }
   if (!can_render())
   {
-    run_again_under_xvfb(arguments.words);
+    run_again_under_xvfb(arguments.command_line);
     session.fail(Status::failure(StatusCode::unavailable, no_display_message()));
     return;
   }

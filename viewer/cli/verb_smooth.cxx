@@ -53,12 +53,12 @@ void run_smooth(Session& session)
       0, 0, 0, vtkDataObject::FIELD_ASSOCIATION_POINTS, array.c_str());
   }
   const std::string extrema_array = arguments.text("extrema");
-  if (arguments.typed("extrema") && !mesh->GetPointData()->GetArray(extrema_array.c_str()))
+  if (arguments.is_typed("extrema") && !mesh->GetPointData()->GetArray(extrema_array.c_str()))
   {
     session.invalid("--extrema: the mesh has no point array '" + extrema_array + "'");
     return;
   }
-  if (arguments.typed("number-of-extrema") || arguments.typed("persistence"))
+  if (arguments.is_typed("number-of-extrema") || arguments.is_typed("persistence"))
   {
     // select the extrema from the data, unless --extrema names an array
     smoothing->SetExtremaArrayName("");

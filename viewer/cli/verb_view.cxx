@@ -83,7 +83,7 @@ void run_view(Session& session)
   {
     if (!request.path.empty())
     {
-      run_again_under_xvfb(session.arguments().words);
+      run_again_under_xvfb(session.arguments().command_line);
     }
     session.fail(Status::failure(StatusCode::unavailable,
       "cannot open a window without a display: DISPLAY is not set or its X server does not answer; "

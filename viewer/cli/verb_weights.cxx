@@ -54,7 +54,8 @@ bool set_terms(Session& session, vtkDataSet* mesh, vtkWeightsAlgorithm* weights)
   const Arguments& arguments = session.arguments();
   for (const char* option : { "rigidity", "rigid-set", "lower", "upper", "pinned" })
   {
-    if (arguments.typed(option) && !mesh->GetPointData()->GetArray(arguments.text(option).c_str()))
+    if (arguments.is_typed(option) &&
+      !mesh->GetPointData()->GetArray(arguments.text(option).c_str()))
     {
       return session.invalid("--" + std::string(option) + ": the mesh has no point array '" +
         arguments.text(option) + "'");

@@ -63,7 +63,7 @@ double Autosave::interval()
   return is_number && seconds >= 0.0 ? std::min(seconds, 86400.0) : default_interval;
 }
 
-void Autosave::note_change()
+void Autosave::schedule_save()
 {
   if (!this->timer_.isActive())
   {
@@ -81,8 +81,8 @@ bool Autosave::make_folder()
 {
   // Before a new folder is locked, another process may find it and remove it. If the folder was
   // removed, try again with another one.
-  constexpr int tries = 8;
-  for (int k = 0; k < tries && this->folder_.isEmpty(); ++k)
+  constexpr int maximum_attempts = 8;
+  for (int k = 0; k < maximum_attempts && this->folder_.isEmpty(); ++k)
   {
     const QString folder = QString("%1/%2-%3")
                              .arg(this->root_)

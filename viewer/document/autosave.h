@@ -40,7 +40,7 @@ public:
   static double interval();
 
   /// Record that the work has changed and a copy is due.
-  void note_change();
+  void schedule_save();
   /// Begin to write a copy of the current work, and return. failed() is emitted if the copy cannot
   /// be written.
   void begin_save();
@@ -77,7 +77,7 @@ private:
   int writer_count_ = 0; // number of writers that were started
   // The session that is being written, and the session to write next. Both must be destroyed on the
   // window's thread.
-  std::shared_ptr<const SessionFile::Prepared> current_session_, next_session_;
+  std::shared_ptr<const SessionFile::PreparedSession> current_session_, next_session_;
   // Status of the running writer. The writer sets it; the window reads it only after the writer has
   // ended.
   bindpose::Status writer_status_;

@@ -179,31 +179,31 @@ const json& json_at(const json& object, const char* key)
   return *found;
 }
 
-double json_number(const json& value, const char* what)
+double json_number(const json& value, const char* value_name)
 {
   if (!value.is_number() || !std::isfinite(value.get<double>()))
   {
-    throw SessionError(std::string(what) + " must be a finite number");
+    throw SessionError(std::string(value_name) + " must be a finite number");
   }
   return value.get<double>();
 }
 
-int json_integer(const json& value, const char* what, int lowest, int highest)
+int json_integer(const json& value, const char* value_name, int lowest, int highest)
 {
-  const double number = json_number(value, what);
+  const double number = json_number(value, value_name);
   if (number != std::floor(number) || number < lowest || number > highest)
   {
-    throw SessionError(std::string(what) + " must be an integer from " + std::to_string(lowest) +
-      " to " + std::to_string(highest));
+    throw SessionError(std::string(value_name) + " must be an integer from " +
+      std::to_string(lowest) + " to " + std::to_string(highest));
   }
   return static_cast<int>(number);
 }
 
-std::string json_text(const json& value, const char* what)
+std::string json_text(const json& value, const char* value_name)
 {
   if (!value.is_string())
   {
-    throw SessionError(std::string(what) + " must be a string");
+    throw SessionError(std::string(value_name) + " must be a string");
   }
   return value.get<std::string>();
 }

@@ -20,9 +20,9 @@ public:
 
 /// Return the value of a key. Throw SessionError if `object` is not an object or lacks the key.
 const nlohmann::json& json_at(const nlohmann::json& object, const char* key);
-double json_number(const nlohmann::json& value, const char* what);
-int json_integer(const nlohmann::json& value, const char* what, int lowest, int highest);
-std::string json_text(const nlohmann::json& value, const char* what);
+double json_number(const nlohmann::json& value, const char* value_name);
+int json_integer(const nlohmann::json& value, const char* value_name, int lowest, int highest);
+std::string json_text(const nlohmann::json& value, const char* value_name);
 
 /// Convert points, vertices, lines and polygons with their cell arrays.
 nlohmann::json handles_to_json(vtkPolyData* handles);

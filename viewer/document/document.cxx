@@ -479,7 +479,7 @@ void Document::set_mode(int handle, int mode)
   this->set_pose(after, tr("mode of %1").arg(QString::fromStdString(this->handles_[handle].name)));
 }
 
-void Document::back_to_rest()
+void Document::reset_to_rest()
 {
   Q_EMIT this->about_to_change();
   Pose rest(this->handles_.size());
@@ -518,11 +518,12 @@ bool Document::set_bound(vtkPolyData* surface, vtkUnstructuredGrid* tets)
   after.surface = surface;
   surface->GetPointData()->RemoveArray(bound_labels_name);
   // The bind does not include regions that were painted while it was running.
-  vtkDataArray* now = labels_of(this->work_.surface);
-  if (now && !same_labels(now, labels_of(surface)))
+  vtkDataArray* current_labels = labels_of(this->work_.surface);
+  if (current_labels && !same_labels(current_labels, labels_of(surface)))
   {
-    surface->GetPointData()->AddArray(copy_of_labels(labels_of(surface), now, bound_labels_name));
-    surface->GetPointData()->AddArray(now);
+    surface->GetPointData()->AddArray(
+      copy_of_labels(labels_of(surface), current_labels, bound_labels_name));
+    surface->GetPointData()->AddArray(current_labels);
   }
   after.weighted_tets = tets;
   after.differs_from_file = true;
@@ -572,14 +573,14 @@ void Document::set_options(const Options& values, const QString& key)
       after.options[value.key()] = checked;
     }
   }
-  if (const OptionInfo* named = find_option(key))
+  if (const OptionInfo* step_option = find_option(key))
   {
-    const bool is_continuous = named->initial.type() == QVariant::Double;
-    this->push(tr(named->step), after, is_continuous ? key : QString());
+    const bool is_continuous = step_option->initial.type() == QVariant::Double;
+    this->push(tr(step_option->step), after, is_continuous ? key : QString());
   }
 }
 
-void Document::note_option(const QString& key, const QVariant& value)
+void Document::set_option_without_undo(const QString& key, const QVariant& value)
 {
   const OptionInfo* option = find_option(key);
   const QVariant checked = option ? checked_option(*option, value) : QVariant();

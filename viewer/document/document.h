@@ -109,7 +109,7 @@ public:
   vtkPolyData* editable_handles() { return this->edited_handles_; }
   void set_pose(const bindpose::Pose& pose, const QString& step, const QString& merge = {});
   void set_mode(int handle, int mode);
-  void back_to_rest();
+  void reset_to_rest();
   void set_stored_poses(
     bindpose::StoredPoses poses, const QString& step, const QString& merge = {});
 
@@ -136,7 +136,7 @@ public:
   /// Set several options in one step, which has the name of the step of option `key`.
   void set_options(const Options& values, const QString& key);
   /// Set an option that the program itself has chosen, without an undo step.
-  void note_option(const QString& key, const QVariant& value);
+  void set_option_without_undo(const QString& key, const QVariant& value);
   /// Prevent the next step from merging with the previous one.
   void end_merge() { ++this->merge_group_; }
 

@@ -131,12 +131,12 @@ Status read_file(const std::string& path, OpenedFile& file, const RunReader& run
 }
 
 Status make_shape(
-  vtkImageData* picture, bool whole, vtkSmartPointer<vtkPolyData>& shape, bool& is_cut_out)
+  vtkImageData* picture, bool is_whole_image, vtkSmartPointer<vtkPolyData>& shape, bool& is_cut_out)
 {
   vtkNew<vtkPlanarShape> planar;
   silence_events(planar);
   planar->SetInputData(0, picture);
-  planar->SetRectangle(whole);
+  planar->SetRectangle(is_whole_image);
   planar->Update();
   if (planar->GetStatus() != vtkBindposeAlgorithm::OK)
   {

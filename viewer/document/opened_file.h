@@ -50,10 +50,10 @@ bindpose::Status read_file(
   const std::string& path, OpenedFile& file, const RunReader& run = nullptr);
 
 /// Make a textured shape from an image: triangles with texture coordinates (vtkPlanarShape). The
-/// image's alpha determines the shape. If the image is opaque or `whole` is true, the shape is the
-/// whole rectangle.
-bindpose::Status make_shape(
-  vtkImageData* picture, bool whole, vtkSmartPointer<vtkPolyData>& shape, bool& is_cut_out);
+/// image's alpha determines the shape. If the image is opaque or `is_whole_image` is true, the
+/// shape is the whole rectangle.
+bindpose::Status make_shape(vtkImageData* picture, bool is_whole_image,
+  vtkSmartPointer<vtkPolyData>& shape, bool& is_cut_out);
 
 /// Write the shape. An existing file is replaced, because the file dialog has asked for
 /// confirmation.

@@ -152,7 +152,7 @@ std::vector<OptionInfo> make_option_table()
         { "distance", QT_TRANSLATE_NOOP("Document", "Distance") } }),
     { "pose.moves", QT_TRANSLATE_NOOP("Document", "simulate motion"), false },
     { "motion.gravity", QT_TRANSLATE_NOOP("Document", "gravity"), body.gravity, 0.0, 5.0 },
-    choice("motion.down", QT_TRANSLATE_NOOP("Document", "direction of gravity"), body.down,
+    choice("motion.down", QT_TRANSLATE_NOOP("Document", "direction of gravity"), body.down_axis,
       { { "x", QT_TRANSLATE_NOOP("Document", "-x") }, { "y", QT_TRANSLATE_NOOP("Document", "-y") },
         { "z", QT_TRANSLATE_NOOP("Document", "-z") } }),
     { "motion.stiffness", QT_TRANSLATE_NOOP("Document", "stiffness"), std::log10(body.stiffness),

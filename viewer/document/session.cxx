@@ -108,16 +108,16 @@ vtkSmartPointer<vtkDataSet> read_xml(const QString& path)
   return reader->GetOutput();
 }
 
-std::array<double, 3> read_triple(const json& value, const char* what)
+std::array<double, 3> read_triple(const json& value, const char* value_name)
 {
   std::array<double, 3> result{};
   if (!value.is_array() || value.size() != 3)
   {
-    throw SessionError(std::string(what) + " must be a list of three numbers");
+    throw SessionError(std::string(value_name) + " must be a list of three numbers");
   }
   for (int k = 0; k < 3; ++k)
   {
-    result[k] = json_number(value[k], what);
+    result[k] = json_number(value[k], value_name);
   }
   return result;
 }
@@ -264,7 +264,7 @@ private:
     const auto tets = this->companion<vtkXMLUnstructuredGridReader>(companions, "tets", is_damaged);
     const bool has_input = inputs.contains("mesh");
     const Source source = has_input ? this->source(inputs["mesh"]) : Source();
-    const QByteArray now = has_input ? checksum_of(source.path) : QByteArray();
+    const QByteArray current_checksum = has_input ? checksum_of(source.path) : QByteArray();
     const QString file = QFileInfo(source.path).fileName();
     if (surface)
     {
@@ -275,9 +275,9 @@ private:
       }
       work.differs_from_file = true;
       work.weighted_tets = vtkUnstructuredGrid::SafeDownCast(tets);
-      if (has_input && now != source.checksum)
+      if (has_input && current_checksum != source.checksum)
       {
-        session.notes << (now.isEmpty()
+        session.notes << (current_checksum.isEmpty()
             ? tr("%1 is missing; the mesh saved with the session is shown.")
             : tr("%1 has changed since the session was saved; the mesh saved with the session is "
                  "shown."))
@@ -287,17 +287,18 @@ private:
     else if (has_input)
     {
       OpenedFile opened;
-      const bool read = !now.isEmpty() && read_file(source.path.toStdString(), opened).ok() &&
-        use_mesh(opened.data, name, Source{ source.path, now }, work).ok();
+      const bool read = !current_checksum.isEmpty() &&
+        read_file(source.path.toStdString(), opened).ok() &&
+        use_mesh(opened.data, name, Source{ source.path, current_checksum }, work).ok();
       if (!read)
       {
         session.missing_inputs.push_back({ "mesh", source.path, source.checksum });
-        session.notes << (now.isEmpty()
+        session.notes << (current_checksum.isEmpty()
             ? tr("%1 is missing; the session was opened without it.")
             : tr("%1 cannot be read; the session was opened without it."))
                            .arg(file);
       }
-      else if (now != source.checksum)
+      else if (current_checksum != source.checksum)
       {
         session.notes << tr("%1 has changed since the session was saved.").arg(file);
       }
@@ -439,7 +440,7 @@ Status SessionFile::write_companion(
   return status;
 }
 
-struct SessionFile::Prepared
+struct SessionFile::PreparedSession
 {
   QString path; // absolute path of the session file
   json text; // contents of the session file; write() adds the companions
@@ -449,12 +450,12 @@ struct SessionFile::Prepared
   vtkSmartPointer<vtkImageData> volume;
 };
 
-std::shared_ptr<const SessionFile::Prepared> SessionFile::prepare(
+std::shared_ptr<const SessionFile::PreparedSession> SessionFile::prepare(
   const QString& path, const Session& session)
 {
   const Work& work = session.work;
   const QDir folder(QFileInfo(path).absolutePath());
-  auto prepared = std::make_shared<Prepared>();
+  auto prepared = std::make_shared<PreparedSession>();
   prepared->path = QFileInfo(path).absoluteFilePath();
   json& text = prepared->text;
   text["bindpose"] = { { "schema", session_schema } };
@@ -505,7 +506,7 @@ Status SessionFile::write(const QString& path, const Session& session)
   return this->write(*prepare(path, session));
 }
 
-Status SessionFile::write(const Prepared& prepared)
+Status SessionFile::write(const PreparedSession& prepared)
 {
   json text = prepared.text;
   json& companions = text["companions"] = json::object();
@@ -560,16 +561,16 @@ Status SessionFile::write(const Prepared& prepared)
 Status read_session(const QString& path, Session& session)
 {
   const std::string name = QFileInfo(path).fileName().toStdString();
-  const auto broken = [&name](const std::string& reason)
+  const auto cannot_open = [&name](const std::string& reason)
   { return Status::invalid_input(name + " cannot be opened: " + reason); };
   QFile file(path);
   if (!file.open(QIODevice::ReadOnly))
   {
-    return broken("the file does not exist or is not readable");
+    return cannot_open("the file does not exist or is not readable");
   }
   if (file.size() > maximum_session_bytes)
   {
-    return broken("the file is too large for a session");
+    return cannot_open("the file is too large for a session");
   }
   const QByteArray bytes = file.readAll();
   try
@@ -579,7 +580,7 @@ Status read_session(const QString& path, Session& session)
       json_integer(json_at(json_at(text, "bindpose"), "schema"), "the schema version", 1, 1 << 20);
     if (schema > session_schema)
     {
-      return broken("the file was written by a newer version of Bindpose");
+      return cannot_open("the file was written by a newer version of Bindpose");
     }
     Session read;
     SessionReader(text, path).read(read);
@@ -588,10 +589,10 @@ Status read_session(const QString& path, Session& session)
   }
   catch (const SessionError& error)
   {
-    return broken(error.what());
+    return cannot_open(error.what());
   }
   catch (const json::exception&)
   {
-    return broken("the file is damaged or is not a Bindpose session");
+    return cannot_open("the file is damaged or is not a Bindpose session");
   }
 }

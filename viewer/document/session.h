@@ -56,11 +56,12 @@ struct Session
 class SessionFile
 {
 public:
-  struct Prepared; ///< the session as text, with datasets that nothing modifies
-  static std::shared_ptr<const Prepared> prepare(const QString& path, const Session& session);
+  struct PreparedSession; ///< the session as text, with datasets that nothing modifies
+  static std::shared_ptr<const PreparedSession> prepare(
+    const QString& path, const Session& session);
   /// Write the session. Companions that this object has already written to the same folder are not
   /// written again.
-  bindpose::Status write(const Prepared& prepared);
+  bindpose::Status write(const PreparedSession& prepared);
   bindpose::Status write(const QString& path, const Session& session);
 
 private:

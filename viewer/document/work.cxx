@@ -57,7 +57,7 @@ bool is_appearance_array(const char* array)
   static const char* const appearance_arrays[] = { "Layer", "Color", "Locked", "Transform", "Mode",
     "Stretch", "Twist" };
   return std::any_of(std::begin(appearance_arrays), std::end(appearance_arrays),
-    [array](const char* look) { return std::string(look) == array; });
+    [array](const char* array_name) { return std::string(array_name) == array; });
 }
 
 /// Report whether `a` has all arrays of `b`, apart from looks, with the same values.

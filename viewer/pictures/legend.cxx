@@ -50,7 +50,7 @@ double text_width(const std::string& text, int font_size)
 
 // Return the estimated width of text in plain letters, in pixels. In long texts, differences
 // between the widths of letters average out.
-double words_width(const std::string& text, int font_size)
+double estimated_width(const std::string& text, int font_size)
 {
   constexpr std::size_t long_text_size = 8;
   return text.size() > long_text_size ? 0.54 * font_size * static_cast<double>(text.size())
@@ -101,7 +101,7 @@ private:
 } // namespace
 
 void add_text(vtkRenderer* renderer, const std::string& text, double x, double y, int size,
-  TextAlign align, bool bold, const Rgb& text_color)
+  TextAlignment align, bool bold, const Rgb& text_color)
 {
   if (text.empty())
   {
@@ -115,9 +115,9 @@ void add_text(vtkRenderer* renderer, const std::string& text, double x, double y
   property->SetBold(bold);
   property->SetColor(text_color[0], text_color[1], text_color[2]);
   property->SetVerticalJustificationToCentered();
-  property->SetJustification(align == TextAlign::left ? VTK_TEXT_LEFT
-      : align == TextAlign::center                    ? VTK_TEXT_CENTERED
-                                                      : VTK_TEXT_RIGHT);
+  property->SetJustification(align == TextAlignment::left ? VTK_TEXT_LEFT
+      : align == TextAlignment::center                    ? VTK_TEXT_CENTERED
+                                                          : VTK_TEXT_RIGHT);
   actor->GetPositionCoordinate()->SetCoordinateSystemToViewport();
   actor->SetPosition(x, y);
   renderer->AddActor2D(actor);
@@ -128,7 +128,7 @@ int legend_width(const ColorMap& map, const std::string& name, int font_size)
   double ticks = 0.0;
   for (std::size_t i = 0; i < map.ticks.size(); ++i)
   {
-    ticks = std::max(ticks, words_width(tick_text(map, i), font_size));
+    ticks = std::max(ticks, estimated_width(tick_text(map, i), font_size));
   }
   const double bar = bar_width(font_size) + 0.6 * font_size + ticks;
   return static_cast<int>(std::ceil(std::max(bar, text_width(name, font_size))));
@@ -144,8 +144,8 @@ void add_legend(vtkRenderer* renderer, const ColorMap& map, const std::string& n
   const double left = box.x;
   const double right = box.x + bar_width(font_size);
   const double line = std::max(1.0, std::round(font_size / 14.0));
-  add_text(renderer, name, left, box.y + box.height - 0.5 * font_size, font_size, TextAlign::left,
-    true, text_color);
+  add_text(renderer, name, left, box.y + box.height - 0.5 * font_size, font_size,
+    TextAlignment::left, true, text_color);
   if (map.ticks.empty())
   {
     return; // without ticks only the name is drawn
@@ -168,8 +168,8 @@ void add_legend(vtkRenderer* renderer, const ColorMap& map, const std::string& n
     const double tick = map.first_at_top ? map.lower + map.upper - map.ticks[i] : map.ticks[i];
     const double y = bottom + (top - bottom) * (tick - map.lower) / (map.upper - map.lower);
     shapes.add_box(right, y - 0.5 * line, right + 0.3 * font_size, y + 0.5 * line, text_color);
-    add_text(renderer, tick_text(map, i), right + 0.6 * font_size, y, font_size, TextAlign::left,
-      false, text_color);
+    add_text(renderer, tick_text(map, i), right + 0.6 * font_size, y, font_size,
+      TextAlignment::left, false, text_color);
   }
   shapes.add_to(renderer);
 }

@@ -16,7 +16,7 @@ struct PixelBox
   int x = 0, y = 0, width = 0, height = 0;
 };
 
-enum class TextAlign
+enum class TextAlignment
 {
   left,
   center,
@@ -27,7 +27,7 @@ enum class TextAlign
 /// text, as `align` states. Vertically, `y` is the middle of the text.
 /// @param size  font size in pixels
 void add_text(vtkRenderer* renderer, const std::string& text, double x, double y, int size,
-  TextAlign align, bool bold = false, const Rgb& text_color = palette::text);
+  TextAlignment align, bool bold = false, const Rgb& text_color = palette::text);
 
 /// Add a legend that fills the box: a vertical bar with the map's colors, the ticks on its right,
 /// and the name above it. If the map has no ticks, only the name is drawn.

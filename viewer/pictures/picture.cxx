@@ -52,15 +52,15 @@ struct Layout
 
 Status check_options(const std::vector<Tile>& tiles, const PictureOptions& options)
 {
-  const auto in_range = [](double value, double lower, double upper)
+  const auto is_in_range = [](double value, double lower, double upper)
   { return value >= lower && value <= upper; };
-  if (!in_range(options.width, 16, 8192) || !in_range(options.height, 16, 8192))
+  if (!is_in_range(options.width, 16, 8192) || !is_in_range(options.height, 16, 8192))
   {
     return Status::invalid_input(
       "the width and height of a picture must be from 16 to 8192 pixels, got " +
       std::to_string(options.width) + " x " + std::to_string(options.height));
   }
-  if (!in_range(options.scale, 1, largest_scale_factor))
+  if (!is_in_range(options.scale, 1, largest_scale_factor))
   {
     return Status::invalid_input("the scale factor of a picture must be from 1 to " +
       std::to_string(largest_scale_factor) + ", got " + std::to_string(options.scale));
@@ -71,11 +71,11 @@ Status check_options(const std::vector<Tile>& tiles, const PictureOptions& optio
   {
     return size;
   }
-  if (!in_range(options.supersampling, 1, 4))
+  if (!is_in_range(options.supersampling, 1, 4))
   {
     return Status::invalid_input("supersampling must be from 1 to 4");
   }
-  if (!in_range(options.section, 0.0, 1.0))
+  if (!is_in_range(options.section, 0.0, 1.0))
   {
     return Status::invalid_input("the section must be between 0 and 1");
   }
@@ -90,7 +90,7 @@ Status check_options(const std::vector<Tile>& tiles, const PictureOptions& optio
   {
     return Status::invalid_input("the size of shrunk tets must be above 0 and at most 1");
   }
-  if (!in_range(options.view.zoom, 1e-3, 1e3))
+  if (!is_in_range(options.view.zoom, 1e-3, 1e3))
   {
     return Status::invalid_input("the zoom must be between 0.001 and 1000");
   }
@@ -576,12 +576,12 @@ Status render_to_image(const std::vector<Tile>& tiles, const PictureOptions& req
   text_renderer->InteractiveOff();
   window->AddRenderer(text_renderer);
   add_text(text_renderer, options.title, 0.5 * width, layout.title_y,
-    static_cast<int>(1.25 * layout.font), TextAlign::center, true);
+    static_cast<int>(1.25 * layout.font), TextAlignment::center, true);
   for (std::size_t i = 0; i < tiles.size(); ++i)
   {
     const PixelBox& box = layout.label_boxes[i];
     add_text(text_renderer, tiles[i].label, box.x + 0.5 * box.width, box.y + 0.55 * box.height,
-      layout.font, TextAlign::center);
+      layout.font, TextAlignment::center);
   }
   for (std::size_t i = 0; i < legends.size(); ++i)
   {

@@ -263,16 +263,16 @@ Status add_tet_slice(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const Tet
     add_lines(
       renderer, contour_lines(cut, coloring.isolines), palette::line, isoline_width * scale);
   }
-  const TetCut whole(input.points.view(), input.tets.view());
+  const TetCut tet_cut(input.points.view(), input.tets.view());
   const auto boundary_faces =
-    face_polydata(grid, whole.boundary_faces().triangles, whole.boundary_faces().tets);
+    face_polydata(grid, tet_cut.boundary_faces().triangles, tet_cut.boundary_faces().tets);
   add_surface(
     renderer, part_behind(boundary_faces, plane.origin, plane.normal), options, coloring, scale);
   const auto is_behind = [&](Index v)
   { return (input.points.view().row(v).transpose() - plane.origin).dot(plane.normal) <= 0.0; };
-  for (Index i = 0; i < whole.boundary_faces().triangles.size(); ++i)
+  for (Index i = 0; i < tet_cut.boundary_faces().triangles.size(); ++i)
   {
-    const Index v = whole.boundary_faces().triangles.data()[i];
+    const Index v = tet_cut.boundary_faces().triangles.data()[i];
     drawn_points[v] = is_behind(v);
   }
   for (const Index t : crossed_tets)

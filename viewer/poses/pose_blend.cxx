@@ -26,9 +26,9 @@ HandleValues values_of(const Handles& handles, const Pose& pose, std::size_t han
   // R = Rz Ry Rx, so R(2, 0) = -sin(y).
   const Eigen::Matrix3d& r = parts.rotation;
   const double y = std::asin(std::fmax(-1.0, std::fmin(1.0, -r(2, 0))));
-  const bool upright = std::abs(r(2, 0)) < 1.0 - 1e-12;
-  const double x = upright ? std::atan2(r(2, 1), r(2, 2)) : std::atan2(-r(1, 2), r(1, 1));
-  const double z = upright ? std::atan2(r(1, 0), r(0, 0)) : 0.0;
+  const bool is_euler_unique = std::abs(r(2, 0)) < 1.0 - 1e-12;
+  const double x = is_euler_unique ? std::atan2(r(2, 1), r(2, 2)) : std::atan2(-r(1, 2), r(1, 1));
+  const double z = is_euler_unique ? std::atan2(r(1, 0), r(0, 0)) : 0.0;
   values.degrees = Vec3(x, y, z) * 180.0 / pi;
   values.scale = parts.scale.trace() / 3.0;
   values.is_approximate =

@@ -32,14 +32,14 @@ Frame choose_frame(const Box& box, const std::string& up)
   Frame frame;
   const Vec3 size = box.size();
   const double thin = 1e-3 * box.diagonal();
-  const bool named = up == "x" || up == "y" || up == "z";
-  frame.up = named ? up[0] - 'x' : 1;
+  const bool is_axis_name = up == "x" || up == "y" || up == "z";
+  frame.up = is_axis_name ? up[0] - 'x' : 1;
   int thinnest = 0;
   size.minCoeff(&thinnest);
   frame.flat = size[thinnest] <= thin;
   if (frame.flat && thinnest == frame.up)
   {
-    if (named)
+    if (is_axis_name)
     {
       // A shape that is flat in the direction `up`, such as a floor, is viewed obliquely from
       // above.
@@ -221,13 +221,13 @@ bool find_plane(PointsView points, Vec3& normal)
   const Points centered_points = points.rowwise() - middle;
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(centered_points.transpose() *
     centered_points / (diagonal * diagonal * static_cast<double>(points.rows())));
-  constexpr double flat = 1e-6;
+  constexpr double flatness_tolerance = 1e-6;
   normal = axes.eigenvectors().col(0);
   // Orient the normal toward the default view.
   const Vec3 axis_order(normal.z(), normal.x(), -normal.y());
   for (const double component : { axis_order[0], axis_order[1], axis_order[2] })
   {
-    if (std::abs(component) > flat)
+    if (std::abs(component) > flatness_tolerance)
     {
       normal *= component < 0.0 ? -1.0 : 1.0;
       break;
@@ -238,8 +238,8 @@ bool find_plane(PointsView points, Vec3& normal)
     normal[k] = std::abs(normal[k]) < 1e-12 ? 0.0 : normal[k];
   }
   normal.normalize();
-  return (centered_points * normal).array().abs().maxCoeff() <= flat * diagonal &&
-    std::sqrt(std::max(0.0, axes.eigenvalues()[1])) > flat;
+  return (centered_points * normal).array().abs().maxCoeff() <= flatness_tolerance * diagonal &&
+    std::sqrt(std::max(0.0, axes.eigenvalues()[1])) > flatness_tolerance;
 }
 
 void fit_parallel_camera(

@@ -26,15 +26,15 @@ namespace bindpose
 {
 namespace
 {
-struct FoundArray
+struct AssociatedArray
 {
   vtkDataArray* array = nullptr;
   bool on_points = true;
 };
 
-FoundArray find_array(vtkDataSet* data, const std::string& name)
+AssociatedArray find_array(vtkDataSet* data, const std::string& name)
 {
-  FoundArray found;
+  AssociatedArray found;
   if (data && !name.empty())
   {
     found.array = data->GetPointData()->GetArray(name.c_str());
@@ -47,7 +47,7 @@ FoundArray find_array(vtkDataSet* data, const std::string& name)
   return found;
 }
 
-std::string list_words(const std::vector<std::string>& words)
+std::string comma_separated(const std::vector<std::string>& words)
 {
   std::string text;
   for (const std::string& word : words)
@@ -147,7 +147,7 @@ std::string component_words(vtkDataArray* array)
     const char* name = array->GetComponentName(c);
     words.push_back(name && *name ? name : std::to_string(c));
   }
-  return list_words(words);
+  return comma_separated(words);
 }
 
 } // namespace
@@ -162,7 +162,7 @@ bool is_tet_quantity(ColorBy by)
   return by == ColorBy::label || by == ColorBy::quality || by == ColorBy::method;
 }
 
-std::string word_of(ColorBy by)
+std::string quantity_name(ColorBy by)
 {
   return by == ColorBy::label ? "label" : by == ColorBy::quality ? "quality" : "rung";
 }
@@ -204,9 +204,9 @@ vtkSmartPointer<vtkDoubleArray> tet_values(vtkDataSet* data, const Coloring& col
     {
       return nullptr;
     }
-    const auto its = std::find_if(
+    const auto found_category = std::find_if(
       own.begin(), own.end(), [](const Category& category) { return category.count > 0; });
-    values->Fill(table_values[static_cast<std::size_t>(its - own.begin())]);
+    values->Fill(table_values[static_cast<std::size_t>(found_category - own.begin())]);
     return values;
   }
   if (!count_labels(data, own).ok())
@@ -216,9 +216,9 @@ vtkSmartPointer<vtkDoubleArray> tet_values(vtkDataSet* data, const Coloring& col
   vtkDataArray* labels = data->GetCellData()->GetArray("Label");
   for (Index t = 0; t < count; ++t)
   {
-    const auto its = std::find_if(own.begin(), own.end(),
+    const auto found_category = std::find_if(own.begin(), own.end(),
       [&](const Category& category) { return category.value == labels->GetComponent(t, 0); });
-    values->SetValue(t, table_values[static_cast<std::size_t>(its - own.begin())]);
+    values->SetValue(t, table_values[static_cast<std::size_t>(found_category - own.begin())]);
   }
   return values;
 }
@@ -238,7 +238,7 @@ std::vector<std::string> handle_names(vtkDataArray* weights)
 // or -1 if no weight is above 0. Return null if there are no weights.
 vtkSmartPointer<vtkDoubleArray> strongest_columns(vtkDataSet* data)
 {
-  const FoundArray found = find_array(data, "Weights");
+  const AssociatedArray found = find_array(data, "Weights");
   if (!found.array || !found.on_points || vtkImageData::SafeDownCast(data))
   {
     return nullptr;
@@ -293,9 +293,10 @@ vtkSmartPointer<vtkDoubleArray> handle_values(vtkDataSet* data, const Coloring& 
   std::vector<double> values;
   for (const std::string& name : names)
   {
-    const auto its = std::find_if(coloring.categories.begin(), coloring.categories.end(),
+    const auto found_category = std::find_if(coloring.categories.begin(), coloring.categories.end(),
       [&](const Category& category) { return category.name == name; });
-    values.push_back(table_values[static_cast<std::size_t>(its - coloring.categories.begin())]);
+    values.push_back(
+      table_values[static_cast<std::size_t>(found_category - coloring.categories.begin())]);
   }
   look_up(columns, values);
   return columns;
@@ -311,7 +312,7 @@ Status choose_handle_coloring(
   std::vector<std::string> names;
   for (const Tile& tile : tiles)
   {
-    const FoundArray found = find_array(tile.data, "Weights");
+    const AssociatedArray found = find_array(tile.data, "Weights");
     for (const std::string& name :
       found.array ? handle_names(found.array) : std::vector<std::string>())
     {
@@ -331,12 +332,14 @@ Status choose_handle_coloring(
       continue;
     }
     any = true;
-    const std::vector<std::string> its = handle_names(find_array(tile.data, "Weights").array);
+    const std::vector<std::string> tile_handle_names =
+      handle_names(find_array(tile.data, "Weights").array);
     for (vtkIdType cell = 0; cell < columns->GetNumberOfValues(); ++cell)
     {
       if (columns->GetValue(cell) >= 0.0)
       {
-        const std::string& name = its[static_cast<std::size_t>(columns->GetValue(cell))];
+        const std::string& name =
+          tile_handle_names[static_cast<std::size_t>(columns->GetValue(cell))];
         ++std::find_if(coloring.categories.begin(), coloring.categories.end(),
           [&](const Category& category) {
             return category.name == name;
@@ -425,9 +428,9 @@ void choose_weight_map(
 }
 
 // Check that the dataset to subtract has an array that fits the array of the tile.
-Status check_minus(const FoundArray& found, const Coloring& coloring)
+Status check_minus(const AssociatedArray& found, const Coloring& coloring)
 {
-  const FoundArray other = find_array(coloring.subtracted_data, coloring.array);
+  const AssociatedArray other = find_array(coloring.subtracted_data, coloring.array);
   if (!other.array || other.on_points != found.on_points)
   {
     return Status::invalid_input("the subtracted dataset has no " +
@@ -435,9 +438,9 @@ Status check_minus(const FoundArray& found, const Coloring& coloring)
   }
   if (other.array->GetNumberOfTuples() != found.array->GetNumberOfTuples())
   {
-    const std::string things = found.on_points ? " points" : " cells";
+    const std::string tuple_kind = found.on_points ? " points" : " cells";
     return Status::invalid_input("the subtracted dataset has " +
-      std::to_string(other.array->GetNumberOfTuples()) + things + "; expected " +
+      std::to_string(other.array->GetNumberOfTuples()) + tuple_kind + "; expected " +
       std::to_string(found.array->GetNumberOfTuples()) + ", as in the dataset");
   }
   if (find_component(other.array, coloring) == no_component)
@@ -456,7 +459,8 @@ Status choose_tet_coloring(
   const bool has_range = options.range[0] <= options.range[1];
   if (has_range && coloring.by != ColorBy::quality)
   {
-    return Status::invalid_input("colors by " + word_of(coloring.by) + " cannot have a range");
+    return Status::invalid_input(
+      "colors by " + quantity_name(coloring.by) + " cannot have a range");
   }
   if (coloring.by != ColorBy::quality)
   {
@@ -483,7 +487,7 @@ Status choose_tet_coloring(
   if (!any)
   {
     return Status::invalid_input(
-      "colors by " + word_of(coloring.by) + " need tets, but the picture has none");
+      "colors by " + quantity_name(coloring.by) + " need tets, but the picture has none");
   }
   coloring.kind = Coloring::Kind::other;
   if (coloring.by == ColorBy::quality)
@@ -548,7 +552,7 @@ vtkSmartPointer<vtkDoubleArray> color_values(
     on_points = false;
     return cluster_values(data, coloring);
   }
-  const FoundArray found = find_array(data, coloring.array);
+  const AssociatedArray found = find_array(data, coloring.array);
   const int component = found.array ? find_component(found.array, coloring) : no_component;
   if (coloring.kind == Coloring::Kind::none || component == no_component)
   {
@@ -565,10 +569,10 @@ vtkSmartPointer<vtkDoubleArray> color_values(
   if (coloring.subtracted_data)
   {
     vtkDataArray* other = find_array(coloring.subtracted_data, coloring.array).array;
-    const int its = find_component(other, coloring);
+    const int other_component = find_component(other, coloring);
     for (vtkIdType i = 0; i < values->GetNumberOfValues(); ++i)
     {
-      values->SetValue(i, values->GetValue(i) - value_of(other, i, its));
+      values->SetValue(i, values->GetValue(i) - value_of(other, i, other_component));
     }
   }
   return values;
@@ -636,7 +640,7 @@ Status choose_coloring(
   coloring.kind = Coloring::Kind::other;
   for (const Tile& tile : tiles)
   {
-    const FoundArray found = find_array(tile.data, coloring.array);
+    const AssociatedArray found = find_array(tile.data, coloring.array);
     if (!found.array)
     {
       continue;
@@ -684,7 +688,7 @@ Status choose_coloring(
   }
   if (!sample)
   {
-    const std::string available = list_words(array_names(tiles));
+    const std::string available = comma_separated(array_names(tiles));
     return Status::invalid_input("there is no array '" + coloring.array + "'" +
       (available.empty() ? std::string("; the data has no arrays") : "; available: " + available));
   }

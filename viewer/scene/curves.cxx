@@ -25,7 +25,7 @@ namespace
 constexpr int class_count = 3; // number of classes of tubes: multiplicity 1, 2, and 3 or more
 constexpr double widths[class_count] = { 1.0, 1.5, 2.0 };
 
-vtkSmartPointer<vtkPolyData> lines_of_class(vtkPolyData* data, int wanted)
+vtkSmartPointer<vtkPolyData> lines_of_class(vtkPolyData* data, int class_index)
 {
   vtkDataArray* multiplicity = data->GetCellData()->GetArray("Multiplicity");
   // cell ids start with the vertices, then the lines follow
@@ -38,7 +38,7 @@ vtkSmartPointer<vtkPolyData> lines_of_class(vtkPolyData* data, int wanted)
       multiplicity ? std::abs(multiplicity->GetComponent(first + line, 0)) : 1.0;
     const int line_class =
       std::isfinite(usage_count) ? static_cast<int>(std::lround(std::min(usage_count, 3.0))) : 1;
-    if (line_class == wanted + 1)
+    if (line_class == class_index + 1)
     {
       data->GetLines()->GetCellAtId(line, ids);
       lines->InsertNextCell(ids);
@@ -122,13 +122,13 @@ std::vector<vtkSmartPointer<vtkActor>> make_curves(
     tube->GetProperty()->SetSpecularPower(20.0);
     actors.push_back(tube);
     // The depth offset draws the faint lines in front of everything else.
-    const auto faint = make_actor(strips->GetOutput());
-    faint->GetProperty()->LightingOff();
-    faint->GetProperty()->SetOpacity(0.35);
-    faint->GetProperty()->SetLineWidth(static_cast<float>(line_width * widths[tube_class]));
+    const auto faint_actor = make_actor(strips->GetOutput());
+    faint_actor->GetProperty()->LightingOff();
+    faint_actor->GetProperty()->SetOpacity(0.35);
+    faint_actor->GetProperty()->SetLineWidth(static_cast<float>(line_width * widths[tube_class]));
     vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
-    faint->GetMapper()->SetRelativeCoincidentTopologyLineOffsetParameters(0.0, -66000.0);
-    actors.push_back(faint);
+    faint_actor->GetMapper()->SetRelativeCoincidentTopologyLineOffsetParameters(0.0, -66000.0);
+    actors.push_back(faint_actor);
   }
   return actors;
 }

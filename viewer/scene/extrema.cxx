@@ -60,8 +60,8 @@ Status find_extrema(const std::vector<Tile>& tiles, const Coloring& coloring,
     bool on_points = true;
     Domain domain;
     std::vector<Index> cells;
-    const bool by_number = coloring.kind != Coloring::Kind::none && coloring.categories.empty();
-    const auto shown = by_number ? color_values(data, coloring, on_points) : nullptr;
+    const bool is_numeric = coloring.kind != Coloring::Kind::none && coloring.categories.empty();
+    const auto shown = is_numeric ? color_values(data, coloring, on_points) : nullptr;
     if (!shown || !on_points || !to_domain(data, domain, cells).ok())
     {
       continue;
@@ -164,8 +164,9 @@ void ExtremumBalls::face_eye(const Vec3& eye)
     {
       if (marker.maximum == (maximum == 1))
       {
-        const Vec3 toward = (eye - marker.position).normalized();
-        points->InsertNextPoint(Vec3(marker.position + rim_size * this->radius_ * toward).data());
+        const Vec3 view_direction = (eye - marker.position).normalized();
+        points->InsertNextPoint(
+          Vec3(marker.position + rim_size * this->radius_ * view_direction).data());
       }
     }
     this->clouds_[maximum]->SetPoints(points);

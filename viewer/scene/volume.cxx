@@ -175,7 +175,7 @@ double surface_area(vtkPolyData* surface)
 }
 
 Box occupied_box(vtkImageData* image, const std::string& array, const std::vector<double>& levels,
-  bool far_from_zero)
+  bool include_nonzero)
 {
   Box box;
   const auto add = [&](vtkIdType sample) { box.add(Vec3(image->GetPoint(sample))); };
@@ -191,7 +191,7 @@ Box occupied_box(vtkImageData* image, const std::string& array, const std::vecto
       for (int x = 0; x < size[0]; ++x, ++sample)
       {
         const double value = values->GetComponent(sample, 0);
-        if (far_from_zero && std::abs(value) > 0.1)
+        if (include_nonzero && std::abs(value) > 0.1)
         {
           add(sample);
         }

@@ -36,8 +36,8 @@ constexpr double gap = 15.0;
 constexpr double plate_half = 7.0;
 constexpr double cone_radius = 5.6;
 constexpr double box_half = 4.6;
-constexpr double thin = 2.4;
-constexpr double thick = 3.8; // thickness of a part under the mouse
+constexpr double line_width = 2.4;
+constexpr double hovered_line_width = 3.8; // thickness of a part under the mouse
 constexpr double outline = 1.2;
 constexpr double twist_radius = 20.0;
 constexpr double stretch_from = 10.0;
@@ -56,13 +56,14 @@ const char* const letters[3] = { "X", "Y", "Z" };
 
 double distance_to_segment(const Vector2d& p, const Vector2d& a, const Vector2d& b)
 {
-  const Vector2d along = b - a;
-  const double length2 = along.squaredNorm();
-  const double s = length2 > 0.0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
-  return (a + s * along - p).norm();
+  const Vector2d segment_vector = b - a;
+  const double length2 = segment_vector.squaredNorm();
+  const double s =
+    length2 > 0.0 ? std::clamp((p - a).dot(segment_vector) / length2, 0.0, 1.0) : 0.0;
+  return (a + s * segment_vector - p).norm();
 }
 
-bool inside_convex(const Vector2d& p, const std::vector<Vector2d>& corners)
+bool is_inside_convex(const Vector2d& p, const std::vector<Vector2d>& corners)
 {
   int left = 0;
   int right = 0;
@@ -88,8 +89,8 @@ GizmoKind gizmo_with(int part, GizmoKind kind)
   {
     return GizmoKind::move;
   }
-  const bool turns = part <= turn_view || part == twist_head || part == twist_tail;
-  return turns ? GizmoKind::turn : GizmoKind::scale;
+  const bool is_rotation = part <= turn_view || part == twist_head || part == twist_tail;
+  return is_rotation ? GizmoKind::turn : GizmoKind::scale;
 }
 
 double ring_pixels(const GizmoSetup& setup, int part)
@@ -149,7 +150,7 @@ void Gizmo::add_axes()
       Part arrow;
       arrow.color = this->setup_.axes[k];
       arrow.path = { this->at(k, gap), this->at(k, layout.shaft) };
-      arrow.thickness = thin;
+      arrow.thickness = line_width;
       arrow.rank = 2;
       arrow.label = letters[k];
       arrow.part = layout.cone > 0.0 ? move_x + k : scale_x + k;
@@ -197,23 +198,23 @@ void Gizmo::add_axes()
 }
 
 Gizmo::Part Gizmo::ring(
-  int part, const Vector3d& center, const Vector3d& axis, double pixels, bool whole) const
+  int part, const Vector3d& center, const Vector3d& axis, double pixels, bool is_full_circle) const
 {
   Part ring;
   ring.part = part;
   ring.rank = 3;
-  ring.thickness = thin;
+  ring.thickness = line_width;
   const double radius = pixels * this->layout_scale_ * this->pixel_;
   const Vector3d forward = this->view_.direction_to(center);
   // Begin the ring on the side away from the camera, so that the half in front is one polyline.
   Vector3d u = forward - axis * axis.dot(forward);
-  whole = whole || u.norm() < ring_face_on_sine;
+  is_full_circle = is_full_circle || u.norm() < ring_face_on_sine;
   u = u.norm() > 1e-6 ? Vector3d(u.normalized()) : axis.unitOrthogonal();
   const Vector3d v = axis.cross(u);
   for (int side = 0; side <= ring_sides; ++side)
   {
     const double angle = 2.0 * EIGEN_PI * side / ring_sides;
-    if (whole || std::cos(angle) < 0.06)
+    if (is_full_circle || std::cos(angle) < 0.06)
     {
       ring.path.push_back(center + radius * (std::cos(angle) * u + std::sin(angle) * v));
     }
@@ -243,7 +244,7 @@ void Gizmo::add_rings()
       -this->view_.direction_to(origin), layout.view_ring, true);
     ring.color = this->setup_.plain;
     ring.rank = 4;
-    ring.quiet = true;
+    ring.omits_outline = true;
     ring.thickness = 1.8;
     if (scales || this->setup_.kind == GizmoKind::all)
     {
@@ -289,7 +290,7 @@ void Gizmo::add_bone()
     const double pixel = this->layout_scale_ * this->pixel_;
     // Move the box for stretching farther out if the tip of an arrow is at its position.
     double out = stretch_to;
-    const auto is_taken = [&]()
+    const auto is_arrow_tip_near = [&]()
     {
       const Vector2d at = this->view_.to_display(tail + out * pixel * axis).head<2>();
       return std::any_of(this->parts_.begin(), this->parts_.end(),
@@ -303,14 +304,14 @@ void Gizmo::add_bone()
             stretch_room * this->layout_scale_;
         });
     };
-    for (int step = 0; step < 8 && is_taken(); ++step)
+    for (int step = 0; step < 8 && is_arrow_tip_near(); ++step)
     {
       out += 0.5 * stretch_room;
     }
     knob.path = { tail + stretch_from * pixel * axis, tail + out * pixel * axis };
     knob.box = { knob.path[1] };
     knob.box_half = box_half;
-    knob.thickness = thin;
+    knob.thickness = line_width;
     this->parts_.push_back(knob);
   }
   if (kind == GizmoKind::turn || kind == GizmoKind::all)
@@ -380,7 +381,7 @@ int Gizmo::pick(const Vector2d& mouse, double tolerance) const
     {
       continue;
     }
-    const auto offer = [&](int rank, double distance, const Vector3d& position)
+    const auto keep_if_best = [&](int rank, double distance, const Vector3d& position)
     {
       const std::tuple<int, double, double> order{ rank, distance,
         this->view_.to_display(position)[2] };
@@ -397,7 +398,7 @@ int Gizmo::pick(const Vector2d& mouse, double tolerance) const
           this->view_.to_display(part.path[i + 1]).head<2>());
       if (distance <= 0.5 * part.thickness * this->layout_scale_ + tolerance)
       {
-        offer(part.rank, distance, part.path[i]);
+        keep_if_best(part.rank, distance, part.path[i]);
       }
     }
     for (const Vector3d& box : part.box)
@@ -405,7 +406,7 @@ int Gizmo::pick(const Vector2d& mouse, double tolerance) const
       const double distance = (this->view_.to_display(box).head<2>() - mouse).norm();
       if (distance <= part.box_half * this->layout_scale_ + tolerance)
       {
-        offer(0, distance, box);
+        keep_if_best(0, distance, box);
       }
     }
     if (!part.cone.empty())
@@ -415,7 +416,7 @@ int Gizmo::pick(const Vector2d& mouse, double tolerance) const
           this->view_.to_display(part.cone[1]).head<2>());
       if (distance <= part.cone_radius * this->layout_scale_ + 0.5 * tolerance)
       {
-        offer(0, distance, part.cone[1]);
+        keep_if_best(0, distance, part.cone[1]);
       }
     }
     if (!part.plate.empty())
@@ -427,9 +428,9 @@ int Gizmo::pick(const Vector2d& mouse, double tolerance) const
         corners.emplace_back(this->view_.to_display(corner).head<2>());
         middle += 0.25 * corner;
       }
-      if (inside_convex(mouse, corners))
+      if (is_inside_convex(mouse, corners))
       {
-        offer(part.rank, (this->view_.to_display(middle).head<2>() - mouse).norm(), middle);
+        keep_if_best(part.rank, (this->view_.to_display(middle).head<2>() - mouse).norm(), middle);
       }
     }
   }
@@ -451,21 +452,21 @@ void Gizmo::draw(HandleShapes& solid, HandleShapes& hull) const
       c += is_highlighted ? 0.35 * (1.0 - c) : 0.0;
     }
     const double pixel = this->layout_scale_ * this->pixel_;
-    const double grow = is_highlighted ? 1.25 : 1.0;
+    const double highlight_scale = is_highlighted ? 1.25 : 1.0;
     const double margin = outline * pixel;
-    const double tube =
-      0.5 * pixel * (is_highlighted ? std::max(thick, part.thickness) : part.thickness);
+    const double tube = 0.5 * pixel *
+      (is_highlighted ? std::max(hovered_line_width, part.thickness) : part.thickness);
     if (part.path.size() > 1)
     {
       solid.add_tube(part.path, tube, color);
-      if (!part.guide && !(part.quiet && !is_highlighted))
+      if (!part.guide && !(part.omits_outline && !is_highlighted))
       {
         hull.add_tube(part.path, tube + margin, dark);
       }
     }
     for (const Vector3d& box : part.box)
     {
-      const double half = grow * part.box_half * pixel;
+      const double half = highlight_scale * part.box_half * pixel;
       Eigen::Matrix3d frame = this->setup_.frame;
       if (part.part == scale_all || part.part == stretch_bone)
       {
@@ -476,7 +477,7 @@ void Gizmo::draw(HandleShapes& solid, HandleShapes& hull) const
     }
     if (!part.cone.empty())
     {
-      const double radius = grow * part.cone_radius * pixel;
+      const double radius = highlight_scale * part.cone_radius * pixel;
       const Vector3d axis = (part.cone[1] - part.cone[0]).normalized();
       solid.add_cone(part.cone[0], part.cone[1], radius, color);
       hull.add_cone(part.cone[0] - margin * axis, part.cone[1] + 2.5 * margin * axis,
@@ -490,7 +491,7 @@ void Gizmo::draw(HandleShapes& solid, HandleShapes& hull) const
       frame.col(0) = (part.plate[1] - part.plate[0]).normalized();
       frame.col(1) = (part.plate[3] - part.plate[0]).normalized();
       frame.col(2) = frame.col(0).cross(frame.col(1));
-      const double half = 0.5 * grow * (part.plate[1] - part.plate[0]).norm();
+      const double half = 0.5 * highlight_scale * (part.plate[1] - part.plate[0]).norm();
       solid.add_box(middle, frame, Vector3d(half, half, 0.6 * pixel), color);
       hull.add_box(
         middle, frame, Vector3d(half + margin, half + margin, 0.6 * pixel + margin), dark);
@@ -512,19 +513,21 @@ std::vector<Gizmo::Label> Gizmo::labels() const
       : !part.box.empty()                   ? part.box[0]
                                             : part.path[part.path.size() / 2];
     const Vector2d display = this->view_.to_display(tip).head<2>();
-    Vector2d aside = display - origin;
-    aside = aside.norm() > 0.0 ? Vector2d(aside.normalized()) : Vector2d(1.0, 0.0);
+    Vector2d label_direction = display - origin;
+    label_direction =
+      label_direction.norm() > 0.0 ? Vector2d(label_direction.normalized()) : Vector2d(1.0, 0.0);
     labels.push_back({ part.label,
-      display + (part.cone.empty() ? 18.0 : 12.0) * this->layout_scale_ * aside, part.color });
+      display + (part.cone.empty() ? 18.0 : 12.0) * this->layout_scale_ * label_direction,
+      part.color });
   }
   return labels;
 }
 
-std::optional<Vector2d> Gizmo::grip(int wanted) const
+std::optional<Vector2d> Gizmo::grip(int part_id) const
 {
   for (const Part& part : this->parts_)
   {
-    if (part.part != wanted || part.guide)
+    if (part.part != part_id || part.guide)
     {
       continue;
     }

@@ -131,7 +131,7 @@ private:
     std::vector<Eigen::Vector3d> cone; // the base and the tip of a cone
     double cone_radius = 0.0; // pixels
     bool guide = false; // true: a guide line, which is visible but cannot be picked
-    bool quiet = false; // true: drawn without an outline
+    bool omits_outline = false; // true: drawn without an outline
     std::string label;
   };
   void add_axes();
@@ -139,7 +139,7 @@ private:
   void add_bone();
   void add_drag();
   Part ring(int part, const Eigen::Vector3d& center, const Eigen::Vector3d& axis, double pixels,
-    bool whole) const;
+    bool is_full_circle) const;
   Eigen::Vector3d at(int axis, double pixels) const;
 
   ScreenView view_;

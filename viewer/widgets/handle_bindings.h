@@ -52,7 +52,7 @@ struct InputBinding
   Action action;
   /// The mode or state in which the row applies: "pose", "drag" (in any mode), "move rest", "add
   /// points", "add bones", "add cage", "paint regions".
-  const char* when;
+  const char* context;
   const char* input; ///< the key or button, in the form shown to users
   const char* keys; ///< key names (KeySym of vtkRenderWindowInteractor), each between blanks; or ""
   const char* text; ///< description of the action

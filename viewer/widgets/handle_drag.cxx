@@ -121,9 +121,10 @@ std::optional<double> Drag::angle(const Vector2d& mouse) const
   if (std::abs(axis.dot(forward)) < edge_on_cosine)
   {
     const double pixel = this->view_.pixel_length_at(pivot);
-    const Vector3d near = pivot - this->setup_.ring_pixels * pixel * forward;
+    const Vector3d near_point = pivot - this->setup_.ring_pixels * pixel * forward;
     const Vector2d displacement =
-      (this->view_.to_display(near + pixel * axis.cross(-forward)) - this->view_.to_display(near))
+      (this->view_.to_display(near_point + pixel * axis.cross(-forward)) -
+        this->view_.to_display(near_point))
         .head<2>();
     return displacement.norm() > 0.0
       ? displacement.normalized().dot(mouse - this->start_) / this->setup_.ring_pixels
@@ -161,10 +162,10 @@ DragMotion Drag::move_motion() const
   const int bits = count_bits(s.axes);
   const int single = single_axis(s.axes);
   Vector3d displacement = Vector3d::Zero();
-  if (this->typed_)
+  if (this->typed_amount_)
   {
     const int first = (s.axes & 1) ? 0 : (s.axes & 2) ? 1 : 2;
-    displacement = *this->typed_ * s.frame.col(first);
+    displacement = *this->typed_amount_ * s.frame.col(first);
   }
   else if (bits == 1)
   {
@@ -207,8 +208,8 @@ DragMotion Drag::move_motion() const
 DragMotion Drag::turn_motion() const
 {
   DragMotion result;
-  const double degrees = this->typed_
-    ? *this->typed_
+  const double degrees = this->typed_amount_
+    ? *this->typed_amount_
     : this->snap_amount(this->rotation_angle_ * 180.0 / EIGEN_PI, this->setup_.degree_step);
   result.amount = degrees;
   result.motion = motion_about(this->setup_.pivot,
@@ -268,10 +269,11 @@ DragMotion Drag::scale_motion() const
       *after += offset;
     }
   }
-  if (this->typed_)
+  if (this->typed_amount_)
   {
     // A typed negative factor mirrors. The magnitude is at least smallest_factor.
-    factor = std::copysign(std::max(std::abs(*this->typed_), smallest_factor), *this->typed_);
+    factor = std::copysign(
+      std::max(std::abs(*this->typed_amount_), smallest_factor), *this->typed_amount_);
   }
   else if (before && after &&
     std::abs(*before) > near_pixels * this->view_.pixel_length_at(s.pivot))
@@ -286,7 +288,7 @@ DragMotion Drag::scale_motion() const
   {
     factor = 1.0 + (this->current_ - this->start_).sum() * std::sqrt(0.5) / double_pixels;
   }
-  if (!this->typed_)
+  if (!this->typed_amount_)
   {
     factor = std::max(this->snap_amount(factor, s.factor_step), smallest_factor);
   }
@@ -314,12 +316,12 @@ DragMotion Drag::stretch_motion() const
   const Vector3d axis = s.arm / length;
   const std::optional<double> before = this->distance_along(axis, this->start_);
   const std::optional<double> after = this->distance_along(axis, this->current_);
-  if (!this->typed_ && (!before || !after))
+  if (!this->typed_amount_ && (!before || !after))
   {
     return result;
   }
-  const double factor = this->typed_
-    ? *this->typed_
+  const double factor = this->typed_amount_
+    ? *this->typed_amount_
     : this->snap_amount((length + *after - *before) / length, s.factor_step);
   result.factor = std::max(factor, smallest_factor);
   result.amount = result.factor;
@@ -353,7 +355,7 @@ DragMotion Drag::motion()
       break;
     case DragKind::aim:
     case DragKind::reach:
-      this->last_motion_ = this->typed_ ? this->turn_motion() : this->aim_motion();
+      this->last_motion_ = this->typed_amount_ ? this->turn_motion() : this->aim_motion();
       break;
     case DragKind::scale:
       this->last_motion_ = this->scale_motion();

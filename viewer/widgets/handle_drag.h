@@ -72,7 +72,7 @@ public:
   void set_snapping(bool snap) { this->snap_ = snap; }
   /// Set a typed value that replaces the mouse: a length along the first axis on which motion is
   /// allowed, degrees, or a factor.
-  void set_typed(std::optional<double> amount) { this->typed_ = amount; }
+  void set_typed_amount(std::optional<double> amount) { this->typed_amount_ = amount; }
 
   const DragSetup& setup() const { return this->setup_; }
   /// Return the axis of a rotation, or of a move along a line.
@@ -104,7 +104,7 @@ private:
   double rotation_angle_ = 0.0; // angle of the rotation so far, in radians
   double last_angle_ = 0.0;
   bool snap_ = false;
-  std::optional<double> typed_;
+  std::optional<double> typed_amount_;
   DragMotion last_motion_;
 };
 

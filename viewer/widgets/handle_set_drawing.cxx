@@ -71,23 +71,24 @@ void vtkHandleSetRepresentation::BuildRepresentation()
   bindpose::HandleSizes sizes;
   sizes.ball = this->PixelScale * this->PointSize;
   sizes.bone_width = this->BoneWidth;
-  const bindpose::HandleLook look{ { to_color(this->FullColor), to_color(this->PositionColor),
-                                     to_color(this->FreeColor) },
-    to_color(this->OutlineColor), to_color(this->SelectedColor), this->PixelScale };
+  const bindpose::HandleAppearance appearance{
+    { to_color(this->FullColor), to_color(this->PositionColor), to_color(this->FreeColor) },
+    to_color(this->OutlineColor), to_color(this->SelectedColor), this->PixelScale
+  };
   const bindpose::HandleMarks marks{ this->HoveredHandle, this->ActiveHandle,
     self.SelectedHandles };
   bindpose::draw_handles(view, records,
     records.empty() ? std::vector<bindpose::HandleData::Bar>() : self.Data.bars(records), sizes,
-    look, marks, solid, outline);
+    appearance, marks, solid, outline);
   const bindpose::RestEditor::Preview& preview = self.Editor.preview();
-  const bindpose::Color preview_color = bindpose::lighter(look.modes[0]);
+  const bindpose::Color preview_color = bindpose::lighter(appearance.modes[0]);
   if (preview.bone)
   {
     const auto& [head, tail] = *preview.bone;
     const double pixel = view.pixel_length_at(0.5 * (head + tail));
     const double width = sizes.half_width((tail - head).norm(), pixel);
     solid.add_bone(head, tail, width, preview_color);
-    outline.add_bone(head, tail, width, look.outline, 1.6 * this->PixelScale * pixel);
+    outline.add_bone(head, tail, width, appearance.outline, 1.6 * this->PixelScale * pixel);
     solid.add_ball(head, sizes.end() * view.pixel_length_at(head), preview_color);
   }
   if (preview.bar)
@@ -103,9 +104,10 @@ void vtkHandleSetRepresentation::BuildRepresentation()
     const double size = this->EditMode == ADD_BONES ? sizes.end() : sizes.ball;
     const double rim = this->PixelScale * (preview.snapped ? 4.5 : 1.6);
     solid.add_ball(*preview.ball, size * pixel, preview_color);
+    outline.add_ball(*preview.ball, (size + rim) * pixel,
+      preview.snapped ? appearance.selected : appearance.outline);
     outline.add_ball(
-      *preview.ball, (size + rim) * pixel, preview.snapped ? look.selected : look.outline);
-    outline.add_ball(*preview.ball, (size + rim + 1.6 * this->PixelScale) * pixel, look.outline);
+      *preview.ball, (size + rim + 1.6 * this->PixelScale) * pixel, appearance.outline);
   }
   self.Labels.clear();
   for (vtkIdType cell = 0; cell < self.Data.count(); ++cell)
@@ -113,9 +115,9 @@ void vtkHandleSetRepresentation::BuildRepresentation()
     const bool is_highlighted = cell == this->HoveredHandle || cell == this->ActiveHandle;
     const HandleRecord& record = records[static_cast<std::size_t>(cell)];
     const bool dragged = self.CurrentDrag && cell == this->ActiveHandle;
-    const bool named =
+    const bool shows_name =
       this->ShowHoverName && is_highlighted && self.HoveredPart == bindpose::no_part;
-    if (record.is_handle() && (this->ShowLabels || named || dragged))
+    if (record.is_handle() && (this->ShowLabels || shows_name || dragged))
     {
       std::string text = self.Data.name(cell);
       text += record.locked                     ? " (locked)"
@@ -129,9 +131,10 @@ void vtkHandleSetRepresentation::BuildRepresentation()
       {
         // Draw the text below the gizmo, or above it near the lower border of the window, because
         // nothing else is drawn there.
-        const double aside = this->PixelScale * (1.45 * this->GizmoSize + 14.0);
+        const double label_offset = this->PixelScale * (1.45 * this->GizmoSize + 14.0);
         label_position = view.to_display(record.head).head<2>();
-        label_position += Vector2d(-0.25 * aside, label_position[1] > 1.2 * aside ? -aside : aside);
+        label_position += Vector2d(-0.25 * label_offset,
+          label_position[1] > 1.2 * label_offset ? -label_offset : label_offset);
       }
       self.Labels.add(text, label_position, this->PixelScale);
     }

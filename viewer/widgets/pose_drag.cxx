@@ -85,14 +85,14 @@ DragSetup setup_of(const HandleRecord& record, int part, const DragSettings& set
 
 int axes_of_part(int part)
 {
-  const auto within = [&](int first) { return part >= first && part < first + 3; };
-  if (within(move_yz))
+  const auto is_in_group = [&](int first) { return part >= first && part < first + 3; };
+  if (is_in_group(move_yz))
   {
     return 7 ^ (1 << (part - move_yz));
   }
   for (const int first : { move_x, turn_x, scale_x })
   {
-    if (within(first))
+    if (is_in_group(first))
     {
       return 1 << (part - first);
     }
@@ -143,26 +143,27 @@ void PoseDrag::press_axis(int axis, bool plane)
 
 bool PoseDrag::type(char key)
 {
-  if ((key >= '0' && key <= '9') || (key == '.' && this->typed_.find('.') == std::string::npos))
+  if ((key >= '0' && key <= '9') ||
+    (key == '.' && this->typed_text_.find('.') == std::string::npos))
   {
-    this->typed_ += key;
+    this->typed_text_ += key;
   }
   else if (key == '-')
   {
-    const bool negative = !this->typed_.empty() && this->typed_[0] == '-';
-    this->typed_ = negative ? this->typed_.substr(1) : "-" + this->typed_;
+    const bool negative = !this->typed_text_.empty() && this->typed_text_[0] == '-';
+    this->typed_text_ = negative ? this->typed_text_.substr(1) : "-" + this->typed_text_;
   }
-  else if (key == 'b' && !this->typed_.empty())
+  else if (key == 'b' && !this->typed_text_.empty())
   {
-    this->typed_.pop_back();
+    this->typed_text_.pop_back();
   }
   else
   {
     return false;
   }
-  const bool number = this->typed_.find_first_of("0123456789") != std::string::npos;
-  this->drag_.set_typed(
-    number ? std::optional<double>(std::strtod(this->typed_.c_str(), nullptr)) : std::nullopt);
+  const bool number = this->typed_text_.find_first_of("0123456789") != std::string::npos;
+  this->drag_.set_typed_amount(
+    number ? std::optional<double>(std::strtod(this->typed_text_.c_str(), nullptr)) : std::nullopt);
   return true;
 }
 
@@ -192,7 +193,7 @@ std::string PoseDrag::text()
   const double amount = this->drag_.motion().amount;
   const bool degrees = setup.kind == DragKind::turn || setup.kind == DragKind::aim;
   std::snprintf(number, sizeof(number), degrees ? "%.1f°" : "%.4g", amount);
-  std::string text = this->typed_.empty() ? number : this->typed_ + (degrees ? "°" : "");
+  std::string text = this->typed_text_.empty() ? number : this->typed_text_ + (degrees ? "°" : "");
   if (setup.axes != 7 && !is_twist(this->start_part_))
   {
     text = " " + text;

@@ -55,7 +55,7 @@ public:
   /// Handle a key that edits a typed value: a digit, '.', '-' (toggles the sign) or 'b' (deletes
   /// the last character). Return false for any other key.
   bool type(char key);
-  const std::string& typed() const { return this->typed_; }
+  const std::string& typed_text() const { return this->typed_text_; }
 
   /// Return the type of the drag: "move", "turn", "scale", "stretch", "twist".
   const char* name() const;
@@ -77,7 +77,7 @@ private:
   Drag drag_;
   int axis_presses_ = 0;
   int pressed_axes_ = 0;
-  std::string typed_;
+  std::string typed_text_;
 };
 
 } // namespace bindpose

@@ -126,10 +126,10 @@ std::optional<RestEditor::Target> RestEditor::find(const ScreenView& view,
   {
     return std::nullopt; // the mouse is outside the shape
   }
-  const Vec3 through = depth_point ? *depth_point
-    : probe                        ? this->surface_.center()
-                                   : settings.focus;
-  if (!intersect_plane(ray, through, view.forward(), target.position))
+  const Vec3 plane_point = depth_point ? *depth_point
+    : probe                            ? this->surface_.center()
+                                       : settings.focus;
+  if (!intersect_plane(ray, plane_point, view.forward(), target.position))
   {
     return std::nullopt;
   }
@@ -319,7 +319,7 @@ bool RestEditor::press_cage(const Target& target)
       this->finish_cage();
       return true;
     }
-    const bool closes = !this->cage_.empty() && name == this->cage_.front();
+    const bool closes_cage = !this->cage_.empty() && name == this->cage_.front();
     const Index to = this->handle_index(target.cell);
     if (from < 0)
     {
@@ -330,11 +330,11 @@ bool RestEditor::press_cage(const Target& target)
     const bool back = this->cage_.size() > 1 && name == this->cage_[this->cage_.size() - 2];
     if (!back)
     {
-      this->edit(closes ? "close cage" : "add cage edge",
+      this->edit(closes_cage ? "close cage" : "add cage edge",
         [&](const Handles& before, EditedHandles& after)
         { return toggle_cage_edge(before, from, to, after); });
     }
-    if (closes)
+    if (closes_cage)
     {
       this->finish_cage();
     }
@@ -365,10 +365,10 @@ bool RestEditor::press_cage(const Target& target)
 
 bool RestEditor::finish_cage()
 {
-  const bool any = !this->cage_.empty();
+  const bool had_cage = !this->cage_.empty();
   this->cage_.clear();
   this->clear_preview();
-  return any;
+  return had_cage;
 }
 
 bool RestEditor::drop_cage_vertex()
@@ -479,9 +479,9 @@ void RestEditor::move_rest(
     // Snap to another handle's end or a vertex of the surface, if one is near.
     const std::optional<Target> target =
       this->find(view, mouse_state, settings, this->drag_->setup().grabbed, false);
-    const bool own = target && target->cell >= 0 &&
+    const bool is_grabbed_end = target && target->cell >= 0 &&
       (target->position - this->drag_->setup().grabbed).norm() == 0.0;
-    if (target && target->snapped && !own)
+    if (target && target->snapped && !is_grabbed_end)
     {
       displacement = target->position - this->drag_->setup().grabbed;
     }

@@ -79,7 +79,7 @@ public:
   void move(const ScreenView& view, const MouseState& mouse_state, const EditSettings& settings);
   void release(const ScreenView& view, const MouseState& mouse_state, const EditSettings& settings);
   /// Report whether an interaction is in progress while the button is down.
-  bool busy() const { return this->busy_; }
+  bool is_busy() const { return this->busy_; }
   /// Restore the dataset to its state before the interaction.
   void cancel();
   /// Constrain a move to axes of the world, a mask as in DragSetup. A second call with the same

@@ -66,10 +66,12 @@ Ray ScreenView::ray(const Vector2d& display) const
   const Vector2d view =
     2.0 * ((display - this->lower_).array() / (this->upper_ - this->lower_).array()).matrix() -
     Vector2d::Ones();
-  const Vector3d near = (this->from_clip_ * Vector4d(view[0], view[1], 0.0, 1.0)).hnormalized();
+  const Vector3d near_point =
+    (this->from_clip_ * Vector4d(view[0], view[1], 0.0, 1.0)).hnormalized();
   Ray ray;
-  ray.origin = near;
-  ray.direction = this->parallel_ ? this->forward_ : Vector3d((near - this->eye_).normalized());
+  ray.origin = near_point;
+  ray.direction =
+    this->parallel_ ? this->forward_ : Vector3d((near_point - this->eye_).normalized());
   return ray;
 }
 

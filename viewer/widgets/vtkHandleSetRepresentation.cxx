@@ -436,7 +436,7 @@ void vtkHandleSetRepresentation::UpdateDrag()
 
 void vtkHandleSetRepresentation::WidgetInteraction(double eventPos[2])
 {
-  if (this->Internal->Editor.busy() && this->Renderer)
+  if (this->Internal->Editor.is_busy() && this->Renderer)
   {
     this->Internal->Editor.move(bindpose::ScreenView(this->Renderer),
       this->MakeMouseState(eventPos), this->MakeEditSettings());
@@ -452,7 +452,7 @@ void vtkHandleSetRepresentation::WidgetInteraction(double eventPos[2])
 
 void vtkHandleSetRepresentation::ConstrainDrag(int axis, bool plane)
 {
-  if (this->Internal->Editor.busy() && axis >= 0 && axis < 3)
+  if (this->Internal->Editor.is_busy() && axis >= 0 && axis < 3)
   {
     this->Internal->Editor.constrain(plane ? 7 ^ (1 << axis) : 1 << axis);
   }
@@ -475,7 +475,7 @@ bool vtkHandleSetRepresentation::TypeIntoDrag(char key)
 
 void vtkHandleSetRepresentation::EndWidgetInteraction(double eventPos[2])
 {
-  if (this->Internal->Editor.busy() && this->Renderer)
+  if (this->Internal->Editor.is_busy() && this->Renderer)
   {
     this->Internal->Editor.release(bindpose::ScreenView(this->Renderer),
       this->MakeMouseState(eventPos), this->MakeEditSettings());
@@ -488,7 +488,7 @@ void vtkHandleSetRepresentation::EndWidgetInteraction(double eventPos[2])
 
 void vtkHandleSetRepresentation::CancelWidgetInteraction()
 {
-  if (this->Internal->Editor.busy())
+  if (this->Internal->Editor.is_busy())
   {
     this->Internal->Editor.cancel();
     this->Internal->Editor.take_result();
@@ -510,7 +510,7 @@ void vtkHandleSetRepresentation::CancelWidgetInteraction()
 
 bool vtkHandleSetRepresentation::IsInteracting()
 {
-  return this->Internal->CurrentDrag.has_value() || this->Internal->Editor.busy();
+  return this->Internal->CurrentDrag.has_value() || this->Internal->Editor.is_busy();
 }
 
 void vtkHandleSetRepresentation::SetEditMode(int mode)
@@ -575,7 +575,7 @@ void vtkHandleSetRepresentation::ApplyEditResult()
   HandleSetState& self = *this->Internal;
   self.LastDragName = self.Editor.name();
   self.LastDragText.clear();
-  if (self.Editor.busy())
+  if (self.Editor.is_busy())
   {
     return;
   }

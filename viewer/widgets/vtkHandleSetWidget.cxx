@@ -222,8 +222,8 @@ void vtkHandleSetWidget::SelectAction(vtkAbstractWidget* widget)
     self->Render();
     return;
   }
-  const bool adds = representation->GetEditMode() > vtkHandleSetRepresentation::MOVE_REST;
-  if (!adds && !representation->IsSelected(handle))
+  const bool is_add_mode = representation->GetEditMode() > vtkHandleSetRepresentation::MOVE_REST;
+  if (!is_add_mode && !representation->IsSelected(handle))
   {
     representation->SetSelectedHandle(handle);
     self->InvokeEvent(vtkCommand::SelectionChangedEvent, nullptr);
@@ -433,7 +433,7 @@ int vtkHandleSetWidget::GetNumberOfBindings()
 
 std::string vtkHandleSetWidget::GetBindingWhen(int row)
 {
-  return row >= 0 && row < GetNumberOfBindings() ? bindpose::handle_bindings[row].when : "";
+  return row >= 0 && row < GetNumberOfBindings() ? bindpose::handle_bindings[row].context : "";
 }
 
 std::string vtkHandleSetWidget::GetBindingInput(int row)

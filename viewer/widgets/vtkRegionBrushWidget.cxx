@@ -250,7 +250,7 @@ int vtkRegionBrushWidget::GetNumberOfBindings()
 
 std::string vtkRegionBrushWidget::GetBindingWhen(int row)
 {
-  return row >= 0 && row < GetNumberOfBindings() ? bindpose::brush_bindings[row].when : "";
+  return row >= 0 && row < GetNumberOfBindings() ? bindpose::brush_bindings[row].context : "";
 }
 
 std::string vtkRegionBrushWidget::GetBindingInput(int row)

@@ -19,7 +19,7 @@ constexpr Index largest_anderson_window = 50;
 /// next x is thus a linear combination of values of g whose coefficients sum to one. Therefore it
 /// satisfies all linear constraints that these values satisfy. The caller decides whether an
 /// extrapolated x is acceptable, for example by an energy that must not rise. If it is not
-/// acceptable, the caller continues from g(x) and calls forget(). Method: Peng et al. 2018,
+/// acceptable, the caller continues from g(x) and calls clear_history(). Method: Peng et al. 2018,
 /// Anderson acceleration for geometry optimization and physics simulation.
 ///
 /// The caller can add carried values, which are linear functions of x (such as a gradient). They
@@ -44,7 +44,7 @@ public:
   Index window() const { return this->window_; }
 
   /// Discard the previous iterates.
-  void forget() { this->count_ = 0; }
+  void clear_history() { this->count_ = 0; }
 
   /// Compute the extrapolated iterate x from g = g(x); both arrays include the carried values.
   /// Return false and leave x unchanged if there are no previous iterates or the coefficients are
@@ -60,7 +60,7 @@ private:
 
   Index window_, size_, length_;
   Dot dot_;
-  Index count_ = 0; ///< number of calls of next() since forget()
+  Index count_ = 0; ///< number of calls of next() since clear_history()
   double coefficient_sum_ = 0.0;
   AlignedVector<Scalar> changes_g_, changes_f_; ///< ring buffers of `window` differences of g and f
   AlignedVector<Scalar> last_g_, last_f_;

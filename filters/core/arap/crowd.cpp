@@ -6,7 +6,7 @@ namespace bindpose
 {
 
 template <typename Elements>
-Status Crowd::bind_any(ExecutionContext& context, PointsView points, const Elements& elements,
+Status Crowd::bind_elements(ExecutionContext& context, PointsView points, const Elements& elements,
   WeightsView weights, const Handles& handles, const ReducedArapOptions& options)
 {
   *this = Crowd();
@@ -20,13 +20,13 @@ Status Crowd::bind_any(ExecutionContext& context, PointsView points, const Eleme
 Status Crowd::bind(ExecutionContext& context, PointsView points, TrianglesView triangles,
   WeightsView weights, const Handles& handles, const ReducedArapOptions& options)
 {
-  return this->bind_any(context, points, triangles, weights, handles, options);
+  return this->bind_elements(context, points, triangles, weights, handles, options);
 }
 
 Status Crowd::bind(ExecutionContext& context, PointsView points, TetsView tets, WeightsView weights,
   const Handles& handles, const ReducedArapOptions& options)
 {
-  return this->bind_any(context, points, tets, weights, handles, options);
+  return this->bind_elements(context, points, tets, weights, handles, options);
 }
 
 Status Crowd::solve(
@@ -45,7 +45,7 @@ Status Crowd::solve(
     }
     if (this->rotations_[i].empty())
     {
-      this->solver_.forget();
+      this->solver_.discard_rotations();
     }
     else
     {

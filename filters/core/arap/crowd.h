@@ -55,7 +55,7 @@ public:
 
 private:
   template <typename Elements>
-  Status bind_any(ExecutionContext& context, PointsView points, const Elements& elements,
+  Status bind_elements(ExecutionContext& context, PointsView points, const Elements& elements,
     WeightsView weights, const Handles& handles, const ReducedArapOptions& options);
 
   ReducedSpace space_;

@@ -71,7 +71,7 @@ Status FullArap::prepare(const Pose& pose)
 /// rotation that best fits all pivots. The results are projected to rotations.
 void FullArap::start_rotations(const Pose& pose)
 {
-  const Eigen::Matrix3d common = pivot_rotation(this->handles_, pose, 0.3 * this->radius_);
+  const Eigen::Matrix3d global_rotation = pivot_rotation(this->handles_, pose, 0.3 * this->radius_);
   Rows prescribed = Rows::Zero(static_cast<Index>(this->grips_.prescribed().size()), 9), field;
   Rows constrained = Rows::Zero(static_cast<Index>(this->grips_.constrained().size()), 9);
   Eigen::VectorXd handle_counts = Eigen::VectorXd::Zero(prescribed.rows());
@@ -80,7 +80,7 @@ void FullArap::start_rotations(const Pose& pose)
     const HandlePose& handle = pose[constraint.handle];
     const Eigen::Matrix<double, 3, 3, Eigen::RowMajor> delta =
       (constrains_transform(handle.mode) ? Eigen::Matrix3d(handle.transform.leftCols<3>())
-                                         : common) -
+                                         : global_rotation) -
       Eigen::Matrix3d::Identity();
     const Eigen::Map<const Eigen::Matrix<double, 1, 9>> row(delta.data());
     if (constraint.prescribed >= 0)
@@ -112,7 +112,7 @@ void FullArap::start_rotations(const Pose& pose)
       }
     }
     blend = (blend / count + Eigen::Matrix3d::Identity()).eval();
-    Eigen::Matrix3d rotation = common;
+    Eigen::Matrix3d rotation = global_rotation;
     fit_rotation(blend.transpose(), rotation);
     for (Index e = 0; e < 9; ++e)
     {
@@ -311,7 +311,7 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
     if (accelerated && done && !(energy <= energy_before))
     {
       d = g;
-      anderson.forget();
+      anderson.clear_history();
       done = this->local_step(context, d);
       energy = this->quadratic(context, d) - this->rotation_term_;
     }

@@ -103,7 +103,7 @@ public:
   }
 
   /// Discard the last rotations, so that the next solve starts with `guess`.
-  void forget() { this->has_rotations_ = false; }
+  void discard_rotations() { this->has_rotations_ = false; }
 
   /// The vertices in the last solved pose.
   const Points& posed() const { return this->posed_; }
@@ -132,7 +132,7 @@ private:
   };
 
   template <typename Elements>
-  Status bind_any(ExecutionContext& context, PointsView points, const Elements& elements,
+  Status bind_elements(ExecutionContext& context, PointsView points, const Elements& elements,
     const Handles& handles, const FullArapOptions& options);
   void set_covariance(const SparseMatrix& covariance);
   Status prepare(const Pose& pose);

@@ -32,11 +32,11 @@ double weight_unit(PointsView points, const TetsView& tets, Index e)
   return std::sqrt(square);
 }
 
-Triangles owned(const TrianglesView& triangles)
+Triangles to_owned(const TrianglesView& triangles)
 {
   return triangles;
 }
-Tets owned(const TetsView& tets)
+Tets to_owned(const TetsView& tets)
 {
   return tets;
 }
@@ -56,24 +56,24 @@ template <typename Elements>
 std::vector<Index> leaders(const Elements& elements, const std::vector<Index>& part_of_vertex)
 {
   std::vector<Index> leader(part_of_vertex.size(), -1);
-  for (bool again = true; again;)
+  for (bool changed = true; changed;)
   {
-    again = false;
+    changed = false;
     for (Index e = 0; e < elements.rows(); ++e)
     {
-      Index guide = -1;
-      for (Index k = 0; k < elements.cols() && guide < 0; ++k)
+      Index followed_vertex = -1;
+      for (Index k = 0; k < elements.cols() && followed_vertex < 0; ++k)
       {
         const Index v = elements(e, k);
-        guide = part_of_vertex[v] >= 0 ? v : leader[v];
+        followed_vertex = part_of_vertex[v] >= 0 ? v : leader[v];
       }
-      for (Index k = 0; k < elements.cols() && guide >= 0; ++k)
+      for (Index k = 0; k < elements.cols() && followed_vertex >= 0; ++k)
       {
         const Index v = elements(e, k);
         if (part_of_vertex[v] < 0 && leader[v] < 0)
         {
-          leader[v] = guide;
-          again = true;
+          leader[v] = followed_vertex;
+          changed = true;
         }
       }
     }
@@ -139,8 +139,8 @@ void FullArap::set_covariance(const SparseMatrix& covariance)
 }
 
 template <typename Elements>
-Status FullArap::bind_any(ExecutionContext& context, PointsView points, const Elements& elements,
-  const Handles& handles, const FullArapOptions& options)
+Status FullArap::bind_elements(ExecutionContext& context, PointsView points,
+  const Elements& elements, const Handles& handles, const FullArapOptions& options)
 {
   *this = FullArap();
   Status status = check_mesh_and_handles(points, elements, handles);
@@ -153,7 +153,7 @@ Status FullArap::bind_any(ExecutionContext& context, PointsView points, const El
   this->rest_ = points;
 
   // Keep the elements that are not flat, in their input order.
-  auto regular_elements = owned(elements);
+  auto regular_elements = to_owned(elements);
   Index count = 0;
   {
     Phase phase(context, "elements", 0.0, 0.3);
@@ -173,9 +173,10 @@ Status FullArap::bind_any(ExecutionContext& context, PointsView points, const El
     }
     if (count < elements.rows())
     {
-      const Index flat = elements.rows() - count;
-      status.warnings.push_back(std::to_string(flat) + " of " + std::to_string(elements.rows()) +
-        " " + element_word(elements) + "s are too flat and do not contribute to the energy");
+      const Index flat_count = elements.rows() - count;
+      status.warnings.push_back(std::to_string(flat_count) + " of " +
+        std::to_string(elements.rows()) + " " + element_word(elements) +
+        "s are too flat and do not contribute to the energy");
       regular_elements.conservativeResize(count, Eigen::NoChange);
     }
     this->parts_ = connected_components(points.rows(), regular_elements);
@@ -248,13 +249,13 @@ Status FullArap::bind_any(ExecutionContext& context, PointsView points, const El
 Status FullArap::bind(ExecutionContext& context, PointsView points, TrianglesView triangles,
   const Handles& handles, const FullArapOptions& options)
 {
-  return this->bind_any(context, points, triangles, handles, options);
+  return this->bind_elements(context, points, triangles, handles, options);
 }
 
 Status FullArap::bind(ExecutionContext& context, PointsView points, TetsView tets,
   const Handles& handles, const FullArapOptions& options)
 {
-  return this->bind_any(context, points, tets, handles, options);
+  return this->bind_elements(context, points, tets, handles, options);
 }
 
 } // namespace bindpose

@@ -63,13 +63,13 @@ Status MeshGrips::find_any(PointsView points, const Elements& elements, const Co
   const auto point_at = [&](const Vec3& p, double& distance) -> MeshPoint
   {
     Index nearest = -1;
-    double least = vertex_tolerance * this->diagonal_;
+    double minimum = vertex_tolerance * this->diagonal_;
     for (Index v = 0; v < this->rest_.rows(); ++v)
     {
       const double length = (this->rest_.row(v) - p.transpose()).norm();
-      if (length <= least && parts.component_of_vertex[v] >= 0)
+      if (length <= minimum && parts.component_of_vertex[v] >= 0)
       {
-        least = length;
+        minimum = length;
         nearest = v;
       }
     }
@@ -142,8 +142,8 @@ Status MeshGrips::find_any(PointsView points, const Elements& elements, const Co
         const double length = (handle.tail - handle.head).norm();
         const double intervals =
           std::clamp(std::ceil(length / mean_edge_length), 1.0, maximum_intervals);
-        const bool along = grip.points.size() < 2;
-        for (double k = 0.0; along && k <= intervals; k += 1.0)
+        const bool needs_samples = grip.points.size() < 2;
+        for (double k = 0.0; needs_samples && k <= intervals; k += 1.0)
         {
           grip.points.push_back(
             point_at(handle.head + k / intervals * (handle.tail - handle.head), distance));
@@ -203,8 +203,8 @@ Vec3 MeshGrips::target_displacement(const Constraint& constraint, const HandlePo
   {
     return posed_tail(handle, pose) - handle.tail;
   }
-  const bool by_pivot = constrains_pivot(pose.mode) && handle.kind != HandleKind::region;
-  return linear * (by_pivot ? handle.head : this->rest_position(constraint.point)) +
+  const bool uses_pivot = constrains_pivot(pose.mode) && handle.kind != HandleKind::region;
+  return linear * (uses_pivot ? handle.head : this->rest_position(constraint.point)) +
     pose.transform.col(3);
 }
 

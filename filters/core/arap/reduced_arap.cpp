@@ -8,8 +8,9 @@ namespace bindpose
 {
 
 template <typename Elements>
-Status ReducedArap::bind_any(ExecutionContext& context, PointsView points, const Elements& elements,
-  WeightsView weights, const Handles& handles, const ReducedArapOptions& options)
+Status ReducedArap::bind_elements(ExecutionContext& context, PointsView points,
+  const Elements& elements, WeightsView weights, const Handles& handles,
+  const ReducedArapOptions& options)
 {
   *this = ReducedArap();
   Status status = this->space_.bind(context, points, elements, weights, handles, options);
@@ -21,13 +22,13 @@ Status ReducedArap::bind_any(ExecutionContext& context, PointsView points, const
 Status ReducedArap::bind(ExecutionContext& context, PointsView points, TrianglesView triangles,
   WeightsView weights, const Handles& handles, const ReducedArapOptions& options)
 {
-  return this->bind_any(context, points, triangles, weights, handles, options);
+  return this->bind_elements(context, points, triangles, weights, handles, options);
 }
 
 Status ReducedArap::bind(ExecutionContext& context, PointsView points, TetsView tets,
   WeightsView weights, const Handles& handles, const ReducedArapOptions& options)
 {
-  return this->bind_any(context, points, tets, weights, handles, options);
+  return this->bind_elements(context, points, tets, weights, handles, options);
 }
 
 Status ReducedArap::solve(ExecutionContext& context, const Pose& pose, const SolveOptions& options)

@@ -62,7 +62,7 @@ public:
   Status solve(ExecutionContext& context, const Pose& pose, const SolveOptions& options = {});
 
   /// Discard the last rotations, so that the next solve starts with `guess`.
-  void forget() { this->solver_.forget(); }
+  void discard_rotations() { this->solver_.discard_rotations(); }
 
   /// Compute the vertices in the last solved pose, V' = V + M D (see ReducedSpace).
   Status deform(ExecutionContext& context, PointsView rest, PointsOutput posed) const;
@@ -87,7 +87,7 @@ public:
 
 private:
   template <typename Elements>
-  Status bind_any(ExecutionContext& context, PointsView points, const Elements& elements,
+  Status bind_elements(ExecutionContext& context, PointsView points, const Elements& elements,
     WeightsView weights, const Handles& handles, const ReducedArapOptions& options);
 
   ReducedSpace space_;

@@ -201,16 +201,16 @@ bool ReducedBasis::make_fast(const ReducedSpace& space, const Eigen::MatrixXd& s
   {
     is_open[static_cast<std::size_t>(i)] = 1;
   }
-  std::vector<Index> given;
+  std::vector<Index> given_rows;
   this->free_indices_.clear();
   for (Index q = 0; q < static_cast<Index>(factorization.rows.size()); ++q)
   {
     (is_open[static_cast<std::size_t>(factorization.rows[static_cast<std::size_t>(q)])]
         ? this->free_indices_
-        : given)
+        : given_rows)
       .push_back(q);
   }
-  const auto count = position_count + static_cast<Index>(given.size());
+  const auto count = position_count + static_cast<Index>(given_rows.size());
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(count, static_cast<Index>(factorization.rows.size()));
   for (const Index q : this->free_indices_)
   {
@@ -227,9 +227,9 @@ bool ReducedBasis::make_fast(const ReducedSpace& space, const Eigen::MatrixXd& s
       return false;
     }
   }
-  for (std::size_t i = 0; i < given.size(); ++i)
+  for (std::size_t i = 0; i < given_rows.size(); ++i)
   {
-    a(position_count + static_cast<Index>(i), given[i]) = 1.0;
+    a(position_count + static_cast<Index>(i), given_rows[i]) = 1.0;
   }
 
   // G = A E, and E is upper triangular.
@@ -311,9 +311,10 @@ void ReducedBasis::make_robust(const ReducedSpace& space, const Eigen::MatrixXd&
     {
       Eigen::MatrixXd range = Eigen::MatrixXd::Identity(size, rank);
       range.applyOnTheLeft(qr.householderQ());
-      const Eigen::MatrixXd met = rows * range; // of full column rank
+      const Eigen::MatrixXd rows_in_range = rows * range; // of full column rank
       this->particular_ = range *
-        met.colPivHouseholderQr().solve(Eigen::MatrixXd::Identity(position_count, position_count));
+        rows_in_range.colPivHouseholderQr().solve(
+          Eigen::MatrixXd::Identity(position_count, position_count));
       const Reflections reflections(qr.matrixQR(), qr.hCoeffs(), rank);
       free_space = reflections.tail();
       covariance = reflections.times_tail(covariance);
@@ -376,15 +377,15 @@ void ReducedBasis::add_free(const Coordinates& change, Coordinates& d) const
 }
 
 ReducedBasis::UnrotatedMinimizer ReducedBasis::robust_unrotated_minimizer(const ReducedSpace& space,
-  const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given,
+  const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given_blocks,
   const Coordinates& position_residual) const
 {
   // First compute a displacement that contains the given blocks and satisfies the constrained
   // positions. Then add the response to its force and to the load: the combination of columns of B
   // that minimizes the energy.
   UnrotatedMinimizer result;
-  result.given = given;
-  Coordinates& minimizer = result.given;
+  result.base_displacement = given_blocks;
+  Coordinates& minimizer = result.base_displacement;
   this->add_free(thin_product(this->particular_, position_residual), minimizer);
   const Coordinates elastic_force = thin_product(stiffness, minimizer);
   const Coordinates force = elastic_force - load;
@@ -406,12 +407,13 @@ Eigen::RowVector3d ReducedBasis::shift_of(
 }
 
 ReducedBasis::UnrotatedMinimizer ReducedBasis::unrotated_minimizer(const ReducedSpace& space,
-  const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given,
+  const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given_blocks,
   const Coordinates& position_residual) const
 {
   if (!this->is_fast_)
   {
-    return this->robust_unrotated_minimizer(space, stiffness, load, given, position_residual);
+    return this->robust_unrotated_minimizer(
+      space, stiffness, load, given_blocks, position_residual);
   }
   // z is Q times a vector with two parts. The first part satisfies the constraints; the second part
   // is the response to the given blocks and the load. The first part is orthogonal to the
@@ -420,7 +422,7 @@ ReducedBasis::UnrotatedMinimizer ReducedBasis::unrotated_minimizer(const Reduced
   const Index unknowns = factorization.directions.rows(), rank = this->reflections_.rank();
   const bool shifts = rank < this->constraints_;
   UnrotatedMinimizer result;
-  result.given = given;
+  result.base_displacement = given_blocks;
   Coordinates right_side = Coordinates::Zero(this->constraints_, 3);
   right_side.topRows(position_residual.rows()) = position_residual;
   if (shifts)
@@ -431,7 +433,7 @@ ReducedBasis::UnrotatedMinimizer ReducedBasis::unrotated_minimizer(const Reduced
   result.z = Coordinates::Zero(unknowns, 3);
   result.z.topRows(rank) = thin_product(this->inverse_, right_side.bottomRows(rank));
 
-  const bool is_given = !given.isZero(0.0);
+  const bool is_given = !given_blocks.isZero(0.0);
   if (!is_given && load.isZero(0.0))
   {
     result.z = this->reflections_.reflect(result.z);
@@ -439,7 +441,7 @@ ReducedBasis::UnrotatedMinimizer ReducedBasis::unrotated_minimizer(const Reduced
     result.covariance = thin_product(factorization.covariance, result.z);
     return result;
   }
-  const Coordinates elastic_force = thin_product(stiffness, given);
+  const Coordinates elastic_force = thin_product(stiffness, given_blocks);
   Coordinates force = Coordinates::Zero(static_cast<Index>(factorization.rows.size()), 3);
   for (const Index q : this->free_indices_)
   {
@@ -459,8 +461,8 @@ ReducedBasis::UnrotatedMinimizer ReducedBasis::unrotated_minimizer(const Reduced
   result.z.bottomRows(free_dofs) =
     -this->reflections_.reflect_transposed(free_gradient).bottomRows(free_dofs);
   result.z = this->reflections_.reflect(result.z);
-  result.energy = 0.5 * (given.array() * elastic_force.array()).sum() -
-    (given.array() * load.array()).sum() + (gradient.array() * result.z.array()).sum() +
+  result.energy = 0.5 * (given_blocks.array() * elastic_force.array()).sum() -
+    (given_blocks.array() * load.array()).sum() + (gradient.array() * result.z.array()).sum() +
     0.5 * result.z.squaredNorm();
   if (shifts)
   {
@@ -469,14 +471,14 @@ ReducedBasis::UnrotatedMinimizer ReducedBasis::unrotated_minimizer(const Reduced
   result.covariance = thin_product(factorization.covariance, result.z);
   if (is_given)
   {
-    result.covariance += thin_product(space.covariance, given);
+    result.covariance += thin_product(space.covariance, given_blocks);
   }
   return result;
 }
 
 Coordinates ReducedBasis::displacement(const UnrotatedMinimizer& from, const Coordinates& y) const
 {
-  Coordinates d = from.given;
+  Coordinates d = from.base_displacement;
   if (!this->is_fast_)
   {
     this->add_free(thin_product(this->basis_, y), d);

@@ -82,17 +82,17 @@ public:
   {
     double energy = 0.0; ///< value of the minimized expression at D*
     Coordinates covariance; ///< covariances K D*
-    Coordinates given; ///< D*; for the quick method the given blocks only
+    Coordinates base_displacement; ///< D*; for the quick method the given blocks only
     Coordinates z; ///< coordinates z of D*, for the quick method
     Eigen::RowVector3d first; ///< target of the constraint that determines the translation t
   };
   /// Compute D* for one pose.
   /// @param load P
-  /// @param given contains the given blocks of D; 0 in all other rows.
+  /// @param given_blocks contains the given blocks of D; 0 in all other rows.
   /// @param position_residual differences between the targets of the constrained positions and
-  /// those of `given`.
+  /// those of `given_blocks`.
   UnrotatedMinimizer unrotated_minimizer(const ReducedSpace& space,
-    const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given,
+    const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given_blocks,
     const Coordinates& position_residual) const;
   /// Return D* + B Y.
   Coordinates displacement(const UnrotatedMinimizer& from, const Coordinates& y) const;
@@ -113,7 +113,7 @@ private:
   };
   void factor_full_matrix(const ReducedSpace& space, const Eigen::MatrixXd& stiffness);
   UnrotatedMinimizer robust_unrotated_minimizer(const ReducedSpace& space,
-    const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given,
+    const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given_blocks,
     const Coordinates& position_residual) const;
   /// Return the translation t for z and the target of the first constraint.
   Eigen::RowVector3d shift_of(const Coordinates& z, const Eigen::RowVector3d& first) const;

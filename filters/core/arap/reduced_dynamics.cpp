@@ -48,7 +48,7 @@ Status check_options(const ReducedDynamicsOptions& options)
 }
 
 template <typename Elements>
-Status ReducedDynamics::bind_any(ExecutionContext& context, PointsView points,
+Status ReducedDynamics::bind_elements(ExecutionContext& context, PointsView points,
   const Elements& elements, WeightsView weights, const Handles& handles, ReducedArapOptions options)
 {
   *this = ReducedDynamics();
@@ -71,13 +71,13 @@ Status ReducedDynamics::bind_any(ExecutionContext& context, PointsView points,
 Status ReducedDynamics::bind(ExecutionContext& context, PointsView points, TrianglesView triangles,
   WeightsView weights, const Handles& handles, const ReducedArapOptions& options)
 {
-  return this->bind_any(context, points, triangles, weights, handles, options);
+  return this->bind_elements(context, points, triangles, weights, handles, options);
 }
 
 Status ReducedDynamics::bind(ExecutionContext& context, PointsView points, TetsView tets,
   WeightsView weights, const Handles& handles, const ReducedArapOptions& options)
 {
-  return this->bind_any(context, points, tets, weights, handles, options);
+  return this->bind_elements(context, points, tets, weights, handles, options);
 }
 
 Status ReducedDynamics::start(
@@ -120,13 +120,13 @@ Status ReducedDynamics::step(
     this->system_ = space.stiffness + this->inertia_ * space.mass;
     this->solver_.reset();
   }
-  const Rows& now = state.displacement;
-  const Rows coasting = now + h * state.velocity;
+  const Rows& displacement = state.displacement;
+  const Rows coasting = displacement + h * state.velocity;
   const Rows weight = unit * space.mass_sums * options.gravity.transpose();
-  const Rows inertial = space.mass * (inertia * coasting + drag * now);
+  const Rows inertial = space.mass * (inertia * coasting + drag * displacement);
   const Rows load = inertial + weight;
   const double constant = 0.5 * inertia * product(coasting, space.mass * coasting) +
-    0.5 * drag * product(now, space.mass * now) + product(weight, coasting);
+    0.5 * drag * product(displacement, space.mass * displacement) + product(weight, coasting);
   ReducedSolveOptions solve = options.solve;
   solve.start = ReducedStart::last;
   this->solver_.set_rotations(state.rotations);
@@ -136,7 +136,7 @@ Status ReducedDynamics::step(
   {
     return status;
   }
-  state.velocity = (d - now) / h;
+  state.velocity = (d - displacement) / h;
   state.displacement = d;
   state.rotations = this->solver_.rotations();
   state.transforms = space.transforms_of(d, pose);
@@ -171,7 +171,7 @@ double ReducedDynamics::elastic_energy() const
   const ReducedSpace& space = this->space_;
   const Rows& d = this->state_.displacement;
   const Rows moved = space.covariance * d;
-  double turned = 0.0;
+  double rotated_energy = 0.0;
   for (Index i = 0; i < 3; ++i)
   {
     for (Index j = 0; j < 3; ++j)
@@ -180,13 +180,13 @@ double ReducedDynamics::elastic_energy() const
       {
         // Entry (i, j) of S is multiplied by entry (j, i) of the rotations.
         const double q = this->state_.rotations[(3 * j + i) * space.stride + k] - (i == j ? 1 : 0);
-        turned += q *
+        rotated_energy += q *
           (space.rest_covariance[(3 * i + j) * space.stride + k] +
             moved(i * space.groups.count + k, j));
       }
     }
   }
-  return 0.5 * product(d, space.stiffness * d) - turned;
+  return 0.5 * product(d, space.stiffness * d) - rotated_energy;
 }
 
 double ReducedDynamics::kinetic_energy() const

@@ -101,7 +101,7 @@ public:
 
 private:
   template <typename Elements>
-  Status bind_any(ExecutionContext& context, PointsView points, const Elements& elements,
+  Status bind_elements(ExecutionContext& context, PointsView points, const Elements& elements,
     WeightsView weights, const Handles& handles, ReducedArapOptions options);
 
   ReducedSpace space_;

@@ -258,10 +258,10 @@ double ReducedIteration<Scalar>::global_step(AlignedVector<Scalar>& iterate)
     this->unrotated_covariance_.data(), iterate.data(), this->length_,
     iterate.data() + 3 * this->length_);
   const double half_square = 0.5 * packed_dot(3 * this->length_, iterate.data(), iterate.data());
-  const double gained =
+  const double linear_term =
     packed_dot(3 * this->rows_, this->rotation_deltas_.data(), this->unrotated_covariance_.data());
-  this->magnitude_ = half_square + std::abs(gained);
-  return -half_square - gained;
+  this->magnitude_ = half_square + std::abs(linear_term);
+  return -half_square - linear_term;
 }
 
 template <typename Scalar>
@@ -286,7 +286,7 @@ bool ReducedIteration<Scalar>::run(ExecutionContext& context, const ReducedLimit
   }
   if (accelerates)
   {
-    this->anderson_->forget();
+    this->anderson_->clear_history();
     this->trial_ = this->iterate_;
   }
   bool above_noise = true;
@@ -314,7 +314,7 @@ bool ReducedIteration<Scalar>::run(ExecutionContext& context, const ReducedLimit
       unrotated_energy + unit * this->local_step(accelerated ? this->trial_ : this->iterate_);
     if (accelerated && !(energy <= energy_before + limits.energy_tolerance))
     {
-      this->anderson_->forget();
+      this->anderson_->clear_history();
       energy = unrotated_energy + unit * this->local_step(this->iterate_);
       accelerated = false;
     }

@@ -114,18 +114,18 @@ void ReducedSolver::factor(
 void ReducedSolver::start_rotations(const ReducedSpace& space, const Pose& pose)
 {
   const double pivot_radius = 0.3 * space.radius; // size of the frame that represents a full handle
-  const Eigen::Matrix3d common = pivot_rotation(space.handles, pose, pivot_radius);
+  const Eigen::Matrix3d global_rotation = pivot_rotation(space.handles, pose, pivot_radius);
   for (Index k = 0; k < space.groups.count; ++k)
   {
-    Eigen::Matrix3d blend = 1e-9 * common;
+    Eigen::Matrix3d blend = 1e-9 * global_rotation;
     for (std::size_t h = 0; h < pose.size(); ++h)
     {
       const double w = space.cluster_weights(k, static_cast<Index>(h));
       blend += w *
         (constrains_transform(pose[h].mode) ? Eigen::Matrix3d(pose[h].transform.leftCols<3>())
-                                            : common);
+                                            : global_rotation);
     }
-    Eigen::Matrix3d rotation = common;
+    Eigen::Matrix3d rotation = global_rotation;
     fit_rotation(blend.transpose(), rotation);
     for (Index e = 0; e < 9; ++e)
     {

@@ -67,7 +67,7 @@ public:
     const Pose& pose, const ReducedSolveOptions& options, ReducedSpace::Rows& d);
 
   /// Discard the last rotations, so that the next solve starts with `guess`.
-  void forget() { this->has_rotations_ = false; }
+  void discard_rotations() { this->has_rotations_ = false; }
 
   /// Rotations of the last solve, stored in planes as in ReducedSpace. The caller can store and
   /// restore them.

@@ -375,10 +375,10 @@ Status ReducedSpace::bind(ExecutionContext& context, PointsView points, const El
       }
       all.resize(weights.rows(), weights.cols() + extra.cols());
       all << weights, extra;
-      const Status widened = this->skinning.bind(context, all, options.skinning);
-      if (!widened.ok())
+      const Status bind_status = this->skinning.bind(context, all, options.skinning);
+      if (!bind_status.ok())
       {
-        return widened;
+        return bind_status;
       }
     }
     const Index cluster_count = options.clusters > 0 ? options.clusters : 4 * all.cols();
@@ -412,12 +412,13 @@ Status ReducedSpace::bind(ExecutionContext& context, PointsView points, const El
     const double total = w.sum();
     Vec3 center =
       total > 0.0 ? Vec3(points.transpose() * w / total) : bounding_box(points).center();
-    const double spread = total > 0.0
+    const double standard_deviation = total > 0.0
       ? std::sqrt((points.rowwise() - center.transpose()).rowwise().squaredNorm().dot(w) / total)
       : 0.0;
     this->centers.push_back(center);
-    this->sizes.push_back(
-      spread > 1e-9 * this->diagonal ? spread : std::max(this->diagonal, 1e-300));
+    this->sizes.push_back(standard_deviation > 1e-9 * this->diagonal
+        ? standard_deviation
+        : std::max(this->diagonal, 1e-300));
   }
   {
     if (!this->project_stiffness(context, points, laplacian, all))

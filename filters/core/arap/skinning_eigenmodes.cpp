@@ -35,7 +35,7 @@ constexpr Index dense_size = 100;
 constexpr double eigenvalue_tolerance = 1e-10;
 constexpr Index maximum_restarts = 300;
 
-struct Canceled
+struct CancelException
 {
 };
 
@@ -55,7 +55,7 @@ public:
   {
     if (this->context_.canceled())
     {
-      throw Canceled();
+      throw CancelException();
     }
     const Eigen::Map<const Eigen::VectorXd> from(x, this->root_.size());
     Eigen::Map<Eigen::VectorXd> to(y, this->root_.size());
@@ -170,7 +170,7 @@ Status skinning_eigenmodes(ExecutionContext& context, const SparseMatrix& stiffn
       eigen.init();
       eigen.compute(Spectra::SortRule::LargestAlge, maximum_restarts, eigenvalue_tolerance);
     }
-    catch (const Canceled&)
+    catch (const CancelException&)
     {
       return Status::canceled();
     }

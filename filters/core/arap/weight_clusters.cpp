@@ -23,7 +23,7 @@ constexpr Index rows_per_cluster = 25;
 constexpr double same_row_tolerance = 1e-12;
 
 /// Return a pseudo-random number that is the same on every machine (splitmix64).
-std::uint64_t scramble(std::uint64_t x)
+std::uint64_t splitmix64(std::uint64_t x)
 {
   x += 0x9e3779b97f4a7c15ull;
   x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9ull;
@@ -149,7 +149,7 @@ bool cluster_rows(ExecutionContext& context, WeightsView rows, Index count, Clus
   {
     // Sample one random row from each `step` consecutive rows. Sampling at a constant stride is
     // avoided, because the vertex order of meshes is often periodic.
-    const auto offset = static_cast<Index>(scramble(static_cast<std::uint64_t>(i)) %
+    const auto offset = static_cast<Index>(splitmix64(static_cast<std::uint64_t>(i)) %
       static_cast<std::uint64_t>(std::min(step, rows.rows() - i * step)));
     sample.row(i) = rows.row(i * step + offset);
   }
@@ -198,12 +198,12 @@ bool cluster_rows(ExecutionContext& context, WeightsView rows, Index count, Clus
   std::vector<Index> name(static_cast<std::size_t>(means.rows()), -1);
   for (Index& label : clusters.cluster_of_row)
   {
-    Index& fresh = name[static_cast<std::size_t>(label)];
-    if (fresh < 0)
+    Index& new_label = name[static_cast<std::size_t>(label)];
+    if (new_label < 0)
     {
-      fresh = clusters.count++;
+      new_label = clusters.count++;
     }
-    label = fresh;
+    label = new_label;
   }
   return true;
 }

@@ -73,24 +73,24 @@ SortedSurface sort_surface(PointsView points, TrianglesView triangles)
 Status make_points(ExecutionContext& context, const SortedSurface& surface,
   const SpreadPointsOptions& options, Handles& handles)
 {
-  SpreadPoints spread;
-  Status status = spread_points(context, surface.points, surface.triangles, options, spread);
+  SpreadPoints spread_result;
+  Status status = spread_points(context, surface.points, surface.triangles, options, spread_result);
   if (!status.ok())
   {
     return status;
   }
   std::vector<Index> vertices;
-  for (Index i = 0; i < spread.positions.rows(); ++i)
+  for (Index i = 0; i < spread_result.positions.rows(); ++i)
   {
     Handle handle;
-    handle.head = handle.tail = spread.positions.row(i);
+    handle.head = handle.tail = spread_result.positions.row(i);
     handle.name = "p" + std::to_string(i + 1);
     handles.push_back(std::move(handle));
-    vertices.push_back(surface.original[spread.vertices[i]]);
+    vertices.push_back(surface.original[spread_result.vertices[i]]);
   }
-  status.report.set("counts.components", spread.components);
-  status.report.set("counts.served_components", spread.covered_components);
-  status.report.set("counts.points_inside", spread.inside);
+  status.report.set("counts.components", spread_result.components);
+  status.report.set("counts.served_components", spread_result.covered_components);
+  status.report.set("counts.points_inside", spread_result.inside);
   status.report.set("distance", to_string(options.distance));
   status.report.set("handles[].vertex", vertices);
   return status;
@@ -146,10 +146,10 @@ Status make_bones(ExecutionContext& context, const SortedSurface& surface,
   }
   const Phase phase(context, "bones", 0.98, 1.0);
   WindingNumber winding;
-  Status built = winding.build(context, solid.points, solid.triangles);
-  if (!built.ok())
+  Status build_status = winding.build(context, solid.points, solid.triangles);
+  if (!build_status.ok())
   {
-    return built;
+    return build_status;
   }
   constexpr double half = 0.5;
   SkeletonBonesOptions bones_options = options.bones;

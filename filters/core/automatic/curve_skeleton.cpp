@@ -26,9 +26,9 @@ namespace
 {
 Status check_options(const CurveSkeletonOptions& options)
 {
-  constexpr Index least = 100;
-  constexpr Index most = 1000000;
-  if (options.triangles < least || options.triangles > most)
+  constexpr Index minimum = 100;
+  constexpr Index maximum = 1000000;
+  if (options.triangles < minimum || options.triangles > maximum)
   {
     return Status::invalid_input(
       "skeleton_triangles must be from 100 to 1000000, not " + std::to_string(options.triangles));
@@ -56,8 +56,8 @@ Status close_surface(ExecutionContext& context, PointsView points, TrianglesView
     return status;
   }
   RepairedSurface& surface = prepared.surface;
-  const bool clean = surface.clean() && surface.found.nonmanifold_edges == 0;
-  if (clean && surface.triangles.rows() <= dense_factor * options.triangles)
+  const bool is_clean = surface.is_clean() && surface.found.nonmanifold_edges == 0;
+  if (is_clean && surface.triangles.rows() <= dense_factor * options.triangles)
   {
     status.report.set("surface", "clean");
     solid.points = std::move(surface.points);
@@ -71,14 +71,14 @@ Status close_surface(ExecutionContext& context, PointsView points, TrianglesView
   thick_options.winding_threshold = options.winding_threshold;
   // Parts of a surface with defects that touch or almost touch are joined; the gaps of a clean
   // surface are kept.
-  thick_options.join_near_parts = !clean;
-  thick_options.triangles = (clean ? 4 : 2) * options.triangles;
+  thick_options.join_near_parts = !is_clean;
+  thick_options.triangles = (is_clean ? 4 : 2) * options.triangles;
   const ProgressRange range(context, 0.6, 1.0);
-  Status made = thick_solid(
+  Status solid_status = thick_solid(
     context, surface.points, surface.triangles, prepared.inside.winding(), thick_options, solid);
-  status.report.merge(made.report);
-  status.code = made.code;
-  status.message = made.message;
+  status.report.merge(solid_status.report);
+  status.code = solid_status.code;
+  status.message = solid_status.message;
   return status;
 }
 
@@ -178,29 +178,30 @@ std::vector<Index> find_parts(const CurveSkeleton& skeleton, Index& count)
 /// belongs to the solid nearest to the component's widest point.
 void measure(const TriangleMesh& surface, CurveSkeleton& skeleton)
 {
-  const double any = std::numeric_limits<double>::infinity();
+  const double unlimited = std::numeric_limits<double>::infinity();
   const TriangleTree tree(surface.points, surface.triangles);
   skeleton.radii.resize(skeleton.points.rows());
   for (Index v = 0; v < skeleton.points.rows(); ++v)
   {
-    skeleton.radii[v] = tree.distance(skeleton.points.row(v), any);
+    skeleton.radii[v] = tree.distance(skeleton.points.row(v), unlimited);
   }
   Index count = 0;
   skeleton.part_of_point = find_parts(skeleton, count);
-  std::vector<Index> widest(static_cast<std::size_t>(count), -1);
+  std::vector<Index> widest_vertex(static_cast<std::size_t>(count), -1);
   for (Index v = 0; v < skeleton.points.rows(); ++v)
   {
-    Index& w = widest[skeleton.part_of_point[v]];
+    Index& w = widest_vertex[skeleton.part_of_point[v]];
     w = w < 0 || skeleton.radii[v] > skeleton.radii[w] ? v : w;
   }
-  std::vector<double> nearest(widest.size(), any);
-  skeleton.centroids.assign(widest.size(), Vec3::Zero());
+  std::vector<double> nearest(widest_vertex.size(), unlimited);
+  skeleton.centroids.assign(widest_vertex.size(), Vec3::Zero());
   for (const Solid& solid : solids_of(surface))
   {
-    const TriangleTree own(surface.points, solid.triangles);
-    for (std::size_t part = 0; part < widest.size(); ++part)
+    const TriangleTree solid_tree(surface.points, solid.triangles);
+    for (std::size_t part = 0; part < widest_vertex.size(); ++part)
     {
-      const double distance = own.distance(skeleton.points.row(widest[part]), any);
+      const double distance =
+        solid_tree.distance(skeleton.points.row(widest_vertex[part]), unlimited);
       if (distance < nearest[part])
       {
         nearest[part] = distance;
@@ -268,7 +269,7 @@ Status curve_skeleton(ExecutionContext& context, PointsView points, TrianglesVie
   {
     const Phase phase(context, "contract", 0.25, 0.98);
     MesherData data;
-    data.points = frame.into(solid.points);
+    data.points = frame.to_frame(solid.points);
     data.triangles = solid.triangles;
     contracted = run_mesher(context, request, data, answer);
   }
@@ -281,7 +282,7 @@ Status curve_skeleton(ExecutionContext& context, PointsView points, TrianglesVie
     return Status::failure(StatusCode::internal_error, "the skeleton is empty");
   }
   const Phase phase(context, "measure", 0.98, 1.0);
-  skeleton.points = frame.back(answer.data.points);
+  skeleton.points = frame.from_frame(answer.data.points);
   skeleton.segments = unique_segments(answer.data.segments);
   measure(solid, skeleton);
   const auto reported = [&](const char* key)

@@ -30,8 +30,8 @@ class Graph
 {
 public:
   Graph(const CurveSkeleton& skeleton, const std::function<bool(const Vec3&)>& inside)
-    : next_(static_cast<std::size_t>(skeleton.points.rows())), alive_(next_.size(), 1),
-      is_root_(next_.size(), 0), skeleton_(skeleton), inside_(inside)
+    : neighbors_(static_cast<std::size_t>(skeleton.points.rows())), alive_(neighbors_.size(), 1),
+      is_root_(neighbors_.size(), 0), skeleton_(skeleton), inside_(inside)
   {
     for (Index v = 0; v < skeleton.points.rows(); ++v)
     {
@@ -40,14 +40,14 @@ public:
     }
     for (Index s = 0; s < skeleton.segments.rows(); ++s)
     {
-      this->next_[skeleton.segments(s, 0)].insert(skeleton.segments(s, 1));
-      this->next_[skeleton.segments(s, 1)].insert(skeleton.segments(s, 0));
+      this->neighbors_[skeleton.segments(s, 0)].insert(skeleton.segments(s, 1));
+      this->neighbors_[skeleton.segments(s, 1)].insert(skeleton.segments(s, 0));
     }
   }
 
-  Index size() const { return static_cast<Index>(this->next_.size()); }
+  Index size() const { return static_cast<Index>(this->neighbors_.size()); }
   bool is_inside(const Vec3& p) const { return !this->inside_ || this->inside_(p); }
-  bool leaves_shape(const Vec3& head, const Vec3& tail) const
+  bool is_partly_outside(const Vec3& head, const Vec3& tail) const
   {
     constexpr int pieces = 16;
     for (int i = 1; i < pieces; ++i)
@@ -66,7 +66,7 @@ public:
   const Vec3& centroid(Index part) const { return this->skeleton_.centroids[part]; }
   bool is_alive(Index v) const { return this->alive_[v] != 0; }
   bool is_root(Index v) const { return this->is_root_[v] != 0; }
-  Index degree(Index v) const { return static_cast<Index>(this->next_[v].size()); }
+  Index degree(Index v) const { return static_cast<Index>(this->neighbors_[v].size()); }
   bool is_joint(Index v) const
   {
     return this->is_alive(v) && (this->degree(v) != 2 || this->is_root(v));
@@ -76,16 +76,16 @@ public:
   Index nearest_joint(Index part) const
   {
     Index best = -1;
-    double least = infinite;
+    double minimum_distance = infinite;
     for (const bool joints_only : { true, false })
     {
       for (Index v = 0; v < this->size() && (joints_only || best < 0); ++v)
       {
         const double distance = (this->position(v) - this->centroid(part)).norm();
         if (this->part(v) == part && this->is_alive(v) && (!joints_only || this->is_joint(v)) &&
-          distance < least)
+          distance < minimum_distance)
         {
-          least = distance;
+          minimum_distance = distance;
           best = v;
         }
       }
@@ -119,15 +119,15 @@ public:
     }
     const Index root = this->nearest_joint(part);
     this->is_root_[root] = 1;
-    std::vector<double> distance(this->next_.size(), infinite);
-    std::vector<Index> from(this->next_.size(), -1);
+    std::vector<double> distance(this->neighbors_.size(), infinite);
+    std::vector<Index> from(this->neighbors_.size(), -1);
     std::set<std::pair<double, Index>> open{ { 0.0, root } };
     distance[root] = 0.0;
     while (!open.empty())
     {
       const Index v = open.begin()->second;
       open.erase(open.begin());
-      for (const Index w : this->next_[v])
+      for (const Index w : this->neighbors_[v])
       {
         const double path_length = distance[v] + (this->position(v) - this->position(w)).norm();
         if (path_length < distance[w])
@@ -145,8 +145,8 @@ public:
       {
         continue;
       }
-      const std::set<Index> old = this->next_[v];
-      for (const Index w : old)
+      const std::set<Index> old_neighbors = this->neighbors_[v];
+      for (const Index w : old_neighbors)
       {
         if (from[w] != v && from[v] != w)
         {
@@ -166,7 +166,7 @@ public:
       {
         continue;
       }
-      for (const Index first : this->next_[v])
+      for (const Index first : this->neighbors_[v])
       {
         Branch branch;
         branch.path = { v };
@@ -180,8 +180,8 @@ public:
           {
             break;
           }
-          const std::set<Index>& ways = this->next_[at];
-          const Index on = *ways.begin() == before ? *ways.rbegin() : *ways.begin();
+          const std::set<Index>& adjacent = this->neighbors_[at];
+          const Index on = *adjacent.begin() == before ? *adjacent.rbegin() : *adjacent.begin();
           before = at;
           at = on;
         }
@@ -213,12 +213,12 @@ public:
   void trim(const Branch& branch)
   {
     std::vector<Index> path = branch.path;
-    constexpr std::size_t least = 2;
+    constexpr std::size_t minimum_points = 2;
     for (int end = 0; end < 2; ++end)
     {
       std::reverse(path.begin(), path.end());
-      while (path.size() > least && this->degree(path.back()) == 1 && !this->is_root(path.back()) &&
-        !this->is_inside(this->position(path.back())))
+      while (path.size() > minimum_points && this->degree(path.back()) == 1 &&
+        !this->is_root(path.back()) && !this->is_inside(this->position(path.back())))
       {
         this->remove(path.back());
         path.pop_back();
@@ -234,7 +234,7 @@ public:
     // A held root does not move.
     const Index a = this->is_root(branch.path.back()) ? branch.path.back() : branch.path.front();
     const Index b = a == branch.path.front() ? branch.path.back() : branch.path.front();
-    const std::set<Index> others = this->next_[b];
+    const std::set<Index> other_neighbors = this->neighbors_[b];
     Vec3 position = 0.5 * (this->position(a) + this->position(b));
     if (!this->is_inside(position))
     {
@@ -251,12 +251,12 @@ public:
         this->remove(v);
       }
     }
-    for (const Index w : others)
+    for (const Index w : other_neighbors)
     {
       if (this->is_alive(w) && w != a)
       {
-        this->next_[a].insert(w);
-        this->next_[w].insert(a);
+        this->neighbors_[a].insert(w);
+        this->neighbors_[w].insert(a);
       }
     }
     this->positions_[a] = position;
@@ -287,20 +287,20 @@ public:
 private:
   void disconnect(Index v, Index w)
   {
-    this->next_[v].erase(w);
-    this->next_[w].erase(v);
+    this->neighbors_[v].erase(w);
+    this->neighbors_[w].erase(v);
   }
   void remove(Index v)
   {
-    const std::set<Index> old = this->next_[v];
-    for (const Index w : old)
+    const std::set<Index> old_neighbors = this->neighbors_[v];
+    for (const Index w : old_neighbors)
     {
       this->disconnect(v, w);
     }
     this->alive_[v] = 0;
   }
 
-  std::vector<std::set<Index>> next_;
+  std::vector<std::set<Index>> neighbors_;
   std::vector<char> alive_;
   std::vector<char> is_root_; ///< 1 for roots, which are joints even if they have two neighbors
   std::vector<Vec3> positions_;
@@ -312,24 +312,24 @@ private:
 /// Return the length of a branch divided by the radius at its junction. For a branch between two
 /// junctions, the larger radius is used. Return infinity if the branch must be kept. If the value
 /// is below 1, the branch is inside the ball of this radius around the junction.
-/// @param inner set to true if the branch is between two junctions.
-double relative_length(const Graph& graph, const Branch& branch, bool& inner)
+/// @param is_inner set to true if the branch is between two junctions.
+double relative_length(const Graph& graph, const Branch& branch, bool& is_inner)
 {
   const Index a = branch.path.front();
   const Index b = branch.path.back();
-  inner = graph.degree(a) > 1 && graph.degree(b) > 1;
+  is_inner = graph.degree(a) > 1 && graph.degree(b) > 1;
   const Index junction = graph.degree(a) > 1 ? a : b;
-  constexpr Index least = 3;
+  constexpr Index junction_degree = 3;
   double thickness = graph.radius(junction);
-  if (inner)
+  if (is_inner)
   {
-    if (graph.degree(a) < least || graph.degree(b) < least)
+    if (graph.degree(a) < junction_degree || graph.degree(b) < junction_degree)
     {
       return infinite; // one end is a root with only two neighbors
     }
     thickness = std::max(graph.radius(a), graph.radius(b));
   }
-  else if (graph.degree(junction) < least)
+  else if (graph.degree(junction) < junction_degree)
   {
     return infinite;
   }
@@ -367,37 +367,37 @@ void simplify(Graph& graph, const SkeletonBonesOptions& options, SkeletonBones& 
   for (;;)
   {
     const std::vector<Branch> branches = graph.branches();
-    const Branch* least = nullptr;
+    const Branch* shortest_branch = nullptr;
     const Branch* shortest_limb = nullptr;
     double score = infinite;
     double limb_score = infinite;
     bool shortest_is_inner = false;
     for (const Branch& branch : branches)
     {
-      bool inner = false;
-      const double r = relative_length(graph, branch, inner);
+      bool is_inner = false;
+      const double r = relative_length(graph, branch, is_inner);
       if (r < score)
       {
         score = r;
-        least = &branch;
-        shortest_is_inner = inner;
+        shortest_branch = &branch;
+        shortest_is_inner = is_inner;
       }
-      if (!inner && r < limb_score)
+      if (!is_inner && r < limb_score)
       {
         limb_score = r;
         shortest_limb = &branch;
       }
     }
-    if (least && score < options.prune)
+    if (shortest_branch && score < options.prune)
     {
       if (shortest_is_inner)
       {
-        graph.contract(*least);
+        graph.contract(*shortest_branch);
         ++result.merged_branches;
       }
       else
       {
-        graph.prune(*least);
+        graph.prune(*shortest_branch);
         ++result.pruned_branches;
       }
     }
@@ -433,7 +433,7 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
   const Vec3 chord = graph.position(piece.path.back()) - head;
   const double squared = chord.squaredNorm();
   double length = 0.0;
-  std::vector<double> along{ 0.0 };
+  std::vector<double> lengths_along{ 0.0 };
   // Minimum deviation at which a piece may be split, as a fraction of the tolerance.
   constexpr double minimum_deviation = 0.25;
   double farthest = minimum_deviation * tolerance;
@@ -441,7 +441,7 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
   {
     const Vec3& p = graph.position(piece.path[i]);
     length += (p - graph.position(piece.path[i - 1])).norm();
-    along.push_back(length);
+    lengths_along.push_back(length);
     const double t =
       squared > 0.0 ? std::min(std::max((p - head).dot(chord) / squared, 0.0), 1.0) : 0.0;
     const double distance = (p - head - t * chord).norm();
@@ -459,20 +459,20 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
   if (piece.at > 0)
   {
     piece.split_priority = farthest / tolerance;
-    if (piece.split_priority <= 1.0 && graph.leaves_shape(head, head + chord))
+    if (piece.split_priority <= 1.0 && graph.is_partly_outside(head, head + chord))
     {
       piece.split_priority += 1.0;
     }
   }
   if (longest > 0.0 && length / longest > std::max(piece.split_priority, 1.0))
   {
-    double from_middle = infinite;
-    for (std::size_t i = 1; i + 1 < along.size(); ++i)
+    double middle_distance = infinite;
+    for (std::size_t i = 1; i + 1 < lengths_along.size(); ++i)
     {
-      const double distance = std::abs(along[i] - 0.5 * length);
-      if (distance < from_middle && graph.is_inside(graph.position(piece.path[i])))
+      const double distance = std::abs(lengths_along[i] - 0.5 * length);
+      if (distance < middle_distance && graph.is_inside(graph.position(piece.path[i])))
       {
-        from_middle = distance;
+        middle_distance = distance;
         piece.split_priority = length / longest;
         piece.at = i;
       }
@@ -486,15 +486,15 @@ Piece make_piece(const Graph& graph, std::vector<Index> path, double tolerance, 
 std::vector<Index> outside_of_junctions(const Graph& graph, const std::vector<Index>& path)
 {
   std::vector<Index> kept{ path.front() };
-  const auto within = [&](Index v, Index end)
+  const auto is_near_junction = [&](Index v, Index end)
   {
-    constexpr Index least = 3;
-    return graph.degree(end) >= least &&
+    constexpr Index junction_degree = 3;
+    return graph.degree(end) >= junction_degree &&
       (graph.position(v) - graph.position(end)).norm() <= graph.radius(end);
   };
   for (std::size_t i = 1; i + 1 < path.size(); ++i)
   {
-    if (!within(path[i], path.front()) && !within(path[i], path.back()))
+    if (!is_near_junction(path[i], path.front()) && !is_near_junction(path[i], path.back()))
     {
       kept.push_back(path[i]);
     }
@@ -622,16 +622,16 @@ private:
   Index nearest(const Vec3& position, Index begin, Index end) const
   {
     Index best = -1;
-    double least = infinite;
+    double minimum_distance = infinite;
     for (Index h = begin; h < end; ++h)
     {
       const Handle& bone = this->result_.handles[h];
       const Vec3 vector = bone.tail - bone.head;
-      const double along = fraction_along_bone(position, bone.head, vector);
-      const double distance = (bone.head + along * vector - position).norm();
-      if (distance < least)
+      const double fraction = fraction_along_bone(position, bone.head, vector);
+      const double distance = (bone.head + fraction * vector - position).norm();
+      if (distance < minimum_distance)
       {
-        least = distance;
+        minimum_distance = distance;
         best = h;
       }
     }
@@ -705,13 +705,13 @@ Status check_options(const SkeletonBonesOptions& options)
       std::string(name) + " must be " + range + ", not " + short_number(value));
   };
   constexpr double least_tolerance = 1e-3;
-  constexpr double least_bone = 0.01;
-  constexpr double most_prune = 10.0;
+  constexpr double minimum_bone_length = 0.01;
+  constexpr double maximum_prune = 10.0;
   if (!(options.tolerance >= least_tolerance && options.tolerance <= 1.0))
   {
     return out_of_range("bone_tolerance", "from 0.001 to 1", options.tolerance);
   }
-  if (!(options.longest_bone == 0.0 || options.longest_bone >= least_bone) ||
+  if (!(options.longest_bone == 0.0 || options.longest_bone >= minimum_bone_length) ||
     !std::isfinite(options.longest_bone))
   {
     return out_of_range("longest_bone", "0 (no limit) or at least 0.01", options.longest_bone);
@@ -720,7 +720,7 @@ Status check_options(const SkeletonBonesOptions& options)
   {
     return out_of_range("maximum_bones", "at least 0", static_cast<double>(options.maximum_bones));
   }
-  if (!(options.prune >= 0.0 && options.prune <= most_prune))
+  if (!(options.prune >= 0.0 && options.prune <= maximum_prune))
   {
     return out_of_range("prune", "from 0 to 10", options.prune);
   }

@@ -84,14 +84,14 @@ public:
       ++component->points;
       result.covered_components += component->points == 1 ? 1 : 0;
       Vec3 position = this->points_.row(vertex);
-      std::vector<std::pair<double, Index>> near{ { 0.0, vertex } };
+      std::vector<std::pair<double, Index>> near_vertices{ { 0.0, vertex } };
       double depth = 0.0;
       if (this->options_.inside && this->move_inside(probe, vertex, positions, position, depth))
       {
         ++result.inside;
-        this->add_vertices_near(*component, position, 2.0 * depth, near);
+        this->add_vertices_near(*component, position, 2.0 * depth, near_vertices);
       }
-      if (!this->update(*component, position, std::move(near)))
+      if (!this->update(*component, position, std::move(near_vertices)))
       {
         return Status::canceled();
       }
@@ -177,8 +177,8 @@ private:
   {
     constexpr double minimum_area_fraction = 0.01;
     Component* best = nullptr;
-    double most = -1.0;
-    bool best_first = false;
+    double maximum = -1.0;
+    bool best_has_no_points = false;
     for (Component& component : this->components_)
     {
       if (component.is_exhausted)
@@ -188,11 +188,12 @@ private:
       const bool first =
         component.points == 0 && component.area >= minimum_area_fraction * this->largest_area_;
       const double area_per_point = component.area / static_cast<double>(component.points + 1);
-      if ((first && !best_first) || (first == best_first && area_per_point > most))
+      if ((first && !best_has_no_points) ||
+        (first == best_has_no_points && area_per_point > maximum))
       {
         best = &component;
-        most = area_per_point;
-        best_first = first;
+        maximum = area_per_point;
+        best_has_no_points = first;
       }
     }
     return best;
@@ -214,14 +215,14 @@ private:
       }
     }
     Index best = -1;
-    double most = first ? -1.0 : 0.0;
+    double maximum = first ? -1.0 : 0.0;
     for (const Index v : component.vertices)
     {
       const double distance =
         first ? (this->points_.row(v).transpose() - centroid).norm() : this->distance_[v];
-      if (distance > most)
+      if (distance > maximum)
       {
-        most = distance;
+        maximum = distance;
         best = v;
       }
     }
@@ -241,7 +242,7 @@ private:
   {
     // The inside is tested at one point on each side of the surface. This is the distance of these
     // points from the vertex, in bounding-box diagonals.
-    constexpr double near = 1e-5;
+    constexpr double test_distance = 1e-5;
     const Vec3 from = position;
     Vec3 direction = -this->normals_.row(vertex).transpose();
     if (!(direction.norm() > 0.0))
@@ -249,7 +250,7 @@ private:
       return false;
     }
     direction.normalize();
-    const double step = near * this->diagonal_;
+    const double step = test_distance * this->diagonal_;
     if (!this->is_inside(from + step * direction))
     {
       direction = -direction; // the surface is inside out at this vertex
@@ -284,18 +285,19 @@ private:
     depth = depth_at(h);
     for (int i = 2; i <= steps; ++i)
     {
-      const double deeper = depth_at(i * h);
-      if (deeper - depth < least_gain * h)
+      const double next_depth = depth_at(i * h);
+      if (next_depth - depth < least_gain * h)
       {
         break;
       }
       best = i * h;
-      depth = deeper;
+      depth = next_depth;
     }
     const Vec3 inner = origin + best * direction;
-    constexpr double same = 1e-6;
+    constexpr double duplicate_distance = 1e-6;
     const bool free = std::none_of(earlier_points.begin(), earlier_points.end(),
-      [&](const Vec3& other) { return (other - inner).norm() <= same * this->diagonal_; });
+      [&](const Vec3& other)
+      { return (other - inner).norm() <= duplicate_distance * this->diagonal_; });
     if (!free || !this->is_inside(inner))
     {
       return false;
@@ -305,22 +307,22 @@ private:
   }
 
   void add_vertices_near(const Component& component, const Vec3& position, double reach,
-    std::vector<std::pair<double, Index>>& near) const
+    std::vector<std::pair<double, Index>>& near_vertices) const
   {
     for (const Index v : component.vertices)
     {
       const double distance = (this->points_.row(v).transpose() - position).norm();
       if (distance <= reach)
       {
-        near.emplace_back(distance, v);
+        near_vertices.emplace_back(distance, v);
       }
     }
   }
 
   /// Update the distances of the component's vertices for a new point.
   /// @return false if canceled.
-  bool update(
-    const Component& component, const Vec3& position, std::vector<std::pair<double, Index>> near)
+  bool update(const Component& component, const Vec3& position,
+    std::vector<std::pair<double, Index>> near_vertices)
   {
     if (this->options_.distance == PointDistance::straight)
     {
@@ -329,7 +331,7 @@ private:
         this->distance_[v] =
           std::min(this->distance_[v], (this->points_.row(v).transpose() - position).norm());
       }
-      this->distance_[near.front().second] = 0.0;
+      this->distance_[near_vertices.front().second] = 0.0;
       return !this->context_.canceled();
     }
     using Entry = std::pair<double, Index>;
@@ -342,7 +344,7 @@ private:
         open.emplace(distance, v);
       }
     };
-    for (const auto& [distance, v] : near)
+    for (const auto& [distance, v] : near_vertices)
     {
       relax(distance, v);
     }
@@ -401,17 +403,17 @@ Status spread_points(ExecutionContext& context, PointsView points, TrianglesView
   {
     return status;
   }
-  PointSpreader spread(context, points, triangles, options);
+  PointSpreader spreader(context, points, triangles, options);
   {
     const Phase phase(context, "build", 0.0, 0.3);
-    status = spread.build();
+    status = spreader.build();
   }
   if (!status.ok())
   {
     return status;
   }
   const Phase phase(context, "choose", 0.3, 1.0);
-  status = spread.choose_points(result);
+  status = spreader.choose_points(result);
   if (!status.ok())
   {
     result = SpreadPoints();

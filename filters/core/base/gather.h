@@ -17,7 +17,7 @@ bool gather(ExecutionContext& context, Index count, std::vector<Item>& all, cons
   Index block = 512)
 {
   std::vector<std::vector<Item>> block_items(static_cast<std::size_t>((count + block - 1) / block));
-  const bool whole = parallel_for(context, count, block,
+  const bool completed = parallel_for(context, count, block,
     [&](Index begin, Index end)
     {
       auto& list = block_items[static_cast<std::size_t>(begin / block)];
@@ -36,7 +36,7 @@ bool gather(ExecutionContext& context, Index count, std::vector<Item>& all, cons
     all.insert(all.end(), list.begin(), list.end());
     std::vector<Item>().swap(list);
   }
-  return whole && !context.canceled();
+  return completed && !context.canceled();
 }
 
 } // namespace bindpose

@@ -40,8 +40,8 @@ Pages own_pages()
   return pages;
 }
 
-/// Return the bytes of a line "KEY: NUMBER kB", or `otherwise` if there is no such line.
-double read_kibibytes(const char* path, const std::string& key, double otherwise)
+/// Return the bytes of a line "KEY: NUMBER kB", or `fallback` if there is no such line.
+double read_kibibytes(const char* path, const std::string& key, double fallback)
 {
   std::ifstream file(path);
   for (std::string word; file >> word; std::getline(file, word))
@@ -52,7 +52,7 @@ double read_kibibytes(const char* path, const std::string& key, double otherwise
       return kibibytes * 1024.0;
     }
   }
-  return otherwise;
+  return fallback;
 }
 
 double unused_address_space()
@@ -81,13 +81,13 @@ double unused_group_memory()
   while (!group.empty())
   {
     const std::string folder = "/sys/fs/cgroup" + (group == "/" ? std::string() : group);
-    double most = 0.0;
+    double maximum = 0.0;
     double current = 0.0;
     // "max" is not a number and means no limit.
-    if (std::ifstream(folder + "/memory.max") >> most &&
+    if (std::ifstream(folder + "/memory.max") >> maximum &&
       std::ifstream(folder + "/memory.current") >> current)
     {
-      least = std::min(least, most - current);
+      least = std::min(least, maximum - current);
     }
     group.resize(group == "/" ? 0 : std::max<std::size_t>(group.rfind('/'), 1));
   }
@@ -133,7 +133,7 @@ double remaining_memory(Index limit)
     : available;
 }
 
-Status check_memory(const std::string& what, double bytes, Index limit)
+Status check_memory(const std::string& subject, double bytes, Index limit)
 {
   const double left = remaining_memory(limit);
   if (bytes <= left)
@@ -142,13 +142,13 @@ Status check_memory(const std::string& what, double bytes, Index limit)
   }
   const double resident_bytes = resident_memory();
   const double allowed = static_cast<double>(limit) * mebibyte;
-  const bool limited = limit > 0 && allowed - resident_bytes <= available_memory();
+  const bool is_user_limit = limit > 0 && allowed - resident_bytes <= available_memory();
   const auto format_mebibytes = [](double size)
   { return std::to_string(static_cast<long long>(std::ceil(size / mebibyte))) + " MiB"; };
   return Status::failure(StatusCode::internal_error,
-    what + " would increase the memory of this process to about " +
+    subject + " would increase the memory of this process to about " +
       format_mebibytes(resident_bytes + bytes) + "; " +
-      (limited
+      (is_user_limit
           ? "the limit is " + format_mebibytes(allowed) + ": use a coarser mesh or a higher limit"
           : "only " + format_mebibytes(resident_bytes + left) +
             " are available: use a coarser mesh"));

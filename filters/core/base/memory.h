@@ -28,11 +28,12 @@ double available_memory();
 
 /// Check whether a computation fits into memory. Call it before the memory is allocated, so that
 /// the computation ends with a message instead of being killed.
-/// @param what subject of the error message, such as "the weights of 24 handles on 63000 vertices"
+/// @param subject subject of the error message, such as "the weights of 24 handles on 63000
+/// vertices"
 /// @param bytes memory of the computation in addition to the current memory of the process
 /// @param limit MiB that the whole process may use; 0: all available memory
 /// @return ok, or internal_error with the needed and the available memory.
-Status check_memory(const std::string& what, double bytes, Index limit);
+Status check_memory(const std::string& subject, double bytes, Index limit);
 
 /// Return the number of bytes that the process can still allocate.
 /// @param limit MiB that the whole process may use; 0: all available memory

@@ -18,7 +18,7 @@ public:
   /// Call use(object) with an object that no other thread is using.
   /// @param make function () -> std::unique_ptr<T> that creates an object
   template <typename Make, typename Use>
-  void with(const Make& make, const Use& use)
+  void use_object(const Make& make, const Use& use)
   {
     std::unique_ptr<T> object;
     {

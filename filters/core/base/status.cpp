@@ -60,9 +60,9 @@ std::size_t character_length(std::string_view text)
   }
   // Reject an overlong encoding, a surrogate, or a code beyond the last character.
   const unsigned second = byte(1);
-  const bool wrong = (first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ||
+  const bool is_invalid = (first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ||
     (first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f);
-  return wrong ? 0 : length;
+  return is_invalid ? 0 : length;
 }
 } // namespace
 

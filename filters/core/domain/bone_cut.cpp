@@ -35,14 +35,14 @@ using BoneEdges = std::map<EdgeKey, Index>;
 std::vector<Index> vertices_along(PointsView points, const Handle& bone, double tolerance)
 {
   const Eigen::Vector2d head = bone.head.head<2>();
-  const Eigen::Vector2d along = (bone.tail - bone.head).head<2>();
-  const double length = along.norm();
+  const Eigen::Vector2d bone_vector = (bone.tail - bone.head).head<2>();
+  const double length = bone_vector.norm();
   std::vector<std::pair<double, Index>> found;
   for (Index v = 0; v < points.rows(); ++v)
   {
     const Eigen::Vector2d offset = points.row(v).head<2>().transpose() - head;
-    const double at = offset.dot(along) / length;
-    const double line_distance = (along[0] * offset[1] - along[1] * offset[0]) / length;
+    const double at = offset.dot(bone_vector) / length;
+    const double line_distance = (bone_vector[0] * offset[1] - bone_vector[1] * offset[0]) / length;
     if (std::abs(line_distance) <= tolerance && at >= -tolerance && at <= length + tolerance)
     {
       found.emplace_back(at, v);
@@ -62,10 +62,10 @@ std::vector<Index> vertices_along(PointsView points, const Handle& bone, double 
 }
 
 /// Return twice the signed area of the triangle (head, tail, p), positive if p is left of the bone.
-double left_of(const Handle& bone, const Eigen::RowVector3d& p)
+double twice_signed_area(const Handle& bone, const Eigen::RowVector3d& p)
 {
-  const Vec3 along = bone.tail - bone.head;
-  return along[0] * (p[1] - bone.head[1]) - along[1] * (p[0] - bone.head[0]);
+  const Vec3 bone_vector = bone.tail - bone.head;
+  return bone_vector[0] * (p[1] - bone.head[1]) - bone_vector[1] * (p[0] - bone.head[0]);
 }
 
 /// Return the triangles at a vertex, in groups that are separated by bones.
@@ -129,8 +129,8 @@ Index side_of(Index vertex, const std::vector<Index>& group, PointsView points,
       if (bone != bones.end())
       {
         const Index third = triangles.row(t).sum() - vertex - other;
-        const bool left =
-          left_of(handles[static_cast<std::size_t>(bone->second)], points.row(third)) > 0.0;
+        const bool left = twice_signed_area(handles[static_cast<std::size_t>(bone->second)],
+                            points.row(third)) > 0.0;
         sides.push_back(2 * curves[static_cast<std::size_t>(bone->second)] + (left ? 1 : 2));
       }
     }
@@ -184,12 +184,13 @@ Status cut_along_bones(ExecutionContext& context, PointsView points, TrianglesVi
       continue;
     }
     bones += 1;
-    const std::vector<Index> along = vertices_along(points, handles[b], tolerance);
-    bool is_edge_chain = along.size() > 1;
-    for (std::size_t i = 1; i < along.size(); ++i)
+    const std::vector<Index> bone_vertices = vertices_along(points, handles[b], tolerance);
+    bool is_edge_chain = bone_vertices.size() > 1;
+    for (std::size_t i = 1; i < bone_vertices.size(); ++i)
     {
-      is_edge_chain = is_edge_chain && edges.count(edge_key(along[i - 1], along[i])) > 0;
-      cut.emplace(edge_key(along[i - 1], along[i]), static_cast<Index>(b));
+      is_edge_chain =
+        is_edge_chain && edges.count(edge_key(bone_vertices[i - 1], bone_vertices[i])) > 0;
+      cut.emplace(edge_key(bone_vertices[i - 1], bone_vertices[i]), static_cast<Index>(b));
     }
     if (!is_edge_chain)
     {

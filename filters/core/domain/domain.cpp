@@ -120,8 +120,8 @@ bool is_flat(PointsView points, double diagonal, Vec3& normal)
   const Points centered = points.rowwise() - center.transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(centered.transpose() * centered);
   normal = axes.eigenvectors().col(0);
-  constexpr double flat = 1e-9;
-  return (centered * normal).cwiseAbs().maxCoeff() <= flat * diagonal;
+  constexpr double flatness_tolerance = 1e-9;
+  return (centered * normal).cwiseAbs().maxCoeff() <= flatness_tolerance * diagonal;
 }
 
 VertexGraph vertex_graph(const Domain& domain)

@@ -29,9 +29,9 @@ constexpr double maximum_bad_tets = 0.03;
 constexpr Index typical_lattice_vertices = 9000;
 constexpr double two_lattice_factor = 1.3;
 
-std::string percent_of(Index part, Index whole)
+std::string percent_of(Index part, Index total)
 {
-  return short_number(100.0 * static_cast<double>(part) / static_cast<double>(whole), 2) + " %";
+  return short_number(100.0 * static_cast<double>(part) / static_cast<double>(total), 2) + " %";
 }
 } // namespace
 
@@ -42,7 +42,7 @@ std::string reason_against_volume(const RepairedSurface& surface)
   {
     return "the surface is not closed";
   }
-  if (!surface.clean())
+  if (!surface.is_clean())
   {
     return "triangles cross or coincide";
   }

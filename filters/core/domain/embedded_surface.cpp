@@ -170,14 +170,15 @@ Index EmbeddedSurface::tet_of(const Vec3& position) const
   {
     return found;
   }
-  const SimplexLocation near = this->surface_.locate(position);
-  if (near.element < 0)
+  const SimplexLocation surface_location = this->surface_.locate(position);
+  if (surface_location.element < 0)
   {
     return found;
   }
-  const auto corner = std::max_element(near.barycentric.begin(), near.barycentric.begin() + 3);
-  const Index start =
-    this->binding_.tets[this->triangles_(near.element, corner - near.barycentric.begin())];
+  const auto corner = std::max_element(
+    surface_location.barycentric.begin(), surface_location.barycentric.begin() + 3);
+  const Index start = this->binding_.tets[this->triangles_(
+    surface_location.element, corner - surface_location.barycentric.begin())];
   std::vector<Index> queue{ start };
   std::unordered_set<Index> visited{ start };
   for (std::size_t i = 0; i < queue.size(); ++i)
@@ -239,10 +240,10 @@ Status EmbeddedSurface::interpolate(
         {
           const auto corner = [&](int k) -> Vec3
           { return domain.points.row(domain.tets(parts[at], k)); };
-          SimplexLocation here = nearest_in_tet(p, corner(0), corner(1), corner(2), corner(3));
-          if (here.distance < best.distance)
+          SimplexLocation candidate = nearest_in_tet(p, corner(0), corner(1), corner(2), corner(3));
+          if (candidate.distance < best.distance)
           {
-            best = here;
+            best = candidate;
             best.element = parts[at];
           }
         }
@@ -285,16 +286,16 @@ Index EmbeddedSurface::point_at(const Vec3& position) const
 Status EmbeddedSurface::smooth(ExecutionContext& context, const std::vector<Index>& fixed_points,
   double length, Weights& result) const
 {
-  constexpr double built = 0.03; // progress when equal points are merged
+  constexpr double welding_end = 0.03; // progress when equal points are merged
   LatticeSurface welded;
   {
-    const ProgressRange range(context, 0.0, built);
+    const ProgressRange range(context, 0.0, welding_end);
     if (!welded.build(context, this->points_, this->triangles_, {}))
     {
       return Status::canceled();
     }
   }
-  const ProgressRange range(context, built, 1.0);
+  const ProgressRange range(context, welding_end, 1.0);
   const auto n = static_cast<Index>(welded.points.size());
   Points points(n, 3);
   for (Index v = 0; v < n; ++v)

@@ -22,7 +22,7 @@ double handle_distance(const Handle& handle, const Vec3& p)
   return nearest_in_triangle(p, handle.head, handle.tail, handle.tail).distance;
 }
 
-bool touch(const Handle& a, const Handle& b, double tolerance)
+bool do_handles_touch(const Handle& a, const Handle& b, double tolerance)
 {
   return handle_distance(a, b.head) <= tolerance || handle_distance(a, b.tail) <= tolerance ||
     handle_distance(b, a.head) <= tolerance || handle_distance(b, a.tail) <= tolerance;
@@ -45,9 +45,9 @@ void find_components(const Domain& domain, HandleConstraints& result)
   // If the neighbor is a follower, too, the vertex copies from the vertex that the neighbor copies
   // from.
   result.leader.assign(static_cast<std::size_t>(vertex_count), -1);
-  for (bool again = true; again;)
+  for (bool changed = true; changed;)
   {
-    again = false;
+    changed = false;
     for (Index e = 0; e < domain.element_count(); ++e)
     {
       const Index* ids = domain.element(e);
@@ -60,7 +60,7 @@ void find_components(const Domain& domain, HandleConstraints& result)
           {
             result.roles[ids[i]] = VertexRole::follower;
             result.leader[ids[i]] = result.leader[ids[j]] >= 0 ? result.leader[ids[j]] : ids[j];
-            again = true;
+            changed = true;
           }
         }
       }
@@ -152,8 +152,8 @@ void assign_nearest_handles(const Domain& domain, const Handles& handles,
   }
   // If a lattice component contains no point of the surface, its weights do not affect the result.
   // Such a component copies the weights of the first handle that has vertices.
-  const auto first =
-    std::find_if(result.counts.begin(), result.counts.end(), [](Index owned) { return owned > 0; });
+  const auto first = std::find_if(
+    result.counts.begin(), result.counts.end(), [](Index owned_count) { return owned_count > 0; });
   for (Index c = 0; c < count; ++c)
   {
     if (result.nearest_handle[c] < 0 && !has_handle[c])
@@ -195,11 +195,11 @@ std::string advice_about(const Handle& handle, const Box& box)
   const auto distance = [&](const Vec3& p)
   { return (p - p.cwiseMax(box.lower).cwiseMin(box.upper)).norm() / box.diagonal(); };
   const double distance_outside = std::min(distance(handle.head), distance(handle.tail));
-  constexpr double near = 0.05;
-  return distance_outside > near ? "it is " + short_number(distance_outside) +
+  constexpr double far_distance = 0.05;
+  return distance_outside > far_distance ? "it is " + short_number(distance_outside) +
       " bounding-box diagonals outside the mesh, so check the units and the position of the "
       "handles"
-                                 : "move it, or refine the mesh there";
+                                         : "move it, or refine the mesh there";
 }
 
 /// Give every handle a vertex of its own, which is a vertex on no other handle. Without such a
@@ -255,10 +255,10 @@ Status assign_own_vertices(const Handles& handles, const Box& box,
     result.counts[j] = 0;
     for (auto& [v, list] : owners)
     {
-      const auto its = std::find(list.begin(), list.end(), at);
-      if (its != list.end())
+      const auto list_entry = std::find(list.begin(), list.end(), at);
+      if (list_entry != list.end())
       {
-        list.erase(its);
+        list.erase(list_entry);
         own_vertex_count[list[0]] += list.size() == 1;
         set_row(v, list);
       }
@@ -285,7 +285,7 @@ void warn_of_shared_vertices(const Handles& handles,
   const std::map<std::pair<Index, Index>, Index>& shared, double tolerance,
   HandleConstraints& result)
 {
-  constexpr Index most = 3; // largest number of pairs that the warning names
+  constexpr Index maximum = 3; // largest number of pairs that the warning names
   std::string first;
   std::string list;
   Index pairs = 0;
@@ -295,7 +295,8 @@ void warn_of_shared_vertices(const Handles& handles,
     const Handle& b = handles[pair.second];
     const bool skipped = result.counts[pair.first] == 0 || result.counts[pair.second] == 0;
     if (skipped ||
-      (a.kind != HandleKind::region && b.kind != HandleKind::region && touch(a, b, tolerance)))
+      (a.kind != HandleKind::region && b.kind != HandleKind::region &&
+        do_handles_touch(a, b, tolerance)))
     {
       continue;
     }
@@ -305,7 +306,7 @@ void warn_of_shared_vertices(const Handles& handles,
       first = "handles " + names + " share " + std::to_string(count) +
         (count == 1 ? " vertex" : " vertices");
     }
-    if (pairs < most)
+    if (pairs < maximum)
     {
       list += (pairs > 0 ? "; " : "") + names;
     }
@@ -316,7 +317,7 @@ void warn_of_shared_vertices(const Handles& handles,
     result.warnings.push_back(
       (pairs == 1 ? first
                   : std::to_string(pairs) + " pairs of handles share vertices but do not touch (" +
-            list + (pairs > most ? "; …)" : ")")) +
+            list + (pairs > maximum ? "; …)" : ")")) +
       "; their weights are split evenly there");
   }
 }
@@ -438,10 +439,10 @@ Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
     }
   }
   const Box box = bounding_box(domain.points);
-  const Status owned = assign_own_vertices(handles, box, handles_of_vertex, result);
-  if (!owned.ok())
+  const Status assign_status = assign_own_vertices(handles, box, handles_of_vertex, result);
+  if (!assign_status.ok())
   {
-    return owned;
+    return assign_status;
   }
   warn_of_shared_vertices(handles, shared, 1e-9 * box.diagonal(), result);
   assign_nearest_handles(domain, handles, vertices_of_handle, result);

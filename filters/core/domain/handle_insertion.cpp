@@ -225,7 +225,7 @@ void Inserter::add_bone_samples(
   }
   std::sort(parameters.begin(), parameters.end());
   // A bone without a vertex between its ends gets at least one sample between its ends.
-  const bool bare = std::none_of(parameters.begin(), parameters.end(),
+  const bool lacks_samples = std::none_of(parameters.begin(), parameters.end(),
     [&](double t) { return t * length > tolerance && (1.0 - t) * length > tolerance; });
   for (std::size_t i = 0; i + 1 < parameters.size(); ++i)
   {
@@ -236,12 +236,12 @@ void Inserter::add_bone_samples(
     }
     const auto edge_at = [&](double t)
     {
-      const SimplexLocation here = this->root(head + t * axis);
-      const double edge = mean_edge_length(this->domain_, here.element);
+      const SimplexLocation location = this->root(head + t * axis);
+      const double edge = mean_edge_length(this->domain_, location.element);
       return std::max(this->options_.spacing * edge / length, 1e-3);
     };
     const auto pieces = [&](double edges)
-    { return std::max(bare ? 2 : 1, static_cast<int>(std::lround(edges))); };
+    { return std::max(lacks_samples ? 2 : 1, static_cast<int>(std::lround(edges))); };
     for (const double cut : line_cuts(parameters[i], parameters[i + 1], edge_at, pieces))
     {
       between_vertices.push_back({ head + cut * axis, handle, -1 });
@@ -315,9 +315,10 @@ void Inserter::add_cage_samples(
     {
       const Vec3 position = samples.points.row(k);
       // No new sample is needed if a vertex on the cage element is within this distance.
-      const double near = 0.75 * length(position);
+      const double minimum_distance = 0.75 * length(position);
       if (std::any_of(on_vertices.begin() + static_cast<std::ptrdiff_t>(first), on_vertices.end(),
-            [&](const Sample& other) { return (other.position - position).norm() <= near; }))
+            [&](const Sample& other)
+            { return (other.position - position).norm() <= minimum_distance; }))
       {
         continue;
       }
@@ -400,11 +401,11 @@ void Inserter::insert(Sample& sample, const std::vector<Sample>& earlier)
       break;
     }
   }
-  const double moved = (target - position).norm();
+  const double snap_distance = (target - position).norm();
   const double edge = mean_edge_length(this->domain_, element.root);
-  placement.snap = std::max(placement.snap, moved);
+  placement.snap = std::max(placement.snap, snap_distance);
   this->result_.largest_snap =
-    std::max(this->result_.largest_snap, edge > 0.0 ? moved / edge : 0.0);
+    std::max(this->result_.largest_snap, edge > 0.0 ? snap_distance / edge : 0.0);
   sample.vertex = span.size() == 1 ? span[0] : this->split(span, target, element.root);
   placement.vertices.push_back(sample.vertex);
 }
@@ -497,14 +498,14 @@ void Inserter::finish()
   {
     out = std::copy_n(this->elements_[e].ids.begin(), this->corners_, out);
   }
-  constexpr Index most = 4; // largest number of handles that the warning names
+  constexpr Index maximum = 4; // largest number of handles that the warning names
   Index count_outside = 0;
   std::string outside;
   for (std::size_t i = 0; i < this->handles_.size(); ++i)
   {
     HandlePlacement& placement = this->result_.handles[i];
     sort_unique(placement.vertices);
-    if (placement.outside > 1e-6 * this->diagonal_ && ++count_outside <= most)
+    if (placement.outside > 1e-6 * this->diagonal_ && ++count_outside <= maximum)
     {
       char distance[32];
       std::snprintf(distance, sizeof(distance), "%.3g", placement.outside);
@@ -517,9 +518,9 @@ void Inserter::finish()
       std::to_string(this->cage_samples_outside_) +
       " of its samples, which were ignored; if the cage surrounds the shape, use domain cage");
   }
-  if (count_outside > most)
+  if (count_outside > maximum)
   {
-    outside += " and " + std::to_string(count_outside - most) + " more";
+    outside += " and " + std::to_string(count_outside - maximum) + " more";
   }
   if (!outside.empty())
   {
@@ -612,8 +613,8 @@ std::vector<Index> extend_labels(const HandleInsertion& mesh, const std::vector<
     {
       if (vertex.barycentric[k] > 1e-12)
       {
-        const Index here = labels[vertex.parents[k]];
-        common = common == -1 || common == here ? here : 0;
+        const Index label = labels[vertex.parents[k]];
+        common = common == -1 || common == label ? label : 0;
       }
     }
     result.push_back(common);

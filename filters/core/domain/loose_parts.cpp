@@ -9,7 +9,7 @@ namespace bindpose
 namespace
 {
 /// Maximum distance of touching components, as a fraction of the surface's diagonal.
-constexpr double touching = 1.0 / 500.0;
+constexpr double touch_distance = 1.0 / 500.0;
 constexpr Index maximum_loose_components = 20000;
 
 /// For each part of the lattice, return 1 if the part contains a handle, else 0.
@@ -90,13 +90,13 @@ Status find_loose_parts(ExecutionContext& context, PointsView points, TrianglesV
     is_attached[component_of_triangle[f]] =
       tet < 0 || has_handle[parts.component_of_vertex[tets.tets(tet, 0)]] ? 1 : 0;
   }
-  const auto loose = std::count(is_attached.begin(), is_attached.end(), 0);
-  if (loose == 0 || loose == components.count || loose > maximum_loose_components)
+  const auto loose_count = std::count(is_attached.begin(), is_attached.end(), 0);
+  if (loose_count == 0 || loose_count == components.count || loose_count > maximum_loose_components)
   {
     return {};
   }
   PartLinkOptions options;
-  options.touching = touching * bounding_box(points, triangles).diagonal();
+  options.touch_distance = touch_distance * bounding_box(points, triangles).diagonal();
   options.spacing = lattice.spacing;
   return link_parts(
     context, points, triangles, component_of_triangle, is_attached, options, result.links);

@@ -121,7 +121,7 @@ private:
   /// Work memory, reused for each block of columns.
   struct Work
   {
-    Eigen::MatrixXd once, twice;
+    Eigen::MatrixXd first_solution, second_solution;
   };
 
   /// Return the factors by which the triangles' matrix entries are multiplied. In triangles with
@@ -177,9 +177,9 @@ private:
     }
     a += SparseMatrix(this->mass_.asDiagonal());
     // Progress when M + K is assembled, as a fraction of the time for its factor.
-    constexpr double assembled = 0.15;
-    constexpr double analyzed = 0.6;
-    context.progress(assembled);
+    constexpr double assembly_end = 0.15;
+    constexpr double analysis_end = 0.6;
+    context.progress(assembly_end);
     // METIS would take more time than its better ordering saves.
     SparseSolver::Options options;
     options.ordering = SparseSolver::Ordering::amd;
@@ -188,7 +188,7 @@ private:
     {
       return false;
     }
-    context.progress(analyzed);
+    context.progress(analysis_end);
     return this->factor_.factor(context, a, 0.0).ok();
   }
 
@@ -220,14 +220,14 @@ private:
       this->corrected_points_.clear(); // canceled: some solutions are missing
       return;
     }
-    Eigen::MatrixXd small = Eigen::MatrixXd::Identity(most, most);
+    Eigen::MatrixXd correction_matrix = Eigen::MatrixXd::Identity(most, most);
     for (Index c = 0; c < most; ++c)
     {
       this->for_each_of_term(c,
         [&](Index v, double value)
-        { small.row(c) += value * this->responses_.row(v).cast<double>(); });
+        { correction_matrix.row(c) += value * this->responses_.row(v).cast<double>(); });
     }
-    this->correction_factor_.compute(0.5 * (small + small.transpose()));
+    this->correction_factor_.compute(0.5 * (correction_matrix + correction_matrix.transpose()));
     if (this->correction_factor_.info() != Eigen::Success)
     {
       // Single precision is not accurate enough for the corrections. Without them, more iterations
@@ -271,11 +271,11 @@ private:
   /// Compute z = (M + K)⁻¹ M (M + K)⁻¹ r at the free points; z = 0 at the others.
   void solve_with_factor(const Columns& r, Columns& z, Work& work) const
   {
-    work.twice = r;
-    this->factor_.solve(work.twice, work.once);
-    work.once.array().colwise() *= this->mass_.array();
-    this->factor_.solve(work.once, work.twice);
-    z = work.twice.array().colwise() * this->free_.array();
+    work.second_solution = r;
+    this->factor_.solve(work.second_solution, work.first_solution);
+    work.first_solution.array().colwise() *= this->mass_.array();
+    this->factor_.solve(work.first_solution, work.second_solution);
+    z = work.second_solution.array().colwise() * this->free_.array();
   }
 
   /// Subtract from z the correction for the fixed points (Woodbury).
@@ -310,7 +310,7 @@ private:
   /// @return r · z for each column.
   Lanes precondition(const Columns& r, Columns& z, Work& work) const
   {
-    if (this->factor_.analyzed())
+    if (this->factor_.is_analyzed())
     {
       this->solve_with_factor(r, z, work);
       this->correct(z);

@@ -42,7 +42,7 @@ public:
   Status run()
   {
     const auto count = static_cast<std::size_t>(this->atoms_.count());
-    this->result_.within.reset(count);
+    this->result_.within_tets.reset(count);
     this->result_.inside_volume.assign(count, 0.0F);
     this->cut_.assign(static_cast<std::size_t>(this->atoms_.first_full_atom), 0);
     if (!this->cut_lines())
@@ -72,7 +72,7 @@ private:
     }
     if (this->atoms_.tet_of(a) == this->atoms_.tet_of(b))
     {
-      this->result_.within.unite(a, b);
+      this->result_.within_tets.unite(a, b);
     }
     else
     {
@@ -279,9 +279,9 @@ private:
             // The previous point along the axis is in the adjacent cube. If that cube is sampled,
             // the connection is made when the lines of its samples are processed. If that cube is
             // completely inside, the connection is made here.
-            Sample below = this->atoms_.global_coordinates(cube, s);
-            --below[axis];
-            const Id last = this->atoms_.atom_of(below);
+            Sample previous = this->atoms_.global_coordinates(cube, s);
+            --previous[axis];
+            const Id last = this->atoms_.atom_of(previous);
             if (last >= this->atoms_.first_full_atom)
             {
               this->connect(atom, last);
@@ -310,11 +310,11 @@ private:
         }
         // This half is in the lower cube of its tet. The other half of the tet is in the next cube
         // along the normal axis of the face between the two cubes.
-        const Id above = this->atoms_.full_cube(moved(cube, half / 8, 1));
-        if (above >= 0)
+        const Id adjacent_cube = this->atoms_.full_cube(moved(cube, half / 8, 1));
+        if (adjacent_cube >= 0)
         {
-          this->result_.within.unite(
-            atom, this->atoms_.first_full_atom + above * EmbeddingAtoms::halves + half - 1);
+          this->result_.within_tets.unite(
+            atom, this->atoms_.first_full_atom + adjacent_cube * EmbeddingAtoms::halves + half - 1);
         }
       }
     }
@@ -346,7 +346,7 @@ private:
         Id& first = first_at[v];
         if (first >= 0)
         {
-          this->result_.within.unite(first, atom);
+          this->result_.within_tets.unite(first, atom);
         }
         first = first >= 0 ? first : atom;
         // If both ends of an edge are in one tet, the triangles at the edge are already connected

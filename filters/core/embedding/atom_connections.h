@@ -19,7 +19,7 @@ struct AtomConnections
 {
   using Id = EmbeddingAtoms::Id;
 
-  DisjointSets<Id> within; ///< classes of connected atoms in the same tet
+  DisjointSets<Id> within_tets; ///< classes of connected atoms in the same tet
   std::vector<std::pair<Id, Id>> between_tets; ///< connected atoms of different tets
   /// #atoms: inside volume that the atom represents, in units of one cell of the sub-grid.
   std::vector<float> inside_volume;

@@ -110,17 +110,17 @@ DisphenoidLattice::Location DisphenoidLattice::locate(const Vec3& position)
   const Vec3 d = from_center(position, cube);
   const auto [a, m, n] = sorted_axes(d);
   const bool upper = d[a] >= 0.0;
-  const double across = std::abs(d[a]);
-  const double away = std::abs(d[m]);
-  const double own = std::max(0.0, 1.0 - across - away);
-  const double other = across - away;
+  const double dominant_offset = std::abs(d[a]);
+  const double middle_offset = std::abs(d[m]);
+  const double axis_coordinate = std::max(0.0, 1.0 - dominant_offset - middle_offset);
+  const double other = dominant_offset - middle_offset;
   cube[a] -= upper ? 0 : 1;
   const int number = Frame::number(a, m, d[m] >= 0.0);
-  const double low_end = away - d[n];
-  const double high_end = away + d[n];
+  const double low_end = middle_offset - d[n];
+  const double high_end = middle_offset + d[n];
   const bool even = Frame(number).even();
   return { cube_key(cube) << tet_bits | static_cast<Key>(number),
-    { upper ? own : other, upper ? other : own, even ? low_end : high_end,
+    { upper ? axis_coordinate : other, upper ? other : axis_coordinate, even ? low_end : high_end,
       even ? high_end : low_end } };
 }
 
@@ -167,19 +167,19 @@ void DisphenoidLattice::cut(
   const Polygon& polygon, int direction, double lower, double upper, Polygon& part)
 {
   // Clip by the two planes, one after the other (Sutherland and Hodgman).
-  Polygon below;
+  Polygon clipped;
   for (const bool first : { true, false })
   {
-    const Polygon& from = first ? polygon : below;
-    Polygon& to = first ? below : part;
+    const Polygon& from = first ? polygon : clipped;
+    Polygon& to = first ? clipped : part;
     const double bound = first ? upper : lower;
     const double sign = first ? 1.0 : -1.0;
     for (int i = 0; i < from.count; ++i)
     {
       const Vec3& p = from.positions[i];
       const Vec3& q = from.positions[(i + 1) % from.count];
-      const double at_p = sign * (along(direction, p) - bound);
-      const double at_q = sign * (along(direction, q) - bound);
+      const double at_p = sign * (coordinate_along(direction, p) - bound);
+      const double at_q = sign * (coordinate_along(direction, q) - bound);
       if (at_p <= 0.0)
       {
         to.add(p);

@@ -84,14 +84,14 @@ public:
   /// piece, with a position in the piece and its bounding box. A segment is passed as three
   /// positions, two of them equal. Pieces thinner than 1e-9 cubes are skipped.
   template <typename Piece>
-  static void for_pieces(const std::array<Vec3, 3>& positions, const Piece& piece)
+  static void for_each_piece(const std::array<Vec3, 3>& positions, const Piece& piece)
   {
-    Polygon whole;
+    Polygon input_polygon;
     for (const Vec3& position : positions)
     {
-      whole.add(position);
+      input_polygon.add(position);
     }
-    slice(whole, 0, piece);
+    slice(input_polygon, 0, piece);
   }
 
 private:
@@ -99,19 +99,19 @@ private:
   {
     /// Maximum number of corners: 3 of the triangle, at most one more for each of 12 planes, and
     /// some for rounding.
-    static constexpr int most = 24;
-    std::array<Vec3, most> positions;
+    static constexpr int maximum_corners = 24;
+    std::array<Vec3, maximum_corners> positions;
     int count = 0;
     void add(const Vec3& position)
     {
-      if (this->count < most)
+      if (this->count < maximum_corners)
       {
         this->positions[this->count++] = position;
       }
     }
   };
   static constexpr int directions = 6;
-  static double along(int direction, const Vec3& position)
+  static double coordinate_along(int direction, const Vec3& position)
   {
     const double x = position[direction / 2];
     const double y = position[(direction / 2 + 1) % 3];
@@ -136,22 +136,22 @@ private:
       piece(middle, lower, upper);
       return;
     }
-    double low = along(direction, polygon.positions[0]);
+    double low = coordinate_along(direction, polygon.positions[0]);
     double high = low;
     for (int i = 1; i < polygon.count; ++i)
     {
-      const double at = along(direction, polygon.positions[i]);
+      const double at = coordinate_along(direction, polygon.positions[i]);
       low = at < low ? at : low;
       high = at > high ? at : high;
     }
-    constexpr double thin = 1e-9;
-    double from = std::floor(low + thin);
-    if (from + 1.0 >= high - thin)
+    constexpr double minimum_thickness = 1e-9;
+    double from = std::floor(low + minimum_thickness);
+    if (from + 1.0 >= high - minimum_thickness)
     {
       slice(polygon, direction + 1, piece);
       return;
     }
-    for (; from < high - thin; from += 1.0)
+    for (; from < high - minimum_thickness; from += 1.0)
     {
       Polygon part;
       cut(polygon, direction, from, from + 1.0, part);

@@ -54,7 +54,7 @@ private:
       {
         continue;
       }
-      const Id root = this->connections_.within.find(atom);
+      const Id root = this->connections_.within_tets.find(atom);
       if (root == atom)
       {
         this->part_of_atom_[atom] = static_cast<Id>(this->part_tets_.size());
@@ -104,13 +104,13 @@ private:
       }
       const Id p = this->part_of_atom_[this->connections_.between_tets[i].first];
       const Id q = this->part_of_atom_[this->connections_.between_tets[i].second];
-      const auto& of_p = this->atoms_.nodes[this->part_tets_[p]];
-      const auto& of_q = this->atoms_.nodes[this->part_tets_[q]];
+      const auto& nodes_of_p = this->atoms_.nodes[this->part_tets_[p]];
+      const auto& nodes_of_q = this->atoms_.nodes[this->part_tets_[q]];
       for (int k = 0; k < 4; ++k)
       {
         for (int l = 0; l < 4; ++l)
         {
-          if (of_p[k] == of_q[l])
+          if (nodes_of_p[k] == nodes_of_q[l])
           {
             this->corners_.unite(4 * p + k, 4 * q + l);
           }
@@ -268,7 +268,7 @@ private:
         copies[p].corners[k] = this->corners_.find(static_cast<Id>(4 * p + k));
       }
     }
-    const auto same = [](const Copy& a, const Copy& b)
+    const auto are_equal = [](const Copy& a, const Copy& b)
     { return a.tet == b.tet && a.corners == b.corners; };
     if (!parallel_sort(this->context_, copies,
           [](const Copy& a, const Copy& b)
@@ -282,7 +282,7 @@ private:
     std::vector<std::size_t> first_copy_of_tet;
     for (std::size_t i = 0; i < copies.size(); ++i)
     {
-      if (i == 0 || !same(copies[i - 1], copies[i]))
+      if (i == 0 || !are_equal(copies[i - 1], copies[i]))
       {
         result.lattice_tets += i == 0 || copies[i - 1].tet != copies[i].tet ? 1 : 0;
         first_copy_of_tet.push_back(i);
@@ -333,14 +333,15 @@ private:
     // aligned with the sub-grid would become too thick or too thin. The total number of inside
     // samples has no such bias, so the fractions of cut tets are scaled to match it.
     constexpr double samples_of_tet = CubeSamples::samples_per_cube / 12.0;
-    const double whole = (result.inside_fractions.array() >= 1.0).count();
-    const double cut = result.inside_fractions.sum() - whole;
+    const double whole_tets = (result.inside_fractions.array() >= 1.0).count();
+    const double cut = result.inside_fractions.sum() - whole_tets;
     if (cut > 0.0)
     {
-      const double right = std::clamp((inside_volume / samples_of_tet - whole) / cut, 0.5, 2.0);
+      const double correction =
+        std::clamp((inside_volume / samples_of_tet - whole_tets) / cut, 0.5, 2.0);
       for (double& fraction : result.inside_fractions)
       {
-        fraction = fraction < 1.0 ? std::min(1.0, right * fraction) : fraction;
+        fraction = fraction < 1.0 ? std::min(1.0, correction * fraction) : fraction;
       }
     }
     this->bind(tet_of_part, result);

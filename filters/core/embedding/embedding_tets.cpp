@@ -69,9 +69,9 @@ Status embed(ExecutionContext& context, PointsView points, const LatticeSurface&
     return status;
   }
   const MaterialProbes probes(cover, winding, threshold);
-  const bool made =
+  const bool completed =
     make_embedding(context, points, surface, cover, atoms, std::move(connections), probes, result);
-  return made && !context.canceled() ? Status() : Status::canceled();
+  return completed && !context.canceled() ? Status() : Status::canceled();
 }
 
 Index count_branching_facets(TetsView tets)

@@ -38,12 +38,12 @@ Cube neighbor_of(Key cube_key, int side)
 
 /// Size, area and number of triangles of a surface, in units of the longest side of its bounding
 /// box.
-struct Measures
+struct SurfaceMeasures
 {
   double longest = 0.0;
   double volume = 0.0, area = 0.0, perimeter = 0.0, triangles = 0.0;
 
-  Measures(const LatticeSurface& surface, const Box& box) : longest(box.size().maxCoeff())
+  SurfaceMeasures(const LatticeSurface& surface, const Box& box) : longest(box.size().maxCoeff())
   {
     const double unit = this->longest > 0.0 ? this->longest : 1.0;
     for (const auto& t : surface.triangles)
@@ -177,17 +177,17 @@ Status LatticeCover::build(ExecutionContext& context, double spacing)
 
 bool LatticeCover::find_pieces(ExecutionContext& context)
 {
-  struct Found
+  struct SurfacePiece
   {
     Key tet;
     Key cube;
     Id triangle;
     Vec3 middle;
   };
-  std::vector<Found> found;
+  std::vector<SurfacePiece> found;
   const auto triangles = static_cast<Index>(this->surface_.triangles.size());
-  const bool whole = gather(context, triangles, found,
-    [&](Index f, std::vector<Found>& list)
+  const bool completed = gather(context, triangles, found,
+    [&](Index f, std::vector<SurfacePiece>& list)
     {
       const auto& t = this->surface_.triangles[f];
       const std::size_t first = list.size();
@@ -216,7 +216,7 @@ bool LatticeCover::find_pieces(ExecutionContext& context)
       if (this->tet_of_point[t[0]] != this->tet_of_point[t[1]] ||
         this->tet_of_point[t[1]] != this->tet_of_point[t[2]])
       {
-        DisphenoidLattice::for_pieces(this->corners_of(f), add);
+        DisphenoidLattice::for_each_piece(this->corners_of(f), add);
         for (int k = 0; k < 3; ++k)
         {
           const Id v = t[k];
@@ -225,18 +225,18 @@ bool LatticeCover::find_pieces(ExecutionContext& context)
           {
             const Vec3& p = this->positions[std::min(v, w)];
             const Vec3& q = this->positions[std::max(v, w)];
-            DisphenoidLattice::for_pieces({ p, q, q }, add);
+            DisphenoidLattice::for_each_piece({ p, q, q }, add);
           }
         }
       }
-      const auto key = [](const Found& x) { return std::make_pair(x.tet, x.cube); };
+      const auto key = [](const SurfacePiece& x) { return std::make_pair(x.tet, x.cube); };
       std::stable_sort(list.begin() + first, list.end(),
-        [&](const Found& x, const Found& y) { return key(x) < key(y); });
+        [&](const SurfacePiece& x, const SurfacePiece& y) { return key(x) < key(y); });
       list.erase(std::unique(list.begin() + first, list.end(),
-                   [&](const Found& x, const Found& y) { return key(x) == key(y); }),
+                   [&](const SurfacePiece& x, const SurfacePiece& y) { return key(x) == key(y); }),
         list.end());
     });
-  if (!whole)
+  if (!completed)
   {
     return false;
   }
@@ -257,7 +257,7 @@ bool LatticeCover::find_pieces(ExecutionContext& context)
   return true;
 }
 
-bool LatticeCover::in_box(const Cube& cube) const
+bool LatticeCover::is_in_box(const Cube& cube) const
 {
   for (int k = 0; k < 3; ++k)
   {
@@ -293,7 +293,7 @@ Status LatticeCover::find_cubes(ExecutionContext& context)
       {
         const Cube cube = neighbor_of(key, side);
         const Key neighbor = DisphenoidLattice::cube_key(cube);
-        if (this->in_box(cube) && this->kinds.count(neighbor) == 0)
+        if (this->is_in_box(cube) && this->kinds.count(neighbor) == 0)
         {
           next.push_back(neighbor);
         }
@@ -330,17 +330,17 @@ Status LatticeCover::find_cubes(ExecutionContext& context)
   std::vector<Key> open;
   for (const Key key : outside)
   {
-    bool ends = false;
+    bool has_inside_neighbor = false;
     for (int side = 0; side < 6; ++side)
     {
       const Cube cube = neighbor_of(key, side);
       if (this->kind_of(cube) == Kind::inside)
       {
         open.push_back(DisphenoidLattice::cube_key(cube));
-        ends = true;
+        has_inside_neighbor = true;
       }
     }
-    if (ends)
+    if (has_inside_neighbor)
     {
       open.push_back(key);
     }
@@ -388,7 +388,7 @@ double LatticeCover::count_tets() const
 Status LatticeCover::choose(ExecutionContext& context, Index resolution, Index target)
 {
   const auto target_tets = static_cast<double>(target);
-  const Measures measures(this->surface_, this->box_);
+  const SurfaceMeasures measures(this->surface_, this->box_);
   const double largest =
     this->box_.lower.cwiseAbs().cwiseMax(this->box_.upper.cwiseAbs()).maxCoeff();
   double minimum_spacing = DisphenoidLattice::minimum_spacing(largest);
@@ -401,11 +401,11 @@ Status LatticeCover::choose(ExecutionContext& context, Index resolution, Index t
       : this->build(context, std::max(measures.longest / cubes, minimum_spacing));
   }
   const double most =
-    std::min(Measures::maximum_cubes_along(measures.triangles + maximum_added_pieces,
+    std::min(SurfaceMeasures::maximum_cubes_along(measures.triangles + maximum_added_pieces,
                [&](double cubes) { return measures.pieces(cubes); }),
       std::max(1.0, measures.longest / minimum_spacing));
-  double cubes = std::min(
-    most, Measures::maximum_cubes_along(target_tets, [&](double c) { return measures.tets(c); }));
+  double cubes = std::min(most,
+    SurfaceMeasures::maximum_cubes_along(target_tets, [&](double c) { return measures.tets(c); }));
   double last_cubes = 0.0;
   double last_tets = 0.0;
   constexpr int rounds = 6;

@@ -90,7 +90,7 @@ public:
   {
     const Vec3& p = this->positions[std::min(a, b)];
     const Vec3& q = this->positions[std::max(a, b)];
-    DisphenoidLattice::for_pieces({ p, q, q },
+    DisphenoidLattice::for_each_piece({ p, q, q },
       [&](const Vec3& middle, const Vec3&, const Vec3&)
       { body(DisphenoidLattice::locate(middle).tet); });
   }
@@ -108,7 +108,7 @@ private:
   bool find_pieces(ExecutionContext& context);
   Status find_cubes(ExecutionContext& context);
   Kind kind_of(const Cube& cube) const;
-  bool in_box(const Cube& cube) const;
+  bool is_in_box(const Cube& cube) const;
   double count_tets() const;
 
   const LatticeSurface& surface_;

@@ -42,9 +42,9 @@ void add_line_crossings(
     p = CubeSamples::samples_per_edge * p -
       Vec3(CubeSamples::shift[0], CubeSamples::shift[1], CubeSamples::shift[2]);
   }
-  const int turn = orientation_2d(
+  const int orientation = orientation_2d(
     corner[0][u], corner[0][v], corner[1][u], corner[1][v], corner[2][u], corner[2][v]);
-  if (turn == 0)
+  if (orientation == 0)
   {
     // The triangle is parallel to the axis: the lines cross the neighboring triangles instead.
     return;
@@ -81,7 +81,7 @@ void add_line_crossings(
       {
         const Vec3& p = corner[(k + 1) % 3];
         const Vec3& q = corner[(k + 2) % 3];
-        hit = turn * orientation_2d(p[u], p[v], q[u], q[v], x, y) >= 0;
+        hit = orientation * orientation_2d(p[u], p[v], q[u], q[v], x, y) >= 0;
         const double part = std::abs((p[u] - x) * (q[v] - y) - (q[u] - x) * (p[v] - y));
         area += part;
         depth += part * corner[k][axis];

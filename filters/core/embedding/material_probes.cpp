@@ -25,17 +25,17 @@ bool find_intersection(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& 
   const Vec3 v = t[2] - t[0];
   const Vec3 d = b - a;
   const Vec3 n = u.cross(v);
-  const double along = -n.dot(d);
-  if (along == 0.0)
+  const double denominator = -n.dot(d);
+  if (denominator == 0.0)
   {
     return false;
   }
   const Vec3 p = a - t[0];
   const Vec3 e = p.cross(d);
   constexpr double slack = 1e-9;
-  const double s = v.dot(e) / along;
-  const double r = -u.dot(e) / along;
-  at = n.dot(p) / along;
+  const double s = v.dot(e) / denominator;
+  const double r = -u.dot(e) / denominator;
+  at = n.dot(p) / denominator;
   return s >= -slack && r >= -slack && s + r <= 1.0 + slack && at > 0.0 && at < 1.0;
 }
 } // namespace

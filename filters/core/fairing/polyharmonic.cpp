@@ -39,10 +39,10 @@ namespace
 /// A triangle is flat if one of its cotangents exceeds this value.
 constexpr double maximum_cotangent = 1e7;
 /// Maximum number of refinement steps. Refinement ends earlier if a correction is at most the
-/// fraction `enough` of the solution, or is not smaller than the previous correction. The relative
-/// size of a correction is about the ratio by which the error decreases per step.
+/// fraction `correction_tolerance` of the solution, or is not smaller than the previous correction.
+/// The relative size of a correction is about the ratio by which the error decreases per step.
 constexpr int maximum_refinements = 8;
-constexpr double enough = 1e-9;
+constexpr double correction_tolerance = 1e-9;
 /// Number of power iterations for the estimate of the condition number.
 constexpr int power_steps = 12;
 
@@ -351,7 +351,7 @@ double Polyharmonic::solve(const Rows& prescribed, const Rows& constrained, cons
     }
     x += step;
     last = size;
-    if (size <= enough * norm(x))
+    if (size <= correction_tolerance * norm(x))
     {
       break;
     }

@@ -17,13 +17,13 @@ namespace
 /// correct.
 constexpr double uncertain = 1e-6;
 
-Status check_length(const char* what, Index count, Index vertices)
+Status check_length(const char* array_name, Index count, Index vertices)
 {
   if (count == 0 || count == vertices)
   {
     return {};
   }
-  return Status::invalid_input("there are " + std::to_string(count) + " " + what + ", but " +
+  return Status::invalid_input("there are " + std::to_string(count) + " " + array_name + ", but " +
     std::to_string(vertices) + " vertices");
 }
 } // namespace
@@ -38,9 +38,9 @@ Status VariationalSurface::bind(ExecutionContext& context, PointsView points,
     { "flags of fixed vertices", static_cast<Index>(options.fixed.size()) },
     { "tangents", options.tangents.rows() }, { "loads", options.load.rows() },
     { "region labels", static_cast<Index>(options.region_ids.size()) } };
-  for (const auto& [what, count] : lengths)
+  for (const auto& [array_name, count] : lengths)
   {
-    status = status.ok() ? check_length(what, count, n) : status;
+    status = status.ok() ? check_length(array_name, count, n) : status;
   }
   if (!status.ok())
   {

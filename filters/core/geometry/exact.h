@@ -15,8 +15,8 @@ namespace bindpose
 inline void two_sum(double a, double b, double& high, double& low)
 {
   high = a + b;
-  const double of_b = high - a;
-  low = (a - (high - of_b)) + (b - of_b);
+  const double b_virtual = high - a;
+  low = (a - (high - b_virtual)) + (b - b_virtual);
 }
 
 /// Compute a * b = high + low, exact except for underflow (Dekker's splitting, without fused

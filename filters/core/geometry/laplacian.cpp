@@ -162,10 +162,11 @@ SparseMatrix boundary_flux(PointsView points, TetsView tets)
     {
       // The gradient of the corner's basis function points away from the facet opposite to the
       // corner.
-      const double third = outwards.dot(-twice_area(c)) / volume_times_six / 3.0;
+      const double gradient_flux = outwards.dot(-twice_area(c)) / volume_times_six / 3.0;
       for (const int end : corners)
       {
-        entries.emplace_back(static_cast<int>(tets(t, end)), static_cast<int>(tets(t, c)), third);
+        entries.emplace_back(
+          static_cast<int>(tets(t, end)), static_cast<int>(tets(t, c)), gradient_flux);
       }
     }
   }

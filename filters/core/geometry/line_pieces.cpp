@@ -18,9 +18,9 @@ std::vector<double> line_cuts(double from, double to, const std::function<double
   while (parameters.back() < to)
   {
     constexpr double part = 0.5; // step of the integration, in local lengths
-    const double here = length(parameters.back());
-    const double step = std::min(part * here, to - parameters.back());
-    cumulative_lengths.push_back(cumulative_lengths.back() + step / here);
+    const double local_length = length(parameters.back());
+    const double step = std::min(part * local_length, to - parameters.back());
+    cumulative_lengths.push_back(cumulative_lengths.back() + step / local_length);
     parameters.push_back(to - parameters.back() - step < 1e-9 ? to : parameters.back() + step);
   }
   const int count = pieces(cumulative_lengths.back());

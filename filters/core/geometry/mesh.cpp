@@ -188,7 +188,7 @@ std::vector<Edge> mesh_edges(TrianglesView triangles)
     Edge edge{ sides[begin].a, sides[begin].b, 0, 0 };
     for (std::size_t k = begin; k < end; ++k)
     {
-      edge.uses += 1;
+      edge.triangle_count += 1;
       edge.net_direction += sides[k].forward ? 1 : -1;
     }
     if (edge.a != edge.b)
@@ -205,9 +205,9 @@ EdgeCounts count_edges(TrianglesView triangles)
   for (const Edge& edge : mesh_edges(triangles))
   {
     counts.edges += 1;
-    counts.boundary += edge.uses == 1;
-    counts.nonmanifold += edge.uses >= 3;
-    counts.misoriented += edge.uses == 2 && edge.net_direction != 0;
+    counts.boundary += edge.triangle_count == 1;
+    counts.nonmanifold += edge.triangle_count >= 3;
+    counts.misoriented += edge.triangle_count == 2 && edge.net_direction != 0;
     counts.closed = counts.closed && edge.net_direction == 0;
   }
   return counts;

@@ -52,7 +52,7 @@ Triangles boundary_triangles(TetsView tets);
 struct Edge
 {
   Index a = 0, b = 0; ///< vertex ids, a < b
-  int uses = 0; ///< number of triangles at the edge
+  int triangle_count = 0; ///< number of triangles at the edge
   /// Number of triangles that use the edge from a to b, minus the number that use it from b to a.
   int net_direction = 0;
 };

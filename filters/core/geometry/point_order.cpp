@@ -15,23 +15,23 @@ std::vector<std::int32_t> spatial_sort(const std::vector<Vec3>& points)
   // The cells divide the bounding box of every 16th point. Points outside of this box are assigned
   // to the nearest cells.
   Box box;
-  constexpr std::size_t some = 16;
-  for (std::size_t i = 0; i < points.size(); i += some)
+  constexpr std::size_t sample_stride = 16;
+  for (std::size_t i = 0; i < points.size(); i += sample_stride)
   {
     if (points[i].allFinite())
     {
       box.add(points[i]);
     }
   }
-  constexpr std::size_t many = 16384;
-  const int bits = points.size() < many ? 4 : 5;
+  constexpr std::size_t fine_grid_points = 16384;
+  const int bits = points.size() < fine_grid_points ? 4 : 5;
   const double cells = std::ldexp(1.0, bits);
-  std::array<std::uint32_t, 32> spread{}; // spread[n] is n with bit i moved to bit 3 i
-  for (std::uint32_t i = 0; i < spread.size(); ++i)
+  std::array<std::uint32_t, 32> spread_bits{}; // spread_bits[n] is n with bit i moved to bit 3 i
+  for (std::uint32_t i = 0; i < spread_bits.size(); ++i)
   {
     for (int bit = 0; bit < 5; ++bit)
     {
-      spread[i] |= (i >> bit & 1U) << (3 * bit);
+      spread_bits[i] |= (i >> bit & 1U) << (3 * bit);
     }
   }
   Vec3 cells_per_length = Vec3::Zero();
@@ -49,7 +49,7 @@ std::vector<std::int32_t> spatial_sort(const std::vector<Vec3>& points)
     {
       const double at = (points[i][k] - box.lower[k]) * cells_per_length[k];
       const auto cell = static_cast<std::uint32_t>(at > 0.0 ? std::min(at, cells - 1.0) : 0.0);
-      key |= spread[cell] << k;
+      key |= spread_bits[cell] << k;
     }
     keys[i] = key;
     begin[key + 1] += 1;

@@ -222,18 +222,18 @@ SimplexLocation SimplexLocator::locate(const Vec3& p) const
       }
       continue;
     }
-    std::pair<double, Index> near{
+    std::pair<double, Index> nearest_entry{
       box_distance(p, this->nodes_[at + 1].lower, this->nodes_[at + 1].upper), at + 1
     };
     std::pair<double, Index> far{
       box_distance(p, this->nodes_[node.right].lower, this->nodes_[node.right].upper), node.right
     };
-    if (far.first < near.first)
+    if (far.first < nearest_entry.first)
     {
-      std::swap(near, far);
+      std::swap(nearest_entry, far);
     }
     stack.push_back(far);
-    stack.push_back(near);
+    stack.push_back(nearest_entry);
   }
   return best;
 }

@@ -74,7 +74,7 @@ bool is_file(const std::string& path, void*)
   return std::filesystem::is_regular_file(path, error);
 }
 
-std::string as_it_is(const std::string& path, void*)
+std::string keep_path(const std::string& path, void*)
 {
   return path;
 }
@@ -118,7 +118,7 @@ tinygltf::Model parse(const std::string& path, const std::string& content)
   }
   tinygltf::Model model;
   tinygltf::TinyGLTF parser;
-  parser.SetFsCallbacks({ is_file, as_it_is, read_bytes, nullptr, nullptr });
+  parser.SetFsCallbacks({ is_file, keep_path, read_bytes, nullptr, nullptr });
   parser.SetImageLoader(ignore_image, nullptr);
   std::string errors;
   std::string warnings;
@@ -164,11 +164,11 @@ tinygltf::Model parse(const std::string& path, const std::string& content)
 }
 
 template <typename Element>
-const Element& at(const std::vector<Element>& list, int id, const char* what)
+const Element& at(const std::vector<Element>& list, int id, const char* item_name)
 {
   if (id < 0 || static_cast<std::size_t>(id) >= list.size())
   {
-    throw GltfError(std::string(what) + " " + std::to_string(id) +
+    throw GltfError(std::string(item_name) + " " + std::to_string(id) +
       " does not exist; the file has " + std::to_string(list.size()));
   }
   return list[static_cast<std::size_t>(id)];
@@ -255,13 +255,13 @@ public:
 
   /// Read all values of an accessor, one element per row.
   /// @param type number of components, as a constant of tinygltf.
-  /// @param what name of the values in error messages.
-  Numbers read(int id, int type, const char* what) const
+  /// @param item_name name of the values in error messages.
+  Numbers read(int id, int type, const char* item_name) const
   {
     const tinygltf::Accessor& accessor = at(this->model_.accessors, id, "accessor");
     if (accessor.type != type)
     {
-      throw GltfError(std::string(what) + ": unexpected number of components");
+      throw GltfError(std::string(item_name) + ": unexpected number of components");
     }
     const int columns = tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
     const std::size_t size = component_size(accessor.componentType);
@@ -269,19 +269,19 @@ public:
     // must not exceed the number of bytes in the file.
     if (accessor.count == 0 || accessor.count > this->bytes_)
     {
-      throw GltfError(std::string(what) + ": the number of elements is " +
+      throw GltfError(std::string(item_name) + ": the number of elements is " +
         std::to_string(accessor.count) + "; it must be at least 1 and fit into the file");
     }
     const auto count = static_cast<Index>(accessor.count);
     if (accessor.bufferView < 0 && !accessor.sparse.isSparse)
     {
-      throw GltfError(std::string(what) + ": no data");
+      throw GltfError(std::string(item_name) + ": no data");
     }
     Numbers numbers;
     if (accessor.bufferView >= 0)
     {
-      const View view =
-        this->view(accessor.bufferView, accessor.byteOffset, accessor.count, columns * size, what);
+      const View view = this->view(
+        accessor.bufferView, accessor.byteOffset, accessor.count, columns * size, item_name);
       numbers.resize(count, columns);
       for (Index r = 0; r < count; ++r)
       {
@@ -298,7 +298,7 @@ public:
     }
     if (accessor.sparse.isSparse)
     {
-      this->replace(accessor, columns, size, what, numbers);
+      this->replace(accessor, columns, size, item_name, numbers);
     }
     if (accessor.normalized)
     {
@@ -309,27 +309,27 @@ public:
   }
 
   /// Read an accessor and check that all values are finite.
-  Numbers read_finite(int id, int type, const char* what) const
+  Numbers read_finite(int id, int type, const char* item_name) const
   {
-    Numbers numbers = this->read(id, type, what);
+    Numbers numbers = this->read(id, type, item_name);
     if (!numbers.allFinite())
     {
-      throw GltfError(std::string(what) + ": a value is not finite");
+      throw GltfError(std::string(item_name) + ": a value is not finite");
     }
     return numbers;
   }
 
   /// Read an accessor and check that its values are unsigned integers.
-  Numbers read_ids(int id, int type, const char* what) const
+  Numbers read_ids(int id, int type, const char* item_name) const
   {
     const int component = at(this->model_.accessors, id, "accessor").componentType;
     if (component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE &&
       component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT &&
       component != TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT)
     {
-      throw GltfError(std::string(what) + ": expected unsigned integers");
+      throw GltfError(std::string(item_name) + ": expected unsigned integers");
     }
-    return this->read(id, type, what);
+    return this->read(id, type, item_name);
   }
 
 private:
@@ -339,7 +339,8 @@ private:
     std::size_t stride;
   };
 
-  View view(int id, std::size_t offset, std::size_t count, std::size_t size, const char* what) const
+  View view(
+    int id, std::size_t offset, std::size_t count, std::size_t size, const char* item_name) const
   {
     const tinygltf::BufferView& view = at(this->model_.bufferViews, id, "buffer view");
     const tinygltf::Buffer& buffer = at(this->model_.buffers, view.buffer, "buffer");
@@ -349,19 +350,19 @@ private:
       offset > view.byteLength || stride > all || size > view.byteLength - offset ||
       stride < size || (count - 1) > (view.byteLength - offset - size) / stride)
     {
-      throw GltfError(std::string(what) + ": the data extend beyond the end of the buffer");
+      throw GltfError(std::string(item_name) + ": the data extend beyond the end of the buffer");
     }
     return { buffer.data.data() + view.byteOffset + offset, stride };
   }
 
-  void replace(const tinygltf::Accessor& accessor, int columns, std::size_t size, const char* what,
-    Numbers& numbers) const
+  void replace(const tinygltf::Accessor& accessor, int columns, std::size_t size,
+    const char* item_name, Numbers& numbers) const
   {
     const auto& sparse = accessor.sparse;
     if (sparse.count < 0 || sparse.count > numbers.rows() || sparse.indices.byteOffset < 0 ||
       sparse.values.byteOffset < 0)
     {
-      throw GltfError(std::string(what) + ": the sparse values are out of range");
+      throw GltfError(std::string(item_name) + ": the sparse values are out of range");
     }
     if (sparse.count == 0)
     {
@@ -370,15 +371,15 @@ private:
     const auto count = static_cast<std::size_t>(sparse.count);
     const std::size_t id_size = component_size(sparse.indices.componentType);
     const View ids =
-      this->view(sparse.indices.bufferView, sparse.indices.byteOffset, count, id_size, what);
-    const View values =
-      this->view(sparse.values.bufferView, sparse.values.byteOffset, count, columns * size, what);
+      this->view(sparse.indices.bufferView, sparse.indices.byteOffset, count, id_size, item_name);
+    const View values = this->view(
+      sparse.values.bufferView, sparse.values.byteOffset, count, columns * size, item_name);
     for (std::size_t k = 0; k < count; ++k)
     {
       const double row = component_at(ids.data + k * ids.stride, sparse.indices.componentType);
       if (!(row >= 0.0 && row < static_cast<double>(numbers.rows())) || row != std::floor(row))
       {
-        throw GltfError(std::string(what) + ": the sparse values are out of range");
+        throw GltfError(std::string(item_name) + ": the sparse values are out of range");
       }
       for (int c = 0; c < columns; ++c)
       {
@@ -462,8 +463,9 @@ struct Nodes
     Transforms global(this->node_transforms.size());
     for (const int id : this->order)
     {
-      const Eigen::Affine3d own = this->node_transforms[id].affine();
-      global[id] = this->parents[id] < 0 ? own : global[this->parents[id]] * own;
+      const Eigen::Affine3d local_transform = this->node_transforms[id].affine();
+      global[id] =
+        this->parents[id] < 0 ? local_transform : global[this->parents[id]] * local_transform;
     }
     return global;
   }
@@ -530,18 +532,18 @@ std::optional<GltfHandleExtras> read_handle_extras(
     return {};
   }
   const tinygltf::Value& properties = extras.Get("bindpose");
-  GltfHandleExtras note;
+  GltfHandleExtras handle_extras;
   if (!properties.Has("kind") || !properties.Get("kind").IsString() ||
-    !read_vector(properties.Get("head"), note.head) ||
-    !read_vector(properties.Get("tail"), note.tail))
+    !read_vector(properties.Get("head"), handle_extras.head) ||
+    !read_vector(properties.Get("tail"), handle_extras.tail))
   {
     return {};
   }
-  note.kind = properties.Get("kind").Get<std::string>();
+  handle_extras.kind = properties.Get("kind").Get<std::string>();
   if (properties.Has("region") && properties.Get("region").IsNumber())
   {
     const double region = properties.Get("region").GetNumberAsDouble();
-    note.region = region > 0.0 && region < 1e15 ? static_cast<Index>(region) : 0;
+    handle_extras.region = region > 0.0 && region < 1e15 ? static_cast<Index>(region) : 0;
   }
   const tinygltf::Value& cage = properties.Get("cage");
   for (std::size_t e = 0; cage.IsArray() && e < cage.ArrayLen(); ++e)
@@ -550,16 +552,17 @@ std::optional<GltfHandleExtras> read_handle_extras(
     std::array<Index, 3> element{ -1, -1, -1 };
     for (int k = 0; k < 3; ++k)
     {
-      const bool whole = corners.IsArray() && corners.ArrayLen() == 3 && corners.Get(k).IsInt();
-      element[k] = whole ? corners.Get(k).GetNumberAsInt() : -2;
+      const bool has_corners =
+        corners.IsArray() && corners.ArrayLen() == 3 && corners.Get(k).IsInt();
+      element[k] = has_corners ? corners.Get(k).GetNumberAsInt() : -2;
       if (element[k] < (k < 2 ? 0 : -1) || element[k] >= static_cast<Index>(joints))
       {
         return {};
       }
     }
-    note.cage.push_back(element);
+    handle_extras.cage.push_back(element);
   }
-  return note;
+  return handle_extras;
 }
 
 struct SkinNodes
@@ -618,12 +621,12 @@ SkinNodes read_joints(const tinygltf::Model& model, const Accessors& accessors, 
       throw GltfError(
         "joint " + std::to_string(j) + " has a matrix that is not finite or not invertible");
     }
-    for (int above = nodes.parents[id]; above >= 0 && joint.parent < 0;
-         above = nodes.parents[above])
+    for (int ancestor = nodes.parents[id]; ancestor >= 0 && joint.parent < 0;
+         ancestor = nodes.parents[ancestor])
     {
-      joint.parent = result.joint_of_node[above];
+      joint.parent = result.joint_of_node[ancestor];
     }
-    joint.note = read_handle_extras(model.nodes[id].extras, from.joints.size());
+    joint.handle_extras = read_handle_extras(model.nodes[id].extras, from.joints.size());
     const std::string name = sanitize_line(model.nodes[id].name);
     joint.name = name.empty() ? "joint " + std::to_string(j) : name;
     for (int copy = 2; !names.insert(joint.name).second; ++copy)
@@ -890,8 +893,8 @@ void set_weights(Parts& parts, SkinNodes& joint_nodes, GltfSkin& skin)
       skin.weights.row(v) /= sum;
     }
   }
-  const auto& note = skin.joints.back().note;
-  if (joints > 1 && note && note->kind == "rest")
+  const auto& handle_extras = skin.joints.back().handle_extras;
+  if (joints > 1 && handle_extras && handle_extras->kind == "rest")
   {
     skin.joints.pop_back();
     joint_nodes.nodes.pop_back();
@@ -1165,13 +1168,13 @@ std::vector<std::string> find_unsupported(const tinygltf::Model& model, const Pa
     unsupported.push_back("the division into " + std::to_string(parts.meshes) + " meshes");
   }
   const auto add_partial = [&unsupported](
-                             const std::vector<Numbers>& rows, Index kept, const char* what)
+                             const std::vector<Numbers>& rows, Index kept, const char* item_name)
   {
     const bool any =
       std::any_of(rows.begin(), rows.end(), [](const Numbers& part) { return part.rows() > 0; });
     if (any && kept == 0)
     {
-      unsupported.push_back(std::string(what) + ", which only some meshes have");
+      unsupported.push_back(std::string(item_name) + ", which only some meshes have");
     }
   };
   add_partial(parts.normals, skin.normals.rows(), "normals");
@@ -1223,8 +1226,8 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
   }
   const Transforms global = nodes.scene_transforms();
   Parts parts;
-  std::set<int> seen;
-  Index left_out = 0;
+  std::set<int> instanced_meshes;
+  Index omitted_meshes = 0;
   for (std::size_t n = 0; n < model.nodes.size(); ++n)
   {
     const tinygltf::Node& node = model.nodes[n];
@@ -1234,11 +1237,11 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
     }
     if (node.skin != skin_id)
     {
-      left_out += 1;
+      omitted_meshes += 1;
       continue;
     }
     const tinygltf::Mesh& mesh = at(model.meshes, node.mesh, "mesh");
-    if (skin_id >= 0 && !seen.insert(node.mesh).second)
+    if (skin_id >= 0 && !instanced_meshes.insert(node.mesh).second)
     {
       // The joints determine the mesh's position, so a second node would duplicate the mesh.
       continue;
@@ -1287,7 +1290,7 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
     animation = read_animation(model, accessors, nodes, skin_nodes, skin);
   }
   const std::vector<std::string> unsupported =
-    find_unsupported(model, parts, skin, animation, left_out);
+    find_unsupported(model, parts, skin, animation, omitted_meshes);
   if (!unsupported.empty())
   {
     status.warnings.push_back(path + ": Bindpose does not keep " + join_phrases(unsupported));

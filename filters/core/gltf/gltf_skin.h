@@ -33,7 +33,7 @@ struct GltfJoint
   /// Joint-to-scene transform in the pose that the file's nodes define. The joint moves the mesh by
   /// the transform posed * rest^-1.
   Eigen::Affine3d posed = Eigen::Affine3d::Identity();
-  std::optional<GltfHandleExtras> note;
+  std::optional<GltfHandleExtras> handle_extras;
 };
 
 /// One frame of an animation.

@@ -37,7 +37,7 @@ struct PackedWeights
   std::vector<std::uint16_t> joints;
   std::vector<float> weights;
   bool rest_joint = false; // whether there is an additional joint "rest" after all others
-  Index dropped = 0;
+  Index dropped_weights = 0;
   double dropped_weight = 0.0;
   Index negative_rows = 0; // number of rows with a negative weight or a sum above one
 };
@@ -83,7 +83,7 @@ std::vector<Influence> influences_of(
     {
       dropped_sum += row[k].weight;
     }
-    packed.dropped += static_cast<Index>(row.size()) - maximum_influences;
+    packed.dropped_weights += static_cast<Index>(row.size()) - maximum_influences;
     packed.dropped_weight = std::max(packed.dropped_weight, dropped_sum);
     row.resize(static_cast<std::size_t>(maximum_influences));
   }
@@ -207,8 +207,8 @@ std::vector<Index> parents_first(const std::vector<GltfJoint>& joints)
   std::vector<Index> order = children[0];
   for (std::size_t k = 0; k < order.size(); ++k)
   {
-    const std::vector<Index>& below = children[order[k] + 1];
-    order.insert(order.end(), below.begin(), below.end());
+    const std::vector<Index>& child_ids = children[order[k] + 1];
+    order.insert(order.end(), child_ids.begin(), child_ids.end());
   }
   return order;
 }
@@ -218,22 +218,23 @@ std::vector<Index> parents_first(const std::vector<GltfJoint>& joints)
 std::vector<Trs> local_maps(
   const GltfSkin& skin, const Transforms& exact_maps, Transforms& stored_maps)
 {
-  std::vector<Trs> locals(skin.joints.size());
+  std::vector<Trs> local_transforms(skin.joints.size());
   stored_maps.resize(skin.joints.size());
   for (const Index j : parents_first(skin.joints))
   {
     const Index parent = skin.joints[j].parent;
-    const Eigen::Affine3d above = parent < 0 ? Eigen::Affine3d::Identity() : stored_maps[parent];
-    Eigen::Affine3d local = above.inverse() * exact_maps[j];
+    const Eigen::Affine3d parent_map =
+      parent < 0 ? Eigen::Affine3d::Identity() : stored_maps[parent];
+    Eigen::Affine3d local = parent_map.inverse() * exact_maps[j];
     // If the parent's map is singular, no local transform can correct the joint.
     if (!local.matrix().allFinite())
     {
       local = exact_maps[j];
     }
-    locals[j] = nearest_trs(local);
-    stored_maps[j] = above * locals[j].affine();
+    local_transforms[j] = nearest_trs(local);
+    stored_maps[j] = parent_map * local_transforms[j].affine();
   }
-  return locals;
+  return local_transforms;
 }
 
 // ---- The model ---------------------------------------------------------------------------------
@@ -323,20 +324,20 @@ tinygltf::Value to_value(const Vec3& v)
   return tinygltf::Value({ tinygltf::Value(v[0]), tinygltf::Value(v[1]), tinygltf::Value(v[2]) });
 }
 
-tinygltf::Value to_value(const GltfHandleExtras& note)
+tinygltf::Value to_value(const GltfHandleExtras& handle_extras)
 {
   tinygltf::Value::Object properties;
-  properties["kind"] = tinygltf::Value(note.kind);
-  properties["head"] = to_value(note.head);
-  properties["tail"] = to_value(note.tail);
-  if (note.region != 0)
+  properties["kind"] = tinygltf::Value(handle_extras.kind);
+  properties["head"] = to_value(handle_extras.head);
+  properties["tail"] = to_value(handle_extras.tail);
+  if (handle_extras.region != 0)
   {
-    properties["region"] = tinygltf::Value(static_cast<double>(note.region));
+    properties["region"] = tinygltf::Value(static_cast<double>(handle_extras.region));
   }
-  if (!note.cage.empty())
+  if (!handle_extras.cage.empty())
   {
     tinygltf::Value::Array elements;
-    for (const auto& element : note.cage)
+    for (const auto& element : handle_extras.cage)
     {
       tinygltf::Value::Array corners;
       for (const Index corner : element)
@@ -425,7 +426,8 @@ void add_mesh(Builder& builder, const GltfSkin& skin, const PackedWeights& packe
 /// j.
 constexpr int first_joint = 2;
 
-void add_nodes(Builder& builder, const GltfSkin& skin, const std::vector<Trs>& locals, bool rests)
+void add_nodes(Builder& builder, const GltfSkin& skin, const std::vector<Trs>& local_transforms,
+  bool uses_rest_pose)
 {
   tinygltf::Model& model = builder.model;
   model.nodes.resize(1);
@@ -439,7 +441,7 @@ void add_nodes(Builder& builder, const GltfSkin& skin, const std::vector<Trs>& l
   {
     return;
   }
-  model.nodes.resize(first_joint + joints + rests);
+  model.nodes.resize(first_joint + joints + uses_rest_pose);
   model.nodes[0].skin = 0;
   model.nodes[1].name = "handles";
   model.scenes[0].nodes.push_back(1);
@@ -447,7 +449,7 @@ void add_nodes(Builder& builder, const GltfSkin& skin, const std::vector<Trs>& l
   gltf_skin.name = "skin";
   gltf_skin.skeleton = 1;
   std::vector<float> inverse_binds;
-  for (std::size_t j = 0; j < joints + rests; ++j)
+  for (std::size_t j = 0; j < joints + uses_rest_pose; ++j)
   {
     const int id = first_joint + static_cast<int>(j);
     tinygltf::Node& node = model.nodes[id];
@@ -459,18 +461,18 @@ void add_nodes(Builder& builder, const GltfSkin& skin, const std::vector<Trs>& l
       node.name = joint.name;
       parent = joint.parent;
       inverse = joint.rest.inverse().matrix();
-      set_trs(locals[j], node);
-      if (joint.note)
+      set_trs(local_transforms[j], node);
+      if (joint.handle_extras)
       {
-        node.extras = to_value(*joint.note);
+        node.extras = to_value(*joint.handle_extras);
       }
     }
     else
     {
       node.name = "rest";
-      GltfHandleExtras note;
-      note.kind = "rest";
-      node.extras = to_value(note);
+      GltfHandleExtras handle_extras;
+      handle_extras.kind = "rest";
+      node.extras = to_value(handle_extras);
     }
     model.nodes[parent < 0 ? 1 : first_joint + parent].children.push_back(id);
     gltf_skin.joints.push_back(id);
@@ -557,8 +559,8 @@ void animate_shapes(Builder& builder, const GltfSkin& skin)
     target["POSITION"] = builder.add_rows(moved, TINYGLTF_TYPE_VEC3);
     if (frame.normals.rows() > 0 && skin.normals.rows() > 0)
     {
-      const Points turned = frame.normals - skin.normals;
-      target["NORMAL"] = builder.add_rows(turned, TINYGLTF_TYPE_VEC3);
+      const Points normal_offsets = frame.normals - skin.normals;
+      target["NORMAL"] = builder.add_rows(normal_offsets, TINYGLTF_TYPE_VEC3);
     }
     mesh.primitives[0].targets.push_back(target);
     names.emplace_back("frame " + std::to_string(k));
@@ -718,7 +720,7 @@ Status write_gltf_skin(ExecutionContext& context, const std::string& path, const
     exact_maps.push_back(joint.posed);
   }
   Transforms stored_maps;
-  const std::vector<Trs> locals = local_maps(skin, exact_maps, stored_maps);
+  const std::vector<Trs> local_transforms = local_maps(skin, exact_maps, stored_maps);
   const double diagonal = std::max(bounding_box(skin.points, skin.triangles).diagonal(), 1e-300);
 
   const std::size_t frame_bytes = morph ? 24 * static_cast<std::size_t>(skin.points.rows()) : 0;
@@ -730,7 +732,7 @@ Status write_gltf_skin(ExecutionContext& context, const std::string& path, const
   }
   Builder builder;
   add_mesh(builder, skin, packed);
-  add_nodes(builder, skin, locals, packed.rest_joint);
+  add_nodes(builder, skin, local_transforms, packed.rest_joint);
   double animation_error = 0.0;
   if (!skin.frames.empty() && morph)
   {
@@ -767,7 +769,7 @@ Status write_gltf_skin(ExecutionContext& context, const std::string& path, const
   {
     report.set("counts.joints", skin.joints.size());
     report.set("sets", packed.weights_per_vertex / 4);
-    report.set("counts.dropped_weights", packed.dropped);
+    report.set("counts.dropped_weights", packed.dropped_weights);
     report.set("dropped_share", packed.dropped_weight);
     report.set("rest_joint", packed.rest_joint ? "yes" : "no");
     report.set(

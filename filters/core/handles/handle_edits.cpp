@@ -32,20 +32,20 @@ Status finish(const Handles& before, EditedHandles edited, EditedHandles& after)
   return status;
 }
 
-Status refuse(const Handles& before, EditedHandles& after, const std::string& why)
+Status refuse(const Handles& before, EditedHandles& after, const std::string& reason)
 {
   after = copy_unedited(before);
-  return Status::invalid_input(why);
+  return Status::invalid_input(reason);
 }
 
-bool is_valid_index(const Handles& handles, Index which)
+bool is_valid_index(const Handles& handles, Index handle_index)
 {
-  return which >= 0 && which < static_cast<Index>(handles.size());
+  return handle_index >= 0 && handle_index < static_cast<Index>(handles.size());
 }
 
-std::string missing_handle_message(Index which)
+std::string missing_handle_message(Index handle_index)
 {
-  return "handle " + std::to_string(which) + " does not exist";
+  return "handle " + std::to_string(handle_index) + " does not exist";
 }
 
 bool has_name(const Handles& handles, const std::string& name)
@@ -54,9 +54,9 @@ bool has_name(const Handles& handles, const std::string& name)
     handles.begin(), handles.end(), [&](const Handle& handle) { return handle.name == name; });
 }
 
-std::vector<Index> selected_or_all(const Handles& handles, const std::vector<Index>& which)
+std::vector<Index> selected_or_all(const Handles& handles, const std::vector<Index>& handle_indices)
 {
-  return which.empty() ? copy_unedited(handles).source : which;
+  return handle_indices.empty() ? copy_unedited(handles).source : handle_indices;
 }
 
 double extent(const Handles& handles)
@@ -97,21 +97,22 @@ bool has_element(const Handles& handles, const CageElement& element)
 
 // ---- Names -------------------------------------------------------------------------------------
 
-std::string unique_name(const Handles& handles, const std::string& wanted, HandleKind kind)
+std::string unique_name(const Handles& handles, const std::string& requested_name, HandleKind kind)
 {
-  if (!wanted.empty() && !has_name(handles, wanted))
+  if (!requested_name.empty() && !has_name(handles, requested_name))
   {
-    return wanted;
+    return requested_name;
   }
-  const std::string letter = kind == HandleKind::bone ? "b"
-    : kind == HandleKind::cage_vertex                 ? "c"
-    : kind == HandleKind::region                      ? "r"
-                                                      : "p";
+  const std::string name_prefix = kind == HandleKind::bone ? "b"
+    : kind == HandleKind::cage_vertex                      ? "c"
+    : kind == HandleKind::region                           ? "r"
+                                                           : "p";
   for (int number = 1;; ++number)
   {
     char digits[16];
     std::snprintf(digits, sizeof(digits), ".%03d", number);
-    std::string name = wanted.empty() ? letter + std::to_string(number) : wanted + digits;
+    std::string name =
+      requested_name.empty() ? name_prefix + std::to_string(number) : requested_name + digits;
     if (!has_name(handles, name))
     {
       return name;
@@ -177,14 +178,14 @@ std::string mirrored_name(const std::string& name)
 }
 
 Status rename_handle(
-  const Handles& before, Index which, const std::string& name, EditedHandles& after)
+  const Handles& before, Index handle_index, const std::string& name, EditedHandles& after)
 {
-  if (!is_valid_index(before, which))
+  if (!is_valid_index(before, handle_index))
   {
-    return refuse(before, after, missing_handle_message(which));
+    return refuse(before, after, missing_handle_message(handle_index));
   }
   EditedHandles edited = copy_unedited(before);
-  Handle& handle = edited.handles[static_cast<std::size_t>(which)];
+  Handle& handle = edited.handles[static_cast<std::size_t>(handle_index)];
   if (name.empty())
   {
     return refuse(before, after, "handle '" + handle.name + "' must have a name");
@@ -213,10 +214,11 @@ Status add_handle(const Handles& before, Handle handle, EditedHandles& after)
   return finish(before, std::move(edited), after);
 }
 
-Status remove_handles(const Handles& before, const std::vector<Index>& which, EditedHandles& after)
+Status remove_handles(
+  const Handles& before, const std::vector<Index>& handle_indices, EditedHandles& after)
 {
   std::vector<bool> is_removed(before.size(), false);
-  for (const Index h : which)
+  for (const Index h : handle_indices)
   {
     if (!is_valid_index(before, h))
     {
@@ -263,15 +265,15 @@ Status remove_handles(const Handles& before, const std::vector<Index>& which, Ed
   return finish(before, std::move(edited), after);
 }
 
-Status set_parent(const Handles& before, Index which, Index parent, EditedHandles& after)
+Status set_parent(const Handles& before, Index handle_index, Index parent, EditedHandles& after)
 {
-  if (!is_valid_index(before, which) || (parent != -1 && !is_valid_index(before, parent)))
+  if (!is_valid_index(before, handle_index) || (parent != -1 && !is_valid_index(before, parent)))
   {
-    return refuse(
-      before, after, missing_handle_message(is_valid_index(before, which) ? parent : which));
+    return refuse(before, after,
+      missing_handle_message(is_valid_index(before, handle_index) ? parent : handle_index));
   }
   EditedHandles edited = copy_unedited(before);
-  edited.handles[static_cast<std::size_t>(which)].parent = parent;
+  edited.handles[static_cast<std::size_t>(handle_index)].parent = parent;
   return finish(before, std::move(edited), after);
 }
 
@@ -309,16 +311,16 @@ std::vector<HandleEnd> ends_at_joint(const Handles& handles, const HandleEnd& en
   {
     return joint;
   }
-  const Handle& own = handles[static_cast<std::size_t>(end.handle)];
-  const Vec3& position = end.tail ? own.tail : own.head;
-  const double same = 1e-9 * extent(handles);
+  const Handle& end_handle = handles[static_cast<std::size_t>(end.handle)];
+  const Vec3& position = end.tail ? end_handle.tail : end_handle.head;
+  const double same_tolerance = 1e-9 * extent(handles);
   for (std::size_t i = 0; i < handles.size(); ++i)
   {
     for (const bool tail : { false, true })
     {
       const auto number = static_cast<Index>(i);
       const Vec3& other = tail ? handles[i].tail : handles[i].head;
-      if (handles[i].kind == HandleKind::bone && (other - position).norm() <= same &&
+      if (handles[i].kind == HandleKind::bone && (other - position).norm() <= same_tolerance &&
         (number != end.handle || tail != end.tail))
       {
         joint.push_back({ number, tail });
@@ -351,12 +353,12 @@ Status move_ends(const Handles& before, const std::vector<HandleEnd>& ends,
   return finish(before, std::move(edited), after);
 }
 
-Status snap_to_surface(const Handles& before, const std::vector<Index>& which,
+Status snap_to_surface(const Handles& before, const std::vector<Index>& handle_indices,
   const SurfaceProbe& surface, EditedHandles& after)
 {
   std::vector<HandleEnd> ends;
   std::vector<Vec3> positions;
-  for (const Index h : selected_or_all(before, which))
+  for (const Index h : selected_or_all(before, handle_indices))
   {
     if (!is_valid_index(before, h))
     {
@@ -381,8 +383,8 @@ Status snap_to_surface(const Handles& before, const std::vector<Index>& which,
   return move_ends(before, ends, positions, after);
 }
 
-Status mirror_handles(const Handles& before, const std::vector<Index>& which, const Vec3& position,
-  const Vec3& normal, EditedHandles& after)
+Status mirror_handles(const Handles& before, const std::vector<Index>& handle_indices,
+  const Vec3& position, const Vec3& normal, EditedHandles& after)
 {
   const double length = normal.norm();
   if (!(length > 0.0) || !normal.allFinite() || !position.allFinite())
@@ -391,16 +393,18 @@ Status mirror_handles(const Handles& before, const std::vector<Index>& which, co
   }
   const Vec3 n = normal / length;
   const auto mirrored = [&](const Vec3& p) { return Vec3(p - 2.0 * n * n.dot(p - position)); };
-  const double same = 1e-9 * std::max(extent(before), 1e-300);
-  const auto near = [&](const Vec3& a, const Vec3& b) { return (a - b).norm() <= same; };
-  const auto in_plane = [&](const Vec3& p) { return std::abs(n.dot(p - position)) <= same; };
+  const double same_tolerance = 1e-9 * std::max(extent(before), 1e-300);
+  const auto are_near = [&](const Vec3& a, const Vec3& b)
+  { return (a - b).norm() <= same_tolerance; };
+  const auto is_in_plane = [&](const Vec3& p)
+  { return std::abs(n.dot(p - position)) <= same_tolerance; };
 
   std::map<std::string, Index> by_name;
   for (std::size_t i = 0; i < before.size(); ++i)
   {
     by_name[before[i].name] = static_cast<Index>(i);
   }
-  const std::vector<Index> list = selected_or_all(before, which);
+  const std::vector<Index> list = selected_or_all(before, handle_indices);
   EditedHandles edited = copy_unedited(before);
   std::vector<Index> image(before.size(), -1); // index of each handle's mirror image; -1: none
   for (const Index h : list)
@@ -410,9 +414,9 @@ Status mirror_handles(const Handles& before, const std::vector<Index>& which, co
       return refuse(before, after, missing_handle_message(h));
     }
     const Handle& handle = before[static_cast<std::size_t>(h)];
-    const bool across =
-      near(mirrored(handle.head), handle.tail) && near(mirrored(handle.tail), handle.head);
-    if ((in_plane(handle.head) && in_plane(handle.tail)) || across)
+    const bool crosses_plane =
+      are_near(mirrored(handle.head), handle.tail) && are_near(mirrored(handle.tail), handle.head);
+    if ((is_in_plane(handle.head) && is_in_plane(handle.tail)) || crosses_plane)
     {
       image[static_cast<std::size_t>(h)] = h;
       continue;
@@ -440,8 +444,8 @@ Status mirror_handles(const Handles& before, const std::vector<Index>& which, co
     const auto existing_image = std::find_if(before.begin(), before.end(),
       [&](const Handle& other)
       {
-        return other.kind == handle.kind && near(other.head, mirrored(handle.head)) &&
-          near(other.tail, mirrored(handle.tail));
+        return other.kind == handle.kind && are_near(other.head, mirrored(handle.head)) &&
+          are_near(other.tail, mirrored(handle.tail));
       });
     if (existing_image != before.end())
     {
@@ -469,18 +473,18 @@ Status mirror_handles(const Handles& before, const std::vector<Index>& which, co
     for (const CageElement& element : handle.cage)
     {
       CageElement copy = element;
-      bool known = true;
+      bool has_all_corners = true;
       for (Index& corner : copy)
       {
         const Index other = corner < 0 ? -1 : image[static_cast<std::size_t>(corner)];
-        known = known && (corner < 0 || other >= 0);
+        has_all_corners = has_all_corners && (corner < 0 || other >= 0);
         corner = other;
       }
-      if (known && copy[2] >= 0)
+      if (has_all_corners && copy[2] >= 0)
       {
         std::swap(copy[1], copy[2]);
       }
-      if (known && !has_element(edited.handles, copy))
+      if (has_all_corners && !has_element(edited.handles, copy))
       {
         edited.handles[static_cast<std::size_t>(copy[0])].cage.push_back(copy);
       }

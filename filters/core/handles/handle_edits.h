@@ -30,7 +30,7 @@ struct EditedHandles
 /// Return the wanted name. If another handle has this name, append a suffix .001, .002, …. If the
 /// wanted name is empty, return a letter for the kind (p, b, c or r) with the first free number,
 /// for example p1.
-std::string unique_name(const Handles& handles, const std::string& wanted, HandleKind kind);
+std::string unique_name(const Handles& handles, const std::string& requested_name, HandleKind kind);
 
 /// Append a handle. The new name is unique_name(handle.name). The cage elements of the handle may
 /// refer to the new handle by its future index, which is the size of the list before the edit.
@@ -38,15 +38,16 @@ Status add_handle(const Handles& before, Handle handle, EditedHandles& after);
 
 /// Remove handles. Children of a removed handle are attached to their nearest remaining ancestor.
 /// Edges and faces of a cage are removed if one of their corners is removed.
-Status remove_handles(const Handles& before, const std::vector<Index>& which, EditedHandles& after);
+Status remove_handles(
+  const Handles& before, const std::vector<Index>& handle_indices, EditedHandles& after);
 
 /// Rename a handle. Return invalid_input if the name is empty or belongs to another handle.
 Status rename_handle(
-  const Handles& before, Index which, const std::string& name, EditedHandles& after);
+  const Handles& before, Index handle_index, const std::string& name, EditedHandles& after);
 
 /// Set the parent; -1: none. Return invalid_input if the parent is the handle itself or one of its
 /// descendants.
-Status set_parent(const Handles& before, Index which, Index parent, EditedHandles& after);
+Status set_parent(const Handles& before, Index handle_index, Index parent, EditedHandles& after);
 
 /// Add the edge of a cage between two cage vertices, or remove it if it exists.
 Status toggle_cage_edge(const Handles& before, Index a, Index b, EditedHandles& after);
@@ -87,14 +88,14 @@ std::string mirrored_name(const std::string& name);
 /// itself if this parent has no image. Edges and faces of cages are copied if all of their corners
 /// have images. The corners of copied faces are in reversed order, so that their outer sides stay
 /// outside.
-/// @param which  indices of the handles to mirror; empty: all
-Status mirror_handles(const Handles& before, const std::vector<Index>& which, const Vec3& position,
-  const Vec3& normal, EditedHandles& after);
+/// @param handle_indices  indices of the handles to mirror; empty: all
+Status mirror_handles(const Handles& before, const std::vector<Index>& handle_indices,
+  const Vec3& position, const Vec3& normal, EditedHandles& after);
 
 /// Move points, cage vertices and both ends of bones to the nearest point of a surface. Regions do
 /// not move.
-/// @param which  indices of the handles to move; empty: all
-Status snap_to_surface(const Handles& before, const std::vector<Index>& which,
+/// @param handle_indices  indices of the handles to move; empty: all
+Status snap_to_surface(const Handles& before, const std::vector<Index>& handle_indices,
   const SurfaceProbe& surface, EditedHandles& after);
 
 } // namespace bindpose

@@ -89,13 +89,13 @@ std::string quoted_names(const Handles& handles, const std::vector<Index>& list)
 
 std::string abbreviated_names(const Handles& handles, const std::vector<Index>& list)
 {
-  constexpr std::size_t most = 3;
-  if (list.size() <= most + 1)
+  constexpr std::size_t maximum = 3;
+  if (list.size() <= maximum + 1)
   {
     return quoted_names(handles, list);
   }
-  return quoted_names(handles, { list.begin(), list.begin() + most }) + " and " +
-    std::to_string(list.size() - most) + " more";
+  return quoted_names(handles, { list.begin(), list.begin() + maximum }) + " and " +
+    std::to_string(list.size() - maximum) + " more";
 }
 
 Status check_handles(const Handles& handles)
@@ -128,7 +128,7 @@ Status check_handles(const Handles& handles)
     box.add(handle.head);
     box.add(handle.tail);
   }
-  const double same = 1e-9 * box.diagonal();
+  const double coincidence_tolerance = 1e-9 * box.diagonal();
   for (std::size_t i = 0; i < handles.size(); ++i)
   {
     for (std::size_t j = i + 1; j < handles.size(); ++j)
@@ -141,10 +141,11 @@ Status check_handles(const Handles& handles)
       {
         continue;
       }
-      const bool same_way = (a.head - b.head).norm() <= same && (a.tail - b.tail).norm() <= same;
-      const bool opposite_way =
-        (a.head - b.tail).norm() <= same && (a.tail - b.head).norm() <= same;
-      if (same_way || opposite_way)
+      const bool same_direction = (a.head - b.head).norm() <= coincidence_tolerance &&
+        (a.tail - b.tail).norm() <= coincidence_tolerance;
+      const bool opposite_direction = (a.head - b.tail).norm() <= coincidence_tolerance &&
+        (a.tail - b.head).norm() <= coincidence_tolerance;
+      if (same_direction || opposite_direction)
       {
         return Status::invalid_input(
           "handles '" + a.name + "' and '" + b.name + "' have the same position");

@@ -107,14 +107,14 @@ public:
   {
     const SpawnActions actions(this->request_, lines);
     const SpawnAttributes attributes;
-    std::vector<char*> words{ const_cast<char*>(this->request_.path.c_str()) };
+    std::vector<char*> argv{ const_cast<char*>(this->request_.path.c_str()) };
     for (const std::string& argument : this->request_.arguments)
     {
-      words.push_back(const_cast<char*>(argument.c_str()));
+      argv.push_back(const_cast<char*>(argument.c_str()));
     }
-    words.push_back(nullptr);
+    argv.push_back(nullptr);
     const int error = ::posix_spawn(&this->id_, this->request_.path.c_str(), actions.get(),
-      attributes.get(), words.data(), environ);
+      attributes.get(), argv.data(), environ);
     if (error)
     {
       this->id_ = -1;
@@ -320,10 +320,11 @@ Status run_child(ExecutionContext& context, const ChildRequest& request,
   bool open = true;
   for (;;)
   {
-    pollfd wait{ open ? lines_read.get() : -1, POLLIN, 0 };
-    const int patience = open ? 20 : 1; // milliseconds between two checks of cancel and time limits
-    const int ready = ::poll(&wait, 1, patience);
-    if (open && ready > 0)
+    pollfd poll_request{ open ? lines_read.get() : -1, POLLIN, 0 };
+    // time between two checks of cancel and time limits
+    const int poll_milliseconds = open ? 20 : 1;
+    const int ready_count = ::poll(&poll_request, 1, poll_milliseconds);
+    if (open && ready_count > 0)
     {
       open = lines.read(lines_read.get());
     }
@@ -335,7 +336,7 @@ Status run_child(ExecutionContext& context, const ChildRequest& request,
     // Read the pipe to its end before handling the end of the child, because the last line may
     // explain the failure. A grandchild may keep the pipe open; therefore, if no output is ready,
     // the end of the child is sufficient.
-    if ((!open || ready == 0) && child.ended())
+    if ((!open || ready_count == 0) && child.ended())
     {
       describe_end(child.finish(), end);
       return {};

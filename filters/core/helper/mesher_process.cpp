@@ -48,7 +48,7 @@ std::string folder_of(const std::string& path)
 class HelperOutput
 {
 public:
-  void take(ExecutionContext& context, const std::string& line, Report& report)
+  void parse_line(ExecutionContext& context, const std::string& line, Report& report)
   {
     std::istringstream words(line);
     std::string kind, key;
@@ -68,17 +68,17 @@ public:
     }
     else if (!line.empty())
     {
-      constexpr std::size_t enough = 200;
-      this->noise_ = line.substr(0, enough);
+      constexpr std::size_t maximum_message_length = 200;
+      this->library_output_ = line.substr(0, maximum_message_length);
     }
   }
 
   std::string error() const { return this->error_; }
-  std::string library_output() const { return this->noise_; }
+  std::string library_output() const { return this->library_output_; }
 
 private:
   std::string error_;
-  std::string noise_;
+  std::string library_output_;
 };
 
 Status check_end(const ChildEnd& end, const HelperOutput& lines, const MesherRequest& request,
@@ -119,11 +119,11 @@ std::string find_mesher()
     return is_executable_file(chosen) ? std::string(chosen) : std::string();
   }
   std::vector<std::string> folders;
-  char self[4096];
-  const ssize_t length = ::readlink("/proc/self/exe", self, sizeof(self) - 1);
+  char executable_path[4096];
+  const ssize_t length = ::readlink("/proc/self/exe", executable_path, sizeof(executable_path) - 1);
   if (length > 0)
   {
-    folders.push_back(folder_of(std::string(self, static_cast<std::size_t>(length))));
+    folders.push_back(folder_of(std::string(executable_path, static_cast<std::size_t>(length))));
   }
   // Find the library that contains this function. The library is either in a plugin's folder or in
   // lib/ or lib/ARCHITECTURE/ of the installation.
@@ -196,8 +196,8 @@ Status run_mesher(ExecutionContext& context, const MesherRequest& request, const
   HelperOutput lines;
   ChildEnd end;
   Status status = run_child(
-    context, child, [&](const std::string& line) { lines.take(context, line, answer.report); },
-    end);
+    context, child,
+    [&](const std::string& line) { lines.parse_line(context, line, answer.report); }, end);
   answer.seconds = end.seconds;
   answer.timed_out = end.timed_out;
   if (status.ok())

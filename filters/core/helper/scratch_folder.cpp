@@ -95,9 +95,9 @@ void ScratchFolder::start_guard()
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   std::string script = guard_script;
   std::string shell = "sh", option = "-c", name = "bindpose-guard";
-  char* words[] = { shell.data(), option.data(), script.data(), name.data(), this->path_.data(),
+  char* argv[] = { shell.data(), option.data(), script.data(), name.data(), this->path_.data(),
     nullptr };
-  if (::posix_spawn(&this->guard_, "/bin/sh", &actions, &attributes, words, environ) != 0)
+  if (::posix_spawn(&this->guard_, "/bin/sh", &actions, &attributes, argv, environ) != 0)
   {
     this->guard_ = -1;
   }

@@ -52,7 +52,7 @@ struct CdtTets::Perturbation
   double snap;
   double jitter; ///< largest displacement, as a fraction of the bounding-box diagonal
 
-  bool moves() const { return this->snap > 0.0 || this->jitter > 0.0; }
+  bool is_active() const { return this->snap > 0.0 || this->jitter > 0.0; }
 };
 
 namespace
@@ -106,7 +106,7 @@ Status CdtTets::build(double seconds)
   this->deadline_ = this->context_.elapsed_seconds() + seconds;
   const Perturbation no_perturbation{ "", 0.0, 0.0 };
   Status status;
-  if (this->surface_.clean())
+  if (this->surface_.is_clean())
   {
     const Phase phase(this->context_, "tetgen", 0.0, 0.6);
     this->original_ = this->surface_.original_vertices;
@@ -116,16 +116,16 @@ Status CdtTets::build(double seconds)
     // Without the switch `c`, TetGen removes the tets outside the surface.
     status = this->try_tetgen(
       { this->options_.keep_outside ? "pYcA" : "pYA", false }, no_perturbation, data);
-    if (status.ok() || this->final(status))
+    if (status.ok() || this->is_final(status))
     {
       return status;
     }
   }
   MesherData first_refined;
   std::vector<Index> first_original;
-  const Perturbation moves[] = { no_perturbation, { ", vertices rounded", 0x1p-20, 0.0 },
+  const Perturbation perturbations[] = { no_perturbation, { ", vertices rounded", 0x1p-20, 0.0 },
     { ", vertices moved by 1e-5", 0.0, 1e-5 } };
-  for (const Perturbation& move : moves)
+  for (const Perturbation& move : perturbations)
   {
     MesherData refined;
     status = this->refine(move, refined);
@@ -138,13 +138,13 @@ Status CdtTets::build(double seconds)
       }
       status = this->try_switches(move, refined);
     }
-    if (status.ok() && move.moves())
+    if (status.ok() && move.is_active())
     {
       this->warnings_.push_back(
         "the surface could be tetrahedralized only after its vertices were moved by up to " +
         short_number(std::max(move.snap, move.jitter)) + " of its bounding-box diagonal");
     }
-    if (status.ok() || this->final(status))
+    if (status.ok() || this->is_final(status))
     {
       return status;
     }
@@ -192,7 +192,7 @@ Status CdtTets::try_switches(const Perturbation& move, const MesherData& refined
   bool fine_tried = false;
   bool fine_is_wrong = false;
   Status status;
-  const auto done = [&]() { return status.ok() || this->final(status); };
+  const auto is_finished = [&]() { return status.ok() || this->is_final(status); };
   const auto try_fine = [&]()
   {
     fine_tried = true;
@@ -202,7 +202,7 @@ Status CdtTets::try_switches(const Perturbation& move, const MesherData& refined
   if (fine_first)
   {
     try_fine();
-    if (done())
+    if (is_finished())
     {
       return status;
     }
@@ -240,13 +240,13 @@ Status CdtTets::try_switches(const Perturbation& move, const MesherData& refined
     {
       break; // other switches would reach the time limit too, or the time budget is used up
     }
-    if (!done() && this->wrong_volume_ && !fine_tried)
+    if (!is_finished() && this->wrong_volume_ && !fine_tried)
     {
       try_fine();
     }
     // If the volume of the small tets is wrong, too, more runs of TetGen cannot help.
-    this->finer_is_no_better_ = fine_is_wrong && this->wrong_volume_;
-    if (done())
+    this->refinement_is_useless_ = fine_is_wrong && this->wrong_volume_;
+    if (is_finished())
     {
       break;
     }
@@ -313,7 +313,7 @@ Status CdtTets::try_delaunay(const MesherData& refined)
   const double start = this->context_.elapsed_seconds();
   // A Delaunay triangulation need not contain the triangles. Nearly coincident vertices would only
   // create slivers, so one vertex per small box is kept.
-  constexpr double near = 1e-7; // size of a box, in bounding-box diagonals
+  constexpr double box_size = 1e-7; // size of a box, in bounding-box diagonals
   MesherData input = refined;
   std::set<std::array<double, 3>> boxes;
   Index kept = 0;
@@ -323,7 +323,7 @@ Status CdtTets::try_delaunay(const MesherData& refined)
     std::array<double, 3> box{};
     for (int k = 0; k < 3; ++k)
     {
-      box[k] = std::floor(refined.points(v, k) / (near * this->diagonal_));
+      box[k] = std::floor(refined.points(v, k) / (box_size * this->diagonal_));
     }
     if (boxes.insert(box).second)
     {
@@ -440,19 +440,19 @@ Status CdtTets::run_job(ExecutionContext& context, const std::vector<std::string
   {
     // The helper uses this limit, which is a little lower, to stop by itself and to report
     // progress.
-    constexpr double earlier = 0.9;
-    request.arguments.insert(
-      request.arguments.end(), { "--time", std::to_string(earlier * std::min(left, seconds)) });
+    constexpr double helper_time_fraction = 0.9;
+    request.arguments.insert(request.arguments.end(),
+      { "--time", std::to_string(helper_time_fraction * std::min(left, seconds)) });
   }
   return run_mesher(context, request, input, answer);
 }
 
 /// Report whether no other attempt can succeed after this status.
-bool CdtTets::final(const Status& status) const
+bool CdtTets::is_final(const Status& status) const
 {
   return status.code == StatusCode::canceled || status.code == StatusCode::unavailable ||
     (!status.ok() &&
-      (this->finer_is_no_better_ || this->context_.elapsed_seconds() >= this->deadline_));
+      (this->refinement_is_useless_ || this->context_.elapsed_seconds() >= this->deadline_));
 }
 
 /// Keep the tets in which the winding number reaches the threshold. Return ok if their volume
@@ -507,12 +507,12 @@ Status CdtTets::segment_and_store(
   std::vector<TetFacet> facets = tet_facets(kept);
   // A tet without a neighbor is removed if its volume is less than this fraction of the total. Such
   // tets occur where the winding number varies around the threshold.
-  const double lone = this->inside_.labels_are_exact() ? 1e-8 : 1e-4;
-  remove_small_components(data.points, kept, facets, lone);
+  const double lone_tet_fraction = this->inside_.labels_are_exact() ? 1e-8 : 1e-4;
+  remove_small_components(data.points, kept, facets, lone_tet_fraction);
   peel_slivers(data.points, kept, facets, flat_height * this->diagonal_);
   if (count == 0 && this->inside_.labels_are_exact())
   {
-    this->finer_is_no_better_ = true;
+    this->refinement_is_useless_ = true;
     return this->inside_.nothing_enclosed_error();
   }
   status = this->swap_flat(data.points, kept, facets);
@@ -576,9 +576,9 @@ Status CdtTets::swap_flat(const Points& points, Tets& tets, std::vector<TetFacet
   options.angle = 1e-8; // degrees
   options.release_angle = 0.0; // held (constrained) vertices do not move
   options.keep_boundary = true;
-  Improvement done;
+  Improvement improvement;
   if (!improve_tets(this->context_, mesh,
-        std::vector<char>(static_cast<std::size_t>(points.rows()), 1), {}, options, done))
+        std::vector<char>(static_cast<std::size_t>(points.rows()), 1), {}, options, improvement))
   {
     return Status::canceled();
   }
@@ -591,7 +591,7 @@ Status CdtTets::swap_flat(const Points& points, Tets& tets, std::vector<TetFacet
 void CdtTets::store_all_tets(
   const MesherData& data, const Eigen::VectorXd& w, const std::vector<char>& inside)
 {
-  const double flat = 1e-15 * std::pow(this->diagonal_, 3.0);
+  const double minimum_volume = 1e-15 * std::pow(this->diagonal_, 3.0);
   const Eigen::VectorXd volumes = tet_volumes(data.points, data.tets);
   this->mesh_.tets = data.tets;
   this->winding_numbers_ = w;
@@ -599,7 +599,7 @@ void CdtTets::store_all_tets(
   Index count = 0;
   for (Index t = 0; t < data.tets.rows(); ++t)
   {
-    if (volumes[t] > flat)
+    if (volumes[t] > minimum_volume)
     {
       this->mesh_.tets.row(count) = data.tets.row(t);
       this->winding_numbers_[count] = w[t];
@@ -613,7 +613,7 @@ void CdtTets::store_all_tets(
 
 Status CdtTets::complete()
 {
-  this->finer_is_no_better_ = false;
+  this->refinement_is_useless_ = false;
   this->deadline_ = std::max(this->start_ + this->options_.time_limit, this->deadline_);
   if (this->options_.keep_outside)
   {

@@ -107,7 +107,7 @@ private:
   Status move_vertices(const Perturbation& move, RepairedSurface& moved);
   Status run_job(ExecutionContext& context, const std::vector<std::string>& arguments,
     const MesherData& input, double seconds, MesherResult& answer) const;
-  bool final(const Status& status) const;
+  bool is_final(const Status& status) const;
   bool time_budget_is_used() const;
   Status keep_inside(const MesherData& data);
   Status segment_and_store(
@@ -139,7 +139,7 @@ private:
   double deadline_ = 0.0;
   std::vector<Index> original_; ///< input ids of the first vertices of the current attempt
   bool wrong_volume_ = false; ///< whether the attempt gave tets with a wrong volume
-  bool finer_is_no_better_ = false; ///< whether finer tets cannot improve the result
+  bool refinement_is_useless_ = false; ///< whether finer tets cannot improve the result
   bool timed_out_ = false; ///< whether the last run of TetGen reached its time limit
   double job_seconds_ = 0.0; ///< total duration of the refinements and the TetGen runs
   /// Whether the refinement was stopped because too many triangles cross each other.

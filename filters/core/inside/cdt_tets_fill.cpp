@@ -69,14 +69,14 @@ void remove_near(Points& positions, const Points& others, const SizingField& siz
     // Minimum distance from the other points, in units of the local edge length.
     constexpr double spacing = 0.5;
     const double least = spacing * sizes.at(p);
-    bool near = false;
+    bool is_near = false;
     for (auto other = std::lower_bound(order.begin(), order.end(), p.x() - least,
            [&](Index a, double x) { return others(a, 0) < x; });
-         other != order.end() && others(*other, 0) <= p.x() + least && !near; ++other)
+         other != order.end() && others(*other, 0) <= p.x() + least && !is_near; ++other)
     {
-      near = (others.row(*other).transpose() - p).norm() < least;
+      is_near = (others.row(*other).transpose() - p).norm() < least;
     }
-    if (!near)
+    if (!is_near)
     {
       positions.row(kept++) = p;
     }
@@ -188,8 +188,8 @@ Status CdtTets::prepare_interior(double longest, FillState& inside)
 {
   const Points& points = this->mesh_.points;
   const Triangles boundary = boundary_triangles(this->mesh_.tets);
-  constexpr double none = std::numeric_limits<double>::infinity();
-  Eigen::VectorXd shortest = Eigen::VectorXd::Constant(points.rows(), none);
+  constexpr double no_limit = std::numeric_limits<double>::infinity();
+  Eigen::VectorXd shortest = Eigen::VectorXd::Constant(points.rows(), no_limit);
   for (const Edge& edge : mesh_edges(boundary))
   {
     const double length = (points.row(edge.a) - points.row(edge.b)).norm();
@@ -203,7 +203,7 @@ Status CdtTets::prepare_interior(double longest, FillState& inside)
   Index count = 0;
   for (Index v = 0; v < points.rows(); ++v)
   {
-    if (shortest[v] < none)
+    if (shortest[v] < no_limit)
     {
       sites.row(count) = points.row(v);
       lengths[count++] = shortest[v];
@@ -225,9 +225,9 @@ Status CdtTets::prepare_interior(double longest, FillState& inside)
 Points CdtTets::positions_on_handles(FillState& inside) const
 {
   // Minimum distance of samples from the boundary, in units of the local edge length.
-  constexpr double near = 0.3;
+  constexpr double minimum_boundary_distance = 0.3;
   // Minimum distance of the handles' points from the boundary, in bounding-box diagonals.
-  constexpr double touching = 1e-6;
+  constexpr double minimum_point_distance = 1e-6;
   const SizingField& sizes = *inside.sizes;
   const HandleSamples samples =
     sample_handle_elements(this->options_.handles, [&](const Vec3& p) { return sizes.at(p); });
@@ -236,8 +236,9 @@ Points CdtTets::positions_on_handles(FillState& inside) const
   for (Index i = 0; i < samples.points.rows(); ++i)
   {
     const Vec3 p = samples.points.row(i);
-    const double distance =
-      i < samples.handle_point_count ? touching * this->diagonal_ : near * sizes.at(p);
+    const double distance = i < samples.handle_point_count
+      ? minimum_point_distance * this->diagonal_
+      : minimum_boundary_distance * sizes.at(p);
     if (inside.interior.has_clearance(p, distance) && inside.interior.contains(p))
     {
       kept.row(count++) = p;
@@ -298,8 +299,8 @@ Status CdtTets::improve()
   options.coplanar = coplanar * this->diagonal_;
   options.insert = true;
   options.slack = 0.7;
-  Improvement done;
-  if (!improve_tets(this->context_, mesh, std::move(fixed), {}, options, done))
+  Improvement improvement;
+  if (!improve_tets(this->context_, mesh, std::move(fixed), {}, options, improvement))
   {
     return Status::canceled();
   }

@@ -27,8 +27,9 @@ bool is_boundary_side(const RegionBoundary& region, const TriangleSide& side)
     (region.corner(side.triangle, side.corner) +
       region.corner(side.triangle, (side.corner + 1) % 3));
   const Vec3 apex = region.corner(side.triangle, (side.corner + 2) % 3);
-  constexpr double inwards = 0.02;
-  return region.bounds_region_at(side.triangle, (1.0 - inwards) * middle + inwards * apex);
+  constexpr double inward_fraction = 0.02;
+  return region.bounds_region_at(
+    side.triangle, (1.0 - inward_fraction) * middle + inward_fraction * apex);
 }
 } // namespace
 
@@ -57,13 +58,13 @@ CreasePoints find_creases(const RegionBoundary& region, const SizingField& field
     ends.emplace_back(sides[i].b, sides[i].a);
     const Vec3 a = region.points().row(sides[i].a);
     const Vec3 b = region.points().row(sides[i].b);
-    constexpr double most = 1000.0;
+    constexpr double maximum = 1000.0;
     // The spacing is smaller than the requested length, so that few facets next to the crease cut
     // it.
     constexpr double spacing_factor = 0.7;
     const double length =
       spacing_factor * std::min({ field.at(a), field.at(b), field.at(0.5 * (a + b)) });
-    const double parts = std::min(std::ceil((b - a).norm() / length), most);
+    const double parts = std::min(std::ceil((b - a).norm() / length), maximum);
     for (double part = 1.0; part < parts; ++part)
     {
       edge_points.emplace_back(a + part / parts * (b - a));

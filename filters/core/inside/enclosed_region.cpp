@@ -53,14 +53,14 @@ Status EnclosedRegion::build(
   this->box_ = bounding_box(surface.points);
   double negative = 0.0;
   Status status = this->sample(context, surface, negative);
-  flipped = status.ok() && negative > this->volume_ && !surface.clean();
+  flipped = status.ok() && negative > this->volume_ && !surface.is_clean();
   if (flipped)
   {
     surface.triangles.col(1).swap(surface.triangles.col(2));
     this->largest_winding_ = 0.0;
     status = this->sample(context, surface, negative);
   }
-  if (surface.clean() && surface.found.components == 1)
+  if (surface.is_clean() && surface.found.components == 1)
   {
     // The winding number of a clean surface is 1 inside and never 2, so the volume is 0 for
     // thresholds above 1.
@@ -95,7 +95,7 @@ Status EnclosedRegion::sample(
   // planes of a grid. Then a whole layer of points would be counted wrongly.
   const Vec3 size = this->box_.size();
   // Sufficient number of samples inside; the error is then below one percent.
-  constexpr double enough = 20000.0;
+  constexpr double sufficient_samples = 20000.0;
   constexpr double growth = 3.375;
   auto samples = static_cast<Index>((40.0 * size / size.maxCoeff()).array().ceil().max(1.0).prod());
   for (;; samples = static_cast<Index>(growth * static_cast<double>(samples)))
@@ -109,17 +109,17 @@ Status EnclosedRegion::sample(
     }
     const double cell = size.prod() / static_cast<double>(samples);
     const double threshold = this->threshold_;
-    const auto hits = static_cast<double>((w.array() >= threshold).count());
+    const auto inside_samples = static_cast<double>((w.array() >= threshold).count());
     negative = cell * static_cast<double>((w.array() <= -threshold).count());
-    this->volume_ = cell * hits;
-    this->volume_error_ = hits > 0.0 ? 1.0 / std::sqrt(hits) : 1.0;
+    this->volume_ = cell * inside_samples;
+    this->volume_error_ = inside_samples > 0.0 ? 1.0 / std::sqrt(inside_samples) : 1.0;
     this->near_threshold_fraction_ =
       static_cast<double>(((w.array() - threshold).abs() < undecided_margin).count()) /
-      std::max(hits, 1.0);
+      std::max(inside_samples, 1.0);
     this->largest_winding_ = std::max(this->largest_winding_, w.maxCoeff());
     const double next_samples = growth * static_cast<double>(w.size());
-    if (hits >= enough || negative > this->volume_ || next_samples > maximum_samples ||
-      next_samples * cost > maximum_cost)
+    if (inside_samples >= sufficient_samples || negative > this->volume_ ||
+      next_samples > maximum_samples || next_samples * cost > maximum_cost)
     {
       break;
     }
@@ -159,14 +159,16 @@ Status EnclosedRegion::no_tets_error() const
 Status EnclosedRegion::check_not_specks(const RepairedSurface& surface) const
 {
   constexpr Index minimum_triangles = 10000;
-  constexpr double loose = 0.9; // minimum fraction of the triangle sides that are boundary edges
+  // minimum fraction of the triangle sides that are boundary edges
+  constexpr double minimum_boundary_fraction = 0.9;
   constexpr double maximum_fraction = 1e-3; // maximum volume, as a fraction of the box volume
   // Maximum thickness, relative to the mean size of a triangle.
   constexpr double largest_thickness = 0.1;
   const Index count = surface.triangles.rows();
   const double fraction = this->volume_ / this->box_.size().prod();
   if (count < minimum_triangles || fraction > maximum_fraction ||
-    static_cast<double>(surface.found.boundary_edges) < loose * 3.0 * static_cast<double>(count))
+    static_cast<double>(surface.found.boundary_edges) <
+      minimum_boundary_fraction * 3.0 * static_cast<double>(count))
   {
     return {};
   }
@@ -284,10 +286,11 @@ Status EnclosedRegion::label_tets(
     for (int k = 0; k < 4; ++k)
     {
       // Quadrature rule of degree 2 with four points.
-      constexpr double near = 0.5854101966249685;
-      constexpr double others = 0.1381966011250105;
-      sample_points.row(4 * static_cast<Index>(i) + k) = 4.0 * others * centers.row(tets[i]) +
-        (near - others) * data.points.row(data.tets(tets[i], k));
+      constexpr double own_corner_weight = 0.5854101966249685;
+      constexpr double other_corner_weight = 0.1381966011250105;
+      sample_points.row(4 * static_cast<Index>(i) + k) =
+        4.0 * other_corner_weight * centers.row(tets[i]) +
+        (own_corner_weight - other_corner_weight) * data.points.row(data.tets(tets[i], k));
     }
   }
   Eigen::VectorXd values;

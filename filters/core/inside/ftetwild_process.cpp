@@ -28,9 +28,9 @@ constexpr const char* missing_message =
 
 Status check_options(const FtetwildOptions& options)
 {
-  constexpr double least = 1e-5;
-  constexpr double most = 0.1;
-  if (!(options.epsilon >= least && options.epsilon <= most))
+  constexpr double minimum = 1e-5;
+  constexpr double maximum = 0.1;
+  if (!(options.epsilon >= minimum && options.epsilon <= maximum))
   {
     return Status::invalid_input(
       "ftetwild_epsilon must be from 0.00001 to 0.1, not " + short_number(options.epsilon));
@@ -47,32 +47,32 @@ Status check_options(const FtetwildOptions& options)
 class OutputLines
 {
 public:
-  void take(ExecutionContext& context, const std::string& line)
+  void parse_line(ExecutionContext& context, const std::string& line)
   {
     struct Stage
     {
-      const char* words;
-      double done;
+      const char* prefix;
+      double completed_fraction;
     };
     for (const Stage& stage :
       { Stage{ "preprocessing ", 0.1 }, Stage{ "tetrahedralizing ", 0.2 }, Stage{ "cutting ", 0.4 },
         Stage{ "mesh optimization ", 0.9 }, Stage{ "winding number ", 0.95 } })
     {
-      if (line.find(stage.words) != std::string::npos)
+      if (line.find(stage.prefix) != std::string::npos)
       {
-        context.progress(stage.done);
+        context.progress(stage.completed_fraction);
       }
     }
     if (!line.empty())
     {
-      constexpr std::size_t enough = 200;
-      this->last_ = line.substr(0, enough);
+      constexpr std::size_t maximum_message_length = 200;
+      this->last_line_ = line.substr(0, maximum_message_length);
     }
   }
-  const std::string& last() const { return this->last_; }
+  const std::string& last_line() const { return this->last_line_; }
 
 private:
-  std::string last_;
+  std::string last_line_;
 };
 
 /// Return the tets, oriented positively and without unused vertices.
@@ -148,7 +148,7 @@ Status run_ftetwild(ExecutionContext& context, PointsView points, TrianglesView 
   const UnitFrame frame(bounding_box(points, triangles));
   const std::string surface = folder.path() + "/surface.off";
   const std::string tets = folder.path() + "/tets.mesh";
-  status = write_off(surface, to_polygons(frame.into(points), triangles));
+  status = write_off(surface, to_polygons(frame.to_frame(points), triangles));
   if (!status.ok())
   {
     return Status::failure(StatusCode::internal_error, status.message);
@@ -171,7 +171,7 @@ Status run_ftetwild(ExecutionContext& context, PointsView points, TrianglesView 
   OutputLines lines;
   ChildEnd end;
   status = run_child(
-    context, request, [&](const std::string& line) { lines.take(context, line); }, end);
+    context, request, [&](const std::string& line) { lines.parse_line(context, line); }, end);
   if (!status.ok())
   {
     return status;
@@ -180,7 +180,7 @@ Status run_ftetwild(ExecutionContext& context, PointsView points, TrianglesView 
   {
     return Status::failure(StatusCode::internal_error,
       request.name + " " + end.failure + memory_limit_phrase(options.memory_limit) +
-        (lines.last().empty() ? "" : "; last output: " + lines.last()));
+        (lines.last_line().empty() ? "" : "; last output: " + lines.last_line()));
   }
   MeditMesh medit_mesh;
   status = read_medit(tets, medit_mesh);
@@ -190,7 +190,7 @@ Status run_ftetwild(ExecutionContext& context, PointsView points, TrianglesView 
       StatusCode::internal_error, request.name + " did not write a valid mesh: " + status.message);
   }
   mesh = clean_up(medit_mesh);
-  mesh.points = frame.back(mesh.points);
+  mesh.points = frame.from_frame(mesh.points);
   status = check_tets(mesh.points, mesh.tets);
   if (!status.ok())
   {

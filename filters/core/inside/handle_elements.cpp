@@ -16,7 +16,7 @@ namespace bindpose
 
 namespace
 {
-constexpr double most = 1000.0; // maximum number of samples on a line
+constexpr double maximum = 1000.0; // maximum number of samples on a line
 
 class Sampler
 {
@@ -38,7 +38,7 @@ public:
       return;
     }
     const auto length = [&](double t)
-    { return std::max(this->length_(a + t * (b - a)) / segment_length, 1.0 / most); };
+    { return std::max(this->length_(a + t * (b - a)) / segment_length, 1.0 / maximum); };
     const auto pieces = [](double lengths)
     { return std::max(2, static_cast<int>(std::ceil(lengths))); };
     for (const double cut : line_cuts(0.0, 1.0, length, pieces))
@@ -49,7 +49,7 @@ public:
 
   void triangle(const Vec3& a, const Vec3& b, const Vec3& c)
   {
-    const double shortest = std::max({ (a - b).norm(), (b - c).norm(), (c - a).norm() }) / most;
+    const double shortest = std::max({ (a - b).norm(), (b - c).norm(), (c - a).norm() }) / maximum;
     std::vector<std::array<Vec3, 3>> left{ { a, b, c } };
     while (!left.empty())
     {
@@ -90,7 +90,7 @@ public:
 private:
   void add(const Vec3& p)
   {
-    if (this->seen_.insert({ p.x(), p.y(), p.z() }).second)
+    if (this->added_positions_.insert({ p.x(), p.y(), p.z() }).second)
     {
       this->list_.push_back(p);
     }
@@ -99,11 +99,11 @@ private:
   const std::function<double(const Vec3&)>& length_;
   std::vector<Vec3> list_;
   Index chosen_ = 0;
-  std::set<std::array<double, 3>> seen_;
+  std::set<std::array<double, 3>> added_positions_;
 };
 
 template <typename Matrix>
-Status check_ids(const Matrix& ids, Index count, const char* what)
+Status check_ids(const Matrix& ids, Index count, const char* id_kind)
 {
   for (Index i = 0; i < ids.rows(); ++i)
   {
@@ -111,7 +111,7 @@ Status check_ids(const Matrix& ids, Index count, const char* what)
     {
       if (ids(i, k) < 0 || ids(i, k) >= count)
       {
-        return Status::invalid_input(std::string("handle ") + what + " " + std::to_string(i) +
+        return Status::invalid_input(std::string("handle ") + id_kind + " " + std::to_string(i) +
           " references point " + std::to_string(ids(i, k)) + ", but there are " +
           std::to_string(count) + " points");
       }

@@ -41,11 +41,12 @@ public:
     // The side of the root is a power of two times the side of the largest cells allowed.
     const Box& box = interior.box();
     const double side = box.size().maxCoeff();
-    double whole = largest_cell * sizes.largest();
-    whole =
-      whole < side ? std::ldexp(whole, static_cast<int>(std::ceil(std::log2(side / whole)))) : side;
-    this->unit_ = std::ldexp(whole, -maximum_level - 1);
-    this->lower_ = box.center() - Vec3::Constant(0.5 * whole);
+    double root_size = largest_cell * sizes.largest();
+    root_size = root_size < side
+      ? std::ldexp(root_size, static_cast<int>(std::ceil(std::log2(side / root_size))))
+      : side;
+    this->unit_ = std::ldexp(root_size, -maximum_level - 1);
+    this->lower_ = box.center() - Vec3::Constant(0.5 * root_size);
   }
 
   /// Build the octree and choose its points. @return false if canceled, if more than
@@ -54,7 +55,7 @@ public:
   bool build(Index maximum_count)
   {
     std::vector<Cell> cells{ Cell() };
-    constexpr double chosen = 0.7; // fraction of the total time that is spent before choose()
+    constexpr double choice_begin = 0.7; // fraction of the total time that is spent before choose()
     double done = 0.0; // completed fraction of the time before choose()
     for (int level = 0; !cells.empty(); ++level)
     {
@@ -63,14 +64,14 @@ public:
       const double fraction =
         static_cast<double>(cells.size()) / static_cast<double>(maximum_count);
       const double next = std::min(0.5 * (1.0 + done), done + fraction);
-      const ProgressRange range(this->context_, chosen * done, chosen * next);
+      const ProgressRange range(this->context_, choice_begin * done, choice_begin * next);
       if (!this->classify(cells, level) || !this->subdivide(cells, level, maximum_count))
       {
         return false;
       }
       done = next;
     }
-    const ProgressRange range(this->context_, chosen, 1.0);
+    const ProgressRange range(this->context_, choice_begin, 1.0);
     return this->select_points();
   }
 
@@ -129,7 +130,7 @@ private:
   {
     const std::uint64_t units = side_of(level);
     const double side = this->unit_ * static_cast<double>(units);
-    const double reach = 0.5 * std::sqrt(3.0) * side;
+    const double half_diagonal = 0.5 * std::sqrt(3.0) * side;
     return parallel_for(this->context_, static_cast<Index>(cells.size()), cells_per_block,
       [&](Index begin, Index end)
       {
@@ -137,7 +138,7 @@ private:
         {
           Cell& cell = cells[i];
           const Vec3 center = this->position(moved(cell.corner, 7, units / 2));
-          if (!cell.inside && this->interior_.has_clearance(center, reach))
+          if (!cell.inside && this->interior_.has_clearance(center, half_diagonal))
           {
             cell.inside = this->interior_.contains(center);
             cell.outside = !cell.inside;
@@ -191,7 +192,7 @@ private:
     std::vector<char> good(keys.size(), 0);
     // At the distance d from the surface, the requested length is larger by growth * d.
     const double least = clearance / (1.0 + clearance * this->sizes_.growth());
-    const bool whole =
+    const bool is_complete =
       parallel_for(this->context_, static_cast<Index>(keys.size()), cells_per_block,
         [&](Index begin, Index end)
         {
@@ -202,7 +203,7 @@ private:
               ((keys[i] & 1) == 0 || this->interior_.contains(p));
           }
         });
-    if (!whole)
+    if (!is_complete)
     {
       return false;
     }
@@ -284,7 +285,7 @@ public:
   /// count.
   void add(double scale, double points)
   {
-    Sample& known = points > this->target_ ? this->above_target_ : this->below_target_;
+    Sample& sample = points > this->target_ ? this->above_target_ : this->below_target_;
     if (std::isfinite(points) && points > this->target_ &&
       std::isfinite(this->above_target_.points) && this->above_target_.scale > 0.0)
     {
@@ -294,42 +295,42 @@ public:
         std::log(this->above_target_.points / points) / std::log(scale / this->above_target_.scale),
         least_power, largest_power);
     }
-    known = { scale, points };
+    sample = { scale, points };
   }
 
   /// Return the scale to try next.
   double next() const
   {
-    const Sample& many = this->above_target_;
-    const Sample& few = this->below_target_;
+    const Sample& above = this->above_target_;
+    const Sample& below = this->below_target_;
     // Factor by which the scale changes if there is no finite measurement.
-    constexpr double blind = 12.0;
+    constexpr double unmeasured_step = 12.0;
     constexpr double largest_step = 12.0;
     constexpr double least_step = 1.1;
-    if (few.scale == 0.0)
+    if (below.scale == 0.0)
     {
-      const double step = std::isfinite(many.points)
-        ? std::pow(many.points / this->target_, 1.0 / this->power_)
-        : blind;
-      return many.scale * std::clamp(step, least_step, largest_step);
+      const double step = std::isfinite(above.points)
+        ? std::pow(above.points / this->target_, 1.0 / this->power_)
+        : unmeasured_step;
+      return above.scale * std::clamp(step, least_step, largest_step);
     }
-    if (many.scale == 0.0)
+    if (above.scale == 0.0)
     {
       constexpr double largest_step_back = 0.1;
-      return std::max(
-        this->minimum_scale_, few.scale * std::max(largest_step_back, few.points / this->target_));
+      return std::max(this->minimum_scale_,
+        below.scale * std::max(largest_step_back, below.points / this->target_));
     }
     // Position of the next scale between those of above_target_ and below_target_, on a logarithmic
     // axis.
     double fraction = 0.5;
-    if (std::isfinite(many.points) && few.points > 0.0)
+    if (std::isfinite(above.points) && below.points > 0.0)
     {
       constexpr double margin = 0.15;
       fraction =
-        std::clamp(std::log(many.points / this->target_) / std::log(many.points / few.points),
+        std::clamp(std::log(above.points / this->target_) / std::log(above.points / below.points),
           margin, 1.0 - margin);
     }
-    return many.scale * std::pow(few.scale / many.scale, fraction);
+    return above.scale * std::pow(below.scale / above.scale, fraction);
   }
 
   /// Report whether the interval between the two measured scales is too small to continue.
@@ -371,11 +372,11 @@ bool inner_points(ExecutionContext& context, const Interior& interior, SizingFie
   Index maximum_count, Points& inner)
 {
   // An attempt ends if more cells are inside than this factor times the maximum number of points.
-  constexpr double too_many = 5.0;
+  constexpr double abort_ratio = 5.0;
   // An attempt may always have this many cells inside, because they take little time.
-  constexpr double few_cells = 2000.0;
-  constexpr double enough = 1.2;
-  constexpr double least_enough = 0.6;
+  constexpr double minimum_cell_limit = 2000.0;
+  constexpr double maximum_point_ratio = 1.2;
+  constexpr double minimum_target_ratio = 0.6;
   constexpr int attempts = 20;
   // Largest growth rate of edge lengths that octree cells can follow.
   constexpr double most_growth = 1.0;
@@ -390,7 +391,7 @@ bool inner_points(ExecutionContext& context, const Interior& interior, SizingFie
     constexpr double points_per_cell = 3.0;
     constexpr double largest_guess = 30.0;
     constexpr double step = 1.5;
-    while (points_per_cell * interior.estimate_layer_cells(sizes) > enough * target &&
+    while (points_per_cell * interior.estimate_layer_cells(sizes) > maximum_point_ratio * target &&
       sizes.scale() < largest_guess * first_scale)
     {
       if (sizes.growth() < most_growth)
@@ -402,8 +403,8 @@ bool inner_points(ExecutionContext& context, const Interior& interior, SizingFie
     }
   };
   raise();
-  Points fewer; // largest point set so far with at most the allowed number of points
-  Points more; // smallest point set so far with too many points
+  Points largest_fitting; // largest point set so far with at most the allowed number of points
+  Points surplus_points; // smallest point set so far with too many points
   double before = -1.0;
   double begin = 0.0; // progress at the start of this attempt
   for (int attempt = 0; attempt < attempts; ++attempt)
@@ -414,17 +415,17 @@ bool inner_points(ExecutionContext& context, const Interior& interior, SizingFie
     const ProgressRange range(context, begin, end);
     begin = end;
     PointLattice lattice(context, interior, sizes);
-    const bool whole =
-      lattice.build(static_cast<Index>(std::max(few_cells, too_many * target)) + 1);
+    const bool is_complete =
+      lattice.build(static_cast<Index>(std::max(minimum_cell_limit, abort_ratio * target)) + 1);
     if (context.canceled())
     {
       return false;
     }
     inner = lattice.points();
     const double points =
-      whole ? static_cast<double>(inner.rows()) : std::numeric_limits<double>::infinity();
-    const bool many = points > enough * target;
-    if (many && sizes.growth() < most_growth)
+      is_complete ? static_cast<double>(inner.rows()) : std::numeric_limits<double>::infinity();
+    const bool is_above_target = points > maximum_point_ratio * target;
+    if (is_above_target && sizes.growth() < most_growth)
     {
       sizes.set_growth(most_growth);
       raise();
@@ -433,21 +434,23 @@ bool inner_points(ExecutionContext& context, const Interior& interior, SizingFie
     search.add(sizes.scale(), points);
     // If the number of points stays the same, the maximum edge length limits the cells and the
     // scale has no effect.
-    const bool same = whole && points == before;
+    const bool is_unchanged = is_complete && points == before;
     before = points;
-    if (!many && (points >= least_enough * target || sizes.scale() == first_scale))
+    if (!is_above_target &&
+      (points >= minimum_target_ratio * target || sizes.scale() == first_scale))
     {
       return true;
     }
-    if (!many && inner.rows() >= fewer.rows())
+    if (!is_above_target && inner.rows() >= largest_fitting.rows())
     {
-      fewer = inner;
+      largest_fitting = inner;
     }
-    if (many && whole && (more.rows() == 0 || inner.rows() < more.rows()))
+    if (is_above_target && is_complete &&
+      (surplus_points.rows() == 0 || inner.rows() < surplus_points.rows()))
     {
-      more = inner;
+      surplus_points = inner;
     }
-    if (search.ended() || same || attempt + 1 == attempts)
+    if (search.ended() || is_unchanged || attempt + 1 == attempts)
     {
       break;
     }
@@ -455,9 +458,11 @@ bool inner_points(ExecutionContext& context, const Interior& interior, SizingFie
   }
   // In a plate all cells may be divided at the same scale. Then the number of points jumps from too
   // few to too many at this scale, so a subset of the larger set is used.
-  constexpr double too_few = 0.3;
-  const bool thin_out = more.rows() > 0 && static_cast<double>(fewer.rows()) < too_few * target;
-  inner = thin_out ? subsample(more, static_cast<Index>(target)) : std::move(fewer);
+  constexpr double minimum_usable_ratio = 0.3;
+  const bool uses_subset = surplus_points.rows() > 0 &&
+    static_cast<double>(largest_fitting.rows()) < minimum_usable_ratio * target;
+  inner = uses_subset ? subsample(surplus_points, static_cast<Index>(target))
+                      : std::move(largest_fitting);
   return true;
 }
 

@@ -208,10 +208,10 @@ void compact(const std::vector<Vec3>& points, std::vector<Tet>& tets, TetMesh& m
   }
 }
 
-class Stuffing
+class IsosurfaceStuffing
 {
 public:
-  Stuffing(const Lattice& lattice, const LatticeRegion& region)
+  IsosurfaceStuffing(const Lattice& lattice, const LatticeRegion& region)
     : numbering_(lattice), region_(region)
   {
   }
@@ -299,7 +299,7 @@ private:
       Index vertex, edge;
       // Distance of the vertex from the cut point, in units of the length of a long edge.
       double distance;
-      bool too_near;
+      bool is_too_near;
     };
     std::vector<EdgeEnd> ends;
     for (std::size_t e = 0; e < this->edges_.size(); ++e)
@@ -331,8 +331,8 @@ private:
       for (; j < ends.size() && ends[j].vertex == ends[i].vertex; ++j)
       {
         const auto [v, w] = this->edges_[ends[j].edge];
-        const bool still_cut = this->sign_[v] * this->sign_[w] < 0;
-        if (still_cut && ends[j].too_near && (!nearest || ends[j].distance < nearest->distance))
+        const bool is_cut = this->sign_[v] * this->sign_[w] < 0;
+        if (is_cut && ends[j].is_too_near && (!nearest || ends[j].distance < nearest->distance))
         {
           nearest = &ends[j];
         }
@@ -572,7 +572,7 @@ Status stuff_lattice(
   ExecutionContext& context, const Lattice& lattice, const LatticeRegion& region, TetMesh& mesh)
 {
   mesh = TetMesh();
-  return Stuffing(lattice, region).run(context, mesh);
+  return IsosurfaceStuffing(lattice, region).run(context, mesh);
 }
 
 Status stuff_lattice(ExecutionContext& context, const WindingNumber& winding,
@@ -589,20 +589,20 @@ Status stuff_lattice(ExecutionContext& context, const WindingNumber& winding,
     }
   }
   const Points points = lattice_points(lattice);
-  const auto in_box = [&box](const Vec3& p)
+  const auto is_in_box = [&box](const Vec3& p)
   { return (p.array() >= box.lower.array()).all() && (p.array() <= box.upper.array()).all(); };
   LatticeRegion region;
   region.inside.resize(static_cast<std::size_t>(w.size()));
   for (Index v = 0; v < w.size(); ++v)
   {
-    region.inside[v] = w[v] >= threshold && in_box(points.row(v)) ? 1 : 0;
+    region.inside[v] = w[v] >= threshold && is_in_box(points.row(v)) ? 1 : 0;
   }
   region.contains = [&](Index v, Index u, double t)
   {
     const Vec3 start = points.row(v);
     const Vec3 end = points.row(u);
     const Vec3 p = start + t * (end - start);
-    return in_box(p) && winding.evaluate_at(p) >= threshold;
+    return is_in_box(p) && winding.evaluate_at(p) >= threshold;
   };
   const ProgressRange range(context, 0.4, 1.0);
   return stuff_lattice(context, lattice, region, mesh);

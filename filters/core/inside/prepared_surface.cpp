@@ -45,15 +45,15 @@ Status remove_back_triangles(
     return {};
   }
   const auto count = static_cast<Index>(backs.size());
-  std::vector<char> is_back(static_cast<std::size_t>(triangles.rows()), 0);
+  std::vector<char> is_back_side(static_cast<std::size_t>(triangles.rows()), 0);
   for (const Index back : backs)
   {
-    is_back[prepared.surface.original_triangles[back]] = 1;
+    is_back_side[prepared.surface.original_triangles[back]] = 1;
   }
   std::vector<Index> ids;
   for (Index t = 0; t < triangles.rows(); ++t)
   {
-    if (!is_back[t])
+    if (!is_back_side[t])
     {
       ids.push_back(t);
     }

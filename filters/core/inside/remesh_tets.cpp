@@ -31,12 +31,12 @@ Status check_input(PointsView points, TrianglesView triangles, const RemeshOptio
     return Status::invalid_input(
       std::string(name) + " must be " + range + ", not " + short_number(value));
   };
-  constexpr double least = 1e-4;
+  constexpr double minimum = 1e-4;
   if (!(options.winding_threshold > 0.0) || !std::isfinite(options.winding_threshold))
   {
     return out_of_range("winding_threshold", "positive", options.winding_threshold);
   }
-  if (!(options.smallest_edge >= least && options.smallest_edge <= 1.0))
+  if (!(options.smallest_edge >= minimum && options.smallest_edge <= 1.0))
   {
     return out_of_range("smallest_edge", "from 0.0001 to 1", options.smallest_edge);
   }
@@ -100,11 +100,11 @@ bool improve(ExecutionContext& context, const IdsByPosition& ids, const RegionBo
   }
   const Phase phase(context, "improve", 0.8, 0.9);
   TetMesh mesh{ std::move(data.points), std::move(data.tets) };
-  Improvement done;
+  Improvement improvement;
   const bool completed = improve_tets(
     context, mesh, std::move(fixed),
     [&](Vec3& p, const Vec3& n, double reach) { return region.project_to_boundary(p, n, reach); },
-    ImproveOptions(), done);
+    ImproveOptions(), improvement);
   data.points = std::move(mesh.points);
   data.tets = std::move(mesh.tets);
   return completed;

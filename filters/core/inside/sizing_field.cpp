@@ -39,7 +39,7 @@ SizingField::SizingField(
 
 void SizingField::build(Index begin, Index end)
 {
-  const std::size_t self = this->nodes_.size();
+  const std::size_t node_id = this->nodes_.size();
   this->nodes_.emplace_back();
   Node node;
   node.begin = begin;
@@ -50,7 +50,7 @@ void SizingField::build(Index begin, Index end)
     node.box.add(this->sites_.row(this->order_[i]));
     node.smallest = std::min(node.smallest, this->lengths_[this->order_[i]]);
   }
-  this->nodes_[self] = node;
+  this->nodes_[node_id] = node;
   if (end - begin <= leaf_size)
   {
     return;
@@ -62,14 +62,14 @@ void SizingField::build(Index begin, Index end)
   split_at(first + begin, first + middle, first + end,
     [&](Index site) { return std::pair(this->sites_(site, axis), site); });
   this->build(begin, middle);
-  this->nodes_[self].right = static_cast<Index>(this->nodes_.size());
+  this->nodes_[node_id].right = static_cast<Index>(this->nodes_.size());
   this->build(middle, end);
 }
 
 double SizingField::bound(const Node& node, const Vec3& p) const
 {
-  const Vec3 away = (node.box.lower - p).cwiseMax(p - node.box.upper).cwiseMax(0.0);
-  return this->scale_ * node.smallest + this->growth_ * away.norm();
+  const Vec3 box_offset = (node.box.lower - p).cwiseMax(p - node.box.upper).cwiseMax(0.0);
+  return this->scale_ * node.smallest + this->growth_ * box_offset.norm();
 }
 
 double SizingField::at(const Vec3& p) const

@@ -101,15 +101,15 @@ public:
 
   /// Report whether p is on a lid: the region ends within the distance `reach` of p along the
   /// normal n, and there is no triangle at this end.
-  bool contain(const Vec3& p, const Vec3& n, double reach) const
+  bool is_on_cap(const Vec3& p, const Vec3& n, double reach) const
   {
     Vec3 end = p;
     if (!this->region_.project_to_boundary(end, n, reach))
     {
       return false;
     }
-    const double near = 1e-4 * this->region_.box().diagonal();
-    return !(this->tree_.distance(end, near) <= near);
+    const double maximum_distance = 1e-4 * this->region_.box().diagonal();
+    return !(this->tree_.distance(end, maximum_distance) <= maximum_distance);
   }
 
 private:
@@ -155,7 +155,7 @@ bool measure_distance(ExecutionContext& context, const TetMesh& mesh, const Regi
     const Vec3 b = mesh.points.row(boundary(f, 1));
     const Vec3 c = mesh.points.row(boundary(f, 2));
     const double size = std::sqrt(std::max((b - a).squaredNorm(), (c - a).squaredNorm()));
-    return !hole_caps.contain(center, (b - a).cross(c - a).normalized(), 0.5 * size);
+    return !hole_caps.is_on_cap(center, (b - a).cross(c - a).normalized(), 0.5 * size);
   };
   // A vertex is a sample if one of its triangles is not part of a lid. This includes the vertices
   // at the border of a lid, which is acceptable because the surface is near them.

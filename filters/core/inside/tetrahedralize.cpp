@@ -502,11 +502,11 @@ private:
   Status wrap()
   {
     RepairedSurface wrap;
-    EnclosedRegion around;
+    EnclosedRegion wrap_region;
     Status status;
     {
       const Phase phase(this->context_, "wrap", 0.0, 0.5);
-      status = this->make_wrap(wrap, around);
+      status = this->make_wrap(wrap, wrap_region);
     }
     if (!status.ok())
     {
@@ -515,7 +515,7 @@ private:
     CdtOptions options = this->cdt_options();
     options.segmentation.winding_threshold = wrap_threshold;
     options.time_limit = std::max(this->time_left(), 1.0);
-    CdtTets cdt(this->context_, wrap, around, options, this->log_);
+    CdtTets cdt(this->context_, wrap, wrap_region, options, this->log_);
     {
       const Phase phase(this->context_, "cdt", 0.5, 0.7);
       // Fraction of the time limit for build(); the rest is for inserting vertices inside.
@@ -544,7 +544,7 @@ private:
     return this->report_distance();
   }
 
-  Status make_wrap(RepairedSurface& wrap, EnclosedRegion& around)
+  Status make_wrap(RepairedSurface& wrap, EnclosedRegion& wrap_region)
   {
     const double start = this->context_.elapsed_seconds();
     WrapOptions options;
@@ -571,7 +571,7 @@ private:
       status = repair_surface(this->context_, points, triangles, repair_options, wrap);
     }
     bool flipped = false;
-    return status.ok() ? around.build(this->context_, wrap, wrap_threshold, flipped) : status;
+    return status.ok() ? wrap_region.build(this->context_, wrap, wrap_threshold, flipped) : status;
   }
 
   Status ftetwild()
@@ -615,12 +615,12 @@ private:
     {
       return {};
     }
-    const Status wrong = wrong_volume_error(volume, this->inside_);
+    const Status wrong_volume_status = wrong_volume_error(volume, this->inside_);
     if (this->inside_.misfit(volume) > maximum_misfit)
     {
-      return wrong;
+      return wrong_volume_status;
     }
-    this->warn(wrong.message);
+    this->warn(wrong_volume_status.message);
     return {};
   }
 
@@ -703,7 +703,7 @@ private:
     std::vector<double> from;
     for (std::size_t bin = 0; bin < quality.histogram.tets.size(); ++bin)
     {
-      from.push_back(DihedralHistogram::bin * static_cast<double>(bin));
+      from.push_back(DihedralHistogram::bin_width * static_cast<double>(bin));
     }
     this->report_.set("quality[].dihedral_angle", from);
     this->report_.set("quality[].tets",
@@ -732,11 +732,14 @@ private:
     Index kept = 0;
     for (Index t = 0; t < mesh.tets.rows(); ++t)
     {
-      const bool above = this->result_.winding_numbers[t] >= this->options_.winding_threshold;
-      const bool inside = this->inside_tets_.empty() ? above || all_inside : this->inside_tets_[t];
-      this->result_.labels[t] = inside ? (above ? TetLabel::inside : TetLabel::inside_below)
-        : above                        ? TetLabel::outside_above
-                                       : TetLabel::outside;
+      const bool above_threshold =
+        this->result_.winding_numbers[t] >= this->options_.winding_threshold;
+      const bool inside =
+        this->inside_tets_.empty() ? above_threshold || all_inside : this->inside_tets_[t];
+      this->result_.labels[t] = inside
+        ? (above_threshold ? TetLabel::inside : TetLabel::inside_below)
+        : above_threshold ? TetLabel::outside_above
+                          : TetLabel::outside;
       const auto tet = mesh.tets.row(t);
       this->result_.min_dihedral_angles[t] = min_dihedral_angle(mesh.points.row(tet[0]),
         mesh.points.row(tet[1]), mesh.points.row(tet[2]), mesh.points.row(tet[3]));
@@ -820,9 +823,9 @@ Status check_options(const TetrahedralizeOptions& options)
     return Status::invalid_input("time_limit must be 0 (automatic) or positive, not " +
       short_number(options.time_limit) + " s");
   }
-  constexpr double any = 1.0;
-  Status limits =
-    check_limits(options.time_limit > 0.0 ? options.time_limit : any, options.memory_limit);
+  constexpr double placeholder_limit = 1.0;
+  Status limits = check_limits(
+    options.time_limit > 0.0 ? options.time_limit : placeholder_limit, options.memory_limit);
   if (!limits.ok())
   {
     return limits;
@@ -859,10 +862,10 @@ Status check_options(const TetrahedralizeOptions& options)
 
 double interior_edge_of_weights(double volume, double diagonal)
 {
-  constexpr double most = 0.04;
+  constexpr double longest_edge = 0.04;
   constexpr double minimum_tets = 10000.0;
   const double edge = std::cbrt(volume / (minimum_tets * regular_tet_volume)) / diagonal;
-  return edge > 0.0 ? std::min(most, edge) : most;
+  return edge > 0.0 ? std::min(longest_edge, edge) : longest_edge;
 }
 
 const char* to_string(TetMethod method)

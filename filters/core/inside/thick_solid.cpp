@@ -57,17 +57,17 @@ Triangles missed_triangles(PointsView points, TrianglesView triangles, const Lat
       const double cube = std::floor((p[axis] - lattice.origin[axis]) / lattice.spacing);
       at[axis] = std::clamp<Index>(static_cast<Index>(cube), 0, lattice.cubes[axis] - 1);
     }
-    bool reached = inside[corners + (at[2] * ny + at[1]) * nx + at[0]] != 0;
-    for (int corner = 0; corner < 8 && !reached; ++corner)
+    bool is_inside_cube = inside[corners + (at[2] * ny + at[1]) * nx + at[0]] != 0;
+    for (int corner = 0; corner < 8 && !is_inside_cube; ++corner)
     {
       const Index x = at[0] + (corner & 1);
       const Index y = at[1] + (corner >> 1 & 1);
       const Index z = at[2] + (corner >> 2 & 1);
-      reached = inside[(z * (ny + 1) + y) * (nx + 1) + x] != 0;
+      is_inside_cube = inside[(z * (ny + 1) + y) * (nx + 1) + x] != 0;
     }
-    return reached;
+    return is_inside_cube;
   };
-  std::vector<Index> missed;
+  std::vector<Index> unreached_triangles;
   for (Index f = 0; f < triangles.rows(); ++f)
   {
     const Vec3 a = points.row(triangles(f, 0));
@@ -75,25 +75,25 @@ Triangles missed_triangles(PointsView points, TrianglesView triangles, const Lat
     const Vec3 c = points.row(triangles(f, 2));
     const double longest = std::max({ (b - a).norm(), (c - b).norm(), (a - c).norm() });
     const auto steps = static_cast<Index>(std::ceil(2.0 * longest / lattice.spacing)) + 1;
-    bool reached = true;
-    for (Index i = 0; i <= steps && reached; ++i)
+    bool all_reached = true;
+    for (Index i = 0; i <= steps && all_reached; ++i)
     {
-      for (Index j = 0; i + j <= steps && reached; ++j)
+      for (Index j = 0; i + j <= steps && all_reached; ++j)
       {
         const double u = static_cast<double>(i) / static_cast<double>(steps);
         const double v = static_cast<double>(j) / static_cast<double>(steps);
-        reached = reaches_lattice(a + u * (b - a) + v * (c - a));
+        all_reached = reaches_lattice(a + u * (b - a) + v * (c - a));
       }
     }
-    if (!reached)
+    if (!all_reached)
     {
-      missed.push_back(f);
+      unreached_triangles.push_back(f);
     }
   }
-  Triangles result(static_cast<Index>(missed.size()), 3);
-  for (std::size_t i = 0; i < missed.size(); ++i)
+  Triangles result(static_cast<Index>(unreached_triangles.size()), 3);
+  for (std::size_t i = 0; i < unreached_triangles.size(); ++i)
   {
-    result.row(static_cast<Index>(i)) = triangles.row(missed[i]);
+    result.row(static_cast<Index>(i)) = triangles.row(unreached_triangles[i]);
   }
   return result;
 }
@@ -132,7 +132,7 @@ Status thick_solid(ExecutionContext& context, PointsView points, TrianglesView t
     ? Triangles(triangles)
     : missed_triangles(points, triangles, lattice, region.inside);
   const TriangleTree tree(points, thickened);
-  const auto in_layer = [&](const Vec3& p)
+  const auto is_in_layer = [&](const Vec3& p)
   { return thickened.rows() > 0 && std::isfinite(tree.distance(p, thickness)); };
   {
     const Phase phase(context, "distance", 0.4, 0.6);
@@ -142,7 +142,7 @@ Status thick_solid(ExecutionContext& context, PointsView points, TrianglesView t
       {
         for (Index v = begin; v < end; ++v)
         {
-          region.inside[v] = region.inside[v] || in_layer(vertices.row(v)) ? 1 : 0;
+          region.inside[v] = region.inside[v] || is_in_layer(vertices.row(v)) ? 1 : 0;
         }
       });
     if (!completed)
@@ -155,7 +155,7 @@ Status thick_solid(ExecutionContext& context, PointsView points, TrianglesView t
     const Vec3 start = vertices.row(v);
     const Vec3 end = vertices.row(u);
     const Vec3 p = start + t * (end - start);
-    return in_layer(p) || winding.evaluate_at(p) >= threshold;
+    return is_in_layer(p) || winding.evaluate_at(p) >= threshold;
   };
   region.bisections = 4;
   const ProgressRange range(context, 0.6, 1.0);

@@ -48,14 +48,14 @@ Status wrap_surface(ExecutionContext& context, PointsView points, TrianglesView 
   }
   const Box box = bounding_box(points, triangles);
   const UnitFrame frame(box);
-  const double diagonal = frame.length_into(box.diagonal());
+  const double diagonal = frame.length_in_frame(box.diagonal());
   MesherRequest request;
   request.arguments = { "wrap", "--alpha", exact_number(options.alpha * diagonal), "--offset",
     exact_number(options.offset * diagonal) };
   request.time_limit = options.time_limit;
   request.memory_limit = options.memory_limit;
   MesherData input;
-  input.points = frame.into(points);
+  input.points = frame.to_frame(points);
   input.triangles = triangles;
   MesherResult answer;
   status = run_mesher(context, request, input, answer);
@@ -69,7 +69,7 @@ Status wrap_surface(ExecutionContext& context, PointsView points, TrianglesView 
   {
     return Status::failure(StatusCode::internal_error, "the wrap is not closed");
   }
-  wrap_points = frame.back(wrap.points);
+  wrap_points = frame.from_frame(wrap.points);
   wrap_triangles = wrap.triangles;
   return {};
 }

@@ -27,7 +27,7 @@ Status read_vertex(TextScanner& scanner, std::vector<Vec3>& points)
 
 /// Read the vertex ids of a face or a polyline. Skip entries with fewer than `minimum_vertices`
 /// vertices.
-Status read_entry(TextScanner& scanner, Index vertices, const std::string& what,
+Status read_entry(TextScanner& scanner, Index vertices, const std::string& element_name,
   std::size_t minimum_vertices, std::vector<Index>& corners, std::vector<Index>& offsets,
   Index& skipped)
 {
@@ -39,13 +39,13 @@ Status read_entry(TextScanner& scanner, Index vertices, const std::string& what,
     Index id = 0;
     if (!parse_index(number, id))
     {
-      return scanner.error("expected a vertex id of a " + what);
+      return scanner.error("expected a vertex id of a " + element_name);
     }
     const Index vertex = id < 0 ? vertices + id : id - 1;
     if (id == 0 || vertex < 0)
     {
-      return scanner.error(
-        "a " + what + " references vertex " + std::to_string(id) + ", which does not exist");
+      return scanner.error("a " + element_name + " references vertex " + std::to_string(id) +
+        ", which does not exist");
     }
     corners.push_back(vertex);
   }
@@ -60,14 +60,14 @@ Status read_entry(TextScanner& scanner, Index vertices, const std::string& what,
 }
 
 /// Check ids against the final number of vertices, because ids may precede their vertices.
-Status check_entries(
-  const std::string& path, const std::string& what, const std::vector<Index>& corners, Index count)
+Status check_entries(const std::string& path, const std::string& element_name,
+  const std::vector<Index>& corners, Index count)
 {
   for (const Index vertex : corners)
   {
     if (vertex >= count)
     {
-      return Status::invalid_input(path + ": a " + what + " references vertex " +
+      return Status::invalid_input(path + ": a " + element_name + " references vertex " +
         std::to_string(vertex + 1) + ", but there are " + std::to_string(count) + " vertices");
     }
   }

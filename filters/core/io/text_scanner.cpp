@@ -240,39 +240,39 @@ std::string_view TextScanner::rest_of_line()
   return rest;
 }
 
-Status TextScanner::read_index(const char* what, Index limit, Index& value)
+Status TextScanner::read_index(const char* expected, Index limit, Index& value)
 {
   std::string_view word;
   if (!this->next_word_across_lines(word))
   {
-    return this->error(std::string("unexpected end of file: expected ") + what);
+    return this->error(std::string("unexpected end of file: expected ") + expected);
   }
   if (!parse_index(word, value))
   {
-    return this->error(std::string("expected ") + what + ", got " + quoted(word));
+    return this->error(std::string("expected ") + expected + ", got " + quoted(word));
   }
   if (value < 0 || value >= limit)
   {
-    return this->error(std::string(what) + " is out of range: " + quoted(word) + " (limit " +
+    return this->error(std::string(expected) + " is out of range: " + quoted(word) + " (limit " +
       std::to_string(limit) + ")");
   }
   return {};
 }
 
-Status TextScanner::read_number(const char* what, double& value)
+Status TextScanner::read_number(const char* expected, double& value)
 {
   std::string_view word;
   if (!this->next_word_across_lines(word))
   {
-    return this->error(std::string("unexpected end of file: expected ") + what);
+    return this->error(std::string("unexpected end of file: expected ") + expected);
   }
   if (!parse_number(word, value))
   {
-    return this->error(std::string("expected ") + what + ", got " + quoted(word));
+    return this->error(std::string("expected ") + expected + ", got " + quoted(word));
   }
   if (!std::isfinite(value))
   {
-    return this->error(std::string(what) + " is not a finite number: " + quoted(word));
+    return this->error(std::string(expected) + " is not a finite number: " + quoted(word));
   }
   return {};
 }

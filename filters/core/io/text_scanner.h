@@ -50,9 +50,9 @@ public:
 
   /// Read the next word of the text. The word must be an index in [0, limit) for read_index(), or a
   /// finite number for read_number(). Otherwise return invalid_input with a message that contains
-  /// `what`, the expected item ("a vertex id"), and the word that was found.
-  Status read_index(const char* what, Index limit, Index& value);
-  Status read_number(const char* what, double& value);
+  /// `expected`, the expected item ("a vertex id"), and the word that was found.
+  Status read_index(const char* expected, Index limit, Index& value);
+  Status read_number(const char* expected, double& value);
 
   /// Return the number of bytes up to the next line, for reading binary data after a text header.
   std::size_t position() const { return this->next_; }

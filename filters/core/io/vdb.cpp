@@ -246,10 +246,10 @@ bool find_sides(ExecutionContext& context, const SampleGrid& grid, const Value* 
   sides.resize(static_cast<std::size_t>(grid.count()));
   unsigned char* const data = sides.data();
   // Spread along x and y within layers of constant z, then along z within layers of constant y.
-  bool going = false;
+  bool completed = false;
   {
     const ProgressRange range(context, 0.0, 0.6);
-    going = parallel_for(context, nz, 1,
+    completed = parallel_for(context, nz, 1,
       [&](Index k, Index)
       {
         Sides found;
@@ -269,7 +269,7 @@ bool find_sides(ExecutionContext& context, const SampleGrid& grid, const Value* 
       });
   }
   const ProgressRange range(context, 0.6, 1.0);
-  return going &&
+  return completed &&
     parallel_for(context, ny, 1,
       [&](Index j, Index)
       {
@@ -334,19 +334,19 @@ struct Block
 };
 
 /// Build the tree.
-/// @param not_finite set to the first sample that is not a finite float, or -1.
+/// @param first_nonfinite set to the first sample that is not a finite float, or -1.
 /// @return false if canceled.
 template <typename Value>
 bool make_tree(ExecutionContext& context, const SampleGrid& grid, const Value* values,
-  const Sides& sides, const VdbOptions& options, openvdb::FloatTree& tree, Index& not_finite)
+  const Sides& sides, const VdbOptions& options, openvdb::FloatTree& tree, Index& first_nonfinite)
 {
   const Phase phase(context, "grid", options.band == VdbBand::narrow ? 0.3 : 0.0, 0.6);
   const Blocks blocks(grid);
   const Classifier classify(options);
   const Voxel background = classify.background();
-  std::vector<Block> made(static_cast<std::size_t>(blocks.count()));
+  std::vector<Block> built_blocks(static_cast<std::size_t>(blocks.count()));
   std::atomic<Index> first_invalid{ grid.count() };
-  const auto make = [&](Index b, Leaf& leaf)
+  const auto build_leaf = [&](Index b, Leaf& leaf)
   {
     const openvdb::Coord origin = blocks.origin(b);
     leaf.setOrigin(origin);
@@ -371,7 +371,7 @@ bool make_tree(ExecutionContext& context, const SampleGrid& grid, const Value* v
           active.setOn(offset);
         }
       });
-    Block& block = made[static_cast<std::size_t>(b)];
+    Block& block = built_blocks[static_cast<std::size_t>(b)];
     if (!leaf.isConstant(block.tile.value, block.tile.active))
     {
       block.leaf = std::make_unique<Leaf>(leaf);
@@ -383,16 +383,16 @@ bool make_tree(ExecutionContext& context, const SampleGrid& grid, const Value* v
           Leaf leaf(openvdb::Coord(), background.value, false);
           for (Index b = begin; b < end; ++b)
           {
-            make(b, leaf);
+            build_leaf(b, leaf);
           }
         }))
   {
     return false;
   }
-  not_finite = first_invalid < grid.count() ? first_invalid.load() : -1;
-  for (Index b = 0; b < blocks.count() && not_finite < 0; ++b)
+  first_nonfinite = first_invalid < grid.count() ? first_invalid.load() : -1;
+  for (Index b = 0; b < blocks.count() && first_nonfinite < 0; ++b)
   {
-    Block& block = made[static_cast<std::size_t>(b)];
+    Block& block = built_blocks[static_cast<std::size_t>(b)];
     if (block.leaf)
     {
       tree.addLeaf(block.leaf.release());
@@ -609,15 +609,15 @@ Status write_any(ExecutionContext& context, const std::string& path, const Sampl
       ? openvdb::GRID_FOG_VOLUME
       : openvdb::GRID_UNKNOWN);
   grid->setTransform(make_transform(samples, options));
-  Index not_finite = -1;
-  if (!make_tree(context, samples, values, sides, options, grid->tree(), not_finite))
+  Index first_nonfinite = -1;
+  if (!make_tree(context, samples, values, sides, options, grid->tree(), first_nonfinite))
   {
     return Status::canceled();
   }
-  if (not_finite >= 0)
+  if (first_nonfinite >= 0)
   {
     return Status::invalid_input(
-      "the value of sample " + std::to_string(not_finite) + " must be a finite float");
+      "the value of sample " + std::to_string(first_nonfinite) + " must be a finite float");
   }
   std::streamoff bytes = 0;
   status = write_file(context, path, grid, options, bytes);

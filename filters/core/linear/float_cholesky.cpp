@@ -65,10 +65,11 @@ struct Fronts
   int size() const { return static_cast<int>(this->nodes.order.size()); }
   int columns(int s) const { return this->nodes.first_column[s + 1] - this->nodes.first_column[s]; }
   int rows(int s) const { return this->nodes.first_row[s + 1] - this->nodes.first_row[s]; }
-  int below(int s) const { return this->rows(s) - this->columns(s); }
+  int rows_below(int s) const { return this->rows(s) - this->columns(s); }
   std::size_t update_size(int s) const
   {
-    return static_cast<std::size_t>(this->below(s)) * static_cast<std::size_t>(this->below(s));
+    return static_cast<std::size_t>(this->rows_below(s)) *
+      static_cast<std::size_t>(this->rows_below(s));
   }
   void measure_stacks();
 };
@@ -88,10 +89,10 @@ void Fronts::measure_stacks()
   std::vector<std::size_t> stored(static_cast<std::size_t>(count), 0);
   for (int s = 0; s < count; ++s)
   {
-    const int mine = this->depth[s];
-    top[mine] += this->update_size(s);
-    this->stack_size[mine] = std::max(this->stack_size[mine], top[mine]);
-    top[!mine] -= stored[s];
+    const int own_stack = this->depth[s];
+    top[own_stack] += this->update_size(s);
+    this->stack_size[own_stack] = std::max(this->stack_size[own_stack], top[own_stack]);
+    top[!own_stack] -= stored[s];
     if (this->parent[s] >= 0)
     {
       stored[this->parent[s]] += this->update_size(s);
@@ -210,22 +211,22 @@ void restrict_fronts(
   BlockTree tree = tree_of_block(analysis, in_block);
   block = BlockFronts();
   block.step_in_block.assign(static_cast<std::size_t>(analysis.size()), -1);
-  Supernodes& mine = block.fronts.nodes;
-  mine.first_column.push_back(0);
+  Supernodes& block_nodes = block.fronts.nodes;
+  block_nodes.first_column.push_back(0);
   for (const int s : tree.node)
   {
     for (int j = nodes.first_column[s]; j < nodes.first_column[s + 1]; ++j)
     {
       if (in_block(j))
       {
-        block.step_in_block[j] = static_cast<int>(mine.order.size());
+        block.step_in_block[j] = static_cast<int>(block_nodes.order.size());
         block.step_in_whole.push_back(j);
-        mine.order.push_back(nodes.order[j]);
+        block_nodes.order.push_back(nodes.order[j]);
       }
     }
-    mine.first_column.push_back(static_cast<int>(mine.order.size()));
+    block_nodes.first_column.push_back(static_cast<int>(block_nodes.order.size()));
   }
-  mine.first_row.push_back(0);
+  block_nodes.first_row.push_back(0);
   for (const int s : tree.node)
   {
     for (int r = nodes.first_row[s]; r < nodes.first_row[s + 1]; ++r)
@@ -233,17 +234,17 @@ void restrict_fronts(
       const int row = block.step_in_block[nodes.rows[r]];
       if (row >= 0)
       {
-        mine.rows.push_back(row);
+        block_nodes.rows.push_back(row);
       }
     }
-    mine.first_row.push_back(static_cast<int>(mine.rows.size()));
+    block_nodes.first_row.push_back(static_cast<int>(block_nodes.rows.size()));
   }
   block.fronts.parent = std::move(tree.parent);
-  mine.first_value.push_back(0);
+  block_nodes.first_value.push_back(0);
   for (int s = 0; s < block.fronts.count(); ++s)
   {
-    mine.first_value.push_back(
-      mine.first_value.back() + block.fronts.columns(s) * block.fronts.rows(s));
+    block_nodes.first_value.push_back(
+      block_nodes.first_value.back() + block.fronts.columns(s) * block.fronts.rows(s));
   }
   block.fronts.measure_stacks();
 }
@@ -293,7 +294,7 @@ FloatCholesky::~FloatCholesky() = default;
 FloatCholesky::FloatCholesky(FloatCholesky&&) noexcept = default;
 FloatCholesky& FloatCholesky::operator=(FloatCholesky&&) noexcept = default;
 
-bool FloatCholesky::analyzed() const
+bool FloatCholesky::is_analyzed() const
 {
   return this->impl_->analysis != nullptr;
 }
@@ -362,10 +363,10 @@ Status FloatCholesky::analyze(const SparseSolver& solver, const SparseMatrix& ma
   analysis->fronts.parent.assign(static_cast<std::size_t>(count), -1);
   for (int s = 0; s < count; ++s)
   {
-    const int below = nodes.first_row[s] + nodes.first_column[s + 1] - nodes.first_column[s];
-    if (below < nodes.first_row[s + 1])
+    const int next_row = nodes.first_row[s] + nodes.first_column[s + 1] - nodes.first_column[s];
+    if (next_row < nodes.first_row[s + 1])
     {
-      analysis->fronts.parent[s] = analysis->node_of_column[nodes.rows[below]];
+      analysis->fronts.parent[s] = analysis->node_of_column[nodes.rows[next_row]];
     }
   }
   analysis->fronts.measure_stacks();
@@ -438,17 +439,17 @@ void FloatCholesky::Impl::scatter(const SparseMatrix& matrix, double shift, int 
     const int column = this->is_block ? this->block_fronts.step_in_whole[step] : step;
     for (int e = shared.first_entry[column]; e < shared.first_entry[column + 1]; ++e)
     {
-      const int in_whole = shared.entry_row[e];
-      const int row = this->is_block ? this->block_fronts.step_in_block[in_whole] : in_whole;
+      const int factor_step = shared.entry_row[e];
+      const int row = this->is_block ? this->block_fronts.step_in_block[factor_step] : factor_step;
       if (row < 0)
       {
         continue;
       }
-      const double value = matrix.valuePtr()[shared.entry[e]] * this->scale[order[in_whole]] *
+      const double value = matrix.valuePtr()[shared.entry[e]] * this->scale[order[factor_step]] *
         this->scale[order[column]];
       block[static_cast<std::size_t>(c) * rows +
         static_cast<std::size_t>(this->front_index_of_row[row])] =
-        static_cast<float>(in_whole == column ? value + shift * std::abs(value) : value);
+        static_cast<float>(factor_step == column ? value + shift * std::abs(value) : value);
     }
   }
 }
@@ -460,7 +461,7 @@ void FloatCholesky::Impl::find_runs(int child, int columns)
   const Fronts& fronts = this->fronts();
   const int* row = fronts.nodes.rows.data() + fronts.nodes.first_row[child] + fronts.columns(child);
   this->runs.clear();
-  for (int i = 0; i < fronts.below(child); ++i)
+  for (int i = 0; i < fronts.rows_below(child); ++i)
   {
     const int to = this->front_index_of_row[row[i]];
     if (this->runs.empty() || to != this->runs.back().to + this->runs.back().length ||
@@ -481,7 +482,7 @@ int FloatCholesky::Impl::eliminate(const SparseMatrix& matrix, double shift, int
   const Supernodes& nodes = shared.nodes;
   const int columns = shared.columns(s);
   const int rows = shared.rows(s);
-  const int below_count = shared.below(s);
+  const int below_count = shared.rows_below(s);
   const int* row = nodes.rows.data() + nodes.first_row[s];
   float* block = this->values.data() + nodes.first_value[s];
   for (int i = 0; i < rows; ++i)
@@ -490,7 +491,7 @@ int FloatCholesky::Impl::eliminate(const SparseMatrix& matrix, double shift, int
   }
   this->scatter(matrix, shift, s);
   const int own_stack = shared.depth[s];
-  float* mine = this->stack[own_stack].data() + this->top[own_stack];
+  float* update_matrix = this->stack[own_stack].data() + this->top[own_stack];
   std::vector<int>& children = this->stacked_supernodes[!own_stack];
   std::size_t& end_of_children = this->top[!own_stack];
 
@@ -498,7 +499,7 @@ int FloatCholesky::Impl::eliminate(const SparseMatrix& matrix, double shift, int
   const float minus_one = -1.0F;
   // The first columns of a child's update matrix belong to the block and are added now. The
   // remaining columns are added after this supernode's own update matrix has been computed.
-  const auto add_children = [&](bool now)
+  const auto add_children = [&](bool is_first_pass)
   {
     std::size_t at = end_of_children;
     for (auto child = children.rbegin(); child != children.rend() && shared.parent[*child] == s;
@@ -506,12 +507,12 @@ int FloatCholesky::Impl::eliminate(const SparseMatrix& matrix, double shift, int
     {
       at -= shared.update_size(*child);
       const float* update = this->stack[!own_stack].data() + at;
-      const auto size = static_cast<std::size_t>(shared.below(*child));
+      const auto size = static_cast<std::size_t>(shared.rows_below(*child));
       this->find_runs(*child, columns);
       for (std::size_t k = 0; k < this->runs.size(); ++k)
       {
         const RowRun& column_run = this->runs[k];
-        if ((column_run.to < columns) != now)
+        if ((column_run.to < columns) != is_first_pass)
         {
           continue;
         }
@@ -519,17 +520,17 @@ int FloatCholesky::Impl::eliminate(const SparseMatrix& matrix, double shift, int
         {
           const float* from = update + static_cast<std::size_t>(column_run.from + c) * size;
           const int column = column_run.to + c;
-          float* into = now
+          float* target_column = is_first_pass
             ? block + static_cast<std::size_t>(column) * rows
-            : mine + static_cast<std::size_t>(column - columns) * below_count - columns;
+            : update_matrix + static_cast<std::size_t>(column - columns) * below_count - columns;
           for (int i = c; i < column_run.length; ++i)
           {
-            into[column_run.to + i] += from[column_run.from + i];
+            target_column[column_run.to + i] += from[column_run.from + i];
           }
           for (std::size_t r = k + 1; r < this->runs.size(); ++r)
           {
             const RowRun& run = this->runs[r];
-            float* to = into + run.to;
+            float* to = target_column + run.to;
             const float* source = from + run.from;
             for (int i = 0; i < run.length; ++i)
             {
@@ -561,8 +562,8 @@ int FloatCholesky::Impl::eliminate(const SparseMatrix& matrix, double shift, int
   {
     const float zero = 0.0F;
     strsm_("R", "L", "T", "N", &below_count, &columns, &one, block, &rows, block + columns, &rows);
-    ssyrk_("L", "N", &below_count, &columns, &minus_one, block + columns, &rows, &zero, mine,
-      &below_count);
+    ssyrk_("L", "N", &below_count, &columns, &minus_one, block + columns, &rows, &zero,
+      update_matrix, &below_count);
     add_children(false);
   }
   while (!children.empty() && shared.parent[children.back()] == s)
@@ -690,24 +691,26 @@ void FloatCholesky::Impl::solve(const double* rhs, int columns, double* x) const
       // Divide each right-hand side by its largest absolute entry, so that all entries are within
       // the range of floats.
       factor[c] = size > 0.0 && finite ? size : 1.0;
-      float* into = scaled.data() + c;
+      float* target_column = scaled.data() + c;
       for (std::size_t i = 0; i < count; ++i)
       {
-        into[i * stride] = static_cast<float>(from[order[i]] * this->scale[order[i]] / factor[c]);
+        target_column[i * stride] =
+          static_cast<float>(from[order[i]] * this->scale[order[i]] / factor[c]);
       }
     }
     solve_with_supernodes(nodes, this->values.data(), scaled.data(), width);
     for (int c = 0; c < used_columns; ++c)
     {
       const float* from = scaled.data() + c;
-      double* into = x + static_cast<std::size_t>(done + c) * n;
+      double* target_column = x + static_cast<std::size_t>(done + c) * n;
       if (count < n)
       {
-        std::fill(into, into + n, 0.0); // unknowns that are excluded
+        std::fill(target_column, target_column + n, 0.0); // unknowns that are excluded
       }
       for (std::size_t i = 0; i < count; ++i)
       {
-        into[order[i]] = factor[c] * static_cast<double>(from[i * stride]) * this->scale[order[i]];
+        target_column[order[i]] =
+          factor[c] * static_cast<double>(from[i * stride]) * this->scale[order[i]];
       }
     }
     done += used_columns;

@@ -36,7 +36,7 @@ public:
   /// Return an object with the same analysis and no factorization, for use on another thread.
   FloatCholesky clone() const;
   /// Report whether analyze() succeeded.
-  bool analyzed() const;
+  bool is_analyzed() const;
 
   /// Factor the sum of a matrix of the analyzed pattern and `shift` times the diagonal of this
   /// matrix. The status is invalid_input if the sum is not positive definite in single precision;

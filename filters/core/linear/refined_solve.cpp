@@ -29,7 +29,7 @@ double refined_solve(const FloatCholesky& factor,
       active.push_back(j);
     }
   }
-  double worst = 0.0;
+  double largest_residual = 0.0;
   // Residuals, preconditioned residuals and search directions of the open columns, one matrix
   // column each.
   MatrixXd r = rhs(Eigen::all, active);
@@ -62,7 +62,8 @@ double refined_solve(const FloatCholesky& factor,
       finished = finished || relative_residual <= options.accuracy;
       if (finished || step + 1 == options.most_steps)
       {
-        worst = std::max(worst, std::isfinite(relative_residual) ? relative_residual : 1e300);
+        largest_residual =
+          std::max(largest_residual, std::isfinite(relative_residual) ? relative_residual : 1e300);
       }
       if (!finished)
       {
@@ -71,18 +72,18 @@ double refined_solve(const FloatCholesky& factor,
     }
     if (remaining.size() < active.size())
     {
-      std::vector<Index> still;
+      std::vector<Index> remaining_columns;
       for (const Index k : remaining)
       {
-        still.push_back(active[k]);
+        remaining_columns.push_back(active[k]);
       }
-      active = std::move(still);
+      active = std::move(remaining_columns);
       r = MatrixXd(r(Eigen::all, remaining));
       p = MatrixXd(p(Eigen::all, remaining));
       previous_rho = VectorXd(previous_rho(remaining));
     }
   }
-  return worst;
+  return largest_residual;
 }
 
 } // namespace bindpose

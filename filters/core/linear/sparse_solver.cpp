@@ -305,9 +305,9 @@ private:
     return b;
   }
 
-  Status failure(const char* done) const
+  Status failure(const char* operation) const
   {
-    const std::string start = std::string("the matrix cannot be ") + done + ": ";
+    const std::string start = std::string("the matrix cannot be ") + operation + ": ";
     switch (this->common_.status)
     {
       case CHOLMOD_OUT_OF_MEMORY:

@@ -188,9 +188,9 @@ void solve_with_supernodes(const Supernodes& nodes, const float* values, float* 
   }
   const auto k = static_cast<std::size_t>(columns);
   constexpr std::size_t alignment = 32;
-  std::vector<float> together(static_cast<std::size_t>(most_rows) * k + alignment);
-  void* aligned = together.data();
-  std::size_t space = together.size() * sizeof(float);
+  std::vector<float> workspace(static_cast<std::size_t>(most_rows) * k + alignment);
+  void* aligned = workspace.data();
+  std::size_t space = workspace.size() * sizeof(float);
   auto* t = static_cast<float*>(
     std::align(alignment, static_cast<std::size_t>(most_rows) * k * sizeof(float), aligned, space));
   for (int s = 0; s < count; ++s)
@@ -198,12 +198,12 @@ void solve_with_supernodes(const Supernodes& nodes, const float* values, float* 
     const int width = nodes.first_column[s + 1] - nodes.first_column[s];
     const int rows = nodes.first_row[s + 1] - nodes.first_row[s];
     const int* row = nodes.rows.data() + nodes.first_row[s];
-    float* own = x + static_cast<std::size_t>(nodes.first_column[s]) * k;
-    std::copy(own, own + static_cast<std::size_t>(width) * k, t);
+    float* columns_of_node = x + static_cast<std::size_t>(nodes.first_column[s]) * k;
+    std::copy(columns_of_node, columns_of_node + static_cast<std::size_t>(width) * k, t);
     std::fill(
       t + static_cast<std::size_t>(width) * k, t + static_cast<std::size_t>(rows) * k, 0.0F);
     forward_block(values + nodes.first_value[s], rows, width, t);
-    std::copy(t, t + static_cast<std::size_t>(width) * k, own);
+    std::copy(t, t + static_cast<std::size_t>(width) * k, columns_of_node);
     for (int i = width; i < rows; ++i)
     {
       for (std::size_t c = 0; c < k; ++c)
@@ -217,8 +217,8 @@ void solve_with_supernodes(const Supernodes& nodes, const float* values, float* 
     const int width = nodes.first_column[s + 1] - nodes.first_column[s];
     const int rows = nodes.first_row[s + 1] - nodes.first_row[s];
     const int* row = nodes.rows.data() + nodes.first_row[s];
-    float* own = x + static_cast<std::size_t>(nodes.first_column[s]) * k;
-    std::copy(own, own + static_cast<std::size_t>(width) * k, t);
+    float* columns_of_node = x + static_cast<std::size_t>(nodes.first_column[s]) * k;
+    std::copy(columns_of_node, columns_of_node + static_cast<std::size_t>(width) * k, t);
     for (int i = width; i < rows; ++i)
     {
       for (std::size_t c = 0; c < k; ++c)
@@ -227,7 +227,7 @@ void solve_with_supernodes(const Supernodes& nodes, const float* values, float* 
       }
     }
     backward_block(values + nodes.first_value[s], rows, width, t);
-    std::copy(t, t + static_cast<std::size_t>(width) * k, own);
+    std::copy(t, t + static_cast<std::size_t>(width) * k, columns_of_node);
   }
 }
 

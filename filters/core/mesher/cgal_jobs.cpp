@@ -54,7 +54,7 @@ struct Soup
   std::vector<Face> faces;
   std::map<Coordinates, Index> ids; // id of each point, by coordinates
 
-  Inexact::Point_3 inexact(Index v) const
+  Inexact::Point_3 to_inexact(Index v) const
   {
     return { this->points[v][0], this->points[v][1], this->points[v][2] };
   }
@@ -62,9 +62,9 @@ struct Soup
   {
     return { this->points[v][0], this->points[v][1], this->points[v][2] };
   }
-  Inexact::Triangle_3 inexact(const Face& f) const
+  Inexact::Triangle_3 to_inexact(const Face& f) const
   {
-    return { this->inexact(f[0]), this->inexact(f[1]), this->inexact(f[2]) };
+    return { this->to_inexact(f[0]), this->to_inexact(f[1]), this->to_inexact(f[2]) };
   }
   Exact::Triangle_3 exact(const Face& f) const
   {
@@ -82,12 +82,12 @@ struct Soup
   bool degenerate(const Face& f) const
   {
     return f[0] == f[1] || f[1] == f[2] || f[2] == f[0] ||
-      CGAL::collinear(this->inexact(f[0]), this->inexact(f[1]), this->inexact(f[2]));
+      CGAL::collinear(this->to_inexact(f[0]), this->to_inexact(f[1]), this->to_inexact(f[2]));
   }
   /// Weld vertices with equal coordinates. Remove faces without area and duplicate faces.
   void remove_degenerate()
   {
-    std::set<Face> seen;
+    std::set<Face> added_faces;
     std::vector<Face> kept;
     for (Face f : this->faces)
     {
@@ -97,7 +97,7 @@ struct Soup
       }
       Face key = f;
       std::sort(key.begin(), key.end());
-      if (!this->degenerate(f) && seen.insert(key).second)
+      if (!this->degenerate(f) && added_faces.insert(key).second)
       {
         kept.push_back(f);
       }
@@ -127,17 +127,17 @@ bool faces_cross(const Soup& soup, const Face& f, const Face& g)
       }
     }
   }
-  const auto point = [&](Index v) { return soup.inexact(v); };
+  const auto point = [&](Index v) { return soup.to_inexact(v); };
   if (shared == 0)
   {
-    return CGAL::do_intersect(soup.inexact(f), soup.inexact(g));
+    return CGAL::do_intersect(soup.to_inexact(f), soup.to_inexact(g));
   }
   if (shared == 1)
   {
     // The intersection is convex and contains the shared vertex. If it contains another point, it
     // contains a point of the edge opposite to the vertex in one of the triangles.
-    return CGAL::do_intersect(Inexact::Segment_3(point(a[1]), point(a[2])), soup.inexact(g)) ||
-      CGAL::do_intersect(Inexact::Segment_3(point(b[1]), point(b[2])), soup.inexact(f));
+    return CGAL::do_intersect(Inexact::Segment_3(point(a[1]), point(a[2])), soup.to_inexact(g)) ||
+      CGAL::do_intersect(Inexact::Segment_3(point(b[1]), point(b[2])), soup.to_inexact(f));
   }
   if (shared == 2)
   {
@@ -148,22 +148,23 @@ bool faces_cross(const Soup& soup, const Face& f, const Face& g)
   return true;
 }
 
-/// Return the pairs of crossing triangles, sorted. If there are more than `most` pairs, the list is
-/// incomplete.
-std::vector<Pair> crossing_pairs(const Soup& soup, std::size_t most)
+/// Return the pairs of crossing triangles, sorted. If there are more than `maximum_pairs` pairs,
+/// the list is incomplete.
+std::vector<Pair> crossing_pairs(const Soup& soup, std::size_t maximum_pairs)
 {
   using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 3, Index>;
   std::vector<Box> boxes;
   boxes.reserve(soup.faces.size());
   for (std::size_t f = 0; f < soup.faces.size(); ++f)
   {
-    boxes.emplace_back(soup.inexact(soup.faces[f]).bbox(), static_cast<Index>(f));
+    boxes.emplace_back(soup.to_inexact(soup.faces[f]).bbox(), static_cast<Index>(f));
   }
   std::vector<Pair> pairs;
   CGAL::box_self_intersection_d(boxes.begin(), boxes.end(),
     [&](const Box& a, const Box& b)
     {
-      if (pairs.size() <= most && faces_cross(soup, soup.faces[a.info()], soup.faces[b.info()]))
+      if (pairs.size() <= maximum_pairs &&
+        faces_cross(soup, soup.faces[a.info()], soup.faces[b.info()]))
       {
         pairs.push_back(std::minmax(a.info(), b.info()));
       }
@@ -184,19 +185,19 @@ struct Cuts
 void add_intersection(const Exact::Segment_3& edge, const Exact::Triangle_3& triangle,
   std::vector<Exact::Point_3>& points, std::vector<Exact::Segment_3>& segments)
 {
-  const auto meet = CGAL::intersection(edge, triangle);
-  if (!meet)
+  const auto intersection = CGAL::intersection(edge, triangle);
+  if (!intersection)
   {
     return;
   }
-  if (const auto* point = boost::get<Exact::Point_3>(&*meet))
+  if (const auto* point = boost::get<Exact::Point_3>(&*intersection))
   {
     if (std::find(points.begin(), points.end(), *point) == points.end())
     {
       points.push_back(*point);
     }
   }
-  else if (const auto* segment = boost::get<Exact::Segment_3>(&*meet))
+  else if (const auto* segment = boost::get<Exact::Segment_3>(&*intersection))
   {
     segments.push_back(*segment);
   }
@@ -332,10 +333,10 @@ void cut(Soup& soup, const Face& face, const Cuts& cuts, std::vector<Face>& piec
   }
 }
 
-std::string too_many_crossings(const std::string& why)
+std::string too_many_crossings(const std::string& message)
 {
   report_value("too_many", 1.0);
-  return why;
+  return message;
 }
 
 std::string time_limit_reached(double limit)
@@ -424,9 +425,9 @@ std::string refine(MesherData& data, const RefineOptions& options)
   Soup soup = soup_of(data);
   // A few hundred large triangles can be cut into tens of thousands of pieces and still be meshed.
   // Therefore face_limit is at least growth_limit times this number of faces.
-  constexpr std::size_t small = 10000;
+  constexpr std::size_t minimum_limited_faces = 10000;
   const auto face_limit = static_cast<std::size_t>(
-    options.growth_limit * static_cast<double>(std::max(soup.faces.size(), small)));
+    options.growth_limit * static_cast<double>(std::max(soup.faces.size(), minimum_limited_faces)));
   // Number of pairs below which an increase is ignored.
   constexpr std::size_t minimum_crossings = 64;
   // The job gives up after this many rounds in which the number of crossings increased.

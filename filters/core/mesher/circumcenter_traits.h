@@ -33,14 +33,15 @@ public:
     const WeightedPoint& s, bool exact = false) const
   {
     const Point center = RobustCircumcenter::operator()(p, q, r, s, exact);
-    return exact || good(center, p, q, r, s) ? center
-                                             : RobustCircumcenter::operator()(p, q, r, s, true);
+    return exact || is_accurate(center, p, q, r, s)
+      ? center
+      : RobustCircumcenter::operator()(p, q, r, s, true);
   }
 
 private:
   /// Report whether the center is accurate enough: near the cell, a segment that ends at the center
   /// deviates from the exact segment by less than a millionth of an edge length.
-  static bool good(const Point& center, const WeightedPoint& p, const WeightedPoint& q,
+  static bool is_accurate(const Point& center, const WeightedPoint& p, const WeightedPoint& q,
     const WeightedPoint& r, const WeightedPoint& s)
   {
     constexpr double tolerance = 2e-6;

@@ -61,8 +61,8 @@ struct Plane
 
   Index add(const Coordinates& p)
   {
-    const auto [entry, fresh] = this->ids.emplace(p, static_cast<Index>(this->points.size()));
-    if (fresh)
+    const auto [entry, is_new] = this->ids.emplace(p, static_cast<Index>(this->points.size()));
+    if (is_new)
     {
       this->points.push_back(p);
     }
@@ -111,11 +111,12 @@ bool snap_edges_to_points(
         return Coordinates{ plane.points[to][0] - plane.points[from][0],
           plane.points[to][1] - plane.points[from][1] };
       };
-      const Coordinates along = difference(a, b);
+      const Coordinates edge_vector = difference(a, b);
       const Coordinates to_v = difference(a, v);
-      const double length = std::hypot(along[0], along[1]);
-      const double along_edge = (along[0] * to_v[0] + along[1] * to_v[1]) / length;
-      const double edge_distance = std::abs(along[0] * to_v[1] - along[1] * to_v[0]) / length;
+      const double length = std::hypot(edge_vector[0], edge_vector[1]);
+      const double along_edge = (edge_vector[0] * to_v[0] + edge_vector[1] * to_v[1]) / length;
+      const double edge_distance =
+        std::abs(edge_vector[0] * to_v[1] - edge_vector[1] * to_v[0]) / length;
       if (edge_distance < 0.5 * grid && along_edge > 0.0 && along_edge < length)
       {
         edges.erase(edge);
@@ -144,8 +145,8 @@ std::string insert(const Plane& plane, const Pairs& edges, Arrangement& arrangem
     vertices[v->info().value] = v;
   }
   constexpr std::size_t growth = 20;
-  constexpr std::size_t many = 2000000;
-  const std::size_t limit = growth * vertices.size() + many;
+  constexpr std::size_t vertex_allowance = 2000000;
+  const std::size_t limit = growth * vertices.size() + vertex_allowance;
   std::size_t done = 0;
   for (const auto& [a, b] : edges)
   {
@@ -352,7 +353,7 @@ bool refine(Filling& filling, double min_angle, const FillOptions& options, std:
 
 void collect_triangles(const Filling& filling, MesherData& data)
 {
-  std::vector<Inexact::Point_2> fresh;
+  std::vector<Inexact::Point_2> added_points;
   std::map<Filling::Vertex_handle, Index> ids;
   std::vector<std::array<Index, 3>> triangles;
   for (auto f = filling.finite_faces_begin(); f != filling.finite_faces_end(); ++f)
@@ -368,22 +369,23 @@ void collect_triangles(const Filling& filling, MesherData& data)
       triangle[k] = v->info().value;
       if (triangle[k] < 0)
       {
-        const Index next = data.points.rows() + static_cast<Index>(fresh.size());
+        const Index next = data.points.rows() + static_cast<Index>(added_points.size());
         const auto [entry, is_new] = ids.emplace(v, next);
         if (is_new)
         {
-          fresh.push_back(v->point());
+          added_points.push_back(v->point());
         }
         triangle[k] = entry->second;
       }
     }
     triangles.push_back(triangle);
   }
-  const Index old = data.points.rows();
-  data.points.conservativeResize(old + static_cast<Index>(fresh.size()), 3);
-  for (std::size_t k = 0; k < fresh.size(); ++k)
+  const Index old_count = data.points.rows();
+  data.points.conservativeResize(old_count + static_cast<Index>(added_points.size()), 3);
+  for (std::size_t k = 0; k < added_points.size(); ++k)
   {
-    data.points.row(old + static_cast<Index>(k)) << fresh[k].x(), fresh[k].y(), 0.0;
+    data.points.row(old_count + static_cast<Index>(k)) << added_points[k].x(), added_points[k].y(),
+      0.0;
   }
   data.triangles.resize(static_cast<Index>(triangles.size()), 3);
   for (Index t = 0; t < data.triangles.rows(); ++t)
@@ -421,14 +423,14 @@ std::string arrange(MesherData& data, double grid)
     {
       return error;
     }
-    bool fresh = false;
+    bool has_added_points = false;
     for (auto v = arrangement.finite_vertices_begin(); v != arrangement.finite_vertices_end(); ++v)
     {
       if (v->info().value < 0)
       {
         v->info().value = plane.add(
           { snapped(rounded(v->point().x()), grid), snapped(rounded(v->point().y()), grid) });
-        fresh = true;
+        has_added_points = true;
       }
     }
     edges.clear();
@@ -442,8 +444,9 @@ std::string arrange(MesherData& data, double grid)
         edges.insert(ordered_pair(a, b));
       }
     }
-    fresh = (grid > 0.0 && snap_edges_to_points(arrangement, plane, grid, edges)) || fresh;
-    if (!fresh)
+    has_added_points =
+      (grid > 0.0 && snap_edges_to_points(arrangement, plane, grid, edges)) || has_added_points;
+    if (!has_added_points)
     {
       report_value("rounds", round);
       data.triangles.resize(static_cast<Index>(arrangement.number_of_faces()), 3);
@@ -485,10 +488,10 @@ std::string fill_plane(MesherData& data, const FillOptions& options)
   const double triangles = options.longest_edge > 0.0
     ? area_of(data) / (0.4 * 0.25 * options.longest_edge * options.longest_edge)
     : 0.0;
-  constexpr double many = 20000.0;
+  constexpr double triangle_allowance = 20000.0;
   constexpr double growth = 30.0;
-  const auto limit =
-    static_cast<std::size_t>(many + triangles + growth * static_cast<double>(data.points.rows()));
+  const auto limit = static_cast<std::size_t>(
+    triangle_allowance + triangles + growth * static_cast<double>(data.points.rows()));
   constexpr double guaranteed_angle = 20.6; // degrees; this bound can always be satisfied
   Filling filling;
   double angle = options.min_angle;

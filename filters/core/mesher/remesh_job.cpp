@@ -195,9 +195,9 @@ public:
     const Triangulation::Weighted_point point(to_point(p));
     if (t.number_of_vertices() > 0)
     {
-      const auto near = t.nearest_power_vertex(point.point());
+      const auto nearest_vertex = t.nearest_power_vertex(point.point());
       const double least = point_spacing * this->field_.at(p);
-      if (CGAL::squared_distance(near->point().point(), point.point()) < least * least)
+      if (CGAL::squared_distance(nearest_vertex->point().point(), point.point()) < least * least)
       {
         return;
       }
@@ -309,13 +309,13 @@ std::string remesh(MesherData& data, RemeshJobOptions options)
   }
   // If the surface is open, the part that bounds the region may lie in one plane. Then the initial
   // triangulation needs points in other planes.
-  std::vector<std::pair<Kernel::Point_3, Domain::Index>> more;
-  constexpr int some = 100;
+  std::vector<std::pair<Kernel::Point_3, Domain::Index>> extra_points;
+  constexpr int extra_point_count = 100;
   if (complex.triangulation().dimension() < 3)
   {
-    domain.construct_initial_points_object()(std::back_inserter(more), some);
+    domain.construct_initial_points_object()(std::back_inserter(extra_points), extra_point_count);
   }
-  for (const auto& [p, index] : more)
+  for (const auto& [p, index] : extra_points)
   {
     constexpr double no_spacing = 0.0;
     initial_mesh.insert(to_vec3(p), no_spacing);

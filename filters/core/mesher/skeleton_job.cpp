@@ -67,7 +67,7 @@ struct Part
 };
 
 /// Return the closed components, the largest first.
-std::vector<Part> closed_parts(const Mesh& mesh, Index& open, Index& hollow)
+std::vector<Part> closed_parts(const Mesh& mesh, Index& open, Index& nonpositive_parts)
 {
   std::vector<std::size_t> component(mesh.number_of_faces());
   auto map = boost::make_iterator_property_map(
@@ -90,7 +90,7 @@ std::vector<Part> closed_parts(const Mesh& mesh, Index& open, Index& hollow)
     }
     else
     {
-      ++hollow;
+      ++nonpositive_parts;
     }
   }
   std::stable_sort(
@@ -124,8 +124,8 @@ void contract(const Mesh& mesh, const SkeletonJobOptions& options, double begin,
   Index& iterations, std::vector<Vec3>& points, std::vector<std::array<Index, 2>>& segments)
 {
   Flow flow(mesh);
-  const double whole = CGAL::to_double(pmp::area(mesh));
-  double last = whole;
+  const double initial_area = CGAL::to_double(pmp::area(mesh));
+  double last = initial_area;
   double contraction = 0.0;
   for (Index i = 0; i < options.iteration_limit; ++i)
   {
@@ -135,7 +135,7 @@ void contract(const Mesh& mesh, const SkeletonJobOptions& options, double begin,
     flow.detect_degeneracies();
     ++iterations;
     const double area = CGAL::to_double(pmp::area(flow.meso_skeleton()));
-    const double change = std::abs(last - area) / whole;
+    const double change = std::abs(last - area) / initial_area;
     last = area;
     if (!(change >= flow.area_variation_factor()))
     {
@@ -171,17 +171,17 @@ std::string skeleton(MesherData& data, const SkeletonJobOptions& options)
     return "the surface has no triangles";
   }
   Index open = 0;
-  Index hollow = 0;
-  std::vector<Part> parts = closed_parts(mesh, open, hollow);
+  Index nonpositive_parts = 0;
+  std::vector<Part> parts = closed_parts(mesh, open, nonpositive_parts);
   if (parts.empty())
   {
     return "the surface has no closed component that encloses a volume";
   }
-  Index crumbs = 0;
+  Index dropped_parts = 0;
   while (parts.back().volume < options.smallest_part * parts.front().volume)
   {
     parts.pop_back();
-    ++crumbs;
+    ++dropped_parts;
   }
   double area = 0.0;
   for (const Part& part : parts)
@@ -197,13 +197,13 @@ std::string skeleton(MesherData& data, const SkeletonJobOptions& options)
   {
     const double fraction = CGAL::to_double(pmp::area(part.mesh)) / area;
     // A small component needs a minimum number of triangles to represent its shape.
-    constexpr double least = 1000.0;
-    remesh_uniformly(part.mesh, std::max(least, fraction * options.triangles));
+    constexpr double minimum = 1000.0;
+    remesh_uniformly(part.mesh, std::max(minimum, fraction * options.triangles));
     triangles += static_cast<Index>(part.mesh.number_of_faces());
-    constexpr double evened = 0.2;
-    report_progress(done + evened * fraction);
-    contract(
-      part.mesh, options, done + evened * fraction, done + fraction, iterations, points, segments);
+    constexpr double remeshed_fraction = 0.2;
+    report_progress(done + remeshed_fraction * fraction);
+    contract(part.mesh, options, done + remeshed_fraction * fraction, done + fraction, iterations,
+      points, segments);
     done += fraction;
   }
   data = MesherData();
@@ -219,8 +219,8 @@ std::string skeleton(MesherData& data, const SkeletonJobOptions& options)
   }
   report_value("parts", static_cast<double>(parts.size()));
   report_value("open", static_cast<double>(open));
-  report_value("hollow", static_cast<double>(hollow));
-  report_value("crumbs", static_cast<double>(crumbs));
+  report_value("hollow", static_cast<double>(nonpositive_parts));
+  report_value("crumbs", static_cast<double>(dropped_parts));
   report_value("triangles", static_cast<double>(triangles));
   report_value("iterations", static_cast<double>(iterations));
   return {};

@@ -114,16 +114,16 @@ private:
     const float* lower = this->lower_.values.data();
     const float* upper = this->upper_.values.data();
     Index left = no_vertex;
-    bool was_a = false; // the left column of the frame is outside
-    bool was_d = false;
+    bool previous_b = false; // the left column of the frame is outside
+    bool previous_c = false;
     for (Index x = 0; x <= this->columns_; ++x) // cell between columns x - 1 and x of the image
     {
-      const bool a = was_a;
-      const bool d = was_d;
+      const bool a = previous_b;
+      const bool d = previous_c;
       const bool b = this->is_inside(lower[x + 1]);
       const bool c = this->is_inside(upper[x + 1]);
-      was_a = b;
-      was_d = c;
+      previous_b = b;
+      previous_c = c;
       this->top_[x] = no_vertex;
       if (a == b && b == c && c == d)
       {
@@ -151,10 +151,11 @@ private:
   /// on the edge after the run is linked to the vertex on the edge where this run begins. In a
   /// saddle cell whose two inside corners are connected, the vertex after the run is linked to the
   /// vertex where the other run begins.
-  void link_cell(const std::array<bool, 4>& in, const std::array<Index, 4>& sides,
+  void link_cell(const std::array<bool, 4>& corner_is_inside, const std::array<Index, 4>& sides,
     const std::array<float, 4>& values, Contour& contour) const
   {
-    const bool saddle = in[0] == in[2] && in[1] == in[3];
+    const bool saddle =
+      corner_is_inside[0] == corner_is_inside[2] && corner_is_inside[1] == corner_is_inside[3];
     bool joined = false;
     if (saddle)
     {
@@ -165,14 +166,14 @@ private:
     Index begin = no_vertex;
     for (int k = 0; k < 4; ++k)
     {
-      if (!in[k] && in[(k + 1) % 4])
+      if (!corner_is_inside[k] && corner_is_inside[(k + 1) % 4])
       {
         begin = sides[k];
       }
     }
     for (int k = 0; k < 4; ++k)
     {
-      if (in[k] && !in[(k + 1) % 4])
+      if (corner_is_inside[k] && !corner_is_inside[(k + 1) % 4])
       {
         contour.next[sides[k]] = saddle ? sides[(k + (joined ? 1 : 3)) % 4] : begin;
       }
@@ -218,10 +219,10 @@ Loops read_loops(Contour& contour)
 
 double squared_distance(const Vec2& p, const Vec2& a, const Vec2& b)
 {
-  const Vec2 along = b - a;
-  const double length = along.squaredNorm();
-  const double t = length > 0.0 ? std::clamp((p - a).dot(along) / length, 0.0, 1.0) : 0.0;
-  return (p - a - t * along).squaredNorm();
+  const Vec2 segment_vector = b - a;
+  const double length = segment_vector.squaredNorm();
+  const double t = length > 0.0 ? std::clamp((p - a).dot(segment_vector) / length, 0.0, 1.0) : 0.0;
+  return (p - a - t * segment_vector).squaredNorm();
 }
 
 /// Vertices sorted into the square cells of a grid, to find vertices near a triangle.
@@ -368,7 +369,7 @@ public:
       {
         return Status::canceled();
       }
-      has_removed = this->leap(tolerance);
+      has_removed = this->simplify_by_search_ahead(tolerance);
     }
     return {};
   }
@@ -420,7 +421,7 @@ private:
     return has_removed;
   }
 
-  bool leap(double tolerance)
+  bool simplify_by_search_ahead(double tolerance)
   {
     this->grid_.fill(this->loops_.points, this->is_remaining_);
     bool has_removed = false;
@@ -428,7 +429,8 @@ private:
     {
       for (Index v = this->loops_.starts[l]; v < this->loops_.starts[l + 1]; ++v)
       {
-        has_removed = (this->is_remaining_[v] && this->leap_from(l, v, tolerance)) || has_removed;
+        has_removed =
+          (this->is_remaining_[v] && this->search_ahead_from(l, v, tolerance)) || has_removed;
       }
     }
     return has_removed;
@@ -437,12 +439,12 @@ private:
   /// Connect p to the farthest vertex found by a search ahead. The vertices after p are removed one
   /// by one until the line from p exceeds a multiple of the tolerance. Then the vertices after the
   /// last line within the tolerance are restored. Return true if a vertex was removed.
-  bool leap_from(std::size_t loop, Index p, double tolerance)
+  bool search_ahead_from(std::size_t loop, Index p, double tolerance)
   {
     constexpr std::size_t maximum_removed =
       256; // maximum number of vertices that are removed at a time
     constexpr double search_limit = 3.0; // multiple of the tolerance at which the search ends
-    std::vector<Index>& removed = this->gone_;
+    std::vector<Index>& removed = this->removed_;
     removed.clear();
     std::size_t accepted_count = 0;
     Index v = this->next_[p];
@@ -538,7 +540,7 @@ private:
   std::vector<Index> next_; // next remaining vertex in the loop
   std::vector<Index> previous_; // previous remaining vertex in the loop
   std::vector<Index> remaining_counts_; // number of remaining vertices per loop
-  std::vector<Index> gone_;
+  std::vector<Index> removed_;
 };
 } // namespace
 

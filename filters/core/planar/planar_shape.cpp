@@ -30,7 +30,7 @@ namespace
 {
 constexpr Index none = -1;
 
-Status check_segments(PlanePointsView points, SegmentsView segments, const std::string& what)
+Status check_segments(PlanePointsView points, SegmentsView segments, const std::string& curve_kind)
 {
   for (Index e = 0; e < segments.rows(); ++e)
   {
@@ -39,12 +39,12 @@ Status check_segments(PlanePointsView points, SegmentsView segments, const std::
       const Index v = segments(e, k);
       if (v < 0 || v >= points.rows())
       {
-        return Status::invalid_input(what + " " + std::to_string(e) + " references vertex " +
+        return Status::invalid_input(curve_kind + " " + std::to_string(e) + " references vertex " +
           std::to_string(v) + ", but there are " + std::to_string(points.rows()) + " vertices");
       }
       if (!points.row(v).allFinite())
       {
-        return Status::invalid_input(what + " " + std::to_string(e) + " references vertex " +
+        return Status::invalid_input(curve_kind + " " + std::to_string(e) + " references vertex " +
           std::to_string(v) + ", which has a coordinate that is not a finite number");
       }
     }
@@ -119,7 +119,7 @@ private:
   Status scale();
   void merge_vertices();
   Status arrange();
-  Status keep();
+  Status keep_inside_triangles();
   Status fill();
   Status try_fill(double angle, double seconds, MesherResult& answer);
   Status number(PlanarShape& shape);
@@ -310,10 +310,10 @@ double Builder::mean_winding(Index triangle) const
   {
     const double weight = (155.0 + sign * root) / 1200.0;
     // Distance of the points from the center, as a fraction of the distance to the corner.
-    const double way = (1.0 - sign * root) / 7.0;
+    const double distance_fraction = (1.0 - sign * root) / 7.0;
     for (const Vec2& corner : { a, b, c })
     {
-      sum += weight * this->winding_.evaluate_at(center + way * (corner - center));
+      sum += weight * this->winding_.evaluate_at(center + distance_fraction * (corner - center));
     }
   }
   return sum;
@@ -333,7 +333,7 @@ double Builder::smallest_height() const
   return smallest;
 }
 
-Status Builder::keep()
+Status Builder::keep_inside_triangles()
 {
   const Phase phase(this->context_, "winding", 0.4, 0.5);
   Status status = this->winding_.build(this->context_, this->curve_points_, this->curves_);
@@ -400,9 +400,10 @@ Status Builder::keep()
 Status Builder::fill()
 {
   const Phase phase(this->context_, "fill", 0.5, 1.0);
-  constexpr double always = 20.6; // angle in degrees that can always be reached, see fill_plane()
+  // angle in degrees that can always be reached, see fill_plane()
+  constexpr double guaranteed_angle = 20.6;
   std::vector<double> angles{ this->options_.min_angle };
-  for (const double weaker : { always, 0.0 })
+  for (const double weaker : { guaranteed_angle, 0.0 })
   {
     if (weaker < angles.back())
     {
@@ -446,11 +447,11 @@ Status Builder::try_fill(double angle, double seconds, MesherResult& answer)
   // Fraction of the time for refinement; the rest is for reading and writing.
   constexpr double part = 0.8;
   // Smallest useful size of triangles, as a fraction of the finest detail.
-  constexpr double fine = 0x1p-10;
+  constexpr double minimum_size_fraction = 0x1p-10;
   const double edge = this->options_.edge * this->diagonal_;
   const double detail =
     edge > 0.0 ? std::min(edge, this->smallest_height_) : this->smallest_height_;
-  const double floor = std::max(fine * detail, this->rounding_);
+  const double floor = std::max(minimum_size_fraction * detail, this->rounding_);
   return this->run_job(
     { "fill-plane", "--min-angle", exact_number(angle), "--edge", exact_number(edge), "--floor",
       exact_number(floor), "--time", exact_number(part * seconds) },
@@ -470,9 +471,10 @@ bool Builder::has_positive_areas(bool exact) const
   {
     const auto side = [&](int from, int to) // edge vector, scaled, because areas could underflow
     {
-      const Vec2 along =
+      const Vec2 edge_vector =
         input_point(this->data_.triangles(t, to)) - input_point(this->data_.triangles(t, from));
-      return Vec2(std::ldexp(along.x(), -this->exponent_), std::ldexp(along.y(), -this->exponent_));
+      return Vec2(std::ldexp(edge_vector.x(), -this->exponent_),
+        std::ldexp(edge_vector.y(), -this->exponent_));
     };
     const Vec2 b = side(0, 1);
     const Vec2 c = side(0, 2);
@@ -597,7 +599,7 @@ Status Builder::run(PlanarShape& shape)
   {
     this->merge_vertices();
     status = this->arrange();
-    status = status.ok() ? this->keep() : status;
+    status = status.ok() ? this->keep_inside_triangles() : status;
     if (!status.ok() || this->grid_ > 0.0 || this->smallest_height_ >= this->minimum_height_)
     {
       break;

@@ -75,8 +75,8 @@ BINDPOSE_ALWAYS_INLINE double jacobi_rotate(
     const double c = p[0][i] * q[0][i] + p[1][i] * q[1][i] + p[2][i] * q[2][i];
     off_diagonal[i] = c * c - right_angle * a * b;
     const double d = b - a;
-    const double reach = std::abs(d) + std::sqrt(d * d + 4.0 * c * c);
-    const double tangent = (d < 0.0 ? -2.0 : 2.0) * c / (reach + 1e-300);
+    const double denominator = std::abs(d) + std::sqrt(d * d + 4.0 * c * c);
+    const double tangent = (d < 0.0 ? -2.0 : 2.0) * c / (denominator + 1e-300);
     const double cosine = 1.0 / std::sqrt(1.0 + tangent * tangent);
     const double sine = tangent * cosine;
     for (int k = 0; k < 3; ++k)
@@ -231,9 +231,9 @@ BINDPOSE_SIMD_CLONES void measure_triangles(
     const double y1 = (p[1][1][i] - slope[i] * a1) * height[i];
     const double y2 = (p[1][2][i] - slope[i] * a2) * height[i];
     const double xx = x0 * x0 + x1 * x1 + x2 * x2, yy = y0 * y0 + y1 * y1 + y2 * y2;
-    const double half = 0.5 * (xx - yy), mixed = x0 * y0 + x1 * y1 + x2 * y2;
+    const double half = 0.5 * (xx - yy), xy = x0 * y0 + x1 * y1 + x2 * y2;
     const double n0 = x1 * y2 - x2 * y1, n1 = x2 * y0 - x0 * y2, n2 = x0 * y1 - x1 * y0;
-    const double largest = std::sqrt(0.5 * (xx + yy) + std::sqrt(half * half + mixed * mixed));
+    const double largest = std::sqrt(0.5 * (xx + yy) + std::sqrt(half * half + xy * xy));
     values.largest[i] = largest;
     values.smallest[i] = largest > 0.0 ? std::sqrt(n0 * n0 + n1 * n1 + n2 * n2) / largest : 0.0;
     values.area[i] = sign[i] * (a0 * p[1][1][i] - a1 * p[1][0][i]);
@@ -293,8 +293,8 @@ Status check(const ElementStretchOptions& options, Index rest, PointsView posed)
 /// Call measure(begin, end, block) for blocks of elements, sum the results of the blocks, and
 /// return them in the report of a status.
 template <typename Measure>
-Status over_elements(
-  ExecutionContext& context, Index elements, const char* what, const Measure& measure)
+Status sum_over_elements(
+  ExecutionContext& context, Index elements, const char* element_kind, const Measure& measure)
 {
   std::vector<Block> blocks(
     static_cast<std::size_t>((elements + elements_per_block - 1) / elements_per_block));
@@ -335,7 +335,7 @@ Status over_elements(
   if (all.inverted > 0)
   {
     status.warnings.push_back("the pose inverts " + std::to_string(all.inverted) + " of " +
-      std::to_string(elements) + " " + what);
+      std::to_string(elements) + " " + element_kind);
   }
   return status;
 }
@@ -347,7 +347,7 @@ void prepare(const ElementStretchOptions& options, Index elements, ElementStretc
   stretch.smallest = stretch.largest;
 }
 
-bool in_a_plane(PointsView points)
+bool are_coplanar(PointsView points)
 {
   const Box box = bounding_box(points);
   return box.size().z() <= flat_tolerance * box.diagonal();
@@ -355,13 +355,13 @@ bool in_a_plane(PointsView points)
 } // namespace
 
 template <typename Elements>
-void RestElements::take(PointsView rest, const Elements& elements)
+void RestElements::store_rest_shape(PointsView rest, const Elements& elements)
 {
   constexpr Index numbers = Elements::ColsAtCompileTime == 4 ? tet_numbers : triangle_numbers;
   this->corners_ = Elements::ColsAtCompileTime;
   this->points_ = rest.rows();
   this->count_ = elements.rows();
-  this->flat_ = this->corners_ == 3 && in_a_plane(rest);
+  this->flat_ = this->corners_ == 3 && are_coplanar(rest);
   const Index tiles = (this->count_ + elements_per_tile - 1) / elements_per_tile;
   this->ids_.assign(static_cast<std::size_t>(tiles * this->corners_ * elements_per_tile), 0);
   this->shape_.assign(static_cast<std::size_t>(tiles * numbers * elements_per_tile), 0.0);
@@ -380,12 +380,12 @@ void RestElements::take(PointsView rest, const Elements& elements)
 
 RestElements::RestElements(PointsView rest, TetsView tets)
 {
-  this->take(rest, tets);
+  this->store_rest_shape(rest, tets);
 }
 
 RestElements::RestElements(PointsView rest, TrianglesView triangles)
 {
-  this->take(rest, triangles);
+  this->store_rest_shape(rest, triangles);
 }
 
 Status RestElements::stretch(ExecutionContext& context, const ElementStretchOptions& options,
@@ -399,9 +399,9 @@ Status RestElements::stretch(ExecutionContext& context, const ElementStretchOpti
   prepare(options, this->count_, stretch);
   const bool tets = this->corners_ == 4;
   // Triangles in space have no orientation sign.
-  const bool sign = tets || (this->flat_ && in_a_plane(posed));
+  const bool sign = tets || (this->flat_ && are_coplanar(posed));
   const Index numbers = tets ? tet_numbers : triangle_numbers;
-  return over_elements(context, this->count_, tets ? "tets" : "triangles",
+  return sum_over_elements(context, this->count_, tets ? "tets" : "triangles",
     [&](Index begin, Index end, Block& block)
     {
       BatchValues values;

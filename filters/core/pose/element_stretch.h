@@ -60,7 +60,7 @@ public:
 
 private:
   template <typename Elements>
-  void take(PointsView rest, const Elements& elements);
+  void store_rest_shape(PointsView rest, const Elements& elements);
 
   int corners_ = 3;
   Index points_ = 0;

@@ -40,12 +40,12 @@ Pose resolve_automatic_modes(const Handles& handles, const Pose& pose)
     const Affine& in_world = pose[h].transform;
     const Affine& to_parent = relative[h].transform;
     const double size = handles[h].tail.norm() + in_world.col(3).norm();
-    const bool moves = (is_translation(in_world) || is_translation(to_parent)) &&
+    const bool only_translates = (is_translation(in_world) || is_translation(to_parent)) &&
       pose[h].stretch == 1.0 && pose[h].twist == Eigen::Vector2d::Zero();
-    const bool rests = is_identity(in_world, size) || is_identity(to_parent, size);
-    const bool holds_all =
-      !moves || kind == HandleKind::region || (kind == HandleKind::bone && rests);
-    result[h].mode = holds_all ? HandleMode::full : HandleMode::position;
+    const bool is_at_rest = is_identity(in_world, size) || is_identity(to_parent, size);
+    const bool constrains_rotation =
+      !only_translates || kind == HandleKind::region || (kind == HandleKind::bone && is_at_rest);
+    result[h].mode = constrains_rotation ? HandleMode::full : HandleMode::position;
   }
   return result;
 }

@@ -50,7 +50,7 @@ bool invert(const Affine& transform, Affine& inverse)
   return true;
 }
 
-Affine transform_for_child(const Handle& parent, const HandlePose& posed, const Vec3& place)
+Affine transform_for_child(const Handle& parent, const HandlePose& posed, const Vec3& position)
 {
   const Vec3 bone = parent.tail - parent.head;
   const bool changes = posed.stretch != 1.0 || posed.twist != Eigen::Vector2d::Zero();
@@ -58,11 +58,12 @@ Affine transform_for_child(const Handle& parent, const HandlePose& posed, const 
   {
     return posed.transform;
   }
-  const double along = fraction_along_bone(place, parent.head, bone);
-  const double degrees = (1.0 - along) * posed.twist[0] + along * posed.twist[1];
-  const Eigen::AngleAxisd turn(degrees * (EIGEN_PI / 180.0), bone.stableNormalized());
+  const double fraction = fraction_along_bone(position, parent.head, bone);
+  const double degrees = (1.0 - fraction) * posed.twist[0] + fraction * posed.twist[1];
+  const Eigen::AngleAxisd angle_axis(degrees * (EIGEN_PI / 180.0), bone.stableNormalized());
   return compose(posed.transform,
-    affine_about(parent.head, turn.toRotationMatrix(), along * (posed.stretch - 1.0) * bone));
+    affine_about(
+      parent.head, angle_axis.toRotationMatrix(), fraction * (posed.stretch - 1.0) * bone));
 }
 
 Affine inherited_transform(const Handles& handles, const Pose& pose, Index handle)
@@ -110,12 +111,12 @@ Pose absolute_pose(const Handles& handles, const Pose& relative)
 void follow_parent(const Handles& handles, const Pose& base, Index handle, Pose& pose)
 {
   const Affine before = inherited_transform(handles, base, handle);
-  const Affine now = inherited_transform(handles, pose, handle);
+  const Affine inherited_after = inherited_transform(handles, pose, handle);
   Affine inverse;
-  if (now != before && invert(before, inverse))
+  if (inherited_after != before && invert(before, inverse))
   {
     const auto h = static_cast<std::size_t>(handle);
-    pose[h].transform = compose(now, compose(inverse, base[h].transform));
+    pose[h].transform = compose(inherited_after, compose(inverse, base[h].transform));
   }
 }
 

@@ -13,11 +13,11 @@ namespace bindpose
 std::vector<Index> parents_first(const Handles& handles);
 
 /// Return the transform that a child inherits from its posed parent. The child is attached at the
-/// rest position `place`. If the parent is a bone that stretches or twists, the result is the
-/// motion of the bone's cross-section at `place`, as in Skinning::stretchable_bones(). A child at
-/// the tail inherits the whole stretch and the twist of the tail. A child at the head inherits only
-/// the twist of the head.
-Affine transform_for_child(const Handle& parent, const HandlePose& posed, const Vec3& place);
+/// rest position `position`. If the parent is a bone that stretches or twists, the result is the
+/// motion of the bone's cross-section at `position`, as in Skinning::stretchable_bones(). A child
+/// at the tail inherits the whole stretch and the twist of the tail. A child at the head inherits
+/// only the twist of the head.
+Affine transform_for_child(const Handle& parent, const HandlePose& posed, const Vec3& position);
 /// Return the transform that a handle inherits from its parent, or the identity for a root.
 Affine inherited_transform(const Handles& handles, const Pose& pose, Index handle);
 

@@ -38,9 +38,9 @@ Eigen::Matrix3d pivot_rotation(const Handles& handles, const Pose& pose, double 
   {
     s += (rest - rest_mean / count) * (posed - posed_mean / count).transpose();
   }
-  Eigen::Matrix3d common = Eigen::Matrix3d::Identity();
-  fit_rotation(s, common);
-  return common;
+  Eigen::Matrix3d global_rotation = Eigen::Matrix3d::Identity();
+  fit_rotation(s, global_rotation);
+  return global_rotation;
 }
 
 } // namespace bindpose

@@ -33,9 +33,9 @@ struct PoseFileError : std::runtime_error
   using std::runtime_error::runtime_error;
 };
 
-[[noreturn]] void fail(const std::string& where, const std::string& what)
+[[noreturn]] void fail(const std::string& location, const std::string& problem)
 {
-  throw PoseFileError("the pose file: " + where + what);
+  throw PoseFileError("the pose file: " + location + problem);
 }
 
 const char* describe_type(const Json& value)
@@ -58,96 +58,97 @@ const char* describe_type(const Json& value)
 }
 
 void check_object(
-  const Json& value, const std::string& where, std::initializer_list<const char*> known)
+  const Json& value, const std::string& location, std::initializer_list<const char*> known_keys)
 {
   if (!value.is_object())
   {
-    fail(where, std::string(" is ") + describe_type(value) + "; it must be an object");
+    fail(location, std::string(" is ") + describe_type(value) + "; it must be an object");
   }
   for (const auto& item : value.items())
   {
     bool found = false;
     std::string list;
-    for (const char* key : known)
+    for (const char* key : known_keys)
     {
       found = found || item.key() == key;
       list += (list.empty() ? "" : ", ") + std::string(key);
     }
     if (!found)
     {
-      fail(where, " has the unknown key '" + item.key() + "' (expected: " + list + ")");
+      fail(location, " has the unknown key '" + item.key() + "' (expected: " + list + ")");
     }
   }
 }
 
-double number(const Json& value, const std::string& where)
+double number(const Json& value, const std::string& location)
 {
   if (!value.is_number())
   {
-    fail(where, std::string(" is ") + describe_type(value) + "; it must be a number");
+    fail(location, std::string(" is ") + describe_type(value) + "; it must be a number");
   }
   const auto x = value.get<double>();
   if (!std::isfinite(x))
   {
-    fail(where, " is not a finite number");
+    fail(location, " is not a finite number");
   }
   return x;
 }
 
-double positive_number(const Json& value, const std::string& where)
+double positive_number(const Json& value, const std::string& location)
 {
-  const double x = number(value, where);
+  const double x = number(value, location);
   if (!(x > 0.0))
   {
-    fail(where, " must be greater than 0");
+    fail(location, " must be greater than 0");
   }
   return x;
 }
 
 template <int Size>
-Eigen::Matrix<double, Size, 1> numbers(const Json& value, const std::string& where)
+Eigen::Matrix<double, Size, 1> numbers(const Json& value, const std::string& location)
 {
   if (!value.is_array() || value.size() != Size)
   {
-    fail(where, " must be a list of " + std::to_string(Size) + " numbers");
+    fail(location, " must be a list of " + std::to_string(Size) + " numbers");
   }
   Eigen::Matrix<double, Size, 1> result;
   for (int i = 0; i < Size; ++i)
   {
-    result[i] = number(value[static_cast<std::size_t>(i)], where);
+    result[i] = number(value[static_cast<std::size_t>(i)], location);
   }
   return result;
 }
 
 /// Return the index of a string value in the list of allowed words.
 template <std::size_t Count>
-std::size_t word(const Json& value, const std::string& where, const char* const (&known)[Count])
+std::size_t word(
+  const Json& value, const std::string& location, const char* const (&known_words)[Count])
 {
   std::string list;
   for (std::size_t k = 0; k < Count; ++k)
   {
-    if (value.is_string() && value.get<std::string>() == known[k])
+    if (value.is_string() && value.get<std::string>() == known_words[k])
     {
       return k;
     }
-    list += (k > 0 ? ", " : "") + std::string(known[k]);
+    list += (k > 0 ? ", " : "") + std::string(known_words[k]);
   }
-  fail(where, " must be one of " + list);
+  fail(location, " must be one of " + list);
 }
 
-Eigen::Matrix3d read_rotation(const Json& value, const std::string& where)
+Eigen::Matrix3d read_rotation(const Json& value, const std::string& location)
 {
-  check_object(value, where, { "axis", "degrees" });
+  check_object(value, location, { "axis", "degrees" });
   if (!value.contains("axis") || !value.contains("degrees"))
   {
-    fail(where, " must have both axis and degrees");
+    fail(location, " must have both axis and degrees");
   }
-  Vec3 axis = numbers<3>(value["axis"], where + ".axis");
-  const double degrees = number(value["degrees"], where + ".degrees");
+  Vec3 axis = numbers<3>(value["axis"], location + ".axis");
+  const double degrees = number(value["degrees"], location + ".degrees");
   const double largest = axis.cwiseAbs().maxCoeff();
   if (largest == 0.0)
   {
-    fail(where, ".axis has length zero");
+    fail(location, ".axis has length zero");
   }
   // Divide by the largest coordinate first, because the squares of tiny coordinates would be zero.
   axis = (axis / largest).normalized();
@@ -155,9 +156,9 @@ Eigen::Matrix3d read_rotation(const Json& value, const std::string& where)
 }
 
 HandleEdit read_handle(
-  const Json& value, const std::string& where, Index index, const Handle& rest, int version)
+  const Json& value, const std::string& location, Index index, const Handle& rest, int version)
 {
-  check_object(value, where,
+  check_object(value, location,
     { "mode", "translate", "rotate", "scale", "space", "head", "tail", "stretch", "twist" });
   HandleEdit edit;
   edit.handle = index;
@@ -166,7 +167,7 @@ HandleEdit read_handle(
   {
     const std::string& key = item.key();
     const Json& entry = item.value();
-    const std::string entry_path = where + "." + key;
+    const std::string entry_path = location + "." + key;
     const bool for_bones = key == "head" || key == "tail" || key == "stretch" || key == "twist";
     if (for_bones && rest.kind != HandleKind::bone)
     {
@@ -220,12 +221,12 @@ HandleEdit read_handle(
   {
     if (edit.translate || edit.rotation || edit.scale)
     {
-      fail(where, " must not combine head or tail with translate, rotate or scale");
+      fail(location, " must not combine head or tail with translate, rotate or scale");
     }
-    const bool known = (edit.head && edit.tail) || version < 2 || !edit.with_parent;
-    if (known && edit.head.value_or(rest.head) == edit.tail.value_or(rest.tail))
+    const bool both_ends_known = (edit.head && edit.tail) || version < 2 || !edit.with_parent;
+    if (both_ends_known && edit.head.value_or(rest.head) == edit.tail.value_or(rest.tail))
     {
-      fail(where, " must not have length zero in the pose");
+      fail(location, " must not have length zero in the pose");
     }
   }
   return edit;
@@ -246,7 +247,7 @@ struct Expressions
   bool found = false;
 
   /// Replace expressions in a value by numbers.
-  void replace(Json& value, const std::string& key, const std::string& where)
+  void replace(Json& value, const std::string& key, const std::string& location)
   {
     if (is_expression(key, value) && this->evaluate)
     {
@@ -256,11 +257,11 @@ struct Expressions
       const Status status = this->evaluate(text, this->time, result);
       if (!status.ok())
       {
-        fail(where, " is '" + text + "': " + status.message);
+        fail(location, " is '" + text + "': " + status.message);
       }
       if (!std::isfinite(result))
       {
-        fail(where,
+        fail(location,
           " is '" + text + "', which is not a finite number at t = " + short_number(this->time));
       }
       value = result;
@@ -269,14 +270,14 @@ struct Expressions
     {
       for (Json& entry : value)
       {
-        this->replace(entry, key, where);
+        this->replace(entry, key, location);
       }
     }
     else if (value.is_object())
     {
       for (const auto& item : value.items())
       {
-        this->replace(item.value(), item.key(), where + "." + item.key());
+        this->replace(item.value(), item.key(), location + "." + item.key());
       }
     }
   }
@@ -292,27 +293,27 @@ int read_version(const Json& root)
     return 1;
   }
   const Json& version = root["version"];
-  for (int known = 1; known <= newest_version; ++known)
+  for (int version_number = 1; version_number <= newest_version; ++version_number)
   {
-    if (version.is_number() && version.get<double>() == known)
+    if (version.is_number() && version.get<double>() == version_number)
     {
-      return known;
+      return version_number;
     }
   }
   fail("version", " is " + version.dump() + "; expected 1 or 2");
 }
 
-PoseEdits read_pose(const Json& value, const std::string& where,
+PoseEdits read_pose(const Json& value, const std::string& location,
   const std::map<std::string, Index>& index_of, const Handles& handles, Expressions& expressions,
   int version)
 {
   if (!value.contains("handles"))
   {
-    fail(where, " must have the key 'handles'");
+    fail(location, " must have the key 'handles'");
   }
   if (!value["handles"].is_object())
   {
-    fail(where, ".handles must be an object whose keys are handle names");
+    fail(location, ".handles must be an object whose keys are handle names");
   }
   PoseEdits edits;
   edits.children_follow = version > 1;
@@ -321,9 +322,9 @@ PoseEdits read_pose(const Json& value, const std::string& where,
     const auto found = index_of.find(item.key());
     if (found == index_of.end())
     {
-      fail(where, " refers to the handle '" + item.key() + "', which does not exist");
+      fail(location, " refers to the handle '" + item.key() + "', which does not exist");
     }
-    const std::string handle = where + " handle '" + item.key() + "'";
+    const std::string handle = location + " handle '" + item.key() + "'";
     Json entry = item.value();
     expressions.replace(entry, "", handle);
     edits.handles.push_back(read_handle(
@@ -338,14 +339,14 @@ bool omits_child(const Json& root, const Handles& handles)
 {
   const auto pose_omits_child = [&](const Json& pose)
   {
-    const Json& named = pose["handles"];
+    const Json& handle_entries = pose["handles"];
     return std::any_of(handles.begin(), handles.end(),
       [&](const Handle& child)
       {
-        const auto entry = named.find(child.name);
+        const auto entry = handle_entries.find(child.name);
         return child.parent >= 0 &&
-          named.contains(handles[static_cast<std::size_t>(child.parent)].name) &&
-          (entry == named.end() || !entry->contains("space"));
+          handle_entries.contains(handles[static_cast<std::size_t>(child.parent)].name) &&
+          (entry == handle_entries.end() || !entry->contains("space"));
       });
   };
   if (!root.contains("frames"))
@@ -360,7 +361,7 @@ bool omits_child(const Json& root, const Handles& handles)
 Json parse_without_doubled_keys(const std::string& text)
 {
   std::vector<std::set<std::string>> keys;
-  const Json::parser_callback_t watch = [&](int, Json::parse_event_t event, Json& parsed)
+  const Json::parser_callback_t track_keys = [&](int, Json::parse_event_t event, Json& parsed)
   {
     if (event == Json::parse_event_t::object_start)
     {
@@ -377,7 +378,7 @@ Json parse_without_doubled_keys(const std::string& text)
     }
     return true;
   };
-  return Json::parse(text, watch);
+  return Json::parse(text, track_keys);
 }
 } // namespace
 
@@ -430,11 +431,12 @@ Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequ
     }
     for (const Json& frame : root["frames"])
     {
-      const std::string where = "frame " + std::to_string(sequence.frames.size());
+      const std::string location = "frame " + std::to_string(sequence.frames.size());
       Expressions expressions{ expression,
         static_cast<double>(sequence.frames.size()) / sequence.frames_per_second };
-      check_object(frame, where, { "handles" });
-      sequence.frames.push_back(read_pose(frame, where, index_of, handles, expressions, version));
+      check_object(frame, location, { "handles" });
+      sequence.frames.push_back(
+        read_pose(frame, location, index_of, handles, expressions, version));
       sequence.has_expressions = sequence.has_expressions || expressions.found;
     }
     warn_about_children();
@@ -450,10 +452,10 @@ Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequ
     sequence = PoseSequence();
     // Remove the technical prefix. Example: "[json.exception.parse_error.101] parse error at line
     // 1, …".
-    const std::string what = error.what();
-    const std::size_t end = what.find("] ");
+    const std::string problem = error.what();
+    const std::size_t end = problem.find("] ");
     return Status::invalid_input("the pose file is not valid JSON: " +
-      (end == std::string::npos ? what : what.substr(end + 2)));
+      (end == std::string::npos ? problem : problem.substr(end + 2)));
   }
 }
 
@@ -592,9 +594,9 @@ void pose_handle(const HandleEdit* edit, bool children_follow, const Handles& ha
   {
     // The mode depends on the presence of keys, not on their values, because an expression for a
     // rotation may be zero at this time.
-    const bool turns =
+    const bool constrains_rotation =
       edit->rotation || edit->scale || edit->head || edit->tail || edit->stretch || edit->twist;
-    const bool full = turns && posed.mode == HandleMode::automatic;
+    const bool full = constrains_rotation && posed.mode == HandleMode::automatic;
     posed.mode = edit->mode.value_or(full ? HandleMode::full : posed.mode);
     posed.stretch = edit->stretch.value_or(posed.stretch);
     posed.twist = edit->twist.value_or(posed.twist);
@@ -668,12 +670,13 @@ Json format_handle(const Pose& pose, const Handles& handles, std::size_t h, bool
   TransformNumbers numbers = numbers_of(posed.transform, rest.head);
   if (rest.parent >= 0)
   {
-    Affine back;
+    Affine parent_inverse;
     TransformNumbers to_parent;
-    to_parent.exact = invert(inherited_transform(handles, pose, static_cast<Index>(h)), back);
+    to_parent.exact =
+      invert(inherited_transform(handles, pose, static_cast<Index>(h)), parent_inverse);
     if (to_parent.exact)
     {
-      to_parent = numbers_of(compose(back, posed.transform), rest.head);
+      to_parent = numbers_of(compose(parent_inverse, posed.transform), rest.head);
     }
     if (to_parent.exact)
     {
@@ -686,11 +689,11 @@ Json format_handle(const Pose& pose, const Handles& handles, std::size_t h, bool
   }
   exact = numbers.exact;
   entry["translate"] = list(numbers.parts.translation);
-  const Eigen::AngleAxisd turn(numbers.parts.rotation);
-  if (turn.angle() != 0.0)
+  const Eigen::AngleAxisd angle_axis(numbers.parts.rotation);
+  if (angle_axis.angle() != 0.0)
   {
-    entry["rotate"] = { { "axis", list(turn.axis()) },
-      { "degrees", turn.angle() * (180.0 / EIGEN_PI) } };
+    entry["rotate"] = { { "axis", list(angle_axis.axis()) },
+      { "degrees", angle_axis.angle() * (180.0 / EIGEN_PI) } };
   }
   if (std::abs(numbers.scale - 1.0) > 1e-15)
   {
@@ -711,27 +714,27 @@ Json format_handle(const Pose& pose, const Handles& handles, std::size_t h, bool
 void warn_of_inexact(const Handles& handles, const std::vector<char>& is_exact, Index inexact_poses,
   std::size_t pose_count, Status& status)
 {
-  std::vector<Index> inexact;
+  std::vector<Index> inexact_handles;
   for (std::size_t h = 0; h < handles.size(); ++h)
   {
     if (!is_exact[h])
     {
-      inexact.push_back(static_cast<Index>(h));
+      inexact_handles.push_back(static_cast<Index>(h));
     }
   }
-  if (inexact.empty())
+  if (inexact_handles.empty())
   {
     return;
   }
-  const bool is_single = inexact.size() == 1;
-  const std::string who = is_single ? "the transform of handle " : "the transforms of ";
-  const std::string count = is_single ? "" : std::to_string(inexact.size()) + " handles (";
-  const std::string when = pose_count == 1
+  const bool is_single = inexact_handles.size() == 1;
+  const std::string subject = is_single ? "the transform of handle " : "the transforms of ";
+  const std::string count = is_single ? "" : std::to_string(inexact_handles.size()) + " handles (";
+  const std::string pose_phrase = pose_count == 1
     ? ""
     : " in " + std::to_string(inexact_poses) + " of " + std::to_string(pose_count) + " poses";
-  status.warnings.push_back(who + count + abbreviated_names(handles, inexact) +
+  status.warnings.push_back(subject + count + abbreviated_names(handles, inexact_handles) +
     (is_single ? "" : ")") + (is_single ? " has" : " have") +
-    " a shear, a non-uniform scale or a reflection, which a pose file cannot store" + when +
+    " a shear, a non-uniform scale or a reflection, which a pose file cannot store" + pose_phrase +
     "; the nearest rotation and scale were written");
 }
 } // namespace
@@ -745,7 +748,7 @@ Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second
   Json frames = Json::array();
   for (const Pose& pose : poses)
   {
-    bool whole = true;
+    bool is_exact_pose = true;
     if (pose.size() != handles.size())
     {
       return Status::invalid_input("a pose has " + std::to_string(pose.size()) +
@@ -766,9 +769,9 @@ Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second
       bool exact = true;
       frame["handles"][handles[h].name] = format_handle(pose, handles, h, exact);
       is_exact[h] = is_exact[h] && exact;
-      whole = whole && exact;
+      is_exact_pose = is_exact_pose && exact;
     }
-    inexact_poses += whole ? 0 : 1;
+    inexact_poses += is_exact_pose ? 0 : 1;
     frames.push_back(std::move(frame));
   }
   if (frames.empty())

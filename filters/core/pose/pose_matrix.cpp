@@ -35,10 +35,10 @@ Index parent_of(const Handles& handles, std::size_t h)
   {
     return handles[h].parent;
   }
-  const auto above = std::find_if(handles.begin(), handles.end(),
+  const auto parent_bone = std::find_if(handles.begin(), handles.end(),
     [&](const Handle& other)
     { return other.kind == HandleKind::bone && other.tail == handles[h].head; });
-  return above != handles.end() ? above - handles.begin() : -1;
+  return parent_bone != handles.end() ? parent_bone - handles.begin() : -1;
 }
 
 /// Compute the transform of a bone: its rotation, followed by the transform of its parent. If the
@@ -54,8 +54,9 @@ const Affine& follow(const std::vector<Eigen::Matrix3d>& rotations, const Handle
     const Index parent = parent_of(handles, h);
     if (parent >= 0)
     {
-      const Affine above = follow(rotations, handles, static_cast<std::size_t>(parent), done, pose);
-      transform = compose(above, transform);
+      const Affine parent_transform =
+        follow(rotations, handles, static_cast<std::size_t>(parent), done, pose);
+      transform = compose(parent_transform, transform);
     }
   }
   return transform;

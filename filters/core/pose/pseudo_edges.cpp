@@ -26,11 +26,11 @@ template <typename Elements>
 Neighbors neighbors_of(Index vertices, const Elements& elements)
 {
   Neighbors list;
-  const Index others = elements.cols() - 1;
+  const Index other_corner_count = elements.cols() - 1;
   list.start.assign(static_cast<std::size_t>(vertices) + 1, 0);
   for (Index k = 0; k < elements.size(); ++k)
   {
-    list.start[static_cast<std::size_t>(elements.data()[k]) + 1] += others;
+    list.start[static_cast<std::size_t>(elements.data()[k]) + 1] += other_corner_count;
   }
   std::partial_sum(list.start.begin(), list.start.end(), list.start.begin());
   list.to.resize(static_cast<std::size_t>(list.start.back()));
@@ -285,27 +285,27 @@ void rotate_by_pseudo_edges(
     const Vec3 moved = pose[h].transform * pivot.homogeneous();
     posed.row(static_cast<Index>(h)) = pose[h].mode == HandleMode::free ? pivot : moved;
   }
-  std::vector<EdgeRotation> turns(handles.size());
+  std::vector<EdgeRotation> edge_rotations(handles.size());
   for (const auto& [a, b] : edges)
   {
     const Vec3 rest =
       handles[static_cast<std::size_t>(b)].head - handles[static_cast<std::size_t>(a)].head;
-    const Vec3 now = (posed.row(b) - posed.row(a)).transpose();
-    turns[static_cast<std::size_t>(a)].add(rest, now);
-    turns[static_cast<std::size_t>(b)].add(rest, now);
+    const Vec3 posed_edge = (posed.row(b) - posed.row(a)).transpose();
+    edge_rotations[static_cast<std::size_t>(a)].add(rest, posed_edge);
+    edge_rotations[static_cast<std::size_t>(b)].add(rest, posed_edge);
   }
   for (std::size_t h = 0; h < handles.size(); ++h)
   {
-    const EdgeRotation& turn = turns[h];
-    if (turn.edges == 0 || pose[h].mode == HandleMode::free)
+    const EdgeRotation& edge_rotation = edge_rotations[h];
+    if (edge_rotation.edges == 0 || pose[h].mode == HandleMode::free)
     {
       continue;
     }
     // The sum is not zero, because the angle between each quaternion and the first one is at most a
     // right angle.
-    const Eigen::Quaterniond q(Eigen::Vector4d(turn.quaternion.normalized()));
+    const Eigen::Quaterniond q(Eigen::Vector4d(edge_rotation.quaternion.normalized()));
     Eigen::Matrix3d linear = q.toRotationMatrix();
-    linear *= stretch ? turn.ratio / static_cast<double>(turn.edges) : 1.0;
+    linear *= stretch ? edge_rotation.ratio / static_cast<double>(edge_rotation.edges) : 1.0;
     if (constrains_transform(pose[h].mode))
     {
       linear *= Eigen::Matrix3d(pose[h].transform.leftCols<3>());

@@ -62,7 +62,7 @@ struct FitLimits<float>
 
 /// The ten entries of the symmetric matrix N over (w, x, y, z).
 template <typename Scalar>
-struct Horn
+struct HornMatrix
 {
   Scalar ww, wx, wy, wz, xx, xy, xz, yy, yz, zz;
 };
@@ -74,8 +74,8 @@ struct Quaternion
 };
 
 template <typename Scalar>
-BINDPOSE_ALWAYS_INLINE Horn<Scalar> horn(Scalar s00, Scalar s01, Scalar s02, Scalar s10, Scalar s11,
-  Scalar s12, Scalar s20, Scalar s21, Scalar s22)
+BINDPOSE_ALWAYS_INLINE HornMatrix<Scalar> horn(Scalar s00, Scalar s01, Scalar s02, Scalar s10,
+  Scalar s11, Scalar s12, Scalar s20, Scalar s21, Scalar s22)
 {
   return { s00 + s11 + s22, s12 - s21, s20 - s02, s01 - s10, s00 - s11 - s22, s01 + s10, s02 + s20,
     s11 - s00 - s22, s12 + s21, s22 - s00 - s11 };
@@ -83,7 +83,7 @@ BINDPOSE_ALWAYS_INLINE Horn<Scalar> horn(Scalar s00, Scalar s01, Scalar s02, Sca
 
 /// Return the column of the adjugate of N - lambda whose diagonal entry is the largest.
 template <typename Scalar>
-BINDPOSE_ALWAYS_INLINE Quaternion<Scalar> eigenvector(const Horn<Scalar>& n, Scalar lambda)
+BINDPOSE_ALWAYS_INLINE Quaternion<Scalar> eigenvector(const HornMatrix<Scalar>& n, Scalar lambda)
 {
   const Scalar a = n.ww - lambda, b = n.xx - lambda, c = n.yy - lambda, d = n.zz - lambda;
   const Scalar p = n.wx, q = n.wy, r = n.wz, s = n.xy, t = n.xz, u = n.yz;
@@ -129,7 +129,7 @@ BINDPOSE_ALWAYS_INLINE Scalar square_of(const Quaternion<Scalar>& v)
 }
 
 template <typename Scalar>
-BINDPOSE_ALWAYS_INLINE Scalar rayleigh(const Horn<Scalar>& n, const Quaternion<Scalar>& v)
+BINDPOSE_ALWAYS_INLINE Scalar rayleigh(const HornMatrix<Scalar>& n, const Quaternion<Scalar>& v)
 {
   return (n.ww * v.w * v.w + n.xx * v.x * v.x + n.yy * v.y * v.y + n.zz * v.z * v.z +
            2 *
@@ -160,7 +160,7 @@ struct FitBlock
   Scalar slope[groups_per_block * lanes];
   Scalar rotation[9][groups_per_block * lanes];
 
-  BINDPOSE_ALWAYS_INLINE Horn<Scalar> horn_of(int k) const
+  BINDPOSE_ALWAYS_INLINE HornMatrix<Scalar> horn_of(int k) const
   {
     return { this->horn[0][k], this->horn[1][k], this->horn[2][k], this->horn[3][k],
       this->horn[4][k], this->horn[5][k], this->horn[6][k], this->horn[7][k], this->horn[8][k],
@@ -190,7 +190,7 @@ BINDPOSE_ALWAYS_INLINE void set_quartics(
       const Scalar s00 = f * p00[i], s01 = f * p01[i], s02 = f * p02[i];
       const Scalar s10 = f * p10[i], s11 = f * p11[i], s12 = f * p12[i];
       const Scalar s20 = f * p20[i], s21 = f * p21[i], s22 = f * p22[i];
-      const Horn<Scalar> n = horn(s00, s01, s02, s10, s11, s12, s20, s21, s22);
+      const HornMatrix<Scalar> n = horn(s00, s01, s02, s10, s11, s12, s20, s21, s22);
       const Scalar k00 = s11 * s22 - s12 * s21, k01 = s12 * s20 - s10 * s22,
                    k02 = s10 * s21 - s11 * s20;
       const Scalar k10 = s21 * s02 - s22 * s01, k11 = s22 * s00 - s20 * s02,
@@ -238,8 +238,8 @@ BINDPOSE_ALWAYS_INLINE void find_eigenvalues(FitBlock<Scalar>& __restrict block)
         const Scalar first = (4 * x2 - 4) * x + c1;
         const Scalar second = 12 * x2 - 4;
         const Scalar inside = 9 * first * first - 12 * value * second;
-        const Scalar below = first + std::sqrt(inside > 0 ? inside : 0);
-        step = 4 * value / (below > Scalar(1e-30) ? below : Scalar(1e-30));
+        const Scalar denominator = first + std::sqrt(inside > 0 ? inside : 0);
+        step = 4 * value / (denominator > Scalar(1e-30) ? denominator : Scalar(1e-30));
         x -= step;
       }
       // A lane is not trusted if the iteration has not converged (convergence to a double root is
@@ -263,7 +263,7 @@ BINDPOSE_ALWAYS_INLINE void refine_eigenvalues(FitBlock<Scalar>& __restrict bloc
   {
     for (int k = g * lanes; k < (g + 1) * lanes; ++k)
     {
-      const Horn<Scalar> n = block.horn_of(k);
+      const HornMatrix<Scalar> n = block.horn_of(k);
       block.eigenvalue[k] = rayleigh(n, eigenvector(n, block.eigenvalue[k]));
     }
   }
@@ -358,7 +358,7 @@ void fit_by_eigenvectors(const Eigen::Matrix3d& matrix, Eigen::Matrix3d& rotatio
     return; // S does not determine a rotation
   }
   const Eigen::Matrix3d s = (matrix / largest).normalized();
-  const Horn n =
+  const HornMatrix n =
     horn(s(0, 0), s(0, 1), s(0, 2), s(1, 0), s(1, 1), s(1, 2), s(2, 0), s(2, 1), s(2, 2));
   Eigen::Matrix4d full;
   full << n.ww, n.wx, n.wy, n.wz, n.wx, n.xx, n.xy, n.xz, n.wy, n.xy, n.yy, n.yz, n.wz, n.xz, n.yz,
@@ -382,7 +382,7 @@ void fit_by_eigenvectors(const Eigen::Matrix3d& matrix, Eigen::Matrix3d& rotatio
 
 /// Fit the matrices of a block that the fast path could not fit, one after the other.
 template <typename Scalar>
-void fit_rest(const FitBlock<Scalar>& block, const MatrixPlanes<const Scalar>& s,
+void fit_remaining(const FitBlock<Scalar>& block, const MatrixPlanes<const Scalar>& s,
   const MatrixPlanes<Scalar>& rotations, Scalar diagonal)
 {
   constexpr int lanes = FitLimits<Scalar>::lanes;
@@ -421,7 +421,7 @@ void fit_all(Index count, const MatrixPlanes<const Scalar>& s,
   {
     if (fit_block(from, to, diagonal, block) > 0)
     {
-      fit_rest(block, from, to, diagonal);
+      fit_remaining(block, from, to, diagonal);
     }
   };
   if (count < lanes)

@@ -42,8 +42,8 @@ Eigen::Quaterniond rotation_between(const Vec3& from, const Vec3& to)
 
 Vec3 rotation_vector(const Eigen::Matrix3d& rotation)
 {
-  const Eigen::AngleAxisd turn(rotation);
-  return turn.angle() * (180.0 / EIGEN_PI) * turn.axis();
+  const Eigen::AngleAxisd angle_axis(rotation);
+  return angle_axis.angle() * (180.0 / EIGEN_PI) * angle_axis.axis();
 }
 
 } // namespace bindpose

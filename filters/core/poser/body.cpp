@@ -12,33 +12,33 @@ namespace
 {
 auto as_tuple(const BodyOptions& o)
 {
-  return std::tie(o.gravity, o.down, o.stiffness, o.damping, o.steps_per_second);
+  return std::tie(o.gravity, o.down_axis, o.stiffness, o.damping, o.steps_per_second);
 }
 
 bool same_pose(const Pose& a, const Pose& b)
 {
-  bool same = a.size() == b.size();
-  for (std::size_t k = 0; same && k < a.size(); ++k)
+  bool is_same = a.size() == b.size();
+  for (std::size_t k = 0; is_same && k < a.size(); ++k)
   {
-    same = a[k].mode == b[k].mode && a[k].transform == b[k].transform &&
+    is_same = a[k].mode == b[k].mode && a[k].transform == b[k].transform &&
       a[k].stretch == b[k].stretch && a[k].twist == b[k].twist;
   }
-  return same;
+  return is_same;
 }
 
 /// Return `before` if it equals `value`; otherwise return a shared copy of `value`.
 template <typename Value, typename Same>
 std::shared_ptr<const Value> reuse_if_equal(
-  const std::shared_ptr<const Value>& before, const Value& value, const Same& same)
+  const std::shared_ptr<const Value>& before, const Value& value, const Same& is_same)
 {
-  return before && same(*before, value) ? before : std::make_shared<const Value>(value);
+  return before && is_same(*before, value) ? before : std::make_shared<const Value>(value);
 }
 
 ReducedDynamicsOptions kernel_options(const BodyOptions& options, double diagonal)
 {
   ReducedDynamicsOptions result;
   result.time_step = 1.0 / options.steps_per_second;
-  result.gravity[options.down] = -options.gravity * diagonal;
+  result.gravity[options.down_axis] = -options.gravity * diagonal;
   result.stiffness = options.stiffness * diagonal * diagonal;
   result.damping = options.damping;
   result.solve.max_iterations = 50;
@@ -78,7 +78,7 @@ Status Body::bind(ExecutionContext& context, const PoseOptions& options)
     return status;
   }
   status = bind_to_source(context, source, options, this->body_);
-  if (status.usable() && options.in_tets)
+  if (status.usable() && options.use_tet_energy)
   {
     // The surface and the tets get the same extra weights as in posing, because both are computed
     // from the same columns.
@@ -106,16 +106,16 @@ const PoseRotations* Body::rotations()
     return nullptr;
   }
   update_rotations(*this->source_, this->body_.groups(), this->body_.rotations(),
-    this->bound_->in_tets, this->rotations_);
+    this->bound_->use_tet_energy, this->rotations_);
   return &this->rotations_;
 }
 
 Status Body::move_surface(ExecutionContext& context, Points& posed) const
 {
   Phase phase(context, "skin", 0.5, 1.0);
-  return this->bound_->in_tets ? this->surface_skinning_.linear_blend(
-                                   context, this->source_->points, this->body_.transforms(), posed)
-                               : this->body_.deform(context, this->source_->points, posed);
+  return this->bound_->use_tet_energy ? this->surface_skinning_.linear_blend(context,
+                                          this->source_->points, this->body_.transforms(), posed)
+                                      : this->body_.deform(context, this->source_->points, posed);
 }
 
 Status Body::restart(ExecutionContext& context, const Pose& pose, Points& posed)
@@ -179,22 +179,23 @@ Status Body::step(
   return moved.ok() ? status : moved;
 }
 
-Status Body::play(ExecutionContext& context, const BodyRun& given,
+Status Body::play(ExecutionContext& context, const BodyRun& recorded_run,
   const std::function<bool(std::size_t step, const Points& posed)>& on_step)
 {
-  if (!given.start)
+  if (!recorded_run.start)
   {
     return Status::invalid_input("no recorded simulation is available for playback");
   }
-  // Copy the run, because `given` may be a reference to the body's own run, which restart() clears.
-  const BodyRun run = given;
+  // Copy the run, because `recorded_run` may be a reference to the body's own run, which restart()
+  // clears.
+  const BodyRun run = recorded_run;
   Points posed;
   Status status = this->restart(context, *run.start, posed);
-  bool more = status.usable() && on_step(0, posed);
-  for (std::size_t k = 0; more && k < run.steps.size(); ++k)
+  bool should_continue = status.usable() && on_step(0, posed);
+  for (std::size_t k = 0; should_continue && k < run.steps.size(); ++k)
   {
     status = this->step(context, *run.steps[k].pose, *run.steps[k].options, posed);
-    more = status.usable() && on_step(k + 1, posed);
+    should_continue = status.usable() && on_step(k + 1, posed);
   }
   return status;
 }

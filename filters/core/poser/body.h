@@ -16,7 +16,7 @@ namespace bindpose
 struct BodyOptions
 {
   double gravity = 0.5; ///< bounding-box diagonals / s^2, 0 to 20
-  int down = 1; ///< gravity points along this axis in its negative direction: 0 x, 1 y, 2 z
+  int down_axis = 1; ///< gravity points along this axis in its negative direction: 0 x, 1 y, 2 z
   /// Elastic waves cross the diagonal sqrt(stiffness) times per second; 1 to 1e5.
   double stiffness = 100.0;
   double damping = 0.5; ///< 1 / s, 0 to 20

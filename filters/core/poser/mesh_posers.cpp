@@ -10,7 +10,7 @@ const PoseRotations* FullPoser::rotations()
     return nullptr;
   }
   update_rotations(this->source(), this->arap_.groups(), this->arap_.rotations(),
-    this->bound()->in_tets, this->rotations_);
+    this->bound()->use_tet_energy, this->rotations_);
   return &this->rotations_;
 }
 
@@ -21,7 +21,7 @@ Status FullPoser::bind_missing(ExecutionContext& context, const PoseOptions& opt
   Phase phase(context, "bind");
   FullArapOptions full;
   full.energy = options.energy;
-  if (options.in_tets)
+  if (options.use_tet_energy)
   {
     this->anchors_ = TetAnchors(source.points, source.tet_points, source.tets);
     return this->arap_.bind(context, source.tet_points, source.tets, source.handles, full);
@@ -41,7 +41,7 @@ Status FullPoser::pose(ExecutionContext& context, const Pose& pose, const PoseOp
   {
     return status;
   }
-  if (options.in_tets)
+  if (options.use_tet_energy)
   {
     this->anchors_.move(
       this->source().points, this->source().tet_points, this->arap_.posed(), posed);

@@ -13,7 +13,7 @@ constexpr const char* method_words[] = { "lbs", "dqs", "reduced-arap", "stbs", "
 auto as_tuple(const PoseOptions& o)
 {
   return std::tie(o.method, o.single_precision, o.pseudo_edges, o.pseudo_edge_stretch, o.endpoints,
-    o.energy, o.in_tets, o.extra_weights, o.extra_kind, o.iterations, o.budget_microseconds,
+    o.energy, o.use_tet_energy, o.extra_weights, o.extra_kind, o.iterations, o.budget_microseconds,
     o.order, o.boundary);
 }
 } // namespace
@@ -74,10 +74,10 @@ bool same_bind(const PoseOptions& a, const PoseOptions& b)
   switch (a.method)
   {
     case PoseMethod::reduced_arap:
-      return std::tie(a.energy, a.in_tets, a.extra_weights, a.extra_kind) ==
-        std::tie(b.energy, b.in_tets, b.extra_weights, b.extra_kind);
+      return std::tie(a.energy, a.use_tet_energy, a.extra_weights, a.extra_kind) ==
+        std::tie(b.energy, b.use_tet_energy, b.extra_weights, b.extra_kind);
     case PoseMethod::full_arap:
-      return std::tie(a.energy, a.in_tets) == std::tie(b.energy, b.in_tets);
+      return std::tie(a.energy, a.use_tet_energy) == std::tie(b.energy, b.use_tet_energy);
     default:
       return std::tie(a.order, a.boundary) == std::tie(b.order, b.boundary);
   }

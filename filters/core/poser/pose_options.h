@@ -63,7 +63,7 @@ struct PoseOptions
   ArapEnergy energy = ArapEnergy::automatic;
   /// Both as-rigid-as-possible methods: use the energy of the tets on which the weights were
   /// solved. Tets preserve volume.
-  bool in_tets = false;
+  bool use_tet_energy = false;
   /// Reduced as-rigid-as-possible: number of weights in addition to those of the handles, 0 to 30.
   Index extra_weights = 0;
   ExtraWeights extra_kind = ExtraWeights::bumps;

@@ -59,7 +59,7 @@ Status Poser::solve(ExecutionContext& context, const Pose& pose, const PoseOptio
 
 Status check_tets(const PoseSource& source, const PoseOptions& options)
 {
-  return !options.in_tets || source.has_tets()
+  return !options.use_tet_energy || source.has_tets()
     ? Status()
     : Status::invalid_input(
         "there are no tets with weights: bind in a volume first, or use a surface energy");

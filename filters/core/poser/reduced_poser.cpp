@@ -46,7 +46,7 @@ const PoseRotations* ReducedPoser::rotations()
     return nullptr;
   }
   update_rotations(this->source(), this->arap_.groups(), this->arap_.rotations(),
-    this->bound()->in_tets, this->rotations_);
+    this->bound()->use_tet_energy, this->rotations_);
   return &this->rotations_;
 }
 
@@ -55,7 +55,7 @@ Status ReducedPoser::bind_missing(ExecutionContext& context, const PoseOptions& 
   this->rotations_ = PoseRotations();
   Phase phase(context, "bind");
   Status status = bind_to_source(context, this->source(), options, this->arap_);
-  if (status.usable() && options.in_tets)
+  if (status.usable() && options.use_tet_energy)
   {
     const Status surface_status =
       bind_surface_skinning(context, this->source(), this->arap_, this->surface_skinning_);
@@ -82,7 +82,7 @@ Status ReducedPoser::pose(ExecutionContext& context, const Pose& pose, const Pos
   }
   Phase phase(context, "skin", 0.5, 1.0);
   const PoseSource& source = this->source();
-  const Status moved = options.in_tets
+  const Status moved = options.use_tet_energy
     ? this->surface_skinning_.linear_blend(context, source.points, this->arap_.transforms(), posed)
     : this->arap_.deform(context, source.points, posed);
   status.report.set("seconds.skin", phase.seconds());

@@ -36,10 +36,10 @@ Status bind_to_source(
   ExecutionContext& context, const PoseSource& source, const PoseOptions& options, Kernel& kernel)
 {
   const ReducedArapOptions reduced = reduced_options(options);
-  return options.in_tets ? kernel.bind(context, source.tet_points, source.tets, source.tet_weights,
-                             source.handles, reduced)
-                         : kernel.bind(context, source.points, source.triangles, source.weights,
-                             source.handles, reduced);
+  return options.use_tet_energy ? kernel.bind(context, source.tet_points, source.tets,
+                                    source.tet_weights, source.handles, reduced)
+                                : kernel.bind(context, source.points, source.triangles,
+                                    source.weights, source.handles, reduced);
 }
 /// Bind linear blend skinning of the source's surface to the columns of a reduced space in its
 /// tets.

@@ -137,14 +137,15 @@ WeightsView SkinningBind::endpoints(const SkinnedShape& shape, EndpointMethod me
     : shape.endpoints;
 }
 
-Status SkinningBind::pose(ExecutionContext& context, const SkinnedShape& shape, const Pose& given,
-  const PseudoEdges& given_edges, const SkinningMethodOptions& options, PointsOutput posed)
+Status SkinningBind::pose(ExecutionContext& context, const SkinnedShape& shape,
+  const Pose& input_pose, const PseudoEdges& given_edges, const SkinningMethodOptions& options,
+  PointsOutput posed)
 {
-  Pose pose = given;
+  Pose pose = input_pose;
   const PseudoEdges& edges =
     options.pseudo_edges == PseudoEdgeChoice::automatic ? *this->automatic_edges_ : given_edges;
-  const bool turned = options.pseudo_edges != PseudoEdgeChoice::none && !edges.empty();
-  if (turned)
+  const bool uses_pseudo_edges = options.pseudo_edges != PseudoEdgeChoice::none && !edges.empty();
+  if (uses_pseudo_edges)
   {
     rotate_by_pseudo_edges(shape.handles, edges, options.pseudo_edge_stretch, pose);
   }
@@ -162,7 +163,7 @@ Status SkinningBind::pose(ExecutionContext& context, const SkinnedShape& shape, 
       break;
     case SkinningMethod::stretchable_bones:
       status = this->skinning_.stretchable_bones(context, shape.points, this->transforms_,
-        bone_changes(shape.handles, given), this->endpoints(shape, options.endpoints), posed);
+        bone_changes(shape.handles, input_pose), this->endpoints(shape, options.endpoints), posed);
       break;
     case SkinningMethod::rotation_centers:
       status = this->skinning_.centers_of_rotation(
@@ -174,7 +175,7 @@ Status SkinningBind::pose(ExecutionContext& context, const SkinnedShape& shape, 
       break;
   }
   add_warnings(found, status);
-  if (turned)
+  if (uses_pseudo_edges)
   {
     status.report.set("counts.pseudo_edges", static_cast<Index>(edges.size()));
   }

@@ -285,7 +285,7 @@ BoxQpSolution AugmentedLagrangian::run()
 {
   const Stopwatch watch;
   const double tolerance = this->options_.tolerance;
-  const double settled = converged_change(tolerance);
+  const double maximum_converged_change = converged_change(tolerance);
   // The minimization for given multipliers ends if its residual is at most this multiple of the
   // tolerance, or of the largest violation of a pair if that is larger.
   double required_residual = 0.3;
@@ -318,7 +318,7 @@ BoxQpSolution AugmentedLagrangian::run()
       const double change = (this->x_ - previous).cwiseAbs().maxCoeff();
       const int steps = newton_steps - newton_steps_at_change;
       this->lambda_ = this->next_lambda_;
-      if (this->violation_ <= tolerance && change <= settled)
+      if (this->violation_ <= tolerance && change <= maximum_converged_change)
       {
         has_converged = this->certify_iterate();
         required_residual *= 0.2; // before the next certificate

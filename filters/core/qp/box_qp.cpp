@@ -99,7 +99,7 @@ struct BoxQp::Impl : SplitForm
       : static_cast<double>(this->lower.nonZeros()) * (sizeof(double) + sizeof(int)) +
         40.0 * sizeof(double) * vertices + this->single.factor_bytes() +
         this->single.workspace_bytes() +
-        (ordered || !this->single.analyzed() ? in_double_precision : 0.0);
+        (ordered || !this->single.is_analyzed() ? in_double_precision : 0.0);
     const double left = remaining_memory(this->options.solver.memory_limit);
     const double target_threads = std::min(count, static_cast<double>(thread_count(threads)));
     const double affordable_threads = bytes_per_column > 0.0
@@ -294,7 +294,7 @@ private:
   /// start, and the bounds are finite. Columns with ordered pairs have no start with barriers.
   bool may_split(const BoxQpColumn& column, bool barriers) const
   {
-    return this->qp_.single.analyzed() && (column.pairs.empty() || !barriers) &&
+    return this->qp_.single.is_analyzed() && (column.pairs.empty() || !barriers) &&
       column.start.size() == 0 && column.bounds.lower.allFinite() &&
       column.bounds.upper.allFinite();
   }
@@ -334,7 +334,7 @@ private:
         chosen.push_back(j);
         start_columns.push_back(this->columns_[j]);
       }
-      else if (this->qp_.single.analyzed() && !this->columns_[j].pairs.empty() && !barriers)
+      else if (this->qp_.single.is_analyzed() && !this->columns_[j].pairs.empty() && !barriers)
       {
         starts[j] = this->clamped_start(j);
       }
@@ -344,9 +344,9 @@ private:
       return starts;
     }
     const ProgressRange range(this->context_, 0.0, start_fraction);
-    FloatCholesky own = this->qp_.single.clone();
-    std::vector<ColumnStart> found =
-      splitting_start(this->context_, this->qp_, start_columns, barriers, unconstrained, own);
+    FloatCholesky factorization = this->qp_.single.clone();
+    std::vector<ColumnStart> found = splitting_start(
+      this->context_, this->qp_, start_columns, barriers, unconstrained, factorization);
     const double seconds = watch.seconds() / static_cast<double>(chosen.size());
     for (std::size_t k = 0; k < chosen.size(); ++k)
     {
@@ -367,7 +367,7 @@ private:
       {
         for (Index k = begin; k < end; ++k)
         {
-          this->qp_.thread_workspaces.with([&] { return this->qp_.make_workspace(); },
+          this->qp_.thread_workspaces.use_object([&] { return this->qp_.make_workspace(); },
             [&](BoxQpWorkspace& workspace)
             {
               BoxQpSolution& before = this->solutions_[chosen[k]];
@@ -420,9 +420,9 @@ Status BoxQp::prepare(ExecutionContext& context, const std::vector<BoxQpColumn>&
   const Stopwatch watch;
   if (status.ok())
   {
-    status = impl.plan_memory(columns, context.threads(), impl.single.analyzed());
+    status = impl.plan_memory(columns, context.threads(), impl.single.is_analyzed());
   }
-  if (status.ok() && !context.canceled() && impl.single.analyzed())
+  if (status.ok() && !context.canceled() && impl.single.is_analyzed())
   {
     status = impl.factor_single(context);
   }
@@ -505,7 +505,7 @@ std::vector<BoxQpSolution> BoxQp::solve_all(
   Eigen::MatrixXd unbounded = impl.minimizers(&context, impl.fixed_values_of(columns));
   if (!context.canceled())
   {
-    const ThreadLimit fewer(context, impl.maximum_threads);
+    const ThreadLimit thread_limit(context, impl.maximum_threads);
     Impl::ColumnsSolve(context, impl, columns, std::move(unbounded), solutions).run();
   }
   return solutions;

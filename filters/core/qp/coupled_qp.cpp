@@ -116,14 +116,14 @@ double minimize_over_row(const Row& row, std::vector<std::size_t>& order, std::v
   double left = row.sum - std::accumulate(x.begin(), x.end(), 0.0);
   for (const std::size_t k : order)
   {
-    const double room = row.upper[k] - row.lower[k];
-    if (left <= room)
+    const double range = row.upper[k] - row.lower[k];
+    if (left <= range)
     {
       x[k] += std::max(0.0, left);
       return row.gradient[k];
     }
     x[k] = row.upper[k];
-    left -= room;
+    left -= range;
   }
   return row.gradient[order.back()];
 }
@@ -167,7 +167,7 @@ private:
   const Index n_; // number of free vertices
   const Index m_; // number of columns
 
-  MatrixXd given_; // #V x m: fixed and pinned values, 0 elsewhere
+  MatrixXd given_values_; // #V x m: fixed and pinned values, 0 elsewhere
   MatrixXd is_solved_; // n x m: 1 where a weight is solved for
   MatrixXd lower_, upper_; // n x m
   MatrixXd has_upper_bound_; // n x m: 1 if the upper bound is not implied by the row sum
@@ -189,7 +189,7 @@ private:
 Status CoupledQp::set_up()
 {
   const auto& free = this->matrices_.free_vertices;
-  this->given_ = MatrixXd::Zero(this->matrices_.q.rows(), this->m_);
+  this->given_values_ = MatrixXd::Zero(this->matrices_.q.rows(), this->m_);
   this->is_solved_ = MatrixXd::Ones(this->n_, this->m_);
   this->lower_ = MatrixXd::Zero(this->n_, this->m_);
   this->upper_ = MatrixXd::Ones(this->n_, this->m_);
@@ -201,14 +201,14 @@ Status CoupledQp::set_up()
     const BoxQpColumn& column = this->columns_[j];
     for (std::size_t i = 0; i < this->matrices_.fixed.size(); ++i)
     {
-      this->given_(this->matrices_.fixed[i], j) = column.fixed_values[static_cast<Index>(i)];
+      this->given_values_(this->matrices_.fixed[i], j) = column.fixed_values[static_cast<Index>(i)];
     }
     for (std::size_t i = 0; i < column.pinned.size(); ++i)
     {
       const Index at = this->matrices_.free_index[column.pinned[i]];
       if (at >= 0)
       {
-        this->given_(column.pinned[i], j) = column.pinned_values[static_cast<Index>(i)];
+        this->given_values_(column.pinned[i], j) = column.pinned_values[static_cast<Index>(i)];
         this->is_solved_(at, j) = 0.0;
         this->sum_[at] -= column.pinned_values[static_cast<Index>(i)];
       }
@@ -235,7 +235,7 @@ Status CoupledQp::set_up()
     {
       if (this->is_solved_(i, j) == 1.0)
       {
-        this->given_(free[i], j) =
+        this->given_values_(free[i], j) =
           std::clamp(this->sum_[i], this->lower_(i, j), this->upper_(i, j));
         this->is_solved_(i, j) = 0.0;
         break;
@@ -246,8 +246,8 @@ Status CoupledQp::set_up()
     {
       if (this->is_solved_(i, j) == 1.0)
       {
-        const double others = least - this->lower_(i, j);
-        this->has_upper_bound_(i, j) = this->upper_(i, j) < this->sum_[i] - others;
+        const double others_lower_sum = least - this->lower_(i, j);
+        this->has_upper_bound_(i, j) = this->upper_(i, j) < this->sum_[i] - others_lower_sum;
       }
     }
   }
@@ -289,7 +289,7 @@ void CoupledQp::set_start(const MatrixXd& start)
     const Index v = this->matrices_.free_vertices[i];
     for (Index j = 0; j < this->m_; ++j)
     {
-      this->x_(i, j) = this->is_solved_(i, j) == 1.0 ? start(v, j) : this->given_(v, j);
+      this->x_(i, j) = this->is_solved_(i, j) == 1.0 ? start(v, j) : this->given_values_(v, j);
     }
     if (this->is_coupled_[i])
     {
@@ -522,7 +522,7 @@ void CoupledQp::certify_iterate()
   const auto& free = this->matrices_.free_vertices;
   MatrixXd inside(this->n_, this->m_);
   Row row;
-  MatrixXd w = this->given_;
+  MatrixXd w = this->given_values_;
   for (Index i = 0; i < this->n_; ++i)
   {
     if (!this->is_coupled_[i])
@@ -587,16 +587,16 @@ void CoupledQp::certify_iterate()
       {
         continue;
       }
-      const double own = row.gradient[k] - critical;
-      const double newton = row.value[k] - own / diagonal[i];
+      const double reduced_gradient = row.gradient[k] - critical;
+      const double newton = row.value[k] - reduced_gradient / diagonal[i];
       if (newton > row.lower[k] && newton < row.upper[k])
       {
-        residual(i, j) = own;
+        residual(i, j) = reduced_gradient;
       }
       else
       {
-        second_gap +=
-          std::max(own * (row.value[k] - row.lower[k]), -own * (row.upper[k] - row.value[k]));
+        second_gap += std::max(reduced_gradient * (row.value[k] - row.lower[k]),
+          -reduced_gradient * (row.upper[k] - row.value[k]));
       }
       ++k;
     }
@@ -635,7 +635,8 @@ void CoupledQp::certify_iterate()
 CoupledSolution CoupledQp::run(const MatrixXd& start)
 {
   const Stopwatch watch;
-  const auto worst = [](const Certificate& c) { return std::max(c.relative_gap, c.kkt_residual); };
+  const auto largest_residual = [](const Certificate& c)
+  { return std::max(c.relative_gap, c.kkt_residual); };
   const double tolerance = this->options_.tolerance;
   Status status = this->set_up();
   if (status.ok())
@@ -644,7 +645,7 @@ CoupledSolution CoupledQp::run(const MatrixXd& start)
     this->certify_iterate();
     this->best_ = this->result_;
   }
-  while (status.ok() && worst(this->best_.certificate) > tolerance &&
+  while (status.ok() && largest_residual(this->best_.certificate) > tolerance &&
     this->result_.iterations < this->options_.maximum_iterations)
   {
     this->rd_ = this->matrices_.a.transpose() * this->x_ + this->c_ - this->z_ + this->r_ +
@@ -688,9 +689,9 @@ CoupledSolution CoupledQp::run(const MatrixXd& start)
     d = this->solve(target_s.cwiseProduct(this->is_solved_),
       target_t.cwiseProduct(this->has_upper_bound_), step_accuracy, d.y);
     this->step_lengths(d, primal, dual);
-    const double back = 0.995;
-    primal = primal < 1.0 ? back * primal : 1.0;
-    dual = dual < 1.0 ? back * dual : 1.0;
+    const double step_fraction = 0.995;
+    primal = primal < 1.0 ? step_fraction * primal : 1.0;
+    dual = dual < 1.0 ? step_fraction * dual : 1.0;
     if (this->context_.canceled() || !d.x.allFinite())
     {
       status = this->context_.canceled()
@@ -709,19 +710,19 @@ CoupledSolution CoupledQp::run(const MatrixXd& start)
     this->t_ = (this->has_upper_bound_.array() == 1.0).select(this->t_.array(), 1.0).matrix();
     this->result_.iterations += 1;
     this->certify_iterate();
-    if (worst(this->result_.certificate) < worst(this->best_.certificate))
+    if (largest_residual(this->result_.certificate) < largest_residual(this->best_.certificate))
     {
       this->best_ = this->result_;
     }
-    this->context_.progress(
-      std::clamp(std::log(worst(this->best_.certificate)) / std::log(tolerance), 0.0, 1.0));
+    this->context_.progress(std::clamp(
+      std::log(largest_residual(this->best_.certificate)) / std::log(tolerance), 0.0, 1.0));
   }
   this->best_.iterations = this->result_.iterations;
   this->best_.factorizations = this->result_.factorizations;
   this->best_.inner_iterations = this->result_.inner_iterations;
   this->best_.vertex = this->result_.vertex;
   this->best_.status = status;
-  if (status.ok() && worst(this->best_.certificate) > tolerance)
+  if (status.ok() && largest_residual(this->best_.certificate) > tolerance)
   {
     this->best_.status.code = StatusCode::not_converged;
   }

@@ -35,10 +35,10 @@ MatrixXd FreeSystem::minimizers(const MatrixXd& fixed_values) const
 
 VectorXd FreeSystem::solve(const MatrixXd& rhs, MatrixXd& w) const
 {
-  const MatrixXd given = w(this->form_.fixed, Eigen::all);
-  const MatrixXd right = this->form_.free_rows(rhs) - this->form_.fixed_block * given;
+  const MatrixXd fixed_values = w(this->form_.fixed, Eigen::all);
+  const MatrixXd right = this->form_.free_rows(rhs) - this->form_.fixed_block * fixed_values;
   const MatrixXd x = this->solver_.solve(right);
-  w = this->form_.extend_to_all(x, given);
+  w = this->form_.extend_to_all(x, fixed_values);
   if (this->form_.free_vertices.empty())
   {
     return VectorXd::Zero(rhs.cols());

@@ -193,7 +193,7 @@ Status InteriorPoint::factor(const VectorXd& d)
   }
   Status status;
   this->in_single_ = false;
-  if (this->workspace_.single.analyzed() && this->float_is_accurate_)
+  if (this->workspace_.single.is_analyzed() && this->float_is_accurate_)
   {
     this->bound_diagonal_ = VectorXd::Zero(this->problem_.c.size());
     for (Index i = 0; i < nb; ++i)
@@ -272,11 +272,11 @@ MatrixXd InteriorPoint::multiply(const MatrixXd& x) const
 bool InteriorPoint::solve_refined(const VectorXd& rhs, double accuracy, VectorXd& x)
 {
   MatrixXd result;
-  const double reached = refined_solve(
+  const double residual = refined_solve(
     this->workspace_.single, [this](const MatrixXd& p) { return this->multiply(p); },
     this->inverse_diagonal_, rhs, { accuracy, 20, nullptr }, result);
   x = result;
-  return reached <= accuracy;
+  return residual <= accuracy;
 }
 
 /// Compute the Newton step that changes the products s z by `target`, to first order.
@@ -356,11 +356,11 @@ InteriorPoint::Direction InteriorPoint::find_direction()
   this->step_lengths(d, primal, dual);
 
   constexpr int correctors = 5;
-  constexpr double reach = 0.35; // increase of the step length that each corrector aims for
+  constexpr double step_increase = 0.35; // increase of the step length that each corrector aims for
   for (int k = 0; k < correctors && !this->context_.canceled(); ++k)
   {
-    const double p = std::min(1.0, primal + reach);
-    const double q = std::min(1.0, dual + reach);
+    const double p = std::min(1.0, primal + step_increase);
+    const double q = std::min(1.0, dual + step_increase);
     VectorXd change(products.size());
     for (Index i = 0; i < change.size(); ++i)
     {
@@ -428,11 +428,11 @@ void InteriorPoint::balance_start()
 {
   const double gap = this->result_.certificate.relative_gap;
   // Relative gap above which a start is corrected; good starts have 1e-3 to 0.5.
-  constexpr double far = 1.0;
+  constexpr double maximum_start_gap = 1.0;
   constexpr double least_slack = 1e-3;
   // Factor of mu = factor * energy / number of slacks; 1 to 10 are equally good (measured).
   constexpr double mu_per_energy = 3.0;
-  if (this->start_.mu > 0.0 && gap > far)
+  if (this->start_.mu > 0.0 && gap > maximum_start_gap)
   {
     this->raise_slacks(least_slack);
     const double mu =
@@ -520,7 +520,8 @@ double InteriorPoint::finish_by_newton(double small_change)
 BoxQpSolution InteriorPoint::run()
 {
   const Stopwatch watch;
-  const auto worst = [](const Certificate& c) { return std::max(c.relative_gap, c.kkt_residual); };
+  const auto largest_residual = [](const Certificate& c)
+  { return std::max(c.relative_gap, c.kkt_residual); };
   const double tolerance = this->options_.tolerance;
   Status status = this->set_up();
   if (status.ok())
@@ -532,15 +533,15 @@ BoxQpSolution InteriorPoint::run()
   }
   // After an iterate is certified, a few more iterations let the weights converge. These iterations
   // do not affect the status.
-  constexpr int maximum_settling = 6;
-  const double settled = converged_change(tolerance);
-  int settling = 0;
-  // The projected Newton method is tried if no weight changed by more than `near` in the last
-  // iteration. It converges many times faster than the central path and requires only solves with
-  // the current factor. After larger changes it fails too often (measured). It is also tried once
-  // when the first iterate is certified.
-  double near = 4e-5;
-  int tries = 0;
+  constexpr int maximum_settling_iterations = 6;
+  const double maximum_converged_change = converged_change(tolerance);
+  int settling_iterations = 0;
+  // The projected Newton method is tried if no weight changed by more than `newton_change_limit` in
+  // the last iteration. It converges many times faster than the central path and requires only
+  // solves with the current factor. After larger changes it fails too often (measured). It is also
+  // tried once when the first iterate is certified.
+  double newton_change_limit = 4e-5;
+  int newton_attempts = 0;
   // 5 to 15 iterations are usual. If the form is very ill-conditioned (triharmonic energies of fine
   // meshes), all step lengths can be too short after the start that was computed for all columns
   // together. Then the solve begins again without this start after restart_after iterations. If
@@ -549,15 +550,17 @@ BoxQpSolution InteriorPoint::run()
   constexpr int double_after = 60;
   // With ordered pairs, the method stalls near the end if its factors are in single precision.
   // After this number of iterations without an improvement, double precision is used.
-  constexpr int most_stalled = 3;
+  constexpr int maximum_stalled = 3;
   int stalled = 0;
   double largest_change = this->h_.size() == 0 ? 0.0 : 1.0;
-  const auto done = [&]
+  const auto has_converged = [&]
   {
-    return worst(this->best_.certificate) <= tolerance &&
-      (largest_change <= settled || settling > maximum_settling);
+    return largest_residual(this->best_.certificate) <= tolerance &&
+      (largest_change <= maximum_converged_change ||
+        settling_iterations > maximum_settling_iterations);
   };
-  while (status.ok() && !done() && this->result_.iterations < this->options_.maximum_iterations)
+  while (
+    status.ok() && !has_converged() && this->result_.iterations < this->options_.maximum_iterations)
   {
     if (this->context_.canceled())
     {
@@ -565,7 +568,7 @@ BoxQpSolution InteriorPoint::run()
       break;
     }
     if (this->result_.iterations == restart_after && this->start_.mu > 0.0 &&
-      worst(this->best_.certificate) > tolerance)
+      largest_residual(this->best_.certificate) > tolerance)
     {
       this->set_start(false);
     }
@@ -589,9 +592,9 @@ BoxQpSolution InteriorPoint::run()
     double primal;
     double dual;
     this->step_lengths(d, primal, dual);
-    const double back = 0.995;
-    primal = primal < 1.0 ? back * primal : 1.0;
-    dual = dual < 1.0 ? back * dual : 1.0;
+    const double step_fraction = 0.995;
+    primal = primal < 1.0 ? step_fraction * primal : 1.0;
+    dual = dual < 1.0 ? step_fraction * dual : 1.0;
     this->x_ += primal * d.x;
     this->s_ += primal * d.s;
     this->z_ += dual * d.z;
@@ -599,23 +602,24 @@ BoxQpSolution InteriorPoint::run()
     const VectorXd previous = this->result_.w;
     this->certify_iterate();
     largest_change = (this->result_.w - previous).cwiseAbs().maxCoeff();
-    settling += worst(this->best_.certificate) <= tolerance;
-    if (!(worst(this->result_.certificate) >= worst(this->best_.certificate)))
+    settling_iterations += largest_residual(this->best_.certificate) <= tolerance;
+    if (!(largest_residual(this->result_.certificate) >= largest_residual(this->best_.certificate)))
     {
       this->best_ = this->result_;
       stalled = 0;
     }
-    else if (++stalled >= most_stalled && this->pairs_.count() > 0)
+    else if (++stalled >= maximum_stalled && this->pairs_.count() > 0)
     {
       this->float_is_accurate_ = false;
     }
-    if (!done() && this->pairs_.count() == 0 &&
-      (largest_change <= near || (tries == 0 && worst(this->best_.certificate) <= tolerance)))
+    if (!has_converged() && this->pairs_.count() == 0 &&
+      (largest_change <= newton_change_limit ||
+        (newton_attempts == 0 && largest_residual(this->best_.certificate) <= tolerance)))
     {
       const BoxQpSolution iterate = this->result_;
       const double small_change = converged_newton_change(tolerance);
       const double left = this->finish_by_newton(small_change);
-      if (left <= small_change && worst(this->result_.certificate) <= tolerance)
+      if (left <= small_change && largest_residual(this->result_.certificate) <= tolerance)
       {
         this->best_ = this->result_;
         largest_change = 0.0;
@@ -623,8 +627,8 @@ BoxQpSolution InteriorPoint::run()
       this->result_ = iterate;
       // If the last attempt nearly converged, make the next attempt soon; otherwise wait until the
       // changes are smaller.
-      near = largest_change * std::clamp(small_change / left, 0.2, 0.8);
-      ++tries;
+      newton_change_limit = largest_change * std::clamp(small_change / left, 0.2, 0.8);
+      ++newton_attempts;
     }
   }
   this->best_.iterations = this->result_.iterations;
@@ -632,7 +636,7 @@ BoxQpSolution InteriorPoint::run()
   this->best_.factor_seconds = this->result_.factor_seconds;
   this->best_.solve_seconds = watch.seconds() - this->result_.factor_seconds;
   this->best_.status = status;
-  if (status.ok() && worst(this->best_.certificate) > tolerance)
+  if (status.ok() && largest_residual(this->best_.certificate) > tolerance)
   {
     this->best_.status.code = StatusCode::not_converged;
   }
@@ -653,7 +657,7 @@ BoxQpSolution interior_point(ExecutionContext& context, const SplitForm& matrice
   BoxQpSolution solution = run(true);
   // With ordered pairs, a column that fails in single precision is solved again in double
   // precision.
-  if (!column.pairs.empty() && workspace.single.analyzed() && !solution.status.ok() &&
+  if (!column.pairs.empty() && workspace.single.is_analyzed() && !solution.status.ok() &&
     solution.status.code != StatusCode::canceled)
   {
     BoxQpSolution exact = run(false);

@@ -26,8 +26,8 @@ SparseMatrix positive_stiffness(
       const Index other = graph.neighbors[k];
       if (is_used[v] && is_used[other])
       {
-        const double least = least_weight * std::sqrt(diagonal[v] * diagonal[other]);
-        const double w = std::max(-stiffness.coeff(v, other), least);
+        const double minimum = least_weight * std::sqrt(diagonal[v] * diagonal[other]);
+        const double w = std::max(-stiffness.coeff(v, other), minimum);
         entries.emplace_back(v, static_cast<int>(other), -w);
         degree += w;
       }
@@ -128,29 +128,30 @@ void enforce_order(const std::vector<OrderedPair>& sorted_pairs, const std::vect
 Index find_infeasible_vertex(
   const BoxQpColumn& column, const std::vector<Index>& fixed, Index count)
 {
-  std::vector<double> least(static_cast<std::size_t>(count));
-  std::vector<double> most(static_cast<std::size_t>(count));
+  std::vector<double> minimum(static_cast<std::size_t>(count));
+  std::vector<double> maximum(static_cast<std::size_t>(count));
   for (Index u = 0; u < count; ++u)
   {
-    least[u] = column.bounds.low(u);
-    most[u] = column.bounds.high(u);
+    minimum[u] = column.bounds.low(u);
+    maximum[u] = column.bounds.high(u);
   }
   for (std::size_t i = 0; i < fixed.size(); ++i)
   {
-    least[fixed[i]] = most[fixed[i]] = column.fixed_values[static_cast<Index>(i)];
+    minimum[fixed[i]] = maximum[fixed[i]] = column.fixed_values[static_cast<Index>(i)];
   }
   for (std::size_t i = 0; i < column.pinned.size(); ++i)
   {
-    least[column.pinned[i]] = most[column.pinned[i]] = column.pinned_values[static_cast<Index>(i)];
+    minimum[column.pinned[i]] = maximum[column.pinned[i]] =
+      column.pinned_values[static_cast<Index>(i)];
   }
   const std::vector<Index> order = topological_order(column.pairs, count);
   for (const OrderedPair& pair : sort_pairs_by_order(column.pairs, order))
   {
-    least[pair.high] = std::max(least[pair.high], least[pair.low] + pair.minimum_difference);
+    minimum[pair.high] = std::max(minimum[pair.high], minimum[pair.low] + pair.minimum_difference);
   }
   constexpr double round_off = 1e-12;
   const auto infeasible = std::find_if(
-    order.begin(), order.end(), [&](Index u) { return least[u] > most[u] + round_off; });
+    order.begin(), order.end(), [&](Index u) { return minimum[u] > maximum[u] + round_off; });
   return infeasible == order.end() ? Index(-1) : *infeasible;
 }
 

@@ -25,13 +25,14 @@ double newton_step(const SplitForm& matrices, const VectorXd& gradient, const Ve
 } // namespace
 
 std::vector<char> vertices_at_bounds(const SplitForm& matrices, const ColumnProblem& problem,
-  const VectorXd& gradient, const VectorXd& x, double near)
+  const VectorXd& gradient, const VectorXd& x, double bound_margin)
 {
   std::vector<char> at_bound(problem.pinned);
   for (Index i = 0; i < x.size(); ++i)
   {
     const double to = newton_step(matrices, gradient, x, i);
-    at_bound[i] = at_bound[i] || to <= problem.lower[i] + near || to >= problem.upper[i] - near;
+    at_bound[i] =
+      at_bound[i] || to <= problem.lower[i] + bound_margin || to >= problem.upper[i] - bound_margin;
   }
   return at_bound;
 }

@@ -98,14 +98,14 @@ int SplitForm::position(Index i, Index j) const
   return at != end && *at == i ? static_cast<int>(at - this->lower.innerIndexPtr()) : -1;
 }
 
-Status explain_no_minimum(Status of_factor)
+Status explain_no_minimum(Status factor_status)
 {
-  if (of_factor.code == StatusCode::invalid_input)
+  if (factor_status.code == StatusCode::invalid_input)
   {
-    of_factor.message = "the energy of the mesh has no unique minimum in double precision (" +
-      of_factor.message + "), perhaps because some elements are almost flat";
+    factor_status.message = "the energy of the mesh has no unique minimum in double precision (" +
+      factor_status.message + "), perhaps because some elements are almost flat";
   }
-  return of_factor;
+  return factor_status;
 }
 
 } // namespace bindpose

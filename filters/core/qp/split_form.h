@@ -50,7 +50,7 @@ struct SplitForm
 /// Change the message if a factorization failed with invalid_input. In this case the block of free
 /// vertices is not positive definite, so the form has no unique minimum. Return any other status
 /// unchanged.
-Status explain_no_minimum(Status of_factor);
+Status explain_no_minimum(Status factor_status);
 
 } // namespace bindpose
 

@@ -100,10 +100,10 @@ public:
     }
     else
     {
-      const int slot = this->next_;
+      const int slot = this->next_column_;
       this->points_.col(slot) = at - this->last_point_;
       this->changes_.col(slot) = f - this->last_change_;
-      this->next_ = (slot + 1) % memory;
+      this->next_column_ = (slot + 1) % memory;
       this->count_ = std::min(this->count_ + 1, memory);
       this->gram_.row(slot).head(this->count_) =
         (this->changes_.leftCols(this->count_).transpose() * this->changes_.col(slot))
@@ -134,7 +134,7 @@ public:
     }
     else
     {
-      this->next_ = 0;
+      this->next_column_ = 0;
     }
   }
 
@@ -144,7 +144,7 @@ private:
   VectorXf last_point_, last_change_;
   double last_size_ = 0.0;
   int count_ = -1; // number of columns of points_ and changes_ in use; -1: no iteration yet
-  int next_ = 0;
+  int next_column_ = 0;
 };
 } // namespace
 

@@ -127,7 +127,7 @@ public:
   /// Decide nodes that have the same label in every minimum: the gain of this label, including
   /// edges to decided nodes, exceeds the cost of all other edges of the node. A decision may make a
   /// decision for a neighbor possible. The loop ends after a round that decides few nodes.
-  void decide()
+  void decide_labels()
   {
     const auto nodes = static_cast<Index>(this->labels_.size());
     // Total cost of each node's edges to undecided nodes.
@@ -167,8 +167,8 @@ public:
         }
       }
       // The loop ends if a round decides at most one node per 20 undecided nodes.
-      constexpr Index few = 20;
-      has_progress = few * decided > left;
+      constexpr Index round_divisor = 20;
+      has_progress = round_divisor * decided > left;
     }
   }
 
@@ -255,9 +255,9 @@ Status cut(ExecutionContext& context, const CutEnergy& energy, std::vector<char>
   std::vector<ArcData> lines;
   lines.reserve(2 * (energy.edges.size() + static_cast<std::size_t>(nodes)));
   Index pairs = 0;
-  const auto connect = [&](Index a, Index b, Flow there, Flow back)
+  const auto connect = [&](Index a, Index b, Flow capacity_ab, Flow back)
   {
-    lines.push_back({ a, b, there, pairs });
+    lines.push_back({ a, b, capacity_ab, pairs });
     lines.push_back({ b, a, back, pairs });
     ++pairs;
   };
@@ -357,7 +357,7 @@ Status minimize(ExecutionContext& context, const CutEnergy& energy, std::vector<
     return status;
   }
   Labels labels(energy);
-  labels.decide();
+  labels.decide_labels();
   std::vector<char> reduced;
   status = cut(context, labels.reduced(), reduced);
   if (status.ok())

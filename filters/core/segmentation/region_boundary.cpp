@@ -44,19 +44,21 @@ bool RegionBoundary::bounded_at_corner(Index f, int k) const
 {
   // The test point is far enough inside the triangle to be clearly on one side of the triangle's
   // edges, and near enough to the corner to represent it.
-  constexpr double inwards = 0.02;
+  constexpr double inward_fraction = 0.02;
   const Vec3 center = (this->corner(f, 0) + this->corner(f, 1) + this->corner(f, 2)) / 3.0;
-  return this->bounds_region_at(f, (1.0 - inwards) * this->corner(f, k) + inwards * center);
+  return this->bounds_region_at(
+    f, (1.0 - inward_fraction) * this->corner(f, k) + inward_fraction * center);
 }
 
 double RegionBoundary::thickness(Index f, const Vec3& p, double smallest, double largest) const
 {
   const Vec3 n = this->normal(f);
-  const bool behind = this->contains(p - this->step_ * n);
+  const bool is_inside_behind = this->contains(p - this->step_ * n);
   constexpr double growth = 1.5;
   for (double distance = smallest; distance < largest; distance *= growth)
   {
-    if (this->contains(p - distance * n) != behind || this->contains(p + distance * n) == behind)
+    if (this->contains(p - distance * n) != is_inside_behind ||
+      this->contains(p + distance * n) == is_inside_behind)
     {
       return distance;
     }
@@ -92,8 +94,8 @@ struct Site
 
 /// Place points on a triangle, at most about `spacing` apart, in rows parallel to its shortest
 /// edge.
-template <typename Found>
-void sample_triangle(const RegionBoundary& region, Index f, double spacing, const Found& found)
+template <typename Visit>
+void sample_triangle(const RegionBoundary& region, Index f, double spacing, const Visit& found)
 {
   int shortest = 0;
   double shortest_length = 0.0, longest = 0.0;
@@ -136,9 +138,9 @@ bool sample_boundary(ExecutionContext& context, const RegionBoundary& region,
   const TrianglesView triangles = region.triangles();
   const Index block = 64;
   const Index blocks = (triangles.rows() + block - 1) / block;
-  std::vector<std::vector<Site>> of_block(static_cast<std::size_t>(blocks));
+  std::vector<std::vector<Site>> sites_of_block(static_cast<std::size_t>(blocks));
   std::vector<std::array<double, 3>> corner_lengths(static_cast<std::size_t>(triangles.rows()));
-  const bool whole = parallel_for(context, triangles.rows(), block,
+  const bool completed = parallel_for(context, triangles.rows(), block,
     [&](Index begin, Index end)
     {
       for (Index f = begin; f < end; ++f)
@@ -150,9 +152,9 @@ bool sample_boundary(ExecutionContext& context, const RegionBoundary& region,
             edge = shortest;
             if (region.bounds_region_at(f, p))
             {
-              const double thick = region.thickness(f, p, options.smallest, options.largest);
-              of_block[begin / block].push_back(
-                { p, std::clamp(std::min(edge, thick), options.smallest, options.largest), area });
+              const double thickness = region.thickness(f, p, options.smallest, options.largest);
+              sites_of_block[begin / block].push_back({ p,
+                std::clamp(std::min(edge, thickness), options.smallest, options.largest), area });
             }
           });
         for (int k = 0; k < 3; ++k)
@@ -161,7 +163,7 @@ bool sample_boundary(ExecutionContext& context, const RegionBoundary& region,
         }
       }
     });
-  if (!whole)
+  if (!completed)
   {
     return false;
   }
@@ -189,9 +191,9 @@ bool sample_boundary(ExecutionContext& context, const RegionBoundary& region,
       sites.vertices.push_back(v);
     }
   }
-  for (const auto& some : of_block)
+  for (const auto& block_sites : sites_of_block)
   {
-    all.insert(all.end(), some.begin(), some.end());
+    all.insert(all.end(), block_sites.begin(), block_sites.end());
   }
   const auto n = static_cast<Index>(all.size());
   sites.points.resize(n, 3);

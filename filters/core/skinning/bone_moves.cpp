@@ -78,7 +78,7 @@ BINDPOSE_ALWAYS_INLINE void coordinate(const Scalar* a, const Pack (&point)[3], 
 }
 
 template <typename Scalar>
-BINDPOSE_ALWAYS_INLINE void add_any(const std::int32_t* columns, const Scalar* weights,
+BINDPOSE_ALWAYS_INLINE void add_tile_moves(const std::int32_t* columns, const Scalar* weights,
   Index columns_of_tile, const std::int32_t* frame_of_column, const BoneFrame<Scalar>* frames,
   const double* endpoints, Index handles, Index count, const Scalar* points, Scalar* moves)
 {
@@ -108,12 +108,13 @@ BINDPOSE_ALWAYS_INLINE void add_any(const std::int32_t* columns, const Scalar* w
       if (endpoints)
       {
         const double* const from = endpoints + column;
-        Pack given = e;
+        Pack endpoint_weights = e;
         for (Index i = begin; i < std::min(begin + lanes, count); ++i)
         {
-          given[i - begin] = static_cast<Scalar>(from[i * handles]);
+          endpoint_weights[i - begin] = static_cast<Scalar>(from[i * handles]);
         }
-        e = given == given ? given : e; // NaN: keep the position along the bone
+        e = endpoint_weights == endpoint_weights ? endpoint_weights
+                                                 : e; // NaN: keep the position along the bone
       }
       const Pack w = pack_at(weights + k * tile_lanes + begin);
       const Pack longer = w * e;
@@ -157,8 +158,8 @@ BINDPOSE_ALWAYS_INLINE void add_any(const std::int32_t* columns, const Scalar* w
     Index columns_of_tile, const std::int32_t* frame_of_column, const BoneFrame<Scalar>* frames,   \
     const double* endpoints, Index handles, Index count, const Scalar* points, Scalar* moves)      \
   {                                                                                                \
-    add_any(columns, weights, columns_of_tile, frame_of_column, frames, endpoints, handles, count, \
-      points, moves);                                                                              \
+    add_tile_moves(columns, weights, columns_of_tile, frame_of_column, frames, endpoints, handles, \
+      count, points, moves);                                                                       \
   }
 BINDPOSE_OF_SCALAR(float)
 BINDPOSE_OF_SCALAR(double)

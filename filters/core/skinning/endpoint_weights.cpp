@@ -29,7 +29,7 @@ Handle make_endpoint_handle(const std::string& name, HandleKind kind, const Vec3
 
 /// Merge the status of one solve into the total status: add new warnings, and copy the code and
 /// message if all previous solves were ok.
-void add_words(const Status& step, Status& status)
+void append_messages(const Status& step, Status& status)
 {
   if (status.ok())
   {
@@ -131,7 +131,7 @@ Status endpoint_weights(ExecutionContext& context, PointsView points, const Hand
       return solved;
     }
     problems = 1;
-    add_words(solved, status);
+    append_messages(solved, status);
     for (std::size_t i = 0; i < bones.size(); ++i)
     {
       const auto head = w.col(ends[i][0]).array().max(0.0);
@@ -159,7 +159,7 @@ Status endpoint_weights(ExecutionContext& context, PointsView points, const Hand
         return solved;
       }
       ++problems;
-      add_words(solved, status);
+      append_messages(solved, status);
       endpoints.col(bones[i]) = w.col(1).array().max(0.0).min(1.0);
     }
   }

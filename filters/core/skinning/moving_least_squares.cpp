@@ -44,9 +44,9 @@ constexpr double gauss_weight[4] = { 0.3626837833783620, 0.3137066458778873, 0.2
 /// Return the parameter of the segment's point that is nearest to v; 0 if the handle is a point.
 double nearest_parameter(const Handle& handle, const Vec3& v)
 {
-  const Vec3 along = handle.tail - handle.head;
-  const double length2 = along.squaredNorm();
-  return length2 > 0.0 ? std::clamp(along.dot(v - handle.head) / length2, 0.0, 1.0) : 0.0;
+  const Vec3 segment_vector = handle.tail - handle.head;
+  const double length2 = segment_vector.squaredNorm();
+  return length2 > 0.0 ? std::clamp(segment_vector.dot(v - handle.head) / length2, 0.0, 1.0) : 0.0;
 }
 
 bool is_bone(const Handle& handle)
@@ -68,10 +68,10 @@ double falloff(double squared_ratio, double exponent)
 MovingLeastSquares::HandleMoments bone_moments(const Handle& bone, const Vec3& v, double nearest,
   double bone_distance, double floor, double exponent, double extent)
 {
-  const Vec3 along = bone.tail - bone.head;
-  const double length = along.norm();
+  const Vec3 segment_vector = bone.tail - bone.head;
+  const double length = segment_vector.norm();
   const double parameter = nearest_parameter(bone, v);
-  const Vec3 offset = bone.head + parameter * along - v;
+  const Vec3 offset = bone.head + parameter * segment_vector - v;
   double sums[3] = { 0.0, 0.0, 0.0 };
   for (const double direction : { -1.0, 1.0 })
   {
@@ -84,7 +84,8 @@ MovingLeastSquares::HandleMoments bone_moments(const Handle& bone, const Vec3& v
       for (int k = 0; k < 8; ++k)
       {
         const double s = direction * (middle + (k % 2 ? half : -half) * gauss_nodes[k / 2]);
-        const double distance2 = std::max((offset + s * along).squaredNorm(), floor * floor);
+        const double distance2 =
+          std::max((offset + s * segment_vector).squaredNorm(), floor * floor);
         const double w =
           half * gauss_weight[k / 2] * falloff(nearest * nearest / distance2, exponent);
         sums[0] += w;
@@ -328,7 +329,7 @@ Status MovingLeastSquares::warp(
       for (Index i = 0; i < size; ++i)
       {
         const Vec3 offset = (this->rest_.row(begin + i) - rest_means.row(i)).transpose();
-        Vec3 turned;
+        Vec3 rotated_offset;
         if (planar)
         {
           const double cosine = s(i, 0) + s(i, 4);
@@ -336,17 +337,18 @@ Status MovingLeastSquares::warp(
           const double length = std::hypot(cosine, sine);
           const double c = length > 0.0 ? cosine / length : 1.0;
           const double n = length > 0.0 ? sine / length : 0.0;
-          turned = Vec3(c * offset[0] - n * offset[1], n * offset[0] + c * offset[1], offset[2]);
+          rotated_offset =
+            Vec3(c * offset[0] - n * offset[1], n * offset[0] + c * offset[1], offset[2]);
         }
         else
         {
           for (int r = 0; r < 3; ++r)
           {
-            turned[r] = rotations(i, 3 * r) * offset[0] + rotations(i, 3 * r + 1) * offset[1] +
-              rotations(i, 3 * r + 2) * offset[2];
+            rotated_offset[r] = rotations(i, 3 * r) * offset[0] +
+              rotations(i, 3 * r + 1) * offset[1] + rotations(i, 3 * r + 2) * offset[2];
           }
         }
-        posed.row(begin + i) = posed_means.row(i) + turned.transpose();
+        posed.row(begin + i) = posed_means.row(i) + rotated_offset.transpose();
       }
     });
   if (!done)

@@ -80,11 +80,11 @@ BINDPOSE_ALWAYS_INLINE double decay(double u)
   constexpr double log2_e = 1.4426950408889634, ln2_high = 6.93145751953125e-1,
                    ln2_low = 1.42860682030941723212e-6;
   // Adding this constant rounds to the nearest integer, which is then in the low bits.
-  constexpr double rounder = 0x1.8p52;
+  constexpr double rounding_constant = 0x1.8p52;
   const double x = u < 690.0 ? -u : -690.0;
-  const double shifted = x * log2_e + rounder;
-  const double whole = shifted - rounder;
-  const double r = (x - whole * ln2_high) - whole * ln2_low;
+  const double shifted = x * log2_e + rounding_constant;
+  const double rounded = shifted - rounding_constant;
+  const double r = (x - rounded * ln2_high) - rounded * ln2_low;
   double p = 1.0 / 479001600.0;
   p = p * r + 1.0 / 39916800.0;
   p = p * r + 1.0 / 3628800.0;

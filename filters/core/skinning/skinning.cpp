@@ -57,15 +57,15 @@ Vec3 center_of(PointsView points)
   return sample_count > 0 ? Vec3(sum / static_cast<double>(sample_count)) : sum;
 }
 
-/// Add the coordinates in `what` to those in `to`.
+/// Add the coordinates in `summand` to those in `to`.
 template <typename Scalar>
-void add(const TilePoints<Scalar>& what, TilePoints<Scalar>& to)
+void add(const TilePoints<Scalar>& summand, TilePoints<Scalar>& to)
 {
   for (int c = 0; c < 3; ++c)
   {
     for (Index i = 0; i < WeightTiles<Scalar>::lanes; ++i)
     {
-      to.at[c][i] += what.at[c][i];
+      to.at[c][i] += summand.at[c][i];
     }
   }
 }
@@ -238,7 +238,7 @@ private:
 };
 /// Transform the points of a tile by an affine map.
 void apply_placement(
-  const Affine& placement, const TilePoints<float>& points, TilePoints<float>& placed)
+  const Affine& placement, const TilePoints<float>& points, TilePoints<float>& placed_points)
 {
   constexpr Index lanes = WeightTiles<float>::lanes;
   const Eigen::Matrix<float, 3, 4> p = placement.cast<float>();
@@ -246,7 +246,7 @@ void apply_placement(
   {
     for (Index i = 0; i < lanes; ++i)
     {
-      placed.at[r][i] =
+      placed_points.at[r][i] =
         p(r, 0) * points.at[0][i] + p(r, 1) * points.at[1][i] + p(r, 2) * points.at[2][i] + p(r, 3);
     }
   }
@@ -349,7 +349,7 @@ Status Skinning::bind(
   struct Block
   {
     Index nonfinite_entry = -1;
-    Index worst = 0, inexact_rows = 0, count = 0, dropped = 0;
+    Index worst_row = 0, inexact_rows = 0, count = 0, dropped = 0;
     double error = 0.0, largest_dropped_weight = 0.0;
   };
   std::vector<Block> blocks(static_cast<std::size_t>((rows + skinning_block - 1) / skinning_block));
@@ -366,7 +366,7 @@ Status Skinning::bind(
         }
         row.assign_row(weights, v);
         const double error = std::abs(row.row_sum() - 1.0);
-        block.worst = v == begin || error > block.error ? v : block.worst;
+        block.worst_row = v == begin || error > block.error ? v : block.worst_row;
         block.error = v == begin ? error : std::max(block.error, error);
         block.inexact_rows += error > row_sum_tolerance ? 1 : 0;
         block.count += static_cast<Index>(row.columns().size());
@@ -387,7 +387,7 @@ Status Skinning::bind(
         std::to_string(block.nonfinite_entry / cols) + " in column " +
         std::to_string(block.nonfinite_entry % cols) + " is not a finite number");
     }
-    all.worst = block.error > all.error ? block.worst : all.worst;
+    all.worst_row = block.error > all.error ? block.worst_row : all.worst_row;
     all.error = std::max(all.error, block.error);
     all.inexact_rows += block.inexact_rows;
     all.count += block.count;
@@ -416,7 +416,7 @@ Status Skinning::bind(
   {
     status.warnings.push_back("the weights of " + std::to_string(all.inexact_rows) + " of " +
       std::to_string(rows) + " vertices do not sum to one (worst: vertex " +
-      std::to_string(all.worst) + ", off by " + std::to_string(all.error) +
+      std::to_string(all.worst_row) + ", off by " + std::to_string(all.error) +
       "); the missing weight is applied to the rest position");
   }
   return status;
@@ -515,20 +515,21 @@ Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
   {
     return Status::invalid_input("posing many instances needs weights in single precision");
   }
-  const auto check_instance_count = [&](std::size_t count, const char* what)
+  const auto check_instance_count = [&](std::size_t count, const char* phrase)
   {
-    return count == transforms.size() ? Status()
-                                      : Status::invalid_input("there are " + std::to_string(count) +
-                                          what + std::to_string(transforms.size()) + " instances");
+    return count == transforms.size()
+      ? Status()
+      : Status::invalid_input("there are " + std::to_string(count) + phrase +
+          std::to_string(transforms.size()) + " instances");
   };
-  Status fits = check_instance_count(posed.size(), " arrays of points for ");
-  if (fits.ok() && !placements.empty())
+  Status count_status = check_instance_count(posed.size(), " arrays of points for ");
+  if (count_status.ok() && !placements.empty())
   {
-    fits = check_instance_count(placements.size(), " placements for ");
+    count_status = check_instance_count(placements.size(), " placements for ");
   }
-  if (!fits.ok())
+  if (!count_status.ok())
   {
-    return fits;
+    return count_status;
   }
   constexpr Index lanes = WeightTiles<float>::lanes;
   const Vec3 center = center_of(rest);
@@ -542,12 +543,13 @@ Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
     }
     // The placement P is applied to the transforms: P (v + sum w (T v - v)) = P v + sum w L (T v -
     // v), where L is the linear part of P.
-    std::vector<Affine> placed = transforms[i];
-    for (std::size_t j = 0; !placements.empty() && j < placed.size(); ++j)
+    std::vector<Affine> placed_transforms = transforms[i];
+    for (std::size_t j = 0; !placements.empty() && j < placed_transforms.size(); ++j)
     {
-      placed[j] = identity_affine() + placements[i].leftCols<3>() * (placed[j] - identity_affine());
+      placed_transforms[j] = identity_affine() +
+        placements[i].leftCols<3>() * (placed_transforms[j] - identity_affine());
     }
-    moves.push_back(displacements<float>(placed, center));
+    moves.push_back(displacements<float>(placed_transforms, center));
   }
   const bool done = parallel_for(context, rest.rows(), skinning_block,
     [&](Index begin, Index end)
@@ -560,7 +562,7 @@ Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
         load_points(rest.data() + 3 * v, count, center, points[tile]);
         load_points(rest.data() + 3 * v, count, Vec3::Zero(), at[tile]);
       }
-      TilePoints<float> placed;
+      TilePoints<float> placed_points;
       for (std::size_t i = 0; i < moves.size(); ++i)
       {
         for (Index v = begin; v < end; v += lanes)
@@ -568,10 +570,11 @@ Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
           const auto tile = static_cast<std::size_t>((v - begin) / lanes);
           if (!placements.empty())
           {
-            apply_placement(placements[i], at[tile], placed);
+            apply_placement(placements[i], at[tile], placed_points);
           }
           pose_tile(this->single_tiles_, v / lanes, moves[i], points[tile],
-            placements.empty() ? at[tile] : placed, std::min(lanes, end - v), posed[i] + 3 * v);
+            placements.empty() ? at[tile] : placed_points, std::min(lanes, end - v),
+            posed[i] + 3 * v);
         }
       }
     });
@@ -686,7 +689,7 @@ bool Skinning::blend_dual(ExecutionContext& context, PointsView rest,
       BlendedTile<Scalar, 12> sheared;
       BlendedTile<Scalar, 8> blended;
       TilePoints<Scalar> points, moved, first;
-      Points turned; // normals after scale and shear
+      Points transformed_normals; // normals after scale and shear
       for (Index v = begin; v < end; v += lanes)
       {
         const Index count = std::min(lanes, end - v);
@@ -699,14 +702,15 @@ bool Skinning::blend_dual(ExecutionContext& context, PointsView rest,
         }
         if (normals && any_shear)
         {
-          turned.resize(count, 3);
+          transformed_normals.resize(count, 3);
           for (Index i = 0; i < count; ++i)
           {
             const Eigen::Matrix3d linear =
               Eigen::Matrix3d::Identity() + affine_of(sheared, i).template leftCols<3>();
-            turned.row(i) = transform_normal(linear, Vec3(rest.row(v + i))).transpose();
+            transformed_normals.row(i) =
+              transform_normal(linear, Vec3(rest.row(v + i))).transpose();
           }
-          from = turned.data();
+          from = transformed_normals.data();
         }
         if (normals)
         {
@@ -793,11 +797,12 @@ bool Skinning::blend_about(ExecutionContext& context, PointsView rest,
     [&](Index begin, Index end)
     {
       BlendedTile<Scalar, 12> moved, sheared;
-      BlendedTile<Scalar, 8> turned;
+      BlendedTile<Scalar, 8> rotation_tile;
       for (Index v = begin; v < end; v += lanes)
       {
         const Index count = std::min(lanes, end - v);
-        blend_tile(tiles, v / lanes, quaternions, this->reference_handles_.data() + v, turned);
+        blend_tile(
+          tiles, v / lanes, quaternions, this->reference_handles_.data() + v, rotation_tile);
         if (any_shear)
         {
           blend_tile(tiles, v / lanes, shear_moves, nullptr, sheared);
@@ -808,8 +813,8 @@ bool Skinning::blend_about(ExecutionContext& context, PointsView rest,
         }
         for (Index i = 0; i < count; ++i)
         {
-          Eigen::Vector4d q(
-            turned.sums[0][i], turned.sums[1][i], turned.sums[2][i], turned.sums[3][i]);
+          Eigen::Vector4d q(rotation_tile.sums[0][i], rotation_tile.sums[1][i],
+            rotation_tile.sums[2][i], rotation_tile.sums[3][i]);
           const double length = q.norm();
           q = length > 1e-300 ? Eigen::Vector4d(q / length) : Eigen::Vector4d(0, 0, 0, 1);
           const Vec3 axis = q.head<3>();

@@ -51,14 +51,14 @@ struct PartReferences
       {
         continue;
       }
-      Bits<Scalar, bytes> same = {};
+      Bits<Scalar, bytes> lanes_of_handle = {};
       for (int k = i; k < lanes; ++k)
       {
         const bool equal = references[k] == references[i];
         done[k] = done[k] || equal;
-        same[k] = equal ? -1 : 0;
+        lanes_of_handle[k] = equal ? -1 : 0;
       }
-      this->lane_mask[this->count] = same;
+      this->lane_mask[this->count] = lanes_of_handle;
       this->handles[this->count++] = references[i];
     }
   }

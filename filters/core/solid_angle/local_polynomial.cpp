@@ -85,10 +85,10 @@ BINDPOSE_ALWAYS_INLINE void add_rows(
 template <int Order, typename Real>
 BINDPOSE_ALWAYS_INLINE void contract_rows(const Real* rows, double y, double z, double* polynomial)
 {
-  constexpr int room = padded_count<Order>;
-  Real sum[room] = {};
+  constexpr int capacity = padded_count<Order>;
+  Real sum[capacity] = {};
   add_rows<Order, 0>(rows, Real(1), Real(0), static_cast<Real>(y), static_cast<Real>(z), sum);
-  for (int j = 0; j < room; ++j)
+  for (int j = 0; j < capacity; ++j)
   {
     polynomial[j] = static_cast<double>(sum[j]) * plane_constants.factorial[j];
   }

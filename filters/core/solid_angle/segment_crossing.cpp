@@ -33,18 +33,18 @@ Crossing crossing(const Vec3& p, const Vec3& r, const std::array<Vec3, 3>& corne
   const double w = d.dot(a.cross(b));
   const double side = a.dot(bc);
   const double other_side = side - (u + v + w);
-  const double least = std::min({ u, v, w });
-  const double most = std::max({ u, v, w });
-  if ((least < -edge_error && most > edge_error) || std::min(side, other_side) > error ||
+  const double minimum = std::min({ u, v, w });
+  const double maximum = std::max({ u, v, w });
+  if ((minimum < -edge_error && maximum > edge_error) || std::min(side, other_side) > error ||
     std::max(side, other_side) < -error)
   {
     return Crossing::none;
   }
-  if (least > edge_error && side > error && other_side < -error)
+  if (minimum > edge_error && side > error && other_side < -error)
   {
     return Crossing::outwards;
   }
-  if (most < -edge_error && side < -error && other_side > error)
+  if (maximum < -edge_error && side < -error && other_side > error)
   {
     return Crossing::inwards;
   }

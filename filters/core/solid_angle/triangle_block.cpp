@@ -198,8 +198,8 @@ BINDPOSE_ALWAYS_INLINE void add_block(const TriangleBlock<Real>* blocks,
     const Real re = t.real(la, lb, lc);
     const Real im = t.volume();
     const Real re_size = std::abs(re), im_size = std::abs(im);
-    const Real least = aa < bb ? aa : bb;
-    const Real nearest = least < cc ? least : cc;
+    const Real minimum = aa < bb ? aa : bb;
+    const Real nearest = minimum < cc ? minimum : cc;
     const bool is_far = re > Real(0.7) * lengths;
     // Upper bound for the volume if the point touches the triangle: the volume of a slab whose
     // thickness is the tolerance.
@@ -207,8 +207,8 @@ BINDPOSE_ALWAYS_INLINE void add_block(const TriangleBlock<Real>* blocks,
     const bool off_plane = im_size > P::smallest_volume * lengths + slab;
     const bool kept = (re_size + im_size > P::smallest_magnitude * lengths) &
       (nearest > smallest_distance2) & (is_far | off_plane);
-    const Real turned = block.weight[i] * angle_of(re, im);
-    sums[i] += kept ? turned : Real(0);
+    const Real solid_angle = block.weight[i] * angle_of(re, im);
+    sums[i] += kept ? solid_angle : Real(0);
     flags[i] = kept ? 0 : 1;
     any |= flags[i];
   }

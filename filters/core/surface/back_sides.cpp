@@ -95,11 +95,11 @@ std::vector<Index> back_sides(PointsView points, TrianglesView triangles)
     {
       const auto corner = [&](int k) -> Vec3
       { return points.row(canceling.triangles(patch.triangles[i], k)).transpose() - origin; };
-      const double way = patch.flipped[i] ? -1.0 : 1.0;
+      const double orientation_sign = patch.flipped[i] ? -1.0 : 1.0;
       const Vec3 normal = 0.5 * (corner(1) - corner(0)).cross(corner(2) - corner(0));
       area += normal.norm();
-      sum += way * normal;
-      volume += way * corner(0).dot(normal) / 3.0;
+      sum += orientation_sign * normal;
+      volume += orientation_sign * corner(0).dot(normal) / 3.0;
     }
     if (!patch.orientable || sum.norm() > maximum_opening * area)
     {

@@ -104,11 +104,11 @@ private:
       this->points_.row(this->triangles_(f, 2)) };
   }
   /// Label every box of the tree: with the common label of its triangles, with `mixed_label` if
-  /// their labels differ, or with `none` if none of its triangles belongs to a part.
+  /// their labels differ, or with `no_part_label` if none of its triangles belongs to a part.
   void label_boxes(const std::vector<Index>& label_of_part)
   {
     const auto& nodes = this->tree_.nodes();
-    this->labels_.assign(nodes.size(), none);
+    this->labels_.assign(nodes.size(), no_part_label);
     for (std::size_t at = nodes.size(); at-- > 0;)
     {
       const auto& node = nodes[at];
@@ -121,13 +121,13 @@ private:
       for (Index i = node.begin; i < node.end; ++i)
       {
         const Index part = this->parts_[this->tree_.order()[i]];
-        label = this->joined(label, part < 0 ? none : label_of_part[part]);
+        label = this->joined(label, part < 0 ? no_part_label : label_of_part[part]);
       }
     }
   }
   static Index joined(Index a, Index b)
   {
-    return a == none || a == b ? b : b == none ? a : mixed_label;
+    return a == no_part_label || a == b ? b : b == no_part_label ? a : mixed_label;
   }
 
   /// Call at_triangle(g) for the triangles in all leaf boxes whose label differs from `label` and
@@ -141,7 +141,7 @@ private:
     const auto& nodes = this->tree_.nodes();
     const auto push = [&](Index at)
     {
-      if (this->labels_[at] != label && this->labels_[at] != none)
+      if (this->labels_[at] != label && this->labels_[at] != no_part_label)
       {
         const double d = distance(nodes[at].box, box);
         if (d <= limit)
@@ -188,8 +188,8 @@ private:
       {
         break;
       }
-      const Corners here = this->corners(f);
-      const Box box = box_of(here);
+      const Corners own_corners = this->corners(f);
+      const Box box = box_of(own_corners);
       this->visit_others(box, group, best.distance,
         [&](Index g)
         {
@@ -201,7 +201,7 @@ private:
           }
           PartLink link;
           link.triangles = { f, g };
-          const double d = nearest_points(here, this->corners(g), link.positions);
+          const double d = nearest_points(own_corners, this->corners(g), link.positions);
           if (d < best.distance)
           {
             best = { d, link };
@@ -216,9 +216,9 @@ private:
     const auto parts = static_cast<Index>(this->constrained_.size());
     // For each group, 1 if it contains a held part; indexed by the group's smallest part.
     std::vector<char> constrained = this->constrained_;
-    for (bool again = true; again;)
+    for (bool changed = true; changed;)
     {
-      again = false;
+      changed = false;
       this->group_of_part_.resize(this->constrained_.size());
       for (Index p = 0; p < parts; ++p)
       {
@@ -258,7 +258,7 @@ private:
           links.push_back(best.link);
           this->groups_.unite(a, b);
           constrained[std::min(a, b)] = constrained[a] || constrained[b] ? 1 : 0;
-          again = true;
+          changed = true;
         }
       }
     }
@@ -268,9 +268,9 @@ private:
   /// Link loose parts to all parts that they touch, with one link per cube of a grid.
   bool link_touching(std::vector<PartLink>& links)
   {
-    std::vector<Index> own(this->constrained_.size());
-    std::iota(own.begin(), own.end(), Index(0));
-    this->label_boxes(own);
+    std::vector<Index> label_of_part_index(this->constrained_.size());
+    std::iota(label_of_part_index.begin(), label_of_part_index.end(), Index(0));
+    this->label_boxes(label_of_part_index);
     using Cell = std::array<std::int64_t, 3>;
     std::set<std::tuple<Index, Index, Cell>> linked;
     const auto cell_of = [&](const Vec3& position)
@@ -287,7 +287,7 @@ private:
       const Index a = this->parts_[link.triangles[0]], b = this->parts_[link.triangles[1]];
       linked.insert({ std::min(a, b), std::max(a, b), cell_of(link.positions[0]) });
     }
-    std::set<std::pair<Index, Cell>> looked_at;
+    std::set<std::pair<Index, Cell>> visited_cells;
     for (Index i = 0; i < this->triangles_.rows(); ++i)
     {
       const Index f = this->tree_.order()[i];
@@ -300,16 +300,16 @@ private:
       {
         return false;
       }
-      this->for_samples(f,
+      this->for_each_sample(f,
         [&](const Vec3& position)
         {
-          if (!looked_at.insert({ part, cell_of(position) }).second)
+          if (!visited_cells.insert({ part, cell_of(position) }).second)
           {
             return;
           }
           Box box;
           box.add(position);
-          double limit = this->options_.touching;
+          double limit = this->options_.touch_distance;
           PartLink link;
           this->visit_others(box, part, limit,
             [&](Index g)
@@ -346,7 +346,7 @@ private:
   /// Call at_place() for a grid of points on a triangle, including its corners. Neighboring points
   /// are at most about `spacing` apart.
   template <typename AtPlace>
-  void for_samples(Index f, const AtPlace& at_place) const
+  void for_each_sample(Index f, const AtPlace& at_place) const
   {
     const Corners corner = this->corners(f);
     double longest = 0.0;
@@ -354,9 +354,9 @@ private:
     {
       longest = std::max(longest, (corner[(k + 1) % 3] - corner[k]).norm());
     }
-    constexpr double most = 100.0;
+    constexpr double maximum = 100.0;
     const int steps =
-      std::max(1, static_cast<int>(std::min(most, std::ceil(longest / this->options_.spacing))));
+      std::max(1, static_cast<int>(std::min(maximum, std::ceil(longest / this->options_.spacing))));
     for (int i = 0; i <= steps; ++i)
     {
       for (int j = 0; i + j <= steps; ++j)
@@ -367,7 +367,7 @@ private:
     }
   }
 
-  static constexpr Index none = -2; ///< label of a box whose triangles belong to no part
+  static constexpr Index no_part_label = -2; ///< label of a box whose triangles belong to no part
 
   PointsView points_;
   TrianglesView triangles_;
@@ -428,7 +428,7 @@ Status link_parts(ExecutionContext& context, PointsView points, TrianglesView tr
   {
     return Status::invalid_input("no part of the surface is constrained by a handle");
   }
-  if (!(options.touching >= 0.0) || !(options.spacing > 0.0))
+  if (!(options.touch_distance >= 0.0) || !(options.spacing > 0.0))
   {
     return Status::invalid_input(
       "the spacing of links must be greater than 0 and the contact distance at least 0");

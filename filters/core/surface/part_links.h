@@ -21,7 +21,7 @@ struct PartLink
 /// Options of link_parts().
 struct PartLinkOptions
 {
-  double touching = 0.0; ///< parts touch if their distance is at most this length, >= 0
+  double touch_distance = 0.0; ///< parts touch if their distance is at most this length, >= 0
   /// Approximate distance (a length > 0) between neighboring links where two parts touch.
   double spacing = 0.0;
 };

@@ -12,10 +12,10 @@ namespace bindpose
 
 namespace
 {
-class Lister
+class DefectLister
 {
 public:
-  Lister(PointsView points, TrianglesView triangles, const RepairedSurface& repaired)
+  DefectLister(PointsView points, TrianglesView triangles, const RepairedSurface& repaired)
     : points_(points), triangles_(triangles), repaired_(repaired),
       components_(connected_components(repaired.points.rows(), repaired.triangles)),
       id_(static_cast<std::size_t>(points.rows()), -1)
@@ -33,10 +33,10 @@ public:
     this->degenerate();
     this->duplicates();
     this->crossings();
-    for (const auto& [t, inward] : this->repaired_.inward_triangles)
+    for (const auto& [t, inward_index] : this->repaired_.inward_triangles)
     {
       this->add(Defect::inward_component, this->repaired_.original_triangles[t]);
-      this->occurrences_.back().inward = inward;
+      this->occurrences_.back().inward_index = inward_index;
     }
     return std::move(this->occurrences_);
   }
@@ -55,12 +55,12 @@ private:
     return v < 0 ? -1 : this->components_.component_of_vertex[v];
   }
 
-  void add(Defect defect, Index triangle, Index crossed = -1)
+  void add(Defect defect, Index triangle, Index crossed_triangle = -1)
   {
     DefectOccurrence occurrence;
     occurrence.defect = defect;
     occurrence.triangle = triangle;
-    occurrence.crossed = crossed;
+    occurrence.crossed_triangle = crossed_triangle;
     for (int k = 0; k < 3; ++k)
     {
       occurrence.vertices.push_back(this->triangles_(triangle, k));
@@ -107,10 +107,11 @@ private:
     {
       for (const Edge& edge : edges)
       {
-        const bool here = defect == Defect::boundary_edge ? edge.uses == 1
-          : defect == Defect::nonmanifold_edge            ? edge.uses >= 3
-                                               : edge.uses == 2 && edge.net_direction != 0;
-        if (here)
+        const bool has_defect = defect == Defect::boundary_edge ? edge.triangle_count == 1
+          : defect == Defect::nonmanifold_edge
+          ? edge.triangle_count >= 3
+          : edge.triangle_count == 2 && edge.net_direction != 0;
+        if (has_defect)
         {
           this->occurrences_.push_back({ defect,
             { this->repaired_.original_vertices[edge.a],
@@ -210,7 +211,7 @@ const char* to_string(Defect defect)
 std::vector<DefectOccurrence> list_defects(
   PointsView points, TrianglesView triangles, const RepairedSurface& repaired)
 {
-  return Lister(points, triangles, repaired).run();
+  return DefectLister(points, triangles, repaired).run();
 }
 
 } // namespace bindpose

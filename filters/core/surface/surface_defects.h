@@ -35,9 +35,9 @@ struct DefectOccurrence
   std::vector<Index> vertices; ///< 1, 2 or 3 vertex ids of the input
   Index triangle = -1; ///< input id of the triangle, if the defect is a triangle
   /// for self_intersection: lowest id of the triangles that `triangle` intersects
-  Index crossed = -1;
+  Index crossed_triangle = -1;
   Index component = -1; ///< index of the component; -1 if the defect belongs to no component
-  Index inward = -1; ///< for inward_component: index among the inside-out components
+  Index inward_index = -1; ///< for inward_component: index among the inside-out components
 };
 
 /// List every defect that is counted in `repaired.found`, sorted by type, then by id. Edges are

@@ -85,25 +85,25 @@ double SurfaceDisc::propagated_distance(Index a, Index b, Index c) const
   return std::min(along_edge, std::hypot(cx - sx, cy + sy));
 }
 
-std::vector<SurfaceDisc::Found> SurfaceDisc::within(
+std::vector<SurfaceDisc::VertexDistance> SurfaceDisc::within(
   const Vec3& point, Index triangle, double radius) const
 {
-  std::vector<Found> found;
+  std::vector<VertexDistance> found;
   if (triangle < 0 || triangle >= this->triangles_.rows() || !point.allFinite())
   {
     return found;
   }
   using Entry = std::pair<double, Index>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-  std::vector<Index> touched;
-  const auto offer = [&](Index vertex, double distance)
+  std::vector<Index> visited_vertices;
+  const auto relax_distance = [&](Index vertex, double distance)
   {
     double& current = this->distance_[static_cast<std::size_t>(vertex)];
     if (distance <= radius && distance < current && !this->done_[static_cast<std::size_t>(vertex)])
     {
       if (current == infinity)
       {
-        touched.push_back(vertex);
+        visited_vertices.push_back(vertex);
       }
       current = distance;
       queue.emplace(distance, vertex);
@@ -112,7 +112,7 @@ std::vector<SurfaceDisc::Found> SurfaceDisc::within(
   for (int k = 0; k < 3; ++k)
   {
     const Index vertex = this->triangles_(triangle, k);
-    offer(vertex, (Vec3(this->points_.row(vertex)) - point).norm());
+    relax_distance(vertex, (Vec3(this->points_.row(vertex)) - point).norm());
   }
   while (!queue.empty())
   {
@@ -134,7 +134,7 @@ std::vector<SurfaceDisc::Found> SurfaceDisc::within(
         const Index third = t[0] + t[1] + t[2] - vertex - other;
         if (other != vertex && third != vertex && third != other)
         {
-          offer(other, this->propagated_distance(vertex, third, other));
+          relax_distance(other, this->propagated_distance(vertex, third, other));
         }
       }
     }
@@ -142,9 +142,9 @@ std::vector<SurfaceDisc::Found> SurfaceDisc::within(
   // Sort, because a path through an obtuse triangle can be slightly shorter than a path that was
   // found earlier.
   std::sort(found.begin(), found.end(),
-    [](const Found& a, const Found& b)
+    [](const VertexDistance& a, const VertexDistance& b)
     { return a.second != b.second ? a.second < b.second : a.first < b.first; });
-  for (const Index vertex : touched)
+  for (const Index vertex : visited_vertices)
   {
     this->distance_[static_cast<std::size_t>(vertex)] = infinity;
     this->done_[static_cast<std::size_t>(vertex)] = 0;

@@ -18,13 +18,13 @@ public:
   SurfaceDisc(PointsView points, TrianglesView triangles);
 
   /// A vertex and its geodesic distance.
-  using Found = std::pair<Index, double>;
+  using VertexDistance = std::pair<Index, double>;
   /// Find the vertices within `radius` of `point`, a point on triangle `triangle`. Distances are
   /// propagated from triangle to triangle, as if the surface were unfolded into the plane of each
   /// triangle. The distances are exact if the surface is flat around the point, and never less than
   /// the straight-line distance. Distances do not propagate across gaps of the surface.
   /// @return vertices and distances, sorted by distance
-  std::vector<Found> within(const Vec3& point, Index triangle, double radius) const;
+  std::vector<VertexDistance> within(const Vec3& point, Index triangle, double radius) const;
 
 private:
   /// Return the geodesic distance of vertex c of the triangle a b c, computed from the distances of

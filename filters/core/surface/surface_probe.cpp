@@ -30,9 +30,10 @@ std::vector<SurfaceProbe::Hit> SurfaceProbe::hits(const Vec3& origin, const Vec3
   {
     return all;
   }
-  const double far = 1.01 * ((this->box_.center() - origin).norm() + this->box_.diagonal()) / speed;
-  const Vec3 end = origin + far * direction;
-  const auto take = [&](Index f)
+  const double end_parameter =
+    1.01 * ((this->box_.center() - origin).norm() + this->box_.diagonal()) / speed;
+  const Vec3 end = origin + end_parameter * direction;
+  const auto add_hit = [&](Index f)
   {
     const auto t = this->triangles_.row(f);
     const Vec3 a = this->points_.row(t[0]);
@@ -47,7 +48,7 @@ std::vector<SurfaceProbe::Hit> SurfaceProbe::hits(const Vec3& origin, const Vec3
     }
     return false; // false: continue with the next triangle
   };
-  this->tree_.segment_meets(origin, end, take);
+  this->tree_.segment_meets(origin, end, add_hit);
   std::sort(all.begin(), all.end(),
     [](const Hit& a, const Hit& b)
     { return a.distance != b.distance ? a.distance < b.distance : a.triangle < b.triangle; });
@@ -55,10 +56,13 @@ std::vector<SurfaceProbe::Hit> SurfaceProbe::hits(const Vec3& origin, const Vec3
   std::vector<Hit> unique_hits;
   for (const Hit& hit : all)
   {
-    const bool again = std::any_of(unique_hits.rbegin(), unique_hits.rend(),
+    const bool is_duplicate = std::any_of(unique_hits.rbegin(), unique_hits.rend(),
       [&](const Hit& other)
-      { return other.enters == hit.enters && hit.distance - other.distance <= same_hit * far; });
-    if (!again)
+      {
+        return other.enters == hit.enters &&
+          hit.distance - other.distance <= same_hit * end_parameter;
+      });
+    if (!is_duplicate)
     {
       unique_hits.push_back(hit);
     }
@@ -79,7 +83,7 @@ bool SurfaceProbe::first_inside(const Vec3& origin, const Vec3& direction, LineS
     span.exit = origin + to.distance * direction;
     span.triangle = from.triangle;
   };
-  const double small = same_hit * std::max(all.back().distance, 1.0);
+  const double same_hit_distance = same_hit * std::max(all.back().distance, 1.0);
   int depth = 0;
   std::size_t first = 0;
   for (std::size_t i = 0; i < all.size(); ++i)
@@ -90,7 +94,7 @@ bool SurfaceProbe::first_inside(const Vec3& origin, const Vec3& direction, LineS
     }
     depth += all[i].enters ? 1 : -1;
     // At a silhouette edge, entry and exit coincide and enclose no interval.
-    if (depth == 0 && all[i].distance - all[first].distance > small)
+    if (depth == 0 && all[i].distance - all[first].distance > same_hit_distance)
     {
       set(all[first], all[i]);
       return true;
@@ -100,9 +104,10 @@ bool SurfaceProbe::first_inside(const Vec3& origin, const Vec3& direction, LineS
   return true;
 }
 
-bool SurfaceProbe::nearest(const Vec3& p, Vec3& place) const
+bool SurfaceProbe::nearest(const Vec3& p, Vec3& nearest_point) const
 {
-  return std::isfinite(this->tree_.distance(p, std::numeric_limits<double>::infinity(), &place));
+  return std::isfinite(
+    this->tree_.distance(p, std::numeric_limits<double>::infinity(), &nearest_point));
 }
 
 } // namespace bindpose

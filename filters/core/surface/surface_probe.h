@@ -47,7 +47,7 @@ public:
   bool first_inside(const Vec3& origin, const Vec3& direction, LineSpan& span) const;
 
   /// Find the point on the surface nearest to p. Return false if the surface has no triangles.
-  bool nearest(const Vec3& p, Vec3& place) const;
+  bool nearest(const Vec3& p, Vec3& nearest_point) const;
 
 private:
   PointsView points_;

@@ -302,12 +302,12 @@ bool winding_numbers(ExecutionContext& context, const Points& points, const Tria
   {
     own_points.row(static_cast<Index>(v)) = points.row(vertices[v]);
   }
-  Triangles own(static_cast<Index>(shell.triangles.size()), 3);
-  for (Index t = 0; t < own.rows(); ++t)
+  Triangles shell_triangles(static_cast<Index>(shell.triangles.size()), 3);
+  for (Index t = 0; t < shell_triangles.rows(); ++t)
   {
     for (int k = 0; k < 3; ++k)
     {
-      own(t, k) =
+      shell_triangles(t, k) =
         std::lower_bound(vertices.begin(), vertices.end(), triangles(shell.triangles[t], k)) -
         vertices.begin();
     }
@@ -323,7 +323,7 @@ bool winding_numbers(ExecutionContext& context, const Points& points, const Tria
   options.method = WindingMethod::exact;
   options.expected_queries = queries.rows();
   WindingNumber winding;
-  Status status = winding.build(silent_context, own_points, own, options);
+  Status status = winding.build(silent_context, own_points, shell_triangles, options);
   status = status.ok() ? winding.evaluate(silent_context, queries, windings.data()) : status;
   return status.ok();
 }
@@ -333,16 +333,16 @@ bool winding_numbers(ExecutionContext& context, const Points& points, const Tria
 class BoxFinder
 {
 public:
-  /// The argument `boxes` must outlive this object; `some` contains the indices of the shells to
-  /// search.
-  BoxFinder(const std::vector<Shell>& boxes, std::vector<Index> some)
-    : boxes_(boxes), ids_(std::move(some))
+  /// The argument `boxes` must outlive this object; `shell_ids` contains the indices of the shells
+  /// to search.
+  BoxFinder(const std::vector<Shell>& boxes, std::vector<Index> shell_ids)
+    : boxes_(boxes), ids_(std::move(shell_ids))
   {
     this->sort(0, this->ids_.size(), 0);
   }
   /// Call found(id) for each shell whose box is inside the given box, in no particular order.
-  template <typename Found>
-  void find(const Box& box, const Found& found) const
+  template <typename Visit>
+  void find(const Box& box, const Visit& found) const
   {
     this->find(box, found, 0, this->ids_.size(), 0);
   }
@@ -366,9 +366,9 @@ private:
     this->sort(middle + 1, end, (axis + 1) % 3);
   }
 
-  template <typename Found>
+  template <typename Visit>
   void find(
-    const Box& outer, const Found& found, std::size_t begin, std::size_t end, int axis) const
+    const Box& outer, const Visit& found, std::size_t begin, std::size_t end, int axis) const
   {
     if (begin >= end)
     {
@@ -475,10 +475,10 @@ bool inward_shells(ExecutionContext& context, const Points& points, const Triang
       for (std::size_t i = 0; i < inner.size(); ++i)
       {
         constexpr double inside = 0.75;
-        const auto here = windings.segment(
+        const auto shell_windings = windings.segment(
           static_cast<Index>(begin[i]), static_cast<Index>(begin[i + 1] - begin[i]));
-        const Index in = (here.array().abs() > inside).count();
-        container[inner[i]] = 2 * in > here.size() ? s : -1;
+        const Index inside_count = (shell_windings.array().abs() > inside).count();
+        container[inner[i]] = 2 * inside_count > shell_windings.size() ? s : -1;
       }
     }
     if (flipped[s])

@@ -78,7 +78,7 @@ struct RepairedSurface
 
   /// Report whether the surface is valid input for TetGen: it is not flat, has no crossings and no
   /// duplicates, and is closed after degenerate triangles were removed.
-  bool clean() const
+  bool is_clean() const
   {
     return this->closed && this->found.self_intersections == 0 &&
       this->found.duplicate_triangles == 0 && !this->found.flat;

@@ -168,10 +168,10 @@ bool triangles_cross(PointsView points, TrianglesView triangles, Index f, Index 
   int shared = 0;
   for (int i = 0; i < 3; ++i)
   {
-    const auto twin = std::find(t.begin() + shared, t.end(), s[i]);
-    if (twin != t.end())
+    const auto shared_corner = std::find(t.begin() + shared, t.end(), s[i]);
+    if (shared_corner != t.end())
     {
-      std::swap(t[shared], *twin);
+      std::swap(t[shared], *shared_corner);
       std::swap(s[shared], s[i]);
       ++shared;
     }
@@ -229,9 +229,9 @@ Vec3 closest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c)
 {
   // For almost flat triangles, the region tests below are unreliable because of rounding, so only
   // the edges are tested.
-  constexpr double flat = 1e-10;
+  constexpr double flatness_tolerance = 1e-10;
   if ((b - a).cross(c - a).squaredNorm() <=
-    flat * flat * (b - a).squaredNorm() * (c - a).squaredNorm())
+    flatness_tolerance * flatness_tolerance * (b - a).squaredNorm() * (c - a).squaredNorm())
   {
     Vec3 closest = closest_on_segment(p, a, b);
     for (const Vec3& other : { closest_on_segment(p, b, c), closest_on_segment(p, c, a) })

@@ -71,9 +71,9 @@ Box TriangleTree::build(std::vector<Item>& items, Index begin, Index end)
   {
     for (Index i = begin; i < end; ++i)
     {
-      const Box& one = this->boxes_[items[i].triangle];
-      box.add(one.lower);
-      box.add(one.upper);
+      const Box& triangle_box = this->boxes_[items[i].triangle];
+      box.add(triangle_box.lower);
+      box.add(triangle_box.upper);
     }
     this->leaves_.push_back(static_cast<Index>(node_id));
   }
@@ -123,16 +123,16 @@ double TriangleTree::distance(const Vec3& p, double limit, Vec3* nearest) const
       for (Index i = node.begin; i < node.end; ++i)
       {
         const auto t = this->triangles_.row(this->order_[i]);
-        const Vec3 place = closest_point(
+        const Vec3 closest = closest_point(
           p, this->points_.row(t[0]), this->points_.row(t[1]), this->points_.row(t[2]));
-        const double d = (place - p).squaredNorm();
+        const double d = (closest - p).squaredNorm();
         if (d <= best)
         {
           best = d;
           found = true;
           if (nearest)
           {
-            *nearest = place;
+            *nearest = closest;
           }
         }
       }
@@ -140,10 +140,10 @@ double TriangleTree::distance(const Vec3& p, double limit, Vec3* nearest) const
     }
     // Push the nearer child last, so that it is visited first.
     const Index left = at + 1;
-    const bool left_nearer = squared_distance(this->nodes_[left].box, p) <=
+    const bool is_left_nearer = squared_distance(this->nodes_[left].box, p) <=
       squared_distance(this->nodes_[node.right].box, p);
-    stack[top++] = left_nearer ? node.right : left;
-    stack[top++] = left_nearer ? left : node.right;
+    stack[top++] = is_left_nearer ? node.right : left;
+    stack[top++] = is_left_nearer ? left : node.right;
   }
   return found ? std::sqrt(best) : std::numeric_limits<double>::infinity();
 }
@@ -185,7 +185,7 @@ bool TriangleTree::segment_meets(
   Box box;
   box.add(a);
   box.add(b);
-  const Vec3 along = b - a;
+  const Vec3 segment_vector = b - a;
   // Slab test: for each axis, find the interval of the segment between the two planes of a box.
   const auto passes = [&](const Box& node)
   {
@@ -197,10 +197,10 @@ bool TriangleTree::segment_meets(
     double last = 1.0;
     for (int k = 0; k < 3; ++k)
     {
-      if (along[k] != 0.0)
+      if (segment_vector[k] != 0.0)
       {
-        const double t = (node.lower[k] - a[k]) / along[k];
-        const double u = (node.upper[k] - a[k]) / along[k];
+        const double t = (node.lower[k] - a[k]) / segment_vector[k];
+        const double u = (node.upper[k] - a[k]) / segment_vector[k];
         constexpr double rounding = 1e-12;
         first = std::max(first, std::min(t, u) - rounding);
         last = std::min(last, std::max(t, u) + rounding);
@@ -208,20 +208,20 @@ bool TriangleTree::segment_meets(
     }
     return first <= last;
   };
-  bool met = false;
+  bool is_crossed = false;
   this->visit([&](const Node& node) { return passes(node.box); },
     [&](const Node& node)
     {
-      for (Index i = node.begin; i < node.end && !met; ++i)
+      for (Index i = node.begin; i < node.end && !is_crossed; ++i)
       {
         const auto t = this->triangles_.row(this->order_[i]);
-        met = passes(this->boxes_[i]) && accept(this->order_[i]) &&
+        is_crossed = passes(this->boxes_[i]) && accept(this->order_[i]) &&
           segment_meets_triangle(
             a, b, this->points_.row(t[0]), this->points_.row(t[1]), this->points_.row(t[2]));
       }
-      return !met;
+      return !is_crossed;
     });
-  return met;
+  return is_crossed;
 }
 
 void TriangleTree::pairs_of_leaf(Index leaf, const std::function<bool(Index, Index)>& found) const
@@ -257,36 +257,38 @@ bool crossing_pairs(ExecutionContext& context, PointsView points, TrianglesView 
   const TriangleTree tree(points, triangles);
   const Index block = 64;
   const Index blocks = (tree.leaf_count() + block - 1) / block;
-  std::vector<std::vector<std::pair<Index, Index>>> of_block(static_cast<std::size_t>(blocks));
-  const bool whole = parallel_for(context, tree.leaf_count(), block,
+  std::vector<std::vector<std::pair<Index, Index>>> pairs_of_block(
+    static_cast<std::size_t>(blocks));
+  const bool completed = parallel_for(context, tree.leaf_count(), block,
     [&](Index begin, Index end)
     {
-      auto& mine = of_block[static_cast<std::size_t>(begin / block)];
+      auto& block_pairs = pairs_of_block[static_cast<std::size_t>(begin / block)];
       for (Index leaf = begin; leaf < end; ++leaf)
       {
         std::map<Index, Index> crossed; // number of listed pairs per triangle
-        Index looked = 0;
+        Index tested_pairs = 0;
         tree.pairs_of_leaf(leaf,
           [&](Index f, Index g)
           {
             constexpr Index check_interval = 1024;
-            const bool goes_on = ++looked % check_interval != 0 || !context.canceled();
+            const bool should_continue =
+              ++tested_pairs % check_interval != 0 || !context.canceled();
             if (!triangles_cross(points, triangles, f, g))
             {
-              return goes_on;
+              return should_continue;
             }
-            mine.push_back(std::minmax(f, g));
-            return goes_on && ++crossed[f] < maximum_crossings;
+            block_pairs.push_back(std::minmax(f, g));
+            return should_continue && ++crossed[f] < maximum_crossings;
           });
       }
     });
   pairs.clear();
-  for (const auto& list : of_block)
+  for (const auto& list : pairs_of_block)
   {
     pairs.insert(pairs.end(), list.begin(), list.end());
   }
   std::sort(pairs.begin(), pairs.end());
-  return whole && !context.canceled();
+  return completed && !context.canceled();
 }
 
 } // namespace bindpose

@@ -11,12 +11,12 @@ UnitFrame::UnitFrame(const Box& box)
 {
 }
 
-Points UnitFrame::into(PointsView points) const
+Points UnitFrame::to_frame(PointsView points) const
 {
   return (points.rowwise() - this->center_.transpose()) * this->scale_;
 }
 
-Points UnitFrame::back(PointsView points) const
+Points UnitFrame::from_frame(PointsView points) const
 {
   return (points / this->scale_).rowwise() + this->center_.transpose();
 }

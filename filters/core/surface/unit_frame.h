@@ -15,10 +15,10 @@ public:
   /// The box must have a diagonal above 0 and below 1e100.
   explicit UnitFrame(const Box& box);
   /// Transform points into the frame.
-  Points into(PointsView points) const;
+  Points to_frame(PointsView points) const;
   /// Transform points of the frame back to the original coordinates.
-  Points back(PointsView points) const;
-  double length_into(double length) const { return length * this->scale_; }
+  Points from_frame(PointsView points) const;
+  double length_in_frame(double length) const { return length * this->scale_; }
 
 private:
   Vec3 center_;

@@ -51,8 +51,8 @@ std::vector<Index> lexicographic_order(const PointsView& points, const std::vect
       {
         return a.x < b.x;
       }
-      const int by_place = compare(points, a.vertex, b.vertex);
-      return by_place != 0 ? by_place < 0 : a.vertex < b.vertex;
+      const int position_order = compare(points, a.vertex, b.vertex);
+      return position_order != 0 ? position_order < 0 : a.vertex < b.vertex;
     });
   std::vector<Index> order;
   order.reserve(entries.size());

@@ -42,9 +42,9 @@ public:
 
   std::array<Index, 3> corners(Index facet) const
   {
-    const int* of = facet_corners[facet % 4];
+    const int* local_corners = facet_corners[facet % 4];
     const auto tet = this->tets_.row(facet / 4);
-    return { tet[of[0]], tet[of[1]], tet[of[2]] };
+    return { tet[local_corners[0]], tet[local_corners[1]], tet[local_corners[2]] };
   }
 
   /// Return the other facet of the same tet that has the edge from a to b.

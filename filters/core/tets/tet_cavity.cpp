@@ -37,7 +37,7 @@ bool CavitySearch::find(const Vec3& p, Index start, double minimum_quality, TetC
   return this->preserves_volume(p, cavity);
 }
 
-bool CavitySearch::in_sphere(const Tet& tet, const Vec3& p) const
+bool CavitySearch::is_in_sphere(const Tet& tet, const Vec3& p) const
 {
   const Vec3& a = this->tets_.point(tet[0]);
   const Vec3 u = this->tets_.point(tet[1]) - a, v = this->tets_.point(tet[2]) - a,
@@ -81,7 +81,7 @@ void CavitySearch::collect_sphere(const Vec3& p, Index start)
     for (int k = 0; k < 4; ++k)
     {
       const Index next = this->site_neighbor(this->queue_[i], k);
-      if (next >= 0 && !this->is_in_cavity(next) && this->in_sphere(this->tets_.tet(next), p))
+      if (next >= 0 && !this->is_in_cavity(next) && this->is_in_sphere(this->tets_.tet(next), p))
       {
         this->add_site(next);
         ++this->evaluations_;
@@ -151,10 +151,10 @@ bool CavitySearch::shrink(const Vec3& p, Index start, double minimum_quality)
 /// Collect the tets of the cavity that are connected to the start.
 void CavitySearch::collect_connected(Index start, TetCavity& cavity)
 {
-  const Index reached = -this->searches_;
+  const Index reached_mark = -this->searches_;
   cavity.tets.assign(1, start);
   cavity.facets.clear();
-  this->cavity_[start] = reached;
+  this->cavity_[start] = reached_mark;
   for (std::size_t i = 0; i < cavity.tets.size(); ++i)
   {
     const Index t = cavity.tets[i];
@@ -163,10 +163,10 @@ void CavitySearch::collect_connected(Index start, TetCavity& cavity)
       const Index next = this->site_neighbor(t, k);
       if (this->is_in_cavity(next))
       {
-        this->cavity_[next] = reached;
+        this->cavity_[next] = reached_mark;
         cavity.tets.push_back(next);
       }
-      else if (next < 0 || this->cavity_[next] != reached)
+      else if (next < 0 || this->cavity_[next] != reached_mark)
       {
         cavity.facets.push_back(this->facet_inwards(t, k));
       }

@@ -51,7 +51,7 @@ private:
     /// Qualities of the new tets on the four facets; NAN: not yet computed.
     std::array<double, 4> qualities{ NAN, NAN, NAN, NAN };
   };
-  bool in_sphere(const Tet& tet, const Vec3& p) const;
+  bool is_in_sphere(const Tet& tet, const Vec3& p) const;
   Site& site_of(Index t) { return this->sites_[this->site_ids_[t]]; }
   void add_site(Index t);
   bool is_in_cavity(Index t) const { return t >= 0 && this->cavity_[t] == this->searches_; }

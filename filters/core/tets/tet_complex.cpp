@@ -225,8 +225,8 @@ std::pair<Index, Index> TetComplex::opposite_edge(Index t, Index a, Index b) con
   int swaps = 0;
   for (int k = 0; k < 2; ++k)
   {
-    const Index wanted = k == 0 ? a : b;
-    const auto at = std::find(tet.begin(), tet.end(), wanted) - tet.begin();
+    const Index vertex = k == 0 ? a : b;
+    const auto at = std::find(tet.begin(), tet.end(), vertex) - tet.begin();
     if (at != k)
     {
       std::swap(tet[at], tet[k]);
@@ -337,20 +337,20 @@ bool TetComplex::may_split_edge(
 
 Index TetComplex::split_edge(Index a, Index b, const Vec3& p)
 {
-  std::vector<Index> old;
-  this->find_edge_tets(a, b, old);
-  if (!this->may_split_edge(a, b, old, p))
+  std::vector<Index> old_tets;
+  this->find_edge_tets(a, b, old_tets);
+  if (!this->may_split_edge(a, b, old_tets, p))
   {
     return -1;
   }
   bool open = false;
-  for (const Index t : old)
+  for (const Index t : old_tets)
   {
     const auto [c, d] = this->opposite_edge(t, a, b);
     open = open || this->neighbor_tet(t, a, b, c) < 0 || this->neighbor_tet(t, a, b, d) < 0;
   }
   const Index v = this->add_vertex(p, open);
-  for (const Index t : old)
+  for (const Index t : old_tets)
   {
     const Tet tet = this->tets_[t];
     this->remove(t);

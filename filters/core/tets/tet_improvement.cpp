@@ -38,7 +38,7 @@ public:
       silent_context_({}, [&context] { return context.canceled(); }),
       moved_(static_cast<std::size_t>(mesh.points.rows()), 0)
   {
-    const auto tets = static_cast<double>(mesh.tets.rows() + small);
+    const auto tets = static_cast<double>(mesh.tets.rows() + small_mesh_tets);
     this->maximum_evaluations_ = std::min(options.effort * tets, large + per_tet_of_large * tets);
     this->rules_.constrained = std::move(constrained);
     this->rules_.immovable_since.resize(this->moved_.size(), 0);
@@ -50,31 +50,32 @@ public:
     constexpr Index last_passes = 4; // passes in which held vertices may move
     constexpr Index first_passes = 3; // passes before vertices are inserted
     const Index passes = this->options_.passes - last_passes;
-    bool whole = this->passes(this->options_.insert ? first_passes : passes, this->options_.angle);
-    if (whole && this->options_.insert)
+    bool completed =
+      this->passes(this->options_.insert ? first_passes : passes, this->options_.angle);
+    if (completed && this->options_.insert)
     {
       this->rules_.insert = true;
       this->last_search_.clear();
-      whole = this->passes(passes - first_passes, this->options_.angle);
+      completed = this->passes(passes - first_passes, this->options_.angle);
     }
-    if (whole && this->options_.release_angle > 0.0)
+    if (completed && this->options_.release_angle > 0.0)
     {
       this->rules_.may_move_constrained = true;
       this->last_search_.clear();
-      whole = this->passes(last_passes, this->options_.release_angle);
+      completed = this->passes(last_passes, this->options_.release_angle);
     }
-    if (whole && !this->options_.keep_boundary)
+    if (completed && !this->options_.keep_boundary)
     {
-      this->drop_lone_tets();
+      this->remove_isolated_tets();
     }
     this->tets_.write(this->mesh_);
-    return whole;
+    return completed;
   }
 
 private:
   /// Constants of the limit for the number of evaluations (computed tet qualities). Small meshes
   /// get more evaluations per tet than large meshes.
-  static constexpr Index small = 1000; // tets
+  static constexpr Index small_mesh_tets = 1000; // tets
   static constexpr double large = 2.5e7; // evaluations
   static constexpr double per_tet_of_large = 400.0;
   /// Number of tets whose steps are searched in parallel. It is large enough for many threads and
@@ -87,20 +88,21 @@ private:
     return static_cast<double>(this->evaluations_) > this->maximum_evaluations_;
   }
 
-  /// Run up to `most` passes. @return false if canceled.
-  bool passes(Index most, double angle)
+  /// Run up to `maximum` passes. @return false if canceled.
+  bool passes(Index maximum, double angle)
   {
     const double required_quality = TetComplex::quality_of_angle(angle);
-    for (Index pass = 0; pass < most; ++pass)
+    for (Index pass = 0; pass < maximum; ++pass)
     {
       Count count;
       if (!this->pass(required_quality, count))
       {
         return false;
       }
-      this->context_.progress(static_cast<double>(pass + 1) / static_cast<double>(most));
-      constexpr Index worth_a_pass = 60; // the passes end if a pass improves at most one in 60 tets
-      if (worth_a_pass * count.improved <= count.tried)
+      this->context_.progress(static_cast<double>(pass + 1) / static_cast<double>(maximum));
+      // the passes end if a pass improves at most one in 60 tets
+      constexpr Index tets_per_improvement = 60;
+      if (tets_per_improvement * count.improved <= count.tried)
       {
         break;
       }
@@ -131,7 +133,8 @@ private:
       {
         if (is_due(t))
         {
-          (batch.size() < maximum_batch && this->claim(t) ? batch : deferred).push_back(t);
+          (batch.size() < maximum_batch && this->reserve_vertices(t) ? batch : deferred)
+            .push_back(t);
         }
       };
       std::for_each(first.begin(), first.end(), choose);
@@ -140,7 +143,7 @@ private:
       {
         choose(flat[next]);
       }
-      if (!this->look_at(batch))
+      if (!this->find_steps(batch))
       {
         return false;
       }
@@ -169,33 +172,33 @@ private:
 
   /// Reserve the tet's vertices for this batch, so that no two searches move the same vertex.
   /// @return false if another tet has reserved a vertex that may move.
-  bool claim(Index t)
+  bool reserve_vertices(Index t)
   {
-    this->claims_.resize(static_cast<std::size_t>(this->tets_.vertex_count()), 0);
+    this->reserving_batch_.resize(static_cast<std::size_t>(this->tets_.vertex_count()), 0);
     const Tet& tet = this->tets_.tet(t);
     const auto moves = [&](Index v) { return may_move(this->tets_, this->rules_, v); };
     if (std::any_of(tet.begin(), tet.end(),
-          [&](Index v) { return this->claims_[v] == this->batch_ && moves(v); }))
+          [&](Index v) { return this->reserving_batch_[v] == this->batch_ && moves(v); }))
     {
       return false;
     }
     for (const Index v : tet)
     {
-      this->claims_[v] = this->batch_;
+      this->reserving_batch_[v] = this->batch_;
     }
     return true;
   }
 
   /// Search a step for each tet while the mesh does not change. @return false if canceled.
-  bool look_at(const std::vector<Index>& tets)
+  bool find_steps(const std::vector<Index>& tets)
   {
     this->last_search_.resize(static_cast<std::size_t>(this->tets_.tet_id_limit()), 0);
     this->steps_.resize(maximum_batch);
-    const bool whole =
+    const bool completed =
       parallel_for(this->silent_context_, static_cast<Index>(tets.size()), per_task,
         [&](Index begin, Index end)
         {
-          this->searches_.with([&]
+          this->searches_.use_object([&]
             { return std::make_unique<TetStepSearch>(this->tets_, this->rules_); },
             [&](TetStepSearch& search)
             {
@@ -208,26 +211,27 @@ private:
     this->evaluations_ = 0;
     this->searches_.for_each(
       [&](const TetStepSearch& search) { this->evaluations_ += search.evaluations(); });
-    for (std::size_t i = 0; i < tets.size() && whole; ++i)
+    for (std::size_t i = 0; i < tets.size() && completed; ++i)
     {
       for (const Index v : this->steps_[i].immovable)
       {
         this->rules_.immovable_since[v] = this->tets_.stamp(v);
       }
     }
-    return whole;
+    return completed;
   }
 
   /// Report whether a tet that the step uses has been removed or changed since the change counter
   /// was `before`.
   bool changed_since(std::uint64_t before, const TetStep& step) const
   {
-    const auto touched = [&](Index t) { return !this->tets_.alive(t) || this->newest(t) > before; };
+    const auto has_changed = [&](Index t)
+    { return !this->tets_.alive(t) || this->last_change(t) > before; };
     const std::vector<Index>& tets = step.kind == TetStep::Kind::move
       ? this->tets_.tets_of_vertex(step.vertex)
       : step.kind == TetStep::Kind::insert ? step.cavity.tets
                                            : step.removed;
-    return std::any_of(tets.begin(), tets.end(), touched);
+    return std::any_of(tets.begin(), tets.end(), has_changed);
   }
 
   void apply(const TetStep& step)
@@ -267,7 +271,7 @@ private:
   }
 
   /// Return the change counter at the last change of a vertex of the tet.
-  std::uint64_t newest(Index t) const
+  std::uint64_t last_change(Index t) const
   {
     std::uint64_t last = 0;
     for (const Index v : this->tets_.tet(t))
@@ -281,7 +285,7 @@ private:
   bool changed(Index t) const
   {
     return t >= static_cast<Index>(this->last_search_.size()) ||
-      this->last_search_[t] < this->newest(t);
+      this->last_search_[t] < this->last_change(t);
   }
 
   std::vector<Index> flat_tets(double required_quality) const
@@ -305,7 +309,7 @@ private:
   }
 
   /// Remove tets that share no facet with another tet and remain too flat.
-  void drop_lone_tets()
+  void remove_isolated_tets()
   {
     const std::vector<Index> flat =
       this->flat_tets(TetComplex::quality_of_angle(this->options_.release_angle));
@@ -314,10 +318,10 @@ private:
       const Tet& tet = this->tets_.tet(t);
       const bool constrained =
         std::any_of(tet.begin(), tet.end(), [&](Index v) { return this->rules_.constrained[v]; });
-      const bool alone = std::all_of(std::begin(facet_corners), std::end(facet_corners),
+      const bool is_isolated = std::all_of(std::begin(facet_corners), std::end(facet_corners),
         [&](const auto& f)
         { return this->tets_.neighbor_tet(t, tet[f[0]], tet[f[1]], tet[f[2]]) < 0; });
-      if (!constrained && alone)
+      if (!constrained && is_isolated)
       {
         this->tets_.remove(t);
         ++this->improvement_.removed_tets;
@@ -337,7 +341,7 @@ private:
   std::vector<char> moved_;
   /// Per tet: the change counter of the mesh at the last search for the tet.
   std::vector<std::uint64_t> last_search_;
-  std::vector<Index> claims_; ///< per vertex: the last batch that reserved it
+  std::vector<Index> reserving_batch_; ///< per vertex: the last batch that reserved it
   Index batch_ = 0;
   std::vector<TetStep> steps_; ///< steps found for the tets of the current batch
   PerThread<TetStepSearch> searches_;

@@ -132,7 +132,7 @@ public:
         for (Index i = begin; i < end; ++i)
         {
           const Vec3 p = positions.row(spatial_order[i]);
-          t = this->walk(t, p, few);
+          t = this->walk(t, p, short_walk_steps);
           t = t >= 0 ? t : locator.locate(p).element;
           this->first_[spatial_order[i]] = t;
         }
@@ -147,7 +147,7 @@ public:
     while (t >= 0 && !this->tets_.alive(t))
     {
       const Range& range = this->replaced_[t];
-      if (range.end - range.begin > many)
+      if (range.end - range.begin > long_walk_steps)
       {
         const Index found = this->walk_from(range, p);
         if (found >= 0)
@@ -165,7 +165,8 @@ public:
         }
       }
     }
-    return this->walk(t, p, few); // because of rounding, the tet may be a neighbor of the right one
+    // because of rounding, the tet may be a neighbor of the right one
+    return this->walk(t, p, short_walk_steps);
   }
 
   /// Locate the pending positions in the current tets, so that the ids of replaced tets are no
@@ -205,8 +206,8 @@ public:
   }
 
 private:
-  static constexpr int few = 50; // maximum number of tets in a short walk
-  static constexpr int many = 500;
+  static constexpr int short_walk_steps = 50; // maximum number of tets in a short walk
+  static constexpr int long_walk_steps = 500;
   struct Range
   {
     Index begin = 0;
@@ -235,8 +236,9 @@ private:
   /// straight line from that vertex to p was inside the cavity.
   Index walk_from(const Range& range, const Vec3& p) const
   {
-    const std::vector<Index>& around = this->tets_.tets_of_vertex(this->tets_.tet(range.begin)[3]);
-    return around.empty() ? -1 : this->walk(around.front(), p, many);
+    const std::vector<Index>& vertex_tets =
+      this->tets_.tets_of_vertex(this->tets_.tet(range.begin)[3]);
+    return vertex_tets.empty() ? -1 : this->walk(vertex_tets.front(), p, long_walk_steps);
   }
 
   /// Return the tet that contains p, or -1 if a walk of `longest` steps from t does not find it.
@@ -280,15 +282,16 @@ public:
   bool insert(const TetMesh& mesh, const Points& positions, std::vector<Index>& vertices)
   {
     const std::vector<std::int32_t> spatial_order = spatial_sort(as_vectors(positions));
-    constexpr double looked = 0.2; // fraction of the total time for locating the positions
+    // fraction of the total time for locating the positions
+    constexpr double locating_fraction = 0.2;
     {
-      const ProgressRange range(this->context_, 0.0, looked);
+      const ProgressRange range(this->context_, 0.0, locating_fraction);
       if (!this->finder_.locate_all(this->context_, mesh, positions, spatial_order))
       {
         return false;
       }
     }
-    const ProgressRange range(this->context_, looked, 1.0);
+    const ProgressRange range(this->context_, locating_fraction, 1.0);
     const std::vector<Index> order = order_of_insertion(spatial_order, maximum_batch);
     std::vector<Index> batch;
     std::vector<Index> deferred;
@@ -297,14 +300,14 @@ public:
     std::size_t batch_size = 1;
     for (std::size_t next = 0; next < order.size() || !deferred.empty();)
     {
-      const auto again = static_cast<std::ptrdiff_t>(std::min(batch_size, deferred.size()));
-      batch.assign(deferred.begin(), deferred.begin() + again);
-      deferred.erase(deferred.begin(), deferred.begin() + again);
+      const auto retry_count = static_cast<std::ptrdiff_t>(std::min(batch_size, deferred.size()));
+      batch.assign(deferred.begin(), deferred.begin() + retry_count);
+      deferred.erase(deferred.begin(), deferred.begin() + retry_count);
       for (; batch.size() < batch_size && next < order.size(); ++next)
       {
         batch.push_back(order[next]);
       }
-      const std::size_t waiting = deferred.size();
+      const std::size_t deferred_before = deferred.size();
       if (this->tets_.tet_id_limit() > this->maximum_ids_)
       {
         std::vector<Index> pending(order.begin() + static_cast<std::ptrdiff_t>(next), order.end());
@@ -334,8 +337,8 @@ public:
       }
       // The number of cavities that are searched in parallel is reduced if more than one in four
       // cavities must be searched again.
-      constexpr std::size_t seldom = 4;
-      const bool overlap = seldom * (deferred.size() - waiting) > batch.size();
+      constexpr std::size_t overlap_divisor = 4;
+      const bool overlap = overlap_divisor * (deferred.size() - deferred_before) > batch.size();
       batch_size = overlap ? std::max<std::size_t>(1, batch_size / 2)
                            : std::min(maximum_batch, 2 * batch_size);
       this->context_.progress(insertion_progress(next, order.size()));
@@ -385,8 +388,8 @@ private:
   static Index maximum_ids_for(Index tets)
   {
     // Up to this number, ids of replaced tets are always allowed, because they take little memory.
-    constexpr Index few = 100000;
-    return few + tets + tets / 2;
+    constexpr Index small_id_count = 100000;
+    return small_id_count + tets + tets / 2;
   }
 
   /// Search the sites of these positions in parallel. @return false if canceled.
@@ -395,7 +398,7 @@ private:
     return parallel_for(this->silent_context_, static_cast<Index>(batch.size()), per_task,
       [&](Index begin, Index end)
       {
-        this->searches_.with([&] { return std::make_unique<CavitySearch>(this->tets_); },
+        this->searches_.use_object([&] { return std::make_unique<CavitySearch>(this->tets_); },
           [&](CavitySearch& search)
           {
             for (Index i = begin; i < end; ++i)
@@ -448,8 +451,8 @@ private:
       {
         const Vec3& a = this->tets_.point(tet[i]);
         const Vec3 edge = this->tets_.point(tet[j]) - a;
-        const double off = edge.cross(p - a).norm() / edge.squaredNorm();
-        if (off < rounding && this->tets_.find_ring(tet[i], tet[j], site.ring) &&
+        const double relative_distance = edge.cross(p - a).norm() / edge.squaredNorm();
+        if (relative_distance < rounding && this->tets_.find_ring(tet[i], tet[j], site.ring) &&
           site.ring.closed && this->tets_.may_split_edge(tet[i], tet[j], site.ring.tets, p))
         {
           site.edge = { tet[i], tet[j] };
@@ -508,8 +511,8 @@ bool split_long_edges(ExecutionContext& context, TetMesh& mesh, double longest, 
   {
     push(edge.a, edge.b);
   }
-  bool whole = true;
-  for (Index count = 0; whole && !queue.empty() && tets.tet_count() < most_tets; ++count)
+  bool completed = true;
+  for (Index count = 0; completed && !queue.empty() && tets.tet_count() < most_tets; ++count)
   {
     const LongEdge edge = queue.top();
     queue.pop();
@@ -532,10 +535,10 @@ bool split_long_edges(ExecutionContext& context, TetMesh& mesh, double longest, 
         }
       }
     }
-    whole = count % insertions_per_check != 0 || !context.canceled();
+    completed = count % insertions_per_check != 0 || !context.canceled();
   }
   tets.write(mesh);
-  return whole;
+  return completed;
 }
 
 bool insert_vertices(
@@ -543,9 +546,9 @@ bool insert_vertices(
 {
   TetComplex tets(mesh);
   vertices.assign(static_cast<std::size_t>(positions.rows()), -1);
-  const bool whole = Inserter(context, tets).insert(mesh, positions, vertices);
+  const bool completed = Inserter(context, tets).insert(mesh, positions, vertices);
   tets.write(mesh);
-  return whole;
+  return completed;
 }
 
 } // namespace bindpose

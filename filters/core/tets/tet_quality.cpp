@@ -78,7 +78,7 @@ TetQuality measure_tets(PointsView points, TetsView tets)
       points.row(tets(t, 2)), points.row(tets(t, 3)));
     quality.min_dihedral_angle = std::min(quality.min_dihedral_angle, angle);
     quality.below_5_degrees += angle < sliver_angle;
-    const auto bin = static_cast<std::size_t>(angle / DihedralHistogram::bin);
+    const auto bin = static_cast<std::size_t>(angle / DihedralHistogram::bin_width);
     ++quality.histogram.tets[std::min(bin, quality.histogram.tets.size() - 1)];
   }
   return quality;
@@ -131,16 +131,17 @@ bool is_blocked(
   center /= perimeter;
   const double radius = normal.norm() / perimeter;
   // Height of `top` as a fraction of the roof's height, with a margin for rounding.
-  constexpr double within = 0.999;
-  const Vec3 top = center - within * std::tan(angle / degrees) * radius * normal.normalized();
-  const auto others = [&](Index other)
+  constexpr double top_height_fraction = 0.999;
+  const Vec3 top =
+    center - top_height_fraction * std::tan(angle / degrees) * radius * normal.normalized();
+  const auto shares_no_corner = [&](Index other)
   {
     return std::none_of(triangle.begin(), triangle.end(),
       [&](Index v) { return (boundary.row(other).array() == v).any(); });
   };
-  return tree.segment_meets(center, top, others) ||
+  return tree.segment_meets(center, top, shares_no_corner) ||
     std::any_of(corners.begin(), corners.end(),
-      [&](const Vec3& corner) { return tree.segment_meets(corner, top, others); });
+      [&](const Vec3& corner) { return tree.segment_meets(corner, top, shares_no_corner); });
 }
 
 EdgeKey edge_key(Index a, Index b)
@@ -254,8 +255,8 @@ Status check_tets(PointsView points, TetsView tets, bool may_branch)
 Status check_tets(
   PointsView points, TetsView tets, const std::vector<TetFacet>& facets, bool may_branch)
 {
-  const auto failure = [](const std::string& what)
-  { return Status::failure(StatusCode::internal_error, what); };
+  const auto failure = [](const std::string& problem)
+  { return Status::failure(StatusCode::internal_error, problem); };
   for (Index t = 0; t < tets.rows(); ++t)
   {
     const Vec3 a = points.row(tets(t, 0)), b = points.row(tets(t, 1));
@@ -341,7 +342,7 @@ Index remove_small_components(
 
 Index peel_slivers(const Points& points, Tets& tets, std::vector<TetFacet>& facets, double height)
 {
-  const auto flat = [&](Index t)
+  const auto is_flat = [&](Index t)
   {
     const Vec3 a = points.row(tets(t, 0)), b = points.row(tets(t, 1));
     const Vec3 c = points.row(tets(t, 2)), d = points.row(tets(t, 3));
@@ -357,7 +358,7 @@ Index peel_slivers(const Points& points, Tets& tets, std::vector<TetFacet>& face
     bool any = false;
     for (Index t = 0; t < tets.rows(); ++t)
     {
-      slivers[t] = flat(t);
+      slivers[t] = is_flat(t);
       any = any || slivers[t];
     }
     if (!any)

@@ -28,7 +28,7 @@ double longest_edge(const Points& points, const Tets& tets, Index t);
 /// possible angle is 70.53 degrees, in a regular tet.
 struct DihedralHistogram
 {
-  static constexpr double bin = 5.0;
+  static constexpr double bin_width = 5.0;
   std::array<Index, 15> tets{};
 };
 

@@ -168,8 +168,8 @@ bool TetStepSearch::remove_edge(Index a, Index b, TetStep& step)
   {
     return false;
   }
-  const Cost old = this->cost(ring.tets);
-  const double minimum_quality = this->minimum_quality_after(old);
+  const Cost old_cost = this->cost(ring.tets);
+  const double minimum_quality = this->minimum_quality_after(old_cost);
   const std::vector<Index>& r = ring.vertices;
   const std::size_t n = r.size();
   constexpr std::size_t upper_limit = TetComplex::maximum_ring_size + 1;
@@ -180,7 +180,7 @@ bool TetStepSearch::remove_edge(Index a, Index b, TetStep& step)
   {
     best[i][i + 1] = 0.0;
   }
-  const double enough = old.sum - minimum_gain;
+  const double maximum_cost = old_cost.sum - minimum_gain;
   for (std::size_t span = 2; span < n; ++span)
   {
     for (std::size_t i = 0; i + span < n; ++i)
@@ -190,7 +190,7 @@ bool TetStepSearch::remove_edge(Index a, Index b, TetStep& step)
       for (std::size_t k = i + 1; k < j; ++k)
       {
         const double rest = best[i][k] + best[k][j];
-        if (!(rest < best[i][j]) || !(rest < enough))
+        if (!(rest < best[i][j]) || !(rest < maximum_cost))
         {
           continue;
         }
@@ -213,7 +213,7 @@ bool TetStepSearch::remove_edge(Index a, Index b, TetStep& step)
       }
     }
   }
-  if (!(best[0][n - 1] < enough))
+  if (!(best[0][n - 1] < maximum_cost))
   {
     return false;
   }
@@ -250,16 +250,19 @@ bool TetStepSearch::may_swap_boundary(Index a, Index b, const Ring& ring) const
   const Vec3 p = this->point(a), q = this->point(b);
   const Vec3 one = (q - p).cross(this->point(first) - p);
   const Vec3 other = (this->point(last) - p).cross(q - p);
-  const Vec3 new_one = (p - this->point(first)).cross(this->point(last) - this->point(first));
-  const Vec3 new_other = (this->point(last) - this->point(first)).cross(q - this->point(first));
-  const auto flat = [](const Vec3& x, const Vec3& y) { return is_angle_below(x, y, flat_cosine); };
-  if (!flat(one, other) || !flat(new_one, new_other) || !flat(one, new_one))
+  const Vec3 new_normal = (p - this->point(first)).cross(this->point(last) - this->point(first));
+  const Vec3 other_new_normal =
+    (this->point(last) - this->point(first)).cross(q - this->point(first));
+  const auto is_flat = [](const Vec3& x, const Vec3& y)
+  { return is_angle_below(x, y, flat_cosine); };
+  if (!is_flat(one, other) || !is_flat(new_normal, other_new_normal) || !is_flat(one, new_normal))
   {
     return false;
   }
   if (this->rules_.options.keep_boundary)
   {
-    const double largest = std::max({ one.norm(), other.norm(), new_one.norm(), new_other.norm() });
+    const double largest =
+      std::max({ one.norm(), other.norm(), new_normal.norm(), other_new_normal.norm() });
     const double volume = std::abs(one.dot(this->point(last) - p)); // six times the volume
     if (volume > this->rules_.options.coplanar * largest)
     {
@@ -301,8 +304,8 @@ bool TetStepSearch::remove_facet(Index t, Index a, Index b, Index c, TetStep& st
       std::swap(tet[0], tet[1]);
     }
   }
-  const Cost old = this->cost({ t, other });
-  const double minimum_quality = this->minimum_quality_after(old);
+  const Cost old_cost = this->cost({ t, other });
+  const double minimum_quality = this->minimum_quality_after(old_cost);
   double sum = 0.0;
   for (const Tet& tet : added)
   {
@@ -313,7 +316,7 @@ bool TetStepSearch::remove_facet(Index t, Index a, Index b, Index c, TetStep& st
     }
     sum += this->penalty(value);
   }
-  if (!(sum < old.sum - minimum_gain) || this->tets_.has_edge(d, e))
+  if (!(sum < old_cost.sum - minimum_gain) || this->tets_.has_edge(d, e))
   {
     return false;
   }
@@ -375,9 +378,9 @@ bool TetStepSearch::move(Index v, TetStep& step)
       }
     }
   }
-  const Cost old = this->cost(this->star_);
-  const double minimum_quality = this->minimum_quality_after(old);
-  double value = old.sum;
+  const Cost old_cost = this->cost(this->star_);
+  const double minimum_quality = this->minimum_quality_after(old_cost);
+  double value = old_cost.sum;
   Vec3 at = start;
   // Sort the most expensive tets first, because they exclude most directions.
   std::stable_sort(this->star_.begin(), this->star_.end(),
@@ -399,18 +402,18 @@ bool TetStepSearch::move(Index v, TetStep& step)
       {
         continue;
       }
-      const double there = this->star_cost(v, p, minimum_quality, value - minimum_gain);
-      if (there < value - minimum_gain &&
+      const double moved_cost = this->star_cost(v, p, minimum_quality, value - minimum_gain);
+      if (moved_cost < value - minimum_gain &&
         (boundary_facets.empty() || this->patch_of(boundary_facets, v, p).smooth))
       {
-        value = there;
+        value = moved_cost;
         at = p;
         found = true;
       }
     }
     length *= found ? 1.0 : 0.5;
   }
-  if (!(value < old.sum - minimum_gain))
+  if (!(value < old_cost.sum - minimum_gain))
   {
     step.immovable.push_back(v);
     return false;
@@ -486,8 +489,8 @@ bool TetStepSearch::insert(Index t, Vec3 p, TetStep& step)
   {
     return false;
   }
-  const Cost old = this->cost(step.cavity.tets);
-  const double minimum_quality = this->minimum_quality_after(old);
+  const Cost old_cost = this->cost(step.cavity.tets);
+  const double minimum_quality = this->minimum_quality_after(old_cost);
   double shortest = infinite_cost;
   for (const Facet& f : step.cavity.facets)
   {
@@ -497,14 +500,14 @@ bool TetStepSearch::insert(Index t, Vec3 p, TetStep& step)
     }
   }
   constexpr double margin = 0.3; // minimum decrease of the cost by a new vertex
-  const double enough = old.sum - margin;
+  const double maximum_cost = old_cost.sum - margin;
   // Limits relative to the old cost. The search ends if the cost of the first position exceeds the
   // first limit. It also ends if the cost of the best position after the first search step exceeds
   // the second limit.
-  constexpr double hopeful = 3.0;
-  constexpr double promising = 1.5;
+  constexpr double first_cost_limit = 3.0;
+  constexpr double second_cost_limit = 1.5;
   double value = this->cavity_cost(step.cavity, p, minimum_quality, infinite_cost);
-  if (!(value < hopeful * old.sum))
+  if (!(value < first_cost_limit * old_cost.sum))
   {
     return false;
   }
@@ -516,21 +519,21 @@ bool TetStepSearch::insert(Index t, Vec3 p, TetStep& step)
     for (int k = 0; k < directions_count && !found; ++k)
     {
       const Vec3 position = p + length * direction(k);
-      const double there = this->cavity_cost(step.cavity, position, minimum_quality, value);
-      if (there < value - minimum_gain)
+      const double moved_cost = this->cavity_cost(step.cavity, position, minimum_quality, value);
+      if (moved_cost < value - minimum_gain)
       {
-        value = there;
+        value = moved_cost;
         p = position;
         found = true;
       }
     }
-    if (!(value < promising * old.sum))
+    if (!(value < second_cost_limit * old_cost.sum))
     {
       return false;
     }
     length *= found ? 1.0 : 0.5;
   }
-  if (!(value < enough))
+  if (!(value < maximum_cost))
   {
     return false;
   }
@@ -583,13 +586,13 @@ bool TetStepSearch::contract(Index a, Index b, TetStep& step)
   {
     return false;
   }
-  const std::vector<Index> old = this->tets_.tets_of_vertex(a);
-  const Cost before = this->cost(old);
+  const std::vector<Index> old_tets = this->tets_.tets_of_vertex(a);
+  const Cost before = this->cost(old_tets);
   const double minimum_quality = this->minimum_quality_after(before);
   std::vector<Tet>& added = step.added;
   added.clear();
   double sum = 0.0;
-  for (const Index other : old)
+  for (const Index other : old_tets)
   {
     if (TetComplex::has_vertex(this->tets_.tet(other), b))
     {
@@ -617,7 +620,7 @@ bool TetStepSearch::contract(Index a, Index b, TetStep& step)
     return false;
   }
   step.kind = TetStep::Kind::contract;
-  step.removed = old;
+  step.removed = old_tets;
   return true;
 }
 
@@ -649,7 +652,7 @@ bool TetStepSearch::keeps_shape(const std::vector<Facet>& boundary_facets, Index
     }
   }
   int creases = 0;
-  bool along = false;
+  bool is_on_crease = false;
   for (std::size_t i = 0; i < sides.size(); ++i)
   {
     for (std::size_t j = 0; j < i; ++j)
@@ -658,11 +661,11 @@ bool TetStepSearch::keeps_shape(const std::vector<Facet>& boundary_facets, Index
         !is_angle_below(sides[i].second, sides[j].second, crease_cosine))
       {
         ++creases;
-        along = along || sides[i].first == b;
+        is_on_crease = is_on_crease || sides[i].first == b;
       }
     }
   }
-  return creases == 0 || (creases == 2 && along);
+  return creases == 0 || (creases == 2 && is_on_crease);
 }
 
 /// Check the link condition: the intersection of the links of a and b must be the link of the edge

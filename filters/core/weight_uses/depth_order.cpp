@@ -32,16 +32,16 @@ Status depth_order(ExecutionContext& context, WeightsView weights, const Eigen::
         "the layer of handle " + std::to_string(j) + " is not a finite number");
     }
   }
-  if (!(options.tie >= 0.0) || !std::isfinite(options.tie))
+  if (!(options.tie_offset >= 0.0) || !std::isfinite(options.tie_offset))
   {
     return Status::invalid_input("tie (the layer difference that breaks ties) must be at least 0");
   }
   const Eigen::VectorXd relative_layers = layers.array() - layers[0];
   const Eigen::VectorXd rank =
-    Eigen::VectorXd::LinSpaced(handles, 0.0, handles > 1 ? options.tie : 0.0);
+    Eigen::VectorXd::LinSpaced(handles, 0.0, handles > 1 ? options.tie_offset : 0.0);
   result.depth.setZero(rows);
   result.front.setZero(rows);
-  const double bad = parallel_sum(context, rows, samples_per_block,
+  const double not_finite_count = parallel_sum(context, rows, samples_per_block,
     [&](Index begin, Index end)
     {
       double not_finite = 0.0;
@@ -64,7 +64,7 @@ Status depth_order(ExecutionContext& context, WeightsView weights, const Eigen::
   {
     return Status::canceled();
   }
-  if (bad > 0.0)
+  if (not_finite_count > 0.0)
   {
     Index first = 0;
     while (std::isfinite(weights.row(first).sum()))

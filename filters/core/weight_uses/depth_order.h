@@ -13,7 +13,7 @@ struct DepthOrderOptions
   /// If all layers are equal, the difference of `front` between the last and the first handle of
   /// the list, in layers, >= 0. Because of this difference, later handles are in front of earlier
   /// handles. Does not affect `depth`.
-  double tie = 1e-3;
+  double tie_offset = 1e-3;
 };
 
 /// The result of depth_order().
@@ -22,7 +22,7 @@ struct DepthOrder
   /// #V: the depth sum_j w_j d_j of each vertex, where d_j is the layer of handle j. If all layers
   /// are equal, the depth is exactly this layer.
   Eigen::VectorXd depth;
-  Eigen::VectorXd front; ///< #V: depth plus the effect of `tie`; larger values are in front
+  Eigen::VectorXd front; ///< #V: depth plus the effect of `tie_offset`; larger values are in front
 };
 
 /// Compute the order in which parts of a planar shape are drawn if they overlap in a pose. Each

@@ -28,7 +28,7 @@ struct Tally
   double gamut_violation = 0.0;
   double overshoot = 0.0;
   double row_sum_error = 0.0;
-  Index not_finite = -1; ///< the first vertex whose blended color is not finite; -1: none
+  Index first_nonfinite = -1; ///< the first vertex whose blended color is not finite; -1: none
 };
 
 double distance_outside(const Vec3& color, const Vec3& lower, const Vec3& upper)
@@ -108,7 +108,7 @@ Status weighted_colors(ExecutionContext& context, WeightsView weights, ColorsVie
         Vec3 color = (weights.row(v) * blended).transpose();
         if (!color.allFinite())
         {
-          tally.not_finite = tally.not_finite < 0 ? v : tally.not_finite;
+          tally.first_nonfinite = tally.first_nonfinite < 0 ? v : tally.first_nonfinite;
           continue;
         }
         const double gamut = distance_outside(color, Vec3::Zero(), Vec3::Ones());
@@ -137,10 +137,10 @@ Status weighted_colors(ExecutionContext& context, WeightsView weights, ColorsVie
   Tally all;
   for (const Tally& tally : tallies)
   {
-    if (tally.not_finite >= 0)
+    if (tally.first_nonfinite >= 0)
     {
       return Status::invalid_input(
-        "a weight of vertex " + std::to_string(tally.not_finite) + " is not a finite number");
+        "a weight of vertex " + std::to_string(tally.first_nonfinite) + " is not a finite number");
     }
     all.out_of_gamut += tally.out_of_gamut;
     all.beyond_handles += tally.beyond_handles;

@@ -86,8 +86,9 @@ public:
     const Handle& handle = this->problem_.handles[j];
     if (handle.kind == HandleKind::region)
     {
-      const SimplexLocation place = this->regions_[j]->locate(p);
-      return place.element < 0 ? handle.head : Vec3(this->region_points_[j].row(place.element));
+      const SimplexLocation location = this->regions_[j]->locate(p);
+      return location.element < 0 ? handle.head
+                                  : Vec3(this->region_points_[j].row(location.element));
     }
     return closest_point(p, handle.head, handle.tail, handle.tail);
   }
@@ -223,7 +224,7 @@ Occluders make_occluders(const WeightsProblem& problem)
   std::vector<std::array<Index, 3>> triangles;
   for (const Edge& edge : mesh_edges(domain.triangles))
   {
-    if (edge.uses == 1)
+    if (edge.triangle_count == 1)
     {
       triangles.push_back({ edge.a, edge.b, n + edge.b });
       triangles.push_back({ edge.a, n + edge.b, n + edge.a });
@@ -281,8 +282,9 @@ Status heat_sources(ExecutionContext& context, const WeightsProblem& problem, do
           const bool hidden = tree.segment_meets(from, segment_end,
             [&](Index f)
             {
-              const auto& own = occluders.vertices[f];
-              return std::find(own.begin(), own.end(), v) == own.end();
+              const auto& occluder_vertices = occluders.vertices[f];
+              return std::find(occluder_vertices.begin(), occluder_vertices.end(), v) ==
+                occluder_vertices.end();
             });
           p(v, j) = hidden ? 0.0 : 1.0;
         }

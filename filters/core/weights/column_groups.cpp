@@ -175,7 +175,7 @@ private:
       column.bounds.lower = Eigen::VectorXd::Constant(count, -1e300);
       column.bounds.upper = Eigen::VectorXd::Constant(count, 1e300);
     }
-    std::vector<double>& given = this->given_.emplace_back(count, std::nan(""));
+    std::vector<double>& given = this->given_values_.emplace_back(count, std::nan(""));
     Index fixed_count = 0;
     for (Index u = 0; u < count; ++u)
     {
@@ -268,15 +268,16 @@ private:
     const bool on_inserted_handle = this->inserted(v) && this->fixed_row_[v] >= 0;
     const auto [low, high] =
       on_inserted_handle ? this->terms_.bounds_of(handle) : this->terms_.bounds_of(handle, v);
-    const std::string what = "'" + this->handle_name(handle) + "' at vertex " + std::to_string(v);
+    const std::string weight_name =
+      "'" + this->handle_name(handle) + "' at vertex " + std::to_string(v);
     if (low > high)
     {
-      return Status::invalid_input("the lower bound of the weight of " + what + " is " + text(low) +
-        ", above the upper bound " + text(high));
+      return Status::invalid_input("the lower bound of the weight of " + weight_name + " is " +
+        text(low) + ", above the upper bound " + text(high));
     }
     if (!std::isnan(value) && (value < low - same_value || value > high + same_value))
     {
-      return Status::invalid_input("the weight of " + what + " is " +
+      return Status::invalid_input("the weight of " + weight_name + " is " +
         (this->fixed_row_[v] >= 0 ? "set by the handle '" + this->handle_name(this->owner(v)) + "'"
                                   : std::string("pinned")) +
         " to " + text(value) + ", outside its bounds " + text(low) + " and " + text(high));
@@ -285,7 +286,7 @@ private:
     bounds.upper[u] = std::min(bounds.upper[u], high);
     if (bounds.lower[u] > bounds.upper[u])
     {
-      return Status::invalid_input("the bounds of " + what +
+      return Status::invalid_input("the bounds of " + weight_name +
         " contradict the bounds of vertices that must have the same weight: at least " +
         text(bounds.lower[u]) + " and at most " + text(bounds.upper[u]));
     }
@@ -315,7 +316,7 @@ private:
   /// value is within all bounds of the component. Store this value for each such component.
   void find_constants(const BoxQpColumn& column)
   {
-    const std::vector<double>& given = this->given_.back();
+    const std::vector<double>& given = this->given_values_.back();
     std::vector<double>& constant =
       this->constant_.emplace_back(this->part_count_, std::numeric_limits<double>::infinity());
     for (Index u = 0; u < this->group_.count; ++u)
@@ -364,7 +365,7 @@ private:
         {
           continue;
         }
-        const double given = this->given_[c][u];
+        const double given = this->given_values_[c][u];
         const double constant = this->constant_[c][this->component_of_unknown_[u]];
         if (!std::isnan(given) || !std::isnan(constant))
         {
@@ -391,7 +392,7 @@ private:
   std::vector<Index> fixed_row_;
   std::vector<char> is_fixed_; // 1 for fixed unknowns
   // One entry per column:
-  std::vector<std::vector<double>> given_; // given values of the unknowns; NaN: solved for
+  std::vector<std::vector<double>> given_values_; // given values of the unknowns; NaN: solved for
   std::vector<std::vector<double>> constant_; // constant of every component; NaN: not constant
 };
 } // namespace
@@ -402,13 +403,13 @@ Status make_column_groups(const WeightsProblem& problem, const Exclusions& exclu
   const Index m = problem.handle_count();
   const std::vector<Index> partner =
     mirrored_handles(problem.terms, problem.constraints, problem.handle_count());
-  ColumnGroup plain, self_mirrored, pairs;
+  ColumnGroup unmirrored, self_mirrored, pairs;
   pairs.copies = 2;
   for (Index j = 0; j < m; ++j)
   {
     if (partner[j] < 0)
     {
-      plain.handles.push_back({ j });
+      unmirrored.handles.push_back({ j });
     }
     else if (partner[j] == j)
     {
@@ -420,12 +421,12 @@ Status make_column_groups(const WeightsProblem& problem, const Exclusions& exclu
     }
   }
   groups.clear();
-  for (ColumnGroup* group : { &plain, &self_mirrored, &pairs })
+  for (ColumnGroup* group : { &unmirrored, &self_mirrored, &pairs })
   {
     if (!group->handles.empty())
     {
       groups.push_back(std::move(*group));
-      const bool mirrored = group != &plain;
+      const bool mirrored = group != &unmirrored;
       const Status status =
         GroupMaker(problem, problem.terms, excluded, coupled, groups.back()).make(mirrored);
       if (!status.ok())
@@ -444,10 +445,10 @@ std::vector<BoxQpColumn> columns_without_terms(const WeightsProblem& problem)
   {
     group.handles.push_back({ j });
   }
-  const WeightTerms none;
-  const Exclusions nothing;
+  const WeightTerms no_terms;
+  const Exclusions no_exclusions;
   // If there are no optional terms, make() cannot fail.
-  GroupMaker(problem, none, nothing, false, group).make(false);
+  GroupMaker(problem, no_terms, no_exclusions, false, group).make(false);
   return std::move(group.columns);
 }
 
@@ -488,10 +489,11 @@ VertexGraph merge_graph(
       for (Index i = graph.begin[v]; i < graph.begin[v + 1]; ++i)
       {
         const Index other = graph.neighbors[i];
-        const Index there = group.unknown(other, k, n);
-        if (there != u && roles[v] != VertexRole::follower && roles[other] != VertexRole::follower)
+        const Index neighbor_unknown = group.unknown(other, k, n);
+        if (neighbor_unknown != u && roles[v] != VertexRole::follower &&
+          roles[other] != VertexRole::follower)
         {
-          neighbors[u].push_back(there);
+          neighbors[u].push_back(neighbor_unknown);
         }
       }
     }

@@ -12,8 +12,8 @@ namespace bindpose
 namespace
 {
 /// Find the minima of sign * values and their persistence.
-void sweep(const VertexGraph& graph, const Eigen::VectorXd& values, const std::vector<char>& exempt,
-  double sign, double range, std::vector<Extremum>& found)
+void sweep(const VertexGraph& graph, const Eigen::VectorXd& values,
+  const std::vector<char>& is_exempt, double sign, double range, std::vector<Extremum>& found)
 {
   const Index count = values.size();
   std::vector<Index> order;
@@ -32,16 +32,16 @@ void sweep(const VertexGraph& graph, const Eigen::VectorXd& values, const std::v
     {
       return x < y;
     }
-    return exempt[a] != exempt[b] ? exempt[a] > exempt[b] : a < b;
+    return is_exempt[a] != is_exempt[b] ? is_exempt[a] > is_exempt[b] : a < b;
   };
   std::sort(order.begin(), order.end(), before);
   std::vector<Index> rank(static_cast<std::size_t>(count), -1);
   std::vector<Index> parent(static_cast<std::size_t>(count));
   // The minimum of each part, stored at the index of the part's root in the union-find. A part is a
   // connected set of vertices that have been visited.
-  std::vector<Index> birth(static_cast<std::size_t>(count));
+  std::vector<Index> minimum_of_part(static_cast<std::size_t>(count));
   std::iota(parent.begin(), parent.end(), Index(0));
-  std::iota(birth.begin(), birth.end(), Index(0));
+  std::iota(minimum_of_part.begin(), minimum_of_part.end(), Index(0));
   const auto root = [&](Index v)
   {
     while (parent[v] != v)
@@ -53,7 +53,7 @@ void sweep(const VertexGraph& graph, const Eigen::VectorXd& values, const std::v
   };
   const auto add_extremum = [&](Index minimum, double persistence)
   {
-    if (!exempt[minimum])
+    if (!is_exempt[minimum])
     {
       found.push_back({ minimum, sign < 0.0, values[minimum], persistence });
     }
@@ -78,15 +78,15 @@ void sweep(const VertexGraph& graph, const Eigen::VectorXd& values, const std::v
       // The merged part keeps one of the two minima: the minimum on a handle, or else the lower
       // one. Let a be the part with this minimum. The minimum of the other part b ends at vertex v.
       // If b contains only v, then v is not a minimum, and no minimum ends.
-      const bool handle_a = exempt[birth[a]] != 0;
-      const bool handle_b = exempt[birth[b]] != 0;
-      if (handle_a != handle_b ? handle_b : rank[birth[b]] < rank[birth[a]])
+      const bool handle_a = is_exempt[minimum_of_part[a]] != 0;
+      const bool handle_b = is_exempt[minimum_of_part[b]] != 0;
+      if (handle_a != handle_b ? handle_b : rank[minimum_of_part[b]] < rank[minimum_of_part[a]])
       {
         std::swap(a, b);
       }
-      if (birth[b] != v)
+      if (minimum_of_part[b] != v)
       {
-        add_extremum(birth[b], sign * (values[v] - values[birth[b]]) / range);
+        add_extremum(minimum_of_part[b], sign * (values[v] - values[minimum_of_part[b]]) / range);
       }
       parent[b] = a;
     }
@@ -95,14 +95,14 @@ void sweep(const VertexGraph& graph, const Eigen::VectorXd& values, const std::v
   {
     if (parent[v] == v)
     {
-      add_extremum(birth[v], 1.0);
+      add_extremum(minimum_of_part[v], 1.0);
     }
   }
 }
 } // namespace
 
 std::vector<Extremum> interior_extrema(const VertexGraph& graph, const Eigen::VectorXd& values,
-  const std::vector<char>& exempt, double minimum_persistence)
+  const std::vector<char>& is_exempt, double minimum_persistence)
 {
   std::vector<Extremum> found;
   if (values.size() == 0)
@@ -114,8 +114,8 @@ std::vector<Extremum> interior_extrema(const VertexGraph& graph, const Eigen::Ve
   {
     return found;
   }
-  sweep(graph, values, exempt, 1.0, range, found);
-  sweep(graph, values, exempt, -1.0, range, found);
+  sweep(graph, values, is_exempt, 1.0, range, found);
+  sweep(graph, values, is_exempt, -1.0, range, found);
   found.erase(std::remove_if(found.begin(), found.end(),
                 [&](const Extremum& e) { return !(e.persistence > minimum_persistence); }),
     found.end());

@@ -34,11 +34,11 @@ constexpr double notable_persistence = 1e-3;
 /// Cost: O(#E log #V).
 ///
 /// @param values #V, finite.
-/// @param exempt #V, 1 for vertices on handles. Vertices without neighbors are ignored.
+/// @param is_exempt #V, 1 for vertices on handles. Vertices without neighbors are ignored.
 /// @param minimum_persistence only extrema whose persistence is above this fraction of the range
 /// are returned.
 std::vector<Extremum> interior_extrema(const VertexGraph& graph, const Eigen::VectorXd& values,
-  const std::vector<char>& exempt, double minimum_persistence = notable_persistence);
+  const std::vector<char>& is_exempt, double minimum_persistence = notable_persistence);
 
 } // namespace bindpose
 

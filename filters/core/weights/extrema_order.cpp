@@ -74,7 +74,7 @@ void flood(const VertexGraph& graph, const ExtremaList& list, int from, std::vec
     new_order.push_back(order[open.top()]);
     open.pop();
   }
-  const auto reach = [&](Index v)
+  const auto push_neighbors = [&](Index v)
   {
     for (Index k = graph.begin[v]; k < graph.begin[v + 1]; ++k)
     {
@@ -89,13 +89,13 @@ void flood(const VertexGraph& graph, const ExtremaList& list, int from, std::vec
   const std::size_t seeds = new_order.size();
   for (std::size_t i = 0; i < seeds; ++i)
   {
-    reach(new_order[i]);
+    push_neighbors(new_order[i]);
   }
   while (!open.empty())
   {
     new_order.push_back(order[open.top()]);
     open.pop();
-    reach(new_order.back());
+    push_neighbors(new_order.back());
   }
   new_order.insert(new_order.end(), last.begin(), last.end());
   order = std::move(new_order);

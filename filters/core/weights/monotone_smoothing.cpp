@@ -31,9 +31,9 @@ namespace
 {
 using Eigen::VectorXd;
 
-std::string vertex_phrase(std::size_t count, const char* of)
+std::string vertex_phrase(std::size_t count, const char* suffix)
 {
-  return std::to_string(count) + (count == 1 ? " vertex " : " vertices ") + of;
+  return std::to_string(count) + (count == 1 ? " vertex " : " vertices ") + suffix;
 }
 
 class Smoothing
@@ -197,9 +197,9 @@ void Smoothing::choose_extrema()
       list[found[i].vertex] = found[i].maximum ? 1 : -1;
     }
   }
-  for (bool again = true; again;)
+  for (bool changed = true; changed;)
   {
-    again = false;
+    changed = false;
     for (const int kind : { -1, 1 })
     {
       for (const auto& part : parts_without_extremum(this->graph_, this->is_included_, list, kind))
@@ -207,7 +207,7 @@ void Smoothing::choose_extrema()
         const Index most = *std::max_element(part.begin(), part.end(),
           [&](Index a, Index b) { return kind * this->f_[a] < kind * this->f_[b]; });
         list[most] = static_cast<signed char>(kind);
-        again = true;
+        changed = true;
       }
     }
   }
@@ -225,12 +225,12 @@ Status Smoothing::check_extrema()
       const char* missing_kind = kind > 0 ? "maximum" : "minimum";
       const char* other = kind > 0 ? "minima" : "maxima";
       const Index c = this->components_.component_of_vertex[part.front()];
-      bool whole = true;
-      for (std::size_t v = 0; v < list.size() && whole; ++v)
+      bool lacks_extremum = true;
+      for (std::size_t v = 0; v < list.size() && lacks_extremum; ++v)
       {
-        whole = this->components_.component_of_vertex[v] != c || list[v] * kind <= 0;
+        lacks_extremum = this->components_.component_of_vertex[v] != c || list[v] * kind <= 0;
       }
-      return Status::invalid_input(whole
+      return Status::invalid_input(lacks_extremum
           ? "the list of extrema has no " + std::string(missing_kind) +
             " in the connected part of vertex " + std::to_string(part.front()) + ", only " + other
           : "the list of extrema has no " + std::string(missing_kind) + " among " +
@@ -264,27 +264,27 @@ Status Smoothing::find_extrema()
       listed[c] = listed[c] || (!list.empty() && list[v] != 0);
     }
   }
-  const bool given = !list.empty();
-  if (given && std::count(listed.begin(), listed.end(), 1) == 0)
+  const bool has_list = !list.empty();
+  if (has_list && std::count(listed.begin(), listed.end(), 1) == 0)
   {
     return Status::invalid_input("the list of extrema is empty");
   }
   for (Index v = 0; v < n; ++v)
   {
     const Index c = this->components_.component_of_vertex[v];
-    this->is_included_[v] = c >= 0 && (given ? listed[c] != 0 : low[c] < high[c]);
+    this->is_included_[v] = c >= 0 && (has_list ? listed[c] != 0 : low[c] < high[c]);
   }
   for (std::size_t c = 0; c < low.size(); ++c)
   {
-    this->constant_parts_ += given ? !listed[c] : !(low[c] < high[c]);
+    this->constant_parts_ += has_list ? !listed[c] : !(low[c] < high[c]);
   }
-  if (given && this->constant_parts_ > 0)
+  if (has_list && this->constant_parts_ > 0)
   {
     this->warnings_.push_back(std::to_string(this->constant_parts_) +
       (this->constant_parts_ == 1 ? " connected part has" : " connected parts have") +
       " no extremum in the list; the result is constant there");
   }
-  if (!given)
+  if (!has_list)
   {
     this->choose_extrema();
   }
@@ -406,20 +406,20 @@ Status Smoothing::guide_values(const VectorXd& unconstrained, VectorXd& values)
   {
     return {};
   }
-  std::vector<Index> given;
+  std::vector<Index> given_vertices;
   std::vector<double> given_values;
   for (std::size_t v = 0; v < this->used_.size(); ++v)
   {
     const bool maximum = this->result_.list[v] > 0;
     if (this->result_.list[v] != 0 || !this->is_included_[v])
     {
-      given.push_back(static_cast<Index>(v));
+      given_vertices.push_back(static_cast<Index>(v));
       given_values.push_back(
         this->keep_values_ ? this->f_[static_cast<Index>(v)] : double(maximum));
     }
   }
   FreeSystem harmonic(
-    positive_stiffness(this->scaled_.stiffness, this->graph_, this->is_included_), given);
+    positive_stiffness(this->scaled_.stiffness, this->graph_, this->is_included_), given_vertices);
   Status status = harmonic.factor(this->context_, this->options_.solver);
   if (status.ok())
   {
@@ -442,11 +442,11 @@ void Smoothing::rebuild(BoxQpColumn& column, BoxQpSolution& best)
     update_order(best.w, rank);
     std::vector<OrderedPair> pairs =
       pairs_from_order(this->graph_, this->result_.list, rank, this->options_.epsilon);
-    const bool same =
+    const bool is_converged =
       std::equal(pairs.begin(), pairs.end(), column.pairs.begin(), column.pairs.end(),
         [](const OrderedPair& a, const OrderedPair& b)
         { return a.low == b.low && a.high == b.high; });
-    if (same)
+    if (is_converged)
     {
       return;
     }

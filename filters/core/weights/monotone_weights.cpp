@@ -35,18 +35,18 @@ Status pinned_guide(ExecutionContext& context, const SparseMatrix& laplacian,
   const std::vector<Index>& fixed, const BoxQpColumn& column, const SparseSolver::Options& options,
   Eigen::VectorXd& u, Eigen::VectorXd& complement)
 {
-  std::vector<Index> given = fixed;
-  given.insert(given.end(), column.pinned.begin(), column.pinned.end());
-  Eigen::MatrixXd values(static_cast<Index>(given.size()), 2);
+  std::vector<Index> known_vertices = fixed;
+  known_vertices.insert(known_vertices.end(), column.pinned.begin(), column.pinned.end());
+  Eigen::MatrixXd values(static_cast<Index>(known_vertices.size()), 2);
   values.col(0) << column.fixed_values, column.pinned_values;
   values.col(1) = 1.0 - values.col(0).array();
-  FreeSystem solver(laplacian, given);
+  FreeSystem solver(laplacian, known_vertices);
   const Status status = solver.factor(context, options);
   if (status.ok())
   {
-    const Eigen::MatrixXd both = solver.minimizers(values);
-    u = both.col(0);
-    complement = both.col(1);
+    const Eigen::MatrixXd solutions = solver.minimizers(values);
+    u = solutions.col(0);
+    complement = solutions.col(1);
   }
   return status;
 }
@@ -174,11 +174,11 @@ Status monotone_guide(ExecutionContext& context, const WeightsProblem& problem, 
       Eigen::Map<Eigen::VectorXd>(values.data(), static_cast<Index>(values.size()));
 
     // Skip pairs that are implied by the bounds because one end has the value 0 or 1.
-    const auto given = [&](Index v) { return is_fixed[v] || pinned[v]; };
+    const auto is_known = [&](Index v) { return is_fixed[v] || pinned[v]; };
     std::vector<OrderedPair>& pairs = result.pairs[static_cast<std::size_t>(j)];
     for (Index v = 0; v < n; ++v)
     {
-      if (given(v))
+      if (is_known(v))
       {
         continue;
       }
@@ -196,11 +196,11 @@ Status monotone_guide(ExecutionContext& context, const WeightsProblem& problem, 
       }
       const bool at_least_zero = column.bounds.low(v) >= 0.0;
       const bool at_most_one = column.bounds.high(v) <= 1.0;
-      if (lowest != v && !(at_least_zero && given(lowest) && u[lowest] <= 0.0))
+      if (lowest != v && !(at_least_zero && is_known(lowest) && u[lowest] <= 0.0))
       {
         pairs.push_back({ lowest, v });
       }
-      if (highest != v && !(at_most_one && given(highest) && u[highest] >= 1.0))
+      if (highest != v && !(at_most_one && is_known(highest) && u[highest] >= 1.0))
       {
         pairs.push_back({ v, highest });
       }
@@ -237,8 +237,8 @@ Status monotone_weights(ExecutionContext& context, const WeightsProblem& problem
   }
   const auto guide = [&](ColumnGroup& group)
   {
-    MonotoneGuide made;
-    return monotone_guide(context, problem, group, options.solver, made);
+    MonotoneGuide guide_data;
+    return monotone_guide(context, problem, group, options.solver, guide_data);
   };
   return solve_weights(context, problem, options.order,
     options.order == 2 ? "monotone" : "monotone-triharmonic", options, guide, result);

@@ -54,8 +54,9 @@ public:
   /// Return the harmonic weights, #V x m, including the rows of fixed vertices.
   Eigen::MatrixXd harmonic() const
   {
-    const Eigen::MatrixXd& given = this->problem_.fixed_values;
-    return this->form_.extend_to_all(-this->solve(this->form_.fixed_block * given), given);
+    const Eigen::MatrixXd& fixed_values = this->problem_.fixed_values;
+    return this->form_.extend_to_all(
+      -this->solve(this->form_.fixed_block * fixed_values), fixed_values);
   }
 
   /// Compute the biharmonic weights by the cheaper of the two methods.
@@ -218,7 +219,7 @@ Status preview_weights(ExecutionContext& context, const WeightsProblem& problem,
   const SparseMatrix q = harmonic_energy(problem.stiffness, problem.mass, 2);
   const std::vector<BoxQpColumn> columns = columns_without_terms(problem);
   std::vector<BoxQpSolution> solutions(columns.size());
-  const bool whole = parallel_for(context, static_cast<Index>(columns.size()), 1,
+  const bool completed = parallel_for(context, static_cast<Index>(columns.size()), 1,
     [&](Index begin, Index end)
     {
       for (Index j = begin; j < end; ++j)
@@ -234,7 +235,7 @@ Status preview_weights(ExecutionContext& context, const WeightsProblem& problem,
         solution.certificate = certify({ q, is_column_free }, solution.w);
       }
     });
-  if (!whole)
+  if (!completed)
   {
     return Status::canceled();
   }

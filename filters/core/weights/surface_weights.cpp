@@ -35,7 +35,7 @@ constexpr Index first_lattice_tets = 4500;
 /// resolution of the second lattice.
 constexpr double third_lattice_tets = 36000.0;
 /// Number of tets of the only lattice if the guard is off.
-constexpr Index unguarded_tets = 12000;
+constexpr Index single_lattice_tets = 12000;
 constexpr int maximum_lattices = 3;
 /// Progress after the work on each lattice, as a fraction of all work. Each lattice takes about
 /// four times as long as the previous lattice. Measured on furniture with 8 point handles and with
@@ -250,10 +250,10 @@ Status Solver::transfer_terms_to(const Points& points, const std::vector<Index>&
   Domain surface;
   surface.points = this->points_;
   surface.triangles = this->triangles_;
-  const Status fits = check_terms(terms, surface.points.rows(), this->handles_);
-  if (!fits.ok())
+  const Status term_status = check_terms(terms, surface.points.rows(), this->handles_);
+  if (!term_status.ok())
   {
-    return fits;
+    return term_status;
   }
   Index dropped_count = 0;
   const Status transfer_status = transfer_terms(
@@ -499,20 +499,20 @@ Status Solver::embed_with_links(EmbeddingOptions options, Lattice& lattice)
       return status;
     }
     this->attach_surface(lattice);
-    LooseParts loose;
+    LooseParts loose_parts;
     const Status found = find_loose_parts(this->context_, this->points_, this->triangles_,
       this->prepared_->surface.representative_of_vertex, lattice.tets, *lattice.surface,
-      this->handles_, this->insertion_options(lattice), loose);
+      this->handles_, this->insertion_options(lattice), loose_parts);
     if (!found.ok())
     {
       return found;
     }
-    if (loose.links.empty())
+    if (loose_parts.links.empty())
     {
       break;
     }
-    this->links_.insert(this->links_.end(), loose.links.begin(), loose.links.end());
-    this->linked_parts_ = std::max(this->linked_parts_, loose.count);
+    this->links_.insert(this->links_.end(), loose_parts.links.begin(), loose_parts.links.end());
+    this->linked_parts_ = std::max(this->linked_parts_, loose_parts.count);
   }
   status.warnings = this->prepared_->warnings;
   Report report = this->prepared_->report;
@@ -593,8 +593,9 @@ Status Solver::solve_in_embedding(SurfaceWeights& result)
   LatticePtr best;
   {
     const ProgressRange range(this->context_, 0.0, solved);
-    best = this->options_.guard ? this->best_lattice()
-                                : this->embed(this->options_.resolution, unguarded_tets);
+    best = this->options_.check_resolution
+      ? this->best_lattice()
+      : this->embed(this->options_.resolution, single_lattice_tets);
   }
   const ProgressRange range(this->context_, solved, 1.0);
   return best->status.usable() ? this->finish(*best, result) : best->status;
@@ -716,15 +717,15 @@ Status Solver::finish(Lattice& lattice, SurfaceWeights& result)
   {
     return transfer_status;
   }
-  Status described = complete_embedding(this->context_, this->points_, this->triangles_,
+  Status embedding_status = complete_embedding(this->context_, this->points_, this->triangles_,
     *this->prepared_, std::move(lattice.tets), lattice.result.tets);
-  if (!described.usable())
+  if (!embedding_status.usable())
   {
-    return described;
+    return embedding_status;
   }
-  rename_tet_method(described.report);
-  described.warnings.clear(); // the lattice's status contains these warnings already
-  Status status = this->merge_status(std::move(described), std::move(lattice.status));
+  rename_tet_method(embedding_status.report);
+  embedding_status.warnings.clear(); // the lattice's status contains these warnings already
+  Status status = this->merge_status(std::move(embedding_status), std::move(lattice.status));
   if (this->preview_.size() > 0)
   {
     report_difference(this->preview_, lattice.result.weights, "preview", status.report);

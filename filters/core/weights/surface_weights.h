@@ -58,12 +58,12 @@ struct SurfaceWeightsOptions
   /// Points with at least this winding number are inside, > 0.
   double winding_threshold = 0.5;
   /// Domain embedding: number of lattice cubes along the longest side of the bounding box, 6 …
-  /// 1000; 0: chosen automatically (see `guard`).
+  /// 1000; 0: chosen automatically (see `check_resolution`).
   Index resolution = 0;
   /// Domain embedding: if true, solve on lattices of increasing resolution until the weights on two
   /// lattices agree (see surface_weights). If false, solve on a single lattice, with about 12,000
   /// tets if no resolution is given.
-  bool guard = true;
+  bool check_resolution = true;
   /// Transfer the raw weights to the surface's points, too.
   bool keep_raw = false;
   /// Handle geometry (such as bones) that becomes part of the volume's tets.

@@ -110,8 +110,8 @@ Status transfer(ExecutionContext& context, const Domain& mesh, WeightsView value
 
 const char* transfer_word(const TransferCounts& counts)
 {
-  const bool others = counts.barycentric + counts.nearest + counts.misses > 0;
-  return counts.exact == 0 ? "barycentric" : others ? "mixed" : "exact";
+  const bool has_inexact = counts.barycentric + counts.nearest + counts.misses > 0;
+  return counts.exact == 0 ? "barycentric" : has_inexact ? "mixed" : "exact";
 }
 
 } // namespace bindpose

@@ -19,7 +19,7 @@ bool fixed_vertices_span(const WeightsProblem& problem)
 {
   const Components& components = problem.constraints.components;
   const Points& points = problem.mesh.domain.points;
-  const auto spread = [&](const std::vector<Index>& vertices) -> Eigen::Vector3d
+  const auto singular_values = [&](const std::vector<Index>& vertices) -> Eigen::Vector3d
   {
     Points centered(static_cast<Index>(vertices.size()), 3);
     for (Index i = 0; i < centered.rows(); ++i)
@@ -50,12 +50,12 @@ bool fixed_vertices_span(const WeightsProblem& problem)
   }
   // Vertices count as flat in a direction if their extent in this direction is at most this
   // fraction of the mesh's diagonal.
-  constexpr double flat = 1e-6;
+  constexpr double flatness_tolerance = 1e-6;
   for (std::size_t c = 0; c < fixed.size(); ++c)
   {
-    const auto dimensions = (spread(all[c]).array() > flat).count();
+    const auto dimensions = (singular_values(all[c]).array() > flatness_tolerance).count();
     if (fixed[c].size() < static_cast<std::size_t>(dimensions) + 1 ||
-      (spread(fixed[c]).array() > flat).count() < dimensions)
+      (singular_values(fixed[c]).array() > flatness_tolerance).count() < dimensions)
     {
       return false;
     }

@@ -26,7 +26,7 @@ struct GroupSolver
 };
 
 /// The results of one pass over all columns.
-struct Round
+struct ColumnSolutions
 {
   std::vector<BoxQpSolution> solutions; // one solution per handle, with one value per vertex
   Eigen::MatrixXd fallback; // minimizers without bounds
@@ -69,27 +69,27 @@ public:
     const ProgressRange range(this->context_, 0.06, 0.1);
     for (const ColumnGroup& group : this->groups_)
     {
-      GroupSolver made;
-      made.q = merge_form(group, q);
-      made.solver = std::make_unique<BoxQp>(made.q, group.fixed,
+      GroupSolver group_solver;
+      group_solver.q = merge_form(group, q);
+      group_solver.solver = std::make_unique<BoxQp>(group_solver.q, group.fixed,
         BoxQpOptions{
           this->options_.tolerance, this->options_.maximum_iterations, this->options_.solver });
-      status = made.solver->prepare(this->context_, group.columns);
+      status = group_solver.solver->prepare(this->context_, group.columns);
       if (!status.ok())
       {
         return status;
       }
       if (!coupled)
       {
-        made.q.resize(0, 0);
+        group_solver.q.resize(0, 0);
       }
-      this->solvers_.push_back(std::move(made));
+      this->solvers_.push_back(std::move(group_solver));
     }
     return {};
   }
 
   /// Solve all columns separately, each with its own certificate.
-  Status solve_separately(double begin, double end, Round& round)
+  Status solve_separately(double begin, double end, ColumnSolutions& round)
   {
     const Phase phase(this->context_, "weights", begin, end);
     const Index m = this->problem_.handle_count();
@@ -121,7 +121,7 @@ public:
 
   /// Solve all columns together, starting from the separate solutions.
   Status solve_coupled(
-    const Weights& normalized, double begin, double end, Round& round, Status& outcome)
+    const Weights& normalized, double begin, double end, ColumnSolutions& round, Status& outcome)
   {
     const Phase phase(this->context_, "coupled", begin, end);
     const ColumnGroup& group = this->groups_.front();
@@ -176,7 +176,7 @@ public:
 private:
   /// Copy solutions from the unknowns of a group to vertices and handles.
   void expand_solutions(const ColumnGroup& group, const std::vector<BoxQpSolution>& solved,
-    const Eigen::MatrixXd* fallback, Round& round) const
+    const Eigen::MatrixXd* fallback, ColumnSolutions& round) const
   {
     const Index n = this->problem_.vertex_count();
     for (std::size_t c = 0; c < group.columns.size(); ++c)
@@ -209,7 +209,8 @@ private:
   std::vector<GroupSolver> solvers_;
 };
 
-Weights normalized(const WeightsProblem& problem, const Round& round, const Exclusions& excluded)
+Weights normalized(
+  const WeightsProblem& problem, const ColumnSolutions& round, const Exclusions& excluded)
 {
   Weights weights(problem.vertex_count(), problem.handle_count());
   for (Index j = 0; j < weights.cols(); ++j)
@@ -282,7 +283,7 @@ Status exclude_smallest(const WeightsProblem& problem, const Weights& weights, i
 double normalized_violation(const WeightsProblem& problem, const Weights& weights)
 {
   const WeightTerms& terms = problem.terms;
-  double worst = 0.0;
+  double largest_violation = 0.0;
   for (Index v = 0; v < weights.rows(); ++v)
   {
     for (Index j = 0; j < weights.cols(); ++j)
@@ -292,10 +293,11 @@ double normalized_violation(const WeightsProblem& problem, const Weights& weight
         continue;
       }
       const auto [low, high] = terms.bounds_of(j, v);
-      worst = std::max({ worst, low - weights(v, j), weights(v, j) - high });
+      largest_violation =
+        std::max({ largest_violation, low - weights(v, j), weights(v, j) - high });
     }
   }
-  return worst;
+  return largest_violation;
 }
 
 /// Report the name of each handle's mirror image.
@@ -344,20 +346,20 @@ Status solve_weights(ExecutionContext& context, const WeightsProblem& problem, i
 {
   result = {};
   const bool coupled = options.partition == PartitionOfUnity::coupled;
-  const bool limited =
+  const bool limits_influences =
     options.maximum_influences > 0 && options.maximum_influences < problem.handle_count();
   WeightSolver solver(context, problem, order, options, guide);
   Exclusions excluded;
-  Round round;
+  ColumnSolutions round;
   Status outcome; // status of the coupled quadratic program
   Weights separate;
   Weights unlimited;
   Index capped_count = 0;
-  for (int pass = 0; pass < (limited ? 2 : 1); ++pass)
+  for (int pass = 0; pass < (limits_influences ? 2 : 1); ++pass)
   {
     // All passes have the same part of the progress range. Within a pass, the coupled program takes
     // most of the time.
-    const double length = 0.85 / (limited ? 2 : 1);
+    const double length = 0.85 / (limits_influences ? 2 : 1);
     const double begin = 0.1 + pass * length;
     const double middle = begin + (coupled ? 0.3 : 1.0) * length;
     Status status = solver.prepare(excluded);
@@ -367,7 +369,7 @@ Status solve_weights(ExecutionContext& context, const WeightsProblem& problem, i
       separate = normalized(problem, round, excluded);
       status = solver.solve_coupled(separate, middle, begin + length, round, outcome);
     }
-    if (status.ok() && limited && pass == 0)
+    if (status.ok() && limits_influences && pass == 0)
     {
       unlimited = normalized(problem, round, excluded);
       status =
@@ -394,7 +396,7 @@ Status solve_weights(ExecutionContext& context, const WeightsProblem& problem, i
   {
     report_mirror(problem, status);
   }
-  if (limited)
+  if (limits_influences)
   {
     status.report.set("counts.capped_vertices", capped_count);
     report_difference(problem, result.weights, unlimited, "influences", status.report);

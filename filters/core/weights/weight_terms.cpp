@@ -15,8 +15,8 @@ namespace bindpose
 
 namespace
 {
-Status check_matrix(const Eigen::MatrixXd& values, const std::string& what, Index vertex_count,
-  const Handles& handles)
+Status check_matrix(const Eigen::MatrixXd& values, const std::string& array_name,
+  Index vertex_count, const Handles& handles)
 {
   const auto m = static_cast<Index>(handles.size());
   if (values.size() == 0)
@@ -25,7 +25,7 @@ Status check_matrix(const Eigen::MatrixXd& values, const std::string& what, Inde
   }
   if (values.rows() != vertex_count || values.cols() != m)
   {
-    return Status::invalid_input("the " + what +
+    return Status::invalid_input("the " + array_name +
       " must have one row per vertex and one column per handle (" + std::to_string(vertex_count) +
       " x " + std::to_string(m) + "), not " + std::to_string(values.rows()) + " x " +
       std::to_string(values.cols()));
@@ -36,7 +36,7 @@ Status check_matrix(const Eigen::MatrixXd& values, const std::string& what, Inde
     {
       if (std::isinf(values(v, j)))
       {
-        return Status::invalid_input("the " + what + " of handle '" + handles[j].name +
+        return Status::invalid_input("the " + array_name + " of handle '" + handles[j].name +
           "' are infinite at vertex " + std::to_string(v));
       }
     }
@@ -172,23 +172,23 @@ void extend_mirror(const HandleInsertion& mesh, std::vector<Index>& mirror)
     std::sort(result.begin(), result.end());
     return result;
   };
-  std::vector<Corners> own;
+  std::vector<Corners> corner_lists;
   for (const InsertedVertex& vertex : mesh.inserted)
   {
-    own.push_back(corners(vertex, false));
+    corner_lists.push_back(corners(vertex, false));
   }
   std::vector<Index> found;
   for (const InsertedVertex& vertex : mesh.inserted)
   {
     const Corners image = corners(vertex, true);
-    const auto same = [&](const Corners& other)
+    const auto is_image = [&](const Corners& other)
     {
       return std::equal(image.begin(), image.end(), other.begin(), other.end(),
         [](const auto& a, const auto& b)
         { return a.first == b.first && std::abs(a.second - b.second) <= tolerance; });
     };
-    const auto at = std::find_if(own.begin(), own.end(), same);
-    found.push_back(at == own.end() ? -1 : original + (at - own.begin()));
+    const auto at = std::find_if(corner_lists.begin(), corner_lists.end(), is_image);
+    found.push_back(at == corner_lists.end() ? -1 : original + (at - corner_lists.begin()));
   }
   mirror.insert(mirror.end(), found.begin(), found.end());
 }
@@ -228,13 +228,13 @@ std::pair<double, double> WeightTerms::bounds_of(Index handle) const
 
 std::pair<double, double> WeightTerms::bounds_of(Index handle, Index vertex) const
 {
-  const auto own = [&](const Eigen::MatrixXd& values, double otherwise)
+  const auto value_or = [&](const Eigen::MatrixXd& values, double fallback)
   {
     return values.size() > 0 && !std::isnan(values(vertex, handle)) ? values(vertex, handle)
-                                                                    : otherwise;
+                                                                    : fallback;
   };
   const auto [low, high] = this->bounds_of(handle);
-  return { own(this->lower, low), own(this->upper, high) };
+  return { value_or(this->lower, low), value_or(this->upper, high) };
 }
 
 bool WeightTerms::has_bounds() const
@@ -339,14 +339,15 @@ Status transfer_terms(ExecutionContext& context, const WeightTerms& terms, const
   if (terms.rigidity.size() > 0)
   {
     const Weights painted = terms.rigidity;
-    Weights there;
+    Weights transferred_rigidity;
     TransferCounts counts;
-    const Status status = transfer(context, surface, painted, points, {}, there, counts);
+    const Status status =
+      transfer(context, surface, painted, points, {}, transferred_rigidity, counts);
     if (!status.ok())
     {
       return status;
     }
-    transferred.rigidity = there.col(0);
+    transferred.rigidity = transferred_rigidity.col(0);
   }
   std::vector<Index> mesh_vertex(static_cast<std::size_t>(surface.points.rows()), -1);
   for (std::size_t v = 0; v < original.size(); ++v)

@@ -323,8 +323,10 @@ Status finish_weights(ExecutionContext& context, const WeightsProblem& problem,
         column.factorizations = solutions[j].factorizations;
         column.minimum = raw.minCoeff();
         column.maximum = raw.maxCoeff();
-        column.zeros = static_cast<double>((raw.array() == 0.0).count()) / static_cast<double>(n);
-        column.ones = static_cast<double>((raw.array() == 1.0).count()) / static_cast<double>(n);
+        column.zero_fraction =
+          static_cast<double>((raw.array() == 0.0).count()) / static_cast<double>(n);
+        column.one_fraction =
+          static_cast<double>((raw.array() == 1.0).count()) / static_cast<double>(n);
         column.extrema = interior_extrema(problem.graph, raw, exempt);
         column.normalized_interior_extrema =
           static_cast<Index>(interior_extrema(problem.graph, normalized, exempt).size());
@@ -336,7 +338,7 @@ Status finish_weights(ExecutionContext& context, const WeightsProblem& problem,
   }
 
   Report& report = status.report;
-  std::vector<double> gaps, residuals, energies, zeros, ones;
+  std::vector<double> gaps, residuals, energies, zero_fractions, one_fractions;
   std::vector<std::int64_t> iterations, factorizations, extrema, normalized_extrema;
   double bounds = 0.0;
   std::int64_t total = 0;
@@ -350,8 +352,8 @@ Status finish_weights(ExecutionContext& context, const WeightsProblem& problem,
     iterations.push_back(column.iterations);
     factorizations.push_back(column.factorizations);
     extrema.push_back(static_cast<std::int64_t>(column.extrema.size()));
-    zeros.push_back(column.zeros);
-    ones.push_back(column.ones);
+    zero_fractions.push_back(column.zero_fraction);
+    one_fractions.push_back(column.one_fraction);
     normalized_extrema.push_back(column.normalized_interior_extrema);
     bounds = problem.terms.has_bounds()
       ? std::max(bounds, column.certificate.bounds_violation)
@@ -380,8 +382,8 @@ Status finish_weights(ExecutionContext& context, const WeightsProblem& problem,
   report.set("handles[].factorizations", factorizations);
   report.set("handles[].interior_extrema", extrema);
   report.set("handles[].interior_extrema_normalized", normalized_extrema);
-  report.set("handles[].zeros", zeros);
-  report.set("handles[].ones", ones);
+  report.set("handles[].zeros", zero_fractions);
+  report.set("handles[].ones", one_fractions);
   if (!unconverged_names.empty())
   {
     status.code = StatusCode::not_converged;

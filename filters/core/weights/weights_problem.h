@@ -95,9 +95,9 @@ struct WeightsColumn
   int factorizations = 0;
   /// Fraction of the vertices where the column before normalization is exactly 0. It is large if
   /// the handle affects a small part of the mesh.
-  double zeros = 0.0;
+  double zero_fraction = 0.0;
   /// Fraction of the vertices where the column before normalization is exactly 1.
-  double ones = 0.0;
+  double one_fraction = 0.0;
   /// Interior extrema of the column before normalization, with persistence above 1e-3.
   std::vector<Extremum> extrema;
   Index normalized_interior_extrema = 0; ///< number of interior extrema after normalization

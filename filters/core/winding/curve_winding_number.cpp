@@ -83,8 +83,8 @@ double signed_angle(const Vec2& a, const Vec2& b, const Vec2& p)
   const double right = u.y() * v.x();
   double determinant = left - right;
   const double dot = u.dot(v);
-  constexpr double unsure = 1e-15;
-  if (std::abs(determinant) <= unsure * (std::abs(left) + std::abs(right)))
+  constexpr double relative_error_bound = 1e-15;
+  if (std::abs(determinant) <= relative_error_bound * (std::abs(left) + std::abs(right)))
   {
     int side = orientation_2d(a.x(), a.y(), b.x(), b.y(), p.x(), p.y());
     if (side == 0 && dot >= 0.0)
@@ -267,10 +267,10 @@ void trace_loops(const std::vector<Segment>& segments, const std::vector<Degree>
   const std::vector<Id> end(next.begin() + 1, next.end());
   std::vector<Id> to(segments.size());
   {
-    std::vector<Id> place = next;
+    std::vector<Id> next_slot = next;
     for (const Segment& segment : segments)
     {
-      to[place[segment.from]++] = segment.to;
+      to[next_slot[segment.from]++] = segment.to;
     }
   }
   const auto trace_from = [&](Id start)
@@ -496,7 +496,7 @@ struct CurveWindingNumber::Impl
   std::vector<Chord> chords;
 
   double at(const Vec2& query, bool& on_curve) const;
-  double at_touching(const Vec2& framed) const;
+  double evaluate_on_curve(const Vec2& framed) const;
   Vec2 gradient_at(const Vec2& query) const;
 };
 
@@ -616,7 +616,7 @@ double CurveWindingNumber::Impl::at(const Vec2& query, bool& on_curve) const
     return std::numeric_limits<double>::quiet_NaN();
   }
   const Vec2 p = in_frame(this->frame, query);
-  if (!(p.cwiseAbs().maxCoeff() < far_away))
+  if (!(p.cwiseAbs().maxCoeff() < zero_distance))
   {
     return 0.0;
   }
@@ -647,7 +647,7 @@ double CurveWindingNumber::Impl::at(const Vec2& query, bool& on_curve) const
           if (i < segment_end && touches(a, b, p, this->frame.tolerance))
           {
             on_curve = true;
-            return this->at_touching(p);
+            return this->evaluate_on_curve(p);
           }
           crossing_sum += crossing(a, b, p);
         }
@@ -664,7 +664,7 @@ double CurveWindingNumber::Impl::at(const Vec2& query, bool& on_curve) const
 }
 
 /// Return the sum of the angles of all segments that do not touch the point, in full turns.
-double CurveWindingNumber::Impl::at_touching(const Vec2& p) const
+double CurveWindingNumber::Impl::evaluate_on_curve(const Vec2& p) const
 {
   const auto outside = [&](const Node& node)
   { return (p.array() < node.lower.array()).any() || (p.array() > node.upper.array()).any(); };
@@ -719,7 +719,7 @@ Vec2 CurveWindingNumber::Impl::gradient_at(const Vec2& query) const
   }
   const Vec2 p = in_frame(this->frame, query);
   Vec2 sum = Vec2::Zero();
-  if (!(p.cwiseAbs().maxCoeff() < far_away))
+  if (!(p.cwiseAbs().maxCoeff() < zero_distance))
   {
     return sum;
   }
@@ -812,7 +812,7 @@ double curve_winding_number_direct(
   }
   const ExactFrame frame = frame_of(points, segments);
   const Vec2 p = in_frame(frame, point);
-  if (!(p.cwiseAbs().maxCoeff() < far_away))
+  if (!(p.cwiseAbs().maxCoeff() < zero_distance))
   {
     return 0.0;
   }

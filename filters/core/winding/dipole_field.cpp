@@ -93,7 +93,7 @@ double DipoleField::exact_sum(const Vec3& point) const
   return fallback.winding_number();
 }
 
-bool DipoleField::in_cells(const Vec3& point) const
+bool DipoleField::is_in_cells(const Vec3& point) const
 {
   bool inside = true;
   for (int k = 0; k < 3; ++k)
@@ -197,7 +197,7 @@ void DipoleField::evaluate(const Vec3* points, Index count, double* out, bool* o
     {
       Leaf& leaf = leaves[i - first];
       leaf.id = -1;
-      if (!this->ids_.empty() && this->in_cells(points[i]))
+      if (!this->ids_.empty() && this->is_in_cells(points[i]))
       {
         leaf = this->leaf_at(points[i]);
         this->with_coefficients(leaf.id,
@@ -250,7 +250,7 @@ void DipoleField::evaluate_row(
   for (Index i = 0; i < count;)
   {
     bool touched = false;
-    if (this->ids_.empty() || !this->in_cells(Vec3(x[i], y, z)))
+    if (this->ids_.empty() || !this->is_in_cells(Vec3(x[i], y, z)))
     {
       out[i] = this->ids_.empty() ? 0.0 : this->outer_sum(Vec3(x[i], y, z), touched);
       if (on_surface)
@@ -282,7 +282,7 @@ void DipoleField::evaluate_row(
         on_surface[i] = touched;
       }
       ++i;
-    } while (i < count && this->in_cells(Vec3(x[i], y, z)) &&
+    } while (i < count && this->is_in_cells(Vec3(x[i], y, z)) &&
       this->cell_coordinate(x[i], 0) >> leaf.shift == cell);
   }
 }
@@ -363,16 +363,16 @@ void irregular_at(int order, const Vec3& point, double* out)
   {
     const double* last = out + 2 * harmonic_index(n - 1, 0);
     const double* before = n > 1 ? out + 2 * harmonic_index(n - 2, 0) : nullptr;
-    double* here = out + 2 * harmonic_index(n, 0);
+    double* current = out + 2 * harmonic_index(n, 0);
     const double odd = 2.0 * n - 1.0;
-    here[2 * n] = odd * (x * last[2 * n - 2] - y * last[2 * n - 1]);
-    here[2 * n + 1] = odd * (x * last[2 * n - 1] + y * last[2 * n - 2]);
+    current[2 * n] = odd * (x * last[2 * n - 2] - y * last[2 * n - 1]);
+    current[2 * n + 1] = odd * (x * last[2 * n - 1] + y * last[2 * n - 2]);
     for (int m = 0; m < n; ++m)
     {
       const double factor = static_cast<double>((n - 1) * (n - 1) - m * m) * inverse;
       for (int part = 0; part < 2; ++part)
       {
-        here[2 * m + part] =
+        current[2 * m + part] =
           odd * z * last[2 * m + part] - (m <= n - 2 ? factor * before[2 * m + part] : 0.0);
       }
     }
@@ -393,10 +393,10 @@ void coefficient(const double* all, int n, int m, double& re, double& im)
 void add_gradient_of_edge(const Vec3& a, const Vec3& b, double weight, Vec3& sum)
 {
   const double la = a.norm(), lb = b.norm();
-  const double below = la * lb * (la * lb + a.dot(b));
-  if (below > 0.0)
+  const double denominator = la * lb * (la * lb + a.dot(b));
+  if (denominator > 0.0)
   {
-    sum += (weight * (la + lb) / (below * four_pi)) * a.cross(b);
+    sum += (weight * (la + lb) / (denominator * four_pi)) * a.cross(b);
   }
 }
 } // namespace
@@ -455,7 +455,7 @@ Vec3 DipoleField::gradient(const Vec3& point) const
   };
   const int top = std::max(this->order_ + 2, 1);
   double harmonics[2 * harmonic_count(largest_polynomial_order + 2)];
-  if (!this->in_cells(point))
+  if (!this->is_in_cells(point))
   {
     // d/dz T(n, m) = -T(n+1, m), (d/dx + i d/dy) T(n, m) = -T(n+1, m+1).
     this->visit_outer(

@@ -115,12 +115,12 @@ private:
     double inverse; ///< 2 divided by the edge length of the leaf
     Vec3 center;
   };
-  struct Build;
+  struct Builder;
   class AccurateSum;
 
   Corners corners(Index slot) const;
   Index block_count() const;
-  bool in_cells(const Vec3& point) const;
+  bool is_in_cells(const Vec3& point) const;
   std::uint32_t cell_coordinate(double x, int axis) const;
   Leaf leaf_at(const CellCoordinates& at) const;
   Leaf leaf_at(const Vec3& point) const;

@@ -120,7 +120,7 @@ double power_weight(int n, int m)
 }
 } // namespace
 
-struct DipoleField::Build
+struct DipoleField::Builder
 {
   struct Node
   {
@@ -134,11 +134,11 @@ struct DipoleField::Build
     int height = 0;
   };
   /// Sum of the error estimates of a cell's interactions (`size`), and the sum of the directions to
-  /// their nodes, weighted by the estimates (`pull`).
+  /// their nodes, weighted by the estimates (`direction_sum`).
   struct ErrorEstimate
   {
     double size = 0.0;
-    Vec3 pull = Vec3::Zero();
+    Vec3 direction_sum = Vec3::Zero();
   };
   struct LeafError
   {
@@ -173,7 +173,7 @@ struct DipoleField::Build
     std::vector<std::vector<double>> locals; ///< expansions of the eight children, per level
   };
 
-  Build(ExecutionContext& run, DipoleField& owner, const Options& requested)
+  Builder(ExecutionContext& run, DipoleField& owner, const Options& requested)
     : field(owner), context(run), options(requested)
   {
   }
@@ -193,7 +193,8 @@ struct DipoleField::Build
   void find_outer();
   void add_outer(Id node);
   void set_up_direct_sum();
-  bool is_split_worthwhile(const Vec3& center, double size, double blocks, std::size_t near) const;
+  bool is_split_worthwhile(
+    const Vec3& center, double size, double blocks, std::size_t near_count) const;
   bool fill_cells();
   void fill(Subtree& tree, const CellIndex& cell, std::size_t entry, const double* local,
     const ErrorEstimate& inherited_error, const std::vector<Id>& inherited, Scratch& scratch,
@@ -201,7 +202,7 @@ struct DipoleField::Build
   bool add_if_far(Id node, const Vec3& center, double radius, Scratch& scratch) const;
   void flush(const Vec3& center, Scratch& scratch) const;
   void emit_leaf(Subtree& tree, std::size_t entry, double half, const std::vector<double>& local,
-    const std::vector<Id>& near) const;
+    const std::vector<Id>& near_nodes) const;
   double measure();
 
   Vec3 point(Id id) const
@@ -239,7 +240,7 @@ struct DipoleField::Build
   double float_error = 0.0; // largest error of single-precision sums
 };
 
-void DipoleField::Build::add_triangles(
+void DipoleField::Builder::add_triangles(
   const Triangles& triangles, const std::vector<int>& multiplicities)
 {
   for (Index t = 0; t < triangles.rows(); ++t)
@@ -257,7 +258,7 @@ void DipoleField::Build::add_triangles(
 // the sliver is near fewer cells, and the solid angles of both halves sum to that of the sliver.
 // All triangles with an edge longer than `limit` are cut. `limit` is chosen so that the cuts add
 // few triangles.
-void DipoleField::Build::cut_long_triangles()
+void DipoleField::Builder::cut_long_triangles()
 {
   const std::size_t count = this->ids.size();
   if (count <= 64)
@@ -299,7 +300,7 @@ void DipoleField::Build::cut_long_triangles()
   const auto original_count = static_cast<Id>(this->field.points_->rows());
   for (std::size_t t = 0; t < this->ids.size() && this->ids.size() < maximum_triangles; ++t)
   {
-    for (bool again = true; again;)
+    for (bool is_split = true; is_split;)
     {
       const Corners c = this->corners(static_cast<Id>(t));
       int edge = 0;
@@ -313,8 +314,8 @@ void DipoleField::Build::cut_long_triangles()
           edge = k;
         }
       }
-      again = length > limit && this->ids.size() < maximum_triangles;
-      if (again)
+      is_split = length > limit && this->ids.size() < maximum_triangles;
+      if (is_split)
       {
         const Id middle = original_count + static_cast<Id>(this->field.extra_points_.size());
         this->field.extra_points_.push_back(0.5 * (c[edge] + c[(edge + 1) % 3]));
@@ -328,7 +329,7 @@ void DipoleField::Build::cut_long_triangles()
   }
 }
 
-bool DipoleField::Build::sort_triangles()
+bool DipoleField::Builder::sort_triangles()
 {
   const auto count = static_cast<Id>(this->ids.size());
   this->centers.resize(this->ids.size());
@@ -400,7 +401,7 @@ bool DipoleField::Build::sort_triangles()
 
 // Split the node into two small groups: minimize the sum over both groups of (number of blocks x
 // squared size).
-std::int32_t DipoleField::Build::split(Id first, Id count)
+std::int32_t DipoleField::Builder::split(Id first, Id count)
 {
   Box box, center_box;
   const auto add_triangle = [&](Box& to, Id t)
@@ -455,18 +456,19 @@ std::int32_t DipoleField::Build::split(Id first, Id count)
   if (count <= 64)
   {
     std::sort(begin, begin + count, before);
-    double below[64];
+    double prefix_extents[64];
     Box side;
     for (Id i = 0; i + 1 < count; ++i)
     {
       add_triangle(side, begin[i]);
-      below[i + 1] = side.size().squaredNorm();
+      prefix_extents[i + 1] = side.size().squaredNorm();
     }
     side = Box();
     for (Id i = count - 1; i > 0; --i)
     {
       add_triangle(side, begin[i]);
-      const double cost = below[i] * blocks(i) + side.size().squaredNorm() * blocks(count - i);
+      const double cost =
+        prefix_extents[i] * blocks(i) + side.size().squaredNorm() * blocks(count - i);
       if (cost < best)
       {
         best = cost;
@@ -526,8 +528,8 @@ std::int32_t DipoleField::Build::split(Id first, Id count)
     cut = cut ? cut : count / 2;
     // In a node of more than 512 triangles, round the number of triangles in the left group down to
     // whole blocks. This moves few triangles.
-    const Id whole = cut / triangle_lanes * triangle_lanes;
-    cut = whole > 0 && count > 512 ? whole : cut;
+    const Id rounded_cut = cut / triangle_lanes * triangle_lanes;
+    cut = rounded_cut > 0 && count > 512 ? rounded_cut : cut;
     std::nth_element(begin, begin + cut, begin + count, before);
   }
   const Id left = this->split(first, cut);
@@ -538,7 +540,7 @@ std::int32_t DipoleField::Build::split(Id first, Id count)
 }
 
 template <typename Real>
-void DipoleField::Build::fill_blocks(std::vector<TriangleBlock<Real>>& blocks)
+void DipoleField::Builder::fill_blocks(std::vector<TriangleBlock<Real>>& blocks)
 {
   blocks.resize(this->field.ids_.size() / triangle_lanes);
   for (const Node& node : this->nodes)
@@ -569,7 +571,7 @@ void DipoleField::Build::fill_blocks(std::vector<TriangleBlock<Real>>& blocks)
   }
 }
 
-void DipoleField::Build::block_multipole(const Node& node, Scratch& scratch, double* out) const
+void DipoleField::Builder::block_multipole(const Node& node, Scratch& scratch, double* out) const
 {
   const int degree = this->field.order_; // degree of the integrands
   HarmonicLanes corner[3][3], normal[3], at[3];
@@ -631,7 +633,7 @@ void DipoleField::Build::block_multipole(const Node& node, Scratch& scratch, dou
   }
 }
 
-bool DipoleField::Build::find_multipoles()
+bool DipoleField::Builder::find_multipoles()
 {
   const int stride = this->moment_count();
   const int degree = this->field.order_ + 1;
@@ -718,7 +720,7 @@ bool DipoleField::Build::find_multipoles()
 // n = 1 … N. The power of degree N is unknown. It is estimated as the maximum of two values: the
 // power of degree N - 1 times the node's radius, and the power of degree N - 2 times the squared
 // radius. Both are needed because every second power is 0 in a symmetric group.
-void DipoleField::Build::find_bounds()
+void DipoleField::Builder::find_bounds()
 {
   const int top = this->field.order_ + 2;
   const int stride = this->moment_count();
@@ -763,7 +765,7 @@ void DipoleField::Build::find_bounds()
 
 /// Return the error estimate of an interaction, divided by the node's `error_fraction`. `distance`
 /// is the distance between the center of the node and the center of a cell of radius `radius`.
-double DipoleField::Build::error(Id node, double distance, double radius) const
+double DipoleField::Builder::error(Id node, double distance, double radius) const
 {
   const int top = this->field.order_ + 2;
   const double* bound = &this->bounds[std::size_t(node) * top];
@@ -776,11 +778,11 @@ double DipoleField::Build::error(Id node, double distance, double radius) const
     power *= inverse;
   }
   // The higher degrees are estimated by a geometric series.
-  const Node& of = this->nodes[node];
-  return sum * power / ((1.0 - (radius + of.radius) * inverse) * of.error_fraction);
+  const Node& cluster = this->nodes[node];
+  return sum * power / ((1.0 - (radius + cluster.radius) * inverse) * cluster.error_fraction);
 }
 
-void DipoleField::Build::place_cells()
+void DipoleField::Builder::place_cells()
 {
   Box box = this->options.region;
   for (const Node& node : this->nodes)
@@ -811,9 +813,9 @@ void DipoleField::Build::place_cells()
     this->region = box;
     for (int k = 0; k < 3; ++k)
     {
-      const double room = std::max(0.0, 0.05 * size - 0.5 * box.size()[k]);
-      this->region.lower[k] -= room;
-      this->region.upper[k] += room;
+      const double padding = std::max(0.0, 0.05 * size - 0.5 * box.size()[k]);
+      this->region.lower[k] -= padding;
+      this->region.upper[k] += padding;
     }
     const double volume = this->region.size().prod();
     this->density = volume > 0.0 ? expected / volume : 0.0;
@@ -821,7 +823,7 @@ void DipoleField::Build::place_cells()
 }
 
 /// Make one cell whose near list contains all triangles.
-void DipoleField::Build::set_up_direct_sum()
+void DipoleField::Builder::set_up_direct_sum()
 {
   DipoleField& f = this->field;
   f.top_level_ = 0;
@@ -843,9 +845,9 @@ void DipoleField::Build::set_up_direct_sum()
 
 /// Report whether splitting a cell saves more time in the evaluation than it takes in the build.
 /// @param blocks number of blocks in the near nodes of the cell
-/// @param near number of near nodes of the cell
-bool DipoleField::Build::is_split_worthwhile(
-  const Vec3& center, double size, double blocks, std::size_t near) const
+/// @param near_count number of near nodes of the cell
+bool DipoleField::Builder::is_split_worthwhile(
+  const Vec3& center, double size, double blocks, std::size_t near_count) const
 {
   if (this->density <= 0.0)
   {
@@ -860,13 +862,13 @@ bool DipoleField::Build::is_split_worthwhile(
   }
   const double orders = (this->field.order_ + 1) / 8.0;
   const double child =
-    (cell_cost + node_cost * static_cast<double>(near)) * orders * orders * orders;
+    (cell_cost + node_cost * static_cast<double>(near_count)) * orders * orders * orders;
   return 0.5 * block_cost * blocks * volume * this->density > 8.0 * child;
 }
 
 // Store the nodes for points outside the cells. Descendants of a node that is far enough away from
 // all these points are omitted.
-void DipoleField::Build::find_outer()
+void DipoleField::Builder::find_outer()
 {
   this->field.outer_.clear();
   this->field.outer_moments_.clear();
@@ -876,12 +878,12 @@ void DipoleField::Build::find_outer()
   this->field.outer_moments_.shrink_to_fit();
 }
 
-void DipoleField::Build::add_outer(Id id)
+void DipoleField::Builder::add_outer(Id id)
 {
   const Node& node = this->nodes[id];
   const int top = this->field.order_ + 2;
   const int stride = this->moment_count();
-  const auto place = this->field.outer_.size();
+  const auto outer_index = this->field.outer_.size();
   OuterNode outer;
   outer.center = node.center;
   outer.radius = node.radius;
@@ -894,19 +896,19 @@ void DipoleField::Build::add_outer(Id id)
   const Vec3 inside = node.center - this->field.lower_;
   const double distance =
     std::min(inside.minCoeff(), this->field.size_ - inside.maxCoeff()) * (1.0 - 1e-9);
-  const bool always =
+  const bool is_valid_everywhere =
     distance > 1.05 * node.radius && this->error(id, distance, 0.0) <= this->field.outer_threshold_;
-  this->field.outer_[place].leaf = always || node.left < 0;
-  if (!this->field.outer_[place].leaf)
+  this->field.outer_[outer_index].leaf = is_valid_everywhere || node.left < 0;
+  if (!this->field.outer_[outer_index].leaf)
   {
     this->add_outer(node.left);
     this->add_outer(node.right);
   }
-  this->field.outer_[place].skip = static_cast<Id>(this->field.outer_.size());
+  this->field.outer_[outer_index].skip = static_cast<Id>(this->field.outer_.size());
 }
 
 /// Add the node to the cell's expansion if it is far enough away. Return whether it was added.
-bool DipoleField::Build::add_if_far(
+bool DipoleField::Builder::add_if_far(
   Id id, const Vec3& center, double radius, Scratch& scratch) const
 {
   const Node& node = this->nodes[id];
@@ -919,7 +921,7 @@ bool DipoleField::Build::add_if_far(
   if (error <= this->threshold)
   {
     scratch.error_estimate.size += error;
-    scratch.error_estimate.pull += error / distance * (node.center - center);
+    scratch.error_estimate.direction_sum += error / distance * (node.center - center);
     scratch.batch[scratch.batched++] = id;
     if (scratch.batched == harmonic_lanes)
     {
@@ -930,7 +932,7 @@ bool DipoleField::Build::add_if_far(
   return false;
 }
 
-void DipoleField::Build::flush(const Vec3& center, Scratch& scratch) const
+void DipoleField::Builder::flush(const Vec3& center, Scratch& scratch) const
 {
   if (scratch.batched == 0)
   {
@@ -960,7 +962,7 @@ void DipoleField::Build::flush(const Vec3& center, Scratch& scratch) const
   scratch.batched = 0;
 }
 
-void DipoleField::Build::fill(Subtree& tree, const CellIndex& cell, std::size_t entry,
+void DipoleField::Builder::fill(Subtree& tree, const CellIndex& cell, std::size_t entry,
   const double* inherited_local, const ErrorEstimate& inherited_error,
   const std::vector<Id>& inherited, Scratch& scratch, std::size_t depth)
 {
@@ -975,8 +977,8 @@ void DipoleField::Build::fill(Subtree& tree, const CellIndex& cell, std::size_t 
     scratch.lists.resize(depth + 2);
     scratch.locals.resize(depth + 2);
   }
-  std::vector<Id> near = std::move(scratch.lists[depth]);
-  near.clear();
+  std::vector<Id> near_nodes = std::move(scratch.lists[depth]);
+  near_nodes.clear();
   scratch.out.clear(degree);
   scratch.error_estimate = inherited_error;
   std::vector<Id>& stack = scratch.stack;
@@ -999,7 +1001,7 @@ void DipoleField::Build::fill(Subtree& tree, const CellIndex& cell, std::size_t 
       }
       else
       {
-        near.push_back(id);
+        near_nodes.push_back(id);
       }
     }
   };
@@ -1008,7 +1010,7 @@ void DipoleField::Build::fill(Subtree& tree, const CellIndex& cell, std::size_t 
     collect_near(id, 0.5 * radius);
   }
   double blocks = 0.0, sizes = 0.0;
-  for (const Id id : near)
+  for (const Id id : near_nodes)
   {
     blocks += this->nodes[id].count;
     sizes += this->nodes[id].block_radius * this->nodes[id].count;
@@ -1016,11 +1018,11 @@ void DipoleField::Build::fill(Subtree& tree, const CellIndex& cell, std::size_t 
   const bool leaf = blocks <= static_cast<double>(maximum_leaf_blocks) ||
     cell.level >= finest_level || radius * blocks <= this->finest_cell * sizes ||
     radius < 1e-6 * this->field.size_ ||
-    !this->is_split_worthwhile(center, size, blocks, near.size());
+    !this->is_split_worthwhile(center, size, blocks, near_nodes.size());
   if (leaf)
   {
     std::vector<Id> rest;
-    rest.swap(near);
+    rest.swap(near_nodes);
     for (const Id id : rest)
     {
       collect_near(id, -1.0);
@@ -1042,7 +1044,7 @@ void DipoleField::Build::fill(Subtree& tree, const CellIndex& cell, std::size_t 
   }
   if (leaf)
   {
-    this->emit_leaf(tree, entry, 0.5 * size, local, near);
+    this->emit_leaf(tree, entry, 0.5 * size, local, near_nodes);
     tree.leaves.push_back({ error_estimate, center, 0.5 * size });
   }
   else if (!this->context.canceled())
@@ -1080,19 +1082,19 @@ void DipoleField::Build::fill(Subtree& tree, const CellIndex& cell, std::size_t 
     tree.cells.resize(first + 8, 0);
     for (int child = 0; child < 8; ++child)
     {
-      const CellIndex place{ cell.level + 1,
+      const CellIndex child_index{ cell.level + 1,
         { 2 * cell.at[0] + (child & 1), 2 * cell.at[1] + (child >> 1 & 1),
           2 * cell.at[2] + (child >> 2) } };
-      this->fill(tree, place, first + child, &children[2 * child * count], error_estimate, near,
-        scratch, depth + 1);
+      this->fill(tree, child_index, first + child, &children[2 * child * count], error_estimate,
+        near_nodes, scratch, depth + 1);
     }
     scratch.locals[depth] = std::move(children);
   }
-  scratch.lists[depth] = std::move(near);
+  scratch.lists[depth] = std::move(near_nodes);
 }
 
-void DipoleField::Build::emit_leaf(Subtree& tree, std::size_t entry, double half,
-  const std::vector<double>& local, const std::vector<Id>& near) const
+void DipoleField::Builder::emit_leaf(Subtree& tree, std::size_t entry, double half,
+  const std::vector<double>& local, const std::vector<Id>& near_nodes) const
 {
   const int degree = this->field.order_;
   tree.cells[entry] = ~static_cast<Id>(tree.run_count.size());
@@ -1109,7 +1111,7 @@ void DipoleField::Build::emit_leaf(Subtree& tree, std::size_t entry, double half
     }
   }
   Id runs = 0;
-  for (const Id id : near)
+  for (const Id id : near_nodes)
   {
     const Node& node = this->nodes[id];
     if (runs > 0 && tree.runs.back().first + tree.runs.back().count == node.first)
@@ -1125,13 +1127,14 @@ void DipoleField::Build::emit_leaf(Subtree& tree, std::size_t entry, double half
   tree.run_count.push_back(runs);
 }
 
-bool DipoleField::Build::fill_cells()
+bool DipoleField::Builder::fill_cells()
 {
   DipoleField& f = this->field;
   const Id cells_per_axis = 1 << f.top_level_;
   const Index top_cells = static_cast<Index>(cells_per_axis) * cells_per_axis * cells_per_axis;
   std::vector<Subtree> trees(static_cast<std::size_t>(top_cells));
-  const std::vector<double> nothing(2 * static_cast<std::size_t>(harmonic_count(f.order_)), 0.0);
+  const std::vector<double> zero_coefficients(
+    2 * static_cast<std::size_t>(harmonic_count(f.order_)), 0.0);
   const std::vector<Id> root(1, 0);
   if (!parallel_for(this->context, top_cells, 1,
         [&](Index begin, Index end)
@@ -1144,7 +1147,7 @@ bool DipoleField::Build::fill_cells()
               { f.top_level_,
                 { at % cells_per_axis, at / cells_per_axis % cells_per_axis,
                   at / cells_per_axis / cells_per_axis } },
-              0, nothing.data(), ErrorEstimate(), root, *scratch, 0);
+              0, zero_coefficients.data(), ErrorEstimate(), root, *scratch, 0);
           }
         }) ||
     this->context.canceled())
@@ -1207,7 +1210,7 @@ bool DipoleField::Build::fill_cells()
 /// Return the largest error on the sample points, which are near triangles, in the cells, around
 /// the cells, and where the estimated errors are largest. The error of a leaf's expansion is
 /// largest at the corner that is nearest to the nodes of the expansion.
-double DipoleField::Build::measure()
+double DipoleField::Builder::measure()
 {
   DipoleField& f = this->field;
   const Index blocks = f.block_count();
@@ -1218,8 +1221,9 @@ double DipoleField::Build::measure()
     samples = std::min(
       samples, std::max(minimum_samples, this->options.expected_points / points_per_sample));
   }
-  const Index feared = std::min<Index>(samples / 2, static_cast<Index>(this->leaf_errors.size()));
-  std::partial_sort(this->leaf_errors.begin(), this->leaf_errors.begin() + feared,
+  const Index worst_leaf_samples =
+    std::min<Index>(samples / 2, static_cast<Index>(this->leaf_errors.size()));
+  std::partial_sort(this->leaf_errors.begin(), this->leaf_errors.begin() + worst_leaf_samples,
     this->leaf_errors.end(),
     [](const LeafError& s, const LeafError& t)
     {
@@ -1241,19 +1245,20 @@ double DipoleField::Build::measure()
         Vec3 u(n * 0.8191725133961645, n * 0.6710436067037893, n * 0.5497004779019703);
         u = u.unaryExpr([](double x) { return x - std::floor(x); });
         Vec3 at;
-        if (i < feared)
+        if (i < worst_leaf_samples)
         {
           const LeafError& leaf = this->leaf_errors[i];
           for (int k = 0; k < 3; ++k)
           {
-            at[k] = leaf.center[k] + (leaf.error_estimate.pull[k] > 0.0 ? 0.99 : -0.99) * leaf.half;
+            at[k] = leaf.center[k] +
+              (leaf.error_estimate.direction_sum[k] > 0.0 ? 0.99 : -0.99) * leaf.half;
           }
         }
         else if (i % 2)
         {
           // Margin on each side, relative to the size of the cells' cube.
-          const double beyond = i % 4 == 1 ? 0.5 : 0.01;
-          at = f.lower_ + f.size_ * ((1.0 + 2.0 * beyond) * u - Vec3::Constant(beyond));
+          const double margin = i % 4 == 1 ? 0.5 : 0.01;
+          at = f.lower_ + f.size_ * ((1.0 + 2.0 * margin) * u - Vec3::Constant(margin));
         }
         else
         {
@@ -1266,9 +1271,9 @@ double DipoleField::Build::measure()
           at = (c[0] + c[1] + c[2]) / 3.0;
           if (length > 0.0)
           {
-            const double away = (i % 4 ? 1.0 : -1.0) * std::pow(20.0, u[0] - 1.0) * 2.0;
-            at += normal / length * away * std::sqrt(0.5 * length) + (u[1] - 0.5) * (c[1] - c[0]) +
-              (u[2] - 0.5) * (c[2] - c[0]);
+            const double normal_offset = (i % 4 ? 1.0 : -1.0) * std::pow(20.0, u[0] - 1.0) * 2.0;
+            at += normal / length * normal_offset * std::sqrt(0.5 * length) +
+              (u[1] - 0.5) * (c[1] - c[0]) + (u[2] - 0.5) * (c[2] - c[0]);
           }
         }
         bool touched = false;
@@ -1284,7 +1289,7 @@ double DipoleField::Build::measure()
   return *std::max_element(errors.begin(), errors.end());
 }
 
-bool DipoleField::Build::run(const Triangles& triangles, const std::vector<int>& multiplicities)
+bool DipoleField::Builder::run(const Triangles& triangles, const std::vector<int>& multiplicities)
 {
   DipoleField& f = this->field;
   this->add_triangles(triangles, multiplicities);
@@ -1377,7 +1382,7 @@ bool DipoleField::build(ExecutionContext& context, const Points& points, const T
   *this = DipoleField();
   this->points_ = &points;
   this->touch_tolerance_ = touch_tolerance;
-  Build build(context, *this, options);
+  Builder build(context, *this, options);
   const bool done = build.run(triangles, multiplicities);
   if (!done)
   {

@@ -15,17 +15,17 @@ namespace bindpose
 
 namespace
 {
-/// Keep the part of a convex polygon whose points p satisfy p . `toward` <= `limit`. `buffer` is
+/// Keep the part of a convex polygon whose points p satisfy p . `direction` <= `limit`. `buffer` is
 /// working memory.
-void cut(std::vector<Vec2>& polygon, const Vec2& toward, double limit, std::vector<Vec2>& buffer)
+void cut(std::vector<Vec2>& polygon, const Vec2& direction, double limit, std::vector<Vec2>& buffer)
 {
   buffer.clear();
   for (std::size_t i = 0; i < polygon.size(); ++i)
   {
     const Vec2& a = polygon[i];
     const Vec2& b = polygon[(i + 1) % polygon.size()];
-    const double distance_a = a.dot(toward) - limit;
-    const double distance_b = b.dot(toward) - limit;
+    const double distance_a = a.dot(direction) - limit;
+    const double distance_b = b.dot(direction) - limit;
     if (distance_a <= 0.0)
     {
       buffer.push_back(a);
@@ -43,9 +43,9 @@ double triangle_in_disc(const Vec2& a, const Vec2& b, double radius)
 {
   const auto sector = [radius](const Vec2& from, const Vec2& to)
   { return 0.5 * radius * radius * std::atan2(cross(from, to), from.dot(to)); };
-  const Vec2 along = b - a;
-  const double length = along.squaredNorm();
-  const double half = -a.dot(along);
+  const Vec2 segment_vector = b - a;
+  const double length = segment_vector.squaredNorm();
+  const double half = -a.dot(segment_vector);
   const double root = half * half - length * (a.squaredNorm() - radius * radius);
   if (!(root > 0.0) || length == 0.0)
   {
@@ -57,8 +57,8 @@ double triangle_in_disc(const Vec2& a, const Vec2& b, double radius)
   {
     return sector(a, b);
   }
-  const Vec2 in = a + enters * along;
-  const Vec2 out = a + leaves * along;
+  const Vec2 in = a + enters * segment_vector;
+  const Vec2 out = a + leaves * segment_vector;
   return (enters > 0.0 ? sector(a, in) : 0.0) + 0.5 * cross(in, out) +
     (leaves < 1.0 ? sector(out, b) : 0.0);
 }
@@ -87,7 +87,7 @@ double voronoi_area(const Points& points, const Points& normals, PointTree::Id p
   const Vec3 up = normal.cross(right);
   scratch.polygon = { { -radius, -radius }, { radius, -radius }, { radius, radius },
     { -radius, radius } };
-  int sharing = 1;
+  int coincident_count = 1;
   for (const PointTree::Neighbor& neighbor : scratch.neighbors)
   {
     if (normal.dot(normals.row(neighbor.point)) < 0.0)
@@ -97,14 +97,14 @@ double voronoi_area(const Points& points, const Points& normals, PointTree::Id p
     const double distance = std::sqrt(neighbor.squared_distance);
     if (distance <= tolerance)
     {
-      ++sharing;
+      ++coincident_count;
       continue;
     }
     const Vec3 offset = (points.row(neighbor.point) - points.row(point)).transpose();
     const Vec2 projected(offset.dot(right), offset.dot(up));
     const double length = projected.norm();
-    constexpr double no_direction = 1e-9;
-    if (length > no_direction * distance)
+    constexpr double minimum_projection = 1e-9;
+    if (length > minimum_projection * distance)
     {
       cut(scratch.polygon, projected / length, 0.5 * distance, scratch.buffer);
     }
@@ -115,7 +115,7 @@ double voronoi_area(const Points& points, const Points& normals, PointTree::Id p
     area += triangle_in_disc(
       scratch.polygon[i], scratch.polygon[(i + 1) % scratch.polygon.size()], radius);
   }
-  return area / sharing;
+  return area / coincident_count;
 }
 } // namespace
 

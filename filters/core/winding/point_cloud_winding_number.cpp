@@ -271,10 +271,10 @@ double far_distance(const Extent& extent, int order, double threshold)
   {
     return extent.radius;
   }
-  const auto too_near = [&](double r)
+  const auto exceeds_threshold = [&](double r)
   { return omitted_bound(extent, order, r) / std::pow(r, order + 2) > threshold; };
   double upper = 2.0 * extent.radius;
-  while (too_near(upper))
+  while (exceeds_threshold(upper))
   {
     upper *= 2.0;
   }
@@ -283,7 +283,7 @@ double far_distance(const Extent& extent, int order, double threshold)
   while (upper - lower > precise_enough * upper)
   {
     const double middle = 0.5 * (lower + upper);
-    (too_near(middle) ? lower : upper) = middle;
+    (exceeds_threshold(middle) ? lower : upper) = middle;
   }
   return upper;
 }
@@ -305,8 +305,8 @@ Status check_input(PointsView points, PointsView normals, NumbersView areas,
   }
   for (Index i = 0; i < count; ++i)
   {
-    const auto invalid_point = [i](const std::string& what)
-    { return Status::invalid_input("point " + std::to_string(i) + " has " + what); };
+    const auto invalid_point = [i](const std::string& problem)
+    { return Status::invalid_input("point " + std::to_string(i) + " has " + problem); };
     if (!points.row(i).allFinite())
     {
       return invalid_point("a coordinate that is not a finite number");
@@ -531,7 +531,7 @@ void PointCloudWindingNumber::Impl::find_multipole(
 
     // The center is the mean of the points, weighted by the size of their moments. This makes the
     // omitted terms small.
-    const auto each = [&](const auto& body)
+    const auto for_each_dipole = [&](const auto& body)
     {
       for (const Dipoles* d = begin; d != end; ++d)
       {
@@ -544,7 +544,7 @@ void PointCloudWindingNumber::Impl::find_multipole(
     };
     Vec3 center = Vec3::Zero();
     double weights = 0.0;
-    each(
+    for_each_dipole(
       [&](const Vec3& at, double weight)
       {
         center += weight * at;
@@ -553,7 +553,7 @@ void PointCloudWindingNumber::Impl::find_multipole(
     center = weights > 0.0 ? Vec3(center / weights) : child.lower;
     center = center.cwiseMax(child.lower).cwiseMin(child.upper);
     Extent& extent = this->extents[number * harmonic_lanes + c];
-    each(
+    for_each_dipole(
       [&](const Vec3& at, double weight)
       {
         // The radius includes points without a moment, because a query point may touch such a
@@ -639,7 +639,7 @@ Points PointCloudWindingNumber::Impl::sample(const PointTree& tree) const
     z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
     return static_cast<double>((z ^ (z >> 31)) >> 11) * 0x1p-53;
   };
-  const auto in_cube = [&]
+  const auto random_in_cube = [&]
   {
     const double x = uniform(), y = uniform(), z = uniform();
     return Vec3(2.0 * x - 1.0, 2.0 * y - 1.0, 2.0 * z - 1.0);
@@ -658,12 +658,12 @@ Points PointCloudWindingNumber::Impl::sample(const PointTree& tree) const
   {
     if (i % 2 == 0)
     {
-      const auto place = static_cast<Index>(uniform() * points);
-      const Dipoles& block = this->dipoles[place / harmonic_lanes];
+      const auto dipole_index = static_cast<Index>(uniform() * points);
+      const Dipoles& block = this->dipoles[dipole_index / harmonic_lanes];
       Vec3 lower = Vec3::Constant(farthest), upper = -lower, at;
       for (int k = 0; k < 3; ++k)
       {
-        at[k] = block.at[k].lane[place % harmonic_lanes];
+        at[k] = block.at[k].lane[dipole_index % harmonic_lanes];
         for (int l = 0; l < harmonic_lanes; ++l)
         {
           lower[k] = std::min(lower[k], block.at[k].lane[l]);
@@ -671,12 +671,13 @@ Points PointCloudWindingNumber::Impl::sample(const PointTree& tree) const
         }
       }
       const double distance = (upper - lower).norm() * std::exp2(4.0 * uniform() - 2.0);
-      result.row(i) = (at + distance * in_cube()).transpose();
+      result.row(i) = (at + distance * random_in_cube()).transpose();
     }
     else
     {
       const double width = i % 4 == 1 ? 1.1 : 2.0;
-      result.row(i) = (box.center() + 0.5 * width * in_cube().cwiseProduct(box.size())).transpose();
+      result.row(i) =
+        (box.center() + 0.5 * width * random_in_cube().cwiseProduct(box.size())).transpose();
     }
   }
   return result;
@@ -731,8 +732,9 @@ double PointCloudWindingNumber::Impl::measured_error(
     [&](Index i, Index)
     {
       bool touches = false;
-      const Vec3 place = sample_points.row(i);
-      errors[i] = std::abs(this->tree_sum(place, touches) - this->plain_sum(place, touches));
+      const Vec3 sample_point = sample_points.row(i);
+      errors[i] =
+        std::abs(this->tree_sum(sample_point, touches) - this->plain_sum(sample_point, touches));
     });
   return done ? *std::max_element(errors.begin(), errors.end()) : -1.0;
 }

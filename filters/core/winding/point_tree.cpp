@@ -116,34 +116,34 @@ void PointTree::nearest(
     return;
   }
   const Vec3 position = points.row(point);
-  const auto look = [&](const auto& look_again, Id number) -> void
+  const auto visit_group = [&](const auto& visit_child, Id number) -> void
   {
     const Group& group = this->groups_[number];
-    std::array<Neighbor, width> near{}; // children, sorted by distance
+    std::array<Neighbor, width> nearest_children{}; // children, sorted by distance
     for (int c = 0; c < group.size; ++c)
     {
       const Child& child = group.children[c];
-      const Vec3 beside =
+      const Vec3 box_offset =
         (child.lower - position).cwiseMax(position - child.upper).cwiseMax(Vec3::Zero());
-      const Neighbor box{ beside.squaredNorm(), c };
+      const Neighbor box{ box_offset.squaredNorm(), c };
       int slot = c;
-      for (; slot > 0 && is_nearer(box, near[slot - 1]); --slot)
+      for (; slot > 0 && is_nearer(box, nearest_children[slot - 1]); --slot)
       {
-        near[slot] = near[slot - 1];
+        nearest_children[slot] = nearest_children[slot - 1];
       }
-      near[slot] = box;
+      nearest_children[slot] = box;
     }
     for (int k = 0; k < group.size; ++k)
     {
       if (neighbors.size() == neighbor_count &&
-        near[k].squared_distance > neighbors.back().squared_distance)
+        nearest_children[k].squared_distance > neighbors.back().squared_distance)
       {
         return;
       }
-      const Child& child = group.children[near[k].point];
+      const Child& child = group.children[nearest_children[k].point];
       if (child.group >= 0)
       {
-        look_again(look_again, child.group);
+        visit_child(visit_child, child.group);
         continue;
       }
       for (Id i = child.first; i < child.first + child.count; ++i)
@@ -164,7 +164,7 @@ void PointTree::nearest(
       }
     }
   };
-  look(look, 0);
+  visit_group(visit_group, 0);
 }
 
 } // namespace bindpose

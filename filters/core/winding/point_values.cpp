@@ -21,9 +21,10 @@ Index block_size(Index count, double nanoseconds_per_point)
   constexpr double shortest_block = 8e5, longest_block = 5e6; // nanoseconds
   constexpr double largest_block = 32768.0, target_blocks = 16.0;
   const double nanoseconds = std::max(1.0, nanoseconds_per_point);
-  const double most = std::clamp(longest_block / nanoseconds, 1.0, largest_block);
-  const double least = std::min(std::max(shortest_block / nanoseconds, 1.0), most);
-  return static_cast<Index>(std::clamp(static_cast<double>(count) / target_blocks, least, most));
+  const double maximum = std::clamp(longest_block / nanoseconds, 1.0, largest_block);
+  const double minimum = std::min(std::max(shortest_block / nanoseconds, 1.0), maximum);
+  return static_cast<Index>(
+    std::clamp(static_cast<double>(count) / target_blocks, minimum, maximum));
 }
 } // namespace
 
@@ -32,15 +33,16 @@ Status point_values(ExecutionContext& context, Index count, double nanoseconds_p
   const std::function<void(Index begin, Index end, unsigned char* flags)>& body)
 {
   std::atomic<Index> touching{ 0 };
-  std::atomic<Index> not_finite{ 0 };
+  std::atomic<Index> nonfinite_count{ 0 };
   const bool done = parallel_for(context, count, block_size(count, nanoseconds_per_point),
     [&](Index begin, Index end)
     {
-      std::vector<unsigned char> own(on_surface ? 0 : static_cast<std::size_t>(end - begin));
-      unsigned char* const flags = on_surface ? on_surface + begin : own.data();
+      std::vector<unsigned char> flag_buffer(
+        on_surface ? 0 : static_cast<std::size_t>(end - begin));
+      unsigned char* const flags = on_surface ? on_surface + begin : flag_buffer.data();
       body(begin, end, flags);
       touching += std::count(flags, flags + (end - begin), static_cast<unsigned char>(1));
-      not_finite +=
+      nonfinite_count +=
         std::count_if(values + begin, values + end, [](double value) { return std::isnan(value); });
     });
   if (!done)
@@ -50,10 +52,11 @@ Status point_values(ExecutionContext& context, Index count, double nanoseconds_p
   Status status;
   status.report.set("counts.queries", count);
   status.report.set("counts.on_surface", touching.load());
-  if (not_finite > 0)
+  if (nonfinite_count > 0)
   {
-    status.report.set("counts.not_finite", not_finite.load());
-    status.warnings.push_back(std::to_string(not_finite.load()) + " of " + std::to_string(count) +
+    status.report.set("counts.not_finite", nonfinite_count.load());
+    status.warnings.push_back(std::to_string(nonfinite_count.load()) + " of " +
+      std::to_string(count) +
       " points have a coordinate that is not a finite number; their winding number is NaN");
   }
   return status;

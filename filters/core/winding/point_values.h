@@ -11,7 +11,7 @@ namespace bindpose
 
 /// Beyond this distance from the origin, in units of the geometry's size, the winding number is 0
 /// in double precision.
-constexpr double far_away = 1e20;
+constexpr double zero_distance = 1e20;
 
 /// Compute the winding numbers of many points on all threads. body(begin, end, flags) must write
 /// values[begin … end) and flags[0 … end - begin): 1 for a point that touches the geometry, else 0.

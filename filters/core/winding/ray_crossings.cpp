@@ -218,13 +218,13 @@ int RayCrossings::signed_crossing(const Facet& f, const Vec3& point, bool& touch
   {
     return sign;
   }
-  double above = height;
+  double signed_height = height;
   if (is_near)
   {
-    above = -side_of_triangle(point, f.corners[0], f.corners[1], f.corners[2]);
-    touches = above == 0.0;
+    signed_height = -side_of_triangle(point, f.corners[0], f.corners[1], f.corners[2]);
+    touches = signed_height == 0.0;
   }
-  return sign * above < 0.0 ? sign : 0;
+  return sign * signed_height < 0.0 ? sign : 0;
 }
 
 // ---- Points ------------------------------------------------------------------------------------
@@ -259,9 +259,9 @@ BINDPOSE_SIMD_CLONES bool add_crossings(const FacetBounds& f, const double* x, c
     const double ab = ay * bz - az * by;
     const double bc = by * cz - bz * cy;
     const double ca = cy * az - cz * ay;
-    const double least_of_two = ab < bc ? ab : bc, most_of_two = ab > bc ? ab : bc;
-    const double minimum = least_of_two < ca ? least_of_two : ca;
-    const double maximum = most_of_two > ca ? most_of_two : ca;
+    const double smaller_of_two = ab < bc ? ab : bc, larger_of_two = ab > bc ? ab : bc;
+    const double minimum = smaller_of_two < ca ? smaller_of_two : ca;
+    const double maximum = larger_of_two > ca ? larger_of_two : ca;
     const double height = f.nx * (px - f.ax) - f.ny * ay - f.nz * az;
     const bool in_box = (py >= f.lower_y) & (py <= f.upper_y) & (pz >= f.lower_z) &
       (pz <= f.upper_z) & (px <= f.upper_x);
@@ -269,8 +269,8 @@ BINDPOSE_SIMD_CLONES bool add_crossings(const FacetBounds& f, const double* x, c
     const bool above = height > f.plane_bound, below = height < -f.plane_bound;
     const bool is_side_certain = before | above | below;
     const bool outwards = minimum > f.edge_bound, inwards = maximum < -f.edge_bound;
-    const bool apart = (minimum < -f.outside) & (maximum > f.outside);
-    const bool is_open = in_box & !apart & (!is_side_certain | !(outwards | inwards));
+    const bool is_outside = (minimum < -f.outside) & (maximum > f.outside);
+    const bool is_open = in_box & !is_outside & (!is_side_certain | !(outwards | inwards));
     const bool leaves = in_box & outwards & (before | below);
     const bool enters = in_box & inwards & (before | above);
     counts[i] += is_open ? 0 : (leaves ? 1 : 0) - (enters ? 1 : 0);
@@ -298,13 +298,13 @@ bool RayCrossings::count(ExecutionContext& context, const Vec3* points, Index nu
   const double aspect = width > 0.0 && height > 0.0 ? std::clamp(width / height, 1e-3, 1e3) : 1.0;
   const auto u_cells = static_cast<Index>(std::ceil(std::sqrt(cells * aspect)));
   const auto v_cells = static_cast<Index>(std::ceil(std::sqrt(cells / aspect)));
-  const double per_u = width > 0.0 ? static_cast<double>(u_cells) / width : 0.0;
-  const double per_v = height > 0.0 ? static_cast<double>(v_cells) / height : 0.0;
+  const double cells_per_u = width > 0.0 ? static_cast<double>(u_cells) / width : 0.0;
+  const double cells_per_v = height > 0.0 ? static_cast<double>(v_cells) / height : 0.0;
   // u_of() and v_of() are monotone, so the cells of a triangle's box contain all points in the box.
   const auto u_of = [&](double x)
-  { return std::clamp<Index>(static_cast<Index>((x - lower[u]) * per_u), 0, u_cells - 1); };
+  { return std::clamp<Index>(static_cast<Index>((x - lower[u]) * cells_per_u), 0, u_cells - 1); };
   const auto v_of = [&](double x)
-  { return std::clamp<Index>(static_cast<Index>((x - lower[v]) * per_v), 0, v_cells - 1); };
+  { return std::clamp<Index>(static_cast<Index>((x - lower[v]) * cells_per_v), 0, v_cells - 1); };
 
   std::vector<std::int32_t> cell(static_cast<std::size_t>(number));
   std::vector<std::int32_t> begin(static_cast<std::size_t>(u_cells * v_cells) + 1, 0);
@@ -355,7 +355,7 @@ bool RayCrossings::count(ExecutionContext& context, const Vec3* points, Index nu
   std::vector<std::int32_t> faces;
   if (slabs > 1)
   {
-    const auto visit = [&](const auto& see)
+    const auto visit = [&](const auto& add_face)
     {
       for (Index f = 0; f < this->faces_; ++f)
       {
@@ -364,7 +364,7 @@ bool RayCrossings::count(ExecutionContext& context, const Vec3* points, Index nu
         const double high = std::max({ c[0][v], c[1][v], c[2][v] }) + this->tolerance_;
         for (Index s = slab_of(v_of(low)); s <= slab_of(v_of(high)); ++s)
         {
-          see(s, f);
+          add_face(s, f);
         }
       }
     };
@@ -411,7 +411,7 @@ bool RayCrossings::count(ExecutionContext& context, const Vec3* points, Index nu
           std::max(first_line, v_of(std::min({ c[0][v], c[1][v], c[2][v] }) - this->tolerance_));
         const Index v1 =
           std::min(last_line - 1, v_of(std::max({ c[0][v], c[1][v], c[2][v] }) + this->tolerance_));
-        bool made = false;
+        bool is_facet_ready = false;
         Facet f;
         FacetBounds bounds;
         for (Index line = v0; line <= v1; ++line)
@@ -421,21 +421,21 @@ bool RayCrossings::count(ExecutionContext& context, const Vec3* points, Index nu
           {
             continue;
           }
-          if (!made)
+          if (!is_facet_ready)
           {
             f = this->facet(face, this->axis_);
             bounds = { f.x[0], f.y[0], f.z[0], f.y[1], f.z[1], f.y[2], f.z[2], f.upper[0],
               f.lower[0], f.lower[1], f.upper[1], f.lower[2], f.upper[2], f.normal[0], f.normal[1],
               f.normal[2], f.edge_bound, f.outside, f.plane_bound };
-            made = true;
+            is_facet_ready = true;
           }
           for (std::int32_t at = b; at < e; at += points_per_batch)
           {
-            const std::int32_t some = std::min(points_per_batch, e - at);
-            if (add_crossings(bounds, &sorted.x[at], &sorted.y[at], &sorted.z[at], some,
+            const std::int32_t batch_count = std::min(points_per_batch, e - at);
+            if (add_crossings(bounds, &sorted.x[at], &sorted.y[at], &sorted.z[at], batch_count,
                   &sums[at - first_point], undecided.data()))
             {
-              for (std::int32_t k = at; k < at + some; ++k)
+              for (std::int32_t k = at; k < at + batch_count; ++k)
               {
                 if (undecided[k - at])
                 {
@@ -461,12 +461,12 @@ RayCrossings::Layers RayCrossings::find_layers(const Grid& grid) const
 {
   const auto& [xs, ys, zs] = grid.at;
   Layers layers;
-  const auto zs_count = static_cast<Index>(zs.size());
+  const auto layer_count = static_cast<Index>(zs.size());
   const auto area = static_cast<Index>(xs.size() * ys.size());
   layers.layers_per_slab =
-    std::clamp<Index>(samples_per_slab / std::max<Index>(1, area), 1, zs_count);
-  const Index slabs = (zs_count + layers.layers_per_slab - 1) / layers.layers_per_slab;
-  const double per_y = index_density(ys), per_z = index_density(zs);
+    std::clamp<Index>(samples_per_slab / std::max<Index>(1, area), 1, layer_count);
+  const Index slabs = (layer_count + layers.layers_per_slab - 1) / layers.layers_per_slab;
+  const double y_density = index_density(ys), z_density = index_density(zs);
   layers.begin.assign(static_cast<std::size_t>(slabs) + 1, 0);
   struct Range
   {
@@ -479,14 +479,15 @@ RayCrossings::Layers RayCrossings::find_layers(const Grid& grid) const
     const std::array<Vec3, 3> c = this->corners(f);
     const Vec3 lower = c[0].cwiseMin(c[1]).cwiseMin(c[2]).array() - this->tolerance_;
     const Vec3 upper = c[0].cwiseMax(c[1]).cwiseMax(c[2]).array() + this->tolerance_;
-    const Index first = lower_bound_index(zs, lower.z(), per_z);
+    const Index first = lower_bound_index(zs, lower.z(), z_density);
     Index end = first;
-    if (first < zs_count && zs[first] <= upper.z() && xs.front() <= upper.x())
+    if (first < layer_count && zs[first] <= upper.z() && xs.front() <= upper.x())
     {
-      end = lower_bound_index(zs, upper.z(), per_z);
-      end += end < zs_count && zs[end] <= upper.z();
-      const double across = (upper.y() - lower.y()) * per_y;
-      rows += static_cast<double>(end - first) * std::min(across, static_cast<double>(ys.size()));
+      end = lower_bound_index(zs, upper.z(), z_density);
+      end += end < layer_count && zs[end] <= upper.z();
+      const double row_count = (upper.y() - lower.y()) * y_density;
+      rows +=
+        static_cast<double>(end - first) * std::min(row_count, static_cast<double>(ys.size()));
     }
     ranges[f] = { static_cast<std::int32_t>(first / layers.layers_per_slab),
       static_cast<std::int32_t>(end > first ? (end - 1) / layers.layers_per_slab : -1) };
@@ -592,19 +593,20 @@ void RayCrossings::count_slab(const Grid& grid, const Layers& layers, Index slab
   const Index first_layer = slab * layers.layers_per_slab;
   const Index last_layer =
     std::min(static_cast<Index>(zs.size()), first_layer + layers.layers_per_slab);
-  const double per_x = index_density(xs), per_y = index_density(ys), per_z = index_density(zs);
+  const double x_density = index_density(xs), y_density = index_density(ys),
+               z_density = index_density(zs);
   RowHits hits((last_layer - first_layer) * rows);
   for (Index i = layers.begin[slab]; i < layers.begin[slab + 1]; ++i)
   {
     const Facet f = this->facet(layers.faces[i], 0);
-    const Index j0 = lower_bound_index(ys, f.lower[1], per_y);
+    const Index j0 = lower_bound_index(ys, f.lower[1], y_density);
     if (j0 == rows || ys[j0] > f.upper[1])
     {
       continue;
     }
-    const Index k0 = std::max(first_layer, lower_bound_index(zs, f.lower[2], per_z));
-    const double per_normal = 1.0 / f.normal[0];
-    const double reach = f.plane_bound * std::abs(per_normal);
+    const Index k0 = std::max(first_layer, lower_bound_index(zs, f.lower[2], z_density));
+    const double inverse_normal_x = 1.0 / f.normal[0];
+    const double x_tolerance = f.plane_bound * std::abs(inverse_normal_x);
     for (Index k = k0; k < last_layer && zs[k] <= f.upper[2]; ++k)
     {
       const double pz = zs[k];
@@ -622,17 +624,19 @@ void RayCrossings::count_slab(const Grid& grid, const Layers& layers, Index slab
           continue;
         }
         const Index row = (k - first_layer) * rows + j;
-        const bool certain = minimum > f.edge_bound || maximum < -f.edge_bound;
+        const bool is_side_certain = minimum > f.edge_bound || maximum < -f.edge_bound;
         // Samples with x coordinates from `x` to `y` are tested one by one. If the triangle is
         // parallel to the rows, `center` is NaN and the comparisons select the ends of the box.
-        const double center = f.x[0] + (f.normal[1] * ay + f.normal[2] * az) * per_normal;
-        const double x =
-          center - reach > f.lower[0] ? std::min(center - reach, f.upper[0]) : f.lower[0];
-        const double y =
-          center + reach < f.upper[0] ? std::max(center + reach, f.lower[0]) : f.upper[0];
-        Index at = lower_bound_index(xs, x, per_x);
+        const double center = f.x[0] + (f.normal[1] * ay + f.normal[2] * az) * inverse_normal_x;
+        const double x = center - x_tolerance > f.lower[0]
+          ? std::min(center - x_tolerance, f.upper[0])
+          : f.lower[0];
+        const double y = center + x_tolerance < f.upper[0]
+          ? std::max(center + x_tolerance, f.lower[0])
+          : f.upper[0];
+        Index at = lower_bound_index(xs, x, x_density);
         bool touches = false;
-        if (certain)
+        if (is_side_certain)
         {
           hits.add(row, at, minimum > 0.0 ? 1 : -1);
         }

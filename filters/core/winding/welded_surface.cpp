@@ -88,7 +88,7 @@ bool sort_vertices(
     }
     return s.id < t.id;
   };
-  constexpr std::size_t many = 1 << 14;
+  constexpr std::size_t parallel_group_size = 1 << 14;
   for (std::size_t first = 0, last = 0; first < vertices.size(); first = last)
   {
     while (last < vertices.size() && vertices[last].key == vertices[first].key)
@@ -97,7 +97,7 @@ bool sort_vertices(
     }
     const auto begin = vertices.begin() + static_cast<std::ptrdiff_t>(first);
     const auto end = vertices.begin() + static_cast<std::ptrdiff_t>(last);
-    if (last - first < many)
+    if (last - first < parallel_group_size)
     {
       std::sort(begin, end, less);
       continue;
@@ -174,10 +174,10 @@ bool weld(ExecutionContext& context, PointsView points, TrianglesView triangles,
   welded.points.resize(static_cast<Index>(vertices.size()), 3);
   for (std::size_t i = 0; i < vertices.size(); ++i)
   {
-    const Vec3& here = positions[vertices[i].id];
-    if (i == 0 || here != positions[vertices[i - 1].id])
+    const Vec3& position = positions[vertices[i].id];
+    if (i == 0 || position != positions[vertices[i - 1].id])
     {
-      welded.points.row(count++) = here.transpose();
+      welded.points.row(count++) = position.transpose();
       welded.original_vertices.push_back(vertices[i].id);
     }
     id_of[vertices[i].id] = count - 1;
@@ -269,11 +269,11 @@ bool find_edges(
       edge.b = static_cast<Index>(sides[i] >> 32);
       for (; i < begin[v + 1] && static_cast<Index>(sides[i] >> 32) == edge.b; ++i)
       {
-        edge.uses += 1;
+        edge.triangle_count += 1;
         edge.net_direction += sides[i] & 1 ? 1 : -1;
       }
-      welded.boundary_edges += edge.uses == 1;
-      welded.nonmanifold_edges += edge.uses > 2;
+      welded.boundary_edges += edge.triangle_count == 1;
+      welded.nonmanifold_edges += edge.triangle_count > 2;
       if (edge.net_direction != 0)
       {
         welded.open_edges.push_back(edge);

@@ -96,11 +96,11 @@ BINDPOSE_SIMD_CLONES int WindingCells::count_crossings(const Block* begin, const
       const float least = u < v ? (u < w ? u : w) : (v < w ? v : w);
       const float maximum = u > v ? (u > w ? u : w) : (v > w ? v : w);
       const bool before = side > side_bound, behind = side < -side_bound;
-      const bool to_before = other_side > side_bound, to_behind = other_side < -side_bound;
-      const bool none = ((least < -edge_bound) & (maximum > edge_bound)) | (before & to_before) |
-        (behind & to_behind);
-      const bool outwards = (maximum < -edge_bound) & before & to_behind;
-      const bool inwards = (least > edge_bound) & behind & to_before;
+      const bool is_end_before = other_side > side_bound, is_end_behind = other_side < -side_bound;
+      const bool none = ((least < -edge_bound) & (maximum > edge_bound)) |
+        (before & is_end_before) | (behind & is_end_behind);
+      const bool outwards = (maximum < -edge_bound) & before & is_end_behind;
+      const bool inwards = (least > edge_bound) & behind & is_end_before;
       counts[i] += (outwards ? 1 : 0) - (inwards ? 1 : 0);
       undecided_lanes[i] = none | outwards | inwards ? 0 : 1;
       any |= undecided_lanes[i];
@@ -145,18 +145,21 @@ bool WindingCells::count_in_leaf(const Leaf& leaf, const Vec3& p, int& count) co
     const Vec3 u = corners[1] - corners[0];
     const Vec3 v = corners[2] - corners[0];
     const Vec3 r = corners[0] - p;
-    const double reach = u.lpNorm<1>() * v.lpNorm<1>();
-    if (std::abs(u.cross(v).dot(r)) <= reach * (2.0 * this->tolerance_ + 1e-14 * r.lpNorm<1>()) &&
+    const double edge_product = u.lpNorm<1>() * v.lpNorm<1>();
+    if (std::abs(u.cross(v).dot(r)) <=
+        edge_product * (2.0 * this->tolerance_ + 1e-14 * r.lpNorm<1>()) &&
       touches_triangle(p, corners[0], corners[1], corners[2], this->tolerance_))
     {
       return false;
     }
-    const Crossing what = crossing(p, leaf.reference, corners);
-    if (what == Crossing::undecided)
+    const Crossing facet_crossing = crossing(p, leaf.reference, corners);
+    if (facet_crossing == Crossing::undecided)
     {
       return false;
     }
-    count += what == Crossing::outwards ? 1 : what == Crossing::inwards ? -1 : 0;
+    count += facet_crossing == Crossing::outwards ? 1
+      : facet_crossing == Crossing::inwards       ? -1
+                                                  : 0;
   }
   return true;
 }

@@ -25,7 +25,7 @@ namespace
 /// the surface.
 constexpr std::size_t maximum_leaf_faces = 40;
 /// Intended number of triangles in a new cell.
-constexpr double wanted = 18;
+constexpr double target_faces = 18;
 constexpr int maximum_cells_along = 32;
 /// Minimum number of cells along the longest side of the surface's box, so that most points around
 /// a few large triangles are in cells without triangles.
@@ -45,23 +45,25 @@ bool overlaps(const std::array<Vec3, 3>& corners, const Vec3& center, const Vec3
   const Vec3 a = corners[0] - center;
   const Vec3 b = corners[1] - center;
   const Vec3 c = corners[2] - center;
-  const auto apart = [&](const Vec3& axis)
+  const auto is_separating_axis = [&](const Vec3& axis)
   {
     const double pa = axis.dot(a), pb = axis.dot(b), pc = axis.dot(c);
-    const double reach = axis.cwiseAbs().dot(half);
-    const double rounding = 1e-14 * (std::abs(pa) + std::abs(pb) + std::abs(pc)) + 1e-14 * reach;
-    return std::min({ pa, pb, pc }) > reach + rounding ||
-      std::max({ pa, pb, pc }) < -reach - rounding;
+    const double projected_half_size = axis.cwiseAbs().dot(half);
+    const double rounding =
+      1e-14 * (std::abs(pa) + std::abs(pb) + std::abs(pc)) + 1e-14 * projected_half_size;
+    return std::min({ pa, pb, pc }) > projected_half_size + rounding ||
+      std::max({ pa, pb, pc }) < -projected_half_size - rounding;
   };
   const std::array<Vec3, 3> edges{ b - a, c - b, a - c };
-  if (apart(edges[0].cross(edges[1])))
+  if (is_separating_axis(edges[0].cross(edges[1])))
   {
     return false;
   }
   for (const Vec3& edge : edges)
   {
-    if (apart(Vec3(0.0, -edge.z(), edge.y())) || apart(Vec3(edge.z(), 0.0, -edge.x())) ||
-      apart(Vec3(-edge.y(), edge.x(), 0.0)))
+    if (is_separating_axis(Vec3(0.0, -edge.z(), edge.y())) ||
+      is_separating_axis(Vec3(edge.z(), 0.0, -edge.x())) ||
+      is_separating_axis(Vec3(-edge.y(), edge.x(), 0.0)))
     {
       return false;
     }
@@ -104,7 +106,7 @@ std::vector<std::int32_t> remove_opposite_pairs(const Triangles& triangles, cons
   std::sort(cap_corners.begin(), cap_corners.end(),
     [](const SortedCorners& x, const SortedCorners& y)
     { return x.ids != y.ids ? x.ids < y.ids : x.triangle < y.triangle; });
-  std::vector<char> gone(cap_corners.size(), 0);
+  std::vector<char> is_canceled(cap_corners.size(), 0);
   std::vector<std::int32_t> remaining;
   remaining.reserve(static_cast<std::size_t>(triangles.rows() + caps.rows()));
   for (Index t = 0; t < triangles.rows(); ++t)
@@ -112,13 +114,13 @@ std::vector<std::int32_t> remove_opposite_pairs(const Triangles& triangles, cons
     bool canceled = false;
     if (!cap_corners.empty())
     {
-      const SortedCorners own = sorted_corners(triangles, t);
-      auto cap = std::lower_bound(cap_corners.begin(), cap_corners.end(), own.ids,
+      const SortedCorners triangle_corners = sorted_corners(triangles, t);
+      auto cap = std::lower_bound(cap_corners.begin(), cap_corners.end(), triangle_corners.ids,
         [](const SortedCorners& x, const std::array<Index, 3>& ids) { return x.ids < ids; });
-      for (; cap != cap_corners.end() && cap->ids == own.ids && !canceled; ++cap)
+      for (; cap != cap_corners.end() && cap->ids == triangle_corners.ids && !canceled; ++cap)
       {
-        char& cap_canceled = gone[static_cast<std::size_t>(cap - cap_corners.begin())];
-        canceled = !cap_canceled && cap->parity != own.parity;
+        char& cap_canceled = is_canceled[static_cast<std::size_t>(cap - cap_corners.begin())];
+        canceled = !cap_canceled && cap->parity != triangle_corners.parity;
         cap_canceled = cap_canceled || canceled;
       }
     }
@@ -129,7 +131,7 @@ std::vector<std::int32_t> remove_opposite_pairs(const Triangles& triangles, cons
   }
   for (std::size_t i = 0; i < cap_corners.size(); ++i)
   {
-    if (!gone[i])
+    if (!is_canceled[i])
     {
       remaining.push_back(static_cast<std::int32_t>(triangles.rows() + cap_corners[i].triangle));
     }
@@ -181,7 +183,7 @@ private:
   using List = std::pair<const Id*, const Id*>;
   using CellFacePairs = std::vector<std::pair<Id, Id>>; // cell, face
 
-  Grid choose_cells(const Box& box, double most_along) const;
+  Grid choose_cells(const Box& box, double maximum_along) const;
   bool sort(const Box& box, bool on_all_threads, std::size_t maximum_entries, Grid& grid) const;
   bool find(const Box& box, const Grid& grid, Index begin, Index end, std::size_t maximum_entries,
     CellFacePairs& found) const;
@@ -189,7 +191,7 @@ private:
   static bool crossings(
     const Box& box, const Vec3& from, const Vec3& to, List range_a, List range_b, int& count);
   bool count_by_solid_angles(const Vec3& position, int& count) const;
-  bool cut_whole(const Box& whole);
+  bool cut_root(const Box& root_box);
   bool cut(const Box& box, Arrays& output, std::size_t entries) const;
   bool fill(
     const Box& box, const Grid& grid, Id c, std::size_t entries, Arrays& output, Cell& cell) const;
@@ -230,9 +232,9 @@ bool WindingCells::Builder::build()
   {
     // The margin keeps triangles away from the sides of the box. The irregular ratios of the margin
     // ensure that the sides of cells are not in the planes of axis-aligned surfaces.
-    const double room = 1e-3 * bounds.diagonal() + 16.0 * this->owner_.tolerance_;
-    all.lower = bounds.lower - Vec3(1.0137, 1.0719, 1.0431) * room;
-    all.size = bounds.upper + Vec3(1.0311, 1.0173, 1.0597) * room - all.lower;
+    const double margin = 1e-3 * bounds.diagonal() + 16.0 * this->owner_.tolerance_;
+    all.lower = bounds.lower - Vec3(1.0137, 1.0719, 1.0431) * margin;
+    all.size = bounds.upper + Vec3(1.0311, 1.0173, 1.0597) * margin - all.lower;
     all.faces = this->faces_;
   }
   else
@@ -248,7 +250,7 @@ bool WindingCells::Builder::build()
     this->owner_.upper_ = this->owner_.lower_ - Vec3::Ones();
     return true;
   }
-  return this->cut_whole(all);
+  return this->cut_root(all);
 }
 
 /// Count the signed crossings of a segment with the faces of two lists. A face in both lists is
@@ -261,11 +263,11 @@ bool WindingCells::Builder::crossings(
   {
     const bool both = range_a.first != range_a.second && range_b.first != range_b.second &&
       *range_a.first == *range_b.first;
-    const bool own = range_b.first == range_b.second ||
+    const bool takes_a = range_b.first == range_b.second ||
       (range_a.first != range_a.second && *range_a.first <= *range_b.first);
-    const Id face = own ? *range_a.first : *range_b.first;
-    range_a.first += own || both;
-    range_b.first += !own || both;
+    const Id face = takes_a ? *range_a.first : *range_b.first;
+    range_a.first += takes_a || both;
+    range_b.first += !takes_a || both;
     const Crossing found = crossing(from, to, box.corners[face]);
     if (found == Crossing::undecided)
     {
@@ -291,16 +293,17 @@ bool WindingCells::Builder::count_by_solid_angles(const Vec3& position, int& cou
 }
 
 /// Choose the cubic cells of a box. The number of cells is chosen so that a cell contains about
-/// `wanted` triangles if the triangles form a sheet.
+/// `target_faces` triangles if the triangles form a sheet.
 WindingCells::Builder::Grid WindingCells::Builder::choose_cells(
-  const Box& box, double most_along) const
+  const Box& box, double maximum_along) const
 {
   Grid grid;
   grid.faces_before = box.faces.size();
-  const double fewest_along = box.depth == 0 ? minimum_cells_along : 2.0;
-  const double along = std::min(most_along,
-    std::max(fewest_along, std::round(std::sqrt(static_cast<double>(box.faces.size()) / wanted))));
-  grid.cell = box.size.maxCoeff() / along;
+  const double least_cells_along = box.depth == 0 ? minimum_cells_along : 2.0;
+  const double cells_along = std::min(maximum_along,
+    std::max(least_cells_along,
+      std::round(std::sqrt(static_cast<double>(box.faces.size()) / target_faces))));
+  grid.cell = box.size.maxCoeff() / cells_along;
   for (int k = 0; k < 3; ++k)
   {
     grid.size[k] = std::clamp(
@@ -332,14 +335,14 @@ bool WindingCells::Builder::find(const Box& box, const Grid& grid, Index begin, 
     bool outside = false;
     for (int k = 0; k < 3; ++k)
     {
-      const double rim = half[k] - 0.5 * grid.cell;
-      const double low = (lower[k] - rim) * inverse;
-      const double high = (upper[k] + rim) * inverse;
+      const double cell_overlap = half[k] - 0.5 * grid.cell;
+      const double low = (lower[k] - cell_overlap) * inverse;
+      const double high = (upper[k] + cell_overlap) * inverse;
       outside = outside || low >= size[k] || high < 0.0;
       from[k] = static_cast<Id>(std::clamp(low, 0.0, size[k] - 1.0));
       to[k] = static_cast<Id>(std::clamp(high, 0.0, size[k] - 1.0));
     }
-    const int wide = (from[0] < to[0]) + (from[1] < to[1]) + (from[2] < to[2]);
+    const int spanned_axes = (from[0] < to[0]) + (from[1] < to[1]) + (from[2] < to[2]);
     for (Id z = from[2]; z <= to[2] && !outside; ++z)
     {
       for (Id y = from[1]; y <= to[1]; ++y)
@@ -347,7 +350,7 @@ bool WindingCells::Builder::find(const Box& box, const Grid& grid, Index begin, 
         for (Id x = from[0]; x <= to[0]; ++x)
         {
           const Vec3 center = box.lower + grid.cell * Vec3(x + 0.5, y + 0.5, z + 0.5);
-          if (wide < 2 || overlaps(corners, center, half))
+          if (spanned_axes < 2 || overlaps(corners, center, half))
           {
             found.emplace_back((z * size[1] + y) * size[0] + x, static_cast<Id>(i));
           }
@@ -371,9 +374,9 @@ bool WindingCells::Builder::sort(
   std::atomic<std::size_t> entries{ 0 };
   const auto body = [&](Index begin, Index end)
   {
-    CellFacePairs& here = found[begin / faces_per_task];
-    if (!done || !this->find(box, grid, begin, end, maximum_entries, here) ||
-      (entries += here.size()) > maximum_entries)
+    CellFacePairs& task_pairs = found[begin / faces_per_task];
+    if (!done || !this->find(box, grid, begin, end, maximum_entries, task_pairs) ||
+      (entries += task_pairs.size()) > maximum_entries)
     {
       done = false;
     }
@@ -471,7 +474,7 @@ bool WindingCells::Builder::choose_references(const Box& box, Grid& grid) const
   return true;
 }
 
-bool WindingCells::Builder::cut_whole(const Box& whole)
+bool WindingCells::Builder::cut_root(const Box& root_box)
 {
   // Largest number of pairs of a cell and a face in all cells together. It is divided among the
   // cells in proportion to the number of faces that each contains. For every arrangement of the
@@ -482,13 +485,14 @@ bool WindingCells::Builder::cut_whole(const Box& whole)
   {
     const ProgressRange range(this->context_, 0.0, 0.3);
     bool sorted = false;
-    for (double along = maximum_cells_along; !sorted && along >= 1.0 && !this->context_.canceled();
-         along = 0.5 * whole.size.maxCoeff() / grid.cell)
+    for (double cells_along = maximum_cells_along;
+         !sorted && cells_along >= 1.0 && !this->context_.canceled();
+         cells_along = 0.5 * root_box.size.maxCoeff() / grid.cell)
     {
-      grid = this->choose_cells(whole, along);
-      sorted = this->sort(whole, true, static_cast<std::size_t>(maximum_entries), grid);
+      grid = this->choose_cells(root_box, cells_along);
+      sorted = this->sort(root_box, true, static_cast<std::size_t>(maximum_entries), grid);
     }
-    if (!sorted || !this->choose_references(whole, grid))
+    if (!sorted || !this->choose_references(root_box, grid))
     {
       return false;
     }
@@ -500,7 +504,7 @@ bool WindingCells::Builder::cut_whole(const Box& whole)
   std::vector<Arrays> parts(static_cast<std::size_t>((cells + cells_at_once - 1) / cells_at_once));
   Arrays& all = this->owner_.arrays_;
   all = Arrays();
-  all.nodes.push_back({ whole.lower, 1.0 / grid.cell, grid.size, 0 });
+  all.nodes.push_back({ root_box.lower, 1.0 / grid.cell, grid.size, 0 });
   all.cells.resize(static_cast<std::size_t>(cells));
   std::atomic<bool> done{ true };
   {
@@ -512,7 +516,7 @@ bool WindingCells::Builder::cut_whole(const Box& whole)
           for (auto c = static_cast<Id>(begin); c < end && done; ++c)
           {
             const auto entries = static_cast<std::size_t>(entries_per_pair * grid.number(c));
-            if (!this->fill(whole, grid, c, entries, parts[begin / cells_at_once], all.cells[c]))
+            if (!this->fill(root_box, grid, c, entries, parts[begin / cells_at_once], all.cells[c]))
             {
               done = false;
             }
@@ -525,7 +529,7 @@ bool WindingCells::Builder::cut_whole(const Box& whole)
     return false;
   }
   grid = Grid();
-  const auto make_room = [&](auto Arrays::*items)
+  const auto reserve_items = [&](auto Arrays::*items)
   {
     std::size_t count = (all.*items).size();
     for (const Arrays& part : parts)
@@ -534,11 +538,11 @@ bool WindingCells::Builder::cut_whole(const Box& whole)
     }
     reserve_in_large_pages(all.*items, count);
   };
-  make_room(&Arrays::nodes);
-  make_room(&Arrays::cells);
-  make_room(&Arrays::leaves);
-  make_room(&Arrays::blocks);
-  make_room(&Arrays::faces);
+  reserve_items(&Arrays::nodes);
+  reserve_items(&Arrays::cells);
+  reserve_items(&Arrays::leaves);
+  reserve_items(&Arrays::blocks);
+  reserve_items(&Arrays::faces);
   for (std::size_t i = 0; i < parts.size(); ++i)
   {
     const auto first = static_cast<Id>(i * cells_at_once);
@@ -693,23 +697,24 @@ WindingCells::Id WindingCells::Builder::add_leaf(
         const std::array<Vec3, 3>& corners = box.corners[first[lane]];
         const std::array<Vec3, 3> relative{ corners[0] - reference, corners[1] - reference,
           corners[2] - reference };
-        double reach = 0.0;
+        double largest_corner_distance = 0.0;
         for (int k = 0; k < 3; ++k)
         {
-          reach = std::max(reach, relative[k].norm());
+          largest_corner_distance = std::max(largest_corner_distance, relative[k].norm());
         }
         for (int k = 0; k < 3; ++k)
         {
           const auto normal = direction(relative[(k + 1) % 3].cross(relative[(k + 2) % 3]),
-            shortest_product * reach, fixed_point_one);
+            shortest_product * largest_corner_distance, fixed_point_one);
           std::copy(normal.begin(), normal.end(), plane.begin() + 3 * k);
         }
         const Vec3 u = corners[1] - corners[0];
         const Vec3 v = corners[2] - corners[0];
         const Vec3 product = u.cross(v);
         const double longest = std::max(u.norm(), v.norm());
-        const auto normal = direction(
-          product, shortest_product * longest * std::max(1.0, reach / cell), fixed_point_one);
+        const auto normal = direction(product,
+          shortest_product * longest * std::max(1.0, largest_corner_distance / cell),
+          fixed_point_one);
         const double distance =
           static_cast<double>(leaf.distance_scale) * product.dot(relative[0]) / product.norm();
         // The condition is true for most faces, because they overlap the cell.

@@ -394,7 +394,7 @@ void WindingNumber::Impl::at(const Vec3* queries, Index number, const int* count
     on_surface[i] = false;
     const Vec3 p = this->frame(queries[i]);
     winding_numbers[i] = queries[i].allFinite() ? 0.0 : std::numeric_limits<double>::quiet_NaN();
-    if (this->triangles.rows() > 0 && p.cwiseAbs().maxCoeff() < far_away)
+    if (this->triangles.rows() > 0 && p.cwiseAbs().maxCoeff() < zero_distance)
     {
       framed[count] = p;
       active[count++] = i;
@@ -486,8 +486,8 @@ double WindingNumber::Impl::evaluate_robustly(const Vec3& p, bool* on_surface) c
   }
   // Round the value to an integer if the surface is closed, because WindingCells returns integers
   // for the other points.
-  const bool whole = this->open_edge_list.empty() && !sum.on_surface();
-  return whole ? std::round(sum.winding_number()) : sum.winding_number();
+  const bool is_integer = this->open_edge_list.empty() && !sum.on_surface();
+  return is_integer ? std::round(sum.winding_number()) : sum.winding_number();
 }
 
 double WindingNumber::evaluate_exactly_at(const Vec3& point, bool* on_surface) const
@@ -495,7 +495,7 @@ double WindingNumber::evaluate_exactly_at(const Vec3& point, bool* on_surface) c
   const Impl& impl = *this->impl_;
   const Vec3 p = impl.frame(point);
   if (impl.method == WindingMethod::fast && impl.triangles.rows() > 0 &&
-    p.cwiseAbs().maxCoeff() < far_away)
+    p.cwiseAbs().maxCoeff() < zero_distance)
   {
     bool touches = false;
     const double winding_number = impl.evaluate_robustly(p, &touches);
@@ -569,33 +569,33 @@ Status WindingNumber::evaluate_points(ExecutionContext& context, Index count,
     {
       // Sort the points spatially, so that neighboring points use the data of a cell while it is in
       // the cache.
-      const Index count_here = end - begin;
-      std::vector<Vec3> points(static_cast<std::size_t>(count_here));
-      for (Index i = 0; i < count_here; ++i)
+      const Index block_count = end - begin;
+      std::vector<Vec3> points(static_cast<std::size_t>(block_count));
+      for (Index i = 0; i < block_count; ++i)
       {
         points[i] = point_at(begin + i);
       }
       const std::vector<std::int32_t> order = spatial_sort(points);
       constexpr Index batch_size = WindingCells::maximum_batch;
-      std::array<Vec3, batch_size> some;
+      std::array<Vec3, batch_size> batch_points;
       std::array<double, batch_size> values;
       std::array<bool, batch_size> touches;
-      std::array<int, batch_size> counts_here;
-      std::array<unsigned char, batch_size> resolved_here;
-      for (Index first = 0; first < count_here; first += batch_size)
+      std::array<int, batch_size> batch_counts;
+      std::array<unsigned char, batch_size> batch_resolved;
+      for (Index first = 0; first < block_count; first += batch_size)
       {
-        const Index number = std::min(batch_size, count_here - first);
+        const Index number = std::min(batch_size, block_count - first);
         for (Index i = 0; i < number; ++i)
         {
-          some[i] = points[order[first + i]];
+          batch_points[i] = points[order[first + i]];
           if (use_rays)
           {
-            counts_here[i] = counts[begin + order[first + i]];
-            resolved_here[i] = resolved[begin + order[first + i]];
+            batch_counts[i] = counts[begin + order[first + i]];
+            batch_resolved[i] = resolved[begin + order[first + i]];
           }
         }
-        impl.at(some.data(), number, use_rays ? counts_here.data() : nullptr,
-          use_rays ? resolved_here.data() : nullptr, values.data(), touches.data());
+        impl.at(batch_points.data(), number, use_rays ? batch_counts.data() : nullptr,
+          use_rays ? batch_resolved.data() : nullptr, values.data(), touches.data());
         for (Index i = 0; i < number; ++i)
         {
           out[begin + order[first + i]] = values[i];
@@ -671,7 +671,7 @@ Vec3 WindingNumber::Impl::gradient_at(const Vec3& point) const
     return Vec3::Constant(std::numeric_limits<double>::quiet_NaN());
   }
   const Vec3 p = this->frame(point);
-  if (this->open_edge_list.empty() || !(p.cwiseAbs().maxCoeff() < far_away))
+  if (this->open_edge_list.empty() || !(p.cwiseAbs().maxCoeff() < zero_distance))
   {
     return Vec3::Zero();
   }
@@ -701,8 +701,8 @@ bool WindingNumber::Impl::accepts(const SampleGrid& grid) const
   const auto corner = [&](int end)
   { return this->frame(grid.point(grid.extent[end], grid.extent[2 + end], grid.extent[4 + end])); };
   return this->triangles.rows() > 0 && grid.count() > 0 && corner(0).allFinite() &&
-    corner(1).allFinite() && corner(0).cwiseAbs().maxCoeff() < far_away &&
-    corner(1).cwiseAbs().maxCoeff() < far_away;
+    corner(1).allFinite() && corner(0).cwiseAbs().maxCoeff() < zero_distance &&
+    corner(1).cwiseAbs().maxCoeff() < zero_distance;
 }
 
 /// Evaluate the grid by rows along x. Samples of a row in one cell share the descent to the cell.
@@ -751,7 +751,7 @@ Status WindingNumber::evaluate_rows(
   const bool done = parallel_for(context, grid.size(1) * grid.size(2), rows_per_block,
     [&](Index begin, Index end)
     {
-      Index touching_here = 0;
+      Index touching_in_block = 0;
       std::vector<Index> unresolved, slab_unresolved;
       if (use_rays)
       {
@@ -814,14 +814,14 @@ Status WindingNumber::evaluate_rows(
           p.x() = xs[i];
           bool touches = false;
           values[i] = impl.evaluate_robustly(p, &touches);
-          touching_here += touches;
+          touching_in_block += touches;
           if (flags)
           {
             flags[i] = touches;
           }
         }
       }
-      touching += touching_here;
+      touching += touching_in_block;
     });
   if (!done)
   {
@@ -860,7 +860,7 @@ double winding_number_direct(
   }
   const ExactFrame frame(bounding_box(points, triangles));
   const Vec3 p = frame(point);
-  if (!(p.cwiseAbs().maxCoeff() < far_away))
+  if (!(p.cwiseAbs().maxCoeff() < zero_distance))
   {
     return 0.0;
   }

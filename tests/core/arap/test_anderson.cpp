@@ -87,7 +87,7 @@ TEST(Anderson, WithoutAPastOrAWindowItLeavesTheIterateAlone)
     x = g;
     const Problem::Iterate next = problem.map(x);
     EXPECT_EQ(anderson.next(next.data(), x.data()), window > 0);
-    anderson.forget();
+    anderson.clear_history();
     x = start;
     EXPECT_FALSE(anderson.next(g.data(), x.data()));
     EXPECT_EQ(x, start);

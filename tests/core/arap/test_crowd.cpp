@@ -113,10 +113,10 @@ TEST(Crowd, StandsWhereItIsPlaced)
 {
   // A placement transforms the posed points. This must also be true if the rows of the weights do
   // not sum to 1.
-  for (const double share : { 1.0, 0.7 })
+  for (const double row_sum : { 1.0, 0.7 })
   {
     Rig rig = bar();
-    rig.weights *= share;
+    rig.weights *= row_sum;
     ExecutionContext context;
     Crowd crowd;
     ASSERT_TRUE(

@@ -359,8 +359,8 @@ TEST(ReducedArapRobustness, AWarmStartNeedsFewerIterations)
   const Status warm = arap.solve(context, pose, options);
   ASSERT_TRUE(warm.ok());
   EXPECT_LT(warm.report.number("iterations", 1e9), cold.report.number("iterations", 0));
-  // After forget() the result equals that of a new object.
-  arap.forget();
+  // After discard_rotations() the result equals that of a new object.
+  arap.discard_rotations();
   ASSERT_TRUE(arap.solve(context, pose, options).ok());
   ReducedArap fresh;
   ASSERT_TRUE(fresh.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles).ok());
@@ -500,12 +500,12 @@ namespace
 {
 /// The bar of test::bar(), whose middle handle is replaced by a bone from one vertex to another
 /// vertex.
-struct BoneInABar
+struct BarWithBone
 {
   test::Rig rig = test::bar();
   Index head = 0, tail = 0; ///< vertex ids
 
-  BoneInABar()
+  BarWithBone()
   {
     const auto nearest = [&](const Vec3& place)
     {
@@ -525,7 +525,7 @@ struct BoneInABar
 
 TEST(ReducedArapRobustness, EndsOfBonesAreHeldOneByOne)
 {
-  const BoneInABar bar;
+  const BarWithBone bar;
   const test::Rig& rig = bar.rig;
   ExecutionContext context;
   ReducedArap arap;
@@ -571,7 +571,7 @@ TEST(ReducedArapRobustness, RigidTargetsOfEndsAreReached)
 {
   // Bones whose ends are both constrained determine a rigid motion, unless all ends are on one
   // line.
-  BoneInABar bar;
+  BarWithBone bar;
   test::Rig& rig = bar.rig;
   rig.handles[2].kind = HandleKind::bone;
   rig.handles[2].tail = rig.mesh.points.row(0);

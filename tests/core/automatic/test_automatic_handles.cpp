@@ -17,7 +17,7 @@ using testing::HasSubstr;
 
 namespace
 {
-class AutomaticHandles : public test::NeedsMesher
+class AutomaticHandles : public test::MesherTest
 {
 };
 

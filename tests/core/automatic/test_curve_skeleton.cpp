@@ -21,7 +21,7 @@ using testing::HasSubstr;
 
 namespace
 {
-class CurveSkeletonTest : public test::NeedsMesher
+class CurveSkeletonTest : public test::MesherTest
 {
 };
 
@@ -274,10 +274,10 @@ TEST_F(CurveSkeletonTest, CanBeCanceledWhileItContracts)
   CurveSkeleton skeleton;
   TriangleMesh solid;
   ExecutionContext context;
-  test::CancelLater user(context, 1500);
+  test::DelayedCancel canceler(context, 1500);
   const Status status =
     curve_skeleton(context, mesh.points, mesh.triangles, options, skeleton, solid);
-  EXPECT_LT(user.seconds_since_cancel(), 0.5);
+  EXPECT_LT(canceler.seconds_since_cancel(), 0.5);
   EXPECT_EQ(status.code, StatusCode::canceled);
 }
 

@@ -9,16 +9,17 @@ using namespace bindpose;
 
 TEST(ExecutionContext, ProgressNeverGoesBack)
 {
-  std::vector<double> told;
-  ExecutionContext context(
-    [&](double fraction, const std::string&) { told.push_back(fraction); }, [] { return false; });
+  std::vector<double> reported_fractions;
+  ExecutionContext context([&](double fraction, const std::string&)
+    { reported_fractions.push_back(fraction); },
+    [] { return false; });
   // Each phase begins at the given fraction. If a larger fraction was reported before, the phase
   // reports the larger fraction again, so that the progress never decreases.
   for (const double begin : { 0.0, 0.4, 0.1, 0.0, 0.7 })
   {
     const Phase phase(context, "again", begin, 0.9);
   }
-  EXPECT_EQ(told, (std::vector<double>{ 0.0, 0.4, 0.4, 0.4, 0.7 }));
+  EXPECT_EQ(reported_fractions, (std::vector<double>{ 0.0, 0.4, 0.4, 0.4, 0.7 }));
 }
 
 TEST(Execution, PhasesNestAndProgressNeverGoesBack)

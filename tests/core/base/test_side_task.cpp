@@ -16,7 +16,7 @@ void sleep_for(double seconds)
 {
   std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
 }
-constexpr double never = 1e6; // delay in seconds
+constexpr double unlimited_delay = 1e6; // delay in seconds
 } // namespace
 
 TEST(SideTask, BeginsByItselfAfterItsDelay)
@@ -39,7 +39,7 @@ TEST(SideTask, FinishBeginsItAtOnceAndWaitsForItsEnd)
     ExecutionContext context;
     context.set_threads(threads);
     int runs = 0;
-    SideTask task(context, never,
+    SideTask task(context, unlimited_delay,
       [&](ExecutionContext&)
       {
         sleep_for(0.05);
@@ -132,7 +132,7 @@ TEST(SideTask, DroppedBeforeItBeginsItNeverRuns)
   context.set_threads(2);
   bool ran = false;
   {
-    SideTask task(context, never, [&](ExecutionContext&) { ran = true; });
+    SideTask task(context, unlimited_delay, [&](ExecutionContext&) { ran = true; });
   }
   EXPECT_FALSE(ran);
 }

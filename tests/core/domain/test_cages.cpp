@@ -20,7 +20,7 @@ using testing::HasSubstr;
 
 namespace
 {
-using CagesInTets = test::NeedsMesher;
+using CagesInTets = test::MesherTest;
 
 /// Return a polyline of cage edges, closed or open.
 Handles polyline(const std::vector<Vec3>& corners, bool closed)
@@ -62,7 +62,7 @@ Index expect_linear_along(
 {
   const bool face = element[2] >= 0;
   const auto corner = [&](int k) { return problem.handles[element[k]].head; };
-  Index on_it = 0;
+  Index vertex_count = 0;
   for (Index v = 0; v < weights.rows(); ++v)
   {
     const SimplexLocation at = nearest_in_triangle(
@@ -71,7 +71,7 @@ Index expect_linear_along(
     {
       continue;
     }
-    ++on_it;
+    ++vertex_count;
     for (Index j = 0; j < weights.cols(); ++j)
     {
       double expected = 0.0;
@@ -82,7 +82,7 @@ Index expect_linear_along(
       EXPECT_NEAR(weights(v, j), expected, 1e-9) << "vertex " << v << ", column " << j;
     }
   }
-  return on_it;
+  return vertex_count;
 }
 } // namespace
 

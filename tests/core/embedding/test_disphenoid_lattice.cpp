@@ -80,7 +80,7 @@ TEST(DisphenoidLattice, PiecesAreWhatATriangleGoesThrough)
       corner = random.in_box(Vec3::Constant(2.0), Vec3::Constant(5.0));
     }
     std::set<Key> found;
-    DisphenoidLattice::for_pieces(corners,
+    DisphenoidLattice::for_each_piece(corners,
       [&](const Vec3& middle, const Vec3& lower, const Vec3& upper)
       {
         found.insert(DisphenoidLattice::locate(middle).tet);

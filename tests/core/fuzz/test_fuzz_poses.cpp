@@ -366,12 +366,12 @@ TEST(FuzzPoses, ReducedArap)
         // Round-off is proportional to the largest summands, which grow with the square of the
         // pose's size.
         const double size = size_of_pose(pose);
-        const double share = options.mixed_precision ? 1e-6 : 1e-12;
-        const double unit = share * arap.rest_energy() * size * size;
+        const double relative_tolerance = options.mixed_precision ? 1e-6 : 1e-12;
+        const double unit = relative_tolerance * arap.rest_energy() * size * size;
         for (std::size_t i = 1; i < arap.energies().size(); ++i)
         {
           ASSERT_LE(arap.energies()[i],
-            arap.energies()[i - 1] + unit + share * std::abs(arap.energies()[i - 1]))
+            arap.energies()[i - 1] + unit + relative_tolerance * std::abs(arap.energies()[i - 1]))
             << i << " size " << size;
         }
         ASSERT_TRUE(parallel_arap.solve(parallel, pose, options).usable());

@@ -402,7 +402,7 @@ std::string gltf(bool binary, GltfAnimation animation)
     joint.name = "j" + std::to_string(j);
     joint.parent = j - 1;
     joint.rest.translation() = joint.posed.translation() = Vec3(0, 0.2 * static_cast<double>(j), 0);
-    joint.note = GltfHandleExtras{ "cage_vertex", joint.rest.translation(),
+    joint.handle_extras = GltfHandleExtras{ "cage_vertex", joint.rest.translation(),
       joint.rest.translation(), 0, { { j, (j + 1) % 6, -1 } } };
     skin.joints.push_back(joint);
   }

@@ -373,7 +373,7 @@ void expect_volume(test::Random& random, const TriangleMesh& surface,
   }
 }
 
-class FuzzWrap : public test::NeedsMesher
+class FuzzWrap : public test::MesherTest
 {
 };
 } // namespace

@@ -55,13 +55,13 @@ Vec3 hostile_position(Random& random, const Domain& domain, const Handles& other
   const double size = box.diagonal();
   const Index* corners = domain.element(random.below(domain.element_count()));
   const auto corner = [&](Index k) { return Vec3(domain.points.row(corners[k])); };
-  const double little = size * std::pow(10.0, random.uniform(-16.0, -2.0));
+  const double small_length = size * std::pow(10.0, random.uniform(-16.0, -2.0));
   switch (random.below(9))
   {
     case 0:
       return corner(0);
     case 1:
-      return corner(0) + little * random.in_cube();
+      return corner(0) + small_length * random.in_cube();
     case 2:
       return 0.5 * (corner(0) + corner(1));
     case 3:
@@ -77,7 +77,7 @@ Vec3 hostile_position(Random& random, const Domain& domain, const Handles& other
         const Handle& other =
           others[static_cast<std::size_t>(random.below(static_cast<Index>(others.size())))];
         const Vec3 at = chance(random, 0.5) ? other.head : other.tail;
-        return chance(random, 0.5) ? at : Vec3(at + little * random.in_cube());
+        return chance(random, 0.5) ? at : Vec3(at + small_length * random.in_cube());
       }
       [[fallthrough]];
     }
@@ -87,9 +87,9 @@ Vec3 hostile_position(Random& random, const Domain& domain, const Handles& other
       double total = 0.0;
       for (int k = 0; k < domain.corners(); ++k)
       {
-        const double share = random.uniform();
-        sum += share * corner(k);
-        total += share;
+        const double weight = random.uniform();
+        sum += weight * corner(k);
+        total += weight;
       }
       return sum / total;
     }

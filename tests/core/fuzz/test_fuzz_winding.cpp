@@ -74,8 +74,11 @@ bool is_borderline(const TriangleMesh& mesh, const Vec3& point)
   for (Index t = 0; t < mesh.triangles.rows(); ++t)
   {
     const auto corner = [&](int k) { return frame(mesh.points.row(mesh.triangles(t, k))); };
-    const auto touches = [&](double share)
-    { return touches_triangle(p, corner(0), corner(1), corner(2), share * frame.tolerance); };
+    const auto touches = [&](double tolerance_factor)
+    {
+      return touches_triangle(
+        p, corner(0), corner(1), corner(2), tolerance_factor * frame.tolerance);
+    };
     if (touches(1.3) && !touches(0.7))
     {
       return true;

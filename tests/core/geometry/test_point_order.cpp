@@ -12,7 +12,7 @@ using namespace bindpose;
 
 namespace
 {
-double length_of_way(const std::vector<Vec3>& points, const std::vector<std::int32_t>& order)
+double path_length(const std::vector<Vec3>& points, const std::vector<std::int32_t>& order)
 {
   double sum = 0.0;
   for (std::size_t i = 1; i < order.size(); ++i)
@@ -40,7 +40,7 @@ TEST(PointOrder, EveryPointOnceAndTheWayIsShort)
     ASSERT_EQ(order.size(), count);
     if (count >= 3000)
     {
-      EXPECT_LT(length_of_way(points, order), 0.2 * length_of_way(points, as_they_come));
+      EXPECT_LT(path_length(points, order), 0.2 * path_length(points, as_they_come));
     }
     std::sort(order.begin(), order.end());
     EXPECT_EQ(order, as_they_come);

@@ -165,8 +165,8 @@ TEST(GltfSkin, WhatIsWrittenComesBack)
   {
     GltfSkin skin = example(7);
     skin.name = "ball";
-    skin.joints[2].note = GltfHandleExtras{ "cage_vertex", Vec3(0.1, 0.2, 0.3), Vec3(1, 2, 3), 4,
-      { { 2, 1, -1 }, { 2, 0, 1 } } };
+    skin.joints[2].handle_extras = GltfHandleExtras{ "cage_vertex", Vec3(0.1, 0.2, 0.3),
+      Vec3(1, 2, 3), 4, { { 2, 1, -1 }, { 2, 0, 1 } } };
     GltfOptions options;
     options.binary = binary;
     Status status = write_gltf_skin(folder / "rig.gltf", skin, options);
@@ -196,11 +196,11 @@ TEST(GltfSkin, WhatIsWrittenComesBack)
       EXPECT_LT(difference_of_affines(reread.joints[j].rest, skin.joints[j].rest), 1e-6);
       EXPECT_LT(difference_of_affines(reread.joints[j].posed, skin.joints[j].rest), 1e-12);
     }
-    ASSERT_TRUE(reread.joints[2].note);
-    EXPECT_EQ(reread.joints[2].note->kind, "cage_vertex");
-    EXPECT_EQ(reread.joints[2].note->head, Vec3(0.1, 0.2, 0.3));
-    EXPECT_EQ(reread.joints[2].note->region, 4);
-    EXPECT_EQ(reread.joints[2].note->cage, skin.joints[2].note->cage);
+    ASSERT_TRUE(reread.joints[2].handle_extras);
+    EXPECT_EQ(reread.joints[2].handle_extras->kind, "cage_vertex");
+    EXPECT_EQ(reread.joints[2].handle_extras->head, Vec3(0.1, 0.2, 0.3));
+    EXPECT_EQ(reread.joints[2].handle_extras->region, 4);
+    EXPECT_EQ(reread.joints[2].handle_extras->cage, skin.joints[2].handle_extras->cage);
   }
 }
 

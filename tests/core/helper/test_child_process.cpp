@@ -40,9 +40,9 @@ public:
   std::vector<std::string> lines;
 };
 
-bool dies_soon(const std::string& process)
+bool wait_for_exit(const std::string& process)
 {
-  return test::becomes_true([&] { return test::has_exited(std::stoi(process)); });
+  return test::wait_until([&] { return test::has_exited(std::stoi(process)); });
 }
 } // namespace
 
@@ -91,34 +91,34 @@ TEST(ChildProcess, MemoryIsLimitedFromOutside)
 
 TEST(ChildProcess, ItsGroupIsKilledWhateverTheEnd)
 {
-  const std::string leaves_one = "sleep 60 & echo $!; ";
+  const std::string start_child_script = "sleep 60 & echo $!; ";
   std::vector<int> groups;
   {
-    Shell shell(leaves_one + "exit 0");
+    Shell shell(start_child_script + "exit 0");
     shell.request.started = [&](int group) { groups.push_back(group); };
     ASSERT_TRUE(shell.run().ok());
     ASSERT_EQ(shell.lines.size(), 1u);
-    EXPECT_TRUE(dies_soon(shell.lines[0])) << "after its own end";
+    EXPECT_TRUE(wait_for_exit(shell.lines[0])) << "after its own end";
   }
   ASSERT_EQ(groups.size(), 2u);
   EXPECT_GT(groups[0], 0);
   EXPECT_EQ(groups[1], 0) << "nothing is left";
   {
-    Shell shell(leaves_one + "wait");
+    Shell shell(start_child_script + "wait");
     shell.request.time_limit = 0.3;
     const Status status = shell.run();
     EXPECT_EQ(status.code, StatusCode::internal_error);
     EXPECT_EQ(status.message, "the shell was stopped at its time limit of 0.3 s");
     ASSERT_EQ(shell.lines.size(), 1u);
-    EXPECT_TRUE(dies_soon(shell.lines[0])) << "after the time limit";
+    EXPECT_TRUE(wait_for_exit(shell.lines[0])) << "after the time limit";
   }
   {
-    Shell shell(leaves_one + "wait");
+    Shell shell(start_child_script + "wait");
     ExecutionContext context;
-    const test::CancelLater user(context, 300);
+    const test::DelayedCancel canceler(context, 300);
     EXPECT_EQ(shell.run(&context).code, StatusCode::canceled);
     ASSERT_EQ(shell.lines.size(), 1u);
-    EXPECT_TRUE(dies_soon(shell.lines[0])) << "after a cancel";
+    EXPECT_TRUE(wait_for_exit(shell.lines[0])) << "after a cancel";
     EXPECT_EQ(shell.run(&context).code, StatusCode::canceled);
     EXPECT_EQ(shell.lines.size(), 1u) << "canceled before: not started";
   }

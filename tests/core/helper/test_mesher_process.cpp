@@ -30,10 +30,10 @@ using testing::HasSubstr;
 namespace
 {
 /// Replaces the helper program by a shell script.
-class FakeHelper : public test::WatchedStandIn
+class FakeHelper : public test::WatchedFakeProgram
 {
 public:
-  explicit FakeHelper(const std::string& script) : WatchedStandIn("BINDPOSE_MESHER", script) {}
+  explicit FakeHelper(const std::string& script) : WatchedFakeProgram("BINDPOSE_MESHER", script) {}
 
   Status run(double time_limit = 10.0, ExecutionContext* context = nullptr)
   {
@@ -186,9 +186,9 @@ TEST(MesherProcess, CancelKillsTheHelperAtOnce)
 {
   FakeHelper helper(std::string(write_process) + "exec sleep 60");
   ExecutionContext context;
-  test::CancelLater user(context, 300);
+  test::DelayedCancel canceler(context, 300);
   const Status status = helper.run(60.0, &context);
-  const double seconds_since_cancel = user.seconds_since_cancel();
+  const double seconds_since_cancel = canceler.seconds_since_cancel();
   EXPECT_EQ(status.code, StatusCode::canceled);
   EXPECT_LT(seconds_since_cancel, 0.2);
   ASSERT_GT(helper.process(), 0);
@@ -207,7 +207,7 @@ TEST(MesherProcess, ADetachedGrandchildDoesNotHang)
 
 // ---- The real helper program ------------------------------------------------------------------
 
-class RealHelper : public test::NeedsMesher
+class RealHelper : public test::MesherTest
 {
 };
 

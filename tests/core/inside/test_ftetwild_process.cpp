@@ -28,10 +28,10 @@
 #include <unistd.h>
 
 using namespace bindpose;
-using test::becomes_true;
 using test::Environment;
 using test::has_exited;
 using test::open_descriptors;
+using test::wait_until;
 using testing::HasSubstr;
 
 namespace
@@ -81,11 +81,11 @@ std::string cube_in_medit_format()
 }
 
 /// Replaces fTetWild by a script.
-class FakeFtetwild : public test::WatchedStandIn
+class FakeFtetwild : public test::WatchedFakeProgram
 {
 public:
   explicit FakeFtetwild(const std::string& script)
-    : WatchedStandIn("BINDPOSE_FTETWILD", parse_arguments + script)
+    : WatchedFakeProgram("BINDPOSE_FTETWILD", parse_arguments + script)
   {
     this->folder().write("tets.mesh", cube_in_medit_format());
   }
@@ -214,9 +214,9 @@ TEST(Ftetwild, TimeLimitAndCancelKillItAtOnce)
   EXPECT_TRUE(has_exited(fake.process())) << "still running";
 
   ExecutionContext context;
-  test::CancelLater user(context, 400);
+  test::DelayedCancel canceler(context, 400);
   status = fake.run(test::cube(), {}, &context);
-  const double seconds_since_cancel = user.seconds_since_cancel();
+  const double seconds_since_cancel = canceler.seconds_since_cancel();
   EXPECT_EQ(status.code, StatusCode::canceled);
   EXPECT_LT(seconds_since_cancel, 0.2);
   EXPECT_TRUE(has_exited(fake.process())) << "still running";
@@ -243,12 +243,12 @@ TEST(Ftetwild, NothingIsLeftWhenThisProcessIsKilled)
     ::_exit(0);
   }
   ASSERT_GT(victim, 0);
-  ASSERT_TRUE(becomes_true([&] { return fake.process() > 0; }));
+  ASSERT_TRUE(wait_until([&] { return fake.process() > 0; }));
   EXPECT_EQ(fake.temporary().number_of_files(), 1u);
   ::kill(victim, SIGKILL);
   ::waitpid(victim, nullptr, 0);
-  EXPECT_TRUE(becomes_true([&] { return fake.temporary().number_of_files() == 0; }));
-  EXPECT_TRUE(becomes_true([&] { return has_exited(fake.process()); })) << "still running";
+  EXPECT_TRUE(wait_until([&] { return fake.temporary().number_of_files() == 0; }));
+  EXPECT_TRUE(wait_until([&] { return has_exited(fake.process()); })) << "still running";
 }
 
 TEST(Ftetwild, BadInputIsOneSentence)

@@ -64,7 +64,7 @@ bool is_manifold(const Triangles& skin)
 {
   for (const Edge& edge : mesh_edges(skin))
   {
-    if (edge.uses != 2 || edge.net_direction != 0)
+    if (edge.triangle_count != 2 || edge.net_direction != 0)
     {
       return false;
     }
@@ -162,7 +162,7 @@ TriangleMesh shaken_soup(const TriangleMesh& mesh, double by)
 
 constexpr const char* sleep_script = "exec sleep 60\n";
 
-class Remesh : public test::NeedsMesher
+class Remesh : public test::MesherTest
 {
 };
 } // namespace
@@ -411,7 +411,7 @@ TEST(RemeshTets, WithoutHelperTheLadderCutsALattice)
 
 TEST(RemeshTets, ASlowHelperIsStoppedAtTheLimit)
 {
-  const test::StandIn helper("BINDPOSE_MESHER", sleep_script);
+  const test::FakeProgram helper("BINDPOSE_MESHER", sleep_script);
   RemeshOptions options;
   options.time_limit = 0.3;
   const RemeshOutcome outcome = run_remesh(test::sphere(2), options);
@@ -422,14 +422,14 @@ TEST(RemeshTets, ASlowHelperIsStoppedAtTheLimit)
 
 TEST(RemeshTets, CancelKillsTheHelper)
 {
-  const test::StandIn helper("BINDPOSE_MESHER", sleep_script);
+  const test::FakeProgram helper("BINDPOSE_MESHER", sleep_script);
   const TriangleMesh mesh = test::sphere(2);
   const WindingNumber winding(mesh.points, mesh.triangles);
   ExecutionContext context;
-  test::CancelLater user(context, 300);
+  test::DelayedCancel canceler(context, 300);
   RemeshResult result;
   const Status status = remesh_tets(context, mesh.points, mesh.triangles, winding, {}, result);
-  const double seconds_since_cancel = user.seconds_since_cancel();
+  const double seconds_since_cancel = canceler.seconds_since_cancel();
   EXPECT_EQ(status.code, StatusCode::canceled);
   EXPECT_LT(seconds_since_cancel, 0.2);
   EXPECT_EQ(result.mesh.tets.rows(), 0);

@@ -113,7 +113,7 @@ TEST(Tetrahedralize, TinyAndHugeCoordinates)
 
 TEST(Tetrahedralize, ABrokenHelperIsLeft)
 {
-  const test::StandIn helper("BINDPOSE_MESHER", "kill -SEGV $$\n");
+  const test::FakeProgram helper("BINDPOSE_MESHER", "kill -SEGV $$\n");
   const Outcome outcome = run(test::sphere(2));
   expect_valid(outcome, test::sphere(2));
   EXPECT_EQ(outcome.method(), "remesh");
@@ -133,7 +133,7 @@ TEST(Tetrahedralize, ABrokenHelperIsLeft)
 
 TEST(Tetrahedralize, ASlowHelperIsLeftInTime)
 {
-  const test::StandIn helper("BINDPOSE_MESHER", "exec sleep 60\n");
+  const test::FakeProgram helper("BINDPOSE_MESHER", "exec sleep 60\n");
   TetrahedralizeOptions options;
   options.time_limit = 0.4;
   options.resolution = 10;
@@ -145,13 +145,13 @@ TEST(Tetrahedralize, ASlowHelperIsLeftInTime)
 
 TEST(Tetrahedralize, CancelEndsAtOnce)
 {
-  const test::StandIn helper("BINDPOSE_MESHER", "exec sleep 60\n");
+  const test::FakeProgram helper("BINDPOSE_MESHER", "exec sleep 60\n");
   const TriangleMesh mesh = test::sphere(2);
   ExecutionContext context;
-  test::CancelLater user(context, 500);
+  test::DelayedCancel canceler(context, 500);
   TetrahedralizeResult result;
   const Status status = tetrahedralize(context, mesh.points, mesh.triangles, {}, result);
-  const double seconds_since_cancel = user.seconds_since_cancel();
+  const double seconds_since_cancel = canceler.seconds_since_cancel();
   EXPECT_EQ(status.code, StatusCode::canceled);
   EXPECT_LT(seconds_since_cancel, 0.2);
   EXPECT_EQ(result.mesh.tets.rows(), 0);
@@ -160,7 +160,7 @@ TEST(Tetrahedralize, CancelEndsAtOnce)
 TEST(Tetrahedralize, FtetwildIsJudgedLikeAnyOther)
 {
   // The script returns the cube in fTetWild's frame for every input.
-  const test::StandIn program("BINDPOSE_FTETWILD",
+  const test::FakeProgram program("BINDPOSE_FTETWILD",
     "while [ \"$1\" != --output ]; do shift; done\ncp \"$(dirname \"$0\")/tets.mesh\" \"$2\"\n");
   const TetMesh box = test::tet_box(2, 2, 2, Vec3::Constant(-0.5), Vec3::Constant(0.5));
   ASSERT_TRUE(
@@ -330,10 +330,10 @@ TEST(Tetrahedralize, WhatIsTooThinForRemeshIsSaid)
   options.method = TetMethod::remesh;
   const Outcome outcome = run(needle, options);
   EXPECT_EQ(outcome.status.code, StatusCode::unavailable);
-  const double share = 100.0 * signed_volume(needle.points, needle.triangles) /
+  const double percentage = 100.0 * signed_volume(needle.points, needle.triangles) /
     bounding_box(needle.points).size().prod();
   EXPECT_THAT(outcome.status.message,
-    HasSubstr("encloses about " + short_number(share, 3) +
+    HasSubstr("encloses about " + short_number(percentage, 3) +
       " % of its bounding box, but this region is too thin"));
   EXPECT_THAT(outcome.status.message, HasSubstr("--method cdt"));
   EXPECT_THAT(outcome.status.message, HasSubstr("above 40 (--resolution)"));

@@ -26,7 +26,7 @@ using testing::HasSubstr;
 
 namespace
 {
-class Wrap : public test::NeedsMesher
+class Wrap : public test::MesherTest
 {
 };
 

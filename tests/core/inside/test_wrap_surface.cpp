@@ -63,7 +63,7 @@ void expect_clean(const TriangleMesh& wrap)
   ASSERT_TRUE(check_mesh(wrap.points, wrap.triangles).ok());
   for (const Edge& edge : mesh_edges(wrap.triangles))
   {
-    ASSERT_EQ(edge.uses, 2);
+    ASSERT_EQ(edge.triangle_count, 2);
     ASSERT_EQ(edge.net_direction, 0);
   }
   ExecutionContext context;
@@ -108,7 +108,7 @@ void expect_around(const TriangleMesh& wrap, const TriangleMesh& mesh, double of
   }
 }
 
-class WrapSurface : public test::NeedsMesher
+class WrapSurface : public test::MesherTest
 {
 };
 } // namespace
@@ -269,7 +269,7 @@ TEST(WrapSurfaceInput, NeedsTheHelper)
 
 TEST(WrapSurfaceInput, AHelperThatGivesTheSurfaceBackIsNotBelieved)
 {
-  const test::StandIn helper("BINDPOSE_MESHER", "cat\n");
+  const test::FakeProgram helper("BINDPOSE_MESHER", "cat\n");
   TriangleMesh wrap;
   const Status status = run_wrap(test::open_cube(), {}, wrap);
   EXPECT_EQ(status.code, StatusCode::internal_error);

@@ -36,7 +36,7 @@ void expect_valid(const TetOutcome& outcome, const TriangleMesh& surface);
 HandleElements handle_elements_of(const std::vector<Vec3>& points);
 
 /// Fixture of the tests of method cdt (constrained Delaunay tetrahedralization).
-class Cdt : public NeedsMesher
+class Cdt : public MesherTest
 {
 };
 

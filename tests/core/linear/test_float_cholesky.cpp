@@ -302,5 +302,5 @@ TEST(FloatCholesky, IsUnavailableWithoutSupernodes)
   ASSERT_TRUE(solver.analyze(a).ok());
   FloatCholesky single;
   EXPECT_EQ(single.analyze(solver, a).code, StatusCode::unavailable);
-  EXPECT_FALSE(single.analyzed());
+  EXPECT_FALSE(single.is_analyzed());
 }

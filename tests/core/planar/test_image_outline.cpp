@@ -113,7 +113,7 @@ double distance(const Vec2& p, const Vec2& a, const Vec2& b)
 }
 
 /// Return the largest distance from points on one outline to the other outline.
-double one_way(const ImageOutline& from, const ImageOutline& to)
+double one_sided_distance(const ImageOutline& from, const ImageOutline& to)
 {
   double largest = 0.0;
   for (Index e = 0; e < from.segments.rows(); ++e)
@@ -211,8 +211,8 @@ TEST(ImageOutline, StaysWithinTheToleranceAndNeverCrosses)
         outline_area(outline);
         EXPECT_EQ(crossings(outline), 0);
         EXPECT_LT(outline.points.rows(), contour.points.rows());
-        EXPECT_LE(one_way(contour, outline), simplify + 1e-9);
-        EXPECT_LE(one_way(outline, contour), simplify + 1e-9);
+        EXPECT_LE(one_sided_distance(contour, outline), simplify + 1e-9);
+        EXPECT_LE(one_sided_distance(outline, contour), simplify + 1e-9);
       }
     }
   }

@@ -151,7 +151,7 @@ void expect_mesh(const PlanarShape& shape)
   }
 }
 
-class PlanarShapeTest : public test::NeedsMesher
+class PlanarShapeTest : public test::MesherTest
 {
 protected:
   Status run(const Curves& curves)

@@ -140,8 +140,8 @@ TEST_F(AugmentedLagrangian, AgreesWithTheInteriorPointMethod)
       EXPECT_EQ(proof.bounds_violation, 0.0) << j;
       EXPECT_EQ(proof.order_violation, 0.0) << j;
     }
-    const Index some_active = (solutions[0].multipliers.array() > 0.0).count();
-    EXPECT_GT(some_active, 10) << "expected more than 10 active pairs";
+    const Index active_count = (solutions[0].multipliers.array() > 0.0).count();
+    EXPECT_GT(active_count, 10) << "expected more than 10 active pairs";
   }
 }
 

@@ -163,10 +163,10 @@ TEST(GraphCut, CancelStopsIt)
 {
   const CutEnergy energy = noise_energy(70); // minimizing this energy takes seconds
   ExecutionContext context;
-  test::CancelLater user(context, 500);
+  test::DelayedCancel canceler(context, 500);
   std::vector<char> inside;
   const Status status = minimize(context, energy, inside);
-  const double seconds_since_cancel = user.seconds_since_cancel();
+  const double seconds_since_cancel = canceler.seconds_since_cancel();
   if (status.code == StatusCode::canceled)
   {
     // The cancel takes about 200 ms on an idle machine.

@@ -126,7 +126,7 @@ TEST(PartLinks, NearestPlacesAreNearerThanAllSamples)
     constexpr int steps = 24;
     double nearest = 1e300;
     std::vector<Vec3> on_b;
-    const auto for_samples = [&](const Corners& t, const auto& call)
+    const auto for_each_sample = [&](const Corners& t, const auto& call)
     {
       for (int i = 0; i <= steps; ++i)
       {
@@ -136,8 +136,8 @@ TEST(PartLinks, NearestPlacesAreNearerThanAllSamples)
         }
       }
     };
-    for_samples(b, [&](const Vec3& q) { on_b.push_back(q); });
-    for_samples(a,
+    for_each_sample(b, [&](const Vec3& q) { on_b.push_back(q); });
+    for_each_sample(a,
       [&](const Vec3& p)
       {
         for (const Vec3& q : on_b)

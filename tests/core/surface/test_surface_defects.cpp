@@ -143,17 +143,18 @@ TEST(SurfaceDefects, CrossingTrianglesNameEachOther)
   const auto crossings = found.of(Defect::self_intersection);
   ASSERT_FALSE(crossings.empty());
   const Index half = mesh.triangles.rows() / 2;
-  std::map<Index, Index> met;
+  std::map<Index, Index> crossing_of_triangle;
   for (const DefectOccurrence& place : crossings)
   {
-    EXPECT_NE(place.triangle < half, place.crossed < half) << "a sphere does not cross itself";
+    EXPECT_NE(place.triangle < half, place.crossed_triangle < half)
+      << "a sphere does not cross itself";
     EXPECT_EQ(place.component, place.triangle < half ? 0 : 1);
-    met[place.triangle] = place.crossed;
+    crossing_of_triangle[place.triangle] = place.crossed_triangle;
   }
-  EXPECT_EQ(met.size(), crossings.size()) << "each triangle once";
-  for (const auto& [s, t] : met)
+  EXPECT_EQ(crossing_of_triangle.size(), crossings.size()) << "each triangle once";
+  for (const auto& [s, t] : crossing_of_triangle)
   {
-    EXPECT_EQ(met.count(t), 1u);
+    EXPECT_EQ(crossing_of_triangle.count(t), 1u);
   }
   // The list of pairs and the list of crossings must contain the same number of different
   // triangles.

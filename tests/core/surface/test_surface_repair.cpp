@@ -52,8 +52,8 @@ TEST(SurfaceRepair, CleanSurfacesAreClean)
       0);
     EXPECT_EQ(found.components, 1);
   }
-  EXPECT_TRUE(repair(test::cube()).clean());
-  EXPECT_FALSE(repair(test::grid(2, 2)).clean());
+  EXPECT_TRUE(repair(test::cube()).is_clean());
+  EXPECT_FALSE(repair(test::grid(2, 2)).is_clean());
   EXPECT_TRUE(diagnose(test::grid(2, 2)).flat);
   EXPECT_FALSE(diagnose(test::cube()).flat);
 }
@@ -65,7 +65,7 @@ TEST(SurfaceRepair, WeldsEqualVerticesAndRemembersThem)
   EXPECT_EQ(repaired.points.rows(), 8);
   EXPECT_EQ(repaired.found.duplicate_vertices, 36 - 8);
   EXPECT_EQ(repaired.found.boundary_edges, 0);
-  EXPECT_TRUE(repaired.clean());
+  EXPECT_TRUE(repaired.is_clean());
   const TriangleMesh soup = test::unwelded(cube);
   for (Index v = 0; v < 8; ++v)
   {
@@ -94,7 +94,7 @@ TEST(SurfaceRepair, DropsWhatHasNoAreaAndStrayVertices)
   EXPECT_EQ(repaired.found.unreferenced_vertices, 1);
   EXPECT_EQ(repaired.points.rows(), 8);
   EXPECT_EQ(repaired.triangles.rows(), 12);
-  EXPECT_TRUE(repaired.clean());
+  EXPECT_TRUE(repaired.is_clean());
 }
 
 TEST(SurfaceRepair, CountsOpenDoubledAndNonManifold)
@@ -130,7 +130,7 @@ TEST(SurfaceRepair, TurnsTheSmallerPartOfAPatch)
   const RepairedSurface repaired = repair(mesh);
   EXPECT_EQ(repaired.flipped_triangles, turned);
   EXPECT_GT(repaired.found.misoriented_edges, 0);
-  EXPECT_TRUE(repaired.clean());
+  EXPECT_TRUE(repaired.is_clean());
   EXPECT_NEAR(signed_volume(repaired.points, repaired.triangles), volume, 1e-12);
   RepairOptions as_it_is;
   as_it_is.orient = false;
@@ -240,7 +240,7 @@ TEST(SurfaceRepair, SnappingWeldsWhatNearlyCoincides)
   options.snap = 0x1p-20;
   const RepairedSurface repaired = repair(mesh, options);
   EXPECT_EQ(repaired.points.rows(), test::sphere(2).points.rows());
-  EXPECT_TRUE(repaired.clean());
+  EXPECT_TRUE(repaired.is_clean());
 }
 
 TEST(SurfaceRepair, CountsCrossingsOfCubes)

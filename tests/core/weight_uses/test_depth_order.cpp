@@ -29,11 +29,11 @@ Weights random_weights(Index rows, Index handles)
   return weights;
 }
 
-DepthOrder order_of(const Weights& weights, const Eigen::VectorXd& layers, double tie = 1e-3)
+DepthOrder order_of(const Weights& weights, const Eigen::VectorXd& layers, double tie_offset = 1e-3)
 {
   ExecutionContext context;
   DepthOrder order;
-  EXPECT_TRUE(depth_order(context, weights, layers, { tie }, order).ok());
+  EXPECT_TRUE(depth_order(context, weights, layers, { tie_offset }, order).ok());
   return order;
 }
 } // namespace
@@ -85,9 +85,10 @@ TEST(DepthOrder, WhatCannotBeUsedIsOneSentence)
   ExecutionContext context;
   DepthOrder order;
   const Weights weights = Weights::Constant(3, 2, 0.5);
-  const auto message = [&](const Weights& w, const Eigen::VectorXd& layers, double tie = 1e-3)
+  const auto message = [&](
+                         const Weights& w, const Eigen::VectorXd& layers, double tie_offset = 1e-3)
   {
-    const Status status = depth_order(context, w, layers, { tie }, order);
+    const Status status = depth_order(context, w, layers, { tie_offset }, order);
     EXPECT_EQ(status.code, StatusCode::invalid_input);
     return status.message;
   };

@@ -34,8 +34,8 @@ VertexGraph path(Index count)
 /// Return how far the lowest path climbs from vertex `from` to a lower or exempt vertex: the
 /// largest height on the path minus the height of `from`. The search uses a queue ordered by
 /// height.
-double climb(
-  const VertexGraph& graph, const Eigen::VectorXd& f, const std::vector<char>& exempt, Index from)
+double climb(const VertexGraph& graph, const Eigen::VectorXd& f, const std::vector<char>& is_exempt,
+  Index from)
 {
   std::vector<char> visited(static_cast<std::size_t>(f.size()), 0);
   using Entry = std::pair<double, Index>;
@@ -52,7 +52,7 @@ double climb(
     }
     visited[v] = 1;
     height = std::max(height, value);
-    if (v != from && (exempt[v] || f[v] < f[from]))
+    if (v != from && (is_exempt[v] || f[v] < f[from]))
     {
       return height - f[from];
     }
@@ -70,8 +70,8 @@ TEST(Extrema, PersistenceOnAPathCanBeReadOff)
   Eigen::VectorXd f(9);
   // Vertices 0 and 5 are handles.
   f << 0.0, 0.5, 0.3, 0.9, 0.85, 1.0, 0.2, 0.4, 0.4;
-  std::vector<char> exempt{ 1, 0, 0, 0, 0, 1, 0, 0, 0 };
-  const auto found = interior_extrema(path(9), f, exempt);
+  std::vector<char> is_exempt{ 1, 0, 0, 0, 0, 1, 0, 0, 0 };
+  const auto found = interior_extrema(path(9), f, is_exempt);
   // Minima: the lowest path to a lower vertex or a handle climbs from 0.2 (vertex 6) to 1 at the
   // handle. The paths of the other minima climb from 0.3 (vertex 2) to 0.5, and from 0.85 (vertex
   // 4) to 0.9. Maxima: the highest path to a higher vertex or a handle descends from 0.4 (vertices
@@ -88,7 +88,7 @@ TEST(Extrema, PersistenceOnAPathCanBeReadOff)
     EXPECT_DOUBLE_EQ(e.value, f[e.vertex]);
   }
   EXPECT_NEAR(sum, 0.8 + 0.2 + 0.05 + 0.2 + 0.05 + 0.2, 1e-12);
-  EXPECT_EQ(interior_extrema(path(9), f, exempt, 0.1).size(), 4u);
+  EXPECT_EQ(interior_extrema(path(9), f, is_exempt, 0.1).size(), 4u);
 }
 
 TEST(Extrema, HandlesWinTiesAndPlateausAreOne)
@@ -117,10 +117,10 @@ TEST(Extrema, AgreeWithTheLowestPass)
   {
     const Eigen::VectorXd f =
       Eigen::VectorXd::NullaryExpr(domain.points.rows(), [&] { return random.uniform(); });
-    std::vector<char> exempt(static_cast<std::size_t>(f.size()), 0);
+    std::vector<char> is_exempt(static_cast<std::size_t>(f.size()), 0);
     for (int i = 0; i < 4; ++i)
     {
-      exempt[random.below(f.size())] = 1;
+      is_exempt[random.below(f.size())] = 1;
     }
     const double range = f.maxCoeff() - f.minCoeff();
     Index expected = 0;
@@ -128,14 +128,14 @@ TEST(Extrema, AgreeWithTheLowestPass)
     {
       for (Index v = 0; v < f.size(); ++v)
       {
-        expected += !exempt[v] && climb(graph, sign * f, exempt, v) > 0.2 * range;
+        expected += !is_exempt[v] && climb(graph, sign * f, is_exempt, v) > 0.2 * range;
       }
     }
-    const auto found = interior_extrema(graph, f, exempt, 0.2);
+    const auto found = interior_extrema(graph, f, is_exempt, 0.2);
     EXPECT_EQ(static_cast<Index>(found.size()), expected);
     for (const Extremum& e : found)
     {
-      const double twin = climb(graph, e.maximum ? Eigen::VectorXd(-f) : f, exempt, e.vertex);
+      const double twin = climb(graph, e.maximum ? Eigen::VectorXd(-f) : f, is_exempt, e.vertex);
       EXPECT_NEAR(e.persistence, twin / range, 1e-12);
     }
   }

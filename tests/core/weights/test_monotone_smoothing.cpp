@@ -234,8 +234,9 @@ TEST(MonotoneSmoothing, AgreesWithADenseTwin)
           const OrderedPair& p = pairs[k];
           const VectorXd direction = inverse.col(p.high) - inverse.col(p.low);
           double& z = multipliers[static_cast<Index>(k)];
-          const double short_of = p.minimum_difference - (w[p.high] - w[p.low]);
-          const double step = std::max(short_of / (direction[p.high] - direction[p.low]), -z);
+          const double missing_difference = p.minimum_difference - (w[p.high] - w[p.low]);
+          const double step =
+            std::max(missing_difference / (direction[p.high] - direction[p.low]), -z);
           z += step;
           w += step * direction;
         }
@@ -640,7 +641,7 @@ TEST(MonotoneSmoothing, TooFewIterationsAreSaidAndCancelEndsIt)
   options.order = 3;
   const Domain fine = test::to_domain(test::grid(120, 120));
   options.extrema = hills_list(fine);
-  test::CancelLater later(context, 300);
+  test::DelayedCancel later(context, 300);
   EXPECT_EQ(monotone_smoothing(context, fine, noisy_hills(fine, 0.3), options, nothing).code,
     StatusCode::canceled);
   EXPECT_LT(later.seconds_since_cancel(), 1.0);

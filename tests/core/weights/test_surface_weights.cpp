@@ -20,7 +20,7 @@ using testing::HasSubstr;
 
 namespace
 {
-using SurfaceWeightsInTets = test::NeedsMesher;
+using SurfaceWeightsInTets = test::MesherTest;
 
 Status bounded_method(
   ExecutionContext& context, const WeightsProblem& problem, WeightsResult& result)
@@ -216,7 +216,7 @@ TEST(SurfaceWeights, APartWithoutAHandleFollowsTheHandleNearestToItsSurface)
   for (const Index resolution : { 6, 7, 9, 13, 17 })
   {
     SurfaceWeightsOptions options = options_for(WeightsDomain::embedding, resolution);
-    options.guard = false;
+    options.check_resolution = false;
     SurfaceWeights result;
     const Status status = solve_surface_weights(shape, handles, options, result);
     ASSERT_TRUE(status.ok()) << status.message;
@@ -248,7 +248,7 @@ TEST(SurfaceWeights, APartWithoutAHandleFollowsWhatItTouches)
   for (const Index resolution : { 12, 20, 30 })
   {
     SurfaceWeightsOptions options = options_for(WeightsDomain::embedding, resolution);
-    options.guard = false;
+    options.check_resolution = false;
     SurfaceWeights result;
     const Status status = solve_surface_weights(shape, handles, options, result);
     ASSERT_TRUE(status.ok()) << status.message;
@@ -465,7 +465,7 @@ TEST(SurfaceWeights, RawOnesAreCarriedOnlyWhenAskedForAndChangeNothing)
 {
   const TriangleMesh mesh = long_box();
   SurfaceWeightsOptions options = options_for(WeightsDomain::embedding);
-  options.guard = false;
+  options.check_resolution = false;
   SurfaceWeights without, with;
   ASSERT_TRUE(solve_surface_weights(mesh, three_along(), options, without).usable());
   options.keep_raw = true;
@@ -522,7 +522,7 @@ TEST(SurfaceWeights, UnboundedMethodsAreNotClamped)
     test::point_handle("middle", { 2.0, 0.5, 0.5 }),
     test::point_handle("right", { 3.9, 0.5, 0.5 }) };
   SurfaceWeightsOptions options = options_for(WeightsDomain::embedding, 24);
-  options.guard = false;
+  options.check_resolution = false;
   const Status status = surface_weights(
     context, mesh.points, mesh.triangles, {}, handles, options, {},
     [](ExecutionContext& method_context, const WeightsProblem& problem, WeightsResult& weights)

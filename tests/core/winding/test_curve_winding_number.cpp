@@ -557,9 +557,9 @@ TEST(CurveWindingNumber, CancelsMidwayAndRunsAgain)
   const int in_all = cancel_checks;
   ASSERT_GT(build_checks, 10);
   ASSERT_GT(in_all, build_checks + 5);
-  for (const int share : { 0, 1, 2, 3 })
+  for (const int quarters : { 0, 1, 2, 3 })
   {
-    allowed = build_checks * share / 4;
+    allowed = build_checks * quarters / 4;
     ExecutionContext context({}, [&] { return --allowed < 0; });
     context.set_threads(1);
     EXPECT_EQ(winding.build(context, curve.points, curve.segments).code, StatusCode::canceled);

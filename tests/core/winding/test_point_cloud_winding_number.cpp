@@ -29,8 +29,8 @@ Cloud sphere_cloud(Index count, bool even = true, std::uint64_t seed = 5)
     Eigen::VectorXd::Constant(count, 4.0 * pi / static_cast<double>(count)) };
   for (Index i = 0; i < count; ++i)
   {
-    const double share = (2.0 * static_cast<double>(i) + 1.0) / static_cast<double>(count);
-    const double z = even ? 1.0 - share : random.uniform(-1.0, 1.0);
+    const double fraction = (2.0 * static_cast<double>(i) + 1.0) / static_cast<double>(count);
+    const double z = even ? 1.0 - fraction : random.uniform(-1.0, 1.0);
     const double angle =
       even ? static_cast<double>(i) * pi * (3.0 - std::sqrt(5.0)) : random.uniform(0.0, 2.0 * pi);
     const double r = std::sqrt(1.0 - z * z);

@@ -22,28 +22,28 @@ constexpr WindingMethod methods[] = { WindingMethod::exact, WindingMethod::direc
 /// levels.
 std::vector<WindingNumber> build_all_methods(const TriangleMesh& mesh)
 {
-  std::vector<WindingNumber> ways;
+  std::vector<WindingNumber> windings;
   for (const WindingMethod method : methods)
   {
     ExecutionContext context;
     WindingNumber::Options options;
     options.method = method;
     options.max_leaf_size = 4;
-    ways.emplace_back();
-    const Status status = ways.back().build(context, mesh.points, mesh.triangles, options);
+    windings.emplace_back();
+    const Status status = windings.back().build(context, mesh.points, mesh.triangles, options);
     EXPECT_TRUE(status.ok()) << status.message;
   }
-  return ways;
+  return windings;
 }
 
 void expect_winding(const TriangleMesh& mesh, const Vec3& p, double expected, double tolerance)
 {
   EXPECT_NEAR(winding_number_direct(mesh.points, mesh.triangles, p), expected, tolerance)
     << "reference at " << p.transpose();
-  for (const WindingNumber& way : build_all_methods(mesh))
+  for (const WindingNumber& method_winding : build_all_methods(mesh))
   {
-    EXPECT_NEAR(way.evaluate_at(p), expected, tolerance)
-      << to_string(way.method()) << " at " << p.transpose();
+    EXPECT_NEAR(method_winding.evaluate_at(p), expected, tolerance)
+      << to_string(method_winding.method()) << " at " << p.transpose();
   }
 }
 
@@ -169,15 +169,16 @@ TEST(WindingNumber, ClosedSurfacesGiveWholeNumbers)
   expect_winding(cube, Vec3::Zero(), 1.0, 1e-15);
   expect_winding(cube, Vec3(10, 20, 30), 0.0, 1e-15);
   expect_winding(test::flipped(cube), Vec3::Zero(), -1.0, 1e-15);
-  const auto ways = build_all_methods(cube);
+  const auto windings = build_all_methods(cube);
   test::Random random(7);
   for (int i = 0; i < 2000; ++i)
   {
     const Vec3 p = random.in_box(Vec3::Constant(-2.0), Vec3::Constant(2.0));
     const double expected = p.cwiseAbs().maxCoeff() < 1.0 ? 1.0 : 0.0;
-    for (const WindingNumber& way : ways)
+    for (const WindingNumber& method_winding : windings)
     {
-      ASSERT_NEAR(way.evaluate_at(p), expected, 1e-12) << to_string(way.method());
+      ASSERT_NEAR(method_winding.evaluate_at(p), expected, 1e-12)
+        << to_string(method_winding.method());
     }
   }
 }
@@ -258,15 +259,18 @@ TEST(WindingNumber, PartsAddUp)
 TEST(WindingNumber, JumpsByOneAcrossTheSurface)
 {
   const TriangleMesh mesh = test::open_cube();
-  for (const WindingNumber& way : build_all_methods(mesh))
+  for (const WindingNumber& method_winding : build_all_methods(mesh))
   {
     const auto jump = [&](double e)
-    { return way.evaluate_at(Vec3(.3, .1, -1 + e)) - way.evaluate_at(Vec3(.3, .1, -1 - e)); };
-    EXPECT_NEAR(jump(1e-3), 0.9999000826, 1e-10) << to_string(way.method());
-    EXPECT_NEAR(jump(1e-6), 0.9999999001, 1e-10) << to_string(way.method());
-    EXPECT_NEAR(jump(1e-9), 0.9999999999, 1e-10) << to_string(way.method());
+    {
+      return method_winding.evaluate_at(Vec3(.3, .1, -1 + e)) -
+        method_winding.evaluate_at(Vec3(.3, .1, -1 - e));
+    };
+    EXPECT_NEAR(jump(1e-3), 0.9999000826, 1e-10) << to_string(method_winding.method());
+    EXPECT_NEAR(jump(1e-6), 0.9999999001, 1e-10) << to_string(method_winding.method());
+    EXPECT_NEAR(jump(1e-9), 0.9999999999, 1e-10) << to_string(method_winding.method());
     // Even for a tolerance below about 1e-12, the jump is exact and not noise.
-    EXPECT_NEAR(jump(1e-14), 1.0, 1e-12) << to_string(way.method());
+    EXPECT_NEAR(jump(1e-14), 1.0, 1e-12) << to_string(method_winding.method());
   }
 }
 
@@ -298,12 +302,12 @@ TEST(WindingNumber, PrincipalValueOnTheSurface)
   for (const auto& [p, expected] : cases)
   {
     expect_winding(cube, p, expected, 1e-14);
-    for (const WindingNumber& way : build_all_methods(cube))
+    for (const WindingNumber& method_winding : build_all_methods(cube))
     {
       bool on_surface = false;
-      way.evaluate_at(p, &on_surface);
-      EXPECT_TRUE(on_surface) << to_string(way.method()) << " at " << p.transpose();
-      way.evaluate_at(p + Vec3(1e-6, 2e-6, 3e-6), &on_surface);
+      method_winding.evaluate_at(p, &on_surface);
+      EXPECT_TRUE(on_surface) << to_string(method_winding.method()) << " at " << p.transpose();
+      method_winding.evaluate_at(p + Vec3(1e-6, 2e-6, 3e-6), &on_surface);
       EXPECT_FALSE(on_surface);
     }
   }
@@ -400,9 +404,9 @@ TEST(WindingNumber, FlatTrianglesCountNothing)
   mesh.triangles.row(12) << 0, 0, 1;
   mesh.triangles.row(13) << 0, n, 3;
   mesh.triangles.row(14) << 0, n + 1, 7;
-  for (const WindingNumber& way : build_all_methods(mesh))
+  for (const WindingNumber& method_winding : build_all_methods(mesh))
   {
-    const Report& report = way.status().report;
+    const Report& report = method_winding.status().report;
     EXPECT_EQ(report.number("counts.degenerate_triangles", -1), 3);
     EXPECT_EQ(report.number("counts.merged_vertices", -1), 1);
     EXPECT_EQ(report.number("counts.triangles", -1), 15);
@@ -507,10 +511,10 @@ TEST(WindingNumber, BoundaryTellsEdgesAndComponents)
 TEST(WindingNumber, EmptyMeshWindsAroundNothing)
 {
   const TriangleMesh nothing{ Points(0, 3), Triangles(0, 3) };
-  for (const WindingNumber& way : build_all_methods(nothing))
+  for (const WindingNumber& method_winding : build_all_methods(nothing))
   {
-    EXPECT_EQ(way.evaluate_at(Vec3(1, 2, 3)), 0.0);
-    ASSERT_EQ(way.status().warnings.size(), 1u);
+    EXPECT_EQ(method_winding.evaluate_at(Vec3(1, 2, 3)), 0.0);
+    ASSERT_EQ(method_winding.status().warnings.size(), 1u);
   }
   EXPECT_EQ(winding_number_direct(nothing.points, nothing.triangles, Vec3::Zero()), 0.0);
   EXPECT_EQ(WindingNumber().evaluate_at(Vec3(1, 2, 3)), 0.0); // nothing was built
@@ -548,11 +552,11 @@ TEST(WindingNumber, PointsThatAreNoneGiveNaN)
   constexpr double infinity = std::numeric_limits<double>::infinity();
   Points queries(5, 3);
   queries << 0, 0, 0, nan, 0, 0, 0, 0, infinity, 1e200, 0, 0, 1, 1, 1;
-  for (const WindingNumber& way : build_all_methods(cube))
+  for (const WindingNumber& method_winding : build_all_methods(cube))
   {
     ExecutionContext context;
     Eigen::VectorXd w;
-    const Status status = way.evaluate(context, queries, w);
+    const Status status = method_winding.evaluate(context, queries, w);
     EXPECT_TRUE(status.ok());
     EXPECT_EQ(status.report.number("counts.not_finite", -1), 2);
     EXPECT_EQ(status.report.number("counts.on_surface", -1), 1);

@@ -38,7 +38,7 @@ using LatticeVector = Eigen::Matrix<std::int64_t, 3, 1>;
 /// Return the winding number at a point on the lattice of spacing 1/8. Integer arithmetic decides
 /// exactly on which side of each triangle's plane the point is. A triangle whose plane contains the
 /// point contributes nothing. The other contributions are added in long double.
-double lattice_twin(const TriangleMesh& mesh, const Vec3& p)
+double lattice_winding_number(const TriangleMesh& mesh, const Vec3& p)
 {
   using Long3 = Eigen::Matrix<long double, 3, 1>;
   long double sum = 0.0L;
@@ -161,7 +161,7 @@ TEST(WindingMethods, AgreeWithWholeNumbersOnLatticeSoups)
     for (int q = 0; q < 60; ++q)
     {
       const Vec3 p = lattice_point(random);
-      const double expected = lattice_twin(mesh, p);
+      const double expected = lattice_winding_number(mesh, p);
       for (const WindingNumber& winding : windings)
       {
         ASSERT_NEAR(winding.evaluate_at(p), expected, 1e-12)

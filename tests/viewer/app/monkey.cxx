@@ -47,18 +47,18 @@ void Monkey::note(const std::string& kind, const QString& what)
 {
   ++this->events_;
   ++this->counts_[kind];
-  this->last_.push_back(kind + " " + what.toStdString());
+  this->last_events_.push_back(kind + " " + what.toStdString());
   constexpr std::size_t maximum_events = 60;
-  if (this->last_.size() > maximum_events)
+  if (this->last_events_.size() > maximum_events)
   {
-    this->last_.erase(this->last_.begin());
+    this->last_events_.erase(this->last_events_.begin());
   }
 }
 
 std::string Monkey::event_log() const
 {
   std::string event_log;
-  for (const std::string& event : this->last_)
+  for (const std::string& event : this->last_events_)
   {
     event_log += "  " + event + '\n';
   }
@@ -70,7 +70,8 @@ std::string Monkey::event_log() const
 QPoint Monkey::random_position()
 {
   const Handles& handles = this->window_->document()->handles();
-  QPoint position = this->user_.place(this->number(-0.05, 1.05), this->number(-0.05, 1.05));
+  QPoint position =
+    this->user_.pixel_of_fractions(this->number(-0.05, 1.05), this->number(-0.05, 1.05));
   if (!handles.empty() && this->pick(2) == 0)
   {
     const auto& name =
@@ -182,11 +183,11 @@ void Monkey::click_random_button()
   {
     const QString text = texts[this->pick(texts.size())];
     this->note("push", text);
-    this->user_.push(text);
+    this->user_.push_button(text);
   }
 }
 
-void Monkey::act()
+void Monkey::perform_random_action()
 {
   const Document* document = this->window_->document();
   switch (this->pick(28))
@@ -323,7 +324,7 @@ void Monkey::play(int events)
   watch.start(30);
   for (int k = 0; k < events; ++k)
   {
-    this->act();
+    this->perform_random_action();
     QApplication::processEvents();
   }
 }
@@ -334,7 +335,7 @@ void Monkey::stop_activity()
   {
     if (this->user_.buttons() & button)
     {
-      this->user_.release(this->user_.place(0.5, 0.5), button);
+      this->user_.release(this->user_.pixel_of_fractions(0.5, 0.5), button);
     }
   }
   this->user_.press_key("Esc"); // Esc ends a drag that was started by a key
@@ -342,9 +343,9 @@ void Monkey::stop_activity()
   this->window_->findChild<app::tets::TetInspection*>()->cancel();
   this->window_->findChild<app::weights::WeightInspection*>()->cancel();
   this->window_->findChild<app::volume::WindingVolume*>()->cancel();
-  this->window_->findChild<app::posing::Posing*>()->pose_manager()->play(false);
-  this->window_->findChild<app::posing::Posing*>()->motion()->play(false);
-  this->window_->findChild<app::posing::Posing*>()->sequence_export()->cancel();
+  this->window_->findChild<app::posing::PoseController*>()->pose_manager()->play(false);
+  this->window_->findChild<app::posing::PoseController*>()->motion()->play(false);
+  this->window_->findChild<app::posing::PoseController*>()->sequence_export()->cancel();
 }
 
 } // namespace bindpose::test

@@ -34,7 +34,7 @@ public:
   std::string event_log() const;
 
 private:
-  void act();
+  void perform_random_action();
   int pick(int count) { return static_cast<int>(this->random_() % static_cast<unsigned>(count)); }
   double number(double lowest, double highest);
   QPoint random_position();
@@ -53,7 +53,7 @@ private:
   std::vector<QString> files_;
   long long events_ = 0;
   std::map<std::string, long long> counts_;
-  std::vector<std::string> last_;
+  std::vector<std::string> last_events_;
 };
 
 } // namespace bindpose::test

@@ -229,8 +229,8 @@ TEST_F(ExportWindow, AFilmNeedsKeyFramesAndSaysSo)
   EXPECT_EQ(this->user.press_key("K"), QString());
   const std::string path = this->folder / "film.json";
   this->export_by_menu("file.export_film", path);
-  ASSERT_TRUE(wait_for(
-    [this] { return !this->part<app::posing::Posing>()->sequence_export()->is_running(); }));
+  ASSERT_TRUE(wait_for([this]
+    { return !this->part<app::posing::PoseController>()->sequence_export()->is_running(); }));
   EXPECT_TRUE(std::filesystem::exists(path));
   EXPECT_TRUE(this->bar_message().contains("film.json")) << this->bar_message().toStdString();
   EXPECT_TRUE(this->bar_message().contains("7 frames"));
@@ -268,9 +268,9 @@ TEST_F(ExportWindow, AnErrorLeavesWhenTheSameKindSucceeds)
   EXPECT_EQ(this->window.error(), QString());
   // The first export of key frames cannot be written, the second one can.
   EXPECT_EQ(this->user.press_key("K"), QString());
-  this->part<app::posing::Posing>()->export_to("/no/such/folder/ball.json");
+  this->part<app::posing::PoseController>()->export_to("/no/such/folder/ball.json");
   ASSERT_TRUE(wait_for([this] { return !this->window.error().isEmpty(); }));
-  this->part<app::posing::Posing>()->export_to(to_qt(this->folder / "ball.json"));
+  this->part<app::posing::PoseController>()->export_to(to_qt(this->folder / "ball.json"));
   ASSERT_TRUE(wait_for(
     [this] { return !this->bar_message().isEmpty() && this->bar_message().contains("Wrote"); }));
   EXPECT_EQ(this->window.error(), QString());

@@ -700,13 +700,13 @@ TEST_F(HandleWindow, KeysOfADragAreNoShortcuts)
   // R rotates the selected handle, and T shows the shape at rest.
   this->key(Qt::Key_R);
   EXPECT_TRUE(this->widget()->IsDragging());
-  EXPECT_FALSE(this->part<app::posing::Posing>()->is_rest_view());
+  EXPECT_FALSE(this->part<app::posing::PoseController>()->is_rest_view());
   this->key(Qt::Key_Escape);
   EXPECT_FALSE(this->widget()->IsDragging());
   this->key(Qt::Key_T);
-  EXPECT_TRUE(this->part<app::posing::Posing>()->is_rest_view());
+  EXPECT_TRUE(this->part<app::posing::PoseController>()->is_rest_view());
   this->key(Qt::Key_T);
-  EXPECT_FALSE(this->part<app::posing::Posing>()->is_rest_view());
+  EXPECT_FALSE(this->part<app::posing::PoseController>()->is_rest_view());
 }
 
 TEST_F(HandleWindow, ARefusedDragSaysWhy)

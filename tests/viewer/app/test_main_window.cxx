@@ -177,11 +177,11 @@ TEST_F(Window, FilesThatCannotBeReadAreNamedInTheErrorBar)
   files[2] = { session, {}, {} };
   files[3] = { folder / "good.vtp", {}, {} };
   app::tour::open_initial_files(this->window, files);
-  const QStringList said = this->window.error().split('\n');
-  ASSERT_EQ(said.size(), 3) << this->window.error().toStdString();
-  EXPECT_EQ(said[0], "cannot open gone.off: No such file or directory");
-  EXPECT_TRUE(said[1].contains("noise.png")) << said[1].toStdString();
-  EXPECT_TRUE(said[2].contains("old.bindpose")) << said[2].toStdString();
+  const QStringList errors = this->window.error().split('\n');
+  ASSERT_EQ(errors.size(), 3) << this->window.error().toStdString();
+  EXPECT_EQ(errors[0], "cannot open gone.off: No such file or directory");
+  EXPECT_TRUE(errors[1].contains("noise.png")) << errors[1].toStdString();
+  EXPECT_TRUE(errors[2].contains("old.bindpose")) << errors[2].toStdString();
   ASSERT_NE(this->window.shown(), nullptr) << "what can be opened is open";
   // Opening another file removes the errors.
   ASSERT_TRUE(this->window.set_mesh(surface, "again"));
@@ -247,7 +247,7 @@ TEST_F(Window, ModesAreRememberedAndUndone)
   EXPECT_EQ(this->window.document()->history()->count(), 2);
   this->drag(1, { 60, 0 });
   EXPECT_EQ(this->window.error(), QString());
-  this->window.back_to_rest();
+  this->window.reset_to_rest();
   EXPECT_EQ(this->window.document()->history()->count(), 4);
   for (int step = 0; step < 4; ++step)
   {

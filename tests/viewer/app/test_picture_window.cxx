@@ -148,8 +148,7 @@ protected:
         {
           const QColor pixel = pixel_of(transparent_picture, x, y);
           partly_covered += pixel.alpha() > 30 && pixel.alpha() < 225;
-          worst = std::max(
-            worst, distance(composite(pixel, background), pixel_of(drawn, x, y)));
+          worst = std::max(worst, distance(composite(pixel, background), pixel_of(drawn, x, y)));
         }
       }
       EXPECT_LE(worst, 4) << "of 255, over " << background[0] << " " << background[1] << " "
@@ -220,7 +219,7 @@ TEST_F(PictureWindow, HasNoFringeWhereItIsTransparent)
 TEST_F(PictureWindow, KeepsSeeThroughThingsSeeThrough)
 {
   this->open_weighted();
-  this->part<app::view::Viewport>()->set_surface_look(app::view::Viewport::see_through);
+  this->part<app::view::Viewport>()->set_surface_appearance(app::view::Viewport::see_through);
   this->expect_correct_compositing(1);
   const auto transparent_picture = this->take(1, true);
   const QPoint beside = this->pixel(Vec3(0.4, 0.3, 0));

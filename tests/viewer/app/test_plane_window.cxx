@@ -204,7 +204,7 @@ TEST(PlaneShare, IsNotWornAwayByPositionsGivenBack)
     plane->set_box(box);
     plane->set_orientation(k % 3);
     const double place = 0.1 * (k % 11);
-    plane->set_place(place);
+    plane->set_relative_position(place);
     plane->set_position(plane->position());
     EXPECT_EQ(plane->relative_position_before_drag(), place) << k;
     const auto [first, last] = plane->positions();

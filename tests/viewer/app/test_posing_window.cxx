@@ -115,7 +115,7 @@ protected:
     this->render();
   }
 
-  app::posing::Posing* posing() { return this->part<app::posing::Posing>(); }
+  app::posing::PoseController* posing() { return this->part<app::posing::PoseController>(); }
   app::posing::PosePanel* panel() { return this->part<app::handles::SidePanel>()->pose(); }
   app::posing::KeyStrip* strip() { return this->window.findChild<app::posing::KeyStrip*>(); }
   template <typename Widget>
@@ -586,9 +586,9 @@ TEST_F(PosingWindow, TwoMethodsAreComparedOverAndBesideEachOther)
   const QImage alone = this->picture();
   auto* with = this->option<QComboBox>("pose.compared");
   with->setCurrentIndex(1 + static_cast<int>(PoseMethod::dual_quaternion));
-  EXPECT_EQ(this->posing()->ghost()->place(), app::posing::PoseGhost::in_colors);
+  EXPECT_EQ(this->posing()->ghost()->display_mode(), app::posing::PoseGhost::in_colors);
   this->option<QButtonGroup>("pose.ghost")->button(0)->click();
-  EXPECT_EQ(this->posing()->ghost()->place(), app::posing::PoseGhost::over);
+  EXPECT_EQ(this->posing()->ghost()->display_mode(), app::posing::PoseGhost::over);
   auto source = std::make_shared<PoseSource>();
   ASSERT_TRUE(to_pose_source(this->surface, nullptr, this->handles, *source).ok());
   ExecutionContext context;
@@ -602,13 +602,13 @@ TEST_F(PosingWindow, TwoMethodsAreComparedOverAndBesideEachOther)
   // The displayed difference equals the computed difference.
   const double largest = (expected - this->points()).rowwise().norm().maxCoeff();
   const double diagonal = bounding_box(source->points).diagonal();
-  bool said = false;
+  bool is_reported = false;
   for (QLabel* label : this->panel()->findChildren<QLabel*>())
   {
-    said =
-      said || label->text().contains(QString("%1 %").arg(100.0 * largest / diagonal, 0, 'g', 3));
+    is_reported = is_reported ||
+      label->text().contains(QString("%1 %").arg(100.0 * largest / diagonal, 0, 'g', 3));
   }
-  EXPECT_TRUE(said);
+  EXPECT_TRUE(is_reported);
   EXPECT_NE(this->picture(), alone);
   // If the shapes are shown side by side, both halves use the same camera.
   this->find<QPushButton>("Beside it")->click();
@@ -704,7 +704,7 @@ TEST_F(PosingWindow, WhereTwoShapesCoincideThereAreNoSpeckles)
   this->option<QButtonGroup>("pose.ghost")->button(0)->click();
   this->option<QComboBox>("pose.compared")
     ->setCurrentIndex(1 + static_cast<int>(PoseMethod::dual_quaternion));
-  ASSERT_EQ(this->posing()->ghost()->place(), app::posing::PoseGhost::over);
+  ASSERT_EQ(this->posing()->ghost()->display_mode(), app::posing::PoseGhost::over);
   EXPECT_LE(blue(), alone + 20) << "at rest";
   // After a rotation by 180 degrees about its axis, the pole coincides with itself, but every point
   // has another position.
@@ -732,19 +732,19 @@ TEST_F(PosingWindow, NoMethodIsComparedWithItself)
   app::tour::SimulatedUser user(&this->window);
   EXPECT_NE(user.choose("pose.compared", 1), QString());
   ASSERT_EQ(user.choose("pose.compared", 2), QString());
-  EXPECT_EQ(this->posing()->ghost()->place(), app::posing::PoseGhost::in_colors);
+  EXPECT_EQ(this->posing()->ghost()->display_mode(), app::posing::PoseGhost::in_colors);
   // If the method of the shape is also chosen as the compared method, nothing can be compared. A
   // label says this.
   user.press_key("2");
   ASSERT_EQ(this->window.document()->number("pose.method"), 1);
-  EXPECT_EQ(this->posing()->ghost()->place(), app::posing::PoseGhost::hidden);
+  EXPECT_EQ(this->posing()->ghost()->display_mode(), app::posing::PoseGhost::hidden);
   EXPECT_FALSE(is_enabled(PoseMethod::dual_quaternion));
   EXPECT_TRUE(is_enabled(PoseMethod::linear_blend));
   const auto labels = this->panel()->findChildren<QLabel*>();
   EXPECT_TRUE(std::any_of(labels.begin(), labels.end(),
     [](const QLabel* label) { return label->text().contains("choose another method"); }));
   user.trigger("edit.undo");
-  EXPECT_EQ(this->posing()->ghost()->place(), app::posing::PoseGhost::in_colors);
+  EXPECT_EQ(this->posing()->ghost()->display_mode(), app::posing::PoseGhost::in_colors);
 }
 
 TEST_F(PosingWindow, TheBodyMovesPausesAndReplaysBitByBit)
@@ -986,7 +986,7 @@ TEST_F(PosingWindow, CurvesOfTheRestShapeAreSeenWithItAlone)
   EXPECT_TRUE(are_curves_visible());
   this->posing()->set_rest_view(false);
   EXPECT_FALSE(are_curves_visible());
-  this->window.back_to_rest();
+  this->window.reset_to_rest();
   EXPECT_TRUE(are_curves_visible());
 }
 
@@ -1166,8 +1166,8 @@ TEST_F(PosingWindow, AnimationsAreExportedAndReadBack)
     EXPECT_TRUE(wait_for([this] { return !this->posing()->sequence_export()->is_running(); }));
     QApplication::processEvents();
     EXPECT_EQ(this->posing()->sequence_export()->error(), QString());
-    EXPECT_TRUE(this->posing()->sequence_export()->said().startsWith("7 frames"))
-      << this->posing()->sequence_export()->said().toStdString();
+    EXPECT_TRUE(this->posing()->sequence_export()->summary().startsWith("7 frames"))
+      << this->posing()->sequence_export()->summary().toStdString();
     return path;
   };
   // The first format is a pose file, which the filters can read.

@@ -232,7 +232,7 @@ TEST_F(ProbeWindow, RotationsAreReadWithTheirCluster)
   EXPECT_EQ(this->read(position).find("otation"), std::string::npos);
   this->window.set_method(static_cast<int>(PoseMethod::reduced_arap));
   this->choose("pose.rotations", 1);
-  const PoseRotations* found = this->part<app::posing::Posing>()->rotations();
+  const PoseRotations* found = this->part<app::posing::PoseController>()->rotations();
   ASSERT_NE(found, nullptr);
   const std::string text = this->read(position);
   SurfaceReading reading;
@@ -254,7 +254,7 @@ TEST_F(ProbeWindow, TheDifferenceOfTwoMethodsIsReadInUnitsAndShares)
   this->window.document()->set_pose(pose, "turn");
   this->choose("pose.compared", 2); // dual quaternion skinning, which preserves the waist
   this->render();
-  app::posing::Posing* posing = this->part<app::posing::Posing>();
+  app::posing::PoseController* posing = this->part<app::posing::PoseController>();
   const Points& a = posing->points();
   const Points& b = posing->compared_deformation()->points();
   ASSERT_EQ(a.rows(), b.rows());

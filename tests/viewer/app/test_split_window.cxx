@@ -54,7 +54,7 @@ protected:
     this->render();
   }
 
-  app::posing::Posing* posing() { return this->part<app::posing::Posing>(); }
+  app::posing::PoseController* posing() { return this->part<app::posing::PoseController>(); }
   vtkRenderer* left() { return this->part<app::view::Viewport>()->renderer(); }
   vtkRenderer* right() { return this->posing()->ghost()->renderer(); }
   vtkCamera* camera() { return this->left()->GetActiveCamera(); }
@@ -170,7 +170,7 @@ TEST_F(SplitWindow, AnotherSizeAndAnotherViewKeepBothInTheirHalves)
   }
   // Rotating the view in the right half rotates both halves.
   const Vec3 view_direction(this->camera()->GetDirectionOfProjection());
-  this->drag(this->user.place(0.9, 0.1), this->user.place(0.8, 0.15));
+  this->drag(this->user.pixel_of_fractions(0.9, 0.1), this->user.pixel_of_fractions(0.8, 0.15));
   EXPECT_GT((Vec3(this->camera()->GetDirectionOfProjection()) - view_direction).norm(), 0.05);
   EXPECT_EQ(this->right()->GetActiveCamera(), this->camera());
   this->user.press_key("Home");

@@ -241,9 +241,9 @@ TEST_F(TetWindow, NothingIsPosedAroundTetsAtRest)
   expect(true, "defects");
   this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::bind_and_pose);
   expect(false, "the panel Pose");
-  this->part<app::posing::Posing>()->set_rest_view(true);
+  this->part<app::posing::PoseController>()->set_rest_view(true);
   expect(true, "T");
-  this->part<app::posing::Posing>()->set_rest_view(false);
+  this->part<app::posing::PoseController>()->set_rest_view(false);
   expect(false, "T again");
   // Exports and the undo history use the posed shape, even while tets or defects are shown at rest.
   this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::tets);

@@ -104,9 +104,9 @@ double difference(const QImage& a, const QImage& b)
 void expect_reference(const QImage& drawn, const std::string& name)
 {
   const QString path = QString::fromStdString(BINDPOSE_TOUR_PICTURES + ("/" + name + ".png"));
-  const char* bless = std::getenv("BINDPOSE_BLESS");
+  const char* update_baselines = std::getenv("BINDPOSE_BLESS");
   const QImage small = scaled_down(drawn);
-  if (bless && std::string(bless) == "tours")
+  if (update_baselines && std::string(update_baselines) == "tours")
   {
     ASSERT_FALSE(testing::Test::HasFailure()) << "a picture of a failed tour is not blessed";
     ASSERT_TRUE(small.save(path)) << path.toStdString();

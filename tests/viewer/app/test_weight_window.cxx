@@ -140,7 +140,7 @@ protected:
     ADD_FAILURE() << "there is no " << text.toStdString();
     return nullptr;
   }
-  bool says(const QString& words)
+  bool has_label_with(const QString& words)
   {
     for (QLabel* label : this->panel()->findChildren<QLabel*>())
     {
@@ -278,9 +278,9 @@ TEST_F(WeightWindow, ExtremaAreCountedAndSeen)
   this->find<QCheckBox>("Extrema away from handles")->setChecked(true);
   // A weight is exactly 1 at its own handle, which is at a pole. At the other pole it is 0, which
   // is the minimum.
-  EXPECT_TRUE(this->says("Maxima: 0, minima: "));
+  EXPECT_TRUE(this->has_label_with("Maxima: 0, minima: "));
   this->button("Raw")->click();
-  EXPECT_TRUE(this->says("Maxima: 1, minima: "));
+  EXPECT_TRUE(this->has_label_with("Maxima: 1, minima: "));
   bool found = false;
   for (const Extremum& extremum : this->view()->extrema())
   {
@@ -415,7 +415,7 @@ TEST_F(WeightWindow, TheOtherMethodIsSolvedBesideTheWindow)
   const Report& numbers = this->view()->numbers();
   EXPECT_NEAR(numbers.number("picture.difference.largest", 0.0), largest, 1e-6);
   EXPECT_NEAR(numbers.number("picture.difference.rms", 0.0), std::sqrt(squares), 1e-6);
-  EXPECT_TRUE(this->says(QString("largest %1").arg(largest, 0, 'g', 2)));
+  EXPECT_TRUE(this->has_label_with(QString("largest %1").arg(largest, 0, 'g', 2)));
   // After another column is chosen, the difference between the methods is shown for this column.
   // The slice is disabled.
   this->choose("bottom");
@@ -428,7 +428,7 @@ TEST_F(WeightWindow, TheOtherMethodIsSolvedBesideTheWindow)
   this->button("Compare again")->click();
   this->button("Cancel")->click();
   this->wait_while([this] { return this->weights()->is_busy(); });
-  EXPECT_TRUE(this->says("the last comparison is kept"));
+  EXPECT_TRUE(this->has_label_with("the last comparison is kept"));
   EXPECT_TRUE(this->button("Difference")->isEnabled());
   // Opening another mesh ends the comparison.
   this->button("Compare again")->click();
@@ -457,7 +457,7 @@ TEST_F(WeightWindow, CertificatesNameTheirMethod)
   this->open(mesh);
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
   ASSERT_TRUE(this->window.is_bound());
-  EXPECT_TRUE(this->says("Bounded biharmonic weights:"));
+  EXPECT_TRUE(this->has_label_with("Bounded biharmonic weights:"));
   // Certificates are also shown in the panel Pose, where the next method is chosen.
   const auto note = [this](const QString& words)
   {
@@ -489,7 +489,7 @@ TEST_F(WeightWindow, ABindGivesVolumeRawColumnsAndCertificates)
 {
   const TriangleMesh mesh = test::sphere(3);
   this->open(to_polydata(mesh.points, mesh.triangles));
-  EXPECT_TRUE(this->says("There are no weights yet."));
+  EXPECT_TRUE(this->has_label_with("There are no weights yet."));
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
   this->part<app::weights::Binding>()->start();
   this->wait_while([this] { return this->part<app::weights::Binding>()->is_running(); });
@@ -499,7 +499,7 @@ TEST_F(WeightWindow, ABindGivesVolumeRawColumnsAndCertificates)
   ASSERT_NE(certificate->GetArray("WeightsRelativeGap"), nullptr);
   const double gap = certificate->GetArray("WeightsRelativeGap")->GetComponent(1, 0);
   EXPECT_LE(gap, 1e-6);
-  EXPECT_TRUE(this->says(QString("Gap %1, residual").arg(gap, 0, 'g', 2)));
+  EXPECT_TRUE(this->has_label_with(QString("Gap %1, residual").arg(gap, 0, 'g', 2)));
   EXPECT_TRUE(this->button("Row sums")->isEnabled());
   this->find<QCheckBox>("Slice through the volume")->setChecked(true);
   EXPECT_TRUE(this->view()->is_sliced());
@@ -521,7 +521,7 @@ TEST_F(WeightWindow, ABindGivesVolumeRawColumnsAndCertificates)
   ASSERT_TRUE(write_shape(this->window.shown(), path).ok());
   EXPECT_TRUE(this->window.open(QString::fromStdString(path)));
   std::remove(path.c_str());
-  EXPECT_TRUE(this->says(QString("Gap %1, residual").arg(gap, 0, 'g', 2)));
+  EXPECT_TRUE(this->has_label_with(QString("Gap %1, residual").arg(gap, 0, 'g', 2)));
   EXPECT_TRUE(this->button("Row sums")->isEnabled());
   EXPECT_TRUE(this->view()->is_shown());
   EXPECT_FALSE(this->view()->is_sliced());
@@ -594,7 +594,7 @@ TEST_F(WeightWindow, WhatCannotBeChosenSaysWhy)
   EXPECT_FALSE(this->view()->is_shown());
   this->open(ball_with_named_weights());
   EXPECT_GT(check(), 5);
-  EXPECT_TRUE(this->says("These weights have no certificate."));
+  EXPECT_TRUE(this->has_label_with("These weights have no certificate."));
   const QCheckBox* slice = this->find<QCheckBox>("Slice through the volume");
   EXPECT_TRUE(slice->toolTip().contains(".vtu"));
   this->open(box_with_named_weights());

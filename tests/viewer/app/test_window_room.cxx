@@ -179,7 +179,7 @@ TEST_F(WindowRoom, TheTimelineComesWithTheFirstKeyOrOnDemand)
   EXPECT_FALSE(shown()) << "a person has sent it away";
   EXPECT_EQ(this->user.trigger("edit.undo"), QString());
   EXPECT_EQ(this->user.trigger("edit.undo"), QString());
-  EXPECT_TRUE(this->part<app::posing::Posing>()->stored_poses().keys.keys().empty());
+  EXPECT_TRUE(this->part<app::posing::PoseController>()->stored_poses().keys.keys().empty());
   EXPECT_EQ(this->user.trigger("view.timeline"), QString());
   EXPECT_TRUE(shown()) << "there is none, but it was asked for";
 }
@@ -239,7 +239,7 @@ TEST_F(WindowRoom, WindingNumbersOfASurfaceAreComputedThere)
   this->open_ball(false);
   ASSERT_EQ(this->user.show_panel("volume"), QString());
   EXPECT_EQ(this->user.choose("volume.samples", 0), QString());
-  ASSERT_EQ(this->user.push("Compute"), QString());
+  ASSERT_EQ(this->user.push_button("Compute"), QString());
   ASSERT_TRUE(wait_for([this] { return app::tour::is_idle(&this->window); }));
   vtkImageData* volume = this->part<app::volume::VolumeView>()->volume();
   ASSERT_NE(volume, nullptr) << this->window.error().toStdString();
@@ -275,7 +275,7 @@ TEST_F(WindowRoom, WindingNumbersOfASurfaceAreComputedThere)
   EXPECT_EQ(Vec3(restored.work.volume->GetOrigin()), Vec3(volume->GetOrigin()));
   EXPECT_EQ(restored.work.volume->GetPointData()->GetArray("WindingNumber")->GetComponent(1000, 0),
     values->GetComponent(1000, 0));
-  EXPECT_EQ(this->user.push("Close the volume"), QString());
+  EXPECT_EQ(this->user.push_button("Close the volume"), QString());
   EXPECT_EQ(this->part<app::volume::VolumeView>()->volume(), nullptr);
   EXPECT_EQ(this->user.trigger("edit.undo"), QString());
   EXPECT_EQ(this->part<app::volume::VolumeView>()->volume(), volume);

@@ -57,7 +57,7 @@ inline int autosave_until_killed(const char* root)
   session.work = example_work(1);
   session.saved_as = "/somewhere/else.bindpose";
   Autosave autosave([&session] { return session; }, root);
-  autosave.note_change();
+  autosave.schedule_save();
   return QCoreApplication::exec();
 }
 
@@ -78,7 +78,7 @@ inline int change_until_killed(const char* root)
     [&]
     {
       session.work.pose[0].stretch = seconds_now();
-      autosave.note_change();
+      autosave.schedule_save();
     });
   changes.start(20);
   std::puts("begun");

@@ -90,7 +90,7 @@ TEST_F(Editing, EveryEditIsAStepThatUndoTakesBackBitByBit)
       d.commit_pose("move top");
     });
   this->expect_undo_step("mode of spine", [&] { d.set_mode(2, 1); });
-  this->expect_undo_step("back to rest", [&] { d.back_to_rest(); });
+  this->expect_undo_step("back to rest", [&] { d.reset_to_rest(); });
   this->expect_undo_step("rename",
     [&]
     {
@@ -194,7 +194,7 @@ TEST_F(Editing, WhatChangesNothingIsNoStep)
   const int steps = this->document.history()->count();
   this->document.set_option("pose.method", 0);
   this->document.commit_pose("move nothing");
-  this->document.back_to_rest();
+  this->document.reset_to_rest();
   this->document.set_mode(0, static_cast<int>(HandleMode::automatic));
   EXPECT_EQ(this->document.history()->count(), steps);
 }
@@ -329,7 +329,7 @@ TEST_F(Editing, ASliderMovedBackIsNoStep)
 TEST_F(Editing, WhatTheProgramChoseSurvivesUndo)
 {
   this->document.set_option("weights.bands", false);
-  this->document.note_option("weights.column", 2);
+  this->document.set_option_without_undo("weights.column", 2);
   this->document.history()->undo();
   EXPECT_EQ(this->document.number("weights.column"), 2);
   EXPECT_TRUE(this->document.option("weights.bands").toBool());
@@ -342,10 +342,11 @@ TEST_F(Editing, WhatIsNotedOfAnEqualNumberLeavesItsBits)
   const double rounded_value = 0.25 + 4e-16; // a panel can return this rounded value
   ASSERT_NE(rounded_value, before.toDouble());
   this->document.set_option("weights.place", rounded_value);
-  this->document.note_option("weights.place", rounded_value);
+  this->document.set_option_without_undo("weights.place", rounded_value);
   EXPECT_EQ(this->document.history()->count(), 1);
   EXPECT_EQ(this->document.option("weights.place").toDouble(), before.toDouble());
-  this->document.note_option("weights.place", 0.26); // a value that really differs is accepted
+  // a value that really differs is accepted
+  this->document.set_option_without_undo("weights.place", 0.26);
   EXPECT_EQ(this->document.option("weights.place").toDouble(), 0.26);
 }
 
@@ -565,7 +566,7 @@ TEST(FuzzDocument, UndoOfEverythingIsTheBeginningAndRedoTheEnd)
           document.set_option("weights.isolines", pick(2) == 0);
           break;
         case 5:
-          document.back_to_rest();
+          document.reset_to_rest();
           break;
         case 6:
           document.set_mode(pick(handles), pick(3));

@@ -116,7 +116,7 @@ TEST_F(MovingBeam, ComesToRestWithDamping)
 
 TEST_F(MovingBeam, MovesInTetsToo)
 {
-  this->reduced.in_tets = true;
+  this->reduced.use_tet_energy = true;
   this->reduced.extra_weights = 3;
   ASSERT_TRUE(this->body.bind(this->context, this->reduced).usable());
   EXPECT_FALSE(this->body.has_started());

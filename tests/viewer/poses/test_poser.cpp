@@ -157,10 +157,10 @@ TEST(Poser, ReducedArapGivesWhatTheFilterGives)
     options.extra_weights = extra;
     EXPECT_EQ(poser_points(rig, pose, options), filter_points(filter, rig, pose, rig.surface));
     // The points of the surface are the first points of the tets, with the same positions.
-    vtkNew<vtkReducedARAP> in_tets;
-    in_tets->SetNumberOfExtraWeights(static_cast<int>(extra));
-    options.in_tets = true;
-    const Points all = filter_points(in_tets, rig, pose, rig.tets);
+    vtkNew<vtkReducedARAP> tet_filter;
+    tet_filter->SetNumberOfExtraWeights(static_cast<int>(extra));
+    options.use_tet_energy = true;
+    const Points all = filter_points(tet_filter, rig, pose, rig.tets);
     const Points surface = poser_points(rig, pose, options);
     EXPECT_LT((surface - all.topRows(surface.rows())).cwiseAbs().maxCoeff(), 1e-12);
   }
@@ -171,15 +171,15 @@ TEST(Poser, RotationsAreTheFilters)
   const Rig rig = beam();
   Pose pose = some_pose(rig.list);
   pose[1].mode = HandleMode::free;
-  for (const bool in_tets : { false, true })
+  for (const bool use_tet_energy : { false, true })
   {
     vtkNew<vtkReducedARAP> filter;
     filter->RotationArraysOn();
     const Points all = filter_points(
-      filter, rig, pose, in_tets ? static_cast<vtkDataSet*>(rig.tets) : rig.surface.Get());
+      filter, rig, pose, use_tet_energy ? static_cast<vtkDataSet*>(rig.tets) : rig.surface.Get());
     vtkPointData* arrays = filter->GetOutput()->GetPointData();
     PoseOptions options = options_for(PoseMethod::reduced_arap);
-    options.in_tets = in_tets;
+    options.use_tet_energy = use_tet_energy;
     ExecutionContext context;
     const auto poser = make_poser(options.method, rig.source());
     EXPECT_EQ(poser->rotations(), nullptr); // nothing has been bound
@@ -212,10 +212,10 @@ TEST(Poser, FullArapGivesWhatTheFilterGives)
   vtkNew<vtkFullARAP> filter;
   EXPECT_EQ(poser_points(rig, pose, options_for(PoseMethod::full_arap)),
     filter_points(filter, rig, pose, rig.surface));
-  vtkNew<vtkFullARAP> in_tets;
+  vtkNew<vtkFullARAP> tet_filter;
   PoseOptions options = options_for(PoseMethod::full_arap);
-  options.in_tets = true;
-  const Points all = filter_points(in_tets, rig, pose, rig.tets);
+  options.use_tet_energy = true;
+  const Points all = filter_points(tet_filter, rig, pose, rig.tets);
   const Points surface = poser_points(rig, pose, options);
   EXPECT_EQ(surface, all.topRows(surface.rows()));
   // Each tet has a rotation; the points have no rotations.
@@ -346,7 +346,7 @@ TEST(Poser, WhatCannotBePosedIsSaid)
   auto poser = make_poser(options.method, rig.source());
   EXPECT_THAT(
     poser->solve(context, Pose(4), options, 0, posed).message, testing::HasSubstr("bound"));
-  options.in_tets = true;
+  options.use_tet_energy = true;
   rig.tets = nullptr;
   poser = make_poser(options.method, rig.source());
   EXPECT_THAT(poser->bind(context, options).message, testing::HasSubstr("no tets"));

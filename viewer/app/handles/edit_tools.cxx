@@ -67,10 +67,10 @@ EditTools::EditTools(const QList<QList<QAction*>>& groups, QWidget* parent) : QF
     this->buttons_ << buttons;
   }
   row->addStretch(1);
-  this->show_words(0);
+  this->show_button_texts(0);
 }
 
-void EditTools::show_words(int groups)
+void EditTools::show_button_texts(int groups)
 {
   for (int group = 0; group < this->buttons_.size(); ++group)
   {
@@ -82,7 +82,7 @@ void EditTools::show_words(int groups)
   }
 }
 
-int EditTools::width_with_words(int groups) const
+int EditTools::width_with_texts(int groups) const
 {
   int width = 2 * row_margin + (this->buttons_.size() - 1) * group_spacing;
   for (int group = 0; group < this->buttons_.size(); ++group)
@@ -99,17 +99,17 @@ int EditTools::width_with_words(int groups) const
 
 QSize EditTools::minimumSizeHint() const
 {
-  return { this->width_with_words(0), this->QFrame::minimumSizeHint().height() };
+  return { this->width_with_texts(0), this->QFrame::minimumSizeHint().height() };
 }
 
 void EditTools::fit()
 {
   int groups = this->buttons_.size();
-  while (groups > 0 && this->width_with_words(groups) > this->width())
+  while (groups > 0 && this->width_with_texts(groups) > this->width())
   {
     --groups;
   }
-  this->show_words(groups);
+  this->show_button_texts(groups);
 }
 
 void EditTools::resizeEvent(QResizeEvent* event)
@@ -120,10 +120,10 @@ void EditTools::resizeEvent(QResizeEvent* event)
 
 bool EditTools::event(QEvent* event)
 {
-  const bool other_font =
+  const bool is_font_change =
     event->type() == QEvent::FontChange || event->type() == QEvent::StyleChange;
   const bool result = QFrame::event(event);
-  if (other_font)
+  if (is_font_change)
   {
     this->fit();
   }

@@ -31,8 +31,8 @@ protected:
   bool event(QEvent* event) override;
 
 private:
-  void show_words(int groups);
-  int width_with_words(int groups) const;
+  void show_button_texts(int groups);
+  int width_with_texts(int groups) const;
   void fit();
 
   QList<QList<QToolButton*>> buttons_;

@@ -25,7 +25,8 @@ class HandleSelection;
 
 /// Commands for the selected handles, available as menu entries, keys and functions. Drags with the
 /// mouse are not part of this class. Each command makes one undo step of the document. A command
-/// that cannot be applied makes no step, and HandleSelection::refused() is emitted with the reason.
+/// that cannot be applied makes no step, and HandleSelection::edit_refused() is emitted with the
+/// reason.
 class HandleCommands : public QObject
 {
   Q_OBJECT

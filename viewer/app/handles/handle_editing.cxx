@@ -44,8 +44,8 @@ namespace
 using Representation = vtkHandleSetRepresentation;
 } // namespace
 
-HandleEditing::HandleEditing(Document* document, view::Viewport* viewport, posing::Posing* posing,
-  SidePanel* panel, QAction* auto_rig)
+HandleEditing::HandleEditing(Document* document, view::Viewport* viewport,
+  posing::PoseController* posing, SidePanel* panel, QAction* auto_rig)
   : QObject(viewport), document_(document), viewport_(viewport), posing_(posing), panel_(panel),
     selection_(new HandleSelection(document, viewport)),
     painting_(new RegionPainting(document, viewport))
@@ -58,11 +58,11 @@ HandleEditing::HandleEditing(Document* document, view::Viewport* viewport, posin
     viewport->parentWidget());
   this->bar_ = new ModeBar(this->inside_, viewport);
   this->start_card_ = new StartCard(auto_rig, viewport);
-  if (auto* over = qobject_cast<QBoxLayout*>(viewport->layout()))
+  if (auto* overlay_layout = qobject_cast<QBoxLayout*>(viewport->layout()))
   {
-    over->insertWidget(0, this->bar_, 0, Qt::AlignLeft | Qt::AlignTop);
+    overlay_layout->insertWidget(0, this->bar_, 0, Qt::AlignLeft | Qt::AlignTop);
     // legends are on the left, so this text is on the right
-    over->addWidget(this->start_card_, 0, Qt::AlignRight | Qt::AlignBottom);
+    overlay_layout->addWidget(this->start_card_, 0, Qt::AlignRight | Qt::AlignBottom);
   }
   QObject::connect(this->bar_, &ModeBar::done_requested, this, [this] { this->set_mode(pose); });
   QObject::connect(this->bar_, &ModeBar::end_cage_requested, this,
@@ -78,8 +78,10 @@ HandleEditing::HandleEditing(Document* document, view::Viewport* viewport, posin
   QObject::connect(
     this->bar_, &ModeBar::new_region_requested, this, [this] { this->selection_->select({}); });
   QObject::connect(this->painting_, &RegionPainting::changed, this, &HandleEditing::show_state);
-  QObject::connect(this->painting_, &RegionPainting::refused, this, &HandleEditing::refused);
-  QObject::connect(this->selection_, &HandleSelection::refused, this, &HandleEditing::refused);
+  QObject::connect(
+    this->painting_, &RegionPainting::edit_refused, this, &HandleEditing::edit_refused);
+  QObject::connect(
+    this->selection_, &HandleSelection::edit_refused, this, &HandleEditing::edit_refused);
   QObject::connect(
     this->selection_, &HandleSelection::about_to_edit, this, &HandleEditing::cancel_interaction);
   QObject::connect(
@@ -108,7 +110,7 @@ HandleEditing::HandleEditing(Document* document, view::Viewport* viewport, posin
     });
   // Leave the edit mode, so that poses that are typed or played are visible. Also stop a drag that
   // was started by a key: if the user canceled the drag later, the old pose would be restored.
-  QObject::connect(posing, &posing::Posing::pose_changed, this,
+  QObject::connect(posing, &posing::PoseController::pose_changed, this,
     [this]
     {
       this->cancel_interaction();
@@ -295,12 +297,12 @@ void HandleEditing::show_state()
   const bool handles = this->document_->handle_data();
   for (QAction* mode : this->modes_->actions())
   {
-    const int which = mode->data().toInt();
-    mode->setEnabled(which == pose ||
-      (which == move_rest          ? handles
-          : which == paint_regions ? surface
-                                   : surface || handles));
-    mode->setChecked(which == this->mode_);
+    const int mode_value = mode->data().toInt();
+    mode->setEnabled(mode_value == pose ||
+      (mode_value == move_rest          ? handles
+          : mode_value == paint_regions ? surface
+                                        : surface || handles));
+    mode->setChecked(mode_value == this->mode_);
   }
   this->gizmos_->setEnabled(handles);
   this->local_->setEnabled(handles);
@@ -368,11 +370,12 @@ void HandleEditing::drag_continued()
 void HandleEditing::handle_placed()
 {
   const QString interaction = QString::fromStdString(this->widget()->GetInteractionName());
-  const bool adds =
+  const bool is_addition =
     interaction == "add point" || interaction == "add bone" || interaction == "add cage vertex";
   const std::string name =
     this->representation()->GetHandleName(this->representation()->GetSelectedHandle());
-  this->selection_->commit(adds ? interaction + " " + QString::fromStdString(name) : interaction);
+  this->selection_->commit(
+    is_addition ? interaction + " " + QString::fromStdString(name) : interaction);
 }
 
 void HandleEditing::drag_ended()
@@ -529,18 +532,18 @@ QString HandleEditing::mode_hint() const
 {
   const bool inside =
     this->representation()->GetPlaceInside() && this->representation()->GetSurface();
-  const QString where = inside ? tr("inside the shape (I: on its surface)")
-                               : tr("on the surface (I: inside the shape)");
+  const QString placement_text = inside ? tr("inside the shape (I: on its surface)")
+                                        : tr("on the surface (I: inside the shape)");
   switch (this->mode_)
   {
     case move_rest:
       return tr("Drag handles, bones and joints to their rest positions; Ctrl snaps, Esc ends.");
     case add_points:
-      return tr("Click on the shape to add a point %1; Ctrl snaps, Esc ends.").arg(where);
+      return tr("Click on the shape to add a point %1; Ctrl snaps, Esc ends.").arg(placement_text);
     case add_bones:
       return tr("Drag from a bone's head to its tail, %1; start at a bone's end to add a child; "
                 "Ctrl snaps, Esc ends.")
-        .arg(where);
+        .arg(placement_text);
     case add_cage:
       return this->representation()->IsMakingCage()
         ? tr("Click to add vertices; the first vertex closes the cage, Enter leaves it open, Esc "

@@ -16,7 +16,7 @@ class vtkObject;
 
 namespace app::posing
 {
-class Posing;
+class PoseController;
 } // namespace app::posing
 namespace app::view
 {
@@ -53,7 +53,7 @@ public:
     paint_regions = 5
   };
 
-  HandleEditing(Document* document, view::Viewport* viewport, posing::Posing* posing,
+  HandleEditing(Document* document, view::Viewport* viewport, posing::PoseController* posing,
     SidePanel* panel, QAction* auto_rig);
 
   /// Return the row of tools, to be placed above the 3D view.
@@ -99,7 +99,7 @@ Q_SIGNALS:
   void moved();
   /// Emitted with the handle that was selected last; -1: no handle.
   void handle_selected(int handle);
-  void refused(const QString& message);
+  void edit_refused(const QString& message);
 
 private:
   QAction* add_action(QActionGroup* group, const char* name, const QString& text, int value);
@@ -123,7 +123,7 @@ private:
 
   Document* document_;
   view::Viewport* viewport_;
-  posing::Posing* posing_;
+  posing::PoseController* posing_;
   SidePanel* panel_;
   HandleSelection* selection_;
   RegionPainting* painting_;

@@ -136,7 +136,7 @@ bool HandleSelection::edit(const QString& step, const HandleListEdit& edit, vtkD
 
 void HandleSelection::refuse(const Status& status)
 {
-  Q_EMIT this->refused(parts::capitalized(QString::fromStdString(status.message)) + ".");
+  Q_EMIT this->edit_refused(parts::capitalized(QString::fromStdString(status.message)) + ".");
 }
 
 bool HandleSelection::commit(const QString& step, vtkDataArray* labels)

@@ -38,15 +38,15 @@ public:
   void select_names(const std::vector<std::string>& names);
 
   /// Edit the handles in one undo step and select the new handles. If that is impossible, emit
-  /// refused() and return false. `labels`, if not null, become the region labels of the surface in
-  /// the same step.
+  /// edit_refused() and return false. `labels`, if not null, become the region labels of the
+  /// surface in the same step.
   bool edit(
     const QString& step, const bindpose::HandleListEdit& edit, vtkDataArray* labels = nullptr);
   /// Make one undo step of changes that were already written to the handle dataset
   /// (Document::editable_handles()). `labels` has the same meaning as in edit().
   bool commit(const QString& step, vtkDataArray* labels = nullptr);
-  /// Rename a handle. Return false, and emit refused(), if the name is empty or belongs to another
-  /// handle.
+  /// Rename a handle. Return false, and emit edit_refused(), if the name is empty or belongs to
+  /// another handle.
   bool rename(int handle, const QString& name);
   /// Return the name of an undo step for these handles: `step`, followed by the handle's name if
   /// there is one handle, otherwise by the number of handles.
@@ -61,7 +61,7 @@ Q_SIGNALS:
   /// Emitted before an edit. Connected objects must then end all interactions with the mouse.
   void about_to_edit();
   void changed();
-  void refused(const QString& message);
+  void edit_refused(const QString& message);
 
 private:
   vtkHandleSetRepresentation* representation() const;

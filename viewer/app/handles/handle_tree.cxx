@@ -284,9 +284,9 @@ void HandleTree::read_selection()
     this->selected_.end());
   for (int k = 0; k < static_cast<int>(this->items_.size()); ++k)
   {
-    const bool known =
+    const bool is_listed =
       std::find(this->selected_.begin(), this->selected_.end(), k) != this->selected_.end();
-    if (!known && !is_unselected(k))
+    if (!is_listed && !is_unselected(k))
     {
       this->selected_.push_back(k);
     }
@@ -357,19 +357,19 @@ bool HandleTree::eventFilter(QObject* watched, QEvent* event)
   if (event->type() == QEvent::ShortcutOverride || event->type() == QEvent::KeyPress)
   {
     const int key = static_cast<QKeyEvent*>(event)->key();
-    const bool clears = key == Qt::Key_Escape && !this->search_->text().isEmpty();
-    const bool chooses = key == Qt::Key_Return || key == Qt::Key_Enter;
-    if ((clears || chooses) && event->type() == QEvent::ShortcutOverride)
+    const bool clears_search = key == Qt::Key_Escape && !this->search_->text().isEmpty();
+    const bool accepts_match = key == Qt::Key_Return || key == Qt::Key_Enter;
+    if ((clears_search || accepts_match) && event->type() == QEvent::ShortcutOverride)
     {
       event->accept();
       return true;
     }
-    if (clears)
+    if (clears_search)
     {
       this->search_->clear();
       return true;
     }
-    if (chooses)
+    if (accepts_match)
     {
       this->choose_first_match();
       return true;

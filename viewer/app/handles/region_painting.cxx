@@ -312,7 +312,7 @@ bool RegionPainting::commit_stroke(std::string& region)
   if (!status.ok())
   {
     this->document_changed(); // the edit was refused: restore the labels
-    Q_EMIT this->refused(QString::fromStdString(status.message));
+    Q_EMIT this->edit_refused(QString::fromStdString(status.message));
   }
   return status.ok();
 }
@@ -382,8 +382,8 @@ void RegionPainting::show_labels()
                                          : category_scalars[static_cast<std::size_t>(category)]);
   }
   ColorMap map = category_map(categories);
-  const Rgb& plain = palette::surface;
-  map.table->SetNanColor(plain[0], plain[1], plain[2], 1.0);
+  const Rgb& surface_color = palette::surface;
+  map.table->SetNanColor(surface_color[0], surface_color[1], surface_color[2], 1.0);
   const bool any = std::any_of(categories.begin(), categories.end(),
     [](const Category& category) { return category.count > 0; });
   // If there are no regions, show no legend, because it would contain only a title.

@@ -51,7 +51,7 @@ Q_SIGNALS:
   void changed();
   /// Emitted when a stroke was stored. `region` is the name of its region, or empty.
   void region_painted(const QString& region);
-  void refused(const QString& message);
+  void edit_refused(const QString& message);
 
 private:
   vtkRegionBrushRepresentation* brush() const;

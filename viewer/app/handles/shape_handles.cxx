@@ -52,12 +52,12 @@ void ShapeHandles::fill_menu(QMenu* menu)
 
 void ShapeHandles::update()
 {
-  const bool can = this->document_->surface() && !this->is_running();
+  const bool can_start = this->document_->surface() && !this->is_running();
   if (this->menu_)
   {
-    this->menu_->setEnabled(can);
+    this->menu_->setEnabled(can_start);
   }
-  this->auto_rig_->setEnabled(can);
+  this->auto_rig_->setEnabled(can_start);
 }
 
 void ShapeHandles::ask_for_count()

@@ -25,9 +25,9 @@ void arrow(QPainter& painter, const QPointF& from, const QPointF& to)
   painter.drawLine(from, to);
   const QPointF offset = to - from;
   const QPointF direction = offset / std::hypot(offset.x(), offset.y());
-  const QPointF across(-direction.y(), direction.x());
+  const QPointF normal(-direction.y(), direction.x());
   painter.drawPolyline(
-    QPolygonF({ to - 3.2 * direction + 2.6 * across, to, to - 3.2 * direction - 2.6 * across }));
+    QPolygonF({ to - 3.2 * direction + 2.6 * normal, to, to - 3.2 * direction - 2.6 * normal }));
 }
 
 void dot(QPainter& painter, const QPointF& center, double radius)

@@ -20,7 +20,7 @@ struct WindowKey
 {
   /// Name of the action that uses the keys. Empty for rows that are only documentation.
   const char* action;
-  const char* when; ///< heading of the group in the shortcut sheet
+  const char* heading; ///< heading of the group in the shortcut sheet
   /// Keys as shown to users and read by QKeySequence; ", " separates several keys.
   const char* input;
   const char* text; ///< the effect of the keys
@@ -100,7 +100,7 @@ inline std::string keys_of(const char* action)
 
 struct KeyGroup
 {
-  std::string when;
+  std::string heading;
   /// Pairs of keys or buttons and their effect.
   std::vector<std::pair<std::string, std::string>> rows;
 };
@@ -110,29 +110,29 @@ struct KeyGroup
 inline std::vector<KeyGroup> all_keys()
 {
   std::vector<KeyGroup> groups;
-  const auto add = [&groups](const char* when, const char* input, const char* text)
+  const auto add = [&groups](const char* heading, const char* input, const char* text)
   {
     for (KeyGroup& group : groups)
     {
-      if (group.when == when)
+      if (group.heading == heading)
       {
         group.rows.emplace_back(input, text);
         return;
       }
     }
-    groups.push_back({ when, { { input, text } } });
+    groups.push_back({ heading, { { input, text } } });
   };
   for (const WindowKey& key : window_keys)
   {
-    add(key.when, key.input, key.text);
+    add(key.heading, key.input, key.text);
   }
   for (const bindpose::HandleBinding& binding : bindpose::handle_bindings)
   {
-    add(binding.when, binding.input, binding.text);
+    add(binding.context, binding.input, binding.text);
   }
   for (const bindpose::BrushBinding& binding : bindpose::brush_bindings)
   {
-    add(binding.when, binding.input, binding.text);
+    add(binding.context, binding.input, binding.text);
   }
   return groups;
 }

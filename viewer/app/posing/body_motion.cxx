@@ -63,7 +63,7 @@ void BodyMotion::begin()
   this->body_ = std::make_shared<Body>(this->source_);
   const Index size =
     this->source_->points.rows() * static_cast<Index>(this->source_->handles.size());
-  if (size < immediate_bind_limit && !options.in_tets)
+  if (size < immediate_bind_limit && !options.use_tet_energy)
   {
     ExecutionContext context;
     const Status status = this->body_->bind(context, options);

@@ -27,7 +27,7 @@ constexpr Index maximum_iterations = 500;
 bool binds_immediately(const PoseSource& source, const PoseOptions& options)
 {
   const auto columns = static_cast<Index>(source.handles.size()) + options.extra_weights;
-  const Index vertices = options.in_tets ? source.tet_points.rows() : source.points.rows();
+  const Index vertices = options.use_tet_energy ? source.tet_points.rows() : source.points.rows();
   if (options.method == PoseMethod::rotation_centers ||
     (options.method == PoseMethod::stretchable_bones &&
       options.endpoints != EndpointMethod::projection))

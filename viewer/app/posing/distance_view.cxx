@@ -33,7 +33,7 @@ double distance_scale(double largest)
   return 10.0 * power;
 }
 
-DistanceView::DistanceView(view::Viewport* viewport, Posing* posing)
+DistanceView::DistanceView(view::Viewport* viewport, PoseController* posing)
   : QObject(viewport), viewport_(viewport), posing_(posing)
 {
 }
@@ -48,7 +48,7 @@ void DistanceView::update()
 {
   const Points& points = this->posing_->points();
   const Points& other = this->posing_->compared_deformation()->points();
-  if (!this->active_ || this->posing_->ghost()->place() != PoseGhost::in_colors ||
+  if (!this->active_ || this->posing_->ghost()->display_mode() != PoseGhost::in_colors ||
     this->posing_->shows_rest() || this->posing_->compared_deformation()->is_binding() ||
     points.rows() == 0 || points.rows() != other.rows() || !this->viewport_->drawn() ||
     points.rows() != this->posing_->surface()->GetNumberOfPoints())

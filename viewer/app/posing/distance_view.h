@@ -14,7 +14,7 @@ class Viewport;
 namespace app::posing
 {
 
-class Posing;
+class PoseController;
 
 /// Shows the distance between the displayed shape and the shape of the compared method. The
 /// distance is shown as colors on the displayed shape, with a scale in percent of the rest shape's
@@ -24,7 +24,7 @@ class DistanceView : public QObject
   Q_OBJECT
 
 public:
-  DistanceView(view::Viewport* viewport, Posing* posing);
+  DistanceView(view::Viewport* viewport, PoseController* posing);
 
   /// Set whether the panel is visible. If not, other views determine the colors of the surface.
   void set_active(bool active);
@@ -33,7 +33,7 @@ public:
 
 private:
   view::Viewport* viewport_;
-  Posing* posing_;
+  PoseController* posing_;
   bool active_ = true;
   vtkSmartPointer<vtkDoubleArray> values_; ///< the displayed distances in percent; null: none
   double scale_ = 0.0; ///< upper end of the color scale, in percent

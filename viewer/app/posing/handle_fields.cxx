@@ -149,10 +149,10 @@ void HandleFields::show_values(const Handle* handle, const HandleValues& values,
 
 void HandleFields::show_count(const QString& name, int count)
 {
-  const QString words = tr("%1 selected; values of %2:").arg(count);
+  const QString text_format = tr("%1 selected; values of %2:").arg(count);
   const int available_width =
-    this->width() - this->fontMetrics().horizontalAdvance(words.arg(QString()));
-  this->count_->setText(words.arg(
+    this->width() - this->fontMetrics().horizontalAdvance(text_format.arg(QString()));
+  this->count_->setText(text_format.arg(
     this->fontMetrics().elidedText(name, Qt::ElideMiddle, std::max(available_width, 60))));
   this->count_->setToolTip(name);
   this->count_->setVisible(count > 1);

@@ -38,7 +38,7 @@ public:
   bindpose::HandleValues values() const;
   /// Return a field by its index. The order is: translate x y z, rotate x y z, scale, stretch,
   /// twist at head and tail.
-  QDoubleSpinBox* field(int which) const { return this->fields_[static_cast<std::size_t>(which)]; }
+  QDoubleSpinBox* field(int index) const { return this->fields_[static_cast<std::size_t>(index)]; }
   QDoubleSpinBox* layer() const { return this->layer_; }
 
 Q_SIGNALS:

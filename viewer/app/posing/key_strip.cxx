@@ -255,9 +255,9 @@ void KeyTrack::paintEvent(QPaintEvent* /*event*/)
       { x - 6, middle } };
     painter.drawPolygon(diamond, 4);
   }
-  const int now = this->pixel(std::min(this->time_, this->length()));
+  const int time_x = this->pixel(std::min(this->time_, this->length()));
   painter.setPen(QPen(parts::theme_color(on ? "accent" : "accent_off"), 2));
-  painter.drawLine(now, 2 + this->fontMetrics().lineSpacing(), now, this->height() - 1);
+  painter.drawLine(time_x, 2 + this->fontMetrics().lineSpacing(), time_x, this->height() - 1);
   if (this->hasFocus())
   {
     painter.setPen(QPen(parts::theme_color("accent"), 1));

@@ -99,9 +99,10 @@ void PoseGhost::make_shape()
   }
 }
 
-void PoseGhost::set_place(Place place, bindpose::PointsView points, bindpose::PointsView first)
+void PoseGhost::set_display_mode(
+  DisplayMode mode, bindpose::PointsView points, bindpose::PointsView first)
 {
-  this->place_ = place;
+  this->display_mode_ = mode;
   this->make_shape();
   this->move(points, first); // must precede update(), which fits the view to the moved points
   this->update();
@@ -111,13 +112,13 @@ void PoseGhost::move(bindpose::PointsView points, bindpose::PointsView first)
 {
   if (this->shaded_ && this->is_drawn() && points.rows() > 0)
   {
-    if (this->place_ == beside)
+    if (this->display_mode_ == beside)
     {
       this->match_first_shape();
     }
     else
     {
-      this->fade(points, first);
+      this->update_opacities(points, first);
     }
     this->viewport_->move_shape(*this->shaded_, points);
   }
@@ -125,7 +126,7 @@ void PoseGhost::move(bindpose::PointsView points, bindpose::PointsView first)
 
 /// Make the ghost transparent where both surfaces coincide. Otherwise round-off would decide for
 /// each pixel which surface is drawn.
-void PoseGhost::fade(bindpose::PointsView points, bindpose::PointsView first)
+void PoseGhost::update_opacities(bindpose::PointsView points, bindpose::PointsView first)
 {
   if (points.rows() != first.rows())
   {
@@ -160,13 +161,13 @@ void PoseGhost::match_first_shape()
 
 void PoseGhost::update()
 {
-  const Place place = this->shaded_ && this->is_drawn() ? this->place_ : hidden;
+  const DisplayMode mode = this->shaded_ && this->is_drawn() ? this->display_mode_ : hidden;
   vtkRenderWindow* window = this->viewport_->renderWindow();
   this->viewport_->renderer()->RemoveActor(this->actor_);
   this->renderer_->RemoveActor(this->actor_);
-  this->mapper_->SetScalarVisibility(place == over);
+  this->mapper_->SetScalarVisibility(mode == over);
   vtkProperty* property = this->actor_->GetProperty();
-  if (place == over)
+  if (mode == over)
   {
     bindpose::set_color(property, ghost_color);
     property->SetOpacity(ghost_opacity);
@@ -175,17 +176,17 @@ void PoseGhost::update()
     this->actor_->ForceOpaqueOff();
     this->viewport_->renderer()->AddActor(this->actor_);
   }
-  else if (place == beside)
+  else if (mode == beside)
   {
     property->SetOpacity(1.0);
     this->match_first_shape();
     this->renderer_->AddActor(this->actor_);
   }
-  const bool beside_it = place == beside;
-  if (beside_it != this->is_renderer_added_)
+  const bool is_beside = mode == beside;
+  if (is_beside != this->is_renderer_added_)
   {
-    this->is_renderer_added_ = beside_it;
-    if (beside_it)
+    this->is_renderer_added_ = is_beside;
+    if (is_beside)
     {
       window->AddRenderer(this->renderer_);
     }
@@ -195,15 +196,15 @@ void PoseGhost::update()
     }
   }
   this->viewport_->set_split(
-    beside_it ? this->renderer_.Get() : nullptr, beside_it ? this->shaded_->polydata() : nullptr);
-  this->viewport_->set_ghosted(place == over);
+    is_beside ? this->renderer_.Get() : nullptr, is_beside ? this->shaded_->polydata() : nullptr);
+  this->viewport_->set_ghosted(mode == over);
 }
 
 /// Called when one half of the split view has set its clipping range. Set a range for both halves
 /// that contains both shapes.
 void PoseGhost::clipping_range_changed()
 {
-  if (this->place_ != beside || this->is_updating_clipping_)
+  if (this->display_mode_ != beside || this->is_updating_clipping_)
   {
     return;
   }

@@ -34,7 +34,7 @@ namespace app::posing
 class PoseGhost
 {
 public:
-  enum Place
+  enum DisplayMode
   {
     hidden,
     over,
@@ -50,23 +50,23 @@ public:
   void set_surface(vtkPolyData* surface);
   /// Set where the ghost is drawn. `points` are the points of the ghost, and `first` the points of
   /// the viewport's shape. If `points` is empty, the ghost keeps its points.
-  void set_place(Place place, bindpose::PointsView points, bindpose::PointsView first);
-  Place place() const { return this->place_; }
+  void set_display_mode(DisplayMode mode, bindpose::PointsView points, bindpose::PointsView first);
+  DisplayMode display_mode() const { return this->display_mode_; }
   void move(bindpose::PointsView points, bindpose::PointsView first);
   vtkRenderer* renderer() const { return this->renderer_; }
   /// Return the ghost as drawn; null before the ghost was shown for the first time.
   const bindpose::ShadedSurface* shaded() const { return this->shaded_.get(); }
 
 private:
-  bool is_drawn() const { return this->place_ == over || this->place_ == beside; }
+  bool is_drawn() const { return this->display_mode_ == over || this->display_mode_ == beside; }
   void make_shape();
-  void fade(bindpose::PointsView points, bindpose::PointsView first);
+  void update_opacities(bindpose::PointsView points, bindpose::PointsView first);
   void update();
   void match_first_shape();
   void clipping_range_changed();
 
   view::Viewport* viewport_;
-  Place place_ = hidden;
+  DisplayMode display_mode_ = hidden;
   vtkNew<bindpose::MovedSurfaceMapper> mapper_;
   vtkNew<vtkActor> actor_;
   // colors of a ghost over the surface: transparent where both shapes coincide

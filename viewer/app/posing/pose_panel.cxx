@@ -169,9 +169,10 @@ void PosePanel::add_methods(QVBoxLayout* column)
   QObject::connect(this->cancel_, &QPushButton::clicked, this, &PosePanel::cancel_requested);
 }
 
-/// Add a line with a name and a widget for an option. The line is shown only for the methods `of`.
+/// Add a line with a name and a widget for an option. The line is shown only for the methods
+/// `visible_methods`.
 QWidget* PosePanel::option(QVBoxLayout* column, const QString& name, QWidget* widget,
-  const QString& tip, std::vector<PoseMethod> of)
+  const QString& tip, std::vector<PoseMethod> visible_methods)
 {
   QWidget* row = widget;
   widget->setToolTip(tip);
@@ -187,9 +188,9 @@ QWidget* PosePanel::option(QVBoxLayout* column, const QString& name, QWidget* wi
     line->addWidget(widget, 1);
   }
   column->addWidget(row);
-  if (!of.empty())
+  if (!visible_methods.empty())
   {
-    this->options_.push_back({ row, std::move(of) });
+    this->options_.push_back({ row, std::move(visible_methods) });
   }
   const auto changed = [this]
   {
@@ -309,27 +310,27 @@ void PosePanel::add_comparison(QVBoxLayout* column)
   line->addWidget(new QLabel(tr("With"), this));
   line->addWidget(this->compared_, 1);
   section->column()->addLayout(line);
-  this->place_row_ = new QWidget(this);
-  auto* places = new QVBoxLayout(this->place_row_);
-  places->setContentsMargins(0, 0, 0, 0);
+  this->display_row_ = new QWidget(this);
+  auto* display_layout = new QVBoxLayout(this->display_row_);
+  display_layout->setContentsMargins(0, 0, 0, 0);
   // The default is Distance, which shows the size of the differences.
-  this->ghost_group_ = parts::option_segments(places, this->place_row_, "pose.ghost",
+  this->ghost_group_ = parts::option_segments(display_layout, this->display_row_, "pose.ghost",
     { tr("Draw the second shape in see-through blue where both shapes differ"),
       tr("Draw each shape in one half of the picture, from the same view"),
       tr("Color the shape by its distance from the second shape,\n"
          "in percent of the bounding-box diagonal of the rest shape") });
-  this->difference_ = new QLabel(this->place_row_);
+  this->difference_ = new QLabel(this->display_row_);
   this->difference_->setObjectName("note");
   this->difference_->setWordWrap(true);
   this->difference_->setMinimumHeight(2 * this->difference_->fontMetrics().lineSpacing() + 2);
   this->difference_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-  places->addWidget(this->difference_);
-  section->column()->addWidget(this->place_row_);
-  this->place_row_->hide();
+  display_layout->addWidget(this->difference_);
+  section->column()->addWidget(this->display_row_);
+  this->display_row_->hide();
   QObject::connect(this->compared_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
     [this](int index)
     {
-      this->place_row_->setVisible(index > 0);
+      this->display_row_->setVisible(index > 0);
       Q_EMIT this->comparison_changed();
     });
   QObject::connect(this->ghost_group_, &QButtonGroup::idClicked, this,
@@ -451,7 +452,7 @@ PoseOptions PosePanel::options() const
     static_cast<bindpose::PseudoEdgeChoice>(this->pseudo_edges_->currentIndex());
   options.endpoints = static_cast<bindpose::EndpointMethod>(this->endpoints_->currentIndex());
   options.energy = static_cast<bindpose::ArapEnergy>(this->energy_->currentIndex());
-  options.in_tets = this->in_tets_->isChecked() && this->state_.tets;
+  options.use_tet_energy = this->in_tets_->isChecked() && this->state_.tets;
   options.extra_weights = std::lround(this->extra_->value());
   options.extra_kind = static_cast<bindpose::ExtraWeights>(this->extra_kind_->currentIndex());
   options.iterations = std::lround(this->iterations_->value());
@@ -472,18 +473,18 @@ int PosePanel::compared_method() const
   return this->compared_->currentIndex() - 1;
 }
 
-bool PosePanel::compares_itself() const
+bool PosePanel::compares_same_method() const
 {
   return this->compared_method() == static_cast<int>(this->method());
 }
 
-PoseGhost::Place PosePanel::ghost_place() const
+PoseGhost::DisplayMode PosePanel::ghost_display_mode() const
 {
-  constexpr PoseGhost::Place places[] = { PoseGhost::over, PoseGhost::beside,
+  constexpr PoseGhost::DisplayMode display_modes[] = { PoseGhost::over, PoseGhost::beside,
     PoseGhost::in_colors };
-  return this->compared_method() < 0 || this->compares_itself()
+  return this->compared_method() < 0 || this->compares_same_method()
     ? PoseGhost::hidden
-    : places[this->ghost_group_->checkedId()];
+    : display_modes[this->ghost_group_->checkedId()];
 }
 
 bool PosePanel::simulates_motion() const
@@ -502,7 +503,7 @@ bindpose::BodyOptions PosePanel::body_options() const
 {
   bindpose::BodyOptions options;
   options.gravity = this->gravity_->value();
-  options.down = this->down_->currentIndex();
+  options.down_axis = this->down_->currentIndex();
   options.stiffness = std::pow(10.0, this->stiffness_->value());
   options.damping = this->damping_->value();
   return options;

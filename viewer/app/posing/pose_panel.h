@@ -47,8 +47,8 @@ public:
   /// Return the method for comparison; -1: none.
   int compared_method() const;
   /// Report whether the compared method is the current method, so that there is nothing to compare.
-  bool compares_itself() const;
-  PoseGhost::Place ghost_place() const;
+  bool compares_same_method() const;
+  PoseGhost::DisplayMode ghost_display_mode() const;
   bool simulates_motion() const;
   /// How the rotations of the method are shown as colors.
   enum RotationDisplay
@@ -125,7 +125,7 @@ private:
   QComboBox* boundary_;
   QComboBox* compared_;
   QButtonGroup* ghost_group_;
-  QWidget* place_row_;
+  QWidget* display_row_;
   QLabel* difference_;
   QCheckBox* simulate_box_;
   QWidget* motion_;

@@ -38,12 +38,12 @@ namespace
 QString format_duration(double seconds)
 {
   const double us = 1e6 * seconds;
-  return us < 1000.0 ? Posing::tr("%1 µs").arg(us, 0, 'f', us < 10.0 ? 1 : 0)
-                     : Posing::tr("%1 ms").arg(1e-3 * us, 0, 'f', us < 10000.0 ? 2 : 0);
+  return us < 1000.0 ? PoseController::tr("%1 µs").arg(us, 0, 'f', us < 10.0 ? 1 : 0)
+                     : PoseController::tr("%1 ms").arg(1e-3 * us, 0, 'f', us < 10000.0 ? 2 : 0);
 }
 } // namespace
 
-Posing::Posing(view::Viewport* viewport, const Panels& panels)
+PoseController::PoseController(view::Viewport* viewport, const Panels& panels)
   : QObject(viewport), viewport_(viewport), panels_(panels), deformation_(new Deformation(this)),
     compared_deformation_(new Deformation(this)), ghost_(new PoseGhost(viewport)),
     pose_manager_(new StoredPoseManager(
@@ -91,15 +91,15 @@ Posing::Posing(view::Viewport* viewport, const Panels& panels)
     });
   QObject::connect(this->motion_, &BodyMotion::playback_started, this,
     [this] { this->pose_manager_->play(false); });
-  QObject::connect(this->motion_, &BodyMotion::failed, this, &Posing::failed);
+  QObject::connect(this->motion_, &BodyMotion::failed, this, &PoseController::failed);
   this->show_state();
 }
 
-Posing::~Posing() = default;
+PoseController::~PoseController() = default;
 
 // ---- Data --------------------------------------------------------------------------------------
 
-void Posing::set_data(
+void PoseController::set_data(
   vtkPolyData* surface, vtkUnstructuredGrid* tets, vtkPolyData* handles, bool use_weights)
 {
   this->pose_manager_->play(false);
@@ -147,12 +147,12 @@ void Posing::set_data(
   this->show_values();
 }
 
-bool Posing::has_weights() const
+bool PoseController::has_weights() const
 {
   return this->source_ && this->source_->has_weights();
 }
 
-void Posing::show_state()
+void PoseController::show_state()
 {
   PosePanel::State state;
   state.ready = this->source_ != nullptr;
@@ -169,7 +169,7 @@ void Posing::show_state()
       : nullptr);
 }
 
-Pose Posing::pose() const
+Pose PoseController::pose() const
 {
   Pose pose;
   if (this->source_)
@@ -181,13 +181,15 @@ Pose Posing::pose() const
 
 // ---- The method --------------------------------------------------------------------------------
 
-void Posing::connect_panel()
+void PoseController::connect_panel()
 {
   PosePanel* panel = this->panels_.pose;
-  QObject::connect(panel, &PosePanel::method_chosen, this, &Posing::options_changed);
-  QObject::connect(panel, &PosePanel::options_changed, this, &Posing::options_changed);
-  QObject::connect(panel, &PosePanel::comparison_changed, this, &Posing::comparison_changed);
-  QObject::connect(panel, &PosePanel::simulation_changed, this, &Posing::simulation_changed);
+  QObject::connect(panel, &PosePanel::method_chosen, this, &PoseController::options_changed);
+  QObject::connect(panel, &PosePanel::options_changed, this, &PoseController::options_changed);
+  QObject::connect(
+    panel, &PosePanel::comparison_changed, this, &PoseController::comparison_changed);
+  QObject::connect(
+    panel, &PosePanel::simulation_changed, this, &PoseController::simulation_changed);
   QObject::connect(panel, &PosePanel::cancel_requested, this,
     [this]
     {
@@ -195,24 +197,28 @@ void Posing::connect_panel()
       this->compared_deformation_->cancel();
       this->motion_->cancel_bind();
     });
-  QObject::connect(this->panels_.fields, &HandleFields::values_chosen, this, &Posing::values_typed);
-  QObject::connect(this->panels_.fields, &HandleFields::edit_ended, this, &Posing::edit_ended);
-  QObject::connect(this->panels_.fields, &HandleFields::layer_chosen, this, &Posing::layer_typed);
+  QObject::connect(
+    this->panels_.fields, &HandleFields::values_chosen, this, &PoseController::values_typed);
+  QObject::connect(
+    this->panels_.fields, &HandleFields::edit_ended, this, &PoseController::edit_ended);
+  QObject::connect(
+    this->panels_.fields, &HandleFields::layer_chosen, this, &PoseController::layer_typed);
 }
 
-void Posing::connect_pose_manager()
+void PoseController::connect_pose_manager()
 {
   QObject::connect(this->pose_manager_, &StoredPoseManager::pose_requested, this,
     [this](const Pose& pose, const QString& step) { this->change_pose(pose, step); });
   QObject::connect(this->pose_manager_, &StoredPoseManager::pose_step_requested, this,
     [this](const QString& step) { Q_EMIT this->pose_step_requested(step); });
   QObject::connect(this->pose_manager_, &StoredPoseManager::stored_poses_changed, this,
-    &Posing::stored_poses_changed);
-  QObject::connect(this->pose_manager_, &StoredPoseManager::failed, this, &Posing::failed);
-  QObject::connect(this->export_, &SequenceExport::rendering_finished, this, &Posing::moved);
+    &PoseController::stored_poses_changed);
+  QObject::connect(this->pose_manager_, &StoredPoseManager::failed, this, &PoseController::failed);
+  QObject::connect(
+    this->export_, &SequenceExport::rendering_finished, this, &PoseController::moved);
 }
 
-void Posing::options_changed()
+void PoseController::options_changed()
 {
   this->deformation_->set_options(this->panels_.pose->options());
   this->deformation_->bind(); // starts a bind again that the user has canceled
@@ -225,25 +231,26 @@ void Posing::options_changed()
 
 /// Update how the 3D view draws handles in mode automatic. It depends on whether the method
 /// computes the rotations of handles that are only translated.
-void Posing::update_automatic_modes()
+void PoseController::update_automatic_modes()
 {
-  const bool finds = finds_rotations(this->panels_.pose->options().method);
-  this->viewport_->handle_widget()->GetHandleSetRepresentation()->SetFindsRotations(finds);
+  const bool method_finds_rotations = finds_rotations(this->panels_.pose->options().method);
+  this->viewport_->handle_widget()->GetHandleSetRepresentation()->SetFindsRotations(
+    method_finds_rotations);
 }
 
 /// Return the options for the compared method. They are the options of the current method, except
 /// for the method.
-PoseOptions Posing::compared_options() const
+PoseOptions PoseController::compared_options() const
 {
   PoseOptions options = this->panels_.pose->options();
   options.method = static_cast<PoseMethod>(std::max(0, this->panels_.pose->compared_method()));
   return options;
 }
 
-void Posing::comparison_changed()
+void PoseController::comparison_changed()
 {
   this->show_comparison();
-  if (this->source_ && this->panels_.pose->ghost_place() != PoseGhost::hidden &&
+  if (this->source_ && this->panels_.pose->ghost_display_mode() != PoseGhost::hidden &&
     !this->compared_deformation_->can_pose())
   {
     Q_EMIT this->failed(tr("%1 requires weights: bind first.")
@@ -253,13 +260,13 @@ void Posing::comparison_changed()
 }
 
 /// Show the shape of the compared method as the panel requests, as soon as it can be computed.
-void Posing::show_comparison()
+void PoseController::show_comparison()
 {
-  const PoseGhost::Place wanted = this->panels_.pose->ghost_place();
-  this->requested_place_ = wanted;
+  const PoseGhost::DisplayMode requested_mode = this->panels_.pose->ghost_display_mode();
+  this->requested_display_mode_ = requested_mode;
   this->compared_deformation_->set_options(this->compared_options());
-  const bool can = this->compared_deformation_->can_pose() && !this->inspected_;
-  if (can && wanted != PoseGhost::hidden)
+  const bool can_compare = this->compared_deformation_->can_pose() && !this->inspects_at_rest_;
+  if (can_compare && requested_mode != PoseGhost::hidden)
   {
     this->compared_deformation_->bind();
     this->compared_deformation_->set_pose(this->pose());
@@ -267,11 +274,12 @@ void Posing::show_comparison()
   const Points& other = this->compared_deformation_->points();
   const Points none(0, 3);
   const bool fits = this->surface_ && other.rows() == this->surface_->GetNumberOfPoints();
-  this->ghost_->set_place(can ? wanted : PoseGhost::hidden, fits ? other : none, this->points());
+  this->ghost_->set_display_mode(
+    can_compare ? requested_mode : PoseGhost::hidden, fits ? other : none, this->points());
   this->show_difference();
 }
 
-void Posing::handles_moved()
+void PoseController::handles_moved()
 {
   if (!this->source_)
   {
@@ -293,24 +301,24 @@ void Posing::handles_moved()
       Q_EMIT this->succeeded();
     }
   }
-  if (this->panels_.pose->ghost_place() != this->requested_place_)
+  if (this->panels_.pose->ghost_display_mode() != this->requested_display_mode_)
   {
     this->show_comparison(); // a change of the method can show or hide the ghost
   }
-  else if (this->ghost_->place() != PoseGhost::hidden)
+  else if (this->ghost_->display_mode() != PoseGhost::hidden)
   {
     this->compared_deformation_->set_pose(pose);
   }
   this->show_difference();
 }
 
-void Posing::show_difference()
+void PoseController::show_difference()
 {
   this->viewport_->set_half_names(method_name(this->deformation_->options().method),
     method_name(this->compared_deformation_->options().method));
-  if (this->ghost_->place() == PoseGhost::hidden)
+  if (this->ghost_->display_mode() == PoseGhost::hidden)
   {
-    this->panels_.pose->set_difference(this->panels_.pose->compares_itself()
+    this->panels_.pose->set_difference(this->panels_.pose->compares_same_method()
         ? tr("The shape already uses this method: choose another method to compare with.")
         : tr("Bind first: this method requires weights."));
     return;
@@ -348,7 +356,7 @@ void Posing::show_difference()
 
 /// Move handles in mode free to the positions that the method has computed, so that the user can
 /// see and drag them.
-void Posing::follow_free_handles()
+void PoseController::follow_free_handles()
 {
   const std::vector<Affine>* found = this->panels_.pose->simulates_motion()
     ? (this->motion_->has_started() ? &this->motion_->body()->transforms() : nullptr)
@@ -374,13 +382,13 @@ void Posing::follow_free_handles()
   }
 }
 
-const Points& Posing::points() const
+const Points& PoseController::points() const
 {
   return this->panels_.pose->simulates_motion() ? this->motion_->points()
                                                 : this->deformation_->points();
 }
 
-const PoseRotations* Posing::rotations()
+const PoseRotations* PoseController::rotations()
 {
   return !this->panels_.pose->simulates_motion() ? this->deformation_->rotations()
     : this->motion_->has_started()               ? this->motion_->body()->rotations()
@@ -389,7 +397,7 @@ const PoseRotations* Posing::rotations()
 
 // ---- The visible shape -------------------------------------------------------------------------
 
-vtkPolyData* Posing::shape()
+vtkPolyData* PoseController::shape()
 {
   if (!this->surface_)
   {
@@ -411,14 +419,14 @@ vtkPolyData* Posing::shape()
     this->shape_->SetPoints(to_vtk_points(points));
     return this->shape_;
   }
-  auto* places = vtkDoubleArray::SafeDownCast(this->shape_->GetPoints()->GetData());
-  std::memcpy(places->GetPointer(0), points.data(), sizeof(double) * points.size());
-  places->Modified();
+  auto* coordinates = vtkDoubleArray::SafeDownCast(this->shape_->GetPoints()->GetData());
+  std::memcpy(coordinates->GetPointer(0), points.data(), sizeof(double) * points.size());
+  coordinates->Modified();
   this->shape_->GetPoints()->Modified();
   return this->shape_;
 }
 
-void Posing::draw()
+void PoseController::draw()
 {
   if (!this->surface_)
   {
@@ -440,16 +448,16 @@ void Posing::draw()
   }
 }
 
-void Posing::inspect_at_rest(bool inspects)
+void PoseController::inspect_at_rest(bool enabled)
 {
-  if (this->inspected_ != inspects)
+  if (this->inspects_at_rest_ != enabled)
   {
-    this->inspected_ = inspects;
+    this->inspects_at_rest_ = enabled;
     this->show_comparison();
   }
 }
 
-bool Posing::is_posed() const
+bool PoseController::is_posed() const
 {
   const Pose pose = this->pose();
   return (this->panels_.pose->simulates_motion() && this->motion_->has_started()) ||
@@ -461,7 +469,7 @@ bool Posing::is_posed() const
       });
 }
 
-void Posing::set_rest_view(bool rest)
+void PoseController::set_rest_view(bool rest)
 {
   if (this->is_rest_view_ != rest)
   {
@@ -470,19 +478,19 @@ void Posing::set_rest_view(bool rest)
   }
 }
 
-void Posing::edit_at_rest(bool edits)
+void PoseController::edit_at_rest(bool enabled)
 {
   this->set_rest_view(false);
-  if (this->edits_at_rest_ != edits)
+  if (this->edits_at_rest_ != enabled)
   {
-    this->edits_at_rest_ = edits;
+    this->edits_at_rest_ = enabled;
     this->pose_manager_->play(false);
     this->motion_->play(false);
     Q_EMIT this->moved();
   }
 }
 
-QString Posing::reading() const
+QString PoseController::reading() const
 {
   if (this->is_rest_view_)
   {
@@ -543,14 +551,14 @@ QString Posing::reading() const
 
 // ---- The selected handle -----------------------------------------------------------------------
 
-void Posing::select_handles(const std::vector<int>& handles)
+void PoseController::select_handles(const std::vector<int>& handles)
 {
   this->selected_ = handles.empty() ? -1 : handles.front();
   this->selected_count_ = static_cast<int>(handles.size());
   this->show_values();
 }
 
-void Posing::show_values()
+void PoseController::show_values()
 {
   const Pose pose = this->pose();
   if (this->selected_ < 0 || this->selected_ >= static_cast<int>(pose.size()))
@@ -566,12 +574,13 @@ void Posing::show_values()
     &handle, values_of(this->source_->handles, pose, k), pose[k].mode == HandleMode::free);
   this->panels_.fields->show_count(QString::fromStdString(handle.name), this->selected_count_);
   Eigen::VectorXd layers;
-  const bool layered = this->plane_ &&
+  const bool has_layers = this->plane_ &&
     to_layers(this->handles_, this->source_->handles, this->cells_, "Layer", layers).ok();
-  this->panels_.fields->show_layer(layered ? std::optional(layers[this->selected_]) : std::nullopt);
+  this->panels_.fields->show_layer(
+    has_layers ? std::optional(layers[this->selected_]) : std::nullopt);
 }
 
-void Posing::values_typed(int field)
+void PoseController::values_typed(int field)
 {
   const Pose pose = this->pose();
   if (this->selected_ < 0 || this->selected_ >= static_cast<int>(pose.size()))
@@ -585,7 +594,7 @@ void Posing::values_typed(int field)
     QStringLiteral("value %1 of %2").arg(field).arg(QString::fromStdString(handles[k].name)));
 }
 
-void Posing::layer_typed(double layer)
+void PoseController::layer_typed(double layer)
 {
   if (this->selected_ >= 0 && this->selected_ < static_cast<int>(this->cells_.size()))
   {
@@ -596,13 +605,13 @@ void Posing::layer_typed(double layer)
   }
 }
 
-void Posing::layers_changed()
+void PoseController::layers_changed()
 {
   this->order_layers();
   this->show_values();
 }
 
-void Posing::order_layers()
+void PoseController::order_layers()
 {
   Eigen::VectorXd depths;
   if (this->plane_ && this->source_ && this->source_->has_weights())
@@ -632,7 +641,7 @@ void Posing::order_layers()
   this->viewport_->set_depths(depths, this->plane_.value_or(Vec3::UnitZ()));
 }
 
-void Posing::change_pose(const Pose& pose, const QString& step, const QString& merge)
+void PoseController::change_pose(const Pose& pose, const QString& step, const QString& merge)
 {
   this->set_rest_view(false);
   Q_EMIT this->pose_changed(pose);
@@ -642,7 +651,7 @@ void Posing::change_pose(const Pose& pose, const QString& step, const QString& m
   }
 }
 
-void Posing::drag_began()
+void PoseController::drag_began()
 {
   this->pose_manager_->play(false);
 }
@@ -651,7 +660,7 @@ void Posing::drag_began()
 
 /// Return the pose that constrains the body. A handle in mode free is constrained only while it is
 /// dragged.
-Pose Posing::constraint_pose() const
+Pose PoseController::constraint_pose() const
 {
   Pose pose = this->pose();
   const vtkIdType dragged_cell =
@@ -674,7 +683,7 @@ Pose Posing::constraint_pose() const
   return pose;
 }
 
-void Posing::simulation_changed()
+void PoseController::simulation_changed()
 {
   const bool simulates_motion = this->panels_.pose->simulates_motion();
   this->viewport_->handle_widget()->GetHandleSetRepresentation()->SetDragFree(simulates_motion);
@@ -692,18 +701,18 @@ void Posing::simulation_changed()
 
 // ---- Export ------------------------------------------------------------------------------------
 
-bool Posing::has_motion() const
+bool PoseController::has_motion() const
 {
   return this->panels_.pose->simulates_motion() && this->motion_->has_started() &&
     !this->motion_->body()->run().steps.empty();
 }
 
-bool Posing::has_animation() const
+bool PoseController::has_animation() const
 {
   return this->source_ && (this->has_motion() || !this->stored_poses().keys.keys().empty());
 }
 
-void Posing::export_to(const QString& path)
+void PoseController::export_to(const QString& path)
 {
   if (!this->has_animation())
   {

@@ -35,7 +35,7 @@ class SequenceExport;
 /// This class reads the pose from the handle dataset, which the handle widget edits in place. To
 /// change the pose, it emits pose_changed() and pose_step_requested(), so that the owner of the
 /// undo history receives every change.
-class Posing : public QObject
+class PoseController : public QObject
 {
   Q_OBJECT
 
@@ -47,8 +47,8 @@ public:
     PoseListWidget* poses;
     KeyStrip* strip;
   };
-  Posing(view::Viewport* viewport, const Panels& panels);
-  ~Posing() override;
+  PoseController(view::Viewport* viewport, const Panels& panels);
+  ~PoseController() override;
 
   /// Set the data to pose; null: no data. The surface's weights are used only if `use_weights` is
   /// true.
@@ -78,17 +78,20 @@ public:
   vtkPolyData* shape();
   /// Return the shape that draw() draws: normally shape(), but the surface at rest while
   /// inspect_at_rest() is in effect.
-  vtkPolyData* displayed_shape() { return this->inspected_ ? this->surface_.Get() : this->shape(); }
-  /// Update the viewport's surface and its ghost to seen().
+  vtkPolyData* displayed_shape()
+  {
+    return this->inspects_at_rest_ ? this->surface_.Get() : this->shape();
+  }
+  /// Update the viewport's surface and its ghost to displayed_shape().
   void draw();
   /// Set whether the 3D view shows data that belongs to the shape at rest (tets, slices). draw()
   /// then draws the shape at rest, without the shape of the compared method. The pose is still
   /// computed.
-  void inspect_at_rest(bool inspects);
+  void inspect_at_rest(bool enabled);
   /// Report whether the 3D view shows the shape at rest, regardless of the pose.
   bool shows_rest() const
   {
-    return this->inspected_ || this->is_rest_view_ || this->edits_at_rest_;
+    return this->inspects_at_rest_ || this->is_rest_view_ || this->edits_at_rest_;
   }
   /// Report whether the pose moves a handle, or the simulated body moves.
   bool is_posed() const;
@@ -98,7 +101,7 @@ public:
   bool is_rest_view() const { return this->is_rest_view_; }
   bool edits_at_rest() const { return this->edits_at_rest_; }
   /// Set whether handles are edited at rest. The shape is then shown at rest, too.
-  void edit_at_rest(bool edits);
+  void edit_at_rest(bool enabled);
   /// Return a line of text about the last pose: its computing time and its result.
   QString reading() const;
 
@@ -176,9 +179,9 @@ private:
   std::optional<bindpose::Vec3> plane_;
   bool is_rest_view_ = false;
   bool edits_at_rest_ = false;
-  bool inspected_ = false; ///< true: data that belongs to the shape at rest is inspected
+  bool inspects_at_rest_ = false; ///< true: data that belongs to the shape at rest is inspected
   /// The display of the compared method that the panel requested at the last update.
-  PoseGhost::Place requested_place_ = PoseGhost::hidden;
+  PoseGhost::DisplayMode requested_display_mode_ = PoseGhost::hidden;
   double drawing_microseconds_ = 0.0; ///< time that draw() took for points and normals
 };
 

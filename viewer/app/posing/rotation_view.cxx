@@ -22,7 +22,7 @@ namespace app::posing
 
 using namespace bindpose;
 
-RotationView::RotationView(view::Viewport* viewport, const PosePanel* panel, Posing* posing)
+RotationView::RotationView(view::Viewport* viewport, const PosePanel* panel, PoseController* posing)
   : QObject(viewport), viewport_(viewport), panel_(panel), posing_(posing)
 {
 }
@@ -36,7 +36,8 @@ void RotationView::set_active(bool active)
 void RotationView::update()
 {
   // The colors of distances between methods have priority (DistanceView).
-  const bool may_color = this->active_ && this->posing_->ghost()->place() != PoseGhost::in_colors;
+  const bool may_color =
+    this->active_ && this->posing_->ghost()->display_mode() != PoseGhost::in_colors;
   const PosePanel::RotationDisplay requested =
     may_color ? this->panel_->shown_rotations() : PosePanel::no_rotations;
   const PoseRotations* found = requested ? this->posing_->rotations() : nullptr;
@@ -126,11 +127,11 @@ void RotationView::show_angles(const PoseRotations& found)
   this->values_->Modified();
   if (is_new_array)
   {
-    Coloring named;
-    named.by = ColorBy::rotation;
+    Coloring rotation_coloring;
+    rotation_coloring.by = ColorBy::rotation;
     this->scale_ = scale;
-    this->viewport_->show_values(this->values_, true, QString::fromStdString(named.legend_name()),
-      sequential_map(0.0, scale, 0));
+    this->viewport_->show_values(this->values_, true,
+      QString::fromStdString(rotation_coloring.legend_name()), sequential_map(0.0, scale, 0));
   }
 }
 
@@ -144,7 +145,7 @@ QString RotationView::reading(Index point) const
   const Index cluster = (*this->cluster_of_point_)[static_cast<std::size_t>(point)];
   if (cluster < 0)
   {
-    return Posing::tr("No rotation cluster");
+    return PoseController::tr("No rotation cluster");
   }
   const Vec3& axis_angle = this->axis_angles_[static_cast<std::size_t>(cluster)];
   const double degrees = axis_angle.norm();
@@ -152,12 +153,12 @@ QString RotationView::reading(Index point) const
   constexpr double minimum_angle = 0.05;
   const Vec3 axis = axis_angle.normalized();
   const auto number = [](double x) { return QString::number(x, 'f', 2); };
-  return Posing::tr("Rotation cluster %1 of %2: %3°%4")
+  return PoseController::tr("Rotation cluster %1 of %2: %3°%4")
     .arg(cluster)
     .arg(this->axis_angles_.size())
     .arg(degrees, 0, 'f', 1)
     .arg(degrees < minimum_angle ? QString()
-                                 : Posing::tr(" about %1, %2, %3")
+                                 : PoseController::tr(" about %1, %2, %3")
                                      .arg(number(axis.x()), number(axis.y()), number(axis.z())));
 }
 

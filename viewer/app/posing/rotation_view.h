@@ -25,7 +25,7 @@ namespace app::posing
 {
 
 class PosePanel;
-class Posing;
+class PoseController;
 
 /// Shows the rotations of as-rigid-as-possible methods as colors on the shape. The panel selects
 /// what the colors show: the clusters of points with the same rotation, or the angle of each
@@ -35,7 +35,7 @@ class RotationView : public QObject
   Q_OBJECT
 
 public:
-  RotationView(view::Viewport* viewport, const PosePanel* panel, Posing* posing);
+  RotationView(view::Viewport* viewport, const PosePanel* panel, PoseController* posing);
 
   /// Set whether the panel is visible. If not, other views determine the colors of the surface.
   void set_active(bool active);
@@ -50,7 +50,7 @@ private:
 
   view::Viewport* viewport_;
   const PosePanel* panel_;
-  Posing* posing_;
+  PoseController* posing_;
   bool active_ = true;
   vtkSmartPointer<vtkDoubleArray> values_; ///< the displayed values; null: none
   /// The array PoseRotations::of_point from which values_ was computed.

@@ -157,7 +157,7 @@ Status SequenceExport::write()
   return is_listed(extension, rig_extensions) ? this->write_rig(path)
     : is_listed(extension, mesh_extensions)   ? this->write_datasets(path)
     : extension == "png"                      ? this->write_contact_sheet(path)
-                                              : this->write_film(path);
+                                              : this->begin_video(path);
 }
 
 vtkSmartPointer<vtkPolyData> SequenceExport::posed_surface(std::size_t frame) const
@@ -284,7 +284,7 @@ Status SequenceExport::write_contact_sheet(const std::string& path)
   return status;
 }
 
-Status SequenceExport::write_film(const std::string& path)
+Status SequenceExport::begin_video(const std::string& path)
 {
   const auto folder = std::make_shared<const ScratchFolder>("frames");
   if (folder->path().empty())

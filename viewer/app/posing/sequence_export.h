@@ -51,7 +51,7 @@ public:
   /// Return the error of the last export: one sentence, or empty.
   const QString& error() const { return this->error_; }
   /// Return a description of the written data, such as "24 frames"; empty after a cancel.
-  const QString& said() const { return this->summary_; }
+  const QString& summary() const { return this->summary_; }
   /// Return the file that is being written, or was written last.
   const QString& path() const { return this->path_; }
 
@@ -69,7 +69,7 @@ private:
   bindpose::Status write_rig(const std::string& path);
   bindpose::Status write_contact_sheet(const std::string& path);
   /// Begin to encode a film, or return the reason why that is impossible.
-  bindpose::Status write_film(const std::string& path);
+  bindpose::Status begin_video(const std::string& path);
   void end(const bindpose::Status& status);
   vtkSmartPointer<vtkPolyData> posed_surface(std::size_t frame) const;
   QImage picture(std::size_t frame);

@@ -148,7 +148,7 @@ void TetInspection::cancel()
   this->defect_job_.cancel();
 }
 
-int TetInspection::surface_look() const
+int TetInspection::surface_appearance() const
 {
   return this->tets_->is_shown() ? view::Viewport::hidden
     : this->defects_.is_shown()  ? view::Viewport::see_through
@@ -184,12 +184,12 @@ void TetInspection::make_tets(int method)
       ExecutionContext& context)
     {
       TetrahedralizeResult result;
-      Status done = tetrahedralize(context, mesh.points, mesh.triangles, options, result);
-      if (done.usable())
+      Status tet_status = tetrahedralize(context, mesh.points, mesh.triangles, options, result);
+      if (tet_status.usable())
       {
-        *output = to_unstructured_grid(result, done.report.text("method"));
+        *output = to_unstructured_grid(result, tet_status.report.text("method"));
       }
-      return done;
+      return tet_status;
     });
   this->panel_->set_note(tr("Starting …"));
   this->update_panel();
@@ -229,7 +229,7 @@ void TetInspection::tets_finished()
   this->set_active(this->active_);
   if (!status.warnings.empty())
   {
-    Q_EMIT this->noticed(
+    Q_EMIT this->notice_requested(
       tr("Tets made with a warning: %1.").arg(QString::fromStdString(status.warnings.front())));
   }
 }
@@ -270,16 +270,16 @@ void TetInspection::choose_colors(int colors)
 /// Show or hide the defects. The first request starts the search for them.
 void TetInspection::update_defects()
 {
-  const bool wanted = this->active_ && this->panel_->wants_defects() && this->surface_;
-  this->defects_.show(wanted);
-  if (wanted)
+  const bool has_defects = this->active_ && this->panel_->wants_defects() && this->surface_;
+  this->defects_.show(has_defects);
+  if (has_defects)
   {
     this->start_defect_search();
   }
   vtkPolyData* found = this->defects_.defects();
-  this->panel_->set_defects_note(!wanted ? QString()
-      : !found                           ? tr("Checking the surface …")
-                                         : tr("%L1 defects").arg(count_all(found)));
+  this->panel_->set_defects_note(!has_defects ? QString()
+      : !found                                ? tr("Checking the surface …")
+                                              : tr("%L1 defects").arg(count_all(found)));
   Q_EMIT this->surface_look_changed();
 }
 

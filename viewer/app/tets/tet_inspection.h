@@ -44,9 +44,9 @@ public:
     return this->tet_job_.is_running() || this->defect_job_.is_running() ||
       this->waits_for_drawing_;
   }
-  /// Return how the surface is drawn (Viewport::SurfaceLook): hidden while tets are shown,
+  /// Return how the surface is drawn (Viewport::SurfaceAppearance): hidden while tets are shown,
   /// see-through while defects are shown, otherwise solid.
-  int surface_look() const;
+  int surface_appearance() const;
 
   TetView* tet_view() const { return this->tets_; }
   const DefectView& defect_view() const { return this->defects_; }
@@ -64,7 +64,7 @@ Q_SIGNALS:
   /// Emitted when the tets are shown with the requested colors.
   void succeeded();
   /// Emitted with a message for the user after tets were computed.
-  void noticed(const QString& message);
+  void notice_requested(const QString& message);
 
 private:
   void tets_finished();

@@ -154,15 +154,15 @@ TetPanel::TetPanel(QWidget* parent) : QFrame(parent)
   this->set_state(false, false, false);
 }
 
-void TetPanel::set_state(bool has_surface, bool making, bool has_tets)
+void TetPanel::set_state(bool has_surface, bool is_making_tets, bool has_tets)
 {
   this->has_tets_ = has_tets;
-  this->method_->setEnabled(has_surface && !making);
+  this->method_->setEnabled(has_surface && !is_making_tets);
   this->make_->setText(has_tets ? tr("Make tets again") : tr("Make tets"));
-  this->make_->setEnabled(has_surface && !making);
-  this->cancel_->setVisible(making);
+  this->make_->setEnabled(has_surface && !is_making_tets);
+  this->cancel_->setVisible(is_making_tets);
   this->bar_->setValue(0);
-  this->bar_->setVisible(making);
+  this->bar_->setVisible(is_making_tets);
   this->defects_->setEnabled(has_surface);
   this->enable();
 }

@@ -49,7 +49,7 @@ public:
 
   explicit TetPanel(QWidget* parent = nullptr);
 
-  void set_state(bool has_surface, bool making, bool has_tets);
+  void set_state(bool has_surface, bool is_making_tets, bool has_tets);
   void set_progress(double fraction, const QString& phase);
   /// Set the one or two lines under the button that computes tets.
   void set_note(const QString& text);

@@ -78,7 +78,7 @@ view::Viewport* SimulatedUser::viewport() const
 
 // ---- The mouse ---------------------------------------------------------------------------------
 
-QPoint SimulatedUser::place(double x, double y) const
+QPoint SimulatedUser::pixel_of_fractions(double x, double y) const
 {
   const view::Viewport* viewport = this->viewport();
   return { static_cast<int>(std::lround(x * (viewport->width() - 1))),
@@ -94,7 +94,7 @@ int SimulatedUser::number_of(const QString& handle) const
 }
 
 QString SimulatedUser::find_handle_position(
-  const QString& handle, double along, QPoint& position) const
+  const QString& handle, double bone_fraction, QPoint& position) const
 {
   const int number = this->number_of(handle);
   if (number < 0)
@@ -107,9 +107,9 @@ QString SimulatedUser::find_handle_position(
   Vec3 head, tail;
   representation->GetPosedHead(cell, head.data());
   representation->GetPosedTail(cell, tail.data());
-  const Vec3 place = head + along * (tail - head);
+  const Vec3 world_position = head + bone_fraction * (tail - head);
   vtkRenderer* renderer = viewport->renderer();
-  renderer->SetWorldPoint(place.x(), place.y(), place.z(), 1.0);
+  renderer->SetWorldPoint(world_position.x(), world_position.y(), world_position.z(), 1.0);
   renderer->WorldToDisplay();
   position = this->from_display(renderer->GetDisplayPoint());
   return {};
@@ -201,9 +201,9 @@ void SimulatedUser::scrub(double seconds)
   const QPoint position(track->pixel(seconds), track->height() / 2);
   for (const QEvent::Type type : { QEvent::MouseButtonPress, QEvent::MouseButtonRelease })
   {
-    const bool down = type == QEvent::MouseButtonPress;
+    const bool is_press = type == QEvent::MouseButtonPress;
     QMouseEvent event(type, position, track->mapToGlobal(position), Qt::LeftButton,
-      down ? Qt::LeftButton : Qt::NoButton, Qt::NoModifier);
+      is_press ? Qt::LeftButton : Qt::NoButton, Qt::NoModifier);
     QApplication::sendEvent(track, &event);
   }
 }
@@ -233,8 +233,9 @@ QString SimulatedUser::type(const QString& text, const QString& field)
   this->leave();
   for (QWidget* each : this->window_->findChildren<QWidget*>())
   {
-    const bool takes_text = qobject_cast<QLineEdit*>(each) || qobject_cast<QAbstractSpinBox*>(each);
-    if (!takes_text || each->accessibleName() != field || !each->isVisible())
+    const bool accepts_text =
+      qobject_cast<QLineEdit*>(each) || qobject_cast<QAbstractSpinBox*>(each);
+    if (!accepts_text || each->accessibleName() != field || !each->isVisible())
     {
       continue;
     }
@@ -335,7 +336,7 @@ QString SimulatedUser::trigger(const QString& name)
 
 // ---- Panels ------------------------------------------------------------------------------------
 
-QString SimulatedUser::push(const QString& text)
+QString SimulatedUser::push_button(const QString& text)
 {
   this->leave();
   bool found_button = false;
@@ -506,10 +507,10 @@ bool is_busy(posing::Deformation* deformation)
 
 bool is_idle(const window::MainWindow* window)
 {
-  const posing::Posing* posing = window->findChild<posing::Posing*>();
+  const posing::PoseController* posing = window->findChild<posing::PoseController*>();
   const bool simulates_motion =
     window->findChild<handles::SidePanel*>()->pose()->simulates_motion();
-  const bool compares = posing->ghost()->place() != posing::PoseGhost::hidden;
+  const bool is_ghost_shown = posing->ghost()->display_mode() != posing::PoseGhost::hidden;
   return !window->findChild<weights::Binding*>()->is_running() &&
     !window->findChild<tets::TetInspection*>()->is_busy() &&
     !window->findChild<weights::WeightInspection*>()->is_busy() &&
@@ -519,7 +520,7 @@ bool is_idle(const window::MainWindow* window)
     !posing->sequence_export()->is_running() &&
     (simulates_motion || !is_busy(posing->deformation())) &&
     (!simulates_motion || !posing->motion()->body() || posing->motion()->has_started()) &&
-    (!compares || !is_busy(posing->compared_deformation()));
+    (!is_ghost_shown || !is_busy(posing->compared_deformation()));
 }
 
 bool wait_until(const std::function<bool()>& condition, double seconds)

@@ -37,10 +37,11 @@ public:
   view::Viewport* viewport() const;
 
   // ---- The mouse on the 3D view; positions in pixels from its upper left corner ----
-  QPoint place(double x, double y) const; ///< convert fractions of the view's width and height
-  /// Find the screen position of a posed handle, between its head (`along` is 0) and its tail (1).
-  /// Return a sentence if there is no such handle.
-  QString find_handle_position(const QString& handle, double along, QPoint& position) const;
+  QPoint pixel_of_fractions(
+    double x, double y) const; ///< convert fractions of the view's width and height
+  /// Find the screen position of a posed handle, between its head (`bone_fraction` is 0) and its
+  /// tail (1). Return a sentence if there is no such handle.
+  QString find_handle_position(const QString& handle, double bone_fraction, QPoint& position) const;
   /// Find the position at which the mouse can best grab a part of the selected handle's gizmo.
   /// Return a sentence if the part is not visible.
   QString find_gizmo_position(int part, QPoint& position) const;
@@ -69,7 +70,7 @@ public:
   QString trigger(const QString& action);
   /// Click a visible button by its text. Ampersands of the text, and the marks in front of section
   /// names, must be omitted.
-  QString push(const QString& text);
+  QString push_button(const QString& text);
   /// Choose a value of an option with the widget whose object name is the option's key.
   QString choose(const QString& option, const QVariant& value);
   QString show_panel(const QString& name);

@@ -29,7 +29,7 @@ const char* const buttons[] = { "left", "middle", "right" };
 enum class ArgumentType
 {
   text,
-  place,
+  mouse_position,
   wait,
   seconds,
   size
@@ -51,13 +51,13 @@ const VerbInfo verb_table[] = {
   { TourVerb::select, "select", ArgumentType::text, "" },
   { TourVerb::type, "type", ArgumentType::text, "into" },
   { TourVerb::mode, "mode", ArgumentType::text, "" },
-  { TourVerb::click, "click", ArgumentType::place, "button held" },
-  { TourVerb::double_click, "double_click", ArgumentType::place, "button held" },
-  { TourVerb::press, "press", ArgumentType::place, "button held" },
-  { TourVerb::move, "move", ArgumentType::place, "held" },
-  { TourVerb::release, "release", ArgumentType::place, "button held" },
-  { TourVerb::drag, "drag", ArgumentType::place, "to moves button held" },
-  { TourVerb::wheel, "wheel", ArgumentType::place, "turns held" },
+  { TourVerb::click, "click", ArgumentType::mouse_position, "button held" },
+  { TourVerb::double_click, "double_click", ArgumentType::mouse_position, "button held" },
+  { TourVerb::press, "press", ArgumentType::mouse_position, "button held" },
+  { TourVerb::move, "move", ArgumentType::mouse_position, "held" },
+  { TourVerb::release, "release", ArgumentType::mouse_position, "button held" },
+  { TourVerb::drag, "drag", ArgumentType::mouse_position, "to moves button held" },
+  { TourVerb::wheel, "wheel", ArgumentType::mouse_position, "turns held" },
   { TourVerb::scrub, "scrub", ArgumentType::seconds, "" },
   { TourVerb::key, "key", ArgumentType::text, "" },
   { TourVerb::resize, "resize", ArgumentType::size, "" },
@@ -103,17 +103,17 @@ bool read_pair(const Json& json, std::array<double, 2>& pair)
   return true;
 }
 
-Status read_position(const Json& json, const std::string& prefix, TourPosition& place)
+Status read_position(const Json& json, const std::string& prefix, TourPosition& mouse_position)
 {
   if (json.is_array())
   {
-    return read_pair(json, place.position)
+    return read_pair(json, mouse_position.position)
       ? Status()
       : Status::invalid_input(
           prefix + ": a position must be two fractions of the view size, for example [0.5, 0.5]");
   }
-  const bool of_gizmo = json.is_object() && json.contains("gizmo");
-  if (!of_gizmo && (!json.is_object() || !json.contains("handle")))
+  const bool is_gizmo_part = json.is_object() && json.contains("gizmo");
+  if (!is_gizmo_part && (!json.is_object() || !json.contains("handle")))
   {
     return Status::invalid_input(prefix +
       ": a position must be [0.5, 0.5], {\"handle\": \"NAME\", \"offset\": [0, 0]} or {\"gizmo\": "
@@ -121,15 +121,15 @@ Status read_position(const Json& json, const std::string& prefix, TourPosition& 
   }
   for (const auto& [key, value] : json.items())
   {
-    if (!has_word(of_gizmo ? "gizmo offset" : "handle along offset", key))
+    if (!has_word(is_gizmo_part ? "gizmo offset" : "handle along offset", key))
     {
       return Status::invalid_input(prefix + ": a position cannot have the field \"" + key + "\"");
     }
   }
   JsonFields fields(json, prefix);
-  fields.read("handle", place.handle);
-  fields.read("along", place.along, -unlimited, unlimited);
-  fields.read("offset", place.position.data(), 2);
+  fields.read("handle", mouse_position.handle);
+  fields.read("along", mouse_position.bone_fraction, -unlimited, unlimited);
+  fields.read("offset", mouse_position.position.data(), 2);
   std::string part;
   fields.read("gizmo", part);
   if (!fields.status().ok())
@@ -138,13 +138,13 @@ Status read_position(const Json& json, const std::string& prefix, TourPosition& 
   }
   for (const GizmoPartWord& each : gizmo_part_words)
   {
-    place.gizmo_part = part == each.word ? each.part : place.gizmo_part;
+    mouse_position.gizmo_part = part == each.word ? each.part : mouse_position.gizmo_part;
   }
-  if (of_gizmo && place.gizmo_part == no_part)
+  if (is_gizmo_part && mouse_position.gizmo_part == no_part)
   {
     return Status::invalid_input(prefix + ": unknown gizmo part \"" + part + "\"");
   }
-  return !of_gizmo && place.handle.empty()
+  return !is_gizmo_part && mouse_position.handle.empty()
     ? Status::invalid_input(prefix + ": a position must contain the name of a handle")
     : Status();
 }
@@ -227,8 +227,8 @@ Status read_argument(
       }
       step.text = value.get<std::string>();
       return {};
-    case ArgumentType::place:
-      return read_position(value, prefix, step.place);
+    case ArgumentType::mouse_position:
+      return read_position(value, prefix, step.mouse_position);
     case ArgumentType::size:
     {
       std::array<double, 2> size{};
@@ -310,7 +310,7 @@ Status read_step(const Json& json, std::size_t index, TourStep& step)
     return status;
   }
   JsonFields fields(json, prefix);
-  fields.read("say", step.say);
+  fields.read("say", step.narration);
   fields.read("into", step.field);
   fields.read("answer", step.answer);
   fields.read("button", step.button, buttons);
@@ -394,14 +394,14 @@ Status check_names(const Tour& tour)
       }
       filming = !filming;
     }
-    const bool named =
+    const bool writes_named_file =
       step.verb == TourVerb::screenshot || (step.verb == TourVerb::film && filming);
-    if (named && known(step.text))
+    if (writes_named_file && known(step.text))
     {
       return Status::invalid_input(
         prefix + ": the name \"" + step.text + "\" is already used by an earlier step");
     }
-    if (named)
+    if (writes_named_file)
     {
       names.push_back(step.text);
     }

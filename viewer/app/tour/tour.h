@@ -15,7 +15,7 @@ namespace app::tour
 struct TourPosition
 {
   std::string handle; ///< name of a handle; empty: the position is relative to the view
-  double along = 0.0; ///< position on a bone, from its head (0) to its tail (1)
+  double bone_fraction = 0.0; ///< position on a bone, from its head (0) to its tail (1)
   /// A part of the selected handle's gizmo, one of bindpose::GizmoPart; 0: no part. The position is
   /// the point at which the mouse can best grab the part.
   int gizmo_part = 0;
@@ -84,9 +84,9 @@ struct TourStep
   /// Name of a file in the folder of screenshots, which is entered in the file dialog that the step
   /// opens. If the name is empty, the step fails when it opens a modal dialog.
   std::string answer;
-  std::string say; ///< text about the step for a tutorial
+  std::string narration; ///< text about the step for a tutorial
 
-  TourPosition place; ///< position of the mouse; start of a drag
+  TourPosition mouse_position; ///< position of the mouse; start of a drag
   TourPosition to; ///< end of a drag
   int moves = 8; ///< number of mouse moves of a drag
   TourButton button = TourButton::left;

@@ -85,9 +85,10 @@ double drawn_fraction(const QImage& picture)
     const QRgb back = picture.pixel(picture.width() - 1, y);
     for (int x = 0; x < picture.width(); ++x)
     {
-      const QRgb here = picture.pixel(x, y);
-      drawn += std::max({ std::abs(qRed(here) - qRed(back)), std::abs(qGreen(here) - qGreen(back)),
-                 std::abs(qBlue(here) - qBlue(back)) }) > background_tolerance;
+      const QRgb color = picture.pixel(x, y);
+      drawn +=
+        std::max({ std::abs(qRed(color) - qRed(back)), std::abs(qGreen(color) - qGreen(back)),
+          std::abs(qBlue(color) - qBlue(back)) }) > background_tolerance;
     }
   }
   const double all = static_cast<double>(picture.width()) * picture.height();
@@ -273,8 +274,8 @@ QString TourPlayer::answer_dialogs(
   QString title;
   bool answered = false;
   QPointer<QDialog> accepted;
-  QTimer watch; // this timer also runs in the event loop of a dialog
-  QObject::connect(&watch, &QTimer::timeout, &watch,
+  QTimer dialog_timer; // this timer also runs in the event loop of a dialog
+  QObject::connect(&dialog_timer, &QTimer::timeout, &dialog_timer,
     [&]
     {
       QWidget* dialog = QApplication::activeModalWidget();
@@ -300,7 +301,7 @@ QString TourPlayer::answer_dialogs(
         dialog->close();
       }
     });
-  watch.start(50);
+  dialog_timer.start(50);
   const QString message = perform_step();
   if (!answer.empty() && !answered && message.isEmpty())
   {
@@ -321,7 +322,7 @@ QString TourPlayer::perform(const TourStep& step)
     case TourVerb::action:
       return this->user_.trigger(word);
     case TourVerb::push:
-      return this->user_.push(word);
+      return this->user_.push_button(word);
     case TourVerb::option:
       return this->choose(step);
     case TourVerb::panel:
@@ -388,18 +389,21 @@ QString TourPlayer::choose(const TourStep& step)
     key, step.expects_bool ? QVariant(step.expected[0] != 0.0) : QVariant(step.expected[0]));
 }
 
-QString TourPlayer::find(const TourPosition& place, QPoint& position) const
+QString TourPlayer::find(const TourPosition& mouse_position, QPoint& position) const
 {
-  const bool of_gizmo = place.gizmo_part != no_part;
-  if (place.handle.empty() && !of_gizmo)
+  const bool is_gizmo_part = mouse_position.gizmo_part != no_part;
+  if (mouse_position.handle.empty() && !is_gizmo_part)
   {
-    position = this->user_.place(place.position[0], place.position[1]);
+    position =
+      this->user_.pixel_of_fractions(mouse_position.position[0], mouse_position.position[1]);
     return {};
   }
-  const QString message = of_gizmo
-    ? this->user_.find_gizmo_position(place.gizmo_part, position)
-    : this->user_.find_handle_position(QString::fromStdString(place.handle), place.along, position);
-  position += QPoint(static_cast<int>(place.position[0]), static_cast<int>(place.position[1]));
+  const QString message = is_gizmo_part
+    ? this->user_.find_gizmo_position(mouse_position.gizmo_part, position)
+    : this->user_.find_handle_position(
+        QString::fromStdString(mouse_position.handle), mouse_position.bone_fraction, position);
+  position += QPoint(
+    static_cast<int>(mouse_position.position[0]), static_cast<int>(mouse_position.position[1]));
   return message;
 }
 
@@ -408,7 +412,7 @@ QString TourPlayer::use_mouse(const TourStep& step)
   const Qt::MouseButton button = button_of(step);
   const Qt::KeyboardModifiers modifiers = modifiers_of(step);
   QPoint position, to;
-  QString message = this->find(step.place, position);
+  QString message = this->find(step.mouse_position, position);
   if (message.isEmpty() && step.verb == TourVerb::drag)
   {
     message = this->find(step.to, to);
@@ -417,9 +421,9 @@ QString TourPlayer::use_mouse(const TourStep& step)
   {
     return message;
   }
-  const auto move = [&](const QPoint& place)
+  const auto move = [&](const QPoint& target)
   {
-    this->user_.move(place, modifiers);
+    this->user_.move(target, modifiers);
     this->process_drawing();
     return this->film_frame();
   };
@@ -491,8 +495,8 @@ QString TourPlayer::wait(const TourStep& step)
   clock.start();
   for (int frame = 1; frame <= seconds * film_rate; ++frame)
   {
-    const double due = frame / film_rate - 1e-3 * static_cast<double>(clock.elapsed());
-    wait_seconds(std::max(0.0, due));
+    const double wait_time = frame / film_rate - 1e-3 * static_cast<double>(clock.elapsed());
+    wait_seconds(std::max(0.0, wait_time));
     const QString failed = this->film_frame();
     if (!failed.isEmpty())
     {
@@ -529,7 +533,7 @@ QString TourPlayer::check(const TourStep& step)
     : step.expects_text             ? Json(step.expected_text)
     : step.expected.size() == 1     ? Json(step.expected[0])
                                     : Json(step.expected);
-  QString where;
+  QString reference_text;
   if (step.relation == TourRelation::as_at)
   {
     const Json& earlier_values = this->record_["screenshots"][step.expected_text]["values"];
@@ -539,7 +543,8 @@ QString TourPlayer::check(const TourStep& step)
         .arg(QString::fromStdString(step.expected_text));
     }
     expected = earlier_values[step.text];
-    where = QString(" as at the screenshot '%1'").arg(QString::fromStdString(step.expected_text));
+    reference_text =
+      QString(" as at the screenshot '%1'").arg(QString::fromStdString(step.expected_text));
   }
   if (step.relation == TourRelation::at_least || step.relation == TourRelation::at_most)
   {
@@ -556,10 +561,10 @@ QString TourPlayer::check(const TourStep& step)
   {
     return {};
   }
-  const QString within =
+  const QString tolerance_text =
     step.tolerance > 0.0 ? QString(" within %1").arg(step.tolerance) : QString();
   return QString("the value is %1, expected %2%3%4")
-    .arg(json_text(*found), json_text(expected), where, within);
+    .arg(json_text(*found), json_text(expected), reference_text, tolerance_text);
 }
 
 QImage TourPlayer::grab(TourPart part, int width)
@@ -612,10 +617,11 @@ QString TourPlayer::fit_view()
     this->window_->resize(this->window_->size() + missing());
     this->process_drawing();
   }
-  const QSize now = this->user_.viewport()->size();
-  return now == expected
-    ? QString()
-    : QString("cannot resize the view: its size is %1 x %2").arg(now.width()).arg(now.height());
+  const QSize view_size = this->user_.viewport()->size();
+  return view_size == expected ? QString()
+                               : QString("cannot resize the view: its size is %1 x %2")
+                                   .arg(view_size.width())
+                                   .arg(view_size.height());
 }
 
 QString TourPlayer::screenshot(const TourStep& step)
@@ -627,13 +633,13 @@ QString TourPlayer::screenshot(const TourStep& step)
   }
   else
   {
-    vtkSmartPointer<vtkImageData> taken;
-    const Status status = this->user_.viewport()->take_picture(step.scale, step.transparent, taken);
+    vtkSmartPointer<vtkImageData> image;
+    const Status status = this->user_.viewport()->take_picture(step.scale, step.transparent, image);
     if (!status.ok())
     {
       return QString::fromStdString(status.message);
     }
-    picture = at_most(to_image(taken), step.width);
+    picture = at_most(to_image(image), step.width);
   }
   const double drawn = drawn_fraction(this->user_.viewport()->grabFramebuffer());
   if (picture.isNull() || (drawn == 0.0 && !this->window_->is_empty()))

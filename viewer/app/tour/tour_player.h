@@ -53,7 +53,7 @@ public:
 private:
   QString perform(const TourStep& step);
   QString answer_dialogs(const std::function<QString()>& perform_step, const std::string& answer);
-  QString find(const TourPosition& place, QPoint& position) const;
+  QString find(const TourPosition& mouse_position, QPoint& position) const;
   QString use_mouse(const TourStep& step);
   QString open(const std::string& file);
   QString choose(const TourStep& step);

@@ -51,9 +51,9 @@ namespace
 {
 using Json = nlohmann::ordered_json;
 
-Json to_json(const Vec3& place)
+Json to_json(const Vec3& position)
 {
-  return { place.x(), place.y(), place.z() };
+  return { position.x(), position.y(), position.z() };
 }
 
 /// Add entries about the distances between two shapes with the same points.
@@ -144,7 +144,7 @@ void add_shape(Json& values, window::MainWindow* window)
   values["shape.lower"] = to_json(posed.view().colwise().minCoeff().transpose());
   values["shape.upper"] = to_json(posed.view().colwise().maxCoeff().transpose());
   add_distance(values, "moved", at_rest.view(), posed.view());
-  posing::Posing* posing = window->findChild<posing::Posing*>();
+  posing::PoseController* posing = window->findChild<posing::PoseController*>();
   if (!posing->can_pose())
   {
     return;
@@ -169,7 +169,7 @@ void add_shape(Json& values, window::MainWindow* window)
     values["rotations"] = static_cast<int>(found->rotations.size());
     values["rotations.largest"] = largest;
   }
-  if (posing->ghost()->place() != posing::PoseGhost::hidden)
+  if (posing->ghost()->display_mode() != posing::PoseGhost::hidden)
   {
     values["compared"] = to_string(posing->compared_deformation()->options().method);
     add_distance(values, "difference", posed.view(), posing->compared_deformation()->points());
@@ -247,11 +247,12 @@ void add_tets(Json& values, window::MainWindow* window)
 
 void add_keys(Json& values, window::MainWindow* window)
 {
-  const StoredPoses& stored_poses = window->findChild<posing::Posing*>()->stored_poses();
+  const StoredPoses& stored_poses = window->findChild<posing::PoseController*>()->stored_poses();
   values["keys"] = static_cast<int>(stored_poses.keys.keys().size());
   values["keys.seconds"] = stored_poses.keys.duration();
   values["keys.time"] = window->findChild<posing::KeyStrip*>()->time();
-  values["keys.playing"] = window->findChild<posing::Posing*>()->pose_manager()->is_playing();
+  values["keys.playing"] =
+    window->findChild<posing::PoseController*>()->pose_manager()->is_playing();
   values["poses"] = static_cast<int>(stored_poses.library.entries().size());
 }
 

@@ -26,7 +26,7 @@ using bindpose::Vec3;
 
 namespace
 {
-void set_look(vtkProperty* property, const bindpose::Rgb& color, double opacity = 1.0)
+void set_color_and_opacity(vtkProperty* property, const bindpose::Rgb& color, double opacity = 1.0)
 {
   bindpose::set_color(property, color);
   property->SetOpacity(opacity);
@@ -43,11 +43,11 @@ PlaneHandle::PlaneHandle(Viewport* viewport, QObject* parent) : QObject(parent),
   this->plane_->CropPlaneToBoundingBoxOn();
   this->plane_->SetEdgeColor(
     bindpose::palette::line[0], bindpose::palette::line[1], bindpose::palette::line[2]);
-  set_look(this->plane_->GetOutlineProperty(), bindpose::palette::edges);
-  set_look(this->plane_->GetSelectedOutlineProperty(), bindpose::palette::edges);
+  set_color_and_opacity(this->plane_->GetOutlineProperty(), bindpose::palette::edges);
+  set_color_and_opacity(this->plane_->GetSelectedOutlineProperty(), bindpose::palette::edges);
   // Not fully transparent, because the mouse cannot grab a transparent plane.
-  set_look(this->plane_->GetPlaneProperty(), bindpose::palette::white, 0.005);
-  set_look(this->plane_->GetSelectedPlaneProperty(), bindpose::palette::white, 0.005);
+  set_color_and_opacity(this->plane_->GetPlaneProperty(), bindpose::palette::white, 0.005);
+  set_color_and_opacity(this->plane_->GetSelectedPlaneProperty(), bindpose::palette::white, 0.005);
   this->widget_->SetInteractor(viewport->interactor());
   this->widget_->SetRepresentation(this->plane_);
   this->widget_->SetCurrentRenderer(renderer);
@@ -126,10 +126,10 @@ void PlaneHandle::set_free_normal(const Vec3& normal)
   }
 }
 
-void PlaneHandle::set_place(double place)
+void PlaneHandle::set_relative_position(double relative_position)
 {
   this->cancel();
-  this->state_.place = place;
+  this->state_.relative_position = relative_position;
   this->apply_relative_position();
   Q_EMIT this->moved();
 }
@@ -140,10 +140,10 @@ void PlaneHandle::set_position(double position)
   // Ignore smaller changes: setting the current position again must not change the relative
   // position by round-off.
   constexpr double round_off = 1e-12;
-  const double place = this->to_relative_position(position);
-  if (std::abs(place - this->state_.place) > round_off)
+  const double relative_position = this->to_relative_position(position);
+  if (std::abs(relative_position - this->state_.relative_position) > round_off)
   {
-    this->state_.place = place;
+    this->state_.relative_position = relative_position;
     this->state_.origin += (position - this->position()) * this->normal();
     this->place_widget();
   }
@@ -160,7 +160,7 @@ double PlaneHandle::to_relative_position(double position) const
 {
   const auto [first, last] = this->positions();
   return last > first ? std::clamp((position - first) / (last - first), 0.0, 1.0)
-                      : this->state_.place;
+                      : this->state_.relative_position;
 }
 
 /// Move the plane to its relative position. Its arrow is drawn at the point of the plane that is
@@ -170,7 +170,7 @@ void PlaneHandle::apply_relative_position()
   const auto [first, last] = this->positions();
   const Vec3 middle = this->box_.empty() ? Vec3(Vec3::Zero()) : this->box_.center();
   const Vec3 normal = this->normal();
-  const double position = first + this->state_.place * (last - first);
+  const double position = first + this->state_.relative_position * (last - first);
   this->state_.origin = middle + (position - middle.dot(normal)) * normal;
   this->place_widget();
 }
@@ -186,9 +186,10 @@ std::pair<double, double> PlaneHandle::positions() const
   const Vec3 ends[2] = { this->box_.lower, this->box_.upper };
   for (int corner = 0; corner < 8; ++corner)
   {
-    const Vec3 place(ends[corner & 1].x(), ends[corner >> 1 & 1].y(), ends[corner >> 2 & 1].z());
-    range.first = std::min(range.first, place.dot(normal));
-    range.second = std::max(range.second, place.dot(normal));
+    const Vec3 corner_position(
+      ends[corner & 1].x(), ends[corner >> 1 & 1].y(), ends[corner >> 2 & 1].z());
+    range.first = std::min(range.first, corner_position.dot(normal));
+    range.second = std::max(range.second, corner_position.dot(normal));
   }
   return range;
 }
@@ -204,8 +205,8 @@ void PlaneHandle::place_widget()
   this->plane_->SetNormal(this->normal().data());
   this->plane_->SetOrigin(this->state_.origin.data());
   const bindpose::Rgb arrow{ 0.17, 0.42, 0.66 }; // the accent color of the window
-  set_look(this->plane_->GetNormalProperty(), arrow, can_rotate ? 1.0 : 0.0);
-  set_look(
+  set_color_and_opacity(this->plane_->GetNormalProperty(), arrow, can_rotate ? 1.0 : 0.0);
+  set_color_and_opacity(
     this->plane_->GetSelectedNormalProperty(), bindpose::palette::line, can_rotate ? 1.0 : 0.0);
   this->widget_->SetEnabled(this->shown_ && !this->box_.empty());
 }
@@ -267,7 +268,7 @@ void PlaneHandle::drag_continued()
   }
   position = std::isfinite(position) ? std::clamp(position, first, last) : before;
   this->state_.origin += (position - this->position()) * normal;
-  this->state_.place = this->to_relative_position(position);
+  this->state_.relative_position = this->to_relative_position(position);
   this->plane_->SetOrigin(this->state_.origin.data());
   Q_EMIT this->moved();
 }
@@ -280,7 +281,7 @@ void PlaneHandle::drag_ended()
   }
   this->dragged_ = false;
   const bool turned = this->state_.free_normal != this->state_before_drag_.free_normal;
-  if (turned || this->state_.place != this->state_before_drag_.place)
+  if (turned || this->state_.relative_position != this->state_before_drag_.relative_position)
   {
     Q_EMIT this->dragged(turned);
   }

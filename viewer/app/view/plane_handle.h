@@ -55,7 +55,7 @@ public:
   /// Set the unit normal that is used when the plane is free.
   void set_free_normal(const bindpose::Vec3& normal);
   /// Set the relative position: 0 is the smallest value of positions(), 1 the largest.
-  void set_place(double place);
+  void set_relative_position(double relative_position);
   /// Move the plane along its normal to this position, in world units. If the normal is an axis,
   /// the position is the coordinate along the axis.
   void set_position(double position);
@@ -69,7 +69,10 @@ public:
   /// (relative_position_before_drag). During a drag both functions return the values before the
   /// drag.
   bindpose::Vec3 free_normal_before_drag() const { return this->state_before_drag().free_normal; }
-  double relative_position_before_drag() const { return this->state_before_drag().place; }
+  double relative_position_before_drag() const
+  {
+    return this->state_before_drag().relative_position;
+  }
 
   /// Cancel a drag with the mouse, as Esc does.
   void cancel();
@@ -89,7 +92,7 @@ private:
   {
     int orientation = z_axis;
     bindpose::Vec3 free_normal = bindpose::Vec3::UnitZ();
-    double place = 0.5;
+    double relative_position = 0.5;
     bindpose::Vec3 origin = bindpose::Vec3::Zero(); ///< point of the plane where its arrow is drawn
   };
   const State& state_before_drag() const

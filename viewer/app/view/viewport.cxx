@@ -176,27 +176,28 @@ void Viewport::set_surface(vtkPolyData* surface)
   this->depths_.resize(0);
   this->first_picture_ = true;
   this->show_values(nullptr, true);
-  this->set_surface_look(this->look_);
+  this->set_surface_appearance(this->surface_appearance_);
 }
 
-void Viewport::set_surface_look(int look)
+void Viewport::set_surface_appearance(int appearance)
 {
-  this->look_ = look;
+  this->surface_appearance_ = appearance;
   vtkProperty* property = this->actor_->GetProperty();
-  this->actor_->SetVisibility(this->shaded_ && look != hidden);
-  property->SetOpacity(look == see_through ? 0.25 : 1.0);
-  property->SetRepresentation(look == edges_only ? VTK_WIREFRAME : VTK_SURFACE);
-  property->SetLighting(look != edges_only && !this->picture_);
+  this->actor_->SetVisibility(this->shaded_ && appearance != hidden);
+  property->SetOpacity(appearance == see_through ? 0.25 : 1.0);
+  property->SetRepresentation(appearance == edges_only ? VTK_WIREFRAME : VTK_SURFACE);
+  property->SetLighting(appearance != edges_only && !this->picture_);
   constexpr bindpose::Rgb white{ 1.0, 1.0, 1.0 };
-  const bindpose::Rgb& color = look == edges_only ? bindpose::palette::edges
-    : this->picture_                              ? white
-                                                  : bindpose::palette::surface;
+  const bindpose::Rgb& color = appearance == edges_only ? bindpose::palette::edges
+    : this->picture_                                    ? white
+                                                        : bindpose::palette::surface;
   bindpose::set_color(property, color);
-  this->outline_->show(this->outlines_ && !this->picture_ && (look == solid || look == see_through),
+  this->outline_->show(
+    this->outlines_ && !this->picture_ && (appearance == solid || appearance == see_through),
     bindpose::outline_width * this->devicePixelRatioF());
   this->show_tint();
   // Sorting translucent triangles by depth requires one sample per pixel.
-  const bool sorts_by_depth = (look == see_through || this->ghosted_) && this->shaded_;
+  const bool sorts_by_depth = (appearance == see_through || this->ghosted_) && this->shaded_;
   this->renderer_->SetUseDepthPeeling(sorts_by_depth);
   this->renderer_->SetMaximumNumberOfPeels(6);
   this->renderer_->SetUseFXAA(sorts_by_depth);
@@ -207,7 +208,7 @@ void Viewport::set_surface_look(int look)
 void Viewport::show_outlines(bool shown)
 {
   this->outlines_ = shown;
-  this->set_surface_look(this->look_);
+  this->set_surface_appearance(this->surface_appearance_);
 }
 
 void Viewport::set_picture(vtkImageData* picture)
@@ -232,7 +233,7 @@ void Viewport::set_picture(vtkImageData* picture)
   {
     this->use_column();
   }
-  this->set_surface_look(this->look_);
+  this->set_surface_appearance(this->surface_appearance_);
 }
 
 void Viewport::set_tint(double opacity)
@@ -252,8 +253,9 @@ vtkPolyDataMapper* Viewport::value_mapper() const
 
 void Viewport::show_tint()
 {
-  this->tint_actor_->SetVisibility(this->picture_ && this->shaded_ && this->look_ == solid &&
-    this->tint_ > 0.0 && this->tint_mapper_->GetScalarVisibility());
+  this->tint_actor_->SetVisibility(this->picture_ && this->shaded_ &&
+    this->surface_appearance_ == solid && this->tint_ > 0.0 &&
+    this->tint_mapper_->GetScalarVisibility());
   // The translucent tint needs no sorting by depth, because the opaque textured surface hides all
   // parts of the tint behind it.
   this->tint_actor_->GetProperty()->SetOpacity(this->tint_);
@@ -350,7 +352,7 @@ void Viewport::move_shape(bindpose::ShadedSurface& shape, bindpose::PointsView p
 void Viewport::set_ghosted(bool ghosted)
 {
   this->ghosted_ = ghosted;
-  this->set_surface_look(this->look_);
+  this->set_surface_appearance(this->surface_appearance_);
 }
 
 void Viewport::set_split(vtkRenderer* right_renderer, vtkPolyData* shape)
@@ -533,13 +535,13 @@ void Viewport::use_appearance()
 {
   using namespace bindpose::palette;
   const bindpose::Rgb& bottom_color = parts::is_dark() ? dark_gradient_bottom : gradient_bottom;
-  const bindpose::Rgb& above = parts::is_dark() ? dark_gradient_top : gradient_top;
+  const bindpose::Rgb& top_color = parts::is_dark() ? dark_gradient_top : gradient_top;
   for (vtkRenderer* renderer : { this->renderer_.Get(), this->right_renderer_ })
   {
     if (renderer)
     {
       renderer->SetBackground(bottom_color[0], bottom_color[1], bottom_color[2]);
-      renderer->SetBackground2(above[0], above[1], above[2]);
+      renderer->SetBackground2(top_color[0], top_color[1], top_color[2]);
     }
   }
   const bindpose::Rgb& text_color = parts::is_dark() ? dark_text : text;
@@ -607,8 +609,9 @@ void Viewport::draw_legend()
   }
 }
 
-/// Add a centered text at a fraction of the width, and `above` Qt pixels above the lower edge.
-void Viewport::add_name(double center_fraction, double above, const QString& name)
+/// Add a centered text at a fraction of the width, and `bottom_margin` Qt pixels above the lower
+/// edge.
+void Viewport::add_name(double center_fraction, double bottom_margin, const QString& name)
 {
   const double scale = this->pixel_scale();
   vtkNew<vtkTextActor> text;
@@ -619,7 +622,8 @@ void Viewport::add_name(double center_fraction, double above, const QString& nam
   const bindpose::Rgb& color =
     parts::is_dark() ? bindpose::palette::dark_text : bindpose::palette::text;
   font->SetColor(color[0], color[1], color[2]);
-  text->SetPosition(std::round(center_fraction * scale * this->width()), std::round(above * scale));
+  text->SetPosition(
+    std::round(center_fraction * scale * this->width()), std::round(bottom_margin * scale));
   this->legend_->AddViewProp(text);
 }
 

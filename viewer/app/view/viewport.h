@@ -45,7 +45,7 @@ class Viewport : public QVTKOpenGLNativeWidget
   Q_OBJECT
 
 public:
-  enum SurfaceLook
+  enum SurfaceAppearance
   {
     solid = 0,
     see_through = 1,
@@ -110,8 +110,8 @@ public:
   const bindpose::ShadedSurface* shaded() const { return this->shaded_.get(); }
   /// Return the index of the surface's point for each point of drawn().
   const std::vector<bindpose::Index>& drawn_points() const;
-  void set_surface_look(int look);
-  int surface_look() const { return this->look_; }
+  void set_surface_appearance(int appearance);
+  int surface_appearance() const { return this->surface_appearance_; }
   /// Show or hide silhouette lines. Textured surfaces have none.
   void show_outlines(bool shown);
   bool has_outlines() const { return this->outlines_; }
@@ -182,7 +182,7 @@ protected:
 private:
   void use_appearance();
   void draw_legend();
-  void add_name(double center_fraction, double above, const QString& name);
+  void add_name(double center_fraction, double bottom_margin, const QString& name);
   double aspect_of(const QSize& size) const;
   std::vector<bindpose::Vec3> points_to_show() const;
   void keep_in_view(double aspect_before);
@@ -221,7 +221,7 @@ private:
   QString column_name_;
   bool has_values_ = false; // true: values are displayed instead of the column
   std::map<LegendPosition, std::pair<QString, bindpose::ColorMap>> legends_;
-  int look_ = solid;
+  int surface_appearance_ = solid;
   bool ghosted_ = false;
   vtkRenderer* right_renderer_ = nullptr; // renderer of the right half; null: the view is not split
   vtkSmartPointer<vtkPolyData> right_shape_;

@@ -153,7 +153,7 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
     });
   QObject::connect(this->cloud_, &QCheckBox::toggled, this, &VolumePanel::cloud_requested);
   QObject::connect(this->surface_, QOverload<int>::of(&QComboBox::currentIndexChanged), this,
-    &VolumePanel::surface_look_chosen);
+    &VolumePanel::surface_appearance_chosen);
   QObject::connect(this->close_, &QPushButton::clicked, this, &VolumePanel::close_requested);
   keep_size_when_hidden(this->area_);
   this->area_->hide();
@@ -238,7 +238,7 @@ double VolumePanel::level() const
   return this->level_->value();
 }
 
-int VolumePanel::surface_look() const
+int VolumePanel::surface_appearance() const
 {
   return this->surface_->currentIndex();
 }

@@ -42,7 +42,7 @@ public:
   void set_position(double position, double lowest, double highest);
   void set_area(double area);
   double level() const;
-  int surface_look() const;
+  int surface_appearance() const;
 
 Q_SIGNALS:
   void compute_requested();
@@ -53,7 +53,8 @@ Q_SIGNALS:
   void isosurface_requested(bool shown);
   void level_chosen(double level);
   void cloud_requested(bool shown);
-  void surface_look_chosen(int look); ///< look: one of Viewport::SurfaceLook
+  void surface_appearance_chosen(
+    int appearance); ///< appearance: one of Viewport::SurfaceAppearance
   void close_requested();
 
 private:

@@ -172,7 +172,7 @@ void Binding::finish()
           .arg(report.number("kkt_residual", 0.0), 0, 'e', 1));
   if (!result.status.warnings.empty())
   {
-    Q_EMIT this->noticed(
+    Q_EMIT this->notice_requested(
       tr("Bound with a warning: %1.").arg(QString::fromStdString(result.status.warnings.front())));
   }
 }

@@ -54,7 +54,7 @@ Q_SIGNALS:
   void bound();
   void failed(const QString& message);
   /// Emitted with a message for the user after a bind has ended.
-  void noticed(const QString& message);
+  void notice_requested(const QString& message);
 
 private:
   vtkSmartPointer<vtkPolyData> with_weights(const BindResult& result) const;

@@ -95,7 +95,7 @@ WeightInspection::WeightInspection(
   : QObject(viewport), viewport_(viewport), panel_(panel), view_(new WeightView(viewport)),
     make_input_(std::move(make_input))
 {
-  QObject::connect(panel, &WeightPanel::look_changed, this, &WeightInspection::update);
+  QObject::connect(panel, &WeightPanel::display_changed, this, &WeightInspection::update);
   QObject::connect(panel, &WeightPanel::tint_opacity_chosen, viewport, &view::Viewport::set_tint);
   QObject::connect(panel, &WeightPanel::comparison_requested, this, &WeightInspection::compare);
   QObject::connect(panel, &WeightPanel::cancel_requested, this, &WeightInspection::cancel);
@@ -138,7 +138,7 @@ void WeightInspection::choose_column(int column)
   }
 }
 
-int WeightInspection::surface_look() const
+int WeightInspection::surface_appearance() const
 {
   return this->view_->is_sliced() ? view::Viewport::see_through : view::Viewport::solid;
 }
@@ -321,9 +321,9 @@ void WeightInspection::comparison_finished()
   // If the weights of all handles were displayed, choose the column with the largest difference.
   if (this->panel_->column() < 0)
   {
-    const auto own = to_matrix(this->surface_->GetPointData()->GetArray("Weights"));
+    const auto surface_weights = to_matrix(this->surface_->GetPointData()->GetArray("Weights"));
     Index column = 0;
-    (own.view() - result.weights).cwiseAbs().colwise().maxCoeff().maxCoeff(&column);
+    (surface_weights.view() - result.weights).cwiseAbs().colwise().maxCoeff().maxCoeff(&column);
     this->panel_->choose_column(static_cast<int>(column));
   }
   this->update_panel_state();

@@ -46,9 +46,9 @@ public:
   void cancel() { this->job_.cancel(); }
   bool is_busy() const { return this->job_.is_running(); }
 
-  /// Return how the surface is drawn (Viewport::SurfaceLook): see-through if a slice is shown,
-  /// otherwise solid.
-  int surface_look() const;
+  /// Return how the surface is drawn (Viewport::SurfaceAppearance): see-through if a slice is
+  /// shown, otherwise solid.
+  int surface_appearance() const;
   /// Report whether the shape must be shown at rest, because a slice through the rest shape is
   /// shown.
   bool requires_rest_shape() const { return this->view_->is_sliced(); }

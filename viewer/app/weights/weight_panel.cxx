@@ -66,7 +66,7 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
       [this]
       {
         this->enable();
-        Q_EMIT this->look_changed();
+        Q_EMIT this->display_changed();
       });
     return result;
   };
@@ -166,7 +166,7 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
     [this](int index)
     {
       this->enable();
-      Q_EMIT this->look_changed();
+      Q_EMIT this->display_changed();
       Q_EMIT this->column_chosen(index - 1);
     });
   QObject::connect(this->compare_, &QPushButton::clicked, this,
@@ -195,7 +195,7 @@ QButtonGroup* WeightPanel::add_choice(const char* key, const QStringList& tips)
     [this]
     {
       this->enable();
-      Q_EMIT this->look_changed();
+      Q_EMIT this->display_changed();
     });
   return group;
 }
@@ -212,8 +212,10 @@ void WeightPanel::set_columns(const QStringList& names)
       this->fontMetrics().elidedText(name, Qt::ElideMiddle, this->column_->sizeHint().width()));
     this->column_->setItemData(this->column_->count() - 1, name, Qt::ToolTipRole);
   }
-  const int same = names.indexOf(before);
-  this->column_->setCurrentIndex(same >= 0 ? same + 1 : names.isEmpty() ? 0 : 1);
+  const int previous_index = names.indexOf(before);
+  this->column_->setCurrentIndex(previous_index >= 0 ? previous_index + 1
+      : names.isEmpty()                              ? 0
+                                                     : 1);
   this->enable();
 }
 
@@ -297,11 +299,12 @@ void WeightPanel::enable()
     ? QString()
     : tr("Open the handles of these weights: solving with another method requires handles");
   enable_or_explain(this->method_, first(no_comparison_reason));
-  const QString same = tr("The weights already come from this method: choose another method");
+  const QString same_method_reason =
+    tr("The weights already come from this method: choose another method");
   const bool is_same = this->method_->currentIndex() == this->state_.method;
-  enable_or_explain(
-    this->compare_, first(no_comparison_reason.isEmpty() && is_same ? same : no_comparison_reason));
-  parts::enable_all_but(this->method_, this->state_.method, same);
+  enable_or_explain(this->compare_,
+    first(no_comparison_reason.isEmpty() && is_same ? same_method_reason : no_comparison_reason));
+  parts::enable_all_but(this->method_, this->state_.method, same_method_reason);
   const QString no_slice_reason = shows_difference
     ? tr("The other method was solved on different tets: the difference exists only on the surface")
     : this->state_.has_volume
@@ -357,7 +360,7 @@ void WeightPanel::show_quantity(int quantity)
 {
   this->quantity_group_->button(quantity)->setChecked(true);
   this->enable();
-  Q_EMIT this->look_changed();
+  Q_EMIT this->display_changed();
 }
 
 int WeightPanel::column() const

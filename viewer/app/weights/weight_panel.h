@@ -89,7 +89,7 @@ Q_SIGNALS:
   /// Emitted when another column was selected; -1: all columns.
   void column_chosen(int column);
   /// Emitted when the result of any getter has changed.
-  void look_changed();
+  void display_changed();
   /// Emitted to request a comparison with this method, an index of bindpose::weight_methods().
   void comparison_requested(int method);
   void cancel_requested();

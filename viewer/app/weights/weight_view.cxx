@@ -163,11 +163,11 @@ void WeightView::show_surface()
   vtkSmartPointer<vtkDoubleArray> values = color_values(this->surface_, this->coloring_, on_points);
   if (on_points)
   {
-    const auto at_rest = values;
+    const auto rest_values = values;
     values = vtkSmartPointer<vtkDoubleArray>::New();
     for (const Index v : this->viewport_->drawn_points())
     {
-      values->InsertNextValue(at_rest->GetValue(v));
+      values->InsertNextValue(rest_values->GetValue(v));
     }
   }
   else
@@ -180,9 +180,10 @@ void WeightView::show_surface()
 
 void WeightView::draw_isolines(int part, vtkPolyData* data)
 {
-  const bool wanted = this->shown_ && data && this->options_.isolines && part == this->is_sliced();
-  const auto lines =
-    wanted ? contour_lines(data, this->coloring_.isolines) : vtkSmartPointer<vtkPolyData>::New();
+  const bool has_isolines =
+    this->shown_ && data && this->options_.isolines && part == this->is_sliced();
+  const auto lines = has_isolines ? contour_lines(data, this->coloring_.isolines)
+                                  : vtkSmartPointer<vtkPolyData>::New();
   this->isolines_[part]->ShallowCopy(lines);
   this->isoline_actors_[part]->SetVisibility(lines->GetNumberOfLines() > 0);
   this->isoline_actors_[part]->GetProperty()->SetLineWidth(

@@ -202,9 +202,9 @@ void Exports::film_finished()
     this->parts_.errors->show_message(
       tr("Cannot export: %1.").arg(film->error()), parts::ErrorKind::export_file);
   }
-  else if (!film->said().isEmpty()) // the description is empty after a cancel
+  else if (!film->summary().isEmpty()) // the description is empty after a cancel
   {
-    this->show_result(film->path(), parts::capitalized(film->said()) + '.');
+    this->show_result(film->path(), parts::capitalized(film->summary()) + '.');
   }
 }
 

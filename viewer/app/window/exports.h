@@ -14,7 +14,7 @@ class NoticeBar;
 } // namespace app::parts
 namespace app::posing
 {
-class Posing;
+class PoseController;
 } // namespace app::posing
 namespace app::view
 {
@@ -32,7 +32,7 @@ struct ExportParts
   QWidget* window; ///< parent of the dialogs
   Document* document;
   view::Viewport* viewport;
-  posing::Posing* posing;
+  posing::PoseController* posing;
   const WindowSessions* sessions; ///< name of the open data
   parts::ErrorBar* errors;
   parts::NoticeBar* bar; ///< shows the path of the written file

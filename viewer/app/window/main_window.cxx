@@ -181,7 +181,7 @@ void MainWindow::make_layout()
   this->note_bar_ = add_bar("note_bar");
   this->rebind_bar_ = add_bar("rebind_bar");
   this->export_bar_ = add_bar("export_bar");
-  auto* over = new QVBoxLayout(this->viewport_);
+  auto* overlay_layout = new QVBoxLayout(this->viewport_);
   this->empty_ = new EmptyState(this->viewport_);
   QObject::connect(this->empty_, &EmptyState::open_and_rig_requested, this,
     [this]
@@ -189,13 +189,13 @@ void MainWindow::make_layout()
       this->choose_and_open();
       this->shape_handles_->auto_rig();
     });
-  over->addWidget(this->empty_);
+  overlay_layout->addWidget(this->empty_);
   this->panels_ = new PanelColumn(center);
   this->panel_ = this->panels_->side();
   rows->addWidget(this->viewport_, 1);
   this->strip_ = new posing::KeyStrip(center);
   rows->addWidget(this->strip_);
-  this->posing_ = new posing::Posing(this->viewport_,
+  this->posing_ = new posing::PoseController(this->viewport_,
     { this->panel_->pose(), this->panel_->fields(), this->panel_->poses(), this->strip_ });
   this->shape_handles_ = new handles::ShapeHandles(this->document_, this->note_bar_, this);
   this->editing_ = new handles::HandleEditing(this->document_, this->viewport_, this->posing_,
@@ -232,13 +232,13 @@ void MainWindow::make_inspections()
   QObject::connect(this->tet_inspection_, &tets::TetInspection::surface_look_changed, this,
     [this]
     {
-      this->update_surface_look();
+      this->update_surface_appearance();
       this->draw_pose(); // draw the shape at rest: tets and defects belong to it
     });
   QObject::connect(this->tet_inspection_, &tets::TetInspection::first_tets_computed, this,
     &MainWindow::orient_planes);
   QObject::connect(
-    this->tet_inspection_, &tets::TetInspection::noticed, this, &MainWindow::show_notice);
+    this->tet_inspection_, &tets::TetInspection::notice_requested, this, &MainWindow::show_notice);
   QObject::connect(
     this->tet_inspection_, &tets::TetInspection::defects_found, this, &MainWindow::offer_defects);
   this->weights_ = new weights::WeightInspection(this->viewport_, this->panels_->weight(),
@@ -247,7 +247,7 @@ void MainWindow::make_inspections()
   QObject::connect(this->weights_, &weights::WeightInspection::surface_look_changed, this,
     [this]
     {
-      this->update_surface_look();
+      this->update_surface_appearance();
       this->update_pose(); // draw the shape at rest: a slice belongs to it
     });
   this->rotations_ =
@@ -332,7 +332,8 @@ void MainWindow::connect_panel()
       this->update_panel();
       this->update_pose();
     });
-  QObject::connect(this->binding_, &weights::Binding::noticed, this, &MainWindow::show_notice);
+  QObject::connect(
+    this->binding_, &weights::Binding::notice_requested, this, &MainWindow::show_notice);
   QObject::connect(
     this->binding_, &weights::Binding::bound, this->sessions_->autosave(), &Autosave::begin_save);
   QObject::connect(this->panel_, &handles::SidePanel::bind_method_changed, this,
@@ -348,7 +349,7 @@ void MainWindow::connect_panel()
     [this](int mode)
     { this->editing_->commands()->set_handle_mode(static_cast<HandleMode>(mode)); });
   QObject::connect(
-    this->panel_, &handles::SidePanel::rest_requested, this, &MainWindow::back_to_rest);
+    this->panel_, &handles::SidePanel::rest_requested, this, &MainWindow::reset_to_rest);
   QObject::connect(
     this->panel_, &handles::SidePanel::column_chosen, this, &MainWindow::show_column);
 }
@@ -368,8 +369,8 @@ void MainWindow::connect_volume()
   QObject::connect(panel, &volume::VolumePanel::level_chosen, view, &volume::VolumeView::set_level);
   QObject::connect(
     panel, &volume::VolumePanel::cloud_requested, view, &volume::VolumeView::show_cloud);
-  QObject::connect(
-    panel, &volume::VolumePanel::surface_look_chosen, this, &MainWindow::update_surface_look);
+  QObject::connect(panel, &volume::VolumePanel::surface_appearance_chosen, this,
+    &MainWindow::update_surface_appearance);
   QObject::connect(panel, &volume::VolumePanel::close_requested, this, &MainWindow::close_volume);
   const auto show_position = [panel, view]
   {
@@ -382,7 +383,7 @@ void MainWindow::connect_volume()
   QObject::connect(view, &volume::VolumeView::shown_changed, this,
     [this]
     {
-      this->update_surface_look();
+      this->update_surface_appearance();
       this->draw_pose(); // draw the shape at rest: winding numbers belong to it
     });
 }
@@ -433,9 +434,10 @@ void MainWindow::connect_errors()
   connect_failure(this->binding_, &weights::Binding::failed, parts::ErrorKind::other);
   connect_failure(
     this->shape_handles_, &handles::ShapeHandles::failed, parts::ErrorKind::edit_handles);
-  connect_failure(this->editing_, &handles::HandleEditing::refused, parts::ErrorKind::edit_handles);
-  connect_failure(this->posing_, &posing::Posing::failed, parts::ErrorKind::pose);
-  connect_success(this->posing_, &posing::Posing::succeeded, parts::ErrorKind::pose);
+  connect_failure(
+    this->editing_, &handles::HandleEditing::edit_refused, parts::ErrorKind::edit_handles);
+  connect_failure(this->posing_, &posing::PoseController::failed, parts::ErrorKind::pose);
+  connect_success(this->posing_, &posing::PoseController::succeeded, parts::ErrorKind::pose);
   connect_failure(this->tet_inspection_, &tets::TetInspection::failed, parts::ErrorKind::tets);
   connect_success(this->tet_inspection_, &tets::TetInspection::succeeded, parts::ErrorKind::tets);
   connect_failure(this->weights_, &weights::WeightInspection::failed, parts::ErrorKind::weights);
@@ -756,13 +758,13 @@ bool MainWindow::show_file(const OpenedFile& file, const QString& path)
 /// Open an image file as a textured shape: the region where its alpha is opaque, or the whole
 /// rectangle.
 bool MainWindow::open_picture(
-  vtkImageData* picture, const QString& name, const Source& source, bool whole)
+  vtkImageData* picture, const QString& name, const Source& source, bool is_whole_image)
 {
   this->error_bar_->hide();
   QApplication::setOverrideCursor(Qt::WaitCursor);
   vtkSmartPointer<vtkPolyData> shape;
   bool cut_out = false;
-  Status status = make_shape(picture, whole, shape, cut_out);
+  Status status = make_shape(picture, is_whole_image, shape, cut_out);
   QApplication::restoreOverrideCursor();
   if (status.ok())
   {
@@ -880,9 +882,9 @@ void MainWindow::set_mode(int handle, int mode)
   this->document_->set_mode(handle, mode);
 }
 
-void MainWindow::back_to_rest()
+void MainWindow::reset_to_rest()
 {
-  this->document_->back_to_rest();
+  this->document_->reset_to_rest();
 }
 
 bool MainWindow::is_bound() const
@@ -897,8 +899,8 @@ vtkPolyData* MainWindow::shown() const
 
 void MainWindow::connect_posing()
 {
-  QObject::connect(this->posing_, &posing::Posing::moved, this, &MainWindow::draw_pose);
-  QObject::connect(this->posing_, &posing::Posing::pose_changed, this,
+  QObject::connect(this->posing_, &posing::PoseController::moved, this, &MainWindow::draw_pose);
+  QObject::connect(this->posing_, &posing::PoseController::pose_changed, this,
     [this](const Pose& pose)
     {
       set_pose(this->document_->handle_data(), this->document_->handle_cells(), pose);
@@ -908,15 +910,15 @@ void MainWindow::connect_posing()
       }
       this->update_pose();
     });
-  QObject::connect(this->posing_, &posing::Posing::pose_step_requested, this->document_,
+  QObject::connect(this->posing_, &posing::PoseController::pose_step_requested, this->document_,
     [this](const QString& step, const QString& merge)
     { this->document_->commit_pose(step, merge); });
-  QObject::connect(this->posing_, &posing::Posing::edit_ended, this->document_,
+  QObject::connect(this->posing_, &posing::PoseController::edit_ended, this->document_,
     [this] { this->document_->end_merge(); });
-  QObject::connect(this->posing_, &posing::Posing::stored_poses_changed, this->document_,
+  QObject::connect(this->posing_, &posing::PoseController::stored_poses_changed, this->document_,
     [this](const QString& step)
     { this->document_->set_stored_poses(this->posing_->stored_poses(), step); });
-  QObject::connect(this->posing_, &posing::Posing::handles_changed, this->document_,
+  QObject::connect(this->posing_, &posing::PoseController::handles_changed, this->document_,
     [this](const QString& step) { this->document_->commit_handles(step, step); });
 }
 
@@ -972,10 +974,10 @@ void MainWindow::show_state()
   const bool rest_view = this->posing_->is_rest_view();
   this->posing_->inspect_at_rest(!inspected.isEmpty());
   this->editing_->show_rest(!inspected.isEmpty() || rest_view);
-  const bool edits = this->posing_->edits_at_rest() && this->posing_->is_posed();
+  const bool is_editing = this->posing_->edits_at_rest() && this->posing_->is_posed();
   const QString reason = !inspected.isEmpty() ? inspected
     : rest_view                               ? tr("T shows the pose")
-    : edits                                   ? tr("handles are edited at rest")
+    : is_editing                              ? tr("handles are edited at rest")
                                               : QString();
   this->viewport_->set_state_name(this->document_->handle_data() && !reason.isEmpty()
       ? tr("Rest shape: %1").arg(reason)
@@ -999,10 +1001,10 @@ void MainWindow::orient_planes()
     if (this->document_->number(key) == automatic_orientation)
     {
       automatic_orientation = axis;
-      this->links_->note(key, axis);
+      this->links_->set_without_undo(key, axis);
       if (name == "tets")
       {
-        this->links_->note("tets.other_side", view_direction[axis] > 0.0);
+        this->links_->set_without_undo("tets.other_side", view_direction[axis] > 0.0);
       }
     }
   }
@@ -1012,8 +1014,8 @@ void MainWindow::orient_planes()
 /// the last pose.
 void MainWindow::update_hint()
 {
-  const QString said = this->editing_->message();
-  this->hint_->setText(said.isEmpty() ? this->hint_text_ : said);
+  const QString editing_message = this->editing_->message();
+  this->hint_->setText(editing_message.isEmpty() ? this->hint_text_ : editing_message);
   this->hint_->setStyleSheet(
     this->editing_->is_warning() ? "color: " + parts::theme_color("error_ink").name() : QString());
 }
@@ -1038,7 +1040,7 @@ void MainWindow::update_panel()
                                  : tr("Binding requires a mesh."));
   this->panels_->set_open(this->volume_view_->volume(), surface || handles, surface);
   this->winding_volume_->update();
-  this->update_surface_look();
+  this->update_surface_appearance();
   this->empty_->setVisible(this->is_empty());
   this->strip_->setVisible(surface && this->timeline_);
   this->update_menus();
@@ -1060,13 +1062,15 @@ void MainWindow::show_outlines(bool shown)
 /// Determine how the surface is drawn. Tets hide the surface, and defects make it see-through. If
 /// neither is shown, a slice of the weights determines the look. If there is no slice either, the
 /// panel of the volume determines it.
-void MainWindow::update_surface_look()
+void MainWindow::update_surface_appearance()
 {
-  int look = this->tet_inspection_->surface_look();
-  look = look == view::Viewport::solid ? this->weights_->surface_look() : look;
-  this->viewport_->set_surface_look(look == view::Viewport::solid && this->volume_view_->is_active()
-      ? this->panels_->volume()->surface_look()
-      : look);
+  int appearance = this->tet_inspection_->surface_appearance();
+  appearance =
+    appearance == view::Viewport::solid ? this->weights_->surface_appearance() : appearance;
+  this->viewport_->set_surface_appearance(
+    appearance == view::Viewport::solid && this->volume_view_->is_active()
+      ? this->panels_->volume()->surface_appearance()
+      : appearance);
 }
 
 void MainWindow::show_column(int column)

@@ -34,7 +34,7 @@ namespace app::posing
 {
 class DistanceView;
 class KeyStrip;
-class Posing;
+class PoseController;
 class RotationView;
 } // namespace app::posing
 namespace app::tets
@@ -97,11 +97,12 @@ public:
   bool is_bound() const;
   void set_method(int method);
   void set_mode(int handle, int mode);
-  void back_to_rest();
+  void reset_to_rest();
   /// Report whether no file is open.
   bool is_empty() const;
 
-  /// Return the current shape, see Posing::shape(): posed, or at rest if it cannot be posed.
+  /// Return the current shape, see PoseController::shape(): posed, or at rest if it cannot be
+  /// posed.
   vtkPolyData* shown() const;
   /// Show or hide outlines, as an undo step.
   void show_outlines(bool shown);
@@ -138,7 +139,7 @@ private:
   /// off, the view can be rotated. The camera is unchanged.
   void set_flat_view(bool flat);
   void update_plane();
-  void update_surface_look();
+  void update_surface_appearance();
   void offer_defects(const QString& counts);
   void connect_posing();
   void update_pose();
@@ -151,7 +152,8 @@ private:
   void orient_planes();
   bool open_file(const QString& path, const OpenedFile* read);
   bool show_file(const OpenedFile& file, const QString& path);
-  bool open_picture(vtkImageData* picture, const QString& name, const Source& source, bool whole);
+  bool open_picture(
+    vtkImageData* picture, const QString& name, const Source& source, bool is_whole_image);
   bool report_error(const QString& name, const bindpose::Status& status);
   void update_hint();
   void show_notice(const QString& message);
@@ -169,7 +171,7 @@ private:
   /// Last orientation that the program has chosen for each cutting plane. The key is the prefix of
   /// the plane's options: "volume", "tets" or "weights".
   std::map<QString, int> automatic_orientations_;
-  posing::Posing* posing_ = nullptr;
+  posing::PoseController* posing_ = nullptr;
   handles::HandleEditing* editing_ = nullptr;
   weights::Binding* binding_ = nullptr;
   handles::ShapeHandles* shape_handles_ = nullptr;

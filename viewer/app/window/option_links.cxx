@@ -90,7 +90,7 @@ void OptionLinks::store_all_except(const QStringList& keys)
   {
     if (!keys.contains(key))
     {
-      this->document_->note_option(key, link.value());
+      this->document_->set_option_without_undo(key, link.value());
     }
   }
 }
@@ -112,9 +112,9 @@ void OptionLinks::chosen(const QString& key)
   this->document_->set_options(values, key);
 }
 
-void OptionLinks::note(const QString& key, const QVariant& value)
+void OptionLinks::set_without_undo(const QString& key, const QVariant& value)
 {
-  this->document_->note_option(key, value);
+  this->document_->set_option_without_undo(key, value);
   this->option_changed(key, value);
 }
 

@@ -38,7 +38,7 @@ public:
 
   /// Set an option to a value that the program has chosen. The widget shows the value and a session
   /// stores it, but no undo step is made.
-  void note(const QString& key, const QVariant& value);
+  void set_without_undo(const QString& key, const QVariant& value);
   /// Store the current values of all options in the document without an undo step, so that a
   /// session contains them.
   void store_all() { this->store_all_except({}); }

@@ -17,7 +17,7 @@ void link_plane(
   // During a drag, store the values from before the drag, because a session may be saved then.
   links->link_option(
     position_key, [plane] { return plane->relative_position_before_drag(); },
-    [plane](const QVariant& value) { plane->set_place(value.toDouble()); });
+    [plane](const QVariant& value) { plane->set_relative_position(value.toDouble()); });
   links->link_option(
     normal_key,
     [plane]

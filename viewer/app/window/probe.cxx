@@ -55,10 +55,10 @@ QString number(double value)
   return QString::number(value, 'g', 4);
 }
 
-QString format_position(const Vec3& place)
+QString format_position(const Vec3& position)
 {
   return Probe::tr("x %1   y %2   z %3")
-    .arg(number(place.x()), number(place.y()), number(place.z()));
+    .arg(number(position.x()), number(position.y()), number(position.z()));
 }
 
 /// Return the name of a category, or the value if the coloring has no categories.
@@ -225,26 +225,28 @@ void Probe::show_lines(const QStringList& lines)
 void Probe::move_label_away(const QPoint& mouse)
 {
   const view::Viewport* viewport = this->views_.viewport;
-  const QRect room =
+  const QRect allowed_area =
     viewport->rect().adjusted(label_margin, label_margin, -label_margin, -label_margin);
-  QRect place(QPoint(), this->label_->size());
+  QRect label_rectangle(QPoint(), this->label_->size());
   const auto is_free = [&]
   {
     const QRect label_area =
-      place.adjusted(-2 * label_margin, -label_margin, label_margin, 2 * label_margin);
+      label_rectangle.adjusted(-2 * label_margin, -label_margin, label_margin, 2 * label_margin);
     const auto others = viewport->findChildren<QWidget*>(QString(), Qt::FindDirectChildrenOnly);
     return !label_area.contains(mouse) &&
       std::none_of(others.begin(), others.end(),
-        [&](const QWidget* other) {
-          return other != this->label_ && other->isVisible() && other->geometry().intersects(place);
+        [&](const QWidget* other)
+        {
+          return other != this->label_ && other->isVisible() &&
+            other->geometry().intersects(label_rectangle);
         });
   };
-  place.moveTopRight(room.topRight());
+  label_rectangle.moveTopRight(allowed_area.topRight());
   if (!is_free())
   {
-    place.moveBottomRight(room.bottomRight());
+    label_rectangle.moveBottomRight(allowed_area.bottomRight());
   }
-  this->label_->move(place.topLeft());
+  this->label_->move(label_rectangle.topLeft());
 }
 
 // ---- Text about the hit ------------------------------------------------------------------------
@@ -261,10 +263,10 @@ QStringList Probe::read_at(int x, int y)
   {
     return {};
   }
-  const int look = viewport->surface_look();
+  const int appearance = viewport->surface_appearance();
   const OptionalHit surface = this->surface(ray, other);
   const QString defect = other ? QString() : this->defect(ray);
-  OptionalHit first = look == view::Viewport::solid ? surface : OptionalHit();
+  OptionalHit first = appearance == view::Viewport::solid ? surface : OptionalHit();
   for (const OptionalHit& each : other
       ? std::vector<OptionalHit>()
       : std::vector<OptionalHit>{ this->tets(ray), this->weight_slice(ray),
@@ -276,7 +278,7 @@ QStringList Probe::read_at(int x, int y)
     }
   }
   first = first || other ? first : this->cloud(ray);
-  first = first ? first : look == view::Viewport::hidden ? OptionalHit() : surface;
+  first = first ? first : appearance == view::Viewport::hidden ? OptionalHit() : surface;
   QStringList lines = first ? first->lines : QStringList();
   if (!defect.isEmpty())
   {
@@ -301,27 +303,27 @@ Probe::OptionalHit Probe::surface(const ViewRay& ray, bool other) const
   found.distance = hit.distance;
   // Show coordinates of the shape itself. The drawn points can differ from them, because the view
   // adds offsets to the layers of a planar shape.
-  const Vec3 seen = point_on_ray(ray, hit.distance);
-  Vec3 place = Vec3::Zero();
+  const Vec3 drawn_position = point_on_ray(ray, hit.distance);
+  Vec3 position = Vec3::Zero();
   Index nearest = -1;
   double minimum_distance = 1e300;
   for (int k = 0; k < 3; ++k)
   {
     const Index drawn = shaded->triangles()(hit.element, k);
     const Index vertex = shaded->input_points()[static_cast<std::size_t>(drawn)];
-    place += hit.barycentric[k] * Vec3(shape->GetPoint(vertex));
-    const double distance = (Vec3(shaded->polydata()->GetPoint(drawn)) - seen).norm();
+    position += hit.barycentric[k] * Vec3(shape->GetPoint(vertex));
+    const double distance = (Vec3(shaded->polydata()->GetPoint(drawn)) - drawn_position).norm();
     nearest = distance < minimum_distance ? vertex : nearest;
     minimum_distance = std::min(minimum_distance, distance);
   }
   if (other)
   {
-    place = seen;
+    position = drawn_position;
     found.lines << posing::method_name(
       this->views_.posing->compared_deformation()->options().method);
   }
   found.lines << tr("Triangle %1, vertex %2").arg(hit.element).arg(nearest)
-              << format_position(place);
+              << format_position(position);
   found.lines << this->weights(shape, hit) << this->difference(hit);
   found.lines << (other ? QString() : this->views_.rotations->reading(nearest));
   return found;
@@ -383,12 +385,13 @@ QStringList Probe::weights(vtkPolyData* shape, const RayHit& hit) const
 /// Return the distance between the shape and the shape of the compared method.
 QString Probe::difference(const RayHit& hit) const
 {
-  const posing::Posing* posing = this->views_.posing;
+  const posing::PoseController* posing = this->views_.posing;
   const ShadedSurface* shaded = this->views_.viewport->shaded();
   const Points& a = posing->points();
   const Points& b = posing->compared_deformation()->points();
-  if (posing->ghost()->place() == posing::PoseGhost::hidden || !shaded || a.rows() != b.rows() ||
-    a.rows() == 0 || posing->shows_rest() || posing->compared_deformation()->is_binding())
+  if (posing->ghost()->display_mode() == posing::PoseGhost::hidden || !shaded ||
+    a.rows() != b.rows() || a.rows() == 0 || posing->shows_rest() ||
+    posing->compared_deformation()->is_binding())
   {
     return {};
   }
@@ -463,13 +466,14 @@ Probe::OptionalHit Probe::winding_slice(const ViewRay& ray) const
   }
   Hit found;
   found.distance = (view->position() - ray.origin.dot(view->slice_normal())) / slope;
-  const Vec3 place = point_on_ray(ray, found.distance);
+  const Vec3 position = point_on_ray(ray, found.distance);
   double value = 0.0;
-  if (found.distance < 0.0 || !value_at(view->volume(), winding_name, place, value))
+  if (found.distance < 0.0 || !value_at(view->volume(), winding_name, position, value))
   {
     return {};
   }
-  found.lines << tr("Slice: winding number w = %1").arg(value, 0, 'f', 3) << format_position(place);
+  found.lines << tr("Slice: winding number w = %1").arg(value, 0, 'f', 3)
+              << format_position(position);
   return found;
 }
 
@@ -548,7 +552,7 @@ QString Probe::defect(const ViewRay& ray) const
               : std::tan(0.5 * vtkMath::RadiansFromDegrees(camera->GetViewAngle()))) /
     height;
   const double eye = (ray.origin - Vec3(camera->GetPosition())).norm();
-  const Points seen = to_ray_coordinates(ray, to_points(defects).view());
+  const Points defect_points = to_ray_coordinates(ray, to_points(defects).view());
   const auto pick_radius = [&](double depth) { return parallel ? slope : slope * (eye + depth); };
   Index best = -1;
   int best_kind = 4; // kind of the best candidate: 1 for a dot or edge, 3 for a face, 4 for none
@@ -561,9 +565,9 @@ QString Probe::defect(const ViewRay& ray) const
     {
       cells->GetCellAtId(k, ids);
       const auto corners = static_cast<int>(ids->GetNumberOfIds());
-      const Vec3 a = seen.row(ids->GetId(0));
-      const Vec3 b = seen.row(ids->GetId(corners > 1 ? 1 : 0));
-      const Vec3 c = seen.row(ids->GetId(corners > 2 ? 2 : 0));
+      const Vec3 a = defect_points.row(ids->GetId(0));
+      const Vec3 b = defect_points.row(ids->GetId(corners > 1 ? 1 : 0));
+      const Vec3 c = defect_points.row(ids->GetId(corners > 2 ? 2 : 0));
       bool is_hit = false;
       double depth = a.z();
       if (corners < 3)

@@ -15,7 +15,7 @@ class vtkPolyData;
 
 namespace app::posing
 {
-class Posing;
+class PoseController;
 class RotationView;
 } // namespace app::posing
 namespace app::tets
@@ -60,7 +60,7 @@ public:
     tets::TetView* tets;
     weights::WeightView* weights;
     const tets::DefectView* defects;
-    posing::Posing* posing;
+    posing::PoseController* posing;
     const posing::RotationView* rotations;
     /// Returns the surface as drawn, posed or at rest; null if there is no surface.
     std::function<vtkPolyData*()> surface;

@@ -39,7 +39,7 @@ ShortcutSheet::ShortcutSheet(QWidget* parent) : QDialog(parent)
   {
     const int heading_row = this->table_->rowCount();
     this->table_->insertRow(heading_row);
-    auto* title = new QTableWidgetItem(parts::capitalized(QString::fromStdString(group.when)));
+    auto* title = new QTableWidgetItem(parts::capitalized(QString::fromStdString(group.heading)));
     title->setFont(bold);
     title->setForeground(parts::theme_color(parts::is_dark() ? "accent_ring" : "accent"));
     this->table_->setItem(heading_row, 0, title);

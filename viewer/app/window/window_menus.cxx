@@ -137,7 +137,7 @@ void WindowMenus::add_edit_menu()
   edit->addSeparator();
   this->bind_ = this->add(edit, tr("&Bind"), "bind", [this] { this->parts_.binding->start(); });
   this->rest_pose_ = this->add(
-    edit, tr("Back to &rest"), "rest_pose", [this] { this->parts_.document->back_to_rest(); });
+    edit, tr("Back to &rest"), "rest_pose", [this] { this->parts_.document->reset_to_rest(); });
   edit->addSeparator();
   this->find_ = this->add(edit, tr("&Find a handle"), "find",
     [this]

@@ -17,7 +17,7 @@ class ShapeHandles;
 namespace app::posing
 {
 class KeyStrip;
-class Posing;
+class PoseController;
 } // namespace app::posing
 namespace app::view
 {
@@ -45,7 +45,7 @@ struct MenuParts
   handles::HandleEditing* editing;
   handles::ShapeHandles* shape_handles;
   weights::Binding* binding;
-  posing::Posing* posing;
+  posing::PoseController* posing;
   posing::KeyStrip* strip;
   WindowSessions* sessions;
   Exports* exports;

@@ -35,7 +35,7 @@ WindowSessions::WindowSessions(const SessionParts& parts)
                                               return session;
                                             })
 {
-  QObject::connect(parts.document, &Document::changed, &this->autosave_, &Autosave::note_change);
+  QObject::connect(parts.document, &Document::changed, &this->autosave_, &Autosave::schedule_save);
   QObject::connect(&this->autosave_, &Autosave::failed, parts.errors,
     [errors = parts.errors](const QString& message)
     { errors->show_message(message, parts::ErrorKind::save_session); });
@@ -247,14 +247,14 @@ void WindowSessions::offer_recovery(const QString& root)
   {
     return;
   }
-  const QString when = QLocale().toString(this->recovered_->time(), QLocale::ShortFormat);
+  const QString save_time = QLocale().toString(this->recovered_->time(), QLocale::ShortFormat);
   const auto discard = [this, root]
   {
     this->recovered_->remove();
     this->offer_recovery(root); // offer the work of another crashed process, if there is any
   };
   this->parts_.recovery->offer(
-    tr("Bindpose did not close properly. The work from %1 can be restored.").arg(when),
+    tr("Bindpose did not close properly. The work from %1 can be restored.").arg(save_time),
     { { tr("&Restore"), [this] { this->recover(); } }, { tr("Discard"), discard } }, tr("Later"));
 }
 

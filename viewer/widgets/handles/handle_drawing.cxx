@@ -11,7 +11,7 @@ namespace
 {
 constexpr double outline_pixels = 1.6;
 constexpr double bar_pixels = 0.9;
-constexpr double hot_growth = 1.2;
+constexpr double highlight_scale = 1.2;
 } // namespace
 
 Color lighter(const Color& color)
@@ -25,13 +25,14 @@ Color lighter(const Color& color)
 }
 
 void draw_handles(const ScreenView& view, const std::vector<HandleRecord>& records,
-  const std::vector<HandleData::Bar>& bars, const HandleSizes& sizes, const HandleLook& look,
-  const HandleMarks& marks, HandleShapes& solid, HandleShapes& outline)
+  const std::vector<HandleData::Bar>& bars, const HandleSizes& sizes,
+  const HandleAppearance& appearance, const HandleMarks& marks, HandleShapes& solid,
+  HandleShapes& outline)
 {
   for (const HandleData::Bar& bar : bars)
   {
-    const double pixel = look.pixel_scale * view.pixel_length_at(0.5 * (bar.from + bar.to));
-    solid.add_tube({ bar.from, bar.to }, bar_pixels * pixel, look.outline);
+    const double pixel = appearance.pixel_scale * view.pixel_length_at(0.5 * (bar.from + bar.to));
+    solid.add_tube({ bar.from, bar.to }, bar_pixels * pixel, appearance.outline);
   }
   for (std::size_t i = 0; i < records.size(); ++i)
   {
@@ -46,16 +47,16 @@ void draw_handles(const ScreenView& view, const std::vector<HandleRecord>& recor
       std::find(marks.selected.begin(), marks.selected.end(), cell) != marks.selected.end();
     const Color base = record.color
       ? Color{ (*record.color)[0], (*record.color)[1], (*record.color)[2] }
-      : look.modes[record.is_free() ? 2
-            : record.mode > 0       ? 1
-                                    : 0];
+      : appearance.modes[record.is_free() ? 2
+            : record.mode > 0             ? 1
+                                          : 0];
     const Color color = is_highlighted ? lighter(base) : base;
-    const Color edge = selected ? look.selected : look.outline;
-    const double growth = is_highlighted ? hot_growth : 1.0;
-    const double line = look.pixel_scale * outline_pixels * (selected ? 1.6 : 1.0);
+    const Color edge = selected ? appearance.selected : appearance.outline;
+    const double growth = is_highlighted ? highlight_scale : 1.0;
+    const double line = appearance.pixel_scale * outline_pixels * (selected ? 1.6 : 1.0);
     // Surround the selected handle's outline with another one, so that it is visible on any
     // background.
-    const double rim = line + look.pixel_scale * outline_pixels;
+    const double rim = line + appearance.pixel_scale * outline_pixels;
     const auto add_ball = [&](const Vec3& center, double size)
     {
       const double pixel = view.pixel_length_at(center);
@@ -63,7 +64,7 @@ void draw_handles(const ScreenView& view, const std::vector<HandleRecord>& recor
       outline.add_ball(center, (size * growth + line) * pixel, edge);
       if (selected)
       {
-        outline.add_ball(center, (size * growth + rim) * pixel, look.outline);
+        outline.add_ball(center, (size * growth + rim) * pixel, appearance.outline);
       }
     };
     if (!record.is_bone())
@@ -77,7 +78,7 @@ void draw_handles(const ScreenView& view, const std::vector<HandleRecord>& recor
     outline.add_bone(record.head, record.tail, width, edge, line * pixel);
     if (selected)
     {
-      outline.add_bone(record.head, record.tail, width, look.outline, rim * pixel);
+      outline.add_bone(record.head, record.tail, width, appearance.outline, rim * pixel);
     }
     add_ball(record.head, sizes.end());
     add_ball(record.tail, sizes.end());
@@ -87,17 +88,17 @@ void draw_handles(const ScreenView& view, const std::vector<HandleRecord>& recor
 Eigen::Vector2d label_anchor(const ScreenView& view, const HandleRecord& record, double ball)
 {
   const Eigen::Vector2d display = view.to_display(0.5 * (record.head + record.tail)).head<2>();
-  Eigen::Vector2d aside(1.0, 0.0);
+  Eigen::Vector2d label_direction(1.0, 0.0);
   if (record.is_bone())
   {
-    const Eigen::Vector2d along = display - view.to_display(record.head).head<2>();
-    if (along.norm() > 0.0)
+    const Eigen::Vector2d segment_vector = display - view.to_display(record.head).head<2>();
+    if (segment_vector.norm() > 0.0)
     {
-      aside = Eigen::Vector2d(along.y(), -along.x()).normalized();
-      aside *= aside.x() < 0.0 ? -1.0 : 1.0;
+      label_direction = Eigen::Vector2d(segment_vector.y(), -segment_vector.x()).normalized();
+      label_direction *= label_direction.x() < 0.0 ? -1.0 : 1.0;
     }
   }
-  return display + ball * Eigen::Vector2d(1.9 * aside.x(), 2.4 * aside.y());
+  return display + ball * Eigen::Vector2d(1.9 * label_direction.x(), 2.4 * label_direction.y());
 }
 
 } // namespace bindpose

@@ -12,7 +12,7 @@ namespace bindpose
 {
 
 /// The appearance of handles: body colors by mode, outline colors and outline width.
-struct HandleLook
+struct HandleAppearance
 {
   Color modes[3];
   Color outline;
@@ -36,8 +36,9 @@ Color lighter(const Color& color);
 /// Add all handles and bars to the shapes: the bodies to `solid`, and slightly larger copies to
 /// `outline`.
 void draw_handles(const ScreenView& view, const std::vector<HandleRecord>& records,
-  const std::vector<HandleData::Bar>& bars, const HandleSizes& sizes, const HandleLook& look,
-  const HandleMarks& marks, HandleShapes& solid, HandleShapes& outline);
+  const std::vector<HandleData::Bar>& bars, const HandleSizes& sizes,
+  const HandleAppearance& appearance, const HandleMarks& marks, HandleShapes& solid,
+  HandleShapes& outline);
 
 /// Return the display position of a handle's name: to the right of a ball. The name of a bone is
 /// next to its middle, on the side of the bone that faces right, so that the name does not cover

@@ -24,7 +24,7 @@ HandlePick pick_handle(const ScreenView& view, const std::vector<HandleRecord>& 
   HandlePick best;
   std::tuple<int, double, double> best_order{ 4, 0.0, 0.0 };
   vtkIdType cell = -1;
-  const auto offer = [&](HandlePart part, int rank, double distance, double depth)
+  const auto keep_if_best = [&](HandlePart part, int rank, double distance, double depth)
   {
     const std::tuple<int, double, double> order{ rank, distance, depth };
     if (order < best_order)
@@ -48,7 +48,7 @@ HandlePick pick_handle(const ScreenView& view, const std::vector<HandleRecord>& 
     {
       if (to_head <= ball)
       {
-        offer(HandlePart::point, 0, to_head, head[2]);
+        keep_if_best(HandlePart::point, 0, to_head, head[2]);
       }
       continue;
     }
@@ -62,20 +62,21 @@ HandlePick pick_handle(const ScreenView& view, const std::vector<HandleRecord>& 
     // rarely to move the lower bone away from it.
     if (to_tail <= end)
     {
-      offer(HandlePart::tail, 1, to_tail, tail[2]);
+      keep_if_best(HandlePart::tail, 1, to_tail, tail[2]);
     }
     if (to_head <= end)
     {
-      offer(HandlePart::head, 2, to_head, head[2]);
+      keep_if_best(HandlePart::head, 2, to_head, head[2]);
     }
-    const Vector2d along = (tail - head).head<2>();
-    const double length2 = along.squaredNorm();
-    const double s =
-      length2 > 0.0 ? std::clamp((mouse - head.head<2>()).dot(along) / length2, 0.0, 1.0) : 0.0;
-    const double to_body = (head.head<2>() + s * along - mouse).norm();
+    const Vector2d segment_vector = (tail - head).head<2>();
+    const double length2 = segment_vector.squaredNorm();
+    const double s = length2 > 0.0
+      ? std::clamp((mouse - head.head<2>()).dot(segment_vector) / length2, 0.0, 1.0)
+      : 0.0;
+    const double to_body = (head.head<2>() + s * segment_vector - mouse).norm();
     if (to_body <= sizes.half_width(std::sqrt(length2), 1.0) + sizes.tolerance)
     {
-      offer(HandlePart::body, 3, to_body, head[2] + s * (tail[2] - head[2]));
+      keep_if_best(HandlePart::body, 3, to_body, head[2] + s * (tail[2] - head[2]));
     }
   }
   return best;

@@ -117,12 +117,12 @@ std::vector<HandleData::CellPose> moved_poses(const std::vector<HandleRecord>& r
   // in transform_for_child().
   const auto follower_motion = [&](vtkIdType cell)
   {
-    const double along = attachment(records, group, cell);
+    const double fraction = attachment(records, group, cell);
     const double degrees = change.writes_arrays
-      ? (1.0 - along) * change.twist[0] + along * change.twist[1]
+      ? (1.0 - fraction) * change.twist[0] + fraction * change.twist[1]
       : change.twist.sum();
     Affine3d motion_there = motion_about(head, axis_rotation(axis, degrees));
-    motion_there.translation() += along * (change.factor - 1.0) * arm;
+    motion_there.translation() += fraction * (change.factor - 1.0) * arm;
     return motion_there;
   };
   for (std::size_t i = 0; i < group.cells.size(); ++i)
@@ -133,8 +133,10 @@ std::vector<HandleData::CellPose> moved_poses(const std::vector<HandleRecord>& r
       i < group.grabbed || !is_bone ? motion : Affine3d(follower_motion(group.cells[i]) * motion);
     if (i == 0 && is_bone && !change.writes_arrays)
     {
-      const Matrix3d along = Matrix3d::Identity() + (change.factor - 1.0) * axis * axis.transpose();
-      total_motion = motion_about(head, axis_rotation(axis, change.twist.sum()) * along) * motion;
+      const Matrix3d stretch_matrix =
+        Matrix3d::Identity() + (change.factor - 1.0) * axis * axis.transpose();
+      total_motion =
+        motion_about(head, axis_rotation(axis, change.twist.sum()) * stretch_matrix) * motion;
     }
     if (record.only_moves())
     {

@@ -163,9 +163,9 @@ void HandleShapes::add_tube(
   std::vector<long long> rings;
   for (std::size_t i = 0; i < count; ++i)
   {
-    const Eigen::Vector3d along = direction(i);
-    u = (u - along * along.dot(u)).normalized();
-    const Eigen::Vector3d v = along.cross(u);
+    const Eigen::Vector3d tangent = direction(i);
+    u = (u - tangent * tangent.dot(u)).normalized();
+    const Eigen::Vector3d v = tangent.cross(u);
     for (int side = 0; side < sides; ++side)
     {
       const double angle = 2.0 * EIGEN_PI * side / sides;

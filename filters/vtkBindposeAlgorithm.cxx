@@ -277,6 +277,7 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
 bool vtkBindposeAlgorithm::ExecuteDirectly(
   const std::function<bindpose::Status(bindpose::ExecutionContext& context)>& work)
 {
+  this->SetAbortExecute(0); // as the executive does before an execution
   bindpose::ExecutionContext context({}, [this]() { return this->GetAbortExecute() != 0; });
   context.set_threads(this->NumberOfThreads);
   *this->LastStatus = status_of([&]() { return work(context); });

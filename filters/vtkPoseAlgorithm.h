@@ -102,8 +102,8 @@ private:
   vtkPoseAlgorithm(const vtkPoseAlgorithm&) = delete;
   void operator=(const vtkPoseAlgorithm&) = delete;
 
-  bindpose::Status PrepareRest(bindpose::ExecutionContext& context, vtkInformationVector** input,
-    const std::string& pose);
+  bindpose::Status PrepareRest(
+    bindpose::ExecutionContext& context, vtkInformationVector** input, const std::string& pose);
 
   double StretchLimit = 2.0;
   bool StretchArray = false;

@@ -387,22 +387,18 @@ def weights(mesh, handles, *, bounds=(0, 1), mirror=None, options, threads=0, pr
 
 def make_deformation(options):
     """Return the filter of a method, with the options that the method uses."""
-    if options.method == "variational":
-        surface = filters.vtkVariationalSurface()
-        options.apply(surface, "variational")
-        return surface
-    if options.method in ("reduced-arap", "full-arap"):
-        reduced = options.method == "reduced-arap"
-        arap = filters.vtkReducedARAP() if reduced else filters.vtkFullARAP()
-        options.apply(arap, "arap", "rotation_arrays", *(("time_budget", "reduced_arap_bind") if reduced else ()))
-        return arap
-    if options.method == "mls":
-        warp = filters.vtkMovingLeastSquaresWarp()
-        options.apply(warp, "moving_least_squares")
-        return warp
-    skinning = filters.vtkSkinningDeformation()
-    options.apply(skinning, "pose_method", "skinning")
-    return skinning
+    kind = {"variational": filters.vtkVariationalSurface, "reduced-arap": filters.vtkReducedARAP, "full-arap": filters.vtkFullARAP,
+            "mls": filters.vtkMovingLeastSquaresWarp}.get(options.method, filters.vtkSkinningDeformation)
+    result = kind()
+    apply_deformation_options(result, options)
+    return result
+
+
+def apply_deformation_options(deformation, options):
+    """Pass the options of a method to its filter."""
+    sets = {"variational": ("variational",), "mls": ("moving_least_squares",), "full-arap": ("arap", "rotation_arrays"),
+            "reduced-arap": ("arap", "rotation_arrays", "time_budget", "reduced_arap_bind")}
+    options.apply(deformation, *sets.get(options.method, ("pose_method", "skinning")))
 
 
 def _posed_handles(mesh, handles, pose, weights):

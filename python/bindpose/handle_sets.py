@@ -117,7 +117,6 @@ def farthest_point_handles(surface, count=8):
 
 
 
-
 @with_options("automatic_handles")
 def automatic_handles(mesh, *, options, threads=0, progress=None):
     """Create handles automatically: bones along the shape's curve skeleton, or points spread over it.
@@ -166,10 +165,17 @@ def to_handles(value, surface):
     raise InvalidInput("handles must be a handle dataset (see bindpose.handles), a file, 'auto:N' or 'skeleton:N'")
 
 
-def _names(handles):
+def cell_names(handles):
     """Return the values of the array HandleName; empty if there is no such array."""
     array = handles.GetCellData().GetAbstractArray("HandleName")
     return [array.GetValue(i) for i in range(array.GetNumberOfValues())] if array else []
+
+
+def handle_cells(handles):
+    """Return the ids of the cells that are handles; all other cells are elements of cages and pseudo-edges."""
+    kinds = handles.GetCellData().GetArray("HandleKind")
+    count = handles.GetNumberOfCells()
+    return [i for i in range(count) if kinds is None or kinds.GetTuple1(i) >= 0]
 
 
 def with_cell_values(handles, array_name, values, components, missing=None):
@@ -181,7 +187,7 @@ def with_cell_values(handles, array_name, values, components, missing=None):
     count = handles.GetNumberOfCells()
     shape = (count, components) if components > 1 else (count,)
     if isinstance(values, dict):
-        names = _names(handles)
+        names = cell_names(handles)
         unknown = [name for name in values if name not in names]
         if unknown:
             raise InvalidInput(f"unknown handle {unknown[0]!r}")

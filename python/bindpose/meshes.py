@@ -199,11 +199,18 @@ def shallow_copy(data):
     return copy
 
 
-def like(source, result):
-    """Return a result as the class of the source, if this is a Python class that derives from a VTK class, as PyVista's.
+def _wrap_of(kind):
+    """Return the function ``wrap`` of the package of the first base class whose package has it; None if there is none."""
+    packages = (sys.modules.get(base.__module__.partition(".")[0]) for base in kind.__mro__)
+    return next((package.wrap for package in packages if hasattr(package, "wrap")), None)
 
-    If the result is of another type (tets of a surface), the function ``wrap`` of the source's package is used, if the
-    package has one. All datasets in a list or tuple are converted.
+
+def like(source, result):
+    """Convert a result to the class of the source if that is a Python subclass of a VTK class, such as pyvista.PolyData.
+
+    A result of another type, such as the tets of a surface, is converted by the function ``wrap`` of the package of the
+    source's class, if there is one. All datasets in a list or tuple are converted. A result that cannot be converted is
+    returned as it is.
     """
     kind = type(source)
     if not is_dataset(source) or kind.__module__.startswith("vtkmodules"):
@@ -212,14 +219,14 @@ def like(source, result):
         return type(result)(like(source, each) for each in result)
     if not is_dataset(result) or isinstance(result, kind):
         return result
-    if issubclass(kind, type(result)):
-        converted = kind()
-        converted.ShallowCopy(result)
-    else:
-        wrap = getattr(sys.modules.get(kind.__module__.partition(".")[0]), "wrap", None)
-        if wrap is None:
-            return result
-        converted = wrap(result)
+    try:
+        if issubclass(kind, type(result)):
+            converted = kind()
+            converted.ShallowCopy(result)
+        else:
+            converted = _wrap_of(kind)(result)
+    except TypeError:  # a class whose constructor needs arguments, or no function wrap
+        return result
     remember_run(converted, run_of(result))
     return converted
 

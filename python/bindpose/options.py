@@ -112,12 +112,15 @@ class Options:
                 raise InvalidInput(f"{name} is not used by method {method!r} (used by {_listed(users)})")
 
     def apply(self, algorithm, *sets):
-        """Pass the options of the sets to a filter; an option that is None keeps the filter's default."""
+        """Pass the options of the sets to a filter; an option that is None gets the filter's default."""
+        fresh = type(algorithm)()
         for option in (option for name in sets for option in SETS[name]):
-            value = getattr(self, option["name"], None)
-            if value is None or option["type"] in _ARRAYS:
+            if not hasattr(self, option["name"]) or option["type"] in _ARRAYS:
                 continue
-            if option["type"] == "choice":
+            value = getattr(self, option["name"])
+            if value is None:
+                value = getattr(fresh, "G" + option["setter"][1:])()
+            elif option["type"] == "choice":
                 value = option["choices"][value]
             arguments = value if isinstance(value, tuple) else (value,)
             getattr(algorithm, option["setter"])(*arguments)
@@ -177,21 +180,17 @@ def with_options(*sets, only=None, without=()):
 
     def decorate(function):
         signature = inspect.signature(function)
+        source = next(iter(signature.parameters))
         if signature.parameters["options"].kind == inspect.Parameter.VAR_KEYWORD:
             wrapper = function
         else:
             @functools.wraps(function)
             def wrapper(*arguments, **keywords):
                 given = {name: keywords.pop(name) for name in described if name in keywords}
-                bar = None
                 if "progress" in signature.parameters and keywords.pop("progress_bar", False):
-                    bar = keywords["progress"] = ProgressBar(keywords.get("progress"))
-                try:
-                    result = function(*arguments, options=Options(described, given), **keywords)
-                finally:
-                    if bar:
-                        bar.close()
-                return like(arguments[0], result) if arguments else result
+                    keywords["progress"] = ProgressBar(keywords.get("progress"))
+                result = function(*arguments, options=Options(described, given), **keywords)
+                return like(arguments[0] if arguments else keywords.get(source), result)
 
         parameters = []
         for parameter in signature.parameters.values():

@@ -1,4 +1,4 @@
-"""The program `bindpose`, for what has no function of its own: pictures."""
+"""Pictures, which the program `bindpose` makes."""
 
 import json
 import os
@@ -10,29 +10,30 @@ import tempfile
 import numpy as np
 from vtkmodules.util import numpy_support
 
-from .errors import BindposeWarning, InvalidInput, Unavailable
+from .errors import BindposeError, BindposeWarning, InvalidInput, Unavailable
 from .files import write
 from .images import read_image
 from .meshes import to_dataset
 from .options import with_options
 from .running import errors_by_status, warn
+from .version import PROGRAM
 
-# build/lib/python3/dist-packages/bindpose and PREFIX/lib/python3/dist-packages/bindpose: bin is beside lib.
-_BESIDE = pathlib.Path(__file__).resolve().parents[4] / "bin" / "bindpose"
 _EXTENSIONS = {"vtkPolyData": ".vtp", "vtkImageData": ".vti"}
 
 
 def program_path():
-    """Return the path of the program `bindpose` that belongs to this package, or of the one in PATH.
+    """Return the path of the program `bindpose`: the environment variable BINDPOSE_PROGRAM, the program that was built with
+    this package, or the one in PATH.
 
     Raises
     ------
     Unavailable
         There is no such program.
     """
-    path = str(_BESIDE) if _BESIDE.exists() else shutil.which("bindpose")
+    beside = (pathlib.Path(__file__).resolve().parent / PROGRAM).resolve()
+    path = os.environ.get("BINDPOSE_PROGRAM") or (str(beside) if beside.exists() else shutil.which("bindpose"))
     if path is None:
-        raise Unavailable(f"the program 'bindpose' is missing; expected {_BESIDE} or a program in PATH")
+        raise Unavailable(f"the program 'bindpose' is missing; expected {beside} or a program in PATH")
     return path
 
 
@@ -94,24 +95,33 @@ def render(*meshes, output=None, handles=None, context=(), minus=None, overwrite
         words += options.words("render")
         if overwrite:
             words.append("--overwrite")
-        report = os.path.join(folder, "report.json")
-        done = subprocess.run([program_path(), "render", *words, "--quiet", "--report", report], capture_output=True, text=True,
-                              check=False)
-        lines = [line.removeprefix("bindpose render: ") for line in done.stderr.splitlines()]
+        report_path = os.path.join(folder, "report.json")
+        done = subprocess.run([program_path(), "render", *words, "--quiet", "--report", report_path], capture_output=True,
+                              text=True, check=False)
+        report = _report_in(report_path)
         if done.returncode:
-            raise errors_by_status[_status_in(report)](
-                lines[-1] if lines else f"the program ended with exit code {done.returncode}")
-        for line in lines:
-            warn(line, BindposeWarning)
+            raise _error_of(done, report)
+        for sentence in report.get("warnings", []):
+            warn(sentence, BindposeWarning)
         return None if output is not None else _pixels(picture)
 
 
-def _status_in(report):
-    """Return the status in a report of the program; invalid_input if there is no report, as after an unknown word."""
+def _report_in(path):
+    """Return the report that the program wrote; empty if it wrote none."""
     try:
-        return json.loads(pathlib.Path(report).read_text(encoding="utf-8"))["status"]
-    except (OSError, ValueError, KeyError):
-        return "invalid_input"
+        return json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return {}
+
+
+def _error_of(done, report):
+    """Return the exception of a run of the program that failed."""
+    if report.get("message"):
+        return errors_by_status.get(report["status"], BindposeError)(report["message"], report)
+    usage = [line for line in done.stderr.splitlines() if line.startswith("bindpose render: ")]
+    if done.returncode == 1 and usage:
+        return InvalidInput(usage[-1].removeprefix("bindpose render: "))
+    return BindposeError(f"the program {done.args[0]} ended with exit code {done.returncode}: {done.stderr.strip()[-500:]}")
 
 
 def _pixels(path):

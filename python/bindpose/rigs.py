@@ -2,31 +2,45 @@
 
 import json
 import os
+import threading
+from collections.abc import Mapping
+from typing import Optional
 
 import numpy as np
 from vtkmodules.util import numpy_support
-from vtkmodules.vtkCommonCore import vtkDoubleArray, vtkPoints
+from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
 
 from .BindposeFilters import vtkGLTFSkinReader, vtkGLTFSkinWriter
 from .errors import BindposeWarning, InvalidInput
 from .files import read_handles
-from .functions import make_deformation, weights
-from .handle_sets import to_handles
-from .meshes import Array, add_point_array, is_dataset, like, point_array, shallow_copy, to_dataset
+from .functions import apply_deformation_options, deform, make_deformation, weights
+from .handle_sets import cell_names, handle_cells, to_handles
+from .meshes import (
+    Array,
+    add_point_array,
+    is_dataset,
+    like,
+    point_array,
+    remember_run,
+    run_of,
+    shallow_copy,
+    to_dataset,
+)
 from .options import checked_options, with_options
 from .running import check_status, report, run, warn
 
 class Rig:
     """A mesh with weights and its handles. `bind` and `read_rig` create rigs.
 
-    A pose method is prepared by the first pose that uses it; all later poses only solve and move the points. Changes of
-    the handles' pose never repeat the preparation. If a handle is moved at rest, the method is prepared again, and a
-    warning says that the weights are out of date.
+    A pose method is prepared by the first pose that uses it; all later poses only solve and move the points. If a handle is
+    moved at rest, the methods are prepared again, and a warning says that the weights are out of date. Several threads may
+    use a rig; their poses are computed one after another.
 
     Parameters
     ----------
     mesh : vtkDataSet or (vertices, elements)
-        A dataset with the point array ``Weights``, one component per handle, or arrays together with `weights`.
+        A dataset with the point array ``Weights``, one component per handle, or arrays together with `weights`. The rig
+        copies the points.
     handles : vtkPolyData, str or path-like
         The handles for which the weights were computed.
     weights : (#V, #handles) array, optional
@@ -36,43 +50,55 @@ class Rig:
 
     Attributes
     ----------
-    mesh : vtkDataSet
-        The mesh at rest with the point array ``Weights``.
-    handles : vtkPolyData
-        One cell per handle; no cell if the file of the rig has no skin.
     animation : dict or None
         The sequence of poses in the file of the rig, for `deform`.
     """
 
+    animation: Optional[dict]
+
     def __init__(self, mesh, handles, *, weights=None, animation=None):
         data = to_dataset(mesh)
+        self._mesh = like(data, shallow_copy(data))
         if weights is not None:
-            data = shallow_copy(data)
-            add_point_array(data, "Weights", np.asarray(weights, dtype=float), getattr(weights, "names", ()))
-        self.mesh = data
-        self.handles = to_handles(handles, data)
+            add_point_array(self._mesh, "Weights", np.asarray(weights, dtype=float), getattr(weights, "names", ()))
+            remember_run(self._mesh, getattr(weights, "report", {}))
+        points = vtkPoints()
+        points.DeepCopy(data.GetPoints())
+        self._mesh.SetPoints(points)
+        self._handles = to_handles(handles, data)
         self.animation = animation
         self._gives_arrays = not is_dataset(mesh)
         self._methods = {}
-        self._output = (None, None)  # the last array for points, and the same memory as an array of VTK
+        self._outputs = {}  # the last two arrays of callers: address to (array, the same memory as an array of VTK)
         self._last = None  # the filter of the last pose
-        self._rest = _rest_points(self.handles)
-        self._rest_time = self.handles.GetPoints().GetMTime() if len(self._rest) else 0
+        self._rest = _rest_points(self._handles)
+        self._rest_time = self._handles.GetPoints().GetMTime() if len(self._rest) else 0
         self._warned = False
+        self._lock = threading.Lock()
+
+    @property
+    def mesh(self):
+        """The mesh at rest with the point array ``Weights``."""
+        return self._mesh
+
+    @property
+    def handles(self):
+        """The handle dataset: one cell per handle, and cells of cages and pseudo-edges."""
+        return self._handles
 
     @property
     def weights(self):
         """The weights, (#V, #handles), with the handle of each column in ``names``."""
-        array = self.mesh.GetPointData().GetArray("Weights")
+        array = self._mesh.GetPointData().GetArray("Weights")
         if array is None:
             raise InvalidInput("the mesh of the rig has no point array 'Weights'")
         names = [array.GetComponentName(j) for j in range(array.GetNumberOfComponents())]
-        return Array(point_array(self.mesh, "Weights"), self.report, names)
+        return Array(point_array(self._mesh, "Weights"), self.report, names)
 
     @property
     def report(self):
         """The report of the weights: certificates, counts and seconds; see `bindpose.report`."""
-        return report(self.mesh)
+        return run_of(self._mesh) or report(self._mesh)
 
     @property
     def extrema(self):
@@ -82,7 +108,7 @@ class Rig:
 
     @property
     def number_of_binds(self):
-        """Number of times that a pose method was prepared. Poses do not change it, except the first of a method."""
+        """Number of times that a pose method was prepared: once per method, and again for options that need it."""
         return sum(method.filter.GetNumberOfBinds() for method in self._methods.values())
 
     @property
@@ -93,23 +119,27 @@ class Rig:
     @property
     def moved_handles(self):
         """Names of the handles that were moved at rest since the weights were computed."""
-        points = self.handles.GetPoints()
+        points = self._handles.GetPoints()
         if points and points.GetMTime() == self._rest_time:
             return []
-        if not points or points.GetNumberOfPoints() != len(self._rest):
-            return _names(self.handles)
-        changed = (numpy_support.vtk_to_numpy(points.GetData()) != self._rest).any(axis=1)
-        if not changed.any():
-            return []
-        cells = [self.handles.GetCell(i).GetPointIds() for i in range(self.handles.GetNumberOfCells())]
-        return [name for name, ids in zip(_names(self.handles), cells)
-                if name and any(changed[ids.GetId(k)] for k in range(ids.GetNumberOfIds()))]
+        rest = _rest_points(self._handles)
+        if rest.shape != self._rest.shape:
+            return [name for name in cell_names(self._handles) if name]
+        changed = (rest != self._rest).any(axis=1)
+        moved, ids = [], vtkIdList()
+        for cell, name in enumerate(cell_names(self._handles)):
+            self._handles.GetCellPoints(cell, ids)
+            if name and any(changed[ids.GetId(k)] for k in range(ids.GetNumberOfIds())):
+                moved.append(name)
+        return moved
 
     @with_options("pose_method", "skinning", "arap", "time_budget", "reduced_arap_bind", "moving_least_squares", "variational")
     def pose(self, pose, *, out=None, threads=0, **options):
         """Return the mesh in a pose.
 
-        The first pose of a method prepares the method. The result has the same bits as that of `deform`.
+        The first pose of a method prepares the method and has the same bits as the result of `deform`. As-rigid-as-possible
+        methods start each later pose from the last one, so that a drag needs few iterations; the results agree within
+        `tolerance`. All other methods always have the bits of `deform`.
 
         Parameters
         ----------
@@ -142,53 +172,81 @@ class Rig:
         BindposeWarning
             A warning of the method, or weights that are out of date (once per rig).
         """
-        key = tuple(options.items())
-        method = self._methods.get(key)
-        if method is None:
-            method = self._methods[key] = _Method(self, checked_options(options, *Rig.pose.option_sets))
-        result, points = self._destination(out)
-        posed = method.pose(pose, points, threads)
-        self._last = method.filter
-        if not posed or method.filter.GetStatus() or method.filter.GetNumberOfWarnings():
-            check_status(method.filter, self.pose_report)
-        if not self._warned and self.moved_handles:
-            self._warned = True
-            warn(f"these handles were moved since the weights were computed: {', '.join(self.moved_handles)}; "
-                 "compute the weights again by bindpose.bind()", BindposeWarning)
-        if result is not out and is_dataset(result):
-            result.GetPointData().SetNormals(None)
-        return result
+        with self._lock:
+            method = self._method(options)
+            result, points = self._destination(out)
+            posed = method.pose(pose, points, threads)
+            self._last = method.filter
+            if not posed or method.filter.GetStatus() or method.filter.GetNumberOfWarnings():
+                check_status(method.filter, self.pose_report)
+            if not self._warned and self.moved_handles:
+                self._warned = True
+                warn(f"these handles were moved since the weights were computed: {', '.join(self.moved_handles)}; "
+                     "compute the weights again by bindpose.bind()", BindposeWarning)
+            return result
 
     def save(self, path, *, frames=(), fps=24.0, animation="joints", maximum_influences=0, overwrite=False):
-        """Write the rig as a skinned glTF 2.0 file; see `write_rig`."""
-        return write_rig(self.mesh, self.handles, path, frames=frames, fps=fps, animation=animation,
+        """Write the rig as a skinned glTF 2.0 file; see `write_rig`. Without `frames`, the rig's animation is written."""
+        if not frames and self.animation:
+            frames = deform(self._mesh, self._handles, self.animation)
+            fps = self.animation.get("fps", fps)
+        return write_rig(self._mesh, self._handles, path, frames=frames, fps=fps, animation=animation,
                          maximum_influences=maximum_influences, overwrite=overwrite)
+
+    def _method(self, options):
+        """Return the prepared method with these options. The filter binds again only if an option needs it."""
+        try:
+            name = options.get("method", "lbs")
+            method = self._methods.get(name)
+        except TypeError:
+            name, method = None, None  # not hashable: the check of the options names it
+        if method is None or method.given != options:
+            checked = checked_options(options, *Rig.pose.option_sets)
+            if method is None:
+                method = self._methods[checked.method] = _Method(self, checked)
+            else:
+                apply_deformation_options(method.filter, checked)
+            method.given = dict(options)
+        return method
 
     def _destination(self, out):
         """Return the result of a pose, and the array of VTK for its points."""
-        count = self.mesh.GetNumberOfPoints()
+        count = self._mesh.GetNumberOfPoints()
         if out is None and not self._gives_arrays:
-            out = like(self.mesh, shallow_copy(self.mesh))
+            result = like(self._mesh, shallow_copy(self._mesh))
+            result.GetPointData().SetNormals(None)
+            for k in reversed(range(result.GetFieldData().GetNumberOfArrays())):
+                if (result.GetFieldData().GetArrayName(k) or "").startswith("Report."):
+                    result.GetFieldData().RemoveArray(k)
+            remember_run(result, {})
             points = vtkPoints()
-            points.SetData(vtkDoubleArray())
-            out.SetPoints(points)
-            return out, points.GetData()
+            points.SetDataTypeToDouble()
+            points.SetNumberOfPoints(count)
+            result.SetPoints(points)
+            return result, points.GetData()
         if is_dataset(out):
             points = out.GetPoints() if hasattr(out, "GetPoints") else None
-            if points is None or points is self.mesh.GetPoints() or out.GetNumberOfPoints() != count or \
+            if points is None or points is self._mesh.GetPoints() or out.GetNumberOfPoints() != count or \
                     not points.GetData().IsA("vtkDoubleArray"):
                 raise InvalidInput("out must be a dataset that an earlier call of pose() returned")
             points.Modified()
             return out, points.GetData()
         if out is None:
             out = np.empty((count, 3))
-        elif out is self._output[0]:
-            return out, self._output[1]
-        elif not isinstance(out, np.ndarray) or out.shape != (count, 3) or out.dtype != np.float64 or \
+            return out, numpy_support.numpy_to_vtk(out)
+        if not isinstance(out, np.ndarray) or out.shape != (count, 3) or out.dtype != np.float64 or \
                 not out.flags.c_contiguous or not out.flags.writeable:
             raise InvalidInput(f"out must be a writeable contiguous array {count} x 3 of float64, or a dataset from pose()")
-        self._output = (out, numpy_support.numpy_to_vtk(out))
-        return self._output
+        address = out.ctypes.data
+        known = self._outputs.get(address)
+        if known is None or known[0] is not out:
+            arrays = [self._mesh.GetPoints().GetData(), self._mesh.GetPointData().GetArray("Weights")]
+            if any(np.shares_memory(out, numpy_support.vtk_to_numpy(array)) for array in arrays if array):
+                raise InvalidInput("out must be an array that shares no memory with the mesh of the rig")
+            if len(self._outputs) > 1:
+                self._outputs.pop(next(iter(self._outputs)))
+            known = self._outputs[address] = (out, numpy_support.numpy_to_vtk(out))
+        return known
 
 
 class _Method:
@@ -196,48 +254,56 @@ class _Method:
 
     def __init__(self, rig, options):
         self.filter = make_deformation(options)
-        self.handles = shallow_copy(rig.handles)
+        self.given = {}  # the options as the caller wrote them
+        self._source = rig.handles
+        self._source_time = 0
+        self._handles = None
+        self._columns = rig.mesh.GetPointData().GetArray("Weights")
+        self._has_array = False  # whether the last pose was an array
         self.filter.SetInputData(0, rig.mesh)
-        self.filter.SetInputData(1, self.handles)
-        self._given = rig.handles.GetCellData().GetArray("Transform")
-        self._transforms = None  # the array of a pose that was passed as an array
 
     def pose(self, pose, points, threads):
+        if self._source_time != self._source.GetMTime():
+            self._source_time = self._source.GetMTime()
+            self._handles = shallow_copy(self._source)
+            self._has_array = False
+            self.filter.SetInputData(1, self._handles)
         self.filter.SetNumberOfThreads(threads)
-        if isinstance(pose, (dict, str)):
-            if self._transforms is not None:
+        if isinstance(pose, (Mapping, str)):
+            if self._has_array:
                 self._set_transforms(None)
-            return self.filter.PosePoints(pose if isinstance(pose, str) else _pose_text(pose), points)
+            return self.filter.PosePoints(_pose_text(pose), points)
         self._set_transforms(pose)
         return self.filter.PosePoints("", points)
 
     def _set_transforms(self, values):
         """Set the transforms of all handles; None: those of the rig."""
-        data = self.handles.GetCellData()
+        data = self._handles.GetCellData()
+        own = self._source.GetCellData().GetArray("Transform")
+        self._has_array = values is not None
         if values is None:
-            self._transforms = None
             data.RemoveArray("Transform")
-            if self._given is not None:
-                data.AddArray(self._given)
+            if own is not None:
+                data.AddArray(own)
             return
-        values = np.asarray(values, dtype=float)
-        count = self.handles.GetNumberOfCells()
-        if values.shape not in ((count, 3, 4), (count, 12)):
-            raise InvalidInput(f"a pose as an array must be {count} x 3 x 4, one affine map per handle "
-                               f"(got {' x '.join(map(str, values.shape))})")
-        self._transforms = numpy_support.numpy_to_vtk(np.ascontiguousarray(values.reshape(count, 12)), deep=True)
-        self._transforms.SetName("Transform")
-        data.AddArray(self._transforms)
+        try:
+            values = np.asarray(values, dtype=float)
+        except (TypeError, ValueError):
+            values = None
+        cells = handle_cells(self._handles)
+        count = len(cells)
+        if values is None or values.shape not in ((count, 3, 4), (count, 12)):
+            raise InvalidInput(f"a pose must be a dict, a text, or an array {count} x 3 x 4 of one affine map per handle")
+        maps = np.tile(np.eye(3, 4).ravel(), (self._handles.GetNumberOfCells(), 1))
+        maps[cells] = values.reshape(count, 12)
+        array = numpy_support.numpy_to_vtk(maps, deep=True)
+        array.SetName("Transform")
+        data.AddArray(array)
 
 
 def _rest_points(handles):
     points = handles.GetPoints()
     return np.array(numpy_support.vtk_to_numpy(points.GetData())) if points else np.zeros((0, 3))
-
-
-def _names(handles):
-    array = handles.GetCellData().GetAbstractArray("HandleName")
-    return [array.GetValue(i) for i in range(array.GetNumberOfValues())] if array else []
 
 
 def _plain(value):
@@ -248,7 +314,11 @@ def _plain(value):
 
 
 def _pose_text(pose):
-    """Return the text of a pose file, from its content or from a dict of handle names."""
+    """Return the text of a pose file, from its text, its content or a dict of handle names."""
+    if isinstance(pose, str):
+        if not pose.lstrip().startswith("{"):
+            raise InvalidInput("a pose as a text must be the content of a pose file; deform() reads files")
+        return pose
     content = {"version": 2, **pose} if "handles" in pose or "frames" in pose else {"version": 2, "handles": pose}
     try:
         return json.dumps(content, default=_plain)

@@ -68,8 +68,10 @@ class ProgressBar:
 
     def close(self):
         """Delete the bar."""
-        sys.stderr.write("\r" + " " * len(self._line) + "\r")
-        sys.stderr.flush()
+        if self._line:
+            sys.stderr.write("\r" + " " * len(self._line) + "\r")
+            sys.stderr.flush()
+            self._line = ""
 
 
 def run(algorithm, progress=None):
@@ -119,6 +121,8 @@ def run(algorithm, progress=None):
         try:
             algorithm.Write() if hasattr(algorithm, "Write") else algorithm.Update()
         finally:
+            if isinstance(progress, ProgressBar):
+                progress.close()
             for observer in observers:
                 algorithm.RemoveObserver(observer)
     if failed:

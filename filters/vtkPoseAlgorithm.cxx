@@ -170,6 +170,11 @@ bool vtkPoseAlgorithm::PosePoints(const std::string& pose, vtkDoubleArray* point
       {
         return Status::invalid_input("PosePoints() needs an array for the points");
       }
+      if (!this->CanPosePoints())
+      {
+        return Status::invalid_input(
+          std::string(this->GetClassName()) + " has no PosePoints(): its points depend on time");
+      }
       const Status prepared =
         this->PrepareRest(context, this->GetExecutive()->GetInputInformation(), pose);
       if (!prepared.usable())
@@ -177,7 +182,8 @@ bool vtkPoseAlgorithm::PosePoints(const std::string& pose, vtkDoubleArray* point
         return prepared;
       }
       const PoseInput& input = this->GetPoseInput();
-      if (points == input.mesh->GetPoints()->GetData())
+      const void* memory = points->GetNumberOfValues() > 0 ? points->GetVoidPointer(0) : nullptr;
+      if (memory && memory == input.mesh->GetPoints()->GetVoidPointer(0))
       {
         return Status::invalid_input(
           "the points of a pose cannot be written into the mesh at rest");

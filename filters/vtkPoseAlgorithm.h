@@ -64,13 +64,14 @@ public:
 
   /**
    * Compute the points of a pose without updating the pipeline, for interactive use. The points
-   * have the same bits as those of Update(), but nothing else is computed: no output, no normals
-   * and no stretch. The inputs must be up to date. The filter binds if the last bind is not valid.
-   * Cost beyond solving and skinning: about 10 microseconds, and 1 microsecond per posed handle.
+   * have the same bits as those of Update() from the same start (as-rigid-as-possible methods start
+   * from their last result), but nothing else is computed: no output, no normals and no stretch.
+   * The inputs must be up to date. The filter binds if the last bind is not valid. There are no
+   * progress events. Calls are not thread-safe.
    * @param pose  text of a pose file with one pose (see vtkPoseHandles), which is applied to the
    * pose of the handles at port 1; empty: that pose
-   * @param points  the result, 3 components per point of the mesh; resized if it has another size.
-   * It must not be the array of the mesh's own points.
+   * @param points  the result, 3 components per point of the mesh. An array of another size gets
+   * new memory. It must not use the memory of the mesh's own points.
    * @return whether there is a result; if not, see GetStatus() and GetStatusMessage(). No error or
    * warning event is invoked.
    */
@@ -83,6 +84,10 @@ protected:
   /// Compute the posed points.
   virtual bindpose::Status Deform(bindpose::ExecutionContext& context,
     const bindpose::PoseInput& input, bindpose::PosedPoints& posed) = 0;
+
+  /// Report whether PosePoints() is possible: whether a pose alone determines the points. Default:
+  /// true.
+  virtual bool CanPosePoints() { return true; }
 
   /// Compute the posed normals of a vtkPolyData with normals, after Deform(). The default
   /// implementation computes area-weighted normals of the posed polygons.

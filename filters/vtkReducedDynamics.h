@@ -133,6 +133,8 @@ protected:
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   bindpose::Status Bind(
     bindpose::ExecutionContext& context, const bindpose::PoseInput& input) override;
+  /// The points also depend on the steps before.
+  bool CanPosePoints() override { return false; }
   bindpose::Status Deform(bindpose::ExecutionContext& context, const bindpose::PoseInput& input,
     bindpose::PosedPoints& posed) override;
   bindpose::Status DeformNormals(bindpose::ExecutionContext& context,

@@ -108,10 +108,11 @@ def test_every_bind_and_pose_setter_is_described():
 def test_signature_documentation_and_stub():
     signature = inspect.signature(bindpose.tetrahedralize)
     assert list(signature.parameters)[:2] == ["surface", "handles"]
-    assert list(signature.parameters)[-2:] == ["threads", "progress"]
+    assert list(signature.parameters)[-3:] == ["threads", "progress", "progress_bar"]
     stub = ast.parse((pathlib.Path(bindpose.__file__).parent / "functions.pyi").read_text(encoding="utf-8"))
     function = next(node for node in stub.body if getattr(node, "name", "") == "tetrahedralize")
     stubbed = {argument.arg for argument in function.args.kwonlyargs}
+    assert "progress_bar" in stubbed
     for option in SETS["tetrahedralize"].of_layer("python"):
         assert signature.parameters[option.name].default == option.default
         assert signature.parameters[option.name].kind == inspect.Parameter.KEYWORD_ONLY

@@ -15,9 +15,19 @@ def test_a_picture_is_an_array():
     picture = bindpose.render(shapes.cube(), size="200x160")
     assert picture.shape == (160, 200, 3) and picture.dtype == np.uint8
     assert len(np.unique(picture.reshape(-1, 3), axis=0)) > 10
-    # The first row is at the top: the background is lighter there than at the bottom, or the other way round, in both.
     clear = bindpose.render(to_dataset(shapes.cube()), size="200x160", transparent=True)
     assert clear.shape == (160, 200, 4) and set(np.unique(clear[..., 3])) >= {0, 255}
+
+
+def test_the_first_row_of_a_picture_is_at_the_top():
+    points, triangles = shapes.cube()
+    flat = np.array(points) * [1, 0.2, 1] + [0, 5, 0]
+    low = np.array(points) * 0.01
+    tower = (np.concatenate([flat, low]), np.concatenate([triangles, np.array(triangles) + len(points)]))
+    alpha = bindpose.render(tower, size="200x200", transparent=True)[..., 3]
+    covered = np.nonzero(alpha.any(axis=1))[0]
+    widths = (alpha > 0).sum(axis=1)
+    assert widths[covered[:10]].max() > 5 * widths[covered[-10:]].max()
 
 
 def test_several_meshes_handles_and_context(tmp_path):

@@ -380,8 +380,9 @@ def as_markdown(results, command):
         answered = [row for row in rows if row.answered]
         lines += ["", f"## --method {method}", "", *(f"- {line}" for line in text), "",
                   "| | median | 95 % | largest |", "|---|--:|--:|--:|",
-                  percentiles("seconds", [row.seconds for row in rows]),
-                  percentiles("tets per triangle", [row.report["counts"]["tets"] / row.triangles for row in answered])]
+                  percentiles("seconds", [row.seconds for row in rows])]
+        if answered:
+            lines.append(percentiles("tets per triangle", [row.report["counts"]["tets"] / row.triangles for row in answered]))
         lines += ["", f"The {SHOWN} slowest:", "", "| " + " | ".join(HEADS) + " |", "|---|--:|---|" + "--:|" * 7]
         lines += ["| " + " | ".join(row.cells()) + " |" for row in sorted(rows, key=lambda row: -row.seconds)[:SHOWN]]
         sentences = collections.defaultdict(list)

@@ -9,7 +9,7 @@ namespace bindpose
 {
 
 /// Reorder the elements from `begin` to `end` so that no element before `middle` has a larger key
-/// than one from `middle` on. All trees that divide elements at their median use this function.
+/// than one from `middle` on, as a tree does that divides its elements at their median.
 /// Cost: linear on average.
 /// @param key  returns for an element its coordinate along the axis of the division and its id, as
 /// a pair. The id decides if coordinates are equal, so that the two sets of elements do not depend

@@ -37,7 +37,7 @@ constexpr std::array<WindowKey, 46> window_keys{ {
   { "rest_pose", "anywhere", "Ctrl+R", "Take all handles back to rest" },
   { "", "anywhere", "1 … 7",
     "Pose method: linear, dual quaternions, stretchable bones, centers of rotation, reduced ARAP, "
-    "full ARAP, fair surface" },
+    "full ARAP, variational surface" },
   { "play", "anywhere", "Space", "Play key frames, or pause" },
   { "set_key", "anywhere", "K", "Set a key frame" },
   { "keys", "anywhere", "?, F1", "Show this list of keys" },

@@ -137,6 +137,44 @@ TEST(Sessions, ComeBackToTheLastBit)
   EXPECT_EQ(after.history()->count(), 0);
 }
 
+TEST(Sessions, WordsOfChoicesNeverChange)
+{
+  // Old session files contain these words, in the order of the former integers.
+  const std::pair<const char*, const char*> expected[] = {
+    { "bind.domain", "auto volume embedding cage surface" },
+    { "pose.method", "lbs dqs reduced-arap stbs cor full-arap variational" },
+    { "pose.endpoints", "projection joints bounded" },
+    { "pose.pseudo_edges", "none given auto" },
+    { "pose.energy", "auto spokes-and-rims elements spokes" },
+    { "pose.extra_kind", "bumps eigenmodes" },
+    { "pose.rotations", "none clusters angles" },
+    { "pose.order", "membrane thin-plate third-order" },
+    { "pose.boundary", "region curve tangent" },
+    { "pose.compared", "none lbs dqs reduced-arap stbs cor full-arap variational" },
+    { "pose.ghost", "over beside distance" },
+    { "motion.down", "x y z" },
+    { "weights.what", "weights row-sums difference" },
+    { "weights.raw", "normalized raw" },
+    { "weights.orientation", "x y z free" },
+    { "tets.method", "auto cdt remesh embed wrap ftetwild hull" },
+    { "tets.colors", "plain winding-number label quality method" },
+    { "tets.orientation", "x y z free" },
+    { "volume.samples", "coarse medium fine" },
+    { "volume.orientation", "x y z free" },
+    { "volume.surface_look", "solid see-through edges hidden" },
+  };
+  for (const auto& [key, words] : expected)
+  {
+    ASSERT_TRUE(find_option(key)) << key;
+    QStringList found;
+    for (const OptionChoice& choice : find_option(key)->choices)
+    {
+      found << choice.word;
+    }
+    EXPECT_EQ(found.join(' ').toStdString(), words) << key;
+  }
+}
+
 TEST(Sessions, ChoicesAreWordsInTheFile)
 {
   const test::Folder folder;

@@ -103,7 +103,7 @@ Status find_edges(ExecutionContext& context, PointsView points, const Elements& 
   const Handles& handles, PseudoEdges& edges)
 {
   edges.clear();
-  const Status valid = check_mesh(points, elements);
+  Status valid = check_mesh(points, elements);
   if (!valid.ok())
   {
     return valid;
@@ -202,14 +202,14 @@ struct EdgeRotation
       return; // an edge of length zero has no direction
     }
     const Eigen::Vector4d q = minimal_rotation(rest, posed).coeffs();
-    this->quaternion += this->edges > 0 && q.dot(this->first) < 0.0 ? Eigen::Vector4d(-q) : q;
-    this->first = this->edges > 0 ? this->first : q;
+    this->quaternion += this->edges > 0 && q.dot(this->first_) < 0.0 ? Eigen::Vector4d(-q) : q;
+    this->first_ = this->edges > 0 ? this->first_ : q;
     this->ratio += to / from;
     this->edges += 1;
   }
 
 private:
-  Eigen::Vector4d first = Eigen::Vector4d::Zero();
+  Eigen::Vector4d first_ = Eigen::Vector4d::Zero();
 };
 } // namespace
 

@@ -68,8 +68,8 @@ Pose without_free_transforms(Pose pose)
 /// Options that the program also sets by itself. A change of such an option is not an undo step, so
 /// undo does not revert it.
 const char* const automatic_options[] = { "show.column", "weights.column", "weights.what",
-  "weights.raw", "tets.shown", "tets.colors", "defects.shown", "volume.level",
-  "volume.isosurface" };
+  "weights.raw", "tets.shown", "tets.colors", "defects.shown", "volume.level", "volume.isosurface",
+  "volume.orientation", "tets.orientation", "tets.other_side", "weights.orientation" };
 
 using Fingerprints = std::map<std::string, std::string>;
 

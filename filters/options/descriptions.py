@@ -105,7 +105,7 @@ class Set:
         return [option for option in self.options if layer in option.layers]
 
 
-MENTION = re.compile(r"`(\w+)`")
+MENTION = re.compile(r"`([\w-]+)`")
 
 
 def mentions(option):
@@ -179,9 +179,15 @@ def check_option(option, allowed_fields, types):
             check_default(option, default)
 
 
+def check_mentions(option, others, owner):
+    """Check that the help of an option mentions only options of the same set or verb."""
+    names = {other.name for other in others}
+    unknown = [name for name in mentions(option) if name not in names]
+    require(not unknown, option.where, f"help mentions '{unknown[0] if unknown else ''}', which is not an option of the {owner}")
+
+
 def check_references(sets):
-    """Check that the methods of each option are choices of the option `method`, and that its help mentions only options
-    of the same set."""
+    """Check that the methods of each option are choices of the option `method`, and the mentions of its help."""
     known = {}
     for group in sets.values():
         for option in group.options:
@@ -190,8 +196,7 @@ def check_references(sets):
     for group in sets.values():
         words = known.get(group.methods_of or group.name, set())
         for option in group.options:
-            unknown = [name for name in mentions(option) if name not in {other.name for other in group.options}]
-            require(not unknown, option.where, f"help mentions '{unknown[0] if unknown else ''}', which is not an option of the set")
+            check_mentions(option, group.options, "set")
             strange = [word for word in option.methods() if word not in words]
             require(not strange, option.where, f"unknown method '{strange[0] if strange else ''}'")
 
@@ -232,22 +237,27 @@ class Verb:
     def __init__(self, fields, sets, where):
         self.name = fields["name"]
         self.help = fields["help"]
+        self.methods = []  # none: an option of a verb belongs to no method
         self.options = []
         self.sets = []
+        own = []
         for entry in fields["options"]:
             if "set" in entry:
                 require(entry["set"] in sets, f"{where}: verb '{self.name}'", f"unknown set '{entry['set']}'")
                 self.sets.append(sets[entry["set"]])
                 self.options += self.sets[-1].of_layer("cli")
             else:
-                self.options.append(verb_option(entry, f"{where}: verb '{self.name}'"))
+                own.append(verb_option(entry, f"{where}: verb '{self.name}'", self))
+                self.options.append(own[-1])
         names = [cli_name(option) for option in self.options]
         twice = [name for name in names if names.count(name) > 1]
         require(not twice, f"{where}: verb '{self.name}'", f"option '{twice[0] if twice else ''}' is listed twice")
+        for option in own:
+            check_mentions(option, self.options, "verb")
 
 
-def verb_option(fields, where):
-    option = Option(fields, where)
+def verb_option(fields, where, owner=None):
+    option = Option(fields, where, owner)
     check_option(option, VERB_OPTION_FIELDS, VERB_TYPES)
     return option
 

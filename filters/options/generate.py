@@ -8,6 +8,8 @@ usage: generate.py check                              read and check all descrip
        generate.py paraview TEMPLATE.xml OUT.xml      proxies with their properties
        generate.py python-table OUT.py                the table of the Python package
        generate.py python-stub MODULE.py OUT.pyi      the stub of a module
+       generate.py python-package-stub __init__.py vtkCLASS.h… OUT.pyi
+                                                      the stub of the package, with VTK classes
        generate.py page PAGE.md OUT.md                a page with its tables of options; OUT may be PAGE
 """
 
@@ -27,6 +29,10 @@ def read(path):
 
 
 def generated(kind, inputs):
+    if kind == "python-package-stub":
+        classes = [pathlib.Path(header).stem for header in inputs[1:]]
+        wrapped = [name for name, header in zip(classes, inputs[1:]) if f"_EXPORT {name} " in read(header)]
+        return python_package.package_stub(read(inputs[0]), wrapped)
     sets = read_sets()
     if kind == "window":
         return window.header(sets)
@@ -51,10 +57,12 @@ def main():
               "page": 1}
     arguments = sys.argv[1:]
     kind = arguments[0] if arguments else ""
+    if kind == "python-package-stub":
+        inputs[kind] = max(1, len(arguments) - 2)
     if kind not in inputs or len(arguments) != (1 if kind == "check" else 2 + inputs[kind]):
         sys.exit(__doc__)
     try:
-        text = generated(kind, arguments[1:])
+        text = generated(kind, arguments[1:-1])
     except DescriptionError as error:
         sys.exit(f"generate.py: {error}")
     if kind != "check":

@@ -3,7 +3,7 @@
 import ast
 import pprint
 
-from descriptions import vtk_name
+from descriptions import MENTION, cli_name, vtk_name
 
 NOTE = "# Generated from the descriptions of options; see filters/options/README.md. Do not edit.\n"
 TYPES = {"flag": "bool", "integer": "int", "id": "int", "number": "float", "integers": "Sequence[int]",
@@ -17,14 +17,14 @@ def python_word(word):
     return int(word) if word.isdigit() else word
 
 
-def of_render(verbs):
-    """Return the options of the verb `render` that are no files: those of the function `render`."""
+def render_options(verbs):
+    """Return the options of the function `render`: those of the verb `render` except files."""
     render = next(verb for verb in verbs if verb.name == "render")
     return [option for option in render.options if option.type != "path"]
 
 
 def entry(option):
-    """Return the fields of an option that the package needs at run time."""
+    """Return the fields of an option that functions with options need at run time."""
     fields = option.fields
     default = option.default_of("python")
     if option.type == "flag" and default is None:
@@ -35,19 +35,32 @@ def entry(option):
         default = float(default)
     if option.defaults or option.type == "point_array":
         default = None  # the default of the filter itself
-    return {"name": option.name.replace("-", "_"), "setter": f"Set{vtk_name(option)}", "type": option.type,
+    return {"name": option.name.replace("-", "_"), "type": option.type,
             "default": tuple(default) if isinstance(default, list) else default,
-            "choices": {python_word(word): value for word, value in option.choices.items()}, "length": option.length, "help": option.help, "values": option.values_text(),
-            "methods": list(option.methods()), "defaults": dict(option.defaults), "array": option.default,
-            "integers": fields.get("integers", False),
+            "choices": {python_word(word): value for word, value in option.choices.items()}, "length": option.length,
+            "help": MENTION.sub(lambda found: f"`{found[1].replace('-', '_')}`", option.help),
+            "values": option.values_text(), "methods": list(option.methods()), "defaults": dict(option.defaults),
             **{key: fields[key] for key in ("minimum", "above", "maximum", "below") if key in fields}}
 
 
+def filter_entry(option):
+    """Return the fields of an option that is passed to a filter."""
+    return {**entry(option), "setter": f"Set{vtk_name(option)}", "array": option.default,
+            "integers": option.fields.get("integers", False)}
+
+
+def word_entry(option):
+    """Return the fields of an option that is passed to the program."""
+    return {**entry(option), "word": f"--{cli_name(option)}"}
+
+
 def table(sets, verbs):
-    entries = {name: [entry(option) for option in group.of_layer("python")] for name, group in sets.items()}
-    entries["render"] = [entry(option) for option in of_render(verbs)]
-    described = {name: options for name, options in entries.items() if options}
-    return NOTE + '"""The options of the stages, by set."""\n\nSETS = ' + pprint.pformat(described, width=120, sort_dicts=False) + "\n"
+    groups = {name: [filter_entry(option) for option in group.of_layer("python")] for name, group in sets.items()}
+    described = {name: options for name, options in groups.items() if options}
+    words = {"render": [word_entry(option) for option in render_options(verbs)]}
+    return (f'{NOTE}"""The options of filters, by set, and of the program, by verb."""\n\n'
+            f"SETS = {pprint.pformat(described, width=120, sort_dicts=False)}\n\n"
+            f"VERBS = {pprint.pformat(words, width=120, sort_dicts=False)}\n")
 
 
 # ---- Stubs -----------------------------------------------------------------------------------------
@@ -67,7 +80,7 @@ def described_options(function, sets, verbs):
         if isinstance(decorator, ast.Call) and getattr(decorator.func, "id", "") == "with_options":
             names = [argument.value for argument in decorator.args]
             words = {keyword.arg: ast.literal_eval(keyword.value) for keyword in decorator.keywords}
-            described = {**{name: group.of_layer("python") for name, group in sets.items()}, "render": of_render(verbs)}
+            described = {**{name: group.of_layer("python") for name, group in sets.items()}, "render": render_options(verbs)}
             return [option for name in names for option in described[name]
                     if option.name in words.get("only", [option.name]) and option.name not in words.get("without", ())]
     return None
@@ -91,7 +104,8 @@ def without_body(function, sets, verbs):
     """Replace the arguments, the decorator of options and the body of a function for a stub."""
     options = described_options(function, sets, verbs)
     if options is not None:
-        replace_argument(function, options)
+        if options:
+            replace_argument(function, options)
         names = [argument.arg for argument in function.args.kwonlyargs]
         if "progress" in names and "progress_bar" not in names:
             function.args.kwonlyargs.append(ast.arg("progress_bar", ast.Name("bool")))
@@ -107,7 +121,8 @@ def stub(source, sets, verbs):
             ("from collections.abc import Sequence", "from typing import Literal", "from numpy.typing import ArrayLike")]
     for node in tree.body:
         if isinstance(node, (ast.Import, ast.ImportFrom)):
-            body.append(node)
+            if getattr(node, "module", "") != "__future__":
+                body.append(node)
         elif isinstance(node, ast.FunctionDef) and not node.name.startswith("_"):
             without_body(node, sets, verbs)
             body.append(node)
@@ -118,3 +133,14 @@ def stub(source, sets, verbs):
                     without_body(child, sets, verbs)
             body.append(node)
     return NOTE + ast.unparse(ast.fix_missing_locations(ast.Module(body, []))) + "\n"
+
+
+def package_stub(source, classes):
+    """Return the stub of the package: its functions as public names, and its VTK classes with methods of any type."""
+    text = f"{NOTE}from typing import Any\n\n"
+    for node in ast.parse(source).body:
+        if isinstance(node, ast.ImportFrom) and node.names[0].name != "*":
+            node.names = [ast.alias(each.name, each.name) for each in node.names]
+            text += ast.unparse(node) + "\n"
+    text += "\nclass _VTKClass:\n    def __init__(self) -> None: ...\n    def __getattr__(self, name: str) -> Any: ...\n\n"
+    return text + "".join(f"class {name}(_VTKClass): ...\n" for name in sorted(classes))

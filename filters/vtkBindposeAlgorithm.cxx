@@ -207,15 +207,8 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
     this->SetErrorCode(vtkErrorCode::NoError);
     return 1;
   }
-  bindpose::ExecutionContext context(
-    [this](double fraction, const std::string& phase)
-    {
-#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 0)
-      this->CheckAbort();
-#endif
-      this->SetProgressText(phase.c_str());
-      this->UpdateProgress(fraction);
-    },
+  bindpose::ExecutionContext context([this](double fraction, const std::string& phase)
+    { this->ReportProgress(fraction, phase); },
     [this]() { return this->GetAbortExecute() != 0; });
   context.set_threads(this->NumberOfThreads);
 
@@ -274,11 +267,22 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
   return 1;
 }
 
+void vtkBindposeAlgorithm::ReportProgress(double fraction, const std::string& phase)
+{
+#if VTK_VERSION_NUMBER >= VTK_VERSION_CHECK(9, 2, 0)
+  this->CheckAbort();
+#endif
+  this->SetProgressText(phase.c_str());
+  this->UpdateProgress(fraction);
+}
+
 bool vtkBindposeAlgorithm::ExecuteDirectly(
   const std::function<bindpose::Status(bindpose::ExecutionContext& context)>& work)
 {
   this->SetAbortExecute(0); // as the executive does before an execution
-  bindpose::ExecutionContext context({}, [this]() { return this->GetAbortExecute() != 0; });
+  bindpose::ExecutionContext context([this](double fraction, const std::string& phase)
+    { this->ReportProgress(fraction, phase); },
+    [this]() { return this->GetAbortExecute() != 0; });
   context.set_threads(this->NumberOfThreads);
   *this->LastStatus = status_of([&]() { return work(context); });
   bindpose::add_outcome(*this->LastStatus);

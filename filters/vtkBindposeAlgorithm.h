@@ -139,10 +139,10 @@ protected:
     vtkInformationVector** input, vtkInformationVector* output) = 0;
 
   /**
-   * Do work outside of the pipeline, with the filter's number of threads and abort flag. The status
-   * becomes that of the filter. No error or warning event is invoked. The report has the status,
-   * the message, the warnings and the seconds per phase, but no memory, which would take longer to
-   * measure than short work takes.
+   * Do work outside of the pipeline, with the filter's number of threads, abort flag and progress
+   * events. The status becomes that of the filter until the next execution. No error or warning
+   * event is invoked. The report has the status, the message, the warnings and the seconds per
+   * phase, but no memory, which would take longer to measure than short work takes.
    * @return whether the status is usable
    */
   bool ExecuteDirectly(
@@ -153,6 +153,7 @@ private:
   void operator=(const vtkBindposeAlgorithm&) = delete;
 
   int RequestData(vtkInformationVector** input, vtkInformationVector* output);
+  void ReportProgress(double fraction, const std::string& phase);
 
   int NumberOfThreads = 0;
   bool ExecuteAgain = false;

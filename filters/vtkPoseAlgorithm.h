@@ -66,14 +66,15 @@ public:
    * Compute the points of a pose without updating the pipeline, for interactive use. The points
    * have the same bits as those of Update() from the same start (as-rigid-as-possible methods start
    * from their last result), but nothing else is computed: no output, no normals and no stretch.
-   * The inputs must be up to date. The filter binds if the last bind is not valid. There are no
-   * progress events. Calls are not thread-safe.
+   * The filter binds if the last bind is not valid. The inputs must be up to date, because nothing
+   * before this filter is executed. Calls are not thread-safe.
    * @param pose  text of a pose file with one pose (see vtkPoseHandles), which is applied to the
    * pose of the handles at port 1; empty: that pose
    * @param points  the result, 3 components per point of the mesh. An array of another size gets
-   * new memory. It must not use the memory of the mesh's own points.
-   * @return whether there is a result; if not, see GetStatus() and GetStatusMessage(). No error or
-   * warning event is invoked.
+   * new memory, even if it had memory of the caller. The memory must not overlap that of the mesh
+   * and its arrays.
+   * @return whether there is a result; if not, see GetStatus() and GetStatusMessage(), which tell
+   * the outcome of this call until the next execution. No error or warning event is invoked.
    */
   bool PosePoints(const std::string& pose, vtkDoubleArray* points);
 

@@ -1,21 +1,27 @@
 """Handles from arrays, files and surfaces."""
 
+from __future__ import annotations
+
 import os
+from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import ArrayLike
+from vtkmodules.util import numpy_support
 from vtkmodules.vtkCommonCore import vtkIdTypeArray, vtkIntArray, vtkStringArray
 from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
-from vtkmodules.util import numpy_support
 
 from .BindposeFilters import vtkAutomaticHandles, vtkFarthestPointHandles
 from .errors import InvalidInput
 from .files import read_handles
 from .meshes import is_dataset, shallow_copy, to_dataset, to_vtk_points
 from .options import with_options
+from .parameter_types import Mesh, Progress
 from .running import run
 
 
-def handles(points=None, bones=None, names=None, parents=None, pseudo_edges=None):
+def handles(points: ArrayLike | None = None, bones: ArrayLike | None = None, names: Sequence[str] | None = None,
+            parents: Sequence[int] | None = None, pseudo_edges: ArrayLike | None = None) -> vtkPolyData:
     """Create a handle dataset from arrays.
 
     Parameters
@@ -42,6 +48,12 @@ def handles(points=None, bones=None, names=None, parents=None, pseudo_edges=None
     ------
     InvalidInput
         Arrays of a wrong shape, too many or too few names.
+
+    Examples
+    --------
+    >>> arm = bindpose.handles(bones=[[[0, 0, 0], [1, 0, 0]], [[1, 0, 0], [2, 0, 0]]], names=["upper", "lower"])
+    >>> arm.GetNumberOfCells()
+    2
     """
     points = np.zeros((0, 3)) if points is None else np.array(points, dtype=float, ndmin=2)
     bones = np.zeros((0, 2, 3)) if bones is None else np.array(bones, dtype=float, ndmin=3)
@@ -96,7 +108,8 @@ def _parent(bones, bone, first):
     return -1
 
 
-def farthest_point_handles(surface, count=8):
+@with_options()
+def farthest_point_handles(surface: Mesh, count: int = 8) -> vtkPolyData:
     """Spread point handles p1, p2, … evenly over a surface; the first handles are at tips of the shape.
 
     Parameters
@@ -108,6 +121,13 @@ def farthest_point_handles(surface, count=8):
     -------
     vtkPolyData
         A handle dataset.
+
+    Examples
+    --------
+    >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> bindpose.farthest_point_handles(tetrahedron, 3).GetNumberOfCells()
+    3
     """
     spread = vtkFarthestPointHandles()
     spread.SetInputData(to_dataset(surface))
@@ -116,9 +136,8 @@ def farthest_point_handles(surface, count=8):
     return spread.GetOutput()
 
 
-
 @with_options("automatic_handles")
-def automatic_handles(mesh, *, options, threads=0, progress=None):
+def automatic_handles(mesh: Mesh, *, options, threads: int = 0, progress: Progress = None) -> vtkPolyData:
     """Create handles automatically: bones along the shape's curve skeleton, or points spread over it.
 
     Parameters
@@ -140,6 +159,13 @@ def automatic_handles(mesh, *, options, threads=0, progress=None):
         For bones: the surface is flat or encloses nothing. For points: there are more points than vertices.
     Unavailable
         The helper program is missing, or an unclean surface is too thin to be filled.
+
+    Examples
+    --------
+    >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> bindpose.automatic_handles(tetrahedron, kind="points", number_of_points=2).GetNumberOfCells()
+    2
     """
     maker = vtkAutomaticHandles()
     maker.SetInputData(to_dataset(mesh))

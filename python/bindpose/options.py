@@ -10,11 +10,12 @@ import numpy as np
 
 from .errors import InvalidInput
 from .meshes import like
-from .option_table import SETS
+from .option_table import SETS, VERBS
 from .running import ProgressBar
 
 _ARRAYS = ("point_array", "cell_array")
-_TYPE_NAMES = {"flag": "bool", "integer": "int", "id": "int", "number": "float", "text": "str, number or sequence", "point_array": "str or array_like, optional"}
+_TYPE_NAMES = {"flag": "bool", "integer": "int", "id": "int", "number": "float", "text": "str, number or sequence",
+               "point_array": "str or array_like, optional"}
 
 
 def _type_text(option):
@@ -125,16 +126,21 @@ class Options:
             arguments = value if isinstance(value, tuple) else (value,)
             getattr(algorithm, option["setter"])(*arguments)
 
-    def words(self, name):
-        """Return the options of a set that differ from their defaults as words of the command line."""
+    def words(self, verb):
+        """Return the options of a verb that differ from their defaults, as words of the command line."""
         words = []
-        for option in SETS[name]:
-            value = getattr(self, option["name"], option["default"])
-            if value == option["default"] or value is None:
+        for option in VERBS[verb]:
+            value = getattr(self, option["name"])
+            if value is None or value == option["default"] or value == "":
                 continue
-            words.append("--" + option["name"].replace("_", "-"))
-            if option["type"] != "flag":
-                words.append(",".join(map(str, value)) if isinstance(value, (list, tuple)) else str(value))
+            if option["type"] == "flag":
+                words.append(option["word"])
+                continue
+            parts = value if isinstance(value, (list, tuple)) else [value]
+            commas = [part for part in parts if len(parts) > 1 and "," in str(part)]
+            if commas:
+                raise InvalidInput(f"an entry of {option['name']} must not contain a comma (got {commas[0]!r})")
+            words.append(f"{option['word']}={','.join(map(str, parts))}")
         return words
 
     def arrays(self):
@@ -146,7 +152,7 @@ class Options:
 
 
 def _described(sets, only, without):
-    return {option["name"]: option for name in sets for option in SETS[name]
+    return {option["name"]: option for name in sets for option in (SETS.get(name) or VERBS[name])
             if (only is None or option["name"] in only) and option["name"] not in without}
 
 
@@ -160,17 +166,19 @@ def checked_options(given, *sets):
 
 
 def with_options(*sets, only=None, without=()):
-    """Return a decorator that gives a function the options of some sets.
+    """Return a decorator that gives a stage its options, a progress bar, and results of the class of its first argument.
 
     The function has a keyword-only parameter ``options``, and a line ``{options}`` in the parameters of its docstring.
-    The described options replace both; the function gets their values as an `Options` object. A function with a parameter
-    ``progress`` also gets ``progress_bar``: whether a bar is drawn on the standard error. A function with
-    ``**options`` gets the keywords as they were passed, and can check them by `checked_options` later.
+    The described options replace both; the function gets their values as an `Options` object. A function with
+    ``**options`` gets the keywords as they were passed, and can check them by `checked_options` later. A stage without
+    options has neither the parameter nor the line.
+
+    A function with a parameter ``progress`` also gets ``progress_bar``: whether a bar is drawn on the standard error.
 
     Parameters
     ----------
     sets : str
-        Names of sets of descriptions.
+        Names of sets of descriptions, or a verb of the program.
     only : sequence of str, optional
         Options to take. Default: all.
     without : sequence of str
@@ -180,32 +188,40 @@ def with_options(*sets, only=None, without=()):
 
     def decorate(function):
         signature = inspect.signature(function)
-        source = next(iter(signature.parameters))
-        if signature.parameters["options"].kind == inspect.Parameter.VAR_KEYWORD:
+        names = signature.parameters
+        source = next(iter(names))
+        has_bar = "progress" in names and "progress_bar" not in names
+        if "options" in names and names["options"].kind == inspect.Parameter.VAR_KEYWORD:
             wrapper = function
         else:
             @functools.wraps(function)
             def wrapper(*arguments, **keywords):
-                given = {name: keywords.pop(name) for name in described if name in keywords}
-                if "progress" in signature.parameters and keywords.pop("progress_bar", False):
+                if sets:
+                    given = {name: keywords.pop(name) for name in described if name in keywords}
+                    keywords["options"] = Options(described, given)
+                if has_bar and keywords.pop("progress_bar", False):
                     keywords["progress"] = ProgressBar(keywords.get("progress"))
-                result = function(*arguments, options=Options(described, given), **keywords)
+                result = function(*arguments, **keywords)
                 return like(arguments[0] if arguments else keywords.get(source), result)
 
-        parameters = []
-        for parameter in signature.parameters.values():
-            if parameter.name == "options":
-                parameters += [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=option["default"])
-                               for name, option in described.items()]
-            else:
-                parameters.append(parameter)
-            if parameter.name == "progress" and "progress_bar" not in signature.parameters:
-                parameters.append(inspect.Parameter("progress_bar", inspect.Parameter.KEYWORD_ONLY, default=False))
         wrapper.option_sets = sets
-        wrapper.__signature__ = signature.replace(parameters=parameters)
-        indent = re.search(r"^( *)\{options\}\n", function.__doc__, re.MULTILINE)[1]
-        entries = textwrap.indent("".join(_entry(option) for option in described.values()), indent)
-        wrapper.__doc__ = function.__doc__.replace(f"{indent}{{options}}\n", entries)
+        wrapper.__signature__ = signature.replace(parameters=list(_public_parameters(names.values(), described, has_bar)))
+        if sets:
+            indent = re.search(r"^( *)\{options\}\n", function.__doc__, re.MULTILINE)[1]
+            entries = textwrap.indent("".join(_entry(option) for option in described.values()), indent)
+            wrapper.__doc__ = function.__doc__.replace(f"{indent}{{options}}\n", entries)
         return wrapper
 
     return decorate
+
+
+def _public_parameters(parameters, described, has_bar):
+    """Yield the parameters of a stage as the caller sees them."""
+    for parameter in parameters:
+        if parameter.name == "options":
+            for name, option in described.items():
+                yield inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY, default=option["default"])
+        else:
+            yield parameter
+        if parameter.name == "progress" and has_bar:
+            yield inspect.Parameter("progress_bar", inspect.Parameter.KEYWORD_ONLY, default=False)

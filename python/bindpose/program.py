@@ -1,4 +1,6 @@
-"""Pictures, which the program `bindpose` makes."""
+"""Draw pictures with the program `bindpose`."""
+
+from __future__ import annotations
 
 import json
 import os
@@ -6,22 +8,25 @@ import pathlib
 import shutil
 import subprocess
 import tempfile
+from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 from vtkmodules.util import numpy_support
 
 from .errors import BindposeError, BindposeWarning, InvalidInput, Unavailable
 from .files import write
 from .images import read_image
-from .meshes import to_dataset
+from .meshes import is_dataset, to_dataset
 from .options import with_options
+from .parameter_types import Drawable, Handles, Path
 from .running import errors_by_status, warn
 from .version import PROGRAM
 
 _EXTENSIONS = {"vtkPolyData": ".vtp", "vtkImageData": ".vti"}
 
 
-def program_path():
+def program_path() -> str:
     """Return the path of the program `bindpose`: the environment variable BINDPOSE_PROGRAM, the program that was built with
     this package, or the one in PATH.
 
@@ -40,7 +45,8 @@ def program_path():
 def _as_file(data, folder, name):
     """Return the path of a file with the data; write the file if the data are no path."""
     if isinstance(data, (str, os.PathLike)):
-        return os.fspath(data)
+        path = os.fspath(data)
+        return os.path.join(".", path) if path.startswith("-") else path
     data = to_dataset(data)
     base = next((key for key in _EXTENSIONS if data.IsA(key)), "")
     path = os.path.join(folder, name + _EXTENSIONS.get(base, ".vtu"))
@@ -48,8 +54,21 @@ def _as_file(data, folder, name):
     return path
 
 
+def _is_one_mesh(value):
+    """Report whether the value is a dataset, a path or a pair of arrays, rather than a sequence of them."""
+    if is_dataset(value) or isinstance(value, (str, os.PathLike)):
+        return True
+    try:
+        elements = np.asarray(value[1]) if len(value) == 2 else np.zeros(0)
+    except ValueError:  # a pair of arrays as the second mesh
+        return False
+    return elements.ndim == 2 and elements.dtype.kind in "iu"
+
+
 @with_options("render")
-def render(*meshes, output=None, handles=None, context=(), minus=None, overwrite=False, options):
+def render(*meshes: Drawable, output: Path | None = None, handles: Handles | None = None,
+           context: Drawable | Sequence[Drawable] = (), minus: Drawable | None = None, overwrite: bool = False,
+           options) -> NDArray[np.uint8] | None:
     """Make a picture of meshes, tets or volumes without a window.
 
     Parameters
@@ -79,19 +98,25 @@ def render(*meshes, output=None, handles=None, context=(), minus=None, overwrite
         Data or options that cannot be drawn, an existing file.
     Unavailable
         There is neither a display nor Xvfb, or no ffmpeg for a moving picture; the message names the package.
+
+    Examples
+    --------
+    >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> bindpose.render(tetrahedron, size="320x240", azimuth=30).shape
+    (240, 320, 3)
     """
     if not meshes:
         raise InvalidInput("render needs at least one mesh")
-    several = isinstance(context, (list, tuple)) and not (len(context) == 2 and isinstance(context[0], np.ndarray))
     with tempfile.TemporaryDirectory() as folder:
         words = [_as_file(mesh, folder, f"mesh{k}") for k, mesh in enumerate(meshes)]
         picture = os.path.join(folder, "picture.png") if output is None else os.fspath(output)
-        words += ["--output", picture]
-        for k, each in enumerate(context if several else [context]):
-            words += ["--context", _as_file(each, folder, f"context{k}")]
+        words.append(f"--output={picture}")
+        for k, each in enumerate([context] if _is_one_mesh(context) else context):
+            words.append(f"--context={_as_file(each, folder, f'context{k}')}")
         for name, data in (("handles", handles), ("minus", minus)):
             if data is not None:
-                words += [f"--{name}", _as_file(data, folder, name)]
+                words.append(f"--{name}={_as_file(data, folder, name)}")
         words += options.words("render")
         if overwrite:
             words.append("--overwrite")
@@ -120,7 +145,7 @@ def _error_of(done, report):
         return errors_by_status.get(report["status"], BindposeError)(report["message"], report)
     usage = [line for line in done.stderr.splitlines() if line.startswith("bindpose render: ")]
     if done.returncode == 1 and usage:
-        return InvalidInput(usage[-1].removeprefix("bindpose render: "))
+        return InvalidInput(usage[-1].removeprefix("bindpose render: ").removesuffix(" (see bindpose render --help)"))
     return BindposeError(f"the program {done.args[0]} ended with exit code {done.returncode}: {done.stderr.strip()[-500:]}")
 
 

@@ -8,9 +8,11 @@ The script tests random points against an elephant full of holes (or against MES
 of vtkSelectEnclosedPoints, which PyVista's select_enclosed_points calls. Then it shows the other uses of the winding
 number. It writes a picture and its numbers to --output, and also runs without a display.
 
-PyVista's meshes are VTK datasets: a pyvista.PolyData can be used in place of `surface`, and pyvista.wrap(result)
-converts results to PyVista's classes.
+PyVista's meshes are VTK datasets: a pyvista.PolyData can be used in place of `surface`, and results are datasets of PyVista
+then.
 """
+
+from __future__ import annotations
 
 import argparse
 import json
@@ -19,9 +21,11 @@ import pathlib
 import shutil
 import sys
 import time
+from typing import Any
 
 import bindpose
 import numpy as np
+from numpy.typing import NDArray
 from vtkmodules.util.numpy_support import numpy_to_vtk, vtk_to_numpy
 from vtkmodules.vtkCommonCore import vtkLookupTable, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkDataObject, vtkImplicitBoolean, vtkPlane, vtkPolyData
@@ -47,11 +51,14 @@ import vtkmodules.vtkRenderingOpenGL2  # noqa: F401  needed to draw
 
 import quickstart  # quickstart.py, next to this file, finds the demo meshes
 
+Points = NDArray[np.float64]  # #P x 3
+Color = tuple[float, float, float]  # red, green, blue from 0 to 1
+
 
 # ---- Comparison with vtkSelectEnclosedPoints ---------------------------------------------------
 
 
-def select_enclosed_points(surface, points, check):
+def select_enclosed_points(surface: vtkPolyData, points: Points, check: bool) -> NDArray[np.bool_] | None:
     """Return the result of VTK's own filter: (#P,) bool; None if `check` rejects an open surface."""
     cloud = vtkPolyData()
     cloud.SetPoints(vtkPoints())
@@ -68,7 +75,8 @@ def select_enclosed_points(surface, points, check):
     return vtk_to_numpy(selection.GetOutput().GetPointData().GetArray("SelectedPoints")).astype(bool)
 
 
-def compare(title, surface, points, numbers, truth=None):
+def compare(title: str, surface: vtkPolyData, points: Points, numbers: dict[str, Any],
+            truth: NDArray[np.bool_] | None = None) -> Any:
     """Print one line: number of points inside, number of different results, and errors where the truth is known."""
     ours = bindpose.contains(surface, points)
     theirs = select_enclosed_points(surface, points, check=False)
@@ -84,7 +92,7 @@ def compare(title, surface, points, numbers, truth=None):
     return ours, theirs
 
 
-def shifted(surface, x, y, z):
+def shifted(surface: vtkPolyData, x: float, y: float, z: float) -> vtkPolyData:
     transform = vtkTransform()
     transform.Translate(x, y, z)
     mover = vtkTransformPolyDataFilter()
@@ -94,7 +102,7 @@ def shifted(surface, x, y, z):
     return mover.GetOutput()
 
 
-def joined(*surfaces):
+def joined(*surfaces: vtkPolyData) -> vtkPolyData:
     append = vtkAppendPolyData()
     for surface in surfaces:
         append.AddInputData(surface)
@@ -105,7 +113,7 @@ def joined(*surfaces):
 # ---- The picture -------------------------------------------------------------------------------
 
 
-def winding_colors():
+def winding_colors() -> vtkLookupTable:
     """Return a color map: blue outside, orange inside, white in between; violet below 0, brown above 1."""
     table = vtkLookupTable()
     table.SetNumberOfTableValues(300)
@@ -119,7 +127,7 @@ def winding_colors():
     return table
 
 
-def actor_of(source, color=None, table=None):
+def actor_of(source: Any, color: Color | None = None, table: vtkLookupTable | None = None) -> vtkActor:
     mapper = vtkPolyDataMapper()
     mapper.SetInputConnection(source.GetOutputPort())
     mapper.SetScalarVisibility(table is not None)
@@ -133,7 +141,7 @@ def actor_of(source, color=None, table=None):
     return actor
 
 
-def balls(points, radius, color):
+def balls(points: Points, radius: float, color: Color) -> vtkActor:
     cloud = vtkPolyData()
     cloud.SetPoints(vtkPoints())
     for point in points:
@@ -150,7 +158,8 @@ def balls(points, radius, color):
     return actor_of(glyphs, color)
 
 
-def note(words, place, color=(0.16, 0.16, 0.18), bold=False):
+def note(words: str, place: tuple[float, float], color: Color = (0.16, 0.16, 0.18),
+         bold: bool = False) -> vtkTextActor:
     text = vtkTextActor()
     text.SetInput(words)
     text.GetPositionCoordinate().SetCoordinateSystemToNormalizedViewport()
@@ -162,7 +171,7 @@ def note(words, place, color=(0.16, 0.16, 0.18), bold=False):
     return text
 
 
-def legend(table):
+def legend(table: vtkLookupTable) -> vtkScalarBarActor:
     bar = vtkScalarBarActor()
     bar.SetLookupTable(table)
     bar.SetNumberOfLabels(4)
@@ -180,7 +189,7 @@ def legend(table):
     return bar
 
 
-def field_on(surface, box, table):
+def field_on(surface: vtkPolyData, box: Any, table: vtkLookupTable) -> Any:
     """Return an actor that shows the winding number on a flat box (x0, x1, y0, y1, z0, z1), except where it is nearly
     0."""
     samples = [1 if a == b else max(2, round(500 * (b - a) / max(box[1] - box[0], box[3] - box[2], box[5] - box[4])))
@@ -199,7 +208,8 @@ def field_on(surface, box, table):
     return actor
 
 
-def write_picture(path, surface, points, ours, theirs):
+def write_picture(path: pathlib.Path, surface: vtkPolyData, points: Points, ours: NDArray[np.bool_],
+                  theirs: Any) -> None:
     """Draw, on the left, the surface with a corner cut out and the winding number on the two cut planes. Draw, on the
     right, the points with their results."""
     x0, x1, y0, y1, z0, z1 = surface.GetBounds()
@@ -278,7 +288,7 @@ def write_picture(path, surface, points, ours, theirs):
 # ---- The examples ------------------------------------------------------------------------------
 
 
-def main(options):
+def main(options: argparse.Namespace) -> dict[str, Any]:
     numbers = {}
     demo = options.mesh is None
     mesh = options.mesh or quickstart.demo_mesh(options.output / "meshes")
@@ -376,7 +386,7 @@ def main(options):
     return numbers
 
 
-def arguments():
+def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("mesh", nargs="?", help="off, obj, ply, stl, vtp (default: elephant-with-holes.off of libcgal-demo)")
     parser.add_argument("--output", type=pathlib.Path, default=pathlib.Path("gallery-output"), help="(default: gallery-output)")

@@ -6,6 +6,8 @@ collects the reports in report.json. All files are written to a temporary folder
 the end.
 """
 
+from __future__ import annotations
+
 import argparse
 import json
 import math
@@ -19,22 +21,25 @@ import sys
 import tarfile
 import tempfile
 import time
+from typing import Any
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 DATA = ROOT / "examples" / "data"
 DEMO_PACKAGE = "libcgal-demo"
 DEMO_MESH = "elephant-with-holes.off"
 
+Handle = tuple[str, int, Any, Any]  # name, kind, head, tail
+
 
 class Stop(Exception):
     """Ends the quickstart with a message and an exit code."""
 
-    def __init__(self, message, code=2):
+    def __init__(self, message: str, code: int = 2) -> None:
         super().__init__(message)
         self.code = code
 
 
-def demo_mesh(folder, name=DEMO_MESH):
+def demo_mesh(folder: pathlib.Path, name: str = DEMO_MESH) -> pathlib.Path:
     """Return a mesh from the installed package's archive of example data."""
     target = folder / name
     if target.exists():
@@ -66,13 +71,13 @@ def demo_mesh(folder, name=DEMO_MESH):
 class Program:
     """Runs `bindpose` commands, prints them, and stores their reports."""
 
-    def __init__(self, build, folder):
+    def __init__(self, build: pathlib.Path, folder: pathlib.Path) -> None:
         self.path = build / "bin" / "bindpose"
         self.folder = folder
         self.reports = {}
         self.child = None
 
-    def run(self, title, *words, report=None):
+    def run(self, title: str, *words: object, report: str | None = None) -> dict[str, Any]:
         words = [str(word) for word in words]
         print(f"\n{title}\n  bindpose {shlex.join(words)}", flush=True)
         if report:
@@ -92,7 +97,7 @@ class Program:
         return self.reports.get(report, {})
 
 
-def handle_list(bindpose, path):
+def handle_list(bindpose: Any, path: pathlib.Path) -> list[Handle]:
     """Return (name, kind, head, tail) of the handles in a file, in the order of the weights' columns."""
     data = bindpose.read_handles(path)
     names = data.GetCellData().GetAbstractArray("HandleName")
@@ -106,7 +111,7 @@ def handle_list(bindpose, path):
     return handles
 
 
-def invented_poses(handles, diagonal, frames=10):
+def invented_poses(handles: list[Handle], diagonal: float, frames: int = 10) -> dict[str, Any]:
     """Return a swaying motion for handles without a pose: points move outwards and back, one after the other; bones
     swing about their heads, each in the frame of its parent."""
     middle = [sum(h[2][k] for h in handles) / len(handles) for k in range(3)]
@@ -126,25 +131,25 @@ def invented_poses(handles, diagonal, frames=10):
     return {"version": 2, "fps": 8, "frames": poses}
 
 
-def diagonal_of(dataset):
+def diagonal_of(dataset: Any) -> float:
     b = dataset.GetBounds()
     return math.dist((b[0], b[2], b[4]), (b[1], b[3], b[5]))
 
 
-def write_json(path, content):
+def write_json(path: pathlib.Path, content: Any) -> None:
     partial = path.with_name(path.name + ".partial")
     partial.write_text(json.dumps(content, indent=2) + "\n")
     partial.rename(path)
 
 
-def spread(count, wanted):
+def spread(count: int, wanted: int) -> list[int]:
     """Return at most `wanted` numbers of range(count), evenly spread."""
     if count <= wanted:
         return list(range(count))
     return sorted({round(k * (count - 1) / (wanted - 1)) for k in range(wanted)})
 
 
-def main_job(options, program, bindpose):
+def main_job(options: argparse.Namespace, program: Program, bindpose: Any) -> tuple[pathlib.Path, list[str]]:
     folder = program.folder
     mesh = options.mesh.resolve() if options.mesh else demo_mesh(options.build / "demo-meshes")
     surface = bindpose.read(mesh)
@@ -197,7 +202,8 @@ def main_job(options, program, bindpose):
     return mesh, pictures
 
 
-def summary(options, mesh, program, pictures, seconds):
+def summary(options: argparse.Namespace, mesh: pathlib.Path, program: Program, pictures: list[str],
+            seconds: float) -> None:
     reports = program.reports
     output = options.output
     tets, weights = reports.get("tetrahedralize", {}), reports.get("weights", {})
@@ -219,7 +225,7 @@ def summary(options, mesh, program, pictures, seconds):
     print(f"  {os.path.relpath(pathlib.Path(__file__).with_suffix('.sh'))} YOUR-MESH.obj --handles auto:12")
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(prog="quickstart.sh", add_help=False)
     parser.add_argument("mesh", nargs="?", type=pathlib.Path)
     parser.add_argument("--handles")

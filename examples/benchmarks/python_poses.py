@@ -6,17 +6,21 @@ Times are medians in milliseconds. The machine must be quiet.
 usage: PYTHONPATH=build/lib/python3/dist-packages /usr/bin/python3 examples/benchmarks/python_poses.py [--poses 1000]
 """
 
+from __future__ import annotations
+
 import argparse
 import statistics
 import time
+from typing import Any
 
 import bindpose
 import numpy as np
+from numpy.typing import NDArray
 
 METHODS = ("lbs", "dqs", "stbs", "cor", "reduced-arap")
 
 
-def sphere(rings):
+def sphere(rings: int) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
     """Return points and triangles of a sphere of `rings` rings of 2 `rings` points each."""
     around = 2 * rings
     polar, azimuth = np.meshgrid(np.pi * np.arange(1, rings + 1) / (rings + 1), 2 * np.pi * np.arange(around) / around,
@@ -33,14 +37,14 @@ def sphere(rings):
     return points, np.concatenate(parts)
 
 
-def poses(rig, count):
+def poses(rig: bindpose.Rig, count: int) -> list[dict[str, Any]]:
     """Return poses of a drag: one handle moves, all others stay."""
     name = rig.weights.names[0]
     return [{name: {"translate": [0.3 * k / count, 0, 0], "rotate": {"axis": [0, 0, 1], "degrees": 60 * k / count}}}
             for k in range(count)]
 
 
-def main():
+def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--poses", type=int, default=1000, help="number of poses for each row (default: 1000)")
     parser.add_argument("--handles", type=int, default=20, help="number of point handles (default: 20)")

@@ -1,8 +1,13 @@
 """Many posed instances of a mesh."""
 
+from __future__ import annotations
+
 import os
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 from vtkmodules.util.numpy_support import numpy_to_vtk
 from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
 
@@ -11,6 +16,7 @@ from .errors import InvalidInput
 from .functions import _make_poser, _posed_handles
 from .meshes import Array, copy_report, is_dataset, points_of, shallow_copy
 from .options import with_options
+from .parameter_types import Handles, Mesh, Path, Progress
 from .running import run
 
 
@@ -25,7 +31,9 @@ def _placement(place):
 
 
 @with_options("arap", "reduced_arap_bind")
-def crowd(mesh, handles, poses, *, placements=None, weights=None, appended=False, options, threads=0, progress=None):
+def crowd(mesh: Mesh, handles: Handles, poses: Mapping[str, Any] | Path | Sequence[Mapping[str, Any] | Path], *,
+          placements: Sequence[Any] | None = None, weights: ArrayLike | None = None, appended: bool = False, options,
+          threads: int = 0, progress: Progress = None) -> Any:
     """Bend many instances of a mesh, each to its own pose, by reduced as-rigid-as-possible.
 
     The mesh is bound once. Each instance takes the time of its own iterations and the memory of its points in single
@@ -59,6 +67,17 @@ def crowd(mesh, handles, poses, *, placements=None, weights=None, appended=False
     Notes
     -----
     For a moving crowd keep a ``vtkCrowdDeformation``: it is bound once, and each instance starts from its last pose.
+
+    Examples
+    --------
+    >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> ends = bindpose.handles(points=[[0, 0, 0], [1, 0, 0]])
+    >>> values = bindpose.weights(tetrahedron, ends, domain="surface")
+    >>> poses = [{"handles": {"p1": {"translate": [0, 0, height]}}} for height in (0, 1)]
+    >>> instances = bindpose.crowd(tetrahedron, ends, poses, weights=values, placements=[[0, 0, 0], [5, 0, 0]])
+    >>> [len(points) for points in instances]
+    [4, 4]
     """
     data, posed = _posed_handles(mesh, handles, {"handles": {}}, weights)
     rest = posed.GetInputDataObject(0, 0)

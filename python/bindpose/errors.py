@@ -1,5 +1,9 @@
 """Python exceptions and warnings for the statuses of filters."""
 
+from __future__ import annotations
+
+from typing import Any
+
 
 class BindposeError(RuntimeError):
     """A filter failed; the message is that of the filter.
@@ -14,7 +18,7 @@ class BindposeError(RuntimeError):
 
     status = "internal_error"
 
-    def __init__(self, message, report=None):
+    def __init__(self, message: str, report: dict[str, Any] | None = None) -> None:
         super().__init__(message)
         self.report = report or {}
 

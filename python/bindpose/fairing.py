@@ -1,15 +1,23 @@
 """Compute smooth surfaces between fixed points."""
 
+from __future__ import annotations
+
+from typing import Any
+
 import numpy as np
+from numpy.typing import ArrayLike
 
 from . import BindposeFilters as filters
 from .errors import InvalidInput
 from .meshes import Array, add_point_array, is_dataset, points_of, shallow_copy, to_dataset
 from .options import with_options
+from .parameter_types import Mesh, Progress
 from .running import run
 
 @with_options("variational")
-def fair(mesh, fixed=None, *, tangents=None, parameters=None, load=None, options, threads=0, progress=None):
+def fair(mesh: Mesh, fixed: ArrayLike | None = None, *, tangents: ArrayLike | None = None,
+         parameters: ArrayLike | None = None, load: ArrayLike | None = None, options, threads: int = 0,
+         progress: Progress = None) -> Any:
     """Recompute the free points of a surface smoothly between the fixed ones: for holes and blends.
 
     Each coordinate x solves (-Laplacian)^order x = load by mixed finite elements (Jacobson et al. 2010).
@@ -44,6 +52,13 @@ def fair(mesh, fixed=None, *, tangents=None, parameters=None, load=None, options
         triangles.
     Unavailable
         The system is too ill-conditioned for double precision.
+
+    Examples
+    --------
+    >>> square = ([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.5, 0.5, 0]],
+    ...           [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
+    >>> bindpose.fair(square, fixed=[0, 1, 2, 3])[4].round(6).tolist()
+    [0.5, 0.5, 0.0]
     """
     data = shallow_copy(to_dataset(mesh))
     vertices = data.GetNumberOfPoints()

@@ -1,6 +1,10 @@
 """Reading and writing of meshes, volumes and handles; the file name extension determines the format."""
 
+from __future__ import annotations
+
 import os
+
+from vtkmodules.vtkCommonDataModel import vtkDataSet, vtkPolyData
 
 from .BindposeFilters import (
     vtkGLTFSkinWriter,
@@ -11,10 +15,11 @@ from .BindposeFilters import (
 )
 from .errors import InvalidInput
 from .meshes import to_dataset
+from .parameter_types import Mesh, Path
 from .running import run
 
 
-def read(path):
+def read(path: Path) -> vtkDataSet:
     """Read a mesh or volume.
 
     Parameters
@@ -31,6 +36,10 @@ def read(path):
     ------
     InvalidInput
         Missing, empty, truncated or invalid file; the message names the file and, for text formats, the line.
+
+    Examples
+    --------
+    >>> surface = bindpose.read("elephant.off")  # doctest: +SKIP
     """
     reader = vtkMeshFileReader()
     reader.SetFileName(os.fspath(path))
@@ -38,7 +47,7 @@ def read(path):
     return reader.GetOutput()
 
 
-def read_handles(path):
+def read_handles(path: Path) -> vtkPolyData:
     """Read handles.
 
     Parameters
@@ -55,6 +64,10 @@ def read_handles(path):
     ------
     InvalidInput
         As in `read`, and for handles that cannot be used.
+
+    Examples
+    --------
+    >>> handles = bindpose.read_handles("elephant.tgf")  # doctest: +SKIP
     """
     reader = vtkHandleFileReader()
     reader.SetFileName(os.fspath(path))
@@ -62,7 +75,7 @@ def read_handles(path):
     return reader.GetOutput()
 
 
-def write(mesh, path, *, overwrite=False):
+def write(mesh: Mesh, path: Path, *, overwrite: bool = False) -> None:
     """Write a mesh, volume or handle dataset, either completely or not at all.
 
     Parameters
@@ -81,6 +94,14 @@ def write(mesh, path, *, overwrite=False):
         The file exists, cannot be written, or its format cannot store this type of dataset.
     Unavailable
         A .vdb file in a build without OpenVDB; the message names the package.
+
+    Examples
+    --------
+    >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> bindpose.write(tetrahedron, "tetrahedron.ply")
+    >>> bindpose.read("tetrahedron.ply").GetNumberOfPoints()
+    4
     """
     path = os.fspath(path)
     ending = os.path.splitext(path)[1].lower()

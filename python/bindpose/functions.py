@@ -1,11 +1,16 @@
 """The stages of the pipeline as functions."""
 
+from __future__ import annotations
+
 import json
 import os
 import warnings as python_warnings
+from collections.abc import Mapping, Sequence
+from typing import Any
 
 import numpy as np
-from vtkmodules.vtkCommonDataModel import vtkPolyData
+from numpy.typing import ArrayLike
+from vtkmodules.vtkCommonDataModel import vtkDataSet, vtkPolyData
 
 from . import BindposeFilters as filters
 from .errors import BindposeWarning, InvalidInput, Unavailable
@@ -20,7 +25,6 @@ from .meshes import (
     copy_report,
     is_dataset,
     is_tets,
-    like,
     point_array,
     points_of,
     shallow_copy,
@@ -29,14 +33,17 @@ from .meshes import (
     to_dataset,
     to_vtk_points,
     triangles_of,
+    with_weights,
 )
 from .options import with_options
+from .parameter_types import Handles, Mesh, Path, Progress
 from .running import report as report_of
 from .running import run
 
 
 @with_options("winding_number", without=("winding_threshold",))
-def winding_number(surface, points_or_grid=None, *, options, threads=0, progress=None):
+def winding_number(surface: Mesh, points_or_grid: vtkDataSet | ArrayLike | None = None, *, options, threads: int = 0,
+                   progress: Progress = None) -> Any:
     """Return the winding number of a surface: 1 inside, 0 outside, in between where it is open.
 
     Parameters
@@ -68,14 +75,21 @@ def winding_number(surface, points_or_grid=None, *, options, threads=0, progress
     InvalidInput
         Not a surface, coordinates that are not finite, vertex ids out of range.
 
+    See Also
+    --------
+    contains : the same as booleans
+
     Notes
     -----
     Jacobson, Kavan, Sorkine-Hornung, "Robust inside-outside segmentation using generalized winding
     numbers", 2013.
 
-    See Also
+    Examples
     --------
-    contains : the same as booleans
+    >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> bindpose.winding_number(tetrahedron, [[0.1, 0.1, 0.1], [2, 2, 2]]).round(6)
+    Array([1., 0.])
     """
     field = filters.vtkWindingNumberField()
     field.SetInputData(0, to_dataset(surface))
@@ -107,7 +121,8 @@ def winding_number(surface, points_or_grid=None, *, options, threads=0, progress
 
 
 @with_options("winding_number", only=("method", "tolerance", "orient_patches", "winding_threshold"))
-def contains(surface, points, *, options, threads=0, progress=None):
+def contains(surface: Mesh, points: vtkDataSet | ArrayLike, *, options, threads: int = 0,
+             progress: Progress = None) -> Array:
     """Report whether points are inside of a surface, clean or not.
 
     Parameters
@@ -127,6 +142,13 @@ def contains(surface, points, *, options, threads=0, progress=None):
     ------
     InvalidInput
         See `winding_number`.
+
+    Examples
+    --------
+    >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> bindpose.contains(tetrahedron, [[0.1, 0.1, 0.1], [2, 2, 2]])
+    Array([ True, False])
     """
     values = winding_number(surface, points if is_dataset(points) else np.atleast_2d(points), method=options.method,
                             tolerance=options.tolerance, orient_patches=options.orient_patches, threads=threads,
@@ -136,13 +158,14 @@ def contains(surface, points, *, options, threads=0, progress=None):
     return Array(np.asarray(values) >= options.winding_threshold, values.report)
 
 
-def defects(surface, *, threads=0, progress=None):
+@with_options()
+def defects(surface: Mesh, *, threads: int = 0, progress: Progress = None) -> vtkPolyData:
     """Locate the defects of a surface: open and non-manifold edges, duplicates, intersections and more.
 
     Parameters
     ----------
     surface : vtkDataSet or (vertices, triangles)
-    threads, progress
+    threads, progress, progress_bar
         See `winding_number`.
 
     Returns
@@ -156,16 +179,23 @@ def defects(surface, *, threads=0, progress=None):
     ------
     InvalidInput
         Not a surface, coordinates that are not finite, vertex ids out of range.
+
+    Examples
+    --------
+    >>> triangle = ([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]])
+    >>> bindpose.report(bindpose.defects(triangle))["counts"]["boundary_edges"]
+    3
     """
     finder = filters.vtkSurfaceDefects()
     finder.SetInputData(0, to_dataset(surface))
     finder.SetNumberOfThreads(threads)
     run(finder, progress)
-    return like(surface, finder.GetOutput())
+    return finder.GetOutput()
 
 
 @with_options("tetrahedralize")
-def tetrahedralize(surface, *, handles=None, options, threads=0, progress=None):
+def tetrahedralize(surface: Mesh, *, handles: Handles | None = None, options, threads: int = 0,
+                   progress: Progress = None) -> Any:
     """Fill the inside of a surface, clean or not, with tets.
 
     Parameters
@@ -191,6 +221,16 @@ def tetrahedralize(surface, *, handles=None, options, threads=0, progress=None):
         Not a surface, or one that encloses nothing; `keep_outside` with another method than cdt.
     Unavailable
         The meshing program is missing; the message names the packages or the download address.
+
+    Examples
+    --------
+    >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> result = bindpose.tetrahedralize(tetrahedron, method="cdt")
+    >>> result.vertices.shape[1], result.tets.shape[1]
+    (3, 4)
+    >>> result.report["status"]
+    'ok'
     """
     data = to_dataset(surface)
     filler = filters.vtkTetrahedralizeSurface()
@@ -207,7 +247,8 @@ def tetrahedralize(surface, *, handles=None, options, threads=0, progress=None):
 
 
 @with_options("planar_shape")
-def planar_shape(image_or_curves, *, handles=None, options, threads=0, progress=None):
+def planar_shape(image_or_curves: vtkDataSet | ArrayLike | Path, *, handles: Handles | None = None, options,
+                 threads: int = 0, progress: Progress = None) -> Any:
     """Return the shape of an image, or the region that planar curves enclose, as quality triangles.
 
     Parameters
@@ -240,6 +281,13 @@ def planar_shape(image_or_curves, *, handles=None, options, threads=0, progress=
     See Also
     --------
     tetrahedralize : the same for surfaces
+
+    Examples
+    --------
+    >>> corners, edges = [[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1], [1, 2], [2, 3], [3, 0]]
+    >>> shape = bindpose.planar_shape((corners, edges))
+    >>> shape.vertices.max(), shape.triangles.shape[1]
+    (1.0, 3)
     """
     data, as_arrays = image_or_curves, False
     if isinstance(data, (str, os.PathLike)):
@@ -300,7 +348,8 @@ def _set_arrays(solver, data, options, mirror):
 
 
 @with_options("weights_method", "bounded_weights", "weights", "weight_terms", without=("bounds",))
-def weights(mesh, handles, *, bounds=(0, 1), mirror=None, options, threads=0, progress=None):
+def weights(mesh: Mesh, handles: Handles, *, bounds: tuple[float, float] | Mapping[str, tuple[float, float]] = (0, 1),
+            mirror: str | ArrayLike | None = None, options, threads: int = 0, progress: Progress = None) -> Any:
     """Compute smooth weights, one function per handle, at the mesh's own points.
 
     Parameters
@@ -346,6 +395,17 @@ def weights(mesh, handles, *, bounds=(0, 1), mirror=None, options, threads=0, pr
     -----
     Jacobson, Baran, Popović, Sorkine, "Bounded biharmonic weights for real-time deformation", 2011;
     Jacobson, Weinkauf, Sorkine, "Smooth shape-aware functions with controlled extrema", 2012.
+
+    Examples
+    --------
+    >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> ends = bindpose.handles(points=[[0, 0, 0], [1, 0, 0]])
+    >>> values = bindpose.weights(tetrahedron, ends, domain="surface")
+    >>> values.names
+    ['p1', 'p2']
+    >>> values[:2].round(6).tolist()
+    [[1.0, 0.0], [0.0, 1.0]]
     """
     data = to_dataset(mesh)
     handle_data = to_handles(handles, data)
@@ -403,10 +463,7 @@ def apply_deformation_options(deformation, options):
 
 def _posed_handles(mesh, handles, pose, weights):
     """Return the mesh as a dataset with its weights, and the filter that poses the handles."""
-    data = to_dataset(mesh)
-    if weights is not None:
-        data = shallow_copy(data)
-        add_point_array(data, "Weights", np.asarray(weights, dtype=float), getattr(weights, "names", ()))
+    data = with_weights(to_dataset(mesh), weights)
     return data, _make_poser(to_handles(handles, data), pose)
 
 
@@ -428,7 +485,8 @@ def _make_poser(handles, pose):
 
 @with_options("pose_method", "skinning", "arap", "time_budget", "reduced_arap_bind", "moving_least_squares", "variational",
               "pose", "rotation_arrays")
-def deform(mesh, handles, pose, *, weights=None, times=None, options, threads=0, progress=None):
+def deform(mesh: Mesh, handles: Handles, pose: Mapping[str, Any] | Path, *, weights: ArrayLike | None = None,
+           times: Sequence[float] | None = None, options, threads: int = 0, progress: Progress = None) -> Any:
     """Bend a mesh with weights to a pose, or to a sequence of poses.
 
     Parameters
@@ -461,6 +519,16 @@ def deform(mesh, handles, pose, *, weights=None, times=None, options, threads=0,
     ------
     InvalidInput
         Weights that do not match, an unknown handle in the pose, an invalid pose.
+
+    Examples
+    --------
+    >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> ends = bindpose.handles(points=[[0, 0, 0], [1, 0, 0]])
+    >>> values = bindpose.weights(tetrahedron, ends, domain="surface")
+    >>> raised = {"handles": {"p1": {"translate": [0, 0, 1]}}}
+    >>> bindpose.deform(tetrahedron, ends, raised, weights=values)[:2].round(6).tolist()
+    [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]
     """
     data, poser = _posed_handles(mesh, handles, pose, weights)
     bender = make_deformation(options)
@@ -484,7 +552,8 @@ def deform(mesh, handles, pose, *, weights=None, times=None, options, threads=0,
 
 
 @with_options("dynamics", "arap", "reduced_arap_bind", "rotation_arrays", without=("maximum_iterations", "tolerance"))
-def dynamics(mesh, handles, pose, *, frames, weights=None, options, threads=0, progress=None):
+def dynamics(mesh: Mesh, handles: Handles, pose: Mapping[str, Any] | Path, *, frames: int,
+             weights: ArrayLike | None = None, options, threads: int = 0, progress: Progress = None) -> list[Any]:
     """Move a mesh as a body with mass: parts that handles do not constrain swing and fall.
 
     Parameters
@@ -510,6 +579,17 @@ def dynamics(mesh, handles, pose, *, frames, weights=None, options, threads=0, p
     ------
     InvalidInput
         Weights that do not match, an invalid pose, numbers out of range.
+
+    Examples
+    --------
+    >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> ends = bindpose.handles(points=[[0, 0, 0], [1, 0, 0]])
+    >>> values = bindpose.weights(tetrahedron, ends, domain="surface")
+    >>> held = {"handles": {"p2": {"mode": "free"}}}
+    >>> steps = bindpose.dynamics(tetrahedron, ends, held, frames=3, weights=values)
+    >>> len(steps), steps[2].shape
+    (3, (4, 3))
     """
     data, poser = _posed_handles(mesh, handles, pose, weights)
     body = filters.vtkReducedDynamics()

@@ -29,6 +29,9 @@ class Array(np.ndarray):
         For weights: the handle names of the columns.
     """
 
+    report: dict
+    names: list
+
     def __new__(cls, values, report=None, names=None):
         array = np.asarray(values).view(cls)
         array.report = report or {}
@@ -196,6 +199,15 @@ def shallow_copy(data):
     copy = data.NewInstance()
     copy.ShallowCopy(data)
     remember_run(copy, run_of(data))
+    return copy
+
+
+def with_weights(data, weights, array_name="Weights"):
+    """Return a copy of a dataset with the weights as a point array, or the dataset itself if `weights` is None."""
+    if weights is None:
+        return data
+    copy = shallow_copy(data)
+    add_point_array(copy, array_name, np.asarray(weights, dtype=float), getattr(weights, "names", ()))
     return copy
 
 

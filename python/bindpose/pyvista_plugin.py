@@ -8,6 +8,7 @@ import functools
 import inspect
 
 import pyvista
+from pyvista.core.utilities.reader_registry import LocalFileRequiredError
 
 from . import files, functions, program, rigs
 from .errors import InvalidInput
@@ -51,24 +52,36 @@ class Accessor:
 pyvista.register_dataset_accessor("bindpose", pyvista.DataSet)(Accessor)
 
 
-def _without(options, path):
+def _check(path, options):
+    """Refuse options, and ask PyVista for a local copy of a remote file."""
     if options:
         raise InvalidInput(f"{path}: unexpected option {next(iter(options))!r}; this format has no options")
+    if "://" in path:
+        raise LocalFileRequiredError
 
 
 def read(path, **options):
-    """Read a .off or .mesh (MEDIT) file for `pyvista.read`."""
-    _without(options, path)
-    return pyvista.wrap(files.read(path))
+    """Read a .off or .mesh (MEDIT) file for `pyvista.read`.
+
+    The package reads triangles and tets. Files with other cells are left to meshio, which PyVista uses without this plugin.
+    """
+    _check(path, options)
+    try:
+        return pyvista.wrap(files.read(path))
+    except InvalidInput as error:
+        try:
+            return pyvista.read_meshio(path)
+        except Exception:  # pylint: disable=broad-except  meshio is missing, or cannot read the file either
+            raise error from None
 
 
 def read_handles(path, **options):
     """Read handles from a .tgf file for `pyvista.read`."""
-    _without(options, path)
+    _check(path, options)
     return pyvista.wrap(files.read_handles(path))
 
 
 def write(dataset, path, **options):
     """Write a .off, .mesh (MEDIT) or .dmat file (the array ``Weights``) for ``dataset.save``."""
-    _without(options, path)
+    _check(path, options)
     files.write(dataset, path, overwrite=True)

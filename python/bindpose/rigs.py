@@ -1,33 +1,29 @@
 """Rigs: a mesh with weights and its handles, bound once and posed many times."""
 
+from __future__ import annotations
+
 import json
 import os
 import threading
-from collections.abc import Mapping
-from typing import Optional
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 from vtkmodules.util import numpy_support
 from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
+from vtkmodules.vtkCommonDataModel import vtkDataSet, vtkPolyData
 
 from .BindposeFilters import vtkGLTFSkinReader, vtkGLTFSkinWriter
 from .errors import BindposeWarning, InvalidInput
 from .files import read_handles
 from .functions import apply_deformation_options, deform, make_deformation, weights
 from .handle_sets import cell_names, handle_cells, to_handles
-from .meshes import (
-    Array,
-    add_point_array,
-    is_dataset,
-    like,
-    point_array,
-    remember_run,
-    run_of,
-    shallow_copy,
-    to_dataset,
-)
+from .meshes import Array, is_dataset, like, point_array, remember_run, run_of, shallow_copy, to_dataset, with_weights
 from .options import checked_options, with_options
-from .running import check_status, report, run, warn
+from .parameter_types import Handles, Mesh, Path, Progress
+from .running import check_status, interruptible, report, run, warn
+
 
 class Rig:
     """A mesh with weights and its handles. `bind` and `read_rig` create rigs.
@@ -54,13 +50,13 @@ class Rig:
         The sequence of poses in the file of the rig, for `deform`.
     """
 
-    animation: Optional[dict]
+    animation: dict[str, Any] | None
 
-    def __init__(self, mesh, handles, *, weights=None, animation=None):
+    def __init__(self, mesh: Mesh, handles: Handles, *, weights: ArrayLike | None = None,
+                 animation: dict[str, Any] | None = None) -> None:
         data = to_dataset(mesh)
-        self._mesh = like(data, shallow_copy(data))
+        self._mesh = like(data, with_weights(shallow_copy(data), weights))
         if weights is not None:
-            add_point_array(self._mesh, "Weights", np.asarray(weights, dtype=float), getattr(weights, "names", ()))
             remember_run(self._mesh, getattr(weights, "report", {}))
         points = vtkPoints()
         points.DeepCopy(data.GetPoints())
@@ -77,17 +73,17 @@ class Rig:
         self._lock = threading.Lock()
 
     @property
-    def mesh(self):
+    def mesh(self) -> Any:
         """The mesh at rest with the point array ``Weights``."""
         return self._mesh
 
     @property
-    def handles(self):
+    def handles(self) -> vtkPolyData:
         """The handle dataset: one cell per handle, and cells of cages and pseudo-edges."""
         return self._handles
 
     @property
-    def weights(self):
+    def weights(self) -> Array:
         """The weights, (#V, #handles), with the handle of each column in ``names``."""
         array = self._mesh.GetPointData().GetArray("Weights")
         if array is None:
@@ -96,28 +92,28 @@ class Rig:
         return Array(point_array(self._mesh, "Weights"), self.report, names)
 
     @property
-    def report(self):
+    def report(self) -> dict[str, Any]:
         """The report of the weights: certificates, counts and seconds; see `bindpose.report`."""
         return run_of(self._mesh) or report(self._mesh)
 
     @property
-    def extrema(self):
+    def extrema(self) -> dict[str, int]:
         """Dict of handle name to the number of local extrema of its weights away from the handles."""
         return {entry["name"]: entry["interior_extrema"] for entry in self.report.get("handles", [])
                 if "interior_extrema" in entry}
 
     @property
-    def number_of_binds(self):
+    def number_of_binds(self) -> int:
         """Number of times that a pose method was prepared: once per method, and again for options that need it."""
         return sum(method.filter.GetNumberOfBinds() for method in self._methods.values())
 
     @property
-    def pose_report(self):
+    def pose_report(self) -> dict[str, Any]:
         """The report of the last pose: status, iterations, energy, seconds per phase."""
         return json.loads(self._last.GetReportJSON()) if self._last else {}
 
     @property
-    def moved_handles(self):
+    def moved_handles(self) -> list[str]:
         """Names of the handles that were moved at rest since the weights were computed."""
         points = self._handles.GetPoints()
         if points and points.GetMTime() == self._rest_time:
@@ -134,7 +130,8 @@ class Rig:
         return moved
 
     @with_options("pose_method", "skinning", "arap", "time_budget", "reduced_arap_bind", "moving_least_squares", "variational")
-    def pose(self, pose, *, out=None, threads=0, **options):
+    def pose(self, pose: Mapping[str, Any] | str | ArrayLike, *, out: NDArray[np.float64] | vtkDataSet | None = None,
+             threads: int = 0, **options: Any) -> Any:
         """Return the mesh in a pose.
 
         The first pose of a method prepares the method and has the same bits as the result of `deform`. As-rigid-as-possible
@@ -185,7 +182,9 @@ class Rig:
                      "compute the weights again by bindpose.bind()", BindposeWarning)
             return result
 
-    def save(self, path, *, frames=(), fps=24.0, animation="joints", maximum_influences=0, overwrite=False):
+    def save(self, path: Path, *, frames: Sequence[vtkDataSet] = (), fps: float = 24.0,
+             animation: Literal["joints", "morph"] = "joints", maximum_influences: int = 0,
+             overwrite: bool = False) -> dict[str, Any]:
         """Write the rig as a skinned glTF 2.0 file; see `write_rig`. Without `frames`, the rig's animation is written."""
         if not frames and self.animation:
             frames = deform(self._mesh, self._handles, self.animation)
@@ -205,7 +204,7 @@ class Rig:
             if method is None:
                 method = self._methods[checked.method] = _Method(self, checked)
             else:
-                apply_deformation_options(method.filter, checked)
+                method.set_options(checked)
             method.given = dict(options)
         return method
 
@@ -260,21 +259,34 @@ class _Method:
         self._handles = None
         self._columns = rig.mesh.GetPointData().GetArray("Weights")
         self._has_array = False  # whether the last pose was an array
+        self._is_prepared = False
+        self._is_slow = options.method == "full-arap"
         self.filter.SetInputData(0, rig.mesh)
+
+    def set_options(self, options):
+        apply_deformation_options(self.filter, options)
+        self._is_prepared = False
 
     def pose(self, pose, points, threads):
         if self._source_time != self._source.GetMTime():
             self._source_time = self._source.GetMTime()
             self._handles = shallow_copy(self._source)
             self._has_array = False
+            self._is_prepared = False
             self.filter.SetInputData(1, self._handles)
         self.filter.SetNumberOfThreads(threads)
-        if isinstance(pose, (Mapping, str)):
+        if not isinstance(pose, (Mapping, str)):
+            self._set_transforms(pose)
+            text = ""
+        else:
             if self._has_array:
                 self._set_transforms(None)
-            return self.filter.PosePoints(_pose_text(pose), points)
-        self._set_transforms(pose)
-        return self.filter.PosePoints("", points)
+            text = _pose_text(pose)
+        if self._is_prepared and not self._is_slow:
+            return self.filter.PosePoints(text, points)
+        with interruptible(self.filter):
+            self._is_prepared = self.filter.PosePoints(text, points)
+        return self._is_prepared
 
     def _set_transforms(self, values):
         """Set the transforms of all handles; None: those of the rig."""
@@ -327,7 +339,9 @@ def _pose_text(pose):
 
 
 @with_options("weights_method", "bounded_weights", "weights", "weight_terms", without=("bounds",))
-def bind(mesh, handles, *, bounds=(0, 1), mirror=None, threads=0, progress=None, progress_bar=False, **options):
+def bind(mesh: Mesh, handles: Handles, *, bounds: tuple[float, float] | Mapping[str, tuple[float, float]] = (0, 1),
+         mirror: str | ArrayLike | None = None, threads: int = 0, progress: Progress = None, progress_bar: bool = False,
+         **options: Any) -> Rig:
     """Compute weights of a mesh, once, and return a rig that can be posed many times.
 
     Parameters
@@ -353,8 +367,12 @@ def bind(mesh, handles, *, bounds=(0, 1), mirror=None, threads=0, progress=None,
 
     Examples
     --------
-    >>> rig = bindpose.bind(surface, bindpose.handles(bones=[[[0, 0, 0], [1, 0, 0]]]))   # doctest: +SKIP
-    >>> posed = rig.pose({"b1": {"rotate": {"axis": [0, 0, 1], "degrees": 30}}})          # doctest: +SKIP
+    >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> ends = bindpose.handles(points=[[0, 0, 0], [1, 0, 0]])
+    >>> rig = bindpose.bind(tetrahedron, ends, domain="surface")
+    >>> rig.pose({"p1": {"translate": [0, 0, 1]}})[:2].round(6).tolist()
+    [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]
     """
     data = to_dataset(mesh)
     handle_data = to_handles(handles, data)
@@ -365,7 +383,7 @@ def bind(mesh, handles, *, bounds=(0, 1), mirror=None, threads=0, progress=None,
     return rig
 
 
-def read_rig(path):
+def read_rig(path: Path) -> Rig:
     """Read a skinned mesh from a glTF 2.0 file.
 
     Parameters
@@ -383,6 +401,15 @@ def read_rig(path):
     ------
     InvalidInput
         Missing, truncated or invalid file; the message names it.
+
+    Examples
+    --------
+    >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> ends = bindpose.handles(points=[[0, 0, 0], [1, 0, 0]])
+    >>> report = bindpose.bind(tetrahedron, ends, domain="surface").save("rig.glb")
+    >>> bindpose.read_rig("rig.glb").weights.names
+    ['p1', 'p2']
     """
     reader = vtkGLTFSkinReader()
     reader.SetFileName(os.fspath(path))
@@ -391,7 +418,9 @@ def read_rig(path):
     return Rig(reader.GetOutput(0), reader.GetOutput(1), animation=animation)
 
 
-def write_rig(mesh, handles, path, *, frames=(), fps=24.0, animation="joints", maximum_influences=0, overwrite=False):
+def write_rig(mesh: Mesh, handles: Handles, path: Path, *, frames: Sequence[vtkDataSet] = (), fps: float = 24.0,
+              animation: Literal["joints", "morph"] = "joints", maximum_influences: int = 0,
+              overwrite: bool = False) -> dict[str, Any]:
     """Write a mesh with weights and its handles as a skinned glTF 2.0 file, for Blender and game engines.
 
     Parameters
@@ -424,6 +453,15 @@ def write_rig(mesh, handles, path, *, frames=(), fps=24.0, animation="joints", m
     ------
     InvalidInput
         Weights or frames that do not match, an existing file, an output path that cannot be written.
+
+    Examples
+    --------
+    >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> ends = bindpose.handles(points=[[0, 0, 0], [1, 0, 0]])
+    >>> rig = bindpose.bind(tetrahedron, ends, domain="surface")
+    >>> bindpose.write_rig(rig.mesh, ends, "tetrahedron.glb")["sets"]
+    1
     """
     if animation not in ("joints", "morph"):
         raise InvalidInput(f"animation must be 'joints' or 'morph' (got {animation!r})")

@@ -1,14 +1,20 @@
 """Runs filters and turns their status into exceptions, warnings and a report."""
 
+from __future__ import annotations
+
 import contextlib
 import json
 import signal
 import sys
 import threading
 import warnings as python_warnings
+from typing import Any
+
+from vtkmodules.vtkCommonExecutionModel import vtkAlgorithm
 
 from .errors import BindposeError, BindposeWarning, Canceled, InvalidInput, NotConvergedWarning, Unavailable
 from .meshes import remember_run, run_of
+from .parameter_types import Progress
 
 errors_by_status = {error.status: error for error in (InvalidInput, Canceled, Unavailable, BindposeError)}
 
@@ -53,11 +59,11 @@ class ProgressBar:
 
     _WIDTH = 30  # characters of the bar
 
-    def __init__(self, progress=None):
+    def __init__(self, progress: Progress = None) -> None:
         self._progress = progress
         self._line = ""
 
-    def __call__(self, fraction, phase):
+    def __call__(self, fraction: float, phase: str) -> object:
         done = int(fraction * self._WIDTH)
         line = f"[{'#' * done}{'-' * (self._WIDTH - done)}] {int(100 * fraction):3} % {phase}"
         if line != self._line:
@@ -66,7 +72,7 @@ class ProgressBar:
             self._line = line
         return self._progress(fraction, phase) if self._progress else None
 
-    def close(self):
+    def close(self) -> None:
         """Delete the bar."""
         if self._line:
             sys.stderr.write("\r" + " " * len(self._line) + "\r")
@@ -74,7 +80,39 @@ class ProgressBar:
             self._line = ""
 
 
-def run(algorithm, progress=None):
+@contextlib.contextmanager
+def interruptible(algorithm, progress=None):
+    """Cancel an algorithm when Ctrl-C is pressed, and pass its progress to a callback, during a `with` block.
+
+    An exception of the callback also cancels the algorithm. It is raised at the end of the block.
+    """
+    failed = []
+    with _deferred_interrupt() as pressed:
+
+        def on_progress(caller, _event):
+            try:
+                phase = caller.GetProgressText() or ""
+                if pressed or (progress and progress(caller.GetProgress(), phase) is False):
+                    caller.SetAbortExecute(1)
+            except Exception as error:  # pylint: disable=broad-except  raised again below
+                failed.append(error)
+                caller.SetAbortExecute(1)
+
+        observers = [algorithm.AddObserver("ProgressEvent", on_progress)]
+        for event in ("ErrorEvent", "WarningEvent"):  # observe both, otherwise VTK prints errors that are raised below
+            observers.append(algorithm.AddObserver(event, lambda *_: None))
+        try:
+            yield
+        finally:
+            if isinstance(progress, ProgressBar):
+                progress.close()
+            for observer in observers:
+                algorithm.RemoveObserver(observer)
+    if failed:
+        raise failed[0]
+
+
+def run(algorithm: vtkAlgorithm, progress: Progress = None) -> dict[str, Any]:
     """Update a filter of Bindpose, and turn its status into exceptions and warnings.
 
     Parameters
@@ -102,31 +140,17 @@ def run(algorithm, progress=None):
         The result is kept.
     BindposeWarning
         One per warning of the filter.
+
+    Examples
+    --------
+    >>> spread = bindpose.vtkFarthestPointHandles()
+    >>> bindpose.run(spread)
+    Traceback (most recent call last):
+        ...
+    bindpose.errors.InvalidInput: there is no input at port 0
     """
-    failed = []
-    with _deferred_interrupt() as pressed:
-
-        def on_progress(caller, _event):
-            try:
-                phase = caller.GetProgressText() or ""
-                if pressed or (progress and progress(caller.GetProgress(), phase) is False):
-                    caller.SetAbortExecute(1)
-            except Exception as error:  # pylint: disable=broad-except  raised again below
-                failed.append(error)
-                caller.SetAbortExecute(1)
-
-        observers = [algorithm.AddObserver("ProgressEvent", on_progress)]
-        for event in ("ErrorEvent", "WarningEvent"):  # observe both, otherwise VTK prints errors that are raised below
-            observers.append(algorithm.AddObserver(event, lambda *_: None))
-        try:
-            algorithm.Write() if hasattr(algorithm, "Write") else algorithm.Update()
-        finally:
-            if isinstance(progress, ProgressBar):
-                progress.close()
-            for observer in observers:
-                algorithm.RemoveObserver(observer)
-    if failed:
-        raise failed[0]
+    with interruptible(algorithm, progress):
+        algorithm.Write() if hasattr(algorithm, "Write") else algorithm.Update()
     result = json.loads(algorithm.GetReportJSON())
     for port in range(algorithm.GetNumberOfOutputPorts()):
         remember_run(algorithm.GetOutputDataObject(port), result)
@@ -157,7 +181,7 @@ def warn(sentence, category):
     python_warnings.warn(sentence, category, stacklevel=_caller_level())
 
 
-def report(result):
+def report(result: Any) -> dict[str, Any]:
     """Return the numbers of a result: certificates, counts, seconds per phase.
 
     Parameters
@@ -171,6 +195,13 @@ def report(result):
         Keys with dots become nested dicts (``report(w)["seconds"]["solve"]``); empty for data without a report. The
         reports of files, and of outputs of filters that you updated yourself, contain no seconds and no memory, so that
         equal results give equal files. The report of the filter itself contains both.
+
+    Examples
+    --------
+    >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> bindpose.report(bindpose.winding_number(tetrahedron, 8))["status"]
+    'ok'
     """
     if hasattr(result, "report"):
         return result.report

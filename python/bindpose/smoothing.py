@@ -1,12 +1,19 @@
 """Smooth data on a mesh so that only the requested extrema remain."""
 
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
 import numpy as np
+from numpy.typing import ArrayLike
 from vtkmodules.vtkCommonDataModel import vtkDataObject
 
 from . import BindposeFilters as filters
 from .errors import InvalidInput
 from .meshes import Array, add_point_array, is_dataset, point_array, shallow_copy, to_dataset
 from .options import with_options
+from .parameter_types import Mesh, Progress
 from .running import run
 
 _DATA = "Data"
@@ -32,7 +39,9 @@ def _to_list(maxima, minima, count):
 
 
 @with_options("monotone_smoothing")
-def monotone_smoothing(mesh, data=None, *, maxima=None, minima=None, options, threads=0, progress=None):
+def monotone_smoothing(mesh: Mesh, data: str | ArrayLike | None = None, *, maxima: Sequence[int] | None = None,
+                       minima: Sequence[int] | None = None, options, threads: int = 0,
+                       progress: Progress = None) -> Any:
     """Smooth data on a mesh and keep only the requested extrema (topological simplification).
 
     The result is the smooth function nearest to the data among all functions whose only local extrema are the listed
@@ -62,6 +71,14 @@ def monotone_smoothing(mesh, data=None, *, maxima=None, minima=None, options, th
     ------
     InvalidInput
         Data that are missing, not finite, or not one number per vertex; a list without a maximum or a minimum.
+
+    Examples
+    --------
+    >>> square = ([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.5, 0.5, 0]],
+    ...           [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
+    >>> smooth = bindpose.monotone_smoothing(square, [0, 1, 2, 1, 9], maxima=[2], minima=[0])
+    >>> bool(smooth[2] >= smooth[4] >= smooth[0])
+    True
     """
     dataset = shallow_copy(to_dataset(mesh))
     vertices = dataset.GetNumberOfPoints()

@@ -1,25 +1,31 @@
 """Use weights for colors and depth, compute endpoint weights, and cut planar meshes along bones."""
 
-import numpy as np
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from numpy.typing import ArrayLike
+from vtkmodules.vtkCommonDataModel import vtkPolyData
 
 from . import BindposeFilters as filters
 from .errors import InvalidInput
 from .handle_sets import to_handles, with_cell_values
-from .meshes import Array, add_point_array, is_dataset, point_array, shallow_copy, to_dataset
+from .meshes import Array, is_dataset, point_array, to_dataset, with_weights
 from .options import with_options
+from .parameter_types import Handles, Mesh, Progress
 from .running import run
 
 
 def _inputs(mesh, handles, weights, array_name):
-    data = to_dataset(mesh)
-    if weights is not None:
-        data = shallow_copy(data)
-        add_point_array(data, array_name, np.asarray(weights, dtype=float), getattr(weights, "names", ()))
+    data = with_weights(to_dataset(mesh), weights, array_name)
     return data, to_handles(handles, data)
 
 
 @with_options("weighted_colors")
-def weighted_colors(mesh, handles, colors=None, *, weights=None, array_name="Weights", options, threads=0, progress=None):
+def weighted_colors(mesh: Mesh, handles: Handles, colors: ArrayLike | Mapping[str, Sequence[float]] | None = None, *,
+                    weights: ArrayLike | None = None, array_name: str = "Weights", options, threads: int = 0,
+                    progress: Progress = None) -> Any:
     """Blend the colors of the handles over a mesh by its weights.
 
     Parameters
@@ -50,6 +56,16 @@ def weighted_colors(mesh, handles, colors=None, *, weights=None, array_name="Wei
     ------
     InvalidInput
         Weights or colors that do not match.
+
+    Examples
+    --------
+    >>> square = ([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.5, 0.5, 0]],
+    ...           [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
+    >>> ends = bindpose.handles(points=[[0, 0, 0], [1, 0, 0]])
+    >>> values = bindpose.weights(square, ends, domain="surface")
+    >>> colors = bindpose.weighted_colors(square, ends, {"p1": (1, 0, 0), "p2": (0, 0, 1)}, weights=values)
+    >>> colors[:2].round(6).tolist()
+    [[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
     """
     data, handle_data = _inputs(mesh, handles, weights, array_name)
     if colors is not None:
@@ -66,7 +82,7 @@ def weighted_colors(mesh, handles, colors=None, *, weights=None, array_name="Wei
 
 
 @with_options("endpoint_weights")
-def endpoint_weights(mesh, handles, *, options, threads=0, progress=None):
+def endpoint_weights(mesh: Mesh, handles: Handles, *, options, threads: int = 0, progress: Progress = None) -> Any:
     """Return the position of every point along each bone, from 0 at the head to 1 at the tail, to stretch and twist
     bones.
 
@@ -90,6 +106,14 @@ def endpoint_weights(mesh, handles, *, options, threads=0, progress=None):
     ------
     InvalidInput
         No bone; input that `weights` rejects.
+
+    Examples
+    --------
+    >>> square = ([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.5, 0.5, 0]],
+    ...           [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
+    >>> bone = bindpose.handles(bones=[[[0, 0, 0], [1, 0, 0]]])
+    >>> bindpose.endpoint_weights(square, bone)[:, 0].round(6).tolist()
+    [0.0, 1.0, 1.0, 0.0, 0.5]
     """
     data = to_dataset(mesh)
     handle_data = to_handles(handles, data)
@@ -108,7 +132,9 @@ def endpoint_weights(mesh, handles, *, options, threads=0, progress=None):
 
 
 @with_options("depth_order")
-def depth_order(mesh, handles, layers=None, *, weights=None, array_name="Weights", options, threads=0, progress=None):
+def depth_order(mesh: Mesh, handles: Handles, layers: Sequence[float] | Mapping[str, float] | None = None, *,
+                weights: ArrayLike | None = None, array_name: str = "Weights", options, threads: int = 0,
+                progress: Progress = None) -> Any:
     """Compute the depth of a planar shape from its handles' layers, for poses that overlap themselves.
 
     Parameters
@@ -135,6 +161,15 @@ def depth_order(mesh, handles, layers=None, *, weights=None, array_name="Weights
     ------
     InvalidInput
         Weights or layers that do not match.
+
+    Examples
+    --------
+    >>> square = ([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.5, 0.5, 0]],
+    ...           [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
+    >>> ends = bindpose.handles(points=[[0, 0, 0], [1, 0, 0]])
+    >>> values = bindpose.weights(square, ends, domain="surface")
+    >>> bindpose.depth_order(square, ends, [0, 1], weights=values)[:2].round(6).tolist()
+    [0.0, 1.0]
     """
     data, handle_data = _inputs(mesh, handles, weights, array_name)
     if layers is not None:
@@ -150,7 +185,11 @@ def depth_order(mesh, handles, layers=None, *, weights=None, array_name="Weights
     return result if is_dataset(mesh) else Array(point_array(result, "Depth"), report)
 
 
-def cut_along_bones(shape, handles, left=None, right=None, *, curves=None, progress=None):
+@with_options()
+def cut_along_bones(shape: Mesh, handles: Handles, left: ArrayLike | Mapping[str, Sequence[float]] | None = None,
+                    right: ArrayLike | Mapping[str, Sequence[float]] | None = None, *,
+                    curves: Sequence[int] | Mapping[str, int] | None = None,
+                    progress: Progress = None) -> tuple[vtkPolyData, vtkPolyData]:
     """Cut a planar mesh along bones and create a handle for each side: curves with two colors.
 
     Parameters
@@ -165,7 +204,7 @@ def cut_along_bones(shape, handles, left=None, right=None, *, curves=None, progr
     curves : sequence of int or dict, optional
         One number per handle: bones with the same number are one curve, with the colors of its first bone. Default:
         the handles' cell array ``Curve``; without it each bone is a curve.
-    progress
+    progress, progress_bar
         See `winding_number`.
 
     Returns
@@ -178,6 +217,15 @@ def cut_along_bones(shape, handles, left=None, right=None, *, curves=None, progr
     ------
     InvalidInput
         A bone that is not a chain of edges of the mesh; the message names it.
+
+    Examples
+    --------
+    >>> square = ([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.5, 0.5, 0]],
+    ...           [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
+    >>> diagonal = bindpose.handles(bones=[[[0, 0, 0], [1, 1, 0]]])
+    >>> cut, sides = bindpose.cut_along_bones(square, diagonal, left=[[1, 0, 0]], right=[[0, 0, 1]])
+    >>> sides.GetNumberOfCells()
+    2
     """
     data = to_dataset(shape)
     handle_data = to_handles(handles, data)

@@ -13,6 +13,7 @@ from bindpose.meshes import point_array, points_of, to_dataset
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent / "stand_in"))
 import pyvista  # noqa: E402
+from pyvista.core.utilities.reader_registry import LocalFileRequiredError  # noqa: E402
 
 
 def mesh_of(shape):
@@ -63,3 +64,15 @@ def test_files_of_the_package(tmp_path):
     assert (tmp_path / "w.dmat").read_text().split()[:2] == ["2", str(cube.GetNumberOfPoints())]
     with pytest.raises(bindpose.InvalidInput, match="unexpected option 'level'"):
         pyvista.handler("pyvista.readers", ".off")(str(tmp_path / "cube.off"), level=1)
+
+
+def test_other_files_are_left_to_pyvista(tmp_path):
+    read = pyvista.handler("pyvista.readers", ".mesh")
+    (tmp_path / "prism.mesh").write_text("MeshVersionFormatted 1\nDimension 3\nVertices\n6\n" + "0 0 0 0\n" * 6 +
+                                         "Prisms\n1\n1 2 3 4 5 6 0\nEnd\n")
+    assert type(read(str(tmp_path / "prism.mesh"))) is pyvista.UnstructuredGrid
+    (tmp_path / "text.mesh").write_text("a text")
+    with pytest.raises(bindpose.InvalidInput, match="text.mesh"):
+        read(str(tmp_path / "text.mesh"))
+    with pytest.raises(LocalFileRequiredError):
+        read("https://example.org/tets.mesh")

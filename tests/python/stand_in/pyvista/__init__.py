@@ -45,6 +45,14 @@ def register_dataset_accessor(name, target):
     return register
 
 
+def read_meshio(path):
+    """Stand for meshio, which reads prisms."""
+    with open(path, encoding="utf-8") as file:
+        if "Prisms" not in file.read():
+            raise ImportError("No module named 'meshio'")
+    return UnstructuredGrid()
+
+
 def handler(group, extension):
     """Return the function that an entry point names, as pyvista.read and save find it."""
     point = next(point for point in importlib.metadata.entry_points(group=group) if point.name == extension)

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
 # What is too long for tests/run.sh: sanitizers, the build without GPL and AGPL parts and OpenVDB, a new option in a scratch
-# copy, naming, the types of the Python package, the quickstart, every surface of libcgal-demo and every made horror through the mesher, weights of twenty
-# surfaces with their certificates, every night 300 other random unclean surfaces and 800,000 other poses, every verb on a
-# million triangles to its end and interrupted, weights and tets of hostile models and of real furniture models, the plugin
-# in ParaView, a monkey in the window under sanitizers. Some parts take another slice of their work every night: half of the
-# sanitized tests, a quarter of the files of the naming check, one of two methods on the surfaces, an eighth of the furniture.
-# Ends with a summary.
+# copy, naming, the types of the Python package, the notebooks, the quickstart, every surface of libcgal-demo and every made
+# horror through the mesher, weights of twenty surfaces with their certificates, every night 300 other random unclean surfaces
+# and 800,000 other poses, every verb on a million triangles to its end and interrupted, weights and tets of hostile models and
+# of real furniture models, the plugin in ParaView, a monkey in the window under sanitizers. Some parts take another slice of
+# their work every night: half of the sanitized tests, a quarter of the files of the naming check, one of two methods on the
+# surfaces, an eighth of the furniture. Ends with a summary.
 # usage: tests/nightly.sh [PART…]   (default: all)
-# parts: option permissive asan tidy types quickstart surfaces weights fuzz drags scale hostile real paraview monkey
+# parts: option permissive asan tidy types notebooks quickstart surfaces weights fuzz drags scale hostile real paraview monkey
 set -uo pipefail
 program=nightly.sh
 install=yes
@@ -16,6 +16,8 @@ nightly_packages="
 sweethome3d-furniture:820_real_furniture_models
 mypy:type_checker_of_the_Python_package
 python3-numpydoc:checker_of_its_documentation
+jupyter-nbconvert:runs_the_notebooks
+python3-ipykernel:runs_the_notebooks
 "
 install_packages "$build_packages $test_packages $nightly_packages"
 # The compiler cache serves the same source in another folder: the parts permissive and option compile little again.
@@ -83,6 +85,12 @@ types()
   /usr/bin/python3 "$root/tests/support/check_python_types.py" --build "$build_dir"
 }
 
+notebooks()
+{ # their outputs stay in the build folder
+  PYTHONPATH="$build_dir/lib/python3/dist-packages" jupyter nbconvert --to notebook --execute \
+    --output-dir "$build_dir/nightly-notebooks" "$root"/examples/notebooks/*.ipynb
+}
+
 quickstart()
 {
   "$root/examples/quickstart.sh" --headless --output "$build_dir/nightly-quickstart"
@@ -146,7 +154,7 @@ monkey()
 )
 
 parts=("$@")
-[ $# -gt 0 ] || parts=(option permissive asan tidy types quickstart surfaces weights fuzz drags scale hostile real paraview monkey)
+[ $# -gt 0 ] || parts=(option permissive asan tidy types notebooks quickstart surfaces weights fuzz drags scale hostile real paraview monkey)
 for name in "${parts[@]}"; do
   part "$name" "$name"
 done

@@ -164,7 +164,7 @@ def automatic_handles(mesh: Mesh, *, options, threads: int = 0, progress: Progre
     --------
     >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
     ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> bindpose.automatic_handles(tetrahedron, kind="points", number_of_points=2).GetNumberOfCells()
+    >>> bindpose.automatic_handles(tetrahedron, method="points", number_of_points=2).GetNumberOfCells()
     2
     """
     maker = vtkAutomaticHandles()

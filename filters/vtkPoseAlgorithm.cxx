@@ -42,7 +42,7 @@ vtkSmartPointer<vtkDoubleArray> to_array(const std::vector<Affine>& transforms)
   return array;
 }
 
-/// Return an array of `rows` points with undefined values, and its memory as a matrix.
+/// Return an array of `rows` points with undefined values.
 vtkSmartPointer<vtkDoubleArray> new_points(Index rows)
 {
   auto points = vtkSmartPointer<vtkDoubleArray>::New();
@@ -51,6 +51,7 @@ vtkSmartPointer<vtkDoubleArray> new_points(Index rows)
   return points;
 }
 
+/// Return the memory of an array of points as a matrix.
 Eigen::Map<Points> memory_of(vtkDoubleArray* points)
 {
   return { points->GetPointer(0), points->GetNumberOfTuples(), 3 };

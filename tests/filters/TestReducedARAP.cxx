@@ -5,7 +5,7 @@
 #include "TestFilter.h"
 #include "arap/reduced_arap.h"
 #include "conversion.h"
-#include "held_handles.h"
+#include "data_of.h"
 #include "report_field_data.h"
 #include "vtkPoseHandles.h"
 #include "vtkSkinningDeformation.h"

@@ -3,7 +3,7 @@
 
 #include "TestFilter.h"
 #include "conversion.h"
-#include "held_handles.h"
+#include "data_of.h"
 #include "report_field_data.h"
 #include "vtkPoseHandles.h"
 #include "vtkReducedARAP.h"

@@ -19,7 +19,7 @@ TriangleMesh box(const Vec3& lower, const Vec3& upper);
 TriangleMesh open_cube(double lower = -1.0, double upper = 1.0);
 /// Return a subdivided icosahedron of 20 * 4^levels triangles on a sphere, oriented outwards.
 TriangleMesh sphere(int levels, double radius = 1.0, const Vec3& center = Vec3::Zero());
-/// Return a torus of around * across * 2 triangles around the z axis.
+/// Return a torus around the z axis, of major_segments * minor_segments * 2 triangles.
 TriangleMesh torus(int major_segments, int minor_segments, double radius, double tube);
 /// Return nx * ny squares on [0, sx] x [0, sy] in the plane z = 0, oriented upwards. All squares
 /// are cut along the same diagonal.

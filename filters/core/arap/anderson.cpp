@@ -23,7 +23,7 @@ namespace
 template <typename Scalar>
 constexpr double ridge = sizeof(Scalar) == 4 ? 1e-6 : 1e-10;
 
-/// Compute change = now - last, then set last = now.
+/// Compute change = current - last, then set last = current.
 template <typename Scalar>
 BINDPOSE_ALWAYS_INLINE void compute_change_of(
   Index count, const Scalar* __restrict current, Scalar* __restrict last, Scalar* __restrict change)

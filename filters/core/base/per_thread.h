@@ -38,7 +38,7 @@ public:
     this->idle_.push_back(std::move(object));
   }
 
-  /// Call see(const T&) for each object. No loop body may run at the same time.
+  /// Call visit(const T&) for each object. No loop body may run at the same time.
   template <typename Visit>
   void for_each(const Visit& visit) const
   {

@@ -55,8 +55,8 @@ public:
   bool build(Index maximum_count)
   {
     std::vector<Cell> cells{ Cell() };
-    constexpr double choice_begin = 0.7; // fraction of the total time that is spent before choose()
-    double done = 0.0; // completed fraction of the time before choose()
+    constexpr double choice_begin = 0.7; // fraction of the total time before select_points()
+    double done = 0.0; // completed fraction of the time before select_points()
     for (int level = 0; !cells.empty(); ++level)
     {
       // The number of levels is unknown and most cells are in the last levels, so progress is

@@ -100,7 +100,7 @@ BINDPOSE_ALWAYS_INLINE double decay(double u)
   p = p * r + 1.0;
   std::uint64_t bits; // unsigned, so that a left shift that drops bits is defined
   std::memcpy(&bits, &shifted, sizeof(bits));
-  bits = (bits + 1023) << 52; // 2^whole
+  bits = (bits + 1023) << 52; // 2^rounded
   double scale;
   std::memcpy(&scale, &bits, sizeof(scale));
   return u < 690.0 ? p * scale : 0.0;

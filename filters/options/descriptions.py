@@ -170,6 +170,7 @@ def check_option(option, allowed_fields, types):
             f"layer_defaults are of {', '.join(LAYERS)}, window")
     if "slider" in fields:
         require(option.type in NUMBER_TYPES, where, f"a slider belongs to the types {', '.join(NUMBER_TYPES)}")
+        require(isinstance(fields["slider"], list) and len(fields["slider"]) == 2, where, "a slider must have two numbers")
         lowest, highest = fields["slider"]
         require(lowest <= option.default_of("window") <= highest, where, "the slider must contain the default")
         require(lowest >= fields.get("minimum", lowest) and highest <= fields.get("maximum", highest), where,

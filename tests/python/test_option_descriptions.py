@@ -201,6 +201,7 @@ def test_a_described_option_is_everywhere(tmp_path):
     ({"methods": ["best"]}, "unknown method 'best'"),
     ({"layer_defaults": {"vtk": 1}}, "layer_defaults need a reason, 'why'"),
     ({"layer_defaults": {"windows": 1}, "why": "It is."}, "layer_defaults are of vtk, paraview, python, cli, window"),
+    ({"slider": 1}, "a slider must have two numbers"),
     ({"slider": [1, 2]}, "the slider must contain the default"),
     ({"slider": [0, 3]}, "the slider is out of the range"),
     ({"slider": [0, 1], "type": "flag", "default": True}, "a slider belongs to the types integer, id, number"),

@@ -1,5 +1,5 @@
 // Writes the keys of the window as Markdown, one table per group. The groups and keys are read from
-// app/window_keys.h, which the window itself uses.
+// app/parts/window_keys.h, which the window itself uses.
 #include "cli/key_table.h"
 
 #include "app/parts/window_keys.h"

@@ -115,7 +115,7 @@ public:
   };
   std::vector<Label> labels() const;
   /// Return a screen position at which a part can be grabbed, or nothing if the part is not shown.
-  std::optional<Eigen::Vector2d> grip(int part) const;
+  std::optional<Eigen::Vector2d> grip(int part_id) const;
 
 private:
   struct Part

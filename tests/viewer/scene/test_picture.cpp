@@ -171,7 +171,7 @@ TEST(Picture, TetsAreColoredByWhatTheyHave)
   EXPECT_TRUE(drawn.ok()) << drawn.message;
   EXPECT_EQ(drawn.report.text("picture.array"), "quality");
   options.array = "Weights";
-  EXPECT_THAT(refused(options, tile), HasSubstr("cannot be combined"));
+  EXPECT_THAT(refused(options, tile), HasSubstr("can only be combined with colors by array"));
 
   vtkNew<vtkIntArray> labels;
   labels->SetName("Label");

@@ -15,6 +15,13 @@
 #include <string_view>
 #include <vector>
 
+/// Link the resources, which the linker omits from a static library. The macro cannot be used in a
+/// namespace.
+static void init_resources()
+{
+  Q_INIT_RESOURCE(app);
+}
+
 namespace app::parts
 {
 
@@ -229,7 +236,7 @@ void choose_appearance(QApplication& application, Appearance appearance)
 
 void apply_style(QApplication& application)
 {
-  Q_INIT_RESOURCE(app); // necessary because the linker omits the resources of a static library
+  init_resources();
   const bool system_dark = system_is_dark(application);
   const Appearance chosen = chosen_appearance();
   dark_now = chosen == Appearance::dark || (chosen == Appearance::system && system_dark);

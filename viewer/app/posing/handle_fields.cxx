@@ -103,10 +103,11 @@ HandleFields::HandleFields(QWidget* parent) : QWidget(parent)
   QObject::connect(this->layer_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
     &HandleFields::layer_chosen);
   rows->addWidget(this->layer_row_);
-  this->shear_note_ = new QLabel(tr("The handle also has a shear or nonuniform scale."), this);
+  this->shear_note_ = new QLabel(tr("It also has a shear or nonuniform scale."), this);
   this->shear_note_->setObjectName("note");
   this->shear_note_->setToolTip(
-    tr("Typing a new position, rotation or scale removes the shear or nonuniform scale"));
+    tr("Typing a number in any of these fields removes the shear or nonuniform scale"));
+  this->shear_note_->setWordWrap(true);
   rows->addWidget(this->shear_note_);
   // Names for users of screen readers, who cannot see the grid.
   const char* const names[] = { QT_TR_NOOP("Move along x"), QT_TR_NOOP("Move along y"),

@@ -79,7 +79,7 @@ private:
   /// Outline of the ghost in the right half of the split view.
   std::unique_ptr<bindpose::Outline> outline_;
   bool is_renderer_added_ = false;
-  bool is_updating_clipping_ = false; // true while clipped() sets the clipping range of both halves
+  bool is_updating_clipping_ = false; // true while both halves get their clipping range
 };
 
 } // namespace app::posing

@@ -93,7 +93,7 @@ private:
   void add_comparison(QVBoxLayout* column);
   void add_motion(QVBoxLayout* column);
   QWidget* option(QVBoxLayout* column, const QString& name, QWidget* widget, const QString& tip,
-    std::vector<bindpose::PoseMethod> methods);
+    std::vector<bindpose::PoseMethod> visible_methods);
   void show_options();
   bindpose::PoseMethod method() const;
 

@@ -270,16 +270,16 @@ void TetInspection::choose_colors(int colors)
 /// Show or hide the defects. The first request starts the search for them.
 void TetInspection::update_defects()
 {
-  const bool has_defects = this->active_ && this->panel_->wants_defects() && this->surface_;
-  this->defects_.show(has_defects);
-  if (has_defects)
+  const bool shows_defects = this->active_ && this->panel_->wants_defects() && this->surface_;
+  this->defects_.show(shows_defects);
+  if (shows_defects)
   {
     this->start_defect_search();
   }
   vtkPolyData* found = this->defects_.defects();
-  this->panel_->set_defects_note(!has_defects ? QString()
-      : !found                                ? tr("Checking the surface …")
-                                              : tr("%L1 defects").arg(count_all(found)));
+  this->panel_->set_defects_note(!shows_defects ? QString()
+      : !found                                  ? tr("Checking the surface …")
+                                                : tr("%L1 defects").arg(count_all(found)));
   Q_EMIT this->surface_look_changed();
 }
 

@@ -47,7 +47,7 @@ bool has_point_array(vtkDataSet* data, const char* name)
 /// Return the translated name of a method.
 QString name_of(const char* method)
 {
-  return QCoreApplication::translate("WeightPanel", method);
+  return QCoreApplication::translate("Document", method);
 }
 
 QStringList names_of(vtkDataArray* weights)

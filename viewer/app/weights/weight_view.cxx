@@ -180,10 +180,10 @@ void WeightView::show_surface()
 
 void WeightView::draw_isolines(int part, vtkPolyData* data)
 {
-  const bool has_isolines =
+  const bool shows_isolines =
     this->shown_ && data && this->options_.isolines && part == this->is_sliced();
-  const auto lines = has_isolines ? contour_lines(data, this->coloring_.isolines)
-                                  : vtkSmartPointer<vtkPolyData>::New();
+  const auto lines = shows_isolines ? contour_lines(data, this->coloring_.isolines)
+                                    : vtkSmartPointer<vtkPolyData>::New();
   this->isolines_[part]->ShallowCopy(lines);
   this->isoline_actors_[part]->SetVisibility(lines->GetNumberOfLines() > 0);
   this->isoline_actors_[part]->GetProperty()->SetLineWidth(

@@ -81,7 +81,7 @@ QString short_name(const QString& path)
 }
 QString method_words(const WeightMethod& method)
 {
-  return QCoreApplication::translate("WeightPanel", method.label).toLower();
+  return QCoreApplication::translate("Document", method.label).toLower();
 }
 /// Return a sentence with the method and, if known, the accuracy of the bound weights. The panel of
 /// weights shows the accuracy per column.

@@ -103,7 +103,7 @@ HandleFields::HandleFields(QWidget* parent) : QWidget(parent)
   QObject::connect(this->layer_, QOverload<double>::of(&QDoubleSpinBox::valueChanged), this,
     &HandleFields::layer_chosen);
   rows->addWidget(this->layer_row_);
-  this->shear_note_ = new QLabel(tr("It also has a shear or nonuniform scale."), this);
+  this->shear_note_ = new QLabel(tr("The handle also has a shear or nonuniform scale."), this);
   this->shear_note_->setObjectName("note");
   this->shear_note_->setToolTip(
     tr("Typing a number in any of these fields removes the shear or nonuniform scale"));

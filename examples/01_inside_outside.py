@@ -72,7 +72,8 @@ def select_enclosed_points(surface: vtkPolyData, points: Points, check: bool) ->
     if check and not selection.IsSurfaceClosed(surface):
         return None  # the check requires a closed surface; otherwise the filter has no result
     selection.Update()
-    return vtk_to_numpy(selection.GetOutput().GetPointData().GetArray("SelectedPoints")).astype(bool)
+    inside: NDArray[np.bool_] = vtk_to_numpy(selection.GetOutput().GetPointData().GetArray("SelectedPoints")).astype(bool)
+    return inside
 
 
 def compare(title: str, surface: vtkPolyData, points: Points, numbers: dict[str, Any],
@@ -80,6 +81,7 @@ def compare(title: str, surface: vtkPolyData, points: Points, numbers: dict[str,
     """Print one line: number of points inside, number of different results, and errors where the truth is known."""
     ours = bindpose.contains(surface, points)
     theirs = select_enclosed_points(surface, points, check=False)
+    assert theirs is not None  # without the check there is always a result
     refused = select_enclosed_points(surface, points, check=True) is None
     numbers[title] = {"inside": int(ours.sum()), "vtk_inside": int(theirs.sum()),
                       "disagree": int((ours != theirs).sum()), "vtk_refuses": refused}
@@ -289,7 +291,7 @@ def write_picture(path: pathlib.Path, surface: vtkPolyData, points: Points, ours
 
 
 def main(options: argparse.Namespace) -> dict[str, Any]:
-    numbers = {}
+    numbers: dict[str, Any] = {}
     demo = options.mesh is None
     mesh = options.mesh or quickstart.demo_mesh(options.output / "meshes")
     # a vtkPolyData; a pair of arrays (vertices #V x 3, triangles #F x 3) is also accepted
@@ -298,7 +300,8 @@ def main(options: argparse.Namespace) -> dict[str, Any]:
         raise bindpose.InvalidInput(f"{mesh} contains a {surface.GetClassName()}; expected a vtkPolyData")
     bounds = np.reshape(surface.GetBounds(), (3, 2))
     random = np.random.default_rng(1)
-    points = random.uniform(*bounds.T, (1000 if options.small else 20000, 3))
+    lower, upper = bounds.T
+    points = random.uniform(lower, upper, (1000 if options.small else 20000, 3))
 
     # First the boolean result, then the winding number.
     inside = bindpose.contains(surface, points)
@@ -316,7 +319,9 @@ def main(options: argparse.Namespace) -> dict[str, Any]:
     ours, theirs = compare("as it is", surface, points, numbers, truth)
     length = float(bounds[0, 1] - bounds[0, 0])
     pair = joined(closed if demo else surface, shifted(closed if demo else surface, 0.15 * length, 0, 0))
-    either = truth | bindpose.contains(closed, points - [0.15 * length, 0, 0], method="exact") if demo else None
+    either = None
+    if truth is not None:
+        either = truth | bindpose.contains(closed, points - [0.15 * length, 0, 0], method="exact")
     compare("crossing a copy", pair, points, numbers, either)
     if demo:
         compare("without holes", closed, points, numbers, truth)

@@ -62,7 +62,10 @@ def demo_mesh(folder: pathlib.Path, name: str = DEMO_MESH) -> pathlib.Path:
             for member in archive:
                 if member.name.endswith("/" + name):
                     partial = target.with_suffix(".partial")
-                    partial.write_bytes(archive.extractfile(member).read())
+                    source = archive.extractfile(member)
+                    if source is None:
+                        raise Stop(f"{member.name} in {archives[0]} is no file")
+                    partial.write_bytes(source.read())
                     partial.rename(target)
                     return target
     raise Stop(f"{name} is not in {archives[0]}")
@@ -74,16 +77,16 @@ class Program:
     def __init__(self, build: pathlib.Path, folder: pathlib.Path) -> None:
         self.path = build / "bin" / "bindpose"
         self.folder = folder
-        self.reports = {}
-        self.child = None
+        self.reports: dict[str, dict[str, Any]] = {}
+        self.child: subprocess.Popen[bytes] | None = None
 
     def run(self, title: str, *words: object, report: str | None = None) -> dict[str, Any]:
-        words = [str(word) for word in words]
-        print(f"\n{title}\n  bindpose {shlex.join(words)}", flush=True)
+        arguments = [str(word) for word in words]
+        print(f"\n{title}\n  bindpose {shlex.join(arguments)}", flush=True)
         if report:
-            words += ["--report", f".{report}.json"]
-        self.child = subprocess.Popen([self.path, *words], cwd=self.folder)
-        code = self.child.wait()
+            arguments += ["--report", f".{report}.json"]
+        child = self.child = subprocess.Popen([self.path, *arguments], cwd=self.folder)
+        code = child.wait()
         self.child = None
         if report:
             path = self.folder / f".{report}.json"
@@ -93,8 +96,8 @@ class Program:
         if code == 3:
             print("  (not converged: the result is kept, its residuals are in report.json)")
         elif code != 0:
-            raise Stop(f"'bindpose {words[0]}' ended with exit code {code}", code if code > 0 else 5)
-        return self.reports.get(report, {})
+            raise Stop(f"'bindpose {arguments[0]}' ended with exit code {code}", code if code > 0 else 5)
+        return self.reports.get(report, {}) if report else {}
 
 
 def handle_list(bindpose: Any, path: pathlib.Path) -> list[Handle]:
@@ -118,7 +121,7 @@ def invented_poses(handles: list[Handle], diagonal: float, frames: int = 10) -> 
     poses = []
     for frame in range(frames):
         turn = 2.0 * math.pi * frame / frames
-        pose = {}
+        pose: dict[str, Any] = {}
         for number, (name, kind, head, _tail) in enumerate(handles):
             wave = 0.5 - 0.5 * math.cos(turn + 2.0 * math.pi * number / len(handles))
             if kind == 1:

@@ -73,7 +73,7 @@ public:
    * @param points  the result, 3 components per point of the mesh. An array of another size gets
    * new memory, even if it had memory of the caller. The memory must not overlap that of the mesh
    * and its arrays.
-   * @return whether there is a result; if not, see GetStatus() and GetStatusMessage(), which tell
+   * @return whether there is a result; if not, see GetStatus() and GetStatusMessage(), which return
    * the outcome of this call until the next execution. No error or warning event is invoked.
    */
   bool PosePoints(const std::string& pose, vtkDoubleArray* points);

@@ -11,13 +11,13 @@ from __future__ import annotations
 import argparse
 import statistics
 import time
-from typing import Any
+from typing import Any, Literal
 
 import bindpose
 import numpy as np
 from numpy.typing import NDArray
 
-METHODS = ("lbs", "dqs", "stbs", "cor", "reduced-arap")
+METHODS: tuple[Literal["lbs", "dqs", "stbs", "cor", "reduced-arap"], ...] = ("lbs", "dqs", "stbs", "cor", "reduced-arap")
 
 
 def sphere(rings: int) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
@@ -54,6 +54,7 @@ def main() -> None:
     for rings in (55, 147):
         mesh = sphere(rings)
         rig = bindpose.bind(mesh, f"auto:{options.handles}", domain="surface", stage="preview")
+        values = rig.weights
         for method in METHODS:
             out = rig.pose({}, method=method)
             before = rig.number_of_binds
@@ -68,7 +69,7 @@ def main() -> None:
             once = []
             for pose in poses(rig, 5):
                 start = time.perf_counter()
-                bindpose.deform(mesh, rig.handles, {"handles": pose}, weights=rig.weights, method=method)
+                bindpose.deform(mesh, rig.handles, {"handles": pose}, weights=values, method=method)
                 once.append(time.perf_counter() - start)
             print(f"| {len(mesh[1])} | {method} | {1e3 * statistics.median(wall):.3f} | {1e3 * statistics.median(kernel):.3f} | "
                   f"{1e6 * over:.0f} | {rig.number_of_binds - before} | {1e3 * statistics.median(once):.1f} |", flush=True)

@@ -142,5 +142,7 @@ def package_stub(source, classes):
         if isinstance(node, ast.ImportFrom) and node.names[0].name != "*":
             node.names = [ast.alias(each.name, each.name) for each in node.names]
             text += ast.unparse(node) + "\n"
-    text += "\nclass _VTKClass:\n    def __init__(self) -> None: ...\n    def __getattr__(self, name: str) -> Any: ...\n\n"
+    text += ("\nclass _VTKType(type):\n    def __getattr__(cls, name: str) -> Any: ...\n\n"
+             "class _VTKClass(metaclass=_VTKType):\n    def __init__(self) -> None: ...\n"
+             "    def __getattr__(self, name: str) -> Any: ...\n\n")
     return text + "".join(f"class {name}(_VTKClass): ...\n" for name in sorted(classes))

@@ -13,7 +13,7 @@ Functions on numpy arrays and VTK datasets (PyVista's objects are VTK datasets):
 Every filter is also available as a VTK class (``bindpose.vtkWindingNumberField``, …), for persistent pipelines.
 ``bindpose.run`` turns a filter's status into an exception.
 
-The output has the type of the input: arrays for arrays, a VTK dataset for a VTK dataset. ``bindpose.report(result)``
+Where both are possible, arrays give arrays, and a VTK dataset gives a VTK dataset of the same class. ``bindpose.report(result)``
 returns the report of either.
 """
 

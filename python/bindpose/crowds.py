@@ -82,7 +82,7 @@ def crowd(mesh: Mesh, handles: Handles, poses: Mapping[str, Any] | Path | Sequen
     data, posed = _posed_handles(mesh, handles, {"handles": {}}, weights)
     rest = posed.GetInputDataObject(0, 0)
     instances = vtkMultiBlockDataSet()
-    for pose in [poses] if isinstance(poses, (dict, str, os.PathLike)) else poses:
+    for pose in [poses] if isinstance(poses, (Mapping, str, os.PathLike)) else poses:
         poser = _make_poser(rest, pose)
         run(poser)
         for frame in range(poser.GetNumberOfFrames()):

@@ -30,7 +30,7 @@ def read(path: Path) -> vtkDataSet:
     Returns
     -------
     vtkDataSet
-        vtkPolyData for surfaces, vtkUnstructuredGrid for tets, vtkImageData for volumes.
+        A vtkPolyData for surfaces, a vtkUnstructuredGrid for tets, a vtkImageData for volumes.
 
     Raises
     ------

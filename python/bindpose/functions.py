@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-import warnings as python_warnings
 from collections.abc import Mapping, Sequence
 from typing import Any
 
@@ -13,7 +12,7 @@ from numpy.typing import ArrayLike
 from vtkmodules.vtkCommonDataModel import vtkDataSet, vtkPolyData
 
 from . import BindposeFilters as filters
-from .errors import BindposeWarning, InvalidInput, Unavailable
+from .errors import InvalidInput
 from .files import read
 from .handle_sets import to_handles, with_cell_values
 from .images import is_image_file, read_image, to_image
@@ -77,7 +76,7 @@ def winding_number(surface: Mesh, points_or_grid: vtkDataSet | ArrayLike | None 
 
     See Also
     --------
-    contains : the same as booleans
+    contains : The same as booleans.
 
     Notes
     -----
@@ -280,13 +279,13 @@ def planar_shape(image_or_curves: vtkDataSet | ArrayLike | Path, *, handles: Han
 
     See Also
     --------
-    tetrahedralize : the same for surfaces
+    tetrahedralize : The same for surfaces.
 
     Examples
     --------
     >>> corners, edges = [[0, 0], [1, 0], [1, 1], [0, 1]], [[0, 1], [1, 2], [2, 3], [3, 0]]
     >>> shape = bindpose.planar_shape((corners, edges))
-    >>> shape.vertices.max(), shape.triangles.shape[1]
+    >>> float(shape.vertices.max()), shape.triangles.shape[1]
     (1.0, 3)
     """
     data, as_arrays = image_or_curves, False
@@ -414,12 +413,12 @@ def weights(mesh: Mesh, handles: Handles, *, bounds: tuple[float, float] | Mappi
     solver = _make_weights(options.method)
     if options.method in ("bounded-biharmonic", "monotone"):
         options.apply(solver, "bounded_weights", "weight_terms")
-    elif mirror is not None or isinstance(bounds, dict) or tuple(bounds) != (0, 1):
+    elif mirror is not None or isinstance(bounds, Mapping) or tuple(bounds) != (0, 1):
         raise InvalidInput(f"mirror and bounds are not used by method {options.method!r} "
                            "(used by bounded-biharmonic and monotone)")
     options.apply(solver, "weights")
     solver.SetInputData(1, handle_data)
-    if isinstance(bounds, dict):
+    if isinstance(bounds, Mapping):
         handle_data = with_cell_values(handle_data, "WeightBounds", bounds, 2, missing=(np.nan, np.nan))
         solver.SetInputData(1, handle_data)
     else:
@@ -467,6 +466,13 @@ def _posed_handles(mesh, handles, pose, weights):
     return data, _make_poser(to_handles(handles, data), pose)
 
 
+def plain_value(value):
+    """Return a number or an array of numpy as json can write it."""
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
+    raise TypeError(f"{type(value).__name__} is not allowed in a pose")
+
+
 def _make_poser(handles, pose):
     """Return the filter that poses a handle dataset."""
     poser = filters.vtkPoseHandles()
@@ -474,11 +480,11 @@ def _make_poser(handles, pose):
     if isinstance(pose, (str, os.PathLike)):
         poser.SetFileName(os.fspath(pose))
     else:
-        if isinstance(pose, dict):
+        if isinstance(pose, Mapping):
             pose = {"version": 2, **pose}
         try:
-            poser.SetPoseJSON(json.dumps(pose))
-        except TypeError as error:
+            poser.SetPoseJSON(json.dumps(pose, default=plain_value))
+        except (TypeError, ValueError) as error:
             raise InvalidInput(f"the pose must be a JSON object: {error}") from None
     return poser
 
@@ -586,8 +592,8 @@ def dynamics(mesh: Mesh, handles: Handles, pose: Mapping[str, Any] | Path, *, fr
     ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
     >>> ends = bindpose.handles(points=[[0, 0, 0], [1, 0, 0]])
     >>> values = bindpose.weights(tetrahedron, ends, domain="surface")
-    >>> held = {"handles": {"p2": {"mode": "free"}}}
-    >>> steps = bindpose.dynamics(tetrahedron, ends, held, frames=3, weights=values)
+    >>> released = {"handles": {"p2": {"mode": "free"}}}
+    >>> steps = bindpose.dynamics(tetrahedron, ends, released, frames=3, weights=values)
     >>> len(steps), steps[2].shape
     (3, (4, 3))
     """

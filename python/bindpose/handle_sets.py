@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -212,7 +212,7 @@ def with_cell_values(handles, array_name, values, components, missing=None):
     """
     count = handles.GetNumberOfCells()
     shape = (count, components) if components > 1 else (count,)
-    if isinstance(values, dict):
+    if isinstance(values, Mapping):
         names = cell_names(handles)
         unknown = [name for name in values if name not in names]
         if unknown:

@@ -37,6 +37,8 @@ def program_path() -> str:
     """
     beside = (pathlib.Path(__file__).resolve().parent / PROGRAM).resolve()
     path = os.environ.get("BINDPOSE_PROGRAM") or (str(beside) if beside.exists() else shutil.which("bindpose"))
+    if path is not None and not os.access(path, os.X_OK):
+        raise Unavailable(f"{path} is not a program; see the environment variable BINDPOSE_PROGRAM")
     if path is None:
         raise Unavailable(f"the program 'bindpose' is missing; expected {beside} or a program in PATH")
     return path
@@ -59,7 +61,7 @@ def _is_one_mesh(value):
     if is_dataset(value) or isinstance(value, (str, os.PathLike)):
         return True
     try:
-        elements = np.asarray(value[1]) if len(value) == 2 else np.zeros(0)
+        elements = np.asarray(value[1]) if value and len(value) == 2 else np.zeros(0)
     except ValueError:  # a pair of arrays as the second mesh
         return False
     return elements.ndim == 2 and elements.dtype.kind in "iu"
@@ -97,7 +99,12 @@ def render(*meshes: Drawable, output: Path | None = None, handles: Handles | Non
     InvalidInput
         Data or options that cannot be drawn, an existing file.
     Unavailable
-        There is neither a display nor Xvfb, or no ffmpeg for a moving picture; the message names the package.
+        The program `bindpose`, a display and Xvfb, or (for a moving picture) ffmpeg is missing; the message names it.
+
+    Warns
+    -----
+    BindposeWarning
+        One per warning of the program.
 
     Examples
     --------
@@ -112,7 +119,7 @@ def render(*meshes: Drawable, output: Path | None = None, handles: Handles | Non
         words = [_as_file(mesh, folder, f"mesh{k}") for k, mesh in enumerate(meshes)]
         picture = os.path.join(folder, "picture.png") if output is None else os.fspath(output)
         words.append(f"--output={picture}")
-        for k, each in enumerate([context] if _is_one_mesh(context) else context):
+        for k, each in enumerate([context] if _is_one_mesh(context) else context or ()):
             words.append(f"--context={_as_file(each, folder, f'context{k}')}")
         for name, data in (("handles", handles), ("minus", minus)):
             if data is not None:

@@ -8,7 +8,7 @@ import functools
 import inspect
 
 import pyvista
-from pyvista.core.utilities.reader_registry import LocalFileRequiredError
+from pyvista.core.utilities.reader_registry import LocalFileRequiredError, has_scheme
 
 from . import files, functions, program, rigs
 from .errors import InvalidInput
@@ -30,7 +30,7 @@ def _method(function):
 class Accessor:
     """The functions of Bindpose for a dataset of PyVista: ``mesh.bindpose.tetrahedralize()``.
 
-    Results are datasets of PyVista. Each method has the documentation of the function with its name.
+    Datasets in results are datasets of PyVista. Each method has the documentation of the function of the same name.
     """
 
     def __init__(self, mesh):
@@ -56,14 +56,15 @@ def _check(path, options):
     """Refuse options, and ask PyVista for a local copy of a remote file."""
     if options:
         raise InvalidInput(f"{path}: unexpected option {next(iter(options))!r}; this format has no options")
-    if "://" in path:
+    if has_scheme(path):
         raise LocalFileRequiredError
 
 
 def read(path, **options):
     """Read a .off or .mesh (MEDIT) file for `pyvista.read`.
 
-    The package reads triangles and tets. Files with other cells are left to meshio, which PyVista uses without this plugin.
+    Files without triangles and tets are left to meshio, which PyVista uses without this plugin. Other cells of mixed files
+    are ignored.
     """
     _check(path, options)
     try:

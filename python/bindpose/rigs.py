@@ -17,7 +17,7 @@ from vtkmodules.vtkCommonDataModel import vtkDataSet, vtkPolyData
 from .BindposeFilters import vtkGLTFSkinReader, vtkGLTFSkinWriter
 from .errors import BindposeWarning, InvalidInput
 from .files import read_handles
-from .functions import apply_deformation_options, deform, make_deformation, weights
+from .functions import apply_deformation_options, deform, make_deformation, plain_value, weights
 from .handle_sets import cell_names, handle_cells, to_handles
 from .meshes import Array, is_dataset, like, point_array, remember_run, run_of, shallow_copy, to_dataset, with_weights
 from .options import checked_options, with_options
@@ -48,6 +48,15 @@ class Rig:
     ----------
     animation : dict or None
         The sequence of poses in the file of the rig, for `deform`.
+
+    Examples
+    --------
+    >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> values = [[1, 0], [0, 1], [0.5, 0.5], [0.5, 0.5]]  # weights from another program
+    >>> rig = bindpose.Rig(tetrahedron, bindpose.handles(points=[[0, 0, 0], [1, 0, 0]]), weights=values)
+    >>> rig.pose({"p1": {"translate": [0, 0, 1]}})[2].tolist()
+    [0.0, 1.0, 0.5]
     """
 
     animation: dict[str, Any] | None
@@ -58,9 +67,11 @@ class Rig:
         self._mesh = like(data, with_weights(shallow_copy(data), weights))
         if weights is not None:
             remember_run(self._mesh, getattr(weights, "report", {}))
-        points = vtkPoints()
-        points.DeepCopy(data.GetPoints())
-        self._mesh.SetPoints(points)
+        if data.GetPoints() is not None:
+            points = vtkPoints()
+            points.SetDataType(data.GetPoints().GetDataType())  # otherwise the copy has single precision
+            points.DeepCopy(data.GetPoints())
+            self._mesh.SetPoints(points)
         self._handles = to_handles(handles, data)
         self.animation = animation
         self._gives_arrays = not is_dataset(mesh)
@@ -135,8 +146,8 @@ class Rig:
         """Return the mesh in a pose.
 
         The first pose of a method prepares the method and has the same bits as the result of `deform`. As-rigid-as-possible
-        methods start each later pose from the last one, so that a drag needs few iterations; the results agree within
-        `tolerance`. All other methods always have the bits of `deform`.
+        methods start each later pose from the last one, so that a drag needs few iterations. Both results satisfy
+        `tolerance`, but their bits differ. All other methods always have the bits of `deform`.
 
         Parameters
         ----------
@@ -145,8 +156,9 @@ class Rig:
             pose file with one pose, as a dict or as text; see `deform`. An array contains one affine map per handle,
             from rest to posed positions, which replaces the handle's pose.
         out : (#V, 3) array of float or vtkDataSet, optional
-            Destination: an array, or a dataset from an earlier call. It is returned. Its memory is written directly, so
-            that repeated poses allocate nothing.
+            Destination: an array, or a dataset from an earlier call. It is returned. The points are written into its
+            memory, so repeated poses create no new points. The rig keeps the last two arrays. After an exception the
+            contents are undefined.
         threads : int
             0 for all cores; the result does not depend on it.
         {options}
@@ -161,6 +173,10 @@ class Rig:
         ------
         InvalidInput
             An unknown handle, a pose that is not valid, an `out` of a wrong type or size.
+        TypeError
+            An unknown option.
+        KeyboardInterrupt
+            After Ctrl-C, which cancels the preparation of a method.
 
         Warns
         -----
@@ -168,6 +184,19 @@ class Rig:
             The iterations ended above the tolerance; the result is kept.
         BindposeWarning
             A warning of the method, or weights that are out of date (once per rig).
+
+        Examples
+        --------
+        >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+        ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+        >>> rig = bindpose.bind(tetrahedron, bindpose.handles(points=[[0, 0, 0], [1, 0, 0]]), domain="surface")
+        >>> out = rig.pose({})
+        >>> for height in (0.5, 1):
+        ...     rig.pose({"p1": {"translate": [0, 0, height]}}, out=out)[0].tolist()
+        [0.0, 0.0, 0.5]
+        [0.0, 0.0, 1.0]
+        >>> rig.number_of_binds
+        1
         """
         with self._lock:
             method = self._method(options)
@@ -182,14 +211,35 @@ class Rig:
                      "compute the weights again by bindpose.bind()", BindposeWarning)
             return result
 
-    def save(self, path: Path, *, frames: Sequence[vtkDataSet] = (), fps: float = 24.0,
+    def save(self, path: Path, *, frames: Sequence[vtkDataSet] = (), fps: float | None = None,
              animation: Literal["joints", "morph"] = "joints", maximum_influences: int = 0,
              overwrite: bool = False) -> dict[str, Any]:
-        """Write the rig as a skinned glTF 2.0 file; see `write_rig`. Without `frames`, the rig's animation is written."""
+        """Write the rig as a skinned glTF 2.0 file.
+
+        Parameters
+        ----------
+        path, frames, animation, maximum_influences, overwrite
+            See `write_rig`. Without `frames`, the animation of the rig is written.
+        fps : float, optional
+            Frames per second. Default: those of the animation of the rig, else 24.
+
+        Returns
+        -------
+        dict
+            See `write_rig`.
+
+        Examples
+        --------
+        >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+        ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+        >>> rig = bindpose.bind(tetrahedron, bindpose.handles(points=[[0, 0, 0], [1, 0, 0]]), domain="surface")
+        >>> rig.save("tetrahedron.glb")["status"]
+        'ok'
+        """
         if not frames and self.animation:
             frames = deform(self._mesh, self._handles, self.animation)
-            fps = self.animation.get("fps", fps)
-        return write_rig(self._mesh, self._handles, path, frames=frames, fps=fps, animation=animation,
+            fps = fps or self.animation.get("fps")
+        return write_rig(self._mesh, self._handles, path, frames=frames, fps=fps or 24.0, animation=animation,
                          maximum_influences=maximum_influences, overwrite=overwrite)
 
     def _method(self, options):
@@ -257,10 +307,9 @@ class _Method:
         self._source = rig.handles
         self._source_time = 0
         self._handles = None
-        self._columns = rig.mesh.GetPointData().GetArray("Weights")
         self._has_array = False  # whether the last pose was an array
         self._is_prepared = False
-        self._is_slow = options.method == "full-arap"
+        self._is_slow = options.method in ("full-arap", "variational")  # a pose alone can take seconds
         self.filter.SetInputData(0, rig.mesh)
 
     def set_options(self, options):
@@ -275,54 +324,49 @@ class _Method:
             self._is_prepared = False
             self.filter.SetInputData(1, self._handles)
         self.filter.SetNumberOfThreads(threads)
-        if not isinstance(pose, (Mapping, str)):
+        if isinstance(pose, (Mapping, str)):
+            if self._has_array:
+                self._restore_transforms()
+            text = _pose_text(pose)
+        else:
             self._set_transforms(pose)
             text = ""
-        else:
-            if self._has_array:
-                self._set_transforms(None)
-            text = _pose_text(pose)
         if self._is_prepared and not self._is_slow:
             return self.filter.PosePoints(text, points)
         with interruptible(self.filter):
             self._is_prepared = self.filter.PosePoints(text, points)
         return self._is_prepared
 
-    def _set_transforms(self, values):
-        """Set the transforms of all handles; None: those of the rig."""
+    def _restore_transforms(self):
+        """Give all handles the transforms of the rig."""
         data = self._handles.GetCellData()
         own = self._source.GetCellData().GetArray("Transform")
-        self._has_array = values is not None
-        if values is None:
-            data.RemoveArray("Transform")
-            if own is not None:
-                data.AddArray(own)
-            return
+        self._has_array = False
+        data.RemoveArray("Transform")
+        if own is not None:
+            data.AddArray(own)
+
+    def _set_transforms(self, values):
+        """Set the transforms of all handles."""
         try:
             values = np.asarray(values, dtype=float)
         except (TypeError, ValueError):
-            values = None
+            values = np.zeros(0)
         cells = handle_cells(self._handles)
         count = len(cells)
-        if values is None or values.shape not in ((count, 3, 4), (count, 12)):
+        if values.shape not in ((count, 3, 4), (count, 12)):
             raise InvalidInput(f"a pose must be a dict, a text, or an array {count} x 3 x 4 of one affine map per handle")
         maps = np.tile(np.eye(3, 4).ravel(), (self._handles.GetNumberOfCells(), 1))
         maps[cells] = values.reshape(count, 12)
         array = numpy_support.numpy_to_vtk(maps, deep=True)
         array.SetName("Transform")
-        data.AddArray(array)
+        self._handles.GetCellData().AddArray(array)
+        self._has_array = True
 
 
 def _rest_points(handles):
     points = handles.GetPoints()
     return np.array(numpy_support.vtk_to_numpy(points.GetData())) if points else np.zeros((0, 3))
-
-
-def _plain(value):
-    """Return a number or an array of numpy as json can write it."""
-    if isinstance(value, (np.ndarray, np.generic)):
-        return value.tolist()
-    raise TypeError(f"{type(value).__name__} is not allowed in a pose")
 
 
 def _pose_text(pose):
@@ -333,7 +377,7 @@ def _pose_text(pose):
         return pose
     content = {"version": 2, **pose} if "handles" in pose or "frames" in pose else {"version": 2, "handles": pose}
     try:
-        return json.dumps(content, default=_plain)
+        return json.dumps(content, default=plain_value)
     except (TypeError, ValueError) as error:
         raise InvalidInput(f"the pose must be a JSON object: {error}") from None
 

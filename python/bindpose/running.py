@@ -66,7 +66,7 @@ class ProgressBar:
     def __call__(self, fraction: float, phase: str) -> object:
         done = int(fraction * self._WIDTH)
         line = f"[{'#' * done}{'-' * (self._WIDTH - done)}] {int(100 * fraction):3} % {phase}"
-        if line != self._line:
+        if line != self._line and sys.stderr:
             sys.stderr.write("\r" + line.ljust(len(self._line)))
             sys.stderr.flush()
             self._line = line
@@ -90,6 +90,8 @@ def interruptible(algorithm, progress=None):
     with _deferred_interrupt() as pressed:
 
         def on_progress(caller, _event):
+            if failed or caller.GetAbortExecute():
+                return
             try:
                 phase = caller.GetProgressText() or ""
                 if pressed or (progress and progress(caller.GetProgress(), phase) is False):
@@ -104,10 +106,10 @@ def interruptible(algorithm, progress=None):
         try:
             yield
         finally:
-            if isinstance(progress, ProgressBar):
-                progress.close()
             for observer in observers:
                 algorithm.RemoveObserver(observer)
+            if isinstance(progress, ProgressBar):
+                progress.close()
     if failed:
         raise failed[0]
 
@@ -149,6 +151,10 @@ def run(algorithm: vtkAlgorithm, progress: Progress = None) -> dict[str, Any]:
         ...
     bindpose.errors.InvalidInput: there is no input at port 0
     """
+    for port in range(algorithm.GetNumberOfInputPorts()):
+        is_optional = algorithm.GetInputPortInformation(port).Has(vtkAlgorithm.INPUT_IS_OPTIONAL())
+        if not is_optional and not algorithm.GetNumberOfInputConnections(port):
+            raise InvalidInput(f"there is no input at port {port}")
     with interruptible(algorithm, progress):
         algorithm.Write() if hasattr(algorithm, "Write") else algorithm.Update()
     result = json.loads(algorithm.GetReportJSON())

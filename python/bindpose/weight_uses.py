@@ -83,8 +83,9 @@ def weighted_colors(mesh: Mesh, handles: Handles, colors: ArrayLike | Mapping[st
 
 @with_options("endpoint_weights")
 def endpoint_weights(mesh: Mesh, handles: Handles, *, options, threads: int = 0, progress: Progress = None) -> Any:
-    """Return the position of every point along each bone, from 0 at the head to 1 at the tail, to stretch and twist
-    bones.
+    """Return the position of every point along each bone, from 0 at the head to 1 at the tail.
+
+    Bones that stretch and twist use it.
 
     Parameters
     ----------
@@ -112,7 +113,7 @@ def endpoint_weights(mesh: Mesh, handles: Handles, *, options, threads: int = 0,
     >>> square = ([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0.5, 0.5, 0]],
     ...           [[0, 1, 4], [1, 2, 4], [2, 3, 4], [3, 0, 4]])
     >>> bone = bindpose.handles(bones=[[[0, 0, 0], [1, 0, 0]]])
-    >>> bindpose.endpoint_weights(square, bone)[:, 0].round(6).tolist()
+    >>> bindpose.endpoint_weights(square, bone, method="projection")[:, 0].round(6).tolist()
     [0.0, 1.0, 1.0, 0.0, 0.5]
     """
     data = to_dataset(mesh)

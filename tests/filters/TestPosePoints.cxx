@@ -4,6 +4,7 @@
 
 #include "TestFilter.h"
 #include "conversion.h"
+#include "vtkArapAlgorithm.h"
 #include "vtkFullARAP.h"
 #include "vtkMovingLeastSquaresWarp.h"
 #include "vtkPoseHandles.h"
@@ -25,6 +26,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <type_traits>
 
 using namespace bindpose;
 using testing::HasSubstr;
@@ -33,7 +35,7 @@ namespace
 {
 std::string raised(double height)
 {
-  return R"({"version": 2, "handles": {"right": {"mode": "position", "translate": [0, )" +
+  return R"({"version": 2, "handles": {"left": {"mode": "full"}, "right": {"mode": "position", "translate": [0, )" +
     std::to_string(height) + ", 0]}}}";
 }
 
@@ -103,11 +105,12 @@ TYPED_TEST(EveryPoseMethod, HasTheBitsOfUpdateAndBindsOnce)
   EXPECT_EQ(copy_of(this->points), this->template by_update<TypeParam>(raised(0.5)));
   EXPECT_THAT(filter->GetReportJSON(), HasSubstr("seconds"));
 
+  if constexpr (std::is_base_of_v<vtkArapAlgorithm, TypeParam>)
+  {
+    filter->WarmStartOff();
+  }
   ASSERT_TRUE(filter->PosePoints(raised(-0.25), this->points));
-  EXPECT_NEAR((copy_of(this->points) - this->template by_update<TypeParam>(raised(-0.25)))
-                .cwiseAbs()
-                .maxCoeff(),
-    0.0, 1e-4); // as-rigid-as-possible methods started from the first pose
+  EXPECT_EQ(copy_of(this->points), this->template by_update<TypeParam>(raised(-0.25)));
   EXPECT_EQ(filter->GetNumberOfBinds(), 1);
 }
 } // namespace
@@ -210,6 +213,7 @@ TEST_F(PosePoints, SeesANewMesh)
   this->connect(filter);
   ASSERT_TRUE(filter->PosePoints("", this->points));
   vtkNew<vtkPoints> moved;
+  moved->SetDataTypeToDouble();
   moved->DeepCopy(this->tets->GetPoints());
   moved->SetPoint(0, -1.0, -1.0, -1.0);
   this->tets->SetPoints(moved);

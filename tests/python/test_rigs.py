@@ -46,8 +46,10 @@ def test_poses_agree_with_deform(method):
         fresh = bindpose.Rig(weighted, handles).pose(pose, method=method)
         assert np.array_equal(points_of(fresh), points_of(expected))
         again = points_of(rig.pose(pose, method=method))
-        # As-rigid-as-possible methods start from the last pose.
-        assert again == pytest.approx(points_of(expected), abs=1e-4 if "arap" in method else 0)
+        if "arap" in method:  # starts from the last pose
+            assert again == pytest.approx(points_of(expected), abs=1e-3)
+        else:
+            assert np.array_equal(again, points_of(expected))
 
 
 def test_a_thousand_poses_bind_once():
@@ -68,9 +70,10 @@ def test_a_thousand_poses_bind_once():
 
 def test_an_option_is_valid_for_one_call():
     rig = bindpose.bind(BAR, bindpose.handles(bones=BONES), domain="surface")
+    drag = {"b2": {"translate": [0, 1, 0]}}  # the method computes the rotation
     with pytest.warns(bindpose.NotConvergedWarning):
-        rig.pose(BEND, method="reduced-arap", maximum_iterations=0)
-    rig.pose(BEND, method="reduced-arap")
+        rig.pose(drag, method="reduced-arap", maximum_iterations=1, tolerance=1e-12)
+    rig.pose(drag, method="reduced-arap")
     assert rig.pose_report["status"] == "ok"
 
 
@@ -118,9 +121,9 @@ def test_all_forms_of_a_pose_agree(rig):
 
 
 @pytest.mark.parametrize("pose, sentence", [
-    ({"b3": {}}, "b3"), ({"b2": {"turn": 1}}, "turn"), ("{", "JSON"), ("pose.json", "deform"), (None, "must be a dict"), (["a"], "must be a dict"), ({"frames": [{"handles": BEND}]}, "one pose"),
-    (np.zeros((3, 3, 4)), "2 x 3 x 4"), ({"b2": {"translate": object()}}, "JSON"), ({"b2": {"translate": [0, 0, np.inf]}}, "JSON|finite"),
-    (np.full((2, 3, 4), np.nan), "finite")])
+    ({"b3": {}}, "b3"), ({"b2": {"turn": 1}}, "turn"), ("{", "JSON"), ("pose.json", "deform"), (None, "must be a dict"),
+    (["a"], "must be a dict"), ({"frames": [{"handles": BEND}]}, "one pose"), (np.zeros((3, 3, 4)), "2 x 3 x 4"),
+    ({"b2": {"translate": object()}}, "JSON"), ({"b2": {"translate": [0, 0, np.inf]}}, "JSON|finite"), (np.full((2, 3, 4), np.nan), "finite")])
 def test_a_wrong_pose_is_named_and_the_rig_stays_usable(rig, pose, sentence):
     before = rig.pose(BEND)
     with pytest.raises(bindpose.InvalidInput, match=sentence):
@@ -209,6 +212,16 @@ def test_the_mesh_of_the_caller_and_the_rest_shape_are_apart(dataset_rig):
     assert np.array_equal(points_of(rig.pose({})), np.array(BAR[0], dtype=float))
     with pytest.raises(bindpose.InvalidInput, match="shares no memory"):
         rig.pose({}, out=vtk_to_numpy(rig.mesh.GetPoints().GetData()))
+
+
+def test_the_rig_has_the_bits_of_the_mesh():
+    thin = to_dataset(shapes.bar(size=(6.0, 1 / 3, 1 / 7)))
+    handles = bindpose.handles(points=[[0, 0, 0], [6, 0, 0]])
+    weighted = bindpose.weights(thin, handles, domain="surface")
+    rig = bindpose.Rig(weighted, handles)
+    assert np.array_equal(points_of(rig.mesh), points_of(thin))
+    pose = {"p1": {"translate": [0, 0, 0.1]}}
+    assert np.array_equal(points_of(rig.pose(pose)), points_of(bindpose.deform(weighted, handles, {"handles": pose})))
 
 
 def test_normals_at_rest_do_not_stay():

@@ -1,5 +1,5 @@
-"""A stand-in for PyVista, which no package of Debian 12 contains: its dataset classes, and its registry of accessors, which
-finds entry points as PyVista 0.48 does. Tests of the plugin use it.
+"""A replacement of PyVista for tests, because Debian 12 has no package of PyVista: its dataset classes, and its registry of
+accessors, which finds entry points as PyVista 0.48 does.
 """
 
 import importlib
@@ -46,7 +46,7 @@ def register_dataset_accessor(name, target):
 
 
 def read_meshio(path):
-    """Stand for meshio, which reads prisms."""
+    """Replace meshio, which reads prisms."""
     with open(path, encoding="utf-8") as file:
         if "Prisms" not in file.read():
             raise ImportError("No module named 'meshio'")

@@ -1,5 +1,10 @@
-"""The exception by which a reader asks PyVista to download a remote file."""
+"""How a reader asks PyVista to download a remote file."""
 
 
 class LocalFileRequiredError(Exception):
     pass
+
+
+def has_scheme(value):
+    """Report whether an address begins with a scheme, such as https."""
+    return 0 < value.find("://") < value.find("/")

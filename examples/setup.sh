@@ -1,5 +1,5 @@
-# Sourced by examples/quickstart.sh and the scripts of tests: packages to install, and how to build.
-# Not a command.
+# Lists of packages, and functions that install packages and build. The scripts in examples and tests
+# source this file. It is not a command.
 
 # Packages and their purposes. dpkg is queried for each package, so that only missing packages are
 # installed.
@@ -80,7 +80,7 @@ install_packages()
   command -v apt-get >/dev/null || die "this system has no apt-get; install the packages above by hand"
   local as_root=""
   if [ "$(id -u)" != 0 ]; then
-    command -v sudo >/dev/null || die "installing needs root; run: apt-get install --no-install-recommends$missing"
+    command -v sudo >/dev/null || die "installing packages needs root; run: apt-get install --no-install-recommends$missing"
     as_root="sudo"
   fi
   echo "Installing them with apt-get$([ -n "$as_root" ] && echo " (sudo)") ..."

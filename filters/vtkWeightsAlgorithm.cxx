@@ -164,7 +164,7 @@ void SolvedMesh::set_mesh(const WeightsProblem& problem, const std::vector<Index
   }
 }
 
-/// Write the mesh with weights; if handles were inserted, with the inserted points.
+/// Write the mesh with weights. If handles were inserted, the mesh includes the inserted points.
 void SolvedMesh::write(vtkPointSet* mesh, vtkPointSet* output) const
 {
   if (this->points)

@@ -1,29 +1,40 @@
 #!/usr/bin/env bash
-# What is too long for tests/run.sh: sanitizers, the build without GPL and AGPL parts and OpenVDB, a new option in a scratch
-# copy, naming, the types of the Python package, the notebooks, the quickstart, every surface of libcgal-demo and every made
-# horror through the mesher, weights of twenty surfaces with their certificates, every night 300 other random unclean surfaces
-# and 800,000 other poses, every verb on a million triangles to its end and interrupted, weights and tets of hostile models and
-# of real furniture models, the plugin in ParaView, a monkey in the window under sanitizers. Some parts take another slice of
-# their work every night: half of the sanitized tests, a quarter of the files of the naming check, one of two methods on the
-# surfaces, an eighth of the furniture. Ends with a summary.
+# Runs the tests that take too long for tests/run.sh, and prints a summary.
 # usage: tests/nightly.sh [PART…]   (default: all)
-# parts: option permissive asan tidy types notebooks quickstart surfaces weights fuzz drags scale hostile real paraview monkey
+# parts:
+#   option       add an option to a scratch copy of the project
+#   permissive   build and test without GPL and AGPL parts and without OpenVDB
+#   asan         half of the tests under the address and undefined-behavior sanitizers
+#   tidy         check the names in a quarter of the kernel files
+#   types        check the types and the documentation of the Python package
+#   notebooks    run the notebooks
+#   quickstart   run examples/quickstart.sh
+#   surfaces     tets of all surfaces of libcgal-demo and of tests/support/horrors.py: method auto, and remesh or embed
+#   weights      weights of twenty surfaces, checked against their certificates
+#   fuzz         tets of random unclean surfaces
+#   drags        random poses
+#   scale        all verbs on a million triangles, completed and interrupted
+#   hostile      weights and tets of synthetic models with severe defects
+#   real         weights and tets of an eighth of the real furniture models
+#   paraview     the plugin in ParaView
+#   monkey       random events in the window, under sanitizers
+# Random seeds, the choice between remesh and embed, and the half, quarter or eighth of the work change every night.
 set -uo pipefail
 program=nightly.sh
 install=yes
 . "$(dirname "${BASH_SOURCE[0]}")/../examples/setup.sh"
 nightly_packages="
 sweethome3d-furniture:820_real_furniture_models
-mypy:type_checker_of_the_Python_package
-python3-numpydoc:checker_of_its_documentation
+mypy:checks_the_types_of_the_Python_package
+python3-numpydoc:checks_the_documentation_of_the_Python_package
 jupyter-nbconvert:runs_the_notebooks
 python3-ipykernel:runs_the_notebooks
 "
 install_packages "$build_packages $test_packages $nightly_packages"
-# The compiler cache serves the same source in another folder: the parts permissive and option compile little again.
+# With these settings, the compiler cache ignores the folder, so the parts permissive and option recompile few files.
 export CCACHE_BASEDIR=$root CCACHE_NOHASHDIR=1
 build -DBINDPOSE_BUILD_TESTS=ON
-# Every night takes other seeds of the random tests, and other slices; a failure names its seed.
+# The number of the night sets the seeds of the random tests and the slices. A failed test prints its seed.
 export BINDPOSE_FUZZ_NIGHT=${BINDPOSE_FUZZ_NIGHT:-$(($(date +%s) / 86400))}
 
 # slice_of COUNT: print the number of tonight's slice, 1 to COUNT.
@@ -33,7 +44,7 @@ slice_of()
 }
 
 summary=()
-# part NAME COMMAND…: runs one part, keeps its log, notes how it ended.
+# part NAME COMMAND…: run one part, write its log, and add its result to the summary.
 part()
 {
   local name=$1 start=$SECONDS verdict=passed
@@ -44,24 +55,24 @@ part()
   summary+=("$(printf '%-12s %5d s  %s' "$name" $((SECONDS - start)) "$verdict")")
 }
 
-# -noreset: the server would refuse who comes while it starts anew, after the last client has left.
+# -noreset: without it, the X server resets after the last client disconnects and refuses new clients during the reset.
 under_xvfb()
 {
   xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" "$@"
 }
 
 asan()
-( # its environment is its own
+( # a subshell, so that other parts do not get these environment variables
   cmake --preset asan -S "$root" && ninja -C "$root/build-asan" bindpose_core_tests bindpose_filter_tests bindpose_poses_tests \
     bindpose_document_tests bindpose_widget_tests || return 1
-  # VTK's and Mesa's one-time allocations are not ours to free.
+  # detect_leaks=0: VTK and Mesa do not free some one-time allocations.
   export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1 BINDPOSE_FUZZ_FACTOR=${BINDPOSE_FUZZ_FACTOR:-1}
   under_xvfb ctest --test-dir "$root/build-asan" --no-tests=error --output-on-failure -j "$(nproc)" \
     -R '^(core|filters|poses|document|widgets)\.' -I "$(slice_of 2),,2"
 )
 
 permissive()
-{ # one file at a time: the other builds compile several files as one, which hides a missing #include
+{ # without unity builds, because compiling several files as one hides a missing #include
   cmake -S "$root" -B "$root/build-permissive" -G Ninja -DBINDPOSE_PERMISSIVE=ON -DBINDPOSE_WITH_OPENVDB=OFF \
     -DBINDPOSE_BUILD_TESTS=ON &&
     ninja -C "$root/build-permissive" bindpose bindpose_core_tests bindpose_filter_tests || return 1
@@ -69,7 +80,7 @@ permissive()
 }
 
 option()
-{ # three edits add an option to all layers
+{ # test that three edits add an option to all layers
   local folder="$build_dir/nightly-option"
   rm -rf "$folder"
   /usr/bin/python3 "$root/tests/support/new_option.py" "$folder"
@@ -86,7 +97,7 @@ types()
 }
 
 notebooks()
-{ # their outputs stay in the build folder
+{ # write the executed notebooks to the build folder
   PYTHONPATH="$build_dir/lib/python3/dist-packages" jupyter nbconvert --to notebook --execute \
     --output-dir "$build_dir/nightly-notebooks" "$root"/examples/notebooks/*.ipynb
 }
@@ -109,7 +120,7 @@ weights()
 }
 
 fuzz()
-( # without sanitizers: 300 abused and 80 hostile surfaces, 400 on lattices, 240 wraps
+( # without sanitizers: 300 damaged and 80 hostile surfaces, 400 damaged surfaces on lattices, 240 wraps
   export BINDPOSE_FUZZ_FACTOR=${BINDPOSE_FUZZ_FACTOR:-10}
   ctest --test-dir "$build_dir" --no-tests=error --output-on-failure -j "$(nproc)" -R '^core\.Fuzz(Tetrahedralize|Wrap)\.'
 )
@@ -132,7 +143,7 @@ hostile()
 }
 
 real()
-{ # on as many models at once as there are cores: tests/real_meshes.md comes from a run with one at a time
+{ # one model per core at the same time; tests/real_meshes.md comes from a run with one model at a time
   local slice=${BINDPOSE_REAL_SLICE:-$(slice_of 8)/8} # 1/1: all models
   /usr/bin/python3 "$root/tests/real_meshes.py" --build "$build_dir" --jobs "$(nproc)" --threads 1 --accuracy 4 \
     --slice "$slice" \
@@ -146,7 +157,7 @@ paraview()
 }
 
 monkey()
-( # five minutes of random events, every night others
+( # five minutes of random events; the seed changes every night
   cmake --preset asan -S "$root" && ninja -C "$root/build-asan" bindpose-mesher bindpose_app_tests || return 1
   export ASAN_OPTIONS=detect_leaks=0 UBSAN_OPTIONS=print_stacktrace=1
   export BINDPOSE_MONKEY_SECONDS=${BINDPOSE_MONKEY_SECONDS:-300} BINDPOSE_MONKEY_SEED=${BINDPOSE_MONKEY_SEED:-$BINDPOSE_FUZZ_NIGHT}

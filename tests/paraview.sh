@@ -8,14 +8,15 @@ usage()
   cat <<'TEXT'
 usage: tests/paraview.sh [--no-install]
 
-Takes Debian's ParaView, unpacks it into build/paraview-packages (670 MB; installed, its Python
-package would replace VTK's), builds filters/paraview against it in build/paraview-plugin, and runs
-tests/paraview/in_paraview.py with pvbatch on 1 and on 2 MPI ranks. tests/paraview/check.py then
-compares: winding numbers have the same bits on both and in the program bindpose.
+Downloads Debian's ParaView and unpacks it into build/paraview-packages (670 MB). ParaView is not
+installed, because its Python package would replace VTK's. Builds filters/paraview against ParaView
+in build/paraview-plugin, and runs tests/paraview/in_paraview.py with pvbatch on 1 and on 2 MPI
+ranks. Then tests/paraview/check.py compares the results: winding numbers must have the same bits in
+both runs and in the output of the program bindpose.
 
 options:
   --no-install   install nothing; list missing packages
-  --help         this text
+  --help         show this help
 TEXT
 }
 
@@ -31,9 +32,9 @@ done
 
 . "$(dirname "${BASH_SOURCE[0]}")/../examples/setup.sh"
 paraview_packages="
-libqt5svg5-dev:asked_for_by_ParaView's_CMake_files
-qttools5-dev:asked_for_by_ParaView's_CMake_files
-openmpi-bin:several_processes
+libqt5svg5-dev:needed_by_ParaView's_CMake_files
+qttools5-dev:needed_by_ParaView's_CMake_files
+openmpi-bin:runs_several_processes
 python3-mpi4py:ParaView's_Python_on_several_processes
 "
 install_packages "$build_packages $paraview_packages"
@@ -43,9 +44,9 @@ build
 packages="$build_dir/paraview-packages"
 paraview="$packages/root/usr"
 if [ ! -e "$packages/unpacked" ]; then
-  echo "Taking ParaView from Debian ..."
+  echo "Downloading ParaView from Debian ..."
   mkdir -p "$packages"
-  # A warning that apt reads them as root is of no matter.
+  # As root, apt may warn that it downloads unsandboxed. The warning is harmless.
   (cd "$packages" && apt-get download paraview paraview-dev python3-paraview) >"$log_dir/paraview-download.log" 2>&1 ||
     { tail -5 "$log_dir/paraview-download.log" >&2; die "apt-get download failed; the log is $log_dir/paraview-download.log"; }
   for package in "$packages"/*.deb; do
@@ -53,7 +54,7 @@ if [ ! -e "$packages/unpacked" ]; then
   done
   touch "$packages/unpacked"
 fi
-# What it is linked with: the libraries that its packages depend on.
+# Install the libraries that ParaView's packages depend on.
 libraries=$(for package in "$packages"/paraview_*.deb "$packages"/python3-paraview_*.deb; do
   dpkg-deb -f "$package" Depends
 done | tr ',' '\n' | sed -nE 's/^ *(lib[^ ]*).*/\1:ParaView/p' | sort -u)
@@ -78,7 +79,8 @@ print(quickstart.demo_mesh(pathlib.Path(sys.argv[2])))' "$root/examples" "$build
 results="$build_dir/paraview-results"
 rm -rf "$results"
 
-# in_paraview RANKS COMMAND…: a run that ends within minutes or is ended: ranks that wait for each other never do.
+# in_paraview RANKS COMMAND…: run in_paraview.py on RANKS ranks, for ten minutes at most. Ranks that wait for each other
+# would never end.
 in_paraview()
 {
   local ranks=$1
@@ -88,7 +90,7 @@ in_paraview()
     export PATH="$paraview/bin:$PATH"
     LD_LIBRARY_PATH=$(echo "$paraview"/lib/*-linux-gnu)
     export LD_LIBRARY_PATH PYTHONPATH="$paraview/lib/python3/dist-packages"
-    # Containers are root and may have one core.
+    # In a container, the user may be root, and there may be only one core.
     export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
     timeout 600 "$@" "$root/tests/paraview/in_paraview.py" "$plugin" "$mesh" "$results/$ranks"
   ) >"$results/$ranks.log" 2>&1 || { tail -20 "$results/$ranks.log" >&2; die "ParaView on $ranks rank(s) failed; the log is $results/$ranks.log" 5; }

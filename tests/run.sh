@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Installs what the tests need, builds, and runs all of them under Xvfb. See --help.
+# Installs the packages that the tests need, builds, and runs all tests under Xvfb. See --help.
 set -euo pipefail
 program=run.sh
 
@@ -57,7 +57,7 @@ if [ $# -gt 0 ] && [ -z "$bless" ] && [ -f "$build_dir/CTestTestfile.cmake" ]; t
 fi
 build -DBINDPOSE_BUILD_TESTS=ON
 
-# -noreset: the server would refuse who comes while it starts anew, after the last client has left.
+# -noreset: without it, the X server resets after the last client disconnects and refuses new clients during the reset.
 under_xvfb()
 {
   xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" "$@"

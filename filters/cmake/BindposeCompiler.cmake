@@ -1,4 +1,5 @@
-# Language, warnings for our own targets, ccache when there, and how a portable Release is compiled.
+# The language standard, the warnings for Bindpose's targets, ccache if it is installed, and the options of a portable
+# Release build.
 if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
 endif()
@@ -15,11 +16,12 @@ if(BINDPOSE_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_C_COMPILER_LAUNCHER "${BINDPOSE_CCACHE}")
 endif()
 
-# Deterministic across machines: no -march=native, no contraction of a*b+c into fused operations, but for the iterations
-# of pose time (bindpose_fused in filters/core/CMakeLists.txt), which they make a fifth faster.
+# Results must not depend on the machine: no -march=native, and no contraction of a*b+c into fused operations. The
+# iterations that compute poses are an exception (bindpose_fused in filters/core/CMakeLists.txt). Fused operations make
+# them a fifth faster.
 add_compile_options(-ffp-contract=off)
 
-# bindpose_warnings(TARGET): the warnings every target of ours is compiled with.
+# bindpose_warnings(TARGET): enable the warnings that all targets of Bindpose use.
 function(bindpose_warnings target)
   target_compile_options(${target} PRIVATE
     -Wall -Wextra -Wshadow -Wno-sign-compare -Wno-unused-parameter)

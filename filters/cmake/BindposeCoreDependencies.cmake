@@ -1,6 +1,6 @@
-# What the kernels are built with: their options and what the system has. Required: Eigen, TBB,
-# nlohmann-json, Spectra, the header of tinygltf, the headers of Boost. Everything heavy is optional;
-# the feature that misses it says which package would give it.
+# Options and dependencies of the kernels. Required: Eigen, TBB, nlohmann-json, Spectra, the header of
+# tinygltf, the headers of Boost. Large packages are optional. If a package is missing, the feature
+# that needs it reports the name of the package.
 option(BINDPOSE_PERMISSIVE "Leave out GPL and AGPL parts (bindpose-mesher, CHOLMOD)" OFF)
 option(BINDPOSE_WITH_CHOLMOD "Factor with CHOLMOD's supernodal solver when found" ON)
 option(BINDPOSE_WITH_MESHER "Build bindpose-mesher (CGAL, TetGen) when both are found" ON)
@@ -11,7 +11,7 @@ find_package(TBB REQUIRED)
 find_package(nlohmann_json 3.10 REQUIRED)
 find_package(Boost 1.71 REQUIRED) # headers: Boost.Graph
 find_package(Spectra 1.0 REQUIRED) # headers: eigenvalues
-# Its header alone, compiled into ours: no library to link, and none of its ways to the disk.
+# Only the header of tinygltf is used, without its file access. There is no library to link.
 find_path(TINYGLTF_INCLUDE_DIR tiny_gltf.h)
 mark_as_advanced(TINYGLTF_INCLUDE_DIR)
 if(NOT TINYGLTF_INCLUDE_DIR)
@@ -38,7 +38,7 @@ if(BINDPOSE_WITH_CHOLMOD AND NOT BINDPOSE_PERMISSIVE)
   endif()
 endif()
 
-# ---- bindpose-mesher: CGAL (GPL) and TetGen (AGPL), in a process of their own ----
+# ---- bindpose-mesher: CGAL (GPL) and TetGen (AGPL), in a separate process ----
 set(bindpose_has_mesher OFF)
 if(BINDPOSE_WITH_MESHER AND NOT BINDPOSE_PERMISSIVE)
   find_package(CGAL 5.5 QUIET)
@@ -58,9 +58,10 @@ if(BINDPOSE_WITH_MESHER AND NOT BINDPOSE_PERMISSIVE)
 endif()
 
 # ---- OpenVDB (MPL) ----
-# Not by its FindOpenVDB.cmake, which ends the configure when Boost's or Blosc's development files are
-# missing and turns BUILD_SHARED_LIBS on. Since 8.1 version.h says how the library was built. Headers
-# of 10 use Boost's, which Debian's package does not depend on.
+# OpenVDB's FindOpenVDB.cmake is not used: it stops the configuration if development files of Boost or
+# Blosc are missing, and it sets BUILD_SHARED_LIBS to ON. Since OpenVDB 8.1, version.h contains the
+# build options of the library. The headers of OpenVDB 10 include headers of Boost, but Debian's
+# package does not depend on them.
 set(bindpose_has_openvdb OFF)
 if(BINDPOSE_WITH_OPENVDB)
   find_path(OPENVDB_INCLUDE_DIR openvdb/openvdb.h)

@@ -1,6 +1,7 @@
-# What the system has. Required: VTK, CLI11 and what the kernels need. The rest is optional.
+# Find the dependencies. Required: VTK, CLI11, libpng and the dependencies of the kernels. Other packages are needed only
+# for options.
 
-# Python before VTK, and the system's own: another interpreter on PATH has no VTK and no numpy.
+# Find Python before VTK. Prefer the system's Python, because another interpreter on PATH may lack VTK and NumPy.
 if(BINDPOSE_WRAP_PYTHON)
   if(NOT DEFINED Python3_EXECUTABLE AND EXISTS /usr/bin/python3)
     set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python that the package is built for")

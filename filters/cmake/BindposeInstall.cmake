@@ -1,4 +1,4 @@
-# find_package(Bindpose) for others: the VTK modules, the kernels and what they need.
+# Files for find_package(Bindpose) in other projects: the VTK modules, the kernels and their dependencies.
 include(CMakePackageConfigHelpers)
 string(REPLACE "VTK::" "" bindpose_required_vtk_components "${bindpose_required_modules}")
 list(FILTER bindpose_required_vtk_components EXCLUDE REGEX "^Bindpose::")

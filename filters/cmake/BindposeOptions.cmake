@@ -1,7 +1,7 @@
-# bindpose_generate(OUTPUT KIND [INPUT…]): a build rule for a file that is made from the descriptions of options. OUTPUT is
+# bindpose_generate(OUTPUT KIND [INPUT…]): add a rule that generates a file from the descriptions of options. OUTPUT is
 # relative to the current binary directory; KIND and INPUT are arguments of filters/options/generate.py.
 if(NOT DEFINED Python3_EXECUTABLE AND EXISTS /usr/bin/python3)
-  set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python that generates code and that the package is built for")
+  set(Python3_EXECUTABLE /usr/bin/python3 CACHE FILEPATH "Python that generates code, and for which the package is built")
 endif()
 find_package(Python3 3.9 REQUIRED COMPONENTS Interpreter)
 

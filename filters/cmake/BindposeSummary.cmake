@@ -1,5 +1,5 @@
-# The table of options, printed at the end of every configure, with the license that results. Of the
-# options that this build does not have there is no row.
+# Print the table of options and the resulting license at the end of every configuration. Options that
+# are not defined in this build have no row.
 set(bindpose_license "BSD-3-Clause")
 set(bindpose_license_reasons "")
 if(bindpose_has_cholmod)
@@ -8,14 +8,14 @@ if(bindpose_has_cholmod)
 endif()
 set(bindpose_mesher_license "not built")
 if(bindpose_has_mesher)
-  set(bindpose_mesher_license "AGPL-3.0 with GPL-3.0 parts (TetGen, CGAL), a process of its own")
+  set(bindpose_mesher_license "AGPL-3.0 with GPL-3.0 parts (TetGen, CGAL), runs as a separate process")
 endif()
 list(JOIN bindpose_license_reasons ", " bindpose_license_reasons)
 if(bindpose_license_reasons)
   set(bindpose_license_reasons " (because of ${bindpose_license_reasons}; Bindpose's own code: BSD-3-Clause)")
 endif()
 
-if(bindpose_has_openvdb) # binds OpenVDB's own files only, so it changes no license of ours
+if(bindpose_has_openvdb) # its license applies only to its own files, not to Bindpose
   string(APPEND bindpose_license_reasons ", linked with OpenVDB (MPL-2.0)")
 endif()
 
@@ -49,9 +49,9 @@ bindpose_yes_no(BINDPOSE_BUILD_TESTS tests)
 bindpose_yes_no(BINDPOSE_PERMISSIVE permissive)
 message(STATUS "Bindpose ${PROJECT_VERSION}, ${CMAKE_BUILD_TYPE}, VTK ${VTK_VERSION}")
 bindpose_row("BINDPOSE_PERMISSIVE" "${permissive}" "leaves out all GPL and AGPL parts")
-bindpose_row("BINDPOSE_WITH_CHOLMOD" "${cholmod}" "fast factorization (libsuitesparse-dev); else Eigen's")
+bindpose_row("BINDPOSE_WITH_CHOLMOD" "${cholmod}" "fast factorization (libsuitesparse-dev); otherwise Eigen's")
 bindpose_row("BINDPOSE_WITH_MESHER" "${mesher}" "method cdt (libcgal-dev, libtet1.5-dev)")
-bindpose_row("BINDPOSE_WITH_OPENVDB" "${openvdb}" "volumes as .vdb (libopenvdb-dev, libboost-dev)")
+bindpose_row("BINDPOSE_WITH_OPENVDB" "${openvdb}" "volumes as .vdb files (libopenvdb-dev, libboost-dev)")
 bindpose_row("BINDPOSE_WITH_QT" "${qt}" "bindpose view (qtbase5-dev, libvtk9-qt-dev)")
 bindpose_row("BINDPOSE_WRAP_PYTHON" "${python}" "import bindpose (python3-vtk9, python3-numpy)")
 bindpose_row("BINDPOSE_BUILD_TESTS" "${tests}" "ctest")

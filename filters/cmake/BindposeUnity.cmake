@@ -30,7 +30,7 @@ function(bindpose_unity_groups target largest)
   target_compile_options(${target} PRIVATE -Wno-subobject-linkage)
 endfunction()
 
-# Groups of kernels are small: a change of a kernel is tested in seconds.
+# Groups of kernels are small, so that a changed kernel can be built and tested in seconds.
 bindpose_unity_groups(bindpose_core 4)
 foreach(target IN ITEMS Filters Widgets bindpose_scene bindpose_document bindpose_poses bindpose_app bindpose_tour bindpose
     bindpose_benchmarks bindpose_test_support bindpose_core_tests bindpose_filter_tests bindpose_render_tests

@@ -262,8 +262,8 @@ def test_boundary_and_parts(tmp_path):
         assert numbers[f"{name}: multiplicities"] == multiplicities
         triangles, open_edges, volume = numbers[f"{name}: triangles, open edges, volume"]
         assert triangles > 0 and (open_edges == 0) == (not multiplicities)
-        # The volume is between that of the subdivided icosahedron and that of the ball. The three pages enclose
-        # nothing.
+        # The volume is between those of the subdivided icosahedron and of the ball. The mesh "three pages" encloses
+        # no volume.
         assert (volume < 0) == (name == "inside out") or abs(volume) < 1e-12
     ball = -numbers["inside out: triangles, open edges, volume"][2]
     assert 3.9 < ball < 4.18879 + 1e-9

@@ -130,14 +130,15 @@ public:
   bool has_preview() const { return this->preview_ != nullptr; }
 
   // ---- Options ----
-  /// Set an option in one step. Consecutive steps of one continuous option merge until end_merge()
-  /// or a step of another option. Values that the table (options.h) does not allow are ignored.
+  /// Set an option as one undo step. Consecutive steps of one continuous option merge until
+  /// end_merge() or a step of another option. Values that the table (options.h) does not allow are
+  /// ignored.
   void set_option(const QString& key, const QVariant& value);
-  /// Set several options in one step, which has the name of the step of option `key`.
+  /// Set several options as one undo step. It has the same name as a change of option `key`.
   void set_options(const Options& values, const QString& key);
   /// Set an option that the program itself has chosen, without an undo step.
   void set_option_without_undo(const QString& key, const QVariant& value);
-  /// Prevent the next step from merging with the previous one.
+  /// Prevent the next undo step from merging with the previous one.
   void end_merge() { ++this->merge_group_; }
 
   /// Replace the work and begin a new history.

@@ -34,7 +34,7 @@ struct Tile
   vtkSmartPointer<vtkDataSet> data;
   vtkSmartPointer<vtkPolyData> handles; ///< drawn on top of `data`; may be null
   std::string label; ///< text below the tile; may be empty
-  /// Additional datasets that are drawn uncolored: surfaces and tets see-through, curves as tubes.
+  /// Additional datasets that are drawn uncolored: surfaces and tets translucent, curves as tubes.
   std::vector<vtkSmartPointer<vtkDataSet>> context{};
   /// Output of vtkSurfaceDefects, drawn over a surface, which is then see-through; may be null.
   vtkSmartPointer<vtkPolyData> defects{};

@@ -75,7 +75,7 @@ struct GizmoSetup
   Color plain = { 0.60, 0.61, 0.65 }; ///< color of parts without an axis
 };
 
-/// Return a kind of gizmo that has the part: `kind` if it has the part, otherwise another kind.
+/// Return a kind of gizmo that has the part; `kind` itself if possible.
 GizmoKind gizmo_with(int part, GizmoKind kind);
 /// Return the radius of a ring, in pixels of the window.
 double ring_pixels(const GizmoSetup& setup, int part);

@@ -30,7 +30,7 @@ using Eigen::Vector3d;
 
 namespace
 {
-/// Return the largest number 1, 2 or 5 times a power of ten that is not above the length.
+/// Round a length down to a round number: a power of ten times 1, 2 or 5.
 double round_length(double length)
 {
   if (!(length > 0.0) || !std::isfinite(length))

@@ -82,8 +82,8 @@ public:
   {
     double energy = 0.0; ///< value of the minimized expression at D*
     Coordinates covariance; ///< covariances K D*
-    Coordinates base_displacement; ///< D*; for the quick method the given blocks only
-    Coordinates z; ///< coordinates z of D*, for the quick method
+    Coordinates base_displacement; ///< D*; for the method with given blocks only these blocks
+    Coordinates z; ///< coefficients z of D*, for the method with given blocks
     Eigen::RowVector3d first; ///< target of the constraint that determines the translation t
   };
   /// Compute D* for one pose.

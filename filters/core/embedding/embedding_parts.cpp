@@ -142,7 +142,7 @@ private:
 
   // ---- Probes ----
 
-  /// A node, and the index 4 * part + corner of a corner at this node.
+  /// A node, and one of the tet corners at this node: the index 4 * part + corner.
   using Corner = std::pair<Key, Id>;
 
   /// Find copies of one node that are connected by a probe, and append pairs of corners to unite.

@@ -6,8 +6,8 @@
 //
 //     M v = K u - f,    M w = K v,    K_i w = M_i load  at free vertices i,
 //
-// where f is the flux through the edge of the patch. For order 2, the last equation is K_i v = M_i
-// load; for order 1 it is K_i u = M_i load.
+// where f is the flux through the boundary of the patch. For order 2, the last equation is K_i v =
+// M_i load; for order 1 it is K_i u = M_i load.
 //
 // The mass M is lumped, so v and w can be eliminated: K M^-1 K M^-1 K u = M load + K M^-1 K M^-1 f.
 // This condensed matrix is symmetric and positive definite and needs one Cholesky factorization.

@@ -551,7 +551,7 @@ private:
     options.alpha = this->options_.wrap_alpha;
     options.offset = this->options_.wrap_offset;
     options.memory_limit = this->options_.memory_limit;
-    // Fraction of the time limit for the wrap; the rest is for filling it.
+    // Fraction of the time limit that the wrap may use. The rest is for filling the wrap with tets.
     constexpr double fraction = 0.75;
     options.time_limit = fraction * this->time_limit_;
     Points points;

@@ -201,8 +201,8 @@ Status tetrahedralize(ExecutionContext& context, PointsView points, TrianglesVie
 Status tetrahedralize(ExecutionContext& context, PointsView points, TrianglesView triangles,
   PreparedSurface& prepared, const TetrahedralizeOptions& options, TetrahedralizeResult& result);
 
-/// Complete method embed from tets that embed_surface() has computed for the prepared surface: set
-/// winding numbers, labels, angles and the report. Cost: one winding number per tet.
+/// Finish method embed, for tets that embed_surface() has computed for the prepared surface: set
+/// their winding numbers, labels, angles and the report. Cost: one winding number per tet.
 Status complete_embedding(ExecutionContext& context, PointsView points, TrianglesView triangles,
   PreparedSurface& prepared, EmbeddingTets embedding, TetrahedralizeResult& result);
 

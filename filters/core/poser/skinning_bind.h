@@ -59,8 +59,8 @@ public:
   /// Report whether the bind contains everything that pose() needs for these options.
   bool is_bound(const SkinnedShape& shape, const SkinningMethodOptions& options) const;
 
-  /// Report whether bind() reads the elements of the shape for what is missing: centers, automatic
-  /// pseudo-edges and endpoint weights.
+  /// Report whether bind() needs the elements of the shape, because rotation centers, automatic
+  /// pseudo-edges or endpoint weights are missing.
   bool needs_elements(const SkinnedShape& shape, const SkinningMethodOptions& options) const;
 
   /// Compute what is missing. Centers of rotation take seconds for a large shape; endpoint weights

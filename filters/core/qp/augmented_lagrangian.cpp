@@ -108,7 +108,8 @@ private:
   std::vector<char> at_bound_; // per free vertex: 1 if it moves to a bound
   bool needs_factor_ = true;
   std::vector<char> excluded_; // per free vertex: 1 if it is not in the last factor
-  // If true, a vertex stays at a bound only if its value is already there.
+  // If true, only vertices whose value is already at a bound are treated as at the bound. If false,
+  // also those that the next step would move there.
   bool only_reached_bounds_ = false;
   BoxQpSolution solution_;
 };

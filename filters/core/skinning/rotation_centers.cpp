@@ -43,8 +43,9 @@ struct PairElement
 /// whole lanes with groups of amount zero.
 struct PairGroups
 {
-  std::vector<double> first, second; ///< mean weights of the two handles, divided by the width
-  std::vector<double> amount; ///< sum of the elements' amounts
+  std::vector<double> first,
+    second; ///< mean weights of both handles, divided by the kernel's width
+  std::vector<double> amount; ///< sum of the areas or volumes of the elements
   std::vector<double> x, y, z; ///< sum of amount * centroid over the elements
   Index count = 0;
 
@@ -106,9 +107,9 @@ BINDPOSE_ALWAYS_INLINE double decay(double u)
   return u < 690.0 ? p * scale : 0.0;
 }
 
-/// Add the groups of a pair of handles to `sums`. Each group is weighted by the similarity between
-/// its two weights and the weights `a` and `b` of a vertex. The weights of the groups are already
-/// divided by the width.
+/// Add the groups of a pair of handles to `sums`. The factor of each group is the similarity
+/// between its two skinning weights and the skinning weights `a` and `b` of a vertex. The weights
+/// of the groups are already divided by the width of the similarity kernel.
 BINDPOSE_SIMD_CLONES void add_similar(
   const PairGroups& groups, double a, double b, double factor, Sums& sums)
 {

@@ -366,7 +366,7 @@ TEST_F(ProbeWindow, ADefectIsReadByItsName)
   ASSERT_TRUE(test::wait_for(
     [this] { return this->part<app::tets::TetInspection>()->defect_view().is_shown(); }));
   this->resize({ 1000, 700 });
-  // Take the ends of an edge with only one triangle.
+  // Take the ends of a boundary edge.
   vtkPolyData* defects = this->part<app::tets::TetInspection>()->defect_view().defects();
   ASSERT_GT(defects->GetNumberOfLines(), 0);
   const Vec3 a(defects->GetPoint(defects->GetCell(0)->GetPointId(0)));

@@ -17,7 +17,7 @@ namespace app::tour
 nlohmann::ordered_json tour_values(window::MainWindow* window);
 
 /// Return the distance between two values. For numbers it is the largest absolute difference of a
-/// component. For words it is 0 if they are equal, otherwise infinite. For values of different
+/// component. For strings it is 0 if they are equal, otherwise infinite. For values of different
 /// types it is infinite.
 double distance(const nlohmann::ordered_json& a, const nlohmann::ordered_json& b);
 

@@ -51,7 +51,7 @@ public:
   view::PlaneHandle* plane() const { return this->plane_; }
   bool is_slice_shown() const { return this->is_active() && this->slice_shown_; }
   double position() const { return this->plane_->position(); }
-  /// Return the smallest and the largest position at which the slice touches the volume.
+  /// Return the smallest and the largest position at which the slice intersects the volume.
   std::pair<double, double> positions() const { return this->plane_->positions(); }
   bindpose::Vec3 slice_origin() const { return this->plane_->origin(); }
   bindpose::Vec3 slice_normal() const { return this->plane_->normal(); }

@@ -1,4 +1,4 @@
-"""`python3 -m bindpose` is the program `bindpose`."""
+"""Run the program `bindpose`: `python3 -m bindpose`."""
 
 import os
 import sys

@@ -99,7 +99,7 @@ def render(*meshes: Drawable, output: Path | None = None, handles: Handles | Non
     InvalidInput
         Data or options that cannot be drawn, an existing file.
     Unavailable
-        The program `bindpose`, a display and Xvfb, or (for a moving picture) ffmpeg is missing; the message names it.
+        The program `bindpose`, a display and Xvfb, or (for a film) ffmpeg is missing; the message names it.
 
     Warns
     -----

@@ -129,7 +129,7 @@ struct PictureOptions
   /// driver antialiases each sample with 4 more samples. 1 disables all antialiasing.
   int supersampling = 2;
   /// Tiles that are not drawn but are included in the view and the range of the colors, for example
-  /// the other frames of a moving picture.
+  /// the other frames of a film.
   std::vector<Tile> undrawn_tiles;
 };
 

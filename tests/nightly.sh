@@ -8,6 +8,7 @@
 #   tidy         check the names in a quarter of the kernel files
 #   types        check the types and the documentation of the Python package
 #   notebooks    run the notebooks
+#   wheel        install a wheel of the Python package into a virtual environment
 #   quickstart   run examples/quickstart.sh
 #   surfaces     tets of all surfaces of libcgal-demo and of tests/support/horrors.py: method auto, and remesh or embed
 #   weights      weights of twenty surfaces, checked against their certificates
@@ -29,6 +30,11 @@ mypy:checks_the_types_of_the_Python_package
 python3-numpydoc:checks_the_documentation_of_the_Python_package
 jupyter-nbconvert:runs_the_notebooks
 python3-ipykernel:runs_the_notebooks
+python3-build:makes_the_wheel
+python3-setuptools:makes_the_wheel
+python3-wheel:makes_the_wheel
+python3-pip:installs_the_wheel
+python3-venv:installs_the_wheel
 "
 install_packages "$build_packages $test_packages $nightly_packages"
 # With these settings, the compiler cache ignores the folder, so the parts permissive and option recompile few files.
@@ -102,6 +108,18 @@ notebooks()
     --output-dir "$build_dir/nightly-notebooks" "$root"/examples/notebooks/*.ipynb
 }
 
+wheel()
+{
+  local folder="$build_dir/nightly-wheel"
+  rm -rf "$folder"
+  cmake --install "$build_dir" --prefix "$folder/installed" &&
+    /usr/bin/python3 "$root/python/make_wheel.py" "$folder/installed" --output "$folder" &&
+    rm -rf "$folder/installed" && # the wheel must not depend on it
+    /usr/bin/python3 -m venv --system-site-packages "$folder/environment" &&
+    "$folder/environment/bin/pip" install --no-index --no-deps "$folder"/bindpose-*.whl &&
+    "$folder/environment/bin/python" "$root/tests/python/installed_package.py" "$folder/environment"
+}
+
 quickstart()
 {
   "$root/examples/quickstart.sh" --headless --output "$build_dir/nightly-quickstart"
@@ -165,7 +183,7 @@ monkey()
 )
 
 parts=("$@")
-[ $# -gt 0 ] || parts=(option permissive asan tidy types notebooks quickstart surfaces weights fuzz drags scale hostile real paraview monkey)
+[ $# -gt 0 ] || parts=(option permissive asan tidy types notebooks wheel quickstart surfaces weights fuzz drags scale hostile real paraview monkey)
 for name in "${parts[@]}"; do
   part "$name" "$name"
 done

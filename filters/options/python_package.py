@@ -140,8 +140,8 @@ def package_stub(source, classes):
     text = f"{NOTE}from typing import Any\n\n"
     for node in ast.parse(source).body:
         if isinstance(node, ast.ImportFrom) and node.names[0].name != "*":
-            node.names = [ast.alias(each.name, each.name) for each in node.names]
-            text += ast.unparse(node) + "\n"
+            node.names = [ast.alias(each.name, each.name) for each in node.names if not each.asname]
+            text += ast.unparse(node) + "\n" if node.names else ""
     text += ("\nclass _VTKType(type):\n    def __getattr__(cls, name: str) -> Any: ...\n\n"
              "class _VTKClass(metaclass=_VTKType):\n    def __init__(self) -> None: ...\n"
              "    def __getattr__(self, name: str) -> Any: ...\n\n")

@@ -17,7 +17,14 @@ Where both are possible, arrays give arrays, and a VTK dataset gives a VTK datas
 returns the report of either.
 """
 
-import vtkmodules.vtkCommonCore  # noqa: F401  import VTK first, because Bindpose's libraries use its symbols
+import vtkmodules.vtkCommonCore as _vtk  # import VTK first, because Bindpose's libraries use its symbols
+
+from .version import VTK_VERSION as _VTK_VERSION
+from .version import __version__
+
+_found = f"{_vtk.vtkVersion.GetVTKMajorVersion()}.{_vtk.vtkVersion.GetVTKMinorVersion()}"
+if _found != _VTK_VERSION:
+    raise ImportError(f"this bindpose was built for VTK {_VTK_VERSION}, but vtkmodules is VTK {_found}: {_vtk.__file__}")
 
 from .BindposeFilters import *  # noqa: F401,F403
 
@@ -44,5 +51,4 @@ from .program import render
 from .rigs import Rig, bind, read_rig, write_rig
 from .running import report, run
 from .smoothing import monotone_smoothing
-from .version import __version__
 from .weight_uses import cut_along_bones, depth_order, endpoint_weights, weighted_colors

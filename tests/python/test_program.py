@@ -1,5 +1,7 @@
 """Pictures by the program, the package as the program, and its version."""
 
+import os
+import pathlib
 import re
 import subprocess
 import sys
@@ -76,3 +78,14 @@ def test_a_progress_bar_on_the_standard_error(capfd):
     assert seen and re.search(r"\r\[#*-*\] +\d+ % evaluate", drawn) and drawn.endswith("\r")
     bindpose.winding_number(shapes.cube(), 8)
     assert capfd.readouterr().err == ""
+
+
+def test_another_version_of_vtk_is_refused(tmp_path):
+    (tmp_path / "vtkmodules").mkdir()
+    (tmp_path / "vtkmodules" / "__init__.py").write_text("")
+    (tmp_path / "vtkmodules" / "vtkCommonCore.py").write_text(
+        "class vtkVersion:\n    GetVTKMajorVersion = staticmethod(lambda: 9)\n    GetVTKMinorVersion = staticmethod(lambda: 77)\n")
+    package = pathlib.Path(bindpose.__file__).parents[1]
+    done = subprocess.run([sys.executable, "-c", "import bindpose"], capture_output=True, text=True, check=False,
+                          env={**os.environ, "PYTHONPATH": os.pathsep.join(map(str, (tmp_path, package)))})
+    assert re.search(r"ImportError: this bindpose was built for VTK 9\.\d+, but vtkmodules is VTK 9\.77: ", done.stderr)

@@ -290,7 +290,7 @@ class Rig:
         known = self._outputs.get(address)
         if known is None or known[0] is not out:
             arrays = [self._mesh.GetPoints().GetData(), self._mesh.GetPointData().GetArray("Weights")]
-            if any(np.shares_memory(out, numpy_support.vtk_to_numpy(array)) for array in arrays if array):
+            if any(np.shares_memory(out, numpy_support.vtk_to_numpy(array)) for array in arrays if array is not None):
                 raise InvalidInput("out must be an array that shares no memory with the mesh of the rig")
             if len(self._outputs) > 1:
                 self._outputs.pop(next(iter(self._outputs)))

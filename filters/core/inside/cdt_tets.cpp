@@ -504,11 +504,20 @@ Status CdtTets::segment_and_store(
     }
   }
   kept.conservativeResize(count, 4);
+  // Each of the following steps takes up to seconds for millions of tets.
   std::vector<TetFacet> facets = tet_facets(kept);
+  if (this->context_.canceled())
+  {
+    return Status::canceled();
+  }
   // A tet without a neighbor is removed if its volume is less than this fraction of the total. Such
   // tets occur where the winding number varies around the threshold.
   const double lone_tet_fraction = this->inside_.labels_are_exact() ? 1e-8 : 1e-4;
   remove_small_components(data.points, kept, facets, lone_tet_fraction);
+  if (this->context_.canceled())
+  {
+    return Status::canceled();
+  }
   peel_slivers(data.points, kept, facets, flat_height * this->diagonal_);
   if (count == 0 && this->inside_.labels_are_exact())
   {
@@ -516,6 +525,10 @@ Status CdtTets::segment_and_store(
     return this->inside_.nothing_enclosed_error();
   }
   status = this->swap_flat(data.points, kept, facets);
+  if (status.ok() && this->context_.canceled())
+  {
+    return Status::canceled();
+  }
   status = status.ok() ? check_tets(data.points, kept, facets) : status;
   if (!status.ok())
   {

@@ -300,12 +300,26 @@ Status CdtTets::improve()
   options.insert = true;
   options.slack = 0.7;
   Improvement improvement;
-  if (!improve_tets(this->context_, mesh, std::move(fixed), {}, options, improvement))
+  {
+    const ProgressRange range(this->context_, 0.0, 0.9);
+    if (!improve_tets(this->context_, mesh, std::move(fixed), {}, options, improvement))
+    {
+      return Status::canceled();
+    }
+  }
+  // Each of the following steps takes up to seconds for millions of tets.
+  std::vector<TetFacet> facets = tet_facets(mesh.tets);
+  this->context_.progress(0.94);
+  if (this->context_.canceled())
   {
     return Status::canceled();
   }
-  std::vector<TetFacet> facets = tet_facets(mesh.tets);
   peel_slivers(mesh.points, mesh.tets, facets, flat_height * this->diagonal_);
+  this->context_.progress(0.97);
+  if (this->context_.canceled())
+  {
+    return Status::canceled();
+  }
   const Status status = check_tets(mesh.points, mesh.tets, facets);
   this->log_.add("flat tets improved", this->context_.elapsed_seconds() - start, status);
   if (status.ok())

@@ -50,19 +50,24 @@ public:
     constexpr Index last_passes = 4; // passes in which held vertices may move
     constexpr Index first_passes = 3; // passes before vertices are inserted
     const Index passes = this->options_.passes - last_passes;
-    bool completed =
-      this->passes(this->options_.insert ? first_passes : passes, this->options_.angle);
-    if (completed && this->options_.insert)
+    // Fractions of the time at the ends of the three groups of passes.
+    const double first_end = this->options_.insert ? 0.4 : 0.0;
+    const double second_end = this->options_.release_angle > 0.0 ? 0.85 : 0.97;
+    bool completed = true;
+    if (this->options_.insert)
     {
+      completed = this->passes(first_passes, this->options_.angle, 0.0, first_end);
       this->rules_.insert = true;
       this->last_search_.clear();
-      completed = this->passes(passes - first_passes, this->options_.angle);
     }
+    completed = completed &&
+      this->passes(passes - (this->options_.insert ? first_passes : 0), this->options_.angle,
+        first_end, second_end);
     if (completed && this->options_.release_angle > 0.0)
     {
       this->rules_.may_move_constrained = true;
       this->last_search_.clear();
-      completed = this->passes(last_passes, this->options_.release_angle);
+      completed = this->passes(last_passes, this->options_.release_angle, second_end, 0.97);
     }
     if (completed && !this->options_.keep_boundary)
     {
@@ -88,18 +93,20 @@ private:
     return static_cast<double>(this->evaluations_) > this->maximum_evaluations_;
   }
 
-  /// Run up to `maximum` passes. @return false if canceled.
-  bool passes(Index maximum, double angle)
+  /// Run up to `maximum` passes. Progress goes from `begin` to `end`. @return false if canceled.
+  bool passes(Index maximum, double angle, double begin, double end)
   {
     const double required_quality = TetComplex::quality_of_angle(angle);
+    const double per_pass = (end - begin) / static_cast<double>(std::max<Index>(1, maximum));
     for (Index pass = 0; pass < maximum; ++pass)
     {
       Count count;
+      const ProgressRange range(this->context_, begin + per_pass * static_cast<double>(pass),
+        begin + per_pass * static_cast<double>(pass + 1));
       if (!this->pass(required_quality, count))
       {
         return false;
       }
-      this->context_.progress(static_cast<double>(pass + 1) / static_cast<double>(maximum));
       // the passes end if a pass improves at most one in 60 tets
       constexpr Index tets_per_improvement = 60;
       if (tets_per_improvement * count.improved <= count.tried)
@@ -147,6 +154,8 @@ private:
       {
         return false;
       }
+      this->context_.progress(
+        static_cast<double>(next) / static_cast<double>(std::max<std::size_t>(1, flat.size())));
       const std::uint64_t before = this->tets_.changes();
       for (std::size_t i = 0; i < batch.size(); ++i)
       {

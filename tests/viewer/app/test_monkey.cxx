@@ -71,9 +71,10 @@ const char* const automatic_options[] = { "show.column", "weights.column", "weig
   "weights.raw", "tets.shown", "tets.colors", "defects.shown", "volume.level",
   "volume.isosurface" };
 
-/// Options that the program sets when a file is opened, until the user sets them.
-const char* const options_of_opening[] = { "volume.orientation", "tets.orientation",
-  "tets.other_side", "weights.orientation" };
+/// Options that the program sets when a file is opened, until the user sets them. An orientation
+/// along an axis also sets the normal.
+const char* const options_of_opening[] = { "volume.orientation", "volume.normal",
+  "tets.orientation", "tets.normal", "tets.other_side", "weights.orientation", "weights.normal" };
 
 using Fingerprints = std::map<std::string, std::string>;
 

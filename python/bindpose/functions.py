@@ -32,6 +32,7 @@ from .meshes import (
     to_dataset,
     to_vtk_points,
     triangles_of,
+    weights_of,
     with_weights,
 )
 from .options import with_options
@@ -87,8 +88,8 @@ def winding_number(surface: Mesh, points_or_grid: vtkDataSet | ArrayLike | None 
     --------
     >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
     ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> bindpose.winding_number(tetrahedron, [[0.1, 0.1, 0.1], [2, 2, 2]]).round(6)
-    Array([1., 0.])
+    >>> bindpose.winding_number(tetrahedron, [[0.1, 0.1, 0.1], [2, 2, 2]]).round(6).tolist()
+    [1.0, 0.0]
     """
     field = filters.vtkWindingNumberField()
     field.SetInputData(0, to_dataset(surface))
@@ -439,9 +440,7 @@ def weights(mesh: Mesh, handles: Handles, *, bounds: tuple[float, float] | Mappi
     copy_report(solver.GetOutput(), result)
     if is_dataset(mesh):
         return result
-    array = result.GetPointData().GetArray("Weights")
-    names = [array.GetComponentName(j) for j in range(array.GetNumberOfComponents())]
-    return Array(point_array(result, "Weights"), report, names)
+    return weights_of(result, "Weights", report)
 
 
 def make_deformation(options):

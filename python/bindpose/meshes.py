@@ -185,6 +185,13 @@ def point_array(data, name):
     return None if array is None else np.array(numpy_support.vtk_to_numpy(array))
 
 
+def weights_of(data, name, report):
+    """Return a point array of weights as (#V, #handles), also for one handle, with the names of the handles."""
+    array = data.GetPointData().GetArray(name)
+    names = [array.GetComponentName(j) for j in range(array.GetNumberOfComponents())]
+    return Array(point_array(data, name).reshape(data.GetNumberOfPoints(), len(names)), report, names)
+
+
 def add_point_array(data, name, values, component_names=()):
     """Attach an array to the dataset's points."""
     array = numpy_support.numpy_to_vtk(np.ascontiguousarray(values), deep=True)
@@ -262,4 +269,13 @@ def copy_report(source, target):
         array = arrays.GetAbstractArray(i)
         if (array.GetName() or "").startswith("Report."):
             target.GetFieldData().AddArray(array)
-    remember_run(target, {**run_of(target), **run_of(source)})
+    remember_run(target, _merged(run_of(target), run_of(source)))
+
+
+def _merged(first, second):
+    """Merge two reports, their nested dicts too; of equal keys the second wins."""
+    merged = {**first, **second}
+    for key in first.keys() & second.keys():
+        if isinstance(first[key], dict) and isinstance(second[key], dict):
+            merged[key] = _merged(first[key], second[key])
+    return merged

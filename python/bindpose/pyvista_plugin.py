@@ -67,13 +67,18 @@ def read(path, **options):
     are ignored.
     """
     _check(path, options)
+    data, failure = None, None
     try:
-        return pyvista.wrap(files.read(path))
+        data = files.read(path)
     except InvalidInput as error:
+        failure = error
+    if data is None or not data.GetNumberOfCells():
         try:
             return pyvista.read_meshio(path)
         except Exception:  # pylint: disable=broad-except  meshio is missing, or cannot read the file either
-            raise error from None
+            if failure:
+                raise failure from None
+    return pyvista.wrap(data)
 
 
 def read_handles(path, **options):

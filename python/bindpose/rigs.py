@@ -19,7 +19,17 @@ from .errors import BindposeWarning, InvalidInput
 from .files import read_handles
 from .functions import apply_deformation_options, deform, make_deformation, plain_value, weights
 from .handle_sets import cell_names, handle_cells, to_handles
-from .meshes import Array, is_dataset, like, point_array, remember_run, run_of, shallow_copy, to_dataset, with_weights
+from .meshes import (
+    Array,
+    is_dataset,
+    like,
+    remember_run,
+    run_of,
+    shallow_copy,
+    to_dataset,
+    weights_of,
+    with_weights,
+)
 from .options import checked_options, with_options
 from .parameter_types import Handles, Mesh, Path, Progress
 from .running import check_status, interruptible, report, run, warn
@@ -96,11 +106,9 @@ class Rig:
     @property
     def weights(self) -> Array:
         """The weights, (#V, #handles), with the handle of each column in ``names``."""
-        array = self._mesh.GetPointData().GetArray("Weights")
-        if array is None:
+        if self._mesh.GetPointData().GetArray("Weights") is None:
             raise InvalidInput("the mesh of the rig has no point array 'Weights'")
-        names = [array.GetComponentName(j) for j in range(array.GetNumberOfComponents())]
-        return Array(point_array(self._mesh, "Weights"), self.report, names)
+        return weights_of(self._mesh, "Weights", self.report)
 
     @property
     def report(self) -> dict[str, Any]:

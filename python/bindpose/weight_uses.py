@@ -11,7 +11,7 @@ from vtkmodules.vtkCommonDataModel import vtkPolyData
 from . import BindposeFilters as filters
 from .errors import InvalidInput
 from .handle_sets import to_handles, with_cell_values
-from .meshes import Array, is_dataset, point_array, to_dataset, with_weights
+from .meshes import Array, is_dataset, point_array, to_dataset, weights_of, with_weights
 from .options import with_options
 from .parameter_types import Handles, Mesh, Progress
 from .running import run
@@ -125,11 +125,7 @@ def endpoint_weights(mesh: Mesh, handles: Handles, *, options, threads: int = 0,
     solver.SetNumberOfThreads(threads)
     report = run(solver, progress)
     result = solver.GetOutput()
-    if is_dataset(mesh):
-        return result
-    array = result.GetPointData().GetArray("EndpointWeights")
-    names = [array.GetComponentName(j) for j in range(array.GetNumberOfComponents())]
-    return Array(point_array(result, "EndpointWeights"), report, names)
+    return result if is_dataset(mesh) else weights_of(result, "EndpointWeights", report)
 
 
 @with_options("depth_order")

@@ -29,7 +29,7 @@ def test_the_first_row_of_a_picture_is_at_the_top():
     alpha = bindpose.render(tower, size="200x200", transparent=True)[..., 3]
     covered = np.nonzero(alpha.any(axis=1))[0]
     widths = (alpha > 0).sum(axis=1)
-    assert widths[covered[:10]].max() > 5 * widths[covered[-10:]].max()
+    assert widths[covered[:10]].max() > 5 * widths[covered[-1]]
 
 
 def test_several_meshes_handles_and_context(tmp_path):

@@ -84,7 +84,7 @@ def test_bad_input_is_named():
         bindpose.monotone_smoothing(BAR, DATA, maxima=[], minima=[])
     with pytest.raises(bindpose.InvalidInput, match="cannot be combined"):
         bindpose.monotone_smoothing(BAR, DATA, maxima=[RIGHT], extrema=np.zeros(len(X)))
-    with pytest.raises(bindpose.InvalidInput, match="needs data"):
+    with pytest.raises(bindpose.InvalidInput, match="data is required"):
         bindpose.monotone_smoothing(BAR)
     with pytest.raises(bindpose.InvalidInput, match="shape"):
         bindpose.monotone_smoothing(BAR, DATA[:-1])

@@ -114,16 +114,30 @@ def without_body(function, sets, verbs):
     function.body = [ast.Expr(ast.Constant(...))]
 
 
+def has_annotations(function):
+    """Report whether a function has annotations. Functions for other modules of the package have none, and no stub."""
+    arguments = function.args
+    return function.returns is not None or any(argument.annotation for argument in arguments.args + arguments.kwonlyargs)
+
+
+def used_imports(imports, body):
+    """Return the imports of names that a stub uses."""
+    used = {node.id for part in body for node in ast.walk(part) if isinstance(node, ast.Name)}
+    for node in imports:
+        node.names = [each for each in node.names if (each.asname or each.name).partition(".")[0] in used]
+    return [node for node in imports if node.names]
+
+
 def stub(source, sets, verbs):
     """Return a stub of a module: its public functions and classes, with the options of their sets as parameters."""
     tree = ast.parse(source)
-    body = [ast.parse(line).body[0] for line in
-            ("from collections.abc import Sequence", "from typing import Literal", "from numpy.typing import ArrayLike")]
+    imports = [ast.parse(line).body[0] for line in
+               ("from collections.abc import Sequence", "from typing import Literal", "from numpy.typing import ArrayLike")]
+    body = []
     for node in tree.body:
         if isinstance(node, (ast.Import, ast.ImportFrom)):
-            if getattr(node, "module", "") != "__future__":
-                body.append(node)
-        elif isinstance(node, ast.FunctionDef) and not node.name.startswith("_"):
+            imports.append(node)
+        elif isinstance(node, ast.FunctionDef) and not node.name.startswith("_") and has_annotations(node):
             without_body(node, sets, verbs)
             body.append(node)
         elif isinstance(node, ast.ClassDef) and not node.name.startswith("_"):
@@ -132,7 +146,7 @@ def stub(source, sets, verbs):
                 if isinstance(child, ast.FunctionDef):
                     without_body(child, sets, verbs)
             body.append(node)
-    return NOTE + ast.unparse(ast.fix_missing_locations(ast.Module(body, []))) + "\n"
+    return NOTE + ast.unparse(ast.fix_missing_locations(ast.Module([*used_imports(imports, body), *body], []))) + "\n"
 
 
 def package_stub(source, classes):

@@ -219,15 +219,18 @@ class Rig:
                      "compute the weights again by bindpose.bind()", BindposeWarning)
             return result
 
-    def save(self, path: Path, *, frames: Sequence[vtkDataSet] = (), fps: float | None = None,
+    def save(self, path: Path, *, frames: Sequence[Mapping[str, Any] | vtkDataSet] = (), fps: float | None = None,
              animation: Literal["joints", "morph"] = "joints", maximum_influences: int = 0,
              overwrite: bool = False) -> dict[str, Any]:
         """Write the rig as a skinned glTF 2.0 file.
 
         Parameters
         ----------
-        path, frames, animation, maximum_influences, overwrite
-            See `write_rig`. Without `frames`, the animation of the rig is written.
+        path, animation, maximum_influences, overwrite
+            See `write_rig`.
+        frames : sequence of dict or of vtkDataSet
+            The frames of an animation: poses as in `pose`, or results of `deform`. Without frames, the animation of the
+            rig is written.
         fps : float, optional
             Frames per second. Default: those of the animation of the rig, else 24.
 
@@ -241,10 +244,13 @@ class Rig:
         >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
         ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
         >>> rig = bindpose.bind(tetrahedron, bindpose.handles(points=[[0, 0, 0], [1, 0, 0]]), domain="surface")
-        >>> rig.save("tetrahedron.glb")["status"]
+        >>> rig.save("tetrahedron.glb", frames=[{"p1": {"translate": [0, 0, height]}} for height in (0, 1)])["status"]
         'ok'
         """
-        if not frames and self.animation:
+        if frames and all(isinstance(frame, Mapping) for frame in frames):
+            poses = [frame if "handles" in frame else {"handles": frame} for frame in frames]
+            frames = deform(self._mesh, self._handles, {"frames": poses})
+        elif not frames and self.animation:
             frames = deform(self._mesh, self._handles, self.animation)
             fps = fps or self.animation.get("fps")
         return write_rig(self._mesh, self._handles, path, frames=frames, fps=fps or 24.0, animation=animation,

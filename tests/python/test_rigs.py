@@ -244,6 +244,16 @@ def test_saved_rigs_can_be_posed(rig, tmp_path):
     assert vtk_to_numpy(posed.GetPoints().GetData()).shape == (len(BAR[0]), 3)
 
 
+def test_frames_of_a_saved_rig_are_poses(rig, tmp_path):
+    report = rig.save(tmp_path / "bar.glb", frames=[BEND, {"handles": {}}, BEND], fps=12)
+    assert report["animation_error"] < 1e-5
+    back = bindpose.read_rig(tmp_path / "bar.glb")
+    assert len(back.animation["frames"]) == 3 and back.animation["fps"] == pytest.approx(12)
+    posed = bindpose.deform(back.mesh, back.handles, back.animation)
+    assert points_of(posed[2]) == pytest.approx(np.array(rig.pose(BEND)), abs=1e-5)
+    assert back.save(tmp_path / "again.glb")["status"] == "ok"
+
+
 def test_options_are_in_the_signature():
     import inspect
 

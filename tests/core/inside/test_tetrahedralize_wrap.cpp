@@ -128,7 +128,7 @@ TEST_F(Wrap, AnOpenSurfaceIsWarnedOfWithBothVolumes)
   const double fillets = 16.0 * std::pow((options.wrap_alpha + options.wrap_offset) * diagonal, 2);
   EXPECT_GT(outcome.volume(), 0.97 * shell);
   EXPECT_LT(outcome.volume(), 1.1 * shell + fillets);
-  EXPECT_THAT(warning, HasSubstr("its volume is 0."));
+  EXPECT_THAT(warning, HasSubstr("the volume of the tets is 0."));
 }
 
 TEST_F(Wrap, ThresholdsAndThreadsDoNotMatter)

@@ -80,7 +80,7 @@ protected:
     filter->SetInputData(0, this->tets);
     filter->SetInputConnection(1, pose->GetOutputPort());
     filter->Update();
-    EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::OK) << filter->GetStatusMessage();
+    EXPECT_LE(filter->GetStatus(), vtkBindposeAlgorithm::NOT_CONVERGED); // there is a result
     return to_points(vtkPointSet::SafeDownCast(filter->GetOutput())).view();
   }
 

@@ -36,7 +36,7 @@ def make(options):
         bindpose.write(posed, options.scratch / files[-1])
     apart = [posing.rms_apart(points, posed, found[-1][0]) for posed, _ in found]
     shown = files[:4]
-    labels = [f"{rotations} rotation{'s' * (rotations > 1)}: distance {away:.1%} from {found[-1][1]} rotations, {time:.3g} µs"
+    labels = [f"{rotations} rotation{'s' * (rotations > 1)}: distance {away:.1%} from {found[-1][1]} rotations; {time:.3g} µs"
               for (_, rotations), away, time in zip(found, apart, times)]
     common.render(options, *shown, "--columns", 2, "--size", "1300x1000", "--color", "rotation-cluster", "--up", "z", "--azimuth", -35,
                   "--elevation", 15, "--section", "none", "--labels", ",".join(labels[:4]),

@@ -7,6 +7,7 @@
 #include "report_field_data.h"
 #include "vtkPoseHandles.h"
 #include "vtkReducedARAP.h"
+#include "weights_arrays.h"
 
 #include "support/bars.h"
 #include "support/meshes.h"
@@ -42,14 +43,8 @@ protected:
   {
     this->rig = test::bar();
     this->tets = to_unstructured_grid(this->rig.mesh.points, this->rig.mesh.tets);
-    vtkNew<vtkDoubleArray> weights;
-    weights->SetName("Weights");
-    weights->SetNumberOfComponents(3);
-    for (Index v = 0; v < this->rig.weights.rows(); ++v)
-    {
-      weights->InsertNextTuple(this->rig.weights.row(v).data());
-    }
-    this->tets->GetPointData()->AddArray(weights);
+    this->tets->GetPointData()->AddArray(
+      to_weights_array("Weights", this->rig.weights, this->rig.handles));
     this->handles = to_polydata(this->rig.handles);
     this->filter->SetInputData(0, this->tets);
     this->filter->SetInputData(1, this->handles);

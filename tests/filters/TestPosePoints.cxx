@@ -11,6 +11,7 @@
 #include "vtkReducedARAP.h"
 #include "vtkReducedDynamics.h"
 #include "vtkSkinningDeformation.h"
+#include "weights_arrays.h"
 
 #include "support/bars.h"
 #include "support/meshes.h"
@@ -51,14 +52,7 @@ protected:
   {
     const test::Rig rig = test::bar();
     this->tets = to_unstructured_grid(rig.mesh.points, rig.mesh.tets);
-    vtkNew<vtkDoubleArray> weights;
-    weights->SetName("Weights");
-    weights->SetNumberOfComponents(3);
-    for (Index v = 0; v < rig.weights.rows(); ++v)
-    {
-      weights->InsertNextTuple(rig.weights.row(v).data());
-    }
-    this->tets->GetPointData()->AddArray(weights);
+    this->tets->GetPointData()->AddArray(to_weights_array("Weights", rig.weights, rig.handles));
     this->handles = to_polydata(rig.handles);
   }
 

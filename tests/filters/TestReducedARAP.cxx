@@ -9,6 +9,7 @@
 #include "report_field_data.h"
 #include "vtkPoseHandles.h"
 #include "vtkSkinningDeformation.h"
+#include "weights_arrays.h"
 
 #include "support/bars.h"
 #include "support/meshes.h"
@@ -35,22 +36,6 @@ using testing::HasSubstr;
 
 namespace
 {
-vtkSmartPointer<vtkDoubleArray> weights_array(const Weights& weights, const Handles& handles)
-{
-  auto array = vtkSmartPointer<vtkDoubleArray>::New();
-  array->SetName("Weights");
-  array->SetNumberOfComponents(static_cast<int>(weights.cols()));
-  for (std::size_t h = 0; h < handles.size(); ++h)
-  {
-    array->SetComponentName(static_cast<vtkIdType>(h), handles[h].name.c_str());
-  }
-  for (Index v = 0; v < weights.rows(); ++v)
-  {
-    array->InsertNextTuple(weights.row(v).data());
-  }
-  return array;
-}
-
 /// Pipeline of a bar as tets and as a surface, with its three handles and a pose file.
 class ReducedARAPFilter : public testing::Test
 {
@@ -59,9 +44,11 @@ protected:
   {
     this->rig = test::bar(12);
     this->tets = to_unstructured_grid(this->rig.mesh.points, this->rig.mesh.tets);
-    this->tets->GetPointData()->AddArray(weights_array(this->rig.weights, this->rig.handles));
+    this->tets->GetPointData()->AddArray(
+      to_weights_array("Weights", this->rig.weights, this->rig.handles));
     this->surface = to_polydata(this->rig.mesh.points, boundary_triangles(this->rig.mesh.tets));
-    this->surface->GetPointData()->AddArray(weights_array(this->rig.weights, this->rig.handles));
+    this->surface->GetPointData()->AddArray(
+      to_weights_array("Weights", this->rig.weights, this->rig.handles));
     this->handles = test::to_polydata_with_mode_full(this->rig.handles);
     this->pose->SetInputData(this->handles);
     this->filter->SetInputData(0, this->tets);
@@ -368,29 +355,29 @@ TEST_F(ReducedARAPFilter, WhatDoesNotFitIsNamed)
   this->filter->SetArrayName("Weights");
 
   // The weights are those of another mesh and have too many tuples.
-  auto array = weights_array(this->rig.weights, this->rig.handles);
+  auto array = to_weights_array("Weights", this->rig.weights, this->rig.handles);
   array->InsertNextTuple3(1, 0, 0);
   this->tets->GetPointData()->AddArray(array);
   this->expect_error("use the mesh for which the weights were computed");
 
   // The weights are those of other handles: one component has another name.
-  array = weights_array(this->rig.weights, this->rig.handles);
+  array = to_weights_array("Weights", this->rig.weights, this->rig.handles);
   array->SetComponentName(1, "elbow");
   this->tets->GetPointData()->AddArray(array);
   this->expect_error("'elbow'");
 
-  array = weights_array(Weights(this->rig.weights.leftCols(2)), Handles(2));
+  array = to_weights_array("Weights", Weights(this->rig.weights.leftCols(2)), Handles(2));
   this->tets->GetPointData()->AddArray(array);
   this->expect_error("2 components, but there are 3 handles");
 
   Weights bad = this->rig.weights;
   bad(5, 2) = std::numeric_limits<double>::infinity();
-  this->tets->GetPointData()->AddArray(weights_array(bad, this->rig.handles));
+  this->tets->GetPointData()->AddArray(to_weights_array("Weights", bad, this->rig.handles));
   this->expect_error("vertex 5");
 
   // If rows do not sum to 1, there is a warning with the number of rows, and a result.
   this->tets->GetPointData()->AddArray(
-    weights_array(Weights(0.5 * this->rig.weights), this->rig.handles));
+    to_weights_array("Weights", Weights(0.5 * this->rig.weights), this->rig.handles));
   this->listener->errors.clear();
   this->filter->Update();
   EXPECT_TRUE(this->listener->errors.empty());

@@ -465,11 +465,19 @@ def _posed_handles(mesh, handles, pose, weights):
     return data, _make_poser(to_handles(handles, data), pose)
 
 
-def plain_value(value):
-    """Return a number or an array of numpy as json can write it."""
-    if isinstance(value, (np.ndarray, np.generic)):
-        return value.tolist()
-    raise TypeError(f"{type(value).__name__} is not allowed in a pose")
+def pose_text(pose):
+    """Return the content of a pose file as text, with numbers and arrays of numpy."""
+    def plain(value):
+        if isinstance(value, (np.ndarray, np.generic)):
+            return value.tolist()
+        raise TypeError(f"{type(value).__name__} is not allowed in a pose")
+
+    if isinstance(pose, Mapping):
+        pose = {"version": 2, **pose}
+    try:
+        return json.dumps(pose, default=plain)
+    except (TypeError, ValueError) as error:
+        raise InvalidInput(f"the pose must be a JSON object: {error}") from None
 
 
 def _make_poser(handles, pose):
@@ -479,12 +487,7 @@ def _make_poser(handles, pose):
     if isinstance(pose, (str, os.PathLike)):
         poser.SetFileName(os.fspath(pose))
     else:
-        if isinstance(pose, Mapping):
-            pose = {"version": 2, **pose}
-        try:
-            poser.SetPoseJSON(json.dumps(pose, default=plain_value))
-        except (TypeError, ValueError) as error:
-            raise InvalidInput(f"the pose must be a JSON object: {error}") from None
+        poser.SetPoseJSON(pose_text(pose))
     return poser
 
 

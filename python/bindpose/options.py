@@ -114,13 +114,12 @@ class Options:
 
     def apply(self, algorithm, *sets):
         """Pass the options of the sets to a filter; an option that is None gets the filter's default."""
-        fresh = type(algorithm)()
         for option in (option for name in sets for option in SETS[name]):
             if not hasattr(self, option["name"]) or option["type"] in _ARRAYS:
                 continue
             value = getattr(self, option["name"])
             if value is None:
-                value = getattr(fresh, "G" + option["setter"][1:])()
+                value = getattr(type(algorithm)(), "G" + option["setter"][1:])()
             elif option["type"] == "choice":
                 value = option["choices"][value]
             arguments = value if isinstance(value, tuple) else (value,)

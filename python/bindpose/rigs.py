@@ -17,7 +17,7 @@ from vtkmodules.vtkCommonDataModel import vtkDataSet, vtkPolyData
 from .BindposeFilters import vtkGLTFSkinReader, vtkGLTFSkinWriter
 from .errors import BindposeWarning, InvalidInput
 from .files import read_handles
-from .functions import apply_deformation_options, deform, make_deformation, plain_value, weights
+from .functions import apply_deformation_options, deform, make_deformation, pose_text, weights
 from .handle_sets import cell_names, handle_cells, to_handles
 from .meshes import (
     Array,
@@ -248,8 +248,7 @@ class Rig:
         'ok'
         """
         if frames and all(isinstance(frame, Mapping) for frame in frames):
-            poses = [frame if "handles" in frame else {"handles": frame} for frame in frames]
-            frames = deform(self._mesh, self._handles, {"frames": poses})
+            frames = deform(self._mesh, self._handles, {"frames": [_content(frame) for frame in frames]})
         elif not frames and self.animation:
             frames = deform(self._mesh, self._handles, self.animation)
             fps = fps or self.animation.get("fps")
@@ -341,7 +340,7 @@ class _Method:
         if isinstance(pose, (Mapping, str)):
             if self._has_array:
                 self._restore_transforms()
-            text = _pose_text(pose)
+            text = _text(pose)
         else:
             self._set_transforms(pose)
             text = ""
@@ -383,17 +382,18 @@ def _rest_points(handles):
     return np.array(numpy_support.vtk_to_numpy(points.GetData())) if points else np.zeros((0, 3))
 
 
-def _pose_text(pose):
+def _content(pose):
+    """Return the content of a pose file, from this content or from a dict of handle names."""
+    return pose if "handles" in pose or "frames" in pose else {"handles": pose}
+
+
+def _text(pose):
     """Return the text of a pose file, from its text, its content or a dict of handle names."""
-    if isinstance(pose, str):
-        if not pose.lstrip().startswith("{"):
-            raise InvalidInput("a pose as a text must be the content of a pose file; deform() reads files")
-        return pose
-    content = {"version": 2, **pose} if "handles" in pose or "frames" in pose else {"version": 2, "handles": pose}
-    try:
-        return json.dumps(content, default=plain_value)
-    except (TypeError, ValueError) as error:
-        raise InvalidInput(f"the pose must be a JSON object: {error}") from None
+    if not isinstance(pose, str):
+        return pose_text(_content(pose))
+    if not pose.lstrip().startswith("{"):
+        raise InvalidInput("a pose as a text must be the content of a pose file; deform() reads files")
+    return pose
 
 
 @with_options("weights_method", "bounded_weights", "weights", "weight_terms", without=("bounds",))

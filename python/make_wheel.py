@@ -34,7 +34,7 @@ BUILD_SYSTEM = '[build-system]\nrequires = ["setuptools", "wheel"]\nbuild-backen
 
 
 def stage(prefix, folder):
-    """Write the sources of the wheel: links to the files of the install tree, and setup.py.
+    """Write the sources of the wheel: copies of the files of the install tree, and setup.py.
 
     The package is three folders below the libraries, in the install tree and in an environment, so its run paths are valid in
     both.

@@ -43,8 +43,7 @@ struct PairElement
 /// whole lanes with groups of amount zero.
 struct PairGroups
 {
-  std::vector<double> first,
-    second; ///< mean weights of both handles, divided by the kernel's width
+  std::vector<double> first, second; ///< mean weights of both handles, divided by the width
   std::vector<double> amount; ///< sum of the areas or volumes of the elements
   std::vector<double> x, y, z; ///< sum of amount * centroid over the elements
   Index count = 0;

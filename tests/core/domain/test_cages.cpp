@@ -202,7 +202,7 @@ TEST_F(CagesInTets, AroundASurfaceAreItsDomain)
 
   status = surface_weights(context, ball.points, ball.triangles, {},
     { test::point_handle("p", { 0, 0, 0 }) }, options, {}, method, result);
-  EXPECT_THAT(status.message, HasSubstr("needs a closed cage"));
+  EXPECT_THAT(status.message, HasSubstr("domain cage needs a closed cage"));
 }
 
 TEST_F(CagesInTets, OfEdgesAroundAFlatShapeAreItsDomain)

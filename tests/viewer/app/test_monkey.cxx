@@ -71,11 +71,6 @@ const char* const automatic_options[] = { "show.column", "weights.column", "weig
   "weights.raw", "tets.shown", "tets.colors", "defects.shown", "volume.level",
   "volume.isosurface" };
 
-/// Options that the program sets when a file is opened, until the user sets them. An orientation
-/// along an axis also sets the normal.
-const char* const options_of_opening[] = { "volume.orientation", "volume.normal",
-  "tets.orientation", "tets.normal", "tets.other_side", "weights.orientation", "weights.normal" };
-
 using Fingerprints = std::map<std::string, std::string>;
 
 /// Return fingerprints of everything that the user has made or chosen.
@@ -136,11 +131,22 @@ std::string steps_of(const QUndoStack* history)
   return text;
 }
 
-Fingerprints without_options_of_opening(Fingerprints all)
+/// Return the fingerprints without options that the program sets when a file is opened, until the
+/// user sets them: the visible side of tets, and planes whose orientation differs in `other`. An
+/// orientation along an axis also sets the normal.
+Fingerprints without_options_of_opening(Fingerprints all, const Fingerprints& other)
 {
-  for (const char* key : options_of_opening)
+  all.erase("option tets.other_side");
+  for (const char* plane : { "volume", "tets", "weights" })
   {
-    all.erase(std::string("option ") + key);
+    const std::string prefix = std::string("option ") + plane + ".";
+    const auto own = all.find(prefix + "orientation");
+    const auto others = other.find(prefix + "orientation");
+    if (own == all.end() || others == other.end() || own->second != others->second)
+    {
+      all.erase(prefix + "orientation");
+      all.erase(prefix + "normal");
+    }
   }
   return all;
 }
@@ -153,8 +159,9 @@ void check_history(app::window::MainWindow& window, const Fingerprints& initial_
   const Fingerprints now = user_fingerprints(*window.document());
   const int index = history->index();
   history->setIndex(0);
-  EXPECT_EQ(changed_parts(without_options_of_opening(initial_fingerprints),
-              without_options_of_opening(user_fingerprints(*window.document()))),
+  const Fingerprints undone = user_fingerprints(*window.document());
+  EXPECT_EQ(changed_parts(without_options_of_opening(initial_fingerprints, undone),
+              without_options_of_opening(undone, initial_fingerprints)),
     "")
     << "undo of everything";
   history->setIndex(index);

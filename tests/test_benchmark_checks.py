@@ -182,6 +182,16 @@ def test_separate_parts(parts, count):
     assert len(np.unique(separate_parts.separate_parts(points, triangles))) == count
 
 
+def test_back_sides_do_not_hide_what_a_part_encloses():
+    inner = furniture.box((1, 1, 1), (2, 2, 2))
+    for outer, parts in ((box_at(0, 3.0), 1), (furniture.sheet(1, (0, 0, -1), (3, 0, 0), (0, 3, 0)), 2)):
+        points, triangles = triangulated(furniture.join(outer, inner))
+        doubled = np.concatenate([triangles, triangles[:-12, ::-1]])  # the last 12 triangles are the inner box
+        assert len(np.unique(separate_parts.separate_parts(points, doubled))) == parts
+        fronts = separate_parts.front_sides(points, doubled)
+        assert fronts.sum() == (24 if parts == 1 else len(doubled))
+
+
 def test_leaks_between_parts():
     points, triangles = triangulated(furniture.join(box_at(0), box_at(3)))
     handles = separate_parts.farthest_points(points, triangles, 4)

@@ -147,6 +147,31 @@ def winding_numbers(queries, points, triangles):
     return found
 
 
+def front_sides(points, triangles):
+    """Return for each triangle of a welded surface whether it is no back side that Bindpose ignores.
+
+    A model for viewing from both sides has each triangle twice, with opposite orientations, so that its winding number is
+    0 everywhere. In a component that consists of such pairs and is nearly closed, the first triangle of each pair is kept.
+    """
+    smallest_first = triangles[np.arange(len(triangles))[:, None], (triangles.argmin(axis=1)[:, None] + np.arange(3)) % 3]
+    sign = np.where(smallest_first[:, 1] < smallest_first[:, 2], 1, -1)
+    _, first, pair = np.unique(np.sort(triangles, axis=1), axis=0, return_index=True, return_inverse=True)
+    cancels = np.bincount(pair.reshape(-1), sign)[pair.reshape(-1)] == 0
+    is_first = np.zeros(len(triangles), bool)
+    is_first[first] = True
+    component = components(points, triangles)
+    kept = np.ones(len(triangles), bool)
+    for number in range(component.max() + 1):
+        own = component == number
+        if not cancels[own].all():
+            continue
+        a, b, c = (points[triangles[own & is_first, k]] for k in range(3))
+        areas = np.cross(b - a, c - a)
+        if np.linalg.norm(areas.sum(axis=0)) <= np.linalg.norm(areas, axis=1).sum() / 4:
+            kept[own] = is_first[own]
+    return kept
+
+
 def inside_pairs(points, triangles, component, groups):
     """Return the pairs of components in different groups for which the first component has a vertex inside of the
     second one.
@@ -197,7 +222,8 @@ def separate_parts(points, triangles):
     if component.max() > 0:
         for a, b in touching_pairs(welded, joined, component):
             groups.join(a, b)
-        for a, b in list(inside_pairs(welded, joined, component, groups)):
+        fronts = front_sides(welded, joined)
+        for a, b in list(inside_pairs(welded, joined[fronts], component[fronts], groups)):
             groups.join(a, b)
     part = np.full(len(welded), -1)
     part[joined] = groups.labels()[component][:, None]
@@ -232,12 +258,14 @@ def largest_leak(points, triangles, weights):
     if not all(weights[vertex, k] > 0.99 for k, vertex in enumerate(handles)):
         return None
     part = separate_parts(points, triangles)
+    welded, joined, _ = weld(points, triangles)
+    fronts = joined[front_sides(welded, joined)]
     home = part[handles]
     while len(held := np.unique(home[home >= 0])) > 1:
         leaks = {(own, other): weights[part == own][:, home == other].max()
                  for own in held for other in held if own != other}
         (own, other), leak = max(leaks.items(), key=lambda item: item[1])
-        if leak <= LEAK or not inside_leads(points[part == own], points[part == other], points, triangles):
+        if leak <= LEAK or not inside_leads(points[part == own], points[part == other], welded, fronts):
             return float(leak)
         part[part == other] = own
         home[home == other] = own

@@ -156,15 +156,16 @@ def front_sides(points, triangles):
     smallest_first = triangles[np.arange(len(triangles))[:, None], (triangles.argmin(axis=1)[:, None] + np.arange(3)) % 3]
     sign = np.where(smallest_first[:, 1] < smallest_first[:, 2], 1, -1)
     _, first, pair = np.unique(np.sort(triangles, axis=1), axis=0, return_index=True, return_inverse=True)
-    cancels = np.bincount(pair.reshape(-1), sign)[pair.reshape(-1)] == 0
+    pair = pair.reshape(-1)
+    cancels = np.bincount(pair, sign)[pair] == 0
     is_first = np.zeros(len(triangles), bool)
     is_first[first] = True
     component = components(points, triangles)
+    consists_of_pairs = np.ones(component.max() + 1, bool)
+    consists_of_pairs[component[~cancels]] = False
     kept = np.ones(len(triangles), bool)
-    for number in range(component.max() + 1):
+    for number in np.flatnonzero(consists_of_pairs):
         own = component == number
-        if not cancels[own].all():
-            continue
         a, b, c = (points[triangles[own & is_first, k]] for k in range(3))
         areas = np.cross(b - a, c - a)
         if np.linalg.norm(areas.sum(axis=0)) <= np.linalg.norm(areas, axis=1).sum() / 4:
@@ -190,11 +191,13 @@ def inside_pairs(points, triangles, component, groups):
 
 
 def inside_leads(first, second, points, triangles):
-    """Return True if a straight line between two sets of points is completely inside of the surface.
+    """Return True if a straight line between two sets of points is completely inside of the surface, without back sides.
 
     Half of the lines end at the nearest point of the second set, the other half at a random point of it. The steps
     along a line are short enough to detect the gap between the sets.
     """
+    points, triangles, _ = weld(points, triangles)
+    triangles = triangles[front_sides(points, triangles)]
     random = np.random.RandomState(SEED)
     starts, ends = (side[random.randint(len(side), size=LINES)] for side in (first, second))
     for k in range(LINES // 2):
@@ -258,14 +261,12 @@ def largest_leak(points, triangles, weights):
     if not all(weights[vertex, k] > 0.99 for k, vertex in enumerate(handles)):
         return None
     part = separate_parts(points, triangles)
-    welded, joined, _ = weld(points, triangles)
-    fronts = joined[front_sides(welded, joined)]
     home = part[handles]
     while len(held := np.unique(home[home >= 0])) > 1:
         leaks = {(own, other): weights[part == own][:, home == other].max()
                  for own in held for other in held if own != other}
         (own, other), leak = max(leaks.items(), key=lambda item: item[1])
-        if leak <= LEAK or not inside_leads(points[part == own], points[part == other], welded, fronts):
+        if leak <= LEAK or not inside_leads(points[part == own], points[part == other], points, triangles):
             return float(leak)
         part[part == other] = own
         home[home == other] = own

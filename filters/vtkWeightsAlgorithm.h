@@ -78,7 +78,8 @@
  * bounds), counts.capped_vertices and influences.{largest_difference, rms_difference} (differences
  * from the weights without MaximumInfluences), partition.{of_unity, energy, largest_difference,
  * rms_difference} (COUPLED; differences from weights that are divided by their row sums),
- * counts.{linked_parts, links} (components without a handle on a lattice, and their links),
+ * counts.{covered_openings, linked_parts, links} (on a lattice: openings that other parts cover,
+ * components without a handle, and links of both),
  * handles[].mirror (with mirrors), row_sum_error, largest_snap (in edge lengths), iterations,
  * memory_estimate_bytes (estimated peak memory of the process, computed before the factorizations;
  * for bounded and monotone weights), seconds.{insert, analyze, weights}, and seconds.{factor,

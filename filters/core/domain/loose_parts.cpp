@@ -1,4 +1,5 @@
-// Links for surface components that no handle controls (see loose_parts.h).
+// Links for surface components that no handle controls, and for openings that other components
+// cover (see loose_parts.h).
 #include "domain/loose_parts.h"
 
 #include <algorithm>
@@ -10,7 +11,10 @@ namespace
 {
 /// Maximum distance of touching components, as a fraction of the surface's diagonal.
 constexpr double touch_distance = 1.0 / 500.0;
-constexpr Index maximum_loose_components = 20000;
+/// Distance between neighboring links at a covered opening, as a fraction of the surface's
+/// diagonal.
+constexpr double opening_link_spacing = 1.0 / 100.0;
+constexpr Index maximum_components = 20000; ///< more components are a triangle soup
 
 /// For each part of the lattice, return 1 if the part contains a handle, else 0.
 std::vector<char> parts_with_handles(
@@ -33,25 +37,47 @@ std::vector<char> parts_with_handles(
   return has_handle;
 }
 
-/// Return the components of a surface after welding equal points.
-Components welded_components(TrianglesView triangles,
-  const std::vector<Index>& representative_of_vertex, std::vector<Index>& component_of_triangle)
+/// A surface after welding equal points, and its connected components.
+struct WeldedSurface
 {
-  Triangles welded = triangles;
-  for (Index i = 0; i < welded.size(); ++i)
+  Triangles triangles;
+  Components components;
+  std::vector<Index> component_of_triangle;
+
+  WeldedSurface(TrianglesView unwelded, const std::vector<Index>& representative_of_vertex)
+    : triangles(unwelded)
   {
-    welded.data()[i] = representative_of_vertex[welded.data()[i]];
+    for (Index i = 0; i < this->triangles.size(); ++i)
+    {
+      this->triangles.data()[i] = representative_of_vertex[this->triangles.data()[i]];
+    }
+    this->components = connected_components(
+      static_cast<Index>(representative_of_vertex.size()), TrianglesView(this->triangles));
+    this->component_of_triangle.resize(static_cast<std::size_t>(this->triangles.rows()));
+    for (Index f = 0; f < this->triangles.rows(); ++f)
+    {
+      this->component_of_triangle[f] = this->components.component_of_vertex[this->triangles(f, 0)];
+    }
   }
-  Components components = connected_components(
-    static_cast<Index>(representative_of_vertex.size()), TrianglesView(welded));
-  component_of_triangle.resize(static_cast<std::size_t>(welded.rows()));
-  for (Index f = 0; f < welded.rows(); ++f)
-  {
-    component_of_triangle[f] = components.component_of_vertex[welded(f, 0)];
-  }
-  return components;
-}
+};
 } // namespace
+
+Status link_covered_openings(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const std::vector<Index>& representative_of_vertex, CoveredOpenings& result)
+{
+  result = {};
+  const WeldedSurface welded(triangles, representative_of_vertex);
+  if (welded.components.count < 2 || welded.components.count > maximum_components)
+  {
+    return {};
+  }
+  const double diagonal = bounding_box(points, triangles).diagonal();
+  PartLinkOptions options;
+  options.touch_distance = touch_distance * diagonal;
+  options.spacing = opening_link_spacing * diagonal;
+  return find_covered_openings(
+    context, points, welded.triangles, welded.component_of_triangle, options, result);
+}
 
 Status find_loose_parts(ExecutionContext& context, PointsView points, TrianglesView triangles,
   const std::vector<Index>& representative_of_vertex, const EmbeddingTets& lattice,
@@ -80,18 +106,17 @@ Status find_loose_parts(ExecutionContext& context, PointsView points, TrianglesV
   }
   // Links connect surface components and not parts of the lattice, because one part may contain
   // several components that a finer lattice separates.
-  std::vector<Index> component_of_triangle;
-  const Components components =
-    welded_components(triangles, representative_of_vertex, component_of_triangle);
-  std::vector<char> is_attached(static_cast<std::size_t>(components.count), 0);
+  const WeldedSurface welded(triangles, representative_of_vertex);
+  const Index component_count = welded.components.count;
+  std::vector<char> is_attached(static_cast<std::size_t>(component_count), 0);
   for (Index f = 0; f < triangles.rows(); ++f)
   {
     const Index tet = lattice.binding.tets[triangles(f, 0)];
-    is_attached[component_of_triangle[f]] =
+    is_attached[welded.component_of_triangle[f]] =
       tet < 0 || has_handle[parts.component_of_vertex[tets.tets(tet, 0)]] ? 1 : 0;
   }
   const auto loose_count = std::count(is_attached.begin(), is_attached.end(), 0);
-  if (loose_count == 0 || loose_count == components.count || loose_count > maximum_loose_components)
+  if (loose_count == 0 || loose_count == component_count || loose_count > maximum_components)
   {
     return {};
   }
@@ -99,7 +124,7 @@ Status find_loose_parts(ExecutionContext& context, PointsView points, TrianglesV
   options.touch_distance = touch_distance * bounding_box(points, triangles).diagonal();
   options.spacing = lattice.spacing;
   return link_parts(
-    context, points, triangles, component_of_triangle, is_attached, options, result.links);
+    context, points, triangles, welded.component_of_triangle, is_attached, options, result.links);
 }
 
 } // namespace bindpose

@@ -4,7 +4,7 @@
 #include "domain/embedded_surface.h"
 #include "embedding/embedding_tets.h"
 #include "handles/handles.h"
-#include "surface/part_links.h"
+#include "surface/covered_openings.h"
 
 namespace bindpose
 {
@@ -18,6 +18,14 @@ struct LooseParts
   /// components, if there are more than 20,000, or if all components are in such parts.
   std::vector<PartLink> links;
 };
+
+/// Link surface components at openings that other components cover (find_covered_openings): the
+/// distance between the boundary of the opening and the other components is at most 1/500 of the
+/// diagonal. There are no links if the surface has more than 20,000 components.
+/// @param representative_of_vertex #V: for each point, the smallest id of all points with the same
+/// position
+Status link_covered_openings(ExecutionContext& context, PointsView points, TrianglesView triangles,
+  const std::vector<Index>& representative_of_vertex, CoveredOpenings& result);
 
 /// Find parts of the lattice that no handle controls. Link every surface component in such a part
 /// to the components that it touches (within 1/500 of the diagonal), or else to the nearest

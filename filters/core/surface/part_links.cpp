@@ -418,6 +418,14 @@ double nearest_points(
   return best;
 }
 
+Status check_options(const PartLinkOptions& options)
+{
+  return options.touch_distance >= 0.0 && options.spacing > 0.0
+    ? Status()
+    : Status::invalid_input(
+        "the spacing of links must be greater than 0 and the touch distance at least 0");
+}
+
 Status link_parts(ExecutionContext& context, PointsView points, TrianglesView triangles,
   const std::vector<Index>& parts, const std::vector<char>& constrained,
   const PartLinkOptions& options, std::vector<PartLink>& links)
@@ -428,10 +436,10 @@ Status link_parts(ExecutionContext& context, PointsView points, TrianglesView tr
   {
     return Status::invalid_input("no part of the surface is constrained by a handle");
   }
-  if (!(options.touch_distance >= 0.0) || !(options.spacing > 0.0))
+  const Status valid = check_options(options);
+  if (!valid.ok())
   {
-    return Status::invalid_input(
-      "the spacing of links must be greater than 0 and the contact distance at least 0");
+    return valid;
   }
   return Linker(context, points, triangles, parts, constrained, options).run(links)
     ? Status()

@@ -18,13 +18,16 @@ struct PartLink
   std::array<Vec3, 2> positions{ Vec3::Zero(), Vec3::Zero() };
 };
 
-/// Options of link_parts().
+/// Options of link_parts() and find_covered_openings().
 struct PartLinkOptions
 {
   double touch_distance = 0.0; ///< parts touch if their distance is at most this length, >= 0
   /// Approximate distance (a length > 0) between neighboring links where two parts touch.
   double spacing = 0.0;
 };
+
+/// Return invalid_input if an option is out of range.
+Status check_options(const PartLinkOptions& options);
 
 /// Compute links that connect every loose part of a surface to a held part, directly or through
 /// other parts. In this file, a part is held if the caller marks it (for example because it has a

@@ -17,6 +17,7 @@
 #include <cstdio>
 #include <iterator>
 #include <memory>
+#include <optional>
 #include <utility>
 
 namespace bindpose
@@ -106,6 +107,7 @@ private:
   Status solve_in_cage(SurfaceWeights& result);
   LatticePtr embed(Index resolution, Index tets);
   Status embed_with_links(EmbeddingOptions options, Lattice& lattice);
+  Status link_openings();
   void attach_surface(Lattice& lattice);
   HandleInsertionOptions insertion_options(const Lattice& lattice) const;
   Status solve_on_lattice(Lattice& lattice, Status mesh_status);
@@ -139,7 +141,10 @@ private:
   std::unique_ptr<PreparedSurface> prepared_;
   /// The locator of the surface, used for all lattices; null until it is needed.
   std::unique_ptr<SimplexLocator> surface_;
-  std::vector<PartLink> links_; ///< links of parts without a handle, from all lattices so far
+  /// Links of covered openings, and links of parts without a handle from all lattices so far.
+  std::vector<PartLink> links_;
+  /// Number of covered openings; empty until their links are in `links_`.
+  std::optional<Index> covered_openings_;
   Index linked_parts_ = 0;
 };
 
@@ -488,7 +493,11 @@ Status Solver::embed_with_links(EmbeddingOptions options, Lattice& lattice)
   // after the last round copy the weights of the nearest handle.
   constexpr int most_rounds = 4;
   const ProgressRange range(this->context_, 0.3, 1.0);
-  Status status;
+  Status status = this->link_openings();
+  if (!status.ok())
+  {
+    return status;
+  }
   for (int round = 0; round < most_rounds; ++round)
   {
     options.links = this->links_;
@@ -518,15 +527,37 @@ Status Solver::embed_with_links(EmbeddingOptions options, Lattice& lattice)
   Report report = this->prepared_->report;
   report.merge(status.report);
   status.report = std::move(report);
-  if (this->linked_parts_ > 0)
+  if (!this->links_.empty())
   {
     const auto links = static_cast<std::int64_t>(this->links_.size());
-    status.report.set("counts.linked_parts", this->linked_parts_);
+    status.report.set("counts.covered_openings", *this->covered_openings_);
     status.report.set("counts.links", Report::Value(links));
+  }
+  if (this->linked_parts_ > 0)
+  {
+    status.report.set("counts.linked_parts", this->linked_parts_);
     status.warnings.push_back(std::to_string(this->linked_parts_) +
       (this->linked_parts_ == 1 ? " connected part has no handle and is"
                                 : " connected parts have no handle and are") +
       " linked to touching parts, or else to the nearest part");
+  }
+  return status;
+}
+
+/// Link components at openings that other components cover, once for all lattices.
+Status Solver::link_openings()
+{
+  if (this->covered_openings_)
+  {
+    return {};
+  }
+  CoveredOpenings openings;
+  const Status status = link_covered_openings(this->context_, this->points_, this->triangles_,
+    this->prepared_->surface.representative_of_vertex, openings);
+  if (status.ok())
+  {
+    this->covered_openings_ = openings.count;
+    this->links_ = std::move(openings.links);
   }
   return status;
 }

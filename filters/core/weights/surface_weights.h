@@ -81,10 +81,12 @@ struct SurfaceWeightsOptions
 ///
 /// **embedding**: tets of a lattice whose resolution does not depend on the surface's resolution.
 /// The energy of each tet is multiplied by the fraction of the tet that is inside. Parts that are
-/// near each other but not connected stay separate. A part without a handle is linked to the parts
-/// that it touches (within 1/500 of the diagonal), or else to the nearest part (link_parts), with
-/// one warning. The handles become vertices of the lattice; samples of a bone are half the edge of
-/// a lattice cube apart. The solution is transferred to the surface and smoothed (EmbeddedSurface).
+/// near each other but not connected stay separate. A part is linked to the parts that cover one of
+/// its openings, like a plate below a knob without a bottom (find_covered_openings). A part without
+/// a handle is linked to the parts that it touches (within 1/500 of the diagonal), or else to the
+/// nearest part (link_parts), with one warning. The handles become vertices of the lattice; samples
+/// of a bone are half the edge of a lattice cube apart. The solution is transferred to the surface
+/// and smoothed (EmbeddedSurface).
 ///
 /// The **guard** compares the weights of two lattices. The first lattice has about 4,500 tets; the
 /// second lattice has 3/2 times the resolution of the first. If the weights of the first two
@@ -111,7 +113,9 @@ struct SurfaceWeightsOptions
 ///   domain_fallback.from, domain_fallback.status, domain_fallback.message;
 /// - tetrahedralize.method, embedding.resolution;
 /// - guard.resolution, guard.rms_difference, guard.max_difference;
-/// - counts.linked_parts and counts.links (parts without a handle, and their links);
+/// - counts.covered_openings (openings that other parts cover), counts.linked_parts (parts without
+/// a
+///   handle) and counts.links (links of both kinds), except if there are none;
 /// - with a preview: preview.rms_difference and preview.max_difference (between preview and
 ///   result);
 /// - for a cage of edges: cage.area and cage.min_angle (degrees) of the triangles in the cage;

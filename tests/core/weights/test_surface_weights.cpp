@@ -282,6 +282,60 @@ TEST(SurfaceWeights, APartWithoutAHandleFollowsWhatItTouches)
   }
 }
 
+TEST(SurfaceWeights, PartsAreConnectedAtOpeningsThatOtherPartsCover)
+{
+  // A knob without a bottom stands on a plate. A flat ridge without a bottom stands on the knob.
+  // The winding number in the ridge is below 0.5, because the knob is open. The handle of the ridge
+  // must control the knob as if the bottoms were solid: as if the ridge were a part of a closed
+  // knob.
+  const auto part = [](const Vec3& lower, const Vec3& upper, bool is_open)
+  {
+    const TetMesh tets = test::tet_box(8, 8, 4, lower, upper);
+    TriangleMesh result{ tets.points, boundary_triangles(tets.tets) };
+    Index kept = 0;
+    for (Index f = 0; f < result.triangles.rows(); ++f)
+    {
+      const Eigen::RowVector3<Index> triangle = result.triangles.row(f);
+      double highest = lower[2];
+      for (int k = 0; k < 3; ++k)
+      {
+        highest = std::max(highest, result.points(triangle[k], 2));
+      }
+      if (!is_open || highest > lower[2])
+      {
+        result.triangles.row(kept++) = triangle;
+      }
+    }
+    result.triangles.conservativeResize(kept, 3);
+    return result;
+  };
+  const TriangleMesh plate = part(Vec3(-4, -4, 0), Vec3(4, 4, 0.75), false);
+  const TriangleMesh knob = part(Vec3(-1.75, -1.75, 0.75), Vec3(1.75, 1.75, 1.6), true);
+  const Index end_of_plate = plate.points.rows();
+  const Index end_of_knob = end_of_plate + knob.points.rows();
+  const TriangleMesh shape =
+    test::join(test::join(plate, knob), part(Vec3(-0.3, -1.5, 1.6), Vec3(0.3, 1.5, 1.73), true));
+  const Handles handles{ test::point_handle("a", { -4, -4, 0 }),
+    test::point_handle("b", { 4, 4, 0 }), test::point_handle("ridge", { 0.3, 1.5, 1.73 }) };
+  for (const Index resolution : { 12, 20, 30 })
+  {
+    SurfaceWeightsOptions options = options_for(WeightsDomain::embedding, resolution);
+    options.check_resolution = false;
+    SurfaceWeights result;
+    const Status status = solve_surface_weights(shape, handles, options, result);
+    ASSERT_TRUE(status.ok()) << status.message;
+    EXPECT_EQ(status.report.number("counts.covered_openings", 0.0), 2.0);
+    EXPECT_GT(status.report.number("counts.links", 0.0), 8.0);
+    EXPECT_EQ(status.report.number("counts.tet_components", 0.0), 1.0);
+    EXPECT_THAT(status.warnings, testing::Not(testing::Contains(HasSubstr("linked"))));
+    expect_weights(result.weights, shape.points.rows(), 3);
+    EXPECT_GT(result.weights.col(2).segment(end_of_plate, knob.points.rows()).mean(), 0.5)
+      << resolution;
+    EXPECT_GT(result.weights.col(2).tail(shape.points.rows() - end_of_knob).minCoeff(), 0.5)
+      << resolution;
+  }
+}
+
 TEST(SurfaceWeights, CarriesSmoothFunctionsBetterThanTetsDo)
 {
   const TriangleMesh ball = test::sphere(4);

@@ -6,6 +6,7 @@ reference, from which the tets that bridge gaps are removed. If the two referenc
 enough for a comparison. Models are drawn in a seeded random order until enough models are measured. A model is skipped
 - if its reference tets have angles below GOOD_ANGLE;
 - if the reference tets miss a part of the surface (remesh has no tets for open sheets);
+- if the boundary of the reference tets is too far from the surface, because the tets bridge a gap;
 - if the reference tets and the default tets have different numbers of connected parts;
 - if the two references differ by more than AGREE.
 
@@ -25,6 +26,7 @@ GOOD_ANGLE = 10.0  # degrees: smallest dihedral angle of a reference; remesh aim
 CUBES = 40  # number of cubes along the longest side of the bounding box, for the reference
 COARSE_CUBES = 27
 AGREE = 0.01  # largest rms difference between the two references
+FAR = 0.5  # percent of the bounding-box diagonal: largest distance between a reference's boundary and the surface
 COVERED = 0.99  # fraction of the vertices that must be near the reference tets
 RMS = 0.015
 LEAK = 0.01  # a weight on a separate part is a leak if it is larger than this
@@ -59,6 +61,8 @@ def prepare(options, check, path, folder, handles):
     report = remesh(options, path, folder, "reference", CUBES)
     if isinstance(report, str):
         return report
+    if report["distance_max"] > FAR:
+        return f"the reference bridges a gap: its boundary is up to {report['distance_max']:.2f} % of the diagonal off"
     quality = check("tets_quality", path, folder / "reference.vtu")
     if quality["covered"] < COVERED:
         return f"{100 * (1 - quality['covered']):.1f} % of the vertices are not near the tets: open sheets"

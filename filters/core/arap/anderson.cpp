@@ -2,9 +2,9 @@
 // successive values of g and of the residual f = g - x are stored in ring buffers, one row per
 // difference. A new difference adds one row to the normal equations: its inner products with the
 // stored differences. The right-hand side contains the inner products of the differences with the
-// residual. Because the residual changes by the new difference, the new row is added to the old
-// right-hand side. Only the last entry of the right-hand side needs a new inner product. Therefore
-// a step needs one inner product per stored difference and one more.
+// residual. The residual changes by the new difference, so the right-hand side is updated by adding
+// the new row to it. Only its last entry needs another inner product. Therefore a step needs one
+// inner product per stored difference and one more.
 #include "arap/anderson.h"
 
 #include "base/packs.h"
@@ -48,7 +48,7 @@ BINDPOSE_ALWAYS_INLINE void compute_residual_change_of(Index count, const Scalar
   }
 }
 
-/// Compute x = g - sum over r of shares[r] * (row r of changes).
+/// Compute x = g - sum over r of coefficients[r] * (row r of changes).
 template <typename Scalar>
 BINDPOSE_ALWAYS_INLINE void extrapolate_of(Index count, Index rows, const double* coefficients,
   const Scalar* __restrict g, const Scalar* __restrict changes, Scalar* __restrict x)

@@ -273,8 +273,9 @@ SparseMatrix make_covariance(
   entries.reserve(static_cast<std::size_t>(elements.rows()) * Corners * 4);
   for (Index e = 0; e < elements.rows(); ++e)
   {
-    // b_i = sum_j c_ij (v_i - v_j): the contribution of vertex i in this element to the covariance
-    // S.
+    // b_i = sum over j of c_ij (v_i - v_j), with cotangent weights c_ij and rest positions v. The
+    // product of the posed vertex i and b_i is its contribution to the covariance S of this
+    // element.
     Vec3 b[Corners];
     std::fill(b, b + Corners, Vec3::Zero());
     for (Index k = 0; k < c.cols(); ++k)

@@ -16,9 +16,9 @@ namespace bindpose
 /// Type of the as-rigid-as-possible energy, which determines the sets of edges that share one
 /// rotation. All energies are normalized: an affine map x -> J x with the same rotation R
 /// everywhere costs 1/2 volume |J - R|^2 (area on surfaces). For `spokes_and_rims` and `elements`,
-/// the minimum of this cost over all R is the energy of the map. For `spokes`, this is true if J is
-/// a rotation times a scale of at least 0. For another map J, the energy `spokes` may be lower,
-/// because the edges of one vertex need not be distributed evenly over all directions.
+/// the energy of the map is the minimum of this cost over all R. For `spokes`, this is true if J is
+/// a rotation times a nonnegative scale. For any other J, the energy `spokes` may be lower, because
+/// the edges of one vertex need not be distributed evenly over all directions.
 ///
 /// The weight of an edge is the sum of its elements' cotangent weights. The energy `spokes` omits
 /// edges with negative weights (obtuse angles opposite to the edge), because such an edge alone
@@ -71,9 +71,9 @@ struct RotationGroups
   std::vector<Index> group_of_element;
 };
 
-/// Return the groups for labels of the vertices. With the energy `elements`, the group of an
-/// element is the most frequent label among its vertices (the lowest of equally frequent labels),
-/// and unused labels are removed.
+/// Convert labels of the vertices to groups. With the energy `elements`, the group of an element is
+/// the most frequent label among its vertices (the lowest of equally frequent labels), and unused
+/// labels are removed.
 RotationGroups rotation_groups(
   ArapEnergy energy, TrianglesView triangles, Index count, std::vector<Index> vertex_labels);
 RotationGroups rotation_groups(

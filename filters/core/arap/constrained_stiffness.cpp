@@ -174,8 +174,8 @@ void ConstrainedStiffness::choose_independent(const std::vector<char>& is_prescr
   {
     (i < rank ? this->independent_ : this->redundant_).push_back(qr.colsPermutation().indices()[i]);
   }
-  // All points are linear combinations of the kept points. Targets that contradict this dependence
-  // are satisfied in the least-squares sense.
+  // The row of each held point is a linear combination of the selected rows. Targets that
+  // contradict these combinations are satisfied in the least-squares sense.
   const Eigen::MatrixXd r = qr.matrixR().topRows(rank);
   Eigen::MatrixXd combination = Eigen::MatrixXd::Identity(count, rank);
   if (rank < count)
@@ -223,8 +223,8 @@ void ConstrainedStiffness::factor_constraints(double unit)
   {
     return;
   }
-  // Scale the stiffness so that the mean of its diagonal entries is 1, by multiplying its inverse
-  // by `unit`.
+  // Multiply the inverse of the stiffness by `unit`. The mean diagonal entry of the scaled
+  // stiffness is 1.
   this->response_ = this->unknowns_.empty() ? right : Eigen::MatrixXd(this->solver_.solve(right));
   this->response_ *= unit;
   Eigen::MatrixXd& small = this->constraint_system_;

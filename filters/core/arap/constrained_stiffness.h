@@ -57,14 +57,15 @@ private:
   SparseSolver solver_;
 
   // A is the matrix of the held points' constraints. The row of a held point contains its
-  // barycentric weights at the vertices that are not given. Per held point: factor that scales this
+  // barycentric weights at the vertices that are not given. Per held point: the factor that scales
+  // its row to unit length.
   // row to unit length.
   std::vector<double> scale_;
   std::vector<Index> independent_; ///< indices of linearly independent held points
   std::vector<Index> redundant_;
-  /// #kept x #held: maps the targets of all held points to the targets of the kept points.
+  /// #selected x #held: maps the targets of all held points to the targets of the selected points.
   Eigen::MatrixXd least_squares_;
-  Eigen::MatrixXd response_; ///< #unknowns x #kept: L^-1 A^T
+  Eigen::MatrixXd response_; ///< #unknowns x #selected: L^-1 A^T
   Eigen::MatrixXd constraint_system_; ///< A L^-1 A^T, bordered by one column per shift (below)
   Eigen::MatrixXd multipliers_; ///< inverse of constraint_system_
 

@@ -1,13 +1,14 @@
 // Pose time of full as-rigid-as-possible: the alternation of local and global steps (bind time:
 // full_arap_bind.cpp).
 //
-// With displacements D from rest and Q = R - I for the rotations, the energy is
+// With displacements D from rest and Q = R - I for the rotations R, the energy is
 //
 //     E(D, Q) = 1/2 <D, L D> - <Q, S0 + K D>.
 //
-// There is no constant term and no term that is linear in D alone, because rest with R = I is a
-// minimum. S0 + K D are the covariances, K^T Q is the force on the vertices. The local step fits R
-// to the covariances. The global step solves L D = K^T Q under the handles' constraints.
+// L is the stiffness, S0 + K D are the covariances, and K^T Q is the force on the vertices. There
+// is no constant term and no term that is linear in D alone, because rest with R = I is a minimum.
+// The local step fits R to the covariances. The global step solves L D = K^T Q under the handles'
+// constraints.
 //
 // Anderson acceleration treats a local and a global step together as one function g of D, and
 // accelerates the iteration to the fixed point of g. All iterates satisfy the constraints, so
@@ -66,9 +67,10 @@ Status FullArap::prepare(const Pose& pose)
   return status;
 }
 
-/// Compute initial rotations from the pose only. Laplace's equation extends two types of values
-/// over the mesh: the linear parts of full handles' transforms, and at position handles the
-/// rotation that best fits all pivots. The results are projected to rotations.
+/// Compute initial rotations from the pose only. Each constrained point prescribes a matrix: a full
+/// handle prescribes the linear part of its transform, any other handle the rotation that best fits
+/// all pivots. Laplace's equation extends the matrices over the mesh. The results are projected to
+/// rotations.
 void FullArap::start_rotations(const Pose& pose)
 {
   const Eigen::Matrix3d global_rotation = pivot_rotation(this->handles_, pose, 0.3 * this->radius_);
@@ -167,7 +169,7 @@ bool FullArap::local_step(ExecutionContext& context, const Rows& d)
   return done;
 }
 
-/// Compute the best D for the rotations.
+/// Compute the displacements D that minimize the energy for the current rotations.
 bool FullArap::global_step(ExecutionContext& context, Rows& d)
 {
   const Index count = this->groups_.count, stride = this->stride_;
@@ -277,7 +279,7 @@ Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveO
   {
     this->start_rotations(pose);
   }
-  this->has_rotations_ = false; // true again when this solve has succeeded
+  this->has_rotations_ = false; // rotations are valid only after a successful solve
   double magnitude = 0.0; // sum of the absolute values of the terms of the last energy
   const auto energy_after_global = [&](const Rows& g)
   {

@@ -79,7 +79,7 @@ public:
   struct SolveOptions
   {
     /// The solve ends if an iteration lowers the energy by at most this fraction of the energy. An
-    /// energy below 1e-6 of the rest energy (a strain of a few 1e-6) is replaced by 1e-6 of the
+    /// energy below 1e-6 of the rest energy (a strain of about 1e-3) is replaced by 1e-6 of the
     /// rest energy. 0: run all iterations; the result is never not_converged.
     double tolerance = 1e-6;
     Index max_iterations = 500;
@@ -128,7 +128,7 @@ private:
   {
     std::vector<Index> begin; ///< index of each row's first entry
     std::vector<int> item;
-    std::vector<double> b; ///< three coordinates per entry
+    std::vector<double> b; ///< the vector b of each entry, three coordinates
   };
 
   template <typename Elements>
@@ -150,7 +150,7 @@ private:
   std::vector<std::array<int, 4>> group_vertices_;
   SparseMatrix stiffness_;
   Terms group_terms_, vertex_terms_;
-  Components parts_; ///< connected parts of the mesh; elements without energy do not connect
+  Components parts_; ///< connected parts; elements without energy connect no vertices
   /// #V: for a vertex that only flat elements use, the neighbor that it moves with; else -1.
   std::vector<Index> leader_;
   MeshGrips grips_;

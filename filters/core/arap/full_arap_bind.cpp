@@ -50,8 +50,8 @@ const char* element_word(const TrianglesView&)
   return "triangle";
 }
 
-/// Return for each vertex that only flat elements use the neighbor that it moves with; -1 for other
-/// vertices.
+/// Some vertices are used by flat elements only. Return for each of them the neighbor that it moves
+/// with, and -1 for all other vertices.
 template <typename Elements>
 std::vector<Index> leaders(const Elements& elements, const std::vector<Index>& part_of_vertex)
 {

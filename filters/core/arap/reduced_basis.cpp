@@ -46,8 +46,8 @@ namespace
 constexpr double energy_rank = 1e-12;
 /// A position is redundant if its pivot is below this fraction of the largest pivot.
 constexpr double position_rank = 1e-9;
-/// The quick method requires that the reciprocal condition numbers of A A^T and of R are above this
-/// value.
+/// The quick method requires that the reciprocal condition numbers of A A^T and of the triangular
+/// factor of G^T are above this value.
 constexpr double independence_tolerance = 1e-6;
 /// The robust method is faster if there is more than one constraint per this many unknowns.
 constexpr Index unknowns_per_constraint = 4;
@@ -311,7 +311,7 @@ void ReducedBasis::make_robust(const ReducedSpace& space, const Eigen::MatrixXd&
     {
       Eigen::MatrixXd range = Eigen::MatrixXd::Identity(size, rank);
       range.applyOnTheLeft(qr.householderQ());
-      const Eigen::MatrixXd rows_in_range = rows * range; // of full column rank
+      const Eigen::MatrixXd rows_in_range = rows * range; // this matrix has full column rank
       this->particular_ = range *
         rows_in_range.colPivHouseholderQr().solve(
           Eigen::MatrixXd::Identity(position_count, position_count));
@@ -381,8 +381,8 @@ ReducedBasis::UnrotatedMinimizer ReducedBasis::robust_unrotated_minimizer(const 
   const Coordinates& position_residual) const
 {
   // First compute a displacement that contains the given blocks and satisfies the constrained
-  // positions. Then add the response to its force and to the load: the combination of columns of B
-  // that minimizes the energy.
+  // positions. The load and the elastic force of this displacement cause a response: the
+  // combination of columns of B that minimizes the energy. Then add the response.
   UnrotatedMinimizer result;
   result.base_displacement = given_blocks;
   Coordinates& minimizer = result.base_displacement;

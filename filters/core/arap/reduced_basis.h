@@ -46,10 +46,10 @@ private:
 /// nor the constrained positions. They are orthonormal in the stiffness H (B^T H B = I).
 ///
 /// There are two methods. The robust method (make_robust) determines the ranks for any input and
-/// factors the part of H for the open rows, which no full handle prescribes: O(#open^3). The quick
-/// method (make_fast) factors the whole matrix H once. After each choice of modes it only
-/// applies reflections to that factor: O((#columns + #clusters) #columns #constraints). The quick
-/// method requires that all ranks are numerically certain; otherwise it returns false.
+/// factors the part of H for the free rows, which no full handle prescribes: O(#free^3). The quick
+/// method (make_fast) factors the whole matrix H once. After each choice of modes it only applies
+/// reflections to that factor: O((#columns + #clusters) #columns #constraints). The quick method
+/// requires that all ranks are numerically certain; otherwise it returns false.
 class ReducedBasis
 {
 public:
@@ -82,8 +82,8 @@ public:
   {
     double energy = 0.0; ///< value of the minimized expression at D*
     Coordinates covariance; ///< covariances K D*
-    Coordinates base_displacement; ///< D*; for the method with given blocks only these blocks
-    Coordinates z; ///< coefficients z of D*, for the method with given blocks
+    Coordinates base_displacement; ///< D*; in the quick method only the given blocks
+    Coordinates z; ///< quick method: coefficients z of D*
     Eigen::RowVector3d first; ///< target of the constraint that determines the translation t
   };
   /// Compute D* for one pose.
@@ -106,7 +106,7 @@ private:
     bool tried = false, good = false;
     std::vector<Index> rows; ///< indices of rows of D; if u is not empty, H omits the last one
     Eigen::VectorXd scale; ///< scale of each row
-    Eigen::VectorXd shift; ///< u, of norm one; empty if u has an energy
+    Eigen::VectorXd shift; ///< translation u of norm one; empty if u has an energy
     DenseCholesky cholesky; ///< Cholesky factor L
     Eigen::MatrixXd directions; ///< E = L^-T
     Eigen::MatrixXd covariance; ///< covariances K E
@@ -126,19 +126,19 @@ private:
   bool is_fast_ = false;
 
   // ---- robust method
-  /// Open x positions: maps differences of positions to the smallest change that corrects them.
+  /// #free x #positions: maps position errors to the smallest displacement that corrects them.
   Eigen::MatrixXd particular_;
-  Eigen::MatrixXd basis_; ///< B, open x coordinates
+  Eigen::MatrixXd basis_; ///< B, #free x #coordinates
   Eigen::MatrixXd covariance_; ///< covariance C = K B; empty after extract_covariance()
 
   // ---- quick method. The constraints are A D = g, positions first. A reflection of the
   // constraints removes the translation t from all constraints except the first one. Then the first
-  // constraint is rho t + lever z = g_0. The others are R^T (Q^T z) = h, where h contains the g_i
-  // with i > 0.
+  // constraint is rho t + shift_coupling^T z = g_0. The others are R^T (Q^T z) = h, where h
+  // contains the g_i with i > 0.
   FullFactorization factorization_;
-  std::vector<Index> free_indices_; ///< indices of the open unknowns in factorization_.rows
+  std::vector<Index> free_indices_; ///< indices of the free unknowns in factorization_.rows
   Index constraints_ = 0;
-  Eigen::VectorXd householder_; ///< the reflection of the constraints is I - mirror mirror^T
+  Eigen::VectorXd householder_; ///< vector v of the constraints' reflection I - v v^T
   Eigen::VectorXd shift_coupling_;
   double rho_ = 1.0;
   Reflections reflections_; ///< orthogonal factor Q of the constraints

@@ -17,8 +17,9 @@ struct ReducedDynamicsOptions
   double time_step = 1.0 / 24.0;
   Vec3 gravity = Vec3::Zero(); ///< acceleration, length / s^2
   double density = 1.0; ///< mass per volume (per area for surfaces); greater than 0
-  /// Energy per volume (area) of a strain of one; greater than 0. The speed of waves is
-  /// sqrt(stiffness / density), in length units of the mesh per second.
+  /// Stiffness, greater than 0: a strain e has the energy 1/2 stiffness e^2 per volume (per area
+  /// for surfaces). The speed of waves is sqrt(stiffness / density), in length units of the mesh
+  /// per second.
   double stiffness = 1.0;
   /// Damping rate in 1 / s, 0 or more: the drag force is damping times mass times velocity.
   double damping = 0.0;

@@ -31,8 +31,8 @@ namespace
 template <typename Scalar>
 constexpr double energy_noise = sizeof(Scalar) == 4 ? 2e-7 : 0.0;
 
-/// Largest sum of absolute coefficients (Anderson::reach()) for which the extrapolated S is
-/// accurate enough.
+/// Largest sum of absolute coefficients (Anderson::coefficient_sum()) for which the extrapolated S
+/// is accurate enough.
 template <typename Scalar>
 constexpr double maximum_coefficient_sum = sizeof(Scalar) == 4 ? 3.0 : 1e4;
 
@@ -82,7 +82,7 @@ template <int bytes, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void multiply_both(Index rows, Index columns, const Scalar* covariance,
   const Scalar* q, const Scalar* unrotated_covariance, Scalar* y, Index length, Scalar* s)
 {
-  constexpr Index count = bytes / 16; // the sums need twelve registers
+  constexpr Index count = bytes / 16; // the sums of `count` columns need twelve registers
   std::copy_n(unrotated_covariance, 3 * rows, s);
   for (Index c = 0; c < columns; c += columns_at_once)
   {

@@ -46,8 +46,8 @@ struct ReducedProgress
 ///     S = S* + C Y,   Q = best rotations of S - I,   Y = C^T Q,
 ///
 /// with Anderson acceleration. Scalar: float or double. In single precision the alternation stops
-/// when the decrease of the energy is smaller than the round-off. Values are scaled so that the
-/// size of C is one.
+/// when the decrease of the energy is smaller than the round-off. C can be divided by a unit
+/// (set_matrix()), so that all values are in the range of Scalar.
 ///
 /// Cost of an iteration: 36 #clusters #columns multiply-adds and #clusters rotation fits; C is read
 /// once.
@@ -107,8 +107,8 @@ private:
   AlignedVector<Scalar> rotation_deltas_; ///< rotations minus the identity, Q
   /// Plain and extrapolated iterate: three columns of Y, then S.
   AlignedVector<Scalar> iterate_, trial_;
-  std::optional<Anderson<Scalar>> anderson_; ///< stored here to reuse its memory
-  bool has_iterate_ = false; ///< false: the iteration starts from the rotations
+  std::optional<Anderson<Scalar>> anderson_; ///< accelerator, stored to reuse its memory
+  bool has_iterate_ = false; ///< false: the iteration starts from initial rotations
   double magnitude_ = 0.0; ///< sum of the absolute values of the energy's terms
 };
 

@@ -26,7 +26,7 @@ enum class ReducedStart
 struct ReducedSolveOptions
 {
   /// The solve ends if an iteration lowers the energy by at most this fraction of the energy. An
-  /// energy below 1e-6 of the rest energy (a strain of a few 1e-6) is replaced by 1e-6 of the rest
+  /// energy below 1e-6 of the rest energy (a strain of about 1e-3) is replaced by 1e-6 of the rest
   /// energy. 0: run all iterations; the result is never not_converged.
   double tolerance = 1e-6;
   Index max_iterations = 100;
@@ -56,7 +56,7 @@ public:
   {
     const Eigen::MatrixXd& stiffness; ///< H, 4 #columns x 4 #columns
     const ReducedSpace::Rows& load; ///< P, in the layout of D
-    double constant = 0.0; ///< added to all energies
+    double constant = 0.0; ///< constant added to all energies
   };
 
   /// Discard the factorization. Call this function after a change of H or of the space.
@@ -95,7 +95,7 @@ private:
   bool has_single_precision_ = false;
 
   // ---- state
-  std::vector<double> rotations_; ///< stored in planes, see ReducedSpace
+  std::vector<double> rotations_; ///< last rotations, in planes as in ReducedSpace
   bool has_rotations_ = false;
   std::vector<double> energies_;
 };

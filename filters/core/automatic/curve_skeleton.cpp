@@ -36,8 +36,9 @@ Status check_options(const CurveSkeletonOptions& options)
   return check_limits(options.time_limit, options.memory_limit);
 }
 
-/// If a clean surface has more triangles than this factor times the number that is contracted, a
-/// closed surface is built from a lattice. For such surfaces the lattice is faster than decimation.
+/// A clean surface with more triangles than this factor times CurveSkeletonOptions::triangles is
+/// replaced by a closed surface that is built from a lattice. For such surfaces the lattice is
+/// faster than decimation.
 constexpr Index dense_factor = 10;
 
 /// Compute a closed surface around the volume that the given surface encloses. Hollows are not

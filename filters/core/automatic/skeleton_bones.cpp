@@ -97,8 +97,8 @@ public:
     return best;
   }
 
-  /// If the component has cycles, choose a root, mark the root as held, and reduce the component to
-  /// the tree of shortest paths from the root. A held vertex is always a joint and never moves.
+  /// If the component has cycles, choose a root and reduce the component to the tree of shortest
+  /// paths from the root. A root is always a joint and never moves.
   /// @return the number of cycles.
   Index cut_cycles(Index part)
   {
@@ -226,12 +226,13 @@ public:
     }
   }
 
-  /// Contract a branch between two junctions to one point. If possible, this is the middle of the
-  /// straight line between the junctions. If that point is outside the shape, it is the middle of
-  /// the path.
+  /// Contract a branch between two junctions to one point. If one of its ends is a root, this is
+  /// the root. Otherwise it is the middle of the straight line between the junctions. If that is
+  /// outside the shape, it is the middle of the path or, if that is also outside, one of the
+  /// junctions.
   void contract(const Branch& branch)
   {
-    // A held root does not move.
+    // A root does not move.
     const Index a = this->is_root(branch.path.back()) ? branch.path.back() : branch.path.front();
     const Index b = a == branch.path.front() ? branch.path.back() : branch.path.front();
     const std::set<Index> other_neighbors = this->neighbors_[b];
@@ -596,8 +597,8 @@ public:
   }
 
 private:
-  /// Return the held root of a component with cycles, else the joint nearest to the centroid, or -1
-  /// if the component has no bones.
+  /// Return the root from cut_cycles() of a component with cycles, or else the joint nearest to the
+  /// centroid. Return -1 if the component has no bones.
   Index root_of(Index part) const
   {
     const auto distance = [&](Index v)
@@ -646,7 +647,7 @@ private:
 
   /// Create the bones of one component. The bone with the largest volume at the root is the parent
   /// of the other bones there.
-  /// @param carrier parent of the first bone, or -1.
+  /// @param trunk_parent parent of the first bone, or -1.
   void add_bones_from(Index root, Index trunk_parent)
   {
     std::vector<Index>& first = this->pieces_at_joint_[root];

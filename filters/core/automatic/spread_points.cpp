@@ -172,7 +172,8 @@ private:
   }
 
   /// Return the component that gets the next point. First, each component that is not tiny gets one
-  /// point. Then points are assigned by area. Return null if all components are full.
+  /// point. Then points are assigned by area. Return null if every vertex of every component is
+  /// chosen.
   Component* next_component()
   {
     constexpr double minimum_area_fraction = 0.01;
@@ -240,8 +241,8 @@ private:
   bool move_inside(const SurfaceProbe& probe, Index vertex, const std::vector<Vec3>& earlier_points,
     Vec3& position, double& depth) const
   {
-    // The inside is tested at one point on each side of the surface. This is the distance of these
-    // points from the vertex, in bounding-box diagonals.
+    // The inside is tested at two points, one on each side of the surface, at this distance from
+    // the vertex (in bounding-box diagonals).
     constexpr double test_distance = 1e-5;
     const Vec3 from = position;
     Vec3 direction = -this->normals_.row(vertex).transpose();

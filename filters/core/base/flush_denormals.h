@@ -21,7 +21,8 @@ public:
   FlushDenormals() : before_(read()) { write(this->before_ | flush); }
   ~FlushDenormals()
   {
-    // Other bits may have changed: exception flags, rounding mode.
+    // Restore only the flush bits. The exception flags and the rounding mode, which may have
+    // changed in the scope, remain.
     write((read() & ~flush) | (this->before_ & flush));
   }
   FlushDenormals(const FlushDenormals&) = delete;
@@ -29,7 +30,8 @@ public:
 
 private:
 #if defined(__x86_64__) || defined(_M_X64)
-  static constexpr std::uint64_t flush = 0x8040; // results (bit 15) and operands (bit 6)
+  // Denormal results (bit 15) and operands (bit 6) become zero.
+  static constexpr std::uint64_t flush = 0x8040;
   static std::uint64_t read()
   {
     return _mm_getcsr();

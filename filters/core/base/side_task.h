@@ -31,8 +31,9 @@ public:
   SideTask(const SideTask&) = delete;
   SideTask& operator=(const SideTask&) = delete;
 
-  /// Drop the work if it has not started: then it never starts, and the owner can do it with its
-  /// own threads and progress. @return Whether the work was dropped.
+  /// Drop the work if it has not started. Dropped work never starts; the owner can do it with its
+  /// own threads and progress.
+  /// @return whether the work was dropped.
   bool drop_unless_started();
   /// Start the work if it has not started, wait for its end, and rethrow its exception.
   void finish();

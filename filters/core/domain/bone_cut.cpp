@@ -140,7 +140,7 @@ Index side_of(Index vertex, const std::vector<Index>& group, PointsView points,
   {
     if (sides[i] != sides[i - 1] && (sides[i] - 1) / 2 == (sides[i - 1] - 1) / 2)
     {
-      return 0; // the group surrounds a tip
+      return 0; // the group surrounds the tip of a bone
     }
   }
   return sides.empty() ? 0 : sides.front();

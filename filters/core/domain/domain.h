@@ -31,7 +31,7 @@ struct Domain
   {
     return this->is_volume() ? this->tets.rows() : this->triangles.rows();
   }
-  /// Return the element's vertex ids, corners() of them.
+  /// Return a pointer to the vertex ids of the element. Their number is corners().
   const Index* element(Index e) const
   {
     return this->is_volume() ? this->tets.data() + 4 * e : this->triangles.data() + 3 * e;

@@ -1,9 +1,10 @@
-// The transfer of weights from a lattice to its surface (see embedded_surface.h). Copies of a tet
-// have the same position, so they are found by their common center. For a given point, the correct
-// copy is the copy that is connected with the surface point nearest to the given point. The reason
-// is that the segment between these two points crosses no surface. A breadth-first search over tets
-// with common vertices starts at the tet that contains this surface point and ends at the first
-// copy of the tet at the given point.
+// The transfer of weights from a lattice to its surface (see embedded_surface.h). Where parts of
+// the surface are near each other but not connected, the lattice has several copies of a tet, one
+// per part. Copies have the same position, so they are found by their common center. For a given
+// point, the correct copy is the copy that is connected with the surface point nearest to the given
+// point. The reason is that the segment between these two points crosses no surface. A
+// breadth-first search over tets with common vertices starts at the tet that contains this surface
+// point and ends at the first copy of the tet at the given point.
 //
 // Let w_i and g_i be the values and gradients at the corners x_i of a tet. The interpolated value
 // at p is

@@ -204,8 +204,8 @@ std::string advice_about(const Handle& handle, const Box& box)
 
 /// Give every handle a vertex of its own, which is a vertex on no other handle. Without such a
 /// vertex (for example a point handle on a bone), the handle would not have the weight one
-/// anywhere. In this case one of its vertices is assigned to this handle alone: the first vertex at
-/// which all other handles already have vertices of their own. If there is no such vertex and the
+/// anywhere. In this case one of its vertices is assigned to this handle alone. This is the first
+/// vertex whose other handles all have vertices of their own. If there is no such vertex and the
 /// handle is optional, the handle is removed from all its vertices.
 Status assign_own_vertices(const Handles& handles, const Box& box,
   std::map<Index, std::vector<Index>>& owners, HandleConstraints& result)

@@ -9,8 +9,8 @@ namespace bindpose
 /// The source of a vertex's weights, one role per vertex.
 enum class VertexRole : unsigned char
 {
-  solved, ///< a vertex whose row is the result of the minimization
-  handle, ///< a vertex on a handle; its row is given by the handle
+  solved, ///< a vertex whose weights are the result of the minimization
+  handle, ///< a vertex on a handle, which determines its weights
   /// A vertex in a component without handles; it copies the weights of the nearest handle.
   without_handle,
   follower, ///< a vertex that is only in elements without area; it copies the weights of a neighbor
@@ -21,8 +21,8 @@ enum class VertexRole : unsigned char
 struct HandleConstraints
 {
   std::vector<VertexRole> roles; ///< #V
-  std::vector<Index> vertices; ///< the vertices on handles and cages, ascending (b)
-  Weights values; ///< the weights of these vertices, #b x #handles; rows sum to one (bc)
+  std::vector<Index> vertices; ///< ids of the vertices on handles and cages, ascending
+  Weights values; ///< #vertices x #handles: the weights of these vertices; rows sum to one
   std::vector<Index> counts; ///< number of constrained vertices per handle
   /// Connected components of the elements of positive measure; -1 for followers and unreferenced
   /// vertices.

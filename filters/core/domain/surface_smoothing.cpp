@@ -230,8 +230,8 @@ private:
     this->correction_factor_.compute(0.5 * (correction_matrix + correction_matrix.transpose()));
     if (this->correction_factor_.info() != Eigen::Success)
     {
-      // Single precision is not accurate enough for the corrections. Without them, more iterations
-      // are needed.
+      // Single precision is not accurate enough for the corrections, so they are omitted. The
+      // solver then needs more iterations.
       this->corrected_points_.clear();
     }
   }
@@ -291,7 +291,7 @@ private:
       this->for_each_of_term(
         c, [&](Index v, double value) { at_fixed.row(c) += value * z.row(v).matrix(); });
     }
-    const FlushDenormals flush; // responses decay with the distance
+    const FlushDenormals flush; // responses far from a fixed point are denormal numbers
     const Responses factors = this->correction_factor_.solve(at_fixed).cast<float>();
     // A general matrix product would spend most of its time on rearranging the responses.
     for (Index v = 0; v < z.rows(); ++v)
@@ -336,7 +336,7 @@ private:
   // fixed point. The terms are included by the Sherman-Morrison-Woodbury formula.
   FloatCholesky factor_; // factor of M + K, if available
   std::vector<Index> corrected_points_; // fixed points whose terms u uᵀ are in the preconditioner
-  // #V x #counted: (M + K)⁻¹ M (M + K)⁻¹ u for each of these points
+  // #V x #corrected_points: (M + K)⁻¹ M (M + K)⁻¹ u for each corrected point
   Responses responses_;
   // Factor of 1 + Uᵀ (M + K)⁻¹ M (M + K)⁻¹ U, where the columns of U are the vectors u.
   Eigen::LLT<Eigen::MatrixXd> correction_factor_;

@@ -207,9 +207,9 @@ private:
     }
   }
 
-  /// Add the interval from `from` to `to` (0 … 1) of a line, which is inside, to the volume of an
-  /// atom. Each half of the line counts for the cell of the nearer sample. `lower` and `upper` are
-  /// the samples at the ends of the line.
+  /// Add an interval of a line to the volume of an atom. The interval is inside; `from` and `to`
+  /// are its ends, as positions 0 … 1 on the line. Each half of the line belongs to the cell of the
+  /// nearer sample. `lower` and `upper` are the samples at the ends of the line.
   void measure(Id lower, Id upper, double from, double to, Id atom)
   {
     if (atom < 0)

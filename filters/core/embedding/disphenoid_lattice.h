@@ -18,8 +18,8 @@ namespace bindpose
 /// one edge of the face as corners. All facets are in planes where the sum or the difference of two
 /// coordinates, in units of cubes, is an integer.
 ///
-/// A "place" is a position relative to the origin, in units of cubes. Cubes have the integer
-/// coordinates (0, 0, 0) to (65535, 65535, 65535).
+/// In this class, a position is relative to the origin, in units of cubes; a point is in world
+/// coordinates. Cubes have the integer coordinates (0, 0, 0) to (65535, 65535, 65535).
 class DisphenoidLattice
 {
 public:

@@ -144,8 +144,8 @@ Vec3 EmbeddingAtoms::lattice_position(Id atom) const
   const auto& lattice = this->cover_.lattice;
   const Cube cube =
     DisphenoidLattice::cube_of(this->full_cubes[(atom - this->first_full_atom) / halves]);
-  // The middle of the segment from the midpoint of the tet's edge in the face to the center of the
-  // cube.
+  // Return the middle of the segment from the center of the cube to the midpoint of the tet's edge
+  // in the face between two cubes.
   const Vec3 edge = 0.5 * (lattice.node_point(corners[2]) + lattice.node_point(corners[3]));
   return 0.5 * (lattice.lattice_position(edge) + Vec3(cube[0] + 0.5, cube[1] + 0.5, cube[2] + 0.5));
 }

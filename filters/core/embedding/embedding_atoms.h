@@ -40,7 +40,8 @@ public:
   Status find_inside(ExecutionContext& context, const WindingNumber& winding, double threshold);
 
   Id count() const { return this->first_piece + static_cast<Id>(this->piece_tets_.size()); }
-  /// Return the integer coordinates, over all cubes, of sample s in cube `sampled[sampled_cube]`.
+  /// Return the integer coordinates, over all cubes, of sample s in cube
+  /// sampled_cubes[sampled_cube].
   Sample global_coordinates(Id sampled_cube, int s) const
   {
     const Cube cube = DisphenoidLattice::cube_of(this->sampled_cubes[sampled_cube]);

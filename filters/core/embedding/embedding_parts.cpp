@@ -38,7 +38,7 @@ public:
   }
 
 private:
-  // ---- EmbeddingBuilder and copies of nodes ----
+  // ---- Parts and copies of nodes ----
 
   bool find_parts()
   {
@@ -251,7 +251,7 @@ private:
 
   bool write(EmbeddingTets& result)
   {
-    // EmbeddingBuilder in the same tet with the same copies of its nodes become one tet.
+    // Parts in the same tet with the same copies of its nodes become one tet.
     struct Copy
     {
       Id tet;
@@ -328,10 +328,10 @@ private:
         this->atoms_.samples_of_half[number] + this->atoms_.samples_of_half[number + 1];
       result.inside_fractions[t] = std::min(1.0, result.inside_fractions[t] / samples);
     }
-    // A tet contains 10 to 28 samples, depending on its position in the sub-grid. The fractions
-    // above are relative to these numbers. The fractions are correct for whole tets, but plates
-    // aligned with the sub-grid would become too thick or too thin. The total number of inside
-    // samples has no such bias, so the fractions of cut tets are scaled to match it.
+    // The fractions are so far relative to the number of samples in each tet, which is 10 to 28
+    // depending on the tet's position in the sub-grid. These fractions are correct for whole tets,
+    // but plates aligned with the sub-grid would become too thick or too thin. The total number of
+    // inside samples has no such bias, so the fractions of cut tets are scaled to match it.
     constexpr double samples_of_tet = CubeSamples::samples_per_cube / 12.0;
     const double whole_tets = (result.inside_fractions.array() >= 1.0).count();
     const double cut = result.inside_fractions.sum() - whole_tets;

@@ -25,7 +25,7 @@ using Id = LatticeCover::Id;
 constexpr double minimum_tet_ratio = 2.0 / 3.0;
 constexpr double maximum_tet_ratio = 1.5;
 constexpr double maximum_pieces = 2e8;
-// Maximum number of pieces if the resolution is chosen, in addition to one per triangle.
+// Maximum number of pieces, in addition to one per triangle, if the resolution is automatic.
 constexpr double maximum_added_pieces = 1e6;
 
 /// Return the neighboring cube at one of the six faces of a cube.

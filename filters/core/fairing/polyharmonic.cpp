@@ -40,7 +40,7 @@ namespace
 constexpr double maximum_cotangent = 1e7;
 /// Maximum number of refinement steps. Refinement ends earlier if a correction is at most the
 /// fraction `correction_tolerance` of the solution, or is not smaller than the previous correction.
-/// The relative size of a correction is about the ratio by which the error decreases per step.
+/// Each step multiplies the error by about the relative size of the first correction.
 constexpr int maximum_refinements = 8;
 constexpr double correction_tolerance = 1e-9;
 /// Number of power iterations for the estimate of the condition number.
@@ -317,7 +317,7 @@ double Polyharmonic::solve(const Rows& prescribed, const Rows& constrained, cons
   const Rows& load, Rows& x) const
 {
   const Index n = this->parameters_.rows();
-  Rows weights = Rows::Zero(n, prescribed.cols()); // the product M load
+  Rows weights = Rows::Zero(n, prescribed.cols()); // product of the mass M and the load
   if (load.size() > 0)
   {
     weights = (std::pow(this->unit_, this->order_) * this->mass_).asDiagonal() * load;

@@ -37,7 +37,7 @@ struct VariationalSurfaceOptions
   std::vector<char> fixed;
   /// #V x 3 derivatives of the position in the direction perpendicular to the edge, outwards, per
   /// unit length of the parameter domain. With unit vectors that point away from the patch, the
-  /// patch is isometric to the parameter domain at the edge. Used by PatchTangents::given.
+  /// patch is isometric to the parameter domain at the edge. Used by PatchTangents::prescribed.
   Points tangents;
   /// #V x 3 right-hand side: required values of (-Laplacian)^order of the position (if `fair`) or
   /// of the displacement; empty: zero.
@@ -78,8 +78,8 @@ public:
   /// counts.free, counts.constrained (number of constrained vertices and points), condition (a
   /// lower bound of the condition number of the factored matrix, scaled to ones on its diagonal),
   /// refinement (the last correction, as a fraction of the largest coordinate) and
-  /// constraint_residual (in bounding-box diagonals). Errors are those of Polyharmonic::prepare;
-  /// another error is a part without constraints if the unknowns are positions. Warnings report
+  /// constraint_residual (in bounding-box diagonals). Errors are those of Polyharmonic::prepare. If
+  /// the unknowns are positions, a part without constraints is also an error. Warnings report
   /// contradictory or redundant handles, a refinement after which few digits are correct, and
   /// boundary conditions that have less effect than expected.
   Status solve(ExecutionContext& context, const Pose& pose);

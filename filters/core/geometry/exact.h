@@ -23,7 +23,7 @@ inline void two_sum(double a, double b, double& high, double& low)
 /// multiply-add).
 inline void two_product(double a, double b, double& high, double& low)
 {
-  constexpr double splitter = 134217729.0; // splits a double into two halves
+  constexpr double splitter = 134217729.0; // 2^27 + 1 splits a double into two halves
   const double ta = splitter * a;
   const double tb = splitter * b;
   const double a_high = ta - (ta - a);

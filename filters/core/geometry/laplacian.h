@@ -38,9 +38,9 @@ SparseMatrix stiffness_matrix(
   PointsView points, TetsView tets, const Eigen::VectorXd& fractions = Eigen::VectorXd());
 
 /// Return the matrix N of the outward flux through the boundary (#V x #V): N_ij is the integral of
-/// phi_i n . grad phi_j over the boundary. Then (K - N) u = 0 for every linear u, also at the
-/// boundary. N is zero for a closed surface. For an open surface, n lies in the plane of the
-/// triangle and is normal to its open edge.
+/// phi_i n . grad phi_j over the boundary, with hat functions phi and the outward normal n. For
+/// every linear u, (K - N) u = 0, also at the boundary. N is zero for a closed surface. For an open
+/// surface, n lies in the plane of the triangle and is normal to its open edge.
 SparseMatrix boundary_flux(PointsView points, TrianglesView triangles);
 SparseMatrix boundary_flux(PointsView points, TetsView tets);
 

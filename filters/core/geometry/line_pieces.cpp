@@ -12,7 +12,7 @@ namespace bindpose
 std::vector<double> line_cuts(double from, double to, const std::function<double(double)>& length,
   const std::function<int(double)>& pieces)
 {
-  // passed[i] is the length of the line from its start to parameter at[i], in local lengths.
+  // cumulative_lengths[i] is the length, in local lengths, from the start to parameters[i].
   std::vector<double> cumulative_lengths{ 0.0 };
   std::vector<double> parameters{ from };
   while (parameters.back() < to)

@@ -9,11 +9,11 @@ namespace bindpose
 {
 
 /// Reorder the elements from `begin` to `end` so that no element before `middle` has a larger key
-/// than one from `middle` on, as a tree does that divides its elements at their median.
-/// Cost: linear on average.
-/// @param key  returns for an element its coordinate along the axis of the division and its id, as
-/// a pair. The id decides if coordinates are equal, so that the two sets of elements do not depend
-/// on their order before.
+/// than an element at or after `middle`. Used to build trees that divide their elements at the
+/// median. Cost: linear on average.
+/// @param key  returns for an element a pair: its coordinate along the axis of the division and its
+/// id. The id decides if coordinates are equal, so that the two sets of elements do not depend on
+/// the initial order.
 template <typename Iterator, typename Key>
 void split_at(Iterator begin, Iterator middle, Iterator end, const Key& key)
 {

@@ -181,7 +181,7 @@ std::vector<Edge> mesh_edges(TrianglesView triangles)
 {
   const std::vector<TriangleSide> sides = sides_by_edge(triangles);
   std::vector<Edge> edges;
-  edges.reserve(sides.size() / 2 + 1); // enough for a closed surface
+  edges.reserve(sides.size() / 2 + 1); // a closed surface has no more edges than this
   for (std::size_t begin = 0, end = 0; begin < sides.size(); begin = end)
   {
     end = end_of_edge(sides, begin);

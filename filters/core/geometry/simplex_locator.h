@@ -16,7 +16,8 @@ namespace bindpose
 struct SimplexLocation
 {
   Index element = -1; ///< element id; -1: the mesh has no element or the point is not finite
-  std::array<double, 4> barycentric{ 0.0, 0.0, 0.0, 0.0 }; ///< the fourth is 0 for a triangle
+  /// Barycentric coordinates; the fourth is 0 for a triangle.
+  std::array<double, 4> barycentric{ 0.0, 0.0, 0.0, 0.0 };
   double distance = 0.0; ///< distance from the query point to the element, 0 inside
 };
 

@@ -44,7 +44,7 @@ std::vector<TetFacet> tet_facets(TetsView tets)
       facets.begin() + static_cast<std::ptrdiff_t>(begin[v + 1]),
       [](const TetFacet& x, const TetFacet& y)
       {
-        // The first vertices are equal within a bucket.
+        // All facets of a bucket have the same first vertex.
         return x.vertices[1] != y.vertices[1] ? x.vertices[1] < y.vertices[1]
           : x.vertices[2] != y.vertices[2]    ? x.vertices[2] < y.vertices[2]
                                               : x.tet < y.tet;

@@ -899,7 +899,7 @@ void set_weights(Parts& parts, SkinNodes& joint_nodes, GltfSkin& skin)
     skin.joints.pop_back();
     joint_nodes.nodes.pop_back();
     skin.weights.conservativeResize(Eigen::NoChange, joints - 1);
-    // Files of other programs may have joints below the joint "rest".
+    // Another program may have added children to the joint "rest"; they become roots.
     for (GltfJoint& joint : skin.joints)
     {
       joint.parent = joint.parent < joints - 1 ? joint.parent : -1;

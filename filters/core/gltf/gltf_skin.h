@@ -83,8 +83,8 @@ struct GltfOptions
 
 /// Write a skinned mesh as glTF 2.0.
 ///
-/// Weights: all nonzero weights are written. A weight of at most 2^-24 counts as zero, because its
-/// sum with a float of value one is one. Weights are stored in pairs of attributes JOINTS_n and
+/// Weights: all nonzero weights are written. A weight of at most 2^-24 counts as zero, because
+/// adding it to the float 1 gives 1. Weights are stored in pairs of attributes JOINTS_n and
 /// WEIGHTS_n with four weights per vertex (sets); the vertex with the most weights determines the
 /// number of sets. glTF requires rows that sum to one and no negative weights. If the sum of a row
 /// is below one by more than 1e-6, the missing part becomes the weight of an additional joint

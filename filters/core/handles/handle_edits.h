@@ -27,9 +27,9 @@ struct EditedHandles
 // sentence that names the handle, and `after` equals the handles before the edit. Names of handles
 // that are not edited do not change. `before` and `after.handles` must not be the same object.
 
-/// Return the wanted name. If another handle has this name, append a suffix .001, .002, …. If the
-/// wanted name is empty, return a letter for the kind (p, b, c or r) with the first free number,
-/// for example p1.
+/// Return the requested name. If another handle has this name, append a suffix .001, .002, …. If
+/// the requested name is empty, return a letter for the kind (p, b, c or r) with the first free
+/// number, for example p1.
 std::string unique_name(const Handles& handles, const std::string& requested_name, HandleKind kind);
 
 /// Append a handle. The new name is unique_name(handle.name). The cage elements of the handle may

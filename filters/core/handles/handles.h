@@ -65,7 +65,7 @@ using Handles = std::vector<Handle>;
 /// Return "point", "bone", "cage_vertex", "region" or "cage_element".
 const char* to_string(HandleKind kind);
 
-/// Report whether a handle is a bone. Only bones stretch and twist.
+/// Report whether any of the handles is a bone. Only bones stretch and twist.
 bool has_bones(const Handles& handles);
 
 /// Return the quoted names of the listed handles for use in a sentence: 'a', 'b'.

@@ -177,10 +177,11 @@ bool CdtTets::time_budget_is_used() const
 }
 
 /// Run TetGen on refined triangles with each set of switches in turn. If the surface has wide
-/// openings, small tets are tried first. There, tets between the triangles alone are too coarse to
-/// follow the winding number, which may reach the threshold even outside the convex hull. If
-/// near_threshold_fraction() is very large, as for a sheet with a thin sliver in front of the
-/// sheet, small tets are not tried first, because they would miss the sliver, too.
+/// openings, small tets are tried first, because an isosurface of the winding number bounds the
+/// region in an opening. It can extend beyond the convex hull, and tets that only join the
+/// triangles are too coarse to follow it. If near_threshold_fraction() is very large, small tets
+/// are not tried first, because the region is too thin for them (for example, a thin sliver in
+/// front of a sheet).
 Status CdtTets::try_switches(const Perturbation& move, const MesherData& refined)
 {
   const Phase phase(this->context_, "tetgen", 0.4, 1.0);
@@ -208,9 +209,9 @@ Status CdtTets::try_switches(const Perturbation& move, const MesherData& refined
     }
   }
   // Switch `T` sets the tolerance of TetGen's test for coplanar triangles. With the default of
-  // 1e-8, TetGen takes exactly cut triangles for coplanar although they are not, and crashes. If
-  // both sets of switches crash, other sets usually crash as well: in an experiment one set in
-  // thirty succeeded on the same triangles.
+  // 1e-8, TetGen treats some cut triangles as coplanar although they are not, and crashes. If both
+  // sets of switches crash, other sets usually crash as well: in an experiment one set in thirty
+  // succeeded on the same triangles.
   std::vector<TetgenSetup> setups{ { "pYcAT1e-12", false }, { "pYAT1e-16", true } };
   if (move.jitter > 0.0)
   {
@@ -271,7 +272,7 @@ Status CdtTets::try_fine_tets(const Perturbation& move, const MesherData& refine
     std::min(this->volume_bound(), this->inside_.volume() / tets_inside), box / maximum_tets);
   const Status status = this->try_tetgen({ "pAq2a" + short_number(bound), true }, move, refined);
   this->fine_fails_ = !status.ok() && !this->wrong_volume_;
-  this->timed_out_ = false; // TetGen may finish in time if no small tets are requested
+  this->timed_out_ = false; // a later run without small tets may finish in time
   return status;
 }
 
@@ -504,7 +505,8 @@ Status CdtTets::segment_and_store(
     }
   }
   kept.conservativeResize(count, 4);
-  // Each of the following steps takes up to seconds for millions of tets.
+  // For millions of tets, each of the following steps takes up to a few seconds. Therefore a cancel
+  // request is checked between them.
   std::vector<TetFacet> facets = tet_facets(kept);
   if (this->context_.canceled())
   {

@@ -85,7 +85,7 @@ void remove_near(Points& positions, const Points& others, const SizingField& siz
 }
 } // namespace
 
-/// The region enclosed by the boundary of the tets.
+/// Data of fill(): the region that the boundary of the tets encloses, and the new vertices in it.
 struct CdtTets::FillState
 {
   Interior interior;
@@ -149,7 +149,7 @@ Status CdtTets::find_positions(FillState& inside)
   {
     return status;
   }
-  // Use one edge length everywhere, so that there are enough tets.
+  // Too few tets are expected, so use one edge length everywhere that gives `minimum_tets`.
   const double length =
     std::cbrt(this->volume_ / (static_cast<double>(minimum_tets) * regular_tet_volume));
   constexpr double long_edge = 2.0;
@@ -307,7 +307,8 @@ Status CdtTets::improve()
       return Status::canceled();
     }
   }
-  // Each of the following steps takes up to seconds for millions of tets.
+  // For millions of tets, each of the following steps takes up to a few seconds. Therefore a cancel
+  // request is checked between them.
   std::vector<TetFacet> facets = tet_facets(mesh.tets);
   this->context_.progress(0.94);
   if (this->context_.canceled())

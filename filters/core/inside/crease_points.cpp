@@ -59,8 +59,8 @@ CreasePoints find_creases(const RegionBoundary& region, const SizingField& field
     const Vec3 a = region.points().row(sides[i].a);
     const Vec3 b = region.points().row(sides[i].b);
     constexpr double maximum = 1000.0;
-    // The spacing is smaller than the requested length, so that few facets next to the crease cut
-    // it.
+    // The spacing is smaller than the requested length, so that few facets of the tets cross the
+    // crease.
     constexpr double spacing_factor = 0.7;
     const double length =
       spacing_factor * std::min({ field.at(a), field.at(b), field.at(0.5 * (a + b)) });

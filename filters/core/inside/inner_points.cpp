@@ -190,7 +190,8 @@ private:
     keys.erase(std::unique(keys.begin(), keys.end(), [](Key a, Key b) { return a >> 1 == b >> 1; }),
       keys.end());
     std::vector<char> good(keys.size(), 0);
-    // At the distance d from the surface, the requested length is larger by growth * d.
+    // Convert the clearance from units of the edge length at the surface to units of the edge
+    // length at the point, which increases with the distance from the surface at the rate growth().
     const double least = clearance / (1.0 + clearance * this->sizes_.growth());
     const bool is_complete =
       parallel_for(this->context_, static_cast<Index>(keys.size()), cells_per_block,
@@ -273,9 +274,9 @@ double Interior::estimate_layer_cells(const SizingField& sizes) const
 
 namespace
 {
-/// Searches the scale of the edge lengths for which the number of points has the wanted value. The
-/// number of points decreases with a power of the scale. The exponent depends on the surface: 3 in
-/// wide spaces, 2 in a layer at the surface, less if many triangles are near each other.
+/// Searches for the scale of the edge lengths that gives the wanted number of points. The number of
+/// points decreases with a power of the scale. The exponent depends on the surface: 3 in wide
+/// spaces, 2 in a layer at the surface, less if many triangles are near each other.
 class ScaleSearch
 {
 public:
@@ -410,7 +411,7 @@ bool inner_points(ExecutionContext& context, const Interior& interior, SizingFie
   for (int attempt = 0; attempt < attempts; ++attempt)
   {
     // There are typically two or three attempts.
-    constexpr double fraction = 0.45; // fraction of the remaining progress
+    constexpr double fraction = 0.45; // part of the remaining progress that an attempt gets
     const double end = begin + fraction * (1.0 - begin);
     const ProgressRange range(context, begin, end);
     begin = end;

@@ -93,13 +93,13 @@ bool measure(ExecutionContext& context, const std::vector<Sample>& samples,
   return completed;
 }
 
-/// Finds the parts of the tets' boundary that close holes of the surface ("lids").
+/// Finds the parts of the tets' boundary that close holes of the surface ("caps").
 class HoleCaps
 {
 public:
   HoleCaps(const RegionBoundary& region, const TriangleTree& tree) : region_(region), tree_(tree) {}
 
-  /// Report whether p is on a lid: the region ends within the distance `reach` of p along the
+  /// Report whether p is on a cap: the region ends within the distance `reach` of p along the
   /// normal n, and there is no triangle at this end.
   bool is_on_cap(const Vec3& p, const Vec3& n, double reach) const
   {
@@ -157,8 +157,8 @@ bool measure_distance(ExecutionContext& context, const TetMesh& mesh, const Regi
     const double size = std::sqrt(std::max((b - a).squaredNorm(), (c - a).squaredNorm()));
     return !hole_caps.is_on_cap(center, (b - a).cross(c - a).normalized(), 0.5 * size);
   };
-  // A vertex is a sample if one of its triangles is not part of a lid. This includes the vertices
-  // at the border of a lid, which is acceptable because the surface is near them.
+  // A vertex is a sample if one of its triangles is not part of a cap. This includes the vertices
+  // at the border of a cap, which is acceptable because the surface is near them.
   return collect_samples(
            context, mesh.points, boundary, on_surface,
            [](Index, int, bool is_counted) { return is_counted; }, samples) &&

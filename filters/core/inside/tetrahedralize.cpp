@@ -298,7 +298,8 @@ private:
     return {};
   }
 
-  /// Replace the tets of cdt by those of remesh if the smallest dihedral angle of remesh is larger.
+  /// Replace the tets of cdt by those of remesh if the latter have the larger smallest dihedral
+  /// angle.
   Status improve_cdt_by_remesh()
   {
     const double angle = this->angle();

@@ -20,7 +20,7 @@ namespace
 /// about `triangles` triangles.
 Index resolution_for(const Box& box, double area, Index triangles)
 {
-  // Isosurface stuffing creates 3.8 triangles for each surface area of one cube face, measured on a
+  // Isosurface stuffing creates 3.8 triangles per surface area of one cube face, measured on a
   // sphere.
   constexpr double triangles_per_face = 3.8;
   constexpr double minimum_resolution = 16.0;

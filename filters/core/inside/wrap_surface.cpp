@@ -1,6 +1,6 @@
 // Alpha wrap of a surface by the helper executable (mesher/wrap_job.cpp). The helper works in a
 // normalized frame: the center is the origin and the size is about 1. This file transforms the
-// surface to this frame, and the wrap from this frame. It checks that the wrap is closed and has a
+// surface to this frame and transforms the wrap back. It checks that the wrap is closed and has a
 // volume.
 #include "inside/wrap_surface.h"
 

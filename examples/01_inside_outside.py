@@ -8,8 +8,8 @@ The script tests random points against an elephant full of holes (or against MES
 of vtkSelectEnclosedPoints, which PyVista's select_enclosed_points calls. Then it shows the other uses of the winding
 number. It writes a picture and its numbers to --output, and also runs without a display.
 
-PyVista's meshes are VTK datasets: a pyvista.PolyData can be used in place of `surface`, and results are datasets of PyVista
-then.
+PyVista's meshes are VTK datasets. If a pyvista.PolyData is used in place of `surface`, results are datasets of PyVista,
+too.
 """
 
 from __future__ import annotations
@@ -78,7 +78,8 @@ def select_enclosed_points(surface: vtkPolyData, points: Points, check: bool) ->
 
 def compare(title: str, surface: vtkPolyData, points: Points, numbers: dict[str, Any],
             truth: NDArray[np.bool_] | None = None) -> Any:
-    """Print one line: number of points inside, number of different results, and errors where the truth is known."""
+    """Print one line: the number of points inside (Bindpose, VTK), the number of points with different results, and
+    the numbers of errors if the truth is known."""
     ours = bindpose.contains(surface, points)
     theirs = select_enclosed_points(surface, points, check=False)
     assert theirs is not None  # without the check there is always a result

@@ -10,15 +10,15 @@
  * SKELETON contracts the surface to a curve (mean curvature flow, in the helper executable
  * bindpose-mesher) and simplifies the curve. Ends and junctions are joints. Branches shorter than
  * the thickness of the shape are pruned. The other branches are split at their bends, which gives
- * the bones b1, b2, … Bones point away from the joint nearest to the centroid of mass. The `Parent`
- * of a bone is the bone that ends at its head. Each component has its own bones; a ball-like
- * component gets a point handle instead. Exactly one bone has no parent: among the bones at the
- * root of the largest component, the bone with the largest volume. This bone is the parent of the
- * other bones at that root. The first bone of every other component, and every point, has the
- * nearest bone of the largest component as its parent. A cycle of the curve is cut where it is
- * farthest from the root, with a warning. A very dense surface, or one that is not clean (open,
- * crossing, doubled, flat), is replaced by the boundary of a lattice of cubes. The lattice covers
- * the inside of the surface and a layer around its thin parts.
+ * the bones b1, b2, … The root of a component is the joint nearest to its center of mass, and its
+ * bones point away from the root. The `Parent` of a bone is the bone that ends at its head. Each
+ * component has its own bones; a ball-like component gets a point handle instead. Exactly one bone
+ * has no parent: the bone with the largest volume among the bones at the root of the largest
+ * component. This bone is the parent of the other bones at that root. The first bone of every other
+ * component, and every point, has the nearest bone of the largest component as its parent. A cycle
+ * of the curve is cut where it is farthest from the root, with a warning. A very dense surface, or
+ * one that is not clean (open, crossing, doubled, flat), is replaced by the boundary of a lattice
+ * of cubes. The lattice covers the inside of the surface and a layer around its thin parts.
  *
  * POINTS spreads points p1, p2, … over the vertices. Each point is the vertex farthest from all
  * earlier points, measured along edges or through space. The points are then moved into the middle
@@ -32,8 +32,8 @@
  * counts.{parts, left_out_parts, contracted_triangles, iterations, skeleton_points, joints,
  * junctions, joints_outside, bones_outside, cut_cycles, pruned_branches, merged_branches}; for a
  * lattice also resolution (cubes along the longest side) and counts.thickened_triangles. POINTS:
- * distance, counts.{components, served_components, points_inside}, handles[].vertex (point id on
- * the surface). seconds.*.
+ * distance, counts.{components, served_components (those with at least one point), points_inside},
+ * handles[].vertex (point id on the surface). seconds.*.
  *
  * Errors: INVALID_INPUT for a surface without 2D cells, with ids out of range or coordinates that
  * are not finite, and for an option out of its range. Also INVALID_INPUT if no triangle has an area

@@ -52,7 +52,8 @@ constexpr double volume_tolerance = 1e-12;
 /// Apply the text of a pose file to a pose. The text must contain one pose, for time 0.
 Status apply_pose_text(const std::string& text, const Handles& handles, Pose& pose)
 {
-  std::optional<ExpressionParser> parser; // its construction takes longer than most poses
+  // Create the parser only for expressions, because its constructor takes longer than most poses.
+  std::optional<ExpressionParser> parser;
   PoseSequence sequence;
   Status status = parse_pose_file(text, handles, sequence,
     [&parser](const std::string& expression, double t, double& value)

@@ -106,8 +106,8 @@ protected:
   const bindpose::PoseInput& GetPoseInput() const;
   ///@}
 
-  /// Return the status of a pose with the entries of the bind's report inserted before its own. The
-  /// warnings of a bind are issued only once, when the bind is computed.
+  /// Return a copy of the status of a pose. Its report starts with the entries of the bind's
+  /// report. The warnings of a bind are issued only once, when the bind is computed.
   bindpose::Status WithBindReport(const bindpose::Status& posed) const;
 
 private:

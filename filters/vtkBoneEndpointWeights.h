@@ -8,8 +8,9 @@
  * and tail are mixed at the point. The methods are:
  * - **PROJECTION** onto the bone, clamped: immediate, but constant in planes perpendicular to the
  *   bone;
- * - **JOINTS**: W_tail / (W_head + W_tail) of bounded biharmonic weights with all ends of bones as
- *   point handles, one problem for all bones: shape-aware, smooth beyond the ends;
+ * - **JOINTS**: W_tail / (W_head + W_tail), where W_head and W_tail are the bounded biharmonic
+ *   weights of point handles at the ends of the bone. One problem has the ends of all bones as
+ *   handles. The result is shape-aware, and smooth beyond the ends;
  * - **BOUNDED**: one bounded biharmonic problem per bone in which the weight is linear along the
  *   bone: exact on the bone, but the most expensive method.
  *
@@ -17,9 +18,9 @@
  * `EndpointWeights`, with one component per handle, named after the handle; NaN for handles that
  * are not bones. Users may paint over the array before it is used.
  *
- * The weights of a surface are solved in one of the domains of vtkWeightsAlgorithm (see SetDomain),
- * those of tets on the tets. The result is cached until points, cells, the handles' rest data or
- * this filter's parameters change.
+ * For a surface the weights are solved in one of the domains of vtkWeightsAlgorithm (see
+ * SetDomain), for a mesh of tets on the tets. The result is cached until points, cells, the
+ * handles' rest data or this filter's parameters change.
  *
  * Errors: no bone; all input that vtkBoundedBiharmonicWeights rejects. The status is not_converged
  * (with the result) if the optimality certificate of a column exceeds its tolerance. Cost:

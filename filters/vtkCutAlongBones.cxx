@@ -54,8 +54,8 @@ Status to_color_arrays(vtkPolyData* handles, ColorArrays& colors)
   return {};
 }
 
-/// Return for each bone the first bone of its curve (the bones with the same value of the cell
-/// array `Curve`). For any other handle return the handle itself.
+/// Return for each bone the first bone of its curve. A curve consists of the bones with the same
+/// value in the cell array `Curve`. For any other handle return the handle itself.
 Status to_curves(vtkPolyData* handle_data, const Handles& handles, const std::vector<Index>& cells,
   std::vector<Index>& first)
 {
@@ -193,7 +193,7 @@ Status vtkCutAlongBones::Execute(
   }
   for (Handle& handle : sides.handles)
   {
-    handle.parent = -1; // the parent may have been a bone
+    handle.parent = -1; // the parent may be a bone, and bones are not output
   }
   const Status checked = check_handles(sides.handles);
   if (!checked.ok())

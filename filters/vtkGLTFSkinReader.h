@@ -13,10 +13,10 @@
  * handle becomes that handle again, unless another program has changed its bind position. Other
  * joints with children become bones that end at the mean position of the children. Other joints
  * without children become points. The `Ownership` of these bones and points is 1, so that a bind
- * skips a joint if all its vertices belong to other joints (helper joints). The `Ownership` of
- * joints without weights in the file (control bones) is 2. The inverse bind matrices give the rest
- * positions. `Transform` contains the transforms of the nodes, or those of the animation at Frame.
- * Posing the mesh by linear blend skinning therefore gives the shape that a glTF viewer shows.
+ * skips a joint that gets no vertex of its own (helper joints). The `Ownership` of joints without
+ * weights in the file (control bones) is 2. The inverse bind matrices give the rest positions.
+ * `Transform` contains the transforms of the nodes, or those of the animation at Frame. Posing the
+ * mesh by linear blend skinning therefore gives the shape that a glTF viewer shows.
  *
  * **Animation**: the first animation that moves a joint is read. It has one frame per key if keys
  * are evenly spaced, otherwise 24 frames per second. The animation is available as a pose file for

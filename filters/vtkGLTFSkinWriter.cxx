@@ -87,8 +87,8 @@ Status to_written_surface(vtkDataSet* mesh, Surface& surface)
   return status;
 }
 
-/// Return the rows of an array with as many columns as the matrix; no rows if there is no such
-/// array.
+/// Read the components of an array at the written points, one row per point. Do not change `rows`
+/// if the array is null or has fewer components than `rows` has columns.
 template <typename Matrix>
 void read_rows(vtkDataArray* array, const Surface& surface, Matrix& rows)
 {

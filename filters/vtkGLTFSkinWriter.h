@@ -16,9 +16,9 @@
  * **Joints**: each handle becomes a joint. Points, regions and cage vertices are joints at their
  * positions; bones are joints at their heads with the y axis along the bone. A joint is a child of
  * the joint of its handle's `Parent`; in other programs a forearm therefore follows its upper arm.
- * Transforms of handles are absolute and are converted. Handle type, tail, region and cage are
- * stored in the extras of the joint for vtkGLTFSkinReader. The `Transform` of the handles
- * determines the nodes; the mesh is bound at rest.
+ * The absolute transforms of handles are converted to transforms relative to the parent joint.
+ * Handle type, tail, region and cage are stored in the extras of the joint for vtkGLTFSkinReader.
+ * The skin is bound at rest. The nodes of the joints have the pose of the handles (`Transform`).
  *
  * **Weights**: all nonzero weights are written, or only the MaximumInfluences largest weights of
  * each vertex. glTF stores them in sets of four (JOINTS_0, WEIGHTS_0, JOINTS_1, …); the vertex with
@@ -30,19 +30,20 @@
  *
  * **Animation**: JOINTS writes translation, rotation and scale of the joints per frame, for linear
  * blend rigs. Joints cannot represent shear, or non-uniform scale along directions other than the
- * joint's axes. Joints represent only frames of linear blend methods, which are blends of the
- * handles' transforms (field data `HandleTransforms`). animation_error is the largest distance
- * between the position of a vertex in the file's animation and its correct position, as a fraction
- * of the diagonal. MORPH writes the frames' points as morph targets. This is correct for every
- * method (reduced and full as-rigid-as-possible, dual quaternions) and takes 12 bytes per vertex
- * and frame. The joints are then at rest.
+ * joint's axes. Joints represent only frames of linear blend methods, whose points move by blends
+ * of the handles' transforms (field data `HandleTransforms`). animation_error is the largest
+ * distance between the position of a vertex in the file's animation and its correct position, as a
+ * fraction of the diagonal. MORPH writes the frames' points as morph targets. This is correct for
+ * every method (reduced and full as-rigid-as-possible, dual quaternions) and takes 12 bytes per
+ * vertex and frame. The joints are then at rest.
  *
  * The file is written under a temporary name next to its target and renamed at the end; a failure
  * or cancel leaves no file. An existing file is an error unless Overwrite is on.
  *
  * Report: counts.{vertices, triangles, joints, frames, dropped_weights}, sets, rest_joint (yes or
- * no), dropped_share (the largest fraction of a row that MaximumInfluences dropped), pose_error,
- * animation (joints, morph), animation_error, file_bytes.
+ * no), dropped_share (the largest fraction of a row that MaximumInfluences dropped), pose_error
+ * (like animation_error, for the pose of the handles), animation (joints, morph), animation_error,
+ * file_bytes.
  *
  * Errors (INVALID_INPUT, one sentence): no triangles or tets, weights that do not match the
  * handles, numbers that are not finite floats, frames with a different number of points or without

@@ -251,7 +251,7 @@ Status check_output(const std::string& path, vtkDataObject* output)
   return status;
 }
 
-/// Report whether a MEDIT file has tets; it then becomes a grid, otherwise a surface. MEDIT
+/// Report whether a MEDIT file has tets. If so, the output is a grid, otherwise a polydata. MEDIT
 /// keywords are on separate lines, so a text search is sufficient.
 bool has_tets(const std::string& path)
 {

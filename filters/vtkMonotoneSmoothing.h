@@ -3,10 +3,10 @@
  * @brief   smooths data on a mesh and keeps only the selected local extrema
  *
  * Topological simplification: the filter selects a list of extrema. Among all functions w whose
- * only local extrema are those of the list, it computes the one that minimizes int |k-harmonic
- * derivative of w|^2 + DataWeight int (w - data)^2, i.e. a smooth function near the data.
- * Internally the mesh is scaled to size 1 and the data to a range of 1. Therefore the result does
- * not depend on units, or on the position and rotation of the mesh.
+ * only local extrema are those of the list, it computes a smooth function near the data. This
+ * function minimizes E(w) + DataWeight * (integral of (w - data)^2), where E is the biharmonic or
+ * triharmonic energy (see Order). Internally the mesh is scaled to size 1 and the data to a range
+ * of 1. Therefore the result does not depend on units, or on the position and rotation of the mesh.
  *
  * **Input**: tets (of positive volume) or a triangle surface, as for vtkWeightsAlgorithm, with a
  * point array of one component: the active scalars, or the array set by SetInputArrayToProcess(0,
@@ -14,9 +14,9 @@
  *
  * **List of extrema**: the point array `Extrema` (above 0 a maximum, below 0 a minimum, 0 neither;
  * see SetExtremaArrayName) if the mesh has it. Otherwise the list contains the extrema of the data
- * whose persistence is above Persistence, or the NumberOfExtrema most persistent ones. Every
- * connected component needs a maximum and a minimum; a component without listed extrema becomes
- * constant, with a warning.
+ * whose persistence is above Persistence, or the NumberOfExtrema most persistent ones. A connected
+ * component must have at least one listed maximum and one listed minimum, or no listed extremum. A
+ * component without listed extrema becomes constant, with a warning.
  *
  * With KeepValues the extrema keep the data's values. With a DataWeight of 0 only these values
  * matter: the result is the smoothest function with the listed extrema and values. This gives
@@ -36,12 +36,13 @@
  * change, with a warning.
  *
  * Report: method, extrema_from (list, persistence or count), counts.{vertices, components, maxima,
- * minima, data_extrema (with a persistence above 1e-3), floods}, interior_extrema (not in the
- * list), relative_gap, kkt_residual, order_violation, iterations, energy.{total, smoothness, data},
- * rounds[].energy, data_length (detail finer than about six times this length is removed; in the
- * mesh's unit), largest_difference and rms_difference to the data, extrema[].{vertex, kind, value,
- * data, persistence}. Errors: no array, an array with several components or with values that are
- * not finite, a list without a maximum or minimum in a connected component, values at extrema
+ * minima, data_extrema (with a persistence above 1e-3), floods (passes of the algorithm that finds
+ * the order constraints)}, interior_extrema (not in the list), relative_gap, kkt_residual,
+ * order_violation, iterations, energy.{total, smoothness, data}, rounds[].energy, data_length
+ * (detail finer than about six times this length is removed; in the mesh's unit),
+ * largest_difference and rms_difference to the data, extrema[].{vertex, kind, value, data,
+ * persistence}. Errors: no array, an array with several components or with values that are not
+ * finite, a list without a maximum or minimum in a connected component, values at extrema
  * (KeepValues) that no function with the listed extrema can have. The status is NOT_CONVERGED if
  * the certificate exceeds Tolerance.
  *
@@ -124,9 +125,9 @@ public:
   ///@{
   /**
    * Guide function, which determines the direction in which the result increases along each edge.
-   * UNCONSTRAINED (default): the minimizer without order constraints, from which all other extrema
-   * are removed; it is nearest to the data. HARMONIC: the harmonic function with the extrema as
-   * boundary values, which does not depend on the data between the extrema.
+   * UNCONSTRAINED (default): the minimizer without order constraints, from which all extrema that
+   * are not in the list are removed; it is nearest to the data. HARMONIC: the harmonic function
+   * with the extrema as boundary values, which does not depend on the data between the extrema.
    */
   vtkSetClampMacro(Guide, int, 0, 1);
   vtkGetMacro(Guide, int);
@@ -141,9 +142,8 @@ public:
   ///@}
 
   ///@{
-  /// Minimum difference between the value of each point and that of a lower neighbor, and likewise
-  /// for a higher neighbor, as a fraction of the data's range, 0 to 1. Default 0; with a value
-  /// above 0 extrema are strict.
+  /// Minimum difference that each order constraint requires between two neighboring points, as a
+  /// fraction of the data's range, 0 to 1. Default 0; with a value above 0 extrema are strict.
   vtkSetMacro(Epsilon, double);
   vtkGetMacro(Epsilon, double);
   ///@}

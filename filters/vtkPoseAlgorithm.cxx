@@ -149,7 +149,7 @@ Status vtkPoseAlgorithm::Execute(
   return this->WithBindReport(deformed);
 }
 
-/// Prepare() with a pose. A new bind clears the cached data of the rest shape.
+/// Call Prepare(). If it binds again, clear the cached data of the rest shape.
 Status vtkPoseAlgorithm::PrepareRest(
   ExecutionContext& context, vtkInformationVector** input, const std::string& pose)
 {

@@ -63,16 +63,16 @@ public:
   ///@}
 
   /**
-   * Compute the points of a pose without updating the pipeline, for interactive use. The points
-   * have the same bits as those of Update() from the same start (as-rigid-as-possible methods start
-   * from their last result), but nothing else is computed: no output, no normals and no stretch.
-   * The filter binds if the last bind is not valid. The inputs must be up to date, because nothing
-   * before this filter is executed. Calls are not thread-safe.
+   * Compute only the points of a pose, for interactive use. The pipeline is not updated, and no
+   * output, normals or stretch are computed. The points have the same bits as those of Update().
+   * For as-rigid-as-possible methods, which start from their last result, this is true if both
+   * start from the same result. The filter binds if the last bind is not valid. The inputs must be
+   * up to date, because nothing before this filter is executed. Calls are not thread-safe.
    * @param pose  text of a pose file with one pose (see vtkPoseHandles), which is applied to the
-   * pose of the handles at port 1; empty: that pose
-   * @param points  the result, 3 components per point of the mesh. An array of another size gets
-   * new memory, even if it had memory of the caller. The memory must not overlap that of the mesh
-   * and its arrays.
+   * pose of the handles at port 1; empty: the pose of the handles is used unchanged
+   * @param points  the result, 3 components per point of the mesh. An array of another size is
+   * reallocated, even if its memory belongs to the caller. The memory must not overlap that of the
+   * mesh and its arrays.
    * @return whether there is a result; if not, see GetStatus() and GetStatusMessage(), which return
    * the outcome of this call until the next execution. No error or warning event is invoked.
    */

@@ -27,9 +27,9 @@
  * A text without "version" has version 1: the default space is "world", and handles that are not
  * mentioned keep their transform. A warning is issued once if version 2 would give another pose.
  *
- * **Expressions.** Any number of a handle may be given as a string with an expression in `t`, the
- * time in seconds: "translate": ["0.2 * sin(6.28 * t)", 0, 0]. vtkExprTkFunctionParser defines the
- * functions and constants. In a sequence t is the time of the frame: its index / fps.
+ * **Expressions.** Any number in the entry of a handle may be a string with an expression in `t`,
+ * the time in seconds: "translate": ["0.2 * sin(6.28 * t)", 0, 0]. vtkExprTkFunctionParser defines
+ * the functions and constants. In a sequence t is the time of the frame: its index / fps.
  *
  * **Time.** The filter provides times to the pipeline. For a sequence or the animation of a glTF
  * file, these are the times of the frames; for expressions, the range from 0 to EndTime. If a time

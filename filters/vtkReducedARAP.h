@@ -13,15 +13,16 @@
  *   bone in mode `ends` (4) has both ends at such positions; the filter computes the remaining
  *   rotation (about the tail in mode `tail`, about the bone in mode `ends`);
  * - the filter computes the whole transform of a handle in mode `free` (2);
- * - a handle in mode `automatic` (5, also without an array Mode) gets mode position in two cases,
- *   otherwise mode full. In the first case, the handle is a point or cage vertex that is at rest or
- *   only translated (in the world or relative to its parent). In the second case, the handle is a
- *   bone that is only translated.
+ * - a handle in mode `automatic` (5, the default if there is no array Mode) gets mode position in
+ *   two cases, otherwise mode full. In the first case, the handle is a point or cage vertex that is
+ *   at rest or only translated (in the world or relative to its parent). In the second case, the
+ *   handle is a bone that is only translated.
  *
- * If every handle is in mode full, the result is linear blend skinning. The energy is the sum of
- * |e' - R e|^2 over the edges e of clusters of vertices with similar weights. A solve alternates
- * between optimal rotations R and optimal transforms, with Anderson acceleration (Peng et al.
- * 2018). A solve never raises the energy. Its cost does not depend on the size of the mesh.
+ * If every handle is in mode full, the result is linear blend skinning. The energy is a weighted
+ * sum of |e' - R e|^2 over the edges e at rest, where e' is the posed edge and R the rotation of
+ * its cluster. A cluster is a set of vertices with similar weights. A solve alternates between
+ * optimal rotations R and optimal transforms, with Anderson acceleration (Peng et al. 2018). A
+ * solve never raises the energy. Its cost does not depend on the size of the mesh.
  *
  * Ports, arrays, bind cache and errors: see vtkPoseAlgorithm. Port 0 is a surface (vtkPolyData, or
  * a grid of 2D cells) or a vtkUnstructuredGrid of tets. The energy is that of the input mesh: an

@@ -203,8 +203,8 @@ Status vtkReducedDynamics::Deform(
   options.solve.mixed_precision = this->MixedPrecision;
   if (!state.started && state.next > 0)
   {
-    // A new bind restarts the simulation at time 0, but the pose of this request belongs to a later
-    // time.
+    // A new bind has reset the simulation, but the handles have the pose of a later time step. Do
+    // not simulate now; the next pass requests the handles at time 0.
     state.must_continue = true;
   }
   else

@@ -133,7 +133,7 @@ protected:
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   bindpose::Status Bind(
     bindpose::ExecutionContext& context, const bindpose::PoseInput& input) override;
-  /// The points also depend on the steps before.
+  /// Return false, because the points depend on the previous time steps, not only on the pose.
   bool CanPosePoints() override { return false; }
   bindpose::Status Deform(bindpose::ExecutionContext& context, const bindpose::PoseInput& input,
     bindpose::PosedPoints& posed) override;

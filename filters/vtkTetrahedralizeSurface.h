@@ -170,9 +170,9 @@ public:
 
   ///@{
   /**
-   * Difference of winding numbers between neighboring tets that GRAPH_CUT attributes to the
-   * surface, above 0; default 0.1. Larger values also allow cuts where the winding number changes
-   * little.
+   * Scale of the differences of winding numbers in GRAPH_CUT, above 0; default 0.1. A face of the
+   * boundary costs its area times exp(-d^2 / (2 CutSigma^2)), where d is the difference of the
+   * winding numbers of its two tets. With larger values the cost depends less on d.
    */
   vtkSetMacro(CutSigma, double);
   vtkGetMacro(CutSigma, double);

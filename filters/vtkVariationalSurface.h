@@ -17,8 +17,8 @@
  * free.
  *
  * **Boundary.** REGION: the fixed points are a band of `Order` layers of triangles around the
- * patch. The patch continues the band with its positions for order 1, its tangent planes for 2, its
- * curvatures for 3. Single points, curves and narrower bands work as well; the smoothness of the
+ * patch. At the band, the surface is continuous in position (order 1), tangent plane (order 2) or
+ * curvature (order 3). Single points, curves and narrower bands work as well; the smoothness of the
  * surface across them then follows from the energy. Where the mesh ends, slopes perpendicular to
  * its border are zero. CURVE: only the positions on the patch's edge are fixed, and its bending
  * there is zero (simply supported). Without a Load this gives the surface of order 1 for any order.

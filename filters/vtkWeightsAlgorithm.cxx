@@ -466,9 +466,8 @@ Status vtkWeightsAlgorithm::Bind(
   };
   const auto send_preview = [&](const Weights& weights)
   { this->InvokeEvent(PreviewEvent, to_weights_array(array_name, weights, handles)); };
-  // The energy may be definite only because rigid sets join components without handles to other
-  // components. The preview ignores rigid sets, so its energy would be singular; then there is no
-  // preview.
+  // Compute no preview if there are rigid sets, because the preview ignores them. Its energy would
+  // be singular if only rigid sets connect a component without handles to other components.
   const bool wants_preview =
     this->Stage == CERTIFIED && this->HasObserver(PreviewEvent) && options.terms.rigid_sets.empty();
   if (domain.is_volume() || this->Domain == SURFACE)
@@ -582,7 +581,7 @@ Status vtkWeightsAlgorithm::Execute(
       return status;
     }
     new_cache.status = status;
-    // The bind's report keeps the seconds of the bind as long as the bind is valid.
+    // Add the seconds of the bind, so that each output has them until the next bind.
     new_cache.status.report.merge(context.seconds());
     new_cache.key = key;
     new_cache.valid = true;

@@ -44,10 +44,10 @@
  * - `PinnedWeights`, one component per handle: prescribed weights; NaN: not prescribed. Prescribed
  *   weights do not change when rows are divided by their sums; only the other weights of the row
  *   are scaled.
- * - `SymmetricPoint`, the id of each point's mirror point, or -1: handles that are mirror images of
- *   each other get weights w_a(v) = w_b(mirror of v). The symmetry is exact: it is a constraint of
- *   the minimization. SetMirrorNormal() is an alternative to this array. Points without a mirror
- *   point, and handles whose mirror image is not a handle, are not affected.
+ * - `SymmetricPoint`, the id of each point's mirror point, or -1: two handles a and b that are
+ *   mirror images of each other get weights w_a(v) = w_b(mirror of v). The symmetry is exact: it is
+ *   a constraint of the minimization. SetMirrorNormal() is an alternative to this array. Points
+ *   without a mirror point, and handles whose mirror image is not a handle, are not affected.
  *
  * If the weights of a surface are solved in tets of its inside, each tet has the rigidity of the
  * nearest position of the surface. All other terms apply to the surface's own points only. A
@@ -133,8 +133,8 @@ public:
   /**
    * Memory limit of the whole process in MiB; 0 (default): the available memory of the machine. A
    * computation that needs more is refused before the factorization, with a message that states the
-   * limit and the need. If the memory is too small for one factor per thread, fewer threads are
-   * used. Changing the limit keeps cached weights.
+   * limit and the required memory. If the memory is too small for one factor per thread, fewer
+   * threads are used. Changing the limit keeps cached weights.
    */
   vtkSetClampMacro(MemoryLimit, int, 0, VTK_INT_MAX);
   vtkGetMacro(MemoryLimit, int);

@@ -89,7 +89,7 @@ using bindpose::Vec3;
 using bindpose::WindingField;
 using SDDP = vtkStreamingDemandDrivenPipeline;
 
-/// Number of samples per block for floats: 32 MiB of values.
+/// Number of samples per block if the output has floats. The buffer of doubles then has 32 MiB.
 constexpr Index samples_per_block = Index(1) << 22;
 
 bindpose::BindKey key_of(vtkPointSet* surface, const std::string& area_array)
@@ -401,8 +401,9 @@ int vtkWindingNumberField::RequestInformation(
   vtkDataObject* data = vtkDataObject::GetData(surface_info);
   if (vtkCompositeDataSet::SafeDownCast(data))
   {
-    // This pass is for the whole composite dataset. In the following passes, one per block, the
-    // block replaces the producer's output, and the producer must not be updated.
+    // VTK's composite executive calls this function once with the whole dataset, and then once per
+    // block with the block in place of the producer's output. The calls for blocks must not update
+    // the producer; CompositeTime identifies them.
     this->CompositeTime.Modified();
     return 1;
   }
@@ -488,9 +489,10 @@ bindpose::Status vtkWindingNumberField::Build(
   options.tolerance = this->Tolerance;
   options.orient = this->OrientPatches;
   options.area_array = this->AreaArrayName;
-  // A gradient takes several times as long as a value.
+  // A gradient takes several times as long as a value, so a sample with a gradient counts as nine.
   options.expected_queries = size_class(queries * (this->ComputeGradient ? 9 : 1));
-  // Exact methods extend their structure when necessary, so they accept more queries.
+  // The cached structure of an exact method is valid for any number of queries, because it is
+  // extended when necessary.
   const bool fits = this->BuildCache->valid &&
     (this->BuildCache->options.expected_queries == options.expected_queries ||
       !this->BuildCache->field.depends_on_expected_queries());

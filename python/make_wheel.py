@@ -36,8 +36,7 @@ BUILD_SYSTEM = '[build-system]\nrequires = ["setuptools", "wheel"]\nbuild-backen
 def stage(prefix, folder):
     """Write the sources of the wheel: copies of the files of the install tree, and setup.py.
 
-    The package is three folders below the libraries, in the install tree and in an environment, so its run paths are valid in
-    both.
+    The wheel needs no other run paths than the install tree: in both, the package is three folders below the libraries.
     """
     package = next(prefix.glob("lib*/**/dist-packages/bindpose"), None)
     if package is None:

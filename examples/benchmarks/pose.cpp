@@ -154,8 +154,9 @@ void measure_reduced(benchmark::State& state, const Points& points, const Elemen
   Pose pose = dragged(handles, 0.3);
   const bool large = handles.size() >= 100;
   const int calls = large ? 5 : 15, solves = large ? 5 : 100;
-  // The time per iteration is a difference: 9 iterations minus 2 iterations. All start at rest and
-  // end before convergence, so the first and the last iteration are not measured.
+  // The time per iteration is (time of 9 iterations - time of 2 iterations) / 7, which excludes the
+  // work before the first and after the last iteration. All solves start at rest and end before
+  // convergence.
   const auto seconds = [&](Index iterations, Index window, bool mixed)
   {
     const ReducedArap::SolveOptions solve{ 0.0, iterations, ReducedArap::Start::rest, window, 0.0,
@@ -370,7 +371,8 @@ BENCHMARK(full_arap_iteration)
 void skinning(benchmark::State& state)
 {
   const Index count = state.range(0);
-  // Handles and weights are cached between rows, because computing all three takes a minute.
+  // Handles and weights are cached between rows, because computing those of all three numbers of
+  // handles takes a minute.
   static std::map<std::pair<Index, bool>, Rig> rigs;
   Rig& rig = rigs[{ count, state.range(3) != 0 }];
   if (rig.handles.empty())

@@ -1,7 +1,7 @@
 #ifndef bindpose_examples_benchmarks_surfaces_h
 #define bindpose_examples_benchmarks_surfaces_h
 
-// Surfaces of any size for benchmarks, which are computed instead of read from files.
+// Surfaces of any size for benchmarks. They are computed instead of read from files.
 
 #include "geometry/mesh.h"
 

@@ -28,7 +28,7 @@ def processor_seconds():
 
 
 def found(mesh, numbers, name, **how):
-    """Return the handles of a mesh, and add their numbers."""
+    """Return automatic handles of a mesh, and add the time and the counts of the computation to `numbers`."""
     begun = processor_seconds()
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", bindpose.BindposeWarning)  # ignore warnings about cut cycles; the numbers contain them

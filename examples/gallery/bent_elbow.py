@@ -24,7 +24,7 @@ JOINT = np.array([LENGTH / 2, 0, 0])
 
 
 def bend(degrees):
-    """Rotate the right bone about the joint: about its own head, plus the translation of the head."""
+    """Rotate the right bone about the joint. A pose rotates a bone about its head, so the head is translated, too."""
     angle = np.radians(degrees)
     from_joint = np.array([3.5, 0, 0]) - JOINT
     moved = np.array([np.cos(angle), np.sin(angle), 0]) * np.linalg.norm(from_joint)

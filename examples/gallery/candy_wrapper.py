@@ -24,7 +24,8 @@ LENGTH = 6
 
 
 def cylinder(along, across):
-    """Return tets of a cylinder of radius 1 about x, from 0 to LENGTH; `along` and `across` are even."""
+    """Return tets of a cylinder of radius 1 about x, from 0 to LENGTH. The numbers of cells, `along` and `across`, must
+    be even."""
     points, tets = bar(along, across)
     x, u, v = points[:, 0] * LENGTH / 6, 2 * points[:, 1] - 1, 2 * points[:, 2] - 1
     # Map a square to a disc, so that the border of the square becomes a circle.

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Bones without a hierarchy: a few transforms are given, the others are computed.
 
-The cat's nine bones are not connected and have no parents. The feet are fixed, and the hand and the tip of the tail
-are placed. Body, head, both arms and the tail are free. With linear blend skinning the free bones do not move, and
-the arm stretches like rubber. Reduced as-rigid-as-possible computes transforms for the free bones that preserve the
+The cat's nine bones are not connected and have no parents. The feet are fixed. The hand and the tip of the tail have
+given transforms. Body, head, both arms and the tail are free. With linear blend skinning the free bones do not move,
+and the arm stretches like rubber. Reduced as-rigid-as-possible computes transforms for the free bones that preserve the
 shape, with 15 extra weights for bends between the bones.
 
 Numbers: free bones; distance between the arm's end and the hand's start, which coincide at rest, relative to the

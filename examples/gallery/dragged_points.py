@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Sources of rotation for points that are only translated: none, pseudo-edges, reduced as-rigid-as-possible.
 
-A strip with four points, which are translated to an arc of 150 degrees without rotations. From left to right:
-blending the translations shears the strip; pseudo-edges between neighbors determine the rotation of each point;
-reduced as-rigid-as-possible finds the rotations that bend the strip least. Pseudo-edges cost nothing and need no
-iteration. They use chords, so the end points rotate like their only edge.
+A strip with four points, which are translated to an arc of 150 degrees without rotations. From left to right: blending
+the translations shears the strip; pseudo-edges between neighbors determine the rotation of each point; reduced
+as-rigid-as-possible finds the rotations that bend the strip least. Pseudo-edges cost nothing and need no iteration.
+They are chords of the arc, and each end point has only one of them, so its rotation is that of this chord.
 
 Numbers: the rotation of each point in degrees, where the arc has -75, -25, 25 and 75; the strip's area, relative to
 rest; its largest and smallest stretch; inverted triangles.

@@ -26,7 +26,8 @@ POSES = {
 
 
 def with_regions(mesh, places, *others):
-    """Return the mesh with labels, and region handles p1, p2, … for `places` (index arrays), then points."""
+    """Return the mesh with region labels, and its handles p1, p2, …: one region per entry of `places` (an array of
+    point ids), then one point handle per position in `others`."""
     points, _ = mesh
     data = to_dataset(mesh)
     labels = np.zeros(len(points))

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""One pose with four energies: sets of edges that share a rotation.
+"""One pose with four energies. The energies differ in the sets of edges that share a rotation.
 
-The ends of a bar of tets are bent toward each other: one rotation per tet, per edges around a vertex (spokes and rims),
-and per edges at a vertex (spokes). The fourth energy is that of the bar's surface with one rotation per triangle. With
-this energy the bar becomes flatter where it bends, because nothing inside resists. Handles, weights and subspace are
-always the same. Colors: the distance from the position with the first energy, relative to the bar's diagonal.
+The ends of a bar of tets are bent toward each other. The sets are the edges of a tet, the edges of all tets at a vertex
+(spokes and rims), and the edges that end at a vertex (spokes). The fourth energy is that of the bar's surface; its sets
+are the edges of a triangle. With this energy the bar becomes flatter where it bends, because nothing inside resists.
+Handles, weights and subspace are always the same. Colors: the distance from the position with the first energy,
+relative to the bar's diagonal.
 
 Numbers: the energies; root mean square distances from the result of the first energy, relative to the diagonal; the
 largest error of the energies of a unit cube scaled to double size, which must be 3/2 (tets) and 6 (its skin).

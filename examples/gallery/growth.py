@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Cost per point as a mesh is subdivided: the plain sum grows with the triangles, Bindpose's methods hardly.
+"""Cost per point as a mesh is subdivided: it is linear for the plain sum, and hardly grows for Bindpose's methods.
 
 Each triangle of a dinosaur is cut into 4, 16 and 64, which changes neither the surface nor its field. The surface is
 closed, or has a few or many holes; the number of open edges doubles with each step. The points are random. The time is
@@ -11,7 +11,7 @@ processor time of one thread, without the build; medians of repeated measurement
 - `exact` chooses one of two algorithms. The first counts the crossings of a ray and adds a sum over open edges
   ("crossings"). If there are many open edges, the second is used: the tree of Jacobson et al. 2013 ("hierarchical").
   The legend states the chosen algorithm.
-- `fast` keeps within its tolerance of 1e-3; for closed surfaces it equals `exact`.
+- `fast` keeps its error within 1e-3; for closed surfaces it equals `exact`.
 
 Numbers: exponents p of time ~ triangles^p, fitted over all sizes; microseconds per point; the largest ratio of
 slowest to fastest; the largest difference of all three methods from the textbook sum in numpy.
@@ -34,8 +34,8 @@ COLORS = {"plain sum": charts.VIOLET, "exact": charts.BLUE, "fast": charts.ORANG
 
 
 class Field:
-    """A surface whose search structure is built once and evaluated on one thread. The winding numbers of several
-    surfaces are added."""
+    """The winding number of one surface, or the sum of those of several surfaces. The acceleration structure of each
+    surface is built once, and the evaluation uses one thread."""
 
     def __init__(self, surfaces, method):
         self.filters = []

@@ -37,8 +37,9 @@ def pose_of(size):
 
 
 def seen(shape, is_arm, box, size):
-    """Return the pixels that show the arm: drawn in two colors, without lights, through the depth buffer. Also return
-    the window, because a virtual display does not restart while a window is open."""
+    """Return the pixels that show the arm. To find them, draw the arm and the rest of the shape in two colors, without
+    lights, through the depth buffer. Also return the window, because a virtual display does not restart while a window
+    is open."""
     flags = vtkPolyData()
     flags.ShallowCopy(shape)
     colors = np.where(is_arm[:, None], np.array([[255, 0, 0]]), np.array([[0, 0, 255]])).astype(np.uint8)

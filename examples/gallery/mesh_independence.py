@@ -6,8 +6,8 @@ of the graph of vertices (L'L, without areas) treats the fine half as a larger a
 weights. The energy of the shape, with each vertex's area (Jacobson, Tosun, Sorkine, Zorin 2010), hardly changes. Right:
 the difference.
 
-Numbers: largest and rms difference over the common vertices; and the bar between two handles, where the weight of the
-far handle at a quarter must be 0.15625 for any mesh.
+Numbers: largest and rms difference over the common vertices; and, for a bar with a handle at each end, the weight of
+the far handle at a quarter of the length, which must be 0.15625 for any mesh.
 """
 
 import common

@@ -7,8 +7,8 @@ no point has. Bounded biharmonic weights stay within the points' colors and are 
 have no bump between the points. Hatched: out of the gamut.
 
 Numbers: lowest and highest weight; fraction of the square outside the gamut, and the largest violation; fraction where
-a primary color is stronger or weaker than at all points, and the largest excess; and the black and white bar of three
-handles, where the unconstrained blend must reach -1/9 at two thirds.
+a primary color is stronger or weaker than at all points, and the largest excess; and, for a bar with a white and two
+black handles, the color at two thirds of its length, which must be -1/9 for unconstrained weights.
 """
 
 import common
@@ -37,7 +37,7 @@ def grid(columns, rows, width, height):
 
 
 def hatched(mesh, lines=90, steps=700):
-    """Return lines over the area out of the gamut, as an actor in a list."""
+    """Return an actor that hatches the area out of the gamut, in a list; empty if there is no such area."""
     along = np.linspace(0.004, 0.996, steps)
     places = np.concatenate([np.stack([along, along + offset, 0 * along], axis=1) for offset in np.linspace(-1, 1, lines)])
     cloud = vtkPolyData()

@@ -2,15 +2,15 @@
 """Smoothness of a patch, by its order and boundary condition.
 
 The middle of a disc is lifted. The patch between the rim and the middle is, from left to right, a membrane (Laplacian =
-0), a thin plate (squared Laplacian = 0) and a surface of order 3. First row: the rim and the middle are regions, i.e.
-bands of three layers. The patch continues their position, with order 2 also their slope, and with order 3 also their
-curvature. Second row: the middle is a ring of single points, with a patch on both sides. Third row: only the positions
-of the edges are fixed, so all orders give the membrane. Last row: the tangents at the rim are given as well, down at
-45°, which a membrane cannot satisfy.
+0), a thin plate (squared Laplacian = 0) and a surface of order 3. First row: the rim and the middle are fixed regions.
+The patch continues their position, with order 2 also their slope, and with order 3 also their curvature. Second row:
+the middle is a ring of single points, with a patch on both sides. Third row: only the positions of the edges are fixed,
+so all orders give the membrane. Last row: the tangents at the rim are given as well, down at 45°, which a membrane
+cannot satisfy.
 
-Numbers, by order: the patch's slope and curvature directly at the rim, from its own rings: a flat region continues with
-zero, and the slope given at the bottom is -1; the largest difference from the membrane of the surfaces for which only
-edge positions are fixed.
+Numbers, by order: the patch's slope and curvature at the rim, computed from the patch's outermost rings of vertices.
+The expected values are 0 beside a flat region, and a slope of -1 for the given tangents. For the surfaces of the third
+row, also the largest difference from the membrane.
 """
 
 import warnings

@@ -3,9 +3,9 @@
 
 One column of an elephant's weights, computed in three ways: a preview (biharmonic, clamped, in a lattice that contains
 the surface), the certified bounded biharmonic weights of the same lattice, and those of tets that have the surface's
-own triangles as their boundary. Below are the differences between the steps: `bindpose render --minus`. This elephant
-is small and easy to fill, so the conforming tets are even the fastest way. A lattice is useful for surfaces that are
-dense or cannot be filled. A preview is useful until the weights of the lattice are solved.
+own triangles as their boundary. Below are the differences between successive pictures, drawn by `bindpose render
+--minus`. This elephant is small and easy to fill, so the conforming tets are even the fastest way. A lattice is useful
+for surfaces that are dense or cannot be filled. A preview is useful until the weights of the lattice are solved.
 
 Numbers: seconds; largest and rms difference over all points, for the shown column by the program and for all columns;
 fraction of points whose strongest handle differs.

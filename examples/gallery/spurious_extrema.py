@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Spurious extrema: unconstrained, bounded and monotone weights.
 
-Five points of a square; the picture shows the solved column of one of them. Unconstrained weights have minima and
-maxima away from handles, so a pose there moves untouched parts. Here, bounds remove the extrema of the thin-plate
+A square has five point handles; the picture shows the weights of one of them. Unconstrained weights have minima and
+maxima away from handles, so moving a handle also moves distant parts. Here, bounds remove the extrema of the thin-plate
 energy, but not the extrema of the next smoother energy (triharmonic). Triharmonic weights oscillate within the bounds,
 and their extrema jump when a handle moves a little. Monotone weights (Jacobson, Weinkauf, Sorkine 2012) have no such
 extrema with either energy. Only certified weights count: the script stops if a column misses the tolerance (finer

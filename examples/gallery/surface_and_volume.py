@@ -6,8 +6,8 @@ handles, their weights and the number of unknowns are the same; only the precomp
 flattens where it bends, as a hose does; the volume preserves its cross-section better.
 
 Numbers: the energies; the area of the cross-section at the middle of the bar, relative to rest; the smallest area of a
-cross-section along the bar; the volume, relative to rest; the distance between surface and volume, relative to the
-diagonal.
+cross-section along the bar; the volume, relative to rest; the root mean square distance between the results of both
+energies, relative to the diagonal.
 """
 
 import common

@@ -2,12 +2,12 @@
 """A mesh of disconnected parts, held together by weights.
 
 A string of balls, each a closed surface, has weights from one volume around all of them. Reduced as-rigid-as-possible
-moves them together although no edge joins them, because of its subspace. Full as-rigid-as-possible on the same mesh
-moves only the balls that a handle constrains.
+moves the balls together although no edge joins them, because neighboring balls have similar weights. Full
+as-rigid-as-possible on the same mesh moves only the balls that a handle constrains.
 
-Numbers: parts; gaps between neighboring balls, relative to rest: the smallest and largest gap, for the reduced and the
-full method; the largest distance between two balls at the same position, relative to the diagonal, if both are moved by
-the same weights.
+Numbers: parts; the smallest and largest distance between the centers of neighboring balls, relative to rest, for the
+reduced and the full method. For two copies of the string at the same position, with the same weights: the largest
+difference between their posed points, relative to the diagonal.
 """
 
 import warnings

@@ -113,7 +113,7 @@ def paper_doll(path):
     writer.SetFileName(str(path))
     writer.SetInputData(image)
     writer.Write()
-    # In the unit of the shape, which is the picture's pixel.
+    # Convert to pixels of the picture, which are the unit of the shape.
     def pixel(place):
         return ((place[0] + 1.05) / 2.1 * pixels - 0.5, (place[1] + 1.0) / 2.1 * pixels - 0.5, 0)
     write_tgf(path.with_suffix(".tgf"), {name: tuple(round(v) for v in pixel(place)) for name, place in POINTS.items()},

@@ -18,15 +18,15 @@ struct ArapElements
 };
 
 /// Convert a mesh and an energy type to the kernel's types. Return invalid_input if the cells are
-/// neither tets nor triangles, if a surface has an energy of tets, or if tets have an energy of
-/// triangles.
+/// neither tets nor triangles, or if the energy is defined only for the other type of mesh
+/// (TETRAHEDRA on a surface, TRIANGLES on tets).
 /// @param energy  a value of vtkArapEnergy::EnergyType
 Status to_arap(vtkPointSet* mesh, int energy, ArapElements& elements, ArapEnergy& result);
 
-/// Run the bind of a kernel of reduced as-rigid-as-possible deformation with the filter's energy,
-/// clusters and extra weights.
+/// Bind a kernel of reduced as-rigid-as-possible deformation to the mesh. The filter provides the
+/// energy, the number of clusters and the extra weights.
 /// @param input  the input of vtkBindAlgorithm::Bind()
-/// @param options  all other options of the filter
+/// @param options  all other options of the kernel
 template <typename Filter, typename Kernel, typename Input>
 Status bind_reduced(ExecutionContext& context, Filter& filter, Kernel& kernel, const Input& input,
   ReducedArapOptions options = {})

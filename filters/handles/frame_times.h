@@ -10,7 +10,8 @@ namespace bindpose
 
 // Frames of a sequence as time steps of a VTK pipeline: frame k is at the time k / fps.
 
-/// Set the time steps of an output port, in ascending order; an empty list removes them.
+/// Set the time steps of an output port. `times` must be in ascending order; an empty list removes
+/// the time steps.
 void set_time_steps(vtkInformation* output, const std::vector<double>& times);
 
 /// Set the time steps of an output port to the times of the frames, the first at 0 s. If there are

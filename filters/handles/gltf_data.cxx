@@ -1,7 +1,7 @@
 // Conversion between handles and glTF joints. A glTF joint has a frame and a parent, but no tail
-// and no handle type. Bindpose stores these properties in the extras of the joint
-// (`joint.handle_extras`), as the record of the handle. For files of other programs the children of
-// a joint determine the end of its bone.
+// and no handle type. Bindpose writes these properties of a handle into the extras of its joint
+// (`joint.handle_extras`). Files of other programs lack these extras. The children of such a joint
+// determine the tail of its bone.
 #include "gltf_data.h"
 
 #include "pose/pose_file.h"
@@ -74,10 +74,11 @@ bool kind_of(const std::string& word, HandleKind& kind)
   return false;
 }
 
-/// Creates a handle for each joint. A record of the handle in the extras is used if it agrees with
-/// the inverse bind matrix. A joint without such a record becomes a bone to the mean of its
-/// children, or a point if it has no children. Joints at the same position become short bones along
-/// their y axes, because two handles cannot be at the same position.
+/// Creates a handle for each joint. The handle's properties are read from the joint's extras if
+/// they agree with the inverse bind matrix. Any other joint becomes a bone that ends at the mean
+/// position of its children, or a point if it has no children. Two handles cannot be at the same
+/// position. Therefore a joint whose handle would equal an earlier handle becomes a short bone
+/// along its y axis.
 class HandleMaker
 {
 public:

@@ -57,8 +57,8 @@ vtkDataArray* colors_of(vtkPolyData* data)
   return data->GetCellData()->GetArray("Color");
 }
 
-/// Copy the arrays of `before` that `edited` lacks. Also copy the values of the pose arrays, so
-/// that each handle keeps its values.
+/// Copy the cell arrays that `edited` lacks from `before`. Also copy the values of the pose arrays,
+/// so that each handle keeps its pose.
 void carry_arrays(vtkPolyData* before, vtkPolyData* edited, const std::vector<Index>& source,
   const std::vector<Index>& copied_from)
 {
@@ -131,7 +131,8 @@ Status edit_handles(vtkPolyData* data, const HandleListEdit& edit, std::vector<I
     return status;
   }
   const vtkSmartPointer<vtkPolyData> edited = to_polydata(after.handles);
-  // to_polydata() stores bones as the last cells, so cells and handles have different orders.
+  // to_polydata() stores bones as the last cells, so the id of a cell is not the index of its
+  // handle.
   std::vector<Index> cell_of_handle(after.handles.size(), -1);
   Index next = 0;
   for (const bool bones : { false, true })

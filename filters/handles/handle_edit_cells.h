@@ -17,7 +17,8 @@ namespace bindpose
 BINDPOSEFILTERS_EXPORT Status to_editable(
   vtkPolyData* data, Handles& handles, std::vector<Index>& cells);
 
-/// A function of handle_edits.h with all arguments except the first and the last bound.
+/// An edit of a list of handles: a function of handle_edits.h whose other arguments are bound
+/// (std::bind or a lambda).
 using HandleListEdit = std::function<Status(const Handles& before, EditedHandles& after)>;
 
 /// Edit a handle dataset in place. Its points, cells and handle arrays are replaced by new ones.

@@ -62,7 +62,8 @@ Status to_handle_geometry(vtkPolyData* data, HandleGeometry& geometry)
       geometry.bones.push_back({ geometry.point_of_handle.back(), add(handle.tail) });
     }
   }
-  // Edges and faces of cages are not handles, but weights are linear along them.
+  // Add the edges and faces of cages, which are not handles. Weights are linear along them, so the
+  // mesh must contain them.
   vtkDataArray* kinds = data->GetCellData()->GetArray("HandleKind");
   vtkNew<vtkIdList> ids;
   for (vtkIdType cell = 0; kinds && cell < data->GetNumberOfCells(); ++cell)

@@ -12,8 +12,8 @@ class vtkPolyData;
 namespace bindpose
 {
 
-/// Mesh, weights, handles and pose in the types of the kernels: input of the subclasses of
-/// vtkBindAlgorithm, valid during a call.
+/// Mesh, weights, handles and pose in the types of the kernels, for the subclasses of
+/// vtkBindAlgorithm. This input is valid only until Bind() or Execute() returns.
 struct PoseInput
 {
   vtkPointSet* mesh;
@@ -36,8 +36,8 @@ struct PosedPoints
   /// The transforms that were used, one per handle. If empty, the output gets no array of
   /// transforms.
   std::vector<Affine> transforms;
-  /// The groups of vertices that share a rotation, and these rotations, if the filter adds them to
-  /// the output; otherwise null and empty.
+  /// The groups of vertices that share a rotation, and one rotation per group. Null and empty
+  /// unless the filter adds arrays of rotations to the output.
   const RotationGroups* groups = nullptr;
   std::vector<Eigen::Matrix3d> rotations;
 };

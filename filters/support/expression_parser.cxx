@@ -46,7 +46,8 @@ ExpressionParser::ExpressionParser()
     });
   this->parser_->AddObserver(vtkCommand::ErrorEvent, callback);
   this->parser_->AddObserver(vtkCommand::WarningEvent, callback);
-  // Without this option the parser would report a value that is not finite as an ordinary error.
+  // Replace a value that is not finite by NaN. Without this option the parser would report such a
+  // value as an error, as for an expression that cannot be parsed.
   this->parser_->ReplaceInvalidValuesOn();
   this->parser_->SetReplacementValue(std::numeric_limits<double>::quiet_NaN());
 }

@@ -23,7 +23,7 @@ struct PlanarInput
   double z = 0.0;
   Vec2 lower = Vec2::Zero(); ///< lower corner of the box whose texture coordinates are 0 to 1
   Vec2 upper = Vec2::Zero();
-  Report report; ///< name of the domain (`domain`) and counts
+  Report report; ///< entries for the report of the filter: `domain` and counts
 };
 
 /// Return the outline of an image. This is the contour of its alpha, or the border of the image if

@@ -60,8 +60,8 @@ vtkSmartPointer<vtkAbstractArray> make_array(const Report::Value& value)
     value);
 }
 
-/// Report whether a report key is the key of a list, so that an array with one value is read as a
-/// list.
+/// Return true if the key belongs to a list. An array with one value is then read as a list of
+/// length 1 instead of as a single value.
 bool is_list(const std::string& key)
 {
   return key.find("[]") != std::string::npos;

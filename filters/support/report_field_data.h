@@ -33,7 +33,7 @@ BINDPOSEFILTERS_EXPORT Report read_report(vtkDataObject* data);
 /// if the data is null or its report contains no failure.
 BINDPOSEFILTERS_EXPORT Status upstream_failure(vtkDataObject* data);
 
-/// Insert the status, the message and the warnings at the beginning of the status's report.
+/// Insert the code, the message and the warnings of a status at the beginning of its report.
 BINDPOSEFILTERS_EXPORT void add_outcome(Status& status);
 
 /// Complete the status's report with the entries that all reports have: those of add_outcome(), and

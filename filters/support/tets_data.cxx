@@ -51,8 +51,8 @@ vtkSmartPointer<vtkUnstructuredGrid> to_unstructured_grid(
   {
     grid->GetCellData()->AddArray(to_array("InsideFraction", result.inside_fractions));
   }
-  // If the tets are written to a file and read again, the reader replaces the report but keeps this
-  // array.
+  // Store the method also outside of the report: if the tets are written to a file and read again,
+  // the reader's own report replaces this report.
   vtkNew<vtkStringArray> name;
   name->SetName("Method");
   name->InsertNextValue(method);

@@ -231,8 +231,9 @@ WindingMethod method_of(int method)
   return methods[method];
 }
 
-/// Convert the boundary to lines, and the table of components to field data. `original` contains
-/// the input's id of each point; if it is empty, ids are not changed.
+/// Convert the boundary edges to lines, and the properties of the surface's components to field
+/// data. `original` contains the input's id of each point. If it is empty, the ids are the rows of
+/// `points`.
 void to_polydata(const SurfaceBoundary& boundary, PointsView points,
   const std::vector<Index>& original, vtkPolyData* polydata)
 {

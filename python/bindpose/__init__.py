@@ -13,8 +13,8 @@ Functions on numpy arrays and VTK datasets (PyVista's objects are VTK datasets):
 Every filter is also available as a VTK class (``bindpose.vtkWindingNumberField``, …), for persistent pipelines.
 ``bindpose.run`` turns a filter's status into an exception.
 
-Where both are possible, arrays give arrays, and a VTK dataset gives a VTK dataset of the same class. ``bindpose.report(result)``
-returns the report of either.
+Functions that accept arrays and VTK datasets return arrays for arrays, and for a dataset a dataset of the same class.
+``bindpose.report(result)`` returns the report of both types of result.
 """
 
 import vtkmodules.vtkCommonCore as _vtk  # import VTK first, because Bindpose's libraries use its symbols
@@ -31,7 +31,7 @@ from .BindposeFilters import *  # noqa: F401,F403
 try:
     from .BindposeWidgets import *  # noqa: F401,F403
 except ModuleNotFoundError:
-    pass  # this build has no pictures
+    pass  # this build contains no widgets
 
 from .crowds import crowd
 from .errors import (

@@ -34,7 +34,7 @@ def _placement(place):
 def crowd(mesh: Mesh, handles: Handles, poses: Mapping[str, Any] | Path | Sequence[Mapping[str, Any] | Path], *,
           placements: Sequence[Any] | None = None, weights: ArrayLike | None = None, appended: bool = False, options,
           threads: int = 0, progress: Progress = None) -> Any:
-    """Bend many instances of a mesh, each to its own pose, by reduced as-rigid-as-possible.
+    """Bend many instances of a mesh, each to its own pose, by reduced as-rigid-as-possible deformation.
 
     The mesh is bound once. Each instance takes the time of its own iterations and the memory of its points in single
     precision.
@@ -43,7 +43,7 @@ def crowd(mesh: Mesh, handles: Handles, poses: Mapping[str, Any] | Path | Sequen
     ----------
     mesh, handles, weights
         See `deform`.
-    poses : list of poses, or one
+    poses : list of poses, or one pose
         Dicts or files, see `deform`: one instance per pose, or per frame of ``{"frames": [...]}``.
     placements : sequence, optional
         Position of each instance: translations, 3x4 or 4x4 matrices, applied to the posed mesh.

@@ -77,7 +77,7 @@ def winding_number(surface: Mesh, points_or_grid: vtkDataSet | ArrayLike | None 
 
     See Also
     --------
-    contains : The same as booleans.
+    contains : Whether points are inside, as booleans.
 
     Notes
     -----
@@ -280,7 +280,7 @@ def planar_shape(image_or_curves: vtkDataSet | ArrayLike | Path, *, handles: Han
 
     See Also
     --------
-    tetrahedralize : The same for surfaces.
+    tetrahedralize : Fill the inside of a surface with tets.
 
     Examples
     --------
@@ -388,8 +388,8 @@ def weights(mesh: Mesh, handles: Handles, *, bounds: tuple[float, float] | Mappi
     NotConvergedWarning
         A column's certificate is above the tolerance; the result is kept.
     BindposeWarning
-        A handle is outside, the domain that ``auto`` chose failed and a lattice took over, or the weights of two
-        lattices differ.
+        A handle is outside, the domain that ``auto`` chose failed and a lattice was used instead, or the weights of
+        two lattices differ.
 
     Notes
     -----
@@ -466,7 +466,7 @@ def _posed_handles(mesh, handles, pose, weights):
 
 
 def pose_text(pose):
-    """Return the content of a pose file as text, with numbers and arrays of numpy."""
+    """Return a pose as the text of a pose file. The pose may contain numbers and arrays of numpy."""
     def plain(value):
         if isinstance(value, (np.ndarray, np.generic)):
             return value.tolist()

@@ -151,7 +151,7 @@ def automatic_handles(mesh: Mesh, *, options, threads: int = 0, progress: Progre
     Returns
     -------
     vtkPolyData
-        A handle dataset, as `weights` takes it; `report` returns the details of the computation.
+        A handle dataset for `weights`; `report` returns the details of the computation.
 
     Raises
     ------
@@ -198,7 +198,7 @@ def cell_names(handles):
 
 
 def handle_cells(handles):
-    """Return the ids of the cells that are handles; all other cells are elements of cages and pseudo-edges."""
+    """Return the ids of the cells that are handles. (The other cells are cage elements and pseudo-edges.)"""
     kinds = handles.GetCellData().GetArray("HandleKind")
     count = handles.GetNumberOfCells()
     return [i for i in range(count) if kinds is None or kinds.GetTuple1(i) >= 0]

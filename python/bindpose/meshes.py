@@ -186,7 +186,7 @@ def point_array(data, name):
 
 
 def weights_of(data, name, report):
-    """Return a point array of weights as (#V, #handles), also for one handle, with the names of the handles."""
+    """Return a point array of weights as a 2D array (#V, #handles), even for one handle, with the handles' names."""
     array = data.GetPointData().GetArray(name)
     names = [array.GetComponentName(j) for j in range(array.GetNumberOfComponents())]
     return Array(point_array(data, name).reshape(data.GetNumberOfPoints(), len(names)), report, names)
@@ -202,7 +202,7 @@ def add_point_array(data, name, values, component_names=()):
 
 
 def shallow_copy(data):
-    """Return a dataset of the same class that shares the arrays; arrays can be added to it."""
+    """Return a new dataset of the same class with the same arrays. Arrays added to it are not added to `data`."""
     copy = data.NewInstance()
     copy.ShallowCopy(data)
     remember_run(copy, run_of(data))
@@ -219,7 +219,8 @@ def with_weights(data, weights, array_name="Weights"):
 
 
 def _wrap_of(kind):
-    """Return the function ``wrap`` of the package of the first base class whose package has it; None if there is none."""
+    """Return the function ``wrap`` of the package that defines the class. If this package has no such function, try the
+    packages of its base classes. Return None if no package has it."""
     packages = (sys.modules.get(base.__module__.partition(".")[0]) for base in kind.__mro__)
     return next((package.wrap for package in packages if hasattr(package, "wrap")), None)
 
@@ -244,7 +245,7 @@ def like(source, result):
             converted.ShallowCopy(result)
         else:
             converted = _wrap_of(kind)(result)
-    except TypeError:  # a class whose constructor needs arguments, or no function wrap
+    except TypeError:  # the constructor of the class needs arguments, or there is no function wrap
         return result
     remember_run(converted, run_of(result))
     return converted
@@ -273,7 +274,7 @@ def copy_report(source, target):
 
 
 def _merged(first, second):
-    """Merge two reports, their nested dicts too; of equal keys the second wins."""
+    """Merge two reports and their nested dicts. If both have the same key, the value of the second report is used."""
     merged = {**first, **second}
     for key in first.keys() & second.keys():
         if isinstance(first[key], dict) and isinstance(second[key], dict):

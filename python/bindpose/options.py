@@ -99,7 +99,7 @@ class Options:
     ----------
     described : dict of name to description
     given : dict of name to value
-        What the caller passed; all other options have their defaults.
+        The values that the caller passed; all other options have their defaults.
     """
 
     def __init__(self, described, given):
@@ -156,7 +156,8 @@ def _described(sets, only, without):
 
 
 def checked_options(given, *sets):
-    """Return the options of some sets as `Options`. Raise TypeError for an unknown name, as a call does."""
+    """Return the given options, which must be in one of the sets, as `Options`. Raise TypeError for an unknown name, as
+    Python does for an unexpected keyword argument."""
     described = _described(sets, None, ())
     unknown = [name for name in given if name not in described]
     if unknown:
@@ -165,14 +166,16 @@ def checked_options(given, *sets):
 
 
 def with_options(*sets, only=None, without=()):
-    """Return a decorator that gives a stage its options, a progress bar, and results of the class of its first argument.
+    """Return a decorator that adds described options and a progress bar to a function of the package. The decorator
+    also converts results to the class of the function's first argument, see `like`.
 
     The function has a keyword-only parameter ``options``, and a line ``{options}`` in the parameters of its docstring.
     The described options replace both; the function gets their values as an `Options` object. A function with
-    ``**options`` gets the keywords as they were passed, and can check them by `checked_options` later. A stage without
-    options has neither the parameter nor the line.
+    ``**options`` gets the keywords as they were passed, and can check them by `checked_options` later. A function
+    without options has neither the parameter nor the line.
 
-    A function with a parameter ``progress`` also gets ``progress_bar``: whether a bar is drawn on the standard error.
+    A function with a parameter ``progress`` also gets a parameter ``progress_bar``: whether to draw a bar on the
+    standard error.
 
     Parameters
     ----------
@@ -215,7 +218,7 @@ def with_options(*sets, only=None, without=()):
 
 
 def _public_parameters(parameters, described, has_bar):
-    """Yield the parameters of a stage as the caller sees them."""
+    """Yield the parameters of a decorated function for its signature: described options instead of ``options``."""
     for parameter in parameters:
         if parameter.name == "options":
             for name, option in described.items():

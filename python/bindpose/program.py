@@ -45,7 +45,7 @@ def program_path() -> str:
 
 
 def _as_file(data, folder, name):
-    """Return the path of a file with the data; write the file if the data are no path."""
+    """Return the path of a file with the data: the path itself, or that of a new file to which the data are written."""
     if isinstance(data, (str, os.PathLike)):
         path = os.fspath(data)
         return os.path.join(".", path) if path.startswith("-") else path
@@ -57,12 +57,12 @@ def _as_file(data, folder, name):
 
 
 def _is_one_mesh(value):
-    """Report whether the value is a dataset, a path or a pair of arrays, rather than a sequence of them."""
+    """Report whether the value is one mesh (a dataset, a path or a pair of arrays) rather than a sequence of meshes."""
     if is_dataset(value) or isinstance(value, (str, os.PathLike)):
         return True
     try:
         elements = np.asarray(value[1]) if value and len(value) == 2 else np.zeros(0)
-    except ValueError:  # a pair of arrays as the second mesh
+    except ValueError:  # value[1] is itself a pair of arrays, so the value is a sequence of two meshes
         return False
     return elements.ndim == 2 and elements.dtype.kind in "iu"
 
@@ -147,7 +147,7 @@ def _report_in(path):
 
 
 def _error_of(done, report):
-    """Return the exception of a run of the program that failed."""
+    """Return the exception for a failed run of the program."""
     if report.get("message"):
         return errors_by_status.get(report["status"], BindposeError)(report["message"], report)
     usage = [line for line in done.stderr.splitlines() if line.startswith("bindpose render: ")]

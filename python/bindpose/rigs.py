@@ -86,7 +86,8 @@ class Rig:
         self.animation = animation
         self._gives_arrays = not is_dataset(mesh)
         self._methods = {}
-        self._outputs = {}  # the last two arrays of callers: address to (array, the same memory as an array of VTK)
+        # The last two arrays that callers passed as `out`, by their address: (array, VTK array of the same memory).
+        self._outputs = {}
         self._last = None  # the filter of the last pose
         self._rest = _rest_points(self._handles)
         self._rest_time = self._handles.GetPoints().GetMTime() if len(self._rest) else 0
@@ -123,7 +124,8 @@ class Rig:
 
     @property
     def number_of_binds(self) -> int:
-        """Number of times that a pose method was prepared: once per method, and again for options that need it."""
+        """Number of times that pose methods were prepared: once per method, and again when a bind option or the rest
+        pose changed."""
         return sum(method.filter.GetNumberOfBinds() for method in self._methods.values())
 
     @property
@@ -256,12 +258,12 @@ class Rig:
                          maximum_influences=maximum_influences, overwrite=overwrite)
 
     def _method(self, options):
-        """Return the prepared method with these options. The filter binds again only if an option needs it."""
+        """Return the prepared method with these options. Its filter binds again only if a bind option has changed."""
         try:
             name = options.get("method", "lbs")
             method = self._methods.get(name)
         except TypeError:
-            name, method = None, None  # not hashable: the check of the options names it
+            name, method = None, None  # the name is not hashable; checked_options() below raises the error
         if method is None or method.given != options:
             checked = checked_options(options, *Rig.pose.option_sets)
             if method is None:
@@ -272,7 +274,7 @@ class Rig:
         return method
 
     def _destination(self, out):
-        """Return the result of a pose, and the array of VTK for its points."""
+        """Return the object for the posed points (`out`, or a new dataset or array), and a VTK array of its points."""
         count = self._mesh.GetNumberOfPoints()
         if out is None and not self._gives_arrays:
             result = like(self._mesh, shallow_copy(self._mesh))
@@ -322,7 +324,8 @@ class _Method:
         self._handles = None
         self._has_array = False  # whether the last pose was an array
         self._is_prepared = False
-        self._is_slow = options.method in ("full-arap", "variational")  # a pose alone can take seconds
+        # Poses of these methods can take seconds also after the preparation, so Ctrl-C must cancel them.
+        self._is_slow = options.method in ("full-arap", "variational")
         self.filter.SetInputData(0, rig.mesh)
 
     def set_options(self, options):
@@ -351,7 +354,7 @@ class _Method:
         return self._is_prepared
 
     def _restore_transforms(self):
-        """Give all handles the transforms of the rig."""
+        """Replace the transforms of the last array pose by the transforms of the rig's handle dataset."""
         data = self._handles.GetCellData()
         own = self._source.GetCellData().GetArray("Transform")
         self._has_array = False
@@ -360,7 +363,7 @@ class _Method:
             data.AddArray(own)
 
     def _set_transforms(self, values):
-        """Set the transforms of all handles."""
+        """Set the transforms of all handles from an array pose."""
         try:
             values = np.asarray(values, dtype=float)
         except (TypeError, ValueError):
@@ -383,12 +386,12 @@ def _rest_points(handles):
 
 
 def _content(pose):
-    """Return the content of a pose file, from this content or from a dict of handle names."""
+    """Return a pose as the content of a pose file. The pose is already such a content, or a dict with handle names."""
     return pose if "handles" in pose or "frames" in pose else {"handles": pose}
 
 
 def _text(pose):
-    """Return the text of a pose file, from its text, its content or a dict of handle names."""
+    """Return a pose as the text of a pose file. The pose is already such a text, or a dict as in `_content`."""
     if not isinstance(pose, str):
         return pose_text(_content(pose))
     if not pose.lstrip().startswith("{"):

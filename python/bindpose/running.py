@@ -20,8 +20,8 @@ errors_by_status = {error.status: error for error in (InvalidInput, Canceled, Un
 
 
 def _caller_level():
-    """Return the `stacklevel` with which warnings.warn(), called by the calling function, names the line of the
-    user."""
+    """Return the `stacklevel` for a call of warnings.warn() by the calling function. With it, the warning names the
+    line outside of this package."""
     frame, level = sys._getframe(1), 1
     while frame.f_back and frame.f_globals.get("__name__", "").startswith("bindpose."):
         frame, level = frame.f_back, level + 1
@@ -101,7 +101,8 @@ def interruptible(algorithm, progress=None):
                 caller.SetAbortExecute(1)
 
         observers = [algorithm.AddObserver("ProgressEvent", on_progress)]
-        for event in ("ErrorEvent", "WarningEvent"):  # observe both, otherwise VTK prints errors that are raised below
+        # Observe these events, because VTK prints those without an observer. run() raises exceptions instead.
+        for event in ("ErrorEvent", "WarningEvent"):
             observers.append(algorithm.AddObserver(event, lambda *_: None))
         try:
             yield
@@ -183,7 +184,7 @@ def check_status(algorithm, report):
 
 
 def warn(sentence, category):
-    """Issue a warning that names the line of the user."""
+    """Issue a warning that names the line outside of this package that called it."""
     python_warnings.warn(sentence, category, stacklevel=_caller_level())
 
 

@@ -194,7 +194,7 @@ def cut_along_bones(shape: Mesh, handles: Handles, left: ArrayLike | Mapping[str
     shape : vtkPolyData or (vertices, triangles)
         In a plane z = const, with edges along the bones: see `planar_shape` and its `handles`.
     handles : vtkPolyData, str or path-like
-        The mesh is cut along bones, whose sides are seen from head to tail; all other handles are passed on.
+        The mesh is cut along the bones. Left and right are as seen from head to tail. All other handles are passed on.
     left, right : (#handles, 3) array or dict, optional
         Colors of the bones' sides, one per handle or ``{name: (r, g, b)}``; give both or neither. Default: the
         handles' cell arrays ``LeftColor`` and ``RightColor``.

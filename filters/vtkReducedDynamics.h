@@ -75,7 +75,8 @@ public:
 
   ///@{
   /**
-   * Resistance to bending: energy per volume (per area for surfaces) at a strain of one, above 0.
+   * Resistance to bending, above 0. A strain e has the energy stiffness * e^2 / 2 per volume (per
+   * area for surfaces).
    * Default 1000. Waves travel at sqrt(Stiffness / Density) length units per second. With gravity
    * g, a limb of length l sags by about Density g l^2 / Stiffness.
    */

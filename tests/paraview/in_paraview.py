@@ -187,7 +187,7 @@ def distributed_data(mesh, folder):
     posed = ShareDataset(Input=PoseHandles(Input=handles, PoseJSON=json.dumps(
         {"handles": {"p1": {"rotate": {"axis": [0, 0, 1], "degrees": 50}}, "p2": {"translate": [0.3, -0.2, 0.1]}}})))
     targets = {
-        "cloud": pieces.source(pieces.cloud, count=20000, low=[-0.2, -0.2, -0.2], high=[6.2, 6.2, 6.2]),
+        "cloud": pieces.source(pieces.cloud, count=20000, low=[-0.2, -0.2, -0.2], high=[6.2, 6.2, 6.2], snap=True),
         "tube": pieces.source(pieces.tube, rings=31, sides=40),
         "point": pieces.source(pieces.cloud, count=1, low=[0, 0, 0], high=[6, 6, 6]),  # the piece of one rank is empty
     }

@@ -78,13 +78,14 @@ def fill(algorithm, points, ids, **arrays):
     return data
 
 
-def cloud(algorithm, count, low, high):
-    """Make points that are scattered over a box. Every tenth point has integer coordinates, so that some are at vertices of
-    a grid."""
+def cloud(algorithm, count, low, high, snap=False):
+    """Make points that are scattered over a box. With `snap`, every tenth point has integer coordinates, like the vertices
+    of a grid."""
     first, end = requested(algorithm, count)
     ids = np.arange(first, end)
     points = low + scattered(ids, count) * (np.array(high) - low)
-    points[ids % 10 == 0] = np.rint(points[ids % 10 == 0])
+    if snap:
+        points[ids % 10 == 0] = np.rint(points[ids % 10 == 0])
     fill(algorithm, points, ids)
 
 

@@ -36,7 +36,8 @@ RANKS = (1, 64, 1024)
 def read(path):
     """Return the rows of a file that scaling_table.py has written, with numbers instead of texts."""
     with open(path, newline="") as file:
-        return [{name: value if name == "stage" else float(value) for name, value in row.items()} for row in csv.DictReader(file)]
+        return [{name: value if name == "stage" else float(value) for name, value in row.items()}
+                for row in csv.DictReader(file)]
 
 
 def medians(rows, stage, name, of_ranks, per_call=True):
@@ -45,10 +46,12 @@ def medians(rows, stage, name, of_ranks, per_call=True):
     runs = {}
     for row in rows:
         if row["stage"] == stage:
-            runs.setdefault(row["ranks"], {}).setdefault(row["run"], []).append(row[name] / (row["calls"] if per_call else 1.0))
+            value = row[name] / (row["calls"] if per_call else 1.0)
+            runs.setdefault(row["ranks"], {}).setdefault(row["run"], []).append(value)
     if not runs:
         sys.exit(f"the measurements have no stage '{stage}'")
-    return {ranks: statistics.median(of_ranks(values) for values in by_run.values()) for ranks, by_run in runs.items()}
+    return {ranks: statistics.median(of_ranks(values) for values in by_run.values())
+            for ranks, by_run in runs.items()}
 
 
 def fit(pairs):
@@ -74,7 +77,8 @@ class Model:
         memory = medians(rows, stage, "memory_bytes", statistics.mean, per_call=False)
         points = medians(rows, stage, "points", sum, per_call=False)
         self.per_rank, self.per_item = fit([((ranks, points[ranks]), value) for ranks, value in processor.items()])
-        self.rank_bytes, self.item_bytes = fit([((1.0, points[ranks] / ranks), value) for ranks, value in memory.items()])
+        self.rank_bytes, self.item_bytes = fit(
+            [((1.0, points[ranks] / ranks), value) for ranks, value in memory.items()])
         sent = [medians(rows, name, "bytes_sent", sum) for name in shared]
         self.copy_bytes = sum(statistics.mean(value / (ranks - 1) for ranks, value in of_share.items() if ranks > 1)
                               for of_share in sent if max(of_share) > 1)
@@ -110,14 +114,18 @@ def power(count):
 
 
 def as_markdown(rows, ranks=RANKS, assets=None):
-    """Return the measured constants and the predictions. `assets` is processor seconds and the number of models from which
-    they are the mean; by default they are those of the solved weights of scaling.py."""
+    """Return the fitted constants and the predictions as Markdown.
+
+    `assets` is the mean of the processor seconds of some models, and their number. By default, the seconds are those of
+    the weights that scaling.py solves.
+    """
     models = {stage: Model(rows, stage, shared) for stage, _, _, shared in CASES}
     lines = [
         "## Cost model", "",
-        "Constants that `tests/paraview/cost_model.py` fits to the measurements above. The page README.md of this folder has "
-        "the formulas and the assumptions.", "",
-        "| stage | A: repeated on every rank, processor s | B: processor s per million items | C: memory of every rank | D: bytes per item | S: sent to every rank |",
+        "Constants that `tests/paraview/cost_model.py` fits to the measurements. "
+        "`filters/paraview/README.md` has the formulas and the assumptions.", "",
+        "| stage | A: repeated on every rank, processor s | B: processor s per million items | "
+        "C: memory of every rank | D: bytes per item | S: sent to every rank |",
         "|---|---|---|---|---|---|",
     ]
     for stage, _, _, _ in CASES:
@@ -131,22 +139,24 @@ def as_markdown(rows, ranks=RANKS, assets=None):
         model = models[stage]
         for number in ranks:
             seconds = model.seconds(count, number)
-            lines.append(f"| {stage} | {power(count)} {items} | {number} | {duration(seconds)} | {duration(number * seconds)} | "
-                         f"{size(model.memory(count, number))} | {size(model.sent(number))} |")
+            lines.append(f"| {stage} | {power(count)} {items} | {number} | {duration(seconds)} | "
+                         f"{duration(number * seconds)} | {size(model.memory(count, number))} | "
+                         f"{size(model.sent(number))} |")
     if assets:
         seconds, origin = assets[0], f"mean of {assets[1]} models"
     else:
         seconds, origin = medians(rows, SOLVE, "processor_seconds", max)[1], f"stage '{SOLVE}'"
-    lines += ["", f"{power(ASSETS)} assets, each bound by one process: {duration(ASSETS * seconds)} of processor time, with "
-              f"{seconds:.3g} s per asset ({origin})" + "".join(
-                  f"; {duration(math.ceil(ASSETS / number) * seconds)} on {number} cores" for number in ranks if number > 1) + "."]
+    elapsed = [f"; {duration(math.ceil(ASSETS / number) * seconds)} on {number} cores" for number in ranks if number > 1]
+    lines += ["", f"{power(ASSETS)} assets, each bound by one process: {duration(ASSETS * seconds)} of processor time, "
+              f"with {seconds:.3g} s per asset ({origin}){''.join(elapsed)}."]
     return "\n".join(lines) + "\n"
 
 
 def mean_of_assets(path):
     """Return the mean processor seconds of the certified weights in a file of tests/real_meshes.py, and their number."""
     with open(path, newline="") as file:
-        seconds = [float(row["weights_user_seconds"]) for row in csv.DictReader(file) if row["weights_outcome"] == "certified"]
+        seconds = [float(row["weights_user_seconds"]) for row in csv.DictReader(file)
+                   if row["weights_outcome"] == "certified"]
     if not seconds:
         sys.exit(f"{path} has no model with certified weights")
     return statistics.mean(seconds), len(seconds)

@@ -1,8 +1,8 @@
 """Datasets of which each rank makes and saves only its own piece, for tests of the ParaView plugin on several ranks.
 
-source() and save_parts() create a programmable source and a programmable filter. ParaView executes their scripts on every
-rank, and the scripts call the other functions of this module. A point has the same coordinates and the same number in the
-array Id on any number of ranks.
+source() and save_parts() create a programmable source and a programmable filter. ParaView executes their scripts on
+every rank, and the scripts call the other functions of this module. A point has the same coordinates and the same number
+in the array Id on any number of ranks.
 """
 
 import pathlib
@@ -56,7 +56,8 @@ def announce(algorithm):
 def requested(algorithm, count):
     """Return the range of the indices 0 to `count` that belongs to the requested piece of a source."""
     information = algorithm.GetOutputInformation(0)
-    piece, pieces = information.Get(Pipeline.UPDATE_PIECE_NUMBER()), information.Get(Pipeline.UPDATE_NUMBER_OF_PIECES())
+    piece = information.Get(Pipeline.UPDATE_PIECE_NUMBER())
+    pieces = information.Get(Pipeline.UPDATE_NUMBER_OF_PIECES())
     return count * piece // pieces, count * (piece + 1) // pieces
 
 
@@ -90,7 +91,7 @@ def cloud(algorithm, count, low, high, snap=False):
 
 
 def tube(algorithm, rings, sides):
-    """Make triangles of a tube along x inside the cube from 0 to 6. Pieces consist of whole strips between rings, and
+    """Make triangles of a tube along x inside the cube from 0 to 6. A piece consists of whole strips between rings. Two
     adjacent pieces share a ring."""
     first, end = requested(algorithm, rings - 1)
     ids = np.arange(first * sides, (end + 1) * sides if end > first else first * sides)
@@ -145,8 +146,8 @@ def save(algorithm, folder, name):
     data = algorithm.GetInputDataObject(0, 0)
     information = algorithm.GetInputInformation(0, 0)
     status = data.GetFieldData().GetAbstractArray("Report.status")
-    saved = {"status": status.GetValue(0) if status else "",
-             "piece": [information.Get(Pipeline.UPDATE_PIECE_NUMBER()), information.Get(Pipeline.UPDATE_NUMBER_OF_PIECES())]}
+    piece = (Pipeline.UPDATE_PIECE_NUMBER(), Pipeline.UPDATE_NUMBER_OF_PIECES())
+    saved = {"status": status.GetValue(0) if status else "", "piece": [information.Get(key) for key in piece]}
     if data.IsA("vtkCompositeDataSet"):
         points = [points_of(leaf) for leaf in leaves(data)]
         saved["points"] = np.stack(points) if points else np.zeros((0, 0, 3))

@@ -1,11 +1,11 @@
-"""Measure the work of each rank, for scaling_table.py: pvbatch --sym scaling.py PLUGIN MESH FOLDER, on any number of ranks.
+"""Measure the work of each rank, for scaling_table.py: pvbatch --sym scaling.py PLUGIN MESH FOLDER.
 
-Every rank runs this script (--sym) and measures itself. FOLDER/sizes.json contains the sizes of the data. Each rank writes
-its measurements to FOLDER/RANK.json: one row per stage, summed over the calls of the stage.
+With --sym, every rank runs this script and measures itself. FOLDER/sizes.json contains the sizes of the data. Each rank
+writes its measurements to FOLDER/RANK.json: one row per stage, summed over the calls of the stage.
 
-A stage is the update of one filter whose inputs are up to date. All ranks start it at the same time, after a barrier. While
-a rank waits for others in MPI, it uses processor time. Therefore the waiting for the start of a stage is not measured, and
-only the stages in which ranks exchange data (those with bytes sent) contain waiting.
+A stage is the update of one filter whose inputs are up to date. All ranks start it at the same time, after a barrier. A
+rank that waits in MPI uses processor time, so waiting at barriers is not measured. Only stages in which ranks exchange
+data contain waiting.
 """
 
 import json
@@ -21,12 +21,15 @@ from vtkmodules.vtkParallelCore import vtkMultiProcessController
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 import pieces  # noqa: E402
 
+FIELDS = ("calls", "points", "processor_seconds", "user_seconds", "system_seconds", "wall_seconds", "bytes_sent",
+          "memory_bytes")
 SENT = "Report.counts.bytes_sent"  # field data of a shared dataset: bytes that this rank has sent
 
 
 def memory(name):
     """Return a value of /proc/self/status in bytes: VmRSS is the memory in use, VmHWM its peak."""
-    return 1024 * int(re.search(rf"^{name}:\s*(\d+) kB", pathlib.Path("/proc/self/status").read_text(), re.MULTILINE)[1])
+    text = pathlib.Path("/proc/self/status").read_text()
+    return 1024 * int(re.search(rf"^{name}:\s*(\d+) kB", text, re.MULTILINE)[1])
 
 
 def reset_peak_memory():
@@ -57,8 +60,7 @@ class Meter:
         status = data.GetFieldData().GetAbstractArray("Report.status")
         assert status is None or status.GetValue(0) == "ok", f"{stage}: {status.GetValue(0)}"
         sent = data.GetFieldData().GetArray(SENT) if proxy.GetXMLName() == "ShareDataset" else None
-        row = self.rows.setdefault(stage, {"calls": 0, "points": 0, "processor_seconds": 0.0, "user_seconds": 0.0,
-                                           "system_seconds": 0.0, "wall_seconds": 0.0, "bytes_sent": 0, "memory_bytes": 0})
+        row = self.rows.setdefault(stage, dict.fromkeys(FIELDS, 0))
         row["calls"] += 1
         row["points"] = len(pieces.leaves(data)) if data.IsA("vtkCompositeDataSet") else data.GetNumberOfPoints()
         row["processor_seconds"] += processor
@@ -132,8 +134,8 @@ def main():
 
 
 if __name__ == "__main__":
-    # Programmable sources execute their scripts in __main__, and replace max and others there. Therefore the measurement
-    # runs in another module.
+    # Programmable sources execute their scripts in __main__, and replace max, sum and abs there. Therefore the
+    # measurement runs in another module.
     import scaling
 
     scaling.main()

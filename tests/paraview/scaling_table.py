@@ -2,13 +2,15 @@
 """Measure how the work of the ParaView plugin scales with the number of MPI ranks, and print the result as Markdown.
 
 tests/paraview.sh --scaling runs this script. It runs scaling.py with pvbatch on each number of ranks, several times, and
-takes the median of the runs. The efficiency of N ranks is the processor time of one rank, divided by the sum of the
-processor times of the N ranks (strong scaling: the data are the same). It does not depend on the number of cores. Without
---all-processors, all ranks run on one processor: processors that share a core or a cache slow each other down, which would
-count as lost efficiency. The times of the table are then those of ranks that take turns.
+takes the median of the runs. The data are the same for all numbers of ranks (strong scaling). The efficiency of N ranks
+is the processor time of one rank, divided by the sum of the processor times of the N ranks, so it can be measured on
+fewer than N cores.
 
-The bytes sent in a stage come from the report of vtkShareDataset. The bytes of the whole run are counted by Open MPI (its
-component pml/monitoring). With --check, the exit code is 1 if the efficiency of a goal is below --goal.
+By default, all ranks run on one processor and take turns. Processors that share a core or a cache slow each other down,
+which would count as lost efficiency. With --all-processors, the ranks run on all processors.
+
+The bytes sent in a stage come from the report of vtkShareDataset. The bytes of the whole run are counted by Open MPI's
+component pml/monitoring. With --check, the exit code is 1 if the efficiency of a goal is below --goal.
 """
 
 import argparse
@@ -24,8 +26,8 @@ import sys
 import cost_model
 
 HERE = pathlib.Path(__file__).resolve().parent
-SIZES = {"voxels": 16_000_000, "queries": 4_000_000, "grid_side": 16, "vertices": 1_000_000, "poses": 20, "instances": 2000,
-         "frames": 5}
+SIZES = {"voxels": 16_000_000, "queries": 4_000_000, "grid_side": 16, "vertices": 1_000_000, "poses": 20,
+         "instances": 2000, "frames": 5}
 # Stages in which one rank works and the others wait or copy.
 ONCE = ("surface, shared", "weights, solved once", "weights, shared", "pose, shared")
 GOALS = ("winding numbers on a grid", "winding numbers at points", "skinning, one pose")
@@ -35,8 +37,7 @@ WHOLE_RUN = "whole run"
 
 
 def bytes_counted(folder, rank):
-    """Return the bytes that a rank has sent according to Open MPI. Collective operations count as the messages of which they
-    consist."""
+    """Return the bytes that a rank has sent according to Open MPI. A collective operation counts as its messages."""
     lines = (folder / f"sent.{rank}.prof").read_text().splitlines()
     return sum(int(re.match(r"[EI]\t\d+\t\d+\t(\d+) bytes", line)[1]) for line in lines if re.match(r"[EI]\t", line))
 
@@ -57,7 +58,8 @@ def measure(options, run, ranks):
         done = subprocess.run(["timeout", "--kill-after=10", str(options.time_limit), *words], stdout=file,
                               stderr=subprocess.STDOUT, check=False)
     if done.returncode != 0:
-        reason = f"took longer than {options.time_limit} s" if done.returncode == 124 else f"exit code {done.returncode}"
+        late = done.returncode == 124
+        reason = f"took longer than {options.time_limit} s" if late else f"exit code {done.returncode}"
         sys.exit(f"scaling.py on {ranks} rank(s) failed ({reason}); the log is {log}")
     rows = []
     for rank in range(ranks):
@@ -99,7 +101,8 @@ def stages_of(rows):
     for row in rows:
         if row["stage"] != WHOLE_RUN:
             found.setdefault(row["stage"], {}).setdefault(row["ranks"], []).append(row)
-    return {stage: {ranks: Stage(of_ranks) for ranks, of_ranks in by_ranks.items()} for stage, by_ranks in found.items()}
+    return {stage: {ranks: Stage(of_ranks) for ranks, of_ranks in by_ranks.items()}
+            for stage, by_ranks in found.items()}
 
 
 def efficiency(by_ranks, ranks):
@@ -124,27 +127,34 @@ def as_markdown(options, rows):
     lines = [
         "# Scaling of the ParaView plugin", "",
         "Measured by", "", "    tests/paraview.sh --scaling --markdown filters/paraview/scaling.md", "",
-        f"with pvbatch on {list_of(options.ranks)} MPI ranks {place}, with one thread per rank. Medians of {options.runs} runs "
-        f"({processor_name()}).", "",
+        f"with pvbatch on {list_of(options.ranks)} MPI ranks {place}, with one thread per rank. Medians of "
+        f"{options.runs} runs ({processor_name()}).", "",
+        f"Winding numbers are those of {options.mesh.name}, with the method Fast. Weights have 8 handles on a grid of tets "
+        f"with {options.grid_side + 1}³ points. The stage 'skinning, one pose' is the mean of {options.poses} poses, and "
+        f"'crowd, one frame' of {options.frames} frames.", "",
         "## Work by pieces", "",
-        "Each rank works on its own piece of the same data. Efficiency: the processor time of one rank, divided by the sum of "
-        "the processor times of all ranks.", "",
-        "| stage | ranks | points, voxels or instances per rank | processor s per rank | sum, s | efficiency | longest wall s | MB sent | largest growth of memory, MB |",
+        "Each rank works on its own piece of the same data. Efficiency: the processor time of one rank, divided by the "
+        "sum of the processor times of all ranks.", "",
+        "| stage | ranks | points, voxels or instances per rank | processor s per rank | sum, s | efficiency | "
+        "longest wall s | MB sent | largest growth of memory, MB |",
         "|---|---|---|---|---|---|---|---|---|",
     ]
     for stage, by_ranks in work.items():
         for ranks, measured in sorted(by_ranks.items()):
-            lines.append(f"| {stage} | {ranks} | {interval(measured.points)} | {measured.least:.3g} – {measured.most:.3g} | "
-                         f"{measured.processor:.3g} | {100 * efficiency(by_ranks, ranks):.0f} % | {measured.wall:.3g} | "
+            seconds = f"{measured.least:.3g} – {measured.most:.3g}" if ranks > 1 else f"{measured.most:.3g}"
+            lines.append(f"| {stage} | {ranks} | {interval(measured.points)} | {seconds} | {measured.processor:.3g} | "
+                         f"{100 * efficiency(by_ranks, ranks):.0f} % | {measured.wall:.3g} | "
                          f"{measured.sent / 1e6:.3g} | {measured.memory / 1e6:.3g} |")
     lines += [
         "", "## Work of one rank, and copies for all ranks", "",
-        "The first rank solves and sends the result to the others. Processor time of the other ranks is mostly waiting.", "",
-        "| stage | ranks | processor s of the busiest rank | longest wall s | MB sent by all ranks |", "|---|---|---|---|---|",
+        "The first rank solves and sends the result to the others. Processor time of the other ranks is mostly waiting.",
+        "", "| stage | ranks | processor s of the busiest rank | longest wall s | MB sent by all ranks |",
+        "|---|---|---|---|---|",
     ]
     for stage, by_ranks in once.items():
         for ranks, measured in sorted(by_ranks.items()):
-            lines.append(f"| {stage} | {ranks} | {measured.most:.3g} | {measured.wall:.3g} | {measured.sent / 1e6:.3g} |")
+            lines.append(f"| {stage} | {ranks} | {measured.most:.3g} | {measured.wall:.3g} | "
+                         f"{measured.sent / 1e6:.3g} |")
     lines += ["", "Bytes of a whole run, with all messages of ParaView, as Open MPI counts them:", "",
               "| ranks | MB sent by all ranks | of them in the reports of Share Dataset | largest peak memory of a rank, MB |",
               "|---|---|---|---|"]
@@ -178,9 +188,9 @@ def main():
     parser.add_argument("--plugin", type=pathlib.Path, required=True, help="the file Bindpose.so")
     parser.add_argument("--mesh", type=pathlib.Path, required=True, help="a surface with open edges")
     parser.add_argument("--folder", type=pathlib.Path, required=True, help="for logs and measurements of single runs")
-    parser.add_argument("--csv", type=pathlib.Path, required=True, help="write one row per run, rank and stage to this file")
+    parser.add_argument("--csv", type=pathlib.Path, required=True, help="output: one row per run, rank and stage")
     parser.add_argument("--markdown", type=pathlib.Path, help="write the tables to this file, too")
-    parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2, 4], help="numbers of ranks; 1 must be one of them")
+    parser.add_argument("--ranks", type=int, nargs="+", default=[1, 2, 4], help="numbers of ranks, among them 1")
     parser.add_argument("--runs", type=int, default=3, help="runs for each number of ranks")
     parser.add_argument("--all-processors", action="store_true", help="let the ranks run on all processors")
     parser.add_argument("--time-limit", type=int, default=600, help="seconds for one run")

@@ -23,7 +23,6 @@ import pieces  # noqa: E402
 
 FIELDS = ("calls", "points", "processor_seconds", "user_seconds", "system_seconds", "wall_seconds", "bytes_sent",
           "memory_bytes")
-SENT = "Report.counts.bytes_sent"  # field data of a shared dataset: bytes that this rank has sent
 
 
 def memory(name):
@@ -34,6 +33,14 @@ def memory(name):
 
 def reset_peak_memory():
     pathlib.Path("/proc/self/clear_refs").write_text("5")
+
+
+def bytes_sent(data):
+    """Return the bytes that this rank has sent for a shared dataset, from the report in its field data."""
+    arrays = data.GetFieldData()
+    names = [arrays.GetArrayName(i) or "" for i in range(arrays.GetNumberOfArrays())]
+    (name,) = [name for name in names if name.startswith("Report.") and name.endswith("bytes_sent")]
+    return int(arrays.GetArray(name).GetTuple1(0))
 
 
 class Meter:
@@ -59,7 +66,6 @@ class Meter:
         data = proxy.GetClientSideObject().GetOutputDataObject(0)
         status = data.GetFieldData().GetAbstractArray("Report.status")
         assert status is None or status.GetValue(0) == "ok", f"{stage}: {status.GetValue(0)}"
-        sent = data.GetFieldData().GetArray(SENT) if proxy.GetXMLName() == "ShareDataset" else None
         row = self.rows.setdefault(stage, dict.fromkeys(FIELDS, 0))
         row["calls"] += 1
         row["points"] = len(pieces.leaves(data)) if data.IsA("vtkCompositeDataSet") else data.GetNumberOfPoints()
@@ -67,7 +73,7 @@ class Meter:
         row["user_seconds"] += used.ru_utime - usage.ru_utime
         row["system_seconds"] += used.ru_stime - usage.ru_stime
         row["wall_seconds"] += wall
-        row["bytes_sent"] += int(sent.GetTuple1(0)) if sent else 0
+        row["bytes_sent"] += bytes_sent(data) if proxy.GetXMLName() == "ShareDataset" else 0
         row["memory_bytes"] = max(row["memory_bytes"], grown)
 
 

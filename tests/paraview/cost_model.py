@@ -23,9 +23,9 @@ CASES = (
     ("winding numbers on a grid", "voxels", 1e9, ("surface, shared",)),
     ("winding numbers at points", "points", 1e8, ("surface, shared",)),
     ("transfer of weights", "points", 1e8, ("weights, shared",)),
-    ("skinning, bind and first pose", "points", 1e8, ("pose, shared",)),
-    ("skinning, one pose", "points", 1e8, ("pose, shared",)),
-    ("crowd, bind and first frame", "instances", 1e5, ("weights, shared", "pose, shared")),
+    ("skinning, bind and first pose", "points", 1e8, ("handles, shared",)),
+    ("skinning, one pose", "points", 1e8, ()),
+    ("crowd, bind and first frame", "instances", 1e5, ("weights, shared", "handles, shared")),
     ("crowd, one frame", "instances", 1e5, ()),
 )
 SOLVE = "weights, solved once"

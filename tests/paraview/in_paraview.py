@@ -182,10 +182,10 @@ def distributed_data(mesh, folder):
     joins."""
     tets = Tetrahedralize(Input=Wavelet(WholeExtent=[0, 6, 0, 6, 0, 6]))
     handles = FarthestPointHandles(Input=tets, NumberOfHandles=5)
-    # The first rank computes weights and poses. All ranks get a copy.
+    # The first rank computes handles and weights, and all ranks get a copy. Each rank applies the pose to its copy.
     weights = ShareDataset(Input=BoundedBiharmonicWeights(Input=tets, Handles=handles))
-    posed = ShareDataset(Input=PoseHandles(Input=handles, PoseJSON=json.dumps(
-        {"handles": {"p1": {"rotate": {"axis": [0, 0, 1], "degrees": 50}}, "p2": {"translate": [0.3, -0.2, 0.1]}}})))
+    posed = PoseHandles(Input=ShareDataset(Input=handles), PoseJSON=json.dumps(
+        {"handles": {"p1": {"rotate": {"axis": [0, 0, 1], "degrees": 50}}, "p2": {"translate": [0.3, -0.2, 0.1]}}}))
     targets = {
         "cloud": pieces.source(pieces.cloud, count=20000, low=[-0.2, -0.2, -0.2], high=[6.2, 6.2, 6.2], snap=True),
         "tube": pieces.source(pieces.tube, rings=31, sides=40),

@@ -35,14 +35,6 @@ def reset_peak_memory():
     pathlib.Path("/proc/self/clear_refs").write_text("5")
 
 
-def bytes_sent(data):
-    """Return the bytes that this rank has sent for a shared dataset, from the report in its field data."""
-    arrays = data.GetFieldData()
-    names = [arrays.GetArrayName(i) or "" for i in range(arrays.GetNumberOfArrays())]
-    (name,) = [name for name in names if name.startswith("Report.") and name.endswith("bytes_sent")]
-    return int(arrays.GetArray(name).GetTuple1(0))
-
-
 class Meter:
     """Measurements of one rank."""
 
@@ -73,7 +65,9 @@ class Meter:
         row["user_seconds"] += used.ru_utime - usage.ru_utime
         row["system_seconds"] += used.ru_stime - usage.ru_stime
         row["wall_seconds"] += wall
-        row["bytes_sent"] += bytes_sent(data) if proxy.GetXMLName() == "ShareDataset" else 0
+        if proxy.GetXMLName() == "ShareDataset" and self.controller.GetLocalProcessId() == 0:
+            # All ranks report the same number, the bytes of all ranks together.
+            row["bytes_sent"] += int(data.GetFieldData().GetArray("Report.bytes_sent").GetTuple1(0))
         row["memory_bytes"] = max(row["memory_bytes"], grown)
 
 
@@ -84,6 +78,7 @@ def winding_numbers(meter, mesh, sizes):
     meter.update("winding numbers on a grid", grid)
     Delete(grid)
     del grid
+    surface.GetClientSideObject().UpdatePiece(0, 1, 0)  # UpdatePipeline() gives the surface to the first rank only
     bounds = surface.GetClientSideObject().GetOutputDataObject(0).GetBounds()
     queries = pieces.source(pieces.cloud, count=sizes["queries"], low=bounds[0::2], high=bounds[1::2])
     queries.UpdatePipeline()
@@ -108,12 +103,12 @@ def weights_and_poses(meter, sizes):
     transferred = TransferWeights(Input=target, Mesh=weights, NumberOfThreads=1)
     meter.update("transfer of weights", transferred)
 
-    pose = PoseHandles(Input=handles)
-    posed = ShareDataset(Input=pose)
+    shared_handles = ShareDataset(Input=handles)
+    meter.update("handles, shared", shared_handles)
+    posed = PoseHandles(Input=shared_handles)  # each rank applies the pose to its copy of the handles
     skinned = SkinningDeformation(Input=transferred, Handles=posed, Method="Linear blend", NumberOfThreads=1)
     for k in range(1 + sizes["poses"]):
-        pose.PoseJSON = json.dumps({"handles": {"p1": {"rotate": {"axis": [0, 0, 1], "degrees": 5 + k}}}})
-        meter.update("pose, shared", posed)
+        posed.PoseJSON = json.dumps({"handles": {"p1": {"rotate": {"axis": [0, 0, 1], "degrees": 5 + k}}}})
         meter.update("skinning, bind and first pose" if k == 0 else "skinning, one pose", skinned)
     Delete(skinned)
     del skinned

@@ -29,7 +29,7 @@ HERE = pathlib.Path(__file__).resolve().parent
 SIZES = {"voxels": 16_000_000, "queries": 4_000_000, "grid_side": 16, "vertices": 1_000_000, "poses": 20,
          "instances": 2000, "frames": 5}
 # Stages in which one rank works and the others wait or copy.
-ONCE = ("surface, shared", "weights, solved once", "weights, shared", "pose, shared")
+ONCE = ("surface, shared", "weights, solved once", "weights, shared", "handles, shared")
 GOALS = ("winding numbers on a grid", "winding numbers at points", "skinning, one pose")
 COLUMNS = ["run", "ranks", "rank", "stage", "calls", "points", "processor_seconds", "user_seconds", "system_seconds",
            "wall_seconds", "bytes_sent", "memory_bytes"]

@@ -6,24 +6,33 @@ program=paraview.sh
 usage()
 {
   cat <<'TEXT'
-usage: tests/paraview.sh [--no-install]
+usage: tests/paraview.sh [options]
 
 Downloads Debian's ParaView and unpacks it into build/paraview-packages (670 MB). ParaView is not
-installed, because its Python package would replace VTK's. Builds filters/paraview against ParaView
-in build/paraview-plugin, and runs tests/paraview/in_paraview.py with pvbatch on 1 and on 2 MPI
+installed, because its Python package would replace VTK's. Builds the plugin against it with
+filters/paraview/build.sh, and runs tests/paraview/in_paraview.py with pvbatch on 1 and on 2 MPI
 ranks. Then tests/paraview/check.py compares the results: winding numbers must have the same bits in
-both runs and in the output of the program bindpose.
+both runs and in the output of the program bindpose, weights and poses of distributed data the same
+bits in both runs. tests/paraview/client_server.py does the same work with pvserver.
 
 options:
-  --no-install   install nothing; list missing packages
-  --help         show this help
+  --scaling        only measure how the work scales with the number of ranks, with
+                   tests/paraview/scaling_table.py; takes some minutes
+  --markdown FILE  with --scaling: write the tables to FILE
+                   (default: build/paraview-results/scaling.md)
+  --no-install     install nothing; list missing packages
+  --help           show this help
 TEXT
 }
 
 install=yes
+scaling=no
+markdown=""
 while [ $# -gt 0 ]; do
   case "$1" in
     --help | -h) usage; exit 0 ;;
+    --scaling) scaling=yes ;;
+    --markdown) markdown=$(realpath -m "${2:?--markdown needs a file}"); shift ;;
     --no-install) install=no ;;
     *) usage >&2; exit 1 ;;
   esac
@@ -31,14 +40,11 @@ while [ $# -gt 0 ]; do
 done
 
 . "$(dirname "${BASH_SOURCE[0]}")/../examples/setup.sh"
-paraview_packages="
-libqt5svg5-dev:needed_by_ParaView's_CMake_files
-qttools5-dev:needed_by_ParaView's_CMake_files
+mpi_packages="
 openmpi-bin:runs_several_processes
-python3-mpi4py:ParaView's_Python_on_several_processes
 "
-install_packages "$build_packages $paraview_packages"
-build
+install_packages "$build_packages $paraview_cmake_packages $mpi_packages"
+[ "$scaling" = yes ] || build
 
 # ---- ParaView, unpacked ----
 packages="$build_dir/paraview-packages"
@@ -61,13 +67,31 @@ done | tr ',' '\n' | sed -nE 's/^ *(lib[^ ]*).*/\1:ParaView/p' | sort -u)
 install_packages "$libraries"
 
 # ---- The plugin ----
-plugin_dir="$build_dir/paraview-plugin"
-cmake -S "$root/filters/paraview" -B "$plugin_dir" -G Ninja -DCMAKE_BUILD_TYPE=Release \
-  -DParaView_DIR="$(echo "$paraview"/lib/*/cmake/paraview-*)" >"$log_dir/paraview-configure.log" 2>&1 ||
-  { tail -20 "$log_dir/paraview-configure.log" >&2; die "configuring failed; the log is $log_dir/paraview-configure.log" 5; }
-NINJA_STATUS="[%f/%t] " ninja -C "$plugin_dir" -j "$(nproc)" || die "the build of the plugin failed" 5
-rm -rf "$build_dir/paraview-installed"
-cmake --install "$plugin_dir" --prefix "$build_dir/paraview-installed" >"$log_dir/paraview-install.log"
+# refused TEXT OPTIONS…: check that build.sh refuses the options with one line that contains TEXT.
+refused()
+{
+  local expected=$1 output
+  shift
+  output=$("$root/filters/paraview/build.sh" --no-install "$@" 2>&1) && die "build.sh accepts $*" 5
+  case "$output" in
+    *$'\n'*) die "build.sh $* prints more than one line: $output" 5 ;;
+    *"$expected"*) ;;
+    *) die "build.sh $* prints '$output' instead of '$expected'" 5 ;;
+  esac
+}
+
+if [ "$scaling" = no ]; then
+  old="$build_dir/paraview-results/old"
+  mkdir -p "$old/lib/cmake/paraview-5.9"
+  echo 'set(PACKAGE_VERSION "5.9.1")' >"$old/lib/cmake/paraview-5.9/paraview-config-version.cmake"
+  refused "does not exist" --prefix "$build_dir/no-folder"
+  refused "has no ParaView with development files" --prefix "$root/tests"
+  refused "has ParaView 5.9.1; the plugin needs ParaView 5.11" --prefix "$old"
+  is_installed python3-paraview || refused "conflicts with the installed python3-vtk9"
+fi
+options=(--prefix "$paraview")
+[ "$install" = yes ] || options+=(--no-install)
+"$root/filters/paraview/build.sh" "${options[@]}"
 plugin=$(echo "$build_dir"/paraview-installed/lib/paraview-*/plugins/Bindpose/Bindpose.so)
 
 # ---- Runs ----
@@ -78,6 +102,24 @@ import quickstart
 print(quickstart.demo_mesh(pathlib.Path(sys.argv[2])))' "$root/examples" "$build_dir/demo-meshes")
 results="$build_dir/paraview-results"
 rm -rf "$results"
+mkdir -p "$results"
+
+# with_paraview COMMAND…: run a command that finds ParaView's programs, libraries and Python modules.
+with_paraview()
+(
+  export PATH="$paraview/bin:$PATH"
+  LD_LIBRARY_PATH=$(echo "$paraview"/lib/*-linux-gnu)
+  export LD_LIBRARY_PATH PYTHONPATH="$paraview/lib/python3/dist-packages"
+  # In a container, the user may be root, and there may be only one core.
+  export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
+  "$@"
+)
+
+if [ "$scaling" = yes ]; then
+  with_paraview /usr/bin/python3 "$root/tests/paraview/scaling_table.py" --plugin "$plugin" --mesh "$mesh" \
+    --folder "$results/scaling" --csv "$results/scaling.csv" --markdown "${markdown:-$results/scaling.md}" --check
+  exit
+fi
 
 # in_paraview RANKS COMMAND…: run in_paraview.py on RANKS ranks, for ten minutes at most. Ranks that wait for each other
 # would never end.
@@ -86,17 +128,13 @@ in_paraview()
   local ranks=$1
   shift
   mkdir -p "$results/$ranks"
-  (
-    export PATH="$paraview/bin:$PATH"
-    LD_LIBRARY_PATH=$(echo "$paraview"/lib/*-linux-gnu)
-    export LD_LIBRARY_PATH PYTHONPATH="$paraview/lib/python3/dist-packages"
-    # In a container, the user may be root, and there may be only one core.
-    export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1
-    timeout 600 "$@" "$root/tests/paraview/in_paraview.py" "$plugin" "$mesh" "$results/$ranks"
-  ) >"$results/$ranks.log" 2>&1 || { tail -20 "$results/$ranks.log" >&2; die "ParaView on $ranks rank(s) failed; the log is $results/$ranks.log" 5; }
+  with_paraview timeout 600 "$@" "$root/tests/paraview/in_paraview.py" "$plugin" "$mesh" "$results/$ranks" \
+    >"$results/$ranks.log" 2>&1 || { tail -20 "$results/$ranks.log" >&2; die "ParaView on $ranks rank(s) failed; the log is $results/$ranks.log" 5; }
 }
 
 in_paraview 1 pvbatch
 in_paraview 2 mpirun --bind-to none -n 2 pvbatch
 PYTHONPATH="$build_dir/lib/python3/dist-packages" /usr/bin/python3 "$root/tests/paraview/check.py" \
   "$build_dir" "$mesh" "$results"
+with_paraview /usr/bin/python3 "$root/tests/paraview/client_server.py" "$plugin" "$mesh" "$results" ||
+  die "the client/server session failed; the logs are $results/client-*.log and $results/server-*.log" 5

@@ -2,7 +2,7 @@
 
 FOLDER/1 and FOLDER/2 contain the results of in_paraview.py on one and on two MPI ranks, and FOLDER/N.log the log of
 ParaView. The fields of both runs must have the same bits. They must also equal those of `bindpose winding`, which is
-built with another VTK.
+built with another VTK. Weights and points that are computed by pieces must have the same bits in both runs, too.
 """
 
 import json
@@ -62,6 +62,64 @@ def compare_ranks(folder, name):
     planes = [axis for axis in range(3) if (seen == 2).sum() * seen.shape[axis] == seen.size]
     assert seen.min() == 1 and planes, f"{name}: the halves share more than a plane"
     return alone, all_values
+
+
+def load_pieces(folder, name, ranks):
+    """Return the arrays that each rank has saved."""
+    parts = []
+    for rank in range(ranks):
+        with np.load(folder / str(ranks) / f"{name}.{rank}.npz") as file:
+            part = dict(file)
+        assert part["piece"].tolist() == [rank, ranks], f"{name}: rank {rank} has another piece"
+        assert part["status"] == "ok" or len(part["points"]) == 0, f"{name}: rank {rank} has status {part['status']}"
+        parts.append(part)
+    return parts
+
+
+def compare_pieces(folder, name):
+    """Check that the points of two ranks are those of one rank, with the same bits in all arrays, and that no rank has
+    much more than half of them. Return the arrays of one rank."""
+    (alone,) = load_pieces(folder, name, 1)
+    count = len(alone["Id"])
+    assert np.array_equal(alone["Id"], np.arange(count)), name
+    seen = np.zeros(count, bool)
+    for part in load_pieces(folder, name, 2):
+        if len(part["points"]) == 0:
+            continue
+        ids = part["Id"]
+        assert len(ids) <= max(1, 0.6 * count), f"{name}: one rank has {len(ids)} of {count} points"
+        assert part.keys() == alone.keys(), f"{name}: other arrays"
+        for key in part.keys() - {"piece", "status"}:
+            assert part[key].dtype == alone[key].dtype, f"{name}: {key}"
+            assert part[key].tobytes() == alone[key][ids].tobytes(), f"{name}: other bits in {key}"
+        seen[ids] = True
+    assert seen.all(), f"{name}: {count - seen.sum()} points are missing"
+    return alone
+
+
+def compare_distributed_data(folder):
+    """Compare transferred weights, posed points, crowds and winding numbers of one rank with those of two. Return the
+    number of compared points."""
+    count = 0
+    for name in ("cloud", "tube", "point"):
+        weights = compare_pieces(folder, f"{name}-weights")
+        assert weights["Weights"].shape == (len(weights["Id"]), 5)
+        assert np.abs(weights["Weights"].sum(axis=1) - 1.0).max() < 1e-9
+        posed = {method: compare_pieces(folder, f"{name}-{method}") for method in ("lbs", "dqs")}
+        if name != "point":
+            for points in (posed["lbs"]["points"], posed["dqs"]["points"]):
+                assert np.linalg.norm(points - weights["points"], axis=1).max() > 0.1, f"{name} has not moved"
+            assert np.abs(posed["lbs"]["points"] - posed["dqs"]["points"]).max() > 1e-3, f"{name}: equal methods"
+        if name == "tube":
+            assert np.abs(posed["dqs"]["Normals"] - weights["Normals"]).max() > 0.1, "the normals have not turned"
+        count += 3 * len(weights["Id"])
+    (alone,) = load_pieces(folder, "crowd", 1)
+    parts = [part["points"] for part in load_pieces(folder, "crowd", 2)]
+    assert [len(part) for part in parts] == [3, 4], "the ranks have other instances"
+    assert np.concatenate(parts).tobytes() == alone["points"].tobytes(), "crowd: other bits"
+    winding = compare_pieces(folder, "queries-winding")["WindingNumber"]
+    assert np.isfinite(winding).all() and winding.max() > 0.9 and winding.min() < 0.1
+    return count + alone["points"].shape[0] * alone["points"].shape[1] + len(winding)
 
 
 def compare_builds(build, folder, name, surface, alone, values, *options):
@@ -133,6 +191,8 @@ def main():
     print(f"{samples} winding numbers: same bits on 1 rank and on 2, each its half; "
           f"{in_both_builds} of them: same bits as bindpose winding")
     print(f"{one['numbers']['tets']} tets, posed; the same on 2 ranks")
+    print(f"{compare_distributed_data(folder)} points of distributed data, with transferred weights, posed, in a crowd or with "
+          "winding numbers: same bits on 1 rank and on 2, each its piece")
     print(f"{compare_panels(one['panels'])} parameters of {len(one['panels'])} proxies: same defaults as in C++")
     print(f"{len(one['sentences'])} kinds of bad input: each told, nothing else "
           f"({compare_log(folder / '1.log', one['sentences']) + compare_log(folder / '2.log', {})} errors in the logs)")

@@ -2,8 +2,9 @@
 number of MPI ranks.
 
 Each rank computes its part of winding number fields and writes it to FOLDER. Then all other proxies of the plugin are
-used. Facts about one run are asserted here, and facts about several runs in check.py. FOLDER/run.json is written last,
-so it exists only if all assertions hold.
+used. Filters that work by pieces also get points of which each rank has only its own piece (pieces.py). Facts about one
+run are asserted here, and facts about several runs in check.py. FOLDER/run.json is written last, so it exists only if all
+assertions hold.
 """
 
 import json
@@ -14,6 +15,9 @@ import numpy as np
 from paraview import servermanager
 from paraview.simple import *  # noqa: F403  LoadPlugin adds the plugin's functions
 from vtkmodules.util.numpy_support import vtk_to_numpy
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+import pieces  # noqa: E402
 
 FILTERS = (
     "WindingNumberField PlanarShape TetrahedralizeSurface AutomaticHandles FarthestPointHandles BoundedBiharmonicWeights MonotoneWeights "
@@ -173,6 +177,38 @@ def deformation():
     return numbers, bound, posed_handles
 
 
+def distributed_data(mesh, folder):
+    """Run the filters that work by pieces on points of which each rank has its own piece. Save the results, which check.py
+    joins."""
+    tets = Tetrahedralize(Input=Wavelet(WholeExtent=[0, 6, 0, 6, 0, 6]))
+    handles = FarthestPointHandles(Input=tets, NumberOfHandles=5)
+    # The first rank computes handles and weights, and all ranks get a copy. Each rank applies the pose to its copy.
+    weights = ShareDataset(Input=BoundedBiharmonicWeights(Input=tets, Handles=handles))
+    posed = PoseHandles(Input=ShareDataset(Input=handles), PoseJSON=json.dumps(
+        {"handles": {"p1": {"rotate": {"axis": [0, 0, 1], "degrees": 50}}, "p2": {"translate": [0.3, -0.2, 0.1]}}}))
+    targets = {
+        "cloud": pieces.source(pieces.cloud, count=20000, low=[-0.2, -0.2, -0.2], high=[6.2, 6.2, 6.2], snap=True),
+        "tube": pieces.source(pieces.tube, rings=31, sides=40),
+        "point": pieces.source(pieces.cloud, count=1, low=[0, 0, 0], high=[6, 6, 6]),  # the piece of one rank is empty
+    }
+    for name, target in targets.items():
+        target.UpdatePipeline()
+        transferred = TransferWeights(Input=target, Mesh=weights)
+        pieces.save_parts(transferred, folder, f"{name}-weights")
+        for short, method in (("lbs", "Linear blend"), ("dqs", "Dual quaternions")):
+            skinned = SkinningDeformation(Input=transferred, Handles=posed, Method=method)
+            pieces.save_parts(skinned, folder, f"{name}-{short}")
+    crowd = CrowdDeformation(Input=weights, Handles=posed, Instances=pieces.source(pieces.instances, count=7))
+    pieces.save_parts(crowd, folder, "crowd")
+
+    # The structure that the method Fast builds depends on the power of 4 that is nearest to the number of points. This power
+    # is 4^8 for all points, and 4^7 for those of one of two ranks.
+    reader = BindposeMeshReader(FileName=str(mesh))
+    bounds = fetch(reader).GetBounds()
+    queries = pieces.source(pieces.cloud, count=40000, low=bounds[0::2], high=bounds[1::2])
+    pieces.save_parts(WindingNumberField(Input=reader, Points=queries, Method="Fast"), folder, "queries-winding")
+
+
 def files(folder, bound):
     """Check readers and writers on one process: the data that is read equals the data that was written."""
     data = fetch(bound)
@@ -273,6 +309,7 @@ def main():
     ranks = servermanager.vtkProcessModule.GetProcessModule().GetNumberOfLocalPartitions()
     fields(mesh, folder)
     numbers, bound, posed_handles = deformation()
+    distributed_data(mesh, folder)
     run = {"ranks": ranks, "numbers": numbers}
     if ranks == 1:
         both = spheres()
@@ -286,7 +323,6 @@ def main():
 if __name__ == "__main__":
     # Programmable filters execute their scripts in __main__, and replace max, sum and abs there. Therefore the tests
     # run in another module.
-    sys.path.insert(0, str(pathlib.Path(__file__).parent))
     import in_paraview
 
     in_paraview.main()

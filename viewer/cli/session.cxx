@@ -312,7 +312,7 @@ bool Session::check_report()
   const Status status = AtomicFile::check(path, this->arguments_.has("overwrite"));
   if (!status.ok())
   {
-    this->arguments_.values.erase("report"); // the report cannot be written
+    this->arguments_.values.erase("report"); // prevents finish() from writing the report
     return this->fail(status);
   }
   return true;

@@ -120,7 +120,7 @@ std::vector<OptionInfo> make_option_table()
       "pose.pseudo_edges", QT_TRANSLATE_NOOP("Document", "pseudo-edges"), skinning::pseudo_edges),
     { "pose.single_precision", QT_TRANSLATE_NOOP("Document", "precision"), false },
     { "pose.in_tets", QT_TRANSLATE_NOOP("Document", "keep the volume"), false },
-    // The elements are tetrahedra or triangles, as the energy is that of tets or of the surface.
+    // The elements are the tets if the method deforms tets (pose.in_tets), otherwise the triangles.
     choice("pose.energy", QT_TRANSLATE_NOOP("Document", "rigid parts"), 0,
       { { "auto", QT_TRANSLATE_NOOP("Document", "Automatic") },
         { "spokes-and-rims", QT_TRANSLATE_NOOP("Document", "Spokes and rims") },

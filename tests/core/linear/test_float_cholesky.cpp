@@ -124,7 +124,8 @@ TEST_F(FloatCholeskyTest, FactorsTheBlockOfAnyUnknowns)
         EXPECT_TRUE(!excluded[i] || x.row(i).isZero(0.0));
       }
     }
-    // A factorization of the whole matrix after that of a block has the bits of a first one.
+    // Factoring a block must not affect later factorizations of the whole matrix: they have the
+    // same bits as those of an unused clone.
     FloatCholesky fresh = single.clone();
     ASSERT_TRUE(single.factor(context_, a, 0.0).ok());
     ASSERT_TRUE(fresh.factor(context_, a, 0.0).ok());

@@ -263,7 +263,7 @@ TEST(HandleHierarchy, ParentsComeFirst)
   handles[3].parent = 4;
   handles[1].parent = 0;
   EXPECT_EQ(parents_first(handles), (std::vector<Index>{ 4, 3, 0, 1, 2 }));
-  handles[4].parent = 1; // this creates a cycle
+  handles[4].parent = 1; // the parents form a cycle
   std::vector<Index> order = parents_first(handles);
   std::sort(order.begin(), order.end());
   EXPECT_EQ(order, (std::vector<Index>{ 0, 1, 2, 3, 4 }));

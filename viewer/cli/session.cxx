@@ -150,7 +150,7 @@ Status Session::try_stage(vtkBindposeAlgorithm* algorithm, const std::string& st
     this->bar_.show(begin, stage_name);
     if (algorithm->GetNumberOfOutputPorts() == 0)
     {
-      algorithm->UpdateWholeExtent(); // the algorithm is a writer
+      algorithm->UpdateWholeExtent(); // a writer has no output to update
     }
     else
     {

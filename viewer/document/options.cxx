@@ -83,7 +83,7 @@ std::vector<OptionChoice> joined(
   return choices;
 }
 
-/// Return the row of a choice.
+/// Return the table row of an option that is a choice.
 OptionInfo choice(const char* key, const char* step, int initial, std::vector<OptionChoice> choices,
   const char* former_key = "")
 {
@@ -96,7 +96,7 @@ OptionInfo choice(const char* key, const char* step, const stage_options::Choice
   return choice(key, step, described.initial, described.choices);
 }
 
-/// Return the row of a number of a stage. Its range is that of the slider.
+/// Return the table row of a numeric option of a stage, with the range of its slider.
 OptionInfo number(const char* key, const char* step, const stage_options::Number& described)
 {
   return { key, step, described.initial, described.lowest, described.highest };

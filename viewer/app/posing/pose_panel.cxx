@@ -221,7 +221,7 @@ void PosePanel::add_options(QVBoxLayout* column)
   const auto row = [this](const char* key)
   {
     parts::ValueRow* result = parts::option_row(key, this);
-    result->slider()->setMinimumWidth(50); // the slider is in a row with its name
+    result->slider()->setMinimumWidth(50); // narrow, because the row also contains a name
     return result;
   };
   const auto check = [this](const char* key, const QString& text)

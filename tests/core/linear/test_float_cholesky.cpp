@@ -142,7 +142,7 @@ TEST_F(FloatCholeskyTest, ABlockIgnoresWhatIsExcludedAndNamesItsPivot)
   SparseMatrix a = lower_triangle(6, 0.1);
   SparseSolver solver;
   FloatCholesky single = analyzed(a, solver);
-  // Exclude a contiguous half, as an active set does.
+  // Exclude the first half of the unknowns, like unknowns of an active set.
   std::vector<char> excluded(static_cast<std::size_t>(a.rows()), 0);
   std::fill(excluded.begin(), excluded.begin() + a.rows() / 2, 1);
   a.coeffRef(3, 3) = -1.0;

@@ -40,7 +40,7 @@ def test_amount_of_insideness(tmp_path):
 
 def test_jump_and_harmonic(tmp_path):
     numbers = numbers_of("gallery/jump_and_harmonic.py", tmp_path)
-    assert numbers["crossings"] == 8  # the line enters and leaves the closed mesh, the open one, and both nested ones
+    assert numbers["crossings"] == 8  # two each for the closed mesh, the open mesh and both nested meshes
     assert numbers["largest |jump - 1|"] <= 1e-12
     assert numbers["largest mean value error"] <= 1e-12
     assert numbers["order of the Laplacian"] == pytest.approx(2, abs=0.1)
@@ -188,7 +188,7 @@ def test_procedural(tmp_path):
 
 def test_candy_wrapper(tmp_path):
     numbers = numbers_of("gallery/candy_wrapper.py", tmp_path)
-    for degrees, radius in ((90, 0.5 ** 0.5), (120, 0.5), (180, 0)):  # cos(degrees / 2)
+    for degrees, radius in ((90, 0.5 ** 0.5), (120, 0.5), (180, 0)):  # radius = cos(degrees / 2)
         assert numbers[f"linear blend, {degrees} degrees, radius"] == pytest.approx(radius, abs=0.02)
         for name in ("dual quaternions", "centers of rotation"):
             assert numbers[f"{name}, {degrees} degrees, radius"] == pytest.approx(1, abs=0.01)

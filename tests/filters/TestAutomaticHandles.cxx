@@ -69,7 +69,8 @@ TEST_F(AutomaticBones, BindWithoutAHand)
   ASSERT_EQ(filter->GetStatus(), vtkAutomaticHandles::OK) << filter->GetStatusMessage();
   ASSERT_EQ(weights->GetStatus(), vtkAutomaticHandles::OK) << weights->GetStatusMessage();
   const Handles handles = handles_of(filter);
-  ASSERT_EQ(handles.size(), 4u); // the bone of length 7 is halved twice to be below 0.3 * 8.12
+  // A bone of length 7 is halved twice: the limit is 0.3 times the diagonal, 2.4.
+  ASSERT_EQ(handles.size(), 4u);
   vtkDataArray* array = weights->GetOutput()->GetPointData()->GetArray("Weights");
   ASSERT_NE(array, nullptr);
   ASSERT_EQ(array->GetNumberOfComponents(), 4);

@@ -74,7 +74,8 @@ protected:
     filter->SetInputData(0, this->tets);
     filter->SetInputConnection(1, pose->GetOutputPort());
     filter->Update();
-    EXPECT_LE(filter->GetStatus(), vtkBindposeAlgorithm::NOT_CONVERGED); // there is a result
+    // There is a result unless the status code is greater than NOT_CONVERGED.
+    EXPECT_LE(filter->GetStatus(), vtkBindposeAlgorithm::NOT_CONVERGED);
     return to_points(vtkPointSet::SafeDownCast(filter->GetOutput())).view();
   }
 
@@ -177,7 +178,7 @@ TEST_F(PosePoints, NamesWhatIsWrongWithoutEventsAndStaysUsable)
 TEST_F(PosePoints, CountsTheWarningsOfABind)
 {
   vtkDataArray* weights = this->tets->GetPointData()->GetArray("Weights");
-  weights->SetComponent(0, 0, weights->GetComponent(0, 0) + 0.5); // its row no longer sums to one
+  weights->SetComponent(0, 0, weights->GetComponent(0, 0) + 0.5); // row 0 no longer sums to one
   vtkNew<vtkSkinningDeformation> filter;
   this->connect(filter);
   EXPECT_EQ(filter->GetNumberOfWarnings(), 0);
@@ -198,7 +199,7 @@ TEST_F(PosePoints, ReportsProgressAndCanBeCanceled)
   EXPECT_EQ(filter->GetStatus(), vtkBindposeAlgorithm::CANCELED);
   EXPECT_FALSE(listener->phases.empty());
   listener->on_progress = nullptr;
-  EXPECT_TRUE(filter->PosePoints(raised(1.0), this->points)); // a cancel is valid for one call
+  EXPECT_TRUE(filter->PosePoints(raised(1.0), this->points)); // a cancel affects only one call
 }
 
 TEST_F(PosePoints, SeesANewMesh)

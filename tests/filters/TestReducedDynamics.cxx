@@ -146,7 +146,7 @@ TEST_F(ReducedDynamicsFilter, MixedPrecisionChangesNoMotion)
   const Points mixed = at(this->filter, 0.3);
   EXPECT_GT(this->report("single_precision_iterations"), 0.0);
   this->filter->MixedPrecisionOff();
-  const Points in_double = at(this->filter, 0.3); // this restarts at step 0
+  const Points in_double = at(this->filter, 0.3); // MixedPrecisionOff() restarts at step 0
   EXPECT_EQ(this->report("single_precision_iterations"), 0.0);
   EXPECT_EQ(this->report("steps"), 15.0);
   EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);

@@ -144,7 +144,8 @@ TEST_F(VariationalSurfaceFilter, DragsBindOnceAndBindParametersBindAgain)
 
 TEST_F(VariationalSurfaceFilter, WithoutHandlesAPatchIsMadeAnew)
 {
-  // A flat patch has a dent, and its parameter domain is flat.
+  // A square has a dent in its middle. The array with its parameter domain is that of the flat
+  // square, so fairing removes the dent.
   vtkNew<vtkDoubleArray> domain;
   domain->SetName("Parameterization");
   domain->SetNumberOfComponents(2);
@@ -172,7 +173,8 @@ TEST_F(VariationalSurfaceFilter, WithoutHandlesAPatchIsMadeAnew)
   this->surface->Modified();
   this->filter->Update();
   EXPECT_GT(this->height(0.5, 0.5), 1e-3);
-  // In the mode that smooths displacements, nothing moves without handles.
+  // With Fair off, displacements are smoothed. Without handles all displacements are zero, so the
+  // dent stays.
   this->surface->GetPointData()->RemoveArray("Load");
   this->filter->FairOff();
   this->filter->Update();

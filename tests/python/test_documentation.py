@@ -1,4 +1,6 @@
-"""Documentation of the Python functions: every public function has an example, and the examples give what they say."""
+"""Documentation of the Python functions: every public function has an example, and the examples give the documented
+output.
+"""
 
 import doctest
 import inspect

@@ -44,15 +44,17 @@ def test_arrays_remember_their_report():
 
 
 class PolyData(vtkPolyData):
-    """A stand-in for a class of PyVista."""
+    """Replace pyvista.PolyData."""
 
 
 class Grid(vtkUnstructuredGrid):
-    """Another one."""
+    """Replace pyvista.UnstructuredGrid."""
 
 
 def wrap(data):
-    """The stand-in for the function of PyVista, which is found by the package of a class."""
+    """Replace pyvista.wrap(). Bindpose looks for a function of this name in the package that contains the class of a
+    dataset.
+    """
     result = {"vtkPolyData": PolyData, "vtkUnstructuredGrid": Grid}[data.GetClassName()]()
     result.ShallowCopy(data)
     return result

@@ -47,7 +47,7 @@ def test_poses_agree_with_deform(method):
         fresh = bindpose.Rig(weighted, handles).pose(pose, method=method, **precise)
         assert np.array_equal(points_of(fresh), points_of(expected))
         again = points_of(rig.pose(pose, method=method, **precise))
-        if "arap" in method:  # starts from the last pose
+        if "arap" in method:  # the solve starts from the previous pose
             assert again == pytest.approx(points_of(expected), abs=1e-4)
         else:
             assert np.array_equal(again, points_of(expected))
@@ -71,7 +71,7 @@ def test_a_thousand_poses_bind_once():
 
 def test_an_option_is_valid_for_one_call():
     rig = bindpose.bind(BAR, bindpose.handles(bones=BONES), domain="surface")
-    drag = {"b2": {"translate": [0, 1, 0]}}  # the method computes the rotation
+    drag = {"b2": {"translate": [0, 1, 0]}}  # the method computes the rotation of b2
     with pytest.warns(bindpose.NotConvergedWarning):
         rig.pose(drag, method="reduced-arap", maximum_iterations=1, tolerance=1e-12)
     rig.pose(drag, method="reduced-arap")
@@ -118,7 +118,7 @@ def test_all_forms_of_a_pose_agree(rig):
                  {"b2": {"rotate": {"axis": np.array([0, 0, 1]), "degrees": np.float64(40)}}},
                  {"b2": {"rotate": {"axis": [0, 0, 1], "degrees": "10 * 4"}}}):
         assert rig.pose(pose) == pytest.approx(expected, abs=1e-12)
-    assert np.array_equal(rig.pose(BEND), expected)  # a pose as an array leaves nothing behind
+    assert np.array_equal(rig.pose(BEND), expected)  # earlier poses, such as arrays, have no effect
 
 
 @pytest.mark.parametrize("pose, sentence", [

@@ -1,5 +1,5 @@
-// Pictures that inspect weights: territories, slices, extrema, row sums, differences. Each test
-// also asserts numbers that do not depend on the baseline.
+// Pictures for the inspection of weights: strongest handles, slices, extrema, row sums,
+// differences. Each test also asserts numbers that do not depend on the baseline.
 #include "render/drawing.h"
 #include "render/harness.h"
 #include "render/shapes.h"

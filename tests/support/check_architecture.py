@@ -70,7 +70,7 @@ def without_proxy():
     a filter."""
     filters = {path.stem for path in (ROOT / "filters").glob("vtk*.h") if f"static {path.stem}* New()" in path.read_text()}
     proxies = re.compile(r'<(?:SourceProxy|WriterProxy)\b[^>]*\bclass="(\w+)"')
-    # Base proxies refer to abstract classes.
+    # Ignore base proxies: they refer to abstract classes, whose names end with Algorithm.
     named = {name for path in (ROOT / PLUGIN).rglob("*.xml") for name in proxies.findall(path.read_text())
              if not name.endswith("Algorithm")}
     return [f"{name} is either no filter or has no proxy in {PLUGIN}" for name in sorted(filters ^ named)]

@@ -148,7 +148,7 @@ def winding_numbers(queries, points, triangles):
 
 
 def front_sides(points, triangles):
-    """Return for each triangle of a welded surface whether it is no back side that Bindpose ignores.
+    """Return a mask of the triangles of a welded surface that Bindpose does not ignore as back sides.
 
     A model for viewing from both sides has each triangle twice, with opposite orientations, so that its winding number is
     0 everywhere. In a component that consists of such pairs and is nearly closed, the first triangle of each pair is kept.
@@ -191,7 +191,7 @@ def inside_pairs(points, triangles, component, groups):
 
 
 def inside_leads(first, second, points, triangles):
-    """Return True if a straight line between two sets of points is completely inside of the surface, without back sides.
+    """Return True if a straight line between two sets of points is inside of the surface. Back sides are ignored.
 
     Half of the lines end at the nearest point of the second set, the other half at a random point of it. The steps
     along a line are short enough to detect the gap between the sets.

@@ -64,7 +64,7 @@ int main(int argc, char** argv)
   std::signal(SIGXFSZ, SIG_IGN);
   vtkNew<SilentOutputWindow> silent;
   vtkOutputWindow::SetInstance(silent);
-  // the logger does not use the output window
+  // disable the logger separately, because it does not use the output window
   vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_OFF);
   Arguments arguments;
   const int early_exit_code = parse_arguments(argc, argv, arguments);

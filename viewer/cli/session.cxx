@@ -150,7 +150,7 @@ Status Session::try_stage(vtkBindposeAlgorithm* algorithm, const std::string& st
     this->bar_.show(begin, stage_name);
     if (algorithm->GetNumberOfOutputPorts() == 0)
     {
-      algorithm->UpdateWholeExtent(); // the algorithm is a writer
+      algorithm->UpdateWholeExtent(); // a writer has no output to update
     }
     else
     {
@@ -312,7 +312,7 @@ bool Session::check_report()
   const Status status = AtomicFile::check(path, this->arguments_.has("overwrite"));
   if (!status.ok())
   {
-    this->arguments_.values.erase("report"); // the report cannot be written
+    this->arguments_.values.erase("report"); // prevents finish() from writing the report
     return this->fail(status);
   }
   return true;

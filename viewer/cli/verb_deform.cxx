@@ -148,8 +148,8 @@ void write_rig(Session& session, vtkDataSet* mesh, vtkPolyData* handles, vtkPose
   }
 }
 
-/// Compute a fair surface (vtkVariationalSurface with Fair on): the points that the mesh's array
-/// Fixed constrains are kept.
+/// Compute a fair surface with vtkVariationalSurface. Points that are marked in the mesh's array
+/// Fixed keep their positions.
 void run_fairing(Session& session, const std::string& output, const std::string& extensions)
 {
   const Arguments& arguments = session.arguments();
@@ -257,7 +257,8 @@ void run_deform(Session& session)
   const vtkSmartPointer<vtkPoseAlgorithm> deformation =
     dynamic ? vtkSmartPointer<vtkPoseAlgorithm>(body) : make_deformation(arguments);
   set_pose_options(arguments, deformation.Get());
-  // Suppress these error events: the downstream filter repeats errors of the pose.
+  // Suppress the error events of `pose`, because the deformation filter downstream reports the same
+  // errors.
   vtkNew<vtkCallbackCommand> error_suppressor;
   error_suppressor->SetCallback([](vtkObject*, unsigned long, void*, void*) {});
   pose->AddObserver(vtkCommand::ErrorEvent, error_suppressor);

@@ -145,7 +145,7 @@ bool read_options(Session& session, PictureOptions& options)
     !options.component.empty() || options.extrema || arguments.has("minus");
   if (options.array.empty() && options.color_by == ColorBy::array && needs_weights)
   {
-    options.array = "Weights"; // these options apply to weights by default
+    options.array = "Weights"; // default array of --component, --extrema and --minus
   }
   if (arguments.has("isosurface"))
   {

@@ -345,7 +345,7 @@ private:
     };
     if (inputs.contains("handles"))
     {
-      // only the source; the handles are in the session file
+      // read only the handles' source, because the session file contains the handles themselves
       work.handle_source = this->source(inputs["handles"]);
     }
     if (inputs.contains("picture"))

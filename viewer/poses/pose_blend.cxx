@@ -23,7 +23,7 @@ HandleValues values_of(const Handles& handles, const Pose& pose, std::size_t han
     parts_of(relative_pose(handles, pose)[handle].transform, handles[handle].head);
   HandleValues values;
   values.translate = parts.translation;
-  // R = Rz Ry Rx, so R(2, 0) = -sin(y).
+  // The rotation is Rz(z) Ry(y) Rx(x) with angles x, y, z, so r(2, 0) = -sin(y).
   const Eigen::Matrix3d& r = parts.rotation;
   const double y = std::asin(std::fmax(-1.0, std::fmin(1.0, -r(2, 0))));
   const bool is_euler_unique = std::abs(r(2, 0)) < 1.0 - 1e-12;

@@ -17,8 +17,8 @@ struct StoredPoses
 
 /// Return {"library": […], "key_frames": {…}}.
 nlohmann::ordered_json to_json(const StoredPoses& stored_poses);
-/// Read a shelf. A missing member gives an empty library or empty key frames. On invalid_input the
-/// shelf is unchanged.
+/// Read stored poses. A missing member gives an empty library or empty key frames. If the result is
+/// invalid_input, `stored_poses` is unchanged.
 Status from_json(const nlohmann::ordered_json& json, StoredPoses& stored_poses);
 
 } // namespace bindpose

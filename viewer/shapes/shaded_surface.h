@@ -29,8 +29,8 @@ public:
   /// 180]. At or above this angle, the common edge of the two triangles is drawn sharp.
   explicit ShadedSurface(vtkPolyData* surface, double feature_angle = 50.0);
 
-  /// Report whether another surface has the same points and cells as the input, so that take() can
-  /// use its arrays.
+  /// Report whether another surface has the same points and cells as the input, so that
+  /// set_arrays() can use its arrays.
   bool has_mesh_of(vtkPolyData* surface) const;
   /// Reset the points to those of `surface`, and replace the point and cell arrays by those of
   /// `surface`. has_mesh_of(surface) must be true.

@@ -42,7 +42,7 @@ constexpr double outline = 1.2;
 constexpr double twist_radius = 20.0;
 constexpr double stretch_from = 10.0;
 constexpr double stretch_to = 30.0;
-// Minimum distance of the box for stretching from the tip of an arrow.
+// Minimum distance between the stretch box of a bone and the tip of an arrow.
 constexpr double stretch_room = 32.0;
 constexpr int ring_sides = 72;
 // an axis with a larger cosine to the viewing direction points at the viewer
@@ -288,7 +288,7 @@ void Gizmo::add_bone()
     knob.part = stretch_bone;
     knob.color = this->setup_.bone;
     const double pixel = this->layout_scale_ * this->pixel_;
-    // Move the box for stretching farther out if the tip of an arrow is at its position.
+    // Move the stretch box farther out if the tip of an arrow is near it.
     double out = stretch_to;
     const auto is_arrow_tip_near = [&]()
     {
@@ -546,7 +546,7 @@ std::optional<Vector2d> Gizmo::grip(int part_id) const
     }
     else
     {
-      // Grab the ring away from its middle, where another ring in front of it crosses an axis.
+      // Grab the ring away from its middle, because another ring may cross it there.
       position = part.path[part.path.size() * 2 / 5];
     }
     return Vector2d(this->view_.to_display(position).head<2>());

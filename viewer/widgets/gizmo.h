@@ -68,8 +68,8 @@ struct GizmoSetup
   /// True: two twist rings, at head and tail; false: one ring in the middle.
   bool two_twist_rings = true;
   double pixels = 80.0; ///< size in window pixels: distance of a scale box from the origin
-  /// Red, green and blue by convention, in shades that viewers with any type of color blindness can
-  /// distinguish.
+  /// Colors of the x, y and z axes: red, green and blue, in shades that viewers with any type of
+  /// color blindness can distinguish.
   Color axes[3] = { { 0.80, 0.15, 0.25 }, { 0.50, 0.80, 0.25 }, { 0.18, 0.43, 0.93 } };
   Color bone = { 0.72, 0.40, 0.72 };
   Color plain = { 0.60, 0.61, 0.65 }; ///< color of parts without an axis

@@ -29,7 +29,7 @@ namespace bindpose
 namespace
 {
 constexpr double fine_fraction = 0.1;
-// a line with a larger cosine to the viewing direction cannot be followed
+// a move along a line is ignored if the line's cosine to the viewing direction is larger
 constexpr double maximum_line_cosine = 0.998;
 // a ring whose axis has a smaller cosine to the viewing direction is seen edge-on
 constexpr double edge_on_cosine = 0.12;

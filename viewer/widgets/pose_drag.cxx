@@ -71,7 +71,7 @@ DragSetup setup_of(const HandleRecord& record, int part, const DragSettings& set
   setup.axes = axes_of_part(part);
   if (is_twist(part))
   {
-    // Rotate about the bone, through the position of the ring on it.
+    // Rotate about the axis of the bone, which is the y axis of this frame.
     setup.frame = rotation_between(Vector3d::UnitY(), setup.arm).toRotationMatrix();
     setup.axes = 2;
   }

@@ -68,7 +68,7 @@ void vtkHandleSetRepresentation::SetHandles(vtkPolyData* handles)
   {
     return;
   }
-  // Cancel before the handles are replaced, because this writes into the old handles.
+  // Cancel before the handles are replaced, because canceling writes to the old handles.
   this->Internal->Editor.cancel();
   this->Internal->Editor.finish_cage();
   this->Internal->Data.set(handles);

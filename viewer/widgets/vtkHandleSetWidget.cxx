@@ -215,8 +215,8 @@ void vtkHandleSetWidget::SelectAction(vtkAbstractWidget* widget)
   const bool on_gizmo = representation->GetInteractionState() >= vtkHandleSetRepresentation::MOVE_X;
   if (!on_gizmo && self->Interactor->GetShiftKey())
   {
-    // A position for a new handle (state PLACING) counts as a part of the gizmo, so Shift toggles
-    // only existing handles.
+    // The mouse is on an existing handle: the state PLACING (a position for a new handle) is
+    // greater than MOVE_X.
     representation->ToggleSelected(handle);
     self->InvokeEvent(vtkCommand::SelectionChangedEvent, nullptr);
     self->Render();

@@ -242,7 +242,7 @@ void vtkRegionBrushRepresentation::WidgetInteraction(double eventPos[2])
   {
     return;
   }
-  // HitPosition discs along the path of the mouse, because it may have moved far since the last
+  // Paint several discs along the path of the mouse, because it may have moved far since the last
   // event.
   const Vector2d to(eventPos);
   const Vector2d displacement = to - self.LastPosition;

@@ -22,8 +22,9 @@ Eigen::Matrix3d svd_rotation(const Eigen::Matrix3d& s)
   return svd.matrixV() * flip * svd.matrixU().transpose();
 }
 
-/// Compute reduced ARAP with plain dense matrices. M, L and K follow their definitions, a KKT
-/// system satisfies the constraints, and rotations are computed by SVD.
+/// Compute reduced ARAP with dense matrices, straight from the definitions of the basis, the
+/// stiffness matrix and the covariance matrix. A KKT system satisfies the constraints, and
+/// rotations are computed by SVD.
 Points dense_reference(
   const test::Rig& rig, const RotationGroups& groups, const Pose& pose, Index count)
 {
@@ -343,7 +344,8 @@ TEST(ReducedArap, OneClusterIsOneProcrustesRotation)
   ASSERT_TRUE(arap.solve(context, bend(HandleMode::position), iterations(3000)).ok());
   Points result;
   ASSERT_TRUE(arap.deform(context, rig.mesh.points, result).ok());
-  // With a single rotation, the covariance is V^T L V' and can be computed without lists of edges.
+  // With a single rotation, the covariance is P^T L Q, where P are the rest points, Q the posed
+  // points and L is the stiffness matrix. No sum over edges is needed.
   const SparseMatrix l = stiffness_matrix(rig.mesh.points, rig.mesh.tets);
   const Eigen::Matrix3d s = rig.mesh.points.transpose() * (l * result);
   EXPECT_LT((svd_rotation(s) - arap.rotations()[0]).cwiseAbs().maxCoeff(), 1e-9);

@@ -102,7 +102,7 @@ struct BasisCase
   }
   bool try_fast(ReducedBasis& basis) const { return this->try_fast(this->space.stiffness, basis); }
 
-  /// Return the columns of the basis B, without the particular solution D*.
+  /// Return the columns of the basis as a matrix. The particular solution is not included.
   Eigen::MatrixXd columns(const Eigen::MatrixXd& stiffness, const ReducedBasis& basis) const
   {
     const Coordinates nothing = Coordinates::Zero(4 * this->space.columns, 3);
@@ -118,7 +118,7 @@ struct BasisCase
     return b;
   }
 
-  /// Check the defining properties of one basis. Return C, its covariance matrix.
+  /// Check the defining properties of one basis. Return the covariance matrix times the basis.
   Eigen::MatrixXd check(const Eigen::MatrixXd& stiffness, ReducedBasis& basis) const
   {
     const Eigen::MatrixXd b = this->columns(stiffness, basis);
@@ -142,7 +142,7 @@ struct BasisCase
     EXPECT_TRUE(fast.redundant().empty() && robust.redundant().empty());
     ASSERT_EQ(fast.coordinates(), robust.coordinates());
     const Eigen::MatrixXd a = this->check(stiffness, fast), b = this->check(stiffness, robust);
-    // Two bases of the same space differ by a rotation.
+    // Two bases of the same space differ by an orthogonal matrix, which cancels in the product.
     EXPECT_LT((a * a.transpose() - b * b.transpose()).norm(), 1e-10 * (a * a.transpose()).norm());
 
     const auto still = [&](const ReducedBasis& basis)

@@ -68,7 +68,8 @@ Pose released_pose()
 }
 } // namespace
 
-// With implicit Euler, a body falls by g h^2 N (N + 1) / 2 in N steps, without deformation.
+// With implicit Euler, gravity g and the time step h, a body falls by g h^2 n (n + 1) / 2 in n
+// steps, without deformation.
 TEST(ReducedDynamics, FallsFreely)
 {
   const test::Rig rig = test::bar();

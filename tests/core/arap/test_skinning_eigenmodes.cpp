@@ -34,8 +34,8 @@ struct FixedBox
 };
 } // namespace
 
-// The bar is thin and fixed at one end. Its modes are w = sin((k - 1/2) pi x / l). The eigenvalue
-// lambda is the square of the wave number (k - 1/2) pi / l.
+// The thin bar of length l is fixed at x = 0. Its mode k = 1, 2, ... is sin(q x) with the wave
+// number q = (k - 1/2) pi / l. The eigenvalue of the mode is q^2.
 TEST(SkinningEigenmodes, OfABarHeldAtOneEndAreSines)
 {
   const FixedBox bar(tet_box(48, 2, 2, Vec3::Zero(), Vec3(6.0, 0.25, 0.25)));

@@ -338,7 +338,8 @@ TEST(SkeletonBones, JunctionsWithinTheThicknessAreOne)
     EXPECT_LT(bone.head.norm(), 1e-15);
   }
   SkeletonBonesOptions options;
-  options.prune = 0.3; // the branch points are 0.04 apart, and 0.3 times the radius is 0.03
+  // The branch points are not merged: 0.3 times the radius is 0.03, and their distance is 0.04.
+  options.prune = 0.3;
   EXPECT_EQ(run_skeleton_bones(drawing, options).junctions, 2);
 }
 

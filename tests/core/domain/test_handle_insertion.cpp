@@ -213,8 +213,8 @@ TEST(HandleInsertion, KeepMeshTakesTheCorners)
   EXPECT_EQ(same.code, StatusCode::invalid_input) << "all corners shared: nothing is p1's own";
   EXPECT_NE(same.message.find("'p1'"), std::string::npos);
 
-  // The handles are now joints of a rig. The first joint is skipped, because it would have no
-  // vertex of its own: the corners belong to the second joint.
+  // The handles are now joints of a rig. All corners of the first joint's tet are assigned to the
+  // second joint. No vertex remains for the first joint, so it is skipped.
   Handles joints = handles;
   joints.push_back(test::point_handle("p3", Vec3(0.6, 0.2, 0.1)));
   for (Handle& joint : joints)

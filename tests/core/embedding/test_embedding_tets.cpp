@@ -444,7 +444,7 @@ TEST(EmbeddingTets, TheNumberOfTetsIsChosen)
   const TriangleMesh shapes[] = { test::sphere(3), test::cube(), test::torus(64, 16, 1.0, 0.02),
     test::grid(2, 2), box({ 0.0, 0.0, 0.0 }, { 100.0, 1.0, 1.0 }),
     test::join(test::sphere(3), test::sphere(3, 1.0, Vec3(50.0, 0.0, 0.0))),
-    test::sphere(8) }; // 1.3 million triangles: more than the pieces that the choice may add
+    test::sphere(8) }; // 1.3 million triangles, more than maximum_added_pieces in lattice_cover.cpp
   for (const TriangleMesh& shape : shapes)
   {
     SCOPED_TRACE(shape.triangles.rows());
@@ -480,7 +480,7 @@ TEST(EmbeddingTets, UncleanSurfaces)
     std::swap(flipped.triangles(f, 1), flipped.triangles(f, 2));
     holes.triangles.row(f) << 0, 0, 0; // degenerate
   }
-  TriangleMesh stray = test::sphere(2); // has unused points
+  TriangleMesh stray = test::sphere(2); // a sphere with three unused points
   stray.points.conservativeResize(stray.points.rows() + 3, 3);
   stray.points.bottomRows(3) << 0.1, 0.0, 0.0, 1e9, 0.0, 0.0,
     std::numeric_limits<double>::quiet_NaN(), 0.0, 0.0;
@@ -648,8 +648,8 @@ TEST(EmbeddingTets, CancelEndsSoon)
   const WindingNumber winding(mesh.points, mesh.triangles);
   for (const int after : { 0, 1, 5, 20, 60 })
   {
-    // Cancel at the n-th progress report. How many reports there are depends on the time. A request
-    // at one of the last reports can come too late.
+    // Cancel at the progress report number `after`. The number of reports depends on the speed of
+    // the machine, so that a request at one of the last reports may come too late.
     std::atomic<bool> stop{ after == 0 };
     std::atomic<bool> in_time{ after == 0 };
     std::atomic<int> signs{ 0 };

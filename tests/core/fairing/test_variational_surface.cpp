@@ -261,9 +261,10 @@ TEST(VariationalSurface, TangentsGivenAreThoseThatTheSurroundingsHave)
   const Points around = bump.surface.posed();
   bump.options.tangent_source = PatchTangents::clamped;
   ASSERT_TRUE(bump.solve().ok());
-  EXPECT_GT(largest_difference(bump.surface.posed(), around), 1e-3); // clamped tangents make a cusp
-  // If displacements instead of positions are smoothed, clamped tangents keep the tangents of the
-  // rest shape.
+  // Zero derivatives of the positions cause a cusp.
+  EXPECT_GT(largest_difference(bump.surface.posed(), around), 1e-3);
+  // Without `fair`, displacements are smoothed instead of positions. Zero derivatives of the
+  // displacements then keep the tangents of the rest shape.
   bump.options.fair = false;
   bump.handles = { point_handle("p", Vec3(0.5, 0.5, 0.0)) };
   bump.pose = { HandlePose() };

@@ -140,7 +140,8 @@ struct Tally
 {
   Index queries = 0;
   Index touching = 0;
-  /// Number of queries on the borderline of touching a triangle, which are not compared.
+  /// Number of queries that were not compared, because rounding decides whether they touch a
+  /// triangle.
   Index borderline = 0;
   double exact_error = 0.0; ///< largest absolute error of exact methods
   double fast_error = 0.0; ///< largest error of fast methods, divided by their tolerance

@@ -33,7 +33,7 @@ TEST(AtomicFile, IsTheSameWhenItWaitsForTheDisk)
   ASSERT_TRUE(file.commit_synced().ok());
   EXPECT_EQ(folder.read("out"), "new");
   EXPECT_EQ(folder.number_of_files(), 1u);
-  EXPECT_FALSE(file.commit_synced().ok()); // no file is open
+  EXPECT_FALSE(file.commit_synced().ok()); // fails, because no file is open
   ASSERT_TRUE(file.open(folder / "unnamed", false).ok());
   ASSERT_TRUE(write_file(file.temporary(), "named").ok());
   ASSERT_TRUE(file.commit_synced_as(folder / "named").ok());

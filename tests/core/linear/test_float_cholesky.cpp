@@ -124,7 +124,8 @@ TEST_F(FloatCholeskyTest, FactorsTheBlockOfAnyUnknowns)
         EXPECT_TRUE(!excluded[i] || x.row(i).isZero(0.0));
       }
     }
-    // A factorization of the whole matrix after that of a block has the bits of a first one.
+    // Factoring a block must not affect later factorizations of the whole matrix: they have the
+    // same bits as those of an unused clone.
     FloatCholesky fresh = single.clone();
     ASSERT_TRUE(single.factor(context_, a, 0.0).ok());
     ASSERT_TRUE(fresh.factor(context_, a, 0.0).ok());
@@ -141,7 +142,7 @@ TEST_F(FloatCholeskyTest, ABlockIgnoresWhatIsExcludedAndNamesItsPivot)
   SparseMatrix a = lower_triangle(6, 0.1);
   SparseSolver solver;
   FloatCholesky single = analyzed(a, solver);
-  // Exclude a contiguous half, as an active set does.
+  // Exclude the first half of the unknowns, like unknowns of an active set.
   std::vector<char> excluded(static_cast<std::size_t>(a.rows()), 0);
   std::fill(excluded.begin(), excluded.begin() + a.rows() / 2, 1);
   a.coeffRef(3, 3) = -1.0;

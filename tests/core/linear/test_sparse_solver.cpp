@@ -158,7 +158,7 @@ TEST_P(SparseSolverTest, NamesThePivotThatIsNotPositive)
   EXPECT_NE(status.message.find("unknown 17 "), std::string::npos) << status.message;
   a.coeffRef(17, 17) = std::nan("");
   EXPECT_FALSE(solver.factor(a).ok());
-  // The solver still factors another matrix with the same pattern.
+  // After these failures, the solver can factor another matrix with the same pattern.
   EXPECT_TRUE(solver.factor(definite_matrix(3, 1.0)).ok());
 }
 

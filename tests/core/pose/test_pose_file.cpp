@@ -58,7 +58,8 @@ TEST(PoseFile, HandlesMoveAboutTheirPivots)
     "p": {"mode": "position", "translate": [1, 0, 0],
           "rotate": {"axis": [0, 0, 5], "degrees": 90}, "scale": 2}}})");
   EXPECT_EQ(pose[0].mode, HandleMode::position);
-  // The expected map is x -> c + t + R S (x - c) with c = (1, 2, 3).
+  // The expected map is x -> c + t + R S (x - c) with the pivot c = (1, 2, 3), the translation t,
+  // the rotation R and the scale S.
   EXPECT_LT((apply(pose[0].transform, Vec3(1, 2, 3)) - Vec3(2, 2, 3)).norm(), 1e-15);
   EXPECT_LT((apply(pose[0].transform, Vec3(2, 2, 4)) - Vec3(2, 4, 5)).norm(), 1e-15);
   EXPECT_EQ(pose[1].transform, identity_affine());
@@ -263,7 +264,7 @@ TEST(HandleHierarchy, ParentsComeFirst)
   handles[3].parent = 4;
   handles[1].parent = 0;
   EXPECT_EQ(parents_first(handles), (std::vector<Index>{ 4, 3, 0, 1, 2 }));
-  handles[4].parent = 1; // this creates a cycle
+  handles[4].parent = 1; // the parents form a cycle
   std::vector<Index> order = parents_first(handles);
   std::sort(order.begin(), order.end());
   EXPECT_EQ(order, (std::vector<Index>{ 0, 1, 2, 3, 4 }));
@@ -475,7 +476,7 @@ TEST(PoseFile, WhatIsWrittenIsReadBack)
   ASSERT_TRUE(parse_pose_file(text, point_and_chain(), sequence).ok());
   ASSERT_EQ(sequence.frames.size(), 20u);
   EXPECT_EQ(sequence.frames_per_second, 30.0);
-  Pose other(3); // the result does not depend on the base
+  Pose other(3); // a base pose, which must have no effect
   other[1].transform(0, 0) = 9.0;
   other[1].mode = HandleMode::free;
   for (std::size_t frame = 0; frame < 20; ++frame)

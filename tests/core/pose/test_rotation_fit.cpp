@@ -206,7 +206,7 @@ TEST(RotationFit, BatchesAndSinglesAgreeToTheBit)
         EXPECT_EQ(single(e / 3, e % 3), r[e * stride + k]) << k << " of " << count;
       }
     }
-    for (int e = 0; e < 9; ++e) // the padding between the planes is unchanged
+    for (int e = 0; e < 9; ++e) // the padding after each array of matrix entries is unchanged
     {
       for (Index k = count; k < stride; ++k)
       {

@@ -166,7 +166,8 @@ TEST_F(SkinningBindTest, EndpointWeightsAreSolvedOnceAndThoseOfTheShapeComeFirst
   };
   EXPECT_EQ(this->posed(options, false), expected(endpoints));
   EXPECT_FALSE(this->bind_.needs_elements(this->shape(), options));
-  // Projections need no solve, and weights of the shape replace both.
+  // Endpoint weights by projection need no solve. Endpoint weights that the shape already has are
+  // used instead of computed ones.
   options.endpoints = EndpointMethod::projection;
   EXPECT_EQ(this->posed(options, false), expected(Weights()));
   this->endpoints_ = Weights::Constant(rest.rows(), 4, 0.25);

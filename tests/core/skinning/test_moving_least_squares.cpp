@@ -344,10 +344,11 @@ TEST(MovingLeastSquares, ModesPositionAndFree)
 
 TEST(MovingLeastSquares, SharesOfABoneAreTheIntegrals)
 {
-  // The bone is the unit interval of the x axis. The point is at (`a`, `d`, 0), and the exponent is
-  // 1. The integral of 1 / (d^2 + s^2) over s from -a to 1 - a is (atan((1 - a) / d) + atan(a / d))
-  // / d. The first moment of the integrand is 1/2 log((d^2 + (1 - a)^2) / (d^2 + a^2)). The second
-  // moment is 1 - d^2 times the integral.
+  // The bone is the unit interval of the x axis. The point is at (a, d, 0), and the exponent is 1.
+  // Moment k is the integral of s^k / (d^2 + s^2) over s from -a to 1 - a:
+  // - moment 0: m = (atan((1 - a) / d) + atan(a / d)) / d
+  // - moment 1: 1/2 log((d^2 + (1 - a)^2) / (d^2 + a^2))
+  // - moment 2: 1 - d^2 m
   ExecutionContext context;
   for (const double d : { 1e-9, 1e-4, 0.1, 1.0, 50.0 })
   {

@@ -747,7 +747,7 @@ TEST(Skinning, DroppedWeightsAreCountedAndTheirErrorIsBounded)
     Index dropped = 0;
     double dropped_weight = 0.0;
     Points expected(rig.mesh.points.rows(), 3);
-    double reach = 0.0; // largest distance between two images of a point, each under one handle
+    double reach = 0.0; // largest distance between a point's positions under two different handles
     for (Index v = 0; v < expected.rows(); ++v)
     {
       std::vector<std::pair<double, Index>> row;

@@ -200,8 +200,8 @@ TEST(SurfaceShells, TurnedShellsAreThoseOfATwinThatKnowsTheSolids)
 
 TEST(SurfaceShells, AFineShellAroundManySolids)
 {
-  // The numbers of triangles and solids are so large that ray crossings are used to compute the
-  // winding numbers of the container.
+  // A sphere contains many cubes. The numbers of triangles and cubes are so large that ray
+  // crossings are used to compute the winding numbers of the sphere.
   TriangleMesh mesh = test::flipped(test::sphere(6, 10.0));
   const Index outer = mesh.triangles.rows();
   std::vector<Cube> cubes;

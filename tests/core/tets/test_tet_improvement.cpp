@@ -320,7 +320,8 @@ TEST(TetImprovement, HeldVerticesNeverGo)
   const Index inside = vertex_at(mesh, Vec3(0.5, 0.5, 0.5));
   const Index fresh = split_edge(mesh, inside, vertex_at(mesh, Vec3(0.5, 0.5, 0.75)), 1e-6);
   ImproveOptions options;
-  options.release_angle = 0.0; // no angle is below 0 degrees, so held vertices do not move
+  // No angle is below 0 degrees, so constrained vertices are never released.
+  options.release_angle = 0.0;
   ExecutionContext context;
   Improvement done;
   for (const bool both : { true, false })

@@ -72,11 +72,11 @@ TEST(Extrema, PersistenceOnAPathCanBeReadOff)
   f << 0.0, 0.5, 0.3, 0.9, 0.85, 1.0, 0.2, 0.4, 0.4;
   std::vector<char> is_exempt{ 1, 0, 0, 0, 0, 1, 0, 0, 0 };
   const auto found = interior_extrema(path(9), f, is_exempt);
-  // Minima: the lowest path to a lower vertex or a handle climbs from 0.2 (vertex 6) to 1 at the
-  // handle. The paths of the other minima climb from 0.3 (vertex 2) to 0.5, and from 0.85 (vertex
-  // 4) to 0.9. Maxima: the highest path to a higher vertex or a handle descends from 0.4 (vertices
-  // 7 and 8) to 0.2. The paths of the other maxima descend from 0.9 (vertex 3) to 0.85, and from
-  // 0.5 (vertex 1) to 0.3.
+  // The persistence of a minimum is the climb to a lower vertex or to a handle, on the path with
+  // the smallest climb. The minima are vertex 6 (from 0.2 to 1), vertex 2 (from 0.3 to 0.5) and
+  // vertex 4 (from 0.85 to 0.9). The persistence of a maximum is the corresponding descent. The
+  // maxima are vertices 7 and 8 (from 0.4 to 0.2), vertex 3 (from 0.9 to 0.85) and vertex 1 (from
+  // 0.5 to 0.3).
   ASSERT_EQ(found.size(), 6u);
   EXPECT_EQ(found[0].vertex, 6);
   EXPECT_FALSE(found[0].maximum);
@@ -96,8 +96,8 @@ TEST(Extrema, HandlesWinTiesAndPlateausAreOne)
   Eigen::VectorXd f(7);
   f << 0.0, 0.0, 0.0, 0.5, 1.0, 1.0, 1.0;
   EXPECT_TRUE(interior_extrema(path(7), f, { 0, 1, 0, 0, 0, 0, 1 }).empty());
-  // A minimum next to a handle that is as small as round-off is ignored. It is not reported,
-  // although it is the global minimum.
+  // Vertex 0 is now the global minimum, but lower than the handle next to it only by round-off.
+  // Such a minimum is not reported.
   f[0] = -1e-10;
   EXPECT_TRUE(interior_extrema(path(7), f, { 0, 1, 0, 0, 0, 0, 1 }).empty());
   EXPECT_EQ(interior_extrema(path(7), f, { 0, 1, 0, 0, 0, 0, 1 }, 0.0).size(), 1u);

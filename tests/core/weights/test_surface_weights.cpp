@@ -144,7 +144,8 @@ TEST(SurfaceWeights, NoneIsAlmostZero)
     solve_surface_weights(mesh, three_along(), options_for(WeightsDomain::embedding), result);
   ASSERT_TRUE(status.ok()) << status.message;
   const Index zeros = (result.weights.array() == 0.0).count();
-  // The limit is 1e-12, but rows are divided by their sums afterwards.
+  // Weights below 1e-12 are set to zero. Other weights may be a little smaller than 1e-12, because
+  // rows are then divided by their sums.
   const Index almost_zeros = (result.weights.array() < 5e-13).count() - zeros;
   EXPECT_GT(zeros, 0);
   EXPECT_EQ(almost_zeros, 0);

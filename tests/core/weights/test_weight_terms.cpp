@@ -609,10 +609,11 @@ TEST(WeightTerms, CoupledColumnsSumToOne)
   EXPECT_LE(solved.result.row_sum_error, 1e-12);
   EXPECT_GT(separate.result.row_sum_error, 0.01);
   EXPECT_LE((w - solved.result.weights).cwiseAbs().maxCoeff(), 1e-12);
-  // Compute the second bound of the certificate (certificate.h) from the gradients alone. The bound
-  // is valid for any multipliers. Here the multiplier of a row is minus the mean of its gradients,
-  // averaged with the weights of the row. Weights that are not at a bound contribute 1/2 r' A^-1 r.
-  // All other weights contribute the linear bound.
+  // Compute the second bound of the certificate (certificate.h) from the gradients g = Q w alone.
+  // The bound is valid for any multipliers of the rows' sums. Here the multiplier of a row is minus
+  // the mean of its gradients, weighted by the weights of the row. Values that are not at a bound
+  // contribute 1/2 r' A^-1 r, where A is the block of Q of the free vertices and r their gradients
+  // plus multipliers. All other values contribute the linear bound.
   const Eigen::MatrixXd g = q * w;
   std::vector<Index> free;
   for (Index v = 0; v < w.rows(); ++v)

@@ -221,10 +221,10 @@ TEST(Weights, EnergiesOnTheFineSquareAreTheKnownOnes)
   ASSERT_TRUE(monotone_guide(context, problem, group, {}, guide).ok());
   const BoxQpSolution mono = solver.solve(context, group.columns[2]);
   ASSERT_TRUE(box.status.ok() && mono.status.ok());
-  // The ratios of the other handles also equal the known values, with one exception: the monotone
-  // weights of the last handle have the ratio 1.8634 instead of 1.8643. The order of the vertices
-  // comes from a guide function, which uses edge weights of at least 1e-3. The diagonals of the
-  // grid would have the cotangent weight 0, which gives the ratio 1.8643.
+  // The test checks one handle. The ratios of the other handles equal the known values, too, except
+  // that of the monotone weights of the last handle, which is 1.8634 instead of 1.8643. The reason
+  // is the guide function that orders the vertices: it uses edge weights of at least 1e-3. With
+  // cotangent weights, which are 0 on the diagonals of the grid, the ratio is 1.8643.
   EXPECT_NEAR(box.certificate.energy / free, 1.2611, 2e-4);
   EXPECT_NEAR(mono.certificate.energy / free, 1.2645, 2e-4);
   EXPECT_EQ(solver.analyses(), 1) << "bounds and monotone rows share one analysis";

@@ -458,7 +458,8 @@ TEST(CurveWindingNumber, NothingWindsAroundNothing)
   EXPECT_TRUE(empty.status().ok());
   EXPECT_EQ(empty.status().warnings.size(), 1u);
   EXPECT_EQ(empty.evaluate_at(Vec2(1, 2)), 0.0);
-  EXPECT_EQ(CurveWindingNumber().evaluate_at(Vec2(1, 2)), 0.0); // nothing was built
+  // Before a build, the winding number is 0 everywhere.
+  EXPECT_EQ(CurveWindingNumber().evaluate_at(Vec2(1, 2)), 0.0);
   const Curve dot = make_curve({ { 3, 3 }, { 3, 3 } });
   const CurveWindingNumber degenerate(dot.points, dot.segments);
   EXPECT_EQ(degenerate.status().warnings.size(), 1u);

@@ -171,7 +171,7 @@ TEST(PointCloudWindingNumber, SpheresWindOnceInsideAndTheErrorShrinks)
 TEST(PointCloudWindingNumber, HalfASphereIsItsSolidAngle)
 {
   Cloud cloud = sphere_cloud(40000);
-  const Index half = 20000; // these are the points with z > 0
+  const Index half = 20000; // the first half of the points is above z = 0
   cloud = { cloud.points.topRows(half), cloud.normals.topRows(half), cloud.areas.head(half) };
   const PointCloudWindingNumber winding = build_winding(cloud, WindingMethod::fast, 1e-6);
   // On the axis below the rim, the half sphere has the same winding number as the disc that the rim
@@ -381,7 +381,8 @@ TEST(PointCloudWindingNumber, NothingWindsAroundNothing)
   const PointCloudWindingNumber winding = build_winding(nothing);
   EXPECT_EQ(winding.status().warnings.size(), 1u);
   EXPECT_EQ(winding.evaluate_at(Vec3(1, 2, 3)), 0.0);
-  EXPECT_EQ(PointCloudWindingNumber().evaluate_at(Vec3(1, 2, 3)), 0.0); // nothing was built
+  // Before a build, the winding number is 0 everywhere.
+  EXPECT_EQ(PointCloudWindingNumber().evaluate_at(Vec3(1, 2, 3)), 0.0);
 }
 
 TEST(PointCloudWindingNumber, BadInputIsNamed)

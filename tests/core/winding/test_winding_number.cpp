@@ -517,7 +517,8 @@ TEST(WindingNumber, EmptyMeshWindsAroundNothing)
     ASSERT_EQ(method_winding.status().warnings.size(), 1u);
   }
   EXPECT_EQ(winding_number_direct(nothing.points, nothing.triangles, Vec3::Zero()), 0.0);
-  EXPECT_EQ(WindingNumber().evaluate_at(Vec3(1, 2, 3)), 0.0); // nothing was built
+  // Before a build, the winding number is 0 everywhere.
+  EXPECT_EQ(WindingNumber().evaluate_at(Vec3(1, 2, 3)), 0.0);
 }
 
 TEST(WindingNumber, BadInputIsNamed)

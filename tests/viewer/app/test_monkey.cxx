@@ -131,9 +131,9 @@ std::string steps_of(const QUndoStack* history)
   return text;
 }
 
-/// Return the fingerprints without options that the program sets when a file is opened, until the
-/// user sets them: the visible side of tets, and planes whose orientation differs in `other`. An
-/// orientation along an axis also sets the normal.
+/// Return the fingerprints without the options that the program may set when a file is opened.
+/// These are the visible side of tets, and the orientation and normal of each plane whose
+/// orientation differs from that in `other`.
 Fingerprints without_options_of_opening(Fingerprints all, const Fingerprints& other)
 {
   all.erase("option tets.other_side");

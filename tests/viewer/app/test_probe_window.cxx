@@ -252,7 +252,7 @@ TEST_F(ProbeWindow, TheDifferenceOfTwoMethodsIsReadInUnitsAndShares)
   // The handle "top" is rotated by 90 degrees about z.
   pose[1].transform << 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1, 0;
   this->window.document()->set_pose(pose, "turn");
-  this->choose("pose.compared", 2); // dual quaternion skinning, which preserves the waist
+  this->choose("pose.compared", 2); // dual quaternion skinning, which does not narrow the middle
   this->render();
   app::posing::PoseController* posing = this->part<app::posing::PoseController>();
   const Points& a = posing->points();

@@ -36,7 +36,7 @@ bool wait_for(const Condition& condition, int seconds = 60)
   return app::tour::wait_until(condition, seconds);
 }
 
-/// Return a text of the standard library as a text of Qt.
+/// Convert a std::string to a QString.
 inline QString to_qt(const std::string& text)
 {
   return QString::fromStdString(text);

@@ -24,7 +24,7 @@ def progress_of(folder, *words):
     while True:
         try:
             data = os.read(master, 65536)
-        except OSError:  # Linux reports the end of a terminal this way
+        except OSError:  # on Linux, reading fails after the program has closed the terminal
             break
         if not data:
             break

@@ -164,8 +164,8 @@ def test_regions(bar):
         names = [array.GetComponentName(i) for i in range(array.GetNumberOfComponents())]
         assert names == ["p1", "r1", "r2"]
         check(weights, x)
-        # The point handle p1 is in one of the regions r1 and r2. These regions do not overlap, so the weight of each is
-        # 0 in the other.
+        # The point handle p1 is in one of the regions r1 and r2. The weight of r1 is 0 in r2, and the weight of r2 is 0
+        # in r1.
         assert (weights[x > 5][:, 1] < 1e-9).all() and (weights[x < 1][:, 2] < 1e-9).all()
     bar.run("weights", "painted.vtp", "--handles", "auto:1", "--regions", "Nope", "-o", "w2.vtp").is_refused("'Nope'")
 

@@ -102,8 +102,8 @@ TEST(Autosaving, WhatAKilledProcessHadIsFoundOnce)
     EXPECT_LT(found->time().secsTo(QDateTime::currentDateTime()), 60);
     EXPECT_EQ(RecoveredWork::find(root), nullptr) << "somebody else has it already";
   }
-  // The claim on the work has ended, so the work is found again. After the work is removed, nothing
-  // is found.
+  // The previous RecoveredWork object was destroyed, which has unlocked the work, so the work is
+  // found again. After the work is removed, nothing is found.
   auto found = RecoveredWork::find(root);
   ASSERT_NE(found, nullptr);
   found->remove();

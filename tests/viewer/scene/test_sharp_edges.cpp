@@ -63,7 +63,8 @@ TEST(SharpEdges, SplitsLikeVtk)
   {
     std::swap(soup.triangles(t, 0), soup.triangles(t, 1));
   }
-  TriangleMesh fins = test::torus(24, 12, 1.0, 0.4); // many edges will have three triangles
+  // The triangles added below give many edges three triangles.
+  TriangleMesh fins = test::torus(24, 12, 1.0, 0.4);
   const Index count = fins.triangles.rows();
   fins.points.conservativeResize(fins.points.rows() + 1, 3);
   fins.points.row(fins.points.rows() - 1) << 0.0, 0.0, 2.0;
@@ -73,7 +74,7 @@ TEST(SharpEdges, SplitsLikeVtk)
     fins.triangles.row(count + t) << fins.triangles(5 * t, 0), fins.triangles(5 * t, 1),
       fins.points.rows() - 1;
   }
-  TriangleMesh flat = test::grid(6, 5); // gets two bad triangles and an unused vertex
+  TriangleMesh flat = test::grid(6, 5); // two bad triangles and an unused vertex are added below
   const Index flat_count = flat.triangles.rows();
   flat.points.conservativeResize(flat.points.rows() + 1, 3);
   flat.points.row(flat.points.rows() - 1).setZero();

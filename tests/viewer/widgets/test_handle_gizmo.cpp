@@ -738,7 +738,8 @@ TEST(HandleGizmo, NumbersAreExact)
   EXPECT_TRUE(rep->SetHandleRotation(0, axis, 40.0));
   EXPECT_TRUE(rep->SetHandleScale(0, s));
   EXPECT_TRUE(rep->SetHandleTranslation(0, t));
-  // The transform is x -> c + t + R S (x - c).
+  // The transform is x -> c + t + R S (x - c) with the pivot c, the translation t, the rotation R
+  // and the scale S.
   const Vec3 c(1, 2, 3);
   const Eigen::Matrix3d rs =
     Eigen::AngleAxisd(40.0 * EIGEN_PI / 180.0, Vec3::UnitZ()).toRotationMatrix() *

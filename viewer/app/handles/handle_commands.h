@@ -53,8 +53,9 @@ public:
   void set_locked(bool locked);
   void remove();
   /// Mirror the selected handles at a plane through the center of the shape's bounding box. `axis`
-  /// (0 to 2) is the normal of the plane. The center's coordinate along the axis is treated as 0 if
-  /// its absolute value is at most 2 % of the box's extent.
+  /// (0 to 2) is the normal of the plane. If the plane's distance from the origin is at most 2 %
+  /// of the box's extent, the plane goes through the origin instead: most symmetric shapes are
+  /// modeled about the origin.
   void mirror(int axis);
   void snap();
   /// Set the parent of the selected handles; -1: no parent.

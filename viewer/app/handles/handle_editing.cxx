@@ -108,8 +108,9 @@ HandleEditing::HandleEditing(Document* document, view::Viewport* viewport,
         this->commands_->menu()->popup(list->viewport()->mapToGlobal(position));
       }
     });
-  // Leave the edit mode, so that poses that are typed or played are visible. Also stop a drag that
-  // was started by a key: if the user canceled the drag later, the old pose would be restored.
+  // A pose was typed, or key frames are played: leave the edit mode, which shows the shape at rest.
+  // Also stop a drag that was started by a key, because canceling it later would restore the old
+  // pose.
   QObject::connect(posing, &posing::PoseController::pose_changed, this,
     [this]
     {

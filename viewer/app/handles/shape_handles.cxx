@@ -19,8 +19,8 @@ using namespace bindpose;
 
 namespace
 {
-/// Number of triangles from which auto_rig() computes the skeleton. The computation then takes half
-/// as long as with the default number, but the skeleton may miss fingers.
+/// auto_rig() remeshes the surface to about this number of triangles before it computes the
+/// skeleton. This takes half as long as with the default number, but the skeleton may miss fingers.
 constexpr Index auto_rig_triangles = 5000;
 } // namespace
 

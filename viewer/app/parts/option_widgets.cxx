@@ -50,7 +50,7 @@ QButtonGroup* orientation_segments(QBoxLayout* column, QWidget* parent, const ch
       translated(QT_TRANSLATE_NOOP("Panel", "Perpendicular to the z axis")),
       translated(
         QT_TRANSLATE_NOOP("Panel", "Any orientation; drag the arrow of the plane to rotate it")) });
-  // Style: no right border, as the second of four buttons.
+  // The style sheet draws no right border on the second of four buttons.
   group->button(1)->setProperty("place", "second");
   return group;
 }

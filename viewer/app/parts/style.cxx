@@ -15,8 +15,8 @@
 #include <string_view>
 #include <vector>
 
-/// Link the resources, which the linker omits from a static library. The macro cannot be used in a
-/// namespace.
+/// Register the Qt resources explicitly, because the linker omits their initializer when it links a
+/// static library. The macro cannot be used in a namespace.
 static void init_resources()
 {
   Q_INIT_RESOURCE(app);

@@ -24,7 +24,7 @@ using namespace bindpose;
 namespace
 {
 constexpr int strip_margin = 14;
-// distance in pixels from the center of a key mark within which the mouse grabs the key
+// the mouse grabs a key if it is at most this far from the center of the key's mark, in pixels
 constexpr int grab_distance = 6;
 
 QString seconds_text(double seconds)

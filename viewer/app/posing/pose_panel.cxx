@@ -221,7 +221,7 @@ void PosePanel::add_options(QVBoxLayout* column)
   const auto row = [this](const char* key)
   {
     parts::ValueRow* result = parts::option_row(key, this);
-    result->slider()->setMinimumWidth(50); // the slider is in a row with its name
+    result->slider()->setMinimumWidth(50); // narrow, because the row also contains a name
     return result;
   };
   const auto check = [this](const char* key, const QString& text)
@@ -313,7 +313,7 @@ void PosePanel::add_comparison(QVBoxLayout* column)
   this->display_row_ = new QWidget(this);
   auto* display_layout = new QVBoxLayout(this->display_row_);
   display_layout->setContentsMargins(0, 0, 0, 0);
-  // The default is Distance, which shows the size of the differences.
+  // The default style is Distance, because it shows the size of the differences.
   this->ghost_group_ = parts::option_segments(display_layout, this->display_row_, "pose.ghost",
     { tr("Draw the second shape in see-through blue where both shapes differ"),
       tr("Draw each shape in one half of the picture, from the same view"),

@@ -221,7 +221,7 @@ void PoseController::connect_pose_manager()
 void PoseController::options_changed()
 {
   this->deformation_->set_options(this->panels_.pose->options());
-  this->deformation_->bind(); // starts a bind again that the user has canceled
+  this->deformation_->bind(); // restarts a bind that the user has canceled
   this->show_comparison();
   this->motion_->options_changed();
   this->update_automatic_modes();

@@ -128,8 +128,8 @@ public:
 Q_SIGNALS:
   /// Emitted to request this pose of the handles.
   void pose_changed(const bindpose::Pose& pose);
-  /// Emitted to request an undo step, named `step`, for all changes since the first pose_changed().
-  /// Consecutive steps with the same `merge` text become one step, until edit_ended().
+  /// Emitted to request one undo step, named `step`, for all poses since the previous step.
+  /// Consecutive steps with the same `merge` text become one step, until edit_ended() is emitted.
   void pose_step_requested(const QString& step, const QString& merge = {});
   void edit_ended();
   void stored_poses_changed(const QString& step);

@@ -16,9 +16,9 @@ namespace app::posing
 class KeyStrip;
 class PoseListWidget;
 
-/// Manages the shelf, which contains all stored poses: named poses and key frames. It changes the
-/// shelf when the list of poses or the strip of key frames requests a change, and it plays the key
-/// frames. This class does not set the pose of the handles; it requests a pose by signals.
+/// Manages the stored poses: named poses and key frames. It changes them when the list of poses or
+/// the strip of key frames requests a change, and it plays the key frames. This class does not set
+/// the pose of the handles; it requests a pose by signals.
 class StoredPoseManager : public QObject
 {
   Q_OBJECT
@@ -31,7 +31,8 @@ public:
   /// Set the handles of the poses; null: no handles.
   void set_handles(const std::shared_ptr<const bindpose::Handles>& handles);
   const bindpose::StoredPoses& stored_poses() const { return this->stored_poses_; }
-  /// Set the shelf, from a session or by undo, without emitting stored_poses_changed().
+  /// Replace the stored poses by those of a session or of an undo step, without emitting
+  /// stored_poses_changed().
   void set_stored_poses(const bindpose::StoredPoses& stored_poses);
   bool is_playing() const { return this->play_timer_.isActive(); }
   void play(bool play);

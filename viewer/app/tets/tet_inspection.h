@@ -19,8 +19,8 @@ namespace app::tets
 
 class TetPanel;
 
-/// TetInspection of a surface's tets and defects, which are computed in the background. While the
-/// panel is visible, this class shows the tets and defects as the panel requests.
+/// Computes a surface's tets and defects in the background. While the panel is visible, this class
+/// shows the tets and defects as the panel requests.
 class TetInspection : public QObject
 {
   Q_OBJECT

@@ -1,6 +1,7 @@
-// Reads tours, the scripted demonstrations of the window. A step is a JSON object with one verb and
-// further fields that the verb allows. The value of the verb's key is its argument. A table lists
-// verbs and fields; all other words are errors, so that a misspelled word is not ignored.
+// Reads tours, the scripted demonstrations of the window. A step is a JSON object. The key of one
+// member is the verb, the value of this member is the verb's argument, and the other members are
+// fields that the verb allows. A table lists verbs and fields; all other words are errors, so that
+// a misspelled word is not ignored.
 #include "app/tour/tour.h"
 
 #include "pictures/window_picture.h"

@@ -22,7 +22,7 @@ class Application
 public:
   Application()
   {
-    QApplication::setApplicationName("bindpose"); // part of the path of recovered work
+    QApplication::setApplicationName("bindpose"); // part of the recovery folder's path
     QApplication::setApplicationDisplayName("Bindpose");
     parts::apply_style(this->application_);
   }

@@ -131,7 +131,7 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
   this->window_->SetNumberOfLayers(2);
   this->legend_->SetLayer(1);
   this->legend_->InteractiveOff();
-  this->legend_->PreserveDepthBufferOn(); // VolumeView reads the depths of the layer below
+  this->legend_->PreserveDepthBufferOn(); // because VolumeView reads the depths of the layer below
   this->window_->AddRenderer(this->legend_);
   this->handles_->SetInteractor(this->interactor());
   this->handles_->CreateDefaultRepresentation();

@@ -222,7 +222,7 @@ void WeightPanel::set_columns(const QStringList& names)
 void WeightPanel::set_state(const State& state)
 {
   this->state_ = state;
-  // Data that no longer exists cannot be shown.
+  // If the surface no longer has the displayed data, show the weights.
   if ((this->quantity() == row_sums && !state.has_raw_weights) ||
     (this->quantity() == difference && !state.compared))
   {

@@ -327,7 +327,7 @@ void MainWindow::connect_panel()
     {
       if (this->binding_->is_running())
       {
-        this->error_bar_->hide(); // the sentence is about the state before the bind
+        this->error_bar_->hide(); // the error is older than the new bind
       }
       this->update_panel();
       this->update_pose();
@@ -684,8 +684,7 @@ bool MainWindow::report_error(const QString& name, const Status& status)
 
 bool MainWindow::open(const QString& path, const OpenedFile* read)
 {
-  // If the user has changed nothing since opening a file, the work is still unchanged after opening
-  // another file.
+  // If the work has no unsaved changes, opening another file must not count as an unsaved change.
   const bool unchanged = !this->document_->is_changed(true) && this->sessions_->path().isEmpty();
   const bool done = this->open_file(path, read);
   if (done)

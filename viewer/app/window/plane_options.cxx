@@ -14,7 +14,8 @@ void link_plane(
 {
   const QString position_key = name + ".place";
   const QString normal_key = name + ".normal";
-  // During a drag, store the values from before the drag, because a session may be saved then.
+  // During a drag, the getters return the values from before the drag, because a session that is
+  // saved meanwhile must not contain intermediate values.
   links->link_option(
     position_key, [plane] { return plane->relative_position_before_drag(); },
     [plane](const QVariant& value) { plane->set_relative_position(value.toDouble()); });

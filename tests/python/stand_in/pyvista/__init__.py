@@ -1,5 +1,5 @@
-"""A replacement of PyVista for tests, because Debian 12 has no package of PyVista: its dataset classes, and its registry of
-accessors, which finds entry points as PyVista 0.48 does.
+"""Replacement of PyVista for tests, because Debian 12 has no package of PyVista. It contains the dataset classes, and
+the registry of accessors, which finds entry points as PyVista 0.48 does.
 """
 
 import importlib
@@ -46,7 +46,7 @@ def register_dataset_accessor(name, target):
 
 
 def read_meshio(path):
-    """Replace meshio, which reads prisms."""
+    """Replace pyvista.read_meshio(). Like meshio, it can read prisms, which Bindpose cannot."""
     with open(path, encoding="utf-8") as file:
         if "Prisms" not in file.read():
             raise ImportError("No module named 'meshio'")
@@ -54,6 +54,6 @@ def read_meshio(path):
 
 
 def handler(group, extension):
-    """Return the function that an entry point names, as pyvista.read and save find it."""
+    """Return the function of an entry point. The functions read and save of PyVista find it in the same way."""
     point = next(point for point in importlib.metadata.entry_points(group=group) if point.name == extension)
     return point.load()

@@ -1,4 +1,6 @@
-"""How a reader asks PyVista to download a remote file."""
+"""Replacement of PyVista's reader registry. A reader raises LocalFileRequiredError to make PyVista download a remote
+file.
+"""
 
 
 class LocalFileRequiredError(Exception):

@@ -23,6 +23,14 @@ def default_text(option, filter_name):
     return default if isinstance(default, str) else plain(default)
 
 
+def array_list(option):
+    """Return the XML of a list of the arrays of an input. The input has a domain with this name in the template."""
+    if "input" not in option.fields:
+        return []
+    return [f'<ArrayListDomain name="arrays" input_domain_name="{option.type}s">', "  <RequiredProperties>",
+            f'    <Property name="{option.fields["input"]}" function="Input"/>', "  </RequiredProperties>", "</ArrayListDomain>"]
+
+
 def domain(option, filter_name):
     if option.type == "flag":
         return ['<BooleanDomain name="bool"/>']
@@ -34,7 +42,7 @@ def domain(option, filter_name):
         return ['<StringListDomain name="list">', *(f'  <String value="{word}"/>' for word in option.words),
                 "</StringListDomain>"]
     if option.type.endswith("_array"):
-        return []
+        return array_list(option)
     fields = option.fields
     low = fields.get("minimums", {}).get(filter_name, fields.get("minimum", fields.get("above")))
     high = fields.get("maximum", fields.get("below"))
@@ -45,15 +53,18 @@ def domain(option, filter_name):
 
 
 def hints(option):
-    """Return the XML that shows an option only for the methods that use it. No XML is needed if the whole set belongs
-    to one method."""
+    """Return the XML of an option's hints.
+
+    An option is shown only for the methods that use it; no hint is needed if the whole set belongs to one method. The list
+    of arrays has a hint because ParaView would otherwise select the first array of the input.
+    """
     words = option.fields.get("methods", [])
     method = next((other for other in option.owner.options if other.name == "method"), None)
-    if not words or not method:
-        return []
-    values = " ".join(str(method.choices.get(word, word)) for word in words)
-    return ["<Hints>", f'  <PropertyWidgetDecorator type="GenericDecorator" mode="visibility" property="Method" values="{values}"/>',
-            "</Hints>"]
+    lines = ["<NoDefault/>"] if "input" in option.fields else []
+    if words and method:
+        values = " ".join(str(method.choices.get(word, word)) for word in words)
+        lines.append(f'<PropertyWidgetDecorator type="GenericDecorator" mode="visibility" property="Method" values="{values}"/>')
+    return ["<Hints>", *("  " + line for line in lines), "</Hints>"] if lines else []
 
 
 def sentence(option):

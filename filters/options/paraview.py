@@ -1,6 +1,8 @@
 """Write the properties of ParaView's proxies: <Options set="NAME"/> in a template becomes the properties of a set."""
 
+import copy
 import re
+import xml.etree.ElementTree
 from xml.sax.saxutils import escape, quoteattr
 
 from descriptions import MENTION, plain, vtk_name
@@ -90,3 +92,35 @@ def fill(template, sets):
         return "".join(f"{found[1]}{line}\n" for option in group.of_layer("paraview")
                        for line in property_lines(option, filter_name))
     return MARK.sub(properties, template)
+
+
+def properties_of(proxy):
+    """Return the properties and output ports of a proxy by name. Hints and documentation are not inherited."""
+    return {element.get("name"): element for element in proxy if element.tag.endswith("Property") or element.tag == "OutputPort"}
+
+
+def inherit(text, base_texts):
+    """Return proxies with the properties of their base proxies in `base_texts`.
+
+    ParaView would do this, too, but its help has pages only of properties that a proxy has in the XML.
+    """
+    bases = {proxy.get("name"): proxy for base in base_texts for proxy in xml.etree.ElementTree.fromstring(base).iter("SourceProxy")}
+    root = xml.etree.ElementTree.fromstring(text)
+    for proxy in root.iter("SourceProxy"):
+        base = bases.get(proxy.get("base_proxyname"))
+        inherited = []
+        while base is not None:
+            own = properties_of(proxy)
+            names = {element.get("name") for element in inherited}
+            inherited = [copy.deepcopy(element) for name, element in properties_of(base).items()
+                         if name not in own and name not in names] + inherited
+            for name in ("base_proxygroup", "base_proxyname"):
+                proxy.attrib.pop(name, None)
+            base = bases.get(base.get("base_proxyname"))
+        for element in proxy:
+            element.attrib.pop("override", None)
+        first = next((index for index, element in enumerate(proxy) if element.tag != "Documentation"), len(proxy))
+        for offset, element in enumerate(inherited):
+            proxy.insert(first + offset, element)
+    xml.etree.ElementTree.indent(root)
+    return xml.etree.ElementTree.tostring(root, encoding="unicode") + "\n"

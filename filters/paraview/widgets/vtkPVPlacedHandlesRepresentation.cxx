@@ -1,18 +1,13 @@
-// The base class edits a handle dataset in place. This class reads the dataset from the text by
-// vtkPlacedHandles, and writes the text when the modification time of the dataset has changed.
+// The base class edits a handle dataset in place. This class reads the dataset from the text, and
+// writes the text when the modification time of the dataset has changed.
 #include "vtkPVPlacedHandlesRepresentation.h"
-
-#include "vtkPlacedHandles.h"
 
 #include "conversion.h"
 #include "handle_edit_cells.h"
 #include "handle_tgf.h"
-#include "io/tgf.h"
 #include "outer_surface.h"
-#include "report_field_data.h"
 
-#include "vtkCallbackCommand.h"
-#include "vtkCommand.h"
+#include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPolyData.h"
 
@@ -138,31 +133,14 @@ void vtkPVPlacedHandlesRepresentation::SetHandlesText(const char* text)
 /// nothing if the text cannot be read.
 bool vtkPVPlacedHandlesRepresentation::ReadText()
 {
-  vtkNew<vtkPlacedHandles> source;
-  // Silence the source, because TextMessage repeats its message.
-  vtkNew<vtkCallbackCommand> silent;
-  source->AddObserver(vtkCommand::ErrorEvent, silent);
-  source->AddObserver(vtkCommand::WarningEvent, silent);
-  source->SetHandlesText(this->HandlesText.c_str());
-  source->Update();
-  vtkPolyData* handles = source->GetOutput();
-  const Status status = bindpose::upstream_failure(handles);
+  vtkNew<vtkPolyData> handles;
+  const Status status = bindpose::from_tgf(this->HandlesText, handles);
   this->TextMessage = status.message;
-  // An empty text is the start of placing. It is no error here, whatever the source reports.
-  const bool is_blank = this->HandlesText.find_first_not_of(" \t\r\n") == std::string::npos;
-  if (is_blank)
-  {
-    this->TextMessage.clear();
-    this->PlacedHandles->Initialize();
-  }
-  else if (status.ok())
-  {
-    this->PlacedHandles->ShallowCopy(handles);
-  }
-  else
+  if (!status.ok())
   {
     return false;
   }
+  this->PlacedHandles->ShallowCopy(handles);
   this->PlacedHandles->Modified();
   this->FormattedTime = this->PlacedHandles->GetMTime();
   return true;
@@ -173,17 +151,11 @@ const char* vtkPVPlacedHandlesRepresentation::GetHandlesText()
   // A drag edits the dataset before it is complete, so its text is up to date during the drag, too.
   if (this->PlacedHandles->GetMTime() != this->FormattedTime)
   {
-    Handles handles;
-    std::vector<Index> cells;
-    bindpose::Tgf graph;
-    Status status = bindpose::to_editable(this->PlacedHandles, handles, cells);
+    std::string text;
+    const Status status = bindpose::to_tgf(this->PlacedHandles, text);
     if (status.ok())
     {
-      status = bindpose::to_tgf(handles, graph);
-    }
-    if (status.ok())
-    {
-      this->HandlesText = handles.empty() ? std::string() : bindpose::format_tgf(graph);
+      this->HandlesText = text;
     }
     this->TextMessage = status.message;
     this->FormattedTime = this->PlacedHandles->GetMTime();

@@ -5,6 +5,8 @@ import xml.etree.ElementTree
 
 PLUGIN = pathlib.Path(__file__).resolve().parents[2] / "filters" / "paraview" / "plugin"
 GROUPS = ("sources", "filters", "writers")
+# Limit of the time before drawing for one motion of a drag on about 86,000 triangles, in milliseconds.
+DRAG_LIMIT = 40
 
 
 def proxies():

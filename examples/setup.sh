@@ -68,6 +68,10 @@ libx11-dev:needed_by_ParaView's_CMake_files
 libxml2-dev:needed_by_ParaView's_CMake_files
 zlib1g-dev:needed_by_ParaView's_CMake_files
 "
+paraview_help_packages="
+qttools5-dev-tools:the_help_of_the_plugin
+qtxmlpatterns5-dev-tools:the_help_of_the_plugin
+"
 test_packages="
 libgtest-dev:C++_tests
 libgmock-dev:C++_tests

@@ -1,15 +1,13 @@
-// Reads handles from files. This file converts .tgf graphs: nodes without a bone become the first
-// handles, and bones the next ones. The parents of bones follow from shared nodes.
-// vtkMeshFileReader reads .vtp files; this file adds their missing arrays. gltf_data.h converts the
-// joints of a glTF file.
+// Reads handles from files. handle_tgf.h converts .tgf graphs. vtkMeshFileReader reads .vtp files;
+// this file adds their missing arrays. gltf_data.h converts the joints of a glTF file.
 #include "vtkHandleFileReader.h"
 
 #include "base/execution.h"
 #include "conversion.h"
 #include "file_kind.h"
 #include "gltf_data.h"
+#include "handle_tgf.h"
 #include "io/tgf.h"
-#include "pseudo_edge_cells.h"
 #include "report_field_data.h"
 #include "vtkMeshFileReader.h"
 
@@ -27,127 +25,29 @@ vtkStandardNewMacro(vtkHandleFileReader);
 namespace
 {
 using bindpose::Handle;
-using bindpose::HandleKind;
 using bindpose::Handles;
 using bindpose::Index;
 using bindpose::Status;
 
-/// Convert a graph to handles.
-/// @param pseudo_edges  the pseudo-edges between nodes that are points
-Handles to_handles(const bindpose::Tgf& graph, bindpose::PseudoEdges& pseudo_edges)
+/// Insert the path at the beginning of the message and of the warnings.
+Status with_path(const std::string& path, Status status)
 {
-  std::vector<char> in_bone(graph.nodes.size(), 0);
-  std::vector<char> in_cage(graph.nodes.size(), 0);
-  for (const auto& edge : graph.edges)
+  if (!status.ok())
   {
-    if (edge.bone)
-    {
-      in_bone[edge.from] = in_bone[edge.to] = 1;
-    }
-    else if (edge.cage)
-    {
-      in_cage[edge.from] = in_cage[edge.to] = 1;
-    }
+    status.message = path + ": " + status.message;
   }
-  std::vector<Index> handle_of_node(graph.nodes.size(), -1);
-  Handles handles;
-  for (std::size_t i = 0; i < graph.nodes.size(); ++i)
+  for (std::string& warning : status.warnings)
   {
-    if (in_bone[i] && !in_cage[i])
-    {
-      continue;
-    }
-    Handle point;
-    point.head = point.tail = graph.nodes[i].position;
-    point.kind = in_cage[i] ? HandleKind::cage_vertex : HandleKind::point;
-    handle_of_node[i] = static_cast<Index>(handles.size());
-    point.name = graph.nodes[i].text;
-    if (point.name.empty())
-    {
-      point.name = "p" + std::to_string(handles.size() + 1);
-    }
-    handles.push_back(point);
+    warning = path + ": " + warning;
   }
-  for (const auto& edge : graph.edges)
-  {
-    if (!edge.bone && edge.cage)
-    {
-      const Index from = handle_of_node[edge.from];
-      handles[from].cage.push_back({ from, handle_of_node[edge.to], -1 });
-    }
-  }
-  for (const auto& edge : graph.edges)
-  {
-    const bindpose::PseudoEdge ends{ handle_of_node[edge.from], handle_of_node[edge.to] };
-    if (edge.pseudo && !edge.bone && check_pseudo_edges(handles, { ends }).ok())
-    {
-      pseudo_edges.push_back(ends);
-    }
-  }
-  const std::size_t points = handles.size();
-  std::vector<const bindpose::Tgf::Edge*> bones;
-  for (const auto& edge : graph.edges)
-  {
-    if (edge.bone)
-    {
-      bones.push_back(&edge);
-    }
-  }
-  for (const auto* edge : bones)
-  {
-    Handle bone;
-    bone.kind = HandleKind::bone;
-    bone.name = "b" + std::to_string(handles.size() - points + 1);
-    bone.head = graph.nodes[edge->from].position;
-    bone.tail = graph.nodes[edge->to].position;
-    for (std::size_t other = 0; other < bones.size() && bone.parent < 0; ++other)
-    {
-      if (bones[other] != edge && bones[other]->to == edge->from)
-      {
-        bone.parent = static_cast<Index>(points + other);
-      }
-    }
-    handles.push_back(bone);
-  }
-  return handles;
+  return status;
 }
 
 Status read_tgf(const std::string& path, vtkPolyData* output)
 {
   bindpose::Tgf graph;
-  Status status = bindpose::read_tgf(path, graph);
-  if (!status.ok())
-  {
-    return status;
-  }
-  bindpose::PseudoEdges pseudo_edges;
-  const Handles handles = to_handles(graph, pseudo_edges);
-  status = check_handles(handles);
-  if (!status.ok())
-  {
-    status.message = path + ": " + status.message;
-    return status;
-  }
-  output->ShallowCopy(bindpose::to_polydata(handles));
-  if (!pseudo_edges.empty())
-  {
-    Handles list;
-    std::vector<Index> cells;
-    bindpose::to_handles(output, list, &cells);
-    bindpose::add_pseudo_edges(output, cells, pseudo_edges);
-  }
-  Index unused_edges = -static_cast<Index>(pseudo_edges.size());
-  for (const auto& edge : graph.edges)
-  {
-    unused_edges += !edge.bone && !edge.cage;
-  }
-  if (unused_edges > 0)
-  {
-    status.warnings.push_back(path + ": " + std::to_string(unused_edges) +
-      " edges are ignored because they are neither bones nor cage edges nor pseudo-edges between "
-      "points");
-  }
-  return status;
+  const Status status = bindpose::read_tgf(path, graph);
+  return status.ok() ? with_path(path, bindpose::from_tgf(graph, output)) : status;
 }
 
 Status read_vtp(const std::string& path, vtkPolyData* output)
@@ -174,8 +74,7 @@ Status read_vtp(const std::string& path, vtkPolyData* output)
   }
   if (!status.ok())
   {
-    status.message = path + ": " + status.message;
-    return status;
+    return with_path(path, status);
   }
   output->ShallowCopy(data);
   if (static_cast<Index>(handles.size()) == data->GetNumberOfCells())

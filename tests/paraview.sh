@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Builds the ParaView plugin and uses it in ParaView, on one and on two processes. See --help.
+# Builds the ParaView plugin and uses it in ParaView, in scripts and in the window. See --help.
 set -euo pipefail
 program=paraview.sh
 
@@ -10,10 +10,18 @@ usage: tests/paraview.sh [options]
 
 Downloads Debian's ParaView and unpacks it into build/paraview-packages (670 MB). ParaView is not
 installed, because its Python package would replace VTK's. Builds the plugin against it with
-filters/paraview/build.sh, and runs tests/paraview/in_paraview.py with pvbatch on 1 and on 2 MPI
-ranks. Then tests/paraview/check.py compares the results: winding numbers must have the same bits in
-both runs and in the output of the program bindpose, weights and poses of distributed data the same
-bits in both runs. tests/paraview/client_server.py does the same work with pvserver.
+filters/paraview/build.sh. Then it runs, from tests/paraview,
+
+  in_paraview.py    with pvbatch on 1 and on 2 MPI ranks. check.py compares the results: winding
+                    numbers must have the same bits in both runs and in the output of the program
+                    bindpose; weights and poses of distributed data the same bits in both runs
+  client_server.py  the same work with pvserver
+  proxies.py        with pvbatch: every proxy with its defaults, its icon and its page of the help
+  states.py         with pvbatch: the example states of examples/paraview
+  window.py         ParaView's window on a display of its own, with mouse and keys: poses and places
+                    handles, undo, traces, states, Bend This Surface, deleted inputs
+
+Results, logs and pictures are in build/paraview-results.
 
 options:
   --scaling        only measure how the work scales with the number of ranks, with
@@ -40,10 +48,12 @@ while [ $# -gt 0 ]; do
 done
 
 . "$(dirname "${BASH_SOURCE[0]}")/../examples/setup.sh"
-mpi_packages="
+run_packages="
+openbox:window_manager_for_tests_of_the_window
+xdotool:keyboard_and_mouse_input_for_tests_of_the_window
 openmpi-bin:runs_several_processes
 "
-install_packages "$build_packages $paraview_cmake_packages $mpi_packages"
+install_packages "$build_packages $paraview_cmake_packages $run_packages"
 [ "$scaling" = yes ] || build
 
 # ---- ParaView, unpacked ----
@@ -93,6 +103,8 @@ options=(--prefix "$paraview")
 [ "$install" = yes ] || options+=(--no-install)
 "$root/filters/paraview/build.sh" "${options[@]}"
 plugin=$(echo "$build_dir"/paraview-installed/lib/paraview-*/plugins/Bindpose/Bindpose.so)
+help=$(find "$build_dir/paraview-plugin" -name Bindpose.qch)
+[ -n "$help" ] || die "the build of the plugin has no help" 5
 
 # ---- Runs ----
 mesh=$(/usr/bin/python3 -c '
@@ -121,20 +133,29 @@ if [ "$scaling" = yes ]; then
   exit
 fi
 
-# in_paraview RANKS COMMAND…: run in_paraview.py on RANKS ranks, for ten minutes at most. Ranks that wait for each other
-# would never end.
+# in_paraview NAME COMMAND…: run a command that starts ParaView, for ten minutes at most. Ranks that wait for each other
+# would never end. The log is NAME.log.
 in_paraview()
 {
-  local ranks=$1
+  local name=$1
   shift
-  mkdir -p "$results/$ranks"
-  with_paraview timeout 600 "$@" "$root/tests/paraview/in_paraview.py" "$plugin" "$mesh" "$results/$ranks" \
-    >"$results/$ranks.log" 2>&1 || { tail -20 "$results/$ranks.log" >&2; die "ParaView on $ranks rank(s) failed; the log is $results/$ranks.log" 5; }
+  mkdir -p "$results/$name"
+  with_paraview timeout 600 "$@" >"$results/$name.log" 2>&1 ||
+    { tail -20 "$results/$name.log" >&2; die "ParaView failed in $name; the log is $results/$name.log" 5; }
 }
 
-in_paraview 1 pvbatch
-in_paraview 2 mpirun --bind-to none -n 2 pvbatch
-PYTHONPATH="$build_dir/lib/python3/dist-packages" /usr/bin/python3 "$root/tests/paraview/check.py" \
+tests="$root/tests/paraview"
+in_paraview 1 pvbatch "$tests/in_paraview.py" "$plugin" "$mesh" "$results/1"
+in_paraview 2 mpirun --bind-to none -n 2 pvbatch "$tests/in_paraview.py" "$plugin" "$mesh" "$results/2"
+PYTHONPATH="$build_dir/lib/python3/dist-packages" /usr/bin/python3 "$tests/check.py" \
   "$build_dir" "$mesh" "$results"
 with_paraview /usr/bin/python3 "$root/tests/paraview/client_server.py" "$plugin" "$mesh" "$results" ||
   die "the client/server session failed; the logs are $results/client-*.log and $results/server-*.log" 5
+
+in_paraview proxies pvbatch "$tests/proxies.py" "$plugin" "$help" "$results/proxies"
+in_paraview states xvfb-run -a -s "-screen 0 1280x1024x24" pvbatch "$tests/states.py" "$plugin" "$results/states"
+for name in proxies states; do
+  grep -E 'proxies used|a motion of|example states' "$results/$name.log"
+done
+/usr/bin/python3 "$tests/window.py" "$paraview" "$plugin" "$results/window" ||
+  die "the test of ParaView's window failed; logs and pictures are in $results/window" 5

@@ -18,6 +18,7 @@ SET_FIELDS = {"filter", "also", "methods_of", "methods", "options"}
 OPTION_FIELDS = {"name", "type", "default", "help", "choices", "words", "labels", "minimum", "above", "maximum", "below", "unit",
                  "slider", "length", "advanced", "layers", "methods", "layer_defaults", "why", "defaults", "minimums", "columns",
                  "integers"}
+STAGE_OPTION_FIELDS = OPTION_FIELDS | {"input", "output"}
 VERB_OPTION_FIELDS = OPTION_FIELDS | {"short", "value", "required", "repeated", "optional", "unless", "set"}
 UNITS = {"diagonals": "bounding-box diagonals"}
 
@@ -180,6 +181,19 @@ def check_option(option, allowed_fields, types):
             check_default(option, default)
 
 
+def check_array(option):
+    """Check that an array is either read from an input of the filter or an output. No other type has these fields."""
+    where, fields = option.where, option.fields
+    if not option.type.endswith("_array"):
+        require("input" not in fields and "output" not in fields, where, "input and output are only for the types point_array and cell_array")
+        return
+    require(("input" in fields) != ("output" in fields), where, "an array needs either input or output")
+    source = fields.get("input", "Input")
+    require(isinstance(source, str) and re.fullmatch(r"[A-Z][A-Za-z]*", source), where,
+            f"input {source!r} must be the name of a ParaView property, such as Input or Handles")
+    require(fields.get("output", True) is True, where, "output must be true")
+
+
 def check_mentions(option, others, owner):
     """Check that the help of an option mentions only options of the same set or verb."""
     names = {other.name for other in others}
@@ -227,7 +241,8 @@ def read_sets(source=SOURCE):
             require(len(set(names)) == len(names), where, f"set '{name}' describes an option twice")
             for option in sets[name].options:
                 require(option.default is not None, option.where, "a default is missing")
-                check_option(option, OPTION_FIELDS, STAGE_TYPES)
+                check_option(option, STAGE_OPTION_FIELDS, STAGE_TYPES)
+                check_array(option)
     check_references(sets)
     return sets
 

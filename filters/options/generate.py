@@ -5,7 +5,8 @@ usage: generate.py check                              read and check all descrip
        generate.py option-table OUT.cxx               the table of the command line
        generate.py set-options OUT.h                  functions that pass typed options to filters
        generate.py window OUT.h                       words, labels and ranges of options in the window
-       generate.py paraview TEMPLATE.xml OUT.xml      proxies with their properties
+       generate.py paraview TEMPLATE.xml BASES.xml… OUT.xml
+                                                      proxies with their properties; BASES have their base proxies
        generate.py python-table OUT.py                the table of the Python package
        generate.py python-stub MODULE.py OUT.pyi      the stub of a module
        generate.py python-package-stub __init__.py vtkCLASS.h… OUT.pyi
@@ -37,7 +38,8 @@ def generated(kind, inputs):
     if kind == "window":
         return window.header(sets)
     if kind == "paraview":
-        return paraview.fill(read(inputs[0]), sets)
+        template, *bases = (paraview.fill(read(path), sets) for path in inputs)
+        return paraview.inherit(template, bases)
     verbs, common = read_verbs(sets)
     if kind == "python-table":
         return python_package.table(sets, verbs)
@@ -57,7 +59,7 @@ def main():
               "page": 1}
     arguments = sys.argv[1:]
     kind = arguments[0] if arguments else ""
-    if kind == "python-package-stub":
+    if kind in ("python-package-stub", "paraview"):
         inputs[kind] = max(1, len(arguments) - 2)
     if kind not in inputs or len(arguments) != (1 if kind == "check" else 2 + inputs[kind]):
         sys.exit(__doc__)

@@ -1,6 +1,8 @@
 """Write the properties of ParaView's proxies: <Options set="NAME"/> in a template becomes the properties of a set."""
 
+import copy
 import re
+import xml.etree.ElementTree
 from xml.sax.saxutils import escape, quoteattr
 
 from descriptions import MENTION, plain, vtk_name
@@ -23,6 +25,14 @@ def default_text(option, filter_name):
     return default if isinstance(default, str) else plain(default)
 
 
+def array_list(option):
+    """Return the XML of a list of the arrays of an input. The input has a domain with this name in the template."""
+    if "input" not in option.fields:
+        return []
+    return [f'<ArrayListDomain name="arrays" input_domain_name="{option.type}s">', "  <RequiredProperties>",
+            f'    <Property name="{option.fields["input"]}" function="Input"/>', "  </RequiredProperties>", "</ArrayListDomain>"]
+
+
 def domain(option, filter_name):
     if option.type == "flag":
         return ['<BooleanDomain name="bool"/>']
@@ -34,7 +44,7 @@ def domain(option, filter_name):
         return ['<StringListDomain name="list">', *(f'  <String value="{word}"/>' for word in option.words),
                 "</StringListDomain>"]
     if option.type.endswith("_array"):
-        return []
+        return array_list(option)
     fields = option.fields
     low = fields.get("minimums", {}).get(filter_name, fields.get("minimum", fields.get("above")))
     high = fields.get("maximum", fields.get("below"))
@@ -45,15 +55,18 @@ def domain(option, filter_name):
 
 
 def hints(option):
-    """Return the XML that shows an option only for the methods that use it. No XML is needed if the whole set belongs
-    to one method."""
+    """Return the XML of an option's hints.
+
+    An option is shown only for the methods that use it; no hint is needed if the whole set belongs to one method. The list
+    of arrays has a hint because ParaView would otherwise select the first array of the input.
+    """
     words = option.fields.get("methods", [])
     method = next((other for other in option.owner.options if other.name == "method"), None)
-    if not words or not method:
-        return []
-    values = " ".join(str(method.choices.get(word, word)) for word in words)
-    return ["<Hints>", f'  <PropertyWidgetDecorator type="GenericDecorator" mode="visibility" property="Method" values="{values}"/>',
-            "</Hints>"]
+    lines = ["<NoDefault/>"] if "input" in option.fields else []
+    if words and method:
+        values = " ".join(str(method.choices.get(word, word)) for word in words)
+        lines.append(f'<PropertyWidgetDecorator type="GenericDecorator" mode="visibility" property="Method" values="{values}"/>')
+    return ["<Hints>", *("  " + line for line in lines), "</Hints>"] if lines else []
 
 
 def sentence(option):
@@ -79,3 +92,35 @@ def fill(template, sets):
         return "".join(f"{found[1]}{line}\n" for option in group.of_layer("paraview")
                        for line in property_lines(option, filter_name))
     return MARK.sub(properties, template)
+
+
+def properties_of(proxy):
+    """Return the properties and output ports of a proxy by name. Hints and documentation are not inherited."""
+    return {element.get("name"): element for element in proxy if element.tag.endswith("Property") or element.tag == "OutputPort"}
+
+
+def inherit(text, base_texts):
+    """Return proxies with the properties of their base proxies in `base_texts`.
+
+    ParaView would do this, too, but its help has pages only of properties that a proxy has in the XML.
+    """
+    bases = {proxy.get("name"): proxy for base in base_texts for proxy in xml.etree.ElementTree.fromstring(base).iter("SourceProxy")}
+    root = xml.etree.ElementTree.fromstring(text)
+    for proxy in root.iter("SourceProxy"):
+        base = bases.get(proxy.get("base_proxyname"))
+        inherited = []
+        while base is not None:
+            own = properties_of(proxy)
+            names = {element.get("name") for element in inherited}
+            inherited = [copy.deepcopy(element) for name, element in properties_of(base).items()
+                         if name not in own and name not in names] + inherited
+            for name in ("base_proxygroup", "base_proxyname"):
+                proxy.attrib.pop(name, None)
+            base = bases.get(base.get("base_proxyname"))
+        for element in proxy:
+            element.attrib.pop("override", None)
+        first = next((index for index, element in enumerate(proxy) if element.tag != "Documentation"), len(proxy))
+        for offset, element in enumerate(inherited):
+            proxy.insert(first + offset, element)
+    xml.etree.ElementTree.indent(root)
+    return xml.etree.ElementTree.tostring(root, encoding="unicode") + "\n"

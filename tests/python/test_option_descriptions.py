@@ -190,6 +190,29 @@ def test_a_described_option_is_everywhere(tmp_path):
     assert "| `--made-up DEGREES` | degrees, 0 to 2 | 0.25 | An option that a test made up. |" in (tmp_path / "page").read_text()
 
 
+def test_arrays_are_listed_from_the_input_of_the_template(tmp_path):
+    """Check that every list of arrays refers to an input of its proxy with the domain of that association."""
+    for template in (ROOT / "filters" / "paraview" / "plugin").glob("*.xml"):
+        done = generate(ROOT, "paraview", template, tmp_path / template.name)
+        assert done.returncode == 0, done.stderr
+    trees = [xml.etree.ElementTree.parse(path) for path in tmp_path.glob("*.xml")]
+    proxies = {proxy.get("name"): proxy for tree in trees for proxy in tree.iter() if proxy.tag in ("SourceProxy", "WriterProxy")}
+
+    def inputs(proxy):
+        own = {element.get("name"): element for element in proxy.findall("InputProperty")}
+        base = proxies.get(proxy.get("base_proxyname"))
+        return {**(inputs(base) if base is not None else {}), **own}
+
+    count = 0
+    for name, proxy in proxies.items():
+        for domain in proxy.iter("ArrayListDomain"):
+            required = inputs(proxy)[domain.find("RequiredProperties/Property").get("name")]
+            domains = [element.get("name") for element in required.findall("InputArrayDomain")]
+            assert domain.get("input_domain_name") in domains, name
+            count += 1
+    assert count > 20
+
+
 @pytest.mark.parametrize("fields, sentence", [
     ({"name": "quality"}, "set 'tetrahedralize' describes an option twice"),
     ({"type": "real"}, "unknown type 'real'"),
@@ -207,6 +230,11 @@ def test_a_described_option_is_everywhere(tmp_path):
     ({"slider": [0, 1], "type": "flag", "default": True}, "a slider belongs to the types integer, id, number"),
     ({"above": 0}, "minimum and above exclude each other"),
     ({"choices": {"a": 0}}, "choices are required for the type choice"),
+    ({"type": "point_array", "default": "Rigidity"}, "an array needs either input or output"),
+    ({"type": "cell_array", "default": "Color", "input": "Handles", "output": True}, "an array needs either input or output"),
+    ({"type": "point_array", "default": "Rigidity", "input": "input"}, "input 'input' must be the name of a ParaView property"),
+    ({"type": "point_array", "default": "Result", "output": "Input"}, "output must be true"),
+    ({"input": "Input"}, "input and output are only for the types point_array and cell_array"),
 ])
 def test_a_wrong_description_is_named(tmp_path, fields, sentence):
     add_option(copy_of_the_descriptions(tmp_path), **fields)

@@ -2,11 +2,12 @@
 """Check that the includes of the project respect its layers. Fail for an include in the wrong direction.
 
 The library core includes no VTK header. A folder of core or of the window includes only from itself and from the
-folders that CORE_ARROWS or APP_ARROWS list for it; there are no cycles. Filters include nothing from the viewer. Nothing
-outside of the tests includes a header of the tests. The ParaView plugin has no sources, and has a proxy for every filter
-that can be instantiated. A parameter ExecutionContext is the first one. No two units (a header and its source) include each
-other. Each file of the window has the namespace of its folder. No folder has more than 30 source files, except the flat list
-of VTK classes in filters.
+folders that CORE_ARROWS or APP_ARROWS list for it; there are no cycles. Filters include nothing from the viewer. The
+ParaView plugin includes the handle widget and Qt, but nothing else from the viewer. Only the plugin includes headers of
+ParaView. It has a proxy for every filter that can be instantiated. Nothing outside of the tests includes a header of the
+tests. A parameter ExecutionContext is the first one. No two units (a header and its source) include each other. Each file
+of the window has the namespace of its folder. No folder has more than 30 source files, except the flat list of VTK classes
+in filters.
 """
 
 import pathlib
@@ -62,6 +63,18 @@ APP_ARROWS = {
 }
 
 PLUGIN = "filters/paraview"
+# Beginnings of headers of the viewer, of its handle widget, of Qt, of ParaView and of the tests.
+VIEWER = ("viewer/", "scene/", "shapes/", "pictures/", "poses/", "document/", "app/", "cli/", "widgets/")
+HANDLE_WIDGET = ("vtkHandleSet",)
+QT = ("Q",)
+PARAVIEW = ("pq", "vtkPV", "vtkSM")
+TESTS = ("support/",)
+# The beginnings of headers that each folder must not include. The folder that comes first decides about a file.
+FORBIDDEN = {
+    PLUGIN: VIEWER + TESTS,
+    "filters": VIEWER + HANDLE_WIDGET + QT + PARAVIEW + TESTS,
+    "viewer": PARAVIEW + TESTS,
+}
 LARGEST_FOLDER = 30
 
 
@@ -116,6 +129,17 @@ def against_arrows(folder, prefix, arrows):
     return wrong
 
 
+def forbidden_includes():
+    """Return one sentence for each include that FORBIDDEN lists for the folder of the file."""
+    wrong, read = [], set()
+    for folder, forbidden in FORBIDDEN.items():
+        for path, includes in sources(folder):
+            wrong += [f"{path.relative_to(ROOT)} includes {include}" for include in includes
+                      if path not in read and include.startswith(forbidden)]
+            read.add(path)
+    return wrong
+
+
 def late_contexts():
     """Return one sentence for each function whose parameter ExecutionContext is not the first one."""
     return [f"{path.relative_to(ROOT)}:{text.count(chr(10), 0, found.start()) + 1} has an ExecutionContext after another parameter"
@@ -149,16 +173,7 @@ def main():
     wrong += late_contexts()
     wrong += outside_of_namespace()
     wrong += large_folders()
-    for folder, forbidden in (
-        ("filters", ("viewer/", "scene/", "shapes/", "pictures/", "poses/", "document/", "app/", "cli/", "widgets/",
-                     "vtkHandleSet", "Q", "support/")),
-        ("viewer", ("support/",)),
-    ):
-        for path, includes in sources(folder):
-            for include in includes:
-                if include.startswith(forbidden):
-                    wrong.append(f"{path.relative_to(ROOT)} includes {include}")
-    wrong += [f"{path.relative_to(ROOT)} is a source of the plugin's own" for path, _ in sources(PLUGIN)]
+    wrong += forbidden_includes()
     wrong += without_proxy()
     wrong += [f"{one} and {other} include each other" for one, other in sorted(mutual_includes())]
     for line in wrong:

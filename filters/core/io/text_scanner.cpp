@@ -279,8 +279,9 @@ Status TextScanner::read_number(const char* expected, double& value)
 
 Status TextScanner::error(const std::string& sentence) const
 {
+  const std::string source = this->path_.empty() ? "" : this->path_ + ", ";
   return Status::invalid_input(
-    this->path_ + ", line " + std::to_string(this->line_number_) + ": " + sentence);
+    source + "line " + std::to_string(this->line_number_) + ": " + sentence);
 }
 
 } // namespace bindpose

@@ -35,7 +35,7 @@ class TextScanner
 {
 public:
   /// Scan `text`. `comment` is the character that begins a comment, or 0 if there are no comments.
-  /// `path` is used in error messages only.
+  /// `path` is used in error messages only; it is empty if the text is not from a file.
   TextScanner(std::string path, std::string_view text, char comment = '#');
 
   /// Advance to the next line with a word. Return false at the end of the text.
@@ -58,7 +58,8 @@ public:
   std::size_t position() const { return this->next_; }
   /// Return the number of the current line, from 1.
   Index line() const { return this->line_number_; }
-  /// Return invalid_input with the message "PATH, line N: SENTENCE".
+  /// Return invalid_input with the message "PATH, line N: SENTENCE", or "line N: SENTENCE" if there
+  /// is no path.
   Status error(const std::string& sentence) const;
 
 private:

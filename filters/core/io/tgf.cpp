@@ -1,4 +1,4 @@
-// Reader and writer of TGF files (see tgf.h): nodes, a line with a single #, edges. Ids are
+// Parser and formatter of TGF texts (see tgf.h): nodes, a line with a single #, edges. Ids are
 // arbitrary integers; edges refer to nodes by id.
 #include "io/tgf.h"
 
@@ -91,18 +91,11 @@ Status read_edge(TextScanner& scanner, std::string_view first, const Ids& ids, T
   graph.edges.push_back(edge);
   return {};
 }
-} // namespace
 
-Status read_tgf(const std::string& path, Tgf& graph)
+Status parse_graph(TextScanner scanner, Tgf& graph)
 {
+  Status status;
   graph = Tgf();
-  std::string text;
-  Status status = read_file(path, text);
-  if (!status.ok())
-  {
-    return status;
-  }
-  TextScanner scanner(path, text, 0); // no comment character, because # separates nodes and edges
   Ids ids;
   bool in_edges = false;
   while (status.ok() && scanner.next_line())
@@ -122,7 +115,8 @@ Status read_tgf(const std::string& path, Tgf& graph)
   }
   if (status.ok() && graph.nodes.empty())
   {
-    status = scanner.error("the file has no nodes");
+    const char* const sentence = "there are no nodes";
+    status = scanner.line() > 0 ? scanner.error(sentence) : Status::invalid_input(sentence);
   }
   if (!status.ok())
   {
@@ -131,7 +125,19 @@ Status read_tgf(const std::string& path, Tgf& graph)
   return status;
 }
 
-Status write_tgf(const std::string& path, const Tgf& graph)
+/// Return a scanner without a comment character, because # separates nodes and edges.
+TextScanner tgf_scanner(const std::string& path, std::string_view text)
+{
+  return { path, text, 0 };
+}
+} // namespace
+
+Status parse_tgf(std::string_view text, Tgf& graph)
+{
+  return parse_graph(tgf_scanner({}, text), graph);
+}
+
+std::string format_tgf(const Tgf& graph)
 {
   std::string text;
   for (std::size_t i = 0; i < graph.nodes.size(); ++i)
@@ -154,7 +160,20 @@ Status write_tgf(const std::string& path, const Tgf& graph)
     text += edge.pseudo ? " 1" : " 0";
     text += edge.cage ? " 1\n" : " 0\n";
   }
-  return write_file(path, text);
+  return text;
+}
+
+Status read_tgf(const std::string& path, Tgf& graph)
+{
+  graph = Tgf();
+  std::string text;
+  const Status status = read_file(path, text);
+  return status.ok() ? parse_graph(tgf_scanner(path, text), graph) : status;
+}
+
+Status write_tgf(const std::string& path, const Tgf& graph)
+{
+  return write_file(path, format_tgf(graph));
 }
 
 } // namespace bindpose

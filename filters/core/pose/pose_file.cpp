@@ -739,6 +739,48 @@ void warn_of_inexact(const Handles& handles, const std::vector<char>& is_exact, 
 }
 } // namespace
 
+namespace
+{
+/// Return invalid_input if a pose cannot be written as JSON, which has no infinity and no NaN.
+Status check_writable(const Pose& pose, const Handles& handles)
+{
+  if (pose.size() != handles.size())
+  {
+    return Status::invalid_input("a pose has " + std::to_string(pose.size()) +
+      " handles; expected " + std::to_string(handles.size()));
+  }
+  for (std::size_t h = 0; h < handles.size(); ++h)
+  {
+    const Vec3 pivot = pose[h].transform * handles[h].head.homogeneous();
+    if (!pose[h].transform.allFinite() || !pivot.allFinite() || !std::isfinite(pose[h].stretch) ||
+      !pose[h].twist.allFinite())
+    {
+      return Status::invalid_input(
+        "the pose of handle '" + handles[h].name + "' contains a value that is not finite");
+    }
+  }
+  return {};
+}
+
+Status name_is_not_utf8()
+{
+  return Status::invalid_input(
+    "the name of a handle must be valid UTF-8 to be written to a pose file");
+}
+
+/// Report whether two poses of a handle are equal up to round-off.
+bool is_same_pose(const HandlePose& a, const HandlePose& b, const Vec3& pivot)
+{
+  constexpr double round_off = 1e-12;
+  const Eigen::Matrix3d linear = a.transform.leftCols<3>();
+  const Vec3 translation = a.transform.col(3);
+  const double length = translation.norm() + linear.norm() * pivot.norm();
+  return a.mode == b.mode && a.stretch == b.stretch && a.twist == b.twist &&
+    (linear - b.transform.leftCols<3>()).norm() <= round_off * linear.norm() &&
+    (translation - b.transform.col(3)).norm() <= round_off * length;
+}
+} // namespace
+
 Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second,
   const Handles& handles, std::string& text)
 {
@@ -748,24 +790,16 @@ Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second
   Json frames = Json::array();
   for (const Pose& pose : poses)
   {
-    bool is_exact_pose = true;
-    if (pose.size() != handles.size())
+    const Status writable = check_writable(pose, handles);
+    if (!writable.ok())
     {
-      return Status::invalid_input("a pose has " + std::to_string(pose.size()) +
-        " handles; expected " + std::to_string(handles.size()));
+      return writable;
     }
+    bool is_exact_pose = true;
     Json frame;
     frame["handles"] = Json::object();
     for (std::size_t h = 0; h < handles.size(); ++h)
     {
-      // Reject infinity and NaN, which JSON cannot represent; otherwise the text could not be read.
-      const Vec3 pivot = pose[h].transform * handles[h].head.homogeneous();
-      if (!pose[h].transform.allFinite() || !pivot.allFinite() || !std::isfinite(pose[h].stretch) ||
-        !pose[h].twist.allFinite())
-      {
-        return Status::invalid_input(
-          "the pose of handle '" + handles[h].name + "' contains a value that is not finite");
-      }
       bool exact = true;
       frame["handles"][handles[h].name] = format_handle(pose, handles, h, exact);
       is_exact[h] = is_exact[h] && exact;
@@ -796,9 +830,68 @@ Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second
   }
   catch (const nlohmann::json::type_error&)
   {
-    return Status::invalid_input(
-      "the name of a handle must be valid UTF-8 to be written to a pose file");
+    return name_is_not_utf8();
   }
+  return status;
+}
+
+Status format_pose_changes(
+  const Pose& base, const Pose& pose, const Handles& handles, std::string& text)
+{
+  text.clear();
+  for (const Pose* checked : { &base, &pose })
+  {
+    const Status writable = check_writable(*checked, handles);
+    if (!writable.ok())
+    {
+      return writable;
+    }
+  }
+  Status status;
+  std::vector<char> is_exact(handles.size(), 1);
+  std::string entries;
+  Pose followed = pose;
+  try
+  {
+    for (std::size_t h = 0; h < handles.size(); ++h)
+    {
+      // The pose that the handle has without an entry is that of the base, moved by the parent.
+      followed[h] = base[h];
+      if (handles[h].parent >= 0)
+      {
+        follow_parent(handles, base, static_cast<Index>(h), followed);
+      }
+      const bool is_followed = is_same_pose(followed[h], pose[h], handles[h].head);
+      followed[h] = pose[h];
+      if (!is_followed)
+      {
+        bool exact = true;
+        Json entry = format_handle(pose, handles, h, exact);
+        is_exact[h] = exact;
+        // format_handle() leaves out values of the rest pose, which the base may not have.
+        if (pose[h].stretch != base[h].stretch)
+        {
+          entry["stretch"] = pose[h].stretch;
+        }
+        if (pose[h].twist != base[h].twist)
+        {
+          entry["twist"] = list(pose[h].twist);
+        }
+        entries +=
+          (entries.empty() ? "\n  " : ",\n  ") + Json(handles[h].name).dump() + ": " + entry.dump();
+      }
+    }
+  }
+  catch (const nlohmann::json::type_error&)
+  {
+    return name_is_not_utf8();
+  }
+  if (!entries.empty())
+  {
+    text =
+      "{\"version\": " + std::to_string(newest_version) + ", \"handles\": {" + entries + "\n}}";
+  }
+  warn_of_inexact(handles, is_exact, 1, 1, status);
   return status;
 }
 

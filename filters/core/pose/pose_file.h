@@ -127,6 +127,12 @@ Pose apply_edits(const PoseEdits& edits, const Handles& handles, const Pose& bas
 Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second,
   const Handles& handles, std::string& text);
 
+/// Write one pose like format_pose_file(), but only the handles that differ from `base`, one handle
+/// per line. A handle is left out if apply_edits() gives it the same pose without an entry, up to a
+/// relative round-off of 1e-12. The text is empty if all handles are left out.
+Status format_pose_changes(
+  const Pose& base, const Pose& pose, const Handles& handles, std::string& text);
+
 /// Return the rotation by the smallest angle that maps the direction of `from` to the direction of
 /// `to`. The vectors must not have length zero. For opposite directions the rotation is half a turn
 /// about an axis that depends only on `from`.

@@ -492,6 +492,44 @@ TEST(PoseFile, WhatIsWrittenIsReadBack)
   }
 }
 
+TEST(PoseFile, ChangesOfABasePoseAreWritten)
+{
+  const Handles handles = point_and_chain();
+  Pose base(3);
+  base[0].transform.col(3) = Vec3(0.5, 0, 0);
+  base[1].mode = HandleMode::full;
+  std::string text = "not empty";
+  ASSERT_TRUE(format_pose_changes(base, base, handles, text).ok());
+  EXPECT_EQ(text, "");
+  // The upper bone rotates and its child follows: the child is not written.
+  Pose pose = base;
+  pose[2].transform = affine_about(Vec3::Zero(),
+    Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix(), Vec3(0.1, 0.2, 0.3));
+  follow_parent(handles, base, 1, pose);
+  ASSERT_TRUE(format_pose_changes(base, pose, handles, text).ok());
+  EXPECT_THAT(text, HasSubstr("\"upper\""));
+  EXPECT_THAT(text, testing::Not(HasSubstr("\"fore\"")));
+  EXPECT_THAT(text, testing::Not(HasSubstr("\"p\"")));
+  const Pose back = read(text, base);
+  for (std::size_t h = 0; h < 3; ++h)
+  {
+    EXPECT_EQ(back[h].mode, pose[h].mode);
+    EXPECT_LT((back[h].transform - pose[h].transform).cwiseAbs().maxCoeff(), 1e-13);
+  }
+  // A changed mode is written, too, and so is a child that does not follow.
+  pose[0].mode = HandleMode::position;
+  pose[1].transform = identity_affine();
+  base[2].stretch = 1.5;
+  ASSERT_TRUE(format_pose_changes(base, pose, handles, text).ok());
+  const Pose again = read(text, base);
+  EXPECT_EQ(again[2].stretch, 1.0);
+  EXPECT_EQ(again[0].mode, HandleMode::position);
+  EXPECT_LT((again[1].transform - identity_affine()).cwiseAbs().maxCoeff(), 1e-13);
+  pose[1].transform(0, 0) = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THAT(format_pose_changes(base, pose, handles, text).message, HasSubstr("'fore'"));
+  EXPECT_THAT(format_pose_changes(Pose(2), base, handles, text).message, HasSubstr("expected 3"));
+}
+
 TEST(PoseFile, WhatIsWrittenCanBeRead)
 {
   std::string text;

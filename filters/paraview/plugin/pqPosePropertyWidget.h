@@ -1,0 +1,62 @@
+#ifndef pqPosePropertyWidget_h
+#define pqPosePropertyWidget_h
+
+#include "pqHandlesPropertyWidget.h"
+
+#include "vtkWeakPointer.h"
+
+class QButtonGroup;
+class QComboBox;
+class QToolButton;
+class vtkPVHandleSetRepresentation;
+
+/// The panel of Pose Handles for the pose (property PoseJSON): handles are picked, dragged, and
+/// moved, turned and scaled by the gizmo in the render view.
+///
+/// The widget draws the handles of the filter's input at the pose of the panel. A pose from a file,
+/// a sequence and a pose with expressions cannot be dragged; a button replaces them by the pose
+/// that is shown.
+class pqPosePropertyWidget : public pqHandlesPropertyWidget
+{
+  Q_OBJECT
+  typedef pqHandlesPropertyWidget Superclass;
+
+public:
+  pqPosePropertyWidget(vtkSMProxy* smproxy, vtkSMPropertyGroup* smgroup, QWidget* parent = nullptr);
+  ~pqPosePropertyWidget() override;
+
+protected Q_SLOTS:
+  void show_state() override;
+
+protected:
+  void set_properties(const std::string& text) override;
+  bool applies_during_drag() const override { return true; }
+  std::string drawn_text() const override;
+  QString message() const override;
+  QString step_name() const override;
+
+private Q_SLOTS:
+  void watch_input();
+  void read_input();
+  void read_output();
+
+private:
+  Q_DISABLE_COPY(pqPosePropertyWidget)
+
+  vtkPVHandleSetRepresentation* representation() const;
+  void add_tools();
+  void add_selection_row();
+  void reset_all();
+  void take_shown_pose();
+
+  QButtonGroup* gizmos_;
+  QComboBox* mode_ = nullptr;
+  QToolButton* reset_ = nullptr;
+  QToolButton* reset_all_ = nullptr;
+  QToolButton* take_pose_ = nullptr;
+  bool clears_file_ = false; ///< the next applied text replaces the pose of the file
+  vtkWeakPointer<vtkSMProxy> input_; ///< the observed input
+  unsigned long input_observer_ = 0;
+};
+
+#endif

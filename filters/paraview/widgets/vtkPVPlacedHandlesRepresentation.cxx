@@ -1,0 +1,255 @@
+// The base class edits a handle dataset in place. This class reads the dataset from the text, and
+// writes the text when the modification time of the dataset has changed.
+#include "vtkPVPlacedHandlesRepresentation.h"
+
+#include "conversion.h"
+#include "handle_edit_cells.h"
+#include "handle_tgf.h"
+#include "outer_surface.h"
+
+#include "vtkNew.h"
+#include "vtkObjectFactory.h"
+#include "vtkPolyData.h"
+
+#include <algorithm>
+#include <vector>
+
+using bindpose::EditedHandles;
+using bindpose::Handle;
+using bindpose::HandleKind;
+using bindpose::Handles;
+using bindpose::Index;
+using bindpose::Status;
+
+namespace
+{
+/// Return the index of the handle in a cell; -1 if the cell is no handle.
+Index handle_of_cell(const std::vector<Index>& cells, vtkIdType cell)
+{
+  const auto found = std::find(cells.begin(), cells.end(), static_cast<Index>(cell));
+  return found == cells.end() ? -1 : static_cast<Index>(found - cells.begin());
+}
+
+/// Replace the indices of an intermediate edit by indices before it.
+void map_through(const std::vector<Index>& before, std::vector<Index>& indices)
+{
+  for (Index& index : indices)
+  {
+    index = index < 0 ? -1 : before[static_cast<std::size_t>(index)];
+  }
+}
+
+/// Add a bone from one handle to another. Points are replaced by the ends of the bone. A bone
+/// contributes its tail, and the new bone is its child.
+Status add_bone_between(const Handles& before, Index from, Index to, EditedHandles& after)
+{
+  const auto position = [&before](Index handle)
+  {
+    const Handle& end = before[static_cast<std::size_t>(handle)];
+    return end.kind == HandleKind::bone ? end.tail : end.head;
+  };
+  Handle bone;
+  bone.kind = HandleKind::bone;
+  bone.head = position(from);
+  bone.tail = position(to);
+  std::vector<Index> points;
+  for (const Index end : { from, to })
+  {
+    if (before[static_cast<std::size_t>(end)].kind == HandleKind::point)
+    {
+      points.push_back(end);
+    }
+  }
+  EditedHandles without_points;
+  Status status = bindpose::remove_handles(before, points, without_points);
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (before[static_cast<std::size_t>(from)].kind == HandleKind::bone)
+  {
+    const auto parent = std::find(without_points.source.begin(), without_points.source.end(), from);
+    bone.parent = static_cast<Index>(parent - without_points.source.begin());
+  }
+  status = bindpose::add_handle(without_points.handles, bone, after);
+  map_through(without_points.source, after.source);
+  map_through(without_points.copied_from, after.copied_from);
+  return status;
+}
+
+Status connect(const Handles& before, Index from, Index to, EditedHandles& after)
+{
+  const HandleKind kinds[2] = { before[static_cast<std::size_t>(from)].kind,
+    before[static_cast<std::size_t>(to)].kind };
+  const bool cage[2] = { kinds[0] == HandleKind::cage_vertex, kinds[1] == HandleKind::cage_vertex };
+  if (cage[0] && cage[1])
+  {
+    return bindpose::toggle_cage_edge(before, from, to, after);
+  }
+  if (cage[0] || cage[1])
+  {
+    return Status::invalid_input(
+      "a cage vertex can only be connected with another cage vertex; select two of them");
+  }
+  return add_bone_between(before, from, to, after);
+}
+} // namespace
+
+vtkStandardNewMacro(vtkPVPlacedHandlesRepresentation);
+
+vtkPVPlacedHandlesRepresentation::vtkPVPlacedHandlesRepresentation()
+{
+  this->SetHandles(this->PlacedHandles);
+  this->FormattedTime = this->PlacedHandles->GetMTime();
+  this->SetEditMode(ADD_POINTS);
+}
+
+vtkPVPlacedHandlesRepresentation::~vtkPVPlacedHandlesRepresentation() = default;
+
+// ---- The text and the dataset ------------------------------------------------------------------
+
+void vtkPVPlacedHandlesRepresentation::SetHandlesText(const char* text)
+{
+  const std::string value = text ? text : "";
+  // ParaView sends back the text of every edit. Reading it would end the edit.
+  if (value == this->GetHandlesText())
+  {
+    return;
+  }
+  this->CancelWidgetInteraction();
+  this->FinishCage();
+  // The cancel restores the handles from before the edit, whose text is not needed.
+  this->FormattedTime = this->PlacedHandles->GetMTime();
+  this->HandlesText = value;
+  if (this->ReadText())
+  {
+    this->ClearSelection();
+    this->SetHoveredHandle(-1);
+    this->Modified();
+  }
+}
+
+/// Replace the dataset by the handles of the text. Return false, with TextMessage, and change
+/// nothing if the text cannot be read.
+bool vtkPVPlacedHandlesRepresentation::ReadText()
+{
+  vtkNew<vtkPolyData> handles;
+  const Status status = bindpose::from_tgf(this->HandlesText, handles);
+  this->TextMessage = status.message;
+  if (!status.ok())
+  {
+    return false;
+  }
+  this->PlacedHandles->ShallowCopy(handles);
+  this->PlacedHandles->Modified();
+  this->FormattedTime = this->PlacedHandles->GetMTime();
+  return true;
+}
+
+const char* vtkPVPlacedHandlesRepresentation::GetHandlesText()
+{
+  // A drag edits the dataset before it is complete, so its text is up to date during the drag, too.
+  if (this->PlacedHandles->GetMTime() != this->FormattedTime)
+  {
+    std::string text;
+    const Status status = bindpose::to_tgf(this->PlacedHandles, text);
+    if (status.ok())
+    {
+      this->HandlesText = text;
+    }
+    this->TextMessage = status.message;
+    this->FormattedTime = this->PlacedHandles->GetMTime();
+  }
+  return this->HandlesText.c_str();
+}
+
+bool vtkPVPlacedHandlesRepresentation::SetShape(vtkDataSet* shape)
+{
+  bindpose::SurfaceInput surface;
+  const bool found = shape && bindpose::to_outer_surface(shape, surface).ok();
+  this->SetSurface(
+    found ? bindpose::to_polydata(surface.points.view(), surface.triangles.view()).Get() : nullptr);
+  return found || !shape;
+}
+
+// ---- Edits of the selected handles -------------------------------------------------------------
+
+bool vtkPVPlacedHandlesRepresentation::DeleteSelectedHandles()
+{
+  Handles handles;
+  std::vector<Index> cells;
+  Status status = bindpose::to_editable(this->PlacedHandles, handles, cells);
+  std::vector<Index> removed;
+  for (int number = 0; number < this->GetNumberOfSelectedHandles(); ++number)
+  {
+    const Index handle = handle_of_cell(cells, this->GetSelectedHandle(number));
+    if (handle >= 0)
+    {
+      removed.push_back(handle);
+    }
+  }
+  if (status.ok() && removed.empty())
+  {
+    status = Status::invalid_input("no handle is selected; click on the handles to delete");
+  }
+  if (status.ok())
+  {
+    this->FinishCage();
+    status = bindpose::edit_handles(this->PlacedHandles,
+      [&removed](const Handles& before, EditedHandles& after)
+      { return bindpose::remove_handles(before, removed, after); });
+  }
+  return this->FinishEdit(status.message, -1);
+}
+
+bool vtkPVPlacedHandlesRepresentation::ConnectSelectedHandles()
+{
+  const int count = this->GetNumberOfSelectedHandles();
+  Handles handles;
+  std::vector<Index> cells;
+  Status status = bindpose::to_editable(this->PlacedHandles, handles, cells);
+  Index ends[2] = { -1, -1 };
+  for (int k = 0; k < 2 && count >= 2; ++k)
+  {
+    ends[k] = handle_of_cell(cells, this->GetSelectedHandle(count - 2 + k));
+  }
+  if (status.ok() && (ends[0] < 0 || ends[1] < 0))
+  {
+    status = Status::invalid_input(
+      "two handles must be selected; click on the first and Shift-click on the second");
+  }
+  std::vector<Index> added;
+  if (status.ok())
+  {
+    this->FinishCage();
+    status = bindpose::edit_handles(
+      this->PlacedHandles,
+      [&ends](const Handles& before, EditedHandles& after)
+      { return connect(before, ends[0], ends[1], after); },
+      nullptr, &added);
+  }
+  return this->FinishEdit(status.message, added.empty() ? -1 : added.back());
+}
+
+/// Store the reason of a refusal, or select the result of an edit. Return whether the handles have
+/// changed.
+bool vtkPVPlacedHandlesRepresentation::FinishEdit(const std::string& refusal, vtkIdType selected)
+{
+  if (refusal.empty())
+  {
+    this->SetHoveredHandle(-1);
+    this->SetSelectedHandle(selected);
+    this->PlacedHandles->Modified();
+    this->Modified();
+    this->GetHandlesText();
+  }
+  this->TextMessage = refusal;
+  return refusal.empty();
+}
+
+void vtkPVPlacedHandlesRepresentation::PrintSelf(ostream& os, vtkIndent indent)
+{
+  this->Superclass::PrintSelf(os, indent);
+  os << indent << "HandlesText: " << this->GetHandlesText() << "\n";
+  os << indent << "TextMessage: " << this->TextMessage << "\n";
+}

@@ -131,6 +131,8 @@ protected:
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   int RequestUpdateExtent(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  bindpose::Status Execute(bindpose::ExecutionContext& context, vtkInformationVector** input,
+    vtkInformationVector* output) override;
   bindpose::Status Bind(
     bindpose::ExecutionContext& context, const bindpose::PoseInput& input) override;
   /// The points also depend on the steps before.

@@ -94,6 +94,7 @@
 #define vtkWeightsAlgorithm_h
 
 #include "BindposeFiltersModule.h" // for export macro
+#include "block_caches.h" // for BlockCaches
 #include "vtkMeshAndHandlesAlgorithm.h"
 #include "vtkCommand.h" // for vtkCommand::UserEvent
 #include <memory> // for std::unique_ptr
@@ -351,7 +352,7 @@ private:
   std::unique_ptr<bindpose::TermArrayNames> TermNames;
   int NumberOfBinds = 0;
   vtkTimeStamp BindTime;
-  std::unique_ptr<Cache> BindCache;
+  bindpose::BlockCaches<Cache> BindCache;
 };
 
 #endif

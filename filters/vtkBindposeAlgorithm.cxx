@@ -502,6 +502,7 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
     }
     bindpose::attach_report(data, status.report);
   }
+  const bool repeated = earlier_block_failed && status.message == this->LastStatus->message;
   if (!earlier_block_failed)
   {
     *this->LastStatus = status;
@@ -509,7 +510,7 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
     this->SetErrorCode(
       status.usable() || canceled ? vtkErrorCode::NoError : vtkErrorCode::UserError);
   }
-  if (!status.usable() && !canceled)
+  if (!status.usable() && !canceled && !repeated)
   {
     vtkErrorMacro(<< status.message);
   }

@@ -5,9 +5,8 @@
  * On several processes (MPI), this filter sends the result of work that runs once to all processes.
  * Put it before the inputs that filters with pieces request as a whole:
  * <pre>
- *   mesh ─── weights (process 0) ─── vtkShareDataset ─── input 1 of vtkTransferWeights
- *   handles (process 0) ─── vtkShareDataset ─── vtkPoseHandles ─── input 1 of
- * vtkSkinningDeformation
+ *   mesh - weights filter - vtkShareDataset - input 1 of vtkTransferWeights
+ *   handles - vtkShareDataset - vtkPoseHandles - input 1 of vtkSkinningDeformation
  * </pre>
  * Without it, every process would compute the weights and the handles itself. A pose changes after
  * the exchange, on each process, so it causes no new exchange.

@@ -34,6 +34,7 @@
 #include "vtkUnconstrainedWeights.h"
 #include "vtkVariationalSurface.h"
 #include "vtkWeightedColors.h"
+#include "vtkWeightsAlgorithm.h"
 #include "vtkWindingNumberField.h"
 #include "weights_arrays.h"
 
@@ -41,6 +42,7 @@
 #include "vtkCellData.h"
 #include "vtkCompositeDataIterator.h"
 #include "vtkCompositeDataSet.h"
+#include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
 #include "vtkIntArray.h"
 #include "vtkMultiBlockDataSet.h"
@@ -224,7 +226,7 @@ struct BlockCase
 template <typename Class, typename Setup>
 std::function<FilterPointer()> make_filter(Setup setup)
 {
-  return [setup]() -> Filter
+  return [setup]() -> FilterPointer
   {
     vtkNew<Class> filter;
     setup(filter.Get());
@@ -288,12 +290,20 @@ FilterPointer check_blocks(const BlockCase& test_case)
 /// Return the number of binds of a filter, or -1 if it has none.
 int binds_of(vtkAlgorithm* filter)
 {
-  if (auto* binds = vtkBindAlgorithm::SafeDownCast(filter))
+  if (auto* poses = vtkBindAlgorithm::SafeDownCast(filter))
   {
-    return binds->GetNumberOfBinds();
+    return poses->GetNumberOfBinds();
   }
-  auto* endpoints = vtkBoneEndpointWeights::SafeDownCast(filter);
-  return endpoints ? endpoints->GetNumberOfBinds() : -1;
+  if (auto* weights = vtkWeightsAlgorithm::SafeDownCast(filter))
+  {
+    return weights->GetNumberOfBinds();
+  }
+  if (auto* endpoints = vtkBoneEndpointWeights::SafeDownCast(filter))
+  {
+    return endpoints->GetNumberOfBinds();
+  }
+  auto* transfer = vtkTransferWeights::SafeDownCast(filter);
+  return transfer ? transfer->GetNumberOfBinds() : -1;
 }
 
 class BlocksOfShapes : public test::MesherTest
@@ -512,6 +522,34 @@ TEST(Blocks, ThatDoNotFitAreRefusedWithOneSentence)
   EXPECT_FALSE(skinning->PosePoints(raise_left, points));
   EXPECT_EQ(
     skinning->GetStatusMessage(), "PosePoints() needs one mesh and its handles, not blocks");
+}
+
+TEST(Blocks, WithFailedInputsFailAlone)
+{
+  const auto tets = weighted_tets(4);
+  const auto handles = posed_handles(Vec3(2, 0.5, 0.5), raise_right);
+  vtkNew<test::TestFilter> second_fails;
+  second_fails->SetInputData(blocks_with({ handles, handles }));
+  second_fails->Work = [&](ExecutionContext&, vtkPolyData*)
+  {
+    return second_fails->Executions == 2
+      ? Status::failure(StatusCode::invalid_input, "the dog ate it")
+      : Status();
+  };
+  vtkNew<vtkSkinningDeformation> skinning;
+  skinning->SetInputData(0, blocks_with({ tets, tets }));
+  skinning->SetInputConnection(1, second_fails->GetOutputPort());
+  vtkNew<Listener> silent, listener;
+  silent->listen(second_fails);
+  listener->listen(skinning);
+  skinning->Update();
+  EXPECT_EQ(skinning->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
+  EXPECT_EQ(skinning->GetStatusMessage(), "the dog ate it");
+  EXPECT_EQ(listener->errors.size(), 1u);
+  const std::vector<vtkDataObject*> results = leaves_of(skinning->GetOutputDataObject(0));
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_EQ(results[0]->GetNumberOfElements(vtkDataObject::POINT), tets->GetNumberOfPoints());
+  EXPECT_EQ(results[1]->GetNumberOfElements(vtkDataObject::POINT), 0);
 }
 
 TEST(Blocks, AreNotWrittenToOneFile)

@@ -113,7 +113,7 @@ std::vector<std::string> transform_warnings(const Handles& handles, const Pose& 
 }
 } // namespace
 
-vtkBindAlgorithm::vtkBindAlgorithm() : BindCache(new Cache)
+vtkBindAlgorithm::vtkBindAlgorithm() : BindCache(this->GetBlock())
 {
   this->BindTime.Modified();
 }
@@ -196,7 +196,7 @@ Status vtkBindAlgorithm::Prepare(
   const bool bind = !this->BindCache->valid || this->BindCache->key != key;
   if (bind)
   {
-    this->BindCache.reset(new Cache);
+    this->BindCache.reset();
   }
   Cache& bound = *this->BindCache;
   if (bind)

@@ -9,7 +9,8 @@
  * rest handles. Its result is cached. Moving handles (Transform, Mode, Stretch, Twist) does not run
  * Bind() again. A change of points, cells, the weights array, the handles' rest arrays or a bind
  * parameter of the filter runs Bind() again. Arrays are compared by their own modification times.
- * GetNumberOfBinds() returns the number of runs of Bind().
+ * GetNumberOfBinds() returns the number of runs of Bind(). Each block of a composite mesh has its
+ * own bind.
  *
  * **Errors**: no mesh, no handles, no weights array of the specified name, a weights array whose
  * number of tuples differs from the number of points or whose number of components differs from the
@@ -22,8 +23,8 @@
 #define vtkBindAlgorithm_h
 
 #include "BindposeFiltersModule.h" // for export macro
+#include "block_caches.h" // for BlockCaches
 #include "vtkMeshAndHandlesAlgorithm.h"
-#include <memory> // for std::unique_ptr
 #include <string> // for std::string
 #include <vector> // for std::vector
 
@@ -118,7 +119,7 @@ private:
   int NumberOfBinds = 0;
   vtkTimeStamp BindTime;
   struct Cache;
-  std::unique_ptr<Cache> BindCache;
+  bindpose::BlockCaches<Cache> BindCache;
 };
 
 #endif

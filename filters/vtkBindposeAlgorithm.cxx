@@ -11,6 +11,17 @@
 // from those of the whole mesh. Therefore piece 0 of the output is computed from the whole input,
 // and all other pieces are empty. For an empty piece, the same piece is requested upstream, which
 // is also empty and costs nothing.
+//
+// A filter with a piece port requests the piece from this port and the whole from all other ports.
+// If one source reaches both, it produces the whole, because it executes once for the last request.
+// Every process would then output the whole, so only piece 0 has an output. arrives_whole() detects
+// this case by the requests, which the executives store in the information objects of outputs.
+// An information object of an output is also that of the connected inputs.
+//
+// Blocks: if the first input is a composite, the executive requests all passes once for the whole
+// filter, and then, from REQUEST_DATA_OBJECT to REQUEST_DATA, once per block. In the latter passes
+// the block replaces the composite. The pass REQUEST_DATA_NOT_GENERATED sees the composite directly
+// before the blocks, so it counts them.
 #include "vtkBindposeAlgorithm.h"
 
 #include "base/execution.h"
@@ -19,19 +30,29 @@
 #include "report_field_data.h"
 
 #include "vtkCommand.h"
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
 #include "vtkDataSet.h"
 #include "vtkErrorCode.h"
+#include "vtkExecutive.h"
 #include "vtkInformation.h"
+#include "vtkInformationExecutivePortKey.h"
+#include "vtkInformationStringVectorKey.h"
 #include "vtkInformationVector.h"
+#include "vtkSmartPointer.h"
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkVersionMacros.h"
 
 #include <exception>
 #include <new>
+#include <set>
+#include <vector>
 
 namespace
 {
+using SDDP = vtkStreamingDemandDrivenPipeline;
+
 /// Return the status of some work. An exception becomes INTERNAL_ERROR.
 template <typename Work>
 bindpose::Status status_of(const Work& work)
@@ -54,6 +75,122 @@ bindpose::Status status_of(const Work& work)
   {
     return failure("caught an exception of unknown type");
   }
+}
+
+/// Return the datasets of a composite, in the order in which the executive works on them.
+std::vector<vtkDataObject*> blocks_of(vtkCompositeDataSet* composite)
+{
+  std::vector<vtkDataObject*> blocks;
+  vtkSmartPointer<vtkCompositeDataIterator> block;
+  block.TakeReference(composite->NewIterator());
+  for (block->InitTraversal(); !block->IsDoneWithTraversal(); block->GoToNextItem())
+  {
+    blocks.push_back(block->GetCurrentDataObject());
+  }
+  return blocks;
+}
+
+/// The inputs of an execution. A composite can be replaced by the block that belongs to the current
+/// block of the first input.
+class BlockInputs
+{
+public:
+  BlockInputs(vtkInformationVector** input, int ports) : ports_(input, input + ports) {}
+
+  bindpose::Status select_block(
+    int port, int connection, vtkCompositeDataSet* composite, const bindpose::BlockNumber& current)
+  {
+    const std::vector<vtkDataObject*> blocks = blocks_of(composite);
+    const bool pairs = current.composite && blocks.size() == current.count;
+    if (!pairs && blocks.size() != 1)
+    {
+      const std::string count = std::to_string(blocks.size()) + " blocks";
+      return bindpose::Status::invalid_input(port == 0
+          ? "the input has " + count + "; expected a single dataset (merge or extract blocks)"
+          : "input port " + std::to_string(port) + " has " + count + ", but input port 0 has " +
+            (current.composite ? std::to_string(current.count) + " blocks" : "a single dataset") +
+            "; expected as many blocks, or a single dataset");
+    }
+    this->replace(port, connection, blocks[pairs ? current.index : 0]);
+    return {};
+  }
+
+  vtkInformationVector** get() { return this->ports_.data(); }
+
+private:
+  /// Replace the data object of a connection in a copy of the port's information. The original also
+  /// belongs to the algorithm that produces the data object.
+  void replace(int port, int connection, vtkDataObject* data)
+  {
+    auto copy = vtkSmartPointer<vtkInformationVector>::New();
+    vtkInformationVector*& infos = this->ports_[static_cast<std::size_t>(port)];
+    for (int i = 0; i < infos->GetNumberOfInformationObjects(); ++i)
+    {
+      copy->Append(infos->GetInformationObject(i));
+    }
+    auto info = vtkSmartPointer<vtkInformation>::New();
+    info->Copy(infos->GetInformationObject(connection));
+    info->Set(vtkDataObject::DATA_OBJECT(), data);
+    copy->SetInformationObject(connection, info);
+    this->copies_.push_back(copy);
+    infos = copy;
+  }
+
+  std::vector<vtkInformationVector*> ports_;
+  std::vector<vtkSmartPointer<vtkInformationVector>> copies_;
+};
+
+int pieces_of(vtkInformation* info)
+{
+  return info && info->Has(SDDP::UPDATE_NUMBER_OF_PIECES())
+    ? info->Get(SDDP::UPDATE_NUMBER_OF_PIECES())
+    : 1;
+}
+
+/// Collect the outputs upstream of a connection that are requested as a whole.
+/// @param info  information of the connection
+void collect_whole(vtkInformation* info, std::set<vtkInformation*>& whole)
+{
+  if (pieces_of(info) > 1 || !whole.insert(info).second)
+  {
+    return;
+  }
+  vtkExecutive* producer = vtkExecutive::PRODUCER()->GetExecutive(info);
+  for (int port = 0; producer && port < producer->GetNumberOfInputPorts(); ++port)
+  {
+    vtkInformationVector* inputs = producer->GetInputInformation(port);
+    for (int i = 0; i < inputs->GetNumberOfInformationObjects(); ++i)
+    {
+      collect_whole(inputs->GetInformationObject(i), whole);
+    }
+  }
+}
+
+/// Report whether a connection that is requested in pieces gets the whole from one of the outputs
+/// `whole`. An algorithm can also request the whole in order to divide it; its output is a piece.
+bool arrives_whole(vtkInformation* info, const std::set<vtkInformation*>& whole)
+{
+  if (pieces_of(info) < 2)
+  {
+    return whole.count(info) > 0;
+  }
+  vtkExecutive* producer = vtkExecutive::PRODUCER()->GetExecutive(info);
+  auto* filter = vtkBindposeAlgorithm::SafeDownCast(producer ? producer->GetAlgorithm() : nullptr);
+  // Other algorithms than ours process their first input piece by piece.
+  const int port = filter ? filter->GetPiecePort() : 0;
+  if (!producer || port < 0 || port >= producer->GetNumberOfInputPorts())
+  {
+    return false;
+  }
+  vtkInformationVector* inputs = producer->GetInputInformation(port);
+  for (int i = 0; i < inputs->GetNumberOfInformationObjects(); ++i)
+  {
+    if (arrives_whole(inputs->GetInformationObject(i), whole))
+    {
+      return true;
+    }
+  }
+  return false;
 }
 } // namespace
 
@@ -125,7 +262,17 @@ vtkTypeBool vtkBindposeAlgorithm::ProcessRequest(
 {
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA()))
   {
-    return this->RequestData(input, output);
+    const int result = this->RequestData(input, output);
+    if (++this->Block.index >= this->Block.count)
+    {
+      this->Block = {};
+    }
+    return result;
+  }
+  if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_NOT_GENERATED()))
+  {
+    this->CountBlocks(input);
+    return 1;
   }
   if (request->Has(vtkDemandDrivenPipeline::REQUEST_DATA_OBJECT()))
   {
@@ -157,23 +304,44 @@ int vtkBindposeAlgorithm::RequestInformation(
 int vtkBindposeAlgorithm::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
 {
-  if (GetPiece(output->GetInformationObject(0)) > 0)
+  vtkInformation* info = output->GetInformationObject(0);
+  const int piece_port = this->GetPiecePort();
+  if (piece_port < 0 && GetPiece(info) > 0)
   {
     return 1;
   }
-  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  // A connection to several ports shares its information, so the requests of the whole come last.
+  for (const bool whole : { false, true })
   {
-    for (int i = 0; i < input[port]->GetNumberOfInformationObjects(); ++i)
+    for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
     {
-      RequestWholeInput(input[port]->GetInformationObject(i));
+      for (int i = 0; i < input[port]->GetNumberOfInformationObjects(); ++i)
+      {
+        vtkInformation* connection = input[port]->GetInformationObject(i);
+        const bool piece = port == piece_port;
+        if (piece && !whole)
+        {
+          connection->Set(SDDP::UPDATE_PIECE_NUMBER(), GetPiece(info));
+          connection->Set(SDDP::UPDATE_NUMBER_OF_PIECES(), GetNumberOfPieces(info));
+          connection->Set(SDDP::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+        }
+        else if (!piece && whole)
+        {
+          RequestWholeInput(connection);
+        }
+      }
     }
   }
   return 1;
 }
 
+void vtkBindposeAlgorithm::AcceptBlocks(vtkInformation* port)
+{
+  port->Append(INPUT_REQUIRED_DATA_TYPE(), "vtkCompositeDataSet");
+}
+
 void vtkBindposeAlgorithm::RequestWholeInput(vtkInformation* input)
 {
-  using SDDP = vtkStreamingDemandDrivenPipeline;
   input->Set(SDDP::UPDATE_PIECE_NUMBER(), 0);
   input->Set(SDDP::UPDATE_NUMBER_OF_PIECES(), 1);
   input->Set(SDDP::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
@@ -185,15 +353,92 @@ void vtkBindposeAlgorithm::RequestWholeInput(vtkInformation* input)
 
 int vtkBindposeAlgorithm::GetPiece(vtkInformation* output)
 {
-  using SDDP = vtkStreamingDemandDrivenPipeline;
   return output && output->Has(SDDP::UPDATE_PIECE_NUMBER())
     ? output->Get(SDDP::UPDATE_PIECE_NUMBER())
     : 0;
 }
 
+int vtkBindposeAlgorithm::GetNumberOfPieces(vtkInformation* info)
+{
+  return pieces_of(info);
+}
+
+bool vtkBindposeAlgorithm::IsEmptyPiece(vtkInformationVector** input, vtkInformationVector* output)
+{
+  const int port = this->GetPiecePort();
+  if (port < 0 || GetNumberOfPieces(output->GetInformationObject(0)) < 2)
+  {
+    return false;
+  }
+  vtkDataObject* data = vtkDataObject::GetData(input[port]->GetInformationObject(0));
+  return !data ||
+    (data->GetNumberOfElements(vtkDataObject::POINT) == 0 &&
+      data->GetNumberOfElements(vtkDataObject::ROW) == 0);
+}
+
+/// Report whether the input at the piece port is a piece. If not, it is the whole on every process.
+bool vtkBindposeAlgorithm::ReceivesPiece(vtkInformationVector** input)
+{
+  const int piece_port = this->GetPiecePort();
+  vtkInformation* info = piece_port < 0 ? nullptr : input[piece_port]->GetInformationObject(0);
+  if (!info || pieces_of(info) < 2)
+  {
+    return false;
+  }
+  std::set<vtkInformation*> whole;
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    for (int i = 0; port != piece_port && i < input[port]->GetNumberOfInformationObjects(); ++i)
+    {
+      collect_whole(input[port]->GetInformationObject(i), whole);
+    }
+  }
+  return !arrives_whole(info, whole);
+}
+
+/// Report whether a data object is a composite that Execute() does not take as it is.
+bool vtkBindposeAlgorithm::HasBlocks(int port, vtkDataObject* data)
+{
+  return vtkCompositeDataSet::SafeDownCast(data) && !this->TakesComposite(port);
+}
+
+/// Count the blocks of the composite on which the executive works block by block: the first
+/// composite input whose port does not accept composites.
+void vtkBindposeAlgorithm::CountBlocks(vtkInformationVector** input)
+{
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+  {
+    auto* composite = vtkCompositeDataSet::SafeDownCast(
+      vtkDataObject::GetData(input[port]->GetInformationObject(0)));
+    vtkInformation* info = this->GetInputPortInformation(port);
+    bool accepted = false;
+    for (int i = 0; composite && i < info->Length(INPUT_REQUIRED_DATA_TYPE()); ++i)
+    {
+      accepted = accepted || composite->IsA(info->Get(INPUT_REQUIRED_DATA_TYPE(), i));
+    }
+    if (composite && !accepted)
+    {
+      const std::size_t count = blocks_of(composite).size();
+      this->Block = {};
+      if (count > 0)
+      {
+        this->Block = { 0, count, true };
+      }
+      else
+      {
+        *this->LastStatus = bindpose::Status();
+        this->ExecuteAgain = false;
+        this->SetErrorCode(vtkErrorCode::NoError);
+      }
+      return;
+    }
+  }
+}
+
 int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformationVector* output)
 {
-  if (!this->MakesPieces() && GetPiece(output->GetInformationObject(0)) > 0)
+  if (!this->MakesPieces() && GetPiece(output->GetInformationObject(0)) > 0 &&
+    !this->ReceivesPiece(input))
   {
     for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
     {
@@ -214,24 +459,32 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
 
   // With a composite input the executive calls this function once per block. The first failure is
   // the status of all blocks, and a cancel stops all of them.
-  const bool later_block = this->GetProgressShift() > 0.0;
-  const bool earlier_block_failed = later_block && !this->LastStatus->usable();
+  const bool earlier_block_failed = this->Block.index > 0 && !this->LastStatus->usable();
   bindpose::Status status;
   if (earlier_block_failed && this->LastStatus->code == bindpose::StatusCode::canceled)
   {
     status = bindpose::Status::canceled();
   }
+  BlockInputs inputs(input, this->GetNumberOfInputPorts());
   for (int port = 0; port < this->GetNumberOfInputPorts() && status.usable(); ++port)
   {
     for (int i = 0; i < input[port]->GetNumberOfInformationObjects() && status.usable(); ++i)
     {
-      status =
-        bindpose::upstream_failure(vtkDataObject::GetData(input[port]->GetInformationObject(i)));
+      vtkDataObject* data = vtkDataObject::GetData(input[port]->GetInformationObject(i));
+      if (this->HasBlocks(port, data))
+      {
+        status = inputs.select_block(port, i, vtkCompositeDataSet::SafeDownCast(data), this->Block);
+        data = vtkDataObject::GetData(inputs.get()[port]->GetInformationObject(i));
+      }
+      if (status.usable() && this->EndsWithFailedInput())
+      {
+        status = bindpose::upstream_failure(data);
+      }
     }
   }
   if (status.usable())
   {
-    status = status_of([&]() { return this->Execute(context, input, output); });
+    status = status_of([&]() { return this->Execute(context, inputs.get(), output); });
   }
 
   bindpose::complete_report(context, status);
@@ -249,6 +502,7 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
     }
     bindpose::attach_report(data, status.report);
   }
+  const bool repeated = earlier_block_failed && status.message == this->LastStatus->message;
   if (!earlier_block_failed)
   {
     *this->LastStatus = status;
@@ -256,7 +510,7 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
     this->SetErrorCode(
       status.usable() || canceled ? vtkErrorCode::NoError : vtkErrorCode::UserError);
   }
-  if (!status.usable() && !canceled)
+  if (!status.usable() && !canceled && !repeated)
   {
     vtkErrorMacro(<< status.message);
   }

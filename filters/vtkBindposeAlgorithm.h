@@ -18,15 +18,23 @@
  *   factorization. It may be called from any thread or from an observer of ProgressEvent. The
  *   outputs are empty, the status is CANCELED, and no error event is invoked.
  * - **Retry.** After a failure or cancel the next Update() executes again.
- * - **Pieces.** With several processes the first process does the work: piece 0 requests every
- *   input as a whole, and all other pieces are empty. A filter that can produce pieces itself
- *   overrides MakesPieces().
+ * - **Pieces.** With several processes, most filters depend on the whole input, and the first
+ *   process does the work: piece 0 requests every input as a whole, and all other pieces are empty.
+ *   If every point (or instance) of an input can be processed alone, GetPiecePort() returns the
+ *   port of this input. Every process then works on its own piece of it, and requests all other
+ *   inputs as a whole. The results have the same bits as those of one process. Ghost levels are not
+ *   requested. A filter that requests its inputs itself overrides MakesPieces().
+ * - **Blocks.** A composite input at the first port is worked on block by block, and the output is
+ *   a composite with the results. Each block has its own bind. A composite at another port must
+ *   have one block per block of the first port, or a single block, which is used for all blocks.
+ *   The first failure of a block is the status of the filter.
  */
 
 #ifndef vtkBindposeAlgorithm_h
 #define vtkBindposeAlgorithm_h
 
 #include "BindposeFiltersModule.h" // for export macro
+#include "block_caches.h" // for BlockNumber
 #include "vtkAlgorithm.h"
 #include <functional> // for std::function
 #include <memory> // for std::unique_ptr
@@ -98,6 +106,13 @@ public:
   vtkDataSet* GetOutput(int port = 0);
   ///@}
 
+  /**
+   * Return the input port whose pieces are distributed over several processes. The results of a
+   * piece depend only on this piece and on the whole of all other inputs. -1 (default): the output
+   * is not computed piece by piece; see above.
+   */
+  virtual int GetPiecePort() { return -1; }
+
   /// Return the modification time. After a failure or cancel, the returned time is later than the
   /// modification time of any output, so that the next Update() executes again.
   vtkMTimeType GetMTime() override;
@@ -119,16 +134,42 @@ protected:
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output);
   ///@}
 
-  /// Report whether the filter supports pieces: Execute() then produces only the requested piece or
-  /// extent, and RequestUpdateExtent() requests only the necessary input. Default: false; see
-  /// above.
+  /// Report whether the filter supports pieces without GetPiecePort(): Execute() then produces only
+  /// the requested piece or extent, and RequestUpdateExtent() requests only the necessary input.
+  /// Default: false; see above.
   virtual bool MakesPieces() { return false; }
+
+  /// Report whether a failure of an input ends the execution with the status of this input. If
+  /// false, Execute() is called with failed inputs, too. Default: true.
+  virtual bool EndsWithFailedInput() { return true; }
+
+  /// Report whether Execute() takes a composite at an input port as it is. Default: false; see
+  /// above.
+  virtual bool TakesComposite(int vtkNotUsed(port)) { return false; }
+
+  /// Accept composites at an input port in addition to its data type. Call this function in
+  /// FillInputPortInformation() for all ports but the first. The executive works block by block
+  /// only on a composite that a port does not accept, so writers also call it for their first port.
+  static void AcceptBlocks(vtkInformation* port);
 
   /// Request the whole input, not a piece. Call this in RequestUpdateExtent().
   static void RequestWholeInput(vtkInformation* input);
 
-  /// Return the requested piece of an output.
+  ///@{
+  /// Return the requested piece of an output, or the number of pieces that are requested of an
+  /// input or output: 0 of 1 if nothing is requested.
   static int GetPiece(vtkInformation* output);
+  static int GetNumberOfPieces(vtkInformation* info);
+  ///@}
+
+  /// Report whether one of several pieces is requested and the input at GetPiecePort() has no
+  /// points and no rows. The output of such a piece is empty, which is not an error: a process may
+  /// have no part of the data.
+  bool IsEmptyPiece(vtkInformationVector** input, vtkInformationVector* output);
+
+  /// Return the block of a composite input that is executed. Caches of a filter are
+  /// bindpose::BlockCaches that refer to this number.
+  const bindpose::BlockNumber& GetBlock() const { return this->Block; }
 
   /**
    * Do the filter's work. Outputs are new or contain old data: write or Initialize() all of them.
@@ -154,8 +195,12 @@ private:
 
   int RequestData(vtkInformationVector** input, vtkInformationVector* output);
   void ReportProgress(double fraction, const std::string& phase);
+  void CountBlocks(vtkInformationVector** input);
+  bool HasBlocks(int port, vtkDataObject* data);
+  bool ReceivesPiece(vtkInformationVector** input);
 
   int NumberOfThreads = 0;
+  bindpose::BlockNumber Block;
   bool ExecuteAgain = false;
   vtkTimeStamp RetryTime;
   std::unique_ptr<bindpose::Status> LastStatus;

@@ -33,7 +33,7 @@ struct vtkBoneEndpointWeights::Cache
   vtkSmartPointer<vtkDoubleArray> weights;
 };
 
-vtkBoneEndpointWeights::vtkBoneEndpointWeights() : BindCache(new Cache) {}
+vtkBoneEndpointWeights::vtkBoneEndpointWeights() : BindCache(this->GetBlock()) {}
 
 vtkBoneEndpointWeights::~vtkBoneEndpointWeights() = default;
 

@@ -34,8 +34,8 @@
 #define vtkBoneEndpointWeights_h
 
 #include "BindposeFiltersModule.h" // for export macro
+#include "block_caches.h" // for BlockCaches
 #include "vtkMeshAndHandlesAlgorithm.h"
-#include <memory> // for std::unique_ptr
 
 class BINDPOSEFILTERS_EXPORT vtkBoneEndpointWeights : public vtkMeshAndHandlesAlgorithm
 {
@@ -82,7 +82,7 @@ private:
   void operator=(const vtkBoneEndpointWeights&) = delete;
 
   struct Cache;
-  std::unique_ptr<Cache> BindCache;
+  bindpose::BlockCaches<Cache> BindCache;
   int Method = JOINTS;
   int Domain = 1;
   int NumberOfBinds = 0;

@@ -84,7 +84,7 @@ void append(const std::vector<vtkSmartPointer<vtkPointSet>>& instances, vtkDataO
 }
 } // namespace
 
-vtkCrowdDeformation::vtkCrowdDeformation() : Internal(new Internals)
+vtkCrowdDeformation::vtkCrowdDeformation() : Internal(this->GetBlock())
 {
   this->SetNumberOfInputPorts(3);
 }
@@ -159,6 +159,19 @@ Status vtkCrowdDeformation::Bind(ExecutionContext& context, const PoseInput& inp
 Status vtkCrowdDeformation::Execute(
   ExecutionContext& context, vtkInformationVector** input, vtkInformationVector* output)
 {
+  if (this->GetBlock().composite && this->OutputType != APPENDED)
+  {
+    return Status::invalid_input("a crowd of a composite mesh needs the output type appended, "
+                                 "because a collection cannot be a "
+                                 "block");
+  }
+  if (this->IsEmptyPiece(input, output))
+  {
+    vtkDataObject::GetData(output, 0)->Initialize();
+    Status status;
+    status.report.set("counts.instances", 0);
+    return status;
+  }
   const Status prepared = this->Prepare(context, input);
   if (!prepared.usable())
   {

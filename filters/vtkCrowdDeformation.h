@@ -27,6 +27,11 @@
  * instances and the point array `Instance`. Field data of an instance: `HandleTransforms`, as in
  * vtkReducedARAP, before the placement.
  *
+ * **Pieces and blocks.** Each process poses its own piece of the instances with the whole mesh. An
+ * instance gets the same bits as on one process if it starts from the same rotations. Numbers of
+ * instances (in names, messages and the array `Instance`) and counts are those of the piece. The
+ * blocks of a composite mesh need OutputType APPENDED.
+ *
  * An instance starts from the rotations of its last pose (WarmStart), so a moving crowd needs few
  * iterations.
  *
@@ -42,6 +47,7 @@
 #define vtkCrowdDeformation_h
 
 #include "BindposeFiltersModule.h" // for export macro
+#include "block_caches.h" // for BlockCaches
 #include "vtkBindAlgorithm.h"
 
 class BINDPOSEFILTERS_EXPORT vtkCrowdDeformation : public vtkBindAlgorithm
@@ -57,6 +63,9 @@ public:
   {
     this->SetInputConnection(2, instances);
   }
+
+  /// Return the port of the instances, which do not depend on each other.
+  int GetPiecePort() override { return 2; }
 
   ///@{
   /// Energy, number of clusters, and number and type of extra weights; see the setters of the same
@@ -137,6 +146,7 @@ protected:
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  bool TakesComposite(int port) override { return port == 2; }
   bindpose::Status Bind(
     bindpose::ExecutionContext& context, const bindpose::PoseInput& input) override;
   bindpose::Status Execute(bindpose::ExecutionContext& context, vtkInformationVector** input,
@@ -158,7 +168,7 @@ private:
   bool MixedPrecision = true;
   int OutputType = COLLECTION;
   struct Internals;
-  std::unique_ptr<Internals> Internal;
+  bindpose::BlockCaches<Internals> Internal;
 };
 
 #endif

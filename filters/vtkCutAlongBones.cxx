@@ -112,9 +112,13 @@ vtkCutAlongBones::vtkCutAlongBones()
   this->SetNumberOfOutputPorts(2);
 }
 
-int vtkCutAlongBones::FillInputPortInformation(int, vtkInformation* info)
+int vtkCutAlongBones::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
+  if (port > 0)
+  {
+    AcceptBlocks(info);
+  }
   return 1;
 }
 

@@ -21,7 +21,7 @@ struct vtkFullARAP::Internals
   FullArap arap;
 };
 
-vtkFullARAP::vtkFullARAP() : Internal(new Internals) {}
+vtkFullARAP::vtkFullARAP() : Internal(this->GetBlock()) {}
 
 vtkFullARAP::~vtkFullARAP() = default;
 

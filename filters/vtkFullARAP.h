@@ -43,6 +43,7 @@
 #define vtkFullARAP_h
 
 #include "BindposeFiltersModule.h" // for export macro
+#include "block_caches.h" // for BlockCaches
 #include "vtkArapAlgorithm.h"
 
 class BINDPOSEFILTERS_EXPORT vtkFullARAP : public vtkArapAlgorithm
@@ -113,7 +114,7 @@ private:
   int AndersonWindow = 5;
   bool WarmStart = true;
   struct Internals;
-  std::unique_ptr<Internals> Internal;
+  bindpose::BlockCaches<Internals> Internal;
 };
 
 #endif

@@ -287,6 +287,7 @@ int vtkGLTFSkinWriter::FillInputPortInformation(int port, vtkInformation* info)
   info->Set(INPUT_REQUIRED_DATA_TYPE(), port == 1 ? "vtkPolyData" : "vtkPointSet");
   info->Set(INPUT_IS_OPTIONAL(), port > 0);
   info->Set(INPUT_IS_REPEATABLE(), port == 2);
+  AcceptBlocks(info); // otherwise each block would be written to the same file
   return 1;
 }
 

@@ -12,6 +12,10 @@ vtkMeshAndHandlesAlgorithm::vtkMeshAndHandlesAlgorithm()
 int vtkMeshAndHandlesAlgorithm::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(INPUT_REQUIRED_DATA_TYPE(), port == 0 ? "vtkPointSet" : "vtkPolyData");
+  if (port > 0)
+  {
+    AcceptBlocks(info);
+  }
   return 1;
 }
 

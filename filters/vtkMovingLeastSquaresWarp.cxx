@@ -15,7 +15,7 @@ struct vtkMovingLeastSquaresWarp::Internals
   MovingLeastSquares warp;
 };
 
-vtkMovingLeastSquaresWarp::vtkMovingLeastSquaresWarp() : Internal(new Internals) {}
+vtkMovingLeastSquaresWarp::vtkMovingLeastSquaresWarp() : Internal(this->GetBlock()) {}
 
 vtkMovingLeastSquaresWarp::~vtkMovingLeastSquaresWarp() = default;
 

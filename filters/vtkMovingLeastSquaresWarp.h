@@ -29,6 +29,7 @@
 #define vtkMovingLeastSquaresWarp_h
 
 #include "BindposeFiltersModule.h" // for export macro
+#include "block_caches.h" // for BlockCaches
 #include "vtkPoseAlgorithm.h"
 
 class BINDPOSEFILTERS_EXPORT vtkMovingLeastSquaresWarp : public vtkPoseAlgorithm
@@ -63,7 +64,7 @@ private:
 
   double Exponent = 1.0;
   struct Internals;
-  std::unique_ptr<Internals> Internal;
+  bindpose::BlockCaches<Internals> Internal;
 };
 
 #endif

@@ -35,6 +35,7 @@ int vtkPlanarShape::FillInputPortInformation(int port, vtkInformation* info)
   {
     info->Set(INPUT_REQUIRED_DATA_TYPE(), "vtkPolyData");
     info->Set(INPUT_IS_OPTIONAL(), 1);
+    AcceptBlocks(info);
     return 1;
   }
   info->Set(INPUT_REQUIRED_DATA_TYPE(), "vtkImageData");

@@ -7,6 +7,7 @@
 #include "pose_input.h"
 #include "rotation_arrays.h"
 
+#include "vtkCompositeDataSet.h"
 #include "vtkDataArray.h"
 #include "vtkDoubleArray.h"
 #include "vtkExecutive.h"
@@ -72,7 +73,7 @@ vtkSmartPointer<vtkDataArray> to_normals(const Points& normals, vtkDataArray* li
 }
 } // namespace
 
-vtkPoseAlgorithm::vtkPoseAlgorithm() : RestCache(new RestData) {}
+vtkPoseAlgorithm::vtkPoseAlgorithm() : RestCache(this->GetBlock()) {}
 
 vtkPoseAlgorithm::~vtkPoseAlgorithm() = default;
 
@@ -80,6 +81,16 @@ Status vtkPoseAlgorithm::Execute(
   ExecutionContext& context, vtkInformationVector** input, vtkInformationVector* output)
 {
   auto* result = vtkPointSet::GetData(output, 0);
+  if (this->IsEmptyPiece(input, output))
+  {
+    if (auto* piece = vtkPointSet::GetData(input[0], 0))
+    {
+      result->ShallowCopy(piece);
+    }
+    Status status;
+    status.report.set("counts.vertices", 0);
+    return status;
+  }
   const Status prepared = this->PrepareRest(context, input, {});
   if (!prepared.usable())
   {
@@ -170,6 +181,11 @@ bool vtkPoseAlgorithm::PosePoints(const std::string& pose, vtkDoubleArray* point
       if (!points)
       {
         return Status::invalid_input("PosePoints() needs an array for the points");
+      }
+      if (vtkCompositeDataSet::SafeDownCast(this->GetInput(0)) ||
+        vtkCompositeDataSet::SafeDownCast(this->GetInput(1)))
+      {
+        return Status::invalid_input("PosePoints() needs one mesh and its handles, not blocks");
       }
       if (!this->CanPosePoints())
       {

@@ -24,8 +24,8 @@
 #define vtkPoseAlgorithm_h
 
 #include "BindposeFiltersModule.h" // for export macro
+#include "block_caches.h" // for BlockCaches
 #include "vtkBindAlgorithm.h"
-#include <memory> // for std::unique_ptr
 
 class vtkDoubleArray;
 
@@ -114,8 +114,8 @@ private:
   double StretchLimit = 2.0;
   bool StretchArray = false;
   struct RestData;
-  std::unique_ptr<RestData>
-    RestCache; ///< data shared by all poses of a bind; computed on first use
+  /// Data shared by all poses of a bind; computed on first use.
+  bindpose::BlockCaches<RestData> RestCache;
 };
 
 #endif

@@ -20,7 +20,7 @@ struct vtkReducedARAP::Internals
   ReducedArap arap;
 };
 
-vtkReducedARAP::vtkReducedARAP() : Internal(new Internals) {}
+vtkReducedARAP::vtkReducedARAP() : Internal(this->GetBlock()) {}
 
 vtkReducedARAP::~vtkReducedARAP() = default;
 

@@ -45,6 +45,7 @@
 #define vtkReducedARAP_h
 
 #include "BindposeFiltersModule.h" // for export macro
+#include "block_caches.h" // for BlockCaches
 #include "vtkReducedPoseAlgorithm.h"
 
 class BINDPOSEFILTERS_EXPORT vtkReducedARAP : public vtkReducedPoseAlgorithm
@@ -132,7 +133,7 @@ private:
   bool WarmStart = true;
   bool MixedPrecision = true;
   struct Internals;
-  std::unique_ptr<Internals> Internal;
+  bindpose::BlockCaches<Internals> Internal;
 };
 
 #endif

@@ -181,6 +181,18 @@ vtkTypeBool vtkReducedDynamics::ProcessRequest(
   return result;
 }
 
+Status vtkReducedDynamics::Execute(
+  ExecutionContext& context, vtkInformationVector** input, vtkInformationVector* output)
+{
+  if (this->GetBlock().composite)
+  {
+    // The executive cannot repeat the time steps of a single block.
+    return Status::invalid_input(
+      "a composite mesh cannot be simulated; merge its blocks or extract one");
+  }
+  return this->Superclass::Execute(context, input, output);
+}
+
 Status vtkReducedDynamics::Bind(ExecutionContext& context, const PoseInput& input)
 {
   this->Internal->started = false;

@@ -132,6 +132,8 @@ protected:
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
   int RequestUpdateExtent(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  bindpose::Status Execute(bindpose::ExecutionContext& context, vtkInformationVector** input,
+    vtkInformationVector* output) override;
   bindpose::Status Bind(
     bindpose::ExecutionContext& context, const bindpose::PoseInput& input) override;
   /// Return false, because the points depend on the previous time steps, not only on the pose.

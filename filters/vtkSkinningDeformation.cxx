@@ -58,7 +58,7 @@ struct vtkSkinningDeformation::Internals
   }
 };
 
-vtkSkinningDeformation::vtkSkinningDeformation() : Internal(new Internals) {}
+vtkSkinningDeformation::vtkSkinningDeformation() : Internal(this->GetBlock()) {}
 
 vtkSkinningDeformation::~vtkSkinningDeformation() = default;
 
@@ -128,6 +128,12 @@ Status vtkSkinningDeformation::BindMissing(ExecutionContext& context, const Pose
     internal.bind.needs_elements(shape, options) ? to_pose_elements(input.mesh) : PoseElements();
   return internal.bind.bind(
     context, shape, elements.tets.view(), elements.triangles.view(), options);
+}
+
+int vtkSkinningDeformation::GetPiecePort()
+{
+  const bool by_row = this->Method == LINEAR_BLEND || this->Method == DUAL_QUATERNION;
+  return by_row && this->PseudoEdges != AUTOMATIC_PSEUDO_EDGES ? 0 : -1;
 }
 
 StretchUse vtkSkinningDeformation::GetStretchUse()

@@ -28,6 +28,12 @@
  * motion of all points is reproduced exactly; in space an edge does not determine the rotation
  * about itself. Points without edges keep their own rotation.
  *
+ * **Pieces.** By linear blend and dual quaternions, a point depends only on its own weights. Each
+ * process then poses its own piece of the mesh with the whole set of handles, and every point gets
+ * the same bits as on one process. Counts and stretch in the report, and the signs in the array
+ * `Stretch` of a surface, are those of the piece. The other methods, and automatic pseudo-edges,
+ * depend on the whole mesh; the first process poses it.
+ *
  * Ports, arrays, bind cache and errors: see vtkPoseAlgorithm. Handles in mode position contribute a
  * translation, handles in mode free the identity (with a warning). Skinning does not compute
  * transforms; see vtkReducedARAP for that. The filter accepts any vtkPointSet, including FE meshes.
@@ -40,6 +46,7 @@
 #define vtkSkinningDeformation_h
 
 #include "BindposeFiltersModule.h" // for export macro
+#include "block_caches.h" // for BlockCaches
 #include "vtkPoseAlgorithm.h"
 
 class BINDPOSEFILTERS_EXPORT vtkSkinningDeformation : public vtkPoseAlgorithm
@@ -68,6 +75,9 @@ public:
   void SetMethodToCentersOfRotation() { this->SetMethod(CENTERS_OF_ROTATION); }
   ///@}
 
+  /// Return the port of the mesh if each point depends only on its own weights, otherwise -1.
+  int GetPiecePort() override;
+
   enum PseudoEdgesType
   {
     NO_PSEUDO_EDGES = 0,
@@ -95,8 +105,8 @@ public:
   ///@{
   /**
    * Store weights and transforms as floats. This takes half the memory, is about twice as fast, and
-   * is accurate to a millionth of the mesh's diagonal. Default off. This is a bind parameter: a
-   * change runs the bind again.
+   * is accurate to a millionth of the diagonal of mesh and handles. Default off. This is a bind
+   * parameter: a change runs the bind again.
    */
   void SetSinglePrecision(bool single);
   vtkGetMacro(SinglePrecision, bool);
@@ -155,7 +165,7 @@ private:
   int MaximumInfluences = 0;
   std::string EndpointArrayName = "EndpointWeights";
   struct Internals;
-  std::unique_ptr<Internals> Internal;
+  bindpose::BlockCaches<Internals> Internal;
 };
 
 #endif

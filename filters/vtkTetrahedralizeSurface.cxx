@@ -36,6 +36,7 @@ int vtkTetrahedralizeSurface::FillInputPortInformation(int port, vtkInformation*
   if (port == 1)
   {
     info->Set(INPUT_IS_OPTIONAL(), 1);
+    AcceptBlocks(info);
   }
   return 1;
 }

@@ -29,7 +29,21 @@ struct vtkTransferWeights::Cache
   vtkSmartPointer<vtkDoubleArray> weights;
 };
 
-vtkTransferWeights::vtkTransferWeights() : BindCache(new Cache)
+namespace
+{
+/// Return an array of doubles with undefined values and the name and components of an array.
+vtkSmartPointer<vtkDoubleArray> array_like(vtkDataArray* weights, vtkIdType tuples)
+{
+  auto array = vtkSmartPointer<vtkDoubleArray>::New();
+  array->SetName(weights->GetName());
+  array->SetNumberOfComponents(weights->GetNumberOfComponents());
+  array->CopyComponentNames(weights);
+  array->SetNumberOfTuples(tuples);
+  return array;
+}
+} // namespace
+
+vtkTransferWeights::vtkTransferWeights() : BindCache(this->GetBlock())
 {
   this->SetNumberOfInputPorts(2);
 }
@@ -46,9 +60,13 @@ void vtkTransferWeights::SetArrayName(const std::string& name)
   }
 }
 
-int vtkTransferWeights::FillInputPortInformation(int, vtkInformation* info)
+int vtkTransferWeights::FillInputPortInformation(int port, vtkInformation* info)
 {
   info->Set(INPUT_REQUIRED_DATA_TYPE(), "vtkPointSet");
+  if (port > 0)
+  {
+    AcceptBlocks(info);
+  }
   return 1;
 }
 
@@ -71,7 +89,8 @@ Status vtkTransferWeights::Execute(
   vtkPointSet* target = vtkPointSet::GetData(input[0]);
   vtkPointSet* mesh = vtkPointSet::GetData(input[1]);
   vtkPointSet* result = vtkPointSet::GetData(output);
-  if (!target || !result || target->GetNumberOfPoints() == 0)
+  const bool empty_piece = this->IsEmptyPiece(input, output);
+  if (!empty_piece && (!target || !result || target->GetNumberOfPoints() == 0))
   {
     return Status::invalid_input("the input mesh, to which weights are transferred, has no points");
   }
@@ -79,6 +98,19 @@ Status vtkTransferWeights::Execute(
   if (!weights)
   {
     return Status::invalid_input("the source mesh has no point array '" + this->ArrayName + "'");
+  }
+  if (empty_piece)
+  {
+    if (target)
+    {
+      result->ShallowCopy(target);
+    }
+    result->GetPointData()->AddArray(array_like(weights, 0));
+    pass_certificates(mesh->GetFieldData(), result->GetFieldData(), this->ArrayName);
+    Status status;
+    status.report.set("counts.vertices", 0);
+    status.report.set("counts.handles", weights->GetNumberOfComponents());
+    return status;
   }
   BindKey key;
   key.add(this->BindTime.GetMTime());
@@ -118,11 +150,7 @@ Status vtkTransferWeights::Execute(
         values.row(v) = rows.view().row(v);
       }
     }
-    new_cache.weights = vtkSmartPointer<vtkDoubleArray>::New();
-    new_cache.weights->SetName(this->ArrayName.c_str());
-    new_cache.weights->SetNumberOfComponents(static_cast<int>(values.cols()));
-    new_cache.weights->CopyComponentNames(weights);
-    new_cache.weights->SetNumberOfTuples(values.rows());
+    new_cache.weights = array_like(weights, values.rows());
     std::copy(values.data(), values.data() + values.size(), new_cache.weights->GetPointer(0));
     new_cache.status = status;
     new_cache.key = key;

@@ -15,8 +15,14 @@
  * component names, and the optimality certificates of the weights as field data (see
  * vtkWeightsAlgorithm).
  *
+ * **Pieces.** Each process transfers the weights to its own piece of the target, from the whole
+ * mesh. Every point gets the same bits as on one process. The exception is a mesh that is cut open:
+ * the point's own id is its id in the piece, so several vertices at one point may be mixed up.
+ * Counts in the report are those of the piece.
+ *
  * The result is cached until points, cells or weights of the mesh or the points of the target
  * change. An unchanged transfer returns the same array. GetNumberOfBinds() counts the transfers.
+ * Each block of a composite target has its own cached result.
  *
  * Report: transfer (exact, barycentric or mixed), counts.{transferred_exact,
  * transferred_barycentric, transferred_nearest, transfer_misses} (a miss is farther from the mesh
@@ -30,8 +36,8 @@
 #define vtkTransferWeights_h
 
 #include "BindposeFiltersModule.h" // for export macro
+#include "block_caches.h" // for BlockCaches
 #include "vtkBindposeAlgorithm.h"
-#include <memory> // for std::unique_ptr
 
 class BINDPOSEFILTERS_EXPORT vtkTransferWeights : public vtkBindposeAlgorithm
 {
@@ -48,6 +54,9 @@ public:
 
   /// Number of times that weights were transferred.
   vtkGetMacro(NumberOfBinds, int);
+
+  /// Return the port of the target, whose points get their weights one by one.
+  int GetPiecePort() override { return 0; }
 
   /// Set the mesh with weights, like SetInputData(1, mesh).
   void SetMeshData(vtkDataObject* mesh) { this->SetInputData(1, mesh); }
@@ -72,7 +81,7 @@ private:
   int NumberOfBinds = 0;
   vtkTimeStamp BindTime;
   struct Cache;
-  std::unique_ptr<Cache> BindCache;
+  bindpose::BlockCaches<Cache> BindCache;
 };
 
 #endif

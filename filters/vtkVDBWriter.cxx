@@ -93,6 +93,7 @@ int vtkVDBWriter::FillInputPortInformation(int, vtkInformation* info)
   // Accept any dataset, so that the status rather than the executive reports an input that is not
   // an image.
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
+  AcceptBlocks(info);
   return 1;
 }
 

@@ -67,7 +67,7 @@ Status to_flags(vtkPointSet* mesh, const std::string& name, std::vector<char>& f
 }
 } // namespace
 
-vtkVariationalSurface::vtkVariationalSurface() : Internal(new Internals) {}
+vtkVariationalSurface::vtkVariationalSurface() : Internal(this->GetBlock()) {}
 
 vtkVariationalSurface::~vtkVariationalSurface() = default;
 

@@ -58,6 +58,7 @@
 #define vtkVariationalSurface_h
 
 #include "BindposeFiltersModule.h" // for export macro
+#include "block_caches.h" // for BlockCaches
 #include "vtkPoseAlgorithm.h"
 
 class BINDPOSEFILTERS_EXPORT vtkVariationalSurface : public vtkPoseAlgorithm
@@ -175,7 +176,7 @@ private:
   std::string TangentArrayName = "Tangents";
   std::string LoadArrayName = "Load";
   struct Internals;
-  std::unique_ptr<Internals> Internal;
+  bindpose::BlockCaches<Internals> Internal;
 };
 
 #endif

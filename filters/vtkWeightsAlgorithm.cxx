@@ -247,7 +247,8 @@ struct vtkWeightsAlgorithm::Cache
   vtkSmartPointer<vtkUnstructuredGrid> volume;
 };
 
-vtkWeightsAlgorithm::vtkWeightsAlgorithm() : TermNames(new TermArrayNames), BindCache(new Cache)
+vtkWeightsAlgorithm::vtkWeightsAlgorithm()
+  : TermNames(new TermArrayNames), BindCache(this->GetBlock())
 {
   this->SetNumberOfOutputPorts(3);
 }

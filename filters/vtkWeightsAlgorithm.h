@@ -95,6 +95,7 @@
 #define vtkWeightsAlgorithm_h
 
 #include "BindposeFiltersModule.h" // for export macro
+#include "block_caches.h" // for BlockCaches
 #include "vtkMeshAndHandlesAlgorithm.h"
 #include "vtkCommand.h" // for vtkCommand::UserEvent
 #include <memory> // for std::unique_ptr
@@ -352,7 +353,7 @@ private:
   std::unique_ptr<bindpose::TermArrayNames> TermNames;
   int NumberOfBinds = 0;
   vtkTimeStamp BindTime;
-  std::unique_ptr<Cache> BindCache;
+  bindpose::BlockCaches<Cache> BindCache;
 };
 
 #endif

@@ -337,7 +337,7 @@ Status check_memory(Index samples, std::size_t bytes_per_sample)
 }
 } // namespace
 
-vtkWindingNumberField::vtkWindingNumberField() : BuildCache(new Cache)
+vtkWindingNumberField::vtkWindingNumberField() : BuildCache(this->GetBlock())
 {
   this->SetNumberOfInputPorts(2);
   this->SetNumberOfOutputPorts(2);
@@ -403,14 +403,11 @@ int vtkWindingNumberField::RequestInformation(
   {
     // VTK's composite executive calls this function once with the whole dataset, and then once per
     // block with the block in place of the producer's output. The calls for blocks must not update
-    // the producer; CompositeTime identifies them.
-    this->CompositeTime.Modified();
+    // the producer.
     return 1;
   }
-  const bool is_block =
-    this->GetProgressScale() != 1.0 || this->CompositeTime.GetMTime() > this->MTime.GetMTime();
   vtkExecutive* producer = vtkExecutive::PRODUCER()->GetExecutive(surface_info);
-  if (producer && !is_block)
+  if (producer && !this->GetBlock().composite)
   {
     // Request the whole surface, because another consumer may have requested only a piece.
     RequestWholeInput(surface_info);
@@ -435,8 +432,12 @@ int vtkWindingNumberField::RequestInformation(
 }
 
 int vtkWindingNumberField::RequestUpdateExtent(
-  vtkInformation*, vtkInformationVector** input, vtkInformationVector*)
+  vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output)
 {
+  if (this->GetPiecePort() >= 0)
+  {
+    return this->Superclass::RequestUpdateExtent(request, input, output);
+  }
   RequestWholeInput(input[0]->GetInformationObject(0)); // every sample depends on the whole surface
   return 1;
 }
@@ -519,7 +520,7 @@ bindpose::Status vtkWindingNumberField::Build(
   WindingField::extent(input, new_cache->box, new_cache->flat_axis);
   new_cache->status = status;
   new_cache->valid = true;
-  this->BuildCache = std::move(new_cache);
+  this->BuildCache.reset(std::move(new_cache));
   this->NumberOfBuilds += 1;
   return status;
 }

@@ -82,8 +82,8 @@
 #define vtkWindingNumberField_h
 
 #include "BindposeFiltersModule.h" // for export macro
+#include "block_caches.h" // for BlockCaches
 #include "vtkBindposeAlgorithm.h"
-#include <memory> // for std::unique_ptr
 
 class vtkPointSet;
 class vtkPolyData;
@@ -232,6 +232,9 @@ public:
   vtkGetMacro(OutputPrecision, int);
   ///@}
 
+  /// Return the port of the points if there are any. Otherwise the pieces are extents of the grid.
+  int GetPiecePort() override { return this->GetNumberOfInputConnections(1) > 0 ? 1 : -1; }
+
   /// Return the open boundary of the surface: output 1.
   vtkPolyData* GetBoundaryOutput();
 
@@ -243,7 +246,7 @@ protected:
   vtkWindingNumberField();
   ~vtkWindingNumberField() override;
 
-  bool MakesPieces() override { return true; }
+  bool MakesPieces() override { return this->GetPiecePort() < 0; }
   int FillInputPortInformation(int port, vtkInformation* info) override;
   int FillOutputPortInformation(int port, vtkInformation* info) override;
   int RequestDataObject(
@@ -281,9 +284,8 @@ private:
   double WindingThreshold = 0.5;
   int OutputPrecision = DOUBLE_PRECISION;
   int NumberOfBuilds = 0;
-  vtkTimeStamp CompositeTime; // time of the last check of a composite input
   struct Cache;
-  std::unique_ptr<Cache> BuildCache;
+  bindpose::BlockCaches<Cache> BuildCache;
 };
 
 #endif

@@ -15,6 +15,7 @@ set(bindpose_vtk_components
   FiltersCore FiltersExtraction FiltersGeneral FiltersGeometry FiltersModeling FiltersSources
   ImagingCore InteractionStyle InteractionWidgets
   IOCore IOGeometry IOImage IOLegacy IOPLY IOXML
+  ParallelCore
   RenderingAnnotation RenderingCore RenderingFreeType RenderingOpenGL2
   RenderingVolume RenderingVolumeOpenGL2)
 if(BINDPOSE_WRAP_PYTHON)

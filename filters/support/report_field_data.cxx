@@ -3,6 +3,8 @@
 #include "base/execution.h"
 #include "base/memory.h"
 
+#include "vtkCompositeDataIterator.h"
+#include "vtkCompositeDataSet.h"
 #include "vtkDataObject.h"
 #include "vtkDoubleArray.h"
 #include "vtkFieldData.h"
@@ -157,6 +159,21 @@ Report read_report(vtkDataObject* data)
 
 Status upstream_failure(vtkDataObject* data)
 {
+  if (auto* composite = vtkCompositeDataSet::SafeDownCast(data))
+  {
+    Status status;
+    vtkSmartPointer<vtkCompositeDataIterator> block;
+    block.TakeReference(composite->NewIterator());
+    for (block->InitTraversal(); status.ok() && !block->IsDoneWithTraversal();
+         block->GoToNextItem())
+    {
+      status = upstream_failure(block->GetCurrentDataObject());
+    }
+    if (!status.ok())
+    {
+      return status;
+    }
+  }
   const Report report = read_report(data);
   const std::string word = report.text("status", "ok");
   Status status;

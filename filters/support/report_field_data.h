@@ -29,8 +29,9 @@ BINDPOSEFILTERS_EXPORT void attach_report(vtkDataObject* data, const Report& rep
 /// Return the report of a data object; empty if it has none.
 BINDPOSEFILTERS_EXPORT Report read_report(vtkDataObject* data);
 
-/// If the report of a data object contains a failure, return a status with this failure. Return ok
-/// if the data is null or its report contains no failure.
+/// If the report of a data object contains a failure, return a status with this failure. For a
+/// composite, the first failure of its blocks is returned. Return ok if the data is null or there
+/// is no failure.
 BINDPOSEFILTERS_EXPORT Status upstream_failure(vtkDataObject* data);
 
 /// Insert the code, the message and the warnings of a status at the beginning of its report.

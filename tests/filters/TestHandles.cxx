@@ -1,11 +1,15 @@
-// Handle datasets: read from files, and placed automatically on a surface.
+// Handle datasets: read from files and texts, and placed automatically on a surface.
 #include "conversion.h"
+#include "handle_tgf.h"
 #include "pseudo_edge_cells.h"
+#include "report_field_data.h"
 #include "vtkFarthestPointHandles.h"
 #include "vtkHandleFileReader.h"
 #include "vtkMeshFileWriter.h"
+#include "vtkPlacedHandles.h"
 
 #include "support/files.h"
+#include "support/handles.h"
 #include "support/meshes.h"
 
 #include "vtkCallbackCommand.h"
@@ -19,6 +23,8 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include <sstream>
 
 using namespace bindpose;
 using testing::HasSubstr;
@@ -46,6 +52,25 @@ protected:
   test::Folder Folder;
   vtkNew<vtkCallbackCommand> Silent;
   vtkNew<vtkHandleFileReader> Reader;
+};
+
+class PlacedHandles : public testing::Test
+{
+protected:
+  PlacedHandles()
+  {
+    this->source->AddObserver(vtkCommand::ErrorEvent, this->silent);
+    this->source->AddObserver(vtkCommand::WarningEvent, this->silent);
+  }
+  vtkPolyData* place(const std::string& text)
+  {
+    this->source->SetHandlesText(text);
+    this->source->Update();
+    return vtkPolyData::SafeDownCast(this->source->GetOutput());
+  }
+
+  vtkNew<vtkCallbackCommand> silent;
+  vtkNew<vtkPlacedHandles> source;
 };
 } // namespace
 
@@ -183,6 +208,93 @@ TEST_F(HandleFiles, UnusableHandlesAreNamed)
   ASSERT_EQ(writer->Write(), 1);
   EXPECT_TRUE(this->Read(this->Folder / "cube.vtp").empty());
   EXPECT_THAT(this->Reader->GetStatusMessage(), HasSubstr("3 points"));
+}
+
+TEST_F(PlacedHandles, AreThoseOfAFileWithTheSameText)
+{
+  const std::string text = "1 0 0 0\n2 1 0 0\n3 2 0 0\n4 5 5 5 left hand\n5 6 6 6\n6 7 6 6\n"
+                           "7 7 7 6\n#\n2 3 1 0 0\n1 2 1 0 0\n4 5 0 1 0\n6 7 0 0 1\n";
+  vtkPolyData* placed = this->place(text);
+  ASSERT_EQ(this->source->GetStatus(), vtkPlacedHandles::OK) << this->source->GetStatusMessage();
+  const test::Folder folder;
+  vtkNew<vtkHandleFileReader> reader;
+  reader->SetFileName(folder.write("h.tgf", text).c_str());
+  reader->Update();
+  auto* from_file = vtkPolyData::SafeDownCast(reader->GetOutput());
+  ASSERT_EQ(placed->GetNumberOfCells(), from_file->GetNumberOfCells());
+  Handles handles, expected;
+  std::vector<Index> cells;
+  ASSERT_TRUE(to_handles(placed, handles, &cells).ok());
+  ASSERT_TRUE(to_handles(from_file, expected).ok());
+  ASSERT_EQ(handles.size(), 6u);
+  ASSERT_EQ(expected.size(), 6u);
+  for (std::size_t i = 0; i < handles.size(); ++i)
+  {
+    EXPECT_EQ(handles[i].name, expected[i].name);
+    EXPECT_EQ(handles[i].kind, expected[i].kind);
+    EXPECT_EQ(handles[i].parent, expected[i].parent);
+    EXPECT_EQ(handles[i].head, expected[i].head);
+    EXPECT_EQ(handles[i].tail, expected[i].tail);
+    EXPECT_EQ(handles[i].cage, expected[i].cage);
+  }
+  PseudoEdges edges;
+  EXPECT_TRUE(to_pseudo_edges(placed, handles, cells, edges).ok());
+  EXPECT_EQ(edges, (PseudoEdges{ { 0, 1 } }));
+  EXPECT_EQ(read_report(placed).number("counts.handles", 0), 6);
+
+  // The text of the dataset places the same handles.
+  std::string again;
+  ASSERT_TRUE(to_tgf(placed, again).ok());
+  std::string third;
+  ASSERT_TRUE(to_tgf(this->place(again), third).ok());
+  EXPECT_EQ(again, third);
+  Handles same;
+  ASSERT_TRUE(to_handles(vtkPolyData::SafeDownCast(this->source->GetOutput()), same).ok());
+  ASSERT_EQ(same.size(), 6u);
+  EXPECT_EQ(same[0].name, "left hand");
+  EXPECT_EQ(same[5].head, handles[5].head);
+  EXPECT_EQ(same[4].parent, handles[4].parent);
+}
+
+TEST_F(PlacedHandles, MayBeNone)
+{
+  for (const char* text : { "", " \r\n\n" })
+  {
+    EXPECT_EQ(this->place(text)->GetNumberOfCells(), 0);
+    EXPECT_EQ(this->source->GetStatus(), vtkPlacedHandles::OK);
+    EXPECT_EQ(read_report(this->source->GetOutput()).number("counts.handles", -1), 0);
+  }
+  std::string text = "not empty";
+  EXPECT_TRUE(to_tgf(static_cast<vtkPolyData*>(nullptr), text).ok());
+  EXPECT_EQ(text, "");
+}
+
+TEST_F(PlacedHandles, MessagesBeginWithTheirText)
+{
+  EXPECT_EQ(this->place("1 0 0 0\n2 zero 0 0\n")->GetNumberOfCells(), 0);
+  EXPECT_EQ(this->source->GetStatus(), vtkPlacedHandles::INVALID_INPUT);
+  EXPECT_EQ(this->source->GetStatusMessage(),
+    "the text of the handles: line 2: node 2 must have three numbers as coordinates");
+  this->place("1 0 0 0 a\n2 1 0 0 a\n");
+  EXPECT_THAT(this->source->GetStatusMessage(), testing::StartsWith("the text of the handles: "));
+  EXPECT_THAT(this->source->GetStatusMessage(), HasSubstr("named 'a'"));
+  EXPECT_EQ(this->place("1 0 0 0\n2 1 0 0\n#\n1 2 0 0 0\n")->GetNumberOfCells(), 2);
+  EXPECT_EQ(this->source->GetStatus(), vtkPlacedHandles::OK);
+  EXPECT_EQ(this->source->GetNumberOfWarnings(), 1);
+  EXPECT_THAT(this->source->GetReportJSON(),
+    HasSubstr("the text of the handles: 1 edges are ignored because"));
+  std::ostringstream text;
+  this->source->Print(text);
+  EXPECT_THAT(text.str(), HasSubstr("HandlesText: 1 0 0 0"));
+}
+
+TEST(HandlesAsTgfText, OfRegionsAreRefused)
+{
+  std::string text = "not empty";
+  const Status status = to_tgf(to_polydata(Handles{ test::region_handle("hip", 3) }), text);
+  EXPECT_EQ(status.code, StatusCode::invalid_input);
+  EXPECT_THAT(status.message, HasSubstr("region handle 'hip'"));
+  EXPECT_EQ(text, "");
 }
 
 TEST(FarthestPointHandles, LieOnTheSurface)

@@ -227,7 +227,9 @@ TEST_F(ReducedARAPFilter, AllFullEqualsTheSkinningFilter)
   skinning->SetInputConnection(1, this->pose->GetOutputPort());
   skinning->Update();
   this->filter->Update();
-  EXPECT_EQ(this->output(), to_points(skinning->GetOutput()).view());
+  // The filters compute positions relative to different centers.
+  EXPECT_LT(
+    (this->output() - to_points(skinning->GetOutput()).view()).cwiseAbs().maxCoeff(), 1e-13);
 }
 
 TEST_F(ReducedARAPFilter, RotationArraysTellWhatEachVertexIsTurnedBy)

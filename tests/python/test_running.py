@@ -98,7 +98,7 @@ def test_classes_are_at_package_level():
                  "vtkVariationalSurface", "vtkMovingLeastSquaresWarp", "vtkWeightedColors",
                  "vtkDepthOrder", "vtkCutAlongBones", "vtkMonotoneSmoothing", "vtkMeshFileReader", "vtkMeshFileWriter",
                  "vtkHandleFileReader", "vtkAutomaticHandles", "vtkFarthestPointHandles", "vtkHandleSetWidget",
-                 "vtkRegionBrushWidget", "vtkBoneEndpointWeights"):
+                 "vtkRegionBrushWidget", "vtkBoneEndpointWeights", "vtkPlacedHandles", "vtkShareDataset"):
         assert hasattr(bindpose, name)
         assert name in str(getattr(bindpose, name)())
 

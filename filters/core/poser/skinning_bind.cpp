@@ -52,13 +52,19 @@ Status SkinningBind::bind(ExecutionContext& context, const SkinnedShape& shape, 
   {
     const ProgressRange range(context, 0.0, this->needs_elements(shape, options) ? 0.05 : 1.0);
     this->bound_.reset();
-    status = this->skinning_.bind(context, shape.weights, options.weights);
+    this->pivots_ = handle_pivots(shape.handles);
+    SkinningOptions weights = options.weights;
+    weights.center.reset();
+    if (this->pivots_.rows() > 0)
+    {
+      weights.center = Vec3(this->pivots_.colwise().mean().transpose());
+    }
+    status = this->skinning_.bind(context, shape.weights, weights);
     if (!status.usable())
     {
       return status;
     }
     this->bound_ = options.weights;
-    this->pivots_ = handle_pivots(shape.handles);
   }
   if (options.pseudo_edges == PseudoEdgeChoice::automatic && !this->automatic_edges_)
   {

@@ -31,7 +31,9 @@ enum class PseudoEdgeChoice : int
 struct SkinningMethodOptions
 {
   SkinningMethod method = SkinningMethod::linear_blend;
-  SkinningOptions weights; ///< precision of the weights, and which weights are dropped
+  /// Precision of the weights, and which weights are dropped. SkinningBind overwrites the center by
+  /// the mean of the handles' pivots.
+  SkinningOptions weights;
   PseudoEdgeChoice pseudo_edges = PseudoEdgeChoice::none;
   bool pseudo_edge_stretch = false; ///< pseudo-edges also scale their handles
   /// Stretchable bones: method of the endpoint weights, if the shape has none.
@@ -50,6 +52,10 @@ struct SkinnedShape
 /// All skinning methods with the data that they compute once per shape: sparse weights, pivots,
 /// centers of rotation, endpoint weights and automatic pseudo-edges. A bind computes only what its
 /// method needs and what is missing.
+///
+/// By linear blending and dual quaternions, a vertex of a part of a shape gets the same bits as in
+/// the whole shape. For this reason positions are computed relative to the mean of the handles'
+/// pivots, which does not depend on the part.
 class SkinningBind
 {
 public:

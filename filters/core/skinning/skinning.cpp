@@ -44,19 +44,6 @@ BlendValues<Scalar, 12> displacements(const std::vector<Affine>& transforms, con
   return moves;
 }
 
-/// Return a point near the middle of the points: the mean of a few of them. Single precision is
-/// most accurate for coordinates relative to such a point.
-Vec3 center_of(PointsView points)
-{
-  const Index sample_count = std::min<Index>(points.rows(), 64);
-  Vec3 sum = Vec3::Zero();
-  for (Index i = 0; i < sample_count; ++i)
-  {
-    sum += points.row(i * points.rows() / sample_count).transpose();
-  }
-  return sample_count > 0 ? Vec3(sum / static_cast<double>(sample_count)) : sum;
-}
-
 /// Add the coordinates in `summand` to those in `to`.
 template <typename Scalar>
 void add(const TilePoints<Scalar>& summand, TilePoints<Scalar>& to)
@@ -264,6 +251,21 @@ const WeightTiles<double>& Skinning::tiles() const
   return this->double_tiles_;
 }
 
+Vec3 Skinning::center_of(PointsView points) const
+{
+  if (this->center_)
+  {
+    return *this->center_;
+  }
+  const Index sample_count = std::min<Index>(points.rows(), 64);
+  Vec3 sum = Vec3::Zero();
+  for (Index i = 0; i < sample_count; ++i)
+  {
+    sum += points.row(i * points.rows() / sample_count).transpose();
+  }
+  return sample_count > 0 ? Vec3(sum / static_cast<double>(sample_count)) : sum;
+}
+
 /// Copy the kept weights to tiles. The first pass finds the columns of each tile, the second pass
 /// copies the weights.
 template <typename Scalar>
@@ -394,6 +396,7 @@ Status Skinning::bind(
     all.dropped += block.dropped;
     all.largest_dropped_weight = std::max(all.largest_dropped_weight, block.largest_dropped_weight);
   }
+  this->center_ = options.center;
   this->vertices_ = rows;
   this->handles_ = cols;
   this->weight_count_ = all.count;
@@ -451,7 +454,7 @@ bool Skinning::blend_affine(ExecutionContext& context, PointsView rest,
 {
   const WeightTiles<Scalar>& tiles = this->tiles<Scalar>();
   constexpr Index lanes = WeightTiles<Scalar>::lanes;
-  const Vec3 center = normals ? Vec3::Zero() : center_of(rest);
+  const Vec3 center = normals ? Vec3::Zero() : this->center_of(rest);
   const auto moves = displacements<Scalar>(transforms, center);
   Eigen::Map<Points> posed = output.resized(rest.rows());
   return parallel_for(context, rest.rows(), skinning_block,
@@ -532,7 +535,7 @@ Status Skinning::linear_blend_many(ExecutionContext& context, PointsView rest,
     return count_status;
   }
   constexpr Index lanes = WeightTiles<float>::lanes;
-  const Vec3 center = center_of(rest);
+  const Vec3 center = this->center_of(rest);
   std::vector<BlendValues<float, 12>> moves;
   for (std::size_t i = 0; i < transforms.size(); ++i)
   {
@@ -602,7 +605,7 @@ bool Skinning::blend_bones(ExecutionContext& context, PointsView rest,
 {
   const WeightTiles<Scalar>& tiles = this->tiles<Scalar>();
   constexpr Index lanes = WeightTiles<Scalar>::lanes;
-  const Vec3 center = center_of(rest);
+  const Vec3 center = this->center_of(rest);
   const auto moves = displacements<Scalar>(transforms, center);
   const auto frames = bone_frames<Scalar>(bones, transforms, center);
   Eigen::Map<Points> posed = output.resized(rest.rows());
@@ -657,7 +660,7 @@ bool Skinning::blend_dual(ExecutionContext& context, PointsView rest,
 {
   const WeightTiles<Scalar>& tiles = this->tiles<Scalar>();
   constexpr Index lanes = WeightTiles<Scalar>::lanes;
-  const Vec3 center = normals ? Vec3::Zero() : center_of(rest);
+  const Vec3 center = normals ? Vec3::Zero() : this->center_of(rest);
   // Each transform x -> L x + t is split: first the scale and shear x -> c + P (x - c) about the
   // pivot c, then the rigid motion y -> R y + u.
   std::vector<Affine> shears(transforms.size());
@@ -772,7 +775,7 @@ bool Skinning::blend_about(ExecutionContext& context, PointsView rest,
 {
   const WeightTiles<Scalar>& tiles = this->tiles<Scalar>();
   constexpr Index lanes = WeightTiles<Scalar>::lanes;
-  const Vec3 middle = centers ? center_of(*centers) : Vec3::Zero();
+  const Vec3 middle = centers ? this->center_of(*centers) : Vec3::Zero();
   const auto moves = displacements<Scalar>(transforms, middle);
   std::vector<Affine> shears;
   std::vector<DualQuaternion> motions;

@@ -11,6 +11,8 @@
 #include "pose/pose.h"
 #include "skinning/weight_tiles.h"
 
+#include <optional>
+
 namespace bindpose
 {
 
@@ -30,6 +32,10 @@ struct SkinningOptions
   /// Maximum number of weights per row. The largest ones are kept; if several are equal, those in
   /// the first columns. 0: all weights are kept.
   Index influences = 0;
+  /// Point near the shape. Positions are computed relative to it, because single precision is most
+  /// accurate near 0. Empty: the mean of a few of the rest points. With a given center, the result
+  /// of a vertex has the same bits in every subset of the vertices.
+  std::optional<Vec3> center;
 };
 
 /// Linear blend and dual quaternion skinning. Weights are bound once and can then be used for many
@@ -153,7 +159,10 @@ private:
   bool blend_bones(ExecutionContext& context, PointsView rest,
     const std::vector<Affine>& transforms, const std::vector<BoneChange>& bones,
     WeightsView endpoints, PointsOutput posed) const;
+  /// Return the center of the options, or else a point near the middle of the points.
+  Vec3 center_of(PointsView points) const;
 
+  std::optional<Vec3> center_; ///< SkinningOptions::center
   Index vertices_ = 0;
   Index handles_ = 0;
   Index weight_count_ = 0;

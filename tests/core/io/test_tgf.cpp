@@ -63,3 +63,30 @@ TEST_F(TgfFiles, ErrorsNameTheLine)
   EXPECT_THAT(this->error(""), HasSubstr("is empty"));
   EXPECT_TRUE(this->graph.nodes.empty());
 }
+
+TEST(TgfTexts, ComeBackWithoutAFile)
+{
+  Tgf graph;
+  const std::string text = "1 0 0.1 -1e-300 left hand\n2 1 0 0\n3 1 1 0\n4 0 1 0\n#\n"
+                           "1 2 1 0 0\n2 3 0 1 0\n4 3 0 0 1\n";
+  ASSERT_TRUE(parse_tgf(text, graph).ok());
+  ASSERT_EQ(graph.nodes.size(), 4u);
+  ASSERT_EQ(graph.edges.size(), 3u);
+  EXPECT_TRUE(graph.edges[2].cage);
+  EXPECT_EQ(graph.nodes[3].line, 4);
+  EXPECT_EQ(graph.edges[0].line, 6);
+  EXPECT_EQ(format_tgf(graph), text);
+  // Nodes are numbered anew. A text may have the line ends of Windows, and no last line end.
+  ASSERT_TRUE(parse_tgf("7 0 0 0\r\n-3 1 0 0 tip\r\n#\r\n7 -3", graph).ok());
+  EXPECT_EQ(graph.nodes[1].text, "tip");
+  EXPECT_EQ(format_tgf(graph), "1 0 0 0\n2 1 0 0 tip\n#\n1 2 1 0 0\n");
+}
+
+TEST(TgfTexts, ErrorsNameTheLineOnly)
+{
+  Tgf graph;
+  EXPECT_EQ(parse_tgf("1 0 0 0\n1 0 0 1\n", graph).message, "line 2: node 1 is defined twice");
+  EXPECT_TRUE(graph.nodes.empty());
+  EXPECT_EQ(parse_tgf("", graph).message, "there are no nodes");
+  EXPECT_EQ(parse_tgf("#\n", graph).message, "line 1: there are no nodes");
+}

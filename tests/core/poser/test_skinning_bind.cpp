@@ -48,10 +48,13 @@ protected:
     EXPECT_TRUE(status.ok()) << status.message;
     return posed;
   }
-  /// Bind the kernel with the weights, and compute the transforms of the pose.
+  /// Bind the kernel with the weights and the center that SkinningBind uses, and compute the
+  /// transforms of the pose.
   std::vector<Affine> bind_kernel(Skinning& skinning, const Pose& pose)
   {
-    EXPECT_TRUE(skinning.bind(this->context_, this->weights_).ok());
+    SkinningOptions options;
+    options.center = Vec3(handle_pivots(this->handles_).colwise().mean().transpose());
+    EXPECT_TRUE(skinning.bind(this->context_, this->weights_, options).ok());
     std::vector<Affine> transforms;
     EXPECT_TRUE(skinning_transforms(this->handles_, pose, transforms).ok());
     return transforms;
@@ -92,6 +95,74 @@ TEST_F(SkinningBindTest, MethodsGiveTheBitsOfTheirKernels)
                   bone_changes(this->handles_, this->pose_), Weights(), expected)
                 .ok());
   EXPECT_EQ(this->posed(options, false), expected);
+}
+
+TEST_F(SkinningBindTest, PartsOfAShapeHaveTheBitsOfTheWhole)
+{
+  // The parts begin and end within tiles of vertices, far from the origin and near it.
+  const Index rows = this->box_.points.rows();
+  const Index begins[] = { 0, 5, 37, rows };
+  for (const Vec3& place : { Vec3(0, 0, 0), Vec3(4e3, -2e3, 1e3) })
+  {
+    this->box_.points.rowwise() += place.transpose();
+    for (Handle& handle : this->handles_)
+    {
+      handle.head += place;
+      handle.tail += place;
+    }
+    for (const bool single : { false, true })
+    {
+      for (const SkinningMethod method :
+        { SkinningMethod::linear_blend, SkinningMethod::dual_quaternion })
+      {
+        SkinningMethodOptions options;
+        options.method = method;
+        options.weights.single_precision = single;
+        this->bind_.reset();
+        const Points whole = this->posed(options, false);
+        for (int part = 0; part < 3; ++part)
+        {
+          const Index begin = begins[part], count = begins[part + 1] - begin;
+          const Points points = this->box_.points.middleRows(begin, count);
+          const Weights weights = this->weights_.middleRows(begin, count);
+          const SkinnedShape shape{ points, weights, this->handles_, Weights() };
+          SkinningBind bind;
+          Points posed;
+          ASSERT_TRUE(bind.bind(this->context_, shape, Tets(), Triangles(), options).ok());
+          ASSERT_TRUE(
+            bind.pose(this->context_, shape, this->pose_, this->given_edges_, options, posed).ok());
+          EXPECT_EQ(posed, whole.middleRows(begin, count)) << part;
+        }
+      }
+    }
+  }
+}
+
+TEST_F(SkinningBindTest, SinglePrecisionIsAccurateFarFromTheOrigin)
+{
+  const Vec3 place(4e3, -2e3, 1e3);
+  this->box_.points.rowwise() += place.transpose();
+  for (Handle& handle : this->handles_)
+  {
+    handle.head += place;
+    handle.tail += place;
+  }
+  for (HandlePose& handle : this->pose_)
+  {
+    handle.transform.col(3) += place - handle.transform.leftCols<3>() * place;
+  }
+  const double diagonal = bounding_box(this->box_.points).diagonal();
+  for (const SkinningMethod method :
+    { SkinningMethod::linear_blend, SkinningMethod::dual_quaternion })
+  {
+    SkinningMethodOptions options;
+    options.method = method;
+    this->bind_.reset();
+    const Points exact = this->posed(options, false);
+    options.weights.single_precision = true;
+    const Points fast = this->posed(options, false);
+    EXPECT_LT((fast - exact).rowwise().norm().maxCoeff(), 2e-6 * diagonal);
+  }
 }
 
 TEST_F(SkinningBindTest, CentersAreThoseOfTheElements)

@@ -1,0 +1,60 @@
+#ifndef block_caches_h
+#define block_caches_h
+
+#include <cstddef>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace bindpose
+{
+
+/// The block of a composite input on which a filter works. Without blocks it is block 0 of 1.
+struct BlockNumber
+{
+  std::size_t index = 0;
+  std::size_t count = 1;
+  bool composite = false; ///< whether the input consists of blocks
+};
+
+/// One cache per block of a composite input. The bind of a block therefore stays valid while the
+/// filter works on the other blocks. The caches of blocks that no longer exist are deleted.
+template <typename Cache>
+class BlockCaches
+{
+public:
+  /// @param block  the current block, which selects the cache; it must outlive this object
+  explicit BlockCaches(const BlockNumber& block) : block_(&block) {}
+
+  /// Return the cache of the current block; it is empty at first.
+  Cache& operator*() const
+  {
+    std::unique_ptr<Cache>& cache = this->current();
+    if (!cache)
+    {
+      cache = std::make_unique<Cache>();
+    }
+    return *cache;
+  }
+  Cache* operator->() const { return &**this; }
+
+  /// Replace the cache of the current block, by an empty one if none is given.
+  void reset(std::unique_ptr<Cache> cache = std::make_unique<Cache>())
+  {
+    this->current() = std::move(cache);
+  }
+
+private:
+  std::unique_ptr<Cache>& current() const
+  {
+    this->caches_.resize(this->block_->count);
+    return this->caches_[this->block_->index];
+  }
+
+  const BlockNumber* block_;
+  mutable std::vector<std::unique_ptr<Cache>> caches_;
+};
+
+} // namespace bindpose
+
+#endif

@@ -1,0 +1,100 @@
+/**
+ * @class   vtkShareDataset
+ * @brief   gives every process the whole of a dataset that was computed on one or several processes
+ *
+ * On several processes (MPI), this filter sends the result of work that runs once to all processes.
+ * Put it before the inputs that filters with pieces request as a whole:
+ * <pre>
+ *   mesh - weights filter - vtkShareDataset - input 1 of vtkTransferWeights
+ *   handles - vtkShareDataset - vtkPoseHandles - input 1 of vtkSkinningDeformation
+ * </pre>
+ * Without it, every process would compute the weights and the handles itself. A pose changes after
+ * the exchange, on each process, so it causes no new exchange.
+ *
+ * **Input**: the part of the dataset that a process has, a vtkPolyData or vtkUnstructuredGrid. The
+ * filter requests piece i of N from its input, where i is the process and N the number of
+ * processes. Usually only process 0 has points; otherwise the parts are appended in the order of
+ * the processes. Points are not merged, and ids in arrays are not renumbered.
+ *
+ * **Output**: the whole, with the same bits on all processes, if a process requests piece 0 of 1,
+ * as filters do for inputs that they need as a whole. If the pieces are requested one by one, as by
+ * a view or a writer, only piece 0 has the whole and the other pieces are empty, so that nothing is
+ * there twice. Every process stores the whole in any case.
+ *
+ * **Exchange.** All processes exchange data together, in the first update after a change upstream.
+ * A change of the requested piece causes no exchange. If the arrays of all parts are those of the
+ * last exchange, the old result stays. If a part is unusable on one process, the status is the same
+ * on all processes, with the number of the process in the message, and the next update tries again.
+ * An algorithm upstream that fails on one process, even outside of Bindpose, does not block the
+ * others: the filter has its own executive, which always takes part. The processes must all update
+ * the filters downstream, as ParaView does.
+ *
+ * The status is INVALID_INPUT for a missing input, for blocks (merge them first), for other
+ * classes, for parts of different classes, for ids above 2147483647 in arrays of ids, and for more
+ * than 4 GiB.
+ *
+ * Report: counts.points, counts.cells, counts.parts (processes with points), counts.processes,
+ * bytes_sent (by all processes together). They are the same on all processes.
+ */
+
+#ifndef vtkShareDataset_h
+#define vtkShareDataset_h
+
+#include "BindposeFiltersModule.h" // for export macro
+#include "vtkBindposeAlgorithm.h"
+#include <memory> // for std::unique_ptr
+
+class vtkMultiProcessController;
+
+class BINDPOSEFILTERS_EXPORT vtkShareDataset : public vtkBindposeAlgorithm
+{
+public:
+  static vtkShareDataset* New();
+  vtkTypeMacro(vtkShareDataset, vtkBindposeAlgorithm);
+  void PrintSelf(ostream& os, vtkIndent indent) override;
+
+  ///@{
+  /// The processes. Default: the global controller. Without a controller there is one process.
+  virtual void SetController(vtkMultiProcessController* controller);
+  vtkGetObjectMacro(Controller, vtkMultiProcessController);
+  ///@}
+
+  /// Number of times that data was sent, or taken over if there is one process.
+  vtkGetMacro(NumberOfExchanges, int);
+
+  /// Set the executive. An executive of a class other than the filter's own is ignored, because
+  /// only the filter's own executive always takes part in exchanges.
+  void SetExecutive(vtkExecutive* executive) override;
+
+protected:
+  vtkShareDataset();
+  ~vtkShareDataset() override;
+
+  vtkExecutive* CreateDefaultExecutive() override;
+  bool MakesPieces() override { return true; }
+  bool EndsWithFailedInput() override { return false; }
+  bool TakesComposite(int) override { return true; }
+  int FillInputPortInformation(int port, vtkInformation* info) override;
+  int FillOutputPortInformation(int port, vtkInformation* info) override;
+  int RequestDataObject(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  int RequestUpdateExtent(
+    vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
+  bindpose::Status Execute(bindpose::ExecutionContext& context, vtkInformationVector** input,
+    vtkInformationVector* output) override;
+
+private:
+  vtkShareDataset(const vtkShareDataset&) = delete;
+  void operator=(const vtkShareDataset&) = delete;
+
+  bindpose::Status Exchange(vtkDataObject* part, const bindpose::Status& part_status);
+  int GetProcess();
+  int GetNumberOfProcesses();
+
+  vtkMultiProcessController* Controller = nullptr;
+  int NumberOfExchanges = 0;
+  struct Internals;
+  std::unique_ptr<Internals> Internal;
+};
+
+#endif

@@ -66,8 +66,8 @@ struct BoxQp::Impl : SplitForm
   using SplitForm::SplitForm;
 
   BoxQpOptions options;
-  mutable SparseSolver solver; // double precision; its analysis is shared by all other solvers
-  // Single precision, with the analysis of `solver`; not analyzed if single precision is
+  mutable SparseSolver solver; // solver in double precision; all other solvers share its analysis
+  // Solver in single precision, with the analysis of `solver`; not analyzed if single precision is
   // unavailable.
   FloatCholesky single;
   FloatCholesky float_factor; // A's factor, if single precision is accurate enough

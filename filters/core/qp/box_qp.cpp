@@ -290,8 +290,9 @@ private:
   // (active set or interior point).
   static constexpr double start_fraction = 0.3;
 
-  /// Report whether splitting_start() can compute a start for the column: the caller gives no
-  /// start, and the bounds are finite. Columns with ordered pairs have no start with barriers.
+  /// Report whether splitting_start() can compute a start for the column. It can if the caller
+  /// gives no start and the bounds are finite. With barriers, it cannot compute starts for columns
+  /// with ordered pairs.
   bool may_split(const BoxQpColumn& column, bool barriers) const
   {
     return this->qp_.single.is_analyzed() && (column.pairs.empty() || !barriers) &&

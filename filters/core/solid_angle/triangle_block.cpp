@@ -89,7 +89,7 @@ struct RelativeBlock
   Real at[3];
 };
 
-/// Corners relative to the point.
+/// Corners of a triangle, relative to the point.
 template <typename Real>
 struct RelativeTriangle
 {

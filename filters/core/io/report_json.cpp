@@ -22,9 +22,9 @@ bool has_json_form(const T& value)
   return true;
 }
 
-/// Return the JSON object for the part of the key before the last dot. Create objects that do not
-/// exist.
-/// @param member_name set to the rest of the key.
+/// Return the JSON object that contains the member of a dotted key: for "a.b.c", the object of
+/// "a.b". Missing objects are created.
+/// @param member_name set to the name of the member ("c").
 Json& object_of(Json& root, const std::string& key, std::string& member_name)
 {
   Json* node = &root;
@@ -60,8 +60,8 @@ std::string to_json(const Report& report, int indent)
         }
         else
         {
-          // The value is a list of values (key "h[]" or "h"), or one property of a list of objects
-          // (key "h[].x").
+          // `v` is either a list of values (key "h[]" or "h"), or one property of each object in a
+          // list (key "h[].x").
           const bool column = brackets != std::string::npos && brackets + 2 < name.size();
           std::string member_name;
           Json& object = object_of(root, name.substr(0, brackets), member_name);

@@ -63,7 +63,7 @@ Status read_binary(
   const char* at = text.data() + header_size;
   for (Index t = 0; t < count; ++t, at += triangle_size)
   {
-    float values[12]; // the normal, then the three corners
+    float values[12]; // components of the normal, then of the three corners
     std::memcpy(values, at, sizeof(values));
     for (int corner = 1; corner < 4; ++corner)
     {

@@ -39,7 +39,7 @@ std::size_t find_first(std::string_view text)
 
 std::string system_reason()
 {
-  return std::strerror(errno); // the text ends with NUL, and the pointer is never null
+  return std::strerror(errno); // strerror() never returns a null pointer
 }
 
 struct CloseFile

@@ -199,17 +199,18 @@ using Sides = std::vector<unsigned char>;
 constexpr unsigned char below = 1;
 constexpr unsigned char above = 2;
 
-/// Set every entry of a line to the union of the sides of the threshold (below, above) that occur
-/// within a distance of `width` entries.
-/// @param outside the sides beyond the ends of the line.
-/// @param found memory for the result.
+/// Each entry of a line is a bit mask of the sides of the threshold (`below`, `above`). Replace
+/// each entry by the union of all entries at a distance of at most `width`.
+/// @param outside bit mask of the entries beyond the ends of the line.
+/// @param found working memory.
 void spread_along_line(
   unsigned char* line, Index stride, Index size, Index width, unsigned char outside, Sides& found)
 {
   found.assign(static_cast<std::size_t>(size), 0);
   for (const unsigned char side : { below, above })
   {
-    // Index of the nearest entry with this side so far.
+    // Index of the last visited entry with this side. The initial value is -1 if the outside has
+    // this side; otherwise it is too far away to count.
     Index last = outside & side ? -1 : -width - 1;
     for (Index i = 0; i < size; ++i)
     {

@@ -74,7 +74,7 @@ struct Fronts
   void measure_stacks();
 };
 
-/// Set the depths and the sizes of the stacks. `nodes` and `parent` are given.
+/// Compute the members `depth` and `stack_size` from `nodes` and `parent`.
 void Fronts::measure_stacks()
 {
   const int count = this->count();
@@ -103,25 +103,27 @@ void Fronts::measure_stacks()
 /// The analysis, which all clones share.
 struct Analysis
 {
-  Fronts fronts; // of the whole matrix
+  Fronts fronts; // supernodes of the whole matrix
   std::vector<int> node_of_column;
-  // Stored entries of the matrix by the step that eliminates their column: index of the entry, and
-  // its row as a position in the order of elimination.
+  // Stored entries of the matrix, grouped by the step that eliminates their column. The entries of
+  // a step begin at first_entry[step]. `entry` contains the index of each entry in the matrix, and
+  // `entry_row` the step that eliminates its row.
   std::vector<int> first_entry;
   std::vector<int> entry;
   std::vector<int> entry_row;
-  Index stored_entries = 0; // of the matrix
+  Index stored_entries = 0; // number of stored entries of the matrix
   std::atomic<Index> factorizations{ 0 };
 
   int size() const { return this->fronts.size(); }
 };
 
-/// The supernodes of a block of the matrix, with the order of elimination of the whole matrix.
+/// The supernodes of a block (principal submatrix) of the matrix. Its unknowns are eliminated in
+/// the same order as in the whole matrix.
 struct BlockFronts
 {
   Fronts fronts;
   std::vector<int> step_in_block; // per step of the whole order: step in the block's order, or -1
-  std::vector<int> step_in_whole; // the inverse map
+  std::vector<int> step_in_whole; // inverse of step_in_block
 };
 
 /// Return the children of each node and, as the last entry, the roots; in ascending order.
@@ -267,13 +269,13 @@ struct RowRun
 struct FloatCholesky::Impl
 {
   std::shared_ptr<Analysis> analysis;
-  BlockFronts block_fronts; // of the last factor_block()
-  bool is_block = false; // true: the factor is that of a block
+  BlockFronts block_fronts; // supernodes of the block in the last factor_block()
+  bool is_block = false; // whether the last factorization is that of a block
   std::vector<float> values;
   std::vector<float> stack[2];
   std::size_t top[2] = { 0, 0 };
   std::vector<int> stacked_supernodes[2]; // supernodes whose update matrices are on the stacks
-  // Per step of elimination: its index in the front that is being assembled.
+  // For each step of elimination, the index of its row in the front that is being assembled.
   std::vector<int> front_index_of_row;
   std::vector<RowRun> runs;
   Eigen::VectorXd scale; // 1 / sqrt(diagonal entry), per unknown
@@ -454,8 +456,9 @@ void FloatCholesky::Impl::scatter(const SparseMatrix& matrix, double shift, int 
   }
 }
 
-/// Find the rows of the front to which a child's update matrix is added. A run is either within the
-/// columns of the block or within the rows below.
+/// Divide the rows of a child's update matrix into runs of rows that are also consecutive in the
+/// front. The first `columns` rows of the front belong to the block of the supernode's own columns.
+/// No run extends across the end of these rows.
 void FloatCholesky::Impl::find_runs(int child, int columns)
 {
   const Fronts& fronts = this->fronts();
@@ -705,7 +708,7 @@ void FloatCholesky::Impl::solve(const double* rhs, int columns, double* x) const
       double* target_column = x + static_cast<std::size_t>(done + c) * n;
       if (count < n)
       {
-        std::fill(target_column, target_column + n, 0.0); // unknowns that are excluded
+        std::fill(target_column, target_column + n, 0.0); // the solution is 0 for excluded unknowns
       }
       for (std::size_t i = 0; i < count; ++i)
       {

@@ -44,8 +44,8 @@ public:
   /// blocks.
   Status factor(const ExecutionContext& context, const SparseMatrix& matrix, double shift);
   /// Factor the block of the unknowns that are not excluded. solve() then ignores the rows of the
-  /// right-hand side that are excluded, and returns 0 for these unknowns. The time is that
-  /// of a matrix of the block's size with the same order of elimination.
+  /// right-hand side that are excluded, and returns 0 for these unknowns. Excluded unknowns take no
+  /// time. The order of elimination remains that of the whole matrix.
   /// @param excluded  one entry per unknown
   Status factor_block(
     const ExecutionContext& context, const SparseMatrix& matrix, const std::vector<char>& excluded);

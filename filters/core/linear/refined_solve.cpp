@@ -1,6 +1,6 @@
 // Conjugate gradients for many right-hand sides. Each column has its own step lengths and search
-// directions. One call multiplies, and one call preconditions, all columns that have not converged.
-// This is several times faster per column than separate calls.
+// directions. The columns that have not converged are multiplied in one call and preconditioned in
+// one call, which is several times faster per column than separate calls.
 #include "linear/refined_solve.h"
 
 #include <algorithm>
@@ -30,8 +30,8 @@ double refined_solve(const FloatCholesky& factor,
     }
   }
   double largest_residual = 0.0;
-  // Residuals, preconditioned residuals and search directions of the open columns, one matrix
-  // column each.
+  // Residuals, preconditioned residuals and search directions of the columns that have not
+  // converged, one matrix column for each.
   MatrixXd r = rhs(Eigen::all, active);
   MatrixXd z;
   MatrixXd p;

@@ -25,8 +25,8 @@ struct RefinedSolveOptions
 
 /// Solve A x = b to double precision for all columns of b together. The method is conjugate
 /// gradients, preconditioned with a factor in single precision.
-/// @param multiply P -> A P; P is #unknowns x #open and contains one search direction per column of
-/// b that has not converged yet
+/// @param multiply returns A P for a matrix P. P has one column for each column of b that has not
+/// converged yet.
 /// @param inverse_diagonal #unknowns, inverse of the diagonal of A
 /// @return the largest relative residual of all columns, in the same norm as `accuracy`; 1 if
 /// canceled.

@@ -7,7 +7,7 @@ namespace bindpose
 {
 
 /// Scope in which calls of BLAS and CHOLMOD from this thread run on this thread only. If the BLAS
-/// does not support concurrent calls, they are serialized, too.
+/// does not support concurrent calls, concurrent scopes are serialized, too.
 ///
 /// A threaded OpenBLAS is configured once to use one thread. OpenMP regions started from this
 /// thread are made inactive. OpenBLAS built without threads (libopenblas0-serial) has no locks: two

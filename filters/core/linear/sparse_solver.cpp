@@ -326,7 +326,7 @@ private:
   SparseSolver::Ordering ordering_;
   mutable cholmod_common common_{};
   std::shared_ptr<cholmod_factor> pattern_; // the analysis, shared by clones
-  cholmod_factor* factor_ = nullptr; // null before the first factorization
+  cholmod_factor* factor_ = nullptr; // numeric factor; null before the first factorization
   cholmod_dense* x_ = nullptr; // kept between solves to reuse its memory
   cholmod_dense* y_ = nullptr;
   cholmod_dense* e_ = nullptr;
@@ -340,7 +340,7 @@ private:
 struct SparseSolver::Impl
 {
   Options options;
-  std::unique_ptr<Factorization> factorization; // null: the backend is not built in
+  std::unique_ptr<Factorization> factorization; // null if the backend is not built in
   std::shared_ptr<Counters> counters = std::make_shared<Counters>();
   Index size = 0;
   Index nonzeros = 0;

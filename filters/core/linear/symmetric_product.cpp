@@ -6,8 +6,8 @@ namespace bindpose
 
 Eigen::VectorXd symmetric_product(const SparseMatrix& a, const Eigen::VectorXd& x)
 {
-  // The sum over columns writes every term to memory; the transposed product writes once per row.
-  // The sum is faster only if most columns are skipped.
+  // The sum over the columns of A adds each term to memory, whereas the transposed product writes
+  // each row only once. Therefore the sum is faster only if most columns are skipped.
   constexpr double sparse_fraction = 0.4;
   const auto nonzeros = static_cast<double>((x.array() != 0.0).count());
   if (nonzeros > sparse_fraction * static_cast<double>(x.size()))

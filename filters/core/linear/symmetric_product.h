@@ -9,7 +9,7 @@ namespace bindpose
 {
 
 /// Return A x for a symmetric matrix A whose triangular halves are both stored. If most entries of
-/// x are zero, their columns of A are skipped.
+/// x are zero, the columns of A that belong to these entries are skipped.
 Eigen::VectorXd symmetric_product(const SparseMatrix& a, const Eigen::VectorXd& x);
 
 } // namespace bindpose

@@ -19,8 +19,8 @@ BINDPOSE_SIMD_CLONES void multiply(
   Index c = 0;
   for (; c + 4 <= cols; c += 4)
   {
-    // Skip groups of four rows in which x is zero. Such groups are frequent: a matrix of
-    // displacements that full handles prescribe is zero in the blocks of all other handles.
+    // Skip groups of four rows in which x is zero. Such groups are frequent: displacements that
+    // handles in mode full prescribe are zero in the rows of all other handles.
     if (any_of_four(x + c) || any_of_four(x + cols + c) || any_of_four(x + 2 * cols + c))
     {
       add_columns<4>(rows, a + c * rows, x + c, cols, y);
@@ -32,7 +32,7 @@ BINDPOSE_SIMD_CLONES void multiply(
   }
 }
 
-/// Compute y_j = A^T x_j for `count` columns of A.
+/// For each column j of x, compute the dot products with `count` columns of A.
 template <Index count>
 BINDPOSE_ALWAYS_INLINE void dot_columns(
   Index rows, const double* a, const double* x, double* y, Index y_stride)

@@ -423,8 +423,8 @@ std::string refine(MesherData& data, const RefineOptions& options)
 {
   const Stopwatch clock;
   Soup soup = soup_of(data);
-  // A few hundred large triangles can be cut into tens of thousands of pieces and still be meshed.
-  // Therefore face_limit is at least growth_limit times this number of faces.
+  // The growth limit is computed for at least this number of input faces, because a few hundred
+  // large triangles can be cut into tens of thousands of pieces and still be meshed.
   constexpr std::size_t minimum_limited_faces = 10000;
   const auto face_limit = static_cast<std::size_t>(
     options.growth_limit * static_cast<double>(std::max(soup.faces.size(), minimum_limited_faces)));
@@ -444,7 +444,7 @@ std::string refine(MesherData& data, const RefineOptions& options)
   for (; round < options.round_limit; ++round)
   {
     const std::vector<Pair> pairs = crossing_pairs(soup, pair_limit);
-    // Fraction of the total time for the first search, if few triangles cross.
+    // Progress after the first search, as a fraction of the total time if few triangles cross.
     constexpr double first_found = 0.4;
     report_progress(first_found);
     if (pairs.size() > pair_limit)

@@ -179,7 +179,8 @@ public:
   using Base = CGAL::Delaunay_mesh_size_criteria_2<Filling>;
 
   Criteria(double sine_squared, double longest_edge, double smallest_side)
-    // The constructor is called here, because the class is a virtual base.
+    // Delaunay_mesh_criteria_2 is a virtual base class, so the most derived class calls its
+    // constructor.
     : CGAL::Delaunay_mesh_criteria_2<Filling>(sine_squared), Base(sine_squared, longest_edge),
       smallest_side_(smallest_side)
   {
@@ -483,8 +484,8 @@ std::string arrange(MesherData& data, double grid)
 std::string fill_plane(MesherData& data, const FillOptions& options)
 {
   const Stopwatch clock;
-  // Estimate of the number of triangles. It assumes equilateral triangles with half the longest
-  // edge, which are smaller than the triangles that refinement creates.
+  // Upper estimate of the number of triangles. It assumes equilateral triangles whose edges are
+  // half as long as the longest edge; refinement creates larger triangles.
   const double triangles = options.longest_edge > 0.0
     ? area_of(data) / (0.4 * 0.25 * options.longest_edge * options.longest_edge)
     : 0.0;

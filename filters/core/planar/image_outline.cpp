@@ -147,10 +147,9 @@ private:
   }
 
   /// Link the vertices on the edges of a cell. Corners are counter-clockwise from the lower left;
-  /// edge k is between corners k and k + 1. For each run of consecutive inside corners, the vertex
-  /// on the edge after the run is linked to the vertex on the edge where this run begins. In a
-  /// saddle cell whose two inside corners are connected, the vertex after the run is linked to the
-  /// vertex where the other run begins.
+  /// edge k is between corners k and k + 1. Consecutive inside corners form a run. For each run,
+  /// the vertex on the edge after the run is linked to the vertex on the edge before the run. In a
+  /// saddle cell with connected inside corners, it is linked to the vertex before the other run.
   void link_cell(const std::array<bool, 4>& corner_is_inside, const std::array<Index, 4>& sides,
     const std::array<float, 4>& values, Contour& contour) const
   {
@@ -436,14 +435,16 @@ private:
     return has_removed;
   }
 
-  /// Connect p to the farthest vertex found by a search ahead. The vertices after p are removed one
-  /// by one until the line from p exceeds a multiple of the tolerance. Then the vertices after the
-  /// last line within the tolerance are restored. Return true if a vertex was removed.
+  /// Connect p to the farthest vertex for which the straight line from p deviates from the contour
+  /// by at most the tolerance. The search removes the vertices after p one by one. It ends if the
+  /// deviation exceeds `search_limit` times the tolerance or if loops could cross. The farthest
+  /// valid vertex and the removed vertices after it are then restored. Return true if a vertex
+  /// remains removed.
   bool search_ahead_from(std::size_t loop, Index p, double tolerance)
   {
     constexpr std::size_t maximum_removed =
       256; // maximum number of vertices that are removed at a time
-    constexpr double search_limit = 3.0; // multiple of the tolerance at which the search ends
+    constexpr double search_limit = 3.0; // the search ends at this multiple of the tolerance
     std::vector<Index>& removed = this->removed_;
     removed.clear();
     std::size_t accepted_count = 0;

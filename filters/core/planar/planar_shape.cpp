@@ -95,7 +95,8 @@ public:
   Index count() const { return static_cast<Index>(this->points.size()); }
 
   std::vector<Vec2> points; ///< scaled
-  /// Lowest input id of the equal vertices; -1 for the point of a handle.
+  /// For each vertex, the lowest input id of the curve vertices that are merged in it; -1 if it is
+  /// only the point of a handle.
   std::vector<Index> originals;
   std::vector<Vec2> input_points; ///< input positions
 
@@ -195,9 +196,9 @@ Status Builder::scale()
     this->shift_[k] = lower[k] > size ? lower[k] : upper[k] < -size ? upper[k] : 0.0;
   }
   this->rounding_ = 0x1p-49 * farthest;
-  // The larger of two lengths, rounded up to a power of two. The first length is a fraction of the
-  // size and smaller than any intended detail; the second length is the accuracy of the
-  // coordinates.
+  // The minimum height is the larger of two lengths, rounded up to a power of two. The first length
+  // is a fraction of the size and smaller than any intended detail; the second length is the
+  // accuracy of the coordinates.
   int exponent = 0;
   std::frexp(std::max(0x1p-40 * this->diagonal_, this->rounding_), &exponent);
   this->minimum_height_ = std::ldexp(1.0, exponent);

@@ -169,7 +169,8 @@ void count_element(Block& block, double limit, Index element, double largest, do
   }
 }
 
-/// Load the edges of posed elements from their first corners. Index order: edge, coordinate, lane.
+/// Load, for each posed element, the vectors from its first corner to its other corners. Index
+/// order: edge, coordinate, lane.
 template <int corners>
 BINDPOSE_ALWAYS_INLINE void load_edges(
   const double* posed, const Index* ids, double (&edges)[corners - 1][3][elements_per_tile])
@@ -193,7 +194,7 @@ BINDPOSE_SIMD_CLONES void measure_tets(
   alignas(64) double p[3][3][elements_per_tile];
   load_edges<4>(posed, ids, p);
   Batch f;
-  for (int k = 0; k < 3; ++k) // [pa pb pc] [a b c]^-1
+  for (int k = 0; k < 3; ++k) // gradient = (posed edges) (rest edges)^-1
   {
     const double *u = shape + 3 * k * elements_per_tile, *v = u + elements_per_tile,
                  *w = v + elements_per_tile;

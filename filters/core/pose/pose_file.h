@@ -119,9 +119,9 @@ Pose apply_edits(const PoseEdits& edits, const Handles& handles, const Pose& bas
 /// are edited. "space": "world" is written for a handle whose relative transform is not a rotation
 /// and a uniform scale. A shear, a non-uniform scale or a reflection cannot be written: the nearest
 /// rotation and scale are written instead. One warning contains the numbers of such handles and
-/// poses, and the names of the first handles. A difference from the nearest rotation and scale of
-/// at most 1e-5 of the matrix (Frobenius norms) causes no warning, because it is the round-off of
-/// single-precision files.
+/// poses, and the names of the first handles. There is no warning if a matrix differs from its
+/// nearest rotation and scale by at most 1e-5 (relative difference in the Frobenius norm). Such
+/// differences are round-off of single-precision files.
 ///
 /// Return invalid_input if a value is not finite or a name is not UTF-8.
 Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second,

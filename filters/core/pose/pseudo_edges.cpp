@@ -113,7 +113,7 @@ Status find_edges(ExecutionContext& context, PointsView points, const Elements& 
   std::vector<double> distance(size, std::numeric_limits<double>::infinity());
   std::vector<Index> owner(size, -1);
   std::vector<HandlePath> paths;
-  using Reached = std::tuple<double, Index, Index>; // distance, handle, vertex
+  using Reached = std::tuple<double, Index, Index>; // distance from the handle, handle, vertex
   std::priority_queue<Reached, std::vector<Reached>, std::greater<Reached>> front;
   Index count = 0;
   for (std::size_t h = 0; h < handles.size(); ++h)

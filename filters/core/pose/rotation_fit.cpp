@@ -156,7 +156,7 @@ struct FitBlock
   Scalar linear[groups_per_block * lanes], constant[groups_per_block * lanes];
   Scalar norm2[groups_per_block * lanes];
   Scalar eigenvalue[groups_per_block * lanes];
-  /// P'(lambda) if the result of a lane can be trusted, otherwise 0.
+  /// The derivative p'(lambda) if the result of a lane can be trusted, otherwise 0.
   Scalar slope[groups_per_block * lanes];
   Scalar rotation[9][groups_per_block * lanes];
 

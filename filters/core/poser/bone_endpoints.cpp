@@ -7,8 +7,8 @@ namespace bindpose
 
 namespace
 {
-/// Return the points of the handles that endpoint_weights() defines. For the method `bounded`,
-/// these are the two vertices of a cage of one edge.
+/// Return the geometry of the auxiliary handles of endpoint_weights(), which becomes part of the
+/// mesh. It consists of the points and, for the method `bounded`, the cage edge between two points.
 HandleElements elements_of(const Handles& ends)
 {
   HandleElements elements;

@@ -14,7 +14,7 @@ namespace bindpose
 struct PoseRotations
 {
   /// Index of the rotation that each surface point follows, #V, -1 for none. Each bind creates a
-  /// new object.
+  /// new list, so a changed pointer means that the indices have changed.
   std::shared_ptr<const std::vector<Index>> cluster_of_point;
   std::vector<Eigen::Matrix3d> rotations;
 };

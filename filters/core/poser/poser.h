@@ -23,8 +23,8 @@ class Poser
 public:
   virtual ~Poser() = default;
 
-  /// Report whether the bind contains everything that solve() needs for these options. By default
-  /// it does if the last bind succeeded with options that need the same bind.
+  /// Report whether the bind contains everything that solve() needs for these options. By default,
+  /// this is the case if the last bind succeeded and its options need the same bind.
   virtual bool is_bound(const PoseOptions& options) const;
   /// Compute the missing data of the bind, and keep the existing data. Return the warnings of the
   /// bind.

@@ -137,7 +137,8 @@ Status SkinningBind::bind_endpoints(ExecutionContext& context, const SkinnedShap
 
 WeightsView SkinningBind::endpoints(const SkinnedShape& shape, EndpointMethod method) const
 {
-  // If the shape has no endpoint weights, its view has size 0, which selects the projection.
+  // Endpoint weights of the shape take precedence over computed ones. If there are neither, the
+  // view has size 0, which selects the projection.
   return shape.endpoints.rows() == 0 && this->endpoint_method_ == method
     ? WeightsView(this->endpoints_)
     : shape.endpoints;

@@ -10,7 +10,7 @@
 namespace bindpose
 {
 
-/// The integers are those of vtkSkinningDeformation.
+/// Skinning methods. The integers are those of vtkSkinningDeformation.
 enum class SkinningMethod : int
 {
   linear_blend = 0,
@@ -107,9 +107,9 @@ private:
   Skinning skinning_;
   Points pivots_;
   std::optional<PseudoEdges> automatic_edges_;
-  Points centers_; ///< no rows before the first bind that needs them
+  Points centers_; ///< centers of rotation; no rows before the first bind that needs them
   Report centers_report_;
-  std::optional<EndpointMethod> endpoint_method_; ///< method of endpoints_
+  std::optional<EndpointMethod> endpoint_method_; ///< the method by which endpoints_ were computed
   Weights endpoints_;
   std::vector<Affine> transforms_;
 };

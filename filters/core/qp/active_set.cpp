@@ -40,8 +40,8 @@ BoxQpSolution active_set(ExecutionContext& context, const SplitForm& matrices,
   constexpr int maximum_factorizations = 10;
   // Number of factorizations that are exempt from the test for stalling.
   constexpr int unchecked_factorizations = 2;
-  // After each later factorization, the largest change of a weight in the last Newton round must be
-  // below this factor times the smallest such change after any earlier factorization.
+  // The test for stalling: the largest change of a weight in the last Newton round must be less
+  // than this fraction of the smallest such change after earlier factorizations.
   constexpr double required_ratio = 0.5;
   constexpr int rounds = 6; // maximum number of Newton rounds per factorization
   const double tolerance = options.tolerance;
@@ -101,7 +101,8 @@ BoxQpSolution active_set(ExecutionContext& context, const SplitForm& matrices,
         workspace.single.solve(r, z);
         for (Index i = 0; i < r.size(); ++i)
         {
-          // Vertices that have left the active set are not in the factor.
+          // Vertices that were at a bound are not in the factor. The preconditioner divides their
+          // entries by the diagonal.
           z[i] = at_bound[i] ? r[i] / matrices.lower.valuePtr()[matrices.diagonal[i]] : z[i];
         }
       },

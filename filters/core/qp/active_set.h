@@ -10,9 +10,9 @@ namespace bindpose
 
 /// Solve one column of bounded weights without ordered pairs. The start must be a good guess of the
 /// vertices whose weight is at a bound. The method is a projected Newton method. Let A be the block
-/// of the free vertices in the quadratic form. The linear systems are solved with a factor of the
-/// block of A without the vertices at a bound. One to three factorizations are
-/// usual, each with 5 to 20 solves.
+/// of the free vertices in the quadratic form. The factored matrix is A without the rows and
+/// columns of the vertices at a bound. One to three factorizations are usual, each with 5 to 20
+/// solves.
 ///
 /// Hintermueller, Ito and Kunisch 2003, The primal-dual active set strategy as a semismooth Newton
 /// method; Bertsekas 1982.

@@ -47,12 +47,12 @@ using Eigen::VectorXd;
 /// Penalties, as multiples of the smaller diagonal entry of A at the two vertices of a pair.
 constexpr double first_penalty = 3.0;
 constexpr double largest_penalty = 3e3;
-/// The penalties are raised by a factor if the largest violation of a pair is still more than this
-/// fraction of the previous one, and if the minimization took few Newton steps.
+/// The penalties are raised under two conditions: the largest violation of a pair is still more
+/// than this fraction of the previous one, and the minimization took few Newton steps.
 constexpr double slow_decrease = 0.2;
 constexpr double penalty_factor = 4.0;
 constexpr int few_newton_steps = 3;
-/// Conjugate gradients per Newton step.
+/// Options of the conjugate gradients in each Newton step.
 constexpr FreeConjugateGradientsOptions cg_options{ 8, 0.05 };
 constexpr int maximum_factorizations = 50;
 /// Maximum number of Newton steps in total (the multipliers of contradictory pairs grow without
@@ -95,11 +95,11 @@ private:
   PairRows pairs_;
   const VectorXd own_diagonal_; // diagonal of A
 
-  VectorXd x_; // one entry per free vertex, within the bounds
+  VectorXd x_; // current iterate; one entry per free vertex, within the bounds
   VectorXd lambda_, rho_; // multipliers and penalties, one entry per row of B
-  // The following members belong to x_, lambda_ and rho_ (see evaluate).
+  // evaluate() computes the following members from x_, lambda_ and rho_.
   VectorXd next_lambda_; // max(0, lambda - rho s)
-  VectorXd gradient_; // of the augmented Lagrangian
+  VectorXd gradient_; // gradient of the augmented Lagrangian
   double violation_ = 0.0; // largest -s
   double residual_ = 0.0; // natural residual of the minimization (see Certificate)
   // The following members describe the Newton system.
@@ -108,13 +108,13 @@ private:
   std::vector<char> at_bound_; // per free vertex: 1 if it moves to a bound
   bool needs_factor_ = true;
   std::vector<char> excluded_; // per free vertex: 1 if it is not in the last factor
-  // If true, only vertices whose value is already at a bound are treated as at the bound. If false,
-  // also those that the next step would move there.
+  // Which vertices are treated as at a bound. True: only vertices whose value is already at a
+  // bound. False: also vertices that the next step would move to a bound.
   bool only_reached_bounds_ = false;
   BoxQpSolution solution_;
 };
 
-/// Compute the members that belong to x, lambda and rho.
+/// Compute the members that depend on x_, lambda_ and rho_.
 void AugmentedLagrangian::evaluate()
 {
   const VectorXd s = this->pairs_.apply(this->x_) + this->pairs_.constants();
@@ -207,7 +207,8 @@ VectorXd AugmentedLagrangian::newton_direction()
         this->workspace_.single.solve(r, z);
         for (Index i = 0; i < n; ++i)
         {
-          // Vertices that have left a bound are not in the factor.
+          // Vertices that were at a bound are not in the factor. The preconditioner divides their
+          // entries by the diagonal.
           z[i] = this->excluded_[i] ? r[i] / this->diagonal_[i] : z[i];
         }
       },
@@ -246,7 +247,8 @@ Status AugmentedLagrangian::newton_step()
   const double slope = this->gradient_.dot(next - this->x_);
   if (slope > 0.0 && !this->only_reached_bounds_)
   {
-    // Too many vertices would move to a bound at once.
+    // The step would increase the energy, because too many vertices would move to a bound at once.
+    // In the next step, only vertices that are already at a bound are treated as at the bound.
     this->only_reached_bounds_ = true;
     return {};
   }
@@ -287,8 +289,9 @@ BoxQpSolution AugmentedLagrangian::run()
   const Stopwatch watch;
   const double tolerance = this->options_.tolerance;
   const double maximum_converged_change = converged_change(tolerance);
-  // The minimization for given multipliers ends if its residual is at most this multiple of the
-  // tolerance, or of the largest violation of a pair if that is larger.
+  // The minimization for given multipliers ends if its residual is at most the larger of two
+  // limits: `required_residual` times the tolerance, and `residual_per_violation` times the largest
+  // violation of a pair.
   double required_residual = 0.3;
   constexpr double residual_per_violation = 0.1;
   this->solution_.status = this->pairs_.prepare();
@@ -302,11 +305,12 @@ BoxQpSolution AugmentedLagrangian::run()
   this->rho_ = penalty * penalty_unit;
   const int most_factorizations =
     std::min(maximum_factorizations, this->options_.maximum_iterations);
-  VectorXd previous = this->x_; // at the last change of the multipliers
+  VectorXd previous = this->x_; // iterate at the last change of the multipliers
   double previous_violation = std::numeric_limits<double>::infinity();
   int newton_steps = 0;
   int newton_steps_at_change = 0;
-  double smallest_residual = std::numeric_limits<double>::infinity(); // for the same multipliers
+  // Smallest residual since the last change of the multipliers.
+  double smallest_residual = std::numeric_limits<double>::infinity();
   int idle_steps = 0;
   bool has_converged = false;
   Status status;
@@ -322,7 +326,7 @@ BoxQpSolution AugmentedLagrangian::run()
       if (this->violation_ <= tolerance && change <= maximum_converged_change)
       {
         has_converged = this->certify_iterate();
-        required_residual *= 0.2; // before the next certificate
+        required_residual *= 0.2; // a failed certificate is repeated with a more accurate iterate
       }
       if (has_converged)
       {

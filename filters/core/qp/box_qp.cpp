@@ -66,8 +66,8 @@ struct BoxQp::Impl : SplitForm
   using SplitForm::SplitForm;
 
   BoxQpOptions options;
-  mutable SparseSolver solver; // double precision; its analysis is shared by all other solvers
-  // Single precision, with the analysis of `solver`; not analyzed if single precision is
+  mutable SparseSolver solver; // solver in double precision; all other solvers share its analysis
+  // Solver in single precision, with the analysis of `solver`; not analyzed if single precision is
   // unavailable.
   FloatCholesky single;
   FloatCholesky float_factor; // A's factor, if single precision is accurate enough
@@ -290,8 +290,9 @@ private:
   // (active set or interior point).
   static constexpr double start_fraction = 0.3;
 
-  /// Report whether splitting_start() can compute a start for the column: the caller gives no
-  /// start, and the bounds are finite. Columns with ordered pairs have no start with barriers.
+  /// Report whether splitting_start() can compute a start for the column. It can if the caller
+  /// gives no start and the bounds are finite. With barriers, it cannot compute starts for columns
+  /// with ordered pairs.
   bool may_split(const BoxQpColumn& column, bool barriers) const
   {
     return this->qp_.single.is_analyzed() && (column.pairs.empty() || !barriers) &&

@@ -13,8 +13,8 @@ namespace bindpose
 /// The memory for solving one column (see BoxQp), reused for the next column.
 struct BoxQpWorkspace
 {
-  SparseSolver solver; ///< double precision; has analyzed the pattern of SplitForm::lower
-  /// Single precision; has analyzed the same pattern, if single precision is available.
+  SparseSolver solver; ///< solver in double precision; has analyzed the pattern of SplitForm::lower
+  /// Solver in single precision; has analyzed the same pattern, if single precision is available.
   FloatCholesky single;
   SparseMatrix matrix; ///< the matrix to factor, with the same pattern
 };

@@ -375,8 +375,8 @@ Status CoupledQp::factor()
       return status;
     }
   }
-  // For the preconditioner, compute for each vertex the smallest entry of d_ and the effective
-  // number of columns, both over the columns in which the vertex is solved for.
+  // For the preconditioner, compute two values per vertex from the columns in which the vertex is
+  // solved for: the smallest entry of d_, and the effective number of columns.
   const VectorXd diagonal = this->matrices_.a.diagonal();
   this->row_scale_ = VectorXd::Zero(this->n_);
   this->smallest_d_ = VectorXd::Zero(this->n_);

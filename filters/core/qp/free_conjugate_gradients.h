@@ -13,7 +13,7 @@ namespace bindpose
 /// definite.
 using Preconditioner = std::function<void(const Eigen::VectorXd& r, Eigen::VectorXd& z)>;
 
-/// When free_conjugate_gradients() ends.
+/// Conditions under which free_conjugate_gradients() ends.
 struct FreeConjugateGradientsOptions
 {
   int maximum_steps = 4;

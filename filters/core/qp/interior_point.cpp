@@ -236,8 +236,9 @@ Status InteriorPoint::factor_double()
   double* values = matrix.valuePtr();
   Status status = this->workspace_.solver.factor(matrix);
   this->result_.factorizations += 1;
-  // Because of round-off, a matrix pivot that is positive in exact arithmetic can be negative. A
-  // relative shift of the diagonal makes the step slightly shorter, but the solution stays correct.
+  // In exact arithmetic all pivots are positive, but round-off can make a pivot negative. In this
+  // case the diagonal is scaled up slightly. The Newton step becomes slightly shorter; the
+  // minimizer does not change.
   for (double shift = 1e-14; !status.ok() && status.code == StatusCode::invalid_input &&
        shift < 1e-6 && !this->context_.canceled();
        shift *= 100.0)
@@ -408,12 +409,12 @@ void InteriorPoint::set_start(bool central)
   const double feasible_energy = 0.5 * feasible.dot(matrices.q.transpose() * feasible);
   if (!(energy > 1e-9 * feasible_energy))
   {
-    // The minimum energy without bounds is zero, because the minimizer is constant. Use the energy
-    // of the start, which satisfies bounds and pins.
+    // If the minimizer without bounds is constant, its energy is zero. The energy of the start is
+    // used instead; the start satisfies bounds and pins.
     energy = feasible_energy;
   }
-  // The values of `least` and of the factor 10 below were measured on boxes and on real shapes.
-  // With them, half as many iterations are needed as with mu = E / n.
+  // Minimum of the slacks at the start. This value and the factor 10 for mu were measured on boxes
+  // and on real shapes. They require half as many iterations as mu = energy / number of slacks.
   constexpr double least = 1e-2;
   this->s_ = this->apply(this->x_) + this->h_;
   this->raise_slacks(least);

@@ -58,7 +58,7 @@ private:
   const BoxQpColumn& column_;
   std::vector<Row> rows_;
   Eigen::VectorXd constants_;
-  std::vector<OrderedPair> sorted_pairs_; // see sort_pairs_by_order()
+  std::vector<OrderedPair> sorted_pairs_; // pairs in the order of sort_pairs_by_order()
 };
 
 } // namespace bindpose

@@ -90,7 +90,7 @@ public:
   /// @param change result of the iteration minus z.
   void accelerate(VectorXd& z, const VectorXd& change, const VectorXd& weights)
   {
-    const FlushDenormals flush; // differences of iterates are tiny at most vertices
+    const FlushDenormals flush; // most differences of iterates are tiny or denormal
     const VectorXf f = change.cwiseProduct(weights).cast<float>();
     const VectorXf at = z.cwiseProduct(weights).cast<float>();
     const double size = f.squaredNorm();

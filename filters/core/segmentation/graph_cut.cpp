@@ -144,8 +144,8 @@ public:
         this->add(edge.a, edge.b, edge.cost, edges);
         this->add(edge.b, edge.a, edge.cost, edges);
       }
-      // Relative margin for rounding errors. A node is decided only if its gain exceeds the costs
-      // of its edges by more than this margin, which is safe.
+      // Relative margin for rounding errors. The gain of a label must exceed the costs of the edges
+      // by more than this margin. Nodes that fail this test are labeled by the maximum flow.
       constexpr double rounding = 1e-9;
       Index left = 0;
       Index decided = 0;
@@ -197,8 +197,8 @@ public:
     return reduced;
   }
 
-  /// Return the labels of all nodes. @param reduced labels of the undecided nodes, indexed by their
-  /// ids in rest().
+  /// Return the labels of all nodes.
+  /// @param reduced labels of the undecided nodes, indexed as in the energy reduced().
   std::vector<char> expand(const std::vector<char>& reduced) const
   {
     std::vector<char> all = this->labels_;
@@ -224,7 +224,7 @@ private:
   const CutEnergy& energy_;
   std::vector<double> gains_; ///< cost of label outside minus cost of label inside, per node
   std::vector<char> labels_;
-  std::vector<Index> ids_; ///< id of each node in rest(), or -1
+  std::vector<Index> ids_; ///< index of each node in the energy reduced(); -1: decided
 };
 
 /// Compute the labels by maximum flow.

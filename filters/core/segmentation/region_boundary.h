@@ -30,10 +30,10 @@ public:
   bool bounds_region_at(Index f, const Vec3& p) const;
   /// Report whether the region is on exactly one side of triangle f near its corner k.
   bool bounded_at_corner(Index f, int k) const;
-  /// Return the thickness of the region at p along the normal of triangle f, which bounds the
-  /// region at p, or the width of the gap on the other side of f if the gap is narrower. The result
-  /// is approximate: distances from `smallest` to `largest` are tested, each 1.5 times the previous
-  /// one. The result is `largest` if no test finds the other side.
+  /// Return the smaller of two lengths at p, measured along the normal of triangle f: the thickness
+  /// of the region, and the width of the gap on the other side of f. The triangle must bound the
+  /// region at p. The result is approximate: distances from `smallest` to `largest` are tested,
+  /// each 1.5 times the previous one. The result is `largest` if no test finds the other side.
   double thickness(Index f, const Vec3& p, double smallest, double largest) const;
   /// Move p along the unit vector n onto the boundary of the region, by at most `reach` in either
   /// direction. The error is 2^-20 times `reach`. n points outwards. @return true if p - reach n is

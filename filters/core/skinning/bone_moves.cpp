@@ -114,7 +114,7 @@ BINDPOSE_ALWAYS_INLINE void add_tile_moves(const std::int32_t* columns, const Sc
           endpoint_weights[i - begin] = static_cast<Scalar>(from[i * handles]);
         }
         e = endpoint_weights == endpoint_weights ? endpoint_weights
-                                                 : e; // NaN: keep the position along the bone
+                                                 : e; // NaN selects the position along the bone
       }
       const Pack w = pack_at(weights + k * tile_lanes + begin);
       const Pack longer = w * e;
@@ -182,7 +182,7 @@ BoneFrames<Scalar> bone_frames(
     }
     result.frame_of_column.push_back(static_cast<std::int32_t>(result.frames.size()));
     const Eigen::Matrix3d linear = transforms[j].leftCols<3>();
-    Eigen::Matrix3d axes; // one axis per row
+    Eigen::Matrix3d axes; // axes of the bone's frame, one per row
     axes.row(2) = bone.vector.stableNormalized();
     axes.row(0) = Vec3(axes.row(2)).unitOrthogonal();
     axes.row(1) = axes.row(2).cross(axes.row(0));

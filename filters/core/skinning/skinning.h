@@ -167,8 +167,8 @@ private:
   Index handles_ = 0;
   Index weight_count_ = 0;
   bool is_single_precision_ = false;
-  WeightTiles<float> single_tiles_; ///< used in single precision
-  WeightTiles<double> double_tiles_; ///< used in double precision
+  WeightTiles<float> single_tiles_; ///< weights in single precision
+  WeightTiles<double> double_tiles_; ///< weights in double precision
   /// Reference of each vertex: the handle with its largest weight. Padded to whole tiles.
   std::vector<std::int32_t> reference_handles_;
 };

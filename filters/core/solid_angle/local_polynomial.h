@@ -37,9 +37,9 @@ constexpr int local_coefficient_count(int order)
   return (order + 1) * (order + 1);
 }
 
-/// Contract an expansion to a polynomial in x for the specified y and z, in the precision of the
-/// coefficients `coefficients`. `order` must be 2 … largest_polynomial_order. The result has the
-/// same bits on every instruction set.
+/// Contract an expansion to a polynomial in x for the specified y and z, in the precision of
+/// `coefficients`. `order` must be 2 … largest_polynomial_order. The result has the same bits on
+/// every instruction set.
 void contract_local(int order, const float* coefficients, double y, double z, double* polynomial);
 void contract_local(int order, const double* coefficients, double y, double z, double* polynomial);
 

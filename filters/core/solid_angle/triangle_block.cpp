@@ -89,7 +89,7 @@ struct RelativeBlock
   Real at[3];
 };
 
-/// Corners relative to the point.
+/// Corners of a triangle, relative to the point.
 template <typename Real>
 struct RelativeTriangle
 {
@@ -132,9 +132,9 @@ BINDPOSE_ALWAYS_INLINE Real angle_of(Real re, Real im)
   return im < Real(0) ? -half : half;
 }
 
-/// Add blocks far from the point. RelativeTriangle from the point, a sphere of the block's size
-/// covers less than an eighth of all directions. Half the solid angle of a triangle is below 41
-/// degrees, so the sum for four triangles is below half a turn. No triangle touches the point.
+/// Add blocks far from the point. Seen from the point, a sphere of the block's size covers less
+/// than an eighth of all directions. Half the solid angle of a triangle is below 41 degrees, so the
+/// sum for four triangles is below half a turn. No triangle touches the point.
 template <typename Real>
 BINDPOSE_ALWAYS_INLINE void add_distant_blocks(const TriangleBlock<Real>* blocks,
   const RelativeBlock<Real>* relative, const int* order, int count, Real (&sums)[triangle_lanes])

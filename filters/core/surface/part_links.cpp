@@ -214,7 +214,8 @@ private:
   bool link_nearest(std::vector<PartLink>& links)
   {
     const auto parts = static_cast<Index>(this->constrained_.size());
-    // For each group, 1 if it contains a held part; indexed by the group's smallest part.
+    // For each group, 1 if it contains a held (constrained) part; indexed by the group's smallest
+    // part.
     std::vector<char> constrained = this->constrained_;
     for (bool changed = true; changed;)
     {
@@ -265,7 +266,8 @@ private:
     return true;
   }
 
-  /// Link loose parts to all parts that they touch, with one link per cube of a grid.
+  /// Link each loose (not constrained) part to all parts that it touches, with one link per cube of
+  /// a grid.
   bool link_touching(std::vector<PartLink>& links)
   {
     std::vector<Index> label_of_part_index(this->constrained_.size());

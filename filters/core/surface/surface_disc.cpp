@@ -1,11 +1,11 @@
 // Approximate geodesic distances around a point (see surface_disc.h). Vertices are processed in the
 // order of Dijkstra's algorithm. The distance of a vertex c is the minimum of two values: along an
 // edge, and through a triangle a b c whose vertices a and b have distances. For the second value,
-// the source is mapped to the triangle's plane, on the side of ab that does not contain c. It is an
-// intersection of two circles, whose centers are a and b and whose radii are the distances of a and
-// b. If the straight line from the mapped source to c crosses ab, the length of the line is the
-// distance through the triangle. (M. Novotni and R. Klein, "Computing geodesic distances on
-// triangular meshes", 2002.)
+// the source is mapped to the triangle's plane, on the side of ab that does not contain c. The
+// mapped source is an intersection of two circles: their centers are a and b, and their radii are
+// the distances of a and b. If the straight line from the mapped source to c crosses ab, the length
+// of the line is the distance through the triangle. (M. Novotni and R. Klein, "Computing geodesic
+// distances on triangular meshes", 2002.)
 #include "surface/surface_disc.h"
 
 #include <algorithm>

@@ -25,7 +25,7 @@ public:
   /// most `limit`
   double distance(const Vec3& p, double limit, Vec3* nearest = nullptr) const;
 
-  /// Report whether the segment from a to b intersects a triangle for which counts() returns true.
+  /// Report whether the segment from a to b intersects a triangle for which accept() returns true.
   /// Thread-safe.
   bool segment_meets(const Vec3& a, const Vec3& b, const std::function<bool(Index)>& accept) const;
 

@@ -50,7 +50,8 @@ public:
     constexpr Index last_passes = 4; // passes in which held vertices may move
     constexpr Index first_passes = 3; // passes before vertices are inserted
     const Index passes = this->options_.passes - last_passes;
-    // Fractions of the time at the ends of the three groups of passes.
+    // Progress at the ends of the first and the second group of passes. The third group, in which
+    // held vertices may move, ends at 0.97.
     const double first_end = this->options_.insert ? 0.4 : 0.0;
     const double second_end = this->options_.release_angle > 0.0 ? 0.85 : 0.97;
     bool completed = true;
@@ -129,7 +130,7 @@ private:
     std::vector<Index> batch; // tets of the current batch
     std::vector<Index> deferred; // tets of the following batches
     const auto is_due = [&](Index t)
-    // An earlier step may have improved the tet.
+    // A tet that an earlier step has improved enough is skipped.
     { return this->tets_.quality(t) < required_quality && this->changed(t); };
     for (std::size_t next = 0; (next < flat.size() || !deferred.empty()) && !this->exhausted();)
     {

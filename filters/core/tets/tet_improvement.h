@@ -40,11 +40,11 @@ struct Improvement
 ///
 /// Vertices at creases of more than 40 degrees do not move. Such vertices are contracted along the
 /// crease only; the ends and corners of a crease are never contracted. Held vertices neither move
-/// nor disappear, except as least_angle allows.
+/// nor disappear, except as `release_angle` allows.
 ///
-/// The tets must be positive and conforming. held: #V, 1 for held (constrained) vertices. Points
-/// keep their ids and are not removed if they become unused; new points are appended. The result is
-/// the same for any number of threads. Cost: about 40 us of one thread per tet that is too flat, in
+/// The tets must be positive and conforming. constrained: #V, 1 for held vertices. Points keep
+/// their ids and are not removed if they become unused; new points are appended. The result is the
+/// same for any number of threads. Cost: about 40 us of one thread per tet that is too flat, in
 /// each pass in which its neighborhood has changed.
 /// @return false if canceled; the mesh is also valid in this case.
 bool improve_tets(ExecutionContext& context, TetMesh& mesh, std::vector<char> constrained,

@@ -278,7 +278,7 @@ public:
     this->silent_context_.set_threads(context.threads());
   }
 
-  /// Insert vertices at the positions `positions`. `mesh` contains the current tets.
+  /// Insert vertices at `positions`. `mesh` contains the current tets.
   bool insert(const TetMesh& mesh, const Points& positions, std::vector<Index>& vertices)
   {
     const std::vector<std::int32_t> spatial_order = spatial_sort(as_vectors(positions));

@@ -60,8 +60,8 @@ Index count_forced_tets(ExecutionContext& context, PointsView points, TetsView t
 /// side. A valid mesh has a closed boundary. With may_branch a facet may have any number of tets.
 /// Ids must be in range.
 Status check_tets(PointsView points, TetsView tets, bool may_branch = false);
-/// Check the same as above, with precomputed tet_facets() of the tets, whose computation takes most
-/// of the time.
+/// The same checks as above, but with precomputed tet_facets() of the tets. Computing the facets
+/// takes most of the time of the checks.
 Status check_tets(
   PointsView points, TetsView tets, const std::vector<TetFacet>& facets, bool may_branch = false);
 

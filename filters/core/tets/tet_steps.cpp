@@ -148,7 +148,7 @@ TetStepSearch::Cost TetStepSearch::cost(const std::vector<Index>& tets) const
   return cost;
 }
 
-/// Return the minimum quality of tets that replace tets with this cost.
+/// Return the minimum quality of new tets that replace tets with this cost.
 double TetStepSearch::minimum_quality_after(const Cost& cost) const
 {
   return std::min(
@@ -626,7 +626,7 @@ bool TetStepSearch::contract(Index a, Index b, TetStep& step)
 
 /// Report whether the normals of the boundary triangles at vertex a change little if a is replaced
 /// by b. A vertex of a crease may be contracted along the crease only. A vertex at which creases
-/// meet or end must not be contracted. skin: the boundary triangles at a.
+/// meet or end must not be contracted. boundary_facets: the boundary triangles at a.
 bool TetStepSearch::keeps_shape(const std::vector<Facet>& boundary_facets, Index a, Index b) const
 {
   // Pairs (other end of an edge at a, normal of a triangle at this edge).

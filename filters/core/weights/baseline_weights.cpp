@@ -1,15 +1,16 @@
 // The methods of baseline_weights.h. Distances are straight-line distances from vertices to the
 // geometry of the handles: points, segments of bones, labeled vertices of regions. The unknowns are
-// the weights of the vertices that are not fixed. The systems are
-//   smoothed harmonic   (M + length^4 Q) w = M h, where K h = 0 and Q = K M^-1 K is the biharmonic
-//                       form; w is h for length 0 and approaches the biharmonic weights for a large
-//                       length
-//   bone heat           (K + M H) w_j = M H p_j, where H = heat / d^2 for the distance d of the
-//                       nearest handle if nothing blocks the straight line to this handle, else 0;
-//                       p_j is 1 if handle j is the nearest handle, else 0 (if n handles that
-//                       nothing blocks are equally near, p_j is 1 / n for each of them)
-// where K is the cotangent stiffness and M the mass matrix of the mesh scaled to diagonal 1, so
-// that the result does not depend on units.
+// the weights of the vertices that are not fixed. K is the cotangent stiffness and M the mass
+// matrix of the mesh scaled to diagonal 1, so that the results do not depend on units.
+//
+// Smoothed harmonic weights solve (M + length^4 Q) w = M h. Here h are the harmonic weights (K h =
+// 0), and Q = K M^-1 K is the biharmonic form. For length 0, w is h. For a large length, w
+// approaches the biharmonic weights.
+//
+// Bone heat weights solve (K + M H) w_j = M H p_j. A handle is visible from a vertex if nothing
+// blocks the straight line between them. If the nearest handle j is visible at the distance d, then
+// H = heat / d^2 and p_j = 1. If n visible handles are equally near, p_j = 1 / n for each of them.
+// All other p_j are 0. If no nearest handle is visible, H = 0.
 #include "weights/baseline_weights.h"
 
 #include "base/parallel.h"

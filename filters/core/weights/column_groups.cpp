@@ -391,7 +391,7 @@ private:
   // Index of every vertex in the rows of problem.fixed_values; -1: not fixed.
   std::vector<Index> fixed_row_;
   std::vector<char> is_fixed_; // 1 for fixed unknowns
-  // One entry per column:
+  // The following lists have one entry per column.
   std::vector<std::vector<double>> given_values_; // given values of the unknowns; NaN: solved for
   std::vector<std::vector<double>> constant_; // constant of every component; NaN: not constant
 };

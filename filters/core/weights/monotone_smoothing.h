@@ -46,8 +46,8 @@ struct MonotoneSmoothingOptions
   /// again. There are no further rebuilds if the energy decreases by less than a fraction of 1e-4.
   /// The energy never increases.
   int rebuilds = 1;
-  /// Minimum difference of the values in every ordered pair (see pairs_of_order), as a fraction of
-  /// the data's range, 0 … 1. If above 0, neighbors in a pair cannot have equal values.
+  /// Minimum difference of the values in every ordered pair (see pairs_from_order), as a fraction
+  /// of the data's range, 0 … 1. If above 0, neighbors in a pair cannot have equal values.
   double epsilon = 0.0;
   /// See WeightsOptions.
   double tolerance = 1e-6;

@@ -343,7 +343,7 @@ Status Solver::transfer_weights(
     result.weights = std::move(at_points);
     if (result.domain == WeightsDomain::embedding)
     {
-      normalize(result.weights); // clamping and smoothing have changed the sums
+      normalize(result.weights); // clamping and smoothing have changed the row sums
     }
   }
   return transfer_status;

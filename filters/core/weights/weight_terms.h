@@ -11,8 +11,8 @@ namespace bindpose
 /// Optional terms of bounded and monotone weights: painted rigidity, rigid sets, bounds, prescribed
 /// weights and symmetry. An empty member is off. Vertices are those of the original mesh. Handle
 /// insertion adds vertices in elements. Values at such a vertex are interpolated from the corners
-/// of the element (NaN if a corner is NaN). It gets a label if all these corners have the same
-/// label.
+/// of the element (NaN if a corner is NaN). The vertex gets a label if all these corners have the
+/// same label.
 struct WeightTerms
 {
   /// Painted rigidity, #V, 0 … 1e12. It adds 1/2 int rho |grad w|^2 to the energy 1/2 int (lap

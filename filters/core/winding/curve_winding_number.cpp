@@ -313,7 +313,7 @@ struct Chord
   Id leaf;
 };
 
-/// A piece of a loop, a loop, or several loops.
+/// A node of the tree: a piece of a loop, a loop, or several loops.
 struct Node
 {
   Vec2 lower, upper; ///< box with a margin, so that it contains every point that touches the node

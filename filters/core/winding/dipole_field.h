@@ -109,8 +109,8 @@ private:
   struct Leaf
   {
     Id id;
-    /// Number of bits by which the coordinates of a CellCoordinates in the leaf are shifted right.
-    /// The result is the coordinates of the leaf among the cells of its level.
+    /// Shifted right by this number of bits, the CellCoordinates of any cell in the leaf become the
+    /// coordinates of the leaf among the cells of its level.
     int shift;
     double inverse; ///< 2 divided by the edge length of the leaf
     Vec3 center;
@@ -131,7 +131,7 @@ private:
   /// Return the sum of the solid angles of all triangles, each computed as exactly as possible.
   double exact_sum(const Vec3& point) const;
   double outer_sum(const Vec3& point, bool& on_surface) const;
-  /// Call see(moments, offset) for nodes that are far from the point, and all(run) for the
+  /// Call use_moments(moments, offset) for nodes that are far from the point, and all(run) for the
   /// triangles of the other nodes.
   template <typename UseMoments, typename All>
   void visit_outer(const Vec3& point, const UseMoments& use_moments, const All& all) const;

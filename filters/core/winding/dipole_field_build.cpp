@@ -146,7 +146,7 @@ struct DipoleField::Builder
     Vec3 center;
     double half; ///< half the size of the leaf
   };
-  /// The cells and leaves of one top cell.
+  /// The cells and leaves below one top cell of the octree.
   struct Subtree
   {
     std::vector<Id> cells{ 0 };

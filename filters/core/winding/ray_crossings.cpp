@@ -246,7 +246,8 @@ struct FacetBounds
 };
 
 /// Add the crossings of the rays from `count` points with one triangle. For points with uncertain
-/// signs, no crossing is counted and open[i] is set to 1. Return whether there are such points.
+/// signs, no crossing is counted and undecided[i] is set to 1. Return whether there are such
+/// points.
 BINDPOSE_SIMD_CLONES bool add_crossings(const FacetBounds& f, const double* x, const double* y,
   const double* z, int count, std::int32_t* counts, std::int32_t* undecided)
 {
@@ -402,8 +403,8 @@ bool RayCrossings::count(ExecutionContext& context, const Vec3* points, Index nu
           return;
         }
         const Index face = slabs > 1 ? faces[face_begin[slab] + i] : i;
-        // If there are few points, the projected boxes of most triangles contain no point. These
-        // triangles need no other test than the test of the cells.
+        // If there are few points, the projected boxes of most triangles contain no point. For such
+        // triangles only the cells are tested, and no facet is computed.
         const std::array<Vec3, 3> c = this->corners(face);
         const Index u0 = u_of(std::min({ c[0][u], c[1][u], c[2][u] }) - this->tolerance_);
         const Index u1 = u_of(std::max({ c[0][u], c[1][u], c[2][u] }) + this->tolerance_);
@@ -625,8 +626,9 @@ void RayCrossings::count_slab(const Grid& grid, const Layers& layers, Index slab
         }
         const Index row = (k - first_layer) * rows + j;
         const bool is_side_certain = minimum > f.edge_bound || maximum < -f.edge_bound;
-        // Samples with x coordinates from `x` to `y` are tested one by one. If the triangle is
-        // parallel to the rows, `center` is NaN and the comparisons select the ends of the box.
+        // `x` and `y` are limits of x coordinates. The samples between them are tested one by one.
+        // If the triangle is parallel to the rows, `center` is NaN and the comparisons select the
+        // ends of the box.
         const double center = f.x[0] + (f.normal[1] * ay + f.normal[2] * az) * inverse_normal_x;
         const double x = center - x_tolerance > f.lower[0]
           ? std::min(center - x_tolerance, f.upper[0])

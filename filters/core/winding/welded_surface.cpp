@@ -120,7 +120,7 @@ std::uint64_t packed(Index first, Index second)
 }
 
 /// Group items by a vertex: the items of vertex v are items[begin[v] … begin[v + 1]), ascending.
-/// `visit(see)` must call see(vertex, item) for all items. group_by_vertex() calls `visit` twice.
+/// `visit(emit)` must call emit(vertex, item) for all items. group_by_vertex() calls `visit` twice.
 /// Return false if canceled.
 template <typename Visit>
 bool group_by_vertex(ExecutionContext& context, Index vertices, const Visit& visit,

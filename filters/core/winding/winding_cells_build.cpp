@@ -717,7 +717,8 @@ WindingCells::Id WindingCells::Builder::add_leaf(
           fixed_point_one);
         const double distance =
           static_cast<double>(leaf.distance_scale) * product.dot(relative[0]) / product.norm();
-        // The condition is true for most faces, because they overlap the cell.
+        // For most faces, the distance of the plane fits into 16 bits, because most faces overlap
+        // the cell.
         const bool is_near = std::abs(distance) < fixed_point_one;
         std::copy(normal.begin(), normal.end(), plane.begin() + 9);
         plane[12] = is_near && normal != std::array<double, 3>{} ? distance : 0.0;

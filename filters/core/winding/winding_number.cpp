@@ -127,7 +127,7 @@ struct WindingNumber::Impl
   bool build_tree(ExecutionContext& context) const;
   bool build_cells(ExecutionContext& context) const;
   bool are_rays_faster(double ray_cost, double cell_cost) const;
-  /// Add to ray_nanoseconds; evaluations may run at the same time.
+  /// Add to ray_nanoseconds atomically, because evaluations may run concurrently.
   void add_ray_cost(double nanoseconds) const
   {
     double sum = this->ray_nanoseconds;

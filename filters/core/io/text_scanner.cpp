@@ -144,13 +144,19 @@ bool parse_number(std::string_view text, double& value)
   }
   if (result.ec == std::errc::result_out_of_range)
   {
-    // The absolute value is too small for a double (1e-400) or too large (1e400). A number with a
-    // negative exponent is too small. A number without exponent is too small if its first nonzero
-    // digit follows the decimal point.
-    const std::size_t exponent = text.find_first_of("eE");
-    const bool tiny = exponent == std::string_view::npos
-      ? text.find_first_of("123456789") > text.find('.')
-      : text.substr(exponent + 1, 1) == "-";
+    // The absolute value is too large for a double (1e400) or too small (1e-400). The decimal
+    // exponent of its first nonzero digit decides.
+    const std::size_t e = std::min(text.find_first_of("eE"), text.size());
+    const std::string_view digits = text.substr(0, e);
+    const std::size_t point = std::min(digits.find('.'), digits.size());
+    const std::size_t first = digits.find_first_of("123456789");
+    double exponent = 0.0;
+    if (e < text.size())
+    {
+      const std::string_view written = without_plus(text.substr(e + 1));
+      std::from_chars(written.data(), written.data() + written.size(), exponent);
+    }
+    const bool tiny = static_cast<double>(point) - static_cast<double>(first) + exponent < 0.0;
     const double magnitude = tiny ? 0.0 : std::numeric_limits<double>::infinity();
     value = text[0] == '-' ? -magnitude : magnitude;
     return true;

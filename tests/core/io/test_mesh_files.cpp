@@ -345,6 +345,12 @@ TEST_F(TextFiles, NumbersHaveAPointInEveryLocale)
   EXPECT_EQ(value, 0.0);
   EXPECT_TRUE(parse_number("-1e400", value));
   EXPECT_EQ(value, -std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(parse_number(std::string(400, '9') + "e-1", value));
+  EXPECT_EQ(value, std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(parse_number("-0." + std::string(400, '0') + "1e+5", value));
+  EXPECT_EQ(value, 0.0);
+  EXPECT_TRUE(parse_number("1e99999999999", value));
+  EXPECT_EQ(value, std::numeric_limits<double>::infinity());
   for (const char* word : { "", "+", "+-1", "1,5", "0x10", "1e", "one", "1 " })
   {
     EXPECT_FALSE(parse_number(word, value)) << word;

@@ -78,7 +78,7 @@ Status to_curves(vtkPolyData* handle_data, const Handles& handles, const std::ve
   return {};
 }
 
-/// The output handles, which include the sides of curves, and their colors.
+/// The handles of the output, and the color of each handle. A curve has one handle per side.
 struct Sides
 {
   Handles handles;

@@ -56,7 +56,7 @@ def make(options):
         bindpose.write(posed, options.scratch / files[-1])
     numbers["constrained numbers"] = given
     numbers["energies"] = energies
-    numbers["largest constraint error, diagonals"] = float(max(misses))
+    numbers["largest constraint error in bounding-box diagonals"] = float(max(misses))
     labels = [f"{name}: {count} constrained numbers; energy {energy:.3g}" for name, count, energy in zip(cases, given, energies)]
     common.render(options, *files, "--columns", 2, "--size", "1300x850", "--edges", "--up", "z", "--azimuth", -35,
                   "--elevation", 15, "--section", "none", "--labels", ",".join(labels),

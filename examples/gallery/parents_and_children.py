@@ -65,7 +65,8 @@ def make(options):
         bindpose.write(posed, options.scratch / files[-1])
         found = points_of(posed)
         there = rigid.get(name, JOINTS[1] + np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]]) @ (points[tip] - JOINTS[1]))
-        numbers[f"{name}: distance of the tip"] = float(np.linalg.norm(found[tip] - there)) / JOINTS[-1][0]
+        error = float(np.linalg.norm(found[tip] - there)) / JOINTS[-1][0]
+        numbers[f"{name}: distance of the tip from its expected position in arm lengths"] = error
         numbers[f"{name}: largest triangle"] = float((areas(found, triangles) / areas(points, triangles)).max())
     common.render(options, *files, "--columns", 2, "--size", f"{WIDE}x800",
                   "--labels", ",".join(cases))

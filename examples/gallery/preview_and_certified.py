@@ -48,7 +48,7 @@ def make(options):
                                                                   shown["difference"]["rms"]]
         numbers[f"{name} minus {other}: all, largest and rms"] = [float(abs(difference).max()),
                                                                float(np.sqrt((difference ** 2).mean()))]
-        numbers[f"{name} minus {other}: other strongest handle, fraction"] = float(
+        numbers[f"{name} minus {other}: fraction of vertices with another strongest handle"] = float(
             (found[name].argmax(axis=1) != found[other].argmax(axis=1)).mean())
         if abs(difference[:, SHOWN]).max() - shown["difference"]["largest"] > 1e-12:
             raise common.Stop("the difference that the program reports does not match the difference of the arrays")

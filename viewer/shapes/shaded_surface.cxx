@@ -126,7 +126,7 @@ ShadedSurface::ShadedSurface(vtkPolyData* surface, double feature_angle)
   this->set_arrays(surface);
 }
 
-bool ShadedSurface::has_mesh_of(vtkPolyData* surface) const
+bool ShadedSurface::has_same_mesh(vtkPolyData* surface) const
 {
   return surface->GetPoints() == this->input_->GetPoints() &&
     surface->GetVerts() == this->input_->GetVerts() &&

@@ -31,9 +31,9 @@ public:
 
   /// Report whether another surface has the same points and cells as the input, so that
   /// set_arrays() can use its arrays.
-  bool has_mesh_of(vtkPolyData* surface) const;
+  bool has_same_mesh(vtkPolyData* surface) const;
   /// Reset the points to those of `surface`, and replace the point and cell arrays by those of
-  /// `surface`. has_mesh_of(surface) must be true.
+  /// `surface`. has_same_mesh(surface) must be true.
   void set_arrays(vtkPolyData* surface);
 
   /// The surface to draw: the points that triangles use, normals, and the input's point and cell

@@ -36,7 +36,7 @@ constexpr double edge_on_cosine = 0.12;
 constexpr double smallest_factor = 0.01;
 // a scale uses a ratio of distances only if it starts farther than this from the pivot
 constexpr double near_pixels = 8.0;
-// Mouse motion in pixels that doubles the size, if no ratio of distances is used.
+// near the pivot, a scale depends on the motion of the mouse: this many pixels double the size
 constexpr double double_pixels = 80.0;
 
 int count_bits(int axes)

@@ -17,7 +17,8 @@ namespace
 constexpr double vertex_tolerance = 1e-9;
 /// A handle is on the mesh if its distance is at most this, in bounding-box diagonals.
 constexpr double on_mesh = 1e-6;
-/// A mesh point is treated as a vertex if its barycentric weight at the vertex is at least this.
+/// A point in an element counts as a vertex of the element if its barycentric coordinate of this
+/// vertex is at least this.
 constexpr double vertex_coordinate = 1.0 - 1e-9;
 /// Maximum number of intervals between the constrained points of a bone that has no vertices.
 constexpr double maximum_intervals = 16.0;

@@ -41,9 +41,10 @@ private:
 };
 
 /// The displacements D of a ReducedSpace that are possible for a choice of modes: D = D* + B Y with
-/// coordinates Y. D* contains the given blocks of full handles and moves the constrained positions
-/// to their targets. The columns of B span the displacements that change neither the given blocks
-/// nor the constrained positions. They are orthonormal in the stiffness H (B^T H B = I).
+/// coordinates Y. A handle of mode `full` prescribes its block of rows of D. D* has these
+/// prescribed rows and moves the constrained positions to their targets. The columns of B span the
+/// displacements that change neither the prescribed rows nor the constrained positions. They are
+/// orthonormal in the stiffness H (B^T H B = I).
 ///
 /// There are two methods. The robust method (make_robust) determines the ranks for any input and
 /// factors the part of H for the free rows, which no full handle prescribes: O(#free^3). The quick

@@ -58,8 +58,8 @@ public:
   using Columns =
     Eigen::Map<Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>, 0, Eigen::OuterStride<>>;
 
-  /// Return the matrix C, which the caller must fill. Entry (i, column) of cluster k is in row i
-  /// #clusters + k.
+  /// Return the matrix C, which the caller must fill. Entry (i, column) of cluster k is in row
+  /// i * #clusters + k.
   Columns matrix(Index clusters, Index columns);
   /// Copy the matrix C of another iteration.
   /// @param unit divisor of C.

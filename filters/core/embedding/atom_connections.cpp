@@ -233,9 +233,10 @@ private:
     return static_cast<int>((axes & 1U) + (axes >> 1 & 1U) + (axes >> 2));
   }
 
-  /// Connect samples along lines that are not cut, and measure their cells. The inside fraction of
-  /// a sample's cell is the mean of the fractions along those axes that have a cut line at the
-  /// sample. The fraction is 1 if no line is cut.
+  /// Connect neighboring samples if no triangle crosses the line between them, and measure how much
+  /// of each sample's cell is inside. A cell is completely inside if no line at the sample is
+  /// crossed. Otherwise its inside fraction is a mean over the axes along which a line is crossed:
+  /// of the part of the line in this cell that is inside.
   bool connect_samples()
   {
     for (Id cube = 0; cube < static_cast<Id>(this->atoms_.sampled_cubes.size()); ++cube)

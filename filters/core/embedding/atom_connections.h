@@ -20,7 +20,7 @@ struct AtomConnections
   using Id = EmbeddingAtoms::Id;
 
   DisjointSets<Id> within_tets; ///< classes of connected atoms in the same tet
-  std::vector<std::pair<Id, Id>> between_tets; ///< connected atoms of different tets
+  std::vector<std::pair<Id, Id>> between_tets; ///< pairs of connected atoms in different tets
   /// #atoms: inside volume that the atom represents, in units of one cell of the sub-grid.
   std::vector<float> inside_volume;
   /// One atom at each vertex of the surface; -1: no triangle uses the vertex.

@@ -8,8 +8,9 @@
 namespace bindpose
 {
 
-/// Derivatives across the edge of a patch that are prescribed for PatchBoundary::tangent. The
-/// integers are those of vtkVariationalSurface.
+/// With PatchBoundary::tangent, the derivatives of the positions across the edge of a patch are
+/// prescribed. This is the source of these derivatives. The values equal those of the constants of
+/// vtkVariationalSurface.
 enum class PatchTangents : int
 {
   /// Derivatives on the triangles on the other side of the edge; zero where the mesh ends.

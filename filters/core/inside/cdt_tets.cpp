@@ -674,9 +674,9 @@ double CdtTets::mean_surface_edge() const
 /// the mean edge length of the surface.
 double CdtTets::volume_bound() const
 {
-  constexpr double default_edge = 0.04;
+  constexpr double default_edge_length = 0.04;
   const double fraction =
-    this->options_.interior_edge > 0.0 ? this->options_.interior_edge : default_edge;
+    this->options_.interior_edge > 0.0 ? this->options_.interior_edge : default_edge_length;
   return regular_tet_volume *
     std::pow(std::max(fraction * this->diagonal_, this->mean_surface_edge() / 3.0), 3.0);
 }

@@ -372,7 +372,8 @@ Points subsample(const Points& points, Index target)
 bool inner_points(ExecutionContext& context, const Interior& interior, SizingField& sizes,
   Index maximum_count, Points& inner)
 {
-  // An attempt ends if more cells are inside than this factor times the maximum number of points.
+  // An attempt ends if the number of cells inside exceeds this factor times the maximum number of
+  // points.
   constexpr double abort_ratio = 5.0;
   // An attempt may always have this many cells inside, because they take little time.
   constexpr double minimum_cell_limit = 2000.0;

@@ -868,7 +868,8 @@ Status format_pose_changes(
         bool exact = true;
         Json entry = format_handle(pose, handles, h, exact);
         is_exact[h] = exact;
-        // format_handle() leaves out values of the rest pose, which the base may not have.
+        // format_handle() omits values that equal those at rest. A reader would then take the value
+        // of the base pose, so values that differ from the base pose are always written.
         if (pose[h].stretch != base[h].stretch)
         {
           entry["stretch"] = pose[h].stretch;

@@ -41,8 +41,9 @@ Index parent_of(const Handles& handles, std::size_t h)
   return parent_bone != handles.end() ? parent_bone - handles.begin() : -1;
 }
 
-/// Compute the transform of a bone: its rotation, followed by the transform of its parent. If the
-/// parents form a cycle, the bone of the first call is treated as the root.
+/// Compute the transform of a bone: its rotation, followed by the transform of its parent. This
+/// function calls itself for the parent. In a cycle of parents, the bone of the outermost call is
+/// the root.
 const Affine& follow(const std::vector<Eigen::Matrix3d>& rotations, const Handles& handles,
   std::size_t h, std::vector<char>& done, Pose& pose)
 {

@@ -41,9 +41,9 @@ Status bind_to_source(
                                 : kernel.bind(context, source.points, source.triangles,
                                     source.weights, source.handles, reduced);
 }
-/// Bind linear blend skinning of the source's surface to the columns of a reduced space in its
-/// tets.
-/// @param arap  bound to the source's tets
+/// Bind linear blend skinning, which moves the surface of the source like its tets. The weights of
+/// the skinning are the columns of the reduced space of `arap` at the surface's points.
+/// @param arap  bound to the tets of the source
 Status bind_surface_skinning(
   ExecutionContext& context, const PoseSource& source, const ReducedArap& arap, Skinning& skinning);
 

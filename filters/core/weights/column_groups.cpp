@@ -34,7 +34,7 @@ public:
   Status make(bool mirrored)
   {
     this->find_unknowns(mirrored);
-    this->find_fixed();
+    this->find_fixed_vertices();
     this->group_.columns.resize(this->group_.handles.size());
     this->group_.has_pins.assign(this->group_.handles.size(), 0);
     for (std::size_t c = 0; c < this->group_.columns.size(); ++c)
@@ -131,7 +131,7 @@ private:
     return this->group_.unknown(vertex, copy, this->n_);
   }
 
-  void find_fixed()
+  void find_fixed_vertices()
   {
     this->fixed_row_.assign(static_cast<std::size_t>(this->n_), -1);
     for (std::size_t i = 0; i < this->problem_.fixed.size(); ++i)

@@ -49,8 +49,8 @@ using Exclusions = std::vector<char>;
 Status make_column_groups(const WeightsProblem& problem, const Exclusions& excluded, bool coupled,
   std::vector<ColumnGroup>& groups);
 
-/// Return the columns of the problem's weights without its optional terms. Every vertex is an
-/// unknown.
+/// Return the quadratic problems of the weights of all handles, one per column. Optional terms are
+/// ignored, and every vertex is an unknown.
 std::vector<BoxQpColumn> columns_without_terms(const WeightsProblem& problem);
 
 /// Convert a quadratic form over vertices to a form over the group's unknowns.

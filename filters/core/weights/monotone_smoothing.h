@@ -64,7 +64,9 @@ struct MonotoneSmoothingResult
   /// Unlisted extrema of the result whose persistence is above notable_persistence. Empty for a
   /// correct result, because the ordered pairs exclude unlisted extrema.
   std::vector<Extremum> spurious;
-  ExtremaList list; ///< #V: the listed extrema, as given or chosen
+  /// #V: the kind of listed extremum at each vertex. The list is that of the caller, or was chosen
+  /// by persistence.
+  ExtremaList list;
   /// Certificate for data scaled to a range of 1. Its energy is half of the last entry of
   /// `energies`, in another unit.
   Certificate certificate;

@@ -141,7 +141,8 @@ private:
   std::unique_ptr<PreparedSurface> prepared_;
   /// The locator of the surface, used for all lattices; null until it is needed.
   std::unique_ptr<SimplexLocator> surface_;
-  /// Links of covered openings, and links of parts without a handle from all lattices so far.
+  /// Links between parts: at openings of one part that another part covers, and of parts without a
+  /// handle. All lattices so far contributed to the latter.
   std::vector<PartLink> links_;
   /// Number of covered openings; empty until their links are in `links_`.
   std::optional<Index> covered_openings_;

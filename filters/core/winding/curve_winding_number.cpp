@@ -318,7 +318,8 @@ struct Node
 {
   Vec2 lower, upper; ///< box with a margin, so that it contains every point that touches the node
   double first_y, last_y; ///< y coordinates of the ends of a piece; equal for loops
-  /// Indices of the ends of a piece on the path; equal if the node has several loops.
+  /// Indices on the path of the ends of the piece, or of the loop. Equal for a node with several
+  /// loops, which has no ends.
   Id first, last;
   Id skip; ///< index of the node after this node's descendants
   bool leaf;

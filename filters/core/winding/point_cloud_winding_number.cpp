@@ -465,8 +465,8 @@ void PointCloudWindingNumber::Impl::repeat_until_tolerance(const Try& attempt) c
     {
       return;
     }
-    // The bound of a box decreases at least with the power order + 2 of the distance. The bounds of
-    // the children of the box are smaller.
+    // The error bound of a box decreases with the distance d at least as fast as 1 / d^(order + 2).
+    // The error bounds of the children of the box are smaller.
     constexpr double margin = 1.05;
     squared_stretch *= margin * std::pow(error_bound / this->tolerance, 2.0 / (this->order + 2));
   }

@@ -94,7 +94,7 @@ private:
   std::string PoseJSON;
   std::string PoseMessage;
   bool PoseFromFile = false;
-  vtkMTimeType FormattedTime = 0; // modification time of DrawnHandles that PoseJSON describes
+  vtkMTimeType FormattedTime = 0; // modification time of DrawnHandles when PoseJSON was written
 };
 
 #endif

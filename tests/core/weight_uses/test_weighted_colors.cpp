@@ -32,14 +32,14 @@ WeightedColors blend(const Weights& weights, const Colors& colors, bool linear_l
 }
 
 /// A bar with handles at 0, 1/2 and 1. The first handle is white, the other two are black.
-struct BlackAndWhite
+struct BlackAndWhiteBar
 {
   static constexpr int n = 96;
   test::Bar bar = test::bar(n, { 0.0, 0.5, 1.0 });
   WeightsProblem problem;
   Colors colors = Colors::Zero(3, 3);
 
-  BlackAndWhite()
+  BlackAndWhiteBar()
   {
     ExecutionContext context;
     EXPECT_TRUE(make_weights_problem(
@@ -52,7 +52,7 @@ struct BlackAndWhite
 
 TEST(WeightedColors, UnconstrainedWeightsLeaveTheGamutByANinth)
 {
-  BlackAndWhite test;
+  BlackAndWhiteBar test;
   ExecutionContext context;
   WeightsResult solved;
   ASSERT_TRUE(biharmonic_weights(context, test.problem, {}, solved).ok());
@@ -86,7 +86,7 @@ TEST(WeightedColors, UnconstrainedWeightsLeaveTheGamutByANinth)
 
 TEST(WeightedColors, BoundedAndMonotoneWeightsStayWithinTheHandlesColors)
 {
-  BlackAndWhite test;
+  BlackAndWhiteBar test;
   test.colors << 0.9, 0.3, 0.1, 0.2, 0.4, 0.1, 0.5, 0.7, 0.1;
   ExecutionContext context;
   WeightsResult results[2];
@@ -168,7 +168,7 @@ TEST(WeightedColors, LightAndNumbersAreInverseAndOdd)
 
 TEST(WeightedColors, EqualColorsAreThatColorEverywhere)
 {
-  BlackAndWhite test;
+  BlackAndWhiteBar test;
   ExecutionContext context;
   WeightsResult solved;
   ASSERT_TRUE(biharmonic_weights(context, test.problem, {}, solved).ok());

@@ -138,8 +138,8 @@ TEST(ShadedSurface, TakesOtherArraysOfTheSameMeshAndGoesBackToRest)
   const auto other = vtkSmartPointer<vtkPolyData>::New();
   other->CopyStructure(box);
   other->GetPointData()->ShallowCopy(numbered_box(50.0)->GetPointData());
-  EXPECT_TRUE(shaded.has_mesh_of(other));
-  EXPECT_FALSE(shaded.has_mesh_of(numbered_box(10.0))) << "equal, but not the same";
+  EXPECT_TRUE(shaded.has_same_mesh(other));
+  EXPECT_FALSE(shaded.has_same_mesh(numbered_box(10.0))) << "equal, but not the same";
   const Points larger = 2.0 * to_points(box).view();
   shaded.move(larger);
   shaded.set_arrays(other);

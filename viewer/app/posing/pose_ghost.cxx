@@ -74,7 +74,7 @@ PoseGhost::~PoseGhost() = default;
 void PoseGhost::set_surface(vtkPolyData* surface)
 {
   this->surface_ = surface;
-  if (surface && this->shaded_ && this->shaded_->has_mesh_of(surface))
+  if (surface && this->shaded_ && this->shaded_->has_same_mesh(surface))
   {
     this->shaded_->set_arrays(surface);
   }

@@ -159,7 +159,7 @@ Viewport::~Viewport()
 
 void Viewport::set_surface(vtkPolyData* surface)
 {
-  if (surface && this->shaded_ && this->shaded_->has_mesh_of(surface))
+  if (surface && this->shaded_ && this->shaded_->has_same_mesh(surface))
   {
     this->shaded_->set_arrays(surface);
   }

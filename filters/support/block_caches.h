@@ -38,11 +38,11 @@ public:
   }
   Cache* operator->() const { return &**this; }
 
+  ///@{
   /// Replace the cache of the current block, by an empty one if none is given.
-  void reset(std::unique_ptr<Cache> cache = std::make_unique<Cache>())
-  {
-    this->current() = std::move(cache);
-  }
+  void reset() { this->current() = std::make_unique<Cache>(); }
+  void reset(std::unique_ptr<Cache> cache) { this->current() = std::move(cache); }
+  ///@}
 
 private:
   std::unique_ptr<Cache>& current() const

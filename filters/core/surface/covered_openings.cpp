@@ -2,6 +2,7 @@
 // another part is found in a tree of boxes.
 #include "surface/covered_openings.h"
 
+#include "base/constants.h"
 #include "base/disjoint_sets.h"
 #include "base/gather.h"
 #include "base/parallel_sort.h"
@@ -23,11 +24,15 @@ struct BoundaryEdge
   Index triangle;
 };
 
+/// Maximum distance of an opening from the parts that cover it, as a fraction of the diagonal of
+/// the opening's bounding box.
+constexpr double maximum_gap = 1.0 / 50.0;
+
 /// The link at a sample of a boundary edge.
 struct SampleLink
 {
   Index edge; ///< index of the boundary edge
-  bool is_covered; ///< whether another part is near the sample; false: there is no link
+  double distance; ///< from the nearest other part; infinite: no other part is near, no link
   PartLink link;
 };
 
@@ -105,23 +110,30 @@ public:
     {
       openings.unite(edge.a, edge.b);
     }
-    // For the first vertex of each opening, 1 if all samples of the opening are covered.
-    std::vector<char> is_covered(static_cast<std::size_t>(this->points_.rows()), 0);
+    // One entry per opening, at its smallest vertex: bounding box, and largest distance of a sample
+    // from the other parts. The distances of other vertices are negative.
+    std::vector<Box> boxes(static_cast<std::size_t>(this->points_.rows()));
+    std::vector<double> distances(boxes.size(), -1.0);
     for (const BoundaryEdge& edge : boundary)
     {
-      is_covered[openings.find(edge.a)] = 1;
+      Box& box = boxes[openings.find(edge.a)];
+      box.add(this->points_.row(edge.a));
+      box.add(this->points_.row(edge.b));
     }
     for (const SampleLink& sample : samples)
     {
-      if (!sample.is_covered)
-      {
-        is_covered[openings.find(boundary[sample.edge].a)] = 0;
-      }
+      double& largest = distances[openings.find(boundary[sample.edge].a)];
+      largest = std::max(largest, sample.distance);
     }
-    result.count = std::count(is_covered.begin(), is_covered.end(), 1);
+    const auto is_covered = [&](Index opening)
+    { return distances[opening] <= maximum_gap * boxes[opening].diagonal(); };
+    for (Index v = 0; v < this->points_.rows(); ++v)
+    {
+      result.count += distances[v] >= 0.0 && is_covered(v) ? 1 : 0;
+    }
     for (const SampleLink& sample : samples)
     {
-      if (is_covered[openings.find(boundary[sample.edge].a)])
+      if (is_covered(openings.find(boundary[sample.edge].a)))
       {
         result.links.push_back(sample.link);
       }
@@ -140,19 +152,19 @@ private:
     for (Index k = 0; k <= steps; ++k)
     {
       const Vec3 position = a + static_cast<double>(k) / static_cast<double>(steps) * (b - a);
-      SampleLink sample{ index, false, {} };
-      sample.is_covered = this->link_point(edge.triangle, position, sample.link);
+      SampleLink sample{ index, infinite, {} };
+      sample.distance = this->link_point(edge.triangle, position, sample.link);
       list.push_back(sample);
-      if (!sample.is_covered)
+      if (sample.distance == infinite)
       {
         return;
       }
     }
   }
 
-  /// Link a point of a triangle to the nearest point on another part. Return false if all other
-  /// parts are too far away.
-  bool link_point(Index triangle, const Vec3& position, PartLink& link) const
+  /// Link a point of a triangle to the nearest point on another part. Return the distance; infinite
+  /// if all other parts are farther away than `touch_distance`.
+  double link_point(Index triangle, const Vec3& position, PartLink& link) const
   {
     double limit = this->options_.touch_distance;
     const auto& nodes = this->tree_.nodes();
@@ -190,7 +202,7 @@ private:
         }
       }
     }
-    return link.triangles[1] >= 0;
+    return link.triangles[1] >= 0 ? limit : infinite;
   }
 
   static constexpr double maximum_steps = 1000.0; ///< per edge

@@ -21,8 +21,10 @@ struct CoveredOpenings
 
 /// Find the covered openings of a surface. An opening is a set of connected boundary edges, which
 /// are edges with one triangle. It is covered if the distance of its boundary edges from the other
-/// parts is nowhere above `touch_distance`. Boundary edges are tested, and linked, at both ends and
-/// at samples that are at most `spacing` apart.
+/// parts is nowhere above `touch_distance`, and nowhere above 1/50 of the diagonal of the opening's
+/// bounding box. The second limit excludes parts that are smaller than the gaps between them, like
+/// the leaves of a tree. Boundary edges are tested, and linked, at both ends and at samples that
+/// are at most `spacing` apart.
 ///
 /// The result is the same for any number of threads. Cost: O(n log n) for n triangles, and about
 /// 5 us per sample.

@@ -90,6 +90,8 @@ TEST(CoveredOpenings, AnOpeningMustBeCoveredCompletely)
     return openings_of(plate, part, { touch_distance, 0.5 }).count;
   };
   EXPECT_EQ(count(open_box(Vec3(-1, -1, 0.03), Vec3(1, 1, 1), { 0.03 })), 0) << "too high";
+  EXPECT_EQ(count(open_box(Vec3(0, 0, 0.01), Vec3(0.1, 0.1, 0.1), { 0.01 })), 0)
+    << "smaller than the gap times 50";
   EXPECT_EQ(count(open_box(Vec3(3, -1, 0), Vec3(5, 1, 1), { 0 })), 0)
     << "beyond the edge of the plate";
   EXPECT_EQ(count(open_box(Vec3(-1, -1, 0), Vec3(1, 1, 1), { 1 })), 0) << "open at the top";

@@ -213,6 +213,7 @@ TEST_F(Pieces, OfACrowdHaveTheBitsOfTheWhole)
     crowd->SetInputData(0, this->tets);
     crowd->SetInputData(1, this->handles);
     crowd->SetInstancesData(table_of(begin, end));
+    crowd->SetTolerance(1e-4);
     crowd->SetMaximumIterations(1000);
   };
   vtkNew<vtkCrowdDeformation> all;

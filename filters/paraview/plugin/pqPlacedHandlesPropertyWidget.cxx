@@ -145,7 +145,8 @@ void pqPlacedHandlesPropertyWidget::list_shapes()
     {
       this->ports_.append(port);
       this->shapes_->addItem(port->prettyName());
-      QObject::connect(port->getSource(), &pqPipelineSource::dataUpdated, this,
+      QObject::connect(port->getSource(),
+        QOverload<pqPipelineSource*>::of(&pqPipelineSource::dataUpdated), this,
         &pqPlacedHandlesPropertyWidget::read_shape, Qt::UniqueConnection);
     }
   }

@@ -13,10 +13,11 @@
 // is also empty and costs nothing.
 //
 // A filter with a piece port requests the piece from this port and the whole from all other ports.
-// If one source reaches both, it produces the whole, because it executes once for the last request.
-// Every process would then output the whole, so only piece 0 has an output. arrives_whole() detects
-// this case by the requests, which the executives store in the information objects of outputs.
-// An information object of an output is also that of the connected inputs.
+// An algorithm upstream of both executes once, for the last request, and the order of the requests
+// depends on what is already up to date, so it can differ between processes. In this case piece 0
+// is computed from the whole input, as in all other filters. follows_pieces() detects it from the
+// connections, which are the same on all processes. An information object of an output is also that
+// of the connected inputs.
 //
 // Blocks: if the first input is a composite, the executive requests all passes once for the whole
 // filter, and then, from REQUEST_DATA_OBJECT to REQUEST_DATA, once per block. In the latter passes
@@ -140,41 +141,39 @@ private:
   std::vector<vtkSmartPointer<vtkInformationVector>> copies_;
 };
 
-int pieces_of(vtkInformation* info)
+/// Call visit(info) for all connections of an input port of the algorithm behind a connection.
+template <typename Visit>
+void for_inputs_of(vtkExecutive* producer, int port, const Visit& visit)
 {
-  return info && info->Has(SDDP::UPDATE_NUMBER_OF_PIECES())
-    ? info->Get(SDDP::UPDATE_NUMBER_OF_PIECES())
-    : 1;
+  vtkInformationVector* inputs = producer->GetInputInformation(port);
+  for (int i = 0; i < inputs->GetNumberOfInformationObjects(); ++i)
+  {
+    visit(inputs->GetInformationObject(i));
+  }
 }
 
-/// Collect the outputs upstream of a connection that are requested as a whole.
-/// @param info  information of the connection
-void collect_whole(vtkInformation* info, std::set<vtkInformation*>& whole)
+/// Collect all outputs upstream of a connection, which is one of them.
+void collect_upstream(vtkInformation* connection, std::set<vtkInformation*>& outputs)
 {
-  if (pieces_of(info) > 1 || !whole.insert(info).second)
+  vtkExecutive* producer = vtkExecutive::PRODUCER()->GetExecutive(connection);
+  if (!outputs.insert(connection).second)
   {
     return;
   }
-  vtkExecutive* producer = vtkExecutive::PRODUCER()->GetExecutive(info);
   for (int port = 0; producer && port < producer->GetNumberOfInputPorts(); ++port)
   {
-    vtkInformationVector* inputs = producer->GetInputInformation(port);
-    for (int i = 0; i < inputs->GetNumberOfInformationObjects(); ++i)
-    {
-      collect_whole(inputs->GetInformationObject(i), whole);
-    }
+    for_inputs_of(producer, port, [&](vtkInformation* input) { collect_upstream(input, outputs); });
   }
 }
 
-/// Report whether a connection that is requested in pieces gets the whole from one of the outputs
-/// `whole`. An algorithm can also request the whole in order to divide it; its output is a piece.
-bool arrives_whole(vtkInformation* info, const std::set<vtkInformation*>& whole)
+/// Report whether the pieces of a connection are made from pieces of an output in `outputs`.
+bool follows_pieces(vtkInformation* connection, const std::set<vtkInformation*>& outputs)
 {
-  if (pieces_of(info) < 2)
+  if (outputs.count(connection) > 0)
   {
-    return whole.count(info) > 0;
+    return true;
   }
-  vtkExecutive* producer = vtkExecutive::PRODUCER()->GetExecutive(info);
+  vtkExecutive* producer = vtkExecutive::PRODUCER()->GetExecutive(connection);
   auto* filter = vtkBindposeAlgorithm::SafeDownCast(producer ? producer->GetAlgorithm() : nullptr);
   // Other algorithms than ours process their first input piece by piece.
   const int port = filter ? filter->GetPiecePort() : 0;
@@ -182,15 +181,10 @@ bool arrives_whole(vtkInformation* info, const std::set<vtkInformation*>& whole)
   {
     return false;
   }
-  vtkInformationVector* inputs = producer->GetInputInformation(port);
-  for (int i = 0; i < inputs->GetNumberOfInformationObjects(); ++i)
-  {
-    if (arrives_whole(inputs->GetInformationObject(i), whole))
-    {
-      return true;
-    }
-  }
-  return false;
+  bool follows = false;
+  for_inputs_of(producer, port,
+    [&](vtkInformation* input) { follows = follows || follows_pieces(input, outputs); });
+  return follows;
 }
 } // namespace
 
@@ -305,30 +299,25 @@ int vtkBindposeAlgorithm::RequestUpdateExtent(
   vtkInformation*, vtkInformationVector** input, vtkInformationVector* output)
 {
   vtkInformation* info = output->GetInformationObject(0);
-  const int piece_port = this->GetPiecePort();
+  const int piece_port = this->WorksByPieces(input) ? this->GetPiecePort() : -1;
   if (piece_port < 0 && GetPiece(info) > 0)
   {
     return 1;
   }
-  // A connection to several ports shares its information, so the requests of the whole come last.
-  for (const bool whole : { false, true })
+  for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
-    for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
+    for (int i = 0; i < input[port]->GetNumberOfInformationObjects(); ++i)
     {
-      for (int i = 0; i < input[port]->GetNumberOfInformationObjects(); ++i)
+      vtkInformation* connection = input[port]->GetInformationObject(i);
+      if (port == piece_port)
       {
-        vtkInformation* connection = input[port]->GetInformationObject(i);
-        const bool piece = port == piece_port;
-        if (piece && !whole)
-        {
-          connection->Set(SDDP::UPDATE_PIECE_NUMBER(), GetPiece(info));
-          connection->Set(SDDP::UPDATE_NUMBER_OF_PIECES(), GetNumberOfPieces(info));
-          connection->Set(SDDP::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
-        }
-        else if (!piece && whole)
-        {
-          RequestWholeInput(connection);
-        }
+        connection->Set(SDDP::UPDATE_PIECE_NUMBER(), GetPiece(info));
+        connection->Set(SDDP::UPDATE_NUMBER_OF_PIECES(), GetNumberOfPieces(info));
+        connection->Set(SDDP::UPDATE_NUMBER_OF_GHOST_LEVELS(), 0);
+      }
+      else
+      {
+        RequestWholeInput(connection);
       }
     }
   }
@@ -360,7 +349,9 @@ int vtkBindposeAlgorithm::GetPiece(vtkInformation* output)
 
 int vtkBindposeAlgorithm::GetNumberOfPieces(vtkInformation* info)
 {
-  return pieces_of(info);
+  return info && info->Has(SDDP::UPDATE_NUMBER_OF_PIECES())
+    ? info->Get(SDDP::UPDATE_NUMBER_OF_PIECES())
+    : 1;
 }
 
 bool vtkBindposeAlgorithm::IsEmptyPiece(vtkInformationVector** input, vtkInformationVector* output)
@@ -376,24 +367,31 @@ bool vtkBindposeAlgorithm::IsEmptyPiece(vtkInformationVector** input, vtkInforma
       data->GetNumberOfElements(vtkDataObject::ROW) == 0);
 }
 
-/// Report whether the input at the piece port is a piece. If not, it is the whole on every process.
-bool vtkBindposeAlgorithm::ReceivesPiece(vtkInformationVector** input)
+/// Report whether the filter works by pieces: it has a piece port, and no algorithm upstream of
+/// this port is also upstream of another port.
+bool vtkBindposeAlgorithm::WorksByPieces(vtkInformationVector** input)
 {
   const int piece_port = this->GetPiecePort();
-  vtkInformation* info = piece_port < 0 ? nullptr : input[piece_port]->GetInformationObject(0);
-  if (!info || pieces_of(info) < 2)
+  if (piece_port < 0)
   {
     return false;
   }
-  std::set<vtkInformation*> whole;
+  std::set<vtkInformation*> others;
   for (int port = 0; port < this->GetNumberOfInputPorts(); ++port)
   {
     for (int i = 0; port != piece_port && i < input[port]->GetNumberOfInformationObjects(); ++i)
     {
-      collect_whole(input[port]->GetInformationObject(i), whole);
+      collect_upstream(input[port]->GetInformationObject(i), others);
     }
   }
-  return !arrives_whole(info, whole);
+  for (int i = 0; i < input[piece_port]->GetNumberOfInformationObjects(); ++i)
+  {
+    if (follows_pieces(input[piece_port]->GetInformationObject(i), others))
+    {
+      return false;
+    }
+  }
+  return true;
 }
 
 /// Report whether a data object is a composite that Execute() does not take as it is.
@@ -438,7 +436,7 @@ void vtkBindposeAlgorithm::CountBlocks(vtkInformationVector** input)
 int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformationVector* output)
 {
   if (!this->MakesPieces() && GetPiece(output->GetInformationObject(0)) > 0 &&
-    !this->ReceivesPiece(input))
+    !this->WorksByPieces(input))
   {
     for (int port = 0; port < this->GetNumberOfOutputPorts(); ++port)
     {

@@ -23,7 +23,8 @@
  *   If every point (or instance) of an input can be processed alone, GetPiecePort() returns the
  *   port of this input. Every process then works on its own piece of it, and requests all other
  *   inputs as a whole. The results have the same bits as those of one process. Ghost levels are not
- *   requested. A filter that requests its inputs itself overrides MakesPieces().
+ *   requested. If an algorithm is upstream of this port and of another one, the first process does
+ *   the work. A filter that requests its inputs itself overrides MakesPieces().
  * - **Blocks.** A composite input at the first port is worked on block by block, and the output is
  *   a composite with the results. Each block has its own bind. A composite at another port must
  *   have one block per block of the first port, or a single block, which is used for all blocks.
@@ -197,7 +198,7 @@ private:
   void ReportProgress(double fraction, const std::string& phase);
   void CountBlocks(vtkInformationVector** input);
   bool HasBlocks(int port, vtkDataObject* data);
-  bool ReceivesPiece(vtkInformationVector** input);
+  bool WorksByPieces(vtkInformationVector** input);
 
   int NumberOfThreads = 0;
   bindpose::BlockNumber Block;

@@ -79,7 +79,7 @@ class Data:
 
     def make_rig(self):
         path = self.folder / "rig.glb"
-        simple.BindposeGLTFSkinWriter(Input=self.weights, Handles=self.handles, FileName=str(path)).UpdatePipeline()
+        simple.BindposeglTFSkinWriter(Input=self.weights, Handles=self.handles, FileName=str(path)).UpdatePipeline()
         return path
 
     def make_fixed(self):
@@ -193,17 +193,8 @@ def time_drags(data):
     return sorted(times)[len(times) // 2], bent.GetDataInformation().GetNumberOfCells()
 
 
-def main():
-    library, help_file, folder = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
-    folder.mkdir(parents=True, exist_ok=True)
-    simple.LoadPlugin(library, remote=False, ns=vars(simple))
-    with sqlite3.connect(f"file:{help_file}?mode=ro", uri=True) as database:
-        pages = {row[0] for row in database.execute("SELECT Name FROM FileNameTable")}
-    pages = {pathlib.PurePosixPath(page).name for page in pages}
-    icons = plugin.icons()
-    data = Data(folder)
-    errors = vtkStringOutputWindow()
-    vtkOutputWindow.SetInstance(errors)
+def use_all(data, errors, pages, icons):
+    """Use every proxy of the plugin. Return their number."""
     used = 0
     for group, name, element in plugin.proxies():
         assert name in DATA, f"{name} is a new proxy: tell in DATA of tests/paraview/proxies.py how it is used"
@@ -215,6 +206,24 @@ def main():
         used += 1
     unknown = set(DATA) - {name for _, name, _ in plugin.proxies()}
     assert not unknown, f"{unknown} are no proxies"
+    return used
+
+
+def main():
+    library, help_file, folder = sys.argv[1], pathlib.Path(sys.argv[2]), pathlib.Path(sys.argv[3])
+    folder.mkdir(parents=True, exist_ok=True)
+    simple.LoadPlugin(library, remote=False, ns=vars(simple))
+    with sqlite3.connect(f"file:{help_file}?mode=ro", uri=True) as database:
+        pages = {row[0] for row in database.execute("SELECT Name FROM FileNameTable")}
+    pages = {pathlib.PurePosixPath(page).name for page in pages}
+    icons = plugin.icons()
+    data = Data(folder)
+    errors = vtkStringOutputWindow()
+    vtkOutputWindow.SetInstance(errors)
+    try:
+        used = use_all(data, errors, pages, icons)
+    finally:
+        vtkOutputWindow.SetInstance(None)  # pvbatch writes exceptions to this window
     milliseconds, cells = time_drags(data)
     assert milliseconds <= plugin.DRAG_LIMIT, f"a motion of a drag takes {milliseconds:.1f} ms"
     (folder / "proxies.json").write_text(json.dumps({"used": used, "milliseconds": milliseconds, "cells": cells}))

@@ -201,12 +201,12 @@ def distributed_data(mesh, folder):
     crowd = CrowdDeformation(Input=weights, Handles=posed, Instances=pieces.source(pieces.instances, count=7))
     pieces.save_parts(crowd, folder, "crowd")
 
-    # The structure that the method Fast builds depends on the power of 4 that is nearest to the number of points. This power
-    # is 4^8 for all points, and 4^7 for those of one of two ranks.
+    # The method Fast builds a structure for the number of points of the rank, so its bits differ between ranks.
     reader = BindposeMeshReader(FileName=str(mesh))
     bounds = fetch(reader).GetBounds()
     queries = pieces.source(pieces.cloud, count=40000, low=bounds[0::2], high=bounds[1::2])
-    pieces.save_parts(WindingNumberField(Input=reader, Points=queries, Method="Fast"), folder, "queries-winding")
+    pieces.save_parts(WindingNumberField(Input=reader, Points=queries, Method="Exact"), folder, "queries-winding")
+    pieces.save_parts(WindingNumberField(Input=reader, Points=queries, Method="Fast"), folder, "queries-fast")
 
 
 def files(folder, bound):

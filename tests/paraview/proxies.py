@@ -97,11 +97,11 @@ DATA = {
     "WindingNumberField": lambda data: {"Input": data.figure, "may_be_empty": {1}},
     "SurfaceDefects": lambda data: {"Input": simple.AppendGeometry(Input=[data.figure, simple.Sphere(Radius=0.3)])},
     "PlanarShape": lambda data: {"Input": data.curve},
-    "TetrahedralizeSurface": lambda data: {"Input": data.figure, "may_be_empty": {1}},
+    "TetrahedralizeSurface": lambda data: {"Input": data.figure, "may_be_empty": {1, 2}},
     "AutomaticHandles": lambda data: {"Input": data.figure},
     "FarthestPointHandles": lambda data: {"Input": data.figure},
-    "BoundedBiharmonicWeights": lambda data: {"Input": data.figure, "Handles": data.handles},
-    "MonotoneWeights": lambda data: {"Input": data.figure, "Handles": data.handles},
+    "BoundedBiharmonicWeights": lambda data: {"Input": data.figure, "Handles": data.handles, "may_be_empty": {1}},
+    "MonotoneWeights": lambda data: {"Input": data.figure, "Handles": data.handles, "may_be_empty": {1}},
     "UnconstrainedWeights": lambda data: {"Input": data.figure, "Handles": data.handles},
     "MonotoneSmoothing": lambda data: {"Input": data.height},
     "BoneEndpointWeights": lambda data: {"Input": data.weights, "Handles": data.handles},
@@ -146,19 +146,26 @@ def check_text(group, name, proxy, smproxy, pages, icons):
 def use(group, name, data):
     """Create a proxy with its defaults and check its result."""
     words = DATA[name](data)
+    label = servermanager.ProxyManager().GetPrototypeProxy(group, name).GetXMLLabel()
+    make = getattr(simple, label.replace(" ", ""))
     may_be_empty = words.pop("may_be_empty", set())
+    for source in words.values():
+        if hasattr(source, "UpdatePipeline"):
+            source.UpdatePipeline()  # as in the window; the defaults of lists of arrays depend on it
     if group == "writers":
         path = data.folder / words.pop("FileName")
         path.unlink(missing_ok=True)
-        getattr(simple, name)(**words, FileName=str(path)).UpdatePipeline()
+        make(**words, FileName=str(path)).UpdatePipeline()
         assert path.stat().st_size > 100, f"{name} wrote {path.stat().st_size} bytes"
         return
-    proxy = getattr(simple, name)(**words)
+    proxy = make(**words)
+    proxy.UpdatePipeline()
     for port in range(proxy.SMProxy.GetNumberOfOutputPorts()):
-        result = plugin.fetch(proxy, port)
+        result = proxy.GetClientSideObject().GetOutputDataObject(port)  # Fetch() cannot copy the collection of a crowd
         arrays = result.GetFieldData()
         status = arrays.GetAbstractArray("Report.status") if arrays else None
-        assert not status or status.GetValue(0) == "ok", f"{name}: {status.GetValue(0)}"
+        message = arrays.GetAbstractArray("Report.message") if arrays else None
+        assert not status or status.GetValue(0) == "ok", f"{name}: {message.GetValue(0) if message else status.GetValue(0)}"
         empty = not result.IsA("vtkCompositeDataSet") and result.GetNumberOfCells() + result.GetNumberOfPoints() == 0
         assert not empty or port in may_be_empty, f"{name}: output {port} is empty"
 

@@ -153,7 +153,7 @@ with_paraview /usr/bin/python3 "$root/tests/paraview/client_server.py" "$plugin"
   die "the client/server session failed; the logs are $results/client-*.log and $results/server-*.log" 5
 
 in_paraview proxies pvbatch "$tests/proxies.py" "$plugin" "$help" "$results/proxies"
-in_paraview states xvfb-run -a -s "-screen 0 1280x1024x24" pvbatch "$tests/states.py" "$plugin" "$results/states"
+in_paraview states xvfb-run -a -s "-screen 0 1280x1024x24 -noreset" pvbatch "$tests/states.py" "$plugin" "$results/states"
 for name in proxies states; do
   grep -E 'proxies used|a motion of|example states' "$results/$name.log"
 done

@@ -34,7 +34,7 @@ ColorBy(defects_display, ("CELLS", "Defect"))
 defects_display.LineWidth = 3.0
 ColorBy(Show(middle, view), ("POINTS", "WindingNumber"))
 inside_display = Show(inside, view)
-ColorBy(inside_display, None)
+inside_display.ColorArrayName = [None, ""]
 inside_display.Opacity = 0.3
 
 SetActiveSource(field)

@@ -29,9 +29,10 @@ weights = BoundedBiharmonicWeights(registrationName="Weights", Input=figure, Han
 pose = PoseHandles(registrationName="Pose", Input=handles, PoseJSON=json.dumps(POSE))
 posed = ReducedARAP(registrationName="Posed Figure", Input=weights, Handles=pose)
 
-ColorBy(Show(posed, view), None)
+posed_display = Show(posed, view)
+posed_display.ColorArrayName = [None, ""]
 figure_display = Show(figure, view)
-ColorBy(figure_display, None)
+figure_display.ColorArrayName = [None, ""]
 figure_display.Opacity = 0.2
 
 SetActiveSource(pose)

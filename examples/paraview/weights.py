@@ -23,7 +23,7 @@ half.ClipType.Normal = [0.0, 0.0, 1.0]
 
 ColorBy(Show(half, view), ("POINTS", "Weights", "left_hand"))
 handles_display = Show(handles, view)
-ColorBy(handles_display, None)
+handles_display.ColorArrayName = [None, ""]
 handles_display.PointSize = 12.0
 handles_display.RenderPointsAsSpheres = 1
 handles_display.LineWidth = 4.0

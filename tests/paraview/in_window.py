@@ -152,7 +152,9 @@ def stop_trace():
 
 def binds():
     """Return how often the bent surface was bound."""
-    return source("bent").SMProxy.GetClientSideObject().GetNumberOfBinds()
+    bent = source("bent")
+    bent.UpdatePipeline()
+    return int(servermanager.Fetch(bent).GetFieldData().GetArray("Report.binds").GetTuple1(0))
 
 
 def drag_milliseconds():

@@ -23,6 +23,7 @@ from desktop import Desktop, wait_for  # noqa: E402
 
 DATA = TESTS.parent / "examples" / "tours" / "data"
 SETTINGS = {"settings": {"GeneralSettings": {"ShowWelcomeDialog": 0, "AutoApply": 0}}}
+WINDOW_SETTINGS = "[General]\nGeneralSettings.ShowWelcomeDialog=false\n"
 
 
 class Window:
@@ -34,6 +35,7 @@ class Window:
         settings = self.folder / ".config" / "ParaView"
         settings.mkdir(parents=True)
         (settings / "ParaView-UserSettings.json").write_text(json.dumps(SETTINGS))
+        (settings / "ParaView5.11.0.ini").write_text(WINDOW_SETTINGS)
         self.desktop = Desktop(self.folder, "1600x1200x24")
         self.requests = 0
         environment = {**variables(paraview), "BINDPOSE_PLUGIN": str(library), "BINDPOSE_FOLDER": str(self.folder),
@@ -45,6 +47,9 @@ class Window:
                 f"--script={TESTS / 'paraview' / 'in_window.py'}", stdout=log, stderr=log)
         self.id = self.desktop.wait_for_window("ParaView")
         self.ask("names()")
+        self.desktop.tool("windowmove", self.id, 0, 0)
+        self.desktop.tool("windowsize", self.id, 1580, 1160)
+        self.desktop.activate(self.id)
         self.offset = self.find_view()
 
     def __enter__(self):
@@ -77,7 +82,7 @@ class Window:
         """Return the screen position of the view's lower left corner: move the mouse over the view and ask for its position
         there.
         """
-        for x, y in ((1200, 600), (1000, 500), (1300, 800)):
+        for x, y in ((1200, 600), (1000, 500), (1300, 800), (800, 500)):
             self.desktop.tool("mousemove", x - 3, y - 3)
             time.sleep(0.2)
             self.desktop.tool("mousemove", x, y)

@@ -83,8 +83,12 @@ pqHandlesPropertyWidget::pqHandlesPropertyWidget(const char* representation, con
   this->column_->setContentsMargins(0, 0, 0, 0);
   this->column_->addWidget(this->shown_);
   this->shown_->setChecked(true);
-  QObject::connect(
-    this->shown_, &QCheckBox::toggled, this, &pqHandlesPropertyWidget::setWidgetVisible);
+  QObject::connect(this->shown_, &QCheckBox::clicked, this,
+    [this](bool shown)
+    {
+      this->shows_handles_ = shown;
+      this->setWidgetVisible(shown);
+    });
   QObject::connect(
     this, &pqHandlesPropertyWidget::widgetVisibilityToggled, this->shown_, &QCheckBox::setChecked);
   this->setWidgetVisible(true);
@@ -111,6 +115,18 @@ pqHandlesPropertyWidget::~pqHandlesPropertyWidget()
   {
     this->widgetProxy()->RemoveObserver(this->start_observer_);
   }
+}
+
+void pqHandlesPropertyWidget::hideEvent(QHideEvent* event)
+{
+  this->QWidget::hideEvent(event);
+  this->setWidgetVisible(false);
+}
+
+void pqHandlesPropertyWidget::showEvent(QShowEvent* event)
+{
+  this->QWidget::showEvent(event);
+  this->setWidgetVisible(this->shows_handles_);
 }
 
 vtkHandleSetWidget* pqHandlesPropertyWidget::handle_widget() const

@@ -46,6 +46,9 @@ protected Q_SLOTS:
   virtual void show_state();
 
 protected:
+  // The superclass forgets that the handles are shown if the panel is hidden twice.
+  void hideEvent(QHideEvent* event) override;
+  void showEvent(QShowEvent* event) override;
   vtkHandleSetWidget* handle_widget() const;
   /// Return the representation on the client, which draws and edits the handles.
   vtkHandleSetRepresentation* handles() const;
@@ -100,6 +103,7 @@ private:
   vtkSMProperty* property_;
   QVBoxLayout* column_;
   QCheckBox* shown_;
+  bool shows_handles_ = true; // the choice of the user
   QLabel* message_ = nullptr;
   QToolButton* text_button_ = nullptr;
   QPlainTextEdit* text_ = nullptr;

@@ -13,7 +13,7 @@ import pathlib
 import traceback
 
 import numpy as np
-from paraview import servermanager, simple, smtrace
+from paraview import simple, smtrace
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkCommonSystem import vtkTimerLog
 
@@ -28,6 +28,13 @@ def source(name):
     found = simple.FindSource(name)
     assert found, f"no source {name} among {[key[0] for key in simple.GetSources()]}"
     return found
+
+
+def output(name):
+    """Return the updated output of a source. Fetch() of ParaView 5.11 is not used: after it, the window takes no keys."""
+    proxy = source(name)
+    proxy.UpdatePipeline()
+    return proxy.GetClientSideObject().GetOutputDataObject(0)
 
 
 def names():
@@ -45,7 +52,8 @@ def build():
         fine = simple.LoopSubdivision(registrationName="fine", Input=figure, NumberofSubdivisions=subdivisions)
         weights = simple.TransferWeights(registrationName="fine weights", Input=fine, Mesh=weights)
     pose = simple.PoseHandles(registrationName="pose", Input=handles)
-    bent = simple.ReducedARAP(registrationName="bent", Input=weights, Handles=pose)
+    # Without a warm start, the bent surface depends on the pose only, and not on the motions of the drag.
+    bent = simple.ReducedARAP(registrationName="bent", Input=weights, Handles=pose, WarmStart=0)
     simple.Show(bent, view)
     simple.ResetCamera(view)
     simple.SetActiveSource(pose)
@@ -111,9 +119,7 @@ def mouse():
 
 def handle_position(name):
     """Return the posed position of a handle, from the output of Pose Handles."""
-    pose = source("pose")
-    pose.UpdatePipeline()
-    data = servermanager.Fetch(pose)
+    data = output("pose")
     cell_names = data.GetCellData().GetAbstractArray("HandleName")
     cell = next(k for k in range(data.GetNumberOfCells()) if cell_names.GetValue(k) == name)
     rest = data.GetPoint(data.GetCell(cell).GetPointId(0))
@@ -130,9 +136,7 @@ def placed_text():
 
 
 def save_points(path):
-    bent = source("bent")
-    bent.UpdatePipeline()
-    np.save(path, vtk_to_numpy(servermanager.Fetch(bent).GetPoints().GetData()))
+    np.save(path, vtk_to_numpy(output("bent").GetPoints().GetData()))
     return True
 
 
@@ -152,9 +156,7 @@ def stop_trace():
 
 def binds():
     """Return how often the bent surface was bound."""
-    bent = source("bent")
-    bent.UpdatePipeline()
-    return int(servermanager.Fetch(bent).GetFieldData().GetArray("Report.binds").GetTuple1(0))
+    return int(output("bent").GetFieldData().GetArray("Report.binds").GetTuple1(0))
 
 
 def drag_milliseconds():
@@ -197,6 +199,7 @@ def show_figure():
 
 
 def picture(path):
+    """Save a picture of the view, as the last request of a window: after SaveScreenshot(), the window takes no keys."""
     simple.SaveScreenshot(path, simple.GetActiveView())
     return True
 

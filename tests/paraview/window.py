@@ -36,8 +36,15 @@ class Window:
         settings.mkdir(parents=True)
         (settings / "ParaView-UserSettings.json").write_text(json.dumps(SETTINGS))
         (settings / "ParaView5.11.0.ini").write_text(WINDOW_SETTINGS)
-        self.desktop = Desktop(self.folder, "1600x1200x24")
         self.requests = 0
+        self.desktop = Desktop(self.folder, "1600x1200x24")
+        try:
+            self.start(paraview, library, state, subdivisions)
+        except BaseException:
+            self.desktop.end()
+            raise
+
+    def start(self, paraview, library, state, subdivisions):
         environment = {**variables(paraview), "BINDPOSE_PLUGIN": str(library), "BINDPOSE_FOLDER": str(self.folder),
                        "BINDPOSE_DATA": str(DATA), "BINDPOSE_STATE": str(state), "BINDPOSE_SUBDIVISIONS": str(subdivisions)}
         self.log = self.folder / "log.txt"
@@ -162,14 +169,16 @@ def check_a_drag(open_window, paraview, library, folder):
         window.keys("ctrl+z")
         assert window.ask("pose_text()") == ""
         assert np.allclose(window.ask("handle_position('left_hand')"), before, atol=1e-12)
-        window.keys("alt+e", "r")  # Edit, Redo
+        window.keys("ctrl+y")
         assert window.ask("pose_text()") == text
         # Escape cancels a drag: neither the pose nor the undo stack changes.
         pixel = window.ask("pixel(handle_position('head'))")
         window.move(pixel)
         window.desktop.tool("mousedown", 1)
         window.move((pixel[0] + 30, pixel[1] + 20))
-        window.desktop.keys("Escape")
+        # Not keys(), because xdotool's option --clearmodifiers releases the mouse buttons, too.
+        window.desktop.tool("key", "Escape")
+        window.desktop.wait_for(lambda: window.ask("pose_text()") == text, "the end of the drag")
         window.desktop.tool("mouseup", 1)
         assert window.ask("pose_text()") == text
         window.keys("ctrl+z")
@@ -192,7 +201,9 @@ def check_a_state(open_window, state, folder):
         assert np.linalg.norm(np.subtract(window.ask("handle_position('left_hand')"), posed)) > 0.05
         window.ask("delete('handles')")
         window.drag_handle("left_hand", (10, 10))
-        for name in ("bent", "pose", "weights", "figure"):
+        for name in ("bent", "pose", "weights"):
+            window.ask(f"delete({name!r})")
+        for name in window.ask("names()"):  # the reader, which has the name of its file since the state was loaded
             window.ask(f"delete({name!r})")
         window.move((200, 200))
         window.move((220, 220))
@@ -257,9 +268,11 @@ def check_bend_this_surface(open_window, folder):
         trace = window.ask("stop_trace()")
         for name in ("AutomaticHandles", "BoundedBiharmonicWeights", "PoseHandles", "ReducedARAP"):
             assert f"{name}(" in trace, trace
-        window.ask(f"picture({str(folder / 'bend.png')!r})")
         window.keys("ctrl+z")
-        assert window.ask("names()") == ["figure"]
+        window.desktop.wait_for(lambda: window.ask("names()") == ["figure"], "the surface alone after one undo step")
+        window.keys("ctrl+y")
+        window.desktop.wait_for(lambda: len(window.ask("names()")) == 5, "the chain again")
+        window.ask(f"picture({str(folder / 'bend.png')!r})")
         assert not window.errors(), window.errors()
     print("Bend This Surface: one undo step, traced; a message without a surface")
 

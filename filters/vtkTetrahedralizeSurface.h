@@ -64,10 +64,10 @@
  * components, inward_components, self_intersections, turned_triangles, turned_components,
  * triangulated_cells, ignored_cells} of the input, counts.{tets, tet_vertices, kept_vertices,
  * tets_below_5_degrees}, volume, winding_volume (exact for clean surfaces, sampled otherwise),
- * min_dihedral_angle (degrees), resolution (of the lattice), distance_max, distance_mean (REMESH by
- * refinement, WRAP, FTETWILD: distances between the boundary of the tets and the parts of the
- * surface that bound the inside, in % of the surface's diagonal), counts.wrap_triangles (WRAP),
- * spacing, counts.{lattice_tets, duplicated_nodes, branching_facets, tet_components} (EMBED),
+ * min_dihedral_angle (degrees), resolution (of the lattice), distance_max, distance_mean (REMESH,
+ * WRAP, FTETWILD: distances between the boundary of the tets and the parts of the surface that
+ * bound the inside, in % of the surface's diagonal), counts.wrap_triangles (WRAP), spacing,
+ * counts.{lattice_tets, duplicated_nodes, branching_facets, tet_components} (EMBED),
  * segmentation, energy, threshold_energy, counts.changed_by_cut (these four are about the graph
  * cut), counts.tets_inside (KeepOutside), quality[].{dihedral_angle, tets} (histogram of the tets'
  * smallest dihedral angles: lower end of the bin in degrees, number of tets), winding_volume_error

@@ -260,7 +260,8 @@ private:
     }
     this->warn(status.message + "; parts thinner than a lattice cube are missing");
     this->result_.mesh = std::move(this->lattice_mesh_);
-    return this->mark_all_vertices_new(TetMethod::remesh);
+    this->mark_all_vertices_new(TetMethod::remesh);
+    return this->report_distance();
   }
 
   double angle() const
@@ -334,7 +335,7 @@ private:
     for (Index resolution = this->remesh_resolution();; resolution *= 2)
     {
       const double start = this->context_.elapsed_seconds();
-      const Phase phase(this->context_, "lattice", 0.0, 1.0);
+      const Phase phase(this->context_, "lattice", 0.0, 0.9);
       const Lattice lattice = Lattice::around(this->box_, resolution);
       TetMesh& mesh = this->result_.mesh;
       Status status = stuff_lattice(this->context_, this->inside_.winding(), lattice, this->box_,
@@ -365,7 +366,8 @@ private:
       this->log("lattice of " + std::to_string(resolution) + " cubes, cut", start, status);
       if (status.ok())
       {
-        return this->mark_all_vertices_new(TetMethod::remesh);
+        this->mark_all_vertices_new(TetMethod::remesh);
+        return this->report_distance();
       }
       const double finer_cubes = 8.0 * static_cast<double>(lattice.cubes[0]) *
         static_cast<double>(lattice.cubes[1]) * static_cast<double>(lattice.cubes[2]);

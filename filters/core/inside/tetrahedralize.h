@@ -175,9 +175,9 @@ struct TetrahedralizeResult
 /// - energy, threshold_energy, counts.changed_by_cut: see Segmentation
 /// - resolution: for remesh and embed
 /// - the report of embed_surface: for embed
-/// - distance_max, distance_mean: for remesh by refinement, wrap and ftetwild, distances between
-///   the tets' boundary and the part of the surface that bounds the inside, percent of the
-///   bounding-box diagonal
+/// - distance_max, distance_mean: for remesh, wrap and ftetwild, distances between the tets'
+///   boundary and the part of the surface that bounds the inside, percent of the bounding-box
+///   diagonal
 /// - counts.wrap_triangles: for wrap
 ///
 /// Status codes:

@@ -141,6 +141,9 @@ TEST(Tetrahedralize, ASlowHelperIsLeftInTime)
   expect_valid(outcome, test::sphere(2));
   EXPECT_EQ(outcome.method(), "remesh");
   EXPECT_THAT(outcome.status.warnings.back(), HasSubstr("time limit"));
+  // The boundary of the lattice's tets is less than a cube away from the surface.
+  EXPECT_GT(outcome.number("distance_max"), 0.0);
+  EXPECT_LT(outcome.number("distance_max"), 100.0 / std::sqrt(3.0) / options.resolution);
 }
 
 TEST(Tetrahedralize, CancelEndsAtOnce)

@@ -1,14 +1,15 @@
 """Inside or outside of an unclean scan: a figure whose head is open, and a sphere that crosses its shoulder.
 
-Shown are the defects of the scan, its winding number on a slice, and the surface where the winding number is 0.5, which
-closes the hole and unites both parts. The plugin must be loaded before: see filters/paraview/README.md.
+On the left are the defects of the scan, and its winding number on a slice. On the right are the tets of the inside, cut
+open: they close the hole and unite both parts. The plugin must be loaded before: see filters/paraview/README.md.
 """
 
 import pathlib
 
 from paraview.simple import *  # noqa: F403  LoadDistributedPlugin adds the plugin's functions
 
-LoadDistributedPlugin("Bindpose", remote=False, ns=globals())
+if "PoseHandles" not in globals():
+    LoadDistributedPlugin("Bindpose", remote=False, ns=globals())
 DATA = pathlib.Path(__file__).resolve().parents[1] / "tours" / "data"
 
 view = GetActiveViewOrCreate("RenderView")
@@ -23,19 +24,26 @@ scan = AppendDatasets(registrationName="Scan", Input=[open_figure, sphere])
 
 # Inside or outside
 defects = SurfaceDefects(registrationName="Defects", Input=scan)
-field = WindingNumberField(registrationName="Winding Numbers", Input=scan, Resolution=64)
-inside = Contour(registrationName="Boundary of the Inside", Input=field, ContourBy=["POINTS", "WindingNumber"], Isosurfaces=[0.5])
+field = WindingNumberField(registrationName="Winding Numbers", Input=scan, Resolution=128)
 middle = Slice(registrationName="Middle", Input=field, SliceType="Plane")
 middle.SliceType.Origin = [0.0, 0.0, 0.0]
 middle.SliceType.Normal = [0.0, 0.0, 1.0]
 
+# The tets of the inside
+tets = TetrahedralizeSurface(registrationName="Tets", Input=scan)
+back_half = Clip(registrationName="Back Half", Input=tets, ClipType="Plane", Crinkleclip=1)
+back_half.ClipType.Origin = [0.0, 0.0, 0.0]
+back_half.ClipType.Normal = [0.0, 0.0, 1.0]
+beside = Transform(registrationName="Beside", Input=back_half)
+beside.Transform.Translate = [1.7, 0.0, 0.0]
+
 defects_display = Show(defects, view)
 ColorBy(defects_display, ("CELLS", "Defect"))
-defects_display.LineWidth = 3.0
+defects_display.LineWidth = 4.0
 ColorBy(Show(middle, view), ("POINTS", "WindingNumber"))
-inside_display = Show(inside, view)
-inside_display.ColorArrayName = [None, ""]
-inside_display.Opacity = 0.3
+tets_display = Show(beside, view)
+tets_display.ColorArrayName = [None, ""]
+tets_display.SetRepresentationType("Surface With Edges")
 
 SetActiveSource(field)
 ResetCamera(view)

@@ -9,7 +9,8 @@ import pathlib
 
 from paraview.simple import *  # noqa: F403  LoadDistributedPlugin adds the plugin's functions
 
-LoadDistributedPlugin("Bindpose", remote=False, ns=globals())
+if "PoseHandles" not in globals():
+    LoadDistributedPlugin("Bindpose", remote=False, ns=globals())
 DATA = pathlib.Path(__file__).resolve().parents[1] / "tours" / "data"
 POSE = {
     "version": 2,

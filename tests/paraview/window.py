@@ -29,7 +29,7 @@ WINDOW_SETTINGS = "[General]\nGeneralSettings.ShowWelcomeDialog=false\n"
 class Window:
     """ParaView with the plugin, and a pipeline that in_window.py builds or loads."""
 
-    def __init__(self, paraview, library, folder, name, state="", subdivisions=0):
+    def __init__(self, paraview, library, folder, name, state="", subdivisions=0, size=(1580, 1160)):
         self.folder = folder / name
         shutil.rmtree(self.folder, ignore_errors=True)
         settings = self.folder / ".config" / "ParaView"
@@ -37,6 +37,7 @@ class Window:
         (settings / "ParaView-UserSettings.json").write_text(json.dumps(SETTINGS))
         (settings / "ParaView5.11.0.ini").write_text(WINDOW_SETTINGS)
         self.requests = 0
+        self.size = size
         self.desktop = Desktop(self.folder, "1600x1200x24")
         try:
             self.start(paraview, library, state, subdivisions)
@@ -55,7 +56,7 @@ class Window:
         self.id = self.desktop.wait_for_window("ParaView")
         self.ask("names()")
         self.desktop.tool("windowmove", self.id, 0, 0)
-        self.desktop.tool("windowsize", self.id, 1580, 1160)
+        self.desktop.tool("windowsize", self.id, *self.size)
         self.desktop.activate(self.id)
         self.offset = self.find_view()
 

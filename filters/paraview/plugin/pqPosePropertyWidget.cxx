@@ -14,6 +14,7 @@
 
 #include <QAbstractButton>
 #include <QButtonGroup>
+#include <QCheckBox>
 #include <QComboBox>
 #include <QHBoxLayout>
 #include <QSignalBlocker>
@@ -90,11 +91,11 @@ void pqPosePropertyWidget::add_tools()
     button->setChecked(gizmo.value == vtkHandleSetRepresentation::GIZMO_NONE);
     this->gizmos_->addButton(button, gizmo.value);
   }
-  QToolButton* local = this->add_button(
-    row, tr("Local axes"), tr("Use the axes of the handle; off: those of the world"));
-  local->setCheckable(true);
   row->addStretch(1);
   this->column()->addLayout(row);
+  auto* local = new QCheckBox(tr("Local axes"), this);
+  local->setToolTip(tr("Use the axes of the handle; off: those of the world"));
+  this->column()->addWidget(local);
   const auto set_gizmo = [this](int gizmo)
   {
     if (vtkHandleSetRepresentation* handles = this->handles())
@@ -109,7 +110,7 @@ void pqPosePropertyWidget::add_tools()
     QObject::connect(button, &QAbstractButton::clicked, this,
       [this, button, set_gizmo] { set_gizmo(this->gizmos_->id(button)); });
   }
-  QObject::connect(local, &QToolButton::toggled, this,
+  QObject::connect(local, &QCheckBox::toggled, this,
     [this](bool on)
     {
       if (vtkHandleSetRepresentation* handles = this->handles())

@@ -480,10 +480,39 @@ bindpose::Index size_class(bindpose::Index points)
   return bindpose::Index(1) << 2 *
     std::lround(0.5 * std::log2(static_cast<double>(std::max<bindpose::Index>(1, points))));
 }
+
+/// Return a box that contains the points near the surface, or an empty box if the points fill more
+/// than half of the space around the surface. The box consists of cells of a coarse grid, so points
+/// that move a little need no new acceleration structure.
+bindpose::Box query_region(vtkDataSet* points, vtkDataSet* surface)
+{
+  constexpr double padding = 0.1; // in diagonals, like the space around the surface in grids
+  constexpr double cells = 16.0; // along each axis
+  const double* bounds = points->GetBounds();
+  const double* around = surface->GetBounds();
+  const double diagonal = surface->GetLength();
+  bindpose::Box region;
+  double share = 1.0;
+  for (int k = 0; k < 3; ++k)
+  {
+    const double lower = around[2 * k] - padding * diagonal;
+    const double cell = (around[2 * k + 1] + padding * diagonal - lower) / cells;
+    const double first = std::max(0.0, std::floor((bounds[2 * k] - lower) / cell));
+    const double end = std::min(cells, std::ceil((bounds[2 * k + 1] - lower) / cell));
+    if (!(first < end)) // no points near the surface, or a coordinate that is not a number
+    {
+      return {};
+    }
+    region.lower[k] = lower + first * cell;
+    region.upper[k] = lower + end * cell;
+    share *= (end - first) / cells;
+  }
+  return share <= 0.5 ? region : bindpose::Box();
+}
 } // namespace
 
 bindpose::Status vtkWindingNumberField::Build(
-  bindpose::ExecutionContext& context, vtkPointSet* input, long long queries)
+  bindpose::ExecutionContext& context, vtkPointSet* input, vtkDataSet* points, long long queries)
 {
   WindingField::Options options;
   options.method = this->Method;
@@ -492,10 +521,14 @@ bindpose::Status vtkWindingNumberField::Build(
   options.area_array = this->AreaArrayName;
   // A gradient takes several times as long as a value, so a sample with a gradient counts as nine.
   options.expected_queries = size_class(queries * (this->ComputeGradient ? 9 : 1));
+  if (points)
+  {
+    options.query_region = query_region(points, input);
+  }
   // The cached structure of an exact method is valid for any number of queries, because it is
   // extended when necessary.
   const bool fits = this->BuildCache->valid &&
-    (this->BuildCache->options.expected_queries == options.expected_queries ||
+    (this->BuildCache->options.expects_same_queries(options) ||
       !this->BuildCache->field.depends_on_expected_queries());
   if (input && fits && this->BuildCache->options == options &&
     this->BuildCache->key == key_of(input, this->AreaArrayName))
@@ -549,7 +582,7 @@ bindpose::Status vtkWindingNumberField::Execute(
   Status status;
   {
     const bindpose::Phase phase(context, "build", 0.0, built);
-    status = this->Build(context, surface, queries);
+    status = this->Build(context, surface, points, queries);
   }
   if (!status.ok())
   {

@@ -265,8 +265,9 @@ private:
   /// Compute the whole grid from the options and the input.
   bindpose::Status Grid(vtkPointSet* input, bindpose::SampleGrid& grid);
   /// Compute the contents of BuildCache unless they are still valid.
+  /// @param points points of the queries, nullptr for a grid
   bindpose::Status Build(
-    bindpose::ExecutionContext& context, vtkPointSet* input, long long queries);
+    bindpose::ExecutionContext& context, vtkPointSet* input, vtkDataSet* points, long long queries);
 
   int Method = AUTO;
   double Tolerance = 1e-3;

@@ -355,6 +355,7 @@ struct WindingField::Surface : GridKernel<WindingNumber>
     winding_options.method = method_of(options.method);
     winding_options.tolerance = options.tolerance;
     winding_options.expected_queries = options.expected_queries;
+    winding_options.query_region = options.query_region;
     {
       const ProgressRange range(context, repair_fraction, 1.0);
       status = this->winding.build(context, points, triangles, winding_options);

@@ -63,12 +63,21 @@ public:
     /// Expected total number of evaluated points (a gradient counts as several points), used to
     /// choose the fastest structure; 0: very many. Surfaces only.
     Index expected_queries = 0;
+    /// Box that contains most of these points; empty: around the whole surface. Surfaces only.
+    Box query_region;
 
-    /// Compare all options except expected_queries, which only affects the speed of an evaluation.
+    /// Compare all options except expected_queries and query_region, which only affect the speed of
+    /// an evaluation.
     bool operator==(const Options& other) const
     {
       return this->method == other.method && this->tolerance == other.tolerance &&
         this->orient == other.orient && this->area_array == other.area_array;
+    }
+    bool expects_same_queries(const Options& other) const
+    {
+      return this->expected_queries == other.expected_queries &&
+        this->query_region.lower == other.query_region.lower &&
+        this->query_region.upper == other.query_region.upper;
     }
   };
 
@@ -90,8 +99,8 @@ public:
   /// Compute the gradients: 3 x samples.count() derivatives.
   Status evaluate_gradient(ExecutionContext& context, const Samples& samples, double* out) const;
 
-  /// Report whether the computed values depend on Options::expected_queries (within the tolerance).
-  /// If they do, another number of queries needs a new build.
+  /// Report whether the computed values depend on Options::expected_queries and query_region
+  /// (within the tolerance). If they do, other queries need a new build.
   bool depends_on_expected_queries() const;
 
   /// Return the open boundary of a surface; empty for curves and points.

@@ -466,6 +466,43 @@ TEST(WindingNumberField, FastKeepsItsToleranceAndSaysSo)
   }
 }
 
+TEST(WindingNumberField, FastAdaptsToTheRegionOfThePoints)
+{
+  const TriangleMesh mesh = test::open_cube();
+  vtkNew<vtkWindingNumberField> field;
+  field->SetInputData(data_of(mesh));
+  field->SetMethodToFast();
+  // Points in a slab of the cube, which moves a little, then a lot.
+  vtkNew<vtkPoints> points;
+  points->SetNumberOfPoints(5000);
+  vtkNew<vtkPolyData> slab;
+  slab->SetPoints(points);
+  field->SetPointsData(slab);
+  const auto expect_builds = [&](double x, int builds)
+  {
+    for (vtkIdType i = 0; i < 5000; ++i)
+    {
+      points->SetPoint(
+        i, x + 0.1 * (i % 10) / 10.0, -0.9 + 1.8 * (i % 71) / 71.0, 0.9 - 1.8 * i / 5000.0);
+    }
+    points->Modified();
+    slab->Modified();
+    field->Update();
+    EXPECT_EQ(field->GetNumberOfBuilds(), builds);
+    auto* values = field->GetOutput()->GetPointData()->GetArray("WindingNumber");
+    ASSERT_NE(values, nullptr);
+    for (vtkIdType i = 0; i < 5000; i += 97)
+    {
+      EXPECT_NEAR(values->GetTuple1(i),
+        winding_number_direct(mesh.points, mesh.triangles, Vec3(points->GetPoint(i))),
+        field->GetTolerance());
+    }
+  };
+  expect_builds(0.500, 1);
+  expect_builds(0.501, 1);
+  expect_builds(-0.7, 2);
+}
+
 TEST(WindingNumberField, ASurfaceIsBuiltOnce)
 {
   vtkNew<vtkSphereSource> sphere;

@@ -19,6 +19,7 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import statistics
 import subprocess
 import sys
@@ -26,7 +27,7 @@ import sys
 import cost_model
 
 HERE = pathlib.Path(__file__).resolve().parent
-SIZES = {"voxels": 16_000_000, "queries": 4_000_000, "grid_side": 16, "vertices": 1_000_000, "poses": 20,
+SIZES = {"voxels": 16_000_000, "queries": 16_000_000, "grid_side": 16, "vertices": 8_000_000, "poses": 20,
          "instances": 2000, "frames": 5}
 # Stages in which one rank works and the others wait or copy.
 ONCE = ("surface, shared", "weights, solved once", "weights, shared", "handles, shared")
@@ -45,7 +46,8 @@ def bytes_counted(folder, rank):
 def measure(options, run, ranks):
     """Run scaling.py on some ranks. Return one row per rank and stage."""
     folder = options.folder / f"{ranks}-{run}"
-    folder.mkdir(parents=True, exist_ok=True)
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
     (folder / "sizes.json").write_text(json.dumps({name: getattr(options, name) for name in SIZES}))
     words = ["mpirun", "--bind-to", "none", "-n", str(ranks), "--mca", "mpi_yield_when_idle", "1",
              "--mca", "pml_monitoring_enable", "1", "--mca", "pml_monitoring_enable_output", "3",

@@ -29,8 +29,8 @@ public:
     /// Largest error of a value, 1e-8 … 0.1. The build reduces the errors at sample points to half
     /// of this value.
     double tolerance = 1e-3;
-    /// Region that contains most query points; the build enlarges it by the box of the triangles.
-    /// Points outside the region take more time.
+    /// Region that contains most query points; empty: the box of the triangles. Points outside the
+    /// region take more time.
     Box region;
     /// Smallest cell size, in units of the size of a group of eight triangles, 0.2 … 10. Smaller
     /// cells are faster near the triangles and take more memory.

@@ -810,10 +810,11 @@ void DipoleField::Builder::place_cells()
     this->field.top_level_ = std::min(this->field.top_level_, level);
     // Thicken a flat region, because the expected points can be anywhere in the cells that the
     // region crosses.
-    this->region = box;
+    this->region = this->options.region.empty() ? box : this->options.region;
+    const Vec3 region_size = this->region.size();
     for (int k = 0; k < 3; ++k)
     {
-      const double padding = std::max(0.0, 0.05 * size - 0.5 * box.size()[k]);
+      const double padding = std::max(0.0, 0.05 * size - 0.5 * region_size[k]);
       this->region.lower[k] -= padding;
       this->region.upper[k] += padding;
     }

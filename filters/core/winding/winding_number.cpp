@@ -319,6 +319,16 @@ Status WindingNumber::build(
     const double pad = padding * field.region.diagonal();
     field.region.lower.array() -= pad;
     field.region.upper.array() += pad;
+    if (!options.query_region.empty())
+    {
+      const Box padded = field.region;
+      field.region.lower = padded.lower.cwiseMax(impl.frame(options.query_region.lower));
+      field.region.upper = padded.upper.cwiseMin(impl.frame(options.query_region.upper));
+      if (field.region.empty())
+      {
+        field.region = padded;
+      }
+    }
     // The field cuts long caps at rounded positions. Points for which this rounding matters count
     // as touching a cap. The exact sum is used for these points.
     const double cut_tolerance = impl.frame.tolerance / options.tolerance;

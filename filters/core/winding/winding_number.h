@@ -72,6 +72,10 @@ public:
     /// number, within the tolerance. For parts of a grid, always use the number of samples of the
     /// whole grid.
     Index expected_queries = 0;
+    /// Box that contains most of these points; empty: the bounding box of the surface, enlarged by
+    /// a tenth of its diagonal. A smaller box saves build time of the fast method. Points outside
+    /// the box take more time.
+    Box query_region;
   };
 
   WindingNumber();

@@ -299,6 +299,56 @@ TEST(WindingExpectedQueries, FastKeepsItsToleranceForAnyNumber)
   }
 }
 
+TEST(WindingExpectedQueries, FastKeepsItsToleranceInAndAroundTheRegion)
+{
+  const TriangleMesh mesh = test::join(with_holes(3, 7), test::open_cube());
+  const Points points = random_points(1000, 2.0, 9);
+  const Box corner{ Vec3::Constant(0.5), Vec3::Constant(0.9) };
+  const Box sheet{ Vec3(-1, -1, 0.2), Vec3(1, 1, 0.2) };
+  const Box around{ Vec3::Constant(-50), Vec3::Constant(50) };
+  const Box elsewhere{ Vec3::Constant(40), Vec3::Constant(50) };
+  for (const Box& region : { corner, sheet, around, elsewhere })
+  {
+    SCOPED_TRACE(region.lower[2]);
+    ExecutionContext context;
+    WindingNumber::Options options;
+    options.method = WindingMethod::fast;
+    options.expected_queries = 3000000;
+    options.query_region = region;
+    WindingNumber winding;
+    const Status status = winding.build(context, mesh.points, mesh.triangles, options);
+    ASSERT_TRUE(status.ok());
+    EXPECT_LE(status.report.number("measured_error", 1.0), options.tolerance);
+    Eigen::VectorXd values;
+    ASSERT_TRUE(winding.evaluate(context, points, values).ok());
+    for (Index i = 0; i < points.rows(); ++i)
+    {
+      EXPECT_NEAR(values[i], winding_number_direct(mesh.points, mesh.triangles, points.row(i)),
+        options.tolerance);
+    }
+  }
+}
+
+TEST(WindingExpectedQueries, ASmallRegionPaysForNoLargeStructure)
+{
+  const TriangleMesh mesh = with_holes(5, 100);
+  const auto memory = [&](const Box& region)
+  {
+    ExecutionContext context;
+    WindingNumber::Options options;
+    options.method = WindingMethod::fast;
+    options.expected_queries = 100000;
+    options.query_region = region;
+    WindingNumber winding;
+    EXPECT_TRUE(winding.build(context, mesh.points, mesh.triangles, options).ok());
+    return winding.memory();
+  };
+  // Cells outside of a region stay large, and this region has no triangles nearby.
+  const Index everywhere = memory({});
+  const Index corner = memory({ Vec3::Constant(1.1), Vec3::Constant(1.3) });
+  EXPECT_LT(corner, everywhere);
+}
+
 TEST(WindingExpectedQueries, FewPointsPayForNoLargeStructure)
 {
   const TriangleMesh closed = test::sphere(5);

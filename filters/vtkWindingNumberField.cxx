@@ -491,6 +491,10 @@ bindpose::Box query_region(vtkDataSet* points, vtkDataSet* surface)
   const double* bounds = points->GetBounds();
   const double* around = surface->GetBounds();
   const double diagonal = surface->GetLength();
+  if (!std::isfinite(diagonal)) // an unused point is not finite
+  {
+    return {};
+  }
   bindpose::Box region;
   double share = 1.0;
   for (int k = 0; k < 3; ++k)
@@ -498,8 +502,8 @@ bindpose::Box query_region(vtkDataSet* points, vtkDataSet* surface)
     const double lower = around[2 * k] - padding * diagonal;
     const double cell = (around[2 * k + 1] + padding * diagonal - lower) / cells;
     const double first = std::max(0.0, std::floor((bounds[2 * k] - lower) / cell));
-    const double end = std::min(cells, std::ceil((bounds[2 * k + 1] - lower) / cell));
-    if (!(first < end)) // no points near the surface, or a coordinate that is not a number
+    const double end = std::min(cells, std::floor((bounds[2 * k + 1] - lower) / cell) + 1.0);
+    if (!(first < end)) // no points near the surface
     {
       return {};
     }

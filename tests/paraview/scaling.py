@@ -45,7 +45,7 @@ class Meter:
         self.rows = {}
 
     def wait_for_all(self):
-        """Return when all ranks have called this method, which they tell each other by files."""
+        """Wait until every rank has called this method and created its file for this call."""
         self.waits += 1
         ranks = range(self.controller.GetNumberOfProcesses())
         files = [self.folder / f"{rank}.{self.waits}.waits" for rank in ranks]

@@ -19,8 +19,7 @@ def save(window, name):
     """Save a picture of the screen, which the window fills."""
     time.sleep(1)  # the window draws its panels after the view
     subprocess.run(["import", "-window", "root", "-crop", f"{SIZE[0]}x{SIZE[1]}+0+0", "+repage", "+dither",
-                    "-colors", "128",
-                    PICTURES / f"{name}.png"], env=window.desktop.environment(), check=True)
+                    "-colors", "128", PICTURES / f"{name}.png"], env=window.desktop.environment(), check=True)
 
 
 def main():

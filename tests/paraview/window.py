@@ -37,15 +37,14 @@ class Window:
         (settings / "ParaView-UserSettings.json").write_text(json.dumps(SETTINGS))
         (settings / "ParaView5.11.0.ini").write_text(WINDOW_SETTINGS)
         self.requests = 0
-        self.size = size
         self.desktop = Desktop(self.folder, "1600x1200x24")
         try:
-            self.start(paraview, library, state, subdivisions)
+            self.start(paraview, library, state, subdivisions, size)
         except BaseException:
             self.desktop.end()
             raise
 
-    def start(self, paraview, library, state, subdivisions):
+    def start(self, paraview, library, state, subdivisions, size):
         environment = {**variables(paraview), "BINDPOSE_PLUGIN": str(library), "BINDPOSE_FOLDER": str(self.folder),
                        "BINDPOSE_DATA": str(DATA), "BINDPOSE_STATE": str(state), "BINDPOSE_SUBDIVISIONS": str(subdivisions)}
         self.log = self.folder / "log.txt"
@@ -56,7 +55,7 @@ class Window:
         self.id = self.desktop.wait_for_window("ParaView")
         self.ask("names()")
         self.desktop.tool("windowmove", self.id, 0, 0)
-        self.desktop.tool("windowsize", self.id, *self.size)
+        self.desktop.tool("windowsize", self.id, *size)
         self.desktop.activate(self.id)
         self.offset = self.find_view()
 

@@ -260,8 +260,7 @@ private:
     }
     this->warn(status.message + "; parts thinner than a lattice cube are missing");
     this->result_.mesh = std::move(this->lattice_mesh_);
-    this->mark_all_vertices_new(TetMethod::remesh);
-    return this->report_distance();
+    return this->finish_remeshed(TetMethod::remesh);
   }
 
   double angle() const
@@ -366,8 +365,7 @@ private:
       this->log("lattice of " + std::to_string(resolution) + " cubes, cut", start, status);
       if (status.ok())
       {
-        this->mark_all_vertices_new(TetMethod::remesh);
-        return this->report_distance();
+        break;
       }
       const double finer_cubes = 8.0 * static_cast<double>(lattice.cubes[0]) *
         static_cast<double>(lattice.cubes[1]) * static_cast<double>(lattice.cubes[2]);
@@ -378,6 +376,7 @@ private:
         return status;
       }
     }
+    return this->finish_remeshed(TetMethod::remesh);
   }
 
   Index remesh_resolution() const
@@ -543,8 +542,7 @@ private:
         short_number(tet_volumes(mesh.points, mesh.tets).sum()) +
         ", but the enclosed volume by winding number is " + short_number(this->inside_.volume()));
     }
-    this->mark_all_vertices_new(TetMethod::wrap);
-    return this->report_distance();
+    return this->finish_remeshed(TetMethod::wrap);
   }
 
   Status make_wrap(RepairedSurface& wrap, EnclosedRegion& wrap_region)
@@ -600,8 +598,7 @@ private:
     {
       return status;
     }
-    this->mark_all_vertices_new(TetMethod::ftetwild);
-    return this->report_distance();
+    return this->finish_remeshed(TetMethod::ftetwild);
   }
 
   /// Check the volume. A wrong volume is accepted with a warning if it differs by at most a factor
@@ -625,6 +622,13 @@ private:
     }
     this->warn(wrong_volume_status.message);
     return {};
+  }
+
+  /// Finish tets whose boundary only approximates the surface.
+  Status finish_remeshed(TetMethod method)
+  {
+    this->mark_all_vertices_new(method);
+    return this->report_distance();
   }
 
   Status report_distance()

@@ -223,6 +223,11 @@ Status WindingNumber::build(
     status = Status::invalid_input(
       "expected_queries must be at least 0 (got " + std::to_string(options.expected_queries) + ")");
   }
+  if (status.ok() &&
+    !(options.query_region.lower.allFinite() && options.query_region.upper.allFinite()))
+  {
+    status = Status::invalid_input("query_region must have finite coordinates");
+  }
   if (status.ok() && !(options.tolerance >= 1e-8 && options.tolerance <= 0.1))
   {
     std::ostringstream text;

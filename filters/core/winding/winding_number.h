@@ -73,8 +73,8 @@ public:
     /// whole grid.
     Index expected_queries = 0;
     /// Box that contains most of these points; empty: the bounding box of the surface, enlarged by
-    /// a tenth of its diagonal. A smaller box saves build time of the fast method. Points outside
-    /// the box take more time.
+    /// a tenth of its diagonal. Finite coordinates. A smaller box saves build time of the fast
+    /// method. Points outside the box take more time.
     Box query_region;
   };
 

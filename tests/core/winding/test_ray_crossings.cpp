@@ -12,6 +12,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <set>
 
 using namespace bindpose;
@@ -66,12 +67,14 @@ TriangleMesh with_holes(int levels, Index n)
   return mesh;
 }
 
-WindingNumber winding_for_queries(const TriangleMesh& mesh, WindingMethod method, Index expected)
+WindingNumber winding_for_queries(
+  const TriangleMesh& mesh, WindingMethod method, Index expected, const Box& region = {})
 {
   ExecutionContext context;
   WindingNumber::Options options;
   options.method = method;
   options.expected_queries = expected;
+  options.query_region = region;
   WindingNumber winding;
   EXPECT_TRUE(winding.build(context, mesh.points, mesh.triangles, options).ok());
   return winding;
@@ -310,21 +313,17 @@ TEST(WindingExpectedQueries, FastKeepsItsToleranceInAndAroundTheRegion)
   for (const Box& region : { corner, sheet, around, elsewhere })
   {
     SCOPED_TRACE(region.lower[2]);
+    const WindingNumber winding = winding_for_queries(mesh, WindingMethod::fast, 3000000, region);
+    ASSERT_TRUE(winding.status().ok());
+    const double tolerance = WindingNumber::Options().tolerance;
+    EXPECT_LE(winding.status().report.number("measured_error", 1.0), tolerance);
     ExecutionContext context;
-    WindingNumber::Options options;
-    options.method = WindingMethod::fast;
-    options.expected_queries = 3000000;
-    options.query_region = region;
-    WindingNumber winding;
-    const Status status = winding.build(context, mesh.points, mesh.triangles, options);
-    ASSERT_TRUE(status.ok());
-    EXPECT_LE(status.report.number("measured_error", 1.0), options.tolerance);
     Eigen::VectorXd values;
     ASSERT_TRUE(winding.evaluate(context, points, values).ok());
     for (Index i = 0; i < points.rows(); ++i)
     {
-      EXPECT_NEAR(values[i], winding_number_direct(mesh.points, mesh.triangles, points.row(i)),
-        options.tolerance);
+      EXPECT_NEAR(
+        values[i], winding_number_direct(mesh.points, mesh.triangles, points.row(i)), tolerance);
     }
   }
 }
@@ -333,16 +332,7 @@ TEST(WindingExpectedQueries, ASmallRegionPaysForNoLargeStructure)
 {
   const TriangleMesh mesh = with_holes(5, 100);
   const auto memory = [&](const Box& region)
-  {
-    ExecutionContext context;
-    WindingNumber::Options options;
-    options.method = WindingMethod::fast;
-    options.expected_queries = 100000;
-    options.query_region = region;
-    WindingNumber winding;
-    EXPECT_TRUE(winding.build(context, mesh.points, mesh.triangles, options).ok());
-    return winding.memory();
-  };
+  { return winding_for_queries(mesh, WindingMethod::fast, 100000, region).memory(); };
   // Cells outside of a region stay large, and this region has no triangles nearby.
   const Index everywhere = memory({});
   const Index corner = memory({ Vec3::Constant(1.1), Vec3::Constant(1.3) });
@@ -390,4 +380,16 @@ TEST(WindingExpectedQueries, NegativeNumbersAreRefused)
   const Status status = winding.build(context, mesh.points, mesh.triangles, options);
   EXPECT_EQ(status.code, StatusCode::invalid_input);
   EXPECT_NE(status.message.find("expected_queries"), std::string::npos);
+}
+
+TEST(WindingExpectedQueries, ARegionThatIsNotFiniteIsRefused)
+{
+  const TriangleMesh mesh = test::cube();
+  ExecutionContext context;
+  WindingNumber::Options options;
+  options.query_region = { Vec3::Zero(), Vec3::Constant(std::numeric_limits<double>::infinity()) };
+  WindingNumber winding;
+  const Status status = winding.build(context, mesh.points, mesh.triangles, options);
+  EXPECT_EQ(status.code, StatusCode::invalid_input);
+  EXPECT_NE(status.message.find("query_region"), std::string::npos);
 }

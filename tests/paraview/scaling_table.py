@@ -27,7 +27,7 @@ import sys
 import cost_model
 
 HERE = pathlib.Path(__file__).resolve().parent
-SIZES = {"voxels": 16_000_000, "queries": 16_000_000, "grid_side": 16, "vertices": 8_000_000, "poses": 20,
+SIZES = {"voxels": 64_000_000, "queries": 16_000_000, "grid_side": 16, "vertices": 8_000_000, "poses": 20,
          "instances": 2000, "frames": 5}
 # Stages in which one rank works and the others wait or copy.
 ONCE = ("surface, shared", "weights, solved once", "weights, shared", "handles, shared")

@@ -66,6 +66,27 @@ def test_tets_that_bridge_a_gap_are_taken_out(tmp_path, monkeypatch):
     assert reader.GetOutput().GetNumberOfPolys() == 1
 
 
+@pytest.mark.parametrize("xs, bridged", [([-1, 0, 1], 2 / 13), ([-1, -0.5, -0.002], 0)])
+def test_films_and_bridged_gaps_are_measured_by_area(tmp_path, monkeypatch, xs, bridged):
+    # Two boxes with a gap of 0.004 between them, and a square above. Areas: 12, 2 of it on the sides of the gap, and 1.
+    def inside(_program, _model, places, _folder):
+        x, others = np.abs(places[:, 0]), places[:, 1:]
+        return np.where((x > 0.002) & (x < 1) & (others > 0).all(axis=1) & (others < 1).all(axis=1), 1.0, 0.0)
+
+    monkeypatch.setattr(accuracy_checks, "winding_at", inside)
+    lines = []
+    for left, right in ((-1, -0.002), (0.002, 1)):
+        lines += [f"v {x} {y} {z}" for x in (left, right) for y in (0, 1) for z in (0, 1)]
+        lines += ["f -8 -7 -5 -6", "f -4 -2 -1 -3", "f -8 -4 -3 -7", "f -6 -5 -1 -2", "f -8 -6 -2 -4", "f -7 -3 -1 -5"]
+    lines += ["v 0 0 1.5", "v 1 0 1.5", "v 1 1 1.5", "v 0 1 1.5", "f -4 -3 -2 -1"]
+    (tmp_path / "model.obj").write_text("\n".join(lines))
+    points, tets = tets_of_boxes(xs, [0, 1], [0, 1])
+    write_tets(tmp_path / "tets.vtu", points, tets)
+    found = accuracy_checks.surface_without_tets("", tmp_path / "model.obj", tmp_path / "tets.vtu")
+    assert found["films"] == pytest.approx(1 / 13, abs=0.01)
+    assert found["bridged"] == pytest.approx(bridged, abs=0.01 if bridged else 0)
+
+
 # ---- Models ----------------------------------------------------------------------------------------
 
 

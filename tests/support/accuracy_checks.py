@@ -1,18 +1,22 @@
-"""Numerical part of weights_accuracy.py: handles, quality of tets, interpolation of weights at points, and differences
-between weights.
+"""Numerical part of weights_accuracy.py: handles, quality of tets, places where tets do not follow the surface,
+interpolation of weights at points, and differences between weights.
 """
 
 import numpy as np
 import vtk
 from vtk.util.numpy_support import vtk_to_numpy
 
-from result_checks import (read_obj, read_tets, read_weights, smallest_dihedral_angles, winding_at, write_poly_data,
-                           write_tets)
+from result_checks import (areas, read_obj, read_tets, read_weights, smallest_dihedral_angles, winding_at,
+                           write_poly_data, write_tets)
 from separate_parts import farthest_points, largest_leak, poly_data, weld
 
 NEAR = 0.01  # in bounding-box diagonals: vertices farther from the reference tets are not compared
 MOST_VERTICES = 20_000
 SEED = 7
+SAMPLES = 20_000  # random points on the surface where films and bridged gaps are looked for
+SIDE = 1e-6  # in bounding-box diagonals: distance of the points on both sides of a sample
+REACH = 0.005  # in bounding-box diagonals: a gap between facing triangles is at most this wide
+FACING = 0.8  # smallest absolute cosine between the normals of facing triangles
 PLACES = 8  # random points per tet that are tested for being outside of the model
 FACETS = [(1, 2, 3), (0, 2, 3), (0, 1, 3), (0, 1, 2)]
 
@@ -36,11 +40,16 @@ def chosen_vertices(points, triangles):
     return np.sort(np.random.RandomState(SEED).choice(used, MOST_VERTICES, replace=False))
 
 
+def locator_of(data):
+    locator = vtk.vtkStaticCellLocator()
+    locator.SetDataSet(data)
+    locator.BuildLocator()
+    return locator
+
+
 def closest_in(grid, queries):
     """Return for each query the nearest cell of the grid, the nearest point on this cell, and the distance."""
-    locator = vtk.vtkStaticCellLocator()
-    locator.SetDataSet(grid)
-    locator.BuildLocator()
+    locator = locator_of(grid)
     generic, cell, sub, squared = vtk.vtkGenericCell(), vtk.reference(0), vtk.reference(0), vtk.reference(0.0)
     cells, places, distances = np.empty(len(queries), int), np.empty((len(queries), 3)), np.empty(len(queries))
     for k, query in enumerate(queries.tolist()):
@@ -84,6 +93,59 @@ def open_gaps(program, model, path):
     outside = winding < 0.5
     bridges = outside[:, 0] | (are_inner(tets) & outside.any(axis=1))
     write_tets(path, points, tets[~bridges])
+
+
+def unit_normals(points, triangles):
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    normals = np.cross(b - a, c - a)
+    return normals / np.maximum(np.linalg.norm(normals, axis=1, keepdims=True), 1e-300)
+
+
+def surface_samples(points, triangles):
+    """Return random points on the triangles, uniform by area, and the triangle of each point."""
+    random = np.random.RandomState(SEED)
+    size = areas(points, triangles)
+    owners = random.choice(len(triangles), SAMPLES, p=size / size.sum())
+    shares = random.dirichlet(np.ones(3), SAMPLES)
+    return np.einsum("kc,kcd->kd", shares, points[triangles[owners]]), owners
+
+
+def middles_of_gaps(points, triangles, starts, directions):
+    """Follow the direction from each start to the first triangle, at most REACH away. Return the middle between start
+    and triangle, and the index of the start, if the triangle faces the direction."""
+    reach = REACH * np.linalg.norm(np.ptp(points, axis=0))
+    normals = unit_normals(points, triangles)
+    locator = locator_of(poly_data(points, triangles))
+    hit, parametric = [0.0] * 3, [0.0] * 3
+    along, sub, cell = vtk.reference(0.0), vtk.reference(0), vtk.reference(0)
+    middles, owners = [], []
+    for k, (start, direction) in enumerate(zip(starts, directions)):
+        found = locator.IntersectWithLine(start, start + reach * direction, 0.0, along, hit, parametric, sub, cell)
+        if found and abs(normals[int(cell)] @ direction) >= FACING:
+            middles.append((start + hit) / 2)
+            owners.append(k)
+    return np.array(middles).reshape(-1, 3), np.array(owners, int)
+
+
+def surface_without_tets(program, model, path):
+    """Return two fractions of the surface's area where tets cannot follow the surface or do not: "films", which have the
+    outside on both sides, and "bridged", where the tets bridge a gap between two facing triangles."""
+    single = path.parent / "single.vtp"
+    write_without_doubles(model, single)
+    points, triangles, _ = weld(*read_obj(model))
+    places, owners = surface_samples(points, triangles)
+    normals = unit_normals(points, triangles)[owners]
+    normals = np.vstack([normals, -normals])
+    sides = np.tile(places, (2, 1)) + SIDE * np.linalg.norm(np.ptp(points, axis=0)) * normals
+    middles, starts = middles_of_gaps(points, triangles, sides, normals)
+    winding = winding_at(program, single, np.vstack([sides, middles]), path.parent)
+    if (winding <= -0.5).sum() > (winding >= 0.5).sum():  # all patches are inside out
+        winding = -winding
+    outside = winding < 0.5
+    locator = locator_of(read_grid(path))
+    bridged = {start % SAMPLES for start, middle, out in zip(starts, middles, outside[2 * SAMPLES:])
+               if out and locator.FindCell(middle) >= 0}
+    return {"films": float((outside[:SAMPLES] & outside[SAMPLES:2 * SAMPLES]).mean()), "bridged": len(bridged) / SAMPLES}
 
 
 def connected_parts(grid):

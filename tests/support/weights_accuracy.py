@@ -5,8 +5,10 @@ interpolated at the surface's vertices by this script's own code. The reference 
 reference, from which the tets that bridge gaps are removed. If the two references differ, the reference is not accurate
 enough for a comparison. Models are drawn in a seeded random order until enough models are measured. A model is skipped
 - if its reference tets have angles below GOOD_ANGLE;
-- if the reference tets miss a part of the surface (remesh has no tets for open sheets);
-- if the boundary of the reference tets is too far from the surface, because the tets bridge a gap;
+- if the reference tets miss a part of the surface (remesh has no tets for open sheets), or more than FILMS of the
+  surface's area has the outside on both sides;
+- if the boundary of the reference tets is too far from the surface, because the tets bridge a gap, or if the tets
+  bridge a gap of at most half a percent of the diagonal anywhere;
 - if the reference tets and the default tets have different numbers of connected parts;
 - if the two references differ by more than AGREE.
 
@@ -28,6 +30,7 @@ COARSE_CUBES = 27
 AGREE = 0.01  # largest rms difference between the two references
 FAR = 0.5  # percent of the bounding-box diagonal: largest distance between a reference's boundary and the surface
 COVERED = 0.99  # fraction of the vertices that must be near the reference tets
+FILMS = 0.01  # largest fraction of the surface's area that has the outside on both sides
 RMS = 0.015
 LEAK = 0.01  # a weight on a separate part is a leak if it is larger than this
 COLUMNS = ["triangles", "domain", "tets", "angle", "reference tets", "references", "rms", "largest", "warned", "leak",
@@ -68,6 +71,11 @@ def prepare(options, check, path, folder, handles):
         return f"{100 * (1 - quality['covered']):.1f} % of the vertices are not near the tets: open sheets"
     if quality["angle"] < GOOD_ANGLE:
         return f"a dihedral angle of the reference is {quality['angle']:.1f} degrees"
+    missing = check("surface_without_tets", options.program, path, folder / "reference.vtu")
+    if missing["films"] > FILMS:
+        return f"{100 * missing['films']:.1f} % of the area has the outside on both sides: open sheets"
+    if missing["bridged"] > 0:
+        return f"the reference bridges a narrow gap on {100 * missing['bridged']:.3f} % of the area"
     return quality
 
 

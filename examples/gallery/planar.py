@@ -53,7 +53,7 @@ def pixel_centers(size):
 
 
 def cat(size):
-    """Return the cat as size x size x 4 bytes."""
+    """Return a picture of a cat as RGBA pixels (size x size x 4 bytes)."""
     x, y = pixel_centers(size)
     pixel = 1 / size
     color = np.zeros((size, size, 3)) + (240, 150, 60)

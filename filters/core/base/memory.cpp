@@ -142,13 +142,13 @@ Status check_memory(const std::string& subject, double bytes, Index limit)
   }
   const double resident_bytes = resident_memory();
   const double allowed = static_cast<double>(limit) * mebibyte;
-  const bool is_user_limit = limit > 0 && allowed - resident_bytes <= available_memory();
+  const bool limit_is_set_by_user = limit > 0 && allowed - resident_bytes <= available_memory();
   const auto format_mebibytes = [](double size)
   { return std::to_string(static_cast<long long>(std::ceil(size / mebibyte))) + " MiB"; };
   return Status::failure(StatusCode::internal_error,
     subject + " would increase the memory of this process to about " +
       format_mebibytes(resident_bytes + bytes) + "; " +
-      (is_user_limit
+      (limit_is_set_by_user
           ? "the limit is " + format_mebibytes(allowed) + ": use a coarser mesh or a higher limit"
           : "only " + format_mebibytes(resident_bytes + left) +
             " are available: use a coarser mesh"));

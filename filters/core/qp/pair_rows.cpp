@@ -39,7 +39,8 @@ Status PairRows::prepare()
       row.position = matrices.position(std::max(row.low, row.high), std::min(row.low, row.high));
       if (row.position < 0)
       {
-        return Status::failure(StatusCode::internal_error, "an ordered pair is not an entry of Q");
+        return Status::failure(
+          StatusCode::internal_error, "a pair of ordered vertices has no entry in the matrix Q");
       }
     }
     this->rows_.push_back(row);

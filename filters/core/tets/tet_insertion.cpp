@@ -307,7 +307,7 @@ public:
       {
         batch.push_back(order[next]);
       }
-      const std::size_t deferred_before = deferred.size();
+      const std::size_t deferred_count_before = deferred.size();
       if (this->tets_.tet_id_limit() > this->maximum_ids_)
       {
         std::vector<Index> pending(order.begin() + static_cast<std::ptrdiff_t>(next), order.end());
@@ -338,7 +338,8 @@ public:
       // The number of cavities that are searched in parallel is reduced if more than one in four
       // cavities must be searched again.
       constexpr std::size_t overlap_divisor = 4;
-      const bool overlap = overlap_divisor * (deferred.size() - deferred_before) > batch.size();
+      const bool overlap =
+        overlap_divisor * (deferred.size() - deferred_count_before) > batch.size();
       batch_size = overlap ? std::max<std::size_t>(1, batch_size / 2)
                            : std::min(maximum_batch, 2 * batch_size);
       this->context_.progress(insertion_progress(next, order.size()));

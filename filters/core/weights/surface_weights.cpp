@@ -640,14 +640,14 @@ double Solver::transfer_fraction() const
 {
   // Times in seconds on two threads: two constants for the transfer, then two constants for the
   // solves on all lattices.
-  constexpr double per_point = 6e-6;
-  constexpr double per_point_and_column = 1.5e-6;
-  constexpr double lattices_per_point = 20e-6;
-  constexpr double lattices = 1.0;
+  constexpr double seconds_per_point = 6e-6;
+  constexpr double seconds_per_point_and_column = 1.5e-6;
+  constexpr double lattice_seconds_per_point = 20e-6;
+  constexpr double lattice_seconds = 1.0;
   const auto points = static_cast<double>(this->points_.rows());
   const auto columns = static_cast<double>(this->handles_.size());
-  const double transfer = (per_point + per_point_and_column * columns) * points;
-  return transfer / (transfer + lattices_per_point * points + lattices);
+  const double transfer = (seconds_per_point + seconds_per_point_and_column * columns) * points;
+  return transfer / (transfer + lattice_seconds_per_point * points + lattice_seconds);
 }
 
 /// Solve on lattices of increasing resolution until two agree (the guard).

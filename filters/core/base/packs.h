@@ -18,16 +18,46 @@ struct PackOf
   typedef Scalar Pack __attribute__((vector_size(bytes), aligned(alignof(Scalar)), may_alias));
 };
 
-template <int bytes = 32, typename Scalar>
-BINDPOSE_ALWAYS_INLINE auto& pack_at(Scalar* from)
+/// A pack in memory that need not be aligned. It is read and written by copying bytes: a reference
+/// to the type Pack would not keep the alignment of a scalar, so Clang would use aligned accesses.
+template <typename Scalar, int bytes>
+class PackInMemory
 {
-  return *reinterpret_cast<typename PackOf<Scalar, bytes>::Pack*>(from);
+public:
+  using Pack = typename PackOf<Scalar, bytes>::Pack;
+  BINDPOSE_ALWAYS_INLINE explicit PackInMemory(Scalar* at) : at_(at) {}
+  BINDPOSE_ALWAYS_INLINE operator Pack() const
+  {
+    Pack pack;
+    __builtin_memcpy(&pack, this->at_, sizeof(pack));
+    return pack;
+  }
+  BINDPOSE_ALWAYS_INLINE void operator=(Pack pack)
+  {
+    __builtin_memcpy(this->at_, &pack, sizeof(pack));
+  }
+  BINDPOSE_ALWAYS_INLINE void operator=(const PackInMemory& other)
+  {
+    *this = static_cast<Pack>(other);
+  }
+  BINDPOSE_ALWAYS_INLINE void operator+=(Pack pack) { *this = static_cast<Pack>(*this) + pack; }
+
+private:
+  Scalar* at_;
+};
+
+template <int bytes = 32, typename Scalar>
+BINDPOSE_ALWAYS_INLINE auto pack_at(Scalar* from)
+{
+  return PackInMemory<Scalar, bytes>(from);
 }
 
 template <int bytes = 32, typename Scalar>
-BINDPOSE_ALWAYS_INLINE const auto& pack_at(const Scalar* from)
+BINDPOSE_ALWAYS_INLINE auto pack_at(const Scalar* from)
 {
-  return *reinterpret_cast<const typename PackOf<Scalar, bytes>::Pack*>(from);
+  typename PackOf<Scalar, bytes>::Pack pack;
+  __builtin_memcpy(&pack, from, sizeof(pack));
+  return pack;
 }
 
 BINDPOSE_ALWAYS_INLINE float sum_lanes(const PackOf<float>::Pack& p)

@@ -7,6 +7,7 @@
 #include "base/packs.h"
 
 #include <cmath>
+#include <utility>
 
 namespace bindpose
 {
@@ -105,46 +106,51 @@ BINDPOSE_ALWAYS_INLINE void blend_part(const std::int32_t* columns, const Scalar
   }
 }
 
-/// Set lane i of `a` to lane mask[i] of the concatenation of `a` and `b`.
-template <typename Scalar, int bytes>
-BINDPOSE_ALWAYS_INLINE void shuffle(
-  Pack<Scalar, bytes>& a, const Pack<Scalar, bytes>& b, const Bits<Scalar, bytes>& mask)
+/// Shuffle lanes of three packs into one pack. Lane i of the first two packs' shuffle is lane
+/// Lanes::first(i) of `a` and `b`; lane i of the result is lane Lanes::second(i) of this shuffle
+/// and `c`.
+template <typename Lanes, typename Pack, int... i>
+BINDPOSE_ALWAYS_INLINE Pack shuffle(
+  const Pack& a, const Pack& b, const Pack& c, std::integer_sequence<int, i...> /*lanes*/)
 {
-#if defined(__clang__)
-  constexpr int lanes = part_lanes<Scalar, bytes>;
-  const Pack<Scalar, bytes> from = a;
-  for (int i = 0; i < lanes; ++i)
-  {
-    a[i] = mask[i] < lanes ? from[mask[i]] : b[mask[i] - lanes];
-  }
-#else
-  a = __builtin_shuffle(a, b, mask);
-#endif
+  const Pack first = __builtin_shufflevector(a, b, Lanes::first(i)...);
+  return __builtin_shufflevector(first, c, Lanes::second(i)...);
 }
+
+/// Lanes for a row of one coordinate, from the three packs of a part's points.
+template <int lanes, int coordinate>
+struct LanesOfRow
+{
+  static constexpr int first(int i) { return is_in_first(i) ? 3 * i + coordinate : 0; }
+  static constexpr int second(int i) { return is_in_first(i) ? i : 3 * i + coordinate - lanes; }
+
+private:
+  static constexpr bool is_in_first(int i) { return 3 * i + coordinate < 2 * lanes; }
+};
+
+/// Lanes for one of the three packs of a part's points, from the rows of its coordinates.
+template <int lanes, int third>
+struct LanesOfPoints
+{
+  static constexpr int first(int i) { return coordinate(i) == 1 ? lanes + point(i) : point(i); }
+  static constexpr int second(int i) { return coordinate(i) == 2 ? lanes + point(i) : i; }
+
+private:
+  static constexpr int point(int i) { return (third * lanes + i) / 3; }
+  static constexpr int coordinate(int i) { return (third * lanes + i) % 3; }
+};
 
 /// Transpose the points of a part: from x y z per point to one row per coordinate.
 template <int bytes, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void deinterleave(const Scalar* line, Scalar* points)
 {
   constexpr int lanes = part_lanes<Scalar, bytes>;
-  const Pack<Scalar, bytes> thirds[3] = { pack_at<bytes>(line), pack_at<bytes>(line + lanes),
-    pack_at<bytes>(line + 2 * lanes) };
-#pragma GCC unroll 3
-  for (int c = 0; c < 3; ++c)
-  {
-    Bits<Scalar, bytes> first = {}, last = {};
-#pragma GCC unroll 16
-    for (int i = 0; i < lanes; ++i)
-    {
-      const int from = 3 * i + c;
-      first[i] = from < 2 * lanes ? from : 0;
-      last[i] = from < 2 * lanes ? i : from - lanes;
-    }
-    Pack<Scalar, bytes> coordinate = thirds[0];
-    shuffle<Scalar, bytes>(coordinate, thirds[1], first);
-    shuffle<Scalar, bytes>(coordinate, thirds[2], last);
-    pack_at<bytes>(points + c * tile_lanes<Scalar>) = coordinate;
-  }
+  constexpr std::make_integer_sequence<int, lanes> all;
+  const Pack<Scalar, bytes> a = pack_at<bytes>(line), b = pack_at<bytes>(line + lanes),
+                            c = pack_at<bytes>(line + 2 * lanes);
+  pack_at<bytes>(points) = shuffle<LanesOfRow<lanes, 0>>(a, b, c, all);
+  pack_at<bytes>(points + tile_lanes<Scalar>) = shuffle<LanesOfRow<lanes, 1>>(a, b, c, all);
+  pack_at<bytes>(points + 2 * tile_lanes<Scalar>) = shuffle<LanesOfRow<lanes, 2>>(a, b, c, all);
 }
 
 /// Transpose back: from one row per coordinate to x y z per point.
@@ -152,25 +158,13 @@ template <int bytes, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void interleave(const Scalar* points, Scalar* line)
 {
   constexpr int lanes = part_lanes<Scalar, bytes>;
+  constexpr std::make_integer_sequence<int, lanes> all;
   const Pack<Scalar, bytes> x = pack_at<bytes>(points),
                             y = pack_at<bytes>(points + tile_lanes<Scalar>),
                             z = pack_at<bytes>(points + 2 * tile_lanes<Scalar>);
-#pragma GCC unroll 3
-  for (int third = 0; third < 3; ++third)
-  {
-    Bits<Scalar, bytes> first = {}, last = {};
-#pragma GCC unroll 16
-    for (int i = 0; i < lanes; ++i)
-    {
-      const int point = (third * lanes + i) / 3, c = (third * lanes + i) % 3;
-      first[i] = c == 1 ? lanes + point : point;
-      last[i] = c == 2 ? lanes + point : i;
-    }
-    Pack<Scalar, bytes> part = x;
-    shuffle<Scalar, bytes>(part, y, first);
-    shuffle<Scalar, bytes>(part, z, last);
-    pack_at<bytes>(line + third * lanes) = part;
-  }
+  pack_at<bytes>(line) = shuffle<LanesOfPoints<lanes, 0>>(x, y, z, all);
+  pack_at<bytes>(line + lanes) = shuffle<LanesOfPoints<lanes, 1>>(x, y, z, all);
+  pack_at<bytes>(line + 2 * lanes) = shuffle<LanesOfPoints<lanes, 2>>(x, y, z, all);
 }
 
 template <int bytes, typename Scalar>

@@ -23,6 +23,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <type_traits>
 
 namespace bindpose
 {
@@ -301,28 +303,35 @@ BINDPOSE_ALWAYS_INLINE int put_rotations(
   const MatrixPlanes<Scalar>& rotations, FitBlock<Scalar>& __restrict block)
 {
   constexpr int lanes = FitLimits<Scalar>::lanes;
-  int unresolved = 0;
+  // An integer as wide as Scalar, so that the compiler vectorizes the loop.
+  using Count = std::conditional_t<sizeof(Scalar) == 4, std::int32_t, std::int64_t>;
+  Count unresolved = 0;
   for (int g = 0; g < block.groups; ++g)
   {
-    bool is_resolved[lanes];
+    Scalar resolved_slope[lanes];
+#pragma GCC unroll 1 // prevents unrolling, so that the compiler vectorizes the loop
     for (int i = 0; i < lanes; ++i)
     {
       const int k = g * lanes + i;
-      block.slope[k] = i < block.skipped[g] ? Scalar(1) : block.slope[k];
+      const bool is_skipped = i < block.skipped[g];
+      const Scalar slope = is_skipped ? Scalar(1) : block.slope[k];
+      block.slope[k] = slope;
       // a comparison with NaN is false, so NaN is not trusted
-      unresolved += block.slope[k] > FitLimits<Scalar>::slope ? 0 : 1;
-      is_resolved[i] = i >= block.skipped[g] && block.slope[k] > FitLimits<Scalar>::slope;
+      unresolved += slope > FitLimits<Scalar>::slope ? 0 : 1;
+      resolved_slope[i] = is_skipped ? Scalar(0) : slope;
     }
     for (int e = 0; e < 9; ++e)
     {
       Scalar* const __restrict to = rotations.at(e / 3, e % 3) + block.begin[g];
+#pragma GCC unroll 1
       for (int i = 0; i < lanes; ++i)
       {
-        to[i] = is_resolved[i] ? block.rotation[e][g * lanes + i] : to[i];
+        const Scalar before = to[i], after = block.rotation[e][g * lanes + i];
+        to[i] = resolved_slope[i] > FitLimits<Scalar>::slope ? after : before;
       }
     }
   }
-  return unresolved;
+  return static_cast<int>(unresolved);
 }
 
 template <typename Scalar>

@@ -587,7 +587,7 @@ Status FloatCholesky::Impl::factor(
 {
   const Fronts& fronts = this->fronts();
   this->analysis->factorizations += 1;
-  this->values.resize(static_cast<std::size_t>(fronts.nodes.first_value.back()));
+  this->values.resize(static_cast<std::size_t>(fronts.nodes.first_value.back()) + factor_padding);
   for (const int k : { 0, 1 })
   {
     this->stack[k].resize(std::max(this->stack[k].size(), fronts.stack_size[k]));

@@ -5,10 +5,12 @@
 // times less often.
 #include "linear/supernode_solve.h"
 
+#include "base/packs.h"
 #include "base/simd.h"
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -22,9 +24,23 @@ constexpr int group = 4; // number of columns of a block that are processed toge
 /// Entries of one row for four right-hand sides.
 typedef float Row4 __attribute__((vector_size(16)));
 typedef float Row8 __attribute__((vector_size(32)));
-/// Partial sums of the dot products of a single right-hand side.
-typedef float Lanes __attribute__((vector_size(64), aligned(4)));
-constexpr int rows_per_pass = 16;
+/// Partial sums of the dot products of a single right-hand side: two packs, because GCC 12 keeps
+/// packs of 64 bytes in memory on processors without AVX-512.
+using Half = PackOf<float>::Pack;
+constexpr int rows_per_half = PackOf<float>::lanes;
+constexpr int rows_per_pass = 2 * rows_per_half;
+static_assert(factor_padding == rows_per_pass - 1, "A pass can begin at the last row.");
+
+/// From `kept_rows + rows_per_pass - n` on: masks that keep n rows of a pass.
+alignas(64) constexpr std::int32_t kept_rows[2 * rows_per_pass] = { -1, -1, -1, -1, -1, -1, -1, -1,
+  -1, -1, -1, -1, -1, -1, -1, -1 };
+
+/// Read a pack and set its rows to 0 where the mask is 0.
+BINDPOSE_ALWAYS_INLINE Half read_masked(const float* from, const std::int32_t* mask)
+{
+  return reinterpret_cast<Half>(
+    pack_at(reinterpret_cast<const std::int32_t*>(from)) & pack_at(mask));
+}
 
 /// Forward substitution with one block, by groups of columns. The triangle at the top of a group
 /// gives the solution x for its columns. Then the products of the rows below with x are subtracted
@@ -84,33 +100,40 @@ BINDPOSE_ALWAYS_INLINE void dots(const float* a, const Row* t, int first, int ro
   }
 }
 
+/// The rows beyond the last one are read in the last pass, but masked: they can be anything.
 template <int count>
 BINDPOSE_ALWAYS_INLINE void dots(const float* a, const float* t, int first, int rows, float* sums)
 {
-  Lanes partial[count] = {};
+  Half low[count] = {}, high[count] = {};
   int r = first;
   for (; r + rows_per_pass <= rows; r += rows_per_pass)
   {
+    const Half t_low = pack_at(t + r), t_high = pack_at(t + r + rows_per_half);
+#pragma GCC unroll 4
     for (int i = 0; i < count; ++i)
     {
-      partial[i] += *reinterpret_cast<const Lanes*>(a + static_cast<std::size_t>(i) * rows + r) *
-        *reinterpret_cast<const Lanes*>(t + r);
+      const float* from = a + static_cast<std::size_t>(i) * rows + r;
+      low[i] += pack_at(from) * t_low;
+      high[i] += pack_at(from + rows_per_half) * t_high;
     }
   }
+  if (r < rows)
+  {
+    const std::int32_t* mask = kept_rows + rows_per_pass - (rows - r);
+    const Half t_low = read_masked(t + r, mask);
+    const Half t_high = read_masked(t + r + rows_per_half, mask + rows_per_half);
+#pragma GCC unroll 4
+    for (int i = 0; i < count; ++i)
+    {
+      const float* from = a + static_cast<std::size_t>(i) * rows + r;
+      low[i] += read_masked(from, mask) * t_low;
+      high[i] += read_masked(from + rows_per_half, mask + rows_per_half) * t_high;
+    }
+  }
+#pragma GCC unroll 4
   for (int i = 0; i < count; ++i)
   {
-    for (int k = r; k < rows; ++k)
-    {
-      partial[i][k - r] += a[static_cast<std::size_t>(i) * rows + k] * t[k];
-    }
-    for (int half = rows_per_pass / 2; half > 0; half /= 2)
-    {
-      for (int k = 0; k < half; ++k)
-      {
-        partial[i][k] += partial[i][k + half];
-      }
-    }
-    sums[i] = partial[i][0];
+    sums[i] = sum_lanes(low[i] + high[i]);
   }
 }
 
@@ -188,7 +211,8 @@ void solve_with_supernodes(const Supernodes& nodes, const float* values, float* 
   }
   const auto k = static_cast<std::size_t>(columns);
   constexpr std::size_t alignment = 32;
-  std::vector<float> workspace(static_cast<std::size_t>(most_rows) * k + alignment);
+  std::vector<float> workspace(
+    static_cast<std::size_t>(most_rows) * k + alignment + factor_padding);
   void* aligned = workspace.data();
   std::size_t space = workspace.size() * sizeof(float);
   auto* t = static_cast<float*>(

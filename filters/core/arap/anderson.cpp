@@ -189,7 +189,7 @@ bool Anderson<Scalar>::solve(Index count, std::array<double, largest_anderson_wi
     }
     is_positive_definite = is_positive_definite && pivot > 0.0;
     const double inverse = 1.0 / std::sqrt(pivot);
-    // The factor contains the reciprocals of its diagonal entries.
+    // The diagonal of `l` stores the reciprocals of the factor's diagonal entries.
     l[i * largest_anderson_window + i] = inverse;
     coefficients[i] = right * inverse;
   }

@@ -5,7 +5,7 @@
 // element:
 // - Elements: one group contributes with the fraction 1.
 // - Spokes and rims: the group of each vertex contributes with one third (triangle) or one quarter
-//   (tet). The fractions of equal groups are added first.
+//   (tet). If several vertices of the element are in one group, their fractions are added.
 // - Spokes: the sum runs over the edges of the mesh, with their weights from the stiffness matrix.
 //   The groups of the two ends contribute with one half each.
 #include "arap/arap_energy.h"
@@ -151,8 +151,8 @@ struct Spoke
   double weight;
 };
 
-/// If the weight of an edge is below this fraction of the diagonal entries of its vertices, it is
-/// round-off and ignored.
+/// An edge weight is round-off and ignored if it is at most this fraction of the stiffness matrix's
+/// diagonal entries at both vertices of the edge.
 constexpr double weight_tolerance = 1e-12;
 
 std::vector<Spoke> spokes_of(const SparseMatrix& stiffness, Index* ignored_edges)

@@ -34,8 +34,8 @@ enum class ArapEnergy : int
   spokes = 3 ///< one rotation per vertex, for the edges at the vertex (Sorkine and Alexa 2007)
 };
 
-/// If the energy is below this fraction of the rest energy, it counts as zero in the convergence
-/// test.
+/// Lower bound for the energy in the convergence test, as a fraction of 1/2 tr(V^T L V) for the
+/// rest positions V and the stiffness L. Smaller energies are replaced by this bound.
 constexpr double negligible_energy = 1e-6;
 
 /// Return "spokes_and_rims", "triangles", "tetrahedra" or "spokes". `automatic` is first replaced
@@ -88,7 +88,7 @@ SparseMatrix covariance_matrix(PointsView rest, TetsView tets, const RotationGro
 
 /// Return the energy 1/2 sum_k sum c |e' - R_k e|^2 (notation of covariance_matrix()), summed edge
 /// by edge. The sum is accurate even if the energy is near zero, because no large numbers are
-/// subtracted. Cost: one term for each edge of each element, and for each group of the element.
+/// subtracted. Cost: each element has one term for each combination of an edge and a group.
 double arap_energy(PointsView rest, TrianglesView triangles, const RotationGroups& groups,
   PointsView posed, const std::vector<Eigen::Matrix3d>& rotations);
 double arap_energy(PointsView rest, TetsView tets, const RotationGroups& groups, PointsView posed,

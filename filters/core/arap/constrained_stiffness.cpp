@@ -1,18 +1,18 @@
-// Solution of a stiffness system with prescribed vertices ("given") and constrained mesh points
-// ("held").
+// Solution of a stiffness system L x = force in which x is prescribed at some vertices and at some
+// other points of the mesh ("constrained points").
 //
-// Given vertices are eliminated from the system. A connected part of the mesh without a given
-// vertex would make the system singular. Therefore one vertex of such a part is grounded (its x is
-// 0), and an additional unknown shift t translates the part. This is exact because the forces
-// within a part sum to zero. The constraints A x = b of the held points then lead to a small dense
-// system for their Lagrange multipliers m and the shifts t:
+// Prescribed vertices are eliminated from the system. A connected part of the mesh without a
+// prescribed vertex would make the system singular. Therefore x is set to 0 at one vertex of such a
+// part, and an additional unknown shift t translates the part. This is exact because the forces
+// within a part sum to zero. The constraints A x = b of the constrained points then lead to a small
+// dense system for their Lagrange multipliers m and the shifts t:
 //
 //     A L^-1 A^T m - A 1 t = A L^-1 force - b,    (A 1)^T m = 0.
 //
-// The matrix 1 has one column per part without a given vertex, with ones at the vertices of the
-// part. The second equation states that the multipliers' forces sum to zero in each part. A pivoted
-// QR decomposition of A first selects linearly independent points, so that the small system is
-// regular.
+// The matrix 1 has one column per part without a prescribed vertex, with ones at the vertices of
+// the part. The second equation states that the multipliers' forces sum to zero in each part. A
+// pivoted QR decomposition of A first selects linearly independent points, so that the small system
+// is regular.
 #include "arap/constrained_stiffness.h"
 
 #include <Eigen/QR>
@@ -24,8 +24,8 @@ namespace bindpose
 
 namespace
 {
-/// A held point is redundant if its pivot in the QR decomposition is below this fraction of the
-/// largest pivot.
+/// A constrained point is redundant if its pivot in the QR decomposition is below this fraction of
+/// the largest pivot.
 constexpr double rank_tolerance = 1e-9;
 } // namespace
 
@@ -123,8 +123,9 @@ Status ConstrainedStiffness::prepare(const SparseMatrix& stiffness,
   return {};
 }
 
-/// Scale the rows of the held points, select independent rows, and compute the matrix that maps the
-/// targets of all held points to the targets of the selected points.
+/// Scale the constraint matrix's rows (one per constrained point) and select independent rows. Then
+/// compute the matrix that maps the targets of all constrained points to the targets of the
+/// selected points.
 void ConstrainedStiffness::choose_independent(const std::vector<char>& is_prescribed)
 {
   const auto count = static_cast<Index>(this->constrained_.size());
@@ -174,7 +175,7 @@ void ConstrainedStiffness::choose_independent(const std::vector<char>& is_prescr
   {
     (i < rank ? this->independent_ : this->redundant_).push_back(qr.colsPermutation().indices()[i]);
   }
-  // The row of each held point is a linear combination of the selected rows. Targets that
+  // Each row of the constraint matrix is a linear combination of the selected rows. Targets that
   // contradict these combinations are satisfied in the least-squares sense.
   const Eigen::MatrixXd r = qr.matrixR().topRows(rank);
   Eigen::MatrixXd combination = Eigen::MatrixXd::Identity(count, rank);
@@ -277,7 +278,7 @@ void ConstrainedStiffness::solve(
       target.row(i) = constrained.row(i);
       for (const auto& [v, coordinate] : this->constrained_[i])
       {
-        target.row(i) -= coordinate * x.row(v); // x is 0 except at given vertices
+        target.row(i) -= coordinate * x.row(v); // x is 0 except at prescribed vertices
       }
       target.row(i) *= this->scale_[i];
     }
@@ -294,9 +295,9 @@ void ConstrainedStiffness::solve(
         }
       }
     }
-    // One step of iterative refinement. If held points are close to each other, the inverse has few
-    // correct digits. The resulting violation of a constraint could lower the energy, so the caller
-    // could mistake the violation for an improvement.
+    // One step of iterative refinement. If constrained points are close to each other, the inverse
+    // has few correct digits. The resulting violation of a constraint could lower the energy, so
+    // the caller could mistake the violation for an improvement.
     Eigen::MatrixXd answer = this->multipliers_ * small;
     answer += this->multipliers_ * (small - this->constraint_system_ * answer);
     inner.noalias() -= this->response_ * answer.topRows(independent_count);

@@ -55,8 +55,8 @@ Status Crowd::solve(
       context, this->space_, { this->space_.stiffness, this->zero_load_ }, poses[i], options, d);
     if (!status.usable())
     {
-      // The transforms of the last successful solve remain. The next solve of this instance starts
-      // without previous rotations.
+      // After a failure, the instance keeps the transforms of its last successful solve. Its next
+      // solve starts without previous rotations.
       this->rotations_[i].clear();
       if (status.code != StatusCode::canceled)
       {

@@ -67,10 +67,10 @@ Status FullArap::prepare(const Pose& pose)
   return status;
 }
 
-/// Compute initial rotations from the pose only. Each constrained point prescribes a matrix: a full
-/// handle prescribes the linear part of its transform, any other handle the rotation that best fits
-/// all pivots. Laplace's equation extends the matrices over the mesh. The results are projected to
-/// rotations.
+/// Compute initial rotations from the pose only. Each handle prescribes a matrix at its constrained
+/// points. For a handle in mode full, it is the linear part of the transform; for any other handle,
+/// the rotation that best fits the whole pose (pivot_rotation()). Laplace's equation extends the
+/// matrices over the mesh. The results are projected to rotations.
 void FullArap::start_rotations(const Pose& pose)
 {
   const Eigen::Matrix3d global_rotation = pivot_rotation(this->handles_, pose, 0.3 * this->radius_);

@@ -42,7 +42,8 @@ struct FullArapOptions
 ///
 /// If there is no vertex at the position of a handle, the point of the element at this position is
 /// constrained exactly. If the handle is not on the mesh, the nearest point of the mesh is
-/// constrained. A vertex that several full handles constrain moves to the mean of their targets.
+/// constrained. A vertex that several handles in mode `full` constrain moves to the mean of their
+/// targets.
 ///
 /// The unknowns are displacements from rest, so the rest pose is reproduced exactly. A connected
 /// part without constraints does not move, and neither do unused vertices. A vertex whose elements
@@ -71,16 +72,16 @@ public:
     /// Rotations of the last solve (`guess` in the first solve). Few iterations are needed, and
     /// twists of more than half a turn can accumulate.
     last,
-    /// Rotations of full handles, extended over the mesh by Laplace's equation. Depends on the pose
-    /// only.
+    /// Linear parts of the transforms of handles in mode full, extended over the mesh by Laplace's
+    /// equation and projected to rotations. These initial rotations depend only on the pose.
     guess,
     rest ///< identity matrices
   };
   struct SolveOptions
   {
-    /// The solve ends if an iteration lowers the energy by at most this fraction of the energy. An
-    /// energy below 1e-6 of the rest energy (a strain of about 1e-3) is replaced by 1e-6 of the
-    /// rest energy. 0: run all iterations; the result is never not_converged.
+    /// The solve ends if an iteration lowers the energy by at most this fraction of the energy. In
+    /// this test, an energy below 1e-6 * rest_energy() (a strain of about 1e-3) is replaced by this
+    /// bound. 0: run all iterations; the result is never not_converged.
     double tolerance = 1e-6;
     Index max_iterations = 500;
     Start start = Start::last;
@@ -163,7 +164,8 @@ private:
   Index factorizations_ = 0;
 
   // ---- per pose
-  /// Target displacements of constrained vertices (given) and constrained points (held).
+  /// Target displacements of constrained vertices (prescribed_) and of constrained points that are
+  /// not vertices (constrained_).
   Rows prescribed_, constrained_;
 
   // ---- state; entry (i, j) of matrix k is at (3 i + j) * stride_ + k
@@ -171,8 +173,8 @@ private:
   std::vector<double> rest_covariance_, covariance_, rotations_;
   std::vector<double> rotation_deltas_; ///< R - I, nine per group, row by row
   Rows force_; ///< K^T Q of the last global step, #V x 3
-  double rotation_term_ = 0.0; ///< inner product <R - I, S> after the last local step
-  double rest_rotation_term_ = 0.0; ///< inner product of R - I and the rest pose's S
+  double rotation_term_ = 0.0; ///< <R - I, S> for the covariances S, after a local step
+  double rest_rotation_term_ = 0.0; ///< <R - I, S> for the covariances S at rest
   bool has_rotations_ = false;
   Points posed_;
   std::vector<double> energies_;

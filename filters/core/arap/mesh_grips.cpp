@@ -193,9 +193,9 @@ Vec3 MeshGrips::rest_position(const MeshPoint& point) const
   return sum;
 }
 
-/// Return the target displacement of a constrained point. The points of a full handle are
-/// transformed with the handle. If the pivot is not on the mesh, its nearest mesh point has the
-/// displacement of the pivot.
+/// Return the target displacement of a constrained point. The points of a handle in mode full are
+/// moved by its transform. In the other modes, the point gets the displacement of the pivot or tail
+/// itself, even if the pivot or tail is off the mesh.
 Vec3 MeshGrips::target_displacement(const Constraint& constraint, const HandlePose& pose) const
 {
   const Eigen::Matrix3d linear = pose.transform.leftCols<3>() - Eigen::Matrix3d::Identity();
@@ -239,10 +239,10 @@ void MeshGrips::choose(const Pose& pose, const std::vector<Index>& fixed_vertice
       }
     }
   }
-  // A position handle at a vertex that a full handle constrains is redundant. If several position
-  // handles are at one vertex, all except the first are reported as redundant, but the target is
-  // the mean of all their targets.
-  std::map<Index, bool> prescribed; // vertex -> whether a full handle constrains it
+  // A position handle is redundant if a handle in mode full constrains the same vertex. If several
+  // position handles are at one vertex, all except the first are reported as redundant, but the
+  // target is the mean of all their targets.
+  std::map<Index, bool> prescribed; // vertex -> whether a handle in mode full constrains it
   for (const Constraint& constraint : this->constraints_)
   {
     if (constraint.point.size() == 1)

@@ -9,8 +9,8 @@ namespace bindpose
 {
 
 /// The points of a mesh that its handles constrain, and their target positions in a pose.
-/// Constrained vertices are called "given", other constrained mesh points "held". Used by
-/// deformations in which every vertex is an unknown.
+/// Constraints at vertices are called "prescribed", constraints at other points of the mesh
+/// "constrained". Used by deformations in which every vertex is an unknown.
 ///
 /// Constraints by the mode of a handle:
 /// - `full`: the transform moves the handle's vertices. These are the vertex at a point or cage
@@ -23,7 +23,8 @@ namespace bindpose
 ///
 /// If there is no vertex at the position of a handle, the point of the element at this position is
 /// constrained exactly. If the handle is not on the mesh, the nearest point of the mesh is
-/// constrained. A vertex that several full handles constrain moves to the mean of their targets.
+/// constrained. A vertex that several handles in mode `full` constrain moves to the mean of their
+/// targets.
 class MeshGrips
 {
 public:
@@ -50,8 +51,8 @@ public:
     const std::vector<Index>& region_ids);
 
   /// Select the constraints that the modes of a pose require.
-  /// @param fixed_vertices additional given vertices. They stay at rest unless a handle constrains
-  /// them.
+  /// @param fixed_vertices additional constrained vertices. They stay at rest unless a handle
+  /// constrains them.
   void choose(const Pose& pose, const std::vector<Index>& fixed_vertices = {});
 
   /// prescribed() returns the ids of constrained vertices, ascending. constrained() returns the
@@ -95,8 +96,7 @@ private:
   std::vector<Constraint> constraints_;
   std::vector<Index> prescribed_;
   std::vector<MeshPoint> constrained_;
-  std::vector<Index>
-    handle_of_constrained_; ///< per held point: index of the handle that constrains it
+  std::vector<Index> handle_of_constrained_; ///< per entry of constrained(): index of its handle
   /// Indices of the position handles that are redundant because another handle constrains their
   /// vertex.
   std::vector<Index> redundant_handles_;

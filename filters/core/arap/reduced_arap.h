@@ -32,9 +32,9 @@ namespace bindpose
 /// moves with the handle's own transform.
 ///
 /// Cost, with m handles and extra weights and r clusters: bind O(#V (4 m)^2). The first solve is
-/// O((4 m)^3). A solve after a change of modes is O((4 m + 3 r) 4 m c) for c constrained positions
-/// and given unknowns, see reduced_basis.h. An iteration takes 72 m r multiply-adds and r rotation
-/// fits, for a mesh of any size. The result has the same bits for any number of threads.
+/// O((4 m)^3). A solve after a change of modes is O((4 m + 3 r) 4 m c) for c constraints (positions
+/// and prescribed unknowns), see reduced_basis.h. An iteration takes 72 m r multiply-adds and r
+/// rotation fits, for a mesh of any size. The result has the same bits for any number of threads.
 class ReducedArap
 {
 public:

@@ -9,13 +9,14 @@
 //
 // Quick method. H does not depend on the modes. It is factored once for all unknowns: L L^T = H, D
 // = E z with E = L^-T, and the energy is |z|^2 / 2. A choice of modes then affects only its
-// constraints G z = g, with G = A E, where A has one more row for each unknown that a full handle
-// prescribes. The last columns Z of the orthogonal factor of G^T give B = E Z and C = (K E) Z. C is
-// computed by applying reflections to K E. A translation u of the whole shape has no energy: H u =
-// 0 and K u = 0. Therefore H is factored without one of the unknowns, and D = u t + E z with an
-// additional unknown t. Because t has no energy, the constraints determine it: a reflection of the
-// constraints removes t from all constraints except the first one. All other constraints then
-// contain only z.
+// constraints G z = g. Here G = A E, and A has one more row for each unknown that a handle in mode
+// full prescribes. The last columns Z of the orthogonal factor of G^T give B = E Z and C = (K E) Z.
+// C is computed by applying reflections to K E.
+//
+// Unless H contains masses, a translation u of the whole shape has no energy: H u = 0 and K u = 0.
+// In this case H is factored without one of the unknowns, and D = u t + E z with an additional
+// unknown t. The constraints determine t: a reflection of the constraints removes t from all
+// constraints except the first one. All other constraints then contain only z.
 //
 // If one of the following conditions does not hold, the quick method returns false and the robust
 // method is used.
@@ -44,7 +45,8 @@ namespace
 {
 /// A direction has no energy if its eigenvalue is below this fraction of the largest eigenvalue.
 constexpr double energy_rank = 1e-12;
-/// A position is redundant if its pivot is below this fraction of the largest pivot.
+/// A constrained position is redundant if its pivot in the QR decomposition is below this fraction
+/// of the largest QR pivot.
 constexpr double position_rank = 1e-9;
 /// The quick method requires that the reciprocal condition numbers of A A^T and of the triangular
 /// factor of G^T are above this value.
@@ -380,7 +382,7 @@ ReducedBasis::UnrotatedMinimizer ReducedBasis::robust_unrotated_minimizer(const 
   const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given_blocks,
   const Coordinates& position_residual) const
 {
-  // First compute a displacement that contains the given blocks and satisfies the constrained
+  // First compute a displacement that contains `given_blocks` and satisfies the constrained
   // positions. The load and the elastic force of this displacement cause a response: the
   // combination of columns of B that minimizes the energy. Then add the response.
   UnrotatedMinimizer result;
@@ -416,8 +418,8 @@ ReducedBasis::UnrotatedMinimizer ReducedBasis::unrotated_minimizer(const Reduced
       space, stiffness, load, given_blocks, position_residual);
   }
   // z is Q times a vector with two parts. The first part satisfies the constraints; the second part
-  // is the response to the given blocks and the load. The first part is orthogonal to the
-  // directions of B, so it causes no response.
+  // is the response to `given_blocks` and the load. The first part is orthogonal to the directions
+  // of B, so it causes no response.
   const FullFactorization& factorization = this->factorization_;
   const Index unknowns = factorization.directions.rows(), rank = this->reflections_.rank();
   const bool shifts = rank < this->constraints_;

@@ -47,16 +47,16 @@ private:
 /// orthonormal in the stiffness H (B^T H B = I).
 ///
 /// There are two methods. The robust method (make_robust) determines the ranks for any input and
-/// factors the part of H for the free rows, which no full handle prescribes: O(#free^3). The quick
-/// method (make_fast) factors the whole matrix H once. After each choice of modes it only applies
-/// reflections to that factor: O((#columns + #clusters) #columns #constraints). The quick method
-/// requires that all ranks are numerically certain; otherwise it returns false.
+/// factors the part of H for the free rows, which no handle in mode full prescribes: O(#free^3).
+/// The quick method (make_fast) factors the whole matrix H once. After each choice of modes it only
+/// applies reflections to that factor: O((#columns + #clusters) #columns #constraints). The quick
+/// method requires that all ranks are numerically certain; otherwise it returns false.
 class ReducedBasis
 {
 public:
   /// Compute B by the quick method, or by the robust method if the quick method returns false.
   /// @param stiffness H; it must be the same matrix in every call.
-  /// @param free_dofs indices of the rows of D that no full handle prescribes, ascending.
+  /// @param free_dofs indices of the rows of D that no handle in mode full prescribes, ascending.
   /// @param position_rows matrix that maps D to the displacements of the constrained positions:
   /// #positions x #rows of D.
   void make(const ReducedSpace& space, const Eigen::MatrixXd& stiffness,
@@ -77,21 +77,22 @@ public:
   /// Move the covariance C = K B to `covariance`. Call this once after make().
   void extract_covariance(Eigen::Ref<Eigen::MatrixXd> covariance);
 
-  /// D* for one pose: the minimizer of 1/2 <D, H D> - <P, D> among all D that contain the given
-  /// blocks and satisfy the constrained positions in the least-squares sense.
+  /// D* for one pose: the minimizer of 1/2 <D, H D> - <P, D> among all D that contain the blocks
+  /// prescribed by handles in mode full, and satisfy the constrained positions in the least-squares
+  /// sense.
   struct UnrotatedMinimizer
   {
     double energy = 0.0; ///< value of the minimized expression at D*
     Coordinates covariance; ///< covariances K D*
-    Coordinates base_displacement; ///< D*; in the quick method only the given blocks
+    Coordinates base_displacement; ///< D*; in the quick method only `given_blocks`
     Coordinates z; ///< quick method: coefficients z of D*
     Eigen::RowVector3d first; ///< target of the constraint that determines the translation t
   };
   /// Compute D* for one pose.
   /// @param load P
-  /// @param given_blocks contains the given blocks of D; 0 in all other rows.
-  /// @param position_residual differences between the targets of the constrained positions and
-  /// those of `given_blocks`.
+  /// @param given_blocks the blocks of D that handles in mode full prescribe; 0 in all other rows.
+  /// @param position_residual target displacements of the constrained positions minus their
+  /// displacements by `given_blocks`.
   UnrotatedMinimizer unrotated_minimizer(const ReducedSpace& space,
     const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given_blocks,
     const Coordinates& position_residual) const;
@@ -116,9 +117,10 @@ private:
   UnrotatedMinimizer robust_unrotated_minimizer(const ReducedSpace& space,
     const Eigen::MatrixXd& stiffness, const Coordinates& load, const Coordinates& given_blocks,
     const Coordinates& position_residual) const;
-  /// Return the translation t for z and the target of the first constraint.
+  /// Return the translation t that satisfies the first constraint.
+  /// @param first target of the first constraint
   Eigen::RowVector3d shift_of(const Coordinates& z, const Eigen::RowVector3d& first) const;
-  /// Add `change` to the rows of d that no full handle prescribes.
+  /// Add `change` to the rows of d that no handle in mode full prescribes.
   void add_free(const Coordinates& change, Coordinates& d) const;
 
   std::vector<Index> free_dofs_;

@@ -46,8 +46,7 @@ Status check_options(const ReducedDynamicsOptions& options);
 /// takes the same time. The method is stable for any time step. It damps fast oscillations, more
 /// strongly for longer steps. The modes of handles may change at any step.
 ///
-/// The result has the same bits for any number of threads, and for the same state, poses and
-/// options.
+/// The same state, poses and options give bit-identical results with any number of threads.
 class ReducedDynamics
 {
 public:

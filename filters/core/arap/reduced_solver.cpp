@@ -5,12 +5,12 @@
 //
 //     E(D, Q) = 1/2 <D, H D> - <P, D> - <Q, S0 + K D>,
 //
-// where H, K and S0 are projected at bind time. The deformation energy (P = 0) has no constant term
-// and no term that is linear in D alone, because rest with R = I is its minimum. The blocks of full
-// handles are given. The other unknowns are D = D* + B Y. D* is the displacement of minimum energy
-// that satisfies the constrained positions with Q = 0. The columns of B span the displacements that
-// do not change the constrained positions. They are orthonormal in H (B^T H B = I). With C = K B
-// one iteration is
+// where H is the stiffness, P a load and S0 + K D are the covariances. H, K and S0 are projected at
+// bind time. The deformation energy (P = 0) has no constant term and no term that is linear in D
+// alone, because rest with R = I is its minimum. A handle in mode full prescribes its block of D.
+// The other unknowns are D = D* + B Y. D* is the displacement of minimum energy that satisfies the
+// constrained positions with Q = 0. The columns of B span the displacements that do not change the
+// constrained positions. They are orthonormal in H (B^T H B = I). With C = K B one iteration is
 //
 //     S = S* + C Y                   covariances
 //     Q = best rotations of S - I    the local step
@@ -108,12 +108,12 @@ void ReducedSolver::factor(
 }
 
 /// Compute initial rotations from the pose only. The rotation of a cluster is a blend over all
-/// handles, with their mean weights in the cluster. A full handle contributes its own rotation.
-/// Every other handle contributes the same rotation, which best fits all pivots and the frames of
-/// full handles.
+/// handles, with their mean weights in the cluster. A handle in mode full contributes the linear
+/// part of its transform. Every other handle contributes the same rotation, which best fits the
+/// whole pose (pivot_rotation()).
 void ReducedSolver::start_rotations(const ReducedSpace& space, const Pose& pose)
 {
-  const double pivot_radius = 0.3 * space.radius; // size of the frame that represents a full handle
+  const double pivot_radius = 0.3 * space.radius;
   const Eigen::Matrix3d global_rotation = pivot_rotation(space.handles, pose, pivot_radius);
   for (Index k = 0; k < space.groups.count; ++k)
   {
@@ -153,7 +153,8 @@ Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space
       quoted_names(space.handles, this->redundant_));
   }
 
-  // The constraints of this pose are the blocks of full handles and the targets of positions.
+  // The constraints of this pose are the blocks of D that handles in mode full prescribe, and the
+  // targets of the constrained positions.
   const Index clusters = space.groups.count, stride = space.stride;
   d = Rows::Zero(4 * space.columns, 3);
   for (std::size_t h = 0; h < pose.size(); ++h)

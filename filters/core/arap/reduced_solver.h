@@ -16,8 +16,9 @@ enum class ReducedStart
   /// Rotations of the last solve (`guess` in the first solve). A drag then needs few iterations per
   /// solve, and can build up twists of more than half a turn.
   last,
-  /// Rotations of the full handles nearby; elsewhere the rotation that best fits all pivots.
-  /// Depends on the pose only.
+  /// Per cluster: a blend, by weights, of the rotations of handles in mode full. Every other handle
+  /// contributes the rotation that best fits the whole pose. These initial rotations depend only on
+  /// the pose.
   guess,
   rest ///< identity matrices
 };
@@ -25,9 +26,9 @@ enum class ReducedStart
 /// Options of ReducedSolver::solve().
 struct ReducedSolveOptions
 {
-  /// The solve ends if an iteration lowers the energy by at most this fraction of the energy. An
-  /// energy below 1e-6 of the rest energy (a strain of about 1e-3) is replaced by 1e-6 of the rest
-  /// energy. 0: run all iterations; the result is never not_converged.
+  /// The solve ends if an iteration lowers the energy by at most this fraction of the energy. In
+  /// this test, an energy below 1e-6 * ReducedSpace::rest_energy (a strain of about 1e-3) is
+  /// replaced by this bound. 0: run all iterations; the result is never not_converged.
   double tolerance = 1e-6;
   Index max_iterations = 100;
   ReducedStart start = ReducedStart::last;

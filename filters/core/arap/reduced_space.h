@@ -56,8 +56,8 @@ struct ReducedSpace
   /// a transform.
   Eigen::Matrix<double, 4, 3> block_of(const Affine& transform, Index column) const;
   Affine affine_of(const Eigen::Ref<const Eigen::Matrix<double, 4, 3>>& block, Index column) const;
-  /// Return the transforms of all columns. The transforms of full handles are bit-identical to
-  /// those of the pose.
+  /// Return the transforms of all columns. The transforms of handles in mode full are bit-identical
+  /// to those of the pose.
   std::vector<Affine> transforms_of(const Rows& d, const Pose& pose) const;
 
   Handles handles;

@@ -16,8 +16,8 @@ struct Eigenmodes
   Eigen::VectorXd eigenvalues; ///< eigenvalue of each mode, ascending, in 1 / length^2
 };
 
-/// Compute skinning eigenmodes: the solutions w of L w = lambda M w with the smallest eigenvalues
-/// lambda that are zero at the vertices `fixed_vertices`. Used as weights of additional transforms,
+/// Compute skinning eigenmodes: solutions w of L w = lambda M w that are zero at the vertices
+/// `fixed_vertices`, for the smallest eigenvalues lambda. Used as weights of additional transforms,
 /// the modes span smooth deformations of low energy that do not move these vertices. Method:
 /// Benchekroun et al. 2023, Fast complementary dynamics via skinning eigenmodes.
 ///
@@ -38,8 +38,8 @@ Status skinning_eigenmodes(ExecutionContext& context, const SparseMatrix& stiffn
   const Eigen::VectorXd& mass, const std::vector<Index>& fixed_vertices, Index count,
   Eigenmodes& result);
 
-/// Return the vertices whose row of weights equals the row of a handle, that is, the row of the
-/// vertex at which the handle's weight is largest.
+/// For each handle, take the vertex at which the handle's weight is largest. Return all vertices
+/// whose row of weights equals the row of one of these vertices.
 std::vector<Index> handle_vertices(WeightsView weights);
 
 } // namespace bindpose

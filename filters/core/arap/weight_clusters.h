@@ -22,8 +22,8 @@ namespace bindpose
 void farthest_rows(
   ExecutionContext& context, WeightsView rows, Index count, std::vector<Index>& seeds);
 
-/// Return for each handle the vertex at which its weight is largest (the lowest vertex if several
-/// are equal).
+/// Return for each handle the index of the vertex at which its weight is largest (the lowest index
+/// if several weights are equal).
 std::vector<Index> largest_weight_rows(WeightsView weights);
 
 struct Clusters

@@ -153,7 +153,8 @@ Vec3 edge(PointsView points, Index from, Index to)
   return Vec3(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
 }
 
-/// Add the singular values of one element to a block. `flipped`: the element is inside out.
+/// Add the singular values of one element to the totals of its block.
+/// @param flipped whether the element is inside out.
 void count_element(Block& block, double limit, Index element, double largest, double smallest,
   bool flipped, ElementStretch& stretch)
 {

@@ -1,5 +1,5 @@
-// One rotation for a whole pose: the best fit of the covariance of pivots, tails and frames of full
-// handles (rotation_fit.h).
+// One rotation for a whole pose, fitted to the covariance of the constrained pivots and tails and
+// of the transforms of handles in mode full (rotation_fit.h).
 #include "pose/pivot_rotation.h"
 
 #include "pose/rotation_fit.h"

@@ -516,7 +516,7 @@ Eigen::Matrix3d minimal_arc(const Vec3& from, const Vec3& to)
   const Vec3 half = a + b;
   if (half.norm() > 1e-12)
   {
-    // The rotation is the product of two reflections: about `a`, then about the bisector.
+    // The rotation is the product of two half turns: about `a`, then about the bisector.
     const Vec3 h = half.normalized();
     return (2.0 * h * h.transpose() - Eigen::Matrix3d::Identity()) *
       (2.0 * a * a.transpose() - Eigen::Matrix3d::Identity());
@@ -855,7 +855,7 @@ Status format_pose_changes(
   {
     for (std::size_t h = 0; h < handles.size(); ++h)
     {
-      // The pose that the handle has without an entry is that of the base, moved by the parent.
+      // Without an entry in the file, the handle gets its base pose, moved by its parent.
       followed[h] = base[h];
       if (handles[h].parent >= 0)
       {

@@ -27,8 +27,8 @@ void read_transforms(WeightsView matrix, Pose& pose)
   }
 }
 
-/// Return the parent of a bone, or -1. If a bone has no parent, the first bone whose tail is at its
-/// head is used.
+/// Return the parent of a handle, or -1. If the handle is a bone without a parent, return the first
+/// bone that ends where this bone begins.
 Index parent_of(const Handles& handles, std::size_t h)
 {
   if (handles[h].parent >= 0 || handles[h].kind != HandleKind::bone)

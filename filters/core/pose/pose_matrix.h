@@ -13,8 +13,9 @@ namespace bindpose
 ///   world coordinates (igl::deform_skeleton, igl::lbs_matrix). The posed position of a point p is
 ///   (p, 1) times the rows of the transform.
 /// - 4 b x 1: one quaternion (x, y, z, w) for each of the b bones: a rotation about the bone's
-///   head, applied before the rotation of its parent (igl::forward_kinematics). If a bone has no
-///   parent, the first bone whose tail is at its head is its parent. Points do not move.
+///   head, applied before the rotation of its parent (igl::forward_kinematics). For a bone without
+///   a parent, the first bone that ends where this bone begins is taken as the parent. Points do
+///   not move.
 ///
 /// Return invalid_input if the matrix has another size, a value is not finite, or a quaternion has
 /// length zero. The message about a quaternion contains the name of the bone. `handles` must have

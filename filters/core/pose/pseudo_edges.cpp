@@ -52,7 +52,7 @@ Neighbors neighbors_of(Index vertices, const Elements& elements)
   return list;
 }
 
-/// Return the nearest vertex that an element uses, or -1 if there is none.
+/// Return the vertex nearest to `to`, or -1. Vertices that no element uses are ignored.
 Index nearest_vertex(PointsView points, const Neighbors& neighbors, const Vec3& to)
 {
   Index nearest = -1;

@@ -1,5 +1,6 @@
-// Polar decomposition of transforms. The rotation R nearest to L maximizes tr(R L^T). At the
-// maximum R^T L is symmetric, because otherwise a small rotation would increase the trace.
+// Polar decomposition of the linear part L of a transform. The rotation R nearest to L maximizes
+// tr(R L^T). At the maximum R^T L is symmetric, because otherwise a small rotation would increase
+// the trace.
 #include "pose/transform_parts.h"
 
 #include "pose/rotation_fit.h"

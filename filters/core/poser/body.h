@@ -38,9 +38,9 @@ struct BodyRun
 };
 
 /// Simulates the shape as a body with mass by reduced as-rigid-as-possible dynamics
-/// (ReducedDynamics; Jacobson et al. 2012), on the surface or in its tets, and records the run. A
-/// drag constrains a handle in mode free to the pose. When the drag ends, the handle keeps its
-/// velocity.
+/// (ReducedDynamics; Jacobson et al. 2012), on the surface or in its tets, and records the run. The
+/// caller can constrain a handle for some steps, for example while the user drags it. When the
+/// handle is free again, it keeps its velocity.
 class Body
 {
 public:

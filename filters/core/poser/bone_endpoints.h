@@ -9,8 +9,9 @@ namespace bindpose
 {
 
 /// Compute the endpoint weights of bones (endpoint_weights) from bounded biharmonic weights at the
-/// points of a shape. The weights of tets are solved on the tets.
-/// @param domain  the domain in which the weights of a surface are solved
+/// points of a shape.
+/// @param domain  the domain in which the weights are solved if the shape is a surface. A shape of
+/// tets is its own domain.
 /// @param endpoints  #V x #handles
 Status solve_endpoint_weights(ExecutionContext& context, const Domain& shape,
   const Handles& handles, EndpointMethod method, WeightsDomain domain, Weights& endpoints);

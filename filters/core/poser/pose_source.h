@@ -25,7 +25,8 @@ struct PoseSource
   Handles handles;
   PseudoEdges pseudo_edges; ///< pseudo-edges of the handle dataset
   Status pseudo_edges_status; ///< the reason why pseudo_edges cannot be used, or ok
-  /// The tets on which the weights were solved; empty if they are unknown or were not tets.
+  /// The tets on which the weights were solved; empty if the weights were not solved on tets, or if
+  /// the tets are unknown.
   Points tet_points;
   Tets tets;
   Weights tet_weights;

@@ -12,9 +12,9 @@
 namespace bindpose
 {
 
-/// Base class of the pose methods. A poser calls the kernels of one method on one
-/// source: it binds once and poses many times. The result equals that of the method's filter, bit
-/// for bit. bind() and solve() can be called on any thread, one call at a time.
+/// Base class of the pose methods. A poser calls the kernels of one method on the surface of one
+/// PoseSource: it binds once and poses many times. The result equals that of the method's filter,
+/// bit for bit. bind() and solve() can be called on any thread, one call at a time.
 ///
 /// The report of a pose has the entries of the kernel. In addition it has seconds.solve (computing
 /// transforms or points) and seconds.skin (moving the surface by transforms).
@@ -23,8 +23,9 @@ class Poser
 public:
   virtual ~Poser() = default;
 
-  /// Report whether the bind contains everything that solve() needs for these options. By default,
-  /// this is the case if the last bind succeeded and its options need the same bind.
+  /// Report whether the bind contains everything that solve() needs for these options. The default
+  /// implementation requires that the last bind succeeded, and that same_bind() is true for the
+  /// options of that bind and `options`.
   virtual bool is_bound(const PoseOptions& options) const;
   /// Compute the missing data of the bind, and keep the existing data. Return the warnings of the
   /// bind.

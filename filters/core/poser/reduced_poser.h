@@ -41,8 +41,8 @@ Status bind_to_source(
                                 : kernel.bind(context, source.points, source.triangles,
                                     source.weights, source.handles, reduced);
 }
-/// Bind linear blend skinning, which moves the surface of the source like its tets. The weights of
-/// the skinning are the columns of the reduced space of `arap` at the surface's points.
+/// Bind linear blend skinning that moves the surface of the source with its tets. It blends the
+/// transforms of `arap` by the weights of handles and extra weights at the surface's points.
 /// @param arap  bound to the tets of the source
 Status bind_surface_skinning(
   ExecutionContext& context, const PoseSource& source, const ReducedArap& arap, Skinning& skinning);

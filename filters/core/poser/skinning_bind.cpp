@@ -137,8 +137,8 @@ Status SkinningBind::bind_endpoints(ExecutionContext& context, const SkinnedShap
 
 WeightsView SkinningBind::endpoints(const SkinnedShape& shape, EndpointMethod method) const
 {
-  // Endpoint weights of the shape take precedence over computed ones. If there are neither, the
-  // view has size 0, which selects the projection.
+  // Endpoint weights of the shape take precedence over computed ones. If none are available, return
+  // a view of size 0, which selects the projection.
   return shape.endpoints.rows() == 0 && this->endpoint_method_ == method
     ? WeightsView(this->endpoints_)
     : shape.endpoints;

@@ -50,12 +50,12 @@ struct SkinnedShape
 };
 
 /// All skinning methods with the data that they compute once per shape: sparse weights, pivots,
-/// centers of rotation, endpoint weights and automatic pseudo-edges. A bind computes only what its
-/// method needs and what is missing.
+/// centers of rotation, endpoint weights and automatic pseudo-edges. A bind computes only the
+/// missing data that its method needs.
 ///
-/// By linear blending and dual quaternions, a vertex of a part of a shape gets the same bits as in
-/// the whole shape. For this reason positions are computed relative to the mean of the handles'
-/// pivots, which does not depend on the part.
+/// A shape can be posed in several parts. With linear blending and dual quaternions, the result is
+/// bit-identical to that of the whole shape. For this reason positions are computed relative to the
+/// mean of the handles' pivots, which is the same for all parts.
 class SkinningBind
 {
 public:
@@ -69,9 +69,9 @@ public:
   /// pseudo-edges or endpoint weights are missing.
   bool needs_elements(const SkinnedShape& shape, const SkinningMethodOptions& options) const;
 
-  /// Compute what is missing. Centers of rotation take seconds for a large shape; endpoint weights
-  /// that are not projections take as long as weights. The phases are "edges", "centers" and
-  /// "endpoints".
+  /// Compute the missing data. Centers of rotation take seconds for a large shape. Endpoint weights
+  /// other than projections take as long as bounded biharmonic weights. The reported phases are
+  /// "edges", "centers" and "endpoints".
   /// @param tets, triangles  the elements of the shape. If there are tets, triangles are ignored.
   Status bind(ExecutionContext& context, const SkinnedShape& shape, TetsView tets,
     TrianglesView triangles, const SkinningMethodOptions& options);

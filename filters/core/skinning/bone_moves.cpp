@@ -3,14 +3,14 @@
 //
 // At a point (x, y, z) of a bone's frame the endpoint weight is e = z / length, clamped to [0, 1].
 // The angle of the twist is a = (1 - e) head + e tail, where `head` and `tail` are the twists at
-// the ends. `vector` points from the head to the tail. Twist and stretch add to the point
+// the ends. `vector` points from the head to the tail. Twist and stretch displace the point by
 //
-//     ( -sin a y - (1 - cos a) x,  sin a x - (1 - cos a) y,  0 )  and  e (stretch - 1) vector.
+//     ( -sin a y - (1 - cos a) x,  sin a x - (1 - cos a) y,  0 )  +  e (stretch - 1) vector.
 //
 // With s = sin(a / 2) and c = cos(a / 2), sin a = 2 s c and 1 - cos a = 2 s^2. The values sin a and
 // 1 - cos a are exactly zero without a twist, and they do not change if s and c change their signs.
-// Therefore whole turns can be subtracted from a. The remaining angle is at most half a turn. A
-// short power series is accurate for a quarter of the remaining angle.
+// Therefore whole turns can be subtracted from a. The remaining angle is at most half a turn. The
+// power series are evaluated at a / 4, which is at most an eighth of a turn, so few terms suffice.
 #include "skinning/bone_moves.h"
 
 #include "base/packs.h"
@@ -35,8 +35,8 @@ constexpr int terms = sizeof(Scalar) == 4 ? 5 : 9;
 template <typename Scalar>
 constexpr Scalar rounding_constant = sizeof(Scalar) == 4 ? 12582912.0 : 6755399441055744.0;
 
-/// Return the coefficients of the power series of cos(pi / 2 x) if first = 0, or of sin(pi / 2 x)
-/// if first = 1. Only every second power has a coefficient.
+/// Return the coefficients of the power series of cos(x pi / 2) if first = 0, or of sin(x pi / 2)
+/// if first = 1. Zero coefficients (every second power of x) are left out.
 template <typename Scalar>
 constexpr std::array<Scalar, terms<Scalar>> coefficients(int first)
 {
@@ -50,7 +50,7 @@ constexpr std::array<Scalar, terms<Scalar>> coefficients(int first)
   return result;
 }
 
-/// Compute cos (pi / 2 x) (first = 0) or sin (pi / 2 x) / x (first = 1). Even and odd terms are
+/// Compute cos(x pi / 2) (first = 0) or sin(x pi / 2) / x (first = 1). Even and odd terms are
 /// summed separately: two short chains of dependent operations are faster than one long chain.
 /// @param square x^2.
 /// @param fourth x^4.

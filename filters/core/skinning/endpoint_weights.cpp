@@ -45,7 +45,7 @@ void append_messages(const Status& step, Status& status)
   }
 }
 
-/// The ends of all bones as point handles, one per position.
+/// Point handles at the ends of all bones. Ends at the same position share one handle.
 struct Joints
 {
   Handles handles;

@@ -31,11 +31,11 @@ struct MovingLeastSquaresOptions
 /// Points, cage vertices and pivots of regions contribute with their positions; their rotations are
 /// ignored. Bones contribute as line segments (section 3 of the paper). The weight of a bone is an
 /// integral over the bone. It is scaled so that a bone as long as the handles' extent has the same
-/// weight as a point. (The extent is the largest distance between two ends.) A rotation about the
-/// bone itself has no effect. A handle in mode free has no effect. If a pose moves all handles by
-/// one rigid motion, all points move by this motion, provided that the handles determine it. Two
-/// points determine a motion in a plane; three points that are not on a line determine a motion in
-/// space. Otherwise the smallest of the possible rotations is used.
+/// weight as a point. (The extent is the largest distance between two pivots or tails.) A rotation
+/// about the bone itself has no effect. A handle in mode free has no effect. If a pose moves all
+/// handles by one rigid motion, all points move by this motion, provided that the handles determine
+/// it. Two points determine a motion in a plane; three points that are not on a line determine a
+/// motion in space. Otherwise the smallest of the possible rotations is used.
 ///
 /// If the rest shape, the handles at rest and the posed handles are each in a plane z = const, the
 /// rotation is within the plane. Otherwise the rotation is in space.

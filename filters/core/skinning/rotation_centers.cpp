@@ -9,8 +9,8 @@
 // similar pairs of weights.
 //
 // The groups of each pair are contiguous. The groups of a pair are computed from all elements in
-// which both handles have a weight. A vertex at which both handles have a weight loops over the
-// groups, eight per step.
+// which both handles have a weight. For a vertex at which both handles have a weight, the sum runs
+// over these groups, eight per step.
 #include "skinning/rotation_centers.h"
 
 #include "base/parallel.h"
@@ -44,7 +44,7 @@ struct PairElement
 struct PairGroups
 {
   std::vector<double> first, second; ///< mean weights of both handles, divided by the width
-  std::vector<double> amount; ///< sum of the areas or volumes of the elements
+  std::vector<double> amount; ///< sum of PairElement::amount over the elements
   std::vector<double> x, y, z; ///< sum of amount * centroid over the elements
   Index count = 0;
 
@@ -143,8 +143,9 @@ double size_of(PointsView points, const Index* v, int corners)
                       : std::abs(tet_volume(a, b, c, Vec3(points.row(v[3]))));
 }
 
-/// Halve a range along the weight with the larger range, and return the start of the second half.
-/// Return `begin` if the range is not split further and forms one group.
+/// Partition elements[begin..end) at the middle of the interval of weights[0] or weights[1],
+/// whichever interval is longer. Return the start of the second part. If neither interval is longer
+/// than `limit`, the elements form one group: return `begin`.
 std::size_t split(
   std::vector<PairElement>& elements, std::size_t begin, std::size_t end, double limit)
 {
@@ -163,8 +164,8 @@ std::size_t split(
   {
     return begin;
   }
-  // If the limits of the range are adjacent floating-point numbers, their mean may equal the upper
-  // limit. In this case the lower limit is the cut, so that each half contains an element.
+  // If the ends of the interval are adjacent floating-point numbers, their mean may equal the upper
+  // end. In this case the lower end is the cut, so that each part contains an element.
   const double half = 0.5 * (lower[axis] + upper[axis]);
   const double cut = half < upper[axis] ? half : lower[axis];
   const auto first = elements.begin();

@@ -13,16 +13,17 @@ struct RotationCentersOptions
 {
   /// Width of the similarity function (sigma in the paper), above 0; 0.1 by default.
   double width = 0.1;
-  /// Weights below this value count as zero, 0 to 1. 1e-4 by default: smaller weights have no
-  /// visible effect, and most weights in dense rows are smaller.
+  /// Weights up to this value count as zero; at least 0 and less than 1. 1e-4 by default: smaller
+  /// weights have no visible effect, and most weights in dense rows are smaller.
   double smallest_weight = 1e-4;
   /// A vertex ignores a pair of handles if the product of their two weights is less than this
-  /// fraction of its largest product, 0 to 1. 1e-3 by default. If there are many handles, most
-  /// pairs are ignored.
+  /// fraction of the vertex's largest product. At least 0 and less than 1; 1e-3 by default. If
+  /// there are many handles, most pairs are ignored.
   double smallest_pair = 1e-3;
-  /// Elements whose weights for a pair of handles differ by at most this value form one group for
-  /// that pair. The group has the mean of these weights. 0: only equal weights are grouped, which
-  /// is the exact formula. 0.015 by default: centers move by less than a thousandth of the shape.
+  /// For each pair of handles, elements with similar weights are grouped. Within a group, weights
+  /// differ by at most this value and are replaced by their mean. 0: only equal weights are
+  /// grouped, which is the exact formula. 0.015 by default: centers move by less than a thousandth
+  /// of the shape.
   double group_size = 0.015;
 };
 

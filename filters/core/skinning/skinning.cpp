@@ -150,7 +150,7 @@ SplitMap split(const Eigen::Matrix3d& linear)
 }
 
 /// Set the signs that align the quaternion of each handle to the quaternion of each reference
-/// handle. The list is empty if no sign is negative.
+/// handle. `quaternions.signs` is empty if no sign is negative.
 template <typename Scalar>
 void set_signs(const std::vector<DualQuaternion>& motions, BlendValues<Scalar, 8>& quaternions)
 {
@@ -170,7 +170,7 @@ void set_signs(const std::vector<DualQuaternion>& motions, BlendValues<Scalar, 8
   }
 }
 
-/// The weights of a row that are kept, and the factor that compensates for the dropped weights.
+/// The kept weights of one row, and the factor that compensates for the dropped weights.
 class PrunedRow
 {
 public:

@@ -57,11 +57,10 @@ struct SkinningOptions
 class Skinning
 {
 public:
-  /// Copy the nonzero weights, #V x #handles. Weights that the options drop are distributed over
-  /// the other weights of the row, in proportion to these weights. (In a row with a sum of at most
-  /// zero, before or after the drop, the other weights do not change.) Return invalid_input if an
-  /// option is out of range or a weight is not finite; the message contains the vertex and the
-  /// handle column.
+  /// Copy the nonzero weights, #V x #handles. If the options drop weights of a row, the kept
+  /// weights are scaled so that the row sum does not change. (They are not scaled if the sum of all
+  /// weights or of the kept weights is at most zero.) Return invalid_input if an option is out of
+  /// range or a weight is not finite; the message contains the vertex and the handle column.
   ///
   /// The report has row_sum_error, the largest |row sum - 1|; if it is above 1e-6, a warning
   /// contains it. If the options can drop weights, the report also has counts.dropped_weights and

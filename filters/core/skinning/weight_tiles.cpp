@@ -33,8 +33,8 @@ constexpr Index tile_lanes = WeightTiles<Scalar>::lanes;
 template <typename Scalar, int bytes>
 constexpr int part_lanes = PackOf<Scalar, bytes>::lanes;
 
-/// The different reference handles of the vertices in a part of a tile, each with a mask of its
-/// lanes.
+/// The different reference handles of the vertices in a part of a tile. Each has a mask of the
+/// lanes whose vertices use it.
 template <typename Scalar, int bytes>
 struct PartReferences
 {
@@ -278,7 +278,7 @@ BINDPOSE_ALWAYS_INLINE void store_tile(
   }
 }
 
-/// Compute the blended sums of a tile without signs.
+/// Compute the blended sums of a tile without changing the signs of values.
 template <int entries, int bytes, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void blend_parts(const std::int32_t* columns, const Scalar* weights,
   Index count, const Scalar* values, Scalar* blended)

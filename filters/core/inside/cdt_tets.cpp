@@ -4,16 +4,16 @@
 // A clean surface is passed to TetGen unchanged. The triangles of any other surface are first cut
 // exactly along their crossings (the refinement), until they intersect only in shared vertices and
 // edges. TetGen then fills the convex hull (or a box around it) with tets that keep all these
-// triangles, and tets with a winding number below the threshold are removed. If openings form most
-// of the region's boundary, small tets in a box are tried first, because the boundary of small tets
-// can follow an isosurface of the winding number.
+// triangles. The tets that the segmentation labels as outside are removed. If openings form most of
+// the boundary of the enclosed region, small tets in a box are tried first, because the boundary of
+// small tets can follow an isosurface of the winding number.
 //
 // TetGen 1.5 fails on some inputs with one set of switches and on other inputs with another set, so
 // two sets are tried. Then both sets are tried with vertices rounded to a coarser grid, which welds
-// nearly coincident vertices, and with slightly displaced vertices, which separates the triangles
-// of soups. The last attempt is a plain Delaunay triangulation of the refined vertices, or of the
-// surface's vertices if too many triangles cross. The tets of this triangulation need not respect
-// the triangles.
+// nearly coincident vertices. Then the second set is tried with slightly displaced vertices, which
+// separates the triangles of soups. The last attempt is a plain Delaunay triangulation of the
+// refined vertices, or of the surface's vertices if too many triangles cross. The tets of this
+// triangulation need not respect the triangles.
 //
 // cdt_tets_fill.cpp then inserts vertices into the tets that are kept, and improves these tets.
 #include "inside/cdt_tets.h"
@@ -177,11 +177,10 @@ bool CdtTets::time_budget_is_used() const
 }
 
 /// Run TetGen on refined triangles with each set of switches in turn. If the surface has wide
-/// openings, small tets are tried first, because an isosurface of the winding number bounds the
-/// region in an opening. It can extend beyond the convex hull, and tets that only join the
-/// triangles are too coarse to follow it. If near_threshold_fraction() is very large, small tets
-/// are not tried first, because the region is too thin for them (for example, a thin sliver in
-/// front of a sheet).
+/// openings, small tets are tried first. In an opening, an isosurface of the winding number bounds
+/// the region. Only small tets can follow this isosurface, which may extend beyond the convex hull.
+/// Small tets are not tried first if near_threshold_fraction() is very large, because the region is
+/// then too thin for small tets (for example, a thin sliver in front of a sheet).
 Status CdtTets::try_switches(const Perturbation& move, const MesherData& refined)
 {
   const Phase phase(this->context_, "tetgen", 0.4, 1.0);
@@ -245,7 +244,8 @@ Status CdtTets::try_switches(const Perturbation& move, const MesherData& refined
     {
       try_fine();
     }
-    // If the volume of the small tets is wrong, too, more runs of TetGen cannot help.
+    // If both the small tets and the tets of the last run have a wrong volume, more runs of TetGen
+    // cannot help.
     this->refinement_is_useless_ = fine_is_wrong && this->wrong_volume_;
     if (is_finished())
     {
@@ -255,8 +255,8 @@ Status CdtTets::try_switches(const Perturbation& move, const MesherData& refined
   return status;
 }
 
-/// Compute tets in a box around the region. They are small enough to resolve the boundary of the
-/// region in the openings between triangles.
+/// Compute tets in a box around the region. The tets are small enough to resolve the boundary of
+/// the region in the openings between triangles.
 Status CdtTets::try_fine_tets(const Perturbation& move, const MesherData& refined)
 {
   this->wrong_volume_ = false;
@@ -266,7 +266,8 @@ Status CdtTets::try_fine_tets(const Perturbation& move, const MesherData& refine
   }
   const double box = bounding_box(refined.points).size().prod();
   constexpr double tets_inside = 400.0;
-  // Maximum number of tets in the box, before TetGen grades them.
+  // Maximum number of tets in the box if every tet had the maximum volume. TetGen's grading creates
+  // additional tets.
   constexpr double maximum_tets = 2e4;
   const double bound = std::max(
     std::min(this->volume_bound(), this->inside_.volume() / tets_inside), box / maximum_tets);
@@ -439,8 +440,8 @@ Status CdtTets::run_job(ExecutionContext& context, const std::vector<std::string
   request.time_limit = std::min(left, slack * seconds);
   if (arguments.front() == "refine")
   {
-    // The helper uses this limit, which is a little lower, to stop by itself and to report
-    // progress.
+    // Fraction of the job's time limit after which the helper stops by itself. The helper reports
+    // its progress relative to this time.
     constexpr double helper_time_fraction = 0.9;
     request.arguments.insert(request.arguments.end(),
       { "--time", std::to_string(helper_time_fraction * std::min(left, seconds)) });
@@ -456,8 +457,8 @@ bool CdtTets::is_final(const Status& status) const
       (this->refinement_is_useless_ || this->context_.elapsed_seconds() >= this->deadline_));
 }
 
-/// Keep the tets in which the winding number reaches the threshold. Return ok if their volume
-/// matches the region.
+/// Keep the tets that the segmentation labels as inside. Return ok if their volume matches the
+/// volume of the enclosed region.
 Status CdtTets::keep_inside(const MesherData& data)
 {
   const Phase phase(this->context_, "label", 0.9, 1.0);
@@ -602,7 +603,7 @@ Status CdtTets::swap_flat(const Points& points, Tets& tets, std::vector<TetFacet
   return {};
 }
 
-/// Take all tets inside and outside, except those that rounding has flattened.
+/// Store all tets, inside and outside, except those that rounding has flattened.
 void CdtTets::store_all_tets(
   const MesherData& data, const Eigen::VectorXd& w, const std::vector<char>& inside)
 {
@@ -632,7 +633,7 @@ Status CdtTets::complete()
   this->deadline_ = std::max(this->start_ + this->options_.time_limit, this->deadline_);
   if (this->options_.keep_outside)
   {
-    this->renumber(); // with `keep_outside`, the tets must remain as they were segmented
+    this->renumber(); // no vertices are inserted, because the segmented tets must not change
     return {};
   }
   Status status;

@@ -39,8 +39,8 @@ private:
 /// Options of method cdt; documented at TetrahedralizeOptions.
 struct CdtOptions
 {
-  /// Options of the segmentation. They are used for open surfaces only, because a closed surface
-  /// has integer winding numbers.
+  /// Options of the segmentation. For closed surfaces, only the threshold is used, because all
+  /// winding numbers are integers.
   SegmentationOptions segmentation;
   double time_limit = 120.0;
   Index memory_limit = 0;
@@ -54,10 +54,9 @@ struct CdtOptions
 /// contains both volumes.
 Status wrong_volume_error(double volume, const EnclosedRegion& inside);
 
-/// Constrained Delaunay tets of the convex hull of a surface, reduced to the tets in which the
-/// winding number reaches the threshold. TetGen computes them in the helper executable
-/// bindpose-mesher. This class implements all attempts of method cdt. Call build() first, then
-/// complete().
+/// Constrained Delaunay tets of the convex hull of a surface, reduced to the tets that the
+/// segmentation labels as inside. The helper executable bindpose-mesher runs TetGen. This class
+/// implements all attempts of method cdt. Call build() first, then complete().
 class CdtTets
 {
 public:
@@ -72,8 +71,8 @@ public:
   /// Return the volume of the tets inside.
   double volume() const { return this->volume_; }
   /// Insert vertices inside (first at the points of handles), improve flat tets, and renumber the
-  /// vertices so that the input's vertices come first. The only failure is canceled; any other
-  /// problem becomes a warning.
+  /// vertices so that the input's vertices come first. Return ok or the status `canceled`; other
+  /// problems become warnings.
   Status complete();
 
   TetMesh& mesh() { return this->mesh_; }
@@ -149,7 +148,7 @@ private:
   Eigen::VectorXd winding_numbers_;
   std::vector<char> is_inside_;
   std::vector<Index> mesh_original_;
-  std::vector<Index> handle_vertices_; ///< vertices at the points of the handles that are inside
+  std::vector<Index> handle_vertices_; ///< vertices at the handle points inside the tets
   double misfit_ = std::numeric_limits<double>::infinity();
   double volume_ = 0.0;
   std::vector<std::string> warnings_;

@@ -1,4 +1,4 @@
-// Vertices inside the tets of method cdt. Weights can vary inside a volume only if the tets have
+// Inner vertices for the tets of method cdt. Weights can vary inside a volume only if the tets have
 // vertices there. The points of an octree that becomes coarser away from the boundary
 // (inner_points.h) are inserted as vertices (tet_insertion.h). Then flat tets are improved
 // (tet_improvement.h). The boundary changes only where long edges are split (find_positions) and
@@ -218,10 +218,10 @@ Status CdtTets::prepare_interior(double longest, FillState& inside)
   return inside.interior.build(this->context_, points, boundary);
 }
 
-/// Return the points of the handles that are inside, and samples of the handles' segments and
-/// triangles. Samples keep some distance from the boundary, because the boundary has enough
-/// vertices, and tets between a sample and the boundary would be flat. Other positions near the
-/// returned points are removed.
+/// Return the handle points that are inside, and samples of the handles' segments and triangles.
+/// Samples keep some distance from the boundary, because the boundary has enough vertices, and tets
+/// between a sample and the boundary would be flat. Positions in `inside` that are near a returned
+/// point are removed.
 Points CdtTets::positions_on_handles(FillState& inside) const
 {
   // Minimum distance of samples from the boundary, in units of the local edge length.

@@ -12,15 +12,13 @@ namespace bindpose
 
 namespace
 {
-/// Return the cosine of the angle above which an edge is sharp. The same angle is used for the turn
-/// between two crease edges.
 double cosine(double degrees)
 {
   return std::cos(degrees / 57.295779513082320877);
 }
 
-/// Report whether the triangle bounds the region at one of its edges. The test point is near the
-/// middle of the edge, inside the triangle.
+/// Report whether a triangle bounds the region at the edge that `side` specifies. The test point is
+/// near the middle of the edge, inside the triangle.
 bool is_boundary_side(const RegionBoundary& region, const TriangleSide& side)
 {
   const Vec3 middle = 0.5 *

@@ -11,7 +11,7 @@ namespace bindpose
 struct CreasePoints
 {
   std::vector<Index> corners; ///< input vertices at which creases end, branch or change direction
-  std::vector<Index> vertices; ///< input vertices on creases that are not corners
+  std::vector<Index> vertices; ///< input vertices on creases, except corners
   /// Evenly spaced points on crease edges that are longer than the sizing field allows.
   Points edge_points;
 };

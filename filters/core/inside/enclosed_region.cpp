@@ -1,8 +1,8 @@
 // Volume of the region that a surface encloses, and winding numbers of the tets in it.
 //
-// The winding number of the whole surface determines the region. If the surface is closed, the
-// winding number is the same integer in each region between its triangles. One point per region,
-// far from the triangles, is then enough. If the surface is open, every tet is evaluated.
+// The winding number of the whole surface determines the region. The triangles of a closed surface
+// separate cells of space, and the winding number is a constant integer in each cell. One point per
+// cell, far from the triangles, is then enough. If the surface is open, every tet is evaluated.
 #include "inside/enclosed_region.h"
 
 #include "base/number_text.h"
@@ -161,8 +161,9 @@ Status EnclosedRegion::check_not_specks(const RepairedSurface& surface) const
   constexpr Index minimum_triangles = 10000;
   // minimum fraction of the triangle sides that are boundary edges
   constexpr double minimum_boundary_fraction = 0.9;
-  constexpr double maximum_fraction = 1e-3; // maximum volume, as a fraction of the box volume
-  // Maximum thickness, relative to the mean size of a triangle.
+  // Maximum volume of the enclosed region, as a fraction of the volume of the box.
+  constexpr double maximum_fraction = 1e-3;
+  // Maximum mean thickness of the enclosed region, relative to the mean size of a triangle.
   constexpr double largest_thickness = 0.1;
   const Index count = surface.triangles.rows();
   const double fraction = this->volume_ / this->box_.size().prod();
@@ -201,8 +202,8 @@ Status EnclosedRegion::label(ExecutionContext& context, const MesherData& data, 
   return status;
 }
 
-/// Compute the winding numbers of the tets of a closed surface: the value is constant in a region
-/// between triangles.
+/// Compute the winding numbers of the tets of a closed surface. One value is evaluated per group of
+/// tets that no triangle separates (`data.regions`), because the winding number is constant there.
 Status EnclosedRegion::label_regions(
   ExecutionContext& context, const MesherData& data, Eigen::VectorXd& w) const
 {

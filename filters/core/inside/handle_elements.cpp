@@ -1,6 +1,6 @@
-// Samples of handles at a local edge length. A line is divided into segments of equal length
-// relative to the local edge length. A triangle is bisected at its longest edge until that edge is
-// short enough; the samples are the midpoints of the bisected edges.
+// Sampling of handles at intervals of a local edge length. A line is divided into segments of equal
+// length relative to the local edge length. A triangle is bisected at its longest edge until that
+// edge is short enough; the samples are the midpoints of the bisected edges.
 #include "inside/handle_elements.h"
 
 #include "geometry/line_pieces.h"

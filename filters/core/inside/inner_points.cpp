@@ -38,7 +38,8 @@ public:
   PointLattice(ExecutionContext& context, const Interior& interior, const SizingField& sizes)
     : interior_(interior), sizes_(sizes), context_(context)
   {
-    // The side of the root is a power of two times the side of the largest cells allowed.
+    // The side of the root is the side of the largest cells allowed, doubled until the root covers
+    // the box. If one such cell covers the box, the side of the root is that of the box.
     const Box& box = interior.box();
     const double side = box.size().maxCoeff();
     double root_size = largest_cell * sizes.largest();
@@ -267,7 +268,7 @@ double Interior::estimate_layer_cells(const SizingField& sizes) const
     const double size = sizes.at((a + b + c) / 3.0);
     sum += 0.5 * (b - a).cross(c - a).norm() / (size * size);
   }
-  // Growth rates below this have little effect on the number of cells in the layer.
+  // Growth rates below this have little effect on the number of cells near the surface.
   constexpr double least_growth = 0.1;
   return sum * static_cast<double>(step) / (2.0 * std::max(sizes.growth(), least_growth));
 }

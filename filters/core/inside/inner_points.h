@@ -41,8 +41,8 @@ private:
 /// `sizes`, and their distance from the surface is at least about half of this length. The points
 /// are corners and centers of the cells of an octree, whose Delaunay tets are well shaped. If there
 /// are more than `maximum_count` points, the edge lengths are increased, by a scale and by a higher
-/// growth rate, until there are about `maximum_count` points. Cost: some microseconds per cell, for
-/// two or three attempts.
+/// growth rate, until there are about `maximum_count` points. Cost: some microseconds per cell in
+/// each attempt; there are typically two or three attempts.
 /// @return false if canceled.
 bool inner_points(ExecutionContext& context, const Interior& interior, SizingField& sizes,
   Index maximum_count, Points& inner);

@@ -1,10 +1,10 @@
 // Isosurface stuffing of a body-centered cubic lattice (Labelle and Shewchuk 2007).
 //
-// The ids of lattice vertices are the corners first (x fastest), then the centers. All loops run in
+// Lattice vertices are numbered: the corners first (x fastest), then the centers. All loops run in
 // the order of the ids, so results are the same for any number of threads.
 //
 // Stuffing:
-// 1. Label lattice vertices inside + and the others -.
+// 1. Label each lattice vertex + if it is inside, else -.
 // 2. Find the cut point of each edge between + and - by bisection. Winding numbers jump at the
 //    surface, so no faster method is safe.
 // 3. If a cut point is nearer to a vertex than alpha times the edge length, move the vertex to the
@@ -291,7 +291,7 @@ private:
     return 0.5 * (lower + upper);
   }
 
-  /// Move each vertex that has a cut point within the snapping distance to the nearest cut point.
+  /// Move each vertex to its nearest cut point, if the cut point is within the snapping distance.
   void snap()
   {
     struct EdgeEnd
@@ -430,16 +430,17 @@ private:
   }
 
   /// Fill the inside of a tet with two + vertices a, b and two - vertices c, d: a prism with the
-  /// ends (a, ac, ad) and (b, bc, bd). Its face (ac, ad, bd, bc) is on the boundary, so its
-  /// diagonal can be chosen: the one with the better angle.
+  /// ends (a, ac, ad) and (b, bc, bd). The prism's face (ac, ad, bd, bc) is on the boundary, so no
+  /// other tet determines its diagonal. The diagonal that maximizes the smallest dihedral angle is
+  /// used.
   void fill_wedge(Index a, Index b, Index c, Index d, std::vector<Tet>& out) const
   {
     std::vector<Tet> best;
     double best_angle = -1.0;
     for (const bool free_at_first : { true, false })
     {
-      // Sides of the prism: (a, b | ac, bc), then (ac, bc | ad, bd) with the diagonal that can be
-      // chosen, then (ad, bd | a, b).
+      // The quadrilaterals of the prism are (a, b, bc, ac), (ac, bc, bd, ad) and (ad, bd, b, a).
+      // Either diagonal of the second one is allowed.
       std::vector<Tet> tets;
       const std::array<Index, 3> top{ a, this->cut_vertex(a, c), this->cut_vertex(a, d) };
       const std::array<Index, 3> bottom{ b, this->cut_vertex(b, c), this->cut_vertex(b, d) };

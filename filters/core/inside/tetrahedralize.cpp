@@ -4,8 +4,8 @@
 // (remesh_tets.h). If the refinement fails, a lattice is cut (lattice_tets.h) and made finer while
 // its volume is wrong. The volume of the tets is compared with the volume of {w >= threshold}. If
 // no attempt has the right volume, the tets with the smallest misfit are used, with a warning. The
-// methods embed (embedding_tets.h), wrap (wrap_surface.h, filled as
-// in cdt) and ftetwild (ftetwild_process.h) are not part of this sequence.
+// methods embed (embedding_tets.h), wrap (wrap_surface.h) and ftetwild (ftetwild_process.h) are not
+// part of this sequence. Method wrap fills its closed surface with tets in the same way as cdt.
 #include "inside/tetrahedralize.h"
 
 #include "base/number_text.h"
@@ -38,8 +38,8 @@ namespace
 /// Fraction of the work of method cdt for CdtTets::build(); the rest is for complete().
 constexpr double cdt_build_end = 0.45;
 
-/// Return the failure status if neither cdt nor remesh succeeds. The message recommends method
-/// embed for every reason.
+/// Return the status with which method automatic fails. Whatever the cause, the message recommends
+/// method embed. A canceled status is returned unchanged.
 Status recommend_embedding(Status status)
 {
   if (status.code == StatusCode::canceled)
@@ -275,7 +275,7 @@ private:
   }
 
   /// Run another attempt. Keep the tets of this attempt only if their smallest dihedral angle is
-  /// larger than that of the present tets.
+  /// larger than that of the current tets.
   /// @return ok or canceled.
   template <typename Attempt>
   Status keep_if_better(const Attempt& attempt)
@@ -298,8 +298,8 @@ private:
     return {};
   }
 
-  /// Replace the tets of cdt by those of remesh if the latter have the larger smallest dihedral
-  /// angle.
+  /// Run method remesh. Replace the tets of cdt by the new tets if this increases the smallest
+  /// dihedral angle.
   Status improve_cdt_by_remesh()
   {
     const double angle = this->angle();
@@ -471,8 +471,9 @@ private:
     return {};
   }
 
-  /// Embed the points and triangles of the input itself, so that the tets contain every input
-  /// point. The orientation of the triangles affects only the winding number.
+  /// Embed the input instead of the repaired surface, so that the tets contain every input point.
+  /// Unrepaired orientations do no harm, because the winding number is that of the repaired
+  /// surface.
   Status embed()
   {
     const double start = this->context_.elapsed_seconds();
@@ -667,7 +668,7 @@ private:
     const TetMesh& mesh = this->result_.mesh;
     Status status;
     const bool embedded = this->options_.method == TetMethod::embed;
-    // All other methods have already checked their tets.
+    // In all other cases, the tets were already checked when they were created.
     if (embedded || this->options_.keep_outside)
     {
       status = check_tets(mesh.points, mesh.tets, embedded);
@@ -769,7 +770,8 @@ private:
 
   /// Largest misfit of a usable result: a factor of two in volume.
   static constexpr double maximum_misfit = 0.6931471805599453;
-  /// The winding number of a wrap is 1 inside, for every surface.
+  /// Threshold for the interior of a wrap. It does not depend on the options, because a wrap of any
+  /// surface has the winding number 1 inside.
   static constexpr double wrap_threshold = 0.5;
 
   PointsView points_;

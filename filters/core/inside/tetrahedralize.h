@@ -19,8 +19,8 @@ namespace bindpose
 enum class TetMethod
 {
   automatic, ///< method cdt and, if it fails, method remesh
-  /// Constrained Delaunay tets of the convex hull, reduced to the tets in which the winding number
-  /// reaches the threshold.
+  /// Constrained Delaunay tets of the convex hull, reduced to the tets that the segmentation labels
+  /// as inside.
   cdt,
   remesh, ///< well-shaped, graded tets of the region that the winding number defines
   embed, ///< lattice tets that contain the surface; separate parts share no vertex
@@ -45,8 +45,8 @@ struct TetrahedralizeOptions
   /// two sides of the surface. With values up to 0.9, the boundary in openings moves inwards. With
   /// 1.5, the result is the volume that is enclosed twice.
   double winding_threshold = 0.5;
-  /// Used by cdt for open surfaces only: see SegmentationOptions. (The winding numbers of a closed
-  /// surface are integers between its triangles, so both segmentations are equal.)
+  /// Used by cdt for open surfaces only: see SegmentationOptions. (All winding numbers of a closed
+  /// surface are integers, so both methods give the same labels.)
   SegmentationMethod segmentation = SegmentationMethod::graph_cut;
   double cut_smoothness = 1.0; ///< >= 0
   double cut_sigma = 0.1; ///< > 0
@@ -77,8 +77,8 @@ struct TetrahedralizeOptions
   /// are split. Smooth weights need vertices inside, in addition to those on the surface. For
   /// ftetwild, `interior_edge` is the target edge length everywhere; 0: fTetWild's default 0.05.
   double interior_edge = 0.0;
-  /// For cdt only: keep all segmented tets of the surface's convex hull (or of a box around it, if
-  /// that was necessary). See TetrahedralizeResult::labels for the tets that are inside. No
+  /// For cdt only: keep all segmented tets of the surface's convex hull (or of a larger box, if
+  /// TetGen filled a box). See TetrahedralizeResult::labels for the tets that are inside. No
   /// vertices are added, not even for handles.
   bool keep_outside = false;
   /// For wrap only, in bounding-box diagonals: radius of the carving ball (0.0001 … 1) and distance

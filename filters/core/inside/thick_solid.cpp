@@ -20,8 +20,8 @@ namespace
 /// about `triangles` triangles.
 Index resolution_for(const Box& box, double area, Index triangles)
 {
-  // Isosurface stuffing creates 3.8 triangles per surface area of one cube face, measured on a
-  // sphere.
+  // Number of triangles that isosurface stuffing creates per unit of surface area. The unit is the
+  // area of a cube face. The value was measured on a sphere.
   constexpr double triangles_per_face = 3.8;
   constexpr double minimum_resolution = 16.0;
   constexpr double maximum_resolution = 400.0;
@@ -40,9 +40,9 @@ Index resolution_for(const Box& box, double area, Index triangles)
   return static_cast<Index>(std::lround(std::max(resolution, minimum_resolution)));
 }
 
-/// Return the triangles that are too far from the lattice vertices inside. The test points of a
-/// triangle are at most half a cube apart. A triangle is returned if the cube around one of its
-/// test points has no vertex inside.
+/// Return the triangles that are too far from the lattice vertices flagged in `inside`. The test
+/// points of a triangle are at most half a cube apart. A triangle is returned if, for one of its
+/// test points, neither the center nor a corner of the cube around the point is flagged.
 Triangles missed_triangles(PointsView points, TrianglesView triangles, const Lattice& lattice,
   const std::vector<char>& inside)
 {

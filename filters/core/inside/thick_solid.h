@@ -18,7 +18,7 @@ struct ThickSolidOptions
   /// Approximate number of triangles of the result, 100 … 10000000. The edges of the triangles are
   /// about as long as a lattice cube. Gaps narrower than 1.2 edge lengths are closed.
   Index triangles = 20000;
-  /// If true, the layer is added around all triangles, instead of only the triangles that the
+  /// If true, a layer of 0.6 cubes is added around all triangles, not only around those that the
   /// lattice would miss. Parts that touch or are nearer to each other than 1.2 cubes are joined.
   bool join_near_parts = false;
 };

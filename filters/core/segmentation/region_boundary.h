@@ -11,9 +11,9 @@ namespace bindpose
 {
 
 /// The region {winding number >= threshold} in the surface's box, and the parts of the surface that
-/// bound it. Triangles that have the region on both sides or on neither side do not bound it, for
-/// example the parts of crossing solids that are inside each other. All functions are thread-safe.
-/// The surface and the winding number must outlive this object.
+/// bound the region. A triangle does not bound the region if the region is on both sides of the
+/// triangle or on neither side, for example if the triangle is inside another solid. All functions
+/// are thread-safe. The surface and the winding number must outlive this object.
 class RegionBoundary
 {
 public:
@@ -22,8 +22,8 @@ public:
 
   const Box& box() const { return this->box_; }
   bool contains(const Vec3& p) const;
-  /// Report whether the triangles alone bound the region, because the surface is closed and all
-  /// winding numbers are integers.
+  /// Report whether the surface is closed. If so, all winding numbers are integers, and only
+  /// triangles bound the region.
   bool closed() const { return this->closed_; }
   /// Report whether the region is on exactly one side of triangle f at p, a point of the triangle.
   /// The test evaluates points 1e-6 of the diagonal in front of p and behind it.

@@ -42,12 +42,14 @@ constexpr PlaneConstants make_plane_constants()
 }
 constexpr PlaneConstants plane_constants = make_plane_constants();
 
-/// Number of coefficients of a polynomial of this order, padded with zeros to whole lanes.
+/// Number of coefficients of a polynomial of this order, rounded up to a multiple of
+/// polynomial_lanes.
 template <int Order>
 constexpr int padded_count = (Order / polynomial_lanes + 1) * polynomial_lanes;
 
-/// Add the products with the harmonics (L + 2Q, L), (L + 2Q + 2, L) … to the polynomial. r and i
-/// are the real and imaginary parts of zeta^L |zeta|^2Q, and rho2 is |zeta|^2.
+/// Add the products of the coefficients in `row` and the harmonics (L + 2Q, L), (L + 2Q + 2, L) …
+/// to the polynomial. r and i are the real and imaginary parts of zeta^L |zeta|^2Q, and rho2 is
+/// |zeta|^2, where zeta = y + iz.
 template <int Order, int L, int Q, typename Real>
 BINDPOSE_ALWAYS_INLINE void add_terms(const Real* row, Real r, Real i, Real rho2, Real* polynomial)
 {
@@ -68,8 +70,8 @@ BINDPOSE_ALWAYS_INLINE void add_terms(const Real* row, Real r, Real i, Real rho2
   }
 }
 
-/// Add the products of the rows L … Order of coefficients with their harmonics. re and im are the
-/// real and imaginary parts of zeta^L.
+/// Multiply the rows L … Order of coefficients by their harmonics and add the products to the
+/// polynomial. re and im are the real and imaginary parts of zeta^L, where zeta = y + iz.
 template <int Order, int L, typename Real>
 BINDPOSE_ALWAYS_INLINE void add_rows(
   const Real* row, Real re, Real im, Real y, Real z, Real* polynomial)
@@ -144,8 +146,8 @@ std::array<double, 2> slopes(int order, const Real* coefficients, const Vec3& lo
   const double rho2 = y * y + z * z;
   std::array<double, 2> sums{ 0.0, 0.0 };
   const Real* row = coefficients;
-  double re = 1.0, im = 0.0; // zeta^l
-  double below_re = 0.0, below_im = 0.0; // l zeta^(l-1)
+  double re = 1.0, im = 0.0; // zeta^l, where zeta = y + iz
+  double below_re = 0.0, below_im = 0.0; // d/d(zeta) zeta^l = l zeta^(l-1)
   for (int l = 0; l <= order; ++l)
   {
     const int size = order - l + 1;

@@ -79,7 +79,8 @@ bool touches_triangle(
   {
     return true;
   }
-  // The point is not near an edge, so round-off does not decide whether its projection is inside.
+  // The point is not near an edge, so round-off does not decide whether the projection of the point
+  // is inside the triangle.
   const Vec3 normal = (b - a).cross(c - a);
   if (normal.dot(a.cross(b)) <= 0.0 || normal.dot(b.cross(c)) <= 0.0 ||
     normal.dot(c.cross(a)) <= 0.0)
@@ -114,7 +115,8 @@ double SolidAngleSum::near_half_angle(const Vec3& a0, const Vec3& b0, const Vec3
     this->on_surface_ = true;
     return 0.0;
   }
-  // Begin with the corner whose two opposite corners appear closest to each other from the point.
+  // Use as first corner the one for which, seen from the point, the directions to the other two
+  // corners form the smallest angle.
   std::array<Vec3, 3> corners{ a0, b0, c0 };
   std::array<Vec3, 3> directions;
   for (int k = 0; k < 3; ++k)

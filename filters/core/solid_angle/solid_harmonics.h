@@ -44,9 +44,9 @@ void regular_harmonics(int order, const HarmonicLanes (&position)[3], Harmonics&
 /// Compute the irregular (decaying) harmonics; `position` must not be 0.
 void irregular_harmonics(int order, const HarmonicLanes (&position)[3], Harmonics& out);
 
-/// Add to `out` the integral of the derivative of the regular harmonics along a normal. `value` is
-/// the integral of the regular harmonics. The coefficients out(n, m) of degrees n = 1 … order are
-/// computed from value(n - 1, .).
+/// Add the derivatives of the regular harmonics along the vector `normal` to `out`. `value` must
+/// contain the regular harmonics, or integrals of them to get integrals of the derivatives. The
+/// coefficients out(n, m) of degrees n = 1 … order are computed from value(n - 1, .).
 void regular_derivative(
   int order, const Harmonics& value, const HarmonicLanes (&normal)[3], Harmonics& out);
 
@@ -55,9 +55,9 @@ void regular_derivative(
 void multipole_to_multipole(int order, const Harmonics& shift, const Harmonics& in, Harmonics& out);
 
 /// Add to `out` the local expansion of degrees 0 … order - 1 of the multipoles `in` of degrees 1 …
-/// order. Only products of total degree <= order are included, so that the omitted terms begin at
-/// the same total degree. `from` contains the irregular harmonics of (local center - multipole
-/// center).
+/// order. Products of total degree > order are omitted, because other terms of these degrees are
+/// missing, too: those of multipoles above `order`. `from` contains the irregular harmonics of
+/// (local center - multipole center).
 void multipole_to_local(int order, const Harmonics& from, const Harmonics& in, Harmonics& out);
 
 /// Set `out` to the local expansion `in` of degrees 0 … order, moved to another center. `shift`

@@ -25,9 +25,11 @@ template <>
 struct Precision<float>
 {
   using Flag = std::int32_t;
-  /// Smallest accepted size of the complex number, relative to |a||b||c|.
+  /// Smallest accepted magnitude, relative to |a||b||c|, of the complex number whose angle is half
+  /// the solid angle.
   static constexpr float smallest_magnitude = 1e-2f;
-  /// Smallest accepted volume() relative to |a||b||c|, a measure of the distance from the plane.
+  /// Smallest accepted volume() relative to |a||b||c|. This ratio measures the distance of the
+  /// point from the plane of the triangle.
   static constexpr float smallest_volume = 1e-4f;
   /// Smallest accepted squared distance of a vertex from the point, relative to the squared block
   /// size.

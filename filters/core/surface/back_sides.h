@@ -13,7 +13,7 @@ namespace bindpose
 /// everywhere, even inside.
 ///
 /// A triangle is canceling if it occurs equally often in both orientations. Edges with exactly two
-/// canceling triangles connect these triangles to patches. A patch is closed if the norm of the sum
+/// canceling triangles join these triangles into patches. A patch is closed if the norm of the sum
 /// of its area vectors is at most a quarter of its area. In a closed patch, one outward-facing copy
 /// of each triangle is kept; all other copies are back sides. Flat patches, like leaves, enclose
 /// nothing and are not changed. Cost: O(n log n).

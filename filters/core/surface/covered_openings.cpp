@@ -1,5 +1,5 @@
-// Openings whose boundary lies on other parts (see covered_openings.h). The nearest triangle of
-// another part is found in a tree of boxes.
+// Search for openings whose boundary lies on other parts of the surface (see covered_openings.h).
+// The nearest triangle of another part is found in a tree of boxes.
 #include "surface/covered_openings.h"
 
 #include "base/constants.h"
@@ -28,11 +28,11 @@ struct BoundaryEdge
 /// the opening's bounding box.
 constexpr double maximum_gap = 1.0 / 50.0;
 
-/// The link at a sample of a boundary edge.
+/// A connecting line from a sample of a boundary edge to the nearest point on another part.
 struct SampleLink
 {
   Index edge; ///< index of the boundary edge
-  double distance; ///< from the nearest other part; infinite: no other part is near, no link
+  double distance; ///< length of the line; infinite: no other part is near, and `link` is unset
   PartLink link;
 };
 
@@ -110,8 +110,8 @@ public:
     {
       openings.unite(edge.a, edge.b);
     }
-    // One entry per opening, at its smallest vertex: bounding box, and largest distance of a sample
-    // from the other parts. The distances of other vertices are negative.
+    // Bounding box of each opening, and largest distance of its samples from the other parts. Both
+    // are stored at one vertex per opening. The distances at all other vertices are negative.
     std::vector<Box> boxes(static_cast<std::size_t>(this->points_.rows()));
     std::vector<double> distances(boxes.size(), -1.0);
     for (const BoundaryEdge& edge : boundary)
@@ -142,7 +142,8 @@ public:
   }
 
 private:
-  /// Test the samples of a boundary edge, up to the first sample without another part nearby.
+  /// Compute the links at the samples of a boundary edge. End at the first sample that has no other
+  /// part within `touch_distance`.
   void link_edge(Index index, const BoundaryEdge& edge, std::vector<SampleLink>& list) const
   {
     const Vec3 a = this->points_.row(edge.a), b = this->points_.row(edge.b);
@@ -162,8 +163,8 @@ private:
     }
   }
 
-  /// Link a point of a triangle to the nearest point on another part. Return the distance; infinite
-  /// if all other parts are farther away than `touch_distance`.
+  /// Connect a point of a triangle to the nearest point on another part. Return the distance of the
+  /// two points, or infinity if all other parts are farther away than `touch_distance`.
   double link_point(Index triangle, const Vec3& position, PartLink& link) const
   {
     double limit = this->options_.touch_distance;
@@ -205,7 +206,7 @@ private:
     return link.triangles[1] >= 0 ? limit : infinite;
   }
 
-  static constexpr double maximum_steps = 1000.0; ///< per edge
+  static constexpr double maximum_steps = 1000.0; ///< number of sample intervals per edge
 
   PointsView points_;
   TrianglesView triangles_;

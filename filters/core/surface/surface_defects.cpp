@@ -1,6 +1,6 @@
 // List defects in terms of the input's ids (see surface_defects.h). The repaired surface contains
-// maps between the two sets of ids. Edges are examined with the input's orientation, because repair
-// may have flipped triangles.
+// maps between its own ids and those of the input. Edges are examined with the input's orientation,
+// because repair may have flipped triangles.
 #include "surface/surface_defects.h"
 
 #include <algorithm>

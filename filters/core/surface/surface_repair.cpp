@@ -157,8 +157,8 @@ std::vector<Shell> find_shells(
 {
   const std::vector<TriangleSide> sides = sides_by_edge(triangles);
   const std::vector<Index> patch = patches_of(sides, triangles.rows());
-  // For every group (patch or shell), test whether the directions of its triangles cancel at every
-  // edge.
+  // Test whether each group (a patch or shell) is closed: at every edge, equally many triangles of
+  // the group use the edge in both directions.
   const auto close = [&](const auto& group_of, std::vector<char>& closed)
   {
     std::vector<std::pair<Index, int>> directions;

@@ -32,7 +32,7 @@ struct SurfaceDiagnosis
   Index inward_components = 0;
   /// Number of pairs of triangles that intersect outside of their shared vertices and edges.
   Index self_intersections = 0;
-  Index crossing_triangles = 0; ///< number of triangles in these pairs
+  Index crossing_triangles = 0; ///< number of triangles in the pairs of self_intersections
   /// True if, at every edge, equally many triangles use the edge in both directions. Winding
   /// numbers are then integers.
   bool closed = false;
@@ -65,7 +65,7 @@ struct RepairedSurface
   Triangles triangles;
   std::vector<Index> original_vertices; ///< #V: the lowest input id of the welded vertices
   std::vector<Index> original_triangles; ///< #F: input ids of the triangles
-  /// #V of the input: the lowest id of the input vertices welded with this one, usually its own id.
+  /// Per input vertex: lowest id of the input vertices that are welded with it, usually its own id.
   std::vector<Index> representative_of_vertex;
   /// Pairs (triangle, component) for all triangles of closed components that are inside out,
   /// ascending. Components are numbered from 0 to found.inward_components - 1.

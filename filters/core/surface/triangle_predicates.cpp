@@ -94,7 +94,8 @@ bool segment_meets_triangle_in_plane(
     segments_meet_in_plane(p, q, c, a, axis);
 }
 
-/// Test a segment and a triangle, projected along an axis for which the triangle has an area.
+/// Report whether a segment and a triangle have a common point. If they are coplanar, they are
+/// projected along `axis`. The projection of the triangle must have an area.
 bool segment_meets_triangle(
   const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c, int axis)
 {

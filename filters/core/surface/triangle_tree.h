@@ -21,8 +21,8 @@ public:
 
   /// Return the distance from p to the surface if it is at most `limit`, else infinity.
   /// Thread-safe.
-  /// @param nearest  if not null, set to the nearest point on the surface if the distance is at
-  /// most `limit`
+  /// @param nearest  if not null, set to the nearest point on the surface; unchanged if the
+  /// distance is above `limit`
   double distance(const Vec3& p, double limit, Vec3* nearest = nullptr) const;
 
   /// Report whether the segment from a to b intersects a triangle for which accept() returns true.

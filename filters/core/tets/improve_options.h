@@ -27,7 +27,7 @@ struct ImproveOptions
   bool insert = false;
   double insert_angle = 8.0; ///< degrees
   /// A step may reduce the smallest angle of the tets that it touches to this fraction (0 … 1) of
-  /// the angle, if the step improves enough other tets. 1: no step may reduce the angle.
+  /// its old value, if the step improves enough other tets. 1: no step may reduce the angle.
   double slack = 1.0;
   /// Approximate maximum number of computed tet qualities per tet; each takes 40 ns. The total is
   /// at most 25 million plus 400 per tet.

@@ -148,7 +148,7 @@ bool CavitySearch::shrink(const Vec3& p, Index start, double minimum_quality)
   return true;
 }
 
-/// Collect the tets of the cavity that are connected to the start.
+/// Collect the tets of the cavity that are connected to the tet `start`.
 void CavitySearch::collect_connected(Index start, TetCavity& cavity)
 {
   const Index reached_mark = -this->searches_;

@@ -14,8 +14,8 @@
 namespace bindpose
 {
 
-/// Tets that will be replaced by tets from a new vertex, and the facets that bound them. A facet is
-/// oriented such that (facet, point) is a positive tet if the point is inside the cavity.
+/// Tets that a new vertex will replace, and the facets that bound these tets. A facet is oriented
+/// such that (facet, point) is a positive tet if the point is inside the cavity.
 struct TetCavity
 {
   std::vector<Index> tets;

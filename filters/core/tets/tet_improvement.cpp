@@ -2,8 +2,9 @@
 //
 // Each pass visits the tets that are too flat, worst first. A tet is visited again only if the tets
 // at one of its vertices have changed. Steps for up to 64 tets are searched in parallel while the
-// mesh does not change. Then they are applied in order. A step is searched again if an earlier step
-// changed a tet that it uses. The result does not depend on the number of threads.
+// mesh does not change. Then they are applied in order. If an earlier step has changed a tet that a
+// later step uses, the later step is searched again. The result does not depend on the number of
+// threads.
 //
 // In the last passes, held (constrained) vertices of tets that are still too flat may move, unless
 // release_angle is 0. Tets that are still too flat after these passes and have no neighbor are
@@ -291,7 +292,8 @@ private:
     return last;
   }
 
-  /// Report whether a vertex of the tet has changed since the last search for the tet.
+  /// Report whether a vertex of the tet has changed since the last search for a step that improves
+  /// the tet.
   bool changed(Index t) const
   {
     return t >= static_cast<Index>(this->last_search_.size()) ||
@@ -349,7 +351,7 @@ private:
   double maximum_evaluations_ = 0.0;
   Index evaluations_ = 0;
   std::vector<char> moved_;
-  /// Per tet: the change counter of the mesh at the last search for the tet.
+  /// Per tet: the change counter of the mesh at the last search for a step that improves the tet.
   std::vector<std::uint64_t> last_search_;
   std::vector<Index> reserving_batch_; ///< per vertex: the last batch that reserved it
   Index batch_ = 0;

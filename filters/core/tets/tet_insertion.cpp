@@ -98,8 +98,8 @@ std::vector<Index> order_of_insertion(const std::vector<std::int32_t>& spatial_o
 }
 
 /// Return the fraction of the total work for the first `done` of `count` positions. About half of
-/// the work is the same for every round, because the few vertices of the first rounds have large
-/// cavities.
+/// the work is spread evenly over the positions. The other half is spread evenly over the rounds,
+/// because the few vertices of the first rounds have large cavities.
 double insertion_progress(std::size_t done, std::size_t count)
 {
   const auto rounds = [](std::size_t positions)
@@ -139,7 +139,7 @@ public:
       });
   }
 
-  /// Return the tet that contains p, the position with index i, or -1 if no tet is found.
+  /// Return the tet that contains p, or -1 if no tet is found. i: index of the position p.
   /// Thread-safe.
   Index find(Index i, const Vec3& p) const
   {
@@ -165,7 +165,7 @@ public:
         }
       }
     }
-    // because of rounding, the tet may be a neighbor of the right one
+    // Because of rounding, p may be in a neighbor of the tet.
     return this->walk(t, p, short_walk_steps);
   }
 
@@ -233,7 +233,8 @@ private:
   }
 
   /// Walk to p, starting at a tet of the vertex for which the tets of `range` were created. The
-  /// straight line from that vertex to p was inside the cavity.
+  /// straight line from this vertex to p stays in the mesh, because it is inside the tets that the
+  /// vertex replaced.
   Index walk_from(const Range& range, const Vec3& p) const
   {
     const std::vector<Index>& vertex_tets =
@@ -393,7 +394,8 @@ private:
     return small_id_count + tets + tets / 2;
   }
 
-  /// Search the sites of these positions in parallel. @return false if canceled.
+  /// For each of these positions, find the tets or the edge to replace, in parallel. @return false
+  /// if canceled.
   bool find_sites(const Points& positions, const std::vector<Index>& batch)
   {
     return parallel_for(this->silent_context_, static_cast<Index>(batch.size()), per_task,
@@ -410,10 +412,10 @@ private:
       });
   }
 
-  /// Find the tets that a new vertex at p, the position with index i, would replace. The first
-  /// attempt is a cavity whose new tets have dihedral angles of at least 1 degree. The second
-  /// attempt splits an edge that contains p up to rounding (points of a bone are collinear). The
-  /// last attempt is a cavity with any positive new tets.
+  /// Find the tets or the edge that a new vertex at p would replace. i: index of the position p.
+  /// The first attempt is a cavity whose new tets have dihedral angles of at least 1 degree. The
+  /// second attempt splits an edge that contains p up to rounding (points of a bone are collinear).
+  /// The last attempt is a cavity with any positive new tets.
   void find_sites(Index i, const Vec3& p, CavitySearch& search, Site& site) const
   {
     site.kind = Site::Kind::none;
@@ -464,7 +466,8 @@ private:
     return false;
   }
 
-  /// Insert the vertex into its site. @return the new vertex, or -1 if the site is not valid.
+  /// Insert a vertex at p, which replaces the tets or splits the edge of `site`. @return the new
+  /// vertex, or -1 if the site is not valid.
   Index insert_at(const Site& site, const Vec3& p)
   {
     const Index begin = this->tets_.tet_id_limit();

@@ -130,7 +130,7 @@ bool is_blocked(
   }
   center /= perimeter;
   const double radius = normal.norm() / perimeter;
-  // Height of `top` as a fraction of the roof's height, with a margin for rounding.
+  // Height of `top` as a fraction of the pyramid's height. It is below 1 because of rounding.
   constexpr double top_height_fraction = 0.999;
   const Vec3 top =
     center - top_height_fraction * std::tan(angle / degrees) * radius * normal.normalized();
@@ -149,7 +149,8 @@ EdgeKey edge_key(Index a, Index b)
   return { std::min(a, b), std::max(a, b) };
 }
 
-/// Return the edges of the tets whose angle is below `angle`, sorted.
+/// Return the sorted edges of all tets whose smallest dihedral angle is below `angle`. `angles`
+/// contains the smallest dihedral angle of each tet.
 std::vector<EdgeKey> edges_of_flat(TetsView tets, const Eigen::VectorXd& angles, double angle)
 {
   std::vector<EdgeKey> edges;
@@ -167,7 +168,7 @@ std::vector<EdgeKey> edges_of_flat(TetsView tets, const Eigen::VectorXd& angles,
   return edges;
 }
 
-/// Evaluate is_blocked() for the triangles that have one of the edges.
+/// Evaluate is_blocked() for the boundary triangles that have an edge in `edges`.
 std::vector<char> blocked_triangles(ExecutionContext& context, PointsView points,
   const Triangles& boundary, const std::vector<EdgeKey>& edges, double angle)
 {

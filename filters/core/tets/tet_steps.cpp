@@ -382,7 +382,7 @@ bool TetStepSearch::move(Index v, TetStep& step)
   const double minimum_quality = this->minimum_quality_after(old_cost);
   double value = old_cost.sum;
   Vec3 at = start;
-  // Sort the most expensive tets first, because they exclude most directions.
+  // Visit the worst tets first, because they reject most of the new positions.
   std::stable_sort(this->star_.begin(), this->star_.end(),
     [&](Index s, Index t) { return this->tets_.quality(s) < this->tets_.quality(t); });
   constexpr double first_step = 0.3;

@@ -22,7 +22,7 @@ struct TetStep
     swap, ///< the tets `removed` are replaced by `added`
     contract, ///< a swap after which one vertex is no longer used
     move, ///< `vertex` moves to `position`
-    insert ///< the tets of `cavity` are replaced by tets from a new vertex at `position`
+    insert ///< a new vertex at `position` replaces the tets of `cavity`
   };
   Kind kind = Kind::none;
   std::vector<Index> removed;
@@ -30,7 +30,7 @@ struct TetStep
   Index vertex = -1;
   Vec3 position = Vec3::Zero();
   TetCavity cavity;
-  /// Vertices of the tet for which the search found no better position.
+  /// Vertices of the tet that the search could not move to a better position.
   std::vector<Index> immovable;
 
   void clear();

@@ -158,13 +158,14 @@ std::vector<int> postorder(const std::vector<int>& parent)
 struct BlockTree
 {
   std::vector<int> node; // index of each supernode in the whole factor
-  std::vector<int> parent; // index in this list; -1: no parent
+  std::vector<int> parent; // index of the parent in `node`; -1: no parent
 };
 
 /// Return the elimination tree of a block. If row i is in column j of the factor, each later row of
-/// column j is also in column i. So the parent of a supernode s is the supernode that contains the
-/// first row of s in the block below s. This is also correct if the parent of s in the whole factor
-/// has no column in the block.
+/// column j is also in column i. Consider the rows of a supernode s that are below its own columns
+/// and whose unknowns are in the block. The parent of s is the supernode that eliminates the first
+/// of these rows. This is also correct if the parent of s in the whole factor has no column in the
+/// block.
 /// @param in_block  whether the unknown of a step is in the block
 template <typename InBlock>
 BlockTree tree_of_block(const Analysis& analysis, const InBlock& in_block)

@@ -19,8 +19,8 @@ BINDPOSE_SIMD_CLONES void multiply(
   Index c = 0;
   for (; c + 4 <= cols; c += 4)
   {
-    // Skip groups of four rows in which x is zero. Such groups are frequent: displacements that
-    // handles in mode full prescribe are zero in the rows of all other handles.
+    // Skip groups of four rows in which x is zero. Such groups are frequent: if x contains the
+    // displacements that some handles prescribe, x is zero in the rows of all other handles.
     if (any_of_four(x + c) || any_of_four(x + cols + c) || any_of_four(x + 2 * cols + c))
     {
       add_columns<4>(rows, a + c * rows, x + c, cols, y);

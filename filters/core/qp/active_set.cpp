@@ -1,8 +1,8 @@
 // The active-set method of BoxQp (see active_set.h). The active set consists of the vertices whose
-// weight is kept at a bound. Only the block of A without these vertices is factored. The factor
-// gives exact solutions while the active set does not change. It is a good preconditioner if only
-// few vertices enter or leave this set. If projected_newton() does not converge with a factor, the
-// next factor is computed for the active set at that time.
+// weight is kept at a bound. Only the block of the matrix A (see active_set.h) without these
+// vertices is factored. The factor gives exact solutions while the active set does not change. It
+// is a good preconditioner if only few vertices enter or leave this set. If projected_newton() does
+// not converge with a factor, the next factor is computed for the active set at that time.
 #include "qp/active_set.h"
 
 #include "base/stopwatch.h"
@@ -48,7 +48,7 @@ BoxQpSolution active_set(ExecutionContext& context, const SplitForm& matrices,
   const double small_change = converged_newton_change(tolerance);
   const ColumnProblem problem(matrices, column);
   BoxQpSolution solution;
-  // The start has errors of about this size, so a vertex that is closer to a bound may be at it.
+  // Approximate error of the start. A weight within this distance of a bound may be at the bound.
   constexpr double start_error = 1e-4;
   VectorXd x = start.x;
   std::vector<char> at_bound = start.at_bound;
@@ -101,8 +101,8 @@ BoxQpSolution active_set(ExecutionContext& context, const SplitForm& matrices,
         workspace.single.solve(r, z);
         for (Index i = 0; i < r.size(); ++i)
         {
-          // Vertices that were at a bound are not in the factor. The preconditioner divides their
-          // entries by the diagonal.
+          // The factor does not contain the vertices that were at a bound when it was computed. For
+          // these vertices, the preconditioner divides the residual by the diagonal.
           z[i] = at_bound[i] ? r[i] / matrices.lower.valuePtr()[matrices.diagonal[i]] : z[i];
         }
       },

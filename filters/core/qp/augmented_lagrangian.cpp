@@ -207,8 +207,8 @@ VectorXd AugmentedLagrangian::newton_direction()
         this->workspace_.single.solve(r, z);
         for (Index i = 0; i < n; ++i)
         {
-          // Vertices that were at a bound are not in the factor. The preconditioner divides their
-          // entries by the diagonal.
+          // The factor does not contain the vertices that were at a bound when it was computed. For
+          // these vertices, the preconditioner divides the residual by the diagonal.
           z[i] = this->excluded_[i] ? r[i] / this->diagonal_[i] : z[i];
         }
       },

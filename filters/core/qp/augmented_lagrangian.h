@@ -9,9 +9,9 @@ namespace bindpose
 {
 
 /// Solve one column of bounded weights with ordered pairs by an augmented Lagrangian method. The
-/// method needs single precision (workspace.single has analyzed the pattern). Usually 5 to 20
-/// factorizations are needed, only of the block of vertices that are not at a bound. Each factor
-/// serves about ten solves. The interior-point method takes about 25 factorizations of the whole
+/// method needs single precision (workspace.single must have analyzed the pattern). Usually it
+/// computes 5 to 20 factorizations of the block of vertices that are not at a bound. Each factor is
+/// used for about ten solves. The interior-point method takes about 25 factorizations of the whole
 /// matrix, many of them in double precision.
 ///
 /// Hestenes 1969, Multiplier and gradient methods; Powell 1969, A method for nonlinear constraints

@@ -300,7 +300,7 @@ private:
       column.bounds.upper.allFinite();
   }
 
-  /// Return the start of a column with ordered pairs that splitting_start() cannot compute: the
+  /// Return a start for a column with ordered pairs if splitting_start() cannot compute one: the
   /// caller's start or the minimizer without bounds, clamped to the bounds.
   ColumnStart clamped_start(std::size_t j) const
   {

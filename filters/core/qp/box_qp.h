@@ -45,8 +45,8 @@ public:
   BoxQp& operator=(const BoxQp&) = delete;
 
   /// Analyze and factor Q once. This function must succeed before any other member function is
-  /// called. It reports progress as phase "analyze". If the memory is insufficient for these
-  /// columns, return internal_error before any factorization.
+  /// called. It reports progress as phase "analyze". If the memory is insufficient for
+  /// `columns`, return internal_error before any factorization.
   /// @param columns the columns that solve_all() will receive. If the memory does not suffice for
   /// one factor per thread, solve_all() uses fewer threads.
   Status prepare(ExecutionContext& context, const std::vector<BoxQpColumn>& columns = {});

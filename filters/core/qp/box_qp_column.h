@@ -24,11 +24,10 @@ struct BoxQpOptions
 /// One column of the weights to solve for. All columns share Q and the fixed vertices.
 struct BoxQpColumn
 {
-  Eigen::VectorXd fixed_values; ///< values at the fixed vertices, in their order
-  /// Vertices that have given values in this column only, in addition to the fixed vertices, and
-  /// these values.
+  Eigen::VectorXd fixed_values; ///< values at the fixed vertices, in the order of these vertices
+  /// Vertices that have a given value in this column only, in addition to the fixed vertices.
   std::vector<Index> pinned;
-  Eigen::VectorXd pinned_values;
+  Eigen::VectorXd pinned_values; ///< values at the pinned vertices
   /// Bounds of the vertices that are neither fixed nor pinned, [0, 1] by default. lower < upper is
   /// required, so a vertex with equal bounds must be pinned instead. Either both bounds of a vertex
   /// are finite or both are infinite.

@@ -22,17 +22,17 @@ struct BoxQpWorkspace
 /// The map r -> A^-1 r. Vectors have one entry per vertex (see certify).
 using InverseForm = std::function<Eigen::VectorXd(const Eigen::VectorXd& r)>;
 
-/// Return the largest change of a weight in one iteration that counts as converged. The certificate
-/// alone is not a sufficient criterion, because the gap is quadratic in the error of the weights.
-/// The weights of a certified iterate can differ from the minimizer by a thousand times the
-/// tolerance.
+/// Return the convergence limit for the largest change of a weight in one iteration. The
+/// certificate alone is not a sufficient criterion, because the gap is quadratic in the error of
+/// the weights. The weights of a certified iterate can differ from the minimizer by a thousand
+/// times the tolerance.
 inline double converged_change(double tolerance)
 {
   return std::max(tolerance, std::min(5.0 * tolerance, 1.5e-6));
 }
 
-/// Return the largest change of a weight in the last round of a projected Newton method that counts
-/// as converged.
+/// Return the convergence limit of a projected Newton method for the largest change of a weight in
+/// the last round.
 inline double converged_newton_change(double tolerance)
 {
   return 0.1 * converged_change(tolerance);

@@ -21,23 +21,23 @@ struct OrderedPair
 /// An optimality certificate of a column w: the residual of w, and an upper bound (the gap) on the
 /// difference between the energy of w and the minimum energy.
 ///
-/// Let g = Q w be the gradient. With ordered pairs G w >= h and their multipliers lambda >= 0, let
-/// g' = Q w - G' lambda, else g' = g. The dual of the quadratic program bounds the minimum from
+/// Let ' denote the transpose. With ordered pairs G w >= h and their multipliers lambda >= 0, let
+/// d = Q w - G' lambda, else d = Q w. The dual of the quadratic program bounds the minimum from
 /// below, so that
-///   gap = lambda' (G w - h) + sum over free vertices of max(g' (w - l), -g' (u - w))
+///   gap = lambda' (G w - h) + sum over free vertices of max(d (w - l), -d (u - w))
 /// is a rigorous bound on E(w) - min E, independent of the method that computed w and lambda.
 ///
 /// On needle-shaped elements, and for triharmonic energies, the round-off of Q w (1e-16 of Q's
 /// entries) makes this sum large even if w is optimal. A second bound is equally rigorous, but its
-/// error is only the square of the round-off. For any set R of vertices, with r = g' in R and 0
-/// elsewhere,
+/// error is only the square of the round-off. For any set R of vertices, with r = d in R and r = 0
+/// at all other vertices,
 ///   gap = lambda' (G w - h) + (the sum above over all vertices not in R) + 1/2 r' A^-1 r
 /// where A is Q's block of free vertices. If A^-1 is given, the smaller of the two bounds is used.
 /// If w has no bounds, only the second bound is finite.
 struct Certificate
 {
   double relative_gap = 0.0; ///< gap / E (see certify for E = 0)
-  /// Natural residual: max over free vertices of |w - clip(w - g' / diag Q, l, u)|.
+  /// Natural residual: max over free vertices of |w - clip(w - d / diag Q, l, u)|.
   double kkt_residual = 0.0;
   double energy = 0.0; ///< E = 1/2 w' Q w
   /// Largest w[low] + least - w[high] over the ordered pairs, at least 0.

@@ -179,7 +179,8 @@ private:
   MatrixXd rd_, rs_, rt_; // residuals
   VectorXd rp_;
   MatrixXd d_; // n x m: terms added to A's diagonal
-  // n: for the preconditioner, the diagonal scaling and the smallest entry of d_ per vertex.
+  // For the preconditioner, n entries each: the diagonal scaling, and the smallest entry of each
+  // row of d_.
   VectorXd row_scale_, smallest_d_;
   std::vector<SparseSolver> solvers_;
   CoupledSolution result_, best_;

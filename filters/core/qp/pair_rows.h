@@ -36,7 +36,7 @@ public:
   void add_to_matrix(const Eigen::Ref<const Eigen::VectorXd>& weights, SparseMatrix& matrix) const;
   /// Add the diagonal of B' diag(weights) B.
   void add_diagonal(const Eigen::VectorXd& weights, Eigen::VectorXd& diagonal) const;
-  /// Return the smallest diagonal entry of A at the free vertices of each row.
+  /// Return, for each row, the smallest diagonal entry of A at the free vertices of the row.
   Eigen::VectorXd smallest_diagonals() const;
 
   /// Convert multipliers from one entry per row to one entry per pair of the column.
@@ -50,7 +50,7 @@ private:
     Index low = -1; // free index of the `low` vertex; -1: the value is given
     Index high = -1;
     int position = -1; // index of the entry (low, high) in the values of SplitForm::lower
-    Index pair = 0; // index of the pair in the column's list
+    Index pair = 0; // index of the pair in BoxQpColumn::pairs
   };
 
   const SplitForm& matrices_;

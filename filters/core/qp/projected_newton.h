@@ -14,15 +14,15 @@ namespace bindpose
 /// kept if a Newton step of this vertex alone, starting from x, would end near a bound or cross it.
 /// Pinned vertices are included.
 /// @param gradient Ax + c.
-/// @param bound_margin distance from a bound that counts as near. Far from its handle a weight is
-/// tiny but rarely 0. A Newton step of each such vertex alone is accurate enough, and the linear
-/// system of the other vertices is much smaller.
+/// @param bound_margin distance from a bound that counts as near. Vertices far from the handle have
+/// weights that are tiny but rarely 0. For these vertices, a Newton step of each vertex alone is
+/// accurate enough, and the linear system of the other vertices is much smaller.
 /// @return one entry per free vertex: 1 for vertices at or near a bound.
 std::vector<char> vertices_at_bounds(const SplitForm& matrices, const ColumnProblem& problem,
   const Eigen::VectorXd& gradient, const Eigen::VectorXd& x, double bound_margin);
 
-/// Return the distance from a bound that counts as near, for a projected Newton method that
-/// converges to this accuracy.
+/// Return the distance from a bound that counts as near, for a projected Newton method that stops
+/// when no entry changes by more than `small_change`.
 inline double near_bound(double small_change)
 {
   return 1e-2 * small_change;

@@ -247,10 +247,12 @@ struct Degree
   Id in = 0, out = 0;
 };
 
-/// A closed polyline. If the path is open, the last segment is the chord between its ends.
+/// A closed polyline. If a traced curve is open, a chord between its ends is added as last segment.
 struct Loop
 {
-  Id first, last; ///< indices of the two ends on the path; both ends are the same vertex
+  /// Indices of the loop's first and last point in the array of path points; both are the same
+  /// vertex.
+  Id first, last;
   bool open; ///< whether the last segment is a chord
 };
 
@@ -316,10 +318,10 @@ struct Chord
 /// A node of the tree: a piece of a loop, a loop, or several loops.
 struct Node
 {
-  Vec2 lower, upper; ///< box with a margin, so that it contains every point that touches the node
+  Vec2 lower, upper; ///< box with a margin; contains every point that touches one of the segments
   double first_y, last_y; ///< y coordinates of the ends of a piece; equal for loops
-  /// Indices on the path of the ends of the piece, or of the loop. Equal for a node with several
-  /// loops, which has no ends.
+  /// Indices of the ends of the piece or loop in the array of path points. Both indices are equal
+  /// if the node contains several loops.
   Id first, last;
   Id skip; ///< index of the node after this node's descendants
   bool leaf;
@@ -469,8 +471,8 @@ private:
   bool stopped_ = false;
 };
 
-/// Return the sum of (area of a region) x (winding number in the region), over all regions of the
-/// plane. The shoelace formula is used, with the first point of each loop as the origin.
+/// Return the enclosed area, weighted by the winding number (a region with winding number 2 counts
+/// twice). The shoelace formula is used, with the first point of each loop as the origin.
 double signed_area(const std::vector<Vec2>& path, const std::vector<Loop>& loops)
 {
   double area_times_two = 0.0;

@@ -20,7 +20,7 @@ using SegmentsView = MatrixView<Segments>;
 
 /// Winding number of curves in the plane, represented by oriented segments (Jacobson, Kavan,
 /// Sorkine-Hornung, 2013). It is 1/(2 pi) times the sum of the signed angles of all segments, seen
-/// from the point.
+/// from the query point.
 ///
 /// The segments may form closed, open, intersecting, duplicated or branching curves, in any order.
 /// Their orientation determines the sign: a counter-clockwise curve has the winding number +1
@@ -60,8 +60,8 @@ public:
   ///   .duplicate_segments,
   /// - counts.open_ends: vertices with different numbers of incoming and outgoing segments, which
   ///   make the winding number fractional,
-  /// - area: the sum of (area of a region) x (winding number in the region), over all regions of
-  ///   the plane. Open curves are closed by straight lines between their ends.
+  /// - area: the enclosed area, weighted by the winding number (a region with winding number 2
+  ///   counts twice). Open curves are closed by straight lines between their ends.
   Status build(ExecutionContext& context, PlanePointsView points, SegmentsView segments);
 
   /// Return the status of the last build.

@@ -379,7 +379,8 @@ void irregular_at(int order, const Vec3& point, double* out)
   }
 }
 
-/// Compute the coefficient (n, m) for any sign of m.
+/// Write the coefficient (n, m) to `re` and `im`. `all` stores only the coefficients for m >= 0;
+/// those for m < 0 follow by symmetry.
 void coefficient(const double* all, int n, int m, double& re, double& im)
 {
   const double* at = all + 2 * harmonic_index(n, std::abs(m));
@@ -457,6 +458,7 @@ Vec3 DipoleField::gradient(const Vec3& point) const
   double harmonics[2 * harmonic_count(largest_polynomial_order + 2)];
   if (!this->is_in_cells(point))
   {
+    // The derivatives of an irregular harmonic T(n, m) are irregular harmonics:
     // d/dz T(n, m) = -T(n+1, m), (d/dx + i d/dy) T(n, m) = -T(n+1, m+1).
     this->visit_outer(
       point,

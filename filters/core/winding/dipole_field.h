@@ -16,9 +16,10 @@ namespace bindpose
 /// 2014).
 ///
 /// Space is divided into fixed cells. A cell stores one polynomial for the triangles far from it
-/// and a list of the triangles near it, whose solid angles are summed. A value therefore depends
-/// only on its point. The cost of a value is a descent in the tree, a polynomial, and 1-5 ns per
-/// near triangle. Outside the cells, a value is the sum of a few multipoles.
+/// and a list of the triangles near it. The solid angles of the near triangles are summed. The
+/// value at a point therefore does not depend on the other points. The cost of a value is a descent
+/// in the tree, a polynomial, and 1-5 ns per near triangle. Outside the cells, a value is the sum
+/// of a few multipoles.
 ///
 /// Triangles that touch a point contribute 0 (the principal value).
 class DipoleField
@@ -50,10 +51,10 @@ public:
 
   /// Build the field. Points must be centered and scaled to a size of about 1, with ids below 2^31,
   /// and must outlive the field. There is one multiplicity per triangle. A triangle touches a point
-  /// within touch_tolerance. Cost: O(#F log #F); on one thread 20 us per triangle at a tolerance of
-  /// 1e-3, and 50 us per triangle if the triangles are the caps of a few surface patches. Memory:
-  /// 0.8 to 3 kB per triangle. Fields of few triangles need the most memory per triangle, because
-  /// their cells are finer.
+  /// if their distance is at most touch_tolerance. Cost: O(#F log #F); on one thread 20 us per
+  /// triangle at a tolerance of 1e-3, and 50 us per triangle if the triangles are the caps of a few
+  /// surface patches. Memory: 0.8 to 3 kB per triangle. Fields of few triangles need the most
+  /// memory per triangle, because their cells are finer.
   /// @return false if canceled; the field is then empty.
   bool build(ExecutionContext& context, const Points& points, const Triangles& triangles,
     const std::vector<int>& multiplicities, double touch_tolerance, const Options& options);
@@ -109,8 +110,8 @@ private:
   struct Leaf
   {
     Id id;
-    /// Shifted right by this number of bits, the CellCoordinates of any cell in the leaf become the
-    /// coordinates of the leaf among the cells of its level.
+    /// Number of bits. Shift the CellCoordinates of any cell in the leaf right by this number to
+    /// get the coordinates of the leaf on its level of the octree.
     int shift;
     double inverse; ///< 2 divided by the edge length of the leaf
     Vec3 center;

@@ -1,11 +1,11 @@
 // Construction of the cells of DipoleField (a fast multipole method; citations in dipole_field.h).
 //
 // Sources: the triangles are sorted into a binary tree. Its leaves are blocks of up to eight
-// triangles. The multipoles of a block are integrals over its triangles of the derivative of the
-// regular harmonics along the normal. These integrands are polynomials, and the quadrature is exact
-// for them. The multipoles of a node are the shifted multipoles of its children.
+// triangles. For the multipoles of a block, the normal derivatives of the regular harmonics are
+// integrated over the triangles of the block. The integrands are polynomials, and the quadrature is
+// exact for them. The multipoles of a node are the sums of the shifted multipoles of its children.
 //
-// Cells: an octree over a cube around the triangles and the region. From the top down, each cell
+// Cells: an octree over a cube around the triangles and the query region. From the top down, a cell
 // tests the nodes that are not yet part of its parent's expansion. A node that is far enough away
 // is added to the local expansion of the cell, which consists of harmonic polynomials. Any other
 // node that is large is replaced by its two children. The remaining nodes are passed to the
@@ -62,9 +62,9 @@ constexpr double outer_threshold_factor = 0.2;
 /// Largest accepted error on the sample points, in units of the tolerance. The rest of the
 /// tolerance is a margin for all other points.
 constexpr double target_error = 0.5;
-/// Measured nanoseconds to sum a block, to make a cell, and to test one inherited node in a cell.
-/// The last two costs apply to order 7 and grow with the cube of the order. Splitting a cell halves
-/// its near list.
+/// Measured nanoseconds to sum a block, to make a cell, and to test one node that a cell inherits
+/// from its parent. The last two costs apply to order 7 and grow with the cube of (order + 1). The
+/// cost model assumes that splitting a cell halves the near list.
 constexpr double block_cost = 10.0;
 constexpr double cell_cost = 2000.0;
 constexpr double node_cost = 150.0;
@@ -112,8 +112,9 @@ void gauss_legendre(int count, std::vector<double>& nodes, std::vector<double>& 
   }
 }
 
-/// Return (n - m)! (n + m)!, the weight of a coefficient in the power of a multipole. For m > 0 the
-/// weight is doubled to include the coefficient (n, -m).
+/// Return (n - m)! (n + m)!, the weight of the squared coefficient (n, m) in the power of degree n
+/// of a multipole (Dehnen 2014). For m > 0 the weight is doubled to include the coefficient
+/// (n, -m).
 double power_weight(int n, int m)
 {
   return (m ? 2.0 : 1.0) * std::tgamma(n - m + 1.0) * std::tgamma(n + m + 1.0);
@@ -126,15 +127,17 @@ struct DipoleField::Builder
   {
     Vec3 center = Vec3::Zero();
     double radius = 0.0;
-    /// Range in `order` of the triangles; after the blocks are built, range of the blocks.
+    /// Range of the node's triangles in `order`. After the blocks are built: range of the node's
+    /// blocks.
     Id first = 0, count = 0;
     Id left = -1, right = -1;
     double block_radius = 0.0; ///< mean radius of the blocks
     double error_fraction = 1.0; ///< fraction of the allowed error that the node may cause
     int height = 0;
   };
-  /// Sum of the error estimates of a cell's interactions (`size`), and the sum of the directions to
-  /// their nodes, weighted by the estimates (`direction_sum`).
+  /// Error estimate of a cell's expansion. `size` is the sum of the error estimates of all nodes in
+  /// the expansion. `direction_sum` is the sum of the unit vectors from the cell to these nodes,
+  /// weighted by the error estimates.
   struct ErrorEstimate
   {
     double size = 0.0;
@@ -234,7 +237,7 @@ struct DipoleField::Builder
   // Multipoles of the nodes, one node after the other: the real and the imaginary part of each
   // coefficient (n, m).
   std::vector<double> moments;
-  std::vector<double> bounds; // order + 2 error bounds per node
+  std::vector<double> bounds; // error bounds of the nodes, (order + 2) numbers per node
   std::vector<double> nodes_of_quadrature, weights_of_quadrature;
   std::vector<LeafError> leaf_errors; // leaves with their error estimates
   double float_error = 0.0; // largest error of single-precision sums
@@ -716,10 +719,11 @@ bool DipoleField::Builder::find_multipoles()
   return true;
 }
 
-// Bounds for the first omitted total degree, N = order + 2: binomial(N, n) x power of degree n, for
-// n = 1 … N. The power of degree N is unknown. It is estimated as the maximum of two values: the
-// power of degree N - 1 times the node's radius, and the power of degree N - 2 times the squared
-// radius. Both are needed because every second power is 0 in a symmetric group.
+// Compute the error bounds of each node for the first omitted total degree, N = order + 2. Let P(n)
+// be the power of degree n of the node's multipoles (see power_weight). The bounds are
+// binomial(N, n) P(n) for n = 1 … N. P(N) is unknown. It is estimated as the maximum of
+// P(N - 1) radius and P(N - 2) radius^2. Both terms are needed, because every second power is 0 in
+// a symmetric group of triangles.
 void DipoleField::Builder::find_bounds()
 {
   const int top = this->field.order_ + 2;
@@ -867,8 +871,8 @@ bool DipoleField::Builder::is_split_worthwhile(
   return 0.5 * block_cost * blocks * volume * this->density > 8.0 * child;
 }
 
-// Store the nodes for points outside the cells. Descendants of a node that is far enough away from
-// all these points are omitted.
+// Store the nodes for points outside the cells. If a node is far enough away from all points
+// outside the cells, its descendants are omitted.
 void DipoleField::Builder::find_outer()
 {
   this->field.outer_.clear();

@@ -22,7 +22,7 @@ namespace bindpose
 /// neighbors, by 3.5 % with 12, and by 0.4 % with 20.
 ///
 /// @param points #P x 3, sorted into `tree`
-/// @param normals #P x 3, of length 1, or of length 0 for an area of 0
+/// @param normals #P x 3, of length 1; the area is 0 if the normal has length 0
 /// @param neighbors number of neighbors, at least 3
 /// @param tolerance distance within which points coincide
 /// @return false if canceled. Cost: about 3 us per point with 12 neighbors.

@@ -52,8 +52,8 @@ constexpr Id leaf_size = 32;
 constexpr double farthest = 1e100;
 /// Limit for the moments, so that no sum overflows.
 constexpr double largest_moment = 1e100;
-/// Minimum distance at which multipoles are evaluated. At smaller distances their powers would
-/// overflow.
+/// Minimum distance at which multipoles are evaluated. At smaller distances r the powers of 1 / r
+/// would overflow.
 constexpr double nearest_multipole = 1e-12;
 
 struct CloudTuning
@@ -220,8 +220,8 @@ BINDPOSE_SIMD_CLONES void add_multipoles(int order, const HarmonicLanes* moments
 }
 
 /// Add the gradient of the multipoles of the boxes in the bit mask `bits` to `sums`. `harmonics`
-/// must be computed to degree order + 1, because d/dz T(n, m) = -T(n+1, m), (d/dx + i d/dy) T(n, m)
-/// = -T(n+1, m+1).
+/// must contain the irregular harmonics T to degree order + 1, because the derivatives of T(n, m)
+/// are d/dz T(n, m) = -T(n+1, m) and (d/dx + i d/dy) T(n, m) = -T(n+1, m+1).
 BINDPOSE_SIMD_CLONES void add_multipole_gradients(int order, const HarmonicLanes* moments,
   const Harmonics& harmonics, unsigned bits, HarmonicLanes (&sums)[3])
 {
@@ -264,7 +264,7 @@ double omitted_bound(const Extent& extent, int order, double r)
   return extent.power * (order + 1 + u / (1.0 - u)) / (1.0 - u);
 }
 
-/// Return the smallest distance at which the bound is below the threshold.
+/// Return the smallest distance at which the error bound of a box is below the threshold.
 double far_distance(const Extent& extent, int order, double threshold)
 {
   if (extent.power == 0.0)

@@ -42,8 +42,9 @@ class PointCloudWindingNumber
 public:
   struct Options
   {
-    /// direct or exact: the plain sum. fast: within the tolerance. automatic: direct for up to 3000
-    /// points, otherwise fast. The other methods require triangles.
+    /// direct or exact: the plain sum. fast: a sum with errors up to the tolerance. automatic:
+    /// direct for up to 3000 points, otherwise fast. The other values of WindingMethod require
+    /// triangles.
     WindingMethod method = WindingMethod::automatic;
     /// Largest error of the fast method, 1e-8 … 0.1.
     double tolerance = 1e-3;

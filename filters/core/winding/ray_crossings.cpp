@@ -626,9 +626,9 @@ void RayCrossings::count_slab(const Grid& grid, const Layers& layers, Index slab
         }
         const Index row = (k - first_layer) * rows + j;
         const bool is_side_certain = minimum > f.edge_bound || maximum < -f.edge_bound;
-        // `x` and `y` are limits of x coordinates. The samples between them are tested one by one.
-        // If the triangle is parallel to the rows, `center` is NaN and the comparisons select the
-        // ends of the box.
+        // `x` and `y` are the lower and the upper end of an interval of x coordinates. The samples
+        // in this interval are tested one by one. If the triangle is parallel to the rows, `center`
+        // is NaN, and the comparisons select the ends of the triangle's box.
         const double center = f.x[0] + (f.normal[1] * ay + f.normal[2] * az) * inverse_normal_x;
         const double x = center - x_tolerance > f.lower[0]
           ? std::min(center - x_tolerance, f.upper[0])

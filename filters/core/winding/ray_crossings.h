@@ -36,7 +36,7 @@ public:
   /// over the bounding box.
   double predicted_nanoseconds(Index number) const;
   /// Compute the winding numbers and the resolved flags of `number` finite points, fewer than 2^31.
-  /// Cost: O(#F + number + pairs of a point and a triangle whose projections overlap).
+  /// Cost: O(#F + number + #(point, triangle) pairs with overlapping projections).
   /// @return false if canceled.
   bool count(ExecutionContext& context, const Vec3* points, Index number, int* counts,
     unsigned char* resolved) const;
@@ -50,7 +50,7 @@ public:
   /// z). Slabs can be evaluated independently.
   struct Layers
   {
-    Index layers_per_slab = 1; ///< number of layers per slab
+    Index layers_per_slab = 1;
     /// Index of each slab's first triangle in `faces`; the last entry is the size of `faces`.
     std::vector<Index> begin;
     std::vector<std::int32_t> faces;

@@ -236,8 +236,8 @@ bool count_duplicates(
   return true;
 }
 
-/// Count the edges and find the open edges, whose directions do not cancel. Return false if
-/// canceled.
+/// Count the edges. Find the open edges, which the triangles do not use equally often in both
+/// directions. Return false if canceled.
 bool find_edges(
   ExecutionContext& context, const Triangles& triangles, Index vertices, WeldedSurface& welded)
 {

@@ -19,12 +19,13 @@ struct WeldedSurface
   Triangles triangles;
   /// #V: id of one input point that was merged into the vertex.
   std::vector<Index> original_vertices;
-  std::vector<Edge> open_edges; ///< the edges of mesh_edges() whose directions do not cancel
+  /// The edges (see mesh_edges) that the triangles do not use equally often in both directions.
+  std::vector<Edge> open_edges;
   Index boundary_edges = 0; ///< number of edges used by one triangle
   Index nonmanifold_edges = 0; ///< number of edges used by three triangles or more
   Index merged_vertices = 0;
   Index degenerate_triangles = 0; ///< number of removed triangles and of triangles without area
-  /// Number of triangles with the same vertices as another triangle, in any order.
+  /// Number of triangles with the same vertices, in any order, as an earlier triangle.
   Index duplicate_triangles = 0;
 };
 

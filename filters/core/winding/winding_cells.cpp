@@ -66,8 +66,8 @@ BINDPOSE_SIMD_CLONES int WindingCells::count_crossings(const Block* begin, const
 {
   const float qx = q[0], qy = q[1], qz = q[2];
   const float length = std::abs(qx) + std::abs(qy) + std::abs(qz);
-  // A point at the distance d from a triangle has a signed distance of at least -d from the planes
-  // through its edges (positive on the side of the triangle).
+  // A point at the distance d from a triangle has a signed distance of at least -d from each plane
+  // through the reference and an edge of the triangle (positive on the side of the triangle).
   const float edge_bound = rounding_error * length + 1.01f * Block::fixed_point_one * touching;
   const float side_bound = edge_bound + rounding_error * Block::fixed_point_one;
   std::int32_t counts[lanes] = {};
@@ -261,9 +261,9 @@ void WindingCells::evaluate_row(const double* xs, Index number, double y, double
       coordinates = this->cell_coordinates(*node, p);
       cell = this->cell_at(*node, coordinates);
     }
-    // Part of the row in this cell. A small margin at the cell's sides is excluded, because
-    // rounding could assign its points to the neighboring cell, and evaluate() must find every
-    // point in the same cell.
+    // Find the part of the row in this cell, without a small margin at the sides of the cell.
+    // evaluate() could assign a point in the margin to the neighboring cell because of rounding.
+    // This function must use the same cell as evaluate().
     const double lower = node->lower.x() + (coordinates[0] + 1e-6) / node->inverse;
     const double upper = node->lower.x() + (coordinates[0] + 1 - 1e-6) / node->inverse;
     Index end = i + 1;

@@ -453,7 +453,7 @@ bool WindingCells::Builder::choose_references(const Box& box, Grid& grid) const
       }
       else if (box.depth == 0)
       {
-        // The segment begins outside the box, where the winding number is 0.
+        // The segment ends outside the box, where the winding number is 0.
         const Vec3 step = grid.cell * Vec3(1.1, 0.03, 0.05);
         resolved = crossings(box, position, position - step, list(c), none, found);
       }
@@ -718,7 +718,7 @@ WindingCells::Id WindingCells::Builder::add_leaf(
         const double distance =
           static_cast<double>(leaf.distance_scale) * product.dot(relative[0]) / product.norm();
         // For most faces, the distance of the plane fits into 16 bits, because most faces overlap
-        // the cell.
+        // the cell. Otherwise the distance 0 is stored, which makes the sign undecided.
         const bool is_near = std::abs(distance) < fixed_point_one;
         std::copy(normal.begin(), normal.end(), plane.begin() + 9);
         plane[12] = is_near && normal != std::array<double, 3>{} ? distance : 0.0;

@@ -40,10 +40,10 @@ namespace
 {
 /// Up to this many triangles the plain sum takes no more time than a data structure.
 constexpr Index maximum_direct_triangles = 24;
-/// Up to this many open edges (edges whose directions do not cancel), the sum over the caps takes
-/// less time than a descent of the tree. The tree is also slower if the number of open edges is at
-/// least half the number of triangles. Measured: 14-20 ns per open edge, 20 ns per triangle, 20 to
-/// 600 us for the tree (more on rougher surfaces).
+/// Up to this many open edges (edges not used equally often in both directions), the sum over the
+/// caps takes less time than a descent of the tree. The tree is also slower if the number of open
+/// edges is at least half the number of triangles. Measured: 14-20 ns per open edge, 20 ns per
+/// triangle, 20 to 600 us for the tree (more on rougher surfaces).
 constexpr Index maximum_summed_edges = 15000;
 /// Up to this many open edges, the exact sum over the caps takes about as much time as the
 /// DipoleField of the caps.
@@ -114,7 +114,7 @@ struct WindingNumber::Impl
   /// Sum of the predicted times of all ray counts so far.
   mutable std::atomic<double> ray_nanoseconds{ 0.0 };
   std::unique_ptr<RayCrossings> rays;
-  std::vector<Edge> open_edge_list; ///< edges whose directions do not cancel
+  std::vector<Edge> open_edge_list; ///< edges not used equally often in both directions
   Triangles caps; ///< triangles that close the surface (boundary_caps.h)
   SurfaceBoundary boundary; ///< boundary edges and components, in ids and units of the input
   DipoleField field; ///< field of the caps, used by the method `fast`
@@ -291,8 +291,8 @@ Status WindingNumber::build(
       impl.method = WindingMethod::direct;
     }
   }
-  // The plain sum needs the minimum number of caps; the cells of the field need caps of minimum
-  // size.
+  // The plain sum takes the least time with the fewest caps, the cells of the DipoleField with the
+  // smallest caps.
   if (done && impl.method == WindingMethod::fast &&
     !DipoleField::uses_direct_sum(options.expected_queries))
   {
@@ -373,8 +373,8 @@ Index WindingNumber::memory() const
 }
 
 /// Report whether counting crossings by rays is faster than by cells. `ray_cost` and `cell_cost`
-/// are the predicted times of this evaluation in nanoseconds. Cells that do not exist count as
-/// slower until the total time of rays would exceed the time to build the cells.
+/// are the predicted times of this evaluation in nanoseconds. Before the cells are built, rays
+/// count as faster until the total time of all ray counts would exceed the time to build the cells.
 bool WindingNumber::Impl::are_rays_faster(double ray_cost, double cell_cost) const
 {
   if (this->cells_built)
@@ -401,7 +401,7 @@ void WindingNumber::Impl::at(const Vec3* queries, Index number, const int* count
 {
   std::array<Vec3, WindingCells::maximum_batch> framed;
   framed.fill(Vec3::Zero());
-  // Indices of the points that need an evaluation.
+  // Indices of the points whose winding number must be computed: finite and not too far away.
   std::array<Index, WindingCells::maximum_batch> active;
   Index count = 0;
   for (Index i = 0; i < number; ++i)
@@ -677,8 +677,9 @@ Status WindingNumber::evaluate_gradient(
   return this->evaluate_gradients(context, grid.count(), point_function(grid), out);
 }
 
-/// Return the sum over the boundary edges (the field of an electric current along them). The result
-/// does not depend on the triangles between the boundary edges.
+/// Return the gradient of the winding number: a sum over the boundary edges (the magnetic field of
+/// an electric current along these edges). It does not depend on the triangles between the boundary
+/// edges. The method `fast` computes it from the DipoleField of the caps.
 Vec3 WindingNumber::Impl::gradient_at(const Vec3& point) const
 {
   if (!point.allFinite())

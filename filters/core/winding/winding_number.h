@@ -72,8 +72,8 @@ public:
     /// number, within the tolerance. For parts of a grid, always use the number of samples of the
     /// whole grid.
     Index expected_queries = 0;
-    /// Box that contains most of these points; empty: the bounding box of the surface, enlarged by
-    /// a tenth of its diagonal. Finite coordinates. A smaller box saves build time of the fast
+    /// Box that contains most query points, with finite coordinates; empty: the bounding box of the
+    /// surface, enlarged by a tenth of its diagonal. A smaller box saves build time of the fast
     /// method. Points outside the box take more time.
     Box query_region;
   };
@@ -90,10 +90,11 @@ public:
   /// or an option is out of its range. An empty mesh is valid and has the winding number 0
   /// everywhere; a warning reports it. The status reports method, method_reason, counts.vertices,
   /// .triangles, .boundary_edges (used by one triangle), .nonmanifold_edges, .open_edges (edges
-  /// whose directions do not cancel, which makes the winding number fractional), .components,
-  /// .merged_vertices, .degenerate_triangles, .duplicate_triangles, and volume (by the divergence
-  /// theorem, with holes closed by caps). For the fast method it also reports error_bound (the
-  /// tolerance) and measured_error (the largest error at sample points that the build chooses).
+  /// not used equally often in both directions; such edges make the winding number fractional),
+  /// .components, .merged_vertices, .degenerate_triangles, .duplicate_triangles, and volume (by the
+  /// divergence theorem, with holes closed by caps). For the fast method it also reports
+  /// error_bound (the tolerance) and measured_error (the largest error at sample points that the
+  /// build chooses).
   Status build(
     ExecutionContext& context, PointsView points, TrianglesView triangles, const Options& options);
   Status build(ExecutionContext& context, PointsView points, TrianglesView triangles)

@@ -37,12 +37,13 @@ struct AutomaticHandlesOptions
 /// - method, counts.handles, handles[].name, handles[].kind
 /// - for method skeleton: the report of curve_skeleton, counts.skeleton_points, counts.joints,
 ///   counts.junctions, counts.cut_cycles, counts.pruned_branches, counts.merged_branches
-/// - counts.joints_outside: number of joints at which the winding number of the closed surface is
-///   below 0.5, with a warning if it is not 0
-/// - counts.bones_outside: number of bones that leave the closed surface; a bone is counted if at
-///   least one of 15 test points between its ends is outside
-/// - for method points: counts.components, counts.served_components, counts.points_inside,
-///   distance, and handles[].vertex, the input vertex from which each point was made
+/// - for method skeleton, counts.joints_outside: number of joints at which the winding number of
+///   the closed surface is below 0.5, with a warning if it is not 0
+/// - for method skeleton, counts.bones_outside: number of bones that leave the closed surface; a
+///   bone is counted if at least one of 15 test points between its ends is outside
+/// - for method points: counts.components, counts.served_components (components with at least one
+///   point), counts.points_inside, distance, and handles[].vertex, the input vertex from which each
+///   point was made
 /// For errors and cost, see curve_skeleton(), skeleton_bones() and spread_points().
 Status automatic_handles(ExecutionContext& context, PointsView points, TrianglesView triangles,
   const AutomaticHandlesOptions& options, Handles& handles);

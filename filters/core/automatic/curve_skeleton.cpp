@@ -70,8 +70,8 @@ Status close_surface(ExecutionContext& context, PointsView points, TrianglesView
   status.report.set("surface", "lattice");
   ThickSolidOptions thick_options;
   thick_options.winding_threshold = options.winding_threshold;
-  // Parts of a surface with defects that touch or almost touch are joined; the gaps of a clean
-  // surface are kept.
+  // If the surface has defects, join parts that touch or almost touch. If it is clean, keep the
+  // gaps between its parts.
   thick_options.join_near_parts = !is_clean;
   thick_options.triangles = (is_clean ? 4 : 2) * options.triangles;
   const ProgressRange range(context, 0.6, 1.0);

@@ -597,8 +597,8 @@ public:
   }
 
 private:
-  /// Return the root from cut_cycles() of a component with cycles, or else the joint nearest to the
-  /// centroid. Return -1 if the component has no bones.
+  /// Return the root of a component: if the component had cycles, the root that cut_cycles() chose,
+  /// otherwise the joint nearest to the centroid. Return -1 if the component has no bones.
   Index root_of(Index part) const
   {
     const auto distance = [&](Index v)
@@ -645,8 +645,8 @@ private:
     this->result_.junctions += this->pieces_at_joint_[v].size() >= 3 ? 1 : 0;
   }
 
-  /// Create the bones of one component. The bone with the largest volume at the root is the parent
-  /// of the other bones there.
+  /// Create the bones of one component. Of the bones that begin at the root, the bone with the
+  /// largest volume is the parent of the others.
   /// @param trunk_parent parent of the first bone, or -1.
   void add_bones_from(Index root, Index trunk_parent)
   {

@@ -65,9 +65,9 @@ struct SkeletonBones
 ///    directed away from the root: the parent of a bone is the bone whose tail is the head of this
 ///    bone. If several bones begin at a root, the bone with the largest volume is the parent of the
 ///    other bones.
-/// 5. The parent of the first bone of every other component, and of every point, is the nearest
-///    bone of the component with the largest volume. If there are bones, exactly one bone has no
-///    parent. Points come first in the list. Each bone comes after its parent.
+/// 5. The component with the largest volume is the main component. Its first bone has no parent.
+///    The parent of each point, and of the first bone of each other component, is the nearest bone
+///    of the main component. Points come first in the list. Each bone comes after its parent.
 ///
 /// @param diagonal  diagonal of the shape's bounding box, the unit of the options
 /// @return invalid_input if an option is out of range. Otherwise ok, with a warning if cycles are

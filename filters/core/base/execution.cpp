@@ -58,8 +58,8 @@ void ExecutionContext::emit(double fraction_of_whole, bool force)
     return;
   }
   this->last_emit_ = now;
-  // If a kernel repeats a part of its work, the progress of that part starts again. The reported
-  // progress must not decrease.
+  // Report the largest fraction so far, because the reported progress must not decrease. A kernel
+  // that repeats a part of its work reports smaller fractions again.
   this->largest_fraction_ = std::max(this->largest_fraction_, fraction_of_whole);
   this->progress_(this->largest_fraction_, this->phase_);
 }

@@ -18,9 +18,9 @@ namespace bindpose
 class ExecutionContext
 {
 public:
-  /// Receives the completed fraction of the whole computation in [0, 1], which never decreases, and
-  /// the name of the phase. Called on the thread that created the context, at most every 50 ms and
-  /// at every change of phase.
+  /// Receives two values: the completed fraction of the whole computation, in [0, 1] and never
+  /// decreasing, and the name of the phase. Called on the thread that created the context, at most
+  /// every 50 ms and at every change of phase.
   using ProgressCallback = std::function<void(double fraction, const std::string& phase)>;
   /// Returns true if the computation must stop. Called on any thread, so it must be thread-safe and
   /// fast.

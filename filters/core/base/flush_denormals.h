@@ -11,10 +11,10 @@ namespace bindpose
 {
 
 /// Scope in which this thread treats denormal numbers as zero. Denormals are numbers below 1e-38 in
-/// single precision and below 1e-308 in double precision; a processor needs about 100 times as long
-/// for them. The entries of Cholesky factors of meshes decay exponentially with the distance of
-/// their vertices, so that single precision reaches this range. No effect on processors other than
-/// x86-64 and AArch64.
+/// single precision and below 1e-308 in double precision. A processor needs about 100 times as long
+/// for an operation on a denormal. Denormals occur in single-precision Cholesky factors of mesh
+/// matrices, because an entry decays exponentially with the distance of its two vertices. No effect
+/// on processors other than x86-64 and AArch64.
 class FlushDenormals
 {
 public:

@@ -67,7 +67,7 @@ double unused_address_space()
 
 double unused_group_memory()
 {
-  // In the unified hierarchy of control groups, the line of the process has the form "0::/path".
+  // In the unified hierarchy (version 2), the control group of the process is in a line "0::/path".
   std::string group;
   std::ifstream file("/proc/self/cgroup");
   for (std::string line; std::getline(file, line);)

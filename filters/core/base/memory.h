@@ -17,8 +17,8 @@ constexpr double mebibyte = 1024.0 * 1024.0;
 /// Linux).
 double resident_memory();
 
-/// Return the peak resident memory of this process in bytes. Unlike the value of getrusage(), it
-/// excludes the memory that the parent process used when it created this process.
+/// Return the peak resident memory of this process in bytes. The peak that getrusage() returns also
+/// includes memory of the parent process; this one does not.
 double peak_memory();
 
 /// Return the number of bytes that this process can still allocate. This is the minimum of the

@@ -74,7 +74,8 @@ BINDPOSE_ALWAYS_INLINE double sum_lanes(const PackOf<double>::Pack& p)
 }
 
 /// Add A x_j to y_j for j = 0, 1, 2. A has `count` columns, which are processed in ascending order.
-/// @param x_stride distance from x_j to x_j+1; the y_j have #rows entries each
+/// @param x_stride number of entries from the start of x_j to the start of x_j+1. The y_j follow
+/// one another, with `rows` entries each.
 template <Index count, int bytes = 32, typename Scalar>
 BINDPOSE_ALWAYS_INLINE void add_columns(
   Index rows, const Scalar* a, const Scalar* x, Index x_stride, Scalar* y)

@@ -7,8 +7,8 @@ namespace bindpose
 {
 
 /// Destination of #V x 3 points: either a matrix, which is resized, or memory of the caller with
-/// the right number of rows, for example that of an array of VTK or numpy. Thus points are computed
-/// in place instead of being copied.
+/// the right number of rows, for example the memory of a VTK or numpy array. Points are then
+/// computed in place instead of being copied.
 class PointsOutput
 {
 public:

@@ -13,9 +13,9 @@
 namespace bindpose
 {
 
-/// Runs work that may be needed later on a separate thread, in parallel with the owner's thread.
-/// The owner decides afterward whether to use the result, so an early start changes only the time
-/// until the result is available.
+/// Runs work on a separate thread, in parallel with the owner's thread, before the owner knows
+/// whether it needs the result. The owner decides afterward whether to use the result, so an early
+/// start changes only the time until the result is available.
 class SideTask
 {
 public:

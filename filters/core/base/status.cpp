@@ -58,7 +58,7 @@ std::size_t character_length(std::string_view text)
       return 0;
     }
   }
-  // Reject an overlong encoding, a surrogate, or a code beyond the last character.
+  // Reject an overlong encoding, a surrogate, or a code point above U+10FFFF.
   const unsigned second = byte(1);
   const bool is_invalid = (first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f) ||
     (first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f);

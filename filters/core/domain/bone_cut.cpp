@@ -114,7 +114,7 @@ std::vector<std::vector<Index>> groups_around(Index vertex,
   return groups;
 }
 
-/// Return the side of a bone (see BoneCut::side) on which a group of triangles around a vertex is.
+/// Return on which side of a bone (see BoneCut::side) a group of triangles around a vertex is.
 Index side_of(Index vertex, const std::vector<Index>& group, PointsView points,
   TrianglesView triangles, const Handles& handles, const std::vector<Index>& curves,
   const BoneEdges& bones)

@@ -23,17 +23,17 @@ struct BoneCut
 
 /// Cut a flat mesh (z = const) along every bone of the handles. Every bone must coincide with a
 /// chain of mesh edges. Each side of a bone gets its own vertices, so that values given on one side
-/// do not affect the other side, as diffusion curves require (Orzan et al., Diffusion Curves,
+/// do not affect the other side. Diffusion curves require this (Orzan et al., Diffusion Curves,
 /// 2008). If a curve ends inside the mesh, its last vertex is not duplicated and belongs to neither
-/// side. A vertex on several curves belongs to a side of the curve that is first in the list.
+/// side. A vertex on several curves belongs to a side of the curve with the lowest index.
 ///
-/// Report: counts.doubled_vertices. A warning names each bone that has no vertex except its ends,
-/// which it has in common with the neighboring bones of the curve. Such a bone uses the sides of
-/// its neighbors.
+/// Report: counts.doubled_vertices. If all duplicated vertices of a curve are also on curves with
+/// lower indices, the curve has no side of its own. Its bones then use the sides of those curves,
+/// and a warning names each of these bones.
 /// @param curves #handles: for each bone, the index of the first bone of its curve; empty: each
 /// bone is a curve of its own.
 /// @return invalid_input, naming the bone, if a bone is not a chain of edges. Also invalid_input if
-/// a bone is a single edge inside the mesh whose ends are on no other bone, because no vertex could
+/// a bone is a single edge inside the mesh and has no end on another bone, because no vertex could
 /// be duplicated.
 Status cut_along_bones(ExecutionContext& context, PointsView points, TrianglesView triangles,
   const Handles& handles, const std::vector<Index>& curves, BoneCut& result);

@@ -19,9 +19,9 @@ struct Domain
   /// surface, > 0; empty: 1 for all tets. Energies of a tet are multiplied by this fraction.
   Eigen::VectorXd inside_fractions;
   /// For a lattice that contains a surface: the points of the surface, and for each point one
-  /// corner of the tet that contains it (-1: no tet does). The distance between a component and a
-  /// handle is measured from these points. If there are no such points, it is measured from the
-  /// vertices.
+  /// corner of the tet that contains it (-1: no tet contains the point). The distance between a
+  /// component and a handle is measured from these points. If there are no such points, it is
+  /// measured from the vertices.
   Points embedded_points;
   std::vector<Index> embedded_point_corners;
 

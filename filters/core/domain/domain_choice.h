@@ -14,9 +14,9 @@ namespace bindpose
 /// few, well-shaped triangles. Otherwise, the reason against the volume, for the report.
 std::string reason_against_volume(const RepairedSurface& surface);
 
-/// Make the same prediction from the tets, before any weight is solved. The conditioning is judged
-/// by the dihedral angles of the tets. The time is predicted from the number of vertices and the
-/// number of handles. Return the reason against the tets, or an empty string.
+/// Predict from the tets whether solving weights in them will be well conditioned and cheap. The
+/// conditioning is judged by the dihedral angles of the tets. The time is predicted from the number
+/// of vertices and the number of handles. Return the reason against the tets, or an empty string.
 std::string reason_against_tets(const TetMesh& tets, Index handle_count);
 
 /// Return the predicted time in seconds, on one thread, for bounded weights in a mesh. One

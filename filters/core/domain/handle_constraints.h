@@ -49,7 +49,7 @@ struct HandleConstraints
 /// @param region_ids region label of every original vertex, or empty if there are no regions.
 /// @param part_labels label of every vertex, or empty. Components that contain vertices with the
 /// same label > 0 count as one component.
-/// @return invalid_input in the cases of check_regions(), and, naming the handle, if a required
+/// @return the errors of check_regions(). Also invalid_input, naming the handle, if a required
 /// handle constrains no vertex or cannot have a vertex of its own.
 Status constrain_handles(const HandleInsertion& mesh, const Handles& handles,
   const std::vector<Index>& region_ids, HandleConstraints& result,

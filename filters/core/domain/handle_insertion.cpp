@@ -314,7 +314,8 @@ void Inserter::add_cage_samples(
     for (Index k = samples.handle_point_count; k < samples.points.rows(); ++k)
     {
       const Vec3 position = samples.points.row(k);
-      // No new sample is needed if a vertex on the cage element is within this distance.
+      // No new sample is needed if a vertex on the cage element is within this distance of the
+      // sample's position.
       const double minimum_distance = 0.75 * length(position);
       if (std::any_of(on_vertices.begin() + static_cast<std::ptrdiff_t>(first), on_vertices.end(),
             [&](const Sample& other)
@@ -363,7 +364,7 @@ void Inserter::insert(Sample& sample, const std::vector<Sample>& earlier)
   Vec3 position;
   const SimplexLocation at = this->locate(sample.position, position);
   placement.outside = std::max(placement.outside, at.distance);
-  // Samples that have the same position before they are moved get the same vertex.
+  // Samples at the same original position (before snapping) get the same vertex.
   for (const Sample& other : earlier)
   {
     if ((other.position - sample.position).norm() <= 1e-9 * this->diagonal_ && other.vertex >= 0)
@@ -565,8 +566,8 @@ Status Inserter::run(ExecutionContext& context)
   this->add_cage_samples(earlier, between_vertices);
   samples.insert(samples.end(), ends.begin(), ends.end());
   samples.insert(samples.end(), between_vertices.begin(), between_vertices.end());
-  // Samples that are exactly at a vertex come first. Otherwise a nearby sample of another handle
-  // could snap to that vertex first.
+  // Samples that are exactly at a vertex come first. Otherwise a sample of another handle near such
+  // a vertex could snap to the vertex first.
   std::stable_partition(samples.begin(), samples.end(),
     [&](const Sample& sample)
     {

@@ -77,10 +77,10 @@ std::vector<Index> extend_labels(const HandleInsertion& mesh, const std::vector<
 /// at a point inside an element would require a weight of one at all corners of the element.
 ///
 /// Samples are point handles, cage vertices, and points along bones. Mesh vertices that are already
-/// on a bone divide it into sections. Each section gets samples whose distance is about `spacing`
-/// times the local edge length. A sample outside of the mesh is moved to the nearest element, with
-/// a warning that names handles and distances. Each sample then splits the elements that contain
-/// it. The union of the mesh, its volume or area and all orientations do not change. Two different
+/// on a bone divide it into sections. Each section gets samples that are about `spacing` times the
+/// local edge length apart. A sample outside of the mesh is moved to the nearest element, with a
+/// warning that names handles and distances. Each sample then splits the elements that contain it.
+/// The union of the mesh, its volume or area and all orientations do not change. Two different
 /// handles get a common vertex only where they coincide. Elsewhere they get separate vertices, even
 /// if this makes small elements.
 ///

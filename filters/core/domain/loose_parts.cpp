@@ -9,7 +9,7 @@ namespace bindpose
 
 namespace
 {
-/// Maximum distance of touching components, as a fraction of the surface's diagonal.
+/// Components touch if their distance is at most this fraction of the surface's diagonal.
 constexpr double touch_distance = 1.0 / 500.0;
 /// Distance between neighboring links at a covered opening, as a fraction of the surface's
 /// diagonal.

@@ -14,14 +14,14 @@ namespace bindpose
 struct LooseParts
 {
   Index count = 0; ///< number of connected parts of the lattice without a handle
-  /// Links of the surface components that are in parts without a handle. Empty if there are no such
-  /// components, if there are more than 20,000, or if all components are in such parts.
+  /// Links of the surface components that are in parts without a handle. Empty if no component,
+  /// every component, or more than 20,000 components are in such parts.
   std::vector<PartLink> links;
 };
 
-/// Link surface components at openings that other components cover (find_covered_openings): the
-/// distance between the boundary of the opening and the other components is at most 1/500 of the
-/// diagonal. There are no links if the surface has more than 20,000 components.
+/// Link surface components at openings that other components cover (find_covered_openings). An
+/// opening counts as covered only if the distance of its boundary from other components is nowhere
+/// above 1/500 of the diagonal. There are no links if the surface has more than 20,000 components.
 /// @param representative_of_vertex #V: for each point, the smallest id of all points with the same
 /// position
 Status link_covered_openings(ExecutionContext& context, PointsView points, TrianglesView triangles,
@@ -30,7 +30,7 @@ Status link_covered_openings(ExecutionContext& context, PointsView points, Trian
 /// Find parts of the lattice that no handle controls. Link every surface component in such a part
 /// to the components that it touches (within 1/500 of the diagonal), or else to the nearest
 /// component (link_parts). If there are links, the caller must embed the surface again with them.
-/// @param surface the surface of the points and triangles, embedded in `lattice`
+/// @param surface the surface with the given points and triangles, embedded in `lattice`
 /// @param representative_of_vertex #V: for each point, the smallest id of all points with the same
 /// position
 Status find_loose_parts(ExecutionContext& context, PointsView points, TrianglesView triangles,

@@ -28,7 +28,8 @@ constexpr double preparation_end = 0.5;
 using Lanes = Eigen::Array<double, 1, lanes>;
 /// Values of one block of columns, #V x lanes.
 using Columns = Eigen::Array<double, Eigen::Dynamic, lanes, Eigen::RowMajor>;
-/// One row per point, in single precision.
+/// Vectors (M + K)⁻¹ M (M + K)⁻¹ u in single precision: one row per point, one column per fixed
+/// point.
 using Responses = Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 /// The matrix M + K M⁻¹ K of the energy at the points that are not fixed, with lengths in units of
@@ -176,7 +177,8 @@ private:
       }
     }
     a += SparseMatrix(this->mass_.asDiagonal());
-    // Progress when M + K is assembled, as a fraction of the time for its factor.
+    // Progress after the assembly and after the symbolic analysis of M + K, as fractions of the
+    // time of this function.
     constexpr double assembly_end = 0.15;
     constexpr double analysis_end = 0.6;
     context.progress(assembly_end);
@@ -236,9 +238,9 @@ private:
     }
   }
 
-  /// Call visit(v, value) for the nonzero entries of the vector u of one fixed point. The dot
-  /// product of u and w is the contribution of the points that are not fixed to the curvature at
-  /// the fixed point, times the square root of the fixed point's mass.
+  /// Call visit(v, value) for the nonzero entries of the vector u of one fixed point. The free
+  /// points contribute (u · w) / sqrt(m) to the curvature at the fixed point, where m is the mass
+  /// of the fixed point.
   template <typename Visit>
   void for_each_of_term(Index c, const Visit& visit) const
   {
@@ -268,7 +270,7 @@ private:
     this->inverse_diagonal_ = this->free_.cwiseQuotient(diagonal);
   }
 
-  /// Compute z = (M + K)⁻¹ M (M + K)⁻¹ r at the free points; z = 0 at the others.
+  /// Compute z = (M + K)⁻¹ M (M + K)⁻¹ r at the free points; z = 0 at the fixed points.
   void solve_with_factor(const Columns& r, Columns& z, Work& work) const
   {
     work.second_solution = r;
@@ -291,9 +293,9 @@ private:
       this->for_each_of_term(
         c, [&](Index v, double value) { at_fixed.row(c) += value * z.row(v).matrix(); });
     }
-    const FlushDenormals flush; // responses far from a fixed point are denormal numbers
+    const FlushDenormals flush; // entries of responses_ far from a fixed point are denormal
     const Responses factors = this->correction_factor_.solve(at_fixed).cast<float>();
-    // A general matrix product would spend most of its time on rearranging the responses.
+    // A general matrix product would spend most of its time on rearranging `responses_`.
     for (Index v = 0; v < z.rows(); ++v)
     {
       const float* response = this->responses_.data() + v * factors.rows();
@@ -306,7 +308,7 @@ private:
     }
   }
 
-  /// Apply the preconditioner P: compute z = P⁻¹ r at the free points; z = 0 at the others.
+  /// Apply the preconditioner P: compute z = P⁻¹ r at the free points; z = 0 at the fixed points.
   /// @return r · z for each column.
   Lanes precondition(const Columns& r, Columns& z, Work& work) const
   {

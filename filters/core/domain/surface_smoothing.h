@@ -13,14 +13,14 @@ namespace bindpose
 /// where `given` is the input, with linear elements and lumped mass. Waves shorter than about 6
 /// times `length` are damped.
 ///
-/// Each column is solved separately by conjugate gradients, starting from the input values, until
-/// the residual is reduced to 1e-6 of its initial value or for 200 iterations. Every iteration
-/// lowers the energy. The preconditioner is a factorization of a second-order matrix, with a
-/// correction for each fixed point. With this preconditioner, 7 or 8 iterations suffice. A build
-/// without CHOLMOD uses the diagonal as preconditioner and usually takes all 200 iterations.
-/// Triangles with an angle below 2 degrees get smaller weights in the matrix, because their large
-/// matrix entries would cause large round-off. Needle triangles and triangle soups are therefore
-/// valid input. Constant functions do not change.
+/// Each column is solved separately by conjugate gradients, starting from the input values. The
+/// iterations end when the residual is 1e-6 of its initial value, at the latest after 200
+/// iterations. Every iteration lowers the energy. The preconditioner is a factorization of a
+/// second-order matrix, with a correction for each fixed point. With this preconditioner, 7 or 8
+/// iterations suffice. A build without CHOLMOD uses the diagonal as preconditioner and usually
+/// takes all 200 iterations. Triangles with an angle below 2 degrees get smaller weights in the
+/// matrix, because their large matrix entries would cause large round-off. Needle triangles and
+/// triangle soups are therefore valid input. Constant functions do not change.
 ///
 /// Cost: about 6 microseconds per point for analysis and factorization, then about 1 microsecond
 /// per point and column. Memory: at most 320 MB for the corrections.

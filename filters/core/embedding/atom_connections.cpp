@@ -105,7 +105,7 @@ private:
       });
   }
 
-  /// Connect atoms along the cut lines, and measure the length of these lines that is inside.
+  /// Connect atoms along the cut lines, and measure which length of each line is inside.
   Status connect_crossings()
   {
     const auto& list = this->crossings_;
@@ -234,9 +234,10 @@ private:
   }
 
   /// Connect neighboring samples if no triangle crosses the line between them, and measure how much
-  /// of each sample's cell is inside. A cell is completely inside if no line at the sample is
-  /// crossed. Otherwise its inside fraction is a mean over the axes along which a line is crossed:
-  /// of the part of the line in this cell that is inside.
+  /// of each sample's cell is inside. A cell is completely inside if no triangle crosses a line at
+  /// its sample. Otherwise, consider the axes along which a line at the sample is crossed. For each
+  /// such axis, find which fraction of the line within the cell is inside. The inside fraction of
+  /// the cell is the mean of these fractions.
   bool connect_samples()
   {
     for (Id cube = 0; cube < static_cast<Id>(this->atoms_.sampled_cubes.size()); ++cube)
@@ -383,7 +384,7 @@ private:
     return true;
   }
 
-  /// Connect the degenerate triangle of each link to the triangles that contain its ends.
+  /// Connect the degenerate triangle of each link to the triangles that contain the link's ends.
   void connect_links()
   {
     for (const LatticeSurface::End& end : this->surface_.ends)
@@ -398,7 +399,8 @@ private:
     }
   }
 
-  /// Return the atom of the triangle's piece whose middle is nearest to a position.
+  /// Of the pieces of a triangle, find the piece with the middle nearest to a position. Return the
+  /// atom of this piece.
   Id nearest_piece(Id triangle, const Vec3& position) const
   {
     const auto& pieces = this->cover_.pieces;

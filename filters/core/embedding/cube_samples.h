@@ -20,7 +20,8 @@ struct CubeSamples
 
   static constexpr int samples_per_edge = 6; ///< number of samples along the edge of a cube
   static constexpr int samples_per_cube = samples_per_edge * samples_per_edge * samples_per_edge;
-  /// Offset of the first sample, in units of the sample distance.
+  /// Offset of the first sample of a cube from the cube's lowest corner, in units of the sample
+  /// distance.
   static constexpr double shift[3] = { 0.62, 0.41, 0.53 };
 
   /// Return the integer coordinates of sample s within its cube.

@@ -81,8 +81,9 @@ public:
   static int half_of(const Vec3& position);
 
   /// Cut a triangle by the planes of all facets, and call piece(middle, lower, upper) for each
-  /// piece, with a position in the piece and its bounding box. A segment is passed as three
-  /// positions, two of them equal. Pieces thinner than 1e-9 cubes are skipped.
+  /// piece. `middle` is a position in the piece; `lower` and `upper` are the corners of the piece's
+  /// bounding box. A segment is passed as three positions, two of them equal. Pieces thinner than
+  /// 1e-9 cubes are skipped.
   template <typename Piece>
   static void for_each_piece(const std::array<Vec3, 3>& positions, const Piece& piece)
   {

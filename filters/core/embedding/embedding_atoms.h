@@ -71,8 +71,8 @@ public:
       ? found->second * CubeSamples::samples_per_cube + s
       : this->first_full_atom + (-1 - found->second) * halves + this->half_of_sample_[s];
   }
-  /// Report whether an atom is inside. All atoms are, except for samples that are outside. Return
-  /// false for -1.
+  /// Return false for -1 and for an atom that is a sample outside of the surface, true for all
+  /// other atoms.
   bool is_inside(Id atom) const
   {
     return atom >= this->first_full_atom || (atom >= 0 && this->inside_[atom] != 0);

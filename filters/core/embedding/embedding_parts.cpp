@@ -251,7 +251,8 @@ private:
 
   bool write(EmbeddingTets& result)
   {
-    // Parts in the same tet with the same copies of its nodes become one tet.
+    // Parts of one lattice tet become one tet of the result if they have the same four copies of
+    // nodes.
     struct Copy
     {
       Id tet;

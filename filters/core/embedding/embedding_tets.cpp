@@ -7,7 +7,7 @@
 //
 // 1. Choose the lattice's spacing; find the tets and cubes that triangles pass through, and the
 //    cubes that are completely inside (lattice_cover.h).
-// 2. Sample the other cubes at the surface on a sub-grid (cube_samples.h, embedding_atoms.h).
+// 2. Sample the cubes at the surface on a sub-grid (cube_samples.h, embedding_atoms.h).
 // 3. Cut lines between neighboring samples where triangles cross them. The winding number at the
 //    middle of the interval between two crossings determines whether the interval is inside. An
 //    inside interval connects the atoms at its ends. Therefore no wall is missed, even if the gap

@@ -22,7 +22,8 @@ struct EmbeddingOptions
   /// thin threads).
   Index resolution = 0;
   Index tets = 30000; ///< target number of lattice tets, >= 1; used if `resolution` is 0
-  /// Segments that count as parts of the surface: they connect the parts at their ends.
+  /// Segments that are embedded together with the surface. Each connects the parts of the surface
+  /// at its two ends.
   std::vector<PartLink> links;
 };
 
@@ -30,14 +31,15 @@ struct EmbeddingOptions
 /// open, intersect itself, be a triangle soup, have no thickness, or enclose nothing. Every point
 /// of the surface is in a tet.
 ///
-/// **Parts that are near but not connected share no vertex.** Consider the tets around a lattice
-/// node. Each connected part of the surface and its inside in these tets has a separate copy of the
-/// node. A tet has several copies if the parts in the tet use different copies of its nodes
-/// (virtual nodes: Molino, Bao, Fedkiw, A Virtual Node Algorithm for Changing Mesh Topology During
-/// Simulation, 2004). Fingers are thus connected only through the palm, and two solids are not
-/// connected at all, however narrow the gap. Parts are connected by triangles that share a vertex
-/// (equal points are merged). They are also connected through the inside, along lines that are a
-/// sixth of a cube apart. Triangles that only cross are not connected, unless there is a link.
+/// **Parts that are near but not connected share no vertex.** Consider the material (the surface
+/// and its inside) in the tets around a lattice node. Each connected part of this material has a
+/// separate copy of the node. A tet has several copies if the parts in the tet use different copies
+/// of its nodes (virtual nodes: Molino, Bao, Fedkiw, A Virtual Node Algorithm for Changing Mesh
+/// Topology During Simulation, 2004). Fingers are thus connected only through the palm, and two
+/// solids are not connected at all, however narrow the gap. Parts are connected by triangles that
+/// share a vertex (equal points are merged). They are also connected through the inside, along
+/// lines that are a sixth of a cube apart. Triangles that only cross are not connected, unless
+/// there is a link.
 ///
 /// `winding` is the winding number of the surface (unchanged or repaired). Equal points, degenerate
 /// and duplicate triangles are allowed. The result is the same for any number of threads. Scaling

@@ -1,8 +1,8 @@
 // Find the tets and cubes that a surface passes through or encloses (see lattice_cover.h).
 // Triangles are cut by the planes of the lattice. Cubes without triangles are completely inside or
 // outside. Inside cubes are found by flooding from cube to cube, starting at the surface. The flood
-// reaches all inside cubes, because winding numbers are harmonic: a region without triangles whose
-// winding number reaches the threshold has triangles at its border.
+// reaches all inside cubes. The reason is that winding numbers are harmonic: a region without
+// triangles in which they reach the threshold has triangles at its border.
 #include "embedding/lattice_cover.h"
 
 #include "base/gather.h"
@@ -325,8 +325,8 @@ Status LatticeCover::find_cubes(ExecutionContext& context)
       return too_many_cubes();
     }
   }
-  // At openings of the surface the inside ends without triangles. The cubes on both sides of this
-  // border count as cubes at the surface.
+  // At an opening of the surface, an inside cube can be adjacent to an outside cube. Both then
+  // count as cubes at the surface.
   std::vector<Key> open;
   for (const Key key : outside)
   {

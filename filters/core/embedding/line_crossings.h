@@ -18,7 +18,8 @@ struct LineCrossing
   using Id = LatticeCover::Id;
   using Sample = CubeSamples::Sample;
 
-  /// Crossings of a line whose distance is below this fraction of the sample distance count as one.
+  /// Two crossings of the same line count as one if they are closer than this fraction of the
+  /// sample distance.
   static constexpr double merge_distance = 1e-9;
 
   Key line; ///< key of the line, from its axis and its first sample

@@ -32,7 +32,7 @@ public:
   };
   /// Append pairs of roots for copies that are connected by a probe.
   /// @param sides all copies of one node.
-  /// @param triangles all triangles nearby; duplicates are allowed.
+  /// @param triangles all triangles in the tets around the node; duplicates are allowed.
   /// Cost: up to 12 probes per pair of copies; each probe takes one winding number per interval
   /// between its crossings with triangles.
   void connect(std::vector<Side> sides, std::vector<Id> triangles,
@@ -43,8 +43,8 @@ private:
   /// triangles that can cross the segment.
   bool stays_inside(const Vec3& a, const Vec3& b, const std::vector<Id>& triangles,
     std::vector<double>& cuts) const;
-  /// Report whether one of the shortest segments between two sets of positions is completely in the
-  /// material.
+  /// Test the 12 shortest segments between two sets of positions. Report whether one of them is
+  /// completely in the material.
   bool connects(const std::vector<Vec3>& from, const std::vector<Vec3>& to,
     const std::vector<Id>& triangles, std::vector<double>& cuts) const;
 

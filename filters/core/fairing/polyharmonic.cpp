@@ -11,15 +11,16 @@
 //
 // The mass M is lumped, so v and w can be eliminated: K M^-1 K M^-1 K u = M load + K M^-1 K M^-1 f.
 // This condensed matrix is symmetric and positive definite and needs one Cholesky factorization.
-// Its rounding errors grow as h^(-2 k). The rounding errors of the mixed system grow only as h^-2
-// per equation, but the mixed system is indefinite, three times as large, and needs an LU
-// factorization with pivoting. Therefore the two systems are combined: the condensed matrix is
-// factored, and a few steps of iterative refinement use the residual of the mixed equations. The
-// result has the accuracy of the mixed system.
+// Let h be the edge length and k the order. The rounding errors of the condensed matrix grow as
+// h^(-2 k). The rounding errors of the mixed system grow only as h^-2 per equation, but the mixed
+// system is indefinite, three times as large, and needs an LU factorization with pivoting.
+// Therefore the two systems are combined: the condensed matrix is factored, and a few steps of
+// iterative refinement use the residual of the mixed equations. The result has the accuracy of the
+// mixed system.
 //
 // The boundary conditions determine the triangles that are used and the vertices with an unknown v.
-// - Region: u is given in a band of k one-ring layers; v is unknown at the vertices of the band
-//   whose triangles are all present.
+// - Region: u is given in a band of k one-ring layers; v is also unknown at the vertices of the
+//   band that have all of their triangles in use.
 // - Curve: v (and w) are defined only at free vertices and are zero at given vertices.
 // - Tangent: only triangles of the patch are used, v is also defined on the edge of the patch, and
 //   f is given.
@@ -36,7 +37,7 @@ namespace bindpose
 
 namespace
 {
-/// A triangle is flat if one of its cotangents exceeds this value.
+/// A triangle counts as degenerate if one of its cotangents exceeds this value.
 constexpr double maximum_cotangent = 1e7;
 /// Maximum number of refinement steps. Refinement ends earlier if a correction is at most the
 /// fraction `correction_tolerance` of the solution, or is not smaller than the previous correction.

@@ -8,8 +8,8 @@
 namespace bindpose
 {
 
-/// With PatchBoundary::tangent, the derivatives of the positions across the edge of a patch are
-/// prescribed. This is the source of these derivatives. The values equal those of the constants of
+/// PatchBoundary::tangent prescribes the derivatives of the positions across the edge of a patch.
+/// This type selects the source of these derivatives. The integers equal those of the constants of
 /// vtkVariationalSurface.
 enum class PatchTangents : int
 {
@@ -62,9 +62,10 @@ struct VariationalSurfaceOptions
 /// If the unknowns are displacements, a connected part without constraints does not move. If the
 /// unknowns are positions, such a part is an error, because its shape is undetermined.
 ///
-/// Cost: bind O(#V). A solve after a change of modes needs one sparse factorization of the free
-/// vertices' matrix (about 7, 19 or 37 entries per row for order 1, 2 or 3). Every solve needs a
-/// few solves with the factor for three right-hand sides.
+/// Cost: bind O(#V). The first solve, and each solve after a handle has changed its mode
+/// (HandleMode), needs one sparse factorization of the free vertices' matrix (about 7, 19 or 37
+/// entries per row for order 1, 2 or 3). Every solve needs a few solves with the factor for three
+/// right-hand sides.
 class VariationalSurface
 {
 public:
@@ -87,7 +88,8 @@ public:
 
   /// The vertices in the last solved pose.
   const Points& posed() const { return this->posed_; }
-  /// Number of factorizations: one for each choice of modes.
+  /// Number of factorizations so far. The first solve factors the matrix, and each solve after a
+  /// handle has changed its mode.
   Index factorizations() const { return this->factorizations_; }
 
 private:
@@ -103,7 +105,7 @@ private:
   std::vector<Index> fixed_vertices_;
   MeshGrips grips_;
 
-  // ---- per choice of modes
+  // The following members depend on the modes of the handles.
   bool prepared_ = false;
   std::vector<HandleMode> modes_;
   Polyharmonic system_;

@@ -657,8 +657,8 @@ struct Parts
   Index meshes = 0;
   bool more_attributes = false; ///< whether there are more sets of texture coordinates or colors
   Index unweighted = 0;
-  /// The first vertex of each combination of accessors. Primitives with different materials can
-  /// share their vertices.
+  /// Id of the first vertex that was read from each combination of vertex accessors. Primitives
+  /// with the same accessors but different materials share these vertices.
   std::map<std::map<std::string, int>, Index> first_vertex_by_accessors;
   /// For each vertex, pairs of joint and weight.
   std::vector<std::vector<std::pair<Index, double>>> influences;
@@ -1243,7 +1243,8 @@ void read_model(const std::string& path, const tinygltf::Model& model, std::size
     const tinygltf::Mesh& mesh = at(model.meshes, node.mesh, "mesh");
     if (skin_id >= 0 && !instanced_meshes.insert(node.mesh).second)
     {
-      // The joints determine the mesh's position, so a second node would duplicate the mesh.
+      // The joints determine the position of the mesh, so a second node with this mesh would
+      // duplicate it.
       continue;
     }
     if (!global[n].matrix().allFinite())

@@ -99,8 +99,8 @@ struct GltfOptions
 ///
 /// Report:
 /// - counts.{vertices, triangles, joints, frames, dropped_weights}, sets, rest_joint (yes, no)
-/// - dropped_share: the largest sum of weights of one row that were dropped because of
-///   `influences`; the rest of the row is divided by its sum
+/// - dropped_share: the largest sum of the weights of one row that were dropped because of
+///   `influences`; the remaining weights of the row are divided by their sum
 /// - animation (joints, morph), file_bytes
 /// - pose_error and animation_error: the largest distance between the position of a vertex
 ///   according to the file and its correct position, in bounding-box diagonals. The errors result
@@ -110,8 +110,8 @@ struct GltfOptions
 /// 65534 joints, cyclic parents, names that are not UTF-8, and more than 4 GB.
 Status write_gltf_skin(
   const std::string& path, const GltfSkin& skin, const GltfOptions& options = {});
-/// Write the same file. Progress is reported and a cancel request is checked once per frame. No
-/// file is written after a cancel.
+/// Write the same file as the function above, with progress. A cancel request is checked once per
+/// frame. No file is written after a cancel.
 Status write_gltf_skin(ExecutionContext& context, const std::string& path, const GltfSkin& skin,
   const GltfOptions& options);
 

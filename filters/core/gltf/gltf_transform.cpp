@@ -19,7 +19,7 @@ Trs nearest_trs(const Eigen::Affine3d& map)
   Trs result;
   result.translation = map.translation();
   const Eigen::Matrix3d linear = map.linear();
-  // The linear part M is R P with a positive definite P. If M mirrors, -M = R P has such a P.
+  // The linear part is M = R P with a positive definite P. If M mirrors, decompose -M instead.
   const double sign = linear.determinant() < 0.0 ? -1.0 : 1.0;
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
     sign * linear, Eigen::ComputeFullU | Eigen::ComputeFullV);

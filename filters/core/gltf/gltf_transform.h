@@ -16,9 +16,9 @@ struct Trs
   Eigen::Affine3d affine() const;
 };
 
-/// Approximate an affine map by the translation, the rotation of the polar decomposition M = R P of
-/// its linear part, and the diagonal of P. The result is exact if P is diagonal; the map then has
-/// no shear relative to its own axes. If the map mirrors, the scales are negative.
+/// Approximate an affine map by its translation, the rotation R of the polar decomposition M = R P
+/// of its linear part M, and the diagonal of P. The result is exact if P is diagonal, which means
+/// that the map has no shear along the node's axes. If the map mirrors, the scales are negative.
 Trs nearest_trs(const Eigen::Affine3d& map);
 
 } // namespace bindpose

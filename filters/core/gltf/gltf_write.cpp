@@ -48,8 +48,8 @@ struct Influence
   Index joint;
 };
 
-/// Return the influences of one row that are kept. They are at least 0 and sum to one, including
-/// the influence of the joint "rest".
+/// Return the influences that the file stores for one vertex. Their weights are at least 0 and sum
+/// to one, including the weight of the joint "rest".
 std::vector<Influence> influences_of(
   const GltfSkin& skin, Index v, Index maximum_influences, PackedWeights& packed)
 {
@@ -68,8 +68,8 @@ std::vector<Influence> influences_of(
     }
   }
   packed.negative_rows += changed || missing_weight < -row_sum_tolerance;
-  // If the weights sum to less than one, the joint "rest" gets the missing weight. The sum includes
-  // negative weights, which are removed.
+  // If the weights sum to less than one, the joint "rest" gets the missing weight. Negative weights
+  // are included in this sum, but they are not stored.
   if (missing_weight > row_sum_tolerance)
   {
     row.push_back({ missing_weight, joints });

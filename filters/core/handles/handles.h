@@ -13,8 +13,8 @@ namespace bindpose
 /// The type of a handle. The integer values are stored in the cell array HandleKind.
 enum class HandleKind : int
 {
-  /// An edge or face of a cage. It has no column of its own, because weights are linear between its
-  /// corners.
+  /// An edge or face of a cage. It has no column in the weights, because weights are linear between
+  /// its corners.
   cage_element = -1,
   point = 0,
   bone = 1,
@@ -54,8 +54,8 @@ struct Handle
   /// Label of a region in the mesh's point array RegionId (> 0; 0 means that a vertex is in no
   /// region).
   Index region_id = 0;
-  /// The edges and faces of the cage whose first corner is this cage vertex. Weights are linear
-  /// along them.
+  /// The cage elements (edges and faces) that have this cage vertex as their first corner. Weights
+  /// are linear along cage elements.
   std::vector<CageElement> cage;
   Ownership ownership = Ownership::required;
 };

@@ -1,7 +1,6 @@
 // Atomic writing by renaming a temporary file (see atomic_file.h). The temporary file
-// "STEM.part-PID-N.EXTENSION" is in the target's folder, so that the final rename is atomic.
-// Because of its extension, writers that select a format by the extension write the target's
-// format.
+// "STEM.part-PID-N.EXTENSION" is in the target's folder, so that the final rename is atomic. It has
+// the target's extension, because some writers select the format by the extension.
 #include "io/atomic_file.h"
 
 #include "io/text_scanner.h"

@@ -10,8 +10,9 @@ namespace bindpose
 /// materials, groups and points are skipped. Faces therefore share vertices even if the normals at
 /// their corners differ. Lines are read only if the file has no face. Negative ids count back from
 /// the last vertex.
-/// @return invalid_input, naming file and line, if the file has no vertices, or neither faces nor
-/// lines, a word is not a number, a coordinate is not finite, or a vertex id is out of range.
+/// @return invalid_input, naming file and line, if there are no vertices, if there are neither
+/// faces nor lines, if a word is not a number, if a coordinate is not finite, or if a vertex id is
+/// out of range.
 Status read_obj(const std::string& path, PolygonMesh& mesh);
 
 /// Write vertices and faces. Reading the file returns the same doubles.

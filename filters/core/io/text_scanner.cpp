@@ -23,9 +23,9 @@ constexpr bool is_blank(char c)
   return c == ' ' || (c >= '\t' && c <= '\r' && c != '\n');
 }
 
-/// Return the index of the first blank if `blank` is true, else of the first other character, or
-/// text.size() if there is none. This function is several times faster than find_first_of() with a
-/// list of blanks.
+/// Return the index of the first blank if `blank` is true, else of the first character that is not
+/// a blank. Return text.size() if there is none. This function is several times faster than
+/// find_first_of() with a list of blanks.
 template <bool blank>
 std::size_t find_first(std::string_view text)
 {

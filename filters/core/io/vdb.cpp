@@ -209,8 +209,8 @@ void spread_along_line(
   found.assign(static_cast<std::size_t>(size), 0);
   for (const unsigned char side : { below, above })
   {
-    // Index of the last visited entry with this side. The initial value is -1 if the outside has
-    // this side; otherwise it is too far away to count.
+    // Index of the last visited entry with this side. The initial value is the entry before the
+    // line if the samples outside have this side; otherwise it is an index too far away to count.
     Index last = outside & side ? -1 : -width - 1;
     for (Index i = 0; i < size; ++i)
     {
@@ -230,8 +230,8 @@ void spread_along_line(
   }
 }
 
-/// For every sample, find the sides of the threshold that occur within `width` voxels along each
-/// axis.
+/// For every sample, find the sides of the threshold that occur in the box of samples around it, up
+/// to options.band_width samples away along each axis.
 /// @return false if canceled.
 template <typename Value>
 bool find_sides(ExecutionContext& context, const SampleGrid& grid, const Value* values,

@@ -57,13 +57,13 @@ Status check_vdb_available();
 ///   If the background is not 0, the grid class is "unknown", because fog volumes have the
 ///   background 0.
 /// - **Narrow**: a voxel is active if a voxel on the other side of `threshold` is at most
-///   `band_width` away along each axis. Points outside the extent have the background value. All
-///   other voxels are inactive. On the side of the threshold that contains the background, they
-///   have the background value. On the other side, they have the value 2 x threshold - background.
-///   By default these two values are 0 and 1. The isosurface at the threshold is therefore equal to
-///   the isosurface of the full grid, and the file is much smaller. The grid class is "unknown":
-///   the grid is not a density, because the inside is inactive, and not a level set, because the
-///   values are not distances. Programs must extract the surface at isovalue `threshold`.
+///   `band_width` away along each axis; points outside the extent count as background. An inactive
+///   voxel on the same side of the threshold as the background has the background value. An
+///   inactive voxel on the other side has the value 2 x threshold - background. By default these
+///   two values are 0 and 1. The isosurface at the threshold is therefore equal to the isosurface
+///   of the full grid, and the file is much smaller. The grid class is "unknown": the grid is not a
+///   density, because the inside is inactive, and not a level set, because the values are not
+///   distances. Programs must extract the surface at isovalue `threshold`.
 ///
 /// The file is either complete or missing. The same values result in the same bytes for any number
 /// of threads: the file's UUID, which is random in OpenVDB, is computed from the file's contents.

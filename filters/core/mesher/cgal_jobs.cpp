@@ -5,11 +5,11 @@
 //    vertices and edges, among the pairs with overlapping boxes.
 // 2. The exact intersection of each such pair (points and segments) is recorded for both triangles.
 // 3. Each triangle with recorded intersections is projected along its largest normal component. An
-//    exact constrained Delaunay triangulation of its edges and intersections cuts it, and new
-//    vertices are lifted back.
+//    exact constrained Delaunay triangulation of the triangle's edges and intersections cuts the
+//    triangle. New vertices are lifted back to the plane of the triangle.
 // 4. New vertices are rounded to doubles. The same exact point has the same rounding in every
-//    triangle that contains it, so neighbors still fit. Equal vertices are welded. Triangles
-//    without area and duplicates are removed.
+//    triangle that contains it, so neighboring triangles still match. Equal vertices are welded.
+//    Triangles without area and duplicates are removed.
 //
 // Rounding moves vertices by a unit in the last place, so that triangles may cross again. Therefore
 // rounds are repeated until no triangles cross. If sheets coincide except for the rounding of the

@@ -67,7 +67,7 @@ struct CircumcenterTraits : RobustTraits
   }
 };
 
-/// Tag that selects the traits where Mesh_triangulation_3 expects a kernel.
+/// Tag that is passed to Mesh_triangulation_3 in place of a kernel and selects CircumcenterTraits.
 struct CircumcenterKernel
 {
 };

@@ -86,8 +86,8 @@ struct RemeshJobOptions
   /// Smallest edge length, > 0; increased if there would be more tets than tet_limit.
   double smallest_edge = 0.0;
   double largest_edge = 0.0; ///< largest edge length, >= smallest_edge
-  /// Maximum growth rate: the difference of two edge lengths divided by the distance of their
-  /// sites.
+  /// Maximum growth rate: bound for the difference of the desired edge lengths at two points,
+  /// divided by the distance of the points.
   double growth = 0.3;
   double tet_limit = 5e5; ///< approximate maximum number of tets
 };

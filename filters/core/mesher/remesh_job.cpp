@@ -1,8 +1,8 @@
 // Tets of {winding number >= threshold} by CGAL's Delaunay refinement (Mesh_3; Jamin, Alliez,
 // Yvinec, Boissonnat, CGALmesh: a Generic Framework for Delaunay Mesh Generation, 2015).
 //
-// 1. A sizing field is computed from the edge lengths of the surface, as far as the surface bounds
-//    the region, and from the thickness of the region.
+// 1. A sizing field is computed from the thickness of the region and from the edge lengths of those
+//    parts of the surface that bound the region.
 // 2. The initial triangulation contains the surface's vertices on the boundary, corners and creases
 //    first, and points on long crease edges. A point is omitted if its distance to an existing
 //    vertex is less than half the desired edge length, because no good tet fits between them.

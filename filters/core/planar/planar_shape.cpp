@@ -173,7 +173,8 @@ Status Builder::scale()
     lower = lower.cwiseMin(p);
     upper = upper.cwiseMax(p);
   }
-  // Half of the extent; halved before the subtraction, so that it cannot overflow.
+  // Half of the extent. The coordinates are halved before the subtraction, so that it cannot
+  // overflow.
   const Vec2 half = 0.5 * upper - 0.5 * lower;
   if (half.maxCoeff() <= 0.0)
   {
@@ -401,7 +402,7 @@ Status Builder::keep_inside_triangles()
 Status Builder::fill()
 {
   const Phase phase(this->context_, "fill", 0.5, 1.0);
-  // angle in degrees that can always be reached, see fill_plane()
+  // Minimum angle in degrees that refinement always reaches, see fill_plane().
   constexpr double guaranteed_angle = 20.6;
   std::vector<double> angles{ this->options_.min_angle };
   for (const double weaker : { guaranteed_angle, 0.0 })

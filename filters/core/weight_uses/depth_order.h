@@ -10,9 +10,9 @@ namespace bindpose
 /// Options of depth_order().
 struct DepthOrderOptions
 {
-  /// If all layers are equal, the difference of `front` between the last and the first handle of
-  /// the list, in layers, >= 0. Because of this difference, later handles are in front of earlier
-  /// handles. Does not affect `depth`.
+  /// Offset that is added to the layer of the last handle to compute `front`; in layers, >= 0. The
+  /// first handle has the offset 0; offsets between are linear. Among handles with equal layers,
+  /// later handles are therefore in front. Does not affect `depth`.
   double tie_offset = 1e-3;
 };
 

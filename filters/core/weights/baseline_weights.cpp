@@ -51,7 +51,7 @@ public:
       {
         continue;
       }
-      // The vertices of the region, as degenerate triangles.
+      // SimplexLocator needs triangles, so each vertex of the region becomes a degenerate triangle.
       std::vector<Index> members;
       for (std::size_t i = 0; i < constraints.vertices.size(); ++i)
       {
@@ -197,7 +197,8 @@ struct Occluders
 {
   Points points;
   Triangles triangles;
-  /// For each triangle, the vertices of the domain at its corners.
+  /// For each triangle, the ids of the domain vertices on it. The triangle does not block the view
+  /// from these vertices.
   std::vector<std::array<Index, 3>> vertices;
 };
 
@@ -275,8 +276,8 @@ Status heat_sources(ExecutionContext& context, const WeightsProblem& problem, do
             continue;
           }
           const Vec3 to = distances.nearest(static_cast<std::size_t>(j), position);
-          // Shorten the segment at both ends, because its ends touch a wall if they are on the
-          // surface.
+          // Shorten the line of sight at both ends, because an end on the surface would count as
+          // blocked.
           constexpr double end_gap = 1e-3;
           const Vec3 from = position + end_gap * (to - position);
           const Vec3 segment_end = to + end_gap * (position - to);

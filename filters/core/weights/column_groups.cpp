@@ -1,7 +1,7 @@
 // This file converts vertices and terms to the unknowns and columns of the solver (see
-// column_groups.h). Unknowns are the classes of a union-find over (copy, vertex). In every column,
-// a class must satisfy the requirements of all its members. The bounds of the members are
-// intersected. Two members with different given values are a contradiction.
+// column_groups.h). Unknowns are the classes of a union-find over the pairs (copy of the mesh,
+// vertex). In every column, a class must satisfy the requirements of all its members. The bounds of
+// the members are intersected. Two members with different given values are a contradiction.
 #include "weights/column_groups.h"
 
 #include "base/disjoint_sets.h"
@@ -154,8 +154,8 @@ private:
 
   const std::string& handle_name(Index handle) const { return this->problem_.handles[handle].name; }
 
-  /// Return the handle that determines the given row of a vertex: the handle on the vertex, or the
-  /// handle whose weights the vertex's component copies.
+  /// Return the handle with the largest weight at a fixed vertex. This is a handle on the vertex,
+  /// or the handle whose weights the vertex's component copies.
   Index owner(Index vertex) const
   {
     Index best = 0;
@@ -388,7 +388,7 @@ private:
   std::vector<std::vector<Index>> members_; // members of every unknown, each as copy * #V + vertex
   std::vector<Index> component_of_unknown_; // component of every unknown; -1: in no component
   Index part_count_ = 0;
-  // Index of every vertex in the rows of problem.fixed_values; -1: not fixed.
+  // Row of each vertex in problem.fixed_values; -1: the vertex is not fixed.
   std::vector<Index> fixed_row_;
   std::vector<char> is_fixed_; // 1 for fixed unknowns
   // The following lists have one entry per column.

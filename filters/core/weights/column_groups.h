@@ -6,12 +6,12 @@
 namespace bindpose
 {
 
-/// Columns of the weights that have the same quadratic form and the same fixed unknowns. An unknown
-/// is a vertex, or a set of vertices that must have the same weight: a rigid set, or a vertex and
-/// its mirror vertex.
+/// Columns of the weight matrix with the same quadratic form and the same fixed unknowns. An
+/// unknown is a vertex, or a set of vertices that must have the same weight: a rigid set, or a
+/// vertex and its mirror vertex.
 ///
 /// Let handles a and b be mirror images of each other, so that w_a(v) = w_b(mirror of v). Their
-/// weights are one column on two copies of the mesh, one for each handle. Vertex v in a's copy and
+/// weights form one column on two copies of the mesh, one copy per handle. Vertex v in a's copy and
 /// the mirror vertex of v in b's copy are one unknown. If a handle is its own mirror image, there
 /// is one copy, in which v and the mirror vertex of v are one unknown. Mirrored weights are
 /// therefore exactly equal. With two copies, the energy is the sum over both handles. If all
@@ -43,9 +43,10 @@ using Exclusions = std::vector<char>;
 
 /// Make the columns of the problem's weights, with all terms of WeightTerms. Return invalid_input,
 /// naming handles and vertex, if terms contradict handles or each other.
-/// @param coupled whether the columns will be solved together, with rows that sum to one. If false,
-/// a column is constant in a component if all its given values there are equal and within all
-/// bounds. If true, all columns must also satisfy this condition in that component.
+/// @param coupled whether the columns will be solved together, with rows that sum to one. A column
+/// can be constant in a component if its given values there are equal and within all bounds. If
+/// `coupled` is false, each such column is constant. If true, columns are constant only in
+/// components where this is possible for every column.
 Status make_column_groups(const WeightsProblem& problem, const Exclusions& excluded, bool coupled,
   std::vector<ColumnGroup>& groups);
 

@@ -12,14 +12,14 @@ struct Extremum
   Index vertex = 0;
   bool maximum = false;
   double value = 0.0;
-  /// Let the climb of a path be the highest value on the path minus the value at this minimum. The
-  /// persistence is the smallest climb of all paths to a lower minimum or to an exempt vertex (see
-  /// interior_extrema), as a fraction of the function's range. If there is no such path, it is 1.
-  /// The persistence of a maximum is that of a minimum of the negated function.
+  /// Persistence of a minimum: the smallest climb of a path from the minimum to a lower minimum or
+  /// to an exempt vertex (see interior_extrema), as a fraction of the function's range. The climb
+  /// of a path is its highest value minus its first value. If there is no such path, the
+  /// persistence is 1. For a maximum, the function is negated.
   double persistence = 0.0;
 };
 
-/// Extrema whose persistence is not above this fraction of the range are ignored by default.
+/// By default, extrema with at most this persistence are ignored.
 constexpr double notable_persistence = 1e-3;
 
 /// Find the local extrema at vertices that are not exempt. The extrema are sorted by descending

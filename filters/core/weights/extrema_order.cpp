@@ -2,8 +2,8 @@
 // begins with the listed minima and then repeatedly takes the lowest vertex that is a neighbor of a
 // vertex already taken. So each vertex except the listed minima comes after one of its neighbors.
 // If the values have a minimum that is not listed, the vertices around this minimum are taken when
-// the flood reaches the lowest pass to it. Downward flooding from the listed maxima removes maxima
-// that are not listed in the same way, but may create new minima near the removed maxima. Therefore
+// the flood reaches the lowest pass to it. In the same way, downward flooding from the listed
+// maxima removes unlisted maxima, but it may create new minima near the removed maxima. Therefore
 // upward and downward floods alternate until the order has exactly the listed extrema. Each flood
 // only moves vertices within the plateaus that the previous flood created, and these plateaus
 // become smaller.
@@ -19,8 +19,8 @@ namespace bindpose
 
 namespace
 {
-/// Report whether every vertex that is not listed has a higher neighbor (if `above`) or a lower
-/// neighbor.
+/// Report whether every vertex that is not a listed extremum has a higher neighbor (if `above` is
+/// true) or a lower neighbor (if it is false).
 bool has_neighbors(const VertexGraph& graph, const ExtremaList& list,
   const std::vector<Index>& rank, const std::vector<Index>& order, bool above)
 {
@@ -68,7 +68,8 @@ void flood(const VertexGraph& graph, const ExtremaList& list, int from, std::vec
   }
   std::vector<Index> new_order;
   new_order.reserve(order.size());
-  // Take all listed extrema first, because none of their neighbors may come before them.
+  // Take all extrema from which the flood starts first, because none of their neighbors may come
+  // before them.
   for (std::size_t listed = open.size(); listed > 0; --listed)
   {
     new_order.push_back(order[open.top()]);

@@ -43,7 +43,7 @@ void update_order(const Eigen::VectorXd& values, std::vector<Index>& rank);
 /// Return the ordered pairs that guarantee the extrema of an order. Each vertex that is not listed
 /// is above its lowest and below its highest neighbor. A listed maximum is above all neighbors that
 /// are not listed maxima. A listed minimum is below all neighbors that are not listed minima.
-/// @param minimum_difference minimum difference of each pair.
+/// @param minimum_difference smallest allowed difference between the two values of a pair.
 std::vector<OrderedPair> pairs_from_order(const VertexGraph& graph, const ExtremaList& list,
   const std::vector<Index>& rank, double minimum_difference);
 

@@ -9,7 +9,7 @@
 // of the minimizer without pairs. If that minimizer already has the listed extrema, it is the
 // result. If the data weight is large, the order is close to the order of the data. With
 // SmoothingGuide::harmonic, the order is determined by a harmonic function instead. Its boundary
-// values are given at the listed extrema, and it ignores the data elsewhere.
+// values are given at the listed extrema; the data at all other vertices have no effect.
 //
 // A result also satisfies the pairs of the order of its own values, where vertices with equal
 // values keep their earlier order. Solving again for that order can therefore only lower the
@@ -317,7 +317,7 @@ void Smoothing::scale_to_size()
   this->scaled_.mass_unit *= std::pow(size, -dimension);
 }
 
-/// Assemble the quadratic form with the additional unknown, and the given values.
+/// Assemble the quadratic form, including the additional unknown, and collect the given values.
 void Smoothing::assemble()
 {
   const Index n = this->data_.size();
@@ -430,8 +430,8 @@ Status Smoothing::guide_values(const VectorXd& unconstrained, VectorXd& values)
   return status;
 }
 
-/// Solve again for the order of the last result (rebuild), until the energy decreases by less than
-/// a fraction of 1e-4.
+/// Solve again for the order of the last result (rebuild). Stop when a rebuild decreases the energy
+/// by less than 0.01 %.
 void Smoothing::rebuild(BoxQpColumn& column, BoxQpSolution& best)
 {
   for (int round = 0; round < this->options_.rebuilds && best.status.ok(); ++round)
@@ -473,8 +473,8 @@ void Smoothing::rebuild(BoxQpColumn& column, BoxQpSolution& best)
   }
 }
 
-/// Append the energy of a solution, converted from the units of the form to the units of the
-/// integrals.
+/// Append the energy of a solution: the sum of the two integrals in monotone_smoothing(). The
+/// quadratic form is half of this sum times mass_unit^(order - 1).
 void Smoothing::record_energy(const BoxQpSolution& solution)
 {
   this->result_.energies.push_back(2.0 * solution.certificate.energy /

@@ -14,8 +14,8 @@ enum class SmoothingGuide
   /// The minimizer without ordered pairs. Flooding then removes the unlisted extrema from its
   /// order. This guide is closer to the data than the harmonic guide.
   unconstrained,
-  /// The function that is harmonic for positive edge weights, with the maxima and minima as
-  /// boundary values.
+  /// A harmonic function, computed with positive edge weights. The boundary values at the listed
+  /// extrema are the data if these values are kept, else 1 at maxima and 0 at minima.
   harmonic
 };
 
@@ -25,15 +25,15 @@ struct MonotoneSmoothingOptions
   /// Order k of the energy: 2 biharmonic, 3 triharmonic.
   int order = 2;
   /// Weight lambda >= 0 of the data term, in units of (mesh size)^(-2 k). Let s be lambda to the
-  /// power of -1 / (2 k). Details smaller than about 6 s mesh sizes are smoothed away. For lambda =
-  /// 1e6, s is 0.03 for k = 2 and 0.1 for k = 3. If lambda is 0, only the data's values at the
-  /// extrema are used, and the result keeps these values.
+  /// power of -1 / (2 k). Details smaller than about 6 * s times the mesh size are smoothed away.
+  /// For lambda = 1e6, s is 0.03 for k = 2 and 0.1 for k = 3. If lambda is 0, only the data's
+  /// values at the extrema are used, and the result keeps these values.
   double data_weight = 1e6;
   /// The extrema that the result may have, #V. If empty, they are chosen from the extrema of the
   /// data by the next two options.
   ExtremaList extrema;
-  /// Choose the extrema of the data whose persistence is above this fraction of the data's range,
-  /// [0, 1).
+  /// Choose all extrema of the data that have a persistence above this fraction of the data's
+  /// range, [0, 1).
   double persistence = 0.05;
   /// If above 0, choose this number of the most persistent extrema instead. Every connected part
   /// gets at least one maximum and one minimum.
@@ -43,8 +43,8 @@ struct MonotoneSmoothingOptions
   bool keep_values = false;
   SmoothingGuide guide = SmoothingGuide::unconstrained;
   /// Maximum number of rebuilds, >= 0. A rebuild takes the order from the last result and solves
-  /// again. There are no further rebuilds if the energy decreases by less than a fraction of 1e-4.
-  /// The energy never increases.
+  /// again. A rebuild that decreases the energy by less than 0.01 % is the last. The energy never
+  /// increases.
   int rebuilds = 1;
   /// Minimum difference of the values in every ordered pair (see pairs_from_order), as a fraction
   /// of the data's range, 0 … 1. If above 0, neighbors in a pair cannot have equal values.
@@ -61,22 +61,24 @@ struct MonotoneSmoothingResult
   Eigen::VectorXd values; ///< #V: the values of the function, in the unit of the data
   /// The listed extrema, sorted by vertex. Values and persistence are those of the result.
   std::vector<Extremum> extrema;
-  /// Unlisted extrema of the result whose persistence is above notable_persistence. Empty for a
+  /// Unlisted extrema of the result that have a persistence above notable_persistence. Empty for a
   /// correct result, because the ordered pairs exclude unlisted extrema.
   std::vector<Extremum> spurious;
-  /// #V: the kind of listed extremum at each vertex. The list is that of the caller, or was chosen
-  /// by persistence.
+  /// #V: the extrema that were requested by MonotoneSmoothingOptions::extrema or chosen by
+  /// persistence.
   ExtremaList list;
-  /// Certificate for data scaled to a range of 1. Its energy is half of the last entry of
-  /// `energies`, in another unit.
+  /// Certificate for data scaled to a range of 1. Its energy is the quadratic form's energy: the
+  /// last entry of `energies` times mass_unit^(order - 1) / 2, where mass_unit is the largest mass
+  /// of the scaled mesh.
   Certificate certificate;
-  /// Energies of the result of the first solve and of each rebuild whose result was kept.
+  /// The energy after the first solve and after each accepted rebuild. A rebuild is rejected if it
+  /// increases the energy.
   std::vector<double> energies;
   int iterations = 0; ///< number of iterations of all solves together
   Index analyses = 0; ///< number of symbolic analyses
 };
 
-/// Compute a smooth function near the data whose only extrema are the listed extrema (topological
+/// Compute a smooth function that is near the data and has only the listed extrema (topological
 /// simplification). The result w minimizes
 ///   integral of |k-harmonic derivative of w|^2 + lambda integral of (w - f)^2
 /// on the mesh scaled to size 1, where f is the data scaled to a range of 1. Every vertex that is

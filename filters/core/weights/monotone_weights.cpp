@@ -7,11 +7,11 @@
 //
 // Far from its handle a guide u is tiny; near its handle 1 - u is tiny. Both values are computed
 // without cancellation: guides for positive right-hand sides have small relative errors, and 1 - u
-// is the sum of the other handles' guides. If u > 1/2 at both vertices,
-// they are compared by 1 - u, else by u. Ties are broken by index, so the pairs have no cycle.
+// is the sum of the other handles' guides. Two neighbors are compared by 1 - u if u > 1/2 at both,
+// else by u. Ties are broken by index, so the pairs have no cycle.
 //
-// At a vertex on a handle, the value is 0 or 1. The bounds then already guarantee the order of all
-// edges at this vertex, so no pairs are needed.
+// At a vertex on a handle, the value is 0 or 1. The bounds then already order this vertex and all
+// its neighbors, so no pairs are needed.
 //
 // If a column has its own pinned vertices, its guide takes their values, too. The guide then
 // satisfies pins and order, which proves that the problem is feasible. The vertices of one unknown
@@ -106,8 +106,8 @@ Status monotone_guide(ExecutionContext& context, const WeightsProblem& problem, 
   }
   result.guide = solver.minimizers(fixed_values);
   // If the group contains all columns, all guides together sum to one. Then column j of `later_sum`
-  // is the sum of the guides after j, `earlier_sum` is the sum of the guides before j, and both
-  // together are 1 - u. Otherwise, `earlier_sum` is zero, and `later_sum` is 1 - u.
+  // is the sum of the guides after j, and `earlier_sum` is the sum of the guides before j. The two
+  // add up to 1 - u. Otherwise, `earlier_sum` is zero, and `later_sum` is 1 - u.
   const bool has_all_handles = m == problem.handle_count();
   Eigen::MatrixXd later_sum = Eigen::MatrixXd::Zero(n, m);
   for (Index j = m - 1; j-- > 0 && has_all_handles;)

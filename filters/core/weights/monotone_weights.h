@@ -9,7 +9,7 @@ namespace bindpose
 /// Guides of monotone weights and the ordered pairs computed from the guides: one guide and one
 /// list of pairs per column of the group. A guide is a harmonic function that has extrema only on
 /// handles and on pinned vertices. It determines for each vertex one neighbor with a larger and one
-/// neighbor with a smaller weight. monotone_guide() adds the pairs to the columns. It also pins
+/// neighbor with a smaller weight. monotone_guide() adds the pairs to the columns, and pins
 /// vertices at which a guide is exactly 0 or 1 (regions enclosed by one handle). It returns
 /// invalid_input, naming handle and vertex, if bounds or pinned values contradict the order.
 struct MonotoneGuide

@@ -80,7 +80,7 @@ public:
       w = harmonic;
       return true;
     }
-    // `fixed_flux` contains D_b K_bb e at the active vertices.
+    // `fixed_flux` contains the rows of D_b K_bb e at the fixed vertices with a free neighbor.
     Eigen::MatrixXd fixed_flux(rank, m);
     SparseMatrix u(this->form_.fixed_block.rows(), rank);
     Eigen::VectorXd mass(rank);
@@ -112,7 +112,7 @@ private:
   {
     return rhs.rows() == 0 ? rhs : this->solver_.solve(rhs);
   }
-  /// Return P r.
+  /// Return P r, where P is the matrix at the top of this file.
   Eigen::MatrixXd apply_inverse(const Eigen::MatrixXd& r) const
   {
     return this->solve(this->mass_.asDiagonal() * this->solve(r));

@@ -1,7 +1,7 @@
-// Solve the weights of a surface in a domain of its inside (see surface_weights.h). There is one
-// path for the volume (tets, handles, method, transfer), one path for the embedding (the same
-// operations on a lattice, with a smoothed transfer), and the choice between them. If a domain
-// fails and another domain replaces it, the report contains the status of the failed domain as the
+// Solve the weights of a surface in a domain of its inside (see surface_weights.h). The solve in
+// the volume makes tets, inserts handles, runs the method and transfers the weights. The solve in
+// the embedding does the same on lattices and smooths the transferred weights. If a domain fails
+// and another domain replaces it, the report contains the status of the failed domain as the
 // reason.
 #include "weights/surface_weights.h"
 
@@ -141,10 +141,12 @@ private:
   std::unique_ptr<PreparedSurface> prepared_;
   /// The locator of the surface, used for all lattices; null until it is needed.
   std::unique_ptr<SimplexLocator> surface_;
-  /// Links between parts: at openings of one part that another part covers, and of parts without a
-  /// handle. All lattices so far contributed to the latter.
+  /// Links between parts of the surface. The first links connect a part with an opening to the
+  /// parts that cover the opening. The other links connect parts that had no handle in one of the
+  /// lattices so far.
   std::vector<PartLink> links_;
-  /// Number of covered openings; empty until their links are in `links_`.
+  /// Number of openings that other parts cover; empty until `links_` contains the links at these
+  /// openings.
   std::optional<Index> covered_openings_;
   Index linked_parts_ = 0;
 };
@@ -234,8 +236,8 @@ Status Solver::fill(TetrahedralizeResult& tets)
   return status;
 }
 
-/// Return an error if an optional term applies to individual points, because these points are not
-/// vertices of this domain.
+/// Return an error if an optional term applies to individual points of the surface, because these
+/// points are not vertices of `domain`.
 Status Solver::reject_vertex_terms(const char* domain) const
 {
   return has_vertex_terms(this->weights_options_.terms)
@@ -657,7 +659,8 @@ LatticePtr Solver::best_lattice()
 {
   const Index requested = this->options_.resolution;
   bool has_converged = false;
-  // Use the finer lattice as `best`, unless only the coarser lattice converged or has a result.
+  // Use the finer lattice as `best`, unless only the coarser lattice converged, or only the coarser
+  // lattice has a result.
   const auto compare = [&](LatticePtr& best, LatticePtr finer)
   {
     if (best->status.usable() && finer->status.usable())

@@ -44,9 +44,11 @@ struct SurfaceWeights
   /// SurfaceWeightsOptions::keep_raw.
   Weights raw;
   WeightsDomain domain = WeightsDomain::surface; ///< the domain that was used
-  /// The tets before handles were inserted; for domains volume, embedding, and cage with faces.
+  /// The tets before handles were inserted. Empty for domain surface and for a cage of edges.
   TetrahedralizeResult tets;
-  TriangleMesh plane_cage; ///< the triangles before handles were inserted; for a cage of edges
+  /// The triangles that fill a cage of edges, before handles were inserted. Empty for other
+  /// domains.
+  TriangleMesh plane_cage;
   WeightsProblem problem;
   WeightsResult solved; ///< the weights at the vertices of problem.mesh
 };
@@ -103,9 +105,9 @@ struct SurfaceWeightsOptions
 /// domain is returned if the embedding fails, too. There is no such fallback for a surface with
 /// regions or with terms for individual points, unless the surface is flat.
 ///
-/// **cage**: the closed cage among the handles is filled with tets or triangles (fill_cage). Points
-/// of the surface outside of the cage get the weights of the nearest point of the cage, with a
-/// warning.
+/// **cage**: the closed cage that the cage vertices among the handles form is filled with tets or
+/// triangles (fill_cage). Points of the surface outside of the cage get the weights of the nearest
+/// point of the cage, with a warning.
 ///
 /// Report, in addition to the keys of the method:
 /// - domain ("surface", "volume", "embedding", "cage");
@@ -113,9 +115,8 @@ struct SurfaceWeightsOptions
 ///   domain_fallback.from, domain_fallback.status, domain_fallback.message;
 /// - tetrahedralize.method, embedding.resolution;
 /// - guard.resolution, guard.rms_difference, guard.max_difference;
-/// - counts.covered_openings (openings that other parts cover), counts.linked_parts (parts without
-/// a
-///   handle) and counts.links (links of both kinds), except if there are none;
+/// - if there are links: counts.covered_openings (openings that other parts cover),
+///   counts.linked_parts (parts without a handle) and counts.links (links of both kinds);
 /// - with a preview: preview.rms_difference and preview.max_difference (between preview and
 ///   result);
 /// - for a cage of edges: cage.area and cage.min_angle (degrees) of the triangles in the cage;

@@ -21,8 +21,8 @@ struct TransferOptions
 /// Numbers of points, classified by how their weights were computed.
 struct TransferCounts
 {
-  Index exact = 0; ///< points on a vertex, which get a bitwise copy of the row of the vertex
-  Index barycentric = 0; ///< points in an element, whose weights are interpolated
+  Index exact = 0; ///< points on a vertex; they get a bitwise copy of its row
+  Index barycentric = 0; ///< points in an element; their weights are interpolated
   /// Points outside of the mesh but within TransferOptions::reach. They get the weights of the
   /// nearest point of the mesh.
   Index nearest = 0;

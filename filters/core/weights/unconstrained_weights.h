@@ -28,7 +28,7 @@ Status triharmonic_weights(ExecutionContext& context, const WeightsProblem& prob
 /// the density of the mesh.
 Status graph_biharmonic_weights(ExecutionContext& context, const WeightsProblem& problem,
   const WeightsOptions& options, WeightsResult& result);
-/// Minimize the biharmonic energy with boundary conditions that a linear function satisfies as well
+/// Minimize the biharmonic energy with boundary conditions that every linear function satisfies
 /// (Wang, Jacobson, Barbic, Kavan, Linear Subspace Design for Real-Time Shape Deformation, 2015).
 /// Point handles then reproduce affine maps exactly: sum w_j p_j = p. This requires four points
 /// that are not in a plane, or for flat shapes three points that are not on a line. If there are

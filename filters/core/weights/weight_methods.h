@@ -31,7 +31,7 @@ const std::vector<WeightMethod>& weight_methods();
 /// Return the method with the given `word`; null if there is none.
 const WeightMethod* find_weight_method(std::string_view word);
 /// Return the `word` of each method, separated by commas, for error messages.
-/// @param constrained whether methods with `constrained` == true are included
+/// @param constrained true: all methods; false: only methods with `constrained` == false
 std::string weight_method_words(bool constrained);
 
 } // namespace bindpose

@@ -38,9 +38,8 @@ struct WeightTerms
   /// Mirror vertex of each vertex, #V; -1: none. The relation is symmetric: mirror[mirror[v]] == v.
   std::vector<Index> mirror;
   /// Alternative to `mirror`: the normal of a symmetry plane through mirror_origin; zero: no plane.
-  /// Vertices a and b are mirror vertices if b is the vertex nearest to the mirror image of a, a is
-  /// the vertex nearest to the mirror image of b, and both distances are below 1e-5 of the mesh's
-  /// diagonal.
+  /// Two vertices are mirror vertices if each is the vertex nearest to the mirror image of the
+  /// other, at a distance below 1e-5 of the mesh's diagonal.
   Vec3 mirror_normal = Vec3::Zero();
   Vec3 mirror_origin = Vec3::Zero();
 
@@ -62,7 +61,7 @@ double rigidity_unit(int order);
 /// - a rigidity is not in 0 … 1e12;
 /// - a value is infinite, or the lower bound of a handle is above its upper bound;
 /// - a mirror entry is not a vertex or -1, or mirror[mirror[v]] is not v;
-/// - no prescribed weight of a vertex is negative, and they sum to more than 1;
+/// - the prescribed weights of a vertex sum to more than 1, although none of them is negative;
 /// - the weights of all handles are prescribed at a vertex and do not sum to 1.
 Status check_terms(const WeightTerms& terms, Index vertex_count, const Handles& handles);
 

@@ -121,8 +121,9 @@ Status check_no_terms(const WeightsProblem& problem);
 
 /// Scale rows so that they sum to one. Pinned weights do not change; only the other weights of the
 /// row are scaled.
-/// @param fallback #V x #handles. If the absolute value of the sum of the scaled weights is below
-/// 1e-3, they are replaced by the positive weights of this row, divided by their sum.
+/// @param fallback #V x #handles. It replaces the weights that are not pinned if their sum is
+/// within 1e-3 of zero. The positive entries of the row of `fallback` are then scaled to the
+/// required sum.
 /// @param excluded #V * #handles, row by row: 1 for weights that must stay 0; empty: no such
 /// weight.
 /// @return number of rows for which `fallback` was used

@@ -90,8 +90,8 @@ protected:
     }
   }
 
-  /// Copy the time steps of the inputs to the output, so that handles that move with time move the
-  /// output. If several ports have time steps, those of the last port are used.
+  /// Copy the time steps of the inputs to the output, so that animated handles animate the output.
+  /// If several ports have time steps, those of the last port are used.
   int RequestInformation(
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output) override;
 

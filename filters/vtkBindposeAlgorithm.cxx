@@ -13,11 +13,11 @@
 // is also empty and costs nothing.
 //
 // A filter with a piece port requests the piece from this port and the whole from all other ports.
-// An algorithm upstream of both executes once, for the last request, and the order of the requests
-// depends on what is already up to date, so it can differ between processes. In this case piece 0
-// is computed from the whole input, as in all other filters. follows_pieces() detects it from the
-// connections, which are the same on all processes. An information object of an output is also that
-// of the connected inputs.
+// If an algorithm is upstream of the piece port and of another port, it executes only once, for the
+// last request. Which request is last depends on what is already up to date, and can differ between
+// processes. In this case piece 0 is computed from the whole input, as in filters without a piece
+// port. follows_pieces() detects the case from the connections, which are the same on all
+// processes. It identifies an output by its information object, which connected inputs share.
 //
 // Blocks: if the first input is a composite, the executive requests all passes once for the whole
 // filter, and then, from REQUEST_DATA_OBJECT to REQUEST_DATA, once per block. In the latter passes
@@ -91,8 +91,8 @@ std::vector<vtkDataObject*> blocks_of(vtkCompositeDataSet* composite)
   return blocks;
 }
 
-/// The inputs of an execution. A composite can be replaced by the block that belongs to the current
-/// block of the first input.
+/// The inputs of an execution. select_block() replaces a composite by one of its blocks: the block
+/// with the same index as the current block of the first input.
 class BlockInputs
 {
 public:
@@ -141,7 +141,7 @@ private:
   std::vector<vtkSmartPointer<vtkInformationVector>> copies_;
 };
 
-/// Call visit(info) for all connections of an input port of the algorithm behind a connection.
+/// Call visit(info) for each connection to the input port `port` of `producer`.
 template <typename Visit>
 void for_inputs_of(vtkExecutive* producer, int port, const Visit& visit)
 {
@@ -152,7 +152,7 @@ void for_inputs_of(vtkExecutive* producer, int port, const Visit& visit)
   }
 }
 
-/// Collect all outputs upstream of a connection, which is one of them.
+/// Add the output that `connection` comes from, and all outputs upstream of it, to `outputs`.
 void collect_upstream(vtkInformation* connection, std::set<vtkInformation*>& outputs)
 {
   vtkExecutive* producer = vtkExecutive::PRODUCER()->GetExecutive(connection);
@@ -166,7 +166,7 @@ void collect_upstream(vtkInformation* connection, std::set<vtkInformation*>& out
   }
 }
 
-/// Report whether the pieces of a connection are made from pieces of an output in `outputs`.
+/// Report whether a piece of `connection` is computed from a piece of one of the `outputs`.
 bool follows_pieces(vtkInformation* connection, const std::set<vtkInformation*>& outputs)
 {
   if (outputs.count(connection) > 0)
@@ -175,7 +175,7 @@ bool follows_pieces(vtkInformation* connection, const std::set<vtkInformation*>&
   }
   vtkExecutive* producer = vtkExecutive::PRODUCER()->GetExecutive(connection);
   auto* filter = vtkBindposeAlgorithm::SafeDownCast(producer ? producer->GetAlgorithm() : nullptr);
-  // Other algorithms than ours process their first input piece by piece.
+  // Assume that an algorithm outside of Bindpose processes its first input piece by piece.
   const int port = filter ? filter->GetPiecePort() : 0;
   if (!producer || port < 0 || port >= producer->GetNumberOfInputPorts())
   {
@@ -394,7 +394,7 @@ bool vtkBindposeAlgorithm::WorksByPieces(vtkInformationVector** input)
   return true;
 }
 
-/// Report whether a data object is a composite that Execute() does not take as it is.
+/// Report whether a data object is a composite that Execute() processes block by block.
 bool vtkBindposeAlgorithm::HasBlocks(int port, vtkDataObject* data)
 {
   return vtkCompositeDataSet::SafeDownCast(data) && !this->TakesComposite(port);

@@ -14,9 +14,9 @@
  *   and leaves all outputs empty except for the report. The pipeline continues (RequestData returns
  *   1), so that downstream filters do not keep stale output. Each downstream Bindpose filter
  *   repeats the failure that it finds on its input.
- * - **Cancel.** SetAbortExecute(1) ends the execution within 200 ms, except inside a single named
- *   factorization. It may be called from any thread or from an observer of ProgressEvent. The
- *   outputs are empty, the status is CANCELED, and no error event is invoked.
+ * - **Cancel.** SetAbortExecute(1) ends the execution within 200 ms, except during a matrix
+ *   factorization that cannot be interrupted. It may be called from any thread or from an observer
+ *   of ProgressEvent. The outputs are empty, the status is CANCELED, and no error event is invoked.
  * - **Retry.** After a failure or cancel the next Update() executes again.
  * - **Pieces.** With several processes, most filters depend on the whole input, and the first
  *   process does the work: piece 0 requests every input as a whole, and all other pieces are empty.
@@ -110,7 +110,7 @@ public:
   /**
    * Return the input port whose pieces are distributed over several processes. The results of a
    * piece depend only on this piece and on the whole of all other inputs. -1 (default): the output
-   * is not computed piece by piece; see above.
+   * is not computed piece by piece; see Pieces in the class documentation.
    */
   virtual int GetPiecePort() { return -1; }
 
@@ -137,15 +137,15 @@ protected:
 
   /// Report whether the filter supports pieces without GetPiecePort(): Execute() then produces only
   /// the requested piece or extent, and RequestUpdateExtent() requests only the necessary input.
-  /// Default: false; see above.
+  /// Default: false; see Pieces in the class documentation.
   virtual bool MakesPieces() { return false; }
 
   /// Report whether a failure of an input ends the execution with the status of this input. If
   /// false, Execute() is called with failed inputs, too. Default: true.
   virtual bool EndsWithFailedInput() { return true; }
 
-  /// Report whether Execute() takes a composite at an input port as it is. Default: false; see
-  /// above.
+  /// Report whether Execute() accepts a whole composite at an input port. Default: false: Execute()
+  /// is called once per block; see Blocks in the class documentation.
   virtual bool TakesComposite(int vtkNotUsed(port)) { return false; }
 
   /// Accept composites at an input port in addition to its data type. Call this function in
@@ -157,8 +157,8 @@ protected:
   static void RequestWholeInput(vtkInformation* input);
 
   ///@{
-  /// Return the requested piece of an output, or the number of pieces that are requested of an
-  /// input or output: 0 of 1 if nothing is requested.
+  /// Return the index of the requested piece (0 without a request), and the number of pieces of the
+  /// request (1 without a request).
   static int GetPiece(vtkInformation* output);
   static int GetNumberOfPieces(vtkInformation* info);
   ///@}
@@ -168,8 +168,8 @@ protected:
   /// have no part of the data.
   bool IsEmptyPiece(vtkInformationVector** input, vtkInformationVector* output);
 
-  /// Return the block of a composite input that is executed. Caches of a filter are
-  /// bindpose::BlockCaches that refer to this number.
+  /// Return the number of the block that Execute() works on. The caches of a filter
+  /// (bindpose::BlockCaches) use this number to select the cache of the block.
   const bindpose::BlockNumber& GetBlock() const { return this->Block; }
 
   /**

@@ -28,9 +28,9 @@
  * vtkReducedARAP, before the placement.
  *
  * **Pieces and blocks.** Each process poses its own piece of the instances with the whole mesh. An
- * instance gets the same bits as on one process if it starts from the same rotations. Numbers of
- * instances (in names, messages and the array `Instance`) and counts are those of the piece. The
- * blocks of a composite mesh need OutputType APPENDED.
+ * instance gets the same bits as on one process if it starts from the same rotations. The indices
+ * of instances (in names, messages and the array `Instance`) start at 0 in each piece, and the
+ * report counts only the piece. A composite mesh requires OutputType APPENDED.
  *
  * An instance starts from the rotations of its last pose (WarmStart), so a moving crowd needs few
  * iterations.

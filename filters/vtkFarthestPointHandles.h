@@ -4,8 +4,8 @@
  *
  * The first handle is the vertex farthest from the vertices' centroid. Each next handle is the
  * vertex farthest in space from all handles before it. Ties go to the smaller point id, so the same
- * surface always gives the same handles. With a smaller NumberOfHandles the result is the first
- * handles of a larger result. The filter is useful for a first look at weights on a mesh without a
+ * surface always gives the same handles. A larger NumberOfHandles appends handles and does not
+ * change the earlier ones. The filter is useful for a first look at weights on a mesh without a
  * skeleton: the first handles are at tips (fingers, ears, feet).
  *
  * Input: a surface (vtkPointSet with 2D cells), or tets, whose boundary is used. Output: a handle

@@ -12,9 +12,9 @@
  * **Output 1**: the handles (see filters/README.md). A joint that vtkGLTFSkinWriter wrote for a
  * handle becomes that handle again, unless another program has changed its bind position. Other
  * joints with children become bones that end at the mean position of the children. Other joints
- * without children become points. The `Ownership` of these bones and points is 1, so that a bind
- * skips a joint that gets no vertex of its own (helper joints). The `Ownership` of joints without
- * weights in the file (control bones) is 2. The inverse bind matrices give the rest positions.
+ * without children become points. The array `Ownership` is 1 for these bones and points, so that a
+ * bind skips a joint if no vertex can be assigned to it alone (helper joints). It is 2 for joints
+ * without weights in the file (control bones). The inverse bind matrices give the rest positions.
  * `Transform` contains the transforms of the nodes, or those of the animation at Frame. Posing the
  * mesh by linear blend skinning therefore gives the shape that a glTF viewer shows.
  *

@@ -198,7 +198,7 @@ int vtkMeshFileWriter::Write()
 int vtkMeshFileWriter::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
-  AcceptBlocks(info); // so that the status rather than the executive reports blocks
+  AcceptBlocks(info); // so that Execute(), not the executive, rejects composites
   return 1;
 }
 

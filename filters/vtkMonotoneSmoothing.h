@@ -77,11 +77,11 @@ public:
 
   ///@{
   /**
-   * Weight of the data term relative to the smoothness, >= 0. The data length is DataWeight^(-1 /
-   * (2 k)) of the mesh's size: 0.03 for the default 1e6 and k = 2, 0.1 for k = 3. Detail finer than
-   * about six data lengths is smoothed away. The size is sqrt(12) times the root mean square
-   * distance from the centroid, which is the diagonal for a box. For a DataWeight of 0 see the
-   * description of the class.
+   * Weight of the data term relative to the smoothness, >= 0. Detail finer than about six data
+   * lengths is smoothed away. The data length is DataWeight^(-1 / (2 Order)) times the size of the
+   * mesh. With the default DataWeight of 1e6, the factor is 0.03 for Order 2 and 0.1 for Order 3.
+   * The size is sqrt(12) times the root mean square distance from the centroid; for a box it equals
+   * the diagonal. For a DataWeight of 0 see the class documentation.
    */
   vtkSetMacro(DataWeight, double);
   vtkGetMacro(DataWeight, double);
@@ -125,9 +125,9 @@ public:
   ///@{
   /**
    * Guide function, which determines the direction in which the result increases along each edge.
-   * UNCONSTRAINED (default): the minimizer without order constraints, from which all extrema that
-   * are not in the list are removed; it is nearest to the data. HARMONIC: the harmonic function
-   * with the extrema as boundary values, which does not depend on the data between the extrema.
+   * UNCONSTRAINED (default): the minimizer without order constraints, after the removal of all
+   * extrema that are not in the list. This guide is nearest to the data. HARMONIC: the harmonic
+   * function with the extrema as boundary values, which does not depend on the data between them.
    */
   vtkSetClampMacro(Guide, int, 0, 1);
   vtkGetMacro(Guide, int);

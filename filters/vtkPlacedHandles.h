@@ -11,9 +11,9 @@
  *   #
  *   2 3 1 0 0
  * </pre>
- * A program in which users place handles sets the text after every change. A text is easy to store
- * in a file of the program's state, and to undo. bindpose::to_tgf() (C++) returns the text of a
- * handle dataset.
+ * A program in which users place handles sets the text after every change. The program can store
+ * the text in a state file, and restore an earlier text for undo. bindpose::to_tgf() (C++) returns
+ * the text of a handle dataset.
  *
  * An empty text has no handles. The output is then empty.
  *

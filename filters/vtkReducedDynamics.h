@@ -112,7 +112,8 @@ public:
   ///@}
 
   ///@{
-  /// Compute one step per execution and ignore the pipeline's time, see above. Default off.
+  /// Compute one step per execution and ignore the pipeline's time; see Time in the class
+  /// documentation. Default off.
   void SetInteractive(bool interactive);
   vtkGetMacro(Interactive, bool);
   vtkBooleanMacro(Interactive, bool);

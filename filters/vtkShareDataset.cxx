@@ -1,10 +1,11 @@
 // Exchanges the parts of a dataset between processes. Every process must send and receive the same
 // messages in the same order, or the processes would wait for each other forever. Therefore
 //
-// - an exchange is decided by what is the same on all processes: a change upstream, the requested
-//   time and the result of the last exchange. It does not depend on the requested piece;
+// - all processes make the same decision whether to exchange data. It depends on a change upstream,
+//   the requested time and the result of the last exchange, which are the same on all processes. It
+//   does not depend on the requested piece;
 // - the executive calls the filter even if an algorithm upstream has failed on this process. The
-//   failure then becomes a part of the exchange;
+//   process then sends the failure instead of its part;
 // - processes agree on the outcome after every step that can fail on one of them.
 #include "vtkShareDataset.h"
 
@@ -57,8 +58,8 @@ namespace
 constexpr int part_tag = 57301;
 /// Largest message, in bytes. Some implementations of MPI count bytes with 32 bits.
 constexpr vtkIdType largest_message = vtkIdType(1) << 30;
-/// Largest dataset, in KiB. VTK counts the bytes of a converted dataset with 32 bits; the rest is
-/// for the names in it.
+/// Largest dataset, in KiB: 4 GiB minus 64 MiB. VTK counts the bytes of a message with 32 bits; 64
+/// MiB are reserved for the names in it.
 constexpr unsigned long largest_dataset = (4ul << 20) - (64ul << 10);
 
 /// The executive of the filter. It calls the filter even if an algorithm upstream has failed.
@@ -121,7 +122,7 @@ private:
 };
 vtkStandardNewMacro(SharePipeline);
 
-/// The part of a process, as the other processes see it.
+/// The description of one process's part of the dataset, which the process sends to process 0.
 struct Part
 {
   Status status;
@@ -153,8 +154,8 @@ Status no_connection()
     StatusCode::internal_error, "the processes could not exchange their messages");
 }
 
-/// Return the status of work of one process. An exception becomes internal_error, because it must
-/// not interrupt the exchange.
+/// Do work on this process and return its status. An exception becomes internal_error, because an
+/// exception would interrupt the exchange.
 template <typename Work>
 Status status_of_process(const Work& work)
 {
@@ -290,7 +291,8 @@ vtkSmartPointer<vtkDataObject> append_parts(
   return append->GetOutput();
 }
 
-/// Return the failure of the parts, if there is one: that of a process, or different classes.
+/// Return the failure of the first process that has failed, or invalid_input if the parts are of
+/// different classes.
 Status check_parts(const std::vector<Part>& parts)
 {
   for (std::size_t i = 0; i < parts.size(); ++i)
@@ -313,7 +315,7 @@ Status check_parts(const std::vector<Part>& parts)
   return {};
 }
 
-/// The result of all parts, which process 0 sends to the other processes.
+/// The result of combining all parts, which process 0 sends to the other processes.
 struct Outcome
 {
   Status status;
@@ -470,7 +472,7 @@ vtkExecutive* vtkShareDataset::CreateDefaultExecutive()
 
 void vtkShareDataset::SetExecutive(vtkExecutive* executive)
 {
-  // ParaView replaces the executives of all algorithms.
+  // Ignore other executives: ParaView tries to replace the executives of all algorithms.
   if (!executive || dynamic_cast<SharePipeline*>(executive))
   {
     this->Superclass::SetExecutive(executive);

@@ -2,32 +2,33 @@
  * @class   vtkShareDataset
  * @brief   gives every process the whole of a dataset that was computed on one or several processes
  *
- * On several processes (MPI), this filter sends the result of work that runs once to all processes.
- * Put it before the inputs that filters with pieces request as a whole:
+ * With several processes (MPI), some filters compute their result only on the first process. This
+ * filter sends such a result to all processes. Put it before the inputs that filters with pieces
+ * request as a whole:
  * <pre>
  *   mesh - weights filter - vtkShareDataset - input 1 of vtkTransferWeights
  *   handles - vtkShareDataset - vtkPoseHandles - input 1 of vtkSkinningDeformation
  * </pre>
- * Without it, every process would compute the weights and the handles itself. A pose changes after
- * the exchange, on each process, so it causes no new exchange.
+ * Without it, every process would compute the weights and the handles itself. In the second line
+ * each process poses its own copy of the handles, so a change of the pose causes no new exchange.
  *
  * **Input**: the part of the dataset that a process has, a vtkPolyData or vtkUnstructuredGrid. The
  * filter requests piece i of N from its input, where i is the process and N the number of
  * processes. Usually only process 0 has points; otherwise the parts are appended in the order of
  * the processes. Points are not merged, and ids in arrays are not renumbered.
  *
- * **Output**: the whole, with the same bits on all processes, if a process requests piece 0 of 1,
- * as filters do for inputs that they need as a whole. If the pieces are requested one by one, as by
- * a view or a writer, only piece 0 has the whole and the other pieces are empty, so that nothing is
- * there twice. Every process stores the whole in any case.
+ * **Output**: the whole dataset, with the same bits on all processes, if the request is for piece 0
+ * of 1. Filters request inputs in this way if they need them as a whole. Views and writers instead
+ * request one of N pieces on each process. Piece 0 is then the whole dataset and the other pieces
+ * are empty, so that nothing occurs twice. In both cases every process stores the whole dataset.
  *
  * **Exchange.** All processes exchange data together, in the first update after a change upstream.
  * A change of the requested piece causes no exchange. If the arrays of all parts are those of the
- * last exchange, the old result stays. If a part is unusable on one process, the status is the same
- * on all processes, with the number of the process in the message, and the next update tries again.
- * An algorithm upstream that fails on one process, even outside of Bindpose, does not block the
- * others: the filter has its own executive, which always takes part. The processes must all update
- * the filters downstream, as ParaView does.
+ * last exchange, the old result is kept. If the part of one process is unusable, all processes get
+ * the same status, whose message names this process, and the next update tries again. The filter
+ * has its own executive, which takes part in an exchange even if an algorithm upstream (of Bindpose
+ * or not) fails on its process. Such a failure therefore does not block the other processes. All
+ * processes must update the filter, as ParaView does.
  *
  * The status is INVALID_INPUT for a missing input, for blocks (merge them first), for other
  * classes, for parts of different classes, for ids above 2147483647 in arrays of ids, and for more
@@ -59,7 +60,7 @@ public:
   vtkGetObjectMacro(Controller, vtkMultiProcessController);
   ///@}
 
-  /// Number of times that data was sent, or taken over if there is one process.
+  /// Number of completed exchanges. With only one process, each copy of a changed input counts.
   vtkGetMacro(NumberOfExchanges, int);
 
   /// Set the executive. An executive of a class other than the filter's own is ignored, because

@@ -114,7 +114,7 @@ Status vtkSkinningDeformation::Bind(ExecutionContext& context, const PoseInput& 
   return this->BindMissing(context, input);
 }
 
-/// Compute what the method needs and the bind does not contain.
+/// Extend the bind by the data that the current method needs, if that data is missing.
 Status vtkSkinningDeformation::BindMissing(ExecutionContext& context, const PoseInput& input)
 {
   Internals& internal = *this->Internal;

@@ -28,11 +28,11 @@
  * motion of all points is reproduced exactly; in space an edge does not determine the rotation
  * about itself. Points without edges keep their own rotation.
  *
- * **Pieces.** By linear blend and dual quaternions, a point depends only on its own weights. Each
- * process then poses its own piece of the mesh with the whole set of handles, and every point gets
- * the same bits as on one process. Counts and stretch in the report, and the signs in the array
- * `Stretch` of a surface, are those of the piece. The other methods, and automatic pseudo-edges,
- * depend on the whole mesh; the first process poses it.
+ * **Pieces.** With linear blend and dual quaternions, a posed point depends only on its own
+ * weights. Each process then poses its own piece of the mesh with the whole set of handles, and
+ * every point gets the same bits as on one process. Counts and stretch in the report, and the signs
+ * in the array `Stretch` of a surface, are computed from the piece alone. The other methods, and
+ * automatic pseudo-edges, depend on the whole mesh; the first process then poses the whole mesh.
  *
  * Ports, arrays, bind cache and errors: see vtkPoseAlgorithm. Handles in mode position contribute a
  * translation, handles in mode free the identity (with a warning). Skinning does not compute

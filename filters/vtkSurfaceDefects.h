@@ -5,8 +5,9 @@
  * **Input**: a vtkPointSet with 2D cells (polygons and strips are split into triangles; other cells
  * are ignored and counted). All surfaces are accepted, except those with ids out of range or
  * coordinates that are not finite.
- * **Output**: a vtkPolyData with one cell per defect: vertices, then edges, then triangles.
- * Cell arrays `Defect` (int), in this order, and `DefectName` (string):
+ * **Output**: a vtkPolyData with one cell per defect: vertices, then edges, then triangles. The
+ * cell array `Defect` (int) has the values of the first column of this table, in ascending order,
+ * and the cell array `DefectName` the strings of the second column:
  *
  * | 0 | duplicate vertex | equal to a point of lower id |
  * | 1 | unreferenced vertex | used by no triangle |

@@ -149,8 +149,9 @@ public:
 
   ///@{
   /**
-   * Segmentation of the tets of an open surface by CDT. GRAPH_CUT (default) labels all tets in one
-   * optimization, so that the boundary follows the surface and is small and smooth across openings.
+   * Method by which CDT decides which tets are inside of an open surface. GRAPH_CUT (default)
+   * labels all tets in one optimization, so that the boundary follows the surface, and is small and
+   * smooth across openings.
    * THRESHOLD labels each tet by its own winding number alone; it is also used if the volume of the
    * graph cut differs from the volume of the winding number by more than 5 %. For closed surfaces
    * both methods give the same result.

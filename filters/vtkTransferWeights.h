@@ -16,9 +16,9 @@
  * vtkWeightsAlgorithm).
  *
  * **Pieces.** Each process transfers the weights to its own piece of the target, from the whole
- * mesh. Every point gets the same bits as on one process. The exception is a mesh that is cut open:
- * the point's own id is its id in the piece, so several vertices at one point may be mixed up.
- * Counts in the report are those of the piece.
+ * mesh. Every point gets the same bits as on one process, except on a mesh that is cut open. There,
+ * the id of a point in its piece differs from its id in the whole target, so the wrong one of
+ * several vertices at the same position may be used. The report counts only the piece.
  *
  * The result is cached until points, cells or weights of the mesh or the points of the target
  * change. An unchanged transfer returns the same array. GetNumberOfBinds() counts the transfers.
@@ -55,7 +55,8 @@ public:
   /// Number of times that weights were transferred.
   vtkGetMacro(NumberOfBinds, int);
 
-  /// Return the port of the target, whose points get their weights one by one.
+  /// Return the port of the target. Each of its points gets its weights independently of the
+  /// others.
   int GetPiecePort() override { return 0; }
 
   /// Set the mesh with weights, like SetInputData(1, mesh).

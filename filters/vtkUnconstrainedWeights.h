@@ -50,9 +50,9 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// Method, a word of the table above; default "biharmonic". With an unknown word the filter fails
-  /// with the status INVALID_INPUT when it executes. All parameters of this class are bind
-  /// parameters.
+  /// Method, one of the names in the table of the class documentation; default "biharmonic". With
+  /// an unknown name the filter fails with the status INVALID_INPUT when it executes. All
+  /// parameters of this class are bind parameters.
   void SetMethod(const std::string& word);
   std::string GetMethod() { return this->Method; }
   ///@}

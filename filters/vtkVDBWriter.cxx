@@ -90,8 +90,8 @@ int vtkVDBWriter::Write()
 
 int vtkVDBWriter::FillInputPortInformation(int, vtkInformation* info)
 {
-  // Accept any dataset, so that the status rather than the executive reports an input that is not
-  // an image.
+  // Accept any dataset, so that Execute(), not the executive, rejects an input that is not an
+  // image.
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
   AcceptBlocks(info);
   return 1;

@@ -17,10 +17,10 @@
  * a new point is -1. The output then contains only tets or triangles. With KeepMesh on, the mesh
  * does not change, and the corners of the cell that contains a handle represent the handle.
  *
- * **Output 1**: the local extrema of the solved columns that are away from handles and have a
- * persistence above 1e-3: a vtkPolyData with one vertex per extremum and the point arrays `Kind` (1
- * maximum, -1 minimum), `Handle` (column), `Value` and `Persistence` (fraction of the column's
- * range).
+ * **Output 1**: local extrema of the weights, before rows are divided by their sums. Only extrema
+ * away from handles and with a persistence above 1e-3 are listed. The output is a vtkPolyData with
+ * one vertex per extremum and the point arrays `Kind` (1 maximum, -1 minimum), `Handle` (column),
+ * `Value` and `Persistence` (fraction of the column's range).
  * **Output 2**: the tets on which a surface's weights were solved, with `Weights` and the arrays of
  * vtkTetrahedralizeSurface. It is empty if the weights were solved on the mesh itself (see Domain).
  *
@@ -214,7 +214,9 @@ public:
   ///@}
 
   ///@{
-  /// Keep the points and cells of the mesh. Default off: handles become vertices.
+  /// Off (the default): insert a vertex at each handle that is not at a vertex, which splits the
+  /// cells around it. On: insert no vertices, so that the output has the points and cells of the
+  /// mesh. The corners of the cell that contains a handle then represent the handle.
   void SetKeepMesh(bool keep);
   vtkGetMacro(KeepMesh, bool);
   vtkBooleanMacro(KeepMesh, bool);
@@ -230,8 +232,8 @@ public:
 
   ///@{
   /**
-   * Names of the mesh's point arrays of terms; see above. Defaults: Rigidity, RigidSet,
-   * WeightsLower, WeightsUpper, PinnedWeights, SymmetricPoint.
+   * Names of the mesh's point arrays of terms; see Terms in the class documentation. Defaults:
+   * Rigidity, RigidSet, WeightsLower, WeightsUpper, PinnedWeights, SymmetricPoint.
    */
   void SetRigidityArrayName(const std::string& name);
   std::string GetRigidityArrayName();

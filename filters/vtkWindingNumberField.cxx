@@ -401,9 +401,9 @@ int vtkWindingNumberField::RequestInformation(
   vtkDataObject* data = vtkDataObject::GetData(surface_info);
   if (vtkCompositeDataSet::SafeDownCast(data))
   {
-    // VTK's composite executive calls this function once with the whole dataset, and then once per
-    // block with the block in place of the producer's output. The calls for blocks must not update
-    // the producer.
+    // VTK's composite executive calls this function once with the whole composite, and then once
+    // per block. In the calls for blocks, the block replaces the producer's output; these calls
+    // must not update the producer.
     return 1;
   }
   vtkExecutive* producer = vtkExecutive::PRODUCER()->GetExecutive(surface_info);
@@ -486,7 +486,7 @@ bindpose::Index size_class(bindpose::Index points)
 /// that move a little need no new acceleration structure.
 bindpose::Box query_region(vtkDataSet* points, vtkDataSet* surface)
 {
-  constexpr double padding = 0.1; // in diagonals, like the space around the surface in grids
+  constexpr double padding = 0.1; // in bounding-box diagonals; the default Padding of grids
   constexpr double cells = 16.0; // along each axis
   const double* bounds = points->GetBounds();
   const double* around = surface->GetBounds();

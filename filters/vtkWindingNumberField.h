@@ -100,7 +100,7 @@ public:
   vtkTypeMacro(vtkWindingNumberField, vtkBindposeAlgorithm);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// Methods of computation; see above.
+  /// Methods of computation; see Methods in the class documentation.
   enum MethodType
   {
     AUTO = 0,
@@ -232,7 +232,8 @@ public:
   vtkGetMacro(OutputPrecision, int);
   ///@}
 
-  /// Return the port of the points if there are any. Otherwise the pieces are extents of the grid.
+  /// Return the port of the query points if it is connected. Otherwise return -1; the pieces are
+  /// then extents of the grid.
   int GetPiecePort() override { return this->GetNumberOfInputConnections(1) > 0 ? 1 : -1; }
 
   /// Return the open boundary of the surface: output 1.

@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
-"""Make a wheel of the Python package from an install tree. It contains the package, its libraries and the programs.
+"""Make a wheel of the Python package from an install tree. The wheel contains the package,
+its libraries and the programs.
 
     cmake --install build --prefix PREFIX
     python3 python/make_wheel.py PREFIX --output dist

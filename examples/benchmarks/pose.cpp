@@ -371,8 +371,8 @@ BENCHMARK(full_arap_iteration)
 void skinning(benchmark::State& state)
 {
   const Index count = state.range(0);
-  // Handles and weights are cached between rows, because computing those of all three numbers of
-  // handles takes a minute.
+  // Handles and weights are cached between rows, because computing them for all three handle counts
+  // takes a minute.
   static std::map<std::pair<Index, bool>, Rig> rigs;
   Rig& rig = rigs[{ count, state.range(3) != 0 }];
   if (rig.handles.empty())

@@ -19,7 +19,7 @@ namespace
 using namespace bindpose;
 
 /// Return tets in a box of n^3 cells, six tets per cell. The box is sheared and stretched a little,
-/// so that no angle is special.
+/// so that the tets do not have the regular angles of a grid.
 Domain tet_box(Index n)
 {
   Domain domain;

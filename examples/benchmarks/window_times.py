@@ -45,7 +45,7 @@ def write_sphere(path, rings):
 
 
 def play(program, folder, steps, *files):
-    """Play a tour; return its record."""
+    """Let the window perform the steps. Return the content of tour.json: durations, screenshots and values."""
     tour = folder / "tour_to_play.json"
     tour.write_text(json.dumps({"tour": {"schema": 1, "seconds": 600}, "steps": steps}))
     subprocess.run([program, "view", *files, "--play", tour, "--screenshot-dir", folder, "--overwrite"], check=True,

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 """Automatic rigging: find handles, compute weights, and apply a pose.
 
-Mean curvature flow contracts the armadillo to a curve, which becomes bones: limbs, hands, ears and tail. Next to it is
-the same shape, bent at every joint with bounded biharmonic weights of those bones. Below is an elephant full of holes;
-its skeleton is computed from the inside that the winding number defines. The last picture shows points that are spread
-along the surface and moved into the middle of the shape.
+Mean curvature flow contracts the armadillo to a curve, which becomes bones: limbs, hands, ears and tail. The second
+picture shows the armadillo bent at every joint, with bounded biharmonic weights of these bones. Below is an elephant
+full of holes; its skeleton is computed from the inside that the winding number defines. The last picture shows points
+that are spread along the surface and moved into the middle of the shape.
 
 Numbers: bones, junctions, joints that are outside; cut cycles (the elephant's trunk and tusks touch its head);
 processor seconds from mesh to bones; the largest error of a row sum of the weights. For points that are spread over the

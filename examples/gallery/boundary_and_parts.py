@@ -8,8 +8,9 @@ multiplicity: 1 at a hole, 2 around the inward cap and the double bowl, 3 along 
 table of the parts: triangles, open edges (with multiplicities), volume.
 
 Numbers: the table; the number of points at which the curves do not close (always 0, because a boundary has no
-boundary). The last number shows that the field depends only on the curves, apart from integers: the winding number of
-the surface minus that of a fan of triangles over the curves (largest distance of this difference from an integer).
+boundary). The last number compares the winding number of the surface with that of a fan of triangles over the curves:
+it is the largest distance of their difference from an integer. It is 0 up to round-off, because apart from integers the
+field depends only on the curves.
 """
 
 import common

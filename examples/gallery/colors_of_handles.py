@@ -6,10 +6,10 @@ blended in linear light, saturated colors stay bright where they meet; if they a
 On the right is a drawing by curves with a color on each side (diffusion curves): the mesh is cut along the curves, and
 each side is a separate handle.
 
-Numbers, blended as light and as sRGB values: points out of the gamut, and points outside the range of the handles'
-colors (both 0 for bounded weights); the difference from a handle's color on the handle; the color halfway between red
-and green. For the drawing: the difference from each side's color along the curves, which shows that no color leaks
-through.
+Numbers, for colors blended as light and as sRGB values: points out of the gamut, and points outside the range of the
+handles' colors (both 0 for bounded weights); the difference between a handle's color and the blended color on the
+handle; the color halfway between red and green. For the drawing: the difference from each side's color along the
+curves, which shows that no color leaks through.
 """
 
 import common

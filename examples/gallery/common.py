@@ -1,7 +1,7 @@
 """The common parts of the gallery scripts: options, the package, the program, numbers.
 
 A script defines `make(options)`, which draws `options.picture` and returns its numbers; `common.main` calls it.
-`import common` must precede `import bindpose`, because it finds the build.
+`import common` must precede `import bindpose`, because this module adds the build to the search path of Python.
 """
 
 import argparse
@@ -45,8 +45,8 @@ def program():
 
 
 def render(options, *words, picture=None):
-    """Draw `options.picture`, or another picture, by `bindpose render`, from files in `options.scratch`; return the
-    report of the picture."""
+    """Run `bindpose render` on files in `options.scratch`, and write `options.picture`, or `picture` if given. Return
+    the part `picture` of the report."""
     words = ["render", *map(str, words), "-o", str(picture or options.picture), "--overwrite", "--quiet", "--report", "-"]
     done = subprocess.run([program(), *words], cwd=options.scratch, capture_output=True, text=True, check=False)
     if done.returncode:

@@ -5,8 +5,9 @@ Crossing triangles, edges of three and more triangles, open boundaries, several 
 cone through it, an elephant full of holes, and a generated house with all four defects, whose counts are known in
 advance. Above are the surfaces with their defects, below their tets, cut open.
 
-Numbers: the number of defects of each type (vtkSurfaceDefects; crossings by pairs of triangles); number and method of
-the tets, their volume and the volume of the winding number, and the smallest volume of a tet, which is positive.
+Numbers: the number of defects of each type (vtkSurfaceDefects; crossings by pairs of triangles). For the tets: their
+number, the method, the smallest volume of a tet (which is positive), and their total volume relative to the volume in
+which the winding number is at least 1/2.
 """
 
 import warnings

@@ -5,10 +5,10 @@ Seven points constrain a cat; paw, head and tail are dragged, the others are fix
 blend skinning, translated points do not rotate anything, so limbs are sheared. Reduced as-rigid-as-possible gets only
 positions and computes the rotations.
 
-Numbers: the stretch or compression, as its mean over the area and as the value that a hundredth of the area exceeds.
-For a triangle whose deformation gradient has the singular values s1 >= s2, it is max(s1, 1 / s2) - 1. Further numbers:
-the computed rotation at each dragged point, in degrees; the largest deviation from the positions, relative to the
-diagonal; iterations of the solve, and microseconds per iteration.
+Numbers: the stretch or compression, as its mean over the area and as the value that a hundredth of the area exceeds. It
+is defined per triangle as max(s1, 1 / s2) - 1, where s1 >= s2 are the singular values of the deformation gradient.
+Further numbers: the computed rotation at each dragged point, in degrees; the largest deviation from the positions,
+relative to the diagonal; iterations of the solve, and microseconds per iteration.
 """
 
 import common

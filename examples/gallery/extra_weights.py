@@ -5,8 +5,8 @@ Only the end faces of a bar are moved. Above, it is bent into an S; below, it is
 the bar can deform in more ways and stretches less.
 
 Numbers: the energy without extra weights, with 15 of each type, and with every vertex as an unknown. (In the
-compression, the bar with every vertex as an unknown buckles into a worse minimum than with smooth weights.) Also the
-energies with 0 to 15 of each type in the compression.
+compression, the bar with every vertex as an unknown buckles into a worse minimum than with smooth weights.) For the
+compression also the energies with 0 to 15 extra weights of each type.
 """
 
 import json

@@ -4,8 +4,8 @@
 The ends of a bar of tets are bent toward each other. The sets are the edges of a tet, the edges of all tets at a vertex
 (spokes and rims), and the edges that end at a vertex (spokes). The fourth energy is that of the bar's surface; its sets
 are the edges of a triangle. With this energy the bar becomes flatter where it bends, because nothing inside resists.
-Handles, weights and subspace are always the same. Colors: the distance from the position with the first energy,
-relative to the bar's diagonal.
+Handles, weights and subspace are always the same. Colors: the distance of each point from its position with the first
+energy, relative to the bar's diagonal.
 
 Numbers: the energies; root mean square distances from the result of the first energy, relative to the diagonal; the
 largest error of the energies of a unit cube scaled to double size, which must be 3/2 (tets) and 6 (its skin).

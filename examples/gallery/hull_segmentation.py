@@ -5,9 +5,9 @@ Every triangle of an elephant full of holes becomes a face of tets that fill its
 each tet is nearly 1 inside, nearly 0 outside, and in between near the holes. A graph cut then labels all tets
 together, so that the boundary follows the surface and is small across holes.
 
-Numbers: tets of the hull and kept tets; the volume of the kept tets and that of the winding number; the energy of the
-cut and of the plain threshold at one half, as reported and as computed by this script from the definition; tets whose
-label the cut has changed.
+Numbers: tets of the hull and kept tets; the volume of the kept tets, and the volume in which the winding number is at
+least 1/2; the energy of the cut and of the plain threshold at 1/2, as reported and as computed by this script from the
+definition; tets whose label the cut has changed.
 """
 
 import common

@@ -6,8 +6,8 @@ constraint at every vertex. Faster: one program per handle, then a division. Lef
 Middle: the same column of the faster weights. Right: their difference, on the scale of the largest difference of all
 weights.
 
-Numbers: largest and rms difference over all weights; deviation of the row sums from one before the division; the gaps
-that certify both; the seconds of both.
+Numbers: largest and rms difference over all weights. For both methods: deviation of the row sums from one (faster:
+before the division), relative gap, seconds.
 """
 
 import time

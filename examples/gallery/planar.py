@@ -183,7 +183,7 @@ def textured(data, texture):
 
 
 def wires(data, color=(0.1, 0.2, 0.5), opacity=0.6, width=1.0):
-    """Draw the triangles' edges, slightly above."""
+    """Draw the edges of triangles, slightly in front of the triangles."""
     actor = flat_actor(data, color, width)
     actor.GetProperty().SetRepresentationToWireframe()
     actor.GetProperty().SetOpacity(opacity)
@@ -319,7 +319,7 @@ def signed_areas(points, triangles):
 
 
 def outline_of(triangles):
-    """Return the edges with only one triangle, in their direction."""
+    """Return the edges that belong to only one triangle, directed as in this triangle."""
     edges = np.concatenate([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
     key = edges.min(axis=1) * (triangles.max() + 1) + edges.max(axis=1)
     _unique, first, count = np.unique(key, return_index=True, return_counts=True)

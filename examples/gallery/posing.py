@@ -66,6 +66,6 @@ def sharpest_fold(points, triangles):
 
 
 def rms_apart(rest, one, other):
-    """Return the rms distance of the points of two posed meshes, in diagonals of the mesh at rest (#V x 3)."""
+    """Return the rms distance between the points of two posed meshes, as a fraction of the diagonal of `rest`."""
     apart = points_of(one) - points_of(other)
     return float(np.sqrt((apart ** 2).sum(axis=1).mean()) / np.linalg.norm(np.ptp(rest, axis=0)))

@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Number of rotations that a bend needs: about the number of handles, not that of triangles.
 
-A bar of tets has five handles, two of them given. It is solved with one rotation for the whole bar, then with one
-rotation per cluster of vertices with similar weights, and finally with one rotation per tet. A few rotations per handle
-give nearly the same result as one rotation per tet, in a fraction of the time. Colors: the clusters.
+A bar of tets has five handles; the transforms of the two end handles are given. The pose is solved with one rotation
+for the whole bar, then with one rotation per cluster of vertices with similar weights, and finally with one rotation
+per tet. A few rotations per handle give nearly the same result as one rotation per tet, in a fraction of the time.
+Colors: the clusters.
 
 Numbers: clusters; microseconds per iteration; the distance from the pose with one rotation per tet, relative to the
 diagonal.

@@ -8,10 +8,10 @@ and their extrema jump when a handle moves a little. Monotone weights (Jacobson,
 extrema with either energy. Only certified weights count: the script stops if a column misses the tolerance (finer
 squares than these 40 x 40 need more than the default number of iterations for the bounded triharmonic energy).
 
-Numbers: extrema away from handles of all five columns, with a persistence above 1e-3 of the column's range, counted
-by the program's picture and by the filter's certificate; the certificate's relative gap; lowest and highest value;
-and after the shown column's handle has moved by one of the squares, the largest distance of one of its extrema from
-the nearest previous one, as a fraction of the side.
+Numbers: extrema away from handles of all five columns, with a persistence above 1e-3 of the column's range, counted by
+the program's picture and by the filter's certificate; the certificate's relative gap; lowest and highest value. For the
+last number, the handle of the shown column is moved by the width of one grid square: the largest distance of an
+extremum of this column from the nearest extremum before the move, as a fraction of the side of the whole square.
 """
 
 import common

@@ -309,8 +309,8 @@ Status read_gltf(const std::string& path, GltfData& data)
   {
     return Status::invalid_input(path + ": " + usable.message);
   }
-  // If a handle comes from the record in the extras, its frame replaces the joint's frame, because
-  // the record stores all digits.
+  // If a handle was read from the extras of its joint, use the handle's frame instead of the
+  // joint's frame, because the extras store all digits.
   std::vector<Eigen::Affine3d> rest;
   std::vector<Eigen::Affine3d> posed;
   Weights weights(skin.weights.rows(), skin.weights.cols());

@@ -11,8 +11,8 @@
 namespace bindpose
 {
 
-/// Return the frame of the joint for a handle. Its origin is the handle's pivot; for a bone its y
-/// axis points along the bone.
+/// Return the coordinate frame of the joint that represents a handle. The origin of the frame is
+/// the handle's pivot. For a bone, the y axis of the frame points along the bone.
 Eigen::Affine3d joint_frame(const Handle& handle);
 
 Eigen::Affine3d to_affine(const Affine& transform);

@@ -14,7 +14,7 @@ namespace bindpose
 
 namespace
 {
-/// Return the bones, and the edges of cages and of cage faces.
+/// Return the bones, the edges of cages and the sides of cage faces as segments.
 std::vector<std::array<Index, 2>> segments_of(const HandleGeometry& geometry)
 {
   std::vector<std::array<Index, 2>> segments = geometry.bones;

@@ -30,10 +30,11 @@ struct HandleGeometry
 /// handles.
 BINDPOSEFILTERS_EXPORT Status to_handle_geometry(vtkPolyData* data, HandleGeometry& geometry);
 
-/// Return the faces of cages as triangles, and the edges of the faces and the bones as segments.
+/// Return cage faces as triangles. Return bones, cage edges and the sides of cage faces as
+/// segments.
 BINDPOSEFILTERS_EXPORT HandleElements to_handle_elements(const HandleGeometry& geometry);
 
-/// Return the handles projected to the xy plane. Bones, and the edges of cages and of cage faces,
+/// Return the handles projected to the xy plane. Bones, cage edges and the sides of cage faces
 /// become segments.
 PlanarHandles to_planar_handles(const HandleGeometry& geometry);
 

@@ -1,5 +1,5 @@
-// Reads the poses of the instances of a crowd. A table has one row per instance, a point set one
-// point, and a composite one handle dataset. In tables and point sets, arrays named after handles
+// Reads the poses of the instances of a crowd. An instance is a row of a table, a point of a point
+// set, or a handle dataset in a composite. In tables and point sets, arrays named after handles
 // contain the transforms. Handles without an array keep the base pose.
 #include "instance_poses.h"
 

@@ -70,7 +70,8 @@ Status to_pseudo_edges(
 
 void add_pseudo_edges(vtkPolyData* data, const std::vector<Index>& cells, const PseudoEdges& edges)
 {
-  // Collect the points first, because changing the cells of a polydata removes them.
+  // Collect the end points before the lines change, because the change invalidates VTK's index of
+  // the cells, which GetCellPoints() uses.
   std::vector<std::array<vtkIdType, 2>> ends;
   vtkNew<vtkIdList> ids;
   for (const PseudoEdge& edge : edges)

@@ -49,8 +49,8 @@ def listed(words):
 
 
 def help_text(option):
-    """Return the sentences of --help, with option names as typed on the command line, and the methods that use the
-    option."""
+    """Return the text of an option in --help: its help with option names as typed on the command line, the methods that
+    use the option, and defaults that differ between methods."""
     names = {other.name: f"--{cli_name(other)}" for other in (option.owner.options if option.owner else [])}
     text = MENTION.sub(lambda found: names[found[1]], option.help)
     if option.type == "flag" and option.default:
@@ -97,8 +97,8 @@ def table(verbs, common):
 
 
 def argument(option):
-    """Return the C++ expression of the typed value. In it, `numbers` is a list: the typed numbers of an option with
-    several numbers."""
+    """Return the C++ arguments that pass the typed value of an option to a setter. For an option with several numbers,
+    they are entries of the C++ variable `numbers`."""
     key = json.dumps(cli_name(option))
     if option.type == "flag":
         return "false" if option.default else "true"

@@ -110,7 +110,7 @@ MENTION = re.compile(r"`([\w-]+)`")
 
 
 def mentions(option):
-    """Names of options that the help of an option mentions, in backticks."""
+    """Return the names in backticks in the help of an option; they must be names of options."""
     return MENTION.findall(option.help)
 
 
@@ -182,7 +182,7 @@ def check_option(option, allowed_fields, types):
 
 
 def check_array(option):
-    """Check that an array is either read from an input of the filter or an output. No other type has these fields."""
+    """Check that an array option has either the field `input` or the field `output`, and other options have neither."""
     where, fields = option.where, option.fields
     if not option.type.endswith("_array"):
         require("input" not in fields and "output" not in fields, where, "input and output are only for the types point_array and cell_array")
@@ -202,7 +202,8 @@ def check_mentions(option, others, owner):
 
 
 def check_references(sets):
-    """Check that the methods of each option are choices of the option `method`, and the mentions of its help."""
+    """Check each option: its methods must be choices of the option `method`, and its help must mention known
+    options."""
     known = {}
     for group in sets.values():
         for option in group.options:

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Write what is made from the descriptions of options.
+"""Generate code and documentation from the descriptions of options.
 
 usage: generate.py check                              read and check all descriptions
        generate.py option-table OUT.cxx               the table of the command line

@@ -26,7 +26,8 @@ def default_text(option, filter_name):
 
 
 def array_list(option):
-    """Return the XML of a list of the arrays of an input. The input has a domain with this name in the template."""
+    """Return the XML of a domain that lists the arrays of an input. The template defines the array domain of this
+    input."""
     if "input" not in option.fields:
         return []
     return [f'<ArrayListDomain name="arrays" input_domain_name="{option.type}s">', "  <RequiredProperties>",
@@ -57,8 +58,9 @@ def domain(option, filter_name):
 def hints(option):
     """Return the XML of an option's hints.
 
-    An option is shown only for the methods that use it; no hint is needed if the whole set belongs to one method. The list
-    of arrays has a hint because ParaView would otherwise select the first array of the input.
+    An option is shown only for the methods that use it; no hint is needed if the whole set belongs to one method. An
+    option that is the name of an input array has the hint NoDefault, because ParaView would otherwise select the first
+    array of the input.
     """
     words = option.fields.get("methods", [])
     method = next((other for other in option.owner.options if other.name == "method"), None)
@@ -102,7 +104,7 @@ def properties_of(proxy):
 def inherit(text, base_texts):
     """Return proxies with the properties of their base proxies in `base_texts`.
 
-    ParaView would do this, too, but its help has pages only of properties that a proxy has in the XML.
+    ParaView can also inherit properties, but its help describes only properties in a proxy's own XML.
     """
     bases = {proxy.get("name"): proxy for base in base_texts for proxy in xml.etree.ElementTree.fromstring(base).iter("SourceProxy")}
     root = xml.etree.ElementTree.fromstring(text)

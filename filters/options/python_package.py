@@ -24,7 +24,7 @@ def render_options(verbs):
 
 
 def entry(option):
-    """Return the fields of an option that functions with options need at run time."""
+    """Return the fields of an option that the Python package needs at run time."""
     fields = option.fields
     default = option.default_of("python")
     if option.type == "flag" and default is None:
@@ -101,7 +101,8 @@ def replace_argument(function, options):
 
 
 def without_body(function, sets, verbs):
-    """Replace the arguments, the decorator of options and the body of a function for a stub."""
+    """Turn a function into its stub: list the described options as arguments; remove the body, and all decorators
+    except `property`."""
     options = described_options(function, sets, verbs)
     if options is not None:
         if options:
@@ -115,7 +116,8 @@ def without_body(function, sets, verbs):
 
 
 def has_annotations(function):
-    """Report whether a function has annotations. Functions for other modules of the package have none, and no stub."""
+    """Report whether a function has annotations. A function without annotations is used only within the package and
+    gets no stub."""
     arguments = function.args
     return function.returns is not None or any(argument.annotation for argument in arguments.args + arguments.kwonlyargs)
 

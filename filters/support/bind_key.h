@@ -8,10 +8,10 @@
 namespace bindpose
 {
 
-/// Cache key of a bind, the computation that does not depend on the pose. It contains the addresses
-/// and modification times of all objects that the bind reads. If two keys are equal, the bind is
-/// still valid. The key contains arrays instead of datasets, because the modification time of a
-/// dataset also changes in cases in which the bind stays valid: a transform is edited, or an
+/// Cache key of a bind, the computation that does not depend on the pose. The key contains the
+/// addresses and modification times of all objects that the bind reads. If two keys are equal, the
+/// bind is still valid. The key contains arrays instead of datasets, because the modification time
+/// of a dataset also changes in cases in which the bind stays valid: a transform is edited, or an
 /// upstream filter executes again.
 class BindKey
 {

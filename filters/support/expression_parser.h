@@ -19,9 +19,9 @@ public:
   ExpressionParser();
   ~ExpressionParser();
 
-  /// Evaluate an expression at time t. If the text is not an expression with one number as its
-  /// value, return invalid_input with a message that names the error. The value may be infinite or
-  /// NaN.
+  /// Evaluate an expression at time t. The value is NaN if the result is not finite. If the text is
+  /// not an expression with one number as its value, return invalid_input with a message that names
+  /// the error.
   Status evaluate(const std::string& text, double t, double& value);
 
 private:

@@ -202,8 +202,8 @@ def tetrahedralize(surface: Mesh, *, handles: Handles | None = None, options, th
     ----------
     surface : vtkDataSet or (vertices, triangles)
     handles : vtkPolyData, str or path-like, optional
-        Handle dataset or file. With cdt and wrap the points of handles inside become points of the tets, and points
-        are added along bones and cages.
+        Handle dataset or file. With the methods cdt and wrap, handle points inside the surface become vertices of the
+        tets, and vertices are added along bones and cages.
     {options}
     threads, progress, progress_bar
         See `winding_number`.
@@ -460,7 +460,7 @@ def apply_deformation_options(deformation, options):
 
 
 def _posed_handles(mesh, handles, pose, weights):
-    """Return the mesh as a dataset with its weights, and the filter that poses the handles."""
+    """Return two values: the mesh as a dataset with its weights, and the filter that poses the handles."""
     data = with_weights(to_dataset(mesh), weights)
     return data, _make_poser(to_handles(handles, data), pose)
 

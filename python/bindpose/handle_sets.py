@@ -33,10 +33,11 @@ def handles(points: ArrayLike | None = None, bones: ArrayLike | None = None, nam
     names : sequence of str, optional
         Names of the points, then of the bones. Default: p1, p2, …, b1, b2, …
     parents : sequence of int, optional
-        For each point, then each bone, the index of its parent in this order, or -1. Default: if the head of a bone
-        is the tail of another bone, that bone is its parent.
+        One entry for each point, then for each bone: the index of the parent in this sequence of handles, or -1.
+        Default: if the head of a bone is the tail of another bone, that other bone is the parent.
     pseudo_edges : (#E, 2) array of int, optional
-        Pairs of points, by index, whose edges determine the rotations of dragged points (see `deform`).
+        Pairs of point indices. A pseudo-edge between two points determines how these points rotate if they are dragged
+        (see `deform`).
 
     Returns
     -------

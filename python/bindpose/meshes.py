@@ -52,7 +52,7 @@ class Tets(NamedTuple):
     tets : (#T, 4) array of int
         Vertex ids, positive volume.
     original_ids : (#V,) array of int
-        Surface vertex of each vertex, -1 for new ones.
+        For each vertex, the id of the same vertex in the surface; -1 for new vertices.
     report : dict
         See `bindpose.report`.
     """
@@ -74,7 +74,7 @@ class PlanarShape(NamedTuple):
     texture : (#V, 2) array of float
         Texture coordinates: 0 to 1 over the image, or over the curves' bounds.
     original_ids : (#V,) array of int
-        Point of the curves (or of the image's outline) of each vertex, -1 for new ones.
+        For each vertex, the id of the same point in the curves (or in the image's outline); -1 for new vertices.
     report : dict
         See `bindpose.report`.
     """
@@ -226,7 +226,8 @@ def _wrap_of(kind):
 
 
 def like(source, result):
-    """Convert a result to the class of the source if that is a Python subclass of a VTK class, such as pyvista.PolyData.
+    """Convert a result to the class of the source if this class is a Python subclass of a VTK class, such as
+    pyvista.PolyData.
 
     A result of another type, such as the tets of a surface, is converted by the function ``wrap`` of the package of the
     source's class, if there is one. All datasets in a list or tuple are converted. A result that cannot be converted is
@@ -264,7 +265,7 @@ def run_of(data):
 
 
 def copy_report(source, target):
-    """Add the report of one dataset to that of another; equal keys are replaced."""
+    """Add the entries of one dataset's report to the report of another dataset; equal keys are replaced."""
     arrays = source.GetFieldData()
     for i in range(arrays.GetNumberOfArrays()):
         array = arrays.GetAbstractArray(i)

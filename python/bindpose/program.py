@@ -45,7 +45,7 @@ def program_path() -> str:
 
 
 def _as_file(data, folder, name):
-    """Return the path of a file with the data: the path itself, or that of a new file to which the data are written."""
+    """Return the path of a file with the data. If `data` is not a path, write it to a new file in the folder."""
     if isinstance(data, (str, os.PathLike)):
         path = os.fspath(data)
         return os.path.join(".", path) if path.startswith("-") else path
@@ -84,7 +84,7 @@ def render(*meshes: Drawable, output: Path | None = None, handles: Handles | Non
     context : vtkDataSet, file, or a sequence of them
         Also draw these in every tile: surfaces see-through, boundary curves as tubes.
     minus : vtkDataSet, str or path-like, optional
-        Show the array minus that of this dataset, which must have as many points.
+        Dataset whose array is subtracted from the shown array. It must have as many points as the mesh.
     overwrite : bool
         Replace an existing file.
     {options}

@@ -386,12 +386,13 @@ def _rest_points(handles):
 
 
 def _content(pose):
-    """Return a pose as the content of a pose file. The pose is already such a content, or a dict with handle names."""
+    """Return the content of a pose file, as a dict, for a pose: either this content already, or a dict of handle
+    names."""
     return pose if "handles" in pose or "frames" in pose else {"handles": pose}
 
 
 def _text(pose):
-    """Return a pose as the text of a pose file. The pose is already such a text, or a dict as in `_content`."""
+    """Return the text of a pose file for a pose: either this text already, or a dict as in `_content`."""
     if not isinstance(pose, str):
         return pose_text(_content(pose))
     if not pose.lstrip().startswith("{"):
@@ -414,7 +415,7 @@ def bind(mesh: Mesh, handles: Handles, *, bounds: tuple[float, float] | Mapping[
     Returns
     -------
     Rig
-        It returns arrays from poses if the mesh is a pair of arrays, otherwise datasets.
+        Its poses are arrays if the mesh is a pair of arrays, otherwise datasets.
 
     Raises
     ------

@@ -20,7 +20,7 @@ errors_by_status = {error.status: error for error in (InvalidInput, Canceled, Un
 
 
 def _caller_level():
-    """Return the `stacklevel` for a call of warnings.warn() by the calling function. With it, the warning names the
+    """Return the `stacklevel` that the calling function must pass to warnings.warn(), so that the warning names the
     line outside of this package."""
     frame, level = sys._getframe(1), 1
     while frame.f_back and frame.f_globals.get("__name__", "").startswith("bindpose."):
@@ -54,7 +54,7 @@ class ProgressBar:
     Parameters
     ----------
     progress : callable, optional
-        Called with the same arguments. Its result is returned.
+        Another callback, called with the same arguments as this object. The object returns the result of this callback.
     """
 
     _WIDTH = 30  # characters of the bar
@@ -101,7 +101,8 @@ def interruptible(algorithm, progress=None):
                 caller.SetAbortExecute(1)
 
         observers = [algorithm.AddObserver("ProgressEvent", on_progress)]
-        # Observe these events, because VTK prints those without an observer. run() raises exceptions instead.
+        # Observe errors and warnings, because VTK prints those without an observer. run() raises exceptions for them
+        # instead.
         for event in ("ErrorEvent", "WarningEvent"):
             observers.append(algorithm.AddObserver(event, lambda *_: None))
         try:
@@ -184,7 +185,7 @@ def check_status(algorithm, report):
 
 
 def warn(sentence, category):
-    """Issue a warning that names the line outside of this package that called it."""
+    """Issue a warning that names the line outside of this package from which the package was called."""
     python_warnings.warn(sentence, category, stacklevel=_caller_level())
 
 

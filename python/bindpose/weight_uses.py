@@ -85,7 +85,7 @@ def weighted_colors(mesh: Mesh, handles: Handles, colors: ArrayLike | Mapping[st
 def endpoint_weights(mesh: Mesh, handles: Handles, *, options, threads: int = 0, progress: Progress = None) -> Any:
     """Return the position of every point along each bone, from 0 at the head to 1 at the tail.
 
-    Bones that stretch and twist use it.
+    Bones that stretch and twist use this position.
 
     Parameters
     ----------
@@ -194,7 +194,8 @@ def cut_along_bones(shape: Mesh, handles: Handles, left: ArrayLike | Mapping[str
     shape : vtkPolyData or (vertices, triangles)
         In a plane z = const, with edges along the bones: see `planar_shape` and its `handles`.
     handles : vtkPolyData, str or path-like
-        The mesh is cut along the bones. Left and right are as seen from head to tail. All other handles are passed on.
+        The mesh is cut along the bones. Left and right are as seen from head to tail. All other handles except cage
+        elements are added to the result.
     left, right : (#handles, 3) array or dict, optional
         Colors of the bones' sides, one per handle or ``{name: (r, g, b)}``; give both or neither. Default: the
         handles' cell arrays ``LeftColor`` and ``RightColor``.

@@ -44,8 +44,8 @@ pqPipelineSource* add_filter(const QString& name, const Inputs& inputs, pqServer
     "filters", name, inputs, server);
 }
 
-/// Update a new filter and mark it as applied, so that it needs no Apply. Undo and redo repeat the
-/// mark.
+/// Update a new filter and mark it as applied, so that the user need not press Apply. Undo and redo
+/// also restore this mark.
 void apply(pqPipelineSource* filter)
 {
   filter->getSourceProxy()->UpdatePipeline();
@@ -82,8 +82,8 @@ QString message_of(pqPipelineSource* filter)
                          .arg(filter->getSMName());
 }
 
-/// Build the chain of filters behind a surface. If a filter fails, return its message; the filters
-/// up to this one remain, so that their properties can be changed.
+/// Build the chain of filters behind a surface. If a filter fails, return its message. The failed
+/// filter and the filters before it remain, so that the user can change their properties.
 QString build_chain(pqOutputPort* surface)
 {
   pqServer* server = surface->getServer();
@@ -137,7 +137,7 @@ pqBendSurfaceActions::pqBendSurfaceActions(QObject* parent) : QActionGroup(paren
   QObject::connect(action, &QAction::triggered, this, &pqBendSurfaceActions::bend);
 }
 
-/// Return one sentence with the reason why the output cannot be bent; empty if it can be tried.
+/// Return one sentence with the reason why the output cannot be bent; empty if no reason was found.
 QString pqBendSurfaceActions::refusal(pqOutputPort* port)
 {
   if (!port)

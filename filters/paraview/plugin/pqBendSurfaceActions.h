@@ -6,9 +6,10 @@
 class QAction;
 class pqOutputPort;
 
-/// The action "Bend This Surface" of the menu Tools. It connects the active output with a chain of
-/// filters, as one undo step: Automatic Handles, Bounded Biharmonic Weights, Pose Handles and
-/// Reduced ARAP. Then the panel of Pose Handles is active, so that the handles can be dragged.
+/// The action "Bend This Surface" of the menu Tools. As one undo step, it adds a chain of filters
+/// to the active output: Automatic Handles, Bounded Biharmonic Weights, Pose Handles and Reduced
+/// ARAP. Afterward Pose Handles is the active source, so that its panel is open and the handles can
+/// be dragged.
 class pqBendSurfaceActions : public QActionGroup
 {
   Q_OBJECT

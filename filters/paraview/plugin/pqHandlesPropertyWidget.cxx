@@ -1,7 +1,7 @@
 // ParaView connects the text property of the filter with the widget's proxy, and so with the
 // representation, in both directions: unchecked values of the filter go to the representation, and
-// edits go to the unchecked values. This file copies them to the checked values when they are
-// applied.
+// edits go to the unchecked values. This file copies an unchecked value to the checked value when
+// the edit is applied.
 #include "pqHandlesPropertyWidget.h"
 
 #include "vtkHandleSetRepresentation.h"
@@ -62,7 +62,8 @@ private:
   pqUndoStack* stack_;
 };
 
-/// The name of an event in ParaView's Timer Log: the work of one mouse motion before drawing.
+/// Name of an event in ParaView's Timer Log that measures the work of one mouse motion before
+/// drawing.
 constexpr const char* drag_event = "Bindpose: apply a drag";
 
 std::string text_of(const vtkSMPropertyHelper& helper)
@@ -93,8 +94,8 @@ pqHandlesPropertyWidget::pqHandlesPropertyWidget(const char* representation, con
     this, &pqHandlesPropertyWidget::widgetVisibilityToggled, this->shown_, &QCheckBox::setChecked);
   this->setWidgetVisible(true);
 
-  // The superclass has connected its signals to the same events before. The start of a drag must be
-  // observed before them, because they change the state of the panel.
+  // Call begin_drag() before the observers of the superclass, which were added before. They change
+  // the state of the panel that begin_drag() stores.
   vtkSMProxy* widget = this->widgetProxy();
   this->start_observer_ = widget->AddObserver(
     vtkCommand::StartInteractionEvent, this, &pqHandlesPropertyWidget::begin_drag, 1.0f);
@@ -192,8 +193,8 @@ void pqHandlesPropertyWidget::add_message_and_text(const QString& tip)
       this->text_->setVisible(open);
     });
   this->addPropertyLink(this->text_, "plainText", SIGNAL(textChanged()), this->property_);
-  // The property also changes the text, for example during drags. Only typing is an edit of the
-  // user that ParaView's automatic apply may apply.
+  // The text also changes when the property changes, for example during drags. Only typing is an
+  // edit of the user, for which changeFinished() may trigger ParaView's automatic apply.
   QObject::connect(
     this->text_, &QPlainTextEdit::textChanged, this,
     [this]
@@ -273,7 +274,7 @@ void pqHandlesPropertyWidget::finish_drag()
   const bool canceled = this->handle_widget() && this->handle_widget()->GetCanceled();
   if (this->is_applied())
   {
-    // The undo step must lead back to the value before the drag, not to that of the last motion.
+    // The undo step must restore the value before the drag, not the value of the last mouse motion.
     this->apply_silently(this->start_text_);
     if (!canceled && text != this->start_text_)
     {
@@ -285,7 +286,8 @@ void pqHandlesPropertyWidget::finish_drag()
   {
     vtkSMUncheckedPropertyHelper(this->property_).Set(this->start_unchecked_text_.c_str());
   }
-  // The drag has marked the panel as modified, but nothing is left to apply.
+  // The drag has marked the source as modified. Restore the previous state, because the drag itself
+  // needs no Apply.
   if (this->source())
   {
     this->source()->setModifiedState(this->start_state_);
@@ -346,7 +348,7 @@ void pqHandlesPropertyWidget::set_properties(const std::string& text)
 
 void pqHandlesPropertyWidget::update_views()
 {
-  // An update changes information properties of proxies, which are no edits.
+  // An update changes information properties of proxies. These changes are not edits.
   const NonUndoableChanges changes;
   const auto views = pqApplicationCore::instance()->getServerManagerModel()->findItems<pqView*>();
   for (pqView* view : views)
@@ -354,7 +356,7 @@ void pqHandlesPropertyWidget::update_views()
     if (view->getViewProxy()->GetNeedsUpdate())
     {
       view->getViewProxy()->Update();
-      if (view != this->view()) // the widget draws this view
+      if (view != this->view()) // the handle widget renders its own view
       {
         view->render();
       }
@@ -376,7 +378,7 @@ vtkSmartPointer<vtkDataObject> pqHandlesPropertyWidget::fetch(vtkSMProxy* produc
     return port < algorithm->GetNumberOfOutputPorts() ? algorithm->GetOutputDataObject(port)
                                                       : nullptr;
   }
-  // The data is on a server. The first process has all handles.
+  // The data is on a server, whose first process has all handles. Move them to the client.
   const NonUndoableChanges changes;
   vtkSmartPointer<vtkSMSourceProxy> mover;
   mover.TakeReference(vtkSMSourceProxy::SafeDownCast(

@@ -21,13 +21,13 @@ class vtkHandleSetWidget;
 class vtkObject;
 class vtkSMProperty;
 
-/// Base class of the panels with a handle widget in the render view. The value is one property, a
-/// text, which the widget and a text field edit.
+/// Base class of the panels with a handle widget in the render view. A panel edits one text
+/// property, either with the widget or in a text field.
 ///
-/// An edit with the mouse is applied without the Apply button: during the drag if
-/// applies_during_drag(), and when it ends. It is one undo step, and a trace contains the property
-/// once. A proxy that was never applied gets the text only by the Apply button, like other
-/// properties.
+/// An edit with the mouse is applied without the Apply button: when it ends and, if
+/// applies_during_drag(), also during the drag. Each edit is one undo step, and a Python trace
+/// records the property once. A proxy that was never applied gets the text only by the Apply
+/// button, like other properties.
 class pqHandlesPropertyWidget : public pqInteractivePropertyWidget
 {
   Q_OBJECT
@@ -76,8 +76,8 @@ protected:
   void focus_view();
   void show_warning(const QString& sentence);
 
-  /// Return the data of an output port on the client; null if there is none. It may be the output
-  /// of an algorithm, which changes with the next update.
+  /// Return the data of an output port on the client; null if there is none. The data may be the
+  /// output of an algorithm, which changes with the next update.
   static vtkSmartPointer<vtkDataObject> fetch(vtkSMProxy* producer, int port);
 
   virtual bool applies_during_drag() const = 0;
@@ -103,11 +103,11 @@ private:
   vtkSMProperty* property_;
   QVBoxLayout* column_;
   QCheckBox* shown_;
-  bool shows_handles_ = true; // the choice of the user
+  bool shows_handles_ = true; // whether the user wants the handles to be shown
   QLabel* message_ = nullptr;
   QToolButton* text_button_ = nullptr;
   QPlainTextEdit* text_ = nullptr;
-  QString warning_; ///< refusal of the last edit
+  QString warning_; ///< message about the last edit; if not empty, shown instead of message()
   std::string start_text_; ///< applied value of the property when the drag began
   std::string start_unchecked_text_; ///< value in the panel when the drag began
   pqProxy::ModifiedState start_state_ = pqProxy::UNMODIFIED;

@@ -168,8 +168,8 @@ void pqPlacedHandlesPropertyWidget::showEvent(QShowEvent* event)
 
 void pqPlacedHandlesPropertyWidget::read_shape()
 {
-  // ParaView keeps the panels of all sources. The shape of a hidden panel may change with every
-  // motion of a drag in another panel.
+  // Do not read the shape while the panel is hidden. ParaView keeps the panels of all sources, and
+  // a drag in another panel may change the shape with every mouse motion.
   vtkPVPlacedHandlesRepresentation* representation = this->representation();
   this->is_shape_outdated_ = !this->isVisible();
   if (!representation || this->is_shape_outdated_)
@@ -275,8 +275,8 @@ void pqPlacedHandlesPropertyWidget::set_mode(int mode)
   }
 }
 
-/// The Escape key ends a mode and returns to the mode that poses handles, which a .tgf file cannot
-/// store. Move handles instead.
+/// The Escape key sets vtkHandleSetWidget to the mode POSE. A .tgf file stores no pose, so this
+/// panel sets the mode MOVE_REST instead.
 void pqPlacedHandlesPropertyWidget::leave_mode()
 {
   this->set_mode(vtkHandleSetRepresentation::MOVE_REST);
@@ -314,7 +314,7 @@ QString pqPlacedHandlesPropertyWidget::message() const
 
 QString pqPlacedHandlesPropertyWidget::step_name() const
 {
-  // The widget's own words: "add point", "move rest", "close cage".
+  // The widget names the interaction, for example "add point", "move rest" or "close cage".
   const std::string interaction =
     this->handle_widget() ? this->handle_widget()->GetInteractionName() : "";
   return tr("Handles: %1").arg(QString::fromStdString(interaction));

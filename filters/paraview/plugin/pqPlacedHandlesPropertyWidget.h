@@ -58,7 +58,7 @@ private:
   pqOutputPort* chosen_shape() const;
 
   QComboBox* shapes_;
-  QList<QPointer<pqOutputPort>> ports_; ///< the entries of the list, after "None"
+  QList<QPointer<pqOutputPort>> ports_; ///< the entries of shapes_ after "None"
   bool is_shape_outdated_ = false; ///< the shape has changed while the panel was hidden
   QButtonGroup* modes_;
   QToolButton* connect_ = nullptr;

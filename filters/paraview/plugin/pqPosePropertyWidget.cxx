@@ -26,7 +26,7 @@
 
 namespace
 {
-/// The values of the cell array Mode, in the order of the list.
+/// The values of the cell array Mode, in the order of the entries of the combo box.
 constexpr int modes[] = { 5, 0, 1, 2, 3, 4 };
 } // namespace
 
@@ -245,7 +245,7 @@ void pqPosePropertyWidget::set_properties(const std::string& text)
 
 // ---- Data --------------------------------------------------------------------------------------
 
-/// Observe the input of the filter, which the user may change.
+/// Observe the current input of the filter. The user may connect another input.
 void pqPosePropertyWidget::watch_input()
 {
   const vtkSMPropertyHelper helper(this->proxy(), "Input");
@@ -280,7 +280,8 @@ void pqPosePropertyWidget::read_input()
   }
 }
 
-/// Read the pose that cannot be dragged from the output of the filter.
+/// If the pose is fixed (it cannot be dragged), read the posed handles from the output of the
+/// filter.
 void pqPosePropertyWidget::read_output()
 {
   if (vtkPVHandleSetRepresentation* representation = this->representation())

@@ -54,7 +54,7 @@ private:
   QToolButton* reset_ = nullptr;
   QToolButton* reset_all_ = nullptr;
   QToolButton* take_pose_ = nullptr;
-  bool clears_file_ = false; ///< the next applied text replaces the pose of the file
+  bool clears_file_ = false; ///< whether applying the next text also clears FileName
   vtkWeakPointer<vtkSMProxy> input_; ///< the observed input
   unsigned long input_observer_ = 0;
 };

@@ -1,5 +1,6 @@
-// The base class edits a handle dataset in place. This class makes the dataset from the input and
-// the text, and makes the text from the dataset when its modification time has changed.
+// The base class edits a handle dataset in place. This class creates the dataset from the input and
+// the text of the pose. It writes the text again when the modification time of the dataset has
+// changed.
 #include "vtkPVHandleSetRepresentation.h"
 
 #include "conversion.h"
@@ -95,9 +96,9 @@ void vtkPVHandleSetRepresentation::SetInputHandles(vtkPolyData* handles)
   }
   this->InputObject = handles;
   this->InputTime = time;
-  // The text of the pose that is drawn must be read before its handles are replaced.
+  // Update PoseJSON from the drawn handles before they are replaced.
   this->GetPoseJSON();
-  // The output of an algorithm changes with its next update, so a copy is kept.
+  // Keep a copy, because the next update of the algorithm changes its output.
   this->InputHandles = shallow_copy(handles);
   this->DrawPose();
 }
@@ -158,7 +159,7 @@ std::string vtkPVHandleSetRepresentation::GetDrawnPoseJSON()
   return this->GetHandles() && this->FormatPose(text) ? text : std::string();
 }
 
-/// Make the text of the drawn handles. Return false, with PoseMessage, if it cannot be made.
+/// Write the pose of the drawn handles as text. Set PoseMessage. Return false if there is no text.
 bool vtkPVHandleSetRepresentation::FormatPose(std::string& text)
 {
   PosedHandles before;
@@ -191,7 +192,7 @@ void vtkPVHandleSetRepresentation::DrawPose()
   const bool fixed = this->IsPoseFixed();
   vtkSmartPointer<vtkPolyData> posed =
     shallow_copy(fixed && this->OutputHandles ? this->OutputHandles : this->InputHandles);
-  // A fixed pose is already in the output.
+  // OutputHandles are already in the fixed pose, so no text is applied to them.
   const Status status = apply_pose_text(fixed ? std::string() : this->PoseJSON, posed);
   if (!status.ok())
   {

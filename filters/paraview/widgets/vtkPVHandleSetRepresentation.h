@@ -13,8 +13,8 @@
  * A pose that cannot be dragged is **fixed**: it comes from a file (SetPoseFromFile()), or the text
  * is a sequence or has expressions. Then the handles of SetOutputHandles() are drawn and locked.
  *
- * The data is not a property, so the representation of a render server has no handles. Therefore
- * the proxy draws in ParaView's renderer that is only on the client.
+ * The data is not a property, so the representation on a render server has no handles. Therefore
+ * the proxy draws in ParaView's client-only renderer.
  *
  * @sa vtkPoseHandles vtkHandleSetWidget vtkPVPlacedHandlesRepresentation
  */
@@ -36,12 +36,12 @@ public:
   vtkTypeMacro(vtkPVHandleSetRepresentation, vtkHandleSetRepresentation);
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
-  /// Set the handles before the pose, the input of vtkPoseHandles. They are not changed. The
-  /// selection is kept if the number of cells stays the same. Null: there are no handles. Nothing
-  /// happens if the dataset has not changed since the last call.
+  /// Set the handles before posing, i.e. the input of vtkPoseHandles. This class does not modify
+  /// them. The selection is kept if the number of cells stays the same. Null: there are no handles.
+  /// Nothing happens if the dataset has not changed since the last call.
   void SetInputHandles(vtkPolyData* handles);
-  /// Set the handles after the pose, the output of vtkPoseHandles. They are drawn if the pose is
-  /// fixed. Null: the handles before the pose are drawn.
+  /// Set the posed handles, i.e. the output of vtkPoseHandles. They are drawn if the pose is fixed.
+  /// Null: the input handles are drawn.
   void SetOutputHandles(vtkPolyData* handles);
 
   ///@{
@@ -59,8 +59,8 @@ public:
 
   /// Report whether the pose is fixed; see the class documentation.
   bool IsPoseFixed();
-  /// Return the text of the pose that is drawn, also if the pose is fixed. Return an empty text if
-  /// there are no handles.
+  /// Return the drawn pose as text, even if the pose is fixed. Return an empty text if there are no
+  /// handles.
   std::string GetDrawnPoseJSON();
   /// Return one sentence with the reason why the text cannot be used or is not exact; empty if
   /// there is none.

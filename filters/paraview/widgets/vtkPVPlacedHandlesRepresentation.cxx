@@ -1,5 +1,5 @@
-// The base class edits a handle dataset in place. This class reads the dataset from the text, and
-// writes the text when the modification time of the dataset has changed.
+// The base class edits a handle dataset in place. This class creates the dataset from the text. It
+// writes the text again when the modification time of the dataset has changed.
 #include "vtkPVPlacedHandlesRepresentation.h"
 
 #include "conversion.h"
@@ -30,7 +30,8 @@ Index handle_of_cell(const std::vector<Index>& cells, vtkIdType cell)
   return found == cells.end() ? -1 : static_cast<Index>(found - cells.begin());
 }
 
-/// Replace the indices of an intermediate edit by indices before it.
+/// Replace indices into the handles after a first edit by indices into the handles before that
+/// edit. `before[i]` is the index that handle i had before.
 void map_through(const std::vector<Index>& before, std::vector<Index>& indices)
 {
   for (Index& index : indices)
@@ -39,8 +40,9 @@ void map_through(const std::vector<Index>& before, std::vector<Index>& indices)
   }
 }
 
-/// Add a bone from one handle to another. Points are replaced by the ends of the bone. A bone
-/// contributes its tail, and the new bone is its child.
+/// Add a bone between two handles. If one of them is a point, the point is removed and its position
+/// becomes an end of the new bone. If one of them is a bone, its tail becomes an end of the new
+/// bone. If `from` is a bone, it becomes the parent of the new bone.
 Status add_bone_between(const Handles& before, Index from, Index to, EditedHandles& after)
 {
   const auto position = [&before](Index handle)
@@ -118,7 +120,8 @@ void vtkPVPlacedHandlesRepresentation::SetHandlesText(const char* text)
   }
   this->CancelWidgetInteraction();
   this->FinishCage();
-  // The cancel restores the handles from before the edit, whose text is not needed.
+  // Canceling has restored the handles from before the edit. They are replaced below, so do not
+  // write their text.
   this->FormattedTime = this->PlacedHandles->GetMTime();
   this->HandlesText = value;
   if (this->ReadText())
@@ -129,8 +132,8 @@ void vtkPVPlacedHandlesRepresentation::SetHandlesText(const char* text)
   }
 }
 
-/// Replace the dataset by the handles of the text. Return false, with TextMessage, and change
-/// nothing if the text cannot be read.
+/// Replace the dataset by the handles of the text. If the text cannot be read, set TextMessage,
+/// change nothing and return false.
 bool vtkPVPlacedHandlesRepresentation::ReadText()
 {
   vtkNew<vtkPolyData> handles;
@@ -148,7 +151,7 @@ bool vtkPVPlacedHandlesRepresentation::ReadText()
 
 const char* vtkPVPlacedHandlesRepresentation::GetHandlesText()
 {
-  // A drag edits the dataset before it is complete, so its text is up to date during the drag, too.
+  // A drag changes the dataset with every motion, so the text is also up to date during the drag.
   if (this->PlacedHandles->GetMTime() != this->FormattedTime)
   {
     std::string text;

@@ -2,10 +2,10 @@
  * @class   vtkPVPlacedHandlesRepresentation
  * @brief   handles that are placed interactively, with the handles as a text
  *
- * The representation of vtkHandleSetWidget in the panel of Placed Handles. The text is that of a
- * .tgf file, the property HandlesText of vtkPlacedHandles. Setting the text replaces the handles.
- * After an edit with the mouse or by a function of this class, GetHandlesText() returns the new
- * text. A text that was set is returned unchanged until the handles are edited.
+ * The representation of vtkHandleSetWidget in the panel of Placed Handles. The text has the format
+ * of a .tgf file. It is the property HandlesText of vtkPlacedHandles. Setting the text replaces the
+ * handles. After an edit with the mouse or by a function of this class, GetHandlesText() returns
+ * the new text. A text that was set is returned unchanged until the handles are edited.
  *
  * Handles are placed in the edit modes of the base class: MOVE_REST, ADD_POINTS (the default),
  * ADD_BONES and ADD_CAGE. A .tgf file stores no pose, so the mode POSE is not used.

@@ -27,8 +27,9 @@ std::vector<std::string> split(const std::string& text, char separator)
   return words;
 }
 
-/// Parse "1,2,3".
-/// @return the integers or numbers; empty if a word is not a number
+/// Parse a list such as "1,2,3".
+/// @param integers  true: accept only integers
+/// @return the numbers; empty if an entry of the list is not accepted
 std::vector<double> parse_numbers(const std::string& text, bool integers)
 {
   std::vector<double> numbers;
@@ -206,8 +207,8 @@ std::string unexpected_argument(const Verb& verb, const std::vector<std::string>
 /// there is none
 std::string unused_option(const Verb& verb, const Arguments& arguments)
 {
-  // A dynamic body uses options of as-rigid-as-possible, whatever the method is, so these options
-  // cannot be checked.
+  // With --dynamics, every method also uses the options of the as-rigid-as-possible methods, so the
+  // typed options cannot be checked.
   if (!arguments.has("method") || arguments.has("dynamics"))
   {
     return {};

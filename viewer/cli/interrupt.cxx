@@ -1,7 +1,7 @@
-// Handles SIGINT and SIGTERM. All threads block these signals, and one thread waits for them, so
-// this thread can run any code. A signal handler would not be sufficient: while METIS orders a
-// matrix, it installs its own handler of SIGTERM. That handler ends the ordering and discards the
-// signal. Child processes get an empty signal mask.
+// Handles SIGINT and SIGTERM. All threads block these signals. One thread waits for them with
+// sigwait(), so it can run any code, unlike a signal handler. A signal handler would also miss
+// signals: while METIS orders a matrix, it installs its own handler of SIGTERM. That handler ends
+// the ordering and discards the signal. Child processes get an empty signal mask.
 #include "cli/interrupt.h"
 
 #include "io/atomic_file.h"
@@ -61,7 +61,6 @@ void wait_for_signals()
     }
     if (signals_released)
     {
-      // Restore the default action of the signal.
       std::signal(number, SIG_DFL);
       pthread_sigmask(SIG_UNBLOCK, &set, nullptr);
       kill(getpid(), number);

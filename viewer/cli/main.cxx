@@ -23,7 +23,7 @@ namespace
 using namespace bindpose;
 using namespace bindpose::cli;
 
-/// Suppresses VTK's messages, because the program prints one line per error, from the status.
+/// Suppresses VTK's messages. The program itself prints one line per error.
 class SilentOutputWindow : public vtkOutputWindow
 {
 public:
@@ -60,7 +60,7 @@ int main(int argc, char** argv)
 {
   catch_interrupts();
   // If the file size limit is exceeded, writing must return an error instead of ending the program.
-  // The helper process inherits this setting.
+  // The helper program bindpose-mesher inherits this setting.
   std::signal(SIGXFSZ, SIG_IGN);
   vtkNew<SilentOutputWindow> silent;
   vtkOutputWindow::SetInstance(silent);

@@ -75,8 +75,8 @@ void on_progress(vtkObject* caller, unsigned long, void* stage_data, void*)
 constexpr double reading_fraction = 0.02;
 constexpr double choosing_points_fraction = 0.01;
 constexpr double finding_bones_fraction = 0.2;
-constexpr double main_end_fraction = 0.97; ///< fraction at which the results begin to be written
-/// Upper limit of the fraction at which the main work begins, for any number of input files.
+constexpr double main_end_fraction = 0.97; ///< fraction at which writing begins
+/// The main work begins at this fraction at the latest, even if there are many input files.
 constexpr double latest_main_begin = 0.5;
 
 bool starts_with(const std::string& text, const std::string& begin)
@@ -185,8 +185,8 @@ Status Session::try_stage(vtkBindposeAlgorithm* algorithm, const std::string& st
   {
     return status;
   }
-  // Merge the report also after a failure: it contains the findings about the input and all
-  // attempts.
+  // With Merge::all, the report of a failure is merged too, because it contains the findings about
+  // the input and all attempts.
   for (const auto& [key, value] : status.report.entries())
   {
     const bool seconds = starts_with(key, "seconds.");
@@ -356,7 +356,7 @@ bool Session::write_rig(vtkDataSet* mesh, vtkPolyData* handles,
   writer->SetMaximumInfluences(this->arguments_.integer("gltf-maximum-influences"));
   writer->SetFileName(path.c_str());
   writer->SetOverwrite(this->arguments_.has("overwrite"));
-  // The entries of the writer's report are kept apart from those of the verb.
+  // Collect the writer's entries in an empty report, because their keys get the prefix "gltf.".
   const Report verb_report = this->report_;
   this->report_ = Report();
   const bool written = this->run_stage(writer, "write", main_end_fraction, 1.0, Merge::numbers);

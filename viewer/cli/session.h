@@ -32,8 +32,8 @@ enum class Merge
 /// progress, lets signals cancel them, and merges their reports. At the end it writes the report
 /// file, prints one line if there is an error, and returns the exit code.
 ///
-/// Methods that do part of the work return false if the verb cannot continue; the session then
-/// stores the reason.
+/// The methods that run, read, check or write something return false or null if the verb cannot
+/// continue. The session then stores the reason.
 class Session
 {
 public:
@@ -58,8 +58,8 @@ public:
   /// stores the algorithm's warnings and errors; VTK prints nothing.
   bool run(vtkBindposeAlgorithm* algorithm, const std::string& stage, double begin, double end,
     Merge merge);
-  /// Run the algorithm like run(), but return a failure instead of storing it, for callers with a
-  /// fallback. A cancel always ends the session.
+  /// Run the algorithm like run(), but return a failure to the caller, who has a fallback. The
+  /// session does not store the failure. A cancel always ends the session.
   Status try_run(vtkBindposeAlgorithm* algorithm, const std::string& stage, double begin,
     double end, Merge merge);
 
@@ -92,7 +92,7 @@ public:
   int finish();
 
 private:
-  /// Run the algorithm as the part [begin, end] of the whole run.
+  /// Run the algorithm. Its progress covers the part [begin, end] of the whole run.
   Status try_stage(vtkBindposeAlgorithm* algorithm, const std::string& stage, double begin,
     double end, Merge merge);
   bool run_stage(vtkBindposeAlgorithm* algorithm, const std::string& stage, double begin,

@@ -108,9 +108,9 @@ struct Frames
   std::function<bool(int)> deform; ///< computes a frame of the output; returns false if it failed
 };
 
-/// Write one glTF file. Linear blends are stored as transforms of the joints: one set per frame, or
-/// the joints' pose for a single pose. Joints cannot represent other methods, so their frames are
-/// stored as morph targets.
+/// Write one glTF file. Linear blend skinning is stored as transforms of the joints: an animation
+/// for several frames, the pose of the joints for a single frame. The frames of all other methods
+/// are stored as morph targets, because joints cannot represent these methods.
 void write_rig(Session& session, vtkDataSet* mesh, vtkPolyData* handles, vtkPoseHandles* pose,
   const Frames& frames, vtkBindposeAlgorithm* deformation, const std::string& output)
 {
@@ -298,8 +298,8 @@ void run_deform(Session& session)
       session.write_uncommitted(deformation->GetOutput(), files[i], written_files[i]);
     }
   }
-  // Commit the files of a sequence together, so that it is written completely or not at all. Until
-  // then the files that it replaces are kept.
+  // Commit all files of a sequence at the end, so that either all or none of them are written.
+  // Until then, existing files of the same names are kept.
   for (std::size_t i = 0; i < written_files.size() && !session.failed(); ++i)
   {
     session.commit(written_files[i]);

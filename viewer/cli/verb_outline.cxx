@@ -1,5 +1,5 @@
-// Implements bindpose outline IMAGE_OR_CURVES, which creates triangles of an image's shape or of
-// the inside of curves.
+// Implements bindpose outline IMAGE_OR_CURVES, which triangulates the shape in an image or the
+// region inside of curves.
 #include "cli/session.h"
 #include "cli/set_options.h"
 #include "cli/verbs.h"

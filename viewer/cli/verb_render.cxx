@@ -183,8 +183,8 @@ vtkSmartPointer<vtkPolyData> defects_of(Session& session, vtkDataSet* surface)
     : nullptr;
 }
 
-/// Compute the defects of every surface for --defects, and add them to the tiles and to their
-/// context.
+/// Compute the defects of every surface for --defects. Add the defects of drawn datasets to their
+/// tiles, and those of --context datasets to the context of all tiles.
 bool add_defects(Session& session, std::vector<Tile>& tiles)
 {
   bool any = false;

@@ -37,9 +37,9 @@ bool tour_request(Session& session, app::tour::TourRequest& request)
     session.invalid("--screenshot-dir needs --play TOUR");
 }
 
-/// Read the files before the window opens, with progress on a terminal. A program that is started
-/// from a desktop has no visible terminal, so the window shows errors of files; they are also
-/// printed to the standard error. Only a tour, which has no user, ends with an error.
+/// Read the files before the window opens, with progress on a terminal. Errors are printed to the
+/// standard error. The window shows them too, because a program that is started from a desktop has
+/// no visible terminal. A tour has no user, so an error ends the program.
 bool read_files(Session& session, std::vector<app::tour::InitialFile>& files)
 {
   const bool is_tour = session.arguments().has("play");

@@ -1,6 +1,6 @@
 // Implements bindpose weights MESH --handles H. For a surface the filter chooses the domain on
 // which the weights are solved. With --domain surface and for tets, the weights are solved on the
-// input mesh itself and then transferred to its original points.
+// input mesh, to which the filter may add points, and then transferred to the input's own points.
 #include "cli/session.h"
 #include "cli/set_options.h"
 #include "cli/verbs.h"
@@ -47,7 +47,7 @@ vtkSmartPointer<vtkWeightsAlgorithm> make_method(const Arguments& arguments)
   return weights;
 }
 
-/// Set the terms: the constraints and energies in addition to smoothness.
+/// Set the terms of the weights filter: additional constraints and energies.
 /// @param mesh  the input, before it is filled with tets
 bool set_terms(Session& session, vtkDataSet* mesh, vtkWeightsAlgorithm* weights)
 {
@@ -255,8 +255,8 @@ void run_weights(Session& session)
     write_with_endpoints(session, data, handles, output);
     return;
   }
-  // The filter may have added points at handles, so transfer the weights to the points of the
-  // input.
+  // The weights filter may have added points at handles, so transfer the weights to the points of
+  // the input.
   vtkNew<vtkTransferWeights> transfer;
   transfer->SetInputData(0, mesh);
   transfer->SetInputData(1, weights->GetOutput());

@@ -16,8 +16,9 @@
 /// - a handle gets the column of the bound handle with the same name and kind, even if it was
 ///   moved; a renamed handle gets the column of the bound handle at the same position;
 /// - a handle without a column moves nothing;
-/// - points that only a removed handle influenced stay at rest. Another bind makes the weights
-/// exact again; reason() says why it is needed.
+/// - points that only a removed handle influenced stay at rest.
+///
+/// Another bind makes the weights exact again; reason() says why a bind is needed.
 class BoundColumns
 {
 public:

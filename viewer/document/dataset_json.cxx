@@ -380,7 +380,8 @@ json options_to_json(const Options& options)
 
 namespace
 {
-/// Return an invalid variant for values that no option can have.
+/// Convert a JSON value to the value of an option. Return an invalid variant for JSON types that no
+/// option has.
 QVariant value_from_json(const json& value)
 {
   if (value.is_string())

@@ -29,8 +29,8 @@ vtkSmartPointer<vtkPolyData> copy_of(vtkPolyData* data)
   return copy;
 }
 
-/// Name of the array of region labels for which the weights were solved; used if regions were
-/// painted after the solve.
+/// Name of the array with the region labels for which the weights were solved. A surface has this
+/// array only if regions were painted after the solve.
 const char* const bound_labels_name = "BoundRegionId";
 
 vtkDataArray* labels_of(vtkPolyData* surface)
@@ -517,7 +517,8 @@ bool Document::set_bound(vtkPolyData* surface, vtkUnstructuredGrid* tets)
   Work after = this->work_;
   after.surface = surface;
   surface->GetPointData()->RemoveArray(bound_labels_name);
-  // The bind does not include regions that were painted while it was running.
+  // Regions may have been painted while the bind was running. Keep both the labels of the bind and
+  // the painted labels.
   vtkDataArray* current_labels = labels_of(this->work_.surface);
   if (current_labels && !same_labels(current_labels, labels_of(surface)))
   {

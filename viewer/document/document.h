@@ -120,8 +120,8 @@ public:
   /// Return the handles of the bind in progress.
   const bindpose::Handles& bound_handles() const { return this->binding_.handles; }
   /// Set the result of the bind: the surface with weights for its handles, and the tets on which
-  /// they were solved (or null). Preliminary weights are removed in all cases. If that surface is
-  /// no longer open, return false and change nothing else.
+  /// they were solved (or null). Preliminary weights are removed in all cases. If the surface of
+  /// begin_bind() is no longer open, return false and change nothing else.
   bool set_bound(vtkPolyData* surface, vtkUnstructuredGrid* tets);
   /// Set preliminary weights that are used for posing until the bind ends. No undo step is
   /// recorded; drop_preview() and set_bound() remove the preliminary weights.

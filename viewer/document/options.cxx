@@ -96,7 +96,8 @@ OptionInfo choice(const char* key, const char* step, const stage_options::Choice
   return choice(key, step, described.initial, described.choices);
 }
 
-/// Return the table row of a numeric option of a stage, with the range of its slider.
+/// Return the table row of a numeric option that is described in filters/options, with the range of
+/// its slider.
 OptionInfo number(const char* key, const char* step, const stage_options::Number& described)
 {
   return { key, step, described.initial, described.lowest, described.highest };
@@ -120,7 +121,7 @@ std::vector<OptionInfo> make_option_table()
       "pose.pseudo_edges", QT_TRANSLATE_NOOP("Document", "pseudo-edges"), skinning::pseudo_edges),
     { "pose.single_precision", QT_TRANSLATE_NOOP("Document", "precision"), false },
     { "pose.in_tets", QT_TRANSLATE_NOOP("Document", "keep the volume"), false },
-    // The elements are the tets if the method deforms tets (pose.in_tets), otherwise the triangles.
+    // "Elements" means tets if the method deforms tets (pose.in_tets), otherwise triangles.
     choice("pose.energy", QT_TRANSLATE_NOOP("Document", "rigid parts"), 0,
       { { "auto", QT_TRANSLATE_NOOP("Document", "Automatic") },
         { "spokes-and-rims", QT_TRANSLATE_NOOP("Document", "Spokes and rims") },

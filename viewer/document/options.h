@@ -28,9 +28,10 @@ struct OptionInfo
   const char* former_key = ""; ///< key in the files of earlier versions
 };
 
-/// Return all options. Words, labels, ranges and defaults of options that belong to a stage come
-/// from its description (filters/options/README.md). A new option needs a row in this table. It
-/// also needs a widget (app/parts/option_widgets.h) or another link (option_links.h).
+/// Return all options. If a filter has the option too, its words, labels, range and default come
+/// from the description of the filter's options (filters/options/README.md). A new option needs a
+/// row in this table. It also needs a widget (app/parts/option_widgets.h), or two functions that
+/// read and set it (app/window/option_links.h).
 const std::vector<OptionInfo>& option_table();
 /// Return the option with a key or former key; null if it is unknown.
 const OptionInfo* find_option(const QString& key);

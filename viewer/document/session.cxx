@@ -59,8 +59,8 @@ QString companion_stem(const QString& session)
   return QFileInfo(session).completeBaseName() + '.';
 }
 
-/// Remove companions that only the last saved session used, and unfinished files of killed
-/// processes.
+/// Remove the session file's companions that are not in `referenced_names`, and unfinished files of
+/// killed processes.
 void remove_stale_companions(const QString& session, const QStringList& referenced_names)
 {
   QDir folder(QFileInfo(session).absolutePath());
@@ -308,8 +308,8 @@ private:
       session.notes << tr(
         "A file with results next to the session file is missing or damaged: bind again.");
     }
-    // Use the stored handles of the bind instead of those that use_mesh() has set; they are correct
-    // for any surface.
+    // Replace the bound handles that use_mesh() has set. The bound handles in the session file are
+    // correct for any surface.
     work.bound_handles = bound_handles;
     if (!surface && is_damaged)
     {

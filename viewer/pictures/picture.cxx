@@ -308,7 +308,7 @@ int place_legends(std::vector<Legend>& legends, int width, int top, Layout& layo
   {
     PixelBox box;
     box.width = legend_width(legend.map, legend.name, layout.font);
-    // The height of a list of names follows from its texts.
+    // Height of the entries in font sizes: fixed for a color bar, 1.7 per name for a list.
     const double fields = legend.map.texts.empty() ? 17.5 : 1.7 * legend.map.texts.size();
     const double height_fraction = legend.map.first_at_top
       ? maximum_list_fraction / legends.size()

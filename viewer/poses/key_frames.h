@@ -8,7 +8,7 @@ namespace bindpose
 
 /// Interpolation of pivots between keys. All other values do not depend on this choice. Rotations
 /// are interpolated along the shorter arc (slerp). Scale, shear, stretch and twist are interpolated
-/// linearly. Modes change at the key.
+/// linearly. Between two keys, handles have the modes of the earlier key.
 enum class KeyInterpolation : int
 {
   linear = 0,

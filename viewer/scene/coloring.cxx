@@ -396,7 +396,7 @@ Status choose_cluster_coloring(
   return {};
 }
 
-// Choose a color map with bands of 0.1, or the same range without bands, and the isolines between
+// Choose the color map of weights, with or without bands of 0.1, and the isolines at the borders of
 // the bands.
 void choose_weight_map(
   const PictureOptions& options, double lower, double upper, Coloring& coloring)

@@ -125,8 +125,9 @@ struct PictureOptions
   /// Show image volumes of winding numbers by volume rendering instead of slices; see
   /// make_winding_volume().
   bool volume = false;
-  /// Number of samples per pixel in each direction, 1 to 4; a pixel is their average. The graphics
-  /// driver antialiases each sample with 4 more samples. 1 disables all antialiasing.
+  /// Number of samples per pixel in each direction, 1 to 4; a pixel is their average. Above 1, the
+  /// graphics driver also antialiases each sample, with 4 samples of its own. The value 1 disables
+  /// all antialiasing.
   int supersampling = 2;
   /// Tiles that are not drawn but are included in the view and the range of the colors, for example
   /// the other frames of a film.

@@ -129,8 +129,8 @@ void vtkHandleSetRepresentation::BuildRepresentation()
         bindpose::label_anchor(view, record, this->PixelScale * this->PointSize);
       if (dragged && self.CurrentDrag->part() != bindpose::no_part)
       {
-        // Draw the text below the gizmo, or above it near the lower border of the window, because
-        // nothing else is drawn there.
+        // Draw the text below the gizmo, where nothing else is drawn. Near the lower border of the
+        // window, draw it above the gizmo.
         const double label_offset = this->PixelScale * (1.45 * this->GizmoSize + 14.0);
         label_position = view.to_display(record.head).head<2>();
         label_position += Vector2d(-0.25 * label_offset,

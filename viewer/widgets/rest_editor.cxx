@@ -389,7 +389,7 @@ bool RestEditor::drop_cage_vertex()
   return true;
 }
 
-// ---- Rest places -------------------------------------------------------------------------------
+// ---- Rest positions ----------------------------------------------------------------------------
 
 bool RestEditor::press_rest(const ScreenView& view, const MouseState& mouse_state,
   const EditSettings& settings, const std::vector<vtkIdType>& selected)

@@ -89,7 +89,7 @@ int EditTools::width_with_texts(int groups) const
   {
     for (const QToolButton* button : this->buttons_[group])
     {
-      // Width of a button: spacing, padding of the style sheet, icon, and text with its gap.
+      // Width of a button: spacing, padding, icon and, if shown, a gap and the text.
       const int text = button->fontMetrics().horizontalAdvance(button->text()) + 8;
       width += button_spacing + 20 + 14 + 4 + (group < groups ? text : 0);
     }

@@ -50,7 +50,7 @@ public:
   struct State
   {
     QString title;
-    /// True: show the switch that places points and bones inside the surface instead of on it.
+    /// True: show the check box for placing points and bones inside the surface instead of on it.
     bool shows_inside = false;
     bool cage = false;
     bool making_cage = false;

@@ -48,7 +48,8 @@ public:
   void update();
 
   bool rename(int handle, const QString& name);
-  /// Set the color of the selected handles. An empty value restores the color of their mode.
+  /// Set the color of the selected handles. If `color` is empty, each handle is drawn in the color
+  /// of its mode again.
   void set_color(const std::optional<QColor>& color);
   void set_locked(bool locked);
   void remove();

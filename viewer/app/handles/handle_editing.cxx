@@ -142,7 +142,7 @@ QAction* HandleEditing::add_action(
   action->setObjectName(name);
   action->setCheckable(true);
   action->setData(value);
-  if (keys != "Esc") // Esc is handled by step_back(), not as a shortcut
+  if (keys != "Esc") // the constructor connects a shortcut for Esc to step_back()
   {
     action->setShortcut(QKeySequence(keys));
   }
@@ -560,8 +560,8 @@ QString HandleEditing::mode_hint() const
 
 // ---- Keys and the right button -----------------------------------------------------------------
 
-/// Report whether the current interaction in the 3D view uses a key. Such a key must not trigger a
-/// shortcut of the window.
+/// Report whether the 3D view handles this key in its current state, for example during a drag.
+/// Such a key must not trigger a shortcut of the window.
 bool HandleEditing::takes_key(const QKeyEvent* event) const
 {
   if (event->modifiers() & (Qt::ControlModifier | Qt::AltModifier | Qt::MetaModifier))

@@ -33,8 +33,9 @@ class ModeBar;
 class RegionPainting;
 class SidePanel;
 
-/// Interactive editing of handles: the tools and edit modes of the handle widget and the region
-/// brush, and their messages. Each edit is one undo step of the document.
+/// Interactive editing of handles with the handle widget and the region brush. This class owns the
+/// row of tools, switches the edit modes, and writes messages for the status line. Each edit is one
+/// undo step of the document.
 ///
 /// While rest positions are edited or regions are painted, the shape is shown at rest.
 class HandleEditing : public QObject
@@ -77,7 +78,7 @@ public:
   void step_back();
 
   /// Show the context menu of the handle at this position of the viewport. Return false if there is
-  /// none.
+  /// no handle.
   bool show_menu(const QPoint& position);
 
   /// Update after changes of the document. `parts` combines the flags of the changed parts.

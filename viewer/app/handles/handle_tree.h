@@ -32,8 +32,8 @@ public:
     int parent = -1; ///< index of the parent in the list of rows; -1: no parent
     int mode = static_cast<int>(bindpose::HandleMode::automatic);
   };
-  /// Set the handles and clear the selection. A handle whose name belongs to a currently collapsed
-  /// handle is collapsed, too.
+  /// Replace all rows and clear the selection. A new row is collapsed if the old row with its name
+  /// was collapsed.
   void set_rows(const std::vector<Row>& rows);
   const std::vector<Row>& rows() const { return this->rows_; }
   void set_mode(int handle, int mode);

@@ -52,7 +52,7 @@ std::set<int> labels_in(vtkDataArray* labels)
   return found;
 }
 
-/// Return the mean of a region's vertices. `nearest` becomes the vertex that is nearest to it.
+/// Return the mean of a region's vertices. `nearest` becomes the vertex nearest to the mean.
 Vec3 region_center(vtkPolyData* surface, vtkDataArray* labels, int label, Vec3& nearest)
 {
   Vec3 sum = Vec3::Zero();

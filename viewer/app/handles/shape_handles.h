@@ -35,8 +35,8 @@ public:
   /// Update which actions are enabled, depending on whether there is a surface.
   void update();
 
-  /// Create bones along the shape, or points spread over it if no bones are found, and emit
-  /// rigged().
+  /// Create bones along the shape. If no bones are found, create points spread over the shape. Emit
+  /// rigged() at the end.
   void auto_rig();
   /// Create handles.
   /// @param count  number of points, or maximum number of bones. If it is 0 for bones, the shape

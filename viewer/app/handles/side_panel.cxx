@@ -220,8 +220,7 @@ void SidePanel::set_handles(const std::vector<HandleTree::Row>& handles)
   this->show_mode();
 }
 
-/// Return the width in pixels that is available for a handle's name in the combo box, after the
-/// text before the name.
+/// Return the width in pixels that an item "Weights of NAME" of the combo box leaves for the name.
 int SidePanel::available_name_width() const
 {
   const int field = this->method_box_->sizeHint().width() - this->shown_label_->sizeHint().width() -

@@ -36,8 +36,8 @@ public:
   /// @param handles  the list in which handles are selected; it is outside this panel
   explicit SidePanel(HandleTree* handles, QWidget* parent = nullptr);
 
-  /// Set the handles. The displayed column remains that of the handle with the same name; if there
-  /// is no such handle, no column is displayed.
+  /// Replace the handles. The displayed weights column stays with its handle, which is found by its
+  /// name. If the handle no longer exists, no column is displayed.
   void set_handles(const std::vector<HandleTree::Row>& handles);
   void set_mode(int handle, int mode);
   /// Select only this handle; -1: none.

@@ -21,7 +21,8 @@ class FieldGuard : public QObject
 public:
   /// Install the filter for the events of all widgets of the application. The filter is removed
   /// when the parent is destroyed.
-  /// @param on_enter  called after Enter in a number field of the parent, but not of a dialog
+  /// @param on_enter  called after Enter in a number field of the window `parent`; fields of
+  /// dialogs do not call it
   FieldGuard(QWidget* parent, std::function<void()> on_enter);
 
   bool eventFilter(QObject* watched, QEvent* event) override;

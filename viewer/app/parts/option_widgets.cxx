@@ -50,7 +50,8 @@ QButtonGroup* orientation_segments(QBoxLayout* column, QWidget* parent, const ch
       translated(QT_TRANSLATE_NOOP("Panel", "Perpendicular to the z axis")),
       translated(
         QT_TRANSLATE_NOOP("Panel", "Any orientation; drag the arrow of the plane to rotate it")) });
-  // The style sheet draws no right border on the second of four buttons.
+  // Use the style without a right border for the second of the four buttons, because the third
+  // button draws the line between them.
   group->button(1)->setProperty("place", "second");
   return group;
 }

@@ -25,7 +25,8 @@ QComboBox* option_box(const char* key, QWidget* parent);
 /// from 0.
 QButtonGroup* option_segments(
   QBoxLayout* column, QWidget* parent, const char* key, const QStringList& tips);
-/// Add the segments of an orientation, with PlaneHandle::Orientation as ids.
+/// Add a row of four buttons for the orientation of a plane. Their ids are values of
+/// PlaneHandle::Orientation.
 QButtonGroup* orientation_segments(QBoxLayout* column, QWidget* parent, const char* key);
 /// Return a row of a slider and a field for a number.
 ValueRow* option_row(const char* key, QWidget* parent);

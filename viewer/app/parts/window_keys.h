@@ -101,7 +101,7 @@ inline std::string keys_of(const char* action)
 struct KeyGroup
 {
   std::string heading;
-  /// Pairs of keys or buttons and their effect.
+  /// One pair per row: the keys or mouse buttons, and their effect.
   std::vector<std::pair<std::string, std::string>> rows;
 };
 

@@ -19,8 +19,8 @@ constexpr int frame_interval = 16; // milliseconds
 /// Maximum number of time steps per displayed frame. Simulated time that would need more steps is
 /// skipped.
 constexpr int maximum_steps = 4;
-/// A body is bound immediately, not in the background, if its number of vertices times its number
-/// of handles is less than this value and the body is not simulated in tets.
+/// A body is bound in the background if its number of vertices times its number of handles is at
+/// least this value. A body that is simulated in tets is always bound in the background.
 constexpr Index immediate_bind_limit = 20000;
 } // namespace
 

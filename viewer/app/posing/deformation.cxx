@@ -15,9 +15,9 @@ using namespace bindpose;
 
 namespace
 {
-/// A slow method solves in slices of a few iterations. The constants are the number of iterations
-/// of the first slice for a pose, the maximum for a slice, and the maximum for one pose.
-/// vtkFullARAP has the same maximum for one pose.
+/// A slow method solves in slices of a few iterations. These constants limit the iterations of the
+/// first slice of a pose, of any later slice, and of all slices of a pose together. The limit per
+/// pose equals that of vtkFullARAP.
 constexpr Index first_slice = 2;
 constexpr Index longest_slice = 64;
 constexpr Index maximum_iterations = 500;

@@ -94,7 +94,7 @@ private:
   int pose_number_ = 0;
   std::map<bindpose::PoseMethod, std::shared_ptr<bindpose::Poser>> posers_;
   bindpose::Points points_;
-  /// Rotations of points_, if they were computed in the background.
+  /// Rotations that belong to points_; empty unless points_ were computed in the background.
   bindpose::PoseRotations rotations_;
   bindpose::Status status_;
   QString error_;

@@ -26,7 +26,8 @@ class DistanceView : public QObject
 public:
   DistanceView(view::Viewport* viewport, PoseController* posing);
 
-  /// Set whether the panel is visible. If not, other views determine the colors of the surface.
+  /// Set whether the pose panel is visible. While it is hidden, other views determine the colors of
+  /// the surface.
   void set_active(bool active);
   /// Update the colors after a change of the pose, a method, the surface or the panel's choice.
   void update();

@@ -169,8 +169,8 @@ void PosePanel::add_methods(QVBoxLayout* column)
   QObject::connect(this->cancel_, &QPushButton::clicked, this, &PosePanel::cancel_requested);
 }
 
-/// Add a line with a name and a widget for an option. The line is shown only for the methods
-/// `visible_methods`.
+/// Add a row with the name and the widget of an option. The row is shown only while one of the
+/// methods `visible_methods` is chosen; if the list is empty, the row is always shown.
 QWidget* PosePanel::option(QVBoxLayout* column, const QString& name, QWidget* widget,
   const QString& tip, std::vector<PoseMethod> visible_methods)
 {

@@ -238,8 +238,7 @@ void PoseController::update_automatic_modes()
     method_finds_rotations);
 }
 
-/// Return the options for the compared method. They are the options of the current method, except
-/// for the method.
+/// Return the panel's options with the current method replaced by the compared method.
 PoseOptions PoseController::compared_options() const
 {
   PoseOptions options = this->panels_.pose->options();
@@ -259,7 +258,8 @@ void PoseController::comparison_changed()
   Q_EMIT this->moved();
 }
 
-/// Show the shape of the compared method as the panel requests, as soon as it can be computed.
+/// Show the shape of the compared method in the display mode that the panel requests. If the shape
+/// cannot be computed yet, hide it.
 void PoseController::show_comparison()
 {
   const PoseGhost::DisplayMode requested_mode = this->panels_.pose->ghost_display_mode();
@@ -627,8 +627,8 @@ void PoseController::order_layers()
     }
     if (status.usable())
     {
-      // Offset the layers toward the back, away from the eye, so that lines on the shape stay in
-      // front of it.
+      // Offset all layers away from the eye, so that lines on the shape stay in front of the
+      // layers.
       const double layer = 1e-3 * bounding_box(this->source_->points).diagonal();
       depths = layer * (order.front.array() - order.front.maxCoeff()).matrix();
     }

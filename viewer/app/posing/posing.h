@@ -29,8 +29,9 @@ class PoseListWidget;
 class PosePanel;
 class SequenceExport;
 
-/// Posing in the window: the current method and the method for comparison, the simulated body,
-/// playback of key frames, the stored poses, and the texts of the panels about them.
+/// Posing in the window. This class manages the shapes of the current method and of the method for
+/// comparison, the simulated body, the stored poses and the playback of key frames. It also writes
+/// the panels' texts about the pose.
 ///
 /// This class reads the pose from the handle dataset, which the handle widget edits in place. To
 /// change the pose, it emits pose_changed() and pose_step_requested(), so that the owner of the
@@ -82,7 +83,7 @@ public:
   {
     return this->inspects_at_rest_ ? this->surface_.Get() : this->shape();
   }
-  /// Update the viewport's surface and its ghost to displayed_shape().
+  /// Draw displayed_shape() in the viewport, and update the ghost.
   void draw();
   /// Set whether the 3D view shows data that belongs to the shape at rest (tets, slices). draw()
   /// then draws the shape at rest, without the shape of the compared method. The pose is still
@@ -180,7 +181,7 @@ private:
   bool is_rest_view_ = false;
   bool edits_at_rest_ = false;
   bool inspects_at_rest_ = false; ///< true: data that belongs to the shape at rest is inspected
-  /// The display of the compared method that the panel requested at the last update.
+  /// How the panel requested to display the compared method, at the last update.
   PoseGhost::DisplayMode requested_display_mode_ = PoseGhost::hidden;
   double drawing_microseconds_ = 0.0; ///< time that draw() took for points and normals
 };

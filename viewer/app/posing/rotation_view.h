@@ -37,7 +37,8 @@ class RotationView : public QObject
 public:
   RotationView(view::Viewport* viewport, const PosePanel* panel, PoseController* posing);
 
-  /// Set whether the panel is visible. If not, other views determine the colors of the surface.
+  /// Set whether the pose panel is visible. While it is hidden, other views determine the colors of
+  /// the surface.
   void set_active(bool active);
   /// Update the colors after a change of the pose, the method, the surface or the panel's choice.
   void update();
@@ -53,7 +54,7 @@ private:
   PoseController* posing_;
   bool active_ = true;
   vtkSmartPointer<vtkDoubleArray> values_; ///< the displayed values; null: none
-  /// The array PoseRotations::of_point from which values_ was computed.
+  /// The array PoseRotations::cluster_of_point from which values_ was computed.
   std::shared_ptr<const std::vector<bindpose::Index>> cluster_of_point_;
   double scale_ = 0.0; ///< upper end of the angle scale in degrees; 0: clusters are shown
   std::vector<bindpose::Vec3> axis_angles_; ///< axis times angle in degrees, one per rotation

@@ -30,8 +30,8 @@ public:
 
   /// Set the surface at rest, and the tets inside it that were opened from a file (null: no tets).
   void set_surface(vtkPolyData* surface, vtkUnstructuredGrid* tets);
-  /// Set whether the panel is visible. If it is not, the surface is drawn normally, without tets
-  /// and defects.
+  /// Set whether the tet panel is visible. While it is hidden, the surface is drawn normally,
+  /// without tets and defects.
   void set_active(bool active);
   void make_tets(int method); ///< compute tets with a meshing method, one of TetPanel::Method
   void cancel();

@@ -54,7 +54,7 @@ public:
   /// Set the one or two lines under the button that computes tets.
   void set_note(const QString& text);
   void set_position(double position, double lowest, double highest);
-  /// Set the line under the cut: the number of displayed tets and of all tets.
+  /// Set the text line below the widgets of the cut: the number of displayed tets and of all tets.
   void set_count(qlonglong shown, qlonglong all);
   void set_defects_note(const QString& text);
 

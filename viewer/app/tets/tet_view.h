@@ -28,8 +28,9 @@ class Viewport;
 namespace app::tets
 {
 
-/// Shows tets in the 3D view. They can be cut open by a plane that the mouse drags, shrunk, and
-/// colored by values. The cut removes whole tets and keeps those whose center is behind the plane.
+/// Shows tets in the 3D view. Users can cut the tets open, shrink them, and color them by values.
+/// The mouse drags the plane of the cut. The cut removes whole tets and keeps those whose center is
+/// behind the plane.
 class TetView : public QObject
 {
   Q_OBJECT
@@ -91,8 +92,8 @@ private:
   double shrink_ = 1.0;
   double milliseconds_ = 0.0;
   QTimer settle_timer_; // single-shot timer that starts after a drag
-  // Mapper 0 draws faces on the boundary. Mapper 1 draws faces that the cut exposes, or shrunk
-  // tets.
+  // Mapper 0 draws faces on the boundary. Mapper 1 draws faces that the cut exposes or, if tets are
+  // shrunk, all faces of the shrunk tets.
   std::array<vtkNew<vtkPolyDataMapper>, 2> mappers_;
   std::array<vtkNew<vtkActor>, 2> actors_;
 };

@@ -68,8 +68,8 @@ public:
   QString press_key(const QString& keys);
   /// Trigger an action by its object name.
   QString trigger(const QString& action);
-  /// Click a visible button by its text. Ampersands of the text, and the marks in front of section
-  /// names, must be omitted.
+  /// Click the visible button with this text. `text` must not contain the ampersands of the
+  /// button's text or the mark in front of a section's name.
   QString push_button(const QString& text);
   /// Choose a value of an option with the widget whose object name is the option's key.
   QString choose(const QString& option, const QVariant& value);

@@ -81,8 +81,8 @@ struct TourStep
   TourVerb verb = TourVerb::wait;
   std::string text; ///< argument of the verb: a file, a name, a key or a text
   std::string field; ///< accessible name of the field to type into
-  /// Name of a file in the folder of screenshots, which is entered in the file dialog that the step
-  /// opens. If the name is empty, the step fails when it opens a modal dialog.
+  /// The player enters this file name in the file dialog that the step opens. The file is in the
+  /// folder of screenshots. If the name is empty, the step fails when it opens a modal dialog.
   std::string answer;
   std::string narration; ///< text about the step for a tutorial
 

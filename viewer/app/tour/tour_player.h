@@ -85,7 +85,7 @@ private:
   TourStep film_;
   int frames_ = 0;
   nlohmann::ordered_json record_;
-  QObject context_; ///< context of connections
+  QObject context_; ///< signal connections with this context end with the TourPlayer
   std::unique_ptr<QObject>
     real_input_filter_; ///< filters out events of the real mouse and keyboard
 };

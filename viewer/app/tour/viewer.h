@@ -23,7 +23,7 @@ struct InitialFile
 {
   std::string path;
   std::optional<OpenedFile> data;
-  std::string error; ///< reason why it could not be read: one sentence, or empty
+  std::string error; ///< reason why the file could not be read: one sentence, or empty
 };
 
 /// Run `bindpose view`: open a window with these files (meshes, meshes with weights, handles), and

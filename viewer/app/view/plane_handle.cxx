@@ -53,7 +53,7 @@ PlaneHandle::PlaneHandle(Viewport* viewport, QObject* parent) : QObject(parent),
   this->widget_->SetCurrentRenderer(renderer);
   this->widget_->SetDefaultRenderer(renderer);
   this->widget_->SetPriority(0.4F); // handles have a higher priority
-  // Pass on the other mouse buttons, which move and zoom the camera as elsewhere in the 3D view.
+  // Remove the middle and right mouse buttons from the widget. They then move and zoom the camera.
   for (const unsigned long event :
     { vtkCommand::MiddleButtonPressEvent, vtkCommand::MiddleButtonReleaseEvent,
       vtkCommand::RightButtonPressEvent, vtkCommand::RightButtonReleaseEvent })
@@ -137,8 +137,8 @@ void PlaneHandle::set_relative_position(double relative_position)
 void PlaneHandle::set_position(double position)
 {
   this->cancel();
-  // Ignore smaller changes: setting the current position again must not change the relative
-  // position by round-off.
+  // Ignore changes up to `round_off`. Otherwise setting the current position again could change the
+  // relative position.
   constexpr double round_off = 1e-12;
   const double relative_position = this->to_relative_position(position);
   if (std::abs(relative_position - this->state_.relative_position) > round_off)

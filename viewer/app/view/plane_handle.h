@@ -48,8 +48,8 @@ public:
   /// Show or hide the plane. The mouse can drag a visible plane.
   void show(bool shown);
 
-  /// Set the orientation: along an axis, or any (free). The plane keeps its position as a fraction
-  /// of the bounds. If the orientation becomes free, the normal does not change.
+  /// Set the orientation, one of Orientation. The plane keeps its relative position in the box. If
+  /// the orientation becomes free, the normal does not change.
   void set_orientation(int orientation);
   int orientation() const { return this->state_.orientation; }
   /// Set the unit normal that is used when the plane is free.

@@ -112,7 +112,7 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
     mapper->ScalarVisibilityOff();
     mapper->SetScalarModeToUsePointFieldData();
     mapper->SetColorModeToMapScalars();
-    // sharp borders of color bands, independent of the triangles
+    // Look up colors per pixel, so that color bands have sharp borders inside of triangles.
     mapper->InterpolateScalarsBeforeMappingOn();
     mapper->UseLookupTableScalarRangeOn();
     mapper->SetLookupTable(map.table);
@@ -604,7 +604,7 @@ void Viewport::draw_legend()
   }
   if (!this->state_name_.isEmpty())
   {
-    constexpr double below_a_bar = 64.0; // pixels from the top, below a bar
+    constexpr double below_a_bar = 64.0; // Qt pixels from the top, which leave space for a bar
     this->add_name(0.5, this->height() - below_a_bar, this->state_name_);
   }
 }

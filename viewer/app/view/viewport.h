@@ -61,7 +61,8 @@ public:
   /// Move the points of the surface to those of `posed`, a pose of the same surface.
   void move_surface(vtkPolyData* posed);
   void move_surface(bindpose::PointsView points);
-  /// Move the points of another drawn shape with the same points and cells, for example the ghost.
+  /// Move the points of another drawn shape, for example the ghost. It must have the points and
+  /// cells of the surface, in another pose.
   void move_shape(bindpose::ShadedSurface& shape, bindpose::PointsView points) const;
   /// Set the offset of each point (#V, world units) along the unit vector `eye_direction`, which
   /// points to the eye. In a planar shape the offsets determine which parts are in front. An empty
@@ -83,7 +84,7 @@ public:
   /// is shown instead of the posed shape. Empty: no text.
   void set_state_name(const QString& state);
   QString state_name() const { return this->state_name_; }
-  /// Set the names below the halves.
+  /// Set the names that are drawn at the lower edges of both halves of the split view.
   void set_half_names(const QString& left, const QString& right);
   /// Return the time in microseconds of the last upload of moved points to the graphics card.
   double upload_microseconds() const;

@@ -37,7 +37,7 @@ public:
   /// image. Null: no volume. The slice keeps its relative position.
   void set_volume(vtkImageData* image, double lowest, double highest);
   vtkImageData* volume() const { return this->image_; }
-  /// Set whether the panel is visible. If it is not, no part of the volume is drawn.
+  /// Set whether the volume panel is visible. While it is hidden, no part of the volume is drawn.
   void set_active(bool active);
   bool is_active() const { return this->image_ && this->active_; }
   /// Report whether any part of the volume is drawn.

@@ -125,7 +125,7 @@ void WindingVolume::finish()
     this->document_->set_volume(volume, tr("winding numbers"), {}, tr("compute winding numbers"));
     const double seconds = status.report.number("seconds.total", 0.0);
     this->panel_->set_note(range[1] - range[0] < minimum_range
-        // If all values are equal, each triangle exists twice, with opposite orientations.
+        // All values are equal if each triangle exists twice, with opposite orientations.
         ? tr("w is 0 everywhere: triangles cancel.")
         : tr("%1 × %2 × %3 samples in %4.")
             .arg(size[0])

@@ -237,7 +237,7 @@ void WeightPanel::set_state(const State& state)
   for (QWidget* inside : { static_cast<QWidget*>(this->inside_),
          static_cast<QWidget*>(this->slice_), static_cast<QWidget*>(this->position_) })
   {
-    // Hide the switch for the inside: a textured planar shape has no inside.
+    // Hide the widgets for slices through the inside: a textured planar shape has no inside.
     inside->setVisible(!state.has_picture);
   }
   for (QAbstractButton* orientation : this->orientations_->buttons())

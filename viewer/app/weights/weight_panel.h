@@ -68,7 +68,8 @@ public:
   void set_certificate(const QString& text);
   void set_extrema(const QString& text);
   void set_progress(double fraction, const QString& phase);
-  /// Set the two lines about the difference between the weights of both methods.
+  /// Set the two lines about the difference between the surface's weights and those of the compared
+  /// method.
   void set_comparison(const QString& text);
   void set_position(double position, double lowest, double highest);
 

@@ -36,8 +36,8 @@ class WeightView : public QObject
 public:
   explicit WeightView(view::Viewport* viewport);
 
-  /// Set the data, both with weights; null: no data. `surface` is the surface at rest, and must be
-  /// the surface of the viewport. `volume` are the tets on which the weights were solved.
+  /// Set the data to draw (null: no data). `surface` is the surface at rest with weights, and must
+  /// be the surface of the viewport. `volume` are the tets on which the weights were solved.
   void set_data(vtkPolyData* surface, vtkUnstructuredGrid* volume);
   /// Move the points to those of `shape`, a pose of the surface.
   void move_surface(vtkPolyData* shape);
@@ -76,7 +76,7 @@ private:
   view::Viewport* viewport_;
   view::PlaneHandle* plane_;
   vtkSmartPointer<vtkPolyData> surface_; // the surface at rest
-  vtkSmartPointer<vtkPolyData> shape_; // posed
+  vtkSmartPointer<vtkPolyData> shape_; // the posed surface
   vtkSmartPointer<vtkUnstructuredGrid> volume_;
   // copy of the tets whose only array contains the displayed values
   vtkSmartPointer<vtkUnstructuredGrid> volume_values_;

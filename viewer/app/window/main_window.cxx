@@ -410,7 +410,7 @@ void MainWindow::connect_handles()
     });
 }
 
-/// Show the weights of the handle that was selected last in the weight panel.
+/// Choose the weights column of the most recently selected handle in the weight panel.
 void MainWindow::show_selected_column()
 {
   const std::vector<int> selected = this->editing_->selection()->selected();
@@ -550,7 +550,7 @@ void MainWindow::show_mesh()
   this->posing_->set_plane(this->plane_);
   if (work.surface && !planar)
   {
-    // not for planar shapes: their boundary would be reported as a defect
+    // Do not search planar shapes, because their boundary would be reported as a defect.
     this->tet_inspection_->search_defects();
   }
   if (!work.curves)
@@ -754,8 +754,8 @@ bool MainWindow::show_file(const OpenedFile& file, const QString& path)
   }
 }
 
-/// Open an image file as a textured shape: the region where its alpha is opaque, or the whole
-/// rectangle.
+/// Open an image as a planar shape with the image as its texture. The shape covers the opaque part
+/// of the image or, if `is_whole_image` is true, the whole rectangle.
 bool MainWindow::open_picture(
   vtkImageData* picture, const QString& name, const Source& source, bool is_whole_image)
 {

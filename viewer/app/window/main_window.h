@@ -185,7 +185,7 @@ private:
   WindowSessions* sessions_ = nullptr;
   Exports* exports_ = nullptr;
   volume::WindingVolume* winding_volume_ = nullptr;
-  parts::BarStack* bars_ = nullptr; // stack of bars over the 3D view; contains the next four bars
+  parts::BarStack* bars_ = nullptr; // stack of bars over the 3D view; contains the next five bars
   parts::ErrorBar* error_bar_ = nullptr;
   parts::NoticeBar* recovery_bar_ = nullptr;
   /// Notes about missing files of a session, the outline of an image, and defects of a surface.

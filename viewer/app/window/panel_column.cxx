@@ -53,7 +53,7 @@ PanelColumn::PanelColumn(QWidget* parent)
     segment->setCheckable(true);
     segment->setToolTip(tr(tips[k]));
     this->buttons_->addButton(segment, k);
-    // The widths are proportional to the texts, because four texts fill the row.
+    // Make the widths of the buttons proportional to their texts, so that all four texts fit.
     row->addWidget(segment, segment->sizeHint().width());
   }
   column->addWidget(this->button_row_);

@@ -255,7 +255,8 @@ QStringList Probe::read_at(int x, int y)
 {
   view::Viewport* viewport = this->views_.viewport;
   const int width = viewport->picture_size(1).width();
-  // If the view is split, the right half shows the other shape with the same camera.
+  // If the view is split, the right half shows the shape of the compared method, with the same
+  // camera.
   const bool other = viewport->is_split() && 2 * x >= width;
   ViewRay ray;
   viewport->ray_at(other ? x - width / 2 : x, y, ray.origin, ray.direction);
@@ -555,7 +556,7 @@ QString Probe::defect(const ViewRay& ray) const
   const Points defect_points = to_ray_coordinates(ray, to_points(defects).view());
   const auto pick_radius = [&](double depth) { return parallel ? slope : slope * (eye + depth); };
   Index best = -1;
-  int best_kind = 4; // kind of the best candidate: 1 for a dot or edge, 3 for a face, 4 for none
+  int best_kind = 4; // best candidate so far: 1 for a dot or edge, 3 for a face, 4 for none
   double best_depth = 1e300;
   Index cell = 0;
   vtkNew<vtkIdList> ids;

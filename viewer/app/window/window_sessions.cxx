@@ -251,7 +251,7 @@ void WindowSessions::offer_recovery(const QString& root)
   const auto discard = [this, root]
   {
     this->recovered_->remove();
-    this->offer_recovery(root); // offer the work of a process that crashed, if there is any
+    this->offer_recovery(root); // offer the work of another crashed process, if there is any
   };
   this->parts_.recovery->offer(
     tr("Bindpose did not close properly. The work from %1 can be restored.").arg(save_time),

@@ -80,7 +80,7 @@ public:
 Q_SIGNALS:
   /// Emitted when the user chooses a recent file or locates a missing one.
   void open_requested(const QString& path);
-  /// Emitted when name(), path() or the presence of unsaved changes may be different.
+  /// Emitted when name(), path() or the presence of unsaved changes may have changed.
   void changed();
   /// Emitted if the opened session shows a planar shape with perspective.
   void perspective_requested();

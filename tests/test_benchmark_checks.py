@@ -68,7 +68,8 @@ def test_tets_that_bridge_a_gap_are_taken_out(tmp_path, monkeypatch):
 
 @pytest.mark.parametrize("xs, bridged", [([-1, 0, 1], 2 / 13), ([-1, -0.5, -0.002], 0)])
 def test_films_and_bridged_gaps_are_measured_by_area(tmp_path, monkeypatch, xs, bridged):
-    # Two boxes with a gap of 0.004 between them, and a square above. Areas: 12, 2 of it on the sides of the gap, and 1.
+    # The model has two boxes with a gap of 0.004 between them, and a square above. The area of the boxes is 12, of
+    # which 2 is at the gap. The area of the square is 1.
     def inside(_program, _model, places, _folder):
         x, others = np.abs(places[:, 0]), places[:, 1:]
         return np.where((x > 0.002) & (x < 1) & (others > 0).all(axis=1) & (others < 1).all(axis=1), 1.0, 0.0)

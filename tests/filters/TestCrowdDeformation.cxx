@@ -48,8 +48,8 @@ protected:
     this->handles = to_polydata(this->rig.handles);
     this->filter->SetInputData(0, this->tets);
     this->filter->SetInputData(1, this->handles);
-    // The two solvers start from different rotations and converge along different paths. A small
-    // tolerance makes the results comparable.
+    // vtkCrowdDeformation and vtkReducedARAP start from different rotations and converge along
+    // different paths. A small tolerance makes their results comparable.
     this->filter->SetTolerance(1e-12);
     this->filter->SetMaximumIterations(1000);
     this->listener->listen(this->filter);

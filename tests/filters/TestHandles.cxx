@@ -242,7 +242,7 @@ TEST_F(PlacedHandles, AreThoseOfAFileWithTheSameText)
   EXPECT_EQ(edges, (PseudoEdges{ { 0, 1 } }));
   EXPECT_EQ(read_report(placed).number("counts.handles", 0), 6);
 
-  // The text of the dataset places the same handles.
+  // to_tgf() converts the dataset to a text from which vtkPlacedHandles makes the same handles.
   std::string again;
   ASSERT_TRUE(to_tgf(placed, again).ok());
   std::string third;

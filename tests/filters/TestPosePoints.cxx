@@ -1,5 +1,5 @@
-// vtkPoseAlgorithm::PosePoints: the same bits as Update(), without the pipeline, into the memory of
-// the caller.
+// vtkPoseAlgorithm::PosePoints() writes posed points into the memory of the caller without updating
+// the pipeline. The points have the same bits as those of Update().
 #include "vtkPoseAlgorithm.h"
 
 #include "TestFilter.h"
@@ -63,7 +63,7 @@ protected:
     filter->SetInputData(1, this->handles);
   }
 
-  /// Return the points of a new filter by Update().
+  /// Create a filter, call its Update(), and return the posed points.
   template <typename Filter>
   Points by_update(const std::string& text) const
   {

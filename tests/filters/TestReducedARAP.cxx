@@ -227,7 +227,7 @@ TEST_F(ReducedARAPFilter, AllFullEqualsTheSkinningFilter)
   skinning->SetInputConnection(1, this->pose->GetOutputPort());
   skinning->Update();
   this->filter->Update();
-  // The filters compute positions relative to different centers.
+  // The filters compute positions relative to different centers, so round-off differs.
   EXPECT_LT(
     (this->output() - to_points(skinning->GetOutput()).view()).cwiseAbs().maxCoeff(), 1e-13);
 }
@@ -377,7 +377,7 @@ TEST_F(ReducedARAPFilter, WhatDoesNotFitIsNamed)
   this->tets->GetPointData()->AddArray(to_weights_array("Weights", bad, this->rig.handles));
   this->expect_error("vertex 5");
 
-  // If rows do not sum to 1, there is a warning with the number of rows, and a result.
+  // If rows do not sum to 1, the filter computes a result and issues one warning.
   this->tets->GetPointData()->AddArray(
     to_weights_array("Weights", Weights(0.5 * this->rig.weights), this->rig.handles));
   this->listener->errors.clear();

@@ -1,4 +1,5 @@
-// vtkReducedDynamics: a source of time steps whose results do not depend on earlier requests.
+// vtkReducedDynamics provides time steps. The result for a time does not depend on earlier
+// requests.
 #include "vtkReducedDynamics.h"
 
 #include "TestFilter.h"

@@ -259,7 +259,7 @@ TEST(TetrahedralizeSurface, EmbedBindsTheSurface)
     }
     EXPECT_LT((p - sphere.points.row(v).transpose()).norm(), 1e-12);
   }
-  // The other methods leave the outputs of the embedding empty.
+  // Methods other than EMBED leave output 2 empty and add no array InsideFraction.
   filter->SetMethodToCDT();
   filter->Update();
   EXPECT_EQ(filter->GetOutput(2)->GetNumberOfPoints(), 0);

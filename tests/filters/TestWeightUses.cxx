@@ -407,7 +407,7 @@ TEST(CutAlongBones, SidesAreRegionsThatWeightsTake)
   int sides[5] = { 0, 0, 0, 0, 0 };
   for (vtkIdType v = 0; v < labels->GetNumberOfTuples(); ++v)
   {
-    // Sides 3 and 4 belong to the second handle.
+    // 3 and 4 are the labels of the two sides of the second handle, the bone.
     const int side = static_cast<int>(labels->GetComponent(v, 0));
     ASSERT_TRUE(side == 0 || side == 3 || side == 4);
     sides[side] += 1;

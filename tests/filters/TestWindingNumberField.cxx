@@ -131,7 +131,7 @@ TEST(WindingNumberField, DimensionsAndBoundsAsAskedFor)
   EXPECT_NEAR(winding_array(image)->GetValue(0), 1.0, 1e-15);
   EXPECT_EQ(winding_array(image)->GetValue(1), 0.5) << "on a face";
 
-  field->SetBounds(1, 0, 1, 0, 1, 0); // these invalid bounds mean cubic voxels around the surface
+  field->SetBounds(1, 0, 1, 0, 1, 0); // invalid bounds: use cubic voxels around the surface
   field->SetDimensions(11, 21, 11);
   field->Update();
   image = image_of(field);
@@ -139,7 +139,7 @@ TEST(WindingNumberField, DimensionsAndBoundsAsAskedFor)
   EXPECT_LE(image->GetBounds()[0], -1.0);
   EXPECT_LE(image->GetBounds()[2], image->GetBounds()[0]);
 
-  field->SetBounds(-1, 1, -1, 1, 0.25, 0.25); // these bounds mean a single slice
+  field->SetBounds(-1, 1, -1, 1, 0.25, 0.25); // bounds of zero thickness: a single slice
   field->SetDimensions(3, 3, 1);
   field->Update();
   image = image_of(field);
@@ -151,7 +151,7 @@ TEST(WindingNumberField, DimensionsAndBoundsAsAskedFor)
 
 TEST(WindingNumberField, SubExtentsHaveTheSameBits)
 {
-  vtkNew<vtkSphereSource> sphere; // an upstream filter in the pipeline
+  vtkNew<vtkSphereSource> sphere;
   sphere->SetThetaResolution(24);
   sphere->SetPhiResolution(16);
   sphere->SetEndTheta(300.0); // this makes an open surface
@@ -199,7 +199,7 @@ TEST(WindingNumberField, SubExtentsHaveTheSameBits)
     }
     EXPECT_EQ(read_report(image).find("winding_volume"), nullptr) << "only of the whole";
   }
-  // Filters with unstructured output request pieces.
+  // Filters with unstructured output, such as vtkContourFilter, request pieces, not extents.
   vtkNew<vtkContourFilter> contour;
   contour->SetInputConnection(other->GetOutputPort());
   contour->SetValue(0, 0.5);
@@ -274,7 +274,7 @@ TEST(WindingNumberField, TakesAllOfASurfaceThatOthersTakeInPieces)
     EXPECT_EQ(winding_array(image_of(again)), winding_array(kept));
     EXPECT_EQ(read_report(image_of(again)).number("counts.queries", 0), kept->GetNumberOfPoints());
     vtkDataArray* const before = winding_array(kept);
-    again->SetWindingThreshold(0.6 + piece); // this parameter changes the field
+    again->SetWindingThreshold(0.6 + piece); // any changed parameter clears the cache
     again->UpdatePiece(piece, 2, 0);
     EXPECT_NE(winding_array(image_of(again)), before);
   }
@@ -472,7 +472,8 @@ TEST(WindingNumberField, FastAdaptsToTheRegionOfThePoints)
   vtkNew<vtkWindingNumberField> field;
   field->SetInputData(data_of(mesh));
   field->SetMethodToFast();
-  // Points in a slab of the cube, which moves a little, then a lot.
+  // The query points fill a slab inside the cube. If the slab moves a little, the filter keeps its
+  // acceleration structure. If the slab moves far, the filter builds another one.
   vtkNew<vtkPoints> points;
   points->SetNumberOfPoints(5000);
   vtkNew<vtkPolyData> slab;
@@ -533,7 +534,7 @@ TEST(WindingNumberField, ASurfaceIsBuiltOnce)
   field->Update();
   EXPECT_EQ(field->GetNumberOfBuilds(), 5);
   EXPECT_EQ(winding_array(image_of(field))->GetValue(0), 1.0) << "of the new radius";
-  // After a failure the filter must not use its old build.
+  // After a failure the filter must not use its old acceleration structure.
   field->SetInputData(vtkNew<vtkPolyData>());
   vtkNew<Listener> listener;
   listener->listen(field);
@@ -740,7 +741,7 @@ TEST(WindingNumberField, SpacingAndTargetCount)
   EXPECT_THAT(field->GetStatusMessage(), HasSubstr("GiB"));
   EXPECT_EQ(field->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
   EXPECT_EQ(field->GetOutput()->GetNumberOfPoints(), 0);
-  // A part of the grid can be computed.
+  // A small part of the same grid fits into memory.
   field->UpdateInformation();
   int part[6] = { 100, 103, 2000, 2003, 300, 301 };
   field->UpdateExtent(part);

@@ -16,11 +16,11 @@ import numpy as np
 from vtkmodules.util.numpy_support import vtk_to_numpy
 from vtkmodules.vtkIOXML import vtkXMLImageDataReader
 
-# PrintSelf prints these lines about the last run; they are not parameters.
 FAST_ERROR = 1e-3  # default tolerance of the method Fast of winding numbers
+# PrintSelf also prints these lines about the last run, which are not parameters.
 NO_PARAMETER = {"Status", "StatusMessage", "Report"}
-# These defaults of proxies differ from their class on purpose. ParaView's file dialog has already asked about
-# overwriting. A user of a panel wants weights of any surface, while a C++ pipeline solves on the mesh that it is given.
+# These defaults of proxies differ from those of their classes on purpose. ParaView's file dialog has already asked
+# about overwriting. A user of a panel wants weights of any surface, while a C++ pipeline solves on its input mesh.
 OTHER_DEFAULTS = {("vtkMeshFileWriter", "Overwrite"), ("vtkVDBWriter", "Overwrite"),
                   ("vtkGLTFSkinWriter", "Overwrite"), ("vtkBoundedBiharmonicWeights", "Domain"),
                   ("vtkMonotoneWeights", "Domain"), ("vtkUnconstrainedWeights", "Domain")}

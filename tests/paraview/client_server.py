@@ -135,7 +135,7 @@ def server(log):
 
 
 def end(process):
-    """End a server. timeout passes the signal on to mpirun, which ends the ranks."""
+    """End a server. The program `timeout` passes the signal on to mpirun, which ends the ranks."""
     if process.poll() is None:
         process.send_signal(signal.SIGTERM)
     with contextlib.suppress(subprocess.TimeoutExpired):

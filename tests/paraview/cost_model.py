@@ -18,7 +18,7 @@ import pathlib
 import statistics
 import sys
 
-# Stage, name of its items, number of items, and the stages that send copies to the ranks before it.
+# Stage, name of its items, number of items, and the earlier stages that send the inputs of the stage to all ranks.
 CASES = (
     ("winding numbers on a grid", "voxels", 1e9, ("surface, shared",)),
     ("winding numbers at points", "points", 1e8, ("surface, shared",)),
@@ -41,8 +41,8 @@ def read(path):
 
 
 def medians(rows, stage, name, of_ranks, per_call=True):
-    """Return a dictionary from numbers of ranks to the median over the runs of a measurement of a stage. The function
-    `of_ranks` combines the values of the ranks."""
+    """Return the median of one measurement of a stage over all runs, for each number of ranks (the keys of the result).
+    The function `of_ranks` combines the values of the ranks of one run."""
     runs = {}
     for row in rows:
         if row["stage"] == stage:
@@ -116,8 +116,8 @@ def power(count):
 def as_markdown(rows, ranks=RANKS, assets=None):
     """Return the fitted constants and the predictions as Markdown.
 
-    `assets` is the mean of the processor seconds of some models, and their number. By default, the seconds are those of
-    the weights that scaling.py solves.
+    `assets` is a pair: the mean processor seconds per model, and the number of models. By default, the seconds are
+    those of the weights that scaling.py solves.
     """
     models = {stage: Model(rows, stage, shared) for stage, _, _, shared in CASES}
     lines = [
@@ -153,7 +153,8 @@ def as_markdown(rows, ranks=RANKS, assets=None):
 
 
 def mean_of_assets(path):
-    """Return the mean processor seconds of the certified weights in a file of tests/real_meshes.py, and their number."""
+    """Return the mean processor seconds of the models with certified weights in a file of tests/real_meshes.py, and the
+    number of these models."""
     with open(path, newline="") as file:
         seconds = [float(row["weights_user_seconds"]) for row in csv.DictReader(file)
                    if row["weights_outcome"] == "certified"]

@@ -62,7 +62,8 @@ def requested(algorithm, count):
 
 
 def scattered(ids, count):
-    """Return points of the unit cube. Consecutive ranges of ids are slabs, as pieces of real data are regions."""
+    """Return one point of the unit cube for each id. The points of a range of consecutive ids are in one slab, because
+    the points of a piece of real data are near each other, too."""
     return np.column_stack([(ids + 0.5) / count, ids * STEPS[0] % 1.0, ids * STEPS[1] % 1.0])
 
 

@@ -179,7 +179,8 @@ def refinement(triangles, wanted):
 
 
 def time_drags(data):
-    """Return the median time of a motion of a drag on about 86,000 triangles, in milliseconds, and their number.
+    """Drag a handle of a mesh with about 86,000 triangles. Return the median time per motion in milliseconds, and the
+    number of triangles.
 
     A motion sets the pose and updates the pipeline, as the panel of Pose Handles does before it draws.
     """

@@ -44,7 +44,7 @@ def bytes_counted(folder, rank):
 
 
 def measure(options, run, ranks):
-    """Run scaling.py on some ranks. Return one row per rank and stage."""
+    """Run scaling.py on the given number of ranks. Return one row per rank and stage."""
     folder = options.folder / f"{ranks}-{run}"
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir(parents=True)
@@ -79,7 +79,7 @@ def measure(options, run, ranks):
 
 
 class Stage:
-    """Medians over the runs of one stage on some ranks, per call."""
+    """Measurements of one stage on one number of ranks: medians over the runs, per call of the stage."""
 
     def __init__(self, rows):
         """Take the rows of one stage and one number of ranks."""
@@ -98,7 +98,7 @@ class Stage:
 
 
 def stages_of(rows):
-    """Return a dictionary from stages to dictionaries from numbers of ranks to Stage."""
+    """Return nested dictionaries: result[name of the stage][number of ranks] is a Stage."""
     found = {}
     for row in rows:
         if row["stage"] != WHOLE_RUN:

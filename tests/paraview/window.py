@@ -203,7 +203,7 @@ def check_a_state(open_window, state, folder):
         window.drag_handle("left_hand", (10, 10))
         for name in ("bent", "pose", "weights"):
             window.ask(f"delete({name!r})")
-        for name in window.ask("names()"):  # the reader, which has the name of its file since the state was loaded
+        for name in window.ask("names()"):  # only the reader is left; it is named after its file
             window.ask(f"delete({name!r})")
         window.move((200, 200))
         window.move((220, 220))

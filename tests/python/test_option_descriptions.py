@@ -191,7 +191,7 @@ def test_a_described_option_is_everywhere(tmp_path):
 
 
 def test_arrays_are_listed_from_the_input_of_the_template(tmp_path):
-    """Check that every list of arrays refers to an input of its proxy with the domain of that association."""
+    """Check every ArrayListDomain: it names an input of its proxy, and one of the InputArrayDomains of this input."""
     for template in (ROOT / "filters" / "paraview" / "plugin").glob("*.xml"):
         done = generate(ROOT, "paraview", template, tmp_path / template.name)
         assert done.returncode == 0, done.stderr

@@ -111,8 +111,8 @@ def surface_samples(points, triangles):
 
 
 def middles_of_gaps(points, triangles, starts, directions):
-    """Follow the direction from each start to the first triangle, at most REACH away. Return the middle between start
-    and triangle, and the index of the start, if the triangle faces the direction."""
+    """Cast a ray of length REACH from each start. If the first triangle that the ray hits faces the ray (see FACING),
+    return the midpoint between the start and the hit, and the index of the start."""
     reach = REACH * np.linalg.norm(np.ptp(points, axis=0))
     normals = unit_normals(points, triangles)
     locator = locator_of(poly_data(points, triangles))
@@ -128,8 +128,8 @@ def middles_of_gaps(points, triangles, starts, directions):
 
 
 def surface_without_tets(program, model, path):
-    """Return two fractions of the surface's area where tets cannot follow the surface or do not: "films", which have the
-    outside on both sides, and "bridged", where the tets bridge a gap between two facing triangles."""
+    """Return two fractions of the surface's area where the tets do not follow the surface. "films" is the fraction with
+    the outside on both sides. "bridged" is the fraction where tets bridge a gap between two facing triangles."""
     single = path.parent / "single.vtp"
     write_without_doubles(model, single)
     points, triangles, _ = weld(*read_obj(model))

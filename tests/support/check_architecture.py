@@ -69,7 +69,8 @@ HANDLE_WIDGET = ("vtkHandleSet",)
 QT = ("Q",)
 PARAVIEW = ("pq", "vtkPV", "vtkSM")
 TESTS = ("support/",)
-# The beginnings of headers that each folder must not include. The folder that comes first decides about a file.
+# Beginnings of the headers that the files of each folder must not include. If several folders contain a file, only the
+# first of them applies.
 FORBIDDEN = {
     PLUGIN: VIEWER + TESTS,
     "filters": VIEWER + HANDLE_WIDGET + QT + PARAVIEW + TESTS,

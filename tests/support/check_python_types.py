@@ -42,7 +42,7 @@ def mypy(files: Iterable[pathlib.Path], package: pathlib.Path, cache: pathlib.Pa
 
 
 def numpydoc_errors(package: pathlib.Path) -> list[str]:
-    """Return the sentences about the documentation of public functions."""
+    """Return one sentence per rule of numpydoc that the documentation of a public function violates."""
     sys.path.insert(0, str(package))
     import bindpose
     from numpydoc.validate import validate

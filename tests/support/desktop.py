@@ -20,10 +20,11 @@ def wait_for(condition, what):
 
 
 class Desktop:
-    """An X server with a window manager and other programs."""
+    """An X server with a window manager, and the programs that a test starts."""
 
     def __init__(self, home, screen="1400x1000x24", **environment):
-        """Start both. Programs get `home` as their home folder, and the variables of `environment`."""
+        """Start the X server and the window manager. Programs get the home folder `home` and the variables of
+        `environment`."""
         self.home = home
         self.running = []
         self.variables = environment
@@ -90,8 +91,8 @@ class Desktop:
             time.sleep(0.05)
 
     def close(self, window, process):
-        """Close the window by the key of the window manager, and wait until the program ends. If it does not end within
-        five seconds, press the key again: a window manager ignores a key that arrives before the new focus is active.
+        """Close the window with the keys Alt+F4, and wait until the program ends. If the program does not end within
+        five seconds, press the keys again: a window manager ignores keys that arrive before the new focus is active.
         """
         for _ in range(SECONDS // 5):
             self.tool("windowactivate", window, check=False)

@@ -146,7 +146,7 @@ def leaf_plant():
 
 
 def keys():
-    """Return twelve keys on a ring. A key is made of plates whose width is 60 times their thickness or less."""
+    """Return twelve keys on a ring. Each key is made of thin plates. The largest plate is 60 times as wide as thick."""
     ring = horrors.torus(24, 8, 0.3, 0.015)
     plates = []
     for k in range(12):
@@ -215,7 +215,7 @@ def rug():
 
 
 def needles_only():
-    """Return forty faces without area. Nothing can be bound on them, and they enclose no volume."""
+    """Return forty faces without area. No point can be bound to them, and they enclose no volume."""
     points = np.array([[k, 2 * k, -k] for k in range(42)], float)
     return points, [[k, k + 1, k + 2] for k in range(40)]
 

@@ -36,7 +36,7 @@ def stop(group, over_limit, ended):
 
 
 def end_all():
-    """Kill all processes and prevent new ones. The benchmark calls this function when it is interrupted."""
+    """Kill all processes and prevent new ones. real_meshes.py calls this function when it is interrupted."""
     closed.set()
     for group in list(running):
         with contextlib.suppress(ProcessLookupError):

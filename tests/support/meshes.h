@@ -1,7 +1,7 @@
 #ifndef bindpose_tests_support_meshes_h
 #define bindpose_tests_support_meshes_h
 
-// Meshes with known winding numbers, volumes and weights, which tests compare with results.
+// Meshes whose winding numbers, volumes and weights are known, so that tests can check results.
 
 #include "geometry/mesh.h"
 

@@ -174,8 +174,8 @@ def front_sides(points, triangles):
 
 
 def inside_pairs(points, triangles, component, groups):
-    """Return the pairs of components in different groups for which the first component has a vertex inside of the
-    second one.
+    """Return the pairs of components that are not joined in `groups`. The first vertex of the first component is inside
+    of the second component.
     """
     order = np.argsort(component, kind="stable")
     parts = np.split(triangles[order], np.cumsum(np.bincount(component))[:-1])

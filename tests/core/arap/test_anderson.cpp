@@ -10,7 +10,8 @@ using namespace bindpose;
 
 namespace
 {
-/// The map x <- A x + b with spectral radius 0.98, and two values C x that depend on x.
+/// The map x <- A x + b, where A has the spectral radius 0.98. An iterate also contains the two
+/// dependent values C x.
 struct Problem
 {
   Eigen::Matrix4d a = Eigen::Vector4d(0.98, 0.9, -0.5, 0.3).asDiagonal();

@@ -49,8 +49,8 @@ double energy_of(const Mesh& mesh, ArapEnergy energy, const Eigen::Matrix3d& map
 }
 } // namespace
 
-// The energy of an affine map is half the integral of its squared distance from the optimal
-// rotation.
+// The energy of an affine map is half the integral of the squared distance between the map and its
+// optimal rotation.
 TEST(ArapEnergy, AffineMapsCostHalfTheIntegralOfTheDifferenceToTheirRotation)
 {
   TriangleMesh square = test::grid(5, 4);
@@ -100,8 +100,8 @@ TEST(ArapEnergy, SpokesCostTheSameForACommonRotationAndForSimilarities)
   const Eigen::Matrix3d stretch = turn * Vec3(1.5, 1, 1).asDiagonal();
   EXPECT_NEAR(energy_of(square, ArapEnergy::spokes, stretch), 0.125, 1e-12);
   EXPECT_NEAR(energy_of(cube, ArapEnergy::spokes, stretch), 0.125, 1e-12);
-  // Compute the energy of an affine map if all groups have the same rotation. With an optimal
-  // rotation per group the energy can only be lower.
+  // Compute the energy of an affine map when all groups have the same rotation. One optimal
+  // rotation per group gives at most this energy.
   Eigen::Matrix3d map;
   map << 1.5, 0.2, 0.1, -0.3, 0.8, 0.4, 0.2, 0.1, 1.1;
   const RotationGroups groups =

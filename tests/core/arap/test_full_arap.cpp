@@ -63,7 +63,7 @@ TEST(FullArap, IsTheReducedMethodInTheWholeSpaceIterateByIterate)
       if (surface)
       {
         ASSERT_TRUE(reduced.bind(context, mesh.points, skin, unit, handles, options).ok());
-        // The inner vertex belongs to no triangle, so the surface must ignore it.
+        // Binding the surface must ignore the inner vertex, which belongs to no triangle.
         ASSERT_TRUE(full.bind(context, mesh.points, skin, handles, { energy, {} }).usable());
       }
       else

@@ -25,7 +25,8 @@ struct Cloth
 };
 } // namespace
 
-// A pivot inside of an element constrains the point of the mesh that is at the pivot at rest.
+// If the pivot of a handle is inside of an element, the handle constrains the mesh point at this
+// rest position.
 TEST(FullArapRobustness, APivotInsideAnElementIsThatPointOfTheMesh)
 {
   LabeledBar bar = labeled_bar(8);

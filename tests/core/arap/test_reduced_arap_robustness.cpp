@@ -107,7 +107,7 @@ TEST(ReducedArapRobustness, RedundantAndContradictingPositionsAreNamed)
   EXPECT_LT((result.rowwise() - Eigen::RowVector3d(4, 2.0, 0.5)).rowwise().norm().minCoeff(), 1e-9);
 }
 
-// Extra weights are zero at rest and lower the energy.
+// Extra weights keep the rest shape and lower the energy.
 TEST(ReducedArapRobustness, ExtraWeightsRestAtZeroAndLowerTheEnergy)
 {
   const Status bound = expect_that_extra_weights_help(ExtraWeights::bumps);

@@ -1,6 +1,6 @@
-// Basis of the reduced space that satisfies the constraints. The basis has a fast and a robust
-// construction, which give the same space. The fast construction fails if the rank of the
-// constraints is uncertain.
+// Basis of the displacements that change no constrained value. A fast and a robust construction
+// give bases of the same space. The fast construction fails if the rank of the constraints is
+// uncertain.
 #include "arap/reduced_basis.h"
 
 #include "support/bars.h"
@@ -222,11 +222,12 @@ TEST(ReducedBasis, TheQuickWayDeclinesWhatIsInDoubt)
   same.position_rows(1, 3) = std::nan("");
   EXPECT_FALSE(same.try_fast(basis));
 
-  // make() finds the same redundant constraints as the robust construction.
+  // If the fast construction fails, make() uses the robust one, which finds the redundant
+  // constraint.
   same.position_rows.row(1) = same.position_rows.row(0);
   basis.make(same.space, same.space.stiffness, same.free_dofs, same.position_rows);
   EXPECT_EQ(basis.redundant().size(), 1u);
-  // After the failure the fast construction works again.
+  // A failure has no effect on later calls of the fast construction.
   same.choose({}, { 0, 1 });
   EXPECT_TRUE(same.try_fast(basis));
   EXPECT_TRUE(basis.redundant().empty());

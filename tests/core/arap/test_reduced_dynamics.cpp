@@ -134,7 +134,7 @@ TEST(ReducedDynamics, WithoutGravityMomentumStays)
     body.step(nothing, options);
     ASSERT_LT((body.dynamics.momentum() - momentum).norm(), 1e-10 * momentum.norm()) << n;
   }
-  // The momentum that the solver reports equals the sum over the vertices.
+  // The reported momentum equals the total mass times the velocity of the center of mass.
   const Vec3 before = body.middle();
   body.step(nothing, options);
   const Vec3 velocity = (body.middle() - before) / options.time_step;

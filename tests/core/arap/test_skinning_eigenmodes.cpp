@@ -87,7 +87,8 @@ TEST(SkinningEigenmodes, SolveTheProblemAndAreOrthogonal)
   }
   const Eigen::MatrixXd gram = unit.transpose() * box.mass.asDiagonal() * unit;
   EXPECT_LT((gram - Eigen::MatrixXd::Identity(15, 15)).cwiseAbs().maxCoeff(), 1e-8);
-  // For a large number of modes the function uses the dense solver. The result must be the same.
+  // If many modes are requested, skinning_eigenmodes() uses a dense solver. The first 15
+  // eigenvalues must be the same.
   Eigenmodes dense;
   ASSERT_TRUE(skinning_eigenmodes(
     context, box.stiffness, box.mass, box.fixed_vertices, box.mesh.points.rows() / 2, dense)
@@ -149,7 +150,7 @@ TEST(SkinningEigenmodes, NothingFreeGivesNoModesAndCancelEnds)
     StatusCode::canceled);
 }
 
-// Eigenmodes as extra weights are zero at rest and lower the energy, like spline bumps.
+// Eigenmodes as extra weights keep the rest shape and lower the energy, as spline bumps do.
 TEST(SkinningEigenmodes, AsExtraWeightsTheyRestAtZeroAndLowerTheEnergy)
 {
   const Status bound = expect_that_extra_weights_help(ExtraWeights::eigenmodes);

@@ -1,4 +1,5 @@
-// Points in weight space (rows of the weights): clusters, farthest rows, and bumps around them.
+// Points in weight space (rows of the weight matrix): clusters, farthest-row sampling, and splines
+// around rows.
 #include "arap/weight_clusters.h"
 
 #include "support/bars.h"
@@ -101,7 +102,7 @@ TEST(WeightClusters, FarthestPointsSpread)
   std::vector<Index> seeds;
   farthest_rows(context, line, 3, seeds);
   EXPECT_EQ(seeds, (std::vector<Index>{ 10, 0, 5 }));
-  farthest_rows(context, line, 100, seeds); // all 11 rows are returned once
+  farthest_rows(context, line, 100, seeds); // 100 are requested, all 11 are returned
   EXPECT_EQ(seeds.size(), 11u);
   EXPECT_EQ(std::set<Index>(seeds.begin(), seeds.end()).size(), 11u);
 }
@@ -123,7 +124,8 @@ TEST(WeightClusters, BumpsAreSplinesThatVanishAtTheHandles)
   {
     EXPECT_LT(bumps.row(v).maxCoeff(), 1e-12);
   }
-  // Bumps of neighboring seeds overlap, unless a handle is so close that it limits their radius.
+  // Splines around neighboring seeds overlap, except where a close handle limits the radius of a
+  // spline.
   Index overlaps = 0;
   for (Index e = 0; e < bumps.cols(); ++e)
   {

@@ -75,7 +75,7 @@ SkeletonBones run_skeleton_bones(const Drawing& drawing, const SkeletonBonesOpti
 }
 
 /// Expect that the bones form a tree: exactly one handle has no parent, a parent precedes its
-/// children, and each bone begins at the tail of its parent or at a root.
+/// children, and each bone begins at the tail of its parent or at a root joint.
 void expect_tree(const SkeletonBones& bones)
 {
   EXPECT_TRUE(check_handles(bones.handles).ok());

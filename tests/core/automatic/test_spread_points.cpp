@@ -124,7 +124,8 @@ TEST(SpreadPoints, AreFartherFromEachOtherThanAnyVertexIsFromThem)
     }
     const double covering = *std::max_element(nearest.begin(), nearest.end());
     EXPECT_GE(closest_pair * (1.0 + 1e-12), covering);
-    EXPECT_LT(covering, 1.3); // half of the torus's outer circle has the length 4.1
+    // For comparison, half of the torus's outer circle has the length 4.1.
+    EXPECT_LT(covering, 1.3);
   }
 }
 

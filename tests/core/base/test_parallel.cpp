@@ -1,5 +1,5 @@
-// Parallel loops and sums: each item is processed once, and the bits are the same for any number of
-// threads.
+// Parallel loops and sums: each item is processed once, and the results have the same bits for any
+// number of threads.
 #include "base/parallel.h"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// SideTask: work in the background. It begins after a delay or when finish() is called, or never.
+// SideTask: work in the background. The work starts after a delay or in finish(), whichever is
+// first. Work that is dropped before its start never runs.
 #include "base/side_task.h"
 
 #include <gtest/gtest.h>

@@ -68,7 +68,8 @@ TEST(BoneCut, ASlitInsideIsAHole)
   EXPECT_EQ(euler(result.triangles), 0);
   EXPECT_EQ(count(result, 1), 3);
   EXPECT_EQ(count(result, 2), 3);
-  // The left side of a bone along +x is toward +y, so triangles with left vertices are above it.
+  // The left side of a bone along +x is toward +y, so triangles with vertices of the left side are
+  // above the bone.
   for (Index t = 0; t < result.triangles.rows(); ++t)
   {
     for (int k = 0; k < 3; ++k)
@@ -109,7 +110,8 @@ TEST(BoneCut, BonesThatMeetAndCross)
   const BoneCut crossed = cut(mesh, cross);
   EXPECT_EQ(crossed.points.rows() - mesh.points.rows(), 2 + 2 + 3);
   EXPECT_EQ(euler(crossed.triangles), 0);
-  EXPECT_EQ(count(crossed, 1), 2 + 2); // the middle vertex belongs to the first bone
+  // The four points in the middle are on the sides of the first bone, two on each side.
+  EXPECT_EQ(count(crossed, 1), 2 + 2);
   EXPECT_EQ(count(crossed, 3), 2);
   // Four bones that form a closed square separate its inside from the rest.
   const Vec3 corners[4] = { Vec3(0.25, 0.25, 0), Vec3(0.75, 0.25, 0), Vec3(0.75, 0.75, 0),

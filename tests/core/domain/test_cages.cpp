@@ -152,7 +152,7 @@ TEST(Cages, AreLinearOnFacesInSpace)
 TEST(Cages, ThatAreTheWholeBoundaryAddNothing)
 {
   // The cage is the boundary of the box, and every boundary vertex of the mesh is already on the
-  // cage. Nothing must be inserted.
+  // cage. Therefore no vertex is inserted.
   const TetMesh box = test::tet_box(4, 4, 4, Vec3::Constant(-1.0), Vec3::Constant(1.0));
   const WeightsProblem problem = problem_of(test::to_domain(box), cube_cage(1.0));
   EXPECT_TRUE(problem.mesh.inserted.empty());

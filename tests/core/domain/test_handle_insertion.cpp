@@ -43,7 +43,7 @@ void expect_sound(const Domain& before, const HandleInsertion& after)
       sums[after.parent_element[t]] += volumes[t];
     }
     EXPECT_LT((sums - old_volumes).cwiseAbs().maxCoeff(), 1e-12 * old_volumes.maxCoeff());
-    // The boundary encloses the same volume.
+    // The boundary encloses the same volume as before the insertion.
     EXPECT_NEAR(signed_volume(after.domain.points, boundary_triangles(after.domain.tets)),
       old_volumes.sum(), 1e-12 * old_volumes.sum());
   }

@@ -25,7 +25,8 @@ Eigen::MatrixXd smoothed(
 
 TEST(SurfaceSmoothing, ScalesAnEigenfunctionOfTheSphere)
 {
-  // On the unit sphere the Laplacian of z is -2 z, so smoothing divides z by 1 + 4 length^4.
+  // On the unit sphere the Laplacian of z is -2 z, so smoothing with the length s divides z by 1 +
+  // 4 s^4.
   const TriangleMesh ball = test::sphere(4);
   const Eigen::MatrixXd z = ball.points.col(2);
   const Eigen::MatrixXd w = smoothed(ball, {}, 0.5, z);

@@ -134,7 +134,7 @@ void expect_valid_embedding(const TriangleMesh& surface, const EmbeddingTets& re
     ASSERT_LE(rest.norm(), 1e-12 * std::max(diagonal, result.spacing)) << v;
     ASSERT_NEAR(binding.coordinates.row(v).sum(), 1.0, 1e-14);
   }
-  // The corners of a triangle are bound to one component.
+  // All three corners of a triangle are bound to tets of the same component.
   for (Index f = 0; f < surface.triangles.rows(); ++f)
   {
     const auto component = [&](int k)
@@ -677,9 +677,10 @@ TEST(EmbeddingTets, CancelEndsSoon)
 
 TEST(EmbeddingTets, ALinkConnectsWhatIsAtItsEnds)
 {
-  // The mesh `apart` has two boxes at a distance of 3. The link leads from the middle of a side of
-  // one box to a corner of the other box. In the mesh `near`, the gap between the boxes is 0.01,
-  // much smaller than a tet. The link connects the boxes at one point of the gap.
+  // A link is a segment that connects two parts of a surface. The mesh `apart` has two boxes at a
+  // distance of 3, linked from a point on a face of one box to a corner of the other box. In the
+  // mesh `near`, the gap between the boxes is 0.01, much smaller than a tet. The link bridges this
+  // gap at one point.
   const TriangleMesh apart =
     test::join(box(Vec3(0, 0, 0), Vec3(1, 1, 1)), box(Vec3(4, 0, 0), Vec3(5, 1, 1)));
   const TriangleMesh near =

@@ -93,7 +93,8 @@ TriangleMesh layers(Random& random, Index maximum_triangles)
   return mesh;
 }
 
-/// Return many triangles around one vertex, and around a second one if closed.
+/// Return many triangles around one vertex. If `closed` is true, a second vertex closes the fan
+/// from the other side.
 TriangleMesh random_fan(Random& random, Index triangles, bool closed)
 {
   const Index around = std::max<Index>(3, closed ? triangles / 2 : triangles);
@@ -229,7 +230,7 @@ TriangleMesh deformed_surface(Random& random, Index maximum_triangles)
   {
     mesh.points.col(random.below(3)) *= power_of_ten(random, -12.0, 0.0);
   }
-  if (chance(random, 0.25)) // make the triangles of half of the surface much smaller
+  if (chance(random, 0.25)) // shrink the side toward -x, to as little as 1e-5 of its size
   {
     for (Index v = 0; v < mesh.points.rows(); ++v)
     {
@@ -328,7 +329,7 @@ Vec3 any_point(Random& random, const TriangleMesh& mesh)
         chance(random, 0.5) ? other[axis] : box.center()[axis] + size * random.uniform(-1.5, 1.5);
       return p;
     }
-    case 6: // coordinates of three different vertices
+    case 6: // x, y and z from three vertices
       return Vec3(any_vertex().x(), any_vertex().y(), any_vertex().z());
     case 7:
     case 8: // near a face, edge or vertex

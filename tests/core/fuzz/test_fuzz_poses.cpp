@@ -18,7 +18,7 @@ using namespace bindpose::test;
 
 namespace
 {
-/// Return 10^x with |x| <= exponent, and exactly 1 in one of three cases.
+/// Return 10^x with |x| <= exponent, or exactly 1 with probability 1/3.
 double random_scale(Random& random, double exponent)
 {
   return chance(random, 0.33) ? 1.0 : std::pow(10.0, random.uniform(-exponent, exponent));
@@ -60,7 +60,8 @@ Affine transform(Random& random, double exponent)
   return t;
 }
 
-/// Turn some handles into bones. Their tails may be inside or outside of the shape, or coincide.
+/// Turn some handles into bones. Some bones have the same tail. Other tails are vertices or are
+/// anywhere inside or outside of the shape, and some bones are very short.
 void make_bones(Random& random, const TetMesh& mesh, Handles& handles)
 {
   const Box box = bounding_box(mesh.points);
@@ -91,7 +92,8 @@ void make_bones(Random& random, const TetMesh& mesh, Handles& handles)
       [&](const Handle& other) { return other.head == handle.tail && other.tail == handle.head; });
     if (twice)
     {
-      handle.tail += Vec3(0.1, 0.2, 0.3); // the bone had length zero or reversed another bone
+      // The bone has length zero, or another bone connects the same points in reverse.
+      handle.tail += Vec3(0.1, 0.2, 0.3);
     }
   }
 }
@@ -114,7 +116,8 @@ void randomize_pose(Random& random, double exponent, const Handle& handle, Handl
   }
 }
 
-/// Return the largest scale factor of the pose relative to the rest pose, but at least 1.
+/// Return the largest absolute entry of a transform, multiplied by the stretch of the bone if this
+/// is greater than 1. The result is at least 1.
 double size_of_pose(const Pose& pose)
 {
   double size = 1.0;
@@ -398,8 +401,7 @@ TEST(FuzzPoses, ReducedArap)
 
 namespace
 {
-/// A full ARAP solver on one of the shapes, with point handles inside and around it and with
-/// regions.
+/// A problem for the full ARAP solver: a shape with random points, bones and regions as handles.
 struct FullCase
 {
   const TetMesh& mesh;

@@ -226,7 +226,7 @@ void fuzz_polygons(
     });
 }
 
-/// Return a cube in the format of a writer.
+/// Return the bytes of a file to which the given function has written a cube.
 std::string written(Status (*write)(const std::string&, const PolygonMesh&))
 {
   const test::Folder folder;
@@ -504,7 +504,7 @@ Handles named_handles()
   return handles;
 }
 
-/// Return the largest number in an edit of a handle. Products of huge numbers may exceed the range
+/// Return the largest number in an edit of a handle. If it is huge, products may exceed the range
 /// of double.
 double largest_number(const HandleEdit& edit)
 {
@@ -600,7 +600,7 @@ TEST(FuzzReaders, NamesInPoseFiles)
       const Status status = parse_pose_file(text, handles, back);
       ASSERT_TRUE(status.ok()) << status.message;
       EXPECT_EQ(back.frames[0].handles.size(), 3u);
-      // Unknown handle names are refused with one sentence.
+      // Unknown handle names are refused with an error message of one sentence.
       test::expect_valid_messages(parse_pose_file(text, named_handles(), back));
     });
 }

@@ -125,7 +125,7 @@ TriangleMesh defective_surface(test::Random& random)
         jitter(random, mesh, std::pow(10.0, random.uniform(-12.0, -0.7)));
         break;
       case 4:
-        // Add a copy that crosses, touches or nearly coincides with the surface.
+        // Add another solid, which may cross, touch or nearly coincide with the surface.
         mesh = test::join(mesh,
           test::translated(random_solid(random),
             std::pow(10.0, random.uniform(-9.0, 0.0)) *
@@ -271,7 +271,7 @@ void expect_bound(const TriangleMesh& surface, const TetrahedralizeResult& resul
   }
 }
 
-/// Tetrahedralize a surface. Expect valid tets or one sentence.
+/// Tetrahedralize a surface. Expect that an error message and each warning are one line of text.
 Status fill(const TriangleMesh& surface, const TetrahedralizeOptions& options,
   TetrahedralizeResult& result, int threads = 0)
 {
@@ -351,8 +351,8 @@ void expect_volume(test::Random& random, const TriangleMesh& surface,
     const bool warned = std::any_of(status.warnings.begin(), status.warnings.end(),
       [](const std::string& text)
       { return text.find("but the enclosed volume by winding number") != std::string::npos; });
-    // The report estimates `winding` from 20,000 samples inside of the surface, or from fewer
-    // samples if the sampling takes too long.
+    // The value of `winding` is an estimate from 20,000 samples inside of the surface, or from
+    // fewer samples if the sampling takes too long.
     EXPECT_TRUE(warned || std::abs(volume / winding - 1.0) < 0.15)
       << volume << " instead of " << winding << " without a warning";
   }

@@ -1,6 +1,6 @@
 // Fuzz test of weights for handles at random positions: on, in and outside of the mesh, and
-// touching each other. Each problem is refused with one sentence, or its weights satisfy their
-// definition.
+// touching each other. Each problem is refused with an error message of one sentence, or its
+// weights satisfy their definition.
 #include "weights/weight_methods.h"
 
 #include "core/weights/weights_shapes.h"
@@ -13,7 +13,7 @@ using namespace bindpose::test;
 
 namespace
 {
-/// Return a small random domain, which is rarely regular.
+/// Return a small random domain. In about half of the cases its vertices are perturbed.
 Domain random_domain(Random& random)
 {
   Domain domain;

@@ -429,7 +429,7 @@ TEST(FuzzWinding, CubesHoldTheirMiddles)
           std::array<Index, 3> cell;
           for (int axis = 0; axis < 3; ++axis)
           {
-            // The distance from the corner of the lattice, in units of half a cube.
+            // The distance along this axis from the corner of the lattice, in units of half a cube.
             const Index halves = place[axis] - 3;
             cell[axis] = halves % 2 == 0 ? halves / 2 - 1 + (k >> axis & 1) : (halves - 1) / 2;
           }

@@ -149,7 +149,8 @@ TEST(GltfTransform, AShearGivesTheNearestRotation)
   const Eigen::Matrix3d held = nearest_trs(shear).affine().linear();
   const double error = (held - shear.linear()).norm();
   EXPECT_GT(error, 0.1);
-  for (double turn = -0.5; turn < 0.5; turn += 0.01) // no other rotation is closer to the shear
+  // No rotation about the z axis is closer to the shear than the computed rotation.
+  for (double turn = -0.5; turn < 0.5; turn += 0.01)
   {
     const Eigen::Matrix3d r = Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix();
     EXPECT_GE((r - shear.linear()).norm(),
@@ -277,7 +278,8 @@ TEST(GltfSkin, TheLargestWeightsAndWhatThatCosts)
     posed.push_back(joint.posed);
   }
   EXPECT_NEAR(status.report.number("dropped_share", 0), dropped_sum, 1e-12);
-  // The reported error is that of posing with the weights in the file.
+  // The reported error is the largest displacement of a posed point due to the dropped weights, in
+  // bounding-box diagonals.
   GltfSkin cut = skin;
   cut.weights = reread.weights;
   const double error = (skinned(cut, posed) - skinned(skin, posed)).rowwise().norm().maxCoeff() /

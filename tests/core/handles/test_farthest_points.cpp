@@ -42,7 +42,7 @@ TEST(FarthestPoints, BoxCornersComeFirst)
   ExecutionContext context;
   std::vector<Index> chosen;
   ASSERT_TRUE(farthest_points(context, mesh.points, mesh.triangles, 8, chosen).ok());
-  EXPECT_EQ(chosen[0], 0); // of corners equally far from the centroid, the smallest id is chosen
+  EXPECT_EQ(chosen[0], 0); // the smallest id of eight equally distant corners
   EXPECT_EQ(chosen[1], 7); // corner 7 is opposite corner 0
   std::sort(chosen.begin(), chosen.end());
   EXPECT_EQ(chosen, (std::vector<Index>{ 0, 1, 2, 3, 4, 5, 6, 7 }));

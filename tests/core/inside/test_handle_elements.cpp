@@ -1,4 +1,4 @@
-// Positions of handles that become vertices of the tets: samples of bones and cage triangles.
+// Sampling of handles: samples of bones and cage triangles become vertices of the tets.
 #include "inside/handle_elements.h"
 
 #include <gmock/gmock.h>

@@ -200,8 +200,8 @@ TEST_F(Remesh, OpenCubeGetsALid)
   const TriangleMesh cube = test::open_cube();
   const RemeshOutcome outcome = run_remesh(cube);
   expect_valid_remesh(outcome, cube, 11.0);
-  // The winding number exceeds 0.5 up to the rim of the opening and also above it. The region is
-  // therefore cut off at the bounding box.
+  // The winding number exceeds 0.5 up to the rim of the opening and also above it. The region of
+  // the tets is therefore cut off at the bounding box.
   EXPECT_NEAR(outcome.volume(), 8.0, 0.01);
   EXPECT_EQ(outcome.kept_vertices(), 8);
   EXPECT_LT(outcome.status.report.number("distance_max", 100.0), 0.5) << "the lid does not count";
@@ -221,7 +221,7 @@ TEST_F(Remesh, CrossingSolidsAreOne)
   expect_valid_remesh(outcome, spheres);
   const double balls = 8.0 / 3.0 * pi - pi * (4.0 + d) * (2.0 - d) * (2.0 - d) / 12.0;
   EXPECT_NEAR(outcome.volume(), balls, 0.01 * balls);
-  // Only vertices that are outside of the other sphere are on the boundary.
+  // A vertex of one sphere is on the boundary only if it is outside of the other sphere.
   Index outside = 0;
   for (Index v = 0; v < spheres.points.rows(); ++v)
   {
@@ -357,7 +357,7 @@ TEST_F(Remesh, ASheetBesideASolidEnds)
   {
     EXPECT_NEAR(outcome.volume(), 4.0 / 3.0 * pi, 0.05 * 4.0 / 3.0 * pi);
   }
-  // Through tetrahedralize(), the method must also succeed.
+  // The method must also succeed when tetrahedralize() calls it.
   ExecutionContext context;
   TetrahedralizeOptions tet_options;
   tet_options.method = TetMethod::remesh;

@@ -1,5 +1,5 @@
 // The sequence of meshing methods that tetrahedralize() tries: lattices without the helper program,
-// helpers that fail or are slow, cancel, and bad input.
+// helpers that fail or are slow, cancel requests, and bad input.
 #include "inside/tetrahedralize.h"
 
 #include "base/number_text.h"
@@ -141,7 +141,7 @@ TEST(Tetrahedralize, ASlowHelperIsLeftInTime)
   expect_valid(outcome, test::sphere(2));
   EXPECT_EQ(outcome.method(), "remesh");
   EXPECT_THAT(outcome.status.warnings.back(), HasSubstr("time limit"));
-  // The boundary of the lattice's tets is less than a cube away from the surface.
+  // The boundary of the tets is less than the size of a lattice cube away from the surface.
   EXPECT_GT(outcome.number("distance_max"), 0.0);
   EXPECT_LT(outcome.number("distance_max"), 100.0 / std::sqrt(3.0) / options.resolution);
 }

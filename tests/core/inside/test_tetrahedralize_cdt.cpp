@@ -414,7 +414,7 @@ TEST_F(Cdt, RealSurfacesThatCross)
 
 TEST_F(Cdt, RandomSoupsGiveTetsOrASentence)
 {
-  // Each damaged surface gives a valid mesh of its inside, or one sentence.
+  // Each damaged surface gives a valid mesh of its inside, or an error message.
   for (std::uint64_t seed = 1; seed <= 12; ++seed)
   {
     SCOPED_TRACE(seed);

@@ -96,7 +96,7 @@ TEST(ThickSolid, AnOpenCubeIsFilled)
 {
   const SolidOutcome outcome = make_solid(test::open_cube(), {});
   EXPECT_EQ(outcome.parts, 1);
-  // Next to the opening, the walls are thicker by one layer.
+  // Next to the opening, the walls are thickened by a layer of 0.6 lattice cubes.
   EXPECT_NEAR(outcome.volume, 8.0, 0.8);
 }
 

@@ -151,8 +151,8 @@ TEST_F(WrapSurface, IsClosedAndAroundWhateverItIsGiven)
 
 TEST_F(WrapSurface, VolumesAreWhatAlphaAndOffsetSay)
 {
-  // The wrap of a convex body has a larger volume than the body. Its volume is smaller than that of
-  // the region of all points within the offset of the body.
+  // The wrap of a convex body is larger than the body, and smaller than the region of all points
+  // that are at most one offset away from the body.
   const WrapOptions options{ 0.05, 0.004, 60.0, 0 };
   TriangleMesh wrap;
   ASSERT_TRUE(run_wrap(test::cube(), options, wrap).ok());

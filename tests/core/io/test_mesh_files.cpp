@@ -1,6 +1,6 @@
 // The mesh formats OFF, OBJ, PLY and MEDIT. Round trips preserve all bits, and the dialects of
-// other programs are accepted. For any other input, the reader returns one sentence with the line
-// number and never crashes.
+// other programs are accepted. For any other input, the reader returns an error message with the
+// line number and never crashes.
 #include "io/medit.h"
 #include "io/obj.h"
 #include "io/off.h"
@@ -261,8 +261,8 @@ TEST_F(TextFiles, PlyHeadersThatContradictThemselves)
   {
     numbers += "1 2 3\n";
   }
-  // The arrays are allocated for the count of the first element. The count of the second element
-  // must not replace it.
+  // The header declares the element "vertex" twice. The arrays are allocated for the first count,
+  // which the second count must not replace.
   EXPECT_THAT(read_ply(this->folder.write("t.ply",
                          "ply\nformat ascii 1.0\nelement vertex 90" + vertex + "element vertex 2" +
                            vertex + face + numbers),

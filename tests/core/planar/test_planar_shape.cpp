@@ -302,7 +302,7 @@ TEST_F(PlanarShapeTest, OverlapsAndDoubledCurves)
   std::vector<Vec2> moved;
   for (const Vec2& p : unit_square)
   {
-    // This square overlaps parts of two sides of the first one.
+    // Two sides of this square overlap parts of two sides of the unit square.
     moved.emplace_back(p + Vec2(0.5, 0.0));
   }
   const Curves two = Curves().add(unit_square).add(moved);

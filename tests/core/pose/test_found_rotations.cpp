@@ -1,5 +1,5 @@
-// Modes for methods that compute rotations themselves. A handle that is only translated gets the
-// mode `position`.
+// Handle modes for deformation methods that compute rotations themselves. A handle that is only
+// translated gets the mode `position`.
 #include "pose/found_rotations.h"
 
 #include "pose/handle_hierarchy.h"

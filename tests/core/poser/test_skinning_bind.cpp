@@ -1,5 +1,5 @@
-// All skinning methods with their bind, compared with direct calls of the kernels, on a surface and
-// on tets. A bind computes only what its method needs and what is missing.
+// All skinning methods on a surface and on tets, compared with direct calls of their kernels. A
+// bind computes only the data that the method needs and that the caller has not provided.
 #include "poser/bone_endpoints.h"
 #include "poser/skinning_bind.h"
 
@@ -99,7 +99,8 @@ TEST_F(SkinningBindTest, MethodsGiveTheBitsOfTheirKernels)
 
 TEST_F(SkinningBindTest, PartsOfAShapeHaveTheBitsOfTheWhole)
 {
-  // The parts begin and end within tiles of vertices, far from the origin and near it.
+  // The parts are ranges of vertices that begin and end within tiles (blocks of vertices). The
+  // shape is at the origin or far from it.
   const Index rows = this->box_.points.rows();
   const Index begins[] = { 0, 5, 37, rows };
   for (const Vec3& place : { Vec3(0, 0, 0), Vec3(4e3, -2e3, 1e3) })
@@ -237,8 +238,8 @@ TEST_F(SkinningBindTest, EndpointWeightsAreSolvedOnceAndThoseOfTheShapeComeFirst
   };
   EXPECT_EQ(this->posed(options, false), expected(endpoints));
   EXPECT_FALSE(this->bind_.needs_elements(this->shape(), options));
-  // Endpoint weights by projection need no solve. Endpoint weights that the shape already has are
-  // used instead of computed ones.
+  // Endpoint weights by projection need no solve. If the shape already has endpoint weights, these
+  // are used.
   options.endpoints = EndpointMethod::projection;
   EXPECT_EQ(this->posed(options, false), expected(Weights()));
   this->endpoints_ = Weights::Constant(rest.rows(), 4, 0.25);

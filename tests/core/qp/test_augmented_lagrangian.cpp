@@ -1,6 +1,7 @@
-// Columns with ordered pairs, solved by the augmented Lagrangian method. The weights must be those
-// of the interior-point method in double precision, which solves the columns if single precision is
-// unavailable. Multipliers and certificate must prove each result.
+// Quadratic programs with order constraints on pairs of vertices, solved by the augmented
+// Lagrangian method. The interior-point method in double precision must give the same weights. It
+// replaces the augmented Lagrangian method if single precision is unavailable. The multipliers and
+// the certificate must prove that each result is optimal.
 #include "qp/augmented_lagrangian.h"
 
 #include "geometry/laplacian.h"
@@ -17,8 +18,9 @@ using namespace bindpose;
 
 namespace
 {
-/// Columns on a box of tets whose values must increase along edges. The direction of each edge is
-/// determined by the distance to the column's fixed vertex, for a random 30 % of the edges.
+/// Columns with order constraints, on a box of tets. The constraints are a random 30 % of the
+/// vertex pairs with an entry in Q. The vertex nearer to the column's fixed vertex must have at
+/// least the value of the other vertex.
 class AugmentedLagrangian : public testing::Test
 {
 protected:
@@ -63,8 +65,8 @@ protected:
     return result;
   }
 
-  /// Remove the pairs whose `high` vertex is another column's fixed vertex, where the value is
-  /// smallest. These pairs would contradict lower bounds and minimum differences.
+  /// Remove the pairs whose `high` vertex is the fixed vertex of another column. The value there is
+  /// 0, so these pairs would contradict positive lower bounds or minimum differences.
   void remove_pairs_below_minima(std::size_t j)
   {
     std::vector<OrderedPair>& pairs = this->columns[j].pairs;

@@ -327,7 +327,7 @@ TEST(Skinning, ModesReadAsTranslationsAndIdentity)
   EXPECT_THAT(status.warnings[0], HasSubstr("'c'"));
 
   // The next two handles are bones with constrained ends. In mode tail, a bone is translated with
-  // its tail. In mode ends, a bone has its own transform.
+  // its tail. In mode ends, a bone has the transform of its pose.
   handles[1].kind = handles[2].kind = HandleKind::bone;
   handles[1].tail = Vec3(3, 0, 0);
   pose[1].mode = HandleMode::tail;

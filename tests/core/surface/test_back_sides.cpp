@@ -92,7 +92,8 @@ TEST(BackSides, AreNotThereWhereNothingIsEnclosed)
 
 TEST(BackSides, AreFoundPatchByPatch)
 {
-  // The surface has a two-sided ball, a two-sided leaf, and a one-sided ball.
+  // The surface consists of a two-sided sphere, a two-sided flat grid, and a one-sided sphere. Only
+  // the two-sided sphere has back sides.
   const TriangleMesh ball = test::sphere(2);
   const TriangleMesh leaf = test::translated(test::grid(4, 4), Vec3(5, 0, 0));
   TriangleMesh all =

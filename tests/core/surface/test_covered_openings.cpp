@@ -1,4 +1,5 @@
-// Openings of a surface that other parts cover: boxes without a bottom that stand on a plate.
+// Openings that are covered by another part of the surface: boxes without a bottom stand on a
+// plate.
 #include "surface/covered_openings.h"
 
 #include "support/meshes.h"
@@ -72,7 +73,8 @@ TEST(CoveredOpenings, ThePlateBelowABoxCoversItsBottom)
   const TriangleMesh knob = open_box(Vec3(-1, -1, 0.01), Vec3(1, 1, 1), { 0.01 });
   const CoveredOpenings found = openings_of(plate, knob, { touch_distance, 0.5 });
   EXPECT_EQ(found.count, 1);
-  // Four edges of length 2; samples are 0.5 apart, and corners are samples of both edges.
+  // The opening has four edges of length 2. Each edge has five samples, including its ends, so
+  // corners are sampled twice.
   EXPECT_EQ(found.links.size(), 20U);
   std::set<std::array<double, 3>> positions;
   for (const PartLink& link : found.links)

@@ -1,5 +1,5 @@
-// Baseline weights (simple methods for comparisons). They are compared with closed forms and with
-// each other, in limits in which two methods must agree and where methods must differ.
+// Baseline weights (simple methods for comparisons). They are compared with closed forms. Pairs of
+// methods are compared in cases in which they must agree or must differ.
 #include "weights/baseline_weights.h"
 #include "weights/weight_methods.h"
 

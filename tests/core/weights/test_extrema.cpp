@@ -101,7 +101,8 @@ TEST(Extrema, HandlesWinTiesAndPlateausAreOne)
   f[0] = -1e-10;
   EXPECT_TRUE(interior_extrema(path(7), f, { 0, 1, 0, 0, 0, 0, 1 }).empty());
   EXPECT_EQ(interior_extrema(path(7), f, { 0, 1, 0, 0, 0, 0, 1 }, 0.0).size(), 1u);
-  // Without handles, each end of the path is one extremum with the full persistence.
+  // Without handles, each end of the path is an extremum. Its persistence is 1, the whole range of
+  // the values.
   const auto all = interior_extrema(path(7), f, std::vector<char>(7, 0));
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].persistence, 1.0);

@@ -1,5 +1,5 @@
-// Orders of vertices that have exactly the listed extrema. The orders are computed from arbitrary
-// values.
+// Total orders of the vertices of a mesh, computed from arbitrary values. The local extrema of an
+// order are exactly the vertices of a given list.
 #include "weights/extrema_order.h"
 
 #include "weights_shapes.h"

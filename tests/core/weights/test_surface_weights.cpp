@@ -1,6 +1,7 @@
 // Weights of surfaces, computed on tets of the enclosed volume or on an embedding lattice. The
-// results are compared with a run of the separate stages, and between both domains. Other tests
-// check parts that are close but not connected, and the automatic choice of the domain.
+// results are compared with those of the separate stages, and the results on both domains with each
+// other. Other tests check parts that are close but not connected, and the automatic choice of the
+// domain.
 #include "domain/embedded_surface.h"
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/surface_weights.h"
@@ -285,10 +286,9 @@ TEST(SurfaceWeights, APartWithoutAHandleFollowsWhatItTouches)
 
 TEST(SurfaceWeights, PartsAreConnectedAtOpeningsThatOtherPartsCover)
 {
-  // A knob without a bottom stands on a plate. A flat ridge without a bottom stands on the knob.
-  // The winding number in the ridge is below 0.5, because the knob is open. The handle of the ridge
-  // must control the knob as if the bottoms were solid: as if the ridge were a part of a closed
-  // knob.
+  // A knob without a bottom stands on a plate, and a flat ridge without a bottom stands on the
+  // knob. The winding number in the ridge is below 0.5, because the knob is open. The handle of the
+  // ridge must still control the knob, as if all parts were closed and connected.
   const auto part = [](const Vec3& lower, const Vec3& upper, bool is_open)
   {
     const TetMesh tets = test::tet_box(8, 8, 4, lower, upper);

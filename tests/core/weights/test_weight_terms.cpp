@@ -1,7 +1,7 @@
 // Additional terms of bounded and monotone weights: bounds and pins, rigidity, rigid sets, mirror
-// symmetry, few influences, and columns that sum to 1. The references are dense solvers that are
-// not interior-point methods, convergence rates, exact equalities, and certificates. The
-// certificates are recomputed from the quadratic form and the weights.
+// symmetry, few influences, and columns that sum to 1. The references are dense solvers (not
+// interior-point methods), exact equalities, convergence rates, and certificates that the tests
+// recompute from the quadratic form and the weights.
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/monotone_weights.h"
 #include "weights/unconstrained_weights.h"

@@ -76,9 +76,9 @@ void expect_certified(
   EXPECT_EQ(result.analyses, 1);
 }
 
-/// Return the integral of (w'')^2 on a bar of length 1 and width 1. The strip of the test has the
-/// width 2 / n. Its certificate contains the energy 1/2 w'Qw, for which the mass was divided by its
-/// maximum.
+/// Return the integral of (d^2 w / dx^2)^2 on a bar of length 1 and width 1. The certificate
+/// contains the energy 1/2 w^T Q w of a strip of width 2 / n, with the mass divided by its largest
+/// entry.
 double bar_energy(const Certificate& certificate, int n)
 {
   const double width = 4.0 / n * 0.5; // two rows of squares of height 1/n
@@ -149,7 +149,7 @@ TEST(Weights, TheTriharmonicBarIsAQuintic)
 
 TEST(Weights, TriharmonicOnesAreCertifiedOnAFineSquare)
 {
-  // The condition number of the quadratic form grows with (1 / h)^6.
+  // The condition number of the quadratic form grows with (1 / h)^6, where h is the edge length.
   const WeightsProblem problem =
     problem_of(test::to_domain(test::grid(60, 60)), test::five_points());
   const WeightsResult result = bounded(problem, 3);
@@ -221,10 +221,11 @@ TEST(Weights, EnergiesOnTheFineSquareAreTheKnownOnes)
   ASSERT_TRUE(monotone_guide(context, problem, group, {}, guide).ok());
   const BoxQpSolution mono = solver.solve(context, group.columns[2]);
   ASSERT_TRUE(box.status.ok() && mono.status.ok());
-  // The test checks one handle. The ratios of the other handles equal the known values, too, except
-  // that of the monotone weights of the last handle, which is 1.8634 instead of 1.8643. The reason
-  // is the guide function that orders the vertices: it uses edge weights of at least 1e-3. With
-  // cotangent weights, which are 0 on the diagonals of the grid, the ratio is 1.8643.
+  // The test checks one handle. The energy ratios of the other handles equal the known values, too.
+  // The only exception is the ratio for monotone weights of the last handle: 1.8634 instead of
+  // 1.8643. The reason is the guide function that orders the vertices: it uses edge weights of at
+  // least 1e-3. With cotangent weights, which are 0 on the diagonals of the grid, the ratio is
+  // 1.8643.
   EXPECT_NEAR(box.certificate.energy / free, 1.2611, 2e-4);
   EXPECT_NEAR(mono.certificate.energy / free, 1.2645, 2e-4);
   EXPECT_EQ(solver.analyses(), 1) << "bounds and monotone rows share one analysis";

@@ -224,7 +224,8 @@ TEST(DipoleField, TouchingTrianglesCountNothing)
     EXPECT_NEAR(field.evaluate(Vec3(1.0001, 0, 0), &on_surface), 0.0, tolerance);
     EXPECT_FALSE(on_surface);
 
-    // The vertices have many triangles, some of which were subdivided.
+    // The query points are vertices, at which several triangles meet. Some of the triangles were
+    // subdivided.
     for (const FieldCase& c :
       { unit_case("bumpy", bumpy(3)), unit_case("slivers", test::grid(1, 300)) })
     {

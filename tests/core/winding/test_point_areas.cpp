@@ -85,7 +85,7 @@ TEST(PointAreas, SharedPlacesAndSidesOfASheet)
   square_lattice(9, 1.0, points, normals);
   const Index n = points.rows();
   // If each sample occurs twice, each copy has half of the area. Samples with opposite normals do
-  // not reduce the area, at the same position or nearby.
+  // not reduce the area, whether their distance is zero or small.
   Points twice(2 * n, 3), same(2 * n, 3), other(2 * n, 3), below(2 * n, 3);
   twice << points, points;
   same << normals, normals;

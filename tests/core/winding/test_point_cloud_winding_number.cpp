@@ -368,7 +368,8 @@ TEST(PointCloudWindingNumber, NormalsAndAreasOfZeroCountNothing)
   ASSERT_EQ(winding.status().warnings.size(), 1u);
   EXPECT_NE(winding.status().warnings[0].find("2 of 3000"), std::string::npos);
   EXPECT_NEAR(winding.evaluate_at(Vec3(0.2, 0.1, 0)), plain_sum(cloud, Vec3(0.2, 0.1, 0)), 1e-3);
-  bool on_surface = false; // the points are still detected as samples
+  // A query point at a sample without a normal is still reported as on the surface.
+  bool on_surface = false;
   winding.evaluate_at(cloud.points.row(7), &on_surface);
   EXPECT_TRUE(on_surface);
   cloud.areas.setZero();

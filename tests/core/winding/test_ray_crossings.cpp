@@ -1,6 +1,6 @@
-// Integer winding numbers of closed surfaces by ray crossings. They are compared with known values,
-// also for surfaces whose vertices, edges and faces are on the rays. They must not depend on the
-// expected number of points.
+// Integer winding numbers of closed surfaces, computed by ray crossings and compared with known
+// values. In some tests, vertices, edges and faces are on the rays. The winding numbers must not
+// depend on the expected number of query points.
 #include "winding/ray_crossings.h"
 
 #include "winding/exact_frame.h"
@@ -200,7 +200,8 @@ TEST(RayCrossings, FewAndManyPointsOfACurvedSurface)
 
 TEST(RayCrossings, TrianglesAsLargeAsTheSurfaceAreNotListedInEveryLayer)
 {
-  // Each tet spans the whole box, so its faces cross about half of the layers.
+  // Each tet spans the whole box, so each face crosses about half of the grid's layers. Lists of
+  // faces per layer would be too large.
   test::Random random(19);
   constexpr Index tets = 3000;
   TriangleMesh heap = lattice_tets(random, tets);
@@ -333,7 +334,8 @@ TEST(WindingExpectedQueries, ASmallRegionPaysForNoLargeStructure)
   const TriangleMesh mesh = with_holes(5, 100);
   const auto memory = [&](const Box& region)
   { return winding_for_queries(mesh, WindingMethod::fast, 100000, region).memory(); };
-  // Cells outside of a region stay large, and this region has no triangles nearby.
+  // The fast method refines its cells only in the region of the query points. This region is
+  // outside of the sphere, so fewer cells are refined.
   const Index everywhere = memory({});
   const Index corner = memory({ Vec3::Constant(1.1), Vec3::Constant(1.3) });
   EXPECT_LT(corner, everywhere);

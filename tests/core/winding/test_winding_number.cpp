@@ -131,8 +131,8 @@ TEST(WindingNumber, GradientIsTheKnownOneAndThatOfTheField)
 
 TEST(WindingNumber, FlagsTellWhatTouchesTheSurface)
 {
-  // The samples are on the faces of the cube and of the open cube, and on both sides of the face
-  // that the open cube lacks.
+  // Some samples of the grid are on faces of the cube. Others are on, above and below the missing
+  // face of the open cube.
   for (const TriangleMesh& mesh : { test::cube(), test::open_cube() })
   {
     for (const WindingMethod method : { WindingMethod::direct, WindingMethod::crossings,

@@ -1,5 +1,5 @@
 // All methods for winding numbers agree with each other and with independent references on
-// difficult triangle soups. Threads, extents and cancel are tested too.
+// difficult triangle soups. Threads, extents and cancel requests are tested too.
 #include "winding/winding_number.h"
 
 #include "support/meshes.h"
@@ -338,9 +338,9 @@ TEST(WindingMethods, WhatIsNoTriangleCannotBeTouched)
 
 TEST(WindingMethods, FarFromTheOriginTouchingReachesAsFar)
 {
-  // The tolerance for touching is 2^-49 times the coordinates: 2e-6 for coordinates of 1e9. Single
-  // precision would resolve 1e-7 on this sphere. The closed sphere tests the search cells, and the
-  // loose triangles test the blocks of triangles.
+  // The tolerance for touching is 2^-49 times the largest coordinate: 2e-9 for a coordinate of 1e6,
+  // and 2e-6 for 1e9. Single precision resolves 1e-7 on a unit sphere. The closed sphere tests the
+  // search cells, and the loose triangles test the blocks of triangles.
   const TriangleMesh sphere = test::sphere(2);
   TriangleMesh loose{ Points(3 * sphere.triangles.rows(), 3), sphere.triangles };
   for (Index t = 0; t < sphere.triangles.rows(); ++t)

@@ -1,5 +1,5 @@
-// Composite inputs: every filter works on them block by block, and a block has the bits of a run
-// with this block alone. Composites that cannot be worked on are refused with one sentence.
+// Composite inputs: every filter works on them block by block. Each block gets the same bits as a
+// run on this block alone. Composites that a filter does not support are refused with one sentence.
 #include "filters/TestFilter.h"
 #include "filters/data_of.h"
 #include "filters/pipeline/same_data.h"
@@ -114,7 +114,7 @@ vtkSmartPointer<vtkUnstructuredGrid> weighted_tets(int cells)
   return tets;
 }
 
-/// Return the handles of a bar in a pose. Each has a layer.
+/// Return the handles of a bar in a pose, with a layer for each handle.
 vtkSmartPointer<vtkPolyData> posed_handles(const Vec3& middle, const char* pose_text)
 {
   const auto handles = to_polydata({ test::point_handle("left", Vec3(0, 0.5, 0.5)),
@@ -239,7 +239,8 @@ std::function<FilterPointer()> make_filter()
   return make_filter<Class>([](Class*) {});
 }
 
-/// Check that two blocks have the bits of two runs. Return the filter with the blocks.
+/// Check that a run on two blocks gives the same bits as two runs on one block each. Return the
+/// filter that ran on the two blocks.
 FilterPointer check_blocks(const BlockCase& test_case)
 {
   vtkNew<Listener> silent; // warnings are not of interest
@@ -287,7 +288,7 @@ FilterPointer check_blocks(const BlockCase& test_case)
   return filter;
 }
 
-/// Return the number of binds of a filter, or -1 if it has none.
+/// Return the number of binds of a filter, or -1 if the filter does not count binds.
 int binds_of(vtkAlgorithm* filter)
 {
   if (auto* poses = vtkBindAlgorithm::SafeDownCast(filter))
@@ -511,7 +512,7 @@ TEST(Blocks, ThatDoNotFitAreRefusedWithOneSentence)
     EXPECT_THAT(filter->GetStatusMessage(), HasSubstr(sentence));
     EXPECT_EQ(listener->errors.size(), 1u) << sentence;
   }
-  // A composite of one block is a single dataset.
+  // Handles in a composite of one block are used like a single dataset.
   skinning->SetInputData(0, tets);
   skinning->SetInputData(1, blocks_with({ handles }));
   skinning->Update();

@@ -1,5 +1,5 @@
-// Filters that work by pieces: the pieces have the bits of the whole, failures are not hidden, and
-// no point is output twice.
+// Filters that work by pieces: pieces have the same bits as a run on the whole input, failures are
+// not hidden, and no point is output twice.
 #include "filters/TestFilter.h"
 #include "filters/data_of.h"
 #include "filters/pipeline/same_data.h"
@@ -67,7 +67,8 @@ protected:
     const test::Rig rig = test::bar(6);
     this->tets = to_unstructured_grid(rig.mesh.points, rig.mesh.tets);
     this->tets->GetPointData()->AddArray(to_weights_array("Weights", rig.weights, rig.handles));
-    // The surface uses all points of the tets, so that it can have their weights.
+    // The surface keeps all points of the tets, even interior ones, so that it can use the same
+    // array of weights as the tets.
     this->surface = to_polydata(rig.mesh.points, boundary_triangles(rig.mesh.tets));
     this->surface->GetPointData()->AddArray(this->tets->GetPointData()->GetArray("Weights"));
     vtkNew<vtkDoubleArray> normals;
@@ -161,7 +162,7 @@ TEST_F(Pieces, OfTransferredWeightsHaveTheBitsOfTheWhole)
   vtkNew<vtkTransferWeights> all;
   all->SetInputData(0, target);
   all->SetInputData(1, this->tets);
-  vtkNew<Listener> silent; // one point is far from the mesh
+  vtkNew<Listener> silent; // a point far from the mesh causes a warning
   silent->listen(all);
   all->Update();
   vtkDataArray* weights = all->GetOutput()->GetPointData()->GetArray("Weights");
@@ -174,7 +175,7 @@ TEST_F(Pieces, OfTransferredWeightsHaveTheBitsOfTheWhole)
     one->SetInputData(1, this->tets);
     one->UpdatePiece(piece, 3, 0);
     ASSERT_EQ(one->GetStatus(), vtkBindposeAlgorithm::OK) << one->GetStatusMessage();
-    // The last piece is empty, which is not an error; its output has the arrays of the others.
+    // The last piece is empty, which is not an error. Its output has the same arrays as the others.
     vtkDataArray* part = one->GetOutput()->GetPointData()->GetArray("Weights");
     ASSERT_NE(part, nullptr);
     ASSERT_EQ(part->GetNumberOfTuples(), ends[piece + 1] - ends[piece]);
@@ -268,7 +269,8 @@ TEST_F(Pieces, OfWindingNumbersAtPointsHaveTheBitsOfTheWhole)
       EXPECT_EQ(part->GetComponent(v, 0), values->GetComponent(ends[piece] + v, 0));
     }
   }
-  // The surface and the points come from one source. Its points are output once.
+  // One source is connected to both ports, so piece 0 is computed from all of its points. No point
+  // may be output again in piece 1.
   vtkNew<vtkSphereSource> source;
   vtkNew<vtkWindingNumberField> both;
   both->SetInputConnection(0, source->GetOutputPort());
@@ -294,7 +296,7 @@ TEST_F(Pieces, FailuresAreNotHidden)
   transfer->UpdatePiece(0, 2, 0);
   EXPECT_EQ(transfer->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
   EXPECT_EQ(transfer->GetStatusMessage(), "the dog ate it");
-  // The other process has an empty piece and no failure.
+  // Piece 1, the piece of another process, is empty, which is not an error.
   transfer->UpdatePiece(1, 2, 0);
   EXPECT_EQ(transfer->GetStatus(), vtkBindposeAlgorithm::OK);
   EXPECT_EQ(transfer->GetOutput()->GetNumberOfPoints(), 0);
@@ -305,7 +307,7 @@ TEST_F(Pieces, FailuresAreNotHidden)
   EXPECT_EQ(transfer->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
   transfer->UpdatePiece(0, 2, 0);
   EXPECT_EQ(transfer->GetStatus(), vtkBindposeAlgorithm::OK);
-  // Every process reports weights that are missing, also with an empty piece.
+  // Missing weights are an error on every process, also on a process with an empty piece.
   transfer->SetArrayName("Wights");
   transfer->UpdatePiece(1, 2, 0);
   EXPECT_EQ(transfer->GetStatus(), vtkBindposeAlgorithm::INVALID_INPUT);
@@ -323,7 +325,8 @@ TEST_F(Pieces, FailuresAreNotHidden)
 
 TEST_F(Pieces, OfASourceThatReachesBothPortsAreOutputOnce)
 {
-  // The source could split its output, but one port needs the whole.
+  // One source is upstream of both ports. The port of the weights needs the whole output of the
+  // source, so the source must not be split into pieces.
   vtkNew<vtkSphereSource> source;
   source->SetPhiResolution(12);
   source->Update();

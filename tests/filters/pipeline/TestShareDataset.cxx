@@ -145,7 +145,8 @@ TEST(ShareDataset, OneProcessGetsItsOwnData)
   share->UpdatePiece(0, 2, 0);
   EXPECT_EQ(share->GetOutput()->GetNumberOfPoints(), tets->GetNumberOfPoints());
   EXPECT_EQ(share->GetNumberOfExchanges(), 1);
-  // An executive that does not take part in exchanges is not accepted, as by ParaView.
+  // ParaView tries to replace the executive. The filter refuses executives of other classes,
+  // because they take no part in exchanges.
   vtkExecutive* own = share->GetExecutive();
   vtkNew<vtkCompositeDataPipeline> other;
   share->SetExecutive(other);
@@ -203,7 +204,7 @@ TEST(ShareDataset, EveryProcessGetsTheWhole)
       EXPECT_EQ(reports[process].number("counts.points", 0), tets->GetNumberOfPoints());
       EXPECT_EQ(reports[process].number("counts.parts", 0), 1);
       EXPECT_EQ(reports[process].number("counts.processes", 0), processes);
-      // The part goes to process 0, and the whole to all others.
+      // Unless process 0 is the owner, it receives the part. It sends the whole to all others.
       const double bytes = reports[process].number("bytes_sent", 0);
       EXPECT_EQ(bytes, reports[0].number("bytes_sent", 1));
       EXPECT_GT(
@@ -242,8 +243,8 @@ TEST(ShareDataset, FailuresAreThoseOfAllProcesses)
 {
   const Silence silence;
   constexpr int processes = 3;
-  // Process 1 fails in RequestData or RequestInformation of VTK, or process 0 in a filter of
-  // Bindpose, whose pieces other than 0 are empty.
+  // In the first two cases, a VTK filter fails on process 1, in RequestData or RequestInformation.
+  // In the third case, a Bindpose filter fails on process 0; its pieces other than 0 are empty.
   for (const auto& [pass, sentence] : { std::pair(FailingCopy::data, "process 1: an algorithm"),
          std::pair(FailingCopy::information, "process 1: an algorithm"),
          std::pair(FailingCopy::nowhere, "process 0: the dog ate it") })
@@ -362,13 +363,13 @@ TEST(ShareDataset, AnExchangeDependsOnDataAndNotOnRequests)
         exchanges[process].push_back(share->GetNumberOfExchanges());
         points[process].push_back(share->GetOutput()->GetNumberOfPoints());
       };
-      // A filter that works on process 0 only, followed by one that works on all processes. For
-      // process 0 the request does not change.
+      // Request the dataset for a filter that works on process 0 only, then for a filter that works
+      // on all processes. On process 0 both requests are the same.
       share->UpdatePiece(process, process + 1, 0);
       note();
       share->UpdatePiece(0, 1, 0);
       note();
-      // The dataset is new, but its arrays are the same.
+      // The dataset is marked as modified, but its arrays are not.
       part->Modified();
       share->Update();
       note();

@@ -1,5 +1,5 @@
-// Exports of the menu File: when they are enabled, the content of the files, and the messages about
-// them. An error message disappears when an action of the same kind succeeds.
+// Exports of the menu File. The tests check when the menu entries are enabled, what the files
+// contain, and which messages appear. An error message disappears when an export succeeds.
 #include "opened_folders.h"
 #include "window_test.h"
 
@@ -185,7 +185,7 @@ TEST_F(ExportWindow, TheRigHasTheSkinAndStandsAsTheHandlesDo)
   ASSERT_EQ(other.document()->handles().size(), 2U);
   const Pose pose = other.document()->pose();
   EXPECT_LT((pose[1].transform.col(3) - Vec3(0.25, 0, 0)).norm(), 1e-6);
-  // Both windows show the same shape.
+  // The window that has opened the exported rig shows the same shape as the exporting window.
   QApplication::processEvents();
   const Points here = to_points(this->window.shown()).view();
   const Points there = to_points(other.shown()).view();

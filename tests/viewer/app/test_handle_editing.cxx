@@ -220,8 +220,8 @@ protected:
     }
     return out.str();
   }
-  /// Expect that the edit is one undo step with this name, and that undo and redo restore all bits
-  /// of the states.
+  /// Expect that the edit is one undo step with this name. Undo and redo must restore all bits of
+  /// the states before and after the edit.
   template <typename Edit>
   void check(const QString& name, const Edit& edit)
   {
@@ -601,7 +601,7 @@ TEST_F(HandleWindow, RestPlacesAreMovedAndARebindIsOffered)
   this->check("move at rest left", [&] { this->drag(position, position + QPoint(0, 30)); });
   EXPECT_GT((this->handle("left").head - Vec3(-0.3, 0, 0.5)).norm(), 0.02);
   EXPECT_FALSE(this->bar("rebind_bar")->isHidden());
-  this->render(); // the bar that offers a bind takes up space in the window
+  this->render(); // the bar that offers a bind has appeared over the view
   // Esc during the drag restores the state bit by bit.
   const std::string before = this->state();
   const int steps = this->history()->count();
@@ -768,7 +768,7 @@ TEST_F(HandleWindow, CommandsAreStepsWithNames)
   EXPECT_EQ(this->document()->pose()[0].mode, HandleMode::position);
   this->editing()->selection()->select({ this->number("spine") });
   this->check("mode of spine", [&] { commands->action("fixes.ends")->trigger(); });
-  this->check("move spine's end", [&] { /* see below */
+  this->check("move spine's end", [&] { /* move its tail */
     this->editing()->selection()->edit("move spine's end",
       [](const Handles& before, EditedHandles& after) {
         return move_ends(before, { { 2, true } }, { Vec3(0.2, 0, 0.1) }, after);

@@ -335,8 +335,8 @@ TEST_F(HandleTreeWindow, ChildrenAreBelowTheirParents)
     EXPECT_EQ(this->text(k).toStdString(), handle.name);
     EXPECT_TRUE(this->list()->item(k)->isExpanded());
   }
-  // The function of the context menu sets a new parent, which moves the row. Collapsed rows stay
-  // collapsed.
+  // Set a new parent, as the context menu does. The row moves below its new parent, and collapsed
+  // rows stay collapsed.
   this->list()->item(this->number("right_hand"))->setExpanded(false);
   this->part<app::handles::SidePanel>()->select_handle(this->number("left_hand"));
   this->part<app::handles::HandleEditing>()->commands()->set_parent(this->number("hips"));
@@ -344,7 +344,7 @@ TEST_F(HandleTreeWindow, ChildrenAreBelowTheirParents)
   ASSERT_NE(moved->parent(), nullptr);
   EXPECT_EQ(moved->parent()->text(0), "hips");
   EXPECT_FALSE(this->list()->item(this->number("right_hand"))->isExpanded());
-  // If a handle is selected in the view, the tree expands the rows above it.
+  // If a handle below a collapsed row is selected, the tree expands this row.
   this->part<app::handles::SidePanel>()->select_handle(this->number("right_finger_2"));
   EXPECT_TRUE(this->list()->item(this->number("right_hand"))->isExpanded());
 }
@@ -363,7 +363,7 @@ TEST_F(HandleTreeWindow, TheSearchShowsMatchesBelowTheirParents)
   QTest::keyClick(search, Qt::Key_Return);
   EXPECT_EQ(this->part<app::handles::HandleEditing>()->selection()->selected(),
     Indices({ this->number("right_finger_0") }));
-  // If a handle is selected elsewhere, its row is visible for any search text.
+  // If a selected handle does not match the search text, its row is visible nevertheless.
   this->part<app::handles::SidePanel>()->select_handle(this->number("nose"));
   EXPECT_TRUE(this->visible_names().contains("nose"));
   search->setFocus();

@@ -574,8 +574,8 @@ TEST_F(Window, HandlesAreDraggedBesideAnOpenVolumeInThePanelPose)
   this->render();
   const double slice = this->part<app::volume::VolumeView>()->position();
   const Vec3 rest = highest_point(this->window.shown());
-  // While the slice is shown, the shape is at rest. A drag moves neither the handles nor the slice
-  // behind them.
+  // While the slice is shown, the shape is at rest and handles cannot be dragged. A drag that
+  // begins on a handle does not move the slice behind the handle either.
   this->drag(1, { 80, 0 });
   EXPECT_EQ(highest_point(this->window.shown()), rest);
   EXPECT_EQ(this->part<app::volume::VolumeView>()->position(), slice);

@@ -131,9 +131,9 @@ std::string steps_of(const QUndoStack* history)
   return text;
 }
 
-/// Return the fingerprints without the options that the program may set when a file is opened.
-/// These are the visible side of tets, and the orientation and normal of each plane whose
-/// orientation differs from that in `other`.
+/// Remove the fingerprints of options that the program may set when a file is opened. These are the
+/// visible side of tets and, if the orientation of a plane differs from that in `other`, the
+/// orientation and normal of the plane.
 Fingerprints without_options_of_opening(Fingerprints all, const Fingerprints& other)
 {
   all.erase("option tets.other_side");
@@ -210,7 +210,7 @@ TEST(Monkey, AWindowThatIsPlayedWithStaysSound)
       monkey.stop_activity();
       EXPECT_TRUE(app::tour::wait_until([&] { return app::tour::is_idle(&window); }, 60.0))
         << "it never rests";
-      QElapsedTimer answer; // duration of one frame and of all pending events
+      QElapsedTimer answer; // time to process all pending events and draw one frame
       answer.start();
       QApplication::processEvents();
       window.findChild<app::view::Viewport*>()->renderWindow()->Render();

@@ -261,8 +261,8 @@ TEST_F(PlanarWindow, BesideEachOtherBothShapesHaveThePicture)
   EXPECT_GT(colored_pixels, 5000);
   // At rest both halves are equal; if the width is odd, one half is shifted by half a pixel.
   EXPECT_LT(differing_pixels, colored_pixels / 10);
-  // The compared shape is drawn over the shape, see-through and blue. It is visible wherever it
-  // differs from the shape.
+  // The shape of the compared method is drawn over the first shape, see-through and blue. It is
+  // visible wherever the two shapes differ.
   this->choose("pose.ghost", 0);
   const auto is_blue = [](const QColor& c) { return c.blue() > c.red() + 20; };
   const int same = count(this->picture(), is_blue);

@@ -346,7 +346,7 @@ TEST_F(PosingWindow, OnlyTheOptionsOfTheMethodAreShown)
   this->choose(PoseMethod::reduced_arap);
   EXPECT_FALSE(shown("pose.pseudo_edges"));
   EXPECT_TRUE(shown("pose.extra_weights"));
-  // The list of kinds is hidden if there are no extra weights.
+  // Without extra weights, the list that chooses the kind of extra weights is hidden.
   EXPECT_FALSE(shown("pose.extra_kind"));
   this->option<app::parts::ValueRow>("pose.extra_weights")->field()->setValue(5);
   EXPECT_TRUE(shown("pose.extra_kind"));
@@ -436,8 +436,8 @@ TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
   EXPECT_EQ(on_points()->GetComponent(7, 0), 0.0);
   this->posing()->set_rest_view(false);
 
-  // Other panels use their own coloring. Methods without rotations have no coloring by rotation. If
-  // the change of the method is undone, the coloring by rotation is shown again.
+  // Other panels use their own coloring. Methods without rotations have no coloring by rotation.
+  // This coloring returns when the first method is chosen again.
   this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::weights);
   this->render();
   EXPECT_FALSE(viewport->shows_values(vtkDoubleArray::SafeDownCast(angles)));
@@ -482,8 +482,8 @@ TEST_F(PosingWindow, FullArapTurnsEachVertexByItsOwnRotation)
   {
     EXPECT_NEAR(angles()->GetComponent(v, 0), 40.0, 1e-3) << v;
   }
-  // While the next pose is solved in the background, the old angles are shown. They are updated
-  // when it is solved.
+  // While the next pose is solved in the background, the old angles are shown. The angles are
+  // updated after the solve.
   pose[3].transform(2, 3) += 0.2;
   Q_EMIT this->posing()->pose_changed(pose);
   EXPECT_NE(this->posing()->rotations(), nullptr);
@@ -671,8 +671,8 @@ TEST_F(PosingWindow, ADistanceIsSeenInTheColorsOfItsScale)
   this->apply_pose(Pose(4));
   expect_distances("at rest");
   EXPECT_LT(colors()->GetRange()[1], 1e-6);
-  // Other panels use their own coloring. The coloring by distance returns with the panel, and ends
-  // with the comparison.
+  // Other panels use their own coloring. The coloring by distance returns when the pose panel is
+  // shown again, and ends when no method is compared.
   this->apply_pose(this->bent());
   this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::weights);
   EXPECT_NE(viewport->legend(app::view::Viewport::weight_legend), "Distance (% of diagonal)");
@@ -949,7 +949,7 @@ TEST_F(PosingWindow, UndoTakesTheFirstKeptPoseBack)
 TEST_F(PosingWindow, CurvesOfTheRestShapeAreSeenWithItAlone)
 {
   this->open();
-  vtkNew<vtkPolyData> circle; // for example, a boundary curve
+  vtkNew<vtkPolyData> circle; // represents any curve, for example a boundary curve
   vtkNew<vtkPoints> curve_points;
   vtkNew<vtkCellArray> lines;
   const vtkIdType ids[] = { 0, 1, 2 };

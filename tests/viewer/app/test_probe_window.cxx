@@ -285,7 +285,7 @@ TEST_F(ProbeWindow, ATetIsReadWithItsQuality)
   ASSERT_TRUE(this->window.open(QString(BINDPOSE_TOURS) + "/data/figure_tets.vtu"));
   this->resize({ 1000, 700 });
   this->choose("tets.shown", true);
-  this->choose("tets.colors", 1); // this coloring is not by quality
+  this->choose("tets.colors", 1); // color the tets by values other than their quality
   app::tets::TetView* view = this->part<app::tets::TetInspection>()->tet_view();
   ASSERT_TRUE(view->is_shown());
   const PointsView points = view->input().points.view();

@@ -586,7 +586,8 @@ TEST_F(SessionWindow, WhatAFileLosesIsToldAbout)
   const QString lost_message = "character.gltf: Bindpose does not keep 2 materials.";
   EXPECT_TRUE(this->bar("note_bar")->message().startsWith(lost_message))
     << this->bar("note_bar")->message().toStdString();
-  // The search for defects ends later. It must not remove the sentence about the lost materials.
+  // The search for defects ends after this message appears. Its result must not replace the
+  // sentence about the lost materials.
   ASSERT_TRUE(
     test::wait_for([this] { return this->bar("note_bar")->message().contains("has defects"); }));
   EXPECT_TRUE(this->bar("note_bar")->message().startsWith(lost_message));

@@ -222,7 +222,8 @@ TEST_F(SplitWindow, HandlesAreTakenHoldOfInTheLeftHalfAlone)
   // At the same position in the right half there is no handle.
   this->hover(position + QPoint(half, 0));
   EXPECT_LT(drawn->GetHoveredHandle(), 0);
-  // The handle widget is turned off and on while the mouse is in the right half.
+  // Show the rest shape and the pose again while the mouse is in the right half. Handles must still
+  // be picked in the left half.
   this->user.press_key("T");
   this->user.press_key("T");
   this->render();

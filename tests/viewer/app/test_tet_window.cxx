@@ -138,7 +138,7 @@ TEST_F(TetWindow, TetsAreOpenedCutOpen)
   // from it.
   EXPECT_GT(count(image, is_cut), 5000);
   EXPECT_TRUE(is_cut(image.pixelColor(this->pixel(Vec3(0.11, 0.23, 0.0)))));
-  // Without the cut, no exposed sides are visible.
+  // Without the cut, no exposed facets are visible.
   this->find<QCheckBox>("Cut the tets")->setChecked(false);
   EXPECT_EQ(this->view()->shown_count(), mesh.tets.rows());
   EXPECT_LT(count(this->picture(), is_cut), 20);

@@ -342,8 +342,8 @@ TEST_F(VolumeWindow, NoSliceLiesInAPosedShape)
   EXPECT_NEAR(handles->GetBounds()[3], 0.0, 1e-9);
   EXPECT_EQ(this->part<app::view::Viewport>()->state_name(),
     "Rest shape: winding numbers are shown at rest");
-  // The shape is posed again if nothing of the volume is shown. It is also posed in the other
-  // panel, which shows neither the slice nor its legend.
+  // The shape is posed again while the slice is hidden. It is also posed in the panel Pose, which
+  // does not show the slice and its legend.
   this->find<QCheckBox>("Show the slice")->setChecked(false);
   EXPECT_NEAR(top(), 2.2, 1e-3);
   this->find<QCheckBox>("Show the slice")->setChecked(true);
@@ -376,7 +376,8 @@ TEST_F(VolumeWindow, BoundaryCurvesAreDrawnAndAreNoBones)
   {
     EXPECT_TRUE(is_green(image.pixelColor(this->pixel(position)))) << position.transpose();
   }
-  // If no curves were opened, the lines of a mesh with faces are also shown.
+  // If no curve file is open, the line cells of a mesh are drawn as curves, in addition to its
+  // faces.
   app::window::MainWindow other;
   other.show();
   const TriangleMesh ball = test::sphere(2, 0.5);

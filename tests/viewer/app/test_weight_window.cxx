@@ -212,7 +212,7 @@ TEST_F(WeightWindow, AllShowsTheStrongestHandle)
   this->open(ball_with_named_weights());
   this->choose("All: strongest handle");
   const std::vector<Category> handles = handle_categories({ "bottom", "top" });
-  // Viewed from the side, each handle has one half of the view.
+  // Viewed from the side, each half of the ball has the color of one handle.
   this->part<app::view::Viewport>()->renderer()->GetActiveCamera()->Azimuth(90.0);
   const QImage image = this->picture();
   int bottom_pixels = 0;
@@ -255,7 +255,7 @@ TEST_F(WeightWindow, RowSumsNeedRawColumns)
 
 TEST_F(WeightWindow, ExtremaAreCountedAndSeen)
 {
-  // Only the raw column has a bump, which is in the middle of the visible side.
+  // Only the raw column has an additional extremum: a bump in the middle of the visible side.
   const Vec3 position = Vec3(0.3, -0.5, 0.1).normalized();
   Vec3 bump = position;
   const auto mesh = ball_with_named_weights();
@@ -347,8 +347,8 @@ TEST_F(WeightWindow, ASliceThroughTheVolumeFollowsTheMouse)
   EXPECT_NEAR(this->view()->plane()->position(), 0.4, 0.1);
   EXPECT_NEAR(this->row()->value(), this->view()->plane()->position(), 0.01);
   check(2, this->view()->plane()->position());
-  // The color of the slice is one band of the legend, without lighting, visible through the
-  // see-through surface.
+  // The slice is drawn without lighting, and the surface over it is see-through. The visible color
+  // of the slice is therefore close to the legend's color for the weight.
   const ColorMap map = weight_map();
   const double z = this->view()->plane()->position();
   EXPECT_LT(
@@ -363,7 +363,7 @@ TEST_F(WeightWindow, ASliceThroughTheVolumeFollowsTheMouse)
   this->button("X")->click();
   this->choose("All: strongest handle");
   EXPECT_GT(this->view()->slice()->GetNumberOfCells(), 100);
-  // The other panel shows neither the slice nor the plane.
+  // The panel Pose does not show the slice and its plane.
   this->find<QPushButton>("Pose")->click();
   EXPECT_FALSE(this->view()->is_shown());
   EXPECT_EQ(this->surface()->GetProperty()->GetOpacity(), 1.0);

@@ -1,5 +1,6 @@
-// Layout of the window: it fits a small screen, bars cover the view instead of moving it, the
-// timeline appears with the first key, and domains and winding numbers are available.
+// Layout of the window: it fits a small screen, bars cover the view instead of moving it, and the
+// timeline appears with the first key frame. Other tests choose the domain of a bind and compute
+// winding numbers in the window.
 #include "window_test.h"
 
 #include "app/handles/side_panel.h"

@@ -8,7 +8,7 @@ import math
 import struct
 
 # Each row contains joint, parent and rest position. The joints root and pelvis have the same position as the joint
-# hips. The joints target and pole, which control a foot in the other program, have the same nearest point of the mesh.
+# hips. The joints target and pole, which control a foot in the exporting program, have the same nearest mesh point.
 JOINTS = [("root", None, (0, 1, 0)), ("hips", "root", (0, 1, 0)), ("pelvis", "hips", (0, 1, 0)),
           ("spine", "hips", (0, 1.3, 0)), ("neck", "spine", (0, 1.7, 0)), ("head", "neck", (0, 1.9, 0)),
           ("upper_arm.L", "spine", (0.3, 1.6, 0)), ("forearm.L", "upper_arm.L", (0.7, 1.6, 0)),

@@ -50,7 +50,7 @@ def test_rest_and_rigid_poses(bar, method):
     deform(bar, {"handles": {}}, method=method).is_good()
     assert points_of(bindpose.read(bar / "out.vtp")) == pytest.approx(bar.points, abs=1e-8)
     turn = {"rotate": {"axis": [0, 0, 1], "degrees": 90}}
-    # Each bone rotates about its own head. The second bone is also translated to where the first one moves its head.
+    # Each bone rotates about its own head. The translation of the second bone keeps its head at the tail of the first.
     pose = {"handles": {"b1": turn, "b2": {**turn, "translate": [-2.5, 2.5, 0]}}}
     deform(bar, pose, "--overwrite", method=method).is_good()
     head = np.array([0.5, 0.5, 0.5])

@@ -101,7 +101,7 @@ def test_missing_helper(folder):
 
 @needs_helper
 def test_a_helper_killed_once(folder):
-    """Check that the next attempt succeeds."""
+    """Kill the first helper process. The program must then succeed with a second one."""
     folder.off("s.off", shapes.sphere(100, 60))
     process = start(folder, "s.off", "-o", "s.vtu", "--report", "-")
     os.kill(wait_for_helper(process), signal.SIGKILL)
@@ -113,8 +113,8 @@ def test_a_helper_killed_once(folder):
 @needs_helper
 @pytest.mark.parametrize("method, code", [("auto", 0), ("remesh", 0), ("cdt", 5)])
 def test_a_helper_killed_again_and_again(folder, method, code):
-    """Check that the lattice methods work, because they need no helper. Method cdt ends with one sentence that lists
-    all attempts.
+    """Kill every helper process. The lattice methods still work, because they need no helper. Method cdt ends with
+    one sentence that lists all attempts.
     """
     folder.off("s.off", shapes.sphere(60, 40))
     process = start(folder, "s.off", "--method", method, "-o", "s.vtu", "--report", "r.json")

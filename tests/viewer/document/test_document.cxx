@@ -29,7 +29,8 @@ namespace
 class Editing : public testing::Test
 {
 protected:
-  /// Expect that the edit is one undo step, and that undo and redo restore all bits of the states.
+  /// Expect that the edit is one undo step. Undo and redo must restore all bits of the states
+  /// before and after the edit.
   template <typename Edit>
   void expect_undo_step(const char* name, const Edit& edit)
   {

@@ -124,8 +124,8 @@ TEST(Sessions, ComeBackToTheLastBit)
   EXPECT_EQ(back.view.camera->position, session.view.camera->position);
   EXPECT_EQ(back.view.camera->angle, 22.5);
   EXPECT_TRUE(back.view.camera->parallel);
-  // The documents before and after are equal. Both are bound and give the same reason to bind
-  // again.
+  // The document of the saved session equals that of the read session. It is bound and gives the
+  // reason to bind again.
   Document before;
   before.replace(session.work);
   Document after;
@@ -139,7 +139,8 @@ TEST(Sessions, ComeBackToTheLastBit)
 
 TEST(Sessions, WordsOfChoicesNeverChange)
 {
-  // Old session files contain these words, in the order of the former integers.
+  // Session files contain these words; older files contain indices into these lists. Neither the
+  // words nor their order may change.
   const std::pair<const char*, const char*> expected[] = {
     { "bind.domain", "auto volume embedding cage surface" },
     { "pose.method", "lbs dqs reduced-arap stbs cor full-arap variational" },

@@ -1,8 +1,8 @@
 #ifndef bindpose_tests_viewer_poses_rigs_h
 #define bindpose_tests_viewer_poses_rigs_h
 
-// Shapes with artificial weights. They are datasets for the filters, and sources (PoseSource) for
-// the posers of the window.
+// Shapes with artificial weights. Each shape is available as datasets for the filters and as a
+// PoseSource for the posers of the window.
 
 #include "poses/pose_source_data.h"
 
@@ -40,8 +40,8 @@ struct Rig
   }
 };
 
-/// Return a beam of tets along x, with its boundary as the surface. It has two points next to it
-/// and two bones along it.
+/// Return a beam of tets along x, with its boundary as the surface. The handles are two points on
+/// the surface and two bones along the beam.
 inline Rig beam()
 {
   Rig rig;

@@ -56,7 +56,7 @@ TEST_F(MovingBeam, SagsUnderGravityAndReplaysBitByBit)
   }
   EXPECT_LT(this->posed.col(1).minCoeff(), end - 0.01);
   ASSERT_EQ(this->body.run().steps.size(), 40U);
-  // Both recorded steps refer to the same pose object.
+  // Consecutive recorded steps with equal poses share one pose object.
   EXPECT_EQ(this->body.run().steps[0].pose, this->body.run().steps[19].pose);
   EXPECT_NE(this->body.run().steps[19].pose, this->body.run().steps[20].pose);
 
@@ -84,7 +84,7 @@ TEST_F(MovingBeam, KeepsItsVelocityWhenItIsLetGo)
   this->options.gravity = 0.0;
   this->options.damping = 0.0;
   Pose pose = this->start;
-  pose[3].mode = HandleMode::position; // the handle is constrained and pulled along y
+  pose[3].mode = HandleMode::position; // constrain the handle, which then moves along y
   for (int k = 1; k <= 6; ++k)
   {
     pose[3].transform(1, 3) = 0.05 * k;

@@ -1,5 +1,5 @@
-// Posers are compared with the filters: the results must have the same bits. The methods of
-// skinning, which both take from SkinningBind, are tested in tests/core/poser.
+// Posers are compared with the filters: the results must have the same bits. The skinning methods
+// are tested in tests/core/poser, because posers and filters share their code (SkinningBind).
 #include "poser/make_poser.h"
 #include "rigs.h"
 

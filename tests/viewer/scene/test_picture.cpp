@@ -140,8 +140,8 @@ TEST(Picture, DrawsEveryKindOfData)
   image->GetPointData()->GetScalars()->SetName("height");
   image->GetPointData()->GetScalars()->Fill(1.0);
   EXPECT_TRUE(try_to_draw({ { image, nullptr, "" } }, options).ok());
-  // A dataset without the array is drawn without colors. The dataset in the other tile has the
-  // array.
+  // If only one of two tiles has a dataset with the array, the dataset of the second tile is drawn
+  // without colors.
   options.array = "Weights";
   EXPECT_TRUE(try_to_draw({ { ball(), nullptr, "a" }, { cloud, nullptr, "b" } }, options).ok());
 }

@@ -148,8 +148,8 @@ TEST(HandleEditing, BonesAreDrawnAndContinueChains)
   EXPECT_EQ(handles[0].parent, -1);
   EXPECT_LT((stage.display(handles[0].head) - stage.display(Vec3(-0.6, 0, 0))).norm(), 1.0);
   EXPECT_LT((stage.display(handles[0].tail) - stage.display(Vec3(0, 0.1, 0))).norm(), 1.0);
-  // The next drag begins near the tail, so the head of the child is exactly at the tail. The drag
-  // ends outside of the shape, so the tail of the child has the same depth as its head.
+  // The next drag begins near the tail of the bone and adds a child, whose head snaps to this tail.
+  // The drag ends outside of the shape, so the tail of the child gets the depth of its head.
   const Vec3 tail = handles[0].tail;
   stage.drag(tail + Vec3(2 * pixel_length, 0, 0), Vec3(1.6, 0.4, tail[2]));
   handles = stage.list();
@@ -298,7 +298,7 @@ TEST(HandleEditing, RestPlacesMoveUnderTheMouse)
 {
   EditStage stage(Representation::MOVE_REST, { point("p", Vec3(0.5, 0.5, 0.2)) });
   const double t[3] = { 0, -1, 0 };
-  // The handle is posed elsewhere, but shown at rest.
+  // The handle has a translation in the pose, but it is shown and dragged at its rest position.
   stage.representation()->SetHandleTranslation(0, t);
   stage.drag(Vec3(0.5, 0.5, 0.2), Vec3(-0.5, 0.75, 0.2));
   EXPECT_LT((stage.list()[0].head - Vec3(-0.5, 0.75, 0.2)).norm(), position_tolerance);
@@ -321,7 +321,7 @@ TEST(HandleEditing, JointsMoveTogetherAndBodiesWhole)
   EXPECT_EQ(handles[0].tail, handles[1].head);
   EXPECT_EQ(handles[0].head, Vec3(-1, 0, 0));
   EXPECT_EQ(handles[1].tail, Vec3(1, 0, 0));
-  stage.drag(Vec3(0, 1, 0), Vec3(0.2, 1.3, 0)); // this drags the body of the other bone
+  stage.drag(Vec3(0, 1, 0), Vec3(0.2, 1.3, 0)); // drag the body of the bone "other"
   handles = stage.list();
   EXPECT_LT((handles[2].head - Vec3(-0.8, 1.3, 0)).norm(), position_tolerance);
   EXPECT_LT((handles[2].tail - Vec3(1.2, 1.3, 0)).norm(), position_tolerance);

@@ -9,8 +9,8 @@ using namespace bindpose::test;
 
 TEST(HandleSetWidget, HoverFindsHandlesByPriority)
 {
-  // A point handle is at the tail of the bone. There the point is picked. At its head and along its
-  // body, the bone is picked.
+  // A point handle is at the tail of the bone. At this position the point is picked. At the head
+  // and along the body of the bone, the bone is picked.
   Stage stage({ point("p", Vec3(1, 0, 0)), bone("b", Vec3(-1, 0, 0), Vec3(1, 0, 0)) });
   stage.move(Vec3(1, 0, 0));
   EXPECT_EQ(stage.representation()->GetInteractionState(), Representation::ON_POINT);

@@ -4,7 +4,7 @@
 // determine the tail of its bone.
 #include "gltf_data.h"
 
-#include "pose/pose_file.h"
+#include "pose/transform_parts.h"
 #include "weights_arrays.h"
 
 #include "vtkDoubleArray.h"
@@ -26,7 +26,7 @@ Eigen::Affine3d joint_frame(const Handle& handle)
   if (handle.kind == HandleKind::bone)
   {
     // Align the y axis with the bone, because Blender draws bones along y.
-    frame.linear() = minimal_arc(Vec3::UnitY(), handle.tail - handle.head);
+    frame.linear() = minimal_rotation(Vec3::UnitY(), handle.tail - handle.head).toRotationMatrix();
   }
   return frame;
 }

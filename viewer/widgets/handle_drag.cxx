@@ -234,7 +234,7 @@ DragMotion Drag::aim_motion() const
   {
     return result;
   }
-  Eigen::AngleAxisd rotation(rotation_between(s.arm, arm));
+  Eigen::AngleAxisd rotation(minimal_rotation(s.arm, arm));
   rotation.angle() =
     this->snap_amount(rotation.angle(), this->setup_.degree_step * EIGEN_PI / 180.0);
   result.motion = motion_about(s.pivot, rotation.toRotationMatrix());

@@ -72,7 +72,7 @@ DragSetup setup_of(const HandleRecord& record, int part, const DragSettings& set
   if (is_twist(part))
   {
     // Rotate about the axis of the bone, which is the y axis of this frame.
-    setup.frame = rotation_between(Vector3d::UnitY(), setup.arm).toRotationMatrix();
+    setup.frame = minimal_rotation(Vector3d::UnitY(), setup.arm).toRotationMatrix();
     setup.axes = 2;
   }
   setup.ring_pixels = settings.ring_pixels;

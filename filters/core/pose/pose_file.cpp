@@ -509,24 +509,6 @@ bool read_pose_times(const std::string& text, PoseTimes& times)
   return true;
 }
 
-Eigen::Matrix3d minimal_arc(const Vec3& from, const Vec3& to)
-{
-  const Vec3 a = from.stableNormalized();
-  const Vec3 b = to.stableNormalized();
-  const Vec3 half = a + b;
-  if (half.norm() > 1e-12)
-  {
-    // The rotation is the product of two half turns: about `a`, then about the bisector.
-    const Vec3 h = half.normalized();
-    return (2.0 * h * h.transpose() - Eigen::Matrix3d::Identity()) *
-      (2.0 * a * a.transpose() - Eigen::Matrix3d::Identity());
-  }
-  Index smallest = 0;
-  a.cwiseAbs().minCoeff(&smallest);
-  const Vec3 axis = a.cross(Vec3::Unit(smallest)).normalized();
-  return 2.0 * axis * axis.transpose() - Eigen::Matrix3d::Identity();
-}
-
 namespace
 {
 bool has_transform(const HandleEdit& edit)
@@ -560,7 +542,7 @@ void place_handle(
   posed.stretch = 1.0;
   if (inherited_vector != Vec3::Zero() && bone.stableNorm() > minimum_length)
   {
-    linear = minimal_arc(inherited_vector, bone) * linear;
+    linear = minimal_rotation(inherited_vector, bone).toRotationMatrix() * linear;
     posed.stretch = bone.stableNorm() / inherited_vector.stableNorm();
   }
   posed.transform = affine_about(rest.head, linear, head - rest.head);

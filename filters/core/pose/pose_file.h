@@ -133,11 +133,6 @@ Status format_pose_file(const std::vector<Pose>& poses, double frames_per_second
 Status format_pose_changes(
   const Pose& base, const Pose& pose, const Handles& handles, std::string& text);
 
-/// Return the rotation by the smallest angle that maps the direction of `from` to the direction of
-/// `to`. The vectors must not have length zero. For opposite directions the rotation is half a turn
-/// about an axis that depends only on `from`.
-Eigen::Matrix3d minimal_arc(const Vec3& from, const Vec3& to);
-
 } // namespace bindpose
 
 #endif

@@ -3,6 +3,8 @@
 // shape; they only determine the rotations of their ends.
 #include "pose/pseudo_edges.h"
 
+#include "pose/transform_parts.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -242,37 +244,6 @@ Status automatic_pseudo_edges(ExecutionContext& context, PointsView points, Tria
   const Handles& handles, PseudoEdges& edges)
 {
   return find_edges(context, points, triangles, handles, edges);
-}
-
-Eigen::Quaterniond minimal_rotation(const Vec3& from, const Vec3& to)
-{
-  const Vec3 u = from.stableNormalized(), v = to.stableNormalized();
-  if (u.isZero(0.0) || v.isZero(0.0) || u == v)
-  {
-    return Eigen::Quaterniond::Identity();
-  }
-  const Vec3 sum = u + v;
-  Vec3 axis = u.cross(v);
-  if (axis.isZero(0.0) && u.dot(v) > 0.0)
-  {
-    return Eigen::Quaterniond::Identity();
-  }
-  if (axis.isZero(0.0))
-  {
-    Index axis_index = 2;
-    for (const Index k : { 1, 0 })
-    {
-      axis_index = std::abs(u[k]) < std::abs(u[axis_index]) ? k : axis_index;
-    }
-    axis = Vec3::Unit(axis_index) - u[axis_index] * u;
-  }
-  // The cosine and sine of half the angle are half the lengths of the sum and of the difference of
-  // the unit vectors.
-  Eigen::Quaterniond q;
-  q.w() = 0.5 * sum.norm();
-  q.vec() = 0.5 * (u - v).norm() * axis.stableNormalized();
-  q.normalize();
-  return q;
 }
 
 void rotate_by_pseudo_edges(

@@ -40,14 +40,6 @@ Status automatic_pseudo_edges(ExecutionContext& context, PointsView points, Tets
 Status automatic_pseudo_edges(ExecutionContext& context, PointsView points, TrianglesView triangles,
   const Handles& handles, PseudoEdges& edges);
 
-/// Return the rotation by the smallest angle that maps the direction of `from` to the direction of
-/// `to`. For opposite directions it is half a turn about an axis perpendicular to them. This axis
-/// is the coordinate axis with the largest angle to the directions, projected to the plane
-/// perpendicular to them. If several coordinate axes have the same angle, the last one is used, so
-/// that flat shapes (z = const) rotate within their plane. Return the identity for a vector of
-/// length zero.
-Eigen::Quaterniond minimal_rotation(const Vec3& from, const Vec3& to);
-
 /// Rotate each handle that has pseudo-edges. For each of its edges, there is a smallest rotation
 /// from the rest direction to the posed direction. The handle is rotated by the mean of these
 /// rotations. (For the mean, the quaternions are aligned in sign to the first one, added and

@@ -36,9 +36,35 @@ Affine affine_of(const TransformParts& parts, const Vec3& pivot)
   return affine_about(pivot, parts.rotation * parts.scale, parts.translation);
 }
 
-Eigen::Quaterniond rotation_between(const Vec3& from, const Vec3& to)
+Eigen::Quaterniond minimal_rotation(const Vec3& from, const Vec3& to)
 {
-  return Eigen::Quaterniond::FromTwoVectors(from, to);
+  const Vec3 u = from.stableNormalized(), v = to.stableNormalized();
+  if (u.isZero(0.0) || v.isZero(0.0) || u == v)
+  {
+    return Eigen::Quaterniond::Identity();
+  }
+  const Vec3 sum = u + v;
+  Vec3 axis = u.cross(v);
+  if (axis.isZero(0.0) && u.dot(v) > 0.0)
+  {
+    return Eigen::Quaterniond::Identity();
+  }
+  if (axis.isZero(0.0))
+  {
+    Index axis_index = 2;
+    for (const Index k : { 1, 0 })
+    {
+      axis_index = std::abs(u[k]) < std::abs(u[axis_index]) ? k : axis_index;
+    }
+    axis = Vec3::Unit(axis_index) - u[axis_index] * u;
+  }
+  // The cosine and sine of half the angle are half the lengths of the sum and of the difference of
+  // the unit vectors.
+  Eigen::Quaterniond q;
+  q.w() = 0.5 * sum.norm();
+  q.vec() = 0.5 * (u - v).norm() * axis.stableNormalized();
+  q.normalize();
+  return q;
 }
 
 Vec3 rotation_vector(const Eigen::Matrix3d& rotation)

@@ -23,10 +23,13 @@ struct TransformParts
 TransformParts parts_of(const Affine& transform, const Vec3& pivot);
 Affine affine_of(const TransformParts& parts, const Vec3& pivot);
 
-/// Return the rotation with the smallest angle that turns the direction `from` to the direction
-/// `to`. Both vectors must be nonzero. (Eigen's template takes five seconds to compile, so only
-/// transform_parts.cpp instantiates it.)
-Eigen::Quaterniond rotation_between(const Vec3& from, const Vec3& to);
+/// Return the rotation by the smallest angle that maps the direction of `from` to the direction of
+/// `to`. For opposite directions it is half a turn about an axis perpendicular to them. This axis
+/// is the coordinate axis with the largest angle to the directions, projected to the plane
+/// perpendicular to them. If several coordinate axes have the same angle, the last one is used, so
+/// that flat shapes (z = const) rotate within their plane. Return the identity for a vector of
+/// length zero.
+Eigen::Quaterniond minimal_rotation(const Vec3& from, const Vec3& to);
 
 /// Return the rotation axis times the rotation angle in degrees, 0 to 180.
 Vec3 rotation_vector(const Eigen::Matrix3d& rotation);

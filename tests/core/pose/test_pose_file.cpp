@@ -289,21 +289,6 @@ TEST(PoseFile, BonesGoWhereTheirEndsAreSent)
   EXPECT_DOUBLE_EQ(aimed[1].stretch, 4.0);
 }
 
-TEST(PoseFile, MinimalArcsTakeAnyDirectionToAnyOther)
-{
-  test::Random random(3);
-  for (int i = 0; i < 1000; ++i)
-  {
-    const Vec3 a = random.in_box(-Vec3::Ones(), Vec3::Ones());
-    const Vec3 b = i % 10 == 0 ? Vec3(-2.0 * a) : random.in_box(-Vec3::Ones(), Vec3::Ones());
-    const Eigen::Matrix3d r = minimal_arc(a, b);
-    ASSERT_LT((r * a.normalized() - b.normalized()).norm(), 1e-14);
-    ASSERT_NEAR(r.determinant(), 1.0, 1e-13);
-    ASSERT_NEAR(r.trace(), 1.0 + 2.0 * a.normalized().dot(b.normalized()), 1e-13);
-  }
-  EXPECT_EQ(minimal_arc(Vec3(0, 0, 2), Vec3(0, 0, 2)), Eigen::Matrix3d::Identity());
-}
-
 TEST(PoseFile, SequencesHaveFramesAndARate)
 {
   PoseSequence sequence;

@@ -117,36 +117,6 @@ TEST(PseudoEdges, AnEdgeDoesNotSeeATurnAboutItself)
   EXPECT_EQ(pose[1].transform, identity_affine());
 }
 
-TEST(PseudoEdges, OppositeDirectionsTurnAboutAFixedAxis)
-{
-  // The axis is perpendicular to the plane z = const, which contains both directions.
-  EXPECT_LT(largest_difference(minimal_rotation(Vec3(1, 0, 0), Vec3(-2, 0, 0)).matrix(),
-              rotation(180, Vec3(0, 0, 1))),
-    1e-15);
-  EXPECT_LT(largest_difference(minimal_rotation(Vec3(3, -4, 0), Vec3(-3, 4, 0)).matrix(),
-              rotation(180, Vec3(0, 0, 1))),
-    1e-15);
-  test::Random random(9);
-  for (int k = 0; k < 200; ++k)
-  {
-    const Vec3 u = random.in_box(Vec3::Constant(-1), Vec3::Constant(1));
-    const Vec3 v = k % 2 ? Vec3(-u) : random.in_box(Vec3::Constant(-1), Vec3::Constant(1));
-    const Eigen::Quaterniond q = minimal_rotation(u, v);
-    EXPECT_NEAR(q.norm(), 1.0, 1e-15);
-    EXPECT_LT((q * u.normalized() - v.normalized()).norm(), 1e-14);
-    EXPECT_NEAR(q.angularDistance(Eigen::Quaterniond::Identity()),
-      std::acos(std::clamp(u.normalized().dot(v.normalized()), -1.0, 1.0)), 1e-7)
-      << "and no farther than it must";
-    EXPECT_EQ(q.coeffs(), minimal_rotation(u, v).coeffs());
-  }
-  for (const double tiny : { 1e-5, 1e-9, 1e-13 })
-  {
-    const Vec3 almost(-1, tiny, 0);
-    const Eigen::Quaterniond q = minimal_rotation(Vec3(1, 0, 0), almost);
-    EXPECT_LT((q * Vec3(1, 0, 0) - almost.normalized()).norm(), 1e-14) << tiny;
-  }
-}
-
 TEST(PseudoEdges, EdgesOfAHandleCountAlike)
 {
   // The two edges at the middle handle rotate by 0 and by 60 degrees. The handle rotates by the

@@ -2,10 +2,14 @@
 // compared with known rotations and scales.
 #include "pose/transform_parts.h"
 
+#include "support/affines.h"
 #include "support/meshes.h"
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
 
 using namespace bindpose;
 
@@ -98,4 +102,44 @@ TEST(TransformParts, OfAMirrorHaveItInTheScale)
   EXPECT_NEAR(parts.rotation.determinant(), 1.0, 1e-12);
   EXPECT_NEAR(parts.scale.determinant(), -1.0, 1e-12);
   EXPECT_LT((parts.rotation * parts.scale - mirror).norm(), 1e-12);
+}
+
+TEST(MinimalRotation, TurnsAnyDirectionToAnyOtherBySmallestAngle)
+{
+  test::Random random(9);
+  for (int k = 0; k < 1000; ++k)
+  {
+    const Vec3 from = random_vector(random);
+    const Vec3 to = k % 2 ? Vec3(-2.0 * from) : random_vector(random);
+    const Eigen::Quaterniond rotation = minimal_rotation(from, to);
+    EXPECT_NEAR(rotation.norm(), 1.0, 1e-15);
+    EXPECT_LT((rotation * from.normalized() - to.normalized()).norm(), 1e-14);
+    EXPECT_NEAR(rotation.angularDistance(Eigen::Quaterniond::Identity()),
+      std::acos(std::clamp(from.normalized().dot(to.normalized()), -1.0, 1.0)), 1e-7);
+  }
+  for (const double tiny : { 1e-5, 1e-9, 1e-13 })
+  {
+    const Vec3 almost_opposite(-1, tiny, 0);
+    const Eigen::Quaterniond rotation = minimal_rotation(Vec3(1, 0, 0), almost_opposite);
+    EXPECT_LT((rotation * Vec3(1, 0, 0) - almost_opposite.normalized()).norm(), 1e-14) << tiny;
+  }
+}
+
+TEST(MinimalRotation, IsExactForEqualDirectionsAndZeroVectors)
+{
+  const Vec3 vector(0.3, -0.1, 2);
+  for (const Vec3& to : { vector, Vec3(4.0 * vector), Vec3(0, 0, 0) })
+  {
+    EXPECT_EQ(minimal_rotation(vector, to).coeffs(), Eigen::Quaterniond::Identity().coeffs());
+    EXPECT_EQ(minimal_rotation(to, vector).coeffs(), Eigen::Quaterniond::Identity().coeffs());
+  }
+}
+
+TEST(MinimalRotation, OppositeDirectionsInAFlatShapeTurnWithinItsPlane)
+{
+  const Eigen::Matrix3d half_turn = test::rotation(180, Vec3(0, 0, 1));
+  for (const Vec3& from : { Vec3(1, 0, 0), Vec3(0, -2, 0), Vec3(3, -4, 0) })
+  {
+    EXPECT_LT((minimal_rotation(from, -from).toRotationMatrix() - half_turn).norm(), 1e-15);
+  }
 }

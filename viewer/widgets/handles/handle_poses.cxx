@@ -56,7 +56,7 @@ Matrix3d rest_axes(const HandleRecord& record)
   const Vec3 bone = record.rest_tail - record.rest_head;
   if (record.is_bone() && bone.norm() > 0.0)
   {
-    axes = rotation_between(Vec3::UnitY(), bone).toRotationMatrix();
+    axes = minimal_rotation(Vec3::UnitY(), bone).toRotationMatrix();
   }
   return axes;
 }

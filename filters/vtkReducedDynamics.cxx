@@ -4,8 +4,8 @@
 //
 // Simulated steps are valid until an input changes. The modification times of the pose arrays
 // cannot detect such a change, because these arrays are also replaced at every time step. Instead
-// the filter compares the pipeline modification times of everything upstream, which the inputs'
-// executives store.
+// the filter compares the pipeline modification times of the inputs, which change whenever an
+// algorithm upstream changes.
 #include "vtkReducedDynamics.h"
 
 #include "arap/reduced_dynamics.h"
@@ -37,7 +37,8 @@ struct vtkReducedDynamics::Internals
   Index target = 0; ///< time step that is requested
   Index next = 0; ///< time step for which the handles are requested; 0 starts the simulation
   bool must_continue = false; ///< more time steps are needed after this one
-  /// Pipeline modification times of everything upstream when the time steps were simulated.
+  /// Pipeline modification time of each input at the last request. If one of them changes, the
+  /// simulation starts again, except in interactive mode.
   std::vector<vtkMTimeType> upstream;
 };
 

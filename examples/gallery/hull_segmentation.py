@@ -24,7 +24,8 @@ SMOOTHNESS, SIGMA, THRESHOLD = 1.0, 0.1, 0.5  # the defaults of vtkTetrahedraliz
 
 
 def energy(points, tets, winding, inside):
-    """Return the energy of a labeling: the cost of each tet, and the smooth part of the inside-outside boundary."""
+    """Return the energy of a labeling: the costs of all tets, plus the smoothness cost of the facets between inside and
+    outside."""
     costs = np.where(inside, np.maximum(1 - winding, 0), np.maximum(winding, 0)).sum()
     sides = np.sort(np.vstack([tets[:, [1, 2, 3]], tets[:, [0, 2, 3]], tets[:, [0, 1, 3]], tets[:, [0, 1, 2]]]), axis=1)
     owner = np.tile(np.arange(len(tets)), 4)
@@ -76,7 +77,8 @@ def make(options):
     pictures = []
     for name, file, words, title in (
             ("a", "surface.vtp", ["--defects"], "The surface and its open edges"),
-            ("b", "hull.vtu", ["--color", "winding-number"], f"{len(tets)} tets of the hull by winding number"),
+            ("b", "hull.vtu", ["--color", "winding-number"],
+             f"{len(tets)} tets of the hull, colored by winding number"),
             ("c", "hull.vtu", ["--color", "label"], "Labels of the graph cut"),
             ("d", "kept.vtu", ["--color", "winding-number"], f"{inside.sum()} tets kept")):
         only_tets = view if file != "surface.vtp" else view[2:]

@@ -57,7 +57,8 @@ def shrink(source, target):
 
 
 def rows(numbers, prefix=""):
-    """Return the lines of a table, one per number; nested names are joined by commas."""
+    """Return one table line per number, with its name. The name of a number in nested dicts consists of the keys of all
+    levels, joined by commas."""
     lines = []
     for key, value in numbers.items():
         if isinstance(value, dict):

@@ -162,7 +162,8 @@ def check_option(option, allowed_fields, types):
     require(option.help.endswith(".") and option.help[0].isalnum(), where, "help must be one or more sentences")
     require((option.type == "choice") == bool(option.choices), where, "choices are required for the type choice and not allowed for other types")
     require((option.type == "word") == ("words" in fields), where, "words are required for the type word and not allowed for other types")
-    require(set(fields.get("labels", {})) <= set(option.choices), where, "labels must be given for names in 'choices' only")
+    require(set(fields.get("labels", {})) <= set(option.choices), where,
+            "labels may be given only for names in 'choices'")
     require(set(option.layers) <= set(LAYERS), where, f"each layer must be one of {', '.join(LAYERS)}")
     require("layer_defaults" not in fields or fields.get("why"), where, "layer_defaults need a reason, 'why'")
     require("minimum" not in fields or "above" not in fields, where, "minimum and above exclude each other")

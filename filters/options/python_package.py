@@ -34,7 +34,7 @@ def entry(option):
     if option.type == "number" and default is not None:
         default = float(default)
     if option.defaults or option.type == "point_array":
-        default = None  # the default of the filter itself
+        default = None  # None: the filter uses its own default
     return {"name": option.name.replace("-", "_"), "type": option.type,
             "default": tuple(default) if isinstance(default, list) else default,
             "choices": {python_word(word): value for word, value in option.choices.items()}, "length": option.length,
@@ -131,7 +131,8 @@ def used_imports(imports, body):
 
 
 def stub(source, sets, verbs):
-    """Return a stub of a module: its public functions and classes, with the options of their sets as parameters."""
+    """Return the stub of a module, as text: the declarations of its public functions and classes. The options of the
+    sets that a function names in @with_options become its parameters."""
     tree = ast.parse(source)
     imports = [ast.parse(line).body[0] for line in
                ("from collections.abc import Sequence", "from typing import Literal", "from numpy.typing import ArrayLike")]
@@ -152,7 +153,8 @@ def stub(source, sets, verbs):
 
 
 def package_stub(source, classes):
-    """Return the stub of the package: its functions as public names, and its VTK classes with methods of any type."""
+    """Return the stub of the package, as text. It exports the functions and declares the VTK classes, whose methods
+    have the type Any."""
     text = f"{NOTE}from typing import Any\n\n"
     for node in ast.parse(source).body:
         if isinstance(node, ast.ImportFrom) and node.names[0].name != "*":

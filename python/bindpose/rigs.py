@@ -386,13 +386,13 @@ def _rest_points(handles):
 
 
 def _content(pose):
-    """Return the content of a pose file, as a dict, for a pose: either this content already, or a dict of handle
-    names."""
+    """Return a pose as a dict with the content of a pose file. `pose` is either this content or a dict of handle name
+    to handle pose."""
     return pose if "handles" in pose or "frames" in pose else {"handles": pose}
 
 
 def _text(pose):
-    """Return the text of a pose file for a pose: either this text already, or a dict as in `_content`."""
+    """Return a pose as the text of a pose file. `pose` is either this text or a dict, as in `_content`."""
     if not isinstance(pose, str):
         return pose_text(_content(pose))
     if not pose.lstrip().startswith("{"):

@@ -19,9 +19,10 @@ struct PictureGeometry
 {
   struct TileView
   {
-    /// Matrix from homogeneous world coordinates to rows x, y, depth, w.
+    /// Maps homogeneous world coordinates to homogeneous pixel coordinates. After division by w, x
+    /// and y are pixels from the lower left corner of the picture, and z is the depth.
     Eigen::Matrix4d world_to_pixel;
-    /// Area of the tile, in pixels from the lower left corner.
+    /// Area of the tile, in pixels from the lower left corner of the picture.
     int x = 0, y = 0, width = 0, height = 0;
   };
   std::vector<TileView> tiles;

@@ -18,7 +18,8 @@ struct DragSettings
   /// The gizmo and the keys X, Y, Z use the handle's own axes. If false, they use the world's axes.
   bool local_space = false;
   bool with_descendants = true;
-  /// Write stretch and twist to their arrays. If false, multiply them into the transform.
+  /// True: write stretches and twists to the arrays `Stretch` and `Twist`. False: multiply them
+  /// into `Transform`.
   bool writes_bone_arrays = true;
   bool reach = false; ///< dragging a tail also stretches the bone
   double ring_pixels = 80.0;
@@ -31,8 +32,8 @@ struct DragSettings
 /// without a constraint.
 int axes_of_part(int part);
 
-/// One drag of handles. It creates a Drag for the grabbed part and computes poses from the Drag's
-/// motion.
+/// A drag of one or more handles by one part. Its Drag converts the motion of the mouse to a motion
+/// in world coordinates; poses() applies this motion to the handles.
 class PoseDrag
 {
 public:

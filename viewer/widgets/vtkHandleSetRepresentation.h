@@ -69,7 +69,7 @@
  *   depths as in ADD_POINTS. Outside the surface, its tail is in the plane through its head that
  *   faces the camera. A bone that begins at the end of another bone is a child of that bone, so
  *   that the next drag continues the chain.
- * - ADD_CAGE adds a cage vertex with every click. A cage edge joins it to the last vertex. A click
+ * - ADD_CAGE adds a cage vertex with every click. A cage edge joins it to the previous one. A click
  *   on the first vertex closes the cage; a click on another cage vertex adds an edge to it. The
  *   first vertex is on the surface under the mouse, if there is any. Every other vertex is in the
  *   plane that goes through the previous vertex and faces the camera. FinishCage() ends the cage
@@ -117,23 +117,23 @@ public:
     ON_HEAD = 2, ///< a bone's head
     ON_TAIL = 3, ///< a bone's tail
     ON_BODY = 4, ///< a bone between its ends
-    // The parts of the gizmo at the selected handle follow. MOVE_X, MOVE_Y and MOVE_Z are arrows.
-    MOVE_X = 10, ///< arrows
+    // The states from MOVE_X to TWIST_TAIL are parts of the gizmo at the selected handle.
+    MOVE_X = 10, ///< MOVE_X, MOVE_Y and MOVE_Z: arrows along the axes
     MOVE_Y,
     MOVE_Z,
-    MOVE_YZ, ///< plates; MOVE_YZ moves in the plane of y and z
+    MOVE_YZ, ///< MOVE_YZ, MOVE_ZX and MOVE_XY: plates that move in the plane of two axes
     MOVE_ZX,
     MOVE_XY,
-    TURN_X = 20, ///< rings
+    TURN_X = 20, ///< TURN_X, TURN_Y and TURN_Z: rings about the axes
     TURN_Y,
     TURN_Z,
-    TURN_VIEW, ///< rotates about the viewing direction
-    SCALE_X = 30, ///< boxes
+    TURN_VIEW, ///< ring that rotates about the viewing direction
+    SCALE_X = 30, ///< SCALE_X, SCALE_Y and SCALE_Z: boxes on the axes
     SCALE_Y,
     SCALE_Z,
-    SCALE_ALL,
-    STRETCH = 40, ///< the box beyond a bone's tail
-    TWIST_HEAD, ///< rings around a bone
+    SCALE_ALL, ///< gray box or ring that scales uniformly
+    STRETCH = 40, ///< box beyond a bone's tail
+    TWIST_HEAD, ///< TWIST_HEAD and TWIST_TAIL: rings around a bone
     TWIST_TAIL,
     PLACING = 50 ///< the pointer is at a position where, in an edit mode, the button would add
                  ///< something
@@ -216,7 +216,7 @@ public:
   /// Return one sentence with the reason why the last edit was refused; empty if it was not
   /// refused.
   std::string GetEditMessage();
-  /// Report whether the last press, release or drop has changed the handles.
+  /// Report whether the last press, release or call of DropCageVertex() has changed the handles.
   vtkGetMacro(Edited, bool);
   /// Report whether the button that began a drag or a placement is still pressed.
   bool IsInteracting();
@@ -245,10 +245,10 @@ public:
   vtkBooleanMacro(StretchableBones, vtkTypeBool);
   ///@}
   ///@{
-  /// Snap distances of drags. LengthStep is the distance along each axis from the start of the
-  /// drag; 0, the default, selects a round length near a fiftieth of the size of the renderer's
-  /// content (see GetSnapLength()). DegreeStep is in degrees (default 15). FactorStep applies to
-  /// factors (default 0.1).
+  /// Steps of drags while Snap is on. The displacement along each axis snaps to multiples of
+  /// LengthStep; 0, the default, selects a round length near a fiftieth of the size of the
+  /// renderer's content (see GetSnapLength()). Rotations snap to multiples of DegreeStep, in
+  /// degrees (default 15). Factors snap to multiples of FactorStep (default 0.1).
   vtkSetClampMacro(LengthStep, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(LengthStep, double);
   vtkSetClampMacro(DegreeStep, double, 0.0, 180.0);
@@ -328,8 +328,8 @@ public:
   ///@}
 
   ///@{
-  /// Draw handles in mode automatic as a method that computes rotations treats them (see
-  /// vtkReducedARAP): handles that are only translated are drawn as mode position. Default off.
+  /// Draw handles in mode automatic for methods that compute rotations (see vtkReducedARAP):
+  /// handles that are only translated are drawn like handles in mode position. Default off.
   vtkSetMacro(FindsRotations, vtkTypeBool);
   vtkGetMacro(FindsRotations, vtkTypeBool);
   vtkBooleanMacro(FindsRotations, vtkTypeBool);

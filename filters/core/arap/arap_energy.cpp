@@ -1,11 +1,12 @@
 // As-rigid-as-possible energies for groups of vertices or elements that share a rotation.
 //
-// Every energy is a sum over elements, over the groups that contribute to an element, and over the
-// element's edges with their cotangent weights. Each group contributes with a fraction of the
-// element:
-// - Elements: one group contributes with the fraction 1.
-// - Spokes and rims: the group of each vertex contributes with one third (triangle) or one quarter
-//   (tet). If several vertices of the element are in one group, their fractions are added.
+// Every energy is a weighted sum over edges. One or more groups contribute to the term of an edge,
+// each with a fraction; the fractions sum to one. If a group contributes several times, its
+// fractions are added.
+// - Elements: the sum runs over the edges of each element, with the element's cotangent weights.
+//   Only the group of the element contributes.
+// - Spokes and rims: the sum is the same. The group of each vertex of the element contributes with
+//   one third (triangle) or one quarter (tet).
 // - Spokes: the sum runs over the edges of the mesh, with their weights from the stiffness matrix.
 //   The groups of the two ends contribute with one half each.
 #include "arap/arap_energy.h"
@@ -151,8 +152,8 @@ struct Spoke
   double weight;
 };
 
-/// An edge weight is round-off and ignored if it is at most this fraction of the stiffness matrix's
-/// diagonal entries at both vertices of the edge.
+/// An edge weight is ignored as round-off if its absolute value is at most this fraction of the
+/// stiffness matrix's diagonal entries at both vertices of the edge.
 constexpr double weight_tolerance = 1e-12;
 
 std::vector<Spoke> spokes_of(const SparseMatrix& stiffness, Index* ignored_edges)
@@ -274,8 +275,8 @@ SparseMatrix make_covariance(
   for (Index e = 0; e < elements.rows(); ++e)
   {
     // b_i = sum over j of c_ij (v_i - v_j), with cotangent weights c_ij and rest positions v. The
-    // product of the posed vertex i and b_i is its contribution to the covariance S of this
-    // element.
+    // outer product of b_i and the posed vertex i is the contribution of vertex i to the covariance
+    // S of this element.
     Vec3 b[Corners];
     std::fill(b, b + Corners, Vec3::Zero());
     for (Index k = 0; k < c.cols(); ++k)

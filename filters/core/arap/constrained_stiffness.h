@@ -70,10 +70,12 @@ private:
   /// independent points.
   Eigen::MatrixXd least_squares_;
   Eigen::MatrixXd response_; ///< #unknowns x #independent: L^-1 A^T
-  Eigen::MatrixXd constraint_system_; ///< A L^-1 A^T, bordered by a column per shift (shift_index_)
+  /// A L^-1 A^T, bordered by one row and one column per shift (shift_index_).
+  Eigen::MatrixXd constraint_system_;
   Eigen::MatrixXd multipliers_; ///< inverse of constraint_system_
 
-  /// #V: index of the vertex's part among the parts without a prescribed vertex, or -1.
+  /// #V: index of the vertex's part in shift_index_ and floating_part_sizes_, which list the parts
+  /// without a prescribed vertex; -1 for vertices in no such part.
   std::vector<Index> floating_part_;
   /// Per part without a prescribed vertex: index of its shift (an unknown translation of the part)
   /// among the shifts in constraint_system_; -1 if no constrained point is in the part.

@@ -16,8 +16,8 @@
 namespace bindpose
 {
 
-/// Stopping criteria of the alternation between local and global steps. Energies are those of the
-/// solver; the divisor of C (set_matrix()) does not affect them.
+/// Stopping criteria of the alternation between local and global steps. Energies are in the units
+/// of the solver, even if C is divided by a unit (set_matrix()).
 struct ReducedLimits
 {
   /// The run ends if an iteration lowers the energy by at most this fraction of the energy.
@@ -82,7 +82,8 @@ public:
   bool run(ExecutionContext& context, const ReducedLimits& limits, Index window,
     double unrotated_energy, ReducedProgress& progress);
 
-  /// Write the last rotations, stored in planes as in begin().
+  /// Write the rotations of the last local step. Entry (i, j) of rotation k is written to
+  /// planes[(3 i + j) stride + k], the layout of begin().
   void rotations(Index stride, std::vector<double>& planes) const;
 
   /// Return Y, #columns x 3.
@@ -105,7 +106,7 @@ private:
   AlignedVector<Scalar> covariance_; ///< C, with the columns in groups of four
   AlignedVector<Scalar> unrotated_covariance_; ///< covariances S* of D*
   AlignedVector<Scalar> rotation_deltas_; ///< rotations minus the identity, Q
-  /// Plain and extrapolated iterate: three columns of Y, then S.
+  /// Plain and extrapolated iterate. Each consists of three columns of Y, followed by S.
   AlignedVector<Scalar> iterate_, trial_;
   std::optional<Anderson<Scalar>> anderson_; ///< accelerator, stored to reuse its memory
   bool has_iterate_ = false; ///< false: the iteration starts from initial rotations

@@ -14,7 +14,8 @@ constexpr double touch_distance = 1.0 / 500.0;
 /// Distance between neighboring links at a covered opening, as a fraction of the surface's
 /// diagonal.
 constexpr double opening_link_spacing = 1.0 / 100.0;
-constexpr Index maximum_components = 20000; ///< more components are a triangle soup
+/// A surface with more components to link counts as a triangle soup and gets no links.
+constexpr Index maximum_components = 20000;
 
 /// For each part of the lattice, return 1 if the part contains a handle, else 0.
 std::vector<char> parts_with_handles(
@@ -104,8 +105,8 @@ Status find_loose_parts(ExecutionContext& context, PointsView points, TrianglesV
   {
     return {};
   }
-  // Links connect surface components and not parts of the lattice, because one part may contain
-  // several components that a finer lattice separates.
+  // Link surface components instead of parts of the lattice. Components that share a part of this
+  // lattice may be in separate parts of a finer lattice.
   const WeldedSurface welded(triangles, representative_of_vertex);
   const Index component_count = welded.components.count;
   std::vector<char> is_attached(static_cast<std::size_t>(component_count), 0);

@@ -1,11 +1,15 @@
 // The solver of the quadratic programs of all columns (see box_qp.h). A, the block of free vertices
-// in Q, is analyzed and factored once. The factor is in single precision if conjugate gradients
-// with this factor as preconditioner reach the limit of double precision. Otherwise it is in double
-// precision. (Single precision usually suffices for biharmonic energies and rarely for triharmonic
-// energies.) Then the starts of all columns are computed together (splitting_start.cpp). Each
-// column is solved from its start (active_set.cpp), in a workspace that the next column reuses. The
-// interior-point method (interior_point.cpp) solves columns without a start, and columns whose
-// start does not lead to the minimizer.
+// in Q, is analyzed once.
+//
+// A is first factored in single precision. This factor is used if conjugate gradients,
+// preconditioned with it, solve a test system to double precision (good_accuracy). Otherwise A is
+// factored in double precision. Single precision usually suffices for biharmonic energies and
+// rarely for triharmonic energies.
+//
+// Then the starts of all columns are computed together (splitting_start.cpp). Each column is solved
+// from its start (active_set.cpp), in a workspace that the next column reuses. The interior-point
+// method (interior_point.cpp) solves columns without a start, and columns whose start does not lead
+// to the minimizer.
 #include "qp/box_qp.h"
 
 #include "base/memory.h"

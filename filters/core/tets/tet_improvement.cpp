@@ -51,8 +51,8 @@ public:
     constexpr Index last_passes = 4; // passes in which held vertices may move
     constexpr Index first_passes = 3; // passes before vertices are inserted
     const Index passes = this->options_.passes - last_passes;
-    // Progress at the ends of the first and the second group of passes. The third group, in which
-    // held vertices may move, ends at 0.97.
+    // Progress at the ends of the first and second groups of passes, in which held vertices do not
+    // move. In the third group they may move; it ends at 0.97.
     const double first_end = this->options_.insert ? 0.4 : 0.0;
     const double second_end = this->options_.release_angle > 0.0 ? 0.85 : 0.97;
     bool completed = true;
@@ -109,7 +109,7 @@ private:
       {
         return false;
       }
-      // the passes end if a pass improves at most one in 60 tets
+      // the passes end if a pass improves at most one in 60 of the tets that it tries
       constexpr Index tets_per_improvement = 60;
       if (tets_per_improvement * count.improved <= count.tried)
       {
@@ -320,7 +320,7 @@ private:
     return flat;
   }
 
-  /// Remove tets that share no facet with another tet and remain too flat.
+  /// Remove tets that are still too flat, share no facet with another tet and have no held vertex.
   void remove_isolated_tets()
   {
     const std::vector<Index> flat =

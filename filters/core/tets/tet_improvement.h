@@ -32,7 +32,8 @@ struct Improvement
 /// as `slack` allows.
 ///
 /// The boundary is kept, with these exceptions:
-/// - Flat tets at the boundary are removed, and so are tets without a neighbor that remain flat.
+/// - Flat tets at the boundary are removed. At the end, tets that are still flat and share no facet
+///   with another tet are removed too.
 /// - Boundary edges within 15 degrees of flat may be swapped.
 /// - Boundary vertices may move along `surface`. If `surface` is empty, they do not move.
 /// - Boundary edges may be contracted if this rotates the normals of the triangles by at most 15

@@ -55,9 +55,9 @@ constexpr double small_field_factor = 0.75;
 /// estimates are upper bounds, and the errors of many interactions rarely add up. If the errors do
 /// add up, the comparison on the sample points detects this case.
 constexpr double first_threshold = 1.2;
-/// Threshold outside the cells, relative to the current threshold. This threshold is smaller,
-/// because each point has few interactions. In addition, the estimates are tighter, because they do
-/// not contain the radius of a cell.
+/// Threshold for points outside the cells, as a fraction of the threshold in the cells. It is lower
+/// for two reasons: each point has few interactions, and the estimates are closer to the errors,
+/// because they do not contain the radius of a cell.
 constexpr double outer_threshold_factor = 0.2;
 /// Largest accepted error on the sample points, in units of the tolerance. The rest of the
 /// tolerance is a margin for all other points.
@@ -227,7 +227,9 @@ struct DipoleField::Builder
   double finest_cell = 1.0;
   double threshold = 0.0; // largest allowed error estimate of an interaction
   Box region; // region that contains most expected points
-  double density = 0.0; // expected points per volume; 0: very many
+  // Expected number of query points per unit of volume in `region`. 0: unknown or unlimited; every
+  // split of a cell is then worthwhile.
+  double density = 0.0;
   std::vector<std::array<Id, 3>> ids;
   std::vector<int> triangle_multiplicities;
   std::vector<int> weights; // multiplicity of each lane of each block
@@ -402,8 +404,8 @@ bool DipoleField::Builder::sort_triangles()
   return true;
 }
 
-// Split the node into two small groups: minimize the sum over both groups of (number of blocks x
-// squared size).
+// Make a node of the triangles order[first … first + count) and split it recursively. Each split
+// keeps the sum over both parts of (number of blocks x squared size) small. Return the node's id.
 std::int32_t DipoleField::Builder::split(Id first, Id count)
 {
   Box box, center_box;
@@ -530,7 +532,7 @@ std::int32_t DipoleField::Builder::split(Id first, Id count)
     }
     cut = cut ? cut : count / 2;
     // In a node of more than 512 triangles, round the number of triangles in the left group down to
-    // whole blocks. This moves few triangles.
+    // whole blocks. This moves few triangles to the right group.
     const Id rounded_cut = cut / triangle_lanes * triangle_lanes;
     cut = rounded_cut > 0 && count > 512 ? rounded_cut : cut;
     std::nth_element(begin, begin + cut, begin + count, before);

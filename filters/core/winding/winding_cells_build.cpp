@@ -31,11 +31,11 @@ constexpr int maximum_cells_along = 32;
 /// a few large triangles are in cells without triangles.
 constexpr double minimum_cells_along = 8.0;
 constexpr int maximum_depth = 12;
-/// Stored number for a plane distance of one cell size. It is slightly less than the largest number
-/// of 16 bits.
+/// Stored integer for a plane distance of one cell size. It is slightly less than the largest
+/// 16-bit integer.
 constexpr double distance_units = 32000.0;
 /// A cross product has no reliable direction if its length is less than this number times the
-/// length of its longer factor. The coordinates are doubles of about 1.
+/// length of its longer factor. This holds for coordinates of about 1 in double precision.
 constexpr double shortest_product = 1e-9;
 
 /// Report whether a triangle and a box intersect, by separating axes (Akenine-Moeller). Return true
@@ -94,8 +94,8 @@ SortedCorners sorted_corners(const Triangles& triangles, Index t)
   return corners;
 }
 
-/// Return the ids of the triangles, followed by the ids of the caps, in ascending order. Pairs of
-/// triangles with the same corners and opposite orientation are omitted.
+/// Return the ids of the triangles, followed by the ids of the caps, in ascending order. If a
+/// triangle and a cap have the same corners and opposite orientations, both are omitted.
 std::vector<std::int32_t> remove_opposite_pairs(const Triangles& triangles, const Triangles& caps)
 {
   std::vector<SortedCorners> cap_corners;
@@ -312,8 +312,8 @@ WindingCells::Builder::Grid WindingCells::Builder::choose_cells(
   return grid;
 }
 
-/// Find the cells that the faces [begin, end) of the box overlap. Return false if canceled or if
-/// there are more than `maximum_entries` pairs of a cell and a face.
+/// Append to `found` the pairs of each face in [begin, end) of the box with each cell that the face
+/// overlaps. Return false if canceled or if there are more than `maximum_entries` pairs.
 bool WindingCells::Builder::find(const Box& box, const Grid& grid, Index begin, Index end,
   std::size_t maximum_entries, CellFacePairs& found) const
 {
@@ -658,8 +658,8 @@ bool WindingCells::Builder::fill(
 
 namespace
 {
-/// Return a cross product scaled to the length `fixed_point_one`, or zeros if it is too short to
-/// have a direction. With zeros every sign is undecided.
+/// Return a cross product scaled to the length `fixed_point_one`, or the zero vector if it is too
+/// short to have a reliable direction. With the zero vector every sign is undecided.
 std::array<double, 3> direction(const Vec3& product, double shortest, double fixed_point_one)
 {
   const double length = product.norm();

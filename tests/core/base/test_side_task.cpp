@@ -61,7 +61,7 @@ TEST(SideTask, IsDroppedOnlyBeforeItStarts)
   SideTask late(context, 0.05, [&](ExecutionContext&) { begun = true; });
   EXPECT_TRUE(late.drop_unless_started());
   sleep_for(0.2);
-  EXPECT_FALSE(begun); // the delay has passed, but the work was dropped before
+  EXPECT_FALSE(begun); // dropped work does not start, even after the delay
 
   std::atomic<bool> finished{ false };
   SideTask early(context, 0.0,

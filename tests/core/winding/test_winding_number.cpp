@@ -18,8 +18,8 @@ namespace
 constexpr WindingMethod methods[] = { WindingMethod::exact, WindingMethod::direct,
   WindingMethod::hierarchical, WindingMethod::crossings };
 
-/// Return the winding number by each method. Leaves are small, so that the trees have several
-/// levels.
+/// Return one WindingNumber of the mesh per method. Leaves are small, so that the trees have
+/// several levels.
 std::vector<WindingNumber> build_all_methods(const TriangleMesh& mesh)
 {
   std::vector<WindingNumber> windings;
@@ -119,7 +119,7 @@ TEST(WindingNumber, GradientIsTheKnownOneAndThatOfTheField)
     EXPECT_NEAR(gradient.y(), 0.03449705, error);
     EXPECT_NEAR(gradient.z(), -0.30037298, error);
   }
-  // A change of the unit of length scales the gradient by its inverse.
+  // If all lengths are multiplied by 1000, the gradient is divided by 1000.
   const WindingNumber large(Points(1000.0 * mesh.points), mesh.triangles);
   ExecutionContext context;
   Points query(1, 3);
@@ -269,7 +269,7 @@ TEST(WindingNumber, JumpsByOneAcrossTheSurface)
     EXPECT_NEAR(jump(1e-3), 0.9999000826, 1e-10) << to_string(method_winding.method());
     EXPECT_NEAR(jump(1e-6), 0.9999999001, 1e-10) << to_string(method_winding.method());
     EXPECT_NEAR(jump(1e-9), 0.9999999999, 1e-10) << to_string(method_winding.method());
-    // Even for a tolerance below about 1e-12, the jump is exact and not noise.
+    // Even for points that are only 1e-14 away from the surface, the jump is accurate.
     EXPECT_NEAR(jump(1e-14), 1.0, 1e-12) << to_string(method_winding.method());
   }
 }
@@ -315,8 +315,8 @@ TEST(WindingNumber, PrincipalValueOnTheSurface)
 
 TEST(WindingNumber, PrincipalValueOnSlantedSurfacesFarFromTheOrigin)
 {
-  // The solid angles of a regular tetrahedron are known. Rounding moves the midpoints off its
-  // faces.
+  // At vertices, edges and faces of a regular tetrahedron, the winding numbers are known. The
+  // tetrahedron is rotated, so rounding moves the query points slightly off its edges and faces.
   TriangleMesh mesh = triangles_of({ Vec3(1, 1, 1), Vec3(1, -1, -1), Vec3(-1, 1, -1), Vec3(1, 1, 1),
     Vec3(-1, 1, -1), Vec3(-1, -1, 1), Vec3(1, 1, 1), Vec3(-1, -1, 1), Vec3(1, -1, -1),
     Vec3(1, -1, -1), Vec3(-1, -1, 1), Vec3(-1, 1, -1) });
@@ -470,7 +470,7 @@ TEST(WindingNumber, BoundaryTellsEdgesAndComponents)
   const SurfaceBoundary& boundary = winding.boundary();
   ASSERT_EQ(boundary.components.size(), 4u);
   ASSERT_EQ(boundary.edges.size(), 4u + 4u + 3u);
-  // Identify the component by the position of its boundary edge.
+  // The position of an edge shows to which component the edge must belong.
   std::vector<int> seen(4, 0);
   for (const SurfaceBoundary::BoundaryEdge& edge : boundary.edges)
   {

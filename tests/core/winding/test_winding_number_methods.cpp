@@ -55,7 +55,7 @@ double lattice_winding_number(const TriangleMesh& mesh, const Vec3& p)
     const std::int64_t side = v[0].dot(v[1].cross(v[2]));
     if (side == 0)
     {
-      continue; // the point is in the triangle's plane, so its contribution is zero
+      continue; // the point is in the triangle's plane, so the triangle contributes nothing
     }
     const long double la = x[0].norm(), lb = x[1].norm(), lc = x[2].norm();
     sum += std::atan2(x[0].dot(x[1].cross(x[2])),
@@ -113,7 +113,8 @@ Vec3 lattice_point(test::Random& random)
     Vec3::Constant(1.25);
 }
 
-/// Return a bumpy closed surface with holes, and a second sheet that passes through it.
+/// Return a bumpy sphere and a torus that passes through it. The cap of the sphere beyond the plane
+/// at distance 1 - `hole` from its center is removed.
 TriangleMesh unclean_surface(int levels, double hole)
 {
   TriangleMesh mesh = test::sphere(levels);
@@ -210,7 +211,7 @@ TEST(WindingMethods, AgreeOnRandomSoups)
 TEST(WindingMethods, AgreeOnUncleanSurfaces)
 {
   test::Random random(5);
-  for (const double hole : { -1.0, 0.1, 0.6 }) // -1 means no holes
+  for (const double hole : { -1.0, 0.1, 0.6 }) // -1 means no hole
   {
     const TriangleMesh mesh = unclean_surface(4, hole);
     std::vector<Vec3> points;
@@ -338,9 +339,10 @@ TEST(WindingMethods, WhatIsNoTriangleCannotBeTouched)
 
 TEST(WindingMethods, FarFromTheOriginTouchingReachesAsFar)
 {
-  // The tolerance for touching is 2^-49 times the largest coordinate: 2e-9 for a coordinate of 1e6,
-  // and 2e-6 for 1e9. Single precision resolves 1e-7 on a unit sphere. The closed sphere tests the
-  // search cells, and the loose triangles test the blocks of triangles.
+  // A point touches a triangle if their distance is at most 2^-49 times the largest coordinate. At
+  // 1e6 this distance is 2e-9, which single precision cannot resolve on a unit sphere (1e-7). At
+  // 1e9 it is 2e-6, which single precision resolves. The closed sphere tests WindingCells, and the
+  // loose triangles test DipoleField.
   const TriangleMesh sphere = test::sphere(2);
   TriangleMesh loose{ Points(3 * sphere.triangles.rows(), 3), sphere.triangles };
   for (Index t = 0; t < sphere.triangles.rows(); ++t)
@@ -380,8 +382,8 @@ TEST(WindingMethods, FarFromTheOriginTouchingReachesAsFar)
 TEST(WindingMethods, AsSmallAsDoublesGet)
 {
   // The vertices of a sphere have integer coordinates. The sphere is scaled so that the unit is the
-  // smallest positive double. The results must be the same. In single precision, products of three
-  // such lengths underflow to 0, even if the lengths are scaled first.
+  // smallest positive double. The results must not change. Even after scaling by 2^1023, the
+  // largest factor, products of three such lengths can underflow to 0 in single precision.
   constexpr double unit = std::numeric_limits<double>::denorm_min();
   const TriangleMesh sphere = test::sphere(2);
   TriangleMesh mesh = sphere, tiny = sphere;
@@ -523,8 +525,8 @@ TEST(WindingMethods, TrianglesAsLargeAsTheSurfaceTakeLittleMemory)
 
 TEST(WindingMethods, FastKeepsItsTolerance)
 {
-  // The surfaces are a soup and surfaces with defects. The points are in the box, far outside, and
-  // close to the triangles.
+  // The first surface is a sphere with holes. The second surface also has two nested open cubes,
+  // one of them flipped. The random query points are inside and around the surfaces.
   const TriangleMesh sphere = test::sphere(4);
   TriangleMesh holes = sphere;
   Index kept = 0;

@@ -1,5 +1,5 @@
-// vtkShareDataset: threads act as the processes. Every process gets the whole, and no process waits
-// forever, whatever fails on another process.
+// vtkShareDataset: threads act as the processes. Every process gets the whole dataset. No process
+// waits forever, whatever fails on another process.
 #include "filters/TestFilter.h"
 #include "filters/data_of.h"
 #include "filters/pipeline/same_data.h"
@@ -112,7 +112,8 @@ vtkSmartPointer<vtkDataObject> copy_of_output(vtkAlgorithm* algorithm)
   return copy;
 }
 
-/// Switches VTK's messages off. Executives report failures that the tests cause on purpose.
+/// Switches VTK's messages off while it exists, because executives would report the failures that
+/// the tests cause on purpose.
 class Silence
 {
 public:
@@ -204,7 +205,8 @@ TEST(ShareDataset, EveryProcessGetsTheWhole)
       EXPECT_EQ(reports[process].number("counts.points", 0), tets->GetNumberOfPoints());
       EXPECT_EQ(reports[process].number("counts.parts", 0), 1);
       EXPECT_EQ(reports[process].number("counts.processes", 0), processes);
-      // Unless process 0 is the owner, it receives the part. It sends the whole to all others.
+      // If process 1 owns the part, it sends the part to process 0. Process 0 then sends the whole
+      // dataset to all other processes.
       const double bytes = reports[process].number("bytes_sent", 0);
       EXPECT_EQ(bytes, reports[0].number("bytes_sent", 1));
       EXPECT_GT(
@@ -244,7 +246,8 @@ TEST(ShareDataset, FailuresAreThoseOfAllProcesses)
   const Silence silence;
   constexpr int processes = 3;
   // In the first two cases, a VTK filter fails on process 1, in RequestData or RequestInformation.
-  // In the third case, a Bindpose filter fails on process 0; its pieces other than 0 are empty.
+  // In the third case, a Bindpose filter fails, but only on process 0: the other processes request
+  // its other pieces, which are empty.
   for (const auto& [pass, sentence] : { std::pair(FailingCopy::data, "process 1: an algorithm"),
          std::pair(FailingCopy::information, "process 1: an algorithm"),
          std::pair(FailingCopy::nowhere, "process 0: the dog ate it") })

@@ -436,8 +436,8 @@ TEST_F(PosingWindow, RotationsAreSeenAsClustersAndAsAngles)
   EXPECT_EQ(on_points()->GetComponent(7, 0), 0.0);
   this->posing()->set_rest_view(false);
 
-  // Other panels use their own coloring. Methods without rotations have no coloring by rotation.
-  // This coloring returns when the first method is chosen again.
+  // Other panels use their own coloring, and methods without rotations have no coloring by
+  // rotation. The coloring by rotation returns with the pose panel and a method that has rotations.
   this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::weights);
   this->render();
   EXPECT_FALSE(viewport->shows_values(vtkDoubleArray::SafeDownCast(angles)));
@@ -949,7 +949,7 @@ TEST_F(PosingWindow, UndoTakesTheFirstKeptPoseBack)
 TEST_F(PosingWindow, CurvesOfTheRestShapeAreSeenWithItAlone)
 {
   this->open();
-  vtkNew<vtkPolyData> circle; // represents any curve, for example a boundary curve
+  vtkNew<vtkPolyData> circle; // the shape of the curve does not matter
   vtkNew<vtkPoints> curve_points;
   vtkNew<vtkCellArray> lines;
   const vtkIdType ids[] = { 0, 1, 2 };

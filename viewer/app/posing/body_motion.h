@@ -24,8 +24,8 @@ class BodyMotion : public QObject
   Q_OBJECT
 
 public:
-  /// @param pose  returns the pose of the handles. If `for_step` is true, the function returns the
-  /// pose that constrains the body: handles in mode free constrain the body only during a drag.
+  /// @param pose  function that returns the pose of the handles. With `for_step`, it returns the
+  /// constraints of a time step: a handle in mode free is constrained only while it is dragged.
   BodyMotion(
     PosePanel* panel, std::function<bindpose::Pose(bool for_step)> pose, QObject* parent = nullptr);
 

@@ -146,7 +146,7 @@ Status read_position(const Json& json, const std::string& prefix, TourPosition& 
     return Status::invalid_input(prefix + ": unknown gizmo part \"" + part + "\"");
   }
   return !is_gizmo_part && mouse_position.handle.empty()
-    ? Status::invalid_input(prefix + ": a position must contain the name of a handle")
+    ? Status::invalid_input(prefix + ": \"handle\" is empty; expected the name of a handle")
     : Status();
 }
 

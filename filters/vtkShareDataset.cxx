@@ -611,7 +611,7 @@ Status vtkShareDataset::Exchange(vtkDataObject* part, const Status& part_status)
   Part mine;
   mine.status = part_status;
   mine.class_name = vtkUnstructuredGrid::SafeDownCast(part) ? "vtkUnstructuredGrid" : "vtkPolyData";
-  vtkNew<vtkCharArray> message;
+  auto message = vtkSmartPointer<vtkCharArray>::New();
   auto* set = vtkPointSet::SafeDownCast(part);
   if (mine.status.ok())
   {
@@ -690,7 +690,9 @@ Status vtkShareDataset::Exchange(vtkDataObject* part, const Status& part_status)
       status = status_of_process(
         [&]() -> Status
         {
-          message->Initialize();
+          // A new array, because an array that has taken memory from VTK's writer would free its
+          // own memory in the writer's way.
+          message = vtkSmartPointer<vtkCharArray>::New();
           message->SetNumberOfTuples(outcome.bytes);
           return {};
         });

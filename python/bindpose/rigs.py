@@ -124,8 +124,10 @@ class Rig:
 
     @property
     def number_of_binds(self) -> int:
-        """Number of times that pose methods were prepared: once per method, and again when a bind option or the rest
-        pose changed."""
+        """Number of times that pose methods were prepared.
+
+        Each method is prepared once, and again after a bind option or the rest pose has changed.
+        """
         return sum(method.filter.GetNumberOfBinds() for method in self._methods.values())
 
     @property

@@ -67,7 +67,9 @@ def main() -> None:
         for page, path in zip(PAGES, pages):
             path.write_text(code_of(page), encoding="utf-8")
         accepted = all([mypy([path], package, cache, "--strict") for path in (*pages, *(ROOT / name for name in STRICT))])
-    others = sorted({*ROOT.glob("examples/*.py"), *ROOT.glob("examples/*/*.py")} - {ROOT / name for name in STRICT})
+    # Not checked: the states for ParaView, whose module paraview.simple defines its functions when it is imported.
+    others = sorted({*ROOT.glob("examples/*.py"), *ROOT.glob("examples/*/*.py")} - {ROOT / name for name in STRICT} -
+                    {*ROOT.glob("examples/paraview/*.py")})
     accepted = mypy(others, package, cache, *LENIENT) and accepted
     errors = numpydoc_errors(package)
     print("\n".join(errors) or "the documentation of all public functions follows numpydoc")

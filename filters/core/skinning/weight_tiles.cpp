@@ -111,7 +111,7 @@ BINDPOSE_ALWAYS_INLINE void blend_part(const std::int32_t* columns, const Scalar
 /// and `c`.
 template <typename Lanes, typename Pack, int... i>
 BINDPOSE_ALWAYS_INLINE Pack shuffle(
-  const Pack& a, const Pack& b, const Pack& c, std::integer_sequence<int, i...> /*lanes*/)
+  Pack a, Pack b, Pack c, std::integer_sequence<int, i...> /*lanes*/)
 {
   const Pack first = __builtin_shufflevector(a, b, Lanes::first(i)...);
   return __builtin_shufflevector(first, c, Lanes::second(i)...);

@@ -4,6 +4,10 @@
 #include "base/mesh_types.h"
 #include "base/simd.h"
 
+// GCC warns that functions which return vectors differ in their calls between processors. The
+// functions of this file are always inlined, so there are no calls.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 namespace bindpose
 {
 

@@ -22,6 +22,14 @@ struct PackOf
   typedef Scalar Pack __attribute__((vector_size(bytes), aligned(alignof(Scalar)), may_alias));
 };
 
+template <int bytes = 32, typename Scalar>
+BINDPOSE_ALWAYS_INLINE auto pack_at(const Scalar* from)
+{
+  typename PackOf<Scalar, bytes>::Pack pack;
+  __builtin_memcpy(&pack, from, sizeof(pack));
+  return pack;
+}
+
 /// A pack in memory that need not be aligned. It is read and written by copying bytes: a reference
 /// to the type Pack would not keep the alignment of a scalar, so Clang would use aligned accesses.
 template <typename Scalar, int bytes>
@@ -32,9 +40,7 @@ public:
   BINDPOSE_ALWAYS_INLINE explicit PackInMemory(Scalar* at) : at_(at) {}
   BINDPOSE_ALWAYS_INLINE operator Pack() const
   {
-    Pack pack;
-    __builtin_memcpy(&pack, this->at_, sizeof(pack));
-    return pack;
+    return pack_at<bytes>(static_cast<const Scalar*>(this->at_));
   }
   BINDPOSE_ALWAYS_INLINE void operator=(Pack pack)
   {
@@ -54,14 +60,6 @@ template <int bytes = 32, typename Scalar>
 BINDPOSE_ALWAYS_INLINE auto pack_at(Scalar* from)
 {
   return PackInMemory<Scalar, bytes>(from);
-}
-
-template <int bytes = 32, typename Scalar>
-BINDPOSE_ALWAYS_INLINE auto pack_at(const Scalar* from)
-{
-  typename PackOf<Scalar, bytes>::Pack pack;
-  __builtin_memcpy(&pack, from, sizeof(pack));
-  return pack;
 }
 
 BINDPOSE_ALWAYS_INLINE float sum_lanes(const PackOf<float>::Pack& p)

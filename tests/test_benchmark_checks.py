@@ -83,7 +83,7 @@ def test_films_and_bridged_gaps_are_measured_by_area(tmp_path, monkeypatch, xs, 
     (tmp_path / "model.obj").write_text("\n".join(lines))
     points, tets = tets_of_boxes(xs, [0, 1], [0, 1])
     write_tets(tmp_path / "tets.vtu", points, tets)
-    found = accuracy_checks.surface_without_tets("", tmp_path / "model.obj", tmp_path / "tets.vtu")
+    found = accuracy_checks.surface_without_tets("", tmp_path / "model.obj", tmp_path / "tets.vtu", 0.005)
     assert found["films"] == pytest.approx(1 / 13, abs=0.01)
     assert found["bridged"] == pytest.approx(bridged, abs=0.01 if bridged else 0)
 

@@ -15,7 +15,6 @@ MOST_VERTICES = 20_000
 SEED = 7
 SAMPLES = 20_000  # random points on the surface where films and bridged gaps are looked for
 SIDE = 1e-6  # in bounding-box diagonals: distance of the points on both sides of a sample
-REACH = 0.005  # in bounding-box diagonals: a gap between facing triangles is at most this wide
 FACING = 0.8  # smallest absolute cosine between the normals of facing triangles
 PLACES = 8  # random points per tet that are tested for being outside of the model
 FACETS = [(1, 2, 3), (0, 2, 3), (0, 1, 3), (0, 1, 2)]
@@ -110,34 +109,33 @@ def surface_samples(points, triangles):
     return np.einsum("kc,kcd->kd", shares, points[triangles[owners]]), owners
 
 
-def middles_of_gaps(points, triangles, starts, directions):
-    """Cast a ray of length REACH from each start. If the first triangle that the ray hits faces the ray (see FACING),
+def middles_of_gaps(points, triangles, normals, starts, rays):
+    """Cast a ray from each start. If the first triangle that the ray hits faces the ray (see FACING),
     return the midpoint between the start and the hit, and the index of the start."""
-    reach = REACH * np.linalg.norm(np.ptp(points, axis=0))
-    normals = unit_normals(points, triangles)
     locator = locator_of(poly_data(points, triangles))
     hit, parametric = [0.0] * 3, [0.0] * 3
     along, sub, cell = vtk.reference(0.0), vtk.reference(0), vtk.reference(0)
     middles, owners = [], []
-    for k, (start, direction) in enumerate(zip(starts, directions)):
-        found = locator.IntersectWithLine(start, start + reach * direction, 0.0, along, hit, parametric, sub, cell)
-        if found and abs(normals[int(cell)] @ direction) >= FACING:
+    for k, (start, ray) in enumerate(zip(starts, rays)):
+        found = locator.IntersectWithLine(start, start + ray, 0.0, along, hit, parametric, sub, cell)
+        if found and abs(normals[int(cell)] @ ray) >= FACING * np.linalg.norm(ray):
             middles.append((start + hit) / 2)
             owners.append(k)
     return np.array(middles).reshape(-1, 3), np.array(owners, int)
 
 
-def surface_without_tets(program, model, path):
+def surface_without_tets(program, model, path, reach):
     """Return two fractions of the surface's area where the tets do not follow the surface. "films" is the fraction with
-    the outside on both sides. "bridged" is the fraction where tets bridge a gap between two facing triangles."""
+    the outside on both sides. "bridged" is the fraction where tets bridge a gap between two
+    facing triangles that is at most `reach` bounding-box diagonals wide."""
     single = path.parent / "single.vtp"
     write_without_doubles(model, single)
     points, triangles, _ = weld(*read_obj(model))
     places, owners = surface_samples(points, triangles)
-    normals = unit_normals(points, triangles)[owners]
-    normals = np.vstack([normals, -normals])
-    sides = np.tile(places, (2, 1)) + SIDE * np.linalg.norm(np.ptp(points, axis=0)) * normals
-    middles, starts = middles_of_gaps(points, triangles, sides, normals)
+    normals = unit_normals(points, triangles)
+    diagonals = np.linalg.norm(np.ptp(points, axis=0)) * np.vstack([normals[owners], -normals[owners]])
+    sides = np.tile(places, (2, 1)) + SIDE * diagonals
+    middles, starts = middles_of_gaps(points, triangles, normals, sides, reach * diagonals)
     winding = winding_at(program, single, np.vstack([sides, middles]), path.parent)
     if (winding <= -0.5).sum() > (winding >= 0.5).sum():  # all patches are inside out
         winding = -winding

@@ -8,7 +8,7 @@ enough for a comparison. Models are drawn in a seeded random order until enough 
 - if the reference tets miss a part of the surface (remesh has no tets for open sheets), or more than FILMS of the
   surface's area has the outside on both sides;
 - if the boundary of the reference tets is too far from the surface, because the tets bridge a gap, or if the tets
-  bridge a gap of at most half a percent of the diagonal anywhere;
+  bridge a gap of at most FAR anywhere;
 - if the reference tets and the default tets have different numbers of connected parts;
 - if the two references differ by more than AGREE.
 
@@ -71,7 +71,7 @@ def prepare(options, check, path, folder, handles):
         return f"{100 * (1 - quality['covered']):.1f} % of the vertices are not near the tets: open sheets"
     if quality["angle"] < GOOD_ANGLE:
         return f"a dihedral angle of the reference is {quality['angle']:.1f} degrees"
-    missing = check("surface_without_tets", options.program, path, folder / "reference.vtu")
+    missing = check("surface_without_tets", options.program, path, folder / "reference.vtu", FAR / 100)
     if missing["films"] > FILMS:
         return f"{100 * missing['films']:.1f} % of the area has the outside on both sides: open sheets"
     if missing["bridged"] > 0:

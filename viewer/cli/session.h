@@ -58,8 +58,8 @@ public:
   /// stores the algorithm's warnings and errors; VTK prints nothing.
   bool run(vtkBindposeAlgorithm* algorithm, const std::string& stage, double begin, double end,
     Merge merge);
-  /// Run the algorithm like run(), but return a failure to the caller, who has a fallback. The
-  /// session does not store the failure. A cancel always ends the session.
+  /// Run the algorithm like run(), but return a failure instead of storing it in the session,
+  /// because the caller has a fallback. A cancel always ends the session.
   Status try_run(vtkBindposeAlgorithm* algorithm, const std::string& stage, double begin,
     double end, Merge merge);
 

@@ -298,8 +298,8 @@ void run_deform(Session& session)
       session.write_uncommitted(deformation->GetOutput(), files[i], written_files[i]);
     }
   }
-  // Commit all files of a sequence at the end, so that either all or none of them are written.
-  // Until then, existing files of the same names are kept.
+  // Commit all files at the end, so that a sequence is written completely or not at all. Until
+  // then, existing files of the same names are kept.
   for (std::size_t i = 0; i < written_files.size() && !session.failed(); ++i)
   {
     session.commit(written_files[i]);

@@ -399,8 +399,8 @@ private:
     }
   }
 
-  /// Of the pieces of a triangle, find the piece with the middle nearest to a position. Return the
-  /// atom of this piece.
+  /// Find the piece of a triangle whose middle is nearest to a position. Return the atom of this
+  /// piece.
   Id nearest_piece(Id triangle, const Vec3& position) const
   {
     const auto& pieces = this->cover_.pieces;

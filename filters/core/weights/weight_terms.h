@@ -61,7 +61,7 @@ double rigidity_unit(int order);
 /// - a rigidity is not in 0 … 1e12;
 /// - a value is infinite, or the lower bound of a handle is above its upper bound;
 /// - a mirror entry is not a vertex or -1, or mirror[mirror[v]] is not v;
-/// - the prescribed weights of a vertex sum to more than 1, although none of them is negative;
+/// - the prescribed weights of a vertex are all at least 0 and sum to more than 1;
 /// - the weights of all handles are prescribed at a vertex and do not sum to 1.
 Status check_terms(const WeightTerms& terms, Index vertex_count, const Handles& handles);
 

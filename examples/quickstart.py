@@ -254,7 +254,7 @@ def main() -> None:
     staging = pathlib.Path(tempfile.mkdtemp(prefix=f".{options.output.name}-", dir=options.output.absolute().parent))
     staging.chmod(0o755)
     program = Program(options.build, staging)
-    # Handle SIGTERM like Ctrl-C, which also reaches the child process: both processes clean up and end.
+    # Handle SIGTERM like Ctrl-C: wait for the end of the child process, and remove the files written so far.
     signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
     try:
         mesh, pictures = main_job(options, program, bindpose)

@@ -12,17 +12,18 @@
 // and all other pieces are empty. For an empty piece, the same piece is requested upstream, which
 // is also empty and costs nothing.
 //
-// A filter with a piece port requests the piece from this port and the whole from all other ports.
-// If an algorithm is upstream of the piece port and of another port, it executes only once, for the
-// last request. Which request is last depends on what is already up to date, and can differ between
-// processes. In this case piece 0 is computed from the whole input, as in filters without a piece
-// port. follows_pieces() detects the case from the connections, which are the same on all
-// processes. It identifies an output by its information object, which connected inputs share.
+// A filter can have a piece port, i.e. an input port that GetPiecePort() returns. It requests the
+// piece from this port and the whole input from all other ports. If an algorithm is upstream of the
+// piece port and of another port, this algorithm executes only once, for the last request. Which
+// request is last depends on what is already up to date, and can differ between processes. In this
+// case piece 0 is computed from the whole input, as in filters without a piece port.
+// follows_pieces() detects the case from the connections, which are the same on all processes. It
+// identifies an output by its information object, which connected inputs share.
 //
 // Blocks: if the first input is a composite, the executive requests all passes once for the whole
 // filter, and then, from REQUEST_DATA_OBJECT to REQUEST_DATA, once per block. In the latter passes
-// the block replaces the composite. The pass REQUEST_DATA_NOT_GENERATED sees the composite directly
-// before the blocks, so it counts them.
+// the block replaces the composite. The pass REQUEST_DATA_NOT_GENERATED comes directly before the
+// passes for the blocks and still sees the composite, so the blocks are counted in this pass.
 #include "vtkBindposeAlgorithm.h"
 
 #include "base/execution.h"
@@ -367,8 +368,9 @@ bool vtkBindposeAlgorithm::IsEmptyPiece(vtkInformationVector** input, vtkInforma
       data->GetNumberOfElements(vtkDataObject::ROW) == 0);
 }
 
-/// Report whether the filter works by pieces: it has a piece port, and no algorithm upstream of
-/// this port is also upstream of another port.
+/// Report whether the filter computes its output piece by piece. This requires an input port for
+/// pieces (GetPiecePort()). An algorithm whose pieces reach this port must not also be upstream of
+/// another input port.
 bool vtkBindposeAlgorithm::WorksByPieces(vtkInformationVector** input)
 {
   const int piece_port = this->GetPiecePort();
@@ -400,7 +402,7 @@ bool vtkBindposeAlgorithm::HasBlocks(int port, vtkDataObject* data)
   return vtkCompositeDataSet::SafeDownCast(data) && !this->TakesComposite(port);
 }
 
-/// Count the blocks of the composite on which the executive works block by block: the first
+/// Count the blocks for which the executive will call the filter. These are the blocks of the first
 /// composite input whose port does not accept composites.
 void vtkBindposeAlgorithm::CountBlocks(vtkInformationVector** input)
 {
@@ -531,7 +533,7 @@ void vtkBindposeAlgorithm::ReportProgress(double fraction, const std::string& ph
 bool vtkBindposeAlgorithm::ExecuteDirectly(
   const std::function<bindpose::Status(bindpose::ExecutionContext& context)>& work)
 {
-  this->SetAbortExecute(0); // as the executive does before an execution
+  this->SetAbortExecute(0); // the executive also does this before an execution
   bindpose::ExecutionContext context([this](double fraction, const std::string& phase)
     { this->ReportProgress(fraction, phase); },
     [this]() { return this->GetAbortExecute() != 0; });

@@ -135,22 +135,23 @@ protected:
     vtkInformation* request, vtkInformationVector** input, vtkInformationVector* output);
   ///@}
 
-  /// Report whether the filter supports pieces without GetPiecePort(): Execute() then produces only
-  /// the requested piece or extent, and RequestUpdateExtent() requests only the necessary input.
-  /// Default: false; see Pieces in the class documentation.
+  /// Report whether the filter implements pieces itself and does not use GetPiecePort(). If true,
+  /// Execute() must produce only the requested piece or extent, and RequestUpdateExtent() must
+  /// request only the necessary input. Default: false; see Pieces in the class documentation.
   virtual bool MakesPieces() { return false; }
 
   /// Report whether a failure of an input ends the execution with the status of this input. If
   /// false, Execute() is called with failed inputs, too. Default: true.
   virtual bool EndsWithFailedInput() { return true; }
 
-  /// Report whether Execute() accepts a whole composite at an input port. Default: false: Execute()
-  /// is called once per block; see Blocks in the class documentation.
+  /// Report whether Execute() accepts a whole composite at an input port. If false (default),
+  /// Execute() is called once per block; see Blocks in the class documentation.
   virtual bool TakesComposite(int vtkNotUsed(port)) { return false; }
 
-  /// Accept composites at an input port in addition to its data type. Call this function in
-  /// FillInputPortInformation() for all ports but the first. The executive works block by block
-  /// only on a composite that a port does not accept, so writers also call it for their first port.
+  /// Accept composites at an input port in addition to the port's data type. Call this function in
+  /// FillInputPortInformation() for all ports but the first. If a port does not accept composites,
+  /// the executive calls the filter once per block. A writer would then write all blocks to the
+  /// same file, so writers call this function for their first port, too.
   static void AcceptBlocks(vtkInformation* port);
 
   /// Request the whole input, not a piece. Call this in RequestUpdateExtent().

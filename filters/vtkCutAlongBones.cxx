@@ -24,8 +24,8 @@ vtkStandardNewMacro(vtkCutAlongBones);
 
 namespace
 {
-/// Cell arrays with the colors of bones (left and right sides) and of other handles; null if
-/// absent.
+/// Three cell arrays of colors: for the left sides of bones, for the right sides of bones, and for
+/// handles that are not bones. Null if absent.
 struct ColorArrays
 {
   vtkDataArray* left = nullptr;

@@ -54,15 +54,15 @@ public:
   ///@}
 
   ///@{
-  /// Length of one layer along z, above 0. With 0 (default) it is a thousandth of the mesh's
-  /// bounding-box diagonal.
+  /// Length of one layer along z. Default 0: a thousandth of the mesh's bounding-box diagonal.
   vtkSetClampMacro(Scale, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Scale, double);
   ///@}
 
   ///@{
-  /// Depth added to the last handle relative to the first, in layers, >= 0; handles in between get
-  /// proportional amounts. This orders handles of equal layers. Default 0.001.
+  /// Additional displacement at the last handle of the list, in layers; at least 0, default 0.001.
+  /// It decreases linearly along the list to 0 at the first handle. Of two handles with equal
+  /// layers, the later one is therefore in front.
   vtkSetClampMacro(Tie, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Tie, double);
   ///@}

@@ -103,8 +103,8 @@ Status vtkGLTFSkinReader::Execute(
   mesh->ShallowCopy(data.mesh);
   handles->ShallowCopy(data.handles);
   int frame = this->Frame;
-  // If times are requested from both outputs, use that of the handles (port 1), because the mesh is
-  // the same at all times.
+  // If each output has a requested time, use the time that is requested for the handles (port 1),
+  // because the mesh is the same at all times.
   for (int port = 0; port < 2; ++port)
   {
     double time = 0.0;

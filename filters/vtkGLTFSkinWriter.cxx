@@ -45,8 +45,8 @@ struct Surface
   }
 };
 
-/// Return the surface to write. All points of a surface are kept, in order; of tets only the points
-/// on the boundary are kept.
+/// Return the surface to write. For a surface, all points are kept, in order. For tets, only the
+/// points on the boundary are kept.
 Status to_written_surface(vtkDataSet* mesh, Surface& surface)
 {
   Domain domain;
@@ -287,7 +287,8 @@ int vtkGLTFSkinWriter::FillInputPortInformation(int port, vtkInformation* info)
   info->Set(INPUT_REQUIRED_DATA_TYPE(), port == 1 ? "vtkPolyData" : "vtkPointSet");
   info->Set(INPUT_IS_OPTIONAL(), port > 0);
   info->Set(INPUT_IS_REPEATABLE(), port == 2);
-  AcceptBlocks(info); // otherwise each block would be written to the same file
+  // The executive would otherwise write all blocks of a composite to the same file.
+  AcceptBlocks(info);
   return 1;
 }
 

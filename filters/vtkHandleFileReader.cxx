@@ -53,7 +53,7 @@ Status read_tgf(const std::string& path, vtkPolyData* output)
 Status read_vtp(const std::string& path, vtkPolyData* output)
 {
   vtkNew<vtkMeshFileReader> reader;
-  // Silence the reader, because this filter's status repeats its message.
+  // Do not print the reader's errors, because this filter's status contains the error message.
   vtkNew<vtkCallbackCommand> silent;
   reader->AddObserver(vtkCommand::ErrorEvent, silent);
   reader->SetFileName(path.c_str());

@@ -198,7 +198,8 @@ int vtkMeshFileWriter::Write()
 int vtkMeshFileWriter::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
-  AcceptBlocks(info); // so that Execute(), not the executive, rejects composites
+  // The executive would otherwise write all blocks of a composite to the same file.
+  AcceptBlocks(info);
   return 1;
 }
 

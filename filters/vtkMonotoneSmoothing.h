@@ -88,7 +88,8 @@ public:
   ///@}
 
   ///@{
-  /// Name of the point array of extrema, "Extrema" by default; an empty name disables it.
+  /// Name of the point array with the list of extrema. Default "Extrema". If the name is empty, no
+  /// such array is used.
   void SetExtremaArrayName(const std::string& name);
   std::string GetExtremaArrayName() { return this->ExtremaArrayName; }
   ///@}

@@ -35,8 +35,8 @@ vtkStandardNewMacro(vtkPoseHandles);
 struct vtkPoseHandles::Internals
 {
   GltfFile gltf;
-  /// Source of the last warnings, stored so that warnings are issued only once per source: path of
-  /// the pose file, or an empty string for PoseJSON.
+  /// Source of the last warnings: the pose file, or an empty string for PoseJSON. It is stored so
+  /// that the warnings of a source are issued only once.
   std::optional<std::string> warned_source;
 };
 
@@ -73,8 +73,8 @@ bool vtkPoseHandles::HasExtension(const char* extensions) const
   return this->FileName && is_listed(file_extension(this->FileName), extensions);
 }
 
-/// Return the text of the pose. `source` becomes the beginning of messages: the file name, empty
-/// for PoseJSON.
+/// Return the text of the pose. `source` is set to the beginning of messages about the text: the
+/// file name and a colon, or an empty string if the text is PoseJSON.
 Status vtkPoseHandles::ReadText(std::string& text, std::string& source)
 {
   text = this->PoseJSON;
@@ -232,8 +232,8 @@ Status vtkPoseHandles::ReadDMAT(const Handles& handles, Pose& pose)
         " does not exist; the file has 1 frame, frame 0");
 }
 
-/// Assign the transforms of the frame at `time`, or of Frame, to the handles by name. Handles that
-/// are not joints follow their parents.
+/// Assign the transforms of one frame to the handles by name: the frame at `time`, or frame number
+/// Frame if `time` is null. Handles that are not joints follow their parents.
 Status vtkPoseHandles::ReadGLTF(const Handles& handles, const double* time, Pose& pose)
 {
   const std::string path = this->FileName;

@@ -79,7 +79,7 @@ public:
 
   ///@{
   /// Path of the pose file: .json, .dmat, or a .glb or .gltf file with an animation. The file is
-  /// read again at every update. If it is set, PoseJSON is not used.
+  /// read again at every update. If a path is set, PoseJSON is not used.
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
   ///@}
@@ -91,14 +91,15 @@ public:
   ///@}
 
   ///@{
-  /// Value of `t` in the expressions of a single pose if the pipeline requests no time, in seconds.
-  /// Default 0.
+  /// Value of `t`, in seconds, in the expressions of a single pose. Used if the pipeline requests
+  /// no time. Default 0.
   vtkSetMacro(Time, double);
   vtkGetMacro(Time, double);
   ///@}
 
   ///@{
-  /// End of the time range of expressions, in seconds, >= 0. Default 10.
+  /// End of the time range that a pose with expressions provides to the pipeline, in seconds; at
+  /// least 0, default 10.
   vtkSetClampMacro(EndTime, double, 0.0, 1e9);
   vtkGetMacro(EndTime, double);
   ///@}

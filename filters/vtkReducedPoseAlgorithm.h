@@ -20,9 +20,9 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// Number of clusters, sets of vertices with similar weights; one rotation is fitted per cluster
-  /// and iteration. Default 0: four clusters per handle and per additional weight function (see
-  /// NumberOfExtraWeights). This is a bind parameter.
+  /// Number of clusters. A cluster is a set of vertices with similar weights; one rotation is
+  /// fitted per cluster and iteration. Default 0: four clusters per handle and per additional
+  /// weight function (see NumberOfExtraWeights). This is a bind parameter.
   void SetNumberOfClusters(int clusters);
   vtkGetMacro(NumberOfClusters, int);
   ///@}

@@ -55,16 +55,18 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// The processes. Default: the global controller. Without a controller there is one process.
+  /// Controller of the processes that exchange data. Default: the global controller. If the
+  /// controller is null, there is only one process.
   virtual void SetController(vtkMultiProcessController* controller);
   vtkGetObjectMacro(Controller, vtkMultiProcessController);
   ///@}
 
-  /// Number of completed exchanges. With only one process, each copy of a changed input counts.
+  /// Number of completed exchanges. With only one process nothing is exchanged; the number then
+  /// counts the updates after a change of the input.
   vtkGetMacro(NumberOfExchanges, int);
 
-  /// Set the executive. An executive of a class other than the filter's own is ignored, because
-  /// only the filter's own executive always takes part in exchanges.
+  /// Set the executive. The filter ignores an executive unless it has the class of the default
+  /// executive, because executives of other classes do not always take part in exchanges.
   void SetExecutive(vtkExecutive* executive) override;
 
 protected:

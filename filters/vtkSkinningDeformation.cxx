@@ -51,7 +51,7 @@ struct vtkSkinningDeformation::Internals
 {
   SkinningBind bind;
   SharedMatrix<Weights> endpoints; // endpoint weights; no rows if the mesh has none
-  /// Return the shape, with endpoint weights.
+  /// Return the shape that the kernel poses: points, weights, handles and endpoint weights.
   SkinnedShape shape(const PoseInput& input) const
   {
     return { input.points, input.weights, input.handles, this->endpoints.view() };

@@ -75,7 +75,8 @@ public:
   void SetMethodToCentersOfRotation() { this->SetMethod(CENTERS_OF_ROTATION); }
   ///@}
 
-  /// Return the port of the mesh if each point depends only on its own weights, otherwise -1.
+  /// Return the port of the mesh if the method can pose a piece of the mesh alone, i.e. if a posed
+  /// point depends only on the weights of this point. Otherwise return -1.
   int GetPiecePort() override;
 
   enum PseudoEdgesType

@@ -134,8 +134,9 @@ public:
 
   ///@{
   /**
-   * Winding number at or above which a point is inside, above 0; default 0.5. With larger values
-   * the boundary across an opening moves inwards; 1.5 keeps only regions that are enclosed twice.
+   * Winding number at or above which a point is inside. Must be above 0; default 0.5. With larger
+   * values the boundary across an opening moves inwards; 1.5 keeps only regions that are enclosed
+   * twice.
    */
   vtkSetMacro(WindingThreshold, double);
   vtkGetMacro(WindingThreshold, double);
@@ -163,17 +164,17 @@ public:
   ///@}
 
   ///@{
-  /// Weight of the boundary's area in GRAPH_CUT relative to the winding numbers, >= 0; a larger
-  /// weight gives a smaller boundary. Default 1.
+  /// GRAPH_CUT: weight of the boundary's area in the energy, relative to the term of the winding
+  /// numbers. Must be at least 0; default 1. With a larger weight the boundary is smaller.
   vtkSetMacro(CutSmoothness, double);
   vtkGetMacro(CutSmoothness, double);
   ///@}
 
   ///@{
   /**
-   * Scale of the differences of winding numbers in GRAPH_CUT, above 0; default 0.1. A face of the
-   * boundary costs its area times exp(-d^2 / (2 CutSigma^2)), where d is the difference of the
-   * winding numbers of its two tets. With larger values the cost depends less on d.
+   * GRAPH_CUT: scale of the differences of winding numbers. Must be above 0; default 0.1. A face of
+   * the boundary costs its area times exp(-d^2 / (2 CutSigma^2)), where d is the difference of the
+   * winding numbers of its two tets. With a larger scale the cost depends less on d.
    */
   vtkSetMacro(CutSigma, double);
   vtkGetMacro(CutSigma, double);
@@ -181,10 +182,10 @@ public:
 
   ///@{
   /**
-   * Number of lattice cubes along the longest side of the surface's box, 4 to 1000 (REMESH, EMBED).
+   * REMESH, EMBED: number of lattice cubes along the longest side of the surface's box. Must be 4
+   * to 1000, or 0 (default): 40 for REMESH, and the resolution with about 30,000 tets for EMBED.
    * The edges of REMESH's tets are 0.2 to 1.4 times as long as a cube. The number of tets grows
-   * with the cube of the resolution: a solid block has 12 tets per lattice cube. 0 (default): 40
-   * for REMESH, and the resolution with about 30,000 tets for EMBED.
+   * with the cube of the resolution: a solid block has 12 tets per lattice cube.
    */
   vtkSetClampMacro(Resolution, int, 0, 1000);
   vtkGetMacro(Resolution, int);
@@ -206,10 +207,10 @@ public:
 
   ///@{
   /**
-   * Smallest allowed dihedral angle of a tet in degrees, 0 to 20; 0 (default): as large as the
+   * Smallest allowed dihedral angle of a tet, from 0 to 20 degrees; 0 (default): as large as the
    * surface's triangles allow. If the triangles do not allow the requested angle, AUTO uses a
-   * method that does not keep the triangles. REMESH reaches 10.7 degrees on any surface. A result
-   * with a smaller angle is NOT_CONVERGED.
+   * method that does not keep the triangles. REMESH reaches 10.7 degrees on any surface. If a tet
+   * has a smaller angle, the status is NOT_CONVERGED.
    */
   vtkSetMacro(Quality, double);
   vtkGetMacro(Quality, double);
@@ -227,11 +228,11 @@ public:
 
   ///@{
   /**
-   * Longest interior edge of CDT and WRAP, as a fraction of the surface's diagonal, >= 0. Default 0
-   * (automatic): edges are as long as the surface's own edges nearby and longer with increasing
-   * distance from the surface, which gives about 4.5 tets per triangle. Smooth weights need points
-   * inside, in addition to those on the surface. For FTETWILD this is the target length of all
-   * edges; 0 means fTetWild's default 0.05.
+   * CDT, WRAP: longest interior edge, as a fraction of the surface's diagonal. Must be at least 0.
+   * Default 0 (automatic): edges are as long as the surface's own edges nearby and longer with
+   * increasing distance from the surface, which gives about 4.5 tets per triangle. Smooth weights
+   * need points inside, in addition to those on the surface. For FTETWILD this is the target length
+   * of all edges; 0 means fTetWild's default 0.05.
    */
   vtkSetMacro(InteriorEdge, double);
   vtkGetMacro(InteriorEdge, double);
@@ -251,10 +252,10 @@ public:
 
   ///@{
   /**
-   * Radius of the ball that carves the wrap of WRAP from outside, as a fraction of the surface's
-   * diagonal, 0.0001 to 1; default 0.02. Gaps narrower than twice this radius are closed, and edges
-   * are up to about twice as long as the radius. The number of triangles and the time grow with 1 /
-   * WrapAlpha^2.
+   * WRAP: radius of the ball that carves the wrap from outside, as a fraction of the surface's
+   * diagonal. Must be 0.0001 to 1; default 0.02. Gaps narrower than twice this radius are closed,
+   * and edges are up to about twice as long as the radius. The number of triangles and the time
+   * grow with 1 / WrapAlpha^2.
    */
   vtkSetMacro(WrapAlpha, double);
   vtkGetMacro(WrapAlpha, double);
@@ -262,8 +263,8 @@ public:
 
   ///@{
   /**
-   * Distance of the wrap's points from the surface, as a fraction of the diagonal, 0.000001 to 1;
-   * default 0.001. The shell around an open sheet is twice as thick.
+   * WRAP: distance of the wrap's points from the surface, as a fraction of the surface's diagonal.
+   * Must be 0.000001 to 1; default 0.001. The shell around an open sheet is twice as thick.
    */
   vtkSetMacro(WrapOffset, double);
   vtkGetMacro(WrapOffset, double);
@@ -271,8 +272,8 @@ public:
 
   ///@{
   /**
-   * Largest distance between the boundary of FTETWILD's tets and the surface, as a fraction of its
-   * diagonal, 0.00001 to 0.1; default 0.001. Smaller values take longer.
+   * FTETWILD: largest distance between the boundary of the tets and the surface, as a fraction of
+   * the surface's diagonal. Must be 0.00001 to 0.1; default 0.001. Smaller values take longer.
    */
   vtkSetMacro(FtetwildEpsilon, double);
   vtkGetMacro(FtetwildEpsilon, double);

@@ -31,7 +31,8 @@ struct vtkTransferWeights::Cache
 
 namespace
 {
-/// Return an array of doubles with undefined values and the name and components of an array.
+/// Create an array of doubles with the name, the number of components and the component names of
+/// `weights`. The values are not initialized.
 vtkSmartPointer<vtkDoubleArray> array_like(vtkDataArray* weights, vtkIdType tuples)
 {
   auto array = vtkSmartPointer<vtkDoubleArray>::New();

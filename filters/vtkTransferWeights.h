@@ -55,8 +55,8 @@ public:
   /// Number of times that weights were transferred.
   vtkGetMacro(NumberOfBinds, int);
 
-  /// Return the port of the target. Each of its points gets its weights independently of the
-  /// others.
+  /// Return the port of the target. Each process can transfer weights to its own piece of the
+  /// target, because the weights of a point do not depend on other points of the target.
   int GetPiecePort() override { return 0; }
 
   /// Set the mesh with weights, like SetInputData(1, mesh).

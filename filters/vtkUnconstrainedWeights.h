@@ -58,21 +58,21 @@ public:
   ///@}
 
   ///@{
-  /// inverse-distance: the exponent, above 0. Default 2.
+  /// inverse-distance: the exponent. Must be above 0; default 2.
   void SetPower(double power);
   vtkGetMacro(Power, double);
   ///@}
 
   ///@{
-  /// smoothed-harmonic: the smoothing length, as a fraction of the bounding-box diagonal, >= 0.
-  /// Default 0.05.
+  /// smoothed-harmonic: the smoothing length, as a fraction of the bounding-box diagonal. Must be
+  /// at least 0; default 0.05.
   void SetSmoothing(double smoothing);
   vtkGetMacro(Smoothing, double);
   ///@}
 
   ///@{
-  /// bone-heat: heat factor, above 0; a larger factor makes weights change faster between handles.
-  /// Default 1.
+  /// bone-heat: the heat factor. Must be above 0; default 1. A larger factor makes weights change
+  /// faster between handles.
   void SetHeat(double heat);
   vtkGetMacro(Heat, double);
   ///@}

@@ -84,8 +84,8 @@ public:
   ///@}
 
   ///@{
-  /// NARROW: half of the band's width, i.e. the width on each side of the surface, in voxels along
-  /// each axis, 1 … 2^30. Default: 3.
+  /// NARROW: width of the band on each side of the surface, in voxels along each axis. Must be 1 to
+  /// 2^30. Default: 3.
   vtkSetClampMacro(BandWidth, int, 1, 1 << 30);
   vtkGetMacro(BandWidth, int);
   ///@}

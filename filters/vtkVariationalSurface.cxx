@@ -1,4 +1,5 @@
-// Connects the kernel bindpose::VariationalSurface to VTK: arrays of the mesh become its options.
+// Connects the kernel bindpose::VariationalSurface to VTK. Point arrays of the mesh are converted
+// to options of the kernel.
 #include "vtkVariationalSurface.h"
 
 #include "fairing/variational_surface.h"

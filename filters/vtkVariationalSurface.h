@@ -69,8 +69,9 @@ public:
   void PrintSelf(ostream& os, vtkIndent indent) override;
 
   ///@{
-  /// Order: 1 sets the Laplacian of the positions to 0 (membrane), 2 the squared Laplacian (thin
-  /// plate), 3 its cube. Default 2. This is a bind parameter: a change runs the bind again.
+  /// Exponent of the Laplacian in the equation Laplacian^Order x = 0: 1 (membrane), 2 (thin plate)
+  /// or 3 (smoother than a thin plate). Default 2. This is a bind parameter: a change runs the bind
+  /// again.
   void SetOrder(int order);
   vtkGetMacro(Order, int);
   ///@}
@@ -142,9 +143,9 @@ public:
   ///@}
 
   ///@{
-  /// Name of the mesh's point array (3 components) of the right-hand side of (-Laplacian)^Order x =
-  /// load, which inflates the patch; zero if absent. Default "Load"; the array is optional. This is
-  /// a bind parameter.
+  /// Name of the mesh's point array of loads (3 components). The load is the right-hand side of the
+  /// equation (-Laplacian)^Order x = load; it inflates the patch. Default "Load". If the mesh has
+  /// no such array, the load is zero. This is a bind parameter.
   void SetLoadArrayName(const std::string& name);
   std::string GetLoadArrayName() { return this->LoadArrayName; }
   ///@}

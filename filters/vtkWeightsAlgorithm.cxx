@@ -49,7 +49,7 @@ bool is_integral(vtkDataArray* array)
   return array && array->GetDataType() != VTK_FLOAT && array->GetDataType() != VTK_DOUBLE;
 }
 
-/// Return a copy of an array that also has values at the inserted points.
+/// Return a copy of a point array, extended by interpolated values at the inserted points.
 vtkSmartPointer<vtkAbstractArray> extend_array(
   vtkAbstractArray* array, vtkIdType count, const std::vector<InsertedVertex>& inserted)
 {
@@ -192,7 +192,8 @@ void SolvedMesh::write(vtkPointSet* mesh, vtkPointSet* output) const
   }
 }
 
-/// Write the points and cells of the mesh with inserted points, and extend its arrays.
+/// Write the refined mesh (the mesh with inserted points and split cells) to `output`. The arrays
+/// of the original `mesh` are copied and extended to the new points and cells.
 void SolvedMesh::refine(vtkPointSet* mesh, vtkPointSet* output) const
 {
   output->Initialize();
@@ -467,8 +468,9 @@ Status vtkWeightsAlgorithm::Bind(
   };
   const auto send_preview = [&](const Weights& weights)
   { this->InvokeEvent(PreviewEvent, to_weights_array(array_name, weights, handles)); };
-  // Compute no preview if there are rigid sets, because the preview ignores them. Its energy would
-  // be singular if only rigid sets connect a component without handles to other components.
+  // Compute no preview if there are rigid sets, because the preview ignores them. Without rigid
+  // sets, a component that has no handles may be disconnected from all handles. The energy of the
+  // preview would then be singular.
   const bool wants_preview =
     this->Stage == CERTIFIED && this->HasObserver(PreviewEvent) && options.terms.rigid_sets.empty();
   if (domain.is_volume() || this->Domain == SURFACE)
@@ -582,7 +584,8 @@ Status vtkWeightsAlgorithm::Execute(
       return status;
     }
     new_cache.status = status;
-    // Add the seconds of the bind, so that each output has them until the next bind.
+    // Store the seconds of the bind in the cached report, so that all reports contain them until
+    // the next bind.
     new_cache.status.report.merge(context.seconds());
     new_cache.key = key;
     new_cache.valid = true;

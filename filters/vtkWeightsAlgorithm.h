@@ -116,8 +116,9 @@ public:
 
   ///@{
   /**
-   * Largest accepted relative gap and residual of a column, in (0, 1). Default 1e-6; 1e-9 is
-   * strict. All parameters of this class are bind parameters: a change computes the weights again.
+   * Largest accepted relative gap and residual of a column. Must be above 0 and below 1. Default
+   * 1e-6; 1e-9 is strict. All parameters of this class are bind parameters: a change computes the
+   * weights again.
    */
   void SetTolerance(double tolerance);
   vtkGetMacro(Tolerance, double);
@@ -206,9 +207,9 @@ public:
   };
 
   ///@{
-  /// Number of lattice cubes along the longest side for EMBEDDING and AUTO, 6 to 1000. Default 0:
-  /// lattices of increasing resolution are solved until the weights of two successive lattices
-  /// agree.
+  /// EMBEDDING, AUTO: number of lattice cubes along the longest side. Must be 6 to 1000, or 0
+  /// (default): lattices of increasing resolution, at most three, are solved until the weights of
+  /// two successive lattices agree.
   void SetEmbeddingResolution(vtkIdType resolution);
   vtkGetMacro(EmbeddingResolution, vtkIdType);
   ///@}

@@ -1,8 +1,9 @@
 // Connects the kernels of winding_field.h to VTK. The kernels compute the winding numbers; this
-// filter determines the samples and the form of the output. The grid follows from the surface's
-// bounds, which the pipeline requires before it requests data, so RequestInformation updates the
+// filter determines the samples and the form of the output. The pipeline needs the grid before it
+// requests data. The grid depends on the bounds of the surface, so RequestInformation() updates the
 // surface. Execute() computes the grid again from its input surface. If the result differs from the
-// announced grid, Execute() ignores the requested extent and computes the whole grid.
+// announced grid, Execute() ignores the requested extent and computes the winding numbers of the
+// whole grid.
 //
 // Arrays of doubles are filled directly by the kernels; arrays of floats are filled block by block
 // through a buffer. The values do not depend on the blocks.
@@ -473,8 +474,8 @@ bindpose::Status vtkWindingNumberField::Grid(vtkPointSet* input, bindpose::Sampl
 
 namespace
 {
-/// Return the power of 4 that is nearest to a number of points. The acceleration structure depends
-/// on this power only, so that values do not depend on earlier evaluations.
+/// Round a number of points to a power of 4. The acceleration structure depends only on the rounded
+/// number, so that values do not depend on earlier evaluations.
 bindpose::Index size_class(bindpose::Index points)
 {
   return bindpose::Index(1) << 2 *
@@ -487,11 +488,11 @@ bindpose::Index size_class(bindpose::Index points)
 bindpose::Box query_region(vtkDataSet* points, vtkDataSet* surface)
 {
   constexpr double padding = 0.1; // in bounding-box diagonals; the default Padding of grids
-  constexpr double cells = 16.0; // along each axis
+  constexpr double cells = 16.0; // number of cells of the coarse grid along each axis
   const double* bounds = points->GetBounds();
   const double* around = surface->GetBounds();
   const double diagonal = surface->GetLength();
-  if (!std::isfinite(diagonal)) // an unused point is not finite
+  if (!std::isfinite(diagonal)) // unused points may have coordinates that are not finite
   {
     return {};
   }
@@ -503,7 +504,7 @@ bindpose::Box query_region(vtkDataSet* points, vtkDataSet* surface)
     const double cell = (around[2 * k + 1] + padding * diagonal - lower) / cells;
     const double first = std::max(0.0, std::floor((bounds[2 * k] - lower) / cell));
     const double end = std::min(cells, std::floor((bounds[2 * k + 1] - lower) / cell) + 1.0);
-    if (!(first < end)) // no points near the surface
+    if (!(first < end)) // all points are far from the surface
     {
       return {};
     }
@@ -523,7 +524,8 @@ bindpose::Status vtkWindingNumberField::Build(
   options.tolerance = this->Tolerance;
   options.orient = this->OrientPatches;
   options.area_array = this->AreaArrayName;
-  // A gradient takes several times as long as a value, so a sample with a gradient counts as nine.
+  // Count a sample with a gradient as nine queries, because a gradient takes several times as long
+  // as a value.
   options.expected_queries = size_class(queries * (this->ComputeGradient ? 9 : 1));
   if (points)
   {

@@ -118,7 +118,7 @@ public:
   ///@}
 
   ///@{
-  /// Largest allowed error of FAST, 1e-8 … 0.1; default 1e-3.
+  /// FAST: largest allowed error. Must be 1e-8 to 0.1; default 1e-3.
   vtkSetClampMacro(Tolerance, double, 1e-8, 0.1);
   vtkGetMacro(Tolerance, double);
   ///@}
@@ -150,22 +150,22 @@ public:
   ///@}
 
   ///@{
-  /// Number of samples along x, y, z, each at least 1. With 0, 0, 0 (default) another option
-  /// determines the numbers.
+  /// Numbers of samples along x, y, z. Each must be at least 1. If all are 0 (default), another
+  /// option determines the numbers.
   vtkSetVector3Macro(Dimensions, int);
   vtkGetVector3Macro(Dimensions, int);
   ///@}
 
   ///@{
-  /// Distance between samples along x, y, z, in world units, above 0. With 0, 0, 0 (default)
-  /// another option determines the distance.
+  /// Distances between samples along x, y, z, in world units. Each must be above 0. If all are 0
+  /// (default), another option determines the distances.
   vtkSetVector3Macro(Spacing, double);
   vtkGetVector3Macro(Spacing, double);
   ///@}
 
   ///@{
-  /// Maximum number of samples, at least 8: the grid is the finest one of cubic voxels within this
-  /// limit. With 0 (default) Resolution determines the grid.
+  /// Maximum number of samples. Must be at least 8. The voxels are cubes, as small as this maximum
+  /// allows. If the maximum is 0 (default), Resolution determines the grid.
   vtkSetClampMacro(TargetNumberOfSamples, vtkIdType, 0, VTK_ID_MAX);
   vtkGetMacro(TargetNumberOfSamples, vtkIdType);
   ///@}
@@ -186,14 +186,15 @@ public:
   ///@}
 
   ///@{
-  /// Padding on each side of the surface's bounds, as a fraction of their diagonal, >= 0; default
-  /// 0.1. Not used with Bounds.
+  /// Distance that is added on each side of the surface's bounds, as a fraction of the diagonal of
+  /// the bounds. Must be 0 to 1000; default 0.1. Not used with Bounds.
   vtkSetClampMacro(Padding, double, 0.0, 1000.0);
   vtkGetMacro(Padding, double);
   ///@}
 
   ///@{
-  /// Points at which to evaluate, instead of a grid (input 1).
+  /// Input 1: points at which to evaluate the field. Without input 1, the field is evaluated on a
+  /// grid.
   void SetPointsConnection(vtkAlgorithmOutput* output) { this->SetInputConnection(1, output); }
   void SetPointsData(vtkDataSet* data);
   ///@}
@@ -206,7 +207,8 @@ public:
   ///@}
 
   ///@{
-  /// Add the array `WindingNumberGradient`, per world unit; default off.
+  /// Add the array `WindingNumberGradient`: derivatives of the winding number along x, y, z per
+  /// world unit. Default off.
   vtkSetMacro(ComputeGradient, bool);
   vtkGetMacro(ComputeGradient, bool);
   vtkBooleanMacro(ComputeGradient, bool);
@@ -227,7 +229,7 @@ public:
 
   ///@{
   /// Type of the values: vtkAlgorithm::DOUBLE_PRECISION (default; DEFAULT_PRECISION means the same)
-  /// or SINGLE_PRECISION. They are always computed in double precision.
+  /// or SINGLE_PRECISION. The values are always computed in double precision.
   vtkSetClampMacro(OutputPrecision, int, SINGLE_PRECISION, DEFAULT_PRECISION);
   vtkGetMacro(OutputPrecision, int);
   ///@}
@@ -239,8 +241,8 @@ public:
   /// Return the open boundary of the surface: output 1.
   vtkPolyData* GetBoundaryOutput();
 
-  /// Number of times that an acceleration structure was built; evaluations at other points do not
-  /// count.
+  /// Number of acceleration structures that were built so far. Evaluations that reuse the cached
+  /// structure do not change the number.
   vtkGetMacro(NumberOfBuilds, int);
 
 protected:

@@ -68,7 +68,7 @@ SURFACE = ["triangles", "boundary_edges", "nonmanifold_edges", "misoriented_edge
            "duplicate_triangles", "degenerate_triangles", "self_intersections", "components", "inward_components"]
 RUN = ["outcome", "message", "exit", "status", "seconds", "user_seconds", "peak_mb", "method", "rungs_failed", "tets",
        "min_dihedral", "below_5", "forced", "phases", "warnings"]
-# Report entries of the verb `weights`.
+# Columns for the verb `weights` only.
 SOLVE = ["domain", "domain_reason", "relative_gap", "kkt_residual", "guard_rms", "leak"]
 COLUMNS = ["name", "bytes", *SURFACE, *(f"weights_{key}" for key in [*RUN, *SOLVE]), *(f"tets_{key}" for key in RUN)]
 
@@ -249,8 +249,8 @@ def run_model(options, pool, model):
         for prefix in options.prefixes:
             cells, report = run_verb(options, pool, prefix, path, folder)
             row.update({f"{prefix}_{key}": "" if value is None else value for key, value in cells.items()})
-            # Each verb overwrites these columns. The last verb is `tetrahedralize`, which describes the surface as it
-            # is in the file.
+            # Each verb overwrites the columns in SURFACE. The final values are those of the last verb,
+            # `tetrahedralize`, whose report describes the surface as it is in the file.
             row.update({key: report["counts"][key] for key in SURFACE if key in report.get("counts", {})})
     return row
 

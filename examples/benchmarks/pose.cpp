@@ -1,12 +1,14 @@
-// Benchmarks of pose time on one thread. For reduced as-rigid-as-possible (ARAP) deformation, the
-// benchmarks vary the numbers of handles and clusters and the energy. They measure iterations, the
-// bind, its memory, and changes of modes. Three mesh sizes show that the time of an iteration does
-// not depend on the mesh. The time of full ARAP depends only on the mesh. Further rows measure
-// skinning of 100k vertices, the report of stretch, and a crowd.
+// Benchmarks of pose time on one thread:
+// - Reduced as-rigid-as-possible (ARAP) deformation: time of an iteration, of the bind and of a
+//   change of modes, and memory of the bind. The rows differ in the number of handles, the number
+//   of clusters and the energy. Three mesh sizes show that the time of an iteration does not depend
+//   on the mesh.
+// - Full ARAP: time of an iteration, which depends only on the mesh.
+// - Skinning of 100k vertices, the report of stretch, a crowd, and rotation fits.
 //
-// Weights are inverse distances, which need no solver. The weights of the crowd, and of skinning
-// where stated, are bounded biharmonic. pose_table.py creates the tables of README.md from the
-// results.
+// Weights are inverse distances, which need no solver. Exceptions are the crowd and the skinning
+// rows with the argument `bounded`, which use bounded biharmonic weights. pose_table.py creates the
+// tables of README.md from the results.
 #include "surfaces.h"
 
 #include "arap/crowd.h"
@@ -42,7 +44,8 @@ struct Rig
   Weights weights;
 };
 
-/// Return weights 1 / distance^4 with rows divided by their sums; 1 at the handle itself.
+/// Return weights 1 / distance^4, #V x #handles, with rows divided by their sums. At the position
+/// of a handle, the weight of this handle is 1.
 Weights distance_weights(const Points& points, const Handles& handles)
 {
   Weights weights(points.rows(), static_cast<Index>(handles.size()));
@@ -56,7 +59,7 @@ Weights distance_weights(const Points& points, const Handles& handles)
   return (weights.array().colwise() / weights.rowwise().sum().array()).matrix();
 }
 
-/// Return a closed surface and point handles that are spread over it (farthest points), without
+/// Return a closed surface with `count` point handles at farthest points of the surface, without
 /// weights.
 Rig make_bare_rig(Index triangles, Index count)
 {

@@ -8,7 +8,8 @@ namespace bindpose::benchmarks
 
 namespace
 {
-/// Return a sphere of vertices on circles of latitude, with one vertex at each pole.
+/// Return a bumpy sphere. Its vertices are the two poles and the points of a grid of latitudes and
+/// longitudes.
 TriangleMesh rings(Index triangles)
 {
   const Index across = std::max<Index>(4, std::llround(std::sqrt(0.25 * triangles)));

@@ -90,8 +90,8 @@ WeightsProblem problem_of(Index cells, int handles)
   return problem;
 }
 
-/// Return the seconds of one factorization by CHOLMOD in double precision: the unit of time F. The
-/// matrix is the biharmonic energy, restricted to the unconstrained vertices.
+/// Return F in seconds: the time of one factorization by CHOLMOD in double precision. The matrix is
+/// the biharmonic energy, restricted to the unconstrained vertices.
 double seconds_of_f(const WeightsProblem& problem)
 {
   const SplitForm form(harmonic_energy(problem.stiffness, problem.mass, 2), problem.fixed);

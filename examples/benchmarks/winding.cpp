@@ -70,8 +70,9 @@ double direct_nanoseconds()
   return nanoseconds;
 }
 
-/// Return `count` triangles at random positions and orientations. Their edge length is that of a
-/// surface with this number of triangles.
+/// Return `count` separate triangles with random positions and orientations in the box [-1, 1]^3.
+/// Their size is proportional to 1 / sqrt(count), as in a surface of fixed area with `count`
+/// triangles.
 TriangleMesh random_triangles(Index count)
 {
   Random random(3);
@@ -328,7 +329,7 @@ const bool registered = []
   using M = WindingMethod;
   const char* const places[] = { "grid", "scattered", "near", "far_from_origin" };
   const std::vector<Row> rows{
-    // Closed surfaces, computed exactly.
+    // Closed surfaces, for which the automatic method is exact.
     { "elephant", 0, grid, 64, M::automatic, 1e-3, 1 },
     { "elephant", 0, grid, 128, M::automatic, 1e-3, 1 },
     { "elephant", 0, grid, 256, M::automatic, 1e-3, 1 },
@@ -340,7 +341,7 @@ const bool registered = []
     { "closed", 86000, scattered, 0, M::automatic, 1e-3, 1 },
     { "closed", 86000, near, 0, M::automatic, 1e-3, 1 },
     { "closed", 86000, far_from_origin, 0, M::automatic, 1e-3, 1 },
-    // Open surfaces, within a tolerance and exactly.
+    // Open surfaces, with the fast method at several tolerances, and with the exact method.
     { "holes", 0, grid, 128, M::fast, 1e-3, 1 },
     { "holes", 0, scattered, 0, M::fast, 1e-3, 1 },
     { "holes", 0, scattered, 0, M::fast, 1e-6, 1 },

@@ -1,4 +1,4 @@
-"""Generated surfaces as pairs of arrays (vertices #V x 3, triangles #F x 3), and the textbook sum."""
+"""Generated surfaces as pairs of arrays (vertices #V x 3, triangles #F x 3), and the direct sum of solid angles."""
 
 import numpy as np
 

@@ -18,12 +18,12 @@ void set_time_steps(vtkInformation* output, const std::vector<double>& times);
 /// fewer than two frames, remove the time steps.
 void set_frame_times(vtkInformation* output, int frames, double frames_per_second);
 
-/// Report whether the pipeline requests a time from a port with time steps. If so, set `time` to
-/// the requested time in seconds.
+/// Report whether the pipeline requests a time from a port that provides times (TIME_RANGE). If so,
+/// set `time` to the requested time in seconds.
 bool requested_time(vtkInformation* output, double& time);
 
-/// Return the frame that is shown at a time in seconds: the last frame whose time is not later,
-/// clamped to the first and last frames.
+/// Return the index of the frame that is shown at `time` (seconds): the last frame at or before
+/// `time`. Return the first frame if `time` is before all frames.
 int frame_at(double time, int frames, double frames_per_second);
 
 } // namespace bindpose

@@ -1,7 +1,7 @@
 // Conversion between handles and glTF joints. A glTF joint has a frame and a parent, but no tail
 // and no handle type. Bindpose writes these properties of a handle into the extras of its joint
-// (`joint.handle_extras`). Files of other programs lack these extras. The children of such a joint
-// determine the tail of its bone.
+// (`joint.handle_extras`). Files of other programs lack these extras. The tail of a bone is then
+// the mean position of the joint's children.
 #include "gltf_data.h"
 
 #include "pose/transform_parts.h"

@@ -62,8 +62,8 @@ Status to_handle_geometry(vtkPolyData* data, HandleGeometry& geometry)
       geometry.bones.push_back({ geometry.point_of_handle.back(), add(handle.tail) });
     }
   }
-  // Add the edges and faces of cages, which are not handles. Weights are linear along them, so the
-  // mesh must contain them.
+  // Add the cage edges and cage faces. These cells are not handles, so to_handles() has not
+  // returned them. Weights are linear on cage edges and faces, so the mesh must contain them.
   vtkDataArray* kinds = data->GetCellData()->GetArray("HandleKind");
   vtkNew<vtkIdList> ids;
   for (vtkIdType cell = 0; kinds && cell < data->GetNumberOfCells(); ++cell)

@@ -23,11 +23,11 @@ struct HandleGeometry
   std::vector<std::vector<Index>> cage_elements; ///< edges and faces of cages, as ids of points
   std::vector<std::string> names; ///< names of all handles
   std::vector<Index>
-    point_of_handle; ///< the point of each handle, for a bone its head; -1 for regions
+    point_of_handle; ///< the point of each handle; for a bone its head, for a region -1
 };
 
-/// Convert all handles (see vtkHandleFileReader) and the edges and faces of cages, which are not
-/// handles.
+/// Convert a handle dataset (see vtkHandleFileReader): all handles, and also the cells that are
+/// edges or faces of cages.
 BINDPOSEFILTERS_EXPORT Status to_handle_geometry(vtkPolyData* data, HandleGeometry& geometry);
 
 /// Return cage faces as triangles. Return bones, cage edges and the sides of cage faces as

@@ -36,8 +36,8 @@ struct PosedPoints
   /// The transforms that were used, one per handle. If empty, the output gets no array of
   /// transforms.
   std::vector<Affine> transforms;
-  /// The groups of vertices that share a rotation, and one rotation per group. Null and empty
-  /// unless the filter adds arrays of rotations to the output.
+  /// The groups of vertices that share a rotation, and one rotation per group. If `groups` is
+  /// null, the output gets no arrays of rotations.
   const RotationGroups* groups = nullptr;
   std::vector<Eigen::Matrix3d> rotations;
 };

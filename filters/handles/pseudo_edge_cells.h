@@ -15,7 +15,8 @@ namespace bindpose
 BINDPOSEFILTERS_EXPORT Status to_pseudo_edges(
   vtkPolyData* data, const Handles& handles, const std::vector<Index>& cells, PseudoEdges& edges);
 
-/// Add pseudo-edges to a handle dataset without polygons, after its other cells.
+/// Add pseudo-edges to a handle dataset as its last cells. The dataset must not have polygons,
+/// which would follow the added lines.
 void add_pseudo_edges(vtkPolyData* data, const std::vector<Index>& cells, const PseudoEdges& edges);
 
 } // namespace bindpose

@@ -23,7 +23,8 @@ template <typename Cache>
 class BlockCaches
 {
 public:
-  /// @param block  the current block, which selects the cache; it must outlive this object
+  /// @param block  the number of the current block, which selects the cache. The BlockNumber must
+  /// outlive this object.
   explicit BlockCaches(const BlockNumber& block) : block_(&block) {}
 
   /// Return the cache of the current block; it is empty at first.

@@ -51,8 +51,9 @@ bool share_connectivity(vtkCellArray* cells, SharedMatrix<Matrix>& matrix)
   return true;
 }
 
-/// Triangulate a polygon: a fan for triangles and quads, ear cutting for larger polygons. A
-/// degenerate polygon that cannot be cut is split into a fan, which keeps its winding number.
+/// Triangulate a polygon: triangles and quads become fans, larger polygons are triangulated by ear
+/// cutting. If ear cutting fails for a degenerate polygon, the polygon becomes a fan. The fan has
+/// the boundary edges of the polygon, so closed surfaces stay closed.
 void triangulate_polygon(vtkIdType count, const vtkIdType* ids, vtkPoints* points,
   std::vector<std::array<Index, 3>>& triangles)
 {

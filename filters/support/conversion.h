@@ -90,7 +90,7 @@ struct SurfaceInput
   std::vector<Index> cell_of_triangle;
   /// Number of polygons, quads and strips that were split into triangles.
   Index triangulated_cells = 0;
-  Index ignored_cells = 0; ///< number of vertices, lines and volume cells, which are ignored
+  Index ignored_cells = 0; ///< total number of ignored cells: vertices, lines and volume cells
 };
 
 /// Convert the 2D cells of a polydata or unstructured grid to triangles; strips and polygons are
@@ -144,8 +144,8 @@ BINDPOSEFILTERS_EXPORT Status to_pose(
   vtkPolyData* data, const Handles& handles, const std::vector<Index>& cells, Pose& pose);
 
 /// Return the layer of each handle from the cell array `name`; all layers are 0 if the array is
-/// missing. Return invalid_input for an array of several components and, with the handle's name,
-/// for a value that is not finite.
+/// missing. Return invalid_input if the array has several components or if a value is not finite;
+/// in the second case, the message names the handle.
 BINDPOSEFILTERS_EXPORT Status to_layers(vtkPolyData* data, const Handles& handles,
   const std::vector<Index>& cells, const std::string& name, Eigen::VectorXd& layers);
 

@@ -46,8 +46,8 @@ ExpressionParser::ExpressionParser()
     });
   this->parser_->AddObserver(vtkCommand::ErrorEvent, callback);
   this->parser_->AddObserver(vtkCommand::WarningEvent, callback);
-  // Return NaN for a value that is not finite. Without this option the parser would report an error
-  // for such a value, as it does for text that it cannot parse.
+  // With the option ReplaceInvalidValues, the parser returns NaN for a value that is not finite.
+  // Without the option, the parser would report an error, as for text that it cannot parse.
   this->parser_->ReplaceInvalidValuesOn();
   this->parser_->SetReplacementValue(std::numeric_limits<double>::quiet_NaN());
 }

@@ -34,8 +34,8 @@ struct TermArrayNames
 Status to_terms(
   vtkDataSet* mesh, const TermArrayNames& names, Index handle_count, WeightTerms& terms);
 
-/// Name of the cell array of a handle dataset with the smallest and largest weight of each handle
-/// (two components).
+/// Name of a cell array of handle datasets. Its two components are the smallest and the largest
+/// weight of each handle.
 constexpr const char* handle_bounds_name = "WeightBounds";
 
 /// Read the bounds of the handles' weights from the array handle_bounds_name. NaN, or a missing

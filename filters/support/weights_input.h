@@ -27,13 +27,15 @@ struct WeightsInput
   std::vector<Index> cells; ///< cells of the handle dataset, one per handle
 };
 
-/// Convert weights and handles. Return invalid_input if there is no mesh or no handle, or if the
-/// weights belong to other handles. Also return it if the mesh has no array of that name; the
-/// message then lists the existing arrays.
+/// Convert the handles, and the mesh's point array `array_name` of weights. Return invalid_input
+/// - if the mesh or the handle dataset is null, or the mesh has no points;
+/// - if the mesh has no point array `array_name`; the message then lists the existing arrays;
+/// - if the handles are invalid (to_handles), or the weights do not belong to these handles
+///   (check_weights).
 Status to_weights_input(
   vtkPointSet* mesh, const std::string& array_name, vtkPolyData* handles, WeightsInput& input);
 
-/// Return the region labels of the points, one per point; empty if the mesh has no such array.
+/// Return the point array `name` of region labels, one per point; empty if there is no such array.
 /// Return invalid_input for labels that are not integers.
 BINDPOSEFILTERS_EXPORT Status to_region_ids(
   vtkPointSet* mesh, const std::string& name, std::vector<Index>& region_ids);

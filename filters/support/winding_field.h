@@ -58,12 +58,13 @@ public:
   {
     int method = 0; ///< vtkWindingNumberField::MethodType
     double tolerance = 1e-3;
-    bool orient = false; ///< surfaces only
+    bool orient = false; ///< whether to orient the triangles first; used only for surfaces
     std::string area_array = "Area"; ///< point array of areas; estimated if it is missing
-    /// Expected total number of evaluated points (a gradient counts as several points), used to
-    /// choose the fastest structure; 0: very many. Surfaces only.
+    /// Expected total number of evaluated points (a gradient counts as several points); 0: very
+    /// many. Used only for surfaces, to choose the fastest acceleration structure.
     Index expected_queries = 0;
-    /// Box that contains most of these points; empty: around the whole surface. Surfaces only.
+    /// Box that contains most of the evaluated points; empty: a box around the whole surface. Used
+    /// only for surfaces.
     Box query_region;
 
     /// Compare all options except expected_queries and query_region, which only affect the speed of
@@ -99,8 +100,8 @@ public:
   /// Compute the gradients: 3 x samples.count() derivatives.
   Status evaluate_gradient(ExecutionContext& context, const Samples& samples, double* out) const;
 
-  /// Report whether the computed values depend on Options::expected_queries and query_region
-  /// (within the tolerance). If they do, other queries need a new build.
+  /// Report whether Options::expected_queries and query_region affect the computed values. (The
+  /// differences are within the tolerance.) If so, other expected queries need a new build.
   bool depends_on_expected_queries() const;
 
   /// Return the open boundary of a surface; empty for curves and points.

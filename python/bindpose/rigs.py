@@ -86,7 +86,8 @@ class Rig:
         self.animation = animation
         self._gives_arrays = not is_dataset(mesh)
         self._methods = {}
-        # The last two arrays that callers passed as `out`, by their address: (array, VTK array of the same memory).
+        # The last two arrays that callers passed as `out`. Key: address of the array's memory; value: the array and a
+        # VTK array that uses the same memory.
         self._outputs = {}
         self._last = None  # the filter of the last pose
         self._rest = _rest_points(self._handles)
@@ -326,7 +327,7 @@ class _Method:
         self._handles = None
         self._has_array = False  # whether the last pose was an array
         self._is_prepared = False
-        # Poses of these methods can take seconds also after the preparation, so Ctrl-C must cancel them.
+        # With these methods even a prepared pose can take seconds to compute, so Ctrl-C must cancel every pose.
         self._is_slow = options.method in ("full-arap", "variational")
         self.filter.SetInputData(0, rig.mesh)
 

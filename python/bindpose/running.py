@@ -101,8 +101,8 @@ def interruptible(algorithm, progress=None):
                 caller.SetAbortExecute(1)
 
         observers = [algorithm.AddObserver("ProgressEvent", on_progress)]
-        # Observe errors and warnings, because VTK prints those without an observer. run() raises exceptions for them
-        # instead.
+        # Observers that do nothing: VTK prints an error or a warning only if the algorithm has no observer of the
+        # event. run() raises exceptions and issues warnings from the status of the algorithm instead.
         for event in ("ErrorEvent", "WarningEvent"):
             observers.append(algorithm.AddObserver(event, lambda *_: None))
         try:

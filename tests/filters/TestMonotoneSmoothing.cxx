@@ -1,5 +1,6 @@
 // vtkMonotoneSmoothing: smoothing of data on surfaces, polygons and tets with a list of extrema.
-// The test checks lists from arrays, result arrays, the output of extrema, errors and cancel.
+// The tests cover lists of extrema in point arrays, result arrays, the second output (the extrema
+// of the result), errors, and cancel requests.
 #include "TestFilter.h"
 
 #include "vtkMonotoneSmoothing.h"

@@ -1,5 +1,6 @@
-// vtkPlanarShape triangulates planar shapes: images by their alpha channel or as a rectangle,
-// curves, and handles. The test checks arrays, report, errors and repeated updates.
+// vtkPlanarShape triangulates images and the regions inside of planar curves. The shape of an image
+// is the region that its alpha channel selects, or the whole rectangle. Handles become vertices.
+// The tests also cover arrays, report, errors and repeated updates.
 #include "TestFilter.h"
 
 #include "conversion.h"

@@ -97,7 +97,7 @@ TEST(PoseHandles, AParentTakesItsChildAlong)
   const std::string b2 = R"(, "b2": {"rotate": {"axis": [0, 0, 1], "degrees": 90})";
   EXPECT_LT((tip(posed(turned + "}")) - Vec3(-2, 0, 0)).norm(), 1e-15);
   EXPECT_LT((tip(posed(turned + b2 + "}}")) - Vec3(-1, -1, 0)).norm(), 1e-15);
-  // In world space, b2 rotates only about its own head at rest.
+  // In world space, b2 does not follow b1. It rotates about the rest position of its own head.
   EXPECT_LT((tip(posed(turned + b2 + R"(, "space": "world"}})")) - Vec3(-1, 1, 0)).norm(), 1e-15);
 }
 

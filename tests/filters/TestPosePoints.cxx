@@ -56,7 +56,7 @@ protected:
     this->handles = to_polydata(rig.handles);
   }
 
-  /// Connect the mesh and the handles at rest, as PosePoints() uses them.
+  /// Connect the mesh and the handles without a pose. The tests give the pose to PosePoints().
   void connect(vtkPoseAlgorithm* filter) const
   {
     filter->SetInputData(0, this->tets);

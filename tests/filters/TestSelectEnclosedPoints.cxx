@@ -4,8 +4,8 @@
 // the number of its errors.
 //
 // Measured with VTK 9.1 and the default tolerance, vtkSelectEnclosedPoints gives these results:
-// - It is right on spheres, cubes, rings and single thin plates, also near the surface, and on a
-// sphere with a small hole if CheckSurface is off.
+// - It is right on spheres, cubes, rings and single thin plates, also near the surface.
+// - It is right on a sphere with a small hole if CheckSurface is off.
 // - It is wrong at 46 and 5762 of 20000 points among 200 closed plates of thickness 2e-3 and 2e-4,
 // respectively. At thickness 2e-3, 52 of 10000 results depend on the other points of the query.
 // - It is wrong at all points that are inside two components.
@@ -270,7 +270,7 @@ TEST(SelectEnclosedPoints, StacksOfPlates)
 TEST(SelectEnclosedPoints, ScannedAndModeledSurfaces)
 {
   // These are closed manifold surfaces. The ground truth is the direct sum over all triangles.
-  // Points within a thousandth of the diagonal are not compared.
+  // Points closer to the surface than 1e-3 bounding-box diagonals are not compared.
   for (const char* name : { "cow.off", "femur.off", "anchor.off" })
   {
     const TriangleMesh mesh = test::demo_mesh(name);
@@ -350,8 +350,8 @@ TEST(SelectEnclosedPoints, ThinPlate)
 
 TEST(SelectEnclosedPoints, OverlappingComponents)
 {
-  // A ray that starts inside of both overlapping balls crosses two surfaces. VTK's filter counts
-  // such a point as outside.
+  // A ray from a point inside of both balls crosses two surfaces, which is an even number. VTK's
+  // filter therefore reports the point as outside.
   const Vec3 aside(0.5, 0.0, 0.0);
   const TriangleMesh ball = test::sphere(4);
   const TriangleMesh both =
@@ -390,7 +390,7 @@ TEST(SelectEnclosedPoints, OverlappingComponents)
 TEST(SelectEnclosedPoints, FlippedSurfaces)
 {
   // VTK's filter ignores orientations. The winding number inside of a flipped surface is -1.
-  // Bindpose counts this as inside only if patches are oriented first.
+  // Bindpose reports these points as inside only if OrientPatches is on.
   const TriangleMesh ball = test::sphere(3);
   const Points points = random_queries(20000, 1.2);
   const auto truth = behind_all_planes(ball);

@@ -1,5 +1,5 @@
 // vtkSkinningDeformation: the identity, rigid motions and joints give the results that the kernel
-// documents. Many poses need one bind, and errors are clear.
+// documents. Many poses need only one bind. Error messages name the wrong input.
 #include "vtkSkinningDeformation.h"
 
 #include "conversion.h"
@@ -206,7 +206,7 @@ TEST_F(SkinningDeformation, AHundredDragsBindOnce)
     this->filter->Update();
   }
   EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
-  // An edit of the transform in place, as by a widget, does not cause a bind either.
+  // A widget edits the array of transforms in place. Such an edit does not cause a bind.
   this->filter->SetInputData(1, this->handles);
   this->filter->Update();
   EXPECT_EQ(this->filter->GetNumberOfBinds(), 1);
@@ -222,7 +222,7 @@ TEST_F(SkinningDeformation, AHundredDragsBindOnce)
   double bounds[6];
   this->filter->GetOutput()->GetBounds(bounds);
   EXPECT_NEAR(bounds[1], 1.99, 1e-6);
-  // Other weights cause a bind.
+  // A change of the weights causes a bind.
   this->mesh->GetPointData()->GetArray("Weights")->Modified();
   this->mesh->Modified();
   this->filter->Update();

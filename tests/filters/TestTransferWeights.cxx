@@ -1,5 +1,5 @@
-// vtkTransferWeights: weights of tets are transferred to the surface of the tets, to another
-// dataset, and in a pipeline whose pose changes.
+// Tests of vtkTransferWeights, which transfers weights of tets to the surface of the tets or to any
+// other dataset. Changes of the pose cause no new transfer.
 #include "TestFilter.h"
 
 #include "vtkBoundedBiharmonicWeights.h"

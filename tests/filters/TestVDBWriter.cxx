@@ -1,5 +1,6 @@
-// vtkVDBWriter passes image, array and options to the kernel. Its files equal those of the kernel
-// byte for byte; the content is tested with the kernel.
+// vtkVDBWriter passes the image, the array and the options to the kernel. The files of the filter
+// and of the kernel must be equal byte for byte. tests/core/io/test_vdb.cpp tests the content of
+// the files.
 #include "TestFilter.h"
 
 #include "conversion.h"

@@ -1,5 +1,5 @@
-// vtkVariationalSurface: handles and arrays of the mesh, one bind for many poses, use without
-// handles, and errors that name the cause.
+// Tests of vtkVariationalSurface: constraints by handles and by arrays of the mesh, one bind for
+// many poses, fairing without handles, and error messages that name the cause.
 #include "vtkVariationalSurface.h"
 
 #include "TestFilter.h"
@@ -144,8 +144,8 @@ TEST_F(VariationalSurfaceFilter, DragsBindOnceAndBindParametersBindAgain)
 
 TEST_F(VariationalSurfaceFilter, WithoutHandlesAPatchIsMadeAnew)
 {
-  // A square has a dent in its middle. The array with its parameter domain is that of the flat
-  // square, so fairing removes the dent.
+  // A square has a dent in its middle. The array "Parameterization" contains the positions of the
+  // square without the dent, so fairing removes the dent.
   vtkNew<vtkDoubleArray> domain;
   domain->SetName("Parameterization");
   domain->SetNumberOfComponents(2);

@@ -1,5 +1,6 @@
-// Filters that use weights: colors, depth order and cuts along bones. The test checks arrays,
-// reports, names in errors, and limbs whose order in depth follows their layers.
+// Tests of the filters that use weights: vtkWeightedColors, vtkDepthOrder and vtkCutAlongBones. The
+// tests check output arrays, reports, the names in error messages, and which of two crossing limbs
+// is in front.
 #include "TestFilter.h"
 
 #include "vtkBoundedBiharmonicWeights.h"

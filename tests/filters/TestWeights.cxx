@@ -1,5 +1,6 @@
-// The weights filters: arrays and names, one bind for any number of pose edits, inserted handles,
-// regions, surfaces and tets, cancel and repeat, clear errors.
+// Tests of the weights filters: output arrays and their names; a pose edit never causes a bind;
+// handles become vertices of the mesh; regions; surfaces and tets; a canceled solve can be
+// repeated; error messages.
 #include "TestFilter.h"
 #include "data_of.h"
 

@@ -19,8 +19,9 @@ from vtkmodules.vtkIOXML import vtkXMLImageDataReader
 FAST_ERROR = 1e-3  # default tolerance of the method Fast of winding numbers
 # PrintSelf also prints these lines about the last run, which are not parameters.
 NO_PARAMETER = {"Status", "StatusMessage", "Report"}
-# These defaults of proxies differ from those of their classes on purpose. ParaView's file dialog has already asked
-# about overwriting. A user of a panel wants weights of any surface, while a C++ pipeline solves on its input mesh.
+# Properties whose defaults in ParaView differ from those of the C++ class on purpose. Overwrite is on, because
+# ParaView's file dialog has already asked about overwriting. Domain is "auto", which works for any surface; in C++ the
+# default is to solve on the triangles of the input surface.
 OTHER_DEFAULTS = {("vtkMeshFileWriter", "Overwrite"), ("vtkVDBWriter", "Overwrite"),
                   ("vtkGLTFSkinWriter", "Overwrite"), ("vtkBoundedBiharmonicWeights", "Domain"),
                   ("vtkMonotoneWeights", "Domain"), ("vtkUnconstrainedWeights", "Domain")}

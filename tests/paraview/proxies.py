@@ -87,8 +87,9 @@ class Data:
         return simple.Calculator(Input=self.figure, ResultArrayName="Fixed", Function="coordsY < 0")
 
 
-# How each proxy is used: its inputs and what a file dialog would set. Everything else keeps its default. "may_be_empty"
-# lists output ports that have no data for this input, such as the boundary of a closed surface.
+# The properties of each proxy that a user must set: inputs, file names, placed handles. All other properties keep their
+# defaults. "may_be_empty" lists output ports that have no data for these inputs, such as the boundary of a closed
+# surface.
 DATA = {
     "BindposeMeshReader": lambda data: {"FileName": str(FIGURE / "figure.off")},
     "BindposeHandleReader": lambda data: {"FileName": str(FIGURE / "figure.tgf")},
@@ -151,7 +152,7 @@ def use(group, name, data):
     may_be_empty = words.pop("may_be_empty", set())
     for source in words.values():
         if hasattr(source, "UpdatePipeline"):
-            source.UpdatePipeline()  # as in the window; the defaults of lists of arrays depend on it
+            source.UpdatePipeline()  # as in the window; the default arrays are chosen from the updated input
     if group == "writers":
         path = data.folder / words.pop("FileName")
         path.unlink(missing_ok=True)
@@ -179,7 +180,7 @@ def refinement(triangles, wanted):
 
 
 def time_drags(data):
-    """Drag a handle of a mesh with about 86,000 triangles. Return the median time per motion in milliseconds, and the
+    """Drag a handle of a mesh with 99,456 triangles. Return the median time per motion in milliseconds, and the
     number of triangles.
 
     A motion sets the pose and updates the pipeline, as the panel of Pose Handles does before it draws.

@@ -165,7 +165,7 @@ def check_a_drag(open_window, paraview, library, folder):
         assert len(milliseconds) >= 5, milliseconds
         window.ask(f"save_points({str(folder / 'posed.npy')!r})")
         window.ask(f"save_state({str(state)!r})")
-        # One step takes back the whole drag.
+        # One undo step reverts the whole drag.
         window.keys("ctrl+z")
         assert window.ask("pose_text()") == ""
         assert np.allclose(window.ask("handle_position('left_hand')"), before, atol=1e-12)
@@ -176,7 +176,8 @@ def check_a_drag(open_window, paraview, library, folder):
         window.move(pixel)
         window.desktop.tool("mousedown", 1)
         window.move((pixel[0] + 30, pixel[1] + 20))
-        # Not keys(), because xdotool's option --clearmodifiers releases the mouse buttons, too.
+        # Press Escape without keys(), which uses xdotool's option --clearmodifiers. This option would release the mouse
+        # button.
         window.desktop.tool("key", "Escape")
         window.desktop.wait_for(lambda: window.ask("pose_text()") == text, "the end of the drag")
         window.desktop.tool("mouseup", 1)
@@ -219,7 +220,7 @@ def check_a_state(open_window, state, folder):
 
 
 def check_speed(open_window):
-    """A motion of a drag on about 86,000 triangles needs little time before drawing."""
+    """While a mesh of 99,456 triangles is dragged, drawing begins soon after each motion of the mouse."""
     with open_window("speed", subdivisions=3) as window:
         window.drag_handle("left_hand", (60, 80), steps=30)
         milliseconds = window.ask("drag_milliseconds()")

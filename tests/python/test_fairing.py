@@ -45,7 +45,7 @@ def test_tangents_of_an_array_tilt_the_edge():
     up = np.where((DEPTH == 2)[:, None], [0, 0, 1.0], 0)
     made = np.asarray(bindpose.fair((FLAT, TRIANGLES), FIXED, boundary="tangent", tangents=up))
     free = ~FIXED
-    # The given tangent points outward, and the patch leaves the edge in the opposite direction.
+    # `tangents` are derivatives in the outward direction, here +z. Inward from its edge, the patch goes toward -z.
     assert made[free, 2].max() < 0
     assert np.array_equal(made[FIXED], FLAT[FIXED])
 

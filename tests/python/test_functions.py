@@ -327,7 +327,8 @@ def test_crowd():
     assert len(posed) == 4 and bindpose.report(posed[3])["counts"]["instances"] == 4
     for one, other in zip(posed, alone):
         assert one == pytest.approx(other, abs=1e-5)
-    # The frames of a sequence are posed as instances, each at its own placement.
+    # Each frame of a sequence of poses gives one instance. Each instance has its own placement: a translation, or a
+    # 3 x 4 or 4 x 4 matrix.
     turn = np.array([[0, -1, 0, 5], [1, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
     placed = bindpose.crowd(BAR, handles, {"frames": poses}, weights=weights,
                             placements=[[1, 2, 3], turn, turn[:3], [0, 0, 0]])

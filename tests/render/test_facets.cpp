@@ -75,8 +75,8 @@ Drawing draw_bent(const TriangleMesh& mesh, const Weights& weights)
 }
 
 /// Return the roughness of the shading, in levels of 255: the root mean square of second
-/// differences of the lightness over 8 pixels, away from the silhouette. It is near zero for smooth
-/// shading and large at the borders of facets.
+/// differences of the lightness, with a step of 4 pixels, away from the silhouette. The roughness
+/// is near zero for smooth shading and large at the borders of facets.
 double roughness(const Drawing& drawing)
 {
   int size[3];

@@ -211,8 +211,8 @@ TEST(Render, tets_slice)
       }
     }
   }
-  // The tets in front of the plane are removed. The background is therefore visible where their
-  // lower edge was, but not at the lower edge of the slice.
+  // The tets in front of the plane are removed. The background is therefore visible at the first
+  // point, which is near the lower edge of the box's front face. The second point is on the slice.
   EXPECT_TRUE(is_background(drawing.at(Vec3(1.0, 0.02, 0.98))));
   EXPECT_FALSE(is_background(drawing.at(on_plane(1.0, 0.02))));
   // The slice contains exactly the tets with vertices on both sides of the plane.

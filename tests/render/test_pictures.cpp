@@ -116,7 +116,8 @@ TEST(Render, tets_cut)
   PictureOptions options = small_picture();
   const Drawing cut = draw({ { tet_brick(), nullptr, "" } }, options);
   const auto is_cut = [](const Pixel& p) { return p.b > p.r + 20; };
-  // The area of the cut face equals that of the front of the box: about 1.6 x 1.0, projected.
+  // The cut face is about as large as the rectangle 1.6 x 1.0 at z = 0.6, a cross section of the
+  // box. Compare its number of pixels with the projected area of this rectangle.
   const Eigen::Vector2d a = cut.geometry.project(0, Vec3(0, 0, 0.6));
   const Eigen::Vector2d b = cut.geometry.project(0, Vec3(1.6, 0, 0.6));
   const Eigen::Vector2d c = cut.geometry.project(0, Vec3(0, 1, 0.6));
@@ -222,7 +223,8 @@ TEST(Render, legend)
     EXPECT_GT(drawing.count([&](const Pixel& p) { return distance(p, color) <= 2.0; }), 60)
       << "band " << band;
   }
-  // The top lines contain the title: dark pixels, but not at the ends of the lines.
+  // The top rows of pixels contain the dark letters of the title. The upper corners of the picture
+  // are background.
   EXPECT_TRUE(is_background(pixel_at(drawing.image, 2, 297)));
   EXPECT_TRUE(is_background(pixel_at(drawing.image, 397, 297)));
   long long dark = 0;

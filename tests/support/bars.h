@@ -21,8 +21,8 @@ struct Rig
 Weights biharmonic(
   const TetMesh& mesh, const std::vector<Index>& vertices, const std::vector<Index>& handles);
 
-/// Return the bar [0, 4] x [0, 1] x [0, 1] with point handles left, middle and right on its axis.
-/// Each handle constrains the whole cross section at x = 0, 2 or 4.
+/// Return the bar [0, 4] x [0, 1] x [0, 1]. Three point handles named "left", "middle" and "right"
+/// are on its axis at x = 0, 2 and 4. Each handle constrains the whole cross section at its x.
 Rig bar(int cells = 8);
 
 /// Return the unit cube with five point handles: the origin, the three corners next to the origin

@@ -33,7 +33,7 @@ CORE_ARROWS = {
     "embedding": {"base", "geometry", "winding", "surface", "embedding"},
     "segmentation": {"base", "geometry", "winding", "segmentation"},
     "tets": {"base", "geometry", "surface", "tets"},
-    # The folder inside exchanges mesh files with the program fTetWild.
+    # The folder `inside` needs `io` for the mesh files that it exchanges with the program fTetWild.
     "inside": {"base", "geometry", "io", "winding", "surface", "helper", "embedding", "segmentation", "tets", "inside"},
     "handles": {"base", "geometry", "surface", "handles"},
     "domain": {"base", "linear", "geometry", "surface", "planar", "embedding", "tets", "inside", "handles", "domain"},
@@ -63,14 +63,14 @@ APP_ARROWS = {
 }
 
 PLUGIN = "filters/paraview"
-# Beginnings of headers of the viewer, of its handle widget, of Qt, of ParaView and of the tests.
+# Prefixes of include paths. They identify headers of the viewer, its handle widget, Qt, ParaView and the tests.
 VIEWER = ("viewer/", "scene/", "shapes/", "pictures/", "poses/", "document/", "app/", "cli/", "widgets/")
 HANDLE_WIDGET = ("vtkHandleSet",)
 QT = ("Q",)
 PARAVIEW = ("pq", "vtkPV", "vtkSM")
 TESTS = ("support/",)
-# Beginnings of the headers that the files of each folder must not include. If several folders contain a file, only the
-# first of them applies.
+# Prefixes of the include paths that are forbidden in each folder. A file in nested folders, such as one of the plugin,
+# must satisfy only the first matching entry.
 FORBIDDEN = {
     PLUGIN: VIEWER + TESTS,
     "filters": VIEWER + HANDLE_WIDGET + QT + PARAVIEW + TESTS,

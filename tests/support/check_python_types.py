@@ -19,11 +19,12 @@ from collections.abc import Iterable
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 PAGES = ("README.md", "python/README.md")
 STRICT = ("examples/quickstart.py", "examples/01_inside_outside.py", "examples/benchmarks/python_poses.py")
-# Rules of numpydoc that the package does not follow: no extended summary (ES01), no links to other functions (SA01, SA04),
-# entries such as "threads, progress" with the text "See `winding_number`." (PR0x), and results of several types (RT0x).
-# Summaries beside the opening quotes (GL01) are allowed since numpydoc 1.11.
+# Rules of numpydoc that are not checked, because docstrings of the package may do the following: omit the extended
+# summary (ES01); omit links to other functions (SA01, SA04); describe several parameters in one entry, or only by "See
+# `winding_number`." (PR0x); list several types of a result (RT0x); begin on the line of the opening quotes, which
+# numpydoc accepts since version 1.11 (GL01).
 LEFT_OUT = {"GL01", "ES01", "SA01", "SA04", "PR01", "PR02", "PR03", "PR04", "PR06", "PR07", "PR08", "PR09", "RT02", "RT03", "RT05"}
-# Scripts without annotations: calls of the package are checked, but not the types of their own variables.
+# Options of mypy for scripts without annotations: check their calls of the package, but not their own variables.
 LENIENT = ("--check-untyped-defs", *(f"--disable-error-code={code}" for code in (
     "var-annotated", "arg-type", "assignment", "index", "operator", "attr-defined", "union-attr", "dict-item", "list-item")))
 
@@ -67,7 +68,7 @@ def main() -> None:
         for page, path in zip(PAGES, pages):
             path.write_text(code_of(page), encoding="utf-8")
         accepted = all([mypy([path], package, cache, "--strict") for path in (*pages, *(ROOT / name for name in STRICT))])
-    # Not checked: the states for ParaView, whose module paraview.simple defines its functions when it is imported.
+    # The scripts in examples/paraview are not checked: paraview.simple defines its functions only when it is imported.
     others = sorted({*ROOT.glob("examples/*.py"), *ROOT.glob("examples/*/*.py")} - {ROOT / name for name in STRICT} -
                     {*ROOT.glob("examples/paraview/*.py")})
     accepted = mypy(others, package, cache, *LENIENT) and accepted

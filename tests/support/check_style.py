@@ -21,7 +21,7 @@ def changed_files():
     last commit has no parent, so only uncommitted changes are found. Without git the set is empty."""
     names = set()
     for revisions in (["HEAD~1", "HEAD"], ["HEAD"]):
-        # In containers the checkout may belong to another user, which git must accept here.
+        # In a container, the checkout may belong to another user. Without safe.directory, git refuses to read it.
         git = subprocess.run(["git", "-c", "safe.directory=*", "-C", ROOT, "diff", "--name-only", *revisions],
                              capture_output=True, text=True, check=False)
         names |= set(git.stdout.split())

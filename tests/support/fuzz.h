@@ -40,9 +40,9 @@ inline Index fuzz_rounds(Index base)
   return base * read_integer("BINDPOSE_FUZZ_FACTOR", 1);
 }
 
-/// Call body(random) for the requested number of seeds until one fails, and print the number of
-/// rounds. A round also fails if an exception escapes, or if it takes more than 120 s (400 s with
-/// sanitizers).
+/// Run the requested number of rounds, but end after the first round that fails. Print the number
+/// of rounds. Each round calls body(random) with a new seed. A round fails if one of its assertions
+/// fails, if an exception escapes, or if it takes more than 120 s (400 s with sanitizers).
 template <typename Body>
 void fuzz(const char* what, Index base, const Body& body)
 {

@@ -11,8 +11,9 @@
 namespace bindpose::test
 {
 
-/// Replaces a program by a shell script for the lifetime of the object. The constructor sets the
-/// environment variable that contains the path of the program to the path of the script.
+/// Replaces a program by a shell script for the lifetime of the object. The caller names the
+/// environment variable from which the path of the program is read. The constructor sets this
+/// variable to the path of the script.
 class FakeProgram
 {
 public:

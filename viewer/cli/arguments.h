@@ -21,7 +21,7 @@ public:
   /// Keys of the options that were typed.
   std::set<std::string> typed_keys;
 
-  /// Report whether the option was typed or has a default.
+  /// Report whether the option has a value: the typed value or the default value.
   bool has(const std::string& key) const { return this->values.count(key) > 0; }
   bool is_typed(const std::string& key) const { return this->typed_keys.count(key) > 0; }
   /// Return the value; empty if the option was not typed and has no default.

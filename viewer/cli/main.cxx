@@ -59,8 +59,8 @@ void run(Session& session)
 int main(int argc, char** argv)
 {
   catch_interrupts();
-  // If the file size limit is exceeded, writing must return an error instead of ending the program.
-  // The helper program bindpose-mesher inherits this setting.
+  // Ignore the signal SIGXFSZ: if the file size limit is exceeded, writing returns an error instead
+  // of ending the program. The helper program bindpose-mesher inherits that the signal is ignored.
   std::signal(SIGXFSZ, SIG_IGN);
   vtkNew<SilentOutputWindow> silent;
   vtkOutputWindow::SetInstance(silent);

@@ -62,7 +62,8 @@ void on_progress(vtkObject* caller, unsigned long, void* stage_data, void*)
   const auto* stage = static_cast<Stage*>(stage_data);
   if (interrupted())
   {
-    // Repeat the request to abort, because the pipeline clears it when it starts the algorithm.
+    // Repeat the request to abort, because the pipeline clears the request when it starts the
+    // algorithm.
     algorithm->SetAbortExecute(1);
   }
   const char* phase = algorithm->GetProgressText();
@@ -139,7 +140,8 @@ Status Session::try_stage(vtkBindposeAlgorithm* algorithm, const std::string& st
   vtkNew<vtkCallbackCommand> progress;
   progress->SetCallback(on_progress);
   progress->SetClientData(&stage);
-  // keeps VTK from printing its messages, which the status also contains
+  // An observer that does nothing keeps VTK from printing messages. The status contains the same
+  // messages.
   vtkNew<vtkCallbackCommand> silent;
   const unsigned long observers[] = { algorithm->AddObserver(vtkCommand::ProgressEvent, progress),
     algorithm->AddObserver(vtkCommand::ErrorEvent, silent),
@@ -356,7 +358,8 @@ bool Session::write_rig(vtkDataSet* mesh, vtkPolyData* handles,
   writer->SetMaximumInfluences(this->arguments_.integer("gltf-maximum-influences"));
   writer->SetFileName(path.c_str());
   writer->SetOverwrite(this->arguments_.has("overwrite"));
-  // Collect the writer's entries in an empty report, because their keys get the prefix "gltf.".
+  // Give the writer an empty report, so that the loop below adds the prefix "gltf." only to the
+  // writer's entries, not to those of the verb.
   const Report verb_report = this->report_;
   this->report_ = Report();
   const bool written = this->run_stage(writer, "write", main_end_fraction, 1.0, Merge::numbers);

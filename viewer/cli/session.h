@@ -23,9 +23,9 @@ int exit_code(StatusCode code);
 /// Selects the part of an algorithm's report that is merged into the verb's report.
 enum class Merge
 {
-  nothing, ///< only the warnings, and the total time as seconds.STAGE
-  numbers, ///< the warnings and all entries, except the times of phases
-  all ///< the warnings and all entries
+  nothing, ///< the warnings; the algorithm's total time becomes the entry seconds.STAGE
+  numbers, ///< like `nothing`, and all entries except the times of the algorithm's phases
+  all ///< the warnings and all entries, including the times of the algorithm's phases
 };
 
 /// One run of a verb (a subcommand such as `weights`). The session runs algorithms, shows their
@@ -76,8 +76,8 @@ public:
   /// Check, before the work, that the output's extension is allowed and the file can be written.
   bool check_output(const std::string& path, const std::string& extensions);
   bool write(vtkDataSet* data, const std::string& path);
-  /// Write to the temporary file of `file`, which commit() renames. Use it for a group of files, so
-  /// that either all files of the group are written or no file.
+  /// Write to the temporary file of `file`, which commit() renames. For a group of files, write all
+  /// files before the first commit, so that a failed write leaves no incomplete group.
   bool write_uncommitted(vtkDataSet* data, const std::string& path, AtomicFile& file);
   bool commit(AtomicFile& file);
   /// Write a rig as glTF: a mesh with weights, its handles (null: none), and the frames of an

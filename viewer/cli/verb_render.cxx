@@ -65,8 +65,8 @@ bool parse_vector(const std::string& text, Vec3& vector)
     parse_number(words[1], vector[1]) && parse_number(words[2], vector[2]);
 }
 
-/// Parse --section. Its value is one of four: a fraction, a plane perpendicular to an axis, a
-/// normal and a point, or the word none.
+/// Parse --section: a fraction, a plane perpendicular to an axis, a plane given by a normal and a
+/// point, or the word none.
 bool read_section(Session& session, PictureOptions& options)
 {
   const std::string text = session.arguments().text("section");
@@ -194,7 +194,7 @@ bool add_defects(Session& session, std::vector<Tile>& tiles)
     return polydata && polydata->GetNumberOfPolys() + polydata->GetNumberOfStrips() > 0 &&
       !is_defect_data(data);
   };
-  // defects of the context datasets, which all tiles share
+  // defects of the context datasets; all tiles have the same context
   std::vector<vtkSmartPointer<vtkDataSet>> context_defects;
   for (const auto& data : tiles.front().context)
   {

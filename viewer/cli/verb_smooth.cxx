@@ -1,5 +1,6 @@
-// Implements bindpose smooth MESH --array NAME, which smooths data on a mesh and removes all local
-// extrema that are not listed.
+// Implements bindpose smooth MESH --array NAME, which smooths data on a mesh. The result has only
+// selected local extrema: those in the array of --extrema, or the most persistent extrema of the
+// data.
 #include "cli/session.h"
 #include "cli/set_options.h"
 #include "cli/verbs.h"

@@ -1,6 +1,7 @@
-// Implements bindpose weights MESH --handles H. For a surface the filter chooses the domain on
-// which the weights are solved. With --domain surface and for tets, the weights are solved on the
-// input mesh, to which the filter may add points, and then transferred to the input's own points.
+// Implements bindpose weights MESH --handles H. The weights are solved on the input mesh if the
+// mesh consists of tets or --domain is surface; otherwise on a mesh that the filter creates. The
+// filter may add points to the input mesh. In this case the weights are transferred to the original
+// points, unless the output is a .vtu file.
 #include "cli/session.h"
 #include "cli/set_options.h"
 #include "cli/verbs.h"

@@ -18,9 +18,9 @@ class QLockFile;
 /// written at most interval() seconds after a change, and immediately on request. The folder is
 /// removed when the process ends normally. Without changes nothing is written.
 ///
-/// Files are written on a separate thread from shared datasets that nothing modifies. Only one copy
-/// is written at a time; if another copy is requested meanwhile, it is written afterward. The
-/// destructor waits for the running copy.
+/// A separate thread writes the files. It reads the window's datasets without copying them, because
+/// nothing modifies these datasets. Only one copy is written at a time; a copy that is requested
+/// meanwhile is written afterward. The destructor waits for the copy that is being written.
 class Autosave : public QObject
 {
   Q_OBJECT

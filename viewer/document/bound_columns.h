@@ -18,7 +18,7 @@
 /// - a handle without a column moves nothing;
 /// - points that only a removed handle influenced stay at rest.
 ///
-/// Another bind makes the weights exact again; reason() says why a bind is needed.
+/// Another bind computes the weights of the current handles; reason() states why it is needed.
 class BoundColumns
 {
 public:
@@ -34,8 +34,8 @@ public:
   /// none.
   QString reason() const;
   /// Return a copy of the dataset in which the columns of weights have the order and the names of
-  /// the handles. Return the dataset itself if the columns are exact and already have these names.
-  /// Certificates are removed unless the columns are exact.
+  /// the current handles. Return the dataset itself if exact() is true and the columns already have
+  /// these names. If exact() is false, the copy has no optimality certificates.
   vtkSmartPointer<vtkPointSet> reordered(vtkPointSet* data) const;
 
 private:

@@ -48,7 +48,8 @@ public:
   /// Return the surface at rest; null without a mesh. Its weights have one column per handle, in
   /// the order of the handles.
   vtkPolyData* surface() const;
-  /// Return the tets on which the weights were solved, with the same columns; or null.
+  /// Return the tets on which the weights were solved; or null. The weights of the tets have the
+  /// same columns as those of surface().
   vtkUnstructuredGrid* weighted_tets() const;
   /// Return the current handles with their pose arrays; null without handles. The object is the
   /// same as long as the document exists.
@@ -119,9 +120,9 @@ public:
   void begin_bind();
   /// Return the handles of the bind in progress.
   const bindpose::Handles& bound_handles() const { return this->binding_.handles; }
-  /// Set the result of the bind: the surface with weights for its handles, and the tets on which
-  /// they were solved (or null). Preliminary weights are removed in all cases. If the surface of
-  /// begin_bind() is no longer open, return false and change nothing else.
+  /// Set the result of the bind: the surface with weights for bound_handles(), and the tets on
+  /// which these weights were solved (or null). Preliminary weights are removed in all cases. If
+  /// the surface of begin_bind() is no longer open, return false and change nothing else.
   bool set_bound(vtkPolyData* surface, vtkUnstructuredGrid* tets);
   /// Set preliminary weights that are used for posing until the bind ends. No undo step is
   /// recorded; drop_preview() and set_bound() remove the preliminary weights.

@@ -7,7 +7,7 @@
 
 #include <vector>
 
-/// One value of an option that is a choice.
+/// One allowed value of a choice, i.e. of an option with a fixed list of values.
 struct OptionChoice
 {
   const char* word; ///< the value in session files
@@ -24,11 +24,13 @@ struct OptionInfo
   QVariant initial;
   double lowest = 0.0;
   double highest = 1.0;
-  std::vector<OptionChoice> choices = {}; ///< if the option is a choice: one for each int value
+  /// The allowed values of a choice: the option's int value is an index into this list. Empty if
+  /// the option is not a choice.
+  std::vector<OptionChoice> choices = {};
   const char* former_key = ""; ///< key in the files of earlier versions
 };
 
-/// Return all options. If a filter has the option too, its words, labels, range and default come
+/// Return all options. If a filter has the same option, the words, labels, range and default come
 /// from the description of the filter's options (filters/options/README.md). A new option needs a
 /// row in this table. It also needs a widget (app/parts/option_widgets.h), or two functions that
 /// read and set it (app/window/option_links.h).
@@ -40,9 +42,9 @@ const OptionInfo* find_option(const QString& key);
 using Options = QMap<QString, QVariant>;
 Options initial_options();
 
-/// Convert a value to the option's own type. Return an invalid variant if it has another type, is
-/// not finite or is out of range. The value of a choice may be a word, or its integer as in the
-/// files of earlier versions.
+/// Return a value as the type of the option. Return an invalid variant if the value cannot be
+/// converted without loss, is not finite or is out of range. The value of a choice may be a word,
+/// or an integer as in files of earlier versions.
 QVariant checked_option(const OptionInfo& option, const QVariant& value);
 
 #endif

@@ -236,7 +236,8 @@ private:
     return source;
   }
 
-  /// Read and return a companion. If it is missing or has changed, return null and set `lost`.
+  /// Read and return a companion; null if the session has none. If the companion file is missing or
+  /// has changed, set `is_damaged` and return null.
   template <typename Reader>
   vtkSmartPointer<vtkDataSet> companion(
     const json& companions, const char* role, bool& is_damaged) const
@@ -345,7 +346,8 @@ private:
     };
     if (inputs.contains("handles"))
     {
-      // read only the handles' source, because the session file contains the handles themselves
+      // The session file contains the handles, so the handle file is not read. Only the path and
+      // the checksum of this file are needed.
       work.handle_source = this->source(inputs["handles"]);
     }
     if (inputs.contains("picture"))

@@ -56,7 +56,9 @@ struct Session
 class SessionFile
 {
 public:
-  struct PreparedSession; ///< the session as text, with datasets that nothing modifies
+  /// The text of a session file, and the datasets for its companion files. Nothing modifies these
+  /// datasets.
+  struct PreparedSession;
   static std::shared_ptr<const PreparedSession> prepare(
     const QString& path, const Session& session);
   /// Write the session. Companions that this object has already written to the same folder are not

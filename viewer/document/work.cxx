@@ -50,8 +50,8 @@ bool same_cells(vtkCellArray* a, vtkCellArray* b)
     same_values(a->GetConnectivityArray(), b->GetConnectivityArray());
 }
 
-/// Report whether a handle array contains only looks (layer, color, lock) or a pose, so that it
-/// affects no bind.
+/// Report whether the cell array of handles with this name has no effect on a bind, because it
+/// contains layers, colors, locks or a part of the pose.
 bool is_appearance_array(const char* array)
 {
   static const char* const appearance_arrays[] = { "Layer", "Color", "Locked", "Transform", "Mode",
@@ -60,7 +60,8 @@ bool is_appearance_array(const char* array)
     [array](const char* array_name) { return std::string(array_name) == array; });
 }
 
-/// Report whether `a` has all arrays of `b`, apart from looks, with the same values.
+/// Report whether `a` has all cell arrays of `b` with the same values, apart from arrays that have
+/// no effect on a bind.
 bool has_arrays_of(vtkPolyData* a, vtkPolyData* b)
 {
   vtkCellData* arrays = b->GetCellData();
@@ -77,7 +78,7 @@ bool has_arrays_of(vtkPolyData* a, vtkPolyData* b)
   return true;
 }
 
-/// Report whether handles differ only in their looks.
+/// Report whether two handle datasets differ at most in arrays that have no effect on a bind.
 bool differ_only_in_looks(vtkPolyData* a, vtkPolyData* b)
 {
   return a && b && a->GetPoints() && b->GetPoints() &&

@@ -55,7 +55,8 @@ struct Work
 enum WorkPart : int
 {
   mesh_part = 1, ///< the surface (apart from its weights), its tets, texture and name
-  weights_part = 2, ///< the weights of the surface, with their tets and handles
+  /// The weights of the surface, the tets on which they were solved, and the bound handles.
+  weights_part = 2,
   handles_part = 4, ///< the handles at rest
   pose_part = 8,
   stored_poses_part = 16,

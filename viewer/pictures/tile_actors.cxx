@@ -198,8 +198,8 @@ Plane section_of(const Box& box, const PictureOptions& options, const Frame& fra
 
 // ---- Tets --------------------------------------------------------------------------------------
 
-// Return faces with the grid's points and the displayed values. owners[f] is the tet of face f, for
-// values per tet.
+// Return a polydata with the faces, the grid's points and the displayed values. If there is one
+// value per tet, face f gets the value of the tet owners[f].
 vtkSmartPointer<vtkPolyData> face_polydata(
   vtkUnstructuredGrid* grid, const Triangles& faces, const std::vector<Index>& owners)
 {
@@ -241,8 +241,8 @@ void add_shrunk(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput
   add_flat(renderer, data, coloring, scale);
 }
 
-// Add the slice of the tets by the plane, unlit so that its colors are readable, and the part of
-// the boundary behind the plane.
+// Add the slice of the tets by the plane, and the part of the boundary behind the plane. The slice
+// is unlit, so that its colors are readable.
 Status add_tet_slice(vtkRenderer* renderer, vtkUnstructuredGrid* grid, const TetInput& input,
   const Plane& plane, const PictureOptions& options, const Coloring& coloring, double scale,
   Index& drawn_tets, std::vector<char>& drawn_points)
@@ -447,7 +447,7 @@ void add_lines_and_points(
     {
       return;
     }
-    vtkNew<vtkCellArray> verts; // draw the points of a point cloud without cells as vertices
+    vtkNew<vtkCellArray> verts; // one vertex cell per point, to draw a dataset without cells
     for (vtkIdType v = 0; v < copy->GetNumberOfPoints(); ++v)
     {
       verts->InsertNextCell(1, &v);
@@ -624,8 +624,9 @@ Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& o
   const Coloring& coloring, const std::vector<Extremum>& extrema, const Frame& frame, double scale,
   DrawnCounts& drawn_counts)
 {
-  // Flags of the points whose extrema are drawn. Empty: all points of a surface. For tets, only the
-  // points of the drawn faces are set.
+  // For tets, one flag per point: 1 if an extremum at this point is drawn, i.e. for points of drawn
+  // faces and corners of shrunk or sliced tets. Empty for all other datasets: all extrema are
+  // drawn.
   std::vector<char> drawn_points;
   if (auto* image = vtkImageData::SafeDownCast(tile.data))
   {

@@ -22,7 +22,7 @@ bool is_handle_data(vtkDataSet* data);
 Points shown_points(const Tile& tile, const PictureOptions& options, const Coloring& coloring,
   const Frame* frame = nullptr);
 
-/// Numbers of tets and extrema that a picture shows.
+/// The number of drawn tets and the number of drawn extrema of a picture.
 struct DrawnCounts
 {
   Index tets = 0;
@@ -32,8 +32,9 @@ struct DrawnCounts
 /// Add a tile's actors to its renderer.
 /// @param extrema  extrema of the tile's data
 /// @param scale  window pixels per picture pixel, for line widths and handle sizes
-/// @param drawn_counts  counts of drawn elements, to which the counts of this tile are added
-/// @return invalid_input if the section plane removes all of a tile's tets
+/// @param drawn_counts  counts of all tiles so far; the counts of this tile are added
+/// @return invalid_input if the section plane removes all tets of the tile, or if a slice crosses
+/// no tet
 Status add_tile(vtkRenderer* renderer, const Tile& tile, const PictureOptions& options,
   const Coloring& coloring, const std::vector<Extremum>& extrema, const Frame& frame, double scale,
   DrawnCounts& drawn_counts);

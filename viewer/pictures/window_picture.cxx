@@ -1,8 +1,9 @@
 // Draws a picture of any size in tiles. A tile shows a part of each renderer's view. The renderer's
 // viewport becomes the area of that part in the tile. A copy of the camera covers only the part,
-// with a narrower view angle and a shifted window center. 2D actors, which are positioned in window
-// pixels, are moved by the same amount. Tiles overlap by a margin that is cut off, because a wide
-// line just outside a tile would not be drawn in the tile.
+// with a narrower view angle and a shifted window center. The positions of 2D actors are pixels of
+// the viewport; they are shifted by the offset of the part from the lower left corner of the view.
+// Tiles overlap by a margin that is cut off, because a wide line just outside a tile would not be
+// drawn in the tile.
 //
 // A transparent picture is drawn twice, over black and over white; color and opacity are computed
 // from both. This is correct for every drawing method. The framebuffer's own alpha is correct only
@@ -196,9 +197,10 @@ std::array<double, 3> average(const Samples& pixels, const Rect& tile, int x, in
   return mean;
 }
 
-/// Fill the part of the image that a tile covers. The arguments are the tile's samples over white
-/// and, for transparent pictures, over black. The visible fraction of the background determines the
-/// opacity.
+/// Fill the part of the image that a tile covers. For a transparent picture, `on_white` and
+/// `on_black` are the samples of the tile, drawn on a white and on a black background; their
+/// difference gives the opacity. For an opaque picture, `on_white` has the picture's background,
+/// and `on_black` is null.
 void fill_image(const Samples& on_white, const Samples& on_black, const Rect& tile,
   const Rect& part, int samples, vtkImageData* image)
 {

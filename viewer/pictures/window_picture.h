@@ -36,8 +36,9 @@ struct WindowPicture
 
 /// Draw the content of a window at any size, even larger than the largest framebuffer. The picture
 /// is drawn in tiles, so that the required graphics memory is that of one tile. A tile is a part of
-/// every renderer's view. Sizes that actors specify in pixels (line widths, text) are drawn in
-/// samples instead; see ScaledLines.
+/// every renderer's view. If there are several samples per pixel (see WindowPicture::samples), each
+/// sample counts as a pixel for sizes that actors specify in pixels, such as line widths and text.
+/// ScaledLines compensates for this.
 ///
 /// On return, the window's size, cameras and viewports are restored, but the window is not redrawn.
 /// Return internal_error if the driver returns no pixels. Perspective and parallel cameras are

@@ -33,8 +33,9 @@ public:
   /// Set the pose at a time and return the index of the key. If a key is less than 0.5 milliseconds
   /// away, its pose is replaced and its time is kept.
   std::size_t set(double time, NamedPose pose);
-  /// Move a key to another time and return its new index. If another key is at that time, as in
-  /// set(), the pose of that key is replaced.
+  /// Move a key to another time and return its new index. If another key is less than 0.5
+  /// milliseconds away from the new time, the two keys become one key, with the moved pose and the
+  /// time of the other key.
   std::size_t move(std::size_t key, double time);
   void remove(std::size_t key);
   void clear() { this->keys_.clear(); }

@@ -60,7 +60,8 @@ Frame choose_frame(const Box& box, const std::string& up)
 Vec3 view_direction(const Frame& frame, const View& view)
 {
   const Vec3 up = Vec3::Unit(frame.up);
-  // View from +z or +x, or from -y if z is up. The other horizontal axis then points to the right.
+  // View from the positive end of the depth axis. Exception: if z is up and y is the depth axis,
+  // view from -y, so that x points to the right.
   const double side = frame.up == 2 && frame.depth == 1 ? -1.0 : 1.0;
   const Vec3 front = side * Vec3::Unit(frame.depth);
   const double azimuth = view.azimuth + (frame.flat ? 0.0 : default_azimuth);
@@ -109,8 +110,8 @@ void fit_along(vtkCamera* camera, PointsView points, const Axes& axes, double an
     near_point = std::min(near_point, z);
     far_point = std::max(far_point, z);
   }
-  // A single point, or a line along the view direction, has no width. Keep a minimum distance from
-  // it.
+  // Keep a minimum distance from the points, because a single point or a line along the view
+  // direction has no width.
   const double smallest = std::max(0.5 * box.diagonal(), 1e-6);
   double depth = std::min(-(high[0] + high[1]) / (2.0 * inner_fraction * tx),
     -(high[2] + high[3]) / (2.0 * inner_fraction * ty));
@@ -146,8 +147,8 @@ bool sees_all(vtkCamera* camera, PointsView points, const Axes& axes, double asp
   return true;
 }
 
-/// Return the smallest size at which all points are visible: the distance from the points' center,
-/// or the parallel scale of a parallel view.
+/// Return the smallest distance from the center of the points' bounding box at which a camera that
+/// looks at this center sees all points. For a parallel view, return the smallest parallel scale.
 double minimum_size(vtkCamera* camera, PointsView points, const Axes& axes, double aspect)
 {
   const Vec3 center = bounding_box(points).center();

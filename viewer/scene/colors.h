@@ -64,7 +64,9 @@ struct ColorMap
   double lower = 0.0; ///< lower end of the table and the legend
   double upper = 1.0;
   std::vector<double> ticks; ///< values that are labeled in the legend
-  int decimals = 1; ///< decimals of the tick texts; -1: shortest text with three digits
+  /// Number of decimals of the tick texts; -1: as few as necessary, and at most three significant
+  /// digits.
+  int decimals = 1;
   std::vector<std::string> texts; ///< texts of the ticks; empty: the values
   bool first_at_top = false; ///< true: the first entry is at the top; false: at the bottom
 };
@@ -88,7 +90,7 @@ ColorMap level_map(const ColorMap& map, const std::vector<double>& levels);
 /// Add the levels to the ticks of the map. Ticks whose texts would overlap the text of a level are
 /// removed.
 ColorMap with_levels(ColorMap map, const std::vector<double>& levels);
-/// Number of digits of values in legends; see short_number().
+/// Maximum number of significant digits of values in legends; see short_number().
 constexpr int legend_digits = 3;
 
 } // namespace bindpose

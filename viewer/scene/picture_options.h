@@ -36,7 +36,8 @@ struct Tile
   std::string label; ///< text below the tile; may be empty
   /// Additional datasets that are drawn uncolored: surfaces and tets translucent, curves as tubes.
   std::vector<vtkSmartPointer<vtkDataSet>> context{};
-  /// Output of vtkSurfaceDefects, drawn over a surface, which is then see-through; may be null.
+  /// Output of vtkSurfaceDefects, or null. The defects are drawn over the surface `data`, and this
+  /// surface becomes see-through.
   vtkSmartPointer<vtkPolyData> defects{};
 };
 
@@ -45,9 +46,9 @@ enum class ColorBy
 {
   array, ///< the array named by PictureOptions::array
   winding_number, ///< the array WindingNumber
-  label, ///< tets: inside or outside, from the cell array Label
-  quality, ///< tets: the smallest dihedral angle, degrees
-  method, ///< tets: the meshing method, from the field data Method
+  label, ///< tets only: inside or outside, from the cell array `Label`
+  quality, ///< tets only: the smallest dihedral angle, in degrees
+  method, ///< tets only: the meshing method, from the field data array `Method`
   handle, ///< cells of meshes: the name of the handle with the largest Weights at the cell
   row_sum, ///< the sum of each point's `RawWeights`
   rotation_cluster, ///< cells: the rotation cluster of most of their points (RotationCluster)
@@ -76,15 +77,15 @@ struct PictureOptions
   /// picture. Lines, points, text and legends are scaled by the same factor. See
   /// check_picture_size().
   int scale = 1;
-  /// Point or cell array that is displayed as colors. Empty: no colors; for an image volume, the
-  /// array WindingNumber, or its first array if that is missing.
+  /// Point or cell array that is displayed as colors. Empty: an image volume shows the array
+  /// WindingNumber or, if it has no such array, its first array; all other datasets have no colors.
   std::string array;
   /// The quantity that is displayed as colors. For all values except ColorBy::array, `array` must
   /// be empty.
   ColorBy color_by = ColorBy::array;
   /// Dataset whose values are subtracted from the displayed values, point by point or cell by cell.
-  /// It needs the same array and component and the same number of points or cells. Null: no
-  /// subtraction.
+  /// This dataset must have the same array and component and the same number of points or cells.
+  /// Null: no subtraction.
   vtkSmartPointer<vtkDataSet> subtracted_data;
   /// Show local extrema of the displayed array as balls; see find_extrema(). On tets, only extrema
   /// on the drawn faces are visible.

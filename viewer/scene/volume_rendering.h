@@ -24,8 +24,8 @@ double winding_opacity(double winding_number, double step);
 /// per sample where it jumps from 0 to 1 between two samples. The picture is therefore similar on
 /// grids of any resolution. check_volume() must accept the point array.
 ///
-/// Rays are cast on the CPU. With a software graphics driver, as on servers, that is several times
-/// faster than VTK's GPU mapper, and it gives the same picture on every machine.
+/// Rays are cast on the CPU, so that the picture is the same on every machine. With a software
+/// graphics driver, as on servers, CPU ray casting is several times faster than VTK's GPU mapper.
 /// @param pixels  distance between neighboring rays in pixels; 0: adapted to the time available for
 /// a picture
 vtkSmartPointer<vtkVolume> make_winding_volume(

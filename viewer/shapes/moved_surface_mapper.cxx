@@ -103,7 +103,8 @@ void MovedSurfaceMapper::BuildBufferObjects(vtkRenderer* renderer, vtkActor* act
     this->uploaded_state_.clear();
     if (this->CurrentInput)
     {
-      // Record the state after the upload, because the first upload creates a lookup table.
+      // Record the state after the upload: the first upload creates the lookup table, and the state
+      // contains the modification time of this table.
       this->uploaded_state_ = state_of(*this, actor);
     }
   }
@@ -175,7 +176,8 @@ bool MovedSurfaceMapper::upload_moved()
   if (position_buffer->GetUploadTime() < positions->GetMTime())
   {
     copy_as_floats(positions, this->positions_);
-    // Another mapper of these points uses the same buffer and may have chosen a shift.
+    // VTK uses one buffer for all mappers of these points, and another mapper may have enabled the
+    // shift in this buffer.
     position_buffer->SetCoordShiftAndScaleMethod(vtkOpenGLVertexBufferObject::DISABLE_SHIFT_SCALE);
     position_buffer->UploadDataArray(this->positions_);
   }

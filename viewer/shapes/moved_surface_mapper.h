@@ -15,9 +15,10 @@ namespace bindpose
 /// graphics card. VTK's own mapper also rebuilds the list of triangles, which takes most of the
 /// time.
 ///
-/// VTK also shifts and scales the points for the upload unless the diagonal of their bounding box
+/// For the upload, VTK also shifts and scales the points unless the diagonal of their bounding box
 /// is near 1. This mapper shifts points only if they are so far from the origin that rounding to
-/// single precision would be visible. Such an upload takes the slow path.
+/// single precision would be visible. It then uses VTK's upload, which rebuilds the list of
+/// triangles.
 ///
 /// The bounds include all points. Therefore a surface must use all of its points, as
 /// ShadedSurface::polydata() does.

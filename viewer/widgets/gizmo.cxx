@@ -333,8 +333,8 @@ void Gizmo::add_bone()
   }
 }
 
-/// Add lines for the dragged part: a long line along the axis of a move, or two lines of a
-/// rotation, to its start and to its current position.
+/// Add guide lines for the dragged part: a long line along each axis to which a move or a scale is
+/// constrained, or the two lines of a rotation (see GizmoMarks::spokes).
 void Gizmo::add_drag()
 {
   const int part = this->marks_.active;
@@ -444,8 +444,8 @@ void Gizmo::draw(HandleShapes& solid, HandleShapes& hull) const
   {
     const bool is_highlighted =
       !part.guide && (part.part == this->marks_.hovered || part.part == this->marks_.active);
-    // Show the part under the mouse larger and lighter. Mixing halfway with white would lose the
-    // color of its axis, so the color is mixed with less white.
+    // Show the part under the mouse larger and lighter. A mixture with more white would no longer
+    // show the color of the axis.
     Color color = part.color;
     for (double& c : color)
     {

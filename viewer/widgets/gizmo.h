@@ -20,7 +20,7 @@ enum class GizmoKind
   all = 4
 };
 
-/// Parts of the gizmo, the arrows, plates, rings and boxes around a selected handle. The values
+/// The parts of the gizmo: arrows, plates, rings and boxes around a selected handle. The values
 /// equal the interaction states of the representation. In a group of three parts, the axis is the
 /// value minus the value of the first part.
 enum GizmoPart : int
@@ -85,8 +85,8 @@ struct GizmoMarks
 {
   int hovered = no_part;
   int active = no_part; ///< the dragged part; all other parts are left out
-  /// The ends of two lines that start at the origin during a rotation, in world coordinates: the
-  /// position at which the ring was grabbed, and its current position.
+  /// During a rotation, the ends of two lines that are drawn from the origin, in world coordinates:
+  /// the position at which the ring was grabbed, and the position to which the drag has rotated it.
   std::optional<Eigen::Vector3d> spokes[2];
 };
 

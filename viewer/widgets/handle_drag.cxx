@@ -1,15 +1,17 @@
-// Converts mouse motion to a motion in world coordinates. Every type of drag compares the current
-// mouse position (slowed down in fine mode) with the position at the start:
+// Converts mouse motion to a motion in world coordinates. Every type of drag compares two mouse
+// positions: the position at the start and the current position (slowed down in fine mode). Each
+// mouse position defines a ray from the eye.
 //
-// - A move in a plane uses the intersections of both rays with the plane. A move along a line uses
-//   the plane through the line that faces the camera most, and the distance along the line.
-// - A rotation is the angle between the intersections at the start and now, in the plane of the
-//   ring. Angles are summed move by move, so that several turns are counted. For a ring seen
+// - A move in a plane is the difference between the intersections of the two rays with the plane. A
+//   move along a line uses the plane through the line that faces the camera most, and only the
+//   component along the line.
+// - A rotation is the angle at the pivot between the intersections of the two rays with the ring's
+//   plane. Angles are summed move by move, so that several turns are counted. For a ring seen
 //   edge-on, these intersections are unusable. Instead, the angle is proportional to the distance
 //   that the mouse moves along the near side of the ring.
 // - A scale is the ratio of distances from the pivot, on the screen or along an axis.
-// - An arm (the vector from the pivot to the tail of a bone) is rotated toward the mouse by the
-//   smallest rotation. The mouse position is in the plane that faces the camera.
+// - An arm (the vector from the pivot to the tail of a bone) is rotated, by the smallest rotation,
+//   toward the dragged tail. The tail is dragged in the plane that faces the camera.
 #include "handle_drag.h"
 
 #include "motion_about.h"

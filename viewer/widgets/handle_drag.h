@@ -58,8 +58,8 @@ struct DragMotion
 /// motion in world coordinates.
 ///
 /// The drag sums the motions of the mouse, or a tenth of each motion in fine mode, so that nothing
-/// jumps when fine mode begins or ends. If a ray does not intersect the plane or line of the
-/// constraint (beyond the horizon, or if the line points at the viewer), the last motion is kept.
+/// jumps when fine mode begins or ends. The last motion is kept if the mouse is beyond the horizon
+/// of the drag's plane, or if the line of a move or a stretch points at the viewer.
 class Drag
 {
 public:

@@ -1,7 +1,7 @@
 // Converts a drag of the mouse to poses. Each grabbed part has its own type of drag. Balls, bodies
 // and heads move in the plane that faces the camera. A tail rotates its bone toward the mouse; with
-// `reach` it also stretches the bone. The names of the gizmo's parts state their effects. A handle
-// whose mode is position is moved, whatever part is grabbed.
+// `reach` it also stretches the bone. The names of the gizmo's parts state their effects. If a
+// handle is in mode position, every drag moves the handle, whatever part is grabbed.
 #include "pose_drag.h"
 
 #include "pose/transform_parts.h"

@@ -1,9 +1,12 @@
 // Creates and moves handles at rest with the mouse. A click gets the first of these positions that
-// exists: (1) the end of a handle under the mouse; (2) the intersection of the ray with the
-// surface, or the position halfway to the exit of the ray; (3) the intersection of the ray with a
-// plane that faces the camera. That plane goes through the previously placed position, if there is
-// one. A cage surrounds a shape, so only its first vertex can be on the surface; its other vertices
-// are placed in the plane of (3).
+// exists:
+// (1) The end of a handle under the mouse.
+// (2) The position where the mouse ray enters the surface. With EditSettings::place_inside, points
+//     and bones are placed halfway between this position and the exit of the ray.
+// (3) The intersection of the mouse ray with a plane that faces the camera. The plane goes through
+//     the previously placed position, if there is one.
+// A cage surrounds a shape. Therefore only the first vertex of a cage is placed by (2), all other
+// vertices by (3).
 //
 // Every edit renumbers cells, so an unfinished cage is identified by the names of its vertices.
 #include "rest_editor.h"
@@ -62,7 +65,7 @@ std::optional<RestEditor::Target> RestEditor::handle_end_at(const ScreenView& vi
   const std::vector<HandleRecord> records = this->data_.records(true);
   for (std::size_t i = 0; i < records.size(); ++i)
   {
-    for (const bool tail : { true, false }) // at a joint, prefer the tail of the upper bone
+    for (const bool tail : { true, false }) // at a joint, prefer the tail of the parent bone
     {
       const HandleRecord& record = records[i];
       const Vec3& end_position = tail ? record.tail : record.head;

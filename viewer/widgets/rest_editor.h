@@ -49,13 +49,13 @@ struct EditSettings
   Eigen::Vector3d focus = Eigen::Vector3d::Zero();
 };
 
-/// The effect of an edit on the dataset and the ids of its cells.
+/// The result of an edit: whether the dataset has changed, and the new ids of the cells.
 struct EditResult
 {
   bool changed = false;
   std::string message; ///< reason why the edit was refused; empty if it was not refused
-  std::vector<Index> cell_of;
-  std::vector<Index> added;
+  std::vector<Index> cell_of; ///< for each cell before the edit, its id after the edit, or -1
+  std::vector<Index> added; ///< ids of the new cells
 };
 
 /// Creates and moves handles at rest interactively. The dataset is written only when an edit is
@@ -78,12 +78,13 @@ public:
     const std::vector<vtkIdType>& selected);
   void move(const ScreenView& view, const MouseState& mouse_state, const EditSettings& settings);
   void release(const ScreenView& view, const MouseState& mouse_state, const EditSettings& settings);
-  /// Report whether an interaction is in progress while the button is down.
+  /// Report whether an interaction is in progress, i.e. a press of the button has begun an
+  /// interaction, and neither a release nor a cancel has ended it.
   bool is_busy() const { return this->busy_; }
   /// Restore the dataset to its state before the interaction.
   void cancel();
-  /// Constrain a move to axes of the world, a mask as in DragSetup. A second call with the same
-  /// mask removes the constraint.
+  /// Constrain the current move of rest positions to axes of the world. `axes` is a mask as in
+  /// DragSetup. A second call with the same mask removes the constraint.
   void constrain(int axes);
 
   ///@{
@@ -145,11 +146,10 @@ private:
   Target head_; // head of the unfinished bone
   // Names of the vertices of the unfinished cage, in the order of the clicks.
   std::vector<std::string> cage_;
-  // State of a move of rest positions: the dataset at its start, and the following members.
-  vtkSmartPointer<vtkPolyData> start_;
-  std::optional<Drag> drag_;
-  std::vector<HandleEnd> ends_;
-  std::vector<Vec3> start_positions_;
+  vtkSmartPointer<vtkPolyData> start_; // the dataset before the current interaction
+  std::optional<Drag> drag_; // the current move of rest positions; empty: none
+  std::vector<HandleEnd> ends_; // the ends that `drag_` moves
+  std::vector<Vec3> start_positions_; // positions of `ends_` before the move
 };
 
 } // namespace bindpose

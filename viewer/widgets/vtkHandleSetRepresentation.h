@@ -328,8 +328,9 @@ public:
   ///@}
 
   ///@{
-  /// Draw handles in mode automatic for methods that compute rotations (see vtkReducedARAP):
-  /// handles that are only translated are drawn like handles in mode position. Default off.
+  /// On if the pose method computes rotations itself (see vtkReducedARAP). Such a method uses mode
+  /// position for some handles in mode automatic, for example translated points. These handles are
+  /// then drawn in PositionColor; with this property off, in FullColor. Default off.
   vtkSetMacro(FindsRotations, vtkTypeBool);
   vtkGetMacro(FindsRotations, vtkTypeBool);
   vtkBooleanMacro(FindsRotations, vtkTypeBool);

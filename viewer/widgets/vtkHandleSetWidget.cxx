@@ -150,7 +150,7 @@ bool vtkHandleSetWidget::Hover()
   if (representation->GetEditMode() > vtkHandleSetRepresentation::MOVE_REST &&
     (on_gizmo || state_before != state))
   {
-    this->Render(); // redraw the preview of an edit mode, which follows the mouse
+    this->Render(); // the preview of an edit mode follows the mouse
   }
   if (representation->GetHoveredHandle() != handle_before || (on_gizmo && state != state_before))
   {

@@ -105,9 +105,10 @@ public:
   /// vtkHandleSetRepresentation::GetInteractionName().
   std::string GetInteractionName();
 
-  /// Start a drag of the selected handles that follows the mouse without a button, as the keys G, R
-  /// and S do: GIZMO_MOVE, GIZMO_TURN or GIZMO_SCALE. Return false if no handle can be dragged this
-  /// way.
+  /// Start a drag of the selected handles that follows the mouse without a pressed button, as the
+  /// keys G, R and S do.
+  /// @param gizmo  GIZMO_MOVE, GIZMO_TURN or GIZMO_SCALE
+  /// @return false if no drag was started; see vtkHandleSetRepresentation::StartDrag()
   bool StartDrag(int gizmo);
   /// End a drag in progress, as Enter does.
   void EndDrag();
@@ -118,8 +119,9 @@ public:
   void SetEnabled(int enabling) override;
 
   ///@{
-  /// The table of buttons and keys. Each row contains its condition ("pose", "drag" in any mode, or
-  /// the edit modes), the input in the form shown to users, and the action.
+  /// The table of buttons and keys. Each row contains the state in which it applies, the button or
+  /// key in the form shown to users, and the action. The state is "pose", "drag" (in any mode) or a
+  /// list of edit modes.
   static int GetNumberOfBindings();
   static std::string GetBindingWhen(int row);
   static std::string GetBindingInput(int row);

@@ -1,7 +1,8 @@
-// Paints labels on the vertices around the mouse position. That position is the first intersection
-// of a ray with the surface. The kernel surface_disc() returns the vertices of the disc by distance
-// along the surface; otherwise a pass over all vertices finds them. Only labels that change are
-// written and recorded, so a cancel restores exactly these labels.
+// Paints labels on the vertices of a disc. The center of the disc is the first intersection of the
+// mouse ray with the surface. If Geodesic is on, SurfaceDisc finds the vertices within a distance
+// along the surface. If it is off, a pass over all vertices finds those within a straight-line
+// distance. Only labels that change are written and recorded, so a cancel restores exactly these
+// labels.
 #include "vtkRegionBrushRepresentation.h"
 
 #include "handle_shapes.h"
@@ -242,8 +243,8 @@ void vtkRegionBrushRepresentation::WidgetInteraction(double eventPos[2])
   {
     return;
   }
-  // Paint several discs along the path of the mouse, because it may have moved far since the last
-  // event.
+  // Paint several discs along the path of the mouse, because the mouse may have moved far since the
+  // last event.
   const Vector2d to(eventPos);
   const Vector2d displacement = to - self.LastPosition;
   const double pixel =
@@ -310,8 +311,8 @@ void vtkRegionBrushRepresentation::BuildRepresentation()
         self.HitPosition + this->GetDiscRadius() * (std::cos(angle) * u + std::sin(angle) * v));
     }
     shapes.add_tube(circle, 2.0 * pixel, { 0.13, 0.13, 0.15 });
-    // Draw a second, thinner circle nearer to the eye, so that the dark circle is visible as its
-    // outline.
+    // Draw a thinner circle in the brush color nearer to the eye. The dark circle above then looks
+    // like the outline of the colored circle.
     for (Vector3d& point : circle)
     {
       point -= 3.0 * pixel * view.direction_to(point);

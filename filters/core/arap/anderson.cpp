@@ -1,9 +1,10 @@
 // Anderson acceleration with incrementally updated normal equations. The differences between
 // successive values of g and of the residual f = g - x are stored in ring buffers, one row per
-// difference. A new difference adds one row to the normal equations: its inner products with the
-// stored differences. The right-hand side contains the inner products of the differences with the
-// residual. The residual changes by the new difference, so the right-hand side is updated by adding
-// the new row to it. Only its last entry needs another inner product. Therefore a step needs one
+// difference. The matrix of the normal equations contains the inner products of the residual
+// differences with each other. The right-hand side contains their inner products with f. A new
+// residual difference d adds or replaces one row and one column of the matrix. Because f also
+// changes by d, each entry of the right-hand side changes by the corresponding entry of the new
+// row. Only the entry for d is computed as a new inner product with f. Therefore a step needs one
 // inner product per stored difference and one more.
 #include "arap/anderson.h"
 

@@ -15,16 +15,17 @@ namespace bindpose
 
 /// Type of the as-rigid-as-possible energy, which determines the sets of edges that share one
 /// rotation. All energies are normalized: an affine map x -> J x with the same rotation R
-/// everywhere costs 1/2 volume |J - R|^2 (area on surfaces). For `spokes_and_rims` and `elements`,
-/// the energy of the map is the minimum of this cost over all R. For `spokes`, this is true if J is
-/// a rotation times a nonnegative scale. For any other J, the energy `spokes` may be lower, because
-/// the edges of one vertex need not be distributed evenly over all directions.
+/// everywhere costs 1/2 volume |J - R|^2 (on surfaces, area instead of volume). For
+/// `spokes_and_rims` and `elements`, the energy of the map is the minimum of this cost over all R.
+/// For `spokes`, the energy equals this minimum if J is a rotation times a nonnegative scale. For
+/// any other J, the energy `spokes` may be lower, because the edges of one vertex need not be
+/// distributed evenly over all directions.
 ///
 /// The weight of an edge is the sum of its elements' cotangent weights. The energy `spokes` omits
 /// edges with negative weights (obtuse angles opposite to the edge), because such an edge alone
-/// would lower the energy by rotating away from rest. The other energies keep all edges, because
-/// the weights of a whole element define a positive semi-definite form. The costs above apply to
-/// `spokes` only if no edge was omitted.
+/// would lower the energy by rotating away from rest. If an edge is omitted, the costs above do not
+/// hold for `spokes`. The other energies keep all edges, because the weights of a whole element
+/// define a positive semi-definite form.
 enum class ArapEnergy : int
 {
   automatic = 0, ///< `elements` on tets, `spokes_and_rims` on surfaces

@@ -224,8 +224,8 @@ void ConstrainedStiffness::factor_constraints(double unit)
   {
     return;
   }
-  // Multiply the inverse of the stiffness by `unit`. The mean diagonal entry of the scaled
-  // stiffness is 1.
+  // Replace the stiffness L by L / unit, whose mean diagonal entry is 1. The inverse of L / unit is
+  // unit * L^-1.
   this->response_ = this->unknowns_.empty() ? right : Eigen::MatrixXd(this->solver_.solve(right));
   this->response_ *= unit;
   Eigen::MatrixXd& small = this->constraint_system_;

@@ -79,9 +79,10 @@ public:
   };
   struct SolveOptions
   {
-    /// The solve ends if an iteration lowers the energy by at most this fraction of the energy. In
-    /// this test, an energy below 1e-6 * rest_energy() (a strain of about 1e-3) is replaced by this
-    /// bound. 0: run all iterations; the result is never not_converged.
+    /// The solve ends if an iteration lowers the energy by at most this fraction of the energy.
+    /// If the energy is below 1e-6 * rest_energy() (a strain of about 1e-3), this bound replaces
+    /// the energy in the test. If the tolerance is 0, there is no test, and the solve cannot return
+    /// not_converged.
     double tolerance = 1e-6;
     Index max_iterations = 500;
     Start start = Start::last;
@@ -173,8 +174,8 @@ private:
   std::vector<double> rest_covariance_, covariance_, rotations_;
   std::vector<double> rotation_deltas_; ///< R - I, nine per group, row by row
   Rows force_; ///< K^T Q of the last global step, #V x 3
-  double rotation_term_ = 0.0; ///< <R - I, S> for the covariances S, after a local step
-  double rest_rotation_term_ = 0.0; ///< <R - I, S> for the covariances S at rest
+  double rotation_term_ = 0.0; ///< sum over groups of <R - I, S> with the posed covariances S
+  double rest_rotation_term_ = 0.0; ///< sum over groups of <R - I, S> with the rest covariances S
   bool has_rotations_ = false;
   Points posed_;
   std::vector<double> energies_;

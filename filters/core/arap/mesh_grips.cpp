@@ -17,8 +17,8 @@ namespace
 constexpr double vertex_tolerance = 1e-9;
 /// A handle is on the mesh if its distance is at most this, in bounding-box diagonals.
 constexpr double on_mesh = 1e-6;
-/// A point in an element counts as a vertex of the element if its barycentric coordinate of this
-/// vertex is at least this.
+/// A point in an element is replaced by a vertex of the element if the barycentric coordinate of
+/// the point at this vertex is at least this value.
 constexpr double vertex_coordinate = 1.0 - 1e-9;
 /// Maximum number of intervals between the constrained points of a bone that has no vertices.
 constexpr double maximum_intervals = 16.0;

@@ -17,8 +17,8 @@ namespace bindpose
 ///   vertex, the vertices along a bone, or the vertices with the label of a region.
 /// - `position`: the pivot is constrained to its transformed position. The pivot of a region is the
 ///   mean of its vertices.
-/// - `tail`, `ends`: the tail, or both ends of a bone, are constrained to their transformed
-///   positions.
+/// - `tail`: the tail of a bone is constrained to its transformed position.
+/// - `ends`: both ends of a bone are constrained to their transformed positions.
 /// - `free`: no constraint.
 ///
 /// If there is no vertex at the position of a handle, the point of the element at this position is
@@ -64,9 +64,10 @@ public:
   /// Compute the target displacements for a pose with the chosen modes, one row per entry of
   /// prescribed() and constrained().
   void targets(const Pose& pose, Rows& prescribed, Rows& constrained) const;
-  /// Return a warning about redundant position handles, or an empty list.
-  /// @param points indices in constrained() of the redundant points that ConstrainedStiffness
-  /// found.
+  /// Return a list with one warning that names the redundant position handles. Return an empty list
+  /// if no position handle is redundant.
+  /// @param points the redundant points that ConstrainedStiffness found, as indices in
+  /// constrained().
   std::vector<std::string> redundancy(const Pose& pose, const std::vector<Index>& points) const;
   /// Return the largest violation of a constraint by the displacements (#V x 3), in bounding-box
   /// diagonals. If handles contradict each other, append a warning.
@@ -79,9 +80,9 @@ public:
 private:
   struct Grip
   {
-    std::vector<MeshPoint> points; ///< mesh points that mode full constrains
-    MeshPoint pivot; ///< mesh point of the pivot, which modes position and ends constrain
-    MeshPoint tail; ///< mesh point of a bone's tail, which modes tail and ends constrain
+    std::vector<MeshPoint> points; ///< mesh points that are constrained in mode `full`
+    MeshPoint pivot; ///< pivot, which is constrained in the modes `position` and `ends`
+    MeshPoint tail; ///< tail of a bone, which is constrained in the modes `tail` and `ends`
   };
   template <typename Elements>
   Status find_any(PointsView points, const Elements& elements, const Components& parts,

@@ -50,8 +50,10 @@ Status ReducedArap::deform(ExecutionContext& context, PointsView rest, PointsOut
 
 Status ReducedArap::weights(ExecutionContext& context, Weights& weights) const
 {
-  // Read the weights back from the blend: a unit translation of one column's transform moves a
-  // vertex at the origin by its weight. Three columns are read per blend, one per coordinate.
+  // Compute the weights by linear blend skinning of vertices at the origin. If the transform of one
+  // column is a unit translation and all other transforms are the identity, each vertex moves by
+  // its weight in this column. One blend yields three columns, which are translated along different
+  // axes.
   const Index columns = this->space_.columns;
   const Points origin = Points::Zero(this->space_.skinning.vertex_count(), 3);
   Points moved;

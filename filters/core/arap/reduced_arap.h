@@ -56,8 +56,9 @@ public:
   /// report contains energy, iterations, single_precision_iterations (number of iterations in
   /// single precision), residual (relative decrease of the energy in the last iteration),
   /// microseconds_per_iteration and constraint_residual (largest violation of a position, in
-  /// bounding-box diagonals). Warnings contain the names of redundant position handles and of
-  /// contradictory ones, which are satisfied in the least-squares sense.
+  /// bounding-box diagonals). Warnings name the redundant position handles and the handles whose
+  /// positions are contradictory or unreachable. Such positions are satisfied in the least-squares
+  /// sense.
   Status solve(ExecutionContext& context, const Pose& pose, const SolveOptions& options = {});
 
   /// Discard the last rotations, so that the next solve starts with `guess`.

@@ -1,8 +1,9 @@
 #ifndef bindpose_arap_reduced_basis_h
 #define bindpose_arap_reduced_basis_h
 
-// Basis of the displacements that the constraints of a choice of modes leave undetermined, for the
-// global step of reduced as-rigid-as-possible (reduced_solver.cpp).
+// Basis of the displacements that leave everything unchanged that the handles constrain, for a
+// choice of the handles' modes. The global step of reduced as-rigid-as-possible
+// (reduced_solver.cpp) uses this basis.
 
 #include "arap/reduced_space.h"
 #include "linear/dense_cholesky.h"
@@ -101,14 +102,14 @@ public:
 
 private:
   /// Factorization H = L L^T for the unknowns that affect the energy, scaled so that each column of
-  /// M has root mean square one. If a translation u of the whole shape has no energy, one unknown
-  /// is omitted, and D = u t + E z.
+  /// M has root mean square one. If a translation u of the whole shape has no energy, the last
+  /// unknown is omitted from H, and D = u t + E z.
   struct FullFactorization
   {
     bool tried = false, good = false;
-    std::vector<Index> rows; ///< indices of rows of D; if u is not empty, H omits the last one
+    std::vector<Index> rows; ///< row of D of each unknown, including an omitted one
     Eigen::VectorXd scale; ///< scale of each row
-    Eigen::VectorXd shift; ///< translation u of norm one; empty if u has an energy
+    Eigen::VectorXd shift; ///< translation u, scaled to norm one; empty if no unknown is omitted
     DenseCholesky cholesky; ///< Cholesky factor L
     Eigen::MatrixXd directions; ///< E = L^-T
     Eigen::MatrixXd covariance; ///< covariances K E

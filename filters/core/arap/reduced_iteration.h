@@ -22,7 +22,7 @@ struct ReducedLimits
 {
   /// The run ends if an iteration lowers the energy by at most this fraction of the energy.
   double tolerance = 0.0;
-  double minimum_energy = 0.0; ///< lower bound for the energy in the convergence test
+  double minimum_energy = 0.0; ///< lower energies are replaced by this in the convergence test
   double energy_tolerance =
     0.0; ///< energies whose difference is at most this are equal up to round-off
   Index iterations = 0; ///< maximum number of iterations
@@ -66,8 +66,8 @@ public:
   template <typename Other>
   void set_matrix(const ReducedIteration<Other>& from, double unit);
 
-  /// Set S* and the initial rotations. Matrices are stored in planes: entry (i, j) of matrix k is
-  /// at (3 i + j) stride + k.
+  /// Set S* and the initial rotations. Entry (i, j) of matrix k is at (3 i + j) * stride + k in
+  /// both arrays.
   void begin(Index stride, const std::vector<double>& unrotated_covariance,
     const std::vector<double>& rotations);
 
@@ -82,8 +82,8 @@ public:
   bool run(ExecutionContext& context, const ReducedLimits& limits, Index window,
     double unrotated_energy, ReducedProgress& progress);
 
-  /// Write the rotations of the last local step. Entry (i, j) of rotation k is written to
-  /// planes[(3 i + j) stride + k], the layout of begin().
+  /// Write the rotations of the last local step to `planes`. Entry (i, j) of rotation k has the
+  /// index (3 i + j) * stride + k, as in begin().
   void rotations(Index stride, std::vector<double>& planes) const;
 
   /// Return Y, #columns x 3.

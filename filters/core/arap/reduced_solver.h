@@ -13,8 +13,8 @@ namespace bindpose
 /// Initial rotations of a solve.
 enum class ReducedStart
 {
-  /// Rotations of the last solve (`guess` in the first solve). A drag then needs few iterations per
-  /// solve, and can build up twists of more than half a turn.
+  /// Rotations of the last solve (`guess` in the first solve). While a user drags a handle, each
+  /// solve then needs few iterations, and twists of more than half a turn can accumulate.
   last,
   /// Per cluster: a blend, by weights, of the rotations of handles in mode full. Every other handle
   /// contributes the rotation that best fits the whole pose. These initial rotations depend only on
@@ -26,9 +26,10 @@ enum class ReducedStart
 /// Options of ReducedSolver::solve().
 struct ReducedSolveOptions
 {
-  /// The solve ends if an iteration lowers the energy by at most this fraction of the energy. In
-  /// this test, an energy below 1e-6 * ReducedSpace::rest_energy (a strain of about 1e-3) is
-  /// replaced by this bound. 0: run all iterations; the result is never not_converged.
+  /// The solve ends if an iteration lowers the energy by at most this fraction of the energy.
+  /// If the energy is below 1e-6 * ReducedSpace::rest_energy (a strain of about 1e-3), this bound
+  /// replaces the energy in the test. If the tolerance is 0, there is no test, and the solve cannot
+  /// return not_converged.
   double tolerance = 1e-6;
   Index max_iterations = 100;
   ReducedStart start = ReducedStart::last;
@@ -70,8 +71,8 @@ public:
   /// Discard the last rotations, so that the next solve starts with `guess`.
   void discard_rotations() { this->has_rotations_ = false; }
 
-  /// Rotations of the last solve, stored in planes as in ReducedSpace. The caller can store and
-  /// restore them.
+  /// Rotations of the last solve. Entry (i, j) of rotation k has the index (3 i + j) * stride + k,
+  /// with ReducedSpace::stride. The caller can store and restore the rotations.
   const std::vector<double>& rotations() const { return this->rotations_; }
   void set_rotations(std::vector<double> rotations);
 
@@ -85,7 +86,7 @@ private:
 
   // ---- per choice of modes
   std::vector<HandleMode> modes_;
-  std::vector<Index> positions_; ///< constrained pivots and tails, as row indices of pivot_rows
+  std::vector<Index> positions_; ///< rows of pivot_rows for the constrained pivots and tails
   std::vector<Index> redundant_;
   /// #positions x 4 #columns: maps D to the displacements of the positions.
   Eigen::MatrixXd position_rows_;
@@ -96,7 +97,7 @@ private:
   bool has_single_precision_ = false;
 
   // ---- state
-  std::vector<double> rotations_; ///< last rotations, in planes as in ReducedSpace
+  std::vector<double> rotations_; ///< rotations of the last solve, in the layout of rotations()
   bool has_rotations_ = false;
   std::vector<double> energies_;
 };

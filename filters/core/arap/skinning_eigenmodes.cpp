@@ -6,10 +6,10 @@
 //     S (L + s M)^-1 S x = x / (lambda + s),   x = S w.
 //
 // The operator on the left is symmetric, its largest eigenvalues correspond to the smallest lambda,
-// and each product needs one solve with a sparse factor. The shift makes L + s M positive definite
-// if a connected part has no vertex at which modes are zero. The shift is far below any eigenvalue
-// of a nonconstant mode. The Lanczos method always starts with the same vector, so the result is
-// reproducible.
+// and each product needs one solve with a sparse factor. L is singular if a connected part has no
+// vertex at which modes are prescribed to be zero. Even then, the shift makes L + s M positive
+// definite. The shift is far below any eigenvalue of a nonconstant mode. The Lanczos method always
+// starts with the same vector, so the result is reproducible.
 #include "arap/skinning_eigenmodes.h"
 
 #include "arap/weight_clusters.h"

@@ -22,7 +22,7 @@ namespace
 {
 /// A surface in an order that depends only on its geometry. Unused and duplicate vertices are
 /// removed, and vertices are sorted by coordinates. Each triangle begins with its lowest vertex id,
-/// and triangles are sorted by their ids.
+/// and triangles are sorted lexicographically by their three vertex ids.
 struct SortedSurface
 {
   Points points;

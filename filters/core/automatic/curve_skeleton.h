@@ -13,14 +13,15 @@ namespace bindpose
 /// Options of curve_skeleton().
 struct CurveSkeletonOptions
 {
-  /// A point is inside if its winding number is at least this, > 0. Used only if the surface is
-  /// replaced by a closed surface (see curve_skeleton).
+  /// Threshold, > 0: a point is inside if its winding number is at least this. Used only if the
+  /// surface is replaced by a closed surface (see curve_skeleton).
   double winding_threshold = 0.5;
-  /// The surface is remeshed to about this number of triangles of uniform size, for all components
-  /// together, before it is contracted; 100 … 1000000. Parts thinner than the edges of these
-  /// triangles may be lost. The time grows slightly faster than this number.
+  /// Approximate number of triangles after remeshing, 100 … 1000000, for all components together.
+  /// Before the surface is contracted, it is remeshed to triangles of uniform size. Parts thinner
+  /// than the edges of these triangles may be lost. The time grows slightly faster than this
+  /// number.
   Index triangles = 10000;
-  /// Time limit in seconds, > 0. The helper process may use the time that remains after the closed
+  /// Time limit in seconds, > 0. The helper process gets the time that remains after the closed
   /// surface is computed, but at least 1 second.
   double time_limit = 120.0;
   Index memory_limit = 0; ///< largest address space of the helper process in MiB, 0: no limit

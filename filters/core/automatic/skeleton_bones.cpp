@@ -195,7 +195,8 @@ public:
     return all;
   }
 
-  /// Remove all vertices of a branch except the junction at path.front() or path.back().
+  /// Remove a branch with a free end. The junction at the other end is kept; it is path.front() if
+  /// path.back() is the free end, otherwise path.back().
   void prune(const Branch& branch)
   {
     const bool keep_front = this->degree(branch.path.front()) > 1;
@@ -226,10 +227,10 @@ public:
     }
   }
 
-  /// Contract a branch between two junctions to one point. If one of its ends is a root, this is
-  /// the root. Otherwise it is the middle of the straight line between the junctions. If that is
-  /// outside the shape, it is the middle of the path or, if that is also outside, one of the
-  /// junctions.
+  /// Contract a branch between two junctions to one point. If one of the junctions is a root, the
+  /// point is the root. Otherwise the point is the first of the following positions that is inside
+  /// the shape: the middle of the straight line between the junctions, the middle of the path,
+  /// path.front(). If none is inside, the point is path.front().
   void contract(const Branch& branch)
   {
     // A root does not move.
@@ -311,8 +312,8 @@ private:
 };
 
 /// Return the length of a branch divided by the radius at its junction. For a branch between two
-/// junctions, the larger radius is used. Return infinity if the branch must be kept. If the value
-/// is below 1, the branch is inside the ball of this radius around the junction.
+/// junctions, the larger of their radii is used. A value below 1 means that the branch is inside
+/// the ball with this radius around the junction. Return infinity if the branch must be kept.
 /// @param is_inner set to true if the branch is between two junctions.
 double relative_length(const Graph& graph, const Branch& branch, bool& is_inner)
 {

@@ -12,17 +12,18 @@ namespace bindpose
 /// Options of skeleton_bones().
 struct SkeletonBonesOptions
 {
-  /// Largest distance of the curve from its bones, 0.001 … 1, in bounding-box diagonals of the
-  /// shape.
+  /// Largest distance of the curve from its bones, in bounding-box diagonals of the shape, from
+  /// 0.001 to 1.
   double tolerance = 0.03;
-  /// Maximum length of a bone, in bounding-box diagonals, >= 0.01. Longer bones are split, even if
-  /// they are straight. 0: no maximum.
+  /// Maximum length of a bone, in bounding-box diagonals: at least 0.01, or 0 for no maximum.
+  /// Longer bones are split, even if they are straight.
   double longest_bone = 0.0;
-  /// Maximum number of bones, >= 0; 0: no limit. A component keeps at least one bone.
+  /// Maximum number of bones, or 0 for no maximum. A component keeps at least one bone.
   Index maximum_bones = 0;
-  /// A branch is pruned if it is shorter than this factor times the radius at its junction, 0 … 10.
-  /// The radius is half of the shape's thickness. Two junctions are merged if the branch between
-  /// them is shorter than this factor times the larger radius of the two.
+  /// Factor for pruning and merging, from 0 to 10. A branch is pruned if its length is below this
+  /// factor times the radius at its junction. The radius is half of the shape's thickness. Two
+  /// junctions are merged if the length of the branch between them is below this factor times the
+  /// larger of their radii.
   double prune = 1.0;
   /// Callback that reports whether a point is inside the shape; must be thread-safe. If given, a
   /// bone that leaves the shape is split if the curve deviates from the bone by more than a quarter

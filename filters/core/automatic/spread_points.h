@@ -24,10 +24,11 @@ struct SpreadPointsOptions
 {
   Index count = 8; ///< number of points, >= 1
   PointDistance distance = PointDistance::along_edges;
-  /// Move each point from its vertex into the middle of the shape. A point is not moved if neither
-  /// side of the surface is inside at the vertex.
+  /// Move each point from its vertex into the middle of the shape. A point remains at its vertex
+  /// if, next to the vertex, both sides of the surface are outside the shape.
   bool inside = true;
-  double winding_threshold = 0.5; ///< a point is inside if its winding number is at least this, > 0
+  /// Threshold, > 0: a point is inside if its winding number is at least this.
+  double winding_threshold = 0.5;
 };
 
 /// The result of spread_points().
@@ -41,11 +42,12 @@ struct SpreadPoints
 };
 
 /// Spread points over a surface's vertices (farthest-point sampling). Each point is as far as
-/// possible from all earlier points of its component. The first point is the vertex farthest
-/// (straight) from the centroid of the component's vertices. The method is from T. Gonzalez,
-/// "Clustering to minimize the maximum intercluster distance", 1985. Let d be the largest distance
-/// of a vertex from its nearest point, before points are moved inside. Then the distance between
-/// any two points is at least d, and d is at most twice the smallest possible value.
+/// possible from all earlier points of its component. The first point is the vertex with the
+/// largest straight-line distance from the centroid of the component's vertices. The method is from
+/// T. Gonzalez, "Clustering to minimize the maximum intercluster distance", 1985. Let d be the
+/// largest distance of a vertex from its nearest point, before points are moved inside. Then the
+/// distance between any two points is at least d, and d is at most twice the smallest possible
+/// value.
 ///
 /// - **Components** are found after vertices with equal positions are welded. First, each component
 ///   with at least a 100th of the largest component's area gets one point. Each further point is

@@ -72,9 +72,10 @@ private:
   Report seconds_;
 };
 
-/// Scope of one phase. It sets the name of the current work, maps progress to [begin, end] of the
-/// enclosing phase, and adds its duration to the context. The name appears in the report's key
-/// ("factor" -> "seconds.factor"); progress bars show it unchanged.
+/// Scope of one phase. The constructor sets the name of the current phase and maps progress to
+/// [begin, end] of the enclosing phase. The destructor restores the enclosing phase and adds the
+/// duration of this phase to ExecutionContext::seconds() (key "seconds.NAME"). The progress
+/// callback receives the name unchanged.
 class Phase
 {
 public:

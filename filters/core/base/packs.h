@@ -4,8 +4,8 @@
 #include "base/mesh_types.h"
 #include "base/simd.h"
 
-// GCC warns that functions which return vectors differ in their calls between processors. The
-// functions of this file are always inlined, so there are no calls.
+// Disable GCC's warning that the calling convention of functions that return vectors depends on the
+// instruction set. The functions of this file are always inlined, so they are never called.
 #pragma GCC diagnostic ignored "-Wpsabi"
 
 namespace bindpose
@@ -30,8 +30,9 @@ BINDPOSE_ALWAYS_INLINE auto pack_at(const Scalar* from)
   return pack;
 }
 
-/// A pack in memory that need not be aligned. It is read and written by copying bytes: a reference
-/// to the type Pack would not keep the alignment of a scalar, so Clang would use aligned accesses.
+/// A pack in memory, which need not be aligned. Reads and writes copy the bytes. A `Pack&` would
+/// not work: Clang ignores the reduced alignment of the type Pack in references and would use
+/// instructions that require aligned memory.
 template <typename Scalar, int bytes>
 class PackInMemory
 {

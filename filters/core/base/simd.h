@@ -10,8 +10,8 @@
 ///
 /// BINDPOSE_SIMD_WIDTHS(define, Scalar) is for loops over packs (base/packs.h). Each pack fills one
 /// register. The macro expands define(version, bytes, Scalar) once for each instruction set.
-/// `define` is a macro for a function that begins with `version` and works on packs of `bytes`
-/// bytes.
+/// `define` is the name of a macro that defines a function and puts `version`, a target attribute,
+/// in front of it. The function works on packs of `bytes` bytes.
 #if defined(__GNUC__) && !defined(__clang__) && defined(__x86_64__) && defined(__linux__) && \
   !defined(__SANITIZE_ADDRESS__)
 #define BINDPOSE_SIMD_CLONES \

@@ -11,8 +11,8 @@ namespace bindpose
 /// Options of fill_cage(), which makes the domain of the weights from a cage among the handles.
 struct CageOptions
 {
-  /// Points with at least this winding number are inside the cage, > 0. Used only for a cage of
-  /// edges.
+  /// Threshold, > 0: a point is inside the cage if its winding number is at least this. Used only
+  /// for a cage of edges.
   double winding_threshold = 0.5;
   /// The points of this handle geometry become vertices of the tets. Used only for a cage of faces.
   HandleElements handle_elements;

@@ -15,12 +15,13 @@ struct Domain
   Points points;
   Tets tets;
   Triangles triangles; ///< triangles of a surface, used if there are no tets
-  /// #T: for a lattice that contains a surface, the fraction of each tet that is inside the
-  /// surface, > 0; empty: 1 for all tets. Energies of a tet are multiplied by this fraction.
+  /// #T: for each tet, the fraction of its volume that is inside the surface, > 0. Energies of a
+  /// tet are multiplied by this fraction. Given only for a lattice that contains a surface. If
+  /// empty, all fractions are 1.
   Eigen::VectorXd inside_fractions;
   /// For a lattice that contains a surface: the points of the surface, and for each point one
   /// corner of the tet that contains it (-1: no tet contains the point). The distance between a
-  /// component and a handle is measured from these points. If there are no such points, it is
+  /// component and a handle is measured from these points. Without such points, the distance is
   /// measured from the vertices.
   Points embedded_points;
   std::vector<Index> embedded_point_corners;

@@ -24,8 +24,9 @@ constexpr double bad_angle = 2.0; // degrees
 /// models: all tet meshes on which solves failed exceeded these fractions.
 constexpr double maximum_bad_triangles = 0.02;
 constexpr double maximum_bad_tets = 0.03;
-/// Approximate number of vertices of a lattice, and the factor by which solving on two lattices
-/// (the guard) takes longer than solving on the finer lattice alone.
+/// Approximate number of vertices of a lattice. To check the weights, they are solved on two
+/// lattices and compared (the guard, see surface_weights.h). This takes `two_lattice_factor` times
+/// as long as solving on the finer lattice alone.
 constexpr Index typical_lattice_vertices = 9000;
 constexpr double two_lattice_factor = 1.3;
 
@@ -69,8 +70,8 @@ std::string reason_against_tets(const TetMesh& tets, Index handle_count)
   const double tet_seconds = predicted_seconds(tets.points.rows(), handle_count);
   const double lattice_seconds =
     two_lattice_factor * predicted_seconds(typical_lattice_vertices, handle_count);
-  // Conforming tets are preferred up to this multiple of the predicted time of lattices, because
-  // such tets preserve the surface.
+  // Conforming tets preserve the surface. Therefore lattices are used only if the predicted time of
+  // the tets exceeds that of the lattices by more than this factor.
   constexpr double minimum_speedup = 2.0;
   return tet_seconds > minimum_speedup * lattice_seconds
     ? std::to_string(count) + " tets would take about " + short_number(tet_seconds, 2) +

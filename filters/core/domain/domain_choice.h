@@ -11,12 +11,15 @@ namespace bindpose
 /// Predict whether solving weights in conforming tets of the inside will be well conditioned and
 /// cheap. The prediction uses only the surface, before any tet is made.
 /// @return an empty string if the prediction is positive: the surface is closed and clean, and has
-/// few, well-shaped triangles. Otherwise, the reason against the volume, for the report.
+/// few, well-shaped triangles. Otherwise, the reason why conforming tets should not be used, as
+/// text for the report.
 std::string reason_against_volume(const RepairedSurface& surface);
 
 /// Predict from the tets whether solving weights in them will be well conditioned and cheap. The
 /// conditioning is judged by the dihedral angles of the tets. The time is predicted from the number
-/// of vertices and the number of handles. Return the reason against the tets, or an empty string.
+/// of vertices and the number of handles.
+/// @return an empty string if the prediction is positive. Otherwise, the reason why the tets should
+/// not be used, as text for the report.
 std::string reason_against_tets(const TetMesh& tets, Index handle_count);
 
 /// Return the predicted time in seconds, on one thread, for bounded weights in a mesh. One

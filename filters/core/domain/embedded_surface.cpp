@@ -34,8 +34,8 @@ constexpr double minimum_fraction = 0.03;
 constexpr double negligible_value = 1e-12;
 
 /// Return the gradients of the columns at the vertices, #V x (3 #columns): the x components of all
-/// columns, then the y components, then the z components. The gradient at a vertex is the mean over
-/// its tets, weighted by their volume inside.
+/// columns, then the y components, then the z components. The gradient at a vertex is a weighted
+/// mean over its tets. The weight of a tet is the part of its volume that is inside the surface.
 Eigen::MatrixXd corner_gradients(const Domain& domain, WeightsView values)
 {
   const Index n = domain.points.rows();

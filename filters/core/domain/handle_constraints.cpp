@@ -15,8 +15,8 @@ namespace bindpose
 
 namespace
 {
-/// Return the distance from p to the handle: to the segment of a bone, or to the head of another
-/// handle.
+/// Return the distance from p to a handle: to the segment from head to tail of a bone, or to the
+/// position of a handle that is not a bone.
 double handle_distance(const Handle& handle, const Vec3& p)
 {
   return nearest_in_triangle(p, handle.head, handle.tail, handle.tail).distance;
@@ -41,9 +41,8 @@ void find_components(const Domain& domain, HandleConstraints& result)
       result.roles[v] = VertexRole::solved;
     }
   }
-  // A vertex that is only in elements without area (a follower) copies the weights of a neighbor.
-  // If the neighbor is a follower, too, the vertex copies from the vertex that the neighbor copies
-  // from.
+  // A follower is a vertex that is only in elements without area. A follower copies the weights of
+  // a neighbor. If the neighbor is also a follower, both copy the weights of the same vertex.
   result.leader.assign(static_cast<std::size_t>(vertex_count), -1);
   for (bool changed = true; changed;)
   {
@@ -202,11 +201,11 @@ std::string advice_about(const Handle& handle, const Box& box)
                                          : "move it, or refine the mesh there";
 }
 
-/// Give every handle a vertex of its own, which is a vertex on no other handle. Without such a
-/// vertex (for example a point handle on a bone), the handle would not have the weight one
-/// anywhere. In this case one of its vertices is assigned to this handle alone. This is the first
-/// vertex whose other handles all have vertices of their own. If there is no such vertex and the
-/// handle is optional, the handle is removed from all its vertices.
+/// Ensure that every handle has its own vertex, which is a vertex on no other handle. A handle
+/// whose vertices are all shared, such as a point handle on a bone, would not have the weight one
+/// anywhere. Such a handle gets the first of its vertices at which all other handles have their own
+/// vertices elsewhere. If there is no such vertex, an optional handle is removed from all its
+/// vertices, and a required handle is an error.
 Status assign_own_vertices(const Handles& handles, const Box& box,
   std::map<Index, std::vector<Index>>& owners, HandleConstraints& result)
 {

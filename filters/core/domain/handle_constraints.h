@@ -10,7 +10,7 @@ namespace bindpose
 enum class VertexRole : unsigned char
 {
   solved, ///< a vertex whose weights are the result of the minimization
-  handle, ///< a vertex on a handle, which determines its weights
+  handle, ///< a vertex on a handle or cage, with given weights
   /// A vertex in a component without handles; it copies the weights of the nearest handle.
   without_handle,
   follower, ///< a vertex that is only in elements without area; it copies the weights of a neighbor

@@ -1,8 +1,9 @@
 // This file splits elements so that samples of handles become vertices (see handle_insertion.h).
 // The same method is used for samples inside a tet, a face or an edge. Let S be the corners of the
-// smallest simplex that contains the sample. Every element that has all corners in S is replaced by
-// one child for each corner s in S, with s replaced by the new vertex. Children keep the
-// orientation of their parent and fill it exactly.
+// smallest simplex that contains the sample. Every element whose corners include all of S is
+// replaced by one child for each vertex s in S. The child has the corners of the element, but with
+// the new vertex instead of s. Children keep the orientation of the element and fill the element
+// exactly.
 //
 // To locate a later sample, the original element that contains it is found in a search tree, then
 // the child that contains it, and so on. The search tree of the original elements is built only
@@ -111,7 +112,7 @@ private:
   // Elements at every vertex, including elements that were split.
   std::vector<std::vector<Index>> incident_;
   std::vector<CageElementShape> cage_;
-  HandlePlacement on_cage_; // common placement of all samples on edges and faces of cages
+  HandlePlacement on_cage_; // placement of all samples on cage edges and faces, as if of one handle
   Index cage_samples_outside_ = 0;
 };
 
@@ -158,8 +159,8 @@ SimplexLocation Inserter::root(const Vec3& p) const
 }
 
 /// Report whether the original vertex v is a corner of the element that root() returns for the
-/// position of v. Overlapping elements have copies of a vertex at the same position. Only one of
-/// these copies is such a corner.
+/// position of v. Where elements overlap, several vertices have the same position. The function
+/// returns true for only one of these vertices.
 bool Inserter::is_in_located_element(Index v) const
 {
   if (!this->options_.element_of)

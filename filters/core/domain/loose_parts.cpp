@@ -14,7 +14,8 @@ constexpr double touch_distance = 1.0 / 500.0;
 /// Distance between neighboring links at a covered opening, as a fraction of the surface's
 /// diagonal.
 constexpr double opening_link_spacing = 1.0 / 100.0;
-/// A surface with more components to link counts as a triangle soup and gets no links.
+/// Maximum number of components that can be linked. A surface with more such components counts as a
+/// triangle soup and gets no links.
 constexpr Index maximum_components = 20000;
 
 /// For each part of the lattice, return 1 if the part contains a handle, else 0.

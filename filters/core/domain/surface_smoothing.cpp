@@ -125,10 +125,10 @@ private:
     Eigen::MatrixXd first_solution, second_solution;
   };
 
-  /// Return the factors by which the triangles' matrix entries are multiplied. In triangles with
-  /// almost no height, entries are up to 1e16, and their round-off would exceed the smoothed
-  /// values. The factors limit all entries to the entries at an angle of 2 degrees. The matrix
-  /// stays positive semi-definite.
+  /// Return one factor per triangle, by which the matrix entries of the triangle are multiplied. In
+  /// triangles with almost no height, entries are up to 1e16, and their round-off would exceed the
+  /// smoothed values. The factors reduce the entries of such triangles to those of a triangle with
+  /// an angle of 2 degrees. The matrix stays positive semi-definite.
   static VectorXd triangle_factors(const Points& points, TrianglesView triangles)
   {
     // Limit of the matrix entries: half of the cotangent of 2 degrees, rounded up.
@@ -194,8 +194,8 @@ private:
     return this->factor_.factor(context, a, 0.0).ok();
   }
 
-  /// Correct the preconditioner: add the terms of the energy that belong to the curvature at fixed
-  /// points.
+  /// Correct the preconditioner for fixed points: add the term u uᵀ of each fixed point, which is
+  /// the energy of the curvature at this point.
   void prepare_correction(ExecutionContext& context, const std::vector<Index>& fixed)
   {
     const ProgressRange range(context, factored, preparation_end);

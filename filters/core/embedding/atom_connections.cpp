@@ -351,8 +351,8 @@ private:
           this->result_.within_tets.unite(first, atom);
         }
         first = first >= 0 ? first : atom;
-        // If both ends of an edge are in one tet, the triangles at the edge are already connected
-        // there at its vertices.
+        // If both ends of an edge are in one tet, the whole edge is in this tet. The triangles at
+        // the edge are then already connected in this tet, because they share the ends of the edge.
         if (this->cover_.tet_of_point[v] != this->cover_.tet_of_point[w])
         {
           sides.push_back({ std::min(v, w), std::max(v, w), static_cast<Id>(f) });

@@ -66,15 +66,16 @@ public:
   static std::array<Key, 4> corners(Key tet);
   Vec3 node_point(Key node) const;
 
-  /// The face between two cubes divides each tet into two halves, one in each cube. A cube contains
-  /// 24 halves. The upper faces of a cube are the three faces toward larger coordinates. Half 2k of
-  /// a cube belongs to tet k of the upper faces of a lower neighbor; half 2k + 1 belongs to tet k
-  /// of the cube's own upper faces (see number_of).
+  /// Two corners of a tet are the centers of two neighboring cubes, its lower and its upper cube.
+  /// The face between these cubes divides the tet into two halves, one in each cube. Therefore a
+  /// cube contains 24 halves: halves 1, 3, 5, … belong to the 12 tets of which it is the lower
+  /// cube, and halves 0, 2, 4, … to the 12 tets of which it is the upper cube. The two halves of
+  /// the tet with number n (see number_of) are half 2n + 1 of its lower cube and half 2n of its
+  /// upper cube.
   static constexpr int halves = 24;
   static Key tet_of_half(const Cube& cube, int half);
-  /// Return the index n of a tet, 0 … 11, among the tets around the three upper faces of its lower
-  /// cube. The two halves of the tet are half 2n + 1 of its lower cube and half 2n of its upper
-  /// cube.
+  /// Return the number n of a tet, 0 … 11, among the tets around the three upper faces of its lower
+  /// cube. The upper faces are those toward larger coordinates.
   static int number_of(Key tet) { return static_cast<int>(tet & 15U); }
   /// Return the index of the half that contains a position, among the 24 halves of the position's
   /// cube.

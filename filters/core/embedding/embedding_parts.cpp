@@ -145,7 +145,9 @@ private:
   /// A node, and one of the tet corners at this node: the index 4 * part + corner.
   using Corner = std::pair<Key, Id>;
 
-  /// Find copies of one node that are connected by a probe, and append pairs of corners to unite.
+  /// Test by probes (straight segments through the material) which copies of one node are
+  /// connected. For each connection, append a pair of corners that identify the two copies; the
+  /// caller unites the two corners.
   void probe_node(const Corner* begin, const Corner* end, const std::vector<Id>& roots,
     std::vector<std::pair<Id, Id>>& joined) const
   {
@@ -207,7 +209,8 @@ private:
     {
       return false;
     }
-    // Nodes with more copies are skipped: they indicate a triangle soup, not a slice.
+    // Maximum number of copies of a node that is tested by probes. More copies indicate a triangle
+    // soup instead of a thin slice of material.
     constexpr std::size_t maximum_copies = 12;
     std::vector<Id> copies;
     // For each node with several copies, the range of its corners.
@@ -277,7 +280,8 @@ private:
     {
       return false;
     }
-    // Vertices of the mesh: a node, and the root corner that identifies the copy of the node.
+    // The vertices of the mesh. Each vertex is one copy of a node and is stored as a pair: the
+    // node, and the root corner that identifies the copy.
     std::vector<std::pair<Key, Id>> vertices;
     std::vector<Index> tet_of_part(copies.size());
     std::vector<std::size_t> first_copy_of_tet;
@@ -329,10 +333,12 @@ private:
         this->atoms_.samples_of_half[number] + this->atoms_.samples_of_half[number + 1];
       result.inside_fractions[t] = std::min(1.0, result.inside_fractions[t] / samples);
     }
-    // The fractions are so far relative to the number of samples in each tet, which is 10 to 28
-    // depending on the tet's position in the sub-grid. These fractions are correct for whole tets,
-    // but plates aligned with the sub-grid would become too thick or too thin. The total number of
-    // inside samples has no such bias, so the fractions of cut tets are scaled to match it.
+    // So far, a fraction is the inside volume of a tet, in cells of the sub-grid, divided by the
+    // number of samples in the tet. This number is 10 to 28, depending on the position of the tet
+    // in the sub-grid. The fractions are correct for whole tets, but plates aligned with the
+    // sub-grid would become too thick or too thin. The total inside volume has no such bias.
+    // Therefore the fractions of cut tets are scaled so that the sum of all fractions matches the
+    // total inside volume.
     constexpr double samples_of_tet = CubeSamples::samples_per_cube / 12.0;
     const double whole_tets = (result.inside_fractions.array() >= 1.0).count();
     const double cut = result.inside_fractions.sum() - whole_tets;

@@ -38,7 +38,7 @@ struct EmbeddingTets
   /// several copies of one tet, one per part, share a facet with the tet in which the parts are
   /// connected.
   Index branching_facets = 0;
-  Index components = 0; ///< number of components that are connected by vertices
+  Index components = 0; ///< number of connected components; tets with a common vertex are connected
 };
 
 } // namespace bindpose

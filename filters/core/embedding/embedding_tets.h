@@ -15,11 +15,11 @@ namespace bindpose
 /// Options of embed_surface(), which makes a coarse tet lattice that contains a surface.
 struct EmbeddingOptions
 {
-  /// Points with at least this winding number are inside, > 0.
+  /// Threshold, > 0: a point is inside if its winding number is at least this.
   double winding_threshold = 0.5;
-  /// Number of lattice cubes along the longest side of the surface's bounding box, 1 … 1000. 0:
-  /// chosen to give about `tets` lattice tets (half to twice as many, except for surfaces that are
-  /// thin threads).
+  /// Number of lattice cubes along the longest side of the surface's bounding box, 1 … 1000. If 0,
+  /// the number is chosen so that about `tets` lattice tets result (half to twice as many, except
+  /// for surfaces that are thin threads).
   Index resolution = 0;
   Index tets = 30000; ///< target number of lattice tets, >= 1; used if `resolution` is 0
   /// Segments that are embedded together with the surface. Each connects the parts of the surface

@@ -1,8 +1,9 @@
 // Find the tets and cubes that a surface passes through or encloses (see lattice_cover.h).
 // Triangles are cut by the planes of the lattice. Cubes without triangles are completely inside or
 // outside. Inside cubes are found by flooding from cube to cube, starting at the surface. The flood
-// reaches all inside cubes. The reason is that winding numbers are harmonic: a region without
-// triangles in which they reach the threshold has triangles at its border.
+// reaches all inside cubes, because winding numbers are harmonic between triangles and tend to zero
+// far away. Therefore every connected region in which they are at least the threshold touches a
+// triangle.
 #include "embedding/lattice_cover.h"
 
 #include "base/gather.h"
@@ -36,8 +37,9 @@ Cube neighbor_of(Key cube_key, int side)
   return cube;
 }
 
-/// Size, area and number of triangles of a surface, in units of the longest side of its bounding
-/// box.
+/// Measures of a surface: the longest side of its bounding box and the number of triangles. The
+/// volume, the area and the sum of the triangles' perimeters use the longest side as the unit of
+/// length.
 struct SurfaceMeasures
 {
   double longest = 0.0;

@@ -24,7 +24,7 @@ struct LatticeSurface
   struct End
   {
     Id point, link; ///< ids of the point at this end and of the degenerate triangle of the link
-    Id triangle; ///< triangle of the surface that contains the end
+    Id triangle; ///< id of the surface triangle on which this end lies
   };
 
   std::vector<Id> vertex_of_point; ///< #V: index in `points`; -1 for a point that no triangle uses
@@ -71,9 +71,9 @@ public:
   }
 
   /// Choose the spacing and build the cover.
-  /// @param resolution number of cubes along the longest side of the box; 0: chosen to give about
-  /// `tets` tets, but at most 1000 cubes, and fewer if triangles would be cut into millions of
-  /// pieces.
+  /// @param resolution number of cubes along the longest side of the box. If 0, the number is
+  /// chosen so that about `tets` tets result. The chosen number is at most 1000, and smaller if
+  /// triangles would be cut into millions of pieces.
   /// @return invalid_input if the lattice would have more than maximum_cubes cubes. Cost: 1 us per
   /// piece of a triangle.
   Status choose(ExecutionContext& context, Index resolution, Index tets);

@@ -30,8 +30,9 @@ public:
     Id root; ///< identifies the copy (root of its union-find class)
     std::vector<Vec3> positions; ///< one position in each atom; unit: edge length of a cube
   };
-  /// Append pairs of roots for copies that are connected by a probe.
-  /// @param sides all copies of one node.
+  /// Find the copies of one node that probes connect. For each connection, append the roots of the
+  /// two copies to `joined`.
+  /// @param sides all copies of the node.
   /// @param triangles all triangles in the tets around the node; duplicates are allowed.
   /// Cost: up to 12 probes per pair of copies; each probe takes one winding number per interval
   /// between its crossings with triangles.

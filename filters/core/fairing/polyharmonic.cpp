@@ -269,9 +269,10 @@ Status Polyharmonic::prepare(ExecutionContext& context, const Components& parts,
   return context.canceled() ? Status::canceled() : status;
 }
 
-/// Estimate the largest and the smallest eigenvalue of the system, scaled to ones on its diagonal,
-/// by power iterations. The iterations use D^-1 A, where D is the diagonal of A; D^-1 A is
-/// symmetric in D's inner product.
+/// Estimate the condition number of the matrix A after scaling to a diagonal of ones. The scaled
+/// matrix has the same eigenvalues as D^-1 A, where D is the diagonal of A. Power iterations with
+/// D^-1 A and with its inverse estimate the largest and the smallest eigenvalue. D^-1 A is
+/// symmetric in the inner product of D.
 void Polyharmonic::estimate_condition(Report& report) const
 {
   const Index n = this->parameters_.rows();

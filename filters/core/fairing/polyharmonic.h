@@ -28,10 +28,10 @@ enum class PatchBoundary : int
 /// Return "region", "curve" or "tangent".
 const char* to_string(PatchBoundary boundary);
 
-/// Solves (-Laplacian)^k u = load for k = 1, 2 or 3 at the free vertices of a triangle mesh. The
-/// method is mixed finite elements. u is prescribed at the other vertices ("given"), and optionally
-/// at other mesh points ("held"). Method: Jacobson, Tosun, Sorkine, Zorin 2010, Mixed finite
-/// elements for variational surface modeling.
+/// Solves (-Laplacian)^k u = load for k = 1, 2 or 3 at the free vertices of a triangle mesh. u is
+/// prescribed at the other vertices ("given vertices"), and optionally at other points of the mesh
+/// ("constrained points"). Method: Jacobson, Tosun, Sorkine, Zorin 2010, Mixed finite elements for
+/// variational surface modeling.
 ///
 /// The matrix is factored once for a choice of given vertices. Then the system can be solved for
 /// any values, #V x m.
@@ -47,19 +47,21 @@ public:
 
   /// Factor the system for a choice of given vertices.
   /// @param prescribed ids of the given vertices, ascending.
-  /// @param constrained points of the mesh whose values are also prescribed.
+  /// @param constrained points of the mesh, other than vertices, whose values are also prescribed.
   /// @return invalid_input, with the first invalid triangle or edge, if a triangle at a free vertex
-  /// has no area or an edge there has three triangles or more. For boundary `region`, the triangles
-  /// of the band are checked, too. Return unavailable if the system cannot be factored in double
-  /// precision. The report contains counts.free and condition (a lower bound of the condition
-  /// number of the matrix, scaled to ones on its diagonal).
+  /// has no area or an edge of such a triangle belongs to more than two triangles. For boundary
+  /// `region`, the triangles in the band of given values (see PatchBoundary) are checked, too.
+  /// Return unavailable if the system cannot be factored in double precision. The report contains
+  /// counts.free and condition. The latter is a lower bound of the condition number of the matrix
+  /// after scaling to a diagonal of ones.
   Status prepare(ExecutionContext& context, const Components& parts,
     const std::vector<Index>& prescribed, const std::vector<MeshPoint>& constrained);
 
   /// Solve for u, and store it in x.
   /// @param flux integrals of phi_i du/dn along the edge of the patch, where phi_i is the hat
-  /// function of vertex i, #V x m. One of the flux functions below computes them; empty: zero.
-  /// @param load #V x m; empty: zero.
+  /// function of vertex i, #V x m. One of the flux functions below computes these integrals. If
+  /// empty, all integrals are zero.
+  /// @param load #V x m. If empty, the load is zero.
   /// @return the last correction of the iterative refinement, relative to x (ratio of the largest
   /// absolute entries).
   double solve(const Rows& prescribed, const Rows& constrained, const Rows& flux, const Rows& load,
@@ -75,10 +77,10 @@ public:
   /// patch.
   Rows flux_of_patch(const Rows& values) const;
 
-  /// Return the number of one-ring layers between the free vertices and the border of the mesh, at
-  /// most `order`.
+  /// For boundary `region`, return the number of one-ring layers between the free vertices and the
+  /// border of the mesh. Numbers above `order` are returned as `order`.
   int layers() const { return this->layers_; }
-  /// Return the indices of held points that depend linearly on other held points.
+  /// Return the indices of constrained points that depend linearly on other constrained points.
   const std::vector<Index>& redundant() const { return this->system_.redundant(); }
 
 private:

@@ -13,7 +13,8 @@ namespace bindpose
 /// vtkVariationalSurface.
 enum class PatchTangents : int
 {
-  /// Derivatives on the triangles on the other side of the edge; zero where the mesh ends.
+  /// Derivatives computed on the triangles that are outside of the patch and adjacent to its edge.
+  /// Zero where the edge of the patch is the border of the mesh.
   surroundings = 0,
   prescribed = 1, ///< the values of VariationalSurfaceOptions::tangents
   clamped = 2 ///< zero. Displacements keep the tangents at rest; positions get a cusp.
@@ -31,17 +32,19 @@ struct VariationalSurfaceOptions
   /// shape. true: positions, which replace the patch by a smooth surface that continues its
   /// surroundings.
   bool fair = false;
-  /// #V x 3 positions of the vertices in the parameter domain; empty: the rest positions.
+  /// #V x 3 positions of the vertices in the parameter domain. If empty, the rest positions are
+  /// used.
   Points parameters;
-  /// #V flags: 1 for vertices that are fixed in addition to those that handles constrain; empty:
-  /// none.
+  /// #V flags: 1 for vertices that are fixed in addition to those that handles constrain. If empty,
+  /// there are no such vertices.
   std::vector<char> fixed;
-  /// #V x 3 derivatives of the position in the direction perpendicular to the edge, outwards, per
-  /// unit length of the parameter domain. With unit vectors that point away from the patch, the
-  /// patch is isometric to the parameter domain at the edge. Used by PatchTangents::prescribed.
+  /// #V x 3 derivatives of the position across the edge of the patch. In the parameter domain, the
+  /// direction of the derivative is perpendicular to the edge and points away from the patch. A
+  /// unit vector means that the patch is not stretched in this direction. Used by
+  /// PatchTangents::prescribed.
   Points tangents;
   /// #V x 3 right-hand side: required values of (-Laplacian)^order of the position (if `fair`) or
-  /// of the displacement; empty: zero.
+  /// of the displacement. If empty, these values are zero.
   Points load;
   /// #V labels of the vertices (Handle::region_id; 0: none). Required if a handle is a region.
   std::vector<Index> region_ids;
@@ -77,19 +80,19 @@ public:
     const Handles& handles, const VariationalSurfaceOptions& options = {});
 
   /// Compute the vertices for a pose, which has one entry per handle. The report contains
-  /// counts.free, counts.constrained (number of constrained vertices and points), condition (a
-  /// lower bound of the condition number of the factored matrix, scaled to ones on its diagonal),
-  /// refinement (the last correction, as a fraction of the largest coordinate) and
-  /// constraint_residual (in bounding-box diagonals). Errors are those of Polyharmonic::prepare. If
-  /// the unknowns are positions, a part without constraints is also an error. Warnings report
-  /// contradictory or redundant handles, a refinement after which few digits are correct, and
-  /// boundary conditions that have less effect than expected.
+  /// counts.free, counts.constrained (number of constrained vertices and points), condition (see
+  /// Polyharmonic::prepare), refinement (the last correction, as a fraction of the largest
+  /// coordinate) and constraint_residual (in bounding-box diagonals). Errors are those of
+  /// Polyharmonic::prepare. If the unknowns are positions, a part without constraints is also an
+  /// error. Warnings report contradictory or redundant handles, a refinement after which few digits
+  /// are correct, and combinations of order and boundary condition that ignore the tangents or give
+  /// a less smooth surface than the order suggests.
   Status solve(ExecutionContext& context, const Pose& pose);
 
   /// The vertices in the last solved pose.
   const Points& posed() const { return this->posed_; }
-  /// Number of factorizations so far. The first solve factors the matrix, and each solve after a
-  /// handle has changed its mode.
+  /// Number of factorizations so far. The first solve factors the matrix. Later solves factor it
+  /// again only if a handle has changed its mode.
   Index factorizations() const { return this->factorizations_; }
 
 private:

@@ -44,9 +44,11 @@ SparseMatrix stiffness_matrix(
 SparseMatrix boundary_flux(PointsView points, TrianglesView triangles);
 SparseMatrix boundary_flux(PointsView points, TetsView tets);
 
-/// Return the lumped mass, #V. A triangle contributes its Voronoi areas to its vertices, clamped in
-/// obtuse triangles so that their sum is the area of the triangle. Tets contribute a quarter of
-/// their volume to each vertex. The mass of unused vertices is 0.
+/// Return the lumped mass, #V. A triangle contributes to each of its vertices the part of the
+/// triangle that is nearest to this vertex (Voronoi area). An obtuse triangle contributes half of
+/// its area to the vertex at the obtuse angle and a quarter to each of the other two. A tet
+/// contributes a quarter of its volume (times its fraction, if given) to each vertex. The mass of
+/// unused vertices is 0.
 Eigen::VectorXd lumped_mass(PointsView points, TrianglesView triangles);
 Eigen::VectorXd lumped_mass(
   PointsView points, TetsView tets, const Eigen::VectorXd& fractions = Eigen::VectorXd());

@@ -1,6 +1,6 @@
 // Division of a line into pieces. The desired size of a piece varies along the line and is called
-// the local length. The integral of 1 / (local length) along a part of the line is the length of
-// this part in local lengths. All pieces have the same length in local lengths.
+// the local length. The integral of 1 / (local length) along a part of the line is the desired
+// number of pieces in this part. This integral has the same value for all pieces.
 #include "geometry/line_pieces.h"
 
 #include <algorithm>
@@ -12,12 +12,12 @@ namespace bindpose
 std::vector<double> line_cuts(double from, double to, const std::function<double(double)>& length,
   const std::function<int(double)>& pieces)
 {
-  // cumulative_lengths[i] is the length, in local lengths, from the start to parameters[i].
+  // cumulative_lengths[i] is the integral of 1 / (local length) from the start to parameters[i].
   std::vector<double> cumulative_lengths{ 0.0 };
   std::vector<double> parameters{ from };
   while (parameters.back() < to)
   {
-    constexpr double part = 0.5; // step of the integration, in local lengths
+    constexpr double part = 0.5; // step of the integration, as a fraction of the local length
     const double local_length = length(parameters.back());
     const double step = std::min(part * local_length, to - parameters.back());
     cumulative_lengths.push_back(cumulative_lengths.back() + step / local_length);

@@ -642,7 +642,7 @@ SkinNodes read_joints(const tinygltf::Model& model, const Accessors& accessors, 
 // ---- Meshes ------------------------------------------------------------------------------------
 
 /// Mesh data collected from all primitives. The first four members contain one matrix per
-/// primitive.
+/// combination of vertex accessors (see first_vertex_by_accessors).
 struct Parts
 {
   std::vector<Numbers> points;
@@ -834,7 +834,7 @@ void read_primitive(const tinygltf::Model& model, const Accessors& accessors,
   add_triangles(corners, mode, offset, parts);
 }
 
-/// Concatenate the matrices of all primitives. Do nothing if a primitive lacks the attribute.
+/// Concatenate the matrices of an attribute. Do nothing if some vertices lack the attribute.
 template <typename Matrix>
 void join(const std::vector<Numbers>& parts, Index rows, double unit, Matrix& all)
 {
@@ -1132,7 +1132,7 @@ std::string count_phrase(std::size_t count, const char* singular, const char* pl
   return std::to_string(count) + " " + (count == 1 ? singular : plural);
 }
 
-/// Return the content of the file that `skin` does not contain, one phrase per type.
+/// Return one phrase for each type of content that is in the file but not in `skin`.
 std::vector<std::string> find_unsupported(const tinygltf::Model& model, const Parts& parts,
   const GltfSkin& skin, const std::optional<std::string>& animation, Index other_meshes)
 {

@@ -17,7 +17,7 @@ namespace bindpose
 struct GltfHandleExtras
 {
   std::string kind;
-  Vec3 head = Vec3::Zero(); ///< rest position of the handle or of the head of a bone
+  Vec3 head = Vec3::Zero(); ///< rest position of the handle; for a bone, of its head
   Vec3 tail = Vec3::Zero();
   Index region = 0;
   std::vector<std::array<Index, 3>> cage; ///< cage elements as joint ids; the third id may be -1
@@ -84,12 +84,13 @@ struct GltfOptions
 /// Write a skinned mesh as glTF 2.0.
 ///
 /// Weights: all nonzero weights are written. A weight of at most 2^-24 counts as zero, because
-/// adding it to the float 1 gives 1. Weights are stored in pairs of attributes JOINTS_n and
-/// WEIGHTS_n with four weights per vertex (sets); the vertex with the most weights determines the
-/// number of sets. glTF requires rows that sum to one and no negative weights. If the sum of a row
-/// is below one by more than 1e-6, the missing part becomes the weight of an additional joint
+/// adding it to the float 1 gives 1. Weights are stored in sets of four weights per vertex. Set n
+/// is the pair of attributes JOINTS_n and WEIGHTS_n. The vertex with the most weights determines
+/// the number of sets. glTF requires rows that sum to one and no negative weights. If the sum of a
+/// row is below one by more than 1e-6, the missing part becomes the weight of an additional joint
 /// "rest". This joint does not move, so that skinning gives the same result. Negative weights are
-/// removed; then rows whose sum is above one are divided by their sum. Both cause a warning.
+/// removed; then rows whose sum is above one are divided by their sum. One warning reports how many
+/// vertices had negative weights or a sum above one.
 ///
 /// Joints: each joint is a node below its parent's node and moves with it. The nodes of joints
 /// without a parent are below one node that is not a joint. Nodes contain translation, rotation and

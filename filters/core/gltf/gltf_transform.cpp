@@ -24,8 +24,9 @@ Trs nearest_trs(const Eigen::Affine3d& map)
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(
     sign * linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Matrix3d rotation = svd.matrixU() * svd.matrixV().transpose();
-  // The determinant is negative only if the linear part is singular. The sign of the axis with the
-  // smallest singular value is then arbitrary.
+  // The decomposed matrix U S V^T has no negative determinant. Therefore det(U V^T) is negative
+  // only if the smallest singular value is zero. The sign of the last column of U is then
+  // arbitrary.
   if (rotation.determinant() < 0.0)
   {
     Eigen::Matrix3d u = svd.matrixU();

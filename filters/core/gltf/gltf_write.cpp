@@ -510,8 +510,9 @@ void add_channel(tinygltf::Animation& animation, int times, int values, int node
   animation.channels.push_back(channel);
 }
 
-/// Add three animation tracks per joint. Two quaternions represent each rotation. The quaternion
-/// nearer to the previous key is used, because programs interpolate between keys.
+/// Add three animation tracks per joint. The quaternions q and -q represent the same rotation. The
+/// one that is nearer to the quaternion of the previous key is stored, because programs interpolate
+/// between keys.
 void animate_joints(Builder& builder, const GltfSkin& skin, std::vector<std::vector<Trs>>& frames)
 {
   const int times = add_times(builder, skin);

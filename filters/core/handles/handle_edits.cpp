@@ -439,8 +439,8 @@ Status mirror_handles(const Handles& before, const std::vector<Index>& handle_in
       }
       continue;
     }
-    // A handle of the same kind that is already at the mirrored position is the image. Its name
-    // does not matter.
+    // If a handle of the same kind is already at the mirrored position, that handle is used as the
+    // mirror image, whatever its name.
     const auto existing_image = std::find_if(before.begin(), before.end(),
       [&](const Handle& other)
       {

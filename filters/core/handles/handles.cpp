@@ -135,8 +135,8 @@ Status check_handles(const Handles& handles)
     {
       const Handle& a = handles[i];
       const Handle& b = handles[j];
-      // Only handles of the same kind can coincide, because a bone may begin at a point handle.
-      // Regions are identified by their labels, not by their positions.
+      // Handles of different kinds may have the same position, for example a point and a cage
+      // vertex. Regions are identified by their labels, not by their positions.
       if (a.kind != b.kind || a.kind == HandleKind::region || a.kind == HandleKind::cage_element)
       {
         continue;

@@ -333,9 +333,9 @@ Status run_child(ExecutionContext& context, const ChildRequest& request,
     {
       return Status::canceled();
     }
-    // Read the pipe to its end before handling the end of the child, because the last line may
-    // explain the failure. A grandchild may keep the pipe open; therefore, if no output is ready,
-    // the end of the child is sufficient.
+    // Read all output before handling the end of the child, because the last line may explain a
+    // failure. If a grandchild keeps the pipe open, the output does not end. In this case, the
+    // child is finished as soon as it has ended and no output is ready.
     if ((!open || ready_count == 0) && child.ended())
     {
       describe_end(child.finish(), end);

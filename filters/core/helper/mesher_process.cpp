@@ -178,8 +178,8 @@ Status run_mesher(ExecutionContext& context, const MesherRequest& request, const
   ChildRequest child;
   child.path = path;
   child.arguments = request.arguments;
-  // The helper asks the system to kill the helper when this process dies. The parent's id allows
-  // the helper to detect that this process died even earlier.
+  // The helper asks the system to kill it when its parent process dies. If the parent dies before
+  // this request, the helper notices that the id of its parent differs from --parent.
   child.arguments.insert(child.arguments.end(), { "--parent", std::to_string(::getpid()) });
   child.input = input_file.get();
   child.output = output_file.get();

@@ -32,10 +32,11 @@ struct MesherResult
 };
 
 /// Return the path of bindpose-mesher, or an empty string if it is not found. If the environment
-/// variable BINDPOSE_MESHER is set, only this path is used. Otherwise the searched folders are, in
-/// this order: the folder of the running executable, the folder of the library, the bin folder next
-/// to the library's folder, the bin folder next to the parent of the library's folder, and the
-/// build tree.
+/// variable BINDPOSE_MESHER is set, only this path is used. Otherwise these folders are searched in
+/// this order, where LIB is the folder of the library that contains this function:
+/// - the folder of the running executable
+/// - LIB, LIB/../bin and LIB/../../bin
+/// - the build tree
 std::string find_mesher();
 
 /// Report whether two jobs for a surface may run at the same time without using too much memory.

@@ -35,7 +35,7 @@ namespace bindpose
 struct CdtTets::TetgenSetup
 {
   std::string switches;
-  bool box; ///< whether TetGen fills a box around the surface instead of its convex hull
+  bool box; ///< true: fill a box around the surface; false: fill the surface's convex hull
 };
 
 struct CdtTets::TetgenRun
@@ -208,9 +208,9 @@ Status CdtTets::try_switches(const Perturbation& move, const MesherData& refined
     }
   }
   // Switch `T` sets the tolerance of TetGen's test for coplanar triangles. With the default of
-  // 1e-8, TetGen treats some cut triangles as coplanar although they are not, and crashes. If both
-  // sets of switches crash, other sets usually crash as well: in an experiment one set in thirty
-  // succeeded on the same triangles.
+  // 1e-8, TetGen treats some cut triangles as coplanar although they are not, and crashes. More
+  // than two setups do not help: in an experiment with triangles on which TetGen crashed with both
+  // setups, only one in thirty other sets of switches succeeded.
   std::vector<TetgenSetup> setups{ { "pYcAT1e-12", false }, { "pYAT1e-16", true } };
   if (move.jitter > 0.0)
   {
@@ -244,7 +244,7 @@ Status CdtTets::try_switches(const Perturbation& move, const MesherData& refined
     {
       try_fine();
     }
-    // If both the small tets and the tets of the last run have a wrong volume, more runs of TetGen
+    // If the tets of this run and those of try_fine_tets() have a wrong volume, more runs of TetGen
     // cannot help.
     this->refinement_is_useless_ = fine_is_wrong && this->wrong_volume_;
     if (is_finished())
@@ -273,7 +273,7 @@ Status CdtTets::try_fine_tets(const Perturbation& move, const MesherData& refine
     std::min(this->volume_bound(), this->inside_.volume() / tets_inside), box / maximum_tets);
   const Status status = this->try_tetgen({ "pAq2a" + short_number(bound), true }, move, refined);
   this->fine_fails_ = !status.ok() && !this->wrong_volume_;
-  this->timed_out_ = false; // a later run without small tets may finish in time
+  this->timed_out_ = false; // runs with larger tets may still finish within the time limit
   return status;
 }
 
@@ -671,8 +671,8 @@ double CdtTets::mean_surface_edge() const
   return sum / static_cast<double>(std::max<Index>(1, triangles.size()));
 }
 
-/// Return the volume of a regular tet whose edge length is `interior_edge`, but at least a third of
-/// the mean edge length of the surface.
+/// Return the volume of a regular tet. Its edge length is `interior_edge` (or a default of 0.04 of
+/// the bounding-box diagonal), but at least a third of the mean edge length of the surface.
 double CdtTets::volume_bound() const
 {
   constexpr double default_edge_length = 0.04;

@@ -63,7 +63,7 @@ public:
   CdtTets(ExecutionContext& context, const RepairedSurface& surface, EnclosedRegion& inside,
     const CdtOptions& options, AttemptLog& log);
 
-  /// Try one set of TetGen arguments after the other, for at most `seconds`, until the tets inside
+  /// Try one set of TetGen switches after another, for at most `seconds`, until the tets inside
   /// have the right volume. On failure, the tets with the smallest misfit() are kept.
   Status build(double seconds);
   /// Return EnclosedRegion::misfit of the kept tets, or infinity if there are none.
@@ -78,9 +78,10 @@ public:
   TetMesh& mesh() { return this->mesh_; }
   std::vector<Index>& original_vertices() { return this->mesh_original_; }
   const std::vector<std::string>& warnings() const { return this->warnings_; }
-  /// Winding numbers from which the segmentation was computed, #T, and flags, #T: 1 for tets
-  /// inside, else 0. Both arrays are empty unless `keep_outside` is set.
+  /// #T: winding numbers from which the segmentation was computed; empty unless `keep_outside` is
+  /// set.
   const Eigen::VectorXd& winding_numbers() const { return this->winding_numbers_; }
+  /// #T: 1 for a tet inside, 0 for a tet outside; empty unless `keep_outside` is set.
   const std::vector<char>& inside() const { return this->is_inside_; }
   /// Report of the kept tets: segmentation and, if the labels are from a graph cut, energy,
   /// threshold_energy and counts.changed_by_cut (see Segmentation).
@@ -137,13 +138,14 @@ private:
   double start_ = 0.0;
   double deadline_ = 0.0;
   std::vector<Index> original_; ///< input ids of the first vertices of the current attempt
-  bool wrong_volume_ = false; ///< whether the attempt gave tets with a wrong volume
+  bool wrong_volume_ = false; ///< whether the last attempt gave tets with a wrong volume
   bool refinement_is_useless_ = false; ///< whether finer tets cannot improve the result
   bool timed_out_ = false; ///< whether the last run of TetGen reached its time limit
   double job_seconds_ = 0.0; ///< total duration of the refinements and the TetGen runs
   /// Whether the refinement was stopped because too many triangles cross each other.
   bool too_many_crossings_ = false;
-  bool fine_fails_ = false; ///< whether small tets were tried and TetGen returned none
+  /// Whether try_fine_tets() has failed for another reason than a wrong volume.
+  bool fine_fails_ = false;
   TetMesh mesh_;
   Eigen::VectorXd winding_numbers_;
   std::vector<char> is_inside_;

@@ -41,7 +41,7 @@ constexpr Index tets_per_boundary_triangle = 2;
 /// requires so many tets, a small number of vertices is still allowed.
 Index maximum_inner_vertices(Index surface_triangles, Index boundary_triangles)
 {
-  // Number of new vertices that is always allowed, per triangle of the surface.
+  // This many new vertices per triangle of the surface are always allowed.
   constexpr double least = 0.1;
   const double triangles = static_cast<double>(surface_triangles);
   const double tets = std::max(static_cast<double>(minimum_tets), tets_per_triangle * triangles) -
@@ -98,7 +98,7 @@ struct CdtTets::FillState
 Status CdtTets::fill()
 {
   const double start = this->context_.elapsed_seconds();
-  constexpr double found = 0.35; // fraction of the total time for finding the positions
+  constexpr double found = 0.35; // progress when the positions have been found
   FillState inside;
   Status status;
   {
@@ -149,7 +149,8 @@ Status CdtTets::find_positions(FillState& inside)
   {
     return status;
   }
-  // Too few tets are expected, so use one edge length everywhere that gives `minimum_tets`.
+  // Too few tets are expected. Use the same edge length everywhere, such that about `minimum_tets`
+  // tets fill the volume.
   const double length =
     std::cbrt(this->volume_ / (static_cast<double>(minimum_tets) * regular_tet_volume));
   constexpr double long_edge = 2.0;

@@ -270,7 +270,7 @@ Status EnclosedRegion::label_tets(
   {
     return Status::canceled();
   }
-  // Length of the longest edge above which a tet is large, in bounding-box diagonals.
+  // A tet is large if its longest edge is longer than this, in bounding-box diagonals.
   constexpr double large = 0.05;
   std::vector<Index> tets;
   for (Index t = 0; t < data.tets.rows(); ++t)

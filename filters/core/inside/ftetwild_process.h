@@ -27,10 +27,10 @@ struct FtetwildOptions
 /// there is none. If the environment variable BINDPOSE_FTETWILD is set, it replaces this search.
 std::string find_ftetwild();
 
-/// Compute tets of the volume that a surface encloses by fTetWild (Hu, Schneider, Wang, Zorin,
-/// Panozzo, Fast Tetrahedral Meshing in the Wild, 2020), a separate program that must be installed.
-/// fTetWild accepts any triangles, moves them by at most epsilon and keeps none of their vertices.
-/// A tet is inside if the winding number of the moved surface is above 0.5.
+/// Run fTetWild to compute tets of the volume that a surface encloses (Hu, Schneider, Wang, Zorin,
+/// Panozzo, Fast Tetrahedral Meshing in the Wild, 2020). fTetWild is a separate program that must
+/// be installed. It accepts any triangles, moves them by at most epsilon and keeps none of their
+/// vertices. A tet is inside if the winding number of the moved surface is above 0.5.
 ///
 /// `mesh` has positive tets and no unused vertices. It is empty if the surface encloses no volume.
 ///

@@ -29,9 +29,9 @@ struct HandleSamples
   Index handle_point_count = 0; ///< number of points of the handles themselves; they come first
 };
 
-/// Return the handles' points, followed by points on segments (at least one per segment) and
-/// triangles. `length` must return the target distance between neighboring samples at a point (>
-/// 0). There are at most 1,000 samples per line.
+/// Return the handles' points, followed by sample points on the handles' segments (at least one per
+/// segment, at most about 1,000) and triangles.
+/// @param length  returns the target distance between neighboring samples at a point, > 0
 HandleSamples sample_handle_elements(
   const HandleElements& handle_elements, const std::function<double(const Vec3&)>& length);
 

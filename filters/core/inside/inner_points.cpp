@@ -25,8 +25,9 @@ constexpr double largest_cell = 1.1;
 constexpr double clearance = 0.5;
 constexpr int maximum_level = 19; // maximum number of octree levels
 constexpr Index cells_per_block = 256;
-// Maximum number of cells on one level, in units of the allowed number of cells inside. A shape
-// that is much thinner than the requested edge length contains no cells, but intersects millions.
+// Maximum number of cells on one level, as a multiple of the maximum number of cells inside. A
+// shape that is much thinner than the requested edge length contains no cells, but its surface
+// intersects millions of cells.
 constexpr Index maximum_cells_per_cell_inside = 40;
 
 /// Integer coordinates in units of half of the smallest cell's side: 21 bits per coordinate.
@@ -38,8 +39,9 @@ public:
   PointLattice(ExecutionContext& context, const Interior& interior, const SizingField& sizes)
     : interior_(interior), sizes_(sizes), context_(context)
   {
-    // The side of the root is the side of the largest cells allowed, doubled until the root covers
-    // the box. If one such cell covers the box, the side of the root is that of the box.
+    // Side of the root cell: the largest allowed cell side, doubled until the root covers the box.
+    // If the largest allowed cell already covers the box, the root is only as large as the longest
+    // side of the box.
     const Box& box = interior.box();
     const double side = box.size().maxCoeff();
     double root_size = largest_cell * sizes.largest();
@@ -50,14 +52,14 @@ public:
     this->lower_ = box.center() - Vec3::Constant(0.5 * root_size);
   }
 
-  /// Build the octree and choose its points. @return false if canceled, if more than
-  /// `maximum_count` cells are inside, or if there are too many cells at the surface; then points()
-  /// is empty.
+  /// Build the octree and choose its points.
+  /// @return false if canceled, if more than `maximum_count` cells are inside, or if there are too
+  /// many cells at the surface. In these cases points() is empty.
   bool build(Index maximum_count)
   {
     std::vector<Cell> cells{ Cell() };
-    constexpr double choice_begin = 0.7; // fraction of the total time before select_points()
-    double done = 0.0; // completed fraction of the time before select_points()
+    constexpr double choice_begin = 0.7; // progress at which select_points() starts
+    double done = 0.0; // estimated completed fraction of the octree, 0 to 1
     for (int level = 0; !cells.empty(); ++level)
     {
       // The number of levels is unknown and most cells are in the last levels, so progress is
@@ -358,7 +360,7 @@ private:
   Sample below_target_;
 };
 
-/// Return a subset of `target` points, at equal intervals in the order of the points.
+/// Return `target` of the points, chosen at equal index intervals.
 Points subsample(const Points& points, Index target)
 {
   Points kept(target, 3);
@@ -413,7 +415,7 @@ bool inner_points(ExecutionContext& context, const Interior& interior, SizingFie
   for (int attempt = 0; attempt < attempts; ++attempt)
   {
     // There are typically two or three attempts.
-    constexpr double fraction = 0.45; // part of the remaining progress that an attempt gets
+    constexpr double fraction = 0.45; // fraction of the remaining progress range per attempt
     const double end = begin + fraction * (1.0 - begin);
     const ProgressRange range(context, begin, end);
     begin = end;
@@ -459,8 +461,8 @@ bool inner_points(ExecutionContext& context, const Interior& interior, SizingFie
     }
     sizes.set_scale(search.next());
   }
-  // In a plate all cells may be divided at the same scale. Then the number of points jumps from too
-  // few to too many at this scale, so a subset of the larger set is used.
+  // In a plate, all cells may be divided at the same scale. At this scale, the number of points
+  // jumps from too few to too many. In this case, a subset of surplus_points is used.
   constexpr double minimum_usable_ratio = 0.3;
   const bool uses_subset = surplus_points.rows() > 0 &&
     static_cast<double>(largest_fitting.rows()) < minimum_usable_ratio * target;

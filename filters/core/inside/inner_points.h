@@ -20,7 +20,7 @@ class Interior
 public:
   Status build(ExecutionContext& context, Points points, Triangles boundary);
   bool contains(const Vec3& p) const;
-  /// Report whether every point of the surface is at least `distance` away from p.
+  /// Report whether every point of the surface is farther than `distance` from p.
   bool has_clearance(const Vec3& p, double distance) const;
   const Box& box() const { return this->box_; }
   /// Estimate the number of octree cells in the layer at the surface, up to a factor that depends
@@ -38,11 +38,11 @@ private:
 };
 
 /// Find points inside. The distance between neighboring points is about the local edge length of
-/// `sizes`, and their distance from the surface is at least about half of this length. The points
-/// are corners and centers of the cells of an octree, whose Delaunay tets are well shaped. If there
-/// are more than `maximum_count` points, the edge lengths are increased, by a scale and by a higher
-/// growth rate, until there are about `maximum_count` points. Cost: some microseconds per cell in
-/// each attempt; there are typically two or three attempts.
+/// `sizes`. The distance of the points from the surface is at least about half of this length. The
+/// points are corners and centers of octree cells, because Delaunay tets of such points are well
+/// shaped. If there are more than `maximum_count` points, the edge lengths are increased, by a
+/// scale and by a higher growth rate, until there are about `maximum_count` points. Cost: some
+/// microseconds per cell in each attempt; there are typically two or three attempts.
 /// @return false if canceled.
 bool inner_points(ExecutionContext& context, const Interior& interior, SizingField& sizes,
   Index maximum_count, Points& inner);

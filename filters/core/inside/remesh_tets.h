@@ -16,14 +16,15 @@ namespace bindpose
 /// Options of remesh_tets().
 struct RemeshOptions
 {
-  /// A point is inside if its winding number is at least this value, > 0.
+  /// Threshold > 0: a point is inside if its winding number is at least this value.
   double winding_threshold = 0.5;
   /// Shortest and longest requested edges, in bounding-box diagonals, 1e-4 … 1. Between these
   /// limits, edges are as long as the edges of the surface, but not longer than the local thickness
   /// of the inside. The lengths of neighboring edges differ by at most a third.
   double smallest_edge = 0.005;
   double largest_edge = 0.035;
-  /// If more tets than this are expected, smallest_edge is increased; >= 1000.
+  /// Maximum expected number of tets, >= 1000. If more tets are expected, smallest_edge is
+  /// increased.
   double tet_limit = 5e5;
   double time_limit = 60.0; ///< the helper is killed after this many seconds, > 0
   Index memory_limit = 0; ///< largest address space of the helper in MiB, 0: no limit
@@ -33,7 +34,8 @@ struct RemeshOptions
 struct RemeshResult
 {
   TetMesh mesh; ///< mesh of positive tets without unused vertices
-  /// #V, ascending: id of the input vertex with the same coordinates; then -1 for new vertices.
+  /// #V: id of the input vertex with the same coordinates; -1 for a new vertex. Vertices of the
+  /// input come first, with ascending ids.
   std::vector<Index> original_vertices;
   Index boundary_vertices = 0; ///< number of input vertices on the region's boundary
   /// Distance between the boundary of the tets and the part of the input that bounds the region.

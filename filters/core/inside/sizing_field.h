@@ -25,7 +25,7 @@ public:
   double growth() const { return this->growth_; }
   void set_growth(double growth) { this->growth_ = growth; }
   double scale() const { return this->scale_; }
-  /// Multiply the lengths of the sites by `scale`; initially 1.
+  /// Set the factor by which the lengths of the sites are multiplied. The initial factor is 1.
   void set_scale(double scale) { this->scale_ = scale; }
 
 private:
@@ -34,7 +34,8 @@ private:
     Box box;
     double smallest = 0.0; ///< smallest length of the node's sites
     Index begin = 0, end = 0; ///< range of the node's sites in order_
-    Index right = -1; ///< index of the second child; the first child is the next node; -1: a leaf
+    /// Index of the second child, -1 for a leaf. The first child is the next node.
+    Index right = -1;
   };
   void build(Index begin, Index end);
   double bound(const Node& node, const Vec3& p) const;
@@ -42,7 +43,7 @@ private:
   Points sites_;
   Eigen::VectorXd lengths_;
   double growth_, largest_;
-  double scale_ = 1.0; ///< factor by which the lengths of the sites are multiplied
+  double scale_ = 1.0; ///< factor of the sites' lengths, see set_scale()
   std::vector<Index> order_;
   std::vector<Node> nodes_;
 };

@@ -23,7 +23,7 @@ enum class TetMethod
   /// as inside.
   cdt,
   remesh, ///< well-shaped, graded tets of the region that the winding number defines
-  embed, ///< lattice tets that contain the surface; separate parts share no vertex
+  embed, ///< lattice tets that contain the surface; unconnected surface parts share no vertex
   wrap, ///< method cdt, applied to a closed surface that wraps the input
   ftetwild ///< the program fTetWild, if it is installed
 };
@@ -46,36 +46,37 @@ struct TetrahedralizeOptions
   /// 1.5, the result is the volume that is enclosed twice.
   double winding_threshold = 0.5;
   /// Used by cdt for open surfaces only: see SegmentationOptions. (All winding numbers of a closed
-  /// surface are integers, so both methods give the same labels.)
+  /// surface are integers, so the graph cut and the threshold give the same labels.)
   SegmentationMethod segmentation = SegmentationMethod::graph_cut;
   double cut_smoothness = 1.0; ///< >= 0
   double cut_sigma = 0.1; ///< > 0
   /// Lattice cubes along the longest side (remesh, embed), 4 … 1000. The number of tets grows with
-  /// the cube of the resolution. The edges of method remesh are between 0.2 and 1.4 cubes long. 0:
-  /// automatic, which is 40 for remesh; for embed it is the resolution that gives about
+  /// the cube of the resolution. The edges of method remesh are between 0.2 and 1.4 cubes long. If
+  /// the resolution is 0, remesh uses 40, and embed uses the resolution that gives about
   /// `lattice_tets` tets.
   Index resolution = 0;
   /// For embed with resolution 0: approximate number of lattice tets, >= 1.
   Index lattice_tets = 30000;
-  /// Time limit for the helper executable or fTetWild in seconds, >= 0. 0: 120, or 120 per million
-  /// triangles if that is more.
+  /// Time limit for the helper executable or fTetWild in seconds, >= 0. If it is 0, the limit is
+  /// 120 seconds for up to a million triangles, and 120 seconds per million triangles for more.
   double time_limit = 0.0;
   Index memory_limit = 0; ///< largest address space of a helper process in MiB, 0: no limit
   /// Required smallest dihedral angle of every tet, degrees, 0 … 20. If the surface's triangles do
   /// not allow this angle, method automatic uses remesh, which does not keep the triangles and
   /// reaches 10.7 degrees on any surface. The status is not_converged if a tet of the result has a
-  /// smaller angle. 0: as large as the surface's triangles allow.
+  /// smaller angle. If `quality` is 0, no angle is required.
   double quality = 0.0;
   /// For cdt and wrap only: if true, no vertices are inserted inside, except for handles, and flat
   /// tets are not improved. Then `interior_edge` and `quality` must be 0.
   bool bare = false;
   /// For cdt and wrap: maximum length of edges inside, in bounding-box diagonals, >= 0. Edges of
-  /// the surface that are more than three times as long are split. 0: automatic. In this case,
-  /// edges inside are as long as the surface's edges near them, and their length increases with the
+  /// the surface that are more than three times as long are split. If `interior_edge` is 0, edges
+  /// inside are as long as the surface's edges near them, and their length increases with the
   /// distance to the surface. Vertices are inserted until there are about 4.2 tets per triangle. A
   /// surface with few triangles is filled with about 1,500 tets; for this purpose, its long edges
   /// are split. Smooth weights need vertices inside, in addition to those on the surface. For
-  /// ftetwild, `interior_edge` is the target edge length everywhere; 0: fTetWild's default 0.05.
+  /// ftetwild, `interior_edge` is the target edge length everywhere; if it is 0, fTetWild uses its
+  /// default of 0.05.
   double interior_edge = 0.0;
   /// For cdt only: keep all segmented tets of the surface's convex hull (or of a larger box, if
   /// TetGen filled a box). See TetrahedralizeResult::labels for the tets that are inside. No
@@ -108,7 +109,8 @@ enum class TetLabel
 struct TetrahedralizeResult
 {
   TetMesh mesh; ///< mesh of positive tets without unused vertices
-  /// #V: id of the input vertex, ascending, then -1 for new vertices.
+  /// #V: id of the input vertex; -1 for a new vertex. Vertices of the input come first, with
+  /// ascending ids.
   std::vector<Index> original_vertices;
   /// Winding numbers at the centers of the tets, #T. With keep_outside, they are the winding
   /// numbers that the segmentation used: for a large tet near the threshold, the mean of four

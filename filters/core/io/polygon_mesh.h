@@ -14,11 +14,10 @@ struct PolygonMesh
   std::vector<Index> offsets{ 0 };
   std::vector<Index> corners; ///< vertex ids
   /// Polylines, stored like polygons: the vertices of line l begin at
-  /// line_corners[line_offsets[l]]. They are read only from OBJ files without a face, which contain
-  /// curves.
+  /// line_corners[line_offsets[l]]. Nonempty only for OBJ files that have lines but no faces.
   std::vector<Index> line_offsets{ 0 };
   std::vector<Index> line_corners;
-  /// Number of entries in the file with too few vertices, which are skipped.
+  /// Number of faces in the file that are skipped because they have too few vertices.
   Index skipped = 0;
 
   Index polygon_count() const { return static_cast<Index>(this->offsets.size()) - 1; }

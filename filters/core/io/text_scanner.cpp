@@ -144,8 +144,8 @@ bool parse_number(std::string_view text, double& value)
   }
   if (result.ec == std::errc::result_out_of_range)
   {
-    // The absolute value is too large for a double (1e400) or too small (1e-400). The decimal
-    // exponent of its first nonzero digit decides.
+    // The absolute value is too large for a double (1e400) or too small (1e-400). It is too small
+    // if the decimal exponent of the first nonzero digit is negative.
     const std::size_t e = std::min(text.find_first_of("eE"), text.size());
     const std::string_view digits = text.substr(0, e);
     const std::size_t point = std::min(digits.find('.'), digits.size());

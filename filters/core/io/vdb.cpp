@@ -209,8 +209,9 @@ void spread_along_line(
   found.assign(static_cast<std::size_t>(size), 0);
   for (const unsigned char side : { below, above })
   {
-    // Index of the last visited entry with this side. The initial value is the entry before the
-    // line if the samples outside have this side; otherwise it is an index too far away to count.
+    // Index of the last visited entry with this side. If the samples outside have this side, the
+    // initial value is the index before the line. Otherwise it is farther than `width` from the
+    // line.
     Index last = outside & side ? -1 : -width - 1;
     for (Index i = 0; i < size; ++i)
     {
@@ -246,7 +247,8 @@ bool find_sides(ExecutionContext& context, const SampleGrid& grid, const Value* 
   const Index nz = grid.size(2);
   sides.resize(static_cast<std::size_t>(grid.count()));
   unsigned char* const data = sides.data();
-  // Spread along x and y within layers of constant z, then along z within layers of constant y.
+  // Call spread_along_line() along x and y in each layer of constant z, then along z in each layer
+  // of constant y.
   bool completed = false;
   {
     const ProgressRange range(context, 0.0, 0.6);
@@ -327,7 +329,8 @@ private:
   float mirror_;
 };
 
-/// A leaf, or a tile: the common value of all voxels of the block.
+/// The node that represents a block of voxels: a leaf or, if all voxels of the block are equal, a
+/// tile with their common value. `leaf` is null for a tile.
 struct Block
 {
   std::unique_ptr<Leaf> leaf;

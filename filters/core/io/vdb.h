@@ -36,8 +36,8 @@ struct VdbOptions
   Index band_width = 3;
   /// Narrow band only: value at the surface.
   double threshold = 0.5;
-  /// Full band only: values within this distance of the background are replaced by the background,
-  /// >= 0.
+  /// Full band only, >= 0: values whose distance from the background is at most this are replaced
+  /// by the background.
   double tolerance = 1e-6;
   /// Whether an existing file is replaced.
   bool overwrite = false;

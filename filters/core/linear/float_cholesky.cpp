@@ -126,7 +126,8 @@ struct BlockFronts
   std::vector<int> step_in_whole; // inverse of step_in_block
 };
 
-/// Return the children of each node and, as the last entry, the roots; in ascending order.
+/// Return a list of children for each node, and the list of the roots as the last entry. Each list
+/// is in ascending order.
 std::vector<std::vector<int>> children_of(const std::vector<int>& parent)
 {
   std::vector<std::vector<int>> children(parent.size() + 1);

@@ -21,7 +21,7 @@ namespace
 {
 constexpr int group = 4; // number of columns of a block that are processed together
 
-/// Entries of one row for four right-hand sides.
+/// Entries of one row for four or eight right-hand sides.
 typedef float Row4 __attribute__((vector_size(16)));
 typedef float Row8 __attribute__((vector_size(32)));
 /// Partial sums of the dot products of a single right-hand side: two packs, because GCC 12 keeps
@@ -31,7 +31,8 @@ constexpr int rows_per_half = PackOf<float>::lanes;
 constexpr int rows_per_pass = 2 * rows_per_half;
 static_assert(factor_padding == rows_per_pass - 1, "A pass can begin at the last row.");
 
-/// From `kept_rows + rows_per_pass - n` on: masks that keep n rows of a pass.
+/// Masks of the rows of a pass. The mask that keeps the first n rows consists of the
+/// `rows_per_pass` entries from kept_rows[rows_per_pass - n] on.
 alignas(64) constexpr std::int32_t kept_rows[2 * rows_per_pass] = { -1, -1, -1, -1, -1, -1, -1, -1,
   -1, -1, -1, -1, -1, -1, -1, -1 };
 
@@ -100,7 +101,8 @@ BINDPOSE_ALWAYS_INLINE void dots(const float* a, const Row* t, int first, int ro
   }
 }
 
-/// The rows beyond the last one are read in the last pass, but masked: they can be anything.
+/// Compute the dot products for a single right-hand side. The last pass also reads memory beyond
+/// the last row; a mask replaces these values by 0.
 template <int count>
 BINDPOSE_ALWAYS_INLINE void dots(const float* a, const float* t, int first, int rows, float* sums)
 {

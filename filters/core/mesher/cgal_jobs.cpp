@@ -215,9 +215,10 @@ void add_pair_intersections(
     add_intersection(Exact::Segment_3(a.vertex(k), a.vertex(k + 1)), b, points, segments);
     add_intersection(Exact::Segment_3(b.vertex(k), b.vertex(k + 1)), a, points, segments);
   }
-  // For triangles in different planes, there are at most two points, the ends of the intersection
-  // segment. For triangles in one plane, the segments are the outline of the intersection polygon,
-  // and every point is an end of a segment or the whole intersection.
+  // If the triangles are in different planes, there are at most two points: the ends of the
+  // intersection segment. If they are in one plane, the segments are the outline of the
+  // intersection polygon and every point is an end of a segment, or the intersection is a single
+  // point.
   if (segments.empty() && points.size() == 2)
   {
     segments.emplace_back(points[0], points[1]);
@@ -428,7 +429,7 @@ std::string refine(MesherData& data, const RefineOptions& options)
   constexpr std::size_t minimum_limited_faces = 10000;
   const auto face_limit = static_cast<std::size_t>(
     options.growth_limit * static_cast<double>(std::max(soup.faces.size(), minimum_limited_faces)));
-  // Number of pairs below which an increase is ignored.
+  // An increase in the number of crossing pairs is ignored if there are at most this many pairs.
   constexpr std::size_t minimum_crossings = 64;
   // The job gives up after this many rounds in which the number of crossings increased.
   constexpr int maximum_growing_rounds = 3;
@@ -444,7 +445,7 @@ std::string refine(MesherData& data, const RefineOptions& options)
   for (; round < options.round_limit; ++round)
   {
     const std::vector<Pair> pairs = crossing_pairs(soup, pair_limit);
-    // Progress after the first search, as a fraction of the total time if few triangles cross.
+    // If few triangles cross, the first search takes about this fraction of the total time.
     constexpr double first_found = 0.4;
     report_progress(first_found);
     if (pairs.size() > pair_limit)

@@ -60,7 +60,7 @@ private:
 
 struct CircumcenterTraits : RobustTraits
 {
-  using Construct_weighted_circumcenter_3 = Circumcenter; // CGAL requires this name of the type
+  using Construct_weighted_circumcenter_3 = Circumcenter; // CGAL prescribes this type name
   Circumcenter construct_weighted_circumcenter_3_object() const
   {
     return Circumcenter(RobustTraits::construct_weighted_circumcenter_3_object());

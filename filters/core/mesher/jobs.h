@@ -11,7 +11,7 @@
 namespace bindpose
 {
 
-/// Send the progress of the job in [0, 1] to the parent process as one line of text.
+/// Send the progress of the job, a fraction in [0, 1], to the parent process as one line of text.
 void report_progress(double fraction);
 /// Send a value of the job's report to the parent process as one line of text.
 void report_value(const char* key, double number);
@@ -50,14 +50,14 @@ struct FillOptions
 {
   double min_angle = 30.0; ///< degrees
   double longest_edge = 0.0; ///< maximum edge length; 0: no bound
-  /// triangles with a side shorter than this length are not refined for their angles
+  /// Triangles with a side shorter than this are not refined for their angles.
   double smallest_side = 0.0;
   double time_limit = 120.0; ///< seconds after which refinement stops
 };
 
-/// Mesh the region that the triangles of arrange() cover with quality triangles, by Delaunay
+/// Replace triangles from arrange() by well-shaped triangles of the same region, by Delaunay
 /// refinement. The outline and the segments remain edges and are split where necessary; the
-/// segments must be edges of the triangles. Points keep their ids; new points are appended. If
+/// segments must be edges of the old triangles. Points keep their ids; new points are appended. If
 /// min_angle cannot be reached with a reasonable number of points, a bound of 20.6 degrees is
 /// tried. The job reports min_angle (the bound in use) and stopped (1: the bounds are not satisfied
 /// everywhere).
@@ -75,7 +75,7 @@ struct TetgenOptions
   bool box = false;
 };
 
-/// Compute tets that contain the points and triangles, by TetGen (switch p). The first points of
+/// Run TetGen (switch p) to compute tets that contain the points and triangles. The first points of
 /// the result are the input points, with their ids. All tets are positive.
 std::string tetgen(MesherData& data, const TetgenOptions& options);
 
@@ -102,8 +102,8 @@ std::string remesh(MesherData& data, RemeshJobOptions options);
 /// Options of wrap().
 struct WrapJobOptions
 {
-  double alpha = 0.0; ///< radius of the carving ball, a length > 0; about the size of the edges
-  /// Distance of the wrap's vertices from the triangles, outwards, a length > 0.
+  double alpha = 0.0; ///< radius of the carving ball, > 0; the wrap's edges are about as long
+  /// Distance between the wrap's vertices and the triangles, > 0. The wrap encloses the triangles.
   double offset = 0.0;
 };
 

@@ -171,8 +171,9 @@ using Filling = CGAL::Constrained_Delaunay_triangulation_2<Inexact,
   CGAL::Triangulation_data_structure_2<FillVertex, FillFace>, CGAL::Exact_predicates_tag>;
 
 /// Quality criteria for the refinement: bounds for angles and lengths. Triangles with a side
-/// shorter than `smallest_side` are not refined for their angles. Otherwise refinement could
-/// continue down to the resolution of doubles where a bound above 20.6 degrees cannot be satisfied.
+/// shorter than `smallest_side` are not refined for their angles. Without this exception,
+/// refinement could continue down to the resolution of doubles, because an angle bound above 20.6
+/// degrees cannot be satisfied everywhere.
 class Criteria : public CGAL::Delaunay_mesh_size_criteria_2<Filling>
 {
 public:

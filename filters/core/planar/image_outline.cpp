@@ -147,9 +147,10 @@ private:
   }
 
   /// Link the vertices on the edges of a cell. Corners are counter-clockwise from the lower left;
-  /// edge k is between corners k and k + 1. Consecutive inside corners form a run. For each run,
-  /// the vertex on the edge after the run is linked to the vertex on the edge before the run. In a
-  /// saddle cell with connected inside corners, it is linked to the vertex before the other run.
+  /// edge k is between corners k and k + 1. Consecutive inside corners form a run. The vertex on
+  /// the edge after a run is linked to the vertex on the edge before the same run. A saddle cell
+  /// has two runs of one corner. If its inside corners are connected, the vertex after each run is
+  /// linked to the vertex before the other run instead.
   void link_cell(const std::array<bool, 4>& corner_is_inside, const std::array<Index, 4>& sides,
     const std::array<float, 4>& values, Contour& contour) const
   {
@@ -256,8 +257,9 @@ public:
     }
   }
 
-  /// Report whether visit(id) is true for a vertex near the triangle. In each row of cells that
-  /// overlaps the triangle, the cells from its leftmost to its rightmost point are visited.
+  /// Report whether visit(id) is true for a vertex near the triangle. In each row of cells, the
+  /// part of the triangle in the row has a leftmost and a rightmost point. The cells between these
+  /// two points are searched.
   template <typename Visit>
   bool any(const std::array<Vec2, 3>& corners, const Visit& visit) const
   {

@@ -17,7 +17,7 @@ using AlphaRow = std::function<void(Index row, float* values)>;
 /// Options of image_outline().
 struct ImageOutlineOptions
 {
-  double threshold = 0.5; ///< a pixel is inside if its alpha is at least this, in (0, 1]
+  double threshold = 0.5; ///< in (0, 1]; a pixel is inside if its alpha is at least this
   /// Maximum distance between the simplified outline and the contour, 0 … 1 pixels. 0 keeps every
   /// contour point.
   double simplify = 0.5;

@@ -12,9 +12,9 @@ namespace bindpose
 /// Options of planar_shape(), which triangulates the inside of curves in the plane.
 struct PlanarShapeOptions
 {
-  /// Points with at least this winding number are inside, > 0. With 0.5, the gap of an open curve
-  /// is closed approximately along the straight line between its ends. With 1.5, only regions that
-  /// are enclosed twice are inside.
+  /// Threshold > 0: points with at least this winding number are inside. With 0.5, the gap of an
+  /// open curve is closed approximately along the straight line between its ends. With 1.5, only
+  /// regions that are enclosed twice are inside.
   double winding_threshold = 0.5;
   /// Smallest angle of a triangle in degrees, 0 … 33, except where curves or bones form a smaller
   /// angle. Angles up to 20.6 can always be reached, larger angles usually.
@@ -31,8 +31,8 @@ struct PlanarShapeOptions
 struct PlanarHandles
 {
   PlanePoints points; ///< #H x 2; each point that is inside becomes a vertex
-  /// #B x 2: bones, as ids of two of these points. The inside part of each bone becomes a chain of
-  /// edges.
+  /// #B x 2: indices in `points` of the two ends of each bone. The part of the bone that is inside
+  /// becomes a chain of edges.
   Segments bones;
 };
 

@@ -12,8 +12,8 @@ namespace bindpose
 /// Options of RestElements::stretch().
 struct ElementStretchOptions
 {
-  /// An element counts as stretched if the pose multiplies the length of some line segment in it by
-  /// more than `limit` or by less than 1 / limit. At least 1; 2 by default.
+  /// Limit of the stretch, >= 1. An element counts as stretched if the pose multiplies the length
+  /// of some line segment in the element by more than `limit` or by less than 1 / limit.
   double limit = 2.0;
   /// Whether to fill ElementStretch::largest and smallest. If false, only the report is computed.
   bool values = false;
@@ -66,9 +66,11 @@ private:
   Index points_ = 0;
   Index count_ = 0;
   bool flat_ = false; ///< whether the rest shape is in a plane z = const
-  // Tiles of 8 elements, one element per lane.
-  std::vector<Index> ids_; ///< vertex ids, indexed by corner, then by lane within a tile
-  std::vector<double> shape_; ///< rest shapes, indexed by value, then by lane within a tile
+  // Elements are stored in tiles of 8, one element per lane.
+  std::vector<Index> ids_; ///< vertex ids, indexed by tile, corner and lane
+  /// The numbers that describe each element at rest (10 per tet, 4 per triangle), indexed by tile,
+  /// number and lane.
+  std::vector<double> shape_;
 };
 
 /// Compute the stretch for a single pose.

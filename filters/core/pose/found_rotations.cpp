@@ -1,5 +1,6 @@
-// Modes of automatic handles for methods that compute rotations themselves. The choice depends on
-// the transforms in the world and relative to the parent.
+// Choice of the modes of handles in mode `automatic`, for methods that compute rotations
+// themselves. The chosen mode of a handle depends on its transform in the world and relative to its
+// parent.
 #include "pose/found_rotations.h"
 
 #include "pose/handle_hierarchy.h"

@@ -57,20 +57,20 @@ inline bool constrains_transform(HandleMode mode)
 {
   return mode == HandleMode::full || mode == HandleMode::automatic;
 }
-/// Report whether the mode constrains the position of the pivot but not the whole transform. The
-/// next function reports this for the tail.
+/// Report whether the mode constrains the position of the pivot but not the whole transform.
 inline bool constrains_pivot(HandleMode mode)
 {
   return mode == HandleMode::position || mode == HandleMode::ends;
 }
+/// Report whether the mode constrains the position of the tail but not the whole transform.
 inline bool constrains_tail(HandleMode mode)
 {
   return mode == HandleMode::tail || mode == HandleMode::ends;
 }
 
-/// Return the posed position of a handle's pivot. The next function returns that of the tail, which
-/// is at the end of the stretched bone.
+/// Return the posed position of a handle's pivot.
 Vec3 posed_pivot(const Handle& handle, const HandlePose& pose);
+/// Return the posed position of a bone's tail. The stretch of the bone is applied.
 Vec3 posed_tail(const Handle& handle, const HandlePose& pose);
 
 /// One HandlePose for each handle, in the order of the handles.
@@ -86,13 +86,12 @@ Status check_pose(const Handles& handles, const Pose& pose);
 Status check_mesh_and_handles(PointsView points, TrianglesView triangles, const Handles& handles);
 Status check_mesh_and_handles(PointsView points, TetsView tets, const Handles& handles);
 
-/// Specifies in which modes a method uses the stretch and twist of a bone. Every method uses the
-/// stretch of bones in mode tail.
+/// Specifies in which modes (HandleMode) a method uses the stretch and the twist of a bone.
 enum class StretchUse : int
 {
-  tails, ///< only the stretch in mode tail: skinning with one transform per bone
-  ends, ///< also the stretch in mode ends: methods that compute transforms
-  all ///< stretch and twist in all modes: stretchable, twistable bones
+  tails, ///< skinning with one transform per bone: uses the stretch in mode tail
+  ends, ///< methods that compute transforms: use the stretch in the modes tail and ends
+  all ///< stretchable, twistable bones: use stretch and twist in all modes
 };
 
 /// Return a warning of one sentence if the pose has a stretch or a twist that the method does not

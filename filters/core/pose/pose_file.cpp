@@ -450,8 +450,8 @@ Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequ
   catch (const nlohmann::json::exception& error)
   {
     sequence = PoseSequence();
-    // Remove the technical prefix. Example: "[json.exception.parse_error.101] parse error at line
-    // 1, …".
+    // The message of the library begins with the id of the exception, for example
+    // "[json.exception.parse_error.101] parse error at line 1, …". Remove the id.
     const std::string problem = error.what();
     const std::size_t end = problem.find("] ");
     return Status::invalid_input("the pose file is not valid JSON: " +
@@ -569,7 +569,7 @@ void pose_handle(const HandleEdit* edit, bool children_follow, const Handles& ha
   if (with_parent && !children_follow)
   {
     const auto parent = static_cast<std::size_t>(rest.parent);
-    // In version 1, the parent's transform is applied afterward.
+    // In version 1, the parent's transform is applied after the handle's own transform.
     posed.transform = compose(pose[parent].transform, posed.transform);
   }
   if (edit)
@@ -622,9 +622,10 @@ struct TransformNumbers
   bool exact = true; ///< false if a shear, a non-uniform scale or a reflection cannot be written
 };
 
-/// Largest relative difference between a transform and its description in the file that is treated
-/// as round-off. Transforms from glTF files are products of single-precision matrices and have a
-/// relative error of about 1e-6. At this limit, a vertex at the distance of one bounding-box
+/// The file describes the linear part of a transform by a rotation and a uniform scale. If the
+/// linear part differs from this description by at most this relative error, the difference is
+/// treated as round-off. Transforms from glTF files are products of single-precision matrices and
+/// have a relative error of about 1e-6. At this limit, a vertex at the distance of one bounding-box
 /// diagonal from the pivot has an error of 1e-5 diagonals.
 constexpr double pose_file_misfit = 1e-5;
 

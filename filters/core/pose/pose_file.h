@@ -85,8 +85,8 @@ struct PoseTimes
   bool has_expressions = false;
 };
 
-/// Read the properties in PoseTimes. Return false if the text is not a pose file; parse_pose_file()
-/// reports the reason.
+/// Fill `times` from the text of a POSE.json. Return false if the text is not a pose file;
+/// parse_pose_file() reports the reason.
 bool read_pose_times(const std::string& text, PoseTimes& times);
 
 /// Return the pose that a frame describes.
@@ -96,10 +96,10 @@ bool read_pose_times(const std::string& text, PoseTimes& times);
 /// inherits from its parent is applied (transform_for_child()), as in glTF. "space": "world"
 /// disables the inheritance. The combined transform replaces the transform of the base pose. `head`
 /// and `tail` are world positions. An end without a key moves with the parent, or is at rest if the
-/// space is "world". The bone is rotated by the minimal arc from its old direction to its new
-/// direction. Its stretch is the value of `stretch` or, without this key, the ratio of the lengths.
-/// A handle keeps its parent-relative transform of the base pose if it is not in the frame, or has
-/// none of the keys translate, rotate, scale, head and tail.
+/// space is "world". The bone is rotated by the minimal arc from its inherited direction to its new
+/// direction. Its stretch is the value of `stretch` or, without this key, its new length divided by
+/// its inherited length. A handle keeps its parent-relative transform of the base pose if the frame
+/// has none of the keys translate, rotate, scale, head and tail for the handle.
 ///
 /// A handle without "mode" keeps its mode of the base pose. If this mode is automatic and the frame
 /// has one of the keys rotate, scale, head, tail, stretch and twist for the handle, its mode

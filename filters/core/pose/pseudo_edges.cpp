@@ -115,7 +115,8 @@ Status find_edges(ExecutionContext& context, PointsView points, const Elements& 
   std::vector<double> distance(size, std::numeric_limits<double>::infinity());
   std::vector<Index> owner(size, -1);
   std::vector<HandlePath> paths;
-  using Reached = std::tuple<double, Index, Index>; // distance from the handle, handle, vertex
+  // Distance between a handle and a vertex, then the indices of the handle and of the vertex.
+  using Reached = std::tuple<double, Index, Index>;
   std::priority_queue<Reached, std::vector<Reached>, std::greater<Reached>> front;
   Index count = 0;
   for (std::size_t h = 0; h < handles.size(); ++h)

@@ -357,8 +357,8 @@ BINDPOSE_SIMD_CLONES int fit_block(const MatrixPlanes<const float>& s,
   return fit_groups(s, rotations, diagonal, block);
 }
 
-/// Compute the best rotation of any S. If it is not unique, choose the one that is nearest to the
-/// previous rotation.
+/// Compute the best rotation for any S. If several rotations are best, choose the one that is
+/// nearest to the previous rotation.
 void fit_by_eigenvectors(const Eigen::Matrix3d& matrix, Eigen::Matrix3d& rotation)
 {
   const double largest = matrix.cwiseAbs().maxCoeff();
@@ -389,7 +389,8 @@ void fit_by_eigenvectors(const Eigen::Matrix3d& matrix, Eigen::Matrix3d& rotatio
   rotation = Eigen::Quaterniond(best[0], best[1], best[2], best[3]).toRotationMatrix();
 }
 
-/// Fit the matrices of a block that the fast path could not fit, one after the other.
+/// Fit the matrices of a block for which the result of the fast path cannot be trusted. These
+/// matrices are fitted one at a time.
 template <typename Scalar>
 void fit_remaining(const FitBlock<Scalar>& block, const MatrixPlanes<const Scalar>& s,
   const MatrixPlanes<Scalar>& rotations, Scalar diagonal)
@@ -418,8 +419,8 @@ void fit_remaining(const FitBlock<Scalar>& block, const MatrixPlanes<const Scala
   }
 }
 
-/// Fit all matrices. The result is R - I with `diagonal` added to its diagonal entries: R - I for
-/// 0, R for 1.
+/// Fit all matrices. The result is R - I with `diagonal` added to the diagonal entries: R - I if
+/// `diagonal` is 0, and R if `diagonal` is 1.
 template <typename Scalar>
 void fit_all(Index count, const MatrixPlanes<const Scalar>& s,
   const MatrixPlanes<Scalar>& rotations, Scalar diagonal)
@@ -435,7 +436,7 @@ void fit_all(Index count, const MatrixPlanes<const Scalar>& s,
   };
   if (count < lanes)
   {
-    // Pad with leading zero matrices to a whole group.
+    // A group needs `lanes` matrices. Fill its leading lanes with zero matrices, which are skipped.
     const Index missing = lanes - count;
     Scalar in[9 * lanes] = {}, out[9 * lanes] = {};
     for (int e = 0; e < 9; ++e)

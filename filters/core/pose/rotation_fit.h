@@ -21,8 +21,8 @@ void fit_rotation(const Eigen::Matrix3d& s, Eigen::Matrix3d& rotation);
 
 /// Fit many rotations. Matrices are stored in planes: entry (row i, column j) of matrix k is s[(3 *
 /// i + j) * stride + k], with stride >= count. `rotations` has the same layout. The fits are
-/// vectorized if the processor supports it; the bits of a result do not depend on the position of
-/// its matrix. Cost: about 36 ns per matrix with AVX2, 26 ns with AVX-512, 1 µs for the rare
+/// vectorized if the processor supports it; the bits of a result do not depend on the index of its
+/// matrix. Cost: about 36 ns per matrix with AVX2, 26 ns with AVX-512, 1 µs for the rare
 /// matrices near rank 1.
 void fit_rotations(Index count, Index stride, const double* s, double* rotations);
 
@@ -38,7 +38,7 @@ struct MatrixPlanes
   {
     return this->planes + i * this->row_stride + j * this->column_stride;
   }
-  /// Return the planes that start at matrix `k`.
+  /// Return a view of the matrices from index k on.
   MatrixPlanes from(Index k) const
   {
     return { this->planes + k, this->row_stride, this->column_stride };

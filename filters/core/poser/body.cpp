@@ -80,8 +80,8 @@ Status Body::bind(ExecutionContext& context, const PoseOptions& options)
   status = bind_to_source(context, source, options, this->body_);
   if (status.usable() && options.use_tet_energy)
   {
-    // The surface blends the same weights as in ReducedPoser: they are computed from the columns of
-    // a ReducedArap that is bound to the same tets.
+    // Skin the surface's points with the same weights as ReducedPoser. These weights are computed
+    // from the weights of a ReducedArap that is bound to the same tets.
     ReducedArap arap;
     Status surface_status = bind_to_source(context, source, options, arap);
     surface_status = surface_status.usable()

@@ -17,7 +17,8 @@ struct BodyOptions
 {
   double gravity = 0.5; ///< bounding-box diagonals / s^2, 0 to 20
   int down_axis = 1; ///< gravity points along this axis in its negative direction: 0 x, 1 y, 2 z
-  /// Elastic waves cross the diagonal sqrt(stiffness) times per second; 1 to 1e5.
+  /// 1 / s^2, 1 to 1e5. Elastic waves cross the bounding-box diagonal sqrt(stiffness) times per
+  /// second.
   double stiffness = 100.0;
   double damping = 0.5; ///< 1 / s, 0 to 20
   double steps_per_second = 60.0; ///< 1 to 1000

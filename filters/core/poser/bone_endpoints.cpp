@@ -7,8 +7,9 @@ namespace bindpose
 
 namespace
 {
-/// Return the geometry of the auxiliary handles of endpoint_weights(), which becomes part of the
-/// mesh. It consists of the points and, for the method `bounded`, the cage edge between two points.
+/// Return the points and segments that the auxiliary handles of endpoint_weights() add to the mesh:
+/// the ends of the bones and, for the method `bounded`, the cage edge between the two ends of one
+/// bone.
 HandleElements elements_of(const Handles& ends)
 {
   HandleElements elements;

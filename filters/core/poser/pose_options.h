@@ -78,8 +78,8 @@ struct PoseOptions
   PatchBoundary boundary = PatchBoundary::region;
 };
 
-/// Report whether one bind can be used with both options. The methods must not be skinning methods
-/// (see SkinningBind).
+/// Report whether the same bind can be used for the options a and b. The methods must not be
+/// skinning methods (see SkinningBind).
 bool same_bind(const PoseOptions& a, const PoseOptions& b);
 bool operator==(const PoseOptions& a, const PoseOptions& b);
 inline bool operator!=(const PoseOptions& a, const PoseOptions& b)

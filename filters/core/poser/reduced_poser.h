@@ -7,8 +7,9 @@
 namespace bindpose
 {
 
-/// Poses by reduced as-rigid-as-possible (Jacobson et al. 2012), on the surface or in the tets. In
-/// tets, the surface's points blend the same transforms by their own weights.
+/// Poses by reduced as-rigid-as-possible (Jacobson et al. 2012), on the surface or in the tets. If
+/// the transforms are computed in the tets, the surface's points are moved by linear blend skinning
+/// with these transforms and with the weights at the surface's points.
 class ReducedPoser : public Poser
 {
 public:
@@ -24,7 +25,7 @@ protected:
 private:
   ReducedArap arap_;
   PoseRotations rotations_; ///< cache for rotations()
-  Skinning surface_skinning_; ///< blends the surface's points by all columns; used only with tets
+  Skinning surface_skinning_; ///< moves the surface's points; used only with tets
 };
 
 /// Return the options of the reduced as-rigid-as-possible kernels.
@@ -41,8 +42,9 @@ Status bind_to_source(
                                 : kernel.bind(context, source.points, source.triangles,
                                     source.weights, source.handles, reduced);
 }
-/// Bind linear blend skinning that moves the surface of the source with its tets. It blends the
-/// transforms of `arap` by the weights of handles and extra weights at the surface's points.
+/// Bind linear blend skinning that moves the surface of the source with its tets. The skinning
+/// blends the transforms of `arap`. Its weights are the handle weights at the surface's points,
+/// followed by the extra weights, which are interpolated to these points.
 /// @param arap  bound to the tets of the source
 Status bind_surface_skinning(
   ExecutionContext& context, const PoseSource& source, const ReducedArap& arap, Skinning& skinning);

@@ -137,8 +137,9 @@ Status SkinningBind::bind_endpoints(ExecutionContext& context, const SkinnedShap
 
 WeightsView SkinningBind::endpoints(const SkinnedShape& shape, EndpointMethod method) const
 {
-  // Endpoint weights of the shape take precedence over computed ones. If none are available, return
-  // a view of size 0, which selects the projection.
+  // Endpoint weights of the shape take precedence over computed endpoint weights. If there are
+  // neither, return a view of size 0; Skinning::stretchable_bones() then projects points onto
+  // bones.
   return shape.endpoints.rows() == 0 && this->endpoint_method_ == method
     ? WeightsView(this->endpoints_)
     : shape.endpoints;

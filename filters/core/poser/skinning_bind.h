@@ -31,12 +31,12 @@ enum class PseudoEdgeChoice : int
 struct SkinningMethodOptions
 {
   SkinningMethod method = SkinningMethod::linear_blend;
-  /// Precision of the weights, and which weights are dropped. SkinningBind overwrites the center by
-  /// the mean of the handles' pivots.
+  /// Precision of the weights, and which weights are dropped. SkinningBind ignores `weights.center`
+  /// and uses the mean of the handles' pivots instead.
   SkinningOptions weights;
   PseudoEdgeChoice pseudo_edges = PseudoEdgeChoice::none;
   bool pseudo_edge_stretch = false; ///< pseudo-edges also scale their handles
-  /// Stretchable bones: method of the endpoint weights, if the shape has none.
+  /// Stretchable bones: how to compute endpoint weights if the shape has no endpoint weights.
   EndpointMethod endpoints = EndpointMethod::projection;
 };
 
@@ -76,8 +76,9 @@ public:
   Status bind(ExecutionContext& context, const SkinnedShape& shape, TetsView tets,
     TrianglesView triangles, const SkinningMethodOptions& options);
 
-  /// Compute the posed points, #V x 3. The report contains the entries of the method, and
-  /// counts.pseudo_edges if pseudo-edges rotate handles.
+  /// Compute the posed points, #V x 3. For the method rotation_centers, the report contains the
+  /// entries of rotation_centers(). If pseudo-edges are used, the report contains
+  /// counts.pseudo_edges.
   /// @param given  the pseudo-edges for PseudoEdgeChoice::given
   Status pose(ExecutionContext& context, const SkinnedShape& shape, const Pose& pose,
     const PseudoEdges& given, const SkinningMethodOptions& options, PointsOutput posed);

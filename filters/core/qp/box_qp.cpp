@@ -265,7 +265,8 @@ public:
         if (this->solutions_[j].status.code == StatusCode::not_converged &&
           this->solutions_[j].iterations < this->qp_.options.maximum_iterations)
         {
-          // The interior-point method replaces this status, unless a cancel prevents it.
+          // The interior-point method will replace the status, unless a cancel request prevents its
+          // run.
           this->solutions_[j].status = Status::canceled();
           left.push_back(j);
         }
@@ -290,13 +291,13 @@ public:
   }
 
 private:
-  // Progress at the end of computing the starts, as a fraction of the progress of one method
-  // (active set or interior point).
+  // Computing the starts takes this fraction of the progress range of a method (active set or
+  // interior point). Solving the columns takes the rest.
   static constexpr double start_fraction = 0.3;
 
-  /// Report whether splitting_start() can compute a start for the column. It can if the caller
-  /// gives no start and the bounds are finite. With barriers, it cannot compute starts for columns
-  /// with ordered pairs.
+  /// Report whether splitting_start() can compute a start for the column. Three conditions must
+  /// hold: single precision is available, the caller gives no start, and the bounds are finite.
+  /// With barriers, the column must also have no ordered pairs.
   bool may_split(const BoxQpColumn& column, bool barriers) const
   {
     return this->qp_.single.is_analyzed() && (column.pairs.empty() || !barriers) &&

@@ -25,7 +25,8 @@ struct FreeConjugateGradientsOptions
 /// @param multiply p -> A p.
 /// @param at_bound one entry per vertex: 0 for free vertices.
 /// @param r the residual b - A x; its entries at vertices that are not free are ignored.
-/// @return the number of steps; maximum_steps if the norm may not have been reduced enough.
+/// @return the number of steps. After maximum_steps, the reduction is not tested: the norm may
+/// still be too large.
 int free_conjugate_gradients(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& multiply,
   const Preconditioner& preconditioner, const std::vector<char>& at_bound,
   const FreeConjugateGradientsOptions& options, Eigen::VectorXd r, Eigen::VectorXd& x);

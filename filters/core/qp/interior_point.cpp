@@ -357,7 +357,8 @@ InteriorPoint::Direction InteriorPoint::find_direction()
   this->step_lengths(d, primal, dual);
 
   constexpr int correctors = 5;
-  constexpr double step_increase = 0.35; // increase of the step length that each corrector aims for
+  // Each corrector is computed for step lengths that are larger by this value.
+  constexpr double step_increase = 0.35;
   for (int k = 0; k < correctors && !this->context_.canceled(); ++k)
   {
     const double p = std::min(1.0, primal + step_increase);
@@ -428,7 +429,8 @@ void InteriorPoint::set_start(bool central)
 void InteriorPoint::balance_start()
 {
   const double gap = this->result_.certificate.relative_gap;
-  // Relative gap above which a start is corrected; good starts have 1e-3 to 0.5.
+  // A start with a larger relative gap is corrected. The relative gaps of good starts are between
+  // 1e-3 and 0.5.
   constexpr double maximum_start_gap = 1.0;
   constexpr double least_slack = 1e-3;
   // Factor of mu = factor * energy / number of slacks; 1 to 10 are equally good (measured).
@@ -459,7 +461,7 @@ void InteriorPoint::raise_slacks(double least)
 }
 
 /// Project the iterate and compute its certificate.
-/// @param second_bound compute the second bound in any case (see Certificate).
+/// @param second_bound if true, always compute the second bound on the gap (see Certificate).
 void InteriorPoint::certify_iterate(bool second_bound)
 {
   const auto& matrices = this->matrices_;
@@ -471,8 +473,8 @@ void InteriorPoint::certify_iterate(bool second_bound)
   const bool bounds_everywhere = this->bounded_.size() == this->unpinned_.size();
   certificate = certify(problem, this->result_.w, this->column_.pairs, this->result_.multipliers,
     second_bound || !bounds_everywhere ? this->inverse_ : InverseForm());
-  // If the iterate is near the optimum and only the first bound is too large, the cause is
-  // round-off, and the second bound is needed.
+  // If the first bound on the gap (see Certificate) is too large although the iterate is near the
+  // optimum, the cause is round-off. The second bound on the gap is then needed.
   const double tolerance = this->options_.tolerance;
   if (!second_bound && bounds_everywhere && certificate.relative_gap > tolerance &&
     certificate.kkt_residual <= tolerance &&
@@ -484,7 +486,8 @@ void InteriorPoint::certify_iterate(bool second_bound)
 }
 
 /// Continue from the iterate with a projected Newton method. The iterate itself does not change.
-/// @param small_change largest change of a weight in one round that counts as converged.
+/// @param small_change the method has converged if no weight changes by more than this in one
+/// round.
 /// @return the largest change in the last round. If it is at most `small_change`, result_ contains
 /// the new point and its certificate.
 double InteriorPoint::finish_by_newton(double small_change)
@@ -626,8 +629,8 @@ BoxQpSolution InteriorPoint::run()
         largest_change = 0.0;
       }
       this->result_ = iterate;
-      // If the last attempt nearly converged, make the next attempt soon; otherwise wait until the
-      // changes are smaller.
+      // If the projected Newton method nearly converged, try it again soon. Otherwise wait until
+      // the weights change less per iteration.
       newton_change_limit = largest_change * std::clamp(small_change / left, 0.2, 0.8);
       ++newton_attempts;
     }

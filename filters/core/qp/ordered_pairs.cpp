@@ -100,8 +100,9 @@ std::vector<OrderedPair> sort_pairs_by_order(
 void enforce_order(const std::vector<OrderedPair>& sorted_pairs, const std::vector<char>& is_free,
   const Eigen::VectorXd& highest, Eigen::VectorXd& values)
 {
-  // Upper limits of the values that also satisfy the pairs. The limit of a vertex is at most the
-  // limit of each vertex that must be above it, minus the minimum difference of that pair.
+  // Upper limits of the values: the limits `highest`, reduced so that the pairs can be satisfied.
+  // For each pair, the limit of the low vertex is at most the limit of the high vertex minus the
+  // minimum difference of the pair.
   Eigen::VectorXd highest_feasible = highest;
   for (Index v = 0; v < values.size(); ++v)
   {

@@ -22,8 +22,9 @@ public:
 
   const Box& box() const { return this->box_; }
   bool contains(const Vec3& p) const;
-  /// Report whether the surface is closed. If so, all winding numbers are integers, and only
-  /// triangles bound the region.
+  /// Report whether the surface is closed. If so, all winding numbers are integers, and the
+  /// boundary of the region consists of triangles of the surface. The boundary has other parts only
+  /// if the surface has openings.
   bool closed() const { return this->closed_; }
   /// Report whether the region is on exactly one side of triangle f at p, a point of the triangle.
   /// The test evaluates points 1e-6 of the diagonal in front of p and behind it.

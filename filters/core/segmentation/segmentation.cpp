@@ -92,7 +92,7 @@ Status segment_tets(ExecutionContext& context, PointsView points, TetsView tets,
   result.energy = energy.evaluate(result.inside);
   if (result.energy >= result.threshold_energy)
   {
-    // If both energies are equal, the labels of the threshold are used, because they follow
+    // The graph cut does not lower the energy. Use the labels of method threshold, which follow
     // directly from the winding numbers.
     result.inside = threshold_labels;
     result.energy = result.threshold_energy;

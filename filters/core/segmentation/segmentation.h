@@ -27,22 +27,23 @@ const char* to_string(SegmentationMethod method);
 struct SegmentationOptions
 {
   SegmentationMethod method = SegmentationMethod::graph_cut;
-  /// The threshold labels tets with at least this winding number as inside, > 0.
+  /// Threshold of the winding number, > 0. Method threshold labels a tet as inside if its winding
+  /// number is at least this.
   double winding_threshold = 0.5;
-  /// Weight of smoothness relative to the winding number (gamma), >= 0. With 0 the labels are those
-  /// of the threshold.
+  /// Factor of the energy's second term, which makes the boundary smooth (gamma in the paper). Must
+  /// be at least 0. With 0, the labels are the same as with method threshold.
   double cut_smoothness = 1.0;
-  /// Scale of winding number differences (sigma), > 0. A facet is cheap to cut if the winding
-  /// numbers of its two tets differ by more than this.
+  /// Scale of winding number differences (sigma in the paper), > 0. A facet is cheap to cut if the
+  /// winding numbers of its two tets differ by more than this.
   double cut_sigma = 0.1;
 };
 
 struct Segmentation
 {
   std::vector<char> inside; ///< #T: 1 inside, 0 outside
-  /// Energy of these labels. With method threshold, the energy and the next two members are 0.
+  /// Energy of the labels in `inside`. With method threshold, this member and the next two are 0.
   double energy = 0.0;
-  double threshold_energy = 0.0; ///< energy of the threshold's labels, at least `energy`
+  double threshold_energy = 0.0; ///< energy of the labels of method threshold, >= `energy`
   Index changed = 0; ///< number of tets that have a different label with method threshold
 };
 

@@ -6,12 +6,14 @@
 // be the weighted means of rest and posed positions. The rotation R maximizes the sum of w (q - q*)
 // . R (p - p*), and v' = R (v - p*) + q*.
 //
-// Along a bone p(t) and q(t) are linear, so a warp needs only three integrals of w(t): its amount
-// (total weight), mean and variance. They depend only on the rest pose and are computed by bind().
-// Near the bone w has a sharp peak. The integral is therefore split at the position nearest to v
-// into pieces. The first piece on either side is as long as the distance between v and the bone,
-// and each next piece is twice as long. Each piece has eight Gauss points, which gives nine correct
-// digits for any distance between v and the bone.
+// The positions p(t) and q(t) on a bone are linear functions of the parameter t. A warp therefore
+// needs only three values per bone: the total weight (amount), and the weighted mean and variance
+// of t. These values are integrals over the bone that contain w(t). They depend only on the rest
+// pose and are computed by bind(). If v is near the bone, w(t) has a sharp peak at the position
+// nearest to v. The bone is therefore divided into pieces for the integration, starting at this
+// position in both directions. The first piece in each direction is as long as the distance between
+// v and the bone. Each further piece is twice as long as the previous piece. Each piece has eight
+// Gauss points, which gives nine correct digits for any distance between v and the bone.
 //
 // If a vertex is on a handle, its distance from the handle is set to 1e-12 of the handles' extent.
 // Then the vertex moves with this handle to twelve digits, and no division by zero occurs.
@@ -30,7 +32,8 @@ namespace bindpose
 namespace
 {
 constexpr Index points_per_block = 512;
-/// Smallest distance used, as a fraction of the handles' extent.
+/// Minimum distance between a vertex and a handle, as a fraction of the handles' extent. Smaller
+/// distances are replaced by this minimum.
 constexpr double distance_tolerance = 1e-12;
 /// Points are in one plane if their z coordinates differ by less than this fraction of the
 /// bounding-box diagonal.

@@ -51,8 +51,8 @@ public:
   Status bind(ExecutionContext& context, const MovingLeastSquaresOptions& options, PointsView rest,
     const Handles& handles);
 
-  /// Compute the posed positions of the bound points. The report contains planar (1 or 0). A
-  /// warning is added if all handles are free.
+  /// Compute the posed positions of the bound points. The report contains planar (1 or 0). If all
+  /// handles are in mode free, the points do not move, and a warning is added.
   Status warp(
     ExecutionContext& context, const Handles& handles, const Pose& pose, PointsOutput posed) const;
 

@@ -43,7 +43,9 @@ struct PairElement
 /// whole lanes with groups of amount zero.
 struct PairGroups
 {
-  std::vector<double> first, second; ///< mean weights of both handles, divided by the width
+  /// Mean weights of the pair's first and second handle over the elements of each group, divided by
+  /// the width of the similarity function.
+  std::vector<double> first, second;
   std::vector<double> amount; ///< sum of PairElement::amount over the elements
   std::vector<double> x, y, z; ///< sum of amount * centroid over the elements
   Index count = 0;
@@ -108,7 +110,7 @@ BINDPOSE_ALWAYS_INLINE double decay(double u)
 
 /// Add the groups of a pair of handles to `sums`. The factor of each group is the similarity
 /// between its two skinning weights and the skinning weights `a` and `b` of a vertex. The weights
-/// of the groups are already divided by the width of the similarity kernel.
+/// of the groups are already divided by the width of the similarity function.
 BINDPOSE_SIMD_CLONES void add_similar(
   const PairGroups& groups, double a, double b, double factor, Sums& sums)
 {

@@ -34,9 +34,10 @@ struct RotationCentersOptions
 ///     p(i) = integral of s(W_i, W_x) x dx / integral of s(W_i, W_x) dx,
 ///     s(a, b) = sum over pairs j < k of a_j a_k b_j b_k exp(-((a_j b_k - a_k b_j) / width)^2).
 ///
-/// The integral is a sum over the elements, with the mean weights of the corners at the centroid. A
-/// vertex with fewer than two nonzero weights has no similar element. The center of such a vertex
-/// is the vertex itself; its motion does not depend on the center.
+/// Each integral is computed as a sum over the elements. The integrand is evaluated at the centroid
+/// of an element, with W_x equal to the mean weights of the element's corners. A vertex with fewer
+/// than two nonzero weights has no similar element. The center of such a vertex is the vertex
+/// itself; the motion of the vertex does not depend on the center.
 ///
 /// Cost: each vertex loops over the groups of each pair of its handles, typically hundreds of
 /// groups, at about 2 ns per group with AVX2. Memory: 48 bytes per group; per element, 8 bytes for

@@ -93,14 +93,15 @@ public:
   Status linear_blend_normals(ExecutionContext& context, PointsView rest_normals,
     const std::vector<Affine>& transforms, PointsOutput posed_normals) const;
 
-  /// Deform by dual quaternion skinning (Kavan et al. 2008). Each transform is split into a scale
-  /// and shear about its pivot, which is blended linearly first, and a rigid motion, which is
-  /// blended as a dual quaternion. The signs of the quaternions are aligned to the reference: the
-  /// handle with the largest weight at the vertex (the first one if several are equal). Therefore q
-  /// and -q give the same result. If the rotation of a handle differs from the reference by exactly
-  /// 180 degrees, its quaternion has the sign for which w is nonnegative. The blend normalizes the
-  /// sum of the weights implicitly. A vertex whose weights are all zero does not move. `pivots` is
-  /// #handles x 3.
+  /// Deform by dual quaternion skinning (Kavan et al. 2008). Each transform is split into two
+  /// parts: a scale and shear about the handle's pivot, and a rigid motion. The scale and shear
+  /// parts are blended linearly and applied first. The rigid motions are blended as dual
+  /// quaternions. At each vertex, the reference is the handle with the largest weight (the first
+  /// one if several are equal). The quaternions q and -q represent the same rotation; the sign that
+  /// is closer to the quaternion of the reference is used. If the two signs are equally close
+  /// (rotations that differ by exactly 180 degrees), the w component of the quaternion is
+  /// nonnegative. The blend normalizes the sum of the weights implicitly. A vertex whose weights
+  /// are all zero does not move. `pivots` is #handles x 3.
   Status dual_quaternion(ExecutionContext& context, PointsView rest,
     const std::vector<Affine>& transforms, PointsView pivots, PointsOutput posed) const;
   Status dual_quaternion_normals(ExecutionContext& context, PointsView rest_normals,

@@ -39,7 +39,8 @@ template <typename Scalar, int bytes>
 struct PartReferences
 {
   static constexpr int lanes = part_lanes<Scalar, bytes>;
-  Bits<Scalar, bytes> lane_mask[lanes]; // per reference handle: all bits are set in its lanes
+  // One mask per reference handle: in lanes whose vertex uses the handle, all bits are set.
+  Bits<Scalar, bytes> lane_mask[lanes];
   std::int32_t handles[lanes];
   int count = 0;
 
@@ -106,9 +107,10 @@ BINDPOSE_ALWAYS_INLINE void blend_part(const std::int32_t* columns, const Scalar
   }
 }
 
-/// Shuffle lanes of three packs into one pack. Lane i of the first two packs' shuffle is lane
-/// Lanes::first(i) of `a` and `b`; lane i of the result is lane Lanes::second(i) of this shuffle
-/// and `c`.
+/// Return a pack of lanes from `a`, `b` and `c`, by two shuffles. The lanes of two packs are
+/// counted together: indices below the pack size mean the first pack. The first shuffle takes lane
+/// Lanes::first(i) of `a` and `b` as lane i. The second shuffle takes lane Lanes::second(i) of the
+/// first shuffle's result and `c` as lane i.
 template <typename Lanes, typename Pack, int... i>
 BINDPOSE_ALWAYS_INLINE Pack shuffle(
   Pack a, Pack b, Pack c, std::integer_sequence<int, i...> /*lanes*/)
@@ -117,7 +119,8 @@ BINDPOSE_ALWAYS_INLINE Pack shuffle(
   return __builtin_shufflevector(first, c, Lanes::second(i)...);
 }
 
-/// Lanes for a row of one coordinate, from the three packs of a part's points.
+/// Lane indices for shuffle() that select one coordinate of all points of a part. The three input
+/// packs contain x y z per point.
 template <int lanes, int coordinate>
 struct LanesOfRow
 {
@@ -128,7 +131,9 @@ private:
   static constexpr bool is_in_first(int i) { return 3 * i + coordinate < 2 * lanes; }
 };
 
-/// Lanes for one of the three packs of a part's points, from the rows of its coordinates.
+/// Lane indices for shuffle() that are the inverse of LanesOfRow. The input packs contain the x, y
+/// and z coordinates of a part's points. The result is pack `third` (0, 1 or 2) of the three packs
+/// that contain x y z per point.
 template <int lanes, int third>
 struct LanesOfPoints
 {

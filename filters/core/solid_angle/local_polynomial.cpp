@@ -1,7 +1,8 @@
-// Evaluation of the expansion of a cell along a row of points. The coefficients of the expansion
-// are multiplied by the harmonics in the plane x = 0, for eight coefficients of the polynomial in
-// parallel. If the length of a row of coefficients is not a multiple of eight, values beyond the
-// end of the row are read. The products of these values are not added.
+// Evaluation of the expansion of a cell at points with the same y and z. The expansion is then a
+// polynomial in x (see local_polynomial.h). A coefficient of the polynomial is a sum of products:
+// coefficients of the expansion times harmonics in the plane x = 0. Eight coefficients of the
+// polynomial are computed in parallel. If the length of a row of the expansion's coefficients is
+// not a multiple of eight, values beyond the end of the row are read but not used.
 #include "solid_angle/local_polynomial.h"
 
 #include "base/simd.h"

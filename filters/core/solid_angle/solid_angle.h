@@ -24,7 +24,8 @@ double side_of_triangle(const Vec3& point, const Vec3& a, const Vec3& b, const V
 /// Triangles that touch the point contribute 0 (the principal value) and set on_surface(). Angles
 /// are accurate to a few units in the last place of a full turn for every shape and distance of a
 /// triangle, because near triangles are evaluated in double-double arithmetic. Coordinates must be
-/// centered and scaled, within about 1e20 of the point.
+/// centered and scaled. No vertex may be farther than about 1e20 from the point, because products
+/// of distances would overflow.
 class SolidAngleSum
 {
 public:

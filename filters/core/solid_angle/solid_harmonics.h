@@ -54,10 +54,11 @@ void regular_derivative(
 /// the regular harmonics of (old center - new center).
 void multipole_to_multipole(int order, const Harmonics& shift, const Harmonics& in, Harmonics& out);
 
-/// Add to `out` the local expansion of degrees 0 … order - 1 of the multipoles `in` of degrees 1 …
-/// order. Products of total degree > order are omitted, because other terms of these degrees are
-/// missing, too: those of multipoles above `order`. `from` contains the irregular harmonics of
-/// (local center - multipole center).
+/// Convert the multipoles `in` (degrees 1 … order) to a local expansion (degrees 0 … order - 1),
+/// and add the local expansion to `out`. Contributions of multipoles of degree n to local
+/// coefficients of degree k are omitted if n + k > order. Their sum would be incomplete anyway,
+/// because multipoles of degree n > order are not available. `from` contains the irregular
+/// harmonics of (local center - multipole center).
 void multipole_to_local(int order, const Harmonics& from, const Harmonics& in, Harmonics& out);
 
 /// Set `out` to the local expansion `in` of degrees 0 … order, moved to another center. `shift`

@@ -16,28 +16,28 @@ namespace
 /// Largest norm of the sum of the area vectors of a closed patch, relative to the patch's area.
 constexpr double maximum_opening = 0.25;
 
-/// All copies of one triangle, half of them with each orientation.
+/// All copies of the triangle with the corners a < b < c, half of them with each orientation.
 struct Copies
 {
-  Index forward = -1; ///< first copy with the orientation of the sorted corners
-  Index backward = -1;
-  std::vector<Index> all;
+  Index forward = -1; ///< id of the first copy with the orientation a, b, c
+  Index backward = -1; ///< id of the first copy with the orientation a, c, b
+  std::vector<Index> all; ///< ids of all copies
 };
 
-/// One entry per triangle whose copies cancel, sorted by corners.
+/// The triangles whose copies cancel (see back_sides()), one entry per triangle, sorted by corners.
 struct CancelingTriangles
 {
   std::vector<Copies> copies;
-  Triangles triangles; ///< the triangles, with the orientation of the forward copies
+  Triangles triangles; ///< corners a, b, c of each triangle, ascending
 };
 
 CancelingTriangles find_canceling(TrianglesView triangles)
 {
   struct Item
   {
-    std::array<Index, 3> key;
+    std::array<Index, 3> key; ///< corners a, b, c, ascending
     Index triangle;
-    bool forward; ///< whether the triangle has the orientation of its sorted corners (`key`)
+    bool forward; ///< whether the triangle has the orientation of `key`
   };
   std::vector<Item> items;
   for (Index t = 0; t < triangles.rows(); ++t)

@@ -110,8 +110,10 @@ public:
     {
       openings.unite(edge.a, edge.b);
     }
-    // Bounding box of each opening, and largest distance of its samples from the other parts. Both
-    // are stored at one vertex per opening. The distances at all other vertices are negative.
+    // Compute the bounding box of each opening, and the largest distance of the opening's samples
+    // from the other parts. An opening is identified by one of its vertices, which is the index of
+    // the opening in `boxes` and `distances`. The entries of all other vertices in `distances` are
+    // negative.
     std::vector<Box> boxes(static_cast<std::size_t>(this->points_.rows()));
     std::vector<double> distances(boxes.size(), -1.0);
     for (const BoundaryEdge& edge : boundary)

@@ -73,7 +73,8 @@ double SurfaceDisc::propagated_distance(Index a, Index b, Index c) const
   const double sy2 = da * da - sx * sx;
   if (sy2 < 0.0 || cy == 0.0)
   {
-    // If the circles do not intersect, because of rounding or a path around a corner, use the edge.
+    // The circles do not intersect (because of rounding or a path around a corner), or c is on the
+    // line ab. Only the distance along an edge can then be used.
     return along_edge;
   }
   const double sy = std::sqrt(sy2);
@@ -139,8 +140,8 @@ std::vector<SurfaceDisc::VertexDistance> SurfaceDisc::within(
       }
     }
   }
-  // Sort, because a path through an obtuse triangle can be slightly shorter than a path that was
-  // found earlier.
+  // Sort the vertices by distance. The order in which they were found can differ slightly, because
+  // a path through an obtuse triangle can be shorter than a path that was found earlier.
   std::sort(found.begin(), found.end(),
     [](const VertexDistance& a, const VertexDistance& b)
     { return a.second != b.second ? a.second < b.second : a.first < b.first; });

@@ -14,7 +14,8 @@ namespace bindpose
 {
 namespace
 {
-constexpr double same_hit = 1e-9; // hits at most this far apart count as one, in segment lengths
+/// Hits count as one if their distance is at most this fraction of the segment's length.
+constexpr double same_hit = 1e-9;
 } // namespace
 
 SurfaceProbe::SurfaceProbe(PointsView points, TrianglesView triangles)

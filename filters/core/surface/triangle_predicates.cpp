@@ -50,8 +50,8 @@ int orientation_in_plane(const Vec3& a, const Vec3& b, const Vec3& c, int axis)
   return orientation_2d(a[u], a[v], b[u], b[v], c[u], c[v]);
 }
 
-/// Return an axis along which the projection of the triangle has an area, or -1 if the triangle has
-/// none.
+/// Return an axis such that the projection of the triangle along this axis has a nonzero area.
+/// Return -1 if the area of the triangle is zero.
 int projection_axis(const Vec3& a, const Vec3& b, const Vec3& c)
 {
   for (int axis = 0; axis < 3; ++axis)
@@ -95,7 +95,7 @@ bool segment_meets_triangle_in_plane(
 }
 
 /// Report whether a segment and a triangle have a common point. If they are coplanar, they are
-/// projected along `axis`. The projection of the triangle must have an area.
+/// projected along `axis`. The projection of the triangle must have a nonzero area.
 bool segment_meets_triangle(
   const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c, int axis)
 {
@@ -228,8 +228,8 @@ Vec3 closest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b)
 
 Vec3 closest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c)
 {
-  // For almost flat triangles, the region tests below are unreliable because of rounding, so only
-  // the edges are tested.
+  // If the corners are almost collinear, the tests below are unreliable because of rounding. In
+  // this case, return the nearest point of the three edges.
   constexpr double flatness_tolerance = 1e-10;
   if ((b - a).cross(c - a).squaredNorm() <=
     flatness_tolerance * flatness_tolerance * (b - a).squaredNorm() * (c - a).squaredNorm())
@@ -241,8 +241,8 @@ Vec3 closest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c)
     }
     return closest;
   }
-  // Determine the region around the triangle that contains p (Ericson, Real-Time Collision
-  // Detection, 5.1.5).
+  // Find the Voronoi region of the triangle that p is in: the region of a corner, of an edge or of
+  // the interior (Ericson, Real-Time Collision Detection, 5.1.5).
   const Vec3 ab = b - a, ac = c - a, ap = p - a;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
   if (d1 <= 0.0 && d2 <= 0.0)

@@ -228,7 +228,8 @@ void TriangleTree::pairs_of_leaf(Index leaf, const std::function<bool(Index, Ind
 {
   const Node& query_node = this->nodes_[this->leaves_[leaf]];
   std::array<bool, leaf_size> finished{};
-  // Number of triangles of the leaf for which the search for pairs continues.
+  // Number of triangles in the leaf that are not finished. A triangle is finished if found() has
+  // returned false for one of its pairs.
   Index left = query_node.end - query_node.begin;
   this->visit([&](const Node& node)
     { return node.end > query_node.begin && boxes_meet(node.box, query_node.box); },

@@ -29,8 +29,9 @@ struct ImproveOptions
   /// A step may reduce the smallest angle of the tets that it touches to this fraction (0 … 1) of
   /// its old value, if the step improves enough other tets. 1: no step may reduce the angle.
   double slack = 1.0;
-  /// Approximate maximum number of computed tet qualities per tet; each takes 40 ns. The total is
-  /// at most 25 million plus 400 per tet.
+  /// Limit of the work: approximate maximum number of computed tet qualities, divided by the number
+  /// of tets. One tet quality takes 40 ns. In large meshes a second limit is lower: 25 million tet
+  /// qualities plus 400 per tet.
   double effort = 2000.0;
 };
 

@@ -128,7 +128,8 @@ Index next_side(Index side)
 }
 
 /// Find sides whose two vertices are also joined by a different edge. This happens if the solid
-/// touches itself along an edge and is connected around both ends of the edge.
+/// touches itself along an edge, but the triangles around each end of the edge form one fan. The
+/// edge is then duplicated, but its ends are not.
 std::vector<char> doubled_sides(const std::vector<Index>& vertex)
 {
   std::vector<std::array<Index, 3>> sides;

@@ -6,12 +6,12 @@
 namespace bindpose
 {
 
-/// Return the boundary of tets as a closed 2-manifold, oriented outwards. If more than two boundary
-/// triangles share an edge, two of them are neighbors in the result if they bound the same fan of
-/// tets around the edge. Each vertex is duplicated so that there is one copy per fan of triangles.
-/// If two edges would then join the same two vertices, they are split at their midpoints. Points
-/// that no boundary triangle uses are removed. Tets must not overlap, and each facet must have at
-/// most two tets. Cost: O(#T log #T).
+/// Return the boundary of tets as a closed 2-manifold, oriented outwards. An edge with more than
+/// two boundary triangles is duplicated. Each copy of the edge joins two triangles that bound the
+/// same fan of tets around the edge. Each vertex is duplicated so that there is one copy per fan of
+/// triangles. If two edges then join the same two vertices, both edges are split at their
+/// midpoints. Points that no boundary triangle uses are removed. Tets must not overlap, and each
+/// facet must have at most two tets. Cost: O(#T log #T).
 TriangleMesh manifold_boundary(const TetMesh& tets);
 
 } // namespace bindpose

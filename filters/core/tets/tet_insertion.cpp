@@ -169,8 +169,9 @@ public:
     return this->walk(t, p, short_walk_steps);
   }
 
-  /// Locate the pending positions in the current tets, so that the ids of replaced tets are no
-  /// longer needed. After that the tets get new ids: see renumber(). @return false if canceled.
+  /// Locate the pending positions in the current tets. Afterwards this object does not need the
+  /// replaced tets, so the caller can remove them and renumber the tets (see renumber). @return
+  /// false if canceled.
   bool relocate(
     ExecutionContext& context, const Points& positions, const std::vector<Index>& pending)
   {
@@ -185,7 +186,7 @@ public:
       });
   }
 
-  /// Replace the stored tet ids by their new values, indexed by old id.
+  /// Replace each stored tet id t by ids[t], the new id of this tet.
   void renumber(const std::vector<Index>& ids)
   {
     for (Index& t : this->first_)
@@ -232,9 +233,9 @@ private:
     return -1;
   }
 
-  /// Walk to p, starting at a tet of the vertex for which the tets of `range` were created. The
-  /// straight line from this vertex to p stays in the mesh, because it is inside the tets that the
-  /// vertex replaced.
+  /// Find the tet that contains p by a walk. The tets of `range` were created when a vertex v was
+  /// inserted; the walk starts at one of the current tets of v. The straight line from v to p stays
+  /// in the mesh, because it is inside the tets that v replaced.
   Index walk_from(const Range& range, const Vec3& p) const
   {
     const std::vector<Index>& vertex_tets =
@@ -261,7 +262,8 @@ private:
   }
 
   const TetComplex& tets_;
-  /// per position: the initial tet that contained it, or the nearest tet
+  /// Per position: the tet that contained the position (or the nearest tet) at the last call of
+  /// locate_all() or relocate(). -1: none.
   std::vector<Index> first_;
   std::vector<Range> replaced_; ///< per replaced tet: the range of the new tet ids
 };
@@ -385,17 +387,18 @@ private:
     return true;
   }
 
-  /// Return the number of tet ids above which replaced tets are removed, for this number of tets.
-  /// Memory for up to half as many replaced tets is allowed.
+  /// Return the maximum number of tet ids, including ids of replaced tets, in a mesh with `tets`
+  /// tets. If there are more ids, replaced tets are removed. About half as many replaced tets as
+  /// tets are allowed.
   static Index maximum_ids_for(Index tets)
   {
-    // Up to this number, ids of replaced tets are always allowed, because they take little memory.
+    // This number of ids is always allowed for replaced tets, because it takes little memory.
     constexpr Index small_id_count = 100000;
     return small_id_count + tets + tets / 2;
   }
 
-  /// For each of these positions, find the tets or the edge to replace, in parallel. @return false
-  /// if canceled.
+  /// For each position of the batch, find the tets or the edge that a new vertex would replace. The
+  /// positions are processed in parallel. @return false if canceled.
   bool find_sites(const Points& positions, const std::vector<Index>& batch)
   {
     return parallel_for(this->silent_context_, static_cast<Index>(batch.size()), per_task,
@@ -494,7 +497,7 @@ private:
   PerThread<CavitySearch> searches_;
   std::array<Site, maximum_batch> sites_;
   const double minimum_quality_ = TetComplex::quality_of_angle(1.0);
-  /// Number of tet ids above which replaced tets are removed.
+  /// Maximum number of tet ids (see maximum_ids_for).
   Index maximum_ids_ = maximum_ids_for(tets_.tet_count());
 };
 } // namespace

@@ -17,13 +17,13 @@ namespace bindpose
 /// @return false if canceled; the mesh is also valid in this case.
 bool split_long_edges(ExecutionContext& context, TetMesh& mesh, double longest, Index most_tets);
 
-/// Insert vertices at #P x 3 positions inside. Each vertex replaces the tets whose circumspheres
-/// contain it, except tets that are not visible from the vertex (Shewchuk, Constrained Delaunay
-/// Tetrahedralizations and Provably Good Boundary Recovery, 2002). The boundary does not change.
-/// The tets must be positive and conforming. vertices: #P, the id of the new vertex at each
-/// position, or -1 if no vertex could be inserted there. The result is the same for any number of
-/// threads. Cost: about 1 us per tet, and 30 us of one thread per vertex. The cost is many times
-/// higher if all vertices are on one sphere or ellipsoid.
+/// Insert vertices at positions inside the mesh (#P x 3). Each vertex replaces the tets whose
+/// circumspheres contain it, except tets that are not visible from the vertex (Shewchuk,
+/// Constrained Delaunay Tetrahedralizations and Provably Good Boundary Recovery, 2002). The
+/// boundary does not change. The tets must be positive and conforming. vertices: #P, the id of the
+/// new vertex at each position, or -1 if no vertex could be inserted there. The result is the same
+/// for any number of threads. Cost: about 1 us per tet of the mesh, plus 30 us per inserted vertex
+/// on one thread. The cost is many times higher if all vertices are on one sphere or ellipsoid.
 /// @return false if canceled; the mesh is also valid in this case.
 bool insert_vertices(
   ExecutionContext& context, TetMesh& mesh, const Points& positions, std::vector<Index>& vertices);

@@ -25,7 +25,8 @@ double min_dihedral_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
   const double volume = std::abs((b - a).cross(c - a).dot(d - a)); // six times the volume
   constexpr double nearly_one = 0.9999;
   double largest_cosine = -1.0;
-  // Smallest sine, used for small angles, because their cosines are all rounded to 1.
+  // Smallest sine of the dihedral angles whose cosine is above `nearly_one`. The cosine of such a
+  // small angle is too close to 1 to determine the angle accurately.
   double smallest_sine = 1.0;
   for (int i = 0; i < 4; ++i)
   {
@@ -130,7 +131,8 @@ bool is_blocked(
   }
   center /= perimeter;
   const double radius = normal.norm() / perimeter;
-  // Height of `top` as a fraction of the pyramid's height. It is below 1 because of rounding.
+  // Height of `top` as a fraction of the pyramid's height. The value is less than 1, so that `top`
+  // is inside the pyramid in spite of rounding errors.
   constexpr double top_height_fraction = 0.999;
   const Vec3 top =
     center - top_height_fraction * std::tan(angle / degrees) * radius * normal.normalized();

@@ -29,7 +29,10 @@ constexpr double minimum_gain = 0.02;
 constexpr double infinite_cost = std::numeric_limits<double>::infinity();
 // Cosines of limits for the angle between the normals of boundary triangles.
 constexpr double flat_cosine = 0.966; // 15 degrees: below this angle an edge may be swapped
-constexpr double crease_cosine = 0.766; // 40 degrees: above this angle a vertex is fixed
+// 40 degrees. An edge is a crease if the angle between the normals of its two triangles is larger.
+// A boundary vertex does not move if the angle between the normal of one of its triangles and their
+// mean normal is larger.
+constexpr double crease_cosine = 0.766;
 
 bool is_angle_below(const Vec3& one, const Vec3& other, double cosine)
 {
@@ -148,7 +151,8 @@ TetStepSearch::Cost TetStepSearch::cost(const std::vector<Index>& tets) const
   return cost;
 }
 
-/// Return the minimum quality of new tets that replace tets with this cost.
+/// Return the minimum quality that new tets must have. `cost` is the cost of the tets that they
+/// replace.
 double TetStepSearch::minimum_quality_after(const Cost& cost) const
 {
   return std::min(
@@ -328,7 +332,7 @@ bool TetStepSearch::remove_facet(Index t, Index a, Index b, Index c, TetStep& st
 
 // ---- Vertices --------------------------------------------------------------------------------
 
-/// Return the patch of boundary triangles `boundary_facets` with vertex `moved` at the position p.
+/// Return the patch that the triangles `boundary_facets` would form if vertex `moved` were at p.
 TetStepSearch::Patch TetStepSearch::patch_of(
   const std::vector<Facet>& boundary_facets, Index moved, const Vec3& p) const
 {
@@ -424,8 +428,9 @@ bool TetStepSearch::move(Index v, TetStep& step)
   return true;
 }
 
-/// Return the sum of the costs of new tets, one per item. The result is infinity if the sum exceeds
-/// `upper_limit` or if the quality of a tet is less than `minimum_quality`.
+/// Return the sum of the costs of new tets. Each item represents one new tet, whose quality is
+/// quality_of(item). The result is infinity if the sum exceeds `upper_limit` or if the quality of a
+/// tet is less than `minimum_quality`.
 template <typename Items, typename QualityOf>
 double TetStepSearch::total_cost(
   const Items& items, const QualityOf& quality_of, double minimum_quality, double upper_limit)
@@ -444,7 +449,7 @@ double TetStepSearch::total_cost(
   return sum;
 }
 
-/// Return the cost of the tets in star_ with vertex v at p.
+/// Return the cost that the tets in star_ would have if vertex v were at p.
 double TetStepSearch::star_cost(Index v, const Vec3& p, double minimum_quality, double upper_limit)
 {
   return this->total_cost(
@@ -542,7 +547,7 @@ bool TetStepSearch::insert(Index t, Vec3 p, TetStep& step)
   return true;
 }
 
-/// Return the cost of the tets between p and the cavity's facets.
+/// Return the cost of the new tets, each of which connects a facet of the cavity to p.
 double TetStepSearch::cavity_cost(
   const TetCavity& cavity, const Vec3& p, double minimum_quality, double upper_limit)
 {
@@ -629,7 +634,8 @@ bool TetStepSearch::contract(Index a, Index b, TetStep& step)
 /// meet or end must not be contracted. boundary_facets: the boundary triangles at a.
 bool TetStepSearch::keeps_shape(const std::vector<Facet>& boundary_facets, Index a, Index b) const
 {
-  // Pairs (other end of an edge at a, normal of a triangle at this edge).
+  // One pair for each boundary edge from vertex a to a vertex v and each boundary triangle at this
+  // edge: v and the normal of the triangle.
   std::vector<std::pair<Index, Vec3>> sides;
   for (const auto& f : boundary_facets)
   {

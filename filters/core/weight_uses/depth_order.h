@@ -10,9 +10,10 @@ namespace bindpose
 /// Options of depth_order().
 struct DepthOrderOptions
 {
-  /// Offset that is added to the layer of the last handle to compute `front`; in layers, >= 0. The
-  /// first handle has the offset 0; offsets between are linear. Among handles with equal layers,
-  /// later handles are therefore in front. Does not affect `depth`.
+  /// To compute `front`, an offset is added to the layer of each handle. The offset increases
+  /// linearly with the index of the handle, from 0 for the first handle to this value for the last
+  /// handle. Therefore later handles are in front of earlier handles with an equal layer. In
+  /// layers, >= 0. `depth` does not depend on this option.
   double tie_offset = 1e-3;
 };
 

@@ -16,8 +16,9 @@ namespace bindpose
 namespace
 {
 constexpr Index colors_per_block = 4096;
-/// Colors outside of [0, 1] by more than this count as out of gamut. It is above the errors of
-/// weights (about 1e-9) and far below visible differences (about 1 / 255).
+/// A color is out of gamut if one of its components is outside of [0, 1] by more than this
+/// tolerance. The tolerance is larger than the errors of weights (about 1e-9) and far smaller than
+/// visible differences (about 1 / 255).
 constexpr double gamut_tolerance = 1e-6;
 
 /// Results of one block of vertices.

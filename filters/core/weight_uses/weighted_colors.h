@@ -36,10 +36,14 @@ struct WeightedColors
 /// Compute the blended colors c_i = sum_j w_ij c_j. Two numbers measure the quality of the weights:
 /// the number of vertices with a color that cannot be displayed, and the number of vertices with a
 /// red, green or blue value outside of the range of the handle colors. Both numbers are zero if all
-/// weights are >= 0 and all rows sum to one. Report: counts.out_of_gamut and
-/// largest_gamut_violation (distance of the blended values from [0, 1], before clamping),
-/// counts.beyond_handles and largest_overshoot (distance of red, green or blue from its range over
-/// all handle colors), row_sum_error (largest |1 - row sum|).
+/// weights are >= 0 and all rows sum to one. Report:
+/// - counts.out_of_gamut: number of vertices with a color that cannot be displayed;
+/// - largest_gamut_violation: largest distance of a blended value from [0, 1], before clamping;
+/// - counts.beyond_handles: number of vertices with a value outside of the range of the handle
+///   colors;
+/// - largest_overshoot: largest distance of a red, green or blue value from the range of this
+///   component over all handle colors;
+/// - row_sum_error: largest |1 - row sum|.
 /// @param weights #V x #handles, finite
 /// @param handle_colors #handles x 3, each 0 to 1
 Status weighted_colors(ExecutionContext& context, WeightsView weights, ColorsView handle_colors,

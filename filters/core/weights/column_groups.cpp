@@ -154,8 +154,8 @@ private:
 
   const std::string& handle_name(Index handle) const { return this->problem_.handles[handle].name; }
 
-  /// Return the handle with the largest weight at a fixed vertex. This is a handle on the vertex,
-  /// or the handle whose weights the vertex's component copies.
+  /// Return the handle with the largest weight at a fixed vertex. This handle is on the vertex, or
+  /// the weights of the vertex were copied from the handle (see VertexRole::without_handle).
   Index owner(Index vertex) const
   {
     Index best = 0;
@@ -241,8 +241,8 @@ private:
       }
       if (bounded && (this->component_of_unknown_[u] < 0 || !std::isnan(given[u])))
       {
-        // The bounds of this unknown are unused. Make them finite and consistent with the given
-        // value.
+        // The bounds of unknown u are unused, because its value is given or it is in no component.
+        // Make the bounds finite and consistent with a given value.
         column.bounds.lower[u] = std::isnan(given[u]) ? 0.0 : std::min(0.0, given[u]);
         column.bounds.upper[u] = std::isnan(given[u]) ? 1.0 : std::max(1.0, given[u]);
       }

@@ -10,16 +10,17 @@ namespace bindpose
 /// unknown is a vertex, or a set of vertices that must have the same weight: a rigid set, or a
 /// vertex and its mirror vertex.
 ///
-/// Let handles a and b be mirror images of each other, so that w_a(v) = w_b(mirror of v). Their
-/// weights form one column on two copies of the mesh, one copy per handle. Vertex v in a's copy and
-/// the mirror vertex of v in b's copy are one unknown. If a handle is its own mirror image, there
-/// is one copy, in which v and the mirror vertex of v are one unknown. Mirrored weights are
-/// therefore exactly equal. With two copies, the energy is the sum over both handles. If all
-/// vertices have a mirror vertex, two copies have only #V unknowns.
+/// If handles a and b are mirror images of each other, w_a(v) = w_b(mirror of v) must hold. The
+/// weights of a and b are therefore solved as one column on two copies of the mesh: copy 0 has the
+/// weights of a, copy 1 the weights of b. Vertex v in copy 0 and the mirror vertex of v in copy 1
+/// are one unknown, so mirrored weights are exactly equal. The energy is the sum over both copies.
+/// If all vertices have a mirror vertex, the two copies have only #V unknowns in total. A handle
+/// that is its own mirror image needs one copy, in which v and the mirror vertex of v are one
+/// unknown.
 struct ColumnGroup
 {
-  std::vector<std::vector<Index>> handles; ///< for each column, one handle per copy
-  Index copies = 1;
+  std::vector<std::vector<Index>> handles; ///< for each column: the handle of each copy of the mesh
+  Index copies = 1; ///< number of copies of the mesh: 2 for pairs of mirrored handles, else 1
   Index count = 0; ///< number of unknowns
   /// The unknown of vertex v in copy k, at index k * #V + v. If empty, there is one copy, and every
   /// vertex is an unknown.

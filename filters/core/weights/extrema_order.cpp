@@ -20,7 +20,7 @@ namespace bindpose
 namespace
 {
 /// Report whether every vertex that is not a listed extremum has a higher neighbor (if `above` is
-/// true) or a lower neighbor (if it is false).
+/// true) or a lower neighbor (if `above` is false).
 bool has_neighbors(const VertexGraph& graph, const ExtremaList& list,
   const std::vector<Index>& rank, const std::vector<Index>& order, bool above)
 {
@@ -68,8 +68,8 @@ void flood(const VertexGraph& graph, const ExtremaList& list, int from, std::vec
   }
   std::vector<Index> new_order;
   new_order.reserve(order.size());
-  // Take all extrema from which the flood starts first, because none of their neighbors may come
-  // before them.
+  // The flood starts at the listed extrema of one kind. They come first, because a vertex that is
+  // not one of them must not come before a neighbor that is.
   for (std::size_t listed = open.size(); listed > 0; --listed)
   {
     new_order.push_back(order[open.top()]);

@@ -27,8 +27,9 @@ std::vector<std::vector<Index>> parts_without_extremum(const VertexGraph& graph,
 /// that are listed maxima, too. All neighbors of a listed minimum come after it, except neighbors
 /// that are listed minima, too.
 ///
-/// Tierny, Pascucci 2012, Generalized topological simplification of scalar fields on surfaces (only
-/// the extrema, but in any dimension). Cost: a few floods, O(#E log #V) each.
+/// Tierny, Pascucci 2012, Generalized topological simplification of scalar fields on surfaces. This
+/// function differs from the paper: it prescribes only extrema, not saddles, and works on graphs of
+/// any dimension. Cost: a few floods, O(#E log #V) each.
 /// @param list parts_without_extremum() must return no parts for this list, for both kinds.
 /// @param rank position of each vertex in the order; -1 for vertices that do not take part.
 /// @return the number of floods; 0 if no order was found.

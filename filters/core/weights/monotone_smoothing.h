@@ -8,14 +8,17 @@
 namespace bindpose
 {
 
-/// The guide: a function whose order of neighboring vertices is used for the result.
+/// The guide: a function that determines for each vertex of the result which of its neighbors have
+/// a larger value and which have a smaller value.
 enum class SmoothingGuide
 {
-  /// The minimizer without ordered pairs. Flooding then removes the unlisted extrema from its
-  /// order. This guide is closer to the data than the harmonic guide.
+  /// The minimizer without ordered pairs. The vertices are sorted by the values of the minimizer;
+  /// flooding then removes the unlisted extrema from this order. This guide is closer to the data
+  /// than the harmonic guide.
   unconstrained,
-  /// A harmonic function, computed with positive edge weights. The boundary values at the listed
-  /// extrema are the data if these values are kept, else 1 at maxima and 0 at minima.
+  /// A harmonic function, computed with positive edge weights. Its boundary values are given at the
+  /// listed extrema: the data if keep_values is true or data_weight is 0, else 1 at maxima and 0 at
+  /// minima.
   harmonic
 };
 
@@ -32,8 +35,8 @@ struct MonotoneSmoothingOptions
   /// The extrema that the result may have, #V. If empty, they are chosen from the extrema of the
   /// data by the next two options.
   ExtremaList extrema;
-  /// Choose all extrema of the data that have a persistence above this fraction of the data's
-  /// range, [0, 1).
+  /// Choose all extrema of the data whose persistence is above this fraction of the data's range.
+  /// At least 0 and less than 1.
   double persistence = 0.05;
   /// If above 0, choose this number of the most persistent extrema instead. Every connected part
   /// gets at least one maximum and one minimum.
@@ -46,8 +49,9 @@ struct MonotoneSmoothingOptions
   /// again. A rebuild that decreases the energy by less than 0.01 % is the last. The energy never
   /// increases.
   int rebuilds = 1;
-  /// Minimum difference of the values in every ordered pair (see pairs_from_order), as a fraction
-  /// of the data's range, 0 … 1. If above 0, neighbors in a pair cannot have equal values.
+  /// Minimum difference between the two values of an ordered pair (see pairs_from_order), as a
+  /// fraction of the data's range. From 0 to 1. If above 0, the two vertices of a pair cannot have
+  /// equal values.
   double epsilon = 0.0;
   /// See WeightsOptions.
   double tolerance = 1e-6;

@@ -105,9 +105,10 @@ Status monotone_guide(ExecutionContext& context, const WeightsProblem& problem, 
     fixed_values.col(j) = group.columns[j].fixed_values;
   }
   result.guide = solver.minimizers(fixed_values);
-  // If the group contains all columns, all guides together sum to one. Then column j of `later_sum`
-  // is the sum of the guides after j, and `earlier_sum` is the sum of the guides before j. The two
-  // add up to 1 - u. Otherwise, `earlier_sum` is zero, and `later_sum` is 1 - u.
+  // Let u be the guide of column j. If the group contains all columns, their guides sum to one.
+  // Then 1 - u is the sum of two parts: the guides of all later columns (column j of `later_sum`)
+  // and the guides of all earlier columns (`earlier_sum`). Otherwise, `earlier_sum` is zero, and
+  // column j of `later_sum` is 1 - u.
   const bool has_all_handles = m == problem.handle_count();
   Eigen::MatrixXd later_sum = Eigen::MatrixXd::Zero(n, m);
   for (Index j = m - 1; j-- > 0 && has_all_handles;)

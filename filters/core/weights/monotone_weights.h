@@ -8,14 +8,15 @@ namespace bindpose
 
 /// Guides of monotone weights and the ordered pairs computed from the guides: one guide and one
 /// list of pairs per column of the group. A guide is a harmonic function that has extrema only on
-/// handles and on pinned vertices. It determines for each vertex one neighbor with a larger and one
-/// neighbor with a smaller weight. monotone_guide() adds the pairs to the columns, and pins
-/// vertices at which a guide is exactly 0 or 1 (regions enclosed by one handle). It returns
-/// invalid_input, naming handle and vertex, if bounds or pinned values contradict the order.
+/// handles and on pinned vertices. Each vertex that is not fixed or pinned forms one pair with the
+/// neighbor at which the guide is largest, and one pair with the neighbor at which the guide is
+/// smallest. monotone_guide() adds the pairs to the columns, and pins vertices at which a guide is
+/// exactly 0 or 1 (regions enclosed by one handle). The function returns invalid_input, naming
+/// handle and vertex, if bounds or pinned values contradict the pairs.
 struct MonotoneGuide
 {
-  Eigen::MatrixXd guide; ///< #unknowns x #columns: guides, harmonic for positive edge weights
-  std::vector<std::vector<OrderedPair>> pairs;
+  Eigen::MatrixXd guide; ///< #unknowns x #columns, computed with positive edge weights
+  std::vector<std::vector<OrderedPair>> pairs; ///< one list per column
 };
 Status monotone_guide(ExecutionContext& context, const WeightsProblem& problem, ColumnGroup& group,
   const SparseSolver::Options& solver, MonotoneGuide& result);

@@ -155,7 +155,8 @@ private:
       return k * (inverse.asDiagonal() * (k * p)) +
         u * (mass.cwiseInverse().asDiagonal() * (u.transpose() * p));
     };
-    // The right-hand side is -Q_fb e, where K_ff D_f U e = -K_ff D_f K_ff start.
+    // Solve Q_ff x = -Q_fb e, beginning with x = start. In the residual r = -Q_fb e - Q_ff x, the
+    // terms K_ff D_f U e and K_ff D_f K_ff x cancel, because K_ff start = -U e.
     x = start;
     Eigen::MatrixXd r =
       -(u * (mass.cwiseInverse().asDiagonal() * (u.transpose() * start))) - u * fixed_flux;

@@ -10,13 +10,15 @@ namespace bindpose
 /// to [0, 1], with rows divided by their sums. No row is zero, because the vertices on handles are
 /// fixed as in the final weights.
 ///
-/// Let K be the cotangent stiffness and M the lumped mass. For the free vertices, the energy K M^-1
-/// K is a product of matrices plus a term of the fixed vertices. The inverse of the product needs
-/// only a factor of K. The term of the fixed vertices changes this inverse by a low-rank matrix
-/// (Woodbury). Cost: one factorization of K (in volumes a fraction of the cost of factoring the
-/// energy), and two solves per handle vertex that has a free neighbor. If there are many such
-/// vertices, conjugate gradients with the product as preconditioner are used instead. They end when
-/// an iteration changes no weight by 1e-3 or more, at the latest after 60 iterations.
+/// The matrix of the energy is K M^-1 K, with the cotangent stiffness K and the lumped mass M. The
+/// block of free vertices in this matrix is P + R. P is the product of the blocks of free vertices
+/// in K, M^-1 and K. R is a low-rank matrix that depends on the fixed vertices. A system in P needs
+/// only a factor of K. The effect of R is computed by the Woodbury formula.
+///
+/// Cost: one factorization of K, and two solves per handle vertex that has a free neighbor. In
+/// volumes, factoring K takes only a fraction of the time of factoring K M^-1 K. If many handle
+/// vertices have a free neighbor, conjugate gradients with the preconditioner P are used instead.
+/// They end when no weight changes by 1e-3 or more in an iteration, or after 60 iterations.
 ///
 /// The certificate bounds the difference between the energy of the clamped columns and the energy
 /// of bounded biharmonic weights. The tolerance of the options is ignored.

@@ -20,7 +20,8 @@ enum class WeightsDomain : int
   /// (domain_choice.h). All other surfaces are solved in the embedding. If another domain fails,
   /// the embedding is used instead, except for regions and for terms of individual points.
   automatic = 1,
-  /// Solve in tets of the inside that preserve the surface (tetrahedralize, method auto).
+  /// Solve in tets that fill the surface's inside and preserve the surface (tetrahedralize, method
+  /// auto).
   volume = 2,
   embedding = 3, ///< Solve in a lattice that contains the surface (tetrahedralize, method embed).
   /// Solve in tets of a closed cage of faces around the surface. For a flat shape, solve in
@@ -57,7 +58,7 @@ struct SurfaceWeights
 struct SurfaceWeightsOptions
 {
   WeightsDomain domain = WeightsDomain::automatic;
-  /// Points with at least this winding number are inside, > 0.
+  /// Points with at least this winding number are inside. Must be above 0.
   double winding_threshold = 0.5;
   /// Domain embedding: number of lattice cubes along the longest side of the bounding box, 6 …
   /// 1000; 0: chosen automatically (see `check_resolution`).
@@ -82,13 +83,13 @@ struct SurfaceWeightsOptions
 /// is not a vertex gets the weights of the nearest point of the tets (transfer).
 ///
 /// **embedding**: tets of a lattice whose resolution does not depend on the surface's resolution.
-/// The energy of each tet is multiplied by the fraction of the tet that is inside. Parts that are
-/// near each other but not connected stay separate. A part is linked to the parts that cover one of
-/// its openings, like a plate below a knob without a bottom (find_covered_openings). A part without
-/// a handle is linked to the parts that it touches (within 1/500 of the diagonal), or else to the
-/// nearest part (link_parts), with one warning. The handles become vertices of the lattice; samples
-/// of a bone are half the edge of a lattice cube apart. The solution is transferred to the surface
-/// and smoothed (EmbeddedSurface).
+/// The energy of each tet is multiplied by the fraction of the tet that is inside the surface.
+/// Parts that are near each other but not connected stay separate. A part is linked to the parts
+/// that cover one of its openings (find_covered_openings). For example, a knob whose open bottom is
+/// covered by a plate is linked to the plate. A part without a handle is linked to the parts that
+/// it touches (within 1/500 of the diagonal), or else to the nearest part (link_parts), with one
+/// warning. The handles become vertices of the lattice; samples of a bone are half the edge of a
+/// lattice cube apart. The solution is transferred to the surface and smoothed (EmbeddedSurface).
 ///
 /// The **guard** compares the weights of two lattices. The first lattice has about 4,500 tets; the
 /// second lattice has 3/2 times the resolution of the first. If the weights of the first two

@@ -21,7 +21,7 @@ Status harmonic_weights(ExecutionContext& context, const WeightsProblem& problem
 Status biharmonic_weights(ExecutionContext& context, const WeightsProblem& problem,
   const WeightsOptions& options, WeightsResult& result);
 /// Minimize int |grad Laplacian w|^2. The weights are smoother than biharmonic weights, but leave
-/// [0, 1] further.
+/// [0, 1] by larger amounts.
 Status triharmonic_weights(ExecutionContext& context, const WeightsProblem& problem,
   const WeightsOptions& options, WeightsResult& result);
 /// Minimize |K w|^2 without masses (Botsch and Kobbelt 2004), for comparison. The weights depend on

@@ -150,9 +150,9 @@ std::vector<Index> mirror_of_plane(const Points& points, const Vec3& origin, con
   return mirror;
 }
 
-/// Append mirror entries for inserted vertices. Two inserted vertices are mirror vertices if the
-/// corners of their elements are mirror vertices and the barycentric coordinates at these corners
-/// are equal.
+/// Append mirror entries for inserted vertices. An inserted vertex b is the mirror vertex of an
+/// inserted vertex a if the corners of b's element are the mirror vertices of the corners of a's
+/// element, with equal barycentric coordinates.
 void extend_mirror(const HandleInsertion& mesh, std::vector<Index>& mirror)
 {
   constexpr double tolerance = 1e-9;

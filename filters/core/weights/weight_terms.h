@@ -15,12 +15,12 @@ namespace bindpose
 /// same label.
 struct WeightTerms
 {
-  /// Painted rigidity, #V, 0 … 1e12. It adds 1/2 int rho |grad w|^2 to the energy 1/2 int (lap
-  /// w)^2, so that weights are nearly constant where rho is large. rho is 1e4 / diagonal^2 times
-  /// the painted value, averaged over the corners of an element. For the triharmonic energy, the
-  /// factor is 1e8 / diagonal^4. The painted value 1 makes weights nearly constant over lengths
-  /// above a hundredth of the mesh's diagonal, independent of unit and resolution. Gradients are
-  /// proportional to 1 / painted value.
+  /// Painted rigidity, #V. The values must be from 0 to 1e12. The term 1/2 int rho |grad w|^2 is
+  /// added to the energy, so that weights are nearly constant where rho is large. On an element,
+  /// rho is the mean rigidity of the corners, times 1e4 / diagonal^2 for the biharmonic energy
+  /// 1/2 int (lap w)^2 or 1e8 / diagonal^4 for the triharmonic energy. A rigidity of 1 makes
+  /// weights nearly constant over lengths above a hundredth of the mesh's diagonal, independent of
+  /// unit and resolution. Gradients are proportional to 1 / rigidity.
   Eigen::VectorXd rigidity;
   /// Labels of rigid sets, #V. All vertices with the same label > 0 form a set. They are one
   /// unknown of the solver, so each column is exactly constant on the set. If a set contains a
@@ -33,7 +33,7 @@ struct WeightTerms
   /// Smallest and largest weight per handle, #handles x 2; empty: 0 and 1. Vertices on handles have
   /// the weights 0 and 1, so these bounds must contain [0, 1].
   Eigen::MatrixXd handle_bounds;
-  /// Prescribed weights, #V x #handles; NaN: solved for.
+  /// Prescribed weights, #V x #handles; NaN: the weight is solved for.
   Eigen::MatrixXd pinned;
   /// Mirror vertex of each vertex, #V; -1: none. The relation is symmetric: mirror[mirror[v]] == v.
   std::vector<Index> mirror;

@@ -48,7 +48,7 @@ void collect_fixed(WeightsProblem& problem)
 }
 
 /// Return for every element the mean painted rigidity of its corners, times the fraction of the
-/// element that is inside.
+/// element that is inside the surface (Domain::inside_fractions).
 Eigen::VectorXd element_rigidity(const Domain& domain, const Eigen::VectorXd& painted)
 {
   Eigen::VectorXd result(domain.element_count());

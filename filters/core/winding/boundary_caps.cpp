@@ -71,7 +71,7 @@ Triangles boundary_caps(const std::vector<Edge>& edges)
   std::vector<std::array<Index, 3>> caps;
   constexpr std::size_t not_on_path = ~std::size_t{ 0 };
   std::vector<std::size_t> path_index(
-    vertices.size(), not_on_path); // index of each vertex on the path
+    vertices.size(), not_on_path); // index of each vertex in `path`
   std::vector<Index> path;
   for (std::size_t start = 0; start < vertices.size(); ++start)
   {
@@ -126,8 +126,8 @@ Triangles smaller_caps(const Points& points, const Triangles& triangles, const T
     }
     return longest;
   };
-  // For each component: the sum of the squared longest edges of its caps, minus the same sum for
-  // its triangles.
+  // Per component: the sum over its caps of the squared length of the cap's longest edge, minus the
+  // same sum over its triangles.
   std::vector<double> excess(static_cast<std::size_t>(components.count), 0.0);
   for (Index t = 0; t < caps.rows(); ++t)
   {

@@ -73,8 +73,8 @@ int crossing(const Vec2& a, const Vec2& b, const Vec2& p)
 }
 
 /// Return the signed angle from a to b seen from p, in [-pi, pi]. If p is on the line between a and
-/// b, the sign of the angle agrees with crossing(). The sign is exact, because the wrong sign of a
-/// half turn would change the sum by a full turn.
+/// b, the sign of the angle agrees with crossing(). The sign is computed exactly: if an angle near
+/// pi got the wrong sign, the sum of the angles would change by a full turn.
 double signed_angle(const Vec2& a, const Vec2& b, const Vec2& p)
 {
   const Vec2 u = a - p;
@@ -320,8 +320,8 @@ struct Node
 {
   Vec2 lower, upper; ///< box with a margin; contains every point that touches one of the segments
   double first_y, last_y; ///< y coordinates of the ends of a piece; equal for loops
-  /// Indices of the ends of the piece or loop in the array of path points. Both indices are equal
-  /// if the node contains several loops.
+  /// The piece or loop consists of the path points `first` … `last`. A node with several loops is
+  /// not such a range; both indices are 0.
   Id first, last;
   Id skip; ///< index of the node after this node's descendants
   bool leaf;
@@ -698,8 +698,9 @@ double CurveWindingNumber::Impl::evaluate_on_curve(const Vec2& p) const
     }
     ++n;
   }
-  // Cancel the chords that are part of the sum. These chords are in leaves that were not summed
-  // segment by segment.
+  // Remove the angles of the chords from the sum. The loop above has omitted the chord of each leaf
+  // that it summed segment by segment. The angle of any other chord is included in the angle of a
+  // piece whose box does not contain p.
   for (const Chord& chord : this->chords)
   {
     if (outside(this->nodes[chord.leaf]))

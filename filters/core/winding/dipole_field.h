@@ -38,10 +38,10 @@ public:
     double finest_cell = 0.0; ///< 0: chosen from the tolerance
     /// Degree of the polynomials, 2 … 14. 0: chosen from the tolerance.
     int order = 0;
-    /// Number of points that will be evaluated, most of them in the region; 0: very many. A cell is
-    /// split only if this saves more time in the evaluation of the expected points than the split
-    /// takes. For up to a few thousand points no cells are made, and every value is the sum over
-    /// all triangles.
+    /// Number of points that will be evaluated; 0: very many. Most of them should be in `region`.
+    /// The build splits a cell only if the split takes less time than it saves in the evaluation of
+    /// these points. For up to a few thousand points no cells are made, and every value is the sum
+    /// over all triangles.
     Index expected_points = 0;
   };
 

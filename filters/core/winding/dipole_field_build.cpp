@@ -46,9 +46,9 @@ struct Tuning
 /// the same cost.
 constexpr Tuning tunings[] = { { 1e-2, 4, 0.8 }, { 2e-3, 6, 0.8 }, { 1e-3, 7, 0.8 },
   { 1e-4, 7, 0.8 }, { 1e-5, 9, 0.8 }, { 1e-6, 11, 0.8 }, { 0.0, 13, 1.0 } };
-/// With cells that are smaller by the factor `small_field_factor`, an evaluation takes 1.2 times
-/// less time, and the field takes twice the memory. These cells are used for fields with up to
-/// `small_field_blocks` blocks.
+/// A field with at most `small_field_blocks` blocks gets smaller cells: their size is multiplied by
+/// `small_field_factor`. The evaluation is then 1.2 times as fast, but the field takes twice the
+/// memory.
 constexpr Index small_field_blocks = 2048;
 constexpr double small_field_factor = 0.75;
 /// First threshold for the error estimate of an interaction, in units of the tolerance. The
@@ -71,8 +71,8 @@ constexpr double node_cost = 150.0;
 /// Up to this many expected points, every value is the sum over all triangles, because building the
 /// multipoles alone would cost about as much.
 constexpr Index maximum_direct_points = 3000;
-/// The finished field is compared with the plain sum on sample points. These are the number of
-/// expected points per sample point, and the minimum number of sample points.
+/// Number of expected points per sample point, and minimum number of sample points. At the sample
+/// points, the finished field is compared with the plain sum.
 constexpr Index points_per_sample = 512;
 constexpr Index minimum_samples = 48;
 /// At or above this tolerance single precision is accurate enough, unless the errors of float sums
@@ -226,7 +226,7 @@ struct DipoleField::Builder
   const Options& options;
   double finest_cell = 1.0;
   double threshold = 0.0; // largest allowed error estimate of an interaction
-  Box region; // region that contains most expected points
+  Box region; // region that contains most of the expected points
   // Expected number of query points per unit of volume in `region`. 0: unknown or unlimited; every
   // split of a cell is then worthwhile.
   double density = 0.0;
@@ -386,8 +386,9 @@ bool DipoleField::Builder::sort_triangles()
           (a.center - node.center).norm() + a.radius, (b.center - node.center).norm() + b.radius));
     }
   }
-  // A child that is almost as large as its parent causes an error of similar size. The errors of
-  // two such children add up, so the allowed error is divided between them.
+  // The multipoles of a child that is almost as large as its parent cause almost the same error as
+  // the multipoles of the parent. The errors of two such children add up, so the parent's allowed
+  // error is divided between the two children.
   for (const Node& node : this->nodes)
   {
     for (const Id id : { node.left, node.right })
@@ -776,7 +777,7 @@ double DipoleField::Builder::error(Id node, double distance, double radius) cons
   const int top = this->field.order_ + 2;
   const double* bound = &this->bounds[std::size_t(node) * top];
   const double inverse = 1.0 / distance;
-  // sum over n of bound(n) radius^(top - n) / distance^(top + 1)
+  // Compute the sum over n of bound(n) radius^(top - n) / distance^(top + 1).
   double sum = 0.0, power = inverse;
   for (int n = 0; n < top; ++n)
   {

@@ -83,8 +83,8 @@ struct Boxes
   Id group[harmonic_lanes]; ///< group that contains the children of the box; -1: a leaf
 };
 
-/// Data of a box from which its reach is computed for a threshold. Multipoles are used beyond the
-/// reach.
+/// The size of a box and of its moments. They determine the distance beyond which the box's
+/// multipoles are used (see far_distance()).
 struct Extent
 {
   double radius = 0.0; ///< distance of the farthest point from the center

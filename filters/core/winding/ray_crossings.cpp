@@ -40,8 +40,9 @@ constexpr double test_cost = 1.5;
 constexpr double point_cost = 120.0;
 constexpr double slab_face_cost = 50.0;
 constexpr double row_cost = 5.0;
-/// Minimum and maximum number of cells per point in the grid of the projection plane. The number
-/// increases if triangles outnumber the points, so that most triangles overlap only empty cells.
+/// The grid of the projection plane has as many cells as there are triangles, but at least
+/// `minimum_cells_per_point` and at most `maximum_cells_per_point` cells per point. If there are
+/// more triangles than points, most triangles then overlap only cells without points.
 constexpr double minimum_cells_per_point = 0.5;
 constexpr double maximum_cells_per_point = 8.0;
 /// Points per slab of the grid in the projection plane; one thread processes a slab.
@@ -626,9 +627,9 @@ void RayCrossings::count_slab(const Grid& grid, const Layers& layers, Index slab
         }
         const Index row = (k - first_layer) * rows + j;
         const bool is_side_certain = minimum > f.edge_bound || maximum < -f.edge_bound;
-        // `x` and `y` are the lower and the upper end of an interval of x coordinates. The samples
-        // in this interval are tested one by one. If the triangle is parallel to the rows, `center`
-        // is NaN, and the comparisons select the ends of the triangle's box.
+        // The samples with x coordinates from `x` to `y` are tested one by one. If the triangle is
+        // parallel to the rows, inverse_normal_x is infinite. The comparisons below are then false,
+        // so `x` and `y` are the ends of the triangle's box.
         const double center = f.x[0] + (f.normal[1] * ay + f.normal[2] * az) * inverse_normal_x;
         const double x = center - x_tolerance > f.lower[0]
           ? std::min(center - x_tolerance, f.upper[0])

@@ -14,12 +14,12 @@ namespace bindpose
 /// an integer.
 struct SurfaceBoundary
 {
-  /// A boundary edge, directed like the majority of its triangles.
+  /// A boundary edge. Its direction is the one in which more triangles use the edge.
   struct BoundaryEdge
   {
     Index from, to; ///< vertex ids
-    /// Number of triangles in this direction minus number of triangles in the other direction, at
-    /// least 1.
+    /// Number of triangles that use the edge from `from` to `to`, minus the number that use it from
+    /// `to` to `from`; at least 1.
     Index multiplicity;
     Index component;
   };

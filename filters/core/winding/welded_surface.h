@@ -24,7 +24,8 @@ struct WeldedSurface
   Index boundary_edges = 0; ///< number of edges used by one triangle
   Index nonmanifold_edges = 0; ///< number of edges used by three triangles or more
   Index merged_vertices = 0;
-  Index degenerate_triangles = 0; ///< number of removed triangles and of triangles without area
+  /// Number of removed triangles plus number of remaining triangles without area.
+  Index degenerate_triangles = 0;
   /// Number of triangles with the same vertices, in any order, as an earlier triangle.
   Index duplicate_triangles = 0;
 };

@@ -318,7 +318,7 @@ bool WindingCells::Builder::find(const Box& box, const Grid& grid, Index begin, 
   std::size_t maximum_entries, CellFacePairs& found) const
 {
   const std::array<Id, 3>& size = grid.size;
-  // A small margin, so that the result is also correct for points that rounding assigns to the
+  // The small margin makes the result correct also for points that rounding assigns to the
   // neighboring cell.
   const Vec3 half = Vec3::Constant(0.5 * grid.cell * (1.0 + 1e-9) + 4.0 * this->owner_.tolerance_);
   const double inverse = 1.0 / grid.cell;
@@ -437,8 +437,8 @@ bool WindingCells::Builder::choose_references(const Box& box, Grid& grid) const
     bool resolved = false;
     for (int attempt = 0; attempt < 32 && !resolved; ++attempt)
     {
-      // Place the reference near the center of the cell, in a different direction with irregular
-      // ratios at each attempt.
+      // Place the reference near the center of the cell. Each attempt uses another, irregular
+      // offset from the center.
       const double t = attempt + 1.0;
       const Vec3 position = center +
         0.05 * grid.cell *
@@ -476,8 +476,8 @@ bool WindingCells::Builder::choose_references(const Box& box, Grid& grid) const
 
 bool WindingCells::Builder::cut_root(const Box& root_box)
 {
-  // Largest number of pairs of a cell and a face in all cells together. It is divided among the
-  // cells in proportion to the number of faces that each contains. For every arrangement of the
+  // Largest number of pairs of a cell and a face in all cells together. This limit is divided among
+  // the cells in proportion to the number of faces in each cell. For every arrangement of the
   // faces, the limit bounds the memory to a multiple of the surface's memory. Surfaces with
   // triangles as large as the surface get fewer cells.
   const double maximum_entries = 16.0 * static_cast<double>(this->faces_.size()) + 1e5;
@@ -552,7 +552,8 @@ bool WindingCells::Builder::cut_root(const Box& root_box)
   return !this->context_.canceled();
 }
 
-/// Append the contents of the cells [first, end) of the surface's box to the arrays of the owner.
+/// Append `part`, the contents of the cells [first, end) of the surface's box, to the arrays of the
+/// WindingCells.
 void WindingCells::Builder::append(const Arrays& part, Id first, Id end)
 {
   Arrays& all = this->owner_.arrays_;
@@ -615,8 +616,9 @@ bool WindingCells::Builder::fill(
 {
   const auto number = static_cast<std::size_t>(grid.number(c));
   const List faces(grid.faces.data() + grid.begin[c], grid.faces.data() + grid.begin[c + 1]);
-  // Divide the cell only if this reduces the number of faces per cell. If a vertex belongs to many
-  // triangles, one cell of any size contains the vertex, so dividing does not help.
+  // From depth 3 on, divide the cell only if it has less than 70 % of the faces of the enclosing
+  // box. At a vertex of many triangles, dividing does not help: the cell that contains the vertex
+  // overlaps all these triangles, however small the cell is.
   const bool shrinks = box.depth < 3 || 10 * number < 7 * grid.faces_before;
   const bool large_enough = grid.cell > 1e6 * this->owner_.tolerance_;
   if (number > maximum_leaf_faces && shrinks && large_enough && box.depth < maximum_depth &&

@@ -106,12 +106,12 @@ struct WindingNumber::Impl
   mutable WindingTree tree;
   mutable std::mutex tree_mutex;
   mutable std::atomic<bool> tree_built{ false };
-  // The cells are built during the build, or later when they save time. Until then, crossings are
-  // counted by rays, which gives the same values.
+  // The cells are built by build(), or later by the first evaluation that uses cells (see
+  // are_rays_faster()). Earlier evaluations count crossings by rays, which gives the same values.
   mutable WindingCells cells;
   mutable std::mutex cells_mutex;
   mutable std::atomic<bool> cells_built{ false };
-  /// Sum of the predicted times of all ray counts so far.
+  /// Sum of the predicted times of all evaluations by rays so far.
   mutable std::atomic<double> ray_nanoseconds{ 0.0 };
   std::unique_ptr<RayCrossings> rays;
   std::vector<Edge> open_edge_list; ///< edges not used equally often in both directions
@@ -291,8 +291,8 @@ Status WindingNumber::build(
       impl.method = WindingMethod::direct;
     }
   }
-  // The plain sum takes the least time with the fewest caps, the cells of the DipoleField with the
-  // smallest caps.
+  // The plain sum over the caps takes the least time if there are few caps. The cells of the
+  // DipoleField take the least time if the caps are small.
   if (done && impl.method == WindingMethod::fast &&
     !DipoleField::uses_direct_sum(options.expected_queries))
   {
@@ -372,9 +372,10 @@ Index WindingNumber::memory() const
     this->impl_->tree.memory() + this->impl_->cells.memory() + this->impl_->field.memory();
 }
 
-/// Report whether counting crossings by rays is faster than by cells. `ray_cost` and `cell_cost`
-/// are the predicted times of this evaluation in nanoseconds. Before the cells are built, rays
-/// count as faster until the total time of all ray counts would exceed the time to build the cells.
+/// Report whether an evaluation by rays is predicted to be faster than an evaluation by cells.
+/// `ray_cost` and `cell_cost` are the predicted times of this evaluation in nanoseconds. If the
+/// cells are not built yet, the time to build them is added to `cell_cost`, and the times of all
+/// earlier evaluations by rays are added to `ray_cost`.
 bool WindingNumber::Impl::are_rays_faster(double ray_cost, double cell_cost) const
 {
   if (this->cells_built)
@@ -499,8 +500,8 @@ double WindingNumber::Impl::evaluate_robustly(const Vec3& p, bool* on_surface) c
   {
     *on_surface = sum.on_surface();
   }
-  // Round the value to an integer if the surface is closed, because WindingCells returns integers
-  // for the other points.
+  // Round the value to an integer if the surface is closed. The points that WindingCells resolves
+  // then have integer values, too.
   const bool is_integer = this->open_edge_list.empty() && !sum.on_surface();
   return is_integer ? std::round(sum.winding_number()) : sum.winding_number();
 }
@@ -818,7 +819,7 @@ Status WindingNumber::evaluate_rows(
             unresolved.push_back(i);
           }
         }
-        // A sample can be in the list twice: unresolved, and touching a cap.
+        // The list contains a sample twice if its crossings are unresolved and it touches a cap.
         std::sort(unresolved.begin(), unresolved.end());
         unresolved.erase(std::unique(unresolved.begin(), unresolved.end()), unresolved.end());
         if (flags)

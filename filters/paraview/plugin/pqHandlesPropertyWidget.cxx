@@ -79,7 +79,7 @@ pqHandlesPropertyWidget::pqHandlesPropertyWidget(const char* representation, con
     property_(smgroup->GetProperty(function)), column_(new QVBoxLayout(this)),
     shown_(new QCheckBox(tr("Show the handles in the view"), this))
 {
-  // The superclass emits changeFinished() at the end of a drag only.
+  // Emit changeFinished() only at the end of a drag, not with each changeAvailable().
   this->setChangeAvailableAsChangeFinished(false);
   this->column_->setContentsMargins(0, 0, 0, 0);
   this->column_->addWidget(this->shown_);
@@ -94,8 +94,8 @@ pqHandlesPropertyWidget::pqHandlesPropertyWidget(const char* representation, con
     this, &pqHandlesPropertyWidget::widgetVisibilityToggled, this->shown_, &QCheckBox::setChecked);
   this->setWidgetVisible(true);
 
-  // Call begin_drag() before the observers of the superclass, which were added before. They change
-  // the state of the panel that begin_drag() stores.
+  // begin_drag() stores the state of the panel, which the observers of the superclass then change.
+  // Therefore begin_drag() has a higher priority, so that it is called before these observers.
   vtkSMProxy* widget = this->widgetProxy();
   this->start_observer_ = widget->AddObserver(
     vtkCommand::StartInteractionEvent, this, &pqHandlesPropertyWidget::begin_drag, 1.0f);

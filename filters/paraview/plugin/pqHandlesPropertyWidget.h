@@ -55,7 +55,8 @@ protected:
   /// Return the pipeline source of the proxy; null if the proxy is not registered.
   pqPipelineSource* source() const;
   vtkSMProperty* text_property() const { return this->property_; }
-  /// Report whether the proxy was applied before, so that edits can be applied.
+  /// Report whether the proxy has been applied at least once. If not, only the Apply button applies
+  /// edits.
   bool is_applied() const;
 
   QVBoxLayout* column() const { return this->column_; }

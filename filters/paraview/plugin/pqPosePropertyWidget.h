@@ -10,12 +10,12 @@ class QComboBox;
 class QToolButton;
 class vtkPVHandleSetRepresentation;
 
-/// The panel of Pose Handles for the pose (property PoseJSON): handles are picked, dragged, and
-/// moved, turned and scaled by the gizmo in the render view.
+/// The panel of Pose Handles for the pose (property PoseJSON). In the render view, the user picks
+/// and drags handles, or moves, turns and scales them with the gizmo.
 ///
-/// The widget draws the handles of the filter's input at the pose of the panel. A pose from a file,
-/// a sequence and a pose with expressions cannot be dragged; a button replaces them by the pose
-/// that is shown.
+/// The widget draws the handles of the filter's input at the pose of the panel. Handles cannot be
+/// dragged if the pose comes from a file, is a sequence or has expressions. A button replaces such
+/// a pose by the pose that is shown.
 class pqPosePropertyWidget : public pqHandlesPropertyWidget
 {
   Q_OBJECT

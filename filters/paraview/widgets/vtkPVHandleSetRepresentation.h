@@ -87,8 +87,8 @@ private:
   bool FormatPose(std::string& text);
 
   vtkSmartPointer<vtkPolyData> InputHandles; // a copy that shares the arrays
-  const void* InputObject = nullptr; // the original of InputHandles, only for comparisons
-  vtkMTimeType InputTime = 0; // modification time of the original
+  const void* InputObject = nullptr; // the dataset that InputHandles copies; only compared
+  vtkMTimeType InputTime = 0; // modification time of InputObject
   vtkSmartPointer<vtkPolyData> OutputHandles;
   vtkNew<vtkPolyData> DrawnHandles; // edited by drags
   std::string PoseJSON;

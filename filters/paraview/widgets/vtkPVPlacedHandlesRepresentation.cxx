@@ -30,8 +30,8 @@ Index handle_of_cell(const std::vector<Index>& cells, vtkIdType cell)
   return found == cells.end() ? -1 : static_cast<Index>(found - cells.begin());
 }
 
-/// Replace indices into the handles after a first edit by indices into the handles before that
-/// edit. `before[i]` is the index that handle i had before.
+/// Convert indices of handles after an edit to the indices of the same handles before the edit.
+/// `before[i]` is the index before the edit for index i after the edit. -1 stays -1.
 void map_through(const std::vector<Index>& before, std::vector<Index>& indices)
 {
   for (Index& index : indices)
@@ -234,8 +234,8 @@ bool vtkPVPlacedHandlesRepresentation::ConnectSelectedHandles()
   return this->FinishEdit(status.message, added.empty() ? -1 : added.back());
 }
 
-/// Store the reason of a refusal, or select the result of an edit. Return whether the handles have
-/// changed.
+/// If an edit was refused, store the reason. Otherwise select the result of the edit. Return
+/// whether the handles have changed.
 bool vtkPVPlacedHandlesRepresentation::FinishEdit(const std::string& refusal, vtkIdType selected)
 {
   if (refusal.empty())

@@ -68,7 +68,8 @@ private:
   vtkNew<vtkPolyData> PlacedHandles; // edited by the widget
   std::string HandlesText;
   std::string TextMessage;
-  vtkMTimeType FormattedTime = 0; // modification time of PlacedHandles that HandlesText describes
+  // Modification time of PlacedHandles when HandlesText was set or written.
+  vtkMTimeType FormattedTime = 0;
 };
 
 #endif

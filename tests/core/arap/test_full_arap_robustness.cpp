@@ -25,8 +25,8 @@ struct Cloth
 };
 } // namespace
 
-// If the pivot of a handle is inside of an element, the handle constrains the mesh point at this
-// rest position.
+// If the pivot of a handle is inside an element, the handle constrains the point of the mesh at
+// the rest position of the pivot.
 TEST(FullArapRobustness, APivotInsideAnElementIsThatPointOfTheMesh)
 {
   LabeledBar bar = labeled_bar(8);

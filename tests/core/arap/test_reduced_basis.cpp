@@ -51,8 +51,8 @@ struct BasisCase
     this->choose({}, {});
   }
 
-  /// Choose the handles of mode full, and the constrained ends of handles. The ends are given as
-  /// row indices of pivot_rows.
+  /// Choose the handles of mode full, and the pivots and tails whose positions are constrained.
+  /// `held_rows` contains the row indices of these pivots and tails in pivot_rows.
   void choose(const std::vector<Index>& full, const std::vector<Index>& held_rows)
   {
     this->given = Coordinates::Zero(4 * this->space.columns, 3);
@@ -80,8 +80,8 @@ struct BasisCase
     }
   }
 
-  /// Modify the space as if the third coordinate of all points were constant. Some unknowns then
-  /// have no effect.
+  /// Modify the reduced space as if all points had the same z coordinate. The unknowns that
+  /// multiply z then have no effect.
   void flatten()
   {
     for (Index i = 2; i < 4 * this->space.columns; i += 4)

@@ -1,5 +1,5 @@
-// Spread points: handles that are far apart, on every component, on the surface or in the middle of
-// the shape.
+// Spread points: handles that are far from each other and distributed over the components of a
+// surface. They are on the surface or in the middle of the shape.
 #include "automatic/spread_points.h"
 
 #include "base/constants.h"
@@ -124,7 +124,7 @@ TEST(SpreadPoints, AreFartherFromEachOtherThanAnyVertexIsFromThem)
     }
     const double covering = *std::max_element(nearest.begin(), nearest.end());
     EXPECT_GE(closest_pair * (1.0 + 1e-12), covering);
-    // For comparison, half of the torus's outer circle has the length 4.1.
+    // For comparison with the limit 1.3: half of the torus's outer circle is 4.1 long.
     EXPECT_LT(covering, 1.3);
   }
 }
@@ -145,8 +145,9 @@ TEST(SpreadPoints, FewerAreTheFirstOfMore)
 
 TEST(SpreadPoints, EveryComponentHasItsShare)
 {
-  // The mesh has two concentric spheres, a smaller sphere, and a tiny one. The areas of the first
-  // three spheres have the ratio 4 : 4 : 1. The tiny sphere gets no point.
+  // The mesh has four spheres. The first two are concentric and have almost equal radii, the third
+  // has half the radius, and the fourth is tiny. The areas of the first three have the ratio
+  // 4 : 4 : 1, and the numbers of their points have the same ratio. The tiny sphere gets no point.
   TriangleMesh mesh = test::join(test::sphere(2), test::sphere(3, 1.001)); // no vertices coincide
   mesh = test::join(mesh, test::sphere(2, 0.5, Vec3(9.0, 0.0, 0.0)));
   const Index crumb = mesh.points.rows();

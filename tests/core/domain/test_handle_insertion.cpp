@@ -352,10 +352,10 @@ TEST(HandleConstraints, FlatTrianglesFollowTheirNeighbors)
   TriangleMesh mesh = test::grid(3, 3);
   const Index n = mesh.points.rows();
   mesh.points.conservativeResize(n + 3, 3);
-  mesh.points.row(n) << 0.5, 0.0, 0.0; // used by a triangle without area, on the edge 1-2
+  mesh.points.row(n) << 0.5, 0.0, 0.0; // on the edge 1-2
   mesh.points.row(n + 1) << 9.0, 9.0, 9.0; // used by no triangle
-  // This vertex is used by another degenerate triangle, together with the first new vertex.
-  mesh.points.row(n + 2) << 0.6, 0.0, 0.0;
+  mesh.points.row(n + 2) << 0.6, 0.0, 0.0; // on the edge 1-2
+  // Add two triangles without area: one joins vertex n + 2 to n, the other joins vertex n to 1.
   mesh.triangles.conservativeResize(mesh.triangles.rows() + 2, 3);
   mesh.triangles.row(mesh.triangles.rows() - 2) << n, n + 2, n;
   mesh.triangles.row(mesh.triangles.rows() - 1) << 1, n, 1;

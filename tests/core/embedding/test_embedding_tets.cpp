@@ -300,7 +300,8 @@ TEST(EmbeddingTets, TopologyIsTheSurfaces)
   EXPECT_EQ(test::euler_characteristic(embed_mesh(torus).mesh), 0);
   const TriangleMesh shell = test::join(test::sphere(3), test::flipped(test::sphere(3, 0.5)));
   EXPECT_EQ(test::euler_characteristic(embed_mesh(shell).mesh), 2) << "a ball with a cavity";
-  // The ring is thin compared with a lattice cube. Its tets must still have the topology of a ring.
+  // The tube of this torus is only about three lattice cubes thick. The tets must still have the
+  // topology of a ring.
   TriangleMesh ring = test::torus(48, 24, 1.0, 0.2);
   const EmbeddingTets whole = embed_mesh(ring, 20);
   EXPECT_EQ(test::euler_characteristic(whole.mesh), 0);
@@ -308,7 +309,7 @@ TEST(EmbeddingTets, TopologyIsTheSurfaces)
 
 TEST(EmbeddingTets, BarsThatAreNearShareNoVertex)
 {
-  for (const double gap : { 0.3, 0.01, 1e-6 }) // gap in lattice cubes
+  for (const double gap : { 0.3, 0.01, 1e-6 }) // as a fraction of a lattice cube's size
   {
     constexpr Index resolution = 16;
     const double cube = 4.0 / 16.0;

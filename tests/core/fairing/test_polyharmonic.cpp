@@ -210,8 +210,9 @@ TEST(Polyharmonic, DerivativesAcrossTheEdgeAreMet)
     Polyharmonic system;
     system.bind(square.mesh.points, square.mesh.triangles, 2, PatchBoundary::tangent);
     ASSERT_TRUE(system.prepare(context, square.parts, square.prescribed, {}).ok());
-    // At a corner the integrals along two sides of the square are added. Each side is therefore
-    // tested separately.
+    // At a corner of the square, the two sides have different normal derivatives, but g has only
+    // one value per vertex. The flux of each side is therefore computed separately. The four fluxes
+    // are then added.
     const Index size = square.mesh.points.rows();
     const auto side = [&](int axis, double sign)
     {
@@ -225,7 +226,8 @@ TEST(Polyharmonic, DerivativesAcrossTheEdgeAreMet)
         }
       }
       Rows flux = system.flux_of_derivatives(g);
-      // At a corner, subtract the integral along the other side.
+      // At a corner, flux_of_derivatives() adds the integrals along two sides. Subtract the
+      // integral along the side that does not belong to `axis` and `sign`.
       const double h = 1.0 / n;
       for (Index v = 0; v < size; ++v)
       {

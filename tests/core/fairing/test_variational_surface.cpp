@@ -360,7 +360,8 @@ TEST(VariationalSurface, WhatCannotBeIsRefused)
 TEST(VariationalSurface, DefectsAwayFromThePatchDoNotMatter)
 {
   Bump bump;
-  // This vertex coincides with a vertex in a corner, three layers away from the free vertices.
+  // Move the corner vertex onto its neighbor, so that triangles at the corner are degenerate. The
+  // free vertices are three layers away from the corner.
   bump.mesh.points.row(0) = bump.mesh.points.row(1);
   bump.options.order = 2;
   EXPECT_TRUE(bump.solve().ok());

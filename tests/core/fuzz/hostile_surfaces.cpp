@@ -230,7 +230,7 @@ TriangleMesh deformed_surface(Random& random, Index maximum_triangles)
   {
     mesh.points.col(random.below(3)) *= power_of_ten(random, -12.0, 0.0);
   }
-  if (chance(random, 0.25)) // shrink the side toward -x, to as little as 1e-5 of its size
+  if (chance(random, 0.25)) // scale by 1 at x = 1, decreasing to 1e-5 at x = -1
   {
     for (Index v = 0; v < mesh.points.rows(); ++v)
     {

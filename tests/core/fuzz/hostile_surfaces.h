@@ -9,10 +9,11 @@
 namespace bindpose::test
 {
 
-/// Return a random surface of size about 1 near the origin, with approximately `maximum_triangles`
-/// triangles or fewer. The type is random: triangles with corners on a lattice or anywhere, needles
-/// and slivers, layers, a fan, one or two triangles, or a damaged closed surface. A damaged surface
-/// has holes, reversed or repeated triangles, or separated corners.
+/// Return a random surface near the origin. Its size is about 1, and it has at most about
+/// `maximum_triangles` triangles. The surface is one of: triangles between random points, triangles
+/// between lattice points, separate needles and slivers, parallel layers, a fan, one or two
+/// triangles, or a closed surface with random defects. The defects are holes, reversed triangles,
+/// repeated triangles, and corners that are detached from their neighbors.
 TriangleMesh hostile_surface(Random& random, Index maximum_triangles);
 
 /// Return a closed surface: each edge has equally many triangles in both directions. The types are

@@ -429,7 +429,8 @@ TEST(FuzzWinding, CubesHoldTheirMiddles)
           std::array<Index, 3> cell;
           for (int axis = 0; axis < 3; ++axis)
           {
-            // The distance along this axis from the corner of the lattice, in units of half a cube.
+            // The coordinate of the sample along this axis, divided by half the side of a cube. The
+            // corner of the lattice has the coordinate 0.
             const Index halves = place[axis] - 3;
             cell[axis] = halves % 2 == 0 ? halves / 2 - 1 + (k >> axis & 1) : (halves - 1) / 2;
           }
@@ -666,7 +667,7 @@ Cloud hostile_cloud(Random& random)
   const Vec3 ones = Vec3::Ones();
   const Index lattice = chance(random, 0.3) ? 2 + random.below(8) : 0;
   Vec3 shape = ones;
-  for (int k = 0; k < 3; ++k) // flatten to a plane or a line
+  for (int k = 0; k < 3; ++k) // flatten the cloud to a plane or a line
   {
     shape[k] = chance(random, 0.2) ? 0.0 : chance(random, 0.2) ? 1e-9 : 1.0;
   }
@@ -677,7 +678,7 @@ Cloud hostile_cloud(Random& random)
     {
       at = (0.5 * static_cast<double>(lattice) * (at + ones)).array().floor();
     }
-    else if (chance(random, 0.3)) // in a tight cluster
+    else if (chance(random, 0.3)) // the sample is in a tight cluster
     {
       at = Vec3(0.3, 0.2, 0.1) + 1e-5 * at;
     }

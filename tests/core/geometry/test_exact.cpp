@@ -33,9 +33,9 @@ TEST(Exact, OrientationSeesTheLastBit)
 {
   EXPECT_EQ(orientation_2d(0, 0, 1, 0, 0, 1), 1);
   EXPECT_EQ(orientation_2d(0, 0, 0, 1, 1, 0), -1);
-  // The points are next to a diagonal. Their distances from it are a few units in the last place,
-  // for which naive floating point gives wrong signs (a textbook example). Multiplied by 2^53, the
-  // coordinates are integers, and the determinant fits into a 128-bit integer.
+  // The coordinates x and y are equal or differ by at most 31 units in the last place. For such
+  // points, the determinant in floating point often has the wrong sign (a textbook example). The
+  // exact sign is the sign of y - x.
   for (int i = 0; i < 32; ++i)
   {
     for (int j = 0; j < 32; ++j)

@@ -462,7 +462,7 @@ TEST(GltfSkin, AFileOfAnotherProgram)
   // In a triangle strip of three triangles, the second one has the opposite orientation.
   file["nodes"][0].erase("skin");
   ASSERT_TRUE(read_gltf_skin(folder.write("f.gltf", file.dump()), skin).ok());
-  // The transform of the node of a mesh without a skin is applied.
+  // If a mesh has no skin, the transform of the mesh's node is applied to the points.
   EXPECT_EQ(Vec3(skin.points.row(0)), Vec3(9, 9, 9));
   EXPECT_TRUE(skin.joints.empty());
   // The binary data may be in a separate file.

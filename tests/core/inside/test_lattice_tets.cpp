@@ -66,9 +66,9 @@ TEST(LatticeTets, StuffingBoundaryLiesOnTheSurface)
   const Triangles skin = boundary_triangles(mesh.tets);
   for (Index k = 0; k < skin.size(); ++k)
   {
-    // A boundary vertex is found by bisection, with an error of up to 1/256 of a lattice edge. The
-    // vertices of the subdivided sphere are on the unit sphere, its triangles up to 1e-3 inside of
-    // it.
+    // Boundary vertices are found by bisection, with an error of up to 1/256 of a lattice edge. The
+    // vertices of the surface are on the unit sphere, but its triangles are up to 1e-3 inside of
+    // the unit sphere.
     EXPECT_NEAR(mesh.points.row(skin.data()[k]).norm(), 1.0, cube / 256.0 + 3e-3);
   }
 }
@@ -98,7 +98,7 @@ TEST(LatticeTets, MovesAndScalesWithTheSurface)
 {
   const TriangleMesh surface = test::torus(24, 12, 1.0, 0.4);
   TriangleMesh large = surface;
-  large.points *= 1024.0; // a power of two, so the results have the same bits
+  large.points *= 1024.0; // scaling by a power of two does not round
   const TetMesh a = stuff_surface(surface, 12), b = stuff_surface(large, 12);
   EXPECT_EQ(a.tets, b.tets);
   EXPECT_EQ(Points(1024.0 * a.points), b.points);

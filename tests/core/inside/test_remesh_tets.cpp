@@ -69,7 +69,7 @@ bool is_manifold(const Triangles& skin)
       return false;
     }
   }
-  // Map each vertex to its ring: from a neighbor to the next neighbor around the vertex.
+  // `next[v][a] == b` means that b follows a in the ring of neighbors around vertex v.
   std::map<Index, std::map<Index, Index>> next;
   for (Index t = 0; t < skin.rows(); ++t)
   {
@@ -144,7 +144,8 @@ double edge_length_near(const TetMesh& mesh, const Vec3& p, double reach)
   return sum / count;
 }
 
-/// Give every triangle its own vertices and move them by up to `by`. The resulting triangles cross.
+/// Give every triangle its own vertices and move each vertex by up to `by` along each axis. The
+/// triangles then cross.
 TriangleMesh shaken_soup(const TriangleMesh& mesh, double by)
 {
   test::Random random(5);

@@ -1,5 +1,5 @@
-// The sequence of meshing methods that tetrahedralize() tries: lattices without the helper program,
-// helpers that fail or are slow, cancel requests, and bad input.
+// tetrahedralize() tries several meshing methods, one after the other. The tests cover a missing
+// helper program, helper programs that fail or are slow, cancel requests, and bad input.
 #include "inside/tetrahedralize.h"
 
 #include "base/number_text.h"
@@ -141,7 +141,8 @@ TEST(Tetrahedralize, ASlowHelperIsLeftInTime)
   expect_valid(outcome, test::sphere(2));
   EXPECT_EQ(outcome.method(), "remesh");
   EXPECT_THAT(outcome.status.warnings.back(), HasSubstr("time limit"));
-  // The boundary of the tets is less than the size of a lattice cube away from the surface.
+  // The distance of the tets' boundary from the surface is less than the side of a lattice cube.
+  // Distances are in percent of the bounding-box diagonal.
   EXPECT_GT(outcome.number("distance_max"), 0.0);
   EXPECT_LT(outcome.number("distance_max"), 100.0 / std::sqrt(3.0) / options.resolution);
 }
@@ -175,8 +176,8 @@ TEST(Tetrahedralize, FtetwildIsJudgedLikeAnyOther)
   EXPECT_NEAR(right.number("distance_max"), 0.0, 1e-12);
   EXPECT_EQ(right.number("counts.kept_vertices"), 0.0);
   EXPECT_TRUE(right.status.warnings.empty());
-  // A box with 1.4 times the volume of the returned cube is accepted with a warning, and the
-  // distance is reported.
+  // The returned cube has 1.4 times the volume of this box. The cube is accepted with a warning,
+  // and its distance from the box is reported.
   TriangleMesh longer = test::cube();
   longer.points.col(0) *= 1.0 / 1.4;
   const Outcome off = run(longer, TetMethod::ftetwild);
@@ -184,7 +185,8 @@ TEST(Tetrahedralize, FtetwildIsJudgedLikeAnyOther)
   ASSERT_EQ(off.status.warnings.size(), 1u);
   EXPECT_THAT(off.status.warnings[0], HasSubstr("but the enclosed volume by winding number"));
   EXPECT_GT(off.number("distance_max"), 5.0);
-  // If the volume differs by more than a factor of 2, there is no result.
+  // The returned cube has five times the volume of this box. There is no result, because only a
+  // factor of up to 2 is accepted.
   TriangleMesh thin = test::cube();
   thin.points.col(0) *= 0.2;
   const Outcome wrong = run(thin, TetMethod::ftetwild);

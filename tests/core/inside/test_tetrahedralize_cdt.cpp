@@ -119,7 +119,7 @@ TEST_F(Cdt, VerticesInsideAreAdded)
     signed_volume(sphere.points, sphere.triangles), bounding_box(sphere.points).diagonal());
   EXPECT_GT(run(sphere, of_weights).result.mesh.points.rows(), 2 * sphere.points.rows());
   EXPECT_GT(full.number("min_dihedral_angle"), 4.0);
-  // Inner edges are not much longer than `interior_edge` requests.
+  // `interior_edge` limits the length of edges inside, so a small value gives more tets.
   TetrahedralizeOptions fine;
   fine.interior_edge = 0.02;
   EXPECT_GT(run(sphere, fine).result.mesh.tets.rows(), 3 * full.result.mesh.tets.rows());

@@ -1,4 +1,5 @@
-// Handles become vertices of the tets: points, bones and cage faces inside of the surface.
+// tetrahedralize() inserts vertices at handles inside of the surface: at point handles, along
+// bones, and on cage faces.
 #include "inside/tetrahedralize.h"
 
 #include "core/inside/tet_outcome.h"

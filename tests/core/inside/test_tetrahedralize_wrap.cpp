@@ -94,8 +94,8 @@ TEST_F(Wrap, HoldsAnySurface)
     EXPECT_EQ(outcome.number("counts.kept_vertices"), 0.0);
     EXPECT_EQ(outcome.result.original_vertices.front(), -1);
     EXPECT_NEAR(outcome.number("winding_volume"), c.enclosed, 0.01 * c.enclosed);
-    // Points of the boundary are at least one offset away from the surface. In concave corners the
-    // distance is larger, because the alpha ball does not fit into the corner.
+    // The distance of the tets' boundary from the surface is about `wrap_offset`. In concave
+    // corners it is larger, because the alpha ball does not fit into the corner.
     EXPECT_GE(outcome.number("distance_max"), 100.0 * options.wrap_offset * 0.99);
     EXPECT_LE(outcome.number("distance_max"), 100.0 * (options.wrap_alpha + options.wrap_offset));
     const auto& warnings = outcome.status.warnings;
@@ -120,9 +120,10 @@ TEST_F(Wrap, AnOpenSurfaceIsWarnedOfWithBothVolumes)
   const std::string& warning = outcome.status.warnings.back();
   EXPECT_THAT(warning, HasSubstr("4 boundary edges"));
   EXPECT_THAT(warning, HasSubstr("the enclosed volume by winding number is 8"));
-  // The open cube has five faces of area 4, wrapped in a shell that is two offsets thick. The alpha
-  // ball does not fit into the eight inner edges of length 2, so these edges are filled. The cross
-  // section of a filled edge is smaller than the square of the ball's radius.
+  // The tets fill a shell around the five faces of the open cube. Each face has the area 4, and the
+  // thickness of the shell is twice the offset. The tets also fill the eight inner edges of length
+  // 2, because the alpha ball does not fit into them. The cross section of such a fillet has less
+  // area than a square of side alpha + offset.
   const double diagonal = std::sqrt(12.0);
   const double shell = 20.0 * 2.0 * options.wrap_offset * diagonal;
   const double fillets = 16.0 * std::pow((options.wrap_alpha + options.wrap_offset) * diagonal, 2);

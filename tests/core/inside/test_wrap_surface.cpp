@@ -152,7 +152,7 @@ TEST_F(WrapSurface, IsClosedAndAroundWhateverItIsGiven)
 TEST_F(WrapSurface, VolumesAreWhatAlphaAndOffsetSay)
 {
   // The wrap of a convex body is larger than the body, and smaller than the region of all points
-  // that are at most one offset away from the body.
+  // whose distance from the body is at most the offset.
   const WrapOptions options{ 0.05, 0.004, 60.0, 0 };
   TriangleMesh wrap;
   ASSERT_TRUE(run_wrap(test::cube(), options, wrap).ok());
@@ -160,8 +160,8 @@ TEST_F(WrapSurface, VolumesAreWhatAlphaAndOffsetSay)
   const double volume = signed_volume(wrap.points, wrap.triangles);
   EXPECT_GT(volume, 8.0);
   EXPECT_LT(volume, 8.0 + 24.0 * offset + 6.0 * M_PI * offset * offset + 5.0 * std::pow(offset, 3));
-  // The wrap of a sheet is two offsets thick. Its volume differs a little, because triangles
-  // approximate its round rim.
+  // The wrap of a flat sheet is a slab whose thickness is twice the offset. The rounded rim of the
+  // slab changes the volume only a little.
   ASSERT_TRUE(run_wrap(test::grid(4, 4), options, wrap).ok());
   const TriangleMesh sheet = test::grid(4, 4);
   const double thickness = 2.0 * options.offset * bounding_box(sheet.points).diagonal();

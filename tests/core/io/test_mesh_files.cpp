@@ -30,7 +30,7 @@ struct Format
   Read read;
   Write write;
 
-  /// Print the name of a format in the names of tests.
+  /// Print the extension of the format. GoogleTest and CTest show it as the parameter of a test.
   friend void PrintTo(const Format& format, std::ostream* out) { *out << format.extension; }
 };
 

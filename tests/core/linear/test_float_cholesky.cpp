@@ -37,8 +37,8 @@ protected:
     }
   }
 
-  /// Analyze the matrix with both solvers. The double-precision factorization is stored in
-  /// `solver`.
+  /// Analyze the matrix with `solver`, which is in double precision. Return a single-precision
+  /// solver that reuses this analysis.
   FloatCholesky analyzed(const SparseMatrix& matrix, SparseSolver& solver)
   {
     FloatCholesky single;
@@ -124,8 +124,8 @@ TEST_F(FloatCholeskyTest, FactorsTheBlockOfAnyUnknowns)
         EXPECT_TRUE(!excluded[i] || x.row(i).isZero(0.0));
       }
     }
-    // Factoring a block must not affect later factorizations of the whole matrix: they have the
-    // same bits as those of an unused clone.
+    // Factoring a block must not affect the next factorization of the whole matrix. A clone, which
+    // has factored nothing yet, must give the same bits.
     FloatCholesky fresh = single.clone();
     ASSERT_TRUE(single.factor(context_, a, 0.0).ok());
     ASSERT_TRUE(fresh.factor(context_, a, 0.0).ok());

@@ -19,7 +19,7 @@ using test::definite_matrix;
 
 namespace bindpose
 {
-/// Print a backend in the names of tests.
+/// Print the name of a backend. GoogleTest and CTest show it as the parameter of a test.
 void PrintTo(const SparseSolver::Backend& backend, std::ostream* out)
 {
   *out << (backend == SparseSolver::Backend::eigen ? "eigen" : "cholmod");

@@ -138,8 +138,8 @@ TEST(PoseFile, AMissingVersionWarnsIfChildrenWouldFollow)
     warnings("{\"frames\": [{\"handles\": {" + upper + "}}, {\"handles\": {" + upper + "}}]}")
       .size(),
     1u);
-  // There is no warning if the file contains its version, or if it has the same meaning in both
-  // versions of the format.
+  // There is no warning if the file contains a version number, or if both versions of the format
+  // give the same pose.
   EXPECT_EQ(warnings("{\"version\": 1, \"handles\": {" + upper + "}}").size(), 0u);
   EXPECT_EQ(warnings("{\"version\": 2, \"handles\": {" + upper + "}}").size(), 0u);
   EXPECT_EQ(warnings(R"({"handles": {"fore": {"scale": 2}, "p": {"scale": 2}}})").size(), 0u);
@@ -279,8 +279,8 @@ TEST(PoseFile, BonesGoWhereTheirEndsAreSent)
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(5, 5, 6)).norm(), 1e-14);
   EXPECT_DOUBLE_EQ(pose[1].stretch, 3.0);
   EXPECT_EQ(pose[1].twist, Eigen::Vector2d(10, 20));
-  // The bone's rotation is the smallest one. Its axis is perpendicular to the old and the new
-  // direction, so a vector along the axis does not change.
+  // The bone gets the smallest rotation from its rest direction x to its posed direction z. The
+  // axis of this rotation is y, so a vector along y does not change.
   EXPECT_LT((apply(pose[1].transform, Vec3(1, 1, 0)) - Vec3(5, 6, 5)).norm(), 1e-14);
   EXPECT_EQ(read(R"({"handles": {"fore": {"tail": [1, 2, 0], "stretch": 1}}})")[1].stretch, 1.0);
   // If the file specifies one end, the other end stays at its rest position.
@@ -486,7 +486,7 @@ TEST(PoseFile, ChangesOfABasePoseAreWritten)
   std::string text = "not empty";
   ASSERT_TRUE(format_pose_changes(base, base, handles, text).ok());
   EXPECT_EQ(text, "");
-  // The upper bone rotates and its child follows: the child is not written.
+  // The upper bone rotates, and its child follows it. The text must not contain the child.
   Pose pose = base;
   pose[2].transform = affine_about(Vec3::Zero(),
     Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix(), Vec3(0.1, 0.2, 0.3));
@@ -501,7 +501,8 @@ TEST(PoseFile, ChangesOfABasePoseAreWritten)
     EXPECT_EQ(back[h].mode, pose[h].mode);
     EXPECT_LT((back[h].transform - pose[h].transform).cwiseAbs().maxCoeff(), 1e-13);
   }
-  // A changed mode is written, too, and so is a child that does not follow.
+  // The text must contain a handle whose mode or stretch has changed, and a child that does not
+  // follow its parent.
   pose[0].mode = HandleMode::position;
   pose[1].transform = identity_affine();
   base[2].stretch = 1.5;

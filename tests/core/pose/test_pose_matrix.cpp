@@ -64,7 +64,7 @@ TEST(PoseMatrix, RotationsAddUpAlongAChain)
     Handles handles = chain();
     for (Handle& handle : handles)
     {
-      // If no parents are given, bones that share a joint form the hierarchy.
+      // Without given parents, the parent of a bone is the bone that ends where this bone begins.
       handle.parent = known ? handle.parent : -1;
     }
     // Each bone rotates by 90 degrees about z, so the chain becomes three sides of a square.

@@ -159,8 +159,9 @@ TEST(RotationFit, RankOneTakesTheNearestOfTheBest)
     Eigen::Matrix3d r = before;
     fit_rotation(rest * (before * rest).transpose(), r);
     ASSERT_LT((r - before).cwiseAbs().maxCoeff(), 1e-12);
-    // Otherwise the result is the optimal rotation nearest to the previous one. It equals the
-    // previous rotation, followed by the smallest rotation that aligns it with the posed edge.
+    // If the previous rotation is not optimal, the result is the optimal rotation nearest to it.
+    // This is the previous rotation, followed by the smallest rotation from the direction of
+    // `before * rest` to that of `posed`.
     const Vec3 posed = random.in_box(-Vec3::Ones(), Vec3::Ones());
     fit_rotation(rest * posed.transpose(), r);
     expect_best(rest * posed.transpose(), r);

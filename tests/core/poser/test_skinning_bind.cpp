@@ -34,7 +34,7 @@ protected:
   {
     return { this->box_.points, this->weights_, this->handles_, this->endpoints_ };
   }
-  /// Bind and pose by `bind_`.
+  /// Bind the shape with `bind_`, pose it, and return the posed points.
   Points posed(const SkinningMethodOptions& options, bool tets)
   {
     EXPECT_TRUE(this->bind_

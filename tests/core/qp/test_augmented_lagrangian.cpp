@@ -65,8 +65,9 @@ protected:
     return result;
   }
 
-  /// Remove the pairs whose `high` vertex is the fixed vertex of another column. The value there is
-  /// 0, so these pairs would contradict positive lower bounds or minimum differences.
+  /// Remove the pairs whose `high` vertex is the fixed vertex of another column. The value of this
+  /// vertex is the smallest value of the column, so the value of the `low` vertex cannot be
+  /// smaller. Such a pair would contradict a larger lower bound or a minimum difference.
   void remove_pairs_below_minima(std::size_t j)
   {
     std::vector<OrderedPair>& pairs = this->columns[j].pairs;

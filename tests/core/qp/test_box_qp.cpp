@@ -232,7 +232,8 @@ TEST(BoxQp, NeedsNoBoundsAndKeepsDistances)
   ASSERT_TRUE(half.status.ok());
   EXPECT_LE(half.w.head(n).maxCoeff(), 0.8);
   EXPECT_GT(half.w.maxCoeff(), 0.8);
-  // If the values at both ends are fixed, an order between the ends has the same effect as bounds.
+  // Add the constraint that values increase along x. All values are then between the fixed values 0
+  // and 0.55 of the two ends, so the bounds have no effect.
   for (Index row = 0; row < 2; ++row)
   {
     for (Index i = 0; i < n; ++i)
@@ -346,10 +347,11 @@ TEST_P(BoxQpStarts, FoundTogetherEndWhereOthersEnd)
   for (const double scale : { 1.0, 1e6, 1e-6 })
   {
     const SparseMatrix scaled = scale * q;
-    // The test compares two solutions of each column. On any processor, each of them has an error
-    // of up to 1.5e-6 for the tolerance 1e-6, and of up to 5e-9 for the tolerance 1e-9
-    // (box_qp_workspace.h). The interior-point method solves columns with a given start. Columns
-    // without a start are solved by another method. Slivers alone cause round-off errors of 1e-7.
+    // Each column is solved twice: without a start, and with a given start, for which the
+    // interior-point method is used. A solution may have an error of up to 1.5e-6 for the tolerance
+    // 1e-6, and of up to 5e-9 for the tolerance 1e-9 (converged_change() in box_qp_workspace.h).
+    // The limit `same` for the difference is twice this error. With slivers it is larger for the
+    // tolerance 1e-9, because round-off alone causes errors of 1e-7.
     for (const auto& [tolerance, same] :
       { std::pair{ 1e-6, 3e-6 }, std::pair{ 1e-9, GetParam() ? 1e-6 : 1e-8 } })
     {
@@ -408,8 +410,8 @@ TEST(BoxQp, ThreadsDoNotChangeABit)
     ASSERT_TRUE(qp.prepare(context).ok());
     const std::vector<BoxQpSolution> solutions = qp.solve_all(context, columns);
     EXPECT_EQ(qp.analyses(), 1);
-    // Q is factored once. One more factorization gives the starts of all columns together. Each
-    // column reports its other factorizations.
+    // Expect one factorization of Q, one for the starts of all columns (only with CHOLMOD), and the
+    // factorizations that each column reports.
     Index factorizations = SparseSolver::has_cholmod() ? 2 : 1;
     for (const BoxQpSolution& solution : solutions)
     {

@@ -94,7 +94,7 @@ TEST(Segmentation, EqualsBruteForce)
       random.in_box(Vec3::Constant(0.2), Vec3::Constant(3.0)));
     if (mesh.tets.rows() > 12 && instance % 4 != 0)
     {
-      mesh = tet_box(2, 1, 1); // 2^18 labelings are slow, so this is rare
+      mesh = tet_box(2, 1, 1); // brute force is slow for 18 tets (2^18 labelings)
     }
     const Eigen::VectorXd w = noisy_winding_numbers(mesh.tets.rows(), random);
     SegmentationOptions options;

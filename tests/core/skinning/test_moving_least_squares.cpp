@@ -136,7 +136,7 @@ Vec3 reference_warp(
   }
   if (flat)
   {
-    moment(2, 2) = 1e3; // the large value forces the rotation to keep the plane
+    moment(2, 2) = 1e3; // large, so that the rotation's axis is the z axis
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Vec3 signs(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() > 0 ? 1 : -1);
@@ -256,7 +256,8 @@ TEST(MovingLeastSquares, MotionsAndScalesGoThrough)
     }
     const Points after = warped(moved(rest, change), changed, conjugate);
     EXPECT_LT(largest_distance(after, moved(posed, change)), 1e-8);
-    // Translate only the pose, even by large distances.
+    // If the same translation is applied to all handles of the pose, but not to the rest shape, it
+    // is also applied to the result. This is true for large translations, too.
     const Affine shift = affine(Eigen::Matrix3d::Identity(), Vec3(1e3, 2e3, flat ? 0 : -5e2));
     Pose shifted = pose;
     for (HandlePose& one : shifted)

@@ -36,7 +36,7 @@ Corners corners_of_triangle(const TriangleMesh& mesh, Index f)
 struct Shape
 {
   TriangleMesh mesh;
-  std::vector<Index> parts; ///< part of each triangle
+  std::vector<Index> parts; ///< #F: id of the part that contains the triangle
   Index count = 0;
 
   void add(const TriangleMesh& part)

@@ -191,7 +191,7 @@ TEST(SurfaceRepair, SolidsThatTouchAreTurnedOneByOne)
   const int count = 9;
   for (int i = 0; i < count; ++i)
   {
-    const int z = i / 2; // neighbors share an edge along z or a vertex, alternately
+    const int z = i / 2; // cubes 2k and 2k + 1 share an edge, cubes 2k - 1 and 2k a vertex
     const TriangleMesh cube = test::translated(test::cube(0.0, 1.0), Vec3(i, i, z));
     chain = i == 0 ? cube : test::join(chain, i % 2 ? test::flipped(cube) : cube);
   }

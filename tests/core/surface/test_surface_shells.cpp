@@ -125,8 +125,8 @@ TEST(SurfaceShells, TurnedShellsAreThoseOfATwinThatKnowsTheSolids)
   test::Random random(5);
   for (int round = 0; round < 6; ++round)
   {
-    // The cubes are in the cells of a lattice. Half of them contain a smaller cube, and half of
-    // these contain a third one.
+    // Each cell of a lattice contains a cube. With probability 1/2, the cube contains a smaller
+    // cube. With probability 1/2, the smaller cube contains a third cube.
     std::vector<Cube> cubes;
     const int along = 2 + 2 * round;
     for (int i = 0; i < along * along * along; ++i)

@@ -320,7 +320,7 @@ TEST(TetImprovement, HeldVerticesNeverGo)
   const Index inside = vertex_at(mesh, Vec3(0.5, 0.5, 0.5));
   const Index fresh = split_edge(mesh, inside, vertex_at(mesh, Vec3(0.5, 0.5, 0.75)), 1e-6);
   ImproveOptions options;
-  // No angle is below 0 degrees, so constrained vertices are never released.
+  // The release angle 0 means that constrained vertices never move.
   options.release_angle = 0.0;
   ExecutionContext context;
   Improvement done;
@@ -362,8 +362,8 @@ TEST(TetImprovement, BoundaryVerticesStayWhenTheBoundaryIsKept)
 
 TEST(TetImprovement, ContractionClosesNoHole)
 {
-  // The mesh is a ring around a hole that is one cell wide. Extra vertices are inserted anywhere on
-  // its edges.
+  // The mesh is a ring of eight cells around a hole of one cell. Random edges of the mesh are split
+  // by new vertices.
   const TetMesh box = test::tet_box(3, 3, 1, Vec3::Zero(), Vec3(3, 3, 1));
   int good = 0;
   for (int seed = 1; seed <= 20; ++seed)

@@ -117,10 +117,11 @@ TEST(TetQuality, CrumbsAndLoneTetsGo)
 
 TEST(TetQuality, TrianglesInFrontOfOthersForceFlatTets)
 {
-  // The mesh is a plate of 6 x 6 cells. The inscribed circles of its large triangles have the
-  // radius 0.0488. If all dihedral angles of a tet on such a triangle are at least 5 degrees, the
-  // tet is higher than 0.00427. In a thinner plate all tets must therefore be flat. In a thicker
-  // plate only the tets next to the needles at the rim must be flat.
+  // A tet is flat if a dihedral angle is below 5 degrees. The inscribed circles of the triangles on
+  // the top and bottom of the plate have the radius 0.0488. A tet on such a triangle that is not
+  // flat is therefore higher than 0.0488 tan(5 degrees) = 0.00427. In the plate of height 0.004
+  // this is impossible, so all tets are forced to be flat. In the plate of height 0.005, only tets
+  // at the rim are forced to be flat, because the triangles of the rim are needles.
   for (const double height : { 0.004, 0.005 })
   {
     TetMesh plate = test::tet_box(6, 6, 1);

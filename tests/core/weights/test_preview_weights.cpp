@@ -1,6 +1,6 @@
 // Preview weights: clamped biharmonic weights, which are shown while better weights are computed.
-// They are compared with biharmonic weights from a separate factorization. Their certificate is
-// checked too.
+// The tests compare preview weights with clamped biharmonic weights from a separate factorization,
+// and check the certificate of preview weights.
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/preview_weights.h"
 #include "weights/unconstrained_weights.h"

@@ -1,7 +1,7 @@
 // Additional terms of bounded and monotone weights: bounds and pins, rigidity, rigid sets, mirror
-// symmetry, few influences, and columns that sum to 1. The references are dense solvers (not
-// interior-point methods), exact equalities, convergence rates, and certificates that the tests
-// recompute from the quadratic form and the weights.
+// symmetry, few influences, and columns that sum to 1. The tests compare the weights with those of
+// dense solvers that are not interior-point methods. They also check exact equalities and
+// convergence rates, and recompute certificates from the quadratic form and the weights.
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/monotone_weights.h"
 #include "weights/unconstrained_weights.h"
@@ -401,7 +401,8 @@ TEST(WeightTerms, RigidSetsAreOneUnknown)
       }
     }
     gap += std::max(total * value, -total * (1.0 - value));
-    // The gap is an upper bound that is weaker than that of the certificate, so it may exceed 1e-9.
+    // This gap is a weaker upper bound than the gap of the certificate, so this gap may exceed the
+    // tolerance 1e-9.
     EXPECT_LE(gap / (0.5 * w.dot(g)), 5e-8);
   }
   // A rigid set may contain vertices of a part that has no handle. The set then connects this part
@@ -609,11 +610,12 @@ TEST(WeightTerms, CoupledColumnsSumToOne)
   EXPECT_LE(solved.result.row_sum_error, 1e-12);
   EXPECT_GT(separate.result.row_sum_error, 0.01);
   EXPECT_LE((w - solved.result.weights).cwiseAbs().maxCoeff(), 1e-12);
-  // Compute the second bound of the certificate (certificate.h) from the gradients g = Q w alone.
-  // The bound is valid for any multipliers of the rows' sums. Here the multiplier of a row is minus
-  // the mean of its gradients, weighted by the weights of the row. Values that are not at a bound
-  // contribute 1/2 r' A^-1 r, where A is the block of Q of the free vertices and r their gradients
-  // plus multipliers. All other values contribute the linear bound.
+  // Compute the second bound of the certificate (certificate.h) from w and the gradients g = Q w.
+  // The constraint that a row of w sums to 1 has a multiplier, and the bound is valid for any
+  // multipliers. Here the multiplier is minus the mean of the row of g, weighted by the row of w.
+  // Let A be the block of Q for the free vertices. Let r be g plus the multiplier where a Newton
+  // step of the value remains between 0 and 1, and 0 elsewhere. The nonzero entries of r
+  // contribute 1/2 r' A^-1 r, and all other values contribute the terms of the first bound.
   const Eigen::MatrixXd g = q * w;
   std::vector<Index> free;
   for (Index v = 0; v < w.rows(); ++v)

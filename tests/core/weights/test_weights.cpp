@@ -76,9 +76,9 @@ void expect_certified(
   EXPECT_EQ(result.analyses, 1);
 }
 
-/// Return the integral of (d^2 w / dx^2)^2 on a bar of length 1 and width 1. The certificate
-/// contains the energy 1/2 w^T Q w of a strip of width 2 / n, with the mass divided by its largest
-/// entry.
+/// Return the integral of (d^2 w / dx^2)^2 on a bar of length 1 and width 1. The energy in the
+/// certificate is 1/2 w^T Q w for a bar of width 2 / n. The masses in Q are divided by the largest
+/// mass.
 double bar_energy(const Certificate& certificate, int n)
 {
   const double width = 4.0 / n * 0.5; // two rows of squares of height 1/n
@@ -268,7 +268,8 @@ TEST(Weights, TheSlotIsGoneAroundNotAcross)
   EXPECT_NEAR(mono.columns[0].certificate.energy / e, 1.1640, 1e-4);
   EXPECT_NEAR(box.raw(probe, 0), 2.69e-3, 2e-5);
   EXPECT_NEAR(mono.raw(probe, 0), 2.63e-3, 2e-5);
-  // Inverse-distance weights ignore the slot.
+  // Inverse-distance weights use distances across the slot, so the weight at the probe is much
+  // larger.
   const double da = 1.0 / (0.35 * 0.35);
   const double db = 1.0 / (0.15 * 0.15);
   EXPECT_NEAR(da / (da + db), 0.1552, 1e-4);
@@ -496,8 +497,8 @@ TEST(Weights, BudgetCancelAndBadOptions)
               .code,
     StatusCode::invalid_input);
 
-  // Cancel when the flag has been checked a given number of times. Both methods must return the
-  // status canceled.
+  // Request a cancel after `allowed_polls` checks for a cancel request. Bounded biharmonic weights
+  // and monotone weights must return the status canceled.
   for (const int allowed_polls : { 0, 1, 3, 10, 40 })
   {
     int poll_count = 0;

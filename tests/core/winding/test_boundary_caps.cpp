@@ -1,5 +1,5 @@
-// Caps are triangles that close an open surface along its boundary. Smaller caps are used where
-// possible.
+// Caps are triangles that close an open surface along its boundary. smaller_caps() replaces the
+// caps of a component by the component's reversed triangles if these are smaller.
 #include "winding/boundary_caps.h"
 
 #include "support/meshes.h"
@@ -57,8 +57,8 @@ TEST(BoundaryCaps, CloseAllOfSeveralParts)
   EXPECT_TRUE(open_edges(stacked(both.triangles, caps)).empty());
   EXPECT_EQ(caps.rows(), (130 - 2) + 2);
 
-  // The smaller caps of the strip are its own triangles, reversed. Those of the open cube are its
-  // missing face.
+  // The reversed triangles of the long strip are smaller than its caps and replace them. The caps
+  // of the open cube, which fill the missing face, are kept.
   const Triangles smaller = smaller_caps(both.points, both.triangles, caps);
   EXPECT_TRUE(open_edges(stacked(both.triangles, smaller)).empty());
   EXPECT_EQ(smaller.rows(), strip.triangles.rows() + 2);

@@ -191,8 +191,8 @@ TEST(CurveWindingNumber, JumpsByOneAcrossTheCurveAndNotAcrossChords)
     const double behind = winding.evaluate_at(Vec2(-1.0 - e, 0.25));
     EXPECT_NEAR(before - behind, 0.0, e);
   }
-  // The points are on the missing side, on the line through it, or at the height of its ends. The
-  // winding number has no jump there, and no contact is reported.
+  // The points are on the missing side x = -1 or on the extension of this side. There is no segment
+  // at these points, so no contact is reported.
   bool on_curve = true;
   EXPECT_NEAR(winding.evaluate_at(Vec2(-1, 0.25), &on_curve),
     curve_winding_number_direct(curve.points, curve.segments, Vec2(-1, 0.25)), 1e-15);

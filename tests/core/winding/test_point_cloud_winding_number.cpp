@@ -93,8 +93,8 @@ PointCloudWindingNumber build_winding(const Cloud& cloud,
   return winding;
 }
 
-/// Return query points in and around the box, at samples, and at distances of some spacings from
-/// samples.
+/// Return random query points. A third of them are in the box [-1.5, 1.5]^3. Of the others, a few
+/// are at samples, and the rest differ from a sample by up to 16 sample spacings along each axis.
 Points queries_around(const Cloud& cloud, Index count, std::uint64_t seed)
 {
   test::Random random(seed);

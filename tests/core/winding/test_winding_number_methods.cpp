@@ -113,8 +113,8 @@ Vec3 lattice_point(test::Random& random)
     Vec3::Constant(1.25);
 }
 
-/// Return a bumpy sphere and a torus that passes through it. The cap of the sphere beyond the plane
-/// at distance 1 - `hole` from its center is removed.
+/// Return a bumpy sphere around the origin and a torus that crosses the sphere. The part of the
+/// sphere beyond a plane is removed. The distance of the plane from the origin is 1 - `hole`.
 TriangleMesh unclean_surface(int levels, double hole)
 {
   TriangleMesh mesh = test::sphere(levels);
@@ -289,9 +289,10 @@ TEST(WindingMethods, ThinTrianglesDoNotFlip)
 TEST(WindingMethods, SliversAreSeenUnderTheAngleOfTheirRectangle)
 {
   // A rectangle with sides x and y subtends the solid angle atan(x y / (h sqrt(x^2 + y^2 + h^2)))
-  // at a point at height h above one of its corners. For other points, divide the rectangle into
-  // four rectangles. If h is about the width of the rectangle, the angle is a large fraction of the
-  // full solid angle, for any width. A width of 1e-14 is five times the tolerance for touching.
+  // at a point at height h above one of its corners. The query point is above the interior of the
+  // sliver, so the reference adds the angles of four rectangles that meet below the point. The
+  // height is about the width of the sliver, so the angle is large even if the sliver is extremely
+  // narrow. The smallest width, 1e-14, is about five times the tolerance for touching.
   const double xs[2] = { -0.7, 1.3 };
   for (const double width : { 1e-3, 1e-8, 1e-12, 1e-13, 1e-14 })
   {
@@ -339,9 +340,10 @@ TEST(WindingMethods, WhatIsNoTriangleCannotBeTouched)
 
 TEST(WindingMethods, FarFromTheOriginTouchingReachesAsFar)
 {
-  // A point touches a triangle if their distance is at most 2^-49 times the largest coordinate. At
-  // 1e6 this distance is 2e-9, which single precision cannot resolve on a unit sphere (1e-7). At
-  // 1e9 it is 2e-6, which single precision resolves. The closed sphere tests WindingCells, and the
+  // A point touches a triangle if their distance is at most 2^-49 times the largest coordinate. A
+  // unit sphere is moved far from the origin. At 1e6 the distance for touching is 2e-9, which is
+  // below the resolution 1e-7 of single precision on a unit sphere. At 1e9 the distance for
+  // touching is 2e-6, which is above this resolution. The closed sphere tests WindingCells, and the
   // loose triangles test DipoleField.
   const TriangleMesh sphere = test::sphere(2);
   TriangleMesh loose{ Points(3 * sphere.triangles.rows(), 3), sphere.triangles };
@@ -381,9 +383,10 @@ TEST(WindingMethods, FarFromTheOriginTouchingReachesAsFar)
 
 TEST(WindingMethods, AsSmallAsDoublesGet)
 {
-  // The vertices of a sphere have integer coordinates. The sphere is scaled so that the unit is the
-  // smallest positive double. The results must not change. Even after scaling by 2^1023, the
-  // largest factor, products of three such lengths can underflow to 0 in single precision.
+  // The vertices of a sphere have integer coordinates. Multiplying them by the smallest positive
+  // double must not change the results. The methods scale the tiny sphere up, but by at most
+  // 2^1023. Products of three of the scaled lengths can therefore still underflow to 0 in single
+  // precision.
   constexpr double unit = std::numeric_limits<double>::denorm_min();
   const TriangleMesh sphere = test::sphere(2);
   TriangleMesh mesh = sphere, tiny = sphere;
@@ -463,9 +466,9 @@ TEST(WindingMethods, AutomaticChoosesByCounts)
     WindingMethod::crossings);
   EXPECT_EQ(
     winding_by_method(test::sphere(3), WindingMethod::fast).method(), WindingMethod::crossings);
-  // Groups of triangles get separate vertices and are moved apart by about 1e-9 per group. With one
-  // triangle per group the result is a triangle soup. With 256 triangles per group it is a set of
-  // patches.
+  // Divide the triangles into groups of `group` triangles with separate vertices. Group number k is
+  // scaled by 1 + 1e-9 k, so that groups share no edges. Groups of one triangle form a triangle
+  // soup, and groups of 256 triangles form a set of patches.
   for (const Index group : { 1, 256 })
   {
     const TriangleMesh sphere = test::sphere(group == 1 ? 5 : 6);
@@ -493,8 +496,9 @@ TEST(WindingMethods, AutomaticChoosesByCounts)
 
 TEST(WindingMethods, TrianglesAsLargeAsTheSurfaceTakeLittleMemory)
 {
-  // Each tet is almost as large as the whole box. Without a limit, its faces would be entries of
-  // hundreds of cells.
+  // The surface consists of the faces of tets that are almost as large as the whole box. Each face
+  // overlaps hundreds of small cells. WindingCells must therefore use larger cells, which limit the
+  // number of pairs of a cell and a face.
   test::Random random(19);
   constexpr Index tets = 3000;
   TriangleMesh heap{ Points(4 * tets, 3), Triangles(4 * tets, 3) };
@@ -512,8 +516,8 @@ TEST(WindingMethods, TrianglesAsLargeAsTheSurfaceTakeLittleMemory)
   }
   const WindingNumber winding = winding_by_method(heap, WindingMethod::automatic);
   EXPECT_EQ(winding.method(), WindingMethod::crossings);
-  // The data structure has at most 16 entries per triangle and 100,000 additional entries. An entry
-  // has 30 bytes. The entries are stored in blocks that may be half empty.
+  // WindingCells stores at most 16 pairs (entries) per triangle and 100,000 additional entries. An
+  // entry has 30 bytes. The entries are stored in blocks that may be half empty.
   EXPECT_LT(static_cast<double>(winding.memory()), 64.0 * (16.0 * 4 * tets + 1e5));
   for (int i = 0; i < 20; ++i)
   {

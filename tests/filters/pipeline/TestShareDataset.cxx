@@ -146,8 +146,8 @@ TEST(ShareDataset, OneProcessGetsItsOwnData)
   share->UpdatePiece(0, 2, 0);
   EXPECT_EQ(share->GetOutput()->GetNumberOfPoints(), tets->GetNumberOfPoints());
   EXPECT_EQ(share->GetNumberOfExchanges(), 1);
-  // ParaView tries to replace the executive. The filter refuses executives of other classes,
-  // because they take no part in exchanges.
+  // ParaView tries to replace the executive of the filter. The filter keeps its own executive,
+  // because only this executive always takes part when the processes exchange data.
   vtkExecutive* own = share->GetExecutive();
   vtkNew<vtkCompositeDataPipeline> other;
   share->SetExecutive(other);
@@ -246,8 +246,8 @@ TEST(ShareDataset, FailuresAreThoseOfAllProcesses)
   const Silence silence;
   constexpr int processes = 3;
   // In the first two cases, a VTK filter fails on process 1, in RequestData or RequestInformation.
-  // In the third case, a Bindpose filter fails, but only on process 0: the other processes request
-  // its other pieces, which are empty.
+  // In the third case, a Bindpose filter fails, but only on process 0. The other processes request
+  // other pieces of the filter's output, which are empty.
   for (const auto& [pass, sentence] : { std::pair(FailingCopy::data, "process 1: an algorithm"),
          std::pair(FailingCopy::information, "process 1: an algorithm"),
          std::pair(FailingCopy::nowhere, "process 0: the dog ate it") })

@@ -9,7 +9,7 @@
 namespace bindpose::test
 {
 
-/// Receives requests to open folders instead of the desktop, and records their URLs.
+/// Handles requests to open folders in place of the desktop. Records the URLs and opens nothing.
 class OpenedFolders : public QObject
 {
   Q_OBJECT

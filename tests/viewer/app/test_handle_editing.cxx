@@ -1052,8 +1052,8 @@ TEST_F(HandleWindow, NothingIsClippedInASmallWindow)
   }
 }
 
-/// Each edit mode looks different. If BINDPOSE_PICTURES is set, images of the window are saved in
-/// this folder.
+/// Each edit mode looks different. If the environment variable BINDPOSE_PICTURES contains the path
+/// of a folder, images of the window are saved there.
 TEST_F(HandleWindow, EveryModeHasAPictureOfItsOwn)
 {
   const char* folder = std::getenv("BINDPOSE_PICTURES");

@@ -169,7 +169,7 @@ TEST_F(HandleList, WhatIsSelectedInThePictureIsSelectedInTheList)
   EXPECT_EQ(this->selected(), Indices({ 0, 1, 2, 3 }));
   this->click_handle("middle", Qt::ShiftModifier);
   EXPECT_EQ(this->selected(), Indices({ 0, 2, 3 }));
-  // Undo of a deletion selects the handles that it restores, by name.
+  // After a deletion is undone, the list, the panel and the view still show the same selection.
   this->user.trigger("delete");
   EXPECT_EQ(this->selected(), Indices());
   this->user.trigger("edit.undo");
@@ -213,7 +213,7 @@ TEST_F(HandleList, AModeIsForAllThatAreSelectedAndOneStep)
   EXPECT_EQ(this->mode(0), HandleMode::automatic);
   EXPECT_EQ(this->mode(2), HandleMode::automatic);
   EXPECT_EQ(this->modes()->currentIndex(), this->entry_of(HandleMode::automatic));
-  // Mode tail is available for bones only.
+  // The mode "tail" is available for bones only.
   EXPECT_FALSE(this->is_mode_available(HandleMode::tail));
   this->click(3);
   EXPECT_TRUE(this->is_mode_available(HandleMode::tail));
@@ -241,7 +241,8 @@ TEST_F(HandleList, TheWeightsPanelAndTheSelectionFollowEachOther)
   auto* box = weights->findChild<QComboBox*>("weights.column");
   box->setCurrentIndex(1 + 1);
   EXPECT_EQ(this->selected(), Indices({ 1 }));
-  // If several handles are selected, the weights of the last one are shown, and all stay selected.
+  // If several handles are selected, the panel shows the weights of the most recently selected one.
+  // All handles stay selected.
   this->click(2, Qt::ControlModifier);
   EXPECT_EQ(this->selected(), Indices({ 1, 2 }));
   EXPECT_EQ(weights->column(), 2);
@@ -253,8 +254,8 @@ TEST_F(HandleList, TheWeightsPanelAndTheSelectionFollowEachOther)
 
 namespace
 {
-/// A ball with a spine of three bones, two arms of three bones with five fingers each, and a point
-/// handle.
+/// A window with a ball and 17 handles: a point and 16 bones. The bones are a spine of two bones,
+/// two arms of two bones each, and five fingers per arm.
 class HandleTreeWindow : public test::WindowTest
 {
 protected:

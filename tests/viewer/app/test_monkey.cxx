@@ -131,9 +131,9 @@ std::string steps_of(const QUndoStack* history)
   return text;
 }
 
-/// Remove the fingerprints of options that the program may set when a file is opened. These are the
-/// visible side of tets and, if the orientation of a plane differs from that in `other`, the
-/// orientation and normal of the plane.
+/// Remove the fingerprints of options that the program may set when it opens a file. One option is
+/// always removed: which side of the cut through tets is kept. The orientation and the normal of a
+/// plane are removed if the orientation differs from that in `other`.
 Fingerprints without_options_of_opening(Fingerprints all, const Fingerprints& other)
 {
   all.erase("option tets.other_side");

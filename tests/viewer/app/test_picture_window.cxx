@@ -155,7 +155,7 @@ protected:
                           << background[2];
     }
     EXPECT_GT(partly_covered, 500) << "edges are partly covered";
-    // The background is clear.
+    // The background is fully transparent.
     EXPECT_EQ(
       pixel_of(transparent_picture, transparent_picture->GetDimensions()[0] - 4, 4).alpha(), 0);
   }

@@ -137,8 +137,8 @@ protected:
   void undo() { this->user.trigger("edit.undo"); }
   void redo() { this->user.trigger("edit.redo"); }
 
-  /// Begin to drag a plane perpendicular to z between two z coordinates. The mouse button stays
-  /// down.
+  /// Drag a plane that is perpendicular to z from z = `from` to z = `to`. The mouse button stays
+  /// down until end_drag().
   void begin_drag(double from, double to)
   {
     const QPoint start = this->pixel(Vec3(0.4, 0.3, from));

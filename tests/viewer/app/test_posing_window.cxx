@@ -209,7 +209,9 @@ TEST_F(PosingWindow, EveryMethodGivesWhatItsPoserGives)
     EXPECT_GT((this->points() - source->points).cwiseAbs().maxCoeff(), 0.05) << method;
     if (is_slow(static_cast<PoseMethod>(method)))
     {
-      continue; // this method is solved in slices, see Poser.ASolveInSlicesIsTheFilterRunInSlices
+      // The window solves this method in slices of a few iterations. The test
+      // Poser.ASolveInSlicesIsTheFilterRunInSlices compares slices with the filter.
+      continue;
     }
     ExecutionContext context;
     const PoseOptions options = this->panel()->options();
@@ -260,7 +262,7 @@ TEST_F(PosingWindow, DragsDoNotBindAgain)
 
 TEST_F(PosingWindow, FullArapFollowsTheMouseAndStartsAgainWhenItMovesOn)
 {
-  this->open(5); // a slice of the solve takes a while with 20480 triangles
+  this->open(5); // 20480 triangles, so that even a few iterations of the solve take some time
   this->choose(PoseMethod::full_arap);
   ASSERT_TRUE(this->wait_until_settled());
   app::posing::Deformation* deformation = this->posing()->deformation();
@@ -271,7 +273,8 @@ TEST_F(PosingWindow, FullArapFollowsTheMouseAndStartsAgainWhenItMovesOn)
     clock.start();
     this->apply_pose(this->bent(0.05 * move));
     longest = std::max(longest, 1e-6 * static_cast<double>(clock.nsecsElapsed()));
-    // Pause after every second move, so that the slices of the solve become larger.
+    // The window solves in slices of a few iterations, which become longer while the pose does not
+    // change. Pause after every second move, so that the next move cancels a long slice.
     const Points before = deformation->points();
     EXPECT_TRUE(wait_for([&] { return deformation->points() != before; }, 20));
     if (move % 2 == 0)
@@ -288,7 +291,8 @@ TEST_F(PosingWindow, FullArapFollowsTheMouseAndStartsAgainWhenItMovesOn)
   EXPECT_GT(deformation->restarts(), 0);
   ASSERT_TRUE(this->wait_until_settled());
   EXPECT_TRUE(deformation->status().usable());
-  // A solve that has been started again ends near the result of a solve from rest.
+  // Each canceled solve continued from its current shape with the new pose. The final shape must be
+  // close to the result of a solve that starts at the rest pose.
   auto source = std::make_shared<PoseSource>();
   ASSERT_TRUE(to_pose_source(this->surface, nullptr, this->handles, *source).ok());
   ExecutionContext context;
@@ -1011,7 +1015,7 @@ TEST_F(PosingWindow, BonesMayBeHeldByAnEnd)
   EXPECT_EQ(this->window.error(), QString());
   EXPECT_TRUE(texts().contains("lower   (tail)")) << texts().join(", ").toStdString();
   EXPECT_TRUE(texts().contains("upper   (ends)"));
-  // Modes tail and ends can be chosen for bones only.
+  // The modes "tail" and "ends" can be chosen for bones only.
   for (QComboBox* box : this->part<app::handles::SidePanel>()->findChildren<QComboBox*>())
   {
     const int ends = box->findText("a bone's ends");
@@ -1274,8 +1278,8 @@ TEST_F(PosingWindow, NoTextIsClipped)
   }
 }
 
-/// Each state of the window looks different from the previous one, and no view is empty. If
-/// BINDPOSE_PICTURES is set, images are saved in this folder.
+/// Each state of the window looks different from the previous one, and no view is empty. If the
+/// environment variable BINDPOSE_PICTURES contains the path of a folder, images are saved there.
 TEST_F(PosingWindow, EveryStateHasAPictureOfItsOwn)
 {
   const char* folder = std::getenv("BINDPOSE_PICTURES");
@@ -1330,8 +1334,9 @@ TEST_F(PosingWindow, EveryStateHasAPictureOfItsOwn)
   save("poses");
 }
 
-/// A drag that was started by a key needs no mouse button. Any other change of the pose ends this
-/// drag. Otherwise Esc would restore the state before both changes.
+/// A drag that was started by a key needs no mouse button, so the pose can change in another way
+/// during the drag. Such a change ends the drag. If the drag continued, Esc would also revert the
+/// other change.
 TEST_F(PosingWindow, AScrubEndsADragWithoutAButton)
 {
   this->open();

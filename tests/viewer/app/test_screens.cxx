@@ -153,7 +153,7 @@ TEST_F(Screens, WhatIsSeenAtRestHasSmoothEdges)
   clock.start();
   wait_for([&clock] { return clock.elapsed() > 1000; });
   const QImage seen = this->part<app::view::Viewport>()->grabFramebuffer();
-  EXPECT_EQ(seen, this->picture()); // the view has all samples of antialiasing
+  EXPECT_EQ(seen, this->picture()); // picture() always renders with antialiasing
 }
 
 TEST_F(Screens, AFileThatIsReadIsNotReadAgain)

@@ -163,7 +163,8 @@ def test_tets_inside_out(tets):
     whole = tets.run("render", "tets.vtu", "--section", "none", *small, "w.png").is_good().report["picture"]["tets"]
     counts = tets.run("info", "tets.vtu", "--report", "-").is_good().report["counts"]
     assert whole == counts["tets"]
-    # A cut keeps the tets on one side of the plane, and the reversed cut keeps the others. Together they are all tets.
+    # A cut removes the tets between the plane and the camera. Views from the front and from behind together draw every
+    # tet exactly once.
     front = tets.run("render", "tets.vtu", "--section", "z=0.01", *small, "f.png").is_good().report["picture"]["tets"]
     back = tets.run("render", "tets.vtu", "--section", "0,0,1@0,0,0.01", "--azimuth", "180", *small, "b.png")
     assert 0 < front < whole and front + back.is_good().report["picture"]["tets"] == whole

@@ -120,8 +120,8 @@ def test_a_character_is_bound_again_to_its_own_rig(folder):
 
 
 def test_helper_joints_that_share_vertices_are_skipped(folder):
-    # The skin in the file is a placeholder, so every joint gets weights. The joints target and pole of a foot have the
-    # same nearest vertex.
+    # The skin in the file is a placeholder, so every joint gets weights. A foot has two helper joints, named "target.L"
+    # and "pole.L", with the same nearest vertex.
     foreign_rig.write_foreign_rig(folder / "c.gltf", animations=1, placeholder=True)
     run = folder.run("weights", "c.gltf", "--handles", "c.gltf", "-o", "w.vtp").is_good()
     skips = [line for line in warnings_of(run) if "skipped" in line]

@@ -50,7 +50,8 @@ inline int save_until_killed(const char* path)
   }
 }
 
-/// Run with an autosave in the folder until the process is killed.
+/// Save one unchanged session with Autosave in the folder `root`, then wait until the process is
+/// killed.
 inline int autosave_until_killed(const char* root)
 {
   Session session;
@@ -66,8 +67,8 @@ inline double seconds_now()
   return 1e-3 * static_cast<double>(QDateTime::currentMSecsSinceEpoch() % (1LL << 40));
 }
 
-/// Change the work every 20 ms, with an autosave in the folder, until the process is killed. The
-/// stretch of the first handle is the current time in seconds.
+/// Change the work every 20 ms until the process is killed, while Autosave saves the work in the
+/// folder `root`. A change sets the stretch of the first handle to the current time in seconds.
 inline int change_until_killed(const char* root)
 {
   Session session;

@@ -124,8 +124,8 @@ TEST(Sessions, ComeBackToTheLastBit)
   EXPECT_EQ(back.view.camera->position, session.view.camera->position);
   EXPECT_EQ(back.view.camera->angle, 22.5);
   EXPECT_TRUE(back.view.camera->parallel);
-  // The document of the saved session equals that of the read session. It is bound and gives the
-  // reason to bind again.
+  // The document that was read equals the document that was saved. The document is bound, and its
+  // rebind_reason() names the change since the last bind.
   Document before;
   before.replace(session.work);
   Document after;
@@ -461,7 +461,8 @@ TEST(Sessions, BrokenOnesGiveOneSentence)
   {
     expect_refused(whole.substr(0, size), "cut");
   }
-  // Replace every value by a value of every wrong type, and remove it.
+  // Replace one value of the file at a time: by a text, a number, an array, an object, true and
+  // null.
   const auto flat = good.flatten();
   const std::vector<json> wrong_values = { json("text"), json(-7.5e300), json(json::array()),
     json(json::object()), json(true), json() };
@@ -476,7 +477,8 @@ TEST(Sessions, BrokenOnesGiveOneSentence)
       Session result;
       const Status status = read_session(text(folder / "maybe.bindpose"), result);
       ++tried;
-      // Some replacements are valid. The work that is read from a valid file must be usable.
+      // Some of the changed files are valid, for example if a text has replaced a text. The work
+      // that is read from a valid file must be usable.
       if (status.ok())
       {
         Document document;
@@ -491,6 +493,7 @@ TEST(Sessions, BrokenOnesGiveOneSentence)
     }
   }
   EXPECT_GT(tried, 500);
+  // A file without one of the top-level keys is refused.
   for (const auto& [key, value] : good.items())
   {
     json changed = good;

@@ -190,7 +190,7 @@ TEST(Plane, IsFoundWhateverItIs)
   EXPECT_LT((normal - Vec3(0, -1, 0)).norm(), 1e-9);
   ASSERT_TRUE(find_plane(Points(square * tilted.transpose()), normal));
   EXPECT_LT((normal - tilted.col(2)).norm(), 1e-9);
-  Points lopsided = square; // its bounding-box center is not in its plane
+  Points lopsided = square; // after tilting, the center of the bounding box is not in the plane
   lopsided.col(1) += square.col(0).cwiseAbs2();
   ASSERT_TRUE(find_plane(Points(lopsided * tilted.transpose()), normal));
   EXPECT_LT((normal - tilted.col(2)).norm(), 1e-9);

@@ -1,5 +1,5 @@
-// Color maps have the documented properties, such as steps of lightness and colors for the
-// color-blind.
+// Color maps have the documented properties. For example, each band is darker than the previous
+// one, and viewers with color blindness can distinguish the colors of winding numbers.
 #include "scene/colors.h"
 
 #include "vtkMath.h"

@@ -206,7 +206,7 @@ TEST(MovedSurfaceMapper, ShapesFarFromTheOriginKeepTheirPlaces)
 
 TEST(MovedSurfaceMapper, BoundsAreThoseOfWhatIsDrawn)
 {
-  TriangleMesh mesh = test::sphere(5, 2.0); // more points than one thread processes per block
+  TriangleMesh mesh = test::sphere(5, 2.0); // enough points for several parallel blocks
   const Index count = mesh.points.rows();
   mesh.points.conservativeResize(count + 1, 3);
   mesh.points.row(count) << 100.0, 100.0, 100.0; // no triangle uses this point

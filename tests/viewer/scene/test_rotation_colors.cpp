@@ -23,7 +23,7 @@ using testing::HasSubstr;
 
 namespace
 {
-/// Return a sphere with `count` clusters, which are slices around its axis.
+/// Return a sphere with `count` clusters, which are equal sectors around the z axis.
 vtkSmartPointer<vtkPolyData> slices(const TriangleMesh& ball, int count)
 {
   auto data = to_polydata(ball.points, ball.triangles);
@@ -56,7 +56,7 @@ TEST(RotationColors, ACellHasTheClusterOfMostOfItsPoints)
   data->GetPointData()->AddArray(clusters);
   const auto cell_clusters = clusters_of_cells(data);
   EXPECT_EQ(cell_clusters->GetValue(0), 2.0);
-  EXPECT_EQ(cell_clusters->GetValue(1), 1.0); // the lower of two equally frequent clusters
+  EXPECT_EQ(cell_clusters->GetValue(1), 1.0); // two clusters tie, and the lower id wins
   EXPECT_EQ(cell_clusters->GetValue(2), 1.0); // points without a cluster do not count
   clusters->Fill(-1);
   EXPECT_EQ(clusters_of_cells(data)->GetValue(0), -1.0);
@@ -65,7 +65,9 @@ TEST(RotationColors, ACellHasTheClusterOfMostOfItsPoints)
 TEST(RotationColors, ClustersThatTouchDiffer)
 {
   const TriangleMesh ball = test::sphere(4);
-  for (const int count : { 2, 5, 24, 25, 49 }) // the last count reuses the first color
+  // There are 24 colors. With 25 or 49 clusters, the colors repeat such that the last cluster would
+  // get the color of the first cluster, which it touches.
+  for (const int count : { 2, 5, 24, 25, 49 })
   {
     const auto data = slices(ball, count);
     ASSERT_TRUE(check_clusters({ data }).ok());

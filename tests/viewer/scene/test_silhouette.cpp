@@ -103,7 +103,7 @@ TEST(Silhouette, OfASphereIsTheCircleThatTheEyeSees)
     length += (ball.points.row(edge[0]) - ball.points.row(edge[1])).norm();
   }
   const double circle = 2.0 * EIGEN_PI * std::sqrt(1.0 - 1.0 / (distance * distance));
-  EXPECT_GT(length, circle); // longer, because the silhouette zigzags
+  EXPECT_GT(length, circle); // the silhouette zigzags along mesh edges
   EXPECT_LT(length, 1.5 * circle);
 }
 

@@ -582,8 +582,9 @@ TEST(HandleGizmo, ATwistByTheMouseIsTheAngleAroundTheBone)
 
 TEST(HandleGizmo, StretchableBonesReadWhatTheWidgetWrites)
 {
-  // The whole mesh has the weight 1 for one bone. Points at its tail move to the tail that is
-  // drawn, and rotate by the twist at the tail. Points at its head rotate by the twist at the head.
+  // All points of the mesh have the weight 1 for a single bone. Points at the tail of the bone move
+  // with the tail that the widget draws, and rotate by the twist at the tail. Points at the head
+  // rotate by the twist at the head.
   GizmoStage stage({ bone("b", Vec3(-0.6, 0, 0), Vec3(0.8, 0, 0)) });
   const Eigen::Vector2d knob = stage.grip(Representation::STRETCH);
   stage.drag_pixels(knob, knob + 0.4 * stage.screen_direction(Vec3::UnitX()));

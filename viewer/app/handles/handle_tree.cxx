@@ -68,7 +68,7 @@ QIcon kind_icon(HandleKind kind)
     painter.end();
     pixmap.setDevicePixelRatio(scale);
     icon.addPixmap(pixmap);
-    icon.addPixmap(pixmap, QIcon::Selected); // otherwise the style tints the icon of a selected row
+    icon.addPixmap(pixmap, QIcon::Selected); // keeps the icon of a selected row untinted
   }
   return icon;
 }

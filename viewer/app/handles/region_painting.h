@@ -67,7 +67,7 @@ private:
   view::Viewport* viewport_;
   bool active_ = false;
   vtkSmartPointer<vtkPolyData>
-    painted_surface_; ///< shallow copy of the surface with its own labels
+    painted_surface_; ///< shallow copy of the surface, with a separate array RegionId
   std::string region_; ///< name of the region's handle
 };
 

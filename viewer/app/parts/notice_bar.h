@@ -28,8 +28,8 @@ public:
 
   explicit NoticeBar(QWidget* parent);
 
-  /// Show a sentence with buttons, in place of the current ones. `close` is the text of the button
-  /// that only hides the bar; empty: no such button.
+  /// Replace the sentence and all buttons, and show the bar. `close` is the text of an additional
+  /// button that only hides the bar; empty: no such button.
   void offer(const QString& message, const QList<Choice>& choices, const QString& close);
   /// Replace the sentence and keep the buttons.
   void set_message(const QString& message, const QString& tool_tip = QString());

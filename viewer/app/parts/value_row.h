@@ -24,7 +24,7 @@ public:
   /// Let the argument of choose() be a fraction of the range, from 0 to 1, instead of a value.
   void set_option_is_fraction() { this->option_is_fraction_ = true; }
   /// Set the value and emit value_chosen(), as if a user had chosen the value. `option` is the
-  /// value, or a fraction of the range after set_option_is_fraction().
+  /// value or, if set_option_is_fraction() was called, a fraction of the range.
   void choose(double option);
   QSlider* slider() const { return this->slider_; }
   QDoubleSpinBox* field() const { return this->field_; }

@@ -57,7 +57,7 @@ void BodyMotion::begin()
   this->points_.resize(0, 3);
   if (!this->source_ || this->job_.is_running())
   {
-    return; // bound() calls begin() again if necessary
+    return; // when a running bind has ended, bound() calls begin() again or restarts the body
   }
   const PoseOptions options = this->panel_->options();
   this->body_ = std::make_shared<Body>(this->source_);

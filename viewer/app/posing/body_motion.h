@@ -29,9 +29,11 @@ public:
   BodyMotion(
     PosePanel* panel, std::function<bindpose::Pose(bool for_step)> pose, QObject* parent = nullptr);
 
-  /// Set the source to move; null: no source. The body is created by begin().
+  /// Set the source: the surface, its weights and its handles; null: nothing to move. begin()
+  /// creates the body.
   void set_source(std::shared_ptr<const bindpose::PoseSource> source);
-  /// Create a new body with the panel's options, at rest in the pose of the handles.
+  /// Create a new body with the panel's options. The body begins motionless, in the current pose of
+  /// the handles.
   void begin();
   void end();
   /// Apply changed options of the panel. If the new options need another bind, create a new body.

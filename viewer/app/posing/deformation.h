@@ -14,12 +14,13 @@ namespace app::posing
 
 /// Poses the surface of the window with one method, fast or slow, without blocking the window.
 /// - Long binds run in the background.
-/// - After the bind, skinning and reduced as-rigid-as-possible pose immediately.
-/// - The slow methods solve in slices, a few iterations at a time, in the background. Every new
-///   pose begins with a short slice, which a drag does not interrupt, so that the shape follows
-///   the mouse. While the mouse rests, slices become longer until the solve has converged. When
-///   the handle moves again, a long slice is canceled, and the solve continues from its current
-///   state with the new pose.
+/// - The fast methods (skinning and reduced as-rigid-as-possible) compute each pose immediately,
+///   once they are bound.
+/// - The slow methods solve in slices of a few iterations, in the background. Every new pose begins
+///   with a short slice, which a drag does not interrupt, so that the shape follows the mouse.
+///   While the mouse rests, slices become longer until the solve has converged. When a handle moves
+///   again, a long slice is canceled, and the solve continues from its current state with the new
+///   pose.
 class Deformation : public QObject
 {
   Q_OBJECT
@@ -28,7 +29,8 @@ public:
   explicit Deformation(QObject* parent = nullptr);
   ~Deformation() override;
 
-  /// Set the source to pose; null: no source. Binds of another source are discarded.
+  /// Set the source: the surface, its weights and its handles; null: nothing to pose. All binds of
+  /// the previous source are discarded.
   void set_source(std::shared_ptr<const bindpose::PoseSource> source);
   const bindpose::PoseSource* source() const { return this->source_.get(); }
   void set_options(const bindpose::PoseOptions& options);
@@ -36,14 +38,14 @@ public:
   /// Report whether there is a source, and weights if the method needs them.
   bool can_pose() const;
 
-  /// Request the surface in this pose. The surface is computed immediately if the method is fast
-  /// and its bind has ended or is short. Otherwise it is computed in the background.
+  /// Request the surface in this pose. A fast method computes the surface immediately, unless it
+  /// must run a long bind first. In all other cases the surface is computed in the background.
   void set_pose(const bindpose::Pose& pose);
-  /// Cancel a running bind or solve. It starts again after bind() or after a change of the source
-  /// or the options.
+  /// Cancel a running bind or solve. A call of bind(), or a change of the source or the options,
+  /// starts the canceled work again.
   void cancel();
   bool is_canceled() const { return this->canceled_; }
-  /// Continue after cancel(): start the canceled bind or solve again.
+  /// Restart the bind or the solve that cancel() has canceled.
   void bind();
 
   /// Return the points of the last computed pose. Before a pose was computed, return the points of
@@ -51,8 +53,8 @@ public:
   const bindpose::Points& points() const { return this->points_; }
   /// Return the status of points(), with the kernel's report.
   const bindpose::Status& status() const { return this->status_; }
-  /// Return the transforms of the handles that a fast method computed for points(). Return null if
-  /// the method is slow or computes no transforms.
+  /// Return the handles' transforms that a fast method has computed together with points(). Return
+  /// null if the method is slow or computes no transforms.
   const std::vector<bindpose::Affine>* found();
   /// Return the rotations that the method fitted for points(); null if it fits none.
   const bindpose::PoseRotations* rotations();
@@ -61,7 +63,7 @@ public:
   bool is_settled() const { return this->settled_; }
   /// Return the reason why the current pose could not be computed: one sentence, or empty.
   const QString& error() const { return this->error_; }
-  /// Return the number of binds that were made for the source, with all methods.
+  /// Return the total number of binds of all methods for the current source.
   bindpose::Index binds() const;
   /// Return how many running solves were canceled because a handle had moved again.
   int restarts() const { return this->restarts_; }

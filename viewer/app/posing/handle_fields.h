@@ -33,11 +33,11 @@ public:
   /// determine which part is in front. Empty: the shape is not planar, or no handle is selected.
   void show_layer(const std::optional<double>& layer);
   /// Show the number of selected handles, and the name of the handle whose values are displayed.
-  /// The line is visible only if several handles are selected.
+  /// This text is visible only if several handles are selected.
   void show_count(const QString& name, int count);
   bindpose::HandleValues values() const;
-  /// Return a field by its index. The order is: translate x y z, rotate x y z, scale, stretch,
-  /// twist at head and tail.
+  /// Return a field by its index: 0 to 2 translation along x, y, z; 3 to 5 rotation about x, y, z;
+  /// 6 scale; 7 stretch; 8 twist at the head; 9 twist at the tail.
   QDoubleSpinBox* field(int index) const { return this->fields_[static_cast<std::size_t>(index)]; }
   QDoubleSpinBox* layer() const { return this->layer_; }
 

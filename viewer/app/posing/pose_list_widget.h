@@ -11,7 +11,8 @@ class QSlider;
 namespace app::posing
 {
 
-/// The list of stored poses: store, rename (by a double click), apply, blend, delete.
+/// A list of the stored poses. Users store the current pose, and rename (by a double click), apply,
+/// blend or delete a stored pose.
 class PoseListWidget : public QWidget
 {
   Q_OBJECT

@@ -229,8 +229,8 @@ void PoseController::options_changed()
   Q_EMIT this->moved();
 }
 
-/// Update how the 3D view draws handles in mode automatic. It depends on whether the method
-/// computes the rotations of handles that are only translated.
+/// Update how the 3D view draws handles in mode automatic. They are drawn differently if the method
+/// computes rotations for handles that users only translate.
 void PoseController::update_automatic_modes()
 {
   const bool method_finds_rotations = finds_rotations(this->panels_.pose->options().method);

@@ -16,9 +16,9 @@ namespace app::posing
 class KeyStrip;
 class PoseListWidget;
 
-/// Manages the stored poses: named poses and key frames. It changes them when the list of poses or
-/// the strip of key frames requests a change, and it plays the key frames. This class does not set
-/// the pose of the handles; it requests a pose by signals.
+/// Manages the stored poses: named poses and key frames. This class changes the stored poses when
+/// the list of poses or the strip of key frames requests a change, and it plays the key frames. It
+/// does not set the pose of the handles, but requests a pose by signals.
 class StoredPoseManager : public QObject
 {
   Q_OBJECT
@@ -39,8 +39,8 @@ public:
 
 Q_SIGNALS:
   /// Emitted to request this pose of the handles. `step` is the name of the undo step. During
-  /// playback, scrubbing or blending `step` is empty, and pose_step_requested() is emitted at the
-  /// end.
+  /// playback, scrubbing and blending, `step` is empty; pose_step_requested() is emitted when the
+  /// playback, scrubbing or blending ends.
   void pose_requested(const bindpose::Pose& pose, const QString& step);
   void pose_step_requested(const QString& step);
   void stored_poses_changed(const QString& step);

@@ -53,7 +53,8 @@ public:
 
 Q_SIGNALS:
   void surface_look_changed();
-  /// Emitted when the first tets of the surface were computed, before the tets are shown.
+  /// Emitted when tets were computed and the surface had no tets before. The signal is emitted
+  /// before the tets are shown.
   void first_tets_computed();
   /// Emitted when the search of search_defects() has found defects. `counts` is a text with the
   /// counts per type.

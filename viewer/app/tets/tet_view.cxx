@@ -50,7 +50,7 @@ TetView::TetView(view::Viewport* viewport)
     actor->PickableOff();
     viewport->renderer()->AddActor(actor);
   }
-  this->plane_->draw_box(false); // not needed, because the tets show the extent of the box
+  this->plane_->draw_box(false); // no box is needed: the tets themselves show their extent
   this->settle_timer_.setSingleShot(true);
   this->settle_timer_.setInterval(250);
   QObject::connect(&this->settle_timer_, &QTimer::timeout, this, &TetView::update);

@@ -65,7 +65,8 @@ public:
   const bindpose::Coloring& coloring() const { return this->coloring_; }
 
   bindpose::Index shown_count() const { return this->is_shown() ? this->cut_.kept_count() : 0; }
-  /// Return the milliseconds that the last change of plane or size took, without drawing.
+  /// Return the milliseconds that the last update of the visible tets took, for example after the
+  /// plane was moved. The time for drawing is not included.
   double milliseconds() const { return this->milliseconds_; }
 
 Q_SIGNALS:

@@ -37,8 +37,8 @@ public:
   view::Viewport* viewport() const;
 
   // ---- The mouse on the 3D view; positions in pixels from its upper left corner ----
-  QPoint pixel_of_fractions(
-    double x, double y) const; ///< convert fractions of the view's width and height
+  /// Convert a position in fractions of the view's width and height to pixels.
+  QPoint pixel_of_fractions(double x, double y) const;
   /// Find the screen position of a posed handle, between its head (`bone_fraction` is 0) and its
   /// tail (1). Return a sentence if there is no such handle.
   QString find_handle_position(const QString& handle, double bone_fraction, QPoint& position) const;

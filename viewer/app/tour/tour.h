@@ -97,7 +97,8 @@ struct TourStep
   std::array<int, 2> size{ 0, 0 }; ///< window size to resize to
   TourPart part = TourPart::window; ///< the part that a screenshot shows
   int width = 0; ///< maximum width of a screenshot in pixels; 0: no limit
-  int scale = 1; ///< pixels of a screenshot of the view per pixel of the window, in each direction
+  /// For a screenshot of the view: each pixel of the view becomes `scale` by `scale` pixels.
+  int scale = 1;
   bool transparent = false; ///< true: a screenshot of the view has a transparent background
 
   TourRelation relation = TourRelation::is;
@@ -113,8 +114,8 @@ struct Tour
 {
   std::string name;
   std::array<int, 2> size{ 1280, 800 }; ///< size of the window, in pixels
-  /// Size of the 3D view in pixels. The window is resized until the view has this size, for any
-  /// font; 0: no fixed size.
+  /// Size of the 3D view in pixels; 0: no fixed size. The window is resized until the view has this
+  /// size, because the sizes of other widgets depend on the font.
   std::array<int, 2> view{ 0, 0 };
   double seconds = 300.0; ///< maximum duration of the tour
   std::vector<TourStep> steps;

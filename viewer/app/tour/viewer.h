@@ -34,8 +34,9 @@ int run_viewer(const std::vector<InitialFile>& files, bool auto_rig);
 /// Open all files that can be opened. The error bar shows the errors of the other files.
 void open_initial_files(window::MainWindow& window, const std::vector<InitialFile>& files);
 
-/// Run `bindpose view --play`: like run_viewer(), but a tour is played instead of user input. The
-/// user's list of recent files and recovered work are not read or changed.
+/// Run `bindpose view --play`: like run_viewer(), but a tour replaces the user's input. The user's
+/// list of recent files is not read or changed, and neither is work saved for recovery after a
+/// crash.
 bindpose::Status play_tour(
   const std::vector<InitialFile>& files, bool auto_rig, const TourRequest& request);
 

@@ -19,10 +19,11 @@ class Viewport;
 
 /// A plane in the 3D view that the user moves along its normal with the mouse. If the plane is free
 /// (not perpendicular to an axis), the user can also rotate it. This class draws only the outline
-/// of the plane; the owner of the object draws the cut.
+/// of the plane; the owner of the PlaneHandle draws the cut.
 ///
-/// Three values determine the plane, independently of the box: its orientation, its normal when it
-/// is free, and its relative position in the box, a fraction from 0 to 1.
+/// Three values determine the plane: its orientation, its normal (used only if the plane is free),
+/// and its relative position in the box, a fraction from 0 to 1. These values do not change when
+/// the box changes.
 class PlaneHandle : public QObject
 {
   Q_OBJECT

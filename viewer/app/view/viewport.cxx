@@ -131,7 +131,7 @@ Viewport::Viewport(QWidget* parent) : QVTKOpenGLNativeWidget(parent)
   this->window_->SetNumberOfLayers(2);
   this->legend_->SetLayer(1);
   this->legend_->InteractiveOff();
-  this->legend_->PreserveDepthBufferOn(); // because VolumeView reads the depths of the layer below
+  this->legend_->PreserveDepthBufferOn(); // keep the depths of the scene, which is layer 0
   this->window_->AddRenderer(this->legend_);
   this->handles_->SetInteractor(this->interactor());
   this->handles_->CreateDefaultRepresentation();
@@ -784,7 +784,7 @@ void Viewport::refresh()
         (dragging || std::exchange(this->first_picture_, false));
       this->window_->SetMultiSamples(coarse ? 0 : samples);
       this->window_->Render();
-      // restore the samples for code that renders without refresh()
+      // restore antialiasing for code that renders without refresh()
       this->window_->SetMultiSamples(samples);
       if (dragging || coarse)
       {

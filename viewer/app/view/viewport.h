@@ -61,8 +61,8 @@ public:
   /// Move the points of the surface to those of `posed`, a pose of the same surface.
   void move_surface(vtkPolyData* posed);
   void move_surface(bindpose::PointsView points);
-  /// Move the points of another drawn shape, for example the ghost. It must have the points and
-  /// cells of the surface, in another pose.
+  /// Move the points of another drawn shape, for example the ghost. The shape must have the points
+  /// and cells of the surface, in another pose.
   void move_shape(bindpose::ShadedSurface& shape, bindpose::PointsView points) const;
   /// Set the offset of each point (#V, world units) along the unit vector `eye_direction`, which
   /// points to the eye. In a planar shape the offsets determine which parts are in front. An empty
@@ -75,9 +75,10 @@ public:
   /// Set whether a translucent shape is drawn over the surface. Both shapes are then sorted by
   /// depth.
   void set_ghosted(bool ghosted);
-  /// Split the view: the surface is drawn in the left half, and the renderer `right_renderer` draws
-  /// `shape` in the right half, with the same camera. If both are null, the surface uses the whole
-  /// view again. The camera is moved so that all visible data stays visible in the narrower half.
+  /// Split the view into two halves with the same camera. The left half shows the surface. In the
+  /// right half, the renderer `right_renderer` draws `shape`. If `right_renderer` and `shape` are
+  /// null, the surface uses the whole view again. The camera is moved so that all visible data
+  /// stays visible in the narrower half.
   void set_split(vtkRenderer* right_renderer, vtkPolyData* shape);
   bool is_split() const { return this->right_renderer_ != nullptr; }
   /// Show a text at the top of the view. The window uses the text to state that the shape at rest
@@ -152,9 +153,9 @@ public:
   /// Reset the camera: show everything, seen from the direction in which it appears largest.
   void reset_view();
   /// Request that the view is drawn again. Several requests during one event result in one
-  /// rendering. With software rendering, the first frame of a surface and all frames during a drag
-  /// are drawn without antialiasing, which takes a fifth of the time. A quarter of a second later
-  /// the view is drawn again with antialiasing.
+  /// rendering. With software rendering, a frame without antialiasing takes only a fifth of the
+  /// time. The first frame of a surface and all frames during a drag are therefore drawn without
+  /// antialiasing. A quarter of a second later the view is drawn again with antialiasing.
   void refresh();
   /// Render an image of the view. Each pixel of the view becomes `scale` by `scale` pixels, with
   /// `scale` from 1 to 8. Lines, points, text and scalar bars are scaled, too. If `transparent` is
@@ -228,7 +229,7 @@ private:
   vtkSmartPointer<vtkPolyData> right_shape_;
   QString left_name_, right_name_, state_name_;
   QElapsedTimer since_start_;
-  // time of the last frame and smoothed time between frames, in seconds
+  // time at which the last frame was drawn, and smoothed duration of a frame; both in seconds
   double last_drawn_ = -1e9, frame_seconds_ = 0.0;
   // Rendered pixels per pixel of the window while take_picture() renders an image; otherwise 1.
   double picture_scale_ = 1.0;

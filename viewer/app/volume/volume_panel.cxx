@@ -146,8 +146,8 @@ VolumePanel::VolumePanel(QWidget* parent) : QFrame(parent)
   QObject::connect(this->level_, &parts::ValueRow::value_chosen, this,
     [this](double level)
     {
-      // Moving the level also shows the isosurface, because otherwise it would have no visible
-      // effect.
+      // Show the isosurface, because a change of the level has no visible effect while the
+      // isosurface is hidden.
       this->isosurface_->setChecked(true);
       Q_EMIT this->level_chosen(level);
     });

@@ -18,10 +18,10 @@ class ValueRow;
 namespace app::volume
 {
 
-/// The panel to the right of the 3D view for a volume of winding numbers. With it the user computes
-/// the volume of a surface, and shows the volume as a slice, an isosurface and a cloud (volume
-/// rendering). It also determines how the surface is drawn. Like SidePanel, it emits signals when
-/// the user requests something, and stores no data of the document.
+/// The panel to the right of the 3D view for a volume, i.e. winding numbers on a grid. In this
+/// panel the user computes the winding numbers of the surface, shows the volume as a slice, an
+/// isosurface and a cloud (volume rendering), and chooses how the surface is drawn. Like SidePanel,
+/// the panel emits signals when the user requests something, and stores no data of the document.
 class VolumePanel : public QFrame
 {
   Q_OBJECT

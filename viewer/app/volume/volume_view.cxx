@@ -1,5 +1,6 @@
-// Shows a volume in the 3D view. This class draws the slice, its colors and its contour, the
-// isosurface and the cloud. PlaneHandle moves and rotates the plane of the slice.
+// Shows a volume of winding numbers in the 3D view: as a colored slice with a contour line, as an
+// isosurface and as a cloud (volume rendering). PlaneHandle moves and rotates the plane of the
+// slice.
 #include "app/volume/volume_view.h"
 
 #include "app/view/viewport.h"
@@ -42,7 +43,7 @@ VolumeView::VolumeView(view::Viewport* viewport)
   this->slice_mapper_->InterpolateScalarsBeforeMappingOn();
   this->slice_mapper_->SetLookupTable(map.table);
   this->slice_mapper_->UseLookupTableScalarRangeOn();
-  // The contour has the same depth as the slice; draw it in front.
+  // Draw the contour in front of the slice, which has the same depth.
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
   this->slice_mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 2.0);
   this->slice_actor_->SetMapper(this->slice_mapper_);

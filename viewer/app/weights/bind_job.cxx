@@ -1,5 +1,5 @@
-// Computes weights in the background. The kernels run on copies of the data, with one execution
-// context.
+// Computes weights in the background. The kernels work on copies of the surface and the handles, so
+// the document can change during the computation.
 #include "app/weights/bind_job.h"
 
 #include "base/execution.h"

@@ -56,8 +56,8 @@ public:
 
 Q_SIGNALS:
   void surface_look_changed();
-  /// Emitted with one sentence if the requested data cannot be shown. The surface is then drawn
-  /// without its values.
+  /// Emitted with one sentence if the requested data cannot be shown. The plain surface is then
+  /// drawn.
   void failed(const QString& message);
   /// Emitted when the requested data is shown.
   void succeeded();
@@ -85,12 +85,12 @@ private:
   double compared_seconds_ = 0.0;
 };
 
-/// Add the result of a bind to a surface, as in a file that `bindpose weights --keep-raw` writes:
-/// the point arrays Weights and RawWeights, the columns' certificates, and the seconds in the
-/// report.
+/// Add the arrays with the result of a bind to `surface`: the point arrays Weights and RawWeights,
+/// the certificates of the columns, and the report with the seconds. A file that `bindpose weights
+/// --keep-raw` writes contains the same arrays.
 void add_weights(const BindResult& result, const bindpose::Handles& handles, vtkPolyData* surface);
-/// Return the tets on which the weights were solved, with the same arrays; null if the weights were
-/// solved on the surface itself.
+/// Return the tets on which the weights were solved, with the point arrays Weights and RawWeights.
+/// Return null if the weights were solved on the surface itself.
 vtkSmartPointer<vtkUnstructuredGrid> make_weighted_tets(
   const BindResult& result, const bindpose::Handles& handles);
 

@@ -33,7 +33,7 @@ WeightView::WeightView(view::Viewport* viewport)
   this->slice_mapper_->SetColorModeToMapScalars();
   this->slice_mapper_->UseLookupTableScalarRangeOn();
   this->slice_mapper_->SelectColorArray(color_array_name);
-  // Lines have the same depth as the surface under them; draw them in front.
+  // Draw isolines in front of the surface or slice under them, which has the same depth.
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
   this->slice_mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 2.0);
   this->slice_actor_->SetMapper(this->slice_mapper_);
@@ -59,9 +59,9 @@ WeightView::WeightView(view::Viewport* viewport)
   {
     renderer->AddActor(actor);
   }
-  this->balls_.face_eye(Vec3::Zero()); // initialize; there are no balls yet
+  this->balls_.face_eye(Vec3::Zero()); // hide the actors, because there are no balls yet
   renderer->AddObserver(vtkCommand::StartEvent, this, &WeightView::orient_balls);
-  this->plane_->draw_box(false); // not needed, because the surface shows the extent of the box
+  this->plane_->draw_box(false); // no box is needed: the surface shows the extent of the tets
   QObject::connect(this->plane_, &view::PlaneHandle::moved, this,
     [this]
     {
@@ -198,8 +198,8 @@ void WeightView::update_slice()
   this->slice_actor_->SetVisibility(shown);
   if (shown)
   {
-    // Move the plane slightly inside of the box, because at its lower end the tets only touch the
-    // plane.
+    // If the plane is at an end of the box, move the plane slightly inside. At the lower end the
+    // tets only touch the plane, so the slice would be empty.
     const auto [first, last] = this->plane_->positions();
     const double clamped_position = std::clamp(
       this->plane_->position(), first + 1e-6 * (last - first), last - 1e-6 * (last - first));

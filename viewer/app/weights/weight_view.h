@@ -27,8 +27,8 @@ namespace app::weights
 {
 
 /// Shows weights in the 3D view as colors, isolines and balls at their extrema. The weights are
-/// shown on the surface, posed or at rest, or on a slice through the tets that the mouse drags.
-/// PictureOptions determine the display, as in `bindpose render`.
+/// shown on the surface, posed or at rest, or on a slice through the tets. The mouse drags the
+/// slice. PictureOptions determine the display, as in `bindpose render`.
 class WeightView : public QObject
 {
   Q_OBJECT
@@ -43,8 +43,8 @@ public:
   void move_surface(vtkPolyData* shape);
 
   /// Show the weights. The options that are used are `array`, `component`, `color_by`, `minus`,
-  /// `bands`, `isolines`, `extrema` and `slice`. If the data has no such values, return an error
-  /// and show the plain surface.
+  /// `bands`, `isolines`, `extrema` and `slice`. If the data lacks the values that the options
+  /// request, return an error and show the plain surface.
   bindpose::Status show(const bindpose::PictureOptions& options);
   void hide();
   bool is_shown() const { return this->shown_; }

@@ -188,7 +188,7 @@ private:
   parts::BarStack* bars_ = nullptr; // stack of bars over the 3D view; contains the next five bars
   parts::ErrorBar* error_bar_ = nullptr;
   parts::NoticeBar* recovery_bar_ = nullptr;
-  /// Notes about missing files of a session, the outline of an image, and defects of a surface.
+  /// Shows notes, for example that a file of a session is missing or that the surface has defects.
   parts::NoticeBar* note_bar_ = nullptr;
   parts::NoticeBar* rebind_bar_ = nullptr;
   parts::NoticeBar* export_bar_ = nullptr; // shows what was exported and to which path

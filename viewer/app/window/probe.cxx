@@ -102,8 +102,8 @@ std::optional<double> shown_value(vtkPolyData* data, const Index* corners, const
     : std::nullopt;
 }
 
-/// Compute the part of the ray that is inside a box, as distances `from` and `to` from its origin.
-/// Return false if the ray misses the box.
+/// Compute the part of a ray that is inside a box. The part begins at distance `from` and ends at
+/// distance `to` from the origin of the ray. Return false if the ray misses the box.
 bool clip_to_box(const ViewRay& ray, const double* bounds, double& from, double& to)
 {
   from = 0.0;
@@ -556,7 +556,9 @@ QString Probe::defect(const ViewRay& ray) const
   const Points defect_points = to_ray_coordinates(ray, to_points(defects).view());
   const auto pick_radius = [&](double depth) { return parallel ? slope : slope * (eye + depth); };
   Index best = -1;
-  int best_kind = 4; // best candidate so far: 1 for a dot or edge, 3 for a face, 4 for none
+  // Kind of the best candidate so far: 1 dot or edge, 3 face, 4 no candidate yet. A smaller kind
+  // has priority.
+  int best_kind = 4;
   double best_depth = 1e300;
   Index cell = 0;
   vtkNew<vtkIdList> ids;

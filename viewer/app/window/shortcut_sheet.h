@@ -19,7 +19,8 @@ public:
   explicit ShortcutSheet(QWidget* parent);
 
   QTableWidget* table() const { return this->table_; }
-  /// Show only the rows that contain all words of the search text, and their headings.
+  /// Show only the rows that match, and the headings of these rows. A row matches if the row and
+  /// its heading together contain all words of the search text.
   void apply_search(const QString& words);
 
 private:

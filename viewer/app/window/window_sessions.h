@@ -68,8 +68,8 @@ public:
   bool confirm_close();
   /// Return the path of the session file; empty if there is none.
   QString path() const { return this->path_; }
-  /// Show the recovery bar if a crashed process has left work in the folder `root`; empty: the
-  /// default folder.
+  /// Show the recovery bar if the folder `root` contains work of a crashed process. If `root` is
+  /// empty, search the default folder.
   void offer_recovery(const QString& root = QString());
   Autosave* autosave() { return &this->autosave_; }
   /// Return the name for the window title: the name of the session file or, if there is none, the

@@ -54,8 +54,8 @@ void draw_handles(const ScreenView& view, const std::vector<HandleRecord>& recor
     const Color edge = selected ? appearance.selected : appearance.outline;
     const double growth = is_highlighted ? highlight_scale : 1.0;
     const double line = appearance.pixel_scale * outline_pixels * (selected ? 1.6 : 1.0);
-    // Surround the selected handle's outline with another one, so that it is visible on any
-    // background.
+    // A selected handle has two outlines: an inner one in the color `selected`, and an outer one in
+    // the color `outline`. On any background, at least one of the two is visible.
     const double rim = line + appearance.pixel_scale * outline_pixels;
     const auto add_ball = [&](const Vec3& center, double size)
     {

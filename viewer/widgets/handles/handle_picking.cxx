@@ -58,8 +58,8 @@ HandlePick pick_handle(const ScreenView& view, const std::vector<HandleRecord>& 
     }
     const Vector3d tail = view.to_display(record.tail);
     const double to_tail = (tail.head<2>() - mouse).norm();
-    // At a joint of two bones, prefer the tail. Users usually want to rotate the upper bone, and
-    // rarely to move the lower bone away from it.
+    // At a joint, prefer the tail of the parent bone to the head of the child bone. Users usually
+    // want to rotate the parent, and rarely to move the child away from the parent.
     if (to_tail <= end)
     {
       keep_if_best(HandlePart::tail, 1, to_tail, tail[2]);

@@ -16,8 +16,9 @@ namespace bindpose
 /// A color: red, green, blue in [0, 1].
 using Color = std::array<double, 3>;
 
-/// Collects balls, bones and the parts of a gizmo in one polydata with point normals and a color
-/// per point, oriented outward. One actor draws any number of handles.
+/// Collects balls, bones and the parts of a gizmo in one polydata, so that one actor can draw any
+/// number of handles. Each point has a color and a normal. Triangles and normals are oriented
+/// outward.
 class HandleShapes
 {
 public:

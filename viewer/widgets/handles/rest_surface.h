@@ -17,8 +17,8 @@ namespace bindpose
 
 /// The surface on which handles are placed or regions are painted. It owns a probe, the search
 /// structure for ray intersections and inside tests. The probe is built on demand, and built again
-/// after points or cells have changed. It does not depend on arrays, which may change with every
-/// move of the mouse.
+/// after points or cells have changed. The probe does not depend on data arrays, which may change
+/// with every move of the mouse.
 class RestSurface
 {
 public:
@@ -34,7 +34,7 @@ public:
   /// Return the points of the surface; valid after probe() has returned a probe.
   PointsView points() const { return this->input_.points.view(); }
   TrianglesView triangles() const { return this->input_.triangles.view(); }
-  /// Return the vertex of a triangle that is nearest to a position.
+  /// Return the position of the triangle's vertex that is nearest to `position`.
   Vec3 nearest_vertex(Index triangle, const Vec3& position) const;
   /// Return the center of the surface's bounding box; the origin without a surface.
   Vec3 center();

@@ -256,7 +256,7 @@ def write_picture(path: pathlib.Path, surface: vtkPolyData, points: Points, ours
     window.SetMultiSamples(0)
     window.SetAlphaBitPlanes(1)
     left = [solid, *cuts, legend(table), note("Winding number", (0.5, 0.94), bold=True),
-            note("one corner cut away; shown where |winding number| > 0.04", (0.5, 0.03))]
+            note("one corner is cut away; the cuts show |winding number| > 0.04", (0.5, 0.03))]
     right = [glass, *answers, note("Inside", (0.5, 0.94), bold=True),
              note("black: vtkSelectEnclosedPoints gives a different result", (0.5, 0.03))]
     for number, actors in enumerate((left, right)):
@@ -312,8 +312,8 @@ def main(options: argparse.Namespace) -> dict[str, Any]:
     print(f"{inside.sum()} of {len(points)} points are inside; winding numbers from {values.min():.2f} to {values.max():.2f};")
     print(f"method {values.report['method']}: {values.report['method_reason']}\n")
 
-    # Compare with VTK's own filter on the same points. The demo mesh also exists without holes, which gives the true
-    # result.
+    # Compare with VTK's own filter on the same points. The demo mesh also exists in a version without holes. An exact
+    # test with this closed version gives the correct result.
     print(f"  {'surface':<16} {'inside':>7} {'by VTK':>7} {'disagree':>9}    vtkSelectEnclosedPoints")
     closed = bindpose.read(quickstart.demo_mesh(options.output / "meshes", "elephant.off")) if demo else None
     truth = bindpose.contains(closed, points, method="exact") if demo else None
@@ -327,7 +327,7 @@ def main(options: argparse.Namespace) -> dict[str, Any]:
     if demo:
         compare("without holes", closed, points, numbers, truth)
 
-    # The tolerance is a parameter; the error is guaranteed to be smaller.
+    # The error of the fast method is guaranteed to be smaller than the parameter `tolerance`.
     few = points[:1000]
     exact = bindpose.winding_number(surface, few, method="exact")
     print(f"\n  exact: {1e6 * exact.report['seconds']['evaluate'] / len(few):8.2f} µs per point ({exact.report['method']})")

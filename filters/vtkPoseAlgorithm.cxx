@@ -202,8 +202,8 @@ bool vtkPoseAlgorithm::PosePoints(const std::string& pose, vtkDoubleArray* point
       const void* memory = points->GetNumberOfValues() > 0 ? points->GetVoidPointer(0) : nullptr;
       if (memory && memory == input.mesh->GetPoints()->GetVoidPointer(0))
       {
-        return Status::invalid_input(
-          "the points of a pose cannot be written into the mesh at rest");
+        return Status::invalid_input("the output array shares its memory with the points of the "
+                                     "mesh at rest; pass another array");
       }
       if (points->GetNumberOfComponents() != 3 ||
         points->GetNumberOfTuples() != input.points.rows())

@@ -122,7 +122,7 @@ private:
 };
 vtkStandardNewMacro(SharePipeline);
 
-/// The description of one process's part of the dataset, which the process sends to process 0.
+/// Describes one process's part of the dataset. Each process sends its description to process 0.
 struct Part
 {
   Status status;
@@ -315,7 +315,8 @@ Status check_parts(const std::vector<Part>& parts)
   return {};
 }
 
-/// The result of combining all parts, which process 0 sends to the other processes.
+/// Status and sizes after process 0 has checked or combined the parts. Process 0 sends them to the
+/// other processes.
 struct Outcome
 {
   Status status;
@@ -472,7 +473,8 @@ vtkExecutive* vtkShareDataset::CreateDefaultExecutive()
 
 void vtkShareDataset::SetExecutive(vtkExecutive* executive)
 {
-  // Ignore other executives: ParaView tries to replace the executives of all algorithms.
+  // Accept only executives of the class SharePipeline, because ParaView tries to replace the
+  // executives of all algorithms.
   if (!executive || dynamic_cast<SharePipeline*>(executive))
   {
     this->Superclass::SetExecutive(executive);
@@ -549,7 +551,7 @@ Status vtkShareDataset::Execute(
     }
     else if (status.ok() && vtkCompositeDataSet::SafeDownCast(part))
     {
-      status = Status::invalid_input("the input has blocks, which must be merged before");
+      status = Status::invalid_input("the input has blocks; merge them into one dataset first");
     }
     else if (status.ok() && !vtkPolyData::SafeDownCast(part) &&
       !vtkUnstructuredGrid::SafeDownCast(part))
@@ -690,14 +692,14 @@ Status vtkShareDataset::Exchange(vtkDataObject* part, const Status& part_status)
       status = status_of_process(
         [&]() -> Status
         {
-          // A new array, because an array that has taken memory from VTK's writer would free its
-          // own memory in the writer's way.
+          // Create a new array. If the old array contains memory of VTK's writer, it calls delete[]
+          // for all memory that it frees, even for memory from malloc().
           message = vtkSmartPointer<vtkCharArray>::New();
           message->SetNumberOfTuples(outcome.bytes);
           return {};
         });
     }
-    // Processes without memory for the whole cannot receive it.
+    // Send the dataset only if every process has allocated memory for it.
     int ready = status.ok() ? 1 : 0, all_ready = 0;
     if (!controller->AllReduce(&ready, &all_ready, 1, vtkCommunicator::MIN_OP))
     {

@@ -38,16 +38,17 @@ def make(options):
     for shape, name in zip(shapes, ("spheres", "tube")):
         reach = 1.1 * np.abs(shape[0][:, :2]).max()
         wide = 64 if options.small else 480
-        # Choose a plane that is not a plane of symmetry, where samples would be on edges of the surface.
+        # Sample at z = 0.0123. In the plane of symmetry z = 0, some samples would be on edges of the surface.
         field = bindpose.winding_number(shape, (wide, wide, 1), bounds=[-reach, reach, -reach, reach, 0.0123, 0.0123])
         random = np.random.default_rng(7).uniform(-reach, reach, (500 if options.small else 5000, 3))
         random[:, 2] *= 0.3
         values = bindpose.winding_number(shape, random)
         numbers[f"{name}: values"] = sorted({int(v) for v in np.rint(values)})
-        numbers[f"{name}: largest distance from an integer"] = float(max(
+        numbers[f"{name}: largest distance of a winding number from an integer"] = float(max(
             np.abs(values - np.rint(values)).max(), distance_off_surface(field)))
         if name == "spheres":
-            numbers["spheres: points with a wrong count"] = int((spheres_around(spheres, random) != values).sum())
+            numbers["spheres: points with a wrong winding number"] = int(
+                (spheres_around(spheres, random) != values).sum())
         else:
             some = random[:50]
             numbers["tube: error"] = float(np.abs(meshes.plain_winding_number(shape, some) - values[:50]).max())

@@ -74,7 +74,7 @@ def make(options):
     vertices = points_of(armadillo)
     covering = max(np.linalg.norm(vertices[k:k + 4096, None] - on_surface[None], axis=2).min(axis=1).max()
                    for k in range(0, len(vertices), 4096))
-    numbers["points on the surface: distance by covering radius"] = float(apart.min() / covering)
+    numbers["points on the surface: smallest distance divided by the covering radius"] = float(apart.min() / covering)
 
     tiles = [("bones", armadillo, bones, "bones along the curve skeleton", ["--azimuth", 20]),
              ("posed", posed, None, "all joints bent; colored by bone", ["--azimuth", 20, "--color", "handle"]),

@@ -58,16 +58,17 @@ def make(options):
             posed = bindpose.deform(weighted, handles, bend(degrees), method=method)
             points = points_of(posed)[outside]
             distance = np.minimum(to_segment(points, np.zeros(3), JOINT), to_segment(points, JOINT, tip))
-            numbers[f"{degrees} degrees, {name}, nearest"] = float(distance.min())
-            numbers[f"{degrees} degrees, {name}, farthest"] = float(distance.max())
-            numbers[f"{degrees} degrees, {name}, volume"] = volume(points_of(posed), tets) / volume(rest, tets)
-            numbers[f"{degrees} degrees, {name}, inside out"] = bindpose.report(posed)["counts"]["inverted_elements"]
+            numbers[f"{degrees} degrees, {name}: smallest distance from the axis"] = float(distance.min())
+            numbers[f"{degrees} degrees, {name}: largest distance from the axis"] = float(distance.max())
+            numbers[f"{degrees} degrees, {name}: volume relative to rest"] = (
+                volume(points_of(posed), tets) / volume(rest, tets))
+            numbers[f"{degrees} degrees, {name}: inverted tets"] = bindpose.report(posed)["counts"]["inverted_elements"]
             files.append(f"{method}-{degrees}.vtu")
             labels.append(f"{name}: {distance.min():.2f} to {distance.max():.2f}")
             bindpose.write(posed, options.scratch / files[-1])
     common.render(options, *files, "--columns", 3, "--size", "1500x1000", "--edges", "--elevation", 10, "--section", "none",
                   "--labels", ",".join(labels),
-                  "--title", "A bent elbow: distance of the outer side from the axis, 1 at rest")
+                  "--title", "A bent elbow: distance of the outer side from the axis, relative to rest")
     return numbers
 
 

@@ -111,7 +111,7 @@ def make(options):
         apart = np.linalg.norm(bent[pairs[:, 0]] - bent[pairs[:, 1]], axis=1).max(initial=0.0)
         numbers[f"{name}: triangles"] = report["counts"]["triangles"]
         numbers[f"{name}: defects"] = [report["counts"].get(defect, 0) for defect in DEFECTS]
-        numbers[f"{name}: largest gap of a certificate"] = report["relative_gap"]
+        numbers[f"{name}: largest relative gap of the weights"] = report["relative_gap"]
         numbers[f"{name}: largest gap between parts that touched"] = float(apart / np.linalg.norm(box[1] - box[0]))
         for kind, data in (("rest", mesh), ("bent", posed)):
             files.append(f"{name}-{kind}.vtp")

@@ -197,7 +197,8 @@ def make(options):
         np.column_stack([np.full(len(lines), len(points)), lines]), multiplicity, axis=0))
     values = np.array(vtk_to_numpy(field.GetOutput().GetPointData().GetArray("WindingNumber")))
     rest = values - meshes.plain_winding_number(fan, probes)
-    numbers["surface - fan, from an integer"] = float(np.abs(rest - np.rint(rest)).max())
+    numbers["surface minus fan: largest distance of the winding number from an integer"] = float(
+        np.abs(rest - np.rint(rest)).max())
     draw(options.picture, to_dataset(mesh), boundary, lines, multiplicity, columns)
     return numbers
 

@@ -54,14 +54,15 @@ def make(options):
             report = bindpose.report(posed)
             at = points_of(posed)[ring]
             kept = float(np.hypot(at[:, 1], at[:, 2]).mean())
-            numbers[f"{name}, {degrees} degrees, radius"] = kept
-            numbers[f"{name}, {degrees} degrees, inside out"] = report["counts"]["inverted_elements"]
-            numbers[f"{name}, {degrees} degrees, largest stretch"] = report["largest_stretch"]
+            numbers[f"{name}, {degrees} degrees: radius at the middle"] = kept
+            numbers[f"{name}, {degrees} degrees: inverted tets"] = report["counts"]["inverted_elements"]
+            numbers[f"{name}, {degrees} degrees: largest stretch"] = report["largest_stretch"]
             files.append(f"{method}-{degrees}.vtu")
             labels.append(f"{name} at {degrees}°: {kept:.2f}")
             bindpose.write(posed, options.scratch / files[-1])
     common.render(options, *files, "--columns", 3, "--size", "1500x1000", "--edges", "--azimuth", 15, "--elevation", 15,
-                  "--section", "none", "--labels", ",".join(labels), "--title", "A twisted cylinder: radius at the middle, 1 at rest")
+                  "--section", "none", "--labels", ",".join(labels),
+                  "--title", "A twisted cylinder: radius at the middle relative to rest")
     return numbers
 
 

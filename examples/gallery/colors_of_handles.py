@@ -103,13 +103,14 @@ def make(options):
     return {
         "handles": len(names),
         "points out of the gamut": [report["counts"]["out_of_gamut"] for report in reports],
-        "points beyond the handles' colors": [report["counts"]["beyond_handles"] for report in reports],
-        "on handles: largest difference from their color": float(np.abs(values[on] - colors[array[on].argmax(axis=1)]).max()),
-        "red and green half-way, in linear light": [float(value) for value in half["light"][0]],
-        "red and green half-way, in sRGB": [float(value) for value in half["numbers"][0]],
+        "points outside the range of the handles' colors": [report["counts"]["beyond_handles"] for report in reports],
+        "on a handle: largest difference from the handle's color": float(
+            np.abs(values[on] - colors[array[on].argmax(axis=1)]).max()),
+        "mean of red and green in linear light": [float(value) for value in half["light"][0]],
+        "mean of red and green in sRGB": [float(value) for value in half["numbers"][0]],
         "curves": len(bones),
         "points doubled by the cut": bindpose.report(cut)["counts"]["doubled_vertices"],
-        "on curves: largest difference from their sides": float(leak),
+        "on a side of a curve: largest difference from the side's color": float(leak),
         "drawing: points out of the gamut": bindpose.report(drawn)["counts"]["out_of_gamut"],
     }
 

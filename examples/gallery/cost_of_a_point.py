@@ -2,11 +2,11 @@
 """Cost of the winding number per point, for surfaces of all types, in one run of the benchmarks.
 
 Every row of `bindpose_benchmarks --benchmark_filter=winding` runs on one thread: grids, scattered points, points within
-1e-4 diagonals of the surface, points 1e6 diagonals from the origin. The unit Y is the cost of one triangle of the
-textbook sum in the same run: Y is comparable between machines. Bars are medians of five repetitions, and the dots are
+1e-4 diagonals of the surface, points 1e6 diagonals from the origin. The unit Y is the time per triangle of the
+direct sum in the same run: Y is comparable between machines. Bars are medians of five repetitions, and the dots are
 one standard deviation higher. Surfaces: refined_elephant.off (closed) and elephant-with-holes.off of the Debian package
 libcgal-demo; bumpy spheres that are closed, open, cut into patches, or disconnected (every triangle moved by its own
-size, and about half of them turned over); and triangles throughout space.
+size, and about half of them turned over); and random triangles in a box.
 
 Numbers: Y per row, nanoseconds per row, and the largest error beyond the row's tolerance.
 """
@@ -22,7 +22,8 @@ import charts
 
 COLORS = {"closed": charts.BLUE, "open": charts.GREEN, "unordered": charts.ORANGE}
 SURFACES = {"elephant": ("closed", "elephant"), "closed": ("closed", "closed"), "holes": ("open", "elephant with holes"),
-            "open": ("open", "open"), "patches": ("open", "patches"), "soup": ("unordered", "soup along a surface"), "orderless": ("unordered", "soup all over space")}
+            "open": ("open", "open"), "patches": ("open", "patches"), "soup": ("unordered", "soup along a surface"),
+            "orderless": ("unordered", "soup in a box")}
 
 
 def run(options):
@@ -72,7 +73,8 @@ def make(options):
         numbers[f"{text}: ns"] = median["ns"]
     numbers["largest error minus the tolerance"] = beyond
     rows.reverse()  # the first row at the top
-    panel = charts.Panel("Cost per query point, in units of Y", ("Y: cost of one triangle in the textbook sum, about 20 ns", 0.05, 300),
+    panel = charts.Panel("Time per query point",
+                         ("units of Y: time per triangle of the direct sum, about 20 ns", 0.05, 300),
                          ("", 10 ** -0.7, 10 ** (len(rows) - 0.3)), log=True,
                          x_names={0.1: "0.1", 1: "1", 10: "10", 100: "100"},
                          y_names={10.0 ** i: text for i, (_, text, *_) in enumerate(rows)})

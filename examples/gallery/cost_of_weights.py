@@ -79,7 +79,7 @@ def make(options):
         power = float(np.polyfit(np.log(sizes[:len(median)]), np.log(median), 1)[0])
         few = count == handle_counts[0]
         numbers[f"{count} handles, {part}: seconds per handle"] = [float(s) for s in median]
-        numbers[f"{count} handles, {part}: exponent"] = power
+        numbers[f"{count} handles, {part}: exponent p of time ~ vertices^p"] = power
         if few or part == "whole":
             times.line(f"{part}, {count} handles: exponent {power:.2f}", sizes[:len(median)], median, PARTS[part],
                        dots=True, dashed=not few)

@@ -69,11 +69,13 @@ def make(options):
         "outline points": report["counts"]["outline_points"],
         "loops": report["counts"]["loops"],
         "triangles": len(triangles),
-        "smallest angle, degrees": report["min_angle"],
-        "farthest from the drawing, pixels": farthest_from_drawing(points, outline, size),
-        "area / area of the drawing": report["area"] / float((planar.cat_distance(x, y) < 0).sum()),
-        "outline and mesh, seconds": seconds,
-        "unposed: largest difference from the picture, of 255": planar.difference(cut_out, pixels, planar.cat_distance(x, y) < -2 / size),
+        "smallest angle in degrees": report["min_angle"],
+        "largest distance of the outline from the drawing in pixels": farthest_from_drawing(points, outline, size),
+        "area of the mesh relative to the area of the drawing": report["area"] / float(
+            (planar.cat_distance(x, y) < 0).sum()),
+        "seconds for outline and mesh": seconds,
+        "largest difference of the unposed mesh from the picture (0 to 255)": planar.difference(
+            cut_out, pixels, planar.cat_distance(x, y) < -2 / size),
         "flipped triangles": int((planar.signed_areas(planar.points_of(posed), triangles) <= 0).sum()),
     }
 

@@ -62,7 +62,8 @@ def make(options):
         report = bindpose.report(tets)
         numbers[f"{name}: method"] = report["method"]
         numbers[f"{name}: tets"] = report["counts"]["tets"]
-        numbers[f"{name}: volume / enclosed by the winding number"] = report["volume"] / report["winding_volume"]
+        numbers[f"{name}: volume of the tets relative to the volume enclosed by the winding number"] = (
+            report["volume"] / report["winding_volume"])
         numbers[f"{name}: smallest volume of a tet"] = float(meshes.tet_volumes(tets).min())
         stem = name.replace(" ", "_")
         files.append(f"{stem}.vtp")

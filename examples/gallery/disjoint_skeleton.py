@@ -59,7 +59,8 @@ def make(options):
     lengths = []
     for key, used, caption in (("skinned", plain, "skinned: free bones do not move"), ("found", transforms, "free bones are optimized")):
         moved = np.einsum("bij,bej->bei", used[:, :2, :2], ends) + used[:, None, :2, 3]
-        numbers[f"{key}: arm to hand"] = float(np.linalg.norm(moved[names.index("arm"), 1] - moved[names.index("hand"), 0]) / size)
+        numbers[f"{key}: gap between arm and hand"] = float(
+            np.linalg.norm(moved[names.index("arm"), 1] - moved[names.index("hand"), 0]) / size)
         lengths = np.linalg.norm(moved[:, 1] - moved[:, 0], axis=1) / np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1)
         at = np.zeros((2 * len(names), 3))
         at[:, :2] = moved.reshape(-1, 2)
@@ -68,7 +69,8 @@ def make(options):
         tiles.append((caption, [planar.textured(results[key], planar.to_texture(pixels)),
                                 *planar.handle_actors(planar.posed_points(handles, at), 0.011 * size)]))
     arm = transforms[names.index("arm")]
-    numbers["rotation of the arm, degrees"] = float(np.degrees(np.arctan2(arm[1, 0] - arm[0, 1], arm[0, 0] + arm[1, 1])))
+    numbers["rotation of the arm in degrees"] = float(
+        np.degrees(np.arctan2(arm[1, 0] - arm[0, 1], arm[0, 0] + arm[1, 1])))
     numbers["bones' lengths"] = [float(lengths.min()), float(lengths.max())]
     numbers["iterations"] = report["iterations"]
     numbers["microseconds per iteration"] = report["microseconds_per_iteration"]

@@ -60,9 +60,10 @@ def make(options):
             planar.textured(posed, texture), *planar.handle_actors(planar.posed_points(handles, moved), 0.012 * size)]))
     for name in DRAGGED:
         turn = transforms[list(POINTS).index(name)]
-        numbers[f"{name}: rotation found, degrees"] = float(np.degrees(np.arctan2(turn[1, 0] - turn[0, 1], turn[0, 0] + turn[1, 1])))
+        numbers[f"{name}: computed rotation in degrees"] = float(
+            np.degrees(np.arctan2(turn[1, 0] - turn[0, 1], turn[0, 0] + turn[1, 1])))
     report = bindpose.report(found)
-    numbers["largest position error, diagonals"] = report["constraint_residual"]
+    numbers["largest position error in bounding-box diagonals"] = report["constraint_residual"]
     numbers["iterations"] = report["iterations"]
     numbers["microseconds per iteration"] = report["microseconds_per_iteration"]
     box = (-0.06 * size, 1.06 * size, -0.03 * size, 1.03 * size)

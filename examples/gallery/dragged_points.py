@@ -61,7 +61,7 @@ def make(options):
         numbers[f"{name}, degrees"] = turns(posed)
         numbers[f"{name}, area"] = share
         numbers[f"{name}, largest and smallest stretch"] = [report["largest_stretch"], report["smallest_stretch"]]
-        numbers[f"{name}, inside out"] = report["counts"]["inverted_elements"]
+        numbers[f"{name}, inverted triangles"] = report["counts"]["inverted_elements"]
         files.append(f"{name}.vtp".replace(" ", "-"))
         labels.append(f"{name}: area {share:.2f}")
         bindpose.write(posed, options.scratch / files[-1])

@@ -74,7 +74,7 @@ def make(options):
             bindpose.write(posed, options.scratch / files[-1])
         full = bindpose.report(bindpose.deform(weighted, handles, {"handles": pose}, method="full-arap",
                                                maximum_iterations=5000))
-        numbers[f"{name}, every vertex, energy"] = full["energy"]
+        numbers[f"{name}, full ARAP (every vertex is an unknown), energy"] = full["energy"]
     for kind in ("bumps", "eigenmodes"):
         numbers[f"squeeze, 0 3 6 10 15 {kind}"] = [
             bindpose.report(bend(weighted, handles, POSES["squeeze"], count, kind))["energy"]

@@ -48,7 +48,7 @@ def make(options):
                              Energy=getattr(bindpose.vtkReducedARAP, energy.upper().replace("-", "_")))
         first = posed if first is None else first
         numbers[f"{energy}: energy"] = bindpose.report(posed)["energy"]
-        numbers[f"{energy}: difference from the first"] = posing.rms_apart(points, first, posed)
+        numbers[f"{energy}: rms distance from the result with tetrahedra"] = posing.rms_apart(points, first, posed)
         apart = np.linalg.norm(points_of(posed) - points_of(first), axis=1) / diagonal
         farthest = max(farthest, apart.max())
         add_point_array(posed, "Apart", apart)
@@ -61,7 +61,7 @@ def make(options):
     for energy, mesh in ENERGIES.items():
         volume = mesh == "tets"
         errors.append(abs(energy_of(cube if volume else cube_skin, energy, 2.0) - (1.5 if volume else 6.0)))
-    numbers["doubled cube, largest error"] = float(max(errors))
+    numbers["cube scaled by 2: largest error of the energy"] = float(max(errors))
     common.render(options, *files, "--columns", 2, "--size", "1300x900", "--edges", "--up", "z", "--azimuth", -35,
                   "--elevation", 15, "--section", "none", "--array", "Apart", "--range",
                   f"0,{farthest:.4f}", "--labels", ",".join(labels),

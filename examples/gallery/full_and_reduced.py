@@ -33,8 +33,8 @@ def bend(method, mesh, handles, pose):
 def make(options):
     small = options.small
     square, box = posing.plane(16 if small else 48, 5.0, MIDDLE), posing.bar(18 if small else 48, 4 if small else 8)
-    # The bones start at different corners. If the head of a bone were the tail of another bone, it would become its
-    # child.
+    # The four bones start at two opposite corners, so that no head of a bone is at the tail of another bone. Otherwise
+    # the bone with this head would become a child of the other bone.
     corners = {c: 2.5 * np.array([*c, 0]) + MIDDLE for c in itertools.product((-1, 1), repeat=2)}
     rim = [(corners[k, k], corners[c]) for k in (-1, 1) for c in ((-1, 1), (1, -1))]
     on_plane = bindpose.handles(points=[MIDDLE], bones=rim)
@@ -57,10 +57,11 @@ def make(options):
             bindpose.write(posed[method], options.scratch / files[method][-1])
             numbers[f"{name}, {method}, energy"] = report["energy"]
             numbers[f"{name}, {method}, iterations"] = report["iterations"]
-            numbers[f"{name}, {method}, microseconds"] = min(
+            numbers[f"{name}, {method}, microseconds per iteration"] = min(
                 bindpose.report(each)["microseconds_per_iteration"] for each in tries)
             if surface:
-                numbers[f"{name}, {method}, sharpest fold"] = posing.sharpest_fold(points_of(posed[method]), mesh[1])
+                numbers[f"{name}, {method}, largest angle between adjacent normals in degrees"] = posing.sharpest_fold(
+                    points_of(posed[method]), mesh[1])
         numbers[f"{name}, difference"] = posing.rms_apart(mesh[0], posed["reduced"], posed["full"])
     labels = [f"{name}: {method} {numbers[f'{name}, {method}, energy']:.3g}"
               for method in METHODS for name in cases]

@@ -14,7 +14,7 @@ processor time of one thread, without the build; medians of repeated measurement
 - `fast` keeps its error within 1e-3; for closed surfaces it equals `exact`.
 
 Numbers: exponents p of time ~ triangles^p, fitted over all sizes; microseconds per point; the largest ratio of
-slowest to fastest; the largest difference of all three methods from the textbook sum in numpy.
+slowest to fastest; the largest difference of all three methods from the direct sum in numpy.
 """
 
 import time
@@ -126,13 +126,13 @@ def make(options):
             panel.line(f"{name}{how}: exponent {power:.2f}", sizes, median, COLORS[name], dots=True)
             for ends in zip(sizes, sizes, fastest, slowest):
                 panel.line("", ends[:2], ends[2:], COLORS[name], 2)
-            numbers[f"{title}, {name}: exponent"] = power
+            numbers[f"{title}, {name}: exponent p of time ~ triangles^p"] = power
             numbers[f"{title}, {name}: µs per point"] = [float(m) for m in 1e6 * median]
-            numbers[f"{title}, {name}: slowest / fastest"] = float((slowest / fastest).max())
+            numbers[f"{title}, {name}: largest ratio of slowest to fastest run"] = float((slowest / fastest).max())
         numbers[f"{title}: triangles"] = sizes
-        numbers[f"{title}: open edges at the end"] = edges
+        numbers[f"{title}: open edges of the largest mesh"] = edges
         panels.append(panel)
-    numbers["difference from textbook sum"] = float(max(differences))
+    numbers["largest difference from the direct sum in numpy"] = float(max(differences))
     charts.draw(options.picture, panels, (1900, 640), legends=[(vtkChartLegend.LEFT, vtkChartLegend.TOP)] * 3)
     return numbers
 

@@ -37,7 +37,7 @@ def make(options):
     handles = bindpose.handles(points=[(x, 0.5, 0.5) for x in PLACES])
     weighted = bindpose.weights(to_dataset(mesh), handles)
     diagonal = np.linalg.norm(np.ptp(mesh[0], axis=0))
-    cases = {"all full": ("full", "full"), "middle by position": ("position", "full"),
+    cases = {"all handles full": ("full", "full"), "middle by position": ("position", "full"),
              "middle free": ("free", "full"), "ends by position": ("free", "position")}
     numbers, files, energies, given = {}, [], [], []
     misses = []
@@ -48,19 +48,20 @@ def make(options):
         energies.append(report["energy"])
         misses.append(report.get("constraint_residual", 0.0))
         given.append(sum({"full": 12, "position": 3, "free": 0}[entry["mode"]] for entry in pose.values()))
-        if name == "all full":
+        if name == "all handles full":
             skinned = bindpose.deform(weighted, handles, {"handles": pose})
-            numbers["all full, largest distance from linear blend skinning"] = float(
+            numbers["all handles full: largest distance from linear blend skinning"] = float(
                 np.abs(points_of(posed) - points_of(skinned)).max() / diagonal)
         files.append(f"{name.replace(' ', '-')}.vtu")
         bindpose.write(posed, options.scratch / files[-1])
-    numbers["constrained numbers"] = given
+    numbers["scalar constraints"] = given
     numbers["energies"] = energies
     numbers["largest constraint error in bounding-box diagonals"] = float(max(misses))
-    labels = [f"{name}: {count} constrained numbers; energy {energy:.3g}" for name, count, energy in zip(cases, given, energies)]
+    labels = [f"{name}: {count} scalar constraints; energy {energy:.3g}"
+              for name, count, energy in zip(cases, given, energies)]
     common.render(options, *files, "--columns", 2, "--size", "1300x850", "--edges", "--up", "z", "--azimuth", -35,
                   "--elevation", 15, "--section", "none", "--labels", ",".join(labels),
-                  "--title", "Free parameters of handles are optimized")
+                  "--title", "Handle modes: unconstrained rotations and positions are optimized")
     return numbers
 
 

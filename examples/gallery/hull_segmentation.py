@@ -67,9 +67,9 @@ def make(options):
         "volume of the hull's tets": float(volumes.sum()),
         "volume kept": float(volumes[inside].sum()),
         "volume enclosed by the winding number": report["winding_volume"],
-        "energy of the graph cut": report["energy"],
-        "energy of the threshold": report["threshold_energy"],
-        "energies, largest relative difference from the definition":
+        "energy of the labels by graph cut": report["energy"],
+        "energy of the labels by threshold 1/2": report["threshold_energy"],
+        "largest relative difference between reported and recomputed energies":
             float(max(abs(cut / report["energy"] - 1), abs(threshold / report["threshold_energy"] - 1))),
         "tets that the cut has changed": report["counts"]["changed_by_cut"],
     }

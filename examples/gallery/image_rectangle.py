@@ -64,10 +64,11 @@ def make(options):
     return {
         "pixels": size * size,
         "triangles": len(triangles),
-        "area / pixels": report["area"] / size ** 2,
-        "smallest angle, degrees": report["min_angle"],
+        "area of the mesh relative to the area of the pixels": report["area"] / size ** 2,
+        "smallest angle in degrees": report["min_angle"],
         "points that are not vertices": report["counts"]["outside_handles"],
-        "unposed: largest difference from the picture, of 255": planar.difference(rectangle, pixels, np.ones((size, size), dtype=bool)),
+        "largest difference of the unposed mesh from the picture (0 to 255)": planar.difference(
+            rectangle, pixels, np.ones((size, size), dtype=bool)),
         "flipped triangles": int((planar.signed_areas(planar.points_of(warped), triangles) <= 0).sum()),
     }
 

@@ -6,8 +6,8 @@ deviates from a harmonic function. The first is the mean over a small sphere min
 is the discrete Laplacian, which decreases with the square of its step.
 
 Numbers: the largest |jump - 1| over all crossings of the line with triangles, measured 1e-13 before and after each
-crossing; the largest mean value error; the order at which the discrete Laplacian decreases (2); and the difference
-between the field of two surfaces and the sum of their fields.
+crossing; the largest violation of the mean value property; the order at which the discrete Laplacian decreases (2); and
+the largest difference between the field of two surfaces and the sum of their fields.
 """
 
 import common
@@ -84,12 +84,13 @@ def make(options):
     means = [abs(sphere_mean(opened, middle, r) - float(field(opened, [middle])[0])) for r in radii]
     steps = [0.2 / 2 ** k for k in range(6)]
     laplacians = [abs(laplacian(opened, middle, h)) for h in steps]
-    right = charts.Panel("Harmonicity inside the open surface", ("radius or step h", 4e-3, 0.3),
+    right = charts.Panel("Deviation from harmonicity inside the open surface", ("radius or step h", 4e-3, 0.3),
                          ("distance from 0", 1e-18, 10), log=True)
     right.line("discrete Laplacian", steps, laplacians, charts.ORANGE, dots=True)
     right.line("h^2, for comparison", steps, [4 * laplacians[2] * (h / steps[2]) ** 2 for h in steps], (150, 150, 155),
                1.5, dashed=True)
-    right.line("mean over a sphere - value at its center", radii, [max(m, 1e-17) for m in means], charts.BLUE, dots=True)
+    right.line("mean over a sphere minus value at its center", radii, [max(m, 1e-17) for m in means], charts.BLUE,
+               dots=True)
     charts.draw(options.picture, [left, right], legends=[(vtkChartLegend.LEFT, vtkChartLegend.TOP),
                                                          (vtkChartLegend.LEFT, vtkChartLegend.TOP)])
     other = meshes.sphere(2, 0.4, (0.1, 0.05, 0.02))
@@ -97,9 +98,9 @@ def make(options):
     return {
         "crossings": len(jumps),
         "largest |jump - 1|": float(np.abs(np.array(jumps) - 1).max()),
-        "largest mean value error": float(max(means)),
+        "largest violation of the mean value property": float(max(means)),
         "order of the Laplacian": float(np.polyfit(np.log(steps), np.log(laplacians), 1)[0]),
-        "error of the sum of two": float(linear),
+        "two surfaces: largest difference from the sum of their winding numbers": float(linear),
     }
 
 

@@ -88,10 +88,10 @@ def make(options):
     equal = vtk_to_numpy(ordered["equal"].GetPointData().GetArray("Depth"))
     return {
         "triangles": len(triangles),
-        "pixels of the arm, in front": int(owned["in front"].sum()),
-        "pixels of the arm, behind": int(owned["behind"].sum()),
+        "visible pixels of the arm when it is in front": int(owned["in front"].sum()),
+        "visible pixels of the arm when it is behind": int(owned["behind"].sum()),
         "pixels that change with the layers": int((owned["in front"] ^ owned["behind"]).sum()),
-        "of these, pixels of the arm when it is in front": int((owned["in front"] & ~owned["behind"]).sum()),
+        "changed pixels that show the arm when it is in front": int((owned["in front"] & ~owned["behind"]).sum()),
         "equal layers: lowest and highest depth": [float(equal.min()), float(equal.max())],
         "layer 1: lowest and highest depth": [float(depth.min()), float(depth.max())],
     }

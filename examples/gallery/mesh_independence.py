@@ -17,6 +17,7 @@ from bindpose.meshes import to_dataset
 from new_hues import POINTS
 
 METHODS = {"graph": "graph-biharmonic", "areas": "biharmonic"}
+MESHES = {"even": "even mesh", "fine": "mesh with a finer right half"}
 
 
 def grid_at(x, y):
@@ -39,24 +40,25 @@ def make(options):
     count = 20 if options.small else 40
     even, uneven = np.linspace(0, 1, count + 1), unequal(count, 4)
     rows = even
-    meshes = {"even": grid_at(even, rows), "fine on the right": grid_at(uneven, rows)}
+    meshes = {"even": grid_at(even, rows), "fine": grid_at(uneven, rows)}
     common_vertices = {name: np.concatenate([row * len(x) + np.array([np.argmin(abs(x - at)) for at in even])
                                              for row in range(len(rows))])
-                       for name, x in (("even", even), ("fine on the right", uneven))}
+                       for name, x in (("even", even), ("fine", uneven))}
     handles = bindpose.handles(points=[[*place, 0] for place, _color in POINTS])
     bindpose.write(handles, options.scratch / "handles.vtp")
-    numbers = {f"triangles, {name}": len(mesh[1]) for name, mesh in meshes.items()}
+    numbers = {f"triangles, {MESHES[name]}": len(mesh[1]) for name, mesh in meshes.items()}
     for method, word in METHODS.items():
         found = {}
         for name, mesh in meshes.items():
             weighted = bindpose.weights(to_dataset(mesh), handles, method=word, domain="surface")
-            bindpose.write(weighted, options.scratch / f"{method}-{name.split()[0]}.vtp")
+            bindpose.write(weighted, options.scratch / f"{method}-{name}.vtp")
             found[name] = bindpose.meshes.point_array(weighted, "Weights")
-        difference = found["fine on the right"][common_vertices["fine on the right"]] - found["even"]
+        difference = found["fine"][common_vertices["fine"]] - found["even"]
         numbers[f"{method}: largest difference"] = float(abs(difference).max())
         numbers[f"{method}: rms difference"] = float(np.sqrt((difference ** 2).mean()))
-        # Write the values at the vertices that both meshes have, because render subtracts them.
-        for file, values in ((f"{method}-a.vtp", found["fine on the right"][common_vertices["fine on the right"]]),
+        # Write both results at the common vertices of the two meshes, because `bindpose render --minus` subtracts them
+        # vertex by vertex.
+        for file, values in ((f"{method}-a.vtp", found["fine"][common_vertices["fine"]]),
                              (f"{method}-b.vtp", found["even"])):
             mesh = to_dataset(meshes["even"])
             bindpose.meshes.add_point_array(mesh, "Weights", values, [f"p{j + 1}" for j in range(len(POINTS))])
@@ -67,22 +69,23 @@ def make(options):
         left, right = options.scratch / f"{method}-left.png", options.scratch / f"{method}-right.png"
         common.render(options, f"{method}-even.vtp", f"{method}-fine.vtp", "--component", "p3", "--handles", "handles.vtp",
                       "--edges", "--columns", 2, "--size", f"1000x{height}", "--range", "-0.3,1.1",
-                      "--labels", f"{method}: even mesh,{method}: finer on the right", picture=left)
+                      "--labels", ",".join(f"{method}: {name}" for name in MESHES.values()), picture=left)
         largest = numbers[f"{method}: largest difference"]
         shown = common.render(options, f"{method}-a.vtp", "--minus", f"{method}-b.vtp", "--component", "p3", "--handles",
                               "handles.vtp", "--edges", "--size", f"600x{height}", "--range", "-0.3,0.3",
-                              "--labels",
-                              f"difference of {method}: rms {100 * numbers[f'{method}: rms difference']:.2g} %", picture=right)
+                              "--labels", f"{method}: difference between both meshes (rms "
+                              f"{100 * numbers[f'{method}: rms difference']:.2g} %)", picture=right)
         assert shown["difference"]["largest"] <= largest + 1e-12
         pictures += [left, right]
     common.side_by_side(options, pictures, 2)
 
-    for name, x in (("even", even), ("finer on the right", uneven)):
+    for name, x in (("even", even), ("fine", uneven)):
         bar = grid_at(x, np.array([0, 0.5, 1]) / count)
         ends = bindpose.handles(bones=[[[at, 0, 0], [at, 1 / count, 0]] for at in (0.0, 1.0)], parents=[-1] * 2)
         for method, word in METHODS.items():
             weights = bindpose.weights(bar, ends, method=word, domain="surface")
-            numbers[f"{method}: bar at a quarter, {name}"] = float(weights[np.argmin(abs(x - 0.25)), 1])
+            numbers[f"{method}: weight at a quarter of a bar, {MESHES[name]}"] = float(
+                weights[np.argmin(abs(x - 0.25)), 1])
     return numbers
 
 

@@ -80,17 +80,20 @@ def make(options):
     radius = 0.018 * size
     colors = [(0.75, 0.75, 0.75) if name != PULLED else (0.95, 0.35, 0.2) for name in places]
     moved = at + np.array([PULL * size * (name == PULLED) for name in places])
-    tiles = [("at rest: one fingertip is dragged", [planar.textured(shape, texture), *planar.dots(at, colors, radius)])]
+    tiles = [("rest shape; red: the fingertip that is dragged",
+              [planar.textured(shape, texture), *planar.dots(at, colors, radius)])]
     scale = ((0, (1.0, 1.0, 1.0)), (0.02, (0.95, 0.93, 0.86)), (0.35, (0.98, 0.72, 0.35)), (1, (0.75, 0.12, 0.12)))
     for caption, posed in ways.items():
         share = np.linalg.norm(planar.points_of(posed) - rest, axis=1) / np.linalg.norm(PULL * size)
-        numbers[f"{caption}: motion of the neighbor, fraction of the pull"] = float(share[halfway].mean())
+        numbers[f"{caption}: displacement of the neighboring finger relative to the dragged one"] = float(
+            share[halfway].mean())
         numbers[f"{caption}: flipped triangles"] = int((planar.signed_areas(planar.points_of(posed), triangles) <= 0).sum())
         tiles.append((f"{caption}: {100 * share[halfway].mean():.0f} %",
                       [planar.bands(posed, np.clip(share, 0, 1), scale, 20),
                        *planar.edges(posed, shape, width=2.5), *planar.dots(moved, colors, radius)]))
     window = planar.show(tiles, (-0.04 * size, 0.84 * size, -0.07 * size, 1.0 * size), tile=(480, 580),
-                         title="Displacement relative to that of the fingertip; percentages: middle finger, halfway up")
+                         title="Displacement relative to that of the dragged fingertip; "
+                               "percentages: halfway up the middle finger")
     common.write_picture(window, options.picture)
 
     slit = slit_square(60)

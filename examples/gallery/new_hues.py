@@ -78,15 +78,17 @@ def make(options):
         report = bindpose.report(colored)
         outside = report["counts"]["out_of_gamut"] / count
         numbers[f"{caption}: lowest and highest weight"] = [float(values.min()), float(values.max())]
-        numbers[f"{caption}: out of the gamut, fraction"] = outside
-        numbers[f"{caption}: out of the gamut, maximum"] = report["largest_gamut_violation"]
-        numbers[f"{caption}: beyond the points' colors, fraction"] = report["counts"]["beyond_handles"] / count
-        numbers[f"{caption}: beyond the points' colors, maximum"] = report["largest_overshoot"]
+        numbers[f"{caption}: fraction out of the gamut"] = outside
+        numbers[f"{caption}: largest distance from the gamut"] = report["largest_gamut_violation"]
+        numbers[f"{caption}: fraction outside the range of the points' colors"] = (
+            report["counts"]["beyond_handles"] / count)
+        numbers[f"{caption}: largest distance from the range of the points' colors"] = report["largest_overshoot"]
         weights = bindpose.weights(strip, across, method=method, domain="surface")
         gray = bindpose.weighted_colors(strip, across, [[1, 1, 1], [0, 0, 0], [0, 0, 0]], weights=weights, linear_light=False,
                                         clamp=False)
-        numbers[f"{caption}: black and white bar at two thirds"] = float(gray[64, 0])
-        numbers[f"{caption}: black and white bar, out of the gamut"] = gray.report["largest_gamut_violation"]
+        numbers[f"{caption}, black and white bar: gray value at two thirds of the length"] = float(gray[64, 0])
+        numbers[f"{caption}, black and white bar: largest distance from the gamut"] = (
+            gray.report["largest_gamut_violation"])
         bindpose.meshes.add_point_array(colored, "Gamut", vtk_to_numpy(colored.GetPointData().GetArray("OutOfGamut")).astype(float))
         tiles.append((f"{caption}: {100 * outside:.0f} % out of the gamut",
                       [planar.painted(colored), *hatched(colored), *planar.dots(places, colors, 0.016, 0.01)]))

@@ -6,8 +6,9 @@ winding number is 1 or 0. Near missing triangles it decreases smoothly. Where su
 Triangles with the wrong orientation are subtracted, unless `orient_patches` flips them. Above are the surfaces, below
 slices of their fields in the same colors.
 
-Number: at the middle of each shape, the distance from the expected value. A hole reduces the winding number by the
-solid angle of the missing triangles. An inverted patch reduces it by twice the solid angle of the patch.
+Numbers: the winding number at the center of each shape, and its distance from the expected value. A hole reduces the
+winding number by the solid angle of the missing triangles. An inverted patch reduces it by twice the solid angle of the
+patch.
 """
 
 import common
@@ -37,7 +38,7 @@ def make(options):
         orient = name == "turned back"
         shape = shapes["flipped" if orient else name]
         value = bindpose.winding_number(shape, middle, method="exact", orient_patches=orient)
-        numbers[f"{name}: at the middle"] = float(value[0])
+        numbers[f"{name}: winding number at the center"] = float(value[0])
         numbers[f"{name}: error"] = float(abs(value[0] - expected[name]))
         wide = 96 if options.small else 480
         field = bindpose.winding_number(shape, (wide, wide * 3 // 4, 1), orient_patches=orient,

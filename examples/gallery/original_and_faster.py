@@ -52,15 +52,15 @@ def make(options):
     common.render(options, *files, "--array", "Weights", "--component", worst, "--handles", write(options, handles),
                   "--size", "1200x640", "--labels", "original,faster", picture=pictures[0])
     common.render(options, "difference.vtp", "--array", "Difference", "--range", f"{-largest},{largest}",
-                  "--size", "600x640", "--labels", f"faster - original: {largest:.2g} at most", picture=pictures[1])
+                  "--size", "600x640", "--labels", f"faster minus original: at most {largest:.2g}", picture=pictures[1])
     common.side_by_side(options, pictures, 2)
     return {
         "largest difference": largest,
         "rms difference": float(np.sqrt((difference ** 2).mean())),
-        "faster: farthest row sum from 1": reports["normalize"]["row_sum_error"],
-        "original: farthest row sum from 1": reports["coupled"]["row_sum_error"],
+        "faster, before the division: largest deviation of a row sum from 1": reports["normalize"]["row_sum_error"],
+        "original: largest deviation of a row sum from 1": reports["coupled"]["row_sum_error"],
         "relative gaps": [reports[p]["relative_gap"] for p in ("coupled", "normalize")],
-        "seconds, original and faster": [seconds["coupled"], seconds["normalize"]],
+        "seconds of the original and the faster method": [seconds["coupled"], seconds["normalize"]],
     }
 
 

@@ -52,7 +52,7 @@ def make(options):
     weighted = bindpose.weights(to_dataset((points, triangles)), bones, domain="volume")
     turn = {"rotate": {"axis": [0, 0, 1], "degrees": DEGREES}}
     cases = {"at rest": {}, "forearm turned": {"fore": turn},
-             "hand held in the world": {"fore": turn, "hand": {"space": "world"}},
+             "hand fixed in world space": {"fore": turn, "hand": {"space": "world"}},
              "upper arm stretched": {"upper": {"stretch": STRETCH}}}
     numbers, files = {}, []
     tip = int(points[:, 0].argmax())

@@ -38,16 +38,17 @@ def make(options):
         found[name] = point_array(weighted, "Weights")
     look = ["--component", bindpose.report(weighted)["handles"][SHOWN]["name"], "--handles", "handles.vtp", *VIEW]
     pictures = [options.scratch / f"{k}.png" for k in range(3)]
-    common.render(options, *(f"{name}.vtp" for name in WAYS), *look, "--columns", 3, "--size", "1560x520", "--labels",
-                  "preview,certified in the lattice,certified in conforming tets", picture=options.scratch / "ways.png")
+    common.render(options, *(f"{name}.vtp" for name in WAYS), *look, "--columns", 3, "--size", "1560x520",
+                  "--labels", "preview,certified weights on a lattice,certified weights on conforming tets",
+                  picture=options.scratch / "ways.png")
     for (name, other), picture in zip(PAIRS, pictures):
         shown = common.render(options, f"{name}.vtp", "--minus", f"{other}.vtp", *look, "--size", "780x560", "--range",
                               "-0.05,0.05", "--labels", f"{name} minus {other}", picture=picture)
         difference = found[name] - found[other]
-        numbers[f"{name} minus {other}: shown, largest and rms"] = [shown["difference"]["largest"],
-                                                                  shown["difference"]["rms"]]
-        numbers[f"{name} minus {other}: all, largest and rms"] = [float(abs(difference).max()),
-                                                               float(np.sqrt((difference ** 2).mean()))]
+        numbers[f"{name} minus {other}, shown handle: largest and rms difference"] = [shown["difference"]["largest"],
+                                                                                     shown["difference"]["rms"]]
+        numbers[f"{name} minus {other}, all handles: largest and rms difference"] = [
+            float(abs(difference).max()), float(np.sqrt((difference ** 2).mean()))]
         numbers[f"{name} minus {other}: fraction of vertices with another strongest handle"] = float(
             (found[name].argmax(axis=1) != found[other].argmax(axis=1)).mean())
         if abs(difference[:, SHOWN]).max() - shown["difference"]["largest"] > 1e-12:

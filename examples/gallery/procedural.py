@@ -46,7 +46,7 @@ def make(options):
     volumes = [volume(points_of(mesh), bindpose.meshes.tets_of(mesh)) for mesh in posed]
     common.render(options, *files, "--columns", 2, "--size", "1500x900", "--edges", "--up", "z", "--azimuth", 15,
                   "--elevation", 10, "--section", "none", "--labels", ",".join(f"t = {t:g}" for t in TIMES),
-                  "--title", "Five handles driven by 0.7 sin(7 t - 1.5 k)")
+                  "--title", "Heights of handles k = 0 to 4: 0.7 sin(7 t - 1.5 k) min(1, 5 t)")
     return {"largest error": float(max(misses)), "least volume": min(volumes) / volume(points, tets)}
 
 

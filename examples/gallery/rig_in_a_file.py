@@ -56,16 +56,18 @@ def make(options):
         numbers[f"{name}: bytes"] = report["file_bytes"]
         numbers[f"{name}: sets of weights"] = report["sets"]
         numbers[f"{name}: largest dropped fraction of a vertex's weights"] = report["dropped_share"]
-        numbers[f"{name}: error, as written"] = report["animation_error"]
-        numbers[f"{name}: error, as read"] = max(largest(a, b, size) for a, b in zip(back[name], exact))
+        numbers[f"{name}: largest error, measured by the writer"] = report["animation_error"]
+        numbers[f"{name}: largest error, measured after reading"] = max(
+            largest(a, b, size) for a, b in zip(back[name], exact))
     files, labels = [], []
     for k, frame in enumerate(back["all"]):
         files.append(f"frame{k}.vtp")
         bindpose.write(frame, options.scratch / files[-1])
-        labels.append(f"four weights: {largest(back['four'][k], frame, size):.2g}")
+        labels.append(f"largest error with four weights: {largest(back['four'][k], frame, size):.2g}")
     common.render(options, *files, "--columns", FRAMES, "--size", "1500x480", "--color", "handle",
                   "--labels", ",".join(labels),
-                  "--title", "An animation read from one glTF file, and the error of four weights per vertex")
+                  "--title", "An animation read from a glTF file, and the error "
+                  "if only four weights per vertex are stored")
     return numbers
 
 

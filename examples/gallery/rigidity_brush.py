@@ -61,11 +61,12 @@ def make(options):
             files.append(f"{paint}.vtp")
             bindpose.write(posed, options.scratch / files[-1])
     _, exact, gap = bend(rigid_set=blocks[0] + 2 * blocks[1])
-    labels = [f"painted {paint}: stretched by {100 * stretches[PAINT.index(paint)]:.2g} %" for paint in SHOWN]
+    labels = [f"painted rigidity {paint}: largest stretch {100 * stretches[PAINT.index(paint)]:.2g} %"
+              for paint in SHOWN]
     common.render(options, *files, "--array", "Painted", "--edges", "--columns", 1, "--size", "1200x1250",
                   "--labels", ",".join(labels), "--title", "Rigidity painted on two blocks of a bar")
-    return {"painted": list(PAINT), "largest stretch where painted": stretches,
-            "the same, rigid sets": exact, "largest relative gap": max(*gaps, gap)}
+    return {"painted rigidity": list(PAINT), "largest stretch where painted": stretches,
+            "largest stretch where painted, with rigid sets": exact, "largest relative gap": max(*gaps, gap)}
 
 
 if __name__ == "__main__":

@@ -36,13 +36,14 @@ def make(options):
         bindpose.write(posed, options.scratch / files[-1])
     apart = [posing.rms_apart(points, posed, found[-1][0]) for posed, _ in found]
     shown = files[:4]
-    labels = [f"{rotations} rotation{'s' * (rotations > 1)}: distance {away:.1%} from {found[-1][1]} rotations; {time:.3g} µs"
+    labels = [f"{rotations} rotation{'s' * (rotations > 1)}: {away:.1%} from the result with {found[-1][1]}; "
+              f"{time:.3g} µs"
               for (_, rotations), away, time in zip(found, apart, times)]
     common.render(options, *shown, "--columns", 2, "--size", "1300x1000", "--color", "rotation-cluster", "--up", "z", "--azimuth", -35,
                   "--elevation", 15, "--section", "none", "--labels", ",".join(labels[:4]),
                   "--title", "Rotation clusters: error and time")
     return {"clusters": [rotations for _, rotations in found], "microseconds per iteration": times,
-            "distance from all rotations": apart}
+            "distance from the result with one rotation per tet": apart}
 
 
 if __name__ == "__main__":

@@ -62,8 +62,8 @@ def make(options):
     lengths = np.linalg.norm(points[edges[:, 0]] - points[edges[:, 1]], axis=1)
 
     scale = ((0, (0.96, 0.95, 0.90)), (0.35, (0.56, 0.76, 0.70)), (1, (0.16, 0.20, 0.50)))
-    numbers, tiles = {}, [("at rest: the middle point is dragged up", [planar.flat_actor(shape, (0.87, 0.86, 0.82)),
-                                                                 *planar.edges(shape, shape), *dots(at)])]
+    numbers, tiles = {}, [("rest shape; red: the handle that is dragged up",
+                           [planar.flat_actor(shape, (0.87, 0.86, 0.82)), *planar.edges(shape, shape), *dots(at)])]
     for caption, method in METHODS.items():
         weighted = bindpose.weights(shape, handles, method=method, domain="surface")
         column = bindpose.meshes.point_array(weighted, "Weights")[:, 1]
@@ -71,15 +71,17 @@ def make(options):
         places = bindpose.meshes.points_of(posed)
         stretch = np.linalg.norm(places[edges[:, 0]] - places[edges[:, 1]], axis=1) / lengths - 1
         its = bindpose.report(weighted)["handles"][1]["interior_extrema"]
-        numbers[f"{caption}: middle point's weight at foot and tip"] = [float(column[foot]), float(column[tip])]
+        numbers[f"{caption}: weight of the middle handle at the antenna's foot and tip"] = [
+            float(column[foot]), float(column[tip])]
         ahead = places[tip] - places[foot] - points[tip] + points[foot]
-        numbers[f"{caption}: excess motion of the tip, fraction of the pull"] = float(ahead[1] / PULL[1])
+        numbers[f"{caption}: displacement of tip minus foot, relative to that of the handle"] = float(
+            ahead[1] / PULL[1])
         numbers[f"{caption}: largest stretch of an antenna's edge"] = float(abs(stretch).max())
         numbers[f"{caption}: extrema away from handles"] = int(its)
         tiles.append((f"{caption}: weight {column[tip]:.2f} at the tip, {its} extrema",
                       [planar.bands(posed, np.clip(column, 0, 1), scale, 20), *planar.edges(posed, shape), *dots(moved)]))
     window = planar.show(tiles, (-0.08, 3.08, -0.1, 2.62), tile=(460, 400),
-                         title="Small features and the weights of the middle point")
+                         title="Small features and the weights of the red handle")
     common.write_picture(window, options.picture)
     return numbers
 

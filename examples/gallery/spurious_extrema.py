@@ -69,23 +69,24 @@ def make(options):
         raw = vtk_to_numpy(mesh.GetPointData().GetArray("RawWeights"))
         before = extrema_of(solver)
         counted = vtk_to_numpy(mesh.GetFieldData().GetArray("WeightsInteriorExtrema"))
-        numbers[f"{name}: extrema by column"] = counted.astype(int).tolist()
+        numbers[f"{name}: number of extrema per handle"] = counted.astype(int).tolist()
         numbers[f"{name}: relative gap"] = bindpose.report(mesh)["relative_gap"]
-        numbers[f"{name}: lowest and highest"] = [float(raw.min()), float(raw.max())]
+        numbers[f"{name}: lowest and highest weight"] = [float(raw.min()), float(raw.max())]
         files.append(f"{len(files)}.vtp")
-        # render draws this array in bands
+        # `bindpose render` draws the array Weights by default, so store the raw weights in it
         bindpose.meshes.add_point_array(mesh, "Weights", raw.copy(), [f"p{j + 1}" for j in range(len(places))])
         bindpose.write(mesh, options.scratch / files[-1])
         after = (solved(solver, square, moved), extrema_of(solver))[1]
         if len(before) and len(after):
             distances = np.linalg.norm(after[:, None] - before[None], axis=2)
-            numbers[f"{name}: farthest jump of an extremum"] = float(distances.min(axis=1).max())
+            numbers[f"{name}: largest jump of an extremum when its handle moves"] = float(distances.min(axis=1).max())
         labels.append(f"{name.split()[0]}: {len(before) or 'no'} extrema")
     shown = common.render(options, *files, "--component", SHOWN, "--extrema", "--columns", 3,
                           "--labels", ",".join(labels), "--handles", "handles.vtp", "--size", "1500x1060", "--range", "-0.55,1.55",
-                          "--title", "Weights of one point, extrema away from handles: biharmonic above, triharmonic below")
+                          "--title", "Weights of one handle and their extrema away from handles: "
+                          "biharmonic above, triharmonic below")
     for name, its in zip(filters(), shown["extrema"]):
-        numbers[f"{name}: maxima, minima in the picture"] = [its["maxima"], its["minima"]]
+        numbers[f"{name}: number of maxima and minima in the picture"] = [its["maxima"], its["minima"]]
     return numbers
 
 

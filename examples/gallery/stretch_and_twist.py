@@ -55,13 +55,15 @@ def mallets(options, numbers):
         files.append(f"{name}.vtp".replace(" ", "-"))
         bindpose.write(to_dataset((posed, triangles)), options.scratch / files[-1])
         middle = posed[widest, 0].mean()
-        numbers[f"{name}, middle and length of the head"] = [float(middle), float(2 * (posed[:, 0].max() - middle))]
-        numbers[f"{name}, largest stretch"] = bindpose.report(posed)["largest_stretch"]
+        numbers[f"{name}: center and length of the mallet's head"] = [
+            float(middle), float(2 * (posed[:, 0].max() - middle))]
+        numbers[f"{name}: largest stretch"] = bindpose.report(posed)["largest_stretch"]
     halfway = np.abs(points[:, 0] - 0.5) < 0.05
     spun = np.degrees(np.angle((posed[halfway, 1:] @ [1, 1j]) / (points[halfway, 1:] @ [1, 1j])))
-    numbers["twisted, degrees at the middle"] = float(np.polyval(np.polyfit(points[halfway, 0], spun, 1), 0.5))
+    numbers["twisted: rotation at the middle of the shaft in degrees"] = float(
+        np.polyval(np.polyfit(points[halfway, 0], spun, 1), 0.5))
     radii = np.hypot(posed[:, 1], posed[:, 2]) - np.hypot(points[:, 1], points[:, 2])
-    numbers["twisted, largest change of a radius"] = float(np.abs(radii).max())
+    numbers["twisted: largest change of a vertex's distance from the axis"] = float(np.abs(radii).max())
     picture = options.scratch / "mallets.png"
     common.render(options, *files, "--columns", 2, "--size", f"{WIDE}x640", "--edges", "--azimuth", 10, "--elevation", 15,
                   "--labels", "at rest,bone scaled (linear blend),bone stretched,bone twisted by 180 degrees",
@@ -92,8 +94,8 @@ def cats(options, numbers):
             posed = bindpose.deform(weighted, handles, pose, method=method)
         ends = points_of(posed)[near]
         length = np.linalg.norm(ends[1] - ends[0]) / np.linalg.norm(rest[near[1]] - rest[near[0]])
-        numbers[f"arm, {name}, length"] = float(length)
-        numbers[f"arm, {name}, inside out"] = bindpose.report(posed)["counts"]["inverted_elements"]
+        numbers[f"arm, {name}: length relative to rest"] = float(length)
+        numbers[f"arm, {name}: inverted triangles"] = bindpose.report(posed)["counts"]["inverted_elements"]
         tiles.append((f"arm bone shortened to half: {name}", [planar.textured(posed, texture)]))
     window = planar.show(tiles, (-0.06 * size, 1.06 * size, -0.05 * size, 1.07 * size), tile=(WIDE // 3, WIDE // 3))
     picture = options.scratch / "cats.png"

@@ -63,7 +63,7 @@ def make(options):
             numbers[f"{move}, {name}: volume"] = volume(moved, triangles) / volume(points, triangles)
             files.append(f"{move}-{name}.vtp")
             bindpose.write(to_dataset((moved - moved.mean(axis=0), triangles)), options.scratch / files[-1])
-            labels.append(f"{move} ({name} energy): middle section has {share[along // 2]:.0%} of its area")
+            labels.append(f"{move} ({name} energy): middle section keeps {share[along // 2]:.0%} of its area")
         numbers[f"{move}: difference"] = posing.rms_apart(points, posed["surface"], posed["volume"])
     common.render(options, *files, "--columns", 2, "--size", "1300x900", "--edges", "--up", "z", "--azimuth", -35,
                   "--elevation", 15, "--labels", ",".join(labels),

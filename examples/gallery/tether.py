@@ -47,7 +47,7 @@ def make(options):
     for name, bender, extra in (("reduced", bindpose.vtkReducedARAP(), {"NumberOfExtraWeights": 15}),
                                 ("full", bindpose.vtkFullARAP(), {})):
         with warnings.catch_warnings():
-            # ignore warnings about components without a handle, and handles off the mesh
+            # ignore two kinds of warnings: a component has no handle; a handle is not on the mesh
             warnings.simplefilter("ignore", bindpose.BindposeWarning)
             posed = posing.posed(bender, weighted, handles, pose, MaximumIterations=2000, **extra)
         centers = points_of(posed).reshape(BALLS, each, 3).mean(axis=1)
@@ -61,7 +61,8 @@ def make(options):
     add_point_array(twice, "Weights", np.vstack([row, row]), ["p1", "p2", "p3"])
     both = points_of(posing.posed(bindpose.vtkReducedARAP(), twice, handles, pose, MaximumIterations=200))
     diagonal = np.linalg.norm(np.ptp(mesh[0], axis=0))
-    numbers["copies at one position, difference"] = float(np.abs(both[:len(mesh[0])] - both[len(mesh[0]):]).max() / diagonal)
+    numbers["largest difference between two copies of the mesh"] = float(
+        np.abs(both[:len(mesh[0])] - both[len(mesh[0]):]).max() / diagonal)
     common.render(options, *files, "--columns", 1, "--size", "1100x1250", "--up", "z", "--azimuth", -35, "--elevation", 15,
                   "--labels", "at rest: nine balls,reduced: weights keep them together,full: they separate",
                   "--title", "Disconnected parts")

@@ -50,9 +50,10 @@ def make(options):
     data = smooth + noise(squares)
     numbers = {"noise: rms": float(np.sqrt(np.mean((data - smooth) ** 2)) / np.ptp(smooth))}
     nearest = [int(np.argmin((x - a) ** 2 + (y - b) ** 2)) for a, b, _height in HILLS]
-    results = {"four most persistent": bindpose.monotone_smoothing((vertices, triangles), data, number_of_extrema=4),
-               "one of each kind": bindpose.monotone_smoothing((vertices, triangles), data, maxima=nearest[:1],
-                                                               minima=nearest[2:3])}
+    square = vertices, triangles
+    results = {"four most persistent extrema": bindpose.monotone_smoothing(square, data, number_of_extrema=4),
+               "one maximum and one minimum": bindpose.monotone_smoothing(square, data, maxima=nearest[:1],
+                                                                          minima=nearest[2:3])}
     files = []
     for values in (data, *results.values()):
         files.append(f"{len(files)}.vtp")
@@ -64,12 +65,12 @@ def make(options):
                           "--range", span, "--labels", "noisy data,the four most persistent extrema,one maximum and one minimum",
                           "--title", "Data on a square, with all local extrema")
     for name, its in zip(("noisy data", *results), shown["extrema"]):
-        numbers[f"{name}: maxima, minima in the picture"] = [its["maxima"], its["minima"]]
+        numbers[f"{name}: number of maxima and minima in the picture"] = [its["maxima"], its["minima"]]
     for name, values in results.items():
         report = bindpose.report(values)
         numbers[f"{name}: relative gap"] = report["relative_gap"]
         numbers[f"{name}: rms distance to the data without noise"] = float(np.sqrt(np.mean((values - smooth) ** 2)) / np.ptp(smooth))
-        numbers[f"{name}: listed vertices are extrema"] = are_extrema(values, report["extrema"], edges(triangles))
+        numbers[f"{name}: all listed vertices are extrema"] = are_extrema(values, report["extrema"], edges(triangles))
     return numbers
 
 

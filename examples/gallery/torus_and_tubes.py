@@ -22,7 +22,8 @@ RADIUS, TUBE, TURN = 1.0, 0.4, np.pi / 2
 
 
 def tube(along, around):
-    """Return triangles of a tube; rings of `around` vertices, each rotated by half a step."""
+    """Return the triangles of a tube of `along` rings with `around` vertices. Every second ring is rotated by half a
+    step."""
     triangles = []
     for i in range(along - 1):
         a = i * around + np.arange(around)
@@ -40,7 +41,7 @@ def make(options):
     band = 12 if options.small else 20
     along = patch + 1 + 2 * band
     length = TURN * RADIUS
-    # length along the tube: 0 to `length` on the patch
+    # s is the position of each vertex along the axis of the tube. The patch is from s = 0 to s = `length`.
     s = np.repeat((np.arange(along) - band) * length / patch, around)
     phi = (2 * np.pi * (np.arange(around)[None] + 0.5 * (np.arange(along) % 2)[:, None]) / around).ravel()
     triangles = tube(along, around)
@@ -48,7 +49,7 @@ def make(options):
     domain = np.stack([s, across, up], axis=1)
 
     def place(angle, beyond):
-        """Return a position on the torus, moved by a distance along its tangent."""
+        """Return positions at this angle on the torus, moved by the distance `beyond` along the tangent."""
         return np.stack([-(RADIUS + across) * np.cos(angle) + beyond * np.sin(angle),
                          (RADIUS + across) * np.sin(angle) + beyond * np.cos(angle), up], axis=1)
 
@@ -79,12 +80,12 @@ def make(options):
             files.append(f"{name.replace(' ', '-')}-{order}.vtp")
             bindpose.write(data, options.scratch / files[-1])
             labels.append(f"{name}: order {order}")
-        numbers[f"{name}: farthest from the torus"] = apart
-        numbers[f"{name}: narrowest"] = narrowest
-        numbers[f"{name}: kink at the end, degrees"] = kinks
+        numbers[f"{name}: largest distance from the torus"] = apart
+        numbers[f"{name}: smallest radius"] = narrowest
+        numbers[f"{name}: kink at the end of the patch in degrees"] = kinks
     common.render(options, *files, "--columns", 3, "--size", "1350x1250", "--array", "Free", "--range", "0,1", "--edges",
                   "--up", "z", "--azimuth", 0, "--elevation", 60, "--labels", ",".join(labels), "--zoom", 0.95,
-                  "--title", "A quarter of a torus reconstructed, orders 1 to 3")
+                  "--title", "A missing quarter of a torus, reconstructed with orders 1 to 3")
     return numbers
 
 

@@ -68,15 +68,16 @@ def make(options):
                "lowest and highest weight": [float(weights.min()), float(weights.max())],
                "largest |row sum - 1|": float(abs(weights.sum(axis=1) - 1).max()),
                "extrema away from handles": sum(handle["interior_extrema"] for handle in report["handles"]),
-               "tets apart from their handle's main region, fraction": float(stray(cells, owner))}
+               "fraction of tets outside the main region of their strongest handle": float(stray(cells, owner))}
     look = ["--section", "0.56", "--handles", "handles.vtp", "--size", "760x700", *VIEW]
     pictures = [options.scratch / "territories.png", options.scratch / "column.png"]
     shown = common.render(options, "elephant.vtu", "--color", "handle", *look, "--labels", "the handle with the largest weight",
                           picture=pictures[0])
     column = common.render(options, "elephant.vtu", "--component", report["handles"][COLUMN]["name"], "--extrema", *look,
                            "--labels", "the weights of one handle", picture=pictures[1])
-    numbers["tets by handle in the picture"] = [its["count"] for its in shown["colors"]]
-    numbers["shown column: maxima, minima"] = [column["extrema"][0]["maxima"], column["extrema"][0]["minima"]]
+    numbers["number of tets per strongest handle"] = [its["count"] for its in shown["colors"]]
+    numbers["shown handle: number of maxima and minima"] = [
+        column["extrema"][0]["maxima"], column["extrema"][0]["minima"]]
     common.side_by_side(options, pictures, 2)
     return numbers
 

@@ -160,23 +160,27 @@ def check_option(option, allowed_fields, types):
     require(not unknown, where, f"unknown field '{unknown[0] if unknown else ''}'")
     require(option.type in types, where, f"unknown type '{option.type}'")
     require(option.help.endswith(".") and option.help[0].isalnum(), where, "help must be one or more sentences")
-    require((option.type == "choice") == bool(option.choices), where, "choices are required for the type choice and not allowed for other types")
-    require((option.type == "word") == ("words" in fields), where, "words are required for the type word and not allowed for other types")
+    require((option.type == "choice") == bool(option.choices), where,
+            "'choices' is required for the type 'choice' and not allowed for other types")
+    require((option.type == "word") == ("words" in fields), where,
+            "'words' is required for the type 'word' and not allowed for other types")
     require(set(fields.get("labels", {})) <= set(option.choices), where,
             "labels may be given only for names in 'choices'")
     require(set(option.layers) <= set(LAYERS), where, f"each layer must be one of {', '.join(LAYERS)}")
-    require("layer_defaults" not in fields or fields.get("why"), where, "layer_defaults need a reason, 'why'")
-    require("minimum" not in fields or "above" not in fields, where, "minimum and above exclude each other")
-    require("maximum" not in fields or "below" not in fields, where, "maximum and below exclude each other")
+    require("layer_defaults" not in fields or fields.get("why"), where,
+            "'layer_defaults' requires the field 'why' with a reason")
+    require("minimum" not in fields or "above" not in fields, where, "'minimum' and 'above' cannot both be given")
+    require("maximum" not in fields or "below" not in fields, where, "'maximum' and 'below' cannot both be given")
     require(set(fields.get("layer_defaults", {})) <= {*LAYERS, "window"}, where,
-            f"layer_defaults are of {', '.join(LAYERS)}, window")
+            f"each key of 'layer_defaults' must be one of {', '.join(LAYERS)}, window")
     if "slider" in fields:
-        require(option.type in NUMBER_TYPES, where, f"a slider belongs to the types {', '.join(NUMBER_TYPES)}")
+        require(option.type in NUMBER_TYPES, where,
+                f"a slider is only allowed for the types {', '.join(NUMBER_TYPES)}")
         require(isinstance(fields["slider"], list) and len(fields["slider"]) == 2, where, "a slider must have two numbers")
         lowest, highest = fields["slider"]
-        require(lowest <= option.default_of("window") <= highest, where, "the slider must contain the default")
+        require(lowest <= option.default_of("window") <= highest, where, "the slider's range must contain the default")
         require(lowest >= fields.get("minimum", lowest) and highest <= fields.get("maximum", highest), where,
-                "the slider is out of the range")
+                "the slider's range must be within the limits of the option")
     for default in [option.default, *fields.get("layer_defaults", {}).values(), *option.defaults.values()]:
         if default is not None:
             check_default(option, default)
@@ -186,13 +190,15 @@ def check_array(option):
     """Check that an array option has either the field `input` or the field `output`, and other options have neither."""
     where, fields = option.where, option.fields
     if not option.type.endswith("_array"):
-        require("input" not in fields and "output" not in fields, where, "input and output are only for the types point_array and cell_array")
+        require("input" not in fields and "output" not in fields, where,
+                "'input' and 'output' are only allowed for the types point_array and cell_array")
         return
-    require(("input" in fields) != ("output" in fields), where, "an array needs either input or output")
+    require(("input" in fields) != ("output" in fields), where,
+            "an array must have exactly one of the fields 'input' and 'output'")
     source = fields.get("input", "Input")
     require(isinstance(source, str) and re.fullmatch(r"[A-Z][A-Za-z]*", source), where,
             f"input {source!r} must be the name of a ParaView property, such as Input or Handles")
-    require(fields.get("output", True) is True, where, "output must be true")
+    require(fields.get("output", True) is True, where, "'output' must be true or left out")
 
 
 def check_mentions(option, others, owner):

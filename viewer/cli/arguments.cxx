@@ -207,8 +207,8 @@ std::string unexpected_argument(const Verb& verb, const std::vector<std::string>
 /// there is none
 std::string unused_option(const Verb& verb, const Arguments& arguments)
 {
-  // With --dynamics, every method also uses the options of the as-rigid-as-possible methods, so the
-  // typed options cannot be checked.
+  // With --dynamics, every method also uses options of the as-rigid-as-possible methods.
+  // Option::methods does not list this use, so the options are not checked.
   if (!arguments.has("method") || arguments.has("dynamics"))
   {
     return {};
@@ -282,7 +282,9 @@ int parse_arguments(int argc, char** argv, Arguments& arguments)
       add_option(*sub, option, arguments);
     }
   }
-  app.add_subcommand("key-table", "print the keys of the window as a Markdown table")
+  app
+    .add_subcommand(
+      "key-table", "print the keyboard and mouse shortcuts of the window as a Markdown table")
     ->group("")
     ->callback([&arguments]() { arguments.verb = "key-table"; });
   if (argc < 2)

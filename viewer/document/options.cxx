@@ -179,7 +179,7 @@ std::vector<OptionInfo> make_option_table()
       QT_TRANSLATE_NOOP("Document", "orientation of the slice of weights"), 2, orientations),
     { "weights.place", QT_TRANSLATE_NOOP("Document", "move the slice of weights"), 0.5, 0.0, 1.0 },
     { "weights.normal", QT_TRANSLATE_NOOP("Document", "turn the slice of weights"), z_axis },
-    { "weights.over_picture", QT_TRANSLATE_NOOP("Document", "colors over the picture"), 0.5, 0.0,
+    { "weights.over_picture", QT_TRANSLATE_NOOP("Document", "opacity of the colors"), 0.5, 0.0,
       1.0 },
     choice("tets.method", QT_TRANSLATE_NOOP("Document", "tet method"), 0,
       joined(tetrahedralize::method.choices,
@@ -193,7 +193,7 @@ std::vector<OptionInfo> make_option_table()
         { "method", QT_TRANSLATE_NOOP("Document", "By method") } },
       "tets.colours"),
     { "tets.cut", QT_TRANSLATE_NOOP("Document", "cut"), true },
-    { "tets.other_side", QT_TRANSLATE_NOOP("Document", "side of the cut"), false },
+    { "tets.other_side", QT_TRANSLATE_NOOP("Document", "kept side of the cut"), false },
     choice(
       "tets.orientation", QT_TRANSLATE_NOOP("Document", "orientation of the cut"), 2, orientations),
     { "tets.place", QT_TRANSLATE_NOOP("Document", "move the cut"), 0.5, 0.0, 1.0 },

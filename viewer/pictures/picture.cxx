@@ -77,7 +77,8 @@ Status check_options(const std::vector<Tile>& tiles, const PictureOptions& optio
   }
   if (!is_in_range(options.section, 0.0, 1.0))
   {
-    return Status::invalid_input("the section must be between 0 and 1");
+    return Status::invalid_input(
+      "the position of the section must be between 0 (back) and 1 (front)");
   }
   if (options.section_plane &&
     (!options.section_plane->origin.allFinite() || !options.section_plane->normal.allFinite() ||

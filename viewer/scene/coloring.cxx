@@ -167,8 +167,8 @@ std::string quantity_name(ColorBy by)
   return by == ColorBy::label ? "label" : by == ColorBy::quality ? "quality" : "rung";
 }
 
-// Return the quality, the label or the meshing method of each tet, which are available for all
-// tets.
+// Return one value per tet: the quality, or the lookup-table value of the label or the meshing
+// method. Return null if the data are not tets or have no valid labels or method.
 vtkSmartPointer<vtkDoubleArray> tet_values(vtkDataSet* data, const Coloring& coloring)
 {
   TetInput tets;
@@ -589,14 +589,15 @@ Status choose_coloring(
   if (coloring.subtracted_data && coloring.by != ColorBy::array &&
     coloring.by != ColorBy::winding_number)
   {
-    return Status::invalid_input("a difference needs colors by an array or by winding number");
+    return Status::invalid_input(
+      "a difference can only be shown when coloring by an array or by winding number");
   }
   if (coloring.by != ColorBy::array)
   {
     if (!coloring.array.empty() || !coloring.component.empty())
     {
       return Status::invalid_input(
-        "an array or a component can only be combined with colors by array");
+        "an array name or a component can only be given when coloring by array");
     }
     if (is_tet_quantity(coloring.by))
     {

@@ -76,9 +76,9 @@ Status find_extrema(const std::vector<Tile>& tiles, const Coloring& coloring,
     }
     extrema[i] = interior_extrema(vertex_graph(domain), values, points_of_handles(data));
   }
-  return any ? Status()
-             : Status::invalid_input(
-                 "extrema need a point array of a surface or of tets; set its name as the array");
+  return any
+    ? Status()
+    : Status::invalid_input("to show extrema, color by a point array of a surface or of tets");
 }
 
 std::vector<Category> count_extrema(const std::vector<std::vector<Extremum>>& extrema)

@@ -145,7 +145,8 @@ RotationGroups make_groups(
   return groups;
 }
 
-/// An edge of the mesh with the sum of its elements' cotangent weights, which must be positive.
+/// An edge of the mesh. Its weight is the sum of the cotangent weights of the elements at the edge.
+/// Only edges with a positive weight are stored.
 struct Spoke
 {
   Index i, j;
@@ -378,7 +379,7 @@ std::string ignored_edges_warning(Index ignored_edges)
     (ignored_edges == 1
         ? " edge has a negative cotangent weight (obtuse angles opposite to it)"
         : " edges have negative cotangent weights (obtuse angles opposite to them)") +
-    ", which energy spokes ignores; energy spokes-and-rims uses all edges";
+    ", which the energy 'spokes' ignores; the energy 'spokes-and-rims' uses all edges";
 }
 
 RotationGroups rotation_groups(

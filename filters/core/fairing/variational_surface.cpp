@@ -64,7 +64,8 @@ Status VariationalSurface::bind(ExecutionContext& context, PointsView points,
   if (options.boundary == PatchBoundary::tangent &&
     options.tangent_source == PatchTangents::prescribed && options.tangents.rows() == 0)
   {
-    return Status::invalid_input("tangent source given needs tangents, but the mesh has none");
+    return Status::invalid_input(
+      "tangent source 'given' needs an array of tangents, but the mesh has none");
   }
   if (!handles.empty())
   {
@@ -245,7 +246,8 @@ Status VariationalSurface::solve(ExecutionContext& context, const Pose& pose)
   const double refinement = this->system_.solve(prescribed, constrained, flux, options.load, x);
   if (!x.allFinite())
   {
-    return Status::failure(StatusCode::unavailable, "the patch has no finite solution");
+    return Status::failure(StatusCode::unavailable,
+      "the surface cannot be computed: the solution has values that are not finite");
   }
   if (!options.fair)
   {

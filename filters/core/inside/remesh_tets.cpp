@@ -183,9 +183,10 @@ Status remesh_tets(ExecutionContext& context, PointsView points, TrianglesView t
   if (answer.data.tets.rows() == 0)
   {
     return Status::invalid_input(
-      "the surface encloses nothing: at a distance of a millionth of the bounding-box diagonal, "
-      "the winding number does not cross the threshold of " +
-      short_number(options.winding_threshold) + " between the two sides of any triangle");
+      "the surface encloses nothing: no triangle separates winding numbers above and below the "
+      "threshold of " +
+      short_number(options.winding_threshold) +
+      " (tested 1e-6 bounding-box diagonals from each triangle)");
   }
   const IdsByPosition ids = ids_by_position(points, triangles);
   if (!improve(context, ids, region, answer))

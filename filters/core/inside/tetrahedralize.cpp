@@ -35,7 +35,7 @@ namespace bindpose
 
 namespace
 {
-/// Fraction of the work of method cdt for CdtTets::build(); the rest is for complete().
+/// Progress of method cdt when CdtTets::build() ends and CdtTets::complete() begins.
 constexpr double cdt_build_end = 0.45;
 
 /// Return the status with which method automatic fails. Whatever the cause, the message recommends
@@ -419,8 +419,8 @@ private:
       minimum_fraction * this->time_limit_);
     if (this->options_.method == TetMethod::automatic)
     {
-      // This limit is several times the duration for most surfaces. A surface of needle-shaped
-      // triangles would take minutes.
+      // On most surfaces, the refinement takes a fraction of this limit. Without the limit, it
+      // would take minutes on surfaces of needle-shaped triangles.
       constexpr double base_limit = 8.0; // seconds
       constexpr double seconds_per_triangle = 1e-4;
       constexpr double maximum_limit = 14.0;
@@ -538,8 +538,8 @@ private:
     {
       const TetMesh& mesh = this->result_.mesh;
       this->warn("the surface is open (" + std::to_string(this->surface_.found.boundary_edges) +
-        " boundary edges), and the wrap is a thin shell where an opening is wider than two "
-        "wrap_alpha; the volume of the tets is " +
+        " boundary edges); where an opening is wider than twice wrap_alpha, the wrap is only a "
+        "thin shell; the volume of the tets is " +
         short_number(tet_volumes(mesh.points, mesh.tets).sum()) +
         ", but the enclosed volume by winding number is " + short_number(this->inside_.volume()));
     }

@@ -168,11 +168,11 @@ private:
   const Index m_; // number of columns
 
   MatrixXd given_values_; // #V x m: fixed and pinned values, 0 elsewhere
-  MatrixXd is_solved_; // n x m: 1 where a weight is solved for
+  MatrixXd is_solved_; // n x m: 1 where a weight is solved for, else 0
   MatrixXd lower_, upper_; // n x m
-  MatrixXd has_upper_bound_; // n x m: 1 if the upper bound is not implied by the row sum
+  MatrixXd has_upper_bound_; // n x m: 1 if the row sum does not imply the upper bound, else 0
   VectorXd sum_; // n: required sum of a row's solved weights
-  std::vector<char> is_coupled_; // n: 1 for rows with at least two weights to solve for
+  std::vector<char> is_coupled_; // n: 1 if at least two weights of the row are solved for, else 0
   MatrixXd c_; // n x m: linear terms
   MatrixXd x_, s_, t_, z_, r_;
   VectorXd y_;
@@ -697,7 +697,8 @@ CoupledSolution CoupledQp::run(const MatrixXd& start)
     {
       status = this->context_.canceled()
         ? Status::canceled()
-        : Status::failure(StatusCode::not_converged, "a step is not finite");
+        : Status::failure(StatusCode::not_converged,
+            "the solver stopped because a step has values that are not finite");
       break;
     }
     this->x_ += primal * d.x;

@@ -34,7 +34,8 @@ Status depth_order(ExecutionContext& context, WeightsView weights, const Eigen::
   }
   if (!(options.tie_offset >= 0.0) || !std::isfinite(options.tie_offset))
   {
-    return Status::invalid_input("tie (an offset in layers) must be a finite number of at least 0");
+    return Status::invalid_input("'tie', the offset that orders handles of equal layers, must be a "
+                                 "finite number of at least 0");
   }
   const Eigen::VectorXd relative_layers = layers.array() - layers[0];
   const Eigen::VectorXd rank =

@@ -430,8 +430,8 @@ Status Smoothing::guide_values(const VectorXd& unconstrained, VectorXd& values)
   return status;
 }
 
-/// Solve again for the order of the last result (rebuild). Stop when a rebuild decreases the energy
-/// by less than 0.01 %.
+/// Repeat rebuilds: sort the vertices by the values of the last result, compute the ordered pairs
+/// from this order, and solve again. Stop when a rebuild decreases the energy by less than 0.01 %.
 void Smoothing::rebuild(BoxQpColumn& column, BoxQpSolution& best)
 {
   for (int round = 0; round < this->options_.rebuilds && best.status.ok(); ++round)
@@ -510,8 +510,8 @@ Status Smoothing::solve()
   }
   if (this->floods_ == 0)
   {
-    return Status::failure(
-      StatusCode::internal_error, "no order of the vertices was found for the list of extrema");
+    return Status::failure(StatusCode::internal_error,
+      "no ordering of the vertices with exactly the listed extrema was found; change the list");
   }
   column.pairs =
     pairs_from_order(this->graph_, this->result_.list, this->rank_, this->options_.epsilon);

@@ -1,6 +1,7 @@
-// Solve the weights of a surface in a domain of its inside (see surface_weights.h). The solve in
-// the volume makes tets, inserts handles, runs the method and transfers the weights. The solve in
-// the embedding does the same on lattices and smooths the transferred weights. If a domain fails
+// Weights of a surface, solved in one of several domains (see surface_weights.h). For the domain
+// volume, the steps are: fill the inside with tets, insert the handles, run the weight method, and
+// transfer the weights to the surface. For the domain embedding, the same steps are done on
+// lattices that contain the surface, and the transferred weights are smoothed. If a domain fails
 // and another domain replaces it, the report contains the status of the failed domain as the
 // reason.
 #include "weights/surface_weights.h"
@@ -35,7 +36,8 @@ constexpr Index first_lattice_tets = 4500;
 /// Target number of tets of the third lattice. Its resolution is limited to 5/4 … 3/2 times the
 /// resolution of the second lattice.
 constexpr double third_lattice_tets = 36000.0;
-/// Number of tets of the only lattice if the guard is off.
+/// Approximate number of tets of the lattice if SurfaceWeightsOptions::check_resolution is false,
+/// so that only one lattice is made.
 constexpr Index single_lattice_tets = 12000;
 constexpr int maximum_lattices = 3;
 /// Progress after the work on each lattice, as a fraction of all work. Each lattice takes about
@@ -142,8 +144,8 @@ private:
   /// The locator of the surface, used for all lattices; null until it is needed.
   std::unique_ptr<SimplexLocator> surface_;
   /// Links between parts of the surface. The first links connect a part with an opening to the
-  /// parts that cover the opening. The other links connect parts that had no handle in one of the
-  /// lattices so far.
+  /// parts that cover the opening. The other links connect parts without a handle to other parts
+  /// (find_loose_parts). They are found for each lattice and kept for all later lattices.
   std::vector<PartLink> links_;
   /// Number of openings that other parts cover; empty until `links_` contains the links at these
   /// openings.
@@ -211,7 +213,7 @@ Status Solver::prepare()
   return status;
 }
 
-/// Fill the inside with tets that are small enough for smooth weights.
+/// Fill the surface's inside with tets that are small enough for smooth weights.
 Status Solver::fill(TetrahedralizeResult& tets)
 {
   const Phase phase(this->context_, "tetrahedralize", 0.0, meshing_end);
@@ -373,7 +375,8 @@ Status Solver::solve_in_volume(SurfaceWeights& result)
   return status.usable() ? this->solve_volume(std::move(status), result) : status;
 }
 
-/// Insert handles into the tets of the inside, solve the weights and transfer them.
+/// Insert handles into the tets that fill the surface, solve the weights and transfer them to the
+/// surface.
 /// @param mesh_status  status of making the tets.
 Status Solver::solve_volume(Status mesh_status, SurfaceWeights& result)
 {
@@ -386,8 +389,8 @@ Status Solver::solve_volume(Status mesh_status, SurfaceWeights& result)
     }
     if (std::all_of(labels.begin(), labels.end(), [](Index label) { return label <= 0; }))
     {
-      return Status::invalid_input("the tets have no labeled points of the surface; solve on the "
-                                   "surface itself, or use tets with labels");
+      return Status::invalid_input("no vertex of the tets is a surface point with a region label; "
+                                   "use domain 'surface', or tets with region labels");
     }
   }
   result.domain = WeightsDomain::volume;
@@ -652,7 +655,8 @@ double Solver::transfer_fraction() const
   return transfer / (transfer + lattice_seconds_per_point * points + lattice_seconds);
 }
 
-/// Solve on lattices of increasing resolution until two agree (the guard).
+/// Solve on lattices of increasing resolution until the weights of two lattices agree (see
+/// **guard** in surface_weights.h).
 /// @return the finest lattice that converged. If no lattice converged, the finest lattice that has
 /// a result. If no lattice has a result, a lattice whose status contains the reason.
 LatticePtr Solver::best_lattice()
@@ -790,7 +794,7 @@ Status Solver::automatic(SurfaceWeights& result)
   if (requested || !this->region_ids_.empty())
   {
     return with_reason(this->solve_in_volume(result),
-      requested ? "weight terms apply to single points" : "the surface has region labels");
+      requested ? "weight terms are given for single points" : "the surface has region labels");
   }
   {
     const ProgressRange range(this->context_, 0.0, 0.05);
@@ -834,9 +838,9 @@ Status Solver::automatic_volume(SurfaceWeights& result)
     : this->fall_back_to_embedding(status, result);
 }
 
-/// Solve in the embedding after another domain has failed. Add one warning and the reason to the
-/// report.
-/// @param first status of the other domain; it is returned if the embedding fails, too.
+/// Solve in the embedding after another domain has failed. Add a warning that names this domain and
+/// its error, and add the same information to the report (domain_fallback.*, domain_reason).
+/// @param first status of the domain that failed; it is returned if the embedding fails, too.
 Status Solver::fall_back_to_embedding(const Status& first, SurfaceWeights& result)
 {
   if (first.code == StatusCode::canceled)

@@ -160,8 +160,8 @@ Status linear_subspace_weights(ExecutionContext& context, const WeightsProblem& 
   if (!spanned && status.usable())
   {
     status.warnings.emplace_back(
-      "the handles of a part do not span space (or the plane, if it is flat); 1e-6 times the "
-      "biharmonic energy is added");
+      "the handles of a connected part lie in one plane (in a flat part: on one line), so they do "
+      "not determine its weights; 1e-6 times the biharmonic energy is added");
   }
   return status;
 }

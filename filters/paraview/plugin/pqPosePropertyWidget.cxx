@@ -74,7 +74,7 @@ void pqPosePropertyWidget::add_tools()
     QString text, tip;
   };
   const Gizmo gizmos[] = { { vtkHandleSetRepresentation::GIZMO_NONE, tr("Drag"),
-                             tr("Drag the handles themselves") },
+                             tr("Drag handles directly, without a gizmo") },
     { vtkHandleSetRepresentation::GIZMO_MOVE, tr("Move"),
       tr("Show arrows that move the selected handles (G: move with the mouse)") },
     { vtkHandleSetRepresentation::GIZMO_TURN, tr("Turn"),
@@ -130,14 +130,15 @@ void pqPosePropertyWidget::add_selection_row()
   this->mode_ = new QComboBox(this);
   this->mode_->addItems(
     { tr("Automatic"), tr("Full"), tr("Position"), tr("Free"), tr("Tail"), tr("Ends") });
-  this->mode_->setToolTip(
-    tr("What the selected handles constrain: their whole transform (Full), their position, nothing "
-       "(Free), or the ends of a bone. Automatic: methods that compute rotations choose."));
+  this->mode_->setToolTip(tr(
+    "Constraint of the selected handles. Full: the whole transform. Position: only the position.\n"
+    "Free: nothing. Tail, Ends: the positions of a bone's tail or of both its ends.\n"
+    "Automatic: like Full, but methods that compute rotations choose one of these."));
   row->addWidget(this->mode_);
   this->reset_ = this->add_button(row, tr("Reset"), tr("Return the selected handles to rest"));
   this->reset_all_ =
     this->add_button(row, tr("Reset all"), tr("Return all handles to the input's pose"));
-  this->take_pose_ = this->add_button(row, tr("Take the shown pose"),
+  this->take_pose_ = this->add_button(row, tr("Make pose editable"),
     tr(
       "Replace the file, the sequence or the expressions by the pose that is shown, so that it can "
       "be dragged"));
@@ -229,7 +230,7 @@ void pqPosePropertyWidget::take_shown_pose()
   {
     const std::string text = representation->GetDrawnPoseJSON();
     this->clears_file_ = true;
-    this->apply_edit(tr("Take the shown pose"), text);
+    this->apply_edit(tr("Make pose editable"), text);
     this->clears_file_ = false;
   }
 }

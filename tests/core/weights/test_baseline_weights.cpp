@@ -16,7 +16,7 @@ using ::testing::HasSubstr;
 
 namespace
 {
-/// Solve with the weight method that has this word in the registry.
+/// Compute weights by the method with the name `word` (see WeightMethod).
 WeightsResult solve_by_word(const WeightsProblem& problem, const char* word,
   const WeightsOptions& options = {}, Status* status = nullptr)
 {
@@ -135,7 +135,7 @@ TEST(LinearSubspace, HandlesThatDoNotSpanAreAWarning)
     test::point_handles({ Vec3(0.2, 0.5, 0.0), Vec3(0.8, 0.5, 0.0) }));
   const WeightsResult weights = solve_by_word(two, "linear-subspace", {}, &status);
   ASSERT_EQ(status.warnings.size(), 1u);
-  EXPECT_THAT(status.warnings[0], HasSubstr("do not span"));
+  EXPECT_THAT(status.warnings[0], HasSubstr("do not determine its weights"));
   // The weights are almost linear along x, the direction of the line through the two handles.
   for (Index v = 0; v < two.vertex_count(); ++v)
   {

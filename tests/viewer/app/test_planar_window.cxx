@@ -190,7 +190,7 @@ TEST_F(PlanarWindow, WeightsLieOverThePictureAsMuchAsIsWanted)
   this->choose("weights.over_picture", 0.0);
   const QImage picture = this->picture();
   this->choose("weights.over_picture", 1.0);
-  EXPECT_EQ(this->window.document()->history()->undoText(), "colors over the picture");
+  EXPECT_EQ(this->window.document()->history()->undoText(), "opacity of the colors");
   const QImage colors = this->picture();
   this->choose("weights.over_picture", 0.5);
   const QImage both = this->picture();

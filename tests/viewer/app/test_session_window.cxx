@@ -537,8 +537,8 @@ TEST_F(SessionWindow, APictureIsCutOutShownAndBent)
   {
     this->window.document()->history()->undo();
   }
-  // The user can request the whole rectangle of the image instead of its outline.
-  button_of(this->bar("note_bar"), "Take the whole picture")->click();
+  // The user can replace the cut-out shape by the whole rectangle of the image.
+  button_of(this->bar("note_bar"), "Use the whole picture")->click();
   ASSERT_EQ(this->window.error(), "");
   const double* whole_bounds = this->window.document()->surface()->GetBounds();
   EXPECT_NEAR(whole_bounds[1] - whole_bounds[0], 64, 1e-6);
@@ -586,8 +586,8 @@ TEST_F(SessionWindow, WhatAFileLosesIsToldAbout)
   const QString lost_message = "character.gltf: Bindpose does not keep 2 materials.";
   EXPECT_TRUE(this->bar("note_bar")->message().startsWith(lost_message))
     << this->bar("note_bar")->message().toStdString();
-  // The search for defects ends after this message appears. Its result must not replace the
-  // sentence about the lost materials.
+  // The search for defects ends later and adds its result to the message. The sentence about the
+  // lost materials must stay at the beginning of the message.
   ASSERT_TRUE(
     test::wait_for([this] { return this->bar("note_bar")->message().contains("has defects"); }));
   EXPECT_TRUE(this->bar("note_bar")->message().startsWith(lost_message));

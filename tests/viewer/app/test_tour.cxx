@@ -143,11 +143,13 @@ TEST(Tour, AMistakeIsOneSentenceThatNamesTheStep)
     "step 1 (key): the verb cannot have the field \"answer\"");
   EXPECT_EQ(refusal(R"({"option": "a"})"), "step 1 (option): \"value\" is missing");
   EXPECT_EQ(refusal(R"({"check": "a"})"),
-    "step 1 (check): a check must have exactly one of is, at_least, at_most, as_at");
+    "step 1 (check): a check must have exactly one of \"is\", \"at_least\", \"at_most\", "
+    "\"as_at\"");
   EXPECT_EQ(refusal(R"({"check": "a", "is": 1, "at_most": 2})"),
-    "step 1 (check): a check must have exactly one of is, at_least, at_most, as_at");
+    "step 1 (check): a check must have exactly one of \"is\", \"at_least\", \"at_most\", "
+    "\"as_at\"");
   EXPECT_EQ(refusal(R"({"check": "a", "at_least": "many"})"),
-    "step 1 (check): at_least and at_most must be numbers");
+    "step 1 (check): \"at_least\" and \"at_most\" must be numbers");
   EXPECT_EQ(refusal(R"({"check": "a", "as_at": "start"})"),
     "step 1 (check): no earlier screenshot is named \"start\"");
   EXPECT_EQ(refusal(R"({"screenshot": "a/b"})"),
@@ -174,11 +176,11 @@ TEST(Tour, AnotherFileIsRefused)
     "the schema of the tour is 2; expected 1");
   EXPECT_EQ(
     app::tour::parse_tour(R"({"tour": {"schema": 1, "speed": 2}, "steps": []})", tour).message,
-    "the head of a tour cannot have the field \"speed\"");
+    "the object \"tour\" cannot have the field \"speed\"");
   EXPECT_EQ(app::tour::parse_tour(
               R"({"tour": {"schema": 1, "view": [760, 10]}, "steps": [{"wait": 0}]})", tour)
               .message,
-    "the head of the tour: a size must be two numbers from 200 to 8000");
+    "the object \"tour\": a size must be two numbers from 200 to 8000");
   ASSERT_TRUE(app::tour::parse_tour(
     R"({"tour": {"schema": 1, "view": [760, 560]}, "steps": [{"wait": 0}]})", tour)
                 .ok());

@@ -134,7 +134,8 @@ protected:
   }
 };
 
-/// Return the part of a reading that contains the coordinates.
+/// Return the rest of a reading, beginning with its coordinates, or an empty text if the reading
+/// has no coordinates.
 const char* coordinates_in(const std::string& reading)
 {
   const std::size_t begin = reading.find("  x ");
@@ -341,7 +342,7 @@ TEST_F(VolumeWindow, NoSliceLiesInAPosedShape)
   EXPECT_NEAR(top(), 1.2, 1e-3);
   EXPECT_NEAR(handles->GetBounds()[3], 0.0, 1e-9);
   EXPECT_EQ(this->part<app::view::Viewport>()->state_name(),
-    "Rest shape: winding numbers are shown at rest");
+    "Rest shape: required to show winding numbers");
   // The shape is posed again while the slice is hidden. It is also posed in the panel Pose, which
   // does not show the slice and its legend.
   this->find<QCheckBox>("Show the slice")->setChecked(false);

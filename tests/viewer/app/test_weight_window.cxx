@@ -247,7 +247,8 @@ TEST_F(WeightWindow, RowSumsNeedRawColumns)
   EXPECT_NEAR(this->view()->numbers().number("picture.row_sum.maximum", 0.0), 1.25, 1e-12);
   EXPECT_FALSE(this->list("top")->isEnabled());
   EXPECT_FALSE(this->button("Normalized")->isEnabled());
-  // If a mesh has no raw columns, the processed weights are shown again.
+  // Row sums need the array RawWeights. After a mesh without this array is opened, the view shows
+  // the array Weights.
   this->open(ball_with_named_weights());
   EXPECT_TRUE(this->button("Weights")->isChecked());
   EXPECT_TRUE(this->view()->is_shown());
@@ -255,7 +256,8 @@ TEST_F(WeightWindow, RowSumsNeedRawColumns)
 
 TEST_F(WeightWindow, ExtremaAreCountedAndSeen)
 {
-  // Only the raw column has an additional extremum: a bump in the middle of the visible side.
+  // The array RawWeights has an extremum that the array Weights does not have: a bump in the middle
+  // of the visible side.
   const Vec3 position = Vec3(0.3, -0.5, 0.1).normalized();
   Vec3 bump = position;
   const auto mesh = ball_with_named_weights();
@@ -458,7 +460,8 @@ TEST_F(WeightWindow, CertificatesNameTheirMethod)
   ASSERT_TRUE(this->window.set_handles(two_points(), "points"));
   ASSERT_TRUE(this->window.is_bound());
   EXPECT_TRUE(this->has_label_with("Bounded biharmonic weights:"));
-  // Certificates are also shown in the panel Pose, where the next method is chosen.
+  // The panel Pose, which contains the choice of the method for the next bind, also shows the
+  // certificate.
   const auto note = [this](const QString& words)
   {
     const auto labels = this->part<app::handles::SidePanel>()->findChildren<QLabel*>();
@@ -466,13 +469,13 @@ TEST_F(WeightWindow, CertificatesNameTheirMethod)
       labels.begin(), labels.end(), [&](const QLabel* label) { return label->text() == words; });
   };
   auto* chosen = this->part<app::handles::SidePanel>()->findChild<QComboBox*>("bind.method");
-  EXPECT_TRUE(note("Bound: bounded biharmonic. Optimal to within 2.0e-08."));
+  EXPECT_TRUE(note("Weights: bounded biharmonic. Optimal to within 2.0e-08."));
   chosen->setCurrentIndex(1);
   EXPECT_TRUE(
-    note("Bound: bounded biharmonic. Optimal to within 2.0e-08. Bind again for monotone."));
+    note("Weights: bounded biharmonic. Optimal to within 2.0e-08. Bind again for monotone."));
   chosen->setCurrentIndex(0);
-  EXPECT_TRUE(note("Bound: bounded biharmonic. Optimal to within 2.0e-08."));
-  // By default the weights are compared with another method.
+  EXPECT_TRUE(note("Weights: bounded biharmonic. Optimal to within 2.0e-08."));
+  // By default, the method to compare with differs from the method of the weights.
   auto* other = this->panel()->findChild<QComboBox*>("weights.compare_with");
   EXPECT_TRUE(this->button("Compare")->isEnabled());
   other->setCurrentIndex(0);
@@ -559,7 +562,7 @@ TEST_F(WeightWindow, IsolinesAndSlicesKnowThePose)
   EXPECT_NEAR(maximum_z(this->part<app::view::Viewport>()->drawn()), 1.0, 1e-5);
   EXPECT_NEAR(handles->GetBounds()[5], 0.9, 1e-5);
   EXPECT_EQ(this->part<app::view::Viewport>()->state_name(),
-    "Rest shape: the slice of weights is shown at rest");
+    "Rest shape: required to show the slice of weights");
   this->find<QCheckBox>("Slice through the volume")->setChecked(false);
   EXPECT_NEAR(maximum_z(this->part<app::view::Viewport>()->drawn()), 2.0, 1e-5);
   EXPECT_NEAR(handles->GetBounds()[5], 1.9, 1e-5);
@@ -594,7 +597,7 @@ TEST_F(WeightWindow, WhatCannotBeChosenSaysWhy)
   EXPECT_FALSE(this->view()->is_shown());
   this->open(ball_with_named_weights());
   EXPECT_GT(check(), 5);
-  EXPECT_TRUE(this->has_label_with("These weights have no certificate."));
+  EXPECT_TRUE(this->has_label_with("The accuracy of these weights is unknown."));
   const QCheckBox* slice = this->find<QCheckBox>("Slice through the volume");
   EXPECT_TRUE(slice->toolTip().contains(".vtu"));
   this->open(box_with_named_weights());

@@ -140,8 +140,8 @@ TEST(Picture, DrawsEveryKindOfData)
   image->GetPointData()->GetScalars()->SetName("height");
   image->GetPointData()->GetScalars()->Fill(1.0);
   EXPECT_TRUE(try_to_draw({ { image, nullptr, "" } }, options).ok());
-  // If only one of two tiles has a dataset with the array, the dataset of the second tile is drawn
-  // without colors.
+  // Only the first of two tiles has the array. The dataset of the second tile is drawn without
+  // colors.
   options.array = "Weights";
   EXPECT_TRUE(try_to_draw({ { ball(), nullptr, "a" }, { cloud, nullptr, "b" } }, options).ok());
 }
@@ -171,7 +171,7 @@ TEST(Picture, TetsAreColoredByWhatTheyHave)
   EXPECT_TRUE(drawn.ok()) << drawn.message;
   EXPECT_EQ(drawn.report.text("picture.array"), "quality");
   options.array = "Weights";
-  EXPECT_THAT(refused(options, tile), HasSubstr("can only be combined with colors by array"));
+  EXPECT_THAT(refused(options, tile), HasSubstr("can only be given when coloring by array"));
 
   vtkNew<vtkIntArray> labels;
   labels->SetName("Label");

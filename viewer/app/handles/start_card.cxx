@@ -24,7 +24,7 @@ StartCard::StartCard(QAction* auto_rig, QWidget* parent) : QFrame(parent)
     auto_rig, &QAction::changed, rig, [auto_rig, rig] { rig->setEnabled(auto_rig->isEnabled()); });
   row->addWidget(rig);
   row->addWidget(new QLabel(tr("makes bones along the shape and binds it.<br>"
-                               "<b>By hand:</b> A points, B bones, C cage, P regions"),
+                               "<b>Or add:</b> points (A), bones (B), cage (C), regions (P)"),
     this));
 }
 

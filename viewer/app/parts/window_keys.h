@@ -44,15 +44,15 @@ constexpr std::array<WindowKey, 46> window_keys{ {
   { "quit", "anywhere", "Ctrl+Q", "Quit" },
 
   { "", "view", "Drag with the left button, away from handles",
-    "Turn the view (if a picture is open: move the view); on a slice or cut: move it (Esc: "
-    "cancel)" },
+    "Turn the view (2D view: move the view); on a slice or cut: move its plane (Esc cancels)" },
   { "", "view", "Drag with Shift + left button or with the middle button", "Move the view" },
   { "", "view", "Wheel, or drag with the right button", "Zoom" },
   { "whole_shape", "view", "Home", "Show the whole shape" },
   { "look_at_rest", "view", "T", "Show the rest shape, or the pose again" },
 
   { "gizmo.none", "tools", "Q", "Drag handles directly, without a gizmo" },
-  { "gizmo.move", "tools", "W", "Gizmo for moving: arrows and plates" },
+  { "gizmo.move", "tools", "W",
+    "Gizmo for moving: arrows (along an axis) and squares (in a plane)" },
   { "gizmo.turn", "tools", "E", "Gizmo for rotating: rings" },
   { "gizmo.scale", "tools", "D", "Gizmo for scaling: boxes" },
   { "gizmo.all", "tools", "F", "Gizmo with all parts; for a bone also stretch and twist" },
@@ -74,7 +74,7 @@ constexpr std::array<WindowKey, 46> window_keys{ {
   { "color", "handles", "Ctrl+K", "Recolor" },
   { "lock", "handles", "Ctrl+L", "Lock or unlock: a locked handle cannot be moved" },
   { "delete", "handles", "Delete", "Delete" },
-  { "mirror.x", "handles", "Ctrl+M", "Mirror to the other side, left to right" },
+  { "mirror.x", "handles", "Ctrl+M", "Mirror the selected handles, left to right" },
   { "snap", "handles", "Ctrl+T", "Snap to the surface" },
   { "cage_edge", "handles", "Ctrl+E", "Add or remove the edge between two cage vertices" },
   { "reset", "handles", "Ctrl+0", "Reset: back to rest" },

@@ -47,8 +47,7 @@ const struct
     QT_TRANSLATE_NOOP("PosePanel",
       "Rotates every vertex about its own center: twists stay thick, bends do not bulge.") },
   { PoseMethod::reduced_arap, QT_TRANSLATE_NOOP("PosePanel", "ARAP"),
-    QT_TRANSLATE_NOOP(
-      "PosePanel", "As rigid as possible, restricted to the weights; solves in microseconds.") },
+    QT_TRANSLATE_NOOP("PosePanel", "As rigid as the weights allow; solves in microseconds.") },
   { PoseMethod::full_arap, QT_TRANSLATE_NOOP("PosePanel", "Full ARAP"),
     QT_TRANSLATE_NOOP("PosePanel",
       "As rigid as possible, with every vertex free to move. Needs no weights; slower.") },
@@ -233,14 +232,15 @@ void PosePanel::add_options(QVBoxLayout* column)
 
   this->endpoints_ = box("pose.endpoints", this);
   this->option(column, tr("Along bones"), this->endpoints_,
-    tr("Position of a vertex along a bone, from head to tail.\n"
-       "Projection: available immediately. Joints and Bounded: follow the shape,\n"
-       "computed when they are chosen. An array EndpointWeights takes precedence."),
+    tr("How to compute the position of a vertex along a bone, from head to tail.\n"
+       "Projection: project the vertex onto the bone, without a solve.\n"
+       "Joints, Bounded: solve for smooth weights on the shape.\n"
+       "The array EndpointWeights of the mesh, if there is one, is used instead."),
     { PoseMethod::stretchable_bones });
   this->pseudo_edges_ = box("pose.pseudo_edges", this);
   this->option(column, tr("Pseudo-edges"), this->pseudo_edges_,
-    tr("Point handles that are only translated follow the rotation of the edges between them:\n"
-       "those of the handle file (Given), or edges along the shape (Automatic)."),
+    tr("Edges between point handles. A handle that is only translated rotates with its edges.\n"
+       "Given: the edges of the handle file. Automatic: edges along the shape."),
     skinning);
   this->single_ = check("pose.single_precision", tr("Single precision"));
   this->option(column, QString(), this->single_,
@@ -265,8 +265,8 @@ void PosePanel::add_options(QVBoxLayout* column)
     reduced);
   this->extra_kind_ = box("pose.extra_kind", this);
   this->extra_kind_row_ = this->option(column, tr("Extra type"), this->extra_kind_,
-    tr("Type of the extra weights: bumps around points that are far apart, or the smoothest "
-       "functions that vanish at handles"),
+    tr("Bumps: local functions around vertices that are far from each other.\n"
+       "Eigenmodes: the smoothest functions that are zero at the handles."),
     reduced);
   this->iterations_ = row("pose.iterations");
   this->iterations_->field()->setDecimals(0);
@@ -280,9 +280,8 @@ void PosePanel::add_options(QVBoxLayout* column)
 
   this->rotations_ = box("pose.rotations", this);
   this->option(column, tr("Rotations"), this->rotations_,
-    tr(
-      "Color the shape by rotation angles, or by rotation clusters: vertices with similar weights\n"
-      "that share a rotation in reduced ARAP, single vertices in full ARAP"),
+    tr("Color the shape by rotation angle or by rotation cluster. The vertices of a cluster have\n"
+       "similar weights and share one rotation; in full ARAP, each vertex is a cluster."),
     arap_methods);
 
   this->order_ = box("pose.order", this);
@@ -359,7 +358,7 @@ void PosePanel::add_motion(QVBoxLayout* column)
   this->play_->setToolTip(tr("Run or pause the simulation"));
   this->step_->setToolTip(tr("Advance the simulation by 1/60 s"));
   this->restart_->setToolTip(
-    tr("Restart at time 0, with the shape at rest at the current handles"));
+    tr("Restart at time 0, without motion, in the current pose of the handles"));
   for (QPushButton* each : { this->play_, this->step_, this->restart_ })
   {
     buttons->addWidget(each, 1);

@@ -201,13 +201,13 @@ Status read_check(const Json& json, const std::string& prefix, TourStep& step)
   if (relations != 1)
   {
     return Status::invalid_input(
-      prefix + ": a check must have exactly one of is, at_least, at_most, as_at");
+      prefix + ": a check must have exactly one of \"is\", \"at_least\", \"at_most\", \"as_at\"");
   }
   const bool bound =
     step.relation == TourRelation::at_least || step.relation == TourRelation::at_most;
   if (bound && (step.expected.size() != 1 || step.expects_bool))
   {
-    return Status::invalid_input(prefix + ": at_least and at_most must be numbers");
+    return Status::invalid_input(prefix + ": \"at_least\" and \"at_most\" must be numbers");
   }
   if (step.relation == TourRelation::as_at && !step.expects_text)
   {
@@ -452,11 +452,11 @@ Status parse_tour(const std::string& text, Tour& tour)
   {
     if (!has_word("schema name size view seconds", key))
     {
-      return Status::invalid_input("the head of a tour cannot have the field \"" + key + "\"");
+      return Status::invalid_input("the object \"tour\" cannot have the field \"" + key + "\"");
     }
   }
   int found = 0;
-  JsonFields fields(head, "the head of the tour");
+  JsonFields fields(head, "the object \"tour\"");
   fields.read("schema", found, 0, 1000000);
   fields.read("name", tour.name);
   fields.read("seconds", tour.seconds, 0.001, 86400.0);
@@ -475,7 +475,7 @@ Status parse_tour(const std::string& text, Tour& tour)
     {
       TourStep read;
       const Status status =
-        read_argument(head[key], ArgumentType::size, "the head of the tour", read);
+        read_argument(head[key], ArgumentType::size, "the object \"tour\"", read);
       if (!status.ok())
       {
         return status;

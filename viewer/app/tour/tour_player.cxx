@@ -259,9 +259,10 @@ void TourPlayer::process_drawing()
   }
 }
 
-/// Run `perform_step`, a part of a step, and answer the dialogs that it opens. If `answer` is not
-/// empty, it is entered as the file name in a file dialog, and every dialog except a message box is
-/// accepted once. All other dialogs are closed, and the returned sentence reports them.
+/// Run `perform_step` and answer the modal dialogs that it opens. If `answer` is empty, all dialogs
+/// are closed. Otherwise `answer` is entered as the file name in a file dialog, every dialog except
+/// a message box is accepted once, and dialogs that remain open are closed. If a dialog was closed,
+/// return a sentence about it.
 QString TourPlayer::answer_dialogs(
   const std::function<QString()>& perform_step, const std::string& answer)
 {
@@ -527,7 +528,7 @@ QString TourPlayer::check(const TourStep& step)
   const auto found = values.find(step.text);
   if (found == values.end())
   {
-    return QString("the value does not exist at this step");
+    return QString("there is no value with this name at this step");
   }
   Json expected = step.expects_bool ? Json(step.expected[0] != 0.0)
     : step.expects_text             ? Json(step.expected_text)
@@ -539,7 +540,7 @@ QString TourPlayer::check(const TourStep& step)
     const Json& earlier_values = this->record_["screenshots"][step.expected_text]["values"];
     if (!earlier_values.contains(step.text))
     {
-      return QString("the value did not exist at the screenshot '%1'")
+      return QString("there was no value with this name at the screenshot '%1'")
         .arg(QString::fromStdString(step.expected_text));
     }
     expected = earlier_values[step.text];

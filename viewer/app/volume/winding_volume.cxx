@@ -126,7 +126,7 @@ void WindingVolume::finish()
     const double seconds = status.report.number("seconds.total", 0.0);
     this->panel_->set_note(range[1] - range[0] < minimum_range
         // All values are equal if each triangle exists twice, with opposite orientations.
-        ? tr("w is 0 everywhere: triangles cancel.")
+        ? tr("Winding numbers are 0: triangles cancel out.")
         : tr("%1 × %2 × %3 samples in %4.")
             .arg(size[0])
             .arg(size[1])

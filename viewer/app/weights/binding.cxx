@@ -140,8 +140,8 @@ void Binding::finish()
     }
     else if (preview && this->document_->set_bound(preview, nullptr))
     {
-      this->panel_->set_note(tr("Canceled; preview weights are kept, without a certificate. Bind "
-                                "again for exact weights."));
+      this->panel_->set_note(
+        tr("Canceled; preview weights are kept. Bind again for exact weights."));
     }
     else
     {

@@ -248,8 +248,9 @@ QString WeightInspection::certificate(int column) const
   const double residual = value("WeightsKKTResidual");
   if (gap < 0.0 || residual < 0.0)
   {
-    return has_point_array(this->surface_, "Weights") ? tr("These weights have no certificate.")
-                                                      : tr("There are no weights yet.");
+    return has_point_array(this->surface_, "Weights")
+      ? tr("The accuracy of these weights is unknown.")
+      : tr("There are no weights yet.");
   }
   const int method = method_of_weights(this->surface_);
   QString text = method < 0 ? tr("Weights of the mesh:\n")

@@ -86,7 +86,8 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
       tr("Show the difference from the weights of the method under 'Other method'") });
   this->normalization_group_ = this->add_choice("weights.raw",
     { tr("Weights divided by their sum at each vertex; these weights deform the shape"),
-      tr("Weights as solved, before normalization; the certificate applies to these weights") });
+      tr("Weights from the solver, before normalization; gap and residual refer to these "
+         "weights") });
   this->certificate_ = note(3);
   this->certificate_->setToolTip(
     tr("Optimality certificate of the column. Gap: its energy exceeds the minimum by at most this "
@@ -112,7 +113,7 @@ WeightPanel::WeightPanel(QWidget* parent) : QFrame(parent)
   auto* tint = new QVBoxLayout(this->tint_row_);
   tint->setContentsMargins(0, 0, 0, 0);
   tint->setSpacing(4);
-  tint->addWidget(new QLabel(tr("Colors over the picture"), this->tint_row_));
+  tint->addWidget(new QLabel(tr("Opacity of the colors"), this->tint_row_));
   this->tint_ = parts::option_row("weights.over_picture", this->tint_row_);
   this->tint_->setToolTip(tr(
     "Opacity of the colors: 0 shows only the picture, 1 only the colors; isolines remain visible"));

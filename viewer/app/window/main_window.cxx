@@ -90,13 +90,13 @@ QString certificate_note(vtkPolyData* surface, const WeightMethod& chosen)
 {
   vtkDataArray* gaps = surface->GetFieldData()->GetArray("WeightsRelativeGap");
   const int bound = weights::method_of_weights(surface);
-  const QString name = bound < 0 ? MainWindow::tr("weights from the mesh file")
-                                 : method_words(weight_methods()[bound]);
+  const QString name =
+    bound < 0 ? MainWindow::tr("from the mesh file") : method_words(weight_methods()[bound]);
   QString note = gaps && gaps->GetNumberOfTuples() > 0
-    ? MainWindow::tr("Bound: %1. Optimal to within %2.")
+    ? MainWindow::tr("Weights: %1. Optimal to within %2.")
         .arg(name)
         .arg(gaps->GetRange()[1], 0, 'e', 1)
-    : MainWindow::tr("Bound: %1.").arg(name);
+    : MainWindow::tr("Weights: %1.").arg(name);
   if (bound >= 0 && &weight_methods()[bound] != &chosen)
   {
     note += ' ' + MainWindow::tr("Bind again for %1.").arg(method_words(chosen));
@@ -109,7 +109,8 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), document_(new Doc
 {
   this->setAcceptDrops(true);
   new parts::FieldGuard(this, [this] { this->viewport_->setFocus(Qt::OtherFocusReason); });
-  // Fit the whole window on a small screen, including the title bar of the desktop.
+  // Limit the size, so that the window fits on a small screen together with its title bar, which
+  // the desktop adds.
   constexpr int title_bar_height = 40; // pixels
   const QSize available_size = QGuiApplication::primaryScreen()->availableGeometry().size();
   this->resize(QSize(1280, 800).boundedTo(available_size - QSize(0, title_bar_height)));
@@ -773,7 +774,7 @@ bool MainWindow::open_picture(
   {
     const vtkSmartPointer<vtkImageData> kept = picture;
     this->note_bar_->offer(tr("%1 is cut out along its transparent parts.").arg(name),
-      { { tr("Take the whole picture"),
+      { { tr("Use the whole picture"),
         [this, kept, name, source] { this->open_picture(kept, name, source, true); } } },
       tr("Close"));
   }
@@ -945,8 +946,8 @@ void MainWindow::draw_pose()
   {
     reading = this->posing_->reading();
   }
-  if (rest &&
-    this->posing_->surface() == this->drawn_surface_) // otherwise another mesh is being opened
+  // While another mesh is being opened, the pose is that of the previous mesh and is not drawn.
+  if (rest && this->posing_->surface() == this->drawn_surface_)
   {
     this->posing_->draw();
     this->weights_->move_surface(this->posing_->displayed_shape());
@@ -965,10 +966,10 @@ void MainWindow::draw_pose()
 void MainWindow::show_state()
 {
   const QString inspected = this->tet_inspection_->tet_view()->is_shown()
-    ? tr("tets are shown at rest")
-    : this->tet_inspection_->defect_view().is_shown() ? tr("defects are shown at rest")
-    : this->weights_->requires_rest_shape()           ? tr("the slice of weights is shown at rest")
-    : this->volume_view_->is_shown()                  ? tr("winding numbers are shown at rest")
+    ? tr("required to show tets")
+    : this->tet_inspection_->defect_view().is_shown() ? tr("required to show defects")
+    : this->weights_->requires_rest_shape()           ? tr("required to show the slice of weights")
+    : this->volume_view_->is_shown()                  ? tr("required to show winding numbers")
                                                       : QString();
   const bool rest_view = this->posing_->is_rest_view();
   this->posing_->inspect_at_rest(!inspected.isEmpty());

@@ -188,7 +188,7 @@ bool WindowSessions::confirm_close()
   QMessageBox question(QMessageBox::Question, "Bindpose",
     tr("Save the changes to %1?").arg(this->name().isEmpty() ? tr("the work") : this->name()),
     QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, this->parts_.window);
-  question.setInformativeText(tr("Unsaved changes are lost."));
+  question.setInformativeText(tr("Unsaved changes will be lost."));
   question.setDefaultButton(QMessageBox::Save);
   switch (question.exec())
   {

@@ -80,6 +80,12 @@ class Program:
         self.reports: dict[str, dict[str, Any]] = {}
         self.child: subprocess.Popen[bytes] | None = None
 
+    def end(self, *_: object) -> None:
+        """Handle SIGTERM like Ctrl-C, which a terminal also sends to the child process."""
+        if self.child:
+            self.child.send_signal(signal.SIGINT)
+        signal.raise_signal(signal.SIGINT)
+
     def run(self, title: str, *words: object, report: str | None = None) -> dict[str, Any]:
         arguments = [str(word) for word in words]
         print(f"\n{title}\n  bindpose {shlex.join(arguments)}", flush=True)
@@ -254,8 +260,7 @@ def main() -> None:
     staging = pathlib.Path(tempfile.mkdtemp(prefix=f".{options.output.name}-", dir=options.output.absolute().parent))
     staging.chmod(0o755)
     program = Program(options.build, staging)
-    # Handle SIGTERM like Ctrl-C: wait for the end of the child process, and remove the files written so far.
-    signal.signal(signal.SIGTERM, lambda *_: signal.raise_signal(signal.SIGINT))
+    signal.signal(signal.SIGTERM, program.end)
     try:
         mesh, pictures = main_job(options, program, bindpose)
         write_json(staging / "report.json", {"mesh": mesh.name, "seconds": round(time.monotonic() - start, 2), **program.reports})

@@ -21,8 +21,8 @@
  *
  * Further cell arrays are `OriginalCellIds` (the input's cell; -1: none), `CrossedCellIds` (lowest
  * id of the cells that a crossing triangle intersects; -1: none), `Component` (index of the
- * connected component; -1: none) and `InwardComponent` (index of the component that is inside out;
- * -1: none). Point array: `OriginalPointIds`. Edges, components and crossings are those of the
+ * connected component; -1: none) and `InwardComponent` (index among the components that are inside
+ * out; -1: none). Point array: `OriginalPointIds`. Edges, components and crossings are those of the
  * surface after equal points are merged. Otherwise every edge of an STL file, which stores three
  * separate points per triangle, would be a boundary edge.
  *

@@ -72,8 +72,8 @@ std::string reason_against_tets(const TetMesh& tets, Index handle_count)
     two_lattice_factor * predicted_seconds(typical_lattice_vertices, handle_count);
   // Conforming tets preserve the surface. Therefore lattices are used only if the predicted time of
   // the tets exceeds that of the lattices by more than this factor.
-  constexpr double minimum_speedup = 2.0;
-  return tet_seconds > minimum_speedup * lattice_seconds
+  constexpr double allowed_time_ratio = 2.0;
+  return tet_seconds > allowed_time_ratio * lattice_seconds
     ? std::to_string(count) + " tets would take about " + short_number(tet_seconds, 2) +
       " s, a lattice " + short_number(lattice_seconds, 2) + " s"
     : std::string();

@@ -134,12 +134,12 @@ private:
     // Limit of the matrix entries: half of the cotangent of 2 degrees, rounded up.
     constexpr double most = 15.0;
     const auto weights = cotangent_weights(points, triangles);
-    VectorXd shares(triangles.rows());
+    VectorXd factors(triangles.rows());
     for (Index t = 0; t < triangles.rows(); ++t)
     {
-      shares[t] = most / std::max(most, weights.row(t).cwiseAbs().maxCoeff());
+      factors[t] = most / std::max(most, weights.row(t).cwiseAbs().maxCoeff());
     }
-    return shares;
+    return factors;
   }
 
   /// Return row v of K w. K is symmetric; the code reads column v of K, which is stored
@@ -199,7 +199,7 @@ private:
   void prepare_correction(ExecutionContext& context, const std::vector<Index>& fixed)
   {
     const ProgressRange range(context, factored, preparation_end);
-    constexpr Index maximum_entries = 40'000'000; // 160 MB
+    constexpr Index maximum_entries = 40'000'000; // 160 MB of responses
     const Index n = this->mass_.size();
     const Index most = std::min(static_cast<Index>(fixed.size()), maximum_entries / n);
     this->corrected_points_.assign(fixed.begin(), fixed.begin() + most);

@@ -23,7 +23,7 @@ namespace bindpose
 /// triangle soups are therefore valid input. Constant functions do not change.
 ///
 /// Cost: about 6 microseconds per point for analysis and factorization, then about 1 microsecond
-/// per point and column. Memory: at most 320 MB for the corrections.
+/// per point and column. Memory: at most 480 MB for the corrections.
 /// @param points,triangles any surface. Equal points must be merged. Triangles without area are
 /// ignored.
 /// @param fixed ids of points whose values do not change, ascending.

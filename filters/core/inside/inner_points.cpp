@@ -408,7 +408,7 @@ bool inner_points(ExecutionContext& context, const Interior& interior, SizingFie
     }
   };
   raise();
-  Points largest_fitting; // largest point set so far with at most the allowed number of points
+  Points largest_fitting; // largest point set so far that is not above the target
   Points surplus_points; // smallest point set so far with too many points
   double before = -1.0;
   double begin = 0.0; // progress at the start of this attempt

@@ -300,11 +300,13 @@ TEST(EmbeddingTets, TopologyIsTheSurfaces)
   EXPECT_EQ(test::euler_characteristic(embed_mesh(torus).mesh), 0);
   const TriangleMesh shell = test::join(test::sphere(3), test::flipped(test::sphere(3, 0.5)));
   EXPECT_EQ(test::euler_characteristic(embed_mesh(shell).mesh), 2) << "a ball with a cavity";
-  // The tube of this torus is only about three lattice cubes thick. The tets must still have the
-  // topology of a ring.
-  TriangleMesh ring = test::torus(48, 24, 1.0, 0.2);
-  const EmbeddingTets whole = embed_mesh(ring, 20);
-  EXPECT_EQ(test::euler_characteristic(whole.mesh), 0);
+  // The tube of this torus has diameter 0.4: about three lattice cubes, or less than one. The tets
+  // must still have the topology of a ring.
+  const TriangleMesh ring = test::torus(48, 24, 1.0, 0.2);
+  for (const Index resolution : { 20, 5 })
+  {
+    EXPECT_EQ(test::euler_characteristic(embed_mesh(ring, resolution).mesh), 0) << resolution;
+  }
 }
 
 TEST(EmbeddingTets, BarsThatAreNearShareNoVertex)

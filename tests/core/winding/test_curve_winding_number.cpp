@@ -193,10 +193,13 @@ TEST(CurveWindingNumber, JumpsByOneAcrossTheCurveAndNotAcrossChords)
   }
   // The points are on the missing side x = -1 or on the extension of this side. There is no segment
   // at these points, so no contact is reported.
-  bool on_curve = true;
-  EXPECT_NEAR(winding.evaluate_at(Vec2(-1, 0.25), &on_curve),
-    curve_winding_number_direct(curve.points, curve.segments, Vec2(-1, 0.25)), 1e-15);
-  EXPECT_FALSE(on_curve);
+  for (const double y : { 0.25, 0.0, 5.0, -5.0 })
+  {
+    bool on_curve = true;
+    EXPECT_NEAR(winding.evaluate_at(Vec2(-1, y), &on_curve),
+      curve_winding_number_direct(curve.points, curve.segments, Vec2(-1, y)), 1e-15);
+    EXPECT_FALSE(on_curve) << y;
+  }
   EXPECT_NEAR(winding.evaluate_at(Vec2(-1, 0)), 0.5, 1e-15);
   EXPECT_NEAR(winding.evaluate_at(Vec2(-1, 5)) + winding.evaluate_at(Vec2(-1, -5)), 0.0, 1e-15);
 }

@@ -174,7 +174,7 @@ TEST_F(HandleList, WhatIsSelectedInThePictureIsSelectedInTheList)
   EXPECT_EQ(this->selected(), Indices());
   this->user.trigger("edit.undo");
   EXPECT_EQ(this->list()->rows().size(), 4U);
-  this->selected();
+  EXPECT_EQ(this->selected(), Indices({ 0, 2, 3 }));
 }
 
 TEST_F(HandleList, TheFieldsAreThoseOfTheFirstAndSayHowMany)

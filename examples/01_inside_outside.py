@@ -241,8 +241,8 @@ def write_picture(path: pathlib.Path, surface: vtkPolyData, points: Points, ours
         side.SetAmbient(0.25)
         side.SetDiffuse(0.8)
     glass.GetProperty().SetOpacity(0.22)
-    # The field is shown on the two planes of the cut, where the cut surface has its rim. Shift the planes slightly, so
-    # that the rim is drawn in front of them.
+    # The field is drawn on the two planes that cut the corner off. Shift these planes slightly, so that the cut edges
+    # of the surface are drawn in front of the field.
     hair = 1e-4 * size
     cuts = [field_on(surface, [x0 - pad, x, y0 - pad, y1 + pad, z - hair, z - hair], table),
             field_on(surface, [x + hair, x + hair, y0 - pad, y1 + pad, z, z1 + pad], table)]

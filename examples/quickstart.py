@@ -49,8 +49,8 @@ def demo_mesh(folder: pathlib.Path, name: str = DEMO_MESH) -> pathlib.Path:
     archives = [line for line in listed.stdout.splitlines() if line.endswith("data.tar.gz")]
     with tempfile.TemporaryDirectory() as scratch:
         if archives and not os.path.exists(archives[0]):
-            # Minimal systems exclude /usr/share/doc, where the package has its data, so download and unpack the
-            # package.
+            # The data of the Debian package is in /usr/share/doc. Minimal systems do not install this folder. In this
+            # case, download and unpack the package.
             subprocess.run(["apt-get", "download", DEMO_PACKAGE], cwd=scratch, check=False,
                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
             for package in pathlib.Path(scratch).glob("*.deb"):

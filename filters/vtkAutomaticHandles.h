@@ -93,7 +93,8 @@ public:
   };
 
   ///@{
-  /// POINTS: distance measure, ALONG_EDGES (default) of the surface or STRAIGHT through space.
+  /// POINTS: how distances are measured. ALONG_EDGES (default): along the edges of the surface.
+  /// STRAIGHT: in a straight line through space.
   vtkSetClampMacro(Distance, int, ALONG_EDGES, STRAIGHT);
   vtkGetMacro(Distance, int);
   void SetDistanceToAlongEdges() { this->SetDistance(ALONG_EDGES); }
@@ -114,15 +115,15 @@ public:
   ///@}
 
   ///@{
-  /// SKELETON: largest distance of the curve from its bones, as a fraction of the bounding-box
-  /// diagonal, 0.001 to 1; default 0.03.
+  /// SKELETON: largest distance (0.001 to 1, default 0.03) of the curve from its bones, as a
+  /// fraction of the bounding-box diagonal.
   vtkSetMacro(BoneTolerance, double);
   vtkGetMacro(BoneTolerance, double);
   ///@}
 
   ///@{
-  /// SKELETON: largest length of a bone, as a fraction of the bounding-box diagonal, at least 0.01;
-  /// longer bones are split. 0 (default): no limit.
+  /// SKELETON: largest length (at least 0.01) of a bone, as a fraction of the bounding-box
+  /// diagonal. Longer bones are split. 0 (default): no limit.
   vtkSetMacro(LongestBone, double);
   vtkGetMacro(LongestBone, double);
   ///@}
@@ -138,14 +139,15 @@ public:
   ///@}
 
   ///@{
-  /// SKELETON: number of triangles of about equal size to which the surface is remeshed before the
-  /// contraction, 100 to 1000000; default 10000. The actual number is approximate.
+  /// SKELETON: approximate number of triangles after remeshing, 100 to 1000000; default 10000.
+  /// Before the contraction, the surface is remeshed to triangles of about equal size.
   vtkSetMacro(SkeletonTriangles, int);
   vtkGetMacro(SkeletonTriangles, int);
   ///@}
 
   ///@{
-  /// Winding number at or above which a point is inside, above 0; default 0.5.
+  /// Threshold (above 0, default 0.5): a point is inside if its winding number is at least this
+  /// value.
   vtkSetMacro(WindingThreshold, double);
   vtkGetMacro(WindingThreshold, double);
   ///@}

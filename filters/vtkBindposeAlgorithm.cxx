@@ -3,14 +3,14 @@
 // a report, an error event and an error code.
 //
 // GetMTime is overridden because in VTK 9.1 a filter whose RequestData failed or was aborted counts
-// as executed. Without the override the executive would reuse its empty output in all later
-// updates.
+// as executed. Without the override the executive would reuse the filter's empty output in all
+// later updates.
 //
 // Pieces: by default the executive requests from a filter's inputs the piece that is requested from
 // its output. But a piece of a surface has no interior, and the weights of a piece of a mesh differ
 // from those of the whole mesh. Therefore piece 0 of the output is computed from the whole input,
-// and all other pieces are empty. For an empty piece, the same piece is requested upstream, which
-// is also empty and costs nothing.
+// and all other pieces are empty. For an empty piece, the same piece is requested upstream. That
+// piece is also empty and costs nothing.
 //
 // A filter can have a piece port, i.e. an input port that GetPiecePort() returns. It requests the
 // piece from this port and the whole input from all other ports. If an algorithm is upstream of the
@@ -55,7 +55,7 @@ namespace
 {
 using SDDP = vtkStreamingDemandDrivenPipeline;
 
-/// Return the status of some work. An exception becomes INTERNAL_ERROR.
+/// Call work() and return its status. An exception becomes the status INTERNAL_ERROR.
 template <typename Work>
 bindpose::Status status_of(const Work& work)
 {
@@ -120,8 +120,9 @@ public:
   vtkInformationVector** get() { return this->ports_.data(); }
 
 private:
-  /// Replace the data object of a connection in a copy of the port's information. The original also
-  /// belongs to the algorithm that produces the data object.
+  /// Replace the data object of a connection. The change is made in a copy of the information
+  /// object, because the algorithm that produces the data object uses the original information
+  /// object, too.
   void replace(int port, int connection, vtkDataObject* data)
   {
     auto copy = vtkSmartPointer<vtkInformationVector>::New();
@@ -533,7 +534,7 @@ void vtkBindposeAlgorithm::ReportProgress(double fraction, const std::string& ph
 bool vtkBindposeAlgorithm::ExecuteDirectly(
   const std::function<bindpose::Status(bindpose::ExecutionContext& context)>& work)
 {
-  this->SetAbortExecute(0); // the executive also does this before an execution
+  this->SetAbortExecute(0); // the executive also clears the abort flag before an execution
   bindpose::ExecutionContext context([this](double fraction, const std::string& phase)
     { this->ReportProgress(fraction, phase); },
     [this]() { return this->GetAbortExecute() != 0; });

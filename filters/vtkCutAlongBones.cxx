@@ -54,8 +54,9 @@ Status to_color_arrays(vtkPolyData* handles, ColorArrays& colors)
   return {};
 }
 
-/// Return for each bone the first bone of its curve. A curve consists of the bones with the same
-/// value in the cell array `Curve`. For any other handle return the handle itself.
+/// Set first[j] for each handle j. Bones with the same value in the cell array `Curve` form a
+/// curve; for these bones, first[j] is the first bone of the curve. For all other handles, first[j]
+/// is j.
 Status to_curves(vtkPolyData* handle_data, const Handles& handles, const std::vector<Index>& cells,
   std::vector<Index>& first)
 {
@@ -197,7 +198,7 @@ Status vtkCutAlongBones::Execute(
   }
   for (Handle& handle : sides.handles)
   {
-    handle.parent = -1; // the parent may be a bone, and bones are not output
+    handle.parent = -1; // the parent may be a bone, and the output contains no bones
   }
   const Status checked = check_handles(sides.handles);
   if (!checked.ok())

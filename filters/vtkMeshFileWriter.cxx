@@ -198,7 +198,7 @@ int vtkMeshFileWriter::Write()
 int vtkMeshFileWriter::FillInputPortInformation(int, vtkInformation* info)
 {
   info->Set(vtkAlgorithm::INPUT_REQUIRED_DATA_TYPE(), "vtkDataSet");
-  // The executive would otherwise write all blocks of a composite to the same file.
+  // If composites were not accepted, the executive would write all blocks to the same file.
   AcceptBlocks(info);
   return 1;
 }

@@ -77,7 +77,7 @@ public:
 
   ///@{
   /**
-   * Weight of the data term relative to the smoothness, >= 0. Detail finer than about six data
+   * Weight (>= 0) of the data term relative to the smoothness. Detail finer than about six data
    * lengths is smoothed away. The data length is DataWeight^(-1 / (2 Order)) times the size of the
    * mesh. With the default DataWeight of 1e6, the factor is 0.03 for Order 2 and 0.1 for Order 3.
    * The size is sqrt(12) times the root mean square distance from the centroid; for a box it equals
@@ -144,14 +144,15 @@ public:
 
   ///@{
   /// Minimum difference that each order constraint requires between two neighboring points, as a
-  /// fraction of the data's range, 0 to 1. Default 0; with a value above 0 extrema are strict.
+  /// fraction (0 to 1) of the data's range. Default 0. If Epsilon is above 0, the extrema are
+  /// strict.
   vtkSetMacro(Epsilon, double);
   vtkGetMacro(Epsilon, double);
   ///@}
 
   ///@{
-  /// Largest accepted relative duality gap and KKT residual of the optimality certificate, above 0
-  /// and below 1. Default 1e-6; 1e-9 is strict.
+  /// Tolerance (above 0, below 1): largest accepted relative duality gap and KKT residual of the
+  /// optimality certificate. Default 1e-6; 1e-9 is strict.
   vtkSetMacro(Tolerance, double);
   vtkGetMacro(Tolerance, double);
   ///@}

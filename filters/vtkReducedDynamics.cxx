@@ -187,7 +187,8 @@ Status vtkReducedDynamics::Execute(
 {
   if (this->GetBlock().composite)
   {
-    // The executive cannot repeat the time steps of a single block.
+    // The executive calls the filter once per block. It cannot repeat the call for one block to
+    // simulate several time steps.
     return Status::invalid_input(
       "a composite mesh cannot be simulated; merge its blocks or extract one");
   }

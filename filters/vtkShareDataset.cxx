@@ -59,7 +59,7 @@ constexpr int part_tag = 57301;
 /// Largest message, in bytes. Some implementations of MPI count bytes with 32 bits.
 constexpr vtkIdType largest_message = vtkIdType(1) << 30;
 /// Largest dataset, in KiB: 4 GiB minus 64 MiB. VTK counts the bytes of a message with 32 bits; 64
-/// MiB are reserved for the names in it.
+/// MiB are reserved for the names in the message.
 constexpr unsigned long largest_dataset = (4ul << 20) - (64ul << 10);
 
 /// The executive of the filter. It calls the filter even if an algorithm upstream has failed.
@@ -154,8 +154,8 @@ Status no_connection()
     StatusCode::internal_error, "the processes could not exchange their messages");
 }
 
-/// Do work on this process and return its status. An exception becomes internal_error, because an
-/// exception would interrupt the exchange.
+/// Call work() and return its status. An exception becomes the status internal_error, because it
+/// would interrupt the exchange.
 template <typename Work>
 Status status_of_process(const Work& work)
 {
@@ -322,7 +322,7 @@ struct Outcome
   Status status;
   std::int64_t points = 0, cells = 0, parts = 0;
   std::int64_t bytes = 0; ///< size of the converted dataset
-  std::int64_t bytes_sent = 0; ///< bytes of all messages with datasets
+  std::int64_t bytes_sent = 0; ///< total size of all sent parts and datasets
 };
 
 /// Send an outcome from process 0 to all processes.
@@ -692,8 +692,8 @@ Status vtkShareDataset::Exchange(vtkDataObject* part, const Status& part_status)
       status = status_of_process(
         [&]() -> Status
         {
-          // Create a new array. If the old array contains memory of VTK's writer, it calls delete[]
-          // for all memory that it frees, even for memory from malloc().
+          // Create a new array instead of resizing the array from to_message(). That array frees
+          // all memory with delete[], even memory that the resizing gets from malloc().
           message = vtkSmartPointer<vtkCharArray>::New();
           message->SetNumberOfTuples(outcome.bytes);
           return {};

@@ -88,16 +88,18 @@ public:
 
   ///@{
   /**
-   * Pseudo-edges that rotate points: none, those of the handle dataset (default), or automatic
-   * ones. Automatic pseudo-edges are the minimum spanning tree of the point handles by distances
-   * along the mesh's edges, so they follow the shape and cross no gap. This is a pose parameter.
+   * Pseudo-edges that rotate point handles: none, those of the handle dataset (default), or
+   * automatic ones. Automatic pseudo-edges are the minimum spanning tree of the point handles by
+   * distances along the mesh's edges, so they follow the shape and cross no gap. This is a pose
+   * parameter.
    */
   vtkSetClampMacro(PseudoEdges, int, NO_PSEUDO_EDGES, AUTOMATIC_PSEUDO_EDGES);
   vtkGetMacro(PseudoEdges, int);
   ///@}
 
   ///@{
-  /// Scale points by the mean length ratio of their pseudo-edges. Default off.
+  /// Also scale each point handle by the mean length ratio (posed length divided by rest length) of
+  /// its pseudo-edges. Default off.
   vtkSetMacro(PseudoEdgeStretch, bool);
   vtkGetMacro(PseudoEdgeStretch, bool);
   vtkBooleanMacro(PseudoEdgeStretch, bool);

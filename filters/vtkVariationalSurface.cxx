@@ -25,8 +25,8 @@ struct vtkVariationalSurface::Internals
 
 namespace
 {
-/// Return the rows of a point array with at least `minimum_components` components, padded with
-/// zeros to three. Return no rows if there is no array of that name.
+/// Copy a point array with `minimum_components` to 3 components to `rows`, #V x 3. A missing third
+/// component becomes 0. If there is no array of that name, `rows` is not changed.
 Status to_rows(vtkPointSet* mesh, const std::string& name, int minimum_components, Points& rows)
 {
   vtkAbstractArray* found = mesh->GetPointData()->GetAbstractArray(name.c_str());

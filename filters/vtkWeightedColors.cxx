@@ -23,8 +23,8 @@ vtkStandardNewMacro(vtkWeightedColors);
 
 namespace
 {
-/// Read the cells' colors, one row per handle. For unsigned chars, 255 becomes 1. The row of a cell
-/// without a color (three NaN) is not changed.
+/// Read the cells' colors, one row per handle. For unsigned chars, 255 becomes 1. If all three
+/// components are NaN, the cell has no color, and its row is not changed.
 Status to_colors(vtkDataArray* array, const WeightsInput& input, Colors& colors)
 {
   const std::string name = std::string("the handles' array '") + array->GetName() + "'";

@@ -98,7 +98,7 @@ vtkSmartPointer<vtkAbstractArray> extend_array(
 struct SolvedMesh
 {
   vtkSmartPointer<vtkDoubleArray> weights;
-  // Weights before rows are divided by their sums; null: not requested.
+  // Weights before normalization (division of each row by its sum); null: not requested.
   vtkSmartPointer<vtkDoubleArray> raw;
   // Mask of the vertices that have weights; null: all vertices have weights.
   vtkSmartPointer<vtkUnsignedCharArray> mask;
@@ -468,9 +468,9 @@ Status vtkWeightsAlgorithm::Bind(
   };
   const auto send_preview = [&](const Weights& weights)
   { this->InvokeEvent(PreviewEvent, to_weights_array(array_name, weights, handles)); };
-  // Compute no preview if there are rigid sets, because the preview ignores them. Without rigid
-  // sets, a component that has no handles may be disconnected from all handles. The energy of the
-  // preview would then be singular.
+  // Compute no preview if there are rigid sets, because the preview ignores them. If only a rigid
+  // set connects a component to handles, the component would be unconstrained, and the preview's
+  // energy singular.
   const bool wants_preview =
     this->Stage == CERTIFIED && this->HasObserver(PreviewEvent) && options.terms.rigid_sets.empty();
   if (domain.is_volume() || this->Domain == SURFACE)

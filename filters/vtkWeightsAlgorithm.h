@@ -17,15 +17,15 @@
  * a new point is -1. The output then contains only tets or triangles. With KeepMesh on, the mesh
  * does not change, and the corners of the cell that contains a handle represent the handle.
  *
- * **Output 1**: local extrema of the weights, before rows are divided by their sums. Only extrema
- * away from handles and with a persistence above 1e-3 are listed. The output is a vtkPolyData with
- * one vertex per extremum and the point arrays `Kind` (1 maximum, -1 minimum), `Handle` (column),
- * `Value` and `Persistence` (fraction of the column's range).
+ * **Output 1**: local extrema of the weights before normalization (division of each row by its
+ * sum). Only extrema away from handles and with a persistence above 1e-3 are listed. The output is
+ * a vtkPolyData with one vertex per extremum and the point arrays `Kind` (1 maximum, -1 minimum),
+ * `Handle` (column), `Value` and `Persistence` (fraction of the column's range).
  * **Output 2**: the tets on which a surface's weights were solved, with `Weights` and the arrays of
  * vtkTetrahedralizeSurface. It is empty if the weights were solved on the mesh itself (see Domain).
  *
- * KeepRaw adds the point array `RawWeights`: the columns (one per handle) before rows are divided
- * by their sums. The certificate applies to this array. Its rows need not sum to one.
+ * KeepRaw adds the point array `RawWeights`: the weights before normalization. The certificate
+ * applies to this array. Its rows need not sum to one.
  *
  * **Terms** are additional constraints and energies of bounded and monotone weights. They are point
  * arrays of the mesh with the names below. All are optional; an empty name disables the array.
@@ -39,11 +39,10 @@
  * - `WeightsLower`, `WeightsUpper`, one component per handle: smallest and largest weight at each
  *   point. NaN means the bounds of the handle, in the handles' cell array `WeightBounds` (two
  *   components). If that array is missing or NaN, the bounds of SetBounds() are used. All bounds
- *   apply to RawWeights. Dividing rows by their sums can violate the bounds (report:
+ *   apply to RawWeights. Normalization can violate the bounds (report:
  *   normalized_bounds_violation); PartitionOfUnity COUPLED does not violate them.
- * - `PinnedWeights`, one component per handle: prescribed weights; NaN: not prescribed. Prescribed
- *   weights do not change when rows are divided by their sums; only the other weights of the row
- *   are scaled.
+ * - `PinnedWeights`, one component per handle: prescribed weights; NaN: not prescribed.
+ *   Normalization does not change prescribed weights; it scales only the other weights of the row.
  * - `SymmetricPoint`, the id of each point's mirror point, or -1: two handles a and b that are
  *   mirror images of each other get weights w_a(v) = w_b(mirror of v). The symmetry is exact: it is
  *   a constraint of the minimization. SetMirrorNormal() is an alternative to this array. Points
@@ -55,8 +54,8 @@
  * terms.
  *
  * The **certificate** of optimality is stored in field data arrays, one value per column. It
- * applies to the columns before rows are divided by their sums: `WeightsRelativeGap` (upper bound
- * of the relative distance of the energy from its minimum), `WeightsKKTResidual`, `WeightsMinimum`,
+ * applies to the weights before normalization: `WeightsRelativeGap` (upper bound of the relative
+ * distance of the energy from its minimum), `WeightsKKTResidual`, `WeightsMinimum`,
  * `WeightsMaximum`, `WeightsInteriorExtrema` (local extrema away from handles with a persistence
  * above 1e-3), and `WeightsRowSumError`.
  *
@@ -77,7 +76,7 @@
  * and kkt_residual (of the worst column), bounds_violation, normalized_bounds_violation (with
  * bounds), counts.capped_vertices and influences.{largest_difference, rms_difference} (differences
  * from the weights without MaximumInfluences), partition.{of_unity, energy, largest_difference,
- * rms_difference} (COUPLED; differences from weights that are divided by their row sums),
+ * rms_difference} (COUPLED; differences from mode NORMALIZE),
  * counts.{covered_openings, linked_parts, links} (on a lattice: openings that other parts cover,
  * components without a handle, and links of both),
  * handles[].mirror (with mirrors), row_sum_error, largest_snap (in edge lengths), iterations,
@@ -207,25 +206,25 @@ public:
   };
 
   ///@{
-  /// EMBEDDING, AUTO: number of lattice cubes along the longest side. Must be 6 to 1000, or 0
-  /// (default): lattices of increasing resolution, at most three, are solved until the weights of
-  /// two successive lattices agree.
+  /// For EMBEDDING and AUTO: number of lattice cubes along the longest side, 6 to 1000; 0
+  /// (default): automatic. Automatic means: up to three lattices of increasing resolution are
+  /// solved, until the weights of two successive lattices agree.
   void SetEmbeddingResolution(vtkIdType resolution);
   vtkGetMacro(EmbeddingResolution, vtkIdType);
   ///@}
 
   ///@{
-  /// Off (the default): insert a vertex at each handle that is not at a vertex, which splits the
-  /// cells around it. On: insert no vertices, so that the output has the points and cells of the
-  /// mesh. The corners of the cell that contains a handle then represent the handle.
+  /// Off (the default): insert a vertex at each handle that is not at a vertex, and split the cells
+  /// around the new vertex. On: insert no vertices, so that the output has the points and cells of
+  /// the mesh. The corners of the cell that contains a handle then represent the handle.
   void SetKeepMesh(bool keep);
   vtkGetMacro(KeepMesh, bool);
   vtkBooleanMacro(KeepMesh, bool);
   ///@}
 
   ///@{
-  /// Add the point array RawWeights: the columns before rows are divided by their sums. Default
-  /// off.
+  /// Add the point array RawWeights: the weights before normalization (division of each row by its
+  /// sum). Default off.
   void SetKeepRaw(bool keep);
   vtkGetMacro(KeepRaw, bool);
   vtkBooleanMacro(KeepRaw, bool);
@@ -288,7 +287,7 @@ public:
   ///@{
   /**
    * Method of making rows sum to one. NORMALIZE (default): every column is solved separately, then
-   * rows are divided by their sums. COUPLED (bounded weights only): all columns are solved together
+   * each row is divided by its sum. COUPLED (bounded weights only): all columns are solved together
    * with the row sums as constraints, as in the original definition (Jacobson et al. 2011). This
    * takes several times as long and many times the memory.
    */

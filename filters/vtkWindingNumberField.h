@@ -234,8 +234,8 @@ public:
   vtkGetMacro(OutputPrecision, int);
   ///@}
 
-  /// Return the port of the query points if it is connected. Otherwise return -1; the pieces are
-  /// then extents of the grid.
+  /// Return the port of the query points if it is connected. Otherwise return -1; pieces of the
+  /// output are then sub-extents of the grid.
   int GetPiecePort() override { return this->GetNumberOfInputConnections(1) > 0 ? 1 : -1; }
 
   /// Return the open boundary of the surface: output 1.

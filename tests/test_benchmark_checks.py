@@ -46,7 +46,8 @@ def tets_of_boxes(xs, ys, zs):
 
 
 def test_tets_that_bridge_a_gap_are_taken_out(tmp_path, monkeypatch):
-    # In this model, points with |x| > 0.1 are inside. The boxes in the middle reach from x = -0.2 to 0.2.
+    # The model has a gap: points with |x| <= 0.1 are outside. The middle boxes of tets bridge the gap, because they
+    # reach from x = -0.2 to 0.2.
     def inside(_program, _model, places, _folder):
         return np.where(np.abs(places[:, 0]) > 0.1, 1.0, 0.0)
 

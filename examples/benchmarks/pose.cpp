@@ -6,9 +6,9 @@
 // - Full ARAP: time of an iteration, which depends only on the mesh.
 // - Skinning of 100k vertices, the report of stretch, a crowd, and rotation fits.
 //
-// Weights are inverse distances, which need no solver. Exceptions are the crowd and the skinning
-// rows with the argument `bounded`, which use bounded biharmonic weights. pose_table.py creates the
-// tables of README.md from the results.
+// Weights are inverse distances, which need no solver. Only two benchmarks use bounded biharmonic
+// weights: the crowd, and skinning if its argument `bounded` is 1. pose_table.py creates the tables
+// of README.md from the results.
 #include "surfaces.h"
 
 #include "arap/crowd.h"
@@ -59,8 +59,8 @@ Weights distance_weights(const Points& points, const Handles& handles)
   return (weights.array().colwise() / weights.rowwise().sum().array()).matrix();
 }
 
-/// Return a closed surface with `count` point handles at farthest points of the surface, without
-/// weights.
+/// Return a closed surface with `count` point handles, without weights. Farthest-point sampling of
+/// the surface gives the positions of the handles.
 Rig make_bare_rig(Index triangles, Index count)
 {
   Rig rig;
@@ -546,8 +546,7 @@ BENCHMARK(crowd)
   ->Args({ 86000, 20, 80 })
   ->Unit(benchmark::kMillisecond);
 
-/// Measure the fit of a rotation to a 3x3 matrix. A call fits 1024 random matrices, so divide the
-/// time by 1024.
+/// Measure the fit of rotations to 3x3 matrices. The reported time is the time of 1024 fits.
 void rotation_fit(benchmark::State& state)
 {
   constexpr Index count = 1024;

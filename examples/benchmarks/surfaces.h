@@ -19,8 +19,8 @@ TriangleMesh open_bumpy_sphere(Index triangles);
 /// per four triangles.
 TriangleMesh patches(Index triangles);
 
-/// Random number generator (splitmix64) with the same sequence on every machine, which the
-/// distributions of std do not guarantee.
+/// Random number generator (splitmix64). Unlike the distributions of std, it gives the same numbers
+/// with every compiler and on every machine.
 class Random
 {
 public:

@@ -1,10 +1,12 @@
-// Benchmarks of winding numbers: builds, grids, scattered points and points near the surface, for
-// closed and open surfaces and triangle soups. Every row reports median and spread of five
-// repetitions, in nanoseconds per point and in yardsticks (`Y`). A yardstick is the cost of one
-// term (triangle) of the plain sum over all triangles, measured in the same run, so yardsticks are
-// comparable between machines. `error` is the largest difference from the plain sum in double
-// precision on 10,000 of the row's own points, or on fewer for surfaces of more than 100,000
-// triangles.
+// Benchmarks of winding numbers of closed surfaces, open surfaces and triangle soups:
+// - Build of the acceleration structure: time, and bytes per triangle.
+// - Evaluation on grids, at scattered points, near the surface and far from the origin: time per
+//   point in nanoseconds (`ns`) and in yardsticks (`Y`).
+//
+// Every row reports median and spread of five repetitions. A yardstick is the time per triangle of
+// the plain sum over all triangles, measured in the same run. Yardsticks are therefore comparable
+// between machines. `error` is the largest difference from the plain sum in double precision. It is
+// measured at 10,000 of the row's points, or at fewer points for more than 100,000 triangles.
 //
 //   build/bin/bindpose_benchmarks --benchmark_filter=winding
 //
@@ -120,8 +122,9 @@ TriangleMesh soup(Index count)
   return mesh;
 }
 
-/// Return a surface by its name: closed, open, patches, soup or orderless (with `triangles`
-/// triangles), or one of the files. Each surface is created only once.
+/// Return a surface by its name. The surfaces closed, open, patches, soup and orderless are
+/// generated with about `triangles` triangles; elephant and holes are read from files. Each surface
+/// is created only once.
 const TriangleMesh& surface(const std::string& name, Index triangles)
 {
   static std::map<std::pair<std::string, Index>, TriangleMesh> surface_cache;

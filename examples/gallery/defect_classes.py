@@ -25,13 +25,13 @@ KINDS = {"self-intersections": "self_intersections", "non-manifold edges": "nonm
 
 
 def house(around):
-    """Return a box with a wall inside and a window in its roof, and a ring that passes through it."""
+    """Return a box and a ring that crosses the box. The box has a wall inside and a square opening in its top face."""
     box = meshes.subdivided(meshes.cube(), 4)  # 16 x 16 squares per face
     middle = meshes.centers(box)
     window = (middle[:, 1] > 0.99) & (np.abs(middle[:, 0] - 0.5) < 0.25) & (np.abs(middle[:, 2] - 0.5) < 0.25)
     square = meshes.cube()[0] * [0, 1, 1], meshes.cube()[1][:2]  # the face of the cube at x = -1, moved to x = 0
-    # The wall meets the box along 64 edges, each with three triangles once equal vertices are merged. The window has 16
-    # boundary edges.
+    # The wall meets the box along 64 edges. After equal vertices are merged, three triangles share each of these edges.
+    # The opening has 16 boundary edges.
     vertices, triangles = meshes.joined(meshes.without(box, window), meshes.subdivided(square, 4))
     vertices, ids = np.unique(vertices[triangles].reshape(-1, 3), axis=0, return_inverse=True)
     ring = meshes.tube(meshes.circle(1.1, 2 * around), 0.3, around)

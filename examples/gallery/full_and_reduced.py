@@ -33,8 +33,8 @@ def bend(method, mesh, handles, pose):
 def make(options):
     small = options.small
     square, box = posing.plane(16 if small else 48, 5.0, MIDDLE), posing.bar(18 if small else 48, 4 if small else 8)
-    # The four bones start at two opposite corners, so that no head of a bone is at the tail of another bone. Otherwise
-    # the bone with this head would become a child of the other bone.
+    # A bone becomes a child of another bone if its head is at the tail of the other bone. To avoid this, the four heads
+    # are at two opposite corners, and the four tails are at the other two corners.
     corners = {c: 2.5 * np.array([*c, 0]) + MIDDLE for c in itertools.product((-1, 1), repeat=2)}
     rim = [(corners[k, k], corners[c]) for k in (-1, 1) for c in ((-1, 1), (1, -1))]
     on_plane = bindpose.handles(points=[MIDDLE], bones=rim)

@@ -74,11 +74,11 @@ bool kind_of(const std::string& word, HandleKind& kind)
   return false;
 }
 
-/// Creates a handle for each joint. The handle's properties are read from the joint's extras if
-/// they agree with the inverse bind matrix. Any other joint becomes a bone that ends at the mean
-/// position of its children, or a point if it has no children. Two handles cannot be at the same
-/// position. Therefore a joint whose handle would equal an earlier handle becomes a short bone
-/// along its y axis.
+/// Creates a handle for each joint. If the joint has extras that agree with its inverse bind
+/// matrix, the extras contain the properties of the handle. Otherwise the joint becomes a bone that
+/// ends at the mean position of the joint's children, or a point if the joint has no children. Two
+/// handles cannot be at the same position. Therefore a joint whose handle would equal an earlier
+/// handle becomes a short bone along the joint's y axis.
 class HandleMaker
 {
 public:

@@ -17,8 +17,9 @@ Eigen::Affine3d joint_frame(const Handle& handle);
 
 Eigen::Affine3d to_affine(const Affine& transform);
 
-/// Return one joint per handle, in the order of the handles, posed by the transforms. The member
-/// `handle_extras` of a joint stores the properties of the handle that glTF cannot express.
+/// Return one joint per handle, in the order of the handles. The posed frame of a joint is its rest
+/// frame, moved by the handle's transform. The member `handle_extras` of a joint stores the
+/// properties of the handle that glTF cannot express.
 std::vector<GltfJoint> to_joints(const Handles& handles, const std::vector<Affine>& transforms);
 
 /// Contents of a glTF file.

@@ -57,8 +57,8 @@ vtkDataArray* colors_of(vtkPolyData* data)
   return data->GetCellData()->GetArray("Color");
 }
 
-/// Copy the cell arrays that `edited` lacks from `before`. Also copy the values of the pose arrays,
-/// so that each handle keeps its pose.
+/// Copy cell arrays from `before` to `edited`: arrays that `edited` does not have, and the values
+/// of the pose arrays, so that each handle keeps its pose.
 void carry_arrays(vtkPolyData* before, vtkPolyData* edited, const std::vector<Index>& source,
   const std::vector<Index>& copied_from)
 {

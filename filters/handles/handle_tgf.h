@@ -20,8 +20,9 @@ namespace bindpose
 /// Return invalid_input, with the handle's name, for a region or a face of a cage.
 BINDPOSEFILTERS_EXPORT Status to_tgf(const Handles& handles, Tgf& graph);
 
-/// Convert a handle dataset to a text in the format .tgf, as above. The text also contains the
-/// pseudo-edges. If the dataset is null or has no cells, the text is empty.
+/// Convert a handle dataset, including its pseudo-edges, to a text in the format .tgf. The
+/// restrictions of to_tgf(const Handles&, Tgf&) apply. If the dataset is null or has no cells, the
+/// text is empty.
 BINDPOSEFILTERS_EXPORT Status to_tgf(vtkPolyData* handles, std::string& text);
 
 /// Convert a graph to a handle dataset, as documented in vtkHandleFileReader. A warning counts the

@@ -17,7 +17,7 @@ struct PoseElements
   bool volume = false; ///< true: the elements are tets; false: triangles
 };
 
-/// Split the volume cells into tets (including hexes and other cell types). If there are none,
+/// Split the volume cells (tets, hexes and other types) into tets. If there are no volume cells,
 /// return the 2D cells as triangles. If the cells are invalid, the result is empty; filters that
 /// need the cells report the error.
 PoseElements to_pose_elements(vtkPointSet* mesh);

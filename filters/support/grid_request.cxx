@@ -11,12 +11,13 @@ namespace bindpose
 
 namespace
 {
-/// Upper limit of the number of samples. A larger request (8 TB of doubles) is probably a typing
-/// error.
+/// Upper limit of the number of samples; as doubles, they would take 8 TB. A larger request is
+/// probably a typing error.
 constexpr double maximum_samples = 1e12;
 
-/// Return the number of samples along each side of a box for a distance between samples. The 1e-9
-/// keeps rounding from adding a sample to a side that is a whole number of distances long.
+/// Return the number of samples along each side of a box. `step` contains the distances between
+/// samples. The 1e-9 keeps rounding from adding a sample to a side whose length is a multiple of
+/// the distance.
 Vec3 sample_counts(const Vec3& size, const Vec3& step)
 {
   return (size.cwiseQuotient(step).array() - 1e-9).ceil().max(0.0) + 1.0;

@@ -200,7 +200,8 @@ Status to_planar_input(vtkPolyData* curves, PlanarInput& input)
     }
     box.add(points.row(v).transpose());
   }
-  // largest z deviation of a flat shape, as a fraction of the diagonal; files round coordinates
+  // Largest extent of a flat shape along z, as a fraction of its diagonal. It is above 0, because
+  // coordinates in files are rounded.
   constexpr double flatness_tolerance = 1e-6;
   if (box.upper.z() - box.lower.z() > flatness_tolerance * (box.upper - box.lower).head<2>().norm())
   {

@@ -31,7 +31,8 @@ struct PlanarInput
 Status to_planar_input(ExecutionContext& context, vtkImageData* image, bool rectangle,
   const ImageOutlineOptions& options, PlanarInput& input);
 
-/// Return the lines and the edges of the polygons of a polydata in a plane z = const.
+/// Return the segments of a polydata that lies in a plane z = const. These are the segments of its
+/// lines and the edges of its polygons.
 Status to_planar_input(vtkPolyData* curves, PlanarInput& input);
 
 } // namespace bindpose

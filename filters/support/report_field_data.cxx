@@ -62,8 +62,8 @@ vtkSmartPointer<vtkAbstractArray> make_array(const Report::Value& value)
     value);
 }
 
-/// Return true if the key belongs to a list. An array with one value is then read as a list of
-/// length 1 instead of as a single value.
+/// Report whether the values of a key are lists, i.e. whether the key contains "[]". An array with
+/// one value is then read as a list of length 1 instead of as a single value.
 bool is_list(const std::string& key)
 {
   return key.find("[]") != std::string::npos;

@@ -37,8 +37,9 @@ BINDPOSEFILTERS_EXPORT Status upstream_failure(vtkDataObject* data);
 /// Insert the code, the message and the warnings of a status at the beginning of its report.
 BINDPOSEFILTERS_EXPORT void add_outcome(Status& status);
 
-/// Complete the status's report with the entries that all reports have: those of add_outcome(), and
-/// at the end seconds per phase, their total and the peak memory.
+/// Complete the status's report with the entries that all reports have. The entries of
+/// add_outcome() are inserted at the beginning. The seconds per phase, the total seconds and the
+/// peak memory are appended.
 BINDPOSEFILTERS_EXPORT void complete_report(const ExecutionContext& context, Status& status);
 
 } // namespace bindpose

@@ -34,8 +34,8 @@ BINDPOSEFILTERS_EXPORT std::vector<vtkSmartPointer<vtkDoubleArray>> to_certifica
 /// Return the extrema of all columns: see output 1 of vtkWeightsAlgorithm.
 vtkSmartPointer<vtkPolyData> to_extrema(const WeightsProblem& problem, const WeightsResult& result);
 
-/// Copy the certificate arrays of a weights array from one dataset's field data to another's, and
-/// remove the previous certificates of that array.
+/// Copy the certificate arrays of a weights array from one dataset's field data to another's. The
+/// old certificate arrays of this weights array in `to` are removed first.
 void pass_certificates(vtkFieldData* from, vtkFieldData* to, const std::string& name);
 
 } // namespace bindpose

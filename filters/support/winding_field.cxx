@@ -198,8 +198,8 @@ Status to_curve(vtkPointSet* input, CurveInput& curve)
   return {};
 }
 
-/// Return 2D coordinates in the plane perpendicular to an axis, counter-clockwise seen from the
-/// positive end of the axis.
+/// Return 2D coordinates in the plane perpendicular to an axis. Seen from the positive end of this
+/// axis, the second coordinate axis is 90 degrees counter-clockwise from the first.
 PlanePoints project_to_plane(PointsView points, int normal_axis)
 {
   PlanePoints plane_points(points.rows(), 2);
@@ -232,8 +232,8 @@ WindingMethod method_of(int method)
 }
 
 /// Convert the boundary edges to lines, and the properties of the surface's components to field
-/// data. `original` contains the input's id of each point. If it is empty, the ids are the rows of
-/// `points`.
+/// data. `original` contains, for each row of `points`, the id of the point in the input. If
+/// `original` is empty, the row is the id.
 void to_polydata(const SurfaceBoundary& boundary, PointsView points,
   const std::vector<Index>& original, vtkPolyData* polydata)
 {

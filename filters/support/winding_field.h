@@ -17,9 +17,9 @@ namespace bindpose
 {
 class ExecutionContext;
 
-/// Return the expected fraction of the total time that the build of the acceleration structure
-/// takes, in [0, 1). The function's constants were measured on clean surfaces (characters) and on
-/// triangle soups (foliage).
+/// Return the expected time to build the acceleration structure, as a fraction of the total time,
+/// in [0, 1). The function's constants were measured on clean surfaces (characters) and on triangle
+/// soups (foliage).
 double winding_build_fraction(Index triangles, Index queries);
 
 /// The points of an evaluation: a grid or a list of points. Both can be split into layers. A layer
@@ -100,8 +100,8 @@ public:
   /// Compute the gradients: 3 x samples.count() derivatives.
   Status evaluate_gradient(ExecutionContext& context, const Samples& samples, double* out) const;
 
-  /// Report whether Options::expected_queries and query_region affect the computed values. (The
-  /// differences are within the tolerance.) If so, other expected queries need a new build.
+  /// Report whether Options::expected_queries and query_region affect the computed values (within
+  /// the tolerance). If so, the field must be built again after one of these options changes.
   bool depends_on_expected_queries() const;
 
   /// Return the open boundary of a surface; empty for curves and points.

@@ -57,9 +57,9 @@ def read_image(path):
 def to_image(pixels):
     """Return an array as vtkImageData; its first row is at the top.
 
-    An array of the shape #rows x #columns (numbers or bool) contains only alpha. An array #rows x #columns x
-    #components contains gray (1 component), gray and alpha (2), red, green and blue (3), or red, green, blue and alpha
-    (4).
+    The values are numbers or bool. An array of the shape #rows x #columns contains only alpha. An array of the shape
+    #rows x #columns x n contains, per pixel, gray (n = 1); gray, alpha (2); red, green, blue (3); or red, green, blue,
+    alpha (4).
     """
     pixels = np.asarray(pixels)
     if pixels.ndim not in (2, 3) or pixels.dtype.kind not in "buif" or (pixels.ndim == 3 and not 1 <= pixels.shape[2] <= 4):

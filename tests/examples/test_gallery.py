@@ -308,7 +308,8 @@ def test_cost_of_a_point(tmp_path):
 
 def test_defect_classes(tmp_path):
     numbers = numbers_of("gallery/defect_classes.py", tmp_path)
-    # The defects of the house are known: an inner wall of 16 x 16 squares, a window of 4 x 4 squares, and a ring.
+    # The house has known defects: non-manifold edges around an inner wall of 16 x 16 squares, boundary edges around a
+    # window of 4 x 4 squares, and a ring as a second component, which crosses the house.
     assert numbers["house: non-manifold edges"] == 4 * 16
     assert numbers["house: boundary edges"] == 4 * 4
     assert numbers["house: components"] == 2

@@ -69,7 +69,7 @@ TEST_F(AutomaticBones, BindWithoutAHand)
   ASSERT_EQ(filter->GetStatus(), vtkAutomaticHandles::OK) << filter->GetStatusMessage();
   ASSERT_EQ(weights->GetStatus(), vtkAutomaticHandles::OK) << weights->GetStatusMessage();
   const Handles handles = handles_of(filter);
-  // The limit for the length of a bone is 0.3 times the diagonal, which is 2.4. A bone of length 7
+  // A bone has at most the length 2.4 (0.3 times the bounding-box diagonal 8.1). A bone of length 7
   // is therefore halved twice.
   ASSERT_EQ(handles.size(), 4u);
   vtkDataArray* array = weights->GetOutput()->GetPointData()->GetArray("Weights");
@@ -131,7 +131,7 @@ TEST_F(AutomaticBones, SurviveATgfFile)
     EXPECT_EQ(read[i].name, made[i].name);
     EXPECT_EQ(read[i].head, made[i].head);
     EXPECT_EQ(read[i].tail, made[i].tail);
-    // The file cannot store the parent of a bone that does not begin at the tail of this parent.
+    // The file stores the parent of a bone only if the bone begins at the tail of the parent.
     const bool beside = made[i].parent >= 0 && made[made[i].parent].tail != made[i].head;
     EXPECT_EQ(read[i].parent, beside ? -1 : made[i].parent);
     ASSERT_EQ(status.warnings.size(), 1u);

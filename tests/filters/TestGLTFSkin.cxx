@@ -1,6 +1,6 @@
 // vtkGLTFSkinWriter and vtkGLTFSkinReader: a rig that is written and read back has equal handles,
 // weights in single precision, and the same poses of linear blend skinning. The content of the file
-// itself is tested in tests/core/io.
+// itself is tested in tests/core/gltf.
 #include "TestFilter.h"
 
 #include "conversion.h"
@@ -37,8 +37,8 @@ using testing::HasSubstr;
 
 namespace
 {
-/// Return handles of all kinds: points, the vertices of a cage with an edge and a face, a region,
-/// and a chain of three bones.
+/// Return handles of all kinds: a point, three cage vertices, a region, and a chain of three bones.
+/// The cage consists of one edge and one face.
 Handles all_kinds()
 {
   Handles handles(8);

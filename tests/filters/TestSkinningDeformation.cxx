@@ -58,8 +58,8 @@ vtkSmartPointer<vtkDoubleArray> weights_of(PointsView points)
   return weights;
 }
 
-/// Return a tube of radius 1 around z from -1 to 1, with a ring of points at z = 0, weights and
-/// normals.
+/// Return a tube of radius 1 around the z axis, from z = -1 to z = 1, with weights and normals. A
+/// ring of its points is at z = 0.
 vtkSmartPointer<vtkPolyData> tube()
 {
   TriangleMesh mesh = test::grid(24, 8, 2.0 * std::acos(-1.0), 2.0);

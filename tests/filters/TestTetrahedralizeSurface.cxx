@@ -177,7 +177,8 @@ TEST_F(TetrahedralizeSurfaceByHelper, WrapHoldsASheet)
   filter->SetWrapOffset(0.01);
   filter->Update();
   ASSERT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::OK) << filter->GetStatusMessage();
-  // The tets fill a shell around the sheet. The shell is two offsets thick and rounded at the rim.
+  // The tets fill a shell: the space within the distance `offset` of the sheet. The thickness of
+  // the shell is 2 * offset, and its rim is round.
   const double diagonal = bounding_box(sheet.points).diagonal();
   const double offset = 0.01 * diagonal;
   const double area = surface_area(sheet.points, sheet.triangles);
@@ -342,7 +343,8 @@ TEST(TetrahedralizeSurface, AbortKillsTheHelper)
   EXPECT_TRUE(listener->errors.empty());
   EXPECT_LT(seconds_since_cancel, 0.2);
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
-  // The next update executes again, with the real helper program or with a lattice.
+  // The next update executes the filter again. Without the fake helper, the filter uses the real
+  // helper program or, if that is not installed, a lattice.
   filter->SetAbortExecute(0);
   listener->on_progress = nullptr;
   filter->Update();
@@ -383,7 +385,7 @@ TEST_F(TetrahedralizeSurfaceByHelper, HandlesArePartOfTheMesh)
     ASSERT_GE(vertices[h], 0);
     EXPECT_EQ(Vec3(filter->GetOutput()->GetPoint(vertices[h])), handle->head);
   }
-  // The tets already have vertices at the handles that are inside. The weights filter therefore
+  // The tets already have vertices at the handles inside of the ball. The weights filter therefore
   // inserts no vertices.
   handles.pop_back();
   vtkNew<vtkBoundedBiharmonicWeights> weights;

@@ -28,7 +28,8 @@ namespace
 {
 constexpr int squares = 12;
 
-/// Pipeline of a square with a fixed band and a region in its middle.
+/// Fixture with a flat square and the filter. A band along the border of the square is fixed, and
+/// the middle of the square is region 1, which a handle can move.
 class VariationalSurfaceFilter : public testing::Test
 {
 protected:

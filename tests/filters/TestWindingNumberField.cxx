@@ -255,9 +255,9 @@ TEST(WindingNumberField, TakesAllOfASurfaceThatOthersTakeInPieces)
     }
   }
 
-  // The output of boundary edges is not split into pieces: the first piece contains all edges.
-  // ParaView requests this output with ghost levels. The filter then executes once more but outputs
-  // the existing field array.
+  // Output 1, the boundary edges, is not split into pieces: piece 0 contains all edges. A request
+  // for output 1 with ghost levels, as ParaView makes it, executes the filter again. This execution
+  // must reuse the array of winding numbers instead of computing a new one.
   for (int piece = 0; piece < 2; ++piece)
   {
     again->UpdatePiece(piece, 2, 0);

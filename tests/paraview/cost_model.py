@@ -18,7 +18,8 @@ import pathlib
 import statistics
 import sys
 
-# Stage, name of its items, number of items, and the earlier stages that send the inputs of the stage to all ranks.
+# One row per stage: name of the stage, kind of items that the stage processes, number of items, and earlier stages that
+# send copies of the inputs to all ranks.
 CASES = (
     ("winding numbers on a grid", "voxels", 1e9, ("surface, shared",)),
     ("winding numbers at points", "points", 1e8, ("surface, shared",)),

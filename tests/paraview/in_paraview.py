@@ -85,7 +85,7 @@ def fields(mesh, folder):
     field = WindingNumberField(Input=both, Resolution=40)
     write_parts("spheres", field, folder)
     surface = fetch(field, 1)
-    # The open edges are those of the two meridians at the opening.
+    # The open sphere lacks the slice between two meridians. Its open edges are all edges of these two meridians.
     assert surface.GetNumberOfCells() == 16 - 1 + 16 - 1, surface.GetNumberOfCells()
     values = vtk_to_numpy(fetch(Contour(Input=field, ContourBy=["POINTS", "WindingNumber"], Isosurfaces=[0.5]))
                           .GetPointData().GetArray("WindingNumber"))
@@ -128,7 +128,7 @@ def deformation():
     assert numbers["tets"] > 100
     assert {data.GetCellType(i) for i in range(numbers["tets"])} == {10}
     numbers["volume"] = data.GetFieldData().GetArray("Report.volume").GetTuple1(0)
-    # The volume of the ball is 0.524; without the missing slice it is 0.465.
+    # A full ball has the volume 0.524. The open sphere lacks a slice of 40 degrees, and the rest has the volume 0.465.
     assert 0.3 < numbers["volume"] < 0.53, numbers["volume"]
     assert fetch(TetrahedralizeSurface(Input=surface, Method="Remeshed", Resolution=10)).GetNumberOfCells() > 100
 

@@ -77,7 +77,7 @@ class Meter:
         row["system_seconds"] += used.ru_stime - usage.ru_stime
         row["wall_seconds"] += wall
         if proxy.GetXMLName() == "ShareDataset" and self.controller.GetLocalProcessId() == 0:
-            # All ranks report the same number, the bytes of all ranks together.
+            # Every rank reports the bytes that all ranks together have sent, so only one rank adds them to its row.
             row["bytes_sent"] += int(data.GetFieldData().GetArray("Report.bytes_sent").GetTuple1(0))
         row["memory_bytes"] = max(row["memory_bytes"], grown)
 

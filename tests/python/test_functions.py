@@ -127,7 +127,8 @@ def test_tetrahedralize_around_a_sheet():
                                                                wrap_offset=0.01)
     p = vertices[tets]
     volume = np.einsum("ti,ti->t", np.cross(p[:, 1] - p[:, 0], p[:, 2] - p[:, 0]), p[:, 3] - p[:, 0]) / 6
-    # The volume is that of a square of side 1, thickened by two offsets and rounded at the rim.
+    # The tets fill a shell around a square of side 1 (diagonal sqrt(2)). The thickness of the shell is 2 wrap_offset
+    # diagonals, and its rim is round.
     assert volume.min() > 0 and 1.8 * 0.01 * 2**0.5 < volume.sum() < 2.2 * 0.01 * 2**0.5
     assert (original == -1).all() and report["method"] == "wrap"
     assert any("thin shell" in warning for warning in report["warnings"])

@@ -42,7 +42,7 @@ def test_seconds_are_in_the_report_and_not_in_the_data(tmp_path):
     # The report of a returned dataset contains the times of the run, also if the package has copied the dataset.
     grid = bindpose.winding_number(shapes.cube(), 8)
     assert bindpose.report(grid)["seconds"]["evaluate"] > 0
-    # After the filter updates itself, the report describes the new data. It contains no times.
+    # After an Update() without bindpose.run(), the report describes the new data but contains no times.
     filter_.SetResolution(12)
     filter_.Update()
     again = bindpose.report(filter_.GetOutput())

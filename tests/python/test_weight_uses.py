@@ -143,8 +143,8 @@ def test_what_is_wrong_is_one_sentence(call, words):
 def test_moving_least_squares_needs_no_weights():
     handles = bindpose.handles(points=[[0, 0, 0], [6, 0, 0], [3, 1, 1]])
     turn = {"rotate": {"axis": [0, 0, 1], "degrees": 90}}
-    # Each handle rotates about itself. The second and third handles are also translated to where the rotation about the
-    # first one would move them.
+    # Each handle rotates by 90 degrees about its own position. The translations move p2 and p3 to where a rotation of
+    # the whole bar about p1 would move them.
     pose = {"handles": {"p1": turn, "p2": {**turn, "translate": [-6, 6, 0]}, "p3": {**turn, "translate": [-4, 2, 0]}}}
     posed = bindpose.deform(BAR, handles, pose, method="mls")
     rest = np.array(BAR[0])

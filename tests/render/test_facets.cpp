@@ -74,9 +74,9 @@ Drawing draw_bent(const TriangleMesh& mesh, const Weights& weights)
   return draw({ { to_polydata(posed, mesh.triangles), nullptr, "" } }, options);
 }
 
-/// Return the roughness of the shading, in levels of 255: the root mean square of second
-/// differences of the lightness, with a step of 4 pixels, away from the silhouette. The roughness
-/// is near zero for smooth shading and large at the borders of facets.
+/// Return the roughness of the shading, in levels of 255: the root mean square of the second
+/// differences of the lightness between pixels at a distance of 4. Pixels near the silhouette are
+/// skipped. The roughness is near zero for smooth shading and large at the borders of facets.
 double roughness(const Drawing& drawing)
 {
   int size[3];

@@ -258,7 +258,7 @@ TEST(Render, tets_slice_by_handle)
 
 TEST(Render, extrema)
 {
-  // The vertex in the middle is a handle, so its maximum is not spurious.
+  // There is a handle at the center of the square, so the maximum at the center is not spurious.
   const auto surface = square();
   add_array(surface, "Weights", { [](const Vec3& p) {
     return (p - Vec3(0.5, 0.5, 0)).norm() < 1e-9 ? 1.0 : 0.5 + 0.49 * waves(p);
@@ -383,8 +383,8 @@ TEST(Render, difference)
 
 TEST(Render, handle_names)
 {
-  // There are more handles than fit into the legend. The legend lists handles from top to bottom in
-  // their order.
+  // There are more handles than fit into the legend. The legend lists them from top to bottom in
+  // the order of the components of the array.
   const auto surface = finger();
   std::vector<Column> columns;
   constexpr int handle_count = 40;

@@ -95,8 +95,8 @@ TEST(Render, winding_slice)
 {
   PictureOptions options = small_picture();
   const Drawing drawing = draw({ { three_spheres(), nullptr, "" } }, options);
-  // The slice is half a sample away from z = 0. Pixels of the slice that nothing covers have
-  // exactly the colors of the color map.
+  // The slice is half a sample away from z = 0. Where nothing is in front of the slice, its pixels
+  // have exactly the colors of the color map.
   EXPECT_LT(distance(drawing.at(Vec3(-1.8, 1.2, 0.0)), winding_color(0.0)), 3.0);
   const Vec3 overlap = 0.5 * (sphere_centers[0] + sphere_centers[1]);
   const Pixel winding_one = drawing.at(sphere_centers[0] - Vec3(0.25, 0, 0));

@@ -59,7 +59,8 @@ TEST(Render, tets_shrunk)
     3 * painted_pixels(drawing) / 4);
   options.shrink = 1.0;
   EXPECT_EQ(painted_pixels(draw({ { tet_brick(), nullptr, "" } }, options)), painted_pixels(whole));
-  // The half toward the camera is removed, for both directions of the plane's normal.
+  // The part of the box in front of the plane, as seen from the camera, is removed. The direction
+  // of the plane's normal has no effect.
   options.section_plane->normal *= -1.0;
   EXPECT_EQ(painted_pixels(draw({ { tet_brick(), nullptr, "" } }, options)), painted_pixels(whole));
   expect_baseline(drawing.image);

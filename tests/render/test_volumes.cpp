@@ -18,7 +18,7 @@ using namespace bindpose::test;
 
 namespace
 {
-/// Return the rectangle of the picture that a sphere around the origin covers.
+/// Return the bounding rectangle, in pixels, of a sphere around the origin in the picture.
 Eigen::AlignedBox2d sphere_on_paper(const Drawing& drawing, double radius)
 {
   const TriangleMesh ball = sphere(5, radius);
@@ -79,7 +79,8 @@ TEST(Render, isosurfaces_nested)
   options.isosurfaces = { 0.75, 0.25, 0.25, 0.9 };
   options.legend = true;
   const Drawing drawing = draw({ { cone_field(), nullptr, "" } }, options);
-  // The legend has one field per level, in the color and in the order of the levels.
+  // The legend has one field per level. Each field has the color of its level, and the fields of
+  // higher levels are higher.
   const ColorMap map = winding_map();
   double previous_height = 0.0;
   for (const double level : { 0.25, 0.75, 0.9 })

@@ -45,7 +45,8 @@ public:
 private:
   using Clock = std::chrono::steady_clock;
 
-  Clock::time_point cancel_time_; // must be declared before the thread that writes it
+  /// Declared before cancel_thread_, because the thread starts at once and writes this time.
+  Clock::time_point cancel_time_;
   std::thread cancel_thread_;
 };
 

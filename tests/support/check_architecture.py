@@ -18,7 +18,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 LATE_CONTEXT = re.compile(r"[(,][^();{}]*,\s*(?:const )?(?:bindpose::)?ExecutionContext\s*&\s*\w*\s*[,)]")
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]', re.MULTILINE)
 
-# The folders of core from which each folder of core may include.
+# For each folder of core: the folders of core whose headers its files may include.
 CORE_ARROWS = {
     "base": {"base"},
     "linear": {"base", "linear"},
@@ -49,7 +49,7 @@ CORE_ARROWS = {
     "mesher": {"base", "helper", "segmentation", "inside", "mesher"},
 }
 
-# The folders of viewer/app from which each folder of viewer/app may include.
+# For each folder of viewer/app: the folders of viewer/app whose headers its files may include.
 APP_ARROWS = {
     "parts": {"parts"},
     "view": {"parts", "view"},
@@ -69,8 +69,8 @@ HANDLE_WIDGET = ("vtkHandleSet",)
 QT = ("Q",)
 PARAVIEW = ("pq", "vtkPV", "vtkSM")
 TESTS = ("support/",)
-# Prefixes of the include paths that are forbidden in each folder. A file in nested folders, such as one of the plugin,
-# must satisfy only the first matching entry.
+# For each folder: prefixes of include paths that are forbidden in the folder and its subfolders. For each file, only
+# the first folder that contains the file counts, so the plugin must be before filters.
 FORBIDDEN = {
     PLUGIN: VIEWER + TESTS,
     "filters": VIEWER + HANDLE_WIDGET + QT + PARAVIEW + TESTS,
@@ -115,8 +115,8 @@ def mutual_includes():
 def against_arrows(folder, prefix, arrows):
     """Return one sentence for each include that `arrows` does not allow.
 
-    `folder` has subfolders. An include of their headers consists of `prefix`, the subfolder and the file name. `arrows`
-    lists, for each subfolder, the subfolders from which it may include.
+    The path of an include consists of `prefix`, a subfolder of `folder`, and the file name. `arrows` contains, for
+    each subfolder, the subfolders whose headers its files may include.
     """
     wrong = []
     for path, includes in sources(folder):

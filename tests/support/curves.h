@@ -14,7 +14,8 @@ struct Curve
   PlanePoints points{ 0, 2 };
   Segments segments{ 0, 2 };
 
-  /// Append segments along the vertices. If closed, append a segment back to the first vertex.
+  /// Append vertices, and a segment from each vertex to the next. If `closed` is true, also append
+  /// a segment from the last vertex to the first.
   void add(const std::vector<Vec2>& vertices, bool closed)
   {
     const Index first = this->points.rows();

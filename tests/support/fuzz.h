@@ -26,7 +26,7 @@
 namespace bindpose::test
 {
 
-/// Return the positive integer in an environment variable, or `fallback` if it is unset or invalid.
+/// Return the value of an environment variable if it is a positive integer, otherwise `fallback`.
 inline Index read_integer(const char* variable, Index fallback)
 {
   const char* text = std::getenv(variable);

@@ -16,8 +16,8 @@
 namespace bindpose::test
 {
 
-/// A script that replaces a program (FakeProgram). The destructor expects that the test has closed
-/// all file descriptors that it opened, and that no temporary file remains.
+/// A script that replaces a program (FakeProgram). The destructor expects no temporary files, and
+/// as many open file descriptors as at construction.
 class WatchedFakeProgram : public FakeProgram
 {
 public:

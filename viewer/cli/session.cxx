@@ -187,8 +187,8 @@ Status Session::try_stage(vtkBindposeAlgorithm* algorithm, const std::string& st
   {
     return status;
   }
-  // With Merge::all, the report of a failure is merged too, because it contains the findings about
-  // the input and all attempts.
+  // With Merge::all, the report of a failed algorithm is merged too, because the report describes
+  // the input and what the algorithm has tried.
   for (const auto& [key, value] : status.report.entries())
   {
     const bool seconds = starts_with(key, "seconds.");
@@ -314,7 +314,7 @@ bool Session::check_report()
   const Status status = AtomicFile::check(path, this->arguments_.has("overwrite"));
   if (!status.ok())
   {
-    this->arguments_.values.erase("report"); // prevents finish() from writing the report
+    this->arguments_.values.erase("report"); // finish() must not try to write the report
     return this->fail(status);
   }
   return true;

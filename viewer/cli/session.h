@@ -23,8 +23,8 @@ int exit_code(StatusCode code);
 /// Selects the part of an algorithm's report that is merged into the verb's report.
 enum class Merge
 {
-  nothing, ///< the warnings; the algorithm's total time becomes the entry seconds.STAGE
-  numbers, ///< like `nothing`, and all entries except the times of the algorithm's phases
+  nothing, ///< the warnings, and the algorithm's total time as the entry seconds.STAGE
+  numbers, ///< `nothing` plus all entries except the times of the algorithm's phases
   all ///< the warnings and all entries, including the times of the algorithm's phases
 };
 

@@ -145,7 +145,7 @@ bool read_options(Session& session, PictureOptions& options)
     !options.component.empty() || options.extrema || arguments.has("minus");
   if (options.array.empty() && options.color_by == ColorBy::array && needs_weights)
   {
-    options.array = "Weights"; // default array of --component, --extrema and --minus
+    options.array = "Weights"; // --component, --extrema and --minus use Weights by default
   }
   if (arguments.has("isosurface"))
   {
@@ -224,8 +224,8 @@ bool add_defects(Session& session, std::vector<Tile>& tiles)
     session.invalid("--defects needs a surface; add one with --context SURFACE");
 }
 
-/// List the files to draw; a collection is replaced by its files. For a single image of a sequence,
-/// a limited number of evenly spaced frames is chosen.
+/// List the files to draw. A sequence (.pvd) is replaced by the files of at most --frames evenly
+/// spaced frames. Without --frames, a video uses all frames, and an image at most 12.
 bool list_files(Session& session, bool is_video, std::vector<std::string>& files,
   std::vector<std::string>& labels, double& rate)
 {

@@ -1,6 +1,6 @@
-// Implements bindpose view FILE…, which opens the window of viewer/app, if it was built. With
-// --play the window runs a tour, a scripted demonstration, without a user and without a visible
-// display.
+// Implements bindpose view FILE…, which opens the window of viewer/app. In a build without Qt, this
+// verb only reports an error. With --play the window runs a tour, a scripted demonstration, without
+// a user and without a visible display.
 #include "cli/interrupt.h"
 #include "cli/session.h"
 #include "cli/under_xvfb.h"

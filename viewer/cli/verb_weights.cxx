@@ -266,7 +266,8 @@ void run_weights(Session& session)
   {
     return;
   }
-  session.report().merge(weights_report); // keep entries that only the transfer has reported
+  // If both filters report the same entry, keep that of the weights filter.
+  session.report().merge(weights_report);
   auto result = shallow_copy(transfer->GetOutput());
   vtkNew<vtkTransferWeights> raw_transfer;
   if (arguments.has("keep-raw"))

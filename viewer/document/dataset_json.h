@@ -11,7 +11,8 @@
 // Converts the parts of a session to and from JSON. Input is checked. Numbers are written with all
 // digits, so that they are read back bit for bit.
 
-/// An error in a JSON text, as a clause: "the pose has 3 entries for 2 handles".
+/// Thrown if a JSON text is invalid. The message is a clause without a capital letter or period,
+/// for example "the pose has 3 entries for 2 handles".
 class SessionError : public std::runtime_error
 {
 public:

@@ -585,7 +585,8 @@ void Document::set_option_without_undo(const QString& key, const QVariant& value
 {
   const OptionInfo* option = find_option(key);
   const QVariant checked = option ? checked_option(*option, value) : QVariant();
-  // Ignore a value that differs only by round-off, because undo could not restore the difference.
+  // QVariant treats doubles that differ only by round-off as equal, and undo uses this comparison
+  // too. Such a value is not stored, because undo would not restore the old value.
   if (checked.isValid() && checked != this->work_.options.value(key))
   {
     this->work_.options[key] = checked;

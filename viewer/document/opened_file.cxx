@@ -72,8 +72,8 @@ Status read_with(Reader* reader, const std::string& path, const RunReader& run, 
 
 Status read_file(const std::string& path, OpenedFile& file, const RunReader& run)
 {
-  // Qt uses the first thread that calls it as the application's main thread. Make this call here,
-  // before another thread is started below.
+  // Qt regards the first thread that uses it as the application's main thread. Use Qt in this
+  // thread before the other thread is started below.
   QThread::currentThread();
   // Compute the checksum while the file is read. For a large mesh both take equally long.
   file.checksum = std::async(

@@ -96,8 +96,8 @@ OptionInfo choice(const char* key, const char* step, const stage_options::Choice
   return choice(key, step, described.initial, described.choices);
 }
 
-/// Return the table row of a numeric option that is described in filters/options, with the range of
-/// its slider.
+/// Return the table row of a numeric option. The initial value and the range of the slider come
+/// from the description of the option in filters/options.
 OptionInfo number(const char* key, const char* step, const stage_options::Number& described)
 {
   return { key, step, described.initial, described.lowest, described.highest };

@@ -12,7 +12,7 @@ struct OptionChoice
 {
   const char* word; ///< the value in session files
   const char* label; ///< text in the window, in the translation context Document
-  int value = 0; ///< for an option of a stage (filters/options): value of the VTK enumeration
+  int value = 0; ///< value of the VTK enumeration, if filters/options describes the option
 };
 
 /// One option that the user can choose. Undo and sessions include options. The type of the option

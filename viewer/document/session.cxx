@@ -414,7 +414,9 @@ Status SessionFile::write_companion(
   {
     return status;
   }
-  // Write a view of the data, because the window may use the data at the same time.
+  // Do not pass `data` to the VTK writer: the window may use `data` at the same time, and the
+  // writer changes its input (cached ranges, pipeline information). Pass a dataset that only shares
+  // the values.
   const vtkSmartPointer<vtkDataSet> view = view_of(data);
   if (!view)
   {

@@ -10,7 +10,7 @@
 #include <memory>
 #include <optional>
 
-/// The view of a window, which is not part of the work: the camera and the selected panel.
+/// The camera and the selected panel of a window. Sessions store them in addition to the Work.
 struct SessionView
 {
   struct Camera
@@ -51,8 +51,9 @@ struct Session
 /// the old one in one step. After that, companions that are no longer referenced are deleted. If
 /// the process is killed at any time, the old session or the new one is intact.
 ///
-/// To write in the background, call prepare() on the window's thread, which takes almost no time,
-/// and write() on another thread. The prepared session must be destroyed on the window's thread.
+/// To write in the background, call prepare() on the window's thread, and then write() on another
+/// thread. prepare() takes almost no time. The prepared session must be destroyed on the window's
+/// thread.
 class SessionFile
 {
 public:

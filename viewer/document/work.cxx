@@ -50,8 +50,8 @@ bool same_cells(vtkCellArray* a, vtkCellArray* b)
     same_values(a->GetConnectivityArray(), b->GetConnectivityArray());
 }
 
-/// Report whether the cell array of handles with this name has no effect on a bind, because it
-/// contains layers, colors, locks or a part of the pose.
+/// Report whether a cell array of the handles, given by its name, has no effect on a bind. This is
+/// true for layers, colors, locks and the arrays of the pose.
 bool is_appearance_array(const char* array)
 {
   static const char* const appearance_arrays[] = { "Layer", "Color", "Locked", "Transform", "Mode",

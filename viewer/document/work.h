@@ -64,8 +64,8 @@ enum WorkPart : int
   volume_part = 64,
   curves_part = 128,
   sources_part = 256,
-  /// Handles that differ only in layers, colors, locks or pose arrays. These do not affect the
-  /// shape.
+  /// The layers, colors, locks or pose arrays of the handles, if everything else in the handle
+  /// datasets is equal (otherwise handles_part). These arrays do not affect the shape.
   handle_looks_part = 512
 };
 int differences(const Work& a, const Work& b);

@@ -14,9 +14,9 @@ class vtkPolyData;
 /// Use a surface, or tets and their boundary surface. If the mesh has weights that fit the handles,
 /// use them too. Return invalid_input for other data.
 bindpose::Status use_mesh(vtkDataSet* mesh, const QString& name, const Source& source, Work& work);
-/// Use handles with the pose that is in their arrays. If weights are bound, they stay in use for
-/// the handles of the bind (BoundColumns). Otherwise the weights of the mesh are used if they fit
-/// the handles.
+/// Use new handles with the pose that is in their arrays. Bound weights are kept if at least one
+/// new handle gets a column (see BoundColumns). Otherwise the weights of the mesh are used if they
+/// fit the new handles.
 bindpose::Status use_handles(vtkPolyData* handles, const Source& source, Work& work);
 /// Use weights from a separate file for the surface. Return invalid_input, with one sentence, if
 /// their size does not match the surface's points and the handles.

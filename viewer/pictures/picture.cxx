@@ -153,7 +153,7 @@ bool has_tets(const Tile& tile)
   return vtkPointSet::SafeDownCast(tile.data) && to_tets(tile.data, tets).ok();
 }
 
-// Return an error for options of tets that would have no effect.
+// Return an error if shrinking, a slice or a section plane is requested but would have no effect.
 Status check_tets(const std::vector<Tile>& tiles, const PictureOptions& options)
 {
   const bool tets = std::any_of(tiles.begin(), tiles.end(), has_tets);
@@ -309,7 +309,7 @@ int place_legends(std::vector<Legend>& legends, int width, int top, Layout& layo
   {
     PixelBox box;
     box.width = legend_width(legend.map, legend.name, layout.font);
-    // Height of the entries in font sizes: fixed for a color bar, 1.7 per name for a list.
+    // Height as a multiple of the font size: a constant for a color bar, 1.7 per entry for a list.
     const double fields = legend.map.texts.empty() ? 17.5 : 1.7 * legend.map.texts.size();
     const double height_fraction = legend.map.first_at_top
       ? maximum_list_fraction / legends.size()

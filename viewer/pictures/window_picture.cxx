@@ -113,7 +113,9 @@ public:
       static_cast<double>(part.y - tile.y) / tile.height,
       static_cast<double>(part.x + part.width - tile.x) / tile.width,
       static_cast<double>(part.y + part.height - tile.y) / tile.height);
-    if (this->renderer_->GetGradientBackground()) // give the part its section of the whole gradient
+    // The background gradient covers the whole view. Use the colors at the part's lower and upper
+    // ends.
+    if (this->renderer_->GetGradientBackground())
     {
       const double low = static_cast<double>(part.y - this->view_area_.y) / this->view_area_.height;
       const double high = low + static_cast<double>(part.height) / this->view_area_.height;
@@ -175,7 +177,7 @@ private:
 /// The samples of a tile, four bytes per sample.
 using Samples = vtkSmartPointer<vtkUnsignedCharArray>;
 
-/// Return averages of red, green and blue over the samples of a pixel, 0 to 255.
+/// Return the average color of a pixel's samples: red, green and blue in [0, 255].
 std::array<double, 3> average(const Samples& pixels, const Rect& tile, int x, int y, int samples)
 {
   std::array<int, 3> sums{};

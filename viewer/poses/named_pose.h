@@ -19,8 +19,8 @@ public:
   NamedPose() = default;
   NamedPose(const Handles& handles, Pose pose);
 
-  /// Return the pose of these handles. A handle without an entry has the pose of `base` relative to
-  /// its parent. The result has as many entries as `base`.
+  /// Return the pose of these handles. A handle without an entry follows its parent: its transform
+  /// relative to the parent is the same as in `base`. The result has as many entries as `base`.
   Pose for_handles(const Handles& handles, const Pose& base) const;
   bool empty() const { return this->names_.empty(); }
   /// Rename a handle. If the pose has an entry with the new name, that entry is removed.

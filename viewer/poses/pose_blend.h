@@ -24,16 +24,16 @@ struct HandleValues
   bool is_approximate = false;
 };
 HandleValues values_of(const Handles& handles, const Pose& pose, std::size_t handle);
-/// Return the pose with new values for one handle. The handle's mode is kept, and its descendants
-/// move with it.
+/// Return the pose with new values for one handle. The descendants of the handle move with the
+/// handle. All modes are kept.
 Pose with_values(
   const Handles& handles, const Pose& pose, std::size_t handle, const HandleValues& values);
 
-/// Interpolate between two poses, per handle and relative to its parent. Pivots, scale, shear,
-/// stretch and twist are interpolated linearly, rotations along the shorter arc (slerp). `fraction`
-/// is the interpolation parameter: 0 returns `a` and 1 returns `b`, bit for bit. Below 1 the modes
-/// are those of `a`. If a handle and all its ancestors are equal in both poses, the handle's bits
-/// do not change.
+/// Interpolate between two poses. A handle's pose relative to the handle's parent is interpolated:
+/// pivots, scale, shear, stretch and twist linearly, rotations along the shorter arc (slerp).
+/// `fraction` is the interpolation parameter: 0 returns `a` and 1 returns `b`, bit for bit. Below 1
+/// the modes are those of `a`. If a handle and all its ancestors are equal in both poses, the
+/// handle's bits do not change.
 Pose blend(const Handles& handles, const Pose& a, const Pose& b, double fraction);
 /// Like blend(), for poses that are already relative (relative_pose()).
 Pose blend_relative(const Handles& handles, const Pose& a, const Pose& b, double fraction);

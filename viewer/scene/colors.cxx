@@ -182,7 +182,8 @@ ColorMap winding_map()
   ColorMap map;
   map.lower = -1.0;
   map.upper = 2.0;
-  // number of table entries; each is 0.01 wide, so that -0.02 and 1.02 are between two entries
+  // Number of table entries. Each entry covers an interval of 0.01, and winding_color() jumps only
+  // at ends of intervals (-0.02 and 1.02).
   constexpr int count = 300;
   map.table = make_table(map.lower, map.upper, count);
   for (int i = 0; i < count; ++i)

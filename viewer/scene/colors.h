@@ -41,9 +41,10 @@ constexpr Rgb dark_gradient_bottom{ 0.13, 0.13, 0.14 };
 constexpr Rgb missing{ 0.62, 0.58, 0.60 }; ///< not a number
 } // namespace palette
 
-/// Return the color of the sequential map at t in [0, 1] (clamped). It runs from near the gray of
-/// the plain surface over green and teal to deep blue. Lightness decreases strictly and evenly, so
-/// that color-blind viewers and gray prints show the same order of values.
+/// Return the color of the sequential map at t in [0, 1] (clamped). The map begins near the gray of
+/// a surface without data, passes through green and teal, and ends at deep blue. Lightness
+/// decreases strictly and evenly, so that the order of values is also visible to color-blind
+/// viewers and in gray prints.
 Rgb sequential_color(double t);
 
 /// Return the color of a winding number: blue at 0, white at 0.5, orange at 1. Below -0.02 the

@@ -20,9 +20,9 @@ namespace bindpose
 /// One dataset of a picture. Its type determines how it is drawn:
 /// - surface: smooth shading with sharp edges kept; arrays as colors; weights in bands with
 ///   isolines;
-/// - tets: cut open in the middle with whole tets kept ("crinkle cut"), the exposed faces in
-///   another color with edges. The alternatives are tets that are cut by the plane, and tets that
-///   are all shrunk. Arrays are shown as colors on all faces;
+/// - tets: cut open in the middle, without cutting single tets ("crinkle cut"). The exposed faces
+///   have edges and another color. On request, the plane cuts through tets, or all tets are shrunk.
+///   Arrays are shown as colors on all faces;
 /// - defects (output of vtkSurfaceDefects): one color per type, with a legend;
 /// - image volume: one slice through the middle, and for a winding number also the surface where it
 ///   is 0.5; on request isosurfaces or a volume rendering instead of the slice;
@@ -104,8 +104,10 @@ struct PictureOptions
   int columns = 0;
   std::string title;
   bool legend = true;
-  bool bands = true; ///< show weights in bands of 0.1; otherwise their colors change smoothly
-  bool isolines = true; ///< lines of weights at the borders of the bands (steps of 0.1)
+  /// Show weights in bands of one color each, by default 0.1 wide; otherwise the colors change
+  /// smoothly.
+  bool bands = true;
+  bool isolines = true; ///< draw isolines of weights at the borders between bands
   bool edges = false; ///< draw the triangle edges of surfaces
   bool handle_names = false; ///< draw the name next to each handle
   bool cut = true; ///< tets: expose the interior; otherwise only the outside is visible

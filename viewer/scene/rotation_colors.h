@@ -13,9 +13,10 @@ class vtkDoubleArray;
 namespace bindpose
 {
 
-/// Check the point array RotationCluster: the index of the rotation cluster (vertices that share
-/// one fitted rotation) of each point, -1 for none. Return invalid_input if no dataset has the
-/// array, or if a value is not an integer from -1 to the number of points plus cells.
+/// Check the point array RotationCluster. The array contains the index of each point's rotation
+/// cluster (vertices that share one fitted rotation), or -1 for none. Return invalid_input if no
+/// dataset has the array, or if a value is not an integer from -1 to #points + #cells - 1. Larger
+/// values cannot be indices of clusters.
 Status check_clusters(const std::vector<vtkDataSet*>& datasets);
 
 /// Return for each cell the cluster of most of its points (the lowest if several are equally
@@ -23,9 +24,9 @@ Status check_clusters(const std::vector<vtkDataSet*>& datasets);
 /// RotationCluster. The data must have passed check_clusters().
 vtkSmartPointer<vtkDoubleArray> clusters_of_cells(vtkDataSet* data);
 
-/// Return the clusters of all datasets in ascending order, each with the number of its cells. The
-/// colors are those of handles, assigned such that clusters that touch differ. The datasets must
-/// have passed check_clusters().
+/// Return one category per cluster of the datasets, in ascending order, with the number of cells of
+/// the cluster. Each cluster gets one of the colors of handles. Clusters that touch get different
+/// colors if possible. The datasets must have passed check_clusters().
 std::vector<Category> cluster_categories(const std::vector<vtkDataSet*>& datasets);
 
 /// Return the upper end of the color range for rotation angles up to `largest` degrees. The result

@@ -42,8 +42,8 @@ bool value_at(vtkImageData* image, const std::string& array, const Vec3& positio
 double surface_area(vtkPolyData* surface);
 
 /// Return the bounding box of all pairs of neighboring samples between which the value crosses one
-/// of the levels. With `include_nonzero`, also include all samples whose absolute value is above
-/// 0.1. If there are no such samples, return the box of the whole image.
+/// of the levels. With `include_nonzero`, the box also contains all samples whose absolute value is
+/// above 0.1. Return the box of the whole image if the result would be empty.
 Box occupied_box(vtkImageData* image, const std::string& array, const std::vector<double>& levels,
   bool include_nonzero);
 

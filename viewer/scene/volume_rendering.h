@@ -11,11 +11,12 @@ class vtkVolume;
 namespace bindpose
 {
 
-/// Return the opacity, in [0, 1], that a winding number adds to a ray between two samples. The
-/// opacity is 0 for |w| <= 0.02, the tolerance of winding_color(), so that the outside is clear.
-/// From 0.42 to 0.58, at the border of the inside, it is 0.6. Inside, from 0.75 to 1.02, the
-/// opacity is 3 % per hundredth of the volume's diagonal. It increases to 24 % per hundredth toward
-/// -1 and toward 2.
+/// Return the opacity, in [0, 1], that a winding number w adds to a ray between two samples. The
+/// opacity is piecewise linear in w:
+/// - |w| <= 0.02, the tolerance of winding_color(): 0, so that the outside is clear
+/// - w from 0.42 to 0.58, the border of the inside: 0.6
+/// - w from 0.75 to 1.02, the inside: 3 % per hundredth of the volume's diagonal
+/// - w = -1 and w = 2, and beyond: 24 % per hundredth of the volume's diagonal
 /// @param step  distance between samples, in hundredths of the volume's diagonal
 double winding_opacity(double winding_number, double step);
 

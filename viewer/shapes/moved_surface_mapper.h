@@ -17,8 +17,8 @@ namespace bindpose
 ///
 /// For the upload, VTK also shifts and scales the points unless the diagonal of their bounding box
 /// is near 1. This mapper shifts points only if they are so far from the origin that rounding to
-/// single precision would be visible. It then uses VTK's upload, which rebuilds the list of
-/// triangles.
+/// single precision would be visible. For such points, it uses VTK's upload, which rebuilds the
+/// list of triangles.
 ///
 /// The bounds include all points. Therefore a surface must use all of its points, as
 /// ShadedSurface::polydata() does.

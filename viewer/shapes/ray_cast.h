@@ -19,9 +19,10 @@ struct ViewRay
 /// are 0 on the ray, and the distance along the ray.
 Points to_ray_coordinates(const ViewRay& ray, PointsView points);
 
-/// Report whether the line of the ray goes through a triangle of transformed points, in front of or
-/// behind the origin of the ray. areas[k] is twice the signed area of the triangle that the ray
-/// forms with the edge opposite corner k, projected along the ray.
+/// Report whether the line of the ray goes through a triangle, in front of or behind the origin of
+/// the ray. In the two coordinates perpendicular to the ray, areas[k] is twice the signed area of
+/// the triangle whose corners are the origin and the ends of the edge opposite corner k.
+/// @param a, b, c  corners of the triangle, in ray coordinates
 bool surrounds_ray(const double* a, const double* b, const double* c, Vec3& areas);
 
 /// The first intersection of a ray with a mesh.

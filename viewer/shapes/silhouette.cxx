@@ -1,6 +1,6 @@
 // Finds silhouette edges. Triangles are adjacent if they share an edge, which is identified by the
-// positions of its ends. If more than two triangles share an edge, each triangle is compared with
-// the next one.
+// positions of its ends. If more than two triangles share an edge, each of them is adjacent only to
+// the previous and the next one in the order of triangle ids.
 #include "shapes/silhouette.h"
 
 #include "base/parallel.h"

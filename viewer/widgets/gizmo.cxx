@@ -45,11 +45,12 @@ constexpr double stretch_to = 30.0;
 // Minimum distance between the stretch box of a bone and the tip of an arrow.
 constexpr double stretch_room = 32.0;
 constexpr int ring_sides = 72;
-// an axis with a larger cosine to the viewing direction points at the viewer
+// Limits for the angle between an axis and the viewing direction. An arrow or scale box is
+// drawn if |cos| is below axis_on_cosine: otherwise it points at the viewer. A plate perpendicular
+// to the axis is drawn if |cos| is above plate_edge_on_cosine: otherwise it is seen edge-on. A ring
+// about the axis is drawn as a full circle if sin is below ring_face_on_sine.
 constexpr double axis_on_cosine = 0.985;
-// a plate whose normal has a smaller cosine to the viewing direction is seen edge-on
 constexpr double plate_edge_on_cosine = 0.13;
-// a ring whose axis has a smaller sine to the viewing direction is drawn as a whole
 constexpr double ring_face_on_sine = 0.3;
 
 const char* const letters[3] = { "X", "Y", "Z" };
@@ -546,7 +547,7 @@ std::optional<Vector2d> Gizmo::grip(int part_id) const
     }
     else
     {
-      // Grab the ring away from its middle, because another ring may cross it there.
+      // Do not use the middle of the drawn arc, because another ring may cross the arc there.
       position = part.path[part.path.size() * 2 / 5];
     }
     return Vector2d(this->view_.to_display(position).head<2>());

@@ -29,13 +29,13 @@ enum GizmoPart : int
   move_x = 10,
   move_y,
   move_z,
-  move_yz, ///< a plate, which moves in a plane; value - move_yz is the axis perpendicular to it
+  move_yz, ///< plate that moves the handle in the plane perpendicular to the part's axis
   move_zx,
   move_xy,
   turn_x = 20,
   turn_y,
   turn_z,
-  turn_view, ///< rotates about the viewing direction
+  turn_view, ///< ring that rotates the handle about the viewing direction
   scale_x = 30,
   scale_y,
   scale_z,
@@ -100,7 +100,8 @@ public:
   /// Return the part under the mouse. The order of priority is: boxes, cones and bone parts;
   /// plates; shafts; rings; the ring that faces the camera. Among parts of equal priority, the
   /// nearest to the mouse wins, then the nearest to the camera.
-  /// @param tolerance  distance in pixels from the drawn part that still counts as a hit
+  /// @param tolerance  a part is hit if the mouse is at most this far from the drawn part, in
+  /// pixels
   int pick(const Eigen::Vector2d& mouse, double tolerance) const;
   /// Draw the parts.
   /// @param solid  receives the shapes of the parts

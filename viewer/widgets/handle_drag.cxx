@@ -2,9 +2,10 @@
 // positions: the position at the start and the current position (slowed down in fine mode). Each
 // mouse position defines a ray from the eye.
 //
-// - A move in a plane is the difference between the intersections of the two rays with the plane. A
-//   move along a line uses the plane through the line that faces the camera most, and only the
-//   component along the line.
+// - A move in a plane is the difference between the intersections of the two rays with the plane.
+// - A move along a line also uses a plane: of all planes that contain the line, the plane that
+// faces
+//   the camera most. Only the component along the line is kept.
 // - A rotation is the angle at the pivot between the intersections of the two rays with the ring's
 //   plane. Angles are summed move by move, so that several turns are counted. For a ring seen
 //   edge-on, these intersections are unusable. Instead, the angle is proportional to the distance
@@ -31,9 +32,9 @@ namespace bindpose
 namespace
 {
 constexpr double fine_fraction = 0.1;
-// a move along a line is ignored if the line's cosine to the viewing direction is larger
+// Limits of |cos(angle between an axis and the viewing direction)|: above maximum_line_cosine, a
+// drag along the axis has no effect; below edge_on_cosine, a ring about the axis is seen edge-on.
 constexpr double maximum_line_cosine = 0.998;
-// a ring whose axis has a smaller cosine to the viewing direction is seen edge-on
 constexpr double edge_on_cosine = 0.12;
 constexpr double smallest_factor = 0.01;
 // a scale uses a ratio of distances only if it starts farther than this from the pivot

@@ -44,8 +44,8 @@ struct EditSettings
   bool place_inside = true;
   double length_step = 0.0; ///< moves of rest positions snap to multiples of this length
   HandleSizes sizes;
-  /// Without a surface, new handles are placed in the plane through this position that faces the
-  /// camera.
+  /// Without a surface, new handles are placed in the plane that contains this position and faces
+  /// the camera.
   Eigen::Vector3d focus = Eigen::Vector3d::Zero();
 };
 

@@ -121,22 +121,21 @@ public:
     MOVE_X = 10, ///< MOVE_X, MOVE_Y and MOVE_Z: arrows along the axes
     MOVE_Y,
     MOVE_Z,
-    MOVE_YZ, ///< MOVE_YZ, MOVE_ZX and MOVE_XY: plates that move in the plane of two axes
+    MOVE_YZ, ///< MOVE_YZ, MOVE_ZX and MOVE_XY: plates that move the handle in a plane of two axes
     MOVE_ZX,
     MOVE_XY,
     TURN_X = 20, ///< TURN_X, TURN_Y and TURN_Z: rings about the axes
     TURN_Y,
     TURN_Z,
-    TURN_VIEW, ///< ring that rotates about the viewing direction
+    TURN_VIEW, ///< ring that rotates the handle about the viewing direction
     SCALE_X = 30, ///< SCALE_X, SCALE_Y and SCALE_Z: boxes on the axes
     SCALE_Y,
     SCALE_Z,
-    SCALE_ALL, ///< gray box or ring that scales uniformly
+    SCALE_ALL, ///< gray box or ring that scales the handle uniformly
     STRETCH = 40, ///< box beyond a bone's tail
     TWIST_HEAD, ///< TWIST_HEAD and TWIST_TAIL: rings around a bone
     TWIST_TAIL,
-    PLACING = 50 ///< the pointer is at a position where, in an edit mode, the button would add
-                 ///< something
+    PLACING = 50 ///< in an edit mode: a position at which a press would add something
   };
 
   /// The effect of the mouse on handles.
@@ -227,7 +226,7 @@ public:
   vtkGetMacro(Gizmo, int);
   ///@}
   ///@{
-  /// The space of the axes of the gizmo and of the keys X, Y and Z; see SpaceType. Default WORLD.
+  /// The space whose axes the gizmo and the keys X, Y and Z use; see SpaceType. Default WORLD.
   vtkSetClampMacro(Space, int, WORLD, LOCAL);
   vtkGetMacro(Space, int);
   ///@}
@@ -259,10 +258,12 @@ public:
   /// Return LengthStep, or the automatic length if LengthStep is 0.
   double GetSnapLength();
   ///@{
-  /// Modifiers of the current drag, which may change at any time. With Fine on, only a tenth of
-  /// each following mouse motion is applied. With Snap on, values snap to multiples of LengthStep,
-  /// DegreeStep or FactorStep. With Reach on, dragging a tail also stretches its bone; this takes
-  /// effect at the next drag. Default off. The widget sets them from Shift, Ctrl and Alt.
+  /// Modifiers of drags, all off by default. The widget sets them from Shift, Ctrl and Alt.
+  /// - Fine: only a tenth of each following mouse motion is applied.
+  /// - Snap: values snap to multiples of LengthStep, DegreeStep or FactorStep.
+  /// - Reach: dragging a tail also stretches the bone.
+  ///
+  /// Fine and Snap may change during a drag. A change of Reach applies to the next drag.
   vtkSetMacro(Fine, vtkTypeBool);
   vtkGetMacro(Fine, vtkTypeBool);
   vtkSetMacro(Snap, vtkTypeBool);
@@ -283,7 +284,8 @@ public:
   vtkGetMacro(BoneWidth, double);
   ///@}
   ///@{
-  /// Distance in pixels from the drawn shape that still counts as a hit. Default 4, range 0 to 100.
+  /// A handle or gizmo part is hit if the mouse is at most this far from the drawn shape, in
+  /// pixels. Default 4, range 0 to 100.
   vtkSetClampMacro(PickTolerance, double, 0.0, 100.0);
   vtkGetMacro(PickTolerance, double);
   ///@}
@@ -385,13 +387,16 @@ public:
   int GetDragRefusal(vtkIdType handle);
 
   ///@{
-  /// Translation, rotation, scale, stretch and twist of a handle. The pivot c is its rest position,
-  /// for a bone its head. A point x moves to c + translation + R S (x - c), where R is the rotation
-  /// and S a scale along the handle's own axes at rest (the world's axes; for a bone, y is along
-  /// the bone). Each setter changes one part and keeps the other parts, but setting the scale
-  /// removes a shear. With MoveDescendants on, the descendants of the handle move with it. A setter
-  /// changes nothing and returns false in these cases: the handle does not exist or is locked; a
-  /// value is not finite; the axis has length 0; a factor is 0; a stretch is not positive.
+  /// Translation t, rotation R, scale S, stretch and twist of a handle. A point x moves to
+  /// c + t + R S (x - c). The pivot c is the handle's rest position (for a bone, its head). The
+  /// scale S is along the handle's own axes at rest: the y axis of a bone is along the bone; other
+  /// handles have the world's axes.
+  ///
+  /// Each setter changes one part and keeps the other parts, but setting the scale removes a shear.
+  /// With MoveDescendants on, the descendants of the handle move with the handle. A setter changes
+  /// nothing and returns false in these cases: the handle does not exist or is locked; a value is
+  /// not finite; the axis has length 0; a factor is 0; a stretch is not positive; the handle of a
+  /// stretch or twist is not a bone.
   bool SetHandleTranslation(vtkIdType handle, const double translation[3]);
   bool SetHandleRotation(vtkIdType handle, const double axis[3], double degrees);
   bool SetHandleScale(vtkIdType handle, const double factors[3]);
@@ -426,9 +431,9 @@ public:
   void LeaveHandles();
 
   ///@{
-  /// Start, continue and end one drag. The grabbed part is that of the interaction state; nothing
-  /// happens if the state is OUTSIDE or the handle cannot be dragged. The state and the hovered
-  /// handle come from ComputeInteractionState().
+  /// Start, continue and end one drag of the part that ComputeInteractionState() has found under
+  /// the mouse. Nothing happens if there is no part (state OUTSIDE) or the handle cannot be
+  /// dragged.
   void StartWidgetInteraction(double eventPos[2]) override;
   void WidgetInteraction(double eventPos[2]) override;
   void EndWidgetInteraction(double eventPos[2]) override;

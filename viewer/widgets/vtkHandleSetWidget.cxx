@@ -215,8 +215,8 @@ void vtkHandleSetWidget::SelectAction(vtkAbstractWidget* widget)
   const bool on_gizmo = representation->GetInteractionState() >= vtkHandleSetRepresentation::MOVE_X;
   if (!on_gizmo && self->Interactor->GetShiftKey())
   {
-    // The mouse is on an existing handle. It is neither on the gizmo nor on a position for a new
-    // handle (PLACING), because both have states of at least MOVE_X.
+    // The mouse is on an existing handle. (At a position for a new handle, on_gizmo is also true,
+    // because the state PLACING is above MOVE_X.)
     representation->ToggleSelected(handle);
     self->InvokeEvent(vtkCommand::SelectionChangedEvent, nullptr);
     self->Render();

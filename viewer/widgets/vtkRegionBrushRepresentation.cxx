@@ -311,8 +311,8 @@ void vtkRegionBrushRepresentation::BuildRepresentation()
         self.HitPosition + this->GetDiscRadius() * (std::cos(angle) * u + std::sin(angle) * v));
     }
     shapes.add_tube(circle, 2.0 * pixel, { 0.13, 0.13, 0.15 });
-    // Draw a thinner circle in the brush color nearer to the eye. The dark circle above then looks
-    // like the outline of the colored circle.
+    // Draw a thinner circle in the brush color in front of the dark circle. The dark circle then
+    // looks like the outline of the colored circle.
     for (Vector3d& point : circle)
     {
       point -= 3.0 * pixel * view.direction_to(point);

@@ -22,12 +22,12 @@ constexpr Index largest_anderson_window = 50;
 /// acceptable, the caller continues from g(x) and calls clear_history(). Method: Peng et al. 2018,
 /// Anderson acceleration for geometry optimization and physics simulation.
 ///
-/// The caller can add carried values, which are linear functions of x (such as a gradient). They
-/// are stored behind x in memory and combined like x, but they are not part of the residual.
+/// The caller can append extra values to x, which are linear functions of x (such as a gradient).
+/// They are combined like x, but they are not part of the residual.
 ///
 /// Scalar: float or double.
 ///
-/// Cost of next(): window + 1 inner products, and window + 1 multiply-adds for each carried value.
+/// Cost of next(): window + 1 inner products, and window + 1 multiply-adds for each extra value.
 template <typename Scalar>
 class Anderson
 {
@@ -38,7 +38,7 @@ public:
   /// @param window number of previous iterates to combine, 0 (no acceleration) to
   /// largest_anderson_window.
   /// @param size number of entries of x.
-  /// @param extra_size number of carried values, which are stored behind x in memory.
+  /// @param extra_size number of extra values, which are stored behind x in memory.
   Anderson(Index window, Index size, Index extra_size, Dot dot);
 
   Index window() const { return this->window_; }
@@ -46,13 +46,14 @@ public:
   /// Discard the previous iterates.
   void clear_history() { this->count_ = 0; }
 
-  /// Compute the extrapolated iterate x from g = g(x); both arrays include the carried values.
-  /// Return false and leave x unchanged if there are no previous iterates or the coefficients are
-  /// not finite.
+  /// Replace the iterate x by the extrapolated iterate. Return false and leave x unchanged if there
+  /// are no previous iterates or the coefficients are not finite.
+  /// @param g the value g(x), followed by its extra values.
+  /// @param x the iterate x, followed by its extra values.
   bool next(const Scalar* g, Scalar* x);
 
-  /// Sum of the absolute values of the last coefficients. The round-off of the carried values in an
-  /// extrapolated iterate is at most about this factor times their round-off in g(x).
+  /// Sum of the absolute values of the coefficients that the last call of next() computed. The
+  /// extrapolation multiplies the round-off of the extra values by at most about this sum.
   double coefficient_sum() const { return this->coefficient_sum_; }
 
 private:
@@ -62,11 +63,13 @@ private:
   Dot dot_;
   Index count_ = 0; ///< number of calls of next() since clear_history()
   double coefficient_sum_ = 0.0;
-  AlignedVector<Scalar> changes_g_, changes_f_; ///< ring buffers of `window` differences of g and f
+  // The residual is f = g(x) - x. A difference is the change of g or of f from one call of next()
+  // to the next call. The last `window` differences are stored.
+  AlignedVector<Scalar> changes_g_, changes_f_; ///< ring buffers of the differences of g and of f
   AlignedVector<Scalar> last_g_, last_f_;
-  Eigen::MatrixXd products_; ///< inner products of the differences of the residual
-  Eigen::VectorXd right_; ///< inner products of each difference with the last residual
-  std::vector<double> factor_; ///< Cholesky factor, in rows of largest_anderson_window
+  Eigen::MatrixXd products_; ///< entry (i, j): inner product of differences i and j of f
+  Eigen::VectorXd right_; ///< entry i: inner product of difference i of f with the last f
+  std::vector<double> factor_; ///< Cholesky factor; each row has largest_anderson_window entries
 };
 
 /// Return the sum of a_i b_i. The function adds in 16 running sums (32 for floats) in a fixed order

@@ -153,8 +153,8 @@ struct Spoke
   double weight;
 };
 
-/// An edge weight is ignored as round-off if its absolute value is at most this fraction of the
-/// stiffness matrix's diagonal entries at both vertices of the edge.
+/// Let d be the smaller of the stiffness matrix's diagonal entries at the two vertices of an edge.
+/// The weight of the edge is ignored as round-off if |weight| <= weight_tolerance * d.
 constexpr double weight_tolerance = 1e-12;
 
 std::vector<Spoke> spokes_of(const SparseMatrix& stiffness, Index* ignored_edges)

@@ -16,11 +16,11 @@ namespace bindpose
 ///     crowd.solve(context, poses);               // one pose per instance
 ///     crowd.deform(context, points, posed);      // all instances, in single precision
 ///
-/// Cost: a solve takes as long as one ReducedArap solve per instance, one after another. It takes
-/// longer if the handle modes of an instance differ from those of the previous instance. deform()
-/// reads weights and points once for all instances. Memory: 72 bytes per cluster and instance. The
-/// result has the same bits for any number of threads. For the same sequence of poses, the result
-/// of an instance is bit-identical to that of ReducedArap.
+/// Cost: solve() processes the instances one after another; each takes as long as one ReducedArap
+/// solve. An instance takes longer if its handle modes differ from those of the previous instance.
+/// deform() reads weights and points once for all instances. Memory: 72 bytes per cluster and
+/// instance. The result has the same bits for any number of threads. For the same sequence of
+/// poses, the result of an instance is bit-identical to that of ReducedArap.
 class Crowd
 {
 public:
@@ -30,12 +30,12 @@ public:
   Status bind(ExecutionContext& context, PointsView points, TetsView tets, WeightsView weights,
     const Handles& handles, const ReducedArapOptions& options = {});
 
-  /// Find the transforms of a pose for each instance. The solve of an instance starts with the
-  /// rotations of its previous pose, if it has one. Return not_converged if any instance did not
-  /// converge; in this case all results are usable. If an instance fails, return its status at
-  /// once, with the index of the instance in the message. The report contains counts.instances,
-  /// counts.not_converged, and iterations and single_precision_iterations (sums over all
-  /// instances). The warnings are those of the first instance with warnings.
+  /// Compute the transforms of each instance for its own pose, poses[instance]. The solve of an
+  /// instance starts with the rotations of its previous pose, if it has one. Return not_converged
+  /// if any instance did not converge; in this case all results are usable. If an instance fails,
+  /// return its status at once, with the index of the instance in the message. The report contains
+  /// counts.instances, counts.not_converged, and iterations and single_precision_iterations (sums
+  /// over all instances). The warnings are those of the first instance with warnings.
   Status solve(ExecutionContext& context, const std::vector<Pose>& poses,
     const ReducedSolveOptions& options = {});
 

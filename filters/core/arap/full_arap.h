@@ -27,11 +27,12 @@ struct FullArapOptions
 ///     arap.posed();
 ///
 /// The energy is that of ReducedArap, 1/2 sum_k sum c |e' - R_k e|^2, with one rotation for every
-/// vertex (spokes, spokes and rims) or element. A solve alternates between the best rotations
-/// (local step) and the best positions (global step, one sparse solve). Neither step can raise the
-/// energy. Between the steps, Anderson acceleration extrapolates from the last iterates. If the
-/// extrapolated iterate would raise the energy, the plain iterate is used (Peng et al. 2018,
-/// Anderson acceleration for geometry optimization and physics simulation).
+/// vertex (energies `spokes` and `spokes_and_rims`) or every element (energy `elements`). A solve
+/// alternates between the best rotations (local step) and the best positions (global step, one
+/// sparse solve). Neither step can raise the energy. Between the steps, Anderson acceleration
+/// extrapolates from the last iterates. If the extrapolated iterate would raise the energy, the
+/// plain iterate is used (Peng et al. 2018, Anderson acceleration for geometry optimization and
+/// physics simulation).
 ///
 /// Constraints by the mode of a handle:
 /// - `full`: the transform moves the handle's vertices. These are the vertex at a point or cage
@@ -92,12 +93,12 @@ public:
 
   /// Compute the vertices for a pose, which has one entry per handle. Return not_converged if
   /// max_iterations were not enough, or if an iteration raised the energy by more than the
-  /// tolerance. The energy can rise if the handles' constraints are nearly dependent. In this case
-  /// the points of the previous iteration are kept, and a warning is added. After not_converged the
-  /// vertices are usable. The report contains energy, iterations, microseconds_per_iteration,
-  /// constraint_residual (largest violation of a constraint, in bounding-box diagonals) and
-  /// counts.constrained (number of constrained vertices and points). Warnings contain the names of
-  /// redundant position handles and of contradictory handles.
+  /// tolerance. Round-off can raise the energy if the handles' constraints are nearly dependent. If
+  /// the energy rises, the points of the previous iteration are kept and a warning is added. After
+  /// not_converged the vertices are usable. The report contains energy, iterations,
+  /// microseconds_per_iteration, constraint_residual (largest violation of a constraint, in
+  /// bounding-box diagonals) and counts.constrained (number of constrained vertices and points).
+  /// Warnings contain the names of redundant position handles and of contradictory handles.
   Status solve(ExecutionContext& context, const Pose& pose, const SolveOptions& options);
   Status solve(ExecutionContext& context, const Pose& pose)
   {

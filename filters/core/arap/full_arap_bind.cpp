@@ -94,7 +94,8 @@ void FullArap::set_covariance(const SparseMatrix& covariance)
     t->item.resize(terms);
     t->b.resize(3 * terms);
   }
-  // A column of the covariance matrix stores the x coordinates for all groups, then y, then z.
+  // A column of the covariance matrix stores one vector b (see Terms) for each group to which the
+  // vertex contributes: first the x coordinates of all these vectors, then y, then z.
   Index at = 0;
   for (Index v = 0; v < n; ++v)
   {

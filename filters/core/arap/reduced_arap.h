@@ -14,7 +14,7 @@ namespace bindpose
 ///     ReducedArap arap;
 ///     arap.bind(context, points, tets, weights, handles, options);  // seconds, once
 ///     arap.solve(context, pose);                                    // microseconds per iteration
-///     arap.deform(context, points, posed);                          // as linear blend skinning
+///     arap.deform(context, points, posed);                          // linear blend skinning
 ///
 /// The energy is 1/2 sum_k sum c |e' - R_k e|^2 over edges e, with rotations R_k shared by clusters
 /// of vertices that have similar weights. A solve alternates between the best rotations (local

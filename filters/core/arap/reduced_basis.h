@@ -1,8 +1,8 @@
 #ifndef bindpose_arap_reduced_basis_h
 #define bindpose_arap_reduced_basis_h
 
-// Basis of the displacements that leave everything unchanged that the handles constrain, for a
-// choice of the handles' modes. The global step of reduced as-rigid-as-possible
+// Basis of the displacements that satisfy all handle constraints with zero right-hand sides. The
+// modes of the handles determine the constraints. The global step of reduced as-rigid-as-possible
 // (reduced_solver.cpp) uses this basis.
 
 #include "arap/reduced_space.h"
@@ -85,7 +85,7 @@ public:
   {
     double energy = 0.0; ///< value of the minimized expression at D*
     Coordinates covariance; ///< covariances K D*
-    Coordinates base_displacement; ///< D*; in the quick method only `given_blocks`
+    Coordinates base_displacement; ///< robust method: D*; quick method: a copy of `given_blocks`
     Coordinates z; ///< quick method: coefficients z of D*
     Eigen::RowVector3d first; ///< target of the constraint that determines the translation t
   };
@@ -101,15 +101,15 @@ public:
   Coordinates displacement(const UnrotatedMinimizer& from, const Coordinates& y) const;
 
 private:
-  /// Factorization H = L L^T for the unknowns that affect the energy, scaled so that each column of
-  /// M has root mean square one. If a translation u of the whole shape has no energy, the last
-  /// unknown is omitted from H, and D = u t + E z.
+  /// Factorization H = L L^T. The unknowns are the rows of D whose column of M is not empty. Each
+  /// unknown is scaled so that this column has root mean square one. If a translation u of the
+  /// whole shape has no energy, H is factored without the last unknown, and D = u t + E z.
   struct FullFactorization
   {
     bool tried = false, good = false;
-    std::vector<Index> rows; ///< row of D of each unknown, including an omitted one
+    std::vector<Index> rows; ///< row of D of each unknown; the last unknown is always included
     Eigen::VectorXd scale; ///< scale of each row
-    Eigen::VectorXd shift; ///< translation u, scaled to norm one; empty if no unknown is omitted
+    Eigen::VectorXd shift; ///< translation u, scaled to norm one; empty if u has energy
     DenseCholesky cholesky; ///< Cholesky factor L
     Eigen::MatrixXd directions; ///< E = L^-T
     Eigen::MatrixXd covariance; ///< covariances K E

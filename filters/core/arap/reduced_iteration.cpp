@@ -339,8 +339,8 @@ bool ReducedIteration<Scalar>::run(ExecutionContext& context, const ReducedLimit
       progress.converged = limits.tolerance > 0.0 && above_noise &&
         progress.change <= limits.tolerance * std::max(energy, limits.minimum_energy);
     }
-    // Reading the clock takes as long as some rotation fits, so the clock is read only if there is
-    // a deadline.
+    // Reading the clock takes about as much time as fitting several rotations. Therefore the clock
+    // is read only if there is a deadline.
     progress.within_deadline = limits.deadline == limits.deadline.max() ||
       std::chrono::steady_clock::now() < limits.deadline;
   }

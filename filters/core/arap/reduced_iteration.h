@@ -16,13 +16,13 @@
 namespace bindpose
 {
 
-/// Stopping criteria of the alternation between local and global steps. Energies are in the units
-/// of the solver, even if C is divided by a unit (set_matrix()).
+/// Stopping criteria of the alternation between local and global steps. The divisor of C (see
+/// set_matrix()) does not affect energies.
 struct ReducedLimits
 {
   /// The run ends if an iteration lowers the energy by at most this fraction of the energy.
   double tolerance = 0.0;
-  double minimum_energy = 0.0; ///< lower energies are replaced by this in the convergence test
+  double minimum_energy = 0.0; ///< lower bound for the energy in the convergence test
   double energy_tolerance =
     0.0; ///< energies whose difference is at most this are equal up to round-off
   Index iterations = 0; ///< maximum number of iterations
@@ -32,7 +32,7 @@ struct ReducedLimits
 /// Result of an alternation.
 struct ReducedProgress
 {
-  std::vector<double>& energies; ///< energies after each local and global step are appended
+  std::vector<double>& energies; ///< run() appends the energy after each local and each global step
   Index iterations = 0;
   double change = 0.0; ///< decrease of the energy in the last iteration
   bool converged = false;
@@ -43,11 +43,11 @@ struct ReducedProgress
 /// The alternation of reduced as-rigid-as-possible in its coordinates Y, as described in
 /// reduced_solver.cpp:
 ///
-///     S = S* + C Y,   Q = best rotations of S - I,   Y = C^T Q,
+///     S = S* + C Y,   Q = (best rotations of S) - I,   Y = C^T Q,
 ///
 /// with Anderson acceleration. Scalar: float or double. In single precision the alternation stops
-/// when the decrease of the energy is smaller than the round-off. C can be divided by a unit
-/// (set_matrix()), so that all values are in the range of Scalar.
+/// when the decrease of the energy is smaller than the round-off. set_matrix() can divide C by a
+/// number, so that all values are in the range of Scalar.
 ///
 /// Cost of an iteration: 36 #clusters #columns multiply-adds and #clusters rotation fits; C is read
 /// once.
@@ -61,8 +61,7 @@ public:
   /// Return the matrix C, which the caller must fill. Entry (i, column) of cluster k is in row
   /// i * #clusters + k.
   Columns matrix(Index clusters, Index columns);
-  /// Copy the matrix C of another iteration.
-  /// @param unit divisor of C.
+  /// Copy the matrix C of another ReducedIteration object, and divide the copy by `unit`.
   template <typename Other>
   void set_matrix(const ReducedIteration<Other>& from, double unit);
 
@@ -104,8 +103,8 @@ private:
   Index length_ = 0; ///< padded length of a column of Y
   double unit_ = 1.0;
   AlignedVector<Scalar> covariance_; ///< C, with the columns in groups of four
-  AlignedVector<Scalar> unrotated_covariance_; ///< covariances S* of D*
-  AlignedVector<Scalar> rotation_deltas_; ///< rotations minus the identity, Q
+  AlignedVector<Scalar> unrotated_covariance_; ///< S*: covariances of D*
+  AlignedVector<Scalar> rotation_deltas_; ///< Q: rotations minus the identity
   /// Plain and extrapolated iterate. Each consists of three columns of Y, followed by S.
   AlignedVector<Scalar> iterate_, trial_;
   std::optional<Anderson<Scalar>> anderson_; ///< accelerator, stored to reuse its memory

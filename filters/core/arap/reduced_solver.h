@@ -16,9 +16,9 @@ enum class ReducedStart
   /// Rotations of the last solve (`guess` in the first solve). While a user drags a handle, each
   /// solve then needs few iterations, and twists of more than half a turn can accumulate.
   last,
-  /// Per cluster: a blend, by weights, of the rotations of handles in mode full. Every other handle
-  /// contributes the rotation that best fits the whole pose. These initial rotations depend only on
-  /// the pose.
+  /// For each cluster, the rotation nearest to a weighted sum over all handles. A handle in mode
+  /// full contributes the linear part of its transform. Every other handle contributes the rotation
+  /// that best fits the whole pose. These initial rotations depend only on the pose.
   guess,
   rest ///< identity matrices
 };

@@ -24,9 +24,9 @@ namespace
 /// the round-off of the sums; the number of threads does not.
 constexpr Index strips = 16;
 constexpr Index rows_per_block = 256;
-/// A pivot is treated as a vertex if their distance is at most this, in bounding-box diagonals.
+/// A pivot within this distance of a vertex is treated as the vertex; in bounding-box diagonals.
 constexpr double pivot_tolerance = 1e-9;
-/// A pivot is on a triangle if their distance is at most this, in bounding-box diagonals.
+/// A pivot within this distance of a triangle is on the triangle; in bounding-box diagonals.
 constexpr double on_surface = 1e-6;
 
 /// Compute barycentric coordinates in a tet. Return false if the point is outside or the tet is
@@ -255,7 +255,8 @@ void ReducedSpace::project_covariance(
   const Index clusters = this->groups.count;
   this->stride = (clusters + 7) / 8 * 8;
   this->covariance = Eigen::MatrixXd::Zero(3 * clusters, 4 * this->columns);
-  // The product is row-major until the end, because the loop over vertices adds to whole rows.
+  // `product` is row-major, because the loop below adds to whole rows. After the loop it is copied
+  // to the column-major member `covariance`.
   Weights product = Weights::Zero(3 * clusters, 4 * this->columns);
   this->cluster_weights = Eigen::MatrixXd::Zero(clusters, handle_count);
   this->rest_covariance.assign(static_cast<std::size_t>(9 * this->stride), 0.0);

@@ -27,7 +27,8 @@ struct SortedSurface
 {
   Points points;
   Triangles triangles;
-  std::vector<Index> original; ///< #vertices: the lowest original id of the equal vertices
+  /// #vertices: original id of each vertex; for duplicate vertices, the lowest of their ids.
+  std::vector<Index> original;
 };
 
 SortedSurface sort_surface(PointsView points, TrianglesView triangles)

@@ -8,7 +8,7 @@
 namespace bindpose
 {
 
-/// The method that creates the handles. vtkAutomaticHandles uses the same order.
+/// The method that creates the handles. The integers are those of vtkAutomaticHandles.
 enum class AutomaticMethod
 {
   skeleton, ///< bones along the curve skeleton of the shape

@@ -83,15 +83,16 @@ Status close_surface(ExecutionContext& context, PointsView points, TrianglesView
   return status;
 }
 
-/// A component with a volume, and its center of mass.
+/// A component of the closed surface that encloses a positive volume, and the centroid of
+/// this volume.
 struct Solid
 {
   Triangles triangles;
   Vec3 centroid = Vec3::Zero();
 };
 
-/// Return the centroid of the volume that closed triangles enclose, as a sum over tetrahedra
-/// between the triangles and one of the vertices.
+/// Return the centroid of the volume inside a closed surface, as a sum over tetrahedra. Each
+/// tetrahedron has one triangle and a common apex, which is a vertex of the surface.
 Vec3 centroid_of_mass(PointsView points, TrianglesView triangles)
 {
   const Vec3 apex = points.row(triangles(0, 0));
@@ -109,8 +110,8 @@ Vec3 centroid_of_mass(PointsView points, TrianglesView triangles)
   return volume != 0.0 ? Vec3(apex + moment / volume) : apex;
 }
 
-/// Return the components that enclose a positive volume. Hollows have a negative volume and are
-/// omitted.
+/// Return the surface components that enclose a positive volume. Hollows have a negative volume and
+/// are omitted.
 std::vector<Solid> solids_of(const TriangleMesh& surface)
 {
   const Components components =
@@ -175,8 +176,9 @@ std::vector<Index> find_parts(const CurveSkeleton& skeleton, Index& count)
   return part;
 }
 
-/// Compute radii, part_of_point and centroids of the skeleton. Each component of the skeleton
-/// belongs to the solid nearest to the component's widest point.
+/// Compute radii, part_of_point and centroids of the skeleton. A component of the skeleton gets the
+/// centroid of a component of the closed surface: the one nearest to the widest point of the
+/// skeleton component.
 void measure(const TriangleMesh& surface, CurveSkeleton& skeleton)
 {
   const double unlimited = std::numeric_limits<double>::infinity();

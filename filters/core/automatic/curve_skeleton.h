@@ -32,7 +32,8 @@ struct CurveSkeleton
 {
   Points points; ///< #P x 3
   Segments segments; ///< #S x 2: ids of two points; each pair occurs at most once
-  Eigen::VectorXd radii; ///< #P: distance to the closed surface, which is half of the thickness
+  /// #P: distance of each point from the closed surface; about half of the shape's thickness there.
+  Eigen::VectorXd radii;
   /// #P: component of each point, as an index into centroids. If a component has one point, its
   /// part of the shape is a ball or almost a ball.
   std::vector<Index> part_of_point;

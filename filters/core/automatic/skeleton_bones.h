@@ -25,9 +25,10 @@ struct SkeletonBonesOptions
   /// junctions are merged if the length of the branch between them is below this factor times the
   /// larger of their radii.
   double prune = 1.0;
-  /// Callback that reports whether a point is inside the shape; must be thread-safe. If given, a
-  /// bone that leaves the shape is split if the curve deviates from the bone by more than a quarter
-  /// of the tolerance. Joints are placed inside the shape if possible.
+  /// Callback that reports whether a point is inside the shape; must be thread-safe. If empty,
+  /// every point counts as inside. Joints are placed inside the shape if possible. A bone that
+  /// leaves the shape is split where the curve deviates from the bone by more than a quarter of the
+  /// tolerance.
   std::function<bool(const Vec3&)> inside;
 };
 

@@ -37,22 +37,23 @@ struct SpreadPoints
   Points positions; ///< #count x 3: positions of the points, in the order of choice
   std::vector<Index> vertices; ///< #count: the vertex at which each point was chosen
   Index inside = 0; ///< number of points that were moved inside
-  Index components = 0; ///< number of components of the surface with equal vertices welded
+  Index components = 0; ///< number of components, after welding vertices with equal positions
   Index covered_components = 0; ///< number of components that got at least one point
 };
 
 /// Spread points over a surface's vertices (farthest-point sampling). Each point is as far as
 /// possible from all earlier points of its component. The first point is the vertex with the
 /// largest straight-line distance from the centroid of the component's vertices. The method is from
-/// T. Gonzalez, "Clustering to minimize the maximum intercluster distance", 1985. Let d be the
-/// largest distance of a vertex from its nearest point, before points are moved inside. Then the
-/// distance between any two points is at least d, and d is at most twice the smallest possible
-/// value.
+/// T. Gonzalez, "Clustering to minimize the maximum intercluster distance", 1985.
+///
+/// If SpreadPointsOptions::inside is false, the following holds for each component. Let d be the
+/// largest distance from a vertex to the nearest point. Then the distance between any two points is
+/// at least d, and d is at most twice the smallest value that the same number of points can reach.
 ///
 /// - **Components** are found after vertices with equal positions are welded. First, each component
 ///   with at least a 100th of the largest component's area gets one point. Each further point is
-///   placed in the component with the largest area / (points + 1), so that numbers of points are in
-///   proportion to areas. Distances are only measured within a component.
+///   placed in the component whose area divided by (its number of points + 1) is largest, so that
+///   numbers of points are in proportion to areas. Distances are only measured within a component.
 /// - **Inside**: a point moves from its vertex against the direction of the normal, or along the
 ///   normal if the inside is on that side. Its depth is its distance to the surface. The point
 ///   moves as long as the depth grows by at least 3/10 of the distance that the point moves. It

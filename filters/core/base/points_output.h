@@ -15,7 +15,8 @@ public:
   PointsOutput(Points& matrix) : matrix_(&matrix), memory_(nullptr, 0, 3) {}
   PointsOutput(const Eigen::Map<Points>& memory) : memory_(memory) {}
 
-  /// Return the points after resizing the matrix. Memory of the caller must have `rows` rows.
+  /// Return the destination with the given number of rows. A matrix is resized; memory of the
+  /// caller must already have this number of rows.
   Eigen::Map<Points> resized(Index rows) const
   {
     if (this->matrix_)

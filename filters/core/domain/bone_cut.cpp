@@ -30,8 +30,8 @@ EdgeKey edge_key(Index a, Index b)
 /// The first bone along each mesh edge; -1: no bone.
 using BoneEdges = std::map<EdgeKey, Index>;
 
-/// Return the mesh's vertices on the bone, from head to tail. If no vertex is at the head or at the
-/// tail, return an empty list.
+/// Return the mesh's vertices on the bone, from head to tail. Return an empty list unless both ends
+/// of the bone are at vertices.
 std::vector<Index> vertices_along(PointsView points, const Handle& bone, double tolerance)
 {
   const Eigen::Vector2d head = bone.head.head<2>();

@@ -12,7 +12,7 @@ namespace bindpose
 /// A planar mesh that was cut open along bones (see cut_along_bones).
 struct BoneCut
 {
-  Points points; ///< the mesh's vertices with their ids, then the duplicates
+  Points points; ///< the mesh's vertices (ids do not change), then the duplicates
   Triangles triangles; ///< the mesh's triangles, in the same order
   std::vector<Index> original; ///< #points: original vertex of each point
   /// #points: the side of a curve to which the point belongs; 0: no side. Let handle b be the first

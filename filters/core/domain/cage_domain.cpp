@@ -55,7 +55,7 @@ void orient_outline(PlanePointsView points, Segments& edges)
   }
 }
 
-/// Fill the region that is enclosed by the cage's faces with tets.
+/// Make tets that fill the region inside the cage's faces.
 Status fill_faces(ExecutionContext& context, const std::vector<CageElement>& faces,
   PointsView points, const Handles& handles, const CageOptions& cage, CageDomain& result)
 {
@@ -90,8 +90,7 @@ Status fill_faces(ExecutionContext& context, const std::vector<CageElement>& fac
   return status;
 }
 
-/// Fill the region that is enclosed by the cage's edges, in the plane of a flat shape, with
-/// triangles.
+/// Make triangles that fill the region inside the cage's edges, in the plane of a flat shape.
 Status fill_edges(ExecutionContext& context, const std::vector<CageElement>& edges,
   PointsView points, TrianglesView triangles, const Handles& handles, const CageOptions& cage,
   CageDomain& result)
@@ -102,8 +101,8 @@ Status fill_edges(ExecutionContext& context, const std::vector<CageElement>& edg
   {
     return Status::invalid_input(requirement);
   }
-  // The rows are, in this order: heads of all handles, tails of all handles (bones), points of the
-  // shape.
+  // Rows of `positions`: the heads of all handles, then their tails (for a handle without a tail,
+  // the head again), then the points of the shape.
   const auto handle_count = static_cast<Index>(handles.size());
   const Index shape_points = points.rows() <= cage.maximum_points ? points.rows() : 0;
   Points positions(2 * handle_count + points.rows(), 3);
@@ -162,8 +161,8 @@ Status fill_edges(ExecutionContext& context, const std::vector<CageElement>& edg
   }
   if (status.report.number("counts.outside_handles", 0.0) > 0.0)
   {
-    // Drop the last warning (handles outside), because other functions report the same: the
-    // transfer warns about points outside, and the weights problem warns about handles outside.
+    // Drop the last warning, which counts handles and points of the shape outside the cage. Later
+    // steps report these: the weights problem reports the handles, the transfer reports the points.
     status.warnings.pop_back();
   }
   // Report only the angle and the area, because the weights problem reports the numbers of vertices

@@ -14,7 +14,8 @@ struct CageOptions
   /// Threshold, > 0: a point is inside the cage if its winding number is at least this. Used only
   /// for a cage of edges.
   double winding_threshold = 0.5;
-  /// The points of this handle geometry become vertices of the tets. Used only for a cage of faces.
+  /// The geometry of the handles. Its points become vertices of the tets; its segments and
+  /// triangles are ignored. Used only for a cage of faces.
   HandleElements handle_elements;
   /// Maximum number of surface points that become vertices of the domain. If the surface has more
   /// points, no point becomes a vertex.

@@ -15,15 +15,16 @@ struct Domain
   Points points;
   Tets tets;
   Triangles triangles; ///< triangles of a surface, used if there are no tets
-  /// #T: for each tet, the fraction of its volume that is inside the surface, > 0. Energies of a
-  /// tet are multiplied by this fraction. Given only for a lattice that contains a surface. If
+  /// #T: fraction (> 0 and <= 1) of the tet's volume that is inside the surface. The energies of
+  /// the tet are multiplied by this fraction. Given only for a lattice that contains a surface. If
   /// empty, all fractions are 1.
   Eigen::VectorXd inside_fractions;
-  /// For a lattice that contains a surface: the points of the surface, and for each point one
-  /// corner of the tet that contains it (-1: no tet contains the point). The distance between a
+  /// For a lattice that contains a surface: the points of the surface. The distance between a
   /// component and a handle is measured from these points. Without such points, the distance is
   /// measured from the vertices.
   Points embedded_points;
+  /// #embedded_points: id of one vertex of the tet that contains the point; -1: no tet contains the
+  /// point. The vertex determines the component to which the point belongs.
   std::vector<Index> embedded_point_corners;
 
   bool is_volume() const { return this->tets.rows() > 0; }

@@ -24,10 +24,11 @@ constexpr double bad_angle = 2.0; // degrees
 /// models: all tet meshes on which solves failed exceeded these fractions.
 constexpr double maximum_bad_triangles = 0.02;
 constexpr double maximum_bad_tets = 0.03;
-/// Approximate number of vertices of a lattice. To check the weights, they are solved on two
-/// lattices and compared (the guard, see surface_weights.h). This takes `two_lattice_factor` times
-/// as long as solving on the finer lattice alone.
+/// With an embedding, the weights are solved on a coarse and a fine lattice, and the two results
+/// are compared (the guard, see surface_weights.h). This is the approximate number of vertices of
+/// the fine lattice.
 constexpr Index typical_lattice_vertices = 9000;
+/// Time to solve on both lattices, divided by the time to solve on the fine lattice.
 constexpr double two_lattice_factor = 1.3;
 
 std::string percent_of(Index part, Index total)

@@ -287,7 +287,7 @@ Index EmbeddedSurface::point_at(const Vec3& position) const
 Status EmbeddedSurface::smooth(ExecutionContext& context, const std::vector<Index>& fixed_points,
   double length, Weights& result) const
 {
-  constexpr double welding_end = 0.03; // progress when equal points are merged
+  constexpr double welding_end = 0.03; // progress after equal points have been merged
   LatticeSurface welded;
   {
     const ProgressRange range(context, 0.0, welding_end);

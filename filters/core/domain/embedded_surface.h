@@ -76,7 +76,8 @@ private:
   SimplexLocator tets_;
   const SimplexLocator& surface_;
   double spacing_ = 0.0; ///< edge length of a lattice cube, which is the longest edge of a tet
-  /// For each center that several tets have in common: the ids of these tets (copies).
+  /// Ids of the copies of a tet. The key is the center of the tet (see center_of). Tets without
+  /// copies are not stored.
   std::unordered_map<LatticePosition, std::vector<Index>, LatticePositionHash> copies_;
   /// Corners grouped by vertex, as 4 * tet + corner.
   std::vector<Index> first_corner_, corners_of_vertex_;

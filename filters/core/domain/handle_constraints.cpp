@@ -129,7 +129,7 @@ void assign_nearest_handles(const Domain& domain, const Handles& handles,
       double distance = 1e300;
       if (result.counts[i] == 0)
       {
-        continue; // the handle was skipped: it has no weights
+        continue; // the handle constrains no vertex, so all its weights are zero
       }
       if (handles[i].kind == HandleKind::region)
       {
@@ -203,9 +203,10 @@ std::string advice_about(const Handle& handle, const Box& box)
 
 /// Ensure that every handle has its own vertex, which is a vertex on no other handle. A handle
 /// whose vertices are all shared, such as a point handle on a bone, would not have the weight one
-/// anywhere. Such a handle gets the first of its vertices at which all other handles have their own
-/// vertices elsewhere. If there is no such vertex, an optional handle is removed from all its
-/// vertices, and a required handle is an error.
+/// anywhere. Such a handle takes over one of its shared vertices, but only if every other handle at
+/// this vertex has its own vertex elsewhere. If several vertices qualify, the lowest id is used. If
+/// no vertex qualifies, an optional handle is removed from all its vertices, and a required handle
+/// is an error.
 Status assign_own_vertices(const Handles& handles, const Box& box,
   std::map<Index, std::vector<Index>>& owners, HandleConstraints& result)
 {

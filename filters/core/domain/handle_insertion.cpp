@@ -112,7 +112,7 @@ private:
   // Elements at every vertex, including elements that were split.
   std::vector<std::vector<Index>> incident_;
   std::vector<CageElementShape> cage_;
-  HandlePlacement on_cage_; // placement of all samples on cage edges and faces, as if of one handle
+  HandlePlacement on_cage_; // common placement of all samples on edges and faces of cages
   Index cage_samples_outside_ = 0;
 };
 

@@ -13,9 +13,9 @@ namespace bindpose
 /// parts.
 struct LooseParts
 {
-  Index count = 0; ///< number of connected parts of the lattice without a handle
-  /// Links of the surface components that are in parts without a handle. Empty if no component,
-  /// every component, or more than 20,000 components are in such parts.
+  Index count = 0; ///< number of connected parts of the lattice that have no handle
+  /// Links of the surface components that are in lattice parts without a handle. Empty if no
+  /// component, every component, or more than 20,000 components are in such parts.
   std::vector<PartLink> links;
 };
 

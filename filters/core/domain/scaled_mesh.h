@@ -14,8 +14,8 @@ struct ScaledMesh
   Points points;
   double diagonal = 1.0; ///< original bounding-box diagonal
   SparseMatrix stiffness; ///< cotangent stiffness
-  Eigen::VectorXd mass; ///< lumped masses, divided by the largest
-  double mass_unit = 1.0; ///< largest mass before the division
+  Eigen::VectorXd mass; ///< lumped masses, divided by mass_unit
+  double mass_unit = 1.0; ///< largest lumped mass of the scaled mesh
 };
 
 /// Scale the mesh and assemble its matrices.

@@ -21,9 +21,9 @@ namespace
 using Eigen::VectorXd;
 /// Number of columns that are smoothed together, so that the matrix is read once for all of them.
 constexpr int lanes = 4;
-/// Progress as a fraction of the total time: at the end of the factorization, and before the first
-/// iteration.
+/// Progress at the end of the factorization, as a fraction of the total time.
 constexpr double factored = 0.4;
+/// Progress before the first iteration, as a fraction of the total time.
 constexpr double preparation_end = 0.5;
 using Lanes = Eigen::Array<double, 1, lanes>;
 /// Values of one block of columns, #V x lanes.
@@ -164,7 +164,7 @@ private:
   }
 
   /// Factor M + K.
-  /// @return false if the factorization is not available.
+  /// @return false if FloatCholesky is unavailable (a build without CHOLMOD), fails or is canceled.
   bool factor(ExecutionContext& context)
   {
     const ProgressRange range(context, 0.0, factored);
@@ -340,7 +340,8 @@ private:
   std::vector<Index> corrected_points_; // fixed points whose terms u uᵀ are in the preconditioner
   // #V x #corrected_points: (M + K)⁻¹ M (M + K)⁻¹ u for each corrected point
   Responses responses_;
-  // Factor of 1 + Uᵀ (M + K)⁻¹ M (M + K)⁻¹ U, where the columns of U are the vectors u.
+  // Cholesky factorization of I + Uᵀ (M + K)⁻¹ M (M + K)⁻¹ U. The columns of U are the vectors u of
+  // all corrected points.
   Eigen::LLT<Eigen::MatrixXd> correction_factor_;
   // The preconditioner if there is no factor: the inverse of the diagonal of the energy's matrix; 0
   // for fixed points.

@@ -10,8 +10,8 @@ namespace bindpose
 {
 
 /// Smooth functions along a surface. The result w minimizes ½∫(w - given)² + ½ length⁴ ∫(Δw)²,
-/// where `given` is the input, with linear elements and lumped mass. Waves shorter than about 6
-/// times `length` are damped.
+/// where `given` is the input. The discretization uses linear elements and lumped mass. Wavelengths
+/// below about 6 times `length` are damped.
 ///
 /// Each column is solved separately by conjugate gradients, starting from the input values. The
 /// iterations end when the residual is 1e-6 of its initial value, at the latest after 200

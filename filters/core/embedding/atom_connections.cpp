@@ -399,8 +399,8 @@ private:
     }
   }
 
-  /// Find the piece of a triangle whose middle is nearest to a position. Return the atom of this
-  /// piece.
+  /// Compare the pieces of a triangle by the distances of their middles from a position. Return the
+  /// atom of the nearest piece.
   Id nearest_piece(Id triangle, const Vec3& position) const
   {
     const auto& pieces = this->cover_.pieces;

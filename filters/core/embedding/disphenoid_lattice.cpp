@@ -22,8 +22,7 @@ constexpr int node_bits = 17;
 constexpr int tet_bits = 4;
 constexpr double margin = 2.0;
 
-/// The axes of a tet: normal of the face (a), offset of the edge (m), direction of the edge (n);
-/// and the sign of the offset.
+/// The axes a, m, n and the sign s (`side`) of a tet, as defined at the top of this file.
 struct Frame
 {
   int a, m, n;

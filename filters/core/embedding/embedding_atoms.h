@@ -113,7 +113,8 @@ public:
     return found != this->cube_id_.end() && found->second < 0 ? -1 - found->second : -1;
   }
 
-  /// Keys of the cubes at the surface, and of the cubes that are completely inside, sorted.
+  /// Two sorted lists: the keys of the cubes at the surface, and the keys of the cubes that are
+  /// completely inside.
   std::vector<Key> sampled_cubes, full_cubes;
   std::vector<Key> tets; ///< keys of the tets that contain atoms, sorted
   std::vector<std::array<Key, 4>> nodes; ///< #tets: keys of the tet's nodes

@@ -213,7 +213,7 @@ private:
     // soup instead of a thin slice of material.
     constexpr std::size_t maximum_copies = 12;
     std::vector<Id> copies;
-    // For each node with several copies, the range of its corners.
+    // Ranges [begin, end) in `corners`, one for each node that is tested by probes.
     std::vector<std::pair<Index, Index>> node_ranges;
     for (std::size_t begin = 0; begin < corners.size();)
     {
@@ -357,7 +357,8 @@ private:
 
   void bind(const std::vector<Index>& tet_of_part, EmbeddingTets& result)
   {
-    // Points that no triangle uses are bound to the copy with the largest fraction inside.
+    // A point that no triangle uses is bound to the tet that contains it. If this tet has several
+    // copies, the copy with the largest inside fraction is chosen.
     std::vector<Index> fullest(this->atoms_.tets.size(), -1);
     for (std::size_t p = 0; p < tet_of_part.size(); ++p)
     {

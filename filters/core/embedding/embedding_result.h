@@ -23,13 +23,14 @@ struct EmbeddingTets
 {
   /// Tets with dihedral angles of 60 and 90 degrees and positive volumes; no unused vertices.
   TetMesh mesh;
-  /// #T: fraction of the tet's volume that is inside and belongs to the part of the surface that
-  /// this copy of the tet contains, 0 … 1. The fractions are measured on lines that are a sixth of
-  /// a cube apart. The total volume (sum of the fractions times the volume of a tet) is accurate to
-  /// 1 % if there are 16 cubes along the longest side. The fraction of a single tet at the surface
-  /// is accurate to about 0.1.
+  /// #T: fraction of the tet's volume that is inside the surface, 0 … 1. If the tet has several
+  /// copies, each copy contains one part of the surface, and its fraction is that of the region
+  /// inside this part. The fractions are measured on lines that are a sixth of a cube apart. The
+  /// total volume (sum of the fractions times the volume of a tet) is accurate to 1 % if there are
+  /// 16 cubes along the longest side. The fraction of a single tet at the surface is accurate to
+  /// about 0.1.
   Eigen::VectorXd inside_fractions;
-  PointBinding binding; ///< tets and coordinates of all input points
+  PointBinding binding; ///< for each input point, its tet and barycentric coordinates
   double spacing = 0.0; ///< edge length of a lattice cube = longest edge of a tet
   Index resolution = 0; ///< number of cubes along the longest side
   Index lattice_tets = 0; ///< number of lattice tets in use; copies of one tet count once

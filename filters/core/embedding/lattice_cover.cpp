@@ -1,9 +1,8 @@
 // Find the tets and cubes that a surface passes through or encloses (see lattice_cover.h).
 // Triangles are cut by the planes of the lattice. Cubes without triangles are completely inside or
 // outside. Inside cubes are found by flooding from cube to cube, starting at the surface. The flood
-// reaches all inside cubes, because winding numbers are harmonic between triangles and tend to zero
-// far away. Therefore every connected region in which they are at least the threshold touches a
-// triangle.
+// reaches all inside cubes, because every connected inside region touches a triangle: the winding
+// number is harmonic away from triangles and tends to zero far away.
 #include "embedding/lattice_cover.h"
 
 #include "base/gather.h"
@@ -37,9 +36,9 @@ Cube neighbor_of(Key cube_key, int side)
   return cube;
 }
 
-/// Measures of a surface: the longest side of its bounding box and the number of triangles. The
-/// volume, the area and the sum of the triangles' perimeters use the longest side as the unit of
-/// length.
+/// Measures of a surface. `longest` is the longest side of its bounding box and the unit of length
+/// of `volume`, `area` and `perimeter`. `perimeter` is the sum of the perimeters of all triangles;
+/// `triangles` is their number.
 struct SurfaceMeasures
 {
   double longest = 0.0;

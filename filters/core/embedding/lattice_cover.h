@@ -14,8 +14,8 @@
 namespace bindpose
 {
 
-/// A surface after welding equal points, otherwise unchanged. Each link (see PartLink) adds one
-/// degenerate triangle and the two points at its ends.
+/// A surface after welding equal points, otherwise unchanged. Each link (see PartLink) adds its
+/// two end points and one degenerate triangle between them.
 struct LatticeSurface
 {
   using Id = std::int32_t;

@@ -8,8 +8,8 @@
 namespace bindpose
 {
 
-/// PatchBoundary::tangent prescribes the derivatives of the positions across the edge of a patch.
-/// This type selects the source of these derivatives. The integers equal those of the constants of
+/// Source of the derivatives that the boundary condition PatchBoundary::tangent prescribes. These
+/// are the derivatives of the positions across the edge of a patch. The integers are those of
 /// vtkVariationalSurface.
 enum class PatchTangents : int
 {
@@ -62,8 +62,8 @@ struct VariationalSurfaceOptions
 /// Handles constrain the mesh as in FullArap (see MeshGrips); handles are optional. The method is
 /// linear: large rotations shear details, and no part remains rigid.
 ///
-/// If the unknowns are displacements, a connected part without constraints does not move. If the
-/// unknowns are positions, such a part is an error, because its shape is undetermined.
+/// If the unknowns are displacements, a connected part of the mesh without constraints does not
+/// move. If the unknowns are positions, such a part is an error, because its shape is undetermined.
 ///
 /// Cost: bind O(#V). The first solve, and each solve after a handle has changed its mode
 /// (HandleMode), needs one sparse factorization of the free vertices' matrix (about 7, 19 or 37
@@ -83,10 +83,10 @@ public:
   /// counts.free, counts.constrained (number of constrained vertices and points), condition (see
   /// Polyharmonic::prepare), refinement (the last correction, as a fraction of the largest
   /// coordinate) and constraint_residual (in bounding-box diagonals). Errors are those of
-  /// Polyharmonic::prepare. If the unknowns are positions, a part without constraints is also an
-  /// error. Warnings report contradictory or redundant handles, a refinement after which few digits
-  /// are correct, and combinations of order and boundary condition that ignore the tangents or give
-  /// a less smooth surface than the order suggests.
+  /// Polyharmonic::prepare. If the unknowns are positions, a connected part of the mesh without
+  /// constraints is also an error. Warnings report contradictory or redundant handles, a refinement
+  /// after which few digits are correct, and combinations of order and boundary condition that
+  /// ignore the tangents or give a less smooth surface than the order suggests.
   Status solve(ExecutionContext& context, const Pose& pose);
 
   /// The vertices in the last solved pose.

@@ -12,8 +12,8 @@ namespace bindpose
 /// than an element at or after `middle`. Used to build trees that divide their elements at the
 /// median. Cost: linear on average.
 /// @param key  returns for an element a pair: its coordinate along the axis of the division and its
-/// id. The id decides if coordinates are equal, so that the two sets of elements do not depend on
-/// the initial order.
+/// id. Elements with equal coordinates are ordered by id, so that the two sets of elements do not
+/// depend on the initial order.
 template <typename Iterator, typename Key>
 void split_at(Iterator begin, Iterator middle, Iterator end, const Key& key)
 {

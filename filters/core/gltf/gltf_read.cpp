@@ -655,7 +655,7 @@ struct Parts
   Index skipped = 0;
   Index morph_targets = 0;
   Index meshes = 0;
-  bool more_attributes = false; ///< whether there are more sets of texture coordinates or colors
+  bool more_attributes = false; ///< whether a primitive has TEXCOORD_1 or COLOR_1 (not read)
   Index unweighted = 0;
   /// Id of the first vertex that was read from each combination of vertex accessors. Primitives
   /// with the same accessors but different materials share these vertices.

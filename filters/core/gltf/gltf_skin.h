@@ -12,8 +12,8 @@
 namespace bindpose
 {
 
-/// Properties of a handle that glTF has no field for. They are stored in the extras of the joint's
-/// node, {"bindpose": {…}}.
+/// Properties of a handle that glTF has no field for. They are stored as the object "bindpose" in
+/// the extras of the joint's node.
 struct GltfHandleExtras
 {
   std::string kind;
@@ -116,12 +116,13 @@ Status write_gltf_skin(
 Status write_gltf_skin(ExecutionContext& context, const std::string& path, const GltfSkin& skin,
   const GltfOptions& options);
 
-/// Read the triangles of a .gltf or .glb file. If meshes use skins, read the skin of the first such
-/// mesh and all meshes that use this skin. If no mesh uses a skin, read all meshes, transformed by
-/// their nodes. Rows of weights are divided by their sums, and the joint "rest" that
-/// write_gltf_skin() adds is removed. The first animation that moves a joint is read. The animation
-/// is sampled at its keys if they are evenly spaced, otherwise at 24 frames per second. Buffers may
-/// be binary chunks, base64 in the file, or separate files in its folder. Images are not read.
+/// Read the triangles of a .gltf or .glb file. Only one skin is read: the skin of the first skinned
+/// mesh. All meshes that use this skin are read; other meshes are omitted. If the file has no
+/// skinned mesh, all meshes are read, transformed by their nodes. Rows of weights are divided by
+/// their sums, and the joint "rest" that write_gltf_skin() adds is removed. The first animation
+/// that moves a joint is read. The animation is sampled at its keys if they are evenly spaced,
+/// otherwise at 24 frames per second. Buffers may be binary chunks, base64 in the file, or separate
+/// files in its folder. Images are not read.
 ///
 /// Report: counts.vertices, counts.triangles, counts.joints, counts.frames, counts.skins,
 /// counts.animations, counts.materials, counts.unweighted_vertices, counts.skipped_primitives

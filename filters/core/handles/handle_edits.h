@@ -58,8 +58,8 @@ struct HandleEnd
   Index handle = -1;
   bool tail = false;
 };
-/// Return the ends of all bones at the same position as `end` (equal, or within 1e-9 of the
-/// handles' extent), with `end` first. If the handle is not a bone, return `end` alone.
+/// Return all bone ends at the position of `end`, with `end` first. The tolerance is 1e-9 times the
+/// extent of the handles. If `end` is not an end of a bone, return only `end`.
 std::vector<HandleEnd> ends_at_joint(const Handles& handles, const HandleEnd& end);
 
 /// Move each end to its new position. All bone ends of the same joint (see ends_at_joint) move,
@@ -78,8 +78,8 @@ std::string mirrored_name(const std::string& name);
 
 /// Mirror handles at the plane through `position` with the given `normal` (of any nonzero length).
 /// The copy of a handle is named by mirrored_name(). If a handle of the same kind already has this
-/// name, that handle is moved to the mirrored position and no copy is made. If both handles are
-/// among the handles to mirror, neither of them is moved.
+/// name, no copy is made; instead, that existing handle is moved to the mirrored position. The
+/// existing handle is not moved if it is itself one of the handles to mirror.
 ///
 /// Three kinds of handles are not copied: handles that are their own mirror images, handles whose
 /// mirror image exists already, and regions, because regions need labels on the mesh.

@@ -65,7 +65,8 @@ std::string memory_limit_phrase(Index memory_limit);
 /// Report whether a path is an executable file.
 bool is_executable_file(const std::string& path);
 
-/// Return the path of a program in one of the folders of PATH, or an empty string if not found.
+/// Search the folders of PATH for a program. Return the program's path, or an empty string if no
+/// folder contains the program.
 std::string find_on_path(const std::string& program);
 
 /// A file descriptor that is closed by the destructor.

@@ -27,7 +27,7 @@ bool write_mesher_data(int file, const MesherData& data);
 
 /// Read a record up to the end of the file. The record is validated, because it was written by
 /// another process.
-/// @return false unless the record is complete: sizes and end match, all ids are in range and all
+/// @return true if the record has the expected size and magic bytes, all ids are in range and all
 /// coordinates are finite.
 bool read_mesher_data(int file, MesherData& data);
 

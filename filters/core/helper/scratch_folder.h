@@ -23,8 +23,8 @@ public:
   const std::string& path() const { return this->path_; }
   const std::string& error() const { return this->error_; }
 
-  /// Set the process group that uses the folder. The guard kills this group if this process dies;
-  /// 0: no group. See ChildRequest::started.
+  /// Set the process group (0: no group) that uses the folder. If this process dies, the guard
+  /// kills the group. See ChildRequest::started.
   void guard_group(int group);
 
 private:

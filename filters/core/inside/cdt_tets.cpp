@@ -209,8 +209,8 @@ Status CdtTets::try_switches(const Perturbation& move, const MesherData& refined
   }
   // Switch `T` sets the tolerance of TetGen's test for coplanar triangles. With the default of
   // 1e-8, TetGen treats some cut triangles as coplanar although they are not, and crashes. More
-  // than two setups do not help: in an experiment with triangles on which TetGen crashed with both
-  // setups, only one in thirty other sets of switches succeeded.
+  // than these two sets of switches do not help: in an experiment with triangles on which TetGen
+  // crashed with both sets, only one in thirty other sets succeeded.
   std::vector<TetgenSetup> setups{ { "pYcAT1e-12", false }, { "pYAT1e-16", true } };
   if (move.jitter > 0.0)
   {

@@ -23,8 +23,8 @@ namespace bindpose
 
 namespace
 {
-/// Boundary triangles count as coplanar if they are within this distance of one plane, in
-/// bounding-box diagonals.
+/// Tolerance in bounding-box diagonals: boundary triangles count as coplanar if all their vertices
+/// are within this distance of one plane.
 constexpr double coplanar = 1e-10;
 /// Approximate minimum number of tets if no interior edge length is requested.
 constexpr Index minimum_tets = 1500;
@@ -161,8 +161,8 @@ Status CdtTets::find_positions(FillState& inside)
     minimum_tets / tets_per_vertex, inside);
 }
 
-/// Find up to about `most` positions, at distances of up to about `length` from each other. First,
-/// boundary edges longer than `long_edge` are split until there are `maximum_tets` tets.
+/// Split boundary edges longer than `long_edge`, until there are `maximum_tets` tets. Then find up
+/// to about `most` positions inside; the target edge length there is at most `length`.
 Status CdtTets::find_even_positions(
   double length, double long_edge, Index maximum_tets, Index most, FillState& inside)
 {

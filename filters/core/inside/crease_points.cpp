@@ -1,5 +1,5 @@
-// Creases of a surface: sharp, open and non-manifold edges that bound the enclosed region, with
-// points along long edges.
+// Creases of a surface, and points along long creases. A crease is an edge that bounds the enclosed
+// region and is sharp, open or non-manifold.
 #include "inside/crease_points.h"
 
 #include "geometry/triangle_sides.h"

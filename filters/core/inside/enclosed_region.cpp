@@ -73,7 +73,7 @@ Status EnclosedRegion::build(
 Status EnclosedRegion::sample(
   ExecutionContext& context, const RepairedSurface& surface, double& negative)
 {
-  // The expected queries are the samples below and, later, the centers of tets.
+  // Estimate of the number of queries: the samples below and, later, one query per tet.
   WindingNumber::Options winding;
   winding.expected_queries = 500000;
   Status status = this->winding_.build(context, surface.points, surface.triangles, winding);
@@ -246,8 +246,8 @@ Status EnclosedRegion::label_tets(
   {
     return status;
   }
-  // If a fast winding number is within its error bound of the threshold, it may be on the wrong
-  // side of the threshold. Evaluate these values exactly.
+  // A fast winding number may be on the wrong side of the threshold if it differs from the
+  // threshold by less than the error bound. Evaluate such winding numbers exactly.
   const double error_bound = this->winding_.method() == WindingMethod::fast
     ? this->winding_.status().report.number("error_bound", 0.0)
     : 0.0;

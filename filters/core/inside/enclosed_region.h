@@ -36,8 +36,8 @@ public:
   /// Return |log(volume / volume())|. The misfit is 0 for equal volumes, log 2 for a volume that is
   /// twice or half as large, and infinity for an empty volume.
   double misfit(double volume) const;
-  /// Report whether labels of tets are exact, which is the case for a closed surface. If they are
-  /// exact and no tet is inside, finer tets cannot change that.
+  /// Report whether labels of tets are exact, which is the case for a closed surface. If labels are
+  /// exact and no tet is inside, smaller tets will not be inside either.
   bool labels_are_exact() const { return this->closed_; }
   /// Return the error for a surface that encloses no volume. The message contains the largest
   /// winding number sampled so far.

@@ -19,7 +19,7 @@ struct FtetwildOptions
   double epsilon = 1e-3;
   /// Target edge length in bounding-box diagonals (--lr); 0: fTetWild's default 0.05.
   double edge = 0.0;
-  double time_limit = 120.0; ///< the program is killed after this many seconds, > 0
+  double time_limit = 120.0; ///< seconds (> 0) after which the program is killed
   Index memory_limit = 0; ///< largest address space of the program in MiB, 0: no limit
 };
 
@@ -32,7 +32,8 @@ std::string find_ftetwild();
 /// be installed. It accepts any triangles, moves them by at most epsilon and keeps none of their
 /// vertices. A tet is inside if the winding number of the moved surface is above 0.5.
 ///
-/// `mesh` has positive tets and no unused vertices. It is empty if the surface encloses no volume.
+/// `mesh` has positively oriented tets and no unused vertices. `mesh` is empty if the surface
+/// encloses no volume.
 ///
 /// The surface and the result are stored in a temporary folder, which is always removed. If this
 /// process is killed, a guarding shell process (ScratchFolder) removes the folder. fTetWild runs in

@@ -31,7 +31,7 @@ struct HandleSamples
 
 /// Return the handles' points, followed by sample points on the handles' segments (at least one per
 /// segment, at most about 1,000) and triangles.
-/// @param length  returns the target distance between neighboring samples at a point, > 0
+/// @param length  returns the target distance (> 0) between neighboring samples near a given point
 HandleSamples sample_handle_elements(
   const HandleElements& handle_elements, const std::function<double(const Vec3&)>& length);
 

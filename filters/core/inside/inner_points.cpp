@@ -307,7 +307,7 @@ public:
   {
     const Sample& above = this->above_target_;
     const Sample& below = this->below_target_;
-    // Factor by which the scale changes if there is no finite measurement.
+    // Factor for the scale if the last scale gave too many points to count.
     constexpr double unmeasured_step = 12.0;
     constexpr double largest_step = 12.0;
     constexpr double least_step = 1.1;
@@ -324,7 +324,7 @@ public:
       return std::max(this->minimum_scale_,
         below.scale * std::max(largest_step_back, below.points / this->target_));
     }
-    // Position of the next scale between those of above_target_ and below_target_, on a logarithmic
+    // Position of the next scale between above.scale (0) and below.scale (1), on a logarithmic
     // axis.
     double fraction = 0.5;
     if (std::isfinite(above.points) && below.points > 0.0)
@@ -355,12 +355,13 @@ private:
   double target_;
   double minimum_scale_; ///< smallest scale that may be tried
   double power_ = 1.0;
-  Sample above_target_; ///< measurement at the largest scale with more points than wanted
-  /// Measurement at the smallest scale with at most the wanted number of points.
+  /// Measurement at the largest scale that gave more than `target_` points.
+  Sample above_target_;
+  /// Measurement at the smallest scale that gave at most `target_` points.
   Sample below_target_;
 };
 
-/// Return `target` of the points, chosen at equal index intervals.
+/// Return a subset of `target` points, chosen at equal index intervals.
 Points subsample(const Points& points, Index target)
 {
   Points kept(target, 3);
@@ -414,8 +415,9 @@ bool inner_points(ExecutionContext& context, const Interior& interior, SizingFie
   double begin = 0.0; // progress at the start of this attempt
   for (int attempt = 0; attempt < attempts; ++attempt)
   {
-    // There are typically two or three attempts.
-    constexpr double fraction = 0.45; // fraction of the remaining progress range per attempt
+    // There are typically two or three attempts. Each attempt gets this fraction of the remaining
+    // progress.
+    constexpr double fraction = 0.45;
     const double end = begin + fraction * (1.0 - begin);
     const ProgressRange range(context, begin, end);
     begin = end;
@@ -437,8 +439,8 @@ bool inner_points(ExecutionContext& context, const Interior& interior, SizingFie
       continue;
     }
     search.add(sizes.scale(), points);
-    // If the number of points stays the same, the maximum edge length limits the cells and the
-    // scale has no effect.
+    // If two attempts give the same number of points, the maximum edge length determines the cell
+    // size, and another scale would have no effect.
     const bool is_unchanged = is_complete && points == before;
     before = points;
     if (!is_above_target &&

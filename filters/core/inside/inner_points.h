@@ -23,10 +23,9 @@ public:
   /// Report whether every point of the surface is farther than `distance` from p.
   bool has_clearance(const Vec3& p, double distance) const;
   const Box& box() const { return this->box_; }
-  /// Estimate the number of octree cells in the layer at the surface, up to a factor that depends
-  /// little on the edge lengths. A part of the surface with area A contributes A / (2 growth
-  /// size^2), where size is the edge length there. Cost: at most 2,047 evaluations of the sizing
-  /// field.
+  /// Return a number that is roughly proportional to the number of octree cells in the layer at the
+  /// surface. A part of the surface with area A contributes A / (2 growth size^2), where size is
+  /// the edge length there. Cost: at most 2,047 evaluations of the sizing field.
   double estimate_layer_cells(const SizingField& sizes) const;
 
 private:

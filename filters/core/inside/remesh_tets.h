@@ -26,14 +26,14 @@ struct RemeshOptions
   /// Maximum expected number of tets, >= 1000. If more tets are expected, smallest_edge is
   /// increased.
   double tet_limit = 5e5;
-  double time_limit = 60.0; ///< the helper is killed after this many seconds, > 0
+  double time_limit = 60.0; ///< seconds (> 0) after which the helper is killed
   Index memory_limit = 0; ///< largest address space of the helper in MiB, 0: no limit
 };
 
 /// Result of remesh_tets().
 struct RemeshResult
 {
-  TetMesh mesh; ///< mesh of positive tets without unused vertices
+  TetMesh mesh; ///< positively oriented tets; no vertex is unused
   /// #V: id of the input vertex with the same coordinates; -1 for a new vertex. Vertices of the
   /// input come first, with ascending ids.
   std::vector<Index> original_vertices;

@@ -369,7 +369,7 @@ private:
       }
       const double finer_cubes = 8.0 * static_cast<double>(lattice.cubes[0]) *
         static_cast<double>(lattice.cubes[1]) * static_cast<double>(lattice.cubes[2]);
-      constexpr Index maximum_refinement = 4; // finest resolution, in units of the first resolution
+      constexpr Index maximum_refinement = 4; // finest resolution divided by remesh_resolution()
       if (!allow_finer || this->inside_.volume() <= 0.0 || finer_cubes > maximum_cubes ||
         resolution >= maximum_refinement * this->remesh_resolution())
       {
@@ -501,7 +501,7 @@ private:
     return this->mark_all_vertices_new(TetMethod::embed);
   }
 
-  /// Compute a closed surface that wraps the surface, and fill it like a clean surface.
+  /// Compute a closed surface that wraps the surface. Then fill the wrap with tets by method cdt.
   Status wrap()
   {
     RepairedSurface wrap;
@@ -668,7 +668,8 @@ private:
     const TetMesh& mesh = this->result_.mesh;
     Status status;
     const bool embedded = this->options_.method == TetMethod::embed;
-    // In all other cases, the tets were already checked when they were created.
+    // Only tets of method embed and of option keep_outside are checked here. All other tets were
+    // checked when they were created.
     if (embedded || this->options_.keep_outside)
     {
       status = check_tets(mesh.points, mesh.tets, embedded);
@@ -788,7 +789,9 @@ private:
   const double time_limit_;
   double method_start_ = 0.0;
   std::vector<char> inside_tets_; ///< with keep_outside, #T: 1 for tets inside; otherwise empty
-  TetMesh lattice_mesh_; ///< lattice tets of method remesh with a wrong volume
+  /// Lattice tets with the smallest misfit so far. They are used if no attempt has the right
+  /// volume.
+  TetMesh lattice_mesh_;
   double lattice_misfit_ = std::numeric_limits<double>::infinity();
   /// Result of run_refinement().
   struct Refinement
@@ -799,7 +802,7 @@ private:
   };
   Refinement refinement_;
   std::unique_ptr<SideTask> refinement_task_; ///< runs run_refinement(); null if it is not needed
-  const Report& preparation_report_; ///< report of the preparation, before the first attempt
+  const Report& preparation_report_; ///< report of prepare_surface(); each attempt starts with it
   Report report_;
   AttemptLog log_;
   std::vector<std::string> warnings_;

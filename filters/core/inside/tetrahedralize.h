@@ -41,9 +41,9 @@ double interior_edge_of_weights(double volume, double diagonal);
 struct TetrahedralizeOptions
 {
   TetMethod method = TetMethod::automatic;
-  /// A point is inside if its winding number is at least this. 0.5 is the mean of the values on the
-  /// two sides of the surface. With values up to 0.9, the boundary in openings moves inwards. With
-  /// 1.5, the result is the volume that is enclosed twice.
+  /// Threshold > 0: a point is inside if its winding number is at least this value. 0.5 is the mean
+  /// of the winding numbers on the two sides of the surface. With values up to 0.9, the boundary in
+  /// openings moves inwards. With 1.5, the result is the volume that is enclosed twice.
   double winding_threshold = 0.5;
   /// Used by cdt for open surfaces only: see SegmentationOptions. (All winding numbers of a closed
   /// surface are integers, so the graph cut and the threshold give the same labels.)
@@ -55,7 +55,7 @@ struct TetrahedralizeOptions
   /// the resolution is 0, remesh uses 40, and embed uses the resolution that gives about
   /// `lattice_tets` tets.
   Index resolution = 0;
-  /// For embed with resolution 0: approximate number of lattice tets, >= 1.
+  /// For embed with resolution 0: approximate number (>= 1) of lattice tets.
   Index lattice_tets = 30000;
   /// Time limit for the helper executable or fTetWild in seconds, >= 0. If it is 0, the limit is
   /// 120 seconds for up to a million triangles, and 120 seconds per million triangles for more.
@@ -69,14 +69,17 @@ struct TetrahedralizeOptions
   /// For cdt and wrap only: if true, no vertices are inserted inside, except for handles, and flat
   /// tets are not improved. Then `interior_edge` and `quality` must be 0.
   bool bare = false;
-  /// For cdt and wrap: maximum length of edges inside, in bounding-box diagonals, >= 0. Edges of
-  /// the surface that are more than three times as long are split. If `interior_edge` is 0, edges
-  /// inside are as long as the surface's edges near them, and their length increases with the
-  /// distance to the surface. Vertices are inserted until there are about 4.2 tets per triangle. A
-  /// surface with few triangles is filled with about 1,500 tets; for this purpose, its long edges
-  /// are split. Smooth weights need vertices inside, in addition to those on the surface. For
-  /// ftetwild, `interior_edge` is the target edge length everywhere; if it is 0, fTetWild uses its
-  /// default of 0.05.
+  /// For cdt and wrap: maximum length (>= 0) of edges inside, in bounding-box diagonals. Surface
+  /// edges longer than three times `interior_edge` are split.
+  ///
+  /// If `interior_edge` is 0, edges inside are as long as the surface's edges near them, and their
+  /// length increases with the distance to the surface. Vertices are inserted until there are about
+  /// 4.2 tets per triangle of the surface. If these are fewer than 1,500 tets, long edges of the
+  /// surface are split and about 1,500 tets are created.
+  ///
+  /// Smooth weights need vertices inside, in addition to those on the surface. For ftetwild,
+  /// `interior_edge` is the target edge length everywhere; if it is 0, fTetWild uses its default of
+  /// 0.05.
   double interior_edge = 0.0;
   /// For cdt only: keep all segmented tets of the surface's convex hull (or of a larger box, if
   /// TetGen filled a box). See TetrahedralizeResult::labels for the tets that are inside. No
@@ -99,16 +102,16 @@ struct TetrahedralizeOptions
 /// 0.
 enum class TetLabel
 {
-  outside_above = -1, ///< outside, though its winding number reaches the threshold
+  outside_above = -1, ///< outside, though the tet's winding number reaches the threshold
   outside = 0,
   inside = 1,
-  inside_below = 2 ///< inside, though its winding number is below the threshold
+  inside_below = 2 ///< inside, though the tet's winding number is below the threshold
 };
 
 /// Result of tetrahedralize().
 struct TetrahedralizeResult
 {
-  TetMesh mesh; ///< mesh of positive tets without unused vertices
+  TetMesh mesh; ///< positively oriented tets; no vertex is unused
   /// #V: id of the input vertex; -1 for a new vertex. Vertices of the input come first, with
   /// ascending ids.
   std::vector<Index> original_vertices;

@@ -13,7 +13,7 @@ namespace bindpose
 /// Options of thick_solid().
 struct ThickSolidOptions
 {
-  /// A point is inside if its winding number is at least this value, > 0.
+  /// Threshold > 0: a point is inside if its winding number is at least this value.
   double winding_threshold = 0.5;
   /// Approximate number of triangles of the result, 100 … 10000000. The edges of the triangles are
   /// about as long as a lattice cube. Gaps narrower than 1.2 edge lengths are closed.

@@ -18,9 +18,9 @@ struct WrapOptions
   /// number of triangles and the computing time grow with 1 / alpha^2.
   double alpha = 0.02;
   /// Distance of the wrap's vertices from the surface, in bounding-box diagonals, 0.000001 … 1.
-  /// With a smaller offset, the wrap follows creases more closely with more triangles.
+  /// With a smaller offset, the wrap follows creases more closely, but it has more triangles.
   double offset = 0.001;
-  double time_limit = 120.0; ///< the helper is killed after this many seconds, > 0
+  double time_limit = 120.0; ///< seconds (> 0) after which the helper is killed
   Index memory_limit = 0; ///< largest address space of the helper in MiB, 0: no limit
 };
 

@@ -8,11 +8,11 @@ namespace bindpose
 
 /// Read vertices and faces of a Wavefront OBJ file as doubles. Texture coordinates, normals,
 /// materials, groups and points are skipped. Faces therefore share vertices even if the normals at
-/// their corners differ. Lines are read only if the file has no face. Negative ids count back from
-/// the last vertex.
+/// their corners differ. Polylines are read only if the file has no face. Negative ids count back
+/// from the last vertex.
 /// @return invalid_input, naming file and line, if there are no vertices, if there are neither
-/// faces nor lines, if a word is not a number, if a coordinate is not finite, or if a vertex id is
-/// out of range.
+/// faces nor polylines, if a word is not a number, if a coordinate is not finite, or if a vertex id
+/// is out of range.
 Status read_obj(const std::string& path, PolygonMesh& mesh);
 
 /// Write vertices and faces. Reading the file returns the same doubles.

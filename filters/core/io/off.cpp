@@ -58,8 +58,8 @@ Status read_counts(TextScanner& scanner, Index& vertices, Index& faces)
 
 Status read_off_vertices(TextScanner& scanner, std::size_t bytes, Index count, Points& points)
 {
-  // A vertex needs at least three digits and three blanks. Because of this check, a wrong count
-  // cannot allocate all memory.
+  // A vertex needs at least three digits and three blanks. Check the count against the file size,
+  // so that a wrong count cannot allocate all memory.
   if (static_cast<std::size_t>(count) > bytes / 6 + 1)
   {
     return scanner.error(

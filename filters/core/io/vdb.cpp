@@ -5,9 +5,9 @@
 // buffer that is defined in this file. The buffer reports progress, checks for cancel and reports a
 // full disk, which OpenVDB's file class ignores.
 //
-// A voxel is in the narrow band if both sides of the threshold occur in the box of (2 N + 1)^3
-// voxels around the voxel, where N is the band width. The search runs along one axis after the
-// other.
+// A voxel is in the narrow band if the box of (2 N + 1)^3 voxels around the voxel contains values
+// on both sides of the threshold, where N is the band width. The box is searched along one axis
+// after the other.
 //
 // This is the only file that includes OpenVDB.
 #include "io/vdb.h"
@@ -209,9 +209,9 @@ void spread_along_line(
   found.assign(static_cast<std::size_t>(size), 0);
   for (const unsigned char side : { below, above })
   {
-    // Index of the last visited entry with this side. If the samples outside have this side, the
-    // initial value is the index before the line. Otherwise it is farther than `width` from the
-    // line.
+    // Index of the last visited entry with this side. The initial value represents the samples
+    // outside: if they have this side, it is the index next to the line. Otherwise it is an index
+    // that is too far from the line to have an effect.
     Index last = outside & side ? -1 : -width - 1;
     for (Index i = 0; i < size; ++i)
     {
@@ -231,8 +231,9 @@ void spread_along_line(
   }
 }
 
-/// For every sample, find the sides of the threshold that occur in the box of samples around it, up
-/// to options.band_width samples away along each axis.
+/// For every sample, find whether the box around the sample contains values below the threshold
+/// (bit `below`), and whether it contains other values (bit `above`). The box extends by
+/// options.band_width samples in both directions along each axis.
 /// @return false if canceled.
 template <typename Value>
 bool find_sides(ExecutionContext& context, const SampleGrid& grid, const Value* values,

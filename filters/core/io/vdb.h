@@ -36,8 +36,8 @@ struct VdbOptions
   Index band_width = 3;
   /// Narrow band only: value at the surface.
   double threshold = 0.5;
-  /// Full band only, >= 0: values whose distance from the background is at most this are replaced
-  /// by the background.
+  /// Full band only: tolerance >= 0. Values that differ from the background by at most the
+  /// tolerance are replaced by the background.
   double tolerance = 1e-6;
   /// Whether an existing file is replaced.
   bool overwrite = false;
@@ -48,8 +48,8 @@ struct VdbOptions
 Status check_vdb_available();
 
 /// Write grid.count() values, x fastest, as one float grid of an OpenVDB file (.vdb). Voxel (i, j,
-/// k) has the index (i, j, k) of the sample, which may be negative. The voxel's center is at the
-/// sample's point, so that the file and a vtkImageData have the same world coordinates.
+/// k) stores the sample with the index (i, j, k). Indices may be negative. The voxel's center is at
+/// the sample's point, so that the file and a vtkImageData have the same world coordinates.
 /// - **Full**: a fog volume, OpenVDB's term for a density that is 0 outside and 1 inside. Voxels
 ///   with values within `tolerance` of the background are inactive; all other voxels are active.
 ///   Regions of one value are stored as tiles. Values are not clamped: the winding number is 2 in

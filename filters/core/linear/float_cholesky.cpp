@@ -122,7 +122,9 @@ struct Analysis
 struct BlockFronts
 {
   Fronts fronts;
-  std::vector<int> step_in_block; // per step of the whole order: step in the block's order, or -1
+  // For each elimination step of the whole matrix, the step of the same unknown in the block; -1 if
+  // the unknown is not in the block.
+  std::vector<int> step_in_block;
   std::vector<int> step_in_whole; // inverse of step_in_block
 };
 
@@ -479,7 +481,8 @@ void FloatCholesky::Impl::find_runs(int child, int columns)
 }
 
 /// Eliminate one supernode.
-/// @return 0, or the 1-based column of the block whose pivot is not positive.
+/// @return 0 on success. If a pivot is not positive, return the pivot's column in the block,
+/// counted from 1.
 int FloatCholesky::Impl::eliminate(const SparseMatrix& matrix, double shift, int s)
 {
   const FlushDenormals flush;

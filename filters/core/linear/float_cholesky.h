@@ -52,7 +52,8 @@ public:
   /// Solve approximately with the last factorization. Several threads may call this function
   /// concurrently.
   void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const;
-  /// Solve for many columns, which takes several times less time per column.
+  /// Solve for the columns of rhs. For many columns, this is several times faster than one call of
+  /// solve() per column.
   void solve(const Eigen::MatrixXd& rhs, Eigen::MatrixXd& x) const;
 
   /// Free the memory that only factor() needs; the factor is kept.

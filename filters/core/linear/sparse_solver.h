@@ -75,7 +75,7 @@ public:
   Status factor(const SparseMatrix& matrix);
   /// Solve for the columns of rhs with the last factorization.
   Eigen::MatrixXd solve(const Eigen::MatrixXd& rhs) const;
-  /// Solve for one column. Reuse x to avoid allocations.
+  /// Solve for one column. If x already has the right size, the memory of x is reused.
   void solve(const Eigen::VectorXd& rhs, Eigen::VectorXd& x) const;
 
   /// Return a solver with the same analysis and no factorization, for use on another thread.

@@ -24,8 +24,8 @@ constexpr int group = 4; // number of columns of a block that are processed toge
 /// Entries of one row for four or eight right-hand sides.
 typedef float Row4 __attribute__((vector_size(16)));
 typedef float Row8 __attribute__((vector_size(32)));
-/// Partial sums of the dot products of a single right-hand side: two packs, because GCC 12 keeps
-/// packs of 64 bytes in memory on processors without AVX-512.
+/// For a single right-hand side, the partial sums of a dot product are stored in two packs of 32
+/// bytes. One pack of 64 bytes would be slow: without AVX-512, GCC 12 stores it in memory.
 using Half = PackOf<float>::Pack;
 constexpr int rows_per_half = PackOf<float>::lanes;
 constexpr int rows_per_pass = 2 * rows_per_half;
@@ -44,8 +44,8 @@ BINDPOSE_ALWAYS_INLINE Half read_masked(const float* from, const std::int32_t* m
 }
 
 /// Forward substitution with one block, by groups of columns. The triangle at the top of a group
-/// gives the solution x for its columns. Then the products of the rows below with x are subtracted
-/// from the entries of these rows.
+/// gives the solution x for the group's columns. Then the products of the block's lower rows with x
+/// are subtracted from the same rows of `entries`.
 template <typename Row>
 BINDPOSE_ALWAYS_INLINE void forward(const float* block, int rows, int width, float* entries)
 {

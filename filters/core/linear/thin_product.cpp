@@ -1,4 +1,4 @@
-// Products of a large dense matrix, or its transpose, with three columns.
+// Products A X and A^T X of a large dense matrix A and a matrix X with three columns.
 #include "linear/thin_product.h"
 
 #include "base/packs.h"

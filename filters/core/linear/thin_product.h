@@ -1,7 +1,7 @@
 #ifndef bindpose_linear_thin_product_h
 #define bindpose_linear_thin_product_h
 
-// Products of a large dense matrix with three columns.
+// Products A X and A^T X of a large dense matrix A and a matrix X with three columns.
 
 #include "base/mesh_types.h"
 
@@ -11,9 +11,9 @@ namespace bindpose
 /// A matrix with one column per coordinate.
 using Coordinates = Eigen::Matrix<double, Eigen::Dynamic, 3>;
 
-/// Return A X (thin_product) or A^T X (transposed_thin_product), where X has three columns. A
-/// general matrix product of a library would spend more time on rearranging A than on the product.
-/// These functions read each entry of A once. The bits are the same on every processor.
+/// Return A X (thin_product) or A^T X (transposed_thin_product). A general matrix product of a
+/// library would spend more time on rearranging A than on the product. These functions read each
+/// entry of A once. The bits are the same on every processor.
 Coordinates thin_product(const Eigen::MatrixXd& a, const Coordinates& x);
 Coordinates transposed_thin_product(const Eigen::MatrixXd& a, const Coordinates& x);
 

@@ -134,8 +134,8 @@ bool faces_cross(const Soup& soup, const Face& f, const Face& g)
   }
   if (shared == 1)
   {
-    // The intersection is convex and contains the shared vertex. If it contains another point, it
-    // contains a point of the edge opposite to the vertex in one of the triangles.
+    // The intersection is convex. If it contains more than the shared vertex, then the edge of one
+    // triangle that is opposite to this vertex intersects the other triangle.
     return CGAL::do_intersect(Inexact::Segment_3(point(a[1]), point(a[2])), soup.to_inexact(g)) ||
       CGAL::do_intersect(Inexact::Segment_3(point(b[1]), point(b[2])), soup.to_inexact(f));
   }
@@ -215,10 +215,10 @@ void add_pair_intersections(
     add_intersection(Exact::Segment_3(a.vertex(k), a.vertex(k + 1)), b, points, segments);
     add_intersection(Exact::Segment_3(b.vertex(k), b.vertex(k + 1)), a, points, segments);
   }
-  // If the triangles are in different planes, there are at most two points: the ends of the
-  // intersection segment. If they are in one plane, the segments are the outline of the
-  // intersection polygon and every point is an end of a segment, or the intersection is a single
-  // point.
+  // Triangles in different planes have at most two points: the ends of the intersection segment.
+  // Triangles in one plane intersect in a single point, in a segment or in a polygon. In the last
+  // two cases, `segments` contains the segment or the outline of the polygon, and every point is an
+  // end of a segment.
   if (segments.empty() && points.size() == 2)
   {
     segments.emplace_back(points[0], points[1]);
@@ -424,8 +424,9 @@ std::string refine(MesherData& data, const RefineOptions& options)
 {
   const Stopwatch clock;
   Soup soup = soup_of(data);
-  // The growth limit is computed for at least this number of input faces, because a few hundred
-  // large triangles can be cut into tens of thousands of pieces and still be meshed.
+  // If there are fewer input faces than this, the growth limit is computed as if there were this
+  // many. (A few hundred large triangles can be cut into tens of thousands of pieces and still be
+  // meshed.)
   constexpr std::size_t minimum_limited_faces = 10000;
   const auto face_limit = static_cast<std::size_t>(
     options.growth_limit * static_cast<double>(std::max(soup.faces.size(), minimum_limited_faces)));

@@ -39,8 +39,8 @@ public:
   }
 
 private:
-  /// Report whether the center is accurate enough: near the cell, a segment that ends at the center
-  /// deviates from the exact segment by less than a millionth of an edge length.
+  /// Report whether the center is accurate enough: its distances from q, r and s differ from its
+  /// distance from p by less than a millionth of the shortest edge at p.
   static bool is_accurate(const Point& center, const WeightedPoint& p, const WeightedPoint& q,
     const WeightedPoint& r, const WeightedPoint& s)
   {

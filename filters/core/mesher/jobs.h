@@ -76,18 +76,18 @@ struct TetgenOptions
 };
 
 /// Run TetGen (switch p) to compute tets that contain the points and triangles. The first points of
-/// the result are the input points, with their ids. All tets are positive.
+/// the result are the input points, with their ids. All tets are positively oriented.
 std::string tetgen(MesherData& data, const TetgenOptions& options);
 
 /// Options of remesh().
 struct RemeshJobOptions
 {
   double winding_threshold = 0.5;
-  /// Smallest edge length, > 0; increased if there would be more tets than tet_limit.
+  /// Smallest edge length (> 0). It is increased if there would be more tets than tet_limit.
   double smallest_edge = 0.0;
   double largest_edge = 0.0; ///< largest edge length, >= smallest_edge
-  /// Maximum growth rate: bound for the difference of the desired edge lengths at two points,
-  /// divided by the distance of the points.
+  /// Maximum growth rate: the desired edge lengths at two points differ by at most `growth` times
+  /// the distance of the points.
   double growth = 0.3;
   double tet_limit = 5e5; ///< approximate maximum number of tets
 };
@@ -102,8 +102,8 @@ std::string remesh(MesherData& data, RemeshJobOptions options);
 /// Options of wrap().
 struct WrapJobOptions
 {
-  double alpha = 0.0; ///< radius of the carving ball, > 0; the wrap's edges are about as long
-  /// Distance between the wrap's vertices and the triangles, > 0. The wrap encloses the triangles.
+  double alpha = 0.0; ///< radius (> 0) of the carving ball, and approximate length of wrap edges
+  /// Distance (> 0) between the wrap's vertices and the triangles. The wrap encloses the triangles.
   double offset = 0.0;
 };
 

@@ -3,10 +3,12 @@
 // Arrangement: all points and segments are inserted into a constrained Delaunay triangulation with
 // exact coordinates, which splits segments where they cross, overlap or contain a point. New
 // vertices are rounded to doubles. Rounding moves vertices by a unit in the last place, so that the
-// parts of segments may cross again. Therefore the parts are inserted again until no new vertex
-// appears. Curves that almost touch leave gaps that are too narrow for refinement. In this case
-// points are rounded to a coarser grid in the same rounds, and an edge that passes close to a point
-// is replaced by two edges through the point (snap rounding: Hobby; Guibas and Marimont).
+// parts of segments may cross again. Therefore insertion and rounding are repeated until no new
+// vertex appears.
+//
+// Curves that almost touch leave gaps that are too narrow for refinement. In this case, new
+// vertices are rounded to a coarser grid instead, and an edge that passes close to a point is
+// replaced by two edges through the point (snap rounding: Hobby; Guibas and Marimont).
 //
 // Filling: Delaunay refinement (Ruppert, Shewchuk; CGAL's Delaunay_mesher_2), one point at a time,
 // with a limit on the number of points. A minimum angle of up to 20.6 degrees can always be
@@ -234,7 +236,7 @@ private:
 /// Triangulate the region and mark the faces inside it.
 std::string build(const MesherData& data, Filling& filling)
 {
-  // Sides of triangles without a neighbor. They are directed, with the inside to the left.
+  // Sides that belong to only one triangle. They are directed, with the inside to the left.
   std::set<Pair> outline;
   std::set<Index> used;
   for (Index t = 0; t < data.triangles.rows(); ++t)
@@ -485,8 +487,8 @@ std::string arrange(MesherData& data, double grid)
 std::string fill_plane(MesherData& data, const FillOptions& options)
 {
   const Stopwatch clock;
-  // Upper estimate of the number of triangles. It assumes equilateral triangles whose edges are
-  // half as long as the longest edge; refinement creates larger triangles.
+  // Upper estimate of the number of triangles. It assumes equilateral triangles with edges of
+  // length options.longest_edge / 2. The triangles that refinement creates are larger.
   const double triangles = options.longest_edge > 0.0
     ? area_of(data) / (0.4 * 0.25 * options.longest_edge * options.longest_edge)
     : 0.0;

@@ -3,9 +3,10 @@
 //
 // 1. A sizing field is computed from the thickness of the region and from the edge lengths of those
 //    parts of the surface that bound the region.
-// 2. The initial triangulation contains the surface's vertices on the boundary, corners and creases
-//    first, and points on long crease edges. A point is omitted if its distance to an existing
-//    vertex is less than half the desired edge length, because no good tet fits between them.
+// 2. The initial triangulation is built from points on the boundary, in this order: corners, other
+//    crease vertices, points on long crease edges, all other surface vertices, points in triangles.
+//    A point is omitted if an existing vertex is nearer than half the desired edge length (points
+//    in triangles: the desired edge length), because no good tet fits between them.
 // 3. Refinement inserts points of the boundary and circumcenters until facets and cells are small
 //    and round enough. Facets and cells smaller than a fraction of the desired length are never
 //    split. Therefore refinement ends even at creases that are too sharp for the required angles,
@@ -161,8 +162,8 @@ private:
   BoundedCellCriteria cells_;
 };
 
-/// Create the sizing field. The smallest edge is increased until the expected number of tets is
-/// within the limit.
+/// Create the sizing field. Increase options.smallest_edge until the expected number of tets is at
+/// most options.tet_limit.
 SizingField make_field(const BoundarySites& sites, RemeshJobOptions& options)
 {
   for (;; options.smallest_edge *= 1.1)
@@ -170,9 +171,9 @@ SizingField make_field(const BoundarySites& sites, RemeshJobOptions& options)
     options.largest_edge = std::max(options.largest_edge, options.smallest_edge);
     const Eigen::VectorXd lengths =
       sites.lengths.array().max(options.smallest_edge).min(options.largest_edge);
-    // Expected number of tets per boundary area. A regular tet with edges of length h has the
-    // volume 0.118 h^3. If the edge length grows from the boundary inwards, the integral of h^-3
-    // along the depth is 1 / (2 growth h^2).
+    // A regular tet with edges of length e has the volume 0.118 e^3. At the depth d below the
+    // boundary, e = h + growth d, where h is the length at the boundary. The integral of e^-3 over
+    // d is 1 / (2 growth h^2). Therefore per_area / h^2 tets are expected per boundary area.
     const double per_area = 0.5 / (0.118 * options.growth);
     const double tets = per_area * (sites.areas.array() / lengths.array().square()).sum();
     if (tets <= options.tet_limit)

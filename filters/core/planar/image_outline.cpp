@@ -257,9 +257,9 @@ public:
     }
   }
 
-  /// Report whether visit(id) is true for a vertex near the triangle. In each row of cells, the
-  /// part of the triangle in the row has a leftmost and a rightmost point. The cells between these
-  /// two points are searched.
+  /// Call visit(id) for the vertices near the triangle until a call returns true. Return whether a
+  /// call returned true. In each row of cells, the search covers the cells between the triangle's
+  /// leftmost and rightmost point in this row.
   template <typename Visit>
   bool any(const std::array<Vec2, 3>& corners, const Visit& visit) const
   {
@@ -437,11 +437,10 @@ private:
     return has_removed;
   }
 
-  /// Connect p to the farthest vertex for which the straight line from p deviates from the contour
-  /// by at most the tolerance. The search removes the vertices after p one by one. It ends if the
-  /// deviation exceeds `search_limit` times the tolerance or if loops could cross. The farthest
-  /// valid vertex and the removed vertices after it are then restored. Return true if a vertex
-  /// remains removed.
+  /// Connect p to the farthest vertex f for which the segment pf deviates from the contour by at
+  /// most the tolerance. To find f, the vertices after p are removed one by one. The search ends if
+  /// the deviation exceeds `search_limit` times the tolerance or if loops could cross. Then f and
+  /// the vertices after f are restored. Return true if a vertex remains removed.
   bool search_ahead_from(std::size_t loop, Index p, double tolerance)
   {
     constexpr std::size_t maximum_removed =

@@ -197,9 +197,9 @@ Status Builder::scale()
     this->shift_[k] = lower[k] > size ? lower[k] : upper[k] < -size ? upper[k] : 0.0;
   }
   this->rounding_ = 0x1p-49 * farthest;
-  // The minimum height is the larger of two lengths, rounded up to a power of two. The first length
-  // is a fraction of the size and smaller than any intended detail; the second length is the
-  // accuracy of the coordinates.
+  // The minimum height is the larger of two lengths: 2^-40 of the diagonal, which is smaller than
+  // any intended detail, and the accuracy of the coordinates. The minimum height is then rounded up
+  // to a power of two.
   int exponent = 0;
   std::frexp(std::max(0x1p-40 * this->diagonal_, this->rounding_), &exponent);
   this->minimum_height_ = std::ldexp(1.0, exponent);
@@ -295,7 +295,8 @@ Status Builder::arrange()
 }
 
 /// Return the mean winding number of a triangle, by a quadrature rule of degree 5 with 7 points
-/// (Radon): the center, and two points toward each corner.
+/// (Radon): the triangle's center, and for each corner two points on the line through the corner
+/// and the center, one on either side of the center.
 double Builder::mean_winding(Index triangle) const
 {
   const Vec2 a = this->point(this->data_.triangles(triangle, 0));
@@ -311,7 +312,8 @@ double Builder::mean_winding(Index triangle) const
   for (const double sign : { -1.0, 1.0 })
   {
     const double weight = (155.0 + sign * root) / 1200.0;
-    // Distance of the points from the center, as a fraction of the distance to the corner.
+    // Position on the line from the triangle's center (0) to a corner (1). A negative position is
+    // on the other side of the center.
     const double distance_fraction = (1.0 - sign * root) / 7.0;
     for (const Vec2& corner : { a, b, c })
     {

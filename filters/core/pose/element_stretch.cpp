@@ -26,9 +26,9 @@ namespace bindpose
 namespace
 {
 constexpr Index elements_per_block = 4096;
-/// A tet is degenerate if its volume at rest is at most about this fraction of the volume of a cube
-/// on its longest edge. For triangles, the area and a square are compared. Only round-off
-/// determines the shape of such an element.
+/// A tet is degenerate if its volume at rest is at most about this fraction of the cube of its
+/// longest edge. A triangle is degenerate if its area at rest is at most about this fraction of the
+/// square of its longest edge. Only round-off determines the shape of a degenerate element.
 constexpr double degenerate_tolerance = 1e-12;
 /// A shape is flat if its thickness in z is at most this fraction of the bounding-box diagonal.
 constexpr double flat_tolerance = 1e-9;
@@ -292,8 +292,8 @@ Status check(const ElementStretchOptions& options, Index rest, PointsView posed)
   return {};
 }
 
-/// Call measure(begin, end, block) for blocks of elements, sum the results of the blocks, and
-/// return them in the report of a status.
+/// Call measure(begin, end, block) for each block of elements, and add up the blocks. The report of
+/// the returned status contains the totals.
 template <typename Measure>
 Status sum_over_elements(
   ExecutionContext& context, Index elements, const char* element_kind, const Measure& measure)

@@ -22,8 +22,8 @@ Affine transform_for_child(const Handle& parent, const HandlePose& posed, const 
 Affine inherited_transform(const Handles& handles, const Pose& pose, Index handle);
 
 /// Convert world transforms to transforms relative to the parents, and back: world =
-/// transform_for_child(parent) * relative. Roots, and children of parents with singular transforms,
-/// have the same transform in both poses.
+/// transform_for_child(parent) * relative. The transforms of roots, and of children whose parents
+/// have a singular transform, are copied without conversion.
 Pose relative_pose(const Handles& handles, const Pose& pose);
 Pose absolute_pose(const Handles& handles, const Pose& relative);
 

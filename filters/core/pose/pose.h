@@ -89,9 +89,9 @@ Status check_mesh_and_handles(PointsView points, TetsView tets, const Handles& h
 /// Specifies in which modes (HandleMode) a method uses the stretch and the twist of a bone.
 enum class StretchUse : int
 {
-  tails, ///< skinning with one transform per bone: uses the stretch in mode tail
-  ends, ///< methods that compute transforms: use the stretch in the modes tail and ends
-  all ///< stretchable, twistable bones: use stretch and twist in all modes
+  tails, ///< the stretch in mode tail (skinning with one transform per bone)
+  ends, ///< the stretch in the modes tail and ends (methods that compute transforms)
+  all ///< stretch and twist in all modes (stretchable, twistable bones)
 };
 
 /// Return a warning of one sentence if the pose has a stretch or a twist that the method does not

@@ -619,7 +619,9 @@ struct TransformNumbers
 {
   TransformParts parts;
   double scale = 1.0; ///< uniform scale
-  bool exact = true; ///< false if a shear, a non-uniform scale or a reflection cannot be written
+  /// False if the transform has a shear, a non-uniform scale or a reflection, which a pose file
+  /// cannot store.
+  bool exact = true;
 };
 
 /// The file describes the linear part of a transform by a rotation and a uniform scale. If the

@@ -27,8 +27,8 @@ void read_transforms(WeightsView matrix, Pose& pose)
   }
 }
 
-/// Return the parent of a handle, or -1. If the handle is a bone without a parent, return the first
-/// bone that ends where this bone begins.
+/// Return the parent of a handle; -1: no parent. If a bone has no parent, the first bone that ends
+/// at the head of this bone counts as the parent.
 Index parent_of(const Handles& handles, std::size_t h)
 {
   if (handles[h].parent >= 0 || handles[h].kind != HandleKind::bone)

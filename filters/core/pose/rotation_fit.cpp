@@ -35,7 +35,7 @@ namespace
 /// fraction of |S|.
 constexpr double same_eigenvalue = 1e-12;
 
-/// Parameters of the fast path for a precision.
+/// Parameters of the fast path, for each scalar type.
 template <typename Scalar>
 struct FitLimits;
 template <>
@@ -45,7 +45,7 @@ struct FitLimits<double>
   static constexpr int steps = 5; ///< number of iterations of Laguerre's method
   /// If the last step is longer than this, the iteration has not converged.
   static constexpr double last_step = 1e-5;
-  /// Smallest p'(lambda) / |S|^3 for which the result is trusted.
+  /// A result of the fast path is used only if p'(lambda) / |S|^3 is larger than this.
   static constexpr double slope = 1e-3;
   static constexpr double tiny = 1e-300; ///< added to denominators, to keep quotients finite
   static constexpr double minimum_norm2 = 1e-200,
@@ -102,7 +102,8 @@ BINDPOSE_ALWAYS_INLINE Quaternion<Scalar> eigenvector(const HornMatrix<Scalar>& 
   const Scalar yy = a * (b * d - t * t) - p * (p * d - t * r) + r * pt;
   const Scalar yz = -(a * (b * u - s * t) - p * (p * u - s * r) + q * pt);
   const Scalar zz = a * (b * c - s * s) - p * (p * c - s * q) + q * (p * s - b * q);
-  // Conditional moves are used instead of branches.
+  // Conditional expressions select the column without branches, so that the compiler can vectorize
+  // the loops that call this function.
   Scalar w0 = ww, x0 = wx, y0 = wy, z0 = wz, size = std::abs(ww);
   const bool use_x = std::abs(xx) > size;
   w0 = use_x ? wx : w0;
@@ -151,14 +152,15 @@ struct FitBlock
   static constexpr int lanes = FitLimits<Scalar>::lanes;
   int groups; ///< number of groups in use
   Index begin[groups_per_block]; ///< first matrix of each group
-  /// Number of leading lanes in each group that another group has already processed.
+  /// Number of lanes at the start of each group that are skipped: their matrices are padding, or
+  /// the previous group fits them.
   int skipped[groups_per_block];
   Scalar horn[10][groups_per_block * lanes];
   /// Coefficients of the quartic.
   Scalar linear[groups_per_block * lanes], constant[groups_per_block * lanes];
   Scalar norm2[groups_per_block * lanes];
   Scalar eigenvalue[groups_per_block * lanes];
-  /// The derivative p'(lambda) if the result of a lane can be trusted, otherwise 0.
+  /// The derivative p'(lambda) of each lane; 0 if the fast path has failed, see find_eigenvalues().
   Scalar slope[groups_per_block * lanes];
   Scalar rotation[9][groups_per_block * lanes];
 
@@ -244,8 +246,8 @@ BINDPOSE_ALWAYS_INLINE void find_eigenvalues(FitBlock<Scalar>& __restrict block)
         step = 4 * value / (denominator > Scalar(1e-30) ? denominator : Scalar(1e-30));
         x -= step;
       }
-      // A lane is not trusted if the iteration has not converged (convergence to a double root is
-      // slow), or if |S|^2 is out of range. fit_by_eigenvectors() processes such lanes.
+      // The fast path fails if the iteration has not converged (convergence to a double root is
+      // slow), or if |S|^2 is out of range. fit_by_eigenvectors() then fits the matrix.
       const Scalar slope = (4 * x * x - 4) * x + c1;
       block.slope[k] = std::abs(step) < Limits::last_step && norm2 > Limits::minimum_norm2 &&
           norm2 < Limits::maximum_norm2
@@ -296,8 +298,8 @@ BINDPOSE_ALWAYS_INLINE void make_rotations(Scalar diagonal, FitBlock<Scalar>& __
   }
 }
 
-/// Write the rotations that can be trusted.
-/// @return the number of rotations that cannot be trusted.
+/// Write the rotations of the lanes whose slope p'(lambda) is above the limit.
+/// @return the number of the other lanes, without skipped lanes.
 template <typename Scalar>
 BINDPOSE_ALWAYS_INLINE int put_rotations(
   const MatrixPlanes<Scalar>& rotations, FitBlock<Scalar>& __restrict block)
@@ -316,7 +318,7 @@ BINDPOSE_ALWAYS_INLINE int put_rotations(
       const bool is_skipped = i < block.skipped[g];
       const Scalar slope = is_skipped ? Scalar(1) : block.slope[k];
       block.slope[k] = slope;
-      // a comparison with NaN is false, so NaN is not trusted
+      // a comparison with NaN is false, so a slope of NaN is not above the limit
       unresolved += slope > FitLimits<Scalar>::slope ? 0 : 1;
       resolved_slope[i] = is_skipped ? Scalar(0) : slope;
     }
@@ -389,8 +391,7 @@ void fit_by_eigenvectors(const Eigen::Matrix3d& matrix, Eigen::Matrix3d& rotatio
   rotation = Eigen::Quaterniond(best[0], best[1], best[2], best[3]).toRotationMatrix();
 }
 
-/// Fit the matrices of a block for which the result of the fast path cannot be trusted. These
-/// matrices are fitted one at a time.
+/// Fit the matrices of a block for which put_rotations() has written no rotation, one at a time.
 template <typename Scalar>
 void fit_remaining(const FitBlock<Scalar>& block, const MatrixPlanes<const Scalar>& s,
   const MatrixPlanes<Scalar>& rotations, Scalar diagonal)

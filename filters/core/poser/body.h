@@ -15,13 +15,13 @@ namespace bindpose
 /// that the same values suit shapes of any size.
 struct BodyOptions
 {
-  double gravity = 0.5; ///< bounding-box diagonals / s^2, 0 to 20
+  double gravity = 0.5; ///< in bounding-box diagonals per second squared, 0 … 20
   int down_axis = 1; ///< gravity points along this axis in its negative direction: 0 x, 1 y, 2 z
-  /// 1 / s^2, 1 to 1e5. Elastic waves cross the bounding-box diagonal sqrt(stiffness) times per
-  /// second.
+  /// Stiffness in 1/s^2, range 1 … 1e5. Elastic waves cross the bounding-box diagonal
+  /// sqrt(stiffness) times per second.
   double stiffness = 100.0;
-  double damping = 0.5; ///< 1 / s, 0 to 20
-  double steps_per_second = 60.0; ///< 1 to 1000
+  double damping = 0.5; ///< in 1/s, range 0 … 20
+  double steps_per_second = 60.0; ///< range 1 … 1000
 };
 bool operator==(const BodyOptions& a, const BodyOptions& b);
 
@@ -88,7 +88,7 @@ private:
   ReducedDynamics body_;
   PoseRotations rotations_; ///< cache for rotations()
   Skinning
-    surface_skinning_; ///< blends the surface's points; used only if the body is simulated in tets
+    surface_skinning_; ///< moves the surface's points; used only if the body is simulated in tets
   BodyRun run_;
   bool is_complete_ = true;
   double diagonal_ = 0.0;

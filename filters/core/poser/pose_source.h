@@ -19,8 +19,9 @@ struct PoseSource
   Triangles triangles;
   Weights weights; ///< #V x #handles; empty before a bind
   Weights endpoints; ///< the point array EndpointWeights; empty if there is none
-  /// The region labels and the point arrays Fixed, Parameterization, Tangents and Load, as
-  /// vtkVariationalSurface reads them. All other options are set when a method is bound.
+  /// Options of VariationalSurface. Only the arrays are set here: the region labels, and the point
+  /// arrays Fixed, Parameterization, Tangents and Load. VariationalPoser sets `order` and
+  /// `boundary` in a copy.
   VariationalSurfaceOptions arrays;
   Handles handles;
   PseudoEdges pseudo_edges; ///< pseudo-edges of the handle dataset

@@ -23,8 +23,8 @@ Status bind_surface_skinning(
   {
     return status;
   }
-  // The columns of handles are the source's own weights; extra columns are interpolated from the
-  // tets' vertices.
+  // Interpolate the handle weights and the extra weights from the tets' vertices to the surface's
+  // points. Then replace the handle weights by those of the source, which need no interpolation.
   Domain domain;
   domain.points = source.tet_points;
   domain.tets = source.tets;

@@ -42,9 +42,9 @@ Status bind_to_source(
                                 : kernel.bind(context, source.points, source.triangles,
                                     source.weights, source.handles, reduced);
 }
-/// Bind linear blend skinning that moves the surface of the source with its tets. The skinning
-/// blends the transforms of `arap`. Its weights are the handle weights at the surface's points,
-/// followed by the extra weights, which are interpolated to these points.
+/// Bind linear blend skinning that moves the source's surface by the transforms of `arap`. The
+/// skinning weights are the handle weights at the surface's points, followed by the extra weights,
+/// which are interpolated from the tets' vertices to these points.
 /// @param arap  bound to the tets of the source
 Status bind_surface_skinning(
   ExecutionContext& context, const PoseSource& source, const ReducedArap& arap, Skinning& skinning);

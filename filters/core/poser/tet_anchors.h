@@ -25,10 +25,12 @@ public:
   void move(PointsView surface, PointsView tet_points, PointsView moved, Points& posed) const;
 
 private:
+  /// A tet and the position of a surface point relative to it. If the point is identical to a
+  /// vertex of the tet, vertices[0] is this vertex, and the coordinates are 1, 0, 0, 0.
   struct Anchor
   {
     std::array<Index, 4> vertices;
-    std::array<double, 4> coordinates; ///< barycentric coordinates; 1, 0, 0, 0 on a vertex
+    std::array<double, 4> coordinates; ///< barycentric coordinates of the point
   };
   std::vector<Anchor> anchors_;
 };

@@ -40,8 +40,8 @@ BoxQpSolution active_set(ExecutionContext& context, const SplitForm& matrices,
   constexpr int maximum_factorizations = 10;
   // Number of factorizations that are exempt from the test for stalling.
   constexpr int unchecked_factorizations = 2;
-  // The test for stalling: the largest change of a weight in the last Newton round must be less
-  // than this fraction of the smallest such change after earlier factorizations.
+  // The test for stalling: let c be the largest change of a weight in the last Newton round after a
+  // factorization. Each c must be less than this fraction of the smallest earlier c.
   constexpr double required_ratio = 0.5;
   constexpr int rounds = 6; // maximum number of Newton rounds per factorization
   const double tolerance = options.tolerance;

@@ -55,9 +55,10 @@ constexpr int few_newton_steps = 3;
 /// Options of the conjugate gradients in each Newton step.
 constexpr FreeConjugateGradientsOptions cg_options{ 8, 0.05 };
 constexpr int maximum_factorizations = 50;
-/// Maximum number of Newton steps in total (the multipliers of contradictory pairs grow without
-/// limit), and of successive Newton steps that do not reduce the residual.
+/// Maximum number of Newton steps in total. It is needed because the multipliers of contradictory
+/// pairs grow without limit.
 constexpr int maximum_newton_steps = 300;
+/// Maximum number of successive Newton steps that do not reduce the residual.
 constexpr int maximum_idle_steps = 40;
 
 class AugmentedLagrangian
@@ -289,9 +290,8 @@ BoxQpSolution AugmentedLagrangian::run()
   const Stopwatch watch;
   const double tolerance = this->options_.tolerance;
   const double maximum_converged_change = converged_change(tolerance);
-  // The minimization for given multipliers ends if its residual is at most the larger of two
-  // limits: `required_residual` times the tolerance, and `residual_per_violation` times the largest
-  // violation of a pair.
+  // Let r be the largest violation of a pair. The minimization for given multipliers ends if the
+  // residual is at most max(required_residual * tolerance, residual_per_violation * r).
   double required_residual = 0.3;
   constexpr double residual_per_violation = 0.1;
   this->solution_.status = this->pairs_.prepare();
@@ -326,7 +326,7 @@ BoxQpSolution AugmentedLagrangian::run()
       if (this->violation_ <= tolerance && change <= maximum_converged_change)
       {
         has_converged = this->certify_iterate();
-        required_residual *= 0.2; // a failed certificate is repeated with a more accurate iterate
+        required_residual *= 0.2; // if the certificate fails, make the next one more accurate
       }
       if (has_converged)
       {

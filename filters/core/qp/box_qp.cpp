@@ -150,7 +150,7 @@ struct BoxQp::Impl : SplitForm
     }
     return this->has_double_factor;
   }
-  /// Like solve_a(), for certificates: NaN if the accuracy is not reached.
+  /// Return A^-1 rhs, for certificates. All entries of the result are NaN if solve_a() fails.
   Eigen::MatrixXd inverse_of_a(const Eigen::MatrixXd& rhs) const
   {
     Eigen::MatrixXd x;

@@ -12,8 +12,8 @@ namespace bindpose
 /// Options of BoxQp, the solver of the quadratic programs of bounded weights.
 struct BoxQpOptions
 {
-  /// Upper limit of the relative duality gap and of the natural residual, range (0, 1). 1e-9 is
-  /// near the limit of double precision on fine meshes.
+  /// Tolerance (above 0, below 1): upper limit of the relative duality gap and of the natural
+  /// residual. 1e-9 is near the limit of double precision on fine meshes.
   double tolerance = 1e-6;
   /// Largest number of iterations per column, each with one factorization. Usual numbers are 1 to
   /// 3, or 5 to 20 with ordered pairs or if the guess of the active bounds is poor.

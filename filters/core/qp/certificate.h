@@ -10,7 +10,7 @@
 namespace bindpose
 {
 
-/// The constraint w[low] + least <= w[high] on the values of two vertices.
+/// The constraint w[low] + minimum_difference <= w[high] on the values of two vertices.
 struct OrderedPair
 {
   Index low = 0;
@@ -40,7 +40,8 @@ struct Certificate
   /// Natural residual: max over free vertices of |w - clip(w - d / diag Q, l, u)|.
   double kkt_residual = 0.0;
   double energy = 0.0; ///< E = 1/2 w' Q w
-  /// Largest w[low] + least - w[high] over the ordered pairs, at least 0.
+  /// Largest violation of an ordered pair, w[low] + minimum_difference - w[high]; 0 if all pairs
+  /// are satisfied.
   double order_violation = 0.0;
   double bounds_violation = 0.0; ///< largest distance of an entry of w from [l, u]
 };
@@ -67,7 +68,8 @@ struct BoundedEnergy
 /// Compute the certificate of w (#V) from the problem's data alone. The relative gap is gap /
 /// max(E, 1e-12 * mean diagonal of Q / 2), because E is zero for a constant column.
 /// @param pairs, multipliers the ordered pairs and their lambda >= 0, of equal length.
-/// @param inverse r -> A^-1 r for vectors over all vertices, zero at vertices with given values.
+/// @param inverse r -> A^-1 r. The argument r has one entry per vertex (#V) and is zero at vertices
+/// with given values.
 Certificate certify(const BoundedEnergy& problem, const Eigen::VectorXd& w,
   const std::vector<OrderedPair>& pairs = {},
   const Eigen::VectorXd& multipliers = Eigen::VectorXd(),

@@ -170,7 +170,7 @@ private:
   MatrixXd given_values_; // #V x m: fixed and pinned values, 0 elsewhere
   MatrixXd is_solved_; // n x m: 1 where a weight is solved for, else 0
   MatrixXd lower_, upper_; // n x m
-  MatrixXd has_upper_bound_; // n x m: 1 if the row sum does not imply the upper bound, else 0
+  MatrixXd has_upper_bound_; // n x m: 1 if the upper bound is used, 0 if it is omitted
   VectorXd sum_; // n: required sum of a row's solved weights
   std::vector<char> is_coupled_; // n: 1 if at least two weights of the row are solved for, else 0
   MatrixXd c_; // n x m: linear terms

@@ -357,7 +357,7 @@ InteriorPoint::Direction InteriorPoint::find_direction()
   this->step_lengths(d, primal, dual);
 
   constexpr int correctors = 5;
-  // Each corrector is computed for step lengths that are larger by this value.
+  // Each corrector is computed for longer steps: both step lengths plus this value, but at most 1.
   constexpr double step_increase = 0.35;
   for (int k = 0; k < correctors && !this->context_.canceled(); ++k)
   {

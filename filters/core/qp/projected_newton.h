@@ -10,14 +10,13 @@
 namespace bindpose
 {
 
-/// Return the vertices whose value is kept at or near a bound during a Newton step. A vertex is
-/// kept if a Newton step of this vertex alone, starting from x, would end near a bound or cross it.
-/// Pinned vertices are included.
+/// Return the active set of a Newton step: the pinned vertices, and all vertices for which a Newton
+/// step of the vertex alone, starting from x, would end near a bound or cross it.
 /// @param gradient Ax + c.
 /// @param bound_margin distance from a bound that counts as near. Vertices far from the handle have
 /// weights that are tiny but rarely 0. For these vertices, a Newton step of each vertex alone is
 /// accurate enough, and the linear system of the other vertices is much smaller.
-/// @return one entry per free vertex: 1 for vertices at or near a bound.
+/// @return one entry per free vertex: 1 for vertices in the active set.
 std::vector<char> vertices_at_bounds(const SplitForm& matrices, const ColumnProblem& problem,
   const Eigen::VectorXd& gradient, const Eigen::VectorXd& x, double bound_margin);
 

@@ -37,7 +37,7 @@ using Eigen::MatrixXf;
 using Eigen::VectorXd;
 using Eigen::VectorXf;
 
-constexpr double relative_mu = 1e-4; // target of the relative gap with barriers
+constexpr double relative_mu = 1e-4; // relative duality gap of a start with barriers
 constexpr double metric = 1e-2; // P as a fraction of A's diagonal
 constexpr double relaxation = 1.7;
 constexpr int steps = 80;
@@ -90,7 +90,7 @@ public:
   /// @param change result of the iteration minus z.
   void accelerate(VectorXd& z, const VectorXd& change, const VectorXd& weights)
   {
-    const FlushDenormals flush; // most differences of iterates are tiny or denormal
+    const FlushDenormals flush; // most numbers below are tiny, and denormals are slow
     const VectorXf f = change.cwiseProduct(weights).cast<float>();
     const VectorXf at = z.cwiseProduct(weights).cast<float>();
     const double size = f.squaredNorm();
@@ -143,7 +143,7 @@ private:
   MatrixXd gram_ = MatrixXd::Zero(memory, memory);
   VectorXf last_point_, last_change_;
   double last_size_ = 0.0;
-  int count_ = -1; // number of columns of points_ and changes_ in use; -1: no iteration yet
+  int count_ = -1; // number of used columns in points_ and changes_; -1: no iteration yet
   int next_column_ = 0;
 };
 } // namespace

@@ -124,9 +124,10 @@ public:
   {
   }
 
-  /// Decide nodes that have the same label in every minimum: the gain of this label, including
-  /// edges to decided nodes, exceeds the cost of all other edges of the node. A decision may make a
-  /// decision for a neighbor possible. The loop ends after a round that decides few nodes.
+  /// Decide nodes that have the same label in every minimum. The gain of a node is the difference
+  /// between the energies of its two labels, including edges to decided nodes. A node is decided if
+  /// the gain exceeds the total cost of its edges to undecided nodes. Each decision may make
+  /// decisions for neighbors possible. The loop ends after a round that decides few nodes.
   void decide_labels()
   {
     const auto nodes = static_cast<Index>(this->labels_.size());
@@ -144,7 +145,7 @@ public:
         this->add(edge.a, edge.b, edge.cost, edges);
         this->add(edge.b, edge.a, edge.cost, edges);
       }
-      // Relative margin for rounding errors. The gain of a label must exceed the costs of the edges
+      // Relative margin for rounding errors. The gain of a node must exceed the costs of the edges
       // by more than this margin. Nodes that fail this test are labeled by the maximum flow.
       constexpr double rounding = 1e-9;
       Index left = 0;
@@ -198,7 +199,7 @@ public:
   }
 
   /// Return the labels of all nodes.
-  /// @param reduced labels of the undecided nodes, indexed as in the energy reduced().
+  /// @param reduced labels of the nodes of the energy that reduced() returns.
   std::vector<char> expand(const std::vector<char>& reduced) const
   {
     std::vector<char> all = this->labels_;
@@ -224,7 +225,7 @@ private:
   const CutEnergy& energy_;
   std::vector<double> gains_; ///< cost of label outside minus cost of label inside, per node
   std::vector<char> labels_;
-  std::vector<Index> ids_; ///< index of each node in the energy reduced(); -1: decided
+  std::vector<Index> ids_; ///< index of each node in the result of reduced(); -1: label is decided
 };
 
 /// Compute the labels by maximum flow.

@@ -11,17 +11,18 @@
 namespace bindpose
 {
 
-/// A sum of costs over nodes that are each inside or outside: E = sum of the costs of the labels +
-/// sum of edges[].cost over edges whose two ends have different labels.
+/// An energy of nodes that are labeled inside or outside:
+///   E = sum of the costs of the labels
+///     + sum of edges[].cost over all edges between nodes with different labels.
 struct CutEnergy
 {
   struct Edge
   {
     Index a, b; ///< nodes, a != b
-    double cost; ///< cost that is added if the labels of the two ends differ, >= 0
+    double cost; ///< cost (>= 0) that is added if a and b have different labels
   };
-  std::vector<double> inside_costs; ///< cost of node i if it is inside, >= 0
-  std::vector<double> outside_costs; ///< cost of node i if it is outside, >= 0
+  std::vector<double> inside_costs; ///< cost (>= 0) of node i if its label is inside
+  std::vector<double> outside_costs; ///< cost (>= 0) of node i if its label is outside
   std::vector<Edge> edges; ///< if there are several edges between two nodes, their costs add up
 
   /// Return the energy E of these labels (1 inside, 0 outside).
@@ -34,8 +35,8 @@ struct CutEnergy
 /// the one with the fewest nodes inside is returned. Cost: about 1 us per node and edge if the two
 /// costs of most nodes differ by more than the costs of their edges; ten times that if the two
 /// costs are almost equal.
-/// @return invalid_input for costs that are negative or not finite and for nodes out of range;
-/// canceled.
+/// @return ok; canceled; or invalid_input if a cost is negative or not finite or a node is out of
+/// range.
 Status minimize(ExecutionContext& context, const CutEnergy& energy, std::vector<char>& inside);
 
 } // namespace bindpose

@@ -29,12 +29,13 @@ public:
   /// Report whether the region is on exactly one side of triangle f at p, a point of the triangle.
   /// The test evaluates points 1e-6 of the diagonal in front of p and behind it.
   bool bounds_region_at(Index f, const Vec3& p) const;
-  /// Report whether the region is on exactly one side of triangle f near its corner k.
+  /// Report whether the region is on exactly one side of triangle f near corner k of the triangle.
   bool bounded_at_corner(Index f, int k) const;
-  /// Return the smaller of two lengths at p, measured along the normal of triangle f: the thickness
-  /// of the region, and the width of the gap on the other side of f. The triangle must bound the
-  /// region at p. The result is approximate: distances from `smallest` to `largest` are tested,
-  /// each 1.5 times the previous one. The result is `largest` if no test finds the other side.
+  /// Return the smaller of two lengths at p along the normal of triangle f: the thickness of the
+  /// region on one side of f, and the width of the gap on the other side. The triangle must bound
+  /// the region at p. The result is approximate: distances from `smallest` to `largest` are tested,
+  /// each 1.5 times the previous one. The result is the first distance that exceeds one of the two
+  /// lengths, or `largest` if no tested distance does.
   double thickness(Index f, const Vec3& p, double smallest, double largest) const;
   /// Move p along the unit vector n onto the boundary of the region, by at most `reach` in either
   /// direction. The error is 2^-20 times `reach`. n points outwards. @return true if p - reach n is
@@ -60,8 +61,8 @@ private:
 /// Options of sample_boundary().
 struct BoundarySampling
 {
-  double smallest = 0.0; ///< length of the shortest requested edges, > 0
-  double largest = 0.0; ///< length of the longest requested edges, >= smallest
+  double smallest = 0.0; ///< smallest requested edge length (> 0)
+  double largest = 0.0; ///< largest requested edge length (>= smallest)
   /// Maximum growth rate: the difference of two edge lengths divided by the distance of their
   /// sites.
   double growth = 0.3;

@@ -27,13 +27,13 @@ const char* to_string(SegmentationMethod method);
 struct SegmentationOptions
 {
   SegmentationMethod method = SegmentationMethod::graph_cut;
-  /// Threshold of the winding number, > 0. Method threshold labels a tet as inside if its winding
-  /// number is at least this.
+  /// Threshold (> 0) of the winding number. Method threshold labels a tet as inside if the winding
+  /// number of the tet is at least this.
   double winding_threshold = 0.5;
-  /// Factor of the energy's second term, which makes the boundary smooth (gamma in the paper). Must
-  /// be at least 0. With 0, the labels are the same as with method threshold.
+  /// Factor (>= 0) of the energy's second term, which makes the boundary smooth (gamma in the
+  /// paper). With 0, the labels are the same as with method threshold.
   double cut_smoothness = 1.0;
-  /// Scale of winding number differences (sigma in the paper), > 0. A facet is cheap to cut if the
+  /// Difference (> 0) of winding numbers, sigma in the paper. A facet is cheap to cut if the
   /// winding numbers of its two tets differ by more than this.
   double cut_sigma = 0.1;
 };

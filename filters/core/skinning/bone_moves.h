@@ -20,8 +20,9 @@ struct BoneFrame
   /// and the displacement of the tail by the stretch. The factor four cancels the factor 1/4 of the
   /// computed sine and cosine terms.
   Scalar directions[3][3];
-  Scalar per_length; ///< the endpoint weight is z times this factor, clamped to [0, 1]
-  /// Twist at the head, and the difference between the twists at tail and head, in turns.
+  /// 1 / length of the bone. The endpoint weight is z / length, clamped to [0, 1].
+  Scalar per_length;
+  /// Twist at the head, and twist at the tail minus twist at the head. Unit: full turns.
   Scalar head_turns, turn_difference;
   bool twists;
 };

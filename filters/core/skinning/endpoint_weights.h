@@ -41,8 +41,9 @@ Status check_endpoint_weights(
 using BoundedSolve = std::function<Status(ExecutionContext&, const Handles&, Weights&)>;
 
 /// Compute endpoint weights of stretchable, twistable bones (Jacobson and Sorkine 2011), see
-/// Skinning. The method `joints` adds the projection with a weight of 1e-4. Therefore the result
-/// changes continuously to the projection where the weights of both ends vanish.
+/// Skinning. Let p be the result of method `projection`. The method `joints` computes
+///   (W_tail + 1e-4 p) / (W_head + W_tail + 1e-4).
+/// Therefore its result changes continuously to p where W_head and W_tail vanish.
 /// @param endpoints #V x #handles, values from 0 to 1; NaN in the columns of handles that are not
 /// bones.
 /// @return invalid_input if there is no bone; otherwise the status of `solve`, with each warning

@@ -12,9 +12,9 @@ namespace bindpose
 /// Options of MovingLeastSquares::bind().
 struct MovingLeastSquaresOptions
 {
-  /// Handles are weighted by 1 / distance^(2 exponent): with a larger exponent, the surroundings of
-  /// a handle are more rigid. 1 to 8, 1 by default. (With an exponent below 1, a bone would not
-  /// constrain the points on it.)
+  /// Handles are weighted by 1 / distance^(2 exponent). The exponent is from 1 to 8. With a larger
+  /// exponent, the surroundings of a handle are more rigid. (With an exponent below 1, a bone would
+  /// not constrain the points on it.)
   double exponent = 1.0;
 };
 

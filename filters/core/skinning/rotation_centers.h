@@ -11,19 +11,19 @@ namespace bindpose
 /// Hodgins 2016).
 struct RotationCentersOptions
 {
-  /// Width of the similarity function (sigma in the paper), above 0; 0.1 by default.
+  /// Width (above 0) of the similarity function, sigma in the paper.
   double width = 0.1;
-  /// Weights up to this value count as zero; at least 0 and less than 1. 1e-4 by default: smaller
-  /// weights have no visible effect, and most weights in dense rows are smaller.
+  /// Weights up to this threshold (at least 0, less than 1) count as zero. Weights below 1e-4 have
+  /// no visible effect, and most weights in dense rows are smaller than that.
   double smallest_weight = 1e-4;
-  /// A vertex ignores a pair of handles if the product of their two weights is less than this
-  /// fraction of the vertex's largest product. At least 0 and less than 1; 1e-3 by default. If
-  /// there are many handles, most pairs are ignored.
+  /// Threshold (at least 0, less than 1): a vertex ignores a pair of handles if the product of
+  /// their two weights is less than this fraction of the vertex's largest product. If there are
+  /// many handles, most pairs are ignored.
   double smallest_pair = 1e-3;
   /// For each pair of handles, elements with similar weights are grouped. Within a group, weights
-  /// differ by at most this value and are replaced by their mean. 0: only equal weights are
-  /// grouped, which is the exact formula. 0.015 by default: centers move by less than a thousandth
-  /// of the shape.
+  /// differ by at most this value (>= 0) and are replaced by their mean. 0: only equal weights are
+  /// grouped, which is the exact formula. With 0.015, centers move by less than a thousandth of the
+  /// shape.
   double group_size = 0.015;
 };
 

@@ -26,8 +26,8 @@ struct SkinningOptions
   /// error of a point is about 1e-7 of its displacement. Points that do not move are bit-identical
   /// to the rest pose.
   bool single_precision = false;
-  /// Weights whose absolute value is at most this count as zero; at least 0 and less than 1. 0: no
-  /// nonzero weight is dropped.
+  /// Threshold (at least 0, less than 1): weights whose absolute value is at most this count as
+  /// zero. 0: no nonzero weight is dropped.
   double smallest_weight = 0.0;
   /// Maximum number of weights per row. The largest ones are kept; if several are equal, those in
   /// the first columns. 0: all weights are kept.
@@ -71,7 +71,7 @@ public:
 
   /// Compute v' = sum_j w_j T_j v (Magnenat-Thalmann et al. 1988). `transforms` has one entry per
   /// handle. `rest` and `posed` are #V x 3 and must be different arrays. The status is ok,
-  /// canceled or invalid_input (sizes).
+  /// canceled, or invalid_input if an array has the wrong size.
   Status linear_blend(ExecutionContext& context, PointsView rest,
     const std::vector<Affine>& transforms, PointsOutput posed) const;
 
@@ -97,11 +97,11 @@ public:
   /// parts: a scale and shear about the handle's pivot, and a rigid motion. The scale and shear
   /// parts are blended linearly and applied first. The rigid motions are blended as dual
   /// quaternions. At each vertex, the reference is the handle with the largest weight (the first
-  /// one if several are equal). The quaternions q and -q represent the same rotation; the sign that
-  /// is closer to the quaternion of the reference is used. If the two signs are equally close
-  /// (rotations that differ by exactly 180 degrees), the w component of the quaternion is
-  /// nonnegative. The blend normalizes the sum of the weights implicitly. A vertex whose weights
-  /// are all zero does not move. `pivots` is #handles x 3.
+  /// one if several are equal). The quaternions q and -q represent the same rotation; the one that
+  /// is closer to the quaternion of the reference is used. If both are equally close (rotations
+  /// that differ by exactly 180 degrees), the one with a nonnegative w component is used. The blend
+  /// normalizes the sum of the weights implicitly. A vertex whose weights are all zero does not
+  /// move. `pivots` is #handles x 3.
   Status dual_quaternion(ExecutionContext& context, PointsView rest,
     const std::vector<Affine>& transforms, PointsView pivots, PointsOutput posed) const;
   Status dual_quaternion_normals(ExecutionContext& context, PointsView rest_normals,

@@ -107,10 +107,10 @@ BINDPOSE_ALWAYS_INLINE void blend_part(const std::int32_t* columns, const Scalar
   }
 }
 
-/// Return a pack of lanes from `a`, `b` and `c`, by two shuffles. The lanes of two packs are
-/// counted together: indices below the pack size mean the first pack. The first shuffle takes lane
-/// Lanes::first(i) of `a` and `b` as lane i. The second shuffle takes lane Lanes::second(i) of the
-/// first shuffle's result and `c` as lane i.
+/// Combine lanes of `a`, `b` and `c` in one pack, by two shuffles. A shuffle takes lanes from two
+/// packs (p, q): lane indices below the pack size select lanes of p, higher indices select lanes of
+/// q. Lane i of the first result is lane Lanes::first(i) of (a, b). Lane i of the returned pack is
+/// lane Lanes::second(i) of (first result, c).
 template <typename Lanes, typename Pack, int... i>
 BINDPOSE_ALWAYS_INLINE Pack shuffle(
   Pack a, Pack b, Pack c, std::integer_sequence<int, i...> /*lanes*/)
@@ -131,9 +131,9 @@ private:
   static constexpr bool is_in_first(int i) { return 3 * i + coordinate < 2 * lanes; }
 };
 
-/// Lane indices for shuffle() that are the inverse of LanesOfRow. The input packs contain the x, y
-/// and z coordinates of a part's points. The result is pack `third` (0, 1 or 2) of the three packs
-/// that contain x y z per point.
+/// Lane indices for the inverse of LanesOfRow. The three input packs contain the x, y and z
+/// coordinates of a part's points. The three output packs contain x y z per point. With these
+/// indices, shuffle() computes output pack number `third` (0, 1 or 2).
 template <int lanes, int third>
 struct LanesOfPoints
 {

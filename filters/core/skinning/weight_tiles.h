@@ -39,8 +39,8 @@ struct BlendValues
   static constexpr Bits sign_bit = std::numeric_limits<Bits>::min();
 
   std::vector<Scalar> values; ///< `entries` values for each handle
-  /// For each pair of a column's handle and a vertex's reference handle: sign_bit if the handle's
-  /// values are negated in the sum, else 0. Empty: all 0.
+  /// #handles x #handles, row by row: entry (j, r) is sign_bit if the values of handle j are
+  /// negated in the sum of a vertex with reference handle r, else 0. Empty: all 0.
   std::vector<Bits> signs;
 };
 
@@ -52,8 +52,8 @@ struct alignas(64) BlendedTile
 };
 
 /// Compute sum_j w_j values_j for each vertex of the tile, in the order of the columns.
-/// @param references reference handle of each vertex of the tile, which selects the signs; null if
-/// there are no signs.
+/// @param references reference handle of each vertex of the tile: the column of values.signs that
+/// applies to the vertex. Null if values.signs is empty.
 template <typename Scalar, int entries>
 void blend_tile(const WeightTiles<Scalar>& weights, Index tile,
   const BlendValues<Scalar, entries>& values, const std::int32_t* references,
@@ -77,8 +77,8 @@ void affine_moves(const BlendedTile<Scalar, 12>& blended, const TilePoints<Scala
   TilePoints<Scalar>& moves);
 
 /// Compute the displacements of points by rigid motions. The blended values are sums of dual
-/// quaternions (real part x, y, z, w, then dual part), which are divided by their length. If the
-/// length is zero, there is no displacement.
+/// quaternions (real part x, y, z, w, then dual part). Each sum is divided by the length of its
+/// real part. If this length is zero, there is no displacement.
 template <typename Scalar>
 void dual_quaternion_moves(const BlendedTile<Scalar, 8>& blended, const TilePoints<Scalar>& points,
   TilePoints<Scalar>& moves);

@@ -14,8 +14,8 @@ namespace
 {
 constexpr int largest_order = largest_polynomial_order;
 
-/// Constants of the harmonics in the plane x = 0: with zeta = y + iz, the harmonic (l + 2q, l) is
-/// plane[l][q] zeta^l |zeta|^2q. `factorial` contains 1 / j!.
+/// Constants of the harmonics in the plane x = 0. With zeta = y + iz, the harmonic (l + 2q, l) is
+/// plane[l][q] * zeta^l * |zeta|^(2q).
 struct PlaneConstants
 {
   double plane[largest_order + 1][largest_order / 2 + 1];
@@ -49,8 +49,8 @@ template <int Order>
 constexpr int padded_count = (Order / polynomial_lanes + 1) * polynomial_lanes;
 
 /// Add the products of the coefficients in `row` and the harmonics (L + 2Q, L), (L + 2Q + 2, L) …
-/// to the polynomial. r and i are the real and imaginary parts of zeta^L |zeta|^2Q, and rho2 is
-/// |zeta|^2, where zeta = y + iz.
+/// to the polynomial. With zeta = y + iz, rho2 is |zeta|^2, and r and i are the real and the
+/// imaginary part of zeta^L * rho2^Q.
 template <int Order, int L, int Q, typename Real>
 BINDPOSE_ALWAYS_INLINE void add_terms(const Real* row, Real r, Real i, Real rho2, Real* polynomial)
 {
@@ -71,8 +71,9 @@ BINDPOSE_ALWAYS_INLINE void add_terms(const Real* row, Real r, Real i, Real rho2
   }
 }
 
-/// Multiply the rows L … Order of coefficients by their harmonics and add the products to the
-/// polynomial. re and im are the real and imaginary parts of zeta^L, where zeta = y + iz.
+/// Row l contains the coefficients (k, l) of the expansion, for all degrees k. Multiply the
+/// coefficients of the rows from L to Order by their harmonics, and add the products to the
+/// polynomial. re and im are the real and the imaginary part of zeta^L, where zeta = y + iz.
 template <int Order, int L, typename Real>
 BINDPOSE_ALWAYS_INLINE void add_rows(
   const Real* row, Real re, Real im, Real y, Real z, Real* polynomial)

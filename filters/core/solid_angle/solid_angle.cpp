@@ -1,4 +1,5 @@
-// Solid angles of triangles that are accurate to a few units in the last place at every distance.
+// Solid angles of triangles. At every distance from the triangle, the error is a few units in the
+// last place of a full turn.
 //
 // The solid angle of a triangle a, b, c seen from the origin is twice the angle of the complex
 // number (|a||b||c| + a.b|c| + b.c|a| + c.a|b|) + i a.(b x c) (Van Oosterom and Strackee, 1983).

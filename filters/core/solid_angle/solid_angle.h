@@ -1,7 +1,8 @@
 #ifndef bindpose_solid_angle_solid_angle_h
 #define bindpose_solid_angle_solid_angle_h
 
-// Solid angles of triangles, accurate at every distance, and their sums: the winding number.
+// Solid angles of triangles, accurate at every distance. The winding number is a sum of solid
+// angles.
 
 #include "base/constants.h"
 #include "geometry/mesh.h"
@@ -9,7 +10,7 @@
 namespace bindpose
 {
 
-/// Report whether the point is within the tolerance of the triangle.
+/// Report whether the distance between the point and the triangle is at most `tolerance`.
 bool touches_triangle(
   const Vec3& point, const Vec3& a, const Vec3& b, const Vec3& c, double tolerance);
 

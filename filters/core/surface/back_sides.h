@@ -9,8 +9,8 @@ namespace bindpose
 {
 
 /// Find triangles that are the back sides of other triangles. Models for viewing from both sides
-/// often contain every triangle twice, with opposite orientations. Their winding number is 0
-/// everywhere, even inside.
+/// often contain every triangle twice, with opposite orientations. The winding number of such a
+/// model is 0 everywhere, even inside.
 ///
 /// A triangle is canceling if it occurs equally often in both orientations. Edges with exactly two
 /// canceling triangles join these triangles into patches. A patch is closed if the norm of the sum

@@ -130,9 +130,9 @@ private:
     return a == no_part_label || a == b ? b : b == no_part_label ? a : mixed_label;
   }
 
-  /// Call at_triangle(g) for the triangles in all leaf boxes whose label differs from `label` and
-  /// whose distance from `box` is at most `limit`. at_triangle() may lower `limit`. Nearer boxes
-  /// are visited first.
+  /// Visit the leaf boxes whose label differs from `label` and whose distance from `box` is at most
+  /// `limit`. Call at_triangle(g) for each triangle g in these boxes; at_triangle() may lower
+  /// `limit`. The nearer one of two sibling boxes is visited first.
   template <typename AtTriangle>
   void visit_others(const Box& box, Index label, const double& limit, const AtTriangle& at_triangle)
   {

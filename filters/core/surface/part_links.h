@@ -21,8 +21,8 @@ struct PartLink
 /// Options of link_parts() and find_covered_openings().
 struct PartLinkOptions
 {
-  double touch_distance = 0.0; ///< parts touch if their distance is at most this length, >= 0
-  /// Approximate distance (a length > 0) between neighboring links where two parts touch.
+  double touch_distance = 0.0; ///< maximum distance (>= 0) of two parts that touch
+  /// Approximate distance (> 0) between neighboring links where two parts touch.
   double spacing = 0.0;
 };
 

@@ -286,7 +286,7 @@ bool winding_numbers(ExecutionContext& context, const Points& points, const Tria
     }
     return !context.canceled();
   }
-  // Copy the shell with its own vertices, because it may be a small part of the surface.
+  // Copy only the shell's triangles and their vertices, because the surface may have many more.
   std::vector<Index> vertices;
   for (const Index t : shell.triangles)
   {

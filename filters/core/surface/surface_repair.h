@@ -49,9 +49,9 @@ struct RepairOptions
   /// the smaller area is flipped). Then flip closed components that are inside out, together with
   /// everything inside them. If false, no triangle is flipped.
   bool orient = true;
-  /// Before welding, round vertices to a grid whose spacing is about this fraction of the
-  /// bounding-box diagonal (rounded to a power of two). 2^-20 welds nearly coincident vertices. 0:
-  /// weld only equal vertices.
+  /// Before welding, round vertices to a grid. The grid spacing is the power of two that is nearest
+  /// to this fraction of the bounding-box diagonal. 2^-20 welds nearly coincident vertices. 0: weld
+  /// only equal vertices.
   double snap = 0.0;
   /// Find crossing triangles (the slowest operation; 0.3 s at 100k triangles).
   bool count_self_intersections = true;

@@ -241,8 +241,8 @@ Vec3 closest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c)
     }
     return closest;
   }
-  // Find the Voronoi region of the triangle that p is in: the region of a corner, of an edge or of
-  // the interior (Ericson, Real-Time Collision Detection, 5.1.5).
+  // The Voronoi regions of the corners, the edges and the interior of the triangle divide space.
+  // Find the region that contains p (Ericson, Real-Time Collision Detection, 5.1.5).
   const Vec3 ab = b - a, ac = c - a, ap = p - a;
   const double d1 = ab.dot(ap), d2 = ac.dot(ap);
   if (d1 <= 0.0 && d2 <= 0.0)

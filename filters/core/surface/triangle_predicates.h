@@ -23,7 +23,7 @@ bool triangles_cross(PointsView points, TrianglesView triangles, Index f, Index 
 bool segment_meets_triangle(
   const Vec3& p, const Vec3& q, const Vec3& a, const Vec3& b, const Vec3& c);
 
-/// Return the point of a triangle nearest to p.
+/// Return the point on triangle abc whose distance from p is smallest.
 Vec3 closest_point(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
 
 } // namespace bindpose

@@ -31,9 +31,10 @@ public:
 
   /// Return the number of leaves. Each leaf contains a few triangles.
   Index leaf_count() const { return static_cast<Index>(this->leaves_.size()); }
-  /// Call found(f, g) for pairs of triangles whose boxes overlap, where f is in this leaf, and g
-  /// comes after f in this leaf or is in a later leaf. One call per leaf visits every pair of the
-  /// tree once. If found() returns false, the remaining pairs of f are skipped. Thread-safe.
+  /// Call found(f, g) for pairs of triangles whose boxes overlap. Triangle f is in this leaf; g
+  /// comes after f in this leaf or is in a later leaf. If this function is called once for each
+  /// leaf, every pair of the tree is visited once. If found() returns false, the remaining pairs of
+  /// f are skipped. Thread-safe.
   void pairs_of_leaf(Index leaf, const std::function<bool(Index, Index)>& found) const;
 
   /// A node, for searches by the caller. The root is the first node, and children follow their
@@ -68,9 +69,9 @@ private:
   std::vector<Index> leaves_; ///< indices of the leaf nodes
 };
 
-/// Find the pairs (f, g), f < g, of triangles that intersect outside of their shared vertices and
-/// edges (triangles_cross), sorted. At most 1000 pairs are listed per triangle, so that the list
-/// remains short enough if the surface contains a thousand copies of one solid.
+/// Find the pairs (f, g), f < g, of triangles for which triangles_cross() is true, and sort the
+/// pairs. At most 1000 pairs are listed per triangle, so that the list remains short enough if the
+/// surface contains a thousand copies of one solid.
 /// @return false if canceled.
 bool crossing_pairs(ExecutionContext& context, PointsView points, TrianglesView triangles,
   std::vector<std::pair<Index, Index>>& pairs);

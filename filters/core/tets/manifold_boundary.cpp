@@ -1,9 +1,9 @@
 // Separation of a tet mesh's boundary into a 2-manifold.
 //
-// The triangles of the boundary are the facets with one tet. From each of their edges, a walk
-// through the tets around the edge ends at another boundary triangle. The two triangles bound the
-// same wedge of the solid and are neighbors. The corners of two neighbors at their shared edge
-// become the same vertex.
+// The triangles of the boundary are the facets with one tet. From each edge of such a triangle, a
+// walk through the tets around the edge ends at another boundary triangle. The two triangles are
+// neighbors: they bound the same wedge of tets. At each end of the edge, both triangles have a
+// corner. These two corners become one vertex.
 #include "tets/manifold_boundary.h"
 
 #include "base/disjoint_sets.h"
@@ -37,7 +37,8 @@ public:
     }
   }
 
-  /// Return the id of the same facet in the tet on its other side, or -1 on the boundary.
+  /// A facet between two tets has two ids, one for each tet. Return the other id of the facet, or
+  /// -1 if the facet is on the boundary.
   Index opposite_facet(Index facet) const { return this->opposite_facets_[facet]; }
 
   std::array<Index, 3> corners(Index facet) const
@@ -47,7 +48,7 @@ public:
     return { tet[local_corners[0]], tet[local_corners[1]], tet[local_corners[2]] };
   }
 
-  /// Return the other facet of the same tet that has the edge from a to b.
+  /// Return the facet that meets `facet` at the edge from a to b. Both facets belong to one tet.
   Index adjacent_facet(Index facet, Index a, Index b) const
   {
     const Index first = facet - facet % 4;
@@ -62,7 +63,7 @@ public:
     return -1;
   }
 
-  /// Return the boundary facet that bounds the same wedge of tets at the edge from a to b.
+  /// Return the neighbor of a boundary facet at the edge from a to b (see the top of this file).
   Index neighbor(Index facet, Index a, Index b) const
   {
     for (Index next = this->adjacent_facet(facet, a, b);;

@@ -51,8 +51,9 @@ public:
     constexpr Index last_passes = 4; // passes in which held vertices may move
     constexpr Index first_passes = 3; // passes before vertices are inserted
     const Index passes = this->options_.passes - last_passes;
-    // Progress at the ends of the first and second groups of passes, in which held vertices do not
-    // move. In the third group they may move; it ends at 0.97.
+    // There are up to three groups of passes. Held vertices may move only in the third group. These
+    // two values are the progress at the ends of the first two groups; the third group ends at
+    // progress 0.97.
     const double first_end = this->options_.insert ? 0.4 : 0.0;
     const double second_end = this->options_.release_angle > 0.0 ? 0.85 : 0.97;
     bool completed = true;
@@ -200,7 +201,8 @@ private:
     return true;
   }
 
-  /// Search a step for each tet while the mesh does not change. @return false if canceled.
+  /// For each tet, search for a step. The tets are processed in parallel; the mesh does not change.
+  /// @return false if canceled.
   bool find_steps(const std::vector<Index>& tets)
   {
     this->last_search_.resize(static_cast<std::size_t>(this->tets_.tet_id_limit()), 0);

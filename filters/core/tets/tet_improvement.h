@@ -20,7 +20,7 @@ struct Improvement
   /// Number of removed tets: flat tets at the boundary, and tets without a neighbor.
   Index removed_tets = 0;
   Index collapsed_edges = 0; ///< number of contracted edges; each contraction removes one vertex
-  Index inserted_vertices = 0; ///< number of new vertices inside
+  Index inserted_vertices = 0; ///< number of new vertices; they are in the interior of the mesh
 };
 
 /// Improve the flattest tets of a mesh by swapping edges and facets (Freitag and Ollivier-Gooch,

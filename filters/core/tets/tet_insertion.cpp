@@ -387,12 +387,12 @@ private:
     return true;
   }
 
-  /// Return the maximum number of tet ids, including ids of replaced tets, in a mesh with `tets`
-  /// tets. If there are more ids, replaced tets are removed. About half as many replaced tets as
-  /// tets are allowed.
+  /// Return the maximum number of tet ids in a mesh with `tets` tets. Each replaced tet keeps its
+  /// id. If there are more ids than the maximum, replaced tets are removed. The maximum allows one
+  /// replaced tet per two current tets, plus a constant number.
   static Index maximum_ids_for(Index tets)
   {
-    // This number of ids is always allowed for replaced tets, because it takes little memory.
+    // Number of replaced tets that is always allowed; they take little memory.
     constexpr Index small_id_count = 100000;
     return small_id_count + tets + tets / 2;
   }

@@ -270,8 +270,8 @@ Status check_tets(
       return failure("tet " + std::to_string(t) + " must have a positive volume");
     }
   }
-  // Report whether the facet, seen from outside its tet, has the orientation of its sorted
-  // vertices.
+  // Report whether the outward orientation of the facet is the cyclic order of ascending vertex
+  // ids.
   const auto forward = [&](const TetFacet& facet)
   {
     const auto& corners = facet_corners[facet.side];

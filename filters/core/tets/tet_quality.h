@@ -24,8 +24,8 @@ double min_dihedral_angle(const Vec3& a, const Vec3& b, const Vec3& c, const Vec
 /// Return the length of the longest edge of tet t.
 double longest_edge(const Points& points, const Tets& tets, Index t);
 
-/// Number of tets with their smallest dihedral angle in [5 k, 5 (k + 1)) degrees. The largest
-/// possible angle is 70.53 degrees, in a regular tet.
+/// Entry k of `tets` is the number of tets with a smallest dihedral angle in [5 k, 5 (k + 1))
+/// degrees. The largest possible smallest angle is 70.53 degrees, in a regular tet.
 struct DihedralHistogram
 {
   static constexpr double bin_width = 5.0;
@@ -48,9 +48,10 @@ TetQuality measure_tets(PointsView points, TetsView tets);
 /// have at least one forced edge. At a forced edge, the boundary does not allow larger angles.
 /// Forced edges are
 /// - the edges of a boundary triangle that has a corner of less than `angle`,
-/// - the edges of a boundary triangle, if another boundary triangle is so near to its inner side
-///   that every tet at the triangle has an angle below `angle`, and
-/// - edges at which two boundary triangles form an angle of less than `angle`, measured inside.
+/// - the edges of a boundary triangle t, if another boundary triangle is so near to the inner side
+///   of t that every tet at t has an angle below `angle`, and
+/// - edges at which two boundary triangles form an angle of less than `angle`, measured inside the
+///   tets.
 /// If canceled, the count is too small.
 Index count_forced_tets(ExecutionContext& context, PointsView points, TetsView tets,
   const Eigen::VectorXd& angles, double angle);
@@ -72,9 +73,9 @@ Status check_tets(
 Index remove_small_components(
   const Points& points, Tets& tets, std::vector<TetFacet>& facets, double isolated_fraction = 1e-8);
 
-/// Remove tets at the boundary whose smallest height is below `height`, repeatedly, until none
-/// remains there. The boundary moves by less than `height`. `facets` contains the tet_facets() of
-/// the tets and is updated. @return the number of removed tets.
+/// Remove tets at the boundary whose smallest height is below `height`. Repeat this until the
+/// boundary has no such tets. The boundary moves by less than `height`. `facets` contains the
+/// tet_facets() of the tets and is updated. @return the number of removed tets.
 Index peel_slivers(const Points& points, Tets& tets, std::vector<TetFacet>& facets, double height);
 
 /// Return the #T x 3 centroids of the tets.

@@ -29,9 +29,9 @@ constexpr double minimum_gain = 0.02;
 constexpr double infinite_cost = std::numeric_limits<double>::infinity();
 // Cosines of limits for the angle between the normals of boundary triangles.
 constexpr double flat_cosine = 0.966; // 15 degrees: below this angle an edge may be swapped
-// 40 degrees. An edge is a crease if the angle between the normals of its two triangles is larger.
-// A boundary vertex does not move if the angle between the normal of one of its triangles and their
-// mean normal is larger.
+// 40 degrees. An edge is a crease if the normals of its two triangles form a larger angle. A
+// boundary vertex does not move if the mean normal of the triangles at the vertex forms a larger
+// angle with one of their normals.
 constexpr double crease_cosine = 0.766;
 
 bool is_angle_below(const Vec3& one, const Vec3& other, double cosine)
@@ -504,7 +504,7 @@ bool TetStepSearch::insert(Index t, Vec3 p, TetStep& step)
       shortest = std::min(shortest, (this->point(w) - p).norm());
     }
   }
-  constexpr double margin = 0.3; // minimum decrease of the cost by a new vertex
+  constexpr double margin = 0.3; // a new vertex must lower the cost by more than this
   const double maximum_cost = old_cost.sum - margin;
   // Limits relative to the old cost. The search ends if the cost of the first position exceeds the
   // first limit. It also ends if the cost of the best position after the first search step exceeds
@@ -617,7 +617,7 @@ bool TetStepSearch::contract(Index a, Index b, TetStep& step)
   const auto has_b = [b](const Facet& f) { return std::find(f.begin(), f.end(), b) != f.end(); };
   if (on_boundary && std::none_of(boundary_facets.begin(), boundary_facets.end(), has_b))
   {
-    return false; // a-b is an inner edge, so the boundary would move inwards
+    return false; // contracting an inner edge would move the boundary inwards
   }
   if (added.empty() || !this->keeps_shape(boundary_facets, a, b) ||
     !this->keeps_topology(boundary_facets, a, b))

@@ -30,7 +30,7 @@ struct TetStep
   Index vertex = -1;
   Vec3 position = Vec3::Zero();
   TetCavity cavity;
-  /// Vertices of the tet that the search could not move to a better position.
+  /// The vertices of the tet for which no better position was found.
   std::vector<Index> immovable;
 
   void clear();
@@ -55,8 +55,9 @@ struct TetStepRules
 };
 
 /// Report whether a better position for vertex v may be searched. Held vertices may move only if
-/// `may_move_constrained` is set, and boundary vertices only if there is a surface. The tets at v
-/// must have changed since the last search that found no better position.
+/// rules.may_move_constrained is true. Boundary vertices move along rules.surface, so they may move
+/// only if a surface is given. The tets at v must have changed since the last search that found no
+/// better position.
 bool may_move(const TetComplex& tets, const TetStepRules& rules, Index v);
 
 /// Finds steps that improve a tet. Each thread needs a separate object. The tets and the rules may

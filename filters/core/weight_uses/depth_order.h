@@ -10,10 +10,10 @@ namespace bindpose
 /// Options of depth_order().
 struct DepthOrderOptions
 {
-  /// To compute `front`, an offset is added to the layer of each handle. The offset increases
-  /// linearly with the index of the handle, from 0 for the first handle to this value for the last
-  /// handle. Therefore later handles are in front of earlier handles with an equal layer. In
-  /// layers, >= 0. `depth` does not depend on this option.
+  /// Offset (>= 0) of the last handle, in layers. To compute `front`, an offset is added to the
+  /// layer of each handle. The offsets increase linearly with the index of the handle, from 0 for
+  /// the first handle. Therefore later handles are in front of earlier handles with an equal layer.
+  /// `depth` does not depend on this option.
   double tie_offset = 1e-3;
 };
 

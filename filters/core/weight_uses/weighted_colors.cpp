@@ -60,7 +60,8 @@ Colors categorical_colors(Index count)
   Colors colors(count, 3);
   for (Index j = 0; j < count; ++j)
   {
-    // Each further group of eight colors has half the distance to white of the previous group.
+    // Each further group of eight colors is lighter: the distance of each color from white is half
+    // of that in the previous group.
     const double full = std::ldexp(1.0, -static_cast<int>(std::min<Index>(j / 8, 30)));
     for (int k = 0; k < 3; ++k)
     {

@@ -14,7 +14,7 @@ namespace bindpose
 using Colors = Points;
 using ColorsView = PointsView;
 
-/// Options of weighted_colors(), which blends one color per handle with the weights.
+/// Options of weighted_colors(), which computes weighted sums of the colors of all handles.
 struct WeightedColorsOptions
 {
   /// If true, blend linear light; if false, blend encoded sRGB values. In linear light, mixtures of

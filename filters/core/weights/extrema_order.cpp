@@ -68,8 +68,8 @@ void flood(const VertexGraph& graph, const ExtremaList& list, int from, std::vec
   }
   std::vector<Index> new_order;
   new_order.reserve(order.size());
-  // The flood starts at the listed extrema of one kind. They come first, because a vertex that is
-  // not one of them must not come before a neighbor that is.
+  // The flood starts at the listed extrema of one kind. These extrema come first in the new order,
+  // because each of them must come before its unlisted neighbors.
   for (std::size_t listed = open.size(); listed > 0; --listed)
   {
     new_order.push_back(order[open.top()]);

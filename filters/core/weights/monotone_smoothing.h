@@ -12,13 +12,13 @@ namespace bindpose
 /// a larger value and which have a smaller value.
 enum class SmoothingGuide
 {
-  /// The minimizer without ordered pairs. The vertices are sorted by the values of the minimizer;
-  /// flooding then removes the unlisted extrema from this order. This guide is closer to the data
-  /// than the harmonic guide.
+  /// The guide is the minimizer without ordered pairs. The vertices are sorted by the values of the
+  /// minimizer; flooding then removes the unlisted extrema from this order. This guide is closer to
+  /// the data than the guide `harmonic`.
   unconstrained,
-  /// A harmonic function, computed with positive edge weights. Its boundary values are given at the
-  /// listed extrema: the data if keep_values is true or data_weight is 0, else 1 at maxima and 0 at
-  /// minima.
+  /// The guide is a harmonic function, computed with positive edge weights. Its boundary values are
+  /// given at the listed extrema: the data if keep_values is true or data_weight is 0, else 1 at
+  /// maxima and 0 at minima.
   harmonic
 };
 
@@ -36,7 +36,7 @@ struct MonotoneSmoothingOptions
   /// data by the next two options.
   ExtremaList extrema;
   /// Choose all extrema of the data whose persistence is above this fraction of the data's range.
-  /// At least 0 and less than 1.
+  /// The fraction must be at least 0 and less than 1.
   double persistence = 0.05;
   /// If above 0, choose this number of the most persistent extrema instead. Every connected part
   /// gets at least one maximum and one minimum.
@@ -45,13 +45,13 @@ struct MonotoneSmoothingOptions
   /// solved for, too.
   bool keep_values = false;
   SmoothingGuide guide = SmoothingGuide::unconstrained;
-  /// Maximum number of rebuilds, >= 0. A rebuild takes the order from the last result and solves
+  /// Maximum number (>= 0) of rebuilds. A rebuild takes the order from the last result and solves
   /// again. A rebuild that decreases the energy by less than 0.01 % is the last. The energy never
   /// increases.
   int rebuilds = 1;
-  /// Minimum difference between the two values of an ordered pair (see pairs_from_order), as a
-  /// fraction of the data's range. From 0 to 1. If above 0, the two vertices of a pair cannot have
-  /// equal values.
+  /// Minimum difference between the two values of an ordered pair (see pairs_from_order): a
+  /// fraction (0 … 1) of the data's range. If above 0, the two vertices of a pair cannot have equal
+  /// values.
   double epsilon = 0.0;
   /// See WeightsOptions.
   double tolerance = 1e-6;
@@ -71,9 +71,9 @@ struct MonotoneSmoothingResult
   /// #V: the extrema that were requested by MonotoneSmoothingOptions::extrema or chosen by
   /// persistence.
   ExtremaList list;
-  /// Certificate for data scaled to a range of 1. Its energy is the quadratic form's energy: the
-  /// last entry of `energies` times mass_unit^(order - 1) / 2, where mass_unit is the largest mass
-  /// of the scaled mesh.
+  /// Certificate of the quadratic program, for data scaled to a range of 1. certificate.energy is
+  /// the last entry of `energies` times mass_unit^(order - 1) / 2, where mass_unit is the largest
+  /// mass of the scaled mesh.
   Certificate certificate;
   /// The energy after the first solve and after each accepted rebuild. A rebuild is rejected if it
   /// increases the energy.
@@ -83,13 +83,13 @@ struct MonotoneSmoothingResult
 };
 
 /// Compute a smooth function that is near the data and has only the listed extrema (topological
-/// simplification). The result w minimizes
+/// simplification). The result w is the solution of a quadratic program: it minimizes
 ///   integral of |k-harmonic derivative of w|^2 + lambda integral of (w - f)^2
 /// on the mesh scaled to size 1, where f is the data scaled to a range of 1. Every vertex that is
 /// not listed is above one of its neighbors and below another. Except for rounding errors, the
 /// result does not depend on the units of the data or on the units, position and orientation of the
-/// mesh. The certificate is the certificate of this quadratic program. The mesh size is sqrt(12)
-/// times the root mean square distance from the centroid: for a box this is the diagonal.
+/// mesh. The mesh size is sqrt(12) times the root mean square distance from the centroid: for a box
+/// this is the diagonal.
 ///
 /// Every connected part must have at least one maximum and one minimum in the list, or no extremum
 /// at all. A part without listed extrema becomes constant, with the mean of its data. Vertices that

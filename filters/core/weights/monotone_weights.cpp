@@ -1,9 +1,10 @@
 // The ordered pairs of monotone weights (see monotone_weights.h). The guide of a handle (see
-// MonotoneGuide) is harmonic for the cotangent Laplacian with negative edge weights raised to small
-// positive ones. Unlike the cotangent Laplacian of most tet meshes, this matrix satisfies the
-// maximum principle. Therefore the guide, and with it the weights, have no extremum between
-// handles. (A matrix with uniform edge weights also satisfies the principle. However, weights have
-// a lower energy if the guide is closer to the geometry of the mesh.)
+// MonotoneGuide) is harmonic for a modified cotangent Laplacian, in which edge weights below a
+// small positive minimum are raised to this minimum. The modified Laplacian satisfies the maximum
+// principle; the cotangent Laplacian of most tet meshes does not. Therefore the guide, and with it
+// the weights, have no extremum between handles. (A matrix with uniform edge weights also satisfies
+// the principle. However, weights have a lower energy if the guide is closer to the geometry of the
+// mesh.)
 //
 // Far from its handle a guide u is tiny; near its handle 1 - u is tiny. Both values are computed
 // without cancellation: guides for positive right-hand sides have small relative errors, and 1 - u
@@ -29,8 +30,8 @@ namespace bindpose
 
 namespace
 {
-/// Compute the guide u of a column with its own pins, and 1 - u. Each of the two is solved from
-/// nonnegative boundary values, so that no cancellation occurs.
+/// Compute the guide u of a column with pinned vertices, and the complement 1 - u. Each of the two
+/// is solved from nonnegative boundary values, so that no cancellation occurs.
 Status pinned_guide(ExecutionContext& context, const SparseMatrix& laplacian,
   const std::vector<Index>& fixed, const BoxQpColumn& column, const SparseSolver::Options& options,
   Eigen::VectorXd& u, Eigen::VectorXd& complement)

@@ -30,11 +30,11 @@ namespace
 /// figures and furniture: the weights of the finer lattice are then within 0.012 rms of the weights
 /// of much finer lattices.
 constexpr double maximum_rms = 0.016;
-/// Approximate number of tets of the first lattice. The second lattice has 3/2 times its resolution
-/// and about three times as many tets.
+/// Approximate number of tets of the first lattice. The second lattice has 3/2 times the resolution
+/// of the first lattice and about three times as many tets.
 constexpr Index first_lattice_tets = 4500;
-/// Target number of tets of the third lattice. Its resolution is limited to 5/4 … 3/2 times the
-/// resolution of the second lattice.
+/// Target number of tets of the third lattice. The resolution of the third lattice is limited to
+/// 5/4 … 3/2 times the resolution of the second lattice.
 constexpr double third_lattice_tets = 36000.0;
 /// Approximate number of tets of the lattice if SurfaceWeightsOptions::check_resolution is false,
 /// so that only one lattice is made.
@@ -143,9 +143,10 @@ private:
   std::unique_ptr<PreparedSurface> prepared_;
   /// The locator of the surface, used for all lattices; null until it is needed.
   std::unique_ptr<SimplexLocator> surface_;
-  /// Links between parts of the surface. The first links connect a part with an opening to the
-  /// parts that cover the opening. The other links connect parts without a handle to other parts
-  /// (find_loose_parts). They are found for each lattice and kept for all later lattices.
+  /// Links between parts of the surface, from two sources. The first links connect a part with an
+  /// opening to the parts that cover the opening. The other links connect parts without a handle to
+  /// other parts. They are found for each lattice (find_loose_parts). All links are kept for later
+  /// lattices.
   std::vector<PartLink> links_;
   /// Number of openings that other parts cover; empty until `links_` contains the links at these
   /// openings.
@@ -550,7 +551,8 @@ Status Solver::embed_with_links(EmbeddingOptions options, Lattice& lattice)
   return status;
 }
 
-/// Link components at openings that other components cover, once for all lattices.
+/// Link components at openings that other components cover. The links are found only once and are
+/// used for all lattices.
 Status Solver::link_openings()
 {
   if (this->covered_openings_)

@@ -58,16 +58,17 @@ struct SurfaceWeights
 struct SurfaceWeightsOptions
 {
   WeightsDomain domain = WeightsDomain::automatic;
-  /// Points with at least this winding number are inside. Must be above 0.
+  /// Threshold (> 0): a point is inside if its winding number is at least this value.
   double winding_threshold = 0.5;
-  /// Domain embedding: number of lattice cubes along the longest side of the bounding box, 6 …
-  /// 1000; 0: chosen automatically (see `check_resolution`).
+  /// Domain embedding: resolution of the lattice, 6 … 1000; 0: chosen automatically (see
+  /// `check_resolution`). The resolution is the number of lattice cubes along the longest side of
+  /// the bounding box.
   Index resolution = 0;
   /// Domain embedding: if true, solve on lattices of increasing resolution until the weights on two
   /// lattices agree (see surface_weights). If false, solve on a single lattice, with about 12,000
   /// tets if no resolution is given.
   bool check_resolution = true;
-  /// Transfer the raw weights to the surface's points, too.
+  /// If true, the raw weights are also computed at the surface's points (see SurfaceWeights::raw).
   bool keep_raw = false;
   /// Handle geometry (such as bones) that becomes part of the volume's tets.
   HandleElements handle_elements;

@@ -12,8 +12,8 @@ namespace bindpose
 /// one factorization, and one solve per handle. All functions return invalid_input if the problem
 /// has optional terms (see WeightTerms) or if the energy has no unique minimum.
 
-/// Minimize int |grad w|^2. The weights are in [0, 1] if cotangents are positive, and have peaks at
-/// point handles.
+/// Minimize int |grad w|^2. The weights have peaks at point handles. If all cotangents are
+/// positive, the weights are in [0, 1].
 Status harmonic_weights(ExecutionContext& context, const WeightsProblem& problem,
   const WeightsOptions& options, WeightsResult& result);
 /// Minimize int (Laplacian w)^2. The weights are smooth and nearly independent of the resolution of

@@ -357,7 +357,7 @@ Status solve_weights(ExecutionContext& context, const WeightsProblem& problem, i
   Index capped_count = 0;
   for (int pass = 0; pass < (limits_influences ? 2 : 1); ++pass)
   {
-    // All passes have the same part of the progress range. Within a pass, the coupled program takes
+    // Each pass gets a progress range of the same length. Within a pass, the coupled program takes
     // most of the time.
     const double length = 0.85 / (limits_influences ? 2 : 1);
     const double begin = 0.1 + pass * length;

@@ -59,8 +59,11 @@ double rigidity_unit(int order);
 /// Check the terms. Return invalid_input, naming the vertex or the handle, if
 /// - an array has the wrong length;
 /// - a rigidity is not in 0 … 1e12;
-/// - a value is infinite, or the lower bound of a handle is above its upper bound;
-/// - a mirror entry is not a vertex or -1, or mirror[mirror[v]] is not v;
+/// - a bound or a prescribed weight is infinite;
+/// - the lower bound of a handle is above its upper bound;
+/// - mirror[v] is neither -1 nor the id of a vertex;
+/// - mirror[v] is a vertex w, but mirror[w] is not v;
+/// - the normal or the origin of the mirror plane is not finite;
 /// - the prescribed weights of a vertex are all at least 0 and sum to more than 1;
 /// - the weights of all handles are prescribed at a vertex and do not sum to 1.
 Status check_terms(const WeightTerms& terms, Index vertex_count, const Handles& handles);

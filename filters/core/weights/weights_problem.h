@@ -21,10 +21,10 @@ enum class PartitionOfUnity
 /// the same weights.
 struct WeightsOptions
 {
-  /// Largest relative gap and natural residual of a column (see Certificate), range (0, 1). 1e-6 by
-  /// default; 1e-9 is near the limit of double precision.
+  /// Tolerance, above 0 and below 1: upper limit of the relative gap and of the natural residual of
+  /// a column (see Certificate). 1e-9 is near the limit of double precision.
   double tolerance = 1e-6;
-  /// Maximum number of iterations per column, > 0: see BoxQpOptions.
+  /// Maximum number of iterations per column, at least 1. BoxQpOptions lists usual numbers.
   int maximum_iterations = 100;
   /// How rows are made to sum to one, for bounded weights only.
   PartitionOfUnity partition = PartitionOfUnity::normalize;
@@ -36,14 +36,14 @@ struct WeightsOptions
   WeightTerms terms;
   HandleInsertionOptions insertion;
   SparseSolver::Options solver;
-  /// Bounded and monotone weights: order of the energy, 2 biharmonic, 3 triharmonic. Triharmonic
-  /// weights oscillate within the bounds.
+  /// Order of the energy of bounded and monotone weights: 2 for biharmonic, 3 for triharmonic.
+  /// Triharmonic weights oscillate within the bounds.
   int order = 2;
-  double power = 2.0; ///< inverse-distance weights: exponent of the distance, > 0
-  /// Smoothed harmonic weights: smoothing length as a fraction of the diagonal, >= 0.
+  double power = 2.0; ///< exponent (> 0) of the distance in inverse-distance weights
+  /// Smoothed harmonic weights: smoothing length (>= 0), as a fraction of the diagonal.
   double smoothing = 0.05;
-  /// Bone heat weights: amount of heat from the nearest handle, > 0; larger values make the
-  /// transition between handles sharper.
+  /// Bone heat weights: heat coefficient (> 0) of the nearest handle. With a larger coefficient,
+  /// the transition between handles is sharper.
   double heat = 1.0;
 };
 
@@ -121,9 +121,9 @@ Status check_no_terms(const WeightsProblem& problem);
 
 /// Scale rows so that they sum to one. Pinned weights do not change; only the other weights of the
 /// row are scaled.
-/// @param fallback #V x #handles. It replaces the weights that are not pinned if their sum is
-/// within 1e-3 of zero. The positive entries of the row of `fallback` are then scaled to the
-/// required sum.
+/// @param fallback #V x #handles. It is used for rows whose sum, without pinned weights, is within
+/// 1e-3 of zero. The weights of such a row become the positive entries of the row of `fallback`,
+/// scaled to the required sum.
 /// @param excluded #V * #handles, row by row: 1 for weights that must stay 0; empty: no such
 /// weight.
 /// @return number of rows for which `fallback` was used

@@ -3,9 +3,9 @@
 // visited vertex. When the walk reaches a vertex for the second time, the loop since the first
 // visit is removed from the walk and capped.
 //
-// A loop is capped by bisection: the chord between its ends and the middle vertex of the loop form
-// a triangle. Then both halves of the loop are capped in the same way. Most triangles are then as
-// small as the edges and close to the boundary. WindingTree and WindingCells process them faster
+// A loop is capped by bisection: one triangle joins the first, the middle and the last vertex of
+// the loop. Then both halves of the loop are capped in the same way. Most triangles are then as
+// small as the edges and close to the boundary. DipoleField and WindingCells process them faster
 // than the many long triangles of a fan.
 #include "winding/boundary_caps.h"
 
@@ -126,8 +126,8 @@ Triangles smaller_caps(const Points& points, const Triangles& triangles, const T
     }
     return longest;
   };
-  // Per component: the sum over its caps of the squared length of the cap's longest edge, minus the
-  // same sum over its triangles.
+  // Per component: size of its caps minus size of its triangles. The size of a set of triangles is
+  // the sum of the squared lengths of their longest edges.
   std::vector<double> excess(static_cast<std::size_t>(components.count), 0.0);
   for (Index t = 0; t < caps.rows(); ++t)
   {

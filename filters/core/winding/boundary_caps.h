@@ -17,9 +17,9 @@ namespace bindpose
 Triangles boundary_caps(const std::vector<Edge>& edges);
 
 /// For each connected component, return the smaller of two closures: the caps from `boundary_caps`,
-/// or the component itself with reversed orientation. If the cost of a sum grows with the size of
-/// its triangles, the smaller closure takes less time. The caps of a long strip or of a leaf-shaped
-/// surface can be larger than the component itself.
+/// or the component itself with reversed orientation. The size of a closure is the sum over its
+/// triangles of the squared longest edge. The DipoleField of a smaller closure takes less time. The
+/// caps of a long strip or of a leaf-shaped surface can be larger than the component itself.
 /// @param points #V x 3
 /// @param triangles #F x 3; the caps close the open edges of these triangles
 /// @param caps #C x 3

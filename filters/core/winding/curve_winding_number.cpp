@@ -698,9 +698,9 @@ double CurveWindingNumber::Impl::evaluate_on_curve(const Vec2& p) const
     }
     ++n;
   }
-  // Remove the angles of the chords from the sum. The loop above has omitted the chord of each leaf
-  // that it summed segment by segment. The angle of any other chord is included in the angle of a
-  // piece whose box does not contain p.
+  // Remove the angles of the chords from the sum. If p is inside the box of a chord's leaf, the
+  // loop above has skipped the chord. Otherwise the sum contains the angle of the whole leaf, or of
+  // a larger piece, including the chord.
   for (const Chord& chord : this->chords)
   {
     if (outside(this->nodes[chord.leaf]))

@@ -33,10 +33,11 @@ public:
     /// Region that contains most query points; empty: the box of the triangles. Points outside the
     /// region take more time.
     Box region;
-    /// Smallest cell size, in units of the size of a group of eight triangles, 0.2 … 10. Smaller
-    /// cells are faster near the triangles and take more memory.
-    double finest_cell = 0.0; ///< 0: chosen from the tolerance
-    /// Degree of the polynomials, 2 … 14. 0: chosen from the tolerance.
+    /// Smallest cell size, 0.2 … 10; 0: chosen from the tolerance. The unit is the mean size of the
+    /// nearby blocks of eight triangles. Smaller cells are faster near the triangles and take more
+    /// memory.
+    double finest_cell = 0.0;
+    /// Degree of the polynomials, 2 … 14; 0: chosen from the tolerance.
     int order = 0;
     /// Number of points that will be evaluated; 0: very many. Most of them should be in `region`.
     /// The build splits a cell only if the split takes less time than it saves in the evaluation of
@@ -49,12 +50,12 @@ public:
   /// computed as the sum over all triangles.
   static bool uses_direct_sum(Index expected_points);
 
-  /// Build the field. Points must be centered and scaled to a size of about 1, with ids below 2^31,
-  /// and must outlive the field. There is one multiplicity per triangle. A triangle touches a point
-  /// if their distance is at most touch_tolerance. Cost: O(#F log #F); on one thread 20 us per
-  /// triangle at a tolerance of 1e-3, and 50 us per triangle if the triangles are the caps of a few
-  /// surface patches. Memory: 0.8 to 3 kB per triangle. Fields of few triangles need the most
-  /// memory per triangle, because their cells are finer.
+  /// Build the field. The points must be centered and scaled to a size of about 1, and they must
+  /// outlive the field. Their ids must be below 2^31. There is one multiplicity per triangle. A
+  /// triangle touches a point if their distance is at most touch_tolerance. Cost: O(#F log #F); on
+  /// one thread 20 us per triangle at a tolerance of 1e-3, and 50 us per triangle if the triangles
+  /// are the caps of a few surface patches. Memory: 0.8 to 3 kB per triangle. Fields of few
+  /// triangles need the most memory per triangle, because their cells are finer.
   /// @return false if canceled; the field is then empty.
   bool build(ExecutionContext& context, const Points& points, const Triangles& triangles,
     const std::vector<int>& multiplicities, double touch_tolerance, const Options& options);

@@ -56,8 +56,8 @@ constexpr double small_field_factor = 0.75;
 /// add up, the comparison on the sample points detects this case.
 constexpr double first_threshold = 1.2;
 /// Threshold for points outside the cells, as a fraction of the threshold in the cells. It is lower
-/// for two reasons: each point has few interactions, and the estimates are closer to the errors,
-/// because they do not contain the radius of a cell.
+/// because each point has few interactions. Also, the estimates are closer to the errors, because
+/// they are made for a single point instead of a whole cell.
 constexpr double outer_threshold_factor = 0.2;
 /// Largest accepted error on the sample points, in units of the tolerance. The rest of the
 /// tolerance is a margin for all other points.
@@ -359,7 +359,7 @@ bool DipoleField::Builder::sort_triangles()
     {
       for (int i = 0; i < triangle_lanes; ++i)
       {
-        // An empty lane repeats the last triangle with weight 0.
+        // Fill empty lanes with copies of the last triangle; the weight of a copy is 0.
         const Id t = this->order[node.first + std::min<Id>(i, node.count - 1)];
         this->field.ids_.push_back(this->ids[t]);
         this->weights.push_back(i < node.count ? this->triangle_multiplicities[t] : 0);
@@ -435,8 +435,8 @@ std::int32_t DipoleField::Builder::split(Id first, Id count)
       radius2 = std::max(radius2, (corner - node.center).squaredNorm());
     }
   }
-  // The radius includes the tolerance, so that a point that touches a triangle is never far from
-  // it.
+  // The radius includes the touch tolerance. Therefore the node is never far from a point that
+  // touches one of its triangles.
   node.radius = std::sqrt(radius2) + 2.0 * this->field.touch_tolerance_;
   this->nodes.push_back(node);
   int axis = 0;
@@ -556,7 +556,8 @@ void DipoleField::Builder::fill_blocks(std::vector<TriangleBlock<Real>>& blocks)
       continue;
     }
     TriangleBlock<Real>& block = blocks[node.first];
-    // The lower limit keeps the cubes of scaled lengths within the range of floats.
+    // The lower limit of the radius keeps the third powers of scaled lengths within the range of
+    // floats.
     block.inverse_size = 1.0 / std::max(node.radius, 1e-6);
     for (int k = 0; k < 3; ++k)
     {
@@ -673,7 +674,7 @@ bool DipoleField::Builder::find_multipoles()
   }
   for (int h = 1; h <= height; ++h)
   {
-    // Process four parents with their eight children in parallel.
+    // Process four parents at a time. The eight lanes contain their children, two per parent.
     const std::vector<Id>& level = levels[h];
     if (!parallel_for(this->context, static_cast<Index>(level.size()), 128,
           [&](Index begin, Index end)

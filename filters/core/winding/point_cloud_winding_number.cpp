@@ -64,7 +64,8 @@ struct CloudTuning
 /// Order of the multipoles for each tolerance, measured on 100k points.
 constexpr CloudTuning cloud_tunings[] = { { 1e-2, 6 }, { 1e-3, 8 }, { 1e-5, 10 }, { 0.0, 12 } };
 
-/// Eight points with m = area n / (4 pi). Empty lanes repeat a point with m = 0.
+/// Eight points with m = area n / (4 pi). An unused lane contains a copy of another point, with m
+/// set to 0.
 struct Dipoles
 {
   HarmonicLanes at[3];

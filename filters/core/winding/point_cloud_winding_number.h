@@ -48,8 +48,8 @@ public:
     WindingMethod method = WindingMethod::automatic;
     /// Largest error of the fast method, 1e-8 … 0.1.
     double tolerance = 1e-3;
-    /// Number of nearest neighbors from which the area of a point is estimated if areas are not
-    /// specified, 3 … 64.
+    /// Number of nearest neighbors, 3 … 64, from which the area of a point is estimated. Used only
+    /// if no areas are specified.
     Index area_neighbors = 20;
   };
 

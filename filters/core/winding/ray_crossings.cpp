@@ -404,8 +404,8 @@ bool RayCrossings::count(ExecutionContext& context, const Vec3* points, Index nu
           return;
         }
         const Index face = slabs > 1 ? faces[face_begin[slab] + i] : i;
-        // If there are few points, the projected boxes of most triangles contain no point. For such
-        // triangles only the cells are tested, and no facet is computed.
+        // If there are few points, most triangles overlap only grid cells without points. Compute
+        // the Facet of a triangle only if one of its cells contains a point.
         const std::array<Vec3, 3> c = this->corners(face);
         const Index u0 = u_of(std::min({ c[0][u], c[1][u], c[2][u] }) - this->tolerance_);
         const Index u1 = u_of(std::max({ c[0][u], c[1][u], c[2][u] }) + this->tolerance_);

@@ -119,9 +119,9 @@ std::uint64_t packed(Index first, Index second)
   return static_cast<std::uint64_t>(first) << 32 | static_cast<std::uint64_t>(second);
 }
 
-/// Group items by a vertex: the items of vertex v are items[begin[v] … begin[v + 1]), ascending.
-/// `visit(emit)` must call emit(vertex, item) for all items. group_by_vertex() calls `visit` twice.
-/// Return false if canceled.
+/// Group items by vertex: the items of vertex v become items[begin[v] … begin[v + 1]), sorted in
+/// ascending order. `visit(emit)` must call emit(vertex, item) for all items, in any order.
+/// group_by_vertex() calls `visit` twice. Return false if canceled.
 template <typename Visit>
 bool group_by_vertex(ExecutionContext& context, Index vertices, const Visit& visit,
   std::vector<Index>& begin, std::vector<std::uint64_t>& items)

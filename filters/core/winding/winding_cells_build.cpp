@@ -312,8 +312,9 @@ WindingCells::Builder::Grid WindingCells::Builder::choose_cells(
   return grid;
 }
 
-/// Append to `found` the pairs of each face in [begin, end) of the box with each cell that the face
-/// overlaps. Return false if canceled or if there are more than `maximum_entries` pairs.
+/// For each of the faces [begin, end) of the box, find the cells that the face overlaps. Append the
+/// pairs (cell, face) to `found`. Return false if canceled or if there are more than
+/// `maximum_entries` pairs.
 bool WindingCells::Builder::find(const Box& box, const Grid& grid, Index begin, Index end,
   std::size_t maximum_entries, CellFacePairs& found) const
 {
@@ -727,7 +728,8 @@ WindingCells::Id WindingCells::Builder::add_leaf(
       }
       for (int k = 0; k < Block::values_per_plane; ++k)
       {
-        // Round to the nearest integer; a library call would cost more than the rest.
+        // Round to the nearest integer without a library function such as std::lround(), which
+        // would take more time than the other work in this function.
         block.plane[k * lanes + lane] =
           static_cast<std::int16_t>(plane[k] + (plane[k] < 0.0 ? -0.5 : 0.5));
       }

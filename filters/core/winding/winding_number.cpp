@@ -500,8 +500,8 @@ double WindingNumber::Impl::evaluate_robustly(const Vec3& p, bool* on_surface) c
   {
     *on_surface = sum.on_surface();
   }
-  // Round the value to an integer if the surface is closed. The points that WindingCells resolves
-  // then have integer values, too.
+  // If the surface is closed, round the value to an integer, because the values from WindingCells
+  // are integers, too.
   const bool is_integer = this->open_edge_list.empty() && !sum.on_surface();
   return is_integer ? std::round(sum.winding_number()) : sum.winding_number();
 }

@@ -24,9 +24,11 @@ enum class WindingMethod
   /// point.
   fast,
   direct, ///< exact: sum over all triangles; no build time; ~20 ns x #F per point
-  /// Exact: tree of boxes with caps; tens of microseconds per point for 100k triangles.
+  /// Exact: tree of boxes. For a point outside of a box, a cap replaces the triangles in the box.
+  /// Tens of microseconds per point for 100k triangles.
   hierarchical,
-  /// Exact: ray crossings minus the sum over all caps; ~40 ns + 20 ns x #open edges per point.
+  /// Exact: ray crossings minus the sum over all caps. Time per point: ~40 ns, plus ~20 ns per open
+  /// edge.
   crossings
 };
 
@@ -63,18 +65,18 @@ public:
     WindingMethod method = WindingMethod::automatic;
     /// Largest error of the fast method, 1e-8 … 0.1.
     double tolerance = 1e-3;
-    /// Nodes of the tree of boxes with at most this many triangles are not split further, 1 …
-    /// 10000.
+    /// Largest leaf of the tree of boxes, 1 … 10000 triangles. A box with at most this many
+    /// triangles is not split further.
     Index max_leaf_size = 64;
-    /// Total number of points that will be evaluated, 0 … 2^62. 0 means unknown and is treated as
-    /// very many. The build uses this number to minimize the total time of build and evaluation. A
-    /// wrong number costs time but no accuracy. The values of the fast method change with this
-    /// number, within the tolerance. For parts of a grid, always use the number of samples of the
-    /// whole grid.
+    /// Total number of points that will be evaluated, 0 … 2^62; 0: unknown, treated as very many.
+    /// The build uses this number to minimize the total time of build and evaluation. A wrong
+    /// number costs time but no accuracy. The values of the fast method change with this number,
+    /// within the tolerance. For parts of a grid, always use the number of samples of the whole
+    /// grid.
     Index expected_queries = 0;
-    /// Box that contains most query points, with finite coordinates; empty: the bounding box of the
-    /// surface, enlarged by a tenth of its diagonal. A smaller box saves build time of the fast
-    /// method. Points outside the box take more time.
+    /// Box that contains most query points. Its corners must be finite. If it is empty, the
+    /// bounding box of the surface is used, enlarged by a tenth of its diagonal. A smaller box
+    /// saves build time of the fast method. Points outside the box take more time.
     Box query_region;
   };
 
@@ -129,8 +131,8 @@ public:
   /// The jump across the surface is excluded, so the derivatives of closed surfaces are 0. The
   /// derivatives are unbounded near a boundary edge; an edge that touches the point contributes 0.
   /// The error of the fast method is about 10 x tolerance / (distance to the boundary). If the
-  /// returned status is canceled, `out` is incomplete. Cost: 10 ns x #open edges per point; the
-  /// fast method takes about the time of a value.
+  /// returned status is canceled, `out` is incomplete. Cost: 10 ns x #open edges per point. With
+  /// the fast method, a gradient takes about as long as a winding number.
   Status evaluate_gradient(ExecutionContext& context, PointsView queries, double* out) const;
   Status evaluate_gradient(ExecutionContext& context, const SampleGrid& grid, double* out) const;
 

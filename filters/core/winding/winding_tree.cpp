@@ -3,8 +3,8 @@
 // Nodes are split at the median of the triangles' centers along the longest axis. Boundaries are
 // computed from the leaves upwards: edges that the two children use in opposite directions cancel.
 // The cap of a boundary is the fan from one of its vertices to all its edges. Equal numbers of
-// boundary edges enter and leave each vertex, so the triangles and the reversed fan together are
-// closed. Outside the box the winding number of this closed surface is zero.
+// boundary edges enter and leave each vertex, so the node's triangles and the reversed fan together
+// form a closed surface. Outside the node's box, the winding number of this closed surface is zero.
 #include "winding/winding_tree.h"
 
 #include "geometry/median_split.h"

@@ -27,7 +27,8 @@ public:
   bool build(ExecutionContext& context, const Points& points, const Triangles& triangles,
     double tolerance, Index max_leaf_size);
 
-  /// Add the solid angle of all triangles, seen from the point of `sum`. Thread-safe.
+  /// Add the solid angle of all triangles, as seen from `point`, to `sum`. `sum` must have been
+  /// created for the same point. Thread-safe.
   void add_to(SolidAngleSum& sum, const Vec3& point) const;
 
   /// Return the memory in use, in bytes.
@@ -51,8 +52,8 @@ private:
     Id first = 0, count = 0; ///< range of the node's triangles in `order_`
     Id left = -1, right = -1; ///< children; -1: a leaf
     Id cap_first = 0;
-    /// Number of triangles of the cap; -1: no cap, because it would not be smaller than the node's
-    /// triangles.
+    /// Number of triangles of the cap; -1: no cap, because the cap would have at least as many
+    /// triangles as the node.
     Id cap_count = -1;
   };
 

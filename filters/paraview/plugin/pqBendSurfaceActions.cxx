@@ -82,8 +82,9 @@ QString message_of(pqPipelineSource* filter)
                          .arg(filter->getSMName());
 }
 
-/// Build the chain of filters behind a surface. If a filter fails, return its message. The failed
-/// filter and the filters before it remain, so that the user can change their properties.
+/// Build a chain of filters whose input is the surface. If a filter fails, return its message. The
+/// failed filter and the filters upstream of it remain, so that the user can change their
+/// properties.
 QString build_chain(pqOutputPort* surface)
 {
   pqServer* server = surface->getServer();

@@ -62,8 +62,8 @@ private:
   pqUndoStack* stack_;
 };
 
-/// Name of an event in ParaView's Timer Log that measures the work of one mouse motion before
-/// drawing.
+/// Name of an event in ParaView's Timer Log. The event measures the time to apply one mouse motion,
+/// without the time to draw the view of the widget.
 constexpr const char* drag_event = "Bindpose: apply a drag";
 
 std::string text_of(const vtkSMPropertyHelper& helper)

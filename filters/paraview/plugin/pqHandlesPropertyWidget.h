@@ -46,7 +46,8 @@ protected Q_SLOTS:
   virtual void show_state();
 
 protected:
-  // The superclass forgets that the handles are shown if the panel is hidden twice.
+  // Overridden because the superclass does not show the handles again after the panel was hidden
+  // twice.
   void hideEvent(QHideEvent* event) override;
   void showEvent(QShowEvent* event) override;
   vtkHandleSetWidget* handle_widget() const;
@@ -69,7 +70,8 @@ protected:
 
   /// Apply an edit that was made by a button. `text` is the new value of the property.
   void apply_edit(const QString& step, const std::string& text);
-  /// Set the property in the current undo set. Derived classes set further properties.
+  /// Set the text property while the undo set of an edit is open. Derived classes set further
+  /// properties, which become part of the same undo step.
   virtual void set_properties(const std::string& text);
   /// Update the data of all views. Draw the views, except the view of the widget.
   void update_views();

@@ -17,7 +17,7 @@ class vtkPVPlacedHandlesRepresentation;
 /// placed, moved, connected and deleted in the render view.
 ///
 /// Handles are placed on or in one of the shapes that the view shows. A filter downstream may need
-/// seconds for new handles, so an edit is applied when it ends.
+/// seconds for new handles, so a drag is applied only when it ends.
 class pqPlacedHandlesPropertyWidget : public pqHandlesPropertyWidget
 {
   Q_OBJECT

@@ -52,7 +52,7 @@ public:
   ///@}
 
   ///@{
-  /// Report whether the pose comes from a file, so that PoseJSON is not used. Default false.
+  /// Whether the pose comes from a file. If so, PoseJSON is not used. Default false.
   void SetPoseFromFile(bool fromFile);
   vtkGetMacro(PoseFromFile, bool);
   ///@}
@@ -87,7 +87,8 @@ private:
   bool FormatPose(std::string& text);
 
   vtkSmartPointer<vtkPolyData> InputHandles; // a copy that shares the arrays
-  const void* InputObject = nullptr; // the dataset that InputHandles copies; only compared
+  /// The dataset that InputHandles copies. The pointer is compared but never dereferenced.
+  const void* InputObject = nullptr;
   vtkMTimeType InputTime = 0; // modification time of InputObject
   vtkSmartPointer<vtkPolyData> OutputHandles;
   vtkNew<vtkPolyData> DrawnHandles; // edited by drags

@@ -1,5 +1,5 @@
-// Full as-rigid-as-possible deformation: equality with the reduced method in the full space, rigid
-// motions, and properties of the energy.
+// Full as-rigid-as-possible deformation: equality with the reduced method if every vertex is a
+// handle, rigid motions, and properties of the energy.
 #include "arap/full_arap.h"
 
 #include "core/arap/arap_cases.h"

@@ -259,7 +259,7 @@ TEST(FullArapRobustness, WhatNothingHoldsStays)
     FullArap arap;
     const Handles handles{ point_handle("a", Vec3(0, 0, 0)), point_handle("b", Vec3(1, 0, 0)) };
     ASSERT_TRUE(arap.bind(context, two.points, two.triangles, handles, { energy, {} }).ok());
-    // No handle is constrained.
+    // If all handles are free, nothing constrains the mesh.
     ASSERT_TRUE(arap.solve(context, posed(handles, HandleMode::free)).ok());
     EXPECT_LT((arap.posed() - two.points).cwiseAbs().maxCoeff(), 1e-12);
     // Pose the handles, then return them to rest. Two points do not determine the rotation around

@@ -312,8 +312,8 @@ TEST(ReducedArapRobustness, TheOrderOfHandlesDoesNotMatter)
     a.bind(context, rig.mesh.points, rig.mesh.tets, rig.weights, rig.handles, options).ok());
   ASSERT_TRUE(
     b.bind(context, rig.mesh.points, rig.mesh.tets, other.weights, other.handles, options).ok());
-  // The iterations are not accelerated, because extrapolation amplifies round-off until the
-  // iterations converge.
+  // Before convergence, extrapolation amplifies round-off. These iterations are therefore not
+  // accelerated.
   ASSERT_TRUE(a.solve(context, pose, iterations_from_rest(30)).ok());
   ASSERT_TRUE(b.solve(context, permuted, iterations_from_rest(30)).ok());
   Points first, second;
@@ -560,7 +560,8 @@ TEST(ReducedArapRobustness, EndsOfBonesAreHeldOneByOne)
     EXPECT_EQ((without.row(bar.head).transpose() - head).norm() < 1e-9, constrains_pivot(mode));
     EXPECT_EQ((without.row(bar.tail).transpose() - tail).norm() < 1e-9, constrains_tail(mode));
   }
-  // Each constraint raises the energy. The energy is highest if both ends are constrained.
+  // A constraint on the head or on the tail of the bone raises the energy. Constraints on both
+  // raise the energy further.
   EXPECT_LT(energies[0], energies[1]);
   EXPECT_LT(energies[0], energies[2]);
   EXPECT_LT(energies[1], energies[3]);

@@ -276,7 +276,8 @@ TEST(ReducedDynamics, ReplaysAreTheSameBitsOnAnyNumberOfThreads)
   }
   const Points at_end = first.points();
   EXPECT_EQ(at_end, second.points());
-  // Repeat the second half of the simulation from the state that was saved at its beginning.
+  // Restore the state that was saved after the first half of the simulation, and repeat the second
+  // half.
   first.dynamics.set_state(half);
   EXPECT_NE(first.points(), at_end);
   for (int n = 30; n < 60; ++n)

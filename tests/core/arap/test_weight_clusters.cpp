@@ -102,7 +102,7 @@ TEST(WeightClusters, FarthestPointsSpread)
   std::vector<Index> seeds;
   farthest_rows(context, line, 3, seeds);
   EXPECT_EQ(seeds, (std::vector<Index>{ 10, 0, 5 }));
-  farthest_rows(context, line, 100, seeds); // all rows, because there are only 11
+  farthest_rows(context, line, 100, seeds); // requests 100 rows, but there are only 11
   EXPECT_EQ(seeds.size(), 11u);
   EXPECT_EQ(std::set<Index>(seeds.begin(), seeds.end()).size(), 11u);
 }

@@ -67,8 +67,8 @@ inline TriangleMesh blocks(const std::set<Block>& cubes)
   return mesh;
 }
 
-/// Return arms that begin at the cube at the origin and consist of `length` cubes along each
-/// direction.
+/// Return a cube at the origin with one straight arm of `length` cubes in each of the given
+/// directions.
 inline TriangleMesh star(const std::vector<Block>& directions, int length)
 {
   std::set<Block> cubes{ { 0, 0, 0 } };

@@ -113,7 +113,7 @@ TEST_F(CurveSkeletonTest, OfCrossingBarsIsThatOfTheirUnion)
   second.points.col(0).swap(second.points.col(1));
   second.triangles.col(0).swap(second.triangles.col(1)); // mirroring reverses the orientation
   second.points.col(0).array() += 4.07;
-  second.points.col(2).array() += 0.03; // avoids coplanar triangles
+  second.points.col(2).array() += 0.03; // avoid coplanar triangles of the bars
   const CurveSkeleton skeleton = run_curve_skeleton(test::join(bar_of_cubes(9), second), "lattice");
   EXPECT_EQ(skeleton.centroids.size(), 1u);
   EXPECT_EQ(cycles(skeleton), 0);

@@ -377,7 +377,8 @@ TEST(SkeletonBones, ARingIsCutOnceOppositeItsRoot)
   // The bones form one tree, so there is one more joint than there are bones.
   EXPECT_EQ(bones.joints.rows(), static_cast<Index>(bones.handles.size()) + 1);
   EXPECT_EQ(bones.junctions, 0);
-  // The loop is cut near (-1, 0, 0): two bones end within the length of one segment of this point.
+  // The loop is cut near the point (-1, 0, 0). Two bones end there, at most the length of one
+  // segment away from the point.
   int ends = 0;
   for (const Handle& bone : bones.handles)
   {

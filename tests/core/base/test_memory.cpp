@@ -1,4 +1,4 @@
-// Measurements of used memory, compared with those of Linux, and messages about memory limits.
+// Measurements of used and available memory, and error messages about memory limits.
 #include "base/memory.h"
 
 #include "support/sanitized.h"

@@ -1,4 +1,4 @@
-// Reports with named entries, their JSON, and status messages in one line of UTF-8.
+// Reports: named entries and their conversion to JSON. Status: each message is one line of UTF-8.
 #include "base/status.h"
 #include "io/report_json.h"
 

@@ -55,8 +55,8 @@ Handles cube_cage(double half)
   return handles;
 }
 
-/// Expect that the weights along the element from corner a to corner b (and c) are barycentric
-/// coordinates. Return the number of vertices on the element.
+/// Expect that the weights on an edge or face of the cage equal the barycentric coordinates. Return
+/// the number of mesh vertices on this edge or face.
 Index expect_linear_along(
   const WeightsProblem& problem, const Weights& weights, const CageElement& element)
 {

@@ -38,7 +38,7 @@ EmbeddingTets embed_mesh(const TriangleMesh& mesh, Index resolution = 0, int thr
   return result;
 }
 
-/// Return the vertices of the tets to which the chosen points are bound: the points for which
+/// Return the vertices of the tets to which the chosen points are bound. A point is chosen if
 /// chosen(point) is true.
 template <typename Chosen>
 std::set<Index> vertices_of(const EmbeddingTets& result, const Points& points, const Chosen& chosen)
@@ -652,7 +652,7 @@ TEST(EmbeddingTets, CancelEndsSoon)
   for (const int after : { 0, 1, 5, 20, 60 })
   {
     // Cancel at the progress report number `after`. The number of reports depends on the speed of
-    // the machine, so that a request at one of the last reports may come too late.
+    // the machine. A request at one of the last reports may therefore come too late.
     std::atomic<bool> stop{ after == 0 };
     std::atomic<bool> in_time{ after == 0 };
     std::atomic<int> signs{ 0 };

@@ -184,7 +184,8 @@ TEST(Polyharmonic, AFundamentalSolutionIsApproached)
   EXPECT_LT(last, 3e-6);
 }
 
-// The exact values for clamped and supported plates are 0.00126532 and 0.00406235 (Timoshenko).
+// The exact deflection at the center is 0.00126532 for a clamped plate and 0.00406235 for a
+// supported plate (Timoshenko).
 TEST(Polyharmonic, PlatesBendAsTheyShould)
 {
   const int n[] = { 8, 16, 32, 48 };

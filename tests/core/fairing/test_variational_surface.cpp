@@ -136,9 +136,9 @@ TEST(VariationalSurface, AMotionOfAllThatIsHeldMovesAll)
   struct Case
   {
     bool bent, fair;
-    // Angle of the tested rotation in radians. The displacements of a rotation are linear in the
-    // positions, so on a bent mesh they are only as smooth as the mesh. Tests that smooth
-    // displacements on a bent mesh therefore use the angle 0.
+    // Angle of the rotation in radians. If displacements are smoothed (`fair` is false) on a bent
+    // mesh, the angle must be 0. The displacements of a rotation are linear in the positions, so
+    // they are only as smooth as the mesh.
     double angle;
   };
   for (const Case& c :
@@ -250,8 +250,8 @@ TEST(VariationalSurface, AFlatPatchFairedOnItsOwnPlaneIsItself)
 
 TEST(VariationalSurface, TangentsGivenAreThoseThatTheSurroundingsHave)
 {
-  // Fair the flat square. The given tangents at the border are those of the flat surroundings: the
-  // normal derivatives dx/dn of the positions x.
+  // Fair the flat square. The tangents at the border, the normal derivatives dx/dn of the positions
+  // x, are computed from the surroundings, which are flat too.
   Bump bump;
   bump.handles.clear();
   bump.pose.clear();

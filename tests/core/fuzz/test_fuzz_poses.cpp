@@ -18,7 +18,7 @@ using namespace bindpose::test;
 
 namespace
 {
-/// Return 10^x with |x| <= exponent, or exactly 1 with probability 1/3.
+/// Return 1 with probability 1/3, else 10^x with a random x in [-exponent, exponent].
 double random_scale(Random& random, double exponent)
 {
   return chance(random, 0.33) ? 1.0 : std::pow(10.0, random.uniform(-exponent, exponent));
@@ -116,8 +116,8 @@ void randomize_pose(Random& random, double exponent, const Handle& handle, Handl
   }
 }
 
-/// Return the largest absolute entry of a transform, multiplied by the stretch of the bone if this
-/// is greater than 1. The result is at least 1.
+/// Return the size of a pose: the largest absolute entry of any transform, but at least 1. The
+/// entries of a handle whose |stretch| exceeds 1 are first multiplied by |stretch|.
 double size_of_pose(const Pose& pose)
 {
   double size = 1.0;

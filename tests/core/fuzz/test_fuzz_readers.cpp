@@ -21,7 +21,9 @@ using namespace bindpose;
 
 namespace
 {
-constexpr Index memory_limit = 256; // MiB; the files have a few KiB
+// Memory limit in MiB. The files have a few KiB, so only a reader that trusts a damaged size
+// exceeds the limit.
+constexpr Index memory_limit = 256;
 
 std::size_t random_index(test::Random& random, std::size_t size)
 {

@@ -365,8 +365,8 @@ void expect_volume(test::Random& random, const TriangleMesh& surface,
     });
   if (!changed)
   {
-    // Both numbers are estimates from samples. The tolerance is six standard deviations of their
-    // difference.
+    // `expected` is an estimate from samples, and `winding` may be one, too. The tolerance exceeds
+    // six standard deviations of the difference between these two volumes.
     constexpr Index samples = 2000;
     const double expected = sampled_volume(random, surface, options.winding_threshold, samples);
     EXPECT_NEAR(winding, expected, 0.1 * box);

@@ -1,4 +1,5 @@
-// Facets of tets, grouped by their three vertices, and their orientation.
+// Facets of tets: tet_facets() sorts the facets by their three vertices, and facet_corners lists
+// the corners so that the normals of facets point outwards.
 #include "geometry/tet_facets.h"
 
 #include "support/meshes.h"

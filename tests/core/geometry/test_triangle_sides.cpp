@@ -54,8 +54,8 @@ TEST(TriangleSides, OfAnySoup)
   test::Random random(4);
   for (int round = 0; round < 50; ++round)
   {
-    // Few points and many triangles produce edges with many sides, repeated triangles, and sides of
-    // length zero.
+    // Many triangles use few vertices. Some edges therefore belong to many triangles, some
+    // triangles are repeated, and some sides connect a vertex to itself.
     Triangles triangles(1 + round * 7, 3);
     for (Index k = 0; k < triangles.size(); ++k)
     {

@@ -182,7 +182,7 @@ TEST(HandleEdits, MirroringCopiesBonesWithNamesAndParents)
   {
     EXPECT_EQ(again.handles[i].head, after.handles[i].head);
   }
-  // An existing mirror image at another position is moved.
+  // If a handle was moved, its existing mirror image is moved to the mirrored position.
   Handles moved = after.handles;
   moved[0].head = Vec3(1, 0, 0.25);
   ASSERT_TRUE(mirror_handles(moved, { 0 }, Vec3::Zero(), Vec3(1, 0, 0), again).ok());

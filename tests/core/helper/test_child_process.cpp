@@ -1,5 +1,5 @@
-// Child processes. Tests check how the end of a process is reported, and that no process of its
-// group survives.
+// Child processes. The tests check the reported exit codes and signals, the limits of memory and
+// time, and that no process of the child's process group survives.
 #include "helper/child_process.h"
 
 #include "support/cancel_later.h"

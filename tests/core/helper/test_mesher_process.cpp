@@ -240,7 +240,8 @@ TEST_F(RealHelper, RefinesUntilNothingCrosses)
   }
   MesherResult answer;
   ASSERT_TRUE(run_real({ "refine" }, two, answer).ok());
-  // No triangles are coplanar, so refinement only subdivides them.
+  // No triangles overlap in one plane, so refinement only cuts triangles. The area and the volume
+  // must not change.
   EXPECT_NEAR(surface_area(answer.data.points, answer.data.triangles),
     surface_area(two.points, two.triangles), 1e-12);
   EXPECT_NEAR(signed_volume(answer.data.points, answer.data.triangles),

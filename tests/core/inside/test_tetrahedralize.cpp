@@ -293,7 +293,8 @@ TEST(Tetrahedralize, LooseTrianglesThatEncloseOnlySpecksAreNamed)
 
 TEST(Tetrahedralize, AThresholdNothingReachesIsSaidAtOnce)
 {
-  // The winding number in the cube is 1, below the threshold. No method may retry.
+  // The winding number in the cube is 1, below the threshold. No attempt can succeed, so the error
+  // must be reported after the first attempt.
   TetrahedralizeOptions options;
   options.winding_threshold = 1.5;
   for (const TetMethod method : { TetMethod::cdt, TetMethod::automatic, TetMethod::remesh })
@@ -319,7 +320,8 @@ TEST(Tetrahedralize, AThresholdNothingReachesIsSaidAtOnce)
   {
     return;
   }
-  // The winding number is 2 where the two cubes of side 2 overlap, which is a cube of side 1.
+  // The two cubes of side 2 overlap in a cube of side 1. The winding number is 2 in this overlap,
+  // above the threshold 1.5, and at most 1 elsewhere.
   const TriangleMesh two = test::join(test::cube(), test::translated(test::cube(), Vec3(1, 1, 1)));
   options.method = TetMethod::cdt;
   const Outcome overlap = run(two, options);

@@ -352,7 +352,7 @@ TEST_F(Cdt, ElephantWithHoles)
   EXPECT_NEAR(outcome.volume() / outcome.number("winding_volume"), 1.0, 0.05);
   EXPECT_GT(outcome.number("counts.kept_vertices"), 0.97 * elephant.points.rows());
   EXPECT_GE(outcome.result.winding_numbers.minCoeff(), 0.3);
-  // Compare with the elephant before triangles were removed.
+  // Compare the volume with that of the original elephant, from which no triangles were removed.
   const TriangleMesh whole = test::demo_mesh("elephant.off");
   EXPECT_NEAR(
     outcome.volume(), signed_volume(whole.points, whole.triangles), 0.02 * outcome.volume());

@@ -121,9 +121,9 @@ TEST_F(Wrap, AnOpenSurfaceIsWarnedOfWithBothVolumes)
   EXPECT_THAT(warning, HasSubstr("4 boundary edges"));
   EXPECT_THAT(warning, HasSubstr("the enclosed volume by winding number is 8"));
   // The tets fill a shell around the five faces of the open cube. Each face has the area 4, and the
-  // thickness of the shell is twice the offset. The tets also fill the eight inner edges of length
-  // 2, because the alpha ball does not fit into them. The cross section of such a fillet has less
-  // area than a square of side alpha + offset.
+  // thickness of the shell is twice the offset. Fillets are added along the eight inner edges of
+  // length 2, because the alpha ball does not fit into these edges. The cross section of a fillet
+  // has less area than a square of side alpha + offset.
   const double diagonal = std::sqrt(12.0);
   const double shell = 20.0 * 2.0 * options.wrap_offset * diagonal;
   const double fillets = 16.0 * std::pow((options.wrap_alpha + options.wrap_offset) * diagonal, 2);

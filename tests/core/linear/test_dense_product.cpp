@@ -58,7 +58,8 @@ TEST(DenseProduct, LowerHasTheLowerTriangle)
 
 TEST(DenseProduct, OfMatricesIsTheSumOfProductsAtOddSizes)
 {
-  // The operands are whole column-major matrices, and blocks of larger matrices.
+  // Multiply two blocks of larger matrices. Then copy the blocks to separate matrices and multiply
+  // these.
   for (const Index rows : { 1, 5, 7, 13, 97 })
   {
     for (const Index cols : { 1, 3, 9, 17 })

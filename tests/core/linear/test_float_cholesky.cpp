@@ -124,8 +124,8 @@ TEST_F(FloatCholeskyTest, FactorsTheBlockOfAnyUnknowns)
         EXPECT_TRUE(!excluded[i] || x.row(i).isZero(0.0));
       }
     }
-    // Factoring a block must not affect the next factorization of the whole matrix. A clone, which
-    // has factored nothing yet, must give the same bits.
+    // Factoring a block must not affect the next factorization of the whole matrix. Compare with a
+    // clone that has not factored a block.
     FloatCholesky fresh = single.clone();
     ASSERT_TRUE(single.factor(context_, a, 0.0).ok());
     ASSERT_TRUE(fresh.factor(context_, a, 0.0).ok());
@@ -142,7 +142,8 @@ TEST_F(FloatCholeskyTest, ABlockIgnoresWhatIsExcludedAndNamesItsPivot)
   SparseMatrix a = lower_triangle(6, 0.1);
   SparseSolver solver;
   FloatCholesky single = analyzed(a, solver);
-  // Exclude the first half of the unknowns, like unknowns of an active set.
+  // The first half of the unknowns is excluded. A negative pivot in this half makes factor() fail,
+  // but not factor_block().
   std::vector<char> excluded(static_cast<std::size_t>(a.rows()), 0);
   std::fill(excluded.begin(), excluded.begin() + a.rows() / 2, 1);
   a.coeffRef(3, 3) = -1.0;

@@ -255,7 +255,7 @@ TEST_F(PlanarShapeTest, PentagramByThreshold)
   EXPECT_EQ(shape.winding_numbers.maxCoeff(), 2.0);
   EXPECT_EQ(shape.winding_numbers.minCoeff(), 1.0);
   EXPECT_GE(smallest_angle(shape), 30.0 - 1e-9); // the star's tips have 36 degrees
-  for (int k = 0; k < 5; ++k) // the lines of the star remain edges inside of the pentagon
+  for (int k = 0; k < 5; ++k) // edges of the mesh cover each line of the star completely
   {
     const Vec2 a = star.points.row(k);
     const Vec2 b = star.points.row((k + 1) % 5);
@@ -286,7 +286,7 @@ TEST_F(PlanarShapeTest, FigureEight)
   const double left = 0.5 * 2.0 * 4.0 / 3.0;
   EXPECT_NEAR(area(eight), 2.25, 1e-12);
   EXPECT_NEAR(area(larger), std::max(left, right), 1e-12);
-  EXPECT_EQ(status.report.number("turned", -1), 1); // the larger loop was clockwise
+  EXPECT_EQ(status.report.number("turned", -1), 1); // the larger loop of the input is clockwise
 }
 
 TEST_F(PlanarShapeTest, ClockwiseIsTurned)
@@ -422,8 +422,8 @@ TEST_F(PlanarShapeTest, ScaleAndPlaceDoNotMatter)
 
 TEST_F(PlanarShapeTest, CurvesThatAlmostTouch)
 {
-  // The corners are points of a coarse lattice plus errors of up to 1e-14, so some gaps are tiny.
-  // Such curves cannot be refined, because a new point would be between two adjacent doubles.
+  // The corners are points of a coarse lattice plus errors of up to 1e-14. Some segments are
+  // therefore too close to each other for refinement, so the points are rounded to a grid.
   std::mt19937 random(11);
   std::uniform_real_distribution<double> any(0.0, 1.0);
   std::vector<Vec2> corners;

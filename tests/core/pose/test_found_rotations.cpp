@@ -10,7 +10,7 @@ using namespace bindpose;
 
 namespace
 {
-/// Return two bones in a chain, a region, and a point on the second bone, the forearm.
+/// Return an upper arm and a forearm (bones), a region, and a point whose parent is the forearm.
 Handles two_bone_arm()
 {
   Handles handles(4);

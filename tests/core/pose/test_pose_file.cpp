@@ -159,7 +159,8 @@ TEST(PoseFile, ChildrenFollowTheirParents)
   pose = read_version_2(upper + R"(, "fore": {"rotate": {"axis": [0, 0, 1], "degrees": 90}})");
   EXPECT_LT((apply(pose[1].transform, Vec3(1, 0, 0)) - Vec3(0, 1, 0)).norm(), 1e-15);
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(-1, 1, 0)).norm(), 1e-15);
-  // In world space the child does not follow its parent, with or without a transform of its own.
+  // In world space the child does not follow its parent. The file may contain a transform of the
+  // child or only a mode.
   pose = read_version_2(
     upper + R"(, "fore": {"space": "world", "rotate": {"axis": [0, 0, 1], "degrees": 90}})");
   EXPECT_LT((apply(pose[1].transform, Vec3(2, 0, 0)) - Vec3(1, 1, 0)).norm(), 1e-15);
@@ -302,8 +303,8 @@ TEST(PoseFile, SequencesHaveFramesAndARate)
   EXPECT_EQ(apply_edits(sequence.frames[1], point_and_chain(), Pose(3))[0].transform(0, 3), 1.0);
 }
 
-// The caller evaluates expressions. The function of this test knows the expressions 't', 'twice t'
-// and 'never'.
+// The caller of parse_pose_file() provides a callback that evaluates expressions. The callback of
+// this test evaluates 't' and 'twice t', fails for 'nonsense', and returns NaN for other texts.
 TEST(PoseFile, TextsAreExpressionsInTime)
 {
   const PoseExpression expression = [](const std::string& text, double t, double& value)
@@ -341,8 +342,7 @@ TEST(PoseFile, TextsAreExpressionsInTime)
     HasSubstr("handle 'p'.scale is 'never', which is not a finite number at t = 0.5"));
   EXPECT_THAT(wrong(R"("mode": "t")"), HasSubstr("must be one of full, position, free"));
   EXPECT_THAT(wrong(R"("rotate": "t")"), HasSubstr("it must be an object"));
-  // If the caller provides no function that evaluates expressions, a text instead of a number is an
-  // error.
+  // If the caller provides no callback for expressions, a text instead of a number is an error.
   EXPECT_THAT(message(text), HasSubstr("it must be a number"));
 }
 
@@ -501,8 +501,8 @@ TEST(PoseFile, ChangesOfABasePoseAreWritten)
     EXPECT_EQ(back[h].mode, pose[h].mode);
     EXPECT_LT((back[h].transform - pose[h].transform).cwiseAbs().maxCoeff(), 1e-13);
   }
-  // The text must contain a handle whose mode or stretch has changed, and a child that does not
-  // follow its parent.
+  // The text must contain every handle whose mode or stretch has changed, and every child that does
+  // not follow its parent.
   pose[0].mode = HandleMode::position;
   pose[1].transform = identity_affine();
   base[2].stretch = 1.5;

@@ -25,8 +25,7 @@ using test::rotation;
 
 namespace
 {
-/// Return a pose that translates the handles. Each pivot moves as under the rigid motion, but no
-/// handle rotates.
+/// Return a pose that moves each pivot p to turn * p + translation. The handles do not rotate.
 Pose translations(
   const Handles& handles, const Eigen::Matrix3d& turn, const Vec3& translation = Vec3::Zero())
 {
@@ -221,8 +220,8 @@ TEST(PseudoEdges, AutomaticOnesAreAMinimumSpanningTreeOfShortestWays)
   PseudoEdges edges;
   ASSERT_TRUE(automatic_pseudo_edges(context, box.points, TetsView(box.tets), handles, edges).ok());
   EXPECT_EQ(edges.size(), handles.size() - 1);
-  // Compute the reference by Floyd-Warshall over all vertices, then Prim's algorithm. The total
-  // length of the tree must be equal.
+  // Compute a reference tree: the lengths of shortest paths by the Floyd-Warshall algorithm, then a
+  // minimum spanning tree by Prim's algorithm. The pseudo-edges must have the same total length.
   const Index n = box.points.rows();
   Eigen::MatrixXd path_length = Eigen::MatrixXd::Constant(n, n, 1e300);
   for (Index t = 0; t < box.tets.rows(); ++t)

@@ -1,5 +1,6 @@
-// Decomposition of transforms into rotation, scale and translation, and composition. The parts are
-// compared with known rotations and scales.
+// Transforms are decomposed into rotation, scale and translation, and composed from these parts.
+// The parts are compared with known rotations and scales. Other tests check the smallest rotation
+// from one direction to another.
 #include "pose/transform_parts.h"
 
 #include "support/affines.h"

@@ -65,9 +65,9 @@ protected:
     return result;
   }
 
-  /// Remove the pairs whose `high` vertex is the fixed vertex of another column. The value of this
-  /// vertex is the smallest value of the column, so the value of the `low` vertex cannot be
-  /// smaller. Such a pair would contradict a larger lower bound or a minimum difference.
+  /// Remove the pairs of column j whose `high` vertex is the fixed vertex of another column. Such a
+  /// vertex has the smallest value of column j, so the `low` vertex must have the same value. The
+  /// pair cannot be satisfied if a test raises the lower bound or requires a minimum difference.
   void remove_pairs_below_minima(std::size_t j)
   {
     std::vector<OrderedPair>& pairs = this->columns[j].pairs;

@@ -232,8 +232,8 @@ TEST(BoxQp, NeedsNoBoundsAndKeepsDistances)
   ASSERT_TRUE(half.status.ok());
   EXPECT_LE(half.w.head(n).maxCoeff(), 0.8);
   EXPECT_GT(half.w.maxCoeff(), 0.8);
-  // Add the constraint that values increase along x. All values are then between the fixed values 0
-  // and 0.55 of the two ends, so the bounds have no effect.
+  // Add the constraint that values increase along x. All values are then between 0 and 0.55, the
+  // fixed values at the two ends, so the bounds have no effect.
   for (Index row = 0; row < 2; ++row)
   {
     for (Index i = 0; i < n; ++i)
@@ -347,11 +347,11 @@ TEST_P(BoxQpStarts, FoundTogetherEndWhereOthersEnd)
   for (const double scale : { 1.0, 1e6, 1e-6 })
   {
     const SparseMatrix scaled = scale * q;
-    // Each column is solved twice: without a start, and with a given start, for which the
-    // interior-point method is used. A solution may have an error of up to 1.5e-6 for the tolerance
-    // 1e-6, and of up to 5e-9 for the tolerance 1e-9 (converged_change() in box_qp_workspace.h).
-    // The limit `same` for the difference is twice this error. With slivers it is larger for the
-    // tolerance 1e-9, because round-off alone causes errors of 1e-7.
+    // Each column is solved twice: first without a start, then with a start, which selects the
+    // interior-point method. The two solutions may differ by up to `same`, twice the error of one
+    // solution. This error is up to 1.5e-6 for the tolerance 1e-6, and up to 5e-9 for the tolerance
+    // 1e-9 (converged_change() in box_qp_workspace.h). For slivers and the tolerance 1e-9, `same`
+    // is 1e-6, because round-off alone causes errors of 1e-7.
     for (const auto& [tolerance, same] :
       { std::pair{ 1e-6, 3e-6 }, std::pair{ 1e-9, GetParam() ? 1e-6 : 1e-8 } })
     {
@@ -410,8 +410,8 @@ TEST(BoxQp, ThreadsDoNotChangeABit)
     ASSERT_TRUE(qp.prepare(context).ok());
     const std::vector<BoxQpSolution> solutions = qp.solve_all(context, columns);
     EXPECT_EQ(qp.analyses(), 1);
-    // Expect one factorization of Q, one for the starts of all columns (only with CHOLMOD), and the
-    // factorizations that each column reports.
+    // Expect one factorization of Q and the factorizations that the columns report. With CHOLMOD,
+    // expect one more: it serves to compute the initial values of all columns.
     Index factorizations = SparseSolver::has_cholmod() ? 2 : 1;
     for (const BoxQpSolution& solution : solutions)
     {
@@ -435,7 +435,7 @@ TEST(BoxQp, TheEstimateOfItsMemoryIsThePeak)
 {
   if (test::sanitized)
   {
-    return; // the memory of the sanitizer is several times the measured memory
+    return; // with sanitizers, the process uses several times its usual memory
   }
   const TetMesh box = test::tet_box(20, 20, 20);
   const SparseMatrix q = energy(box, 2);
@@ -462,7 +462,7 @@ TEST(BoxQp, TakesFewerThreadsOrRefusesWhereMemoryEnds)
 {
   if (test::sanitized)
   {
-    return; // the memory of the sanitizer is several times the measured memory
+    return; // with sanitizers, the process uses several times its usual memory
   }
   const TetMesh box = test::tet_box(16, 16, 16);
   const SparseMatrix q = energy(box, 2);

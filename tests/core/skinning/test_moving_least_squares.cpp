@@ -50,7 +50,7 @@ Points random_rest(Index count, bool flat, std::uint64_t seed = 5)
   return points;
 }
 
-/// Return points and bones at different positions.
+/// Return two point handles and two bones.
 Handles mixed_handles(bool flat)
 {
   const double z = flat ? 0.0 : 1.0;
@@ -136,7 +136,7 @@ Vec3 reference_warp(
   }
   if (flat)
   {
-    moment(2, 2) = 1e3; // large, so that the rotation's axis is the z axis
+    moment(2, 2) = 1e3; // this large entry makes the z axis the axis of rotation
   }
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(moment, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Vec3 signs(1, 1, (svd.matrixU() * svd.matrixV().transpose()).determinant() > 0 ? 1 : -1);

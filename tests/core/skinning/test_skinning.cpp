@@ -151,7 +151,8 @@ TEST(Skinning, ATwistedRingShrinksByTheCosineUnderLinearBlendAndNotUnderDual)
       EXPECT_NEAR(posed.linear.row(i).norm(), radius, 1e-14);
       EXPECT_NEAR(posed.dual.row(i).norm(), 1.0, 1e-14);
     }
-    // Dual quaternion skinning rotates by half the angle.
+    // Each point has the weight 1/2 for the handle at rest and for the handle that rotates by
+    // `degrees`. Dual quaternion skinning therefore rotates the point by degrees / 2.
     const Points exact = moved(ring_of_points(), turn_about(0.5 * degrees, Vec3(1, 0, 0)));
     EXPECT_LT((posed.dual - exact).cwiseAbs().maxCoeff(), 1e-14);
   }

@@ -1,5 +1,5 @@
-// Back sides of triangles: copies with the opposite orientation. They are reported only on patches
-// that enclose a volume, for any order and orientation of the copies.
+// If every triangle of a closed patch occurs in both orientations, all copies except one are back
+// sides. The order of the triangles must not matter.
 #include "surface/back_sides.h"
 
 #include "surface/surface_repair.h"

@@ -156,8 +156,8 @@ TEST(SurfaceDefects, CrossingTrianglesNameEachOther)
   {
     EXPECT_EQ(crossing_of_triangle.count(t), 1u);
   }
-  // The list of pairs and the list of crossings must contain the same number of different
-  // triangles.
+  // The list of crossings contains each crossing triangle once. The pairs of crossing triangles
+  // must contain the same number of distinct triangles.
   std::map<Index, int> in_pairs;
   for (const auto& [s, t] : found.repaired.crossings)
   {

@@ -1,4 +1,4 @@
-// Points within a distance along a surface, on shapes with known distances.
+// Vertices within a geodesic distance of a point on a surface, on shapes with known distances.
 #include "support/meshes.h"
 #include "surface/surface_disc.h"
 

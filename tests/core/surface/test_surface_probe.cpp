@@ -24,8 +24,6 @@ TEST(SurfaceProbe, MidThicknessOfASphereIsItsCenterPlane)
   test::Random random(3);
   for (int i = 0; i < 200; ++i)
   {
-    // The polyhedron is symmetric about its center, so the midpoints of chords through the center
-    // are exact.
     const Vec3 direction = random.in_box(Vec3(-1, -1, -1), Vec3(1, 1, 1)).normalized();
     const Vec3 aside = 0.4 * direction.cross(random.in_box(Vec3(-1, -1, -1), Vec3(1, 1, 1)));
     LineSpan through;
@@ -39,6 +37,8 @@ TEST(SurfaceProbe, MidThicknessOfASphereIsItsCenterPlane)
     EXPECT_LT(off_center(through.middle(), direction), 0.03);
   }
   LineSpan span;
+  // This line passes through the center of the polyhedron, which is symmetric about its center. The
+  // midpoint of the chord is therefore exact.
   ASSERT_TRUE(probe.first_inside(Vec3(-5, 0, 0), Vec3(2, 0, 0), span));
   EXPECT_LT(span.middle().norm(), 1e-12);
   EXPECT_FALSE(probe.first_inside(Vec3(-5, 2, 0), Vec3(1, 0, 0), span)) << "past it";
@@ -115,7 +115,7 @@ TEST(SurfaceProbe, NearestIsTheNearestOfAllTriangles)
     Vec3 place;
     ASSERT_TRUE(probe.nearest(p, place));
     EXPECT_NEAR((p - place).norm(), std::abs(p.norm() - 1.0), 0.02);
-    // No vertex is nearer than the result.
+    // No vertex is nearer to the query point p than the result `place`.
     const double nearest = (ball.points.rowwise() - p.transpose()).rowwise().norm().minCoeff();
     EXPECT_LE((p - place).norm(), nearest + 1e-12);
   }

@@ -164,9 +164,10 @@ TEST(TetImprovement, AFlatTetOnTheBoundaryGoes)
 
 TEST(TetImprovement, OfTwoFlatTetsOnOneEdgeOnlyOneGoes)
 {
-  // Four thin tets share the edge 0-1. Two of them are wedges with a tiny dihedral angle at the
-  // edge. The other two are flat, with a dihedral angle near 180 degrees at the edge, on opposite
-  // sides of it. If both flat tets were removed, the boundary would touch itself along the edge.
+  // Four thin tets share the edge 0-1. Two tets are wedges: their dihedral angle at the edge is
+  // tiny. The other two tets are flat: their dihedral angle at the edge is near 180 degrees. The
+  // flat tets are on opposite sides of the edge. If both flat tets were removed, the boundary would
+  // touch itself along the edge.
   TetMesh mesh;
   mesh.points.resize(6, 3);
   constexpr double thin = 1e-4;

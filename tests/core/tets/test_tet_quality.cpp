@@ -117,10 +117,10 @@ TEST(TetQuality, CrumbsAndLoneTetsGo)
 
 TEST(TetQuality, TrianglesInFrontOfOthersForceFlatTets)
 {
-  // A tet is flat if a dihedral angle is below 5 degrees. The inscribed circles of the triangles on
-  // the top and bottom of the plate have the radius 0.0488. A tet on such a triangle that is not
-  // flat is therefore higher than 0.0488 tan(5 degrees) = 0.00427. In the plate of height 0.004
-  // this is impossible, so all tets are forced to be flat. In the plate of height 0.005, only tets
+  // A tet is flat if a dihedral angle is below 5 degrees. The triangles on the top and bottom of
+  // the plate have inscribed circles of radius 0.0488. If such a triangle is a face of a tet, the
+  // tet is flat unless its height is at least 0.0488 tan(5 degrees) = 0.00427. In the plate of
+  // height 0.004, all tets are therefore forced to be flat. In the plate of height 0.005, only tets
   // at the rim are forced to be flat, because the triangles of the rim are needles.
   for (const double height : { 0.004, 0.005 })
   {

@@ -65,7 +65,7 @@ TEST(WeightedColors, UnconstrainedWeightsLeaveTheGamutByANinth)
     EXPECT_NEAR(result.colors(at, 1), expected, 2e-4);
     EXPECT_NEAR(report.number("largest_gamut_violation", -1), 1.0 / 9.0, 1e-4);
     EXPECT_NEAR(report.number("largest_overshoot", -1), 1.0 / 9.0, 1e-4);
-    // Compute the points that are out of gamut from the definition. These are exactly the points in
+    // Compute from the weights which points are out of gamut. These must be exactly the points in
     // the second half of the bar.
     Index outside = 0;
     for (Index v = 0; v < solved.weights.rows(); ++v)

@@ -31,9 +31,9 @@ VertexGraph path(Index count)
   return graph;
 }
 
-/// Return how far the lowest path climbs from vertex `from` to a lower or exempt vertex: the
-/// largest height on the path minus the height of `from`. The search uses a queue ordered by
-/// height.
+/// Return the persistence of a minimum at vertex `from`, where f is the height. A path from this
+/// vertex to a lower vertex or to a handle (`is_exempt`) climbs to its highest vertex. The
+/// persistence is the smallest possible climb. The search uses a queue ordered by height.
 double climb(const VertexGraph& graph, const Eigen::VectorXd& f, const std::vector<char>& is_exempt,
   Index from)
 {
@@ -72,11 +72,15 @@ TEST(Extrema, PersistenceOnAPathCanBeReadOff)
   f << 0.0, 0.5, 0.3, 0.9, 0.85, 1.0, 0.2, 0.4, 0.4;
   std::vector<char> is_exempt{ 1, 0, 0, 0, 0, 1, 0, 0, 0 };
   const auto found = interior_extrema(path(9), f, is_exempt);
-  // The persistence of a minimum is the climb to a lower vertex or to a handle, on the path with
-  // the smallest climb. The minima are vertex 6 (from 0.2 to 1), vertex 2 (from 0.3 to 0.5) and
-  // vertex 4 (from 0.85 to 0.9). The persistence of a maximum is the corresponding descent. The
-  // maxima are vertices 7 and 8 (from 0.4 to 0.2), vertex 3 (from 0.9 to 0.85) and vertex 1 (from
-  // 0.5 to 0.3).
+  // A path from a minimum to a lower vertex or to a handle first climbs. The smallest possible
+  // climb is the persistence of the minimum:
+  // - vertex 6: from 0.2 to 1
+  // - vertex 2: from 0.3 to 0.5
+  // - vertex 4: from 0.85 to 0.9
+  // Likewise, the persistence of a maximum is the smallest possible descent:
+  // - vertices 7 and 8: from 0.4 to 0.2
+  // - vertex 3: from 0.9 to 0.85
+  // - vertex 1: from 0.5 to 0.3
   ASSERT_EQ(found.size(), 6u);
   EXPECT_EQ(found[0].vertex, 6);
   EXPECT_FALSE(found[0].maximum);

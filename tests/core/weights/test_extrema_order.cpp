@@ -13,8 +13,10 @@ using Eigen::VectorXd;
 
 namespace
 {
-/// Expect that each unlisted vertex has neighbors before and after it in the order. Expect that all
-/// unlisted neighbors of a listed minimum are after it, and those of a listed maximum before it.
+/// Expect that the order has the listed extrema:
+/// - A vertex that is not listed has a neighbor before it and a neighbor after it.
+/// - All neighbors of a listed minimum are after the minimum, except other listed minima.
+/// - All neighbors of a listed maximum are before the maximum, except other listed maxima.
 void expect_order(const VertexGraph& graph, const ExtremaList& list, const std::vector<Index>& rank)
 {
   for (std::size_t v = 0; v < list.size(); ++v)

@@ -1,7 +1,8 @@
-// Weights of surfaces, computed on tets of the enclosed volume or on an embedding lattice. The
-// results are compared with those of the separate stages, and the results on both domains with each
-// other. Other tests check parts that are close but not connected, and the automatic choice of the
-// domain.
+// Weights of surfaces, computed on one of two domains: tets of the enclosed volume, or an embedding
+// lattice. On tets of the volume, the weights must equal those of separate calls that
+// tetrahedralize, solve and transfer. On a lattice, the weights must be close to those of a fine
+// tet mesh. Other tests check parts that are close but not connected, and the automatic choice of
+// the domain.
 #include "domain/embedded_surface.h"
 #include "weights/bounded_biharmonic_weights.h"
 #include "weights/surface_weights.h"
@@ -231,8 +232,9 @@ TEST(SurfaceWeights, APartWithoutAHandleFollowsTheHandleNearestToItsSurface)
 
 TEST(SurfaceWeights, APartWithoutAHandleFollowsWhatItTouches)
 {
-  // A bar has a left and a right handle. A knob is 0.004 above the bar, nearest to the left handle.
-  // A second bar has another handle. A seat spans the gap between the two bars.
+  // A bar has a left and a right handle. A knob is 0.004 above the bar. The handle nearest to the
+  // knob is the left one. A second bar has another handle. A seat spans the gap between the two
+  // bars. The knob and the seat have no handles.
   const auto box = [](int n, const Vec3& lower, const Vec3& upper)
   {
     const TetMesh tets = test::tet_box(n, 4, 4, lower, upper);
@@ -261,7 +263,7 @@ TEST(SurfaceWeights, APartWithoutAHandleFollowsWhatItTouches)
     for (Index v = bar.points.rows(); v < end_of_knob; ++v)
     {
       const Vec3 p = shape.points.row(v);
-      // Find the vertex of the bar below the knob.
+      // Find the bar's vertex directly below the knob's vertex v.
       double nearest = 1e300;
       Index below = 0;
       for (Index u = 0; u < bar.points.rows(); ++u)

@@ -401,8 +401,8 @@ TEST(WeightTerms, RigidSetsAreOneUnknown)
       }
     }
     gap += std::max(total * value, -total * (1.0 - value));
-    // This gap is a weaker upper bound than the gap of the certificate, so this gap may exceed the
-    // tolerance 1e-9.
+    // The certificate uses the smaller of two gaps (certificate.h), of which this is the first one.
+    // This gap may therefore exceed the tolerance 1e-9.
     EXPECT_LE(gap / (0.5 * w.dot(g)), 5e-8);
   }
   // A rigid set may contain vertices of a part that has no handle. The set then connects this part
@@ -459,7 +459,8 @@ TEST(WeightTerms, MonotoneWeightsTakeThem)
   }
   options.terms.upper(3 * 21 + 9, 0) = std::nan("");
   options.terms.lower = no_values(domain, handles);
-  // This lower bound exceeds the upper bounds of vertices that are nearer to the handle.
+  // Monotone weights increase along a path from vertex 0 to the handle. The lower bound 0.999 of
+  // vertex 0 exceeds the upper bound 0.99 of the other vertices on this path.
   options.terms.lower(0, 0) = 0.999;
   options.terms.upper.col(0).setConstant(0.99);
   options.terms.upper(0, 0) = std::nan("");
@@ -495,8 +496,7 @@ TEST(WeightTerms, MirroredHandlesHaveMirroredWeights)
     EXPECT_NEAR(solved.result.raw(v, 3), free.result.raw(v, 3), 1e-5);
   }
   EXPECT_GT(free_difference, 1e-3) << "the fourth handle and the diagonals are not symmetric";
-  // The energy is at least the energy without the symmetry constraint. The mean of a solution and
-  // its mirror image satisfies the constraint, so the energy of the mean is an upper bound.
+  // The symmetry constraint cannot lower the minimum energy.
   const SparseMatrix q = solved.problem.energy(2);
   const auto energy = [&](const Eigen::VectorXd& a) { return 0.5 * a.dot(q * a); };
   const double pair = energy(solved.result.raw.col(0)) + energy(solved.result.raw.col(1));
@@ -611,11 +611,12 @@ TEST(WeightTerms, CoupledColumnsSumToOne)
   EXPECT_GT(separate.result.row_sum_error, 0.01);
   EXPECT_LE((w - solved.result.weights).cwiseAbs().maxCoeff(), 1e-12);
   // Compute the second bound of the certificate (certificate.h) from w and the gradients g = Q w.
-  // The constraint that a row of w sums to 1 has a multiplier, and the bound is valid for any
-  // multipliers. Here the multiplier is minus the mean of the row of g, weighted by the row of w.
-  // Let A be the block of Q for the free vertices. Let r be g plus the multiplier where a Newton
-  // step of the value remains between 0 and 1, and 0 elsewhere. The nonzero entries of r
-  // contribute 1/2 r' A^-1 r, and all other values contribute the terms of the first bound.
+  // The constraint that a row of w sums to 1 has a multiplier. The bound is valid for any
+  // multipliers; this test uses -(dot product of the row of w and the row of g). Let d be g plus
+  // the multipliers, and let A be the block of Q for the free vertices. An entry of r equals the
+  // entry of d if the Newton step w - d / diag(A) is between 0 and 1; otherwise it is 0. The
+  // nonzero entries of r contribute 1/2 r' A^-1 r. Every other entry contributes its term of the
+  // first bound.
   const Eigen::MatrixXd g = q * w;
   std::vector<Index> free;
   for (Index v = 0; v < w.rows(); ++v)

@@ -30,7 +30,7 @@ Triangles stacked(const Triangles& a, const Triangles& b)
   return both;
 }
 
-/// Return the sum over the triangles of the squared longest edge.
+/// Square the length of each triangle's longest edge. Return the sum of these squares.
 double sum_of_longest_edges(const Points& points, const Triangles& triangles)
 {
   double sum = 0.0;

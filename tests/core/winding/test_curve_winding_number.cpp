@@ -99,8 +99,8 @@ TEST(CurveWindingNumber, SegmentSeenUnderARightAngleIsAQuarter)
   const Curve segment = make_curve({ { 1, -1 }, { 1, 1 } }, false);
   expect_curve_winding(segment, Vec2::Zero(), 0.25);
   expect_curve_winding(segment, Vec2(2, 0), -0.25);
-  // A segment on the other side of the point subtends the same angle, although it crosses the
-  // negative x axis.
+  // This segment crosses the negative x axis, where polar angles jump from pi to -pi. The winding
+  // number must still be 1/4.
   expect_curve_winding(make_curve({ { -1, 1 }, { -1, -1 } }, false), Vec2::Zero(), 0.25);
   // At the third corner of an equilateral triangle, the opposite side subtends an angle of 60
   // degrees.
@@ -136,7 +136,7 @@ TEST(CurveWindingNumber, PartsAddUp)
   Curve overlapping = make_curve(square_corners());
   overlapping.add(square_corners(0.0, 2.0), true);
   expect_curve_winding(overlapping, Vec2(0.5, 0.5), 2.0, 0.0);
-  // The top side of the square is repeated, or reversed.
+  // In `doubled`, the top side of the square occurs twice. In `flipped`, the top side is reversed.
   Curve doubled = make_curve(square_corners());
   doubled.add_segment(2, 3);
   expect_curve_winding(doubled, Vec2::Zero(), 1.25);

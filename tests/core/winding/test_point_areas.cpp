@@ -84,8 +84,8 @@ TEST(PointAreas, SharedPlacesAndSidesOfASheet)
   Points points, normals;
   square_lattice(9, 1.0, points, normals);
   const Index n = points.rows();
-  // If each sample occurs twice, each copy has half of the area. Samples with opposite normals do
-  // not reduce the area, whether their distance is zero or small.
+  // If each sample occurs twice with the same normal, each copy has half of the area. A copy with
+  // the opposite normal does not reduce the area of its sample, at the same position or 0.01 below.
   Points twice(2 * n, 3), same(2 * n, 3), other(2 * n, 3), below(2 * n, 3);
   twice << points, points;
   same << normals, normals;

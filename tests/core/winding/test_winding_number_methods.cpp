@@ -417,9 +417,9 @@ TEST(WindingMethods, AsSmallAsDoublesGet)
 TEST(WindingMethods, FastNextToALongTriangleThatIsCut)
 {
   // One triangle is as long as the box, and the others are small. The method bisects the long
-  // triangle until its parts are small too. The new vertices have rounding errors of about 1e-17.
-  // At a few 1e-15 from an edge of the triangle, such an error changes the angle by a large
-  // fraction.
+  // triangle until its parts are small too. The new vertices have rounding errors of up to 1e-16.
+  // Some query points are only about 1e-15 away from an edge of the long triangle. There, such an
+  // error changes the winding number by more than the tolerance.
   TriangleMesh mesh;
   test::Random random(3);
   for (int i = 0; i < 80; ++i)
@@ -516,8 +516,8 @@ TEST(WindingMethods, TrianglesAsLargeAsTheSurfaceTakeLittleMemory)
   }
   const WindingNumber winding = winding_by_method(heap, WindingMethod::automatic);
   EXPECT_EQ(winding.method(), WindingMethod::crossings);
-  // WindingCells stores at most 16 pairs (entries) per triangle and 100,000 additional entries. An
-  // entry has 30 bytes. The entries are stored in blocks that may be half empty.
+  // For n triangles, WindingCells stores at most 16 n + 100,000 pairs of a cell and a face. A pair
+  // has 30 bytes. The pairs are stored in blocks that may be half empty.
   EXPECT_LT(static_cast<double>(winding.memory()), 64.0 * (16.0 * 4 * tets + 1e5));
   for (int i = 0; i < 20; ++i)
   {

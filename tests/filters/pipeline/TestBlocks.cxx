@@ -1,5 +1,6 @@
-// Composite inputs: every filter works on them block by block. Each block gets the same bits as a
-// run on this block alone. Composites that a filter does not support are refused with one sentence.
+// Composite inputs: every filter works on them block by block. The output block equals, bit by bit,
+// the output for the input block alone. Composites that a filter does not support are refused with
+// one sentence.
 #include "filters/TestFilter.h"
 #include "filters/data_of.h"
 #include "filters/pipeline/same_data.h"
@@ -114,7 +115,7 @@ vtkSmartPointer<vtkUnstructuredGrid> weighted_tets(int cells)
   return tets;
 }
 
-/// Return the handles of a bar in a pose, with a layer for each handle.
+/// Return posed handles for a bar. Each handle has a layer.
 vtkSmartPointer<vtkPolyData> posed_handles(const Vec3& middle, const char* pose_text)
 {
   const auto handles = to_polydata({ test::point_handle("left", Vec3(0, 0.5, 0.5)),

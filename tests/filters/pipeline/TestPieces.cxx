@@ -1,5 +1,5 @@
-// Filters that work by pieces: pieces have the same bits as a run on the whole input, failures are
-// not hidden, and no point is output twice.
+// Filters that work by pieces: the pieces together equal, bit by bit, the output for the whole
+// input. Failures are not hidden, and no point is output twice.
 #include "filters/TestFilter.h"
 #include "filters/data_of.h"
 #include "filters/pipeline/same_data.h"
@@ -175,7 +175,8 @@ TEST_F(Pieces, OfTransferredWeightsHaveTheBitsOfTheWhole)
     one->SetInputData(1, this->tets);
     one->UpdatePiece(piece, 3, 0);
     ASSERT_EQ(one->GetStatus(), vtkBindposeAlgorithm::OK) << one->GetStatusMessage();
-    // The last piece is empty, which is not an error. Its output has the same arrays as the others.
+    // The last piece has no points, which is not an error. Like all pieces, it has the array of
+    // weights.
     vtkDataArray* part = one->GetOutput()->GetPointData()->GetArray("Weights");
     ASSERT_NE(part, nullptr);
     ASSERT_EQ(part->GetNumberOfTuples(), ends[piece + 1] - ends[piece]);
@@ -269,8 +270,8 @@ TEST_F(Pieces, OfWindingNumbersAtPointsHaveTheBitsOfTheWhole)
       EXPECT_EQ(part->GetComponent(v, 0), values->GetComponent(ends[piece] + v, 0));
     }
   }
-  // One source is connected to both ports, so piece 0 is computed from all of its points. No point
-  // may be output again in piece 1.
+  // One source is connected to both ports. Piece 0 of the output contains all points of the source,
+  // so piece 1 must be empty.
   vtkNew<vtkSphereSource> source;
   vtkNew<vtkWindingNumberField> both;
   both->SetInputConnection(0, source->GetOutputPort());

@@ -112,8 +112,8 @@ vtkSmartPointer<vtkDataObject> copy_of_output(vtkAlgorithm* algorithm)
   return copy;
 }
 
-/// Switches VTK's messages off while it exists, because executives would report the failures that
-/// the tests cause on purpose.
+/// Switches VTK's messages off during the lifetime of the object. Otherwise, executives would print
+/// the failures that the tests cause on purpose.
 class Silence
 {
 public:
@@ -246,8 +246,8 @@ TEST(ShareDataset, FailuresAreThoseOfAllProcesses)
   const Silence silence;
   constexpr int processes = 3;
   // In the first two cases, a VTK filter fails on process 1, in RequestData or RequestInformation.
-  // In the third case, a Bindpose filter fails, but only on process 0. The other processes request
-  // other pieces of the filter's output, which are empty.
+  // In the third case, a Bindpose filter fails. It fails only on process 0, because the other
+  // processes request pieces that are empty and need no work.
   for (const auto& [pass, sentence] : { std::pair(FailingCopy::data, "process 1: an algorithm"),
          std::pair(FailingCopy::information, "process 1: an algorithm"),
          std::pair(FailingCopy::nowhere, "process 0: the dog ate it") })

@@ -35,7 +35,7 @@ public:
     this->messages_[{ from, to, tag }].push_back(std::move(message));
     this->arrived_.notify_all();
   }
-  /// Wait for a message. Return false after 20 seconds, so that a test that hangs ends.
+  /// Wait for a message. Return false if there is none after 20 seconds, so that no test hangs.
   bool receive(int from, int to, int tag, std::string& message)
   {
     std::unique_lock<std::mutex> lock(this->mutex_);
@@ -53,7 +53,8 @@ public:
 private:
   std::mutex mutex_;
   std::condition_variable arrived_;
-  std::map<std::array<int, 3>, std::deque<std::string>> messages_; // by sender, receiver and tag
+  /// Queues of messages. The key is (sender, receiver, tag).
+  std::map<std::array<int, 3>, std::deque<std::string>> messages_;
 };
 
 class ThreadCommunicator : public vtkCommunicator
@@ -99,7 +100,7 @@ private:
   std::shared_ptr<Mail> mail_;
 };
 
-/// Run a function in one thread per process, and wait until all have ended.
+/// Run a function in one thread per process, and wait until all threads have ended.
 inline void run_processes(int processes,
   const std::function<void(int process, vtkMultiProcessController* controller)>& work)
 {

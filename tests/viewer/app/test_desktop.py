@@ -109,7 +109,7 @@ def test_keys_dialogs_undo_and_escape(desktop, tmp_path):
     assert all(move == pytest.approx([0.25, 0, 0]) for move in moved), moved
     # Esc during a move restores the pose bit by bit.
     move_all(desktop, app, "Escape")
-    desktop.keys("k")  # change the work, so that there is something to save
+    desktop.keys("k")  # add a key frame, so that there is something to save
     assert translations(app.save(path)) == moved
     desktop.keys("ctrl+z", "ctrl+z")
     assert translations(app.save(path)) == translations(rest)
@@ -127,11 +127,11 @@ def test_menus_and_the_window_manager(desktop, tmp_path):
     app.activate()
     desktop.keys("alt+v", "o")
     assert app.save(path)["options"]["show.outlines"] is False
-    # If the window manager changes the size of the window, the work does not change.
+    # Let the window manager change the size of the window.
     desktop.tool("windowsize", "--sync", app.window, 900, 700)
     desktop.wait_for(lambda: "Geometry: 900x700" in desktop.tool("getwindowgeometry", app.window), "another size")
-    # Closing the window asks about unsaved changes. Esc keeps the window open. The second time, the changes are
-    # discarded.
+    # Closing the window with unsaved changes opens a dialog. Esc closes the dialog and keeps the window open. After the
+    # changes are saved, closing the window ends the program.
     app.activate()
     desktop.keys("k")
     desktop.wait_for(lambda: "*" in app.title(), "a mark of what is not saved")

@@ -189,7 +189,7 @@ protected:
     return {};
   }
 
-  /// Return handles, pose and surface with all their bits.
+  /// Return the handles, the pose and the surface as text that distinguishes all their bits.
   std::string state()
   {
     std::ostringstream out;
@@ -349,7 +349,7 @@ TEST_F(HandleWindow, PointsAreAddedToAMeshWithoutHandlesAndBound)
   EXPECT_EQ(this->part<app::handles::SidePanel>()->selected_handle(), 2);
   this->key(Qt::Key_Escape);
   EXPECT_EQ(this->editing()->mode(), app::handles::HandleEditing::pose);
-  // A bar in the window offers a bind, but the bind does not start by itself. After the bind, the
+  // A bar above the view offers a bind, but the bind does not start by itself. After the bind, the
   // handles bend the shape.
   EXPECT_FALSE(this->window.is_bound());
   this->part<app::weights::Binding>()->start();
@@ -574,7 +574,7 @@ TEST_F(HandleWindow, ANewPointMovesNumbersAndNothingElse)
   this->editing()->set_mode(app::handles::HandleEditing::pose);
   EXPECT_LT((this->points() - posed).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_FALSE(this->bar("rebind_bar")->isHidden()); // the window offers a new bind
-  // After undo and redo, the handles with the same names are selected.
+  // Undo and redo change the index of the bone "spine". The bone stays selected.
   this->editing()->selection()->select({ 3 });
   this->history()->undo();
   ASSERT_EQ(this->names().size(), 3);

@@ -584,8 +584,7 @@ TEST_F(Window, HandlesAreDraggedBesideAnOpenVolumeInThePanelPose)
   this->drag(1, { 80, 0 });
   EXPECT_GT((highest_point(this->window.shown()) - rest).norm(), 0.1);
   EXPECT_EQ(this->part<app::volume::VolumeView>()->position(), slice);
-  EXPECT_EQ(
-    this->window.document()->history()->count(), 2); // the two steps are the volume and the drag
+  EXPECT_EQ(this->window.document()->history()->count(), 2); // open the volume, drag the handle
 }
 
 TEST_F(Window, ALongErrorDoesNotWidenTheWindow)

@@ -101,7 +101,7 @@ void check_window(app::window::MainWindow& window)
   EXPECT_TRUE(window.isVisible());
 }
 
-/// Return a sentence that lists the parts of the work that have changed.
+/// Return a text that lists the fingerprints that differ.
 std::string changed_parts(const Fingerprints& before, const Fingerprints& now)
 {
   const auto fingerprint_of = [](const Fingerprints& all, const std::string& name)
@@ -131,9 +131,9 @@ std::string steps_of(const QUndoStack* history)
   return text;
 }
 
-/// Remove the fingerprints of options that the program may set when it opens a file. One option is
-/// always removed: which side of the cut through tets is kept. The orientation and the normal of a
-/// plane are removed if the orientation differs from that in `other`.
+/// Return fingerprints without those of options that the program may set when it opens a file.
+/// These options are `tets.other_side`, and the orientation and the normal of each plane. A plane
+/// whose orientation is the same in `other` keeps its fingerprints.
 Fingerprints without_options_of_opening(Fingerprints all, const Fingerprints& other)
 {
   all.erase("option tets.other_side");

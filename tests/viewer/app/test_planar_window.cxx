@@ -1,5 +1,5 @@
-// The 2D mode of the window: image files and planar shapes, in any plane, and weights over a
-// texture.
+// The 2D mode of the window, which shows images and flat meshes. A flat mesh may be in any plane.
+// Weights are drawn over the image.
 #include "app/weights/binding.h"
 #include "window_test.h"
 
@@ -216,7 +216,7 @@ TEST_F(PlanarWindow, WeightsLieOverThePictureAsMuchAsIsWanted)
   }
   EXPECT_GT(covered_pixels, 20000);
   EXPECT_EQ(wrong_pixels, 0);
-  // If only the texture is shown, the view does not depend on which column of weights is chosen.
+  // Weights with opacity 0 look the same as the shaded surface without weights.
   this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::bind_and_pose);
   this->choose("show.column", 0);
   const QImage plain = this->picture();

@@ -137,8 +137,8 @@ protected:
   void undo() { this->user.trigger("edit.undo"); }
   void redo() { this->user.trigger("edit.redo"); }
 
-  /// Drag a plane that is perpendicular to z from z = `from` to z = `to`. The mouse button stays
-  /// down until end_drag().
+  /// Drag a plane along z, from z = `from` to z = `to`. The plane must be perpendicular to z. The
+  /// mouse button stays down until end_drag().
   void begin_drag(double from, double to)
   {
     const QPoint start = this->pixel(Vec3(0.4, 0.3, from));
@@ -297,7 +297,8 @@ TEST_P(PlaneWindow, TheSliderIsOneStepUntilItIsLetGo)
   EXPECT_EQ(slider->value(), 700);
   this->undo();
   this->expect_position(0.0, "undo of all");
-  // A tour specifies the position as a fraction of the range of the slider.
+  // Tours (scripts that operate the window) set the position of the plane as a fraction of the
+  // range of the slider.
   EXPECT_EQ(this->user.choose(this->key("place"), 0.25), QString());
   this->expect_position(-0.5, "a tour");
 }

@@ -273,8 +273,9 @@ TEST_F(PosingWindow, FullArapFollowsTheMouseAndStartsAgainWhenItMovesOn)
     clock.start();
     this->apply_pose(this->bent(0.05 * move));
     longest = std::max(longest, 1e-6 * static_cast<double>(clock.nsecsElapsed()));
-    // The window solves in slices of a few iterations, which become longer while the pose does not
-    // change. Pause after every second move, so that the next move cancels a long slice.
+    // The window solves in slices. The first slice has a few iterations; while the pose does not
+    // change, each slice has more iterations than the previous one. Pause after every second move,
+    // so that the next move cancels a long slice.
     const Points before = deformation->points();
     EXPECT_TRUE(wait_for([&] { return deformation->points() != before; }, 20));
     if (move % 2 == 0)
@@ -291,8 +292,8 @@ TEST_F(PosingWindow, FullArapFollowsTheMouseAndStartsAgainWhenItMovesOn)
   EXPECT_GT(deformation->restarts(), 0);
   ASSERT_TRUE(this->wait_until_settled());
   EXPECT_TRUE(deformation->status().usable());
-  // Each canceled solve continued from its current shape with the new pose. The final shape must be
-  // close to the result of a solve that starts at the rest pose.
+  // After each cancel, the next solve started from the shape at that moment. The final shape must
+  // be close to the result of a solve that starts at the rest pose.
   auto source = std::make_shared<PoseSource>();
   ASSERT_TRUE(to_pose_source(this->surface, nullptr, this->handles, *source).ok());
   ExecutionContext context;
@@ -675,8 +676,8 @@ TEST_F(PosingWindow, ADistanceIsSeenInTheColorsOfItsScale)
   this->apply_pose(Pose(4));
   expect_distances("at rest");
   EXPECT_LT(colors()->GetRange()[1], 1e-6);
-  // Other panels use their own coloring. The coloring by distance returns when the pose panel is
-  // shown again, and ends when no method is compared.
+  // Other panels use their own coloring. The coloring by distance returns with the pose panel. It
+  // ends when the list of compared methods is set to none.
   this->apply_pose(this->bent());
   this->part<app::window::PanelColumn>()->show_panel(app::window::PanelColumn::weights);
   EXPECT_NE(viewport->legend(app::view::Viewport::weight_legend), "Distance (% of diagonal)");
@@ -1356,7 +1357,7 @@ TEST_F(PosingWindow, AScrubEndsADragWithoutAButton)
 }
 
 /// Measures one frame of a drag of a large shape, and prints the time of each part of the frame.
-/// The README contains these numbers.
+/// viewer/developers.md contains these numbers.
 class DragFrame : public PosingWindow, public testing::WithParamInterface<int>
 {
 protected:

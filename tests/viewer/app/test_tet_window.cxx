@@ -1,5 +1,5 @@
-// Tets and defects in the window, as a user inspects them. The tests assert brute-force counts,
-// positions, and the results of vtkSurfaceDefects.
+// Tets and defects in the window, as a user inspects them. The tests compare the window with known
+// positions, with counts by brute force, and with the output of vtkSurfaceDefects.
 #include "unclipped.h"
 #include "window_test.h"
 
@@ -190,8 +190,7 @@ TEST_F(TetWindow, AChosenCutStaysForOtherTets)
   EXPECT_EQ(this->view()->plane()->orientation(), app::view::PlaneHandle::y_axis);
 }
 
-/// Tets and defects are shown at the positions of the shape at rest, so the shape is not posed at
-/// the same time.
+/// Tets and defects have no pose. While they are visible, the shape and the handles are at rest.
 TEST_F(TetWindow, NothingIsPosedAroundTetsAtRest)
 {
   const auto grid = to_tet_grid(make_tet_box(4));

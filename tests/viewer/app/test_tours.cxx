@@ -1,5 +1,5 @@
 // The tours of examples/tours, played by the program. All checks in the tours must pass. Some tests
-// also compare reduced pictures of the view with the references in the folder tours/.
+// also scale pictures of the view down and compare them with the reference pictures in tours/.
 #include "support/demo_meshes.h"
 #include "support/files.h"
 

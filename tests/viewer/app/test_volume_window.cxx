@@ -134,8 +134,8 @@ protected:
   }
 };
 
-/// Return the rest of a reading, beginning with its coordinates, or an empty text if the reading
-/// has no coordinates.
+/// Return the part of a reading that begins with the coordinates, or an empty text if the reading
+/// contains no coordinates.
 const char* coordinates_in(const std::string& reading)
 {
   const std::size_t begin = reading.find("  x ");
@@ -242,8 +242,8 @@ TEST_F(VolumeWindow, TheLevelsSliderGivesTheSphereOfThatLevel)
   }
   this->row(1)->field()->setValue(0.5);
   EXPECT_NEAR(surface_area(this->view()->isosurface()), 4.0 * pi, 0.01 * 4.0 * pi);
-  // The isosurface is in front of the slice, so the reading at this pixel is on the sphere. Next to
-  // the isosurface, the reading is on the slice.
+  // At the first position, the isosurface covers the slice, so the text about the data under the
+  // mouse describes the isosurface. Beside the isosurface, the text describes the slice.
   this->render();
   const std::string reading = this->reading_at(Vec3(0.2, 0.1, 0)).toStdString();
   Vec3 position;
@@ -288,8 +288,8 @@ TEST_F(VolumeWindow, ASurfaceAlongWithAVolumeIsSeeThrough)
   EXPECT_EQ(this->part<app::view::Viewport>()->surface_actor()->GetProperty()->GetOpacity(), 1.0);
   this->open();
   EXPECT_LT(this->part<app::view::Viewport>()->surface_actor()->GetProperty()->GetOpacity(), 0.5);
-  // The surface is see-through: the orange of the slice is visible, and the reading is on the
-  // slice.
+  // The surface is see-through: the orange of the slice behind it is visible. There is a text about
+  // the data under the mouse.
   const QColor seen = this->picture().pixelColor(this->pixel(Vec3(0.3, 0.1, 0)));
   EXPECT_GT(seen.red(), seen.blue() + 40);
   EXPECT_NE(this->reading_at(Vec3(0.3, 0.1, 0)), QString());
@@ -343,8 +343,8 @@ TEST_F(VolumeWindow, NoSliceLiesInAPosedShape)
   EXPECT_NEAR(handles->GetBounds()[3], 0.0, 1e-9);
   EXPECT_EQ(this->part<app::view::Viewport>()->state_name(),
     "Rest shape: required to show winding numbers");
-  // The shape is posed again while the slice is hidden. It is also posed in the panel Pose, which
-  // does not show the slice and its legend.
+  // The shape is posed again while the slice is hidden. Both the check box and a switch to the
+  // panel Pose hide the slice.
   this->find<QCheckBox>("Show the slice")->setChecked(false);
   EXPECT_NEAR(top(), 2.2, 1e-3);
   this->find<QCheckBox>("Show the slice")->setChecked(true);

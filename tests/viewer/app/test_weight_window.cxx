@@ -1,5 +1,6 @@
-// Weights in the window, as a user inspects them. The tests assert values that are known at every
-// point, counts, positions in the view, and kernel results for other weight methods.
+// Weights in the window, as a user inspects them. Most tests use weights that are linear along z,
+// so the expected values, counts and positions in the view are known. For comparisons of weight
+// methods, the expected values are results of the kernels.
 #include "app/weights/binding.h"
 #include "unclipped.h"
 #include "window_test.h"
@@ -365,7 +366,7 @@ TEST_F(WeightWindow, ASliceThroughTheVolumeFollowsTheMouse)
   this->button("X")->click();
   this->choose("All: strongest handle");
   EXPECT_GT(this->view()->slice()->GetNumberOfCells(), 100);
-  // The panel Pose does not show the slice and its plane.
+  // While the panel Pose is open, the slice of weights is hidden and the surface is opaque.
   this->find<QPushButton>("Pose")->click();
   EXPECT_FALSE(this->view()->is_shown());
   EXPECT_EQ(this->surface()->GetProperty()->GetOpacity(), 1.0);
@@ -475,7 +476,8 @@ TEST_F(WeightWindow, CertificatesNameTheirMethod)
     note("Weights: bounded biharmonic. Optimal to within 2.0e-08. Bind again for monotone."));
   chosen->setCurrentIndex(0);
   EXPECT_TRUE(note("Weights: bounded biharmonic. Optimal to within 2.0e-08."));
-  // By default, the method to compare with differs from the method of the weights.
+  // By default, the list of compared methods shows another method than that of the weights, so a
+  // comparison is possible. A comparison of a method with itself is disabled.
   auto* other = this->panel()->findChild<QComboBox*>("weights.compare_with");
   EXPECT_TRUE(this->button("Compare")->isEnabled());
   other->setCurrentIndex(0);

@@ -135,7 +135,7 @@ TEST_F(WindowRoom, BarsNeitherMoveNorResizeThePicture)
   // The status line shows a hint about the mouse.
   this->hover(handle_pixel);
   expect_view_unchanged("a hint came");
-  // After a bar is hidden, the view receives mouse events at its position.
+  // After a bar is hidden, nothing covers the view at the position of the bar.
   this->part<app::parts::ErrorBar>()->hide();
   QApplication::processEvents();
   const QWidget* widget_under_point =
@@ -253,7 +253,7 @@ TEST_F(WindowRoom, WindingNumbersOfASurfaceAreComputedThere)
   for (vtkIdType v = 0; v < volume->GetNumberOfPoints(); ++v)
   {
     const double radius = Vec3(volume->GetPoint(v)).norm();
-    if (radius < 0.8 || radius > 1.01) // allow for the facets of the ball
+    if (radius < 0.8 || radius > 1.01) // skip samples near the facets of the ball
     {
       EXPECT_NEAR(values->GetComponent(v, 0), radius < 0.8, 1e-9) << radius;
       inside += radius < 0.8;

@@ -129,7 +129,8 @@ protected:
     EXPECT_EQ(this->window.size(), size);
   }
 
-  /// Return the pixel of a position in the view, in Qt's pixels from the upper left.
+  /// Return the pixel at which the view shows a 3D position. Pixel (0, 0) is the upper left corner
+  /// of the view.
   QPoint pixel(const Vec3& position)
   {
     vtkRenderer* renderer = this->part<app::view::Viewport>()->renderer();

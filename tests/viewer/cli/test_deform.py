@@ -37,8 +37,8 @@ def test_children_follow_their_parents(bar):
     x, y, z = bar.points.T
     turned = np.stack([1 - y, x, z], axis=1)  # rotation about (0.5, 0.5)
     assert points_of(bindpose.read(bar / "out.vtp")) == pytest.approx(turned, abs=1e-12)
-    # In version 1 of the format, the child b2 does not move with its parent. One warning says this, also for a
-    # sequence.
+    # In version 1 of the pose format, the child b2 does not move with its parent. The program warns about this only
+    # once, even for a sequence of several poses.
     result = deform(bar, {"frames": [{"handles": {"b1": turn}}] * 3}, output="old.vtp").is_good()
     assert result.err.count("warning") == 1 and '"version": 2' in result.err
     ends = points_of(bindpose.read(bar / "old_0002.vtp"))[x == 6]
@@ -118,8 +118,8 @@ def test_sequences(bar, method):
     collection = (bar / "out.pvd").read_text()
     assert 'timestep="0.25" file="out_0001.vtp"' in collection
     assert json.loads((bar / "r.json").read_text())["counts"]["frames"] == 3
-    # Each frame equals the result of its pose alone up to a tolerance, because the two solves have different starting
-    # points.
+    # The solve of a frame starts from the previous frame, and the solve of a single pose starts from the rest pose. The
+    # two results are equal up to a tolerance.
     deform(bar, frames[2], method=method, output="single.vtp").is_good()
     assert points_of(bindpose.read(bar / "single.vtp")) == pytest.approx(
         points_of(bindpose.read(bar / "out_0002.vtp")), abs={"reduced-arap": 5e-4, "full-arap": 1e-3}.get(method, 1e-12))

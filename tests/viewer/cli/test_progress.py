@@ -53,6 +53,6 @@ def test_progress_follows_the_clock(folder, words, names):
         return  # starting the program is a large part of such a short run
     off = [abs(percent / 100 - seconds / end) for seconds, percent, _ in rows[:-1]]
     assert sum(off) / len(off) < 0.3
-    # Compute the seconds from the first line with at least 98 % to the end.
+    # The program must end soon after the progress line reaches 98 %.
     late = end - min(seconds for seconds, percent, _ in rows if percent >= 98)
     assert late < 0.2 * end + 0.2

@@ -278,8 +278,8 @@ def test_cells_by_handle(weighted):
     assert sum(c["count"] for c in colors) == len(shapes.sphere()[1])
     weighted.write("two.vtp", square([("Weights", ["left", "right"], "1 0 0 1 0 1 0.7 0.3")]))
     run = weighted.run("render", "two.vtp", "--color", "handle", "-o", "t.png", "--report", "-").is_good()
-    # The handle of a triangle has the largest sum of weights over the corners. The two sums are 1 and 2 on the first
-    # triangle, and 1.7 and 1.3 on the second.
+    # A triangle has the color of the handle with the largest sum of weights over the corners of the triangle. The sums
+    # for left and right are 1 and 2 on the first triangle, and 1.7 and 1.3 on the second.
     assert run.report["picture"]["colors"] == [{"name": "left", "count": 1}, {"name": "right", "count": 1}]
 
 

@@ -56,7 +56,8 @@ def test_a_closed_surface_is_a_fog_volume(folder):
     # vdb_print prints numbers with three digits.
     assert facts["matrix"][:3, :3] == pytest.approx(np.diag(image.GetSpacing()), rel=5e-3)
     assert facts["matrix"][3] == pytest.approx([*image.GetOrigin(), 1], rel=5e-3)
-    # The inside is stored as tiles, so the file is much smaller than the image's 8 bytes per sample.
+    # Large parts of the inside are stored as tiles (blocks of equal voxels). The .vdb file therefore needs less than
+    # one byte per sample, while the .vti file needs eight.
     assert number(facts["Number of active tiles"]) > 0
     assert (folder / "field.vdb").stat().st_size < values.size
 

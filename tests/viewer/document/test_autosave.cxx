@@ -57,7 +57,7 @@ TEST(Saving, AKillAtAnyMomentLeavesAWholeSession)
     ASSERT_TRUE(restored_state == states[0] || restored_state == states[1]);
     ++found[restored_state == states[1]];
   }
-  // Both states must occur, each after more than five of the kills.
+  // Each of the two states must be found after at least 6 of the 40 kills.
   EXPECT_GT(found[0], 5);
   EXPECT_GT(found[1], 5);
   // The next complete save removes the files that the killed processes left behind.
@@ -208,8 +208,8 @@ void store_failures(Autosave& autosave, QString& message)
 }
 } // namespace
 
-/// Measures the times that the README states. The window's thread is blocked for a small fraction
-/// of the writing time.
+/// Measures the times of a backup after a bind and after a drag. A backup blocks the window's
+/// thread for less than half of the time of the writing thread.
 TEST(Autosaving, IsNotFelt)
 {
   const test::Folder folder;

@@ -86,7 +86,7 @@ Work full_work()
   return document.work();
 }
 
-/// Return an unbound session that refers to a mesh file, with handles and a pose.
+/// Return an unbound session with handles and a pose. The session refers to a mesh file.
 Session session_with_file(const test::Folder& folder)
 {
   const std::string mesh = folder.write("corner.off", mesh_text);
@@ -477,8 +477,8 @@ TEST(Sessions, BrokenOnesGiveOneSentence)
       Session result;
       const Status status = read_session(text(folder / "maybe.bindpose"), result);
       ++tried;
-      // Some of the changed files are valid, for example if a text has replaced a text. The work
-      // that is read from a valid file must be usable.
+      // Some of the changed files are valid, for example if both the old and the new value are
+      // texts. The work that is read from a valid file must be usable.
       if (status.ok())
       {
         Document document;

@@ -190,7 +190,7 @@ inline std::string digest(const std::string& text)
     .toStdString();
 }
 
-/// Return a digest of each part of the work, computed from its stored form.
+/// Return a map from the name of each part of the work to the SHA-256 digest of its content.
 inline std::map<std::string, std::string> fingerprints(const Work& work)
 {
   std::map<std::string, std::string> parts;

@@ -85,7 +85,7 @@ TEST(Blend, ChildrenStayOnTheirParents)
   const Pose middle = blend(arm, rest, swung, 0.5);
   EXPECT_LT((middle[1].transform * Vec3(1, 0, 0).homogeneous() - Vec3(0, 1, 0)).norm(), 1e-9);
   EXPECT_LT((middle[1].transform * Vec3(2, 0, 0).homogeneous() - Vec3(0, 2, 0)).norm(), 1e-9);
-  // Spline interpolation also preserves the length of the upper arm.
+  // Spline interpolation between keys preserves the length of the upper arm.
   KeyFrames keys;
   keys.interpolation = KeyInterpolation::spline;
   for (const double t : { 0.0, 1.0, 2.0 })
@@ -186,7 +186,7 @@ TEST(KeyFrames, PivotsGoStraightOrOnAParabola)
   EXPECT_NEAR(keys.pose_at(1.5, handles(), Pose(2))[1].transform(0, 3), 2.5, 1e-14);
   keys.interpolation = KeyInterpolation::spline;
   // The slope at an inner key is that of the parabola through the key and its two neighbors. If all
-  // keys are on one parabola, the spline equals it between inner keys.
+  // keys are on one parabola, the spline equals this parabola between inner keys.
   for (const double t : { 1.1, 1.5, 1.9 })
   {
     EXPECT_NEAR(keys.pose_at(t, handles(), Pose(2))[1].transform(0, 3), t * t, 1e-13);

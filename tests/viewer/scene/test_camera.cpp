@@ -87,8 +87,8 @@ TEST(Camera, LooksAtTheBroadSide)
     box.add(size);
     return view_direction(choose_frame(box, up), View());
   };
-  // If y is up, shapes that are wide in x are viewed from +z, and shapes that are wide in z from
-  // +x, always from above.
+  // If y is up, shapes that are wide in x are viewed from +z, and shapes that are wide in z are
+  // viewed from +x. The camera is always a little above the shape.
   EXPECT_GT(direction(Vec3(3, 2, 1), "auto")[2], 0.8);
   EXPECT_GT(direction(Vec3(1, 2, 3), "auto")[0], 0.8);
   EXPECT_GT(direction(Vec3(3, 2, 1), "auto")[1], 0.2);

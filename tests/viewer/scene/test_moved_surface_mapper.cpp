@@ -118,7 +118,8 @@ TEST_F(MovedSurface, SeesNewColorsTrianglesAndMaterials)
   EXPECT_EQ(this->scene.mapper->move_count(), 0);
 }
 
-/// Return the fraction of the bytes of two pictures that differ by more than round-off.
+/// Return the fraction of bytes at which two pictures differ. Differences of at most 2 levels,
+/// which are round-off, do not count.
 double difference(const std::vector<unsigned char>& a, const std::vector<unsigned char>& b)
 {
   if (a.size() != b.size())

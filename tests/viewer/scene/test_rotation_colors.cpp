@@ -65,8 +65,9 @@ TEST(RotationColors, ACellHasTheClusterOfMostOfItsPoints)
 TEST(RotationColors, ClustersThatTouchDiffer)
 {
   const TriangleMesh ball = test::sphere(4);
-  // There are 24 colors. With 25 or 49 clusters, the colors repeat such that the last cluster would
-  // get the color of the first cluster, which it touches.
+  // There are 24 colors, which repeat. With 25 or 49 clusters, the last cluster would have the
+  // color of the first cluster. These two clusters touch, so the last cluster must get another
+  // color.
   for (const int count : { 2, 5, 24, 25, 49 })
   {
     const auto data = slices(ball, count);

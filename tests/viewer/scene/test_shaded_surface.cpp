@@ -1,5 +1,5 @@
-// ShadedSurface computes normals for shading. Sharp edges stay sharp, smooth regions stay smooth,
-// and a moved surface equals a new one.
+// ShadedSurface computes normals for shading. Sharp edges stay sharp, and smooth regions stay
+// smooth. If the points move, the normals are updated.
 #include "conversion.h"
 #include "shapes/shaded_surface.h"
 #include "support/meshes.h"

@@ -44,7 +44,8 @@ void expect_the_same_split(const TriangleMesh& mesh, double angle)
   const std::vector<Index> originals = split_sharp_edges(mesh.points, angle, our_split);
   EXPECT_TRUE(std::is_sorted(originals.begin(), originals.end()));
   const Triangles vtk_split = split_by_vtk(mesh, angle);
-  std::map<Index, Index> vtk_vertex_of, our_vertex_of; // a one-to-one map between the new vertices
+  // Each vertex of our split corresponds to exactly one vertex of VTK's split, and vice versa.
+  std::map<Index, Index> vtk_vertex_of, our_vertex_of;
   for (Index k = 0; k < our_split.size(); ++k)
   {
     const Index a = our_split.data()[k], b = vtk_split.data()[k];
@@ -63,7 +64,7 @@ TEST(SharpEdges, SplitsLikeVtk)
   {
     std::swap(soup.triangles(t, 0), soup.triangles(t, 1));
   }
-  // The triangles added below give many edges three triangles.
+  // Forty triangles are added below. Each shares an edge with two existing triangles.
   TriangleMesh fins = test::torus(24, 12, 1.0, 0.4);
   const Index count = fins.triangles.rows();
   fins.points.conservativeResize(fins.points.rows() + 1, 3);

@@ -54,8 +54,9 @@ bool faces_eye(const TriangleMesh& mesh, Index t, const Eye& eye)
   return normal.dot(eye.parallel ? Vec3(-eye.direction) : Vec3(eye.position - corner(0))) >= 0.0;
 }
 
-/// Return the silhouette of a consistently oriented surface with two triangles per edge, by brute
-/// force.
+/// Return the silhouette, computed by brute force: all edges between a triangle that faces the eye
+/// and a triangle that does not. The surface must be consistently oriented, with two triangles per
+/// edge.
 std::set<std::pair<Index, Index>> brute_force_silhouette(const TriangleMesh& mesh, const Eye& eye)
 {
   std::map<std::pair<Index, Index>, std::set<bool>> facing;

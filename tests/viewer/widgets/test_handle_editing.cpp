@@ -341,7 +341,7 @@ TEST(HandleEditing, CanceledRestMovesKeepEveryBitAndTheBind)
   EXPECT_EQ(bind_objects(stage.handles), before) << "the very same arrays";
   EXPECT_EQ(stage.list()[0].head, Vec3(0.5, 0.5, 0.2));
   EXPECT_TRUE(stage.widget->GetCanceled());
-  stage.press(Vec3(0.5, 0.5, 0.2)); // a click without a move does not change anything either
+  stage.press(Vec3(0.5, 0.5, 0.2)); // a click without a move changes nothing
   stage.release(Vec3(0.5, 0.5, 0.2));
   EXPECT_EQ(bind_objects(stage.handles), before);
   EXPECT_TRUE(stage.widget->GetCanceled());
@@ -360,7 +360,8 @@ TEST(HandleEditing, RestMovesAreHeldSnappedAndLocked)
   EXPECT_EQ(stage.list()[0].head.tail<2>(), Eigen::Vector2d(0.5, 0.2));
   EXPECT_NEAR(stage.list()[0].head[0], 1.0, position_tolerance);
   stage.escape();
-  // With Ctrl, a move has fixed steps, or snaps to the end of another handle.
+  // With Ctrl, a handle moves in steps of LengthStep. Near the end of another handle, it snaps to
+  // this end instead.
   stage.representation()->SetLengthStep(0.25);
   stage.set_modifiers(false, true);
   stage.drag(Vec3(0.5, 0.5, 0.2), Vec3(0.8, 0.2, 0.2));
@@ -486,7 +487,7 @@ TEST(HandleEditing, RandomEventsLeaveAValidDataset)
   for (int i = 0; i < 1500; ++i)
   {
     const Eigen::Vector2d at(random.uniform(-10, 410), random.uniform(-10, 410));
-    // Often choose a position on a handle.
+    // In 40 % of the rounds, the mouse is at the head of a random handle.
     const vtkIdType count = stage.handles->GetNumberOfCells();
     const bool aimed = count > 0 && random.uniform() < 0.4;
     Vec3 head_position = Vec3::Zero();

@@ -123,13 +123,14 @@ TEST(HandleGizmo, AnArrowMovesAlongItsAxisOnly)
   {
     GizmoStage stage({ point("a", Vec3(0.2, 0.1, 0)) }, Representation::GIZMO_MOVE);
     const Vec3 axis = Vec3::Unit(k);
-    // The mouse moves by the projection of 0.8 units along the axis.
+    // Move the mouse by about the number of pixels that 0.8 world units along the axis cover.
     const Eigen::Vector2d mouse_motion = 0.8 * stage.screen_direction(axis);
     stage.drag_part(Representation::MOVE_X + k, mouse_motion);
     const Vec3 moved = stage.head(0) - Vec3(0.2, 0.1, 0);
     EXPECT_EQ(moved[(k + 1) % 3], 0.0);
     EXPECT_EQ(moved[(k + 2) % 3], 0.0);
-    // Because of the perspective, the length of 0.8 units in pixels depends on the depth.
+    // The number of pixels of a world unit depends on its depth (perspective), so the handle moves
+    // by 0.8 only approximately.
     EXPECT_NEAR(moved[k], 0.8, 0.12);
     EXPECT_EQ(linear(stage.transform(0)), Eigen::Matrix3d::Identity());
     EXPECT_EQ(stage.representation()->GetInteractionName(), "move");
@@ -582,9 +583,9 @@ TEST(HandleGizmo, ATwistByTheMouseIsTheAngleAroundTheBone)
 
 TEST(HandleGizmo, StretchableBonesReadWhatTheWidgetWrites)
 {
-  // All points of the mesh have the weight 1 for a single bone. Points at the tail of the bone move
-  // with the tail that the widget draws, and rotate by the twist at the tail. Points at the head
-  // rotate by the twist at the head.
+  // There is one bone, and all points of the mesh have the weight 1. Points at the tail of the bone
+  // move with the tail that the widget draws, and rotate by the twist at the tail. Points at the
+  // head rotate by the twist at the head.
   GizmoStage stage({ bone("b", Vec3(-0.6, 0, 0), Vec3(0.8, 0, 0)) });
   const Eigen::Vector2d knob = stage.grip(Representation::STRETCH);
   stage.drag_pixels(knob, knob + 0.4 * stage.screen_direction(Vec3::UnitX()));

@@ -68,7 +68,7 @@ QIcon kind_icon(HandleKind kind)
     painter.end();
     pixmap.setDevicePixelRatio(scale);
     icon.addPixmap(pixmap);
-    icon.addPixmap(pixmap, QIcon::Selected); // keeps the icon of a selected row untinted
+    icon.addPixmap(pixmap, QIcon::Selected); // otherwise Qt tints icons of selected rows
   }
   return icon;
 }
@@ -149,7 +149,7 @@ HandleTree::HandleTree(QWidget* parent)
       if (item && this->tree_->selectedItems().isEmpty() &&
         QApplication::mouseButtons() == Qt::NoButton)
       {
-        // Qt moves to the first row at the first arrow key, but does not select the row
+        // at the first arrow key, Qt makes the first row current, but does not select it
         item->setSelected(true);
       }
     });
@@ -267,7 +267,7 @@ void HandleTree::select(const std::vector<int>& handles)
     }
     if (last)
     {
-      this->tree_->scrollToItem(last); // this also expands its parents
+      this->tree_->scrollToItem(last); // also expands the parents of the item
     }
   }
   this->tree_->viewport()->update();

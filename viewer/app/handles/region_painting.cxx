@@ -194,8 +194,8 @@ void RegionPainting::radius_changed()
 
 // ---- Strokes -----------------------------------------------------------------------------------
 
-/// Set the label to paint: the label of the selected region, or a new label that is larger than all
-/// used labels. The widget reads the label after this event, so the new label is used.
+/// Called before the brush paints the first vertices of a stroke. Set the label to paint: the label
+/// of the selected region or, if no region is selected, a new label above all used labels.
 void RegionPainting::stroke_began()
 {
   const std::set<int> used = labels_in(this->labels());

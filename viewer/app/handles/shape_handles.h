@@ -39,8 +39,7 @@ public:
   /// rigged() at the end.
   void auto_rig();
   /// Create handles.
-  /// @param count  number of points, or maximum number of bones. If it is 0 for bones, the shape
-  /// determines their number.
+  /// @param count  for points: their number; for bones: their maximum number, or 0 for no maximum
   void start(bindpose::AutomaticMethod method, bindpose::Index count);
   void cancel() { this->job_.cancel(); }
   bool is_running() const { return this->job_.is_running(); }

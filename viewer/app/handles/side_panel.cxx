@@ -91,7 +91,7 @@ SidePanel::SidePanel(HandleTree* handle_tree, QWidget* parent)
   this->note_->setObjectName("note");
   this->note_->setWordWrap(true);
   this->note_->setAlignment(Qt::AlignLeft | Qt::AlignTop);
-  // Keep the space of the text when it is empty, so that nothing below it moves.
+  // Reserve two lines even if the text is empty, so that the widgets below do not move.
   this->note_->setFixedHeight(2 * this->note_->fontMetrics().lineSpacing() + 2);
   QSizePolicy size_policy = this->bar_->sizePolicy();
   size_policy.setRetainSizeWhenHidden(true);
@@ -275,8 +275,8 @@ void SidePanel::set_state(bool ready, bool binding, bool bound)
 {
   this->stopping_ = false;
   // If the button Bind has the keyboard focus when a bind begins, move the focus to Cancel, and
-  // after the bind back to Bind. Other widgets lose the focus before they are disabled. Otherwise
-  // Qt would move the focus to the list, which would select a handle.
+  // after the bind back to Bind. When any other widget with the focus is disabled, Qt moves the
+  // focus to the list of handles, which selects a handle. Therefore clear the focus first.
   const bool had_focus = this->bind_->hasFocus() || this->cancel_->hasFocus();
   const auto enable = [](QWidget* widget, bool on)
   {

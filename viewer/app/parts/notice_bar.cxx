@@ -35,7 +35,7 @@ void NoticeBar::offer(const QString& message, const QList<Choice>& choices, cons
   for (QPushButton* button : this->buttons_)
   {
     button->hide();
-    button->deleteLater(); // delete later, because this may be the button that was pressed
+    button->deleteLater(); // not delete, because a click on the button may have caused this call
   }
   this->buttons_.clear();
   this->set_message(message);

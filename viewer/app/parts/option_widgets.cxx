@@ -50,8 +50,8 @@ QButtonGroup* orientation_segments(QBoxLayout* column, QWidget* parent, const ch
       translated(QT_TRANSLATE_NOOP("Panel", "Perpendicular to the z axis")),
       translated(
         QT_TRANSLATE_NOOP("Panel", "Any orientation; drag the arrow of the plane to rotate it")) });
-  // Use the style without a right border for the second of the four buttons, because the third
-  // button draws the line between them.
+  // Draw one line between the second and the third of the four buttons: remove the right border of
+  // the second button, because the third button has a left border.
   group->button(1)->setProperty("place", "second");
   return group;
 }

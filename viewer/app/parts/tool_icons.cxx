@@ -159,7 +159,7 @@ void draw_pose(QPainter& painter)
   painter.drawPolyline(QPolygonF({ { 5.5, 18 }, { 10, 12.5 }, { 15, 17.5 } }));
 }
 
-/// Draw a figure of bones and a spark.
+/// Draw a stick figure and, to its upper right, a spark (a plus sign).
 void draw_auto_rig(QPainter& painter)
 {
   dot(painter, { 8, 4.5 }, 1.9);

@@ -77,8 +77,8 @@ private:
   bindpose::Status status_;
   QTimer play_timer_;
   QElapsedTimer clock_;
-  double simulated_until_ =
-    0.0; ///< time of clock_, in seconds, up to which time steps were computed
+  /// Time of clock_, in seconds, at the end of the last time step (computed or skipped).
+  double simulated_until_ = 0.0;
   parts::KernelJob
     job_; // last member, so that the job ends before the data that it uses is destroyed
 };

@@ -29,7 +29,8 @@ public:
   /// Set whether the pose panel is visible. While it is hidden, other views determine the colors of
   /// the surface.
   void set_active(bool active);
-  /// Update the colors after a change of the pose, a method, the surface or the panel's choice.
+  /// Update the colors. Must be called after a change of the surface, of one of the two compared
+  /// shapes, or of the display mode.
   void update();
 
 private:

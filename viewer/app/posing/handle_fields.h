@@ -29,8 +29,8 @@ public:
   /// @param handle  null: no handle is selected
   /// @param free  true: the handle is in mode free, so the solver computes its position
   void show_values(const bindpose::Handle* handle, const bindpose::HandleValues& values, bool free);
-  /// Show the layer of the selected handle. In a planar shape that overlaps itself, the layers
-  /// determine which part is in front. Empty: the shape is not planar, or no handle is selected.
+  /// Show the layer of the selected handle. Where a planar shape overlaps itself, layers determine
+  /// which part is in front. If the shape is not planar or no handle is selected, `layer` is empty.
   void show_layer(const std::optional<double>& layer);
   /// Show the number of selected handles, and the name of the handle whose values are displayed.
   /// This text is visible only if several handles are selected.

@@ -1,5 +1,6 @@
-// Draws the ghost, the shape of a second pose method, over the first shape or in the right half of
-// a split view. Both halves share one camera, so that rotating one half rotates the other.
+// Draws the ghost, the shape of the compared method, over the shape of the current method or in the
+// right half of a split view. Both halves share one camera, so that rotating one half rotates the
+// other.
 #include "app/posing/pose_ghost.h"
 
 #include "app/view/viewport.h"
@@ -27,7 +28,8 @@ namespace
 {
 constexpr bindpose::Rgb ghost_color{ 0.20, 0.50, 0.76 };
 constexpr double ghost_opacity = 0.38;
-/// Distance between both shapes at which the ghost becomes fully opaque, in bounding-box diagonals.
+/// Distance from the current shape at which the ghost reaches its maximum opacity, in bounding-box
+/// diagonals.
 constexpr double opaque_distance = 0.02;
 constexpr const char* distance_name = "bindpose.Distance";
 } // namespace
@@ -50,8 +52,8 @@ PoseGhost::PoseGhost(view::Viewport* viewport) : viewport_(viewport)
       k, ghost_color[0], ghost_color[1], ghost_color[2], k / (steps - 1.0));
   }
   this->mapper_->SetLookupTable(this->opacity_table_);
-  // If two poses differ only by points that have moved within the same surface, both shapes
-  // coincide, although the distances of the points are not zero. Draw the first shape in front.
+  // The ghost can coincide with the current shape although the distances of the points are not
+  // zero, if points have moved only within the surface. Draw the current shape in front.
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
   this->mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 2.0);
   this->distances_->SetName(distance_name);
@@ -88,7 +90,7 @@ void PoseGhost::set_surface(vtkPolyData* surface)
   this->update();
 }
 
-/// Create the drawn shape when the ghost becomes visible, to save time.
+/// Create `shaded_`, from which the ghost is drawn. A hidden ghost does not need it.
 void PoseGhost::make_shape()
 {
   if (this->surface_ && !this->shaded_ && this->is_drawn())
@@ -124,8 +126,8 @@ void PoseGhost::move(bindpose::PointsView points, bindpose::PointsView first)
   }
 }
 
-/// Make the ghost transparent where both surfaces coincide. Otherwise round-off would decide for
-/// each pixel which surface is drawn.
+/// Make the ghost transparent where it coincides with the current shape. Otherwise round-off would
+/// decide for each pixel which of the two surfaces is drawn.
 void PoseGhost::update_opacities(bindpose::PointsView points, bindpose::PointsView first)
 {
   if (points.rows() != first.rows())
@@ -144,8 +146,8 @@ void PoseGhost::update_opacities(bindpose::PointsView points, bindpose::PointsVi
   this->shaded_->polydata()->GetPointData()->AddArray(this->distances_);
 }
 
-/// In the right half of a split view, draw the ghost with the outlines or the texture of the first
-/// shape.
+/// In the right half of a split view, draw the ghost with the same texture or outlines as the
+/// current shape.
 void PoseGhost::match_first_shape()
 {
   vtkTexture* picture = this->viewport_->surface_actor()->GetTexture();
@@ -200,8 +202,8 @@ void PoseGhost::update()
   this->viewport_->set_ghosted(mode == over);
 }
 
-/// Called when one half of the split view has set its clipping range. Set a range for both halves
-/// that contains both shapes.
+/// Called when one half of the split view has set the clipping range of the shared camera. Set a
+/// range that contains the shapes in both halves.
 void PoseGhost::clipping_range_changed()
 {
   if (this->display_mode_ != beside || this->is_updating_clipping_)

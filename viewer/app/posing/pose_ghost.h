@@ -28,9 +28,9 @@ class Viewport;
 namespace app::posing
 {
 
-/// The ghost is the viewport's surface as posed by a second method, for comparison. It is drawn
-/// semitransparent over the first shape where both shapes differ, or in the right half of a split
-/// view with the same camera.
+/// The ghost is the viewport's surface as posed by the compared method. It is drawn over the
+/// current shape (the shape of the current method), and is transparent where it coincides with that
+/// shape. Alternatively it is drawn in the right half of a split view, with the same camera.
 class PoseGhost
 {
 public:
@@ -49,7 +49,7 @@ public:
   /// Set the rest surface. The ghost shows this surface in another pose. Null hides the ghost.
   void set_surface(vtkPolyData* surface);
   /// Set where the ghost is drawn. `points` are the points of the ghost, and `first` the points of
-  /// the viewport's shape. If `points` is empty, the ghost keeps its points.
+  /// the current shape. If `points` is empty, the ghost keeps its points.
   void set_display_mode(DisplayMode mode, bindpose::PointsView points, bindpose::PointsView first);
   DisplayMode display_mode() const { return this->display_mode_; }
   void move(bindpose::PointsView points, bindpose::PointsView first);
@@ -69,9 +69,9 @@ private:
   DisplayMode display_mode_ = hidden;
   vtkNew<bindpose::MovedSurfaceMapper> mapper_;
   vtkNew<vtkActor> actor_;
-  // colors of a ghost over the surface: transparent where both shapes coincide
+  // color and opacity of the ghost, depending on its distance from the current shape
   vtkNew<vtkLookupTable> opacity_table_;
-  // distance between both shapes per drawn point, in bounding-box diagonals
+  // distance of each point of the ghost from the current shape, in bounding-box diagonals
   vtkNew<vtkDoubleArray> distances_;
   vtkNew<vtkRenderer> renderer_; // renderer of the right half of the split view
   vtkSmartPointer<vtkPolyData> surface_;
@@ -79,7 +79,7 @@ private:
   /// Outline of the ghost in the right half of the split view.
   std::unique_ptr<bindpose::Outline> outline_;
   bool is_renderer_added_ = false;
-  bool is_updating_clipping_ = false; // true while both halves get their clipping range
+  bool is_updating_clipping_ = false; // prevents recursive calls of clipping_range_changed()
 };
 
 } // namespace app::posing

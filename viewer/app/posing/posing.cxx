@@ -229,8 +229,8 @@ void PoseController::options_changed()
   Q_EMIT this->moved();
 }
 
-/// Update how the 3D view draws handles in mode automatic. They are drawn differently if the method
-/// computes rotations for handles that users only translate.
+/// Update the colors of handles in mode automatic. If the method computes rotations, some of these
+/// handles, such as translated points, have the color of mode position.
 void PoseController::update_automatic_modes()
 {
   const bool method_finds_rotations = finds_rotations(this->panels_.pose->options().method);

@@ -181,7 +181,7 @@ private:
   bool is_rest_view_ = false;
   bool edits_at_rest_ = false;
   bool inspects_at_rest_ = false; ///< true: data that belongs to the shape at rest is inspected
-  /// The panel's display mode of the compared method's shape at the last call of show_comparison().
+  /// The display mode that the panel requested at the last call of show_comparison().
   PoseGhost::DisplayMode requested_display_mode_ = PoseGhost::hidden;
   double drawing_microseconds_ = 0.0; ///< time that draw() took for points and normals
 };

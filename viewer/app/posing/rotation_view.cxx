@@ -35,7 +35,7 @@ void RotationView::set_active(bool active)
 
 void RotationView::update()
 {
-  // The colors of distances between methods have priority (DistanceView).
+  // Show no rotations while DistanceView shows the distances between two methods.
   const bool may_color =
     this->active_ && this->posing_->ghost()->display_mode() != PoseGhost::in_colors;
   const PosePanel::RotationDisplay requested =

@@ -19,12 +19,16 @@ class Viewport;
 namespace app::posing
 {
 
-/// Writes an animation in the format of the file name's extension. The extension .json gives a pose
-/// file; extensions of mesh files give numbered datasets with a .pvd file; .glb and .gltf give one
-/// animated file; .png gives one image with several frames; .gif, .webm, .mp4 and .apng give films,
-/// which ffmpeg encodes. A background thread poses the frames and encodes films. The viewport
-/// renders images. Files are written completely or not at all. They replace existing files, because
-/// the file dialog has asked for confirmation.
+/// Writes an animation in the format of the file name's extension:
+/// - .json: a pose file
+/// - extensions of mesh files: numbered datasets and a .pvd file
+/// - .glb, .gltf: one animated file
+/// - .png: one image with several frames
+/// - .gif, .webm, .mp4, .apng: a film
+///
+/// A background thread poses the frames, and runs ffmpeg to encode a film. The viewport renders the
+/// images. Files are written completely or not at all. They replace existing files, because the
+/// file dialog has asked for confirmation.
 class SequenceExport : public QObject
 {
   Q_OBJECT

@@ -42,7 +42,7 @@ enum class TourVerb
   release,
   drag,
   wheel,
-  scrub, ///< click on the track of the key frames at a time in seconds
+  scrub, ///< click on the timeline at the time `seconds`
   key, ///< press a key, in the notation of menus: "Ctrl+Z", "Esc"
   resize,
   wait, ///< wait for "bind", "idle", or a number of seconds
@@ -84,16 +84,16 @@ struct TourStep
   /// The player enters this file name in the file dialog that the step opens. The file is in the
   /// folder of screenshots. If the name is empty, the step fails when it opens a modal dialog.
   std::string answer;
-  std::string narration; ///< text about the step for a tutorial
+  std::string narration; ///< explanation of the step, for tutorials
 
-  TourPosition mouse_position; ///< position of the mouse; start of a drag
-  TourPosition to; ///< end of a drag
-  int moves = 8; ///< number of mouse moves of a drag
+  TourPosition mouse_position; ///< position of the mouse; for a drag: its start
+  TourPosition to; ///< for a drag: its end
+  int moves = 8; ///< for a drag: number of mouse moves
   TourButton button = TourButton::left;
   bool shift = false, ctrl = false, alt = false;
   double turns = 0.0; ///< notches of the mouse wheel; positive: away from the user
 
-  double seconds = -1.0; ///< seconds to wait, or time to scrub to
+  double seconds = -1.0; ///< for `wait`: duration; for `scrub`: time on the timeline
   std::array<int, 2> size{ 0, 0 }; ///< window size to resize to
   TourPart part = TourPart::window; ///< the part that a screenshot shows
   int width = 0; ///< maximum width of a screenshot in pixels; 0: no limit

@@ -275,7 +275,7 @@ QString TourPlayer::answer_dialogs(
   QString title;
   bool answered = false;
   QPointer<QDialog> accepted;
-  QTimer dialog_timer; // this timer also runs in the event loop of a dialog
+  QTimer dialog_timer; // also fires in the event loop of a modal dialog
   QObject::connect(&dialog_timer, &QTimer::timeout, &dialog_timer,
     [&]
     {
@@ -292,7 +292,8 @@ QString TourPlayer::answer_dialogs(
           answered = true;
         }
         accepted = form;
-        // Queue the call, so that this timer also runs for a dialog that the answer opens.
+        // Queue accept(), because it may open another dialog and wait for it. This timer, which
+        // answers the dialogs, does not fire again before this function returns.
         QMetaObject::invokeMethod(form, "accept", Qt::QueuedConnection);
       }
       else if (dialog)

@@ -25,7 +25,7 @@ namespace app::tour
 /// The arguments of `bindpose view --play`.
 struct TourRequest
 {
-  std::string path; ///< path of the tour
+  std::string path; ///< path of the tour file
   std::string folder; ///< folder for screenshots and tour.json; empty: only the checks are run
   double seconds = 0.0; ///< maximum duration; 0: the maximum duration that the tour specifies
   bool overwrite = false;
@@ -39,8 +39,8 @@ struct TourRequest
 class TourPlayer
 {
 public:
-  /// @param folder  the folder of the tour. Files to open are searched there first, then in the
-  /// working directory.
+  /// @param folder  the folder of the tour file. Files to open are searched there first, then in
+  /// the working directory.
   TourPlayer(window::MainWindow* window, const Tour& tour, const std::string& folder);
 
   /// Play the tour. At the first failure, stop and return invalid_input with a sentence that names

@@ -45,7 +45,7 @@ private:
 
 void open_initial_files(window::MainWindow& window, const std::vector<InitialFile>& files)
 {
-  // Collect the errors, because opening a file without an error hides the previous error.
+  // Collect the errors, because opening the next file hides the error of the previous file.
   QStringList errors;
   for (const InitialFile& file : files)
   {

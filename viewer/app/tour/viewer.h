@@ -35,8 +35,7 @@ int run_viewer(const std::vector<InitialFile>& files, bool auto_rig);
 void open_initial_files(window::MainWindow& window, const std::vector<InitialFile>& files);
 
 /// Run `bindpose view --play`: like run_viewer(), but a tour replaces the user's input. The user's
-/// list of recent files is not read or changed, and neither is work saved for recovery after a
-/// crash.
+/// list of recent files and recovery files are neither read nor changed.
 bindpose::Status play_tour(
   const std::vector<InitialFile>& files, bool auto_rig, const TourRequest& request);
 

@@ -52,7 +52,8 @@ PlaneHandle::PlaneHandle(Viewport* viewport, QObject* parent) : QObject(parent),
   this->widget_->SetRepresentation(this->plane_);
   this->widget_->SetCurrentRenderer(renderer);
   this->widget_->SetDefaultRenderer(renderer);
-  this->widget_->SetPriority(0.4F); // handles have a higher priority
+  // Lower than the default of VTK's widgets, so that handles receive mouse events first.
+  this->widget_->SetPriority(0.4F);
   // Remove the middle and right mouse buttons from the widget. They then move and zoom the camera.
   for (const unsigned long event :
     { vtkCommand::MiddleButtonPressEvent, vtkCommand::MiddleButtonReleaseEvent,
@@ -309,7 +310,8 @@ bool PlaneHandle::eventFilter(QObject* watched, QEvent* event)
     {
       this->cancel();
     }
-    event->accept(); // otherwise Esc would also leave the edit mode, as a shortcut of the window
+    // Accept the event, because Esc is also a shortcut of the window, which leaves the edit mode.
+    event->accept();
     return true;
   }
   return QObject::eventFilter(watched, event);

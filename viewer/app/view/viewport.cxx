@@ -224,8 +224,8 @@ void Viewport::set_picture(vtkImageData* picture)
     texture->SetColorModeToDirectScalars();
   }
   this->actor_->SetTexture(texture);
-  // The textured shape covers only the opaque part of the image. Treat it as opaque even if the
-  // image has alpha, because VTK would otherwise sort its triangles by depth.
+  // Textured surfaces cover only the opaque part of the image. Force VTK to draw them as opaque. If
+  // the image has alpha, VTK would otherwise sort their triangles by depth.
   this->actor_->SetForceOpaque(picture != nullptr);
   this->mapper_->ScalarVisibilityOff();
   this->tint_mapper_->ScalarVisibilityOff();
@@ -243,8 +243,8 @@ void Viewport::set_tint(double opacity)
   this->refresh();
 }
 
-/// Return the mapper that shows values as colors: the mapper of the tint for a textured surface,
-/// otherwise the mapper of the surface.
+/// Return the mapper that shows values as colors. If the surface has a texture, this is
+/// tint_mapper_, which draws the colors over the texture.
 vtkPolyDataMapper* Viewport::value_mapper() const
 {
   return this->picture_ ? this->tint_mapper_.Get()
@@ -604,7 +604,8 @@ void Viewport::draw_legend()
   }
   if (!this->state_name_.isEmpty())
   {
-    constexpr double below_a_bar = 64.0; // Qt pixels from the top, which leave space for a bar
+    // distance from the top in Qt pixels, so that a bar fits above the text
+    constexpr double below_a_bar = 64.0;
     this->add_name(0.5, this->height() - below_a_bar, this->state_name_);
   }
 }

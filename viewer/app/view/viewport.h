@@ -92,10 +92,10 @@ public:
   /// Return the smoothed number of frames per second. Return 0 if more than half a second has
   /// passed between the last two frames.
   double frames_per_second() const;
-  /// Set the handles that the mouse moves and edits. The widget is enabled if `used` is true.
+  /// Set the handles. If `used` is true, they are drawn, and the mouse moves and edits them.
   void set_handles(vtkPolyData* handles, bool used);
-  /// Color the surface by a column of the array Weights, with its name on the scalar bar; -1: plain
-  /// shading.
+  /// Color the surface by a column of the array Weights; column -1: plain shading. `name` is the
+  /// title of the scalar bar.
   void show_column(int column, const QString& name);
   /// Color the surface by values of the points or cells of drawn() instead of a column. `name` is
   /// the title of the scalar bar. If `values` is null, only the scalar bar is shown. If `name` is
@@ -150,7 +150,8 @@ public:
   QString legend(LegendPosition position) const;
   /// Set a box that reset_view() shows in addition to surface and curves; an empty box removes it.
   void set_extra_bounds(const bindpose::Box& box);
-  /// Reset the camera: show everything, seen from the direction in which it appears largest.
+  /// Reset the camera so that all data fits into the view. In 2D mode the camera faces the plane.
+  /// Otherwise it faces the widest side of the data's bounding box, obliquely from above.
   void reset_view();
   /// Request that the view is drawn again. Several requests during one event result in one
   /// rendering. With software rendering, a frame without antialiasing takes only a fifth of the

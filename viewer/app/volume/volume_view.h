@@ -33,8 +33,8 @@ class VolumeView : public QObject
 public:
   explicit VolumeView(view::Viewport* viewport);
 
-  /// Set the volume, and its smallest and largest value. bindpose::check_volume() must accept the
-  /// image. Null: no volume. The slice keeps its relative position.
+  /// Set the volume, which bindpose::check_volume() must accept; null: no volume. `lowest` and
+  /// `highest` are its smallest and largest value. The slice keeps its relative position.
   void set_volume(vtkImageData* image, double lowest, double highest);
   vtkImageData* volume() const { return this->image_; }
   /// Set whether the volume panel is visible. While it is hidden, no part of the volume is drawn.
@@ -99,7 +99,7 @@ private:
   bool isosurface_shown_ = false;
   double level_ = 0.5;
 
-  vtkSmartPointer<vtkVolume> cloud_; // created when it is shown for the first time
+  vtkSmartPointer<vtkVolume> cloud_; // null until the cloud is shown for the first time
   bool cloud_shown_ = false;
 };
 

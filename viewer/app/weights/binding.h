@@ -43,9 +43,8 @@ public:
   /// Convert the surface and the handles to the kernels' input. If the surface or the handles are
   /// invalid, emit failed() and return false.
   bool make_input(BindInput& input);
-  /// Offer another bind, with a reason, if the handles have changed since the last bind. Do nothing
-  /// if the reason has not changed since the last call, because the user may have closed that
-  /// offer.
+  /// Offer another bind, and state the reason, if the handles have changed since the last bind. An
+  /// offer with the same reason is not repeated, because the user may have closed it.
   void offer_rebind();
 
 Q_SIGNALS:

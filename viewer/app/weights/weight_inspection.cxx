@@ -226,8 +226,8 @@ void WeightInspection::update()
   }
 }
 
-/// Return a text about the optimality certificate of a column, from the surface's field arrays. If
-/// `column` is -1, the text contains the worst values of all columns.
+/// Return a text about the optimality certificate of a column. Certificates are field arrays of the
+/// surface. If `column` is -1, the text contains the worst values of all columns.
 QString WeightInspection::certificate(int column) const
 {
   vtkFieldData* fields = this->surface_ ? this->surface_->GetFieldData() : nullptr;

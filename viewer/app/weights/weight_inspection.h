@@ -27,7 +27,7 @@ class WeightInspection : public QObject
   Q_OBJECT
 
 public:
-  /// Sets the input of another bind of the same surface. Returns false if that is impossible, for
+  /// Sets the input for a bind of the inspected surface. Returns false if a bind is impossible, for
   /// example without handles.
   using MakeInput = std::function<bool(BindInput&)>;
 
@@ -81,13 +81,12 @@ private:
   BindJob job_;
   QString method_; // the method of the running comparison
   QString compared_method_;
-  vtkSmartPointer<vtkPolyData> compared_; // the surface with the weights of the other method
+  vtkSmartPointer<vtkPolyData> compared_; // the surface with weights of compared_method_
   double compared_seconds_ = 0.0;
 };
 
-/// Add the arrays with the result of a bind to `surface`: the point arrays Weights and RawWeights,
-/// the certificates of the columns, and the report with the seconds. A file that `bindpose weights
-/// --keep-raw` writes contains the same arrays.
+/// Add the result of a bind to `surface`: the point arrays Weights and RawWeights, the certificates
+/// of the columns, and the report. `bindpose weights --keep-raw` writes files with the same arrays.
 void add_weights(const BindResult& result, const bindpose::Handles& handles, vtkPolyData* surface);
 /// Return the tets on which the weights were solved, with the point arrays Weights and RawWeights.
 /// Return null if the weights were solved on the surface itself.

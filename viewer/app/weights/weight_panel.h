@@ -37,7 +37,7 @@ class WeightPanel : public QFrame
   Q_OBJECT
 
 public:
-  /// The displayed quantity, in the order of its buttons.
+  /// The quantity to display. The values are ids of buttons, from left to right.
   enum Quantity
   {
     weights,

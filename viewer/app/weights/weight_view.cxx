@@ -33,7 +33,8 @@ WeightView::WeightView(view::Viewport* viewport)
   this->slice_mapper_->SetColorModeToMapScalars();
   this->slice_mapper_->UseLookupTableScalarRangeOn();
   this->slice_mapper_->SelectColorArray(color_array_name);
-  // Draw isolines in front of the surface or slice under them, which has the same depth.
+  // Isolines have the same depth as the surface or slice on which they are drawn. Draw the isolines
+  // in front.
   vtkMapper::SetResolveCoincidentTopologyToPolygonOffset();
   this->slice_mapper_->SetRelativeCoincidentTopologyPolygonOffsetParameters(2.0, 2.0);
   this->slice_actor_->SetMapper(this->slice_mapper_);

@@ -26,9 +26,9 @@ class Viewport;
 namespace app::weights
 {
 
-/// Shows weights in the 3D view as colors, isolines and balls at their extrema. The weights are
-/// shown on the surface, posed or at rest, or on a slice through the tets. The mouse drags the
-/// slice. PictureOptions determine the display, as in `bindpose render`.
+/// Shows weights in the 3D view as colors and isolines. Balls mark local extrema of the weights.
+/// The weights are shown on the surface, posed or at rest, or on a slice through the tets. The
+/// mouse drags the slice. PictureOptions determine the display, as in `bindpose render`.
 class WeightView : public QObject
 {
   Q_OBJECT

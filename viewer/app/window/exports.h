@@ -63,7 +63,7 @@ public:
   /// handles.
   bool save_rig(const QString& path);
   bool save_pose(const QString& path);
-  /// Write the image that Viewport::take_picture() returns to a .png file.
+  /// Write a .png file with the image that Viewport::take_picture() returns.
   bool save_picture(const QString& path, int scale, bool transparent);
 
 Q_SIGNALS:

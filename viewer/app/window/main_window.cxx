@@ -411,7 +411,7 @@ void MainWindow::connect_handles()
     });
 }
 
-/// Choose the weights column of the most recently selected handle in the weight panel.
+/// In the weight panel, choose the column of the handle that was selected last.
 void MainWindow::show_selected_column()
 {
   const std::vector<int> selected = this->editing_->selection()->selected();
@@ -421,7 +421,8 @@ void MainWindow::show_selected_column()
   }
 }
 
-/// Connect the error bar. An error is hidden when an operation of the same type succeeds.
+/// Connect the error bar to operations that can fail. When an operation succeeds, an error of its
+/// ErrorKind is hidden.
 void MainWindow::connect_errors()
 {
   const auto connect_failure = [this](auto* part, auto signal, parts::ErrorKind kind)

@@ -196,9 +196,9 @@ private:
   parts::ElidedLabel* hint_ = nullptr;
   EmptyState* empty_ = nullptr; // in the middle of the 3D view while no file is open
   vtkSmartPointer<vtkPolyData> drawn_surface_; // the surface that the viewport shows
-  bool timeline_ = false; // true: show the timeline, after the first key frame or on request
+  bool timeline_ = false; // true: show the timeline; set by the user or the first key frame
   bool has_keys_ = false;
-  QString read_notice_; // warnings about data of the opened file that was not read
+  QString read_notice_; // warnings of the reader about the last opened file
   QString hint_text_; // shown in the status line when there is no interaction
 };
 

@@ -17,8 +17,8 @@ namespace app::window
 /// Connects widgets with the document's options (document/options.h). The object name of a widget
 /// is the key of its option. A choice of the user becomes an undo step. Undo, redo and sessions set
 /// the widgets, whose signals then update the views. Supported widgets are check boxes, combo boxes
-/// (the value is the index), button groups (the value is the id) and value rows. Other options are
-/// connected by two functions, see tie().
+/// (the value is the index), button groups (the value is the id) and value rows. For other options,
+/// call link_option().
 class OptionLinks : public QObject
 {
   Q_OBJECT
@@ -27,11 +27,10 @@ public:
   /// Connect all widgets below `root` whose object name is the key of an option.
   OptionLinks(Document* document, QWidget* root);
 
-  /// Connect an option by two functions: `value` returns the current value, `set` applies a new
-  /// value.
+  /// Connect an option. `value` must return the current value, and `set` must apply a new value.
   void link_option(const QString& key, const std::function<QVariant()>& value,
     const std::function<void(const QVariant&)>& set);
-  /// Group options: the undo step of one option stores all options of its group.
+  /// Combine options into a group. If one of them changes, the undo step stores all of them.
   void group_options(const QStringList& keys);
   /// Make an undo step after the user has changed the option. The step has the name of the option.
   void chosen(const QString& key);
@@ -48,7 +47,7 @@ private:
   {
     std::function<QVariant()> value;
     std::function<void(const QVariant&)> set;
-    QStringList grouped_keys; ///< the options of a group, including this one; empty: only this one
+    QStringList grouped_keys; ///< all options of the option's group; empty: no group
   };
   void store_all_except(const QStringList& keys);
   void option_changed(const QString& key, const QVariant& value);

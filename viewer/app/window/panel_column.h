@@ -29,10 +29,9 @@ class WeightPanel;
 namespace app::window
 {
 
-/// The column to the right of the 3D view. Its panels are: bind and pose, weights, tets and
-/// defects, and volumes. If several panels apply, buttons at the top select one. The list of
-/// handles is shown above the panels for posing and for weights. The mouse can drag the border
-/// between the list and the panel.
+/// The column to the right of the 3D view. It has four panels: pose, weights, tets and volume. If
+/// several panels apply, buttons at the top select one. The list of handles is shown above the
+/// panels pose and weights. The mouse can drag the border between the list and the panel.
 class PanelColumn : public QWidget
 {
   Q_OBJECT

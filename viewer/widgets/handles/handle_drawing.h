@@ -40,9 +40,9 @@ void draw_handles(const ScreenView& view, const std::vector<HandleRecord>& recor
   const HandleAppearance& appearance, const HandleMarks& marks, HandleShapes& solid,
   HandleShapes& outline);
 
-/// Return the display position of a handle's name: to the right of a ball. The name of a bone is
-/// next to its middle, on the side of the bone that faces right, so that the name does not cover
-/// the bone.
+/// Return the display position of a handle's name. The name of a ball is to the right of the ball.
+/// The name of a bone is next to the middle of the bone, on the right side of the bone on the
+/// screen, so that the name does not cover the bone.
 /// @param ball  radius of a ball in pixels
 Eigen::Vector2d label_anchor(const ScreenView& view, const HandleRecord& record, double ball);
 

@@ -22,7 +22,8 @@ struct HandleSizes
 {
   double ball = 7.0; ///< radius of a ball, in pixels
   double bone_width = 0.08; ///< half of a bone's width, as a fraction of its length
-  double tolerance = 4.0; ///< distance in pixels from the drawn part that still counts as a hit
+  /// A part is hit if the mouse is at most this far from the drawn part, in pixels.
+  double tolerance = 4.0;
 
   /// Return the radius of a bone's end.
   double end() const { return 0.6 * this->ball; }

@@ -1,5 +1,5 @@
 // Creates the triangles of balls, bones and gizmo parts. A ball is a subdivided icosahedron,
-// created once. A tube moves its circle along the path without twist. A bone is an octahedron with
+// created once. A tube is a circle swept along a path without twist. A bone is an octahedron with
 // the head, four corners around the axis near the head, and the tail. Each of its 8 faces has its
 // own three corners, so that the shading is flat.
 #include "handle_shapes.h"

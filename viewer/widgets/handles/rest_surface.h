@@ -15,10 +15,10 @@ class vtkPolyData;
 namespace bindpose
 {
 
-/// The surface on which handles are placed or regions are painted. It owns a probe, the search
-/// structure for ray intersections and inside tests. The probe is built on demand, and built again
-/// after points or cells have changed. The probe does not depend on data arrays, which may change
-/// with every move of the mouse.
+/// The surface on which handles are placed or regions are painted, and its SurfaceProbe, which
+/// finds ray intersections and tests whether positions are inside. The probe is built on demand,
+/// and built again after points or polygons have changed. The probe does not depend on data arrays,
+/// which may change with every move of the mouse.
 class RestSurface
 {
 public:

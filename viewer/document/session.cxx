@@ -430,8 +430,8 @@ Status SessionFile::write_companion(
   const QByteArray checksum = written ? checksum_of(temporary) : QByteArray();
   if (checksum.isEmpty())
   {
-    return Status::invalid_input(
-      "cannot write " + path_without_hash.toStdString() + ": the disk is full");
+    return Status::invalid_input("cannot write " + path_without_hash.toStdString() +
+      ": the data could not be written or read back; the disk may be full");
   }
   const QString name = QString("%1%2-%3.%4")
                          .arg(companion_stem(session), role,

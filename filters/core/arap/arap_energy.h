@@ -67,6 +67,7 @@ struct RotationGroups
   Index count = 0;
   /// #V: group of each vertex. For the energy `elements`: the most frequent group among the
   /// vertex's elements (the lowest of equally frequent groups), -1 if no element uses the vertex.
+  /// Empty if each element is a group of its own (FullArap).
   std::vector<Index> group_of_vertex;
   /// #elements: the group of each element; empty for the per-vertex energies.
   std::vector<Index> group_of_element;

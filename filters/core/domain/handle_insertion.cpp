@@ -630,7 +630,7 @@ Status insert_handles(ExecutionContext& context, const Domain& domain, const Han
   result = {};
   if (!(options.snap > 0.0 && options.snap < 0.25))
   {
-    return Status::invalid_input("the snap fraction must be from 0 to 0.25");
+    return Status::invalid_input("the snap fraction must be greater than 0 and less than 0.25");
   }
   if (!(options.spacing > 0.0 && options.spacing <= 1.0))
   {

@@ -13,8 +13,9 @@ namespace bindpose
 /// The rotations that an as-rigid-as-possible method has fitted, for display.
 struct PoseRotations
 {
-  /// #V: index of the rotation that each surface point follows; -1: no rotation. Each bind creates
-  /// a new list, so a changed pointer means that the indices have changed.
+  /// #V: index of the rotation that each surface point follows; -1: no rotation. Empty for full
+  /// ARAP with the energy `elements`, whose rotations belong to elements. Each bind creates a new
+  /// list, so a changed pointer means that the indices have changed.
   std::shared_ptr<const std::vector<Index>> cluster_of_point;
   std::vector<Eigen::Matrix3d> rotations;
 };

@@ -64,6 +64,10 @@ Status segment_tets(ExecutionContext& context, PointsView points, TetsView tets,
   const Eigen::VectorXd& winding_numbers, const SegmentationOptions& options, Segmentation& result)
 {
   result = Segmentation();
+  if (!(options.winding_threshold > 0.0) || !std::isfinite(options.winding_threshold))
+  {
+    return Status::invalid_input("the winding threshold must be greater than 0");
+  }
   if (!(options.cut_smoothness >= 0.0) || !std::isfinite(options.cut_smoothness))
   {
     return Status::invalid_input("cut_smoothness must be 0 or more");

@@ -225,8 +225,8 @@ Status check(const RotationCentersOptions& options, PointsView points, WeightsVi
     !(options.smallest_pair >= 0.0 && options.smallest_pair < 1.0) || !(options.group_size >= 0.0))
   {
     return Status::invalid_input(
-      "the width must be greater than 0, smallest_weight and smallest_pair at least 0 and less "
-      "than 1, and the group size must be at least 0");
+      "centers of rotation: expected a width > 0, smallest_weight and smallest_pair from 0 to less "
+      "than 1, and a group size >= 0");
   }
   if (weights.rows() != points.rows())
   {

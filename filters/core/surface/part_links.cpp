@@ -345,10 +345,10 @@ private:
     return true;
   }
 
-  /// Call at_place() for a grid of points on a triangle, including its corners. Neighboring points
+  /// Call at_point() for a grid of points on a triangle, including its corners. Neighboring points
   /// are at most about `spacing` apart.
-  template <typename AtPlace>
-  void for_each_sample(Index f, const AtPlace& at_place) const
+  template <typename AtPoint>
+  void for_each_sample(Index f, const AtPoint& at_point) const
   {
     const Corners corner = this->corners(f);
     double longest = 0.0;
@@ -364,7 +364,7 @@ private:
       for (int j = 0; i + j <= steps; ++j)
       {
         const double u = static_cast<double>(i) / steps, v = static_cast<double>(j) / steps;
-        at_place(corner[0] + u * (corner[1] - corner[0]) + v * (corner[2] - corner[0]));
+        at_point(corner[0] + u * (corner[1] - corner[0]) + v * (corner[2] - corner[0]));
       }
     }
   }

@@ -234,13 +234,19 @@ TEST(Segmentation, OptionsOutOfRange)
   ExecutionContext context;
   Segmentation result;
   SegmentationOptions options;
+  const Eigen::VectorXd inside = Eigen::VectorXd::Ones(6);
+  const auto code = [&]
+  { return segment_tets(context, mesh.points, mesh.tets, inside, options, result).code; };
   options.cut_sigma = 0.0;
-  EXPECT_EQ(
-    segment_tets(context, mesh.points, mesh.tets, Eigen::VectorXd::Ones(6), options, result).code,
-    StatusCode::invalid_input);
+  EXPECT_EQ(code(), StatusCode::invalid_input);
   options.cut_sigma = 0.1;
   options.cut_smoothness = -1.0;
-  EXPECT_EQ(
-    segment_tets(context, mesh.points, mesh.tets, Eigen::VectorXd::Ones(6), options, result).code,
-    StatusCode::invalid_input);
+  EXPECT_EQ(code(), StatusCode::invalid_input);
+  options.cut_smoothness = 1.0;
+  EXPECT_EQ(code(), StatusCode::ok);
+  for (const double threshold : { 0.0, -1.0, std::nan(""), HUGE_VAL })
+  {
+    options.winding_threshold = threshold;
+    EXPECT_EQ(code(), StatusCode::invalid_input) << threshold;
+  }
 }

@@ -1,14 +1,17 @@
 // Tests of straight segments through the material (see material_probes.h). Triangles that cross a
-// segment divide it into intervals. The segment is in the material if the winding number at the
-// middle of every interval reaches the threshold.
+// segment divide it into intervals. The segment is in the material if the winding number reaches
+// the threshold everywhere in each interval. Near the openings of a surface, the winding number
+// varies within an interval, so that it is tested at several points.
 #include "embedding/material_probes.h"
 
 #include "base/disjoint_sets.h"
 #include "base/sort_unique.h"
+#include "embedding/cube_samples.h"
 #include "embedding/line_crossings.h"
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <tuple>
 
 namespace bindpose
@@ -63,12 +66,21 @@ bool MaterialProbes::stays_inside(
     }
   }
   std::sort(cuts.begin(), cuts.end());
+  constexpr double tests_per_cube = 2.0 * CubeSamples::samples_per_edge;
   for (std::size_t i = 1; i < cuts.size(); ++i)
   {
-    if ((cuts[i] - cuts[i - 1]) * length > LineCrossing::merge_distance &&
-      !inside_at(0.5 * (cuts[i] + cuts[i - 1])))
+    const double interval = cuts[i] - cuts[i - 1];
+    if (interval * length <= LineCrossing::merge_distance)
     {
-      return false;
+      continue;
+    }
+    const int tests = static_cast<int>(std::ceil(interval * length * tests_per_cube));
+    for (int k = 0; k < tests; ++k)
+    {
+      if (!inside_at(cuts[i - 1] + interval * (k + 0.5) / tests))
+      {
+        return false;
+      }
     }
   }
   return true;

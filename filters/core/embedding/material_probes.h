@@ -34,8 +34,8 @@ public:
   /// two copies to `joined`.
   /// @param sides all copies of the node.
   /// @param triangles all triangles in the tets around the node; duplicates are allowed.
-  /// Cost: up to 12 probes per pair of copies; each probe takes one winding number per interval
-  /// between its crossings with triangles.
+  /// Cost: up to 12 probes per pair of copies. Each probe takes at least one winding number per
+  /// interval between its crossings with triangles, and 12 per cube edge of its length.
   void connect(std::vector<Side> sides, std::vector<Id> triangles,
     std::vector<std::pair<Id, Id>>& joined) const;
 

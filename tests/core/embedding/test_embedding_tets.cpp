@@ -309,6 +309,31 @@ TEST(EmbeddingTets, TopologyIsTheSurfaces)
   }
 }
 
+TEST(EmbeddingTets, OpenBoxAboveAPlateIsSeparate)
+{
+  // The box has no bottom. The winding number in it is above 0.5, and decreases to less than 0.5
+  // between its opening and the plate.
+  const TriangleMesh plate = box({ -3.3, -7.6, 0.0 }, { 3.3, 7.6, 0.2 });
+  const TriangleMesh closed = box({ 3.0, -0.2, 0.3 }, { 3.25, 1.3, 0.6 });
+  TriangleMesh open = closed;
+  Index count = 0;
+  for (Index f = 0; f < closed.triangles.rows(); ++f)
+  {
+    const auto is_low = [&](int k) { return closed.points(closed.triangles(f, k), 2) < 0.4; };
+    if (!(is_low(0) && is_low(1) && is_low(2)))
+    {
+      open.triangles.row(count++) = closed.triangles.row(f);
+    }
+  }
+  ASSERT_EQ(count, 10);
+  open.triangles.conservativeResize(count, 3);
+  const TriangleMesh both = test::join(plate, open);
+  for (const Index resolution : { 26, 46, 50, 62 })
+  {
+    EXPECT_EQ(embed_mesh(both, resolution).components, 2) << resolution;
+  }
+}
+
 TEST(EmbeddingTets, BarsThatAreNearShareNoVertex)
 {
   for (const double gap : { 0.3, 0.01, 1e-6 }) // as a fraction of a lattice cube's size

@@ -199,7 +199,7 @@ def test_defects_are_counted(tets):
     ("tets.vtu", ["--section", "x="], "--section 'x='"),
     ("tets.vtu", ["--section", "1,0@0,0,0"], "--section '1,0@0,0,0'"),
     ("tets.vtu", ["--section", "0,0,0@0,0,0"], "section plane"),
-    ("tets.vtu", ["--section", "1.5"], "between 0 and 1"),
+    ("tets.vtu", ["--section", "1.5"], "between 0 (back) and 1 (front)"),
     ("tets.vtu", ["--section", "z=-9"], "removes all tets"),
     ("tets.vtu", ["--color", "label", "--array", "Label"], "--color label"),
     ("tets.vtu", ["--color", "label", "--range", "0,1"], "cannot have a range"),

@@ -406,7 +406,7 @@ if __name__ == "__main__":
         if not shutil.which("xvfb-run"):
             print("01_inside_outside.py: there is no display; install the Debian package xvfb", file=sys.stderr)
             sys.exit(2)
-        os.execvp("xvfb-run", ["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24", sys.executable, *sys.argv])
+        os.execvp("xvfb-run", ["xvfb-run", "-a", "-s", "-screen 0 1280x1024x24 -noreset", sys.executable, *sys.argv])
     try:
         given.output.mkdir(parents=True, exist_ok=True)
         result = main(given)

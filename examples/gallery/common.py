@@ -100,7 +100,7 @@ def display_or_again():
     xvfb = shutil.which("xvfb-run")
     if not xvfb:
         raise Stop("there is no display; install the Debian package xvfb")
-    os.execv(xvfb, [xvfb, "-a", "-s", "-screen 0 1280x1024x24", sys.executable, *sys.argv])
+    os.execv(xvfb, [xvfb, "-a", "-s", "-screen 0 1280x1024x24 -noreset", sys.executable, *sys.argv])
 
 
 def number(value):

@@ -29,7 +29,7 @@ def main():
     program, folder = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
     words = [program, "view"]
     if not os.environ.get("DISPLAY"):
-        words = ["xvfb-run", "-a", "-s", "-screen 0 2600x1700x24", *words]
+        words = ["xvfb-run", "-a", "-s", "-screen 0 2600x1700x24 -noreset", *words]
     tour = json.loads((TOURS / "panels.json").read_text())
     steps = tour["steps"]
     with tempfile.TemporaryDirectory() as scratch:

@@ -28,6 +28,18 @@ def test_it_finds_a_display_for_itself(folder):
     assert run.report["status"] == "ok"
 
 
+def test_the_exit_code_is_kept_when_cleaning_up_is_slow(folder):
+    """An X server that resets itself after its last client signals xvfb-run. If xvfb-run is removing its files at that
+    moment, it exits with 5 instead of the program's code. The slow "rm" makes this certain instead of rare.
+    """
+    folder.off("sphere.off", shapes.sphere(8, 4))
+    os.mkdir(folder / "slow")
+    folder.write("slow/rm", f"#!/bin/sh\nsleep 1\nexec {shutil.which('rm')} \"$@\"\n")
+    os.chmod(folder / "slow/rm", 0o755)
+    slow = {**NO_DISPLAY, "PATH": f"{folder / 'slow'}:{os.environ['PATH']}"}
+    folder.run("render", "sphere.off", "-o", "s.png", "--array", "Weights", environment=slow).is_refused("Weights")
+
+
 def test_tiles_handles_and_volumes(folder):
     folder.off("bar.off", shapes.bar())
     folder.write("h.tgf", shapes.TWO_BONES)

@@ -124,6 +124,34 @@ def test_percentiles():
 # ---- Weights ---------------------------------------------------------------------------------------
 
 
+def test_no_area_is_lost_when_weights_are_read(tmp_path):
+    """The area of a file's polygons is that of their triangles: a quad with two corners at the same place, a concave
+    pentagon, a square and a triangle.
+    """
+    corners = [(0, 0), (1, 0), (0, 1), (0, 1),  # a triangle as a quad, area 1/2
+               (2, 0), (4, 0), (4, 2), (3, 0.5), (2, 2),  # concave, area 4 - 3/2
+               (5, 0), (6, 0), (6, 1), (5, 1), (7, 0), (8, 0), (7, 1)]
+    points, cells = vtk.vtkPoints(), vtk.vtkCellArray()
+    for x, y in corners:
+        points.InsertNextPoint(x, y, 0)
+    for cell in (range(4), range(4, 9), range(9, 13), range(13, 16)):
+        cells.InsertNextCell(len(cell), list(cell))
+    surface, array, writer = vtk.vtkPolyData(), vtk.vtkDoubleArray(), vtk.vtkXMLPolyDataWriter()
+    surface.SetPoints(points)
+    surface.SetPolys(cells)
+    array.SetName("Weights")
+    array.SetNumberOfTuples(len(corners))
+    surface.GetPointData().AddArray(array)
+    writer.SetFileName(str(tmp_path / "w.vtp"))
+    writer.SetInputData(surface)
+    writer.Write()
+    read, triangles, _ = result_checks.read_weights(tmp_path / "w.vtp")
+    assert len(triangles) == 2 + 3 + 2 + 1
+    a, b, c = (read[triangles[:, k]][:, :2] for k in range(3))
+    assert np.cross(b - a, c - a).sum() / 2 == pytest.approx(0.5 + 2.5 + 1 + 0.5)
+    assert result_checks.areas(read, triangles).sum() == pytest.approx(4.5)
+
+
 def test_good_weights_have_no_errors():
     assert result_checks.weights_array_errors(np.full((5, 2), 0.5), 2) == []
     assert result_checks.certificate_errors(CERTIFIED) == []

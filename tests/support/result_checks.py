@@ -64,21 +64,48 @@ def model_facts(path, handles):
 # ---- Weights ---------------------------------------------------------------------------------------
 
 
+def ears(polygon, points):
+    """Return the triangles of a polygon by ear cutting, or a fan if this fails. The ids are those of the polygon."""
+    shape, triangles = vtk.vtkPolygon(), vtk.vtkIdList()
+    shape.GetPoints().SetDataTypeToDouble()
+    shape.GetPoints().SetNumberOfPoints(len(polygon))
+    shape.GetPointIds().SetNumberOfIds(len(polygon))
+    for k, point in enumerate(polygon):
+        shape.GetPointIds().SetId(k, k)
+        shape.GetPoints().SetPoint(k, *points[point])
+    if shape.Triangulate(triangles) and triangles.GetNumberOfIds() == 3 * (len(polygon) - 2):
+        corners = [triangles.GetId(k) for k in range(triangles.GetNumberOfIds())]
+        return polygon[np.reshape(corners, (-1, 3))]
+    return np.array([(polygon[0], polygon[k], polygon[k + 1]) for k in range(1, len(polygon) - 1)])
+
+
+def triangles_of(polygons, points):
+    """Split polygons into triangles as Bindpose does: triangles and quads become fans, larger polygons are cut by ears.
+    vtkTriangleFilter is not used, because it omits quads with two corners at the same place.
+    """
+    starts, ids = vtk_to_numpy(polygons.GetOffsetsArray()), vtk_to_numpy(polygons.GetConnectivityArray())
+    counts = np.diff(starts)
+    starts = starts[:-1]
+    triangles = [np.empty((0, 3), int)]
+    for count in (3, 4):
+        first = starts[counts == count]
+        triangles += [ids[np.stack([first, first + k, first + k + 1], axis=1)] for k in range(1, count - 1)]
+    for larger in np.flatnonzero(counts > 4):
+        triangles.append(ears(ids[starts[larger]:starts[larger] + counts[larger]], points))
+    return np.concatenate(triangles)
+
+
 def read_weights(path):
     """Return the points (#V x 3), triangles (#F x 3) and weights (#V x #H) of a .vtp file."""
-    reader, to_triangles = vtk.vtkXMLPolyDataReader(), vtk.vtkTriangleFilter()
+    reader = vtk.vtkXMLPolyDataReader()
     reader.SetFileName(str(path))
-    to_triangles.SetInputConnection(reader.GetOutputPort())
-    to_triangles.PassVertsOff()
-    to_triangles.PassLinesOff()
-    to_triangles.Update()
-    surface = to_triangles.GetOutput()
+    reader.Update()
+    surface = reader.GetOutput()
     array = surface.GetPointData().GetArray("Weights")
     if array is None or surface.GetNumberOfPolys() == 0:
         return np.empty((0, 3)), np.empty((0, 3), int), np.empty((0, 0))
-    return (vtk_to_numpy(surface.GetPoints().GetData()).astype(float),
-            vtk_to_numpy(surface.GetPolys().GetConnectivityArray()).reshape(-1, 3),
-            vtk_to_numpy(array).astype(float))
+    points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)
+    return points, triangles_of(surface.GetPolys(), points), vtk_to_numpy(array).astype(float)
 
 
 def weights_array_errors(weights, handles):

@@ -270,6 +270,19 @@ def test_the_inside_leads_from_one_open_part_to_another():
 # ---- Processes -------------------------------------------------------------------------------------
 
 
+def test_triangles_are_turned_to_agree_with_their_neighbors():
+    """Two boxes, one of which has triangles turned: fewer than half of them, or all but a few."""
+    points, triangles = triangulated(furniture.join(box_at(0), box_at(3)))
+    middles = [points[:8].mean(axis=0), points[8:].mean(axis=0)]
+    assert separate_parts.winding_numbers(middles, points, triangles) == pytest.approx([1, 1])
+    for turned in ([0, 5], [13], list(range(12, 22))):
+        changed = triangles.copy()
+        changed[turned] = changed[turned][:, ::-1]
+        found = separate_parts.oriented(points, changed)
+        most_of_the_second = len(turned) == 10
+        assert separate_parts.winding_numbers(middles, points, found) == pytest.approx([1, -1 if most_of_the_second else 1])
+
+
 def test_a_process_that_takes_too_long_is_ended_with_its_children(tmp_path):
     started = time.monotonic()
     words = ["bash", "-c", f"sleep 100 & echo $! >{tmp_path}/child; wait"]

@@ -173,6 +173,42 @@ def front_sides(points, triangles):
     return kept
 
 
+def oriented(points, triangles):
+    """Return the triangles with consistent orientations in each patch, as Bindpose turns them.
+
+    A patch consists of triangles that are connected by edges with two triangles. Of the two sets of triangles with opposite
+    orientations, the one with the smaller area is turned.
+    """
+    patch, turned_to_patch = list(range(len(triangles))), [False] * len(triangles)
+
+    def find(k):
+        """Return the first triangle of the patch, and whether triangle k must be turned to agree with it."""
+        turn = False
+        while patch[k] != k:
+            turn, k = turn != turned_to_patch[k], patch[k]
+        return k, turn
+
+    edges = np.vstack([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
+    owners = np.tile(np.arange(len(triangles)), 3)
+    forward = edges[:, 0] < edges[:, 1]
+    _, edge, count = np.unique(np.sort(edges, axis=1), axis=0, return_inverse=True, return_counts=True)
+    edge = edge.reshape(-1)
+    paired = np.flatnonzero(count[edge] == 2)
+    paired = paired[np.argsort(edge[paired], kind="stable")].reshape(-1, 2)
+    for one, other in paired:
+        (a, turn_a), (b, turn_b) = find(owners[one]), find(owners[other])
+        if a != b:
+            patch[a] = b
+            turned_to_patch[a] = (turn_a != turn_b) != (forward[one] == forward[other])
+    first, turn = (np.array(column) for column in zip(*(find(k) for k in range(len(triangles)))))
+    area = np.linalg.norm(np.cross(points[triangles[:, 1]] - points[triangles[:, 0]],
+                                   points[triangles[:, 2]] - points[triangles[:, 0]]), axis=1)
+    turned_area = np.bincount(first, area * turn, len(triangles))
+    kept_area = np.bincount(first, area * ~turn, len(triangles))
+    turn ^= (turned_area > kept_area)[first]
+    return np.where(turn[:, None], triangles[:, ::-1], triangles)
+
+
 def inside_pairs(points, triangles, component, groups):
     """Return the pairs of components that are not joined in `groups`. The first vertex of the first component is inside
     of the second component.
@@ -191,13 +227,14 @@ def inside_pairs(points, triangles, component, groups):
 
 
 def inside_leads(first, second, points, triangles):
-    """Return True if a straight line between two sets of points is inside of the surface. Back sides are ignored.
+    """Return True if a straight line between two sets of points is inside of the surface. Back sides are ignored, and
+    triangles are turned to agree with their neighbors.
 
     Half of the lines end at the nearest point of the second set, the other half at a random point of it. The steps
     along a line are short enough to detect the gap between the sets.
     """
     points, triangles, _ = weld(points, triangles)
-    triangles = triangles[front_sides(points, triangles)]
+    triangles = oriented(points, triangles[front_sides(points, triangles)])
     random = np.random.RandomState(SEED)
     starts, ends = (side[random.randint(len(side), size=LINES)] for side in (first, second))
     for k in range(LINES // 2):

@@ -227,14 +227,15 @@ def inside_pairs(points, triangles, component, groups):
 
 
 def inside_leads(first, second, points, triangles):
-    """Return True if a straight line between two sets of points is inside of the surface. Back sides are ignored, and
-    triangles are turned to agree with their neighbors.
+    """Return True if a straight line between two sets of points is inside of the surface, as it is or with triangles turned
+    to agree with their neighbors. Back sides are ignored.
 
     Half of the lines end at the nearest point of the second set, the other half at a random point of it. The steps
     along a line are short enough to detect the gap between the sets.
     """
     points, triangles, _ = weld(points, triangles)
-    triangles = oriented(points, triangles[front_sides(points, triangles)])
+    triangles = triangles[front_sides(points, triangles)]
+    surfaces = triangles, oriented(points, triangles)
     random = np.random.RandomState(SEED)
     starts, ends = (side[random.randint(len(side), size=LINES)] for side in (first, second))
     for k in range(LINES // 2):
@@ -243,10 +244,9 @@ def inside_leads(first, second, points, triangles):
     step = NEAR * np.linalg.norm(np.ptp(points, axis=0)) / 2
     for start, end, length in sorted(zip(starts, ends, lengths), key=lambda line: line[2]):
         coarse = np.linspace(0, 1, 7)[1:-1, None]
-        if winding_numbers((1 - coarse) * start + coarse * end, points, triangles).min() < 0.5:
-            continue
         fine = np.linspace(0, 1, int(np.ceil(length / step)) + 2)[1:-1, None]
-        if winding_numbers((1 - fine) * start + fine * end, points, triangles).min() >= 0.5:
+        if any(all(winding_numbers((1 - steps) * start + steps * end, points, surface).min() >= 0.5 for steps in (coarse, fine))
+               for surface in surfaces):
             return True
     return False
 

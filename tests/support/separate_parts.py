@@ -177,36 +177,28 @@ def oriented(points, triangles):
     """Return the triangles with consistent orientations in each patch, as Bindpose turns them.
 
     A patch consists of triangles that are connected by edges with two triangles. Of the two sets of triangles with opposite
-    orientations, the one with the smaller area is turned.
+    orientations, the one with the smaller area is turned. A patch without consistent orientations stays as it is.
     """
-    patch, turned_to_patch = list(range(len(triangles))), [False] * len(triangles)
-
-    def find(k):
-        """Return the first triangle of the patch, and whether triangle k must be turned to agree with it."""
-        turn = False
-        while patch[k] != k:
-            turn, k = turn != turned_to_patch[k], patch[k]
-        return k, turn
-
+    count = len(triangles)
     edges = np.vstack([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
-    owners = np.tile(np.arange(len(triangles)), 3)
+    owners = np.tile(np.arange(count), 3)
     forward = edges[:, 0] < edges[:, 1]
-    _, edge, count = np.unique(np.sort(edges, axis=1), axis=0, return_inverse=True, return_counts=True)
+    _, edge, uses = np.unique(np.sort(edges, axis=1), axis=0, return_inverse=True, return_counts=True)
     edge = edge.reshape(-1)
-    paired = np.flatnonzero(count[edge] == 2)
+    paired = np.flatnonzero(uses[edge] == 2)
     paired = paired[np.argsort(edge[paired], kind="stable")].reshape(-1, 2)
+    # Item k is triangle k as it is; item count + k is triangle k turned. Items that agree are in one group.
+    groups = Groups(2 * count)
     for one, other in paired:
-        (a, turn_a), (b, turn_b) = find(owners[one]), find(owners[other])
-        if a != b:
-            patch[a] = b
-            turned_to_patch[a] = (turn_a != turn_b) != (forward[one] == forward[other])
-    first, turn = (np.array(column) for column in zip(*(find(k) for k in range(len(triangles)))))
+        shift = count if forward[one] == forward[other] else 0
+        groups.join(owners[one], owners[other] + shift)
+        groups.join(owners[one] + count, owners[other] + count - shift)
+    kept, turned = groups.labels().reshape(2, count)
     area = np.linalg.norm(np.cross(points[triangles[:, 1]] - points[triangles[:, 0]],
                                    points[triangles[:, 2]] - points[triangles[:, 0]]), axis=1)
-    turned_area = np.bincount(first, area * turn, len(triangles))
-    kept_area = np.bincount(first, area * ~turn, len(triangles))
-    turn ^= (turned_area > kept_area)[first]
-    return np.where(turn[:, None], triangles[:, ::-1], triangles)
+    area_of = np.bincount(kept, area, 2 * count)
+    is_smaller = (area_of[kept] < area_of[turned]) | ((area_of[kept] == area_of[turned]) & (kept < turned))
+    return np.where(is_smaller[:, None], triangles[:, ::-1], triangles)
 
 
 def inside_pairs(points, triangles, component, groups):
@@ -242,8 +234,8 @@ def inside_leads(first, second, points, triangles):
         ends[k] = second[((second - starts[k]) ** 2).sum(axis=1).argmin()]
     lengths = np.linalg.norm(ends - starts, axis=1)
     step = NEAR * np.linalg.norm(np.ptp(points, axis=0)) / 2
+    coarse = np.linspace(0, 1, 7)[1:-1, None]
     for start, end, length in sorted(zip(starts, ends, lengths), key=lambda line: line[2]):
-        coarse = np.linspace(0, 1, 7)[1:-1, None]
         fine = np.linspace(0, 1, int(np.ceil(length / step)) + 2)[1:-1, None]
         if any(all(winding_numbers((1 - steps) * start + steps * end, points, surface).min() >= 0.5 for steps in (coarse, fine))
                for surface in surfaces):

@@ -617,9 +617,9 @@ bool WindingCells::Builder::fill(
 {
   const auto number = static_cast<std::size_t>(grid.number(c));
   const List faces(grid.faces.data() + grid.begin[c], grid.faces.data() + grid.begin[c + 1]);
-  // From depth 3 on, divide the cell only if it has less than 70 % of the faces of the enclosing
-  // box. At a vertex of many triangles, dividing does not help: the cell that contains the vertex
-  // overlaps all these triangles, however small the cell is.
+  // At a depth of 3 or more, divide the cell only if it has less than 70 % of the faces of the
+  // enclosing box. At a vertex of many triangles, dividing does not help: the cell that contains
+  // the vertex overlaps all these triangles, however small the cell is.
   const bool shrinks = box.depth < 3 || 10 * number < 7 * grid.faces_before;
   const bool large_enough = grid.cell > 1e6 * this->owner_.tolerance_;
   if (number > maximum_leaf_faces && shrinks && large_enough && box.depth < maximum_depth &&

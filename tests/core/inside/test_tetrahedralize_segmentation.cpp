@@ -52,7 +52,7 @@ TEST_F(Cdt, AnOpenSurfaceIsCutWithLessEnergy)
   ASSERT_TRUE(plain.status.ok()) << plain.status.message;
   EXPECT_EQ(plain.status.report.text("segmentation"), "threshold");
   EXPECT_EQ(plain.status.report.find("energy"), nullptr);
-  // Where the surface has holes, the graph cut gives a straight boundary, and the method
+  // At holes of the surface, the graph cut gives a straight boundary, and the method
   // `threshold` gives a ragged one. The boundary of the graph cut therefore has the smaller area.
   const auto skin = [](const Outcome& outcome) {
     return surface_area(outcome.result.mesh.points, boundary_triangles(outcome.result.mesh.tets));

@@ -31,12 +31,7 @@ struct MesherResult
   bool timed_out = false; ///< whether the helper was stopped at one of its time limits
 };
 
-/// Return the path of bindpose-mesher, or an empty string if it is not found. If the environment
-/// variable BINDPOSE_MESHER is set, only this path is used. Otherwise these folders are searched in
-/// this order, where LIB is the folder of the library that contains this function:
-/// - the folder of the running executable
-/// - LIB, LIB/../bin and LIB/../../bin
-/// - the build tree
+/// Return the path of bindpose-mesher, or an empty string if it is not found (see find_helper()).
 std::string find_mesher();
 
 /// Report whether two jobs for a surface may run at the same time without using too much memory.

@@ -1,0 +1,176 @@
+// Runs of helper executables (see helper_process.h).
+#include "helper/helper_process.h"
+
+#include <cstdlib>
+#include <sstream>
+
+#include <dlfcn.h>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
+
+namespace bindpose
+{
+
+namespace
+{
+std::string folder_of(const std::string& path)
+{
+  const std::size_t slash = path.rfind('/');
+  return slash == std::string::npos ? "." : path.substr(0, slash);
+}
+
+/// Parses the lines that a helper prints.
+class HelperOutput
+{
+public:
+  void parse_line(ExecutionContext& context, const std::string& line, Report& report)
+  {
+    std::istringstream words(line);
+    std::string kind, key;
+    double number = 0.0;
+    words >> kind;
+    if (kind == "progress" && words >> number)
+    {
+      context.progress(number);
+    }
+    else if (kind == "report" && words >> key >> number)
+    {
+      report.set(key, Report::Value(number));
+    }
+    else if (kind == "error")
+    {
+      this->error_ = line.size() > 6 ? line.substr(6) : std::string();
+    }
+    else if (!line.empty())
+    {
+      constexpr std::size_t maximum_message_length = 200;
+      this->library_output_ = line.substr(0, maximum_message_length);
+    }
+  }
+
+  std::string error() const { return this->error_; }
+  std::string library_output() const { return this->library_output_; }
+
+private:
+  std::string error_;
+  std::string library_output_;
+};
+
+Status check_end(const ChildEnd& end, const HelperOutput& lines, const HelperRequest& request)
+{
+  if (end.failure.empty() && lines.error().empty())
+  {
+    return {};
+  }
+  const std::string limit = memory_limit_phrase(request.memory_limit);
+  std::string message = request.name + " " + end.failure + limit;
+  if (end.killed_by_signal)
+  {
+    message += lines.library_output().empty() ? "" : "; last output: " + lines.library_output();
+  }
+  else if (!lines.error().empty())
+  {
+    message = request.name + ": " + lines.error() + limit;
+  }
+  else
+  {
+    message += lines.library_output().empty() ? "" : ": " + lines.library_output();
+  }
+  return Status::failure(StatusCode::internal_error, message);
+}
+} // namespace
+
+int anonymous_file(const char* name)
+{
+  const int file = ::memfd_create(name, MFD_CLOEXEC);
+  if (file < 0 || file > 2)
+  {
+    return file;
+  }
+  const int moved = ::fcntl(file, F_DUPFD_CLOEXEC, 3);
+  ::close(file);
+  return moved;
+}
+
+std::string find_helper(const Helper& helper)
+{
+  if (const char* chosen = std::getenv(helper.variable))
+  {
+    return is_executable_file(chosen) ? std::string(chosen) : std::string();
+  }
+  std::vector<std::string> folders;
+  char executable_path[4096];
+  const ssize_t length = ::readlink("/proc/self/exe", executable_path, sizeof(executable_path) - 1);
+  if (length > 0)
+  {
+    folders.push_back(folder_of(std::string(executable_path, static_cast<std::size_t>(length))));
+  }
+  // Find the library that contains this function. The library is either in a plugin's folder or in
+  // lib/ or lib/ARCHITECTURE/ of the installation.
+  Dl_info info{};
+  if (::dladdr(reinterpret_cast<void*>(&find_helper), &info) && info.dli_fname)
+  {
+    const std::string library = folder_of(info.dli_fname);
+    folders.push_back(library);
+    folders.push_back(library + "/../bin");
+    folders.push_back(library + "/../../bin");
+  }
+#ifdef BINDPOSE_PROGRAM_BUILD_FOLDER
+  folders.emplace_back(BINDPOSE_PROGRAM_BUILD_FOLDER);
+#endif
+  for (const std::string& folder : folders)
+  {
+    std::string path = folder + "/" + helper.program;
+    if (is_executable_file(path))
+    {
+      return path;
+    }
+  }
+  return {};
+}
+
+Status run_helper(ExecutionContext& context, const Helper& helper, const HelperRequest& request,
+  int output, HelperRun& run)
+{
+  run = HelperRun();
+  if (context.canceled())
+  {
+    return Status::canceled();
+  }
+  ChildRequest child;
+  child.path = find_helper(helper);
+  if (child.path.empty())
+  {
+    const char* chosen = std::getenv(helper.variable);
+    return Status::failure(StatusCode::unavailable,
+      chosen ? std::string("the environment variable ") + helper.variable +
+          " must name an executable file, but is set to " + chosen
+             : std::string(helper.missing));
+  }
+  child.name = request.name;
+  child.arguments = request.arguments;
+  // The helper asks the system to kill it when its parent process dies. If the parent dies before
+  // this request, the helper notices that the id of its parent differs from --parent.
+  child.arguments.insert(child.arguments.end(), { "--parent", std::to_string(::getpid()) });
+  if (request.memory_limit > 0)
+  {
+    // The helper sets the memory limit itself, so that it can report that the limit was exceeded.
+    child.arguments.insert(
+      child.arguments.end(), { "--memory", std::to_string(request.memory_limit) });
+  }
+  child.input = request.input;
+  child.output = output;
+  child.time_limit = request.time_limit;
+  child.processor_limit = request.processor_limit;
+  HelperOutput lines;
+  ChildEnd end;
+  Status status = run_child(
+    context, child, [&](const std::string& line) { lines.parse_line(context, line, run.report); },
+    end);
+  run.seconds = end.seconds;
+  run.timed_out = end.timed_out;
+  return status.ok() ? check_end(end, lines, request) : status;
+}
+
+} // namespace bindpose

@@ -2,6 +2,7 @@
 // arbitrary integers; edges refer to nodes by id.
 #include "io/tgf.h"
 
+#include "base/text_check.h"
 #include "io/text_scanner.h"
 
 #include <cmath>
@@ -44,6 +45,12 @@ Status read_node(TextScanner& scanner, std::string_view first, Ids& ids, Tgf& gr
     node.position[k] = value;
   }
   node.text = std::string(scanner.rest_of_line());
+  const std::string error = text_error(node.text);
+  if (!error.empty())
+  {
+    return scanner.error("the name of node " + std::to_string(id) + " contains " + error +
+      "; names must be UTF-8 without control characters");
+  }
   graph.nodes.push_back(node);
   return {};
 }

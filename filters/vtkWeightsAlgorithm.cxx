@@ -147,9 +147,10 @@ void SolvedMesh::set_mesh(const WeightsProblem& problem, const std::vector<Index
     return;
   }
   const Domain& refined = problem.mesh.domain;
-  this->points = to_vtk_points(refined.points);
-  this->cells = refined.is_volume() ? to_unstructured_grid(refined.points, refined.tets)->GetCells()
-                                    : to_polydata(refined.points, refined.triangles)->GetPolys();
+  const Points positions = problem.frame.from_frame(refined.points);
+  this->points = to_vtk_points(positions);
+  this->cells = refined.is_volume() ? to_unstructured_grid(positions, refined.tets)->GetCells()
+                                    : to_polydata(positions, refined.triangles)->GetPolys();
   this->types = vtkSmartPointer<vtkUnsignedCharArray>::New();
   this->types->SetNumberOfValues(this->cells->GetNumberOfCells());
   this->types->FillValue(refined.is_volume() ? VTK_TETRA : VTK_TRIANGLE);

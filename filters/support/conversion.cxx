@@ -3,6 +3,8 @@
 // only tets.
 #include "conversion.h"
 
+#include "geometry/working_frame.h"
+
 #include "vtkCell.h"
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
@@ -97,6 +99,51 @@ bool ids_in_range(vtkIdType count, const vtkIdType* ids, vtkIdType number_of_poi
   return true;
 }
 
+/// Report whether the offsets of a cell array ascend from 0 to the number of its point ids.
+template <typename Array>
+bool offsets_are_valid(Array* offsets, vtkIdType number_of_ids)
+{
+  const vtkIdType count = offsets->GetNumberOfValues();
+  for (vtkIdType k = 0; k < count; ++k)
+  {
+    if (offsets->GetValue(k) < (k > 0 ? offsets->GetValue(k - 1) : 0))
+    {
+      return false;
+    }
+  }
+  return count > 0 && offsets->GetValue(0) == 0 && offsets->GetValue(count - 1) == number_of_ids;
+}
+
+/// Check the offsets of cells, because VTK reads out of bounds if an offset is invalid.
+Status check_offsets(vtkCellArray* cells)
+{
+  const bool valid = !cells || cells->GetNumberOfCells() == 0 ||
+    (cells->IsStorage64Bit()
+        ? offsets_are_valid(cells->GetOffsetsArray64(), cells->GetNumberOfConnectivityIds())
+        : offsets_are_valid(cells->GetOffsetsArray32(), cells->GetNumberOfConnectivityIds()));
+  return valid ? Status()
+               : Status::invalid_input("the offsets of the cells are not valid; they must ascend "
+                                       "from 0 to the number of the cells' point ids");
+}
+
+Status check_offsets(vtkPointSet* data)
+{
+  if (auto* grid = vtkUnstructuredGrid::SafeDownCast(data))
+  {
+    return check_offsets(grid->GetCells());
+  }
+  Status status;
+  if (auto* surface = vtkPolyData::SafeDownCast(data))
+  {
+    for (vtkCellArray* cells :
+      { surface->GetVerts(), surface->GetLines(), surface->GetPolys(), surface->GetStrips() })
+    {
+      status = status.ok() ? check_offsets(cells) : status;
+    }
+  }
+  return status;
+}
+
 Status split_cells(vtkPointSet* data, SurfaceInput& surface)
 {
   vtkNew<vtkIdList> cell_points;
@@ -133,6 +180,11 @@ Status split_cells(vtkPointSet* data, SurfaceInput& surface)
     }
     else
     {
+      if (type == VTK_PIXEL && count != 4)
+      {
+        return Status::invalid_input("cell " + std::to_string(cell) + " is a pixel with " +
+          std::to_string(count) + " points; expected 4");
+      }
       if (type == VTK_PIXEL)
       {
         std::swap(ids[2], ids[3]);
@@ -188,6 +240,11 @@ Status to_surface(vtkDataSet* data, SurfaceInput& surface)
       std::to_string(set->GetNumberOfPoints()) + " points and " +
       std::to_string(set->GetNumberOfCells()) + " cells");
   }
+  Status valid = check_offsets(set);
+  if (!valid.ok())
+  {
+    return valid;
+  }
   surface.points = to_points(set);
   auto* polydata = vtkPolyData::SafeDownCast(set);
   const bool only_polys = polydata && polydata->GetNumberOfPolys() == polydata->GetNumberOfCells();
@@ -204,7 +261,9 @@ Status to_surface(vtkDataSet* data, SurfaceInput& surface)
     return Status::invalid_input("the input has no triangles or polygons, only " +
       std::to_string(set->GetNumberOfCells()) + " cells of other types");
   }
-  return check_mesh(surface.points.view(), surface.triangles.view());
+  WorkingFrame frame;
+  return WorkingFrame::choose(
+    surface.points.view(), surface.triangles.view(), "the surface", frame);
 }
 
 Status to_tets(vtkDataSet* data, TetInput& tets)
@@ -220,6 +279,11 @@ Status to_tets(vtkDataSet* data, TetInput& tets)
   if (grid->GetNumberOfPoints() == 0 || grid->GetNumberOfCells() == 0)
   {
     return Status::invalid_input("the tet mesh is empty");
+  }
+  Status valid = check_offsets(grid);
+  if (!valid.ok())
+  {
+    return valid;
   }
   for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
   {
@@ -237,6 +301,11 @@ Status to_tets(vtkDataSet* data, TetInput& tets)
     for (vtkIdType cell = 0; cell < grid->GetNumberOfCells(); ++cell)
     {
       grid->GetCellPoints(cell, ids);
+      if (ids->GetNumberOfIds() != 4)
+      {
+        return Status::invalid_input("cell " + std::to_string(cell) + " is a tet with " +
+          std::to_string(ids->GetNumberOfIds()) + " points; expected 4");
+      }
       for (int k = 0; k < 4; ++k)
       {
         matrix(cell, k) = ids->GetId(k);
@@ -244,7 +313,8 @@ Status to_tets(vtkDataSet* data, TetInput& tets)
     }
     tets.tets.set_owned(std::move(matrix));
   }
-  return check_mesh(tets.points.view(), tets.tets.view());
+  WorkingFrame frame;
+  return WorkingFrame::choose(tets.points.view(), tets.tets.view(), "the tet mesh", frame);
 }
 
 namespace
@@ -693,11 +763,10 @@ Status to_pose(
       twists->GetTuple(cell, pose[i].twist.data());
     }
     pose[i].stretch = cell_value(data, "Stretch", cell, 1.0);
-    if (!pose[i].transform.allFinite() || !pose[i].twist.allFinite() ||
-      !std::isfinite(pose[i].stretch))
+    const Status status = check_pose_values(handles[i], pose[i]);
+    if (!status.ok())
     {
-      return Status::invalid_input(
-        "the pose of handle '" + handles[i].name + "' contains a value that is not finite");
+      return status;
     }
   }
   return {};

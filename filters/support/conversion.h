@@ -94,8 +94,8 @@ struct SurfaceInput
 };
 
 /// Convert the 2D cells of a polydata or unstructured grid to triangles; strips and polygons are
-/// split. Ids and coordinates are checked. If there is no 2D cell, return invalid_input with a
-/// message that names the cell types of the dataset.
+/// split. Ids and coordinates are checked by WorkingFrame::choose(). If there is no 2D cell, return
+/// invalid_input with a message that names the cell types of the dataset.
 BINDPOSEFILTERS_EXPORT Status to_surface(vtkDataSet* data, SurfaceInput& surface);
 
 struct TetInput

@@ -75,7 +75,8 @@ vtkSmartPointer<vtkPolyData> to_extrema(const WeightsProblem& problem, const Wei
   {
     for (const Extremum& extremum : result.columns[j].extrema)
     {
-      const Vec3 position = problem.mesh.domain.points.row(extremum.vertex);
+      const Vec3 position =
+        problem.frame.point_from_frame(problem.mesh.domain.points.row(extremum.vertex));
       const vtkIdType id = points->InsertNextPoint(position.data());
       vertices->InsertNextCell(1, &id);
       kinds->InsertNextValue(extremum.maximum ? 1 : -1);

@@ -12,6 +12,7 @@
 #include "vtkPolyData.h"
 #include "vtkSphereSource.h"
 #include "vtkStringArray.h"
+#include "vtkTypeInt64Array.h"
 #include "vtkUnstructuredGrid.h"
 
 #include <gtest/gtest.h>
@@ -63,6 +64,46 @@ TEST(Conversion, WhatIsNoSurfaceIsNamed)
   const TriangleMesh mesh = test::cube();
   bad->ShallowCopy(to_polydata(Points(mesh.points.topRows(7)), mesh.triangles));
   EXPECT_NE(to_surface(bad, surface).message.find("vertex 7"), std::string::npos);
+}
+
+/// VTK reads beyond the end of the ids if the offsets are wrong, without a check.
+TEST(Conversion, OffsetsThatAreNotValidAreRefused)
+{
+  const TriangleMesh cube = test::cube();
+  for (const int change : { 0, 1, 2, 3 })
+  {
+    const auto surface = to_polydata(cube.points, cube.triangles);
+    vtkNew<vtkTypeInt64Array> offsets;
+    for (vtkIdType k = 0; k <= 12; ++k)
+    {
+      offsets->InsertNextValue(3 * k);
+    }
+    const vtkIdType place[] = { 0, 12, 5, 5 };
+    const vtkTypeInt64 wrong[] = { 3, 39, -3, 33 };
+    offsets->SetValue(place[change], wrong[change]);
+    vtkNew<vtkCellArray> cells;
+    cells->SetData(
+      offsets, vtkTypeInt64Array::SafeDownCast(surface->GetPolys()->GetConnectivityArray64()));
+    surface->SetPolys(cells);
+    SurfaceInput input;
+    EXPECT_NE(to_surface(surface, input).message.find("offsets"), std::string::npos) << change;
+  }
+}
+
+TEST(Conversion, CoordinatesOutOfRangeAreRefused)
+{
+  TriangleMesh cube = test::cube();
+  cube.points(3, 1) = 1e110;
+  SurfaceInput surface;
+  EXPECT_NE(to_surface(to_polydata(cube.points, cube.triangles), surface)
+              .message.find("coordinate y of point 3 is 1e+110"),
+    std::string::npos);
+  TetMesh box = test::tet_box(1, 1, 1);
+  box.points.col(2).array() += 1e15;
+  TetInput tets;
+  EXPECT_NE(to_tets(to_unstructured_grid(box.points, box.tets), tets)
+              .message.find("the tet mesh is too far from the origin"),
+    std::string::npos);
 }
 
 TEST(Conversion, HandlesSurviveTheRoundTrip)

@@ -341,7 +341,7 @@ TEST(TetrahedralizeSurface, AbortKillsTheHelper)
   helper.reset();
   EXPECT_EQ(filter->GetStatus(), vtkTetrahedralizeSurface::CANCELED);
   EXPECT_TRUE(listener->errors.empty());
-  EXPECT_LT(seconds_since_cancel, 0.2);
+  EXPECT_LT(seconds_since_cancel, 10.0); // 20 ms on an idle machine
   EXPECT_EQ(filter->GetOutput()->GetNumberOfCells(), 0);
   // The next update executes the filter again. Without the fake helper, the filter uses the real
   // helper program or, if that is not installed, a lattice.

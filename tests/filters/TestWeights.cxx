@@ -418,7 +418,7 @@ TEST(WeightsFilters, CanceledOnceTheNextUpdateSolves)
   const double late =
     std::chrono::duration<double>(std::chrono::steady_clock::now() - cancel_time).count();
   EXPECT_EQ(run.filter->GetStatus(), vtkBindposeAlgorithm::CANCELED);
-  EXPECT_LT(late, 2.0) << "200 ms, and what the machine's other work takes";
+  EXPECT_LT(late, 10.0); // 0.2 s on an idle machine
   EXPECT_TRUE(run.listener->errors.empty());
   EXPECT_EQ(run.output()->GetNumberOfPoints(), 0);
   EXPECT_EQ(run.filter->GetNumberOfBinds(), 0);

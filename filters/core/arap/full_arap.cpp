@@ -244,10 +244,22 @@ double FullArap::quadratic(ExecutionContext& context, const Rows& d) const
 Status FullArap::solve(ExecutionContext& context, const Pose& pose, const SolveOptions& options)
 {
   Status status = check_pose(this->handles_, pose);
-  if (!status.ok())
+  if (!status.ok() || this->frame_.is_identity())
   {
-    return status;
+    return status.ok() ? this->solve_in_frame(context, pose, options) : status;
   }
+  status = this->solve_in_frame(context, to_frame(this->frame_, pose), options);
+  if (status.usable())
+  {
+    this->posed_ = this->frame_.from_frame(this->posed_);
+  }
+  return status;
+}
+
+Status FullArap::solve_in_frame(
+  ExecutionContext& context, const Pose& pose, const SolveOptions& options)
+{
+  Status status;
   if (!same_modes(this->modes_, pose))
   {
     Phase phase(context, "factor", 0.0, 0.2);

@@ -114,7 +114,7 @@ public:
   std::vector<Eigen::Matrix3d> rotations() const;
   const RotationGroups& groups() const { return this->groups_; }
   /// Energy after each local and global step of the last solve: start, local, global, local,
-  /// global, …
+  /// global, … Energies of a mesh with extreme coordinates are those in its WorkingFrame.
   const std::vector<double>& energies() const { return this->energies_; }
   /// Quadratic form 1/2 tr(V^T L V) of the rest positions V. The round-off of energies is
   /// proportional to this value.
@@ -134,6 +134,7 @@ private:
     std::vector<double> b; ///< the vector b of each entry, three coordinates
   };
 
+  Status solve_in_frame(ExecutionContext& context, const Pose& pose, const SolveOptions& options);
   template <typename Elements>
   Status bind_elements(ExecutionContext& context, PointsView points, const Elements& elements,
     const Handles& handles, const FullArapOptions& options);
@@ -145,6 +146,7 @@ private:
   double quadratic(ExecutionContext& context, const Rows& d) const;
 
   // ---- bind time
+  WorkingFrame frame_; ///< all other data is in this frame, except posed_ after a solve
   Handles handles_;
   Points rest_;
   RotationGroups groups_;

@@ -145,8 +145,21 @@ Status FullArap::bind_elements(ExecutionContext& context, PointsView points,
 {
   *this = FullArap();
   Status status = check_mesh_and_handles(points, elements, handles);
+  WorkingFrame frame;
+  if (status.ok())
+  {
+    status = WorkingFrame::choose(points, elements, "the mesh", frame);
+  }
   if (!status.ok())
   {
+    return status;
+  }
+  if (!frame.is_identity())
+  {
+    status = this->bind_elements(
+      context, frame.to_frame(points), elements, to_frame(frame, handles), options);
+    this->frame_ = frame;
+    this->posed_ = points;
     return status;
   }
   constexpr bool tets = Elements::ColsAtCompileTime == 4;

@@ -2,6 +2,7 @@
 // constraints are selected again whenever the modes of the handles change.
 #include "arap/mesh_grips.h"
 
+#include "base/number_text.h"
 #include "geometry/simplex_locator.h"
 
 #include <algorithm>
@@ -164,8 +165,9 @@ Status MeshGrips::find_any(PointsView points, const Elements& elements, const Co
   }
   if (!distant_handles.empty())
   {
-    status.warnings.push_back("these handles are up to " + std::to_string(largest_distance) +
-      " away from the mesh and constrain its nearest points: " +
+    status.warnings.push_back("these handles are up to " +
+      short_number(largest_distance / this->diagonal_) +
+      " bounding-box diagonals away from the mesh and constrain its nearest points: " +
       quoted_names(this->handles_, distant_handles));
   }
   return status;

@@ -79,7 +79,7 @@ public:
   std::vector<Eigen::Matrix3d> rotations() const;
   const RotationGroups& groups() const { return this->space_.groups; }
   /// Energy after each local and global step of the last solve: start, local, global, local,
-  /// global, …
+  /// global, … Energies of a mesh with extreme coordinates are those in its WorkingFrame.
   const std::vector<double>& energies() const { return this->solver_.energies(); }
   /// Quadratic form 1/2 tr(V^T L V) of the rest positions V. The round-off of energies is
   /// proportional to this value.

@@ -112,7 +112,9 @@ Status ReducedDynamics::step(
   }
   const ReducedSpace& space = this->space_;
   State& state = this->state_;
-  const double h = options.time_step, unit = options.density / options.stiffness;
+  const double scale = space.frame.scale();
+  const double h = options.time_step;
+  const double unit = options.density / options.stiffness / (scale * scale);
   const double inertia = unit / (h * h), drag = unit * options.damping / h;
   if (this->inertia_ != inertia + drag)
   {
@@ -122,7 +124,7 @@ Status ReducedDynamics::step(
   }
   const Rows& displacement = state.displacement;
   const Rows coasting = displacement + h * state.velocity;
-  const Rows weight = unit * space.mass_sums * options.gravity.transpose();
+  const Rows weight = unit * space.mass_sums * (scale * options.gravity).transpose();
   const Rows inertial = space.mass * (inertia * coasting + drag * displacement);
   const Rows load = inertial + weight;
   const double constant = 0.5 * inertia * product(coasting, space.mass * coasting) +

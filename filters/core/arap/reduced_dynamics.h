@@ -92,7 +92,9 @@ public:
   std::vector<Eigen::Matrix3d> rotations() const;
 
   /// Return the elastic energy for stiffness 1. The next two functions return the kinetic energy
-  /// and the momentum for density 1.
+  /// and the momentum for density 1. All three, and the energies of reports, are in the
+  /// WorkingFrame of the mesh, which differs from the given coordinates only for extreme
+  /// coordinates.
   double elastic_energy() const;
   double kinetic_energy() const;
   Vec3 momentum() const;

@@ -135,13 +135,16 @@ void ReducedSolver::start_rotations(const ReducedSpace& space, const Pose& pose)
 }
 
 Status ReducedSolver::solve(ExecutionContext& context, const ReducedSpace& space,
-  const Quadratic& quadratic, const Pose& pose, const ReducedSolveOptions& options, Rows& d)
+  const Quadratic& quadratic, const Pose& given, const ReducedSolveOptions& options, Rows& d)
 {
-  Status status = check_pose(space.handles, pose);
+  Status status = check_pose(space.handles, given);
   if (!status.ok())
   {
     return status;
   }
+  const bool needs_frame = !space.frame.is_identity();
+  const Pose framed = needs_frame ? to_frame(space.frame, given) : Pose();
+  const Pose& pose = needs_frame ? framed : given;
   if (!same_modes(this->modes_, pose))
   {
     this->factor(space, quadratic.stiffness, pose);

@@ -299,8 +299,20 @@ Status ReducedSpace::bind(ExecutionContext& context, PointsView points, const El
 {
   *this = ReducedSpace();
   Status status = check_mesh_and_handles(points, elements, input_handles);
+  WorkingFrame own_frame;
+  if (status.ok())
+  {
+    status = WorkingFrame::choose(points, elements, "the mesh", own_frame);
+  }
   if (!status.ok())
   {
+    return status;
+  }
+  if (!own_frame.is_identity())
+  {
+    status = this->bind(context, own_frame.to_frame(points), elements, weights,
+      to_frame(own_frame, input_handles), options);
+    this->frame = own_frame;
     return status;
   }
   if (weights.rows() != points.rows())
@@ -485,7 +497,7 @@ std::vector<Affine> ReducedSpace::transforms_of(const Rows& d, const Pose& pose)
     const auto h = static_cast<std::size_t>(j);
     transforms.push_back(h < pose.size() && constrains_transform(pose[h].mode)
         ? pose[h].transform
-        : this->affine_of(d.middleRows<4>(4 * j), j));
+        : from_frame(this->frame, this->affine_of(d.middleRows<4>(4 * j), j)));
   }
   return transforms;
 }

@@ -53,13 +53,15 @@ struct ReducedSpace
     WeightsView weights, const Handles& input_handles, const ReducedArapOptions& options);
 
   /// Convert a column's transform to its displacement block. The next function converts a block to
-  /// a transform.
+  /// a transform. Both are in the frame.
   Eigen::Matrix<double, 4, 3> block_of(const Affine& transform, Index column) const;
   Affine affine_of(const Eigen::Ref<const Eigen::Matrix<double, 4, 3>>& block, Index column) const;
   /// Return the transforms of all columns. The transforms of handles in mode full are bit-identical
   /// to those of the pose.
   std::vector<Affine> transforms_of(const Rows& d, const Pose& pose) const;
 
+  /// Frame of all other data. Transforms that enter and leave (transforms_of()) are not in it.
+  WorkingFrame frame;
   Handles handles;
   Skinning skinning; ///< skinning weights with all columns
   RotationGroups groups;

@@ -189,6 +189,18 @@ Status automatic_handles(ExecutionContext& context, PointsView points, Triangles
   {
     return Status::invalid_input("the surface has no triangles");
   }
+  WorkingFrame frame;
+  status = WorkingFrame::choose(points, triangles, "the surface", frame);
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (!frame.is_identity())
+  {
+    status = automatic_handles(context, frame.to_frame(points), triangles, options, handles);
+    handles = from_frame(frame, handles);
+    return status;
+  }
   const SortedSurface surface = sort_surface(points, triangles);
   status = options.method == AutomaticMethod::points
     ? make_points(context, surface, options.points, handles)

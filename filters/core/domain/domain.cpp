@@ -16,6 +16,13 @@ Domain tet_domain(const TetMesh& mesh)
   return domain;
 }
 
+Status choose_working_frame(const Domain& domain, const std::string& subject, WorkingFrame& frame)
+{
+  return domain.is_volume()
+    ? WorkingFrame::choose(domain.points, TetsView(domain.tets), subject, frame)
+    : WorkingFrame::choose(domain.points, TrianglesView(domain.triangles), subject, frame);
+}
+
 Status check_domain(const Domain& domain)
 {
   if (domain.element_count() == 0)

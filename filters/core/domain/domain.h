@@ -2,6 +2,7 @@
 #define bindpose_domain_domain_h
 
 #include "geometry/mesh.h"
+#include "geometry/working_frame.h"
 
 #include <vector>
 
@@ -42,6 +43,10 @@ struct Domain
 
 /// Return the tets as a domain in which every tet is completely inside.
 Domain tet_domain(const TetMesh& mesh);
+
+/// Choose the working frame of a domain. Return the errors of check_mesh() and
+/// WorkingFrame::choose().
+Status choose_working_frame(const Domain& domain, const std::string& subject, WorkingFrame& frame);
 
 /// Check a domain. Return invalid_input if the domain has no element, if ids are out of range, if
 /// coordinates are not finite, if the volume of a tet is not positive (naming the first such tet

@@ -26,6 +26,21 @@ Status check_length(const char* array_name, Index count, Index vertices)
   return Status::invalid_input("there are " + std::to_string(count) + " " + array_name + ", but " +
     std::to_string(vertices) + " vertices");
 }
+
+/// Convert the parameters to their own frame, and tangents and loads to both frames. A tangent is a
+/// derivative of the position by a parameter. A load is 2 `order` such derivatives.
+VariationalSurfaceOptions to_frame(const WorkingFrame& position_frame,
+  const WorkingFrame& parameter_frame, VariationalSurfaceOptions options)
+{
+  options.parameters = parameter_frame.to_frame(options.parameters);
+  options.tangents *= position_frame.scale() / parameter_frame.scale();
+  options.load *= position_frame.scale();
+  for (int k = 0; k < 2 * options.order; ++k)
+  {
+    options.load /= parameter_frame.scale();
+  }
+  return options;
+}
 } // namespace
 
 Status VariationalSurface::bind(ExecutionContext& context, PointsView points,
@@ -74,6 +89,26 @@ Status VariationalSurface::bind(ExecutionContext& context, PointsView points,
     {
       return status;
     }
+  }
+  WorkingFrame position_frame;
+  status = WorkingFrame::choose(points, triangles, "the surface", position_frame);
+  WorkingFrame parameter_frame = position_frame;
+  if (status.ok() && options.parameters.rows() > 0)
+  {
+    status =
+      WorkingFrame::choose(options.parameters, triangles, "the parameter domain", parameter_frame);
+  }
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (!position_frame.is_identity() || !parameter_frame.is_identity())
+  {
+    status = this->bind(context, position_frame.to_frame(points), triangles,
+      to_frame(position_frame, handles), to_frame(position_frame, parameter_frame, options));
+    this->frame_ = position_frame;
+    this->posed_ = points;
+    return status;
   }
   this->handles_ = handles;
   this->options_ = options;
@@ -182,15 +217,22 @@ VariationalSurface::Rows VariationalSurface::expand_prescribed(const Rows& presc
 
 Status VariationalSurface::solve(ExecutionContext& context, const Pose& pose)
 {
-  const VariationalSurfaceOptions& options = this->options_;
-  if (!this->handles_.empty())
+  Status status = this->handles_.empty() ? Status() : check_pose(this->handles_, pose);
+  if (!status.ok() || this->frame_.is_identity())
   {
-    const Status status = check_pose(this->handles_, pose);
-    if (!status.ok())
-    {
-      return status;
-    }
+    return status.ok() ? this->solve_in_frame(context, pose) : status;
   }
+  status = this->solve_in_frame(context, to_frame(this->frame_, pose));
+  if (status.usable())
+  {
+    this->posed_ = this->frame_.from_frame(this->posed_);
+  }
+  return status;
+}
+
+Status VariationalSurface::solve_in_frame(ExecutionContext& context, const Pose& pose)
+{
+  const VariationalSurfaceOptions& options = this->options_;
   if (!this->prepared_ || !same_modes(this->modes_, pose))
   {
     Phase phase(context, "factor", 0.0, 0.8);

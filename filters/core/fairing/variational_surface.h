@@ -98,9 +98,11 @@ public:
 private:
   using Rows = Polyharmonic::Rows;
 
+  Status solve_in_frame(ExecutionContext& context, const Pose& pose);
   Status prepare(ExecutionContext& context, const Pose& pose);
   Rows expand_prescribed(const Rows& prescribed) const;
 
+  WorkingFrame frame_; ///< all other data is in this frame, except posed_ after a solve
   Handles handles_;
   VariationalSurfaceOptions options_;
   Points rest_;

@@ -3,11 +3,13 @@
 #include "geometry/mesh.h"
 
 #include "base/disjoint_sets.h"
+#include "base/number_text.h"
 #include "geometry/tet_facets.h"
 #include "geometry/triangle_sides.h"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 namespace bindpose
@@ -101,6 +103,35 @@ Status check_mesh(PointsView points, TrianglesView triangles)
 Status check_mesh(PointsView points, TetsView tets)
 {
   return check_elements(points, tets, "tet");
+}
+
+Status check_float_range(PointsView points)
+{
+  constexpr double largest_float = std::numeric_limits<float>::max();
+  for (Index v = 0; v < points.rows(); ++v)
+  {
+    for (int k = 0; k < 3; ++k)
+    {
+      if (!(std::abs(points(v, k)) <= largest_float))
+      {
+        return Status::invalid_input(std::string("coordinate ") + "xyz"[k] + " of point " +
+          std::to_string(v) + " is " + short_number(points(v, k)) +
+          "; single precision allows at most 3.4e38");
+      }
+    }
+  }
+  const Box box = bounding_box(points);
+  const double diagonal = box.size().stableNorm();
+  const double distance =
+    box.empty() ? 0.0 : box.lower.cwiseAbs().cwiseMax(box.upper.cwiseAbs()).maxCoeff();
+  const auto rounded = static_cast<float>(distance);
+  const double spacing = std::nextafter(rounded, std::numeric_limits<float>::max()) - rounded;
+  constexpr double coarsest = 0.01; // in diagonals
+  return diagonal == 0.0 || spacing <= coarsest * diagonal
+    ? Status()
+    : Status::invalid_input("single precision resolves only " + short_number(spacing) +
+        " near coordinate " + short_number(distance) + "; expected at most 0.01 of the diagonal " +
+        short_number(diagonal));
 }
 
 double signed_volume(PointsView points, TrianglesView triangles)

@@ -37,6 +37,11 @@ Box bounding_box(PointsView points, TrianglesView triangles);
 Status check_mesh(PointsView points, TrianglesView triangles);
 Status check_mesh(PointsView points, TetsView tets);
 
+/// Check that single precision is accurate enough for a shape. Return invalid_input if a coordinate
+/// is not finite or above 3.4e38, or if neighboring floats near the shape differ by more than a
+/// hundredth of the bounding-box diagonal. A shape of one position is valid.
+Status check_float_range(PointsView points);
+
 /// Return the signed volume by the divergence theorem, exact for closed, outward oriented surfaces.
 double signed_volume(PointsView points, TrianglesView triangles);
 double surface_area(PointsView points, TrianglesView triangles);

@@ -641,8 +641,12 @@ Status check(const GltfSkin& skin, const GltfOptions& options)
         : "the number of normals, texture coordinates, colors or weights differs from the number "
           "of vertices or joints");
   }
-  if (!fits_in_float(skin.points) || !fits_in_float(skin.normals) || !fits_in_float(skin.texture) ||
-    !fits_in_float(skin.weights))
+  status = check_float_range(skin.points);
+  if (!status.ok())
+  {
+    return status;
+  }
+  if (!fits_in_float(skin.normals) || !fits_in_float(skin.texture) || !fits_in_float(skin.weights))
   {
     return Status::invalid_input("the mesh contains a value that is not a finite float");
   }

@@ -1,6 +1,9 @@
 // Checks of handles and their names in messages (see handles.h).
 #include "handles/handles.h"
 
+#include "base/number_text.h"
+#include "base/text_check.h"
+
 #include <algorithm>
 #include <set>
 
@@ -98,6 +101,26 @@ std::string abbreviated_names(const Handles& handles, const std::vector<Index>& 
     std::to_string(list.size() - maximum) + " more";
 }
 
+Handles to_frame(const WorkingFrame& frame, Handles handles)
+{
+  for (Handle& handle : handles)
+  {
+    handle.head = frame.point_to_frame(handle.head);
+    handle.tail = frame.point_to_frame(handle.tail);
+  }
+  return handles;
+}
+
+Handles from_frame(const WorkingFrame& frame, Handles handles)
+{
+  for (Handle& handle : handles)
+  {
+    handle.head = frame.point_from_frame(handle.head);
+    handle.tail = frame.point_from_frame(handle.tail);
+  }
+  return handles;
+}
+
 Status check_handles(const Handles& handles)
 {
   if (handles.empty())
@@ -112,6 +135,12 @@ Status check_handles(const Handles& handles)
     {
       return Status::invalid_input("every handle must have a name");
     }
+    const std::string error = text_error(handle.name);
+    if (!error.empty())
+    {
+      return Status::invalid_input("the name of handle " + std::to_string(names.size()) +
+        " contains " + error + "; names must be UTF-8 without control characters");
+    }
     if (!names.insert(handle.name).second)
     {
       return Status::invalid_input("two handles are named '" + handle.name + "'");
@@ -120,6 +149,15 @@ Status check_handles(const Handles& handles)
     {
       return Status::invalid_input(
         "handle '" + handle.name + "' has a coordinate that is not a finite number");
+    }
+    // No shape that WorkingFrame::choose() accepts reaches this far, and squares are finite.
+    constexpr double largest_coordinate = 1e120;
+    const double largest =
+      std::max(handle.head.cwiseAbs().maxCoeff(), handle.tail.cwiseAbs().maxCoeff());
+    if (largest > largest_coordinate)
+    {
+      return Status::invalid_input("handle '" + handle.name + "' has the coordinate " +
+        short_number(largest) + "; expected at most 1e120");
     }
     if (handle.kind == HandleKind::bone && handle.head == handle.tail)
     {

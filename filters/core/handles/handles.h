@@ -2,6 +2,7 @@
 #define bindpose_handles_handles_h
 
 #include "geometry/mesh.h"
+#include "geometry/working_frame.h"
 
 #include <array>
 #include <string>
@@ -73,9 +74,13 @@ std::string quoted_names(const Handles& handles, const std::vector<Index>& list)
 /// Like quoted_names(), but abbreviate a long list: 'a', 'b', 'c' and 12 more.
 std::string abbreviated_names(const Handles& handles, const std::vector<Index>& list);
 
+/// Convert the positions of handles to a frame, and back.
+Handles to_frame(const WorkingFrame& frame, Handles handles);
+Handles from_frame(const WorkingFrame& frame, Handles handles);
+
 /// Check handles before a bind. Return invalid_input, naming the handle, if
 /// - the list is empty;
-/// - a name is empty or occurs twice;
+/// - a name is empty or occurs twice, or is not UTF-8 without control characters;
 /// - a coordinate is not finite;
 /// - a bone has length zero;
 /// - two points, two bones or two cage vertices coincide: their positions differ by at most 1e-9 of

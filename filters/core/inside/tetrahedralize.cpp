@@ -11,6 +11,7 @@
 #include "base/number_text.h"
 #include "base/side_task.h"
 #include "embedding/embedding_tets.h"
+#include "geometry/working_frame.h"
 #include "helper/child_process.h"
 #include "helper/mesher_process.h"
 #include "inside/cdt_tets.h"
@@ -913,6 +914,22 @@ Status with_preparation_report(Status status, const PreparedSurface& prepared)
   status.report = std::move(report);
   return status;
 }
+
+/// Compute the tets in the working frame of the surface, and convert them from the frame.
+Status tetrahedralize_in_frame(ExecutionContext& context, const WorkingFrame& frame,
+  PointsView points, TrianglesView triangles, TetrahedralizeOptions options,
+  TetrahedralizeResult& result)
+{
+  options.handles.points = frame.to_frame(options.handles.points);
+  Status status = tetrahedralize(context, frame.to_frame(points), triangles, options, result);
+  result.mesh.points = frame.from_frame(result.mesh.points);
+  frame.convert_report(status.report, "spacing", 1);
+  for (const char* key : { "volume", "winding_volume" })
+  {
+    frame.convert_report(status.report, key, 3);
+  }
+  return status;
+}
 } // namespace
 
 Status tetrahedralize(ExecutionContext& context, PointsView points, TrianglesView triangles,
@@ -920,9 +937,18 @@ Status tetrahedralize(ExecutionContext& context, PointsView points, TrianglesVie
 {
   result = TetrahedralizeResult();
   Status status = check_options(options);
+  WorkingFrame frame;
+  if (status.ok())
+  {
+    status = WorkingFrame::choose(points, triangles, "the surface", frame);
+  }
   if (!status.ok())
   {
     return status;
+  }
+  if (!frame.is_identity())
+  {
+    return tetrahedralize_in_frame(context, frame, points, triangles, options, result);
   }
   PreparedSurface prepared;
   {

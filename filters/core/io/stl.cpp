@@ -165,6 +165,12 @@ Status read_stl(const std::string& path, PolygonMesh& mesh)
 
 Status write_stl(const std::string& path, const PolygonMesh& mesh)
 {
+  Status status = check_float_range(mesh.points);
+  if (!status.ok())
+  {
+    status.message = "an .stl file cannot store the shape: " + status.message;
+    return status;
+  }
   const Triangles triangles = fan_triangles(mesh);
   std::string text = "binary STL, triangles only";
   text.resize(header_size - sizeof(std::uint32_t), ' ');

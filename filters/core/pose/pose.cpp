@@ -2,6 +2,8 @@
 // validity of pose and mesh.
 #include "pose/pose.h"
 
+#include "base/number_text.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -25,6 +27,42 @@ Vec3 posed_tail(const Handle& handle, const HandlePose& pose)
   return pose.transform * stretched.homogeneous();
 }
 
+Pose to_frame(const WorkingFrame& frame, Pose pose)
+{
+  for (HandlePose& handle_pose : pose)
+  {
+    Affine& t = handle_pose.transform;
+    t.col(3) = frame.scale() * (t.leftCols<3>() * frame.center() + t.col(3) - frame.center());
+  }
+  return pose;
+}
+
+Affine from_frame(const WorkingFrame& frame, const Affine& transform)
+{
+  Affine t = transform;
+  if (frame.is_identity())
+  {
+    return t; // keeps the sign of zeros
+  }
+  t.col(3) = t.col(3) / frame.scale() + frame.center() - t.leftCols<3>() * frame.center();
+  return t;
+}
+
+Status check_pose_values(const Handle& handle, const HandlePose& pose)
+{
+  if (!pose.transform.allFinite() || !std::isfinite(pose.stretch) || !pose.twist.allFinite())
+  {
+    return Status::invalid_input("the transform, stretch or twist of handle '" + handle.name +
+      "' contains a value that is not finite");
+  }
+  const double largest = std::max({ pose.transform.cwiseAbs().maxCoeff(), std::abs(pose.stretch),
+    pose.twist.cwiseAbs().maxCoeff() });
+  return largest <= largest_pose_value
+    ? Status()
+    : Status::invalid_input("the transform, stretch or twist of handle '" + handle.name +
+        "' contains the value " + short_number(largest) + "; expected at most 1e102");
+}
+
 Status check_pose(const Handles& handles, const Pose& pose)
 {
   if (pose.size() != handles.size() || pose.empty())
@@ -34,11 +72,10 @@ Status check_pose(const Handles& handles, const Pose& pose)
   }
   for (std::size_t h = 0; h < pose.size(); ++h)
   {
-    if (!pose[h].transform.allFinite() || !std::isfinite(pose[h].stretch) ||
-      !pose[h].twist.allFinite())
+    const Status status = check_pose_values(handles[h], pose[h]);
+    if (!status.ok())
     {
-      return Status::invalid_input("the transform, stretch or twist of handle '" + handles[h].name +
-        "' contains a value that is not finite");
+      return status;
     }
     if (constrains_tail(pose[h].mode) && handles[h].kind != HandleKind::bone)
     {

@@ -76,9 +76,21 @@ Vec3 posed_tail(const Handle& handle, const HandlePose& pose);
 /// One HandlePose for each handle, in the order of the handles.
 using Pose = std::vector<HandlePose>;
 
-/// Return invalid_input if the numbers of entries and handles differ or are zero. Return
-/// invalid_input with the name of the handle if a value is not finite, or if a handle that is not a
-/// bone has mode tail or ends.
+/// Convert the transforms of a pose to a frame, so that they map framed points to framed points.
+Pose to_frame(const WorkingFrame& frame, Pose pose);
+/// Convert a transform of framed points to a transform of points.
+Affine from_frame(const WorkingFrame& frame, const Affine& transform);
+
+/// Largest absolute value in a pose, so that products of two transforms and positions are finite.
+constexpr double largest_pose_value = 1e102;
+
+/// Return invalid_input, with the name of the handle, if a number of its pose is not finite or is
+/// larger than largest_pose_value.
+Status check_pose_values(const Handle& handle, const HandlePose& pose);
+
+/// Return invalid_input if the numbers of entries and handles differ or are zero. Return the errors
+/// of check_pose_values(). Return invalid_input with the name of the handle if a handle that is not
+/// a bone has mode tail or ends.
 Status check_pose(const Handles& handles, const Pose& pose);
 
 /// Check whether a mesh and its handles can be bound. Return invalid_input if check_mesh() or

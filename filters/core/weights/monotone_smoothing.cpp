@@ -743,7 +743,18 @@ Status Smoothing::run()
 Status monotone_smoothing(ExecutionContext& context, const Domain& domain, const VectorXd& data,
   const MonotoneSmoothingOptions& options, MonotoneSmoothingResult& result)
 {
-  return Smoothing(context, domain, data, options, result).run();
+  WorkingFrame frame;
+  Status status = choose_working_frame(domain, "the mesh", frame);
+  if (!status.ok() || frame.is_identity())
+  {
+    return status.ok() ? Smoothing(context, domain, data, options, result).run() : status;
+  }
+  Domain framed = domain;
+  framed.points = frame.to_frame(framed.points);
+  framed.embedded_points = frame.to_frame(framed.embedded_points);
+  status = Smoothing(context, framed, data, options, result).run();
+  frame.convert_report(status.report, "data_length", 1);
+  return status;
 }
 
 } // namespace bindpose

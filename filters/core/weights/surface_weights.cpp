@@ -290,7 +290,7 @@ Status Solver::solve(const Domain& domain, const std::vector<Index>& region_ids,
     WeightsOptions options = this->weights_options_;
     options.insertion = insertion;
     options.terms = terms;
-    status = make_weights_problem(
+    status = make_weights_problem_in_place(
       this->context_, domain, region_ids, this->handles_, options, result.problem);
     if (status.usable() && this->options_.preview && this->preview_.size() == 0)
     {
@@ -898,6 +898,36 @@ const char* to_string(WeightsDomain domain)
   return names[static_cast<int>(domain)];
 }
 
+namespace
+{
+/// Compute the weights in the working frame of the surface. The problem of the result stays in the
+/// frame; the tets of the result are converted from the frame.
+Status surface_weights_in_frame(ExecutionContext& context, const WorkingFrame& frame,
+  PointsView points, TrianglesView triangles, const std::vector<Index>& region_ids,
+  const Handles& handles, SurfaceWeightsOptions options, WeightsOptions weights_options,
+  const WeightsMethod& method, SurfaceWeights& result)
+{
+  options.handle_elements.points = frame.to_frame(options.handle_elements.points);
+  weights_options.terms = to_frame(frame, std::move(weights_options.terms));
+  Status status = surface_weights(context, frame.to_frame(points), triangles, region_ids,
+    to_frame(frame, handles), options, weights_options, method, result);
+  result.problem.frame = frame;
+  result.tets.mesh.points = frame.from_frame(result.tets.mesh.points);
+  result.plane_cage.points = frame.from_frame(result.plane_cage.points);
+  convert_lengths(frame, status.report);
+  for (const char* key : { "spacing", "transfer_largest_distance" })
+  {
+    frame.convert_report(status.report, key, 1);
+  }
+  frame.convert_report(status.report, "cage.area", 2);
+  for (const char* key : { "volume", "winding_volume" })
+  {
+    frame.convert_report(status.report, key, 3);
+  }
+  return status;
+}
+} // namespace
+
 Status surface_weights(ExecutionContext& context, PointsView points, TrianglesView triangles,
   const std::vector<Index>& region_ids, const Handles& handles,
   const SurfaceWeightsOptions& options, const WeightsOptions& weights_options,
@@ -913,8 +943,18 @@ Status surface_weights(ExecutionContext& context, PointsView points, TrianglesVi
     return Status::invalid_input(
       "the resolution of the embedding must be 0 (automatic) or between 6 and 1000");
   }
-  // Check the handles first, so that invalid handles are reported before any tets are made.
-  Status valid = check_handles(handles);
+  WorkingFrame frame;
+  Status valid = WorkingFrame::choose(points, triangles, "the surface", frame);
+  if (valid.ok() && !frame.is_identity())
+  {
+    return surface_weights_in_frame(context, frame, points, triangles, region_ids, handles, options,
+      weights_options, method, result);
+  }
+  // Check the handles before any tets are made.
+  if (valid.ok())
+  {
+    valid = check_handles(handles);
+  }
   if (valid.ok())
   {
     valid = check_regions(handles, region_ids, points.rows());

@@ -112,7 +112,57 @@ void report_problem(const WeightsProblem& problem, Status& status)
 }
 } // namespace
 
+namespace
+{
+/// Make the problem in the working frame of the domain.
+Status make_problem_in_frame(ExecutionContext& context, const WorkingFrame& frame, Domain domain,
+  const std::vector<Index>& region_ids, const Handles& handles, WeightsOptions options,
+  WeightsProblem& problem)
+{
+  domain.points = frame.to_frame(domain.points);
+  domain.embedded_points = frame.to_frame(domain.embedded_points);
+  options.terms = to_frame(frame, std::move(options.terms));
+  Status status = make_weights_problem_in_place(
+    context, domain, region_ids, to_frame(frame, handles), options, problem);
+  problem.frame = frame;
+  convert_lengths(frame, status.report);
+  convert_lengths(frame, problem.status.report);
+  return status;
+}
+} // namespace
+
+WeightTerms to_frame(const WorkingFrame& frame, WeightTerms terms)
+{
+  terms.mirror_origin = frame.point_to_frame(terms.mirror_origin);
+  return terms;
+}
+
+void convert_lengths(const WorkingFrame& frame, Report& report)
+{
+  for (const char* key : { "largest_snap", "handles[].distance_outside" })
+  {
+    frame.convert_report(report, key, 1);
+  }
+}
+
 Status make_weights_problem(ExecutionContext& context, const Domain& domain,
+  const std::vector<Index>& region_ids, const Handles& handles, const WeightsOptions& options,
+  WeightsProblem& problem)
+{
+  problem = WeightsProblem();
+  WorkingFrame frame;
+  const Status in_range =
+    choose_working_frame(domain, std::string("the mesh of ") + element_name(domain) + "s", frame);
+  if (!in_range.ok())
+  {
+    return in_range;
+  }
+  return frame.is_identity()
+    ? make_weights_problem_in_place(context, domain, region_ids, handles, options, problem)
+    : make_problem_in_frame(context, frame, domain, region_ids, handles, options, problem);
+}
+
+Status make_weights_problem_in_place(ExecutionContext& context, const Domain& domain,
   const std::vector<Index>& region_ids, const Handles& handles, const WeightsOptions& options,
   WeightsProblem& problem)
 {

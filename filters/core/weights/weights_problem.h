@@ -2,6 +2,7 @@
 #define bindpose_weights_weights_problem_h
 
 #include "geometry/laplacian.h"
+#include "geometry/working_frame.h"
 #include "linear/sparse_solver.h"
 #include "qp/box_qp.h"
 #include "weights/extrema.h"
@@ -51,6 +52,9 @@ struct WeightsOptions
 /// of all weight methods. The same problem can be solved any number of times.
 struct WeightsProblem
 {
+  /// The frame of the coordinates in `handles` and `mesh`; the identity unless the input is
+  /// extreme.
+  WorkingFrame frame;
   Handles handles;
   HandleInsertion mesh;
   HandleConstraints constraints;
@@ -78,10 +82,21 @@ struct WeightsProblem
   SparseMatrix energy(int order) const;
 };
 
+/// Convert the origin of the mirror plane to the frame.
+WeightTerms to_frame(const WorkingFrame& frame, WeightTerms terms);
+/// Convert the lengths in the report of make_weights_problem() from the frame.
+void convert_lengths(const WorkingFrame& frame, Report& report);
+
 /// Insert the handles, find the constraints, and assemble stiffness and mass. Progress phase
 /// "insert".
 /// @param region_ids label of every vertex, or empty.
 Status make_weights_problem(ExecutionContext& context, const Domain& domain,
+  const std::vector<Index>& region_ids, const Handles& handles, const WeightsOptions& options,
+  WeightsProblem& problem);
+
+/// Make a problem like make_weights_problem(), in the coordinates of the domain even if they are
+/// extreme. For callers that have converted the domain to a working frame.
+Status make_weights_problem_in_place(ExecutionContext& context, const Domain& domain,
   const std::vector<Index>& region_ids, const Handles& handles, const WeightsOptions& options,
   WeightsProblem& problem);
 

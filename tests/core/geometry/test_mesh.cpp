@@ -79,3 +79,24 @@ TEST(Mesh, CheckNamesTheFirstOffender)
   EXPECT_NE(status.message.find("triangle 7"), std::string::npos) << status.message;
   EXPECT_TRUE(check_mesh(Points(0, 3), Triangles(0, 3)).ok());
 }
+
+TEST(Mesh, ChecksTheRangeOfFloats)
+{
+  const auto error = [](const Vec3& offset, double size)
+  {
+    const Points points = (test::cube().points * size).rowwise() + offset.transpose();
+    return check_float_range(points).message;
+  };
+  EXPECT_EQ(error(Vec3(0, 0, 0), 1.0), "");
+  EXPECT_EQ(error(Vec3(0, 0, 0), 1e38), "");
+  EXPECT_EQ(error(Vec3(1e4, 0, 0), 1.0), "");
+  EXPECT_EQ(error(Vec3(5, 5, 5), 0.0), "");
+  EXPECT_NE(
+    error(Vec3(0, 0, 0), 1e39).find("single precision allows at most 3.4e38"), std::string::npos);
+  EXPECT_NE(
+    error(Vec3(0, 0, 0), 1e-100).find("expected at most 0.01 of the diagonal"), std::string::npos);
+  EXPECT_NE(
+    error(Vec3(0, 0, 0), 1e-200).find("expected at most 0.01 of the diagonal"), std::string::npos);
+  EXPECT_NE(
+    error(Vec3(0, 1e7, 0), 1.0).find("expected at most 0.01 of the diagonal"), std::string::npos);
+}

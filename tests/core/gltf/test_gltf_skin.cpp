@@ -472,6 +472,32 @@ TEST(GltfSkin, AFileOfAnotherProgram)
   EXPECT_THAT(status.message, HasSubstr("no such.bin"));
 }
 
+TEST(GltfSkin, BuffersAreFilesBelowItsFolder)
+{
+  const test::Folder folder;
+  std::filesystem::create_directories(folder / "rig/data");
+  const std::string bytes(60, '\0');
+  folder.write("outside.bin", bytes);
+  folder.write("rig/data/inside.bin", bytes);
+  std::filesystem::create_symlink(folder / "outside.bin", folder / "rig/link.bin");
+  json file = foreign();
+  GltfSkin skin;
+  const auto read = [&](const std::string& uri)
+  {
+    file["buffers"][0]["uri"] = uri;
+    return read_gltf_skin(folder.write("rig/f.gltf", file.dump()), skin);
+  };
+  const Status inside = read("data/inside.bin");
+  EXPECT_TRUE(inside.ok()) << inside.message;
+  for (const std::string& uri :
+    { std::string("../outside.bin"), folder / "outside.bin", std::string("link.bin") })
+  {
+    const Status outside = read(uri);
+    EXPECT_EQ(outside.code, StatusCode::invalid_input) << uri;
+    EXPECT_THAT(outside.message, HasSubstr(uri));
+  }
+}
+
 TEST(GltfSkin, ErrorsAreNamed)
 {
   const test::Folder folder;
@@ -557,7 +583,7 @@ TEST(GltfSkin, WhatCannotBeWrittenIsTold)
     return status.message;
   };
   EXPECT_THAT(error([](GltfSkin& s) { s.points(3, 1) = NAN; }), HasSubstr("finite"));
-  EXPECT_THAT(error([](GltfSkin& s) { s.points(3, 1) = 1e300; }), HasSubstr("float"));
+  EXPECT_THAT(error([](GltfSkin& s) { s.points(3, 1) = 1e300; }), HasSubstr("y of point 3"));
   EXPECT_THAT(error([](GltfSkin& s) { s.weights(3, 1) = NAN; }), HasSubstr("float"));
   EXPECT_THAT(error([](GltfSkin& s) { s.triangles.resize(0, 3); }), HasSubstr("triangle"));
   EXPECT_THAT(error([](GltfSkin& s) { s.joints.pop_back(); }), HasSubstr("weights"));

@@ -300,6 +300,18 @@ TEST_F(TextFiles, StlIsWeldedAndSizedExactly)
   EXPECT_THAT(error("solid x\nvertex 0 nan 0\n"), HasSubstr("line 2"));
 }
 
+TEST_F(TextFiles, StlRefusesCoordinatesOutOfFloatRange)
+{
+  TriangleMesh cube = test::cube();
+  cube.points(3, 1) = 1e39;
+  EXPECT_THAT(write_stl(this->folder / "l.stl", to_polygons(cube.points, cube.triangles)).message,
+    HasSubstr("coordinate y of point 3 is 1e+39; single precision allows at most 3.4e38"));
+  cube = test::cube();
+  cube.points *= 1e-60;
+  EXPECT_THAT(write_stl(this->folder / "l.stl", to_polygons(cube.points, cube.triangles)).message,
+    HasSubstr("single precision resolves only"));
+}
+
 TEST_F(TextFiles, MeditReadsTetsAndSkipsTheRest)
 {
   ASSERT_EQ(this->medit_error("MeshVersionFormatted 2\nDimension\n3\n# comment\nVertices\n4\n"

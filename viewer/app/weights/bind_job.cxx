@@ -35,6 +35,7 @@ void run_bind(ExecutionContext& context, const BindInput& input,
   result.raw = std::move(weights.raw);
   result.domain = weights.domain;
   result.mesh = std::move(weights.problem.mesh.domain);
+  result.mesh.points = weights.problem.frame.from_frame(result.mesh.points);
   result.solved = std::move(weights.solved);
 }
 } // namespace

@@ -19,6 +19,7 @@ libtet1.5-dev:TetGen_in_bindpose-mesher
 libopenvdb-dev:OpenVDB,_writes_volumes_as_.vdb_files
 libboost-dev:Boost.Graph,_graph_cut_between_inside_and_outside
 nlohmann-json3-dev:reports_and_poses_as_JSON
+libmuparser-dev:expressions_in_pose_files
 libtinygltf-dev:reads_and_writes_rigs_as_glTF_files
 "
 build_packages="$kernel_packages
@@ -30,6 +31,8 @@ libvtk9-qt-dev:the_viewer
 qtbase5-dev:the_viewer
 libqt5opengl5-dev:the_viewer
 libcli11-dev:command_line_options
+libpng-dev:pictures
+libtiff-dev:pictures
 xvfb:rendering_without_a_display
 xauth:rendering_without_a_display
 libgl1-mesa-dri:rendering_without_a_graphics_card

@@ -6,7 +6,7 @@
 
 #include "base/execution.h"
 #include "bind_key.h"
-#include "expression_parser.h"
+#include "io/expression.h"
 #include "pose/found_rotations.h"
 #include "pose/pose_file.h"
 #include "pose_input.h"

@@ -48,7 +48,7 @@ int vtkGLTFSkinReader::RequestInformation(
   // Ignore the status here; Execute() reports errors of the file.
   if (this->Frame < 0 && this->FileName &&
     check_extension(this->FileName, GetFileExtensions()).ok() &&
-    this->Internal->file.read(this->FileName, this->GetMTime()).ok())
+    this->Internal->file.read(this->FileName).ok())
   {
     frames = static_cast<int>(this->Internal->file.data().poses.size());
   }
@@ -71,7 +71,7 @@ Status vtkGLTFSkinReader::Execute(
   Status status = check_extension(path, GetFileExtensions());
   if (status.ok())
   {
-    status = this->Internal->file.read(path, this->GetMTime());
+    status = this->Internal->file.read(path);
   }
   if (!status.ok())
   {

@@ -5,8 +5,9 @@
 
 #include "base/execution.h"
 #include "conversion.h"
-#include "expression_parser.h"
+#include "io/expression.h"
 #include "file_kind.h"
+#include "file_stamp.h"
 #include "frame_times.h"
 #include "gltf_data.h"
 #include "io/dmat.h"
@@ -26,18 +27,35 @@
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 using namespace bindpose;
 using SDDP = vtkStreamingDemandDrivenPipeline;
 
 vtkStandardNewMacro(vtkPoseHandles);
 
+/// Caches for updates frame by frame. Without them, a sequence of n frames would be read and parsed
+/// n times.
 struct vtkPoseHandles::Internals
 {
   GltfFile gltf;
   /// Source of the last warnings: the pose file, or an empty string for PoseJSON. It is stored so
   /// that the warnings of a source are issued only once.
   std::optional<std::string> warned_source;
+
+  FileStamp stamp; ///< of the file from which `text` was read
+  std::string text; ///< content of the pose file, or PoseJSON
+  std::string source; ///< start of messages about the text: "pose.json: ", or empty for PoseJSON
+  int text_version = 0; ///< increases when `text` changes
+
+  int timed_version = -1; ///< version of the text from which `times` was read
+  std::optional<PoseTimes> times; ///< empty if the text is not a pose file
+
+  int parsed_version = -1; ///< version of the text from which `sequence` was parsed; -1: none
+  vtkPolyData* parsed_input = nullptr; ///< the handles of `sequence`; compared, never dereferenced
+  vtkMTimeType parsed_input_time = 0;
+  PoseSequence sequence;
+  Status parse_status;
 };
 
 vtkPoseHandles::vtkPoseHandles() : Internal(std::make_unique<Internals>()) {}
@@ -73,25 +91,66 @@ bool vtkPoseHandles::HasExtension(const char* extensions) const
   return this->FileName && is_listed(file_extension(this->FileName), extensions);
 }
 
-/// Return the text of the pose. `source` is set to the beginning of messages about the text: the
-/// file name and a colon, or an empty string if the text is PoseJSON.
-Status vtkPoseHandles::ReadText(std::string& text, std::string& source)
+/// Read the pose file or PoseJSON into the cache if it has changed: its text, the version of the
+/// text, and the source with which messages about the text begin ("FILE: ", or "" for PoseJSON).
+Status vtkPoseHandles::ReadText()
 {
-  text = this->PoseJSON;
-  source.clear();
-  if (this->FileName && *this->FileName)
+  Internals& cache = *this->Internal;
+  const auto use = [&cache](std::string text)
   {
-    source = std::string(this->FileName) + ": ";
-    std::ifstream file(this->FileName);
-    std::ostringstream content;
-    content << file.rdbuf();
-    if (!file.is_open() || file.bad())
-    {
-      return Status::invalid_input(source + "cannot be read (" + std::strerror(errno) + ")");
-    }
-    text = content.str();
+    cache.text_version += text != cache.text ? 1 : 0;
+    cache.text = std::move(text);
+  };
+  if (!this->FileName || !*this->FileName)
+  {
+    cache.source.clear();
+    cache.stamp = FileStamp();
+    use(this->PoseJSON);
+    return {};
   }
+  cache.source = std::string(this->FileName) + ": ";
+  const FileStamp stamp(this->FileName);
+  if (stamp.has_content_of(cache.stamp))
+  {
+    return {};
+  }
+  cache.stamp = FileStamp();
+  std::ifstream file(this->FileName);
+  std::ostringstream content;
+  content << file.rdbuf();
+  if (!file.is_open() || file.bad())
+  {
+    return Status::invalid_input(cache.source + "cannot be read (" + std::strerror(errno) + ")");
+  }
+  use(content.str());
+  cache.stamp = stamp;
   return {};
+}
+
+/// Parse the cached text unless it and the handles are unchanged. A single pose with expressions
+/// depends on the time and is parsed every time.
+Status vtkPoseHandles::ParseText(vtkPolyData* input, const Handles& handles, double time)
+{
+  Internals& cache = *this->Internal;
+  if (cache.parsed_version == cache.text_version && cache.parsed_input == input &&
+    cache.parsed_input_time == input->GetMTime())
+  {
+    return cache.parse_status;
+  }
+  cache.parsed_version = -1;
+  ExpressionParser parser;
+  cache.parse_status = parse_pose_file(
+    cache.text, handles, cache.sequence,
+    [&parser](const std::string& expression, double t, double& value)
+    { return parser.evaluate(expression, t, value); },
+    time);
+  if (cache.parse_status.ok() && (cache.sequence.sequence || !cache.sequence.has_expressions))
+  {
+    cache.parsed_version = cache.text_version;
+    cache.parsed_input = input;
+    cache.parsed_input_time = input->GetMTime();
+  }
+  return cache.parse_status;
 }
 
 int vtkPoseHandles::RequestInformation(
@@ -102,20 +161,30 @@ int vtkPoseHandles::RequestInformation(
   // Ignore errors of the file or the text here; Execute() reports them.
   if (this->HasExtension("glb gltf"))
   {
-    if (this->Internal->gltf.read(this->FileName, this->GetMTime()).ok())
+    if (this->Internal->gltf.read(this->FileName).ok())
     {
       const GltfData& data = this->Internal->gltf.data();
       set_frame_times(info, static_cast<int>(data.poses.size()), data.frames_per_second);
     }
     return 1;
   }
-  std::string text, source;
-  PoseTimes times;
-  if (this->HasExtension("dmat") || !this->ReadText(text, source).ok() ||
-    !read_pose_times(text, times))
+  Internals& cache = *this->Internal;
+  if (this->HasExtension("dmat") || !this->ReadText().ok())
   {
     return 1;
   }
+  if (cache.timed_version != cache.text_version)
+  {
+    PoseTimes read_times;
+    const bool is_pose_file = read_pose_times(cache.text, read_times);
+    cache.times = is_pose_file ? std::optional<PoseTimes>(read_times) : std::nullopt;
+    cache.timed_version = cache.text_version;
+  }
+  if (!cache.times)
+  {
+    return 1;
+  }
+  const PoseTimes& times = *cache.times;
   set_frame_times(info, static_cast<int>(times.frames), times.frames_per_second);
   if (times.frames < 2 && times.has_expressions)
   {
@@ -152,28 +221,23 @@ Status vtkPoseHandles::Execute(
   this->FramesPerSecond = PoseSequence().frames_per_second;
   this->HasExpressions = false;
   const bool from_text = !this->HasExtension("glb gltf dmat");
-  std::string text, source;
-  status = from_text             ? this->ReadText(text, source)
+  status = from_text             ? this->ReadText()
     : this->HasExtension("dmat") ? this->ReadDMAT(handles, pose)
                                  : this->ReadGLTF(handles, timed ? &time : nullptr, pose);
   if (!status.ok())
   {
     return status;
   }
-  if (from_text && (!source.empty() || !text.empty()))
+  const std::string& source = this->Internal->source;
+  if (from_text && (!source.empty() || !this->Internal->text.empty()))
   {
-    PoseSequence sequence;
-    ExpressionParser parser;
-    status = parse_pose_file(
-      text, handles, sequence,
-      [&parser](const std::string& expression, double t, double& value)
-      { return parser.evaluate(expression, t, value); },
-      time);
+    status = this->ParseText(data, handles, time);
     if (!status.ok())
     {
       status.message = source + status.message;
       return status;
     }
+    const PoseSequence& sequence = this->Internal->sequence;
     if (this->Internal->warned_source == source)
     {
       status.warnings.clear();
@@ -237,7 +301,7 @@ Status vtkPoseHandles::ReadDMAT(const Handles& handles, Pose& pose)
 Status vtkPoseHandles::ReadGLTF(const Handles& handles, const double* time, Pose& pose)
 {
   const std::string path = this->FileName;
-  Status status = this->Internal->gltf.read(path, this->GetMTime());
+  Status status = this->Internal->gltf.read(path);
   if (!status.ok())
   {
     return status;

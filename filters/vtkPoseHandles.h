@@ -28,8 +28,8 @@
  * mentioned keep their transform. A warning is issued once if version 2 would give another pose.
  *
  * **Expressions.** Any number in the entry of a handle may be a string with an expression in `t`,
- * the time in seconds: "translate": ["0.2 * sin(6.28 * t)", 0, 0]. vtkExprTkFunctionParser defines
- * the functions and constants. In a sequence t is the time of the frame: its index / fps.
+ * the time in seconds: "translate": ["0.2 * sin(6.28 * t)", 0, 0]. The header io/expression.h of
+ * the kernels lists the functions. In a sequence t is the time of the frame: its index / fps.
  *
  * **Time.** The filter provides times to the pipeline. For a sequence or the animation of a glTF
  * file, these are the times of the frames; for expressions, the range from 0 to EndTime. If a time
@@ -64,6 +64,8 @@ struct Handle;
 struct HandlePose;
 } // namespace bindpose
 
+class vtkPolyData;
+
 class BINDPOSEFILTERS_EXPORT vtkPoseHandles : public vtkBindposeAlgorithm
 {
 public:
@@ -78,8 +80,8 @@ public:
   ///@}
 
   ///@{
-  /// Path of the pose file: .json, .dmat, or a .glb or .gltf file with an animation. The file is
-  /// read again at every update. If a path is set, PoseJSON is not used.
+  /// Path of the pose file: .json, .dmat, or a .glb or .gltf file with an animation. At an update,
+  /// the file is read again if it has changed. If a path is set, PoseJSON is not used.
   vtkSetFilePathMacro(FileName);
   vtkGetFilePathMacro(FileName);
   ///@}
@@ -138,7 +140,9 @@ private:
   bindpose::Status ReadDMAT(
     const std::vector<bindpose::Handle>& handles, std::vector<bindpose::HandlePose>& pose);
   bool HasExtension(const char* extensions) const;
-  bindpose::Status ReadText(std::string& text, std::string& source);
+  bindpose::Status ReadText();
+  bindpose::Status ParseText(
+    vtkPolyData* input, const std::vector<bindpose::Handle>& handles, double time);
 
   const std::unique_ptr<Internals> Internal;
   std::string PoseJSON;

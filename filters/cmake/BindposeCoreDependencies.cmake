@@ -1,5 +1,5 @@
-# Options and dependencies of the kernels. Required: Eigen, TBB, nlohmann-json, Spectra, the header of
-# tinygltf, the headers of Boost. Large packages are optional. If a package is missing, the feature
+# Options and dependencies of the kernels. Required: Eigen, TBB, nlohmann-json, muParser, Spectra, the
+# header of tinygltf, the headers of Boost. Large packages are optional. If a package is missing, the feature
 # that needs it reports the name of the package.
 option(BINDPOSE_PERMISSIVE "Leave out GPL and AGPL parts (bindpose-mesher, CHOLMOD)" OFF)
 option(BINDPOSE_WITH_CHOLMOD "Factor with CHOLMOD's supernodal solver when found" ON)
@@ -9,6 +9,7 @@ option(BINDPOSE_WITH_OPENVDB "Write .vdb files when OpenVDB is found" ON)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(TBB REQUIRED)
 find_package(nlohmann_json 3.10 REQUIRED)
+find_package(muparser 2.3 REQUIRED)
 find_package(Boost 1.71 REQUIRED) # headers: Boost.Graph
 find_package(Spectra 1.0 REQUIRED) # headers: eigenvalues
 # Only the header of tinygltf is used, without its file access. There is no library to link.

@@ -1,4 +1,4 @@
-# Find the dependencies. Required: VTK, CLI11, libpng and the dependencies of the kernels. Other packages are needed only
+# Find the dependencies. Required: VTK, CLI11, libpng, libtiff and the dependencies of the kernels. Other packages are needed only
 # for options.
 
 # Find Python before VTK. Prefer the system's Python, because another interpreter on PATH may lack VTK and NumPy.
@@ -10,7 +10,7 @@ if(BINDPOSE_WRAP_PYTHON)
 endif()
 
 set(bindpose_vtk_components
-  CommonCore CommonDataModel CommonExecutionModel CommonMath CommonMisc CommonTransforms
+  CommonCore CommonDataModel CommonExecutionModel CommonMath CommonTransforms
   CommonComputationalGeometry
   FiltersCore FiltersExtraction FiltersGeneral FiltersGeometry FiltersModeling FiltersSources
   ImagingCore InteractionStyle InteractionWidgets
@@ -25,6 +25,7 @@ find_package(VTK 9.1 REQUIRED COMPONENTS ${bindpose_vtk_components}
   OPTIONAL_COMPONENTS GUISupportQt)
 find_package(CLI11 2.1 REQUIRED)
 find_package(PNG REQUIRED)
+find_package(TIFF REQUIRED)
 include(BindposeCoreDependencies)
 
 # ---- Qt viewer ----

@@ -39,6 +39,7 @@ foreach(target IN ITEMS Filters Widgets bindpose_scene bindpose_document bindpos
     bindpose_unity_groups(${target} 8)
   endif()
 endforeach()
+set_target_properties(bindpose-reader PROPERTIES UNITY_BUILD OFF)
 if(TARGET bindpose-mesher)
   # A group of the sources with CGAL would need too much memory.
   set_target_properties(bindpose-mesher PROPERTIES UNITY_BUILD OFF)

@@ -294,6 +294,7 @@ Status read_gltf(const std::string& path, GltfData& data)
   data.mesh = to_polydata(PointsView(skin.points), TrianglesView(skin.triangles));
   add_attributes(skin, data.mesh);
   data.frames_per_second = skin.frames_per_second;
+  data.buffer_files = skin.buffer_files;
   if (skin.joints.empty())
   {
     data.handles = vtkSmartPointer<vtkPolyData>::New();
@@ -344,24 +345,32 @@ Status read_gltf(const std::string& path, GltfData& data)
   return status;
 }
 
-Status GltfFile::read(const std::string& path, vtkMTimeType modified)
+Status GltfFile::read(const std::string& path)
 {
-  std::error_code missing, unknown;
-  const auto written = std::filesystem::last_write_time(path, missing);
-  const std::uintmax_t size = std::filesystem::file_size(path, unknown);
-  if (!missing && !unknown && path == this->path_ && modified == this->modified_ &&
-    written == this->written_ && size == this->size_)
+  const auto stamps_of = [&path](const std::vector<std::string>& buffer_files)
   {
-    return this->status_;
-  }
-  this->path_.clear();
-  this->status_ = read_gltf(path, this->data_);
-  if (this->status_.ok())
+    std::vector<FileStamp> stamps{ FileStamp(path) };
+    for (const std::string& file : buffer_files)
+    {
+      stamps.emplace_back(file);
+    }
+    return stamps;
+  };
+  const std::vector<FileStamp> stamps = stamps_of(this->data_.buffer_files);
+  const bool is_unchanged =
+    std::equal(stamps.begin(), stamps.end(), this->stamps_.begin(), this->stamps_.end(),
+      [](const FileStamp& now, const FileStamp& stored) { return now.has_content_of(stored); });
+  if (!is_unchanged)
   {
-    this->path_ = path;
-    this->modified_ = modified;
-    this->written_ = written;
-    this->size_ = size;
+    const FileStamp before(path);
+    this->status_ = read_gltf(path, this->data_);
+    // The stamp of the file is from before the read, so that a change during the read is noticed.
+    this->stamps_ = stamps_of(this->data_.buffer_files);
+    this->stamps_.front() = before;
+    if (!this->status_.ok())
+    {
+      this->stamps_.clear();
+    }
   }
   return this->status_;
 }

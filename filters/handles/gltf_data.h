@@ -2,10 +2,9 @@
 #define gltf_data_h
 
 #include "conversion.h"
+#include "file_stamp.h"
 #include "gltf/gltf_skin.h"
 
-#include <cstdint>
-#include <filesystem>
 #include <string>
 
 namespace bindpose
@@ -30,25 +29,24 @@ struct GltfData
   Handles handle_list;
   std::vector<Pose> poses; ///< the frames of the animation, one pose per frame
   double frames_per_second = 24.0;
+  std::vector<std::string> buffer_files; ///< other files from which buffers were read
 };
 
 /// Read a file; see vtkGLTFSkinReader.
 Status read_gltf(const std::string& path, GltfData& data);
 
-/// Caches a file for a filter that is updated frame by frame. The file is read again if the filter
-/// was modified or the file has changed.
+/// Caches a file for a filter that is updated frame by frame. The file is read again if it, or a
+/// file with its buffers, has changed.
 class GltfFile
 {
 public:
-  Status read(const std::string& path, vtkMTimeType modified);
+  Status read(const std::string& path);
   /// Return the data of the last read(). It is shared and must not be modified.
   const GltfData& data() const { return this->data_; }
 
 private:
-  std::string path_; ///< path of the file that was read; empty if there is none
-  vtkMTimeType modified_ = 0;
-  std::filesystem::file_time_type written_;
-  std::uintmax_t size_ = 0;
+  /// Stamps of the file from which data_ was read and of its buffer files.
+  std::vector<FileStamp> stamps_;
   Status status_;
   GltfData data_;
 };

@@ -6,6 +6,7 @@
 #include "base/memory.h"
 #include "gltf/gltf_transform.h"
 #include "gltf/tiny_gltf.h"
+#include "io/json_depth.h"
 #include "io/text_scanner.h"
 
 #include <algorithm>
@@ -21,7 +22,6 @@ namespace bindpose
 
 namespace
 {
-constexpr Index maximum_depth = 100; // maximum nesting of brackets in the JSON text
 constexpr Index maximum_frames = 100000;
 constexpr double frames_per_second = 24.0; // frame rate if the keys are not evenly spaced
 
@@ -38,40 +38,26 @@ struct GltfError : std::exception
 
 // ---- Parsing -----------------------------------------------------------------------------------
 
-/// Return the nesting depth of the brackets of a JSON text. The parser recurses once per level.
-Index depth_of(std::string_view text)
+/// The files with buffers that a glTF file names.
+struct BufferFiles
 {
-  Index depth = 0;
-  Index largest = 0;
-  bool quoted = false;
-  for (std::size_t i = 0; i < text.size(); ++i)
-  {
-    const char c = text[i];
-    if (quoted)
-    {
-      i += c == '\\';
-      quoted = c != '"';
-    }
-    else if (c == '"')
-    {
-      quoted = true;
-    }
-    else if (c == '{' || c == '[')
-    {
-      largest = std::max(largest, ++depth);
-    }
-    else if (c == '}' || c == ']')
-    {
-      --depth;
-    }
-  }
-  return largest;
-}
+  std::string folder; ///< the folder of the glTF file
+  std::vector<std::string> paths; ///< the files that were read
+};
 
-bool is_file(const std::string& path, void*)
+/// Report whether a path is a file in the folder of the glTF file or below it; links are followed.
+/// Other files are refused, because the glTF file is untrusted.
+bool is_buffer_file(const std::string& path, void* files)
 {
   std::error_code error;
-  return std::filesystem::is_regular_file(path, error);
+  const auto file = std::filesystem::canonical(path, error);
+  if (error || !std::filesystem::is_regular_file(file, error))
+  {
+    return false;
+  }
+  const auto root = std::filesystem::canonical(static_cast<BufferFiles*>(files)->folder, error);
+  return !error &&
+    std::mismatch(root.begin(), root.end(), file.begin(), file.end()).first == root.end();
 }
 
 std::string keep_path(const std::string& path, void*)
@@ -80,8 +66,9 @@ std::string keep_path(const std::string& path, void*)
 }
 
 bool read_bytes(
-  std::vector<unsigned char>* bytes, std::string* reason, const std::string& path, void*)
+  std::vector<unsigned char>* bytes, std::string* reason, const std::string& path, void* files)
 {
+  static_cast<BufferFiles*>(files)->paths.push_back(path);
   std::string content;
   const Status status = read_file(path, content);
   bytes->assign(content.begin(), content.end());
@@ -95,7 +82,7 @@ bool ignore_image(
   return true;
 }
 
-tinygltf::Model parse(const std::string& path, const std::string& content)
+tinygltf::Model parse(const std::string& content, BufferFiles& files)
 {
   const bool binary = content.compare(0, 4, "glTF") == 0;
   if (content.size() > 0xffffffffULL)
@@ -112,26 +99,25 @@ tinygltf::Model parse(const std::string& path, const std::string& content)
     }
     text = text.substr(std::min<std::size_t>(20, text.size()), length);
   }
-  if (depth_of(text) > maximum_depth)
+  const Status depth = check_json_depth(text);
+  if (!depth.ok())
   {
-    throw GltfError("the JSON of the file is nested too deeply");
+    throw GltfError("the file is not valid: " + depth.message);
   }
   tinygltf::Model model;
   tinygltf::TinyGLTF parser;
-  parser.SetFsCallbacks({ is_file, keep_path, read_bytes, nullptr, nullptr });
   parser.SetImageLoader(ignore_image, nullptr);
   std::string errors;
   std::string warnings;
   const auto size = static_cast<unsigned int>(content.size());
-  std::string folder = std::filesystem::path(path).parent_path().string();
-  folder = folder.empty() ? "." : folder;
+  parser.SetFsCallbacks({ is_buffer_file, keep_path, read_bytes, nullptr, &files });
   bool parsed = false;
   try
   {
     parsed = binary
       ? parser.LoadBinaryFromMemory(&model, &errors, &warnings,
-          reinterpret_cast<const unsigned char*>(content.data()), size, folder)
-      : parser.LoadASCIIFromString(&model, &errors, &warnings, content.data(), size, folder);
+          reinterpret_cast<const unsigned char*>(content.data()), size, files.folder)
+      : parser.LoadASCIIFromString(&model, &errors, &warnings, content.data(), size, files.folder);
   }
   catch (const std::bad_alloc&)
   {
@@ -1326,8 +1312,15 @@ Status read_gltf_skin(const std::string& path, GltfSkin& skin)
   }
   try
   {
-    const tinygltf::Model model = parse(path, content);
+    BufferFiles files;
+    files.folder = std::filesystem::path(path).parent_path().string();
+    if (files.folder.empty())
+    {
+      files.folder = ".";
+    }
+    const tinygltf::Model model = parse(content, files);
     read_model(path, model, content.size(), skin, status);
+    skin.buffer_files = std::move(files.paths);
   }
   catch (const GltfError& failure)
   {

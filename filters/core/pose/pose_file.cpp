@@ -7,6 +7,7 @@
 #include "pose/pose_file.h"
 
 #include "base/number_text.h"
+#include "io/json_depth.h"
 #include "pose/handle_hierarchy.h"
 #include "pose/transform_parts.h"
 
@@ -390,6 +391,11 @@ Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequ
   {
     return Status::invalid_input("the pose file is empty");
   }
+  const Status depth = check_json_depth(text);
+  if (!depth.ok())
+  {
+    return Status::invalid_input("the pose file: " + depth.message);
+  }
   std::map<std::string, Index> index_of;
   for (std::size_t i = 0; i < handles.size(); ++i)
   {
@@ -462,6 +468,10 @@ Status parse_pose_file(const std::string& text, const Handles& handles, PoseSequ
 bool read_pose_times(const std::string& text, PoseTimes& times)
 {
   times = PoseTimes();
+  if (!check_json_depth(text).ok())
+  {
+    return false;
+  }
   const Json root = Json::parse(text, nullptr, false);
   if (!root.is_object())
   {
@@ -736,12 +746,16 @@ Status check_writable(const Pose& pose, const Handles& handles)
   }
   for (std::size_t h = 0; h < handles.size(); ++h)
   {
-    const Vec3 pivot = pose[h].transform * handles[h].head.homogeneous();
-    if (!pose[h].transform.allFinite() || !pivot.allFinite() || !std::isfinite(pose[h].stretch) ||
-      !pose[h].twist.allFinite())
+    const Status status = check_pose_values(handles[h], pose[h]);
+    if (!status.ok())
     {
-      return Status::invalid_input(
-        "the pose of handle '" + handles[h].name + "' contains a value that is not finite");
+      return status;
+    }
+    const Vec3 pivot = pose[h].transform * handles[h].head.homogeneous();
+    if (!pivot.allFinite())
+    {
+      return Status::invalid_input("the posed position of handle '" + handles[h].name +
+        "' is not finite; reduce its translation or scale");
     }
   }
   return {};

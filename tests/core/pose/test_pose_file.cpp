@@ -13,6 +13,7 @@
 #include <limits>
 
 using namespace bindpose;
+using testing::AllOf;
 using testing::HasSubstr;
 
 namespace
@@ -427,6 +428,24 @@ TEST(Pose, ValuesThatAreNotFiniteAreNamed)
   }
 }
 
+TEST(Pose, ValuesThatAreTooLargeAreNamed)
+{
+  const Handles handles = { test::bone_handle("b1", Vec3::Zero(), Vec3::UnitX()) };
+  for (int part = 0; part < 3; ++part)
+  {
+    Pose pose(1);
+    double& value = part == 0 ? pose[0].transform(2, 3)
+      : part == 1             ? pose[0].stretch
+                              : pose[0].twist[0];
+    value = -1e102;
+    EXPECT_TRUE(check_pose(handles, pose).ok()) << part;
+    value = -1e308;
+    EXPECT_THAT(check_pose(handles, pose).message,
+      AllOf(HasSubstr("'b1'"), HasSubstr("1e+308; expected at most 1e102")))
+      << part;
+  }
+}
+
 TEST(PoseFile, WhatIsWrittenIsReadBack)
 {
   test::Random random(9);
@@ -534,10 +553,11 @@ TEST(PoseFile, WhatIsWrittenCanBeRead)
   EXPECT_THAT(
     format_pose_file({ pose }, 24.0, point_and_chain(), text).message, HasSubstr("'fore'"));
   pose = Pose(3);
-  pose[0].transform(0, 0) = 1e308;
+  pose[0].transform(0, 0) = 1e102;
   EXPECT_TRUE(format_pose_file({ pose }, 24.0, point_and_chain(), text).ok());
-  pose[0].transform(1, 1) = 1e308; // this moves the pivot of the handle to 2e308
-  EXPECT_THAT(format_pose_file({ pose }, 24.0, point_and_chain(), text).message, HasSubstr("'p'"));
+  pose[0].transform(1, 1) = 1e103;
+  EXPECT_THAT(format_pose_file({ pose }, 24.0, point_and_chain(), text).message,
+    AllOf(HasSubstr("'p'"), HasSubstr("1e+103"), HasSubstr("at most 1e102")));
   // The squares of these lengths overflow or underflow, but the ratio of the lengths is
   // representable.
   EXPECT_EQ(

@@ -28,6 +28,7 @@
 
 #include "base/execution.h"
 #include "base/status.h"
+#include "cell_sizes.h"
 #include "io/report_json.h"
 #include "report_field_data.h"
 
@@ -480,6 +481,11 @@ int vtkBindposeAlgorithm::RequestData(vtkInformationVector** input, vtkInformati
       if (status.usable() && this->EndsWithFailedInput())
       {
         status = bindpose::upstream_failure(data);
+      }
+      if (status.usable())
+      {
+        const bindpose::Status checked = bindpose::check_cell_sizes(data);
+        status = checked.ok() ? status : checked;
       }
     }
   }

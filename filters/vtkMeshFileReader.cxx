@@ -1,14 +1,13 @@
 // The file name extension determines the reader. Bindpose's kernels read the formats that VTK does
 // not support or reads with a loss (coordinates as floats, vertices duplicated where normals
-// differ). VTK's readers read all other formats. Observers catch the errors of these readers; the
-// first error becomes the message of the status. The result is checked before it is passed on,
-// because VTK's readers do not check that ids are in range.
+// differ). VTK's readers read all other formats, in a separate process.
 #include "vtkMeshFileReader.h"
 
 #include "base/execution.h"
 #include "conversion.h"
 #include "file_kind.h"
 #include "gltf_data.h"
+#include "guarded_read.h"
 #include "io/medit.h"
 #include "io/obj.h"
 #include "io/off.h"
@@ -17,13 +16,9 @@
 #include "io/text_scanner.h"
 #include "output_type.h"
 
-#include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
-#include "vtkCommand.h"
-#include "vtkErrorCode.h"
-#include "vtkExecutive.h"
-#include "vtkGenericDataObjectReader.h"
+#include "vtkDataSet.h"
 #include "vtkImageData.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
@@ -34,11 +29,6 @@
 #include "vtkStreamingDemandDrivenPipeline.h"
 #include "vtkStructuredGrid.h"
 #include "vtkUnstructuredGrid.h"
-#include "vtkXMLImageDataReader.h"
-#include "vtkXMLPolyDataReader.h"
-#include "vtkXMLUnstructuredGridReader.h"
-
-#include <algorithm>
 
 vtkStandardNewMacro(vtkMeshFileReader);
 
@@ -46,50 +36,6 @@ namespace
 {
 using bindpose::Index;
 using bindpose::Status;
-
-/// Collects the first error or warning of a VTK reader instead of printing it.
-class ErrorObserver
-{
-public:
-  ErrorObserver()
-  {
-    this->Command->SetClientData(this);
-    this->Command->SetCallback(
-      [](vtkObject*, unsigned long, void* self, void* text)
-      {
-        auto& first = static_cast<ErrorObserver*>(self)->First;
-        if (first.empty() && text)
-        {
-          first = static_cast<const char*>(text);
-        }
-      });
-  }
-  void Watch(vtkObject* object)
-  {
-    object->AddObserver(vtkCommand::ErrorEvent, this->Command);
-    object->AddObserver(vtkCommand::WarningEvent, this->Command);
-  }
-  vtkCommand* GetCommand() { return this->Command; }
-  bool Caught() const { return !this->First.empty(); }
-
-  /// Return the text after "vtkClass (0x…): " in VTK's message, in one line.
-  std::string Sentence() const
-  {
-    std::string text = this->First;
-    const std::size_t object = text.find("): ");
-    if (object != std::string::npos)
-    {
-      text.erase(0, object + 3);
-    }
-    std::replace(text.begin(), text.end(), '\n', ' ');
-    text.erase(text.find_last_not_of(" .") + 1);
-    return text;
-  }
-
-private:
-  vtkNew<vtkCallbackCommand> Command;
-  std::string First;
-};
 
 vtkSmartPointer<vtkPolyData> polygons_to_polydata(const bindpose::PolygonMesh& mesh)
 {
@@ -164,42 +110,21 @@ Status read_gltf_mesh(const std::string& path, vtkDataObject* output)
   return status;
 }
 
-template <typename Reader>
-void watch(ErrorObserver& errors, Reader* reader)
+Status read_by_vtk(
+  bindpose::ExecutionContext& context, const std::string& path, vtkDataObject* output)
 {
-  errors.Watch(reader);
-  // The executive reports a second error for the same failed request; catch it too.
-  errors.Watch(reader->GetExecutive());
-  if constexpr (std::is_base_of_v<vtkXMLReader, Reader>)
+  vtkSmartPointer<vtkDataSet> data;
+  Status status = bindpose::read_guarded(context, path, data);
+  if (status.ok() && !output->IsA(data->GetClassName()))
   {
-    // Observe the internal reader and parser of an XML reader too.
-    reader->SetReaderErrorObserver(errors.GetCommand());
-    reader->SetParserErrorObserver(errors.GetCommand());
-  }
-}
-
-/// Read a file with one of VTK's readers.
-template <typename Reader>
-Status read_by_vtk(const std::string& path, vtkDataObject* output)
-{
-  ErrorObserver errors;
-  vtkNew<Reader> reader;
-  watch(errors, reader.Get());
-  reader->SetFileName(path.c_str());
-  reader->Update();
-  vtkDataObject* data = reader->GetOutputDataObject(0);
-  if (errors.Caught() || reader->GetErrorCode() != vtkErrorCode::NoError || !data)
-  {
-    return Status::invalid_input(
-      path + " cannot be read: " + (errors.Caught() ? errors.Sentence() : "the file is not valid"));
-  }
-  if (!output->IsA(data->GetClassName()))
-  {
-    return Status::invalid_input(
+    status = Status::invalid_input(
       path + " contains a " + data->GetClassName() + ", which is not supported");
   }
-  output->ShallowCopy(data);
-  return {};
+  if (status.ok())
+  {
+    output->ShallowCopy(data);
+  }
+  return status;
 }
 
 Status check_ids(const std::string& path, vtkCellArray* cells, vtkIdType points)
@@ -274,24 +199,22 @@ vtkSmartPointer<vtkDataObject> make_output(const std::string& path)
   }
   if (extension == "vtk")
   {
-    ErrorObserver errors;
-    vtkNew<vtkGenericDataObjectReader> reader;
-    errors.Watch(reader);
-    reader->SetFileName(path.c_str());
-    std::string text;
-    switch (bindpose::read_file(path, text).ok() ? reader->ReadOutputType() : -1)
+    const std::string name = bindpose::legacy_class(path);
+    if (name == "vtkUnstructuredGrid")
     {
-      case VTK_UNSTRUCTURED_GRID:
-        return vtkSmartPointer<vtkUnstructuredGrid>::New();
-      case VTK_STRUCTURED_POINTS:
-      case VTK_IMAGE_DATA:
-        return vtkSmartPointer<vtkImageData>::New();
-      case VTK_RECTILINEAR_GRID:
-        return vtkSmartPointer<vtkRectilinearGrid>::New();
-      case VTK_STRUCTURED_GRID:
-        return vtkSmartPointer<vtkStructuredGrid>::New();
-      default:
-        break;
+      return vtkSmartPointer<vtkUnstructuredGrid>::New();
+    }
+    if (name == "vtkImageData")
+    {
+      return vtkSmartPointer<vtkImageData>::New();
+    }
+    if (name == "vtkRectilinearGrid")
+    {
+      return vtkSmartPointer<vtkRectilinearGrid>::New();
+    }
+    if (name == "vtkStructuredGrid")
+    {
+      return vtkSmartPointer<vtkStructuredGrid>::New();
     }
   }
   return vtkSmartPointer<vtkPolyData>::New();
@@ -326,23 +249,13 @@ int vtkMeshFileReader::RequestInformation(
 {
   // Downstream filters request an image by extents, so they need the whole extent before the data.
   const std::string path = this->FileName ? this->FileName : "";
-  std::string text;
-  if (bindpose::file_extension(path) != "vti" || !bindpose::read_file(path, text).ok())
-  {
-    return 1;
-  }
-  ErrorObserver errors;
-  vtkNew<vtkXMLImageDataReader> reader;
-  watch(errors, reader.Get());
-  reader->SetFileName(path.c_str());
-  reader->UpdateInformation();
-  vtkInformation* from = reader->GetOutputInformation(0);
-  if (!errors.Caught() && from->Has(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT()))
+  bindpose::ImageHeader header;
+  if (bindpose::file_extension(path) == "vti" && bindpose::read_image_header(path, header))
   {
     vtkInformation* to = output->GetInformationObject(0);
-    to->CopyEntry(from, vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT());
-    to->CopyEntry(from, vtkDataObject::ORIGIN());
-    to->CopyEntry(from, vtkDataObject::SPACING());
+    to->Set(vtkStreamingDemandDrivenPipeline::WHOLE_EXTENT(), header.extent.data(), 6);
+    to->Set(vtkDataObject::ORIGIN(), header.origin.data(), 3);
+    to->Set(vtkDataObject::SPACING(), header.spacing.data(), 3);
   }
   return 1;
 }
@@ -391,21 +304,9 @@ bindpose::Status vtkMeshFileReader::Execute(
   {
     status = read_gltf_mesh(path, data);
   }
-  else if (format == "vtp")
-  {
-    status = read_by_vtk<vtkXMLPolyDataReader>(path, data);
-  }
-  else if (format == "vtu")
-  {
-    status = read_by_vtk<vtkXMLUnstructuredGridReader>(path, data);
-  }
-  else if (format == "vti")
-  {
-    status = read_by_vtk<vtkXMLImageDataReader>(path, data);
-  }
   else
   {
-    status = read_by_vtk<vtkGenericDataObjectReader>(path, data);
+    status = read_by_vtk(context, path, data);
   }
   if (status.ok())
   {

@@ -12,25 +12,37 @@
 #include "io/off.h"
 #include "io/ply.h"
 #include "io/stl.h"
+#include "xml_names.h"
 
+#include "vtkAbstractArray.h"
 #include "vtkCallbackCommand.h"
 #include "vtkCellArray.h"
 #include "vtkCellArrayIterator.h"
+#include "vtkCellData.h"
 #include "vtkCommand.h"
 #include "vtkDataArray.h"
+#include "vtkDoubleArray.h"
 #include "vtkErrorCode.h"
+#include "vtkFieldData.h"
+#include "vtkFloatArray.h"
 #include "vtkGenericDataObjectWriter.h"
 #include "vtkImageData.h"
+#include "vtkIdList.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkNew.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointData.h"
+#include "vtkPointSet.h"
 #include "vtkPolyData.h"
 #include "vtkUnstructuredGrid.h"
 #include "vtkXMLImageDataWriter.h"
 #include "vtkXMLPolyDataWriter.h"
 #include "vtkXMLUnstructuredGridWriter.h"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
 
 vtkStandardNewMacro(vtkMeshFileWriter);
 
@@ -58,12 +70,21 @@ void choose_encoding(Writer* writer)
 template <typename Writer>
 Status write_by_vtk(vtkDataSet* data, const std::string& path)
 {
+  vtkSmartPointer<vtkDataSet> written = data;
+  if constexpr (std::is_base_of_v<vtkXMLWriter, Writer>)
+  {
+    Status status = bindpose::escape_names(data, written);
+    if (!status.ok())
+    {
+      return status;
+    }
+  }
   vtkNew<Writer> writer;
   choose_encoding(writer.Get());
   // The status contains the error; the observer keeps VTK from printing it.
   vtkNew<vtkCallbackCommand> silent;
   writer->AddObserver(vtkCommand::ErrorEvent, silent);
-  writer->SetInputDataObject(data);
+  writer->SetInputDataObject(written);
   writer->SetFileName(path.c_str());
   if (writer->Write() == 0 || writer->GetErrorCode() != vtkErrorCode::NoError)
   {
@@ -124,6 +145,44 @@ Status write_dmat(vtkDataSet* data, const std::string& array_name, const std::st
   return bindpose::write_dmat(path, bindpose::to_matrix(array).view());
 }
 
+/// Return the number of bytes of a name in a legacy file, where other bytes than visible ASCII
+/// characters are written as %XX.
+std::size_t legacy_length(const char* name)
+{
+  std::size_t length = 0;
+  for (const char* c = name; c && *c; ++c)
+  {
+    const bool is_kept = *c >= '!' && *c <= '~' && *c != '%' && *c != '"';
+    length += is_kept ? 1 : 3;
+  }
+  return length;
+}
+
+/// VTK's reader of legacy files reads at most 255 bytes of a name.
+Status check_legacy_names(vtkDataSet* data)
+{
+  constexpr std::size_t maximum_length = 255;
+  for (vtkFieldData* fields : std::initializer_list<vtkFieldData*>{
+         data->GetPointData(), data->GetCellData(), data->GetFieldData() })
+  {
+    for (int k = 0; k < fields->GetNumberOfArrays(); ++k)
+    {
+      vtkAbstractArray* array = fields->GetAbstractArray(k);
+      std::size_t longest = legacy_length(array->GetName());
+      for (int c = 0; array->HasAComponentName() && c < array->GetNumberOfComponents(); ++c)
+      {
+        longest = std::max(longest, legacy_length(array->GetComponentName(c)));
+      }
+      if (longest > maximum_length)
+      {
+        return Status::invalid_input("a name in array " + std::to_string(k) + " takes " +
+          std::to_string(longest) + " bytes; a .vtk file can store names of at most 255 bytes");
+      }
+    }
+  }
+  return {};
+}
+
 Status require_class(
   vtkDataSet* data, const char* class_name, const std::string& format, const char* content_name)
 {
@@ -153,7 +212,8 @@ Status write(vtkDataSet* data, const std::string& format, const std::string& arr
   }
   if (format == "vtk")
   {
-    return write_by_vtk<vtkGenericDataObjectWriter>(data, path);
+    status = check_legacy_names(data);
+    return status.ok() ? write_by_vtk<vtkGenericDataObjectWriter>(data, path) : status;
   }
   if (format == "mesh")
   {
@@ -173,6 +233,56 @@ Status write(vtkDataSet* data, const std::string& format, const std::string& arr
     : format == "obj"    ? bindpose::write_obj(path, mesh)
     : format == "stl"    ? bindpose::write_stl(path, mesh)
                          : bindpose::write_ply(path, mesh);
+}
+} // namespace
+
+namespace
+{
+template <typename Number>
+bool all_finite(const Number* coordinates, vtkIdType count)
+{
+  return std::all_of(
+    coordinates, coordinates + count, [](Number coordinate) { return std::isfinite(coordinate); });
+}
+
+bool all_finite(vtkPoints* points)
+{
+  if (auto* doubles = vtkDoubleArray::SafeDownCast(points->GetData()))
+  {
+    return all_finite(doubles->GetPointer(0), doubles->GetNumberOfValues());
+  }
+  auto* floats = vtkFloatArray::SafeDownCast(points->GetData());
+  return !floats || all_finite(floats->GetPointer(0), floats->GetNumberOfValues());
+}
+
+/// Check that the points of all cells are finite, so that no result with NaN or infinity replaces a
+/// good file. Points that no cell uses may be those of an input.
+Status check_points(vtkDataSet* data)
+{
+  auto* point_set = vtkPointSet::SafeDownCast(data);
+  if (!point_set || all_finite(point_set->GetPoints()))
+  {
+    return {};
+  }
+  vtkNew<vtkIdList> ids;
+  for (vtkIdType cell = 0; cell < data->GetNumberOfCells(); ++cell)
+  {
+    data->GetCellPoints(cell, ids);
+    for (const vtkIdType id : *ids)
+    {
+      double point[3];
+      data->GetPoint(id, point);
+      for (int axis = 0; axis < 3; ++axis)
+      {
+        if (!std::isfinite(point[axis]))
+        {
+          return Status::invalid_input(std::string("coordinate ") + "xyz"[axis] + " of point " +
+            std::to_string(id) + " is not finite");
+        }
+      }
+    }
+  }
+  return {};
 }
 } // namespace
 
@@ -217,6 +327,12 @@ bindpose::Status vtkMeshFileWriter::Execute(
   if (!data || data->GetNumberOfPoints() == 0)
   {
     return Status::invalid_input("the input is empty: nothing to write to " + path);
+  }
+  status = check_points(data);
+  if (!status.ok())
+  {
+    status.message = "cannot write " + path + ": " + status.message;
+    return status;
   }
   bindpose::AtomicFile file;
   status = file.open(path, this->Overwrite);

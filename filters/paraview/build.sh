@@ -75,7 +75,7 @@ find_paraview()
 # ---- ParaView ----
 if [ -n "$prefix" ]; then
   find_paraview "$prefix" # before packages are installed
-  install_packages "$kernel_packages $paraview_help_packages"
+  install_packages "$kernel_packages libpng-dev:pictures $paraview_help_packages"
 else
   if ! is_installed python3-paraview && is_installed python3-vtk9 && [ "$replace_vtk" = no ]; then
     die "Debian's python3-paraview conflicts with the installed python3-vtk9; give --replace-vtk to let apt remove python3-vtk9 and libvtk9-dev, or --prefix PREFIX for a ParaView in another folder"

@@ -4,6 +4,8 @@
 #include "winding_field.h"
 
 #include "base/execution.h"
+#include "cell_sizes.h"
+#include "geometry/working_frame.h"
 #include "winding/curve_winding_number.h"
 #include "winding/point_cloud_winding_number.h"
 #include "surface/surface_repair.h"
@@ -187,6 +189,12 @@ Status to_curve(vtkPointSet* input, CurveInput& curve)
         "vertex " + std::to_string(v) + " has a coordinate that is not a finite number");
     }
     curve.box.add(points.row(v));
+  }
+  WorkingFrame frame;
+  const Status status = WorkingFrame::choose(points, curve.box, "the curve", frame);
+  if (!status.ok())
+  {
+    return status;
   }
   const Vec3 size = curve.box.size();
   curve.normal_axis = size.z() == 0.0 ? 2 : size.x() == 0.0 ? 0 : size.y() == 0.0 ? 1 : -1;
@@ -472,6 +480,11 @@ Status WindingField::extent(vtkPointSet* input, Box& box, int& flat_axis)
 {
   flat_axis = -1;
   box = Box();
+  const Status sizes = check_cell_sizes(input);
+  if (!sizes.ok())
+  {
+    return sizes;
+  }
   switch (kind_of(input))
   {
     case Kind::curve:

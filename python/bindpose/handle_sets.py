@@ -76,6 +76,9 @@ def handles(points: ArrayLike | None = None, bones: ArrayLike | None = None, nam
     if len(names) != count or len(parents) != count:
         raise InvalidInput(
             f"names and parents must have {count} entries, one per handle (got {len(names)} names and {len(parents)} parents)")
+    for i, name in enumerate(names):
+        if str(name) == "":
+            raise InvalidInput(f"names[{i}] is empty; every handle must have a name")
 
     data = vtkPolyData()
     data.SetPoints(to_vtk_points(np.concatenate([points, bones.reshape(-1, 3)])))

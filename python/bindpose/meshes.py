@@ -159,7 +159,7 @@ def to_curves(curves):
 
 def is_tets(data):
     """Report whether the first cell is a tet; the filters check all other cells."""
-    return data.GetNumberOfCells() > 0 and data.GetCellType(0) == VTK_TETRA
+    return isinstance(data, vtkUnstructuredGrid) and data.GetNumberOfCells() > 0 and data.GetCellType(0) == VTK_TETRA
 
 
 def points_of(data):

@@ -28,6 +28,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
+
 using namespace bindpose;
 using testing::HasSubstr;
 
@@ -327,6 +330,24 @@ TEST_F(MeshFiles, WhatCannotBeWrittenIsOneSentence)
   this->Writer->OverwriteOn();
   EXPECT_EQ(this->Writer->Write(), 1);
   EXPECT_EQ(this->Folder.number_of_files(), 1u);
+}
+
+TEST_F(MeshFiles, PointsThatAreNotFiniteAreNotWritten)
+{
+  for (const double bad : { std::nan(""), HUGE_VAL })
+  {
+    const auto surface = cube_data();
+    surface->GetPoints()->SetPoint(6, 0.0, bad, 0.0);
+    const std::string path = this->Folder / "bad.vtp";
+    EXPECT_THAT(this->Write(surface, path), HasSubstr("coordinate y of point 6 is not finite"));
+    EXPECT_FALSE(std::filesystem::exists(path));
+    // A point that no cell uses can come from the input.
+    const vtkIdType unused = surface->GetPoints()->InsertNextPoint(bad, 0.0, 0.0);
+    surface->GetPoints()->SetPoint(6, 0.0, 0.0, 0.0);
+    EXPECT_EQ(this->Write(surface, path), "");
+    EXPECT_EQ(this->Read(path)->GetNumberOfPoints(), unused + 1);
+    std::filesystem::remove(path);
+  }
 }
 
 TEST_F(MeshFiles, TheWriterRepeatsWhatFailedUpstream)

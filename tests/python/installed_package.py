@@ -8,6 +8,7 @@ import importlib.metadata
 import pathlib
 import subprocess
 import sys
+import tempfile
 
 import bindpose
 from bindpose.program import program_path
@@ -24,3 +25,6 @@ assert bindpose.__version__ in done.stdout
 tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
 assert bindpose.contains(tetrahedron, [[0.1, 0.1, 0.1], [1, 1, 1]]).tolist() == [True, False]
 assert bindpose.tetrahedralize(tetrahedron, method="cdt").report["status"] == "ok"  # finds the helper program
+with tempfile.TemporaryDirectory() as folder:
+    bindpose.write(tetrahedron, pathlib.Path(folder) / "t.vtp")
+    assert bindpose.read(pathlib.Path(folder) / "t.vtp").GetNumberOfCells() == 4  # finds the helper reader

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 import shapes
 from bindpose import meshes
-from vtkmodules.vtkCommonDataModel import vtkPolyData, vtkUnstructuredGrid
+from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkCellArray, vtkPolyData, vtkUnstructuredGrid
 
 
 def test_triangles_and_tets():
@@ -33,6 +33,29 @@ def test_the_arrays_stay_the_callers():
 def test_what_is_no_mesh(mesh):
     with pytest.raises(bindpose.InvalidInput):
         meshes.to_dataset(mesh)
+
+
+@pytest.mark.parametrize("kind, size, message", [("Verts", 0, "vertex cell 0 has 0 points"), ("Lines", 1, "line 0 has 1 point;"),
+                                                 ("Polys", 2, "polygon 0 has 2 points"), ("Strips", 2, "triangle strip 0 has 2 points")])
+def test_cells_with_too_few_points(kind, size, message):
+    surface = meshes.to_dataset(shapes.cube())
+    cells = vtkCellArray()
+    cells.InsertNextCell(size, list(range(size)))
+    getattr(surface, f"Set{kind}")(cells)
+    handles = bindpose.handles(points=[[0, 0, 0], [1, 1, 1]])
+    for function in (bindpose.winding_number, bindpose.defects, bindpose.tetrahedralize, bindpose.automatic_handles,
+                     lambda mesh: bindpose.weights(mesh, handles)):
+        with pytest.raises(bindpose.InvalidInput, match=message):
+            function(surface)
+
+
+def test_tets_with_too_few_points():
+    grid = meshes.to_dataset((np.eye(4, 3), np.array([[3, 0, 1, 2]])))
+    cells = vtkCellArray()
+    cells.InsertNextCell(3, [0, 1, 2])
+    grid.SetCells(VTK_TETRA, cells)
+    with pytest.raises(bindpose.InvalidInput, match="cell 0 of type 10 has 3 points; expected 4"):
+        bindpose.weights(grid, bindpose.handles(points=[[0, 0, 0], [1, 0, 0]]))
 
 
 def test_arrays_remember_their_report():

@@ -41,7 +41,7 @@ CORE_ARROWS = {
     "weights": {"base", "linear", "geometry", "surface", "inside", "domain", "qp", "weights"},
     "weight_uses": {"base", "geometry", "weight_uses"},
     "automatic": {"base", "geometry", "winding", "surface", "helper", "inside", "handles", "automatic"},
-    "pose": {"base", "geometry", "handles", "pose"},
+    "pose": {"base", "geometry", "io", "handles", "pose"},
     "skinning": {"base", "geometry", "handles", "pose", "skinning"},
     "arap": {"base", "linear", "geometry", "handles", "pose", "skinning", "arap"},
     "fairing": {"base", "geometry", "arap", "fairing"},
@@ -79,10 +79,14 @@ FORBIDDEN = {
 LARGEST_FOLDER = 30
 
 
+NO_PROXY = {"vtkPictureFileReader"}  # ParaView has readers of pictures
+
+
 def without_proxy():
     """Return one sentence for each filter that the plugin's XML does not mention, and for each name in the XML that is not
     a filter."""
     filters = {path.stem for path in (ROOT / "filters").glob("vtk*.h") if f"static {path.stem}* New()" in path.read_text()}
+    filters -= NO_PROXY
     proxies = re.compile(r'<(?:SourceProxy|WriterProxy)\b[^>]*\bclass="(\w+)"')
     # Ignore base proxies: they refer to abstract classes, whose names end with Algorithm.
     named = {name for path in (ROOT / PLUGIN).rglob("*.xml") for name in proxies.findall(path.read_text())
@@ -98,8 +102,8 @@ def sources(folder):
 
 def mutual_includes():
     """Return the pairs of units that include each other. A unit is a path without its extension."""
-    roots = [ROOT / folder for folder in ("filters/core", "filters", "filters/handles", "filters/support", "viewer",
-                                          "viewer/widgets", "viewer/widgets/handles")]
+    roots = [ROOT / folder for folder in ("filters/core", "filters", "filters/files", "filters/handles", "filters/reader",
+                                          "filters/support", "viewer", "viewer/widgets", "viewer/widgets/handles")]
     used = {}
     for folder in ("filters", "viewer"):
         for path, includes in sources(folder):

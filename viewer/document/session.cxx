@@ -10,17 +10,18 @@
 #include "document/work_inputs.h"
 
 #include "conversion.h"
+#include "guarded_read.h"
 #include "io/atomic_file.h"
+#include "io/json_depth.h"
 #include "io/text_scanner.h"
 #include "pictures/picture_file.h"
 #include "scene/volume.h"
+#include "xml_names.h"
 
+#include "vtkDataSet.h"
 #include "vtkNew.h"
-#include "vtkXMLImageDataReader.h"
 #include "vtkXMLImageDataWriter.h"
-#include "vtkXMLPolyDataReader.h"
 #include "vtkXMLPolyDataWriter.h"
-#include "vtkXMLUnstructuredGridReader.h"
 #include "vtkXMLUnstructuredGridWriter.h"
 
 #include <QDir>
@@ -41,16 +42,27 @@ constexpr int hash_digits = 12;
 // ---- Writing -----------------------------------------------------------------------------------
 
 template <typename Writer>
-bool write_xml(vtkDataSet* data, const std::string& path)
+Status write_xml(vtkDataSet* data, const std::string& path)
 {
+  vtkSmartPointer<vtkDataSet> escaped;
+  Status status = escape_names(data, escaped);
+  if (!status.ok())
+  {
+    return status;
+  }
   vtkNew<Writer> writer;
-  writer->SetInputData(data);
+  writer->SetInputData(escaped);
   writer->SetFileName(path.c_str());
   writer->SetDataModeToAppended();
   writer->EncodeAppendedDataOff();
   writer->SetCompressorTypeToNone(); // compression would be so slow that users notice an autosave
   writer->SetHeaderTypeToUInt64();
-  return writer->Write() == 1 && writer->GetErrorCode() == 0;
+  if (writer->Write() != 1 || writer->GetErrorCode() != 0)
+  {
+    return Status::failure(
+      StatusCode::internal_error, "the data could not be written; the disk may be full");
+  }
+  return {};
 }
 
 /// Return the prefix of companion names: "NAME." for NAME.bindpose.
@@ -98,15 +110,6 @@ json camera_to_json(const SessionView::Camera& camera)
 }
 
 // ---- Reading -----------------------------------------------------------------------------------
-
-template <typename Reader>
-vtkSmartPointer<vtkDataSet> read_xml(const QString& path)
-{
-  vtkNew<Reader> reader;
-  reader->SetFileName(path.toStdString().c_str());
-  reader->Update();
-  return reader->GetOutput();
-}
 
 std::array<double, 3> read_triple(const json& value, const char* value_name)
 {
@@ -237,8 +240,8 @@ private:
   }
 
   /// Read and return a companion; null if the session has none. If the companion file is missing or
-  /// has changed, set `is_damaged` and return null.
-  template <typename Reader>
+  /// its checksum differs, set `is_damaged` and return null. Throw SessionError if the file is
+  /// unchanged but cannot be read.
   vtkSmartPointer<vtkDataSet> companion(
     const json& companions, const char* role, bool& is_damaged) const
   {
@@ -252,7 +255,16 @@ private:
       is_damaged = true;
       return nullptr;
     }
-    return read_xml<Reader>(file.path);
+    ExecutionContext context;
+    vtkSmartPointer<vtkDataSet> data;
+    const Status status = read_guarded(context, file.path.toStdString(), data);
+    if (!status.ok())
+    {
+      // The file is the one that was saved, but cannot be read here. Do not open the session
+      // without its companions, because saving it would delete them.
+      throw SessionError(status.message);
+    }
+    return data;
   }
 
   void read_mesh(
@@ -261,8 +273,8 @@ private:
     Work& work = session.work;
     const auto bound_handles = work.bound_handles;
     bool is_damaged = false;
-    const auto surface = this->companion<vtkXMLPolyDataReader>(companions, "surface", is_damaged);
-    const auto tets = this->companion<vtkXMLUnstructuredGridReader>(companions, "tets", is_damaged);
+    const auto surface = this->companion(companions, "surface", is_damaged);
+    const auto tets = this->companion(companions, "tets", is_damaged);
     const bool has_input = inputs.contains("mesh");
     const Source source = has_input ? this->source(inputs["mesh"]) : Source();
     const QByteArray current_checksum = has_input ? checksum_of(source.path) : QByteArray();
@@ -322,8 +334,7 @@ private:
   {
     Work& work = session.work;
     bool is_damaged = false;
-    work.volume = vtkImageData::SafeDownCast(
-      this->companion<vtkXMLImageDataReader>(companions, "volume", is_damaged));
+    work.volume = vtkImageData::SafeDownCast(this->companion(companions, "volume", is_damaged));
     if (work.volume && !check_volume(work.volume, "WindingNumber").ok())
     {
       work.volume = nullptr;
@@ -423,15 +434,15 @@ Status SessionFile::write_companion(
     return Status::invalid_input(
       "cannot write " + path_without_hash.toStdString() + ": expected a surface, tets or a volume");
   }
-  const bool written = is_tets ? write_xml<vtkXMLUnstructuredGridWriter>(view, file.temporary())
-    : is_volume                ? write_xml<vtkXMLImageDataWriter>(view, file.temporary())
-                               : write_xml<vtkXMLPolyDataWriter>(view, file.temporary());
+  status = is_tets ? write_xml<vtkXMLUnstructuredGridWriter>(view, file.temporary())
+    : is_volume    ? write_xml<vtkXMLImageDataWriter>(view, file.temporary())
+                   : write_xml<vtkXMLPolyDataWriter>(view, file.temporary());
   const QString temporary = QString::fromStdString(file.temporary());
-  const QByteArray checksum = written ? checksum_of(temporary) : QByteArray();
+  const QByteArray checksum = status.ok() ? checksum_of(temporary) : QByteArray();
   if (checksum.isEmpty())
   {
-    return Status::invalid_input("cannot write " + path_without_hash.toStdString() +
-      ": the data could not be written or read back; the disk may be full");
+    return Status::invalid_input("cannot write " + path_without_hash.toStdString() + ": " +
+      (status.ok() ? "the data could not be read back; the disk may be full" : status.message));
   }
   const QString name = QString("%1%2-%3.%4")
                          .arg(companion_stem(session), role,
@@ -577,6 +588,12 @@ Status read_session(const QString& path, Session& session)
     return cannot_open("the file is too large for a session");
   }
   const QByteArray bytes = file.readAll();
+  const Status depth =
+    check_json_depth({ bytes.constData(), static_cast<std::size_t>(bytes.size()) });
+  if (!depth.ok())
+  {
+    return cannot_open(depth.message);
+  }
   try
   {
     const json text = json::parse(bytes.begin(), bytes.end());

@@ -63,15 +63,16 @@ Status check_end(const ChildEnd& end, const HelperOutput& lines, const HelperReq
   {
     return {};
   }
+  // The limit is named only where it can be the cause: after a crash, or if memory ran out.
   const std::string limit = memory_limit_phrase(request.memory_limit);
-  std::string message = request.name + " " + end.failure + limit;
+  std::string message = request.name + " " + end.failure + (end.killed_by_signal ? limit : "");
   if (end.killed_by_signal)
   {
     message += lines.library_output().empty() ? "" : "; last output: " + lines.library_output();
   }
   else if (!lines.error().empty())
   {
-    message = request.name + ": " + lines.error() + limit;
+    message = request.name + ": " + lines.error() + (lines.error() == "out of memory" ? limit : "");
   }
   else
   {
@@ -100,14 +101,9 @@ std::string find_helper(const Helper& helper)
     return is_executable_file(chosen) ? std::string(chosen) : std::string();
   }
   std::vector<std::string> folders;
-  char executable_path[4096];
-  const ssize_t length = ::readlink("/proc/self/exe", executable_path, sizeof(executable_path) - 1);
-  if (length > 0)
-  {
-    folders.push_back(folder_of(std::string(executable_path, static_cast<std::size_t>(length))));
-  }
   // Find the library that contains this function. The library is either in a plugin's folder or in
-  // lib/ or lib/ARCHITECTURE/ of the installation.
+  // lib/ or lib/ARCHITECTURE/ of the installation. The helper belongs to this library, so the
+  // folder of the executable, which can be that of python3, comes later.
   Dl_info info{};
   if (::dladdr(reinterpret_cast<void*>(&find_helper), &info) && info.dli_fname)
   {
@@ -115,6 +111,12 @@ std::string find_helper(const Helper& helper)
     folders.push_back(library);
     folders.push_back(library + "/../bin");
     folders.push_back(library + "/../../bin");
+  }
+  char executable_path[4096];
+  const ssize_t length = ::readlink("/proc/self/exe", executable_path, sizeof(executable_path) - 1);
+  if (length > 0)
+  {
+    folders.push_back(folder_of(std::string(executable_path, static_cast<std::size_t>(length))));
   }
 #ifdef BINDPOSE_PROGRAM_BUILD_FOLDER
   folders.emplace_back(BINDPOSE_PROGRAM_BUILD_FOLDER);

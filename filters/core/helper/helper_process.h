@@ -28,7 +28,7 @@ struct HelperRequest
   double time_limit = 120.0; ///< the helper is killed after this many seconds
   /// The helper is killed after using this many seconds of processor time, 0: no limit.
   double processor_limit = 0.0;
-  Index memory_limit = 0; ///< largest memory of the helper in MiB, 0: no limit
+  Index memory_limit = 0; ///< limit of the helper's address space in MiB, 0: no limit
 };
 
 /// The result of a run.
@@ -42,8 +42,8 @@ struct HelperRun
 /// Return the path of a helper, or an empty string if it is not found. If its environment variable
 /// is set, only this path is used. Otherwise these folders are searched in this order, where LIB is
 /// the folder of the library that contains this function:
-/// - the folder of the running executable
 /// - LIB, LIB/../bin and LIB/../../bin
+/// - the folder of the running executable
 /// - the build tree
 std::string find_helper(const Helper& helper);
 

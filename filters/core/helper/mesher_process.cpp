@@ -17,8 +17,7 @@ namespace
 {
 constexpr Helper mesher{ "bindpose-mesher", "BINDPOSE_MESHER",
   "the helper executable bindpose-mesher is missing; building it needs the packages libcgal-dev "
-  "and "
-  "libtet1.5-dev" };
+  "and libtet1.5-dev" };
 } // namespace
 
 bool can_run_two_meshers(Index triangle_count, Index memory_limit)

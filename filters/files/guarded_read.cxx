@@ -1,0 +1,182 @@
+// Reading by the helper executable bindpose-reader, and headers that are parsed in this process.
+#include "guarded_read.h"
+
+#include "dataset_record.h"
+#include "file_kind.h"
+#include "helper/helper_process.h"
+
+#include "vtkDataSet.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include <unistd.h>
+
+namespace bindpose
+{
+
+namespace
+{
+constexpr Helper reader{ "bindpose-reader", "BINDPOSE_READER",
+  "the helper executable bindpose-reader is missing; reinstall Bindpose or set the environment "
+  "variable BINDPOSE_READER to its path" };
+
+/// Return the first bytes of a file, which contain its header.
+std::string beginning(const std::string& path)
+{
+  constexpr std::size_t header_size = 65536;
+  std::ifstream file(path, std::ios::binary);
+  std::string text(header_size, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  return text;
+}
+
+/// Return the memory limit of the helper in MiB, 0: no limit. The libraries take about 300 MiB of
+/// address space. Text takes less than 20 bytes of memory per byte. Compressed files and pictures
+/// expand by a factor of at most 1,032 (zlib with constant data).
+Index memory_limit(const std::string& path, double size)
+{
+#if defined(__SANITIZE_ADDRESS__)
+  return 0; // The address sanitizer reserves terabytes of address space.
+#else
+  const bool is_compressed = is_listed(file_extension(path), "png jpg jpeg tif tiff bmp") ||
+    beginning(path).find("compressor=") != std::string::npos;
+  const double growth = is_compressed ? 1100.0 : 20.0;
+  constexpr double mebibyte = 1048576.0;
+  return 700 + static_cast<Index>(growth * size / mebibyte);
+#endif
+}
+
+/// Return the value of an attribute of an XML element: the text between the quotes after NAME=.
+std::string attribute(const std::string& element, const std::string& name)
+{
+  const std::size_t begin = element.find(" " + name + "=");
+  const std::size_t quote = begin + name.size() + 2;
+  if (begin == std::string::npos || quote >= element.size())
+  {
+    return {};
+  }
+  const std::size_t end = element.find(element[quote], quote + 1);
+  return end == std::string::npos ? std::string() : element.substr(quote + 1, end - quote - 1);
+}
+
+template <typename Number, std::size_t size>
+bool parse(const std::string& text, std::array<Number, size>& numbers)
+{
+  std::istringstream words(text);
+  for (Number& number : numbers)
+  {
+    words >> number;
+  }
+  return !words.fail();
+}
+} // namespace
+
+Status read_guarded(
+  ExecutionContext& context, const std::string& path, vtkSmartPointer<vtkDataSet>& data)
+{
+  data = nullptr;
+  std::error_code error;
+  const std::filesystem::path full = std::filesystem::absolute(path, error);
+  const auto size = error ? 0 : std::filesystem::file_size(full, error);
+  if (error)
+  {
+    const bool is_missing = error == std::errc::no_such_file_or_directory;
+    return Status::invalid_input(
+      path + " cannot be read: " + (is_missing ? "there is no such file" : error.message()));
+  }
+  const FileDescriptor record(anonymous_file("bindpose-dataset"));
+  if (record.get() < 0)
+  {
+    return Status::failure(StatusCode::internal_error,
+      std::string("cannot create memory for a dataset: ") + std::strerror(errno));
+  }
+  HelperRequest request;
+  request.name = reader.program;
+  request.arguments = { full.string(), file_extension(path) };
+  request.memory_limit = memory_limit(path, static_cast<double>(size));
+  constexpr double bytes_per_second = 1e6; // text is read at 10 to 50 MB per second
+  request.time_limit = 10.0 + static_cast<double>(size) / bytes_per_second;
+  HelperRun run;
+  Status status = run_helper(context, reader, request, record.get(), run);
+  if (status.ok())
+  {
+    status = read_dataset_record(record.get(), data);
+    if (!status.ok())
+    {
+      status.message = "bindpose-reader returned an invalid dataset: " + status.message;
+    }
+  }
+  if (status.code == StatusCode::internal_error)
+  {
+    return Status::invalid_input(path + " cannot be read: " + status.message);
+  }
+  return status;
+}
+
+bool read_image_header(const std::string& path, ImageHeader& header)
+{
+  const std::string text = beginning(path);
+  const std::size_t begin = text.find("<ImageData");
+  if (begin == std::string::npos)
+  {
+    return false;
+  }
+  std::string element = text.substr(begin, text.find('>', begin) - begin);
+  std::replace_if(
+    element.begin(), element.end(), [](unsigned char c) { return std::isspace(c) != 0; }, ' ');
+  if (!parse(attribute(element, "WholeExtent"), header.extent))
+  {
+    return false;
+  }
+  ImageHeader defaults;
+  if (!parse(attribute(element, "Origin"), header.origin))
+  {
+    header.origin = defaults.origin;
+  }
+  if (!parse(attribute(element, "Spacing"), header.spacing))
+  {
+    header.spacing = defaults.spacing;
+  }
+  return true;
+}
+
+std::string legacy_class(const std::string& path)
+{
+  std::istringstream lines(beginning(path));
+  std::string line;
+  // The first two lines are the version and a title, which may contain any words.
+  std::getline(lines, line);
+  std::getline(lines, line);
+  while (std::getline(lines, line))
+  {
+    std::istringstream words(line);
+    std::string keyword, type;
+    words >> keyword >> type;
+    const auto lower = [](std::string& word)
+    {
+      std::transform(word.begin(), word.end(), word.begin(),
+        [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    };
+    lower(keyword);
+    lower(type);
+    if (keyword == "dataset")
+    {
+      return type == "polydata"       ? "vtkPolyData"
+        : type == "unstructured_grid" ? "vtkUnstructuredGrid"
+        : type == "structured_points" ? "vtkImageData"
+        : type == "rectilinear_grid"  ? "vtkRectilinearGrid"
+        : type == "structured_grid"   ? "vtkStructuredGrid"
+                                      : "";
+    }
+  }
+  return {};
+}
+
+} // namespace bindpose

@@ -57,6 +57,9 @@ struct CdtTets::Perturbation
 
 namespace
 {
+/// Evaluations of TetGen's predicates that stand for a second. Long runs evaluate 3 to 10 million
+/// in a second of processor time.
+constexpr double tetgen_work_per_second = 5e6;
 
 /// Map an integer to a number in [-1, 1), identically on every machine (splitmix64).
 double pseudo_random(std::uint64_t n)
@@ -283,16 +286,19 @@ Status CdtTets::try_tetgen(
   return this->evaluate_run(setup, move, this->run_tetgen(this->context_, setup, input));
 }
 
-/// Run TetGen with a time limit of twice the longest time that successful runs need for surfaces of
-/// this size. Typical runs take 20 to 60 us per triangle. Thread-safe.
+/// Run TetGen with a limit of work. On furniture models, 98 % of the runs that succeed need less
+/// than half of this work. Thread-safe.
 CdtTets::TetgenRun CdtTets::run_tetgen(
   ExecutionContext& context, const TetgenSetup& setup, const MesherData& input) const
 {
   const double seconds = 1.5 + 1e-4 * static_cast<double>(input.triangles.rows());
+  // The limit of time is for slow machines, and for endless loops without predicates.
+  constexpr double slack = 4.0;
   TetgenRun run;
   run.status = this->run_job(context,
-    { "tetgen", "--switches", setup.switches, "--box", setup.box ? "1" : "0" }, input, seconds,
-    run.answer);
+    { "tetgen", "--switches", setup.switches, "--box", setup.box ? "1" : "0", "--work",
+      std::to_string(seconds * tetgen_work_per_second) },
+    input, slack * seconds, run.answer);
   return run;
 }
 
@@ -302,8 +308,10 @@ Status CdtTets::evaluate_run(
 {
   const double start = this->context_.elapsed_seconds();
   this->wrong_volume_ = false;
-  this->timed_out_ = run.answer.timed_out;
-  this->job_seconds_ += run.answer.seconds;
+  const Report& report = run.answer.report;
+  this->timed_out_ = run.answer.timed_out || report.number("work_limit_reached", 0.0) > 0.0;
+  const double work = report.number("work", 0.0);
+  this->job_seconds_ += work > 0.0 ? work / tetgen_work_per_second : run.answer.seconds;
   const Status status = run.status.ok() ? this->keep_inside(run.answer.data) : run.status;
   this->log_.add("tetgen " + setup.switches + (setup.box ? " in a box" : "") + move.name,
     run.answer.seconds + this->context_.elapsed_seconds() - start, status);

@@ -3,6 +3,7 @@
 // take all memory on bad input. Bindpose starts this program; users do not call it.
 #include "helper/helper_start.h"
 #include "mesher/jobs.h"
+#include "mesher/tetgen_work.h"
 
 #include <cstdio>
 #include <exception>
@@ -41,7 +42,10 @@ std::string run(
     const auto entry = options.find("--switches");
     tetgen.switches = entry == options.end() ? "p" : entry->second;
     tetgen.box = helper_number(options, "--box", 0.0) > 0.0;
-    return bindpose::tetgen(data, tetgen);
+    bindpose::limit_tetgen_work(helper_number(options, "--work", 1e18));
+    std::string error = bindpose::tetgen(data, tetgen);
+    bindpose::report_tetgen_work();
+    return error;
   }
   if (job == "delaunay")
   {
@@ -119,6 +123,7 @@ int main(int argc, char* argv[])
   }
   catch (int code) // TetGen throws its exit code as an int
   {
+    bindpose::report_tetgen_work();
     helper_fail(code == 1 ? "TetGen ran out of memory"
         : code == 3       ? "TetGen found intersecting triangles"
         : code == 4       ? "TetGen found a feature too small for its precision"

@@ -337,6 +337,38 @@ TEST_F(RealHelper, WhatCrashesTetgenIsAStatus)
   EXPECT_THAT(run_real({ "dance" }, mesh, answer).message, HasSubstr("unknown job"));
 }
 
+// The work of TetGen, not its time, decides when it is stopped. So the result does not depend on
+// the speed of the machine.
+TEST_F(RealHelper, WorkLimitStopsTetgen)
+{
+  const TriangleMesh mesh = test::sphere(3);
+  const std::vector<std::string> job = { "tetgen", "--switches", "pYA" };
+  MesherResult first, second, limited, enough;
+  ASSERT_TRUE(run_real(job, mesh, first).ok());
+  ASSERT_TRUE(run_real(job, mesh, second).ok());
+  const double work = first.report.number("work", 0.0);
+  if (work == 0.0)
+  {
+    GTEST_SKIP() << "TetGen is a static library, whose work is not counted";
+  }
+  EXPECT_GT(work, mesh.triangles.rows());
+  EXPECT_EQ(second.report.number("work", 0.0), work);
+
+  const auto with_limit = [&](double limit)
+  {
+    std::vector<std::string> arguments = job;
+    arguments.insert(arguments.end(), { "--work", std::to_string(limit) });
+    return arguments;
+  };
+  const Status stopped = run_real(with_limit(work - 1.0), mesh, limited);
+  EXPECT_EQ(stopped.code, StatusCode::internal_error);
+  EXPECT_THAT(stopped.message, HasSubstr("evaluations of its predicates"));
+  EXPECT_EQ(limited.report.number("work_limit_reached", 0.0), 1.0);
+
+  ASSERT_TRUE(run_real(with_limit(work), mesh, enough).ok());
+  EXPECT_EQ(enough.data.tets, first.data.tets);
+}
+
 TEST_F(RealHelper, MemoryLimitIsKept)
 {
   ExecutionContext context;

@@ -44,11 +44,11 @@ from .errors import (
 )
 from .fairing import fair
 from .files import read, read_handles, write
-from .functions import contains, defects, deform, dynamics, planar_shape, tetrahedralize, weights, winding_number
+from .functions import contains, defects, dynamics, planar_shape, tetrahedralize, weights, winding_number
 from .handle_sets import automatic_handles, farthest_point_handles, handles
 from .meshes import Array, PlanarShape, Tets
 from .program import render
-from .rigs import Rig, bind, read_rig, write_rig
+from .rigs import Rig, bind, deform, read_rig, write_rig
 from .running import report, run
 from .smoothing import monotone_smoothing
 from .weight_uses import cut_along_bones, depth_order, endpoint_weights, weighted_colors

@@ -13,7 +13,7 @@ from vtkmodules.vtkCommonDataModel import vtkMultiBlockDataSet
 
 from . import BindposeFilters as filters
 from .errors import InvalidInput
-from .functions import _make_poser, _posed_handles
+from .functions import make_poser, posed_handles
 from .meshes import Array, copy_report, is_dataset, points_of, shallow_copy
 from .options import with_options
 from .parameter_types import Handles, Mesh, Path, Progress
@@ -79,11 +79,11 @@ def crowd(mesh: Mesh, handles: Handles, poses: Mapping[str, Any] | Path | Sequen
     >>> [len(points) for points in instances]
     [4, 4]
     """
-    data, posed = _posed_handles(mesh, handles, {"handles": {}}, weights)
+    data, posed = posed_handles(mesh, handles, {"handles": {}}, weights)
     rest = posed.GetInputDataObject(0, 0)
     instances = vtkMultiBlockDataSet()
     for pose in [poses] if isinstance(poses, (Mapping, str, os.PathLike)) else poses:
-        poser = _make_poser(rest, pose)
+        poser = make_poser(rest, pose)
         run(poser)
         for frame in range(poser.GetNumberOfFrames()):
             poser.SetFrame(frame)

@@ -443,26 +443,10 @@ def weights(mesh: Mesh, handles: Handles, *, bounds: tuple[float, float] | Mappi
     return weights_of(result, "Weights", report)
 
 
-def make_deformation(options):
-    """Return the filter of a method, with the options that the method uses."""
-    kind = {"variational": filters.vtkVariationalSurface, "reduced-arap": filters.vtkReducedARAP, "full-arap": filters.vtkFullARAP,
-            "mls": filters.vtkMovingLeastSquaresWarp}.get(options.method, filters.vtkSkinningDeformation)
-    result = kind()
-    apply_deformation_options(result, options)
-    return result
-
-
-def apply_deformation_options(deformation, options):
-    """Pass the options of a method to its filter."""
-    sets = {"variational": ("variational",), "mls": ("moving_least_squares",), "full-arap": ("arap", "rotation_arrays"),
-            "reduced-arap": ("arap", "rotation_arrays", "time_budget", "reduced_arap_bind")}
-    options.apply(deformation, *sets.get(options.method, ("pose_method", "skinning")))
-
-
-def _posed_handles(mesh, handles, pose, weights):
+def posed_handles(mesh, handles, pose, weights):
     """Return two values: the mesh as a dataset with its weights, and the filter that poses the handles."""
     data = with_weights(to_dataset(mesh), weights)
-    return data, _make_poser(to_handles(handles, data), pose)
+    return data, make_poser(to_handles(handles, data), pose)
 
 
 def pose_text(pose):
@@ -480,7 +464,7 @@ def pose_text(pose):
         raise InvalidInput(f"the pose must be a JSON object: {error}") from None
 
 
-def _make_poser(handles, pose):
+def make_poser(handles, pose):
     """Return the filter that poses a handle dataset."""
     poser = filters.vtkPoseHandles()
     poser.SetInputData(0, handles)
@@ -489,74 +473,6 @@ def _make_poser(handles, pose):
     else:
         poser.SetPoseJSON(pose_text(pose))
     return poser
-
-
-@with_options("pose_method", "skinning", "arap", "time_budget", "reduced_arap_bind", "moving_least_squares", "variational",
-              "pose", "rotation_arrays")
-def deform(mesh: Mesh, handles: Handles, pose: Mapping[str, Any] | Path, *, weights: ArrayLike | None = None,
-           times: Sequence[float] | None = None, options, threads: int = 0, progress: Progress = None) -> Any:
-    """Bend a mesh with weights to a pose, or to a sequence of poses.
-
-    Parameters
-    ----------
-    mesh : vtkDataSet or (vertices, elements)
-        A dataset with the point array ``Weights``, or arrays together with `weights`. ``full-arap``, ``mls`` and
-        ``variational`` need no weights.
-    handles : vtkPolyData, str or path-like
-        The handles for which the weights were computed.
-    pose : dict, str or path-like
-        ``{"handles": {name: {"translate": [x, y, z], "rotate": {"axis": [x, y, z], "degrees": d}, …}}}`` or
-        ``{"frames": [pose, …], "fps": n}``, as a dict or as a .json file. Numbers may be expressions in ``t``.
-        Alternatives are a .dmat file of libigl, and a .glb or .gltf file for its animation. A handle follows its
-        parent unless its entry has ``"space": "world"``; in a .json file this requires ``"version": 2``.
-    weights : (#V, #handles) array, optional
-        Weights for a mesh of arrays.
-    times : sequence of floats, optional
-        Times in seconds at which a pose with expressions is evaluated; default: 0.
-    {options}
-    threads, progress, progress_bar
-        See `winding_number`.
-
-    Returns
-    -------
-    Array or vtkDataSet, or a list of them
-        For arrays: posed coordinates (#V, 3). For a dataset: a posed copy. For a sequence: a list with one entry per
-        frame.
-
-    Raises
-    ------
-    InvalidInput
-        Weights that do not match, an unknown handle in the pose, an invalid pose.
-
-    Examples
-    --------
-    >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
-    ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
-    >>> ends = bindpose.handles(points=[[0, 0, 0], [1, 0, 0]])
-    >>> values = bindpose.weights(tetrahedron, ends, domain="surface")
-    >>> raised = {"handles": {"p1": {"translate": [0, 0, 1]}}}
-    >>> bindpose.deform(tetrahedron, ends, raised, weights=values)[:2].round(6).tolist()
-    [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]
-    """
-    data, poser = _posed_handles(mesh, handles, pose, weights)
-    bender = make_deformation(options)
-    bender.SetInputData(0, data)
-    bender.SetInputConnection(1, poser.GetOutputPort())
-    options.apply(bender, "pose")
-    bender.SetNumberOfThreads(threads)
-    results = []
-    run(poser)
-    frames = poser.GetNumberOfFrames() if times is None else len(times)
-    for frame in range(frames):
-        if times is None:
-            poser.SetFrame(frame)
-        else:
-            poser.SetTime(times[frame])
-        run(poser)
-        report = run(bender, progress)
-        posed = bender.GetOutput()
-        results.append(shallow_copy(posed) if is_dataset(mesh) else Array(points_of(posed), report))
-    return results if times is not None or poser.GetSequence() else results[0]
 
 
 @with_options("dynamics", "arap", "reduced_arap_bind", "rotation_arrays", without=("maximum_iterations", "tolerance"))
@@ -599,7 +515,7 @@ def dynamics(mesh: Mesh, handles: Handles, pose: Mapping[str, Any] | Path, *, fr
     >>> len(steps), steps[2].shape
     (3, (4, 3))
     """
-    data, poser = _posed_handles(mesh, handles, pose, weights)
+    data, poser = posed_handles(mesh, handles, pose, weights)
     body = filters.vtkReducedDynamics()
     options.apply(body, "arap", "reduced_arap_bind", "dynamics", "rotation_arrays")
     body.SetInputData(0, data)

@@ -41,7 +41,7 @@ class Accessor:
     tetrahedralize = _method(functions.tetrahedralize)
     defects = _method(functions.defects)
     weights = _method(functions.weights)
-    deform = _method(functions.deform)
+    deform = _method(rigs.deform)
     bind = _method(rigs.bind)
 
     def render(self, *others, **options):

@@ -14,15 +14,16 @@ from vtkmodules.util import numpy_support
 from vtkmodules.vtkCommonCore import vtkIdList, vtkPoints
 from vtkmodules.vtkCommonDataModel import vtkDataSet, vtkPolyData
 
-from .BindposeFilters import vtkGLTFSkinReader, vtkGLTFSkinWriter
+from . import BindposeFilters as filters
 from .errors import BindposeWarning, InvalidInput
 from .files import read_handles
-from .functions import apply_deformation_options, deform, make_deformation, pose_text, weights
+from .functions import make_poser, pose_text, weights
 from .handle_sets import cell_names, handle_cells, to_handles
 from .meshes import (
     Array,
     is_dataset,
     like,
+    points_of,
     remember_run,
     run_of,
     shallow_copy,
@@ -320,7 +321,7 @@ class _Method:
     """A pose method with its options, prepared for a rig."""
 
     def __init__(self, rig, options):
-        self.filter = make_deformation(options)
+        self.filter = _make_deformation(options)
         self.given = {}  # the options as the caller wrote them
         self._source = rig.handles
         self._source_time = 0
@@ -332,7 +333,7 @@ class _Method:
         self.filter.SetInputData(0, rig.mesh)
 
     def set_options(self, options):
-        apply_deformation_options(self.filter, options)
+        _apply_options(self.filter, options)
         self._is_prepared = False
 
     def pose(self, pose, points, threads):
@@ -355,6 +356,14 @@ class _Method:
         with interruptible(self.filter):
             self._is_prepared = self.filter.PosePoints(text, points)
         return self._is_prepared
+
+    def pose_dataset(self, posed_handles, threads, progress):
+        """Return a posed copy of the rig's mesh with all arrays that the method attaches, and the report."""
+        self._source_time = 0  # pose() must connect the handles of the rig again
+        self.filter.SetInputData(1, posed_handles)
+        self.filter.SetNumberOfThreads(threads)
+        pose_report = run(self.filter, progress)
+        return shallow_copy(self.filter.GetOutput()), pose_report
 
     def _restore_transforms(self):
         """Replace the transforms of the last array pose by the transforms of the rig's handle dataset."""
@@ -381,6 +390,22 @@ class _Method:
         array.SetName("Transform")
         self._handles.GetCellData().AddArray(array)
         self._has_array = True
+
+
+def _make_deformation(options):
+    """Return the filter of a method, with the options that the method uses."""
+    kind = {"variational": filters.vtkVariationalSurface, "reduced-arap": filters.vtkReducedARAP, "full-arap": filters.vtkFullARAP,
+            "mls": filters.vtkMovingLeastSquaresWarp}.get(options.method, filters.vtkSkinningDeformation)
+    result = kind()
+    _apply_options(result, options)
+    return result
+
+
+def _apply_options(deformation, options):
+    """Pass the options of a method to its filter."""
+    sets = {"variational": ("variational",), "mls": ("moving_least_squares",), "full-arap": ("arap", "rotation_arrays"),
+            "reduced-arap": ("arap", "rotation_arrays", "time_budget", "reduced_arap_bind")}
+    options.apply(deformation, *sets.get(options.method, ("pose_method", "skinning")))
 
 
 def _rest_points(handles):
@@ -448,6 +473,70 @@ def bind(mesh: Mesh, handles: Handles, *, bounds: tuple[float, float] | Mapping[
     return rig
 
 
+@with_options("pose_method", "skinning", "arap", "time_budget", "reduced_arap_bind", "moving_least_squares", "variational",
+              "pose", "rotation_arrays")
+def deform(mesh: Mesh, handles: Handles, pose: Mapping[str, Any] | Path, *, weights: ArrayLike | None = None,
+           times: Sequence[float] | None = None, options, threads: int = 0, progress: Progress = None) -> Any:
+    """Bend a mesh with weights to a pose, or to a sequence of poses.
+
+    Parameters
+    ----------
+    mesh : vtkDataSet or (vertices, elements)
+        A dataset with the point array ``Weights``, or arrays together with `weights`. ``full-arap``, ``mls`` and
+        ``variational`` need no weights.
+    handles : vtkPolyData, str or path-like
+        The handles for which the weights were computed.
+    pose : dict, str or path-like
+        ``{"handles": {name: {"translate": [x, y, z], "rotate": {"axis": [x, y, z], "degrees": d}, …}}}`` or
+        ``{"frames": [pose, …], "fps": n}``, as a dict or as a .json file. Numbers may be expressions in ``t``.
+        Alternatives are a .dmat file of libigl, and a .glb or .gltf file for its animation. A handle follows its
+        parent unless its entry has ``"space": "world"``; in a .json file this requires ``"version": 2``.
+    weights : (#V, #handles) array, optional
+        Weights for a mesh of arrays.
+    times : sequence of floats, optional
+        Times in seconds at which a pose with expressions is evaluated; default: 0.
+    {options}
+    threads, progress, progress_bar
+        See `winding_number`.
+
+    Returns
+    -------
+    Array or vtkDataSet, or a list of them
+        For arrays: posed coordinates (#V, 3). For a dataset: a posed copy. For a sequence: a list with one entry per
+        frame.
+
+    Raises
+    ------
+    InvalidInput
+        Weights that do not match, an unknown handle in the pose, an invalid pose.
+
+    Examples
+    --------
+    >>> tetrahedron = ([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]],
+    ...                [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
+    >>> ends = bindpose.handles(points=[[0, 0, 0], [1, 0, 0]])
+    >>> values = bindpose.weights(tetrahedron, ends, domain="surface")
+    >>> raised = {"handles": {"p1": {"translate": [0, 0, 1]}}}
+    >>> bindpose.deform(tetrahedron, ends, raised, weights=values)[:2].round(6).tolist()
+    [[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]]
+    """
+    rig = Rig(mesh, handles, weights=weights)
+    poser = make_poser(rig.handles, pose)
+    method = _Method(rig, options)
+    options.apply(method.filter, "pose")
+    run(poser)
+    results = []
+    for frame in range(poser.GetNumberOfFrames() if times is None else len(times)):
+        if times is None:
+            poser.SetFrame(frame)
+        else:
+            poser.SetTime(times[frame])
+        run(poser)
+        posed, pose_report = method.pose_dataset(poser.GetOutput(), threads, progress)
+        results.append(posed if is_dataset(mesh) else Array(points_of(posed), pose_report))
+    return results if times is not None or poser.GetSequence() else results[0]
+
+
 def read_rig(path: Path) -> Rig:
     """Read a skinned mesh from a glTF 2.0 file.
 
@@ -476,7 +565,7 @@ def read_rig(path: Path) -> Rig:
     >>> bindpose.read_rig("rig.glb").weights.names
     ['p1', 'p2']
     """
-    reader = vtkGLTFSkinReader()
+    reader = filters.vtkGLTFSkinReader()
     reader.SetFileName(os.fspath(path))
     run(reader)
     animation = json.loads(reader.GetPoseJSON()) if reader.GetPoseJSON() else None
@@ -532,7 +621,7 @@ def write_rig(mesh: Mesh, handles: Handles, path: Path, *, frames: Sequence[vtkD
         raise InvalidInput(f"animation must be 'joints' or 'morph' (got {animation!r})")
     if isinstance(handles, (str, os.PathLike)):
         handles = read_handles(handles)
-    writer = vtkGLTFSkinWriter()
+    writer = filters.vtkGLTFSkinWriter()
     writer.SetInputData(0, to_dataset(mesh))
     writer.SetHandlesData(handles)
     for frame in frames:

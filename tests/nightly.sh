@@ -12,20 +12,23 @@
 #   quickstart   run examples/quickstart.sh
 #   surfaces     tets of all surfaces of libcgal-demo and of tests/support/horrors.py: method auto, and remesh or embed
 #   weights      weights of twenty surfaces, checked against their certificates
-#   fuzz         tets of random unclean surfaces
+#   unclean      tets of random unclean surfaces
+#   fuzz         libFuzzer under sanitizers, 10 minutes per target: all targets if named, a seventh of them in a whole night
 #   drags        random poses
 #   scale        all verbs on a million triangles, completed and interrupted
 #   hostile      weights and tets of synthetic models with severe defects
 #   real         weights and tets of an eighth of the real furniture models
 #   paraview     the plugin in ParaView
 #   monkey       random events in the window, under sanitizers
-# Random seeds, the choice between remesh and embed, and the half, quarter or eighth of the work change every night.
+# Random seeds, the choice between remesh and embed, and the half, quarter, seventh or eighth of the work change every night.
 set -uo pipefail
 program=nightly.sh
 install=yes
 . "$(dirname "${BASH_SOURCE[0]}")/../examples/setup.sh"
 nightly_packages="
 sweethome3d-furniture:820_real_furniture_models
+clang:builds_the_fuzzers
+libclang-rt-14-dev:libFuzzer_and_the_sanitizers_of_clang
 mypy:checks_the_types_of_the_Python_package
 python3-numpydoc:checks_the_documentation_of_the_Python_package
 jupyter-nbconvert:runs_the_notebooks
@@ -137,11 +140,18 @@ weights()
   /usr/bin/python3 "$root/tests/support/all_weights.py" --build "$build_dir"
 }
 
-fuzz()
+unclean()
 ( # without sanitizers: 300 damaged and 80 hostile surfaces, 400 damaged surfaces on lattices, 240 wraps
   export BINDPOSE_FUZZ_FACTOR=${BINDPOSE_FUZZ_FACTOR:-10}
   ctest --test-dir "$build_dir" --no-tests=error --output-on-failure -j "$(nproc)" -R '^core\.Fuzz(Tetrahedralize|Wrap)\.'
 )
+
+fuzz()
+{ # a fault ends a target and is written to build-fuzz
+  cmake --preset fuzz -S "$root" && ninja -C "$root/build-fuzz" bindpose_fuzz || return 1
+  /usr/bin/python3 "$root/tests/support/run_fuzzers.py" --build "$root/build-fuzz" --slice "$fuzz_slice" \
+    --seconds "${BINDPOSE_FUZZ_SECONDS:-600}" --markdown "$build_dir/nightly-fuzzing.md"
+}
 
 drags()
 ( # without sanitizers: over 600,000 poses through reduced ARAP, 200,000 through full ARAP
@@ -183,7 +193,9 @@ monkey()
 )
 
 parts=("$@")
-[ $# -gt 0 ] || parts=(option permissive asan tidy types notebooks wheel quickstart surfaces weights fuzz drags scale hostile real paraview monkey)
+fuzz_slice=1/1
+[ $# -gt 0 ] || fuzz_slice=$(slice_of 7)/7
+[ $# -gt 0 ] || parts=(option permissive asan tidy types notebooks wheel quickstart surfaces weights unclean fuzz drags scale hostile real paraview monkey)
 for name in "${parts[@]}"; do
   part "$name" "$name"
 done

@@ -322,6 +322,10 @@ bool Session::check_report()
 
 bool Session::check_output(const std::string& path, const std::string& extensions)
 {
+  if (interrupted()) // because a sequence checks up to 100,000 files
+  {
+    return this->fail(Status::canceled());
+  }
   Status status = check_extension(path, extensions);
   if (status.ok())
   {

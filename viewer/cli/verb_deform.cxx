@@ -5,6 +5,7 @@
 #include "cli/set_options.h"
 #include "cli/verbs.h"
 
+#include "base/memory.h"
 #include "file_kind.h"
 #include "io/atomic_file.h"
 #include "pictures/sequence_file.h"
@@ -126,6 +127,17 @@ void write_rig(Session& session, vtkDataSet* mesh, vtkPolyData* handles, vtkPose
     return;
   }
   const bool is_static = linear && !morph && !frames.sequence;
+  // A glTF file is written as a whole. The buffer of the file and the frames are in memory
+  // together.
+  const double points = static_cast<double>(mesh->GetNumberOfPoints());
+  const double frame_bytes = points * 3.0 * (sizeof(double) + sizeof(float));
+  const Status memory = check_memory("an animation of " + std::to_string(frames.count) + " frames",
+    is_static ? 0.0 : frames.count * frame_bytes, 0);
+  if (!memory.ok())
+  {
+    session.fail(memory);
+    return;
+  }
   std::vector<vtkSmartPointer<vtkDataSet>> posed_meshes;
   for (int k = 0; k < frames.count && !is_static; ++k)
   {

@@ -514,10 +514,18 @@ private:
       std::swap(corners[1], corners[2]);
     }
     constexpr double slack = 1e-9;
+    const Vec2 low = corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]);
+    const Vec2 high = corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]);
     return this->grid_.any(corners,
       [&](Index u)
       {
         if (u == p || u == v || u == n || !this->is_remaining_[u])
+        {
+          return false;
+        }
+        // On a straight contour, the sides of the triangle are on one line. The tests of sides
+        // below accept the whole line.
+        if ((points[u] - low).minCoeff() < -slack || (high - points[u]).minCoeff() < -slack)
         {
           return false;
         }

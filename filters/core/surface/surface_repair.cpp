@@ -642,30 +642,25 @@ Status repair_surface(ExecutionContext& context, PointsView points, TrianglesVie
     repaired.flipped_triangles == 0 ? found.closed : count_edges(repaired.triangles).closed;
   if (options.count_self_intersections)
   {
-    if (!crossing_pairs(context, repaired.points, repaired.triangles, repaired.crossings))
-    {
-      return Status::canceled();
-    }
-    found.self_intersections = static_cast<Index>(repaired.crossings.size());
-    std::vector<char> crosses(static_cast<std::size_t>(repaired.triangles.rows()), 0);
-    for (const auto& [s, t] : repaired.crossings)
-    {
-      crosses[s] = crosses[t] = 1;
-    }
-    found.crossing_triangles = std::count(crosses.begin(), crosses.end(), 1);
+    return find_self_intersections(context, repaired);
   }
   return context.canceled() ? Status::canceled() : Status();
 }
 
-Status diagnose_surface(ExecutionContext& context, PointsView points, TrianglesView triangles,
-  SurfaceDiagnosis& diagnosis)
+Status find_self_intersections(ExecutionContext& context, RepairedSurface& repaired)
 {
-  RepairOptions options;
-  options.orient = false;
-  RepairedSurface repaired;
-  Status status = repair_surface(context, points, triangles, options, repaired);
-  diagnosis = repaired.found;
-  return status;
+  if (!crossing_pairs(context, repaired.points, repaired.triangles, repaired.crossings))
+  {
+    return Status::canceled();
+  }
+  repaired.found.self_intersections = static_cast<Index>(repaired.crossings.size());
+  std::vector<char> crosses(static_cast<std::size_t>(repaired.triangles.rows()), 0);
+  for (const auto& [s, t] : repaired.crossings)
+  {
+    crosses[s] = crosses[t] = 1;
+  }
+  repaired.found.crossing_triangles = std::count(crosses.begin(), crosses.end(), 1);
+  return {};
 }
 
 } // namespace bindpose

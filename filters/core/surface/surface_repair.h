@@ -91,9 +91,9 @@ struct RepairedSurface
 Status repair_surface(ExecutionContext& context, PointsView points, TrianglesView triangles,
   const RepairOptions& options, RepairedSurface& repaired);
 
-/// Compute only the diagnosis, as printed by `bindpose info`.
-Status diagnose_surface(ExecutionContext& context, PointsView points, TrianglesView triangles,
-  SurfaceDiagnosis& diagnosis);
+/// Find the crossing triangles of a surface that was repaired without count_self_intersections.
+/// @return canceled, with no crossings counted, if the context was canceled
+Status find_self_intersections(ExecutionContext& context, RepairedSurface& repaired);
 
 } // namespace bindpose
 

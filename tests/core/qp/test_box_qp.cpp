@@ -493,10 +493,12 @@ TEST(BoxQp, TakesFewerThreadsOrRefusesWhereMemoryEnds)
     needed[threads - 1] = qp.memory_estimate() - before;
     reference = qp.solve_all(some, columns);
   }
-  // The limit is too small for two threads.
+  // The limit is in the middle between the needs of one and of two threads, because the resident
+  // memory of the process can change by some megabytes on a busy machine.
   ASSERT_GT(needed[1], needed[0] + 8 * mebibyte);
   ::malloc_trim(0);
-  options.solver.memory_limit = static_cast<Index>((resident_memory() + needed[0]) / mebibyte) + 4;
+  options.solver.memory_limit =
+    static_cast<Index>((resident_memory() + 0.5 * (needed[0] + needed[1])) / mebibyte);
   BoxQp narrow(q, fixed, options);
   context.set_threads(2);
   ASSERT_TRUE(narrow.prepare(context, columns).ok());

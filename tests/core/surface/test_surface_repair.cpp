@@ -19,15 +19,6 @@ using namespace bindpose;
 
 namespace
 {
-SurfaceDiagnosis diagnose(const TriangleMesh& mesh)
-{
-  ExecutionContext context;
-  SurfaceDiagnosis diagnosis;
-  const Status status = diagnose_surface(context, mesh.points, mesh.triangles, diagnosis);
-  EXPECT_TRUE(status.ok()) << status.message;
-  return diagnosis;
-}
-
 RepairedSurface repair(const TriangleMesh& mesh, const RepairOptions& options = {})
 {
   ExecutionContext context;
@@ -35,6 +26,13 @@ RepairedSurface repair(const TriangleMesh& mesh, const RepairOptions& options = 
   const Status status = repair_surface(context, mesh.points, mesh.triangles, options, repaired);
   EXPECT_TRUE(status.ok()) << status.message;
   return repaired;
+}
+
+SurfaceDiagnosis diagnose(const TriangleMesh& mesh)
+{
+  RepairOptions options;
+  options.orient = false;
+  return repair(mesh, options).found;
 }
 } // namespace
 
@@ -495,4 +493,25 @@ TEST(SurfaceRepair, ClosestPointOfTrianglesThatAreLines)
     ASSERT_LE((closest_point(p, corner(2), corner(0), corner(1)) - expected).norm(), 1e-13);
   }
   EXPECT_EQ(closest_point(Vec3(1, 2, 3), Vec3::Ones(), Vec3::Ones(), Vec3::Ones()), Vec3::Ones());
+}
+
+TEST(SurfaceRepair, SelfIntersectionsCanBeCountedLater)
+{
+  const TriangleMesh mesh =
+    test::join(test::sphere(2), test::translated(test::sphere(2), Vec3(1, 0, 0)));
+  const RepairedSurface whole = repair(mesh);
+  EXPECT_GT(whole.found.self_intersections, 0);
+  RepairOptions options;
+  options.count_self_intersections = false;
+  RepairedSurface later = repair(mesh, options);
+  EXPECT_EQ(later.found.self_intersections, 0);
+  ExecutionContext canceled;
+  canceled.request_cancel();
+  EXPECT_EQ(find_self_intersections(canceled, later).code, StatusCode::canceled);
+  EXPECT_EQ(later.found.self_intersections, 0);
+  ExecutionContext context;
+  EXPECT_TRUE(find_self_intersections(context, later).ok());
+  EXPECT_EQ(later.found.self_intersections, whole.found.self_intersections);
+  EXPECT_EQ(later.found.crossing_triangles, whole.found.crossing_triangles);
+  EXPECT_EQ(later.crossings, whole.crossings);
 }

@@ -224,7 +224,6 @@ TEST_F(Screens, ABackupAfterABindDoesNotHoldTheWindow)
   // Expect at least one turn of the event loop, even on a busy machine. On an idle machine there
   // are dozens of turns.
   EXPECT_GT(event_loop_turns, 0);
-  EXPECT_LT(autosave->milliseconds(), 0.5 * autosave->writing_milliseconds());
   Session backup;
   ASSERT_TRUE(read_session(autosave->path(), backup).ok());
   vtkDataArray* weights = backup.work.surface->GetPointData()->GetArray("Weights");

@@ -1,6 +1,8 @@
 """bindpose info: the numbers of known meshes."""
 
+import json
 import math
+import time
 
 import bindpose
 import pytest
@@ -25,6 +27,24 @@ def test_cube(folder):
     assert report["bounds"] == [-1, 1, -1, 1, -1, 1]
     assert report["diagonal"] == pytest.approx(2 * math.sqrt(3))
     assert report["seconds"]["total"] > 0 and report["peak_memory_bytes"] > 0
+
+
+def test_a_count_of_crossings_that_takes_too_long_is_left_out(folder):
+    """Long needles through one point: every pair of them crosses. Their count is left out."""
+    count = 20_000
+    vertices, faces = [], []
+    for k in range(count):
+        angle = math.pi * k / count
+        x, y, z = math.cos(angle), math.sin(angle), 1e-4 * math.sin(7.0 * k)
+        vertices += [(x, y, z), (-x, -y, -z), (-x + 1e-3 * y, -y - 1e-3 * x, z)]
+        faces.append((3 * k, 3 * k + 1, 3 * k + 2))
+    folder.off("needles.off", (vertices, faces))
+    started = time.monotonic()
+    run = folder.run("info", "needles.off", "--report", "r.json").is_good()
+    assert time.monotonic() - started < 20  # 2 s on an idle machine
+    assert "self-intersections  counting stopped at its time limit of 1.7 s" in run.out
+    counts = json.loads((folder / "r.json").read_text())["counts"]
+    assert counts["triangles"] == count and "self_intersections" not in counts
 
 
 def test_where_a_surface_is_unclean(folder):

@@ -4,6 +4,7 @@
 // a misspelled word is not ignored.
 #include "app/tour/tour.h"
 
+#include "io/json_depth.h"
 #include "pictures/window_picture.h"
 #include "poses/json_fields.h"
 #include "widgets/gizmo.h"
@@ -431,6 +432,11 @@ std::string step_name(std::size_t index, const TourStep& step)
 Status parse_tour(const std::string& text, Tour& tour)
 {
   tour = {};
+  Status depth = check_json_depth(text);
+  if (!depth.ok())
+  {
+    return depth;
+  }
   const Json json = Json::parse(text, nullptr, false);
   if (json.is_discarded() || !json.is_object())
   {

@@ -1,6 +1,7 @@
 // Reader and writer of OBJ files (see obj.h). Vertices are lines "v x y z", faces are lines "f a b
 // c …". Vertex ids begin at 1, and each corner has the form "a", "a/t", "a//n" or "a/t/n".
-// Polylines "l a b …" are used only if there is no face.
+// Polylines "l a b …" are used only if there is no face. A line that ends with a backslash
+// continues on the next line.
 #include "io/obj.h"
 
 #include "io/text_scanner.h"
@@ -25,6 +26,25 @@ Status read_vertex(TextScanner& scanner, std::vector<Vec3>& points)
   return {};
 }
 
+/// Get the next word of a line, or of its continuation after a backslash.
+bool next_continued_word(TextScanner& scanner, std::string_view& word)
+{
+  while (scanner.next_word(word))
+  {
+    if (word.back() != '\\' || !TextScanner(scanner).rest_of_line().empty())
+    {
+      return true;
+    }
+    scanner.next_line();
+    word.remove_suffix(1);
+    if (!word.empty())
+    {
+      return true;
+    }
+  }
+  return false;
+}
+
 /// Read the vertex ids of a face or a polyline. Skip entries with fewer than `minimum_vertices`
 /// vertices.
 Status read_entry(TextScanner& scanner, Index vertices, const std::string& element_name,
@@ -33,7 +53,7 @@ Status read_entry(TextScanner& scanner, Index vertices, const std::string& eleme
 {
   const std::size_t begin = corners.size();
   std::string_view word;
-  while (scanner.next_word(word))
+  while (next_continued_word(scanner, word))
   {
     const std::string_view number = word.substr(0, word.find('/'));
     Index id = 0;

@@ -186,6 +186,11 @@ void append_index(std::string& text, Index value)
 TextScanner::TextScanner(std::string path, std::string_view text, char comment)
   : path_(std::move(path)), text_(text), comment_(comment)
 {
+  constexpr std::string_view byte_order_mark = "\xef\xbb\xbf"; // some editors begin files with it
+  if (text.substr(0, byte_order_mark.size()) == byte_order_mark)
+  {
+    this->next_ = byte_order_mark.size();
+  }
 }
 
 bool TextScanner::next_line()

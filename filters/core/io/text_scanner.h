@@ -30,7 +30,8 @@ void append_number(std::string& text, double value);
 void append_index(std::string& text, Index value);
 
 /// Splits a text into words, line by line. Blanks separate words. A comment extends from its
-/// character to the end of the line. The text must outlive the scanner.
+/// character to the end of the line. A byte order mark of UTF-8 at the beginning is skipped. The
+/// text must outlive the scanner.
 class TextScanner
 {
 public:

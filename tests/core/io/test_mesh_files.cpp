@@ -169,6 +169,7 @@ TEST_F(TextFiles, OffVariantsOfTheWild)
          std::string("STCNOFF\n4 2 0\n0 0 0 0 0 1 0 0 0 0 .5 .5\n1 0 0 0 0 1 0 0 0 0 1 1\n"
                      "1 1 0 0 0 1 0 0 0 0 .5 .5\n0 1 0 0 0 1 0 0 0 0 1 1\n3 0 1 2\n3 0 2 3\n"),
          "OFF\n4 2 0\n" + square_points + "3 0 1 2 255 0 0\n3 0 2 3 0.5 0.5 0.5\ntrailing words\n",
+         "\xef\xbb\xbfOFF\n4 2 0\n" + square_points + "3 0 1 2\n3 0 2 3\n",
          // The face with two corners is skipped.
          "OFF\n4 3 0\n" + square_points + "3 0 1 2\n2 0 1\n3 0 2 3\n" })
   {
@@ -216,6 +217,15 @@ TEST_F(TextFiles, ObjCornersIdsAndErrors)
     "");
   EXPECT_EQ(this->mesh.corners, (std::vector<Index>{ 0, 1, 2, 0, 2, 3 }));
   EXPECT_EQ(this->mesh.points.rows(), 4);
+  // A byte order mark, and lines that continue after a backslash.
+  ASSERT_EQ(read("\xef\xbb\xbfv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"
+                 "f 1/1 \\\r\n 2/2\\\n3/3 4/4\nf 1 2 3\n"),
+    "");
+  EXPECT_EQ(this->mesh.points.rows(), 4);
+  EXPECT_EQ(this->mesh.corners, (std::vector<Index>{ 0, 1, 2, 3, 0, 1, 2 }));
+  EXPECT_THAT(
+    read("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 \\ 2 3\n"), HasSubstr("line 4: expected a vertex id"));
+  EXPECT_THAT(read("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 \\"), HasSubstr("0 faces"));
   EXPECT_THAT(read("v 0 0 0\nv 1 0 0\nv 1 inf 0\nf 1 2 3\n"), HasSubstr("m.obj, line 3"));
   EXPECT_THAT(read("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 0\n"), HasSubstr("line 4"));
   EXPECT_THAT(read("v 0 0 0\nv 1 0 0\nv 1 1 0\nf 1 2 7\n"), HasSubstr("vertex 7"));

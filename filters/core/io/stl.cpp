@@ -1,12 +1,14 @@
 // Reader and writer of STL files, which contain a triangle soup (see stl.h). A binary file contains
 // 80 bytes, a count, and 50 bytes per triangle. A text file contains the words "vertex x y z"
-// between other words. A binary file may also begin with the word "solid", so the format is
-// determined from the file size.
+// between other words. A binary file may also begin with the word "solid", so a file whose size
+// follows from its count is binary.
 #include "io/stl.h"
 
 #include "io/text_scanner.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstring>
 #include <unordered_map>
 
@@ -80,27 +82,27 @@ Status read_binary(
   return {};
 }
 
+/// Report whether a word equals a keyword in lower or upper case.
+bool is_keyword(std::string_view word, std::string_view keyword)
+{
+  return std::equal(word.begin(), word.end(), keyword.begin(), keyword.end(),
+    [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; });
+}
+
 Status read_text(
   const std::string& path, const std::string& text, Welder& welder, PolygonMesh& mesh)
 {
   TextScanner scanner(path, text, 0);
   std::string_view word;
-  if (!scanner.next_word_across_lines(word) || word != "solid")
-  {
-    return Status::invalid_input(path +
-      " is not a valid STL file: it must begin with the word solid or have the size that follows "
-      "from its number of triangles");
-  }
-  scanner.rest_of_line();
   bool ended = false;
   while (scanner.next_word_across_lines(word))
   {
-    ended = word == "endsolid";
-    if (ended)
+    ended = is_keyword(word, "endsolid");
+    if (ended || is_keyword(word, "solid"))
     {
       scanner.rest_of_line(); // skip the name of the solid, which may be any word
     }
-    if (word != "vertex")
+    if (!is_keyword(word, "vertex"))
     {
       continue;
     }
@@ -142,10 +144,25 @@ Status read_stl(const std::string& path, PolygonMesh& mesh)
     std::memcpy(&count, text.data() + header_size - sizeof(count), sizeof(count));
   }
   Welder welder;
-  const bool binary = text.size() >= header_size &&
-    text.size() - header_size == static_cast<std::size_t>(count) * triangle_size;
-  status =
-    binary ? read_binary(path, text, count, welder, mesh) : read_text(path, text, welder, mesh);
+  const std::size_t binary_size = header_size + static_cast<std::size_t>(count) * triangle_size;
+  std::string_view first_word;
+  TextScanner(path, text, 0).next_word_across_lines(first_word);
+  const bool begins_as_text = is_keyword(first_word, "solid");
+  // Some programs append bytes to a binary file.
+  if (text.size() == binary_size || (!begins_as_text && text.size() > binary_size && count > 0))
+  {
+    status = read_binary(path, text, count, welder, mesh);
+  }
+  else if (begins_as_text)
+  {
+    status = read_text(path, text, welder, mesh);
+  }
+  else
+  {
+    status = Status::invalid_input(path + " is not a valid STL file: it has " +
+      std::to_string(text.size()) + " bytes; expected a text that begins with the word solid, or " +
+      std::to_string(binary_size) + " bytes for its " + std::to_string(count) + " triangles");
+  }
   if (status.ok() && mesh.corners.empty())
   {
     status = Status::invalid_input(path + " contains no triangles");

@@ -191,13 +191,18 @@ TextScanner::TextScanner(std::string path, std::string_view text, char comment)
   {
     this->next_ = byte_order_mark.size();
   }
+  if (text.find('\n') == std::string_view::npos)
+  {
+    this->line_end_ = '\r'; // files of old programs
+  }
 }
 
 bool TextScanner::next_line()
 {
   while (this->next_ < this->text_.size())
   {
-    const std::size_t end = std::min(this->text_.find('\n', this->next_), this->text_.size());
+    const std::size_t end =
+      std::min(this->text_.find(this->line_end_, this->next_), this->text_.size());
     this->line_ = this->text_.substr(this->next_, end - this->next_);
     this->next_ = std::min(end + 1, this->text_.size());
     this->line_number_ += 1;

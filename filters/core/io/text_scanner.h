@@ -30,8 +30,8 @@ void append_number(std::string& text, double value);
 void append_index(std::string& text, Index value);
 
 /// Splits a text into words, line by line. Blanks separate words. A comment extends from its
-/// character to the end of the line. A byte order mark of UTF-8 at the beginning is skipped. The
-/// text must outlive the scanner.
+/// character to the end of the line. A byte order mark of UTF-8 at the beginning is skipped. Lines
+/// end with LF, CR LF, or CR if the text has no LF. The text must outlive the scanner.
 class TextScanner
 {
 public:
@@ -67,6 +67,7 @@ private:
   std::string path_;
   std::string_view text_;
   char comment_;
+  char line_end_ = '\n';
   std::string_view line_; // unread part of the current line
   std::size_t next_ = 0; // start of the next line
   Index line_number_ = 0;

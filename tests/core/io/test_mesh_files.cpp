@@ -14,6 +14,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cctype>
 #include <clocale>
 
 using namespace bindpose;
@@ -295,6 +297,8 @@ TEST_F(TextFiles, StlIsWeldedAndSizedExactly)
   EXPECT_THAT(
     read_stl(this->folder.write("p.stl", whole.substr(0, whole.size() - 1)), this->mesh).message,
     HasSubstr("p.stl is not a valid STL file"));
+  ASSERT_EQ(read_stl(this->folder.write("p.stl", whole + "more"), this->mesh).message, "");
+  EXPECT_EQ(fan_triangles(this->mesh), triangles);
 
   const std::string text =
     "solid my vertex\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
@@ -303,6 +307,12 @@ TEST_F(TextFiles, StlIsWeldedAndSizedExactly)
   ASSERT_EQ(read_stl(this->folder.write("a.stl", text), this->mesh).message, "");
   EXPECT_EQ(this->mesh.corners, (std::vector<Index>{ 0, 1, 2, 1, 3, 2 }));
   EXPECT_EQ(this->mesh.points(3, 2), 0.1);
+  // Two solids, upper case, and lines that end with CR.
+  std::string other = text + "solid vertex 1 2 3\nendsolid\n";
+  std::transform(other.begin(), other.end(), other.begin(),
+    [](unsigned char c) { return static_cast<char>(c == '\n' ? '\r' : std::toupper(c)); });
+  ASSERT_EQ(read_stl(this->folder.write("a.stl", other), this->mesh).message, "");
+  EXPECT_EQ(this->mesh.corners, (std::vector<Index>{ 0, 1, 2, 1, 3, 2 }));
   const auto error = [this](const std::string& broken)
   { return read_stl(this->folder.write("b.stl", broken), this->mesh).message; };
   EXPECT_THAT(error(text.substr(0, 120)), HasSubstr("b.stl, line"));
